@@ -11,7 +11,7 @@ description = {
 Films described frame by frame in Lua and composed as spans of colour: paints and gels, cels under a
 camera, light from the front and from behind. The animation library is built into the module.
 Needs a C17 compiler, meson, ninja and zlib; for pictures a C++17 compiler and OpenImageIO, for
-drawings and type expat, HarfBuzz, FriBidi and libunibreak.]],
+drawings and type expat, HarfBuzz, FriBidi and libunibreak, for colour profiles Little CMS.]],
   license = "MIT",
 }
 dependencies = {
@@ -28,7 +28,7 @@ ninja -C "$build"]],
 build=${CELSPAN_BUILD:-build-rock}
 install -D -m 755 "$build/celspan.so" "$(LIBDIR)/celspan.so" &&
 install -D -m 644 lua/celspan.d.lua "$(PREFIX)/annotations/celspan.d.lua" &&
-for module in oiio/celspan-picture.so art/celspan-art.so; do
+for module in plugins/oiio/celspan-picture.so plugins/type/celspan-art.so plugins/icc/celspan-colour.so; do
   if [ -f "$build/src/$module" ]; then
     install -D -m 755 "$build/src/$module" "$(LIBDIR)/celspan/${module##*/}" || exit 1
   fi

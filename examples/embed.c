@@ -1,9 +1,9 @@
-/* A host with a Lua state of its own: opens celspan in it and runs a script that draws.
+/* A host with its own Lua state: opens celspan in it and runs a script that draws.
  *
  *   cc embed.c $(pkg-config --cflags --libs celspan-lua) -o embed
- *   ./embed script.lua arguments...      (without a script: a built-in one)
+ *   ./embed script.lua arguments...      (without arguments: a built-in script)
  *
- * The script is an ordinary Lua program; `require "celspan"` finds the module without any path.
+ * The script is an ordinary Lua program; `require "celspan"` finds the module without a path.
  */
 #include <celspan/lua.h>
 #include <lauxlib.h>
@@ -24,7 +24,7 @@ static const char built_in[] =
     "  print(table.concat(line))\n"
     "end\n";
 
-/* Runs protected, so that an error anywhere in it comes back as a message. */
+/* Runs in protected mode, so that any error is returned as a message. */
 static int run(lua_State *L) {
   int count = (int)lua_tointeger(L, 1);
   char **arguments = lua_touserdata(L, 2);
@@ -44,7 +44,7 @@ static int run(lua_State *L) {
 int main(int count, char **arguments) {
   lua_State *L = luaL_newstate();
   if (!L) {
-    fprintf(stderr, "embed: there is no memory for a Lua state\n");
+    fprintf(stderr, "embed: not enough memory for a Lua state\n");
     return 1;
   }
   lua_pushcfunction(L, run);
@@ -53,6 +53,6 @@ int main(int count, char **arguments) {
   int status = lua_pcall(L, 2, 0, 0);
   if (status != LUA_OK)
     fprintf(stderr, "embed: %s\n", lua_isstring(L, -1) ? lua_tostring(L, -1) : "no message");
-  lua_close(L); /* and with it its scenes and its context */
+  lua_close(L); /* also frees its scenes and its context */
   return status != LUA_OK;
 }

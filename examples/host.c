@@ -1,5 +1,5 @@
-/* A host that plays a user's film, a Lua script, in a window of its own: here a plain array of
- * pixels, which goes to standard output as a picture (PPM) every time that it is shown.
+/* A host that plays a user's film, a Lua script, in its own window: here a plain array of pixels,
+ * which is written to standard output as a picture (PPM) each time it is shown.
  *
  *   cc host.c $(pkg-config --cflags --libs celspan-lua) -o host
  *   ./host film.lua 320 180 >film.ppm
@@ -26,7 +26,7 @@ static void show(const window *w) {
     fwrite(w->pixels + 4 * i, 1, 3, stdout);
 }
 
-/* Draws a frame into the window. Premultiplied pixels are those over black. */
+/* Draws a frame into the window. Premultiplied pixels are the picture over black. */
 static celspan_status draw(lua_State *L, int64_t number, const window *w) {
   const celspan_coding coding = {CELSPAN_DEPTH_8, CELSPAN_TRANSFER_SRGB,
                                  CELSPAN_ALPHA_PREMULTIPLIED};
@@ -34,7 +34,7 @@ static celspan_status draw(lua_State *L, int64_t number, const window *w) {
   celspan_status status = celspan_lua_frame(L, -1, number, &frame);
   if (status != CELSPAN_OK)
     return status;
-  frame.width = w->width; /* the film's units stay what they are */
+  frame.width = w->width; /* the film's units do not change */
   frame.height = w->height;
   status = celspan_frame_pixels(celspan_lua_context(L), &frame, &coding, w->pixels,
                                 (size_t)w->width * 4, NULL);
@@ -59,7 +59,7 @@ int main(int count, char **arguments) {
   celspan_context *context = NULL;
   lua_State *L = luaL_newstate();
   celspan_status status = CELSPAN_BAD_ARGUMENT;
-  desc.picture_bytes = (size_t)64 << 20; /* decoded pictures that are kept */
+  desc.picture_bytes = (size_t)64 << 20; /* the cache of decoded pictures */
   if (count > 1 && w.width > 0 && w.height > 0 && w.width <= 8192 && w.height <= 8192)
     w.pixels = (unsigned char *)calloc((size_t)w.width * (size_t)w.height, 4);
   if (L && w.pixels && celspan_context_create(&desc, &context) == CELSPAN_OK) {

@@ -1,4 +1,4 @@
-/* Prints a word as characters, and where its letters lie.
+/* Prints a word as characters, and the positions of its letters.
  *
  *   cc letters.c $(pkg-config --cflags --libs celspan) -o letters && ./letters FONT.ttf WORD
  */
@@ -11,7 +11,7 @@ static void print_letter(const celspan_glyph *letter) {
          letter->advance);
 }
 
-/* A point of the film in each character: a letter is a shape like any other. */
+/* Tests one point of the film for each character: a letter is a shape like any other. */
 static void print_picture(const celspan_object *word) {
   celspan_box box;
   if (!celspan_object_bounds(word, &box))

@@ -1,15 +1,15 @@
-/* Renders one frame into memory and prints it as characters: the smallest use of the C interface.
+/* Renders one frame to memory and prints it as characters: the smallest use of the C interface.
  *
  *   cc memory.c $(pkg-config --cflags --libs celspan) -o memory && ./memory
  *
- * A moon (one circle minus another) over a slide of dusk, which a light shines through from behind.
+ * A moon (one circle minus another) over a slide of dusk that is lit from behind.
  */
 #include <celspan/celspan.h>
 #include <stdio.h>
 
 enum { WIDTH = 64, HEIGHT = 24 };
 
-/* Everything that is made, so that one place lets it go. */
+/* All values that are made, so that they can be released in one place. */
 typedef struct scene {
   celspan_texture *ivory, *dusk;
   celspan_object *disc, *shadow, *moon, *sky;
@@ -70,7 +70,7 @@ static void drop_scene(scene *s) {
   celspan_texture_unref(s->dusk);
 }
 
-/* The film is 320 x 240 units whatever the size it is rendered at. */
+/* The film is 320 x 240 units at any output size. */
 static celspan_status render(celspan_context *context, const scene *s,
                              unsigned char pixels[HEIGHT][WIDTH][4]) {
   const celspan_exposure exposure = {s->rostrum, 1};
@@ -101,7 +101,7 @@ int main(void) {
   celspan_context *context;
   scene s = {0};
   if (celspan_context_create(NULL, &context) != CELSPAN_OK) {
-    fprintf(stderr, "memory: there is no memory for a context\n");
+    fprintf(stderr, "memory: not enough memory for a context\n");
     return 1;
   }
   celspan_status status = make_scene(context, &s);

@@ -1,5 +1,4 @@
-/* The layers of a painting as cels: what is in the file, and one frame of it. Prints the tree, and
- * the frame as characters.
+/* The layers of a painting as cels. Prints the tree of layers, and one frame as characters.
  *
  *   cc painting.c $(pkg-config --cflags --libs celspan) -o painting && ./painting forest.kra
  */
@@ -15,7 +14,7 @@ enum { WIDTH = 72, HEIGHT = 24 };
       return status_;                                                                              \
   } while (0)
 
-/* Adds a cel of a layer to a rostrum: its picture on a rectangle of its size and place. */
+/* Adds a cel for a layer to a rostrum: its picture on a rectangle of its size and position. */
 static celspan_status add_cel(celspan_context *context, const celspan_painting_layer *layer,
                               celspan_cel **out) {
   celspan_picture_desc picture = {.surface = layer->surface, .colour = layer->colour};
@@ -37,7 +36,7 @@ static celspan_status add_cel(celspan_context *context, const celspan_painting_l
   return status;
 }
 
-/* All layers with pixels that are visible, rearmost first. */
+/* All visible layers with pixels, rearmost first. */
 static celspan_status add_cels(celspan_context *context, const celspan_painting *painting,
                                celspan_cel **cels, size_t most, size_t *count) {
   celspan_painting_layer layer;

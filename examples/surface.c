@@ -1,5 +1,5 @@
-/* A host's own pixels as textures: a buffer that stays where it is, and a live surface of which
- * rectangles are asked for when they are seen. Prints two frames as characters.
+/* A host's own pixels as textures: a buffer that is not copied, and a live surface whose rectangles
+ * are requested when they are visible. Prints two frames as characters.
  *
  *   cc surface.c $(pkg-config --cflags --libs celspan) -lm -o surface && ./surface
  */
@@ -11,7 +11,7 @@ enum { WIDTH = 64, HEIGHT = 24, SIDE = 200 };
 
 typedef struct water { /* the live surface: rings that run outwards */
   int frame;
-  long pixels; /* asked for so far */
+  long pixels; /* requested so far */
 } water;
 
 #define TRY(call)                                                                                  \
@@ -25,7 +25,7 @@ static celspan_status fill_water(void *user, celspan_context *context,
                                  const celspan_rectangle *rectangle, void *destination,
                                  size_t stride, int32_t *rows) {
   water *w = user;
-  (void)context; /* celspan_context_fail(context, ...) says why, where something is wrong */
+  (void)context; /* on failure, report the reason with celspan_context_fail(context, ...) */
   for (*rows = 0; *rows < rectangle->height; ++*rows) {
     unsigned char *grey = (unsigned char *)destination + (size_t)*rows * stride;
     double y = rectangle->y + *rows - SIDE / 2;
@@ -44,14 +44,14 @@ static celspan_status make_water(celspan_context *context, water *w, celspan_sur
   desc.format = CELSPAN_SURFACE_GREY8;
   desc.fill = fill_water;
   desc.user = w;
-  desc.has_key = true; /* another key for another content */
+  desc.has_key = true; /* the key changes with the contents */
   desc.key[0] = (uint64_t)w->frame;
   return celspan_surface_create(context, &desc, out);
 }
 
 static void keep_nothing(void *user) { (void)user; }
 
-/* With a release function the buffer is not copied; this one outlives all that is made of it. */
+/* With a release function the buffer is not copied; this buffer outlives all values that use it. */
 static celspan_status make_checks(celspan_context *context, celspan_surface **out) {
   static const unsigned char checks[4] = {20, 60, 60, 20};
   celspan_surface_desc desc = CELSPAN_SURFACE_DESC;
@@ -62,7 +62,7 @@ static celspan_status make_checks(celspan_context *context, celspan_surface **ou
   return celspan_surface_create(context, &desc, out);
 }
 
-/* A circle of water on a ground of checks. What is made is kept by what is made of it. */
+/* A circle of water on a ground of checks. Each value holds references to its parts. */
 static celspan_status make_cel(celspan_context *context, celspan_surface *water_surface,
                                celspan_surface *checks, celspan_cel **out) {
   celspan_picture_desc ground = {.surface = checks,

@@ -1,10 +1,10 @@
 -- The four boolean operations on the same two objects, a ripple of rings and a flower: union,
--- intersection, difference and exclusive-or. The rings are an exclusive-or of discs themselves.
+-- intersection, difference and exclusive-or. The rings themselves are an exclusive-or of discs.
 local celspan = require "celspan"
 
 local grounds = { "#15233f", "#f3e7cf", "#f0a23b", "#b93a3f" }
 
---- Rings: an odd number of nested discs is there, an even number is not.
+--- Rings: an odd number of nested discs is painted, an even number is not.
 local function ripple(count, radius, texture)
   local discs = {}
   for i = 1, count do

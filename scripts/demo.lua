@@ -1,8 +1,8 @@
--- The lamplighter: ten seconds in which the evening comes, cel by cel.
+-- The lamplighter: ten seconds in which evening falls, cel by cel.
 --
--- A slow pan over planes at their own depths; front lights that dim from gold to dusk; a figure
--- whose lips follow a recorded line; and a second exposure for everything that glows, and for what
--- the lantern lights.
+-- A slow pan over planes at different depths; front lights that dim from gold to dusk; a figure
+-- whose lips follow a recorded line; and a second exposure for everything that glows, and for
+-- everything that the lantern lights.
 local celspan = require "celspan"
 local ease = require "celspan.ease"
 local keys = require "celspan.keys"
@@ -31,7 +31,8 @@ return celspan.film { title = "The lamplighter", frames = 240, frame = function(
   local travel = 240 * pan(f.progress)
   local function window(depth) return { travel * depth, 0, f.width, f.height } end
   local function plane(name, depth, front, ...)
-    return celspan.cel { celspan.union { ... }, front = front, viewport = window(depth) }:named(name)
+    return celspan.cel { celspan.union { ... }, front = front,
+      viewport = window(depth) }:named(name)
   end
   local function light(distance) return palette.lights[distance]:at(time) end
 
@@ -63,9 +64,9 @@ return celspan.film { title = "The lamplighter", frames = 240, frame = function(
 
   local gels, card, halos = village.light_box(time, cue.houses, window(0.42))
   local lantern = { texture = palette.lamplight(1500 + wick[1], 946 + wick[2], 900), on = "cel" }
-  local function lamplit(name, gain, art)
+  local function lamplit(label, gain, art)
     lantern.gain = gain * flame
-    return plane(name, 1, lantern, art)
+    return plane(label, 1, lantern, art)
   end
   local lit = celspan.rostrum {
     gels:named "gels", card:named "card", halos:named "halos",

@@ -1,5 +1,5 @@
 -- A dissolve: one frame, two exposures. Light adds on film, so weights that sum to one pass from
--- the desert at sunset to the sea at night; halfway both are there at once.
+-- the desert at sunset to the sea at night; halfway, both are visible at once.
 local celspan = require "celspan"
 local ease = require "celspan.ease"
 local shapes = require "demo.shapes"

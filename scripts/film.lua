@@ -1,11 +1,11 @@
--- Little One: a lamplighter, a spark and the last lamp of a town. Half a minute. ./run film makes its
--- sound, too, and renders it with
+-- Little One: a lamplighter, a spark and the last lamp of a town. Half a minute. ./run film also
+-- makes the sound, and renders it with
 --
 --   celspan render scripts/film.lua -o out/film.mp4 --allow FOLDER -- FOLDER/sound.wav
 --
--- The cutting: which shot is seen when, and how one dissolves into the next. What happens in a shot
--- is in film/shots/, the set and the figure beside it, and film/timing.lua is the clock of them
--- all.
+-- This script is the edit: when each shot is shown, and how it dissolves into the next. The action
+-- of a shot is in film/shots/, with the set and the figure beside it, and film/timing.lua has the
+-- times for all of them.
 local celspan = require "celspan"
 local ease = require "celspan.ease"
 local timing = require "film.timing"
@@ -20,8 +20,8 @@ end
 
 local fading = ease "inOutSine"
 
---- How much of the shot is seen: less than 1 while the shot before it, or after it, is seen as
---- well.
+--- The weight of a shot: less than 1 while it dissolves from the shot before it or into the shot
+--- after it.
 local function share_of(i, time)
   local before, shot, after = shots[i - 1], shots[i], shots[i + 1]
   local share = 1

@@ -1,5 +1,5 @@
--- A hat, drawn once on the first frame, that stays on a head that moves. The track is what
--- `celspan track` found in the pictures of the head (scripts/hat/head.lua tells how).
+-- A hat, drawn once for the first frame, that stays on a moving head. The track was made by
+-- `celspan track` from pictures of the head (see scripts/hat/head.lua).
 local celspan = require "celspan"
 local track = require "celspan.track"
 local head = require "hat.head"
@@ -9,7 +9,7 @@ local t = assert(track.read "hat/track.json")
 local felt = celspan.linear { from = { -80, 0 }, to = { 90, 0 }, { 0, "#c0392f" },
   { 1, "#6f1d22" } }
 
---- The hat as it lies on the head of frame 1, drawn about the middle of that head.
+--- The hat on the head of frame 1, drawn about the middle of that head.
 local hat = celspan.union {
   celspan.path { texture = felt, d = "M-80 -62C-84 -150 -50 -190 0 -170C50 -190 84 -150 80 -62Z" },
   celspan.path { texture = "#f0c987",

@@ -32,7 +32,7 @@ local art = celspan.cel {
   fan(52, 4, 34),
 }
 
--- A still a kernel: --frames picks one.
+-- One still per kernel: --frames selects one.
 return celspan.film {
   title = "Kernels", size = { 96, 40 }, fps = 1, frames = #KERNELS,
   frame = function(f)

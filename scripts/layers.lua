@@ -1,5 +1,5 @@
 -- Layers: a painting of many layers under the multiplane camera. The painter's groups become planes
--- at depths of their own; a dolly and a pan tell them apart, and the focus moves from near to far.
+-- at different depths; a dolly and a pan separate them, and the focus moves from near to far.
 local celspan = require "celspan"
 local ease = require "celspan.ease"
 local layers = require "celspan.layers"
@@ -8,7 +8,8 @@ local multiplane = require "celspan.multiplane"
 local tree = assert(layers.read "paintings/valley.ora")
 
 --- {group or layer, depth}
-local depths = { { "sky", 2600 }, { "sun", 2600 }, { "glow", 2600 }, { "far", 1800 }, { "hills", 1100 },
+local depths = { { "sky", 2600 }, { "sun", 2600 }, { "glow", 2600 }, { "far", 1800 },
+  { "hills", 1100 },
                  { "wood", 500 }, { "near", 0 } }
 
 return celspan.film { frames = 48, frame = function(f)

@@ -1,5 +1,5 @@
 -- An animator's light table: six sheets of paper on a peg bar, lit from below. Paper scatters a
--- little and lets the rest through, so that older drawings fade beneath the newest, sheet by sheet.
+-- little and lets the rest through, so older drawings fade beneath the newest, sheet by sheet.
 local celspan = require "celspan"
 local shapes = require "demo.shapes"
 
@@ -31,7 +31,7 @@ end
 
 local guide = fields()
 
---- A ball of pencil: an outline of two discs, a shadow of hatching, a stretch along its way.
+--- A ball in pencil: an outline of two discs, a shadow of hatching, stretched along its path.
 local function ball(x, y, stretch, turn)
   local body = celspan.circle { centre = { 0, 0 }, radius = 78, texture = "#f3cf72" }
   local inner = celspan.circle { centre = { 0, 0 }, radius = 72 }
@@ -46,7 +46,7 @@ local function ball(x, y, stretch, turn)
   }:rotate(-turn):scale(stretch, 1 / stretch):rotate(turn):translate(x, y)
 end
 
---- Drawing n: two hops, the second lower; flat on the ground, long on the way.
+--- Drawing n: two hops, the second lower; flat on the ground, stretched in the air.
 local function drawing(n)
   local u = n % 16 / 15
   local hop = u < 0.55 and u / 0.55 or (u - 0.55) / 0.45

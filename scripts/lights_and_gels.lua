@@ -18,14 +18,14 @@ local function drop(near, far, half, texture)
   return celspan.path { d = d, texture = texture }
 end
 
---- `count` of the same, round the middle.
+--- `count` copies, around the middle.
 local function wreath(count, part, offset)
   local list = {}
   for i = 0, count - 1 do list[i + 1] = part:rotate(360 * (i + (offset or 0)) / count, cx, cy) end
   return celspan.union(list)
 end
 
---- One ring: glass between two radii, cut by spokes and by the leading round the ornaments.
+--- One ring: glass between two radii, cut by spokes and by the leading around the ornaments.
 local function ring(inner, outer, glass, spokes, ornaments, leading)
   local spoke = celspan.rect { cx - 3, cy - outer, 6, outer - inner }
   return (disc(0, outer, glass) - disc(0, inner) - wreath(spokes, spoke, 0.5) - leading) | ornaments

@@ -1,5 +1,5 @@
 -- Lip sync: nine mouth cels, Rhubarb's A to H and X, chosen frame by frame from a timing file.
--- The strip below shows the set; the one in use is lit.
+-- The strip below shows the set; the mouth in use is lit.
 local celspan = require "celspan"
 local lips = require "celspan.lips"
 local face = require "demo.face"

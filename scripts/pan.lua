@@ -7,7 +7,7 @@ local shapes = require "demo.shapes"
 local walls = { "#b5523b", "#e0a458", "#2f4858", "#8c3f3c", "#d9c5a0", "#4f6d5a", "#c9733f" }
 local quay = 700
 
---- A facade: brick, a gable in one of three manners, tall windows, a door.
+--- A facade: brick, a gable in one of three styles, tall windows, a door.
 local function house(i, x, w, h)
   local wall, top = walls[i * 3 % 7 + 1], quay - h
   local gable = ({

@@ -1,5 +1,5 @@
 -- Parallax: a wood in the morning mist, five planes of trunks. One pan moves every plane by its own
--- depth, and each farther plane is paler, as if more air lay before it.
+-- depth, and each farther plane is paler, as if there were more air in front of it.
 local celspan = require "celspan"
 local shapes = require "demo.shapes"
 
@@ -18,7 +18,7 @@ local function trunk(x, w, lean)
                          { x - w * 0.1, 1000, w * 1.35 }, { x - w * 0.2, 1120, w * 2.1 } })
 end
 
---- Grows out of the middle of the trunk at height y.
+--- A bough from the middle of the trunk at height y.
 local function bough(x, y, w, lean, way)
   x = x + lean * (820 - y) / 860
   return shapes.ribbon({ { x, y, w * 0.3 }, { x + way * w * 0.9, y - w * 0.5, w * 0.2 },

@@ -1,5 +1,5 @@
 -- A gallery in one-point perspective: floor, walls and pictures are flat drawings, each carried to
--- its place by quad(), which takes four corners to four others. The camera walks in.
+-- its place by quad(), which maps four corners to four others. The camera walks in.
 local celspan = require "celspan"
 local shapes = require "demo.shapes"
 
@@ -54,7 +54,7 @@ local function upright(x0, z0, x1, z1, low, high)
   return { { x0, high, z0 }, { x1, high, z1 }, { x1, low, z1 }, { x0, low, z0 } }
 end
 
---- Corners of a level rectangle as wide as the room, the far edge first.
+--- Corners of a horizontal rectangle as wide as the room, the far edge first.
 local function level(y, z0, z1)
   local w = half_width
   return { { -w, y, z0 }, { w, y, z0 }, { w, y, z1 }, { -w, y, z1 } }

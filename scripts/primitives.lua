@@ -1,5 +1,5 @@
--- The eight primitives, one a tile: rectangle, triangle, circle, ellipse, polygon, NURBS, path and
--- scan-line procedure. Each is one value, turned and scaled by methods that return new values.
+-- The eight primitives, one per tile: rectangle, triangle, circle, ellipse, polygon, NURBS, path
+-- and scan-line procedure. Each is one value, turned and scaled by methods that return new values.
 local celspan = require "celspan"
 
 local ink, cream, coral, teal, gold = "#1f2a44", "#f6ead2", "#e4572e", "#2a7f83", "#f2b134"
@@ -14,14 +14,14 @@ local function star(corners, outer, inner)
   return celspan.polygon(points)
 end
 
---- A disc of stripes, told row by row; the two paints at its ends make a gradient.
+--- A disc of stripes, described row by row; the two paints at its ends make a gradient.
 local function blinds(y)
   local half = math.sqrt(math.max(0, 150 * 150 - y * y))
   if y // 20 % 2 == 0 or half == 0 then return {} end
   return { { -half, half, celspan.rgb(0.77, 0.09, 0.03), celspan.rgb(0.014, 0.023, 0.058) } }
 end
 
---- {ground, the shape round (0, 0), how far it turns in the loop}
+--- {ground, the shape around (0, 0), how far it turns in the loop}
 local tiles = {
   { cream, celspan.rect { -120, -120, 240, 240, radius = 46, texture = teal }, 90 },
   { gold, celspan.triangle { { 0, -150 }, { 140, 95 }, { -140, 95 }, texture = ink }, 120 },

@@ -4,16 +4,18 @@ local multiplane = require "celspan.multiplane"
 local keys = require "celspan.keys"
 
 local WIDTH, HEIGHT, FOCAL = 960, 400, 1000
-local LAMP, HOUSE, HILLS, SKY = 0, 900, 2600, 5200 -- depths, film units away from the camera's plane
+-- Depths, film units away from the camera's plane.
+local LAMP, HOUSE, HILLS, SKY = 0, 900, 2600, 5200
 
 local function disc(x, y, radius, texture)
   return celspan.circle { centre = { x, y }, radius = radius, texture = texture }
 end
 
--- A plane's art is drawn about the film's centre, larger by how far away it will be.
+-- A plane's art is drawn about the film's centre, enlarged to make up for its distance.
 local function at_depth(z, art)
   local scale = (FOCAL + z) / FOCAL
-  return celspan.cel { art:translate(-WIDTH / 2, -HEIGHT / 2):scale(scale):translate(WIDTH / 2, HEIGHT / 2) }
+  return celspan.cel { art:translate(-WIDTH / 2, -HEIGHT / 2):scale(scale)
+    :translate(WIDTH / 2, HEIGHT / 2) }
 end
 
 local function sky()
@@ -29,16 +31,19 @@ local function sky()
 end
 
 local function hills()
-  return celspan.path { d = "M-300 330 C 60 120 240 180 400 290 S 760 120 1260 310 L1260 700 L-300 700 Z",
+  return celspan.path {
+    d = "M-300 330 C 60 120 240 180 400 290 S 760 120 1260 310 L1260 700 L-300 700 Z",
       texture = "#2c2a52" }
-    | celspan.path { d = "M-300 360 C 100 300 300 350 520 330 S 980 260 1260 350 L1260 700 L-300 700 Z",
+    | celspan.path {
+      d = "M-300 360 C 100 300 300 350 520 330 S 980 260 1260 350 L1260 700 L-300 700 Z",
       texture = "#1d2244" }
 end
 
 local function house()
   local panes = {}
   for i = 0, 5 do
-    panes[#panes + 1] = celspan.rect { 338 + i % 3 * 62, 218 + i // 3 * 60, 34, 38, texture = "#ffd070" }
+    panes[#panes + 1] = celspan.rect { 338 + i % 3 * 62, 218 + i // 3 * 60, 34, 38,
+      texture = "#ffd070" }
   end
   return celspan.rect { 310, 190, 214, 240, texture = "#3a2030" }
     | celspan.polygon { { 288, 194 }, { 417, 110 }, { 546, 194 }, texture = "#5c2c34" }
@@ -50,7 +55,8 @@ local function lamp()
   return celspan.rect { 754, 130, 14, 400, texture = "#10131c" }
     | celspan.path { d = "M724 130 L798 130 L784 60 L738 60 Z", texture = "#ffe9a8" }
     | celspan.path { d = "M726 60 L796 60 L761 34 Z", texture = "#10131c" }
-    | celspan.polygon { { 100, 480 }, { 20, 250 }, { 60, 330 }, { 70, 190 }, { 110, 320 }, { 150, 210 },
+    | celspan.polygon { { 100, 480 }, { 20, 250 }, { 60, 330 }, { 70, 190 }, { 110, 320 },
+      { 150, 210 },
       { 150, 330 }, { 190, 270 }, { 160, 480 }, texture = "#0d1a14" }
 end
 
@@ -61,7 +67,7 @@ local planes = {
   { at_depth(LAMP, lamp()), z = LAMP },
 }
 
--- Distances the lens is focused on: the lamp, the house, the sky; held, then pulled.
+-- Focus distances: the lamp, the house, the sky; held, then pulled.
 local focus = keys {
   { 0, FOCAL + LAMP }, { 0.6, FOCAL + LAMP }, { 1.8, FOCAL + HOUSE, "inOutCubic" },
   { 2.6, FOCAL + HOUSE }, { 4, FOCAL + SKY, "inOutCubic" },

@@ -1,5 +1,5 @@
--- From noon to dusk: the light is taken off a photograph, and the day goes by over what is left. The
--- photograph is ours; another one, and the light it was taken in, may be named after --:
+-- From noon to dusk: the light is removed from a photograph, and the rest is relit through the day.
+-- The photograph is part of the project; another one, and its light, may be given after --:
 --   celspan render scripts/relight.lua -o dusk.mp4 -- photo.jpg "#fff4e0"
 local celspan = require "celspan"
 local keys = require "celspan.keys"
@@ -8,13 +8,14 @@ local relight = require "celspan.relight"
 
 local file, noon = ...
 local picture = file and celspan.picture { file = file } or photo.take()
-local bare = assert(relight.from { picture = picture, light = noon or file and "#fffaf0" or photo.light })
+local bare = assert(relight.from { picture = picture,
+  light = noon or file and "#fffaf0" or photo.light })
 local frame = file and celspan.image { file = file }
   or celspan.rect { 0, 0, photo.width, photo.height }
 local _, _, width, height = frame:bounds()
 
---- The light of the sky, from the right, and that of the sun, from the left, by the share of the film:
--- at noon both are white, in the evening the sun is red, and then only a blue sky is left.
+--- The light of the sky, from the right, and that of the sun, from the left, by the progress of the
+-- film: at noon both are white, in the evening the sun is red, and then only a blue sky is left.
 local sky = keys { { 0, { 1, 1, 0.97 } }, { 0.35, { 0.8, 0.75, 0.72 }, "inOutSine" },
   { 0.7, { 0.26, 0.24, 0.42 }, "inOutSine" }, { 1, { 0.03, 0.05, 0.15 }, "inOutSine" } }
 local sun = keys { { 0, { 1.1, 1.05, 0.9 } }, { 0.35, { 1.25, 0.9, 0.52 }, "inOutSine" },
@@ -25,7 +26,9 @@ local sun = keys { { 0, { 1.1, 1.05, 0.9 } }, { 0.35, { 1.25, 0.9, 0.52 }, "inOu
 local function daylight(u)
   local from, to, most = sun:at(u), sky:at(u), 0
   for c = 1, 3 do most = math.max(most, from[c], to[c]) end
-  local function share(light) return celspan.rgb(light[1] / most, light[2] / most, light[3] / most) end
+  local function share(light)
+    return celspan.rgb(light[1] / most, light[2] / most, light[3] / most)
+  end
   return { gain = most, texture = celspan.linear { from = { 0, height }, to = { width, 0 },
     { 0, share(from) }, { 1, share(to) } } }
 end

@@ -1,14 +1,14 @@
--- The scan-line primitive: a procedure that tells, row by row, where paint lies. The moon's path on
--- the water is nothing but such rows; everything else in the picture is ordinary outline.
+-- The scan-line primitive: a procedure that describes, row by row, where there is paint. The moon's
+-- path on the water consists of such rows; everything else in the picture is ordinary outlines.
 local celspan = require "celspan"
 local shapes = require "demo.shapes"
 
 local horizon, cx = 560, 1160
 
---- 0..1, strewn: where the glints of a wave lie.
+--- A scattered number in 0..1, for the positions of the glints of a wave.
 local function scatter(k) return math.sin(k * 12.9898) * 43758.5453 % 1 end
 
---- Wave after wave, taller the nearer; each carries lens-shaped glints that drift and flash.
+--- Wave after wave, taller when nearer; each carries lens-shaped glints that drift and flash.
 local function glitter(time)
   return function(y)
     local near = (y - horizon) / (1080 - horizon)

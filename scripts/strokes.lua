@@ -4,17 +4,18 @@ local ease = require "celspan.ease"
 
 local paper, ink, clay, sky = "#f6ead2", "#1f2a44", "#c8553d", "#2a7f83"
 
---- A brush: every point says how wide the line is there, and the spline goes through both alike.
+--- A brush: every point has a width, and the spline interpolates both positions and widths.
 local function brush(u)
   local points = {}
   for i = 0, 12 do
     local press = math.sin(math.pi * i / 12)
-    points[#points + 1] = { 160 + 130 * i, 250 + 90 * math.sin(1.1 * i + 2 * math.pi * u), 6 + 66 * press }
+    points[#points + 1] = { 160 + 130 * i, 250 + 90 * math.sin(1.1 * i + 2 * math.pi * u),
+      6 + 66 * press }
   end
   return celspan.stroke { points = points, degree = 3, cap = "round", texture = ink }
 end
 
---- Loops as they are written to loosen the wrist, small at first and at last, and a flourish.
+--- Loops as in a warm-up exercise for the wrist, small at both ends, and a flourish.
 local loops = {}
 for i = 7, 103 do
   local t = i / 112
@@ -24,13 +25,14 @@ for i = 7, 103 do
 end
 table.move({ { 1600, 668 }, { 1680, 655 }, { 1760, 590 } }, 1, 3, #loops + 1, loops)
 
---- A line that draws itself: `to` grows, and the taper keeps the tip fine wherever it is.
+--- A line that draws itself: `to` grows, and the taper keeps the tip fine at every length.
 local function written(u)
-  return celspan.stroke { points = loops, degree = 3, width = 20, taper = { 120, 220 }, cap = "round", to = u,
+  return celspan.stroke { points = loops, degree = 3, width = 20, taper = { 120, 220 },
+    cap = "round", to = u,
                           texture = clay }
 end
 
---- Dashes march when their offset moves; a primitive's outline is a line as well.
+--- Dashes move with their offset; the outline of a primitive can be a line, too.
 local function road(f)
   local stone = celspan.ellipse { centre = { 960, 940 }, radii = { 760, 76 } }
   return { stone:stroke { width = 44, texture = "#d9c7a0" },
@@ -42,5 +44,5 @@ return celspan.film { size = { 1920, 1080 }, frames = 48, frame = function(f)
   local u = f.index / f.count
   local track, dashes = table.unpack(road(f))
   return celspan.rostrum { back = paper, celspan.cel {
-    track, dashes, brush(u), written(ease "inOutSine"(math.min(1, f.progress / 0.85))) } } -- and dries
+    track, dashes, brush(u), written(ease "inOutSine"(math.min(1, f.progress / 0.85))) } }
 end }

@@ -1,10 +1,10 @@
--- A town at dusk for a frame of a million pixels a side.
+-- A town at dusk for a frame of a million pixels per side.
 --
 --   celspan render scripts/terapixel.lua --size 1000000x1000000 --crop X,Y,W,H -o part.png
 --
--- From afar it is a hill with houses. Ten times nearer every house has windows, a hundred times
--- nearer every lit window a room and every room a picture on its wall; and one of the pictures,
--- where nothing is left to magnify, is a frame of scripts/demo.lua.
+-- From afar it is a hill with houses. Ten times closer every house has windows; a hundred times
+-- closer every lit window shows a room, and every room has a picture on its wall. One of these
+-- pictures is a whole frame of scripts/demo.lua.
 local celspan = require "celspan"
 local landscape = require "demo.landscape"
 local palette = require "demo.palette"
@@ -21,15 +21,15 @@ local function add(cels, ...)
   for i, parts in ipairs { ... } do table.move(parts, 1, #parts, #cels[i] + 1, cels[i]) end
 end
 
---- Lamps stand on both sides of the lane, in turn.
+--- Lamps on both sides of the lane, in turn.
 local function lamp(cels, row, y, width)
   local x, half = land.lane(y)
   local post, glass, halo = land.lamp(x + (row % 2 * 2 - 1) * half * 1.15, y, width * 0.7)
   add(cels, { post }, { glass }, { halo })
 end
 
---- One terrace: houses beside one another along the hill, `down` of the way to its foot. One house
---- of the fourth has the film on its wall.
+--- One terrace: houses side by side along the hill, at the fraction `down` of the way to its foot.
+--- One house of the fourth terrace has the film on its wall.
 local function terrace(row, down, width)
   local dice = Dice.new("terrace " .. row)
   local cels = { {}, {}, {} } -- shells, rooms, halos

@@ -1,6 +1,6 @@
--- A title whose letters arrive one by one: each falls into its place, turning, and takes its colour
--- there; then a line of small ones is spelled out below. celspan.glyphs gives the letters of a text
--- where the text has them, so nothing has to be spaced by hand.
+-- A title whose letters arrive one by one: each falls into its place, turning, and changes its
+-- colour there; then a line of small letters is spelled out below. celspan.glyphs returns the
+-- letters of a text in their places, so nothing has to be spaced by hand.
 local celspan = require "celspan"
 local ease = require "celspan.ease"
 
@@ -15,11 +15,13 @@ end
 
 local title = celspan.glyphs { "Long Night", font = FONT, size = 150, at = { 480, 280 },
   align = "centre", tracking = 20, variations = { wght = 800 },
-  texture = celspan.linear { from = { 0, 170 }, to = { 0, 280 }, { 0, "#ffd98a" }, { 1, "#ff7d4a" } } }
-local under = celspan.glyphs { "a film in forty drawings", font = FONT, size = 40, at = { 480, 360 },
+  texture = celspan.linear { from = { 0, 170 }, to = { 0, 280 }, { 0, "#ffd98a" },
+    { 1, "#ff7d4a" } } }
+local under = celspan.glyphs { "a film in forty drawings", font = FONT, size = 40,
+  at = { 480, 360 },
   align = "centre", tracking = 140, texture = CREAM }
 
---- A letter on its way: from above, turned, to its place.
+--- A letter on its way from above, turning, to its place.
 local function arriving(letter, i, time)
   local u = share(time, 0.12 * i - 0.08, 0.6)
   if u == 0 then return end

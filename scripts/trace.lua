@@ -1,5 +1,5 @@
--- Trace: a drawing in ink, scanned, becomes shapes. They are coloured by a point of each, the tail is
--- moved by itself, and the fish swims, sharp at every size.
+-- Trace: a scanned ink drawing becomes shapes. Each is coloured by a point inside it, the tail
+-- moves by itself, and the fish swims, sharp at every size.
 local celspan = require "celspan"
 local trace = require "celspan.trace"
 
@@ -11,7 +11,7 @@ local colours = {
   { 510, 200, "#e8563f" }, { 285, 232, "#ef7d45" }, { 150, 160, "#ffffff" },
 }
 
---- What an area is painted with; nil: it is paper, and left out.
+--- The colour of an area; nil: it is paper, and left out.
 local function paint(shape)
   if shape.area > 60000 then return nil end
   for _, one in ipairs(colours) do
@@ -44,7 +44,8 @@ end
 
 return celspan.film { size = { 1280, 720 }, frames = 48, frame = function(f)
   local beat = math.sin(2 * math.pi * 2 * f.time)
-  local swimming = celspan.union { tail:skew(0, 14 * beat, 412, 200):scale(1 - 0.06 * beat, 1, 412, 200),
+  local swimming = celspan.union { tail:skew(0, 14 * beat, 412, 200)
+    :scale(1 - 0.06 * beat, 1, 412, 200),
     body:skew(0, -2 * beat, 425, 200) }
   return celspan.rostrum {
     celspan.cel { celspan.rect { 0, 0, 1280, 720, texture = sea } },

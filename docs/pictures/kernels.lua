@@ -17,7 +17,7 @@ local function box(radius)
   return function(x) return math.abs(x) <= radius and 0.5 / radius or 0 end
 end
 
--- As high as they are, but for a single point, which is drawn as a line.
+-- With their true heights, except for a single point, which is drawn as a line.
 local KERNELS = {
   box(0.04), box(0.5), box(1),
   function(x) return math.abs(x) < 1.5 and math.exp(-2 * x * x) * 0.8 or 0 end,
@@ -38,7 +38,8 @@ local function profile(kernel)
 end
 
 local function panel(name)
-  local picture = celspan.image { file = folder .. "/kernels." .. name .. ".png", w = WIDTH, h = HEIGHT,
+  local picture = celspan.image { file = folder .. "/kernels." .. name .. ".png", w = WIDTH,
+    h = HEIGHT,
                                   sampling = "nearest" }
   return celspan.clip(picture, celspan.rect { 0, 0, WIDTH, HEIGHT, radius = 12 })
 end

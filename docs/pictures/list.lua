@@ -1,10 +1,10 @@
--- The pictures of the documentation: what each is a frame of. `./run docs` makes them anew.
+-- The pictures of the documentation, and the script of each. `./run docs` makes all of them again.
 --   script   a script of the tree
---   page     a page whose example of the same name it is
---   onion    how many frames before and after lie over it
---   grid     not a frame but a contact sheet of so many columns and rows
---   allow    a folder that the script may read in, beside its own
---   parts    frames that are rendered before, into a folder that the script gets as its argument
+--   page     a page with an example of the same name
+--   onion    the number of frames before and after it that are laid over it
+--   grid     a contact sheet with this number of columns and rows, instead of a frame
+--   allow    a folder that the script may read, in addition to its own
+--   parts    frames that are rendered first, to a folder that the script gets as its argument
 return {
   { name = "demo", script = "scripts/demo.lua", frame = 236, size = "960x540" },
   { name = "little-one", script = "scripts/film.lua", frame = 463, size = "400x225" },
@@ -58,10 +58,14 @@ return {
   { name = "paper-10", script = "scripts/paper/figure10.lua", size = "640x360", allow = "scripts" },
   { name = "paper-11", script = "scripts/paper/figure11.lua", size = "720x352", allow = "scripts" },
   { name = "paper-12", script = "scripts/paper/figure12.lua", size = "400x400", allow = "scripts" },
-  { name = "paper-15a", script = "scripts/paper/figure15a.lua", size = "480x480", allow = "scripts" },
-  { name = "paper-15b", script = "scripts/paper/figure15b.lua", size = "640x480", allow = "scripts" },
-  { name = "paper-15c", script = "scripts/paper/figure15c.lua", size = "640x480", allow = "scripts" },
-  { name = "paper-15d", script = "scripts/paper/figure15d.lua", size = "640x480", allow = "scripts" },
+  { name = "paper-15a", script = "scripts/paper/figure15a.lua", size = "480x480",
+    allow = "scripts" },
+  { name = "paper-15b", script = "scripts/paper/figure15b.lua", size = "640x480",
+    allow = "scripts" },
+  { name = "paper-15c", script = "scripts/paper/figure15c.lua", size = "640x480",
+    allow = "scripts" },
+  { name = "paper-15d", script = "scripts/paper/figure15d.lua", size = "640x480",
+    allow = "scripts" },
   { name = "kernels", script = "docs/pictures/kernels.lua", parts = {
     { script = "scripts/kernels.lua", frame = 2, size = "384x160", file = "kernels.art.png" },
     { script = "scripts/kernels.lua", frame = "all", file = "kernels.#.png" } } },

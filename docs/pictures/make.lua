@@ -1,6 +1,6 @@
 -- Makes the pictures of the documentation: lua5.4 docs/pictures/make.lua BINARY FOLDER, from the
--- top of the tree. Examples in pages are put into FOLDER/examples/, and what pictures are put
--- together from into FOLDER/parts/.
+-- top of the tree. Examples in pages are saved in FOLDER/examples/, and the frames from which
+-- pictures are composed in FOLDER/parts/.
 package.path = "./?.lua;" .. package.path
 local markdown = require "tests.support.markdown"
 local list = require "docs.pictures.list"
@@ -16,9 +16,11 @@ end
 
 local is_saved = {}
 
---- The example `name` of a page, as a file of its own, beside the others of that page.
+--- Saves the example `name` of a page as a file, beside the others of that page.
 local function extract(page, name)
-  if not is_saved[page] then markdown.save(page, folder .. "/examples", function() return true end) end
+  if not is_saved[page] then
+    markdown.save(page, folder .. "/examples", function() return true end)
+  end
   is_saved[page] = true
   for _, block in ipairs(markdown.blocks(page)) do
     if block.name == name then return folder .. "/examples/" .. name .. ".lua" end
@@ -40,7 +42,7 @@ end
 local parts = folder .. "/parts"
 run("mkdir -p", folder .. "/examples", parts)
 run("cp -r scripts/type scripts/paintings scripts/pictures", folder .. "/examples/")
--- A script is given an absolute path, because it looks for files beside itself, and may read there.
+-- A script gets an absolute path, because it looks for files beside itself, and may read there.
 local pwd = assert(io.popen "pwd"):read "l"
 local absolute = parts:find "^/" and parts or pwd .. "/" .. parts
 for _, picture in ipairs(list) do

@@ -1,6 +1,6 @@
--- The picture that moves on the front page: frames of the demo film, a folder of demo.####.png that
--- the argument names. It begins with the last one, held, which dissolves into the first, so that it goes
--- round without a jump, and shows the most where it does not move.
+-- The moving picture of the front page: frames of the demo film, from the folder of demo.####.png
+-- in the argument. It begins with the last frame, held, which dissolves into the first, so that it
+-- loops without a jump, and is still where it shows most.
 local celspan = require "celspan"
 
 local folder = ...

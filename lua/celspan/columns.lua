@@ -1,13 +1,13 @@
---- Columns of exposure sheets: what sheet.lua and the readers and writers of its formats share.
+--- Columns of exposure sheets: shared by sheet.lua and the readers and writers of its formats.
 --
 --   column.at      { 1, 5, 9 }              frames of change, ascending, from 1
---   column.names   { "A1", "A2", false }    the drawing from there on; false: none
+--   column.names   { "A1", "A2", false }    the drawing from that frame; false: empty
 --   column.marks   { [3] = { inbetween = true } }
 --
--- INVARIANT: neighbours in `names` differ, so that a column has one form only.
+-- INVARIANT: neighbours in `names` differ, so each column has only one representation.
 local columns = {}
 
---- Sheets beyond these are refused.
+--- Larger sheets are refused.
 columns.most_frames = 10000000
 columns.most_layers = 65536
 --- Texts of more cells than this are not written.
@@ -19,7 +19,7 @@ columns.marks = { { "inbetween", "i" }, { "reverse", "r" }, { "key", "k" }, { "r
 
 function columns.new(name) return { name = name, at = {}, names = {}, marks = {} } end
 
---- Appends a change; frames ascend. Of changes on one frame the last counts.
+--- Appends a change; frames ascend. If a frame has several changes, the last one counts.
 function columns.add(column, frame, name)
   local at, names = column.at, column.names
   local count = #at
@@ -27,7 +27,7 @@ function columns.add(column, frame, name)
     at[count], names[count] = nil, nil
     count = count - 1
   end
-  -- nothing is what a column begins with
+  -- a column begins empty
   if (names[count] or false) ~= name then at[count + 1], names[count + 1] = frame, name end
 end
 
@@ -40,7 +40,7 @@ function columns.mark(column, frame, mark)
   set[mark] = true
 end
 
---- The place of the change that holds at a frame; 0 before the first.
+--- The index of the change in force at a frame; 0 before the first.
 function columns.find(column, frame)
   local low, high = 0, #column.at
   while low < high do
@@ -50,7 +50,7 @@ function columns.find(column, frame)
   return low
 end
 
---- Sorts by `frame`, and leaves those of one frame in their order.
+--- Sorts by `frame`; items of one frame keep their order.
 function columns.sort(list)
   local place, is_sorted = {}, true
   for i, item in ipairs(list) do
@@ -65,7 +65,7 @@ function columns.sort(list)
   return list
 end
 
---- Raises unless a text of so many rows can be written.
+--- Raises an error if a text with this number of rows is too large to be written.
 function columns.check_cells(rows, list)
   local count = rows * (#list + 1)
   if count > columns.most_cells then
@@ -74,10 +74,10 @@ function columns.check_cells(rows, list)
   end
 end
 
---- A longer message quotes a file that is no sheet at all.
+--- A longer message quotes a file that is not a sheet at all.
 local MESSAGE_BYTES = 400
 
---- What a reader raises: its message becomes that of read.
+--- Raises an error in a reader: read returns its message.
 function columns.fail(...)
   local message = string.format(...)
   if #message > MESSAGE_BYTES then
@@ -86,14 +86,14 @@ function columns.fail(...)
   error({ message = message }, 0)
 end
 
---- Raises unless the text is UTF-8 without zero bytes. what: it is called so.
+--- Raises an error unless the text is UTF-8 without zero bytes. what: its name in the message.
 function columns.check_text(text, what)
   if not utf8.len(text) then columns.fail("%s is not UTF-8", what) end
   if text:find "%z" then columns.fail("%s holds a zero byte", what) end
   return text
 end
 
---- The lines of a text, whatever ends them.
+--- The lines of a text, with any kind of line end.
 function columns.lines(text)
   local list = {}
   for line in text:gsub("^\239\187\191", ""):gsub("\r\n?", "\n"):gmatch "([^\n]*)\n?" do
@@ -103,9 +103,9 @@ function columns.lines(text)
   return list
 end
 
---- The frames of a sheet: those that were told, and those that changes and notes need.
-function columns.length(told, list, notes)
-  local frames = told
+--- The number of frames of a sheet: `given`, or more if changes and notes need more.
+function columns.length(given, list, notes)
+  local frames = given
   for _, column in ipairs(list) do
     local count = #column.at
     -- a last change to nothing ends the drawing before it

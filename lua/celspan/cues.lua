@@ -1,6 +1,6 @@
---- Readers of lip-sync files: text in, timed cues out. What lips.lua makes frames of.
+--- Readers of lip-sync files: text in, timed cues out. lips.lua converts the cues to frames.
 --
--- Each reader gives { cues = { {start, stop, shape}, ... } } in seconds (Rhubarb), or
+-- Each reader returns { cues = { {start, stop, shape}, ... } } in seconds (Rhubarb), or
 -- { marks = { {frame, shape}, ... }, count = frames or nil, fps = number or nil } in frames from 1
 -- (Moho, Papagayo), where a mark holds until the next one; or nil and a message.
 local json = require "celspan.json"
@@ -70,7 +70,7 @@ local function read_json(text)
   return nil, "it is neither Rhubarb's JSON (mouthCues) nor Papagayo's (voices)"
 end
 
---- Rhubarb XML: only the mouthCue elements matter.
+--- Rhubarb XML: only the mouthCue elements are read.
 local function read_xml(text)
   local list = {}
   for attributes, shape in text:gmatch "<mouthCue%s([^>]*)>%s*(%w+)%s*</mouthCue>" do
@@ -96,7 +96,7 @@ local function read_dat(text)
   return { marks = marks }
 end
 
---- Papagayo's .pgo 1 of the first voice: counted lists of lines, tabs without meaning.
+--- The first voice of Papagayo's .pgo 1: lists of lines after their count; tabs have no meaning.
 local function read_pgo1(text)
   local lines, at = {}, 1
   for line in (text .. "\n"):gmatch "([^\r\n]*)\r?\n" do
@@ -106,7 +106,7 @@ local function read_pgo1(text)
     at = at + 1
     return lines[at] or ""
   end
-  --- The length of the list that follows: no longer than what is left of the file.
+  --- The length of the next list, limited to the rest of the file.
   local function next_count() return math.min(tonumber(next_line()) or 0, #lines - at) end
   next_line() -- the sound's name
   local fps, count = tonumber(next_line()), tonumber(next_line())
@@ -135,16 +135,16 @@ local function read_pgo1(text)
   return { marks = marks, count = count, fps = fps }
 end
 
---- What was found, unless its frames a second, where it has any, are none.
+--- Returns `found`, unless its frame rate is invalid.
 local function with_rate(found, message)
   local fps = found and found.fps
   if fps and not (fps > 0 and fps <= 1000) then
-    return nil, ("its frames a second are %.14g: they must be above 0 and at most 1000"):format(fps)
+    return nil, ("its frame rate is %.14g: it must be above 0 and at most 1000"):format(fps)
   end
   return found, message
 end
 
---- Tells the format by the text itself, so that a wrong ending does not matter.
+--- The format is detected from the text itself, so a wrong file extension does not matter.
 ---@param text string
 ---@return table? found
 ---@return string? message
@@ -156,7 +156,7 @@ function cues.read(text)
   if start:find "^MohoSwitch1" then return read_dat(start) end
   if start:find "^%s*%d+%.%d+%s" then return read_tsv(start) end
   if start:find "^%s*%d+%s+%S+" then return read_dat(start) end
-  return nil, "it is none of Rhubarb's TSV, JSON, XML or dat, Moho's dat, Papagayo's pgo 1 or 2"
+  return nil, "it is not Rhubarb's TSV, JSON, XML or dat, Moho's dat, or Papagayo's pgo 1 or 2"
 end
 
 return cues

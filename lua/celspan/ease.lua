@@ -11,7 +11,7 @@ local fields = require "celspan.fields"
 
 local pi, sin, sqrt = math.pi, math.sin, math.sqrt
 
---- The "in" half of each family; the others are made from it.
+--- The "in" curve of each family; the other directions are made from it.
 local families = {
   quad = function(u) return u * u end,
   cubic = function(u) return u * u * u end,
@@ -27,7 +27,7 @@ local families = {
   end,
 }
 
---- Penner's bounce, told from its "out" half: four parabolas.
+--- Penner's bounce, defined by its "out" curve: four parabolas.
 local function bounce_out(u)
   if u < 1 / 2.75 then return 7.5625 * u * u end
   if u < 2 / 2.75 then u = u - 1.5 / 2.75; return 7.5625 * u * u + 0.75 end
@@ -59,7 +59,7 @@ function directions.outin(f)
   end
 end
 
---- Holds a curve to its ends outside 0..1.
+--- A curve that is 0 before 0 and 1 after 1.
 local function held(f)
   return function(u)
     if u <= 0 then return 0 end
@@ -79,12 +79,12 @@ for _, family in ipairs { "quad", "cubic", "quart", "quint", "sine", "expo", "ci
     names[#names + 1] = direction .. family
     names[#names + 1] = family .. direction
   end
-  -- hump.timer means the "in" half by the bare name
+  -- in hump.timer the name of a family means its "in" curve
   curves[family] = curves["in" .. family]
   names[#names + 1] = family
 end
 
---- "steps:4": four equal steps, held; the last value is reached at the end.
+--- "steps:4": four equal steps; the last value is reached at the end.
 local function steps(text)
   local count = tonumber(text)
   if not count or count < 1 or count ~= math.floor(count) then

@@ -1,9 +1,9 @@
---- Checking the table that a function of the library is given, in the words of the C constructors.
+--- Checks the arguments of the library's functions, with the messages of the C constructors.
 local core = require "celspan.core"
 
 local fields = {}
 
---- The least unknown name, so that what is reported does not depend on the order of the table.
+--- The first unknown name in sorted order, so that messages do not depend on the table's order.
 local function unknown_in(given, known)
   local least
   for name in next, given do
@@ -14,25 +14,25 @@ local function unknown_in(given, known)
   return least
 end
 
---- Whether it is a number that is neither NaN nor infinite.
+--- Whether a value is a number, but neither NaN nor infinite.
 function fields.is_finite(value)
   return type(value) == "number" and value == value and value ~= math.huge and value ~= -math.huge
 end
 
---- What a message says was given: "nil", "a cel".
+--- How a message describes a value: "nil", "a cel".
 function fields.kind(value)
   local noun = type(value) == "userdata" and tostring(value):match "^(%l+)%f[{%z ]"
   return noun and "a " .. noun or type(value)
 end
 
---- The same, but the value of a number.
+--- The same, with the value of a number.
 function fields.shown(value)
   if value ~= value then return "nan" end -- its sign means nothing
   return type(value) == "number" and ("%.14g"):format(value) or fields.kind(value)
 end
 
---- Raises that `noun` has no field or method of this name; the nearest of `names` is told. level:
---- of the line that reads it, as for error.
+--- Raises an error: `noun` has no field or method of this name. The message suggests the nearest of
+--- `names`. level: that of the line that reads the name, as for error.
 local function refuse_name(noun, name, names, level)
   table.sort(names)
   local hint = core.nearest(name, names)
@@ -40,10 +40,12 @@ local function refuse_name(noun, name, names, level)
     or #names > 0 and "; there are " .. table.concat(names, ", ") or ""), level + 1)
 end
 
---- Raises, at the line of the caller's caller, unless `self` is a value of this class (its metatable).
+--- Raises an error at the line of the caller's caller, unless `self` is a value of this class (its
+--- metatable).
 function fields.self(noun, class, self, method)
   if getmetatable(self) ~= class then
-    error(("%s: %s: call it as a method, value:%s(...), got %s"):format(noun, method, method, fields.kind(self)), 3)
+    error(("%s: %s: call it as a method, value:%s(...), got %s"):format(noun, method, method,
+      fields.kind(self)), 3)
   end
 end
 
@@ -63,15 +65,15 @@ function fields.reads(noun, methods, optional)
   end
 end
 
---- Makes reading a name that a module does not have an error; gives the module.
+--- Makes it an error to read an unknown name of a module; returns the module.
 function fields.seal(noun, module)
   local metatable = getmetatable(module) or {}
   metatable.__index = fields.reads("celspan." .. noun, {})
   return setmetatable(module, metatable)
 end
 
---- Raises unless `value` is a list of `count` finite numbers. subject: what it is called, with the
---- number's place: "film[%d]"; shape: what it must be.
+--- Raises an error unless `value` is a list of `count` finite numbers. subject: its name in the
+--- message, with the number's index: "film[%d]"; shape: a description of valid values.
 function fields.numbers(noun, subject, value, count, shape, level)
   level = (level or 3) + 1
   if type(value) ~= "table" then
@@ -87,8 +89,8 @@ function fields.numbers(noun, subject, value, count, shape, level)
   end
 end
 
---- Raises at the line of the caller's caller, or at `level`. known: name -> what type() must give,
---- and something at place 1 where the table holds a list too.
+--- Checks the fields of a table; raises errors at the line of the caller's caller, or at `level`.
+--- known: name -> the required type(), or "any"; known[1] is not nil if the table may hold a list.
 function fields.check(noun, given, known, level)
   level = level or 3
   if type(given) ~= "table" then

@@ -1,11 +1,11 @@
---- Files as a whole: read up to a limit, and written so that they appear whole or not at all.
+--- Whole files: reads them up to a limit, and writes them so that only complete files appear.
 local core = require "celspan.core"
 
 local files = {}
 
-local PIECE = 65536 -- bytes; what is asked for is allocated before it is known how much there is
+local PIECE = 65536 -- bytes; read allocates the requested size before it knows the file's size
 
---- The text of an open file, or what of it is enough to know that it is too long.
+--- The text of an open file; of a file that is too long, enough to see that.
 local function read_pieces(file, most)
   local pieces, size = {}, 0
   while size <= most do
@@ -34,7 +34,7 @@ function files.read(path, most)
   return text
 end
 
---- The same of a file that a script names: beside the caller's file, else beside the script.
+--- The same for a file named in a script: beside the caller's file, else beside the script.
 ---@param path string
 ---@param most integer Bytes
 ---@return string? text

@@ -1,4 +1,4 @@
---- What a painting or a drawing holds, as the lines that `celspan info` prints of it.
+--- The contents of a painting or a drawing, as the lines that `celspan info` prints.
 --
 --   inform.painting "forest.kra"     -> text | nil, message
 --   inform.drawing "hero.svg"
@@ -8,7 +8,7 @@ local fields = require "celspan.fields"
 
 local inform = {}
 
---- Names and sentences come from files: what could end a line is shown as a space.
+--- Names and sentences come from files: control characters, such as line ends, become spaces.
 local function plain(text) return (text:gsub("[%c\127]", " ")) end
 
 local function add(lines, format, ...) lines[#lines + 1] = format:format(...) end
@@ -17,7 +17,7 @@ local function whole(text, lines) return text .. table.concat(lines, "\n") .. "\
 
 -- ---------------------------------------------------------------- paintings
 
---- A layer or group, and what is in it, rearmost first. counts: of both, and of groups.
+--- Layers and groups with their contents, rearmost first. counts: the numbers of layers and groups.
 local function add_entries(lines, counts, list, path)
   for _, entry in ipairs(list) do
     local here = path .. entry.name
@@ -46,7 +46,7 @@ local function describe_painting(tree)
   return whole(("%slayers %d\ngroups %d\n"):format(size, counts.layers, counts.groups), lines)
 end
 
---- Sizes of pictures that are files are told by those, which may be missing or damaged.
+--- The size of a picture comes from its file, which may be missing or damaged.
 local function try(describe, value)
   local good, text = pcall(describe, value)
   if good then return text end
@@ -70,10 +70,14 @@ local function describe_drawing(art)
   table.sort(names)
   for _, name in ipairs(names) do
     local x, y, w, h = art.parts[name]:bounds()
-    add(lines, "part size %.9gx%.9g at %.9g,%.9g name %s", w or 0, h or 0, x or 0, y or 0, plain(name))
+    add(lines, "part size %.9gx%.9g at %.9g,%.9g name %s", w or 0, h or 0, x or 0, y or 0,
+      plain(name))
   end
-  for _, note in ipairs(art.skipped) do add(lines, "skipped line %d: %s", note.line, plain(note.what)) end
-  return whole(("format svg\nsize %.9gx%.9g\nparts %d\n"):format(art.width, art.height, #names), lines)
+  for _, note in ipairs(art.skipped) do
+    add(lines, "skipped line %d: %s", note.line, plain(note.what))
+  end
+  return whole(("format svg\nsize %.9gx%.9g\nparts %d\n"):format(art.width, art.height, #names),
+    lines)
 end
 
 ---@param path string

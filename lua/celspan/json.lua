@@ -2,11 +2,11 @@
 --
 --   json.decode(text) -> value | nil, message
 --
--- Objects and arrays become tables, null becomes json.null. A name that stands twice in an object
--- keeps its last value.
+-- Objects and arrays become tables, null becomes json.null. A name that is twice in an object has
+-- its last value.
 local json = { null = setmetatable({}, { __tostring = function() return "null" end }) }
 
---- Deeper and longer texts are refused.
+--- Texts that are deeper or longer are refused.
 json.most_depth = 100
 json.most_bytes = 64 * 1024 * 1024
 
@@ -44,7 +44,7 @@ local function read_string(text, at)
     local sign = at and text:sub(at, at)
     if sign == '"' then break end
     if sign ~= "\\" and sign ~= "\127" then
-      fail(text, at or #text, at and "a control character stands in a string"
+      fail(text, at or #text, at and "a control character in a string"
         or "a string does not end")
     end
     if sign == "\127" then
@@ -133,7 +133,7 @@ function json.decode(text)
   if #text > json.most_bytes then
     return nil, ("the text has %d bytes; at most %d are read"):format(#text, json.most_bytes)
   end
-  local start = text:find "^\239\187\191" and 4 or 1 -- a byte order mark is let pass
+  local start = text:find "^\239\187\191" and 4 or 1 -- a byte order mark is skipped
   local good, value, at = pcall(read_value, text, start, 0)
   if not good then
     return nil, type(value) == "table" and value.message or tostring(value)

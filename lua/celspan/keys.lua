@@ -4,8 +4,9 @@
 --   x:at(f.time)
 --
 -- A key is {time, value [, ease into it]}. Numbers, arrays of numbers, paints and colours such as
--- "#ff8800" are mixed; other strings and booleans hold until the next key. The ends hold, or the whole repeats (loop = "repeat") or
--- runs to and fro (loop = "mirror").
+-- "#ff8800" are mixed; other strings and booleans hold until the next key. The first and the last
+-- value hold beyond the ends, or the track repeats (loop = "repeat") or alternates its direction
+-- (loop = "mirror").
 local celspan = require "celspan"
 local ease = require "celspan.ease"
 local fields = require "celspan.fields"
@@ -21,13 +22,13 @@ local function is_paint(value)
   return getmetatable(value) == paint_metatable
 end
 
---- The paint that a string like "#rrggbb" is, else nil.
+--- The paint of a string such as "#rrggbb", or nil.
 local function paint_of(text)
   local good, paint = pcall(celspan.rgb, text)
   return good and paint or nil
 end
 
---- "number", "array", "paint", "colour" (a string), "held"; nil for what cannot be a value.
+--- "number", "array", "paint", "colour" (a string), "held"; nil for invalid values.
 local function kind_of(value)
   local type_of = type(value)
   if type_of == "number" then return fields.is_finite(value) and "number" or nil end
@@ -53,7 +54,7 @@ function mixers.array(a, b, u)
   return mixed
 end
 
--- Paints have no values outside 0..1, so curves that overshoot are held here.
+-- Paints have no values outside 0..1, so curves that overshoot are limited here.
 function mixers.paint(a, b, u)
   return celspan.mix(a, b, math.max(0, math.min(1, u)))
 end
@@ -62,12 +63,12 @@ function mixers.held(a, b, u)
   return u >= 1 and b or a
 end
 
---- Complains at the line that made the keys.
+--- Raises an error at the line that made the keys.
 local function complain(i, text, ...)
   error(("keys: key %d "):format(i) .. text:format(...), 4)
 end
 
---- What is wrong with a key by itself, or nil.
+--- The fault of a key by itself, or nil.
 local function problem_of(key)
   if type(key) ~= "table" then return "must be {time, value}, got " .. fields.kind(key) end
   if not fields.is_finite(key[1]) then
@@ -85,8 +86,8 @@ local function copy(value)
   return type(value) == "table" and { table.unpack(value, 1, rawlen(value)) } or value
 end
 
---- What colour strings are: paints, unless any key is another string or a boolean, among which they
---- are words that hold.
+--- How colour strings are read: as paints, unless any key is another string or a boolean; then as
+--- words, which hold.
 local function meaning_of_colours(list)
   for i = 1, rawlen(list) do
     if kind_of(list[i][2]) == "held" then return "held" end
@@ -133,7 +134,7 @@ local function new(_, list)
   return setmetatable({ keys = keys, kind = kind, loop = list.loop }, Track)
 end
 
---- A time inside the track, by its loop.
+--- Maps a time into the track, by its loop.
 local function fold(track, time)
   local first, last = track.keys[1].time, track.keys[#track.keys].time
   local length = last - first
@@ -144,7 +145,7 @@ local function fold(track, time)
   return first + offset
 end
 
---- The last key at or before a time; 0 when there is none.
+--- The index of the last key at or before a time; 0 if there is none.
 local function place(keys, time)
   local low, high = 0, #keys
   while low < high do
@@ -171,7 +172,7 @@ function Track:at(time)
   if after.ease then
     u = after.ease(u)
     if not fields.is_finite(u) then
-      error("keys: an ease must give a finite number, got " .. fields.shown(u), 2)
+      error("keys: an ease must return a finite number, got " .. fields.shown(u), 2)
     end
   end
   return mixers[self.kind](before.value, after.value, u)

@@ -1,11 +1,11 @@
 --- Layered paintings as objects and cels, layer by layer.
 --
---   local tree = assert(layers.read "forest.kra")      -- .ora .kra .psd, an OCA folder, a folder of
---   tree:find("far/hills").object                      -- numbered pictures
+--   local tree = assert(layers.read "forest.kra") -- .ora, .psd, an OCA folder, numbered pictures
+--   tree:find("far/hills").object
 --   celspan.rostrum(tree:cels { front = { 1, 0.9, 0.8 } })
 --
--- A tree is a list of layers and groups, rearmost first. Pixels are read when they are first seen.
--- `skipped` tells what is not shown as in the program that the painting was made with.
+-- A tree is a list of layers and groups, rearmost first. Pixels are read when they are first
+-- visible. `skipped` lists everything that looks different in the program that made the painting.
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
@@ -15,7 +15,7 @@ local layers = {}
 
 ---@class celspan.layers.entry
 ---@field name string
----@field object celspan.object The picture where it lies in the painting, without opacity; of a group what is visible in it
+---@field object celspan.object The picture at its place, without opacity; or a group's visible layers
 ---@field x number Of its left edge, in pixels of the painting
 ---@field y number Of its top edge
 ---@field opacity number 0..1
@@ -33,16 +33,16 @@ local Tree = { __name = "celspan.layers.tree" }
 local methods = {}
 Tree.__index = fields.reads("a tree of layers", methods, { width = true, height = true })
 
---- What a layer is made of beside its entry: for cels, and out of the sight of scripts.
+--- The data of layers that are not in their entries: used to make cels, and hidden from scripts.
 local sources = setmetatable({}, { __mode = "k" })
 
---- Blend modes that need no note; "pass-through" is that of groups.
+--- Blend modes that need no note; "pass-through" is for groups.
 local plain = { normal = true, ["pass-through"] = true }
 local shown = { normal = true, multiply = true, add = true }
 
 -- ---------------------------------------------------------------- entries
 
---- The object of a layer as it is painted among others in one cel.
+--- The object of a layer as it is painted with others on one cel.
 local function painted(entry)
   local object = entry.object
   local source = sources[entry]
@@ -60,11 +60,11 @@ local function visible_objects(children)
   return list
 end
 
---- A name that values take: not empty.
+--- A valid name for a value: not empty.
 local function name_of(text, kind) return text ~= "" and text or kind end
 
---- given: name, x, y, opacity, visible, blend; children, or picture, the fields of an image, with x
---- and y; or neither: a layer that is empty.
+--- given: name, x, y, opacity, visible, blend; and children, or picture (the fields of an image,
+--- with x and y), or neither for an empty layer.
 local function make_entry(given)
   local source = { name = name_of(given.name, given.children and "group" or "layer"),
                    picture = given.picture }
@@ -90,8 +90,8 @@ end
 
 -- ---------------------------------------------------------------- what is skipped
 
---- Notes on blend modes that are shown as normal, for the layers of a list. path: of the group;
---- is_faded: it is in a group that is shown as one picture.
+--- Adds notes on blend modes that are shown as normal, for the layers of a list. path: of the
+--- group; is_faded: they are in a group that is shown as one picture.
 local function note_blends(list, path, is_faded, skipped)
   for _, entry in ipairs(list) do
     local here = path .. entry.name
@@ -101,8 +101,8 @@ local function note_blends(list, path, is_faded, skipped)
     if not known[blend] then
       what = ('blend mode "%s": it is shown as normal'):format(blend)
     elseif is_faded and blend == "multiply" then
-      what = 'blend mode "multiply" in a group with opacity: right where the group covers what is '
-        .. "behind it"
+      what = 'blend mode "multiply" in a group with opacity: correct only where the group covers '
+        .. "its background"
     elseif is_faded and blend == "add" then
       what = 'blend mode "add" in a group with opacity: it is shown as normal'
     end
@@ -125,7 +125,7 @@ end
 --- The path of each layer of a painting, "group/layer".
 local function paths_of(flat)
   local paths = {}
-  for i = #flat, 1, -1 do -- groups come after what is in them
+  for i = #flat, 1, -1 do -- groups come after their layers
     local parent = flat[i].parent
     paths[i] = parent and paths[parent] .. "/" .. flat[i].name or flat[i].name
   end
@@ -158,13 +158,13 @@ end
 
 -- ---------------------------------------------------------------- folders
 
---- What pictures end with; others in a folder of them are skipped.
+--- File extensions of pictures; other files in a folder are skipped.
 local endings = {}
 for ending in ("png jpg jpeg tif tiff exr tga dpx cin webp bmp gif jp2 hdr"):gmatch "%a+%d?" do
   endings[ending] = true
 end
 
---- "b10" after "b9": runs of digits count as numbers.
+--- A key that sorts "b10" after "b9": digits count as numbers.
 local function natural_key(name)
   return (name:lower():gsub("%d+", function(digits)
     local number = digits:gsub("^0+", "")
@@ -181,7 +181,7 @@ local function sort_naturally(names)
   end)
 end
 
---- What a function answers, or nil and the message of the error that it raised, without its line.
+--- The result of a function, or nil and the message of the error that it raised, without its line.
 local function caught(make)
   local good, value = pcall(make)
   if good then return value end
@@ -211,7 +211,7 @@ local function from_folder(path, names)
   return make_tree(list, nil, nil, skipped)
 end
 
---- The document of an OCA folder among its files.
+--- The document among the files of an OCA folder.
 local function find_document(names)
   table.sort(names)
   for _, name in ipairs(names) do
@@ -292,7 +292,7 @@ local function find(list, path)
   end
 end
 
---- The layer or group of that path, "group/layer"; the rearmost where several have it.
+--- The layer or group of a path, "group/layer"; the rearmost if several have it.
 ---@param path string
 ---@return celspan.layers.entry? entry
 function methods:find(path)
@@ -308,7 +308,7 @@ end
 local known = { only = "table", front = "any", back = "any", viewport = "table", defocus = "any",
                 opacity = "number" }
 
---- The cel that adds the light of a picture to what is behind it, of which the alpha stays.
+--- A cel that adds the light of a picture to the cels behind it and leaves their alpha unchanged.
 local function light_cel(entry, source, options)
   local picture = source.picture
   local x, y, w, h = entry.object:bounds()
@@ -330,10 +330,10 @@ local function cel_of(entry, options)
     opacity = entry.opacity * (options.opacity or 1) }:named(source.name)
 end
 
---- Whether the layers of a group are cels of their own.
+--- Whether each layer of a group becomes a separate cel.
 local function is_open(entry) return entry.children and entry.opacity == 1 end
 
---- chosen: entries of which the cels are wanted, as keys; nil: all that are visible.
+--- chosen: the entries to make cels of, as keys; nil: all visible ones.
 local function add_cels(list, chosen, options, cels)
   for _, entry in ipairs(list) do
     local is_chosen = chosen and chosen[entry]
@@ -362,9 +362,8 @@ local function choose(tree, only)
   return chosen
 end
 
---- A cel for each layer that is visible, rearmost first. A group with opacity is one cel. `only`
---- names layers and groups, which are then taken whether they are visible or not, and no others;
---- the other fields go to each cel.
+--- A cel for each visible layer, rearmost first. A group with opacity is one cel. `only` selects
+--- layers and groups, whether they are visible or not; the other fields are passed to each cel.
 ---@param options? { only?: string[], front?: any, back?: any, viewport?: number[], defocus?: any, opacity?: number }
 ---@return celspan.cel[] cels
 function methods:cels(options)

@@ -1,11 +1,11 @@
 --- Mouth shapes frame by frame, from lip-sync files.
 --
 --   local track = assert(lips.read("line1.json", { fps = 24, hold = 2 }))
---   track:at(f.number)                      -- "A" .. "X", or what `map` makes of it
+--   track:at(f.number)                      -- "A" .. "X", or its name in `map`
 --
 -- Frame n (from 1) shows the time from (n-1)/fps to n/fps: the shape that covers most of it. A
 -- shape stays for at least `hold` frames, so that mouths do not flicker. Closed mouths (A, MBP, X,
--- rest), which are missed when they are missing, are never dropped.
+-- rest) are never dropped: viewers notice when they are missing.
 local cues = require "celspan.cues"
 local fields = require "celspan.fields"
 local files = require "celspan.files"
@@ -22,12 +22,12 @@ local Track = {}
 Track.__index = fields.reads("a track of mouths", Track)
 Track.__name = "celspan.lips"
 
---- What stands in for a shape that a set of drawings lacks: Rhubarb's own rules.
+--- The replacements for shapes that a set of drawings lacks, as Rhubarb defines them.
 local fallbacks = { G = "A", H = "C", X = "A" }
 
 local known = { fps = "number", hold = "number", map = "table", set = "table" }
 
---- Ranges; names and types are checked before.
+--- Checks ranges; names and types have already been checked.
 local function check_ranges(options)
   local fps, hold = options.fps or 24, options.hold or 2
   if not (fps > 0 and fps <= 1000) then
@@ -39,7 +39,7 @@ local function check_ranges(options)
   end
 end
 
---- The name under which a shape is drawn: fallbacks for what the set lacks, then the map.
+--- The name of the drawing of a shape: first the replacements for missing shapes, then the map.
 local function namer(options)
   local has
   if options.set then
@@ -54,7 +54,7 @@ local function namer(options)
   end
 end
 
---- The mouth shape at a frame from 1; the first and last hold outside.
+--- The mouth shape at a frame, counted from 1; the first and the last hold beyond the ends.
 ---@param frame integer
 ---@return any shape
 function Track:at(frame)
@@ -67,9 +67,9 @@ end
 
 ---@class celspan.lips.options
 ---@field fps? number Default 24
----@field hold? integer The fewest frames a shape stays; default 2
----@field map? table<string, any> Names of one's own
----@field set? string[] The shapes that are drawn; others fall back: G to A, H to C, X to A
+---@field hold? integer The shortest time of a shape, in frames; default 2
+---@field map? table<string, any> Names of your own
+---@field set? string[] The shapes that are drawn; missing ones are replaced: G by A, H by C, X by A
 
 ---@param path string Relative to the caller's file, else to the script
 ---@param options? celspan.lips.options

@@ -34,7 +34,7 @@ local function points_of(outline)
   return points
 end
 
---- A way along path data or points, measured by arc length.
+--- A path along path data or points, measured by arc length.
 ---@param outline string|number[][]
 ---@return celspan.motion.way
 function motion.along(outline)
@@ -53,7 +53,7 @@ function motion.along(outline)
   return setmetatable({ points = way, length = length }, Way)
 end
 
---- The last point at or before a length along the way.
+--- The last point at or before a given length along the path.
 local function place(points, length)
   local low, high = 1, #points
   while low < high do
@@ -63,14 +63,13 @@ local function place(points, length)
   return low
 end
 
---- Where one is at u (0..1, held outside), and which way one looks: degrees, clockwise, 0 to the
---- right.
+--- The position at u (limited to 0..1), and the direction: degrees, clockwise, 0 to the right.
 ---@param u number
 ---@return number x, number y, number degrees
 function Way:at(u)
   fields.self("motion", Way, self, "at")
   if not fields.is_finite(u) then
-    error("motion: at takes a share of the way, a finite number, got " .. fields.shown(u), 2)
+    error("motion: at takes a fraction of the length, a finite number, got " .. fields.shown(u), 2)
   end
   local points = self.points
   if #points == 1 then return points[1][1], points[1][2], 0 end
@@ -103,9 +102,9 @@ local function value_at(seed, n)
   return (x >> 11) * 2.0 ^ -52 - 1
 end
 
---- A smooth random movement: the same for the same seed, everywhere and always.
+--- A smooth random movement: the same for the same seed, on every machine.
 ---@param seed string|integer
----@param settings? {frequency?: number, amplitude?: number} Changes a second (1); largest value (1)
+---@param settings? {frequency?: number, amplitude?: number} Changes per second (1); largest value (1)
 ---@return celspan.motion.wiggle
 function motion.wiggle(seed, settings)
   if type(seed) ~= "string" and not fields.is_finite(seed) then
@@ -125,7 +124,7 @@ function Wiggle:at(time)
     error("motion: at takes a time, a finite number, got " .. fields.shown(time), 2)
   end
   local at = time * self.frequency
-  -- Beyond 2^53 there are no shares of a change any more: it goes on from 0; infinity is 0.
+  -- Beyond 2^53 a number has no fraction: the movement starts again from 0; infinity is 0.
   if math.abs(at) >= 2 ^ 53 then at = fields.is_finite(at) and math.fmod(at, 2 ^ 53) or 0 end
   local n = math.floor(at)
   local t = at - n

@@ -1,14 +1,14 @@
---- From timed cues to one mouth shape a frame: what lips.lua does between reading and naming.
+--- From timed cues to one mouth shape per frame: the step of lips.lua between reading and naming.
 local mouths = {}
 
---- Shapes with the lips pressed together, as in m, b and p; and those closed in any way.
+--- Shapes with the lips pressed together, as in m, b and p; and all closed shapes.
 local pressed = { A = true, MBP = true }
 local closed = { A = true, MBP = true, X = true, rest = true }
 
---- The longest recording that is read: a day at 24 frames a second.
+--- The longest recording that is read: a day at 24 frames per second.
 local most_frames = 2500000
 
---- The cues by their starts; of equal starts in the order of the file.
+--- The cues sorted by their starts; cues with equal starts are in the order of the file.
 local function in_order(list)
   local sorted, place = {}, {}
   for i, cue in ipairs(list) do sorted[i], place[cue] = cue, i end
@@ -19,7 +19,8 @@ local function in_order(list)
   return sorted
 end
 
---- Cues in seconds -> shape of each frame: the one that covers most of it, the later of equals.
+--- Cues in seconds -> shape of each frame: the one that covers most of it, or the later of two
+--- equals.
 function mouths.from_cues(given, fps)
   local list, stop = in_order(given), 0
   for _, cue in ipairs(list) do stop = math.max(stop, cue[2]) end
@@ -32,7 +33,7 @@ function mouths.from_cues(given, fps)
     local ends = list[i + 1] and list[i + 1][1] or cue[2]
     for n = math.max(1, math.floor(cue[1] * fps) + 1), math.min(count, math.ceil(ends * fps)) do
       local cover = math.min(ends * fps, n) - math.max(cue[1] * fps, n - 1)
-      -- pressed lips that fill a third of a frame are worth the whole
+      -- pressed lips that fill a third of a frame get the whole frame
       if pressed[cue[3]] and cover >= 1 / 3 then cover = cover + 1 end
       if cover > 0 and cover >= (best[n] or 0) then shapes[n], best[n] = cue[3], cover end
     end
@@ -41,7 +42,7 @@ function mouths.from_cues(given, fps)
   return shapes
 end
 
---- Marks in frames -> shape of each frame; of marks on one frame the last counts.
+--- Marks in frames -> shape of each frame; if a frame has several marks, the last one counts.
 function mouths.from_marks(marks, count, scale)
   local sorted = {}
   for i, mark in ipairs(marks) do
@@ -77,8 +78,8 @@ local function runs_of(shapes)
   return runs
 end
 
---- Takes frames from neighbours that can spare them; else the run goes to the one before, unless
---- its mouth is closed.
+--- Takes frames from neighbours that are long enough; otherwise the run becomes part of the one
+--- before, unless its mouth is closed.
 local function lengthen(runs, i, hold)
   local run, after, at = runs[i], runs[i + 1], i - 1
   while at > 1 and runs[at].length == 0 do at = at - 1 end
@@ -97,7 +98,7 @@ local function lengthen(runs, i, hold)
   end
 end
 
---- Lengthens or drops the shapes that stay for fewer than `hold` frames.
+--- Lengthens or drops the shapes that last for fewer than `hold` frames.
 function mouths.hold(shapes, hold)
   local runs = runs_of(shapes)
   for i = 1, #runs do

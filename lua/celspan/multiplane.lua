@@ -6,12 +6,15 @@
 -- A plane at depth z (away from the camera, film units) is drawn at the scale focal / distance
 -- about the film's centre, distance being focal + z - camera.z, and panned by -camera.x, -camera.y
 -- times that scale. Farther planes come first. A plane whose distance differs from `focus`
--- (default: focal) by d is defocused by aperture |d| / distance, on top of what its cel has. Planes
--- at or behind the camera are not seen. front, back, brightness and antialias go to the rostrum.
+-- (default: focal) by d is defocused by aperture |d| / distance, in addition to its cel's defocus.
+-- Planes at or behind the camera are not visible. front, back, brightness and antialias are passed
+-- to the rostrum.
 --
--- fit = true: each plane's cel is drawn for the film's frame and enlarged by (focal + z) / focal about
--- its centre first, so that it fills the film while the camera rests at z = 0, whatever its depth.
--- over = {cel, ...}: nearest of all, where they are, whatever the camera does.
+-- fit = true: each plane's cel is drawn for the film's frame and first enlarged by
+-- (focal + z) / focal about its centre, so that it fills the film at any depth while the camera is
+-- at z = 0.
+--
+-- over = {cel, ...}: in front of everything; the camera does not move them.
 local celspan = require "celspan"
 local fields = require "celspan.fields"
 

@@ -1,10 +1,11 @@
---- OCA, Open Cel Animation: a folder of pictures and a JSON document that tells how they lie on each
---- other, rearmost first.
+--- OCA, Open Cel Animation: a folder of pictures and a JSON document with their layers, rearmost
+--- first.
 --
---   oca.read(folder, document) -> { width =, height =, layers = {...}, skipped = {...} } | nil, message
+--   oca.read(folder, document)
+--     -> { width =, height =, layers = {...}, skipped = {...} } | nil, message
 --
 -- A layer: name, x, y, opacity, visible, blend, and picture (the fields of an image) or children. A
--- layer of several drawings becomes a group of them, of which the first is visible.
+-- layer with several drawings becomes a group of them, of which the first is visible.
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
@@ -13,7 +14,7 @@ local json = require "celspan.json"
 
 local oca = {}
 
---- Layers and drawings of a document at most.
+--- The largest number of layers and drawings in a document.
 oca.most_layers = 65536
 
 local function fail(...) error({ message = string.format(...) }, 0) end
@@ -42,7 +43,7 @@ local function number_of(object, what, name, default, least, most)
   return number
 end
 
---- The corner and size of something whose centre is told.
+--- The corner and size of something with a given centre.
 local function place_of(object, what, width, height)
   local w = number_of(object, what, "width", width, 1, 1048576)
   local h = number_of(object, what, "height", height, 1, 1048576)
@@ -52,10 +53,11 @@ local function place_of(object, what, width, height)
   return x - w / 2, y - h / 2, w, h
 end
 
---- The file of a drawing, which must lie in the folder.
+--- The file of a drawing, which must be in the folder.
 local function file_of(state, what, name)
   local path = name:gsub("\\", "/")
-  local is_outside = path:find "^/" or path:find "^%a:" or ("/" .. path .. "/"):find("/../", 1, true)
+  local is_outside = path:find "^/" or path:find "^%a:"
+    or ("/" .. path .. "/"):find("/../", 1, true)
   if is_outside or path:find "%z" then
     fail("%s: fileName is %q; it must lie in the folder", what, name)
   end
@@ -88,7 +90,9 @@ local function read_drawings(state, layer, path, what)
   local list = {}
   for i, frame in ipairs(value_of(layer, what, "frames", {})) do
     local here = ("%s: frame %d"):format(what, i)
-    if type(frame) ~= "table" then fail("%s must be an object, got %s", here, fields.kind(frame)) end
+    if type(frame) ~= "table" then
+      fail("%s must be an object, got %s", here, fields.kind(frame))
+    end
     count_layer(state, here)
     local name = value_of(frame, here, "name", "")
     local file = value_of(frame, here, "fileName", "")
@@ -145,7 +149,7 @@ function read_layers(state, list, folder, what)
   return out
 end
 
---- The ground of the document as a layer, where it has one.
+--- The background of the document as a layer, if it has one.
 local function background(document, width, height)
   local colour = value_of(document, "the document", "backgroundColor", {})
   local codes = {}

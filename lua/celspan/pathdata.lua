@@ -1,10 +1,10 @@
---- SVG path data: a walk along its pieces, or its points in order, where a curve becomes `pieces`
---- chords: what motion.lua walks along.
+--- SVG path data: a walk along its pieces, or its points in order, where each curve becomes
+--- `pieces` chords. motion.lua moves along these points.
 local pathdata = {}
 
 local pieces = 64
 
---- How many numbers each command takes.
+--- The number of arguments of each command.
 local counts = { M = 2, L = 2, H = 1, V = 1, C = 6, S = 4, Q = 4, T = 2, A = 7, Z = 0 }
 
 local number_pattern = "^[%s,]*([+-]?%d*%.?%d*[eE]?[+-]?%d*)"
@@ -16,7 +16,7 @@ local function read_number(text, at, is_flag)
     return tonumber(flag), after
   end
   local digits = text:match(number_pattern, at)
-  -- an e that belongs to nothing, or a second sign, ends the number before it
+  -- an e without an exponent, or a second sign, ends the number before it
   while digits and digits ~= "" and not tonumber(digits) do digits = digits:sub(1, -2) end
   if not digits or digits == "" then return nil end
   local _, stop = text:find("^[%s,]*", at)
@@ -64,7 +64,7 @@ local function arc(pen, rx, ry, degrees, is_large, is_sweep, x, y)
   if is_sweep == 1 and to < from then to = to + 2 * math.pi end
   if is_sweep == 0 and to > from then to = to - 2 * math.pi end
   local mx, my = (x0 + x) / 2, (y0 + y) / 2
-  --- The point at an angle, and the direction there, as long as the angle is fast.
+  --- The point at an angle, and the derivative of the point by the angle.
   local function point(angle)
     local ux, uy = rx * (math.cos(angle) + cx), ry * (math.sin(angle) + cy)
     local vx, vy = -rx * math.sin(angle), ry * math.cos(angle)
@@ -89,7 +89,7 @@ function draw.V(pen, y) line(pen, pen.x, y) end
 function draw.Z(pen) line(pen, pen.start_x, pen.start_y) end
 draw.C, draw.Q, draw.A = cubic, quadratic, arc
 
---- The control point mirrored at the pen, where the command before was of the same family.
+--- The control point mirrored at the pen, if the command before was of the same family.
 local function mirrored(pen, family)
   if not family:find(pen.last, 1, true) then return pen.x, pen.y end
   return 2 * pen.x - pen.control_x, 2 * pen.y - pen.control_y
@@ -116,8 +116,8 @@ local function make_absolute(pen, command, n)
 end
 
 --- Walks a pen along path data: pen:move(x, y), pen:line(x, y), pen:curve(x1, y1, x2, y2, x, y) and
---- pen:arc(point, from, to, x, y), where point(angle) is on the arc and gives its direction too.
---- pen.x, pen.y is where it stands before each. True, or nil and a message.
+--- pen:arc(point, from, to, x, y), where point(angle) returns a point of the arc and its
+--- derivative. pen.x, pen.y is its position before each call. Returns true, or nil and a message.
 ---@param text string
 ---@param pen table
 ---@return boolean? done
@@ -147,7 +147,7 @@ function pathdata.walk(text, pen)
   end
 end
 
---- A pen that keeps points in order.
+--- A pen that records points in order.
 local Chords = {}
 Chords.__index = Chords
 

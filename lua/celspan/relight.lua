@@ -1,12 +1,12 @@
---- The light taken off pictures, so that they can be lit anew.
+--- Removes the light from pictures, so that they can be relit.
 --
 --   local house = assert(relight.from { picture = "house.jpg", light = "#ffe0b0" })
 --   local cel = celspan.cel { celspan.rect { 0, 0, 1920, 1080, texture = house }, front = dusk }
 --   assert(relight.write(house, "house.exr"))                   -- and relight.read "house.exr"
 --
--- What is left is a texture with its own S, T and beta: as paint that is S times the front light,
--- and lets T of the light behind it through. In the light it was taken in it is the picture again,
--- its highlights included.
+-- The result is a texture with its own S, T and beta: as paint it scatters S times the front light,
+-- and lets T of the light behind it through. Under its original light it is the picture again,
+-- including highlights.
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
@@ -19,17 +19,19 @@ local clues = { grey = 0, patch = 1, light = 2 }
 
 -- ---------------------------------------------------------------- what is given
 
---- A colour string as three numbers in linear light; nil for what is none.
+--- A colour string as three numbers in linear light; nil for any other string.
 local function parse(text)
   local good, paint = pcall(celspan.rgb, text)
   return good and paint.beta == 1 and paint.pigment or nil
 end
 
---- Raises a sentence at the line of the nearest caller that is not celspan's own.
+--- Raises an error at the line of the nearest caller outside celspan.
 local function refuse(text, ...) core.refuse("relight: " .. text:format(...)) end
 
 local function numbers_of(name, value, count, shape)
-  if type(value) ~= "table" then refuse("%s must be %s, got %s", name, shape, fields.kind(value)) end
+  if type(value) ~= "table" then
+    refuse("%s must be %s, got %s", name, shape, fields.kind(value))
+  end
   for i = 1, count do
     if not fields.is_finite(value[i]) then
       refuse("%s[%d] must be a finite number, got %s", name, i, fields.shown(value[i]))
@@ -53,7 +55,7 @@ local function colour_of(name, value)
   return colour
 end
 
---- A picture: a file's name or a celspan.picture.
+--- A picture: a file name or a celspan.picture.
 local function picture_of(name, value)
   if type(value) == "string" then return celspan.picture { file = value } end
   if type(value) ~= "userdata" or not tostring(value):find "^picture" then
@@ -64,7 +66,7 @@ end
 
 -- ---------------------------------------------------------------- lights
 
---- What is known of the light: its clue, a colour, and a patch.
+--- The known facts about the light: the kind of clue, a colour, and a patch.
 local function clue_of(options)
   local estimate = options.estimate
   if options.light then return clues.light, colour_of("light", options.light) end
@@ -73,7 +75,7 @@ local function clue_of(options)
     numbers_of("estimate.at", estimate.at, 4, "{x, y, w, h}")
 end
 
---- The field of the light, and as what `front` takes.
+--- The field of the light, and the same as a value for `front`.
 local function find_light(picture, options)
   local clue, colour, patch = clue_of(options)
   local uneven = options.uneven
@@ -96,7 +98,7 @@ end
 local function from_picture(options)
   local estimate = options.estimate
   if (options.light == nil) == (estimate == nil) then
-    refuse "a picture needs its light, or an estimate of it, and not both"
+    refuse "a picture needs its light or an estimate of it, but not both"
   end
   if type(estimate) == "table" then
     fields.check("relight: estimate", estimate, { at = "any", colour = "any" }, 4)
@@ -115,7 +117,7 @@ local function from_exposures(options)
   local known = { picture = "any", light = "any" }
   local front, back = options.front, options.back
   if front == nil or back == nil then
-    refuse "two exposures are front = { picture =, light = } and back, likewise"
+    refuse "two exposures are front = { picture =, light = } and back = { picture =, light = }"
   end
   fields.check("relight: front", front, known, 4)
   fields.check("relight: back", back, known, 4)
@@ -125,7 +127,7 @@ local function from_exposures(options)
   return texture, texture and light or message
 end
 
---- A ground: a picture of it, or the light that it sends.
+--- A ground: a picture of it, or the light that it gives.
 local function ground_of(name, value)
   local is_colour = type(value) == "table" or type(value) == "string" and parse(value)
   return is_colour and colour_of(name, value) or picture_of(name, value)
@@ -151,18 +153,18 @@ end
 -- ---------------------------------------------------------------- the module
 
 ---@class celspan.relight.options
----@field picture? string|celspan.texture A file's name or a celspan.picture
----@field light? number[]|string The light that it was taken in; of `over` the same in both; default white there
+---@field picture? string|celspan.texture A file name or a celspan.picture
+---@field light? number[]|string The light in the picture; with `over` the light in both, default white
 ---@field estimate? "grey"|{at: number[], colour?: number[]|string} Instead of the light: the mean of the picture is a grey of 0.18; or the pigment of a patch, x, y, w, h in pixels
----@field uneven? boolean|string|celspan.texture The light varies slowly: as the picture's own brightness does, or as that of a picture of something white or grey does
----@field front? {picture: string|celspan.texture, light: number[]|string} Lit from the front alone
----@field back? {picture: string|celspan.texture, light: number[]|string} Lit from behind alone
----@field over? {picture: string|celspan.texture, ground: string|number[]|celspan.texture}[] Twice, before two grounds
+---@field uneven? boolean|string|celspan.texture The light varies slowly: like the picture's own brightness, or like that of a picture of a white or grey surface
+---@field front? {picture: string|celspan.texture, light: number[]|string} Lit only from the front
+---@field back? {picture: string|celspan.texture, light: number[]|string} Lit only from behind
+---@field over? {picture: string|celspan.texture, ground: string|number[]|celspan.texture}[] Two pictures, in front of two grounds
 
 local known = { picture = "any", light = "any", estimate = "any", uneven = "any", front = "table",
   back = "table", over = "table" }
 
---- Which fields go with which way.
+--- The fields of each way to give the pictures, and its function.
 local ways = {
   { "picture", from_picture, { picture = true, light = true, estimate = true, uneven = true } },
   { "front", from_exposures, { front = true, back = true } },
@@ -171,14 +173,14 @@ local ways = {
 
 ---@param options celspan.relight.options
 ---@return celspan.texture? texture
----@return number[]|celspan.texture|string light What it was taken in, as `front` takes it; or what is wrong
+---@return number[]|celspan.texture|string light The original light, for use as `front`; or the message
 function relight.from(options)
   fields.check("relight", options, known)
   for _, way in ipairs(ways) do
     if options[way[1]] ~= nil then
       for name in pairs(options) do
         if not way[3][name] then
-          refuse("'%s' does not go with '%s'", name, way[1])
+          refuse("'%s' cannot be combined with '%s'", name, way[1])
         end
       end
       local texture, light = way[2](options) -- no tail call: checks count the levels above them
@@ -194,9 +196,9 @@ local function check_path(name, path)
   end
 end
 
---- Keeps a picture that was relit, or any picture, as an EXR file of seven channels.
+--- Stores a relit picture, or any picture, as an EXR file of seven channels.
 ---@param texture celspan.texture
----@param path string It ends in .exr
+---@param path string With the extension .exr
 ---@return true?
 ---@return string? message
 function relight.write(texture, path)
@@ -221,28 +223,20 @@ end
 ---@class celspan.relight.stack
 ---@field width integer Of the frame, in pixels
 ---@field height integer
----@field bytes integer That its rows of spans take
+---@field bytes integer The size of its rows of spans
 local Stack = { __name = "celspan.relight.stack" }
 local methods = {}
 Stack.__index = fields.reads("a stack", methods)
 
---- What is behind a stack: the core's value, the facts of its cels, and the rostrum's own lights. Out
---- of the sight of scripts.
+--- The data of stacks, hidden from scripts: the core's value, facts about the cels, and the
+--- rostrum's own lights.
 local behind = setmetatable({}, { __mode = "k" })
 
-local NUMBERS = 8 -- of a light: r, g, b, a of its front and of its back
+local NUMBERS = 8 -- for each cel: r, g, b, a of its front light and of its back light
 
----@class celspan.relight.stack.options
----@field size? number[] {w, h} in pixels
----@field film? number[] {w, h} in film units
----@field crop? number[] {x, y, w, h} in pixels
----@field antialias? celspan.antialias
----@field workers? integer
----@field frame? integer Of a film
-
---- A frame whose lights can be changed without rendering it anew.
+--- A frame whose lights can be changed without rendering it again.
 ---@param rostrum celspan.rostrum|celspan.film
----@param options? celspan.relight.stack.options As for celspan.pixels
+---@param options? celspan.pixels.options
 ---@return celspan.relight.stack? stack
 ---@return string? message
 function relight.stack(rostrum, options)
@@ -265,7 +259,7 @@ local function light_of(name, value)
   return colour, alpha or 1
 end
 
---- Sets a light of cel i, 0: of the rostrum, in the list of numbers.
+--- Sets a light of cel i (0 for the rostrum) in the list of numbers.
 local function set_light(self, lights, i, which, name, value)
   local colour, alpha = light_of(name, value)
   local first = NUMBERS * i + (which == "back" and 4 or 0)
@@ -273,7 +267,7 @@ local function set_light(self, lights, i, which, name, value)
   lights[first + 4] = alpha
 end
 
---- The places that a key names: a cel's place, 0 for the rostrum, or the cels of a name.
+--- The positions for a key: a cel's position, 0 for the rostrum, or those of all cels with a name.
 local function places_of(self, key)
   local places = {}
   if math.type(key) == "integer" and key >= 0 and key <= #self.cels then return { key } end
@@ -288,7 +282,7 @@ local function places_of(self, key)
     or fields.shown(key), hint and ("; did you mean \"%s\"?"):format(hint) or "")
 end
 
---- A front light of the rostrum is that of the cels that have none of their own.
+--- The front light of the rostrum lights all cels without their own.
 local function set_lights(self, lights, i, given)
   local name = ("light[%s]"):format(i)
   if given.back then set_light(self, lights, i, "back", name .. ".back", given.back) end
@@ -300,12 +294,13 @@ local function set_lights(self, lights, i, given)
   end
 end
 
---- What the keys of changes are, in the order in which they are taken; others come last, and are refused.
+--- The types of the keys of changes, in the order in which they are applied; others come last, and
+--- are refused.
 local ranks = { string = 1, number = 2 }
 
---- The frame in other lights: those that are not given are the rostrum's.
----@param changes? table<string|integer, {front: number[]|string, back: number[]|string}> By the names or places of cels; 0: of the rostrum itself
----@return celspan.image? image
+--- The frame in other lights; lights that are not given are those of the rostrum.
+---@param changes? table<string|integer, {front: number[]|string, back: number[]|string}> By the names or positions of cels; 0: of the rostrum itself
+---@return celspan.pixels.image? image
 ---@return string? message
 function methods:light(changes)
   fields.self("relight", Stack, self, "light")
@@ -315,7 +310,7 @@ function methods:light(changes)
     refuse("light takes a table, got %s", fields.kind(changes))
   end
   for key in pairs(changes or {}) do keys[#keys + 1] = key end
-  table.sort(keys, function(a, b) -- places count more than names, and cels more than the rostrum
+  table.sort(keys, function(a, b) -- positions override names, and cels override the rostrum
     local rank_a, rank_b = ranks[type(a)] or 3, ranks[type(b)] or 3
     if rank_a ~= rank_b or rank_a == 3 then return rank_a < rank_b end
     return a < b

@@ -1,13 +1,13 @@
 --- Exposure sheets: which drawing each layer shows at each frame.
 --
 --   local s = assert(sheet.read "shot.xdts")           -- .xdts, .csv, .txt, an OCA folder
---   s:at("body", 12)                                   -- "3", or nil: nothing is there
+--   s:at("body", 12)                                   -- "3", or nil if the layer is empty
 --   s:drawing("body", f, "drawings/body_####.png")     -- the picture of that drawing
 --
 -- Frames count from 1. A drawing holds until the next one. Layers are rearmost first.
---
--- One file, because asking a sheet, writing it and taking it from a film share how a drawing holds from
--- mark to mark; each format has a file of its own.
+
+-- One file, because reading values of a sheet, writing it and making it from a film share the rules
+-- by which drawings hold; each format has its own file.
 local celspan = require "celspan"
 local columns = require "celspan.columns"
 local core = require "celspan.core"
@@ -20,7 +20,7 @@ local xdts = require "celspan.xdts"
 
 local sheet = {}
 
---- Longer files are refused.
+--- Larger files are refused.
 sheet.most_bytes = 256 * 1024 * 1024
 
 ---@class celspan.sheet
@@ -31,7 +31,7 @@ sheet.most_bytes = 256 * 1024 * 1024
 ---@field frames integer
 ---@field layers string[] Rearmost first
 ---@field notes celspan.sheet.note[] In order of their first frames
----@field looks table[] Of each layer what its file says beside: opacity, blend, visible
+---@field looks table[] Further properties of each layer, if the file has them: opacity, blend, visible
 ---@field width? integer
 ---@field height? integer
 local Sheet = { __name = "celspan.sheet" }
@@ -39,14 +39,14 @@ local methods = {}
 Sheet.__index = fields.reads("a sheet", methods, { width = true, height = true })
 
 ---@class celspan.sheet.note
----@field kind string "dialogue", "camera", or "field N" for what the file keeps in field N
+---@field kind string "dialogue", "camera", or "field N" for the contents of field N of the file
 ---@field column string The name of its column
 ---@field from integer
 ---@field to integer
 ---@field speaker? string Of dialogue
 ---@field text string
 
---- The columns of each sheet: out of the sight of scripts, who could break their invariant.
+--- The columns of each sheet, hidden from scripts, which could break their invariant.
 local stores = setmetatable({}, { __mode = "k" })
 
 -- ---------------------------------------------------------------- making
@@ -77,7 +77,7 @@ local function check_notes(notes, frames)
   for _, note in ipairs(notes) do note.frame = nil end
 end
 
---- Leaves out what a column says beyond the end of the sheet: the change that closes it.
+--- Removes changes of a column beyond the end of the sheet: the one that closes it.
 local function trim(column, frames)
   for i = #column.at, 1, -1 do
     if column.at[i] <= frames then break end
@@ -85,10 +85,10 @@ local function trim(column, frames)
   end
 end
 
---- The sheet of what a reader found. Raises { message = }.
+--- Makes a sheet from the result of a reader. Raises { message = }.
 local function finish(found)
   if not (found.fps > 0 and found.fps <= 1000) then
-    columns.fail("it has %s frames a second; it must be above 0 and at most 1000",
+    columns.fail("its frame rate is %s; it must be above 0 and at most 1000",
       fields.shown(found.fps))
   end
   if not (found.frames >= 1 and found.frames <= columns.most_frames) then
@@ -97,8 +97,8 @@ local function finish(found)
   end
   check_names(found.layers)
   check_notes(found.notes, found.frames)
-  local made = { fps = math.tointeger(found.fps) or found.fps, frames = found.frames, layers = {}, looks = {},
-                 notes = found.notes }
+  local made = { fps = math.tointeger(found.fps) or found.fps, frames = found.frames, layers = {},
+                 looks = {}, notes = found.notes }
   if found.width and found.height then
     made.width, made.height = found.width // 1 | 0, found.height // 1 | 0
   end
@@ -114,7 +114,7 @@ local function finish(found)
   return made
 end
 
---- What a reader or writer gives, or nil and the message that it raised.
+--- The result of a reader or writer, or nil and the message that it raised.
 local function caught(work, ...)
   local good, value = pcall(work, ...)
   if good then return value end
@@ -128,7 +128,7 @@ local known_fields = { name = "string", scene = "string", cut = "string", fps = 
                        frames = "number", layers = "table", drawings = "table", marks = "table",
                        notes = "table", width = "number", height = "number" }
 
---- A table from frames as a list in their order: { frame =, value = }.
+--- Converts a table from frames to a list in their order: { frame =, value = }.
 local function by_frame(given, what)
   local list = {}
   for frame, value in next, given do
@@ -145,7 +145,7 @@ local function fill_column(column, drawings, marks)
   local what = ("drawings of %q"):format(column.name)
   for _, entry in ipairs(by_frame(drawings, what)) do
     if type(entry.value) ~= "string" and entry.value ~= false then
-      columns.fail("%s: frame %d must be a name, or false for nothing, got %s", what, entry.frame,
+      columns.fail("%s: frame %d must be a name, or false if empty, got %s", what, entry.frame,
         fields.kind(entry.value))
     end
     columns.add(column, entry.frame, entry.value)
@@ -165,7 +165,9 @@ end
 local function fill_notes(given, list)
   for i, note in ipairs(given) do
     local what = ("notes[%d]"):format(i)
-    if type(note) ~= "table" then columns.fail("%s must be a table, got %s", what, fields.kind(note)) end
+    if type(note) ~= "table" then
+      columns.fail("%s must be a table, got %s", what, fields.kind(note))
+    end
     local copy = {}
     for field, wanted in pairs { kind = "string", column = "string", text = "string",
                                  speaker = "string", from = "number", to = "number" } do
@@ -191,7 +193,7 @@ local function make(given)
     if type(name) ~= "string" then
       columns.fail("layers[%d] must be a name, got %s", i, fields.kind(name))
     end
-    if places[name] then columns.fail("layers[%d]: %q is there twice", i, name) end
+    if places[name] then columns.fail("layers[%d]: %q is a duplicate", i, name) end
     list[i], places[name] = columns.new(name), i
   end
   for _, field in ipairs { "drawings", "marks" } do
@@ -227,7 +229,7 @@ end
 ---@field fps? number Default 24
 ---@field frames? integer Default: as many as the drawings need
 ---@field layers? string[] Rearmost first
----@field drawings? table<string, table<integer, string|false>> Of a layer: from the frame on, the drawing; false: nothing
+---@field drawings? table<string, table<integer, string|false>> For each layer: the drawing from a frame on; false: empty
 ---@field marks? table<string, table<integer, string>>
 ---@field notes? celspan.sheet.note[]
 ---@field width? integer
@@ -251,8 +253,8 @@ local function decode(text, path, which)
   if sheet_csv.accepts(start) or path:lower():find "%.csv$" then
     return finish(sheet_csv.decode(start))
   end
-  columns.fail("it is none of XDTS, the CSV of TVPaint, Krita or Clip Studio, OCA, or celspan's "
-    .. "text, which begins with \"celspan sheet 1\"")
+  columns.fail("it is not XDTS, the CSV of TVPaint, Krita or Clip Studio, OCA, or celspan's text, "
+    .. "which begins with \"celspan sheet 1\"")
 end
 
 --- The document of an OCA folder.
@@ -269,14 +271,14 @@ local function read_whole(path)
   local names = core.folder(path)
   if names then
     local document = document_in(path, names)
-    if not document then return nil, path .. ": the folder holds no OCA document" end
+    if not document then return nil, path .. ": the folder contains no OCA document" end
     path = document
   end
   return files.read(path, sheet.most_bytes)
 end
 
 ---@param path string Relative to the caller's file, else to the script
----@param options? { table?: integer|string } Of an XDTS the table, by number or name; default 1
+---@param options? { table?: integer|string } The table of an XDTS, by number or name; default 1
 ---@return celspan.sheet? sheet
 ---@return string? message
 function sheet.read(path, options)
@@ -287,7 +289,9 @@ function sheet.read(path, options)
   fields.check("sheet: read", options, { table = "any" })
   local found_at, tried = core.find(path)
   local text, message = read_whole(found_at)
-  if not text then return nil, tried and ("%s; nor is it there: %s"):format(message, tried) or message end
+  if not text then
+    return nil, tried and ("%s; nor is it there: %s"):format(message, tried) or message
+  end
   local made
   made, message = caught(decode, text, path, options.table or 1)
   if not made then return nil, ("%s: %s"):format(path, message) end
@@ -296,13 +300,14 @@ end
 
 -- ---------------------------------------------------------------- asking
 
---- level: of the function that users call, as for error.
+--- level: that of the function that users call, as for error.
 local function place_of(self, layer, method, level)
   if math.type(layer) == "integer" and self.layers[layer] then return layer end
   for i, name in ipairs(self.layers) do
     if name == layer then return i end
   end
-  local hint = type(layer) == "string" and core.nearest(layer, { table.unpack(self.layers, 1, 100) })
+  local hint = type(layer) == "string"
+    and core.nearest(layer, { table.unpack(self.layers, 1, 100) })
   error(("sheet: %s: there is no layer %s%s"):format(method,
     type(layer) == "string" and ("%q"):format(layer) or fields.shown(layer),
     hint and ("; did you mean %q?"):format(hint) or ""), level + 1)
@@ -321,7 +326,8 @@ local function check_frame(frame, method)
   return math.floor(frame)
 end
 
---- The name of the drawing that a layer shows at a frame; nil: none, or outside the sheet.
+--- The name of the drawing that a layer shows at a frame; nil if the layer is empty, and outside
+--- the sheet.
 ---@param layer string|integer
 ---@param frame integer From 1
 ---@return string? drawing
@@ -345,7 +351,8 @@ function methods:marks(layer, frame)
   return marks
 end
 
---- The changes of a layer in order: { { frame =, drawing = }, ... }; drawing is nil for none.
+--- The changes of a layer in order: { { frame =, drawing = }, ... }; drawing is nil where the layer
+--- becomes empty.
 ---@param layer string|integer
 ---@return { frame: integer, drawing?: string }[] changes
 function methods:changes(layer)
@@ -372,10 +379,11 @@ end
 
 -- ---------------------------------------------------------------- drawings
 
---- A name as it may stand in the name of a file; raises where it leads elsewhere.
+--- Checks that a name can be part of a file name; raises an error if it leads to another folder.
 local function safe_name(name, level)
   local path = name:gsub("\\", "/")
-  if path:find "^/" or path:find "^%a:" or path:find "%c" or ("/" .. path .. "/"):find("/../", 1, true) then
+  if path:find "^/" or path:find "^%a:" or path:find "%c"
+    or ("/" .. path .. "/"):find("/../", 1, true) then
     error(("sheet: drawing: %q cannot be part of a file's name"):format(name), level + 1)
   end
   return path
@@ -392,7 +400,7 @@ local function by_pattern(name, layer, pattern, level)
   local last = pattern:find("[^#]", first) or #pattern + 1
   local start, digits, letter = name:match "^(.-)(%d+)(%a?)$"
   if not digits or start ~= "" and start:gsub("[ _.-]$", "") ~= layer then
-    error(("sheet: drawing: %q has no number, for %q; a * takes the name as it stands")
+    error(("sheet: drawing: %q has no number, for %q; a * takes the name unchanged")
       :format(name, pattern), level + 1)
   end
   digits = digits:gsub("^0+(%d)", "%1")
@@ -401,7 +409,7 @@ local function by_pattern(name, layer, pattern, level)
 end
 
 local function missing(name, layer, frame, where, level)
-  error(("sheet: drawing: layer %q shows %q at frame %d, and there is none of that name in %s")
+  error(("sheet: drawing: layer %q shows %q at frame %d, which is missing from %s")
     :format(layer, name, frame, where), level + 1)
 end
 
@@ -417,10 +425,10 @@ local function from_table(list, name, layer, frame, level)
   return found
 end
 
---- The sheet's frame at a time in seconds; what is a hair short of it counts as there.
+--- The sheet's frame at a time in seconds; rounding errors just before a frame are tolerated.
 local function frame_at(self, time) return math.floor(time * self.fps + 1e-6) + 1 end
 
---- The object of the drawing that a layer shows at a frame; nil: none.
+--- The object of the drawing that a layer shows at a frame; nil if the layer is empty.
 ---@param layer string|integer
 ---@param f celspan.frame|integer The film's frame, or one of the sheet, from 1
 ---@param drawings table|string|fun(name: string): celspan.object A table by name, "hand_####.png", "hand_*.png", layers, or a function
@@ -436,7 +444,9 @@ function methods:drawing(layer, f, drawings)
   if not name then return nil end
   local kind = type(drawings)
   if kind == "function" then return drawings(name) end
-  if kind == "string" then return celspan.image { file = by_pattern(name, name_of_layer, drawings, 2) } end
+  if kind == "string" then
+    return celspan.image { file = by_pattern(name, name_of_layer, drawings, 2) }
+  end
   if kind ~= "table" then
     error("sheet: drawing: drawings must be a table, a pattern, layers or a function, got "
       .. fields.kind(drawings), 2)
@@ -449,7 +459,7 @@ end
 
 -- ---------------------------------------------------------------- writing
 
---- What the writers take.
+--- The data for the writers.
 local function plain(self)
   return { name = self.name, scene = self.scene, cut = self.cut, fps = self.fps,
            frames = self.frames, width = self.width, height = self.height, notes = self.notes,
@@ -457,7 +467,7 @@ local function plain(self)
 end
 
 --- The sheet as plain text.
----@return string? text nil where it would be too long
+---@return string? text nil if it would be too long
 ---@return string? message
 function methods:text()
   fields.self("sheet", Sheet, self, "text")
@@ -486,7 +496,7 @@ end
 
 -- ---------------------------------------------------------------- the sheet of a film
 
---- The label of each part of a frame: its name, where two kinds share it with the kind.
+--- The label of each part of a frame: its name, with the kind if two kinds share the name.
 local function column_for(state, part)
   local column = state.by_key[part.kind .. " " .. part.name]
   if column then return column end
@@ -500,7 +510,7 @@ local function column_for(state, part)
   return column
 end
 
---- A drawing is numbered when it is first met, and found again by what it shows.
+--- A drawing is numbered when it first appears, and recognised later by its contents.
 local function number_of(column, drawing)
   local number = column.numbers[drawing]
   if not number then
@@ -511,8 +521,8 @@ local function number_of(column, drawing)
   return number
 end
 
---- What a frame shows under each name: a part that occurs several times, in two exposures say, is
---- one, with each different drawing and placement counted once.
+--- The parts of a frame by name: a part that occurs several times, for instance in two exposures,
+--- is one part, with each different drawing and placement counted once.
 local function merge_parts(list)
   local order, by_key = {}, {}
   for _, part in ipairs(list) do
@@ -553,10 +563,10 @@ local function add_frame(state, list, frame)
   end
 end
 
---- The sheet of a film: a row for each named cel and each named object, and for unnamed cels by
---- their places. Drawings are numbered as they first appear; `moved` marks the frames on which
---- the placement changes: transform, fade, viewport, lights, defocus.
---- Of frames that are listed, the first one is frame 1 of the sheet, and so on.
+--- The sheet of a film: a layer for each named cel and each named object, and for unnamed cels by
+--- their positions. Drawings are numbered in the order of their appearance; `moved` marks the
+--- frames on which only the placement changes: transform, fade, viewport, lights, defocus. If
+--- frames are listed, the first one is frame 1 of the sheet, and so on.
 ---@param film celspan.film
 ---@param options? { frames?: integer[] } The numbers of frames; default: all
 ---@return celspan.sheet

@@ -1,12 +1,12 @@
---- Exposure sheets as comma-separated values: of TVPaint and Krita, "CSV 1.0", read and written; and
---- of Clip Studio, read.
+--- Exposure sheets as comma-separated values: of TVPaint and Krita, "CSV 1.0", read and written;
+--- and of Clip Studio, read.
 local columns = require "celspan.columns"
 local fields = require "celspan.fields"
 
 local sheet_csv = {}
 
 local CIRCLE, DISC, CROSS = "\u{25CB}", "\u{25CF}", "\u{D7}"
---- What goes on with the cell above.
+--- Contents of a cell that continue the cell above.
 local holds = { [""] = true, ["|"] = true, ["\u{FF5C}"] = true, ["\u{2502}"] = true, ["-"] = true,
                 ["\u{2015}"] = true, ["\u{2014}"] = true }
 
@@ -14,7 +14,7 @@ local holds = { [""] = true, ["|"] = true, ["\u{FF5C}"] = true, ["\u{2502}"] = t
 
 local function strip(text) return text:match "^%s*(.-)%s*$" end
 
---- The cells of a line, which may stand in quotes, where "" is a quote.
+--- The cells of a line, which may be in quotes, where "" is a quote.
 local function split(line, number)
   if not line:find('"', 1, true) then
     local cells = {}
@@ -25,7 +25,7 @@ local function split(line, number)
   while at <= #line + 1 do
     local start = line:find("[^%s]", at) or #line + 1
     if line:sub(start, start) == '"' then
-      local stop, from = nil, start + 1
+      local from, stop = start + 1
       repeat
         stop = line:find('"', from, true)
         if not stop then columns.fail("line %d: a quote is not closed", number) end
@@ -57,7 +57,7 @@ end
 
 -- ---------------------------------------------------------------- TVPaint and Krita
 
---- The values of line 3 by the names of line 2, in small letters.
+--- The values of line 3 by the names of line 2, in lower case.
 local function read_head(lines)
   local names, values = split(lines[2] or "", 2), split(lines[3] or "", 3)
   local head = {}
@@ -85,7 +85,7 @@ local made = {
   visible = function(text) return text ~= "0" end,
 }
 
---- Fills in a row about the layers; true when the line was one.
+--- Reads a line with properties of the layers; true if the line is one.
 local function read_row(layers, cells, number)
   local what = rows[cells[1]:lower()]
   if not what then return cells[1]:sub(1, 1) == "#" and not cells[1]:find "^#%d+$" end
@@ -107,7 +107,7 @@ local function read_frame(layers, cells, number)
   if not digits then
     columns.fail("line %d begins with %q; a frame begins with # and its number", number, cells[1])
   end
-  local frame = tonumber(digits) -- a float where there are many digits
+  local frame = tonumber(digits) -- a float if there are many digits
   if frame >= columns.most_frames then
     columns.fail("line %d: frame %s is beyond %d, which is the limit", number, digits,
       columns.most_frames)
@@ -118,8 +118,8 @@ local function read_frame(layers, cells, number)
   return math.tointeger(frame) + 1
 end
 
---- The rows of frames in order, { frame =, cells = }; what a row repeats, it shares with the one
---- before.
+--- The rows of frames in order, { frame =, cells = }; a row that repeats the one before shares its
+--- cells.
 local function read_frames(lines, layers)
   local list, repeated, cells = {}, nil, nil
   for number = 4, #lines do
@@ -153,14 +153,15 @@ local function decode_tvpaint(lines)
   local told = math.tointeger(number_of(head, "frame count", 0, columns.most_frames, 0) // 1)
   local last = #list > 0 and list[#list].frame or 0
   return { name = head["project name"] or "", layers = layers, notes = {},
-           width = number_of(head, "width", 1, 1048576), height = number_of(head, "height", 1, 1048576),
+           width = number_of(head, "width", 1, 1048576),
+           height = number_of(head, "height", 1, 1048576),
            fps = number_of(head, "frame rate", 1e-3, 1000, 24),
            frames = math.max(1, last, columns.length(told, layers, {})) }
 end
 
 -- ---------------------------------------------------------------- Clip Studio
 
---- A cell: the change that it makes (nil: none), and its mark.
+--- The change that a cell makes (nil: no change), and its mark.
 local function read_cell(text)
   if holds[text] then return nil end
   if text == CIRCLE then return nil, "inbetween" end
@@ -184,7 +185,7 @@ local function decode_clip_studio(lines)
     local frame = math.tointeger(tonumber(cells[1]))
     if lines[number]:find "[^%s,]" then
       if not frame or frame < 1 or frame > columns.most_frames then
-        columns.fail("line %d begins with %q; a frame's number from 1 must stand there", number,
+        columns.fail("line %d begins with %q; it must be the number of a frame, from 1", number,
           cells[1])
       end
       list[#list + 1] = { frame = frame, cells = cells }
@@ -227,13 +228,14 @@ local function row_of(first, layers, make)
   return table.concat(cells, ", ")
 end
 
---- The CSV of TVPaint and Krita: drawings and layers; notes and marks have no place in it.
---- Raises { message = } where it would be too long.
+--- The CSV of TVPaint and Krita: drawings and layers; it cannot store notes and marks.
+--- Raises { message = } if it would be too long.
 function sheet_csv.encode(sheet)
   local layers = sheet.layers
   columns.check_cells(sheet.frames, layers)
   local lines = { 'UTF-8, TVPaint, "CSV 1.0"',
-    "Project Name, Width, Height, Frame Count, Layer Count, Frame Rate, Pixel Aspect Ratio, Field Mode",
+    "Project Name, Width, Height, Frame Count, Layer Count, Frame Rate, Pixel Aspect Ratio, "
+      .. "Field Mode",
     ("%s, %d, %d, %d, %d, %.6f, 1.000000, Progressive"):format(quote(sheet.name),
       sheet.width or 1920, sheet.height or 1080, sheet.frames, #layers, sheet.fps),
     row_of("#Layers", layers, function(_, column) return quote(column.name) end),

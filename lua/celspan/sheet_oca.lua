@@ -1,8 +1,8 @@
 --- The exposures of an OCA document: which drawing each layer shows at each frame.
 --
--- A drawing lasts as long as its duration, and nothing is shown until the next one begins; a layer
--- that is not animated shows its first drawing throughout. Drawings have the names that
--- layers.read gives them, and layers their paths, "group/layer".
+-- A drawing lasts for its duration, and then the layer is empty until the next one begins; a layer
+-- that is not animated shows its first drawing throughout. Drawings have the same names as in
+-- layers.read, and layers are named by their paths, "group/layer".
 local columns = require "celspan.columns"
 local fields = require "celspan.fields"
 local json = require "celspan.json"
@@ -30,7 +30,7 @@ local function number_of(object, what, name, default, least, most)
   return number
 end
 
---- A number of frames; programs write them as floats too.
+--- A number of frames; some programs write it as a float.
 local function frame_of(object, what, name, default, least)
   local number = number_of(object, what, name, default, least, columns.most_frames)
   return math.tointeger(math.floor(number + 0.5))
@@ -97,7 +97,7 @@ function sheet_oca.decode(text)
   local document, problem = json.decode(text)
   if document == nil then columns.fail("%s", problem) end
   if type(document) ~= "table" or type(document.layers) ~= "table" then
-    columns.fail("it is no OCA document: it has no list of layers")
+    columns.fail("it is not an OCA document: it has no list of layers")
   end
   local what = "the document"
   local start = frame_of(document, what, "startTime", 0, -columns.most_frames)

@@ -11,9 +11,9 @@
 --        3          |      |
 --        4          2      -
 --
--- A cell is a drawing's name, `|` (what is above goes on) or `-` (nothing). After a slash stand its
--- marks: i inbetween, r reverse, k key, f reference, m moved, p procedure. Lines of frames may be
--- left out where nothing changes; what follows `#` at a line's start is a comment.
+-- A cell is a drawing's name, `|` (the cell above continues) or `-` (empty). A slash and marks may
+-- follow: i inbetween, r reverse, k key, f reference, m moved, p procedure. Lines of frames may be
+-- left out where nothing changes; a line that begins with `#` is a comment.
 local columns = require "celspan.columns"
 local fields = require "celspan.fields"
 
@@ -21,7 +21,7 @@ local sheet_text = {}
 
 local head = "celspan sheet 1"
 
---- Names that stand without quotes.
+--- Whether a name needs no quotes.
 local function is_bare(text) return text:find "^[%w_.+%-\128-\255]+$" ~= nil and text ~= "-" end
 
 local escapes = { ["\\"] = "\\\\", ['"'] = '\\"', ["\n"] = "\\n", ["\r"] = "\\r", ["\t"] = "\\t" }
@@ -37,17 +37,18 @@ local function word_of(text) return is_bare(text) and text or quote(text) end
 
 -- ---------------------------------------------------------------- reading
 
---- What an escape stands for: the sign after the backslash, and up to two digits more.
+--- The character of an escape: the sign after the backslash, and up to two more digits.
 local function unescape(sign, more, number)
   local code = tonumber(sign .. more)
   if sign:find "%d" and #more == 2 and code < 256 then return string.char(code) end
   if not signs[sign] then
-    columns.fail("line %d: \\%s is no escape; there are \\\\ \\\" \\n \\r \\t and \\ddd", number, sign)
+    columns.fail("line %d: \\%s is not an escape; there are \\\\ \\\" \\n \\r \\t and \\ddd",
+      number, sign)
   end
   return signs[sign] .. more
 end
 
---- A quoted text at `at`: the text and the place after it.
+--- A quoted text at `at`: the text and the position after it.
 local function read_quoted(line, at, number)
   local from = at + 1
   while true do
@@ -93,13 +94,13 @@ for _, mark in ipairs(columns.marks) do letters[mark[2]] = mark[1] end
 local function add_marks(column, frame, marks, number)
   for letter in marks:gmatch "." do
     if not letters[letter] then
-      columns.fail("line %d: %q is no mark; the marks are i, r, k, f, m and p", number, letter)
+      columns.fail("line %d: %q is not a mark; the marks are i, r, k, f, m and p", number, letter)
     end
     columns.mark(column, frame, letters[letter])
   end
 end
 
---- The plain cells of a frame's line, which are most of all: what they say, at once.
+--- A fast path for the cells of a frame's line without quotes, which are the most frequent ones.
 local plain = { ["|"] = true }
 
 local function read_cell(column, frame, word, number)
@@ -112,9 +113,9 @@ local function read_cell(column, frame, word, number)
 end
 
 local function read_frame(state, line, number)
-  local layers, i, frame = state.sheet.layers, 0, nil
+  local layers, i = state.sheet.layers, 0
   local digits, rest = line:match "^%s*(%d+)()"
-  frame = math.tointeger(tonumber(digits))
+  local frame = math.tointeger(tonumber(digits))
   if not frame or frame < 1 or frame > columns.most_frames then
     columns.fail("line %d: frame %s; frames are numbered from 1 to %d", number, digits,
       columns.most_frames)
@@ -123,7 +124,7 @@ local function read_frame(state, line, number)
     columns.fail("line %d: frame %d follows frame %d; frames ascend", number, frame, state.last)
   end
   state.last = frame
-  -- most lines of a long sheet say that everything goes on
+  -- in most lines of a long sheet nothing changes
   if line:sub(rest) == state.hold then return end
   local is_hold = true
   if line:find('["/]', rest) then
@@ -162,13 +163,15 @@ end
 
 local readers = {}
 
-function readers.name(state, words, number) state.sheet.name = text_at(words, 2, "a name", number) end
+function readers.name(state, words, number)
+  state.sheet.name = text_at(words, 2, "a name", number)
+end
 function readers.cut(state, words, number) state.sheet.cut = text_at(words, 2, "a cut", number) end
 function readers.scene(state, words, number)
   state.sheet.scene = text_at(words, 2, "a scene", number)
 end
 function readers.fps(state, words, number)
-  local fps = tonumber(text_at(words, 2, "a number of frames a second", number))
+  local fps = tonumber(text_at(words, 2, "the frame rate", number))
   if not fps then columns.fail("line %d: fps must be a number", number) end
   state.sheet.fps = fps
 end
@@ -180,7 +183,7 @@ function readers.size(state, words, number)
   state.sheet.height = whole(words[3], "the height", number, 1048576)
 end
 function readers.layers(state, words, number)
-  if state.has_layers then columns.fail("line %d: layers are told twice", number) end
+  if state.has_layers then columns.fail("line %d: the layers are defined twice", number) end
   if #words - 1 > columns.most_layers then
     columns.fail("line %d: there are more than %d layers, which is the limit", number,
       columns.most_layers)
@@ -291,7 +294,7 @@ local function cell_of(column, place, frame)
   return text .. (marks and marks_of(marks) or "")
 end
 
---- Sheets with more cells have no lines where nothing changes.
+--- Larger sheets are written without the lines where nothing changes.
 local WHOLE_CELLS = 1000000
 
 --- The frames that have a line, ascending.
@@ -313,7 +316,7 @@ local function frames_of(sheet)
   return list
 end
 
---- Raises { message = } where it would be too long.
+--- Raises { message = } if it would be too long.
 function sheet_text.encode(sheet)
   local lines, layers = write_head(sheet), sheet.layers
   local words, at, holds, widths = { pad("layers", 8) }, {}, {}, {}

@@ -3,14 +3,14 @@
 --   frame = shutter{ angle = 180, samples = 8, frame = function(f) ... end }
 --
 -- The shutter opens at the frame's time and stays open for angle / 360 of a frame. The inner
--- function is called once for each sample with an f whose time, middle and progress lie at the
--- middle of that sample's share; number, index, f:on and f:random stay those of the frame. The
+-- function is called once for each sample with an f whose time, middle and progress are those of
+-- the middle of the sample's interval; number, index, f:on and f:random are those of the frame. The
 -- samples are exposed with equal weights that add up to 1.
 local fields = require "celspan.fields"
 
 local known = { angle = "number", samples = "number", frame = "function" }
 
---- f, moved in time by a share of a frame.
+--- f, moved in time by a fraction of a frame.
 local function moved(f, share)
   local g = {
     time = f.time + share / f.fps,
@@ -25,7 +25,7 @@ local function moved(f, share)
   })
 end
 
---- Adds what a frame function returned, weighted.
+--- Adds the result of a frame function, weighted.
 local function expose(exposures, result, weight)
   if type(result) ~= "table" then
     exposures[#exposures + 1] = { result, weight }

@@ -1,6 +1,6 @@
---- Assertions about films for busted: what a frame, a point, a cel, a row shows.
+--- Assertions about films for busted: about frames, points, cels and rows.
 --
---   require "celspan.spec"                         -- they are luassert's from then on
+--   require "celspan.spec"                         -- adds them to luassert
 --   assert.frame(film, 12).looks_like "walk.png"
 --   assert.point(film, 1, 320, 200).shows "#ffe9c2"
 --   assert.cel(film, 24, "hand").is_visible()      assert.cel(film, 24, "hand").is_not.visible()
@@ -8,12 +8,12 @@
 --   assert.frames(film, 1, 25).look_alike()
 --   assert.row(film, 1, 0).holds { single = 1, array = 0 }
 --
--- The first word says what is asked about, the last one what is claimed; `is_not`, before either of
--- them, negates. Words that luassert has for its own are no claims, so that a claim is never
--- mistaken for a filling word that passes whatever it is given.
---
--- One file, because a claim is a line of a table: most of it is one list of claims, each with what it
--- says when it fails, over a few ways to look at a frame that they share.
+-- The first word names the subject, the last one the claim; `is_not`, before either of them,
+-- negates. No claim has the name of a filler word of luassert, because these pass with any
+-- arguments.
+
+-- One file, because most of it is one table of claims, each with its messages, which share a few
+-- functions that render and compare frames.
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
@@ -48,13 +48,13 @@ local say = require "say"
 
 -- ---------------------------------------------------------------- the spec
 
---- Whether a level is neither of this library nor of luassert: the spec's own.
+--- Whether a level belongs neither to this library nor to luassert, but to the spec.
 local function is_foreign(info)
   return info.currentline > 0 and not info.source:find "^@celspan/"
     and not info.source:find "[/\\]luassert[/\\]"
 end
 
---- The level of the spec's line, as error() counts it in the function that asks, and its source.
+--- The level of the spec's line, as error() counts it in the calling function, and its source.
 local function spec_level()
   local level = 2
   while true do
@@ -69,7 +69,7 @@ local function refuse(message)
   error(message, (spec_level()))
 end
 
---- A difference of one code of 8 bits, with room for rounding.
+--- A difference of one 8-bit step, with room for rounding.
 local ONE_CODE = 1 / 255 + 1e-9
 
 -- ---------------------------------------------------------------- what is asked about
@@ -78,7 +78,7 @@ local nothing = celspan.rostrum {}
 local film_metatable = getmetatable(celspan.film { frame = function() return nothing end })
 local rostrum_metatable = getmetatable(nothing)
 
---- A film, also of a rostrum.
+--- A film; a rostrum becomes a film of one frame.
 local function film_of(word, what)
   if getmetatable(what) == film_metatable then return what end
   if getmetatable(what) == rostrum_metatable then
@@ -103,7 +103,7 @@ local function check_number(word, name, value)
   end
 end
 
---- word -> function(arguments): checks what the word is given and gives the subject.
+--- word -> function(arguments): checks the arguments of the word and returns the subject.
 local subjects = {}
 
 local function subject_of(word, arguments)
@@ -155,7 +155,7 @@ end
 
 -- ---------------------------------------------------------------- looking
 
---- The value, or the message raised at the spec's line.
+--- Returns the value, or raises the message at the spec's line.
 local function need(value, message)
   if value == nil then refuse(message) end
   return value
@@ -193,7 +193,7 @@ local function sort_cels(rostrum, keeps, names)
   return kept
 end
 
---- Raises unless a cel of the frame has the name; the message lists those that are there.
+--- Raises an error unless a cel of the frame has the name; the message lists the known names.
 local function need_name(subject, names)
   if names[subject.name] then return end
   local list = {}
@@ -206,7 +206,7 @@ local function need_name(subject, names)
       or "; give it one with cel:named(" .. ("%q"):format(subject.name) .. ")"))
 end
 
---- The frame with the cels that `keep` gives back for each of its own. more: fields that change.
+--- The frame with the cels that `keep` returns for each of its own. more: other changed fields.
 local function changed_frame(subject, keep, more)
   local names, list = {}, {}
   for i, exposure in ipairs(exposures_of(subject)) do
@@ -226,7 +226,7 @@ local function beside(path, what)
   return (path:gsub("(%.[^./]*)$", "." .. what .. ".png"))
 end
 
---- How two images of one size differ.
+--- The difference of two images of the same size.
 local function difference_of(first, second, tolerance)
   local coding = { depth = 8, colour = "srgb", alpha = "straight" }
   local count, largest, x, y, channel, picture = core.difference(first:bytes(coding),
@@ -247,12 +247,12 @@ local function exists(path)
   return file ~= nil
 end
 
---- A path as a shell takes it.
+--- A path quoted for a shell.
 local function quoted(path)
   return path:find "^[%w_./-]+$" and path or "'" .. path:gsub("'", "'\\''") .. "'"
 end
 
---- Writes the frame beside the picture; gives the words that say how to accept it.
+--- Writes the frame beside the picture; returns the lines that say how to accept it.
 local function write_actual(path, image)
   local actual = beside(path, "actual")
   need(image:write(actual), ("%s cannot be written"):format(actual))
@@ -269,7 +269,7 @@ local function write_difference(path, found, image)
   return ("  where          %s"):format(shown)
 end
 
---- The same file from the root: pictures are else looked for beside the Lua file that names them.
+--- The absolute path: a relative one would be looked up beside the Lua file that names it.
 local function from_root(path)
   return path:sub(1, 1) == "/" and path or require "lfs".currentdir() .. "/" .. path
 end
@@ -290,7 +290,8 @@ end
 
 -- ---------------------------------------------------------------- claims
 
---- What a claim answers: whether it holds, and what to say when it was to hold, or was not to.
+--- word -> function(subject, arguments): whether the claim holds, and the message if the assertion,
+--- or its negation, fails.
 local claims = {}
 
 local function tolerance_of(word, given)
@@ -303,12 +304,12 @@ end
 
 local function code(value) return ("%.4g"):format(value * 255) end
 
---- What is wrong with a picture of the same size.
+--- The message for a picture of the same size that differs.
 local function tell_difference(subject, name, found, tolerance, image)
   return ("frame %d does not look like %s: %d of %d pixels differ by more than %s codes of 8 "
-    .. "bits;\n  most by %s codes, at x %d, y %d, channel %s"):format(subject.frame, name, found.count,
-    image.width * image.height, code(tolerance), code(found.largest), found.x, found.y,
-    found.channel)
+    .. "bits;\n  most by %s codes, at x %d, y %d, channel %s")
+    :format(subject.frame, name, found.count, image.width * image.height, code(tolerance),
+      code(found.largest), found.x, found.y, found.channel)
 end
 
 function claims.looks_like(subject, arguments)
@@ -358,7 +359,7 @@ local function coded(r, g, b, a)
     { red, green, blue, alpha }
 end
 
---- What a paint shows before nothing, under a white light.
+--- The colour of a paint under white light with nothing behind it.
 local function shown_by(paint)
   local made, drawn = pcall(celspan.rect, { 0, 0, 1, 1, texture = paint })
   if not made then
@@ -399,7 +400,7 @@ function claims.visible(subject, _)
     return false, ("cel %q is not visible in frame %d: the frame is the same without it"):format(
       subject.name, subject.frame)
   end
-  return true, ("cel %q is visible in frame %d, and it should not be: the frame is another without "
+  return true, ("cel %q is visible in frame %d, and it should not be: the frame changes without "
     .. "it"):format(subject.name, subject.frame)
 end
 
@@ -432,7 +433,8 @@ function claims.look_alike(subject, _)
   for i = 2, #subject.frames do
     local found = difference_of(first, image_of(subject.frames[i]), ONE_CODE)
     if found.count > 0 then
-      return false, ("frames %d and %d do not look alike: %d of %d pixels differ;\n  most by %s codes "
+      return false,
+        ("frames %d and %d do not look alike: %d of %d pixels differ;\n  most by %s codes "
         .. "of 8 bits, at x %d, y %d, channel %s"):format(subject.frames[1], subject.frames[i],
         found.count, first.width * first.height, code(found.largest), found.x, found.y,
         found.channel)
@@ -471,7 +473,7 @@ end
 
 -- ---------------------------------------------------------------- luassert
 
---- Which claims can be made of what.
+--- The subject of each claim.
 local about = { looks_like = "frame", shows = "point", visible = "cel", covers = "cel",
                 look_alike = "frames", holds = "row" }
 local takes = { frame = "film, n", point = "film, n, x, y", cel = "film, n, name",
@@ -482,15 +484,15 @@ say:set("assertion.celspan", "%s")
 for word, read in pairs(subjects) do
   luassert:register("modifier", word, function(state, arguments)
     if not arguments then
-      refuse(("write assert.%s(%s).claim(...): %s takes them itself"):format(word, takes[word],
-        word))
+      refuse(("write assert.%s(%s).claim(...): these are the arguments of %s"):format(word,
+        takes[word], word))
     end
     rawset(state, "celspan", read(arguments))
     return state
   end)
 end
 
---- The message goes into the place of the arguments, which are not shown otherwise.
+--- Puts the message in the place of the arguments, which are otherwise not shown.
 local function set_message(arguments, message)
   if type(message) == "function" then message = message() end
   for i = 1, arguments.n do arguments[i] = nil end
@@ -501,7 +503,7 @@ for word, claim in pairs(claims) do
   luassert:register("assertion", word, function(state, arguments)
     local subject = rawget(state, "celspan")
     if not subject or subject.word ~= about[word] then
-      refuse(("%s is said of a %s: assert.%s(%s).%s(...)"):format(word, about[word], about[word],
+      refuse(("%s applies to a %s: assert.%s(%s).%s(...)"):format(word, about[word], about[word],
         takes[about[word]], word))
     end
     local holds, message = claim(subject, arguments)

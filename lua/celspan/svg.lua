@@ -2,8 +2,8 @@
 --
 --   local art = assert(svg.read "hero.svg")
 --   art.object                      -- the whole, from (0, 0) to art.width, art.height
---   art.parts.arm                   -- the element with this id, or with this label of Inkscape's
---   svg.read("sign.svg", { fonts = { Arial = "arial.ttf", default = "sans.ttf" } })   -- for its texts
+--   art.parts.arm                   -- the element with this id, or with this Inkscape label
+--   svg.read("sign.svg", { fonts = { Arial = "arial.ttf", default = "sans.ttf" } })   -- for text
 --   art:with { arm = function(arm) return arm:rotate(20, 140, 90) end }
 --
 -- A file is read once and kept from frame to frame until it changes, so that frame functions may
@@ -15,19 +15,19 @@ local svg = {}
 
 ---@class celspan.svg.skipped
 ---@field line integer Of the file
----@field what string What is not drawn
+---@field what string The part that is not drawn
 
 ---@class celspan.svg.art
 ---@field object celspan.object The whole drawing
 ---@field width number In px of the file
 ---@field height number
----@field parts table<string, celspan.object> By id, else by Inkscape's label where it is the only one
----@field skipped celspan.svg.skipped[] What was not drawn
+---@field parts table<string, celspan.object> By id, or by Inkscape label if only one element has it
+---@field skipped celspan.svg.skipped[] The parts that were not drawn
 local Art = {}
 Art.__index = fields.reads("a drawing", Art)
 Art.__name = "celspan.svg"
 
---- Drawings by the key of what the core keeps, as long as anybody holds them.
+--- Drawings by the key of the core's cached drawing, while there are references to them.
 local known = setmetatable({}, { __mode = "v" })
 
 local function wrap(drawing)
@@ -42,8 +42,8 @@ local function wrap(drawing)
   return known[key]
 end
 
---- The drawing with other objects in the place of parts, inner ones first. Clips, opacity and order of
---- what they are in are kept; a part that `use` shows is changed wherever it is shown.
+--- The drawing with parts replaced, inner parts first. Clips, opacity and order of their ancestors
+--- are kept; a part that `use` shows is changed wherever it is shown.
 ---@param changes table<string, fun(object: celspan.object): celspan.object>
 ---@return celspan.svg.art
 function Art:with(changes)
@@ -61,21 +61,22 @@ function Art:with(changes)
         hint and ("; did you mean '%s'?"):format(hint) or ""), 2)
     end
     if type(change) ~= "function" then
-      error(("svg: part '%s' must be given a function, got %s"):format(name, fields.kind(change)), 2)
+      error(("svg: part '%s' must have a function, got %s"):format(name, fields.kind(change)), 2)
     end
   end
   return wrap(self.__drawing:with(changes))
 end
 
 ---@class celspan.svg.options
----@field fonts? table<string, string> Files of fonts by family, as `font-family` names them, for instance "Arial" and "Arial Bold"; `default` for all others
+---@field fonts? table<string, string> Font files by family as in `font-family`, for instance "Arial" and "Arial Bold"; `default` for all others
 
---- The fonts as a list in the order of their families.
+--- The fonts as a list, sorted by family.
 local function list_fonts(options, find)
   local list = {}
   for family, file in next, options.fonts or {} do
     if type(family) ~= "string" or type(file) ~= "string" then
-      return nil, ("svg: fonts is a table of files by family, such as { Arial = \"arial.ttf\" }, got %s = %s")
+      return nil, ("svg: fonts is a table of files by family, such as { Arial = \"arial.ttf\" }, "
+        .. "got %s = %s")
         :format(tostring(family), fields.kind(file))
     end
     list[#list + 1] = { family, find(file) }
@@ -85,9 +86,13 @@ local function list_fonts(options, find)
 end
 
 local function check_options(options)
-  if type(options) ~= "table" then return "svg: read's options are a table, got " .. fields.kind(options) end
+  if type(options) ~= "table" then
+    return "svg: read's options are a table, got " .. fields.kind(options)
+  end
   for name in next, options do
-    if name ~= "fonts" then return ("svg: read has no option '%s'; it has fonts"):format(tostring(name)) end
+    if name ~= "fonts" then
+      return ("svg: read has no option '%s'; it has fonts"):format(tostring(name))
+    end
   end
   if options.fonts ~= nil and type(options.fonts) ~= "table" then
     return "svg: fonts is a table of files by family, got " .. fields.kind(options.fonts)

@@ -5,7 +5,7 @@
 --   art.shapes[2].object:with { texture = "#ffcc66" }          -- an area in another colour
 --   assert(trace.picture("sketch.png", { lines = true }))      -- strokes along the lines
 --
--- Areas that abut share their border: nothing shows between them, at any size.
+-- Adjacent areas share their border: there are no gaps between them at any size.
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
@@ -15,16 +15,16 @@ local trace = {}
 ---@class celspan.trace.shape
 ---@field object celspan.object A path, or a stroke, painted with the colour
 ---@field colour string "#rrggbb"
----@field x integer Of a pixel that belongs to it
+---@field x integer Of a pixel inside it
 ---@field y integer
----@field area number In pixels of the picture; of a stroke what it covers
----@field d? string The path's data
+---@field area number In pixels of the picture; of a stroke, the area that it covers
+---@field d? string The path data
 ---@field points? number[][] Of a stroke: x, y and width, of a spline of degree 3
 ---@field closed? boolean Of a stroke
 
 ---@class celspan.trace.art
 ---@field object celspan.object All shapes
----@field shapes celspan.trace.shape[] Areas from the largest on, strokes from the longest on
+---@field shapes celspan.trace.shape[] Areas, the largest first, or strokes, the longest first
 ---@field width integer Of the picture, in pixels: the units of the shapes
 ---@field height integer
 local Art = { __name = "celspan.trace" }
@@ -34,14 +34,14 @@ local Shape = { __name = "celspan.trace.shape" }
 Shape.__index = fields.reads("a shape of a tracing", {}, { d = true, points = true, closed = true })
 
 ---@class celspan.trace.options
----@field colours? integer|string[] How many are found in the picture, 1 to 64, or which: "#rrggbb"; 2
----@field smooth? number How far curves may leave the edges, 0 to 16: 1 stands for 0.15 pixels; 1; 0: the sides of the pixels
----@field speckle? integer Areas of at most so many pixels go to their neighbours; 2
----@field lines? boolean Strokes along what is drawn on the ground, instead of areas
+---@field colours? integer|string[] The number to find in the picture, 1 to 64, or a list: "#rrggbb"; default 2
+---@field smooth? number How far curves may deviate from the edges, 0 to 16: 1 means 0.15 pixels; 0: the sides of the pixels; default 1
+---@field speckle? integer Areas of at most this many pixels are merged into their neighbours; default 2
+---@field lines? boolean Strokes along the lines on the ground, instead of areas
 
 local known = { colours = "any", smooth = "number", speckle = "number", lines = "boolean" }
 
---- What is wrong, for picture to raise; below it every check answers a value, or nil and that.
+--- A message for picture to raise; the checks below return a value, or nil and a message.
 local function wrong(text, ...) return nil, "trace: " .. text:format(...) end
 
 local function whole(name, value, least, most)
@@ -74,7 +74,7 @@ local function colours_of(colours)
   return list
 end
 
---- The options as the core takes them.
+--- The options in the form that the core takes.
 local function check(options)
   local smooth = options.smooth or 1
   local colours, message = colours_of(options.colours or 2)

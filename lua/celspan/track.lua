@@ -1,12 +1,12 @@
---- Following a part of pictures from frame to frame, and placing art on it.
+--- Follows a region through a sequence of pictures, and places art on it.
 --
 --   local t = assert(track.follow("head.####.png", { from = 1, at = { 300, 120, 200, 180 } }))
---   t:place(hat, f)             -- the hat, where the head is in frame f
---   t:steady(picture, f)        -- the picture, moved so that the head stays where it is in frame 1
+--   t:place(hat, f)             -- the hat, at the position of the head in frame f
+--   t:steady(picture, f)        -- the picture, moved so that the head stays as in frame 1
 --   t.lost                      -- the frames in which it was not found
 --
--- All places are pixels of the frames. In a lost frame art is placed between the nearest frames
--- before and after that were found.
+-- All positions are in pixels of the frames. In a lost frame positions are interpolated between the
+-- nearest frames before and after it in which the region was found.
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
@@ -17,28 +17,28 @@ local track = {}
 
 ---@class celspan.track
 ---@field from integer The frame in which the region was given
----@field at number[] {x, y, w, h} of the region there
+---@field at number[] {x, y, w, h} of the region in that frame
 ---@field model "translation"|"similarity"|"perspective"
 ---@field width integer Of the frames, in pixels
 ---@field height integer
----@field frames integer[] All that were followed, ascending
----@field lost integer[] Of these, where it was not found
+---@field frames integer[] All frames, ascending
+---@field lost integer[] The frames in which the region was not found
 local Track = { __name = "celspan.track" }
 local methods = {}
 Track.__index = fields.reads("a track", methods)
 
---- What is known of each frame of a track: { matrix =, corners =, agreeing =, error = }, or false
---- where it was lost. Out of the sight of scripts.
+--- The data of each frame of a track: { matrix =, corners =, agreeing =, error = }, or false if the
+--- region was lost. Hidden from scripts.
 local sightings = setmetatable({}, { __mode = "k" })
 
 local models = { "translation", "similarity", "perspective" }
-local MOST_BYTES = 64 * 1024 * 1024 -- of a file of a track
+local MOST_BYTES = 64 * 1024 * 1024 -- of a track file
 
 -- ---------------------------------------------------------------- a value
 
 local IDENTITY = { 1, 0, 0, 0, 1, 0, 0, 0, 1 }
 
---- The lists that scripts read, from what is known of the frames.
+--- The lists for scripts, from the data of the frames.
 local function make(head, found)
   local self = setmetatable(head, Track)
   self.frames, self.lost = {}, {}
@@ -51,7 +51,7 @@ local function make(head, found)
   return self
 end
 
---- The number of a frame that is given as such, or as what a film's function is given.
+--- The number of a frame, which is given as a number or as the argument of a frame function.
 local function number_of(method, f)
   local number = f
   if type(f) == "userdata" and tostring(f):find "^frame" then number = f.number end
@@ -61,7 +61,7 @@ local function number_of(method, f)
   return number
 end
 
---- The nearest frames before and after a number that were found.
+--- The nearest frames before and after a number in which the region was found.
 local function around(self, number)
   local found, before, after = sightings[self], nil, nil
   for _, frame in ipairs(self.frames) do
@@ -71,11 +71,11 @@ local function around(self, number)
   return before or after, after or before
 end
 
---- The motion from the first frame to another one: between those that were found, and held beyond
---- the first and the last of them.
+--- The motion from the first frame to another one: interpolated between the frames in which the
+--- region was found, and constant beyond the first and the last of them.
 ---@param f celspan.frame|number
 ---@return number[] matrix Nine numbers, by rows
----@return boolean is_found In that very frame
+---@return boolean is_found Whether the region was found in this frame
 function methods:motion(f)
   fields.self("track", Track, self, "motion")
   local number = number_of("motion", f)
@@ -94,7 +94,7 @@ local function check_object(method, object)
   end
 end
 
---- Art that lies right in the first frame, where it belongs in frame f.
+--- Art that is positioned for the first frame, moved to its position in frame f.
 ---@generic T: celspan.object|celspan.cel
 ---@param object T
 ---@param f celspan.frame|number
@@ -106,7 +106,7 @@ function methods:place(object, f)
   return object:transform(self:motion(f))
 end
 
---- What shows frame f, moved so that the region stays where it is in the first frame.
+--- An object that shows frame f, moved so that the region stays at its position in the first frame.
 ---@generic T: celspan.object|celspan.cel
 ---@param object T
 ---@param f celspan.frame|number
@@ -138,20 +138,20 @@ local function check_options(options)
   local at = options.at
   if type(at) == "table" then
     fields.numbers("track", "at[%d]", at, 4, "{x, y, w, h} or an object", 3)
-  elseif type(at) ~= "userdata" or not pcall(celspan.cel, { at }) then -- cels are of objects alone
+  elseif type(at) ~= "userdata" or not pcall(celspan.cel, { at }) then -- a cel takes only objects
     error("track: field 'at' must be {x, y, w, h} or an object, got " .. fields.kind(at), 3)
   end
   return place
 end
 
---- A frame's pixels in 16-bit codes.
+--- A frame's pixels as 16-bit values.
 local function codes_of(object, w, h)
   local rostrum = celspan.rostrum { antialias = "none", celspan.cel { object } }
   local image, message = celspan.pixels(rostrum, { size = { w, h }, film = { w, h } })
   return image and image:bytes { depth = 16, colour = "srgb", alpha = "premultiplied" }, message
 end
 
---- A frame's file as pixels: codes, width, height | nil, message.
+--- The pixels of a frame's file: codes, width, height | nil, message.
 local function read_frame(path)
   local good, image = pcall(celspan.image, { file = path, sampling = "nearest" })
   if not good then return nil, image end
@@ -161,7 +161,7 @@ local function read_frame(path)
   return codes, codes and w or message, h
 end
 
---- A pattern where its files are, beside the caller's file or the script's.
+--- The full pattern of the files, beside the caller's file or the script.
 local function find_pattern(pattern, from)
   local name, message = core.frame_name(pattern, from)
   if not name then return nil, message end
@@ -172,7 +172,7 @@ local function find_pattern(pattern, from)
   return there:sub(1, #there - #name) .. pattern
 end
 
---- The numbers of the frames that are wanted, ascending, with `from`.
+--- The numbers of the requested frames, ascending, which must include `from`.
 local function list_frames(pattern, options)
   local numbers, message = core.frames(pattern, options.frames)
   if not numbers then return nil, message end
@@ -180,14 +180,14 @@ local function list_frames(pattern, options)
   local has_from = false
   for _, number in ipairs(numbers) do has_from = has_from or number == options.from end
   if not has_from then
-    return nil, ("%s: frame %d, from which it is to be followed, is not among the frames"):format(
+    return nil, ("%s: frame %d, in which the region is given, is not among the frames"):format(
       pattern, options.from)
   end
   table.sort(numbers)
   return numbers
 end
 
---- Follows one way through `numbers`; adds what is found of each.
+--- Follows the region through `numbers` in one direction; adds the data of each frame.
 local function follow_some(tracker, pattern, numbers, size, found)
   for _, number in ipairs(numbers) do
     local path = core.frame_name(pattern, number)
@@ -205,7 +205,7 @@ local function follow_some(tracker, pattern, numbers, size, found)
   return true
 end
 
---- The numbers after `from`, and those before it, backwards.
+--- The numbers after `from`, and the numbers before it in descending order.
 local function both_ways(numbers, from)
   local after, before = {}, {}
   for _, number in ipairs(numbers) do
@@ -215,7 +215,7 @@ local function both_ways(numbers, from)
   return after, before
 end
 
---- The region as {x, y, w, h}, and an object as codes too; nil and a message.
+--- The region as {x, y, w, h}, and for an object its mask; nil and a message.
 local function region_of(at, w, h)
   if type(at) == "table" then return { at[1], at[2], at[3], at[4] } end
   local x, y, width, height = at:bounds()
@@ -227,7 +227,7 @@ end
 
 ---@class celspan.track.options
 ---@field from integer The frame in which the region is given
----@field at number[]|celspan.object {x, y, w, h} there, or an object that covers what is followed
+---@field at number[]|celspan.object The region in that frame: {x, y, w, h}, or an object that covers it
 ---@field frames? string Such as "1-100"; default: all files of the pattern
 ---@field model? "translation"|"similarity"|"perspective" Default "similarity"
 
@@ -280,7 +280,7 @@ local function frame_text(number, sighting)
     number, numbers_text(sighting.matrix), sighting.corners, sighting.agreeing, sighting.error)
 end
 
---- The track as JSON: one line a frame.
+--- The track as JSON: one line per frame.
 function methods:text()
   fields.self("track", Track, self, "text")
   local lines = {}
@@ -303,7 +303,7 @@ function methods:write(path)
   return files.write(path, self:text())
 end
 
---- Raises what is wrong with a value of a file, with its path there.
+--- Raises an error about a value of a file, with the value's path in the file.
 local function demand(is_right, where, what)
   if not is_right then error({ message = ("%s must be %s"):format(where, what) }, 0) end
 end
@@ -324,7 +324,7 @@ end
 local function sighting_in(entry, where)
   if entry.lost == true then return false end
   local matrix = numbers_in(entry.matrix, 9, where .. ".matrix")
-  demand(core.inverse(matrix), where .. ".matrix", "one that has an inverse")
+  demand(core.inverse(matrix), where .. ".matrix", "invertible")
   local error_of = entry.error
   demand(fields.is_finite(error_of) and error_of >= 0, where .. ".error", "a number, 0 or more")
   return { matrix = matrix, corners = whole_in(entry.corners, where .. ".corners"),
@@ -332,7 +332,7 @@ local function sighting_in(entry, where)
 end
 
 local function from_value(value)
-  demand(type(value) == "table" and value.celspan == "track", "the file", "a track of celspan's")
+  demand(type(value) == "table" and value.celspan == "track", "the file", "a track of celspan")
   local is_model = false
   for _, name in ipairs(models) do is_model = is_model or name == value.model end
   demand(is_model, "model", "one of " .. table.concat(models, ", "))
@@ -343,11 +343,11 @@ local function from_value(value)
     local where = ("frames[%d]"):format(i)
     demand(type(entry) == "table", where, "a frame")
     local number = whole_in(entry.frame, where .. ".frame")
-    demand(found[number] == nil, where .. ".frame", "one that did not come before")
+    demand(found[number] == nil, where .. ".frame", "a number that is not already used")
     found[number] = sighting_in(entry, where)
     is_found = is_found or found[number]
   end
-  demand(is_found, "frames", "a list with one in which it was found")
+  demand(is_found, "frames", "a list with a frame in which the region was found")
   return make({ from = whole_in(value.from, "from"), at = numbers_in(value.at, 4, "at"),
     model = value.model, width = whole_in(size[1], "size[1]"),
     height = whole_in(size[2], "size[2]") }, found)

@@ -1,6 +1,6 @@
 --- Exchange digital time sheets (XDTS, version 5): text in, columns out, and back.
 --
--- The entries of a track are changes: gaps hold what is before them. Frames count from 0 in the
+-- The entries of a track are changes: a gap holds the entry before it. Frames count from 0 in the
 -- file and from 1 here.
 local columns = require "celspan.columns"
 local fields = require "celspan.fields"
@@ -68,8 +68,8 @@ end
 
 -- ---------------------------------------------------------------- reading
 
---- The entries of a track in order: { frame, values, options }; frame from 1, where what is before
---- the sheet holds into its first frame.
+--- The entries of a track in order: { frame, values, options }; frames count from 1, and an entry
+--- before the sheet holds into its first frame.
 local function entries_of(track, path)
   local list = {}
   for frame, here in each(track, path, "frames", {}) do
@@ -106,8 +106,8 @@ local function read_cells(column, track, path)
   end
 end
 
---- A note lasts to the change that ends it; to its last hyphen where only another note follows, or
---- nothing does; without either, to the end of the sheet.
+--- A note lasts until the change that ends it. If only another note or nothing follows, it lasts
+--- until its last hyphen, and without hyphens until the end of the sheet.
 local function read_notes(notes, kind, name, track, path)
   local note, hyphen
   local function close(frame, is_empty)
@@ -139,7 +139,7 @@ local function read_notes(notes, kind, name, track, path)
   close()
 end
 
---- The names that the headers give to the tracks of each field.
+--- The names of the tracks of each field, from the headers.
 local function read_headers(tables, path)
   local headers = {}
   for header, here in each(tables, path, "timeTableHeaders") do
@@ -164,7 +164,9 @@ local function read_tracks(state, field, id, path)
   for track, here in each(field, path, "tracks", {}) do
     local place = whole(track, here, "trackNo", 0, columns.most_layers - 1) + 1
     if id == CELLS then
-      if state.has_cells[place] then columns.fail("%s: track %d is there twice", here, place - 1) end
+      if state.has_cells[place] then
+        columns.fail("%s: track %d is a duplicate", here, place - 1)
+      end
       state.has_cells[place] = true
       for i = #state.layers + 1, place do state.layers[i] = columns.new(("track %d"):format(i)) end
       read_cells(state.layers[place], track, here)
@@ -175,7 +177,8 @@ local function read_tracks(state, field, id, path)
   end
 end
 
---- A field that the format does not tell of is notes where it is made like those, and else nothing.
+--- Reads a field that the format does not define as notes if it has their form, and ignores it
+--- otherwise.
 local function try_tracks(state, field, id, path)
   local count = #state.notes
   local good, problem = pcall(read_tracks, state, field, id, path)
@@ -210,10 +213,10 @@ local function read_table(document, tables, path)
   return sheet
 end
 
---- Whether a text is an exchange digital time sheet, by its first line.
+--- Whether a text is an XDTS, by its first line.
 function xdts.accepts(text) return text:find("^%s*" .. head) ~= nil end
 
---- which: the number or name of the table that is read. Raises { message = }.
+--- which: the number or name of the table to read. Raises { message = }.
 function xdts.decode(text, which)
   local first, rest = text:match "^([^\r\n]*)(.*)$"
   if first ~= head then columns.fail("line 1 is not %q", head) end
@@ -261,7 +264,7 @@ local function options_of(marks)
   return #list > 0 and (',"options":[%s]'):format(table.concat(list, ",")) or nil
 end
 
---- A tick continues the cell before it, so that a frame with a change has none.
+--- A tick continues the cell before it, so a frame with a change has no tick.
 local function tick_of(marks)
   return marks and (marks.inbetween and "SYMBOL_TICK_1" or marks.reverse and "SYMBOL_TICK_2")
 end
@@ -291,7 +294,7 @@ local function write_cells(column, frames)
   return lines
 end
 
---- Longer notes have one hyphen, at their ends, and not one on each frame: gaps hold as well.
+--- Longer notes have one hyphen at their ends instead of one on each frame: gaps hold, too.
 local HYPHENS = 10000
 
 local function write_note(lines, note, frames)

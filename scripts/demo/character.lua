@@ -1,5 +1,5 @@
 -- The lamplighter: coat, scarf in the wind, one arm to tell the story and one to hold the lantern.
--- Drawn round the point between the boots, y up the page negative, about 640 units tall.
+-- Drawn around the point between the boots, negative y is up, about 640 units tall.
 local celspan = require "celspan"
 local keys = require "celspan.keys"
 local face = require "demo.face"
@@ -36,7 +36,7 @@ local collar = shapes.ribbon({ { -86, -306, 30 }, { -40, -284, 46 }, { 10, -278,
                                { 56, -286, 44 }, { 88, -308, 28 } },
                              shapes.across(-80, 110, palette.scarf))
 
---- One end of the scarf: a wave that runs down the cloth and grows.
+--- One end of the scarf: a wave that runs along the cloth and grows.
 local function tail(time, phase, length, drop)
   local points = {}
   for i = 0, 6 do
@@ -86,7 +86,7 @@ local function lantern(x, y, swing)
   return place(glass), place(frame), { x - 66 * math.sin(turn), y + 66 * math.cos(turn) }
 end
 
---- figure, lantern's glass, lantern's frame, where its flame is; all in the figure's units.
+--- figure, lantern's glass, lantern's frame, position of its flame; all in the figure's units.
 function character.draw(time, shape)
   local sway = math.sin(time * 1.7)
   local story = arm(-1, table.unpack(telling:at(time)))

@@ -24,7 +24,7 @@ local fringe = celspan.clip(
 local band = shapes.ribbon({ { -118, -34, 40 }, { -70, -70, 46 }, { 0, -84, 48 }, { 70, -70, 46 },
                              { 118, -34, 40 } }, shapes.across(-90, 120, palette.wool))
 
---- Seconds at which the lids are shut.
+--- The seconds at which the eyes are shut.
 local blinks = { 0.7, 2.9, 4.3, 5.6, 8.3, 9.4 }
 
 local function lids(time)
@@ -52,7 +52,7 @@ local function brow(x, lift, tilt)
                          { x + 17, -38 + lift - tilt, 3 } }, palette.hair)
 end
 
---- A soft cone whose tip swings behind the wind, with a pompom.
+--- A soft cone whose tip follows the wind with a delay, with a pompom.
 local function hat(time)
   local swing = 12 * math.sin(time * 2.1) + 6 * math.sin(time * 3.7)
   local x, y = 92 + swing, -228 + swing * 0.4
@@ -63,7 +63,7 @@ local function hat(time)
   return celspan.union { cone, band, pompom }
 end
 
---- The head round its own middle, saying `shape`.
+--- The head around its own middle, with the mouth `shape`.
 function face.draw(time, shape)
   local dx, dy = table.unpack(gaze:at(time))
   local openness, lift = lids(time), brows:at(time)

@@ -1,4 +1,4 @@
--- Geese: a wedge that beats its wings, each a little later than the one before.
+-- Geese: a wedge of birds, each of which beats its wings a little later than the one before.
 local celspan = require "celspan"
 local palette = require "demo.palette"
 

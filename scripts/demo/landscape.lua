@@ -1,4 +1,4 @@
--- The valley, plane by plane. Built once: none of it moves by itself.
+-- The valley, plane by plane. Built once: nothing in it moves by itself.
 local celspan = require "celspan"
 local palette = require "demo.palette"
 local shapes = require "demo.shapes"
@@ -23,7 +23,7 @@ landscape.hills = shapes.ridge({
   { 1380, 572 }, { 1600, 600 }, { 1850, 560 }, { 2240, 590 },
 }, bottom, shaded(palette.hills, 560, 700))
 
---- Water: the colour of the low sky, with long calm lines.
+--- Water: in the colour of the low sky, with long calm lines.
 local function lake()
   local parts = { celspan.rect { -60, 668, 2500, 240, texture = shaded(palette.lake, 668, 800) } }
   local glints = { { 560, 684, 260, 3 }, { 500, 696, 420, 4 }, { 620, 712, 300, 5 },
@@ -63,7 +63,7 @@ local near = shapes.ridge({
   { 1500, 742 }, { 1800, 722 }, { 2140, 740 }, { 2500, 760 },
 }, bottom, shaded(palette.near, 720, 980))
 
---- The path that the lamplighter came by.
+--- The path on which the lamplighter came.
 landscape.near = field(near, {
   { { 560, 838, 8 }, { 640, 868, 16 }, { 800, 890, 26 }, { 900, 930, 44 }, { 860, 1000, 80 } },
 }, palette.path)
@@ -126,7 +126,7 @@ local function umbel(x, y, size)
   return celspan.union(parts)
 end
 
---- What stands between the camera and the stage.
+--- The foreground, between the camera and the stage.
 local function meadow()
   local parts = { umbel(120, 700, 96), umbel(270, 810, 76), umbel(470, 880, 60) }
   for i = 0, 22 do

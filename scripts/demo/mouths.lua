@@ -1,5 +1,5 @@
--- Nine mouths, one a shape of Rhubarb's alphabet: A-F spoken, G and H for f and l, X at rest.
--- Each is drawn round (0, 0), about 60 units wide.
+-- Nine mouths, one per shape of Rhubarb's alphabet: A-F spoken, G and H for f and l, X at rest.
+-- Each is drawn around (0, 0), about 60 units wide.
 local celspan = require "celspan"
 local palette = require "demo.palette"
 local shapes = require "demo.shapes"

@@ -21,7 +21,7 @@ palette.goose = "#33263d"
 palette.cloud = turning("#fbdcae", "#6d4672")
 palette.sun = turning("#fff3c9", "#ff9a5e")
 
---- Front lights by distance: they dim and cool, the farther the hazier.
+--- Front lights by distance: they dim and cool, and get hazier with the distance.
 palette.lights = {
   far = keys { { 0.5, { 1, 1, 1 } }, { 8.5, { 0.26, 0.17, 0.42 }, "inOutSine" } },
   middle = keys { { 0.5, { 1, 1, 1 } }, { 8.5, { 0.17, 0.14, 0.36 }, "inOutSine" } },

@@ -16,7 +16,7 @@ function shapes.across(x0, x1, colours) return between({ x0, 0 }, { x1, 0 }, col
 
 local number = "%.2f %.2f "
 
---- Cubic pieces through points {x, y}, Catmull-Rom; the ends run straight.
+--- Cubic pieces through points {x, y}, Catmull-Rom; the ends are straight.
 local function through(points)
   local d = {}
   for i = 1, #points - 1 do
@@ -57,11 +57,11 @@ function shapes.ribbon(points, texture)
   return celspan.path { d = d, texture = texture }
 end
 
--- Steep at the lamp and level at the rim, where the eye would see a ring.
+-- Steep at the lamp and level at the rim, where a step would be visible as a ring.
 local falloff = { { 0, 1 }, { 0.15, 0.66 }, { 0.3, 0.4 }, { 0.45, 0.22 }, { 0.6, 0.1 },
                   { 0.75, 0.032 }, { 0.88, 0.006 }, { 1, 0 } }
 
---- A glow: paint far too thin to hide anything, which shows only under a strong front light.
+--- A glow: paint far too thin to hide anything, visible only under a strong front light.
 function shapes.glow(x, y, radius, r, g, b, strength)
   local stops = { centre = { x, y }, radius = radius }
   for i, stop in ipairs(falloff) do

@@ -17,7 +17,7 @@ end
 local sun_height = keys { { 0, 490 }, { 7.5, 790, "inOutSine" } }
 local sun_strength = keys { { 2, 1 }, { 9, 0.2, "inOutSine" } }
 
---- The disc is painted; the rings round it are paint too thin to hide anything, strongly lit.
+--- The disc is painted; the rings around it are paint too thin to hide anything, strongly lit.
 function sky.sun(time)
   local x, y = 690, sun_height:at(time)
   local strength = 6 * sun_strength:at(time)
@@ -31,7 +31,7 @@ function sky.sun(time)
     celspan.cel { disc, front = { 1.15, 1.1, 1 } }
 end
 
---- Banks of cloud: {x, y, size}, and the pills {x, y, length} that a bank is made of.
+--- Banks of cloud: {x, y, size}, and the rounded bars {x, y, length} of a bank.
 local banks = { { 130, 236, 1 }, { 1090, 176, 1.2 }, { 1660, 330, 0.9 }, { 840, 392, 0.62 },
                 { -40, 402, 0.7 } }
 local pills = { { 0, 0, 420 }, { 70, -26, 270 }, { 132, -52, 128 }, { 250, 24, 300 },
@@ -51,7 +51,7 @@ function sky.clouds(time)
                                     celspan.union(parts)) }
 end
 
---- Stars lie on a spiral of golden angles, so that they look strewn and never crowd.
+--- Stars lie on a spiral of golden angles, so they look scattered and never crowd.
 local function strew(count)
   local stars = {}
   for i = 1, count do

@@ -4,7 +4,7 @@ local ease = require "celspan.ease"
 
 local title = {}
 
---- letter -> its width and the way of the pen; the line stands on y = 0, small letters are 100 high.
+--- letter -> its width and the path of the pen; the baseline is y = 0, small letters are 100 high.
 local letters = {
   c = { 92, "M83.5 -87.2A50 50 0 1 0 83.5 -12.8" },
   e = { 104, "M4 -50H100A50 50 0 1 0 87.2 -16.5" },
@@ -17,7 +17,7 @@ local letters = {
 
 local flow = ease "inOutSine"
 
---- The word, `progress` from 0 to 1 written.
+--- The word, written up to `progress`, 0 to 1.
 function title.write(word, progress, texture)
   local parts, x = {}, 0
   for i = 1, #word do

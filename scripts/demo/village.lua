@@ -1,5 +1,5 @@
--- The village: houses for the first pass, and for the second a black card with the windows cut out
--- and coloured gels behind the cuts, lit from the back as on a real rostrum.
+-- The village: houses for the first exposure, and for the second a black card with the windows cut
+-- out and coloured gels behind the cuts, lit from the back as on a real rostrum.
 local celspan = require "celspan"
 local ease = require "celspan.ease"
 local palette = require "demo.palette"
@@ -14,7 +14,8 @@ local houses = {
   { 470, 722, 100, 60, 3 }, { 596, 730, 82, 60, 2 },
 }
 
---- What is painted; the windows, and the house of each; the middle and reach of each house's glow.
+--- The painted houses; the windows, and the house of each; the middle and radius of each house's
+--- glow.
 local art, panes, homes, glows = {}, {}, {}, {}
 
 local function rect(x, y, w, h, texture)
@@ -60,13 +61,13 @@ local card = celspan.rect { -200, 0, 2600, 1080 } - village.panes
 
 local brighten = ease "outQuad"
 
---- How bright window i is: they come up one after another from `cue` on, and flicker.
+--- The brightness of window i: they light up one after another from `cue` on, and flicker.
 local function level_of(i, time, cue)
   local u = (time - cue - (i * 5 % #panes) * 0.11) / 0.35
   return brighten(math.max(0, math.min(1, u))) * (0.94 + 0.06 * math.sin(time * 9 + i * 2))
 end
 
---- The light box: gels on their light, the black card over them, and the glow in the air before it.
+--- The light box: gels on their light, the black card over them, and the glow in the air in front.
 function village.light_box(time, cue, viewport)
   local gels, halos, levels = {}, {}, {}
   for i, pane in ipairs(panes) do

@@ -1,4 +1,4 @@
--- What the exposure sheet and the voice tell of the lamplighter at a frame of the film.
+-- The lamplighter's acting at a frame of the film, from the exposure sheet and the voice.
 local lips = require "celspan.lips"
 local sheet = require "celspan.sheet"
 local lamplighter = require "film.lamplighter"
@@ -17,8 +17,8 @@ function acting.frame_of(time)
   return math.max(1, math.min(exposed.frames, math.floor(time * timing.fps + 0.01) + 1))
 end
 
---- The drawings of a frame, and how far he has walked by then, in his units. A mouth that the sheet
---- calls `voice` is the one that the voice needs.
+--- The drawings of a frame, and the distance that he has walked, in his units. Where the sheet has
+--- the mouth `voice`, the voice track selects it.
 function acting.at(time)
   local frame = acting.frame_of(time)
   local mouth = exposed:at("mouth", frame)
@@ -28,7 +28,7 @@ function acting.at(time)
     mitten = exposed:at("mitten", frame), time = time }, way[frame]
 end
 
---- How far he has walked when he stops at the lamp.
+--- The distance that he has walked when he stops at the lamp.
 function acting.far_way() return way[acting.frame_of(timing.reach)] end
 
 return acting

@@ -22,7 +22,7 @@ local cards = {
       line("made with celspan", 36, 372, 400, "#c9c6ee") },
 }
 
---- A letter comes up into its place and goes out in it.
+--- A letter rises to its place and fades out there.
 local function letter_at(letter, i, time, card)
   local u = timing.share(time, card.from + 0.009 * i, 0.4)
   local gone = timing.share(time, card.to - 0.25, 0.25)

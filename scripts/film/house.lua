@@ -1,4 +1,4 @@
--- Houses with snow on them, a little crooked: the street's, and the small ones of the painted town.
+-- Houses with snow on them, a little crooked: for the street, and small ones for the painted town.
 local celspan = require "celspan"
 local shapes = require "demo.shapes"
 
@@ -6,7 +6,7 @@ local house = {}
 
 local SNOW, SHADE = "#e4e8fc", "#9aa4dc"
 
---- A window: its frame, its pane and the snow on its sill; the pane is kept for what lights it.
+--- A window: its frame, its pane and the snow on its sill; the pane is kept so it can be lit.
 local function window(parts, panes, x, y, w, h, frame)
   local arch = ("M%g %gv%ga%g %g 0 0 1 %g 0v%gz")
   local function opening(grow, texture)
@@ -24,7 +24,7 @@ local function window(parts, panes, x, y, w, h, frame)
   panes[#panes + 1] = pane
 end
 
---- Snow on a roof: a thick line from eave to eave over the ridge, heavier here and there.
+--- Snow on a roof: a thick line from eave to eave over the ridge, thicker in places.
 local function roof_snow(parts, x, y, w, rise, random)
   local deep, points = w * 0.1, {}
   for i = 0, 8 do
@@ -60,7 +60,7 @@ local function brushed(wall, x, y, w, h, random)
 end
 
 --- A house whose wall stands on (x, y), w wide and h high, its gable `rise` higher; `rows` of
---- windows are lists of places 0..1 along the wall. Its object, and its panes.
+--- windows are lists of positions 0..1 along the wall. Returns its object, and its panes.
 function house.draw(seed, x, y, w, h, fields)
   local random = celspan.random(seed)
   local parts, panes = {}, {}

@@ -46,7 +46,7 @@ lamp.post, lamp.frame = post(), frame()
 
 local dark = celspan.linear { from = { -50, -50 }, to = { 40, 60 }, { 0, "#5260a6" },
   { 0.35, "#2a3070" }, { 0.45, "#4a56a0" }, { 0.55, "#262b66" }, { 1, "#343d82" } }
---- What burns behind the glass: a low flame is a deep orange, a full one nearly white.
+--- The flame behind the glass: a low flame is a deep orange, a full one nearly white.
 local function burning(level)
   local texture = { centre = { 0, 14 }, radius = 92 }
   for i, stop in ipairs { { 0, "#d8722c", "#fff8e4" }, { 0.35, "#a8481c", "#ffdf92" },

@@ -1,9 +1,9 @@
 -- The lamplighter: the parts of lamplighter.svg, posed about their joints.
 --
--- What changes from drawing to drawing (steps, eyes, mouths, mittens) is chosen by name, as an
--- exposure sheet names it; what moves in between (lean, head, arms, scarf, pole) is given in
+-- Parts that change from drawing to drawing (steps, eyes, mouths, mittens) are selected by name, as
+-- in an exposure sheet; parts that move in between (lean, head, arms, scarf, pole) are given as
 -- numbers. A pose is in the units of the drawing, where he stands on y = 560 with x = 235 between
--- his boots; what comes out is moved so that this point is the origin.
+-- his boots; the result is moved so that this point is the origin.
 local celspan = require "celspan"
 local svg = require "celspan.svg"
 
@@ -29,9 +29,9 @@ local nothing = celspan.union {}
 
 -- ---------------------------------------------------------------- steps
 
---- Where the boots are on drawing k of 8 of the walk: on the ground a boot goes back by 36 units a
---- drawing, and returns through the air. { x, y, turn } each; the body is lowest when it takes the
---- weight and highest when it passes over the leg.
+--- The positions of the boots on drawing k of 8 of the walk: on the ground a boot moves back by 36
+--- units per drawing, and it returns through the air. { x, y, turn } each; the body is lowest when
+--- it takes the weight and highest when it passes over the leg.
 local function boot_at(k)
   k = k % 8
   if k < 4 then return { 72 - 36 * k, 0, k == 0 and -14 or 0 } end
@@ -41,7 +41,7 @@ end
 
 local bobs = { [0] = 5, 11, 0, -8 }
 
---- The drawings of the layer "step", by name: both boots, the body's rise, how far he gets with it.
+--- The drawings of the layer "step", by name: both boots, the body's rise, the distance walked.
 local steps = {
   stand = { near = { 0, 0, 0 }, far = { 0, 0, 0 }, bob = 0, swing = 0, advance = 0 },
   halt = { near = { 18, 0, 0 }, far = { -4, 0, 0 }, bob = 5, swing = 0, advance = 14 },
@@ -53,7 +53,7 @@ for k = 0, 7 do
     swing = math.cos(k * math.pi / 4) }
 end
 
---- How far the sheet has taken him up to each of its frames, in his units.
+--- The distance that he has walked by each frame of the sheet, in his units.
 function lamplighter.way(sheet, layer)
   local way, sum, before = {}, 0, nil
   for frame = 1, sheet.frames do
@@ -137,7 +137,7 @@ local shown_eyes = {
 }
 local mouths = { "A", "B", "C", "D", "E", "F", "G", "H", "X", "sad", "smile" }
 
---- How far the moustache gives way to what is under it.
+--- How far the moustache moves for the mouth below it.
 local lifts = { C = -3, D = -6, E = -3, H = -4, smile = -5, sad = 3 }
 
 local function put(object)
@@ -148,7 +148,7 @@ local function moved(dx, dy)
   return function(object) return object:translate(dx, dy) end
 end
 
---- The parts of the face that the pose asks for, into `parts`.
+--- Adds the parts of the face for the pose to `parts`.
 local function face(parts, pose)
   for _, name in ipairs(eyes) do
     if not shown_eyes[pose.eyes][name] then parts[name] = put(nothing) end
@@ -193,7 +193,7 @@ local rest = { lean = 0, rise = 0, squash = 1, head = 0, hat = 0, gaze = { 0, 0 
   near = { 172, 440 }, near_turn = 84, far = { 362, 392 }, far_turn = -8, pole = 6, stream = 0,
   eyes = "open", mouth = "X", mitten = "grip", step = "stand", time = 0 }
 
---- The figure; where the cage at the pole's tip is; where the palm of the near hand is.
+--- Returns the figure, the position of the cage at the pole's tip, and that of the near palm.
 function lamplighter.draw(fields)
   local pose = setmetatable(fields, { __index = rest })
   local parts, step = {}, steps[pose.step]

@@ -1,5 +1,5 @@
--- What the camera does to a shot: where points of a plane come to lie on the frame, and the gel
--- that darkens the corners.
+-- The camera of a shot: the positions of a plane's points on the frame, and the gel that darkens
+-- the corners.
 local celspan = require "celspan"
 local multiplane = require "celspan.multiplane"
 
@@ -18,8 +18,8 @@ local gel = celspan.circle { centre = { 0, 0 }, radius = 1.5, texture = celspan.
 lens.vignette = celspan.cel { gel:scale(1180, 760):translate(WIDTH / 2,
   HEIGHT / 2) }:named "vignette"
 
---- Where (x, y) of a plane that is drawn as it is seen at rest comes to lie under the camera; and
---- how much larger it is then. The arithmetic is that of celspan.multiplane with `fit`.
+--- The position under the camera of the point (x, y) of a plane that is drawn as seen at rest, and
+--- its enlargement. The arithmetic is that of celspan.multiplane with `fit`.
 function lens.project(camera, z, x, y)
   local rest = (FOCAL + z) / FOCAL
   local scale = FOCAL / (FOCAL + z - camera.z)
@@ -32,7 +32,7 @@ end
 local Stack = {}
 Stack.__index = Stack
 
---- Planes under the camera of a shot, which are added and then shot; `fields` go to multiplane.
+--- Collects the planes under the camera of a shot; `fields` are passed to multiplane.
 function lens.stack(camera, fields)
   fields.film, fields.focal, fields.camera, fields.fit = lens.film, FOCAL, camera, true
   return setmetatable({ scene = fields }, Stack)
@@ -43,7 +43,7 @@ function Stack:plane(name, z, front, ...)
   self:add(z, celspan.cel { celspan.union { ... }, front = front }:named(name))
 end
 
---- Cels at depth z; what is not there is left out.
+--- Cels at depth z; nil values are left out.
 function Stack:add(z, ...)
   for i = 1, select("#", ...) do
     local cel = select(i, ...)

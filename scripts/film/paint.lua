@@ -2,7 +2,7 @@
 --
 --   LUA_CPATH=build/?.so lua5.4 scripts/film/paint.lua      from the root of the tree
 --
--- Every layer is a picture of its own, made with brushes: strokes with a width that swells and
+-- Every layer is a separate picture, made with brushes: strokes with a width that swells and
 -- tapers.
 package.path = "./?.lua;./scripts/?.lua;./lua/?.lua;" .. package.path
 local celspan = require "celspan"
@@ -14,10 +14,10 @@ local shapes = require "demo.shapes"
 local LEFT, TOP, W, H = plan.LEFT, plan.TOP, plan.WIDTH, plan.HEIGHT
 local SNOW, SHADE = "#dde3fb", "#98a3dc"
 local BOTTOM = TOP + H
--- Pixels a unit: the painting is enlarged a little in the film, as a scan of paper would be.
+-- Pixels per unit: the painting is enlarged a little in the film, as a scan of paper would be.
 local FINE = 0.68
 
---- A brush stroke from (x, y) on, `long` and `wide`, bent by `bow`.
+--- A brush stroke from (x, y), `long` and `wide`, bent by `bow`.
 local function brush(x, y, long, wide, turn, bow, colour, alpha)
   local a = math.rad(turn)
   local dx, dy = long * math.cos(a), long * math.sin(a)
@@ -167,7 +167,7 @@ local function town()
   return parts
 end
 
---- The near bank with firs at both sides, that frames the picture.
+--- The near bank with firs on both sides, which frames the picture.
 local function near()
   local parts, random = {}, celspan.random "near firs"
   local spots = { { -130, 1090, 560 }, { 40, 1120, 420 }, { 170, 1110, 300 }, { 2080, 1100, 600 },

@@ -1,5 +1,5 @@
--- The plan of the town: where its houses stand, and what belongs to each. The painter draws the
--- houses of this plan, and the film lights their windows.
+-- The plan of the town: the positions of its houses, and their parts. The painter draws the houses
+-- of this plan, and the film lights their windows.
 local celspan = require "celspan"
 local house = require "film.house"
 
@@ -11,7 +11,7 @@ plan.MIDDLE = 1000
 local WALLS = { { "#7774bb", "#55529c" }, { "#8673b4", "#5e4c92" }, { "#6a78bc", "#48559a" },
                 { "#9079b0", "#665089" }, { "#7f86c6", "#5a60a6" } }
 
---- The ground of row r at x: 1 is the highest, 5 the street at the bottom, 6 what the bank hides.
+--- The ground of row r at x: 1 is the highest, 5 the street at the bottom, 6 is hidden by the bank.
 function plan.ground(r, x)
   local off = (x - plan.MIDDLE) / 1000
   local steep = ({ 330, 300, 235, 150, 40, 20 })[r]
@@ -19,7 +19,7 @@ function plan.ground(r, x)
   return level + steep * off * off + 7 * math.sin(x / 61 + 2 * r) * (r < 5 and 1 or 0.5)
 end
 
---- Rows of houses: how far to both sides, the width of a house, the space between two.
+--- Rows of houses: the extent to both sides, the width of a house, the space between two.
 local rows = {
   { reach = 330, width = 62, gap = 6 }, { reach = 520, width = 74, gap = 10 },
   { reach = 760, width = 92, gap = 20 }, { reach = 1080, width = 116, gap = 44 },
@@ -35,17 +35,17 @@ local function windows_of(random)
   return kinds[random("kind", #kinds)]
 end
 
---- Where the road up the hill goes through row r, which may lie between two rows.
+--- The x at which the road up the hill crosses row r, which may be a fraction.
 function plan.road(r) return plan.MIDDLE + 60 + 110 * math.sin(r * 1.9) end
 
---- Whether something from x on, w wide, may stand in row r: not in the church, nor on the road.
+--- Whether something at x, w wide, may stand in row r: not in the church, nor on the road.
 local function is_free(r, x, w)
   if r == 1 then return math.abs(x + w / 2 - plan.MIDDLE) >= 40 end
   local road = plan.road(r)
   return x >= road + 34 or x + w <= road - 34
 end
 
---- House i of row r, w wide, from x on.
+--- House i of row r, w wide, at x.
 local function settle(r, i, x, w, random)
   local y = plan.ground(r, x + w / 2) + 4
   local height = w * (0.75 + 0.5 * random "height")

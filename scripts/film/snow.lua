@@ -1,11 +1,11 @@
--- Falling snow: flakes on ways of their own, over and over, each swaying in its time.
+-- Falling snow: flakes that fall again and again, each on its own path and with its own sway.
 local celspan = require "celspan"
 
 local snow = {}
 
 local FLAKE = "#e9ecff"
 
---- A flake of radius 1 about (0, 0): sharp, or as a lens shows it that looks past it.
+--- A flake of radius 1 about (0, 0): sharp, or out of focus.
 local function flake(softness)
   if softness == 0 then
     return celspan.circle { centre = { 0, 0 }, radius = 1, texture = FLAKE }
@@ -16,9 +16,9 @@ local function flake(softness)
     { 1 - softness, celspan.rgb(FLAKE, 0.5) }, { 1, clear } } }
 end
 
---- A curtain of snow for a frame of 1920 x 1080 and some more: a function of the time and of how
---- far the curtain has been moved.
----   count, size = {least, most}, fall (units a second), drift (to the side), sway, soft 0..1
+--- A curtain of snow, a little larger than a frame of 1920 x 1080: a function of the time and of
+--- the offset of the curtain.
+---   count, size = {least, most}, fall (units per second), drift (to the side), sway, soft 0..1
 function snow.curtain(seed, fields)
   local random = celspan.random(seed)
   local width, height, margin = 2300, 1300, 110

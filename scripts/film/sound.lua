@@ -2,8 +2,8 @@
 --
 --   lua5.4 scripts/film/sound.lua OUT.wav [LINE.wav LINE.wav]      from the root of the tree
 --
--- Wind, steps in the snow, a music box, the spark and the lamp are worked out here, at the times of
--- timing.lua and the steps of acting.txt. The two lines are what the lamplighter says, spoken by
+-- Wind, steps in the snow, a music box, the spark and the lamp are computed here, at the times of
+-- timing.lua and the steps of acting.txt. The two lines are the lamplighter's words, spoken by
 -- espeak-ng; without them the film is silent where he speaks.
 package.path = "./scripts/?.lua;" .. package.path
 local timing = require "film.timing"
@@ -15,19 +15,19 @@ local RATE = 44100
 local COUNT = math.floor(timing.seconds * RATE)
 local TAU = 2 * math.pi
 
---- What is heard without and with the room about it.
+--- The dry sound, and the sound that goes through the room's echo.
 local left, right, room = {}, {}, {}
 for i = 1, COUNT do left[i], right[i], room[i] = 0, 0, 0 end
 
---- Noise, -1..1, the same every time.
+--- Deterministic noise, -1..1.
 local seed = 12345
 local function noise()
   seed = (1103515245 * seed + 12345) % 2147483648
   return seed / 1073741824 - 1
 end
 
---- Adds `sample(t)`, t in seconds from `from` on, for `length` seconds; `pan` -1..1, `wet` into the
---- room.
+--- Adds `sample(t)`, t in seconds after `from`, for `length` seconds; `pan` -1..1, `wet` is the
+--- part that goes into the room.
 local function add(from, length, volume, pan, wet, sample)
   local start = math.floor(from * RATE)
   local l, r = volume * math.sqrt((1 - pan) / 2), volume * math.sqrt((1 + pan) / 2)
@@ -38,7 +38,7 @@ local function add(from, length, volume, pan, wet, sample)
   end
 end
 
---- 0..1..0 over a length, with rounded shoulders.
+--- An envelope 0..1..0 over a length, with rounded shoulders.
 local function swell(t, length, rise, fall)
   return math.min(1, t / rise) * math.min(1, math.max(0, (length - t) / fall))
 end
@@ -130,12 +130,12 @@ local function music()
   -- The spark writes: the chords of D, B minor, G and A, broken.
   play(titles, BEAT, 0.16, "D5 A5 F#5 D6  B4 F#5 D5 B5  G4 D5 B4 G5  A4 E5 A5 -")
   pad(0.2, 5.9, 0.10, 2, 1.6, { "D3", "A3", "F#4" })
-  -- He walks: a little step of a tune, with him.
+  -- He walks: a little tune in step with him.
   play(6.083, 1 / 3, 0.12, "D5 - F#5 - E5 - D5 - B4 - A4")
-  -- It does not burn.
+  -- The lamp does not light.
   play(timing.puff + 0.55, 0.36, 0.13, "F5 D5 A#4 A4")
   pad(timing.caught, 4.3, 0.08, 1.2, 1.4, { "A#2", "F3", "D4" })
-  -- It flies up, and burns.
+  -- The spark flies up, and the lamp burns.
   play(timing.rises + 0.35, 0.115, 0.10, "A4 D5 E5 F#5 A5 D6 E6 F#6 A6")
   pad(timing.catches + 0.05, 5.2, 0.30, 0.7, 2.2, { "D3", "A3", "D4", "F#4", "A4" })
   play(timing.catches + 0.15, 0.09, 0.15, "D5 F#5 A5 D6 F#6")
@@ -162,7 +162,7 @@ local function glitter(from, to, volume)
   end
 end
 
---- A peep that goes from one pitch to another: the little one's own voice.
+--- A peep that goes from one pitch to another: the voice of the little one.
 local function peep(at, low, high, length, volume)
   local phase = 0
   add(at, length, volume, 0.1, 0.5, function(t)
@@ -186,7 +186,7 @@ local function puff()
   peep(timing.caught - 0.02, 620, 520, 0.16, 0.06)
 end
 
---- The lamp takes: a soft blow and a warm hum that stays for a while.
+--- The lamp catches: a soft blow and a warm hum that lasts for a while.
 local function kindle()
   for _, at in ipairs { timing.enters + 0.02, timing.enters + 0.3 } do
     add(at, 0.16, 0.16, 0.4, 0.3, function(t) return noise() * math.exp(-26 * t) end)
@@ -220,7 +220,7 @@ end
 
 -- ---------------------------------------------------------------- the voice
 
---- The samples of a WAV of 16 bits and one channel, -1..1, and how many there are in a second.
+--- The samples of a WAV of 16 bits and one channel, -1..1, and the sample rate.
 local function read_wav(path)
   local file = assert(io.open(path, "rb"))
   local bytes = file:read "a"
@@ -248,7 +248,7 @@ end
 
 -- ---------------------------------------------------------------- the room, and the file
 
---- Echoes of a narrow street under snow, on both sides different: combs side by side.
+--- Echoes of a narrow street under snow, different on both sides: parallel comb filters.
 local function echo(into, delays, volume)
   local damp = 0.35
   for _, delay in ipairs(delays) do
@@ -264,7 +264,7 @@ local function echo(into, delays, volume)
   end
 end
 
---- As loud as the loudest sample allows, rounded where it would be too loud.
+--- Normalises the volume, with soft clipping of the loudest samples.
 local function write(path)
   local file = assert(io.open(path, "wb"))
   local bytes = COUNT * 4

@@ -8,8 +8,8 @@ local spark = {}
 --- Paint too thin to hide anything shows under a light as strong as this.
 local BRIGHT = { 9, 9, 9 }
 
---- The spark at (x, y) of the frame, `size` units large and `life` 0..1 alive, with the way behind
---- it, where it has flown: points {x, y}, the oldest first. Two cels: its glow and itself.
+--- The spark at (x, y) of the frame, `size` units large, `life` 0..1, with the trail of its flight:
+--- points {x, y}, the oldest first. Two cels: its glow and itself.
 function spark.draw(time, x, y, size, life, trail)
   local breath = light.flicker(time)
   local glow = shapes.glow(x, y, size * 9 * (0.5 + 0.5 * life), 1, 0.46, 0.13, 0.09 * life * breath)
@@ -31,7 +31,7 @@ function spark.draw(time, x, y, size, life, trail)
       :named "spark"
 end
 
---- The way behind a spark that has come the share u of `way`, `length` of it: the oldest first.
+--- The trail of a spark at the fraction u of `way`, of the given length: the oldest point first.
 function spark.trail(way, u, length)
   local points = {}
   for i = 0, 9 do points[i + 1] = { way:at(math.max(0, u - length * (1 - i / 9))) } end
@@ -56,7 +56,7 @@ function spark.burst(age, x, y, reach, lasts)
   return celspan.cel { celspan.union(parts), front = { 2, 1.7, 1.3 } }:named "burst"
 end
 
---- A puff of smoke that rises from (x, y), rolls up and thins out; `thick` is 1 unless given.
+--- A puff of smoke that rises from (x, y), rolls up and thins out; `thick` is 1 by default.
 function spark.puff(age, x, y, size, thick)
   if age < 0 or age > 1.5 then return nil end
   local u, parts, paint = age / 1.5, {}, thick or 1

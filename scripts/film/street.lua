@@ -1,5 +1,5 @@
--- The street: sky, a row of houses, the snow on the ground, and a branch before the lens. The lamp
--- and the lamplighter stand on the ground of this set; every plane is drawn as it is seen at rest.
+-- The street: sky, a row of houses, the snow on the ground, and a branch in front of the lens. The
+-- lamp and the lamplighter stand on the ground of this set; every plane is drawn as seen at rest.
 local celspan = require "celspan"
 local house = require "film.house"
 local shapes = require "demo.shapes"
@@ -104,7 +104,7 @@ local function ground()
 end
 street.ground = ground()
 
---- A footprint, and a shadow on the ground: how wide it is, how dark.
+--- A footprint, and a shadow on the ground of a given width and darkness.
 function street.footprint(x, y)
   return celspan.union {
     celspan.ellipse { centre = { x, y }, radii = { 19, 6 }, texture = "#7f8ccc" },

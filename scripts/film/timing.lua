@@ -1,9 +1,9 @@
--- When everything happens. The pictures and the sound share this clock, so that they stay in step;
--- it is plain Lua, because sound.lua runs in a Lua without celspan. Seconds of the film.
+-- When everything happens, in seconds of the film. The pictures and the sound share these times, so
+-- they stay in sync; it is plain Lua, because sound.lua runs in a Lua without celspan.
 local timing = {
   fps = 24,
   seconds = 29.5,
-  -- A shot is seen from `from` on; where the next one begins while it is still seen, they dissolve.
+  -- A shot is shown from `from` on; if the next one begins before it ends, they dissolve.
   shots = {
     { name = "opening", from = 0, to = 6.25 },
     { name = "street", from = 5.75, to = 13.5 },

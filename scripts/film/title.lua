@@ -8,7 +8,7 @@ local title = {}
 
 local X, Y, SCALE = 395, 306, 1.52
 
---- Letters as a hand joins them; x to the right, y up from the line they stand on.
+--- Letters as in joined handwriting; x to the right, y up from the baseline.
 local LITTLE = { { 66, 120 }, { 80, 138 }, { 76, 156 }, { 58, 160 }, { 45, 142 }, { 42, 108 },
   { 40, 62 }, { 32, 22 },
   { 14, 4 }, { 0, 12 }, { 10, 24 }, { 40, 12 }, { 70, 0 }, { 96, 10 }, { 112, 34 }, { 124, 60 },
@@ -42,7 +42,7 @@ local function path_of(points)
   return table.concat(d)
 end
 
---- Strokes in the order in which they are written: when, and how long the hand is at it.
+--- Strokes in the order in which they are written: the start and the duration of each.
 local strokes = { { LITTLE, 0, 1.5 }, { CROSS, 1.58, 0.2 }, { DOT, 1.86, 0.06 },
   { ONE, 2.06, 0.42 }, { REST, 2.5, 0.5 } }
 for i, s in ipairs(strokes) do
@@ -53,7 +53,7 @@ local LENGTH = 3.0
 
 local hand = ease "inOutSine"
 
---- How far each stroke is written and erased at a time of the film.
+--- The parts of each stroke that are written and erased at a time of the film.
 local function state_of(s, time)
   local pace = (timing.title.written - timing.title.from) / LENGTH
   local age = (time - timing.title.from) / pace
@@ -62,7 +62,7 @@ local function state_of(s, time)
     math.max(0, math.min(1, (gone - s.from) / s.length)), age
 end
 
--- Lines over one another, {width, how thick their paint is}: together they fall off as a glow does.
+-- Lines over one another, {width, opacity of the paint}: together they fall off like a glow.
 local halos = { { 58, 0.0022 }, { 46, 0.003 }, { 36, 0.004 }, { 28, 0.005 }, { 21, 0.0065 },
   { 15, 0.009 } }
 
@@ -89,7 +89,7 @@ function title.draw(time)
     celspan.cel { place(lines), front = { 1.25, 1.15, 1 } }:named "title"
 end
 
---- Where the spark is that writes it: on a stroke, or between two.
+--- The position of the spark that writes it: on a stroke, or between two.
 function title.hand(time)
   local last
   for i, s in ipairs(strokes) do

@@ -14,7 +14,7 @@ local town = {}
 local tree = assert(layers.read "town.ora")
 local FINE = plan.WIDTH / tree.width
 
---- Depths of the planes: what is painted, and what the film adds.
+--- Depths of the planes: those of the painting, and those that the film adds.
 town.depths = { sky = 5200, clouds = 4200, peaks = 3000, wood = 1900, town = 900, near = 0 }
 
 local painted = {}
@@ -51,7 +51,7 @@ do
   end
 end
 
---- Stars come out one by one while the evening goes on, and twinkle.
+--- Stars come out one by one during the evening, and twinkle.
 local function stars(time)
   local parts = {}
   for _, s in ipairs(strewn) do
@@ -69,7 +69,7 @@ end
 
 local SOURCE = { 1236, 880 }
 
---- The house whose light is the last.
+--- The house whose light goes out last.
 local keeper
 
 do
@@ -89,7 +89,7 @@ for i, home in ipairs(plan.houses) do
   home.hue = random "hue"
 end
 
---- How bright a house is: it lights up `delay` after `from`, with a start, and goes dark for the
+--- The brightness of a house: it lights up suddenly, `delay` after `from`, and goes dark for the
 --- night.
 local function level_of(home, time, from, sleep)
   local age = time - from - home.delay
@@ -117,7 +117,7 @@ local function windows(time, from, sleep)
   return celspan.union(panes), celspan.union(glows)
 end
 
---- How bright lamp i of the plan is; the first is the one of the story.
+--- The brightness of lamp i of the plan; the first is the one of the story.
 local function lamp_level(i, time, from)
   if i == 1 then return time < from - 1 and 0 or 1 end
   local at = plan.lamps[i]
@@ -144,9 +144,9 @@ end
 
 -- ---------------------------------------------------------------- the set
 
---- The rostrum at a time: `windows` and `sleep` are when the town lights up and goes dark, `camera`
---- is the multiplane's; `added` is a cel on the plane of the town, `snow` its three curtains, and
---- `over` lies over all.
+--- The rostrum at a time: at `windows` and `sleep` the town lights up and goes dark, `camera` is
+--- that of the multiplane; `added` is a cel on the plane of the town, `snow` its three curtains,
+--- and `over` lies over everything.
 function town.shoot(time, fields)
   local near, depths = light.at("near", time), town.depths
   local set = lens.stack(fields.camera, { over = fields.over })

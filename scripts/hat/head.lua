@@ -1,5 +1,5 @@
--- A head that looks about, as a film of its own: what scripts/hat.lua puts a hat on. Its pictures
--- stand for those of a camera:
+-- A head that looks around, as a separate film; scripts/hat.lua puts a hat on it. Its pictures are
+-- used in place of those of a camera:
 --
 --   celspan render scripts/hat/head.lua -o head/head.####.png
 --   celspan track head/head.####.png --from 1 --at 240,135,160,165 -o scripts/hat/track.json
@@ -12,7 +12,7 @@ local function disc(x, y, rx, ry, texture)
   return celspan.ellipse { centre = { x, y }, radii = { rx, ry }, texture = texture }
 end
 
---- Things of one kind, `count` of them, where `place` puts each.
+--- `count` copies of a thing, each moved by `place`.
 local function scatter(count, place)
   local list = {}
   for i = 1, count do
@@ -61,20 +61,20 @@ local face = celspan.union {
   curls,
 }
 
---- Where the head is in a frame, from 0: {x, y, degrees, scale}.
+--- The position of the head in a frame, counted from 0: {x, y, degrees, scale}.
 local function motion(index)
   local t = 2 * math.pi * index / head.frames
   return { 320 + 66 * math.sin(t), 218 + 10 * math.cos(2 * t) - 10, 15 * math.sin(t + 0.5) - 7.2,
     0.86 + 0.08 * math.sin(t - 0.8) + 0.057 }
 end
 
---- Moves what is drawn about the head's middle to where the head is.
+--- Moves art that is drawn about the head's middle to the position of the head.
 function head.pose(object, index)
   local x, y, degrees, scale = table.unpack(motion(index))
   return object:scale(scale):rotate(degrees):translate(x, y)
 end
 
---- The shoulders follow with half the way.
+--- The shoulders follow by half the distance.
 local shirt = celspan.path { texture = "#2f6f86",
   d = "M-150 260C-150 150 -60 110 0 110S150 150 150 260Z" }
 local neck = celspan.rect { -32, 70, 64, 70, radius = 24, texture = "#c58661" }
@@ -93,6 +93,6 @@ end
 head.film = celspan.film { title = "A head", size = head.size, frames = head.frames, fps = head.fps,
   frame = function(f) return celspan.rostrum(head.cels(f.index)) end }
 
--- As a script it is the film, as a module the table.
+-- When run as a script, this returns the film; when required, the table.
 if ... == "hat.head" then return head end
 return head.film

@@ -1,8 +1,8 @@
--- The picture of one layer of a painting, cut to whole pixels about what is drawn.
+-- The picture of one layer of a painting, cropped to whole pixels around the art.
 local celspan = require "celspan"
 
---- Draws an object into a painting of w x h units, at `fine` pixels a unit: { x =, y =, png = },
---- its corner in pixels and the bytes of the file.
+--- Draws an object for a painting of w x h units, at `fine` pixels per unit. Returns { x =, y =,
+--- png = }: its corner in pixels and the bytes of the file.
 return function(art, w, h, fine)
   local x, y, width, height = art:scale(fine):bounds()
   local x0, y0 = math.max(0, math.floor(x)), math.max(0, math.floor(y))

@@ -2,7 +2,7 @@
 --
 --   LUA_CPATH=build/?.so lua5.4 scripts/paintings/make.lua      from the root of the tree
 --
--- Each layer is drawn with celspan and cut to what is in it; then all are put into an archive.
+-- Each layer is drawn with celspan and cropped to its contents; then all are put into an archive.
 package.path = "./?.lua;" .. package.path
 local celspan = require "celspan"
 local draw = require "scripts.paintings.draw"
@@ -16,7 +16,8 @@ local function ridge(base, height, pitch, rough, seed)
   local points = {}
   for i = 0, 120 do
     local x = W * i / 120
-    local y = base - height * (0.6 * math.sin(pitch * i / 19 + seed) + 0.4 * math.sin(pitch * i / 7 + 2 * seed))
+    local y = base
+      - height * (0.6 * math.sin(pitch * i / 19 + seed) + 0.4 * math.sin(pitch * i / 7 + 2 * seed))
     points[#points + 1] = { x, y - rough * (random(i) - 0.5) }
   end
   points[#points + 1] = { W, H }
@@ -26,16 +27,19 @@ end
 
 local function hill(base, height, pitch, rough, seed, top, foot)
   local points = ridge(base, height, pitch, rough, seed)
-  points.texture = celspan.linear { from = { 0, base - height }, to = { 0, H }, { 0, top }, { 1, foot } }
+  points.texture = celspan.linear { from = { 0, base - height }, to = { 0, H }, { 0, top },
+    { 1, foot } }
   return celspan.polygon(points)
 end
 
 --- A fir: boughs from the crown down.
 local function fir(x, foot, height, colour)
-  local parts = { celspan.rect { x - height / 60, foot - height / 8, height / 30, height / 8, texture = colour } }
+  local parts = { celspan.rect { x - height / 60, foot - height / 8, height / 30, height / 8,
+    texture = colour } }
   for i = 0, 6 do
     local y, w = foot - height + height * 0.13 * i, height * (0.045 + 0.028 * i)
-    parts[#parts + 1] = celspan.polygon { { x, y }, { x + w, y + height * 0.2 }, { x + w * 0.3, y + height * 0.17 },
+    parts[#parts + 1] = celspan.polygon { { x, y }, { x + w, y + height * 0.2 },
+      { x + w * 0.3, y + height * 0.17 },
       { x - w * 0.4, y + height * 0.185 }, { x - w, y + height * 0.21 }, texture = colour }
   end
   return celspan.union(parts)
@@ -45,30 +49,35 @@ local function firs(count, foot, height, colour, seed)
   local random, parts = celspan.random(seed), {}
   for i = 1, count do
     local x = W * (i - 0.5 + 0.7 * (random(i) - 0.5)) / count
-    parts[i] = fir(x, foot + 18 * random("foot" .. i), height * (0.7 + 0.6 * random("height" .. i)), colour)
+    parts[i] = fir(x, foot + 18 * random("foot" .. i), height * (0.7 + 0.6 * random("height" .. i)),
+      colour)
   end
   return parts
 end
 
 local function disc(x, y, r, ...)
-  return celspan.circle { centre = { x, y }, radius = r, texture = celspan.radial { centre = { x, y }, radius = r, ... } }
+  return celspan.circle { centre = { x, y }, radius = r,
+    texture = celspan.radial { centre = { x, y }, radius = r, ... } }
 end
 
 --- A bank of mist: long soft lobes.
 local function mist(y, colour)
   local clear, parts = celspan.rgb(colour, 0), {}
   for i = 0, 6 do
-    local lobe = disc(0, 0, 100, { 0, celspan.rgb(colour, 0.55) }, { 0.5, celspan.rgb(colour, 0.25) }, { 1, clear })
+    local lobe = disc(0, 0, 100, { 0, celspan.rgb(colour, 0.55) },
+      { 0.5, celspan.rgb(colour, 0.25) }, { 1, clear })
     parts[i + 1] = lobe:scale(2.2, 0.22):translate(W * i / 6, y + 16 * math.sin(i * 2.2))
   end
   return celspan.union(parts)
 end
 
 local layers = {
-  { name = "sky", celspan.rect { 0, 0, W, H, texture = celspan.linear { from = { 0, 0 }, to = { 0, 430 },
+  { name = "sky",
+    celspan.rect { 0, 0, W, H, texture = celspan.linear { from = { 0, 0 }, to = { 0, 430 },
     { 0, "#20365f" }, { 0.45, "#7a6f9a" }, { 0.75, "#e8a184" }, { 1, "#ffdfa8" } } } },
   { name = "sun", celspan.circle { centre = { 760, 262 }, radius = 30, texture = "#fff3d0" } },
-  { name = "glow", blend = "svg:plus", opacity = 0.8, disc(760, 262, 330, { 0, celspan.rgb("#ffb060", 0.8) },
+  { name = "glow", blend = "svg:plus", opacity = 0.8,
+    disc(760, 262, 330, { 0, celspan.rgb("#ffb060", 0.8) },
     { 0.3, celspan.rgb("#f08040", 0.3) }, { 1, celspan.rgb("#f08040", 0) }) },
   { name = "far", layers = {
     { name = "peaks", hill(300, 58, 1.3, 22, 3, "#6a5f8c", "#c88f8f") },
@@ -79,7 +88,8 @@ local layers = {
     { name = "firs", table.unpack(firs(34, 425, 92, "#1f3048", 5)) },
     { name = "slope", hill(428, 14, 0.7, 3, 11, "#1f3048", "#182238") },
     { name = "shade", blend = "svg:multiply", opacity = 0.7, celspan.rect { 0, 330, W, 210,
-      texture = celspan.linear { from = { 0, 330 }, to = { 0, 540 }, { 0, "#ffffff00" }, { 1, "#40508c" } } } },
+      texture = celspan.linear { from = { 0, 330 }, to = { 0, 540 }, { 0, "#ffffff00" },
+        { 1, "#40508c" } } } },
   } },
   { name = "near", layers = {
     { name = "firs", table.unpack(firs(9, 560, 330, "#0a1220", 7)) },

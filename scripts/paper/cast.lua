@@ -1,6 +1,6 @@
--- Who stands in the paper's figures where it has photographs of people: portraits drawn with closed
--- NURBS, to be made into pictures of pixels. Units of a portrait: the head is about 200 high, its
--- middle at (0, 0); y goes down.
+-- Portraits in place of the paper's photographs of people: drawn with closed NURBS, and then
+-- converted to pictures of pixels. Units of a portrait: the head is about 200 high, its middle at
+-- (0, 0); y goes down.
 local celspan = require "celspan"
 
 local cast = {}
@@ -89,7 +89,7 @@ function cast.man()
   }
 end
 
---- One flower: petals round (x, y), of radius r.
+--- One flower: petals around (x, y), of radius r.
 local function flower(x, y, r, turn, petal, heart)
   local petals = {}
   for i = 0, 6 do
@@ -101,7 +101,7 @@ local function flower(x, y, r, turn, petal, heart)
   return celspan.union(petals)
 end
 
---- A bunch of flowers in a glass vase, about 420 high; (0, 0) is where it stands.
+--- A bunch of flowers in a glass vase, about 420 high; (0, 0) is the middle of its foot.
 function cast.flowers()
   local stem = "#3d6b3c"
   local heads = { { -110, -330, 62, 10, "#f2c14e" }, { -10, -390, 70, 30, "#f6e7d8" },

@@ -1,5 +1,5 @@
--- What the diagrams of the paper's figures are drawn with: labels, cells, brackets and arrows, on
--- paper of one colour.
+-- Parts of the diagrams in the paper's figures: labels, cells, brackets and arrows, on paper of one
+-- colour.
 local celspan = require "celspan"
 
 local diagram = {}
@@ -67,7 +67,7 @@ local function pixel(span, i)
   return celspan.mix(colour_at(span, 1), colour_at(span, 2), u)
 end
 
---- Whether there is nothing at all in a span.
+--- Whether a span is empty.
 local function is_empty(span) return span.kind == "single" and span[4] == 0 end
 
 --- A row of spans as one box for each pixel, `size` wide, from x, y.
@@ -101,7 +101,7 @@ function diagram.spans(row, x, y, size)
   return celspan.union(parts)
 end
 
---- What a span holds is written below its middle.
+--- Writes the contents of a span below its middle.
 function diagram.kinds(row, x, y, size)
   local parts = {}
   for _, span in ipairs(row) do

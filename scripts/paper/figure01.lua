@@ -1,5 +1,5 @@
--- Figure 1: a sample image made from five cels. The rearmost is a picture, of pixels; what stands
--- before it is drawn with closed NURBS and is sharp at every size.
+-- Figure 1: a sample image made from five cels. The rearmost is a picture, of pixels; the others
+-- are drawn with closed NURBS and are sharp at every size.
 --   celspan render scripts/paper/figure01.lua --allow scripts -o 1.png -- view.jpg
 local celspan = require "celspan"
 local cast = require "cast"
@@ -21,7 +21,7 @@ local function view(file)
   return celspan.cel { celspan.rect { 0, 0, W, H, texture = texture }, front = { 0.9, 0.86, 0.82 } }
 end
 
---- 2: the evening, a sheet of gelatine that filters what is behind, and a low sun.
+--- 2: the evening, a sheet of gelatine that filters the view, and a low sun.
 local function evening()
   local gel = celspan.linear { from = { 0, 0 }, to = { 0, H }, { 0, celspan.gel(1, 0.84, 0.62) },
     { 1, celspan.gel(0.62, 0.5, 0.72) } }

@@ -1,11 +1,11 @@
 -- Figure 4: the colour model of RGBA (above) and the Beta colour model (below). Above: three paints
--- that only cover, opaque, half and a fifth. Below: the same, but what a paint does not cover it
--- filters, as a sheet of gelatine does; the last is a filter alone.
+-- that only cover, opaque, half and a fifth. Below: the same, but each paint filters the part that
+-- it does not cover, like a sheet of gelatine; the last is only a filter.
 local celspan = require "celspan"
 
 local cream = "#f4ead5"
 
---- What lies behind: a page of stripes and a sun, lit from the back.
+--- The background: a page of stripes and a sun, lit from the back.
 local function ground()
   local parts = { celspan.rect { 0, 0, 1920, 1080, texture = cream } }
   for i = 0, 11 do

@@ -1,5 +1,5 @@
 -- Figure 6: a pixel array (above) represented as a list of spans (below). The row is rendered: the
--- spans are those of celspan.spans, the pixels are made of them.
+-- spans are those of celspan.spans, and the pixels are made from them.
 local celspan = require "celspan"
 local diagram = require "diagram"
 

@@ -1,5 +1,5 @@
--- Figure 7: compositing of span lists, here the intersection. Where two spans meet, the colour is
--- the one paint over the other; a gradient over a single colour is a gradient (Table 1).
+-- Figure 7: compositing of span lists, here the intersection. Where two spans overlap, the colour
+-- is one paint over the other; a gradient over a single colour is a gradient (Table 1).
 local celspan = require "celspan"
 local diagram = require "diagram"
 
@@ -17,13 +17,13 @@ local b = celspan.union {
   celspan.rect { 24, 0, 6, 1, texture = glass },
 }
 
---- The row of an object, in white light before a white ground.
+--- The row of an object, in white light in front of a white ground.
 local function row(object)
   return diagram.row(celspan.rostrum { antialias = "none",
     celspan.cel { object, back = { 1, 1, 1, 0 } } }, COLUMNS)
 end
 
---- Only what the object covers: light without matte shows where nothing is.
+--- Only the part that the object covers: without a matte, light shows where the row is empty.
 local function drawn(object, y)
   local art = {}
   for _, span in ipairs(row(object)) do

@@ -1,6 +1,6 @@
 -- Figure 8: the light that goes back to front through the cels to the camera. Each cel scatters its
--- own front light and filters what comes from behind; its own back light is added before. Every
--- light in the drawing is worked out by celspan.probe of the stack up to there.
+-- own front light and filters the light from behind; its own back light is added before. Every
+-- light in the drawing is computed by celspan.probe for the stack up to that cel.
 local celspan = require "celspan"
 local diagram = require "diagram"
 
@@ -14,8 +14,7 @@ local cels = {
     front = { 0.9, 0.85, 0.8 }, back = { 0, 0.06, 0.22 } },
 }
 
---- Light that leaves the first `count` cels, and with the back light of the next where it is
--- wanted.
+--- The light that leaves the first `count` cels, optionally plus the back light of the next cel.
 local function light(count, with_next)
   local stack = {}
   for i = 1, count do
@@ -48,9 +47,9 @@ local function sign(x, y, kind)
   return disc(x, y, 17, diagram.paper) | (level | upright):rotate(turn, x, y)
 end
 
-local LINE = 250 -- the row along which the light goes
+local LINE = 250 -- the row along which the light is drawn
 
---- One cel with what goes in and comes out; `x` is where the light from behind arrives.
+--- One cel with its incoming and outgoing light; `x` is where the light from behind arrives.
 local function stage(i, x)
   local cel = cels[i]
   local from, add, cross, to = x, x + 76, x + 168, x + 262

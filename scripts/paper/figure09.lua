@@ -1,11 +1,11 @@
--- Figure 9: the span list of one NURBS primitive. What is in front makes a mask (1); only what the
--- mask leaves free of the primitive is worked out (2); what is opaque of it joins the mask (3),
--- which the cels behind are given.
+-- Figure 9: the span list of one NURBS primitive. The art in front makes a mask (1); only the part
+-- of the primitive outside the mask is computed (2); its opaque part is added to the mask (3),
+-- which is then used for the cels behind.
 local celspan = require "celspan"
 local diagram = require "diagram"
 
 local COLUMNS, CELL, LEFT = 60, 14, 60
-local SCAN = 8 -- the row of pixels that is looked at, of 22 that the drawing is high
+local SCAN = 8 -- the row of pixels that is shown, of the 22 rows of the drawing
 
 local leaf = celspan.nurbs { closed = "periodic", texture = diagram.gold,
   points = { { 6, 16 }, { 10, -4 }, { 24, 2 }, { 29, 17 }, { 37, -2 }, { 56, 1 }, { 54, 22 },
@@ -26,7 +26,7 @@ local function flat(object, colour)
   return celspan.clip(celspan.rect { 0, 0, COLUMNS, 22, texture = colour }, object)
 end
 
---- A numbered list of spans with what it is.
+--- A numbered list of spans with its description.
 local function list(number, text, object, y)
   return celspan.union {
     diagram.label(number, LEFT - 14, y + 15, 22, "right"),

@@ -1,5 +1,6 @@
 -- Figure 10: a picture on a primitive under a transform, and the output's pixels over it. Case 1,
--- near: one texel of the picture covers several pixels. Case 2, far: several texels lie in one pixel.
+-- near: one texel of the picture covers several pixels. Case 2, far: several texels lie in one
+-- pixel.
 local celspan = require "celspan"
 local diagram = require "diagram"
 
@@ -31,7 +32,7 @@ local function grid()
   return celspan.union(lines)
 end
 
---- A pixel that is looked at, with its case.
+--- An outlined pixel, with its case.
 local function mark(column, row, text, x, y)
   local left, top = column * PIXEL, row * PIXEL
   return celspan.union {

@@ -10,7 +10,7 @@ local art = celspan.union {
   celspan.rect { 7, 0, 8, 1, texture = celspan.rgb(0.9, 0.9, 0.9) },
   celspan.rect { 15, 0, 7, 1, texture = celspan.rgb(0.45, 0.45, 0.45) },
 }
---- What lies beyond the ends is taken for a continuation of them.
+--- The row continues beyond its ends with the colours of the ends.
 local wide = celspan.union { celspan.rect { -9, 0, 10, 1, texture = celspan.rgb(0.2, 0.2, 0.2) },
   celspan.rect { 21, 0, 10, 1, texture = celspan.rgb(0.45, 0.45, 0.45) }, art }
   :scale(1, 30, 0, 0.5)

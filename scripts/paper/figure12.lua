@@ -1,2 +1,3 @@
--- Figure 12: a sample of ten NURBS shapes, the first of the two pictures that figure 13 times.
+-- Figure 12: a sample of ten NURBS shapes, the first of the two pictures that are timed in figure
+-- 13.
 return require "shapes".film("Figure 12", 10, "figure 12")

@@ -1,4 +1,4 @@
--- Figure 15(a): a thousand random NURBS shapes in one cel. Another number of them may be given:
+-- Figure 15(a): a thousand random NURBS shapes in one cel. Another number may be given:
 --   celspan render scripts/paper/figure15a.lua -o a.png -- 100
 local count = math.tointeger(tonumber(... or "1000"))
 assert(count and count >= 1, "figure 15(a) takes a number of shapes, 1 or more")

@@ -1,7 +1,7 @@
 -- Figure 15(b): three pictures of pixels, two people and a page of text and logo; the people stand
 -- in perspective, the page behind is out of focus, and the ground has a gradient.
 --   celspan render scripts/paper/figure15b.lua --allow scripts -o b.png -- woman.png man.png
--- Pictures of people that are given should have an alpha of their own.
+-- Pictures of people that you supply should have an alpha channel.
 local celspan = require "celspan"
 local cast = require "cast"
 local diagram = require "diagram"

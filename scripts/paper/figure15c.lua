@@ -1,5 +1,5 @@
--- Figure 15(c): pictures of two sources and geometry, each lit so that they go together. The square
--- is what figure 15(d) shows.
+-- Figure 15(c): pictures of two sources and geometry, each lit so that they match. The square is
+-- the area of figure 15(d).
 --   celspan render scripts/paper/figure15c.lua --allow scripts -o c.png -- frame.dpx view.jpg
 local celspan = require "celspan"
 local scene = require "scene15c"

@@ -1,4 +1,4 @@
--- Figure 15(d): the square of figure 15(c), rendered anew eight times as large. The outline of the
+-- Figure 15(d): the square of figure 15(c), rendered again eight times as large. The outline of the
 -- clover stays sharp; the pictures show their pixels. Takes the same files as 15(c).
 local celspan = require "celspan"
 local scene = require "scene15c"

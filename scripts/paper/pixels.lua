@@ -1,5 +1,5 @@
--- Pictures of pixels for the figures that need photographs: from a file that is given, else drawn
--- here and made into pixels, so that every figure can be rendered without any file.
+-- Pictures of pixels for the figures that need photographs: from a given file, or drawn here and
+-- converted to pixels, so that every figure can be rendered without any file.
 local celspan = require "celspan"
 
 local pixels = {}
@@ -11,13 +11,13 @@ local function coded(art, w, h, light, depth, colour)
     size = { w, h }, format = "rgba" .. depth, colour = colour }
 end
 
---- Art of `w` x `h` units as a picture of as many pixels, with alpha.
+--- Art of `w` x `h` units as a picture of `w` x `h` pixels, with alpha.
 function pixels.of(art, w, h, light) return coded(art, w, h, light, 8, "srgb") end
 
---- The same as film that is coded by its density: 16 bits, Cineon's curve.
+--- The same as film coded by its density: 16 bits, Cineon's curve.
 function pixels.film(art, w, h, light) return coded(art, w, h, light, 16, "cineon") end
 
---- The fields of celspan.picture for a file that is given, else what `make` returns.
+--- The fields of celspan.picture for a given file, or the result of `make`.
 function pixels.given(file, make)
   if file and file ~= "" then return { file = file } end
   return make()

@@ -28,18 +28,18 @@ local function view()
   return pixels.of(picture, VIEW[1], VIEW[2])
 end
 
---- Outlines of what is cut out of a frame that is given, in its pixels: an oval each.
+--- The outlines to cut out of a given frame, in its pixels: an oval each.
 local given = {
   face = celspan.ellipse { centre = { 760, 760 }, radii = { 560, 760 } },
   flowers = celspan.ellipse { centre = { 1640, 900 }, radii = { 400, 620 } },
 }
 
---- What lies in an outline of the frame of film.
+--- The part of the frame of film inside an outline.
 local function cut(film, outline)
   return celspan.clip(celspan.rect { 0, 0, FRAME[1], FRAME[2], texture = film }, outline)
 end
 
---- Four leaves round (0, 0): red, and the more translucent the higher.
+--- Four leaves around (0, 0): red, and more translucent towards the top.
 local function clover()
   local leaves = {}
   for turn = 0, 3 do

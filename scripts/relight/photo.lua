@@ -1,5 +1,5 @@
--- A photograph for scripts/relight.lua: a house on a hill at noon, with the grain of film, as a picture in
--- memory of floats. Its light is known, since it is ours.
+-- A photograph for scripts/relight.lua: a house on a hill at noon, with film grain, as a picture of
+-- floats in memory. Its light is known, because it is drawn here.
 local celspan = require "celspan"
 
 local photo = { width = 640, height = 360, light = { 1.1, 1.05, 0.9 } }
@@ -10,7 +10,8 @@ local function band(y, height, steps, from, to)
   local d = { ("M-10 380L-10 %.1f"):format(y) }
   for i = 0, steps do
     local x = -10 + i * 660 / steps
-    d[#d + 1] = ("S%.1f %.1f %.1f %.1f"):format(x - 200 / steps, y - height * random("a" .. y .. i), x,
+    d[#d + 1] = ("S%.1f %.1f %.1f %.1f")
+      :format(x - 200 / steps, y - height * random("a" .. y .. i), x,
       y - height * random("b" .. y .. i))
   end
   return celspan.path { d = table.concat(d) .. "L650 380Z",
@@ -21,9 +22,11 @@ local function tree(x, y, r, i)
   local parts = { celspan.rect { x - r / 9, y, r / 4.5, r * 1.1, texture = "#5a4632" } }
   for k = 1, 26 do
     local a, d = 2 * math.pi * random("t" .. i .. k), r * random("d" .. i .. k) ^ 0.5
-    parts[#parts + 1] = celspan.circle { centre = { x + d * math.cos(a), y - r * 0.3 + d * math.sin(a) },
+    parts[#parts + 1] = celspan.circle {
+      centre = { x + d * math.cos(a), y - r * 0.3 + d * math.sin(a) },
       radius = r * (0.22 + 0.2 * random("s" .. i .. k)),
-      texture = celspan.rgb(0.05 + 0.1 * random("g" .. i .. k), 0.2 + 0.14 * random("h" .. i .. k), 0.05) }
+      texture = celspan.rgb(0.05 + 0.1 * random("g" .. i .. k), 0.2 + 0.14 * random("h" .. i .. k),
+        0.05) }
   end
   return celspan.union(parts)
 end
@@ -32,7 +35,8 @@ local function house(x, y)
   local parts = {
     celspan.rect { x, y, 150, 84, texture = celspan.linear { from = { x, y }, to = { x + 150, y },
       { 0, "#f1e4cf" }, { 1, "#c9b490" } } },
-    celspan.polygon { { x - 14, y + 2 }, { x + 30, y - 52 }, { x + 122, y - 52 }, { x + 164, y + 2 },
+    celspan.polygon { { x - 14, y + 2 }, { x + 30, y - 52 }, { x + 122, y - 52 },
+      { x + 164, y + 2 },
       texture = "#a2492f" },
     celspan.rect { x + 104, y - 74, 18, 40, texture = "#8d5a45" },
     celspan.rect { x + 62, y + 34, 26, 50, radius = 3, texture = "#3d5a52" } }
@@ -48,12 +52,14 @@ local function grain()
   local parts = {}
   for i = 1, 1400 do
     local shade = random("n" .. i) < 0.5 and "#00000014" or "#ffffff12"
-    parts[i] = celspan.rect { 640 * random("x" .. i), 360 * random("y" .. i), 2.2, 1.6, texture = shade }
+    parts[i] = celspan.rect { 640 * random("x" .. i), 360 * random("y" .. i), 2.2, 1.6,
+      texture = shade }
   end
   return celspan.union(parts)
 end
 
-local sky = celspan.rect { 0, 0, 640, 360, texture = celspan.linear { from = { 0, 0 }, to = { 0, 230 },
+local sky = celspan.rect { 0, 0, 640, 360,
+  texture = celspan.linear { from = { 0, 0 }, to = { 0, 230 },
   { 0, "#6fa4d8" }, { 1, "#dcebf2" } } }
 
 --- The sun in the pond: brighter than anything white could be.
@@ -66,7 +72,8 @@ local scene = celspan.rostrum { front = photo.light,
     tree(566, 196, 44, 1), tree(604, 226, 30, 2), house(330, 170), tree(300, 226, 26, 3),
     band(268, 16, 6, "#7fa653", "#41662c"),
     celspan.ellipse { centre = { 120, 314 }, radii = { 106, 24 }, texture = celspan.linear {
-      from = { 0, 290 }, to = { 0, 338 }, { 0, "#8fb6d0" }, { 1, "#35607c" } } }, tree(36, 262, 34, 4) },
+      from = { 0, 290 }, to = { 0, 338 }, { 0, "#8fb6d0" }, { 1, "#35607c" } } },
+      tree(36, 262, 34, 4) },
   glint, celspan.cel { grain() } }
 
 --- The picture.

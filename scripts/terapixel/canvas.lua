@@ -1,5 +1,5 @@
--- What hangs on the walls: small landscapes, 96 by 64, and one large one, 192 by 108: a frame of
--- the film in scripts/demo.lua, which at the last level is seen pixel by pixel.
+-- The pictures on the walls: small landscapes, 96 by 64, and one large one, 192 by 108: a frame of
+-- the film in scripts/demo.lua, which is visible pixel by pixel at the last level.
 local celspan = require "celspan"
 local character = require "demo.character"
 local landscape = require "demo.landscape"
@@ -18,7 +18,7 @@ local moods = {
   { "#dcb98d", "#f79d5c", "#e9573f", "#9c7f86", "#4b5a33" },
 }
 
---- A house as small as it can be: on the last level its window is five pixels wide.
+--- The smallest house: on the last level its window is five pixels wide.
 local function cottage(x, y, size, dice)
   return celspan.union {
     draw.rect(x, y - size * 0.7, size, size * 0.7, dice:one(palette.walls)),
@@ -35,7 +35,7 @@ local function crest(dice, y, swing, texture)
   return shapes.ridge(points, 64, texture)
 end
 
---- A landscape of hills with cottages, in a mood of its own.
+--- A landscape of hills with cottages, with its own colours.
 function canvas.small(dice)
   local mood = dice:one(moods)
   local x = dice:between(20, 76)
@@ -51,7 +51,7 @@ function canvas.small(dice)
   return celspan.union(parts)
 end
 
---- A mount and a moulding round anything that is w by h.
+--- A mount and a moulding around a picture of w by h.
 function canvas.frame(art, w, h)
   local d = "M%g %gH%gV%gH%gZ"
   local function ring(texture, reach, width)

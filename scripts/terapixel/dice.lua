@@ -1,8 +1,8 @@
--- Chance that is the same every time: a stream of numbers from a name.
+-- Reproducible random numbers: a stream of numbers from a name.
 local dice = {}
 dice.__index = dice
 
---- A stream of its own for each label.
+--- A separate stream for each label.
 function dice.new(label)
   local state = 88172645463325252
   for i = 1, #label do state = (state ~ label:byte(i)) * 0x5851F42D4C957F2D + 1 end

@@ -1,4 +1,4 @@
--- The few marks that everything here is made of. Many marks of one colour are one path.
+-- The few marks from which everything here is made. Many marks of one colour are one path.
 local celspan = require "celspan"
 
 local draw = {}

@@ -1,5 +1,5 @@
 -- Houses: each a wall with a gable, a door, a chimney, and windows with rooms in them. Units are
--- those of the frame, of which a thousand make its side; y is where the house stands.
+-- those of the frame, whose side is a thousand units; y is the ground of the house.
 local celspan = require "celspan"
 local palette = require "demo.palette"
 local shapes = require "demo.shapes"
@@ -9,7 +9,7 @@ local Dice = require "terapixel.dice"
 
 local house = {}
 
---- Two dozen rooms, each of which lies behind many windows.
+--- Two dozen rooms, each of which is behind many windows.
 local rooms = {}
 for i = 1, 24 do rooms[i] = room.any(Dice.new("room " .. i)) end
 
@@ -88,7 +88,7 @@ local function door(x, y, w, dice)
   }
 end
 
---- Bricks that show where the plaster is gone.
+--- Bricks that are visible where the plaster is gone.
 local function bricks(x, y, w, h, dice)
   local list = {}
   for _ = 1, 5 do

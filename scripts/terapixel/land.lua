@@ -1,4 +1,4 @@
--- Sky and land around the town, a thousand units a side.
+-- Sky and land around the town, a thousand units per side.
 local celspan = require "celspan"
 local palette = require "demo.palette"
 local shapes = require "demo.shapes"
@@ -23,7 +23,7 @@ function land.sun()
   return celspan.union(rings), draw.disc(262, 566, 44, palette.sun:at(time))
 end
 
---- Stars of eight rays, and now and then a smaller one beside it that only a glass shows.
+--- Stars of eight rays, and now and then a smaller one beside it that is only visible in close-up.
 function land.stars()
   local dice, parts = Dice.new "stars", {}
   for i = 1, 150 do
@@ -62,7 +62,7 @@ function land.clouds()
   return celspan.clip(draw.rect(-100, 0, 1200, 640, paint), celspan.union(parts))
 end
 
---- A crest that swings round a line, closed at the bottom.
+--- A crest that swings around a line, closed at the bottom.
 local function ridge(name, y, swing, step, texture)
   local dice, points = Dice.new(name), {}
   for x = -step, 1000 + step, step do
@@ -144,7 +144,7 @@ function land.lamp(x, y, size)
 end
 land.ground = ridge("ground", 956, 7, 170, shapes.down(940, 1000, palette.ground))
 
---- A tree: a crown of discs with leaves of its own on it.
+--- A tree: a crown of discs with leaves on it.
 function land.tree(x, y, size, dice)
   local colour = shapes.across(x - size * 0.3, x + size * 0.35, palette.leaves)
   local parts, leaves = { draw.rect(x - size * 0.05, y - size * 0.5, size * 0.1, size * 0.5,

@@ -1,9 +1,9 @@
--- Print for the last level of all: letters of five by seven squares.
+-- Print for the last level: letters of five by seven squares.
 local draw = require "terapixel.draw"
 
 local print = {}
 
---- Seven rows of five bits a letter, from the top.
+--- Seven rows of five bits per letter, from the top.
 local letters = {
   A = "0EHHVHHH", B = "UHHUHHU", C = "EHGGGHE", D = "UHHHHHU", E = "VGGUGGV", F = "VGGUGGG",
   G = "EHGNHHE", H = "HHHVHHH", I = "E44444E", J = "72222IC", K = "HIKOKIH", L = "GGGGGGV",
@@ -18,7 +18,7 @@ letters.A = "4AHHVHH"
 
 local digits = "0123456789ABCDEFGHIJKLMNOPQRSTUV"
 
---- Appends the squares of a letter, runs of a row as one.
+--- Appends the squares of a letter; a run of squares in a row is one rectangle.
 local function squares(list, letter, x, y, side)
   local rows = letters[letter]
   for row = 1, rows and 7 or 0 do
@@ -34,7 +34,7 @@ local function squares(list, letter, x, y, side)
   end
 end
 
---- Lines of text, a letter six squares wide and a line ten high, as one mark.
+--- Lines of text, with letters six squares wide and lines ten high, as one mark.
 function print.text(x, y, side, texture, lines)
   local list = {}
   for i, line in ipairs(lines) do

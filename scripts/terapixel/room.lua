@@ -125,7 +125,7 @@ room.bars = draw.rects(palette.ink, {
   { -18, -18, 636, 18 }, { -18, 0, 18, 700 }, { 600, 0, 18, 700 }, { 294, 0, 12, 700 },
   { 0, 228, 600, 12 }, { -40, 700, 680, 34 } })
 
---- A room like many: what is in it, and where, is up to chance.
+--- An ordinary room, with random contents.
 function room.any(dice)
   local parts = { walls(dice) }
   local is_left = dice:once(2)
@@ -141,7 +141,7 @@ function room.any(dice)
   return celspan.union(parts)
 end
 
---- What a note says that is nailed to a wall, one square a pixel.
+--- The text of a note that is nailed to a wall, one pixel per square.
 local function note(x, y, lines)
   return celspan.union {
     draw.rect(x, y, 21, 13, "#fffaf0"), draw.disc(x + 10.5, y + 0.8, 0.7, "#e9573f"),

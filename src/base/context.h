@@ -22,8 +22,8 @@ typedef struct cs_memory {
   atomic_size_t peak;
   atomic_uint_fast64_t allocations;
   struct cs_source *sources; /* files that values were made in; owned */
-  /* Whether this thread must not have so many bytes more; NULL: it may have what there is. Set before
-   * other threads use the memory. */
+  /* Whether this thread is refused `more` further bytes; NULL: it has no limit. Set before other
+   * threads use the memory. */
   bool (*refuses)(const struct cs_memory *memory, size_t more);
 } cs_memory;
 
@@ -57,6 +57,7 @@ struct celspan_context {
   size_t picture_bytes, defocus_bytes;
   cs_mark origin; /* of the values made now; its source is kept while the line is 0 */
   const struct cs_picture_module *picture_module; /* root only; NULL: it is loaded on first use */
+  const struct cs_colour_module *colour_module;   /* likewise, for colour profiles */
   struct cs_file_contents *contents; /* gets those of the files completed now; NULL: nobody asks */
   char error[CS_ERROR_SIZE];
 };

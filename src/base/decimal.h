@@ -1,7 +1,8 @@
 /* Decimal numbers in texts, as SVG and CSS write them: "-12.5e3", ".5", "+7".
  *
  * Invariant: no locale and no library has a part in it, so that a text is the same number
- * everywhere: the first nineteen digits with a single rounding as long as the power of ten is exact.
+ * everywhere: the first nineteen digits with a single rounding as long as the power of ten is
+ * exact.
  */
 #ifndef CS_BASE_DECIMAL_H
 #define CS_BASE_DECIMAL_H

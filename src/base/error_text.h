@@ -1,8 +1,8 @@
 /* The sentence of an errno, for any thread.
  *
  * Two functions are called strerror_r: GNU's answers a text, which need not be in the buffer;
- * POSIX's, which musl has, fills the buffer and answers 0 or an error. Which of them it is, its
- * type tells.
+ * POSIX's, which musl has, fills the buffer and answers 0 or an error. The
+ * type of the function shows which one it is.
  */
 #ifndef CS_BASE_ERROR_TEXT_H
 #define CS_BASE_ERROR_TEXT_H

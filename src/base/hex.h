@@ -2,7 +2,7 @@
 #ifndef CS_BASE_HEX_H
 #define CS_BASE_HEX_H
 
-/* The value of a digit, 0..15, of either case; -1 for what is none. */
+/* The value of a hexadecimal digit, 0..15, of either case; -1 for any other character. */
 static inline int cs_hex_digit(char c) {
   if (c >= '0' && c <= '9')
     return c - '0';

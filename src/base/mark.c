@@ -59,8 +59,8 @@ cs_mark_text cs_mark_describe(cs_mark mark) {
 
 /* ---------------------------------------------------------------- names */
 
-/* Bytes of the UTF-8 character at `at`; 0 when it is none, or a control character. Overlong forms,
- * surrogates and what is beyond U+10FFFF are none. */
+/* Bytes of the UTF-8 character at `at`; 0 when it is invalid or a control character. Overlong
+ * forms, surrogates and numbers above U+10FFFF are invalid. */
 static size_t character(const unsigned char *at) {
   static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
   size_t size = at[0] < 0x80       ? 1

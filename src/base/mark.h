@@ -1,4 +1,5 @@
-/* How people know a value: by the name it was given, and by the place in a script where it was made.
+/* How people know a value: by the name it was given, and by the place in a script where it was
+ * made.
  *
  *   name    "hand", by :named or celspan_object_named and its like
  *   origin  "shot.lua", line 12: what the context said when the value was made

@@ -14,8 +14,9 @@
 #endif
 
 #define PATH_SIZE 4096
-/* Bytes that must be there before libraries are loaded: some end the process when they lack memory then.
- * glibc would learn from a smaller block, given back, to keep blocks of that size for itself. */
+/* Bytes that must be there before libraries are loaded: some end the process when they lack
+ * memory then. glibc would learn from a smaller block, given back, to keep blocks of that size
+ * for itself. */
 #define ROOM ((size_t)32 << 20)
 
 /* Where a module may lie, relative to the folder of the object that contains this function: an
@@ -147,7 +148,8 @@ static celspan_status get_table(celspan_context *context, const cs_module_desc *
   return CELSPAN_OK;
 }
 
-/* Where the loader has no memory for a name, it says that there is no such file: it is asked twice. */
+/* Where the loader has no memory for a name, it says that there is no such file: it is asked
+ * twice. */
 static void *open_object(const char *path) {
   void *handle = dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   return handle ? handle : dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
@@ -179,7 +181,7 @@ static bool has_room(void) {
   return room;
 }
 
-/* A failed allocation leaves its mark in errno, also where the loader tells of another reason. */
+/* A failed allocation leaves its mark in errno, even where the loader gives another reason. */
 celspan_status cs_module_load(celspan_context *context, const cs_module_desc *desc,
                               celspan_status failure, const void **table) {
   errno = 0;

@@ -1,9 +1,9 @@
 /* A shared object loaded on first use. It offers one table of functions.
  *
  * It is searched for where the environment says, then beside the object that contains this code (so
- * that a build tree and a moved installation work), then where it was to be installed. Once loaded
- * it stays in the process: libraries under it keep threads and statics that do not survive
- * unloading.
+ * that a build tree and a moved installation work), then in the folder chosen for installation when
+ * it was built. Once loaded it stays in the process: libraries under it keep threads and statics
+ * that do not survive unloading.
  */
 #ifndef CS_BASE_MODULE_H
 #define CS_BASE_MODULE_H
@@ -14,7 +14,7 @@
 
 typedef struct cs_module_desc {
   const char *file;     /* "celspan-picture.so" */
-  const char *folder;   /* where its sources lie below src/: "oiio" */
+  const char *folder;   /* where its sources lie below src/: "plugins/oiio" */
   const char *override; /* the environment variable that names a file instead */
   const char *symbol;   /* a function without arguments that returns the table */
   const char *purpose;  /* for the message: "reading and writing pictures" */

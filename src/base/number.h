@@ -59,8 +59,8 @@ static inline float cs_number_clampf(float x, float low, float high) {
   return x < low ? low : x > high ? high : x;
 }
 
-/* The row of a table at `at`, 0 .. rows, for interpolation between it and the next one, where there are
- * rows + 1: at the very end the last but one. */
+/* The row of a table at `at`, 0 .. rows, for interpolation between it and the next one, where there
+ * are rows + 1: at the very end the last but one. */
 static inline int32_t cs_number_row(double at, int32_t rows) {
   return at < rows ? (int32_t)at : rows - 1;
 }

@@ -1,6 +1,6 @@
 /* Opening files and reading from them, as all of the library does: programs that are started do not
- * inherit them, a pipe to which nobody writes is not waited for, and where a signal comes the call is
- * made again.
+ * inherit them, a pipe to which nobody writes is not waited for, and where a signal comes the call
+ * is made again.
  */
 #ifndef CS_BASE_OPEN_H
 #define CS_BASE_OPEN_H
@@ -40,9 +40,9 @@ static inline struct dirent *cs_open_entry(DIR *folder) {
   return readdir(folder);
 }
 
-/* Whether this errno tells of the file: it is not there, or not to be read. Else the system failed,
- * and another time the file may well be read. */
-static inline bool cs_open_tells_of_file(int error) {
+/* Whether this errno is about the file itself: it does not exist or may not be read. Otherwise the
+ * system failed, and a later attempt may succeed. */
+static inline bool cs_open_is_about_file(int error) {
   return error == ENOENT || error == ENOTDIR || error == EACCES || error == EPERM ||
          error == ELOOP || error == ENAMETOOLONG || error == ENXIO || error == EISDIR;
 }

@@ -44,7 +44,7 @@ typedef enum cs_pipeline_step {
 typedef struct cs_pipeline_desc {
   size_t count; /* of items that may be added in all */
   size_t slots; /* at least 1 */
-  int threads;  /* besides the owner's */
+  int threads;  /* in addition to the owner's */
   /* The owner claims items too while it waits for one; else it makes only those left to it. */
   bool owner_claims;
   bool keeps_going; /* an item that fails does not keep later ones from being made */
@@ -70,7 +70,7 @@ void cs_pipeline_destroy(cs_pipeline *pipeline);
 
 /* The functions below are the owner's, with the owner's context. */
 
-/* How many threads there are besides the owner's. */
+/* The number of threads in addition to the owner's. */
 int cs_pipeline_threads(const cs_pipeline *pipeline);
 /* Whether another item may be added: there is one that is wanted, and a slot for it. */
 bool cs_pipeline_has_room(const cs_pipeline *pipeline);

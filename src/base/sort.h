@@ -4,8 +4,8 @@
  *     static inline bool is_before(const thing *a, const thing *b) ...
  *     CS_SORT_DEFINE(sort_things, thing, is_before)     defines sort_things(thing *, size_t)
  *
- * Invariant: where is_before is a strict order of all items, the result does not depend on the order
- * that they had.
+ * Invariant: where is_before is a strict order of all items, the result does not depend on the
+ * order that they had.
  */
 #ifndef CS_BASE_SORT_H
 #define CS_BASE_SORT_H

@@ -1,6 +1,6 @@
-/* splitmix64 (Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014): a counter
- * whose values are mixed. Seeds that lie side by side give streams that have nothing in common, and
- * every 64-bit value comes once in 2^64 steps. */
+/* splitmix64 (Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014): a
+ * counter whose values are mixed. Seeds that lie side by side give streams that have nothing in
+ * common, and every 64-bit value comes once in 2^64 steps. */
 #ifndef CS_BASE_SPLITMIX_H
 #define CS_BASE_SPLITMIX_H
 

@@ -3,12 +3,12 @@
  *   accuracy drawing DRAWING SIDE K    against the mean of pixel centres in each pixel
  *   accuracy fans|bars ROUNDS          light between shapes that abut: see leaks.h
  *
- * The reference is the same scene K times as large without antialiasing. Every COARSE-th of its
- * rows is taken, and all of them for a row of pixels where those find one more than SUSPICIOUS off:
- * of a K of 512 they are 128, which come within 1/255 of the truth at an edge that lies level, so
- * that no such pixel which is more than 2/255 off is missed. Light is linear and its differences
- * are told in 255ths: `worst`, `rms` over the red, green and blue of all pixels, the pixels
- * `over_two`, and where the worst is.
+ * The reference is the same scene rendered K times as large without antialiasing. Only every
+ * COARSE-th row of it is read; all rows are read for a row of pixels in which those find an error
+ * above SUSPICIOUS. With a K of 512 these are 128 rows, which come within 1/255 of the truth at a
+ * horizontal edge, so that no such pixel with an error above 2/255 is missed. Light is linear and
+ * its differences are printed in 255ths: `worst`, `rms` over the red, green and blue of all pixels,
+ * the number of pixels `over_two`, and the position of the worst.
  *
  *      a row of pixels         rows of centres, as spans
  *     |      |      |          |..............|......|  >---+  added up by pixel,

@@ -26,7 +26,7 @@ using Format = agg::pixfmt_bgra32_pre;
 using Base = agg::renderer_base<Format>;
 
 using Rasterizer = agg::rasterizer_scanline_aa<>;
-// Of a gradient, between ends that are premultiplied and rounded to 8 bits.
+// A gradient's colours between ends that are premultiplied and rounded to 8 bits.
 using Colours = agg::pod_auto_array<agg::rgba8, 256>;
 
 agg::rgba8 colour(bench_colour c) {
@@ -127,7 +127,7 @@ void band(void *user, uint8_t *pixels, int width, int rows, int first_row) {
 
 void end(void *user) { delete static_cast<Frame *>(user); }
 
-// Fills the overlay's quadrilateral with what `interpolator` finds in it.
+// Fills the overlay's quadrilateral with the colours that `interpolator` finds in it.
 template <class Interpolator, class Filter>
 void fill(const bench_job *job, Base &base, Interpolator &interpolator) {
   agg::rendering_buffer buffer(job->overlay, BENCH_OVERLAY_WIDTH, BENCH_OVERLAY_HEIGHT,

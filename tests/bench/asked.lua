@@ -1,5 +1,5 @@
---- The figures that are asked of celspan: each a line of what is asked, what was measured, and
---- whether that meets it. A figure whose rows are not in the table is told as not measured.
+--- The performance targets of celspan: each is a line with the target, the measured value, and
+--- whether it is met. A target whose rows are missing from the table is listed as not measured.
 local published = require "tests.bench.published"
 local results = require "tests.bench.results"
 local scenes = require "tests.bench.scenes"
@@ -15,18 +15,18 @@ end
 
 asked.time = time
 
---- lines: the list that grows; a value of nil is a figure that was not measured.
-local function add(lines, what, value, told, is_met)
-  lines[#lines + 1] = { what = what, told = value and told(value) or "not measured",
+--- lines: the list to extend; value: nil if the figure was not measured.
+local function add(lines, what, value, text, is_met)
+  lines[#lines + 1] = { what = what, text = value and text(value) or "not measured",
                         is_met = value and is_met(value) }
 end
 
-local function at_most(lines, what, value, limit, told)
-  add(lines, what, value, told, function(v) return v <= limit end)
+local function at_most(lines, what, value, limit, text)
+  add(lines, what, value, text, function(v) return v <= limit end)
 end
 
-local function at_least(lines, what, value, limit, told)
-  add(lines, what, value, told, function(v) return v >= limit end)
+local function at_least(lines, what, value, limit, text)
+  add(lines, what, value, text, function(v) return v >= limit end)
 end
 
 local function times(value) return ("%.3g times"):format(value) end
@@ -70,20 +70,20 @@ local function spans(run, lines)
       over(large and large.peak_kib, small and small.peak_kib), 2, times)
   end
   local area = seconds(shapes(run, "100", 30000, "spans", "area"))
-  at_most(lines, "100 shapes at 30k, `area`: at most 15 ns a listed boundary (46 a row)",
+  at_most(lines, "100 shapes at 30k, `area`: at most 15 ns per listed boundary (46 per row)",
     area and 1e9 * area / (46 * 30000), 15, function(v) return ("%.1f ns"):format(v) end)
 end
 
 -- ---------------------------------------------------------------- pixels
 
---- How many times celspan's best time the published best of Blend2D is.
+--- The published best time of Blend2D divided by celspan's best time.
 local function ahead(run, scene, side)
   local mine = shapes(run, scene, side, "row", "area")
   return over((published.shapes[scene] or {})[side], mine and mine.best_processor)
 end
 
---- The same by the yardstick of AGG: Blend2D is taken to be as much faster than AGG here as it was
---- where both were published.
+--- The same, estimated from AGG: Blend2D is assumed to be as much faster than AGG on this machine
+--- as in the published figures.
 function asked.by_yardstick(run, scene, side)
   local mine, agg = shapes(run, scene, side, "row", "area"), shapes(run, scene, side, "row", "area",
     "agg")
@@ -122,7 +122,7 @@ local function artwork(run, lines)
   end
 end
 
---- What is asked of scenes that are hard, and of 10 to 1000 shapes, at the sizes of films.
+--- The targets for hard scenes, and for 10 to 1000 shapes, at the sizes of films.
 local function film_sizes(run, lines)
   for _, bound in ipairs { { "small", 1024, 0.7 }, { "small", 4096, 0.95 },
                            { "faint", 1024, 0.55 }, { "faint", 4096, 1.2 } } do
@@ -229,7 +229,7 @@ local function span_files(run, lines)
   end
 end
 
-local function sameness(distance) return distance == 0 and "the very pixels" or "other pixels" end
+local function sameness(distance) return distance == 0 and "the same pixels" or "other pixels" end
 
 local function png_files(run, lines)
   local png = run:one { part = "files", side = 30000, output = "png", antialias = "area",
@@ -242,26 +242,26 @@ local function png_files(run, lines)
     over(png and png.bytes, good and good.bytes), 1, times)
   for _, reader in ipairs { { "oiio", "OpenImageIO" }, { "vips", "libvips" } } do
     local read = run:one { part = "readers", side = 30000, renderer = reader[1] }
-    at_most(lines, ("the same: read by %s as the very pixels"):format(reader[2]),
+    at_most(lines, ("the same: %s reads the same pixels"):format(reader[2]),
       read and read.rms, 0, sameness)
   end
 end
 
---- The film's frame costs OpenImageIO's users the pixels, then the writing.
+--- With OpenImageIO, a frame of the film costs the rendering of the pixels and then the writing.
 local function film_frame(run, lines)
   local frame = run:one { part = "film png", renderer = "celspan", output = "png" }
   local pixels_alone = run:one { part = "film png", renderer = "celspan", output = "row" }
   local writing = run:one { part = "film png", renderer = "OpenImageIO default" }
   local both = pixels_alone and writing and seconds(pixels_alone) + seconds(writing)
-  at_least(lines, "a frame of the demo film, made and written as PNG: 5 times faster than made and "
-    .. "written by OpenImageIO at its default", over(both, seconds(frame)), 5, times)
+  at_least(lines, "a frame of the demo film, rendered and written as PNG: 5 times faster than "
+    .. "rendered and written by OpenImageIO at its default", over(both, seconds(frame)), 5, times)
   at_most(lines, "the same: no larger", over(frame and frame.bytes, writing and writing.bytes), 1,
     times)
 end
 
 -- ---------------------------------------------------------------- sequences
 
---- Frames a second of a row of the film.
+--- Frames per second of a row of the film.
 local function rate(run, renderer, workers)
   local row = run:one { part = "film", renderer = renderer, workers = workers }
   return row and tonumber(row.scene:match "%d+") / row.wall
@@ -282,14 +282,14 @@ local function sequences(run, lines)
     over(rate(run, "celspan", 2), rate(run, "celspan", 1)), 1.85, times)
   at_least(lines, "the demo film to PNG: ahead of ffmpeg over the same layers",
     over(rate(run, "celspan", 2), rate(run, "ffmpeg", 2)), 1, times)
-  at_least(lines, "the demo film to PNG: ahead of itself with nothing kept",
+  at_least(lines, "the demo film to PNG: ahead of celspan without its caches",
     over(rate(run, "celspan", 2), rate(run, "celspan keeping nothing", 2)), 1, times)
   local start = run:one { part = "start", scene = "small" }
   at_most(lines, "a small script: under 5 ms from exec to the first row", start and start.wall,
     0.005, time)
 end
 
---- { { what, told, is_met }, ... }; is_met is nil where nothing was measured.
+--- { { what, text, is_met }, ... }; is_met is nil if nothing was measured.
 function asked.lines(run)
   local lines = {}
   local parts = { artwork, film_sizes, accuracy, spans, pixels, pictures, softness, span_files,

@@ -54,7 +54,7 @@ static void add_stop(cairo_pattern_t *pattern, double at, bench_colour c) {
                                     c.alpha / 255.0);
 }
 
-/* Gradients are blended premultiplied, in more than 8 bits, at each pixel's centre. */
+/* Gradients are blended premultiplied, with more than 8 bits, at each pixel's centre. */
 static void set_paint(cairo_t *cairo, const bench_shape *s, double side) {
   bench_colour c = s->colour;
   if (s->is_gradient) {

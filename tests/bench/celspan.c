@@ -91,7 +91,7 @@ int main(int argc, char **argv) {
     bench_stop("usage: %s shapes|look|digest|soft|picture|backed|planes ...", argv[0]);
   celspan_context_desc desc = {.struct_size = sizeof desc};
   if (verbs[verb].run == measure_soft)
-    desc.defocus_bytes = 1; /* nothing is kept from run to run */
+    desc.defocus_bytes = 1; /* nothing is cached between runs */
   if (celspan_context_create(&desc, &job.context) != CELSPAN_OK)
     return 2;
   verbs[verb].run(&job, argc - 2, argv + 2);

@@ -9,7 +9,7 @@ local left, right, top, bottom = 86, 230, 52, 56
 
 local function log10(v) return math.log(v, 10) end
 
---- Decades that hold all values.
+--- The range of decades that contains all values.
 local function range(values)
   local least, most = math.huge, -math.huge
   for _, value in ipairs(values) do least, most = math.min(least, value), math.max(most, value) end
@@ -93,8 +93,8 @@ local function draw_names(list, labels, x)
   end
 end
 
---- series: { { name, colour, points = { { x, y }, ... }, dash = }, ... }; ticks: the x that are
---- named.
+--- series: { { name, colour, points = { { x, y }, ... }, dash = }, ... }; ticks: the values of x
+--- with a label.
 function chart.lines(spec)
   local list, labels = {}, {}
   local place, width, height, y0, y1 = placing(spec)
@@ -130,8 +130,8 @@ local function draw_legend(list, kinds, x)
   end
 end
 
---- groups: { { names = { line, ... }, bars = { { name, colour, value }, ... } }, ... }. Bars stand
---- on 1.
+--- groups: { { names = { line, ... }, bars = { { name, colour, value }, ... } }, ... }. Bars begin
+--- at 1.
 function chart.bars(spec)
   local list, values, kinds = {}, { 1 }, {}
   for _, group in ipairs(spec.groups) do

@@ -2,10 +2,10 @@
 --
 --   LUA_CPATH=build/?.so lua5.4 tests/bench/dense.lua [N]
 --
--- Each scene is rendered at 64 x 48 pixels by one worker in a process of its own, which tells its processor
--- time and the most memory that it held: the script's values, Lua and the picture included. N is 62500 by
--- default for squares and polygons, so that 16 N is a million; a tenth of it for the points of a curve
--- (100000 in the end), a fiftieth for arcs that overlap (20000).
+-- Each scene is rendered at 64 x 48 pixels by one worker in a process of its own, which reports its
+-- processor time and its peak memory, including the script's values, Lua and the picture. N is
+-- 62500 by default for squares and polygons, so that 16 N is a million; for the points of a curve
+-- it is a tenth of that (100000 at most), for arcs that overlap a fiftieth (20000 at most).
 local celspan = require "celspan"
 local WIDTH, HEIGHT = 64, 48
 local unpack = table.unpack
@@ -63,7 +63,8 @@ end
 
 local least = tonumber(arg[1] or 62500)
 print(("%-10s %9s %10s %8s %12s"):format("", "N", "seconds", "MiB", "bytes each"))
-for _, row in ipairs { { "squares", 1 }, { "polygon", 1 }, { "nurbs", 1 / 10 }, { "arcs", 1 / 50 } } do
+for _, row in ipairs { { "squares", 1 }, { "polygon", 1 }, { "nurbs", 1 / 10 },
+  { "arcs", 1 / 50 } } do
   local name, share = unpack(row)
   for factor = 0, 2 do
     local n = math.floor(least * share * 4 ^ factor)

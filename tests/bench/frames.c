@@ -55,9 +55,9 @@ void bench_job_render(void *user) {
 /* ---------------------------------------------------------------- digests */
 
 typedef struct frame_digests {
-  unsigned char *pixels; /* of one row */
+  unsigned char *pixels; /* one row */
   uint64_t of_pixels;    /* 8 bits, as the benchmark codes them */
-  uint64_t of_spans;     /* where spans begin and end, and every bit of what they hold */
+  uint64_t of_spans;     /* the ends of spans, and every bit of their values */
 } frame_digests;
 
 static celspan_status take_pixels(void *user, celspan_context *context, int32_t y,

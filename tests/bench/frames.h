@@ -12,7 +12,7 @@ extern const celspan_coding bench_uncoded; /* values 0..1 as they are, which is 
 
 typedef struct bench_frame_job {
   celspan_context *context;
-  celspan_rostrum *rostrum; /* let go by close */
+  celspan_rostrum *rostrum; /* released by close */
   celspan_exposure exposure;
   celspan_antialias_mode mode;
   celspan_frame_desc desc;
@@ -22,15 +22,16 @@ typedef struct bench_frame_job {
 } bench_frame_job;
 
 /* antialias: area, none, or a kernel of its own radius: box, gaussian, mitchell, lanczos.
- * output: spans, row (8-bit pixels into one row that is used again), whole (an image in memory),
- * file (job->file, by its ending) or digest. The film is 1 x 1; job->rostrum was set. borrowed */
+ * output: spans, row (8-bit pixels into one row that is reused), whole (an image in memory),
+ * file (job->file, by its ending) or digest. The film is 1 x 1; job->rostrum is already set.
+ * borrowed */
 void bench_job_open(bench_frame_job *job, int width, int height, const char *antialias,
                     const char *output, int workers);
 void bench_job_render(void *job);
-/* Measures frames and tells their statistics. Where the output is digest nothing is measured: a
- * frame is made once for its spans and once more for its codes, and their digests are told. */
+/* Measures frames and prints their statistics. If the output is digest, nothing is measured: a
+ * frame is made once for its spans and once more for its codes, and their digests are printed. */
 void bench_job_measure(bench_frame_job *job);
-/* Tells the picture's cells; the output is whole. */
+/* Prints the picture's cells; the output is whole. */
 void bench_job_look(bench_frame_job *job);
 void bench_job_close(bench_frame_job *job);
 

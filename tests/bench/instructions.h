@@ -1,5 +1,5 @@
-/* The processor's own counter of instructions, where the system lends one: on many virtual machines
- * there is none, or only root may read it.
+/* The processor's instruction counter, where the system gives access to it: many virtual machines
+ * have none, and on others only root may read it.
  */
 #ifndef CELSPAN_BENCH_INSTRUCTIONS_H
 #define CELSPAN_BENCH_INSTRUCTIONS_H
@@ -8,8 +8,8 @@
 extern "C" {
 #endif
 
-/* Instructions in user space of the calling thread and of those it has started since this was first
- * asked; NAN without a counter. One thread asks. */
+/* Instructions in user space by the calling thread, and by those that it has started since the
+ * first call of this function; NAN without a counter. To be called by one thread only. */
 double bench_instructions(void);
 
 #ifdef __cplusplus

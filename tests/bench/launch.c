@@ -17,7 +17,7 @@
 
 static double of(struct timeval t) { return (double)t.tv_sec + 1e-6 * (double)t.tv_usec; }
 
-/* Returns the read end of its standard output, or -1. */
+/* Starts the command; returns the read end of its standard output, or -1. */
 static int start(char **command, bool is_piped, pid_t *child) {
   int ends[2] = {-1, -1};
   if (is_piped && pipe(ends) != 0)

@@ -32,7 +32,7 @@ static celspan_object *make_polygon(celspan_context *context, const celspan_poin
   return object;
 }
 
-/* Neighbours share the very numbers of their spoke. */
+/* Neighbours share exactly the same numbers for their common spoke. */
 static void make_fan(leak *job, celspan_object **wedges, int count) {
   celspan_point spokes[wedges_most + 1], centre = random_point(&job->random, 0, 1, 0, 1);
   double turn = random_between(&job->random, 0, 2 * M_PI);
@@ -103,7 +103,7 @@ static void judge_frame(leak *job, celspan_rostrum *rostrum, int side) {
   job->frames++;
 }
 
-/* The shapes are let go. */
+/* Releases the shapes. */
 static void judge_cover(leak *job, celspan_object **shapes, int count) {
   celspan_cel_desc cel = CELSPAN_CEL_DESC;
   cel.objects = shapes;

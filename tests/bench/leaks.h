@@ -17,8 +17,9 @@
 
 typedef enum bench_cover { BENCH_FANS, BENCH_BARS } bench_cover;
 
-/* `rounds` frames of every number of wedges, or of bars: each at a random place, angle and size.
- * Tells `frames`, `pixels`, the `worst` light of one in 255ths, and how many are `leaking`. */
+/* `rounds` frames for every number of wedges, or of bars: each at a random place, angle and size.
+ * Prints the numbers of `frames` and `pixels`, the `worst` light of a pixel in 255ths, and how many
+ * pixels are `leaking`. */
 void bench_tell_leaks(celspan_context *context, bench_cover cover, int rounds);
 
 #endif

@@ -1,7 +1,7 @@
 /* What no renderer can beat: `limits DRAWING SIDE` fills a frame's bytes through one reused row, by
- * memset and by the very runs of colour that the drawing has under point sampling.
+ * memset and by the exact runs of colour that the drawing has under point sampling.
  *
- * The runs of at most ROWS_KEPT rows, spread over the frame, are kept and stand for the others.
+ * The runs of at most ROWS_KEPT rows, spread over the frame, are kept and represent the others.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -62,7 +62,7 @@ static void fill_bytes(void *user) {
   const frame_runs *frame = user;
   for (int y = 0; y < frame->side; y++) {
     memset(frame->band, y & 255, 4 * (size_t)frame->side);
-    __asm__ volatile("" : : "r"(frame->band) : "memory"); /* the row is wanted */
+    __asm__ volatile("" : : "r"(frame->band) : "memory"); /* not optimised away */
   }
 }
 

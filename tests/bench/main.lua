@@ -1,7 +1,7 @@
 --- The benchmark: measures everything and writes a table. From the top of the tree:
 ---   lua5.4 tests/bench/main.lua BUILD FOLDER [--quick] [--skia MODULES] [PART...]
---- BUILD was configured with -Dbench=true; FOLDER takes drawings, pictures and the table. Where
---- parts are named, only those are measured.
+--- BUILD was configured with -Dbench=true; drawings, pictures and the table are written to FOLDER.
+--- If parts are named, only those are measured.
 package.path = "./?.lua;./lua/?.lua;" .. package.path
 local Runner = require "tests.bench.runner"
 local scenes = require "tests.bench.scenes"
@@ -72,7 +72,7 @@ for _, part in ipairs(parts) do
 end
 
 if not runner:has_counter() then
-  runner:note "no counter of instructions here: that column is empty"
+  runner:note "this system has no instruction counter: that column is empty"
 end
 local csv = options.folder .. "/bench.csv"
 runner:write(csv)

@@ -80,7 +80,7 @@ static void tell_instructions(double *counts, int runs, double scale, double fix
   bench_tell("instructions", counts[runs / 2]);
 }
 
-/* The first run warms caches; it counts only where it alone takes all the time there is. */
+/* The first run warms caches; it counts only if it alone uses up all the time available. */
 void bench_measure_part(void (*job)(void *user), void *user, bench_part part) {
   static double wall[RUNS_LIMIT], processor[RUNS_LIMIT], instructions[RUNS_LIMIT];
   const char *told = getenv("BENCH_SECONDS");
@@ -133,7 +133,7 @@ void bench_tell_digest(uint64_t digest) { printf("digest %016llx ", (unsigned lo
 
 #define CELLS 64
 
-/* Means of 64 x 64 cells: edges hardly count, a shape in the wrong place or colour does. */
+/* Means of 64 x 64 cells: edges hardly matter, a shape with a wrong place or colour does. */
 void bench_tell_picture(const uint8_t *rgba, size_t width, size_t height) {
   fputs("picture ", stdout);
   for (size_t row = 0; row < CELLS; row++)

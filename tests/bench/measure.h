@@ -1,9 +1,8 @@
-/* What the programs of the benchmark share: the repeated run of one job, and the line that tells
- * it.
+/* What the programs of the benchmark share: repeating a job, and printing its results as a line.
  *
- * A job is run once unmeasured where that is cheap, then until the seconds of the environment's
- * BENCH_SECONDS are spent or the limit of runs is reached. The line is `KEY VALUE` pairs on
- * standard output.
+ * A job is first run once unmeasured if that is cheap, then until the seconds of the environment's
+ * BENCH_SECONDS are spent or the limit of runs is reached. The line consists of `KEY VALUE` pairs
+ * on standard output.
  */
 #ifndef CELSPAN_BENCH_MEASURE_H
 #define CELSPAN_BENCH_MEASURE_H
@@ -31,13 +30,13 @@ typedef struct bench_cost {
 bench_cost bench_spent(void);
 bench_cost bench_since(bench_cost before);
 
-/* Runs job(user) as told above and prints wall and processor seconds, each median and least, the
- * median of instructions where they are counted, the number of runs, and the peak of memory in KiB.
- * The line is left open for more pairs. */
+/* Runs job(user) as described above and prints wall and processor seconds, each median and least,
+ * the median of instructions if they are counted, the number of runs, and the peak of memory in
+ * KiB. The line is left open for more pairs. */
 void bench_measure(void (*job)(void *user), void *user);
 
-/* A job that does a part of the work for the whole: of its cost `fixed` is the whole's too, the
- * rest counts `scale` times. */
+/* A job that does a part of the work as a sample of the whole: the share `fixed` of its cost occurs
+ * once in the whole too, the rest is multiplied by `scale`. */
 typedef struct bench_part {
   double scale;
   bench_cost fixed;

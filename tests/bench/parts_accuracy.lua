@@ -6,7 +6,7 @@ local parts = {}
 
 local LONGEST = 120 -- seconds for one drawing
 
---- What is promised, in 255ths of linear light.
+--- The promised bounds, in 255ths of linear light.
 parts.promise = { worst = 2, rms = 0.1, leak = 0 }
 
 local function add(runner, entry, line)

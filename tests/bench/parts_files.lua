@@ -16,7 +16,7 @@ local function by_openimageio(runner, drawing, side, level, file)
            renderer = "OpenImageIO level " .. level, workers = 1 }
 end
 
---- Whether two readers that know nothing of celspan see the very pixels: a distance of 0.
+--- Whether two independent readers decode exactly the same pixels: a distance of 0.
 local function compare_readers(runner, drawing, side, file)
   local truth = runner:ask(Command(runner:program "celspan", "digest", drawing, side))
   for _, reader in ipairs { "oiio", "vips" } do

@@ -1,5 +1,5 @@
---- Sequences: the demo film to PNG, beside ffmpeg over the same layers; and how soon the first row
---- is there.
+--- Sequences: the demo film to PNG, compared with ffmpeg over the same layers; and the time until
+--- the first row is available.
 local Command = require("tests.bench.runner").command
 local present = require "tests.support.present"
 
@@ -7,7 +7,7 @@ local parts = {}
 
 local size = "3840x2160"
 
---- What the whole process took, a frame.
+--- The cost of the whole process per frame.
 local function render(runner, name, count, workers, ...)
   local words = { runner:program "launch", "all", runner.celspan, "render", "scripts/demo.lua",
     "--size", size, "--workers", workers, "--progress", "none", "--frames",
@@ -19,7 +19,7 @@ end
 
 -- ---------------------------------------------------------------- ffmpeg
 
---- celspan with the script of the layers, which must stand beside the film's own files.
+--- celspan with the script of the layers, which needs the film's own modules on its path.
 local function layers(runner, verb, ...)
   return "CELSPAN_PATH='scripts/?.lua' " .. Command(runner.celspan, verb,
     runner.folder .. "/layers/layers.lua", "--trust", ...)
@@ -102,7 +102,7 @@ function parts.film(runner, _, is_quick)
   os.execute(Command("rm", "-r", runner.folder .. "/film"))
 end
 
---- One frame of the film as PNG, and the very pixels written by OpenImageIO.
+--- One frame of the film as PNG, and the same pixels written by OpenImageIO.
 function parts.film_png(runner, folder)
   local png = folder .. "/frame.png"
   runner:measure(3, { { command = Command(runner:program "launch", "all", runner.celspan, "render",

@@ -1,11 +1,11 @@
---- The shapes: celspan beside the peers on the same drawings, at every side, and the limits.
+--- The shapes: celspan and the peers on the same drawings, at every side, and the limits.
 local scenes = require "tests.bench.scenes"
 
 local Command = require("tests.bench.runner").command
 local parts = {}
 
---- Rows of a band, the best or nearly for every peer, and which share of the bands stands for all
---- where a frame takes seconds.
+--- Rows of a band, the fastest or nearly the fastest for every peer; and the share of the bands
+--- that represents all of them where a frame takes seconds.
 local function band_of(side) return side <= 4096 and 256 or 64 end
 
 --- Sides in pixels: those of films, and one of a poster.
@@ -35,7 +35,7 @@ local function limit(runner, path, scene, side, line, name)
            take = function(lines) return lines[line] end }
 end
 
---- The peers that are there; says which are not.
+--- The peers that are installed; reports the missing ones.
 function parts.peers(runner)
   local list = {}
   for _, name in ipairs { "agg", "cairo", "qt" } do
@@ -43,13 +43,13 @@ function parts.peers(runner)
     else runner:note(name .. " is not installed: its columns are empty") end
   end
   if runner:has "blend2d" then list[#list + 1] = "blend2d"
-  else runner:note "blend2d is not here (BLEND2D_ROOT): its columns are empty" end
+  else runner:note "Blend2D is not installed (BLEND2D_ROOT): its columns are empty" end
   if runner.skia then list[#list + 1] = "skia"
   else runner:note "skia is not installed (npm: @napi-rs/canvas): its columns are empty" end
   return list
 end
 
---- All who draw a drawing at one side.
+--- All renderers of a drawing at one side.
 local function renderers(runner, path, scene, side)
   local entries = {}
   for _, output in ipairs { "spans", "row" } do
@@ -63,7 +63,7 @@ local function renderers(runner, path, scene, side)
   return entries
 end
 
---- One drawing at one side: all who draw it, in turn, and the limits.
+--- One drawing at one side: all its renderers, in turn, and the limits.
 local function point(runner, folder, scene, side, rounds)
   local path = ("%s/%s.txt"):format(folder, scene)
   local entries = renderers(runner, path, scene, side)
@@ -159,7 +159,7 @@ function parts.workers(runner, folder, is_quick)
   end
 end
 
---- Whether the peers draw the very picture: the distance of their cells from celspan's, at 1024.
+--- Whether the peers draw the same picture: the distance of their cells from celspan's, at 1024.
 function parts.agreement(runner, folder, is_quick)
   local names = is_quick and { "100", "gradients-100" }
     or { "10", "100", "1000", "opaque", "small", "faint", "gradients-100", "gradients-1000" }

@@ -39,7 +39,7 @@ static double scale_of(const shapes_job *job) {
   return (double)job->side / drawn;
 }
 
-/* What building the paths takes, which a part of the bands needs whole. */
+/* The cost of building the paths, which is needed in full even for a part of the bands. */
 static bench_cost build_cost(const shapes_job *job) {
   bench_cost begun = bench_spent();
   bench_peer_here.end(bench_peer_here.begin(&job->drawing, job->side, job->is_antialiased));

@@ -1,7 +1,7 @@
-/* What a peer of the benchmark is: one renderer behind these functions, linked with peer.c.
+/* A peer of the benchmark: one renderer behind these functions, linked with peer.c.
  *
- * Shapes are drawn band by band into one band of memory that is used again, as a program that wants
- * a large picture out of them would.
+ * Shapes are drawn band by band into one band of memory that is reused, as a program would do that
+ * wants a large picture.
  */
 #ifndef CELSPAN_BENCH_PEER_H
 #define CELSPAN_BENCH_PEER_H

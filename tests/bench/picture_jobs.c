@@ -8,7 +8,7 @@
 #include "pictures.h"
 #include "scene.h"
 
-/* A picture as an object; what is not told in `desc` but its file. */
+/* A picture as an object; everything except the file is given by `desc`. */
 static celspan_object *load(celspan_context *context, const char *folder, const char *name,
                             celspan_image_desc desc) {
   char path[4096];
@@ -19,7 +19,7 @@ static celspan_object *load(celspan_context *context, const char *folder, const 
   return object;
 }
 
-/* Applies a matrix and lets go of what it was applied to. */
+/* Applies a matrix and releases the object that it was applied to. */
 static celspan_object *moved(celspan_context *context, celspan_object *object,
                              celspan_matrix matrix) {
   celspan_object *out;
@@ -28,7 +28,7 @@ static celspan_object *moved(celspan_context *context, celspan_object *object,
   return out;
 }
 
-/* One cel of these objects, which are let go; is_backed: over white. */
+/* One cel of these objects, which are released; is_backed: over white. */
 static celspan_rostrum *mount(celspan_context *context, celspan_object **objects, size_t count,
                               bool is_backed) {
   celspan_cel_desc cel = CELSPAN_CEL_DESC;
@@ -76,7 +76,7 @@ void bench_picture(bench_frame_job *job, int count, char **words) {
 
 static bool is_none(const char *word) { return strcmp(word, "-") == 0; }
 
-/* Adds what FRONT is, and returns how many objects there are then. */
+/* Adds the objects that FRONT names, and returns how many objects there are then. */
 static size_t add_front(celspan_context *context, const char *front, celspan_image_desc image,
                         celspan_object **objects, size_t count) {
   size_t length = strlen(front);

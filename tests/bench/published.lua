@@ -1,6 +1,6 @@
 --- Blend2D's best times as published for the same kind of machine (2 cores of a Zen 5 EPYC with
---- AVX-512; antialiased, one thread, bands of 8-bit pixels), in seconds by scene and side. Blend2D
---- is in no Debian package, so it seldom runs here; on another machine this is a yardstick only.
+--- AVX-512; antialiased, one thread, bands of 8-bit pixels), in seconds by scene and side. Debian
+--- has no package of Blend2D, so it rarely runs here; on another machine this is a yardstick only.
 local published = {}
 
 published.shapes = {
@@ -13,7 +13,8 @@ published.shapes = {
   small = { [1024] = 0.019, [4096] = 0.053, [30000] = 0.465 },
 }
 
---- AGG's best times of the same measurement: how slow AGG is in a run tells how slow the run is.
+--- AGG's best times in the same measurement: comparing them with AGG's in a run shows how slow the
+--- run is.
 published.agg = {
   ["10"] = { [1024] = 0.000487, [4096] = 0.00284, [30000] = 0.0754 },
   ["100"] = { [1024] = 0.00582, [4096] = 0.0294, [30000] = 0.749 },

@@ -1,11 +1,13 @@
--- A new light on a frame that was taken apart, beside rendering the frame in that light.
+-- A new light on a frame that was taken apart, compared with rendering the frame in that light.
 --
 --   LUA_CPATH=build/?.so lua5.4 tests/bench/relight.lua [FILM.lua [FRAME]]
 --
--- Two frames of 1920 x 1080: 40 cels of pictures with alpha, each half as wide and high as the frame, with a
--- soft edge and 8 bits a channel, scattered over it; and a frame of a film, scripts/demo.lua if no other is
--- named, whose lights that are textures are made flat. For each: rendering to floats, taking the frame apart
--- once, and the frame with a new light for one cel in the middle, and for all of them. Times are processor
+-- Two frames of 1920 x 1080: 40 cels of pictures with alpha, each half as wide and high as the
+-- frame, with a soft edge and 8 bits a channel, scattered over it; and a frame of a film
+-- (scripts/demo.lua by default) whose lights that are textures are made flat. Measured for each:
+-- rendering to floats, taking the frame apart once, and the frame with a new light for one cel in
+-- the middle, and for all of them. Times are processor time of all threads, the least of several
+-- runs, after the pictures have been read into the cache.
 -- time of all threads, the least of several runs, after what is kept of pictures has been read.
 local celspan = require "celspan"
 local relight = require "celspan.relight"
@@ -29,12 +31,14 @@ local function blot(seed, w, h)
   local random = celspan.random(seed)
   local r, g, b = random "r", random "g", random "b"
   local object = celspan.union {
-    celspan.ellipse { centre = { w / 2, h / 2 }, radii = { w / 2, h / 2 }, texture = celspan.radial {
+    celspan.ellipse { centre = { w / 2, h / 2 }, radii = { w / 2, h / 2 },
+      texture = celspan.radial {
       centre = { w / 2, h / 2 }, radius = w / 2, { 0, celspan.rgb(r, g, b) },
       { 0.55, celspan.rgb(g, b, r, 0.9) }, { 1, celspan.rgb(b, r, g, 0) } } },
     celspan.ellipse { centre = { w * 0.4, h * 0.4 }, radii = { w / 9, h / 9 },
       texture = celspan.rgb(b, g, r, 0.8) } }
-  local image = assert(celspan.pixels(celspan.rostrum { celspan.cel { object } }, { size = { w, h } }))
+  local image = assert(celspan.pixels(celspan.rostrum { celspan.cel { object } },
+    { size = { w, h } }))
   return { pixels = image:bytes { depth = 8 }, size = { w, h }, format = "rgba8" }
 end
 
@@ -50,9 +54,11 @@ local function picture_cels()
   return celspan.rostrum(cels):with { back = "#203040" }
 end
 
---- The rostrum with flat lights alone.
+--- The rostrum with only flat lights.
 local function flattened(rostrum)
-  local function is_flat(light) return light == nil or type(light) ~= "userdata" and not light.texture end
+  local function is_flat(light)
+    return light == nil or type(light) ~= "userdata" and not light.texture
+  end
   local cels, changed = {}, 0
   for i = 1, #rostrum do
     local cel = rostrum[i]
@@ -62,7 +68,9 @@ local function flattened(rostrum)
   end
   local flat = rostrum:with(cels)
   if not is_flat(flat.front) then flat, changed = flat:with { front = { 1, 1, 1 } }, changed + 1 end
-  if not is_flat(flat.back) then flat, changed = flat:with { back = { 0, 0, 0, 0 } }, changed + 1 end
+  if not is_flat(flat.back) then
+    flat, changed = flat:with { back = { 0, 0, 0, 0 } }, changed + 1
+  end
   return flat, changed
 end
 
@@ -96,4 +104,5 @@ local size = film.size
 local rostrum = film:at(number or film.first + film.frames // 2)
 if type(rostrum) == "table" then rostrum = rostrum[1][1] end -- of several exposures the first
 local flat, changed = flattened(rostrum)
-measure(("%s%s"):format(path, changed > 0 and (", %d lights made flat"):format(changed) or ""), flat, size)
+measure(("%s%s"):format(path, changed > 0 and (", %d lights made flat"):format(changed) or ""),
+  flat, size)

@@ -21,14 +21,14 @@ local function introduction()
   page:put "# How fast it is"
   page:put ""
   page:put [[
-Made by `./run bench`, which measures all of this in one run and writes this page, its pictures
-(drawn by celspan) and [the whole table](bench.csv). `./run bench --quick` measures a few points in
-two minutes and writes nothing here; `./run bench shapes png` measures these parts alone.
+`./run bench` measures everything in one run and writes this page, its pictures (drawn by celspan)
+and [the complete table](bench.csv). `./run bench --quick` measures a few points in two minutes and
+does not change this page; `./run bench shapes png` measures only these parts.
 ]]
   shapes.ratios(page)
   page:put "## This run"
   page:put ""
-  page:head { "of this run", "" }
+  page:head { "property", "value" }
   for _, line in ipairs(machine.read(folder .. "/machine.txt")) do page:cells(line) end
   local least, most = math.huge, 0
   for _, row in ipairs(run.rows) do
@@ -37,51 +37,50 @@ two minutes and writes nothing here; `./run bench shapes png` measures these par
   page:cells { "load average while measuring", ("%.1f to %.1f"):format(least, most) }
   page:put ""
   page:put [[
-Read the tables so:
+How to read the tables:
 
-- Each figure is the median of runs that took turns with all other renderers of its line, each in a
-  process of its own, which repeats the job for at least a fifth of a second. One-threaded jobs are
-  told in processor time, which other programs disturb little; files, films and jobs on two workers
-  by the wall's clock. The table of the run has both, and the best.
-- *To spans*: rows of colour spans are made and dropped. *To pixels*: 8-bit sRGB pixels in one row
-  of memory that is used again; the peers draw into a band of 256 rows (64 from 30,000 pixels on)
-  that is used again. celspan composes in linear light in floats, the peers blend 8-bit values.
-- `~`: only a regular part of the rows was drawn, and the time scaled up. `over`: ended before it
-  was done.
-- *Blend2D* is in no Debian package. It is measured where `BLEND2D_ROOT` names a folder with its
-  include/ and lib/. *Blend2D, published*: its best time on the same kind of machine, compared with
-  celspan's best of this run; on any other machine it is a yardstick only. *By AGG's yardstick*:
-  AGG's time of this run stands for Blend2D's, divided by how much faster Blend2D was where both
-  were published, so that the machine and its load cancel out.
-- *Instructions*: of celspan, in user space, by the processor's own counter; empty where the system
-  lends none, as on many virtual machines. The table of the run has those of the peers too.
-- *Fill of the runs* is what writing the picture's own runs of colour costs when they are known:
-  what is left when everything but the pixels is free.
+- Each figure is the median of several runs. The renderers of a line take turns, each in its own
+  process, which repeats the job for at least a fifth of a second. Jobs with one thread are given in
+  processor time, on which other programs have little influence; files, films and jobs with two
+  workers in wall-clock time. The complete table has both, and the best time.
+- *To spans*: rows of colour spans are made and discarded. *To pixels*: 8-bit sRGB pixels in one row
+  of memory that is reused; the peers draw into a band of 256 rows (64 from 30,000 pixels on) that
+  is reused. celspan composes in linear light in floats, the peers blend 8-bit values.
+- `~`: only a part of the rows was drawn, and the time was scaled up. `over`: stopped at this limit.
+- *Blend2D* is not in Debian. It is measured if `BLEND2D_ROOT` names a folder with its include/ and
+  lib/. *Blend2D, published*: its best published time on the same kind of machine, compared with
+  celspan's best time of this run; on any other machine this is only a rough comparison. *Estimated
+  from AGG*: Blend2D's time is estimated as AGG's time of this run divided by the published ratio of
+  the two, so that the machine and its load cancel out.
+- *Instructions*: of celspan, in user space, from the processor's counter; empty if the system has
+  no such counter, as on many virtual machines. The complete table also has those of the peers.
+- *Fill of the runs* is the time to write the picture's runs of one colour if they are already
+  known: a lower limit, with everything except the pixels for free.
 ]]
 end
 
 local function asked_and_measured()
-  page:put "## Asked and measured"
+  page:put "## Targets and results"
   page:put ""
   local lines = asked.lines(run)
   local met, missed = 0, 0
   for _, line in ipairs(lines) do
     if line.is_met then met = met + 1 elseif line.is_met == false then missed = missed + 1 end
   end
-  page:put(("%d figures: %d met, %d not met, %d not measured in this run."):format(#lines, met,
+  page:put(("%d targets: %d met, %d not met, %d not measured in this run."):format(#lines, met,
     missed, #lines - met - missed))
   page:put ""
-  page:head { "asked", "measured", "met" }
+  page:head { "target", "measured", "met" }
   for _, line in ipairs(lines) do
     local is_met = line.is_met == nil and "" or line.is_met and "yes" or "**no**"
-    page:cells { line.what, line.told, is_met }
+    page:cells { line.what, line.text, is_met }
   end
   page:put ""
 end
 
--- ---------------------------------------------------------------- parts as they are
+-- ---------------------------------------------------------------- plain tables
 
---- Rows of a part as they are: what, who, the time, and what else.
+--- The rows of a part without further computation: what, who, the time, and an optional column.
 local function plain_table(part, title, text, more)
   local rows = run:all { part = part }
   if #rows == 0 then return end
@@ -89,8 +88,8 @@ local function plain_table(part, title, text, more)
   page:put ""
   page:put(text)
   page:put ""
-  page:head { "what", "side", "to", "kind", "by", "workers", "time", "processor", "peak memory",
-              table.unpack(more and { more.title } or {}) }
+  page:head { "scene", "side", "output", "kind", "renderer", "workers", "wall time", "CPU time",
+              "peak memory", table.unpack(more and { more.title } or {}) }
   for _, row in ipairs(rows) do
     page:cells { row.scene, row.side, row.output or "", row.antialias or "", row.renderer,
                  row.workers or "", results.mark(row) .. time(row.wall), time(row.processor),
@@ -103,7 +102,7 @@ end
 local function bytes_of(row)
   local text = row.bytes and ("%.0f bytes"):format(row.bytes) or ""
   if row.spans then
-    text = ("%s, %.3g million spans a second"):format(text, row.spans / row.wall / 1e6)
+    text = ("%s, %.3g million spans per second"):format(text, row.spans / row.wall / 1e6)
   end
   return text
 end
@@ -120,10 +119,11 @@ local function accuracy()
   page:put "## How exact it is"
   page:put ""
   page:put [[
-Antialiasing by area against the mean of 512 x 512 pixel centres in each pixel, in linear light, of
-255: the worst pixel, the root of the mean square over all pixels, and how many are more than 2 off;
-`./run bench accuracy`. Between black shapes that abut, fans of 3 to 64 wedges and up to 300 bars at
-random places and angles, nothing of the white behind them may be seen.
+The antialiasing `area` compared with the mean of 512 x 512 samples in each pixel, in linear light,
+in units of 1/255: the error of the worst pixel, the root of the mean square over all pixels, and
+the number of pixels with an error above 2 (`./run bench accuracy`). The abutting shapes are black,
+fans of 3 to 64 wedges and up to 300 bars at random positions and angles; none of the white behind
+them may be visible.
 ]]
   page:head { "drawing", "side", "worst", "rms", "pixels over 2", "pixels that leak" }
   for _, row in ipairs(rows) do
@@ -141,49 +141,50 @@ shapes.whole_images(page)
 accuracy()
 plain_table("workers", "One worker and two", "The same frame to pixels.")
 plain_table("files", "Files", [[
-A hundred shapes into files; OpenImageIO is given the same pixels and only its writing is timed.]],
+A hundred shapes to files; OpenImageIO gets the same pixels, and only its writing is timed.]],
   { title = "bytes", of = bytes_of })
 plain_table("cut", "Out of a terapixel frame", [[
-A cut of 4096 x 4096 pixels to PNG out of span files of 1,000,000 x 1,000,000, of the 100 shapes and
-of `scripts/terapixel.lua`; the making of the latter: whole processes.]])
+A cut of 4096 x 4096 pixels from span files of 1,000,000 x 1,000,000 to PNG, of the 100 shapes and
+of `scripts/terapixel.lua`, and the rendering of the latter file. Times of whole processes.]])
 plain_table("film png", "A frame of the demo film", [[
-celspan: the whole process, with script and rendering, to PNG and to pixels that are dropped;
-OpenImageIO: the writing of those pixels alone.]],
+celspan: the whole process, with script and rendering, to PNG and to pixels that are discarded;
+OpenImageIO: only the writing of these pixels.]],
   { title = "bytes", of = bytes_of })
 plain_table("raster", "A picture over a picture", [[
-3840 x 2160 pixels, under a picture of 2048 x 1536 with a soft matte: turned by 7 degrees and shrunk
-to 0.8, in perspective, and shifted by whole pixels; bilinear. celspan works in linear light and in
-floats. Blend2D's published times: affine 8.8 ms, shift 1.8 ms.]],
+A picture of 3840 x 2160 pixels under one of 2048 x 1536 with a soft matte, which is turned by 7
+degrees and scaled by 0.8, in perspective, or shifted by whole pixels; bilinear. celspan works in
+linear light and in floats. Blend2D's published times: affine 8.8 ms, shift 1.8 ms.]],
   { title = "differs by", of = rms_of })
 if run:one { part = "shapes", scene = "100", output = "spans" } then
   page:put "## The paper's figure 13"
   page:put ""
   page:put [[
-10 and 100 NURBS shapes to spans. The paper's machine took 8.5 s at 30,000 pixels a side, and its
-time followed the side.]]
+10 and 100 NURBS shapes to spans. The paper's machine took 8.5 s at 30,000 pixels per side, and its
+time was proportional to the side.]]
   page:plot("figure13", "figure13")
 end
 if run:one { part = "figure14" } then
   plain_table("figure14", "The paper's figure 14", [[
-Drawn shapes before a photograph, both as pictures of 1000 x 1000 pixels, or the shapes as geometry.
-The paper's machine took 2600 s and half of that at 30,000.]], { title = "spans", of = spans_of })
+Drawn shapes in front of a photograph, both as pictures of 1000 x 1000 pixels, or the shapes as
+geometry. The paper's machine took 2600 s for the pictures and half of that for the geometry at
+30,000 pixels per side.]], { title = "spans", of = spans_of })
   page:plot("figure14", "figure14")
 end
 plain_table("multiplane", "Twelve painted planes",
   "Pictures, turned and clipped, under a multiplane camera.", { title = "spans", of = spans_of })
 if run:one { part = "defocus" } then
   plain_table("defocus", "Defocus", [[
-A hundred shapes, and the paper's figure 11 (three bands of colour), at 4096 x 4096; beside them the
-sharp frame's pixels, blurred by OpenCV and libvips with the same Gaussian (sigma is half the
-radius).]], { title = "spans", of = spans_of })
+A hundred shapes, and the paper's figure 11 (three bands of colour), at 4096 x 4096, compared with
+the pixels of the sharp frame, blurred by OpenCV and libvips with the same Gaussian (sigma is half
+the radius).]], { title = "spans", of = spans_of })
   page:plot("defocus", "defocus")
 end
 plain_table("start", "From exec to the first row", [[
-The wall's clock from the fork to the first byte of raw pixels on a pipe, frame 1 at 1920 x 1080.]])
+Wall-clock time from the fork to the first byte of raw pixels on a pipe, frame 1 at 1920 x 1080.]])
 plain_table("film", "The demo film", [[
-3840 x 2160 to PNG, by the wall's clock. ffmpeg is given each cel as a PNG file with alpha, lays one
-over the other and adds the second exposure; the film's last frames, where all cels are seen.]],
-  { title = "frames a second", of = rate_of })
+3840 x 2160 to PNG, in wall-clock time. ffmpeg gets each cel as a PNG file with alpha, lays one over
+the other and adds the second exposure; it makes the last frames of the film, where all cels are
+visible.]], { title = "frames per second", of = rate_of })
 shapes.agreement(page)
 
 page:write(path)

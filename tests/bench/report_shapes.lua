@@ -1,5 +1,5 @@
---- What the page tells of drawings: celspan beside the peers. Each function adds to a page
---- (page.lua) and leaves out what was not measured.
+--- The parts of the page about drawings: celspan compared with the peers. Each function adds to a
+--- page (page.lua) and leaves out figures that were not measured.
 local asked = require "tests.bench.asked"
 local published = require "tests.bench.published"
 local results = require "tests.bench.results"
@@ -21,7 +21,7 @@ local function count(value) return value and ("%.3g million"):format(value / 1e6
 
 -- ---------------------------------------------------------------- ratios
 
---- "1.2 AGG", and Blend2D's ratio where it was measured.
+--- "1.2 AGG", and Blend2D's ratio if it was measured.
 local function ratio_cell(run, scene, side)
   local mine = run:pixel_row(scene, side, "celspan", "area")
   local best, name = run:best_peer(scene, side)
@@ -42,11 +42,11 @@ local function ratio_lines(page, names)
   end
 end
 
---- Every drawing against the best of the peers.
+--- Every drawing compared with the best of the peers.
 function report.ratios(page)
   page:put [[
-Drawings to pixels, antialiased, one thread: how many times celspan's time the fastest of Skia, AGG,
-Qt and Cairo takes, and which that is. Over 1 celspan is the fastest.
+Drawings to pixels, antialiased, one thread: the time of the fastest of Skia, AGG, Qt and Cairo
+divided by celspan's, and its name. Above 1, celspan is the fastest.
 ]]
   page:head { "drawing", "1k", "2k", "4k", "30k" }
   for _, names in ipairs { scenes.artwork, scenes.random, scenes.hard, scenes.gradients } do
@@ -80,7 +80,7 @@ end
 local function pixel_table(page, names)
   page:head { "drawing", "side", "celspan", "instructions", "Blend2D", "Blend2D, published", "Skia",
               "AGG", "Qt", "Cairo", "fill of the runs", "memset", "ahead of Blend2D, published",
-              "by AGG's yardstick", "ahead of the best here" }
+              "estimated from AGG", "ahead of the best peer" }
   for _, scene in ipairs(names) do
     for _, side in ipairs(pixel_sides) do
       local mine = page.run:pixel_row(scene, side, "celspan", "area")
@@ -95,7 +95,7 @@ local function power(run, wanted, sides)
   return exponent and ("%.2f"):format(exponent) or ""
 end
 
---- By which power of the side the time grows.
+--- The power of the side with which the time grows.
 local function exponent_table(page, names)
   page:head { "drawing", "spans `none`, 4k to 1M", "spans `area`, 4k to 1M",
               "pixels `area`, 4k to 30k", "Skia", "AGG", "Qt", "Cairo" }
@@ -124,7 +124,7 @@ end
 
 local function span_table(page, names)
   page:head { "drawing", "side", "antialiasing", "time", "instructions", "spans",
-              "colours composed", "ns a span", "ns a crossing", "peak memory" }
+              "colours composed", "ns per span", "ns per crossing", "peak memory" }
   for _, scene in ipairs(names) do
     for _, antialias in ipairs { "none", "area" } do
       for _, side in ipairs { 1024, 2048, 4096, 30000, 100000, 1000000 } do
@@ -145,38 +145,39 @@ local function section(page, title, text, names)
   pixel_table(page, names)
 end
 
---- The random shapes, those that are hard, and artwork.
+--- The random shapes, the hard scenes, and artwork.
 function report.tables(page)
   page:put "## Random shapes"
   page:put ""
   page:put [[
-10, 100 and 1000 closed B-splines of random colour and alpha, antialiased, to pixels. *Ahead*: how
-many times celspan's time another takes; under 1 it is faster.]]
+10, 100 and 1000 closed B-splines of random colour and alpha, antialiased, to pixels. *Ahead of*:
+the other renderer's time divided by celspan's; below 1, the other renderer is faster.]]
   page:plot("ratios", "ratios")
   for _, scene in ipairs(scenes.random) do page:plot("shapes-" .. scene, "shapes", scene) end
   pixel_table(page, scenes.random)
   page:put "### To spans"
   page:put ""
   page:put [[
-A crossing is an edge that meets a row, whether or not it is hidden.
+A crossing is an edge that meets a row, whether it is hidden or not.
 ]]
   span_table(page, scenes.random)
-  page:put "The power of the side that the time follows: 1 is linear, 2 is square."
+  page:put "The time grows with this power of the side: 1 is linear, 2 is quadratic."
   page:put ""
   exponent_table(page, scenes.random)
   section(page, "Hard for spans", [[
 `opaque`: the 1000 shapes without transparency. `small`: 10,000 shapes of a twentieth of the side.
-`faint`: the 1000 at alpha 0.02 to 0.08, where about 60 layers are seen at once.
+`faint`: the 1000 shapes at alpha 0.02 to 0.08, so that about 60 layers are visible at each point.
 ]], scenes.hard)
   section(page, "Gradients", [[
 The 100 and the 1000 shapes, each with a linear gradient from the left to the right of its box,
-between its colour and another of the same alpha. All blend between codes as they are. celspan has a
-gradient of floats, one span where nothing lies over it; AGG and Qt look up 256 and 1024 colours.
+between its colour and another of the same alpha. All renderers blend coded values. celspan computes
+the gradient in floats, as one span where nothing covers it; AGG and Qt use tables of 256 and 1024
+colours.
 ]], scenes.gradients)
   section(page, "Artwork", [[
-Drawings of the material as filled paths, mostly opaque: `mosquito`, `skaters` and `boating` of 155
-to 159 paths each; sheets of about 64 drawings each, `clipart` (2053 paths), `emoji` (983) and
-`twemoji` (426).
+Drawings of the sample material as filled paths, mostly opaque: `mosquito`, `skaters` and `boating`
+with 155 to 159 paths each; sheets of about 64 drawings each, `clipart` (2053 paths), `emoji` (983)
+and `twemoji` (426).
 ]], scenes.artwork)
 end
 
@@ -204,12 +205,13 @@ end
 function report.agreement(page)
   local rows = page.run:all { part = "agreement" }
   if #rows == 0 then return end
-  page:put "## Do all draw the same?"
+  page:put "## Do all renderers draw the same?"
   page:put ""
   page:put [[
-Each drawing once at 1024 pixels a side, in cells of 16 x 16 pixels: the root of the mean square of
-how far they are from celspan's, of 255; for this celspan blends coded values as they are, as the
-others do. Cairo and Skia drop fractions of a value at each of 60 faint layers.
+Each drawing once at 1024 pixels per side, averaged over cells of 16 x 16 pixels: the root of the
+mean square of the difference from celspan's picture, in units of 1/255. For this comparison celspan
+blends coded values, as the others do. Cairo and Skia drop fractions of a value at each of 60 faint
+layers.
 ]]
   page:head { "drawing", "Blend2D", "Skia", "AGG", "Qt", "Cairo" }
   local done = {}

@@ -4,8 +4,8 @@ local Runner = require "tests.bench.runner"
 local results = {}
 results.__index = results
 
---- The peers that every page names, as rows and as people call them. Blend2D is not among them: it
---- is seldom there.
+--- The peers that every page names, as rows and as people call them. Blend2D is not among them
+--- because it is rarely installed.
 results.peers = { { "skia", "Skia" }, { "agg", "AGG" }, { "qt", "Qt" }, { "cairo", "Cairo" } }
 
 local numbers = { side = true, workers = true }
@@ -43,7 +43,8 @@ end
 
 function results:one(wanted) return self:all(wanted)[1] end
 
---- Seconds of a row: one thread's processor time, which waits for nobody; else the wall's clock.
+--- Seconds of a row: processor time if there was one thread, which excludes waiting; else wall
+--- time.
 function results.seconds(row)
   if not row then return nil end
   return row.workers == 1 and row.processor or row.wall
@@ -65,7 +66,7 @@ function results:best_peer(scene, side)
   return least, name
 end
 
---- What stands before a time: only a part was measured, or it was ended before it was done.
+--- A prefix for a time: only a part was measured, or the run was ended before it was done.
 function results.mark(row) return row.is_over and "over " or row.is_part and "~" or "" end
 
 --- The power of the side that the time follows, by least squares over these sides.

@@ -1,4 +1,4 @@
---- Runs the programs of the benchmark, interleaved, and keeps what they tell as rows.
+--- Runs the programs of the benchmark, interleaved, and keeps their results as rows.
 local system = require "tests.support.system"
 
 local Runner = {}
@@ -12,8 +12,8 @@ Runner.columns = {
   "load",
 }
 
---- programs: the folder of the built ones; seconds: that a program may repeat a job; share: of the
---- rounds that are asked for.
+--- programs: the folder of the built ones; seconds: how long a program may repeat a job; share: the
+--- share of the requested rounds to run.
 function Runner.new(options)
   return setmetatable({ rows = {}, notes = {}, programs = options.programs,
     seconds = options.seconds, share = options.share, pictures = {} }, Runner)
@@ -27,7 +27,7 @@ function Runner:has(name)
   return file ~= nil
 end
 
---- Says once what is left out.
+--- Reports once that something is left out.
 function Runner:note(text)
   if self.notes[text] then return end
   self.notes[text] = true
@@ -52,8 +52,8 @@ function Runner.command(...)
   return table.concat(words, " ")
 end
 
---- What a command tells, a table a line of `KEY VALUE` pairs; nil and its message when it fails.
---- One that takes longer than `limit` seconds is ended, and tells that.
+--- The output of a command, a table for each line of `KEY VALUE` pairs; nil and its message when it
+--- fails. A command that takes longer than `limit` seconds is ended, and the message says so.
 function Runner:ask(command, limit)
   local guard = limit and ("timeout %d "):format(limit) or ""
   local pipe = assert(io.popen(("BENCH_SECONDS=%g %s%s 2>&1"):format(self.seconds, guard, command)))
@@ -80,7 +80,7 @@ local function median(list)
   return list[#list // 2 + 1]
 end
 
---- Folds the tellings of several rounds into one row.
+--- Folds the results of several rounds into one row.
 local function fold(entry, told)
   local row = {}
   for key, value in pairs(entry) do row[key] = value end
@@ -109,8 +109,8 @@ local function show(row)
     1e3 * row.wall, 1e3 * row.processor, (row.peak_kib or 0) / 1024))
 end
 
---- entries: { { command =, renderer =, ... }, ... }, each with the columns it stands for; run in
---- turn, `rounds` times. `take(lines)` picks the line of an entry's answer, the first unless given.
+--- entries: { { command =, renderer =, ... }, ... }, each with the columns of its row; run in turn,
+--- `rounds` times. `take(lines)` picks a line of an entry's output, the first one by default.
 function Runner:measure(rounds, entries)
   local told = {}
   rounds = math.max(1, math.floor(rounds * self.share + 0.5))
@@ -123,7 +123,7 @@ function Runner:measure(rounds, entries)
         table.insert(told[i], line)
       else
         self:note(("%s, %s at %s: %s"):format(entry.renderer, entry.scene, entry.side,
-          message or "told nothing"))
+          message or "no output"))
       end
     end
   end
@@ -147,7 +147,7 @@ function Runner.distance(a, b)
   return math.sqrt(sum / count)
 end
 
---- Whether any program was lent a counter of instructions.
+--- Whether any program had access to an instruction counter.
 function Runner:has_counter()
   for _, row in ipairs(self.rows) do
     if row.instructions then return true end

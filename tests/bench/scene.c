@@ -9,7 +9,7 @@ void bench_check(celspan_context *context, celspan_status status) {
     bench_stop("%s", celspan_context_error(context));
 }
 
-/* Codes are taken for light as they are. */
+/* Codes are used as linear light without conversion. */
 static celspan_paint make_paint(bench_colour colour) {
   return celspan_paint_rgb((float)(colour.red / 255.0), (float)(colour.green / 255.0),
                            (float)(colour.blue / 255.0), (float)(colour.alpha / 255.0));

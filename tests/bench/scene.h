@@ -13,7 +13,7 @@ extern "C" {
 void bench_check(celspan_context *context, celspan_status status);
 
 /* One cel over white, which fills a film of 1 x 1. new
- * cel  what the cel is like but for its objects; may be NULL */
+ * cel  the cel's properties except its objects; may be NULL */
 celspan_rostrum *bench_scene(celspan_context *context, const bench_drawing *drawing,
                              const celspan_cel_desc *cel);
 /* One cel as described; is_backed: over white. new */

@@ -1,4 +1,5 @@
---- The drawings of the benchmark, written into a folder; what the material lacks is left out.
+--- The drawings of the benchmark, written into a folder; those missing from the material are left
+--- out.
 local shapes = require "tests.bench.shapes"
 local svg = require "tests.bench.svg"
 local present = require "tests.support.present"
@@ -54,7 +55,7 @@ local function clovers()
   return list
 end
 
---- Writes FOLDER/NAME.txt of each. Returns whether the material was there.
+--- Writes FOLDER/NAME.txt of each. Returns whether the material was found.
 function scenes.write(folder)
   local material = present.material
   local all = material and shapes.read(material .. "/bench-scenes/scene1000.txt")

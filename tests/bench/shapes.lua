@@ -1,4 +1,4 @@
---- The random drawings of the benchmark, in the text form that drawing.h tells.
+--- The random drawings of the benchmark, in the text form that drawing.h describes.
 local prng = require "tests.support.prng"
 
 local shapes = {}

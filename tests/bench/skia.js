@@ -28,7 +28,7 @@ function splineData(n) {
 
 const readColour = ([r, g, b, a]) => `rgba(${r},${g},${b},${a / 255})`;
 
-// A colour, or a gradient as drawing.h tells; what is left of the words.
+// A colour, or a gradient as drawing.h describes it; and the remaining words.
 function readPaint(words) {
   if (words[0] !== "across") return [{ colour: readColour(words) }, words.slice(4)];
   return [{ columns: [Number(words[1]), Number(words[2])], colour: readColour(words.slice(3)),
@@ -65,7 +65,7 @@ function peak() {
   return Number(/VmHWM:\s*(\d+)/.exec(fs.readFileSync("/proc/self/status", "utf8"))[1]);
 }
 
-// A part of the work for the whole, as bench_part of measure.h.
+// A part of the work as a sample of the whole, like bench_part of measure.h.
 function measure(job, scale, fixed) {
   const limit = Number(process.env.BENCH_SECONDS || 0.2);
   const runs = [];
@@ -117,7 +117,7 @@ function styleOf(context, paint, side) {
   return gradient;
 }
 
-// One pixel read makes Skia draw what was recorded.
+// Reading one pixel makes Skia draw what was recorded.
 function drawBand(context, shapes, paths, side, rows, top) {
   context.setTransform(1, 0, 0, 1, 0, 0);
   context.fillStyle = "#fff";

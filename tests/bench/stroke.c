@@ -1,9 +1,9 @@
-/* `bench_stroke [SIDE]`: what strokes cost beside filling their outlines.
+/* `bench_stroke [SIDE]`: the cost of strokes, compared with filling their outlines.
  *
- * Every line is drawn as a stroke, and its outline, as it is made for that frame, is filled as a path:
- * the same curves, which are there already. A line of the answer tells how many curves they are, the
- * milliseconds of a frame of either, median of FRAMES by one worker, and their ratio: what is promised
- * is 3 at most.
+ * Every line is drawn as a stroke; then its outline for that frame is filled as a path, the same
+ * curves but already made. A line of the output gives the number of these curves, the milliseconds
+ * of a frame for each of the two, median of FRAMES by one worker, and their ratio, which is
+ * promised to be 3 at most.
  */
 #include <math.h>
 #include <stdio.h>
@@ -11,8 +11,8 @@
 
 #include "celspan/celspan.h"
 #include "measure.h"
-#include "scene/primitive_data.h"
-#include "stroke/outliner.h"
+#include "model/scene/primitive_data.h"
+#include "model/stroke/outliner.h"
 
 #define FRAMES 21
 #define SIDE 100.0 /* film units */

@@ -1,7 +1,7 @@
 --- A stroke font of straight lines, and polylines as celspan objects: celspan draws no text.
 ---
 --- A glyph is polylines of points, two digits each: x from 0 to 4, y from 0 (the capitals' top)
---- over 6 (the line they stand on) to 8.
+--- over 6 (the baseline) to 8.
 local celspan = require "celspan"
 
 local strokes = {}
@@ -87,8 +87,8 @@ function strokes.width(text, height)
   return math.max(0, columns - 2) * height / 6
 end
 
---- Adds a text that stands on y, of capitals as tall as `height`. align: 0 begins at x, 1 ends
---- there.
+--- Adds a text with its baseline at y, of capitals as tall as `height`. align: 0 begins at x, 1
+--- ends there.
 function strokes.text(list, text, x, y, height, texture, align)
   local unit = height / 6
   local at = x - (align or 0) * strokes.width(text, height)

@@ -1,6 +1,6 @@
---- The filled shapes of an SVG drawing, as the benchmark's path lines: what is needed to draw real
---- artwork with every renderer alike. Strokes, text, clips and masks are left out; a gradient is
---- the mean of its stops.
+--- The filled shapes of an SVG drawing, as the benchmark's path lines: enough to draw real artwork
+--- with every renderer alike. Strokes, text, clips and masks are left out; a gradient is replaced
+--- by the mean of its stops.
 local pathdata = require "celspan.pathdata"
 
 local svg = {}
@@ -134,7 +134,7 @@ function Pen:move(x, y) self:put("M", x, y) end
 function Pen:line(x, y) self:put("L", x, y) end
 function Pen:curve(...) self:put("C", ...) end
 
---- At most a quarter of the ellipse a cubic.
+--- At most a quarter of the ellipse per cubic.
 function Pen:arc(point, from, to, x, y)
   local count = math.ceil(math.abs(to - from) / (math.pi / 2) - 1e-9)
   local step = (to - from) / count
@@ -173,7 +173,7 @@ outline.polyline = outline.polygon
 
 -- ---------------------------------------------------------------- the drawing
 
---- What an element hands on to those within it.
+--- The properties that the children of an element inherit.
 local function inherit(above, a)
   return {
     fill = a.fill or above.fill, rule = a["fill-rule"] or above.rule,

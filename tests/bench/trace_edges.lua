@@ -1,12 +1,13 @@
--- How far tracing leaves edges from where they were, over random drawings with known edges.
+-- The error of traced edges over random drawings with known edges.
 --
---   LUA_PATH='lua/?.lua;?.lua;;' LUA_CPATH=build/?.so lua5.4 tests/bench/trace_edges.lua [LAST [FIRST]]
+--   LUA_PATH='lua/?.lua;?.lua;;' LUA_CPATH=build/?.so \
+--     lua5.4 tests/bench/trace_edges.lua [LAST [FIRST]]
 --
--- The drawings are numbers FIRST to LAST of those that tests/property/trace_spec.lua tries, 1 to
--- 30 by default; each is rasterised with antialiasing and without, where a pixel is one colour or
--- the other. Printed is the farthest that any edge of a drawing is off, in its pixels: how many
+-- The drawings are numbers FIRST to LAST of those that tests/property/trace_spec.lua tries, 1 to 30
+-- by default; each is rasterised with antialiasing, and without, so that each pixel has one colour
+-- or the other. Printed are the largest error of any edge of a drawing, in its pixels: how many
 -- drawings are within a quarter and within half a pixel, the median and the worst; and how many
--- pixels of all of them change when drawing and tracing are drawn without antialiasing. EACH=1
+-- pixels of all drawings change when drawing and tracing are drawn without antialiasing. EACH=1
 -- prints every drawing.
 local traced = require "tests.support.traced"
 local last, first = tonumber(arg[1] or 30), tonumber(arg[2] or 1)

@@ -1,16 +1,17 @@
--- What whole pixels do not tell: drawings that no tracing brings back within half a pixel.
+-- What whole pixels cannot show: drawings that no tracing restores within half a pixel.
 --
---   LUA_PATH='lua/?.lua;?.lua;;' LUA_CPATH=build/?.so lua5.4 tests/bench/trace_limit.lua [LAST [FIRST [STEPS]]]
+--   LUA_PATH='lua/?.lua;?.lua;;' LUA_CPATH=build/?.so \
+--     lua5.4 tests/bench/trace_limit.lua [LAST [FIRST [STEPS]]]
 --
--- Of the drawings of trace_edges.lua, those are looked at whose edges come back farther off than
--- half a pixel from a picture without antialiasing. For each, two others are sought that look the
--- same without antialiasing, pixel by pixel: the corners of its shapes are moved, their control
--- points or the ends of their radii, one by one, in STEPS random steps (400), as long as all
--- pixels stay as they are and both get no nearer to each other; what was traced is another, where
--- it has the same pixels. Where an edge of one is more than a pixel from where it is in the other,
--- whatever is traced is more than half a pixel off for one of both. Distances are told at 16 x 16
--- places a pixel, and what that may add is taken off: what is printed is a proof for those that
--- are found, and says nothing of the rest.
+-- Examines those drawings of trace_edges.lua whose edges have an error of more than half a pixel
+-- after tracing a picture without antialiasing. For each, it searches for two other drawings that
+-- look the same without antialiasing, pixel by pixel: the corners of its shapes, their control
+-- points or the ends of their radii are moved one by one, in STEPS random steps (400), as long as
+-- all pixels stay as they are and the two get no nearer to each other; the traced drawing is one of
+-- the candidates if it has the same pixels. Where an edge of one is more than a pixel from the same
+-- edge of the other, any tracing is more than half a pixel off for one of the two. Distances are
+-- computed at 16 x 16 places a pixel, and the possible error of that is subtracted: the result is a
+-- proof for the drawings found, and says nothing about the others.
 local celspan = require "celspan"
 local prng = require "tests.support.prng"
 local traced = require "tests.support.traced"
@@ -23,7 +24,7 @@ local function drawn(shapes, points, make)
   return celspan.union(list)
 end
 
---- The same with one point of one shape moved by up to so many pixels.
+--- The same with one point of one shape moved by at most `most` pixels.
 local function varied(random, points, count, most)
   local copy, at = {}, random:whole(2, count)
   for i = 2, count do copy[i] = points[i] end
@@ -34,7 +35,7 @@ local function varied(random, points, count, most)
   return copy
 end
 
---- Two drawings with the same pixels as a random one, and how far they are apart at least.
+--- Two drawings with the same pixels as a random one, and a lower bound of their distance.
 local function farthest_apart(case)
   local shapes, w, h, points, make = traced.shapes(case)
   local truth, random = celspan.union(shapes), prng.new(case)
@@ -67,5 +68,6 @@ for case = first, last do
     io.flush()
   end
 end
-print(("%d of %d drawings are farther off than half a pixel; for %d none could be nearer"):format(all,
+print(("%d of %d drawings are farther off than half a pixel; for %d none could be nearer")
+  :format(all,
   last - first + 1, beyond))

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# The speed of videos: by the clock, beside a pipe to ffmpeg and beside ffmpeg alone.
+# The speed of videos: wall time compared with a pipe to ffmpeg and with ffmpeg alone.
 #
 #   tests/bench/video.sh [SCRIPT [FRAMES [ENDING]]]
 #
 #   video   celspan render SCRIPT -o film.ENDING
 #   pipe    celspan render SCRIPT -o - | ffmpeg, with the arguments that celspan gives it
-#   alone   ffmpeg with the same arguments, over those frames lying raw in a file
+#   alone   ffmpeg with the same arguments, over those frames as a raw file
 #
-# Where celspan hands planes of Y'CbCr to ffmpeg, the other two have ffmpeg make them of RGBA.
+# Where celspan passes planes of Y'CbCr to ffmpeg, the other two have ffmpeg convert RGBA to them.
 #
 # The three take turns for ROUNDS rounds (5), on two processors. Ratios are those of the best times:
 # video to pipe should be 0.95 at least, video to alone 0.85.
@@ -33,7 +33,7 @@ real=$(command -v ffmpeg) || die "install the package ffmpeg"
 pinned=(taskset -c 0,1)
 command -v taskset >/dev/null || pinned=()
 
-# An ffmpeg that notes its arguments, so that the others get the very same.
+# An ffmpeg that records its arguments, so that the others get exactly the same.
 mkdir "$folder/bin"
 cat >"$folder/bin/ffmpeg" <<TEXT
 #!/bin/sh
@@ -42,7 +42,10 @@ exec "$real" "\$@"
 TEXT
 chmod +x "$folder/bin/ffmpeg"
 
-render() { "${pinned[@]}" "$celspan" render "$script" --size "$size" --frames "$frames" --background '#000' --progress none "$@"; }
+render() {
+  "${pinned[@]}" "$celspan" render "$script" --size "$size" --frames "$frames" \
+    --background '#000' --progress none "$@"
+}
 raw() { render -o - --alpha premultiplied --depth "$depth"; }
 encode() { "${pinned[@]}" "$real" "${arguments[@]}" "file:$1"; }
 
@@ -75,8 +78,10 @@ for ((i = 0; i < rounds; i++)); do
   for way in video pipe alone; do clock "$way"; done
 done
 
-printf '%s, frames %s, %s, %s, best of %d, %d processors\n' "$script" "$frames" "$size" "$ending" "$rounds" "$(nproc)"
+printf '%s, frames %s, %s, %s, best of %d, %d processors\n' "$script" "$frames" "$size" \
+  "$ending" "$rounds" "$(nproc)"
 awk -v video="${best[video]}" -v pipe="${best[pipe]}" -v alone="${best[alone]}" 'BEGIN {
   printf "video %.3f s   pipe %.3f s   alone %.3f s\n", video / 1e6, pipe / 1e6, alone / 1e6
-  printf "video to pipe %.3f (at least 0.95)   video to alone %.3f (at least 0.85)\n", pipe / video, alone / video
+  printf "video to pipe %.3f (at least 0.95)   video to alone %.3f (at least 0.85)\n",
+    pipe / video, alone / video
 }'

@@ -23,7 +23,7 @@ static void check(int status) {
     bench_stop("%s", vips_error_buffer());
 }
 
-/* Of 8-bit RGBA, borrowed. */
+/* Wraps 8-bit RGBA, borrowed. */
 static VipsImage *wrap(uint8_t *pixels, int width, int height) {
   VipsImage *image = vips_image_new_from_memory(pixels, (size_t)width * (size_t)height * 4, width,
                                                 height, 4, VIPS_FORMAT_UCHAR);
@@ -31,7 +31,7 @@ static VipsImage *wrap(uint8_t *pixels, int width, int height) {
   return image;
 }
 
-/* A picture of this size that says where each of its pixels comes from. */
+/* A picture of this size that gives the source position of each of its pixels. */
 static VipsImage *make_map(const double m[9]) {
   size_t count = (size_t)BENCH_FRAME_WIDTH * BENCH_FRAME_HEIGHT;
   float *at = malloc(count * 2 * sizeof *at);
@@ -65,7 +65,7 @@ static VipsImage *place(const vips_job *job) {
   return placed;
 }
 
-/* Into memory that is there already. */
+/* Into existing memory. */
 static void write_out(VipsImage *image, uint8_t *out) {
   size_t size = VIPS_IMAGE_SIZEOF_IMAGE(image);
   VipsImage *target = vips_image_new_from_memory(out, size, image->Xsize, image->Ysize,

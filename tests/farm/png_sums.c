@@ -1,5 +1,5 @@
-/* The pixels of a PNG as one number, read row by row by zlib and nothing of celspan: 8 bits of RGB or
- * RGBA, of any size.
+/* The pixels of a PNG as one number, read row by row with zlib and no code of celspan: 8 bits of
+ * RGB or RGBA, of any size.
  *
  *   png_sums FILE      prints width, height, channels and the CRC-32 of the unfiltered rows
  */
@@ -55,7 +55,7 @@ static void open_png(png *p, const char *path) {
     die("no memory");
 }
 
-/* More of the stream; chunks that are not image data are passed over. */
+/* Reads more of the stream; chunks that are not image data are skipped. */
 static void refill(png *p) {
   char type[5] = "";
   while (p->left == 0) {
@@ -77,7 +77,7 @@ static void refill(png *p) {
     read_32(p->file);
 }
 
-/* So many bytes of the stream. The answer: whether it has ended behind them. */
+/* `size` bytes of the stream. Returns whether it ends after them. */
 static int inflate_bytes(png *p, unsigned char *out, uint32_t size) {
   p->stream.next_out = out;
   p->stream.avail_out = size;

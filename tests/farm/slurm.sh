@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
-# celspan farm on a Slurm of its own: an array of frames, of which one task is killed and put back into
-# the queue, and a large frame in strips, joined, that is the same as the one made whole.
+# celspan farm on a private Slurm: an array of frames, one task of which is killed and put back into
+# the queue, and a large frame in strips, joined, that equals the one made whole.
 #
-#   tests/farm/slurm.sh [SIDE]       pixels of the large frame's side; 100000. It is a span file; a PNG of
-#                                    a fifth of it is unpacked and compared
+#   tests/farm/slurm.sh [SIDE]       pixels of the large frame's side; 100000, at least 20480. It is
+#                                    a span file; a PNG of a fifth of that side, in 16 strips, is
+#                                    unpacked and compared
 #
-# Needs Debian's slurmctld, slurmd and munge, root (as in a container), and build/celspan, or what
-# CELSPAN names. Everything is in a temporary folder and on ports of its own; what is left of it is
-# ended and removed.
+# Needs Debian's slurmctld, slurmd and munge, root (as in a container), and build/celspan, or the
+# program that CELSPAN names. Everything is in a temporary folder and on ports of its own; in the
+# end it is stopped and removed.
 set -u -o pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 side=${1:-100000}
@@ -95,7 +96,7 @@ start() {
 
 # ---------------------------------------------------------------- jobs
 
-# How many tasks of a job are left; those that Slurm forgot are none.
+# How many tasks of a job are left, without those that Slurm forgot.
 left() { squeue -h -r -j "$1" 2>/dev/null | wc -l; }
 
 wait_for() {
@@ -154,12 +155,12 @@ array() {
   say "240 frames, the same as in one run; $(find 'logs of it' -name '*.log' | wc -l) logs"
 }
 
-# A frame of so many pixels a side in 16 strips: strips ENDING SIDE.
+# strips ENDING SIDE: a frame of SIDE pixels a side in 16 strips.
 strips() {
   local ending=$1 side=$2 job jobs
   say "a frame of $side x $side in 16 strips: $ending"
-  "$celspan" farm film.lua -o "large.$ending" --frames 1 --size "${side}x$side" --slurm --strips 16 \
-    --workers 1 >"strips.sh" || die "farm failed"
+  "$celspan" farm film.lua -o "large.$ending" --frames 1 --size "${side}x$side" --slurm \
+    --strips 16 --workers 1 >"strips.sh" || die "farm failed"
   SECONDS=0
   bash strips.sh >jobs.txt || die "the strips were not put into the queue"
   mapfile -t jobs < <(sed -n 's/Submitted batch job //p' jobs.txt)
@@ -182,7 +183,7 @@ strips() {
   rm -rf "large.$ending"* "whole.$ending" "again.$ending"
 }
 
-# By a reader that has nothing of celspan in it, which holds two rows.
+# Compares with a reader that shares no code with celspan and keeps only two rows in memory.
 same_pictures() {
   cc -O2 -o png_sums "$root/tests/farm/png_sums.c" -lz || die "no compiler"
   ./png_sums "$1" >one.txt || die "$1 cannot be read"
@@ -202,4 +203,4 @@ film
 array
 strips span "$side"
 strips png $((side / 5))
-say "all of it holds"
+say "all checks passed"

@@ -1,10 +1,11 @@
-/* The hooks of tests/faults/calls.h. With FAULTS_OF_A_PROGRAM: a library for LD_PRELOAD, whose plan is
+/* The hooks of tests/faults/calls.h. With FAULTS_OF_A_PROGRAM: a library for LD_PRELOAD, whose plan
+ * is
  *
  *   FAULT_AT=N          the N-th call fails, counted from 1; 0: none
  *   FAULT_LASTING=1     and all after it
  *   FAULT_ERROR=ERRNO   a number; -1: reads and writes are short
- *   FAULT_CALL=NAME     only calls of this name are counted, as calls.h writes it
- *   FAULT_COUNT=FILE    how many there were, and which failed first, is written there at the end
+ *   FAULT_CALL=NAME     only calls of this name are counted, as calls.h spells it
+ *   FAULT_COUNT=FILE    the number of calls, and the first that failed, written at the end
  *
  * Programs that the program starts have no hooks.
  */
@@ -36,7 +37,7 @@ static bool fails(const char *call) {
   return true;
 }
 
-/* How much of `size` bytes is asked for. */
+/* How many of `size` bytes are requested. */
 static size_t shorten(const char *call, size_t size) {
   bool is_short = fault_calls.error == FAULT_SHORT && is_counted(call) && size > 1 &&
                   fault_comes(&fault_calls, call);
@@ -45,7 +46,7 @@ static size_t shorten(const char *call, size_t size) {
 
 /* ---------------------------------------------------------------- names */
 
-/* hook_NAME is what stands before a call, real_NAME the call itself. */
+/* hook_NAME replaces a call, real_NAME is the call itself. */
 #ifdef FAULTS_OF_A_PROGRAM
 #define DECLARE(type, name, parameters, arguments)                                                 \
   type hook_##name parameters __asm__(#name);                                                      \
@@ -82,7 +83,7 @@ static size_t shorten(const char *call, size_t size) {
   DECLARE(int, name, parameters, arguments)                                                        \
   int hook_##name parameters { return fails(#name) ? errno : real_##name arguments; }
 
-/* A file is closed even where that fails, and nobody may close it again. */
+/* A file is closed even if closing fails, and must not be closed again. */
 #define CLOSE(name, type)                                                                          \
   DECLARE(int, name, (type file), (file))                                                          \
   int hook_##name(type file) {                                                                     \
@@ -90,7 +91,8 @@ static size_t shorten(const char *call, size_t size) {
     return fails(#name) ? -1 : result;                                                             \
   }
 
-/* What a test program writes need not outlast the machine: its renders wait for no disk. */
+/* Files written by a test program need not survive a crash: its renders do not wait for the
+ * disk. */
 #ifdef FAULTS_OF_A_PROGRAM
 #define SYNC(name) CALL(int, name, -1, (int descriptor), (descriptor))
 #else
@@ -120,8 +122,8 @@ __attribute__((constructor)) static void read_plan(void) {
   fault_arm(&fault_calls, (size_t)number("FAULT_AT"), number("FAULT_LASTING") != 0);
 }
 
-/* As a program ends that counts what it runs, libgcov opens its files by this name, by which the sources
- * open none: they are not what a test wants to see fail. */
+/* When a program that counts what it runs ends, libgcov opens its files by this name, which the
+ * sources never use: tests do not want these calls to fail. */
 DECLARE(int, open, (const char *path, int flags, mode_t mode), (path, flags, mode))
 int hook_open(const char *path, int flags, mode_t mode) {
   const char *ending = strrchr(path, '.');

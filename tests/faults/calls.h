@@ -1,19 +1,19 @@
-/* The calls to the system that src/ makes and that may fail, each with a hook before it.
+/* The calls to the system that src/ makes and that may fail, each with a hook.
  *
  * tests/faults/calls.c makes the hooks, of which there are two kinds:
  *
  *   in a test program    the linker's --wrap puts them before every call of the objects that are
  *                        linked into it, and of nothing else; `fault_calls` is their plan
- *   in a whole program   a library that is loaded before it (LD_PRELOAD) puts them before every call
- *                        that crosses from one library into another; its plan is in the environment
+ *   in a whole program   a library that is loaded before it (LD_PRELOAD) puts them before every
+ *                        call from one library into another; its plan is in the environment
  *
- * So the code that is tested is the code that is delivered. tests/spec/faults_spec.lua sees that no
- * call is missing here.
+ * So the tested code is the code that is shipped. tests/spec/faults_spec.lua checks that no call is
+ * missing here.
  *
- *   CALL(type, name, failure, (parameters), (arguments))     failure: what it returns then
+ *   CALL(type, name, failure, (parameters), (arguments))     failure: the value returned then
  *   DATA(type, name, (parameters), (arguments), size)        -1, and may do less than `size`
  *   NUMBER(name, (parameters), (arguments))                  returns an errno or 0
- *   CLOSE(name, type)                                        -1, having closed all the same
+ *   CLOSE(name, type)                                        -1, although it has closed
  *   SYNC(name)                                               -1
  */
 #ifndef CELSPAN_TESTS_CALLS_H

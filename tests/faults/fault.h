@@ -1,7 +1,7 @@
 /* Faults on purpose: the n-th call of some kind fails, once or with all that follow.
  *
  * A plan belongs to one kind of calls: to the system, to a host's functions, or for memory. Calls
- * may come from any thread; the plan changes while there is only one.
+ * may come from any thread; the plan changes only while there is one thread.
  */
 #ifndef CELSPAN_TESTS_FAULT_H
 #define CELSPAN_TESTS_FAULT_H
@@ -10,20 +10,20 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* In place of an errno: reads and writes take half of what they are given, and go well. */
+/* Instead of an errno: reads and writes process half of their bytes, successfully. */
 enum { FAULT_SHORT = -1 };
 
 typedef struct fault_plan {
   atomic_size_t made;   /* calls so far, those that failed included */
   atomic_size_t failed; /* of those */
   size_t at;            /* the call of this number fails, counted from 1; 0: none */
-  bool is_for_good;     /* all later ones fail, too */
+  bool is_for_good;     /* all later ones fail too */
   int error;            /* calls to the system: their errno, or FAULT_SHORT */
   const char *only;     /* calls to the system: NULL, or the one that is counted, such as "close" */
   const char *call;     /* the first one that failed; NULL: none */
 } fault_plan;
 
-/* Begins to count anew. */
+/* Resets the counts. */
 static inline void fault_arm(fault_plan *plan, size_t at, bool is_for_good) {
   plan->made = plan->failed = 0;
   plan->at = at;
@@ -33,7 +33,7 @@ static inline void fault_arm(fault_plan *plan, size_t at, bool is_for_good) {
 
 static inline void fault_disarm(fault_plan *plan) { plan->at = 0; }
 
-/* Counts a call; true: it is to fail. */
+/* Counts a call; true: it must fail. */
 static inline bool fault_comes(fault_plan *plan, const char *call) {
   size_t number = ++plan->made;
   bool comes = plan->at > 0 && (plan->is_for_good ? number >= plan->at : number == plan->at);

@@ -1,12 +1,12 @@
--- Small renders that together use all that makes a frame: for tests/faults, which let every call
--- fail in each. The whole of it is called with the folder of the tree and with a function that
--- stands for a host's procedure that may fail.
+-- Small renders that together use everything that makes a frame: for tests/faults, which makes
+-- every call in each of them fail. The chunk is called with the folder of the tree and with a
+-- function that represents a host's procedure that may fail.
 --
--- Answers a list of renders: name, film, size, and
---   sinks     what it is rendered into, besides "digest": see tests/faults/sinks.c
---   is_cold   it reads files, which a context keeps: every try has a new context
---   workers   1 where it says nothing
---   leaves_out   what cannot be found it leaves out, and says so
+-- Returns a list of renders: name, film, size, and
+--   sinks     what it is rendered into, in addition to "digest": see tests/faults/sinks.c
+--   is_cold   it reads files, which a context caches: every try has a new context
+--   workers   1 by default
+--   leaves_out   it leaves out missing files, and reports it
 --   has_modules, has_type   it needs pictures, or art and type, which a build may lack
 local root, visit = ...
 local celspan = require "celspan"
@@ -47,7 +47,8 @@ end
 local function light()
   return celspan.rostrum { front = { 0.7, 0.8, 1 }, brightness = 1.2,
     back = { texture = ramp, gain = 0.7 },
-    celspan.cel { celspan.circle { centre = { 9, 9 }, radius = 6, texture = celspan.gel(1, 0.5, 0.2) },
+    celspan.cel { celspan.circle { centre = { 9, 9 }, radius = 6,
+      texture = celspan.gel(1, 0.5, 0.2) },
       back = { 0.4, 0.3, 0.2, 0.5 } },
     celspan.cel { celspan.rect { 8, 4, 12, 12, texture = "#ffffffcc" }, opacity = 0.7,
       front = { texture = ball, gain = 1.4, on = "cel" } } }
@@ -66,7 +67,8 @@ local function pictures()
   return celspan.rostrum { back = "#000", celspan.cel {
     celspan.rect { 1, 1, 22, 16, texture = image },
     celspan.circle { centre = { 15, 9 }, radius = 6, texture = grey }:quad(
-      { { 0, 0 }, { 24, 0 }, { 24, 18 }, { 0, 18 } }, { { 2, 1 }, { 22, 4 }, { 20, 17 }, { 4, 14 } }) } }
+      { { 0, 0 }, { 24, 0 }, { 24, 18 }, { 0, 18 } },
+      { { 2, 1 }, { 22, 4 }, { 20, 17 }, { 4, 14 } }) } }
 end
 
 local function files(large)
@@ -78,7 +80,8 @@ end
 
 local function text()
   return celspan.rostrum { back = "#fff", celspan.cel {
-    celspan.text { "Ag8 ->", font = root .. "/scripts/type/block.ttf", size = 9, at = { 2, 12 }, texture = ramp } } }
+    celspan.text { "Ag8 ->", font = root .. "/scripts/type/block.ttf", size = 9, at = { 2, 12 },
+      texture = ramp } } }
 end
 
 local function drawing()
@@ -98,9 +101,11 @@ local function strokes()
   return celspan.rostrum { back = "#fee", celspan.cel {
     celspan.stroke { points = { { 2, 2, 1 }, { 20, 5, 4 }, { 6, 15, 2 }, { 21, 15, 1 } }, width = 3,
       texture = ramp },
-    celspan.stroke { d = "M3 9L20 9L20 15", width = 2, dash = { 3, 1.5 }, cap = "round", join = "round",
+    celspan.stroke { d = "M3 9L20 9L20 15", width = 2, dash = { 3, 1.5 }, cap = "round",
+      join = "round",
       texture = "#024" },
-    celspan.circle { centre = { 12, 9 }, radius = 6 }:stroke { width = 1.5, texture = "#aa0000cc" } } }
+    celspan.circle { centre = { 12, 9 }, radius = 6 }:stroke { width = 1.5,
+      texture = "#aa0000cc" } } }
 end
 
 local function defocus(kernel)
@@ -118,7 +123,8 @@ local function kernels()
   local inner = shapes()
   return { { celspan.rostrum { celspan.cel { celspan.circle { centre = { 12, 9 }, radius = 7,
       texture = ball } }, back = "#fff", antialias = { kernel = "lanczos" } }, 0.5 },
-    { celspan.rostrum { celspan.cel { celspan.rect { 3, 3, 15, 9, texture = ramp } }, antialias = tent }, 0.25 },
+    { celspan.rostrum { celspan.cel { celspan.rect { 3, 3, 15, 9, texture = ramp } },
+      antialias = tent }, 0.25 },
     { inner, 0.25 } }
 end
 

@@ -1,13 +1,13 @@
-/* Random films, one after the other, in one process, one context and one Lua state: random sinks and
- * formats, pictures, text, defocus, workers, and in every second frame a fault of a random kind. What
- * this holds (memory, descriptors, threads) has to stay level.
+/* Random films, one after the other, in one process, one context and one Lua state: random sinks
+ * and formats, pictures, text, defocus, workers, and in every second frame a fault of a random
+ * kind. Their use of memory, descriptors and threads must not grow.
  *
  *   faults_soak SCRIPT ROOT MINUTES [SEED]     SCRIPT: tests/faults/soak.lua
  *
- * A frame that fails must be the same afterwards as it was before. Figures are printed every minute; in
- * the end they are compared with those after a tenth of the time, or after WARM films if that is later:
- * by then everything has been loaded that is ever used. A slow build goes on until it has made as many
- * films once more.
+ * A frame that fails must be the same afterwards as before. Figures are printed every minute; in
+ * the end they are compared with those after a tenth of the time, or after WARM films if that is
+ * later: by then everything that is ever used has been loaded. A slow build continues until it has
+ * made as many films again.
  */
 #include <dirent.h>
 #include <errno.h>
@@ -19,13 +19,13 @@
 #include <unistd.h>
 
 #include "base/context.h"
-#include "output/temporary.h"
+#include "output/sinks/temporary.h"
 #include "tests/faults/stage.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
-/* Resident beyond what was then: pages between allocations, which cannot go back. Sanitizers keep what was
- * freed, and notes of what was touched: there, what is resident is printed and not judged. */
+/* Growth of resident memory: pages between allocations, which cannot be returned. Sanitizers keep
+ * freed memory, and records of accesses: with them resident memory is printed but not checked. */
 #define BYTES_MORE ((long)16 << 20)
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define BYTES_MORE_RESIDENT LONG_MAX
@@ -40,8 +40,8 @@ enum {
 
 typedef struct figures {
   long resident;  /* bytes */
-  long allocated; /* of them by whoever allocates, libraries too */
-  long held;      /* of these by the context, when it has forgotten what it can */
+  long allocated; /* of these in allocated blocks, including those of libraries */
+  long held;      /* of these by the context, after emptying its caches */
   int descriptors, threads;
 } figures;
 
@@ -79,10 +79,10 @@ static long resident_bytes(void) {
   return pages * sysconf(_SC_PAGESIZE);
 }
 
-/* Bytes that were allocated by whatever is in the process, and not freed; 0: not known. */
+/* Bytes allocated in the whole process and not freed; 0: unknown. */
 static long allocated_bytes(void) {
 #ifdef __GLIBC__
-  malloc_trim(0); /* pages that are only kept for later go back to the system */
+  malloc_trim(0); /* unused pages go back to the system */
   struct mallinfo2 info = mallinfo2();
   return (long)(info.uordblks + info.hblkhd);
 #else
@@ -108,7 +108,7 @@ static void print(const soak *k, double minutes, figures f) {
 
 /* ---------------------------------------------------------------- films */
 
-/* Puts a new film in the place of the one before. */
+/* Replaces the film by a new one. */
 static void take_film(soak *k) {
   lua_State *L = k->stage.L;
   lua_Integer seed = (lua_Integer)(random_bits(&k->random) >> 20);

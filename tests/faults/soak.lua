@@ -1,7 +1,7 @@
--- Random films for tests/faults/soak.c. The whole of it is called with the folder of the tree;
--- answers a function make(seed, has_modules) -> film, with pictures in memory and, where the build
--- has the modules for it, pictures of files, text and defocus. A film's frame is the same whenever
--- it is made.
+-- Random films for tests/faults/soak.c. The chunk is called with the folder of the tree; it returns
+-- a function make(seed, has_modules) -> film, with pictures in memory and, if the build has the
+-- modules for them, pictures from files, text and defocus. A film's frame is the same whenever it
+-- is made.
 local root = ...
 local celspan = require "celspan"
 local prng = require "tests.support.prng"
@@ -9,7 +9,7 @@ local scenes = require "tests.support.scenes"
 
 local pictures = { "wood", "canal", "village" }
 
---- A cel with a picture file, as it is or out of focus.
+--- A cel with a picture file, sharp or out of focus.
 local function picture(random, traits)
   local file = ("%s/scripts/pictures/%s.png"):format(root, random:pick(pictures))
   local image = celspan.image { file = file, w = random:between(5, traits.width) }

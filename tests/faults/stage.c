@@ -34,7 +34,7 @@ static celspan_status refuse(stage *s, celspan_context *context, const char *cal
              : CELSPAN_OK;
 }
 
-/* The procedure of the host that a script calls. */
+/* The host's procedure that a script calls. */
 static int visit(lua_State *L) {
   stage *s = lua_touserdata(L, lua_upvalueindex(1));
   return fault_comes(&s->host, "a procedure") ? luaL_error(L, "the procedure refuses") : 0;
@@ -115,7 +115,7 @@ static void add_surface(stage *s) {
     fprintf(stderr, "the surface: %s\n", celspan_context_error(s->context));
 }
 
-/* A script answers a list of renders, or a function that makes them one after the other. */
+/* A script returns a list of renders, or a function that makes them one after the other. */
 static bool run(stage *s, const char *script, const char *root) {
   bool is_done = luaL_loadfile(s->L, script) == LUA_OK;
   if (is_done) {
@@ -281,7 +281,7 @@ static celspan_status to_probes(stage *s, const celspan_frame_desc *frame, stage
   return status;
 }
 
-/* Takes the file away and digests it, where there is one. */
+/* Digests the file, if it exists, and removes it. */
 static void take_file(const char *path, stage_outcome *out) {
   char bytes[4096];
   FILE *file = fopen(path, "rb");

@@ -1,6 +1,7 @@
-/* Where renders are made while calls fail: a context and a Lua state with the renders of a script
- * such as tests/faults/renders.lua, a folder for files, and a plan for each kind of calls. After the
- * renders of a list comes one of a surface that this host fills, which scripts cannot make.
+/* A stage makes renders while calls fail: it has a context and a Lua state with the renders of a
+ * script such as tests/faults/renders.lua, a folder for files, and a plan for each kind of calls.
+ * After the renders of a list comes one of a surface that this host fills, which scripts cannot
+ * make.
  */
 #ifndef CELSPAN_TESTS_STAGE_H
 #define CELSPAN_TESTS_STAGE_H
@@ -19,7 +20,8 @@ typedef struct stage_item {
 typedef struct stage {
   memory_watch watch; /* of the context's allocations */
   fault_plan lua;     /* of the allocations of Lua */
-  fault_plan host;    /* of the calls to what a host gives: progress, sinks, surfaces, procedures */
+  /* of the calls to the host's functions: progress, sinks, surfaces, procedures */
+  fault_plan host;
   celspan_context *context;
   lua_State *L; /* the renders of the script at 1 */
   const char *folder;
@@ -30,27 +32,26 @@ typedef struct stage {
 
 typedef struct stage_outcome {
   celspan_status status;
-  char sentence[STAGE_SENTENCE]; /* where status is not OK */
+  char sentence[STAGE_SENTENCE]; /* if status is not OK */
   bool has_result;
-  uint64_t result[2]; /* a digest of what was made */
+  uint64_t result[2]; /* a digest of the render */
 } stage_outcome;
 
-/* script: run with `root` and a function that stands for a procedure of the host. folder: an empty
- * one. false: the script failed, and said why on standard error. */
+/* script: run with `root` and a function that represents a procedure of the host. folder: must be
+ * empty. false: the script failed, and reported why on standard error. */
 bool stage_open(stage *s, const char *script, const char *root, const char *folder);
-/* A failed check where memory is left. */
+/* Memory that is still allocated is a failed check. */
 void stage_close(stage *s);
 
 /* Renders are counted from 0. */
-/* A field of a render as text; NULL: there is none. It lives as long as
- * the stage. */
+/* A field of a render as text; NULL: it does not exist. It lives as long as the stage. */
 const char *stage_render_text(const stage *s, size_t number, const char *field);
 /* The n-th sink of a render, from 0; NULL: there are no more. The first is "digest". */
 const char *stage_render_sink(const stage *s, size_t number, size_t n);
 
 /* Makes the first frame of a render, from the script's function to the sink's end. sink: "digest",
- * "float", "rows", "sink", "probe", or the ending of a file, before which may stand "dither."; "png16" is a
- * PNG of 16 bits. The folder is empty before; a file that was made is taken away again. */
+ * "float", "rows", "sink", "probe", or the ending of a file, optionally after "dither."; "png16" is
+ * a PNG with 16 bits. The folder must be empty; a file that was made is removed again. */
 void stage_render(stage *s, size_t number, const char *sink, stage_outcome *out);
 /* How many files are in the folder. */
 int stage_count_files(const stage *s);

@@ -1,16 +1,17 @@
-/* Every call of a render fails in turn: an allocation of the core or of Lua, a call to the system, a
- * function of the host; once, and with all that follow. Whichever it is,
+/* Every call of a render fails in turn: an allocation of the core or of Lua, a call to the system,
+ * a function of the host; once, and with all that follow. Whichever it is,
  *
- *   - the render ends with what it makes without faults, or with the status and the sentence of the
- *     fault, and then with no file, or with the whole one where it had its name already;
+ *   - the render ends with the same result as without faults, or with the status and the sentence
+ *     of the fault, and then without a file, or with the complete one if it already had its name;
  *   - no temporary file and no memory is left;
  *   - the same context and the same Lua state then make the same frame, to the bit.
  *
- *   faults_sweep SCRIPT ROOT [NAME]    SCRIPT: tests/faults/renders.lua; ROOT: the folder of the tree;
- *                                      NAME: one render alone
+ *   faults_sweep SCRIPT ROOT [NAME]    SCRIPT: tests/faults/renders.lua; ROOT: the folder of the
+ *                                      tree; NAME: one render alone
  *
- * Where a render makes many calls of a kind, some of them are drawn by lot, by CELSPAN_SEED; with
- * CELSPAN_STARVE=1 all are tried, and with CELSPAN_STARVE=memory every allocation of the core, once.
+ * Where a render makes many calls of a kind, some of them are selected at random, by CELSPAN_SEED,
+ * and of these one in CELSPAN_FAULTS. With CELSPAN_STARVE=1 all are tried, and with
+ * CELSPAN_STARVE=memory every allocation of the core, once.
  */
 #include <errno.h>
 #include <stdlib.h>
@@ -18,7 +19,7 @@
 
 #include "base/context.h"
 #include "base/open.h"
-#include "output/temporary.h"
+#include "output/sinks/temporary.h"
 #include "tests/faults/stage.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
@@ -32,17 +33,18 @@ static const char *const kind_names[KINDS] = {"allocation", "allocation of Lua",
 
 typedef struct sweep {
   const char *script, *root, *folder;
-  const char *starve; /* CELSPAN_STARVE: NULL, or what is tried without samples */
+  const char *starve; /* CELSPAN_STARVE: NULL, or what is tried without sampling */
   test_random random;
   stage stage;
   size_t tries, faults;
-  /* of what is tried now */
+  int sample; /* the number of the next one */
+  /* the current try */
   size_t render;
   const char *name, *sink;
   bool is_cold;    /* every try in a stage of its own */
-  bool leaves_out; /* it is right without what cannot be found */
+  bool leaves_out; /* files that cannot be found may be left out */
   fault_kind kind;
-  bool is_for_good; /* all calls after the n-th fail, too */
+  bool is_for_good; /* all calls after the n-th fail too */
   int error;        /* of calls to the system */
   stage_outcome wanted;
 } sweep;
@@ -76,7 +78,7 @@ static bool is_wanted(const sweep *w, const stage_outcome *out) {
          out->result[1] == w->wanted.result[1];
 }
 
-/* Calls that a signal may interrupt are made again, and what was not taken whole is gone on with. */
+/* Calls that a signal may interrupt are repeated, and incomplete reads and writes are continued. */
 static bool is_invisible(const sweep *w) {
   static const char *const interruptible =
       " open64 openat64 read write pread64 pwrite64 fsync close ";
@@ -87,18 +89,18 @@ static bool is_invisible(const sweep *w) {
   return w->error == FAULT_SHORT || (w->error == EINTR && strstr(interruptible, call));
 }
 
-/* Modules are sought in many places: one that cannot be looked at has none. */
+/* Modules are searched in many places: one that cannot be accessed has none. */
 static bool is_search(void) { return strstr(" access realpath readlink ", fault_calls.call); }
 
-/* A module that is in none of the places is told with all that can be done about it. */
+/* If a module is found nowhere, the message only lists the possible remedies. */
 static bool is_absence_right(const sweep *w, const stage_outcome *out) {
   return w->error == ENOENT && strstr(out->sentence, "which was not found");
 }
 
-/* A file that was read and is not closed well is as good; what comes after it counts. */
+/* If closing a file fails after it was read, the file is valid; a later fault decides then. */
 static bool may_leave_out(const sweep *w) {
   return w->leaves_out && w->kind == OF_SYSTEM && fault_calls.call &&
-         (is_search() || strcmp(fault_calls.call, "close") == 0 || cs_open_tells_of_file(w->error));
+         (is_search() || strcmp(fault_calls.call, "close") == 0 || cs_open_is_about_file(w->error));
 }
 
 static bool is_status_right(const sweep *w, const stage_outcome *out) {
@@ -120,8 +122,8 @@ static bool any_name(const char *pattern, const char *name) {
   return true;
 }
 
-/* Whether a temporary file may be left: it could not be taken away, or its lock was said to be held by
- * somebody who takes it away. */
+/* Whether a temporary file may be left: it could not be removed, or its lock was reported as held
+ * by another process, which removes it. */
 static bool may_be_left(const sweep *w) {
   if (w->kind != OF_SYSTEM || fault_calls.failed == 0)
     return false;
@@ -129,7 +131,7 @@ static bool may_be_left(const sweep *w) {
          (strcmp(fault_calls.call, "flock") == 0 && w->error == EWOULDBLOCK);
 }
 
-/* What is left is found by a later render and taken away. */
+/* A later render finds the remaining files and removes them. */
 static bool is_folder_empty(const sweep *w) {
   char pattern[512];
   snprintf(pattern, sizeof pattern, "%s/frame", w->folder);
@@ -150,13 +152,13 @@ static void tell(const sweep *w, size_t at, const stage_outcome *out) {
           out->sentence);
 }
 
-/* Everything that this context keeps only for later frames is forgotten. */
+/* Empties the caches of this context. */
 static void forget(sweep *w) {
   cs_context_trim(w->stage.context);
   lua_gc(w->stage.L, LUA_GCCOLLECT);
 }
 
-/* The `at`-th call fails; then the frame is made again. false: it was not called so often. */
+/* The `at`-th call fails; then the frame is made again. false: there were fewer calls. */
 static bool try_one(sweep *w, size_t at) {
   stage_outcome out;
   if (w->is_cold && !stage_open(&w->stage, w->script, w->root, w->folder))
@@ -184,9 +186,11 @@ static bool try_one(sweep *w, size_t at) {
 
 /* ---------------------------------------------------------------- all tries */
 
-/* How many calls there are in all. */
-static size_t count_calls(sweep *w) {
+/* How many calls of a kind there are in all. */
+static size_t count_calls(sweep *w, fault_kind kind) {
   stage_outcome out;
+  w->kind = kind;
+  w->is_for_good = false;
   if (w->is_cold && !stage_open(&w->stage, w->script, w->root, w->folder))
     return 0;
   forget(w);
@@ -203,23 +207,24 @@ static bool is_whole(const sweep *w) {
   return is_memory ? w->kind == OF_MEMORY && !w->is_for_good : w->starve != NULL;
 }
 
-static void try_all(sweep *w, fault_kind kind, bool is_for_good, int error) {
+/* count: of the calls of this kind. */
+static void try_all(sweep *w, fault_kind kind, size_t count, bool is_for_good, int error) {
   w->kind = kind;
   w->is_for_good = is_for_good;
   w->error = error;
-  size_t count = count_calls(w);
   int samples = kind == OF_SYSTEM ? SYSTEM_SAMPLES : SAMPLES;
-  if (is_whole(w) || count <= (size_t)samples) {
+  if (is_whole(w)) {
     for (size_t at = 1; at < TRIES_MOST && try_one(w, at); at++)
       continue;
     return;
   }
-  for (int i = 0; i < samples; i++)
-    if (check_is_drawn(i))
-      try_one(w, 1 + (size_t)(random_bits(&w->random) % count));
+  bool is_each = count <= (size_t)samples; /* and one beyond them, which is not reached */
+  for (size_t i = 1; i <= (is_each ? count + 1 : (size_t)samples); i++)
+    if (check_is_drawn_by("CELSPAN_FAULTS", w->sample++))
+      try_one(w, is_each ? i : 1 + (size_t)(random_bits(&w->random) % count));
 }
 
-/* Bytes that are held once all that can be forgotten is. */
+/* The bytes that are still allocated after all caches are emptied. */
 static size_t count_held(sweep *w) {
   forget(w);
   return w->stage.watch.bytes;
@@ -236,13 +241,16 @@ static void sweep_sink(sweep *w) {
   size_t held = count_held(w);
   if (w->is_cold)
     stage_close(&w->stage);
+  size_t counts[KINDS];
+  for (int kind = 0; kind < KINDS; kind++)
+    counts[kind] = count_calls(w, (fault_kind)kind);
   for (int i = 0; i < 2; i++) {
-    try_all(w, OF_MEMORY, i, 0);
-    try_all(w, OF_LUA, i, 0);
-    try_all(w, OF_HOST, i, 0);
+    try_all(w, OF_MEMORY, counts[OF_MEMORY], i, 0);
+    try_all(w, OF_LUA, counts[OF_LUA], i, 0);
+    try_all(w, OF_HOST, counts[OF_HOST], i, 0);
     for (size_t k = 0; k < sizeof errors / sizeof *errors; k++)
-      if (!(errors[k] == EINTR && i)) /* signals without end let nothing end */
-        try_all(w, OF_SYSTEM, i, errors[k]);
+      if (!(errors[k] == EINTR && i)) /* with endless signals nothing ends */
+        try_all(w, OF_SYSTEM, counts[OF_SYSTEM], i, errors[k]);
   }
   if (w->is_cold)
     CHECK(stage_open(&w->stage, w->script, w->root, w->folder));
@@ -257,12 +265,14 @@ static bool is_skipped(const sweep *w) {
 }
 
 static void sweep_render(sweep *w, size_t render) {
-  w->render = render;
-  if (is_skipped(w))
-    return;
   char name[64];
   snprintf(name, sizeof name, "%s", stage_render_text(&w->stage, render, "name"));
   w->name = name;
+  w->render = render;
+  if (is_skipped(w)) {
+    check_skip(name);
+    return;
+  }
   w->is_cold = stage_render_text(&w->stage, render, "is_cold");
   w->leaves_out = stage_render_text(&w->stage, render, "leaves_out");
   char sink[32];

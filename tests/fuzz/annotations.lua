@@ -1,78 +1,37 @@
---- What celspan offers and what it takes, out of the annotations for editors, lua/celspan.d.lua: the specs
---- keep them equal to the tables of fields in the binding.
+--- The functions, methods and classes of celspan, from the annotations for editors.
+local manual = require "celspan.manual"
+
 local annotations = {}
 
 local aliases, classes, functions, methods = {}, {}, {}, {}
 
 -- ---------------------------------------------------------------- reading
 
---- The type at the beginning of a text: up to a space that is in no bracket and behind no comma or colon.
-local function type_in(text)
-  local depth, at = 0, 1
-  while at <= #text do
-    local sign = text:sub(at, at)
-    if sign:find "[%(%[{<]" then depth = depth + 1 end
-    if sign:find "[%)%]}>]" then depth = depth - 1 end
-    if sign == " " and depth == 0 and text:sub(at - 1, at - 1) ~= ":" then break end
-    at = at + 1
-  end
-  return text:sub(1, at - 1)
-end
-
-local function read_class(line)
-  local name, parents = line:match "^%-%-%-@class ([%w_.]+):?%s*(.*)$"
-  if not name then return nil end
-  local class = { parents = {}, fields = {} }
-  for parent in parents:gmatch "[%w_.]+" do table.insert(class.parents, parent) end
-  classes[name] = class
-  return class
-end
-
-local function read_field(class, line)
-  local name, mark, rest = line:match "^%-%-%-@field ([%w_]+)(%??) (.*)$"
-  if name then
-    table.insert(class.fields, { name = name, is_optional = mark == "?", type = type_in(rest) })
-  elseif line:find "^%-%-%-@field %[integer%]" then
-    class.item = type_in(line:match "%[integer%] (.*)$")
-  end
-end
-
-local function read_function(types, line)
-  local name = line:match "^function celspan%.(%w+)%("
-  if name then table.insert(functions, { name = name, types = types }) end
-  name = line:match "^function %w+:(%w+)%("
-  if name then table.insert(methods, { name = name, types = types }) end
-end
-
-local function read(text)
-  local class, types
-  for line in text:gmatch "[^\n]+" do
-    local alias, meaning = line:match "^%-%-%-@alias ([%w_.]+) (.*)$"
-    if alias then aliases[alias] = type_in(meaning) end
-    class = read_class(line) or line:find "^%-%-%-@field" and class or nil
-    if class then read_field(class, line) end
-    local parameter = line:match "^%-%-%-@param %w+%?? (.*)$"
-    if parameter then
-      types = types or {}
-      types[#types + 1] = type_in(parameter)
-    elseif not line:find "^%-%-%-" then
-      read_function(types or {}, line)
-      types = nil
+for _, block in ipairs(manual.read(manual.annotations(), { celspan = "celspan" })) do
+  local types = {}
+  for i, param in ipairs(block.params) do types[i] = param.type end
+  if block.owner then
+    table.insert(block.is_method and methods or functions, { name = block.short, types = types })
+  elseif block.class then
+    local class = { parents = {}, fields = {} }
+    for parent in block.parents:gmatch "[%w_.]+" do table.insert(class.parents, parent) end
+    for _, field in ipairs(block.fields) do
+      if field.name == "[integer]" then class.item = field.type
+      else table.insert(class.fields, field) end
     end
+    classes[block.class] = class
+  elseif block.name then
+    aliases[block.name] = block.fields[1].type
   end
 end
-
-local file = assert(io.open((package.path:match "^(.-)%?" or "") .. "lua/celspan.d.lua"))
-read(file:read "a")
-file:close()
 
 -- ---------------------------------------------------------------- asking
 
---- Functions of the module, and methods of all that it makes: { name =, types = } each.
+--- Functions of the module, and methods of all its values: { name =, types = } each.
 function annotations.functions() return functions end
 function annotations.methods() return methods end
 
---- The fields of a class and of what it is derived from: { name =, type =, is_optional = } each.
+--- The fields of a class and of its base classes: { name =, type =, is_optional = } each.
 function annotations.fields(name)
   local class, found = classes[name], {}
   for _, parent in ipairs(class and class.parents or {}) do
@@ -82,7 +41,7 @@ function annotations.fields(name)
   return found
 end
 
---- The type of the items in the list of a class; nil: it has none.
+--- The type of the items in the list of a class; nil: it has no list.
 function annotations.item(name)
   local class = classes[name]
   if not class or class.item then return class and class.item end
@@ -91,7 +50,7 @@ function annotations.item(name)
   end
 end
 
---- The types that a union is made of.
+--- The members of a union type.
 local function union_of(text)
   local found, depth, start = {}, 0, 1
   for place, sign in text:gmatch "()([%(%)%[%]{}<>|])" do
@@ -106,7 +65,7 @@ local function union_of(text)
   return found
 end
 
---- What a type asks for, of a union one that `take` chooses:
+--- The values that a type requires, for a union those of a member that `take` chooses:
 ---
 ---   "word", value        a literal             "list", type       a list of that type
 ---   "function", type     with that answer      "class", name      a table of its fields
@@ -120,7 +79,7 @@ function annotations.parse(text, take)
   if literal then return "word", literal end
   if text:find "%[%]$" then return "list", text:sub(1, -3) end
   local is_table = classes[text] and (text:find "fields$" or text:find "options$" or text:find "style$"
-    or text == "celspan.camera" or text == "celspan.filter" or text == "celspan.light_shape" or text == "celspan.gradient")
+    or text == "celspan.camera" or text == "celspan.defocus" or text == "celspan.filter" or text == "celspan.light_shape" or text == "celspan.gradient")
   return is_table and "class" or "plain", text
 end
 

@@ -1,5 +1,5 @@
-/* The bytes of a fuzzer as choices, taken one after the other. When there are none left all are 0, so
- * that every input is a whole one. */
+/* The bytes of a fuzzer as choices, read one after the other. When none are left all further ones
+ * are 0, so that every input is complete. */
 #ifndef CELSPAN_TESTS_FUZZ_BYTES_H
 #define CELSPAN_TESTS_FUZZ_BYTES_H
 
@@ -19,7 +19,7 @@ static inline int bytes_take(bytes_reader *r) {
   return *r->bytes++;
 }
 
-/* From tiny to huge, of either sign, and things that are no numbers. */
+/* From tiny to huge, of either sign, and values that are not finite. */
 static inline double bytes_number(bytes_reader *r) {
   static const double scales[4] = {1, 10, 1e-7, 1e7};
   int high = bytes_take(r), low = bytes_take(r);

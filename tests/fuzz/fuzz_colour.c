@@ -1,5 +1,5 @@
-/* Any bytes as a colour, as scripts write it and as drawings do: what is taken lies in 0..1, scripts
- * are told yes for "#" and 3, 6 or 8 hexadecimal digits alone, and both readers agree on those.
+/* Any bytes as a colour, in the notations of scripts and of drawings: accepted values are in 0..1,
+ * scripts accept only "#" with 3, 6 or 8 hexadecimal digits, and both readers agree on those.
  */
 #include "tests/fuzz/target.h"
 
@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "svg/colours.h"
+#include "readers/svg/colours.h"
 
 static bool is_hexadecimal(const char *text) {
   size_t length = strlen(text);

@@ -1,12 +1,14 @@
-/* Any bytes as a program of calls of the C interface: structures with numbers of every kind, words that
- * enumerations do not have, counts that no array can have, values of other values, and sinks whose
- * functions are called in any order. No fault, nothing kept, every refusal with a sentence and of a kind
- * that the header allows, and frames of what was made are rendered alike by rows and as pixels.
+/* Any bytes as a program of calls of the C interface: structures with numbers of every kind, values
+ * that enumerations do not have, counts that no array can have, values of other contexts, and sinks
+ * whose functions are called in any order. No fault, no leak, every refusal with a sentence and
+ * with a status that the header allows, and the frames of the scenes made are the same by rows and
+ * as pixels.
  *
- * A count is the length of the array, 0 with or without an array, or so large that the array would not
- * fit the address space: these are refused before anything is read.
+ * A count is the length of the array, 0 with or without an array, or so large that the array would
+ * not fit the address space: these are refused before anything is read.
  *
- * One file, because every structure is filled in from the same bytes, with the values that others made.
+ * One file, because every structure is filled in from the same bytes, with values made by other
+ * calls.
  */
 #include "tests/fuzz/target.h"
 
@@ -43,7 +45,9 @@ static float share(program *p) {
 
 static celspan_point point(program *p) { return (celspan_point){number(p), number(p)}; }
 
-static celspan_box box(program *p) { return (celspan_box){number(p), number(p), number(p), number(p)}; }
+static celspan_box box(program *p) {
+  return (celspan_box){number(p), number(p), number(p), number(p)};
+}
 
 static celspan_light light(program *p) {
   return (celspan_light){share(p), share(p), share(p), share(p)};
@@ -53,7 +57,7 @@ static celspan_paint paint(program *p) {
   return (celspan_paint){{share(p), share(p), share(p)}, {share(p), share(p), share(p)}, share(p)};
 }
 
-/* A word of an enumeration that has `count`, now and then one that it has not. */
+/* A value of an enumeration that has `count`, now and then an invalid one. */
 static int word(program *p, int count) {
   int byte = bytes_take(&p->bytes);
   return byte == 255 ? -1 : byte == 254 ? 1 << 30 : byte == 253 ? count : byte % count;
@@ -75,7 +79,7 @@ static celspan_matrix matrix(program *p) {
                      : m;
 }
 
-/* Keeps a new value in the place that the bytes name. */
+/* Keeps a new value in the slot that the bytes select. */
 #define KEEP(p, list, value, unref)                                                                \
   do {                                                                                             \
     int at_ = take(p, KEPT);                                                                       \
@@ -86,7 +90,8 @@ static celspan_matrix matrix(program *p) {
 
 static void demand_outcome(program *p, celspan_status status, const void *value) {
   demand((status == CELSPAN_OK) == (value != NULL), "an answer and its value disagree");
-  demand(status == CELSPAN_OK || celspan_context_error(p->context)[0], "a refusal without a word");
+  demand(status == CELSPAN_OK || celspan_context_error(p->context)[0],
+         "a refusal without a sentence");
   demand(status != CELSPAN_INTERNAL && status != CELSPAN_CANCELLED && status != CELSPAN_OUTPUT,
          "a refusal of another kind");
 }
@@ -101,7 +106,8 @@ static celspan_status fill(void *user, celspan_context *context, const celspan_r
   for (int32_t y = 0; y < rectangle->height; y++)
     memset((char *)destination + (size_t)y * stride, what, (size_t)rectangle->width);
   *rows = what == 1 ? rectangle->height - 1 : what == 2 ? INT32_MAX : rectangle->height;
-  return what == 3 ? celspan_context_fail(context, CELSPAN_CALLBACK, "no pixels today") : CELSPAN_OK;
+  return what == 3 ? celspan_context_fail(context, CELSPAN_CALLBACK, "no pixels today")
+                   : CELSPAN_OK;
 }
 
 static void make_surface(program *p) {
@@ -121,7 +127,7 @@ static void make_surface(program *p) {
     desc.pixels = pixels;
     desc.stride = take(p, 3) == 2 ? 256 : 0;
     if (desc.width > 16)
-      desc.width = 16; /* the array is as large as the header says it must be */
+      desc.width = 16; /* the array is as large as the header requires */
   }
   celspan_status status = celspan_surface_create(p->context, &desc, &made);
   demand_outcome(p, status, made);
@@ -152,10 +158,13 @@ static celspan_status make_gradient(program *p, celspan_texture **out) {
     stops[i] = (celspan_stop){(double)i / POINTS + (double)share(p) / POINTS, paint(p)};
   const celspan_stop *list = stop_count == 0 ? NULL : stops;
   switch (take(p, 3)) {
-  case 0: return celspan_texture_create_linear(p->context, point(p), point(p), list, stop_count, out);
-  case 1: return celspan_texture_create_radial(p->context, point(p), number(p), list, stop_count, out);
+  case 0:
+    return celspan_texture_create_linear(p->context, point(p), point(p), list, stop_count, out);
+  case 1:
+    return celspan_texture_create_radial(p->context, point(p), number(p), list, stop_count, out);
   default:
-    return celspan_texture_create_focal(p->context, point(p), number(p), point(p), list, stop_count, out);
+    return celspan_texture_create_focal(p->context, point(p), number(p), point(p), list, stop_count,
+                                        out);
   }
 }
 
@@ -163,9 +172,12 @@ static celspan_status change_texture(program *p, celspan_texture **out) {
   celspan_texture *texture = ANY(p, textures);
   celspan_matrix m = matrix(p);
   switch (take(p, 3)) {
-  case 0: return celspan_texture_with_spread(p->context, texture, (celspan_spread)word(p, 3), out);
-  case 1: return celspan_texture_with_matrix(p->context, texture, &m, out);
-  default: return celspan_texture_named(p->context, texture, take(p, 2) ? "a\nb" : "name", out);
+  case 0:
+    return celspan_texture_with_spread(p->context, texture, (celspan_spread)word(p, 3), out);
+  case 1:
+    return celspan_texture_with_matrix(p->context, texture, &m, out);
+  default:
+    return celspan_texture_named(p->context, texture, take(p, 2) ? "a\nb" : "name", out);
   }
 }
 
@@ -176,14 +188,22 @@ static void make_texture(program *p) {
   const celspan_point points[3] = {point(p), point(p), point(p)};
   celspan_picture_desc desc;
   switch (take(p, 5)) {
-  case 0: status = celspan_texture_create_paint(p->context, paints, &made); break;
-  case 1: status = celspan_texture_create_gradient(p->context, points, paints, &made); break;
-  case 2: status = make_gradient(p, &made); break;
+  case 0:
+    status = celspan_texture_create_paint(p->context, paints, &made);
+    break;
+  case 1:
+    status = celspan_texture_create_gradient(p->context, points, paints, &made);
+    break;
+  case 2:
+    status = make_gradient(p, &made);
+    break;
   case 3:
     desc = picture(p);
     status = celspan_texture_create_picture(p->context, &desc, &made);
     break;
-  default: status = change_texture(p, &made); break;
+  default:
+    status = change_texture(p, &made);
+    break;
   }
   demand_outcome(p, status, made);
   if (made)
@@ -251,13 +271,17 @@ static celspan_status make_stroke(program *p, celspan_object **out) {
 }
 
 static celspan_status make_shape(program *p, celspan_object **out) {
-  const celspan_rect_desc rect = {number(p), number(p), number(p), number(p), number(p), ANY(p, textures)};
+  const celspan_rect_desc rect = {number(p), number(p), number(p),
+                                  number(p), number(p), ANY(p, textures)};
   const celspan_triangle_desc triangle = {{point(p), point(p), point(p)}, ANY(p, textures)};
   const celspan_ellipse_desc ellipse = {point(p), number(p), number(p), ANY(p, textures)};
   switch (take(p, 3)) {
-  case 0: return celspan_object_create_rect(p->context, &rect, out);
-  case 1: return celspan_object_create_triangle(p->context, &triangle, out);
-  default: return celspan_object_create_ellipse(p->context, &ellipse, out);
+  case 0:
+    return celspan_object_create_rect(p->context, &rect, out);
+  case 1:
+    return celspan_object_create_triangle(p->context, &triangle, out);
+  default:
+    return celspan_object_create_ellipse(p->context, &ellipse, out);
   }
 }
 
@@ -270,17 +294,19 @@ static celspan_status make_polygon(program *p, celspan_object **out) {
 }
 
 static celspan_status make_image(program *p, celspan_object **out) {
-  const celspan_image_desc desc = {picture(p), number(p), number(p), number(p), number(p),
-                                   (celspan_fit)word(p, 3)};
+  const celspan_image_desc desc = {picture(p), number(p), number(p),
+                                   number(p),  number(p), (celspan_fit)word(p, 3)};
   return celspan_object_create_image(p->context, &desc, out);
 }
 
 static celspan_status emit(void *user, celspan_context *context, double y,
                            const celspan_scanline_row *row, celspan_scanline_output *output) {
-  const celspan_paint paints[3] = {celspan_paint_rgb(1, 0, 0, 1), celspan_paint_clear(), *(celspan_paint *)user};
+  const celspan_paint paints[3] = {celspan_paint_rgb(1, 0, 0, 1), celspan_paint_clear(),
+                                   *(celspan_paint *)user};
   if (y > 6)
     return celspan_context_fail(context, CELSPAN_CALLBACK, "no row today");
-  if (celspan_scanline_emit(output, row->x0, row->x1 - y, paints, (size_t)fabs(y) % 4) != CELSPAN_OK)
+  if (celspan_scanline_emit(output, row->x0, row->x1 - y, paints, (size_t)fabs(y) % 4) !=
+      CELSPAN_OK)
     return CELSPAN_CALLBACK;
   return celspan_scanline_emit(output, row->x0, row->x0 + row->pixel, paints, 1);
 }
@@ -301,18 +327,23 @@ static celspan_status combine(program *p, celspan_object **out) {
     operands[i] = ANY(p, objects);
   size_t operand_count = count(p, POINTS, sizeof *operands);
   celspan_operator op = (celspan_operator)word(p, 5);
-  return take(p, 2) ? celspan_object_create_boolean(p->context, op, operands, operand_count, out)
-                    : celspan_object_extend_boolean(p->context, first, operands, operand_count, out);
+  return take(p, 2)
+             ? celspan_object_create_boolean(p->context, op, operands, operand_count, out)
+             : celspan_object_extend_boolean(p->context, first, operands, operand_count, out);
 }
 
 static celspan_status change_object(program *p, celspan_object **out) {
   celspan_object *object = ANY(p, objects);
   celspan_matrix m = matrix(p);
   switch (take(p, 4)) {
-  case 0: return celspan_object_transform(p->context, object, &m, out);
-  case 1: return celspan_object_fade(p->context, object, (double)share(p), out);
-  case 2: return celspan_object_named(p->context, object, take(p, 2) ? "\xff" : "hand", out);
-  default: return celspan_object_create_rostrum(p->context, ANY(p, rostrums), out);
+  case 0:
+    return celspan_object_transform(p->context, object, &m, out);
+  case 1:
+    return celspan_object_fade(p->context, object, (double)share(p), out);
+  case 2:
+    return celspan_object_named(p->context, object, take(p, 2) ? "\xff" : "hand", out);
+  default:
+    return celspan_object_create_rostrum(p->context, ANY(p, rostrums), out);
   }
 }
 
@@ -320,14 +351,16 @@ static void ask_object(program *p, const celspan_object *object) {
   celspan_box around;
   uint64_t drawing[2], placement[2];
   if (celspan_object_bounds(object, &around))
-    demand(isfinite(around.x + around.y + around.width + around.height), "bounds that are none");
+    demand(isfinite(around.x + around.y + around.width + around.height),
+           "bounds that are not finite");
   (void)celspan_object_contains(object, point(p));
   (void)celspan_object_hash(object, drawing, placement);
 }
 
 static void make_object(program *p) {
   static celspan_status (*const makers[])(program *, celspan_object **) = {
-      make_shape, make_polygon, make_curve, make_stroke, make_image, make_procedure, combine, change_object};
+      make_shape, make_polygon,   make_curve, make_stroke,
+      make_image, make_procedure, combine,    change_object};
   celspan_object *made = NULL;
   celspan_status status = makers[take(p, 8)](p, &made);
   demand_outcome(p, status, made);
@@ -368,9 +401,15 @@ static void make_cel(program *p) {
   celspan_matrix m = matrix(p);
   celspan_status status;
   switch (take(p, 4)) {
-  case 0: status = celspan_cel_transform(p->context, cel, &m, &made); break;
-  case 1: status = celspan_cel_fade(p->context, cel, number(p), &made); break;
-  default: status = make_one_cel(p, &made); break;
+  case 0:
+    status = celspan_cel_transform(p->context, cel, &m, &made);
+    break;
+  case 1:
+    status = celspan_cel_fade(p->context, cel, number(p), &made);
+    break;
+  default:
+    status = make_one_cel(p, &made);
+    break;
   }
   demand_outcome(p, status, made);
   if (made)
@@ -384,8 +423,9 @@ static celspan_status kernel(void *user, celspan_context *context, double x, dou
 }
 
 static celspan_filter_desc filter(program *p) {
-  return (celspan_filter_desc){(celspan_kernel)word(p, 5), take(p, 2), fabs(number(p)), take(p, 40) - 1,
-                               take(p, 2) ? kernel : NULL, take(p, 2) ? p : NULL};
+  return (celspan_filter_desc){
+      (celspan_kernel)word(p, 5), take(p, 2),           fabs(number(p)), take(p, 40) - 1,
+      take(p, 2) ? kernel : NULL, take(p, 2) ? p : NULL};
 }
 
 static void make_rostrum(program *p) {
@@ -463,7 +503,8 @@ static void compare_rows(program *p, const celspan_frame_desc *desc, float (*wan
   int32_t width = width_of(desc), height = desc->crop_height ? desc->crop_height : desc->height;
   float got[SIDE][4];
   celspan_status status = celspan_rows_create(p->context, desc, &rows);
-  demand(status == CELSPAN_OK || status == CELSPAN_NO_MEMORY, "rows are refused where pixels are not");
+  demand(status == CELSPAN_OK || status == CELSPAN_NO_MEMORY,
+         "rows are refused where pixels are not");
   for (int32_t y = height; y-- > 0 && status == CELSPAN_OK;) {
     const celspan_span *spans;
     size_t span_count;
@@ -471,12 +512,14 @@ static void compare_rows(program *p, const celspan_frame_desc *desc, float (*wan
     if (status != CELSPAN_OK)
       break;
     celspan_spans_code(&coding, spans, span_count, got);
-    demand(memcmp(got, wanted[y * width], (size_t)width * sizeof *got) == 0, "a row differs from the pixels");
+    demand(memcmp(got, wanted[y * width], (size_t)width * sizeof *got) == 0,
+           "a row differs from the pixels");
   }
   const celspan_span *spans;
   size_t span_count;
   if (status == CELSPAN_OK)
-    demand(celspan_rows_get(rows, height, &spans, &span_count) == CELSPAN_BAD_ARGUMENT, "a row beyond the last");
+    demand(celspan_rows_get(rows, height, &spans, &span_count) == CELSPAN_BAD_ARGUMENT,
+           "a row beyond the last");
   celspan_rows_destroy(rows);
 }
 
@@ -486,31 +529,37 @@ static void render(program *p) {
   double rgba[4];
   frame f;
   describe_frame(p, &f);
-  celspan_status status = celspan_frame_pixels(p->context, &f.desc, &coding, made,
-                                               sizeof *made * (size_t)(width_of(&f.desc) > 0 ? width_of(&f.desc) : 1), NULL);
+  celspan_status status = celspan_frame_pixels(
+      p->context, &f.desc, &coding, made,
+      sizeof *made * (size_t)(width_of(&f.desc) > 0 ? width_of(&f.desc) : 1), NULL);
   demand(is_outcome(status), "a frame fails in another way");
-  demand(status == CELSPAN_OK || celspan_context_error(p->context)[0], "a failure without a word");
+  demand(status == CELSPAN_OK || celspan_context_error(p->context)[0],
+         "a failure without a sentence");
   if (status == CELSPAN_OK)
     compare_rows(p, &f.desc, made);
   (void)celspan_frame_is_opaque(&f.desc);
-  status = celspan_probe(p->context, f.exposures, f.desc.exposure_count, SIDE, SIDE, point(p), rgba);
+  status =
+      celspan_probe(p->context, f.exposures, f.desc.exposure_count, SIDE, SIDE, point(p), rgba);
   demand(is_outcome(status), "a probe fails in another way");
 }
 
-/* A file's sink, its functions called in any order, with rows of any kind; at last its end. */
+/* A file's sink, its functions called in any order, with rows of any kind; its end comes last. */
 static void misuse_sink(program *p) {
-  static const char *const paths[] = {"/dev/null/no.png", "/dev/shm/celspan-fuzz.png", "/dev/shm/celspan-fuzz.tga",
-                                      "/dev/shm/celspan-fuzz.span"};
+  static const char *const paths[] = {"/dev/null/no.png", "/dev/shm/celspan-fuzz.png",
+                                      "/dev/shm/celspan-fuzz.tga", "/dev/shm/celspan-fuzz.span"};
   const float array[4 * SIDE] = {0};
   celspan_sink sink;
   celspan_file_desc file = CELSPAN_FILE_DESC;
   file.workers = 1;
-  file.coding = (celspan_coding){(celspan_depth)word(p, 6), (celspan_transfer)word(p, 5), (celspan_alpha)word(p, 3)};
-  if (celspan_file_sink_create(p->context, paths[take(p, 4)], take(p, 4) ? &file : NULL, &sink) != CELSPAN_OK)
+  file.coding = (celspan_coding){(celspan_depth)word(p, 6), (celspan_transfer)word(p, 5),
+                                 (celspan_alpha)word(p, 3)};
+  if (celspan_file_sink_create(p->context, paths[take(p, 4)], take(p, 4) ? &file : NULL, &sink) !=
+      CELSPAN_OK)
     return;
   for (int calls = take(p, 12); calls > 0; calls--) {
-    celspan_span spans[2] = {{.x1 = take(p, SIDE + 1), .kind = (celspan_span_kind)take(p, 3), .array = array},
-                             {.x0 = take(p, SIDE + 1), .x1 = take(p, SIDE + 1), .kind = CELSPAN_SPAN_SINGLE}};
+    celspan_span spans[2] = {
+        {.x1 = take(p, SIDE + 1), .kind = (celspan_span_kind)take(p, 3), .array = array},
+        {.x0 = take(p, SIDE + 1), .x1 = take(p, SIDE + 1), .kind = CELSPAN_SPAN_SINGLE}};
     int32_t y = take(p, SIDE + 2) - 1;
     if (take(p, 4) == 0)
       (void)!sink.begin(sink.user, p->context, take(p, SIDE + 2) - 1, take(p, SIDE + 2) - 1);
@@ -536,8 +585,9 @@ static void trace(program *p) {
 /* ---------------------------------------------------------------- a program */
 
 static void run(program *p) {
-  static void (*const calls[])(program *) = {make_surface, make_texture, make_object, make_object, make_cel,
-                                             make_rostrum, render,       render,      misuse_sink, trace};
+  static void (*const calls[])(program *) = {make_surface, make_texture, make_object, make_object,
+                                             make_cel,     make_rostrum, render,      render,
+                                             misuse_sink,  trace};
   for (int i = 0; i < MOST_CALLS && p->bytes.size > 0; i++)
     calls[take(p, 10)](p);
 }

@@ -1,9 +1,9 @@
-/* Any bytes as the choices or the input of a Lua script, FUZZ_SCRIPT.lua beside this file: the script
- * returns a module whose try_bytes(bytes) raises where a promise is broken.
+/* Any bytes as the choices or the input of a Lua script, FUZZ_SCRIPT.lua next to this file: the
+ * script returns a module whose try_bytes(bytes) raises an error if a promise is broken.
  *
- * All inputs share one Lua state, whose memory is bounded; a script keeps nothing from one to the
- * next. What lines of celspan's own Lua modules run, and one after which other, is told to the fuzzer
- * as what it sees of C by itself.
+ * All inputs share one Lua state, whose memory is bounded; a script keeps nothing between them. The
+ * executed lines of celspan's own Lua modules, and their sequences, are reported to the fuzzer as
+ * coverage, which it records by itself only for C.
  */
 #include "tests/fuzz/target.h"
 
@@ -19,7 +19,7 @@
 
 /* ---------------------------------------------------------------- what runs */
 
-/* libFuzzer reads what lies in this section as counters of its own. */
+/* libFuzzer reads this section as additional counters. */
 __attribute__((section("__libfuzzer_extra_counters"))) static uint8_t seen[1 << 16];
 static uint32_t before;
 static size_t steps;

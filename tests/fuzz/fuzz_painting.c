@@ -1,9 +1,9 @@
-/* Any bytes as a layered painting: no fault, no memory beyond a bound, nothing kept, and every
- * refusal with a sentence. One target for each way in, chosen by FUZZ_KIND:
+/* Any bytes as a layered painting: no fault, no memory beyond a bound, no leak, and every refusal
+ * with a sentence. One target for each format, chosen by FUZZ_KIND:
  *
  *   zip, psd   the bytes are the file
- *   ora, kra   the file is an archive made around them: two bytes tell how many of the next ones are
- *              stack.xml (maindoc.xml); what follows is the picture "a.png" (the tiles "f/layers/a")
+ *   ora, kra   the file is an archive made around them: the first two bytes are the size of
+ *              stack.xml (maindoc.xml); then comes the picture "a.png" (the tiles "f/layers/a")
  */
 #include "tests/fuzz/target.h"
 
@@ -11,7 +11,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
-#include "pictures/surface.h"
+#include "model/pictures/surface.h"
 #include "tests/fuzz/meter.h"
 
 #define ZIP 1
@@ -91,7 +91,7 @@ static void put_file(const uint8_t *data, size_t size) {
 static void put_file(const uint8_t *data, size_t size) { put(data, size); }
 #endif
 
-/* ---------------------------------------------------------------- what is done with it */
+/* ---------------------------------------------------------------- tries */
 
 static size_t fail_at;     /* the allocation of this number fails; 0: none */
 static size_t allocations; /* of the latest run */
@@ -101,7 +101,7 @@ static bool is_expected(celspan_status status) {
          (status == CELSPAN_NO_MEMORY && fail_at > 0);
 }
 
-/* As the store of pictures does: strips from top to bottom, and one of them once more. */
+/* Reads like the store of pictures: strips from top to bottom, and one of them once more. */
 static void read_pixels(celspan_context *context, const celspan_painting_layer *layer) {
   int32_t strip = layer->height < 64 ? layer->height : 64;
   if ((int64_t)layer->width * layer->height > MOST_PIXELS || (int64_t)layer->width * strip > 65536)
@@ -120,7 +120,7 @@ static void read_pixels(celspan_context *context, const celspan_painting_layer *
   free(rgba);
 }
 
-/* Begins in a context that is gone when the pixels are gone on with. */
+/* Begins in a context that is destroyed before reading the pixels continues. */
 static void read_in_two_contexts(celspan_context *context, const celspan_painting_layer *layer) {
   celspan_context *other = NULL;
   float rgba[4];
@@ -139,7 +139,7 @@ static void check_layers(celspan_context *context, const celspan_painting *paint
   size_t count = celspan_painting_layer_count(painting), at;
   celspan_painting_layer layer;
   for (size_t i = 0; celspan_painting_layer_at(painting, i, &layer); i++) {
-    demand(layer.parent > i && layer.parent <= count, "a group comes before what is in it");
+    demand(layer.parent > i && layer.parent <= count, "a group comes before its layers");
     demand(layer.opacity >= 0 && layer.opacity <= 1, "an opacity beyond 0 to 1");
     demand(!layer.surface || !layer.is_group, "a group has pixels");
     if (layer.surface && i < 16) {

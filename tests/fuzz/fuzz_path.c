@@ -1,5 +1,5 @@
-/* Any bytes as path data: no fault, nothing kept, every refusal with a sentence; and what is taken has
- * bounds and is drawn, alike whether it is asked for as pixels or as rows.
+/* Any bytes as path data: no fault, no leak, every refusal with a sentence; an accepted path has
+ * bounds, and is drawn in the same way as pixels and as rows.
  *
  *   byte 0   0: rule, 1 to 7: how it is antialiased
  *   then     the data
@@ -11,7 +11,7 @@
 #include "tests/fuzz/meter.h"
 
 #define MOST_BYTES ((size_t)64 << 20)
-#define SIDE 8 /* pixels */
+#define SIDE 8   /* pixels */
 #define RUNS 256 /* in one context */
 
 static meter memory = {.limit = MOST_BYTES};
@@ -63,12 +63,12 @@ static void check_object(celspan_context *context, celspan_object *object, int h
   celspan_box box;
   if (celspan_object_bounds(object, &box))
     demand(isfinite(box.x + box.y + box.width + box.height) && box.width >= 0 && box.height >= 0,
-           "bounds that are none");
+           "bounds that are not a box");
   (void)celspan_object_contains(object, (celspan_point){1, 1});
   draw(context, object, how);
 }
 
-/* The context of the latest runs; every now and then it goes, and nothing may be left. */
+/* The context of the latest runs; every now and then it is destroyed, and no memory may be left. */
 static celspan_context *shared_context(void) {
   static celspan_context *context;
   static int runs;
@@ -91,7 +91,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   celspan_object *object = NULL;
   celspan_status status = celspan_object_create_path(context, &desc, &object);
   demand(is_expected(status), "a refusal of another kind");
-  demand(status == CELSPAN_OK || celspan_context_error(context)[0], "a refusal without a word");
+  demand(status == CELSPAN_OK || celspan_context_error(context)[0], "a refusal without a sentence");
   if (status == CELSPAN_OK)
     check_object(context, object, how >> 1);
   celspan_object_unref(object);

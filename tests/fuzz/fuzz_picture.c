@@ -1,9 +1,9 @@
-/* Any bytes as the file of a picture, whatever its format: no fault, nothing kept, every refusal with a
- * sentence that names the file; and what has a header is shown in a frame of few pixels, with alphas
- * that are some.
+/* Any bytes as the file of a picture, whatever its format: no fault, no leak, every refusal with a
+ * sentence that names the file; a picture with a valid header is shown in a frame of few pixels,
+ * whose alphas are in 0..1.
  *
- * The libraries under the picture module are not built for the fuzzer: it does not see what runs in
- * them, but what breaks in them ends it, too.
+ * The libraries under the picture module are not built for the fuzzer: it does not see their
+ * coverage, but a fault in them ends the run too.
  */
 #include "tests/fuzz/target.h"
 
@@ -14,7 +14,7 @@
 #include "tests/fuzz/meter.h"
 
 #define MOST_BYTES ((size_t)256 << 20)
-#define MOST_PIXELS ((int64_t)1 << 20) /* of pictures that are shown */
+#define MOST_PIXELS ((int64_t)1 << 20) /* of pictures shown */
 #define SIDE 4                         /* pixels of the frame */
 
 static bool is_expected(celspan_status status) {
@@ -22,14 +22,14 @@ static bool is_expected(celspan_status status) {
          status == CELSPAN_NO_MEMORY;
 }
 
-/* A refusal names the file; that the picture module is missing does not. */
+/* A refusal names the file, unless the picture module is missing. */
 static void check_outcome(const celspan_context *context, celspan_status status, const char *path) {
   demand(is_expected(status), "a failure of another kind");
   if (status == CELSPAN_INPUT || status == CELSPAN_LIMIT)
     demand(strstr(celspan_context_error(context), path) != NULL, celspan_context_error(context));
 }
 
-/* The picture over the whole frame; the values that are made on the way are kept by the rostrum. */
+/* The picture over the whole frame; the rostrum keeps the values made on the way. */
 static celspan_status stage(celspan_context *context, const celspan_picture_desc *picture,
                             celspan_rostrum **out) {
   const celspan_image_desc image = {.picture = *picture, .width = SIDE, .height = SIDE};
@@ -90,7 +90,8 @@ static void read_file(const char *path) {
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   char path[64];
   int descriptor = memfd_create("picture", MFD_CLOEXEC);
-  demand(descriptor >= 0 && write(descriptor, data, size) == (ssize_t)size, "the file cannot be made");
+  demand(descriptor >= 0 && write(descriptor, data, size) == (ssize_t)size,
+         "the file cannot be made");
   snprintf(path, sizeof path, "/proc/self/fd/%d", descriptor);
   read_file(path);
   close(descriptor);

@@ -1,19 +1,19 @@
-/* Any bytes as a stroke: no fault, no memory beyond a bound, nothing kept, every refusal with a
- * sentence; and what is taken is drawn, with curves in number and place that can be drawn.
+/* Any bytes as a stroke: no fault, no memory beyond a bound, no leak, every refusal with a
+ * sentence; an accepted stroke is drawn, with a number and positions of curves that can be drawn.
  *
- *   bytes   0: cap, join, closed, which line it is and whether the fine outline is left out, which takes
- *           most of the time    1: degree    2: dashes, 0 to 3
- *           3..: numbers, two bytes each, beginning with width, miter, dash offset, tapers, from, to
- *           and the dashes; the rest is path data, or points with their widths
+ *   bytes   0: cap, join, closed, the kind of line and whether the fine outline, which takes most
+ *           of the time, is left out    1: degree    2: dashes, 0 to 3
+ *           3..: numbers, two bytes each, beginning with width, miter, dash offset, tapers, from,
+ *           to and the dashes; the rest is path data, or points with their widths
  */
 #include "tests/fuzz/target.h"
 
-#include "scene/inside.h"
-#include "stroke/outliner.h"
+#include "model/scene/inside.h"
+#include "model/stroke/outliner.h"
 #include "tests/fuzz/bytes.h"
 #include "tests/fuzz/meter.h"
 
-#define MOST_BYTES ((size_t)2 << 20) /* so that dashes in thousands end early */
+#define MOST_BYTES ((size_t)2 << 20) /* so that thousands of dashes end early */
 #define POINTS 64
 #define DASHES 3
 
@@ -75,7 +75,7 @@ static bool is_expected(celspan_status status) {
 static void check_outline(const cs_outline *outline) {
   for (size_t i = 0; i < outline->point_count; i++) {
     cs_hpoint p = outline->points[i];
-    demand(isfinite(p.x) && isfinite(p.y) && p.w > 0, "a point that is nowhere");
+    demand(isfinite(p.x) && isfinite(p.y) && p.w > 0, "a point that is not finite");
   }
 }
 
@@ -119,7 +119,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     celspan_object *object = NULL;
     celspan_status status = celspan_object_create_stroke(context, &s.desc, &object);
     demand(is_expected(status), "a refusal of another kind");
-    demand(status == CELSPAN_OK || celspan_context_error(context)[0], "a refusal without a word");
+    demand(status == CELSPAN_OK || celspan_context_error(context)[0],
+           "a refusal without a sentence");
     if (status == CELSPAN_OK)
       check_stroke(context, object, size == 0 || data[0] < 128);
     celspan_object_unref(object);

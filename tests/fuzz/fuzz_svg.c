@@ -1,4 +1,4 @@
-/* Any bytes as a drawing: no fault, no memory beyond a bound, nothing kept, every refusal with a
+/* Any bytes as a drawing: no fault, no memory beyond a bound, no leak, every refusal with a
  * sentence that names the drawing, and parts that can be changed.
  */
 #include "tests/fuzz/target.h"
@@ -26,7 +26,7 @@ static bool is_expected(celspan_status status) {
          status == CELSPAN_NO_MEMORY;
 }
 
-/* Changes the first part. A transform may go beyond what is allowed. */
+/* Changes the first part. A transform may exceed the limits. */
 static void change_part(celspan_context *context, const celspan_svg *svg) {
   celspan_svg_changed changed = {NULL, turn, NULL};
   celspan_svg *other = NULL;

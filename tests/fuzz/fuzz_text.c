@@ -1,5 +1,5 @@
-/* Any bytes as a font and a text: no fault, no endless work, nothing kept, every refusal with a
- * sentence, and what is made has numbers that make sense.
+/* Any bytes as a font and a text: no fault, no endless work, no leak, every refusal with a
+ * sentence, and a text that is set has plausible numbers.
  *
  *   byte 0   how the text is set, see the flags
  *   byte 1   how many of the next bytes are the text
@@ -27,7 +27,7 @@ static void check_letters(const celspan_glyphs *letters, size_t text_size) {
       demand(isfinite(box.x + box.y + box.width + box.height), "bounds are not finite");
     bytes += letter->text_size;
   }
-  demand(bytes <= text_size, "letters have more text than there is");
+  demand(bytes <= text_size, "letters have more text than was given");
 }
 
 static void check_status(celspan_context *context, celspan_status status) {

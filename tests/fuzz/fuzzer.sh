@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Runs fuzz targets of a build with the option `fuzz`, one after the other, each for its share of the
-# time, and prints how often each was executed and what was found.
+# Runs fuzz targets of a build with the option `fuzz`, one after the other, each for its share of
+# the time, and prints how often each was executed and what was found.
 #
 #   tests/fuzz/fuzzer.sh BUILD FOLDER SECONDS [TARGET...]
 #
-# From the root of the tree. FOLDER gets, by the target's name, the bytes of each finding, the log that
-# tells of it, and under learned/ what the next run begins with beside the corpus. Exit code 1: there
-# are findings in celspan. One inside of another library, which no line of celspan above it made, is
-# listed, and the target goes on.
+# Run it from the root of the tree. FOLDER receives, by the target's name, the bytes of each
+# finding, its log, and under learned/ the inputs with which the next run begins, in addition to the
+# corpus. Exit code 1: there are findings in celspan. A finding inside another library, without a
+# line of celspan above it, is listed, and the target continues.
 set -u
 build=$1 folder=$2 seconds=$3
 shift 3
@@ -15,8 +15,8 @@ export ASAN_OPTIONS=allocator_may_return_null=1:detect_leaks=0:handle_abort=1
 export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 export LSAN_OPTIONS="suppressions=$PWD/tests/support/lsan.supp:print_suppressions=0"
 
-# Each folder of the corpus is a target; its program is called as the folder is, up to the first "-". The
-# subproject's lie elsewhere.
+# Each folder of the corpus is a target; its program is named like the folder, up to the first "-".
+# The subproject's corpus is elsewhere.
 program_of() {
   if [ "$1" = spanfile ]; then
     echo "$build/subprojects/spanfile/tests/fuzz_reader"
@@ -33,9 +33,8 @@ corpus_of() {
   fi
 }
 
-# Whether the first frame of the log's first stack that is neither of the sanitizer, nor of the C and
-# C++ libraries, lies in a library of the system's. Lua's counts as celspan's: its frames are celspan's
-# own work.
+# Whether the first frame of the log's first stack, outside the sanitizer and the C and C++
+# libraries, lies in a system library. Lua's counts as celspan's: its frames do celspan's own work.
 is_foreign() {
   awk '
     $1 ~ /^#[0-9]+$/ && $3 == "in" {
@@ -48,13 +47,15 @@ is_foreign() {
     END { exit !foreign }' "$1"
 }
 
-# fuzz_once NAME SECONDS: one run of libFuzzer, to its end or to a finding. Its processor time is in NAME.time.
+# fuzz_once NAME SECONDS: one run of libFuzzer, to its end or to a finding. Its processor time is in
+# NAME.time.
 fuzz_once() {
   local name=$1 share=$2 status TIMEFORMAT='%U %S'
   {
-    time "$(program_of "$name")" -max_total_time="$share" -timeout=60 -detect_leaks=0 -rss_limit_mb=3072 \
-      -malloc_limit_mb=2048 -print_final_stats=1 -artifact_prefix="$folder/$name-" \
-      "$folder/learned/$name" "$(corpus_of "$name")" >"$folder/$name.log" 2>&1
+    time "$(program_of "$name")" -max_total_time="$share" -timeout=60 -detect_leaks=0 \
+      -rss_limit_mb=3072 -malloc_limit_mb=2048 -print_final_stats=1 \
+      -artifact_prefix="$folder/$name-" "$folder/learned/$name" "$(corpus_of "$name")" \
+      >"$folder/$name.log" 2>&1
     status=$?
   } 2>"$folder/$name.time"
   return $status
@@ -64,7 +65,7 @@ executions_in() { awk '/^stat::number_of_executed_units/ { n = $2 } END { print 
 
 hundredths_in() { awk '{ n = 100 * ($1 + $2) } END { printf "%d", n }' "$1"; }
 
-# The file that a log says it wrote, or the log itself.
+# The file that a log names as written, or the log itself.
 finding_in() {
   local file
   file=$(awk '/Test unit written to/ { print $NF }' "$1" | tail -1)
@@ -73,7 +74,7 @@ finding_in() {
 
 own=0
 
-# fuzz NAME SECONDS: until the time is over or there is a finding of celspan's own.
+# fuzz NAME SECONDS: until the time is over or there is a finding in celspan itself.
 fuzz() {
   local name=$1 end=$((SECONDS + $2)) runs=0 spent=0 foreign=0 found='' is_done=false file log
   mkdir -p "$folder/learned/$name"
@@ -93,8 +94,8 @@ fuzz() {
     fi
   done
   rm -f "$folder/$name.time"
-  printf '%-14s %10d executions in %d s of processor time, %d findings' "$name" "$runs" $((spent / 100)) \
-    "$([ -z "$found" ] && echo 0 || echo 1)"
+  printf '%-14s %10d executions in %d s of processor time, %d findings' "$name" "$runs" \
+    $((spent / 100)) "$([ -z "$found" ] && echo 0 || echo 1)"
   [ "$foreign" = 0 ] || printf ', %d in other libraries' "$foreign"
   printf '\n'
   if [ -n "$found" ]; then
@@ -105,7 +106,8 @@ fuzz() {
 
 targets=("$@")
 if [ "${#targets[@]}" = 0 ]; then
-  mapfile -t targets < <(find tests/fuzz/corpus -mindepth 1 -maxdepth 1 -type d -printf '%f\n' | sort)
+  mapfile -t targets < <(find tests/fuzz/corpus -mindepth 1 -maxdepth 1 -type d -printf '%f\n' |
+    sort)
   targets+=(spanfile)
 fi
 for target in "${targets[@]}"; do

@@ -4,18 +4,19 @@ local json = require "celspan.json"
 
 local target = {}
 
---- Raises where a value holds anything that JSON has not, or is deeper than is allowed.
+--- Raises an error if a value contains anything that JSON does not have, or is nested too deep.
 local function check(value, depth)
-  assert(depth <= json.most_depth + 1, "deeper than is allowed")
+  assert(depth <= json.most_depth + 1, "nested deeper than allowed")
   if type(value) == "table" and value ~= json.null then
     for name, one in pairs(value) do
       assert(type(name) == "string" or math.type(name) == "integer", "a name of another kind")
       check(one, depth + 1)
     end
   elseif type(value) == "number" then
-    assert(value == value, "a number that is none")
+    assert(value == value, "a number that is not a number")
   else
-    assert(type(value) == "string" or type(value) == "boolean" or value == json.null, "a value of another kind")
+    assert(type(value) == "string" or type(value) == "boolean" or value == json.null,
+      "a value of another kind")
   end
 end
 

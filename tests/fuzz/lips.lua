@@ -1,5 +1,5 @@
---- Any bytes as a file of lip-sync: a track with a mouth for every frame, or nil and a sentence that
---- names the file. The first byte chooses the options.
+--- Any bytes as a file of lip-sync: a track with a mouth for every frame, or nil and a sentence
+--- that names the file. The first byte chooses the options.
 local lips = require "celspan.lips"
 
 local target = {}
@@ -26,7 +26,8 @@ function target.try_bytes(bytes)
   local track, message = lips.read(path, options_of((bytes:byte() or 0)))
   os.remove(path)
   if not track then
-    assert(message:find(path, 1, true) and #message < #path + 500, "no sentence that names the file")
+    assert(message:find(path, 1, true) and #message < #path + 500,
+      "no sentence that names the file")
     return
   end
   assert(track.frames == #track.shapes and track.frames >= 1, "a track without frames")

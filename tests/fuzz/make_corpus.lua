@@ -69,3 +69,13 @@ profiled.profile = paintings.profile { curve = 2.2, wide = true }
 write("psd", "profile", paintings.psd(profiled))
 write("psd", "merged", paintings.psd { w = 2, h = 1,
   merged = "\0\1" .. string.pack(">I2I2I2", 2, 2, 2) .. "\255\1\255\2\255\3" })
+
+--- A table of colours in which light mixes to less than its sum.
+local function muddy(r, g, b)
+  local most = math.max(r, g, b)
+  return most * (0.3 * r + 0.2 * g) + 0.1 * b, most * (0.2 * r + 0.4 * g), most * 0.5 * b
+end
+write("profile", "power", paintings.profile { curve = 2.2 })
+write("profile", "formula", paintings.profile { curve = "formula", wide = true })
+write("profile", "grey", paintings.profile { curve = 1.8, grey = true })
+write("profile", "table", paintings.profile { lut = muddy })

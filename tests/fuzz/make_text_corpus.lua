@@ -12,7 +12,8 @@ local function small(is_variable)
   local font, kept, number = block.font(), {}, {}
   for i, glyph in ipairs(font.glyphs) do
     local character = glyph.characters[1]
-    if i == 1 or ("AVIi. ->→ שלו"):find(utf8.char(character or 0), 1, true) or character == 0x301 then
+    if i == 1 or ("AVIi. ->→ שלו"):find(utf8.char(character or 0), 1, true)
+      or character == 0x301 then
       kept[#kept + 1] = glyph
       number[i] = #kept
     end
@@ -39,7 +40,8 @@ end
 local cases = {
   plain = { 0, "AVI." }, wrapped = { 1 + 64, "AVI AVI AVI AVI AVI AVI." },
   hebrew = { 2, "AV שלו I." }, variable = { 4 + 32, "A->V" }, features = { 8 + 16, "->i\u{301}" },
-  lines = { 1, "A\n\nV I\r\nA" }, hidden = { 1, "AV\u{ad}AV\u{ad}AV\u{200b}I" }, nothing = { 0, "" },
+  lines = { 1, "A\n\nV I\r\nA" }, hidden = { 1, "AV\u{ad}AV\u{ad}AV\u{200b}I" },
+  nothing = { 0, "" },
   unknown = { 32, "AжV" }, broken = { 0, "A\xff" },
 }
 for name, case in pairs(cases) do

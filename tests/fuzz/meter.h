@@ -1,5 +1,4 @@
-/* A context's memory function that knows how much was held at most, and refuses what goes beyond a
- * bound. */
+/* A context's memory function that records the peak, and refuses allocations beyond a bound. */
 #ifndef CELSPAN_TESTS_FUZZ_METER_H
 #define CELSPAN_TESTS_FUZZ_METER_H
 
@@ -19,7 +18,7 @@ static inline void *meter_resize(void *user, void *block, size_t old_size, size_
   return made;
 }
 
-/* NULL where even that cannot be had. */
+/* NULL if even the context cannot be allocated. */
 static inline celspan_context *meter_context(meter *m) {
   celspan_context_desc desc = CELSPAN_CONTEXT_DESC;
   celspan_context *context = NULL;
@@ -28,9 +27,10 @@ static inline celspan_context *meter_context(meter *m) {
   return celspan_context_create(&desc, &context) == CELSPAN_OK ? context : NULL;
 }
 
-/* After everything is gone. */
+/* To be called after everything was released. */
 static inline void meter_close(const meter *m) {
-  demand(m->watch.blocks == 0 && m->watch.size_errors == 0, "memory is kept, or its size forgotten");
+  demand(m->watch.blocks == 0 && m->watch.size_errors == 0,
+         "memory is kept, or its size forgotten");
 }
 
 #endif

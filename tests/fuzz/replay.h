@@ -1,6 +1,6 @@
 /* A fuzz target without a fuzzer: every file named on the command line, or in a folder named there,
- * goes through it whole and cut to a half. A target that defines REPLAY_FAILURES is run once more for
- * each of its allocations, which then fails; it has
+ * is run whole and cut to a half. A target that defines REPLAY_FAILURES is run once more for each
+ * of its allocations, which then fails; it has
  *
  *   fail_at       the number of the allocation that fails, 0: none
  *   allocations   how many the last run made
@@ -16,7 +16,7 @@
 static size_t fail_at, allocations;
 #endif
 
-/* How many runs it took. */
+/* Returns the number of runs. */
 static size_t replay_bytes(const uint8_t *bytes, size_t size) {
   fail_at = 0;
   LLVMFuzzerTestOneInput(bytes, size);

@@ -1,10 +1,10 @@
--- Exposure sheets of any bytes, of which the first chooses the format (the fuzz target), and such as are
--- damaged in every way, but the same ways each time:
+-- Exposure sheets of any bytes, the first of which chooses the format (the fuzz target), and sheets
+-- damaged in every way, the same ways each time:
 --
 --   lua_host tests/fuzz/sheets.lua [ROUNDS [SEED]]     a round is a damaged text of each format
 --
--- What reads them may only answer: a sheet, or nil and a sentence that names the file. What is read
--- is asked, written as text, and must be read again as the same.
+-- A reader may only return a sheet, or nil and a sentence that names the file. A sheet is queried,
+-- written as text, and must be read back as the same.
 local celspan = require "celspan"
 local sheet = require "celspan.sheet"
 
@@ -14,24 +14,35 @@ local fuzz = {}
 fuzz.seeds = {
   xdts = [[exchangeDigitalTimeSheet Save Data
 {"version":5,"header":{"cut":"12","scene":"3"},"timeTables":[{"name":"one","duration":24,
-"timeTableHeaders":[{"fieldId":0,"names":["A","B"]},{"fieldId":3,"names":["Anna"]},{"fieldId":5,"names":["cam"]}],
-"fields":[{"fieldId":0,"tracks":[{"trackNo":0,"frames":[{"frame":-2,"data":[{"id":0,"values":["1a"]}]},
+"timeTableHeaders":[{"fieldId":0,"names":["A","B"]},{"fieldId":3,"names":["Anna"]},
+{"fieldId":5,"names":["cam"]}],
+"fields":[{"fieldId":0,"tracks":[{"trackNo":0,"frames":[
+{"frame":-2,"data":[{"id":0,"values":["1a"]}]},
 {"frame":3,"data":[{"id":0,"values":["SYMBOL_TICK_1"],"options":["OPTION_KEYFRAME"]}]},
 {"frame":9,"data":[{"id":0,"values":["SYMBOL_NULL_CELL"]}]}]},{"trackNo":1,"frames":[]}]},
-{"fieldId":3,"tracks":[{"trackNo":0,"frames":[{"frame":4,"data":[{"id":0,"values":["Anna","Hello"]}]},
+{"fieldId":3,"tracks":[{"trackNo":0,"frames":[{"frame":4,"data":[{"id":0,"values":["Anna",
+"Hello"]}]},
 {"frame":5,"data":[{"id":0,"values":["SYMBOL_HYPHEN"]}]}]}]},
-{"fieldId":9,"tracks":[{"trackNo":0,"frames":[{"frame":0,"data":[{"id":0,"values":["\u732b"]}]}]}]}]}]}]],
-  ["tvpaint.csv"] = 'UTF-8, TVPaint, "CSV 1.0"\r\nProject Name, Width, Height, Frame Count, Layer Count, '
-    .. 'Frame Rate, Pixel Aspect Ratio, Field Mode\r\n"shot ""1""", 640, 480, 4, 2, 12.000000, 1.000000, '
+{"fieldId":9,"tracks":[{"trackNo":0,"frames":[
+{"frame":0,"data":[{"id":0,"values":["\u732b"]}]}]}]}]}]}]],
+  ["tvpaint.csv"] =
+    'UTF-8, TVPaint, "CSV 1.0"\r\nProject Name, Width, Height, Frame Count, Layer Count, '
+    .. 'Frame Rate, Pixel Aspect Ratio, Field Mode\r\n"shot ""1""", 640, 480, 4, 2, '
+    .. '12.000000, 1.000000, '
     .. 'Progressive\r\n#Layers, "ground", "hero, left"\r\n#Density, 1.000000, 0.500000\r\n'
-    .. '#Blending, "Color", "Multiply"\r\n#Visible, 1, 0\r\n#00000, "a.png", ""\r\n#00001, "a.png", "x.png"\r\n'
+    .. '#Blending, "Color", "Multiply"\r\n#Visible, 1, 0\r\n#00000, "a.png", ""\r\n#00001, '
+    .. '"a.png", "x.png"\r\n'
     .. '#00002, "", "x.png"\r\n#00003, "", "y.png"\r\n',
-  ["studio.csv"] = "\239\187\191,,chars/main,\n,BG,A,B\n1,1,1,\n2,,\u{25CB},2\n3,,\u{25CF},\u{D7}\n4,,2,\n",
+  ["studio.csv"] =
+    "\239\187\191,,chars/main,\n,BG,A,B\n1,1,1,\n2,,\u{25CB},2\n3,,\u{25CF},\u{D7}\n4,,2,\n",
   txt = 'celspan sheet 1\nname "a \\"b\\""\nsize 640x360\nfps 12.5\nframes 5\n# remark\n'
-    .. 'note dialogue "A" 2-4 "Anna" "Hi\\nyou"\nlayers  A  "b c"\n  1  1/ik  -\n\n  2  |/r  "x y"/m\n  4  |  |\n',
+    .. 'note dialogue "A" 2-4 "Anna" "Hi\\nyou"\nlayers  A  "b c"\n  1  1/ik  -\n\n  2  |/r  "x '
+    .. 'y"/m\n  4  |  |\n',
   oca = [[{"name":"shot","frameRate":12,"width":8,"height":8,"startTime":2,"endTime":8,"layers":[
-{"name":"body","type":"paintlayer","frames":[{"name":"b2","fileName":"body\\b2.png","frameNumber":4,"duration":2},
-{"name":"b1","fileName":"body/b1.png","frameNumber":0,"duration":4.0},{"name":"_blank","fileName":"","frameNumber":6}]},
+{"name":"body","type":"paintlayer","frames":[{"name":"b2","fileName":"body\\b2.png","frameNumber":4,
+"duration":2},
+{"name":"b1","fileName":"body/b1.png","frameNumber":0,"duration":4.0},
+{"name":"_blank","fileName":"","frameNumber":6}]},
 {"name":"group","type":"grouplayer","childLayers":[{"name":"bg","animated":false,"opacity":0.5,
 "frames":[{"name":"","fileName":"body/b1.png","frameNumber":0}]}]}]}]],
 }
@@ -42,10 +53,13 @@ table.sort(formats)
 
 -- ---------------------------------------------------------------- damage
 
-local numbers = { "0", "-1", "1e300", "-1e300", "10000000", "10000001", "9223372036854775807", "1e-320", "0.5",
+local numbers = { "0", "-1", "1e300", "-1e300", "10000000", "10000001", "9223372036854775807",
+  "1e-320", "0.5",
                   "-0", "00000000000007", "0x10", "nan" }
-local pieces = { "\0", "\255", "\237\160\128", "\239\187\191", '"', "\\", "\\u0000", "\r", "\n\n\n", ",,,,", "{", "[[[[[[[[",
-                 "}", "null", "true", "[]", "{}", "#", "|", "/", "-", "SYMBOL_NULL_CELL", "SYMBOL_HYPHEN", "../..", ("x"):rep(3000),
+local pieces = { "\0", "\255", "\237\160\128", "\239\187\191", '"', "\\", "\\u0000", "\r", "\n\n\n",
+  ",,,,", "{", "[[[[[[[[",
+                 "}", "null", "true", "[]", "{}", "#", "|", "/", "-", "SYMBOL_NULL_CELL",
+                 "SYMBOL_HYPHEN", "../..", ("x"):rep(3000),
                  ("[" ):rep(3000), "#99999999", "note camera A 1-10000000 x\n", "layers a a\n" }
 
 local changes = {}
@@ -58,7 +72,7 @@ function changes.byte(text, pick)
   return text:sub(1, at - 1) .. string.char(pick("byte", 0, 255)) .. text:sub(at + 1)
 end
 
---- A piece of the text is there again, or is missing, or is somewhere else.
+--- A piece of the text is repeated, missing, or moved.
 function changes.splice(text, pick)
   local from = pick("from", 1, #text)
   local part = text:sub(from, from + pick("length", 0, 60))
@@ -96,7 +110,7 @@ end
 
 -- ---------------------------------------------------------------- judging
 
---- Everything that can be asked; raises where an answer is wrong.
+--- Calls all queries; raises an error if a result is wrong.
 local function ask(made, path)
   for i in ipairs(made.layers) do
     made:at(i, 1)
@@ -107,15 +121,16 @@ local function ask(made, path)
   end
   made:notes_at(1)
   for _, note in ipairs(made.notes) do
-    assert(1 <= note.from and note.from <= note.to and note.to <= made.frames, "a note is outside of the sheet")
+    assert(1 <= note.from and note.from <= note.to and note.to <= made.frames,
+      "a note is outside of the sheet")
   end
   assert(made:write(path))
   local again = assert(sheet.read(path))
   assert(again:text() == made:text(), "its text is read as another sheet")
 end
 
---- Reads a damaged text from a file whose name begins with `start`; raises where it is answered by anything
---- but a sheet or a sentence. A sheet is answered.
+--- Reads a damaged text from a file whose name begins with `start`; raises an error unless the
+--- result is a sheet or a sentence. Returns the sheet, if any.
 function fuzz.try(format, text, start)
   local path = start .. "." .. format
   local file = assert(io.open(path, "wb"))
@@ -123,7 +138,8 @@ function fuzz.try(format, text, start)
   file:close()
   local begun = os.clock()
   local made, message = sheet.read(path)
-  assert(made or type(message) == "string" and message:find(path, 1, true) and #message < #path + 500,
+  assert(made or type(message) == "string" and message:find(path, 1, true)
+    and #message < #path + 500,
     "no sentence that names the file")
   if made then ask(made, start .. ".again.txt") end
   assert(os.clock() - begun < 5, "it took more than five seconds")
@@ -140,7 +156,8 @@ function fuzz.try_bytes(bytes)
   os.remove(own .. ".again.txt")
 end
 
---- Rounds of all formats; gives how many texts were read as sheets. Raises with the round that is wrong.
+--- Rounds of all formats; returns how many texts were read as sheets. Raises an error with the
+--- round that went wrong.
 function fuzz.run(rounds, seed, folder)
   local count = 0
   for round = 1, rounds do
@@ -148,7 +165,8 @@ function fuzz.run(rounds, seed, folder)
       local text = fuzz.damaged(format, round, seed)
       local good, answer = pcall(fuzz.try, format, text, folder .. "/damaged")
       if not good then
-        error(("%s, round %d of seed %d: %s\n%q"):format(format, round, seed, tostring(answer), text:sub(1, 2000)), 0)
+        error(("%s, round %d of seed %d: %s\n%q")
+          :format(format, round, seed, tostring(answer), text:sub(1, 2000)), 0)
       end
       if answer then count = count + 1 end
     end

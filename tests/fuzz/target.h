@@ -1,8 +1,8 @@
-/* What every fuzz target begins with.
+/* The common beginning of every fuzz target.
  *
- * Built with the option `fuzz`, a target is a program of clang's libFuzzer; else replay.h gives it a
- * main that runs the files that it is given. A target aborts where a promise is broken: `./run fuzz`
- * keeps the bytes that led there.
+ * Built with the option `fuzz`, a target is a program of clang's libFuzzer; else replay.h gives it
+ * a main that runs the files given to it. A target aborts if a promise is broken: `./run fuzz`
+ * keeps the bytes that caused it.
  */
 #ifndef CELSPAN_TESTS_FUZZ_TARGET_H
 #define CELSPAN_TESTS_FUZZ_TARGET_H

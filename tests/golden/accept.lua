@@ -1,7 +1,8 @@
--- Accepts what the scripts below tests/golden and what ships give now, and shows old against new:
+-- Accepts the current output of the scripts below tests/golden and of those that ship, and shows
+-- old against new:
 --   lua5.4 tests/golden/accept.lua [part of a name]
--- Run it at the top of the tree after a build; CELSPAN names another celspan. A script that is new
--- gets its spans, or a question of its own in digests.txt.
+-- Run it at the top of the tree after a build; CELSPAN names another celspan. A new script gets its
+-- spans, or a question of its own in digests.txt.
 package.path = "./?.lua;" .. package.path
 local golden = require "tests.support.golden"
 

@@ -1,6 +1,6 @@
--- Every script below tests/golden gives the spans that were accepted, to the last digit, and what
--- ships gives the digests that were.
--- After a change that is meant: lua5.4 tests/golden/accept.lua, and read what it prints.
+-- Every script below tests/golden gives the accepted spans, to the last digit, and the scripts that
+-- ship give the accepted digests. After an intended change: lua5.4 tests/golden/accept.lua, and
+-- read its output.
 local golden = require "tests.support.golden"
 local present = require "tests.support.present"
 local shipped = require "tests.support.shipped"
@@ -10,14 +10,15 @@ describe("the spans of", function()
     it(case:match "golden/(.*)", function()
       if not present.art() and case:find "/text/" then pending "the art module was not built" end
       local text = assert(golden.actual(case))
-      local accepted = assert(golden.expected(case), case .. ".spans is missing: see tests/golden/accept.lua")
+      local accepted = assert(golden.expected(case),
+        case .. ".spans is missing: see tests/golden/accept.lua")
       assert.are.equal("", golden.difference(accepted, text))
       assert.are.equal(accepted, text)
     end)
   end
 end)
 
---- Whether a question is about what was not built.
+--- Whether a question needs a module that was not built.
 local function lacks(question)
   local script = question:match "^render (%S+)"
   if not script then return not present.art() end

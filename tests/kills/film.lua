@@ -1,8 +1,8 @@
--- A film of small frames, some of them twice, to be ended anywhere: for tests/kills/kills.sh.
+-- A film of small frames, some of them repeated, to be ended anywhere: for tests/kills/kills.sh.
 local celspan = require "celspan"
 
 return celspan.film { size = { 160, 120 }, frames = 60, frame = function(f)
-  local at = f.number - f.number % 7 // 6 -- the last of seven is the one before once more
+  local at = f.number - f.number % 7 // 6 -- the last of seven repeats the one before
   local dots = {}
   for i = 1, 40 do
     dots[i] = celspan.circle { radius = 3 + i % 9,

@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# Renders a film again and again with --resume and ends the program at times drawn by lot, by SIGKILL,
-# SIGTERM and SIGINT in turn, until COUNT runs were ended so.
+# Renders a film again and again with --resume and ends the program at random times, by
+# SIGKILL, SIGTERM and SIGINT in turn, until COUNT runs were ended so.
 #
 #   tests/kills/kills.sh CELSPAN COUNT [SEED]
 #
-# After every end each file under a final name is a frame of the reference, which a run made that nobody
-# ended; after a signal that can be heard no temporary file is left; and whenever a run gets to its end, all
-# frames are there, equal to the reference, and no temporary file, of this run or of those before it.
+# After every end each file with a final name is a frame of the reference, made by a run that was
+# not interrupted; after a signal that can be handled no temporary file is left; and whenever a run
+# completes, all frames exist, equal to the reference, and no temporary file is left by this or an
+# earlier run.
 set -um # jobs of a shell with -m hear SIGINT
 celspan=$(realpath "$1")
 count=$2
@@ -25,7 +26,7 @@ die() {
   exit 1
 }
 
-# check WHERE: what stands under final names.
+# check WHERE: the files with final names.
 check() {
   local file
   for file in out/f.*; do
@@ -46,8 +47,8 @@ all=$(find reference -name "f.*.${endings[0]}" | wc -l)
 
 while [ $((ended[0] + ended[1] + ended[2])) -lt "$count" ]; do
   which=$((runs % 3)) ending=${endings[films % 3]}
-  "$celspan" render "$film" --progress none --resume --workers $((1 + runs % 2)) -o "out/f.##.$ending" \
-    2>stderr &
+  "$celspan" render "$film" --progress none --resume --workers $((1 + runs % 2)) \
+    -o "out/f.##.$ending" 2>stderr &
   process=$!
   sleep "$(printf '0.%03d' $((RANDOM % most_milliseconds)))"
   kill -s "${signals[which]}" $process 2>/dev/null
@@ -65,7 +66,7 @@ while [ $((ended[0] + ended[1] + ended[2])) -lt "$count" ]; do
   137) ended[0]=$((ended[0] + 1)) ;;
   130 | 143)
     ended[which]=$((ended[which] + 1))
-    # A run that was killed may have left one; a run that was stopped may have been too early to find it.
+    # A killed run may have left one; a run that was stopped may have been too early to find it.
     [ "$(count_parts)" -le "${parts:-0}" ] || die "$where: a temporary file is left"
     ;;
   *) die "$where: $(cat stderr)" ;;

@@ -1,10 +1,13 @@
---- Contact sheets of the sample material: every file of its folders of artwork, named, to look at.
+--- Contact sheets of the sample material: every file of its folders of artwork, with its name, for
+--- inspection.
 --
---   lua5.4 tests/material/contact.lua MATERIAL OUT [FOLDER...]     with LUA_PATH and LUA_CPATH as for specs
+--   lua5.4 tests/material/contact.lua MATERIAL OUT [FOLDER...]
 --
--- Writes OUT/FOLDER-1.png, OUT/FOLDER-2.png, ... A drawing is a picture on a checked ground; a layered
--- painting is two: its layers as celspan lays them on each other, and the picture that the program which
--- made it merged. What cannot be read has the reason in its place, on standard output too.
+-- with LUA_PATH and LUA_CPATH as for specs.
+--
+-- Writes OUT/FOLDER-1.png, OUT/FOLDER-2.png, ... A drawing is a picture on a checked background; a
+-- layered painting is two: its layers composited by celspan, and the picture merged by the program
+-- that made it. A file that cannot be read has the reason in its place, and on standard output.
 local celspan = require "celspan"
 local layers = require "celspan.layers"
 local svg = require "celspan.svg"
@@ -36,7 +39,7 @@ local function picture(path)
   return { fitted(object, x, y, w, h) }
 end
 
---- The picture that Photoshop merged, where its channels are those of red, green and blue, or grey.
+--- The picture merged by Photoshop, if its channels are red, green and blue, or grey.
 local function merged_picture(path)
   local good, found = pcall(merged.read, path)
   if not good then return nil end
@@ -54,7 +57,7 @@ local function merged_picture(path)
     size = { found.width, found.height } }
 end
 
---- Cels over white, as the merged picture has them.
+--- Cels over white, as in the merged picture.
 local function over_white(cels)
   cels.back = "#fff"
   return celspan.rostrum(cels)
@@ -65,12 +68,15 @@ local function painting(path)
   if not tree then return nil, message end
   local image = assert(celspan.pixels(over_white(tree:cels()),
     { size = { tree.width, tree.height } }))
-  local ours = celspan.image { pixels = image:bytes { depth = 8, colour = "srgb", alpha = "straight" },
+  local ours = celspan.image { pixels = image:bytes { depth = 8, colour = "srgb",
+    alpha = "straight" },
     format = "rgba8", size = { tree.width, tree.height }, x = 0, y = 0 }
   local list = { fitted(ours, 0, 0, tree.width, tree.height) }
   local theirs = merged_picture(path)
   if theirs then list[2] = fitted(theirs, 0, 0, tree.width, tree.height) end
-  for _, note in ipairs(tree.skipped) do print(("%s: %s: %s"):format(path, note.layer, note.what)) end
+  for _, note in ipairs(tree.skipped) do
+    print(("%s: %s: %s"):format(path, note.layer, note.what))
+  end
   return list
 end
 
@@ -79,7 +85,7 @@ local readers = { svg = drawing, png = picture, webp = picture, psd = painting, 
 
 -- ---------------------------------------------------------------- sheets
 
---- The font has letters, numbers and few signs.
+--- The font has only letters, numbers and a few signs.
 local function text_of(text, size, width)
   text = text:gsub("[^%w%.,:;%-]", " ")
   return celspan.text { text, font = FONT, size = size, width = width, texture = "#333" }
@@ -106,7 +112,7 @@ local function checks()
     celspan.union(list) }
 end
 
---- As much of the end of a name as there is room for.
+--- As much of the end of a name as fits.
 local function caption_of(name) return #name > 27 and "..." .. name:sub(-25) or name end
 
 local function write_sheet(squares, path)
@@ -125,7 +131,8 @@ end
 
 local function write_sheets(material, folder, out)
   local squares, count = {}, 0
-  local find = assert(io.popen(("cd '%s/%s' && find . -type f | LC_ALL=C sort"):format(material, folder)))
+  local find =
+    assert(io.popen(("cd '%s/%s' && find . -type f | LC_ALL=C sort"):format(material, folder)))
   for line in find:lines() do
     local name = line:sub(3)
     if readers[name:match "%.(%w+)$"] then

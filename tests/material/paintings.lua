@@ -1,11 +1,12 @@
---- What becomes of every Photoshop document of the sample material, each read by a process of its own.
+--- The result for every Photoshop document of the sample material, each read by a process of its
+--- own.
 --
 --   lua5.4 tests/material/paintings.lua MATERIAL     with LUA_PATH and LUA_CPATH as for specs
 --
--- A line a file: name; read, or refused and the reason; milliseconds of reading it and rendering all of
--- its layers; most memory of the process, in MiB; the share of the pixels that differ from the picture
--- which the program that made the file merged, by more than 8 of 255 over white, mixed as they are coded;
--- and what was told of blend modes, effects and others. The last line counts them.
+-- A line per file: name; read, or refused and the reason; milliseconds of reading it and rendering
+-- all of its layers; peak memory of the process, in MiB; the share of the pixels that differ from
+-- the picture merged by the program that made the file, by more than 8 of 255 over white, blended
+-- as coded; and the notes about blend modes, effects and others. The last line counts them.
 local celspan = require "celspan"
 local core = require "celspan.core"
 local layers = require "celspan.layers"
@@ -18,11 +19,11 @@ local function peak_mebibytes()
   end
 end
 
---- The layers over white, mixed as they are coded: their codes are taken for light.
+--- The layers over white, blended as coded: their codes are used as linear light.
 local function mixed_as_coded(path)
   local painting = assert(core.painting(path))
   local inside, all = {}, {}
-  for i, layer in ipairs(painting.layers) do -- a group comes after what is in it
+  for i, layer in ipairs(painting.layers) do -- a group comes after its layers
     local object = layer.pixels and celspan.image { pixels = layer.pixels, colour = "linear",
       x = layer.x, y = layer.y, w = layer.width, h = layer.height,
       as = layer.blend == "multiply" and "gel" or nil } or celspan.union(inside[i] or {})
@@ -33,10 +34,11 @@ local function mixed_as_coded(path)
   local cels = {}
   for i, object in ipairs(all) do cels[i] = celspan.cel { object } end
   cels.back = "#fff"
-  return assert(celspan.pixels(celspan.rostrum(cels), { size = { painting.width, painting.height } }))
+  return assert(celspan.pixels(celspan.rostrum(cels),
+    { size = { painting.width, painting.height } }))
 end
 
---- The share of the pixels that differ; nil where the merged picture is not of 8 bits.
+--- The share of the pixels that differ; nil if the merged picture does not have 8 bits.
 local function share_off(path)
   local good, theirs = pcall(merged.read, path)
   if not good then return nil end
@@ -87,7 +89,8 @@ end
 
 local program = interpreter()
 local counts = { read = 0, refused = 0 }
-local find = assert(io.popen(("cd '%s/psd' && find . -name '*.psd' | LC_ALL=C sort"):format(arg[1])))
+local find =
+  assert(io.popen(("cd '%s/psd' && find . -name '*.psd' | LC_ALL=C sort"):format(arg[1])))
 for line in find:lines() do
   local one = assert(io.popen(("'%s' '%s' '%s' '%s/psd/%s'"):format(program, arg[0], arg[1], arg[1],
     line)))

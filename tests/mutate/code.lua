@@ -1,7 +1,7 @@
--- Finds what runs in a source of C: expressions, conditions and statements. Declarations, types,
--- labels and what is asserted are passed over.
+-- Finds the executable parts of a C source: expressions, conditions and statements. Declarations,
+-- types, labels and assertions are skipped.
 --
--- It is no parser: a source in the house style is told right, and what is told wrong gives a mutant
+-- It is not a parser: it is right for sources in the project's style, and a mistake gives a mutant
 -- that does not compile.
 local code = {}
 
@@ -43,7 +43,7 @@ local function ends_cast(list, i)
   return before.text ~= "sizeof" and is_type_name(list, open, i)
 end
 
---- Whether the mark at i stands between two operands.
+--- Whether the mark at i is between two operands.
 function code.is_binary(list, i)
   local before, after = list[i - 1], list[i + 1]
   if after.text == ")" or after.text == "," then return false end
@@ -52,7 +52,7 @@ function code.is_binary(list, i)
   return before.text == "]" or before.text == ")" and not ends_cast(list, i - 1)
 end
 
---- Where a statement that begins at i ends: the index of its `;`.
+--- The end of a statement that begins at i: the index of its `;`.
 local function semicolon(list, i, last)
   while i <= last and list[i].text ~= ";" do
     i = (list[i].pair and list[i].pair > i and list[i].pair or i) + 1
@@ -70,7 +70,7 @@ local function is_declaration(list, i)
   return list[k].kind == "word" and (after == "=" or after == ";" or after == "," or after == "[")
 end
 
---- Hands over the values that a declaration from i to its semicolon begins with.
+--- Passes on the initial values of a declaration from i to its semicolon.
 local function initial_values(list, i, stop, see)
   local from
   while i <= stop do
@@ -176,10 +176,11 @@ function statements(list, i, last, see)
   end
 end
 
---- Walks what runs in the source of these tokens, and calls of `see`, with first and last index:
----   expression(i, j)   what is worked out, once each, not the parts of it
----   condition(i, j)    that of an if or a while, beside its expression
----   statement(i, j)    what can be dropped, its semicolon included
+--- Walks the executable parts of the source of these tokens, and calls functions of `see` with the
+--- first and last index:
+---   expression(i, j)   each complete expression, not its parts
+---   condition(i, j)    that of an if or a while, in addition to its expression
+---   statement(i, j)    a statement that can be dropped, including its semicolon
 function code.walk(list, see)
   local i = 1
   while i <= #list do

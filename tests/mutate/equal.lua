@@ -1,54 +1,54 @@
--- Mutants that change no picture, and why: they are not run. Each is the file's list of
--- { the line as it stands, the change as ./run mutate tells it, the reason, and which of them where
--- the line has several that are told alike, from 1 }.
+-- Mutants that change no picture, and why: they are not run. Each entry of a file's list is { the
+-- line of the source, the change as ./run mutate prints it, the reason, and which one, from 1, if
+-- the line has several changes that are printed alike }.
 return {
-  ["src/area/area.c"] = {
+  ["src/engine/area/area.c"] = {
     { "return interval->high - i == 2 && interval->events.low > interval->events.high &&",
-      "`>` to `>=`", "what a layer begins and ends in one column of no width has no area" },
+      "`>` to `>=`", "a part that begins and ends in one column of no width has no area" },
     { "events += cs_active_chain(active, i)->y1 < y + 1.0;", "`<` to `<=`",
-      "counts ends at the foot of the row too: into how many slabs it is cut decides the time" },
+      "counts ends at the foot of the row too: the number of slabs affects only the time" },
   },
-  ["src/area/local_sweep.c"] = {
+  ["src/engine/area/local_sweep.c"] = {
     { "while (member->points[at].y <= y && at + 1 < member->point_count)", "`1` to `0`",
-      "members that are compared end below y, which ends the walk" },
+      "the members compared end below y, which ends the walk" },
   },
-  ["src/area/window.c"] = {
+  ["src/engine/area/window.c"] = {
     { "while (end > first && weight_in(cell, end - 1) == 0)", "`>` to `>=`",
-      "a cell that has area nowhere is painted in no column, or in one less than that" },
+      "a cell without area is painted in no column, or in one less than that" },
   },
-  ["src/compose/composer.c"] = {
+  ["src/engine/compose/composer.c"] = {
     { "if (composer->item_count <= ITEM_LIMIT)", "`<=` to `<`",
-      "programs are forgotten one item sooner, and found again" },
+      "programs are discarded one item sooner, and found again" },
     { "if (composer->stack->tree_count == 0 || composer->stack->layer_count == 0)", "`||` to `&&`",
       "copies the set where no tree changes it" },
   },
-  ["src/compose/over_tree.c"] = {
+  ["src/engine/compose/over_tree.c"] = {
     { "uint64_t changed = tree->words[i] ^ word;", "`^` to `|`",
-      "quads that did not change are looked up again, which gives what they had" },
+      "quads that did not change are looked up again, with the same result" },
   },
-  ["src/compose/procedures.c"] = {
+  ["src/engine/compose/procedures.c"] = {
     { "return a->x < b->x;", "`<` to `<=`", "the two differ, as the line above says" },
   },
-  ["src/compose/set.h"] = {
+  ["src/engine/compose/set.h"] = {
     { "static inline size_t cs_set_filled_count(size_t words) { return (words + 7) / 8 * 8; }",
       "`/` to `*`", "makes more room than a set needs" },
   },
-  ["src/defocus/edges.c"] = {
+  ["src/engine/defocus/edges.c"] = {
     { "*edges = (cs_defocus_edges){0};", "drop `*edges = (cs_defocus_edges){0};`",
-      "is freed at once with what it is a part of" },
+      "is freed together with the object that contains it" },
   },
-  ["src/defocus/sums.c"] = {
+  ["src/engine/defocus/sums.c"] = {
     { "for (size_t k = 0; k < count; k++)", "`0` to `1`",
-      "the weight of the middle is not read: it has what those of the pairs leave" },
+      "the weight of the middle is not read: it is 1 minus those of the pairs" },
   },
-  ["src/kernel/convolve_parts.h"] = {
+  ["src/engine/kernel/convolve_parts.h"] = {
     { "static inline size_t cs_convolve_words(int32_t width) { return (size_t)width / 64 + 1; }",
-      "`1` to `2`", "makes room for one word more, of which no bit is ever set" },
+      "`1` to `2`", "makes room for one more word, of which no bit is ever set" },
   },
-  ["src/paint/gradient_table.c"] = {
-    { "cs_set_hash name = {0};", "`0` to `1`", "every name differs by the same from what it was" },
+  ["src/engine/paint/gradient_table.c"] = {
+    { "cs_set_hash name = {0};", "`0` to `1`", "every name changes by the same amount" },
   },
-  ["src/paint/lines.c"] = {
+  ["src/engine/paint/lines.c"] = {
     { "if (last->column - first->column > 1)", "`-` to `+`",
       "computes colours between two neighbouring columns, where nothing is compared" },
     { "if (last->column - first->column > 1)", "`>` to `>=`",
@@ -56,11 +56,11 @@ return {
     { "if (last->column - first->column > 1)", "`1` to `0`",
       "computes colours between two neighbouring columns, where nothing is compared" },
   },
-  ["src/paint/over_row_wide.c"] = {
+  ["src/engine/paint/over_row_wide.c"] = {
     { "const cs_wide_int rgb = CS_WIDE_PIXEL(-1, -1, -1, 0);", "`0` to `1`",
       "leaves a bit of alpha in the fourth lane, which is multiplied by 0 or not read" },
   },
-  ["src/paint/shown.c"] = {
+  ["src/engine/paint/shown.c"] = {
     { "if (layer->kind == CS_LAYER_DEFOCUSED && i + 1 < dear && columns > STRIDE)",
       "`layer->kind == CS_LAYER_DEFOCUSED && i + 1 < dear && columns > STRIDE` to "
         .. "`!(layer->kind == CS_LAYER_DEFOCUSED && i + 1 < dear && columns > STRIDE)`",
@@ -74,14 +74,14 @@ return {
     { "if (layer->kind == CS_LAYER_DEFOCUSED && i + 1 < dear && columns > STRIDE)", "`1` to `0`",
       "asks about fewer columns at a time what is hidden, where one cel is defocused" },
   },
-  ["src/render/objects.c"] = {
-    { "size_t depth = 0, most = 0;", "`0` to `1`", "makes room for one more than are kept", 1 },
+  ["src/frames/render/objects.c"] = {
+    { "size_t depth = 0, most = 0;", "`0` to `1`", "makes room for one more than needed", 1 },
   },
-  ["src/row/centre.c"] = {
+  ["src/engine/row/centre.c"] = {
     { "(w->boundary < active->count && active->x[w->boundary] <= w->edges.edges[w->edge].x)) {",
       "`<=` to `<`", "no column lies between two crossings at one place" },
   },
-  ["src/row/centre_wide.c"] = {
+  ["src/engine/row/centre_wide.c"] = {
     { "__m512i order = _mm512_setr_epi32(0, 16, 0, 0, 1, 17, 0, 1, 2, 18, 0, 2, 3, 19, 0, 3);",
       "`0` to `1`", "in a lane that the mask clears", 2 },
     { "__m512i order = _mm512_setr_epi32(0, 16, 0, 0, 1, 17, 0, 1, 2, 18, 0, 2, 3, 19, 0, 3);",
@@ -91,33 +91,33 @@ return {
     { "__m512i order = _mm512_setr_epi32(0, 16, 0, 0, 1, 17, 0, 1, 2, 18, 0, 2, 3, 19, 0, 3);",
       "`0` to `1`", "in a lane that the mask clears", 6 },
   },
-  ["src/row/row.c"] = {
+  ["src/engine/row/row.c"] = {
     { "if (active->y_next > active->y)", "`>` to `<`",
       "the boundaries are brought to the same height by the next step" },
     { "if (active->y_next > active->y)", "`>` to `>=`",
-      "settles once more what is settled, which changes nothing" },
+      "settles a second time, which changes nothing" },
     { "if (maker->row != CS_ROW_NONE && maker->row < y && y - maker->row < FAR_ROWS)",
-      "`<` to `<=`", "walking on gives the same as beginning anew: it only takes longer", 2 },
+      "`<` to `<=`", "continuing gives the same as starting again: it only takes longer", 2 },
   },
-  ["src/stroke/curve.c"] = {
+  ["src/model/stroke/curve.c"] = {
     { "for (int k = 1; k <= line->degree; k++) {", "`1` to `2`",
-      "is asked where a line rests: its second point is the first one" },
+      "is used where a line stops: its second point is the first one" },
   },
-  ["src/stroke/follow.c"] = {
-    { "if (fabs(angle) > 3)", "`>` to `>=`", "an angle is not 3 to the bit; half a turn is meant" },
+  ["src/model/stroke/follow.c"] = {
+    { "if (fabs(angle) > 3)", "`>` to `>=`", "an angle is never exactly 3; half a turn is meant" },
   },
-  ["src/stroke/parts.c"] = {
+  ["src/model/stroke/parts.c"] = {
     { "cs_curve_load_line(&r->stroke->line, piece, 0, 1, &line);", "`1` to `2`",
-      "what ends at 1 or beyond is not cut there" },
+      "a part that ends at 1 or beyond is not cut there" },
   },
-  ["src/stroke/side.c"] = {
+  ["src/model/stroke/side.c"] = {
     { "bool goes_on = has_fold(side) && are_same(last_tip(side), tips[0]);",
       "`last_tip(side), tips[0]` to `tips[0], last_tip(side)`",
-      "are the same whichever of them is named first" },
+      "are the same in either order" },
     { "return draw_arc(a, from, to, end, 0);", "`0` to `1`",
-      "halves an arc once less where that has long made no difference" },
+      "halves an arc one time less, beyond the precision of the result" },
   },
-  ["src/stroke/taper.c"] = {
+  ["src/model/stroke/taper.c"] = {
     { "int side = middle < t->taper[0] ? 0 : middle > t->length - t->taper[1] ? 1 : -1;",
       "`<` to `<=`", "a piece is cut where a taper ends: its middle is not there" },
     { "int side = middle < t->taper[0] ? 0 : middle > t->length - t->taper[1] ? 1 : -1;",
@@ -127,16 +127,16 @@ return {
     { "int side = middle < t->taper[0] ? 0 : middle > t->length - t->taper[1] ? 1 : -1;",
       "`1` to `0`", "multiplies the radius between the tapers by 1", 3 },
     { "int side = middle < t->taper[0] ? 0 : middle > t->length - t->taper[1] ? 1 : -1;",
-      "`1` to `2`", "is asked only whether it is less than 0", 3 },
+      "`1` to `2`", "only its sign is used", 3 },
   },
-  ["src/sweep/active.c"] = {
+  ["src/engine/sweep/active.c"] = {
     { "if (tile_row > active->tile_row + 1)", "`+` to `-`",
-      "begins anew at every height, where walking on gives the same: it only takes longer" },
+      "starts again at every height, where continuing gives the same: it only takes longer" },
   },
-  ["src/sweep/cull_columns.c"] = {
+  ["src/engine/sweep/cull_columns.c"] = {
     { "double stride = piece->sag > 0 ? sqrt(fmax(grid->slack / piece->sag - near, 1)) : 1;",
       "`1` to `2`", "a stride is cut to a whole number, which is 1 up to the root of 4", 1 },
     { "double stride = piece->sag > 0 ? sqrt(fmax(grid->slack / piece->sag - near, 1)) : 1;",
-      "`1` to `2`", "chords of a piece without sag, which is straight, may be of any length", 2 },
+      "`1` to `2`", "chords of a piece without sag, which is straight, may have any length", 2 },
   },
 }

@@ -1,20 +1,20 @@
--- Makes small faults in src/, one at a time, and tells which of them no test sees. From the top of
--- the tree:
+-- Makes small faults in src/, one at a time, and reports which of them no test detects. From the
+-- top of the tree:
 --
 --   lua5.4 tests/mutate/main.lua [PLACE...] [--sample N] [--seed S] [--near]
 --
--- A PLACE is a folder of src/, a file, or FILE:LINE; without one, the folders that decide what a
--- pixel shows. N mutants of a folder are tried (20; 0: all), chosen by S (1). --near runs the
--- nearest tests alone. The exit status is 0 when every mutant was seen, 1 when one lived, and 2
--- when tests fail without a mutant or the build does.
+-- A PLACE is a folder of src/, a file, or FILE:LINE; without one, the folders that determine the
+-- pixels. N mutants of a folder are tried (20; 0: all), selected by S (1). --near runs only the
+-- nearest tests. The exit status is 0 if every mutant was detected, 1 if one survived, and 2 if
+-- tests fail without a mutant or the build fails.
 package.path = "./?.lua;./lua/?.lua;" .. package.path
 local equal = require "tests.mutate.equal"
 local mutants = require "tests.mutate.mutants"
-local nearest = require "tests.mutate.nearest"
+local near_to = require "tests.support.near"
 local workshop = require "tests.mutate.workshop"
 
-local DEFAULT = { "src/sweep", "src/compose", "src/paint", "src/kernel", "src/area", "src/row",
-  "src/defocus" }
+local DEFAULT = { "src/engine/sweep", "src/engine/compose", "src/engine/paint", "src/engine/kernel",
+  "src/engine/area", "src/engine/row", "src/engine/defocus" }
 local BATCH = 6 -- tests that are linked together
 
 local function fail(format, ...)
@@ -49,7 +49,7 @@ local function read_words(words)
   return asked
 end
 
---- The sources of a place, and the line where one is named.
+--- The sources of a place, and the line if it names one.
 local function files_of(place)
   local path, line = place:match "^(.-):(%d+)$"
   path = path or place
@@ -60,7 +60,7 @@ local function files_of(place)
   end
   pipe:close()
   if #list == 0 or not path:find "^src/%w" then
-    fail("'%s' is no folder or source of src/", place)
+    fail("'%s' is neither a folder nor a source of src/", place)
   end
   return list, tonumber(line)
 end
@@ -95,13 +95,11 @@ local function split_tests(all, folder)
     if not is_near[test.name] then near[#near + 1] = test end
     is_near[test.name] = true
   end
-  local listed = workshop.source "tests/unit/meson.build"
-  for name, room in listed:gmatch "%['([%w_]+)', '(%w+)'%]" do
-    local test = by_name["unit/" .. name]
-    if test then test.room = room end
-    if test and room == folder then add(test) end
+  local units = near_to.units "."
+  for name, room in pairs(units) do
+    if by_name[name] then by_name[name].room = room end
   end
-  for _, name in ipairs(nearest[folder] or {}) do
+  for _, name in ipairs(near_to.tests("src/" .. folder, units)) do
     if by_name[name] then add(by_name[name]) end
   end
   for _, test in ipairs(all) do
@@ -111,8 +109,8 @@ local function split_tests(all, folder)
   return near, rest
 end
 
---- How much is built for a test: a program of a folder and what is below it, a program of more, or
---- all of celspan. No batch has two kinds.
+--- How much is built for a test: a program of a folder and those below it, a larger program, or all
+--- of celspan. No batch mixes two kinds.
 local function kind_of(test, folder)
   return #test.targets > 1 and "all" or test.room == folder and "own" or "more"
 end
@@ -128,7 +126,7 @@ local function batches_of(list, folder)
   return batches
 end
 
---- What killed a mutant comes first for the next.
+--- A test that killed a mutant comes first for the next.
 local function favour(list, test)
   for i, other in ipairs(list) do
     if other == test then return table.insert(list, 1, table.remove(list, i)) end
@@ -140,12 +138,12 @@ end
 local Trial = {}
 Trial.__index = Trial
 
---- The text around a mutant, and its place.
+--- The text around a mutant, and its position.
 local function place_of(mutant)
   return ("%s:%d:%d"):format(mutant.path, mutant.line, mutant.column)
 end
 
---- Whether it is known that a mutant changes nothing.
+--- Whether a mutant is known to change nothing.
 local function is_explained(mutant, text)
   local line, told = mutants.line_of(text, mutant), mutants.tell(mutant)
   for _, entry in ipairs(equal[mutant.path] or {}) do
@@ -154,7 +152,7 @@ local function is_explained(mutant, text)
   return false
 end
 
---- Learns what a batch does without the mutant, leaving out what fails.
+--- Runs a batch without the mutant, leaving out tests that fail.
 function Trial:learn(batch, mutant, text)
   if self.shop:knows(batch) then return end
   workshop.set(mutant.path, text)
@@ -169,7 +167,7 @@ function Trial:learn(batch, mutant, text)
   workshop.set(mutant.path, mutants.apply(text, mutant))
 end
 
---- Runs a batch of tests on the mutant that is set: how it ended and in which test, or nil.
+--- Runs a batch of tests on the current mutant: how it ended and in which test, or nil.
 function Trial:run_batch(batch)
   if not workshop.prepare(batch) then return "broken" end
   for _, test in ipairs(batch) do
@@ -203,10 +201,10 @@ end
 local WORDS = { killed = "killed", late = "timed out", lived = "LIVED", equal = "equal",
   broken = "no C", explained = "explained" }
 
---- Tries mutants of a place until so many were run; the counts, and those that lived.
+--- Tries mutants of a place until `asked` were run; returns the counts, and those that survived.
 local function try_place(trial, place, asked)
   local counts = setmetatable({}, { __index = function() return 0 end })
-  local folder = place:match "^src/(%w+)"
+  local folder = near_to.key((place:gsub(":%d+$", ""))) or place:match "[^/]*$"
   trial.folder = folder
   trial.near, trial.rest = split_tests(trial.shop.tests, folder)
   if asked.near then trial.rest = {} end

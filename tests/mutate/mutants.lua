@@ -1,15 +1,14 @@
--- Makes the mutants of a source of C: one small change each, of those that programmers make by
--- mistake.
+-- Makes the mutants of a C source: one small change each, similar to a programmer's mistake.
 --
 -- A mutant is { from, to (bytes of the source that are replaced), before, after (texts), line,
--- column, kind, nth (of those of its line that are told alike, from 1) }. It has as many lines as
--- the source.
+-- column, kind, nth (among those of its line that are printed alike, from 1) }. It has as many
+-- lines as the source.
 local code = require "tests.mutate.code"
 local tokens = require "tests.mutate.tokens"
 
 local mutants = {}
 
---- What becomes of marks; those of `binary` only between two operands.
+--- Replacements of marks; those of `binary` only between two operands.
 local marks = {
   ["<"] = { bound = "<=", comparison = ">" },
   ["<="] = { bound = "<", comparison = ">=" },
@@ -43,11 +42,11 @@ local binary = {
 }
 local words = { ["true"] = { constant = "false" }, ["false"] = { constant = "true" } }
 
--- Arguments of theirs may be swapped without a change.
+-- Their arguments may be swapped without a change.
 local symmetric = { fmin = true, fmax = true, fminf = true, fmaxf = true, hypot = true,
   cs_mem_array = true }
 
---- What becomes of a number: one more or less of an integer, twice a fraction.
+--- Replacements of a number: one more or less for an integer, twice a fraction.
 local function numbers(text)
   local digits, ending = text:match "^(%d+)([uUlL]*)$"
   if digits then
@@ -68,7 +67,7 @@ local function numbers(text)
   return { constant = ("%.17g"):format(2 * value):gsub("^%d+$", "%0.0") .. suffix }
 end
 
---- What a token may become: a table from kind of mutant to text.
+--- Replacements of a token: a table from kind of mutant to text.
 local function changes(list, i)
   local token = list[i]
   if token.kind == "number" then return numbers(token.text) end
@@ -93,7 +92,7 @@ end
 
 local KINDS = { "bound", "comparison", "operator", "condition", "constant" }
 
---- A maker of the mutants of `text`, which calls `add` with each.
+--- Returns a maker of the mutants of `text`, which calls `add` with each.
 local function maker(text, list, add)
   local function between(i, j) return text:sub(list[i].from, list[j].to) end
 
@@ -116,8 +115,8 @@ local function maker(text, list, add)
     end
   end
 
-  --- Whether the comparison at i chooses between what it compares, as `a < b ? a : b` does: then it
-  --- is the same what it says of equals.
+  --- Whether the comparison at i selects between its operands, as `a < b ? a : b` does: then its
+  --- result for equal ones does not matter.
   local function chooses(i)
     local stop = i + 1
     while list[stop] and not list[stop].text:find "^[]?;,)}]$" do
@@ -200,12 +199,12 @@ function mutants.apply(text, mutant)
   return text:sub(1, mutant.from - 1) .. mutant.after .. text:sub(mutant.to + 1)
 end
 
---- The line of the source that a mutant is in, without the space around it.
+--- The source line of a mutant, without the space around it.
 function mutants.line_of(text, mutant)
   return text:sub(mutant.from - mutant.column + 1):match "^%s*([^\n]-)%s*%f[\n\0]"
 end
 
---- What a mutant changes, in one line.
+--- The change of a mutant, in one line.
 function mutants.tell(mutant)
   local function flat(part)
     part = part:gsub("%s+", " "):gsub("^ ", ""):gsub(" $", "")

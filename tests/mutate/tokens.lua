@@ -1,5 +1,5 @@
--- Tokens of C, as far as mutants need them: words, numbers, texts and marks, each with its place.
--- Comments and directives are left out, and so is what only self-checks compile.
+-- Tokens of C, as far as mutants need them: words, numbers, texts and marks, each with its
+-- position. Comments, directives and code that only self-checks compile are left out.
 local tokens = {}
 
 -- Longest first.
@@ -19,7 +19,7 @@ local function end_of_text(text, at)
   return i
 end
 
---- The end of the directive that begins at `at`, its continued lines and all.
+--- The end of the directive that begins at `at`, including continued lines.
 local function end_of_directive(text, at)
   local stop = at
   repeat
@@ -47,8 +47,7 @@ local function mark_at(text, at)
   return text:sub(at, at)
 end
 
---- What begins at `at`, where no white space is: its kind (nil when it is left out), and its last
---- byte.
+--- The token at `at`, where no white space is: its kind (nil if it is left out), and its last byte.
 local function token_at(text, at)
   local two, one = text:sub(at, at + 1), text:sub(at, at)
   if two == "//" then return nil, (text:find("\n", at, true) or #text + 1) - 1 end

@@ -1,9 +1,10 @@
 -- A copy of the tree where mutants are built and tested, in out/mutate: the tree itself is never
--- touched.
+-- changed.
 --
--- Objects are made with self-checks and without debugging information, so that what differs in an
--- object differs in the program. A file of the copy is written only when its text changes: builds
--- stay incremental, and a run that was killed leaves nothing that the next one does not see.
+-- Objects are made with self-checks and without debugging information, so that a difference in an
+-- object is a difference in the program. A file of the copy is written only if its text changes:
+-- builds stay incremental, and files left by a killed run are noticed by the next one.
+local catalogue = require "tests.support.catalogue"
 local system = require "tests.support.system"
 
 local workshop = {}
@@ -13,8 +14,8 @@ local FOLDER = "out/mutate"
 local COPY, LOG = FOLDER .. "/tree", FOLDER .. "/log"
 local OPTIONS = "-Dchecks=true -Ddebug=false -Doptimization=1 "
   .. "'-Dc_args=-Werror=incompatible-pointer-types -Werror=int-conversion "
-  .. "-Werror=aggressive-loop-optimizations'" -- a loop beyond an array: no test need look for it
--- What a mutant may take before it is stopped: KiB of memory, and blocks of 512 bytes in a file.
+  .. "-Werror=aggressive-loop-optimizations'" -- a loop beyond an array: no test needs to find it
+-- The limits of a mutant before it is stopped: KiB of memory, and blocks of 512 bytes in a file.
 local MOST_MEMORY, MOST_FILE = 8 << 20, 2 << 20
 
 local quote, read, write = system.quote, system.read, system.write
@@ -29,13 +30,13 @@ local function lines_of(command)
   return ended_well and lines or {}
 end
 
---- Paths of the files that the tree at `root` is made of.
+--- Paths of the files of the tree at `root`.
 local function files_of(root)
   return lines_of(("cd %s && find . \\( -name .git -o -path './build*' -o -path ./out \\) -prune "
     .. "-o -type f -print"):format(quote(root)))
 end
 
---- Makes the copy as the tree is; the paths that differed.
+--- Updates the copy from the tree; returns the paths that differed.
 local function refresh()
   local is_here, different = {}, {}
   for _, path in ipairs(files_of ".") do
@@ -80,46 +81,7 @@ local function digests_of(objects)
   return digests
 end
 
---- What meson tells of the copy: "tests" or "targets", as JSON without escapes.
-local function told_by_meson(what)
-  return assert(output_of(("meson introspect --%s %s/build"):format(what, COPY)))
-end
-
---- The programs of the unit tests and the examples.
-local function programs()
-  local list = {}
-  for words, name in told_by_meson("tests"):gmatch '"cmd": (%b[]).-"name": "(.-)"' do
-    local command = {}
-    for word in words:gmatch '"(.-)"' do command[#command + 1] = quote(word) end
-    name = name:gsub("^example ", "example/"):gsub("[ ,]", "")
-    list[#list + 1] = {
-      name = name:find "/" and name or "unit/" .. name,
-      command = table.concat(command, " "),
-      targets = { words:match "/tree/build/(.-)\"" },
-    }
-  end
-  return list
-end
-
---- The specs, a test for each file. Each needs the programs and modules that are built by default.
-local function specs()
-  local list, targets = {}, {}
-  for file in told_by_meson("targets"):gmatch '/tree/build/([^"]+)"%], "build_by_default": true' do
-    if not file:find "%.a$" and not file:find "fuzz_" and not file:find "^subprojects/" then
-      targets[#targets + 1] = file
-    end
-  end
-  for _, path in ipairs(lines_of "ls tests/*/*_spec.lua") do
-    list[#list + 1] = {
-      name = path:match "tests/(.*)_spec%.lua$",
-      command = "tests/support/busted.sh build --no-keep-going " .. path,
-      targets = targets,
-    }
-  end
-  return list
-end
-
---- Runs ninja for targets of the copy, so many at a time (1); whether that went well.
+--- Runs ninja for targets of the copy, `jobs` at a time (1); returns whether it succeeded.
 local function build(targets, jobs)
   write(FOLDER .. "/list", table.concat(targets, "\n"))
   local command = "xargs ninja -C %s/build -j%s <%s/list >%s 2>&1"
@@ -141,9 +103,8 @@ function workshop.open()
   if not build({ "all", "meson-test-prereq" }, "$(nproc)") then
     return nil, "the build failed: see " .. LOG
   end
-  local tests = programs()
-  for _, spec in ipairs(specs()) do tests[#tests + 1] = spec end
-  local self = { dependents = read_dependents(), digests = {}, times = {}, tests = tests }
+  local self = { dependents = read_dependents(), digests = {}, times = {},
+    tests = catalogue.of(COPY, "build", "--no-keep-going") }
   setmetatable(self, workshop)
   self:read_times(changed)
   return self
@@ -179,13 +140,17 @@ function workshop.source(path) return assert(read(path)) end
 --- Gives a source of the copy this text.
 function workshop.set(path, text) write(COPY .. "/" .. path, text) end
 
-local function folder_of(path) return path:match "^src/(%w+)/" end
+--- The name of a source's folder, without that of its wing: area for src/engine/area/area.c.
+local function folder_of(path)
+  return path:match "^src/program" and "program" or path:match "^src/%w+/(%w+)/"
+    or path:match "^src/%w+/(%w+)$" or path:match "^src/(%w+)"
+end
 
 --- The objects that a source is part of, those of its own folder first.
 function workshop:objects(path)
   local own, others = {}, {}
   for _, object in ipairs(self.dependents[path] or {}) do
-    if object:find("^src/libcs_" .. folder_of(path) .. "[_.]") then
+    if object:find("^src/lib%l+_" .. folder_of(path) .. "[_.]") then
       own[#own + 1] = object
     elseif not object:find "^tests/" then
       others[#others + 1] = object
@@ -194,7 +159,7 @@ function workshop:objects(path)
   return own, others
 end
 
---- Notes what the objects of a source are without a mutant.
+--- Records the objects of a source without a mutant.
 function workshop:note(path)
   local own, others = self:objects(path)
   for _, list in ipairs { own, others } do
@@ -215,7 +180,7 @@ function workshop:is_different(objects)
   return false
 end
 
---- What a mutant that was set compiles to: "different", "equal" or "broken".
+--- The result of compiling the current mutant: "different", "equal" or "broken".
 function workshop:compile(path)
   for _, objects in ipairs { self:objects(path) } do
     local is_different = self:is_different(objects)
@@ -225,7 +190,7 @@ function workshop:compile(path)
   return "equal"
 end
 
---- Builds what tests need; whether that went well.
+--- Builds what tests need; returns whether it succeeded.
 function workshop.prepare(tests)
   local targets, is_listed = {}, {}
   for _, test in ipairs(tests) do
@@ -237,11 +202,12 @@ function workshop.prepare(tests)
   return build(targets)
 end
 
---- Seconds, of what `times` of the shell tells: `0m1.25s`.
+--- Seconds, from the output of the shell's `times`: `0m1.25s`.
 local function seconds_of(minutes, seconds) return 60 * tonumber(minutes) + tonumber(seconds) end
 
---- Runs a test for at most so many seconds of processor time, and many more by the clock, because
---- others may use the machine: "passed", "failed" or "late", and the processor time it took.
+--- Runs a test for at most `limit` seconds of processor time, and several times as many by the
+--- clock, because others may use the machine: "passed", "failed" or "late", and the processor time
+--- used.
 function workshop.run(test, limit)
   local scratch = "../scratch"
   local command = ("cd %s && rm -rf %s && mkdir %s && export TMPDIR=$PWD/%s && "
@@ -256,8 +222,8 @@ function workshop.run(test, limit)
   return (status == "124" or seconds >= limit) and "late" or "failed", seconds
 end
 
---- Runs tests that were not yet run without a mutant, and notes how long they take; nil and a
---- message when one fails. The copy holds no mutant.
+--- Runs tests that were not yet run without a mutant, and records their times; nil and a message
+--- when one fails. The copy contains no mutant.
 function workshop:learn(tests)
   local unknown = {}
   for _, test in ipairs(tests) do

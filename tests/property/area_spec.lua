@@ -1,7 +1,8 @@
 -- Exact area antialiasing against many pixel centres, and its promise that abutting shapes never
 -- leak.
 --
--- CASE=n runs one random scene alone and prints it; tests/support/cases.lua tells which are tried.
+-- CASE=n runs one random scene alone and prints it; tests/support/cases.lua determines which are
+-- tried.
 local celspan = require "celspan"
 local cases = require "tests.support.cases"
 local present = require "tests.support.present"
@@ -11,7 +12,7 @@ local supersample = require "tests.support.supersample"
 
 local COUNT, ONLY = 100, cases.only
 local CODE = 1 / 255
-local MOST = 2 * CODE -- what one pixel may be off
+local MOST = 2 * CODE -- the allowed error of a pixel
 local RMS = 0.1 * CODE
 
 local function area(exposures, size, film)
@@ -22,7 +23,7 @@ end
 -- ---------------------------------------------------------------- random scenes
 
 --- Wrong pixels of a random scene at a size where shapes are small: nil or a sentence. A coarse
---- reference finds suspects, a fine one judges them.
+--- reference finds suspicious ones, a fine one decides.
 local function judge(case)
   local script, traits = scenes.script(case, { is_flat = true, is_single = true, has_rows = false })
   if ONLY then print(script) end
@@ -46,7 +47,7 @@ local function judge(case)
 end
 
 describe("area antialiasing", function()
-  it("is the mean of many centres, in random scenes of small shapes", function()
+  it("is the mean of many pixel centres, in random scenes of small shapes", function()
     local failures = {}
     for _, case in cases.of(COUNT) do failures[#failures + 1] = judge(case) end
     assert.are.equal("", table.concat(failures, "\n"))
@@ -62,8 +63,10 @@ local function triangles(count, alpha, seed)
   local objects = { celspan.rect { -1, -1, 70, 70, texture = "#fff" } }
   for _ = 1, count do
     objects[#objects + 1] = celspan.triangle {
-      { coordinate(), coordinate() }, { coordinate(), coordinate() }, { coordinate(), coordinate() },
-      texture = celspan.rgb(random:between(0, 1), random:between(0, 1), random:between(0, 1), alpha),
+      { coordinate(), coordinate() }, { coordinate(), coordinate() },
+      { coordinate(), coordinate() },
+      texture = celspan.rgb(random:between(0, 1), random:between(0, 1), random:between(0, 1),
+        alpha),
     }
   end
   return celspan.rostrum { celspan.cel(objects) }
@@ -71,7 +74,7 @@ end
 
 describe("area antialiasing of 40 triangles", function()
   for name, alpha in pairs { opaque = 1, translucent = 0.5 } do
-    it("stays within two codes where they are " .. name, function()
+    it("has an error of at most two codes if they are " .. name, function()
       local rostrum, size = triangles(40, alpha, 7), { 64, 64 }
       local means = supersample.means(rostrum, { size = size, k = 64 })
       local most, rms = supersample.errors(area(rostrum, size), means)
@@ -93,7 +96,8 @@ local function bench_scene(path, side)
       for i = 5, 11, 2 do points[#points + 1] = { numbers[i] * side, numbers[i + 1] * side } end
       objects[#objects + 1] = celspan.nurbs {
         points = points, degree = 3, rule = "evenodd",
-        texture = celspan.rgb(numbers[1] / 255, numbers[2] / 255, numbers[3] / 255, numbers[4] / 255),
+        texture = celspan.rgb(numbers[1] / 255, numbers[2] / 255, numbers[3] / 255,
+          numbers[4] / 255),
       }
     end
   end
@@ -103,7 +107,7 @@ end
 describe("area antialiasing of random B-splines", function()
   local material = present.material
   for _, count in ipairs { 10, 100, 1000 } do
-    it(("stays within two codes with %d shapes"):format(count), function()
+    it(("has an error of at most two codes with %d shapes"):format(count), function()
       if not material then return pending "CELSPAN_MATERIAL is not set" end
       local side = 1000
       local rostrum = bench_scene(("%s/bench-scenes/scene%d.txt"):format(material, count), side)
@@ -125,7 +129,7 @@ end)
 
 -- ---------------------------------------------------------------- very many boundaries
 
---- A polygon that goes up and down through a frame so many times, from its first row to its last.
+--- A polygon that goes up and down through a frame `count` times, from its first row to its last.
 local function tangle(random, count, width, height, texture)
   local fields = { rule = "evenodd", texture = texture }
   for i = 1, count do
@@ -136,7 +140,7 @@ local function tangle(random, count, width, height, texture)
 end
 
 describe("area antialiasing of thousands of boundaries in a few pixels", function()
-  it("is the mean of many centres, over and under shapes, of a colour and of a gradient", function()
+  it("is the mean of many pixel centres, over and under shapes, flat and with gradients", function()
     local random, width, height = prng.new(3), 3, 2
     local ramp = celspan.linear { from = { 0, 0 }, to = { width, 0 }, { 0, "#840" }, { 1, "#048" } }
     for _, texture in ipairs { celspan.rgb(1, 1, 1), ramp } do
@@ -155,7 +159,7 @@ end)
 
 -- ---------------------------------------------------------------- no leaks
 
---- Wedges of a wheel about (16, 16), each from one spoke to the next.
+--- Wedges of a wheel around (16, 16), each from one spoke to the next.
 local function wedges(count, radius)
   local spokes, list = {}, {}
   for i = 0, count - 1 do
@@ -169,7 +173,8 @@ local function wedges(count, radius)
   return list
 end
 
---- How far from (16, 16) the centres of pixels are that lie wholly inside a fan of 24 and radius 14.
+--- The distance from (16, 16) within which the centres of pixels are that lie wholly inside a fan
+--- of 24 wedges and radius 14.
 local function inside(size)
   return 14 * math.cos(math.pi / 24) - 0.18 - 0.75 * 32 / size
 end
@@ -234,17 +239,19 @@ describe("abutting shapes", function()
     end
   end)
 
-  it("do not leak: a shape and what a difference leaves of the ground", function()
+  it("do not leak: a shape and the ground without that shape", function()
     local points = { { 3, 4 }, { 29, 8, 3 }, { 20, 31 }, { 1, 20, 0.4 }, { 14, 12 } }
     local blob = celspan.nurbs { points = points, texture = "#000" }
     local ground = celspan.rect { -9, -9, 60, 60, texture = "#000" }
     for _, size in ipairs(sizes) do
-      assert_black(celspan.rostrum { white, celspan.cel { ground - blob }, celspan.cel { blob } }, 16, size)
-      assert_black(celspan.rostrum { white, celspan.cel { ground & blob, ground - blob } }, 16, size)
+      assert_black(celspan.rostrum { white, celspan.cel { ground - blob }, celspan.cel { blob } },
+        16, size)
+      assert_black(celspan.rostrum { white, celspan.cel { ground & blob, ground - blob } }, 16,
+        size)
     end
   end)
 
-  it("do not leak: turned and in perspective", function()
+  it("do not leak: rotated and in perspective", function()
     local fan = wedges(24, 40)
     local function turned(cel)
       return cel:rotate(17.3, 16, 16):quad({ { 0, 0 }, { 32, 0 }, { 32, 32 }, { 0, 32 } },
@@ -276,8 +283,9 @@ describe("area antialiasing", function()
     end
   end
 
-  it("gives rectangles at fractional places their share", function()
-    assert_alphas({ 0.75 * 0.625, 0.75, 0.75 * 0.25, 0.625, 1, 0.25, 0.125 * 0.625, 0.125, 0.125 * 0.25 },
+  it("gives rectangles at fractional positions their share of each pixel", function()
+    assert_alphas({ 0.75 * 0.625, 0.75, 0.75 * 0.25, 0.625, 1, 0.25, 0.125 * 0.625, 0.125,
+      0.125 * 0.25 },
                   celspan.rect { 0.375, 0.25, 1.875, 1.875 }, 3, 3)
   end)
 
@@ -290,7 +298,7 @@ describe("area antialiasing", function()
     assert_alphas({ 0.25, 0.25 }, celspan.polygon(box), 2, 1)
   end)
 
-  it("gives shapes without area nothing", function()
+  it("draws nothing for shapes without area", function()
     assert_alphas({ 0 }, celspan.triangle { { 0, 0 }, { 0.25, 0.5 }, { 0.5, 1 } }, 1, 1)
     assert_alphas({ 0, 0 }, celspan.polygon { { 0, 0.5 }, { 2, 0.5 }, { 0.25, 0.5 } }, 2, 1)
   end)
@@ -299,13 +307,14 @@ describe("area antialiasing", function()
     local dots = {}
     for i = 0, 63 do
       for j = 0, 63 do
-        dots[#dots + 1] = celspan.rect { 1 + i / 64 + 1 / 256, 1 + j / 64 + 1 / 256, 1 / 128, 1 / 128 }
+        dots[#dots + 1] = celspan.rect { 1 + i / 64 + 1 / 256, 1 + j / 64 + 1 / 256, 1 / 128,
+          1 / 128 }
       end
     end
     assert_alphas({ 0, 0, 0, 0, 0.25, 0, 0, 0, 0 }, celspan.union(dots), 3, 3)
   end)
 
-  it("keeps the place of a boundary that begins where another leaf's do", function()
+  it("keeps the position of a boundary that begins where another shape's do", function()
     local quad = celspan.path { d = "M17 20 L5 16 L-10 16 L0 6 Z" }
     local wedge = celspan.path { d = "M50 17 L5 16 L8 23 Z" }
     local rostrum = celspan.rostrum { celspan.cel { quad | wedge } }
@@ -314,7 +323,7 @@ describe("area antialiasing", function()
     assert.is_true(most < 4 * CODE, most * 255 .. " of 255")
   end)
 
-  it("keeps coincident edges of many shapes as one", function()
+  it("treats coincident edges of many shapes as one", function()
     local copies = {}
     for i = 1, 50 do copies[i] = celspan.rect { 0.25, 0.5, 1, 0.25 } end
     assert_alphas({ 0.1875, 0.0625 }, celspan.union(copies), 2, 1)
@@ -324,18 +333,20 @@ describe("area antialiasing", function()
   it("follows the even-odd rule through crossings inside a pixel", function()
     local bow = { { 0, 0 }, { 1, 1 }, { 1, 0 }, { 0, 1 } }
     assert_alphas({ 0.5 }, celspan.polygon(bow), 1, 1)
-    local star = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 }, { 0, 0 }, { 1, 0 }, { 1, 0.5 }, { 0, 0.5 } }
+    local star = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 }, { 0, 0 }, { 1, 0 }, { 1, 0.5 },
+      { 0, 0.5 } }
     assert_alphas({ 1 }, celspan.polygon(star), 1, 1)
     star.rule = "evenodd"
     assert_alphas({ 0.5 }, celspan.polygon(star), 1, 1)
   end)
 
-  it("is the mean of a larger frame where thousands of shapes crowd a row", function()
+  it("is the mean of a larger frame if thousands of shapes lie in a row", function()
     local random, shapes = prng.new(31), {}
     for i = 1, 3000 do
       local x, y = random:between(0, 4), random:between(0, 4)
       local function near(at) return at + random:between(-0.3, 0.3) end
-      shapes[i] = celspan.triangle { { near(x), near(y) }, { near(x), near(y) }, { near(x), near(y) },
+      shapes[i] = celspan.triangle { { near(x), near(y) }, { near(x), near(y) },
+        { near(x), near(y) },
                                      texture = celspan.rgb(random:between(0, 1), 0.5, 0.2, 0.4) }
     end
     local rostrum, k = celspan.rostrum { celspan.cel(shapes), back = "#fff" }, 32

@@ -1,5 +1,6 @@
--- Stacks of hundreds of faint layers, of which dozens are seen at once: the fold by tree. Against
--- the oracle and many pixel centres, and the same bits by whatever way sets of layers are reached.
+-- Stacks of hundreds of faint layers, dozens of which are visible at once: the fold by tree.
+-- Compared with the oracle and with many pixel centres, and with the same bits by whatever path
+-- sets of layers are reached.
 --
 -- CASE=n runs one random scene alone.
 local celspan = require "celspan"
@@ -32,7 +33,7 @@ local function object(random)
   return shape
 end
 
---- Every third scene ends at a ground, every third one at opaque shapes anywhere in the stack.
+--- Every third scene has an opaque background, every third one opaque shapes anywhere in the stack.
 local function deep_scene(seed)
   local random = prng.new(seed)
   local objects, count = {}, random:whole(260, 700)
@@ -60,7 +61,7 @@ local function spans(rostrum, antialias, fields)
   return assert(celspan.spans(rostrum, options))
 end
 
---- Whether a colour is that of the scene at a place; near an edge, that of a place around it.
+--- Whether a colour is that of the scene at a point; near an edge, that of a point around it.
 local function is_seen(rostrum, x, y, colour)
   for _, radius in ipairs { 0, 1e-6 } do
     for _, offset in ipairs { { 1, 0 }, { -1, 0 }, { 0, 1 }, { 0, -1 } } do
@@ -74,7 +75,7 @@ local function is_seen(rostrum, x, y, colour)
 end
 
 describe("deep stacks of faint layers", function()
-  it("are what the oracle says at pixel centres", function()
+  it("agree with the oracle at pixel centres", function()
     each_scene(function(rostrum, random, case)
       local list = spans(rostrum, "none")
       for _ = 1, 60 do
@@ -85,7 +86,7 @@ describe("deep stacks of faint layers", function()
     end)
   end)
 
-  it("are the mean of many centres under area", function()
+  it("are the mean of many pixel centres under area", function()
     each_scene(function(rostrum, random, case)
       local crop = { random:whole(0, 32), random:whole(0, 32), 12, 4 }
       local image = assert(celspan.pixels(rostrum, { size = SIZE, film = SIZE, crop = crop,
@@ -97,7 +98,7 @@ describe("deep stacks of faint layers", function()
     end)
   end)
 
-  it("are the same on any number of workers #workers", function()
+  it("are the same with any number of workers #workers", function()
     each_scene(function(rostrum, _, case)
       for _, antialias in ipairs { "none", "area" } do
         local one, three = spans(rostrum, antialias), spans(rostrum, antialias, { workers = 3 })
@@ -107,7 +108,7 @@ describe("deep stacks of faint layers", function()
     end)
   end)
 
-  it("are the same in every row alone", function()
+  it("are the same in every row rendered alone", function()
     each_scene(function(rostrum, random, case)
       local all = spans(rostrum, "none")
       for _ = 1, 6 do

@@ -1,4 +1,4 @@
--- Defocused cels that hold pictures and gradients, against sums of many probes of the same cel
+-- Defocused cels of pictures and gradients, compared with sums of many probes of the same cel
 -- without defocus: at every radius from a twentieth of a pixel up, rotated and enlarged.
 local celspan = require "celspan"
 local pieces = require "tests.support.pieces"
@@ -20,7 +20,7 @@ local weights = {
   disc = function(x, y, r) return x * x + y * y <= r * r and 1 or 0 end,
 }
 
---- The mean of n by n probes under the kernel about a point of the film.
+--- The mean of n by n probes under the kernel around a point of the film.
 local function convolve(rostrum, kernel, radius, x, y, n)
   local reach = kernel == "gaussian" and 2 * radius or radius
   local sum, total = { 0, 0, 0, 0 }, 0
@@ -41,8 +41,7 @@ end
 
 local points = { { 20, 20 }, { 17, 23 }, { 24, 18 }, { 22, 25 }, { 19, 16 } }
 
---- Compares the pixels at `points` of a defocused cel; returns by how much it differs from the
---- sharp one.
+--- Compares the pixels at `points` of a defocused cel; returns the difference from the sharp one.
 local function compare(art, kernel, radius, antialias, n)
   local where = ("%s of radius %g under %s"):format(kernel, radius, antialias)
   local sharp = celspan.rostrum { celspan.cel { art }, antialias = antialias }
@@ -50,7 +49,7 @@ local function compare(art, kernel, radius, antialias, n)
   local soft = celspan.rostrum { cel, antialias = antialias }
   local image = assert(celspan.pixels(soft, { size = FILM }))
   local before = assert(celspan.pixels(sharp, { size = FILM }))
-  -- Below a fifth of a pixel a kink of a hard picture may lie between the cells that are summed.
+  -- Below a fifth of a pixel a kink of a hard picture may lie between the summed cells.
   local tolerance = radius < 0.2 and 0.008 or 0.004
   local change = 0
   for _, at in ipairs(points) do

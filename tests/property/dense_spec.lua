@@ -1,11 +1,11 @@
--- Pixels in which very many boundaries lie: what they show, and what they cost.
+-- Pixels with very many boundaries: their colours, and their cost.
 local celspan = require "celspan"
 local prng = require "tests.support.prng"
 local workbench = require "tests.support.workbench"
 
-local SIDE, FINE = 6, 32 -- pixels a side; and the factor of the exact picture
+local SIDE, FINE = 6, 32 -- pixels a side; and the scale of the exact picture
 
---- A polygon of so many random points, which crosses itself everywhere.
+--- A polygon of `count` random points, which crosses itself everywhere.
 local function scribble(count, seed)
   local random, points = prng.new(seed), { rule = "evenodd", texture = celspan.rgb(0.9, 0.5, 0.1) }
   for i = 1, count do points[i] = { SIDE * random:between(0, 1), SIDE * random:between(0, 1) } end
@@ -16,7 +16,8 @@ local function squares(count, seed)
   local random, objects = prng.new(seed), {}
   for i = 1, count do
     objects[i] = celspan.rect { SIDE * random:between(0, 1), SIDE * random:between(0, 1), 0.7, 0.7,
-                                texture = celspan.rgb(random:between(0, 1), random:between(0, 1), random:between(0, 1)) }
+                                texture = celspan.rgb(random:between(0, 1), random:between(0, 1),
+                                  random:between(0, 1)) }
   end
   return celspan.cel(objects)
 end
@@ -53,7 +54,7 @@ local function compare(rostrum, of)
 end
 
 describe("dense pixels", function()
-  it("show the mean of what lies in them", function()
+  it("show the mean of their area", function()
     for seed = 1, 2 do
       compare(celspan.rostrum { back = "#fff", scribble(6500 + 1000 * seed, seed) }, "scribble")
       compare(celspan.rostrum { squares(9000 * seed, seed) }, "squares")
@@ -71,7 +72,7 @@ describe("dense pixels", function()
     end
   end)
 
-  it("leave no gap where all is covered", function()
+  it("leave no gap where shapes cover everything", function()
     local random = prng.new(3)
     local objects = { celspan.rect { -1, -1, SIDE + 2, SIDE + 2, texture = "#000" } } -- behind all
     for i = 2, 40000 do
@@ -87,10 +88,11 @@ end)
 
 -- ---------------------------------------------------------------- what lies behind others
 
---- A shape with a paint: most of them small upright rectangles that let nothing through, the others of
---- every kind that must not be taken for one.
+--- A shape with a paint: most of them small upright opaque rectangles, the others of all the kinds
+--- that must not be mistaken for one.
 local function shape(random, side)
-  local x, y, kind = side * random:between(-0.2, 1), side * random:between(-0.2, 1), random:whole(1, 12)
+  local x, y, kind = side * random:between(-0.2, 1), side * random:between(-0.2, 1),
+    random:whole(1, 12)
   local paint = celspan.rgb(random:between(0, 1), random:between(0, 1), random:between(0, 1))
   if kind == 1 then return celspan.circle { centre = { x, y }, radius = 3, texture = paint } end
   if kind == 2 then return celspan.rect { x, y, 4, 4, radius = 2, texture = paint } end
@@ -101,12 +103,14 @@ local function shape(random, side)
     return celspan.stroke { points = { { x, y }, { x + 5, y + 3 } }, width = 2, texture = paint }
   end
   if kind == 7 then
-    return celspan.union { celspan.rect { x, y, 2, 3, texture = paint }, celspan.rect { x + 2, y, 2, 2 } }
+    return celspan.union { celspan.rect { x, y, 2, 3, texture = paint },
+      celspan.rect { x + 2, y, 2, 2 } }
   end
   return celspan.rect { x, y, 3 * random:between(0, 2), 4, texture = paint }
 end
 
---- The same objects in one cel, and in many that are too short to be searched for what lies behind.
+--- The same objects in one cel, and in many cels that are too small for hidden objects to be
+--- searched.
 local function both(count, seed, side, opacity)
   local random, all, parts = prng.new(seed), {}, {}
   for i = 1, count do
@@ -132,21 +136,24 @@ local function assert_alike(a, b, side, tolerance)
 end
 
 describe("objects behind others", function()
-  it("show nothing when they are left out", function()
+  it("are left out without a visible difference", function()
     for seed, side in ipairs { 24, 57, 300 } do
       local one, many = both(2500, seed, side, 1)
       for _, mode in ipairs { "none", "area", { kernel = "mitchell" } } do
-        local options = { size = { side, side }, film = { side, side }, antialias = mode, workers = 1 }
-        assert_alike(assert(celspan.pixels(one, options)), assert(celspan.pixels(many, options)), side,
+        local options = { size = { side, side }, film = { side, side }, antialias = mode,
+          workers = 1 }
+        assert_alike(assert(celspan.pixels(one, options)), assert(celspan.pixels(many, options)),
+          side,
           mode == "none" and 0 or 1e-4)
       end
     end
   end)
 
-  it("hide each other wholly in a cel that is faded", function()
+  it("hide each other completely in a cel that is faded", function()
     local faded, plain = both(2500, 4, 24, 0.25), both(2500, 4, 24, 1)
     local options = { size = { 24, 24 }, film = { 24, 24 }, antialias = "none", workers = 1 }
-    local image, whole = assert(celspan.pixels(faded, options)), assert(celspan.pixels(plain, options))
+    local image, whole = assert(celspan.pixels(faded, options)),
+      assert(celspan.pixels(plain, options))
     for y = 0, 23 do
       for x = 0, 23 do
         local seen, under = image:get(x, y), whole:get(x, y)
@@ -157,10 +164,10 @@ describe("objects behind others", function()
   end)
 end)
 
--- ---------------------------------------------------------------- what they cost
+-- ---------------------------------------------------------------- cost
 
---- What one frame of a scene of `count` things cost, told by counters, which are the same on any machine;
---- and `processor`, the seconds of processor time of the whole program.
+--- The cost of one frame of a scene of `count` things, as counters, which are the same on any
+--- machine; and `processor`, the seconds of processor time of the whole program.
 local function counters(scene, count)
   local bench = workbench.new()
   bench:write("scene.lua", ([[
@@ -171,7 +178,8 @@ local objects = {}
 for i = 1, %d do %s end
 return celspan.rostrum { size = { 64, 48 }, celspan.cel(%s) }
 ]]):format(count, scene.item, scene.cel))
-  local code, out, err = bench:shell(("bash -c \"TIMEFORMAT=%%U; time '%s' spans '%s/scene.lua' --workers 1 --stats\"")
+  local code, out, err =
+    bench:shell(("bash -c \"TIMEFORMAT=%%U; time '%s' spans '%s/scene.lua' --workers 1 --stats\"")
     :format(bench.binary, bench.folder))
   assert.are.equal(0, code, err)
   bench:remove()
@@ -186,14 +194,14 @@ describe("the cost of very many things", function()
   local polygon = { cel = "{ celspan.polygon(objects) }", item = "objects[i] = { at(i, \"a\") }" }
   local curve = { cel = "{ celspan.nurbs { points = objects } }", item = polygon.item }
 
-  it("is small for each opaque square, and grows with those that are seen", function()
+  it("is small for each opaque square, and grows with the visible ones", function()
     local few, many = counters(square, 4000), counters(square, 16000)
     assert.is_true(many.peak_bytes / 16000 < 500, many.peak_bytes .. " bytes")
     assert.is_true(many.colour_evaluations < 2 * few.colour_evaluations, many.colour_evaluations
       .. " colours, " .. few.colour_evaluations .. " for a quarter of the squares")
   end)
 
-  it("grows at most linearly, within two times, for polygons and curves", function()
+  it("grows at most linearly, within a factor of two, for polygons and curves", function()
     for _, scene in ipairs { polygon, curve } do
       local few, many = counters(scene, 2000), counters(scene, 8000)
       for _, name in ipairs { "peak_bytes", "allocations", "colour_evaluations", "processor" } do
@@ -203,7 +211,7 @@ describe("the cost of very many things", function()
     end
   end)
 
-  it("is bounded for each point of a polygon, however many lie in a row of pixels", function()
+  it("is bounded for each point of a polygon, however many are in a row of pixels", function()
     local many = counters(polygon, 64000)
     assert.is_true(many.peak_bytes / 64000 < 1100, many.peak_bytes / 64000 .. " bytes a point")
   end)

@@ -1,5 +1,5 @@
--- The same scene gives the same bits: on any number of workers, in any order of rows, in crops, in
--- any order of frames, and again.
+-- The same scene gives the same bits: with any number of workers, in any order of rows, in crops,
+-- in any order of frames, and when rendered again.
 --
 -- Strips and rows on demand are tested from C: tests/unit/test_render.c.
 local celspan = require "celspan"
@@ -97,20 +97,23 @@ describe("a crop", function()
     end)
   end
 
-  it("is that part of the whole, exactly, under none", function() compare("none", 0) end)
-  it("is that part of the whole within 1/65535 under area", function() compare("area", 1 / 65535) end)
+  it("equals that part of the whole exactly under none", function() compare("none", 0) end)
+  it("equals that part of the whole within 1/65535 under area", function()
+    compare("area", 1 / 65535)
+  end)
 end)
 
 describe("rows", function()
   for _, antialias in ipairs { "none", "area" } do
-    it("asked for alone are those of the whole under " .. antialias, function()
+    it("requested alone equal those of the whole under " .. antialias, function()
       each_scene(function(exposures, options, random, case)
         options.antialias = antialias
         local whole = spans(exposures, options)
         for _ = 1, 3 do
           local y = random:whole(0, options.size[2] - 1)
           local alone = spans(exposures, with(options, { rows = { y, y } }))
-          assert(rows.text(whole, y, y) == rows.text(alone, y, y), ("CASE=%d: row %d"):format(case, y))
+          assert(rows.text(whole, y, y) == rows.text(alone, y, y),
+            ("CASE=%d: row %d"):format(case, y))
         end
       end)
     end)
@@ -127,11 +130,13 @@ describe("frames", function()
     end }
   end
 
-  it("in any order are the same", function()
+  it("rendered in any order are the same", function()
     local options, forwards = { size = { 30, 20 } }, {}
     local one, other = film(), film()
     for number = 1, 12 do forwards[number] = text(one:at(number), options) end
-    for number = 12, 1, -1 do assert.are.equal(forwards[number], text(other:at(number), options)) end
+    for number = 12, 1, -1 do
+      assert.are.equal(forwards[number], text(other:at(number), options))
+    end
     for number = 1, 12 do assert.are.equal(forwards[number], text(one:at(number), options)) end
   end)
 end)

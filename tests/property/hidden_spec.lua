@@ -1,5 +1,5 @@
--- Stacks of pictures with alpha, gradients, faded groups and defocused cels: against the oracle at
--- pixel centres, and what is hidden behind opaque parts is neither read nor made.
+-- Stacks of pictures with alpha, gradients, faded groups and defocused cels: compared with the
+-- oracle at pixel centres; and parts hidden behind opaque ones are neither read nor made.
 --
 -- CASE=n runs one random scene alone.
 local celspan = require "celspan"
@@ -62,8 +62,8 @@ local function drawn(random)
   return random:once(4) and object:fade(random:between(0, 1)) or object
 end
 
---- Two flat rectangles out of focus, apart from each other; `rims` takes where they are not what
---- they are when sharp.
+--- Two separate flat rectangles out of focus; `rims` receives the areas in which they differ from
+--- the sharp ones.
 local function soft(random, rims)
   local x, y, h = random:whole(-60, 100), random:whole(-60, 100), random:whole(80, 200)
   local radius, pair = random:pick { 2, 5, 12 }, {}
@@ -80,13 +80,16 @@ local function soft(random, rims)
 end
 
 local function lit(random)
-  return celspan.linear { from = { 0, 0 }, to = { WIDTH, 0 }, { 0, colour(random, 1) }, { 1, "#fff" } }
+  return celspan.linear { from = { 0, 0 }, to = { WIDTH, 0 }, { 0, colour(random, 1) },
+    { 1, "#fff" } }
 end
 
 local function cel(random, rims)
   local kind = random:whole(0, 8)
   if kind < 2 then return soft(random, rims) end
-  if kind == 2 then return celspan.cel { (drawn(random) | drawn(random)):fade(random:between(0.3, 1)) } end
+  if kind == 2 then
+    return celspan.cel { (drawn(random) | drawn(random)):fade(random:between(0.3, 1)) }
+  end
   if kind == 3 then return celspan.cel { drawn(random), drawn(random), front = lit(random) } end
   return celspan.cel { drawn(random), drawn(random), opacity = random:pick { 1, 1, 1, 0.9, 0.4 },
                        front = random:once(3) and { 0.8, 1, 0.7 } or nil }
@@ -115,7 +118,7 @@ local function spans(rostrum, fields)
 end
 
 describe("a deep stack of pictures, gradients, groups and soft cels", function()
-  it("is what the oracle says at pixel centres", function()
+  it("agrees with the oracle at pixel centres", function()
     local compared = 0
     for _, case in cases.of(COUNT) do
       local rostrum, random, rims = stack(case)
@@ -138,7 +141,7 @@ describe("a deep stack of pictures, gradients, groups and soft cels", function()
     assert.is_true(compared > 100 * (ONLY and 0 or cases.count(COUNT)))
   end)
 
-  it("is the same on several workers, and each row alone", function()
+  it("is the same with several workers, and for each row alone", function()
     for _, case in cases.of(COUNT // 5) do
       local rostrum, random = stack(case)
       local list = spans(rostrum)
@@ -160,11 +163,12 @@ local function missing(x, y, w, h)
   return celspan.image { file = folder .. "/none.png", x = x, y = y, w = w, h = h }
 end
 
---- Whether a rostrum is made whole under every kind of antialiasing.
+--- Whether a rostrum renders completely under every kind of antialiasing.
 local function is_made(...)
   for _, antialias in ipairs { "none", "area", { kernel = "gaussian" } } do
     local rostrum = celspan.rostrum { ... }
-    local list, message = celspan.spans(rostrum, { size = SIZE, film = SIZE, antialias = antialias })
+    local list, message = celspan.spans(rostrum,
+      { size = SIZE, film = SIZE, antialias = antialias })
     if not list then
       assert.is_truthy(message:find("none.png", 1, true), message)
       return false
@@ -187,14 +191,15 @@ describe("a picture that cannot be read", function()
     assert.is_false(is_made(beside(), front {}))
   end)
 
-  it("is not read where that is lit, or in a group lit by a shape", function()
+  it("is not read if that is lit, or in a group lit by a shape", function()
     assert.is_true(is_made(behind(), front { front = { 0.5, 1, 0.5 } }))
-    local light = celspan.linear { from = { 0, 0 }, to = { WIDTH, 0 }, { 0, "#fff" }, { 1, "#f80" } }
+    local light = celspan.linear { from = { 0, 0 }, to = { WIDTH, 0 }, { 0, "#fff" },
+      { 1, "#f80" } }
     assert.is_true(is_made(behind(), front { front = light }))
     assert.is_false(is_made(beside(), front { front = light }))
   end)
 
-  it("is not read behind several that are faded, together opaque", function()
+  it("is not read behind several faded shapes that are opaque together", function()
     assert.is_true(is_made(behind(), front { opacity = 0.99 }, front { opacity = 0.999 }))
     assert.is_false(is_made(behind(), front { opacity = 0.99 }, front { opacity = 0.9 }))
     assert.is_false(is_made(beside(), front { opacity = 0.99 }, front { opacity = 0.999 }))
@@ -203,7 +208,7 @@ describe("a picture that cannot be read", function()
     assert.is_false(is_made(behind(), faded(0.99), faded(0.9)))
   end)
 
-  it("is not read inside a faded group behind what is opaque there", function()
+  it("is not read inside a faded group behind an opaque part of the group", function()
     local function group(hidden)
       return celspan.cel { (hidden | celspan.image { file = file }):fade(0.5) }
     end
@@ -212,13 +217,14 @@ describe("a picture that cannot be read", function()
   end)
 
   it("is not read behind the core of a defocused cel", function()
-    local function soft(alpha)
-      return celspan.cel { celspan.rect { 90, 40, 150, 120, texture = celspan.rgb(0.2, 0.5, 1, alpha) },
+    local function blurred(opacity)
+      return celspan.cel { celspan.rect { 90, 40, 150, 120,
+        texture = celspan.rgb(0.2, 0.5, 1, opacity) },
                            defocus = 8 }
     end
-    assert.is_true(is_made(behind(), soft(1)))
-    assert.is_false(is_made(beside(), soft(1)))
-    assert.is_false(is_made(behind(), soft(0.99)))
+    assert.is_true(is_made(behind(), blurred(1)))
+    assert.is_false(is_made(beside(), blurred(1)))
+    assert.is_false(is_made(behind(), blurred(0.99)))
     -- With a gap among the columns in which the core ends.
     local apart = celspan.cel { celspan.rect { 50, 40, 100, 120, texture = "#345" },
                                 celspan.rect { 210, 40, 60, 120, texture = "#345" }, defocus = 3 }
@@ -228,7 +234,7 @@ describe("a picture that cannot be read", function()
 end)
 
 describe("a defocused cel", function()
-  --- Costs nothing where it is hidden: its picture cannot be read.
+  --- Must not be made where it is hidden: its picture cannot be read.
   local function lost(radius) return celspan.cel { missing(140, 80, 40, 20), defocus = radius } end
 
   it("is not made behind an opaque part of a picture, nor behind another one", function()

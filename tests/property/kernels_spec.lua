@@ -1,5 +1,5 @@
--- Filter kernels: normalised, separable, seeing artwork beyond the crop; against sums of many pixel
--- centres under the kernel.
+-- Filter kernels: normalised, separable, seeing artwork beyond the crop; compared with sums of many
+-- pixel centres under the kernel.
 local celspan = require "celspan"
 local cases = require "tests.support.cases"
 local prng = require "tests.support.prng"
@@ -13,7 +13,8 @@ local kernels = {
 }
 
 local function name_of(kernel)
-  return ("%s of radius %s"):format(type(kernel.kernel) == "string" and kernel.kernel or "a function",
+  return ("%s of radius %s"):format(type(kernel.kernel) == "string" and kernel.kernel
+    or "a function",
                                     kernel.radius or "default")
 end
 
@@ -42,7 +43,8 @@ local function each_scene(options, test)
   for _, case in cases.of(COUNT) do
     local script, traits = scenes.script(case, options)
     if ONLY then print(script) end
-    test(scenes.load(script):at(1), traits, { traits.width, traits.height }, "CASE=" .. case, prng.new(case))
+    test(scenes.load(script):at(1), traits, { traits.width, traits.height }, "CASE=" .. case,
+      prng.new(case))
   end
 end
 
@@ -50,7 +52,7 @@ describe("a kernel", function()
   for _, kernel in ipairs(kernels) do
     local name = name_of(kernel)
 
-    it("leaves a constant as it is: " .. name, function()
+    it("leaves a constant unchanged: " .. name, function()
       local paint = celspan.paint { pigment = { 1, 0.5, 0.25 }, medium = { 0, 1, 1 }, beta = 0.75 }
       local ground = celspan.rect { -99, -99, 299, 299, texture = paint }
       local rostrum = celspan.rostrum { celspan.cel { ground }, back = { 0.5, 0.5, 0.25, 0.5 } }
@@ -64,13 +66,14 @@ describe("a kernel", function()
       end
     end)
 
-    it("gives any number of workers and any crop the same: " .. name, function()
+    it("gives the same with any number of workers and in any crop: " .. name, function()
       each_scene({}, function(exposures, _, film, where, random)
         local whole = shot(exposures, film, film, kernel)
         assert_alike(whole, shot(exposures, film, film, kernel, { workers = 3 }), 0, where)
         local x, y = random:whole(0, film[1] - 1), random:whole(0, film[2] - 1)
         local crop = { x, y, random:whole(1, film[1] - x), random:whole(1, film[2] - y) }
-        assert_alike(whole, shot(exposures, film, film, kernel, { crop = crop }), 1 / 65535, where, x, y)
+        assert_alike(whole, shot(exposures, film, film, kernel, { crop = crop }), 1 / 65535, where,
+          x, y)
       end)
     end)
   end
@@ -79,7 +82,7 @@ end)
 describe("the box of one pixel", function()
   it("is nearly the exact area", function()
     each_scene({ is_flat = true, has_rows = false }, function(exposures, traits, film, where)
-      -- 16 rows a pixel: each edge may be off by half a row.
+      -- 16 rows per pixel: each edge may be off by half a row.
       local box = { kernel = "box", rows = 64 }
       assert_alike(shot(exposures, film, film, "area"), shot(exposures, film, film, box),
                    math.max(1, traits.light) * 8 / 255, where)
@@ -105,7 +108,7 @@ local shapes = {
   { kernels[7], 1, function(x) return 1 - math.abs(x) end },
 }
 
---- Alpha of a pixel of the frame: the mean of centres, k a pixel, weighed.
+--- Alpha of a pixel of the frame: the weighted mean of centres, k per pixel.
 local function filtered(rostrum, film, px, py, radius, weight, k)
   local sum, total = 0, 0
   local reach = math.floor(radius * k)
@@ -123,17 +126,19 @@ end
 
 describe("a filtered picture", function()
   for _, shape in ipairs(shapes) do
-    it("is the weighed mean of what is under the kernel: " .. name_of(shape[1]), function()
+    it("is the weighted mean under the kernel: " .. name_of(shape[1]), function()
       local film = { 12, 10 }
       local rostrum = celspan.rostrum { celspan.cel {
         celspan.polygon { { 2.3, 1.7 }, { 10.1, 3.2 }, { 6.4, 9.6 }, { 5.2, 5.1 } },
         celspan.rect { -2, 4.25, 4.4, 2.5, texture = "#ffffff80" } } }
       local image = shot(rostrum, film, film, shape[1])
-      for _, at in ipairs { { 0, 4 }, { 2, 2 }, { 3, 3 }, { 5, 5 }, { 6, 8 }, { 9, 3 }, { 6, 4 } } do
+      for _, at in ipairs { { 0, 4 }, { 2, 2 }, { 3, 3 }, { 5, 5 }, { 6, 8 }, { 9, 3 },
+        { 6, 4 } } do
         local alpha = select(4, image:get(at[1], at[2]))
         local expected = filtered(rostrum, film, at[1], at[2], shape[2], shape[3], 24)
         assert.is_true(math.abs(alpha - expected) < 0.012,
-                       ("pixel %d, %d: alpha %.4f, should be %.4f"):format(at[1], at[2], alpha, expected))
+                       ("pixel %d, %d: alpha %.4f, should be %.4f")
+                       :format(at[1], at[2], alpha, expected))
       end
     end)
   end

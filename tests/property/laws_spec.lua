@@ -6,7 +6,7 @@ local rows = require "tests.support.rows"
 local scenes = require "tests.support.scenes"
 
 local COUNT, ONLY = 50, cases.only
-local AREA = 1e-5 -- what floats may differ when one picture is summed in two ways
+local AREA = 1e-5 -- the difference allowed between two orders of summing floats
 
 local function each_case(test)
   for _, case in cases.of(COUNT) do test(case) end
@@ -17,7 +17,7 @@ local function shot(rostrum, size, film, antialias, crop)
                                           antialias = antialias, workers = 1 }))
 end
 
---- Pixel (x, y) of a is pixel (x + dx, y + dy) of b, wherever both are.
+--- Checks that pixel (x, y) of a is pixel (x + dx, y + dy) of b, wherever both exist.
 local function assert_alike(a, b, tolerance, where, dx, dy)
   dx, dy = dx or 0, dy or 0
   for y = math.max(0, -dy), math.min(a.height, b.height - dy) - 1 do
@@ -41,7 +41,7 @@ end
 
 -- ---------------------------------------------------------------- boolean algebra
 
---- Where an object is, in white.
+--- The area of an object, in white.
 local function presence(shape)
   local white = celspan.rect { -9, -9, 99, 99, texture = "#fff" }
   return celspan.rostrum { celspan.cel { celspan.clip(white, shape) } }
@@ -58,10 +58,18 @@ local laws = {
   { "A | B is B | A", function(a, b) return a | b, b | a end },
   { "A ~ B is (A | B) - (A & B)", function(a, b) return a ~ b, (a | b) - (a & b) end },
   { "A - B is A & (U - B)", function(a, b, _, u) return a - b, a & (u - b) end },
-  { "U - (A | B) is (U - A) & (U - B)", function(a, b, _, u) return u - (a | b), (u - a) & (u - b) end },
-  { "U - (A & B) is (U - A) | (U - B)", function(a, b, _, u) return u - (a & b), (u - a) | (u - b) end },
-  { "A & (B | C) is (A & B) | (A & C)", function(a, b, c) return a & (b | c), (a & b) | (a & c) end },
-  { "A | (B & C) is (A | B) & (A | C)", function(a, b, c) return a | (b & c), (a | b) & (a | c) end },
+  { "U - (A | B) is (U - A) & (U - B)", function(a, b, _, u)
+    return u - (a | b), (u - a) & (u - b)
+  end },
+  { "U - (A & B) is (U - A) | (U - B)", function(a, b, _, u)
+    return u - (a & b), (u - a) | (u - b)
+  end },
+  { "A & (B | C) is (A & B) | (A & C)", function(a, b, c)
+    return a & (b | c), (a & b) | (a & c)
+  end },
+  { "A | (B & C) is (A | B) & (A | C)", function(a, b, c)
+    return a | (b & c), (a | b) & (a | c)
+  end },
   { "A - B - C is A - (B | C)", function(a, b, c) return a - b - c, a - (b | c) end },
   { "clip(A, B) is A & B", function(a, b) return celspan.clip(a, b), a & b end },
 }
@@ -91,18 +99,19 @@ describe("a cel that cannot be seen", function()
     local a, traits = object(2 * case, options)
     local b = object(2 * case + 1, options)
     local film = { traits.width, traits.height }
-    -- What may differ is where gradients are cut.
+    -- Only the places where gradients are divided may differ.
     local tolerances = options.is_flat and { none = 0, area = AREA }
       or { none = 1 / 1023, area = 1 / 1023 }
     for antialias, tolerance in pairs(tolerances) do
       local with, without = make(celspan.cel { a }, celspan.cel { b })
-      assert_alike(shot(with, film, film, antialias), shot(without, film, film, antialias), tolerance,
+      assert_alike(shot(with, film, film, antialias), shot(without, film, film, antialias),
+        tolerance,
                    ("CASE=%d under %s"):format(case, antialias))
     end
   end
 
   -- The edges of scan-line primitives are sampled at heights that depend on the edges around them,
-  -- so their scenes have nothing else that is special.
+  -- so their scenes contain no other special parts.
   local function compare(make)
     each_case(function(case)
       compare_with(make, case, case % 2 == 0 and { is_flat = true, has_rows = false }
@@ -124,12 +133,13 @@ describe("a cel that cannot be seen", function()
       return celspan.rostrum { a, b:with { opacity = 0 } }, celspan.rostrum { a }
     end)
     compare(function(a, b)
-      local clear = celspan.cel { celspan.circle { centre = { 9, 9 }, radius = 7, texture = celspan.clear } }
+      local clear = celspan.cel { celspan.circle { centre = { 9, 9 }, radius = 7,
+        texture = celspan.clear } }
       return celspan.rostrum { a, clear, b }, celspan.rostrum { a, b }
     end)
   end)
 
-  it("changes nothing when it is scaled to nothing or empty", function()
+  it("changes nothing when it is empty or scaled to nothing", function()
     compare(function(a, b)
       return celspan.rostrum { a, b:scale(0) }, celspan.rostrum { a }
     end)
@@ -162,7 +172,8 @@ describe("a move by whole pixels", function()
       local dx, dy, size = random:whole(-9, 9), random:whole(-9, 9), { 48, 40 }
       for antialias, tolerance in pairs { none = 0, area = AREA } do
         assert_alike(shot(celspan.rostrum { cel }, size, size, antialias),
-                     shot(celspan.rostrum { cel:translate(dx, dy) }, size, size, antialias), tolerance,
+                     shot(celspan.rostrum { cel:translate(dx, dy) }, size, size, antialias),
+                     tolerance,
                      ("CASE=%d under %s"):format(case, antialias), dx, dy)
       end
     end)
@@ -170,7 +181,7 @@ describe("a move by whole pixels", function()
 end)
 
 describe("a curve moved by whole pixels", function()
-  it("moves its pixels within two codes", function()
+  it("moves its pixels, with an error of at most two codes", function()
     each_case(function(case)
       local random = prng.new(case)
       local function point() return { random:between(-5, 50), random:between(-5, 45) } end
@@ -178,7 +189,8 @@ describe("a curve moved by whole pixels", function()
       local curve = celspan.nurbs { points = points, texture = "#08f" }
       local dx, dy, size = random:whole(-9, 9), random:whole(-9, 9), { 48, 40 }
       assert_alike(shot(celspan.rostrum { celspan.cel { curve } }, size, size, "area"),
-                   shot(celspan.rostrum { celspan.cel { curve:translate(dx, dy) } }, size, size, "area"),
+                   shot(celspan.rostrum { celspan.cel { curve:translate(dx, dy) } }, size, size,
+                     "area"),
                    2 / 255, "CASE=" .. case, dx, dy)
     end)
   end)
@@ -204,7 +216,7 @@ describe("scene and view scaled by two", function()
 end)
 
 describe("a viewport", function()
-  it("shows what the whole shows there, enlarged", function()
+  it("shows that part of the whole, enlarged", function()
     each_case(function(case)
       local cel, random = celspan.cel(dyadic_objects(case)), prng.new(-case)
       local x, y = random:whole(0, 16), random:whole(0, 12)
@@ -225,10 +237,12 @@ end)
 
 describe("a gradient of one colour", function()
   it("is the flat paint", function()
-    local paint = celspan.paint { pigment = { 0.2, 0.5, 1 }, medium = { 1, 0.5, 0.25 }, beta = 0.625 }
+    local paint = celspan.paint { pigment = { 0.2, 0.5, 1 }, medium = { 1, 0.5, 0.25 },
+      beta = 0.625 }
     local textures = {
       celspan.gradient { { 0, 0, paint }, { 30, 3, paint }, { 5, 40, paint } },
-      celspan.linear { from = { 0, 0 }, to = { 30, 9 }, { 0, paint }, { 0.5, paint }, { 1, paint } },
+      celspan.linear { from = { 0, 0 }, to = { 30, 9 }, { 0, paint }, { 0.5, paint },
+        { 1, paint } },
       celspan.radial { centre = { 9, 9 }, radius = 20, { 0, paint }, { 1, paint } },
     }
     local ground = celspan.rect { 5, 5, 20, 20, texture = "#fa0" }

@@ -1,5 +1,5 @@
--- A composition inside another: where nothing is between it and the camera, it shows what it shows by
--- itself, and the front light around it multiplies that. Its area is the mean of many probes.
+-- A composition inside another: where nothing is between it and the camera, it looks as it does by
+-- itself, multiplied by the front light around it. Its area is the mean of many probes.
 --
 -- CASE=n runs that case alone and prints it as a script.
 local celspan = require "celspan"
@@ -10,7 +10,7 @@ local COUNT, ONLY = 300, cases.only
 local ALIKE = 1 / 65535
 local modes = { "none", "area", { kernel = "mitchell" } }
 
---- A random rostrum as a film shows it, its size, and the light that may leave it.
+--- A random rostrum as in a film, its size, and the brightest light that can leave it.
 local function random_rostrum(case, options)
   local script, traits = scenes.script(case, options)
   if ONLY then print(script) end
@@ -18,11 +18,13 @@ local function random_rostrum(case, options)
 end
 
 local function shot(rostrum, size, antialias, film)
-  return assert(celspan.pixels(rostrum, { size = size, film = film or size, antialias = antialias, workers = 1 }))
+  return assert(celspan.pixels(rostrum,
+    { size = size, film = film or size, antialias = antialias, workers = 1 }))
 end
 
---- Whether every pixel of `nested` is that of `flat` times a light; `edge` pixels are left out on all
--- sides, because a kernel sees artwork beyond the frame of a film and an object has none there.
+--- Checks that every pixel of `nested` is that of `flat` times a light; `edge` pixels are left out
+--- on all sides, because a kernel sees artwork beyond the frame of a film and an object has none
+--- there.
 local function assert_lit(flat, nested, light, tolerance, where, edge)
   for y = edge, flat.height - 1 - edge do
     for x = edge, flat.width - 1 - edge do
@@ -49,17 +51,18 @@ local function each_case(check, options)
 end
 
 describe("a composition inside another", function()
-  --- Under a kernel gradients may differ by what spans may: where they are cut depends on the edges
-  -- that are not hidden for certain, and fewer are known to be inside an object.
+  --- Under a kernel gradients may differ as far as spans may: where they are divided depends on the
+  -- edges that are not certainly hidden, and fewer are known to be hidden inside an object.
   local function check_white(with_kernel)
     return function(inner, size, antialias, where, brightest, edge)
       local tolerance = edge > 0 and with_kernel or ALIKE
-      assert_lit(shot(inner, size, antialias), shot(celspan.rostrum { celspan.cel { inner } }, size, antialias),
+      assert_lit(shot(inner, size, antialias),
+        shot(celspan.rostrum { celspan.cel { inner } }, size, antialias),
                  {}, tolerance * brightest, where, edge)
     end
   end
 
-  it("shows under white light what it shows by itself, gels and bright lights included", function()
+  it("looks under white light as it does by itself, with gels and bright lights", function()
     each_case(check_white(ALIKE), { is_single = true, is_flat = true, has_rows = false })
     each_case(check_white(1 / 1023))
   end)
@@ -77,13 +80,14 @@ describe("a composition inside another", function()
 
   it("is multiplied by the front light around it, level by level", function()
     each_case(check_levels(ALIKE), { is_single = true, is_flat = true, has_rows = false })
-    each_case(check_levels(1 / 1023)) -- brighter gradients are cut at other places
+    each_case(check_levels(1 / 1023)) -- brighter gradients are divided at other places
   end)
 
-  it("is the same in a film of twice the size, placed at half", function()
+  it("is the same in a film of twice the size, scaled to half", function()
     each_case(function(inner, size, _, where, brightest)
       local half = inner:scale(2):scale(0.5)
-      assert_lit(shot(inner, size, "none"), shot(celspan.rostrum { celspan.cel { half } }, size, "none"),
+      assert_lit(shot(inner, size, "none"),
+        shot(celspan.rostrum { celspan.cel { half } }, size, "none"),
                  {}, ALIKE * brightest, where, 0)
     end)
   end)
@@ -109,16 +113,20 @@ local function inside(fields)
 end
 
 local function leaning(object)
-  return object:quad({ { 0, 0 }, { 40, 0 }, { 40, 30 }, { 0, 30 } }, { { 4, 3 }, { 37, 1 }, { 34, 28 }, { 1, 26 } })
+  return object:quad({ { 0, 0 }, { 40, 0 }, { 40, 30 }, { 0, 30 } },
+    { { 4, 3 }, { 37, 1 }, { 34, 28 }, { 1, 26 } })
 end
 
 local compositions = {
   ["in perspective, under lights with a shape at each level"] = celspan.rostrum { back = "#fff",
-    celspan.cel { front = lamp, leaning(inside { front = { texture = lamp, gain = 1.2 }, back = slope,
-                                                 camera = { rotate = 12, width = 35 } }):fade(0.8) } },
+    celspan.cel { front = lamp,
+      leaning(inside { front = { texture = lamp, gain = 1.2 }, back = slope,
+                                                 camera = { rotate = 12, width = 35 } })
+                                                   :fade(0.8) } },
   ["as operands, one of them faded"] = celspan.rostrum { back = { texture = lamp, gain = 0.5 },
     celspan.cel { front = { texture = slope, on = "cel" },
-                  leaning(inside {}) ~ inside { back = { 0, 0, 0, 0.5 } }:translate(7, 5):fade(0.6) } },
+                  leaning(inside {}) ~ inside { back = { 0, 0, 0, 0.5 } }:translate(7, 5)
+                    :fade(0.6) } },
 }
 
 --- The mean of probes over a pixel.

@@ -1,8 +1,8 @@
--- The engine against the oracle: what the sweep, the composer and the spans make of a random scene
--- equals the direct evaluation of the tree at the centres of its pixels.
+-- The engine against the oracle: the result of the sweep, the composer and the spans for a random
+-- scene equals the direct evaluation of the tree at the centres of its pixels.
 --
 -- A failure prints the number of its case; CASE=n runs that one alone and prints it as a script.
--- tests/support/cases.lua tells which are tried.
+-- tests/support/cases.lua determines which are tried.
 local celspan = require "celspan"
 local cases = require "tests.support.cases"
 local present = require "tests.support.present"
@@ -12,8 +12,8 @@ local scenes = require "tests.support.scenes"
 
 local COUNT, ONLY = 2000, cases.only
 local POINTS = 240 -- of a scene
-local EDGE = 1e-6 -- pixels: so near a straight edge either side may be seen
-local CURVED_EDGE = 0.03 -- the polyline that is swept lies within 0.02 of the curve
+local EDGE = 1e-6 -- pixels: closer to a straight edge either side is right
+local CURVED_EDGE = 0.03 -- the polyline of the sweep is within 0.02 of the curve
 
 local offsets = {}
 for angle = 0, 7 do
@@ -27,7 +27,7 @@ local function is_near(p, q, tolerance)
   return true
 end
 
---- Whether some point about (x, y) looks as the span does: an edge passes there.
+--- Whether some point around (x, y) has the colour of the span: then an edge passes there.
 local function has_edge(probe, x, y, colour, radius, tolerance)
   for _, share in ipairs { 1, 0.5, 0.2 } do
     for _, offset in ipairs(offsets) do
@@ -69,7 +69,8 @@ local function compare(exposures, traits, case)
   return nil, POINTS, excused
 end
 
---- All cases of such scenes: failures as text, points tried, points excused by whether edges are curved.
+--- Tries all cases with these options: failures as text, points tried, points excused by whether
+--- edges are curved.
 local function try(count, options)
   local failures, tried, excused = {}, 0, { [true] = 0, [false] = 0 }
   for _, case in cases.of(count) do
@@ -83,7 +84,8 @@ local function try(count, options)
   return table.concat(failures, "\n"), tried, excused
 end
 
---- Whether no case is left out: what is excused is counted over all, for in some it is much more.
+--- Whether no case is left out: excused points are limited only over all cases, because some have
+--- many more.
 local function are_all(count) return not ONLY and cases.count(count) >= count end
 
 describe("the oracle", function()
@@ -100,6 +102,7 @@ describe("the oracle", function()
   with_type("agrees with the spans of random scenes of letters", function()
     local failures, tried, excused = try(COUNT // 4, { has_text = true })
     assert.are.equal("", failures)
-    assert.is_true(not are_all(COUNT // 4) or excused[true] < tried / 250, excused[true] .. " points were excused")
+    assert.is_true(not are_all(COUNT // 4) or excused[true] < tried / 250,
+      excused[true] .. " points were excused")
   end)
 end)

@@ -1,5 +1,5 @@
--- Pictures in scenes: seen as they are at their own size, never read when hidden, interpolated as
--- the oracle does when enlarged.
+-- Pictures in scenes: unchanged at their own size, never read when hidden, interpolated like the
+-- oracle does when enlarged.
 local celspan = require "celspan"
 local cases = require "tests.support.cases"
 local pieces = require "tests.support.pieces"
@@ -21,7 +21,7 @@ local function show(...) return celspan.rostrum { celspan.cel { ... } } end
 
 describe("a picture at its own size", function()
   for _, antialias in ipairs { "none", "area" } do
-    it("comes out as it went in, code by code, under " .. antialias, function()
+    it("is rendered unchanged, code by code, under " .. antialias, function()
       local out = folder .. "/again.png"
       local rostrum = show(celspan.image { file = file }):with { antialias = antialias }
       assert(celspan.render(rostrum, out, { size = { WIDTH, HEIGHT } }))
@@ -33,7 +33,7 @@ describe("a picture at its own size", function()
       end
     end)
 
-    it("is moved by whole pixels without change under " .. antialias, function()
+    it("is unchanged when moved by whole pixels under " .. antialias, function()
       local options = { size = { WIDTH, HEIGHT }, antialias = antialias }
       local still = pixels(show(celspan.image { file = file }), options)
       local moved = pixels(show(celspan.image { file = file, x = 3, y = -2 }), options)
@@ -50,7 +50,7 @@ describe("a missing picture", function()
   local function missing() return celspan.image { file = folder .. "/none.png", w = 20, h = 10 } end
   local options = { size = { WIDTH, HEIGHT } }
 
-  it("that is hidden is never read", function()
+  it("is never read if it is hidden", function()
     for _, antialias in ipairs { "none", "area" } do
       options.antialias = antialias
       local cover = celspan.cel { celspan.rect { 0, 0, WIDTH, HEIGHT, texture = "#123" } }
@@ -62,7 +62,7 @@ describe("a missing picture", function()
     end
   end)
 
-  it("that can be seen fails, and is named", function()
+  it("is an error that names it if it is visible", function()
     for _, antialias in ipairs { "none", "area" } do
       options.antialias = antialias
       local image, message = celspan.pixels(show(missing()), options)
@@ -75,9 +75,10 @@ describe("a missing picture", function()
     end
   end)
 
-  it("that can be seen through a gel or a hole fails too", function()
+  it("is an error too if it is visible through a gel or a hole", function()
     local gel = celspan.cel { celspan.rect { 0, 0, WIDTH, HEIGHT, texture = celspan.gel(1, 0, 0) } }
-    local hole = celspan.rect { 0, 0, WIDTH, HEIGHT, texture = "#fff" } - celspan.rect { 4, 4, 1, 1 }
+    local hole = celspan.rect { 0, 0, WIDTH, HEIGHT, texture = "#fff" }
+      - celspan.rect { 4, 4, 1, 1 }
     assert.is_nil((celspan.pixels(celspan.rostrum { celspan.cel { missing() }, gel }, options)))
     local behind = celspan.rostrum { celspan.cel { missing() }, celspan.cel { hole } }
     assert.is_nil((celspan.pixels(behind, options)))
@@ -92,11 +93,14 @@ local function placed(random)
   local use = random:pick { "paint", "paint", "gel" }
   local texture = { file = file, sampling = "bilinear", wrap = wrap, as = use }
   if random:once(2) then
-    texture.box = { random:whole(-4, 8), random:whole(-4, 8), random:whole(26, 60), random:whole(20, 50) }
+    texture.box = { random:whole(-4, 8), random:whole(-4, 8), random:whole(26, 60),
+      random:whole(20, 50) }
   end
   local shape = random:once(2)
-    and celspan.rect { 2, 3, random:whole(26, 50), random:whole(20, 40), texture = celspan.picture(texture) }
-    or celspan.polygon { { 1, 2 }, { 50, 8 }, { 40, 44 }, { 5, 30 }, texture = celspan.picture(texture) }
+    and celspan.rect { 2, 3, random:whole(26, 50), random:whole(20, 40),
+      texture = celspan.picture(texture) }
+    or celspan.polygon { { 1, 2 }, { 50, 8 }, { 40, 44 }, { 5, 30 },
+      texture = celspan.picture(texture) }
   if random:once(2) then shape = shape:rotate(random:between(-180, 180), 25, 20) end
   if random:once(2) then shape = shape:scale(random:between(1, 2.5), random:between(1, 2.5)) end
   if random:once(3) then shape = shape:scale(random:between(2, 6)) end
@@ -108,7 +112,7 @@ local function placed(random)
 end
 
 describe("an enlarged picture", function()
-  it("is what the oracle samples, at pixel centres", function()
+  it("agrees with the oracle at pixel centres", function()
     for _, case in cases.of(COUNT) do
       local random = prng.new(case)
       local ground = celspan.rect { 0, 0, 60, 45, texture = "#4080c0" }
@@ -135,7 +139,8 @@ end)
 
 --- The picture over the whole of a frame `scale` times its size.
 local function spread(sampling, scale, rest)
-  local image = celspan.image { file = file, x = 0, y = 0, sampling = sampling, wrap = "clamp" }:scale(scale)
+  local image = celspan.image { file = file, x = 0, y = 0, sampling = sampling,
+    wrap = "clamp" }:scale(scale)
   local size = { math.floor(WIDTH * scale), math.floor(HEIGHT * scale) }
   local rostrum = celspan.rostrum { celspan.cel { image }, table.unpack(rest or {}) }
   return assert(celspan.spans(rostrum, { size = size, workers = 1 })), size, rostrum
@@ -151,7 +156,7 @@ end
 
 describe("a picture enlarged upright", function()
   for _, scale in ipairs { 4, 5.3, 17 } do
-    it("is a span a texel and no array, nearest, at " .. scale, function()
+    it("is one span per texel without arrays, nearest, at " .. scale, function()
       local list, size = spread("nearest", scale)
       local counts = count_kinds(list, size)
       assert.are.equal(0, counts.array)
@@ -159,7 +164,7 @@ describe("a picture enlarged upright", function()
       assert.is_true(counts.single <= WIDTH * size[2])
     end)
 
-    it("is a gradient from texel to texel and no array, bilinear, at " .. scale, function()
+    it("is a gradient from texel to texel without arrays, bilinear, at " .. scale, function()
       local list, size, rostrum = spread("bilinear", scale)
       local counts = count_kinds(list, size)
       assert.are.equal(0, counts.array)
@@ -176,8 +181,9 @@ describe("a picture enlarged upright", function()
     it("is the same as pixel by pixel, at " .. scale, function()
       for _, sampling in ipairs { "nearest", "bilinear" } do
         local list, size = spread(sampling, scale)
-        -- A turn too small to see keeps the picture from being upright.
-        local turned = celspan.image { file = file, x = 0, y = 0, sampling = sampling, wrap = "clamp" }
+        -- A rotation too small to see keeps the picture from being upright.
+        local turned = celspan.image { file = file, x = 0, y = 0, sampling = sampling,
+          wrap = "clamp" }
           :scale(scale):rotate(1e-8)
         local arrays = assert(celspan.spans(show(turned), { size = size, workers = 1 }))
         for y = 2, size[2] - 3 do
@@ -191,17 +197,18 @@ describe("a picture enlarged upright", function()
     end)
   end
 
-  it("keeps its spans between the edges of what lies over it", function()
-    local over = celspan.cel { celspan.circle { centre = { 60, 50 }, radius = 40, texture = "#10a0f080" } }
+  it("keeps its spans between the edges of shapes above it", function()
+    local over = celspan.cel { celspan.circle { centre = { 60, 50 }, radius = 40,
+      texture = "#10a0f080" } }
     for _, sampling in ipairs { "nearest", "bilinear" } do
       local list, size = spread(sampling, 8, { over })
-      local pixels = 0
+      local count = 0
       for y = 0, size[2] - 1 do
         for _, span in ipairs(list[y]) do
-          if span.kind == "array" then pixels = pixels + span.x1 - span.x0 end
+          if span.kind == "array" then count = count + span.x1 - span.x0 end
         end
       end
-      assert.is_true(pixels <= 10 * size[2], pixels .. " pixels in arrays")
+      assert.is_true(count <= 10 * size[2], count .. " pixels in arrays")
     end
   end)
 end)

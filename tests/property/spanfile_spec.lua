@@ -1,5 +1,6 @@
--- Scene to span file to pixels equals scene to pixels, byte for byte: random scenes, every fourth with
--- a picture, in both depths; read back by the decoder that was written from docs/spanfile.md alone.
+-- Scene to span file to pixels equals scene to pixels, byte for byte: random scenes, every fourth
+-- with a picture, in both depths; read back by the decoder that was written only from
+-- docs/spanfile.md.
 --
 -- A failure prints the number of its scene.
 local cases = require "tests.support.cases"
@@ -12,7 +13,7 @@ local COUNT = cases.count(500)
 local BINARY = workbench.binary
 local WIDTH, HEIGHT = 61, 47
 
--- One film, a scene a frame. Arguments: a picture, or nothing when none can be read.
+-- One film, a scene per frame. Arguments: a picture, or nothing if none can be read.
 local SCRIPT = [[
 local celspan = require "celspan"
 local scenes = require "tests.support.scenes"
@@ -47,7 +48,7 @@ local function compare(folder, picture, depth, pixel_size)
 end
 
 describe("a span file", function()
-  it("has the very pixels of the scene", function()
+  it("has exactly the pixels of the scene", function()
     local folder = run("mktemp -d"):gsub("\n", "")
     local film = assert(io.open(folder .. "/film.lua", "w"))
     film:write(SCRIPT:format(WIDTH, HEIGHT, COUNT))

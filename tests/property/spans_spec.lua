@@ -1,4 +1,4 @@
--- What rows of spans are like: table 1 of the paper, order, size.
+-- Properties of rows of spans: table 1 of the paper, order, size.
 local celspan = require "celspan"
 local cases = require "tests.support.cases"
 local present = require "tests.support.present"
@@ -13,7 +13,8 @@ local function each_scene(count, antialias, options, test)
     local script, traits = scenes.script(case, options)
     if ONLY then print(script) end
     local list = assert(celspan.spans(scenes.load(script):at(1), {
-      size = traits.size, film = { traits.width, traits.height }, antialias = antialias, workers = 1 }))
+      size = traits.size, film = { traits.width, traits.height }, antialias = antialias,
+      workers = 1 }))
     for y = 0, traits.size[2] - 1 do test(list[y], traits, ("CASE=%d: row %d"):format(case, y)) end
   end
 end
@@ -33,15 +34,15 @@ describe("a row of spans", function()
     end)
   end)
 
-  it("holds no array without pictures, under none", function()
+  it("contains no array without pictures, under none", function()
     each_scene(COUNT, "none", { has_pictures = false }, function(row, _, where)
       for _, span in ipairs(row) do
-        if span.kind == "array" then error(where .. " holds an array span") end
+        if span.kind == "array" then error(where .. " contains an array span") end
       end
     end)
   end)
 
-  it("holds singles alone where all paints are flat, under none", function()
+  it("contains only single spans if all paints are flat, under none", function()
     each_scene(COUNT, "none", { is_flat = true, has_rows = false }, function(row, _, where)
       for _, span in ipairs(row) do
         if span.kind ~= "single" then error(where .. " holds a " .. span.kind .. " span") end
@@ -54,11 +55,12 @@ describe("a row of spans", function()
       each_scene(COUNT // 2, antialias, {}, function(row, traits, where)
         for x = 0, traits.size[1] - 1 do
           local colour, kind = rows.colour(row, x)
-          -- The lines of gradient spans may leave their range by what they may be off.
+          -- Gradient spans may exceed their range by their allowed error.
           local slack = kind == "gradient" and 1 / 1023 or 1e-5
           for c = 1, 4 do
             if colour[c] < -slack or (c == 4 and colour[c] > 1 + slack) then
-              error(("%s (%s): column %d is %s"):format(where, antialias, x, table.concat(colour, " ")))
+              error(("%s (%s): column %d is %s")
+                :format(where, antialias, x, table.concat(colour, " ")))
             end
           end
         end
@@ -77,7 +79,8 @@ local function statistics(script, options)
   local file = assert(io.open(path, "w"))
   file:write(script)
   file:close()
-  local pipe = assert(io.popen(("%s spans %s --stats --workers 1 %s"):format(celspan_command, path, options)))
+  local pipe =
+    assert(io.popen(("%s spans %s --stats --workers 1 %s"):format(celspan_command, path, options)))
   local line = pipe:read "a"
   pipe:close()
   os.remove(path)
@@ -107,7 +110,7 @@ end]] }
 end
 
 describe("a row a million pixels wide", function()
-  -- Edges far from the left fall on pixels' edges by rounding; row 741157 has one that did.
+  -- Edges far from the left coincide with pixels' edges by rounding; row 741157 has one that did.
   it("is covered by its spans without overlap", function()
     local command = ("%s spans scripts/terapixel.lua --size 1000000x1000000 --rows 741150-741160")
       :format(celspan_command)
@@ -131,10 +134,11 @@ local celspan = require "celspan"
 local ramp = celspan.linear{ from = {0, 0}, to = {90, 40}, {0, "#f00"}, {1, "#0000ff88"} }
 return celspan.rostrum{ celspan.cel{
   celspan.rect{ 3, 3, 90, 90, texture = ramp },
-  celspan.circle{ centre = {50, 50}, radius = 30, texture = "#00ff0088" } - celspan.rect{ 40, 40, 20, 20 } } }
+  celspan.circle{ centre = {50, 50}, radius = 30, texture = "#00ff0088" } - celspan.rect{ 40, 40,
+    20, 20 } } }
 ]]
 
-  it("needs memory that does not grow with the height and hardly with the width", function()
+  it("needs memory that does not grow with the height, and hardly with the width", function()
     for _, antialias in ipairs { "none", "area" } do
       local function peak(size)
         return statistics(still, ("--size %s --antialias %s"):format(size, antialias)).peak_bytes
@@ -145,7 +149,7 @@ return celspan.rostrum{ celspan.cel{
     end
   end)
 
-  it("needs memory that grows with what crosses a row, not with the square of it", function()
+  it("needs memory that grows with the edges in a row, not with their square", function()
     local scribble = [[
 local celspan = require "celspan"
 local seed, points = 1, { rule = "evenodd" }
@@ -158,9 +162,10 @@ return celspan.film{ size = { 100, 100 }, frame = function()
   return celspan.rostrum{ celspan.cel{ celspan.polygon(points) } } end }
 ]]
     local function peak(count, size)
-      return statistics(scribble:gsub("COUNT", count), "--antialias area --size " .. size).peak_bytes
+      return statistics(scribble:gsub("COUNT", count),
+        "--antialias area --size " .. size).peak_bytes
     end
-    -- Into the first row of each all boundaries begin, and cross there in some millions of places.
+    -- All boundaries begin in the first row, and cross there at some millions of places.
     assert.is_true(peak(64000, "4x4") <= 100e6, "in rows of 4 pixels")
     assert.is_true(peak(64000, "20x20") <= 100e6, "in rows of 20 pixels")
   end)
@@ -172,6 +177,7 @@ return celspan.film{ size = { 100, 100 }, frame = function()
                                 "--size 30000x30000 --antialias none")
     assert.are.equal(30000, counters.rows)
     assert.are.equal(0, counters.array)
-    assert.is_true(counters.colour_evaluations < 40000, counters.colour_evaluations .. " evaluations")
+    assert.is_true(counters.colour_evaluations < 40000,
+      counters.colour_evaluations .. " evaluations")
   end)
 end)

@@ -1,5 +1,5 @@
--- Frames taken apart by their lights: on random scenes, in the scene's own lights and in others, they
--- are what the whole would be.
+-- Frames taken apart by their lights: for random scenes, in the scene's own lights and in others,
+-- they equal the scene rendered as a whole.
 local celspan = require "celspan"
 local prng = require "tests.support.prng"
 local relight = require "celspan.relight"
@@ -9,8 +9,8 @@ local COUNT = (tonumber(os.getenv "CELSPAN_SCENES") or 300) // 3
 local ONLY = tonumber(os.getenv "CASE")
 local TOLERANCE = 2 ^ -18 -- of gradients: that of a stack
 
---- Lights for some cels, by their places, and the scene in them. The lights of compositions inside
---- stay, and so does the light of cels that have a shape: such scenes are not asked for.
+--- Lights for some cels, by their index, and the scene in them. The lights of compositions inside
+--- stay, and so do lights of cels that have a shape: such scenes are not used.
 local function change(random, rostrum)
   local function light(last)
     return { random:between(0, 2), random:between(0, 1.5), random:between(0, 1), last }
@@ -31,7 +31,7 @@ local function change(random, rostrum)
   return changes, whole
 end
 
---- The greatest difference of two images, and where it is.
+--- The greatest difference between two images, and its position.
 local function difference(a, b)
   local worst, place = 0, ""
   for y = 0, a.height - 1 do
@@ -50,11 +50,13 @@ local function difference(a, b)
 end
 
 --- Whether a scene has lights that a stack refuses.
-local function has_shape(message) return message:find("is a texture; a stack takes flat lights", 1, true) end
+local function has_shape(message)
+  return message:find("is a texture; a stack takes flat lights", 1, true)
+end
 
 describe("relight.stack", function()
   for _, antialias in ipairs { "area", "none" } do
-    it("is the whole, in its own lights and in others, under " .. antialias, function()
+    it("equals the whole, in its own lights and in others, under " .. antialias, function()
       local compared, failures = 0, {} -- at a finer tolerance, since both stand for curves by lines
       for case = ONLY or 1, ONLY or COUNT do
         local script, traits = scenes.script(case, { is_single = true })
@@ -75,7 +77,7 @@ describe("relight.stack", function()
               failures[#failures + 1] = ("CASE=%d %s lights, %.3g / 65535 at %s"):format(case, name,
                 worst * 65535, place)
             end
-            -- The usual tolerance: products of gradients are lines that are off by up to 1/1023.
+            -- The usual tolerance: products of gradients are approximated by lines within 1/1023.
             assert.is_true(difference(assert(celspan.pixels(pair[2], options)),
               assert(stack:light(pair[1]))) < 1 / 1023, "CASE=" .. case)
           end

@@ -1,7 +1,7 @@
--- Random drawings, rasterised, traced, and drawn again: edges stay within half a source pixel of where
--- they were, and areas that abut leave nothing between them, at any size.
+-- Random drawings, rasterised, traced, and drawn again: edges have an error of less than half a
+-- source pixel, and areas that abut leave no gap between them, at any size.
 --
--- CASE=n runs one random drawing alone; REPORT=1 prints how far each was off.
+-- CASE=n runs one random drawing alone; REPORT=1 prints the error of each.
 local celspan = require "celspan"
 local cases = require "tests.support.cases"
 local present = require "tests.support.present"
@@ -32,7 +32,8 @@ local it_traces = present.pictures() and it or pending
 
 describe("a drawing that is traced", function()
   for _, case in cases.of(COUNT) do
-    it_traces("keeps its edges within half a pixel and lets nothing through, number " .. case, function()
+    it_traces("keeps its edges within half a pixel and has no gaps, number "
+      .. case, function()
       local off, object, w, h = retrace(case, "area")
       assert.is_true(off <= 0.5, ("off by %.3f pixels"):format(off))
       for _, k in ipairs { 0.37, 1, 1 + case % 7 / 4 } do
@@ -40,16 +41,16 @@ describe("a drawing that is traced", function()
       end
     end)
 
-    -- A pixel is then one colour or the other: where an edge is, it tells to half a pixel, and of a
-    -- corner between two such edges it tells less.
-    it_traces("is near where pixels are whole, number " .. case, function()
+    -- A pixel then has one colour or the other: that determines an edge to half a pixel, and a
+    -- corner between two such edges even less.
+    it_traces("is near if pixels are whole, number " .. case, function()
       local off, object, w, h = retrace(case, "none")
       assert.is_true(off <= 1.25, ("off by %.3f pixels"):format(off))
       assert.is_nil(leaks(object, w, h, { w, h }))
     end)
   end
 
-  it_traces("keeps six of seven within half a pixel where pixels are whole, and their pixels",
+  it_traces("keeps six of seven within half a pixel if pixels are whole, and their pixels",
     function()
       local far, changed, all = 0, 0, 0
       for _, case in cases.of(COUNT) do

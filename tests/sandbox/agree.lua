@@ -1,5 +1,5 @@
---- What the sandbox replaces, called with random arguments: prints every answer. With and without
---- --trust the answers are the same.
+--- The functions that the sandbox replaces, called with random arguments: prints every result. With
+--- and without --trust the results are the same.
 local celspan = require "celspan"
 
 local state = tonumber((...)) or 1
@@ -12,14 +12,19 @@ local function pick(list) return list[random(#list)] end
 
 local function answer(name, ...)
   local results = table.pack(pcall(...))
-  for i = 1, results.n do results[i] = tostring(results[i]):gsub("^[^ ]*:%d+: ", ""):gsub("to '[^']+'", "to ?"):gsub(": 0x%x+", "") end
+  for i = 1, results.n do
+    results[i] = tostring(results[i]):gsub("^[^ ]*:%d+: ", ""):gsub("to '[^']+'", "to ?")
+      :gsub(": 0x%x+", "")
+  end
   print(name, table.concat(results, "|"))
 end
 
 -- ---------------------------------------------------------------- patterns
 
-local PIECES = { "a", "b", ".", "%a", "%d", "%s", "%A", "%w", "%x", "%.", "%%", "[ab]", "[^a]", "[a-c]", "[%d.]", "[]]", "[^]]",
-  "[a-]", "%b()", "%f[%a]", "%f[^%a]", "()", "(a)", "(.)", "(%a+)", "(a*)", "%1", "%2", "$", "^", "(", ")", "[", "%",
+local PIECES = { "a", "b", ".", "%a", "%d", "%s", "%A", "%w", "%x", "%.", "%%", "[ab]", "[^a]",
+  "[a-c]", "[%d.]", "[]]", "[^]]",
+  "[a-]", "%b()", "%f[%a]", "%f[^%a]", "()", "(a)", "(.)", "(%a+)", "(a*)", "%1", "%2", "$", "^",
+  "(", ")", "[", "%",
   "\0", "[%z\1-\31]", "é", "-", "*" }
 local OFTEN = { "", "", "", "*", "+", "-", "?" }
 local LETTERS = { "a", "b", "c", "(", ")", ".", "1", " ", "%", "]", "\0", "é", "a", "b" }
@@ -36,11 +41,14 @@ local function pattern()
   return (random(4) == 1 and "^" or "") .. table.concat(parts) .. (random(5) == 1 and "$" or "")
 end
 
-local REPLACEMENTS = { "x", "%0%0", "%1", "[%1%2]", "%%", "%", "%9", "", { a = "A", b = false, ["1"] = 2 },
-  function(a, b) return a == "a" and (b or "z") end, function() return nil end, function() return {} end, 7 }
+local REPLACEMENTS = { "x", "%0%0", "%1", "[%1%2]", "%%", "%", "%9", "",
+  { a = "A", b = false, ["1"] = 2 },
+  function(a, b) return a == "a" and (b or "z") end, function() return nil end,
+  function() return {} end, 7 }
 
-for i = 1, 4000 do
-  local subject, wanted, init = text_of(LETTERS, 12), pattern(), pick { 1, 1, 1, 2, 0, -1, -3, 20, 5 }
+for _ = 1, 4000 do
+  local subject, wanted, init = text_of(LETTERS, 12), pattern(),
+    pick { 1, 1, 1, 2, 0, -1, -3, 20, 5 }
   answer("find", string.find, subject, wanted, init)
   answer("plain", string.find, subject, wanted, init, true)
   answer("match", string.match, subject, wanted, init)
@@ -57,41 +65,64 @@ end
 
 -- ---------------------------------------------------------------- texts and tables
 
-local FORMATS = { "%d", "%5d", "%-5d|", "%s", "%10s", "%.2s", "%q", "%x", "%g", "%5.2f", "%i", "%c", "%%", "%u", "%", "%5", "%a" }
+local FORMATS = { "%d", "%5d", "%-5d|", "%s", "%10s", "%.2s", "%q", "%x", "%g", "%5.2f", "%i", "%c",
+  "%%", "%u", "%", "%5", "%a" }
 local VALUES = { 1, 2.5, "a", "10", "", true, -3, 65, nil, "a\nb\0c", 1e100, math.huge, 3.0 }
-for i = 1, 1500 do
+for _ = 1, 1500 do
   answer("format", string.format, pick(FORMATS) .. pick(FORMATS), pick(VALUES), pick(VALUES))
   answer("rep", string.rep, pick { "", "a", "ab" }, pick { 0, 1, -1, 3, 7 }, pick { nil, "", "," })
-  answer("case", function(s) return s:upper(), s:lower(), s:reverse(), s:len(), s:byte(1, -1) end, text_of(LETTERS, 9))
+  answer("case", function(s)
+    return s:upper(), s:lower(), s:reverse(), s:len(), s:byte(1, -1)
+  end, text_of(LETTERS, 9))
   local list = {}
   for k = 1, random(8) - 1 do list[k] = pick { 3, 1, 2, 5.5, 2 } end
-  answer("insert", function() table.insert(list, pick { 1, 2, 0, 9, #list + 1 }, "x") return table.concat(list, ",") end)
-  answer("remove", function() return table.remove(list, pick { nil, 1, 2, 20, 0 }), table.concat(list, ",") end)
-  answer("concat", table.concat, list, pick { ",", "", nil }, pick { 1, 2, nil }, pick { nil, 1, 3 })
+  answer("insert", function()
+    table.insert(list, pick { 1, 2, 0, 9, #list + 1 }, "x")
+    return table.concat(list, ",")
+  end)
+  answer("remove", function()
+    return table.remove(list, pick { nil, 1, 2, 20, 0 }), table.concat(list, ",")
+  end)
+  answer("concat", table.concat, list, pick { ",", "", nil }, pick { 1, 2, nil },
+    pick { nil, 1, 3 })
   answer("unpack", table.unpack, list, pick { 1, 2, nil }, pick { nil, 1, 5 })
-  answer("move", function() return table.concat(table.move(list, pick { 1, 2 }, pick { 0, 2, 3 }, pick { 1, 2, 4 }), ",") end)
+  answer("move", function()
+    return table.concat(table.move(list, pick { 1, 2 }, pick { 0, 2, 3 }, pick { 1, 2, 4 }), ",")
+  end)
   local numbers = {}
   for k = 1, random(40) do numbers[k] = random(1000) end
   answer("sort", function() table.sort(numbers) return table.concat(numbers, ",") end)
-  answer("descend", function() table.sort(numbers, function(a, b) return a > b end) return table.concat(numbers, ",") end)
+  answer("descend", function()
+    table.sort(numbers, function(a, b) return a > b end)
+    return table.concat(numbers, ",")
+  end)
 end
 
 -- ---------------------------------------------------------------- the rest
 
--- What lots seldom or never draw.
+-- Arguments that random choice rarely or never gives.
 for _, one in ipairs {
-  { "find", "abc", "" }, { "find", "abc", "", 3, true }, { "find", "abc", "", 9 }, { "match", "abc", "" },
-  { "match", "f(a(b)c)", "%b()" }, { "match", "f(a(b)c", "%b()" }, { "match", "'a'b'", "%b''" }, { "match", "a", "%b(" },
-  { "match", "THE (quick) fox", "%f[%a]%a+%f[%A]" }, { "match", "a", "%f" }, { "match", "a", "%fa" }, { "match", "a", "%0" },
-  { "match", "a", ("()"):rep(33) }, { "match", "a", ("()"):rep(32) }, { "match", "a1_\t B", "%l%d%p%c%s%u" },
-  { "match", "a1_\t B", "%g+" }, { "match", "aB", "%L%U" }, { "match", "Ab", "%L%U" }, { "gsub", "abc", "", "-" },
-  { "gsub", "abc", "^a", "%%" }, { "gsub", "abc", "b", "%a" }, { "gsub", "abc", "b", "%!" }, { "gsub", "abc", "b" },
-  { "gsub", "abc", "b", true }, { "gsub", ("a"):rep(3000), "a", "%%" }, { "rep", "ab", math.maxinteger },
-  { "format", "%s %s", 1 }, { "format", "%10q", "a" }, { "format", "%s", setmetatable({}, { __name = "N" }) },
+  { "find", "abc", "" }, { "find", "abc", "", 3, true }, { "find", "abc", "", 9 },
+  { "match", "abc", "" },
+  { "match", "f(a(b)c)", "%b()" }, { "match", "f(a(b)c", "%b()" }, { "match", "'a'b'", "%b''" },
+  { "match", "a", "%b(" },
+  { "match", "THE (quick) fox", "%f[%a]%a+%f[%A]" }, { "match", "a", "%f" },
+  { "match", "a", "%fa" }, { "match", "a", "%0" },
+  { "match", "a", ("()"):rep(33) }, { "match", "a", ("()"):rep(32) },
+  { "match", "a1_\t B", "%l%d%p%c%s%u" },
+  { "match", "a1_\t B", "%g+" }, { "match", "aB", "%L%U" }, { "match", "Ab", "%L%U" },
+  { "gsub", "abc", "", "-" },
+  { "gsub", "abc", "^a", "%%" }, { "gsub", "abc", "b", "%a" }, { "gsub", "abc", "b", "%!" },
+  { "gsub", "abc", "b" },
+  { "gsub", "abc", "b", true }, { "gsub", ("a"):rep(3000), "a", "%%" },
+  { "rep", "ab", math.maxinteger },
+  { "format", "%s %s", 1 }, { "format", "%10q", "a" },
+  { "format", "%s", setmetatable({}, { __name = "N" }) },
 } do answer(one[1], string[one[1]], table.unpack(one, 2)) end
 answer("insert", function() local t = { 1 } table.insert(t, 2) return #t, t[2] end)
 answer("unpack", function()
-  local a, b, c = table.unpack(celspan.cel { celspan.rect { 0, 0, 1, 2 }, celspan.rect { 0, 0, 3, 4 } })
+  local a, b, c = table.unpack(celspan.cel { celspan.rect { 0, 0, 1, 2 },
+    celspan.rect { 0, 0, 3, 4 } })
   return a[4], b[4], c
 end)
 
@@ -108,7 +139,10 @@ answer("select", select, "#", 1, nil)
 answer("load", load, "return 1 +")
 answer("load", function() return load("return ...", "x")(5) end)
 answer("load", function() return load("return x", "x", "t", { x = 7 })() end)
-answer("load", function() local n = 0 return load(function() n = n + 1 return ({ "return", " 8" })[n] end)() end)
+answer("load", function()
+  local n = 0
+  return load(function() n = n + 1 return ({ "return", " 8" })[n] end)()
+end)
 answer("load", load, function() return {} end)
 answer("load", load, function() error "no more" end)
 answer("load", load, function() error({}) end)
@@ -138,8 +172,11 @@ answer("setmetatable", function()
   return one.name(), getmetatable(one) == class, other + 1, rawequal(getmetatable(other), class)
 end)
 answer("metamethods", function()
-  local m = { __call = function(_, a) return a end, __len = function() return 5 end, __eq = function() return true end,
-    __lt = function() return true end, __le = function() return false end, __concat = function() return "c" end,
+  local m = { __call = function(_, a)
+    return a
+  end, __len = function() return 5 end, __eq = function() return true end,
+    __lt = function() return true end, __le = function() return false end,
+    __concat = function() return "c" end,
     __unm = function() return "u" end, __tostring = function() return "t" end, __name = "N",
     __newindex = function(t, k, v) rawset(t, k, v + 1) end, __idiv = function() return "i" end }
   local a, b = setmetatable({}, m), setmetatable({}, m)
@@ -148,7 +185,9 @@ answer("metamethods", function()
 end)
 answer("__pairs", function()
   local all = {}
-  for k, v in pairs(setmetatable({}, { __pairs = function() return next, { 5 }, nil end })) do all[#all + 1] = k .. v end
+  for k, v in pairs(setmetatable({}, { __pairs = function() return next, { 5 }, nil end })) do
+    all[#all + 1] = k .. v
+  end
   return table.concat(all)
 end)
 answer("inherit", function()
@@ -173,7 +212,11 @@ answer("coroutine", function()
   return table.concat(all, " ")
 end)
 answer("coroutine", function()
-  local co = coroutine.wrap(function() pcall(coroutine.yield, 1) coroutine.yield(2) error "three" end)
+  local co = coroutine.wrap(function()
+    pcall(coroutine.yield, 1)
+    coroutine.yield(2)
+    error "three"
+  end)
   return co(), co(), pcall(co)
 end)
 answer("coroutine", function()
@@ -187,7 +230,9 @@ answer("coroutine", coroutine.resume, coroutine.create(fails))
 -- A stack holds a million values.
 local function with_half_a_stack(work) return work(table.unpack({}, 1, 600000)) end
 answer("coroutine", function()
-  local co = coroutine.create(function() with_half_a_stack(function(...) coroutine.yield() return (...) end) end)
+  local co = coroutine.create(function()
+    with_half_a_stack(function(...) coroutine.yield() return (...) end)
+  end)
   coroutine.resume(co)
   return coroutine.resume(co, table.unpack({}, 1, 600000))
 end)
@@ -212,24 +257,34 @@ end)
 answer("goto", function() for i = 1, 3 do if i == 2 then goto out end end ::out:: return "out" end)
 for x = -8, 8, 0.37 do
   answer("math", function()
-    return ("%.12g %.12g %.12g %.12g %.12g %.12g"):format(math.sin(x), math.cos(x), math.tan(x), math.exp(x),
+    return ("%.12g %.12g %.12g %.12g %.12g %.12g")
+      :format(math.sin(x), math.cos(x), math.tan(x), math.exp(x),
       math.atan(x, 2), math.log(math.abs(x)))
   end)
   answer("arc", function()
-    return ("%.10g %.10g %.10g"):format(math.asin(x / 9), math.acos(x / 9), math.log(math.abs(x), 10))
+    return ("%.10g %.10g %.10g"):format(math.asin(x / 9), math.acos(x / 9),
+      math.log(math.abs(x), 10))
   end)
 end
-answer("log", function() return ("%.12g %.12g %.12g"):format(math.log(3, 2), math.log(8, 3), math.log(0.125, 2)) end)
-answer("log", function() return math.log(math.huge, 2), math.log(-8, 2) ~= math.log(-8, 2), math.log(0, 2) end)
+answer("log", function()
+  return ("%.12g %.12g %.12g"):format(math.log(3, 2), math.log(8, 3), math.log(0.125, 2))
+end)
+answer("log", function()
+  return math.log(math.huge, 2), math.log(-8, 2) ~= math.log(-8, 2), math.log(0, 2)
+end)
 answer("random", math.random, 3, 1)
 answer("random", math.random, 1, 2, 3)
 answer("random", math.random, "x")
 answer("random", function() return math.random(7, 7) end)
 answer("randomseed", math.randomseed, "x")
-answer("whole", function() return math.log(8, 2), math.log(1024, 2), math.exp(0), math.sin(0), math.cos(0) end)
-for _, x in ipairs { math.huge, -math.huge, 0 / 0, 1e300, -1e300, 1e-300, 2e6, -745.5, 709.9, 0.0, -0.0 } do
+answer("whole", function()
+  return math.log(8, 2), math.log(1024, 2), math.exp(0), math.sin(0), math.cos(0)
+end)
+for _, x in ipairs { math.huge, -math.huge, 0 / 0, 1e300, -1e300, 1e-300, 2e6, -745.5, 709.9, 0.0,
+  -0.0 } do
   answer("far", function()
-    local all = { math.sin(x), math.cos(x), math.tan(x), math.atan(x), math.atan(1, x), math.atan(x, x), math.exp(x),
+    local all = { math.sin(x), math.cos(x), math.tan(x), math.atan(x), math.atan(1, x),
+      math.atan(x, x), math.exp(x),
       math.log(x), math.asin(x), math.acos(x) }
     for i, v in ipairs(all) do all[i] = v ~= v and "nan" or ("%.12g"):format(v) end
     return table.concat(all, " ")

@@ -1,10 +1,10 @@
--- Escapes and hangs: none gets out, and every one ends in time with its exit code.
+-- Escapes and hangs: no script escapes, and every one ends in time with its exit code.
 
 local workbench = require "tests.support.workbench"
 
 local CODES = { [0] = "it is harmless", [3] = "it is refused", [6] = "a limit ends it" }
 local LIMITS = "--limit steps=3e6,time=0.4,memory=48M,print=16K"
-local MORE = 2 -- seconds after the limit of time, by which all has ended
+local MORE = 2 -- seconds after the limit of time, within which all have ended
 
 local HEAD = [[
 local celspan = require "celspan"
@@ -29,15 +29,17 @@ local function is_found(text, patterns)
   return false
 end
 
---- Seconds that four programs side by side take to begin and end: a machine may be busy.
+--- Seconds that four programs in parallel take to start and end: the machine may be busy.
 local function seconds_to_start(bench)
-  local _, out = bench:shell(("cd '%s' && date +%%s.%%N && seq 8 | xargs -P 4 -I N %s --version >starts && date +%%s.%%N")
+  local _, out =
+    bench:shell(("cd '%s' && date +%%s.%%N && seq 8 | xargs -P 4 -I N %s --version >starts && "
+    .. "date +%%s.%%N")
     :format(bench.folder, workbench.absolute))
   local before, after = out:match "(%S+)%s+(%S+)"
   return tonumber(after) - tonumber(before)
 end
 
---- Runs the scripts of a bench, several at a time; leaves NAME.code and NAME.err beside each.
+--- Runs the scripts of a bench, several at a time; leaves NAME.code and NAME.err next to each.
 local function run_all(bench, list, options)
   local more = MORE + seconds_to_start(bench)
   for i, one in ipairs(list) do
@@ -46,7 +48,8 @@ local function run_all(bench, list, options)
     bench:write(i .. ".seconds", tostring((tonumber(given:match "time=([%d.]+)") or 60) + more))
   end
   bench:shell(([[cd '%s' && seq %d | xargs -P 4 -I N sh -c
-    'timeout $(cat N.seconds) %s info scripts/N.lua $(cat N.options) >N.out 2>N.err; echo $? >N.code']])
+    'timeout $(cat N.seconds) %s info scripts/N.lua $(cat N.options) >N.out 2>N.err
+    ; echo $? >N.code']])
     :gsub("\n%s*", " "):format(bench.folder, #list, workbench.absolute))
 end
 
@@ -57,21 +60,24 @@ describe("the sandbox", function()
     bench = workbench.new()
     bench:shell(([[cd '%s' && mkdir scripts scriptsother && echo secret >secret.txt &&
       echo 'return "escaped"' >beside.lua && ln -s ../secret.txt scripts/link.txt &&
-      ln -s ../beside.lua scripts/linked.lua && ln -s .. scripts/around && mkfifo scripts/pipe.lua &&
-      printf '\033Lua' >scripts/compiled.lua && echo 'return io' >scripts/inner.lua && echo 'given = 1' >scripts/silent.lua &&
+      ln -s ../beside.lua scripts/linked.lua && ln -s .. scripts/around &&
+      mkfifo scripts/pipe.lua && printf '\033Lua' >scripts/compiled.lua &&
+      echo 'return io' >scripts/inner.lua && echo 'given = 1' >scripts/silent.lua &&
       echo >scripts/native.so && truncate -s 17M scripts/huge.lua]]):format(bench.folder))
   end)
 
   teardown(function() bench:remove() end)
 
   local function head()
-    return HEAD:format(bench.folder .. "/secret.txt", "link.txt", bench.folder .. "/out.png", bench.folder)
+    return HEAD:format(bench.folder .. "/secret.txt", "link.txt", bench.folder .. "/out.png",
+      bench.folder)
   end
 
   describe("agrees with Lua", function()
     for seed = 1, 2 do
-      it("in what it replaces, with random arguments " .. seed, function()
-        local command = ("'%s' info tests/sandbox/agree.lua --limit print=0 %%s -- %d"):format(workbench.absolute, seed)
+      it("in the functions that it replaces, with random arguments " .. seed, function()
+        local command = ("'%s' info tests/sandbox/agree.lua --limit print=0 %%s -- %d")
+          :format(workbench.absolute, seed)
         local code, _, own = bench:shell(command:format(""))
         assert.equal(0, code, own:sub(-400))
         local _, _, lua = bench:shell(command:format("--trust"))
@@ -87,8 +93,8 @@ describe("the sandbox", function()
     end
   end)
 
-  describe("is asked for", function()
-    -- A search for leaks looks into the process from another one, which --strict does not let it.
+  describe("with its options", function()
+    -- A leak check attaches to the process from another one, which --strict does not allow.
     local function celspan(arguments)
       return bench:shell(("cd '%s' && ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=0 '%s' %s")
         :format(bench.folder, workbench.absolute, arguments))
@@ -102,17 +108,20 @@ describe("the sandbox", function()
 
     setup(function()
       bench:write("scripts/still.lua", head() .. "return FILM")
-      bench:write("scripts/fonts.lua", head() .. 'return celspan.rostrum{ celspan.cel{ celspan.text{ "x", font = ... } } }')
-      bench:write("scripts/needs.lua", 'assert(require "beside" == "escaped")\n' .. head() .. "return FILM")
+      bench:write("scripts/fonts.lua",
+        head() .. 'return celspan.rostrum{ celspan.cel{ celspan.text{ "x", font = ... } } }')
+      bench:write("scripts/needs.lua",
+        'assert(require "beside" == "escaped")\n' .. head() .. "return FILM")
       bench:write("scripts/loops.lua", head() .. [[return FILM:with{ frames = 3, frame = function(f)
         while f.number == 2 do end return ROSTRUM end }]])
       bench:write("scripts/counts.lua", head() .. [[return FILM:with{ frame = function(f)
         for i = 1, 3e5 do end return ROSTRUM end }]])
-      bench:write("scripts/sound.lua", head() .. 'return FILM:with{ frames = 2, sound = "../secret.txt" }')
+      bench:write("scripts/sound.lua",
+        head() .. 'return FILM:with{ frames = 2, sound = "../secret.txt" }')
       bench:write("scripts/writes.lua", head() .. 'assert(celspan.render(FILM, OUT)) return FILM')
     end)
 
-    it("with folders to read below", function()
+    it("allows folders to read below", function()
       refused("info scripts/needs.lua", "module 'beside' not found", 3)
       assert.equal(0, (celspan("info scripts/needs.lua --allow .")))
       assert.equal(0, (bench:shell(("cd '%s' && CELSPAN_PATH='./?.lua' '%s' info scripts/needs.lua")
@@ -121,7 +130,8 @@ describe("the sandbox", function()
       refused("info scripts/still.lua --trust --allow .", "leave --allow out")
       refused("info scripts/still.lua --trust --strict", "leave --strict out")
       refused("info scripts/still.lua --trust --strict --allow .", "leave --strict out")
-      refused("info scripts/still.lua" .. (" --allow ."):rep(49), "--allow: '.' is not the name of a folder, of which there may be 48")
+      refused("info scripts/still.lua" .. (" --allow ."):rep(49),
+        "--allow: '.' is not the name of a folder, of which there may be 48")
       local search = ("./?.lua;"):rep(64)
       local code, _, err = bench:shell(("cd '%s' && CELSPAN_PATH='%s' '%s' info scripts/still.lua")
         :format(bench.folder, search, workbench.absolute))
@@ -129,44 +139,55 @@ describe("the sandbox", function()
       assert.truthy(err:find("--allow and CELSPAN_PATH name too many folders", 1, true), err)
     end)
 
-    it("with limits by their names", function()
-      for _, bad in ipairs { "x=1", "memory", "memory=", "memory=1X", "memory=-1", "steps=1K", "time=1e9", "time=nan",
+    it("accepts limits by their names", function()
+      for _, bad in ipairs { "x=1", "memory", "memory=", "memory=1X", "memory=-1", "steps=1K",
+        "time=1e9", "time=nan",
         "memory=1M,", ",memory=1M", "memory=1M,x=2", "steps= 1" } do
-        refused(("info scripts/still.lua --limit '%s'"):format(bad), "--limit: '" .. bad .. "' is not")
+        refused(("info scripts/still.lua --limit '%s'"):format(bad),
+          "--limit: '" .. bad .. "' is not")
       end
-      assert.equal(0, (celspan("info scripts/still.lua --limit memory=64M,steps=1e6 --limit time=0.5,print=0")))
+      assert.equal(0,
+        (celspan("info scripts/still.lua --limit memory=64M,steps=1e6 --limit time=0.5,print=0")))
       assert.equal(0, (celspan("info scripts/counts.lua --limit steps=0,memory=0,print=0")))
       assert.equal(0, (celspan("info scripts/counts.lua --limit steps=0,time=0")))
       assert.equal(0, (celspan("info scripts/counts.lua --trust --limit time=9")))
       refused("info scripts/counts.lua --limit steps=1", "more than 1 step in a frame", 6)
-      refused("info scripts/still.lua --trust --limit picture-memory=1M", "leave --limit picture-memory out")
-      refused("info scripts/still.lua --trust --limit picture-time=1", "leave --limit picture-time out")
-      refused("info scripts/still.lua --limit memory=20K", "needs more than 20 KiB (--limit memory=", 6)
-      refused("info scripts/counts.lua --limit steps=1000", "scripts/counts.lua:6: frame 1: more than 1000 steps", 6)
+      refused("info scripts/still.lua --trust --limit picture-memory=1M",
+        "leave --limit picture-memory out")
+      refused("info scripts/still.lua --trust --limit picture-time=1",
+        "leave --limit picture-time out")
+      refused("info scripts/still.lua --limit memory=20K",
+        "needs more than 20 KiB (--limit memory=", 6)
+      refused("info scripts/counts.lua --limit steps=1000",
+        "scripts/counts.lua:6: frame 1: more than 1000 steps", 6)
     end)
 
-    it("for scripts alone", function()
-      for _, option in ipairs { "--strict", "--allow .", "--limit time=1", "--limit picture-time=1,steps=9" } do
-        refused(("info '%s/scripts/pictures/canal.png' %s"):format(os.getenv "PWD", option), "are for scripts")
+    it("applies only to scripts", function()
+      for _, option in ipairs { "--strict", "--allow .", "--limit time=1",
+        "--limit picture-time=1,steps=9" } do
+        refused(("info '%s/scripts/pictures/canal.png' %s"):format(os.getenv "PWD", option),
+          "are for scripts")
       end
     end)
 
-    it("not with --trust, but for limits that are named", function()
+    it("is off with --trust, except for limits that are named", function()
       assert.equal(0, (celspan("info scripts/writes.lua --trust")))
       assert.truthy(bench:read("out.png"))
       os.remove(bench.folder .. "/out.png")
       refused("info scripts/writes.lua", "write no files", 3)
-      refused("render scripts/loops.lua --hash --trust --limit steps=1e6", "scripts/loops.lua:6: frame 2: more than 1000000", 6)
+      refused("render scripts/loops.lua --hash --trust --limit steps=1e6",
+        "scripts/loops.lua:6: frame 2: more than 1000000", 6)
     end)
 
-    it("frame by frame: --keep-going goes on after a limit", function()
-      local code, out, err = celspan("render scripts/loops.lua --hash --keep-going --limit steps=1e6 --progress none")
+    it("limits each frame: --keep-going continues after a limit", function()
+      local code, out, err =
+        celspan("render scripts/loops.lua --hash --keep-going --limit steps=1e6 --progress none")
       assert.equal(1, code, err)
       assert.truthy(out:find("^1 %x+\n3 %x+\n$"), out)
       assert.truthy(err:find("scripts/loops.lua:6: frame 2: more than 1000000 steps", 1, true), err)
     end)
 
-    it("in steps that do not depend on the run", function()
+    it("counts steps that do not depend on the run", function()
       local least, most = 1e5, 1e6
       while most - least > 1000 do
         local middle = math.floor((least + most) / 2)
@@ -179,35 +200,42 @@ describe("the sandbox", function()
       end
     end)
 
-    it("for the sound of a film too", function()
+    it("applies to the sound of a film too", function()
       local code, _, err = celspan("render scripts/sound.lua -o out.mp4")
       assert.equal(3, code, err)
       assert.truthy(err:find("lets scripts read below", 1, true), err)
     end)
 
-    it("by the kernel, with the same pixels", function()
+    it("is enforced by the kernel with --strict, with the same pixels", function()
       local code, out, err = celspan("render scripts/still.lua --hash --strict --progress none")
-      if code == 6 and err:find("--strict: ", 1, true) then return pending "the kernel cannot confine a process" end
+      if code == 6 and err:find("--strict: ", 1, true) then
+        return pending "the kernel cannot confine a process"
+      end
       assert.equal(0, code, err)
       assert.equal(out, (select(2, celspan("render scripts/still.lua --hash --progress none"))))
-      assert.equal(0, (celspan("render scripts/still.lua -o new/folder/still.png --strict --progress none")))
+      assert.equal(0,
+        (celspan("render scripts/still.lua -o new/folder/still.png --strict --progress none")))
       assert.truthy(bench:read("new/folder/still.png"))
       bench:write("alone.lua", head() .. "return FILM")
-      assert.equal(0, (celspan("render alone.lua -o beside.png --strict --progress none"))) -- without a folder's name
+      -- without a folder's name
+      assert.equal(0, (celspan("render alone.lua -o beside.png --strict --progress none")))
       assert.truthy(bench:read("beside.png"))
-      code, _, err = bench:shell(("cd '%s' && CELSPAN_PATH='%s' '%s' render scripts/still.lua --hash --strict%s")
+      code, out, err =
+        bench:shell(("cd '%s' && CELSPAN_PATH='%s' '%s' render scripts/still.lua --hash --strict%s")
         :format(bench.folder, ("./?.lua;"):rep(15), workbench.absolute, (" --allow ."):rep(48)))
-      assert.equal(6, code)
+      assert.equal(6, code, out)
       assert.truthy(err:find("--strict: there are too many folders to read", 1, true), err)
       refused("render scripts/still.lua -o film.mp4 --strict", "--strict starts no programs")
     end)
   end)
 
-  describe("holds", function()
+  describe("withstands", function()
     local escapes = require "tests.sandbox.escapes"
 
     setup(function()
-      for i, one in ipairs(escapes) do bench:write(("scripts/%d.lua"):format(i), head() .. ESCAPE:format(one[2])) end
+      for i, one in ipairs(escapes) do
+        bench:write(("scripts/%d.lua"):format(i), head() .. ESCAPE:format(one[2]))
+      end
       run_all(bench, escapes, "")
     end)
 
@@ -227,7 +255,9 @@ describe("the sandbox", function()
     local hangs = require "tests.sandbox.hangs"
 
     setup(function()
-      for i, one in ipairs(hangs) do bench:write(("scripts/%d.lua"):format(i), head() .. HANG:format(one[2])) end
+      for i, one in ipairs(hangs) do
+        bench:write(("scripts/%d.lua"):format(i), head() .. HANG:format(one[2]))
+      end
       run_all(bench, hangs, LIMITS)
     end)
 

@@ -1,4 +1,4 @@
--- Who called: the callers told after an error in a helper, and the files found beside a caller.
+-- Callers: the callers listed after an error in a helper, and the files found next to a caller.
 local celspan = require "celspan"
 local workbench = require "tests.support.workbench"
 
@@ -43,29 +43,31 @@ describe("an error in a helper", function()
   before_each(function() bench = workbench.new() end)
   after_each(function() bench:remove() end)
 
-  --- What rendering says when a pose is made by this expression; {shot} and {hand} are the files.
+  --- The message of a render whose pose is made by this expression; {shot} and {hand} are the
+  --- files.
   local function message_of(expression)
     bench:write("hand.lua", hand)
     bench:write("shot.lua", shot:format(expression))
     local code, _, text = bench:celspan("render '%s/shot.lua' -o '%s/a.####.png' --progress none",
       bench.folder, bench.folder)
     assert.are.equal(3, code)
-    return (text:gsub(bench.folder .. "/", "")) -- temporary folders have names of several lengths
+    return (text:gsub(bench.folder .. "/", "")) -- temporary folders have names of different lengths
   end
 
-  it("tells who called it, from the nearest on", function()
-    assert.is_truthy(message_of("hand.draw(-3)"):find("hand.lua:4: frame 1: rect: w is -3; it must be "
+  it("lists its callers, the nearest first", function()
+    assert.is_truthy(message_of("hand.draw(-3)")
+      :find("hand.lua:4: frame 1: rect: w is -3; it must be "
       .. "0 or more (called from hand.lua:7, shot.lua:4, shot.lua:8)", 1, true),
       message_of "hand.draw(-3)")
   end)
 
-  it("tells them of the helper's own errors too, after the line that is blamed", function()
+  it("lists them for the helper's own errors too, after the line of the error", function()
     assert.is_truthy(message_of("hand.complain(7)"):find(
       "shot.lua:4: frame 1: a hand is not 7 wide (called from shot.lua:8)", 1, true),
       message_of "hand.complain(7)")
   end)
 
-  it("tells nothing where a frame function fails by itself", function()
+  it("lists no callers if a frame function itself fails", function()
     bench:write("shot.lua", [[
 local celspan = require "celspan"
 return celspan.film { frame = function() return celspan.rect { 0, 0, -1, 1 } end }
@@ -74,7 +76,7 @@ return celspan.film { frame = function() return celspan.rect { 0, 0, -1, 1 } end
     assert.is_nil(text:find("called from", 1, true), text)
   end)
 
-  it("tells them once where a film is made of another film's frames", function()
+  it("lists them once if a film is made from another film's frames", function()
     local shots = celspan.film { size = { 4, 4 }, frame = function()
       local function draw() error "torn" end
       local cel = draw()
@@ -91,12 +93,12 @@ return celspan.film { frame = function() return celspan.rect { 0, 0, -1, 1 } end
     assert.is_truthy(message:find("torn (called from ", 1, true), message)
   end)
 
-  it("tells a function that calls itself once", function()
+  it("lists a recursive function once", function()
     assert.is_truthy(message_of("hand.count(50)"):find(
       "(called from hand.lua:15, shot.lua:4, shot.lua:8)", 1, true), message_of "hand.count(50)")
   end)
 
-  it("tells the first callers and the last of many", function()
+  it("lists the first and the last of many callers", function()
     local steps = {}
     for i = 1, 9 do
       steps[i] = ("local function f%d(x) local r = %s return r end"):format(i,
@@ -106,19 +108,21 @@ return celspan.film { frame = function() return celspan.rect { 0, 0, -1, 1 } end
       .. "\nlocal shape = f9()\nreturn celspan.rostrum { celspan.cel { shape } }")
     local _, _, text = bench:celspan("info '%s/many.lua'", bench.folder)
     text = text:gsub(bench.folder .. "/", "")
-    assert.is_truthy(text:find("many.lua:2: rect: w is -1; it must be 0 or more (called from many.lua:3, "
+    assert.is_truthy(text:find("many.lua:2: rect: w is -1; it must be 0 or more (called from "
+      .. "many.lua:3, "
       .. "many.lua:4, many.lua:5, many.lua:6, many.lua:7, ..., many.lua:11)", 1, true), text)
   end)
 
-  it("tells those of the script's own body and of the modules it loads", function()
+  it("lists those in the script's own body and in the modules it loads", function()
     bench:write("hand.lua", hand)
-    bench:write("shot.lua", 'local hand = require "hand"\nlocal shape = hand.draw(-1)\nreturn shape')
+    bench:write("shot.lua",
+      'local hand = require "hand"\nlocal shape = hand.draw(-1)\nreturn shape')
     local _, _, text = bench:celspan("info '%s/shot.lua'", bench.folder)
     text = text:gsub(bench.folder .. "/", "")
     assert.is_truthy(text:find("(called from hand.lua:7, shot.lua:2)", 1, true), text)
   end)
 
-  it("leaves celspan's own modules out, whose errors stand at the caller's line", function()
+  it("leaves out celspan's own modules, whose errors have the caller's line", function()
     bench:write("shot.lua", [[
 local celspan = require "celspan"
 local multiplane = require "celspan.multiplane"
@@ -135,7 +139,7 @@ return rostrum
       .. "(called from shot.lua:7)", 1, true), text)
   end)
 
-  it("is told of the function of a scan-line primitive, which is named by its own line", function()
+  it("is reported for the function of a scan-line primitive, named by its own line", function()
     local function show(row)
       return select(2, celspan.pixels(celspan.rostrum { celspan.cel {
         celspan.scanline { bounds = { 0, 0, 2, 2 }, spans = row } } }, { size = { 2, 2 } }))
@@ -153,7 +157,7 @@ return rostrum
       :format(file, line + 5), wrong)
   end)
 
-  it("is told in the messages of render, and raised with them by film:at", function()
+  it("has its callers in the messages of render, and of film:at", function()
     local function finger() local shape = celspan.rect { 0, 0, -1, 1 } return shape end
     local line = debug.getinfo(1, "l").currentline + 2
     local film = celspan.film { size = { 4, 4 }, frame = function()
@@ -198,7 +202,8 @@ print(pcall(part.mouth, "only.tsv"))
 print(part.message "none.tsv")
 print(celspan.pixels(celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 4, 4,
   texture = part.picture "none.png" } } }, { size = { 4, 4 } }))
-return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 4, 4, texture = part.picture "none.png" } } }
+return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 4, 4, texture = part.picture "none.png"
+  } } }
 ]])
   end)
   after_each(function() bench:remove() end)
@@ -209,33 +214,38 @@ return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 4, 4, texture = part
     return lines
   end
 
-  it("is found beside the caller's file, else beside the script; both are told", function()
+  it("is found next to the caller's file, else next to the script; both are reported", function()
     local code, _, printed = bench:celspan("probe '%s/shot.lua' 1 1 --trust -- '%s/parts/?.lua'",
       bench.folder, bench.folder)
     assert.are.equal(4, code)
     local lines = lines_of(printed)
     assert.are.equal("A\tB", lines[1])
     assert.are.equal("true\tB", lines[2])
-    assert.are.equal("HERE/parts/none.tsv: No such file or directory; nor is it there: HERE/none.tsv",
+    assert.are.equal("HERE/parts/none.tsv: No such file or directory; nor is it there: "
+      .. "HERE/none.tsv",
       lines[3])
-    local told = "HERE/parts/none.png: cannot be opened: No such file or directory; nor is it there: HERE/none.png"
+    local told =
+      "HERE/parts/none.png: cannot be opened: No such file or directory; nor is it there: "
+      .. "HERE/none.png"
     assert.is_truthy(lines[4]:find(told, 1, true), lines[4])
     assert.is_truthy(lines[5]:find(told, 1, true), lines[5])
   end)
 
-  it("is found beside the nearest caller alone where no script is run", function()
+  it("is found only next to the nearest caller if no script is run", function()
     local code, out = bench:shell(
-      ("cd / && LUA_PATH=';;' LUA_CPATH='%s/?.so' '%s/tests/lua_host' '%s/shot.lua' '%s/parts/?.lua'"):format(
+      ("cd / && LUA_PATH=';;' LUA_CPATH='%s/?.so' '%s/tests/lua_host' '%s/shot.lua' "
+      .. "'%s/parts/?.lua'"):format(
         build, build, bench.folder, bench.folder))
     assert.are.equal(0, code)
     local lines = lines_of(out)
     assert.are.equal("A\tB", lines[1])
-    assert.is_truthy(lines[2]:find("false\t.*HERE/parts/only.tsv: No such file or directory$"), lines[2])
+    assert.is_truthy(lines[2]:find("false\t.*HERE/parts/only.tsv: No such file or directory$"),
+      lines[2])
     assert.are.equal("HERE/parts/none.tsv: No such file or directory", lines[3])
     assert.is_nil(lines[4]:find("nor is it there", 1, true), lines[4])
   end)
 
-  it("is taken as it stands where no file calls, and when it is absolute", function()
+  it("is used unchanged if no file calls, and if it is absolute", function()
     local _, out = bench:shell(
       ([[cd '%s' && LUA_PATH=';;' LUA_CPATH='%s/?.so' '%s/tests/lua_host' -e '
         local lips = require "celspan.lips"

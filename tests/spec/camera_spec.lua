@@ -15,7 +15,7 @@ local function box(rostrum, i)
 end
 
 describe("multiplane", function()
-  it("makes planes that fit fill the film at rest, and parts them in motion", function()
+  it("makes fitted planes fill the film at rest, and move apart in motion", function()
     local function bounds(camera, fits)
       local rostrum = multiplane { film = { 100, 50 }, focal = 500, camera = camera, fit = true,
         { celspan.cel { celspan.rect { 0, 0, 100, 50 } }, z = 500, fit = fits } }
@@ -26,7 +26,7 @@ describe("multiplane", function()
     assert.are.same({ 25, 12.5, 50, 25 }, bounds(nil, false))
   end)
 
-  it("leaves what is over all where it is", function()
+  it("does not move the overlay", function()
     local caption = celspan.cel { celspan.rect { 1, 2, 3, 4 } }:named("caption")
     local rostrum = multiplane { film = film, camera = { x = 99, z = 50 }, over = { caption },
       { celspan.cel {}, z = 0 } }
@@ -34,21 +34,23 @@ describe("multiplane", function()
     assert.are.same({ 1, 2, 3, 4 }, { rostrum[#rostrum]:bounds() })
   end)
 
-  it("complains of planes that cannot fit and of overlays that are no cels", function()
+  it("refuses planes that cannot fit and overlays that are not cels", function()
     local message = raised.message(function()
       multiplane { film = film, fit = true, { celspan.cel {}, z = -1000 } }
     end)
-    assert.is_truthy(message:find("camera_spec.lua:%d+: multiplane: plane 1 lies at or behind"), message)
+    assert.is_truthy(message:find("camera_spec.lua:%d+: multiplane: plane 1 lies at or behind"),
+      message)
     message = raised.message(function() multiplane { film = film, over = { 7 } } end)
-    assert.is_truthy(message:find("camera_spec.lua:%d+: multiplane: over%[1%] must be a cel"), message)
+    assert.is_truthy(message:find("camera_spec.lua:%d+: multiplane: over%[1%] must be a cel"),
+      message)
   end)
 
-  it("shows a plane at depth 0 as it is", function()
+  it("shows a plane at depth 0 unchanged", function()
     local rostrum = multiplane { film = film, { cel(), z = 0 } }
     assert.are.same({ 40, 20, 20, 10 }, box(rostrum, 1))
   end)
 
-  it("shrinks far planes about the centre and pans them less", function()
+  it("shrinks far planes around the centre and pans them less", function()
     local rostrum = multiplane { film = film, focal = 1000, camera = { x = 10 },
       { cel(), z = 0 }, { cel(), z = 1000 } }
     assert.are.same({ 40, 22.5, 10, 5 }, box(rostrum, 1))
@@ -63,21 +65,21 @@ describe("multiplane", function()
     assert.are.same({ "#200", "#300", "#100", "#400" }, textures)
   end)
 
-  it("leaves out what is behind the camera", function()
+  it("leaves out planes behind the camera", function()
     local rostrum = multiplane { film = film, camera = { z = 1000 }, { cel(), z = 0 },
       { cel(), z = 1 } }
     assert.is_truthy(rostrum[1])
     assert.is_nil(rostrum[2])
   end)
 
-  it("defocuses what is off the focus distance", function()
+  it("defocuses planes that are not at the focus distance", function()
     local rostrum = multiplane { film = film, focal = 1000, aperture = 12, focus = 1000,
       { cel(), z = 0 }, { cel(), z = 1000 } }
     assert.are.equal(6, rostrum[1].defocus.radius)
     assert.is_nil(rostrum[2].defocus)
   end)
 
-  it("says what is wrong at the caller's line", function()
+  it("reports wrong arguments at the caller's line", function()
     local message = raised.message(function() multiplane { film = film, focl = 3 } end)
     assert.is_truthy(message:find("camera_spec.lua:%d+: multiplane: unknown field 'focl'"), message)
     message = raised.message(function() multiplane { film = film, { 3 } } end)
@@ -121,7 +123,7 @@ describe("shutter", function()
     assert.are.equal(0.75 / 4, result[2][2])
   end)
 
-  it("hands on everything else of f", function()
+  it("passes on all other fields of f", function()
     local seen = {}
     exposures_of({ samples = 1, frame = function(f)
       seen = { f.number, f.index, f:on(2), f.width, f:random "x" == f:random "x" }

@@ -1,4 +1,4 @@
--- What render changes of a film's frames: --cel, --background, --dither.
+-- Options of render that change a film's frames: --cel, --background, --dither.
 local workbench = require "tests.support.workbench"
 
 local SCRIPT = [[
@@ -7,7 +7,8 @@ local shade = celspan.linear { from = { 0, 0 }, to = { 64, 0 }, { 0, "#101010" }
 return celspan.film { size = { 64, 32 }, frames = 3, frame = function(f)
   local cels = {
     celspan.cel { celspan.rect { 0, 0, 64, 32, texture = shade } }:named("back"),
-    celspan.cel { back = { 0, 0, 1 }, celspan.rect { 8, 8, 16, 16, texture = "#ff0000" } }:named("hand"),
+    celspan.cel { back = { 0, 0, 1 }, celspan.rect { 8, 8, 16, 16, texture = "#ff0000" }
+      }:named("hand"),
     celspan.cel { celspan.rect { 30, 8, 16, 16, texture = "#00ff00" } },
   }
   if f.number == 3 then table.remove(cels, 2) end
@@ -29,7 +30,8 @@ describe("render", function()
 
   --- Renders a frame raw: pixel(x, y) gives its bytes.
   local function raw(arguments, frame)
-    local code, out, err = bench:celspan("render %s --frames %d -o - %s", script, frame or 1, arguments)
+    local code, out, err = bench:celspan("render %s --frames %d -o - %s", script, frame or 1,
+      arguments)
     assert.are.equal(0, code, err)
     return function(x, y) return { out:byte(4 * (64 * y + x) + 1, 4 * (64 * y + x) + 4) } end
   end
@@ -51,14 +53,15 @@ describe("render", function()
     assert.are.same({ 0, 0, 0, 0 }, raw("--cel hand", 3)(10, 10))
   end)
 
-  it("refuses a cel that no frame has, and names those that there are, nearest first", function()
+  it("refuses a cel that no frame has, and lists the existing ones, nearest first", function()
     local code, said = render("--cel bakc -o " .. path("x.####.png"))
     assert.are.equal(2, code)
-    assert.is_truthy(said:find("--cel bakc: no cel of the film has this name; there are back, hand\n",
+    assert.is_truthy(said:find("--cel bakc: no cel of the film has this name; there are "
+      .. "back, hand\n",
       1, true), said)
     assert.are.equal(0, (render("--cel hand --frames 3 -o " .. path("x.png")))) -- empty
     local plain = bench:write("plain.lua", "return require 'celspan'.rostrum {}")
-    code, said = bench:celspan("render %s --cel hand -o %s", plain, path("x.png"))
+    code = bench:celspan("render %s --cel hand -o %s", plain, path("x.png"))
     assert.are.equal(2, code)
   end)
 
@@ -70,7 +73,8 @@ describe("render", function()
     local plain = bench:write("half.lua", [[
 local celspan = require "celspan"
 return celspan.film { size = { 4, 1 }, frame = function()
-  return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 2, 1, texture = celspan.rgb(1, 0, 0, 0.5) } } }
+  return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 2, 1, texture = celspan.rgb(1, 0, 0,
+    0.5) } } }
 end }]])
     local code, out = bench:celspan("render %s --background '#0000ff' --colour linear -o -", plain)
     assert.are.equal(0, code)
@@ -85,7 +89,8 @@ end }]])
     assert.are.same({ 0, 255, 64, 255 }, { out:byte(1, 4) })
     local window = bench:write("window.lua", [[
 local celspan = require "celspan"
-local shade = celspan.linear { from = { 0, 0 }, to = { 2, 0 }, { 0, "#ff0000" }, { 1, "#ff000000" } }
+local shade = celspan.linear { from = { 0, 0 }, to = { 2, 0 }, { 0, "#ff0000" }, { 1, "#ff000000" }
+  }
 return celspan.film { size = { 2, 1 }, frame = function()
   return celspan.rostrum { back = { texture = shade } }
 end }]])
@@ -98,12 +103,12 @@ end }]])
     assert.are.equal(2, (render("--background blue -o " .. path("x.####.png"))))
   end)
 
-  it("writes PNG without alpha before a background", function()
+  it("writes PNG without alpha if there is a background", function()
     assert.are.equal(0, (render("--background '#fff' --frames 1 -o " .. path("opaque.png"))))
     assert.are.equal(2, bench:read("opaque.png"):byte(26)) -- colour type RGB
   end)
 
-  it("dithers alike in every format, on any workers and in any crop", function()
+  it("dithers equally in every format, with any workers and in any crop", function()
     for name, options in pairs { ["a.png"] = "", ["a.tga"] = "", ["b.png"] = "--workers 3",
                                  ["crop.png"] = "--crop 5,3,20,11", ["plain.png"] = "NO" } do
       local dither = options == "NO" and "" or "--dither " .. options
@@ -113,11 +118,13 @@ end }]])
     assert.is_true(same("a.png", "a.tga"))
     assert.are.equal(bench:read "a.png", bench:read "b.png")
     assert.is_false(same("a.png", "plain.png"))
-    assert.are.equal(0, (bench:celspan("compare %s %s --fail 0.00393", path("a.png"), path("plain.png"))))
+    assert.are.equal(0,
+      (bench:celspan("compare %s %s --fail 0.00393", path("a.png"), path("plain.png"))))
     bench:celspan("convert %s %s --crop 5,3,20,11", path("a.png"), path("cut.png"))
     assert.is_true(same("crop.png", "cut.png"))
     local _, out = bench:celspan("render %s --frames 1 --dither --hash", script)
-    local _, tee = bench:celspan("render %s --frames 1 --dither --hash -o %s", script, path("t.png"))
+    local _, tee = bench:celspan("render %s --frames 1 --dither --hash -o %s", script,
+      path("t.png"))
     assert.are.equal(out, tee)
     assert.are.equal(bench:read "a.png", bench:read "t.png")
   end)
@@ -137,7 +144,7 @@ end }]])
     assert.are.equal(bench:read "cli.png", bench:read "rendered.png")
   end)
 
-  it("refuses to dither what is not 8 bits of pixels", function()
+  it("refuses to dither anything but pixels of 8 bits", function()
     local code, said = render("--dither --depth 16 -o " .. path("x.####.png"))
     assert.are.equal(2, code)
     assert.is_truthy(said:find("--dither makes 8 bits", 1, true), said)
@@ -153,7 +160,7 @@ end }]])
       (raised.sentence(function() image:bytes { dither = 1 } end)))
   end)
 
-  it("makes frames anew on --resume when the options changed", function()
+  it("makes frames again on --resume when the options changed", function()
     local out = path("resumed.####.png")
     assert.are.equal(0, (render("--resume -o " .. out)))
     local plain = { bench:read("resumed.0001.png"), bench:read("resumed.0003.png") }

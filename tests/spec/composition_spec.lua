@@ -12,8 +12,10 @@ end
 
 local function pixels(rostrum, options)
   options = options or {}
-  return assert(celspan.pixels(rostrum, { size = options.size or { 80, 60 }, film = options.film or { 80, 60 },
-                                          antialias = options.antialias, workers = options.workers or 1 }))
+  return assert(celspan.pixels(rostrum,
+    { size = options.size or { 80, 60 }, film = options.film or { 80, 60 },
+                                          antialias = options.antialias,
+                                          workers = options.workers or 1 }))
 end
 
 --- The greatest difference of two images of one size, in any channel.
@@ -29,7 +31,7 @@ local function difference(a, b)
 end
 
 describe("a rostrum with a size", function()
-  it("is an object: it is moved, turned, faded, measured and asked", function()
+  it("is an object: it can be moved, rotated, faded, measured and probed", function()
     local object = small():scale(2):translate(10, 20):fade(0.5)
     assert.same({ 10, 20, 160, 120 }, { object:bounds() })
     assert.is_true(object:contains(10, 20))
@@ -38,12 +40,13 @@ describe("a rostrum with a size", function()
     assert.equal("rostrum{ 1 cel, brightness = 1, size = {80, 60} }", tostring(object))
   end)
 
-  it("keeps its transform and fade through :with, and gives its fields", function()
+  it("keeps its transform and fade through :with, and returns its fields", function()
     local object = small():translate(5, 0):fade(0.5)
     local wide = object:with { size = { 200, 60 } }
     assert.same({ 5, 0, 200, 60 }, { wide:bounds() })
     assert.same({ 80, 60 }, object.size)
-    local r, g, b, a = celspan.probe(celspan.rostrum { celspan.cel { wide } }, 20, 20, { film = { 80, 60 } })
+    local r, g, b, a = celspan.probe(celspan.rostrum { celspan.cel { wide } }, 20, 20,
+      { film = { 80, 60 } })
     local R, G, B = celspan.probe(small(), 15, 20, { film = { 80, 60 } })
     assert.near(R / 2, r, 1e-6)
     assert.near(G / 2, g, 1e-6)
@@ -51,10 +54,11 @@ describe("a rostrum with a size", function()
     assert.near(0.5, a, 1e-6)
   end)
 
-  it("takes part in booleans, by its frame", function()
+  it("can be an operand of booleans, by its frame", function()
     local disc = celspan.circle { centre = { 40, 30 }, radius = 20, texture = "#fff" }
     for _, case in ipairs {
-      { small() | disc, 40, 30, true }, { small() & disc, 1, 1, false }, { disc - small(), 40, 30, false },
+      { small() | disc, 40, 30, true }, { small() & disc, 1, 1, false },
+      { disc - small(), 40, 30, false },
       { small() - disc, 1, 1, true }, { small() ~ disc, 40, 30, false },
       { celspan.clip(disc, small():translate(60, 0)), 70, 30, false },
       { celspan.union { small(), disc }, 79, 59, true },
@@ -63,30 +67,32 @@ describe("a rostrum with a size", function()
     end
   end)
 
-  it("is refused without a size where an object is needed", function()
+  it("is refused without a size if an object is needed", function()
     local bare = celspan.rostrum {}
     for _, call in ipairs {
       function() return celspan.cel { bare } end, function() return bare | art() end,
       function() return bare:scale(2) end, function() return celspan.union { art(), bare } end,
       function() return bare:bounds() end,
     } do
-      assert.matches("size is missing; a rostrum that is used as an object needs one", raised(call), 1, true)
+      assert.matches("size is missing; a rostrum that is used as an object needs one", raised(call),
+        1, true)
     end
   end)
 
-  it("is no frame of its own once it was moved", function()
+  it("is not a frame of its own once it was moved", function()
     local moved = small():translate(1, 0)
     for _, call in ipairs {
       function() return celspan.pixels(moved, { size = { 8, 6 } }) end,
       function() return celspan.spans(moved, { size = { 8, 6 } }) end,
       function() return celspan.probe(moved, 1, 1) end,
     } do
-      assert.matches("must be a rostrum or a list {{rostrum, weight}, ...}, got a rostrum as an object, "
+      assert.matches("must be a rostrum or a list {{rostrum, weight}, ...}, got a rostrum as "
+        .. "an object, "
         .. "which belongs in a cel", raised(call), 1, true)
     end
   end)
 
-  it("is refused with a size that is none, and with a camera that sees nothing", function()
+  it("is refused with an invalid size, and with a camera that sees nothing", function()
     assert.matches("rostrum: size.width is 0; it must be more than 0", raised(function()
       celspan.rostrum { size = { 0, 10 } } end), 1, true)
     assert.matches("rostrum: size%[2%] must be a number, got nil",
@@ -109,10 +115,13 @@ describe("a rostrum with a size", function()
   end)
 
   it("keeps its camera, viewports and lights inside, and is cut at its frame", function()
-    local inner = small { back = "#ffffff", camera = { centre = { 30, 25 }, width = 40, rotate = 90 },
+    local inner = small { back = "#ffffff",
+      camera = { centre = { 30, 25 }, width = 40, rotate = 90 },
                           brightness = 0.5, front = "#ff0000" }
-    local image = pixels(celspan.rostrum { celspan.cel { inner:translate(20, 10) } }, { size = { 120, 90 },
-                                                                                     film = { 120, 90 } })
+    local image = pixels(celspan.rostrum { celspan.cel { inner:translate(20, 10) } },
+      { size = { 120, 90 },
+                                                                                     film = { 120,
+                                                                                       90 } })
     local alone = pixels(inner)
     for _, point in ipairs { { 0, 0 }, { 40, 30 }, { 79, 59 }, { 15, 50 } } do
       local x, y = point[1], point[2]
@@ -123,11 +132,12 @@ describe("a rostrum with a size", function()
     assert.same({ 0, 0, 0, 0 }, { image:get(100, 40) })
   end)
 
-  it("is counted with all that is in it", function()
+  it("is counted with all its contents", function()
     local file = os.tmpname()
     local out = assert(io.open(file, "w"))
     out:write [[local celspan = require "celspan"
-      local inner = celspan.rostrum { size = { 9, 9 }, celspan.cel { celspan.rect { 0, 0, 3, 3 } }, celspan.cel {} }
+      local inner = celspan.rostrum { size = { 9, 9 }, celspan.cel { celspan.rect { 0, 0, 3, 3 } },
+        celspan.cel {} }
       return celspan.rostrum { celspan.cel { inner, inner, celspan.rect { 0, 0, 1, 1 } } }]]
     out:close()
     local pipe = assert(io.popen(workbench.binary .. " info " .. file))
@@ -148,15 +158,16 @@ describe("defocus and compositions", function()
     assert.is_true(difference(pixels(flat), pixels(nested)) < 1e-4)
     -- Twice the film at half the size: half the radius.
     local big = celspan.rostrum { size = { 160, 120 }, blurred:with { defocus = 8 }:scale(2) }
-    assert.is_true(difference(pixels(flat), pixels(celspan.rostrum { celspan.cel { big:scale(0.5) } })) < 1e-3)
+    assert.is_true(difference(pixels(flat),
+      pixels(celspan.rostrum { celspan.cel { big:scale(0.5) } })) < 1e-3)
   end)
 
-  it("blurs one as it does what is in it", function()
+  it("blurs one like its contents", function()
     local nested = celspan.rostrum { celspan.cel { small(), defocus = 4 } }
     assert.is_true(difference(pixels(celspan.rostrum { blurred }), pixels(nested)) < 2 / 255)
   end)
 
-  it("blurs one that is blurred inside: the light is kept, whatever the threads", function()
+  it("blurs one that is blurred inside: the light is kept, with any number of threads", function()
     local inner = celspan.rostrum { size = { 80, 60 }, celspan.cel { art(), defocus = 3 } }
     local twice = celspan.rostrum { celspan.cel { inner, defocus = 3 } }
     local function light(image)
@@ -182,7 +193,7 @@ describe("defocus and compositions", function()
   end)
 end)
 
-describe("compositions as deep as they go", function()
+describe("compositions of the greatest depth", function()
   it("are lit by shapes and faded at every level", function()
     local lamp = celspan.linear { from = { 0, 0 }, to = { 80, 0 }, { 0, "#fff" }, { 1, "#fefefe" } }
     local rostrum = small()
@@ -203,7 +214,8 @@ describe("compositions as deep as they go", function()
     for _ = 2, 40 do
       rostrum = celspan.rostrum { size = { 80, 60 }, celspan.cel { rostrum, defocus = 1 } }
     end
-    local r, g, b, a = pixels(celspan.rostrum { back = "#fff", celspan.cel { rostrum } }):get(40, 30)
+    local r, g, b, a = pixels(celspan.rostrum { back = "#fff", celspan.cel { rostrum } })
+      :get(40, 30)
     assert.near(1, r, 2e-3)
     assert.near(0.5, g, 2e-3)
     assert.near(0.25, b, 2e-3)
@@ -212,7 +224,7 @@ describe("compositions as deep as they go", function()
 end)
 
 describe("lights of many levels", function()
-  it("multiply without end, and stay numbers", function()
+  it("multiply without limit, and stay finite", function()
     local bright = { 1e12, 1e12, 1e12 }
     local shape = celspan.linear { from = { 0, 0 }, to = { 80, 0 }, { 0, "#000" }, { 1, "#fff" } }
     local value = celspan.rostrum { size = { 80, 60 }, front = bright, celspan.cel { art() } }
@@ -220,9 +232,13 @@ describe("lights of many levels", function()
       value = celspan.rostrum { size = { 80, 60 }, brightness = 1e12, celspan.cel { value,
         front = level % 2 == 0 and bright or { texture = shape, gain = 1e12 } } }
     end
-    local image = pixels(celspan.rostrum { celspan.cel { value, celspan.rect { 0, 0, 20, 20, texture = "#000" } } })
+    local image =
+      pixels(celspan.rostrum {
+        celspan.cel { value, celspan.rect { 0, 0, 20, 20, texture = "#000" } } })
     for _, point in ipairs { { 5, 5 }, { 15, 15 }, { 30, 30 }, { 70, 50 } } do
-      for _, number in ipairs { image:get(point[1], point[2]) } do assert.is_true(number < math.huge) end
+      for _, number in ipairs { image:get(point[1], point[2]) } do
+        assert.is_true(number < math.huge)
+      end
     end
     assert.same({ 0, 0, 0, 1 }, { image:get(15, 15) })
   end)
@@ -236,9 +252,12 @@ end)
 
 describe("a light with a shape", function()
   local white = celspan.rect { 0, 0, 80, 60, texture = "#fff" }
-  local slope = celspan.linear { from = { 0, 0 }, to = { 80, 0 }, { 0, celspan.rgb(0, 0, 0) }, { 1, celspan.rgb(1, 0.5, 0) } }
+  local slope = celspan.linear { from = { 0, 0 }, to = { 80, 0 }, { 0, celspan.rgb(0, 0, 0) },
+    { 1, celspan.rgb(1, 0.5, 0) } }
 
-  local function lit(light, cel) return celspan.rostrum { (cel or celspan.cel { white }):with { front = light } } end
+  local function lit(light, cel)
+    return celspan.rostrum { (cel or celspan.cel { white }):with { front = light } }
+  end
 
   it("is gain times beta times pigment", function()
     local image = pixels(lit { texture = slope, gain = 3 })
@@ -247,7 +266,8 @@ describe("a light with a shape", function()
     assert.near(1.5 * 39.5 / 80, g, 1e-3)
     assert.equal(0, b)
     assert.equal(1, a)
-    local half = celspan.linear { from = { 0, 0 }, to = { 80, 0 }, { 0, celspan.rgb(1, 1, 1, 0) }, { 1, celspan.rgb(1, 1, 1, 1) } }
+    local half = celspan.linear { from = { 0, 0 }, to = { 80, 0 }, { 0, celspan.rgb(1, 1, 1, 0) },
+      { 1, celspan.rgb(1, 1, 1, 1) } }
     assert.near(39.5 / 80, (pixels(lit(half)):get(39, 30)), 1e-3)
   end)
 
@@ -267,15 +287,20 @@ describe("a light with a shape", function()
     for _, light in ipairs { celspan.mix("#804020", "#804020", 0), { texture = "#804020" } } do
       assert.equal(0, difference(pixels(lit "#804020"), pixels(lit(light))))
     end
-    assert.near(1.5, (pixels(lit { texture = celspan.rgb(1, 1, 1, 0.5), gain = 3 }):get(1, 1)), 1e-6)
+    assert.near(1.5, (pixels(lit { texture = celspan.rgb(1, 1, 1, 0.5), gain = 3 }):get(1, 1)),
+      1e-6)
     assert.same({ 0, 0, 0, 1 }, { pixels(lit { texture = celspan.gel(1, 1, 1) }):get(1, 1) })
   end)
 
-  it("shines from behind, with its beta as the matte, and dims nothing in its film", function()
-    local beam = celspan.radial { centre = { 40, 30 }, radius = 20, { 0, celspan.rgb(1, 0.8, 0.6, 1) }, { 1, celspan.rgb(1, 0.8, 0.6, 0) } }
+  it("can be a back light, with its beta as the matte, and dims nothing in its film", function()
+    local beam = celspan.radial { centre = { 40, 30 }, radius = 20,
+      { 0, celspan.rgb(1, 0.8, 0.6, 1) }, { 1, celspan.rgb(1, 0.8, 0.6, 0) } }
     local rear = { 0.25, 0.25, 0.25, 0 }
-    local image = pixels(celspan.rostrum { back = rear, celspan.cel { back = { texture = beam, gain = 2 } } })
-    local p = { celspan.probe(celspan.rostrum { back = rear, celspan.cel { back = { texture = beam, gain = 2 } } }, 50.5, 30.5,
+    local image = pixels(celspan.rostrum { back = rear,
+      celspan.cel { back = { texture = beam, gain = 2 } } })
+    local p = {
+      celspan.probe(celspan.rostrum { back = rear,
+        celspan.cel { back = { texture = beam, gain = 2 } } }, 50.5, 30.5,
                               { film = { 80, 60 } }) }
     local q = { image:get(50, 30) }
     for c = 1, 4 do assert.near(p[c], q[c], 2e-3) end
@@ -284,46 +309,55 @@ describe("a light with a shape", function()
     assert.near(0, a, 1e-6)
   end)
 
-  it("may have a matte of its own, by which its beta is multiplied", function()
-    local beam = celspan.linear { from = { 0, 0 }, to = { 80, 0 }, { 0, celspan.rgb(1, 0.8, 0.6, 0) },
+  it("may have a matte of its own, which multiplies its beta", function()
+    local beam = celspan.linear { from = { 0, 0 }, to = { 80, 0 },
+      { 0, celspan.rgb(1, 0.8, 0.6, 0) },
                                   { 1, celspan.rgb(1, 0.8, 0.6, 1) } }
     for _, texture in ipairs { beam, celspan.rgb(1, 0.8, 0.6, 0.5) } do
       for _, matte in ipairs { 0, 0.25, 1 } do
-        local behind = celspan.cel { celspan.rect { 0, 0, 80, 60, texture = celspan.rgb(0.2, 0.2, 0.2, 0.5) } }
-        local rostrum = celspan.rostrum { behind, celspan.cel { back = { texture = texture, gain = 2, matte = matte } } }
+        local behind = celspan.cel {
+          celspan.rect { 0, 0, 80, 60, texture = celspan.rgb(0.2, 0.2, 0.2, 0.5) } }
+        local rostrum = celspan.rostrum { behind,
+          celspan.cel { back = { texture = texture, gain = 2, matte = matte } } }
         local beta = texture == beam and 39.5 / 80 or 0.5
-        local expected = { 0.1 + 2 * beta, 0.1 + 1.6 * beta, 0.1 + 1.2 * beta, 1 - 0.5 * (1 - matte * beta) }
-        local probed, shown = { celspan.probe(rostrum, 39.5, 30.5, { film = { 80, 60 } }) }, { pixels(rostrum):get(39, 30) }
+        local expected = { 0.1 + 2 * beta, 0.1 + 1.6 * beta, 0.1 + 1.2 * beta,
+          1 - 0.5 * (1 - matte * beta) }
+        local probed, shown = { celspan.probe(rostrum, 39.5, 30.5, { film = { 80, 60 } }) },
+          { pixels(rostrum):get(39, 30) }
         for c = 1, 4 do
           assert.near(expected[c], probed[c], 1e-6)
           assert.near(expected[c], shown[c], 1e-3)
         end
       end
     end
-    assert.matches("cel: back.matte is 2; it must be between 0 and 1", raised(function()
+    assert.matches("cel: back: matte is 2; it must be between 0 and 1", raised(function()
       return celspan.cel { back = { texture = beam, matte = 2 } }
     end), 1, true)
   end)
 
-  it("of a rostrum lies on each cel that takes it", function()
+  it("of a rostrum lies on each cel without one of its own", function()
     local front = { texture = slope, on = "cel" }
-    local rostrum = celspan.rostrum { front = front, celspan.cel { celspan.rect { 0, 0, 80, 30, texture = "#fff" } }:translate(10, 0),
-                                      celspan.cel { celspan.rect { 0, 30, 80, 30, texture = "#fff" }, front = "#fff" } }
+    local rostrum = celspan.rostrum { front = front,
+      celspan.cel { celspan.rect { 0, 0, 80, 30, texture = "#fff" } }:translate(10, 0),
+                                      celspan.cel { celspan.rect { 0, 30, 80, 30,
+                                        texture = "#fff" }, front = "#fff" } }
     local image = pixels(rostrum)
     assert.near(29.5 / 80, (image:get(39, 10)), 1e-3)
     assert.equal(1, (image:get(39, 40)))
   end)
 
-  it("is refused plainly when it is none", function()
+  it("is refused with a sentence when it is invalid", function()
     local function message(light, field)
       return raised(function() return celspan.cel { [field or "front"] = light } end)
     end
-    assert.matches("cel: front.gain is -1; it must be 0 or more", message { texture = slope, gain = -1 }, 1, true)
+    assert.matches("cel: front: gain is -1; it must be 0 or more", message { texture = slope, gain = -1 }, 1, true)
     assert.matches("cel: front: unknown field 'gian'; did you mean 'gain'?", message { texture = slope, gian = 1 }, 1, true)
-    assert.matches("cel: front: field 'texture' is missing", message { gain = 1 }, 1, true)
+    assert.matches("cel: front: field 'texture' must be a paint, a texture or a colour", message { gain = 1 }, 1, true)
     assert.matches("frame", message { texture = slope, on = "film" }, 1, true)
-    for _, light in ipairs { { 1, 1, 1, texture = slope }, { 1, 1, 1, gain = 2 }, { 1, 1, 1, on = "cel" } } do
-      assert.matches("cel: front: takes named fields only, but was given a value at place 1", message(light), 1, true)
+    for _, light in ipairs { { 1, 1, 1, texture = slope }, { 1, 1, 1, gain = 2 },
+      { 1, 1, 1, on = "cel" } } do
+      assert.matches("cel: front: takes named fields only, but was given a value at place 1",
+        message(light), 1, true)
     end
     assert.matches("rostrum: back cannot lie on the cel", raised(function()
       return celspan.rostrum { back = { texture = slope, on = "cel" } }

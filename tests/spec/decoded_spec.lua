@@ -1,5 +1,6 @@
--- Pictures of many kinds are the same, and are told in the same words, whether a process of its own
--- decodes them or, with --trust, the program itself: tiles, subimages and layers, film codes.
+-- Pictures of many kinds are the same, with the same messages, whether they are decoded by a
+-- process of their own or, with --trust, by the program itself: tiles, subimages and layers, film
+-- codes.
 local library = require "celspan"
 local cases = require "tests.support.cases"
 local present = require "tests.support.present"
@@ -14,7 +15,7 @@ after_each(function() bench:remove() end)
 
 local function celspan(arguments) return bench:celspan_inside("%s", arguments) end
 
---- What the program says of a file and makes of it: the code, the output, the error, a PNG's bytes.
+--- The program's results for a file: the exit code, the output, the error, a PNG's bytes.
 local function told_and_made(file, options)
   local code, out, err = celspan(("info '%s' %s"):format(file, options))
   os.remove(bench.folder .. "/made.png")
@@ -32,17 +33,20 @@ end
 
 local function colour(x, y) return string.char((x * 13) % 256, (y * 29) % 256, (x * y) % 256) end
 
---- The pixels from x0, y0 on, w by h, those beyond the picture black.
+--- The pixels from x0, y0 on, w by h, with black outside the picture.
 local function pixels(page, x0, y0, w, h)
   local out = {}
   for y = y0, y0 + h - 1 do
     for x = x0,
-    x0 + w - 1 do out[#out + 1] = x < page.w and y < page.h and colour(x + page.shift, y) or "\0\0\0" end
+    x0 + w - 1 do
+      out[#out + 1] = x < page.w and y < page.h and colour(x + page.shift, y) or "\0\0\0"
+    end
   end
   return table.concat(out)
 end
 
---- A TIFF of pages { w =, h =, shift =, name =, tile = }; tile: the side of its tiles, nil: one strip.
+--- A TIFF of pages { w =, h =, shift =, name =, tile = }; tile: the side of its tiles, nil: one
+--- strip.
 local function tiff(pages)
   local out, link = "II*\0\0\0\0\0", 5
   local function append(bytes)
@@ -63,10 +67,13 @@ local function tiff(pages)
     local function entry(tag, kind, values)
       local format = kind == 3 and "<I2" or "<I4"
       local bytes = kind == 2 and values or ""
-      for _, value in ipairs(kind ~= 2 and values or {}) do bytes = bytes .. string.pack(format, value) end
+      for _, value in ipairs(kind ~= 2 and values or {}) do
+        bytes = bytes .. string.pack(format, value)
+      end
       local number = kind == 2 and #values or #values
       if #bytes > 4 then bytes = string.pack("<I4", append(bytes)) end
-      entries[#entries + 1] = string.pack("<I2I2I4", tag, kind, number) .. bytes .. ("\0"):rep(4 - #bytes)
+      entries[#entries + 1] = string.pack("<I2I2I4", tag, kind, number) .. bytes
+        .. ("\0"):rep(4 - #bytes)
     end
     entry(256, 4, { page.w })
     entry(257, 4, { page.h })
@@ -96,20 +103,26 @@ end
 
 local function box(x0, y0, x1, y1) return string.pack("<i4i4i4i4", x0, y0, x1, y1) end
 
---- An OpenEXR file of 32-bit floats, uncompressed, 2 by 2: channels in the order of their names, of which
---- that of number i is i / 10 everywhere. data: its window, of the same size.
+--- An OpenEXR file of 32-bit floats, uncompressed, 2 by 2: channels in the order of their names, of
+--- which that of number i is i / 10 everywhere. data: its window, of the same size.
 local function exr(channels, data)
   local x, y = table.unpack(data or { 0, 0 })
-  local function attribute(name, kind, bytes) return ("%s\0%s\0"):format(name, kind) .. string.pack("<s4", bytes) end
+  local function attribute(name, kind, bytes)
+    return ("%s\0%s\0"):format(name, kind) .. string.pack("<s4", bytes)
+  end
   local list, row = {}, {}
   for i, name in ipairs(channels) do
     list[i] = name .. "\0" .. string.pack("<i4I4i4i4", 2, 0, 1, 1)
     row[i] = string.pack("<ff", i / 10, i / 10)
   end
-  local head = "\x76\x2f\x31\x01\2\0\0\0" .. attribute("channels", "chlist", table.concat(list) .. "\0")
-    .. attribute("compression", "compression", "\0") .. attribute("dataWindow", "box2i", box(x, y, x + 1, y + 1))
-    .. attribute("displayWindow", "box2i", box(0, 0, 1, 1)) .. attribute("lineOrder", "lineOrder", "\0")
-    .. attribute("pixelAspectRatio", "float", string.pack("<f", 1)) .. attribute("screenWindowCenter", "v2f", string.pack("<ff", 0, 0))
+  local head = "\x76\x2f\x31\x01\2\0\0\0"
+    .. attribute("channels", "chlist", table.concat(list) .. "\0")
+    .. attribute("compression", "compression", "\0")
+    .. attribute("dataWindow", "box2i", box(x, y, x + 1, y + 1))
+    .. attribute("displayWindow", "box2i", box(0, 0, 1, 1))
+    .. attribute("lineOrder", "lineOrder", "\0")
+    .. attribute("pixelAspectRatio", "float", string.pack("<f", 1))
+    .. attribute("screenWindowCenter", "v2f", string.pack("<ff", 0, 0))
     .. attribute("screenWindowWidth", "float", string.pack("<f", 1)) .. "\0"
   local line = table.concat(row)
   local first = #head + 16
@@ -123,17 +136,20 @@ end
 local function cineon(r, g, b)
   local word = string.pack(">I4", r << 22 | g << 12 | b << 2)
   local element = (">BBBBI4I4ffff"):pack(0, 0, 10, 0, 2, 2, 0, 0, 1023, 2.046)
-  local head = (">I4I4I4I4I4I4c8c100c12c12c36"):pack(0x802a5fd7, 2048, 1024, 1024, 0, 2048 + 16, "V4.5", "", "", "", "")
-    .. "\0\3\0\0" .. element:rep(8) .. ("\255"):rep(32) .. ("\0"):rep(228) .. "\0\5\0\0" .. ("\0"):rep(28)
+  local head = (">I4I4I4I4I4I4c8c100c12c12c36")
+    :pack(0x802a5fd7, 2048, 1024, 1024, 0, 2048 + 16, "V4.5", "", "", "", "")
+    .. "\0\3\0\0" .. element:rep(8) .. ("\255"):rep(32) .. ("\0"):rep(228) .. "\0\5\0\0"
+    .. ("\0"):rep(28)
   return head .. ("\0"):rep(2048 - #head) .. word:rep(4)
 end
 
 --- Pictures of the fuzz corpus that are refused.
-local damaged = { ["cmyk-of-three-channels"] = true, ["long-colour-table"] = true, ["packed-rows"] = true,
+local damaged = { ["cmyk-of-three-channels"] = true, ["long-colour-table"] = true,
+  ["packed-rows"] = true,
   ["rgb-of-one-channel"] = true }
 
 describe("a picture", function()
-  it("of every format is the same by a decoder and by --trust", function()
+  it("of every format is the same with a decoder and with --trust", function()
     local list, names = assert(io.popen "ls tests/fuzz/corpus/picture-*/*"), {}
     for name in list:lines() do names[#names + 1] = name end
     list:close()
@@ -157,7 +173,9 @@ describe("a picture", function()
   end)
 
   it("may be one of several in a file, by number and by name", function()
-    bench:write("pages.tif", tiff { { w = 20, h = 10, shift = 0, name = "back" }, { w = 30, h = 15, shift = 40, name = "front", tile = 16 } })
+    bench:write("pages.tif",
+      tiff { { w = 20, h = 10, shift = 0, name = "back" },
+        { w = 30, h = 15, shift = 40, name = "front", tile = 16 } })
     bench:write("front.tif", tiff { { w = 30, h = 15, shift = 40 } })
     local found = same_when_trusted "pages.tif"
     assert.matches("subimages 2\n", found[2])
@@ -165,12 +183,14 @@ describe("a picture", function()
     bench:write("show.lua", [[
 local celspan = require "celspan"
 local file, subimage, layer = ...
-return celspan.rostrum { size = { 30, 15 }, celspan.cel { celspan.rect { 0, 0, 30, 15, texture = celspan.picture {
+return celspan.rostrum { size = { 30, 15 }, celspan.cel { celspan.rect { 0, 0, 30, 15, texture =
+  celspan.picture {
   file = file, subimage = tonumber(subimage), layer = layer, sampling = "nearest" } } } }
 ]])
     local function shown(arguments, options)
       local code, _,
-      err = celspan(("render show.lua --size 30x15 -o shown.png --progress none %s -- %s"):format(options or "", arguments))
+      err = celspan(("render show.lua --size 30x15 -o shown.png --progress none %s -- %s")
+        :format(options or "", arguments))
       return code, code == 0 and bench:read "shown.png" or err
     end
     for _, options in ipairs { "", "--trust" } do
@@ -188,20 +208,23 @@ return celspan.rostrum { size = { 30, 15 }, celspan.cel { celspan.rect { 0, 0, 3
 
   it("of film has the codes that its header names", function()
     local whole = assert(io.open("tests/fuzz/corpus/picture-dpx/rgba.dpx", "rb")):read "a"
-    for transfer, coding in pairs { [1] = "cineon", [2] = "linear", [3] = "cineon", [5] = "rec709", [6] = "rec709", [7] = "rec709", [0] = "cineon" } do
+    for transfer, coding in pairs { [1] = "cineon", [2] = "linear", [3] = "cineon", [5] = "rec709",
+      [6] = "rec709", [7] = "rec709", [0] = "cineon" } do
       bench:write("film.dpx", whole:sub(1, 801) .. string.char(transfer) .. whole:sub(803))
       local found = same_when_trusted "film.dpx"
       assert.matches("\ncolour " .. coding .. "\n", found[2], transfer)
     end
   end)
 
-  it("that is cut ends the same, and is told with its name", function()
-    for _, name in ipairs { "exr/rgba.exr", "tiff/rgba.tif", "jpeg/rgba.jpg", "psd/packbits8", "dpx/rgba.dpx", "gif/rgba.gif" } do
+  it("that is truncated gives the same error, with its name", function()
+    for _, name in ipairs { "exr/rgba.exr", "tiff/rgba.tif", "jpeg/rgba.jpg", "psd/packbits8",
+      "dpx/rgba.dpx", "gif/rgba.gif" } do
       local whole = assert(io.open("tests/fuzz/corpus/picture-" .. name, "rb")):read "a"
       for _, share in ipairs { 0.1, 0.5, 0.95 } do
         bench:write("cut", whole:sub(1, math.floor(share * #whole)))
         local apart, trusted = told_and_made("cut", ""), told_and_made("cut", "--trust")
-        assert.are.same({ apart[1], apart[2], apart[4], apart[6] }, { trusted[1], trusted[2], trusted[4], trusted[6] }, name)
+        assert.are.same({ apart[1], apart[2], apart[4], apart[6] },
+          { trusted[1], trusted[2], trusted[4], trusted[6] }, name)
         assert.are.equal(trusted[5], apart[5])
         if apart[4] ~= 0 then assert.matches(" cut: ", apart[5]) end
       end
@@ -210,7 +233,8 @@ return celspan.rostrum { size = { 30, 15 }, celspan.cel { celspan.rect { 0, 0, 3
 
   local count = 0
 
-  --- What shows in the middle of a picture, read in this process: red, green, blue and alpha, or nil and why not.
+  --- The colour in the middle of a picture, read in this process: red, green, blue and alpha, or
+  --- nil and a message.
   local function middle(bytes, fields)
     fields = fields or {}
     count = count + 1
@@ -235,15 +259,20 @@ return celspan.rostrum { size = { 30, 15 }, celspan.cel { celspan.rect { 0, 0, 3
     near({ 0.1, 0.1, 0.1, 1 }, middle(exr { "Z" }))
     near({ 0.1, 0.2, 0.3, 1 }, middle(exr { "c1", "c2", "c3" }))
     near({ 0.4, 0.3, 0.2, 0.1 }, middle(exr { "A", "B", "G", "R" }))
-    local layered = exr { "B", "G", "R", "deep.left.B", "deep.left.G", "deep.left.R", "depth.Z", "grey.Y", "half.R", "light.A", "light.B",
+    local layered = exr { "B", "G", "R", "deep.left.B", "deep.left.G", "deep.left.R", "depth.Z",
+      "grey.Y", "half.R", "light.A", "light.B",
       "light.G", "light.R" }
     near({ 0.6, 0.5, 0.4, 1 }, middle(layered, { layer = "deep.left" }))
     near({ 0.8, 0.8, 0.8, 1 }, middle(layered, { layer = "grey" }))
-    for _, none in ipairs { "depth", "half", "deep" } do refused(layered, 'has no layer "' .. none .. '"', { layer = none }) end
+    for _, none in ipairs { "depth", "half", "deep" } do
+      refused(layered, 'has no layer "' .. none .. '"', { layer = none })
+    end
     bench:write("layers.exr", layered)
     local _, out = celspan "info layers.exr --trust"
     local told = {}
-    for name, channels in out:gmatch "layer (%S+) .-channels (%d+)" do told[#told + 1] = name .. " " .. channels end
+    for name, channels in out:gmatch "layer (%S+) .-channels (%d+)" do
+      told[#told + 1] = name .. " " .. channels
+    end
     assert.are.same({ "deep.left 3", "grey 1", "light 4" }, told, out)
   end)
 
@@ -258,16 +287,20 @@ return celspan.rostrum { size = { 30, 15 }, celspan.cel { celspan.rect { 0, 0, 3
     local _, out = celspan "info film.cin --trust"
     assert.matches("format cineon\n", out)
     assert.matches("colour cineon\n", out)
-    refused(bytes:sub(1, -2), "is truncated: it has 2063 of the 2064 bytes it tells of")
+    refused(bytes:sub(1, -2),
+      "is truncated: it has 2063 of the 2064 bytes that its header declares")
   end)
 
-  it("that is none, or more than is read, is told with its name", function()
+  it("that is invalid, or too large, is reported with its name", function()
     refused("", "is empty")
     refused("GIF89a" .. string.pack("<I2I2", 0, 5) .. "\0\0\0", "is a picture without pixels")
-    refused("\xff\x4f\xff\x51" .. ("\0"):rep(4) .. string.pack(">I4I4I4I4", 6, 5, 5, 9), "is a picture without pixels")
+    refused("\xff\x4f\xff\x51" .. ("\0"):rep(4) .. string.pack(">I4I4I4I4", 6, 5, 5, 9),
+      "is a picture without pixels")
     refused(exr({ "Y" }, { 2000000000, 0 }), "data window")
-    for _, form in ipairs { { 2, 24, 0, 1, 0 }, { 2, 24, 0, 0, 1 }, { 2, 24, 0x40, 1, 1 }, { 9, 8, 0, 1, 1 }, { 4, 24, 0, 1, 1 }, { 2, 23, 0, 1, 1 }, { 2, 24, 0, 1, 1, 2 } } do
-      local targa = string.pack("<BBBI2I2BI2I2I2I2BB", 0, form[6] or 0, form[1], 0, 0, 0, 0, 0, form[4], form[5], form[2], form[3])
+    for _, form in ipairs { { 2, 24, 0, 1, 0 }, { 2, 24, 0, 0, 1 }, { 2, 24, 0x40, 1, 1 },
+      { 9, 8, 0, 1, 1 }, { 4, 24, 0, 1, 1 }, { 2, 23, 0, 1, 1 }, { 2, 24, 0, 1, 1, 2 } } do
+      local targa = string.pack("<BBBI2I2BI2I2I2I2BB", 0, form[6] or 0, form[1], 0, 0, 0, 0, 0,
+        form[4], form[5], form[2], form[3])
       refused(targa .. ("\0"):rep(9), "is not a picture of a known format")
     end
     local many = {}
@@ -279,7 +312,8 @@ return celspan.rostrum { size = { 30, 15 }, celspan.cel { celspan.rect { 0, 0, 3
     bench:write("front.tif", tiff { { w = 30, h = 15, shift = 40 } })
     bench:write("show.lua", [[
 local celspan = require "celspan"
-return celspan.rostrum { size = { 30, 15 }, celspan.cel { celspan.rect { 0, 0, 30, 15, texture = celspan.picture {
+return celspan.rostrum { size = { 30, 15 }, celspan.cel { celspan.rect { 0, 0, 30, 15, texture =
+  celspan.picture {
   file = "front.tif", colour = "camera", sampling = "nearest" } } } }
 ]])
     bench:write("config.ocio", [[ocio_profile_version: 1
@@ -294,11 +328,14 @@ colorspaces:
     name: light
   - !<ColorSpace>
     name: camera
-    to_reference: !<MatrixTransform> {matrix: [0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 1]}
+    to_reference: !<MatrixTransform> {matrix: [0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0,
+      1]}
 ]])
     local function shown(environment, options)
       local code, _,
-      err = bench:shell(("cd '%s' && %s '%s' render show.lua --size 30x15 --depth half -o shown.exr --progress none %s"):format(
+      err =
+      bench:shell(("cd '%s' && %s '%s' render show.lua --size 30x15 --depth half -o shown.exr "
+      .. "--progress none %s"):format(
         bench.folder, environment, workbench.absolute, options))
       return code, err, code == 0 and bench:read "shown.exr" or nil
     end

@@ -11,7 +11,7 @@ after_each(function() bench:remove() end)
 
 local function run(arguments) return bench:celspan_inside("%s", arguments) end
 
---- The colour of a pixel's centre in a picture of the folder: linear, premultiplied.
+--- The colour at a pixel's centre in a picture of the folder: linear, premultiplied.
 local function pixel(name, x, y)
   local image = celspan.image { file = bench.folder .. "/" .. name, x = 0, y = 0 }
   return celspan.probe(celspan.rostrum { celspan.cel { image } }, x + 0.5, y + 0.5,
@@ -52,13 +52,14 @@ describe("celspan test", function()
     bench:write("spec/helper.lua", "error 'not a spec'")
     local code, out, err = run "test"
     assert.equal(0, code, out .. err)
-    assert.truthy(out:find("spec/deeper/version_spec.lua: 1 passed, 0 failed, 1 skipped\n", 1, true), out)
+    assert.truthy(out:find("spec/deeper/version_spec.lua: 1 passed, 0 failed, 1 skipped\n", 1,
+      true), out)
     assert.truthy(out:find("spec/film_spec.lua: 2 passed, 0 failed, 0 skipped\n", 1, true), out)
     assert.truthy(out:find("\n3 passed, 0 failed, 1 skipped in 2 spec files, ", 1, true), out)
     assert.equal("", err)
   end)
 
-  it("prints the same, in the order of the list, on any number of workers", function()
+  it("prints the same, in the order of the list, with any number of workers", function()
     bench:write("slow_spec.lua", [[
       it("takes its time", function() local n = 0 for i = 1, 3e6 do n = n + i end end)]])
     bench:write("quick_spec.lua", [[it("fails", function() assert.is_true(false) end)]])
@@ -72,7 +73,7 @@ describe("celspan test", function()
     assert.equal(one, printed(2))
   end)
 
-  it("ends with 1 and tells test, place and message of what failed", function()
+  it("ends with 1 and prints test, position and message of each failure", function()
     bench:write("film.lua", FILM)
     bench:write("bad_spec.lua", (SPEC:gsub("is_not%.", "")))
     local code, out = run "test bad_spec.lua"
@@ -82,7 +83,7 @@ describe("celspan test", function()
     assert.truthy(out:find("bad_spec.lua: 1 passed, 1 failed, 0 skipped\n", 1, true), out)
   end)
 
-  it("counts a spec that cannot be loaded, that ends its process, or that is ended", function()
+  it("counts a spec that cannot be loaded, ends its process, or is killed", function()
     bench:write("a_spec.lua", "it(")
     bench:write("b_spec.lua", [[it("stops", function() os.exit(3) end)]])
     bench:write("c_spec.lua", [[it("dies", function() os.execute("kill -9 $PPID") end)]])
@@ -90,34 +91,43 @@ describe("celspan test", function()
     local code, out = run "test ."
     assert.equal(1, code)
     assert.truthy(out:find("a_spec.lua:1: ", 1, true), out)
-    assert.truthy(out:find("failed: ./b_spec.lua ended before its tests did, with exit code 3", 1, true), out)
+    assert.truthy(out:find("failed: ./b_spec.lua ended before its tests did, with exit code 3", 1,
+      true), out)
     assert.truthy(out:find("failed: ./c_spec.lua was ended by signal 9", 1, true), out)
     assert.truthy(out:find("1 passed, 3 failed, 0 skipped in 4 spec files", 1, true), out)
   end)
 
-  it("counts a spec that busted cannot run, and shows why", function()
+  it("counts a spec that busted cannot run, and reports why", function()
     bench:write("film_spec.lua", SPEC)
     bench:shell(("mkdir -p %s/broken/busted"):format(bench.folder))
-    for _, part in ipairs { "init", "runner", "core" } do bench:write("broken/busted/" .. part .. ".lua", "error 'this one is broken'") end
-    local code, out = bench:shell(("cd %s && LUA_PATH_5_4='./broken/?.lua;./broken/?/init.lua' %s test film_spec.lua")
+    for _, part in ipairs { "init", "runner", "core" } do
+      bench:write("broken/busted/" .. part .. ".lua", "error 'this one is broken'")
+    end
+    local code, out =
+      bench:shell(("cd %s && LUA_PATH_5_4='./broken/?.lua;./broken/?/init.lua' %s test "
+      .. "film_spec.lua")
       :format(bench.folder, BINARY))
     assert.equal(1, code)
     assert.truthy(out:find("this one is broken\n", 1, true), out)
     assert.truthy(out:find("stack traceback:\n", 1, true), out)
-    assert.truthy(out:find("film_spec.lua ended before its tests did, with exit code 3", 1, true), out)
+    assert.truthy(out:find("film_spec.lua ended before its tests did, with exit code 3", 1, true),
+      out)
   end)
 
   it("ends with its specs at a signal", function()
-    bench:write("slow_spec.lua", [[it("waits", function() os.execute "echo $PPID >id; exec sleep 60" end)]])
+    bench:write("slow_spec.lua",
+      [[it("waits", function() os.execute "echo $PPID >id; exec sleep 60" end)]])
     bench:write("slower_spec.lua", [[it("waits", function() os.execute "exec sleep 60" end)]])
-    local code, _, err = bench:shell(([[cd %s && { %s test slow_spec.lua slower_spec.lua --workers 1 & pid=$!
-      for i in $(seq 200); do [ -s id ] && break; sleep 0.02; done; kill -TERM $pid; wait $pid; }]]):format(bench.folder, BINARY))
+    local code, _, err = bench:shell(([[cd %s && {
+      %s test slow_spec.lua slower_spec.lua --workers 1 & pid=$!
+      for i in $(seq 200); do [ -s id ] && break; sleep 0.02; done
+      kill -TERM $pid; wait $pid; }]]):format(bench.folder, BINARY))
     assert.equal(143, code, err)
     local id = assert(tonumber(bench:read "id"))
     assert.falsy(os.execute(("kill -0 %d 2>/dev/null"):format(id)))
   end)
 
-  it("looks for specs in folders as deep as films have them, and in none that is hidden", function()
+  it("looks for specs in deep folders, except hidden ones", function()
     bench:write("film.lua", FILM)
     local deep = ("d/"):rep(31)
     bench:shell(("cd %s && mkdir -p %sd .hidden"):format(bench.folder, deep))
@@ -129,7 +139,7 @@ describe("celspan test", function()
     assert.truthy(out:find("1 passed, 0 failed, 0 skipped in 1 spec file", 1, true), out)
   end)
 
-  it("runs the tests that --only asks for, and fails when there are none", function()
+  it("runs the tests that --only selects, and fails if there are none", function()
     bench:write("film.lua", FILM)
     bench:write("film_spec.lua", SPEC)
     local code, out = run "test film_spec.lua --only 'at the left'"
@@ -144,14 +154,15 @@ describe("celspan test", function()
     assert.truthy(err:find("no spec holds a test", 1, true), err)
   end)
 
-  it("says what a test prints, under the name of its spec", function()
+  it("shows the output of a test under the name of its spec", function()
     bench:write("talk_spec.lua", [[it("talks", function() print "good evening" end)]])
     local _, out = run "test talk_spec.lua"
     assert.truthy(out:find("printed by talk_spec.lua:\ngood evening\n", 1, true), out)
   end)
 
-  it("ends with 4 where there is no spec", function()
-    for arguments, said in pairs { ["test"] = "spec: cannot be opened", ["test no.lua"] = "no.lua: cannot be opened",
+  it("ends with 4 if there is no spec", function()
+    for arguments, said in pairs { ["test"] = "spec: cannot be opened",
+      ["test no.lua"] = "no.lua: cannot be opened",
                                    ["test ."] = "no file in it ends in _spec.lua" } do
       local code, _, err = run(arguments)
       assert.equal(4, code, err)
@@ -159,7 +170,7 @@ describe("celspan test", function()
     end
   end)
 
-  it("ends with 5 and the name of the package where busted is missing", function()
+  it("ends with 5 and the name of the package if busted is missing", function()
     bench:write("film_spec.lua", SPEC)
     local code, _, err = bench:shell(("cd %s && LUA_PATH_5_4='./none/?.lua' %s test film_spec.lua")
       :format(bench.folder, BINARY))
@@ -173,13 +184,14 @@ describe("celspan init", function()
     local code, out, err = run "init walk"
     assert.equal(0, code, err)
     assert.truthy(out:find("cd walk", 1, true))
-    for _, name in ipairs { "film.lua", "walk.txt", "spec/film_spec.lua", "spec/frame1.png", "README.md",
+    for _, name in ipairs { "film.lua", "walk.txt", "spec/film_spec.lua", "spec/frame1.png",
+      "README.md",
                             ".luarc.json", ".luacheckrc", ".busted" } do
       assert.truthy(bench:read(bench.folder .. "/walk/" .. name), name)
     end
     assert.truthy(bench:read(bench.folder .. "/walk/README.md"):find("^# walk\n"))
     for line in bench:read(bench.folder .. "/walk/film.lua"):gmatch "[^\n]+" do
-      assert.is_true(utf8.len(line) <= 120, line) -- as its .luacheckrc has it
+      assert.is_true(utf8.len(line) <= 120, line) -- the limit in its .luacheckrc
     end
     local checked, _, faults = run "check walk/film.lua"
     assert.equal(0, checked, faults)
@@ -190,12 +202,14 @@ describe("celspan init", function()
     assert.equal(0, rendered)
   end)
 
-  it("lays out a film that loops: the frame after the last would be the first", function()
+  it("lays out a film that loops: the frame after the last equals the first", function()
     run "init walk"
-    local more = bench:read(bench.folder .. "/walk/film.lua"):gsub("frames = 48, title", "frames = 49, title")
+    local more = bench:read(bench.folder .. "/walk/film.lua")
+      :gsub("frames = 48, title", "frames = 49, title")
       :gsub("f%.index / f%.count", "f.index / 48")
     bench:write("walk/film.lua", more)
-    bench:write("walk/walk.txt", bench:read(bench.folder .. "/walk/walk.txt"):gsub("frames 48", "frames 49") .. "\n    49         1  open\n")
+    bench:write("walk/walk.txt", bench:read(bench.folder .. "/walk/walk.txt")
+      :gsub("frames 48", "frames 49") .. "\n    49         1  open\n")
     assert.equal(0, (run "render walk/film.lua --progress none --frames 1,49 -o walk/%d.png"))
     local code, out = run "compare walk/1.png walk/49.png --fail 0.01"
     assert.equal(0, code, out)
@@ -210,19 +224,22 @@ describe("celspan init", function()
     assert.equal("mine", bench:read(bench.folder .. "/walk/film.lua"))
   end)
 
-  it("takes an empty folder, and says why another place is none", function()
+  it("accepts an empty folder, and reports why another place is not possible", function()
     bench:shell(("cd %s && mkdir empty && echo >file"):format(bench.folder))
     assert.equal(0, (run "init empty"))
-    for path, expected in pairs { ["file/walk"] = { 5, "file/walk: cannot be a folder for the film: Not a directory" },
-      ["/proc/none/walk"] = { 5, "/proc/none/walk/" }, [("x/"):rep(1100) .. "walk"] = { 2, "is too long a path" } } do
+    for path, expected in pairs {
+      ["file/walk"] = { 5, "file/walk: cannot be a folder for the film: Not a directory" },
+      ["/proc/none/walk"] = { 5, "/proc/none/walk/" },
+      [("x/"):rep(1100) .. "walk"] = { 2, "is too long a path" } } do
       local code, _, err = run("init " .. path)
       assert.equal(expected[1], code, err)
       assert.truthy(err:find(expected[2], 1, true), err)
     end
   end)
 
-  it("refuses names that are none", function()
-    for _, name in ipairs { "'a b'", "'a\"b'", ".", "..", "''", "walk/", "'@NAME@'", ("long"):rep(26) } do
+  it("refuses invalid names", function()
+    for _, name in ipairs { "'a b'", "'a\"b'", ".", "..", "''", "walk/", "'@NAME@'",
+      ("long"):rep(26) } do
       local code, _, err = run("init " .. name)
       assert.equal(2, code, name)
       assert.truthy(err:find("is no name for a film", 1, true), err)
@@ -237,13 +254,15 @@ describe("celspan contact", function()
   it("lays all frames of a short film side by side", function()
     local code, _, err = run "contact film.lua -o sheet.png"
     assert.equal(0, code, err)
-    assert.equal("324x100", size_of "sheet.png") -- 6 and 2 frames of 40 x 20, 12 and 24 pixels apart
+    -- 6 and 2 frames of 40 x 20, 12 and 24 pixels apart
+    assert.equal("324x100", size_of "sheet.png")
     local black, white = pixel("sheet.png", 13, 20), pixel("sheet.png", 13 + 52, 20)
-    assert.is_true(black < 0.01 and white > 0.99) -- the first frame begins at the left, the second does not
+    -- the first frame begins at the left, the second does not
+    assert.is_true(black < 0.01 and white > 0.99)
     assert.is_true(pixel("sheet.png", 12 + 52 + 4, 20) < 0.01)
   end)
 
-  it("thins a film until it fits, or takes every N-th frame, or those of --frames", function()
+  it("leaves out frames until the film fits, or shows every N-th, or those of --frames", function()
     run "contact film.lua -o four.png --grid 2x2"
     run "contact film.lua -o three.png --grid 3x4 --every 4"
     run "contact film.lua -o two.png --frames 3-4"
@@ -263,7 +282,7 @@ describe("celspan contact", function()
     assert.is_true(darkest < 0.3)
   end)
 
-  it("writes the number of the frame, not of its place", function()
+  it("writes the number of the frame, not of its position", function()
     run "contact film.lua -o one.png --frames 1"
     run "contact film.lua -o eight.png --frames 8"
     local function ink(name)
@@ -282,7 +301,7 @@ describe("celspan contact", function()
     assert.equal("504x276", size_of "wide.png")
   end)
 
-  it("makes pages where they have a number, and else refuses more than fit", function()
+  it("makes pages if the name has a number, and else refuses more than fit", function()
     local code = run "contact film.lua -o page.##.png --grid 2x2 --every 1"
     assert.equal(0, code)
     assert.equal("116x100", size_of "page.03.png")
@@ -292,9 +311,11 @@ describe("celspan contact", function()
     assert.truthy(err:find("12 frames do not fit into a grid of 2 x 2", 1, true), err)
   end)
 
-  it("ends as render does", function()
+  it("ends like render does", function()
     bench:write("bad.lua", (FILM:gsub("%-%- ", ""):gsub("3 %* f%.index", "f.nothing")))
-    bench:write("missing.lua", (FILM:gsub('celspan.rect { 3 %* f.index.-}', 'celspan.image { file = "no.png", w = 1, h = 1 }')))
+    bench:write("missing.lua",
+      (FILM:gsub('celspan.rect { 3 %* f.index.-}',
+        'celspan.image { file = "no.png", w = 1, h = 1 }')))
     assert.equal(3, (run "contact bad.lua -o sheet.png"))
     assert.equal(4, (run "contact missing.lua -o sheet.png"))
     assert.equal(4, (run "contact no.lua -o sheet.png"))
@@ -308,7 +329,8 @@ end)
 describe("render --onion", function()
   before_each(function() bench:write("film.lua", FILM) end)
 
-  it("lays frames before in red and frames after in green over the frame, fading by half", function()
+  it(
+    "draws frames before in red and after in green over the frame, fading by half", function()
     local code, _, err = run "render film.lua --frames 6 --onion 2,1 -o onion.png"
     assert.equal(0, code, err)
     local function at(frame) return pixel("onion.png", 3 * (frame - 1) + 1, 10) end
@@ -321,11 +343,12 @@ describe("render --onion", function()
     assert.is_true(at(6) < 0.01) -- the frame itself
     for _, frame in ipairs { 1, 2, 3, 8, 9 } do
       local other_r, other_g, other_b = at(frame)
-      assert.is_true(other_r > 0.99 and other_g > 0.99 and other_b > 0.99) -- the ground is in all of them
+      -- the ground is in all of them
+      assert.is_true(other_r > 0.99 and other_g > 0.99 and other_b > 0.99)
     end
   end)
 
-  it("leaves out what is before the first frame and after the last", function()
+  it("leaves out frames before the first and after the last", function()
     run "render film.lua --frames 1,12 --onion 3,3 -o onion.##.png"
     local r, g = pixel("onion.01.png", 4, 10)
     assert.is_true(g > r)
@@ -333,8 +356,9 @@ describe("render --onion", function()
     assert.is_true(last_r > last_g)
   end)
 
-  it("keeps frames where they are under a camera, and in any size", function()
-    bench:write("camera.lua", (FILM:gsub("{ ground, ball }", "{ ground, ball, camera = { width = 20 } }")))
+  it("keeps frames in place under a camera, and in any size", function()
+    bench:write("camera.lua",
+      (FILM:gsub("{ ground, ball }", "{ ground, ball, camera = { width = 20 } }")))
     assert.equal(0, (run "render camera.lua --frames 6 --onion 1,0 --size 64x32 -o camera.png"))
     -- frame 5's ball is at 12..15 of the film, and the camera sees 10..30
     local r, g = pixel("camera.png", math.floor((13.5 - 10) * 64 / 20), 16)
@@ -342,7 +366,7 @@ describe("render --onion", function()
     assert.is_true(pixel("camera.png", math.floor((16.5 - 10) * 64 / 20), 16) < 0.01)
   end)
 
-  it("is the same on any number of workers, and refuses what it cannot do", function()
+  it("is the same with any number of workers, and refuses impossible options", function()
     local _, one = run "render film.lua --onion 2,2 --hash --workers 1"
     local _, four = run "render film.lua --onion 2,2 --hash --workers 4"
     assert.equal(one, four)
@@ -368,7 +392,9 @@ describe("compare -o", function()
     assert.is_true(pale == same and pale > 0.9)
   end)
 
-  it("counts every pixel of a run, in span files too, and says where the largest difference is", function()
+  it(
+    "counts every pixel of a run, in span files too, and reports the position of the "
+    .. "largest difference", function()
     bench:write("film.lua", FILM)
     bench:write("other.lua", (FILM:gsub('texture = "#fff" }', 'texture = "#fffff0" }')))
     run "render film.lua --frames 1,3 -o f.#.span"
@@ -384,12 +410,14 @@ describe("compare -o", function()
     assert.equal(0, (run "compare f.1.span g.span --fail 0.06"))
   end)
 
-  it("is redder where more differs, whatever the channel", function()
+  it("is redder where the difference is larger, whatever the channel", function()
     local function lines(a, b, c)
       bench:write("lines.lua", ([[
 local celspan = require "celspan"
-return celspan.rostrum { size = { 12, 4 }, celspan.cel { celspan.rect { 0, 0, 4, 4, texture = "%s" },
-  celspan.rect { 4, 0, 4, 4, texture = "%s" }, celspan.rect { 8, 0, 4, 4, texture = "%s" } } }]]):format(a, b, c))
+return celspan.rostrum { size = { 12, 4 }, celspan.cel { celspan.rect { 0, 0, 4, 4, texture = "%s"
+  },
+  celspan.rect { 4, 0, 4, 4, texture = "%s" }, celspan.rect { 8, 0, 4, 4, texture = "%s" } }
+    }]]):format(a, b, c))
     end
     lines("#808080", "#808080", "#808080")
     run "render lines.lua --size 12x4 -o a.png"
@@ -421,7 +449,8 @@ return celspan.rostrum { size = { 12, 4 }, celspan.cel { celspan.rect { 0, 0, 4,
     assert.equal(1, code, err)
     assert.truthy(out:find("^frame 1 largest_difference 0 pixels_differing 0 pixels 800\n"
       .. "frame 2 largest_difference 1 x 3 y 0 channel r pixels_differing 120 pixels 800\n"
-      .. "frame 3 largest_difference 0 pixels_differing 0 pixels 800\nframe 4 only_in a.##.png\n$"), out)
+      .. "frame 3 largest_difference 0 pixels_differing 0 pixels 800\nframe 4 only_in a.##.png\n$"),
+      out)
     assert.is_truthy(bench:read "difference.2.png")
     assert.equal(0, (run "compare a.##.png a.##.png"))
     code, out = run "compare b/%d.png a.##.png"
@@ -429,12 +458,13 @@ return celspan.rostrum { size = { 12, 4 }, celspan.cel { celspan.rect { 0, 0, 4,
     assert.truthy(out:find("frame 4 only_in a.##.png\n$"), out)
     os.remove(bench.folder .. "/a.04.png")
     code, out = run "compare b/%d.png a.##.png"
-    assert.equal(1, code) -- for frame 2 alone
+    assert.equal(1, code) -- because of frame 2
     assert.falsy(out:find("only_in", 1, true), out)
     os.remove(bench.folder .. "/a.02.png")
     code, out = run "compare a.##.png b/%d.png"
-    assert.equal(1, code) -- for what the second one alone has
-    assert.truthy(out:find("frame 2 only_in b/%d.png\n$", 1, false) or out:find("frame 2 only_in b/", 1, true), out)
+    assert.equal(1, code) -- because of frames that only the second one has
+    assert.truthy(out:find("frame 2 only_in b/%d.png\n$", 1, false)
+      or out:find("frame 2 only_in b/", 1, true), out)
     assert.equal(2, (run "compare a.##.png b/%d.png -o difference.png"))
     assert.equal(4, (run "compare a.##.png none.#.png"))
     assert.equal(4, (run "compare a.##.png none/#.png"))

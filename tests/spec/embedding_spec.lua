@@ -7,7 +7,7 @@ local BINARY, BUILD = workbench.binary, workbench.build
 
 local bench, folder
 
---- Runs a command: whether it ended well, and what it said.
+--- Runs a command: whether it succeeded, and its output.
 local function run(command, ...)
   local text, ended_well = system.output("{ " .. command:format(...) .. "; } 2>&1")
   return ended_well, text
@@ -51,7 +51,8 @@ int main(void) {
     local test = present.program(compiler) and it or pending
     test("give no warning under " .. compiler .. " " .. mode, function()
       write("header.c", source)
-      good("%s %s -pedantic -Wall -Wextra -Wshadow -Werror -fsyntax-only -Isrc/include %s %s/header.c",
+      good("%s %s -pedantic -Wall -Wextra -Wshadow -Werror -fsyntax-only -Isrc/include %s "
+        .. "%s/header.c",
         compiler, mode, "$(pkg-config --cflags lua5.4)", folder)
     end)
   end
@@ -78,9 +79,11 @@ end }
     test("shows what the program celspan renders: " .. program, function()
       write("film.lua", film)
       good("%s %s/film.lua 80 45 >%s/film.ppm", path, folder, folder)
-      good("%s render %s/film.lua --size 80x45 --progress none -o %s/film.#.png", BINARY, folder, folder)
+      good("%s render %s/film.lua --size 80x45 --progress none -o %s/film.#.png", BINARY, folder,
+        folder)
       for frame = 1, 2 do -- pictures one after the other, of 13 bytes and the pixels each
-        good("tail -c +%d %s/film.ppm | head -c %d >%s/one.ppm", 1 + (frame - 1) * (13 + 80 * 45 * 3),
+        good("tail -c +%d %s/film.ppm | head -c %d >%s/one.ppm",
+          1 + (frame - 1) * (13 + 80 * 45 * 3),
           folder, 13 + 80 * 45 * 3, folder)
         good("%s compare %s/one.ppm %s/film.%d.png", BINARY, folder, folder, frame)
       end
@@ -104,7 +107,8 @@ describe("the rockspec", function()
       luarocks, folder)
     good("test -s %s/rocks/lib/luarocks/rocks-5.4/celspan/scm-1/annotations/celspan.d.lua", folder)
     write("rock.lua", 'assert(require "celspan"._VERSION and require "celspan.ease" "inOutSine")')
-    good("LUA_PATH= LUA_CPATH='%s/rocks/lib/lua/5.4/?.so' %s/tests/lua_host %s/rock.lua", folder, BUILD,
+    good("LUA_PATH= LUA_CPATH='%s/rocks/lib/lua/5.4/?.so' %s/tests/lua_host %s/rock.lua", folder,
+      BUILD,
       folder)
   end)
 end)

@@ -1,4 +1,4 @@
--- What a script's author reads when something is wrong: the line, the field, what was given.
+-- The messages for a script's author: the line, the field, the given value.
 local celspan = require "celspan"
 local raised = require "tests.support.raised"
 
@@ -13,24 +13,24 @@ describe("the interpreter", function()
 end)
 
 describe("a mistyped name", function()
-  it("is told with the nearest known one", function()
+  it("is reported with the nearest known one", function()
     assert.are.equal("circle: unknown field 'raduis'; did you mean 'radius'?", sentence(function()
       celspan.circle { centre = { 0, 0 }, raduis = 3 }
     end))
   end)
 
-  it("comes before wrong types", function()
+  it("is reported before wrong types", function()
     assert.are.equal("circle: unknown field 'raduis'; did you mean 'radius'?", sentence(function()
       celspan.circle { centre = "here", raduis = "big" }
     end))
   end)
 
-  it("is told with all names when none is near", function()
+  it("is reported with all names if none is near", function()
     assert.are.equal("rect: unknown field 'sparkle'; the fields are radius, texture",
       sentence(function() celspan.rect { 0, 0, 1, 1, sparkle = true } end))
   end)
 
-  it("is told where there are no names at all", function()
+  it("is reported if there are no names at all", function()
     assert.are.equal("union: unknown field 'sparkle'; there are no named fields",
       sentence(function() celspan.union { sparkle = true } end))
   end)
@@ -58,7 +58,7 @@ describe("a mistyped name", function()
 end)
 
 describe("an error", function()
-  it("stands at the line of the call", function()
+  it("has the line of the call", function()
     local expected = debug.getinfo(1, "l").currentline + 2
     local _, line = raised.sentence(function()
       celspan.circle { radius = "3", centre = { 0, 0 } }
@@ -66,7 +66,7 @@ describe("an error", function()
     assert.are.equal(expected, line)
   end)
 
-  it("stands at the line of a method and of an operator", function()
+  it("has the line of a method and of an operator", function()
     local circle = celspan.circle { radius = 3, centre = { 0, 0 } }
     local here = debug.getinfo(1, "l").currentline
     local _, of_method = raised.sentence(function() circle:translate("left", 1) end)
@@ -78,11 +78,15 @@ end)
 
 describe("a long text, or one with control characters", function()
   it("is shown in part, and without them", function()
-    assert.are.equal(('circle: field \'texture\' must be a paint, a texture or a colour like "#rrggbb", got "%s..."'):format(("x"):rep(60)),
-      sentence(function() celspan.circle { centre = { 0, 0 }, radius = 1, texture = ("x"):rep(1 << 20) } end))
+    assert.are.equal(('circle: field \'texture\' must be a paint, a texture or a colour like '
+      .. '"#rrggbb", got "%s..."'):format(("x"):rep(60)),
+      sentence(function()
+        celspan.circle { centre = { 0, 0 }, radius = 1, texture = ("x"):rep(1 << 20) }
+      end))
     assert.are.equal('rgb: takes numbers or a colour like "#rrggbb", got "?[31m?"',
       sentence(function() celspan.rgb "\27[31m\n" end))
-    assert.are.equal(('rgb: takes numbers or a colour like "#rrggbb", got "%s..."'):format(("x"):rep(59)),
+    assert.are.equal(('rgb: takes numbers or a colour like "#rrggbb", got "%s..."')
+      :format(("x"):rep(59)),
       sentence(function() celspan.rgb(("x"):rep(59) .. "é") end))
   end)
 end)
@@ -91,16 +95,18 @@ describe("a method of the animation library", function()
   local keys, motion = require "celspan.keys", require "celspan.motion"
   local sheet = require "celspan.sheet"
 
-  it("is refused for what it is not a method of", function()
+  it("is refused for a value of another kind", function()
     local s = sheet.new { layers = { "A" } }
     local cases = { { keys { { 0, 1 } }, "keys", "at" }, { motion.along "M0 0H9", "motion", "at" },
-                    { motion.wiggle "x", "motion", "at" }, { s, "sheet", "at" }, { s, "sheet", "text" },
+                    { motion.wiggle "x", "motion", "at" }, { s, "sheet", "at" },
+                    { s, "sheet", "text" },
                     { s, "sheet", "notes_at" }, { s, "sheet", "drawing" } }
     for _, case in ipairs(cases) do
       local subject, noun, method = table.unpack(case)
       for _, other in ipairs { {}, 1, "x", celspan.rostrum {} } do
         local kind = type(other) == "userdata" and "a rostrum" or type(other)
-        assert.are.equal(("%s: %s: call it as a method, value:%s(...), got %s"):format(noun, method, method, kind),
+        assert.are.equal(("%s: %s: call it as a method, value:%s(...), got %s")
+          :format(noun, method, method, kind),
           sentence(function()
             local answer = subject[method](other, 1)
             return answer
@@ -109,17 +115,17 @@ describe("a method of the animation library", function()
     end
   end)
 
-  it("tells of an ease that gives no number", function()
+  it("reports an ease that does not return a number", function()
     local track = keys { { 0, 1 }, { 1, 2, function() return "x" end } }
-    assert.are.equal("keys: an ease must give a finite number, got string", sentence(function()
+    assert.are.equal("keys: an ease must return a finite number, got string", sentence(function()
       local value = track:at(0.5)
       return value
     end))
   end)
 end)
 
-describe("a list that answers for itself", function()
-  it("is read as it is", function()
+describe("a list with metamethods", function()
+  it("is read without calling them", function()
     local keys, motion = require "celspan.keys", require "celspan.motion"
     local long = { __len = function() return 0 / 0 end }
     assert.are.equal(1, keys(setmetatable({ { 0, 1 } }, long)):at(0))
@@ -175,7 +181,7 @@ describe("a wrong type", function()
       function() celspan.rostrum { antialias = { kernel = "gaussian", radius = -1 } } end },
   }
   for _, case in ipairs(cases) do
-    it("is told: " .. case[1], function()
+    it("is reported: " .. case[1], function()
       assert.are.equal(case[1], sentence(case[2]))
     end)
   end
@@ -256,13 +262,13 @@ describe("a list of numbers", function()
       function() circle:quad({ { 0, 0 } }, {}) end },
   }
   for _, case in ipairs(cases) do
-    it("is told by the place of what is wrong: " .. case[1], function()
+    it("is refused with the position of the fault: " .. case[1], function()
       assert.are.equal(case[1], sentence(case[2]))
     end)
   end
 end)
 
-describe("numbers that were named", function()
+describe("named numbers that must be positional", function()
   local cases = {
     { "rect: write rect{ 1, 2, 3, 4 }, not rect{ x = 1, y = 2, w = 3, h = 4 }",
       function() celspan.rect { x = 1, y = 2, w = 3, h = 4 } end },
@@ -283,13 +289,13 @@ describe("numbers that were named", function()
       .. "not cel{ objects = ... }", function() celspan.cel { objects = {} } end },
   }
   for _, case in ipairs(cases) do
-    it("are told where they go: " .. case[1], function()
+    it("are reported with the correct form: " .. case[1], function()
       assert.are.equal(case[1], sentence(case[2]))
     end)
   end
 end)
 
-describe("reading what is not there", function()
+describe("reading an unknown field", function()
   local circle = celspan.circle { centre = { 0, 0 }, radius = 3 }
   local image = celspan.pixels(celspan.rostrum {}, { size = { 1, 1 } })
   local keys = require "celspan.keys"
@@ -340,12 +346,12 @@ describe("reading what is not there", function()
       function() require "celspan.shutter" { angel = 90 } end },
   }
   for _, case in ipairs(cases) do
-    it("is told with the nearest name: " .. case[1], function()
+    it("is refused with the nearest name: " .. case[1], function()
       assert.are.equal(case[1], (sentence(case[2]):gsub(" %(called from .*", "")))
     end)
   end
 
-  it("is nil where the name is known, and for places", function()
+  it("is nil if the name is known but not set, and for indices", function()
     assert.is_nil(celspan.nurbs { points = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } } }.knots)
     assert.is_nil(celspan.union { circle }[2])
     assert.is_nil(circle[1])
@@ -361,7 +367,9 @@ describe("reading what is not there", function()
 end)
 
 describe("film:at", function()
-  local film = celspan.film { first = 10, frames = 3, frame = function() return celspan.rostrum {} end }
+  local film = celspan.film { first = 10, frames = 3, frame = function()
+    return celspan.rostrum {}
+  end }
   local cases = {
     { "at: the frame's number must be a whole number from 10 to 12, got 9", 9 },
     { "at: the frame's number must be a whole number from 10 to 12, got 13", 13 },
@@ -376,9 +384,9 @@ describe("film:at", function()
     end)
   end
 
-  it("answers for the film's frames", function()
-    film:at(10)
-    film:at(12.0)
+  it("returns the film's frames", function()
+    assert.is_truthy(film:at(10))
+    assert.is_truthy(film:at(12.0))
   end)
 end)
 
@@ -391,7 +399,7 @@ describe("the library", function()
     { "motion: point 1: its value 2 must be a finite number, got nan",
       function() motion.along { { 0, 0 / 0 } } end },
     { "motion: point 1 must be {x, y}, got number", function() motion.along { 3 } end },
-    { "motion: at takes a share of the way, a finite number, got nan",
+    { "motion: at takes a fraction of the length, a finite number, got nan",
       function() motion.along({ { 0, 0 } }):at(0 / 0) end },
     { "multiplane: film[2] must be a number, got nil", function() multiplane { film = { 8 } } end },
     { "multiplane: field 'film' must be {width, height}, the size of the film, got nil",
@@ -415,14 +423,15 @@ describe("the library", function()
       function() require "celspan.lips".read("none", { fps = -3 }) end },
   }
   for _, case in ipairs(cases) do
-    it("tells the caller: " .. case[1], function()
+    it("reports errors to the caller: " .. case[1], function()
       assert.are.equal(case[1], sentence(case[2]))
     end)
   end
 end)
 
-describe("a scan-line primitive that would not stand upright", function()
-  local refusal = "a scan-line primitive can be moved and scaled, but not rotated, skewed or put in perspective"
+describe("a scan-line primitive that would not stay upright", function()
+  local refusal =
+    "a scan-line primitive can be moved and scaled, but not rotated, skewed or put in perspective"
   local function rows()
     return celspan.scanline { bounds = { 0, 0, 9, 9 }, spans = function() end }
   end
@@ -438,8 +447,8 @@ describe("a scan-line primitive that would not stand upright", function()
     end)
   end
 
-  it("may be mirrored and turned by half", function()
-    rows():rotate(180):scale(-1, 2):translate(4, 4)
+  it("may be mirrored and rotated by 180 degrees", function()
+    assert.is_truthy(rows():rotate(180):scale(-1, 2):translate(4, 4))
   end)
 end)
 
@@ -457,9 +466,9 @@ describe("a number that is refused", function()
       function() celspan.union {}:translate(0, 0 / 0) end },
     { "rotate: the angle in degrees must be a finite number, got inf",
       function() celspan.union {}:rotate(math.huge) end },
-    { "film: field 'frames' must be a whole number from 1 to 1000000000, got 0",
+    { "film: frames is 0; it must be between 1 and 1e09",
       function() celspan.film { frames = 0, frame = print } end },
-    { "pixels: field 'workers' must be 0 or more, got -1",
+    { "pixels: workers is -1; it must be 0 or more",
       function() celspan.pixels(celspan.rostrum {}, { size = { 1, 1 }, workers = -1 }) end },
     { "pixels: 1048576 x 1048576 pixels cannot be held in memory; render a crop, or into a file",
       function() celspan.pixels(celspan.rostrum {}, { size = { 1048576, 1048576 } }) end },
@@ -469,7 +478,7 @@ describe("a number that is refused", function()
       function() celspan.pixels(celspan.rostrum {}, { size = { 0, 1 } }) end },
   }
   for _, case in ipairs(cases) do
-    it("is told by the name of the script's word: " .. case[1], function()
+    it("is reported by the name used in the script: " .. case[1], function()
       local rest = sentence(case[2])
       assert.are.equal(case[1], rest:sub(1, #case[1]))
     end)

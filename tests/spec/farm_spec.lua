@@ -1,6 +1,6 @@
--- celspan farm: what it writes for Slurm is run as Slurm would run an array, and what it writes for
--- Open Job Description is held against the specification (2023-09) and run with its parameters
--- filled in.
+-- celspan farm: its script for Slurm is run as Slurm would run an array, and its template for Open
+-- Job Description is compared with the specification (2023-09) and run with its parameters filled
+-- in.
 local json = require "celspan.json"
 local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
@@ -61,7 +61,8 @@ local function slurm(arguments)
   return bench:read "job.sh"
 end
 
---- What a task's script ends with. more: of the environment, such as the times it was requeued.
+--- The exit status of a task's script. more: parts of the environment, such as the number of
+--- requeues.
 local function run_task(number, more, script)
   local place = word(bench.folder)
   return shell(("cd / && env SLURM_ARRAY_TASK_ID=%d SLURM_ARRAY_JOB_ID=7 SLURM_CPUS_ON_NODE=1 %s "
@@ -94,7 +95,7 @@ describe("the script for Slurm", function()
     end
   end)
 
-  it("passes options and arguments on, with quotes where they are needed", function()
+  it("passes options and arguments on, with quotes where necessary", function()
     local odd = [[it's "a" $HOME `id` \ * é]] .. "\n  end \nof it"
     assert.equal(true, os.execute("mkdir " .. word(bench.folder .. "/" .. odd)))
     local arguments = ("-o %s --frames 5,3 --size 30x20 --scale 0.5"):format(word(odd .. "/#.png"))
@@ -109,7 +110,7 @@ describe("the script for Slurm", function()
     same(odd .. "/5.png", "whole/5.png")
   end)
 
-  it("gives the script its rights", function()
+  it("passes on the options for the script's rights", function()
     slurm "-o out/#.png --frames 3"
     bench:write("film.lua", "assert(os.execute)\n" .. FILM)
     assert.equal(3, (run_task(1)))
@@ -117,7 +118,7 @@ describe("the script for Slurm", function()
     assert.equal(0, (run_task(1)))
   end)
 
-  it("asks for what it is told to, and for nothing else", function()
+  it("requests the given resources, and nothing else", function()
     assert.same({ "job-name=film", "array=1-1", "requeue", "open-mode=append" },
       directives(slurm "-o out/#.png"))
     local text = slurm("-o out/#.png --job-name 'a b\n;c' --job-memory 900 --job-time 45"
@@ -130,7 +131,7 @@ describe("the script for Slurm", function()
     refused("--logs: Slurm takes no name", "farm film.lua -o o/#.png --slurm --logs 'a\nb'")
   end)
 
-  it("goes on where a task was stopped", function()
+  it("resumes where a task was stopped", function()
     slurm "-o out/#.png --chunk 4"
     run_task(1)
     os.remove(bench.folder .. "/out/4.png")
@@ -140,7 +141,7 @@ describe("the script for Slurm", function()
     assert.is_truthy(err:find("2 kept", 1, true), err)
   end)
 
-  it("asks for another try where one may help, and not for ever", function()
+  it("requests another try if one may help, but not endlessly", function()
     slurm "-o out/#.png"
     bench:write("scontrol", '#!/bin/sh\necho "$@" >> scontrol.log\n')
     bench:write("sleep", "#!/bin/sh\necho slept >> scontrol.log\n") -- until Slurm ends it
@@ -163,7 +164,7 @@ describe("the script for Slurm", function()
     end
   end)
 
-  it("puts itself into the queue", function()
+  it("submits itself to the queue", function()
     slurm "-o out/#.png --logs 'my logs'"
     bench:write("sbatch",
       '#!/bin/sh\nprintf "%s|" "$@" >> sbatch.log\necho >> sbatch.log\necho 42\n')
@@ -204,7 +205,7 @@ describe("the script for Slurm", function()
     end
   end)
 
-  it("tells of arrays that Slurm may not take", function()
+  it("warns about arrays that Slurm may not accept", function()
     bench:write("long.lua", FILM:gsub("frames = 7", "frames = 5000"))
     local _, _, err = celspan "farm long.lua -o out/#.png --slurm --chunk 2"
     assert.is_truthy(err:find("2500 tasks: Slurm takes arrays of 1000", 1, true), err)
@@ -220,7 +221,7 @@ local function template(arguments)
   return assert(json.decode(text)), text
 end
 
---- Whether a table has these fields alone; a name that ends in ? may be missing.
+--- Whether a table has only these fields; a name that ends in ? may be missing.
 local function check_fields(value, names, where)
   local allowed = {}
   for name in names:gmatch "%S+" do
@@ -255,7 +256,7 @@ local function check_parameter(parameter)
   assert.equal("/", parameter.default:sub(1, 1))
 end
 
---- 7.3: every {{...}} names something that there is.
+--- 7.3: every {{...}} names something that exists.
 local function check_format(text, known, where)
   for name in text:gmatch "{{(.-)}}" do assert.is_true(known[name], where .. ": " .. name) end
   assert.is_nil(text:gsub("{{.-}}", ""):find("{{", 1, true), where)
@@ -331,7 +332,7 @@ local function check_template(job)
   end
 end
 
---- The commands of a step, a line each, as an engine would run them.
+--- The commands of a step, one per line, as an engine would run them.
 local function commands_of(job, step)
   local values, commands = {}, {}
   for _, parameter in ipairs(job.parameterDefinitions) do
@@ -373,7 +374,7 @@ describe("the template of Open Job Description", function()
     end
   end)
 
-  it("makes strips of a frame, and joins them behind them", function()
+  it("makes strips of a frame, and then joins them", function()
     local job = template "-o 'a b/one.span' --frames 4 --size 70x1100 --strips 3"
     check_template(job)
     assert.same({ { dependsOn = "Render" } }, job.steps[2].dependencies)
@@ -382,7 +383,7 @@ describe("the template of Open Job Description", function()
     same("a b/one.span", "whole.span")
   end)
 
-  it("passes options and arguments on, odd ones as parameters", function()
+  it("passes options and arguments on, unusual ones as parameters", function()
     local odd = [[it's "a" $HOME {{x}} \ é]] .. "\nend"
     assert.equal(true, os.execute("mkdir " .. word(bench.folder .. "/" .. odd)))
     local job, text = template(("-o %s --frames 5,3 --size 30x20 --allow %s --limit time=9 "
@@ -400,7 +401,7 @@ describe("the template of Open Job Description", function()
     same(odd .. "/{{y}}.5.png", "whole/5.png")
   end)
 
-  it("refuses what a template cannot hold", function()
+  it("refuses values that a template cannot contain", function()
     refused("has more than 1024 characters",
       "farm film.lua --openjd -o o/#.png -- " .. word("\n" .. ("x"):rep(1024)))
     refused("the template is UTF-8", "farm film.lua --openjd -o o/#.png -- '\xff'")
@@ -411,18 +412,22 @@ describe("the template of Open Job Description", function()
 end)
 
 describe("celspan farm", function()
-  it("refuses more options than a task takes, and names that are too long", function()
-    refused("--scale: there are more than 128 options", "farm film.lua --slurm -o out/####.png" .. (" --scale 1"):rep(129))
+  it("refuses more options than a task accepts, and names that are too long", function()
+    refused("--scale: there are more than 128 options",
+      "farm film.lua --slurm -o out/####.png" .. (" --scale 1"):rep(129))
     refused("the name is too long", "farm film.lua --slurm -o " .. ("x/"):rep(2100) .. "####.png")
   end)
 
-  it("ends with 4 in a folder that is gone", function()
-    local code, _, err = shell 'mkdir gone && cd gone && rmdir ../gone && "$CELSPAN" farm ../film.lua --slurm -o out/####.png'
+  it("ends with 4 in a folder that was deleted", function()
+    local code, _, err =
+      shell('mkdir gone && cd gone && rmdir ../gone && "$CELSPAN" farm ../film.lua --slurm -o '
+      .. 'out/####.png')
     assert.equal(4, code)
-    assert.is_truthy(err:find("the current folder has no name: No such file or directory", 1, true), err)
+    assert.is_truthy(err:find("the current folder has no name: No such file or directory", 1, true),
+      err)
   end)
 
-  it("refuses what no task could do, before there is a job", function()
+  it("refuses impossible options before it makes a job", function()
     refused("where to?", "farm film.lua --slurm")
     refused("for which farm?", "farm film.lua -o o/#.png")
     refused("for which farm?", "farm film.lua -o o/#.png --slurm --openjd")

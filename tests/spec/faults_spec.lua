@@ -1,22 +1,22 @@
--- A program whose calls to the system fail: whichever it is, once or for good, whatever the errno and
--- whatever is written, a render ends with the right frames, or with the exit code of the table and
--- a sentence with a file and the reason; nothing that is wrong stands under a final name, no
--- temporary file is left, and the same command with --resume then makes the frames. So does joining
--- strips, which is begun again.
--- CELSPAN_STARVE=1 tries every call, CELSPAN_STARVE=N one in N; else some are drawn by lot, by
--- CELSPAN_SEED.
+-- A program whose calls to the system fail: whichever it is, once or for good, whatever the errno
+-- and whatever is written, a render ends with the right frames, or with the exit code of the table
+-- and a sentence with a file and the reason; no wrong file has a final name, no temporary file is
+-- left, and the same command with --resume then makes the frames. So does joining strips, which
+-- starts again.
 local prng = require "tests.support.prng"
 local workbench = require "tests.support.workbench"
 
 local LIBRARY = workbench.build .. "/tests/libfaulty.so"
-local ALL = tonumber(os.getenv "CELSPAN_STARVE") -- one call in so many
-local SAMPLES = 1 -- of the calls of a format that fail with an errno
+local ALL = tonumber(os.getenv "CELSPAN_STARVE") -- one call in ALL is tried
+local SAMPLES = 1 -- the number of calls of a format that fail with an errno
+local FAULTS = tonumber(os.getenv "CELSPAN_FAULTS") or 1
 local SHORT, EINTR, EAGAIN = -1, 4, 11
 
 local errors = {
   [28] = "No space left on device", [5] = "Input/output error", [122] = "Disk quota exceeded",
   [13] = "Permission denied", [30] = "Read-only file system", [24] = "Too many open files",
-  [36] = "File name too long", [EAGAIN] = "Resource temporarily unavailable", [EINTR] = "Interrupted system call",
+  [36] = "File name too long", [EAGAIN] = "Resource temporarily unavailable",
+  [EINTR] = "Interrupted system call",
   [SHORT] = "short",
 }
 local numbers = {}
@@ -39,11 +39,12 @@ after_each(function() bench:remove() end)
 
 -- ---------------------------------------------------------------- running
 
---- Renders, or joins strips, into the folder out of the bench, with the environment of a plan before it.
+--- Renders, or joins strips, into the folder out of the bench, with the environment of a plan.
 local function make(format, plan, options)
   local output = format.is_stream and "- > out/stream" or "out/" .. format.output
   local command = format.joins and "join 'strips/#." .. format.joins .. "'"
-    or ("render film.lua --workers 1 --progress none %s %s"):format(format.options or "", options or "")
+    or ("render film.lua --workers 1 --progress none %s %s")
+    :format(format.options or "", options or "")
   return bench:shell(("cd '%s' && mkdir -p out && %s %s %s -o %s"):format(bench.folder, plan or "",
     workbench.absolute, command, output))
 end
@@ -51,7 +52,8 @@ end
 --- The strips that a format joins.
 local function make_strips(ending)
   for i = 1, 2 do
-    local code, _, err = bench:shell(("cd '%s' && %s render film.lua --frames 1 --size 40x300 --strip %d/2 "
+    local code, _, err =
+      bench:shell(("cd '%s' && %s render film.lua --frames 1 --size 40x300 --strip %d/2 "
       .. "--progress none -o strips/%d.%s"):format(bench.folder, workbench.absolute, i, i, ending))
     assert.are.equal(0, code, err)
   end
@@ -62,7 +64,7 @@ local function faulty(at, lasts, number, call)
     at, lasts and 1 or 0, number, call and "FAULT_CALL=" .. call or "", LIBRARY)
 end
 
---- Every file of the folder out that is not celspan's own record, by its name.
+--- Every file of the folder out, except celspan's own record, by its name.
 local function results()
   local found = {}
   for _, name in ipairs(bench:files "out") do
@@ -71,7 +73,7 @@ local function results()
   return found
 end
 
---- How many calls there were, and the name of the first that failed.
+--- The number of calls, and the name of the first that failed.
 local function calls()
   local count, call = (bench:read "count" or "0 none"):match "(%d+) (%S+)"
   return tonumber(count), call
@@ -79,31 +81,32 @@ end
 
 -- ---------------------------------------------------------------- what is right
 
---- Exit codes: an input (the script, its modules) cannot be read; an output; no thread could be begun.
+--- Exit codes: an input (the script, its modules) cannot be read; an output; no thread could be
+--- started.
 local expected = { [4] = true, [5] = true, [6] = true }
---- Memory may be refused to the process that writes the pictures.
+--- The process that writes the pictures may run out of memory.
 local expected_apart = { [4] = true, [5] = true, [6] = true, [33] = true }
 
---- Not every call's errno is what is told.
+--- Not every call's errno is the reported one.
 local others = {
   pthread_create = "thread", fstat64 = "is not a file; a picture must be one",
 }
 
---- The threads that hear and feed ffmpeg may not begin: that is told as a lack of threads, whatever
--- failed first.
+--- The threads that read from and write to ffmpeg may not start: that is reported as a lack of
+-- threads, whatever failed first.
 local function is_said(err, number, call, lasts)
   return err:find(errors[number], 1, true) or others[call] and err:find(others[call], 1, true)
     or (lasts or call == "pthread_create") and (err:find(others.pthread_create, 1, true)
       or err:find("cannot be started: " .. errors[EAGAIN], 1, true))
 end
 
---- Libraries behind OpenImageIO begin threads while they are loaded, and end the process where they cannot;
--- no file has been made by then.
+--- Libraries behind OpenImageIO start threads while they are loaded, and end the process if they
+--- cannot; no file has been made by then.
 local function is_end_of_libraries(format, code, err)
   return format.has_module and code == 134 and err:find("std::system_error", 1, true)
 end
 
---- A temporary file that could not be taken away, or that somebody else was said to take away.
+--- A temporary file that could not be removed, or that another process was reported to remove.
 local function may_be_left(lasts, number, call)
   return lasts or call == "unlink" or call == "flock" and number == EAGAIN
 end
@@ -115,13 +118,16 @@ local function check_frames(right, is_complete, where, parts)
     assert.is_truthy(right[name] or is_part, where .. " left " .. name)
     assert.is_truthy(is_part or bytes == right[name], where .. " made another " .. name)
   end
-  for name in pairs(is_complete and right or {}) do assert.is_truthy(found[name], where .. " lacks " .. name) end
+  for name in pairs(is_complete and right or {}) do
+    assert.is_truthy(found[name], where .. " lacks " .. name)
+  end
 end
 
---- A stream is cut off where the fault came.
+--- A stream ends where the fault occurred.
 local function check_stream(right, is_complete, where)
   local found, whole = bench:read "out/stream" or "", right.stream
-  assert.is_true(is_complete and found == whole or not is_complete and whole:sub(1, #found) == found,
+  assert.is_true(is_complete and found == whole or not is_complete
+    and whole:sub(1, #found) == found,
     where .. " wrote another stream")
 end
 
@@ -154,9 +160,11 @@ local formats = {
   { output = "f.##.jpg", has_module = true, options = "--trust" },
   { output = "f.##.dpx", has_module = true, options = "--trust" },
   { output = "f.##.ppm", has_module = true, options = "--trust" },
-  { output = "f.##.exr", has_module = true, is_apart = true }, -- by processes of their own, which fail too
+  -- by other processes, which fail too
+  { output = "f.##.exr", has_module = true, is_apart = true },
   { output = "f.mp4", is_video = true }, { output = "f.gif", is_video = true },
-  { output = "f.png", joins = "png" }, { output = "f.tga", joins = "tga" }, { output = "f.span", joins = "span" },
+  { output = "f.png", joins = "png" }, { output = "f.tga", joins = "tga" },
+  { output = "f.span", joins = "span" },
 }
 
 local function has_library()
@@ -166,7 +174,7 @@ local function has_library()
 end
 
 local function sweep(format, lasts)
-  if not has_library() then return pending "the library that lets calls fail is not built" end
+  if not has_library() then return pending "the library that makes calls fail is not built" end
   bench:write("film.lua", FILM)
   if format.joins then make_strips(format.joins) end
   local code, _, err = make(format, faulty(0, false, 5))
@@ -175,7 +183,7 @@ local function sweep(format, lasts)
   local right, count = results(), calls()
   assert.is_true(count > 10)
   for _, number in ipairs(numbers) do
-    if not (lasts and number == EINTR) then
+    if not (lasts and number == EINTR) and (ALL or random:once(FAULTS)) then
       for i = ALL and random:whole(1, ALL) or 1, ALL and count or SAMPLES, ALL or 1 do
         check(format, right, ALL and i or random:whole(1, count), lasts, number)
       end
@@ -185,14 +193,22 @@ end
 
 -- ---------------------------------------------------------------- the hooks
 
---- Calls of POSIX and Linux that files, processes and threads are made with. Those for large files end in 64.
-local KNOWN = [[access faccessat open openat creat close read readv write writev pread preadv pwrite pwritev fsync
-fdatasync sync syncfs rename renameat renameat2 remove link linkat symlink unlink unlinkat mkdir mkdirat rmdir stat
-fstat lstat fstatat statx truncate ftruncate lseek fallocate posix_fallocate copy_file_range sendfile flock lockf
-fcntl fopen fdopen freopen fclose fflush fwrite tmpfile opendir fdopendir readdir scandir realpath readlink
-readlinkat mmap mremap memfd_create mkstemp mkostemp mkdtemp pipe pipe2 dup dup2 dup3 fork vfork posix_spawn
-posix_spawnp execv execvp execve popen system wait waitpid pthread_create thrd_create socket bind listen accept
-accept4 connect eventfd signalfd timerfd_create inotify_init inotify_init1 inotify_add_watch poll epoll_create1]]
+--- Calls of POSIX and Linux that make files, processes and threads. Those for large files end in
+--- 64.
+local KNOWN = [[access faccessat open openat creat close read readv write writev pread preadv pwrite
+  pwritev fsync
+fdatasync sync syncfs rename renameat renameat2 remove link linkat symlink unlink unlinkat mkdir
+  mkdirat rmdir stat
+fstat lstat fstatat statx truncate ftruncate lseek fallocate posix_fallocate copy_file_range
+  sendfile flock lockf
+fcntl fopen fdopen freopen fclose fflush fwrite tmpfile opendir fdopendir readdir scandir realpath
+  readlink
+readlinkat mmap mremap memfd_create mkstemp mkostemp mkdtemp pipe pipe2 dup dup2 dup3 fork vfork
+  posix_spawn
+posix_spawnp execv execvp execve popen system wait waitpid pthread_create thrd_create socket bind
+  listen accept
+accept4 connect eventfd signalfd timerfd_create inotify_init inotify_init1 inotify_add_watch poll
+  epoll_create1]]
 
 local function read_file(name)
   local file = assert(io.open(name))
@@ -207,36 +223,43 @@ local function hooks()
   for kind, arguments in list:gmatch "(%u+)(%b())" do
     local first, second = arguments:match "^%(%s*([^,()]+),?%s*([%w_]*)"
     if kind == "CALL" then found[second] = true end
-    if kind == "DATA" or kind == "NUMBER" or kind == "CLOSE" or kind == "SYNC" then found[first] = true end
+    if kind == "DATA" or kind == "NUMBER" or kind == "CLOSE" or kind == "SYNC" then
+      found[first] = true
+    end
   end
   return found
 end
 
 describe("the hooks of tests/faults", function()
-  it("are those that the linker puts before calls", function()
+  it("are those that the linker inserts", function()
     local wrapped = read_file("tests/meson.build"):match "foreach call : (%b[])"
     local count = 0
     for name in pairs(hooks()) do
       count = count + 1
-      assert.is_truthy(wrapped:find("'" .. name .. "'", 1, true), "tests/meson.build lacks " .. name)
+      assert.is_truthy(wrapped:find("'" .. name .. "'", 1, true),
+        "tests/meson.build lacks " .. name)
     end
     assert.are.equal(select(2, wrapped:gsub("'%g-'", "")), count)
   end)
 
-  it("stand before every call to the system that src/ makes", function()
+  it("exist for every call to the system that src/ makes", function()
     local build, hooked, seen = workbench.build, hooks(), 0
-    local list = io.popen(("find '%s/src' '%s/celspan.p' -name '*.o' | xargs nm -u 2>&1"):format(build, build))
+    local list = io.popen(("find '%s/src' '%s/celspan.p' -name '*.o' | xargs nm -u 2>&1")
+      :format(build, build))
     local made = {}
     for name in list:lines() do
       name = name:match "^%s+U ([%w_]+)$"
       if name then made[name] = true end
     end
     list:close()
-    if not made.malloc and not made.realloc then return pending "nm, which lists calls, does not work" end
+    if not made.malloc and not made.realloc then
+      return pending "nm, which lists calls, does not work"
+    end
     for name in KNOWN:gmatch "%S+" do
       for _, call in ipairs { name, name .. "64" } do
         seen = seen + (made[call] and 1 or 0)
-        assert.is_truthy(hooked[call] or not made[call], call .. " is made by src/ and is not in calls.h")
+        assert.is_truthy(hooked[call] or not made[call],
+          call .. " is made by src/ and is not in calls.h")
       end
     end
     assert.is_true(seen > 25)
@@ -246,7 +269,7 @@ end)
 describe("a folder that cannot be read to its end", function()
   -- It has ".", ".." and five files.
   local function list(command, message)
-    if not has_library() then return pending "the library that lets calls fail is not built" end
+    if not has_library() then return pending "the library that makes calls fail is not built" end
     for i = 1, 5 do bench:write(("f.%d.span"):format(i), "") end
     for at = 1, 8 do
       local plan = faulty(at, false, 5) .. " FAULT_CALL=readdir64 "
@@ -257,12 +280,12 @@ describe("a folder that cannot be read to its end", function()
     end
   end
 
-  it("is not taken for one with fewer frames", function()
+  it("is not mistaken for one with fewer frames", function()
     list("compare 'f.#.span' 'f.#.span'", "its folder cannot be read: Input/output error")
   end)
 
-  it("is not taken for an empty one", function()
-    if not has_library() then return pending "the library that lets calls fail is not built" end
+  it("is not mistaken for an empty one", function()
+    if not has_library() then return pending "the library that makes calls fail is not built" end
     bench:shell(("mkdir '%s/film'"):format(bench.folder))
     local code, _, err = bench:shell(("cd '%s' && %s FAULT_CALL=readdir64 %s init film")
       :format(bench.folder, faulty(3, false, 5), workbench.absolute))
@@ -271,9 +294,10 @@ describe("a folder that cannot be read to its end", function()
   end)
 end)
 
-describe("where calls to the system fail", function()
+describe("if calls to the system fail", function()
   for _, format in ipairs(formats) do
-    local name = (format.joins and "joining " or "") .. (format.output or "a stream") .. (format.options or "")
+    local name = (format.joins and "joining " or "") .. (format.output or "a stream")
+      .. (format.options or "")
     it("once, " .. name .. " ends well", function() sweep(format, false) end)
     it("for good, " .. name .. " ends well", function() sweep(format, true) end)
   end

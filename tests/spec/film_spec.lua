@@ -22,7 +22,7 @@ describe("a film", function()
     assert.are.same({ 24, 1, 1, 0 }, { film.fps, film.frames, film.first, film.sound_offset })
   end)
 
-  it("takes a duration for a number of frames", function()
+  it("accepts a duration instead of a number of frames", function()
     local film = celspan.film { fps = 12, duration = 2, frame = function() return empty end }
     assert.are.equal(24, film.frames)
     assert.are.equal(5, film:with { frames = 60 }.duration)
@@ -30,7 +30,7 @@ describe("a film", function()
     assert.are.equal(6, film:with { fps = 6, frames = 6 }.frames)
   end)
 
-  it("refuses frames that are not whole, and sizes of nothing", function()
+  it("refuses fractional numbers of frames, and sizes of 0", function()
     local function refuses(fields)
       fields.frame = print
       raised.message(celspan.film, fields)
@@ -52,7 +52,7 @@ describe("a film", function()
       1, true), message)
   end)
 
-  it("says what a frame function must return", function()
+  it("reports what a frame function must return", function()
     local film = celspan.film { frame = function() return celspan.cel {} end }
     local line = debug.getinfo(1, "l").currentline - 1
     local message = raised.message(film.at, film, 1)
@@ -60,7 +60,7 @@ describe("a film", function()
       .. "must be a rostrum or a list"):format(line), 1, true), message)
   end)
 
-  it("finds a line for an error that has none", function()
+  it("finds a line for an error without one", function()
     local film = celspan.film { frame = function() error({}) end }
     local line = debug.getinfo(1, "l").currentline - 1
     local message = raised.message(film.at, film, 1)
@@ -68,7 +68,7 @@ describe("a film", function()
       line), 1, true), message)
   end)
 
-  it("takes several exposures", function()
+  it("accepts several exposures", function()
     local film = celspan.film { frame = function() return { { empty, 0.25 }, { empty, 0.75 } } end }
     assert.are.equal(0.75, film:at(1)[2][2])
   end)
@@ -133,7 +133,7 @@ describe("f:random", function()
     for side = 1, 6 do assert.is_true(math.abs(seen[side] - 1000) < 150) end
   end)
 
-  it("takes any range of whole numbers", function()
+  it("accepts any range of whole numbers", function()
     local f = frame_of(5, fields())
     for i = 1, 50 do
       local x = f:random(i, -2, 2)

@@ -22,7 +22,7 @@ local function sentence(call)
 end
 
 describe("antialiasing kernels", function()
-  it("filters with a function of one's own", function()
+  it("can be a function of the script", function()
     local tent = { kernel = function(x) return 1 - math.abs(x) end, radius = 1 }
     local image = pixels(edge(tent, 12.25))
     for p = 0, 23 do
@@ -32,7 +32,7 @@ describe("antialiasing kernels", function()
     end
   end)
 
-  it("are called while the rostrum is made, and never again", function()
+  it("are called only while the rostrum is made", function()
     local calls = 0
     local rostrum = edge { kernel = function() calls = calls + 1 return 1 end, radius = 1 }
     local made = calls
@@ -41,7 +41,7 @@ describe("antialiasing kernels", function()
     assert.are.equal(made, calls)
   end)
 
-  it("take the place of the rostrum's own in a render", function()
+  it("replace the rostrum's own in a render", function()
     local image = pixels(edge("none", 12.25), { antialias = { kernel = "box", radius = 1 } })
     assert.is_near(0.625, (image:get(12, 3)), 0.002)
     image = pixels(edge({ kernel = "gaussian" }, 12.25), { antialias = "none" })
@@ -49,11 +49,12 @@ describe("antialiasing kernels", function()
   end)
 
   it("do not filter at radius 0", function()
-    local none, zero = pixels(edge("none", 12.3)), pixels(edge({ kernel = "box", radius = 0 }, 12.3))
+    local none, zero = pixels(edge("none", 12.3)),
+      pixels(edge({ kernel = "box", radius = 0 }, 12.3))
     for p = 0, 23 do assert.are.equal((none:get(p, 5)), (zero:get(p, 5))) end
   end)
 
-  it("hold a ringing kernel to what is under it", function()
+  it("clamp a ringing kernel to the range of the colours under it", function()
     local image = pixels(edge { kernel = "lanczos" })
     for p = 0, 23 do
       local r, _, _, a = image:get(p, 5)
@@ -78,11 +79,11 @@ describe("antialiasing kernels", function()
     end
   end)
 
-  it("are refused in a sentence", function()
+  it("are refused with a sentence", function()
     local cases = {
       { "rostrum: antialias: radius is -2; it must be between 0 and 256", { kernel = "box", radius = -2 } },
-      { "antialias: field 'radius' must be a finite number, got nan", { kernel = "box", radius = 0 / 0 } },
-      { "antialias: field 'radius' must be a finite number, got inf",
+      { "rostrum: antialias: field 'radius' must be a finite number, got nan", { kernel = "box", radius = 0 / 0 } },
+      { "rostrum: antialias: field 'radius' must be a finite number, got inf",
         { kernel = function() return 1 end, radius = math.huge } },
       { "rostrum: antialias: radius is missing; a kernel given as a function needs one",
         { kernel = function() return 1 end } },
@@ -90,9 +91,9 @@ describe("antialiasing kernels", function()
         { kernel = function(x) return x end, radius = 2 } },
       { "rostrum: antialias: the kernel's value at -0.9995117 must be a finite number, got inf",
         { kernel = function() return 1 / 0 end, radius = 1 } },
-      { "antialias: the kernel function must return a number, got nil at x = -0.99951171875",
+      { "rostrum: antialias: the kernel function must return a number, got nil at x = -0.99951171875",
         { kernel = function() end, radius = 1 } },
-      { "antialias: rows is 0; it must be between 1 and 256", { kernel = "box", rows = 0 } },
+      { "rostrum: antialias: rows is 0; it must be between 1 and 256", { kernel = "box", rows = 0 } },
       { "rostrum: antialias: rows is 1000; it must be between 1 and 256", { kernel = "box", rows = 1000 } },
     }
     for _, case in ipairs(cases) do
@@ -124,7 +125,7 @@ describe("defocus", function()
     end
   end)
 
-  it("is a Gaussian of half its radius where only a radius is given", function()
+  it("is a Gaussian of half its radius if only a radius is given", function()
     local image = frame(3)
     local function below(x) -- of a Gaussian with sigma 1.5, by Simpson's rule
       local sum, n = 0, 2000
@@ -140,7 +141,7 @@ describe("defocus", function()
     end
   end)
 
-  it("leaves what is beyond its reach alone, and is none at radius 0", function()
+  it("does not change distant pixels, and has no effect at radius 0", function()
     local sharp, none = frame(nil), frame(0)
     for p = 0, 47 do assert.are.equal((sharp:get(p, 3)), (none:get(p, 3))) end
     local image = frame { radius = 1, kernel = "disc" }
@@ -148,7 +149,7 @@ describe("defocus", function()
     assert.are.equal(0, (image:get(40, 3)))
   end)
 
-  it("filters a procedure, pictures of gels, and what lies beyond the film", function()
+  it("filters a procedure, pictures of gels, and art outside the film", function()
     local bars = celspan.scanline { bounds = { -20, -20, 80, 80 },
       spans = function() return { { -20, 12, "#ffffff" } } end }
     local image = assert(celspan.pixels(celspan.rostrum {
@@ -181,8 +182,9 @@ describe("defocus", function()
     end
   end)
 
-  it("is refused in a sentence", function()
-    for radius, words in pairs { [-1] = "is -1", [math.huge] = "must be a finite number, got inf" } do
+  it("is refused with a sentence", function()
+    for radius, words in pairs { [-1] = "is -1",
+      [math.huge] = "must be a finite number, got inf" } do
       assert.truthy(sentence(function() celspan.cel { defocus = radius } end)
         :find("cel: defocus.radius " .. words, 1, true))
     end

@@ -1,4 +1,4 @@
--- The files that celspan writes itself: PNG and Targa, as other programs read them.
+-- The files that celspan writes itself, PNG and Targa, as other programs read them.
 
 local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
@@ -15,7 +15,7 @@ local it_reads = has_oiiotool and it or pending
 -- TIFF files need the picture module.
 local it_reads_pictures = has_oiiotool and present.pictures() and it or pending
 
--- Flat shapes, a gradient and something clear; with a back light, every pixel is opaque.
+-- Flat shapes, a gradient and a clear part; with a back light, every pixel is opaque.
 local SCENE = [[
 local celspan = require "celspan"
 local back = ...
@@ -45,7 +45,7 @@ describe("PNG and Targa files", function()
 
   teardown(function() bench:remove() end)
 
-  it_reads("hold the same pixels", function()
+  it_reads("contain the same pixels", function()
     for _, lit in ipairs { false, true } do
       assert.are.same({ 0, "", "" }, { render("a.png", lit) })
       assert.are.same({ 0, "", "" }, { render("a.tga", lit) })
@@ -65,14 +65,14 @@ describe("PNG and Targa files", function()
     end
   end)
 
-  it_reads_pictures("hold 16 bits in PNG as in TIFF", function()
+  it_reads_pictures("contain the same 16 bits in PNG as in TIFF", function()
     render("c.tif", false, "--depth 16")
     render("c.png", false, "--depth 16")
     local code, out = shell("oiiotool c.png c.tif --fail 0.00004 --diff")
     assert.are.equal(0, code, out)
   end)
 
-  it("have the same bytes however many workers there are, hashed or not", function()
+  it("have the same bytes with any number of workers, hashed or not", function()
     for _, lit in ipairs { false, true } do
       render("d1.png", lit, "--workers 1")
       for _, workers in ipairs { 2, 5 } do
@@ -84,10 +84,12 @@ describe("PNG and Targa files", function()
     end
   end)
 
-  it_reads("do not tell in which folder they were made", function()
-    for _, ending in ipairs { "png", "tga", "span", "exr", "tif", "dpx", "jpg", "bmp", "hdr", "ppm" } do
+  it_reads("do not contain the folder in which they were made", function()
+    for _, ending in ipairs { "png", "tga", "span", "exr", "tif", "dpx", "jpg", "bmp", "hdr",
+      "ppm" } do
       local path = bench.folder .. "/where." .. ending
-      local code, _, err = celspan(("render '%s/scripts/demo.lua' -o %s --size 64x36 --frames 1 --progress none")
+      local code, _, err =
+        celspan(("render '%s/scripts/demo.lua' -o %s --size 64x36 --frames 1 --progress none")
         :format(os.getenv "PWD", path))
       assert.are.equal(0, code, err)
       assert.falsy(read(path):find(bench.folder, 1, true), ending)
@@ -103,7 +105,7 @@ describe("PNG and Targa files", function()
     end
   end)
 
-  it_reads("are no larger than what OpenImageIO makes of the same pixels", function()
+  it_reads("are no larger than OpenImageIO's files of the same pixels", function()
     local root = os.getenv("PWD")
     for _, frame in ipairs(os.getenv "CELSPAN_SCENES" and { 120 } or { 1, 120, 240 }) do
       local code, _, err = celspan(("render '%s/scripts/demo.lua' -o k.png --size 3840x2160 "
@@ -117,9 +119,9 @@ describe("PNG and Targa files", function()
   -- Builds with sanitizers, for which CELSPAN_SCENES is set, take a hundred times as long.
   local side = os.getenv "CELSPAN_SCENES" and 20000 or 1000000
 
-  -- With the largest difference that the format's own numbers explain.
+  -- With the largest difference that the precision of the format explains.
   local LONG = { span = 0, tif = 0, exr = 0.003, dpx = 0.004, bmp = 0.004, ppm = 0.004, hdr = 0.06 }
-  it_reads_pictures("may be so long and thin in all formats that can hold them", function()
+  it_reads_pictures("may be as long and thin in all formats that allow it", function()
     for _, size in ipairs { side .. "x1", "1x" .. side } do
       assert.are.same({ 0, "", "" }, { render("g.png", true, "--size " .. size) })
       for format, difference in pairs(LONG) do
@@ -135,10 +137,11 @@ describe("PNG and Targa files", function()
     end
   end)
 
-  it("are refused where Targa has no numbers for the size", function()
+  it("are refused if the size is too large for Targa", function()
     local code, _, err = render("f.tga", false, "--size 65536x2")
     assert.are_not.equal(0, code)
-    assert.truthy(err:find("f.tga: the frame is 65536 x 2 pixels; targa files hold at most 65535 a side",
+    assert.truthy(err:find("f.tga: the frame is 65536 x 2 pixels; targa files hold at most "
+      .. "65535 a side",
       1, true), err)
     assert.is_nil(io.open(bench.folder .. "/f.tga"))
   end)

@@ -1,9 +1,11 @@
--- What C walks it holds: finalisers that take a constructor's fields away while it reads them, lists that
--- callbacks change, values that outlive what they came from, errors and yields through C. What must
--- not happen is a use of freed memory: the builds with the address sanitizer see it, wherever these run.
+-- C code keeps references to the values that it walks: finalisers that remove a constructor's
+-- fields while it reads them, lists that callbacks change, values that outlive their parents,
+-- errors and yields through C. No freed memory must be used: builds with the address sanitizer
+-- detect that when these tests run there.
 local celspan = require "celspan"
 
---- Calls a function while every allocation of Lua collects all garbage, and `change` runs in each collection.
+--- Calls a function while every allocation of Lua collects all garbage, and `change` runs in each
+--- collection.
 local function pressed(change, call)
   local goes_on = true
   local function again()
@@ -15,7 +17,7 @@ local function pressed(change, call)
     end })
   end
   local mode = collectgarbage("incremental", 1, 1000, 30)
-  collectgarbage() -- from its end on the pause of nothing counts
+  collectgarbage() -- after it the pause of 0 applies
   again()
   local results = table.pack(pcall(call))
   goes_on = false
@@ -25,7 +27,7 @@ local function pressed(change, call)
   return table.unpack(results, 1, results.n)
 end
 
---- Takes all away, from the tables inside as well.
+--- Removes everything, also from the tables inside.
 local function clear(fields)
   for key, value in pairs(fields) do
     fields[key] = nil
@@ -34,20 +36,25 @@ local function clear(fields)
 end
 
 local function shot(object)
-  return celspan.pixels(celspan.rostrum { celspan.cel { object } }, { size = { 16, 16 }, workers = 1 })
+  return celspan.pixels(celspan.rostrum { celspan.cel { object } },
+    { size = { 16, 16 }, workers = 1 })
 end
 
 local function fade()
-  return celspan.linear { from = { 0, 0 }, to = { 9, 9 }, { 0, celspan.rgb(1, 0, 0) }, { 1, celspan.rgb(0, 0, 1) } }
+  return celspan.linear { from = { 0, 0 }, to = { 9, 9 }, { 0, celspan.rgb(1, 0, 0) },
+    { 1, celspan.rgb(0, 0, 1) } }
 end
 
---- Fields made anew, nothing of which anybody else holds.
+--- New fields, to which there are no other references.
 local makers = {
   path = function()
-    return { d = "M 1 1 " .. ("L 9 2 L 3 8 "):rep(200 + #tostring(os.clock())), texture = celspan.rgb(1, 0, 0) }
+    return { d = "M 1 1 " .. ("L 9 2 L 3 8 "):rep(200 + #tostring(os.clock())),
+      texture = celspan.rgb(1, 0, 0) }
   end,
-  stroke = function() -- Lua allocates twice between reading d and using it, for the dashes and for the colour
-    return { d = "M 1 1 " .. ("L 9 2 L 3 8 "):rep(200 + #tostring(os.clock())), dash = { 1, 2 }, texture = "#ff0000" }
+  stroke = function()
+    -- Lua allocates twice between reading d and using it, for the dashes and for the colour
+    return { d = "M 1 1 " .. ("L 9 2 L 3 8 "):rep(200 + #tostring(os.clock())), dash = { 1, 2 },
+      texture = "#ff0000" }
   end,
   rect = function() return { 1, 2, 3, 4, texture = celspan.rgb(1, 0, 0) } end,
   circle = function() return { centre = { 4, 4 }, radius = 3, texture = celspan.rgb(0, 1, 0) } end,
@@ -66,8 +73,10 @@ local makers = {
     for i = 1, 40 do list[i] = celspan.rect { i, i, 2, 2 } end
     return list
   end,
-  cel = function() -- what a light shows is read before all of its words, and before the other light
-    local list = { opacity = 0.5, front = { texture = fade(), gain = 0.5 + #tostring(os.clock()), on = "c" .. "el" },
+  -- the texture of a light is read before its other words, and before the other light
+  cel = function()
+    local list = { opacity = 0.5,
+      front = { texture = fade(), gain = 0.5 + #tostring(os.clock()), on = "c" .. "el" },
       back = fade() }
     for i = 1, 40 do list[i] = celspan.rect { i, i, 2, 2 } end
     return list
@@ -84,10 +93,10 @@ local makers = {
   end,
 }
 
-describe("fields that are taken away while they are read", function()
+describe("fields that are removed while they are read", function()
   for name, make in pairs(makers) do
-    it("leave a value or an error: " .. name, function()
-      for after = 0, 40 do -- collections before they go
+    it("give a value or an error: " .. name, function()
+      for after = 0, 40 do -- collections before they are removed
         local fields, seen = make(), 0
         local done, value = pressed(function()
           seen = seen + 1
@@ -103,7 +112,7 @@ describe("fields that are taken away while they are read", function()
     end)
   end
 
-  it("and lists that grow", function()
+  it("and growing lists give a value or an error", function()
     for _, after in ipairs { 0, 3 } do
       local fields, seen = makers.union(), 0
       local done, value = pressed(function()
@@ -118,7 +127,7 @@ describe("fields that are taken away while they are read", function()
 end)
 
 describe("metamethods of a list", function()
-  it("are not asked", function()
+  it("are not called", function()
     local function never() error "a metamethod was called" end
     local trap = { __index = never, __len = never, __pairs = never, __newindex = never }
     local points = { { 0, 0 }, { 9, 0 }, { 0, 9 } }
@@ -135,7 +144,7 @@ describe("callbacks of a render", function()
     return celspan.scanline { bounds = { 0, 0, 16, 16 }, spans = spans }
   end
 
-  it("may collect, and change the list that they gave", function()
+  it("may collect garbage, and change the list that they returned", function()
     local list = {}
     local image = assert(shot(scanline(function(y)
       for i = #list, 1, -1 do list[i] = nil end
@@ -147,7 +156,7 @@ describe("callbacks of a render", function()
     assert.are.same({ 1, 0, 0, 1 }, { image:get(5, 0) })
   end)
 
-  it("may render the scene that they are part of", function()
+  it("may render the scene that contains them", function()
     local renders, object = 0, nil
     object = scanline(function()
       if renders < 3 then -- each inside the one before
@@ -160,10 +169,12 @@ describe("callbacks of a render", function()
     assert.are.same({ 1, 0, 0, 1 }, { image:get(3, 3) })
   end)
 
-  it("that raise, yield or end coroutines stop the render with a sentence", function()
+  it("stop the render with a sentence if they raise, yield or end coroutines", function()
     local _, message = shot(scanline(function() error { "a table" } end))
     assert.is_truthy(message:find("the error is not a message", 1, true), message)
-    local inside = coroutine.wrap(function() return shot(scanline(function() coroutine.yield() end)) end)
+    local inside = coroutine.wrap(function()
+      return shot(scanline(function() coroutine.yield() end))
+    end)
     local image
     image, message = inside()
     assert.is_nil(image)
@@ -175,7 +186,7 @@ describe("callbacks of a render", function()
     assert.is_truthy(message:find("in a coroutine", 1, true), message)
   end)
 
-  it("may begin in a coroutine that is gone when their rows are made", function()
+  it("may begin in a coroutine that no longer exists when their rows are made", function()
     local object
     coroutine.wrap(function() object = scanline(function() return { { 0, 8, "#f00" } } end) end)()
     collectgarbage()
@@ -185,26 +196,26 @@ describe("callbacks of a render", function()
 end)
 
 describe("a frame", function()
-  it("may be kept and used after its film is gone", function()
+  it("may be kept and used after its film is collected", function()
     local kept
-    local film = celspan.film { size = { 8, 8 }, frames = 3, frame = function(f)
+    local rostrum = celspan.film { size = { 8, 8 }, frames = 3, frame = function(f)
       kept = f
       collectgarbage()
       return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 4, 4, texture = "#f00" } } }
-    end }
-    local rostrum = film:at(1)
-    film = nil
+    end }:at(1)
     collectgarbage()
     collectgarbage()
     assert.are.equal(1, kept.number)
     assert.are.equal("number", type(kept:random("x")))
     assert.are.equal(kept.index, kept:on(1))
-    assert.are.same({ 1, 0, 0, 1 }, { assert(celspan.pixels(rostrum, { size = { 8, 8 } })):get(1, 1) })
+    assert.are.same({ 1, 0, 0, 1 },
+      { assert(celspan.pixels(rostrum, { size = { 8, 8 } })):get(1, 1) })
   end)
 
-  it("that is built while everything is collected is whole", function()
+  it("is complete if it is built while everything is collected", function()
     local film = celspan.film { size = { 8, 8 }, frames = 3, frame = function()
-      return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 4, 4, texture = celspan.rgb(1, 0, 0) } } }
+      return celspan.rostrum {
+        celspan.cel { celspan.rect { 0, 0, 4, 4, texture = celspan.rgb(1, 0, 0) } } }
     end }
     local done, image = pressed(function() end, function()
       return assert(celspan.pixels(film:at(2), { size = { 8, 8 } }))

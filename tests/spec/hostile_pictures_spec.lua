@@ -1,7 +1,8 @@
--- Picture files of some kilobytes that tell of gigabytes, made here byte by byte: whichever verb
+-- Picture files of some kilobytes that declare gigabytes, made here byte by byte: whichever verb
 -- opens one, the run ends soon, with the exit code of the table and a sentence that names the file,
--- and all of its processes together never held much memory. What can be known from the header is
--- refused with --trust too, which opens pictures in the program itself.
+-- and all of its processes together never used much memory. Faults that are visible in the header
+-- are refused with --trust too, which opens pictures in the program itself.
+local paintings = require "tests.support.paintings"
 local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
 
@@ -20,7 +21,7 @@ after_each(function() bench:remove() end)
 
 -- ---------------------------------------------------------------- DPX
 
---- A film scan whose header tells of so many pixels, and of so many bytes for other programs;
+--- A film scan whose header declares these numbers of pixels, and of bytes for other programs;
 --- 400 bytes follow.
 local function dpx(fields)
   local element = (">I4I4fI4fBBBBI2I2I4I4I4c32"):pack(0, 0, 0, 255, 1, fields.descriptor or 50,
@@ -33,7 +34,7 @@ end
 
 -- ---------------------------------------------------------------- Photoshop
 
---- A document of so many pixels; layers, resources and pixels: the bytes of those sections.
+--- A document of this size; layers, resources and pixels: the bytes of those sections.
 local function psd(fields)
   local is_large = fields.is_large
   local side = fields.side or 8
@@ -44,7 +45,7 @@ local function psd(fields)
     .. (">I2"):pack(fields.packing or 0) .. (fields.pixels or ("\0"):rep(3 * 64))
 end
 
---- A section of so many layers of 30,000 x 30,000 pixels and 56 channels, without a byte of them.
+--- A section of `count` layers of 30,000 x 30,000 pixels and 56 channels, without a byte of them.
 local function layers(count)
   local channels = {}
   for i = 0, 55 do channels[#channels + 1] = (">I2I4"):pack(i, 3) end
@@ -75,13 +76,15 @@ local function thumbnail(number, side, data)
   return resource(number, "", head .. data)
 end
 
---- A resource whose length leads out of the file, so that whoever walks by it looks at nothing more.
+--- A resource whose length points outside the file, so that a reader that follows it sees nothing
+--- more.
 local astray = "8BIM" .. (">I2I2I4"):pack(1000, 0, 0x7fffffff)
 
 -- ---------------------------------------------------------------- what becomes of them
 
 local TOO_MUCH = "decoding it needs more than 256 MiB, or than the system has (--limit picture-m"
-local ROWS = "is damaged: its layers tell of more rows than it has bytes"
+local TRUNCATED = "is corrupt or truncated"
+local ROWS = "is damaged: its layers have more rows than the file has bytes"
 local function sgi(storage, rows, channels)
   return (">I2BBI2I2I2I2"):pack(474, storage, 1, 3, 4, rows, channels) .. ("\0"):rep(600)
 end
@@ -89,17 +92,19 @@ local LONGER = "is damaged: a part of it is longer than the file"
 local caption = resource(1008, "told", "odd")
 local zeros = ("\0"):rep(24000)
 
---- Name, bytes, exit code (0: it is read), sentence. `is_decoded`: refused by what a decoder may need,
---- so not by --trust.
+--- Name, bytes, exit code (0: it is read), sentence. `is_decoded`: refused because of what a
+--- decoder may use, so not with --trust.
 local pictures = {
   { "user.dpx", dpx { user = 0xc0000000 }, 4,
-    "is damaged: it tells of more user data than it has bytes" },
-  { "wide.dpx", dpx { width = 1048576, height = 260, descriptor = 51, bits = 16 }, 33, TOO_MUCH,
-    is_decoded = true },
+    "is damaged: its header declares more user data than the file has bytes" },
+  { "wide.dpx", dpx { width = 1048576, height = 260, descriptor = 51, bits = 16 }, 4, TRUNCATED },
   { "packed.dpx", dpx { width = 1048576, height = 1048576, descriptor = 51, bits = 10,
-    encoding = 1 }, 33, TOO_MUCH, is_decoded = true },
-  { "rows.sgi", sgi(1, 65535, 65535), 4, "is damaged: it tells of more rows than it has bytes" },
-  { "storage.sgi", sgi(2, 4, 3), 4, "is damaged: its rows are stored in a way that there is not" },
+    encoding = 1 }, 4, TRUNCATED },
+  { "interlaced.png", paintings.png_of(16384, 8192, 16, 6, ("\0"):rep(20000), "", 1), 33, TOO_MUCH,
+    is_decoded = true },
+  { "rows.sgi", sgi(1, 65535, 65535), 4,
+    "is damaged: its header declares more rows than the file has bytes" },
+  { "storage.sgi", sgi(2, 4, 3), 4, "is damaged: its rows are stored in an unknown way" },
   { "layers.psd", psd { layers = layers(60) }, 4, ROWS },
   { "astray.psd", psd { resources = astray, layers = layers(60) }, 4, LONGER },
   { "colours.psd", psd { colours = (">I4"):pack(0xfffffff0) }, 4, LONGER },
@@ -113,7 +118,8 @@ local pictures = {
     pixels = zeros }, 6, "is 300000 x 300000 pixels in a format that can only be read whole" },
 }
 
---- Runs celspan; exit code, words, and of all processes bytes and seconds of processor time.
+--- Runs celspan; returns the exit code, messages, and for all processes bytes and seconds of
+--- processor time.
 local function watched(arguments)
   local code, _, err = bench:shell(("cd '%s' && '%s' 60 '%s' %s")
     :format(bench.folder, PEAK, workbench.absolute, arguments))
@@ -140,7 +146,7 @@ local function check(picture, arguments, most)
   assert.is_true(took < SECONDS, where)
 end
 
-describe("a picture file of some kilobytes that tells of gigabytes,", function()
+describe("a picture file of some kilobytes that declares gigabytes,", function()
   for _, picture in ipairs(pictures) do
     if not (is_slow and picture.is_decoded) then
       local becomes = picture[3] == 0 and ", is read as if it did not" or ", is refused"

@@ -1,9 +1,9 @@
--- Strips of a frame, and celspan join: the same picture as the whole, and what is refused.
+-- Strips of a frame, and celspan join: the same picture as the whole, and refusals.
 local present = require "tests.support.present"
 local stored = require "tests.support.stored"
 local workbench = require "tests.support.workbench"
 
-local it_compares = present.pictures() and it or pending -- pictures are read to be compared
+local it_compares = present.pictures() and it or pending -- pictures are read to compare them
 
 local bench
 
@@ -13,7 +13,7 @@ before_each(function()
 local celspan = require "celspan"
 local sky = celspan.linear { from = { 0, 0 }, to = { 0, 900 }, { 0, "#204060" }, { 1, "#f0d0a0" } }
 local place = ...
--- Each pixel half the one before: what PNG's filter Average foretells in a row without one above.
+-- Each pixel is half the one before: PNG's filter Average predicts that in a row without one above.
 local codes = {}
 for x = 0, 299 do codes[x + 1] = string.char(224 >> x % 8, 224 >> x % 8, 224 >> x % 8, 255) end
 local halves = celspan.image { x = 0, y = 0, size = { 300, 1 }, format = "rgba8",
@@ -70,7 +70,7 @@ describe("joined strips", function()
 
   for _, options in ipairs { "", "--depth 16", "--background '#102030'", "--dither",
                              "--workers 3" } do
-    it_compares("show what the whole shows in PNG " .. options, function()
+    it_compares("look like the whole in PNG " .. options, function()
       for _, args in ipairs { "flat", "sky", "halves" } do
         render("-o whole.png " .. options, args)
         render_strips("png", 4, options, args)
@@ -80,7 +80,7 @@ describe("joined strips", function()
     end)
   end
 
-  it("may be larger than the film, and as few as one", function()
+  it("may be larger than the film, and there may be only one", function()
     render "--size 700x2000 -o whole.span"
     render "--size 700x2000 --strip 1/1 -o one.span"
     done "join one.span -o joined.span"
@@ -94,7 +94,7 @@ describe("joined strips", function()
     assert.equal(bench:read "whole.span", bench:read "joined.span")
   end)
 
-  it("are the bits of the whole, whatever is drawn", function()
+  it("have the bits of the whole, whatever is drawn", function()
     for _, name in ipairs { "strokes", "kernels", "rack_focus", "scanline" } do
       local script = ("%s/scripts/%s.lua"):format(os.getenv "PWD", name)
       local options = "--frames 1 --size 300x600 --depth half --progress none"
@@ -105,7 +105,7 @@ describe("joined strips", function()
     end
   end)
 
-  it_compares("are pictures by themselves; others do not tell a place", function()
+  it_compares("are complete pictures; other pictures contain no position", function()
     render_strips("png", 2)
     render_strips("span", 2)
     render "--crop 0,0,300,512 -o top.png"
@@ -116,27 +116,30 @@ describe("joined strips", function()
   end)
 end)
 
-describe("what a join that was killed has left", function()
-  it("is removed by the next one, and nothing else is", function()
+describe("the temporary file of a killed join", function()
+  it("is removed by the next one, and no other file is", function()
     render_strips("tga", 2)
-    for _, name in ipairs { ".joined.tga.00ff.part", ".other.tga.00ff.part", "joined.tga.00ff.part" } do
+    for _, name in ipairs { ".joined.tga.00ff.part", ".other.tga.00ff.part",
+      "joined.tga.00ff.part" } do
       bench:write(name, "half")
     end
-    bench:write(".joined.tga.0001.part", "of a run that goes on")
-    local code, _, err = bench:shell(("cd '%s' && flock .joined.tga.0001.part %s join s/#.tga -o joined.tga")
+    bench:write(".joined.tga.0001.part", "of a run that still works")
+    local code, _, err =
+      bench:shell(("cd '%s' && flock .joined.tga.0001.part %s join s/#.tga -o joined.tga")
       :format(bench.folder, workbench.absolute))
     assert.equal(0, code, err)
     local left = table.concat(bench:files(), " ")
     assert.is_nil(left:find(" .joined.tga.00ff", 1, true), left)
-    for _, name in ipairs { ".joined.tga.0001.part", ".other.tga.00ff.part", "joined.tga.00ff.part", "joined.tga" } do
+    for _, name in ipairs { ".joined.tga.0001.part", ".other.tga.00ff.part", "joined.tga.00ff.part",
+      "joined.tga" } do
       assert.is_truthy(left:find(name, 1, true), name)
     end
   end)
 end)
 
-describe("what join refuses, and says which file and what to do:", function()
+describe("join refuses, naming the file and a remedy:", function()
   for _, ending in ipairs { "png", "tga", "span" } do
-    it("an order or a number that is wrong, in " .. ending, function()
+    it("a wrong order or number of strips, in " .. ending, function()
       render_strips(ending, 4)
       local function names(...)
         local list = {}
@@ -164,13 +167,13 @@ describe("what join refuses, and says which file and what to do:", function()
         "join s/1.%s other.%s -o joined.%s", ending, ending, ending)
     end)
 
-    it("pictures that are no strips, in " .. ending, function()
+    it("pictures that are not strips, in " .. ending, function()
       render("-o whole." .. ending)
       refused(4, "whole." .. ending, "join whole.%s -o joined.%s", ending, ending)
       assert.is_nil(bench:read("joined." .. ending))
     end)
 
-    it("files that are cut or damaged, without leaving anything, in " .. ending, function()
+    it("truncated or damaged files, without leaving any file, in " .. ending, function()
       render_strips(ending, 2, nil, "sky")
       local whole = bench:read("s/2." .. ending)
       for _, share in ipairs { 0, 0.01, 0.3, 0.9, 0.999 } do
@@ -183,7 +186,7 @@ describe("what join refuses, and says which file and what to do:", function()
     end)
   end
 
-  it("a byte that differs, where the format has checksums", function()
+  it("a changed byte, if the format has checksums", function()
     for _, ending in ipairs { "png", "span" } do
       render_strips(ending, 2)
       local whole = bench:read("s/1." .. ending)
@@ -196,7 +199,7 @@ describe("what join refuses, and says which file and what to do:", function()
     end
   end)
 
-  it("sizes that are claimed and not there", function()
+  it("declared sizes without the data", function()
     render_strips("png", 2)
     local whole = bench:read "s/1.png"
     local huge = ("\xff"):rep(4)
@@ -228,7 +231,7 @@ describe("what join refuses, and says which file and what to do:", function()
     end
   end
 
-  it("PNG files whose chunks are whole, but of no strip", function()
+  it("PNG files whose chunks are complete, but not those of a strip", function()
     render_strips("png", 2)
     local whole = bench:read "s/1.png"
     local function header(at, bytes)
@@ -246,13 +249,17 @@ describe("what join refuses, and says which file and what to do:", function()
     local function place(bytes)
       return function(chunks)
         for _, chunk in ipairs(chunks) do
-          if chunk[1] ~= "IHDR" and #chunk[2] == 8 and chunk[2] == string.pack(">I4I4", 0, 900) then chunk[2] = bytes end
+          if chunk[1] ~= "IHDR" and #chunk[2] == 8 and chunk[2] == string.pack(">I4I4", 0, 900) then
+            chunk[2] = bytes
+          end
         end
       end
     end
     local cases = {
       { function(chunks) table.remove(chunks, 1) end, "it does not begin with a header" },
-      { function(chunks) chunks[1][2] = chunks[1][2] .. "x" end, "it does not begin with a header" },
+      { function(chunks)
+        chunks[1][2] = chunks[1][2] .. "x"
+      end, "it does not begin with a header" },
       { header(1, "\0\0\0\0"), "its size" }, { header(5, "\0\0\0\0"), "its size" },
       { header(5, "\127\0\0\0"), "its size" },
       { header(9, "\4"), "its kind of pixels" }, { header(10, "\3"), "its kind of pixels" },
@@ -260,14 +267,16 @@ describe("what join refuses, and says which file and what to do:", function()
       { header(12, "\1"), "its kind of pixels" }, { header(13, "\1"), "its kind of pixels" },
       { place "\0\0\0\0", "its place" }, { place(("\255"):rep(8)), "its place" },
       { place(string.pack(">I4I4", 0, 1 << 30)), "its place" },
-      { place(("\0"):rep(8)), "it does not tell its place" },
-      { place(string.pack(">I4I4", 8, 900)), "tells of rows from 8 on" },
+      { place(("\0"):rep(8)), "it does not say which rows it has" },
+      { place(string.pack(">I4I4", 8, 900)), "declares rows from 8 on" },
       { function(chunks)
         for i = #chunks, 1, -1 do
           if chunks[i][1] == "IDAT" then table.remove(chunks, i) end
         end
       end, "it has no image data" },
-      { function(chunks) table.insert(chunks, #chunks, { "tEXt", "a\0b" }) end, "what follows the image data" },
+      { function(chunks)
+        table.insert(chunks, #chunks, { "tEXt", "a\0b" })
+      end, "what follows the image data" },
       { function(chunks) chunks[#chunks + 1] = { "IEND", "" } end, "what follows the image data" },
       { function(chunks) chunks[#chunks][2] = "x" end, "what follows the image data" },
       { data(function() return "" end), "how its image data is divided" },
@@ -281,7 +290,8 @@ describe("what join refuses, and says which file and what to do:", function()
       assert.equal(4, code, i .. ": " .. err)
       assert.is_truthy(err:find(case[2], 1, true), i .. ": " .. err)
     end
-    bench:write("s/1.png", rebuilt(whole, function(chunks) -- the image data may be divided in any way
+    bench:write("s/1.png", rebuilt(whole, function(chunks)
+      -- the image data may be divided in any way
       local first = index_of(chunks, "IDAT")
       local bytes = chunks[first][2]
       chunks[first][2] = bytes:sub(1, 9)
@@ -291,16 +301,19 @@ describe("what join refuses, and says which file and what to do:", function()
     done "join s/#.png -o joined.png"
   end)
 
-  it("Targa files whose place or end is damaged", function()
+  it("Targa files whose position or end is damaged", function()
     render_strips("tga", 2)
     local whole = bench:read "s/1.tga"
-    local function with(at, bytes) return whole:sub(1, at - 1) .. bytes .. whole:sub(at + #bytes) end
+    local function with(at, bytes)
+      return whole:sub(1, at - 1) .. bytes .. whole:sub(at + #bytes)
+    end
     for _, case in ipairs {
       { with(23, "\255\255\255\0"), "Targa files have at most 65535" },
       { with(#whole - 25, "\0\0\0\0"), "more than 4 GiB of rows" },
-      { with(#whole - 25, "\1\0\0\0"), "its footer tells of 1 bytes of rows" },
+      { with(#whole - 25, "\1\0\0\0"), "its footer declares 1 bytes of rows" },
       { with(#whole - 10, "x"), "it has no footer" },
-      { with(1, "\9"), "is no strip" }, { with(3, "\2"), "is no strip" }, { with(18, "\0"), "is no strip" },
+      { with(1, "\9"), "is no strip" }, { with(3, "\2"), "is no strip" },
+      { with(18, "\0"), "is no strip" },
       { with(19, "x"), "is no strip" },
     } do
       bench:write("s/1.tga", case[1])
@@ -321,7 +334,7 @@ describe("what join refuses, and says which file and what to do:", function()
     done "join s/#.png -o joined.png"
   end)
 
-  it("an output that cannot be written, leaving an older one as it is", function()
+  it("an output that cannot be written, leaving an older one unchanged", function()
     render_strips("png", 2)
     bench:write("joined.png", "older")
     bench:write("s/2.png", bench:read "s/2.png":sub(1, -60))
@@ -333,7 +346,7 @@ describe("what join refuses, and says which file and what to do:", function()
 end)
 
 describe("render --strip", function()
-  it("refuses what has no strips", function()
+  it("refuses outputs without strips", function()
     refused(2, "a frame of 900 rows makes at most 4",
       "render film.lua --frames 1 --strip 1/5 -o s.png")
     refused(2, "--strip: '0/4' is not", "render film.lua --frames 1 --strip 0/4 -o s.png")
@@ -350,7 +363,7 @@ describe("render --strip", function()
     assert.is_truthy(err:find("PNG, Targa and span", 1, true), err)
   end)
 
-  it("resumes, and tells a strip from a crop of the same rows", function()
+  it("resumes, and distinguishes a strip from a crop of the same rows", function()
     done "render film.lua --frames 1 --strip 1/2 -o s.png --resume"
     local _, _, err =
       celspan "render film.lua --frames 1 --strip 1/2 -o s.png --resume --progress lines"
@@ -375,13 +388,13 @@ describe("render --task", function()
     assert.equal("1.png", frames_of("2/2", "--frames 3,1"))
   end)
 
-  it("has nothing to do where the film has become shorter", function()
+  it("has nothing to do if the film has become shorter", function()
     local code, _, err = celspan "render film.lua --task 1/9 -o o/#.png"
     assert.equal(0, code, err)
     assert.is_truthy(err:find("task 1 of 9 has no frames", 1, true), err)
   end)
 
-  it("is of files", function()
+  it("needs files as output", function()
     refused(2, "--task makes files", "render film.lua --task 1/2 -o -")
     refused(2, "--task: a video", "render film.lua --task 1/2 -o film.mp4")
   end)

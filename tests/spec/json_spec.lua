@@ -1,4 +1,4 @@
--- The JSON reader: what it takes, what it refuses, and how it says so.
+-- The JSON reader: what it accepts, what it refuses, and its messages.
 local json = require "celspan.json"
 
 describe("json", function()
@@ -15,11 +15,11 @@ describe("json", function()
     assert.are.equal("\u{FFFD}x", json.decode '"\\ud83dx"')
   end)
 
-  it("lets a byte order mark pass", function()
+  it("ignores a byte order mark", function()
     assert.are.equal(3, json.decode "\239\187\1913")
   end)
 
-  it("refuses what is not JSON, by line", function()
+  it("refuses text that is not JSON, naming the line", function()
     for _, text in ipairs { "", " ", "[", "[1,]", "[1 2]", "{", '{"a"}', '{"a":}', "{a:1}", '"',
                             '"\\x"', '"\\u12"', '"\n"', "01", "-", "1.", "1.e3", ".5", "nul",
                             "tru", "True", "1 2", "NaN", "Infinity", "'x'", "[1]]" } do
@@ -31,7 +31,7 @@ describe("json", function()
       select(2, json.decode "[1,\n2\n3]"))
   end)
 
-  it("has a limit on nesting, and none on plain length", function()
+  it("limits nesting, but not length", function()
     local deep = ("["):rep(200) .. ("]"):rep(200)
     assert.are.equal("line 1: nested deeper than 100 levels", select(2, json.decode(deep)))
     assert.is_truthy(json.decode(("["):rep(99) .. ("]"):rep(99)))

@@ -7,7 +7,7 @@ local material = present.material
 
 local paths = {}
 
---- A file of our own with this text.
+--- A temporary file with this text.
 local function write(text)
   local path = os.tmpname()
   local file = assert(io.open(path, "wb"))
@@ -78,7 +78,7 @@ describe("a file", function()
       shapes("MohoSwitch1\n1 rest\n3 E\n3 AI\n5 etc\n7 rest\n"))
   end)
 
-  it("of Moho may start late and hold lines that are not cues", function()
+  it("of Moho may start late and contain lines that are not cues", function()
     assert.are.equal("rest rest O O", shapes("MohoSwitch1\nnot a cue\n3 O\n4 O\n"))
   end)
 
@@ -128,30 +128,34 @@ describe("a file", function()
   end)
 
   it("that ends before its first frame is refused", function()
-    for _, text in ipairs { "MohoSwitch1\n0 rest\n", '{"mouthCues":[{"start":0,"end":0,"value":"X"}]}' } do
+    for _, text in ipairs { "MohoSwitch1\n0 rest\n",
+      '{"mouthCues":[{"start":0,"end":0,"value":"X"}]}' } do
       local track, message = lips.read(write(text))
       assert.is_nil(track)
       assert.is_truthy(message:find(": it ends before its first frame", 1, true), message)
     end
   end)
 
-  it("that counts more than it holds is read to its end, at once", function()
-    local head = "lipsync version 1\na.wav\n%s\n48\n1\nvoice\nhello\n%s\nhello\n3\n30\n%s\nhello 3 9 %s\n3 E\n"
+  it("that declares more cues than it contains is read to its end, quickly", function()
+    local head =
+      "lipsync version 1\na.wav\n%s\n48\n1\nvoice\nhello\n%s\nhello\n3\n30\n%s\nhello 3 9 %s\n3 E\n"
     local begun = os.clock()
     assert.is_truthy(shapes(head:format(24, "1e18", "1", "1")):find "E")
     assert.is_nil((lips.read(write(head:format(24, "1", "1", "99999999999")))))
     assert.is_true(os.clock() - begun < 1)
   end)
 
-  it("whose frames a second are none is refused", function()
+  it("with an invalid frame rate is refused", function()
     for _, fps in ipairs { "0", "-1", "1e999", "1001" } do
-      local track, message = lips.read(write(("lipsync version 1\na.wav\n%s\n48\n1\nv\nt\n1\nt\n3\n30\n1\nt 3 9 1\n3 E\n"):format(fps)))
+      local track, message =
+        lips.read(write(("lipsync version 1\na.wav\n%s\n48\n1\nv\nt\n1\nt\n3\n30\n1\nt "
+        .. "3 9 1\n3 E\n"):format(fps)))
       assert.is_nil(track)
-      assert.is_truthy(message:find("its frames a second are", 1, true), message)
+      assert.is_truthy(message:find("its frame rate is", 1, true), message)
     end
   end)
 
-  it("that is missing or foreign gives nil and a message with its name", function()
+  it("that is missing or of another kind gives nil and a message with its name", function()
     local track, message = lips.read "no/such/file.tsv"
     assert.is_nil(track)
     assert.is_truthy(message:find("no/such/file.tsv", 1, true))

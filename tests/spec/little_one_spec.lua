@@ -1,11 +1,11 @@
--- scripts/film.lua, the second film: what a viewer would miss first if it went wrong.
+-- scripts/film.lua, the second film: the faults that a viewer would notice first.
 package.path = "./scripts/?.lua;" .. package.path
 local celspan = require "celspan"
 require "celspan.spec"
 
 local is_there, film = pcall(dofile, "scripts/film.lua")
 if not is_there then
-  -- Built without the libraries for type and XML, there are no drawings and paintings.
+  -- Built without the libraries for type and XML, celspan reads no drawings and paintings.
   pending("the second film, without celspan-art.so: " .. tostring(film))
   return
 end
@@ -18,13 +18,13 @@ local timing = require "film.timing"
 
 local function frame_at(time) return math.floor(time * timing.fps + 0.5) + 1 end
 
---- The light that is at a point of a frame.
+--- The light at a point of a frame.
 local function light_at(time, x, y)
   local r, g, b = assert(celspan.probe(film, x, y, { frame = frame_at(time) }))
   return r + g + b, r, b
 end
 
---- The exposures of a frame: how many, and what their weights are together.
+--- The number of exposures of a frame, and the sum of their weights.
 local function exposures(time)
   local list, sum = film:at(frame_at(time)), 0
   for _, exposure in ipairs(list) do sum = sum + exposure[2] end
@@ -32,7 +32,7 @@ local function exposures(time)
 end
 
 describe("the second film", function()
-  it("is 29.5 seconds of 24 frames, and finds its sound only where it is given", function()
+  it("is 29.5 seconds of 24 frames, and has sound only if that is given", function()
     assert.are.same({ 1920, 1080 }, film.size)
     assert.are.equal(708, film.frames)
     assert.is_nil(film.sound)
@@ -40,7 +40,7 @@ describe("the second film", function()
     assert.are.equal("out/sound.wav", sounding.sound)
   end)
 
-  it("cuts and dissolves, and is as bright in a dissolve as out of it", function()
+  it("cuts and dissolves, and is as bright in a dissolve as outside", function()
     assert.are.equal(1, (exposures(3)))
     assert.are.equal(1, (exposures(timing.shots[3].from)))
     for i = 2, #timing.shots do
@@ -53,7 +53,7 @@ describe("the second film", function()
     end
   end)
 
-  it("is never quite still while somebody is seen", function()
+  it("is never completely still while somebody is visible", function()
     for _, time in ipairs { 2, 8, 9.7, 12.9, 13.8, 16.2, 19.4, 23 } do
       local frame = frame_at(time)
       assert.is_not.frames(film, frame, frame + 2).look_alike()
@@ -64,7 +64,7 @@ end)
 describe("the lips", function()
   local voice = assert(lips.read("../../scripts/film/voice.tsv", { fps = timing.fps }))
 
-  it("follow the voice wherever the sheet asks for it", function()
+  it("follow the voice wherever the sheet says so", function()
     local shapes, count = {}, 0
     for frame = 1, film.frames do
       if acting.sheet:at("mouth", frame) == "voice" then
@@ -81,7 +81,7 @@ describe("the lips", function()
     assert.are.equal("smile", acting.at(timing.thanks + 1).mouth)
   end)
 
-  it("are another drawing for each sound", function()
+  it("are a different drawing for each sound", function()
     local pose = { eyes = "open" }
     local function mouth(name)
       local fields = { mouth = name }
@@ -98,7 +98,7 @@ describe("the lips", function()
 end)
 
 describe("the walk", function()
-  it("keeps the boot on the ground where it is while he passes over it", function()
+  it("keeps the boot in place on the ground while he passes over it", function()
     for k = 1, 3 do
       local here, before = lamplighter.step(tostring(k + 1)), lamplighter.step(tostring(k))
       assert.are.equal(before.near[1], here.near[1] + here.advance)
@@ -136,7 +136,7 @@ describe("the lamp", function()
 end)
 
 describe("the cels", function()
-  it("are there under their names when it is their turn", function()
+  it("appear under their names when it is their turn", function()
     for name, time in pairs { title = 3.5, lamplighter = 8, branch = 6.5, puff = 11.2, spark = 14,
       rim = 19, windows = 23, star = 26, credits = 26 } do
       assert.cel(film, frame_at(time), name).is_visible()

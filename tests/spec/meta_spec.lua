@@ -1,5 +1,7 @@
--- The annotations for editors name what there is, and nothing else.
+-- The annotations for editors, and what `celspan help lua` prints from them: all names, and no other.
 local celspan = require "celspan"
+local core = require "celspan.core"
+local manual = require "celspan.manual"
 local present = require "tests.support.present"
 
 local file = assert(io.open "lua/celspan.d.lua")
@@ -59,7 +61,8 @@ local samples = {
   image = { file = "x.png", w = 1, h = 1 },
   scanline = { bounds = { 0, 0, 1, 1 }, spans = function() end },
   union = { dot }, intersection = { dot }, difference = { dot }, xor = { dot },
-  stroke = { d = "M0 0H9" }, cel = { dot }, rostrum = { cel }, film = { frame = function() return celspan.rostrum {} end },
+  stroke = { d = "M0 0H9" }, cel = { dot }, rostrum = { cel },
+  film = { frame = function() return celspan.rostrum {} end },
 }
 
 -- Built without the libraries for type, there is no text to look at.
@@ -72,6 +75,10 @@ local function fields_of(constructor)
 end
 
 describe("the annotations", function()
+  it("are what `celspan help lua annotations` prints: write its output to lua/celspan.d.lua", function()
+    assert.is_true(manual.annotations() == text)
+  end)
+
   for constructor, sample in pairs(samples) do
     it("declare what can be read of a value: " .. constructor, function()
       local class, value = returned(constructor), celspan[constructor](sample)
@@ -90,7 +97,8 @@ describe("the annotations", function()
 
   it("have a sample of every constructor of a value", function()
     for name in pairs(celspan) do
-      local is_value = name ~= "render" and name ~= "pixels" and name ~= "spans" and name ~= "glyphs"
+      local is_value = name ~= "render" and name ~= "pixels" and name ~= "spans"
+        and name ~= "glyphs"
       if is_value and fields_of(name)() then
         assert.is_truthy(samples[name] or name == "text" and not present.art(), name)
       end
@@ -121,5 +129,80 @@ describe("the annotations", function()
       assert.is_truthy(text:find("function placed:" .. name .. "(", 1, true), name)
     end
     assert.is_truthy(text:find("function nameable:named(", 1, true))
+  end)
+end)
+
+--- The message of a constructor for its sample with one field changed; "" where it is accepted.
+local function refusal(constructor, field, value)
+  local fields = { [field] = value }
+  for name, given in pairs(samples[constructor]) do fields[name] = fields[name] or given end
+  local good, message = pcall(celspan[constructor], fields)
+  return good and "" or message
+end
+
+describe("the range of a field", function()
+  for constructor in pairs(samples) do
+    for _, field in ipairs(core.nouns()[constructor] or {}) do
+      local step = field.type == "integer" and 1 or 1e-3
+      local beyond = { field.above, field.least and field.least - step, field.most and field.most * 2 }
+      if field.type == "number" or field.type == "integer" then
+        for _, value in pairs(beyond) do
+          it(("is enforced: %s { %s = %g }"):format(constructor, field.name, value), function()
+            assert.matches(("%s: %s is .*; it must be "):format(constructor, field.name),
+              refusal(constructor, field.name, value))
+          end)
+        end
+        for _, value in pairs { field.least, field.most } do
+          it(("includes its ends: %s { %s = %g }"):format(constructor, field.name, value), function()
+            assert.is_nil(refusal(constructor, field.name, value):find(field.name .. " is ", 1, true))
+          end)
+        end
+      end
+    end
+  end
+end)
+
+describe("the manual", function()
+  it("has a page about every function, method, module and type that it lists", function()
+    local list, count = manual.page(), 0
+    for name in list:gmatch "\n  (%l[%l_]+)  +%u" do
+      count = count + 1
+      assert.is_truthy(manual.page(name), name)
+    end
+    local others = list:match("\nMethods:\n(.*)\nModules"):gsub("\nTypes:\n", "")
+    for name in others:gmatch "%l[%l_:]+" do
+      count = count + 1
+      assert.is_truthy(manual.page(name), name)
+    end
+    assert.is_true(count > 80)
+  end)
+
+  it("says of a field its type, its range, its default and a sentence", function()
+    assert.is_truthy(manual.page("stroke"):find(
+      "\n  miter?        number: The longest miter, in widths; 1 to 1000000; default 4\n", 1, true))
+  end)
+
+  it("knows names with celspan before them, and methods with what they belong to", function()
+    assert.are.equal(manual.page "circle", manual.page "celspan.circle")
+    assert.is_truthy(manual.page("object:stroke"):find("object:stroke(style?)", 1, true))
+    assert.is_truthy(manual.page("motion.along"):find("motion.along(outline)", 1, true))
+    assert.is_truthy(manual.page("keys"):find("The value at a time", 1, true))
+  end)
+
+  it("refuses an unknown name with the nearest, or with where to look", function()
+    assert.are.same({ nil, "there is no page about 'strok'; did you mean 'stroke'?" },
+      { manual.page "strok" })
+    assert.are.same({ nil, "there is no page about 'xyzzyxyzzy'; celspan help lua lists the names" },
+      { manual.page "xyzzyxyzzy" })
+  end)
+
+  it("lists every function of celspan and every module of the reference", function()
+    local list = manual.page()
+    for name, value in pairs(celspan) do
+      assert.is_truthy(type(value) ~= "function" or list:find("\n  " .. name .. " ", 1, true), name)
+    end
+    for name in assert(io.open "docs/lua.md"):read("a"):gmatch "\n### Module celspan%.(%l+)" do
+      assert.is_truthy(list:find("\n  " .. name .. " ", 1, true), name)
+    end
   end)
 end)

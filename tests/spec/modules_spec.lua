@@ -1,19 +1,26 @@
--- What is said of a module that cannot be used: which it is, what is wrong with it, and what to do.
+-- Messages about a module that cannot be used: which it is, what is wrong with it, and what to do.
+local paintings = require "tests.support.paintings"
+local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
 
 local ADVICE = "or name %s file in CELSPAN_%s_MODULE\n"
 
 local bench
 
-before_each(function() bench = workbench.new() end)
+before_each(function()
+  bench = workbench.new()
+  bench:write("profile.kra",
+    paintings.krita { w = 4, h = 4, profile = paintings.profile {}, layers = {} })
+end)
 after_each(function() bench:remove() end)
 
 local opened = { PICTURE = "scripts/pictures/canal.png", ART = "scripts/paintings/valley.ora" }
 
---- Opens a picture, or a painting that is an archive, by the module in a file; what is said.
+--- Opens a picture, a painting that is an archive, or one with a colour profile, with the module in
+--- a file; returns the message.
 local function said_of(kind, file, before)
   local code, out, err = bench:shell(("%s CELSPAN_%s_MODULE='%s' '%s' info %s --trust"):format(
-    before or "", kind, file, workbench.absolute, opened[kind]))
+    before or "", kind, file, workbench.absolute, opened[kind] or bench.folder .. "/profile.kra"))
   assert.are.equal(4, code, err)
   assert.are.equal("", out)
   return err
@@ -29,33 +36,35 @@ local function assert_said(kind, file, parts, before)
   assert.are.equal(#words + 1, at, words)
 end
 
-for _, kind in ipairs { "PICTURE", "ART" } do
+local colour = present.colour() and present.art() and "COLOUR" or nil
+for _, kind in ipairs { "PICTURE", "ART", colour } do
   local name = ("celspan-%s.so"):format(kind:lower())
   local needed = ("needs the module %s, "):format(name)
   local advised = kind == "PICTURE" and "OpenImageIO" or "celspan"
 
   describe("the module " .. name, function()
-    it("is to be installed or named when it is not there", function()
+    it("must be installed or named when it is missing", function()
       local path = bench.folder .. "/none.so"
       assert_said(kind, path, { needed, "was not found at " .. path .. ": ", advised,
         ADVICE:format("the", kind) })
     end)
 
-    it("is to be made readable, or another named, when it cannot be read", function()
+    it("must be made readable, or another named, when it cannot be read", function()
       local path = bench.folder .. "/turning.so"
       bench:shell(("ln -s '%s' '%s'"):format(path, path))
       assert_said(kind, path, { needed, "but " .. path .. " cannot be read: ",
         "Too many levels of symbolic links; let it be read, ", ADVICE:format("another", kind) })
     end)
 
-    it("is to be installed, or another named, when it cannot be loaded", function()
+    it("must be installed, or another named, when it cannot be loaded", function()
       local path = bench:write("text.so", "no module")
       assert_said(kind, path, { needed, "which cannot be loaded: ", path, ": ", advised,
         ADVICE:format("another", kind) })
     end)
 
-    it("is to be installed, or another named, when it is something else", function()
-      local other = kind == "ART" and "/tests/hostile_module.so" or "/src/art/celspan-art.so"
+    it("must be installed, or another named, when it is another file", function()
+      local other = kind == "ART" and "/tests/hostile_module.so"
+        or "/src/plugins/type/celspan-art.so"
       local path = workbench.build .. other
       local file = io.open(path)
       if not file then return pending(path .. " is not built") end
@@ -67,7 +76,7 @@ for _, kind in ipairs { "PICTURE", "ART" } do
 end
 
 describe("a picture module of another version", function()
-  it("is to be replaced", function()
+  it("must be replaced", function()
     local path = workbench.build .. "/tests/hostile_module.so"
     assert_said("PICTURE", path, { path .. " is of another version of celspan (", ", not ", "): ",
       "OpenImageIO", ADVICE:format("another", "PICTURE") }, "HOSTILE_IS_OLD=1")

@@ -10,15 +10,15 @@ local function near(expected, ...)
   end
 end
 
-describe("a way", function()
-  it("is walked at even speed", function()
+describe("a path of motion", function()
+  it("is followed at constant speed", function()
     local way = motion.along { { 0, 0 }, { 10, 0 }, { 10, 30 } }
     assert.are.equal(40, way.length)
     near({ 4, 0, 0 }, way:at(0.1))
     near({ 10, 10, 90 }, way:at(0.5))
   end)
 
-  it("holds at its ends", function()
+  it("stops at its ends", function()
     local way = motion.along { { 1, 2 }, { 3, 2 } }
     near({ 1, 2, 0 }, way:at(-1))
     near({ 3, 2, 0 }, way:at(2))
@@ -44,7 +44,7 @@ describe("a way", function()
     near({ 5, 5 }, x, y)
   end)
 
-  it("complains at the caller's line", function()
+  it("reports errors at the caller's line", function()
     for _, outline in ipairs { "L0 0", "M0", "M0 0 X", "M0 0 z 3", 7, { 3 }, {} } do
       local message = raised.message(function() motion.along(outline) end)
       assert.is_truthy(message:find "motion_spec.lua:%d+: motion: ", message)

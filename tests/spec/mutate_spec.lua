@@ -1,10 +1,10 @@
--- ./run mutate: which faults it makes in a source, and which places it passes over.
+-- ./run mutate: which faults it makes in a source, and which places it skips.
 local equal = require "tests.mutate.equal"
 local mutants = require "tests.mutate.mutants"
 local nearest = require "tests.mutate.nearest"
 local system = require "tests.support.system"
 
---- What may become of a source, each mutant in a line.
+--- The mutants of a source, one per line.
 local function told(text)
   local lines = {}
   for i, mutant in ipairs(mutants.of(text)) do
@@ -13,18 +13,18 @@ local function told(text)
   return table.concat(lines, "\n")
 end
 
---- Of the body of a function.
+--- The mutants of a function's body.
 local function told_of(body) return told("void f(void) {\n" .. body .. "\n}\n") end
 
 local function lines(...) return table.concat({ ... }, "\n") end
 
 describe("mutants", function()
-  it("are made of comparisons, bounds and conditions", function()
+  it("change comparisons, bounds and conditions", function()
     assert.are.equal(lines("2 `a < b` to `!(a < b)`", "2 `<` to `<=`", "2 `<` to `>`",
       "2 drop `return;`"), told_of "if (a < b) return;")
   end)
 
-  it("are made of operators between operands and of signs, not of pointers and casts", function()
+  it("change operators between operands and signs, not pointers and casts", function()
     assert.are.equal(lines("2 drop `x = a * -b;`", "2 `*` to `/`", "2 `-` to `nothing`"),
       told_of "x = a * -b;")
     assert.are.equal("2 drop `x = (double)*p;`", told_of "x = (double)*p;")
@@ -32,7 +32,7 @@ describe("mutants", function()
     assert.are.equal("2 drop `*p = &a;`", told_of "*p = &a;")
   end)
 
-  it("are made of constants", function()
+  it("change constants", function()
     assert.are.equal(lines("2 `3u` to `2u`", "2 `3u` to `4u`"), told_of "return 3u;")
     assert.are.equal("2 `0` to `1`", told_of "return 0;")
     assert.are.equal("2 `1.5` to `3.0`", told_of "return 1.5;")
@@ -41,13 +41,13 @@ describe("mutants", function()
     assert.are.equal("2 `true` to `false`", told_of "return true;")
   end)
 
-  it("are made of arguments that are swapped, where their order tells", function()
+  it("swap arguments whose order matters", function()
     assert.are.equal(lines("2 drop `g(a, b);`", "2 `a, b` to `b, a`"), told_of "g(a, b);")
     assert.are.equal("2 drop `fmin(a, b);`", told_of "fmin(a, b);")
     assert.are.equal("2 drop `g(a, a);`", told_of "g(a, a);")
   end)
 
-  it("are not made of declarations, types, labels and claims", function()
+  it("do not change declarations, types, labels and assertions", function()
     assert.are.equal("", told "struct pair { double x[2 + 1]; };\nint f(int a, int b);\n")
     assert.are.equal("", told_of "double *p, a[4 * 2];")
     assert.are.equal("2 `1` to `0`\n2 `1` to `2`", told_of "const double *p = g(x[1]);")
@@ -60,13 +60,13 @@ describe("mutants", function()
     assert.are.equal("2 drop `n = sizeof(x[3]);`", told_of "n = sizeof(x[3]);")
   end)
 
-  it("are not made of what a choice says of equals, which is the same", function()
+  it("do not change the choice between equal values, which has no effect", function()
     assert.are.equal("2 `<` to `>`", told_of "return a->x < b ? a->x : b;")
     assert.are.equal("2 `>` to `<`", told_of "return a > b[i] ? b[i] : a;")
     assert.are.equal("2 `<` to `<=`\n2 `<` to `>`", told_of "return a < b ? b : c;")
   end)
 
-  it("of one line that are told alike are numbered", function()
+  it("of one line are numbered if they are printed alike", function()
     local list = mutants.of "void f(void) {\n  x = a + 0 + b[0];\n}\n"
     local found = {}
     for _, mutant in ipairs(list) do
@@ -75,7 +75,7 @@ describe("mutants", function()
     assert.are.same({ 1, 2 }, found)
   end)
 
-  it("have as many lines as the source, and differ in one place", function()
+  it("have as many lines as the source, and differ at one place", function()
     local text = "void f(void) {\n  g(a,\n    b);\n  return;\n}\n"
     for _, mutant in ipairs(mutants.of(text)) do
       local changed = mutants.apply(text, mutant)
@@ -86,7 +86,7 @@ describe("mutants", function()
 end)
 
 describe("the lists", function()
-  it("of mutants that change nothing have only such as can be made, with reasons", function()
+  it("of mutants that change nothing contain only possible ones, with reasons", function()
     for path, entries in pairs(equal) do
       local text, made = system.read(path), {}
       for _, mutant in ipairs(mutants.of(text)) do
@@ -102,15 +102,16 @@ describe("the lists", function()
     end
   end)
 
-  it("of the nearest tests name tests that there are", function()
-    local units = system.read "tests/unit/meson.build" .. system.read "tests/meson.build"
+  it("of the nearest tests name existing tests", function()
+    local meson = system.output "find examples tests subprojects -name meson.build -exec cat {} +"
     for _, list in pairs(nearest) do
       for _, name in ipairs(list) do
         local folder, rest = name:match "^(%w+)/(.*)$"
-        if folder == "unit" then
-          assert.is_truthy(units:find("'" .. rest .. "'", 1, true) or rest:find "^fuzz%-", name)
+        if folder == "unit" or folder == "example" then
+          local is_listed = meson:find("[' ]" .. rest:gsub("%-", "%%-") .. "'")
+          assert.is_truthy(is_listed or rest:find "^fuzz%-", name)
         else
-          system.read(("tests/%s_spec.lua"):format(name))
+          assert.is_truthy(system.exists(("tests/%s_spec.lua"):format(name)), name)
         end
       end
     end

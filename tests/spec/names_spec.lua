@@ -5,7 +5,9 @@ local workbench = require "tests.support.workbench"
 
 local function line() return debug.getinfo(2, "l").currentline end
 
-local function disc() return celspan.circle { centre = { 10, 20 }, radius = 5, texture = "#f80" } end
+local function disc()
+  return celspan.circle { centre = { 10, 20 }, radius = 5, texture = "#f80" }
+end
 
 local function values()
   return {
@@ -19,7 +21,7 @@ local function values()
 end
 
 describe("a name", function()
-  it("can be given to every value, and read", function()
+  it("can be given to every value, and read back", function()
     for kind, value in pairs(values()) do
       assert.is_nil(value.name, kind)
       local named = value:named("hand")
@@ -31,10 +33,11 @@ describe("a name", function()
     end
   end)
 
-  it("is kept by transforms, fades and with, not by what is made of the value", function()
+  it("is kept by transforms, fades and with, not by values made from the named one", function()
     local named = disc():named("hand")
     for _, value in ipairs { named:translate(1, 2), named:rotate(30), named:fade(0.5),
-                             named:with { radius = 9 }, named:scale(2):fade(0.5):with { radius = 1 } } do
+                             named:with { radius = 9 },
+                               named:scale(2):fade(0.5):with { radius = 1 } } do
       assert.are.equal("hand", value.name)
       assert.are.equal(named.origin, value.origin)
     end
@@ -46,13 +49,13 @@ describe("a name", function()
     assert.are.equal("warm", celspan.rgb(1, 0, 0):named("warm"):with { beta = 0.5 }.name)
   end)
 
-  it("keeps a union that has one from being flattened", function()
+  it("prevents a union from being flattened", function()
     local pair = (disc() | disc()):named("pair")
     local more = pair | disc()
     assert.is_truthy(tostring(more):find("2 objects", 1, true))
   end)
 
-  it("changes no pixel, and no frame that is equal to another", function()
+  it("changes no pixel, and equal frames stay equal", function()
     local function rostrum(object) return celspan.rostrum { celspan.cel { object } } end
     local options = { size = { 20, 30 } }
     local plain = assert(celspan.pixels(rostrum(disc()), options))
@@ -62,16 +65,18 @@ describe("a name", function()
     end
   end)
 
-  it("is refused when it is no text of a sane length", function()
+  it("is refused if it is not a string of reasonable length", function()
     local function refusal(name)
       return (raised.sentence(function() disc():named(name) end))
     end
     assert.are.equal("named: the name must be a string, got nil", refusal(nil))
     assert.are.equal("named: the name must be a string, got number", refusal(7))
     assert.are.equal("named: the name has 0 bytes; it must have 1 to 255", refusal(""))
-    assert.are.equal("named: the name has 256 bytes; it must have 1 to 255", refusal(("x"):rep(256)))
+    assert.are.equal("named: the name has 256 bytes; it must have 1 to 255",
+      refusal(("x"):rep(256)))
     assert.are.equal("named: the name must not hold a zero byte", refusal("a\0b"))
-    for bytes, at in pairs { ["a\nb"] = 2, ["\127"] = 1, ["\xc2\x85"] = 1, ["ab\xff"] = 3, ["\xc0\xaf"] = 1,
+    for bytes, at in pairs { ["a\nb"] = 2, ["\127"] = 1, ["\xc2\x85"] = 1, ["ab\xff"] = 3,
+      ["\xc0\xaf"] = 1,
                              ["\xed\xa0\x80"] = 1, ["\xf4\x90\x80\x80"] = 1, ["\xe2\x82"] = 1 } do
       assert.are.equal("named: byte " .. at .. " of the name is no text; it must be UTF-8 without "
         .. "control characters", refusal(bytes))
@@ -86,7 +91,7 @@ describe("the line of a value", function()
   it("is that of the constructor's caller", function()
     local here = line() + 1
     for kind, value in pairs(values()) do
-      assert.is_truthy(value.origin:find("names_spec.lua:%d+$"), kind .. " " .. tostring(value.origin))
+      assert.is_truthy(value.origin:find("names_spec.lua:%d+$"), kind .. ": " .. value.origin)
     end
     local paint = celspan.rgb(1, 1, 1)
     assert.are.equal(here + 3, tonumber(paint.origin:match ":(%d+)$"))
@@ -120,7 +125,7 @@ return celspan.film { size = { 10, 10 }, frames = 3, frame = function(f)
   return celspan.rostrum {
     celspan.cel { celspan.rect { 0, 0, 1, 1 } },
     celspan.cel { celspan.rect { 0, 0, 5, 5 } | sky }:named("back"),
-  }:named("stand")
+  }:named("easel")
 end }
 ]]
   local TINY = [[
@@ -137,23 +142,24 @@ return celspan.rostrum { camera = { centre = { 0, 0 }, width = 5 },
     return code, out .. err
   end
 
-  it("tell cel and picture", function()
+  it("identify cel and picture", function()
     local script = bench:write("missing.lua", SCRIPT)
     local _, said = celspan_says("render " .. script .. " --frames 1 -o " .. script .. ".png")
     assert.is_truthy(said:find("cel 2 'back' (" .. script .. ":6), primitive 'sky' (" .. script
       .. ":2): ", 1, true), said)
   end)
 
-  it("tell the cel of a view that is refused", function()
+  it("identify the cel of a view that is refused", function()
     local script = bench:write("tiny.lua", TINY)
     local _, said = celspan_says("render " .. script .. " --frames 1 -o " .. script .. ".png")
     assert.is_truthy(said:find("cel 1 'far' (" .. script .. ":3): its viewport", 1, true), said)
   end)
 
-  it("are told by check", function()
+  it("are printed by check", function()
     local script = bench:write("checked.lua", SCRIPT)
     local _, said = celspan_says("check " .. script)
-    assert.is_truthy(said:find(("cel 2 'back' (%s:6), primitive 2 'sky' (%s:2): "):format(script, script),
+    assert.is_truthy(said:find(("cel 2 'back' (%s:6), primitive 2 'sky' (%s:2): ")
+      :format(script, script),
                                1, true), said)
   end)
 
@@ -161,25 +167,25 @@ return celspan.rostrum { camera = { centre = { 0, 0 }, width = 5 },
     local script = bench:write("nested.lua", [[
 local celspan = require "celspan"
 local sky = celspan.image { file = "nothing.png", w = 9, h = 9 }:named("sky")
-local window = celspan.rostrum { size = { 9, 9 }, celspan.cel { sky }:named("pane") }:named("window")
+local window = celspan.rostrum { size = {9, 9}, celspan.cel { sky }:named("pane") }:named("window")
 return celspan.rostrum { celspan.cel { window:translate(3, 4):fade(0.5) }:named("wall") }]])
     local code, said = celspan_says("info " .. script)
     assert.are.equal(0, code)
-    for _, line in ipairs { "named cel 1 wall (%s:4)\n", "named object 1 window (%s:3)\n",
+    for _, wanted in ipairs { "named cel 1 wall (%s:4)\n", "named object 1 window (%s:3)\n",
                             "named rostrum 1 window (%s:3)\n", "named cel 1 pane (%s:3)\n",
                             "named object 1 sky (%s:2)\n" } do
-      assert.is_truthy(said:find(line:format(script), 1, true), said)
+      assert.is_truthy(said:find(wanted:format(script), 1, true), said)
     end
-    _, said = celspan_says("render " .. script .. " -o " .. script .. ".png")
+    said = select(2, celspan_says("render " .. script .. " -o " .. script .. ".png"))
     assert.is_truthy(said:find("cel 1 'wall' (" .. script .. ":4), primitive 'sky' (" .. script
       .. ":2): ", 1, true), said)
   end)
 
-  it("are listed by info, with the frames that hold them", function()
+  it("are listed by info, with the frames that contain them", function()
     local script = bench:write("named.lua", SCRIPT)
     local code, said = celspan_says("info " .. script)
     assert.are.equal(0, code)
-    assert.is_truthy(said:find("named rostrum 3 stand (" .. script .. ":4)\n", 1, true), said)
+    assert.is_truthy(said:find("named rostrum 3 easel (" .. script .. ":4)\n", 1, true), said)
     assert.is_truthy(said:find("named cel 3 back (" .. script .. ":6)\n", 1, true), said)
     assert.is_truthy(said:find("named object 3 sky (" .. script .. ":2)\n", 1, true), said)
   end)

@@ -1,5 +1,4 @@
--- What the paper says of spans, light and filters, each claim by itself; docs/paper.md has the
--- paper's words.
+-- The paper's claims about spans, light and filters, each by itself; docs/paper.md quotes them.
 local celspan = require "celspan"
 
 --- The one row of a rostrum `width` pixels wide.
@@ -51,7 +50,7 @@ describe("Table 1", function()
   local order = { single = 1, gradient = 2, array = 3 }
   for front, front_texture in pairs(textures) do
     for back, back_texture in pairs(textures) do
-      it(("makes %s over %s the richer of the two"):format(front, back), function()
+      it(("makes %s over %s a span of the richer kind"):format(front, back), function()
         local expected = order[front] > order[back] and front or back
         local spans = row(sharp(bar(0, 16, back_texture), bar(0, 16, front_texture)), 16)
         assert.are.equal(expected, kinds(spans))
@@ -59,7 +58,7 @@ describe("Table 1", function()
     end
   end
 
-  it("cuts a gradient over a gradient where their product bends", function()
+  it("divides a gradient over a gradient where their product bends", function()
     local veil = gradient(0, 64, celspan.rgb(1, 0, 0, 0), celspan.rgb(1, 0, 0, 1))
     local spans = row(sharp(bar(0, 64, gradient(0, 64, "#000000", "#ffffff")), bar(0, 64, veil)),
       64)
@@ -69,7 +68,7 @@ describe("Table 1", function()
 end)
 
 describe("figure 7", function()
-  it("leaves of two lists the columns that both have", function()
+  it("keeps the columns that both lists have", function()
     local a = celspan.union { bar(2, 13, "#ff0000"), bar(17, 27, "#00ff00") }
     local b = celspan.union { bar(0, 5, "#0000ff"), bar(8, 21, "#0000ff"), bar(24, 30, "#0000ff") }
     local columns = {}
@@ -81,7 +80,7 @@ describe("figure 7", function()
 end)
 
 describe("figure 9", function()
-  --- Columns of a row that are of one colour of light.
+  --- The columns of a row with one colour of light.
   local function columns(spans, r, g, b)
     local list = {}
     for _, span in ipairs(spans) do
@@ -92,7 +91,7 @@ describe("figure 9", function()
     return list
   end
 
-  it("shows of a primitive what the mask leaves, and hides by both what is behind", function()
+  it("shows a primitive only inside the mask, and both hide the background", function()
     local leaf = celspan.union { bar(9, 26, "#ff0000"), bar(32, 54, "#ff0000") }
     local mask = celspan.union { bar(12, 20, "#00ff00"), bar(43, 48, "#00ff00") }
     local spans = row(sharp(bar(0, 60, "#0000ff"), leaf, mask), 60)
@@ -139,7 +138,7 @@ describe("figure 11", function()
       kinds(list { radius = 2.5, kernel = "box" }))
   end)
 
-  it("has ramps as long as the box is wide, about each step", function()
+  it("has ramps as long as the box is wide, around each step", function()
     local spans = list { radius = 2.5, kernel = "box" }
     assert.are.same({ 5, 10, 13, 18, 22 },
       { spans[1].x1, spans[2].x1, spans[3].x1, spans[4].x1, spans[5].x1 })

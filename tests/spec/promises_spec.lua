@@ -1,5 +1,5 @@
--- Promises of docs/trust.md that no other file here is about, and the page itself: every test that
--- it names is there.
+-- Promises of docs/trust.md that no other file here tests, and the page itself: every test that it
+-- names exists.
 local markdown = require "tests.support.markdown"
 local present = require "tests.support.present"
 local system = require "tests.support.system"
@@ -37,7 +37,7 @@ return celspan.film { size = { 320, 240 }, frames = 12, frame = function(f)
 -- ---------------------------------------------------------------- files
 
 describe("runs into one folder at the same time", function()
-  it("end well, each frame whole, and leave nothing unfinished", function()
+  it("succeed, with every frame complete, and leave no unfinished file", function()
     bench:write("film.lua", FILM)
     done "render film.lua -o whole/f.##.png --progress none"
     local one = "'" .. workbench.absolute .. "' render film.lua -o out/f.##.png --progress none "
@@ -54,7 +54,7 @@ describe("runs into one folder at the same time", function()
   end)
 end)
 
-describe("a picture that is written anew during a run", function()
+describe("a picture that is replaced during a run", function()
   -- --trust, so that the script itself can do it, before its second frame.
   local FRAMES = [[local celspan = require "celspan"
 return celspan.film { size = { 60, 40 }, frames = 3, frame = function(f)
@@ -63,7 +63,8 @@ return celspan.film { size = { 60, 40 }, frames = 3, frame = function(f)
     file:write(new)
     file:close()
   end
-  return celspan.rostrum { celspan.cel { celspan.image { file = "sky.png", w = 60, h = 40 } } } end }]]
+  return celspan.rostrum { celspan.cel { celspan.image { file = "sky.png", w = 60, h = 40 } } } end
+    }]]
 
   local function paint(name, colour)
     bench:write("one.lua", ([[local celspan = require "celspan"
@@ -72,7 +73,7 @@ return celspan.rostrum { size = { 600, 400 }, back = "%s", celspan.cel {
     done(("render one.lua -o %s --progress none"):format(name))
   end
 
-  --- The frames that the run leaves, and what it ends with.
+  --- Renders into out; returns the exit code and standard error.
   local function render(options)
     paint("sky.png", "#a00")
     paint("new.png", "#00b")
@@ -83,14 +84,14 @@ return celspan.rostrum { size = { 600, 400 }, back = "%s", celspan.cel {
     return code, err
   end
 
-  it("is shown as it was at first, as long as it is kept in memory", function()
+  it("is shown in its first version, as long as it is kept in memory", function()
     local code, err = render ""
     if not code then return end
     assert.are.equal(0, code, err)
     assert.is_true(bench:read "out/1.png" == bench:read "out/3.png")
   end)
 
-  it("is an error where it is read again, never half of each", function()
+  it("is an error if it is read again, never a mixture of both", function()
     local code, err = render "--memory 0"
     if not code then return end
     assert.are.equal(4, code, err)
@@ -101,7 +102,7 @@ return celspan.rostrum { size = { 600, 400 }, back = "%s", celspan.cel {
 end)
 
 describe("a second run into a pyramid of tiles", function()
-  it("is told that there is another one, and changes nothing", function()
+  it("fails because of the first one, and changes nothing", function()
     bench:write("film.lua", FILM)
     local tiles = "tiles film.lua --size 500x375 --progress none -o tiles"
     done(tiles)
@@ -111,7 +112,7 @@ describe("a second run into a pyramid of tiles", function()
     for _, options in ipairs { "", " --fresh" } do
       local code, _, err = run(tiles .. options, ("flock '%s' "):format(log))
       assert.are.equal(5, code, err)
-      assert.is_truthy(err:find("another celspan is at work on these tiles", 1, true), err)
+      assert.is_truthy(err:find("another celspan is writing these tiles", 1, true), err)
     end
     bench:shell(sum:format(bench.folder, "after"))
     assert.are.equal(bench:read "before", bench:read "after")
@@ -119,23 +120,24 @@ describe("a second run into a pyramid of tiles", function()
 end)
 
 describe("a second signal", function()
-  it("ends at once what does not hear the first one", function()
+  it("ends a program at once that ignores the first one", function()
     bench:write("film.lua", "('a'):rep(300000):find(('a-'):rep(8) .. 'b')")
     local words, code
-    for _ = 1, 5 do -- a machine may be busy just then, and the first signal's patience at its end
+    for _ = 1, 5 do -- the machine may be busy, and the time after the first signal over
       code, _, words = bench:shell(([[cd '%s' && { '%s' info film.lua --trust & pid=$!
         sleep 0.3; kill -TERM $pid
-        sleep 0.55; kill -TERM $pid; wait $pid; exit $?; }]]):format(bench.folder, workbench.absolute))
-      if not words:find "given up" then break end
+        sleep 0.55; kill -TERM $pid; wait $pid; exit $?; }]]):format(bench.folder,
+          workbench.absolute))
+      if not words:find "was killed" then break end
     end
     assert.are.equal(143, code)
-    assert.is_nil(words:find("given up", 1, true))
+    assert.is_nil(words:find("was killed", 1, true))
   end)
 end)
 
 describe("a span file of version 1", function()
   for _, depth in ipairs { "8", "half" } do
-    it("is read as it was when that version was made, at depth " .. depth, function()
+    it("is still read with the same result, at depth " .. depth, function()
       local kept = ("%s/tests/golden/files/version-1-%s."):format(os.getenv "PWD", depth)
       done(("convert '%sspan' now.tga"):format(kept))
       assert.is_true(bench:read(kept .. "tga") == bench:read "now.tga")
@@ -145,15 +147,16 @@ end)
 
 -- ---------------------------------------------------------------- the library
 
---- Whether the build has more in it than what is delivered.
+--- Whether the build contains more than the released one.
 local function is_instrumented() return present.sanitizer() or present.coverage() end
 
---- Objects of the library, not of the program, of what makes its sources, and of what only builds
---- with self-checks have.
+--- Objects of the library, without those of the program, of generators, and of units that are built
+--- only with self-checks.
 local OBJECTS = ("find '%s/src' '%s/subprojects' -name '*.o' ! -path '*/tests/*' ! -path '*embed*' "
-  .. "! -path '*make_*' ! -path '*/plugin/*' ! -name 'base_self_check*'"):format(BUILD, BUILD)
+  .. "! -path '*make_*' ! -path '*libprogram_*' ! -path '*/plugin/*' "
+  .. "! -name 'base_self_check*'"):format(BUILD, BUILD)
 
---- The names that objects want of other libraries.
+--- The names that objects import from other libraries.
 local function wanted_by(objects)
   local names = {}
   for _, line in ipairs(system.lines(objects .. " | xargs nm -u 2>/dev/null")) do
@@ -164,10 +167,10 @@ local function wanted_by(objects)
 end
 
 describe("the library", function()
-  it("neither ends the process, nor prints, nor touches what is the process's", function()
+  it("does not end the process, print, or change global state of the process", function()
     local names = wanted_by(OBJECTS .. " ! -path '*oiio*'")
     if not names.memcpy then return pending "nm, which lists calls, does not work" end
-    if is_instrumented() then return pending "the build has more in it than the library" end
+    if is_instrumented() then return pending "the build contains more than the library" end
     for name in ([[exit _exit quick_exit abort __assert_fail raise kill atexit printf
       __printf_chk vprintf __vprintf_chk puts putchar perror fprintf __fprintf_chk stdout stderr
       signal sigaction sigprocmask setlocale setenv putenv chdir umask srand rand random system fork
@@ -176,10 +179,11 @@ describe("the library", function()
     end
   end)
 
-  it("has no mathematics but its own and what is exact", function()
+  it("uses no mathematical functions except its own and exact ones", function()
     local names = wanted_by(OBJECTS .. " ! -path '*oiio*' ! -path '*sandbox*'")
     if not names.memcpy then return pending "nm, which lists calls, does not work" end
-    for name in ([[sin cos sincos tan asin acos atan atan2 sinh cosh tanh exp exp2 expm1 log log2 log10
+    for name in ([[sin cos sincos tan asin acos atan atan2 sinh cosh tanh exp exp2 expm1 log log2
+      log10
       log1p pow cbrt hypot erf]]):gmatch "%S+" do
       assert.is_nil(names[name], name)
       assert.is_nil(names[name .. "f"], name .. "f")
@@ -187,27 +191,27 @@ describe("the library", function()
   end)
 
   it("has no variables of its own", function()
-    if is_instrumented() then return pending "the build has more in it than the library" end
+    if is_instrumented() then return pending "the build contains more than the library" end
     local seen = 0
     local module = system.lines(("find '%s' -name celspan.so"):format(BUILD))[1]
     for _, line in ipairs(system.lines(("nm -f sysv '%s' 2>/dev/null"):format(module))) do
       local name, section = line:match "^([^| ]+) *|.*|(%g+) *$"
       seen = seen + (name and 1 or 0)
-      -- What the compiler puts there: marks of beginning and end, and what the processor can do.
+      -- Added by the compiler: marks of beginning and end, and the features of the processor.
       local is_ours = name and not name:find "^__" and not name:find "^completed" or false
       assert.is_false(is_ours and section:find "^%.t?[db][as][ts]a?$" ~= nil, line)
     end
     if seen == 0 then return pending "nm, which lists variables, does not work" end
   end)
 
-  it("does not depend on the language and the zone of the system", function()
+  it("does not depend on the locale and the time zone of the system", function()
     bench:write("film.lua", FILM)
     local right = done "render film.lua --hash --frames 1-2"
     local made = os.execute(("cd '%s' && localedef -i de_DE -f UTF-8 ./de_DE.UTF-8 >/dev/null 2>&1")
       :format(bench.folder))
     local comma = "LOCPATH=. LC_ALL=de_DE.UTF-8 TZ=Asia/Kathmandu LANGUAGE=de"
     assert.are.equal(right, done("render film.lua --hash --frames 1-2", comma))
-    if not made then return pending "the system has no language with a comma in numbers" end
+    if not made then return pending "the system has no locale with a decimal comma" end
     local shot = [[local celspan = require "celspan"
 local path = celspan.path { d = "M 1.5 2.25 L 30.75 4e-1 L 2 20.5 Z", texture = "#fff" }
 return celspan.pixels(celspan.rostrum { celspan.cel { path } }, { size = { 32, 24 } }):bytes {}]]
@@ -222,7 +226,7 @@ io.write((function() ]] .. shot .. " end)())")
 end)
 
 describe("time", function()
-  it("is asked only of a clock that nobody sets", function()
+  it("is measured only by a clock that cannot be set", function()
     local objects = "find '%s/src' '%s/celspan.p' -name '*.o' ! -path '*oiio*'"
     local names = wanted_by(objects:format(BUILD, BUILD))
     if not names.memcpy then return pending "nm, which lists calls, does not work" end
@@ -236,7 +240,7 @@ describe("time", function()
       assert.is_truthy(line:find "CLOCK_MONOTONIC", line)
     end
     assert.is_true(clocks > 4)
-    -- Without it, what waits goes by the clock on the wall.
+    -- Without this, waiting would follow the wall clock.
     for _, file in ipairs(system.lines "grep -rl pthread_cond_timedwait src") do
       assert.is_truthy(markdown.read(file):find("pthread_condattr_setclock", 1, true), file)
     end
@@ -249,7 +253,7 @@ end)
 describe("docs/trust.md", function()
   local text = markdown.read "docs/trust.md"
 
-  it("names tests, scripts and sources that are there", function()
+  it("names existing tests, scripts and sources", function()
     local seen = 0
     for path in text:gmatch "`(%l+/[%w_./-]+)`" do
       if path:find "^tests/" or path:find "^src/" then
@@ -269,7 +273,7 @@ describe("docs/trust.md", function()
     end
   end)
 
-  it("tells the exit codes where they are told, not once more", function()
+  it("refers to the list of exit codes instead of repeating it", function()
     assert.is_truthy(text:find("(command-line.md#exit-codes)", 1, true))
   end)
 end)

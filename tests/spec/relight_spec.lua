@@ -1,5 +1,5 @@
--- Light taken off pictures: what is left, in the light it was taken in and in others; what is kept in
--- files; and what is refused. One file, because all is asked of the same picture in known lights.
+-- Taking light off pictures: the result, in the original light and in others; files; and refusals.
+-- One file, because all tests use the same picture in known lights.
 local celspan = require "celspan"
 local present = require "tests.support.present"
 local prng = require "tests.support.prng"
@@ -16,7 +16,7 @@ after_each(function() bench:remove() end)
 
 local WIDTH, HEIGHT = 61, 37
 
---- A picture in memory, of what a function gives for each pixel: r, g, b, a, premultiplied.
+--- A picture in memory, from a function that returns each pixel: r, g, b, a, premultiplied.
 local function picture(at, w, h)
   w, h = w or WIDTH, h or HEIGHT
   local pixels = {}
@@ -34,7 +34,8 @@ local function show(texture, lights, w, h)
   return assert(celspan.pixels(celspan.rostrum { celspan.cel(cel) }, { size = { w, h } }))
 end
 
---- The greatest difference of two images in r, g, b and a, each a share of the greater of it and 1.
+--- The greatest difference of two images in r, g, b and a, relative to the value if that is above
+--- 1.
 local function difference(a, b)
   local worst = 0
   for y = 0, a.height - 1 do
@@ -82,7 +83,7 @@ describe("relight.from a picture and its light", function()
     assert.is_true(difference(show(photograph(dusk)), show(texture, { front = dusk })) < 1e-5)
   end)
 
-  it("takes colours for lights, and keeps the picture's sampling, wrap and box", function()
+  it("accepts colours as lights, and keeps the picture's sampling, wrap and box", function()
     local taken = picture(function() return 0.25, 0.25, 0.25, 1 end, 2, 2)
       :with { box = { 4, 4, 2, 2 }, wrap = "clear" }
     local texture = assert(relight.from { picture = taken, light = "#808080" })
@@ -92,7 +93,7 @@ describe("relight.from a picture and its light", function()
     assert.are.same({ 0, 0, 0, 0 }, { image:get(1, 1) })
   end)
 
-  it("says that a light of 0 or nearly 0 tells nothing", function()
+  it("reports that a light of 0 or nearly 0 gives no information", function()
     local texture, message = relight.from { picture = photograph(LAMP), light = { 1, 0, 1 } }
     assert.is_nil(texture)
     assert.is_truthy(message:find("there is no green in the light", 1, true))
@@ -108,7 +109,7 @@ local function card_t(x, y, c)
   return (1 - beta_at(x)) * (0.3 + 0.7 * random(("t%d %d %d"):format(x, y, c)))
 end
 
---- The card lit from the front, before a ground that sends light.
+--- The card lit from the front, in front of a background that sends light.
 local function card(front, ground)
   return picture(function(x, y)
     local rgb = {}
@@ -120,7 +121,7 @@ local function card(front, ground)
   end)
 end
 
---- Checks the texture against the card in other lights, before a ground.
+--- Compares the texture with the card in other lights, in front of a background.
 local function check_card(texture)
   local front, ground = { 0.3, 1.2, 0.7 }, { 0.9, 0.1, 0.4 }
   local image = show(texture, { front = front, back = ground })
@@ -132,7 +133,7 @@ end
 local BLACK = { 0, 0, 0 }
 
 describe("relight.from two exposures", function()
-  it("finds what is scattered and what comes through", function()
+  it("finds the scattered and the transmitted light", function()
     local texture, light = assert(relight.from {
       front = { picture = card(LAMP, BLACK), light = LAMP },
       back = { picture = card(BLACK, { 0.5, 0.6, 0.7 }), light = { 0.5, 0.6, 0.7 } } })
@@ -157,7 +158,7 @@ describe("relight.from two exposures", function()
     end
   end)
 
-  it("refuses what cannot be, with what was found", function()
+  it("refuses impossible pictures, with the values found", function()
     local shots = { front = { picture = card(LAMP, BLACK), light = LAMP },
       back = { picture = card(BLACK, { 1, 1, 1 }), light = { 0.4, 0.4, 0.4 } } }
     local texture, message = relight.from(shots)
@@ -171,14 +172,14 @@ describe("relight.from two exposures", function()
 end)
 
 describe("relight.from two grounds", function()
-  it("finds the same before two colours", function()
+  it("finds the same with two colours", function()
     local blue, sand = { 0.1, 0.2, 0.9 }, { 0.8, 0.7, 0.3 }
     check_card((assert(relight.from { light = LAMP, over = {
       { picture = card(LAMP, blue), ground = blue },
       { picture = card(LAMP, sand), ground = sand } } })))
   end)
 
-  it("finds the same before two pictures", function()
+  it("finds the same with two pictures", function()
     local function first(x, y, c) return 0.1 + 0.2 * ((x + y + c) % 3) end
     local function second(x, y, c) return first(x, y, c) + 0.3 end
     local function as_picture(ground)
@@ -189,7 +190,7 @@ describe("relight.from two grounds", function()
       { picture = card(LAMP, second), ground = as_picture(second) } } })))
   end)
 
-  it("says which channel of the grounds is the same", function()
+  it("reports which channel of the grounds is the same", function()
     local texture, message = relight.from { over = {
       { picture = card(LAMP, BLACK), ground = "#000000" },
       { picture = card(LAMP, { 1, 1, 0 }), ground = { 1, 1, 0 } } } }
@@ -198,7 +199,7 @@ describe("relight.from two grounds", function()
   end)
 end)
 
---- A scene of patches whose pigments are grey on the average, on a grey of 0.18, lit by a light.
+--- A scene of patches whose pigments are grey on average, on a grey of 0.18, lit by a light.
 local function scene(front)
   local parts = { celspan.rect { 0, 0, 160, 120, texture = celspan.rgb(0.18, 0.18, 0.18) } }
   for i = 0, 11 do
@@ -222,12 +223,13 @@ end
 describe("relight.from an estimate", function()
   local lamp = { 1.2, 0.9, 0.5 }
 
-  it("finds the light of a rendered scene that is grey on the average within 3 %", function()
-    local _, light = assert(relight.from { picture = photograph_of(scene(lamp)), estimate = "grey" })
+  it("finds the light of a rendered scene that is grey on average within 3 %", function()
+    local _, light = assert(relight.from { picture = photograph_of(scene(lamp)),
+      estimate = "grey" })
     for c = 1, 3 do assert.is_near(1, light[c] / lamp[c], 0.03) end
   end)
 
-  it("finds it from a patch whose colour is known within 3 %", function()
+  it("finds it within 3 % from a patch of known colour", function()
     local texture, light = assert(relight.from { picture = photograph_of(scene(lamp)),
       estimate = { at = { 72, 52, 16, 16 }, colour = { 0.4, 0.2, 0.3 } } })
     for c = 1, 3 do assert.is_near(1, light[c] / lamp[c], 0.03) end
@@ -238,11 +240,12 @@ describe("relight.from an estimate", function()
   end)
 
   --- A lamp that falls off towards a corner, as a light with a shape.
-  local uneven = celspan.radial { centre = { -60, -50 }, radius = 300, { 0, celspan.rgb(1, 0.9, 0.7) },
+  local uneven = celspan.radial { centre = { -60, -50 }, radius = 300,
+    { 0, celspan.rgb(1, 0.9, 0.7) },
     { 1, celspan.rgb(0.25, 0.2, 0.1) } }
   local lantern = { texture = uneven, gain = 1.5 }
 
-  --- Checks a light with a shape against the true one at some places.
+  --- Compares a light with a shape with the true one at some points.
   local function check_shape(light)
     local white = celspan.rect { 0, 0, 160, 120, texture = "#ffffff" }
     local function sheet(front)
@@ -259,12 +262,13 @@ describe("relight.from an estimate", function()
     end
   end
 
-  it("finds uneven light from something white, and from the picture itself", function()
+  it("finds uneven light from a white area, and from the picture itself", function()
     local taken = photograph_of(scene(lantern))
     local blank = photograph_of(celspan.rostrum { celspan.cel { front = lantern,
       celspan.rect { 0, 0, 160, 120, texture = celspan.rgb(0.9, 0.9, 0.9) } } })
     local known = { at = { 72, 52, 16, 16 }, colour = { 0.4, 0.2, 0.3 } }
-    local texture, light = assert(relight.from { picture = taken, estimate = known, uneven = blank })
+    local texture, light = assert(relight.from { picture = taken, estimate = known,
+      uneven = blank })
     check_shape(light)
     local shown = show(texture, { front = light }, 160, 120)
     assert.is_true(difference(show(taken, {}, 160, 120), shown) < 1 / 1023)
@@ -274,7 +278,7 @@ describe("relight.from an estimate", function()
       < 1 / 1023)
   end)
 
-  it("says when there is nothing to tell it from", function()
+  it("reports if there is nothing to estimate it from", function()
     local dark = picture(function(x) return 0, 0.1, x < 5 and 1 or 0, 1 end)
     local texture, message = relight.from { picture = dark, estimate = "grey" }
     assert.is_nil(texture)
@@ -294,7 +298,7 @@ describe("relight.from an estimate", function()
 end)
 
 describe("a relit picture in a file", function()
-  it_reads("comes back the same, with all seven channels", function()
+  it_reads("is read back unchanged, with all seven channels", function()
     local texture = assert(relight.from {
       front = { picture = card(LAMP, BLACK), light = LAMP },
       back = { picture = card(BLACK, { 1, 1, 1 }), light = { 1, 1, 1 } } })
@@ -308,7 +312,7 @@ describe("a relit picture in a file", function()
     assert.is_truthy(out:find("medium", 1, true))
   end)
 
-  it_reads("keeps highlights, and is a picture in white light to others", function()
+  it_reads("keeps highlights, and looks lit by white light in other programs", function()
     local texture = assert(relight.from { picture = photograph(LAMP), light = LAMP })
     local path = bench.folder .. "/lamp.exr"
     assert(relight.write(texture, path))
@@ -319,7 +323,7 @@ describe("a relit picture in a file", function()
       { front = LAMP })) < 1 / 1023)
   end)
 
-  it_reads("is told from other pictures", function()
+  it_reads("is distinguished from other pictures", function()
     assert(show(photograph(LAMP)):write(bench.folder .. "/plain.exr"))
     local texture, message = relight.read(bench.folder .. "/plain.exr")
     assert.is_nil(texture)
@@ -343,11 +347,12 @@ describe("relight.stack", function()
   end
   local options = { size = { 40, 30 } }
 
-  it("is the frame in other lights, named by cel, by place, or as the rostrum's", function()
+  it("gives the frame in other lights, named by cel, by index, or as the rostrum's", function()
     local stack = assert(relight.stack(rostrum_of({ 1, 1, 1 }, "#ffffff"), options))
     assert.are.same({ 40, 30 }, { stack.width, stack.height })
     assert.is_true(stack.bytes > 40 * 30 * 16)
-    local whole = assert(celspan.pixels(rostrum_of({ 2, 0.5, 0.1 }, { 0.3, 0.2, 0.9, 0.5 }), options))
+    local whole = assert(celspan.pixels(rostrum_of({ 2, 0.5, 0.1 }, { 0.3, 0.2, 0.9, 0.5 }),
+      options))
     for _, key in ipairs { "lamp", 1 } do
       local image = assert(stack:light { [key] = { front = { 2, 0.5, 0.1 } },
         [0] = { back = { 0.3, 0.2, 0.9, 0.5 } } })
@@ -357,7 +362,7 @@ describe("relight.stack", function()
       assert(stack:light())) < 1 / 65535) -- it starts from the rostrum's lights each time
   end)
 
-  it("gives the rostrum's front light to cels that have none of their own", function()
+  it("gives the rostrum's front light to cels without one of their own", function()
     local function make(front)
       return celspan.rostrum { front = front, celspan.cel { front = { 0.5, 0.5, 0.5 },
         celspan.rect { 0, 0, 8, 8, texture = "#ffffff" } },
@@ -369,7 +374,7 @@ describe("relight.stack", function()
       image) < 1 / 65535)
   end)
 
-  it("is the same part of the whole under a crop, and can be written", function()
+  it("gives the same part of the whole with a crop, and can be written", function()
     local stack = assert(relight.stack(rostrum_of({ 1, 1, 1 }, "#fff"), { size = { 40, 30 },
       crop = { 5, 4, 20, 11 } }))
     assert.is_true(difference(assert(celspan.pixels(rostrum_of({ 1, 1, 1 }, "#fff"),
@@ -377,8 +382,8 @@ describe("relight.stack", function()
     assert(assert(stack:light()):write(bench.folder .. "/lit.png"))
   end)
 
-  it("is as right where many pictures lie on one another, in less room than floats", function()
-    local draw, cels, changes, lit = prng.new(40), {}, {}, {}
+  it("is as exact with many pictures over each other, using less memory than floats", function()
+    local draw, cels, changes, relit = prng.new(40), {}, {}, {}
     for i = 1, 12 do
       local bytes = {}
       for k = 1, 4 * 150 * 20 do -- more and more opaque to the rear; one is rough
@@ -388,12 +393,12 @@ describe("relight.stack", function()
       cels[i] = celspan.cel { celspan.image { pixels = table.concat(bytes), size = { 150, 20 },
         format = "rgba8", x = i, y = i % 4 } }
       changes[i] = { front = { draw:between(0, 2), draw:between(0, 2), 2 } }
-      lit[i] = cels[i]:with(changes[i])
+      relit[i] = cels[i]:with(changes[i])
     end
-    local options, fine = { size = { 170, 24 } }, { size = { 170, 24 }, tolerance = 2 ^ -18 }
+    local coarse, fine = { size = { 170, 24 } }, { size = { 170, 24 }, tolerance = 2 ^ -18 }
     local function rostrum(of) return celspan.rostrum(of):with { brightness = 2 } end
-    local stack = assert(relight.stack(rostrum(cels), options))
-    for _, pair in ipairs { { cels, {} }, { lit, changes } } do
+    local stack = assert(relight.stack(rostrum(cels), coarse))
+    for _, pair in ipairs { { cels, {} }, { relit, changes } } do
       local whole = assert(celspan.pixels(rostrum(pair[1]), fine))
       assert.is_true(difference(whole, assert(stack:light(pair[2]))) < 1 / 65535)
     end
@@ -401,12 +406,14 @@ describe("relight.stack", function()
     assert.is_true(stack.bytes < 0.9 * 4 * floats)
   end)
 
-  it("refuses what it cannot do, with what was found", function()
-    local shaped = celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 9, 9 }, front = celspan.linear {
+  it("refuses impossible scenes, with the reason", function()
+    local shaped = celspan.rostrum {
+      celspan.cel { celspan.rect { 0, 0, 9, 9 }, front = celspan.linear {
       from = { 0, 0 }, to = { 9, 0 }, { 0, "#000" }, { 1, "#fff" } } } }
     local stack, message = relight.stack(shaped, options)
     assert.is_nil(stack)
-    assert.are.equal("stack: the front light of cel 1 is a texture; a stack takes flat lights", message)
+    assert.are.equal("stack: the front light of cel 1 is a texture; a stack takes flat lights",
+      message)
     stack = assert(relight.stack(rostrum_of({ 1, 1, 1 }, "#fff"), options))
     local cases = {
       { { lmap = {} }, 'light: there is no cel "lmap"; did you mean "lamp"?' },
@@ -441,7 +448,7 @@ describe("celspan relight", function()
       show(celspan.picture { file = out })) < 1 / 1023)
   end)
 
-  it_reads("takes the light off into a file that it shows in any light", function()
+  it_reads("writes a file without the light, which it shows in any light", function()
     local path, bare = write_photograph(LAMP), bench.folder .. "/bare.exr"
     assert.are.equal(0, (bench:celspan("relight %s -o %s --light 1.4,0.8,0.35", path, bare)))
     local back = bench.folder .. "/back.exr"
@@ -451,7 +458,7 @@ describe("celspan relight", function()
       < 1 / 1023)
   end)
 
-  it_reads("refuses what is missing or cannot be, with the documented exit codes", function()
+  it_reads("refuses missing and impossible arguments, with the documented exit codes", function()
     local path, bare = write_photograph(LAMP), bench.folder .. "/bare.exr"
     assert(relight.write((assert(relight.from { picture = photograph(LAMP), light = LAMP })), bare))
     local black = bench.folder .. "/black.png"
@@ -475,31 +482,59 @@ describe("celspan relight", function()
       assert.is_truthy(err:find(case[3], 1, true), err)
     end
   end)
+
+  it("accepts colours and three channels as lights, and nothing else", function()
+    local function refuses(option, text)
+      local arguments = "relight none.png -o x.png --light grey --to 1,1,1 %s '%s'"
+      local code, _, err = bench:celspan(arguments, option, text)
+      if code == 4 then return false end -- there is no picture
+      assert.are.equal(2, code)
+      assert.is_truthy(err:find(("%s: '%s' is not a colour like #"):format(option, text), 1, true),
+        err)
+      return true
+    end
+    for _, text in ipairs { "1", "1,1", "1,1,1,1", "1,1,-1", "nan,1,1", "1,1,2e6", "1, 1,1",
+      "#11223380", "1,,1",
+                            "gray", "" } do
+      assert.is_true(refuses("--light", text), text)
+      assert.is_true(refuses("--to", text), text)
+    end
+    for _, text in ipairs { "0,1,1", "1,0,1", "1,1,0", "#00ffff", "0,1.5,1e6", "#000" } do
+      assert.is_true(refuses("--light", text), text)
+      assert.is_false(refuses("--to", text), text)
+    end
+    for _, text in ipairs { "grey", "1,2,3", "#123" } do
+      assert.is_false(refuses("--light", text), text)
+    end
+  end)
 end)
 
 describe("relight.from", function()
-  it("raises what is given wrongly, at the caller's line", function()
+  it("raises errors in its arguments at the caller's line", function()
     local taken = photograph(LAMP)
     local cases = {
       { {}, "it takes a picture, or front and back, or over" },
       { { pictur = taken }, "unknown field 'pictur'; did you mean 'picture'?" },
-      { { picture = taken }, "a picture needs its light, or an estimate of it, and not both" },
-      { { picture = 3, light = LAMP }, "picture must be a file's name or a celspan.picture, got number" },
-      { { picture = taken, light = "lamp" }, 'light must be {r, g, b} or a colour like "#ffe0b0", got "lamp"' },
+      { { picture = taken }, "a picture needs its light or an estimate of it, but not both" },
+      { { picture = 3, light = LAMP },
+        "picture must be a file's name or a celspan.picture, got number" },
+      { { picture = taken, light = "lamp" },
+        'light must be {r, g, b} or a colour like "#ffe0b0", got "lamp"' },
       { { picture = taken, light = { 1, -1, 0 } }, "light[2] must be 0 or more, got -1" },
       { { picture = taken, estimate = "gray" },
         'estimate must be "grey" or { at = {x, y, w, h}, colour = ... }, got "gray"' },
-      { { picture = taken, light = LAMP, over = {} }, "'over' does not go with 'picture'" },
+      { { picture = taken, light = LAMP, over = {} }, "'over' cannot be combined with 'picture'" },
       { { front = { picture = taken, light = LAMP } },
-        "two exposures are front = { picture =, light = } and back, likewise" },
-      { { over = { 1 } }, "over must be two pictures, { { picture =, ground = }, { picture =, ground = } }" },
+        "two exposures are front = { picture =, light = } and back = { picture =, light = }" },
+      { { over = { 1 } },
+        "over must be two pictures, { { picture =, ground = }, { picture =, ground = } }" },
     }
     for _, case in ipairs(cases) do
       assert.are.equal("relight: " .. case[2], (raised(function() relight.from(case[1]) end)))
     end
   end)
 
-  it("gives a texture that is a value like others", function()
+  it("returns a texture that is a value like others", function()
     local texture = assert(relight.from { picture = photograph(LAMP), light = LAMP })
     assert.are.equal("house", texture:named("house").name)
     assert.is_truthy(raised(function() texture:with {} end):find "no fields")

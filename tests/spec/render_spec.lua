@@ -1,4 +1,4 @@
--- From values to pixels, spans, points and files, through the Lua face.
+-- From values to pixels, spans, points and files, through the Lua interface.
 local celspan = require "celspan"
 local present = require "tests.support.present"
 local raised = require "tests.support.raised"
@@ -28,7 +28,7 @@ describe("pixels", function()
     raised.message(image.get, image, 0.5, 0)
   end)
 
-  it("of a crop are those of the whole", function()
+  it("of a crop equal those of the whole", function()
     local whole = assert(celspan.pixels(scene(), options))
     local crop = assert(celspan.pixels(scene(), { size = { 8, 5 }, crop = { 1, 1, 3, 2 } }))
     assert.are.same({ 3, 2 }, { crop.width, crop.height })
@@ -39,14 +39,14 @@ describe("pixels", function()
     end
   end)
 
-  it("scale with the size when the film is told", function()
+  it("scale with the size if the film's size is given", function()
     local image = assert(celspan.pixels(scene(), { size = { 16, 10 }, film = { 8, 5 } }))
     assert.are.same({ 1, 0, 0, 1 }, { image:get(11, 7) })
     assert.are.same({ 0, 0, 1, 1 }, { image:get(12, 7) })
   end)
 
-  -- A chain ends and another one begins at a height where rows of tiles meet (sweep/cull.h).
-  it("show what lies beside a shape whose outline steps at a whole height", function()
+  -- A chain ends and another one begins at a height where rows of tiles meet (engine/sweep/cull.h).
+  it("show shapes next to one whose outline steps at a whole height", function()
     local step = celspan.path { d = "M10 0H40V64H20V48H10Z", texture = "#f00" }
     local shapes = { celspan.rect { 0, 0, 64, 64, texture = "#fff" } }
     for k = 1, 8 do
@@ -54,12 +54,12 @@ describe("pixels", function()
     end
     shapes[#shapes + 1] = step
     local rostrum = celspan.rostrum { celspan.cel(shapes) }
-    local options = { film = { 64, 64 } } -- large enough for shapes to be culled
-    local image = celspan.pixels(rostrum, { size = { 640, 640 }, film = options.film,
+    local view = { film = { 64, 64 } } -- large enough for shapes to be culled
+    local image = celspan.pixels(rostrum, { size = { 640, 640 }, film = view.film,
                                             antialias = "area" })
     for y = 440, 559 do
       for x = 5, 639, 10 do
-        assert.same({ celspan.probe(rostrum, (x + 0.5) / 10, (y + 0.5) / 10, options) },
+        assert.same({ celspan.probe(rostrum, (x + 0.5) / 10, (y + 0.5) / 10, view) },
           { image:get(x, y) }, ("pixel %d, %d"):format(x, y))
       end
     end
@@ -70,7 +70,7 @@ describe("pixels", function()
     assert.are.same({ 0.25, 0, 0, 0.25 }, { image:get(2, 1) })
   end)
 
-  it("answer nil and a message when the frame is refused", function()
+  it("return nil and a message when the frame is refused", function()
     local image, message = celspan.pixels(scene(), { size = { 8, 5 }, crop = { 5, 0, 9, 5 } })
     assert.is_nil(image)
     assert.are.equal("string", type(message))
@@ -90,7 +90,7 @@ describe("spans", function()
     end
   end)
 
-  it("are single where nothing varies", function()
+  it("are single if nothing varies", function()
     local rows = assert(celspan.spans(scene(), { size = { 8, 5 }, rows = { 2, 3 } }))
     assert.is_nil(rows[1])
     assert.is_nil(rows[4])
@@ -131,7 +131,7 @@ describe("scanline", function()
     assert.are.same({ 0, 0, 0, 0 }, { image:get(5, 0) })
   end)
 
-  it("is told which part can be seen", function()
+  it("receives the range of visible columns", function()
     local seen
     local rostrum = procedure(function(_, row)
       seen = row
@@ -142,7 +142,7 @@ describe("scanline", function()
     assert.is_true(seen.x0 <= 0 and seen.x1 >= 8)
   end)
 
-  it("hands on errors of the function, with their line", function()
+  it("passes on errors of the function, with their line", function()
     local image, message = celspan.pixels(procedure(function() error "no rain today" end), options)
     assert.is_nil(image)
     assert.is_truthy(message:find "render_spec.lua:%d+: no rain today")
@@ -184,7 +184,7 @@ describe("render", function()
       exists "a.0003.png", exists "a.0004.png" })
   end)
 
-  it("writes the frames that are asked for, in names that grow", function()
+  it("writes the requested frames, with file names as long as necessary", function()
     assert(celspan.render(film { first = 8 }, folder .. "b.%02d.png", { frames = "8-10:2" }))
     assert.are.same({ true, false, true }, { exists "b.08.png", exists "b.09.png",
       exists "b.10.png" })
@@ -215,7 +215,7 @@ describe("render", function()
     assert.is_truthy(message("1-2", "d.png"):find("no place for a frame number", 1, true))
   end)
 
-  it("answers with the line and the frame of an error", function()
+  it("reports the line and the frame of an error", function()
     local bad = film { frame = function(f)
       return celspan.rostrum { f.number > 1 and 3 or nil }
     end }
@@ -226,7 +226,7 @@ describe("render", function()
     assert.is_true(exists "e.0001.png")
   end)
 
-  it("tells its progress, and stops when told to", function()
+  it("reports its progress, and stops on request", function()
     local shares, last = {}, 0
     assert(celspan.render(film { frames = 2 }, folder .. "f.#.png", { workers = 1,
       progress = function(share, frame)
@@ -244,9 +244,9 @@ describe("render", function()
   end)
 end)
 
-describe("a picture's words", function()
+describe("a picture's wrap", function()
   local file = os.tmpname() .. ".png"
-  -- Red, then blue; the paint of columns 0..5 of a row whose columns 2 and 3 it lies on.
+  -- Red, then blue; the colours of columns 0..5 of a row, with the picture in columns 2 and 3.
   local function row(fields)
     local pair = celspan.rect { 0, 0, 1, 1, texture = "#f00" }
       | celspan.rect { 1, 0, 1, 1, texture = "#00f" }
@@ -265,7 +265,7 @@ describe("a picture's words", function()
     return table.concat(seen)
   end
 
-  it("say what is outside its box", function()
+  it("determines the colours outside its box", function()
     if not present.pictures() then return pending "there is no picture module" end
     assert.are.equal("..rb..", row {})
     assert.are.equal("..rb..", row { wrap = "clear" })
@@ -273,7 +273,7 @@ describe("a picture's words", function()
     assert.are.equal("rbrbrb", row { wrap = "repeat" })
   end)
 
-  it("is opaque or not, whatever is behind it: faded, it lets that much of it through", function()
+  it("is opaque or not on any background: faded, it lets that share of it through", function()
     local behind = celspan.rect { 0, 0, 96, 40, texture = "#f00" }
     local greys = { rgb8 = "\128\128\128", rgba8 = "\128\128\128\255" }
     for _, wrap in ipairs { "clamp", "repeat", "clear" } do
@@ -305,24 +305,26 @@ describe("a film, frame by frame", function()
     return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, f.number, 4, texture = red } } }
   end }
 
-  it("is shown by pixels, spans and probe", function()
+  it("can be rendered by pixels, spans and probe", function()
     local image = assert(celspan.pixels(film, { frame = 6 }))
     assert.are.same({ 8, 4 }, { image.width, image.height })
     assert.are.same({ 1, 0, 0, 1, 0, 0, 0, 0 },
       table.move({ image:get(6, 0) }, 1, 4, 5, { image:get(5, 0) }))
     assert.are.equal(0, (assert(celspan.pixels(film)):get(5, 0)))
     assert.are.equal(10, assert(celspan.spans(film, { frame = 6, size = { 16, 8 } }))[0][1].x1 - 2)
-    assert.are.same({ 1, 0 }, { (celspan.probe(film, 5.5, 1, { frame = 6 })), (celspan.probe(film, 5.5, 1)) })
+    assert.are.same({ 1, 0 },
+      { (celspan.probe(film, 5.5, 1, { frame = 6 })), (celspan.probe(film, 5.5, 1)) })
   end)
 
-  it("says what is wrong with a frame", function()
+  it("reports what is wrong with a frame", function()
     for _, call in ipairs { celspan.pixels, celspan.spans,
                             function(...) return celspan.probe(film, 1, 1, select(2, ...)) end } do
       local nothing, message = call(film, { frame = 7 })
       assert.is_nil(nothing)
       assert.is_truthy(message:find("frame 7: no sky today", 1, true), message)
       message = raised.message(call, film, { frame = 8 })
-      assert.is_truthy(message:find("frame 8 is not in the film, which has frames 5 to 7", 1, true), message)
+      assert.is_truthy(message:find("frame 8 is not in the film, which has frames 5 to 7", 1, true),
+        message)
     end
     local message = raised.message(celspan.pixels, scene(), { frame = 1 })
     assert.is_truthy(message:find("field 'frame' is for films", 1, true), message)
@@ -330,11 +332,13 @@ describe("a film, frame by frame", function()
 end)
 
 describe("an image", function()
-  local half = celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 2, 1, texture = "#ff800080" } } }
+  local half = celspan.rostrum {
+    celspan.cel { celspan.rect { 0, 0, 2, 1, texture = "#ff800080" } } }
 
   it("is a string of bytes in any coding", function()
     local image = assert(celspan.pixels(half, { size = { 3, 1 } }))
-    assert.are.same({ 255, 128, 0, 128, 255, 128, 0, 128, 0, 0, 0, 0 }, { image:bytes():byte(1, -1) })
+    assert.are.same({ 255, 128, 0, 128, 255, 128, 0, 128, 0, 0, 0, 0 },
+      { image:bytes():byte(1, -1) })
     assert.are.equal(24, #image:bytes { depth = 16 })
     assert.are.equal(24, #image:bytes { depth = "half" })
     local r, g, b, a = string.unpack("<ffff", image:bytes { depth = "float" })
@@ -358,7 +362,7 @@ describe("an image", function()
     os.remove(theirs)
   end)
 
-  it("says why it cannot be written", function()
+  it("reports why it cannot be written", function()
     local image = assert(celspan.pixels(scene(), options))
     local nothing, message = image:write("a.nothing")
     assert.is_nil(nothing)

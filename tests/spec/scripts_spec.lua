@@ -1,5 +1,5 @@
--- The scripts that ship: each makes a picture on its first, middle and last frame, and the same one
--- again, alone or in company, with one worker or two.
+-- The scripts that ship: each makes a picture for its first, middle and last frame, and the same
+-- one again, alone or with other frames, with one worker or two.
 
 local shipped = require "tests.support.shipped"
 local system = require "tests.support.system"
@@ -13,7 +13,7 @@ local function run(arguments)
   return ended_well and text
 end
 
---- A script as an argument, with what it needs.
+--- A script as an argument, with its options.
 local function quoted(path) return ("'%s'%s"):format(path, shipped.options(path)) end
 
 --- Frames as bytes, RGBA, 8 bits each; nil when the command failed.
@@ -42,7 +42,8 @@ describe("the scripts that ship", function()
     test(path .. " makes pictures, the same whenever it is asked", function()
       local count = tonumber(assert(run("info " .. quoted(path))):match("frames%s+(%d+)"))
       local size = WIDTH * HEIGHT * 4
-      local asked = count < 3 and ("1-%d"):format(count) or ("1,%d,%d"):format((count + 1) // 2, count)
+      local asked = count < 3 and ("1-%d"):format(count)
+        or ("1,%d,%d"):format((count + 1) // 2, count)
       local bytes = assert(render(path, asked, 1))
       assert.are.equal(math.min(count, 3) * size, #bytes)
       for n = 0, #bytes // size - 1 do

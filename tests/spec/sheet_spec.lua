@@ -1,5 +1,5 @@
--- Exposure sheets: read, asked, written, and those of films. One file, because what one format writes
--- every other one has to read.
+-- Exposure sheets: reading, queries, writing, and the sheets of films. One file, because every
+-- format must read what another one writes.
 local celspan = require "celspan"
 local layers = require "celspan.layers"
 local lips = require "celspan.lips"
@@ -25,7 +25,7 @@ teardown(function() bench:remove() end)
 
 local function read(name, text, options) return sheet.read(write(name, text), options) end
 
---- What a layer shows frame by frame: "1 1 2 .".
+--- The drawings of a layer frame by frame: "1 1 2 .".
 local function exposed(s, layer, count)
   local list = {}
   for n = 1, count or s.frames do list[n] = s:at(layer, n) or "." end
@@ -36,8 +36,10 @@ end
 local function xdts_of(duration, tracks, more, names)
   return ([[exchangeDigitalTimeSheet Save Data
 {"version":5,"header":{"cut":"12","scene":"3"},"timeTables":[{"name":"one","duration":%d,
-"timeTableHeaders":[{"fieldId":0,"names":[%s]},{"fieldId":3,"names":["Anna"]},{"fieldId":5,"names":["cam"]}],
-"fields":[{"fieldId":0,"tracks":[%s]}%s]}]}]]):format(duration, names or '"A","B"', tracks, more or "")
+"timeTableHeaders":[{"fieldId":0,"names":[%s]},{"fieldId":3,"names":["Anna"]},
+{"fieldId":5,"names":["cam"]}],
+"fields":[{"fieldId":0,"tracks":[%s]}%s]}]}]]):format(duration, names or '"A","B"', tracks, more or
+  "")
 end
 
 local function track(number, entries)
@@ -62,7 +64,7 @@ describe("an XDTS", function()
     assert.is_nil(s:at("A", 7))
   end)
 
-  it("takes hyphens and ticks as what goes on", function()
+  it("treats hyphens and ticks as continuations", function()
     local s = assert(read("a.xdts", xdts_of(6, track(0, { { 0, "1a" }, { 1, "SYMBOL_HYPHEN" },
       { 2, "SYMBOL_TICK_1" }, { 3, "SYMBOL_TICK_2" }, { 4, "SYMBOL_NULL_CELL" } }))))
     assert.are.equal("1a 1a 1a 1a . .", exposed(s, "A"))
@@ -71,7 +73,7 @@ describe("an XDTS", function()
     assert.are.same({}, s:marks("A", 1))
   end)
 
-  it("sorts entries, and holds those before the sheet into its first frame", function()
+  it("sorts entries, and continues those before the sheet into its first frame", function()
     local s = assert(read("a.xdts", xdts_of(4, track(0, { { 2, "9" }, { -3, "7" }, { -1, "8" } }))))
     assert.are.equal("8 8 9 9", exposed(s, "A"))
     s = assert(read("a.xdts", xdts_of(4, track(0, { { 0, "1" }, { -1, "8" } }))))
@@ -79,7 +81,8 @@ describe("an XDTS", function()
   end)
 
   it("may be shorter than its drawings, but a closing empty cell adds no frame", function()
-    assert.are.equal(11, assert(read("a.xdts", xdts_of(4, track(0, { { 0, "1" }, { 10, "2" } })))).frames)
+    assert.are.equal(11,
+      assert(read("a.xdts", xdts_of(4, track(0, { { 0, "1" }, { 10, "2" } })))).frames)
     assert.are.equal(4, assert(read("a.xdts",
       xdts_of(4, track(0, { { 0, "1" }, { 4, "SYMBOL_NULL_CELL" } })))).frames)
   end)
@@ -109,14 +112,18 @@ describe("an XDTS", function()
   end)
 
   it("may have fields of later programs, an extension, and data beside the drawings", function()
-    local text = xdts_of(3, '{"trackNo":0,"frames":[{"frame":0,"data":[{"id":1,"values":[true]},{"id":0,"values":["7"]}]}]}',
+    local text = xdts_of(3,
+      '{"trackNo":0,"frames":[{"frame":0,"data":[{"id":1,"values":[true]},'
+        .. '{"id":0,"values":["7"]}]}]}',
       ',{"fieldId":7,"tracks":[{"trackNo":0,"frames":[{"frame":0,"data":[{"values":["12F"]}]},'
-      .. '{"frame":1,"data":[{"values":[{"folder":1}]}]}]}]},{"fieldId":8,"tracks":{"a":1},"more":[]},'
+      .. '{"frame":1,"data":[{"values":[{"folder":1}]}]}]}]},'
+      .. '{"fieldId":8,"tracks":{"a":1},"more":[]},'
       .. '{"fieldId":9,"tracks":[' .. track(0, { { 1, "kept" } }) .. ']}')
       :gsub('"version":5', '"version":5,"subversion":"_p1_","later":{}')
     local s = assert(read("a.xdts", text))
     assert.are.equal("7 7 7", exposed(s, "A"))
-    assert.are.same({ { kind = "field 9", column = "track 1", from = 2, to = 3, text = "kept" } }, s.notes)
+    assert.are.same({ { kind = "field 9", column = "track 1", from = 2, to = 3, text = "kept" } },
+      s.notes)
     text = text:gsub('"header":{.-},', "", 1)
     assert.are.equal("", assert(read("a.xdts", text)).cut)
     local none, message = read("a.xdts", (text:gsub("exchangeDigital", " exchangeDigital", 1)))
@@ -125,7 +132,8 @@ describe("an XDTS", function()
   end)
 
   it("reads the options of the extension, and escapes", function()
-    local text = xdts_of(4, '{"trackNo":0,"frames":[{"frame":1,"data":[{"id":0,"values":["\\u732b"],'
+    local text = xdts_of(4,
+      '{"trackNo":0,"frames":[{"frame":1,"data":[{"id":0,"values":["\\u732b"],'
       .. '"options":["OPTION_KEYFRAME","OPTION_REFERENCEFRAME"]}]}]}')
     local s = assert(read("a.xdts", (text:gsub("\n", "\r\n"))))
     assert.are.equal("猫", s:at("A", 2))
@@ -152,17 +160,20 @@ describe("an XDTS", function()
       [head .. '{"version":5}'] = "the sheet.timeTables is missing",
       [head .. '{"version":5,"timeTables":[]}'] = "timeTables has 0 tables",
       [head .. '{"version":5,"timeTables":[null]}'] = "timeTables[1] must be an object",
-      [head .. '{"version":5,"timeTables":[{"timeTableHeaders":[]}]}'] = "timeTables[1].duration is missing",
+      [head .. '{"version":5,"timeTables":[{"timeTableHeaders":[]}]}'] =
+        "timeTables[1].duration is missing",
       [head .. '{"version":5,"timeTables":[{"duration":0,"timeTableHeaders":[]}]}'] =
         "timeTables[1].duration is 0",
       [head .. '{"version":5,"timeTables":[{"duration":1e300,"timeTableHeaders":[]}]}'] =
         "timeTables[1].duration is 1e+300",
-      [xdts_of(3, '{"trackNo":0},{"trackNo":0}')] = "timeTables[1].fields[1].tracks[2]: track 0 is there twice",
+      [xdts_of(3, '{"trackNo":0},{"trackNo":0}')] =
+        "timeTables[1].fields[1].tracks[2]: track 0 is a duplicate",
       [xdts_of(3, '{"trackNo":-1}')] = "timeTables[1].fields[1].tracks[1].trackNo is -1",
       [xdts_of(3, '{"trackNo":0,"frames":[{"frame":"x"}]}')] =
         "timeTables[1].fields[1].tracks[1].frames[1].frame must be a number, got string",
       [xdts_of(3, '{"trackNo":0,"frames":[{"frame":0,"data":[{"values":[true]}]}]}')] =
-        "timeTables[1].fields[1].tracks[1].frames[1].data[1].values[1] must be a string, got boolean",
+        "timeTables[1].fields[1].tracks[1].frames[1].data[1].values[1] must be a string, "
+        .. "got boolean",
     }
     for text, wanted in pairs(cases) do
       local s, message = read("bad.xdts", text)
@@ -172,7 +183,7 @@ describe("an XDTS", function()
     end
   end)
 
-  it("of the material has the values that it has", function()
+  it("of the material has the known values", function()
     if not material then return pending "CELSPAN_MATERIAL is not set" end
     local s = assert(sheet.read(material .. "/xdts/export-single-a.xdts"))
     assert.are.same({ 144, 24, "001", "001", "" }, { s.frames, s.fps, s.name, s.cut, s.scene })
@@ -183,16 +194,20 @@ describe("an XDTS", function()
 end)
 
 describe("the CSV of TVPaint and Krita", function()
-  local text = 'UTF-8, TVPaint, "CSV 1.0"\r\nProject Name, Width, Height, Frame Count, Layer Count, '
+  local text =
+    'UTF-8, TVPaint, "CSV 1.0"\r\nProject Name, Width, Height, Frame Count, Layer Count, '
     .. 'Frame Rate, Pixel Aspect Ratio, Field Mode\r\n"shot ""1"", a", 640, 480, 4, 2, 12.000000, '
-    .. '1.000000, Progressive\r\n#Layers, "ground", "hero, left"\r\n#Density, 1.000000, 0.500000\r\n'
+    .. '1.000000, Progressive\r\n#Layers, "ground", "hero, left"\r\n#Density, 1.000000, '
+    .. '0.500000\r\n'
     .. '#Blending, "Color", "Multiply"\r\n#Visible, 1, 0\r\n'
-    .. '#00000, "a.frames/frame00-00000.png", ""\r\n#00001, "a.frames/frame00-00000.png", "x.png"\r\n'
+    .. '#00000, "a.frames/frame00-00000.png", ""\r\n#00001, "a.frames/frame00-00000.png", '
+    .. '"x.png"\r\n'
     .. '#00002, "", "x.png"\r\n#00003, "", "y.png"\r\n'
 
-  it("has empty cels, holds and layers", function()
+  it("can have empty cels, holds and layers", function()
     local s = assert(read("a.csv", text))
-    assert.are.same({ 'shot "1", a', 640, 480, 12, 4 }, { s.name, s.width, s.height, s.fps, s.frames })
+    assert.are.same({ 'shot "1", a', 640, 480, 12, 4 },
+      { s.name, s.width, s.height, s.fps, s.frames })
     assert.are.same({ "ground", "hero, left" }, s.layers)
     assert.are.equal("a.frames/frame00-00000.png a.frames/frame00-00000.png . .", exposed(s, 1))
     assert.are.equal(". x.png x.png y.png", exposed(s, 2))
@@ -224,7 +239,8 @@ describe("the CSV of TVPaint and Krita", function()
 end)
 
 it("the CSV of Clip Studio has folders, marks and holds", function()
-  local s = assert(read("a.csv", "\239\187\191,,chars/main,\n,BG,A,B\n1,1,1,\n2,,○,2\n3,,●,×\n4,,2,\n"))
+  local s =
+    assert(read("a.csv", "\239\187\191,,chars/main,\n,BG,A,B\n1,1,1,\n2,,○,2\n3,,●,×\n4,,2,\n"))
   assert.are.same({ "BG", "chars/main/A", "B" }, s.layers)
   assert.are.equal("1 1 1 1", exposed(s, "BG"))
   assert.are.equal("1 1 1 2", exposed(s, "chars/main/A"))
@@ -237,16 +253,19 @@ it("the CSV of Clip Studio has folders, marks and holds", function()
   assert.is_truthy(select(2, read("a.csv", ",A\n,\130\1\n1,1\n")):find "not UTF%-8")
 end)
 
-local document = [[{"name":"shot","frameRate":12,"width":8,"height":8,"startTime":2,"endTime":8,"layers":[
+local document = [[{"name":"shot","frameRate":12,"width":8,"height":8,"startTime":2,"endTime":8,
+"layers":[
     {"name":"body","type":"paintlayer","frames":[
-      {"name":"b2","fileName":"body\\b2.png","frameNumber":4,"duration":2,"width":8,"height":8,"position":[4,4]},
-      {"name":"b1","fileName":"body/b1.png","frameNumber":0,"duration":4.0,"width":8,"height":8,"position":[4.0,4.0]},
+      {"name":"b2","fileName":"body\\b2.png","frameNumber":4,"duration":2,"width":8,"height":8,
+      "position":[4,4]},
+      {"name":"b1","fileName":"body/b1.png","frameNumber":0,"duration":4.0,"width":8,"height":8,
+      "position":[4.0,4.0]},
       {"name":"_blank","fileName":"","frameNumber":6,"duration":1}]},
     {"name":"group","type":"grouplayer","childLayers":[{"name":"bg","animated":false,"opacity":0.5,
       "frames":[{"name":"","fileName":"body/b1.png","frameNumber":0}]}]}]}]]
 
 describe("an OCA folder", function()
-  it("has durations, gaps, groups, and layers that stand still", function()
+  it("has durations, gaps, groups, and layers that do not change", function()
     write("shot.oca/shot.oca", document)
     local s = assert(sheet.read(folder .. "/shot.oca"))
     assert.are.same({ 6, 12, "shot", 8 }, { s.frames, s.fps, s.name, s.width })
@@ -277,10 +296,12 @@ describe("an OCA folder", function()
     assert.is_nil(s:drawing("body", 5, tree))
   end)
 
-  it("is told where it is a folder in a folder, or holds no document", function()
+  it("is refused if it is a folder in a folder, or contains no document", function()
     assert(os.execute("mkdir -p " .. folder .. "/deep.oca/inner.oca"))
-    assert.is_truthy(select(2, sheet.read(folder .. "/deep.oca")):find("inner.oca: Is a directory", 1, true))
-    assert.is_truthy(select(2, sheet.read(folder .. "/deep.oca/inner.oca")):find("holds no OCA document", 1, true))
+    assert.is_truthy(select(2, sheet.read(folder .. "/deep.oca"))
+      :find("inner.oca: Is a directory", 1, true))
+    local _, message = sheet.read(folder .. "/deep.oca/inner.oca")
+    assert.is_truthy(message:find("contains no OCA document", 1, true))
   end)
 
   it("is refused by layer and frame", function()
@@ -289,7 +310,7 @@ describe("an OCA folder", function()
         document:gsub('"frameNumber":4', '"frameNumber":"4"'),
       ["layer 2: layer 1: opacity is 5"] = document:gsub('"opacity":0.5', '"opacity":5'),
       ["frameRate is 0"] = document:gsub('"frameRate":12', '"frameRate":0'),
-      ["no OCA document"] = '{"a":1}',
+      ["not an OCA document"] = '{"a":1}',
     } do
       local s, message = read("bad.json", bad)
       assert.is_nil(s)
@@ -300,7 +321,8 @@ end)
 
 describe("the text", function()
   local text = 'celspan sheet 1\nname "a \\"b\\""\nfps 12.5\nframes 5\n# remark\n'
-    .. 'note dialogue "A" 2-4 "Anna" "Hi\\nyou"\nlayers  A  "b c"\n  1  1/ik  -\n\n  2  |/r  "x y"/m\n  4  |  |\n'
+    .. 'note dialogue "A" 2-4 "Anna" "Hi\\nyou"\nlayers  A  "b c"\n  1  1/ik  -\n\n  2  |/r  "x '
+    .. 'y"/m\n  4  |  |\n'
 
   it("is read", function()
     local s = assert(read("a.txt", text))
@@ -318,13 +340,13 @@ describe("the text", function()
     for wanted, bad in pairs {
       ["line 3: fps must be a number"] = text:gsub("12%.5", "fast"),
       ["line 8 has 1 cells; there are 2 layers"] = text:gsub("  %-\n", "\n", 1),
-      ["line 8: \"q\" is no mark"] = text:gsub("1/ik", "1/q"),
+      ["line 8: \"q\" is not a mark"] = text:gsub("1/ik", "1/q"),
       ["line 10: frame 1 follows frame 1"] = text:gsub("\n  2", "\n  1"),
       ["line 6: the note ends before it begins"] = text:gsub("2%-4", "4-2"),
       ["line 2: a quote is not closed"] = text:gsub('b\\""', "b"),
       ["line 5 begins with \"remark\""] = text:gsub("# ", ""),
       ["line 8: frame 0"] = text:gsub("\n  1", "\n  0"),
-      ["line 2: \\q is no escape"] = text:gsub('a \\"b', "a \\qb"),
+      ["line 2: \\q is not an escape"] = text:gsub('a \\"b', "a \\qb"),
     } do
       local s, message = read("a.txt", bad)
       assert.is_nil(s)
@@ -339,23 +361,24 @@ describe("a sheet", function()
   local s = sheet.new { layers = { "A", "B" }, frames = 9,
                         drawings = { A = { [1] = "1", [3] = "A2b", [5] = false, [7] = "3" } } }
 
-  it("is made of tables", function()
+  it("can be made from tables", function()
     assert.are.equal("1 1 A2b A2b . . 3 3 3", exposed(s, "A"))
     assert.are.equal(12, sheet.new { layers = { "A" }, drawings = { A = { [12] = "x" } } }.frames)
   end)
 
-  it("is refused with what is wrong", function()
+  it("is refused with the reason", function()
     for wanted, given in pairs {
       ["unknown field 'layer'; did you mean 'layers'?"] = { layer = {} },
-      ["layers[2]: \"A\" is there twice"] = { layers = { "A", "A" } },
+      ["layers[2]: \"A\" is a duplicate"] = { layers = { "A", "A" } },
       ["drawings: B must be a layer"] = { layers = { "A" }, drawings = { B = {} } },
       ["a frame must be a whole number from 1 to 10000000, got 0"] =
         { layers = { "A" }, drawings = { A = { [0] = "1" } } },
-      ["frame 1 must be a name, or false for nothing, got number"] =
+      ["frame 1 must be a name, or false if empty, got number"] =
         { layers = { "A" }, drawings = { A = { 1 } } },
-      ["0 frames a second"] = { fps = 0 },
+      ["its frame rate is 0"] = { fps = 0 },
       ["frames must be a whole number"] = { frames = 1.5 },
-      ["notes[1]: text must be a string, got nil"] = { notes = { { kind = "camera", column = "", from = 1 } } },
+      ["notes[1]: text must be a string, got nil"] = {
+        notes = { { kind = "camera", column = "", from = 1 } } },
       ["a drawing's name is empty"] = { layers = { "A" }, drawings = { A = { "" } } },
     } do
       local message = raised.sentence(function() sheet.new(given) end)
@@ -363,15 +386,16 @@ describe("a sheet", function()
     end
   end)
 
-  it("tells the layer that was meant", function()
+  it("suggests the nearest layer", function()
     local hand = sheet.new { layers = { "hand" } }
     local message = raised.sentence(function() hand:at("hnad", 1) end)
-    assert.is_truthy(message:find('there is no layer "hnad"; did you mean "hand"?', 1, true), message)
+    assert.is_truthy(message:find('there is no layer "hnad"; did you mean "hand"?', 1, true),
+      message)
     message = raised.sentence(function() hand:at("hand", 0 / 0) end)
     assert.is_truthy(message:find("got nan", 1, true), message)
   end)
 
-  it("gives drawings out of tables, functions and patterns", function()
+  it("returns drawings from tables, functions and patterns", function()
     local dot = celspan.circle { centre = { 0, 0 }, radius = 1 }
     assert.are.equal(dot, s:drawing("A", 1, { ["1"] = dot }))
     assert.are.equal(dot, s:drawing("A", 1, { dot }))
@@ -382,7 +406,7 @@ describe("a sheet", function()
   end)
 
   local it_reads_pictures = present.pictures() and it or pending
-  it_reads_pictures("gives the files of a pattern", function()
+  it_reads_pictures("returns the files of a pattern", function()
     assert(os.execute("mkdir -p " .. folder .. "/A2b"))
     local pixel = celspan.pixels(celspan.rostrum { back = "#fff" }, { size = { 2, 2 } })
     for pattern, file in pairs { ["hand_####.png"] = "hand_0002b.png", ["*/x#.png"] = "A2b/x#.png",
@@ -402,7 +426,9 @@ describe("a sheet", function()
       assert.is_truthy(message:find("cannot be part of a file's name", 1, true), message)
     end
     local bad = sheet.new { layers = { "A" }, drawings = { A = { "../7" } } }
-    assert.is_truthy(raised.sentence(function() bad:drawing("A", 1, "#.png") end):find "has no number")
+    assert.is_truthy(raised.sentence(function()
+      bad:drawing("A", 1, "#.png")
+    end):find "has no number")
   end)
 
   it("follows the time of a film with other frames a second", function()
@@ -415,10 +441,11 @@ describe("a sheet", function()
       return celspan.rostrum {}
     end }
     for n = 1, 24 do film:at(n) end
-    assert.are.equal("1 1 2 2 3 3 4 4 5 5 6 6 7 7 8 8 9 9 10 10 11 11 12 12", table.concat(list, " "))
+    assert.are.equal("1 1 2 2 3 3 4 4 5 5 6 6 7 7 8 8 9 9 10 10 11 11 12 12",
+      table.concat(list, " "))
   end)
 
-  it("is at every frame of its own rate, whatever that is", function()
+  it("shows every one of its frames at any frame rate", function()
     for _, fps in ipairs { 12, 23.976, 24, 25, 29.97, 30, 60, 120 } do
       local names = {}
       for n = 1, 300 do names[n] = tostring(n) end
@@ -434,13 +461,15 @@ end)
 
 -- ---------------------------------------------------------------- write and read
 
---- A random sheet; a seed each, so that what fails can be repeated.
+--- A random sheet, each with its own seed, so that failures can be repeated.
 local function random_sheet(seed)
   local random = celspan.random(seed)
-  local words = { "1", "2", "3a", "-", "|", "a b", 'q"', "\\", "x/y", "猫", "a,b", "#1", " ", "\\n1", "1/m" }
+  local words = { "1", "2", "3a", "-", "|", "a b", 'q"', "\\", "x/y", "猫", "a,b", "#1", " ", "\\n1",
+    "1/m" }
   local marks = { "inbetween", "reverse", "key", "reference" }
   local frames = random("frames", 1, 40)
-  local given = { fps = random("fps", 1, 60), frames = frames, name = words[random("name", 1, #words)],
+  local given = { fps = random("fps", 1, 60), frames = frames,
+    name = words[random("name", 1, #words)],
                   layers = {}, drawings = {}, marks = {}, notes = {}, scene = "1", cut = "" }
   for l = 1, random("layers", 1, 5) do
     local layer = words[l] .. l
@@ -448,23 +477,28 @@ local function random_sheet(seed)
     for n = 1, frames do
       local label = l .. " " .. n
       if random("change " .. label) < 0.3 then
-        given.drawings[layer][n] = random("empty " .. label) > 0.2 and words[random(label, 1, #words)]
+        given.drawings[layer][n] = random("empty " .. label) > 0.2
+          and words[random(label, 1, #words)]
       end
-      if random("mark " .. label) < 0.1 then given.marks[layer][n] = marks[random("m" .. label, 1, 4)] end
+      if random("mark " .. label) < 0.1 then
+        given.marks[layer][n] = marks[random("m" .. label, 1, 4)]
+      end
     end
   end
   local from = 1
   while random("note " .. from) < 0.7 and from <= frames do
     local to = math.min(frames, from + random("to " .. from, 0, 5))
     local is_spoken = random("kind " .. from) < 0.5
-    given.notes[#given.notes + 1] = { kind = is_spoken and "dialogue" or "camera", column = "c", from = from,
-      to = to, speaker = is_spoken and "Anna" or nil, text = words[random("text " .. from, 1, #words)] }
+    given.notes[#given.notes + 1] = { kind = is_spoken and "dialogue" or "camera", column = "c",
+      from = from,
+      to = to, speaker = is_spoken and "Anna" or nil,
+      text = words[random("text " .. from, 1, #words)] }
     from = to + 1
   end
   return sheet.new(given)
 end
 
---- Everything that can be asked of a sheet.
+--- The results of all queries of a sheet.
 local function content(s, without_notes)
   local all = { s.name, s.fps, s.frames, s.layers, without_notes or s.notes }
   for i in ipairs(s.layers) do
@@ -477,7 +511,9 @@ end
 
 --- A value as text, in one order.
 local function said(value)
-  if type(value) ~= "table" then return type(value) == "string" and ("%q"):format(value) or tostring(value) end
+  if type(value) ~= "table" then
+    return type(value) == "string" and ("%q"):format(value) or tostring(value)
+  end
   local keys, parts = {}, {}
   for key in pairs(value) do keys[#keys + 1] = key end
   table.sort(keys, function(a, b) return said(a) < said(b) end)
@@ -485,7 +521,7 @@ local function said(value)
   return "{" .. table.concat(parts, " ") .. "}"
 end
 
-describe("what is written is what is read", function()
+describe("a written sheet is read back unchanged", function()
   for _, ending in ipairs { "xdts", "txt", "csv" } do
     it("as " .. ending, function()
       local path = folder .. "/random." .. ending
@@ -499,14 +535,14 @@ describe("what is written is what is read", function()
     end)
   end
 
-  it("and a file that cannot be written is told", function()
+  it("and a file that cannot be written is reported", function()
     local s = sheet.new { layers = { "A" } }
     assert.is_nil(s:write(folder .. "/none/a.txt"))
     assert.is_truthy(select(2, s:write "a.doc"):find "sheets are written as .xdts, .csv or .txt")
   end)
 end)
 
-it("no truncation and no changed byte does more than a message", function()
+it("truncations and changed bytes cause at most a message", function()
   local s = random_sheet(7)
   local texts = {}
   for _, ending in ipairs { "xdts", "txt", "csv" } do
@@ -530,16 +566,17 @@ it("no truncation and no changed byte does more than a message", function()
   end
 end)
 
-it("damaged sheets of every format are read or refused, and what is read can be written", function()
+it("damaged sheets of every format are refused, or can be read and written", function()
   local fuzz = require "tests.fuzz.sheets"
   assert.is_true(fuzz.run(300, 1, folder) > 150)
 end)
 
-it("a small sheet is read by a script that may have little memory", function()
+it("a small sheet can be read by a script with little memory", function()
   write("small.txt", "celspan sheet 1\nfps 12\nframes 2\nlayers A\n 1 a\n")
   write("small.lua", [[local celspan, sheet = require "celspan", require "celspan.sheet"
     local s = assert(sheet.read "small.txt")
-    return celspan.film { size = { 8, 8 }, frames = s.frames, frame = function() return celspan.rostrum {} end }]])
+    return celspan.film { size = { 8, 8 }, frames = s.frames, frame = function() return
+      celspan.rostrum {} end }]])
   assert.are.equal(0, (bench:celspan("check %s/small.lua --limit memory=60M", folder)))
 end)
 
@@ -561,18 +598,19 @@ describe("a sheet of few words and millions of frames", function()
     assert.are.same({ 2, 9000000 }, { note.from, note.to })
   end)
 
-  it("is refused where it would have to be a text without end", function()
+  it("is refused if it would become an endless text", function()
     local path = folder .. "/far.csv"
     local done, message = assert(read("far.txt", text)):write(path)
     assert.is_nil(done)
-    assert.is_truthy(message:find("far.csv: it would have 10000000 rows of 11 cells, more than 100000000", 1, true), message)
+    assert.is_truthy(message:find("far.csv: it would have 10000000 rows of 11 cells, more "
+      .. "than 100000000", 1, true), message)
     assert.is_nil(io.open(path))
     assert.are.equal(5, (bench:celspan("sheet %s/far.txt -o %s", folder, path)))
-    local layers = {}
-    for i = 1, 20000 do layers[i] = "L" .. i end
+    local names = {}
+    for i = 1, 20000 do names[i] = "L" .. i end
     local drawings = {}
-    for i = 1, 20000 do drawings[layers[i]] = { [i] = "1" } end
-    local wide = sheet.new { layers = layers, drawings = drawings }
+    for i = 1, 20000 do drawings[names[i]] = { [i] = "1" } end
+    local wide = sheet.new { layers = names, drawings = drawings }
     local none, problem = wide:text()
     assert.is_nil(none)
     assert.is_truthy(problem:find("20000 rows of 20001 cells", 1, true), problem)
@@ -616,10 +654,11 @@ describe("the sheet of a film", function()
     return sheet.of(celspan.film { frames = count, frame = frame })
   end
 
-  it("tells drawing from placement", function()
+  it("distinguishes drawing from placement", function()
     local s = sheet_of(6, function(f)
       local art = (f.number < 4 and hand or fist):translate(f.number == 3 and 5 or 0, 0)
-      return celspan.rostrum { celspan.cel { art:named "hand", front = f.number == 6 and { 2, 2, 2 } or nil } }
+      return celspan.rostrum { celspan.cel { art:named "hand",
+        front = f.number == 6 and { 2, 2, 2 } or nil } }
     end)
     assert.are.same({ "cel 1", "hand" }, s.layers)
     assert.are.equal("1 1 1 2 2 2", exposed(s, "hand"))
@@ -631,8 +670,9 @@ describe("the sheet of a film", function()
     assert.are.equal("1 1 2 3 3 3", exposed(s, "cel 1"))
   end)
 
-  it("takes fade, viewport, defocus and lights of a cel for its placement", function()
-    local changes = { {}, { opacity = 0.5 }, { viewport = { 0, 0, 9, 9 } }, { defocus = 2 }, { back = "#fff" } }
+  it("counts fade, viewport, defocus and lights of a cel as its placement", function()
+    local changes = { {}, { opacity = 0.5 }, { viewport = { 0, 0, 9, 9 } }, { defocus = 2 },
+      { back = "#fff" } }
     local s = sheet_of(#changes, function(f)
       local desc = { hand, table.unpack {} }
       for name, value in pairs(changes[f.number]) do desc[name] = value end
@@ -642,7 +682,7 @@ describe("the sheet of a film", function()
     for n = 2, #changes do assert.is_true(s:marks("c", n).moved, n) end
   end)
 
-  it("knows a drawing that comes back, and where nothing is", function()
+  it("recognises a drawing that returns, and frames without one", function()
     local s = sheet_of(5, function(f)
       local art = ({ hand, fist, hand })[f.number]
       return celspan.rostrum { celspan.cel { art and art:named "hand" }:named "c" }
@@ -650,7 +690,7 @@ describe("the sheet of a film", function()
     assert.are.equal("1 2 1 . .", exposed(s, "hand"))
   end)
 
-  it("counts what is in two exposures once", function()
+  it("counts cels of two exposures once", function()
     local s = sheet_of(4, function(f)
       local rostrum = celspan.rostrum { celspan.cel { hand:named "hand" }:named "c" }
       return f.number > 2 and { { rostrum, 0.5 }, { rostrum, 0.5 } } or rostrum
@@ -659,7 +699,7 @@ describe("the sheet of a film", function()
     assert.are.same({}, s:marks("c", 3))
   end)
 
-  it("looks into booleans and compositions, and keeps names of two kinds apart", function()
+  it("includes booleans and compositions, and separates names of two kinds", function()
     local s = sheet_of(2, function(f)
       local inner = celspan.rostrum { size = { 20, 20 },
         celspan.cel { celspan.union { hand:fade(f.number / 2):named "x", fist } } }
@@ -671,7 +711,7 @@ describe("the sheet of a film", function()
     assert.are.equal("1 2", exposed(s, "x"))
   end)
 
-  it("marks procedures and does not take them for changed", function()
+  it("marks procedures and does not treat them as changed", function()
     local s = sheet_of(3, function()
       return celspan.rostrum { celspan.cel { celspan.scanline { bounds = { 0, 0, 9, 9 },
         spans = function() return {} end }:named "fire" } }
@@ -680,7 +720,7 @@ describe("the sheet of a film", function()
     assert.are.same({ procedure = true }, s:marks("fire", 2))
   end)
 
-  it("names the very frames on which the mouth of the demo changes", function()
+  it("names exactly the frames on which the mouth of the demo changes", function()
     local path = folder .. "/demo.txt"
     assert.are.equal(0, (bench:celspan("sheet %s/scripts/demo.lua -o %s", root, path)))
     local s = assert(sheet.read(path))
@@ -706,7 +746,8 @@ end)
 
 it("the lip-sync material is exposed frame by frame", function()
   if not material then return pending "CELSPAN_MATERIAL is not set" end
-  for _, path in ipairs { "espeak/fox", "espeak/peter", "human/austen-0880", "human/austen-0930" } do
+  for _, path in ipairs { "espeak/fox", "espeak/peter", "human/austen-0880",
+    "human/austen-0930" } do
     local mouths = assert(lips.read(material .. "/lipsync/" .. path .. ".rhubarb.tsv"))
     local drawings = {}
     for n = 1, mouths.frames do drawings[n] = mouths:at(n) end
@@ -748,10 +789,12 @@ end }]])
     assert.are.equal("1 2 2 3", exposed(s, "bar"))
     assert.are.equal(2, (run(script .. " --frames 1-3")))
     assert.are.equal(2, (run(path .. " --frames 1")))
-    assert.has_error(function() sheet.of(celspan.film { frame = function() end }, { frames = 3 }) end)
+    assert.has_error(function()
+      sheet.of(celspan.film { frame = function() end }, { frames = 3 })
+    end)
   end)
 
-  it("has exit codes for what went wrong", function()
+  it("has exit codes for all failures", function()
     assert.are.equal(4, (run(folder .. "/none.xdts")))
     local code, _, err = run(write("bad.txt", "celspan sheet 1\nfps x\n"))
     assert.are.equal(4, code)

@@ -1,11 +1,11 @@
--- Parts of pictures: `source`, as of a sheet of sprites.
+-- Parts of pictures: `source`, for a sheet of sprites.
 local celspan = require "celspan"
 local present = require "tests.support.present"
 local raised = require "tests.support.raised"
 local workbench = require "tests.support.workbench"
 
--- 150 x 90 pixels, so that parts lie across the blocks that pictures are kept in; every pixel
--- differs from its neighbours, and some are clear.
+-- 150 x 90 pixels, so that parts cross the blocks in which pictures are stored; every pixel differs
+-- from its neighbours, and some are clear.
 local SHEET = [[
 local celspan = require "celspan"
 local random = celspan.random("sheet")
@@ -15,7 +15,8 @@ for y = 0, 89 do
     local label = x .. "," .. y
     if random(label .. "a") > 0.1 then
       shapes[#shapes + 1] = celspan.rect { x, y, 1, 1, texture = celspan.rgb(random(label .. "r"),
-        random(label .. "g"), random(label .. "b"), random(label .. "o") > 0.5 and 1 or random(label .. "k")) }
+        random(label .. "g"), random(label .. "b"), random(label .. "o") > 0.5 and 1 or random(label
+          .. "k")) }
     end
   end
 end
@@ -58,7 +59,7 @@ describe("the source of an image", function()
     for _, part in ipairs(PARTS) do test(part, cut(table.unpack(part))) end
   end
 
-  it("is drawn as a file of its own, to the bit, however it is placed", function()
+  it("is drawn like a file of its own, to the bit, however it is placed", function()
     each_part(function(part, file)
       local ways = {
         function(o) return o end,
@@ -84,7 +85,7 @@ describe("the source of an image", function()
     end)
   end)
 
-  it("wraps, fits and shines as a file of its own", function()
+  it("wraps, fits and lights like a file of its own", function()
     each_part(function(part, file)
       for _, fields in ipairs {
         { w = 60, h = 60, fit = "contain" }, { w = 60, h = 60, fit = "cover" }, { w = 40 },
@@ -98,24 +99,29 @@ describe("the source of an image", function()
       for _, wrap in ipairs { "clear", "clamp", "repeat" } do
         local function textured(fields)
           fields.box, fields.wrap = { 20, 10, 30, 40 }, wrap
-          return celspan.circle { centre = { 40, 40 }, radius = 38, texture = celspan.picture(fields) }
+          return celspan.circle { centre = { 40, 40 }, radius = 38,
+            texture = celspan.picture(fields) }
         end
-        assert.is_true(bytes(textured { file = sheet, source = part }, 3) == bytes(textured { file = file }, 1))
+        assert.is_true(bytes(textured { file = sheet, source = part }, 3)
+          == bytes(textured { file = file }, 1))
       end
     end)
   end)
 
-  it("is what probe sees", function()
+  it("is used by probe, too", function()
     each_part(function(part, file)
-      local ours = celspan.rostrum { celspan.cel { celspan.image { file = sheet, source = part, w = 30, h = 30 } } }
-      local theirs = celspan.rostrum { celspan.cel { celspan.image { file = file, w = 30, h = 30 } } }
+      local ours = celspan.rostrum {
+        celspan.cel { celspan.image { file = sheet, source = part, w = 30, h = 30 } } }
+      local theirs = celspan.rostrum {
+        celspan.cel { celspan.image { file = file, w = 30, h = 30 } } }
       for _, at in ipairs { { 0.1, 0.1 }, { 29.9, 29.9 }, { 7.7, 21.3 } } do
-        assert.are.same({ celspan.probe(theirs, at[1], at[2]) }, { celspan.probe(ours, at[1], at[2]) })
+        assert.are.same({ celspan.probe(theirs, at[1], at[2]) },
+          { celspan.probe(ours, at[1], at[2]) })
       end
     end)
   end)
 
-  it("decides the size, and can be read and changed", function()
+  it("determines the size, and can be read and changed", function()
     if not present.pictures() then pending "there is no picture module" end
     local image = celspan.image { file = sheet, source = { 10, 5, 16, 12 }, x = 3 }
     assert.are.same({ 3, 0, 16, 12 }, { image:bounds() })
@@ -123,12 +129,13 @@ describe("the source of an image", function()
     assert.are.same({ 3, 0, 20, 12 }, { image:with { source = { 0, 0, 20, 12 } }:bounds() })
   end)
 
-  it("keeps the sheet of a walk within any memory", function()
+  it("allows a sheet of sprites with any limit of memory", function()
     if not present.pictures() then pending "there is no picture module" end
     bench:write("walk.lua", [[
 local celspan = require "celspan"
 return celspan.film { size = { 30, 30 }, frames = 9, frame = function(f)
-  local sprite = celspan.image { file = "sheet.png", source = { 16 * f.index, 7, 16, 20 }, w = 30, h = 30 }
+  local sprite = celspan.image { file = "sheet.png", source = { 16 * f.index, 7, 16, 20 }, w = 30, h
+    = 30 }
   return celspan.rostrum { celspan.cel { sprite } }
 end }]])
     local function hashes(options)
@@ -141,7 +148,7 @@ end }]])
     assert.are.equal(9, select(2, plain:gsub("\n", "")))
   end)
 
-  it("cuts pixels in memory too", function()
+  it("selects from pixels in memory too", function()
     local bytes_of, whole, part = celspan.random("pixels"), {}, {}
     for y = 0, 69 do
       for x = 0, 79 do
@@ -157,7 +164,8 @@ end }]])
                            function(o) return o:rotate(20, 10, 10):scale(3) end } do
       assert.is_true(bytes(way(celspan.image(ours)), 2) == bytes(way(celspan.image(theirs))))
     end
-    assert.are.equal("image: a picture in memory: source {60, 3, 21, 1} is not inside the picture, which is "
+    assert.are.equal("image: a picture in memory: source {60, 3, 21, 1} is not inside the "
+      .. "picture, which is "
       .. "80 x 70 pixels", (raised.sentence(function()
         ours.source = { 60, 3, 21, 1 }
         celspan.image(ours)
@@ -169,7 +177,8 @@ end }]])
     local function refusal(source)
       return (raised.sentence(function() celspan.image { file = sheet, source = source } end))
     end
-    assert.are.equal("image: " .. sheet .. ": source {140, 0, 11, 5} is not inside the picture, which is "
+    assert.are.equal("image: " .. sheet
+      .. ": source {140, 0, 11, 5} is not inside the picture, which is "
       .. "150 x 90 pixels", refusal { 140, 0, 11, 5 })
     assert.is_truthy(refusal({ 0, 89, 1, 2 }):find("is not inside the picture", 1, true))
     assert.are.equal("image: x of source is 0.5; it must be a whole number of pixels, 0 or more",
@@ -179,7 +188,8 @@ end }]])
     assert.are.equal("image: y of source is -1; it must be a whole number of pixels, 0 or more",
       refusal { 0, -1, 1, 1 })
     assert.is_truthy(refusal({ 1, 2 }):find("source", 1, true))
-    local message = raised.message(celspan.image, { file = bench.folder .. "/none.png", source = { 0, 0, 1, 1 } })
+    local message = raised.message(celspan.image,
+      { file = bench.folder .. "/none.png", source = { 0, 0, 1, 1 } })
     assert.is_truthy(message:find("none.png", 1, true), message)
   end)
 end)

@@ -24,7 +24,8 @@ local it_opens = not present.sanitizer() and present.pictures() and present.prog
   and it or pending
 
 local function oiiotool(arguments)
-  return shell(("OIIO_LIBRARY_PATH='%s' oiiotool %s"):format(workbench.build .. "/src/oiio/plugin", arguments))
+  return shell(("OIIO_LIBRARY_PATH='%s' oiiotool %s")
+    :format(workbench.build .. "/src/plugins/oiio/plugin", arguments))
 end
 
 local SCENE = [[
@@ -46,7 +47,7 @@ return celspan.film{ size = {120, 90}, frames = 1, frame = function(f)
 end }
 ]]
 
--- Too much to be done in half a second.
+-- Too much work for half a second.
 local MANY = [[
 local celspan = require "celspan"
 local discs = {}
@@ -71,7 +72,7 @@ end)
 teardown(function() bench:remove() end)
 
 describe("a span file", function()
-  it("is the same bytes for any number of workers, and so are its parts #workers", function()
+  it("has the same bytes with any number of workers, and so have its parts #workers", function()
     write("parts.lua", [[
 local celspan = require "celspan"
 local ramp = celspan.linear { from = { 0, 0 }, to = { 90, 70 }, { 0, "#f00" }, { 1, "#0000ff80" } }
@@ -91,7 +92,7 @@ end }]])
     end
   end)
 
-  it("holds the same pixels after it is converted to another", function()
+  it("contains the same pixels after conversion to another span file", function()
     for _, name in ipairs { "scene", "half" } do
       done(("convert %s.span again.span%s"):format(name, name == "half" and " --depth half" or ""))
       done(("compare %s.span again.span"):format(name))
@@ -106,7 +107,7 @@ end }]])
     assert.equal(0, (celspan("compare from-png.span scene.span")))
   end)
 
-  it("is told about by info", function()
+  it("is described by info", function()
     local out = done("info scene.span")
     assert.truthy(out:find("format span\nsize 300x200\ndepth 8\n", 1, true), out)
     local rows = 0
@@ -115,12 +116,12 @@ end }]])
     assert.truthy(done("info half.span"):find("depth half", 1, true))
   end)
 
-  it("is recognised by what it holds, not by its name", function()
+  it("is recognised by its content, not by its name", function()
     write("named.png", read "scene.span")
     done("compare named.png scene.span")
   end)
 
-  it("is told apart from another by compare", function()
+  it("is distinguished from another by compare", function()
     done("render opaque.lua -o opaque.span --progress none")
     assert.equal(1, (celspan("compare scene.span opaque.span")))
     done("render opaque.lua -o opaque-half.span --depth half --progress none")
@@ -129,13 +130,13 @@ end }]])
     assert.equal(1, (celspan("compare opaque.span opaque-half.span")))
   end)
 
-  it("gives any part of itself", function()
+  it("can be read in any part", function()
     done("render scene.lua -o part.span --crop 100,30,90,140 --progress none")
     done("convert scene.span cropped.span --crop 100,30,90,140")
     done("compare part.span cropped.span")
   end)
 
-  it_reads_pictures("is scaled as other pictures are", function()
+  it_reads_pictures("is scaled like other pictures", function()
     done("render opaque.lua -o opaque.span --progress none")
     done("render opaque.lua -o opaque.png --progress none")
     for _, size in ipairs { "60x45", "53x41", "240x180", "50x300", "300x50", "120x50", "1x1" } do
@@ -146,14 +147,16 @@ end }]])
     end
   end)
 
-  it("is refused when it is cut or altered, with the byte and the reason", function()
+  it("is refused if it is truncated or altered, with the byte and the reason", function()
     local whole = read "scene.span"
     write("cut.span", whole:sub(1, -2))
     local middle = #whole // 2
     write("altered.span", whole:sub(1, middle) .. string.char(whole:byte(middle + 1) ~ 1)
       .. whole:sub(middle + 2))
-    for name, pattern in pairs { cut = "cut.span: byte %d+: cut", altered = "altered.span: byte %d+: row %d+: " } do
-      for _, verb in ipairs { "info %s.span", "convert %s.span out.span", "compare %s.span scene.span" } do
+    for name, pattern in pairs { cut = "cut.span: byte %d+: cut",
+      altered = "altered.span: byte %d+: row %d+: " } do
+      for _, verb in ipairs { "info %s.span", "convert %s.span out.span",
+        "compare %s.span scene.span" } do
         local code, _, err = celspan(verb:format(name))
         assert.equal(4, code, err)
         assert.truthy(err:match("^celspan: error: " .. pattern), err)
@@ -162,19 +165,20 @@ end }]])
     end
   end)
 
-  it("holds two depths", function()
+  it("can have two depths", function()
     local code, _, err = celspan("render scene.lua -o deep.span --depth 16 --progress none")
     assert.equal(2, code, err)
     assert.truthy(err:find("span files hold depth 8", 1, true), err)
     assert.is_nil(read "deep.span")
   end)
 
-  it("leaves nothing under its name when it cannot be finished", function()
+  it("leaves no file under its name if it cannot be finished", function()
     local function leaves_nothing() return #bench:files "out" == 0 end
     write("many.lua", MANY)
     assert(os.execute("mkdir '" .. bench.folder .. "/out'"))
     local arguments = " render many.lua -o out/x.span --size 1000000x1000000 --progress none"
-    local code, _, err = shell("ulimit -f 4; " .. workbench.absolute .. arguments .. " --crop 0,0,1000000,9000")
+    local code, _, err = shell("ulimit -f 4; " .. workbench.absolute .. arguments
+      .. " --crop 0,0,1000000,9000")
     assert.equal(5, code, err)
     assert.truthy(err:find("out/x.span: cannot write", 1, true), err)
     assert.is_true(leaves_nothing())
@@ -205,7 +209,7 @@ describe("the plug-in for OpenImageIO", function()
     assert.equal(0, code, out .. err)
   end)
 
-  it_opens("says what the file is", function()
+  it_opens("describes the file", function()
     local code, out, err = oiiotool("--info -v scene.span half.span")
     assert.equal(0, code, err)
     assert.truthy(out:find("300 x  200, 4 channel, uint8 span", 1, true), out)
@@ -214,12 +218,13 @@ describe("the plug-in for OpenImageIO", function()
   end)
 
   it_opens("reads rows in any order", function()
-    local code, out, err = oiiotool("half.span --cut 300x1+0+150 -o row.exr half.span --flip --flop "
+    local code, out, err =
+      oiiotool("half.span --cut 300x1+0+150 -o row.exr half.span --flip --flop "
       .. "-o turned.exr row.exr half.span --cut 300x1+0+150 --diff")
     assert.equal(0, code, out .. err)
   end)
 
-  it_opens("reads only a part of what is too large to be held", function()
+  it_opens("reads only a part of a file that is too large for memory", function()
     done("render opaque.lua -o large.span --size 1000000x1000000 --progress none")
     done("convert large.span part.span --crop 166700,499900,300,200")
     local code, out, err = oiiotool("large.span --cut 300x200+166700+499900 -o part.tif")
@@ -227,7 +232,7 @@ describe("the plug-in for OpenImageIO", function()
     done("compare part.span part.tif")
   end)
 
-  it_opens("refuses what is cut or altered", function()
+  it_opens("refuses a truncated or altered file", function()
     local whole = read "scene.span"
     write("cut.span", whole:sub(1, -2))
     local code, out, err = oiiotool("cut.span -o never.png")

@@ -1,6 +1,8 @@
--- A program without memory: whichever allocation of the whole process fails, alone or with all after
--- it, a render ends with the right frames or with 33 and a sentence, and leaves nothing unfinished.
--- CELSPAN_STARVE=1 tries every allocation; else some are drawn by lot, by CELSPAN_SEED.
+-- A program without memory: whichever allocation of the whole process fails, alone or with all
+-- after it, a render ends with the right frames or with 33 and a sentence, and leaves nothing
+-- unfinished. CELSPAN_STARVE=1 tries every allocation; else some are selected at random, by
+-- CELSPAN_SEED, and of these one in CELSPAN_FAULTS.
+local paintings = require "tests.support.paintings"
 local present = require "tests.support.present"
 local prng = require "tests.support.prng"
 local system = require "tests.support.system"
@@ -8,8 +10,10 @@ local workbench = require "tests.support.workbench"
 
 local LIBRARY = workbench.build .. "/tests/libstarve.so"
 local ALL = os.getenv "CELSPAN_STARVE"
-local SAMPLES = 60
-local LOADING_RUN = 100 -- of the allocations while OpenImageIO is loaded, one after the other
+local FAULTS = tonumber(os.getenv "CELSPAN_FAULTS") or 1
+local SAMPLES = math.max(60 // FAULTS, 1)
+-- Of the allocations while OpenImageIO is loaded, one after the other.
+local LOADING_RUN = math.max(100 // FAULTS, 1)
 local bench, random
 
 setup(function() random = prng.new(tonumber(os.getenv "CELSPAN_SEED") or 1) end)
@@ -23,28 +27,33 @@ for i = 1, 6 do points[i] = { 20 + 15 * math.cos(i * f.number), 15 + 12 * math.s
 return celspan.rostrum { back = "#fff", celspan.cel {
   celspan.nurbs { points = points, texture = "#f00" },
   celspan.circle { centre = { 20, 15 }, radius = 5,
-    texture = celspan.linear { from = { 0, 0 }, to = { 40, 0 }, { 0, "#f00" }, { 1, "#00f" } } } } }]],
+    texture = celspan.linear { from = { 0, 0 }, to = { 40, 0 }, { 0, "#f00" }, { 1, "#00f" } } } }
+      }]],
   procedures = [[
 return celspan.rostrum { back = "#fff",
-  celspan.cel { celspan.scanline { bounds = { 2, 2, 9, 3 }, spans = function() return { { 3, 9, "#0f0" } } end } },
+  celspan.cel { celspan.scanline { bounds = { 2, 2, 9, 3 }, spans = function() return { { 3, 9,
+    "#0f0" } } end } },
   celspan.cel { celspan.stroke { points = { { 1, 1 }, { 30, 20 }, { 3, 25 } }, width = 3 },
-                celspan.circle { centre = { 20, 15 }, radius = 5 } - celspan.rect { 18, 10, 9, 9 } } }]],
+                celspan.circle { centre = { 20, 15 }, radius = 5 } - celspan.rect { 18, 10, 9, 9 } }
+                  }]],
 }
 
 local RENDER = "render film.lua --workers 1 --limit picture-time=%d --progress none -o out/f.##."
 local JOIN = "join 'strips/#.png' -o out/f.01."
 
---- plan: at, the number of the allocation; lasts: and all after it; forked: in processes that were forked
---- alone; level: of the programs (starve.c); last: each from `at` on up to it fails in a copy; may_die: by a
---- signal, or by ours if it waits.
+--- plan: at, the number of the allocation; lasts: and all after it; forked: only in processes that
+--- were forked; level: of the programs (starve.c); last: each from `at` on up to it fails in a
+--- copy; may_die: by a signal, or by our timeout if it waits.
 local function starve(plan, ending, command)
   local variables = { ("STARVE_AT=%d STARVE_COUNT=count STARVE_ENDINGS=endings"):format(plan.at) }
-  for name, value in pairs { LASTING = plan.lasts and 1, FORKED = plan.forked and 1, LEVEL = plan.level or false,
+  for name, value in pairs { LASTING = plan.lasts and 1, FORKED = plan.forked and 1,
+    LEVEL = plan.level or false,
                              UNTIL = plan.last or false } do
     if value then variables[#variables + 1] = ("STARVE_%s=%d"):format(name, value) end
   end
   return bench:shell(("cd '%s' && rm -rf out && %s LD_PRELOAD=%s %s %s %s%s"):format(bench.folder,
-    table.concat(variables, " "), LIBRARY, plan.may_die and "timeout -s KILL 5" or "", bench.absolute,
+    table.concat(variables, " "), LIBRARY, plan.may_die and "timeout -s KILL 5" or "",
+    bench.absolute,
     command or RENDER:format(plan.last and 0 or 1), ending))
 end
 
@@ -55,7 +64,7 @@ return celspan.film { size = { 40, 30 }, frames = 2, frame = function(f)
 end }]]):format(scene))
 end
 
---- How many allocations there were, and how many before and after the last module was loaded.
+--- The number of allocations, and the numbers before and after the last module was loaded.
 local function counts()
   local made, loading, loaded = bench:read("count"):match "(%d+) (%d+) (%d+)"
   return tonumber(made), tonumber(loading), tonumber(loaded)
@@ -68,12 +77,16 @@ end
 --- Returns the exit code.
 local function check(plan, ending, right, command)
   local code, _, err = starve(plan, ending, command)
-  local where = ("allocation %d%s%s%s: %s"):format(plan.at, plan.lasts and " and all after it" or "",
+  local where = ("allocation %d%s%s%s: %s")
+    :format(plan.at, plan.lasts and " and all after it" or "",
     plan.forked and ", forked" or "", plan.level and ", level " .. plan.level or "", err)
-  for _, name in ipairs(bench:files "out") do assert.truthy(name:find "^f%.", where .. " left " .. name) end
+  for _, name in ipairs(bench:files "out") do
+    assert.truthy(name:find "^f%.", where .. " left " .. name)
+  end
   if code == 0 then
     assert.are.same(right, frames(ending), where)
-  elseif plan.level == 1 and not plan.lasts and code == 5 then -- it was loaded in part, and fell in writing
+  elseif plan.level == 1 and not plan.lasts and code == 5 then
+    -- it was partly loaded, and crashed while writing
     assert.truthy(err:find("ended its decoder by signal", 1, true), where)
   elseif not (plan.may_die and code > 128) then
     assert.are.equal(33, code, where)
@@ -82,9 +95,9 @@ local function check(plan, ending, right, command)
   return code
 end
 
---- A plan for each of the allocations of the last run, or for some of them by lot. GLib, which a library of
---- the art module needs, ends the process or waits for itself when it lacks memory in being loaded: then
---- nothing may be left.
+--- A plan for each of the allocations of the last run, or for some of them at random. GLib, which a
+--- library of the art module needs, ends the process or waits for itself if memory runs out while
+--- it is loaded: then no file may be left.
 local function plans(lasts, samples)
   local list, count, loading, loaded = {}, counts()
   for i = 1, ALL and count or samples do
@@ -102,20 +115,27 @@ local function sweep(scene, ending, lasts)
   for _, plan in ipairs(plans(lasts, SAMPLES)) do check(plan, ending, right) end
 end
 
---- What the art module is for: libraries that go on without memory would draw something else.
+--- Scenes that need the art module: libraries that continue without memory would draw something
+--- else.
 local art = {
   letters = [[
 return celspan.rostrum { back = "#fff", celspan.cel {
   celspan.text { "HA " .. f.number, font = "font.ttf", size = 12, at = { 2, 20 } } } }]],
   drawings = [[
-return celspan.rostrum { back = "#fff", celspan.cel { assert(require "celspan.svg".read "drawing.svg").object } }]],
+return celspan.rostrum { back = "#fff", celspan.cel { assert(require "celspan.svg".read
+  "drawing.svg").object } }]],
 }
 
-local DRAWING = [[<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" viewBox="0 0 40 30">
-<style>.a { fill: #f80 }</style><defs><linearGradient id="g"><stop offset="0" stop-color="red"/><stop offset="1"
-stop-color="blue"/></linearGradient><mask id="m"><circle cx="12" cy="9" r="9" fill="#fff"/><path d="M20 20h9"
-stroke="#888" stroke-width="4"/></mask></defs><rect class="a" x="2" y="2" width="30" height="20" mask="url(#m)"/>
-<path d="M5 20C10 10 20 30 35 15" stroke="url(#g)" stroke-width="3" fill="none"/><use xlink:href="#c" x="3"/>
+local DRAWING = [[<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"
+  viewBox="0 0 40 30">
+<style>.a { fill: #f80 }</style><defs><linearGradient id="g"><stop offset="0" stop-color="red"/>
+  <stop offset="1"
+stop-color="blue"/></linearGradient><mask id="m"><circle cx="12" cy="9" r="9" fill="#fff"/><path
+  d="M20 20h9"
+stroke="#888" stroke-width="4"/></mask></defs><rect class="a" x="2" y="2" width="30" height="20"
+  mask="url(#m)"/>
+<path d="M5 20C10 10 20 30 35 15" stroke="url(#g)" stroke-width="3" fill="none"/><use
+  xlink:href="#c" x="3"/>
 <circle id="c" cx="20" cy="20" r="5"/></svg>]]
 
 local function sweep_art(scene, lasts)
@@ -125,26 +145,42 @@ local function sweep_art(scene, lasts)
   sweep(art[scene], "png", lasts)
 end
 
+--- A painting whose colours are converted by a table, which another process makes.
+local PAINTING = [[
+local cels = assert(require "celspan.layers".read "painting.psd"):cels()
+cels.back = "#fff"
+return celspan.rostrum(cels)]]
+
+local function sweep_profile(lasts)
+  if not present.colour() then return pending "it was built without Little CMS" end
+  local ink = { name = "ink", x = 3, y = 5, w = 30, h = 20 }
+  function ink.pixel(x, y) return 8 * x, 9 * y, 99, 255 end
+  bench:write("painting.psd", paintings.psd { w = 40, h = 30, layers = { ink },
+    profile = paintings.profile { curve = 1.5 } })
+  sweep(PAINTING, "png", lasts)
+end
+
 local function sweep_info(lasts)
   if not present.art() then return pending "there is no art module" end
   bench:write("drawing.svg", DRAWING)
   local code, right = starve({ at = 0 }, "drawing.svg", "info ")
   assert.are.equal(0, code)
-  for _, plan in ipairs(plans(lasts, SAMPLES / 6)) do
+  for _, plan in ipairs(plans(lasts, math.ceil(SAMPLES / 6))) do
     local ended, out, err = starve(plan, "drawing.svg", "info ")
     local is_told = ended == 0 and out == right or ended == 33 and err:find "memory"
-    assert.truthy(is_told or plan.may_die and ended > 128, ("allocation %d: %d, %s"):format(plan.at, ended, err))
+    assert.truthy(is_told or plan.may_die and ended > 128,
+      ("allocation %d: %d, %s"):format(plan.at, ended, err))
   end
 end
 
---- How copies end that the program takes for starved (cli/decoder/server.c): by an exit code, or killed or
---- trapped.
+--- The endings of copies that the program treats as lack of memory
+--- (plugins/isolate/worker_loop.c): an exit code, or killed or trapped.
 local STARVED = { [33] = true, [127] = true, [128 + 9] = true, [128 + 5] = true }
 
---- The hundred thousand allocations while OpenImageIO is loaded, from one to another of them: in copies of
---- the process that loads it. A copy that ends otherwise may have gone on with what it has, or have said
---- that it cannot: a run of its own shows whether that was right, of so many samples of these at most.
---- Returns how many were tried.
+--- The hundred thousand allocations while OpenImageIO is loaded, in the range from first to last:
+--- in copies of the process that loads it. A copy that ends in another way may have continued with
+--- a partly loaded library, or have reported that it cannot be loaded: a run of its own checks
+--- whether that was right, for at most `samples` of these. Returns how many were tried.
 local function sweep_loading(first, last, lasts, right, samples)
   local others, tried = {}, 0
   repeat
@@ -160,38 +196,43 @@ local function sweep_loading(first, last, lasts, right, samples)
     local k = random:whole(1, i)
     others[i], others[k] = others[k], others[i]
   end
-  for i = 1, math.min(samples, #others) do check({ at = others[i], lasts = lasts, level = 1 }, "exr", right) end
+  for i = 1, math.min(math.ceil(samples), #others) do
+    check({ at = others[i], lasts = lasts, level = 1 }, "exr", right)
+  end
   return tried
 end
 
---- Some of them, by lot, of as many as there are.
+--- Tries some of these allocations at random.
 local function sample_loading(lasts, right)
-  local most, first, tried = 120000, nil, 0
+  local most, tried = 120000, 0
   while tried == 0 do
-    first = random:whole(1, most)
+    local first = random:whole(1, most)
     tried = sweep_loading(first, first + LOADING_RUN, lasts, right, SAMPLES / 20)
     most = first
   end
 end
 
---- The processes that write, which are killed before they can tell how many there were.
+--- The processes that write are killed before they can report the number of their allocations.
 local function sweep_writers(lasts, right)
   local at, in_vain = 0, 0
   repeat
     at = at + 1
-    in_vain = check({ at = at, lasts = lasts, forked = true }, "exr", right) == 0 and in_vain + 1 or 0
+    in_vain = check({ at = at, lasts = lasts, forked = true }, "exr", right) == 0 and in_vain + 1
+      or 0
   until in_vain == 100
 end
 
---- What is written through OpenImageIO: the program, the process that loads it, and those that this forks
---- to write.
+--- Files written through OpenImageIO: the program, the process that loads it, and those that this
+--- forks to write.
 local function sweep_apart(lasts)
   write_film(scenes.outlines)
   local code, _, err = starve({ at = 0, level = 0 }, "exr")
-  if code == 5 and err:find "built without OpenImageIO" then return pending "there is no picture module" end
+  if code == 5 and err:find "built without OpenImageIO" then
+    return pending "there is no picture module"
+  end
   assert.are.equal(0, code, err)
   local right = frames "exr"
-  for _, plan in ipairs(plans(lasts, SAMPLES / 6)) do
+  for _, plan in ipairs(plans(lasts, math.ceil(SAMPLES / 6))) do
     plan.level = 0
     check(plan, "exr", right)
   end
@@ -200,30 +241,35 @@ local function sweep_apart(lasts)
     return sweep_writers(lasts, right)
   end
   sample_loading(lasts, right)
-  for _ = 1, SAMPLES / 6 do
-    check({ at = math.floor(10 ^ (3.2 * random:whole(0, 1000) / 1000)), lasts = lasts, forked = true }, "exr", right)
+  for _ = 1, math.ceil(SAMPLES / 6) do
+    check({ at = math.floor(10 ^ (3.2 * random:whole(0, 1000) / 1000)), lasts = lasts,
+      forked = true }, "exr", right)
   end
 end
 
---- Joining makes few allocations: each of them fails.
+--- Joining makes few allocations: each of them fails, or one in CELSPAN_FAULTS.
 local function sweep_join(lasts)
-  bench:write("film.lua", "local celspan, f = require 'celspan', { number = 1 }\n" .. scenes.outlines)
+  bench:write("film.lua", "local celspan, f = require 'celspan', { number = 1 }\n"
+    .. scenes.outlines)
   for i = 1, 2 do
-    local code, _, err = bench:shell(("cd '%s' && %s render film.lua --size 40x300 --strip %d/2 --progress none "
+    local code, _, err =
+      bench:shell(("cd '%s' && %s render film.lua --size 40x300 --strip %d/2 --progress none "
       .. "-o strips/%d.png"):format(bench.folder, bench.absolute, i, i))
     assert.are.equal(0, code, err)
   end
   assert.are.equal(0, (starve({ at = 0 }, "png", JOIN)))
   local right = frames "png"
-  for at = 1, counts() do check({ at = at, lasts = lasts }, "png", right, JOIN) end
+  for at = random:whole(1, FAULTS), (counts()), FAULTS do
+    check({ at = at, lasts = lasts }, "png", right, JOIN)
+  end
 end
 
---- Once with one allocation failing, once with all after it too.
+--- Runs once with one allocation failing, once with all after it too.
 local function both(name, work)
   for _, lasts in ipairs { false, true } do
     it((lasts and "for good, " or "for once, ") .. name, function()
       local library = io.open(LIBRARY)
-      if not library then return pending "the library that takes memory away is not built" end
+      if not library then return pending "the library that makes allocations fail is not built" end
       library:close()
       return work(lasts)
     end)
@@ -231,12 +277,13 @@ local function both(name, work)
 end
 
 describe("without memory", function()
-  both("strips are joined or not", sweep_join)
-  both("it is told what a drawing is, or not", sweep_info)
+  both("strips are joined, or the failure is reported", sweep_join)
+  both("a drawing is described, or the failure is reported", sweep_info)
   for scene in pairs(art) do
     both(scene .. " are right", function(lasts) return sweep_art(scene, lasts) end)
   end
-  both("what OpenImageIO writes ends well", sweep_apart)
+  both("paintings with a colour profile are right", sweep_profile)
+  both("files by OpenImageIO end well", sweep_apart)
   for scene, ending in pairs { outlines = "png", procedures = "span" } do
     both(scene .. " end well", function(lasts) return sweep(scenes[scene], ending, lasts) end)
   end

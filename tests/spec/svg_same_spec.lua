@@ -1,6 +1,6 @@
--- Drawings from SVG that are written in two ways and are the same to the bit; what draws nothing; what is
--- left out and told; and what is refused. One list, with a line for each case, as long as there are ways
--- of writing the same. tests/spec/svg_spec.lua says what a drawing shows.
+-- Drawings from SVG that are written in two ways and are the same to the bit; what draws nothing;
+-- what is left out and reported; and what is refused. One list, with a line for each case, as long
+-- as there are ways of writing the same. tests/spec/svg_spec.lua says what a drawing shows.
 local celspan = require "celspan"
 local svg = require "celspan.svg"
 local present = require "tests.support.present"
@@ -18,7 +18,9 @@ local function write(content)
   return bench:write(("drawing-%d.svg"):format(count), HEAD .. content .. "</svg>")
 end
 
-local function read(content) return assert(svg.read(write(content), { fonts = { default = FONT } })) end
+local function read(content)
+  return assert(svg.read(write(content), { fonts = { default = FONT } }))
+end
 
 local function bytes(object)
   local rostrum = celspan.rostrum { celspan.cel { object } }
@@ -46,7 +48,7 @@ local function empty(drawings)
   end
 end
 
---- Each tells one thing that is left out, on the line where it stands.
+--- Each reports one thing that is left out, on its line.
 local function left_out(cases)
   for _, case in ipairs(cases) do
     local art = read(case[1])
@@ -72,19 +74,21 @@ local LIME = '<rect width="50" height="60" fill="lime"/>'
 
 --- The rectangle of LIME, styled by a sheet or an attribute.
 local function sheet(text, attributes)
-  return ('<style><![CDATA[%s]]></style><rect id="r-1" class="a b" width="50" height="60" %s/>'):format(text, attributes or "")
+  return ('<style><![CDATA[%s]]></style><rect id="r-1" class="a b" width="50" height="60" %s/>')
+    :format(text, attributes or "")
 end
 local function filled(fill) return ('<rect width="50" height="60" fill="%s"/>'):format(fill) end
 local function styled(style) return ('<rect width="50" height="60" style="%s"/>'):format(style) end
 
 describe("style sheets", function()
-  it("are read past comments, marks and what is no rule", function()
+  it("are read past comments, marks and anything that is not a rule", function()
     local texts = {
       "/* rect{fill:red} */rect{/* fill:red; */fill:lime}", "rect{fill:lime} /* it has no end",
       "<!-- rect{fill:lime} -->",
       "rect{fill:lime", "rect{fill:lime} circle", "rect{fill:lime}}", "rect{;fill:lime;;}",
       "rect{fill;stroke:;:red;fill:lime}",
-      "rect{an-unheard-of-property-of-many-letters:1;fill:lime}", "rect{unheard:1;fill:lime;width:3}",
+      "rect{an-unheard-of-property-of-many-letters:1;fill:lime}",
+      "rect{unheard:1;fill:lime;width:3}",
       "rect{font-family:'a;b\"}';fill:lime}", "rect{font-family:'a\n;fill:lime}",
       'rect{font-family:"a;b";fill:lime}', "rect{clip:rect(1;2);fill:lime}",
       "circle,rect{fill:lime}", "rect , circle{fill : lime }", "{fill:red} rect{fill:lime}",
@@ -95,7 +99,7 @@ describe("style sheets", function()
     end
   end)
 
-  it("are weighed by importance, kinds of selectors and order", function()
+  it("are ordered by importance, specificity and position", function()
     same {
       { sheet "rect{fill:red} rect{fill:lime}", LIME },
       { sheet "rect{fill:lime!important} rect{fill:red}", LIME },
@@ -110,45 +114,55 @@ describe("style sheets", function()
     }
   end)
 
-  it("choose by names, classes and attributes", function()
-    for _, selector in ipairs { "*", "rect", "*.a", ".b", ".a.b", "rect#r-1", "svg > rect", "svg>*", "[id]", "[id=r-1]",
+  it("select by names, classes and attributes", function()
+    for _, selector in ipairs { "*", "rect", "*.a", ".b", ".a.b", "rect#r-1", "svg > rect", "svg>*",
+      "[id]", "[id=r-1]",
       "[ id = 'r-1' ]", '[id="r-1"]', "[class~=b]", "[id|=r]", "[id^=r]", "[id$='1']", "[id*=-]",
       "[class^='a b']",
       "rect[width='50'][height='60']", "style + rect, rect" } do
       local shown = bytes(read(sheet(selector .. "{fill:lime}")).object)
       assert.is_true(shown == bytes(read(LIME).object), selector)
     end
-    for _, selector in ipairs { "g", ".c", "#r", "circle > rect", "rect > rect", "[rx]", "[id=r]", "[class~=c]", "[class~='']",
-      "[id|=r-]", "[id^=s]", "[id$='2']", "[id$='longer than it']", "[id*=x]", "[id^='']", "[id*='']" } do
+    for _, selector in ipairs { "g", ".c", "#r", "circle > rect", "rect > rect", "[rx]", "[id=r]",
+      "[class~=c]", "[class~='']",
+      "[id|=r-]", "[id^=s]", "[id$='2']", "[id$='longer than it']", "[id*=x]", "[id^='']",
+      "[id*='']" } do
       local art = read(sheet(selector .. "{fill:lime}", 'fill="red"'))
       assert.is_true(bytes(art.object) == bytes(read(filled "red").object), selector)
     end
   end)
 
-  it("leave a paint that is none to the one before it", function()
-    for _, value in ipairs { "color(display-p3 0 1 0)", "unknown", "", "#12", "red lime", "rgb(1,2" } do
-      for _, text in ipairs { sheet("rect{fill:lime;fill:" .. value .. "}"), sheet("rect{fill:lime}rect{fill:" .. value .. "}"),
-        sheet("rect{fill:lime!important;fill:" .. value .. "!important}"), sheet("rect{fill:" .. value .. "}", 'fill="lime"'),
+  it("ignore an invalid paint after a valid one", function()
+    for _, value in ipairs { "color(display-p3 0 1 0)", "unknown", "", "#12", "red lime",
+      "rgb(1,2" } do
+      for _, text in ipairs { sheet("rect{fill:lime;fill:" .. value .. "}"),
+        sheet("rect{fill:lime}rect{fill:" .. value .. "}"),
+        sheet("rect{fill:lime!important;fill:" .. value .. "!important}"),
+        sheet("rect{fill:" .. value .. "}", 'fill="lime"'),
         sheet("", 'style="fill:lime;fill:' .. value .. '"') } do
         assert.is_true(bytes(read(text).object) == bytes(read(LIME).object), value .. ": " .. text)
       end
     end
   end)
 
-  it("tell of selectors and rules that do not count", function()
-    for _, selector in ipairs { "> rect", "rect:hover", "#a#b", "rect..a", "[of-no-meaning]", "[id='r", "[id", (".a"):rep(40), ("[id]"):rep(40),
+  it("report selectors and rules that are ignored", function()
+    for _, selector in ipairs { "> rect", "rect:hover", "#a#b", "rect..a", "[of-no-meaning]",
+      "[id='r", "[id", (".a"):rep(40), ("[id]"):rep(40),
       ("svg "):rep(40) .. "rect", ",", "@media print{rect{fill:red}} @import 'a.css'; @x" } do
       local art = read(sheet("rect{fill:lime} " .. selector .. "{fill:red}"))
       assert.is_true(bytes(art.object) == bytes(read(LIME).object), selector)
-      assert.are.same({ { line = 2, what = "style: selectors or at-rules that do not count" } }, art.skipped, selector)
+      assert.are.same({ { line = 2, what = "style: selectors or at-rules that do not count" } },
+        art.skipped, selector)
     end
   end)
 end)
 
 describe("paints", function()
-  it("may be written in every way of a colour", function()
-    for _, text in ipairs { "#0f0", "#0F0F", "#00ff00", "#00FF00fF", "LIME", " lime ", "rgb(0,255,0)", "rgb( 0 255 0 )", "rgb(0%,100%,0%)",
-      "rgb(0 255 0 / 1)", "rgba(0,255,0,1)", "rgba(0,255,0,100%)", "rgb(-9,999,0)", "hsl(120,100%,50%)",
+  it("may be written in every notation of a colour", function()
+    for _, text in ipairs { "#0f0", "#0F0F", "#00ff00", "#00FF00fF", "LIME", " lime ",
+      "rgb(0,255,0)", "rgb( 0 255 0 )", "rgb(0%,100%,0%)",
+      "rgb(0 255 0 / 1)", "rgba(0,255,0,1)", "rgba(0,255,0,100%)", "rgb(-9,999,0)",
+      "hsl(120,100%,50%)",
       "hsl(480,100%,50%)",
       "hsl(-240deg,100%,50%)", "hsla(120,100%,50%,1)", "#0f0 icc-color(a, 1)", "url(#none) lime",
       "url(#none)#0f0" } do
@@ -163,30 +177,38 @@ describe("paints", function()
     }
   end)
 
-  it("that are none of those are passed over", function()
-    for _, text in ipairs { "", "#", "#12", "#12345", "#1234567", "#123456789", "#xyz", "rgb(1,2", "rgb(1,2,)", "rgb 1,2,3", "hsl(1)",
+  it("that are invalid are ignored", function()
+    for _, text in ipairs { "", "#", "#12", "#12345", "#1234567", "#123456789", "#xyz", "rgb(1,2",
+      "rgb(1,2,)", "rgb 1,2,3", "hsl(1)",
       "hsl(x,1%,1%)", "hsl(1,x,1%)", "hsl(1,1%,x)", "rgb(1,2,3,x)", "rgba(1,2,3,.5", "blurple",
       "a-colour-with-a-very-long-name-indeed",
       "lime red", "#0f0 lime", "icc-color(a)" } do
-      assert.is_true(bytes(read('<g fill="lime">' .. filled(text) .. "</g>").object) == bytes(read(LIME).object), text)
+      assert.is_true(bytes(read('<g fill="lime">' .. filled(text) .. "</g>").object)
+        == bytes(read(LIME).object), text)
     end
-    empty { filled "none", filled "transparent", filled "url(#none)", filled "url('#none') none", '<g fill="none">' .. filled "inherit" .. "</g>" }
+    empty { filled "none", filled "transparent", filled "url(#none)", filled "url('#none') none",
+      '<g fill="none">' .. filled "inherit" .. "</g>" }
   end)
 
-  it("come from the colour of the place, from above and from what is painted", function()
+  it("come from currentColor, from the parent and from the painted element", function()
     same {
       { '<g color="lime">' .. filled "currentColor" .. "</g>", LIME },
-      { '<g color="red"><g color="currentColor"><rect width="50" height="60" color="lime" fill="CurrentColor"/></g></g>',
+      {
+        '<g color="red"><g color="currentColor"><rect width="50" height="60" color="lime" '
+        .. 'fill="CurrentColor"/></g></g>',
         LIME },
       { '<g fill="lime">' .. filled "inherit" .. "</g>", LIME },
       { '<g fill="lime">' .. styled "" .. "</g>", LIME },
       { '<g color="lime" opacity="inherit">' .. filled "currentColor" .. "</g>", LIME },
       { '<g opacity=".5"><rect width="50" height="60" fill="lime" opacity="inherit"/></g>',
         '<rect width="50" height="60" fill="lime" opacity=".25"/>' },
-      { '<rect width="50" height="60" fill="lime" fill-opacity="150%" opacity="2" visibility="inherit"/>',
+      {
+        '<rect width="50" height="60" fill="lime" fill-opacity="150%" opacity="2" '
+        .. 'visibility="inherit"/>',
         LIME },
     }
-    empty { filled "lime" :gsub("/>", ' fill-opacity="-1"/>'), filled "lime" :gsub("/>", ' visibility="collapse"/>') }
+    empty { filled "lime" :gsub("/>", ' fill-opacity="-1"/>'),
+      filled "lime" :gsub("/>", ' visibility="collapse"/>') }
   end)
 end)
 
@@ -202,21 +224,39 @@ describe("gradients", function()
       { gradient("linear", 'x1="0%" x2="100%" y1="0" y2="0%"'), plain },
       { gradient("linear", 'gradientTransform="scale(2)scale(.5)"'), plain },
       { gradient("linear", 'gradientUnits="userSpaceOnUse" x1="0" x2="50"'), plain },
-      { gradient("linear", "", '<title/><stop offset="0%" stop-color="red"/><desc/><stop offset="100%" stop-color="blue"/>'),
+      {
+        gradient("linear", "",
+          '<title/><stop offset="0%" stop-color="red"/><desc/><stop offset="100%" '
+          .. 'stop-color="blue"/>'),
         plain },
-      { gradient("linear", "", '<stop offset="-3" style="stop-color:red"/><stop offset="7" stop-color="blue"/>'),
+      {
+        gradient("linear", "",
+          '<stop offset="-3" style="stop-color:red"/><stop offset="7" stop-color="blue"/>'),
         plain },
-      { gradient("linear", "", '<stop offset="x" stop-color="red"/><stop offset="1" stop-color="blue"/>'),
+      {
+        gradient("linear", "",
+          '<stop offset="x" stop-color="red"/><stop offset="1" stop-color="blue"/>'),
         plain },
-      { gradient("linear", "", '<stop offset="5 5" stop-color="red"/><stop offset="1" color="blue" stop-color="currentColor"/>'),
+      {
+        gradient("linear", "",
+          '<stop offset="5 5" stop-color="red"/><stop offset="1" color="blue" '
+          .. 'stop-color="currentColor"/>'),
         plain },
-      { '<linearGradient id="t" xlink:href="#g"><stop stop-color="red"/><stop offset="1" stop-color="blue"/></linearGradient>'
+      {
+        '<linearGradient id="t" xlink:href="#g"><stop stop-color="red"/><stop offset="1" '
+        .. 'stop-color="blue"/></linearGradient>'
         .. gradient("linear", 'xlink:href="#t"', " "), plain },
-      { '<radialGradient id="t"><stop stop-color="red"/><stop offset="1" stop-color="blue"/></radialGradient>'
+      {
+        '<radialGradient id="t"><stop stop-color="red"/><stop offset="1" '
+        .. 'stop-color="blue"/></radialGradient>'
         .. gradient("linear", 'href="#t"', " "), plain },
-      { gradient("linear", "", '<stop stop-color="red" stop-opacity="50%"/><stop offset="1" stop-color="rgba(0,0,255,.5)"/>'),
+      {
+        gradient("linear", "",
+          '<stop stop-color="red" stop-opacity="50%"/><stop offset="1" '
+          .. 'stop-color="rgba(0,0,255,.5)"/>'),
         '<g opacity=".5">' .. plain .. "</g>" },
-      { '<g stop-color="red">' .. gradient("linear", 'stop-color="inherit"', '<stop stop-color="inherit"/><stop offset="1" stop-color="blue"/>')
+      { '<g stop-color="red">' .. gradient("linear", 'stop-color="inherit"',
+        '<stop stop-color="inherit"/><stop offset="1" stop-color="blue"/>')
         .. "</g>", plain },
       { gradient("linear", 'spreadMethod="repeat" x2="2"'), gradient("linear", 'x2="2"') },
     }
@@ -228,26 +268,29 @@ describe("gradients", function()
       { gradient("linear", 'x2="0"', '<stop/><stop offset="1" stop-color="lime"/>'), LIME },
       { gradient("radial", 'r="0"', '<stop/><stop offset="1" stop-color="lime"/>'), LIME },
     }
-    empty { gradient("linear", "", " "), gradient("linear", 'gradientTransform="scale(0)"'), gradient("radial", 'r=".5" fr=".5"') }
+    empty { gradient("linear", "", " "), gradient("linear", 'gradientTransform="scale(0)"'),
+      gradient("radial", 'r=".5" fr=".5"') }
   end)
 
-  it("begin at the inner circle where it has the same centre", function()
+  it("begin at the inner circle if it has the same centre", function()
     same {
       { gradient("radial", 'fr=".25"'),
-        gradient("radial", "", '<stop offset=".5" stop-color="red"/><stop offset="1" stop-color="blue"/>') },
+        gradient("radial", "",
+          '<stop offset=".5" stop-color="red"/><stop offset="1" stop-color="blue"/>') },
       { gradient("radial", 'fx=".5" fy=".5"'), gradient "radial" },
     }
   end)
 
-  it("are left to the other paint where there is no box", function()
+  it("are replaced by the fallback if there is no box", function()
     local line = gradient "linear" .. '<path d="M0 50H80" stroke-width="20" stroke="%s"/>'
     same {
-      { line:format "url(#g) lime", line:format "lime" }, { line:format "url(#g)", gradient "linear" },
+      { line:format "url(#g) lime", line:format "lime" },
+      { line:format "url(#g)", gradient "linear" },
       { gradient "linear" .. '<text x="1e9" fill="url(#g)">A</text>', gradient "linear" },
     }
   end)
 
-  it("tell what of them is not drawn", function()
+  it("report their parts that are not drawn", function()
     left_out {
       { gradient("radial", 'fr=".1" fx=".6"'), "radius of the focus of radialGradient" },
       { gradient("linear", 'x2="1e-6" spreadMethod="repeat"'), "spreadMethod, repeated too often" },
@@ -256,8 +299,12 @@ describe("gradients", function()
   end)
 end)
 
-local function cut(clip, content) return clip .. (content or '<rect width="80" height="60" clip-path="url(#c)" fill="lime"/>') end
-local function clip(content, attributes) return ('<clipPath id="c" %s>%s</clipPath>'):format(attributes or "", content) end
+local function cut(clip, content)
+  return clip .. (content or '<rect width="80" height="60" clip-path="url(#c)" fill="lime"/>')
+end
+local function clip(content, attributes)
+  return ('<clipPath id="c" %s>%s</clipPath>'):format(attributes or "", content)
+end
 
 describe("clip paths", function()
   it("may be written in several ways", function()
@@ -265,40 +312,57 @@ describe("clip paths", function()
     same {
       { cut(clip '<rect width="50" height="99"/>'), half },
       { cut(clip '<path d="M0 0H50V99H0"/><circle r="9"/>'), half },
-      { cut('<rect id="r" width="25" height="99" fill="none"/>' .. clip '<use href="#r"/><use href="#r" x="25"/>'),
+      {
+        cut('<rect id="r" width="25" height="99" fill="none"/>'
+        .. clip '<use href="#r"/><use href="#r" x="25"/>'),
         half },
       { cut(clip('<rect width="25" height="99"/>', 'transform="scale(2)"')), half },
-      { cut(clip('<rect width="99" height="99"/>', 'clip-path="url(#d)"') .. '<clipPath id="d"><rect width="50" height="99"/></clipPath>'),
+      {
+        cut(clip('<rect width="99" height="99"/>', 'clip-path="url(#d)"')
+        .. '<clipPath id="d"><rect width="50" height="99"/></clipPath>'),
         half },
-      { cut(clip '<g><rect width="9" height="9"/></g><rect width="50" height="99"/><use href="#none"/><use/>'),
+      {
+        cut(clip('<g><rect width="9" height="9"/></g><rect width="50" height="99"/><use '
+        .. 'href="#none"/><use/>')),
         half },
-      { cut(clip '<rect width="99" height="99" display="none"/><rect width="99" height="99" visibility="hidden"/><rect width="50" height="60"/>'),
+      {
+        cut(clip('<rect width="99" height="99" display="none"/><rect width="99" height="99" '
+        .. 'visibility="hidden"/><rect width="50" height="60"/>')),
         half },
       { cut(clip '<path d="M0 0H50V60H0ZM0 0H50V60H0Z" clip-rule="nonzero"/>'), half },
       { '<rect width="80" height="60" fill="lime" clip-path="none"/>',
         '<rect width="80" height="60" fill="lime"/>' },
-      { '<g clip-path="url( \'#c\' )">' .. cut(clip '<rect width="50" height="99"/>') .. "</g>", half },
-      { cut(clip '<rect width="50" height="99"/>', '<rect width="80" height="60" clip-path="url(#c )" fill="lime"/>'),
+      { '<g clip-path="url( \'#c\' )">' .. cut(clip '<rect width="50" height="99"/>') .. "</g>",
+        half },
+      {
+        cut(clip '<rect width="50" height="99"/>',
+          '<rect width="80" height="60" clip-path="url(#c )" fill="lime"/>'),
         half },
     }
   end)
 
   it("may be shapes of the element's box", function()
-    local function shape(text) return ('<rect width="80" height="60" fill="lime" style="clip-path:%s"/>'):format(text) end
+    local function shape(text)
+      return ('<rect width="80" height="60" fill="lime" style="clip-path:%s"/>'):format(text)
+    end
     same {
       { shape "inset(10)", '<rect x="10" y="10" width="60" height="40" fill="lime"/>' },
       { shape "inset(10px 20px)", '<rect x="20" y="10" width="40" height="40" fill="lime"/>' },
       { shape "inset(10 20 5)", '<rect x="20" y="10" width="40" height="45" fill="lime"/>' },
       { shape "inset(10 20 5 15)", '<rect x="15" y="10" width="45" height="45" fill="lime"/>' },
       { shape "inset(10% 25%)", '<rect x="20" y="6" width="40" height="48" fill="lime"/>' },
-      { shape "polygon(0 0, 50% 0, 50% 100%, 0 100%)", '<rect width="40" height="60" fill="lime"/>' },
-      { shape "polygon(nonzero, 0 0, 40 0, 40 60, 0 60)", '<rect width="40" height="60" fill="lime"/>' },
+      { shape "polygon(0 0, 50% 0, 50% 100%, 0 100%)",
+        '<rect width="40" height="60" fill="lime"/>' },
+      { shape "polygon(nonzero, 0 0, 40 0, 40 60, 0 60)",
+        '<rect width="40" height="60" fill="lime"/>' },
       { shape "circle(20)", '<circle cx="40" cy="30" r="20" fill="lime"/>' },
       { shape "circle(20 at 30 25)", '<circle cx="30" cy="25" r="20" fill="lime"/>' },
-      { shape "ellipse(20 10 at 50% 50%)", '<ellipse cx="40" cy="30" rx="20" ry="10" fill="lime"/>' },
+      { shape "ellipse(20 10 at 50% 50%)",
+        '<ellipse cx="40" cy="30" rx="20" ry="10" fill="lime"/>' },
     }
     empty { shape "circle(0)", shape "inset(40)", shape "ellipse(0 5)" }
-    for _, text in ipairs { "circle(x)", "circle(-1)", "circle(5 at 1)", "circle(5", "circle(5) x", "inset(x)", "inset(1 2 3 4 5)",
+    for _, text in ipairs { "circle(x)", "circle(-1)", "circle(5 at 1)", "circle(5", "circle(5) x",
+      "inset(x)", "inset(1 2 3 4 5)",
       "polygon(1)", "polygon(1 2,)", "polygon(evenodd 1 2)", "square(5)", "circle 5", "ellipse(1)",
       "ellipse(-1 1)" } do
       local art = read(shape(text))
@@ -307,19 +371,22 @@ describe("clip paths", function()
     end
   end)
 
-  it("cut all away where they are empty or have no size", function()
+  it("hide everything if they are empty or have no size", function()
     empty {
       cut(clip ""), cut(clip('<rect width="9" height="9"/>', 'transform="scale(0)"')),
       cut(clip('<rect width="9" height="9"/>', 'transform="x"')),
-      cut(clip('<rect width="1" height="1"/>', 'clipPathUnits="objectBoundingBox"'), '<path d="M0 9H9" stroke="red" clip-path="url(#c)"/>'),
+      cut(clip('<rect width="1" height="1"/>', 'clipPathUnits="objectBoundingBox"'),
+        '<path d="M0 9H9" stroke="red" clip-path="url(#c)"/>'),
     }
   end)
 
-  it("that are not there, or cut themselves, are told", function()
+  it("that do not exist, or cut themselves, are reported", function()
     left_out {
       { cut "", "clip-path \"c\", which is not there" },
-      { cut(clip('<rect width="9" height="9"/>', 'clip-path="url(#c)"')), "clipPath that clips itself" },
-      { cut(clip '<rect width="9" height="9" clip-path="url(#c)"/>'), "clipPath that clips itself" },
+      { cut(clip('<rect width="9" height="9"/>', 'clip-path="url(#c)"')),
+        "clipPath that clips itself" },
+      { cut(clip '<rect width="9" height="9" clip-path="url(#c)"/>'),
+        "clipPath that clips itself" },
     }
   end)
 end)
@@ -334,44 +401,60 @@ describe("masks", function()
     local half = '<rect width="40" height="60" fill="lime"/>'
     same {
       { masked '<rect width="40" height="99" fill="white"/>', half },
-      { masked('<rect width=".5" height="1" fill="white"/>', 'maskContentUnits="objectBoundingBox"'),
+      { masked('<rect width=".5" height="1" fill="white"/>',
+        'maskContentUnits="objectBoundingBox"'),
         half },
       { masked('<rect width="40" height="99"/>', 'mask-type="alpha"'), half },
       { masked('<rect width="40" height="99"/>', 'style="mask-type:alpha"'), half },
-      { masked('<rect width="99" height="99" fill="white"/>', 'x="0" y="0" width=".5" height="1"'), half },
-      { masked('<rect width="99" height="99" fill="white"/>', 'maskUnits="userSpaceOnUse" x="0" y="0" width="40" height="60"'),
+      { masked('<rect width="99" height="99" fill="white"/>', 'x="0" y="0" width=".5" height="1"'),
         half },
-      { masked('<g color="white"><rect width="40" height="99" fill="currentColor"/><g/></g>'), half },
-      { masked '<rect width="40" height="99" fill="white"/><rect width="80" height="99" display="none"/><g visibility="hidden"><rect width="80" height="9"/></g>',
+      { masked('<rect width="99" height="99" fill="white"/>',
+        'maskUnits="userSpaceOnUse" x="0" y="0" width="40" height="60"'),
+        half },
+      { masked('<g color="white"><rect width="40" height="99" fill="currentColor"/><g/></g>'),
+        half },
+      {
+        masked('<rect width="40" height="99" fill="white"/><rect width="80" height="99" '
+        .. 'display="none"/><g visibility="hidden"><rect width="80" height="9"/></g>'),
         half },
       { masked '<use href="#none"/><title/><rect width="40" height="99" fill="white"/>', half },
-      { masked('<rect width="40" height="99" fill="white"/>', "", '<g mask="url(#m)"><rect width="80" height="60" fill="lime"/></g>'),
+      { masked('<rect width="40" height="99" fill="white"/>', "",
+        '<g mask="url(#m)"><rect width="80" height="60" fill="lime"/></g>'),
         half },
       { masked '<g opacity=".5"><rect width="80" height="99" fill="white"/></g>',
         '<rect width="80" height="60" fill="lime" opacity=".5"/>' },
-      { masked '<rect width="40" height="99" fill="white"/><rect x="40" width="40" height="99" fill="white" opacity=".5"/>',
-        '<rect width="40" height="60" fill="lime"/><rect x="40" width="40" height="60" fill="lime" opacity=".5"/>' },
+      {
+        masked('<rect width="40" height="99" fill="white"/><rect x="40" width="40" height="99" '
+        .. 'fill="white" opacity=".5"/>'),
+        '<rect width="40" height="60" fill="lime"/><rect x="40" width="40" height="60" fill="lime" '
+          .. 'opacity=".5"/>' },
     }
   end)
 
-  it("hide all where they are empty or have no size", function()
+  it("hide everything if they are empty or have no size", function()
     empty {
       masked "", masked('<rect width="99" height="99" fill="white"/>', 'width="0"'),
       masked '<rect width="99" height="99" fill="black"/>',
       masked('<rect width="99" height="99" fill="white"/>', 'mask-type="alpha" height="0"'),
       masked('<rect width="9" height="9"/>', 'display="none"'),
-      masked('<rect width="99" height="99" fill="white"/>', "", '<path d="M0 9H80" stroke="red" mask="url(#m)"/>'),
+      masked('<rect width="99" height="99" fill="white"/>', "",
+        '<path d="M0 9H80" stroke="red" mask="url(#m)"/>'),
     }
   end)
 
-  it("that are not flat, not there or their own are told", function()
+  it("that are not flat, do not exist or refer to themselves are reported", function()
     local many = ('<rect width="1" height="1" fill="white"/>'):rep(5000)
     left_out {
-      { masked('', "", "") .. filled "lime" :gsub("/>", ' mask="url(#n)"/>'), "mask that is not there" },
-      { masked('<rect width="9" height="9" fill="white"/>', 'mask="url(#m)"'), "mask that is not flat" },
+      { masked('', "", "") .. filled "lime" :gsub("/>", ' mask="url(#n)"/>'),
+        "mask that is not there" },
+      { masked('<rect width="9" height="9" fill="white"/>', 'mask="url(#m)"'),
+        "mask that is not flat" },
       { masked '<rect width="9" height="9" mask="url(#m)"/>', "mask that is not flat" },
-      { masked '<g clip-path="circle(3)"><rect width="9" height="9"/></g>', "mask that is not flat" },
-      { masked '<rect width="50" height="50" fill="white" opacity=".5"/><rect x="20" width="50" height="50" fill="white" opacity=".5"/>',
+      { masked '<g clip-path="circle(3)"><rect width="9" height="9"/></g>',
+        "mask that is not flat" },
+      {
+        masked('<rect width="50" height="50" fill="white" opacity=".5"/><rect x="20" width="50" '
+        .. 'height="50" fill="white" opacity=".5"/>'),
         "mask that is not flat" },
       { masked '<g opacity=".5"><rect width="9" height="9"/><rect width="9" height="9"/></g>',
         "mask that is not flat" },
@@ -379,24 +462,31 @@ describe("masks", function()
     }
   end)
 
-  it("stay where parts are changed", function()
+  it("are kept when parts are changed", function()
     local art = read(masked('<rect width="40" height="99" fill="white"/>', "",
       '<g id="all" mask="url(#m)"><rect id="one" width="80" height="60" fill="red"/></g>'))
     local changed = art:with { one = function(part) return part:translate(0, 20) end }
-    assert.is_true(bytes(changed.object) == bytes(read '<rect y="20" width="40" height="46" fill="red"/>'.object))
-    assert.is_true(bytes(changed:with({ one = function(part) return part:translate(0, -20) end }).object) == bytes(art.object))
+    assert.is_true(bytes(changed.object)
+      == bytes(read '<rect y="20" width="40" height="46" fill="red"/>'.object))
+    assert.is_true(bytes(changed:with({ one = function(part)
+      return part:translate(0, -20)
+    end }).object) == bytes(art.object))
   end)
 end)
 
 describe("lengths and transforms", function()
   it("may be written in several ways", function()
-    for width, px in pairs { ["2em"] = 40, ["4ex"] = 40, ["2.5rem"] = 40, ["40vw"] = 40, ["40vh"] = 40, ["40vmin"] = 40, ["40vmax"] = 40,
+    for width, px in pairs { ["2em"] = 40, ["4ex"] = 40, ["2.5rem"] = 40, ["40vw"] = 40,
+      ["40vh"] = 40, ["40vmin"] = 40, ["40vmax"] = 40,
       ["40%"] = 40, ["30pt"] = 40, ["2.5pc"] = 40, [".5in"] = 48, ["1.27cm"] = 48, ["12.7mm"] = 48,
       ["50.8Q"] = 48, ["40PX"] = 40, ["+4e1"] = 40 } do
       local art = read(('<rect font-size="20" width="%s" height="9"/>'):format(width))
-      assert.is_true(bytes(art.object) == bytes(read(('<rect width="%d" height="9"/>'):format(px)).object), width)
+      assert.is_true(bytes(art.object)
+        == bytes(read(('<rect width="%d" height="9"/>'):format(px)).object), width)
     end
-    local function moved(transform) return ('<rect width="20" height="10" transform="%s"/>'):format(transform) end
+    local function moved(transform)
+      return ('<rect width="20" height="10" transform="%s"/>'):format(transform)
+    end
     same {
       { moved "translate(5)", '<rect x="5" width="20" height="10"/>' },
       { moved "translate( 5 , 6 )", '<rect x="5" y="6" width="20" height="10"/>' },
@@ -411,26 +501,31 @@ describe("lengths and transforms", function()
       { '<rect width="20" height="10" style="transform:translate(5px,6px)rotate(0deg)"/>',
         moved "translate(5 6)" },
     }
-    for _, text in ipairs { "x", "turn(5)", "translate 5", "translate(5", "translate()", "translate(1 2 3)", "scale(1 2 3)", "rotate(1 2)", "matrix(1 2 3)",
+    for _, text in ipairs { "x", "turn(5)", "translate 5", "translate(5", "translate()",
+      "translate(1 2 3)", "scale(1 2 3)", "rotate(1 2)", "matrix(1 2 3)",
       "matrix(1 2 3 4 5 6 7)", "skewX(1 2)", "skewY()", "translate(5)x", "none x" } do
       assert.is_true(bytes(read(moved(text)).object) == bytes(read(moved "").object), text)
     end
     empty { moved "scale(0)", moved "matrix(1 2 2 4 0 0)" }
   end)
 
-  it("are about origins by words, lengths and shares", function()
-    local function about(origin) return ('<rect width="20" height="10" transform="scale(.5)" transform-origin="%s"/>'):format(origin) end
+  it("have origins given by words, lengths and percentages", function()
+    local function about(origin)
+      return ('<rect width="20" height="10" transform="scale(.5)" transform-origin="%s"/>')
+        :format(origin)
+    end
     same {
       { about "100% 100%", '<rect x="50" y="50" width="10" height="5"/>' },
       { about "right bottom", about "100 100" }, { about "left top", about "0 0" },
       { about "top left", about "0 0" }, { about "bottom 20px", about "20px 100px" },
       { about "center", about "50 50" },
-      { about "20", about "20 50%" }, { about "center top", about "50% 0" }, { about "top", about "50% 0" },
+      { about "20", about "20 50%" }, { about "center top", about "50% 0" },
+      { about "top", about "50% 0" },
       { about "x", about "center" },
     }
   end)
 
-  it("that lead too far are refused", function()
+  it("that scale too far are refused", function()
     refused {
       { '<rect width="1" height="1" transform="1e13"/>', 'transform is "1e13"' },
       { '<g transform="scale(1e9)"><rect width="1" height="1" transform="scale(1e9)"/></g>',
@@ -456,7 +551,8 @@ describe("shapes", function()
       { '<ellipse cx="20" cy="20" rx="auto" ry="9"/>', '<circle cx="20" cy="20" r="9"/>' },
       { '<line x2="40" y1="9" y2="9" stroke="red"/>', '<path d="M0 9H40" stroke="red"/>' },
     }
-    empty { '<rect width="9"/>', '<rect width="-9" height="9"/>', "<circle/>", '<circle r="-1"/>', '<ellipse rx="0" ry="9"/>', "<polygon/>",
+    empty { '<rect width="9"/>', '<rect width="-9" height="9"/>', "<circle/>", '<circle r="-1"/>',
+      '<ellipse rx="0" ry="9"/>', "<polygon/>",
       '<polygon points=""/>', "<path/>", '<path d=""/>', '<path d="none"/>', '<line x2="9"/>' }
   end)
 
@@ -464,9 +560,12 @@ describe("shapes", function()
     same {
       { '<defs>' .. LIME:gsub("<rect", '<rect id="r"') .. '</defs><use href="#r"/>', LIME },
       { '<symbol id="s">' .. LIME .. '</symbol><use href="#s" width="100" height="100"/>', LIME },
-      { '<symbol id="s" viewBox="0 0 10 10" refX="left" refY="top"><rect width="5" height="6" fill="lime"/></symbol><use href="#s"/>',
+      {
+        '<symbol id="s" viewBox="0 0 10 10" refX="left" refY="top"><rect width="5" height="6" '
+        .. 'fill="lime"/></symbol><use href="#s"/>',
         LIME },
-      { '<symbol id="s" overflow="auto" width="9" height="9">' .. LIME .. '</symbol><use href="#s" width="100%" height="100%"/>',
+      { '<symbol id="s" overflow="auto" width="9" height="9">' .. LIME
+        .. '</symbol><use href="#s" width="100%" height="100%"/>',
         LIME },
       { '<svg id="s" width="10" height="10" viewBox="0 0 100 100">' .. LIME .. '</svg>',
         LIME:gsub("50", "5"):gsub("60", "6") },
@@ -474,20 +573,29 @@ describe("shapes", function()
       { '<svg viewBox="0 0 0 9">' .. LIME .. "</svg>", LIME },
       { '<svg viewBox="0 0 x 9">' .. LIME .. "</svg>", LIME },
       { '<svg viewBox="0 0 9">' .. LIME .. "</svg>", LIME },
-      { '<svg viewBox="0 0 50 50" preserveAspectRatio="none" width="100" height="50"><rect width="25" height="60" fill="lime"/></svg>',
+      {
+        '<svg viewBox="0 0 50 50" preserveAspectRatio="none" width="100" height="50"><rect '
+        .. 'width="25" height="60" fill="lime"/></svg>',
         '<rect width="50" height="50" fill="lime"/>' },
       { '<switch>' .. LIME .. "</switch>", LIME },
-      { '<switch><rect width="9" height="9" requiredExtensions="x"/>' .. LIME .. "</switch>", LIME },
+      { '<switch><rect width="9" height="9" requiredExtensions="x"/>' .. LIME .. "</switch>",
+        LIME },
       { '<switch><rect width="9" height="9" systemLanguage=""/>' .. LIME .. "</switch>", LIME },
-      { '<switch><rect width="50" height="60" fill="lime" systemLanguage="de, en-GB"/><rect width="9" height="9"/></switch>',
+      {
+        '<switch><rect width="50" height="60" fill="lime" systemLanguage="de, en-GB"/><rect '
+        .. 'width="9" height="9"/></switch>',
         LIME },
-      { '<switch><rect width="50" height="60" fill="lime" requiredExtensions=" " systemLanguage="en"/></switch>',
+      {
+        '<switch><rect width="50" height="60" fill="lime" requiredExtensions=" " '
+        .. 'systemLanguage="en"/></switch>',
         LIME },
-      { '<switch><rect width="9" height="9" systemLanguage="english,enx"/>' .. LIME .. "</switch>", LIME },
+      { '<switch><rect width="9" height="9" systemLanguage="english,enx"/>' .. LIME .. "</switch>",
+        LIME },
       { '<a href="x">' .. LIME .. "</a>", LIME }, { "<title>A</title><metadata/>" .. LIME, LIME },
       { "<use/>" .. LIME, LIME },
     }
-    empty { '<svg width="0" height="9">' .. LIME .. "</svg>", '<symbol id="s">' .. LIME .. "</symbol>", "<use/>", "<switch/>",
+    empty { '<svg width="0" height="9">' .. LIME .. "</svg>",
+      '<symbol id="s">' .. LIME .. "</symbol>", "<use/>", "<switch/>",
       '<g display="none">' .. LIME .. "</g>" }
     left_out {
       { '<use href="#none"/>', "use of what is not in the file" }, { "<blink/>", "blink" },
@@ -500,7 +608,10 @@ describe("shapes", function()
 end)
 
 describe("strokes", function()
-  local function line(attributes) return '<path d="M10 10H80L20 60" fill="none" stroke="red" stroke-width="8" ' .. attributes .. "/>" end
+  local function line(attributes)
+    return '<path d="M10 10H80L20 60" fill="none" stroke="red" stroke-width="8" ' .. attributes
+      .. "/>"
+  end
   it("may be written in several ways", function()
     same {
       { line 'stroke-linecap="butt"', line "" }, { line 'stroke-linecap="inherit"', line "" },
@@ -527,27 +638,43 @@ describe("strokes", function()
   end)
 
   it("may have markers at their corners", function()
-    local function marked(marker, path) return marker .. '<path d="' .. (path or "M10 10H80V60") .. '" fill="none" marker-end="url(#k)"/>' end
+    local function marked(marker, path)
+      return marker .. '<path d="' .. (path or "M10 10H80V60")
+        .. '" fill="none" marker-end="url(#k)"/>'
+    end
     local box = '<rect x="77" y="57" width="6" height="6"/>'
     same {
-      { marked '<marker id="k" overflow="visible" markerUnits="userSpaceOnUse"><rect x="-3" y="-3" width="6" height="6"/></marker>',
+      {
+        marked('<marker id="k" overflow="visible" markerUnits="userSpaceOnUse"><rect x="-3" y="-3" '
+        .. 'width="6" height="6"/></marker>'),
         box },
-      { marked '<marker id="k" markerWidth="6" markerHeight="6" refX="3" refY="3"><rect width="6" height="6"/></marker>',
+      {
+        marked('<marker id="k" markerWidth="6" markerHeight="6" refX="3" refY="3"><rect width="6" '
+        .. 'height="6"/></marker>'),
         box },
-      { marked '<marker id="k" markerWidth="6" markerHeight="6" refX="center" refY="center" viewBox="0 0 6 6" orient="0"><rect width="6" height="6"/></marker>',
+      {
+        marked('<marker id="k" markerWidth="6" markerHeight="6" refX="center" refY="center" '
+        .. 'viewBox="0 0 6 6" orient="0"><rect width="6" height="6"/></marker>'),
         box },
-      { marked '<marker id="k" markerWidth="6" markerHeight="6" refX="3" refY="3" orient="x"><rect width="6" height="6"/></marker>',
+      {
+        marked('<marker id="k" markerWidth="6" markerHeight="6" refX="3" refY="3" orient="x"><rect '
+        .. 'width="6" height="6"/></marker>'),
         box },
-      { marked('<marker id="k" overflow="visible" orient="auto"><rect x="-3" y="-3" width="6" height="6"/></marker>', "M10 10H80V60V60"),
+      {
+        marked('<marker id="k" overflow="visible" orient="auto"><rect x="-3" y="-3" width="6" '
+        .. 'height="6"/></marker>', "M10 10H80V60V60"),
         box },
       { marked '<marker id="k"/>' .. box, box }, { marked '<g id="k"/>' .. box, box },
     }
-    empty { marked '<marker id="k" markerWidth="0"><rect width="6" height="6"/></marker>', marked '<marker id="k" viewBox="0 0 0 6"><rect width="6" height="6"/></marker>' }
+    empty { marked '<marker id="k" markerWidth="0"><rect width="6" height="6"/></marker>',
+      marked '<marker id="k" viewBox="0 0 0 6"><rect width="6" height="6"/></marker>' }
   end)
 end)
 
 describe("texts", function()
-  local function text(content, attributes) return ('<text x="10" y="50" font-size="20" %s>%s</text>'):format(attributes or "", content) end
+  local function text(content, attributes)
+    return ('<text x="10" y="50" font-size="20" %s>%s</text>'):format(attributes or "", content)
+  end
   it("may be written in several ways", function()
     same {
       { text " A  B ", text "A B" }, { text("A B", 'xml:space="default"'), text "A B" },
@@ -561,7 +688,8 @@ describe("texts", function()
       { text("A B", 'letter-spacing="0"'), text "A B" },
       { text("A B", 'word-spacing="inherit" direction="ltr"'), text "A B" },
       { text("A B", 'direction="inherit"'), text "A B" },
-      { text("A B", 'text-decoration="none" writing-mode="horizontal-tb" baseline-shift="0"'), text "A B" },
+      { text("A B", 'text-decoration="none" writing-mode="horizontal-tb" baseline-shift="0"'),
+        text "A B" },
       { text("A B", 'font-weight="normal" font-style="normal"'), text "A B" },
       { text("A B", 'font-weight="400"'), text "A B" },
       { text("A B", "font-family=\"'Some Face', Other , x\" font-weight=\"x\" font-style=\"x\""),
@@ -571,16 +699,22 @@ describe("texts", function()
       { text("AB", 'textLength="-5"'), text "AB" }, { text("A", 'textLength="90"'), text "A" },
       { text("A", 'dx="5" dy="-2"'), '<text x="15" y="48" font-size="20">A</text>' },
       { text("A", 'rotate="0 45"'), text "A" },
-      { text "A&#160;B", text "A B" }, { text("A  B", 'xml:space="preserve"'), text "A&#160;&#160;B" },
-      { '<path id="w" d="M10 50H99"/><text font-size="20"><textPath href="#w">A B</textPath></text>',
+      { text "A&#160;B", text "A B" },
+        { text("A  B", 'xml:space="preserve"'), text "A&#160;&#160;B" },
+      {
+        '<path id="w" d="M10 50H99"/><text font-size="20"><textPath href="#w">A '
+        .. 'B</textPath></text>',
         '<path d="M10 50H99"/>' .. text "A B" },
-      { '<path id="w" d="M10 50H99"/><text font-size="20"><textPath href="#w" side="left" startOffset="0%">A B </textPath></text>',
+      {
+        '<path id="w" d="M10 50H99"/><text font-size="20"><textPath href="#w" side="left" '
+        .. 'startOffset="0%">A B </textPath></text>',
         text "A B" },
     }
-    empty { text("A", 'font-size="0"'):gsub('font%-size="20" ', ""), text "", text " ", text "<tspan/>", text("A", 'visibility="hidden"'), text("A", 'display="none"') }
+    empty { text("A", 'font-size="0"'):gsub('font%-size="20" ', ""), text "", text " ",
+      text "<tspan/>", text("A", 'visibility="hidden"'), text("A", 'display="none"') }
   end)
 
-  it("are in the faces that weight, slant and families ask for", function()
+  it("use the faces selected by weight, slant and families", function()
     local fonts = { ["Face"] = FONT }
     for _, case in ipairs {
       { 'font-family="face"' }, { 'font-family="\'FACE\'"' }, { "font-family='none, \"Face\" ,x'" },
@@ -605,28 +739,36 @@ describe("texts", function()
     end
   end)
 
-  it("tell what of them is not drawn", function()
+  it("report their parts that are not drawn", function()
     left_out {
       { text("A", 'text-decoration="underline"'), "text-decoration of text" },
       { text("A", 'writing-mode="tb"'), "writing-mode of text" },
       { text "A<tspan baseline-shift=\"super\">B</tspan>", "baseline-shift of tspan" },
       { text "<blink>A</blink>", "blink in text" },
       { text '<textPath href="#none">A</textPath>', "textPath without a path" },
-      { '<path id="w" d="M10 50H99"/><text font-size="20"><textPath href="#w" side="right">A</textPath></text>',
+      {
+        '<path id="w" d="M10 50H99"/><text font-size="20"><textPath href="#w" '
+        .. 'side="right">A</textPath></text>',
         "side of textPath" },
     }
-    refused { { text("A", 'dx="nan"'), 'dx is "nan"' }, { '<text x="1e13">A</text>', 'x is "1e13"' } }
+    refused { { text("A", 'dx="nan"'), 'dx is "nan"' },
+      { '<text x="1e13">A</text>', 'x is "1e13"' } }
   end)
 end)
 
 -- A picture of 2 x 2 pixels, red and blue.
-local PICTURE = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAMAAABFaP0WAAAABlBMVEX/AAAAAP9sof2OAAAADElEQVR42mNgYARCAAAMAAMVnhj8"
+local PICTURE =
+  "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAMAAABFaP0WAAAABlBMVEX/"
+  .. "AAAAAP9sof2OAAAADElEQVR42mNgYARCAAAMAAMVnhj8"
   .. "AAAAAElFTkSuQmCC"
 local DRAWN = "data:image/svg+xml,"
-  .. "%3Csvg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 2 1'%3E%3Crect width='1' height='1' fill='lime'/%3E%3C/svg%3E"
+  .. "%3Csvg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 2 1'%3E%3Crect width='1' height='1' "
+  .. "fill='lime'/%3E%3C/svg%3E"
 
 describe("images", function()
-  local function image(href, attributes) return ('<image %s href="%s"/>'):format(attributes or "", href) end
+  local function image(href, attributes)
+    return ('<image %s href="%s"/>'):format(attributes or "", href)
+  end
   local half = '<rect width="20" height="20" fill="lime"/>'
   it("may be written in several ways", function()
     same {
@@ -639,7 +781,8 @@ describe("images", function()
       { image(DRAWN:gsub(",", ",%%EF%%BB%%BF%%20%%0a", 1), 'width="40" height="20"'), half },
       { image("\n " .. DRAWN, 'width="40" height="20"'), half },
       { image(DRAWN:gsub(",", " ,", 1), 'width="40" height="20"'), half },
-      { '<defs><g id="g">' .. image(DRAWN, 'width="40" height="20"') .. '</g></defs><use href="#g"/>', half },
+      { '<defs><g id="g">' .. image(DRAWN, 'width="40" height="20"')
+        .. '</g></defs><use href="#g"/>', half },
       { image(PICTURE, 'width="40"'), image(PICTURE, 'width="40" height="40"') },
       { image(PICTURE:gsub("VR42", "VR4\n 2"), 'width="40"'), image(PICTURE, 'width="40"') },
       { image(PICTURE, 'transform="scale(20)"'), image(PICTURE, 'width="40"') },
@@ -648,14 +791,17 @@ describe("images", function()
     }
   end)
 
-  it("draw nothing where there is nothing, or no place", function()
-    empty { "<image/>", image "", image " ", image(DRAWN, 'width="0"'), image(DRAWN, 'width="9" height="0"'), image(PICTURE, 'transform="scale(0)"'),
+  it("draw nothing if they are empty, or have no size", function()
+    empty { "<image/>", image "", image " ", image(DRAWN, 'width="0"'),
+      image(DRAWN, 'width="9" height="0"'), image(PICTURE, 'transform="scale(0)"'),
       image(PICTURE, 'visibility="hidden"'), image(PICTURE, 'display="none"') }
   end)
 
-  it("tell what of them is not drawn", function()
-    for _, href in ipairs { "data:", "data:image/png;base64,", "data:image/png;base64,####", "data:,%", "data:,%4", "data:,%zz", "data:image/svg+xml,%3Csvg",
-      "../a.png", "/a.png", "http://a/b.png", "none.png", "a/../b.png", ("a"):rep(5000), "a\\b.png", ".",
+  it("report their parts that are not drawn", function()
+    for _, href in ipairs { "data:", "data:image/png;base64,", "data:image/png;base64,####",
+      "data:,%", "data:,%4", "data:,%zz", "data:image/svg+xml,%3Csvg",
+      "../a.png", "/a.png", "http://a/b.png", "none.png", "a/../b.png", ("a"):rep(5000), "a\\b.png",
+      ".",
       "a//b.png" } do
       local art = read(image(href))
       assert.are.equal(1, #art.skipped, href)
@@ -667,42 +813,72 @@ describe("images", function()
 end)
 
 describe("boxes", function()
-  it("of what use shows and of groups are those of what is in them", function()
-    local shares = '<clipPath id="c" clipPathUnits="objectBoundingBox"><rect width=".5" height="1"/></clipPath>'
+  it("of use and of groups are those of their contents", function()
+    local shares =
+      '<clipPath id="c" clipPathUnits="objectBoundingBox"><rect width=".5" height="1"/></clipPath>'
     local whole = '<rect id="r" x="10" y="10" width="40" height="20" fill="lime"/>'
     local half = '<rect x="10" y="10" width="20" height="20" fill="lime"/>'
     same {
       { shares .. "<defs>" .. whole .. '</defs><g clip-path="url(#c)"><use href="#r"/></g>', half },
-      { shares .. "<defs>" .. whole .. '</defs><g clip-path="url(#c)"><use href="#none" display="none"/><use/><use href="#r"/></g>',
+      { shares .. "<defs>" .. whole
+        .. '</defs><g clip-path="url(#c)"><use href="#none" display="none"/><use/><use '
+        .. 'href="#r"/></g>',
         half },
-      { shares .. '<g clip-path="url(#c)"><g transform="translate(5 5)"><rect x="5" y="5" width="40" height="20" fill="lime"/></g></g>',
+      {
+        shares
+        .. '<g clip-path="url(#c)"><g transform="translate(5 5)"><rect x="5" y="5" width="40" '
+        .. 'height="20" fill="lime"/></g></g>',
         half },
-      { shares .. '<g clip-path="url(#c)">' .. whole .. '<rect width="90" height="90" display="none"/></g>',
+      { shares .. '<g clip-path="url(#c)">' .. whole
+        .. '<rect width="90" height="90" display="none"/></g>',
         half },
-      { shares .. '<g clip-path="url(#c)">' .. whole .. '<path/><text/><title>A</title></g>', half },
-      { shares .. '<g clip-path="url(#c)"><svg x="10" y="10" width="40" height="20"><rect width="40" height="20" fill="lime"/></svg></g>',
+      { shares .. '<g clip-path="url(#c)">' .. whole .. '<path/><text/><title>A</title></g>',
+        half },
+      {
+        shares
+        .. '<g clip-path="url(#c)"><svg x="10" y="10" width="40" height="20"><rect width="40" '
+        .. 'height="20" fill="lime"/></svg></g>',
         half },
       { shares .. '<g clip-path="url(#c)"><switch><g>' .. whole .. "</g></switch></g>", half },
-      { shares .. '<g clip-path="url(#c)"><switch><g systemLanguage="xx"><rect width="90" height="90"/></g>' .. whole
-        .. '<rect width="90" height="90"/></switch><rect width="90" height="90" systemLanguage="xx"/></g>',
+      {
+        shares
+        .. '<g clip-path="url(#c)"><switch><g systemLanguage="xx"><rect width="90" '
+        .. 'height="90"/></g>' .. whole
+        .. '<rect width="90" height="90"/></switch><rect width="90" height="90" '
+        .. 'systemLanguage="xx"/></g>',
         half },
-      { shares .. '<svg clip-path="url(#c)" x="10" y="10" width="40" height="20" viewBox="0 0 4 2"><rect width="4" height="2" fill="lime"/></svg>',
+      {
+        shares
+        .. '<svg clip-path="url(#c)" x="10" y="10" width="40" height="20" viewBox="0 0 4 2"><rect '
+        .. 'width="4" height="2" fill="lime"/></svg>',
         half },
-      { shares .. '<g clip-path="url(#c)"><svg width="0" height="90"><rect width="90" height="90"/></svg>' .. whole .. "</g>",
+      {
+        shares
+        .. '<g clip-path="url(#c)"><svg width="0" height="90"><rect width="90" height="90"/></svg>'
+        .. whole .. "</g>",
         half },
-      { shares .. '<symbol id="s" viewBox="0 0 4 2"><rect width="4" height="2" fill="lime"/></symbol>'
-        .. '<g clip-path="url(#c)"><symbol><rect width="90" height="90"/></symbol><use href="#s" x="10" y="10" width="40" height="20"/></g>',
+      { shares
+        .. '<symbol id="s" viewBox="0 0 4 2"><rect width="4" height="2" fill="lime"/></symbol>'
+        .. '<g clip-path="url(#c)"><symbol><rect width="90" height="90"/></symbol><use href="#s" '
+        .. 'x="10" y="10" width="40" height="20"/></g>',
         half },
-      { shares .. '<symbol id="s" viewBox="0 0 4 2" clip-path="url(#c)"><rect width="4" height="2" fill="lime"/></symbol>'
+      {
+        shares
+        .. '<symbol id="s" viewBox="0 0 4 2" clip-path="url(#c)"><rect width="4" height="2" '
+        .. 'fill="lime"/></symbol>'
         .. '<use href="#s" x="10" y="10" width="40" height="20"/>', half },
-      { '<svg x="10" y="10" width="40" height="20" viewBox="0 0 4 2"><rect width="2" height="2" fill="lime"/></svg>',
+      {
+        '<svg x="10" y="10" width="40" height="20" viewBox="0 0 4 2"><rect width="2" height="2" '
+        .. 'fill="lime"/></svg>',
         half },
     }
   end)
 
-  it("are not drawn in a circle", function()
-    local shares = '<clipPath id="c" clipPathUnits="objectBoundingBox"><rect width=".5" height="1"/></clipPath>'
-    refused { { shares .. '<g id="g" clip-path="url(#c)"><use href="#g"/></g>', "elements refer to one another in a circle" } }
+  it("are refused if they refer to one another in a circle", function()
+    local shares =
+      '<clipPath id="c" clipPathUnits="objectBoundingBox"><rect width=".5" height="1"/></clipPath>'
+    refused { { shares .. '<g id="g" clip-path="url(#c)"><use href="#g"/></g>',
+      "elements refer to one another in a circle" } }
   end)
 end)
 
@@ -714,7 +890,8 @@ describe("gradients, too,", function()
         gradient("linear", 'x1="0" y1="0" x2="0" y2="1"') },
       { gradient("linear", 'gradientTransform="x"'), gradient "linear" },
       { gradient("radial", 'fr=".2" r=".4" spreadMethod="pad"'),
-        gradient("radial", 'r=".4"', '<stop offset=".5" stop-color="red"/><stop offset="1" stop-color="blue"/>') },
+        gradient("radial", 'r=".4"',
+          '<stop offset=".5" stop-color="red"/><stop offset="1" stop-color="blue"/>') },
       { gradient("linear", 'spreadMethod="x"'), gradient "linear" },
       { gradient("linear", 'href="#none"'), gradient "linear" },
       { gradient("linear", 'href="#g"'), gradient "linear" },
@@ -722,12 +899,13 @@ describe("gradients, too,", function()
     }
     local repeated = read(gradient("radial", 'fr=".1" r=".2" spreadMethod="repeat"'))
     assert.are.same({}, repeated.skipped)
-    assert.are_not.equal(bytes(read(gradient("radial", 'fr=".1" r=".2"')).object), bytes(repeated.object))
+    assert.are_not.equal(bytes(read(gradient("radial", 'fr=".1" r=".2"')).object),
+      bytes(repeated.object))
   end)
 end)
 
 describe("documents", function()
-  it("may hold what is of other kinds, anywhere", function()
+  it("may contain elements of other kinds, anywhere", function()
     same {
       { '<x:y xmlns:x="urn:x"><rect width="9" height="9"/><x:y/></x:y>' .. LIME, LIME },
       { '<metadata><x:y xmlns:x="urn:x">text</x:y></metadata>' .. LIME, LIME },
@@ -735,18 +913,26 @@ describe("documents", function()
       { '<style type="text/css">rect{fill:lime}</style><rect width="50" height="60"/>', LIME },
       { '<style type="text/other">rect{fill:red}</style>' .. LIME, LIME },
       { '<rect id="" width="50" height="60" fill="lime"/>', LIME },
-      { '<rect xml:space="preserve" xmlns:q="urn:q" q:fill="red" width="50" height="60" fill="lime"/>',
+      {
+        '<rect xml:space="preserve" xmlns:q="urn:q" q:fill="red" width="50" height="60" '
+        .. 'fill="lime"/>',
         LIME },
-      { '<defs><rect id="r" width="50" height="60" fill="lime"/><rect id="r" width="9" height="9"/></defs><use href="#r"/>',
+      {
+        '<defs><rect id="r" width="50" height="60" fill="lime"/><rect id="r" width="9" '
+        .. 'height="9"/></defs><use href="#r"/>',
         LIME },
-      { '<defs><rect id="r" width="50" height="60" fill="lime"/></defs><use href="#r" xlink:href="#none"/>',
+      {
+        '<defs><rect id="r" width="50" height="60" fill="lime"/></defs><use href="#r" '
+        .. 'xlink:href="#none"/>',
         LIME },
     }
   end)
 end)
 
 describe("texts, too,", function()
-  local function text(content, attributes) return ('<text x="10" y="50" font-size="20" %s>%s</text>'):format(attributes or "", content) end
+  local function text(content, attributes)
+    return ('<text x="10" y="50" font-size="20" %s>%s</text>'):format(attributes or "", content)
+  end
   it("are spread, squeezed and placed letter by letter", function()
     same {
       { text("A<tspan textLength=\"40\">BC</tspan>D", ""),
@@ -754,7 +940,8 @@ describe("texts, too,", function()
       { text("AB", 'textLength="60" lengthAdjust="spacing"'), text("AB", 'textLength="60"') },
       { text("AB", 'letter-spacing="3"'), text("AB", 'letter-spacing="3px"') },
       { text("A B", 'word-spacing="1em"'), text("A B", 'word-spacing="20"') },
-      { text "A<tspan>B<tspan>C</tspan></tspan>", text "ABC" }, { text "A<tspan x=\"40\" y=\"60\">B</tspan>",
+      { text "A<tspan>B<tspan>C</tspan></tspan>", text "ABC" },
+      { text "A<tspan x=\"40\" y=\"60\">B</tspan>",
         text "A" .. '<text x="40" y="60" font-size="20">B</text>' },
       { '<text x="10 40" y="50 60" font-size="20">AB</text>',
         text "A" .. '<text x="40" y="60" font-size="20">B</text>' },
@@ -763,10 +950,11 @@ describe("texts, too,", function()
       { text("A\226\128\168B"), text "A B" }, { text("A\194\133B"), text "A B" },
       { text("A\127B"), text "A B" },
     }
-    assert.are_not.equal(bytes(read(text "AB").object), bytes(read(text("AB", 'textLength="60" lengthAdjust="spacingAndGlyphs"')).object))
+    assert.are_not.equal(bytes(read(text "AB").object),
+      bytes(read(text("AB", 'textLength="60" lengthAdjust="spacingAndGlyphs"')).object))
   end)
 
-  it("end behind the line that they run along", function()
+  it("end at the end of the line that they run along", function()
     local path = '<path id="w" d="M10 50H60" fill="none"/>'
     same {
       { path .. '<text font-size="20"><textPath href="#w">A</textPath>B</text>',
@@ -776,6 +964,8 @@ describe("texts, too,", function()
       { path .. '<text font-size="20"><textPath href="#w"> A </textPath> </text>',
         path .. '<text font-size="20"><textPath href="#w">A</textPath></text>' },
     }
-    empty { path .. '<text font-size="20"><textPath href="#w" startOffset="900">A</textPath></text>', path .. '<text font-size="20"><textPath href="#w" startOffset="-900">A</textPath></text>' }
+    empty {
+      path .. '<text font-size="20"><textPath href="#w" startOffset="900">A</textPath></text>',
+      path .. '<text font-size="20"><textPath href="#w" startOffset="-900">A</textPath></text>' }
   end)
 end)

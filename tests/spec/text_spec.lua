@@ -1,6 +1,6 @@
--- Text: what is written, where it lies, what it is as a primitive, and what is refused. The font is
--- one of our own, drawn by tests/support/block.lua, so that these run everywhere. One file, because what
--- is written and where it lies is told by the same few letters.
+-- Text: its letters, their positions, text as a primitive, and refusals. The font is the project's
+-- own, drawn by tests/support/block.lua, so that these tests run everywhere. One file, because the
+-- same few letters are enough for all of them.
 local celspan = require "celspan"
 local block = require "tests.support.block"
 local present = require "tests.support.present"
@@ -11,7 +11,7 @@ local workbench = require "tests.support.workbench"
 local FONT = "../../scripts/type/block.ttf"
 local PATH = "scripts/type/block.ttf"
 
--- Built without the libraries for type, there is nothing to test but the font.
+-- Built without the libraries for type, there is nothing to test except the font.
 local it = present.art() and it or pending
 
 local function read(path) return assert(system.read(path)) end
@@ -33,7 +33,7 @@ local function spelled(letters)
   return table.concat(words, "|")
 end
 
---- The message of a call that is to fail.
+--- The message of a call that must fail.
 local function message_of(fields, constructor)
   local is_made, message = pcall(constructor or text, fields)
   assert.is_false(is_made)
@@ -85,7 +85,7 @@ describe("letters", function()
     assert.are.same({ 720, 180, 50 }, { letters[2].x, letters[2].advance, letters[2].y })
   end)
 
-  it("have the outline that the font has, upright", function()
+  it("have the outline of the font, upright", function()
     -- I: a pen of half 44 from (90, 44) to (90, 656), y up
     local x, y, w, h = text({ "I", size = 1000, at = { 0, 1000 } }):bounds()
     assert.are.same({ 46, 300, 88, 700 }, { x, y, w, h })
@@ -99,7 +99,7 @@ describe("letters", function()
     assert.are.equal(90, width { kern = false } - width {})
   end)
 
-  it("become ligatures, which are one letter", function()
+  it("can form ligatures, which are one letter", function()
     assert.are.equal("->|H", spelled(glyphs { "->H" }))
     assert.are.equal("-|>|H", spelled(glyphs { "->H", features = { liga = false } }))
     assert.are.equal("-|>|H", spelled(glyphs { "->H", features = { liga = 0 } }))
@@ -113,24 +113,24 @@ describe("letters", function()
     assert.is_true(y < bare)
   end)
 
-  it("are as heavy as the variation says", function()
+  it("have the weight of the variation", function()
     local function width(weight)
       local _, _, w = text({ "I", size = 1000, variations = { wght = weight } }):bounds()
       return w
     end
     assert.are.same({ 44, 88, 148 }, { width(200), width(400), width(900) })
     assert.are.equal(118, width(650))
-    assert.are.equal(148, width(5000)) -- held to the range of the axis
+    assert.are.equal(148, width(5000)) -- clamped to the range of the axis
   end)
 
-  it("that overlap themselves are filled all over", function()
-    -- T: the middle of where its lines cross
+  it("that overlap themselves are filled completely", function()
+    -- T: the middle of the crossing of its lines
     assert.is_true(text({ "T", size = 1000, at = { 0, 1000 } }):contains(320, 344))
     local b = text { "B", size = 1000, at = { 0, 1000 } }
     assert.is_false(b:contains(250, 800)) -- its counter
   end)
 
-  it("make the same picture together as the text", function()
+  it("look together like the text", function()
     local union = {}
     local fields = { "Hi there,\nAVE ->", size = 80, at = { 20, 80 }, tracking = 40,
       texture = celspan.linear { from = { 0, 0 }, to = { 600, 0 }, { 0, "#f00" }, { 1, "#00f" } } }
@@ -160,7 +160,7 @@ end)
 -- ---------------------------------------------------------------- lines
 
 describe("lines", function()
-  it("end where it says so, one under the other", function()
+  it("end at line breaks, one under the other", function()
     local letters = glyphs { "A\n\nB\r\nC", size = 100, leading = 1.5, at = { 0, 10 } }
     assert.are.equal("A|B|C", spelled(letters))
     local places = {}
@@ -168,7 +168,7 @@ describe("lines", function()
     assert.are.same({ { 1, 10 }, { 3, 310 }, { 4, 460 } }, places)
   end)
 
-  it("are aligned about their place", function()
+  it("are aligned at their position", function()
     local function ends(align, width, tracking)
       local letters = glyphs { "HH ", size = 1000, at = { 100, 0 }, align = align, width = width,
         tracking = tracking }
@@ -180,17 +180,18 @@ describe("lines", function()
     assert.are.same({ 100, 1340 }, ends("left", 2000))
     assert.are.same({ 480, 1720 }, ends("centre", 2000))
     assert.are.same({ 860, 2100 }, ends("right", 2000))
-    assert.are.same({ -620, 720 }, { ends("centre", nil, 100)[1] - 50, ends("centre", nil, 100)[2] - 50 })
+    assert.are.same({ -620, 720 },
+      { ends("centre", nil, 100)[1] - 50, ends("centre", nil, 100)[2] - 50 })
   end)
 
-  it("have left on the left in every script", function()
+  it("align left to the left in every script", function()
     local letters = glyphs { "שלום", size = 1000, at = { 100, 0 } }
     assert.are.equal(100, letters[4].x)
     letters = glyphs { "שלום", size = 1000, at = { 100, 0 }, align = "right" }
     assert.are.equal(100, letters[1].x + letters[1].advance)
   end)
 
-  it("are led by the direction where nothing else does", function()
+  it("have the given direction if no letter determines one", function()
     local function first(direction, words)
       local letters = glyphs { words, size = 100, direction = direction }
       return letters[1].x
@@ -201,7 +202,7 @@ describe("lines", function()
     assert.are.equal(0, first(nil, ".A"))
   end)
 
-  it("wrap before they are too long, and where they may", function()
+  it("wrap before they are too long, where a break is allowed", function()
     local width = 62 + 52 + 2 * 62 -- of "HH HH" at size 100, without the gaps
     assert.are.equal("HH HH /HH", lines_of { "HH HH HH", size = 100, width = 5 * 62 })
     assert.are.equal("HH /HH /HH", lines_of { "HH HH HH", size = 100, width = width })
@@ -218,7 +219,7 @@ describe("lines", function()
     assert.are.equal("AVE THE /HH", lines_of { "AVE THE HH", size = 37.7, width = width - 0.01 })
   end)
 
-  it("show a soft hyphen where they end at it, and nowhere else", function()
+  it("show a soft hyphen only if they end at it", function()
     local function right(width)
       local x, _, w = text({ "HH\u{ad}HH", size = 100, width = width }):bounds()
       return x + w
@@ -241,7 +242,7 @@ end)
 -- ---------------------------------------------------------------- fonts
 
 describe("fonts", function()
-  --- The font with a few of its glyphs alone.
+  --- The font with only a few of its glyphs.
   local function part_of(characters)
     local font = block.font()
     for _, glyph in ipairs(font.glyphs) do
@@ -255,11 +256,12 @@ describe("fonts", function()
     return temporary(truetype.build(font))
   end
 
-  it("stand in for one another, letter by letter", function()
+  it("replace one another, letter by letter", function()
     local large = part_of "AB "
     local letters = glyphs { "AHB", font = { large, FONT }, size = 100 }
     assert.are.equal("A|H|B", spelled(letters))
-    assert.are.same({ 128, 62, 112 }, { letters[1].advance, letters[2].advance, letters[3].advance })
+    assert.are.same({ 128, 62, 112 },
+      { letters[1].advance, letters[2].advance, letters[3].advance })
     letters = glyphs { "אבג", font = { part_of "א", temporary(truetype.build((function()
       local font = block.font()
       font.glyphs[3].characters = { 0x5d1, 0x5d2 }
@@ -272,20 +274,20 @@ describe("fonts", function()
     assert.are.same({ 62, 24, 96 }, { letters[1].advance, letters[2].advance, letters[3].advance })
   end)
 
-  it("give a letter and its marks together", function()
+  it("provide a letter and its marks together", function()
     local letters = glyphs { "Ae\u{301}A", font = { part_of "Ae", FONT }, size = 100 }
     assert.are.equal("A|e\u{301}|A", spelled(letters))
     assert.is_true(math.abs(letters[2].advance - 44.6) < 1e-9)
   end)
 
-  it("that changed are read anew", function()
+  it("that changed are read again", function()
     local path = part_of "AB"
     assert.are.equal(128, glyphs({ "A", font = path, size = 100 })[1].advance)
     block.write(path)
     assert.are.equal(64, glyphs({ "A", font = path, size = 100 })[1].advance)
   end)
 
-  it("need not be there to be found beside the script that names them", function()
+  it("are searched next to the script that names them", function()
     local message = message_of { "A", font = "no-such.ttf" }
     assert.is_truthy(message:find("text: ", 1, true))
     assert.is_truthy(message:find("tests/spec/no-such.ttf: No such file", 1, true), message)
@@ -321,14 +323,15 @@ describe("fonts", function()
       :find("no outlines", 1, true))
   end)
 
-  it("that are broken inside are drawn as far as they go, or refused", function()
+  it("that are damaged inside are drawn as far as possible, or refused", function()
     local font = block.font()
     for seed = 1, 60 do
       local random = celspan.random(seed)
       local damaged = bytes
       for i = 1, 20 do
         local at = random("place" .. i, 400, #bytes)
-        damaged = damaged:sub(1, at - 1) .. string.char(random("byte" .. i, 0, 255)) .. damaged:sub(at + 1)
+        damaged = damaged:sub(1, at - 1) .. string.char(random("byte" .. i, 0, 255))
+          .. damaged:sub(at + 1)
       end
       local path = temporary(damaged)
       local is_made, made_text = pcall(text, { "Hamburg -> שלום", font = path,
@@ -347,7 +350,7 @@ end)
 -- ---------------------------------------------------------------- a primitive like any other
 
 describe("text as a primitive", function()
-  it("takes part in booleans, and is probed as it is drawn", function()
+  it("can be an operand of booleans, and is probed like it is drawn", function()
     local hole = celspan.rect { 0, 0, 640, 240, texture = "#fff" }
       - text { "HOLE", size = 200, at = { 20, 200 } }
     local rostrum = celspan.rostrum { celspan.cel { hole } }
@@ -363,7 +366,7 @@ describe("text as a primitive", function()
     assert.are.equal(0, differing)
   end)
 
-  it("equals text that is made of the same, and no other", function()
+  it("equals text with the same fields, and no other", function()
     local function name(fields)
       local rostrum = celspan.rostrum { celspan.cel { text(fields) } }
       return rostrum
@@ -376,17 +379,19 @@ describe("text as a primitive", function()
   it("can be read and changed", function()
     local hello = text { "Hello", at = { 3, 4 } }
     assert.are.equal("Hello", hello[1])
-    assert.are.same({ 48, "left", 1.2, 0 }, { hello.size, hello.align, hello.leading, hello.tracking })
+    assert.are.same({ 48, "left", 1.2, 0 },
+      { hello.size, hello.align, hello.leading, hello.tracking })
     assert.are.same({ 3, 4 }, hello.at)
     local other = hello:translate(10, 0):with { "Bye" }
     assert.are.equal("Bye", other[1])
     local x = other:bounds()
     local plain = text({ "Bye", at = { 13, 4 } }):bounds()
     assert.is_true(math.abs(x - plain) < 1e-9)
-    assert.are.equal('text{ size = 48, at = {3, 4}, leading = 1.2, tracking = 0, face = 1 }', tostring(hello))
+    assert.are.equal('text{ size = 48, at = {3, 4}, leading = 1.2, tracking = 0, face = 1 }',
+      tostring(hello))
   end)
 
-  it("may be nothing: no letters, spaces, no size", function()
+  it("may be empty: no letters, only spaces, no size", function()
     for _, fields in ipairs { { "" }, { "   " }, { "\n\n" }, { "A", size = 0 } } do
       local nothing = text(fields)
       assert.is_false(same_pixels(nothing | text { "I", at = { 9, 99 } }, nothing))
@@ -414,7 +419,8 @@ describe("bad text is refused:", function()
     { "a zero", { "a\0b" }, "control character U+0000 at byte 2" },
     { "a tab", { "a\tb" }, "control character U+0009 at byte 2" },
     { "a lone return", { "a\rb" }, "control character U+000D at byte 2" },
-    { "a character that is nowhere", { "Aж" }, 'block.ttf has no glyph for "ж" (U+0436) at byte 2' },
+    { "a character that is nowhere", { "Aж" },
+      'block.ttf has no glyph for "ж" (U+0436) at byte 2' },
     { "a million characters", { ("a"):rep(1000000) }, "more than 100000 characters" },
     { "a size below 0", { "a", size = -1 }, "size is -1; it must be 0 or more" },
     { "a size that is no number", { "a", size = 0 / 0 }, "size" },
@@ -424,7 +430,8 @@ describe("bad text is refused:", function()
     { "another align", { "a", align = "justify" }, '"left", "centre" or "right", got "justify"' },
     { "another direction", { "a", direction = "up" }, '"auto", "ltr" or "rtl", got "up"' },
     { "features in a list", { "a", features = { "liga" } }, "a table by name" },
-    { "a feature's value", { "a", features = { liga = -1 } }, "liga must be true, false or a whole" },
+    { "a feature's value", { "a", features = { liga = -1 } },
+      "liga must be true, false or a whole" },
     { "a feature's name", { "a", features = { ligatures = true } }, 'got "ligatures"' },
     { "an axis's value", { "a", variations = { wght = "bold" } }, "wght must be a number" },
     { "an axis without a number", { "a", variations = { wght = 0 / 0 } }, "wght" },
@@ -436,7 +443,7 @@ describe("bad text is refused:", function()
       for i = 1, 17 do list[i] = FONT end
       return list
     end)() }, "17 fonts; at most 16 are allowed" },
-    { "a folder", { "a", font = "../../scripts" }, "a font is a file, and this is none" },
+    { "a folder", { "a", font = "../../scripts" }, "is not a file; a font must be one" },
     { "an unknown field", { "a", sise = 3 }, "size" },
   }
   for _, case in ipairs(cases) do
@@ -455,7 +462,7 @@ describe("bad text is refused:", function()
   end)
 
   it("and long lines are the same as short ones", function()
-    local words = ("Hamburg AVE "):rep(1000) -- more than is shaped at a time
+    local words = ("Hamburg AVE "):rep(1000) -- more than is shaped at once
     local letters, few = glyphs { words, size = 10 }, glyphs { "Hamburg AVE ", size = 10 }
     assert.are.equal(12000, #letters)
     local _, width = few[12].x, few[12].x + few[12].advance
@@ -467,7 +474,7 @@ describe("bad text is refused:", function()
     assert.is_true(#one >= 1 and #one[1].text > 100)
   end)
 
-  it("and a hundred thousand characters are taken", function()
+  it("and a hundred thousand characters are accepted", function()
     local words = ("Hamburg AVE "):rep(100000 // 12)
     local letters = lines_of { words, size = 10, width = 400 }
     assert.is_true(#letters > #words)
@@ -478,13 +485,17 @@ end)
 
 describe("the command line", function()
   local BINARY = workbench.binary
-  local folder = assert(io.popen "pwd"):read "l" -- of the fonts, which is not the script's
+  -- the folder of the fonts, which is not the script's
+  local folder = assert(io.popen "pwd"):read "l"
 
   --- The exit code and messages of a check of a script that sets this text.
   local function check(fields, environment)
-    local script = temporary(('local celspan = require "celspan"\nreturn celspan.rostrum { celspan.cel { '
+    local script =
+      temporary(('local celspan = require "celspan"\nreturn celspan.rostrum { celspan.cel { '
       .. "celspan.text { %s } } }"):format(fields))
-    local pipe = assert(io.popen(("%s '%s' check '%s' --allow '%s' 2>&1"):format(environment or "", BINARY, script,
+    local pipe =
+      assert(io.popen(("%s '%s' check '%s' --allow '%s' 2>&1")
+        :format(environment or "", BINARY, script,
       folder)))
     local message = pipe:read "a"
     local _, _, code = pipe:close()
@@ -499,7 +510,7 @@ describe("the command line", function()
     assert.are.equal(3, (check('"ж", ' .. font)))
   end)
 
-  it("says which module is missing", function()
+  it("reports which module is missing", function()
     local code, message = check('"A", ' .. font, "CELSPAN_ART_MODULE=/nowhere/art.so")
     assert.are.equal(4, code)
     assert.is_truthy(message:find("setting type needs the module celspan-art.so", 1, true), message)
@@ -533,7 +544,7 @@ describe("a collection of fonts", function()
       .. table.concat(out) .. font:sub(13 + 16 * tables)
   end
 
-  it_sets_type("gives the face that is asked for, and names those that it has", function()
+  it_sets_type("provides the requested face, and names those that it has", function()
     local path = os.tmpname()
     local file = assert(io.open(path, "wb"))
     file:write(collection(2))
@@ -544,10 +555,10 @@ describe("a collection of fonts", function()
     end
     local good, refusal = pcall(celspan.text, { "Again", font = path, face = 3 })
     assert.is_false(good)
-    assert.matches("face 3 is none of the collection's, which are 1 to 2", refusal, 1, true)
+    assert.matches("face 3 is not in the collection, which has 1 to 2", refusal, 1, true)
     good, refusal = pcall(celspan.text, { "Again", font = path, face = 0 })
     assert.is_false(good)
-    assert.matches("field 'face' must be 1 or more, got 0", refusal, 1, true)
+    assert.matches("text: face is 0; it must be 1 or more", refusal, 1, true)
     os.remove(path)
   end)
 end)

@@ -1,11 +1,11 @@
--- celspan tiles: the pyramid's shape, that its tiles are the frame's pixels, what is linked, left
--- out and kept, and the page in a browser.
+-- celspan tiles: the pyramid's shape, its tiles compared with the frame's pixels, linked, omitted
+-- and kept tiles, and the page in a browser.
 
 local present = require "tests.support.present"
 local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
 
--- Pictures are read to be compared.
+-- Pictures are read to compare them.
 local it_compares = present.pictures() and it or pending
 
 local bench, folder
@@ -20,10 +20,10 @@ local function count_files(path, name)
   return #system.lines(("find '%s' -type f -name '%s'"):format(path, name or "*.png"))
 end
 
---- Device and number of a file: equal for two names of one file.
+--- Device and inode of a file: equal for two names of one file.
 local function identity(path) return system.lines(("stat -c %%d:%%i '%s'"):format(path))[1] end
 
---- How much two pictures differ, 0 to 1; nil when they have not the same size.
+--- The difference of two pictures, 0 to 1; nil if they have different sizes.
 local function difference(a, b)
   local _, text = celspan("compare '%s' '%s' --fail 1", a, b)
   return tonumber(text:match("largest_difference ([%d.e+-]+)"))
@@ -35,7 +35,7 @@ local function assert_success(arguments, ...)
   return out, err
 end
 
--- 700 x 500, a plain ground with something round in the middle, and its left edge clear.
+-- 700 x 500, a plain background with something round in the middle, and a clear left edge.
 local PLAIN = [[
 local celspan = require "celspan"
 return celspan.film{ size = {700, 500}, frames = 2, title = "a <plain> one", frame = function(f)
@@ -46,7 +46,7 @@ return celspan.film{ size = {700, 500}, frames = 2, title = "a <plain> one", fra
 end }
 ]]
 
--- For what is not about tiles: as few as there can be.
+-- For tests of other things: as few tiles as possible.
 local SMALL = [[
 local celspan = require "celspan"
 return celspan.rostrum{ celspan.cel{ celspan.rect{ 0, 0, 9, 9 } } }
@@ -80,7 +80,7 @@ describe("a Deep Zoom pyramid", function()
     end
   end)
 
-  it_compares("holds the pixels of the frame at each level's size, with the overlap", function()
+  it_compares("contains the pixels of the frame at each level's size, with the overlap", function()
     assert_success("tiles %s -o %s/p --tile 64 --progress none", script, folder)
     for _, case in ipairs {
       { 10, "0_0", "0,0,65,65" }, { 10, "7_3", "447,191,66,66" }, { 10, "10_7", "639,447,61,53" },
@@ -95,7 +95,7 @@ describe("a Deep Zoom pyramid", function()
     end
   end)
 
-  it_compares("comes close to the frame where it is the mean of a larger level", function()
+  it_compares("comes close to the frame if it is the mean of a larger level", function()
     assert_success("tiles %s -o %s/p --progress none", script, folder)
     assert_success("render %s --frames 1 --size 175x125 -o %s/whole.png --progress none", script,
       folder)
@@ -103,7 +103,7 @@ describe("a Deep Zoom pyramid", function()
     assert.is_not_nil(read(folder .. "/p/plain_files/0/0_0.png"))
   end)
 
-  it_compares("shows the frame that is asked for", function()
+  it_compares("shows the requested frame", function()
     assert_success("tiles %s --frame 2 -o %s/p --progress none", script, folder)
     assert_success("render %s --frames 2 --crop 253,0,256,255 -o %s/x.png --progress none", script,
       folder)
@@ -117,7 +117,7 @@ describe("a Deep Zoom pyramid", function()
       folder))))
   end)
 
-  it_compares("is made of a picture as of a script", function()
+  it_compares("can be made from a picture like from a script", function()
     assert_success("render %s --frames 1 -o %s/still.png --progress none", script, folder)
     assert_success("tiles %s/still.png -o %s/p --tile 64 --progress none", folder, folder)
     assert_success("tiles %s -o %s/q --tile 64 --progress none", script, folder)
@@ -125,7 +125,7 @@ describe("a Deep Zoom pyramid", function()
       folder .. "/q/plain_files/10/7_3.png"))
   end)
 
-  it_compares("is made of a span file as of a script", function()
+  it_compares("can be made from a span file like from a script", function()
     assert_success("render %s --frames 1 -o %s/still.span --progress none", script, folder)
     assert_success("tiles %s/still.span -o %s/p --tile 64 --progress none", folder, folder)
     assert_success("tiles %s -o %s/q --tile 64 --progress none", script, folder)
@@ -143,7 +143,7 @@ describe("equal tiles", function()
     assert.are_not.equal(identity(tiles .. "1_1.png"), identity(tiles .. "9_1.png"))
   end)
 
-  it("are left out when they are empty and that is asked for", function()
+  it("are left out on request if they are empty", function()
     local _, err = assert_success("tiles %s -o %s/p --tile 64 --skip-empty --progress lines",
       script, folder)
     assert.is_nil(read(folder .. "/p/plain_files/10/1_1.png"))
@@ -178,20 +178,23 @@ describe("a IIIF image", function()
 end)
 
 describe("tiles of JPEG", function()
-  it_compares("come close to the frame, and are told of in its information", function()
+  it_compares("come close to the frame, and are declared in its information", function()
     write("a 50% one.lua", (PLAIN:gsub("} } } }", '} } }, back = "#fbe9c6" }')))
-    assert_success("tiles '%s/a 50%% one.lua' -o %s/p --format iiif --picture JPEG --tile 512 --progress none", folder, folder)
+    assert_success("tiles '%s/a 50%% one.lua' -o %s/p --format iiif --picture JPEG --tile 512 "
+      .. "--progress none", folder, folder)
     local info = read(folder .. "/p/a 50% one/info.json")
     assert.is_truthy(info:find('"id": "http://localhost:8000/a%2050%25%20one"', 1, true), info)
     assert.is_nil(info:find("Formats", 1, true))
-    assert_success("render '%s/a 50%% one.lua' --frames 1 --size 350x250 -o %s/x.png --progress none", folder, folder)
-    local differs = difference(folder .. "/x.png", folder .. "/p/a 50% one/0,0,700,500/350,250/0/default.jpg")
+    assert_success("render '%s/a 50%% one.lua' --frames 1 --size 350x250 -o %s/x.png "
+      .. "--progress none", folder, folder)
+    local differs = difference(folder .. "/x.png",
+      folder .. "/p/a 50% one/0,0,700,500/350,250/0/default.jpg")
     assert.is_true(differs > 0 and differs < 0.3, tostring(differs))
   end)
 end)
 
 describe("a large frame", function()
-  it("is refused with the levels that are within the limit", function()
+  it("is refused with a list of the levels that are within the limit", function()
     local code, _, err = celspan("tiles %s --size 1000000x700000 -o %s/p", script, folder)
     assert.are.equal(6, code)
     assert.is_truthy(err:find("levels 0 to 20 have", 1, true), err)
@@ -199,13 +202,14 @@ describe("a large frame", function()
     assert.is_nil(read(folder .. "/p/plain.tiles"))
   end)
 
-  it("is refused without them where not even the first is", function()
+  it("is refused without that list if not even the first one is", function()
     local code, _, err = celspan("tiles %s -o %s/p --levels 9-10 --tiles-limit 1", script, folder)
     assert.are.equal(6, code)
-    assert.is_truthy(err:find("levels 9 to 10 have 8 tiles, and the limit is 1: raise --tiles-limit", 1, true), err)
+    assert.is_truthy(err:find("levels 9 to 10 have 8 tiles, and the limit is 1: raise "
+      .. "--tiles-limit", 1, true), err)
   end)
 
-  it("is made where it is asked for, and the deep levels around places", function()
+  it("is made at the requested levels, and at deep levels around places", function()
     write("places.txt", "# a comment\n\n450 250 2 the middle\n")
     assert_success("tiles %s --size 1000000x700000 -o %s/p --levels 0-3 --places %s/places.txt "
       .. "--progress none", script, folder, folder)
@@ -215,15 +219,15 @@ describe("a large frame", function()
     assert.are.equal(nil, read(folder .. "/p/plain_files/20/0_0.png"))
   end)
 
-  it("takes only the tiles that touch a crop", function()
+  it("makes only the tiles that touch a crop", function()
     assert_success("tiles %s -o %s/p --tile 64 --levels 10-10 --crop 100,100,60,60 --progress none",
       script, folder)
     assert.are.equal(4, count_files(folder .. "/p/plain_files"))
   end)
 end)
 
-describe("a run that goes on", function()
-  it("keeps what is finished and makes the rest", function()
+describe("a resumed run", function()
+  it("keeps finished tiles and makes the rest", function()
     assert_success("tiles %s -o %s/whole --tile 64 --progress none", script, folder)
     assert_success("tiles %s -o %s/p --tile 64 --levels 0-9 --progress none", script, folder)
     local before = identity(folder .. "/p/plain_files/9/0_0.png")
@@ -237,7 +241,7 @@ describe("a run that goes on", function()
     assert.is_truthy(err:find("0 tiles written, 0 linked", 1, true), err)
   end)
 
-  it("does not mix two scenes, and starts over when it is told to", function()
+  it("does not mix two scenes, and starts over on request", function()
     assert_success("tiles %s -o %s/p --progress none", script, folder)
     local code, _, err = celspan("tiles %s --frame 2 -o %s/p --progress none", script, folder)
     assert.are.equal(2, code)
@@ -247,53 +251,62 @@ describe("a run that goes on", function()
     assert.is_nil(read(folder .. "/p/plain_files/10/0_0.png"))
   end)
 
-  it("knows pixels in memory by what they are, beside a procedure too", function()
-    for _, procedure in ipairs { "", "celspan.scanline{ bounds = {0, 0, 9, 9}, spans = function() end }," } do
+  it("recognises pixels in memory by their content, also next to a procedure", function()
+    for _, procedure in ipairs { "",
+      "celspan.scanline{ bounds = {0, 0, 9, 9}, spans = function() end }," } do
       local film = write("pixels.lua", ([[
         local celspan = require "celspan"
         local file = assert(io.open("%s/pixels.bin", "rb"))
         local pixels = file:read("a")
         file:close()
         return celspan.rostrum{ celspan.cel{ %s
-          celspan.image{ pixels = pixels, size = {2, 2}, format = "grey8", w = 64, h = 64 } } }]]):format(folder, procedure))
+          celspan.image{ pixels = pixels, size = {2, 2}, format = "grey8", w = 64, h = 64 } }
+            }]]):format(folder, procedure))
       write("pixels.bin", "\0\1\2\3")
       assert_success("tiles %s -o %s/q --size 64x64 --fresh --trust --progress none", film, folder)
       assert_success("tiles %s -o %s/q --size 64x64 --trust --progress none", film, folder)
       write("pixels.bin", "\0\1\2\4")
-      local code, _, err = celspan("tiles %s -o %s/q --size 64x64 --trust --progress none", film, folder)
+      local code, _, err = celspan("tiles %s -o %s/q --size 64x64 --trust --progress none", film,
+        folder)
       assert.are.equal(2, code)
       assert.is_truthy(err:find("--fresh", 1, true), err)
     end
   end)
 
-  it("leaves a folder alone that it did not make", function()
-    shell(("mkdir -p %s/p/plain_files %s/p/plain && echo mine >%s/p/plain_files/mine"):format(folder, folder, folder))
+  it("does not touch a folder that it did not make", function()
+    shell(("mkdir -p %s/p/plain_files %s/p/plain && echo mine >%s/p/plain_files/mine")
+      :format(folder, folder, folder))
     for layout, name in pairs { dzi = "plain_files", iiif = "plain" } do
-      local code, _, err = celspan("tiles %s -o %s/p --format %s --fresh --progress none", script, folder, layout)
+      local code, _, err = celspan("tiles %s -o %s/p --format %s --fresh --progress none", script,
+        folder, layout)
       assert.are.equal(2, code, err)
-      assert.is_truthy(err:find(("already holds a %s that was not made by celspan tiles"):format(name), 1, true), err)
+      assert.is_truthy(err:find(("already holds a %s that was not made by celspan tiles")
+        :format(name), 1, true), err)
     end
     assert.are.equal("mine\n", read(folder .. "/p/plain_files/mine"))
   end)
 
-  it("waits for no other one", function()
+  it("does not wait for another run", function()
     local small = write("small.lua", SMALL)
     assert_success("tiles %s --size 20x20 -o %s/p --progress none", small, folder)
     for _, options in ipairs { "", "--fresh" } do
-      local code, _, err = shell(("flock '%s/p/small.tiles' '%s' tiles '%s' --size 20x20 -o '%s/p' --progress none %s")
+      local code, _, err =
+        shell(("flock '%s/p/small.tiles' '%s' tiles '%s' --size 20x20 -o '%s/p' --progress none %s")
         :format(folder, workbench.binary, small, folder, options))
       assert.are.equal(5, code)
-      assert.is_truthy(err:find("small.tiles: another celspan is at work on these tiles", 1, true), err)
+      assert.is_truthy(err:find("small.tiles: another celspan is writing these tiles", 1, true),
+        err)
     end
   end)
 
-  it("starts over where the tiles of a record are gone, or it is of another version", function()
+  it("starts over if the tiles of its record are missing, or of another version", function()
     local small = write("small.lua", SMALL)
     assert_success("tiles %s --size 20x20 -o %s/p --progress none", small, folder)
     shell(("rm -r '%s/p/small_files'"):format(folder))
     assert_success("tiles %s --size 20x20 -o %s/p --fresh --progress none", small, folder)
     assert.is_truthy(read(folder .. "/p/small_files/5/0_0.png"))
-    for _, record in ipairs { "", "celspan tiles 0\n", "celspan tiles 1 00112233445566778899aabbccddeeff\n" } do
+    for _, record in ipairs { "", "celspan tiles 0\n",
+      "celspan tiles 1 00112233445566778899aabbccddeeff\n" } do
       write("p/small.tiles", record)
       local code, _, err = celspan("tiles %s --size 20x20 -o %s/p --progress none", small, folder)
       assert.are.equal(2, code)
@@ -301,7 +314,7 @@ describe("a run that goes on", function()
     end
   end)
 
-  it("tells what a script is given as its arguments from other ones, where it has procedures", function()
+  it("distinguishes the arguments of a script from others, if it has procedures", function()
     local small = write("small.lua", [[
       local celspan = require "celspan"
       local colour = ...
@@ -313,15 +326,16 @@ describe("a run that goes on", function()
     assert.are.equal(2, (celspan(arguments, small, folder, "'#00f'")))
   end)
 
-  it("tells the tile that cannot be written", function()
+  it("names the tile that cannot be written", function()
     assert_success("tiles %s -o %s/p --tile 64 --levels 0-1 --progress none", script, folder)
     shell(("mkdir -p '%s/p/plain_files/9/4_3.png/in the way'"):format(folder))
-    local code, _, err = celspan("tiles %s -o %s/p --tile 64 --levels 9-9 --progress none", script, folder)
+    local code, _, err = celspan("tiles %s -o %s/p --tile 64 --levels 9-9 --progress none", script,
+      folder)
     assert.are.equal(5, code, err)
     assert.is_truthy(err:find("plain_files/9/4_3.png", 1, true), err)
   end)
 
-  it("ends by its signal and leaves nothing half-written", function()
+  it("ends by its signal and leaves no incomplete file", function()
     local code = shell(("timeout -s INT 0.5 %s tiles %s --size 20000x20000 --tile 32 --overlap 0 "
       .. "--tiles-limit 1000000 -o %s/p --progress none"):format(workbench.binary, script, folder))
     assert.is_true(code == 124 or code == 130, tostring(code))
@@ -347,31 +361,35 @@ describe("wrong usage", function()
     end)
   end
 
-  it("is a places file that is none, or has places beside the film", function()
-    for _, place in ipairs { "somewhere", "1 2 3", "1 2 nan it", "1 2 inf it", "1 2 0 it", "1 2 -1 it", "-1 2 3 it",
+  it("is an invalid file of places, or one with places outside the film", function()
+    for _, place in ipairs { "somewhere", "1 2 3", "1 2 nan it", "1 2 inf it", "1 2 0 it",
+      "1 2 -1 it", "-1 2 3 it",
       "701 2 3 it", "1 -2 3 it", "1 501 3 it", "1 2 3 " .. ("long "):rep(60) } do
       write("places.txt", "0 0 1 the corner\n" .. place .. "\n")
-      local code, _, err = celspan("tiles %s -o %s/p --places %s/places.txt", script, folder, folder)
+      local code, _, err = celspan("tiles %s -o %s/p --places %s/places.txt", script, folder,
+        folder)
       assert.are.equal(2, code, place)
-      assert.is_truthy(err:find("places.txt:2: a place is X Y WIDTH NAME, within the film of 700 x 500 units", 1, true), err)
+      assert.is_truthy(err:find("places.txt:2: a place is X Y WIDTH NAME, within the film of 700 "
+        .. "x 500 units", 1, true), err)
     end
   end)
 
-  it("is a folder whose name is too long, or is none", function()
-    for _, case in ipairs { { ("x/"):rep(3000), "the name is too long" }, { "/proc/nothing/here", "cannot make its folder" } } do
+  it("is a folder whose name is too long, or that cannot be made", function()
+    for _, case in ipairs { { ("x/"):rep(3000), "the name is too long" },
+      { "/proc/nothing/here", "cannot make its folder" } } do
       local code, _, err = celspan("tiles %s -o %s --progress none", script, case[1])
       assert.are.equal(5, code, err)
       assert.is_truthy(err:find(case[2], 1, true), err)
     end
   end)
 
-  it("is a limit that a picture does not have", function()
+  it("is a limit for a picture", function()
     local code, _, err = celspan("tiles tests/faults/pixels.png -o %s/p --limit steps=1", folder)
     assert.are.equal(2, code)
     assert.is_truthy(err:find("are for scripts", 1, true), err)
   end)
 
-  it("is a file that is not there, or a folder that cannot be made", function()
+  it("is a missing file, or a folder that cannot be made", function()
     assert.are.equal(4, (celspan("tiles %s/none.png -o %s/p", folder, folder)))
     assert.are.equal(4, (celspan("tiles %s -o %s/p --places %s/none", script, folder, folder)))
     assert.are.equal(4, (celspan("tiles %s -o %s/p --places %s", script, folder, folder)))
@@ -379,23 +397,26 @@ describe("wrong usage", function()
   end)
 end)
 
-describe("a viewer that is there", function()
-  local VIEWER = ("// a viewer\n"):rep(3000) -- more than is copied at a time
+describe("an existing viewer", function()
+  local VIEWER = ("// a viewer\n"):rep(3000) -- more than is copied at once
 
   local function is_copied(options)
     local small = write("small.lua", SMALL)
-    assert_success("tiles %s --size 20x20 -o %s/p --fresh --progress none %s", small, folder, options)
+    assert_success("tiles %s --size 20x20 -o %s/p --fresh --progress none %s", small, folder,
+      options)
     local page = read(folder .. "/p/index.html")
-    return page:find([["openseadragon": true]], 1, true) ~= nil, read(folder .. "/p/openseadragon/openseadragon.min.js")
+    return page:find([["openseadragon": true]], 1, true) ~= nil,
+      read(folder .. "/p/openseadragon/openseadragon.min.js")
   end
 
-  it("is copied beside the page, which tells so, and stays there", function()
+  it("is copied next to the page, which refers to it, and is kept", function()
     shell(("mkdir -p '%s/checkout/build/openseadragon' '%s/plain'"):format(folder, folder))
     write("plain/openseadragon.min.js", VIEWER)
     write("checkout/build/openseadragon/openseadragon.min.js", VIEWER)
     for _, place in ipairs { "plain", "checkout", "plain/openseadragon.min.js" } do
       shell(("rm -rf '%s/p'"):format(folder))
-      for _, options in ipairs { ("--viewer %s/%s"):format(folder, place), "" } do -- then by the run before
+      for _, options in ipairs { ("--viewer %s/%s"):format(folder, place), "" } do
+        -- then kept from the run before
         local is_told, bytes = is_copied(options)
         assert.is_true(is_told and bytes == VIEWER, place)
       end
@@ -406,17 +427,22 @@ describe("a viewer that is there", function()
     shell(("mkdir -p '%s/viewers' '%s/scripts'"):format(folder, folder))
     write("viewers/a.js", VIEWER)
     write("places.txt", "3 3 2 here\n")
-    -- A search for leaks looks into the process from another one, which --strict does not let it.
-    local code, _, err = shell(("ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=0 '%s' tiles '%s' --size 20x20 -o '%s/p' --strict "
-      .. "--viewer '%s/viewers/a.js' --places '%s/places.txt' --progress none"):format(workbench.binary,
+    -- A leak check attaches to the process from another one, which --strict does not allow.
+    local code, _, err =
+      shell(("ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=0 '%s' tiles '%s' --size 20x20 -o "
+      .. "'%s/p' --strict "
+      .. "--viewer '%s/viewers/a.js' --places '%s/places.txt' --progress none")
+      :format(workbench.binary,
       write("scripts/small.lua", SMALL), folder, folder, folder))
-    if code == 6 and err:find("--strict: ", 1, true) then return pending "the kernel cannot confine a process" end
+    if code == 6 and err:find("--strict: ", 1, true) then
+      return pending "the kernel cannot confine a process"
+    end
     assert.are.equal(0, code, err)
     assert.is_true(VIEWER == read(folder .. "/p/openseadragon/openseadragon.min.js"))
     assert.is_truthy(read(folder .. "/p/index.html"):find('"here"', 1, true))
   end)
 
-  it("is an error where it cannot be written", function()
+  it("is an error if it cannot be written", function()
     write("a.js", VIEWER)
     shell(("mkdir -p '%s/p/openseadragon/openseadragon.min.js/in the way'"):format(folder))
     local code, _, err = celspan("tiles %s --size 20x20 -o %s/p --viewer %s/a.js --progress none",
@@ -426,23 +452,23 @@ describe("a viewer that is there", function()
   end)
 end)
 
-describe("a viewer that is not there", function()
-  it("is told before anything is made", function()
+describe("a missing viewer", function()
+  it("is reported before anything is made", function()
     os.execute(("mkdir -p '%s/x.js'"):format(folder))
     write("empty.js", "")
     for _, viewer in ipairs { "nowhere", "x", folder, folder .. "/x.js", folder .. "/empty.js" } do
       local code, _, err = celspan("tiles %s -o %s/p --viewer %s --progress none", script, folder,
         viewer)
       assert.are.equal(4, code)
-      assert.are.equal(("celspan: error: --viewer %s: no openseadragon.min.js that can be read is "
-        .. "there\n"):format(viewer), err)
+      assert.are.equal(("celspan: error: --viewer %s: it contains no readable "
+        .. "openseadragon.min.js\n"):format(viewer), err)
       assert.are.equal(0, #system.lines(("find '%s/p' 2>/dev/null"):format(folder)))
     end
   end)
 end)
 
 describe("the page", function()
-  it("holds its data safely and asks nothing of the network", function()
+  it("contains its data safely and requests nothing from the network", function()
     assert_success("tiles %s -o %s/p --progress none", script, folder)
     local page = read(folder .. "/p/index.html")
     assert.is_truthy(page:find([["title": "a \u003cplain\u003e one"]], 1, true))
@@ -453,7 +479,7 @@ describe("the page", function()
 
   local it_in_node = present.pictures() and present.program "node" and it or pending
 
-  --- What the page draws after some actions, as a picture, and what it tells.
+  --- The drawing of the page after some actions, as a picture, and its reported state.
   local function draw_in_node(window, actions)
     local code, text, message = shell(("node tests/support/page.js %s/p/index.html %s %s")
       :format(folder, window, actions))
@@ -465,7 +491,8 @@ describe("the page", function()
 
   --- The frame, 2400 x 1500, as a crop of it at some size.
   local function expect(size, crop, most)
-    assert_success("render %s --frames 1 --size %s --crop %s -o %s/frame.png --progress none", script,
+    assert_success("render %s --frames 1 --size %s --crop %s -o %s/frame.png --progress none",
+      script,
       size, crop, folder)
     local differs = difference(folder .. "/page.png", folder .. "/frame.png")
     assert.is_true(differs and differs <= most, ("%s %s: %s"):format(size, crop, differs))
@@ -477,7 +504,7 @@ describe("the page", function()
   end
 
   for _, layout in ipairs { "dzi", "iiif" } do
-    it_in_node("draws with a viewer of its own what is rendered there: " .. layout, function()
+    it_in_node("draws with its own viewer the same as a render: " .. layout, function()
       make_tiles("--format " .. layout)
       draw_in_node("600 375 1", "hash:1200,750,2400")
       expect("600x375", "0,0,600,375", 0.02)
@@ -492,7 +519,7 @@ describe("the page", function()
     end)
   end
 
-  it_in_node("keeps what is under the pointer, and stays inside its limits", function()
+  it_in_node("keeps the point under the pointer in place, and stays inside its limits", function()
     make_tiles ""
     local function told(actions, window)
       return draw_in_node(window or "600 375 1", actions):match "address: #?(%S*)"
@@ -511,7 +538,7 @@ describe("the page", function()
     assert.are.equal("24,1470,75", told "place:middle place:corner")
   end)
 
-  it_in_node("shows coarser tiles where finer ones are not made, or do not come", function()
+  it_in_node("shows coarser tiles where finer ones do not exist, or do not arrive", function()
     make_tiles "--levels 0-10"
     local text = draw_in_node("600 375 1", "hash:1100,700,600")
     assert.is_truthy(text:find("-- missing: 0", 1, true))
@@ -528,7 +555,7 @@ describe("the page", function()
 
   local it_in_a_browser = present.program("chromium", "python3") and it or pending
 
-  --- What the page draws at a place, as a PNG file: its canvas, without the buttons over it.
+  --- The drawing of the page at a place, as a PNG file: its canvas, without the buttons over it.
   local function draw_in_browser(port, place, path)
     shell(("timeout 90 chromium --headless=new --no-sandbox --disable-gpu "
       .. "--user-data-dir=%s/browser --window-size=600,600 --virtual-time-budget=9000 --dump-dom "
@@ -553,11 +580,11 @@ open("%s", "wb").write(base64.b64decode(data))']]):format(folder, path))
     return port, server
   end
 
-  it_in_a_browser("shows at four depths what is rendered there", function()
+  it_in_a_browser("shows at four depths the same as a render", function()
     assert_success("tiles scripts/terapixel.lua --size 100000x100000 --levels 8-10 "
       .. "--places scripts/terapixel/places.txt -o %s/p --progress none", folder)
-    -- A browser without a screen has its time run faster, but seldom asks for a frame, and its time
-    -- does not wait for pictures that are decoded aside.
+    -- A browser without a screen runs faster than time, but rarely requests a frame, and its clock
+    -- does not wait for pictures that are decoded in the background.
     write("p/probe.html", (read(folder .. "/p/index.html"):gsub("<head>", [[%0<script>
       requestAnimationFrame = call => setTimeout(() => call(performance.now()), 16);
       delete HTMLImageElement.prototype.decode;

@@ -14,7 +14,7 @@ describe("ease", function()
     assert.are.equal(ease "quad" (0.3), ease "inQuad" (0.3))
   end)
 
-  it("starts at 0 and ends at 1, and holds outside", function()
+  it("starts at 0 and ends at 1, and is constant outside", function()
     for _, name in ipairs(ease.names) do
       local curve = ease(name)
       assert.are.same({ 0, 0, 1, 1 }, { curve(-1), curve(0), curve(1), curve(2) }, name)
@@ -42,13 +42,13 @@ describe("ease", function()
       { on_fours(0.2), on_fours(0.25), on_fours(0.49), on_fours(0.99), on_fours(1) })
   end)
 
-  it("takes Bezier curves as CSS does", function()
+  it("accepts Bezier curves like CSS", function()
     local straight = ease "bezier:.25,.25,.75,.75"
     for u = 0, 1, 0.1 do assert.is_true(math.abs(straight(u) - u) < 1e-12) end
     assert.is_true(math.abs(ease "bezier:.42,0,.58,1" (0.5) - 0.5) < 1e-12)
   end)
 
-  it("takes functions", function()
+  it("accepts functions", function()
     assert.are.equal(7, ease(function() return 7 end)(0))
   end)
 
@@ -78,12 +78,12 @@ describe("keys", function()
     assert.are.same({ 0, 0, 0 }, keys { { 0, "#000" }, { 1, celspan.rgb(1, 1, 1) } }:at(0).pigment)
   end)
 
-  it("hold colours among words", function()
+  it("are constant if colours are mixed with other strings", function()
     local track = keys { { 0, "#abc" }, { 1, "shut" }, { 2, "#fff" } }
     assert.are.same({ "#abc", "shut", "#fff" }, { track:at(0.9), track:at(1.9), track:at(2) })
   end)
 
-  it("hold at the ends, and hold strings and booleans", function()
+  it("are constant outside, and do not mix strings and booleans", function()
     local x = keys { { 1, 10 }, { 2, 20 } }
     assert.are.same({ 10, 20 }, { x:at(0), x:at(5) })
     local mouth = keys { { 0, "open" }, { 1, "shut" }, { 2, "open" } }
@@ -119,7 +119,7 @@ describe("keys", function()
     assert.are.same({ 1 }, x:at(0))
   end)
 
-  it("complain at the line that made them", function()
+  it("report errors at the line that made them", function()
     local cases = {
       { "keys: key 2 must be {time, value}, got number", { { 0, 1 }, 3 } },
       { "keys: key 2 is of another kind (held) than the first (number)", { { 0, 1 }, { 1, "x" } } },
@@ -140,7 +140,7 @@ describe("keys", function()
     end
   end)
 
-  it("refuse a time that is no number", function()
+  it("refuse a time that is not a number", function()
     local track = keys { { 0, 1 }, { 1, 2 } }
     for _, time in ipairs { 0 / 0, math.huge, "1" } do
       raised.message(track.at, track, time)

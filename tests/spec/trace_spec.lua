@@ -1,4 +1,4 @@
--- Tracing: what is found in small pictures, what is written, and what is refused.
+-- Tracing: the shapes found in small pictures, the output, and refusals.
 local celspan = require "celspan"
 local svg = require "celspan.svg"
 local trace = require "celspan.trace"
@@ -13,7 +13,8 @@ local bench
 before_each(function() bench = workbench.new() end)
 after_each(function() bench:remove() end)
 
---- Writes a picture of letters, one a pixel, with their colours; "." is clear.
+--- Writes a picture of letters, one per pixel, with their colours; "." is clear. Each under another
+--- name: a picture is read once.
 local function write(rows, colours, name)
   local bytes = {}
   for _, row in ipairs(rows) do
@@ -52,7 +53,8 @@ local two = { ["#"] = ink, [" "] = paper, ["+"] = "#c03030" }
 
 describe("trace.picture", function()
   it_traces("finds the areas, the largest first, with their colours and sizes", function()
-    local path = write({ "          ", "  ####    ", "  #  #  + ", "  ####    ", "          " }, two)
+    local path = write({ "          ", "  ####    ", "  #  #  + ", "  ####    ", "          " },
+      two)
     local art = assert(trace.picture(path, { colours = 3, smooth = 0, speckle = 0 }))
     assert.equal(10, art.width)
     assert.equal(5, art.height)
@@ -63,7 +65,7 @@ describe("trace.picture", function()
     assert.same({ "#ffffff 37 0,0", "#202020 10 2,1", "#ffffff 2 3,2", "#c03030 1 8,2" }, found)
   end)
 
-  it_traces("gives the pixels back where curves follow their sides", function()
+  it_traces("restores the pixels if curves follow their sides", function()
     local rows = { "#  +##", " ## + ", "+ #+ #", "##  ##", " + #  " }
     local path = write(rows, two)
     local art = assert(trace.picture(path, { colours = { paper, ink, "#c03030" }, smooth = 0,
@@ -72,7 +74,7 @@ describe("trace.picture", function()
     assert.equal(codes(image, 6, 5, 3), codes(art.object, 6, 5, 3))
   end)
 
-  it_traces("tells colours apart that hardly differ, wherever each comes first", function()
+  it_traces("distinguishes nearly equal colours, whichever comes first", function()
     local near = { ["#"] = "#434343", [" "] = "#404040" }
     for i, rows in ipairs { { "    ####", "    ####" }, { "####    ", "####    " } } do
       local art = assert(trace.picture(write(rows, near, i .. ".png"),
@@ -84,39 +86,42 @@ describe("trace.picture", function()
     end
   end)
 
-  it_traces("leaves what is clear clear", function()
+  it_traces("leaves clear areas clear", function()
     local path = write({ "......", ".####.", ".####.", ".####.", "......" }, two)
     local art = assert(trace.picture(path, { smooth = 0 }))
     assert.equal(1, #art.shapes)
     assert.same({ 1, 1, 4, 3 }, { art.object:bounds() })
   end)
 
-  it_traces("has nothing to show of a picture that is clear all over", function()
+  it_traces("finds no shapes in a completely clear picture", function()
     local art = assert(trace.picture(write({ "...", "..." }, two)))
     assert.equal(0, #art.shapes)
     assert.is_nil(art.object:bounds())
   end)
 
-  it_traces("drops speckles, and only those", function()
+  it_traces("removes speckles, and only those", function()
     local rows = { "            ", " #  ##  ### ", "            " }
     local path = write(rows, two)
-    local function count(speckle) return #assert(trace.picture(path, { speckle = speckle })).shapes end
+    local function count(speckle)
+      return #assert(trace.picture(path, { speckle = speckle })).shapes
+    end
     assert.equal(4, count(0))
     assert.equal(3, count(1))
     assert.equal(2, count(2))
     assert.equal(1, count(3))
   end)
 
-  it_traces("finds an edge between pixels from what they hold of it", function()
+  it_traces("finds an edge inside pixels from their coverage", function()
     local art = assert(trace.picture(draw(celspan.rect { 0, 0, 40, 30, texture = paper }
       | celspan.rect { 8.3, 6.45, 20.4, 15.2, texture = ink }, 40, 30)))
     local x, y, w, h = art.shapes[2].object:bounds()
     for i, pair in ipairs { { x, 8.3 }, { y, 6.45 }, { w, 20.4 }, { h, 15.2 } } do
-      assert.is_true(math.abs(pair[1] - pair[2]) < 0.02, ("%d: %g, not %g"):format(i, pair[1], pair[2]))
+      assert.is_true(math.abs(pair[1] - pair[2]) < 0.02,
+        ("%d: %g, not %g"):format(i, pair[1], pair[2]))
     end
   end)
 
-  it_traces("keeps corners, and makes a circle of few curves", function()
+  it_traces("keeps corners, and makes a circle from few curves", function()
     local disc = assert(trace.picture(draw(celspan.rect { 0, 0, 120, 120, texture = paper }
       | celspan.circle { centre = { 60, 60 }, radius = 44.7, texture = ink }, 120, 120)))
     local _, curves = disc.shapes[2].d:gsub("C", "")
@@ -129,7 +134,8 @@ describe("trace.picture", function()
     assert.same({ 0, 4 }, { curves, lines })
   end)
 
-  it_traces("makes four lines of a tilted square of whole pixels, and draws its pixels again", function()
+  it_traces(
+    "makes a tilted square of whole pixels into four lines, and restores its pixels", function()
     for _, turn in ipairs { 3, 20, 45 } do
       local square = celspan.rect { 10, 10, 20, 20, texture = ink }:rotate(turn, 20, 20)
       local object = celspan.union { celspan.rect { 0, 0, 40, 40, texture = paper }, square }
@@ -144,7 +150,7 @@ describe("trace.picture", function()
     end
   end)
 
-  it_traces("takes lines thinner than a pixel by their middle and width", function()
+  it_traces("finds lines thinner than a pixel with their middle and width", function()
     local art = assert(trace.picture(draw(celspan.rect { 0, 0, 60, 20, texture = paper }
       | celspan.rect { 5, 8.1, 50, 0.8, texture = ink }, 60, 20), { colours = { paper, ink } }))
     local line = art.shapes[2].object
@@ -155,7 +161,8 @@ describe("trace.picture", function()
   end)
 
   it_traces("paints a shape in another colour", function()
-    local art = assert(trace.picture(write({ "        ", "  ####  ", "  ####  ", "        " }, two)))
+    local art =
+      assert(trace.picture(write({ "        ", "  ####  ", "  ####  ", "        " }, two)))
     local red = art.shapes[2].object:with { texture = "#ff0000" }
     local r, g = celspan.probe(celspan.rostrum { celspan.cel { red } }, 4, 2, { film = { 8, 4 } })
     assert.same({ 1, 0 }, { r, g })
@@ -223,7 +230,7 @@ describe("centre lines", function()
     assert.is_true(art.shapes[1].closed)
   end)
 
-  it_traces("grow and fall with the pressure of the pen", function()
+  it_traces("get wider and narrower with the pressure of the pen", function()
     local line = celspan.rect { 0, 0, 120, 80, texture = paper }
       | celspan.stroke { points = { { 20, 40, 2 }, { 60, 40, 12 }, { 100, 40, 2 } }, texture = ink }
     local points = assert(trace.picture(draw(line, 120, 80), { lines = true })).shapes[1].points
@@ -238,7 +245,7 @@ describe("celspan trace", function()
     | celspan.ellipse { centre = { 40, 30 }, radii = { 30, 18 }, texture = ink }
     | celspan.rect { 50, 20, 20, 30, texture = "#c03030" }
 
-  it_traces("writes SVG and scripts that show what the module gives", function()
+  it_traces("writes SVG and scripts that look like the module's result", function()
     local path = draw(art, 90, 60)
     local traced = assert(trace.picture(path, { colours = 3 }))
     for _, name in ipairs { "art.svg", "art.lua" } do
@@ -271,14 +278,15 @@ describe("celspan trace", function()
     end
   end)
 
-  it_traces("takes the colours that it is given", function()
+  it_traces("uses the given colours", function()
     local path = draw(art, 90, 60)
-    assert.equal(0, (bench:celspan("trace %s -o %s/a.svg --colours '#fff,#202020'", path, bench.folder)))
+    assert.equal(0,
+      (bench:celspan("trace %s -o %s/a.svg --colours '#fff,#202020'", path, bench.folder)))
     local text = bench:read "a.svg"
     assert.is_truthy(text:find "#ffffff" and text:find "#202020" and not text:find "#c0")
   end)
 
-  it_traces("refuses what it cannot read or write, with the name and the reason", function()
+  it_traces("refuses files that it cannot read or write, with the name and the reason", function()
     local path = draw(art, 90, 60)
     local function refused(code, text, ...)
       local got, _, err = bench:celspan(...)
@@ -292,6 +300,13 @@ describe("celspan trace", function()
     refused(2, "must end in .svg or .lua", "trace %s -o a.eps", path)
     refused(2, "--colours", "trace %s -o a.svg --colours 65", path)
     refused(2, "--colours", "trace %s -o a.svg --colours '#fff,#ggg'", path)
+    for _, text in ipairs { "0", "two", "#ffffff,", "#ffffff,red", "#fff;#000", "#ffffff80",
+      "#ffffffffffff",
+                            "#fff,,#000", "#010203" .. (",#010203"):rep(64) } do
+      refused(2, "--colours: '", "trace %s -o a.svg --colours '%s'", path, text)
+    end
+    refused(4, "none.png", "trace none.png -o a.svg --colours '%s'",
+      "#010203" .. (",#010203"):rep(63))
     refused(2, "--smooth", "trace %s -o a.svg --smooth -1", path)
     refused(2, "--speckle", "trace %s -o a.svg --speckle x", path)
     refused(5, "/proc/none", "trace %s -o /proc/none/a.svg", path)
@@ -306,8 +321,10 @@ describe("options of trace.picture", function()
       ["unknown field 'colors'; did you mean 'colours'?"] = { colors = 3 },
       ["colours must be a whole number from 1 to 64, got 0"] = { colours = 0 },
       ["colours must be a whole number from 1 to 64, got 2.5"] = { colours = 2.5 },
-      ["colours[2] must be a colour like \"#336699\", got \"red\""] = { colours = { "#fff", "red" } },
-      ["colours[2] must be a colour like \"#336699\", got nil"] = { colours = { "#fff", nil, "#000" } },
+      ["colours[2] must be a colour like \"#336699\", got \"red\""] = {
+        colours = { "#fff", "red" } },
+      ["colours[2] must be a colour like \"#336699\", got nil"] = {
+        colours = { "#fff", nil, "#000" } },
       ["smooth must be from 0 to 16, got 17"] = { smooth = 17 },
       ["speckle must be a whole number from 0"] = { speckle = -1 },
       ["field 'lines' must be a boolean, got number"] = { lines = 1 },
@@ -319,7 +336,7 @@ describe("options of trace.picture", function()
     assert.is_truthy(raised(function() trace.picture(7) end):find "takes a file name, got number")
   end)
 
-  it_traces("answer nil and a message for pictures that cannot be read", function()
+  it_traces("return nil and a message for pictures that cannot be read", function()
     local art, message = trace.picture(bench.folder .. "/none.png")
     assert.is_nil(art)
     assert.is_truthy(message:find "none.png: cannot be opened")

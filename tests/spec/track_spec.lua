@@ -1,4 +1,4 @@
--- Following a region through files, and what a track answers. tests/unit/test_track.c has the
+-- Following a region through files, and the queries of a track. tests/unit/test_track.c checks the
 -- accuracy.
 local celspan = require "celspan"
 local present = require "tests.support.present"
@@ -30,7 +30,7 @@ end
 
 local ground, card = spots("ground", 160, WIDTH, HEIGHT), spots("card", 70, 90, 70)
 
---- Where the card, or what lies on it, is in a frame.
+--- The position of the card, or of something on it, in a frame.
 local function pose(object, n)
   return object:translate(-45, -35):rotate(3 * (n - 4)):translate(115 + 2.5 * (n - 4), 82 - 1.5 * n)
 end
@@ -66,7 +66,7 @@ end
 local function dot(x, y) return celspan.circle { centre = { x, y }, radius = 0.001 } end
 
 describe("a track", function()
-  it("says where the region is in each frame, and in which it is lost", function()
+  it("reports the position of the region in each frame, and where it is lost", function()
     assert.are.same({ 1, 2, 3, 4, 5, 6, 7, 8, 9 }, followed.frames)
     assert.are.same({ 6 }, followed.lost)
     assert.are.same({ 4, "similarity", WIDTH, HEIGHT },
@@ -90,7 +90,7 @@ describe("a track", function()
     end
   end)
 
-  it("steadies what moves, and takes cels and a film's frames", function()
+  it("steadies moving art, and accepts cels and a film's frames", function()
     local x, y = centre(followed:steady(pose(dot(20, 20), 8), 8))
     local first_x, first_y = centre(pose(dot(20, 20), 4))
     assert.near(first_x, x, 0.2)
@@ -105,7 +105,7 @@ describe("a track", function()
     assert.are.same({ s, t, u }, { r, g, b })
   end)
 
-  it("holds beyond its frames", function()
+  it("is constant outside its frames", function()
     assert.are.same((followed:motion(9)), (followed:motion(50)))
     assert.are.same((followed:motion(1)), (followed:motion(-3)))
   end)
@@ -121,7 +121,7 @@ describe("a track", function()
       { followed:write(folder .. "/no/card.json") })
   end)
 
-  it("follows a rectangle, some frames alone, and the models there are", function()
+  it("follows a rectangle, selected frames, and with all models", function()
     local x, y, w, h = region():bounds()
     for _, model in ipairs { "similarity", "perspective" } do
       local t = assert(track.follow(folder .. "/card.####.png",
@@ -154,11 +154,11 @@ describe("following", function()
     return message
   end
 
-  it("says what is wrong with files and regions", function()
+  it("reports what is wrong with files and regions", function()
     local at = { 50, 50, 80, 60 }
     assert.are.equal(folder .. "/hat.####.png: there are no such files",
       follow({ from = 1, at = at }, folder .. "/hat.####.png"))
-    assert.is_truthy(follow({ from = 20, at = at }):find("frame 20, from which", 1, true))
+    assert.is_truthy(follow({ from = 20, at = at }):find("frame 20, in which", 1, true))
     assert.is_truthy(follow({ from = 1, at = at, frames = "1-12" }):find("frame 10: ", 1, true))
     assert.is_truthy(follow({ from = 1, at = at, frames = "1-" }):find("1-", 1, true))
     assert.is_truthy(follow({ from = 1, at = { 1, 1, 5,
@@ -213,15 +213,15 @@ describe("a file of a track", function()
   local head = '{"celspan": "track", "from": 1, "model": "similarity", "at": [1, 2, 3, 4], '
     .. '"size": [5, 6], "frames": '
 
-  it("is refused with the place in it", function()
-    assert.are.equal("the file must be a track of celspan's", (message_of "{}"))
+  it("is refused with the position of the fault", function()
+    assert.are.equal("the file must be a track of celspan", (message_of "{}"))
     assert.are.equal("frames must be a list", (message_of(head .. "[]}")))
-    assert.are.equal("frames must be a list with one in which it was found",
+    assert.are.equal("frames must be a list with a frame in which the region was found",
       (message_of(head .. '[{"frame": 1, "lost": true}]}')))
     assert.are.equal("frames[1].matrix must be 9 numbers", (message_of(head .. '[{"frame": 1}]}')))
-    assert.are.equal("frames[1].matrix must be one that has an inverse",
+    assert.are.equal("frames[1].matrix must be invertible",
       (message_of(head .. '[{"frame": 1, "matrix": [0,0,0,0,0,0,0,0,0]}]}')))
-    assert.are.equal("frames[2].frame must be one that did not come before", (message_of(head
+    assert.are.equal("frames[2].frame must be a number that is not already used", (message_of(head
       .. '[{"frame": 1, "lost": true}, {"frame": 1, "lost": true}]}')))
     assert.are.equal("frames[1].frame must be a whole number",
       (message_of(head .. '[{"frame": 1.5}]}')))
@@ -233,7 +233,7 @@ end)
 describe("celspan track", function()
   local function run(arguments) return bench:celspan_inside("track %s", arguments) end
 
-  it("writes a track and says what was lost", function()
+  it("writes a track and reports lost frames", function()
     local code, out, err = run "card.####.png --from 4 --at 75,45,80,60 -o made/card.json"
     assert.are.equal(0, code, err)
     assert.are.equal("", out)

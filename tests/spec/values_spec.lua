@@ -7,7 +7,7 @@ local function disc(x, radius)
 end
 
 describe("a value", function()
-  it("refuses assignment and says what to do", function()
+  it("refuses assignment and suggests what to do", function()
     local message = raised.message(function() disc().radius = 3 end)
     assert.is_truthy(message:find("circles are immutable; use :with{...}", 1, true))
     message = raised.message(function() celspan.cel {}.front = "#fff" end)
@@ -25,7 +25,7 @@ describe("a value", function()
     assert.is_nil(nurbs.knots)
   end)
 
-  it("gives copies of its tables", function()
+  it("returns copies of its tables", function()
     local circle = disc(3)
     circle.centre[1] = 99
     assert.are.same({ 3, 0 }, circle.centre)
@@ -49,7 +49,7 @@ describe("a value", function()
 end)
 
 describe("with", function()
-  it("copies with changes and leaves the first as it was", function()
+  it("copies with changes and does not change the original", function()
     local small = disc(0, 5)
     local large = small:with { radius = 50 }
     assert.are.same({ 5, 50 }, { small.radius, large.radius })
@@ -94,14 +94,14 @@ describe("operators", function()
     end
   end)
 
-  it("make what their names make", function()
+  it("are equivalent to the named functions", function()
     assert.are.equal("union{ 2 objects }", tostring(a | b))
     assert.are.equal("intersection{ 2 objects }", tostring(a & b))
     assert.are.equal("difference{ 2 objects }", tostring(a - b))
     assert.are.equal("xor{ 2 objects }", tostring(a ~ b))
   end)
 
-  it("do not flatten what was moved, or was named", function()
+  it("do not flatten moved or named operands", function()
     assert.are.equal("union{ 2 objects }", tostring((a | b):translate(1, 0) | c))
     assert.are.equal("xor{ 2 objects }", tostring(celspan.xor { a, b } ~ c))
   end)
@@ -127,7 +127,7 @@ describe("operators", function()
     assert.are.equal("union{ 2 objects }", tostring(longer:with { a, b }))
   end)
 
-  it("cost what they hold: memory grows with the length of a chain", function()
+  it("need memory that grows linearly with the length of a chain", function()
     local function bytes(operate, count)
       collectgarbage()
       collectgarbage "stop"
@@ -140,12 +140,12 @@ describe("operators", function()
     end
     for _, operate in ipairs { function(x, y) return x | y end, function(x, y) return x & y end,
                                function(x, y) return x - y end, function(x, y) return x ~ y end } do
-      -- a copy of all operands at each step takes sixty times as much
+      -- copying all operands at each step would take sixty times as much
       assert.is_true(bytes(operate, 8000) < 9 * bytes(operate, 1000))
     end
   end)
 
-  it("bind as Lua binds them: - & ~ |", function()
+  it("have the precedence of Lua: - & ~ |", function()
     assert.are.equal("difference{ 2 objects }", tostring((a | b - c)[2]))
   end)
 end)
@@ -163,7 +163,7 @@ describe("transforms", function()
     assert.are.same({ 0, 0, 10, 20 }, box(square))
   end)
 
-  it("turn by quarters exactly, clockwise on screen", function()
+  it("rotate by quarters exactly, clockwise on screen", function()
     assert.are.same({ -20, 0, 20, 10 }, box(square:rotate(90)))
     assert.are.same({ -10, -20, 10, 20 }, box(square:rotate(180)))
     assert.are.same({ 0, -10, 20, 10 }, box(square:rotate(-90)))
@@ -171,22 +171,22 @@ describe("transforms", function()
     assert.are.same(box(square:rotate(90)), box(square:rotate(-270)))
   end)
 
-  it("turn about a centre", function()
+  it("rotate around a centre", function()
     assert.are.same({ -5, 5, 20, 10 }, box(square:rotate(90, 5, 10)))
   end)
 
-  it("take matrices row by row", function()
+  it("accept matrices row by row", function()
     assert.are.same({ 7, 8, 20, 60 }, box(square:transform { 2, 0, 7, 0, 3, 8, 0, 0, 1 }))
   end)
 
-  it("take four points to four others", function()
+  it("map four points to four others", function()
     local from = { { 0, 0 }, { 10, 0 }, { 10, 20 }, { 0, 20 } }
     local to = { { 100, 0 }, { 120, 0 }, { 120, 40 }, { 100, 40 } }
     local x, y, w, h = square:quad(from, to):bounds()
     assert.is_true(math.abs(x - 100) + math.abs(y) + math.abs(w - 20) + math.abs(h - 40) < 1e-9)
   end)
 
-  it("know what is inside", function()
+  it("apply to :contains", function()
     assert.is_true(square:translate(100, 0):contains(105, 5))
     assert.is_false(square:translate(100, 0):contains(5, 5))
   end)
@@ -197,7 +197,7 @@ describe("transforms", function()
 end)
 
 describe("paints", function()
-  it("are read as they were given", function()
+  it("are read back unchanged", function()
     local paint = celspan.rgb(0.1, 0.2, 0.3, 0.4)
     assert.are.same({ 0.1, 0.2, 0.3 }, paint.pigment)
     assert.are.same({ 1, 1, 1 }, paint.medium)
@@ -206,7 +206,7 @@ describe("paints", function()
     assert.are.equal(0, celspan.clear.beta)
   end)
 
-  it("tell what was left out", function()
+  it("return defaults for omitted fields", function()
     local paint = celspan.paint {}
     assert.are.same({ { 0, 0, 0 }, { 1, 1, 1 }, 1 }, { paint.pigment, paint.medium, paint.beta })
     assert.are.same({ 1, 1, 1 }, paint:with { pigment = { 0, 1, 0 } }.medium)
@@ -242,7 +242,7 @@ describe("the parts of a value", function()
     assert.are.equal(2, select(2, table.unpack(celspan.union { a, b })).centre[1])
   end)
 
-  it("of a chain are its own", function()
+  it("of a chain belong to it", function()
     local pair = disc(1) | disc(2)
     local three = pair | disc(3)
     assert.are.same({ 2, 3 }, { #pair, #three })
@@ -252,10 +252,11 @@ describe("the parts of a value", function()
 end)
 
 describe("a fade", function()
-  -- What is there at the middle of a white disc on black: its opacity.
+  -- The opacity at the middle of a white disc on black.
   local function shown(value)
     local cel = tostring(value):find "^cel" and value or celspan.cel { value }
-    local r, _, _, a = assert(celspan.probe(celspan.rostrum { cel }, 50, 50, { film = { 100, 100 } }))
+    local r, _, _, a = assert(celspan.probe(celspan.rostrum { cel }, 50, 50,
+      { film = { 100, 100 } }))
     assert.are.equal(r, a)
     return a
   end
@@ -274,7 +275,7 @@ describe("a fade", function()
 end)
 
 describe("a colour as a string", function()
-  it("makes paints as numbers do", function()
+  it("makes the same paints as numbers", function()
     local orange = celspan.rgb("#ff8000").pigment
     assert.are.same(orange, celspan.paint { pigment = "#ff8000" }.pigment)
     assert.are.same(orange, celspan.gel("#ff8000").medium)
@@ -285,7 +286,7 @@ describe("a colour as a string", function()
     assert.are.equal(0.5, celspan.paint { pigment = "#f80" }:with { beta = 0.5 }.beta)
   end)
 
-  it("takes its alpha along, unless one is given", function()
+  it("includes its alpha, unless one is given", function()
     assert.is_true(math.abs(celspan.rgb("#ff800080").beta - 128 / 255) < 1e-6)
     assert.are.equal(0.25, celspan.rgb("#ff800080", 0.25).beta)
     assert.are.equal(0.25, celspan.rgb("#ff8000", 0.25).beta)
@@ -293,7 +294,7 @@ describe("a colour as a string", function()
     assert.is_true(math.abs(half[1] - 127 / 255) < 1e-6)
   end)
 
-  it("is refused when it is none, or has an alpha where there is no place for it", function()
+  it("is refused if it is invalid, or has an alpha where none is possible", function()
     local function sentence(call, ...)
       local arguments = table.pack(...)
       return (raised.sentence(function() call(table.unpack(arguments)) end))
@@ -302,15 +303,17 @@ describe("a colour as a string", function()
       sentence(celspan.rgb, "red"))
     assert.are.equal('gel: takes numbers or a colour like "#rrggbb", got "#12"',
       sentence(celspan.gel, "#12"))
-    assert.are.equal('paint: field \'pigment\' must be {r, g, b} or a colour like "#rrggbb", got "#f008"',
+    assert.are.equal('paint: field \'pigment\' must be {r, g, b} or a colour like "#rrggbb", '
+      .. 'got "#f008"',
       sentence(celspan.paint, { pigment = "#f008" }))
-    assert.are.equal('paint: field \'medium\' must be {r, g, b} or a colour like "#rrggbb", got "#ff000080"',
+    assert.are.equal('paint: field \'medium\' must be {r, g, b} or a colour like "#rrggbb", got '
+      .. '"#ff000080"',
       sentence(celspan.paint, { medium = "#ff000080" }))
   end)
 end)
 
 describe("a pivot", function()
-  it("stays where it is", function()
+  it("does not move", function()
     local square = celspan.rect { 10, 20, 4, 4 }
     assert.are.same({ 8, 18, 8, 8 }, { square:scale(2, nil, 12, 22):bounds() })
     assert.are.same({ 8, 20, 8, 4 }, { square:scale(2, 1, 12, 22):bounds() })
@@ -324,17 +327,19 @@ describe("a pivot", function()
 end)
 
 describe("gels with an alpha", function()
-  local celspan = require "celspan"
-
-  it("are mixed with clear, whichever way the colour is written", function()
+  it("are mixed with clear, in any notation of the colour", function()
     local halfway = celspan.mix(celspan.gel(1, 0.5, 0), celspan.clear, 0.5)
     for _, gel in ipairs { celspan.gel(1, 0.5, 0, 0.5), celspan.gel("#ff000080", 1) } do
       assert.equal(0, gel.beta)
     end
     assert.same(halfway.medium, celspan.gel(1, 0.5, 0, 0.5).medium)
     assert.same({ 1, 0, 0 }, celspan.gel("#ff000080", 1).medium)
-    assert.error_matches(function() return celspan.gel(1, 1, 1, 2) end, "gel: alpha is 2; it must be between 0 and 1", 1, true)
-    assert.error_matches(function() return celspan.rgb("#fff", -1) end, "rgb: alpha is -1; it must be between 0 and 1", 1, true)
+    assert.error_matches(function()
+      return celspan.gel(1, 1, 1, 2)
+    end, "gel: alpha is 2; it must be between 0 and 1", 1, true)
+    assert.error_matches(function()
+      return celspan.rgb("#fff", -1)
+    end, "rgb: alpha is -1; it must be between 0 and 1", 1, true)
   end)
 end)
 
@@ -347,7 +352,7 @@ describe("the inside of a value", function()
     end
   end)
 
-  it("is not looked for in what is of another kind", function()
+  it("is not accessed in values of another kind", function()
     local frame
     celspan.pixels(celspan.film { size = { 2, 2 }, frame = function(f)
       frame = f
@@ -362,13 +367,14 @@ describe("the inside of a value", function()
     metatable.__celspan = nil
   end)
 
-  it("is told in one sentence where a method of an image is given another", function()
+  it("is protected by a sentence if a method of an image is given another value", function()
     for _, name in ipairs { "get", "bytes", "write" } do
       local sentence = raised.sentence(function()
         local answer = image[name](circle, 0, 0)
         return answer
       end)
-      assert.are.equal(("%s: call it as a method, image:%s(...), got a circle"):format(name, name), sentence)
+      assert.are.equal(("%s: call it as a method, image:%s(...), got a circle"):format(name, name),
+        sentence)
     end
   end)
 end)

@@ -1,16 +1,16 @@
---- The font of the scripts and tests, drawn with a round pen: capitals, small capitals, digits, some
---- signs, and a few letters of other scripts, in any weight from 200 to 900.
+--- The font of the scripts and tests, drawn with a round pen: capitals, small capitals, digits,
+--- some signs, and a few letters of other scripts, in any weight from 200 to 900.
 ---
 ---   lua5.4 tests/support/block.lua OUT.ttf      scripts/type/block.ttf is what it makes
 ---
---- Letters are lines and arcs, each a contour of its own that overlaps its neighbours: they need the
---- non-zero rule, as the letters of most variable fonts do.
+--- Letters are lines and arcs, each a contour of its own that overlaps its neighbours: they need
+--- the non-zero rule, as the letters of most variable fonts do.
 package.path = "./?.lua;" .. package.path
 local truetype = require "tests.support.truetype"
 
 -- ---------------------------------------------------------------- letters
--- Places of the pen, from the left end and the baseline. "L": points joined by lines. "A": centre,
--- radius, and two angles in degrees, counted from the right and upwards.
+-- Positions of the pen, from the left end and the baseline. "L": points joined by lines. "A":
+-- centre, radius, and two angles in degrees, counted counterclockwise from the right.
 
 local W = { -- name: how far the pen goes to the right, then its movements
   A = { 460, "L 0 0 230 612 460 0", "L 71 190 389 190" },
@@ -47,7 +47,8 @@ local W = { -- name: how far the pen goes to the right, then its movements
 }
 
 local signs = {
-  { "0", 380, "A 190 422 190 0 180", "L 0 422 0 190", "A 190 190 190 180 360", "L 380 190 380 422" },
+  { "0", 380, "A 190 422 190 0 180", "L 0 422 0 190", "A 190 190 190 180 360",
+    "L 380 190 380 422" },
   { "1", 170, "L 0 492 170 612 170 0" },
   { "2", 380, "A 190 422 190 -40 165", "L 336 300 0 0 380 0" },
   { "3", 360, "A 207 459 153 -90 140", "L 150 306 207 306", "A 207 153 153 -140 90" },
@@ -72,7 +73,8 @@ local signs = {
   { "→", 560, "L 0 306 560 306", "L 400 150 560 306 400 462" },
   { "ש", 440, "L 0 500 60 0 300 0", "A 300 140 140 -90 0", "L 440 140 440 500", "L 210 500 190 0" },
   { "ל", 300, "L 0 700 0 500 300 500 300 300 80 0" }, { "ו", 60, "L 0 500 60 500 60 0" },
-  { "ם", 340, "L 0 500 340 500 340 0 40 0 40 500" }, { "א", 380, "L 0 500 380 0", "L 360 500 280 180", "L 30 0 110 320" },
+  { "ם", 340, "L 0 500 340 500 340 0 40 0 40 500" },
+  { "א", 380, "L 0 500 380 0", "L 360 500 280 180", "L 30 0 110 320" },
   { "一", 760, "L 0 320 760 320" }, { "二", 760, "L 90 500 670 500", "L 0 80 760 80" },
   { "三", 760, "L 60 600 700 600", "L 120 340 640 340", "L 0 60 760 60" },
   { "。", 120, "A 60 40 60 0 360" },
@@ -123,7 +125,7 @@ end
 --- An arc with round ends, clockwise.
 local function arc(x, y, radius, low, high, half)
   local contour = {}
-  local function ending(degrees) -- the pen's place
+  local function ending(degrees) -- the pen's position
     return x + radius * math.cos(math.rad(degrees)), y + radius * math.sin(math.rad(degrees))
   end
   around(contour, x, y, radius + half, high, true)

@@ -1,6 +1,6 @@
 #!/bin/bash
-# The ways to build less, or inside another project: each configures, builds and renders a frame. With
-# CELSPAN_TESTS one of them is tried, drawn by CELSPAN_SEED.
+# Builds with fewer parts, and inside another project: each configures, builds and renders a frame.
+# With CELSPAN_TESTS one of them is tried, selected by CELSPAN_SEED.
 #
 #   tests/support/builds.sh
 #
@@ -14,9 +14,9 @@ tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
 quick=(--werror -Doptimization=0 -Ddebug=false)
 
-# ninja and meson say nothing unless they fail.
+# Prints the output of ninja and meson only if they fail.
 quietly() { "$@" >"$tree/log" 2>&1 || { cat "$tree/log" >&2 && exit 1; }; }
-# absent FOLDER NAME: nothing of that name was built.
+# absent FOLDER NAME: checks that nothing of that name was built.
 absent() {
   if [ -n "$(find "$1" -name "$2" -print -quit)" ]; then
     echo "builds: $2 should not be there" >&2
@@ -26,12 +26,13 @@ absent() {
 
 without_lua() {
   quietly env CXX=/nonexistent/c++ meson setup "$tree/core" "${quick[@]}" -Dlua=disabled \
-    -Dpictures=disabled -Dart=disabled -Dtests=false
+    -Dpictures=disabled -Dart=disabled -Dcolour=disabled -Dtests=false
   quietly ninja -C "$tree/core"
   "$tree/core/examples/example_memory" | grep -q '#'
   absent "$tree/core" 'libcelspan_lua.a'
   absent "$tree/core" 'celspan.so'
   absent "$tree/core" 'celspan-art.so'
+  absent "$tree/core" 'celspan-colour.so'
 }
 
 without_cpp_as_subproject() {

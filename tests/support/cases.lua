@@ -1,18 +1,18 @@
 -- Which of its numbered random cases a test tries.
 --
--- A plain run tries 1, 2, .. up to a number of each test's own. CELSPAN_SCENES=n tries n for every 300
--- of those: with more, the numbers go on; with fewer, as slow builds have it, they are drawn from all
--- by CELSPAN_SEED, so that each seed tries others and none that a plain run does not. CASE=n tries that
--- one alone.
+-- A plain run tries the numbers 1, 2, .. up to a limit of each test. CELSPAN_SCENES=n tries n for
+-- every 300 of those: with more, the numbers continue; with fewer, as in slow builds, they are
+-- drawn from all by CELSPAN_SEED, so that each seed tries different ones, all of which a plain run
+-- tries too. CASE=n tries that one alone.
 local prng = require "tests.support.prng"
 
 local cases = {}
 local ONLY, SEED = tonumber(os.getenv "CASE"), tonumber(os.getenv "CELSPAN_SEED") or 1
 local SCENES = tonumber(os.getenv "CELSPAN_SCENES") or 300
 
-cases.only = ONLY -- the case that is asked for, or nil
+cases.only = ONLY -- the requested case, or nil
 
---- How many are tried of the number that a plain run tries; one at least.
+--- How many of the `plain` cases of a plain run are tried; at least one.
 function cases.count(plain) return math.max(1, plain * SCENES // 300) end
 
 --- `count` of the numbers 1 .. `plain`, drawn by the seed.
@@ -26,7 +26,8 @@ local function draw(count, plain)
   return table.move(numbers, 1, count, 1, {})
 end
 
---- The numbers to try where a plain run tries 1 .. `plain`, for a loop: `for _, case in cases.of(300)`.
+--- The numbers to try if a plain run tries 1 .. `plain`, for a loop: `for _, case in
+--- cases.of(300)`.
 function cases.of(plain)
   local count, numbers = cases.count(plain), { ONLY }
   if ONLY then return ipairs(numbers) end

@@ -1,5 +1,5 @@
 /* Checks for unit tests: a plain main calls them and ends with `return check_done();`. A failed
- * check is printed with its place and the test goes on.
+ * check is printed with its place and the test continues.
  */
 #ifndef CELSPAN_TESTS_CHECK_H
 #define CELSPAN_TESTS_CHECK_H
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int check_count, check_failures;
+static int check_count, check_failures, check_skips;
 
 static inline int check_record(int passed, const char *file, int line, const char *what) {
   check_count++;
@@ -33,17 +33,20 @@ static inline int check_text(const char *a, const char *b, const char *file, int
   return check_record(a && b && strcmp(a, b) == 0, file, line, text);
 }
 
-/* Whether the case of this number, from 0 on, is tried here: where CELSPAN_TESTS is N, one in N is, the
- * first of them drawn by CELSPAN_SEED. Builds with sanitizers take so what a plain build tries whole. */
-static inline int check_is_drawn(int number) {
-  const char *tests = getenv("CELSPAN_TESTS"), *seed = getenv("CELSPAN_SEED");
-  unsigned long one_in = tests ? strtoul(tests, NULL, 10) : 1;
+/* Whether the case of this number, from 0 on, is tried here: where the environment variable is N,
+ * one case in N is, beginning at one that CELSPAN_SEED selects. */
+static inline int check_is_drawn_by(const char *variable, int number) {
+  const char *share = getenv(variable), *seed = getenv("CELSPAN_SEED");
+  unsigned long one_in = share ? strtoul(share, NULL, 10) : 1;
   unsigned long first = seed ? strtoul(seed, NULL, 10) : 0;
   return one_in < 2 || ((unsigned long)number + first) % one_in == 0;
 }
 
-/* Whether the thread sanitizer looks on. It makes a test ten times as long, and finds nothing in what
- * one thread does alone: long tests leave that to the other builds. */
+/* Builds with sanitizers try a part of the cases that a plain build tries. */
+static inline int check_is_drawn(int number) { return check_is_drawn_by("CELSPAN_TESTS", number); }
+
+/* Whether the thread sanitizer is active. It makes a test ten times as slow, and finds nothing in
+ * code that runs on one thread: long tests leave that to the other builds. */
 static inline int check_is_for_threads(void) {
 #if defined(__SANITIZE_THREAD__)
   return 1;
@@ -64,11 +67,19 @@ static inline int check_is_for_threads(void) {
   check_near((a), (b), (tolerance), __FILE__, __LINE__, #a " near " #b)
 #define CHECK_TEXT(a, b) check_text((a), (b), __FILE__, __LINE__, #a " is " #b)
 
+/* Checks that cannot be made, with what they need. Printed, and counted as skipped. */
+static inline void check_skip(const char *what) {
+  check_skips++;
+  printf("skipped: %s\n", what);
+}
+
 static inline int check_done(void) {
   if (check_failures)
     printf("%d of %d checks failed\n", check_failures, check_count);
   else
     printf("%d checks passed\n", check_count);
+  if (check_skips)
+    printf("%d checks skipped\n", check_skips);
   return check_failures != 0;
 }
 

@@ -1,15 +1,16 @@
-/* What ran is written to the files of a build for coverage (-Db_coverage=true) when a process ends by
- * exit, and only where it may write them. This stands before the calls by which celspan ends in other
- * ways, and lets a process that confines itself write in the folder of the build, too, as it could not
- * if its files might not grow: the linker puts it there (--wrap). A process that was begun with such a
- * limit writes no counts, for those that were cut off would spoil the others. */
+/* The lines that ran are written to the files of a coverage build (-Db_coverage=true) when a
+ * process ends by exit, and only where it may write them. These functions replace the calls by
+ * which celspan ends in other ways, and let a process that confines itself write in the folder of
+ * the build, too, which it could not if its files might not grow: the linker inserts them (--wrap).
+ * A process that was started with such a limit writes no counts, because truncated ones would spoil
+ * the others. */
 #include <signal.h>
 #include <stdlib.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <time.h>
 
-#include "sandbox/strict.h"
+#include "plugins/isolate/strict.h"
 
 void __gcov_dump(void);
 void __gcov_reset(void);
@@ -32,15 +33,16 @@ static bool has_size_limit(void) {
   return getrlimit(RLIMIT_FSIZE, &files) == 0 && files.rlim_cur != RLIM_INFINITY;
 }
 
-void starve_end(void) __attribute__((weak)); /* of the library of starve.c, where it is loaded */
+void starve_end(void) __attribute__((weak)); /* of the library of starve.c, if it is loaded */
 
-/* Libgcov does not ask whether it has memory. */
+/* Libgcov does not check whether its allocations succeed. */
 static void end_faults(void) {
   if (starve_end)
     starve_end();
 }
 
-/* A process without memory may fail in telling, and then come here again by its handler of signals. */
+/* A process without memory may crash while it writes its counts, and then come here again from its
+ * signal handler. */
 static void tell(void) {
   static volatile sig_atomic_t is_telling;
   if (is_telling)
@@ -58,7 +60,7 @@ static void end_when_asked(int number) {
   __real_raise(SIGKILL);
 }
 
-/* Counts go to files below GCOV_PREFIX; there can be none below this. */
+/* Counts go to files below GCOV_PREFIX; no file can exist below this one. */
 __attribute__((constructor)) static void begin(void) {
   if (has_size_limit())
     setenv("GCOV_PREFIX", "/dev/null", 1);
@@ -68,10 +70,12 @@ __attribute__((constructor)) static void begin(void) {
 
 static bool has_ended(pid_t process) {
   siginfo_t found = {.si_pid = 0};
-  return waitid(P_PID, (id_t)process, &found, WEXITED | WNOHANG | WNOWAIT) != 0 || found.si_pid == process;
+  return waitid(P_PID, (id_t)process, &found, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+         found.si_pid == process;
 }
 
-/* A process that is killed could not tell what it ran: it is asked to end itself before, and is given time. */
+/* A process that is killed could not write its counts: it is first asked to end itself, and is
+ * given time. */
 int __wrap_kill(pid_t process, int number) {
   const struct timespec pause = {.tv_nsec = 1000000};
   if (number == SIGKILL && process > 0 && __real_kill(process, ASKED) == 0)

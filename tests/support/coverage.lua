@@ -1,32 +1,35 @@
--- Which lines and branches of src/ were run, of a build with -Db_coverage=true: file by file, the least
--- covered first, and of all together.
+-- Which lines and branches of src/ were run, for a build with -Db_coverage=true: file by file, the
+-- least covered first, and the total.
 --
---   build/tests/lua_host tests/support/coverage.lua BUILD [PLACE...]    celspan.json comes with the module
+--   build/tests/lua_host tests/support/coverage.lua BUILD [PLACE...]
 --
---      lines        branches           handing on
+-- with LUA_CPATH as for specs: celspan.json comes with the module.
+--
+--      lines        branches         error paths
 --     1180  95.1%    642  91.3%    55/ 60  91.7%   src/...
 --
--- Branches are those of conditions in C; those that C++ makes of what may throw are left out. Branches of
--- a line with CS_TRY hand on what failed below, and most need memory to run out in one place: they are
--- counted among the others, and beside them on their own.
+-- Branches are those of conditions in C; those that C++ generates for exceptions are left out.
+-- Branches of a line with CS_TRY are error paths, most of which need memory to run out at one
+-- place: they are counted among the others, and also separately.
 --
--- Of files that a PLACE is part of the name of, the lines are shown that did not run (-) or did so with
+-- For files whose name contains a PLACE, the lines are shown that did not run (-) or ran with
 -- branches that were not taken (2/4: two of four):
 --
---      src/scene/value.c:27: -     return false;
---      src/scene/value.c:31: 2/4   if (a && b)
+--      src/model/scene/value.c:27: -     return false;
+--      src/model/scene/value.c:31: 2/4   if (a && b)
 --
--- A file that is compiled several times, for several kinds of processors, counts once: a line is run when
--- it is in any of them. Threads count without locks, so a count may come out below 0; it was run then.
--- What runs only while building is left out.
+-- A file that is compiled several times, for several kinds of processors, counts once: a line
+-- counts as run if it ran in any of them. Threads count without locks, so a count may be below 0;
+-- the line was run then. Programs that run only while building are left out.
 local json = require "celspan.json"
 local system = require "tests.support.system"
 
 local build = assert(arg[1], "coverage.lua BUILD")
-local LEFT_OUT = { ["src/bind/embed.c"] = true, ["src/cli/tiles/embed_page.c"] = true,
-  ["src/colour/make_transfer_tables.c"] = true }
+local LEFT_OUT = { ["src/base/embed.c"] = true,
+  ["src/model/colour/make_transfer_tables.c"] = true }
 
-local files = {} -- by name: { lines = { [number] = count }, branches = { [number] = { count, ... } } }
+-- by name: { lines = { [number] = count }, branches = { [number] = { count, ... } } }
+local files = {}
 
 local function lines_of(command)
   local lines, ended_well = system.lines(command)
@@ -48,11 +51,12 @@ local function add(file, line)
   file.branches[number] = sums
 end
 
---- The name of a source below src/ as the tree has it; nil for what the build made and what lies elsewhere.
+--- The name of a source below src/ as in the tree; nil for generated files and those outside.
 local function name_of(path) return path:match "^%.%./(src/.*)" end
 
 for _, data in ipairs(lines_of(("cd '%s' && find . -name '*.gcda' | sort"):format(build))) do
-  local report = lines_of(("cd '%s' && gcov --json-format --stdout --branch-probabilities '%s'"):format(build, data))
+  local report = lines_of(("cd '%s' && gcov --json-format --stdout --branch-probabilities '%s'")
+    :format(build, data))
   for _, found in ipairs(assert(json.decode(report[1])).files) do
     local name = name_of(found.file)
     if name and not LEFT_OUT[name] then
@@ -63,7 +67,7 @@ for _, data in ipairs(lines_of(("cd '%s' && find . -name '*.gcda' | sort"):forma
   end
 end
 
---- How many there are, and how many of those were run: lines, branches, and branches that hand on.
+--- Totals and how many of them were run: lines, branches, and branches of error paths.
 local function new_tally() return { lines = { 0, 0 }, branches = { 0, 0 }, handing = { 0, 0 } } end
 
 local function count(pair, is_run)
@@ -99,7 +103,7 @@ local function is_asked_for(name)
   return false
 end
 
---- What did not run of a line: "-", "2/4" branches, or nil.
+--- The parts of a line that did not run: "-", "2/4" branches, or nil.
 local function what_lacks(times, branches)
   local taken = 0
   for _, sum in ipairs(branches) do taken = taken + (sum > 0 and 1 or 0) end
@@ -132,6 +136,6 @@ end)
 for _, entry in ipairs(list) do
   if is_asked_for(entry[1]) then show_lacking(entry[1], files[entry[1]]) end
 end
-print "      lines        branches      handing on"
+print "      lines        branches     error paths"
 for _, entry in ipairs(list) do show(entry[2], entry[1]) end
 show(total, "all of src/")

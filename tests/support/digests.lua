@@ -1,12 +1,12 @@
--- Digests of everything that celspan draws in this tree, to be compared before and after a change
--- that must alter no bit. From the top of the tree:
+-- Digests of everything that celspan draws in this tree, to compare before and after a change that
+-- must not alter a bit. From the top of the tree:
 --
 --   lua5.4 tests/support/digests.lua [--quick] BUILD [BENCH_BUILD FOLDER] > before
 --
--- BUILD holds the celspan that is asked. BENCH_BUILD was configured with -Dbench=true; the drawings
--- of the benchmark are written into FOLDER, with CELSPAN_MATERIAL's artwork where that is set. Each
--- line is `KIND NAME DIGEST`, in an order that does not change. --quick leaves out what takes long.
--- What fails has the digest `failed`; then the exit status is 1.
+-- BUILD contains the celspan to test. BENCH_BUILD was configured with -Dbench=true; the drawings of
+-- the benchmark are written into FOLDER, with CELSPAN_MATERIAL's artwork if that is set. Each line
+-- is `KIND NAME DIGEST`, in a fixed order. --quick leaves out the slow ones. A failure has the
+-- digest `failed`; then the exit status is 1.
 package.path = "./?.lua;./lua/?.lua;" .. package.path
 local golden = require "tests.support.golden"
 local markdown = require "tests.support.markdown"
@@ -25,7 +25,7 @@ local bench = workbench.new()
 local has_failed = false
 
 
---- What the command prints, or nil when it fails; then what it says goes to standard error.
+--- The output of the command, or nil when it fails; then its messages go to standard error.
 local function output_of(...)
   local quoted = {}
   for i, word in ipairs { ... } do quoted[i] = system.quote(word) end

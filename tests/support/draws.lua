@@ -1,5 +1,6 @@
--- Checks that no test hangs on the order in which a compiler evaluates arguments, initialisers or
--- operands: C leaves it open, so two draws of random numbers among them give other cases elsewhere.
+-- Checks that no test depends on the order in which a compiler evaluates arguments, initialisers or
+-- operands: C leaves it open, so with two random numbers among them other compilers would test
+-- other cases.
 --
 --   lua5.4 tests/support/draws.lua [ROOT]
 --
@@ -12,12 +13,12 @@ local c_source = require "tests.support.rooms.c_source"
 
 local root = arg[1] or "."
 
---- What separates operands whose order C lays down.
+--- Separators of operands whose order C defines.
 local ORDERED = { [","] = true, [";"] = true, ["&&"] = true, ["||"] = true, ["?"] = true,
   [":"] = true }
 local CONTROL = { ["if"] = true, ["for"] = true, ["while"] = true, ["switch"] = true }
 
---- A function that tells whether a draw is called at a token.
+--- Returns a function that reports whether a draw is called at a token.
 local function draw_finder(file)
   local known, is_growing = {}, true
   local function is_draw(i)
@@ -35,7 +36,7 @@ local function draw_finder(file)
   return is_draw
 end
 
---- Whether the braces at a token hold statements, not initialisers.
+--- Whether the braces at a token contain statements, not initialisers.
 local function is_block(file, open)
   local i = open + 1
   while i < file.close[open] do
@@ -45,7 +46,7 @@ local function is_block(file, open)
   return i == open + 1
 end
 
---- How many items of a list draw; the last one's first token.
+--- How many items of a list contain a draw, and the last one's first token.
 local function count_items(file, open, draws)
   local count, i, has_draw = 0, open + 1, false
   while i <= file.close[open] do
@@ -59,7 +60,7 @@ local function count_items(file, open, draws)
   return count
 end
 
---- Calls `fault` for operands of one expression inside a bracket, of which two or more draw.
+--- Calls `fault` for operands of one expression inside a bracket, if two or more contain a draw.
 local function check_operands(file, open, draws, fault)
   local count, i = 0, open + 1
   while i < file.close[open] do
@@ -77,7 +78,8 @@ local function check_operands(file, open, draws, fault)
   end
 end
 
---- Whether there is a draw at each token, and draws.are_in(from, to), whether there is one among some.
+--- For each token, whether a draw is called there; and draws.are_in(from, to), whether any is
+--- called in a range.
 local function list_draws(file)
   local is_draw, draws, before = draw_finder(file), {}, { 0 }
   for i = 1, #file.text do
@@ -91,7 +93,7 @@ end
 local function check_file(path, fault)
   local file = c_source.read(path)
   local draws = list_draws(file)
-  local function found(i) fault("%s:%d: two draws in no order of their own", path, file.line[i]) end
+  local function found(i) fault("%s:%d: two draws in an undefined order", path, file.line[i]) end
   for open in pairs(file.close) do
     local is_list = file.text[open] == "(" and not CONTROL[file.text[open - 1]]
       or file.text[open] == "{" and not is_block(file, open)
@@ -108,7 +110,8 @@ for path in files:lines() do
   count = count + 1
   local is_good = true
   check_file(root .. "/" .. path, function(...)
-    if is_good then faults[#faults + 1] = string.format(...) end -- one a file: a check is a file
+    -- one per file, because each file counts as one check
+    if is_good then faults[#faults + 1] = string.format(...) end
     is_good = false
   end)
 end

@@ -1,4 +1,4 @@
-/* The rows of a frame, in any order, for tests of what makes them:
+/* The rows of a frame, in any order, for tests of the code that makes them:
  *
  *   frame_rows rows;
  *   frame_rows_open(&rows, s, &desc);
@@ -10,7 +10,7 @@
 
 #include <stdlib.h>
 
-#include "render/row_worker.h"
+#include "frames/render/strips.h"
 #include "tests/support/scene.h"
 
 typedef struct frame_rows {
@@ -19,7 +19,7 @@ typedef struct frame_rows {
   cs_row_worker worker;
 } frame_rows;
 
-/* What the desc points to is kept by the caller until the rows are closed. */
+/* The caller must keep the objects of the desc until the rows are closed. */
 static inline void frame_rows_open(frame_rows *rows, studio *s, const celspan_frame_desc *desc) {
   *rows = (frame_rows){.context = s->context};
   studio_check(s, cs_frame_create(s->context, desc, &rows->frame));
@@ -54,8 +54,7 @@ typedef struct image {
   uint64_t kinds[3];
 } image;
 
-/* Makes the rows 0, step, 2 step .., then 1, 1 + step ..: what a row holds must not depend on the
- * order. */
+/* Makes the rows 0, step, 2 step .., then 1, 1 + step ..: a row must not depend on the order. */
 static inline image make_image(studio *s, const celspan_frame_desc *desc, int32_t step) {
   int32_t width = desc->crop_width ? desc->crop_width : desc->width;
   int32_t height = desc->crop_height ? desc->crop_height : desc->height;

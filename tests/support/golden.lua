@@ -1,4 +1,4 @@
--- Goldens: small scripts and the text of their spans, which is the truth.
+-- Goldens: small scripts and the text of their spans, which is the reference.
 local shipped = require "tests.support.shipped"
 local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
@@ -17,7 +17,7 @@ function golden.cases()
   return list
 end
 
---- What the script gives now; or nil and a message (celspan's own goes to standard error).
+--- The script's current spans; or nil and a message (celspan's own goes to standard error).
 function golden.actual(case)
   local pipe = assert(io.popen(("%s spans %s.lua --allow scripts"):format(command, case)))
   local text = pipe:read "a"
@@ -25,7 +25,7 @@ function golden.actual(case)
   return nil, "celspan spans " .. case .. ".lua failed"
 end
 
---- What was accepted; nil when nothing was.
+--- The accepted text; nil if there is none.
 function golden.expected(case)
   local file = io.open(case .. ".spans")
   if not file then return nil end
@@ -36,12 +36,12 @@ end
 
 -- ---------------------------------------------------------------- digests
 
---- The file of digests: blocks between empty lines. The first line of a block asks, the others are
---- the answer: `render SCRIPT ...` is answered by `celspan render --hash`, a line a frame;
---- `example NAME ...` by the digest of what the program prints.
+--- The file of digests: blocks separated by empty lines. The first line of a block is the question,
+--- the others are the answer: for `render SCRIPT ...` it is the output of `celspan render --hash`,
+--- a line per frame; for `example NAME ...` the digest of the program's output.
 golden.digests_path = "tests/golden/digests.txt"
 
---- What was accepted, as a list of { question, answer }.
+--- The accepted digests, as a list of { question, answer }.
 function golden.digests()
   local file = assert(io.open(golden.digests_path))
   local text, list = file:read "a", {}
@@ -59,27 +59,29 @@ local function lines_of(asked)
   return nil, asked .. " failed"
 end
 
---- The frames' digests in order: workers end in any.
+--- The frames' digests in order: workers end in any order.
 local function ask_render(arguments)
-  local lines, message = lines_of(("%s render %s --hash --progress none"):format(command, arguments))
+  local lines, message = lines_of(("%s render %s --hash --progress none")
+    :format(command, arguments))
   if not lines then return nil, message end
   table.sort(lines, function(a, b) return tonumber(a:match "%S+") < tonumber(b:match "%S+") end)
   return table.concat(lines, "\n") .. "\n"
 end
 
 local function ask_example(arguments)
-  local lines, message = lines_of(("%s/examples/example_%s | md5sum"):format(workbench.build, arguments))
+  local lines, message = lines_of(("%s/examples/example_%s | md5sum")
+    :format(workbench.build, arguments))
   if not lines then return nil, message end
   return lines[1]:match "%x+" .. "\n"
 end
 
---- The answer to a question now; nil and a message when there is none.
+--- The current answer to a question; nil and a message if it fails.
 function golden.answer(question)
   local kind, arguments = question:match "^(%S+) (.*)$"
   return (kind == "example" and ask_example or ask_render)(arguments)
 end
 
---- Frames of a film that tell the most: the first, one in the middle, the last.
+--- Representative frames of a film: the first, one in the middle, the last.
 local function frames_of(script)
   local told = assert(lines_of(("%s info %s"):format(command, script)))
   local text = table.concat(told, "\n")
@@ -88,7 +90,8 @@ local function frames_of(script)
   return ("%d,%d,%d"):format(first, (first + last) // 2, last)
 end
 
---- Every script that ships and every scene of the goldens, as { path, function that makes a question }.
+--- Every script that ships and every scene of the goldens, as { path, function that makes a
+--- question }.
 function golden.drawn()
   local list = {}
   for _, path in ipairs(shipped.scripts()) do
@@ -114,9 +117,9 @@ function golden.unasked(digests)
   return list
 end
 
---- Lines of the two texts that are not in both, "- " the old and "+ " the new.
+--- The lines that differ between two texts, marked "- " for the old and "+ " for the new.
 function golden.difference(old, new)
-  local function lines_of(text)
+  local function split(text)
     local list, set = {}, {}
     for line in text:gmatch "[^\n]+" do
       list[#list + 1] = line
@@ -124,8 +127,8 @@ function golden.difference(old, new)
     end
     return list, set
   end
-  local old_list, old_set = lines_of(old)
-  local new_list, new_set = lines_of(new)
+  local old_list, old_set = split(old)
+  local new_list, new_set = split(new)
   local out = {}
   for _, line in ipairs(old_list) do
     if not new_set[line] then out[#out + 1] = "- " .. line end

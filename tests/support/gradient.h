@@ -1,5 +1,5 @@
-/* Gradients by what they mean, for tests: where a point lies along the stops, and how much each corner
- * counts at it. Nothing is shared with paint/shade.c.
+/* Gradients by definition, for tests: the position of a point along the stops, and the weight of
+ * each corner at it. Nothing is shared with engine/paint/shade.c.
  */
 #ifndef CELSPAN_TESTS_GRADIENT_H
 #define CELSPAN_TESTS_GRADIENT_H
@@ -32,9 +32,9 @@ static inline double gradient_radius(const gradient *g) {
   return sqrt(dot(leg, leg));
 }
 
-/* Where a point lies between the first stop's end and the last one's, 0..1 and beyond. Of circles, which
- * from the focus to the whole one goes through it: p with |p - focus - t d| = t radius, d the way from
- * the focus to the centre. */
+/* The position of a point between the first stop's end and the last one's, 0..1 and beyond. For
+ * circles, the one between the focus and the whole circle that passes through the point: p with |p
+ * - focus - t d| = t radius, d the vector from the focus to the centre. */
 static inline double gradient_place(const gradient *g, celspan_point at) {
   celspan_point way = away(g->points[0], g->points[1]), from = g->points[g->shape == FOCAL ? 2 : 0];
   celspan_point d = away(from, g->points[0]), q = away(from, at);
@@ -44,7 +44,7 @@ static inline double gradient_place(const gradient *g, celspan_point at) {
   return (sqrt(b * b + a * dot(q, q)) - b) / a;
 }
 
-/* What the corners of a triangle count at a point, 1 together; below 0 outside of it. */
+/* The weights of a triangle's corners at a point, 1 together; below 0 outside it. */
 static inline void gradient_weights(const gradient *g, celspan_point at, double weights[3]) {
   const celspan_point *p = g->points;
   double whole = cross(away(p[0], p[1]), away(p[0], p[2]));

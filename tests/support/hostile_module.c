@@ -1,21 +1,23 @@
-/* A picture module for tests of what decodes pictures: it does what the names of files say.
+/* A picture module and a colour module for tests of the code that decodes pictures: they do what
+ * the names of files and the bytes of colour profiles say.
  *
  *   others                       64 x 64 grey pixels
- *   crash, abort, leave          a fault, an abort or an exit in reading
+ *   crash, abort, leave          a fault, an abort or an exit while reading
  *   hang                         reading never ends
  *   stick                        likewise, after an allocation that failed
- *   eat                          memory is taken by reading until there is none, which is a failure
- *   choke                        likewise, but it is not noticed: a fault
- *   keep                         48 MiB are taken in reading, and never given back
- *   babble, endless, odd, tell   what is no message is sent to the program: other bytes, a text without an
- *                                end, a status that there is not, or one that was not asked for
- *   touch                        the file has another time
- *   open-crash, open-hang, ...   the same in opening
- *   lie, lie-height, ...         a header that no picture has
- *   greedy, confused             in writing: more bytes than are shared are put, or something else
+ *   eat                          reading uses memory until none is left, and fails then
+ *   choke                        likewise, but does not notice the failure: a fault
+ *   keep                         reading allocates 48 MiB, and never frees them
+ *   babble, endless, odd, tell   an invalid message is sent to the program: other bytes, a text
+ *                                without an end, an unknown status, or one that was not requested
+ *   touch                        the modification time of the file changes
+ *   open-crash, open-hang, ...   the same while opening
+ *   lie, lie-height, ...         an impossible header; of a profile an impossible table
+ *   greedy, confused             while writing: more bytes than the shared memory has are put, or
+ *                                another message is sent
  *
- * With HOSTILE_IS_OLD in the environment it is of another version of celspan; what HOSTILE_LOADING names
- * it does when it is loaded.
+ * With HOSTILE_IS_OLD in the environment it belongs to another version of celspan; while it is
+ * loaded it does what HOSTILE_LOADING names.
  */
 #include <errno.h>
 #include <fcntl.h>
@@ -26,7 +28,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cli/decoder/message.h"
+#include "plugins/isolate/message.h"
 
 enum { SIDE = 64, PIECE = 1 << 22, KEPT = 48 << 20, DESCRIPTORS = 256 };
 
@@ -48,7 +50,7 @@ static celspan_status fail(cs_picture_failure *failure, celspan_status status, c
   return status;
 }
 
-/* The name that leads to the descriptor under which the file is known. */
+/* The name behind the descriptor under which the file is opened. */
 static void find_name(const char *file, char out[4096]) {
   char path[4096];
   ssize_t size = readlink(file, path, sizeof path - 1);
@@ -57,7 +59,7 @@ static void find_name(const char *file, char out[4096]) {
   snprintf(out, 4096, "%s", slash ? slash + 1 : from);
 }
 
-/* Until there is no more. */
+/* Allocates until no memory is left. */
 static void eat(void) {
   char *piece = malloc(PIECE);
   while (piece) {
@@ -66,7 +68,8 @@ static void eat(void) {
   }
 }
 
-/* The way to the program, which a picture that has taken over its decoder would find like this. */
+/* The connection to the program, as a malicious picture would find it after taking over its
+ * decoder. */
 static int find_socket(void) {
   for (int found = 3; found < DESCRIPTORS; found++) {
     int type = 0;
@@ -77,7 +80,9 @@ static int find_socket(void) {
   return -1;
 }
 
-static void say(const void *bytes, size_t size) { (void)!send(find_socket(), bytes, size, MSG_NOSIGNAL); }
+static void say(const void *bytes, size_t size) {
+  (void)!send(find_socket(), bytes, size, MSG_NOSIGNAL);
+}
 
 static void misspeak(const char *name) {
   cs_message message = {.kind = CS_MESSAGE_DONE};
@@ -92,7 +97,7 @@ static void misspeak(const char *name) {
   say(&message, sizeof message);
 }
 
-/* Puts what the program cannot take. Whether it took it. */
+/* Sends a message that the program cannot accept. Returns whether it accepted it. */
 static bool put_wrongly(const char *name) {
   cs_message message = {.kind = strstr(name, "confused") ? CS_MESSAGE_PART : CS_MESSAGE_PUT,
                         .put = {.size = strstr(name, "greedy") ? CS_SHARED : 0}};
@@ -107,7 +112,8 @@ static celspan_status behave(const char *name, cs_picture_failure *failure) {
     abort();
   if (strstr(name, "leave"))
     exit(3);
-  if (strstr(name, "babble") || strstr(name, "endless") || strstr(name, "odd") || strstr(name, "tell"))
+  if (strstr(name, "babble") || strstr(name, "endless") || strstr(name, "odd") ||
+      strstr(name, "tell"))
     misspeak(name);
   if (strstr(name, "stick"))
     errno = ENOMEM;
@@ -177,7 +183,8 @@ static celspan_status open_file(const cs_picture_request *request, cs_picture_re
 static celspan_status read_file(cs_picture_reader *reader, int32_t x, int32_t y, int32_t width,
                                 int32_t height, float *rgba, cs_picture_failure *failure) {
   (void)x, (void)y;
-  celspan_status status = strstr(reader->name, "open-") ? CELSPAN_OK : behave(reader->name, failure);
+  celspan_status status =
+      strstr(reader->name, "open-") ? CELSPAN_OK : behave(reader->name, failure);
   for (size_t i = 0; i < 4 * (size_t)width * (size_t)height; i++)
     rgba[i] = i % 4 == 3 ? 1.0f : 0.5f;
   return status;
@@ -205,15 +212,17 @@ static celspan_status open_output(const cs_picture_output *output, cs_picture_wr
   find_name(output->name, writer->name);
   writer->output = *output;
   *out = writer;
-  return output->put(output->user, 0, "begun", 5) ? CELSPAN_OK
-                                                   : fail(failure, CELSPAN_OUTPUT, output->name, "no");
+  return output->put(output->user, 0, "begun", 5)
+             ? CELSPAN_OK
+             : fail(failure, CELSPAN_OUTPUT, output->name, "no");
 }
 
 static celspan_status write_output(cs_picture_writer *writer, int32_t y, int32_t count,
                                    const void *rows, cs_picture_failure *failure) {
   (void)y, (void)count, (void)rows;
   if (strstr(writer->name, "greedy") || strstr(writer->name, "confused"))
-    return put_wrongly(writer->name) ? CELSPAN_OK : fail(failure, CELSPAN_OUTPUT, writer->name, "not taken");
+    return put_wrongly(writer->name) ? CELSPAN_OK
+                                     : fail(failure, CELSPAN_OUTPUT, writer->name, "not taken");
   return behave(writer->name, failure);
 }
 
@@ -232,6 +241,24 @@ __attribute__((constructor)) static void load(void) {
   const char *how = getenv("HOSTILE_LOADING");
   if (how)
     behave(how, &failure);
+}
+
+/* ---------------------------------------------------------------- colour profiles */
+
+static celspan_status sample(const cs_colour_request *request, cs_colour_table *out,
+                             cs_picture_failure *failure) {
+  char name[64];
+  snprintf(name, sizeof name, "%.*s", (int)request->size, (const char *)request->bytes);
+  memset(out, 0, sizeof *out);
+  out->form = strstr(name, "form") ? 77 : CS_COLOUR_GRID;
+  memset(out->name, 'x', sizeof out->name);
+  memset(out->grid, strstr(name, "number") ? 0xff : 0, sizeof out->grid);
+  return behave(name, failure);
+}
+
+CELSPAN_API const void *celspan_colour_module(void) {
+  static const cs_colour_module table = {CS_COLOUR_MODULE_VERSION, sample};
+  return &table;
 }
 
 CELSPAN_API const void *celspan_picture_module(void) {

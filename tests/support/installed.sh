@@ -1,6 +1,6 @@
 #!/bin/bash
-# What is installed is enough: the examples are compiled against it as a stranger would do it, plain
-# Lua loads the module, and the program renders a picture.
+# The installed files are sufficient: the examples are compiled against them as a user would do it,
+# plain Lua loads the module, and the program renders a picture.
 #
 #   tests/support/installed.sh BUILD
 set -eu
@@ -9,12 +9,12 @@ tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
 meson install -C "$1" --no-rebuild --quiet --destdir "$tree"
 
-# What must be there, once.
+# installed NAME: checks that a file is installed, exactly once.
 installed() {
   local found
   found=$(find "$tree" -name "$1")
   if [ -z "$found" ] || [ "$(wc -l <<<"$found")" != 1 ]; then
-    echo "installed: $1 is not there once: $found" >&2
+    echo "installed: $1 is not installed exactly once: $found" >&2
     return 1
   fi
   echo "$found"
@@ -24,7 +24,8 @@ settings=$(dirname "$(installed celspan.pc)")
 libraries=$(dirname "$settings")
 export LD_LIBRARY_PATH=$libraries
 
-# flags PACKAGE: they name folders of the tree; Lua's own are where they always are.
+# flags PACKAGE: compiler flags, with folders of the installed tree; Lua's own are in the usual
+# place.
 flags() {
   PKG_CONFIG_SYSROOT_DIR=$tree PKG_CONFIG_PATH=$settings pkg-config --cflags --libs "$1"
   pkg-config --cflags --libs lua5.4

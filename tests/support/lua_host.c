@@ -1,5 +1,6 @@
 /* A small Lua interpreter for sanitizer runs: a module built with -fsanitize=address does not load
- * into the stock interpreter. Built with the same flags, it takes what busted gives an interpreter:
+ * into the stock interpreter. Built with the same flags, it accepts the arguments that busted
+ * passes to an interpreter:
  *
  *   lua_host [-e CODE]... SCRIPT [ARGUMENT]...
  */

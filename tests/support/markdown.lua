@@ -1,13 +1,14 @@
--- The fenced blocks of a page: what the examples of the documentation are taken from.
+-- The fenced blocks of a page: the source of the documentation's examples.
 local system = require "tests.support.system"
 
 local markdown = {}
 
 function markdown.read(path) return assert(system.read(path)) end
 
---- { { language, text, line, name, file }, ... }: line is that of the fence; a block whose first line
---- is the comment `-- name.lua` or `-- name.lua: what it shows` has a name; file: where it is to be
---- saved, that of its name, or what stands in backquotes before a colon right above it.
+--- { { language, text, line, name, file }, ... }: line is that of the fence; a block whose first
+--- line is the comment `-- name.lua` or `-- name.lua: what it shows` has a name; file: the name to
+--- save it under, which is that name with ".lua", or the one in backquotes before a colon right
+--- above the block.
 function markdown.blocks(path)
   local blocks, open, number, above = {}, nil, 0, ""
   for line in markdown.read(path):gmatch "([^\n]*)\n" do
@@ -30,7 +31,7 @@ function markdown.blocks(path)
   return blocks
 end
 
---- Saves the blocks of a page that have a file, into a folder. keeps: which of them, a function.
+--- Saves those blocks of a page that have a file, into a folder. keeps: selects them, a function.
 function markdown.save(path, folder, keeps)
   for _, block in ipairs(markdown.blocks(path)) do
     if block.file and keeps(block) then

@@ -1,5 +1,5 @@
-/* A memory hook for tests: counts what is held, checks the sizes it is told, and can make the n-th
- * allocation fail, once or with all that follow. Threads may share one. */
+/* A memory hook for tests: counts allocated bytes, checks the sizes passed to it, and can make the
+ * n-th allocation fail, once or with all that follow. Threads may share one. */
 #ifndef CELSPAN_TESTS_MEMORY_H
 #define CELSPAN_TESTS_MEMORY_H
 
@@ -14,8 +14,8 @@ typedef struct memory_watch {
   atomic_size_t blocks, bytes;
   atomic_size_t size_errors; /* blocks resized or freed with another size than they had */
   atomic_size_t allocations; /* made so far, failed ones included */
-  size_t fail_at;     /* the allocation of this number fails, counted from 1; 0: none */
-  bool is_for_good;   /* all later ones fail, too */
+  size_t fail_at;            /* the allocation of this number fails, counted from 1; 0: none */
+  bool is_for_good;          /* all later ones fail too */
 } memory_watch;
 
 typedef union memory_header {
@@ -36,7 +36,7 @@ static inline void *memory_watch_resize(void *user, void *block, size_t old_size
   watch->blocks += (new_size > 0) - (size_t)(block != NULL);
   watch->bytes += new_size - (header ? header->size : 0);
   if (header && new_size == 0)
-    explicit_bzero(header, sizeof *header + header->size); /* who reads it still, will notice */
+    explicit_bzero(header, sizeof *header + header->size); /* makes reads after free fail */
   if (new_size == 0) {
     free(header);
     return NULL;

@@ -1,13 +1,14 @@
-// Runs the page of a pyramid of tiles without a browser, and prints what it draws as a celspan script:
-// every tile drawn is a rectangle with a picture.
+// Runs the page of a pyramid of tiles without a browser, and prints the drawing as a celspan
+// script: every tile drawn is a rectangle with a picture.
 //
 //   node page.js INDEX.html WIDTH HEIGHT RATIO [ACTION ...]
 //
 //   hash:x,y,width   the address, from the beginning     key:+     wheel:x,y,delta     click:ID     place:NAME
 //   drag:x0,y0,x1,y1                                     pinch:x,y,by     lose:PART     size:w,h
 //
-// `lose` makes every tile whose name has that part fail to load. Comments at the end say what the page
-// told: its text, its address, how often it drew, and how many files it asked for that are not there.
+// `lose` makes every tile fail to load whose name contains that part. Comments at the end give the
+// state of the page: its text, its address, how often it drew, and how many missing files it
+// requested.
 "use strict";
 const fs = require("fs"), path = require("path"), vm = require("vm");
 
@@ -62,7 +63,7 @@ const world = {
 };
 world.window = world;
 
-// Everything that is asked for arrives and is drawn, until nothing moves any more.
+// Lets every requested file arrive and be drawn, until nothing moves any more.
 function settle() {
   for (let i = 0; frames.length || arrivals.length; i++) {
     if (i > 3000) throw new Error("the page never comes to rest");
@@ -91,7 +92,7 @@ const ACTIONS = {
   drag(x0, y0, x1, y1) {
     send("pointerdown", point(1, +x0, +y0));
     send("pointermove", point(1, +x1, +y1));
-    now += 200; // held still before it is let go
+    now += 200; // held still before it is released
     send("pointerup", point(1, +x1, +y1));
   },
   pinch(x, y, by) {
@@ -99,7 +100,7 @@ const ACTIONS = {
     send("pointerdown", point(2, +x + 50, +y));
     send("pointermove", point(1, +x - 50 * by, +y));
     send("pointermove", point(2, +x + 50 * by, +y));
-    now += 20; // and let go while they move
+    now += 20; // and released while they move
     send("pointerup", point(1, +x - 50 * by, +y));
     send("pointerup", point(2, +x + 50 * by, +y));
   },

@@ -1,23 +1,24 @@
 --- Writes layered paintings for tests: OpenRaster, Krita and Photoshop files, as strings.
 --
---   paintings.openraster { w = 64, h = 48, layers = { {...}, ... } }     rearmost first, in all three
+--   paintings.openraster { w = 64, h = 48, layers = { {...}, ... } }     rearmost first in all
 --   paintings.krita { ... }     paintings.psd { ... }
 --
--- A layer: name, x, y, w, h, pixel = function(x, y) -> r, g, b, a (codes; x, y from its corner), and
--- opacity (0..1), visible, blend (the format's own word), layers (a group), attributes (more of XML).
--- profile: the bytes of a colour profile, of a layer (OpenRaster, Krita) or of the painting (Krita,
--- Photoshop). name: what a Krita image is called; its layers lie in "forest". alpha: the bytes of a
--- Photoshop layer's alpha, instead of its own. How it is packed: deflate (zip members), lzf (Krita),
--- packing = "raw", "packbits", "zip" or "predicted" (Photoshop); depth = 8 or 16; grey.
+-- A layer: name, x, y, w, h, pixel = function(x, y) -> r, g, b, a (codes; x, y from its corner),
+-- and opacity (0..1), visible, blend (the format's own word), layers (a group), attributes (more of
+-- XML). profile: the bytes of a colour profile, of a layer (OpenRaster, Krita) or of the painting
+-- (Krita, Photoshop). name: what a Krita image is called; its layers lie in "forest". alpha: the
+-- bytes of a Photoshop layer's alpha, instead of its own. How it is packed: deflate (zip members),
+-- lzf (Krita), packing = "raw", "packbits", "zip" or "predicted" (Photoshop); depth = 8 or 16;
+-- grey.
 local stored = require "tests.support.stored"
 
 local paintings = {}
 
 -- ---------------------------------------------------------------- archives
 
---- members: { name =, data =, deflate =, extra =, and what a damaged archive tells instead: size, packed,
---- method, flags }. comment: behind the table. is_wide: offsets and sizes are 64-bit numbers, in extra
---- fields and before the end of the table.
+--- members: { name =, data =, deflate =, extra =, and false values for a damaged archive: size,
+--- packed, method, flags }. comment: behind the table. is_wide: offsets and sizes are 64-bit
+--- numbers, in extra fields and before the end of the table.
 function paintings.zip(members, comment, is_wide)
   local out, entries, at = {}, {}, 0
   for _, member in ipairs(members) do
@@ -40,10 +41,12 @@ function paintings.zip(members, comment, is_wide)
     at = at + #header + #data
   end
   local table_text = table.concat(entries)
-  local wide_end = is_wide and "PK\6\6" .. string.pack("<I8I2I2I4I4I8I8I8I8", 44, 45, 45, 0, 0, #members, #members,
+  local wide_end = is_wide and "PK\6\6" .. string.pack("<I8I2I2I4I4I8I8I8I8", 44, 45, 45, 0, 0,
+    #members, #members,
     #table_text, at) .. "PK\6\7" .. string.pack("<I4I8I4", 0, at + #table_text, 1) or ""
   return table.concat(out) .. table_text .. wide_end .. "PK\5\6"
-    .. string.pack("<I2I2I2I2I4I4I2", 0, 0, is_wide and 65535 or #members, is_wide and 65535 or #members,
+    .. string.pack("<I2I2I2I2I4I4I2", 0, 0, is_wide and 65535 or #members, is_wide and 65535
+      or #members,
       is_wide and 0xFFFFFFFF or #table_text, is_wide and 0xFFFFFFFF or at, #(comment or ""))
     .. (comment or "")
 end
@@ -65,8 +68,25 @@ local function srgb_table()
   return "curv\0\0\0\0" .. string.pack(">I4", 1024) .. table.concat(values)
 end
 
---- The bytes of a profile. given: name; curve: "srgb", "formula" (sRGB as one), a power, or the bytes
---- of a tag; grey; places: of red, green and blue; wide: the name in UTF-16.
+--- The tag of a table of colours (lut16Type): curves of squares, a cube of 2 x 2 x 2 places, XYZ.
+local function lut_of(place_of)
+  local parts = { "mft2\0\0\0\0\3\3\2\0" }
+  for i = 0, 8 do parts[#parts + 1] = string.pack(">i4", i % 4 == 0 and 65536 or 0) end
+  parts[#parts + 1] = string.pack(">I2I2", 256, 2)
+  for i = 0, 767 do
+    parts[#parts + 1] = string.pack(">I2", math.floor(65535 * (i % 256 / 255) ^ 2 + 0.5))
+  end
+  for i = 0, 7 do
+    for _, number in ipairs { place_of(i // 4, i // 2 % 2, i % 2) } do
+      parts[#parts + 1] = string.pack(">I2", math.floor(32768 * number + 0.5))
+    end
+  end
+  return table.concat(parts) .. ("\0\0\255\255"):rep(3)
+end
+
+--- The bytes of a profile. given: name; curve: "srgb", "formula" (sRGB as one), a power, or the
+--- bytes of a tag; grey; places: of red, green and blue; wide: the name in UTF-16; lut: a function
+--- from the corners of a cube of squared codes to places, in place of those and the curve.
 function paintings.profile(given)
   local function fixed(number) return string.pack(">i4", math.floor(number * 65536 + 0.5)) end
   local curve = given.curve or "srgb"
@@ -80,10 +100,13 @@ function paintings.profile(given)
   end
   local name = given.name or "a profile"
   local tags = { { "desc", given.wide
-    and "mluc\0\0\0\0" .. string.pack(">I4I4", 1, 12) .. "enUS" .. string.pack(">I4I4", 2 * #name, 28)
+    and "mluc\0\0\0\0" .. string.pack(">I4I4", 1, 12) .. "enUS" .. string.pack(">I4I4", 2 * #name,
+      28)
       .. name:gsub(".", "\0%0")
     or "desc\0\0\0\0" .. string.pack(">I4", #name + 1) .. name .. ("\0"):rep(80) } }
-  if given.grey then
+  if given.lut then
+    tags[2] = { "A2B0", lut_of(given.lut) }
+  elseif given.grey then
     tags[2] = { "kTRC", curve }
   else
     for c, letter in ipairs { "r", "g", "b" } do
@@ -99,7 +122,8 @@ function paintings.profile(given)
     data[i] = one[2]
     at = at + #one[2]
   end
-  local head = string.pack(">I4", at) .. ("\0"):rep(12) .. (given.grey and "GRAY" or "RGB ") .. "XYZ "
+  local head = string.pack(">I4", at) .. ("\0"):rep(12) .. (given.grey and "GRAY" or "RGB ")
+    .. "XYZ "
   return head .. ("\0"):rep(36 - #head) .. "acsp" .. ("\0"):rep(88) .. string.pack(">I4", #tags)
     .. table.concat(entries) .. table.concat(data)
 end
@@ -116,7 +140,8 @@ function paintings.png(layer)
     for x = 0, layer.w - 1 do row[#row + 1] = string.pack(format, layer.pixel(x, y)) end
     rows[#rows + 1] = "\0" .. table.concat(row)
   end
-  local profile = layer.profile and stored.chunk("iCCP", "embedded\0\0" .. stored.zlib(layer.profile))
+  local profile = layer.profile
+    and stored.chunk("iCCP", "embedded\0\0" .. stored.zlib(layer.profile))
   return paintings.png_of(layer.w, layer.h, depth, 6, table.concat(rows), layer.chunks or profile)
 end
 
@@ -137,7 +162,8 @@ end
 local function attributes(list)
   local out = {}
   for i = 1, #list, 2 do
-    if list[i + 1] ~= nil then out[#out + 1] = (' %s="%s"'):format(list[i], escaped(list[i + 1])) end
+    if list[i + 1] ~= nil then out[#out + 1] = (' %s="%s"'):format(list[i],
+      escaped(list[i + 1])) end
   end
   return table.concat(out)
 end
@@ -296,10 +322,13 @@ function paintings.krita(painting)
     members[#members + 1] = { name = "forest/annotations/icc", data = painting.profile }
   end
   members[#members + 1] = { name = "maindoc.xml", deflate = true,
-    data = '<?xml version="1.0" encoding="UTF-8"?>\n<!DOCTYPE DOC PUBLIC "-//KDE//DTD krita 2.0//EN"'
-      .. ' "http://www.calligra.org/DTD/krita-2.0.dtd">\n<DOC xmlns="http://www.calligra.org/DTD/krita"'
+    data =
+      '<?xml version="1.0" encoding="UTF-8"?>\n<!DOCTYPE DOC PUBLIC "-//KDE//DTD krita 2.0//EN"'
+      .. ' "http://www.calligra.org/DTD/krita-2.0.dtd">\n<DOC '
+      .. 'xmlns="http://www.calligra.org/DTD/krita"'
       .. (' syntaxVersion="2">\n<IMAGE name="%s" width="%d" height="%d" colorspacename="RGBA"%s>\n'
-        ):format(painting.name or "forest", painting.w, painting.h, painting.attributes or "") .. "<layers>\n" .. list .. "\n</layers>\n</IMAGE>\n</DOC>\n" }
+        ):format(painting.name or "forest", painting.w, painting.h, painting.attributes or "")
+          .. "<layers>\n" .. list .. "\n</layers>\n</IMAGE>\n</DOC>\n" }
   return paintings.zip(members)
 end
 
@@ -409,7 +438,8 @@ local function psd_layer(layer, painting, records, data)
   local name = layer.name:sub(1, 255)
   local short = string.char(#name) .. name
   short = short .. ("\0"):rep(-#short % 4)
-  local extra = psd_mask(mask) .. string.pack(">s4", layer.ranges or "") .. short .. tag("luni", utf16(layer.name))
+  local extra = psd_mask(mask) .. string.pack(">s4", layer.ranges or "") .. short .. tag("luni",
+    utf16(layer.name))
     .. (layer.divider and tag("lsct", string.pack(">I4", layer.divider) .. "8BIM"
       .. (layer.blend or "pass")) or "") .. (layer.tags or "")
   records[#records + 1] = string.pack(">i4i4i4i4I2", layer.y or 0, layer.x or 0, (layer.y or 0) + h,
@@ -444,20 +474,22 @@ local function psd_resources(painting)
     .. ("\0"):rep(#profile % 2)
 end
 
---- mode: 3 RGB; merged: what follows the layers; large: a PSB, whose sizes have more bytes. Of a layer:
---- tags: blocks behind its record; ranges: the bytes of its blending ranges. Of a mask: flags, and more:
---- what follows them.
+--- mode: 3 RGB; merged: what follows the layers; large: a PSB, whose sizes have more bytes. Of a
+--- layer: tags: blocks behind its record; ranges: the bytes of its blending ranges. Of a mask:
+--- flags, and more: what follows them.
 function paintings.psd(painting)
   local records, data = {}, {}
   psd_list(painting.layers or {}, painting, records, data)
   local info = string.pack(">i2", -#records) .. table.concat(records) .. table.concat(data)
   info = info .. ("\0"):rep(#info % 2)
   local is_deep, size = painting.depth == 16, painting.large and ">I8" or ">I4"
-  local section = is_deep and string.pack(size .. "I4", 0, 0) .. "8BIMLr16" .. string.pack(size, #info) .. info
+  local section = is_deep and string.pack(size .. "I4", 0, 0) .. "8BIMLr16" .. string.pack(size,
+    #info) .. info
     or string.pack(size, #info) .. info .. string.pack(">I4", 0)
   if #records == 0 then section = "" end
   local channels = painting.channels or (painting.grey and 1 or 3)
-  return "8BPS" .. string.pack(">I2I4I2I2I4I4I2I2", painting.version or painting.large and 2 or 1, 0, 0, channels, painting.h, painting.w,
+  return "8BPS" .. string.pack(">I2I4I2I2I4I4I2I2", painting.version or painting.large and 2 or 1,
+    0, 0, channels, painting.h, painting.w,
       painting.depth or 8, painting.mode or (painting.grey and 1 or 3))
     .. string.pack(">I4", 0) .. string.pack(">s4", psd_resources(painting))
     .. string.pack(size, #section) .. section

@@ -1,15 +1,16 @@
-/* Runs a program and tells what it took together with every process that it started, itself or through
- * others:
+/* Runs a program and reports the resources that it used together with every process that it
+ * started, directly or indirectly:
  *
  *   peak SECONDS PROGRAM ARGUMENT...
  *
- * Its last line on standard error is `peak BYTES processor S`. S: seconds of processor time of them all.
- * BYTES: of the processes that live at a time, the sum of the most memory that each has held, so that one
- * that takes the place of another is not added to it; pages that two of them share are counted twice. It
- * is looked at every few milliseconds, and once more when a process has ended: of the largest one nothing
- * is missed. After SECONDS, everything that was started is killed. It ends as the program did.
+ * Its last line on standard error is `peak BYTES processor S`. S: seconds of processor time of them
+ * all. BYTES: the largest sum, over the processes that live at one time, of each one's peak memory,
+ * so that a process that replaces another is not added to it; pages shared by two of them count
+ * twice. It is sampled every few milliseconds, and once more when a process has ended: the peak of
+ * the largest one is never missed. After SECONDS, everything that was started is killed. It ends
+ * with the exit status of the program.
  *
- * Linux alone: processes whose parents end become children of this one (PR_SET_CHILD_SUBREAPER).
+ * Linux only: processes whose parents end become children of this one (PR_SET_CHILD_SUBREAPER).
  */
 #include <ctype.h>
 #include <dirent.h>
@@ -59,8 +60,8 @@ static bool is_known(pid_t number) {
   return false;
 }
 
-/* The most that a process has held, if it was started here; else 0. Parents have lower numbers than
- * their children, or are met in the next look. */
+/* The peak of a process, if it was started from here; else 0. Parents have lower numbers than their
+ * children, or are found in the next round. */
 static long look_at(pid_t number) {
   if (!is_known(number) && count < PROCESSES && is_known((pid_t)status_of(number, "PPid:")))
     seen[count++] = number;
@@ -81,12 +82,13 @@ static void look(void) {
   together = all > together ? all : together;
 }
 
-/* What was held at a time, with what the system tells of the largest that has ended. */
+/* The peak so far, including the peak that the system reports for the largest process that has
+ * ended. */
 static long held(void) {
   struct rusage usage;
   getrusage(RUSAGE_CHILDREN, &usage);
-  long told = 1024 * usage.ru_maxrss;
-  return together + (told > largest ? told - largest : 0);
+  long ended = 1024 * usage.ru_maxrss;
+  return together + (ended > largest ? ended - largest : 0);
 }
 
 static double processor(void) {
@@ -102,7 +104,7 @@ static void kill_all(void) {
       kill(seen[i], SIGKILL);
 }
 
-/* Watches until nothing is left that was started. The answer is how the program ended. */
+/* Watches until everything that was started has ended. Returns how the program ended. */
 static int watch(pid_t program, double limit) {
   int ending = 0, state;
   double start = seconds();

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "output/sink.h"
-#include "pictures/load.h"
+#include "model/pictures/load.h"
+#include "output/sinks/sink.h"
 #include "tests/support/check.h"
 
 /* Linear premultiplied RGBA of pixel (x, y). */
@@ -71,15 +71,20 @@ static inline celspan_status picture_texel(celspan_context *context, const cs_pi
   return CELSPAN_OK;
 }
 
-/* Whether the module is there; when it is not, says so and counts. */
+/* Whether pictures can be read and written: the context's error says why not. */
 static inline bool picture_module_is_there(celspan_context *context) {
   celspan_picture_info info;
   celspan_picture_desc desc = {.file = "/nonexistent"};
-  if (celspan_picture_inspect(context, &desc, &info) == CELSPAN_INPUT &&
-      !strstr(celspan_context_error(context), "module"))
-    return true;
-  printf("skipped: %s\n", celspan_context_error(context));
-  return false;
+  return celspan_picture_inspect(context, &desc, &info) == CELSPAN_INPUT &&
+         !strstr(celspan_context_error(context), "module");
+}
+
+/* The same; where they cannot, checks are skipped. */
+static inline bool picture_module_or_skip(celspan_context *context) {
+  bool is_there = picture_module_is_there(context);
+  if (!is_there)
+    check_skip(celspan_context_error(context));
+  return is_there;
 }
 
 #endif

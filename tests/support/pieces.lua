@@ -1,5 +1,5 @@
--- A picture of random rectangles, hard edges everywhere, some of them translucent: a PNG in a folder
--- of its own.
+-- A picture of random rectangles with hard edges, some of them translucent: a PNG in a folder of
+-- its own.
 local celspan = require "celspan"
 local prng = require "tests.support.prng"
 

@@ -1,4 +1,4 @@
---- What tests need and not every build or machine has, each asked once a process:
+--- Requirements of tests that not every build or machine meets, each checked once per process:
 ---
 ---   local present = require "tests.support.present"
 ---   local it_reads = present.pictures() and it or pending
@@ -8,7 +8,7 @@ local binary = require("tests.support.workbench").binary
 local present = {}
 local answers = {}
 
---- Whether a shell command ends well; what it prints is lost.
+--- Whether a shell command succeeds; its output is discarded.
 local function ends_well(command)
   if answers[command] == nil then
     answers[command] = os.execute("{ " .. command .. "; } >/dev/null 2>&1") == true
@@ -16,20 +16,30 @@ local function ends_well(command)
   return answers[command]
 end
 
---- Whether celspan, given arguments that need a module, does not ask for it.
+--- Whether the program contains a pattern.
+local function contains(pattern)
+  return ends_well(("grep -qaE '%s' '%s'"):format(pattern, binary))
+end
+
+--- Whether celspan, given arguments that need a module, does not report it as missing.
 local function has(module, arguments)
   return ends_well(("! '%s' %s 2>&1 | grep -qF %s"):format(binary, arguments, module))
 end
 
---- Whether there is a module that reads and writes pictures: built without OpenImageIO, celspan
---- writes PNG, Targa and span files alone, and reads none.
+--- Whether the module that reads and writes pictures exists: built without OpenImageIO, celspan
+--- writes only PNG, Targa and span files, and reads none.
 function present.pictures() return has("celspan-picture.so", "info scripts/pictures/canal.png") end
 
---- Whether there is a module for type and XML: without one there are no letters, no drawings, and no
+--- Whether the module for type and XML exists: without it there are no letters, no drawings, and no
 --- paintings that are archives.
 function present.art() return has("celspan-art.so", "info scripts/paintings/valley.ora") end
 
---- Whether every one of these programs is installed; a path is a program too.
+--- Whether there is a module for colour profiles: without one they are not understood.
+function present.colour()
+  return contains "reading colour profiles" and not contains "built without Little CMS"
+end
+
+--- Whether all of these programs are installed; a path is a program too.
 function present.program(...)
   for _, name in ipairs { ... } do
     if not ends_well(("command -v '%s'"):format(name)) then return false end
@@ -37,16 +47,14 @@ function present.program(...)
   return true
 end
 
-local function contains(pattern) return ends_well(("grep -qaE '%s' '%s'"):format(pattern, binary)) end
-
---- Whether celspan was built with a sanitizer: it has limits of memory of its own, and is many times
---- slower.
+--- Whether celspan was built with a sanitizer: it then has memory limits of its own, and is many
+--- times slower.
 function present.sanitizer() return contains "__(asan|tsan)_init" end
 
 --- Whether celspan counts the lines that run.
 function present.coverage() return contains "__gcov" end
 
---- The folder of pictures and drawings for tests that need some; nil when there is none.
+--- The folder of pictures and drawings for tests that need some; nil if there is none.
 present.material = os.getenv "CELSPAN_MATERIAL"
 
 return present

@@ -1,19 +1,21 @@
--- What a call that must fail raises.
+-- The error that a call raises which must fail.
 --
 --   local raised = require "tests.support.raised"
 --   raised.message(film.at, film, 7)                          the whole message
 --   raised.sentence(function() celspan.circle { r = 3 } end)  without "x_spec.lua:12: ", and 12
+local assert = require "luassert"
+
 local raised = {}
 
 --- The message of a call that must raise one.
 function raised.message(call, ...)
   local good, message = pcall(call, ...)
-  if good then error("the call raised no error", 2) end
+  assert.is_false(good, "the call raised no error")
   return message
 end
 
---- What follows the position in the message, and the line. The position must be in the file that
---- contains the function.
+--- The message after its position, and the line. The position must be in the file that contains the
+--- function.
 function raised.sentence(call)
   local file = debug.getinfo(call, "S").short_src:match "[^/]*$"
   local message = raised.message(call)

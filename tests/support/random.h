@@ -1,6 +1,6 @@
-/* Numbered random cases: the same numbers for the same seed everywhere (splitmix64). No two of them
- * are drawn among the arguments of one call, or the operands of one sum, because C does not say
- * which comes first (draws.lua checks it). */
+/* Numbered random cases: the same numbers for the same seed everywhere (splitmix64). Never draw two
+ * of them among the arguments of one call, or the operands of one sum, because C does not define
+ * their order (draws.lua checks this). */
 #ifndef CELSPAN_TESTS_RANDOM_H
 #define CELSPAN_TESTS_RANDOM_H
 

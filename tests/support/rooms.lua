@@ -1,20 +1,30 @@
--- Measures the structure of src/: its rooms, which are its folders, their circles, functions, types
--- and names, and the way of one row.
+-- Measures the structure of src/: its rooms, which are its folders, their cycles, functions, types
+-- and names, and the path of one row.
 --
---   lua5.4 tests/support/rooms.lua [ROOT] [FUNCTION]     FUNCTION makes a row: the way begins there
---   lua5.4 tests/support/rooms.lua --names WORD [ROOT]   names that hold a house word out of place
+--   lua5.4 tests/support/rooms.lua [ROOT] [FUNCTION]     FUNCTION makes a row: the path's first
+--   lua5.4 tests/support/rooms.lua --names WORD [ROOT]   names with a house word out of place
 --   lua5.4 tests/support/rooms.lua --check [ROOT]        the limits below, as checks
+--   lua5.4 tests/support/rooms.lua --house [ROOT]        files, lines, headers with one user, ...
+--   lua5.4 tests/support/rooms.lua --map [ROOT]          the folders, with a sentence each
+--   lua5.4 tests/support/rooms.lua --prose [PLACE...]    phrases of rooms/phrases.lua in comments,
+--                                                        messages and pages, from the root
+--   lua5.4 tests/support/rooms.lua --columns [PLACE]     lines of more than 100 columns
 --
 -- The order of the rooms is that of src/meson.build; house words are those of rooms/words.lua.
 package.path = "./?.lua;" .. package.path
+local columns = require "tests.support.rooms.columns"
+local house = require "tests.support.rooms.house"
+local map = require "tests.support.rooms.map"
 local measures = require "tests.support.rooms.measures"
+local prose = require "tests.support.rooms.prose"
 local report = require "tests.support.rooms.report"
 local trees = require "tests.support.rooms.tree"
 
 local MOST_LINES, MOST_PARAMETERS = 40, 7
 -- Functions that a library calls with parameters of its choosing.
 local CALLED_BY_LIBRARIES = {
-  ["art/xml.c"] = { on_entity = true }, ["art/type.c"] = { on_conic = true, on_cubic = true },
+  ["plugins/type/xml.c"] = { on_entity = true },
+  ["plugins/type/type.c"] = { on_conic = true, on_cubic = true },
 }
 
 -- ---------------------------------------------------------------- checks
@@ -35,11 +45,10 @@ local function check_functions(tree, fault)
 end
 
 local function check_circles(tree, fault)
-  for _, circle in ipairs(measures.circles(tree, "top")) do
-    fault("folders include each other in a circle: %s", table.concat(circle, ", "))
-  end
-  for _, circle in ipairs(measures.circles(tree, "unit")) do
-    fault("units include each other in a circle: %s", table.concat(circle, ", "))
+  for _, kind in ipairs { { "wing", "wings" }, { "top", "folders" }, { "unit", "units" } } do
+    for _, circle in ipairs(measures.circles(tree, kind[1])) do
+      fault("%s include each other in a circle: %s", kind[2], table.concat(circle, ", "))
+    end
   end
   return #tree.files
 end
@@ -65,11 +74,15 @@ local function check_words(tree, fault)
   return count
 end
 
-local function check(tree)
+local function check_tree(tree, root, fault)
+  return check_functions(tree, fault) + check_circles(tree, fault)
+    + check_includes(tree, fault) + check_words(tree, fault) + map.check(tree, root, fault)
+end
+
+--- Prints the faults that check(fault) finds; returns whether it found none.
+local function report_faults(check)
   local faults = {}
-  local function fault(format, ...) faults[#faults + 1] = format:format(...) end
-  local count = check_functions(tree, fault) + check_circles(tree, fault)
-    + check_includes(tree, fault) + check_words(tree, fault)
+  local count = check(function(format, ...) faults[#faults + 1] = format:format(...) end)
   for _, sentence in ipairs(faults) do io.stderr:write(sentence, "\n") end
   if #faults > 0 then
     print(("%d of %d checks failed"):format(#faults, count))
@@ -82,15 +95,28 @@ end
 -- ---------------------------------------------------------------- the program
 
 local what, rest = "report", { ... }
-if rest[1] == "--check" then
+if rest[1] == "--prose" then
+  table.remove(rest, 1)
+  os.exit(prose.check(rest) and 0 or 1)
+elseif ("--check --columns --map --house"):find(rest[1] or "none", 1, true) then
   what = table.remove(rest, 1)
 elseif rest[1] == "--names" then
   what = table.remove(rest, 1)
   rest.word = assert(table.remove(rest, 1), "--names WORD [ROOT]")
 end
-local tree = trees.read(rest[1] or ".")
-if what == "--check" then os.exit(check(tree) and 0 or 1) end
-if what == "--names" then
+local root = rest[1] or "."
+if what == "--columns" then
+  os.exit(report_faults(function(fault) return columns.check(root, fault) end))
+end
+local tree = trees.read(root)
+if what == "--check" then
+  os.exit(report_faults(function(fault) return check_tree(tree, root, fault) end))
+end
+if what == "--map" then
+  map.put(tree, root)
+elseif what == "--house" then
+  house.put(tree, root)
+elseif what == "--names" then
   report.names(tree, rest.word)
 else
   report.all(tree, { most_lines = MOST_LINES, most_parameters = MOST_PARAMETERS, maker = rest[2] })

@@ -1,4 +1,4 @@
--- Rows of spans, as celspan.spans returns them: looked at, checked, written as text.
+-- Rows of spans, as celspan.spans returns them: reading colours, checking, writing as text.
 local rows = {}
 
 local function span_at(row, x)
@@ -27,7 +27,7 @@ function rows.colour(row, x)
   return colour, span.kind
 end
 
---- What is wrong with the order of a row of `width` columns, or nil.
+--- The fault in the order of a row of `width` columns, or nil.
 function rows.fault(row, width)
   local at = 0
   for i, span in ipairs(row) do
@@ -35,7 +35,7 @@ function rows.fault(row, width)
     if span.x1 <= span.x0 then return ("span %d is empty"):format(i) end
     at = span.x1
     for k = 1, #span do
-      if span[k] ~= span[k] then return ("span %d holds a NaN"):format(i) end
+      if span[k] ~= span[k] then return ("span %d contains a NaN"):format(i) end
     end
     local before = row[i - 1]
     if before and before.kind == "single" and span.kind == "single" and before[1] == span[1]

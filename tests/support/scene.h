@@ -1,4 +1,4 @@
-/* Scenes in few words, for tests: everything made is kept in a list and let go at the end; a
+/* Scenes in few words, for tests: everything made is kept in a list and released at the end; a
  * failure is a failed check. */
 #ifndef CELSPAN_TESTS_SCENE_H
 #define CELSPAN_TESTS_SCENE_H
@@ -34,7 +34,7 @@ static inline void studio_check(studio *s, celspan_status status) {
     fprintf(stderr, "  %s\n", celspan_context_error(s->context));
 }
 
-/* Takes the new value of a call into the studio and gives it back: NULL after a failed check. */
+/* Takes the new value of a call into the studio and returns it: NULL after a failed check. */
 #define STUDIO_TAKE(s, list, count, type, call)                                                    \
   type *made = NULL;                                                                               \
   studio_check(s, call);                                                                           \
@@ -143,8 +143,8 @@ static inline celspan_rostrum *studio_show(studio *s, celspan_object *object) {
 
 #undef STUDIO_TAKE
 
-/* A frame as large as the film, of exposures that the caller keeps; mode: borrowed likewise, NULL for the
- * default. Everything else at its default. */
+/* A frame as large as the film, of exposures that the caller keeps; mode: borrowed likewise, NULL
+ * for the default. Everything else at its default. */
 static inline celspan_frame_desc studio_frame(const celspan_exposure *exposures, size_t count,
                                               int32_t width, int32_t height,
                                               const celspan_antialias_mode *mode) {

@@ -1,11 +1,12 @@
--- Random scenes as the text of Lua scripts, so that a case which fails is printed as it stands.
+-- Random scenes as the text of Lua scripts, so that a failing case can be printed unchanged.
 --
 --   scenes.script(seed [, options]) -> text of a film script, traits
 --
 -- traits: width, height (of the film), size (in pixels), is_curved (edges that are flattened),
 -- light (the brightest that can leave the frame), has_rows (scan-line primitives: placed upright).
 --
--- One file, because every kind of thing is made of every other, and all draw from one row of numbers.
+-- One file, because every kind of thing contains every other, and all draw from one sequence of
+-- random numbers.
 local prng = require "tests.support.prng"
 
 local scenes = {}
@@ -19,7 +20,7 @@ local function text_of(number)
   return text == "-0" and "0" or text
 end
 
---- A number; now and then one where edges meet pixel centres and pixel borders.
+--- A number; now and then one at which edges meet pixel centres and pixel borders.
 function maker:number(low, high)
   local number = self.random:between(low, high)
   if self.random:once(5) then number = math.floor(number * 2 + 0.5) / 2 end
@@ -31,8 +32,10 @@ function maker:share()
   return text_of(self.random:pick { 0, 1, any, any })
 end
 
---- A share that seldom lets nothing be seen.
-function maker:part() return self.random:once(20) and "0" or text_of(self.random:between(0.2, 1)) end
+--- A share; it rarely makes its object invisible.
+function maker:part()
+  return self.random:once(20) and "0" or text_of(self.random:between(0.2, 1))
+end
 
 --- A point of the frame or somewhat beyond.
 function maker:point()
@@ -84,24 +87,29 @@ function maker:extent(repeats)
   if self.random:once(3) then
     local turn, scale = self.random:between(0, 6.28), self.random:between(0.7, 2)
     local c, s = text_of(scale * math.cos(turn)), text_of(scale * math.sin(turn))
-    local tilt = not repeats and self.random:once(3) and text_of(self.random:between(-0.01, 0.01)) or "0"
-    fields = fields .. ("matrix = { %s, -(%s), %s, %s, %s, %s, %s, 0, 1 }, "):format(c, s, self:number(-9, 9), s, c,
+    local tilt = not repeats and self.random:once(3) and text_of(self.random:between(-0.01, 0.01))
+      or "0"
+    fields = fields .. ("matrix = { %s, -(%s), %s, %s, %s, %s, %s, 0, 1 }, ")
+      :format(c, s, self:number(-9, 9), s, c,
       self:number(-9, 9), tilt)
   end
   return fields
 end
 
---- Gradients that repeat: from a point, so far to the right and down.
+--- Gradients that repeat: from a point, with an extent to the right and down.
 function maker:repeating()
   local x, y = self.random:between(0, 40), self.random:between(0, 40)
   local stops, extent = self:stops(), self:extent(true)
   if self.random:once(2) then
     return ("celspan.linear{ from = {%s, %s}, to = {%s, %s}, %s%s }"):format(text_of(x), text_of(y),
-      text_of(x + self.random:between(4, 30)), text_of(y + self.random:between(4, 30)), extent, stops)
+      text_of(x + self.random:between(4, 30)), text_of(y + self.random:between(4, 30)), extent,
+      stops)
   end
   local radius = self.random:between(5, 30)
-  local focus = self.random:once(2) and ("focus = {%s, %s}, "):format(text_of(x + radius / 3), text_of(y - radius / 4)) or ""
-  return ("celspan.radial{ centre = {%s, %s}, radius = %s, %s%s%s }"):format(text_of(x), text_of(y), text_of(radius),
+  local focus = self.random:once(2) and ("focus = {%s, %s}, ")
+    :format(text_of(x + radius / 3), text_of(y - radius / 4)) or ""
+  return ("celspan.radial{ centre = {%s, %s}, radius = %s, %s%s%s }")
+    :format(text_of(x), text_of(y), text_of(radius),
     focus, extent, stops)
 end
 
@@ -115,14 +123,16 @@ function maker:texture()
   if kind == 2 then
     if self.random:once(3) then return self:repeating() end
     local extent = self:extent(false)
-    return ("celspan.linear{ from = %s, to = %s, %s%s }"):format(self:point_text(), self:point_text(),
+    return ("celspan.linear{ from = %s, to = %s, %s%s }")
+      :format(self:point_text(), self:point_text(),
       extent, self:stops())
   end
   if kind == 3 then
     if self.random:once(3) then return self:repeating() end
     local extent, centre, radius = self:extent(false), self:point_text(), self:number(1, 30)
     local focus = self.random:whole(1, 2) == 1 and "focus = " .. self:point_text() .. ", " or ""
-    return ("celspan.radial{ centre = %s, radius = %s, %s%s%s }"):format(centre, radius, focus, extent, self:stops())
+    return ("celspan.radial{ centre = %s, radius = %s, %s%s%s }")
+      :format(centre, radius, focus, extent, self:stops())
   end
   if kind == 4 and self.has_pictures then return self:picture() end
   return self:paint()
@@ -130,7 +140,7 @@ end
 
 local formats = { { "rgba8", 4 }, { "rgb8", 3 }, { "grey8", 1 }, { "rgba16", 8 } }
 
---- A few pixels in memory, bilinear, as the oracle takes them.
+--- A few pixels in memory, bilinear, in the form that the oracle accepts.
 function maker:picture()
   local format, w, h = self.random:pick(formats), self.random:whole(1, 5), self.random:whole(1, 4)
   local bytes = {}
@@ -250,7 +260,8 @@ function maker:path()
                                                           self:texture())
 end
 
---- A line: through points, along path data or round a shape, with all that a line may have.
+--- A line: through points, along path data or around a shape, with all properties that a line may
+--- have.
 function maker:stroke()
   local fields, kind = {}, self.random:whole(1, 3)
   local function add(format, ...) fields[#fields + 1] = format:format(...) end
@@ -269,7 +280,9 @@ function maker:stroke()
   else
     local letters = self.is_straight and { "L", "H", "V" } or { "L", "H", "C", "S", "Q", "T", "A" }
     local words = { ("M%s %s"):format(self:point()) }
-    for _ = 1, self.random:whole(1, 4) do words[#words + 1] = self:segment(self.random:pick(letters)) end
+    for _ = 1, self.random:whole(1, 4) do
+      words[#words + 1] = self:segment(self.random:pick(letters))
+    end
     if self.random:once(3) then words[#words + 1] = "Z" end
     add("d = %q", table.concat(words, " "))
     add("width = %s", self:number(0, kind == 2 and 3 or 16))
@@ -278,11 +291,14 @@ function maker:stroke()
   local caps = self.is_straight and { "butt", "square" } or { "butt", "round", "square" }
   add("join = %q, cap = %q", self.random:pick(joins), self.random:pick(caps))
   if self.random:once(3) then
-    add("dash = {%s, %s}, dash_offset = %s", self:number(3, 12), self:number(1, 8), self:number(-9, 9))
+    add("dash = {%s, %s}, dash_offset = %s", self:number(3, 12), self:number(1, 8),
+      self:number(-9, 9))
   elseif not self.is_straight and self.random:once(3) then
     add("taper = {%s, %s}", self:number(1, 20), self:number(0, 20))
   end
-  if self.random:once(4) then add("from = %s, to = %s", self:number(0, 0.5), self:number(0.4, 1)) end
+  if self.random:once(4) then
+    add("from = %s, to = %s", self:number(0, 0.5), self:number(0.4, 1))
+  end
   return ("celspan.stroke{ %s, texture = %s }"):format(table.concat(fields, ", "), self:texture())
 end
 
@@ -309,7 +325,7 @@ end
 
 local letters = { "A", "g", "O", "S", "W", "8", "R", "->", "e\u{301}", "ש", "ל", "三", " " }
 
---- A few letters of the font that ships, large enough to be seen.
+--- A few letters of the font that ships, large enough to be visible.
 function maker:text()
   self.traits.is_curved = true
   local words = {}
@@ -320,12 +336,13 @@ function maker:text()
   if self.random:once(2) then
     fields[#fields + 1] = (", variations = { wght = %s }"):format(self:number(200, 900))
   end
-  return ("celspan.text{ %q, font = \"../../scripts/type/block.ttf\", size = %s, at = %s, align = %q%s, texture = %s }")
+  return ("celspan.text{ %q, font = \"../../scripts/type/block.ttf\", size = %s, at = %s, align = "
+    .. "%q%s, texture = %s }")
     :format(table.concat(words), self:number(4, 40), self:point_text(),
       self.random:pick { "left", "centre", "right" }, table.concat(fields), self:texture())
 end
 
---- Now and then one that was there before: coincident edges.
+--- A primitive; now and then one that was used before, so that edges coincide.
 function maker:primitive()
   if #self.made > 0 and self.random:once(6) then return self.random:pick(self.made) end
   self.made[#self.made + 1] = self:fresh()
@@ -369,7 +386,9 @@ end
 
 function maker:transform()
   local kind = self.random:whole(1, 9)
-  if kind <= 2 then return (":translate(%s, %s)"):format(self:number(-12, 12), self:number(-12, 12)) end
+  if kind <= 2 then
+    return (":translate(%s, %s)"):format(self:number(-12, 12), self:number(-12, 12))
+  end
   if kind == 3 then return (":scale(%s)"):format(self:number(0.3, 1.8)) end
   if kind == 4 then
     return (":scale(%s%s, %s):translate(%s, %s)"):format(
@@ -378,7 +397,8 @@ function maker:transform()
   end
   if self.is_upright then return "" end
   if kind == 5 then
-    return (":rotate(%s, %s, %s)"):format(self:number(-180, 180), self:number(0, 40), self:number(0, 30))
+    return (":rotate(%s, %s, %s)")
+      :format(self:number(-180, 180), self:number(0, 40), self:number(0, 30))
   end
   if kind == 6 then return (":skew(%s, %s)"):format(self:number(-40, 40), self:number(-40, 40)) end
   if kind == 7 then return self:quad() end
@@ -394,7 +414,7 @@ function maker:dress(object)
 end
 
 --- A composition inside another, in a film of its own size. Its paint may be brighter than white,
--- so whatever light falls on it is multiplied by its own.
+-- so any light that falls on it is multiplied by that.
 function maker:nested()
   local traits, lights, most = self.traits, self.lights, self.most
   local width, height, brightest = traits.width, traits.height, self.brightest
@@ -417,7 +437,8 @@ function maker:object(depth)
     return self:dress(("(%s %s %s)"):format(self:object(depth - 1), kind, self:object(depth - 1)))
   end
   if kind == "clip" then
-    return self:dress(("celspan.clip(%s, %s)"):format(self:object(depth - 1), self:object(depth - 1)))
+    return self:dress(("celspan.clip(%s, %s)")
+      :format(self:object(depth - 1), self:object(depth - 1)))
   end
   local operands = {}
   for i = 1, self.random:whole(1, 4) do operands[i] = self:object(depth - 1) end
@@ -433,7 +454,7 @@ function maker:light(most)
   return table.concat(values, ", ")
 end
 
---- A light with a shape, on the frame or on the cel. has_matte: one from behind.
+--- A light with a shape, on the frame or on the cel. has_matte: a back light.
 function maker:light_shape(places, has_matte)
   local gain = self.random:between(0, 2)
   self.lights = self.lights + math.max(1, gain)
@@ -514,16 +535,16 @@ local function start(seed, options)
     random = random, traits = traits, made = {},
     is_straight = random:once(2), is_upright = options.has_rows ~= false and random:once(4),
     is_flat = options.is_flat, is_single = options.is_single, is_plain = options.is_plain,
-    has_pictures = options.has_pictures ~= false, has_text = options.has_text, level = 0, lights = 1, brightest = 1,
+    has_pictures = options.has_pictures ~= false, has_text = options.has_text, level = 0,
+    lights = 1, brightest = 1,
     most = random:pick { 1, 1, 3 }, depth = random:pick { 0, 1, 2, 4 },
   }, maker)
 end
 
---- Half of all scenes have straight edges alone; a quarter are upright, with scan-line primitives.
+--- Half of all scenes have only straight edges; a quarter are upright, with scan-line primitives.
 -- options: is_flat (no gradients or pictures), is_single (one exposure), has_rows = false (no
--- scan-lines), has_pictures = false, has_text (every second primitive is text), is_plain (no lights
--- with a shape, no compositions inside
--- others).
+-- scan-lines), has_pictures = false, has_text (every second primitive is text), is_plain (no
+-- lights with a shape, no compositions inside others).
 function scenes.script(seed, options)
   local self = start(seed, options or {})
   local exposures = self:exposures()
@@ -541,7 +562,7 @@ function scenes.object(seed, options)
   return self:object(self.depth), self.traits
 end
 
---- The value of a text that stands after "return".
+--- The value of an expression, given as text.
 function scenes.value(text)
   return assert(load('local celspan = require "celspan" return ' .. text, "=object"))()
 end

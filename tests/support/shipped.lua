@@ -13,11 +13,11 @@ function shipped.scripts()
   return paths
 end
 
---- What a script needs beside its path. Those of the paper's figures read the font and the pictures
---- beside their folder.
+--- The options that a script needs. Those of the paper's figures read the font and the pictures
+--- next to their folder.
 function shipped.options(path) return path:find "/paper/" and " --allow scripts" or "" end
 
---- A script, and what is in the folder of its name.
+--- The text of a script and of the files in the folder of its name.
 local function text_of(path)
   return (system.output(("cat %s $(find %s -name '*.lua' 2>/dev/null)"):format(path,
     path:gsub("%.lua$", ""))))

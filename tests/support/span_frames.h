@@ -1,16 +1,16 @@
-/* Random frames of spans of every kind, the same again from the same numbers. */
+/* Random frames of spans of every kind, the same for the same numbers. */
 #ifndef CELSPAN_TESTS_SPAN_FRAMES_H
 #define CELSPAN_TESTS_SPAN_FRAMES_H
 
 #include <math.h>
 #include <stdint.h>
 
-#include "output/sink.h"
+#include "output/sinks/sink.h"
 #include "tests/support/random.h"
 
 static test_random numbers = {1};
 
-/* 0, 1 and the thousandths between: equal numbers are to be expected. */
+/* 0, 1 and the thousandths between: equal numbers are likely. */
 static float random_thousandths(void) { return (float)random_below(&numbers, 1001) / 1000; }
 
 typedef struct frame {
@@ -83,7 +83,7 @@ static size_t row_of(frame *made, int32_t y) {
   return make_row(made, y);
 }
 
-/* Into the file of a sink of output/. */
+/* Writes to the file of a sink of output/. */
 static celspan_status write_frame(celspan_context *context, frame *made, const char *path,
                                   const celspan_file_desc *file) {
   celspan_sink sink;

@@ -1,26 +1,30 @@
-/* A library to be loaded before a program (LD_PRELOAD): one allocation of the whole process fails, or
- * all from one on, whoever makes it.
+/* A library to load before a program (LD_PRELOAD): one allocation of the whole process fails, or
+ * all from one on, whatever code makes it.
  *
  *   STARVE_AT=N        the N-th allocation fails, counted from 1; 0: none
  *   STARVE_LASTING=1   and all after it
- *   STARVE_FORKED=1    in processes that were forked alone, from the fork on
- *   STARVE_LEVEL=0     in the first program alone; 1: in those that it starts; 2: in those that these start
- *   STARVE_COUNT=FILE  how many there were is written there at the end, and how many before and after the last
- *                      module was loaded
+ *   STARVE_FORKED=1    only in processes that were forked, from the fork on
+ *   STARVE_LEVEL=0     only in the first program; 1: in those that it starts; 2: in those that
+ *                      these start
+ *   STARVE_COUNT=FILE  the number of allocations is written there at the end, and the numbers
+ *                      before and after the last module was loaded
  *
- * A run for each of the hundred thousand allocations while a library is loaded would load it as often.
- * So one run tries many:
+ * With a run for each of the hundred thousand allocations that loading a library makes, the library
+ * would be loaded as often. So one run tries many:
  *
- *   STARVE_UNTIL=M     each one from the N-th to the M-th fails in a copy of the process, which is waited for:
+ *   STARVE_UNTIL=M     each one from the N-th to the M-th fails in a copy of the process, which is
+ *                      waited for:
  *
  *       allocation   N-1     N        N+1      N+2
  *       process    ---o------o--------o--------o-----
  *                             \ copy   \ copy   \ copy
  *                              x end    x end    x end
  *
- *   STARVE_ENDINGS=FILE  "N CODE" is added there for each copy: its exit code, or 128 and the signal
+ *   STARVE_ENDINGS=FILE  "N CODE" is added there for each copy: its exit code, or 128 and the
+ *                        signal
  *
- * Copies share the descriptors of the process and have one thread: what they say to others is heard once.
+ * Copies share the descriptors of the process and have one thread: their output to others arrives
+ * once.
  */
 #include <dlfcn.h>
 #include <errno.h>
@@ -39,10 +43,10 @@
 #include <time.h>
 #include <unistd.h>
 
-#define COPY_SECONDS 20 /* after which one that does not end is ended, by SIGUSR2 */
+#define COPY_SECONDS 20 /* after which a copy that has not ended is ended by SIGUSR2 */
 #define PAUSE_NANOSECONDS 200000
 
-/* The allocator that this library stands before; declared nowhere. */
+/* The allocator behind this library's; no header declares it. */
 void *__libc_malloc(size_t size);
 void *__libc_calloc(size_t count, size_t size);
 void *__libc_realloc(void *block, size_t size);
@@ -63,7 +67,7 @@ static void begin(void) {
   made = 0;
 }
 
-/* The programs that this one starts find the level one lower: '0' is followed by '/'. */
+/* The programs that this one starts see a level lower by one: '0' is followed by '/'. */
 static bool is_of_level(void) {
   char *level = getenv("STARVE_LEVEL");
   if (!level)
@@ -82,8 +86,8 @@ __attribute__((constructor)) static void prepare(void) {
 
 /* ---------------------------------------------------------------- copies */
 
-/* As fork, without what the C library does then: to it the copy's thread is that of the process, which may
- * hold locks of the loader. */
+/* Like fork, without the C library's own work: to it the copy's thread is that of the process,
+ * which may hold locks of the loader. */
 static pid_t copy_process(void) { return (pid_t)syscall(SYS_clone, SIGCHLD, 0, 0, 0, 0); }
 
 /* Its exit code, or 128 and the signal. */
@@ -98,7 +102,7 @@ static int end_of(pid_t copy) {
   return WIFEXITED(state) ? WEXITSTATUS(state) : 128 + WTERMSIG(state);
 }
 
-/* Adds a line to a file; one that is not whole ends the process. */
+/* Adds a line to a file; an incomplete write ends the process. */
 static void write_line(const char *name, int flags, const char *line, int length) {
   int descriptor = open(name, O_WRONLY | O_CREAT | O_CLOEXEC | flags, 0666);
   if (descriptor < 0)
@@ -108,7 +112,7 @@ static void write_line(const char *name, int flags, const char *line, int length
   close(descriptor);
 }
 
-/* Returns in the copy with true, and in the process, after the end of the copy, with false. */
+/* Returns true in the copy, and false in the process after the copy has ended. */
 static bool is_copy(long number) {
   char line[64];
   int before = errno;
@@ -133,7 +137,8 @@ static void read_plan(void) {
   fail_at = read_number("STARVE_AT");
 }
 
-/* Whether the allocation of this number fails; where there are copies, this may be one from now on. */
+/* Whether the allocation of this number fails; with copies, this process may be a copy from now
+ * on. */
 static bool is_taken(long number) {
   if (fail_at == 0 || number < fail_at)
     return false;
@@ -153,7 +158,8 @@ static bool fails(void) {
   return true;
 }
 
-/* From here on nothing fails: a program calls this that counts what it runs (counted.c), before it tells. */
+/* From here on nothing fails: called by a program that counts what it runs (counted.c), before it
+ * writes its counts. */
 void starve_end(void);
 void starve_end(void) { fail_at = 0; }
 

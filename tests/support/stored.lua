@@ -1,4 +1,4 @@
---- The parts of PNG files, and of other archives: sums, streams of zlib, chunks.
+--- The parts of PNG files and of archives: checksums, zlib streams, chunks.
 local stored = {}
 
 local remainders = {}

@@ -1,4 +1,4 @@
--- The honest reference of antialiasing: the mean of k x k pixel centres of the same scene.
+-- The exact reference for antialiasing: the mean of k x k pixel centres of the same scene.
 local celspan = require "celspan"
 
 local supersample = {}
@@ -15,7 +15,8 @@ local function add_span(sums, base, span, k)
         sums[at + c] = sums[at + c] + (stop - x) * span[c]
       else
         local middle = span.kind == "array" and error "an array span of flat paints"
-          or span.x1 - span.x0 > 1 and (0.5 * (x + stop - 1) - span.x0) / (span.x1 - 1 - span.x0) or 0
+          or span.x1 - span.x0 > 1 and (0.5 * (x + stop - 1) - span.x0) / (span.x1 - 1 - span.x0)
+          or 0
         sums[at + c] = sums[at + c] + (stop - x) * (span[c] + (span[4 + c] - span[c]) * middle)
       end
     end
@@ -32,7 +33,8 @@ function supersample.means(exposures, options)
   for i = 1, 4 * crop[3] * crop[4] do sums[i] = 0 end
   for y = 0, crop[4] - 1 do -- a row of pixels at a time, to stay small
     local rows = assert(celspan.spans(exposures, {
-      size = { size[1] * k, size[2] * k }, film = options.film or size, antialias = "none", workers = 1,
+      size = { size[1] * k, size[2] * k }, film = options.film or size, antialias = "none",
+      workers = 1,
       crop = { crop[1] * k, (crop[2] + y) * k, crop[3] * k, k } }))
     for j = 0, k - 1 do
       for _, span in ipairs(rows[j]) do add_span(sums, 4 * y * crop[3], span, k) end
@@ -43,7 +45,7 @@ function supersample.means(exposures, options)
 end
 
 --- The greatest and the root mean square difference of an image's pixels from such means, and the
---- pixel of the greatest. options.crop: the image's place.
+--- pixel of the greatest. options.crop: the image's position.
 function supersample.errors(image, means)
   local most, square, at_x, at_y = 0, 0, 0, 0
   for y = 0, image.height - 1 do

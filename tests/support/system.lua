@@ -1,4 +1,4 @@
---- Files, and what shell commands print.
+--- Files, and the output of shell commands.
 local system = {}
 
 --- The whole of a file; nil and a message when it cannot be read.
@@ -26,14 +26,14 @@ end
 --- A word of a shell command.
 function system.quote(word) return "'" .. tostring(word):gsub("'", "'\\''") .. "'" end
 
---- What a shell command prints, and whether it ended well.
+--- The output of a shell command, and whether it succeeded.
 function system.output(command)
   local pipe = assert(io.popen(command))
   local text = pipe:read "a"
   return text, pipe:close() == true
 end
 
---- The lines of that, and the same.
+--- The lines of the output, and whether it succeeded.
 function system.lines(command)
   local lines, pipe = {}, assert(io.popen(command))
   for line in pipe:lines() do lines[#lines + 1] = line end

@@ -1,11 +1,11 @@
--- Random drawings, rasterised, traced and drawn again: how far edges are from where they were.
+-- Random drawings, rasterised, traced and drawn again: the error of their edges.
 local celspan = require "celspan"
 local trace = require "celspan.trace"
 local prng = require "tests.support.prng"
 
 local traced = {}
 
-local FINE = 4 -- places a source pixel is looked at along each axis
+local FINE = 4 -- samples per source pixel along each axis
 
 local colours = { "#ffffff", "#1a1a24", "#d94f30", "#2f6fb0", "#f2c14e", "#4c9f70" }
 
@@ -18,15 +18,15 @@ local function round(points)
     u[1] - c[1], v[1] - c[1], c[1], u[2] - c[2], v[2] - c[2], c[2], 0, 0, 1 }
 end
 
---- Two radii at right angles, the first one turned by so many degrees.
+--- Two radii at right angles, the first one rotated by `turn` degrees.
 local function radii(x, y, r, s, turn, texture)
   local cos, sin = math.cos(math.rad(turn)), math.sin(math.rad(turn))
   return { { x, y }, { x + r * cos, y + r * sin }, { x - s * sin, y + s * cos }, texture = texture }
 end
 
---- A shape about (x, y), of which no part is farther from there than r; no corner is sharper than
---- 60 degrees, and no bend narrower than a few pixels. Then points that tell it, and what makes
---- one like it of others.
+--- A shape around (x, y), no part of which is farther from there than r; no corner is sharper than
+--- 60 degrees, and no bend narrower than a few pixels. Then the points that define it, and a
+--- function that makes a similar one from other points.
 local function shape(random, x, y, r, texture)
   local turn = random:between(0, 360)
   local kind = random:whole(1, 5)
@@ -65,7 +65,8 @@ local function shape(random, x, y, r, texture)
 end
 
 --- Shapes that do not touch, on a ground, with a circle in some: a list, the ground first, its
---- size, and of each but the ground the points that tell it and what makes one of such points.
+--- size, and for each but the ground the points that define it and a function that makes one from
+--- such points.
 local function shapes_of(random)
   local cell, columns, rows = random:whole(28, 50), random:whole(1, 3), random:whole(1, 2)
   local w, h = cell * columns + random:whole(0, 9), cell * rows + random:whole(0, 9)
@@ -105,7 +106,7 @@ local function sampled(object, w, h, n)
   return list
 end
 
---- Places by their distance, as far as two source pixels of n places.
+--- Offsets in the order of their distance, up to two source pixels of n samples.
 local function rings_of(n)
   local rings = {}
   for dy = -2 * n, 2 * n do
@@ -120,7 +121,7 @@ local function rings_of(n)
 end
 local rings = { [FINE] = rings_of(FINE) }
 
---- How far the nearest place with that paint is, in source pixels.
+--- The distance of the nearest sample with that paint, in source pixels.
 local function nearest(list, w, h, x, y, paint, n)
   for _, place in ipairs(rings[n]) do
     local px, py = x + place[1], y + place[2]
@@ -131,8 +132,8 @@ local function nearest(list, w, h, x, y, paint, n)
   return 3
 end
 
---- The farthest that a paint of one drawing is from where it is in another, either way, in source
---- pixels, of which n x n places each are looked at: by less than 1.5 / n more than it is.
+--- The largest distance of a paint of one drawing from the same paint in another, in both
+--- directions, in source pixels, with n x n samples each: at most 1.5 / n too large.
 function traced.apart(one, other, w, h, n)
   local a, b, most = sampled(one, w, h, n), sampled(other, w, h, n), 0
   rings[n] = rings[n] or rings_of(n)
@@ -146,14 +147,15 @@ function traced.apart(one, other, w, h, n)
   return most
 end
 
---- Pixels that differ where both are rasterised without antialiasing.
+--- The number of pixels that differ when both are rasterised without antialiasing.
 function traced.changed(one, other, w, h)
   local a, b, count = sampled(one, w, h, 1), sampled(other, w, h, 1), 0
   for i = 1, #a do count = count + (a[i] ~= b[i] and 1 or 0) end
   return count
 end
 
---- Traces what an object is rasterised to: each in a file of its own, for a picture is read once.
+--- Traces the rasterised picture of an object: each in a file of its own, because a picture is read
+--- once.
 local function trace_rasterised(object, w, h, antialias)
   local name = os.tmpname()
   local path = name .. ".png"
@@ -165,8 +167,8 @@ local function trace_rasterised(object, w, h, antialias)
   return art
 end
 
---- Traces what random drawing number `case` is rasterised to; how far its edges are off, in source
---- pixels, what was traced, its size, and the drawing. antialias: "area", or "none" for whole
+--- Traces the rasterised random drawing number `case`; returns the error of its edges, in source
+--- pixels, the traced object, its size, and the drawing. antialias: "area", or "none" for whole
 --- pixels.
 function traced.retrace(case, antialias)
   local object, w, h = drawing(prng.new(case))
@@ -174,8 +176,8 @@ function traced.retrace(case, antialias)
   return traced.apart(object, art.object, w, h, FINE), art.object, w, h, object
 end
 
---- The shapes of a random drawing, the ground first, its size, and of each other the points that
---- tell it and what makes one of such points.
+--- The shapes of a random drawing, the ground first, its size, and for each of the others the
+--- points that define it and a function that makes one from such points.
 function traced.shapes(case) return shapes_of(prng.new(case)) end
 
 return traced

@@ -1,13 +1,14 @@
 --- Writes TrueType fonts, variable ones too, for tests and for the font that ships.
 ---
 ---   truetype.build { name = "Block", units = 1000, ascent = 800, descent = -200, glyphs = { ... },
----     kerning = { { left, right, value }, ... }, ligatures = { { glyph, glyph, ..., result }, ... },
+---     kerning = { { left, right, value }, ... },
+---     ligatures = { { glyph, glyph, ..., result }, ... },
 ---     axis = { tag = "wght", least = 300, default = 400, most = 900 } } -> bytes
 ---
---- A glyph is { characters = { 65 }, advance = 600, contours = { { {x, y, is_on}, ... }, ... } }, and
---- with an axis `least` and `most`: contours of as many points. The first is what stands for
---- characters that are not there. Numbers in `kerning` and `ligatures` are those of glyphs, from 1.
---- Source: OpenType 1.9.
+--- A glyph is { characters = { 65 }, advance = 600, contours = { { {x, y, is_on}, ... }, ... } },
+--- and with an axis `least` and `most`: contours with as many points. The first one represents
+--- missing characters. Numbers in `kerning` and `ligatures` are those of glyphs, from 1. Source:
+--- OpenType 1.9.
 local truetype = {}
 
 local function u16(n) return string.pack(">I2", n & 0xffff) end
@@ -70,7 +71,8 @@ end
 
 local function head(font)
   return u32(0x10000) .. u32(0x10000) .. u32(0) .. u32(0x5f0f3cf5) .. u16(3) .. u16(font.units)
-    .. ("\0"):rep(16) .. i16(0) .. i16(font.descent) .. i16(font.units) .. i16(font.ascent) .. u16(0)
+    .. ("\0"):rep(16) .. i16(0) .. i16(font.descent) .. i16(font.units) .. i16(font.ascent)
+    .. u16(0)
     .. u16(8) .. i16(2) .. i16(1) .. i16(0)
 end
 
@@ -143,7 +145,7 @@ local function kern(font)
     .. ("\0"):rep(6) .. pairs_of
 end
 
---- One ligature of glyphs that no other begins with.
+--- One ligature of glyphs with which no other begins.
 local function ligature_set(one)
   local rest = table.move(one, 2, #one - 1, 1, {})
   return u16(1) .. u16(4) .. u16(one[#one] - 1) .. u16(#one - 1)
@@ -210,7 +212,8 @@ local function gvar_entry(glyph)
     data[i] = "\0" .. packed(from, to, 1) .. packed(from, to, 2)
     headers[i] = u16(#data[i]) .. u16(0xa000) .. i16(peak * 0x4000)
   end
-  return padded(u16(2) .. u16(4 + #headers[1] * 2) .. table.concat(headers) .. table.concat(data), 2)
+  return padded(u16(2) .. u16(4 + #headers[1] * 2) .. table.concat(headers) .. table.concat(data),
+    2)
 end
 
 local function gvar(font)
@@ -228,7 +231,9 @@ end
 
 local function checksum(bytes)
   local sum = 0
-  for word in padded(bytes, 4):gmatch "...." do sum = sum + string.unpack(">I4", word) & 0xffffffff end
+  for word in padded(bytes, 4):gmatch "...." do
+    sum = sum + string.unpack(">I4", word) & 0xffffffff
+  end
   return sum
 end
 

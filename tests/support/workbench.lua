@@ -1,11 +1,13 @@
---- A folder for one test of the command line: files in it, and commands run beside it.
+--- A folder for one test of the command line: its files, and commands to run there.
 local system = require "tests.support.system"
 
 local BINARY = os.getenv "CELSPAN" or "build/celspan"
 local BUILD = os.getenv "CELSPAN_BUILD" or "build"
 
---- The same from any folder.
-local function absolute(path) return path:sub(1, 1) == "/" and path or os.getenv "PWD" .. "/" .. path end
+--- The path, valid from any folder.
+local function absolute(path)
+  return path:sub(1, 1) == "/" and path or os.getenv "PWD" .. "/" .. path
+end
 
 local workbench = {}
 workbench.__index = workbench
@@ -20,19 +22,20 @@ end
 
 function workbench:remove() os.execute("rm -rf '" .. self.folder .. "'") end
 
---- The whole of a file, by its name in the folder or an absolute path; nil when there is none.
+--- The contents of a file, by its name in the folder or an absolute path; nil if it does not exist.
 function workbench:read(name)
   return (system.read(name:sub(1, 1) == "/" and name or self.folder .. "/" .. name))
 end
 
---- Writes a file; answers its path.
+--- Writes a file; returns its path.
 function workbench:write(name, text)
   local path = self.folder .. "/" .. name
   system.write(path, text)
   return path
 end
 
---- The names in a folder of the bench, hidden ones too, sorted; none when there is no such folder.
+--- The names in a folder of the bench, including hidden ones, sorted; none if the folder does not
+--- exist.
 function workbench:files(name)
   return (system.lines(("ls -A '%s/%s' 2>/dev/null"):format(self.folder, name or "")))
 end
@@ -45,7 +48,9 @@ function workbench:shell(command)
 end
 
 --- The same, in the folder.
-function workbench:inside(command) return self:shell(("cd '%s' && %s"):format(self.folder, command)) end
+function workbench:inside(command)
+  return self:shell(("cd '%s' && %s"):format(self.folder, command))
+end
 
 --- Runs celspan with arguments, which are a format for string.format.
 function workbench:celspan(arguments, ...)

@@ -1,13 +1,13 @@
---- Drawings from SVG beside other renderers' pictures of them.
+--- SVG drawings compared with other renderers' pictures of them.
 --
 --   lua5.4 tests/svg/compare.lua FOLDER [PATTERN]     with LUA_PATH and LUA_CPATH as for specs
 --
--- FOLDER is that of the sample material; PATTERN picks drawings by their names. The letters of the
--- pictures in svg-w3c are Roboto's: CELSPAN_ROBOTO names the folder of Roboto-Regular.ttf and its
--- faces, else they are where Debian's fonts-roboto-unhinted puts them. Colours are blended as they are coded, like there, by a
--- switch that is there for this comparison alone. A drawing passes when less than 0.5 % of its pixels
--- are off by more than 24 of 255; the others are listed with how much is off and what was skipped.
--- The last line is "N of M drawings pass".
+-- FOLDER is that of the sample material; PATTERN selects drawings by their names. The letters of
+-- the pictures in svg-w3c are Roboto's: CELSPAN_ROBOTO names the folder of Roboto-Regular.ttf and
+-- its faces, by default where Debian's fonts-roboto-unhinted puts them. Colours are blended as
+-- coded, like in the references, by a switch that exists only for this comparison. A drawing passes
+-- when less than 0.5 % of its pixels are off by more than 24 of 255; the others are listed with how
+-- much is off and what was skipped. The last line is "N of M drawings pass".
 local celspan = require "celspan"
 local core = require "celspan.core"
 
@@ -15,7 +15,7 @@ local MOST_OFF, MOST_SHARE = 24, 0.005
 local ROBOTO = os.getenv "CELSPAN_ROBOTO"
   or "/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF"
 
---- Roboto in place of every family, as the core takes fonts; none where it is missing.
+--- Roboto for every family, in the form that the core expects; empty if it is missing.
 local function roboto()
   local list = {}
   for face, name in pairs { [""] = "Regular", [" bold"] = "Bold", [" italic"] = "Italic",
@@ -31,7 +31,9 @@ local function roboto()
 end
 
 local fonts = roboto()
-if #fonts == 0 then print("Roboto is not there: texts are not drawn, and many drawings of svg-w3c are off") end
+if #fonts == 0 then
+  print("Roboto is not there: texts are not drawn, and many drawings of svg-w3c are off")
+end
 
 local function files_below(folder)
   local list = {}
@@ -41,14 +43,14 @@ local function files_below(folder)
   return list
 end
 
---- The picture of an object as codes, premultiplied, rows from the top.
+--- The picture of an object as premultiplied codes, rows from the top.
 local function codes(object, w, h)
   local rostrum = celspan.rostrum { celspan.cel { object } }
   local image = assert(celspan.pixels(rostrum, { size = { w, h }, film = { w, h } }))
   return image:bytes { depth = 8, colour = "linear", alpha = "premultiplied" }
 end
 
---- The share of the pixels of the first `rows` rows that are off, both over white.
+--- The share of the pixels in the first `rows` rows that are off, both over white.
 local function share_off(a, b, w, rows)
   local off = 0
   for y = 0, rows - 1 do
@@ -78,8 +80,8 @@ local function what_was_skipped(drawing)
   return #list > 0 and "skipped " .. table.concat(list, ", ") or "all was drawn"
 end
 
---- Compares one drawing; gives whether it passes and why not. caption: rows at the bottom that do not
---- count.
+--- Compares one drawing; returns whether it passes and why not. caption: rows at the bottom that do
+--- not count.
 local function compare(svg, png, caption)
   local drawing, message = core.read_svg(svg, true, fonts)
   if not drawing then return false, "refused: " .. message:gsub("^.*/", "") end
@@ -92,7 +94,7 @@ local function compare(svg, png, caption)
   return share < MOST_SHARE, ("%.2f %% off, %s"):format(100 * share, what_was_skipped(drawing))
 end
 
---- What belongs to features that are left out as such.
+--- Whether a drawing belongs to a feature that is left out on purpose.
 local function is_left_out(name)
   return name:find "^filters/" or name:find "pattern" or name:find "^painting/mix%-blend%-mode/"
     or name:find "^masking/mask/"
@@ -103,7 +105,9 @@ local wanted = arg[2] and arg[2] ~= "all" and arg[2] or nil
 local passed, count = 0, 0
 for _, side in ipairs {
   { folder = "svg-resvg", png = "%s.png", caption = 0, leaves_out = is_left_out },
-  { folder = "svg-w3c", png = "%s-ref.png", caption = 60, leaves_out = function() return false end },
+  { folder = "svg-w3c", png = "%s-ref.png", caption = 60, leaves_out = function()
+    return false
+  end },
 } do
   local side_passed, side_count = 0, 0
   for _, name in ipairs(files_below(material .. "/" .. side.folder)) do

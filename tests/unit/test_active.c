@@ -1,10 +1,10 @@
-/* The active boundaries: which ones there are at a height, and in which order, depends on the
- * height alone; and culling leaves out only boundaries that cannot be seen.
+/* The active boundaries: which boundaries are active at a height, and in which order, depends on
+ * the height alone; and culling leaves out only boundaries that cannot be seen.
  */
 #include "base/number.h"
-#include "geometry/boundary_build.h"
-#include "geometry/matrix.h"
-#include "sweep/active.h"
+#include "engine/sweep/active.h"
+#include "model/geometry/boundary_build.h"
+#include "model/geometry/matrix.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
@@ -58,7 +58,8 @@ static bool is_ordered(const cs_active *active) {
   return true;
 }
 
-/* Walks down in steps and, at each, stands there anew: both must list the same. */
+/* Walks down in steps and, at each height, also starts a fresh list there: both must be the
+ * same. */
 static void check_walk(const cs_boundary_set *set, const cs_cull *cull, double step) {
   cs_active walked, fresh;
   cs_change change;
@@ -88,7 +89,8 @@ static int64_t winding_of(const cs_active *active, uint32_t layer, double x) {
   return winding;
 }
 
-/* From the camera backwards until nothing shines through, culled and unculled agree on presence. */
+/* From the camera backwards until nothing shines through, culled and unculled lists contain the
+ * same layers. */
 static void check_presence(const cs_active *all, const cs_active *culled,
                            const cs_cull_layer *layers, double x) {
   double through = 1;

@@ -1,7 +1,7 @@
-/* A row that failed for want of memory, made again, is the row that it would have been: nothing that was
- * under way is left in the worker.
+/* A row that failed for lack of memory, made again, is the same as if it had not failed: the worker
+ * keeps no state of the failed attempt.
  */
-#include "render/row_worker.h"
+#include "frames/render/strips.h"
 #include "tests/support/memory.h"
 #include "tests/support/random.h"
 #include "tests/support/scene.h"
@@ -18,7 +18,7 @@ static void take(const cs_row *row, float (*out)[4]) {
       celspan_span_colour(&row->spans[i], x, out[x]);
 }
 
-/* Triangles that cross in every row, half of them of a gradient. */
+/* Triangles that cross in every row, half of them with a gradient. */
 static celspan_rostrum *make_scene(studio *s) {
   celspan_object *objects[SHAPES];
   test_random random = {8};
@@ -50,7 +50,7 @@ static void begin(studio *s, celspan_rostrum *rostrum, celspan_antialias_mode mo
   studio_check(s, cs_row_worker_init(worker, s->context, frame));
 }
 
-/* Makes all rows, each as often as it fails; how often that was. */
+/* Makes all rows, each as often as it fails; returns the number of failures. */
 static int make_rows(cs_row_worker *worker, sheet out) {
   int failures = 0;
   for (int32_t y = 0; y < HEIGHT; y++) {

@@ -1,12 +1,12 @@
 /* Boundaries against the half-open rule, reversed copies, their own walks, the true curve, exact
- * conics and exact insides. Random cases are numbered by their seed. One file, because all are asked
- * of the same boundaries.
+ * conics and exact insides. Random cases are numbered by their seed. One file, because all tests
+ * use the same boundaries.
  */
 #include <stdlib.h>
 
-#include "geometry/boundary_build.h"
-#include "geometry/boundary_walk.h"
-#include "geometry/matrix.h"
+#include "model/geometry/boundary_build.h"
+#include "model/geometry/boundary_walk.h"
+#include "model/geometry/matrix.h"
 #include "tests/support/check.h"
 #include "tests/support/memory.h"
 #include "tests/support/random.h"
@@ -197,7 +197,8 @@ static bool keeps_vertices_inside(const cs_boundary_set *set, const cs_boundary_
   return true;
 }
 
-/* Within a segment x lies between its ends, but for rounding; what an arc has beside its chord is less. */
+/* Within a segment x lies between its ends, up to 1: an arc deviates less than that from its
+ * chord. */
 static bool is_place(const cs_boundary_walk *walk, double y) {
   double x = cs_boundary_x(walk, y), room = 1 + 1e-9 * (fabs(walk->x0) + fabs(walk->x1));
   return x >= fmin(walk->x0, walk->x1) - room && x <= fmax(walk->x0, walk->x1) + room;
@@ -255,7 +256,7 @@ static bool starts_anywhere(const cs_boundary_set *set, test_random *random) {
   return true;
 }
 
-/* The chain's every vertex the same, its direction turned. */
+/* The copy has the same vertices in every chain, with the direction reversed. */
 static bool is_turned_copy(const cs_boundary_set *a, uint32_t i, const cs_boundary_set *b,
                            uint32_t j) {
   if (a->chains[i].direction != -b->chains[j].direction || a->chains[i].y0 != b->chains[j].y0 ||
@@ -342,7 +343,7 @@ static void wild_matrices_obey_the_rules(void) {
   }
 }
 
-/* Outlines lower than any pixel, down to heights that are no normal numbers, have slopes beyond them. */
+/* Outlines flatter than any pixel, down to subnormal heights, where slopes overflow. */
 static void the_flattest_curves_obey_the_rules(void) {
   for (int seed = 1; seed <= 500; seed++) {
     test_random random = {(uint64_t)seed + 200000};
@@ -372,7 +373,7 @@ static double line_distance(celspan_point a, celspan_point b, double x, double y
   return hypot(a.x + t * dx - x, a.y + t * dy - y);
 }
 
-/* An arc by so many lines that they are as good as it is. */
+/* An arc is divided into enough lines for their error not to matter. */
 static double segment_distance(const cs_boundary_walk *s, double x, double y) {
   int lines = s->curve != 0 ? 64 : 1;
   double least = HUGE_VAL;
@@ -429,8 +430,8 @@ static double chord_area(celspan_point a, celspan_point b) {
   return 0.5 * (a.x + b.x) * (b.y - a.y);
 }
 
-/* The true area and length, by many chords, and half as many: the error of both is as the square of
- * their lengths, so what is left of it is as the fourth power. */
+/* The true area and length, by many chords, and by half as many: the error of both is proportional
+ * to the square of the chords' length, so the error that remains is of the fourth power. */
 static double true_area(const cs_outline *outline, const celspan_matrix *matrix, double *length) {
   enum { CHORDS = 4000 };
   double fine = 0, coarse = 0;
@@ -458,7 +459,7 @@ typedef struct nearness {
   double farthest, area; /* pixels; and of it, a pixel of length */
 } nearness;
 
-/* How near what is walked is to an outline; samples: of each piece. */
+/* The distance between the walked segments and an outline; samples: of each piece. */
 static nearness measure_nearness(const cs_outline *outline, const celspan_matrix *matrix,
                                  const cs_boundary_set *set, int samples) {
   double farthest = 0, length;
@@ -467,7 +468,7 @@ static nearness measure_nearness(const cs_outline *outline, const celspan_matrix
     cs_bezier_load(outline, i, matrix, &curve);
     for (int k = 0; k <= samples; k++) {
       cs_hpoint p = on_curve(&curve, (double)k / samples);
-      /* Horizontal lines are no part of any chain; their ends are. */
+      /* Horizontal lines are not part of any chain; their ends are. */
       if (curve.degree > 1 && p.w > 0)
         farthest = fmax(farthest, polyline_distance(set, p.x / p.w, p.y / p.w));
     }
@@ -538,7 +539,7 @@ static int in_square(double x, double y) {
   return fabs(d - 40) < 1e-3 ? -1 : d < 40;
 }
 
-/* Every point of the frame, taken back, must be before the horizon and inside. Points whose
+/* Every point of the frame, mapped back, must be in front of the horizon and inside. Points whose
  * neighbours 0.05 pixels away disagree lie on the flattened edge and are left out. */
 static int inside_back(const celspan_matrix *inverse, inside_test test, double x, double y) {
   int first = -1;
@@ -798,7 +799,7 @@ static void chains_are_sorted_by_top_then_left(void) {
   cs_boundary_finish(&set, context->memory);
 }
 
-/* Every allocation in turn fails: a clean status, and nothing is left behind. */
+/* Every allocation fails in turn: the status says so, and nothing leaks. */
 static void failing_memory_is_reported(void) {
   bool is_done = false;
   celspan_context *old = context;

@@ -1,7 +1,7 @@
-/* Boxes of strokes, whose outlines are made for them: with memory tight, without an error to those who draw
- * by them, and larger for the others.
+/* The bounding boxes of strokes, for which their outlines are made: tight if there is memory; if
+ * not, an error for callers that draw by the box, and a larger box for the others.
  */
-#include "scene/bounds.h"
+#include "model/scene/bounds.h"
 
 #include "base/context.h"
 #include "tests/support/check.h"
@@ -13,7 +13,7 @@ typedef struct drawn {
   celspan_cel *cel;
 } drawn;
 
-/* A stroke of which the box that holds it is larger than it needs to be: miters might reach there. */
+/* A stroke whose box without its outline is too large, because miters might reach that far. */
 static void make(drawn *out, memory_watch *watch) {
   const celspan_point points[] = {{10, 10}, {40, 12}, {30, 50}, {12, 33}};
   celspan_stroke_desc stroke = CELSPAN_STROKE_DESC;

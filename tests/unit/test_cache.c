@@ -1,5 +1,5 @@
-/* base/cache.c: entries stay within the budget but for those that are pinned, the oldest goes
- * first; one thread makes what several want; what fails leaves nothing behind. */
+/* base/cache.c: entries stay within the budget except those that are pinned, the oldest is evicted
+ * first; one thread makes an entry that several want; a failure leaves nothing behind. */
 #include "base/cache.h"
 
 #include "base/thread_pool.h"
@@ -11,7 +11,7 @@ enum { BYTES = 100, ROOM = 4 }; /* of an entry; entries that fit the budget */
 typedef struct item {
   cs_cache_entry cached;
   uint64_t value;
-  void *block; /* BYTES, where the maker got so far */
+  void *block; /* BYTES, if the maker got that far */
 } item;
 
 static void clear_item(cs_cache_entry *cached, cs_memory *memory) {
@@ -31,7 +31,7 @@ static cs_cache_key key_of(uint64_t number) {
 }
 
 typedef struct maker {
-  int fails; /* so many times before it succeeds */
+  int fails; /* how many times it fails before it succeeds */
   atomic_int times, makers, clashes;
 } maker;
 
@@ -119,7 +119,8 @@ static void check_pins(celspan_context *context, bool shrinks_on_unpin) {
   cs_cache_finish(&cache);
 }
 
-/* Of two that made the same the first to insert it wins; what is discarded is not counted. */
+/* If two threads make the same entry, the first to insert it wins; a discarded one is not
+ * counted. */
 static void check_twice(celspan_context *context) {
   cs_cache cache = make_cache(context, false);
   cs_cache_entry *first, *second;
@@ -137,7 +138,7 @@ static void check_twice(celspan_context *context) {
   cs_cache_finish(&cache);
 }
 
-/* More than the buckets there are at first. */
+/* More entries than the initial number of buckets. */
 static void check_many(celspan_context *context) {
   enum { MANY = 5000 };
   cs_cache cache = make_cache(context, false);
@@ -180,7 +181,7 @@ static void want(void *user, int worker, int32_t i) {
   cs_cache_unpin(c->cache, cached);
 }
 
-/* All want the same; where its maker fails the next one that waits makes it. */
+/* All want the same entry; if its maker fails, the next one that waits makes it. */
 static void check_crowd(celspan_context *context, int fails) {
   cs_cache cache = make_cache(context, true);
   cs_cache_init(&cache);

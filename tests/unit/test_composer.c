@@ -1,11 +1,11 @@
-/* compose/composer.c: what the composer says of a set of layers, by whichever way it folds them: by
- * tree, by table, layer by layer in groups; and the programs of layers that vary, however many of them
- * have been kept.
+/* engine/compose/composer.c: the result of the composer for a set of layers, whichever way it folds
+ * them: by tree, by table, layer by layer in groups; and the programs of layers that vary, however
+ * many of them are cached.
  */
-#include "compose/composer.h"
+#include "engine/compose/composer.h"
 
-#include "compose/over_table.h"
-#include "compose/over_tree.h"
+#include "engine/compose/over_table.h"
+#include "engine/compose/over_tree.h"
 #include "tests/support/check.h"
 #include "tests/support/memory.h"
 #include "tests/support/random.h"
@@ -22,7 +22,7 @@ static bool none_is_opaque(void *painter, uint32_t image) {
   return false;
 }
 
-/* Layers that let through at least `through`, of one kind and in no group. */
+/* Layers with a transmittance of at least `through`, of one kind and in no group. */
 static cs_stack make_stack(size_t count, float through, cs_layer_kind kind) {
   memset(is_here, 0, sizeof is_here);
   for (size_t i = 0; i < count; i++) {
@@ -57,7 +57,7 @@ static void check_colour(const cs_stack *stack, const cs_cell *cell) {
   CHECK_NEAR(cell->colour[3], 1 - (through[0] + through[1] + through[2]) / 3, 1e-4);
 }
 
-/* Flat layers, crossed at random, and walked home now and then. */
+/* Flat layers, entered and left at random, and now and then all left again. */
 static void test_flats(celspan_context *context, size_t count, float through) {
   cs_stack stack = make_stack(count, through, CS_LAYER_FLAT);
   cs_composer composer;
@@ -88,8 +88,9 @@ static void check_program(const cs_stack *stack, const cs_composer *composer, co
   CHECK(at == program.length);
 }
 
-/* All sets of layers that vary, there and back, each another from the one before by one layer (Gray's
- * code), as rows of one frame: programs are forgotten when they have grown many, and are right before and after. */
+/* All sets of layers that vary, forwards and backwards, each different from the one before by one
+ * layer (Gray's code), as rows of one frame: programs are discarded when there are too many, and
+ * are right before and after. */
 static void test_programs(celspan_context *context) {
   cs_stack stack = make_stack(14, 0.5f, CS_LAYER_SHADED);
   cs_composer composer;
@@ -107,7 +108,7 @@ static void test_programs(celspan_context *context) {
     cross(&composer, (uint32_t)__builtin_ctz(place) % 14);
     cs_composer_cell(&composer, &cell);
     check_program(&stack, &composer, &cell);
-    cs_composer_cell(&composer, &again); /* remembered */
+    cs_composer_cell(&composer, &again); /* from the cache */
     CHECK(again.program == cell.program && cs_composer_same(&composer, &cell, &again));
     most = composer.item_count > most ? composer.item_count : most;
   }

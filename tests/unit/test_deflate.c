@@ -1,11 +1,12 @@
-/* deflate/deflate.c and below: zlib inflates to the bytes that went in; code lengths are optimal.
+/* output/deflate/deflate.c and below: zlib inflates to the original bytes; code lengths are
+ * optimal.
  */
-#include "deflate/deflate.h"
+#include "output/deflate/deflate.h"
 
 #include <stdlib.h>
 #include <zlib.h>
 
-#include "deflate/huffman.h"
+#include "output/deflate/huffman.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
@@ -134,7 +135,7 @@ static void check_stream(celspan_context *context, int style, size_t pixel_size,
   free(plain.bytes);
 }
 
-/* A segment's bytes do not depend on what the compressor did before. */
+/* A segment's bytes do not depend on earlier input of the compressor. */
 static void check_segments_are_independent(celspan_context *context) {
   const test_random begun = numbers;
   store plain = {0};
@@ -159,7 +160,7 @@ static void check_segments_are_independent(celspan_context *context) {
   free(plain.bytes);
 }
 
-/* Bytes of few values, so that whatever lies beyond their end might match too. */
+/* Bytes of few values, so that anything beyond their end might match too. */
 static void add_few(cs_deflate *deflate, celspan_context *context, uint64_t seed) {
   cs_deflate_sum sum;
   numbers.state = seed;
@@ -174,7 +175,7 @@ static void add_few(cs_deflate *deflate, celspan_context *context, uint64_t seed
   CHECK(cs_deflate_end(deflate, context, &sum) == CELSPAN_OK);
 }
 
-/* Nor do the last bytes of a segment depend on what was beyond them in the buffer. */
+/* The last bytes of a segment do not depend on the contents of the buffer beyond them either. */
 static void check_ends_are_independent(celspan_context *context) {
   for (uint64_t seed = 1; seed <= 40; seed++) {
     store packed[2] = {{0}};
@@ -211,6 +212,47 @@ static void check_long_white(celspan_context *context) {
   made.sum = cs_deflate_join(made.sum, sum);
   cs_deflate_destroy(deflate, context);
   CHECK(made.packed.size < plain.size / 600);
+  end_stream(&made, &plain);
+  free(plain.bytes);
+}
+
+enum { GRADIENT_ROW = 3000, GRADIENT_ROWS = 400 };
+
+/* The differences of neighbours in a slow gradient of three channels: ones between long runs of
+ * zeros, at nearly the same places as in the row above. */
+static void fill_gradient_row(unsigned char row[GRADIENT_ROW], int y) {
+  const int across[] = {11, 8, 6}, down[] = {3, 5, 2};
+  for (int i = 0; i < GRADIENT_ROW; i++) {
+    int x = i / 3, value = x * across[i % 3] + y * down[i % 3];
+    row[i] = (unsigned char)((value + across[i % 3]) / 1000 - value / 1000);
+  }
+}
+
+/* A search that stopped at the end of each run, or tried only a few places, needed a quarter
+ * more. */
+static void check_gradient(celspan_context *context) {
+  store plain = {0};
+  stream made;
+  cs_deflate *deflate;
+  cs_deflate_sum sum;
+  begin_stream(&made);
+  CHECK(cs_deflate_create(context, 3, write_store, &made.packed, &deflate) == CELSPAN_OK);
+  cs_deflate_begin(deflate);
+  for (int y = 0; y < GRADIENT_ROWS; y++) {
+    unsigned char *space = cs_deflate_space(deflate, context);
+    fill_gradient_row(space, y);
+    append(&plain, space, GRADIENT_ROW);
+    CHECK(cs_deflate_commit(deflate, space, GRADIENT_ROW) == CELSPAN_OK);
+  }
+  CHECK(cs_deflate_end(deflate, context, &sum) == CELSPAN_OK);
+  made.sum = cs_deflate_join(made.sum, sum);
+  cs_deflate_destroy(deflate, context);
+  uLongf size = compressBound(plain.size);
+  unsigned char *by_zlib = malloc(size);
+  CHECK(compress2(by_zlib, &size, plain.bytes, plain.size, 6) == Z_OK);
+  printf("a slow gradient: %zu bytes, by zlib %lu\n", made.packed.size, size);
+  CHECK(made.packed.size < size);
+  free(by_zlib);
   end_stream(&made, &plain);
   free(plain.bytes);
 }
@@ -319,6 +361,7 @@ int main(void) {
   check_segments_are_independent(context);
   check_ends_are_independent(context);
   check_long_white(context);
+  check_gradient(context);
   check_errors_stick(context);
   size_t bytes, peak;
   uint64_t allocations;

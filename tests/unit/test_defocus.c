@@ -2,7 +2,7 @@
  */
 #include <stdlib.h>
 
-#include "defocus/bands.h"
+#include "engine/defocus/bands.h"
 #include "tests/support/frame_rows.h"
 #include "tests/support/memory.h"
 
@@ -38,7 +38,7 @@ static image make(studio *s, celspan_rostrum *rostrum, const view *v, int32_t st
 
 /* ---------------------------------------------------------------- scenes */
 
-typedef struct stage { /* one cel, sharp and defocused, seen alike */
+typedef struct stage { /* one cel, sharp and defocused, seen in the same way */
   celspan_rostrum *sharp, *defocused;
   double camera_scale, camera_turn;
 } stage;
@@ -126,7 +126,7 @@ static double weight_at(celspan_defocus_kernel kernel, double radius, double x, 
   return x * x + y * y <= 4 * radius * radius ? exp(-2 * (x * x + y * y) / (radius * radius)) : 0;
 }
 
-/* The mean of probes under the kernel about a point of the film; stratified. */
+/* The mean of probes under the kernel around a point of the film; stratified. */
 static void convolve(studio *s, const stage *set, celspan_defocus_kernel kernel, double radius,
                      celspan_point at, double out[4]) {
   double extent = kernel == CELSPAN_DEFOCUS_GAUSSIAN ? 2 * radius : radius, total = 0;
@@ -151,8 +151,8 @@ static void convolve(studio *s, const stage *set, celspan_defocus_kernel kernel,
     out[k] /= total;
 }
 
-/* How far a pixel is from the mean, at most. Where that is half of what is let pass, the mean is
- * taken again and again first, until its own noise is a third. */
+/* The largest difference of a pixel from the mean. If that is more than half of the allowed
+ * difference, the mean is computed several times first, until its own noise is a third. */
 static double difference(studio *s, const stage *set, celspan_defocus_kernel kernel, double radius,
                          celspan_point at, const float pixel[4]) {
   double sum[4] = {0, 0, 0, 0}, worst = 0;
@@ -177,7 +177,7 @@ static void compare(studio *s, const stage *set, celspan_defocus_kernel kernel, 
   image defocused = make(s, set->defocused, v, 1);
   double worst = 0;
   for (int k = 0; k < points; k++) {
-    /* the film's edges are looked at first */
+    /* the film's edges are compared first */
     int32_t x = k == 0 ? 0 : k == 1 ? v->width - 1 : (int32_t)between(0, v->width);
     int32_t y = k == 2 ? 0 : k == 3 ? v->height - 1 : (int32_t)between(0, v->height);
     celspan_point at = {(x + 0.5) * SIDE / v->width, (y + 0.5) * SIDE / v->height};
@@ -203,7 +203,7 @@ static void check_brute_force(void) {
     stage set = random_stage(&s, kind, radius, kernel, k % 2 ? 0.4 : 0);
     view v = {SIDE, SIDE, SIDE, SIDE, radius < 3 ? CELSPAN_ANTIALIAS_NONE : CELSPAN_ANTIALIAS_AREA};
     compare(&s, &set, kernel, radius, &v, 8, kinds[kind]);
-    v.width = 2 * SIDE + 10; /* the kernel scales with the frame, each axis on its own */
+    v.width = 2 * SIDE + 10; /* the kernel scales with the frame, separately along each axis */
     v.height = 30;
     if (k % 3 == 0)
       compare(&s, &set, kernel, radius, &v, 8, kinds[kind]);
@@ -228,7 +228,7 @@ static void check_coarse(void) {
   celspan_context_destroy(s.context);
 }
 
-/* Layers that vary are filtered with all else. */
+/* Layers that vary are filtered together with the others. */
 static void check_ramps(double least, celspan_antialias_mode mode) {
   static studio s;
   CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
@@ -244,13 +244,13 @@ static void check_ramps(double least, celspan_antialias_mode mode) {
   celspan_context_destroy(s.context);
 }
 
-/* ---------------------------------------------------------------- what must hold besides */
+/* ---------------------------------------------------------------- other invariants */
 
 static void check_same(const image *a, const image *b) {
   CHECK(memcmp(a->rgba, b->rgba, (size_t)a->width * (size_t)a->height * 4 * sizeof(float)) == 0);
 }
 
-/* A row does not depend on those made before it, nor on what the store can hold. */
+/* A row does not depend on those made before it, nor on the capacity of the store. */
 static void check_orders(void) {
   static studio s;
   celspan_context_desc small = {.struct_size = sizeof small, .defocus_bytes = 1};
@@ -284,7 +284,7 @@ static celspan_rostrum *defocused_disc(studio *s, double x, double size, double 
   return studio_rostrum(s, CELSPAN_ROSTRUM_DESC, &cel, 1);
 }
 
-/* The same cel is not filtered again, whatever its lights and opacity; another one is. */
+/* The same cel is not filtered again, whatever its lights and opacity; a different one is. */
 static void check_kept(void) {
   static studio s;
   view v = {200, 200, SIDE, SIDE, CELSPAN_ANTIALIAS_AREA};
@@ -303,8 +303,8 @@ static void check_kept(void) {
   celspan_context_destroy(s.context);
 }
 
-/* Light is kept, what the kernel does not extent is one span and exact, from a tenth of a pixel up.
- */
+/* The sum of light is preserved, areas that the kernel does not reach are one span and exact, with
+ * radii from a tenth of a pixel up. */
 static void check_light(void) {
   static const double radii[] = {0.1, 0.3, 0.45, 1, 1.9, 2.1, 4, 7};
   static studio s;
@@ -327,7 +327,7 @@ static void check_light(void) {
   celspan_context_destroy(s.context);
 }
 
-/* Under the mode AREA a tiny radius tends to the sharp picture. */
+/* Under the mode AREA the picture approaches the sharp one as the radius approaches 0. */
 static void check_tiny(void) {
   static studio s;
   view v = {SIDE, SIDE, SIDE, SIDE, CELSPAN_ANTIALIAS_AREA};
@@ -345,18 +345,19 @@ static void check_tiny(void) {
   celspan_context_destroy(s.context);
 }
 
-/* The integral of the share of a Gaussian that is left of an edge, over its place: in sigmas. */
+/* The integral over an edge's place of the share of a Gaussian left of the edge: in sigmas. */
 static double gaussian_up_to(double place) {
   return 0.5 * place * (1 + erf(place / sqrt(2))) + exp(-0.5 * place * place) / sqrt(2 * PI);
 }
 
-/* The same of a box: in half widths. */
+/* The same for a box: in half widths. */
 static double box_up_to(double place) {
   double low = fmin(fmax(place + 1, 0), 2); /* beyond the box all light is there */
   return 0.25 * low * low + fmax(place - 1, 0);
 }
 
-/* A kernel along one axis: its light left of an edge, and the integral of that over the edge's place. */
+/* A kernel along one axis: its light left of an edge, and the integral of that over the edge's
+ * place. */
 typedef struct profile {
   double (*share)(double place), (*up_to)(double place);
   double unit; /* of places, pixels */
@@ -366,20 +367,21 @@ static double gaussian_share(double place) { return 0.5 * (1 + erf(place / sqrt(
 
 static double box_share(double place) { return 0.5 * fmin(fmax(place + 1, 0), 2); }
 
-/* The light that a pixel has of what is right of an edge: at its centre, or on average over the part
- * of its width that antialiasing adds to the kernel, all of it when that is narrow. */
+/* The light that a pixel receives from the right of an edge: at its centre, or on average over the
+ * part of its width that antialiasing adds to the kernel, which is all of it if that is narrow. */
 static double light_of_edge(const profile *p, double distance, double width) {
   double a = (distance - 0.5 * width) / p->unit, b = (distance + 0.5 * width) / p->unit;
   return width == 0 ? p->share(distance / p->unit) : (p->up_to(b) - p->up_to(a)) * p->unit / width;
 }
 
-typedef struct lens { /* what a bar is seen through */
+typedef struct lens { /* how a bar is seen */
   celspan_defocus_kernel kernel;
   celspan_antialias_mode mode;
   double turn; /* of the camera, radians */
 } lens;
 
-/* A bar of 8 pixels from `low` on, which stands or lies, whatever the camera's turn. */
+/* A bar 8 pixels wide from `low` on, horizontal if it `lies`, else vertical, whatever the camera's
+ * rotation. */
 static image make_bar(studio *s, const lens *l, double radius, double low, bool lies) {
   const celspan_point middle = {0.5 * SIDE, 0.5 * SIDE};
   celspan_texture *white = studio_paint(s, celspan_paint_rgb(1, 1, 1, 1));
@@ -397,8 +399,8 @@ static image make_bar(studio *s, const lens *l, double radius, double low, bool 
 }
 
 /* A bar through a kernel of any width, its edges anywhere in their pixels, against closed forms.
- * Antialiased boxes have one up to half a pixel, beyond which their light is evened out; those in a
- * turned camera up to .4, for these are held upright. */
+ * Antialiased boxes have one up to a radius of half a pixel, beyond which their light is smoothed;
+ * with a rotated camera up to .4, because those boxes are kept upright. */
 static void check_bars(lens l, double narrowest, int count) {
   static studio s;
   CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
@@ -422,7 +424,7 @@ static void check_bars(lens l, double narrowest, int count) {
 
 /* ---------------------------------------------------------------- memory */
 
-/* Makes the frame with every allocation failing once: the status says so and nothing is lost. */
+/* Makes the frame with every allocation failing once: the status says so and nothing leaks. */
 static void check_failures_of(studio *s, memory_watch *watch, celspan_rostrum *rostrum,
                               const celspan_filter_desc *kernel) {
   celspan_exposure exposure = {rostrum, 1};
@@ -451,7 +453,7 @@ static void check_failures_of(studio *s, memory_watch *watch, celspan_rostrum *r
   CHECK(failures > 30 && watch->size_errors == 0);
 }
 
-/* Every way to defocus a cel, and a kernel over a picture that varies. */
+/* All methods of defocusing a cel, and a kernel over a picture that varies. */
 static void check_memory(void) {
   static const double radii[] = {12, 2, 110}; /* film units: 5, 0.8 and 46 pixels */
   memory_watch watch = {0};

@@ -1,13 +1,13 @@
-/* Rows of nodes of defocused cels: what is not written is not read, and the loops that make them
- * give the same bits under every set of instructions.
+/* Rows of nodes of defocused cels: nodes that were not written are not read, and the loops that
+ * make them give the same bits with every instruction set.
  */
 #include <math.h>
 #include <string.h>
 
-#include "defocus/lines.h"
-#include "defocus/slices.h"
-#include "defocus/sums.h"
-#include "sample/defocused.h"
+#include "engine/defocus/lines.h"
+#include "engine/defocus/slices.h"
+#include "engine/defocus/sums.h"
+#include "engine/sample/defocused.h"
 #include "tests/support/check.h"
 #include "tests/support/memory.h"
 #include "tests/support/random.h"
@@ -19,7 +19,7 @@ enum { GROUP = CS_DEFOCUSED_GROUP, MOST = 83, ROOM = 400 };
 typedef struct nodes {
   int32_t count;
   float whole[2][MOST][4];   /* all nodes */
-  float written[2][MOST][4]; /* of even groups the ends alone */
+  float written[2][MOST][4]; /* of even groups only the ends */
   bool even[MOST];
 } nodes;
 

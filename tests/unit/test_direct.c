@@ -1,7 +1,7 @@
-/* Direct edges: spans are the mean over each pixel, cover the row, and have the same bits under
- * every set of instructions.
+/* Direct edges: spans are the mean over each pixel, cover the row, and have the same bits with
+ * every instruction set.
  */
-#include "area/direct.h"
+#include "engine/area/direct.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
@@ -9,7 +9,8 @@
 
 enum { MOST = 40, ROOM = MOST + CS_ADVANCE_BATCH, WIDTH = 200, SPANS = 8 * MOST + 64 };
 
-/* Edges through a row from 0 to 1, from left to right, and cells that look more or less alike. */
+/* Edges through a row from 0 to 1, from left to right, and cells with more or less similar
+ * colours. */
 typedef struct stage {
   double x[ROOM], x_next[ROOM];
   cs_bend bends[MOST];
@@ -27,7 +28,7 @@ static cs_v4 random_colour(test_random *random, cs_v4 last) {
   switch (random_below(random, 4)) {
   case 0:
     return cs_v4_all(grey);
-  case 1: /* as good as the last one */
+  case 1: /* nearly the same as the last one */
     return cs_v4_max(last - cs_v4_all(0x1p-24f), cs_v4_all(0));
   default:
     return (cs_v4){grey * (float)random_between(random, 0, 1), 0, grey / 3, grey};
@@ -125,7 +126,7 @@ static bool is_same(const celspan_span *a, const celspan_span *b) {
          (a->kind == CELSPAN_SPAN_SINGLE || memcmp(a->slope, b->slope, sizeof a->slope) == 0);
 }
 
-/* The spans of the edges drawn: their mean, without gap, no two neighbours alike. */
+/* The spans of the edges drawn: their mean, without gaps, no two neighbours equal. */
 static void check_row(const stage *s, const cs_row *row, size_t done) {
   size_t wrong = 0, gradients = 0;
   int32_t from = 0;
@@ -172,7 +173,7 @@ int main(void) {
     all += s.active.count;
     cs_row_finish(&row, context->memory);
   }
-  CHECK(2 * drawn > all); /* else little was looked at */
+  CHECK(2 * drawn > all); /* else the test compared too little */
   cs_edges_finish(&s.edges, context->memory);
   celspan_context_destroy(context);
   return check_done();

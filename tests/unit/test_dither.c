@@ -1,10 +1,11 @@
-/* Dithering: means are kept, exact numbers stay, and a pixel depends on its colour and place alone.
+/* Dithering: means are preserved, exact numbers are not changed, and a pixel depends only on its
+ * colour and place.
  */
-#include "output/dither.h"
+#include "output/sinks/dither.h"
 
 #include "celspan/celspan.h"
-#include "output/pixels.h"
-#include "output/sink.h"
+#include "output/sinks/pixels.h"
+#include "output/sinks/sink.h"
 #include "tests/support/memory.h"
 #include "tests/support/random.h"
 #include "tests/support/scene.h"
@@ -44,7 +45,8 @@ static void test_mean(void) {
   }
 }
 
-/* What 8 bits hold exactly is not touched: black, white, clear, and every code of a picture. */
+/* Colours that 8 bits represent exactly are not changed: black, white, clear, and every code of a
+ * picture. */
 static void test_exact(void) {
   celspan_coding dither = {.depth = CELSPAN_DEPTH_8_DITHER}, plain = {.depth = CELSPAN_DEPTH_8};
   for (int code = 0; code < 256; code++) {
@@ -86,7 +88,7 @@ static void test_place(void) {
   CHECK(memcmp(whole[0], whole[1], 4) != 0);
 }
 
-/* A frame in parts is the frame as a whole, on any number of workers. */
+/* A frame made in parts equals the frame as a whole, with any number of workers. */
 static void test_frames(void) {
   celspan_context *context = NULL;
   CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);

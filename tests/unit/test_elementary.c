@@ -1,5 +1,5 @@
-/* base/elementary.c against the C library in long double, which is right beyond the last bit of a
- * double; and its bits, which must be the same under every compiler.
+/* base/elementary.c against the C library in long double, whose error is less than the last bit of
+ * a double; and its bits, which must be the same with every compiler.
  */
 #include "base/elementary.h"
 
@@ -96,13 +96,13 @@ static void check_power(void) {
   CHECK(isnan(cs_elementary_pow(-1, 2)) && isnan(cs_elementary_pow(NAN, 2)));
 }
 
-/* The numbers from which the sum in check_bits was made once. */
+/* The numbers from which the expected sum in check_bits was computed. */
 static double pinned(uint64_t *state, double low, double high) {
   *state = *state * 6364136223846793005u + 1442695040888963407u;
   return low + (high - low) * ((double)(*state >> 11) * 0x1p-53);
 }
 
-/* The same bits whatever compiled this. */
+/* The bits are the same with every compiler. */
 static void check_bits(void) {
   cs_hash hash = cs_hash_begin(0);
   uint64_t state = 7;

@@ -1,5 +1,5 @@
 /* celspan/lua.h as a host sees it: films and rostrums of a Lua state as values of the C interface,
- * under the host's context; whatever fails, nothing is raised and the stack is as it was. */
+ * under the host's context; whatever fails, no error is raised and the stack is unchanged. */
 #include "celspan/lua.h"
 
 #include <lauxlib.h>
@@ -95,7 +95,7 @@ static void check_films(void) {
   CHECK(celspan_lua_frame(h.L, -1, 7, &second) == CELSPAN_OK);
   CHECK(second.exposure_count == 2 && second.exposures[0].weight == 0.5);
   CHECK(lua_gettop(h.L) == 1);
-  lua_close(h.L); /* frames live on */
+  lua_close(h.L); /* frames remain valid */
   h.L = NULL;
   CHECK(middle(h.context, &frame) == 255);
   CHECK(middle(h.context, &second) == 128);
@@ -166,7 +166,7 @@ static void check_faults(void) {
   close_host(&other);
 }
 
-/* Memory of a Lua state, of which there is none from some allocation on. */
+/* The memory of a Lua state, which runs out from some allocation on. */
 typedef struct lua_memory {
   size_t made, fails_from;
 } lua_memory;
@@ -182,9 +182,9 @@ static void *allocate(void *user, void *block, size_t old_size, size_t new_size)
   return ++memory->made > memory->fails_from ? NULL : realloc(block, new_size);
 }
 
-/* Everything once, when `lua` more allocations of Lua, or the `core`-th of the context's, are all
- * there is; true when that was enough. (Without memory for the line where a value was made, the value
- * is made all the same.) */
+/* Uses everything once, with `lua` more allocations of Lua allowed, or failing the context's
+ * `core`-th allocation; true if nothing failed. (Without memory to record the line where a value
+ * was made, the value is made nevertheless.) */
 static bool visit(size_t lua, size_t core) {
   lua_memory memory = {.fails_from = (size_t)-1};
   host h = {.L = lua_newstate(allocate, &memory)};

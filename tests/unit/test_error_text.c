@@ -1,5 +1,5 @@
-/* Sentences of errnos from POSIX's strerror_r, which this file is compiled with, as against musl;
- * test_file.c has them from the one that celspan is compiled with.
+/* Sentences of errnos from POSIX's strerror_r, for which this file is compiled, as with musl;
+ * test_file.c tests the variant with which celspan is compiled.
  */
 #undef _GNU_SOURCE
 #undef _POSIX_C_SOURCE
@@ -12,7 +12,7 @@
 int main(void) {
   static const int numbers[] = {ENOENT, EACCES, ENOSPC, EISDIR};
   char text[CS_ERROR_TEXT_SIZE];
-  int (*posix)(int, char *, size_t) = strerror_r; /* else this test is about the other one */
+  int (*posix)(int, char *, size_t) = strerror_r; /* does not compile with the other variant */
   CHECK(posix != NULL);
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
     CHECK_TEXT(cs_error_text(numbers[i], text), strerror(numbers[i]));

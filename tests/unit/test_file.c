@@ -1,7 +1,7 @@
-/* output/file.c: whichever call to the system fails, afterwards the file is there whole, or it is
- * as it was before; and no temporary file is left.
+/* output/sinks/file.c: whichever call to the system fails, the file is complete afterwards, or
+ * unchanged; and no temporary file is left.
  */
-#include "output/file.h"
+#include "output/sinks/file.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "output/file_copy.h"
+#include "output/sinks/file_copy.h"
 #include "tests/support/check.h"
 
 /* ---------------------------------------------------------------- a system that fails */
@@ -51,7 +51,7 @@ static const cs_file_system faulty = {faulty_open,  faulty_pwrite, faulty_fstat,
 
 /* ---------------------------------------------------------------- a system that takes notes */
 
-/* A letter a call: `w`rite, `s`ync and `c`lose of the file, `r`ename, sync of the `f`older,
+/* A letter for each call: `w`rite, `s`ync and `c`lose of the file, `r`ename, sync of the `f`older,
  * `u`nlink. */
 static char notes[64];
 static int noted_folder; /* the descriptor of the last folder that was opened; -1: none */
@@ -176,8 +176,8 @@ static void sweep(celspan_context *context, int error, bool had_old) {
   unlink(path);
 }
 
-/* Power may go at any moment: the bytes are on the disk before the name is, and the name before the
- * frame is said to be done. */
+/* Power may fail at any moment: the bytes are on the disk before the name is, and the name before
+ * the frame is reported as done. */
 static void check_order(celspan_context *context) {
   char path[256];
   in_root(path, "frame.png");
@@ -259,7 +259,8 @@ static void check_discard_and_places(celspan_context *context) {
   cs_file_discard(NULL, context);
 }
 
-/* What is recorded of a file is what was written, whatever happens to the file afterwards. */
+/* The recorded digest of a file is that of the bytes written, whatever happens to the file
+ * later. */
 static void check_contents(celspan_context *context) {
   char path[256];
   cs_file_contents written, there;
@@ -275,12 +276,12 @@ static void check_contents(celspan_context *context) {
   CHECK(written.hash.a != there.hash.a);
   close(descriptor);
   CHECK(!cs_file_contents_read(descriptor, &there));
-  CHECK(write_content(context, NULL, path) == CELSPAN_OK); /* nobody asks any more */
+  CHECK(write_content(context, NULL, path) == CELSPAN_OK); /* nobody wants the digest any more */
   CHECK(written.bytes == CONTENT);
   unlink(path);
 }
 
-/* Whether the file is copied whole; it is not only where there is none of that stamp any more. */
+/* Whether the file is copied completely; it is not copied if no file has that stamp any more. */
 static bool is_copied(celspan_context *context, const char *from, const cs_file_stamp *stamp) {
   char to[256];
   bool is_copied;
@@ -300,7 +301,8 @@ static void check_copies(celspan_context *context) {
   CHECK(!cs_file_stamp_read(from, &stamp) && !cs_file_stamp_read(root, &stamp));
   CHECK(write_content(context, NULL, from) == CELSPAN_OK && cs_file_stamp_read(from, &stamp));
   CHECK(is_copied(context, from, &stamp));
-  CHECK(cs_file_copy(context, from, &stamp, "/proc/none/copy", &copied) == CELSPAN_OUTPUT && !copied);
+  CHECK(cs_file_copy(context, from, &stamp, "/proc/none/copy", &copied) == CELSPAN_OUTPUT &&
+        !copied);
   CHECK(write_content(context, NULL, other) == CELSPAN_OK && cs_file_stamp_read(other, &of_other));
   CHECK(!is_copied(context, from, &of_other) && !is_copied(context, root, &stamp));
   for (int what = 0; what < 4; what++) {

@@ -1,6 +1,6 @@
-/* Rows of flat cells, one after another: what is kept of the row above is what the row has. Bars begin
- * and end on their way down, so that in most rows a few of many cells change; every pixel has the colour
- * that the probe finds at its centre. A row that is asked for again is the same.
+/* Rows of flat cells, one after another: the parts reused from the row above are right. Bars begin
+ * and end on the way down, so that in most rows a few of many cells change; every pixel has the
+ * colour that the probe finds at its centre. A row that is requested again is the same.
  */
 #include "tests/support/frame_rows.h"
 #include "tests/support/random.h"

@@ -1,7 +1,7 @@
-/* film/frame_pipeline.c: whatever the number of workers and wherever frames are made, they are
- * built and finished in order, made once and released once; and the first failure is reported.
+/* frames/film/frame_pipeline.c: whatever the number of workers and wherever frames are made, they
+ * are built and finished in order, made once and released once; and the first failure is reported.
  */
-#include "film/frame_pipeline.h"
+#include "frames/film/frame_pipeline.h"
 
 #include <pthread.h>
 
@@ -16,18 +16,18 @@ typedef struct studio {
   cs_pipeline_step steps[FRAMES];
   int fails_to_build, fails_to_make, fails_to_finish; /* a frame, or NOWHERE */
   int stops_after;                                    /* frames finished, or NOWHERE */
-  int stops_once_in; /* a frame of the calling thread, or NOWHERE: it does not heed the stop */
+  int stops_once_in; /* a frame of the calling thread, or NOWHERE: it ignores the stop */
   bool says_stop;
   atomic_int made[FRAMES];
   int built, finished, released, failed;
-  double share; /* told last */
+  double share; /* reported last */
   int faults;   /* seen by the callbacks */
 } studio;
 
 typedef struct frame {
   int index;
   int made;   /* 1 once it is */
-  int before; /* frames that were finished when it was made, where the calling thread made it */
+  int before; /* frames finished before it was made, if the calling thread made it */
 } frame;
 
 static bool is_calling_thread(const studio *s) { return pthread_equal(pthread_self(), s->thread); }
@@ -175,7 +175,7 @@ static void test_going_on(celspan_context *context, int workers) {
   studio s = quiet();
   s.fails_to_build = 20;
   s.fails_to_make = 13;
-  s.fails_to_finish = FRAMES; /* failures are swallowed */
+  s.fails_to_finish = FRAMES; /* failures are ignored */
   CHECK(run(&s, context, workers, true) == CELSPAN_OK);
   CHECK(s.finished == FRAMES - 2 && s.failed == 2 && s.released == FRAMES && s.faults == 0);
 }
@@ -188,7 +188,7 @@ static void test_stop(celspan_context *context, int workers) {
   CHECK(s.finished == 7 && s.released == s.built && s.faults == 0);
 }
 
-/* One refusal is enough, although the frame in which it was told is completed all the same. */
+/* One refusal is enough, although the frame in which it was reported is still completed. */
 static void test_stop_once(celspan_context *context, int workers) {
   studio s = quiet();
   s.stops_once_in = 11;

@@ -1,11 +1,11 @@
-/* paint/gradient_table.c and paint/gradient_run.c: programs of gradients have the colours that
- * folding their paints gives, and their runs are right within 1/1023 from fewer colours than
- * columns.
+/* engine/paint/gradient_table.c and engine/paint/gradient_run.c: programs of gradients have the
+ * colours that folding their paints gives, and their runs are right within 1/1023 with fewer
+ * colours than columns.
  */
-#include "paint/gradient_run.h"
+#include "engine/paint/gradient_run.h"
 
-#include "paint/over_row.h"
-#include "paint/shade.h"
+#include "engine/paint/over_row.h"
+#include "engine/paint/shade.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
@@ -108,7 +108,7 @@ static bool is_near(cs_v4 a, const float *b, float tolerance) {
   return near;
 }
 
-/* Every column lies in a span that is near the colour wanted there. */
+/* Every column lies in a span that is close to the expected colour there. */
 static void check_run(cs_painter *painter, const cs_gradient_table *table, double y,
                       const float (*wanted)[4]) {
   cs_row row;
@@ -141,7 +141,7 @@ static void check_program(cs_painter *painter, const cs_program *program, double
   int32_t wrong = 0;
   for (int32_t x = 0; x < WIDTH; x++) {
     cs_gradient_table_colours(table, &(cs_batch){NULL, x, 1, y}, one);
-    wrong += memcmp(one[0], made[x], sizeof one[0]) != 0; /* whatever pixels are beside it */
+    wrong += memcmp(one[0], made[x], sizeof one[0]) != 0; /* whatever its neighbours */
     wrong += !is_near(cs_v4_load(made[x]), wanted[x], 2e-6f);
   }
   CHECK(wrong == 0);
@@ -158,7 +158,7 @@ static void test_programs(celspan_context *context, bool is_grouped, double pers
   CHECK(cs_composer_init(&composer, context, &stack, cs_painter_opacity(&painter)) == CELSPAN_OK);
   CHECK(cs_painter_init(&painter, context, &composer) == CELSPAN_OK);
   for (unsigned varying = 1; varying < 1u << LEAVES; varying++) {
-    /* A layer's kind never changes, so tables are named by their layers alone. */
+    /* A layer's kind never changes, so layers alone identify a table. */
     cs_gradient_tables_destroy(painter.gradients, context->memory);
     CHECK(cs_gradient_tables_create(context, &stack, painter.isa, &painter.scratch,
                                     &painter.gradients) == CELSPAN_OK);
@@ -199,8 +199,8 @@ static void find_colours(cs_painter *painter, unsigned subset, float (*out)[4]) 
     cs_gradient_table_colours(table, &(cs_batch){columns, 0, COLUMNS, 30}, out);
 }
 
-/* Programs are forgotten when there are many, and made again: a frame that has more of them than are
- * remembered has the same colours. */
+/* Programs are discarded when there are many, and made again: a frame with more of them than the
+ * cache keeps has the same colours. */
 static void test_forgotten(celspan_context *context) {
   static cs_layer many[FLATS + 1];
   static cs_layer_rule keys[FLATS + 1];

@@ -1,5 +1,5 @@
-/* Gradients on rows: every pixel is within 1/1023 of the colour that stops give at its centre, whatever
- * the gradient and wherever a matrix puts it.
+/* Gradients on rows: every pixel is within 1/1023 of the colour that the stops give at its centre,
+ * whatever the gradient and its matrix.
  */
 #include <stdlib.h>
 
@@ -10,7 +10,7 @@
 #define WIDTH 300
 #define HEIGHT 12
 
-/* A gradient that a matrix puts somewhere; its stops are opaque. */
+/* A gradient placed by a matrix; its stops are opaque. */
 typedef struct put_gradient {
   gradient gradient;
   celspan_matrix matrix;
@@ -33,7 +33,7 @@ static double mix_stops(const gradient *g, double place, int channel) {
   return before + share * ((double)stops[next].paint.pigment[channel] - before);
 }
 
-/* Premultiplied values are linear over the plane, and held where they leave their range. */
+/* Premultiplied values are linear over the plane, and clamped to their range. */
 static void mix_corners(const gradient *g, celspan_point at, double rgba[4]) {
   double weights[3];
   gradient_weights(g, at, weights);
@@ -79,7 +79,7 @@ static celspan_paint random_paint(test_random *random, float alpha) {
 static put_gradient random_gradient(test_random *random, shape kind) {
   put_gradient put = {.gradient = {.shape = kind}, .matrix = random_matrix(random)};
   gradient *out = &put.gradient;
-  double size = exp2(random_between(random, -6, 1)); /* most are narrow beside the row */
+  double size = exp2(random_between(random, -6, 1)); /* most are narrow compared with the row */
   out->points[0] = random_point(random, 20, 200, -10, 20);
   celspan_point way = random_point(random, 30, 160, -80, 80);
   double along = random_between(random, -0.5, 0.5), across = kind == FOCAL ? 0.3 : 0.8;
@@ -103,7 +103,7 @@ static celspan_point move(const celspan_matrix *matrix, double x, double y) {
   return (celspan_point){m[0] * x + m[1] * y + m[2], m[3] * x + m[4] * y + m[5]};
 }
 
-/* How far a row is from the gradient, at most. */
+/* The largest difference between a row and the gradient. */
 static double error_of(const put_gradient *p, const cs_row *row, int32_t y) {
   celspan_matrix inverse;
   double worst = 0;

@@ -1,10 +1,10 @@
-/* output/guard.h: every sink that writes a file, in every format, called out of order, with hostile
- * sizes and with spans that do not cover their rows. No call reads past an array, each refusal has a
- * sentence, and no file is left. */
+/* output/sinks/file_sink.c: every sink that writes a file, in every format, called out of order,
+ * with hostile sizes and with spans that do not cover their rows. No call reads past an array, each
+ * refusal has a sentence, and no file is left. */
 #include <limits.h>
 #include <string.h>
 
-#include "output/strip.h"
+#include "output/sinks/strip.h"
 #include "tests/support/memory.h"
 #include "tests/support/picture.h"
 
@@ -36,7 +36,7 @@ static celspan_status end(const celspan_sink *sink) {
   return sink->end(sink->user, context, CELSPAN_OK);
 }
 
-/* The call is refused with a sentence, which names the file. */
+/* The call is refused with a sentence that names the file. */
 static void check_refused(celspan_status status, const char *path) {
   if (!CHECK(status == CELSPAN_BAD_ARGUMENT))
     fprintf(stderr, "%s: %s\n", path, celspan_status_name(status));
@@ -44,7 +44,7 @@ static void check_refused(celspan_status status, const char *path) {
     fprintf(stderr, "%s\n", celspan_context_error(context));
 }
 
-/* Ends a sink that has been misused: nothing is left of it. */
+/* Ends a sink that was used wrongly: it leaves no file. */
 static void check_nothing(const celspan_sink *sink, const char *path) {
   check_refused(end(sink), path);
   CHECK(access(path, F_OK) != 0);
@@ -103,7 +103,8 @@ static void check_spans(const char *path, bool dithers) {
   const float *array = colours[0];
   const celspan_span gap[] = {{.x1 = 2}, {.x0 = 3, .x1 = WIDTH}};
   const celspan_span overlap[] = {{.x1 = 3}, {.x0 = 2, .x1 = WIDTH}};
-  const celspan_span wide = {.x1 = WIDTH + 1}, narrow = {.x1 = WIDTH - 1}, left = {.x0 = -1, .x1 = WIDTH};
+  const celspan_span wide = {.x1 = WIDTH + 1}, narrow = {.x1 = WIDTH - 1},
+                     left = {.x0 = -1, .x1 = WIDTH};
   const celspan_span far = {.x1 = INT32_MAX}, turned = {.x0 = WIDTH, .x1 = 0}, empty = {0};
   const celspan_span none = {.x1 = WIDTH, .kind = CELSPAN_SPAN_ARRAY};
   const celspan_span odd = {.x1 = WIDTH, .kind = (celspan_span_kind)77, .array = array};
@@ -121,7 +122,7 @@ static void check_spans(const char *path, bool dithers) {
   }
 }
 
-/* And what is right is still taken. */
+/* And correct calls still work. */
 static void check_whole(const char *path, bool dithers) {
   celspan_sink sink = make(path, dithers);
   celspan_status status = begin(&sink, WIDTH, HEIGHT);
@@ -201,7 +202,7 @@ int main(void) {
     check_format(formats[i], false);
   for (int i = 0; i < 3; i++) {
     char path[512];
-    snprintf(path, sizeof path, "%s.%s", picture_path("strip"), formats[i]); /* those that have strips */
+    snprintf(path, sizeof path, "%s.%s", picture_path("strip"), formats[i]); /* those with strips */
     check_strips(path);
   }
   check_format("png", true);

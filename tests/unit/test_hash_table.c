@@ -1,5 +1,5 @@
-/* base/hash_table.c: it finds what was added, also where keys share a slot, and is unchanged when
- * there is no memory. */
+/* base/hash_table.c: it finds the keys that were added, even where keys share a slot, and is
+ * unchanged after a lack of memory. */
 #include "base/hash_table.h"
 
 #include "tests/support/check.h"

@@ -1,5 +1,6 @@
-/* The two halves that objects and cels are compared by: equal content is equal however it was made,
- * each field changes one half and not the other, and names and script lines change neither.
+/* The two halves by which objects and cels are compared: equal content has equal hashes however it
+ * was made, each field changes one half and not the other, and names and script lines change
+ * neither.
  */
 #include "celspan/celspan.h"
 
@@ -53,7 +54,7 @@ static celspan_matrix moved(double x, double y) {
   return matrix;
 }
 
-/* Takes the new value of a call into the studio and gives it back. */
+/* Takes the new value of a call into the studio and returns it. */
 #define TAKE(s, list, count, type, call)                                                           \
   type *made = NULL;                                                                               \
   studio_check(s, call);                                                                           \
@@ -135,7 +136,7 @@ static void test_outlines(studio *s) {
   halves h = of_object(studio_polygon(s, star, 5, CELSPAN_RULE_NONZERO, NULL));
   check_redrawn(h, of_object(studio_polygon(s, star, 5, CELSPAN_RULE_EVENODD, NULL)));
   check_redrawn(h, of_object(studio_polygon(s, star, 4, CELSPAN_RULE_NONZERO, NULL)));
-  /* the same line, drawn as path data */
+  /* the same line, given as path data */
   check_equal(of_object(studio_path(s, "M0 0 L10 8 L0 8 Z", NULL)),
               of_object(studio_path(s, "M 0,0 10,8 l -10 0 z", NULL)));
 }
@@ -147,7 +148,7 @@ static void test_booleans(studio *s) {
   check_redrawn(h, of_object(studio_pair(s, CELSPAN_INTERSECTION, a, b)));
   check_redrawn(h, of_object(studio_pair(s, CELSPAN_DIFFERENCE, a, b)));
   check_redrawn(h, of_object(studio_pair(s, CELSPAN_XOR, a, b)));
-  /* what lies in it has its place in it: that is drawing */
+  /* the place of its contents inside it changes the drawing */
   check_redrawn(h,
                 of_object(studio_pair(s, CELSPAN_UNION, a, studio_transform(s, b, moved(1, 0)))));
   check_redrawn(h, of_object(studio_pair(s, CELSPAN_UNION, a, studio_fade(s, b, 0.5))));
@@ -231,7 +232,7 @@ static void test_placement_of_cels(studio *s) {
   enum { MOST = 32 };
   celspan_object *one = studio_rect(s, 0, 0, 10, 20, NULL);
   const celspan_stop stops[] = {{0, red},
-                                {1, blue}}; /* of one colour, its place would not matter */
+                                {1, blue}}; /* with a single colour, its place would not matter */
   celspan_texture *lamp = studio_radial(s, (celspan_point){5, 5}, 5, stops, 2);
   halves known[MOST] = {of_cel(studio_cel(s, CELSPAN_CEL_DESC, &one, 1))};
   int count = 1;

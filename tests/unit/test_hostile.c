@@ -1,6 +1,6 @@
-/* Every public function that takes lists, with lists that are not there and counts that no memory
- * holds: each is refused with a sentence before an item of it is read. Run under the address
- * sanitizer: the lists that are given have one item. */
+/* Every public function that takes lists, with missing lists and with counts beyond any memory:
+ * each is refused with a sentence before an item of the list is read. To be run under the address
+ * sanitizer: the lists have one item. */
 #include <limits.h>
 #include <stdint.h>
 #include <string.h>
@@ -119,7 +119,7 @@ static celspan_rostrum *make_rostrum(void) {
   return rostrum;
 }
 
-/* Every way to render a frame refuses the description. */
+/* Every function that renders a frame refuses the description. */
 static void refuse_frame(const celspan_frame_desc *frame) {
   celspan_coding coding = {0};
   celspan_sink sink = {0};
@@ -156,7 +156,7 @@ static void check_sizes_of_frames(celspan_frame_desc frame) {
     wrong.height = sides[i];
     refuse_frame(&wrong);
     wrong = frame;
-    wrong.crop_width = 1; /* and no height, or one beyond the frame */
+    wrong.crop_width = 1; /* without a height, or beyond the frame */
     wrong.crop_height = sides[i];
     refuse_frame(&wrong);
     wrong.crop_height = 1;

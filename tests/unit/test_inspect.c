@@ -1,8 +1,9 @@
-/* Looking at the pictures of a rostrum: which faults are told, where, and what is kept of them.
+/* Inspecting the pictures of a rostrum: which faults are reported, where, and what is cached of
+ * them.
  */
 #include <sys/stat.h>
 
-#include "scene/inspect.h"
+#include "model/scene/inspect.h"
 #include "tests/support/picture.h"
 #include "tests/support/scene.h"
 
@@ -42,14 +43,14 @@ static celspan_rostrum *rostrum_of_faults(void) {
   return studio_rostrum(&s, CELSPAN_ROSTRUM_DESC, cels, 2);
 }
 
-typedef struct told {
+typedef struct faults {
   char places[256];
   int count, most;
   int asked, patience; /* of progress */
-} told;
+} faults;
 
 static bool tell(void *user, const celspan_fault *fault) {
-  told *to = user;
+  faults *to = user;
   size_t length = strlen(to->places);
   bool is_cut = strncmp(fault->message, cut, strlen(cut)) == 0;
   CHECK(fault->status == CELSPAN_INPUT);
@@ -60,12 +61,12 @@ static bool tell(void *user, const celspan_fault *fault) {
 }
 
 static bool ask(void *user, int32_t rows_done, int32_t rows_total) {
-  told *to = user;
+  faults *to = user;
   CHECK(rows_done >= 0 && rows_done < rows_total);
   return ++to->asked < to->patience;
 }
 
-static celspan_status inspect(const celspan_rostrum *rostrum, bool is_deep, told *to) {
+static celspan_status inspect(const celspan_rostrum *rostrum, bool is_deep, faults *to) {
   celspan_inspect_desc desc = CELSPAN_INSPECT_DESC;
   desc.is_deep = is_deep;
   desc.report = tell;
@@ -74,8 +75,8 @@ static celspan_status inspect(const celspan_rostrum *rostrum, bool is_deep, told
   return celspan_rostrum_inspect(s.context, rostrum, &desc);
 }
 
-static void test_all_are_told(const celspan_rostrum *rostrum) {
-  told headers = {.most = 9, .patience = 99}, whole = headers;
+static void test_all_are_reported(const celspan_rostrum *rostrum) {
+  faults headers = {.most = 9, .patience = 99}, whole = headers;
   CHECK(inspect(rostrum, false, &headers) == CELSPAN_INPUT);
   CHECK_TEXT(headers.places, "1.2 missing; 2.2 missing; ");
   CHECK(headers.asked == 0);
@@ -87,7 +88,7 @@ static void test_all_are_told(const celspan_rostrum *rostrum) {
 }
 
 static void test_enough(const celspan_rostrum *rostrum) {
-  told one = {.most = 1, .patience = 99}, hasty = {.most = 9, .patience = 1};
+  faults one = {.most = 1, .patience = 99}, hasty = {.most = 9, .patience = 1};
   CHECK(inspect(rostrum, true, &one) == CELSPAN_INPUT);
   CHECK_TEXT(one.places, "1.2 missing; ");
   CHECK(inspect(rostrum, true, &hasty) == CELSPAN_CANCELLED && hasty.count == 0);
@@ -102,7 +103,7 @@ static void test_good(void) {
   celspan_object *object = slide(good);
   celspan_cel *cel = studio_cel(&s, CELSPAN_CEL_DESC, &object, 1);
   celspan_rostrum *rostrum = studio_rostrum(&s, CELSPAN_ROSTRUM_DESC, &cel, 1);
-  told to = {.most = 9, .patience = 99};
+  faults to = {.most = 9, .patience = 99};
   CHECK(inspect(rostrum, true, &to) == CELSPAN_OK && to.count == 0 && to.asked > 0);
 }
 
@@ -123,7 +124,7 @@ static void test_lights(void) {
   celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
   desc.back_texture.texture = gone;
   celspan_rostrum *rostrum = studio_rostrum(&s, desc, &cel, 1);
-  told to = {.most = 9, .patience = 99};
+  faults to = {.most = 9, .patience = 99};
   CHECK(inspect(rostrum, true, &to) == CELSPAN_INPUT);
   CHECK_TEXT(to.places, "0.0 missing; 1.0 cut; 1.2 missing; ");
   CHECK(strncmp(celspan_context_error(s.context), "a light of the rostrum: ", 24) == 0);
@@ -146,7 +147,7 @@ static celspan_status fill_half(void *user, celspan_context *context,
   return CELSPAN_OK;
 }
 
-/* The functions of pictures in memory are called for those that are read whole. */
+/* The functions of pictures in memory are called if whole pictures are read. */
 static void test_surface(void) {
   celspan_surface_desc memory = CELSPAN_SURFACE_DESC;
   memory.width = 300;
@@ -170,7 +171,7 @@ static void test_surface(void) {
   celspan_surface_unref(surface);
 }
 
-/* However many pictures are looked at, the memory has a bound, and in the end nothing is kept. */
+/* However many pictures are inspected, memory use is bounded, and in the end nothing is kept. */
 static void test_memory(void) {
   cs_inspection inspection = {.context = s.context};
   size_t before, most = 0, bytes, peak;
@@ -196,7 +197,7 @@ static void test_memory(void) {
 
 int main(void) {
   CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
-  if (picture_module_is_there(s.context)) {
+  if (picture_module_or_skip(s.context)) {
     struct stat status;
     snprintf(good, sizeof good, "%s", picture_path("good.png"));
     snprintf(cut, sizeof cut, "%s", picture_path("cut.tif"));
@@ -207,7 +208,7 @@ int main(void) {
     celspan_rostrum *rostrum = rostrum_of_faults();
     test_good();
     if (CHECK(truncate(cut, status.st_size * 9 / 10) == 0))
-      test_all_are_told(rostrum);
+      test_all_are_reported(rostrum);
     test_enough(rostrum);
     test_lights();
     test_surface();

@@ -1,6 +1,7 @@
-/* area/intersections.c: boundaries that go down together intersect in order, and end in order.
+/* engine/area/intersections.c: boundaries that descend together intersect in order, and end in
+ * order.
  */
-#include "area/intersections.h"
+#include "engine/area/intersections.h"
 
 #include "tests/support/check.h"
 #include "tests/support/random.h"
@@ -50,7 +51,7 @@ static void find(celspan_context *context, cs_intersections *m, size_t count, do
   CHECK(cs_intersections_find(m, context, count, y0, y1) == CELSPAN_OK);
 }
 
-/* Whether the intersections of every place are listed in order, and none is missing. */
+/* Whether the intersections of every place are listed in order, without omission. */
 static bool are_listed(const cs_intersections *m, size_t count) {
   size_t listed = 0;
   for (size_t place = 0; place < count; place++)
@@ -112,7 +113,7 @@ static void test_polylines(celspan_context *context) {
   cs_intersections_finish(&m, context->memory);
 }
 
-/* Those that lie on each other never cross; those that part in another order do so at once. */
+/* Boundaries that coincide never cross; those that separate in another order do so at once. */
 static void test_touching(celspan_context *context) {
   cs_intersections m = {0};
   make_polylines(2, 0);

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "base/elementary.h"
-#include "span/row.h"
+#include "engine/span/row.h"
 #include "tests/support/frame_rows.h"
 #include "tests/support/random.h"
 
@@ -13,7 +13,8 @@ static celspan_filter_desc filter(celspan_kernel kernel, double radius) {
   return (celspan_filter_desc){.kernel = kernel, .has_radius = radius >= 0, .radius = radius};
 }
 
-/* A part of the frame: the rows 0, step, 2 step .. before the others. kernel: NULL for the default mode. */
+/* A part of the frame: the rows 0, step, 2 step .. before the others. kernel: NULL for the default
+ * mode. */
 static image make(studio *s, celspan_rostrum *rostrum, const celspan_filter_desc *kernel,
                   int32_t width, int32_t height, int32_t x0, int32_t y0, int32_t step) {
   celspan_exposure exposure = {rostrum, 1};
@@ -120,7 +121,7 @@ static void check_edges(void) {
   celspan_context_destroy(s.context);
 }
 
-/* Memory with NaN behind every block: what is read there by mistake shows. */
+/* Memory with NaN behind every block, so that reading there by mistake shows. */
 static void *with_nan_behind(void *user, void *block, size_t old_size, size_t new_size) {
   const size_t behind = 4096;
   (void)user;
@@ -171,7 +172,7 @@ static void check_slanted(void) {
 
 /* ---------------------------------------------------------------- light and constants */
 
-/* On average over where a shape lies between the pixels, which are the kernel's samples. */
+/* On average over the position of a shape between the pixels, which are the kernel's samples. */
 static void check_light(void) {
   static const celspan_filter_desc kernels[] = {
       {.kernel = CELSPAN_KERNEL_BOX},
@@ -217,7 +218,7 @@ static void check_constants(void) {
   celspan_context_destroy(s.context);
 }
 
-/* After negative lobes nothing leaves the range of what was there. */
+/* After negative lobes no value leaves the range of the unfiltered picture. */
 static void check_range(void) {
   static studio s;
   CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
@@ -308,7 +309,7 @@ static void check_orders(void) {
   celspan_context_destroy(s.context);
 }
 
-/* The box of radius 1/2 is what the mode AREA makes, but for where curves are cut into chords. */
+/* The box of radius 1/2 equals the mode AREA, except where curves are divided into chords. */
 static void check_area(void) {
   static studio s;
   CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);

@@ -1,5 +1,5 @@
 /* Light through filters: the sum over all pixels of a single small shape is its area, under every
- * kernel and wherever it lies between the pixels.
+ * kernel and at every position between the pixels.
  */
 #include <math.h>
 
@@ -34,12 +34,12 @@ static celspan_rostrum *show(studio *s, celspan_object *object, double defocus,
   return studio_rostrum(s, CELSPAN_ROSTRUM_DESC, &cel, 1);
 }
 
-/* Least and greatest share of its light that a shape has at PLACES by PLACES places; the mean. */
+/* The least and greatest share of a shape's light over PLACES by PLACES positions; the mean. */
 typedef struct shares {
   double least, most, mean;
 } shares;
 
-typedef struct setting { /* what the shape is seen through */
+typedef struct setting { /* how the shape is seen */
   const celspan_filter_desc *kernel;
   double defocus;
   celspan_defocus_kernel defocus_kernel;
@@ -97,8 +97,8 @@ static celspan_status tent(void *user, celspan_context *context, double x, doubl
   return CELSPAN_OK;
 }
 
-/* Radii from which on light is kept wherever the shape lies; kernels that are narrower leave gaps
- * between the pixels, or are as even as a box that pixels do not fill. */
+/* Radii from which on light is preserved at every position of the shape; narrower kernels leave
+ * gaps between the pixels, or are uneven like a box that is not a whole number of pixels wide. */
 static const struct {
   celspan_kernel kernel;
   const char *name;
@@ -124,8 +124,7 @@ static void check_kernels(void) {
   celspan_context_destroy(s.context);
 }
 
-/* What undershoots is held, and so is what overshoots: along straight edges as much of one as of
- * the other. */
+/* Undershoots are clamped, and so are overshoots: along straight edges both by the same amount. */
 static void check_signed(void) {
   static const double radii[] = {1.5, 2, 2.3, 3, 4.2, 8};
   static studio s;
@@ -142,7 +141,7 @@ static void check_signed(void) {
   celspan_context_destroy(s.context);
 }
 
-/* Narrow kernels keep it on the mean over the places. */
+/* Narrow kernels preserve it on average over the positions. */
 static void check_narrow(void) {
   static const double radii[] = {0.1, 0.3, 0.4, 0.8, 1};
   static studio s;

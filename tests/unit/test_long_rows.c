@@ -1,4 +1,4 @@
-/* Rows longer than what is worked on at a time are the same as seen through narrow frames.
+/* Rows longer than the part processed at a time are the same as seen through narrow frames.
  *
  *     +--------------------------------------------+
  *     |            ____....----^^^^^^-----....____ |    one row, which nearly flat edges cross over
@@ -31,7 +31,7 @@ static celspan_texture *random_texture(studio *s, test_random *random, bool is_r
                  : studio_paint(s, stops[0].paint);
 }
 
-/* Slivers, some of them longer than the row; a post that stands in it and a bar that lies in it. */
+/* Slivers, some of them longer than the row; a vertical post and a horizontal bar. */
 static void random_slivers(studio *s, uint64_t seed, fill kind, celspan_object *objects[OBJECTS]) {
   test_random random = {seed};
   for (int k = 0; k < OBJECTS; k++) {
@@ -100,8 +100,9 @@ static void make(studio *s, const setting *seen, int32_t x, int32_t width, pixel
   studio_finish(s);
 }
 
-/* How far the two may be apart. The chords of defocus kernels, and the straight gradients that spans
- * are cut into, begin elsewhere in a narrow frame; all else differs by rounding. */
+/* The allowed difference. The chords of defocus kernels, and the straight gradients into which
+ * spans are divided, begin elsewhere in a narrow frame; everything else differs by rounding
+ * only. */
 static double bound_of(const setting *seen) {
   if (seen->defocus > 0)
     return 0.004;

@@ -1,4 +1,4 @@
-#include "geometry/matrix.h"
+#include "model/geometry/matrix.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
@@ -114,7 +114,7 @@ static void quads_with_three_corners_on_a_line_have_none(void) {
   CHECK(!celspan_matrix_quad(good, point, &out));
 }
 
-static void kinds_are_told(void) {
+static void kinds_are_distinguished(void) {
   celspan_matrix turned = celspan_matrix_rotation(0.3, (celspan_point){0, 0});
   celspan_matrix steep = celspan_matrix_identity(), large = steep;
   steep.m[6] = 0.01;
@@ -134,6 +134,6 @@ int main(void) {
   quad_takes_corners_to_corners();
   quad_keeps_affine_maps_affine();
   quads_with_three_corners_on_a_line_have_none();
-  kinds_are_told();
+  kinds_are_distinguished();
   return check_done();
 }

@@ -1,6 +1,6 @@
-/* NURBS against the Cox-de Boor definition, and which descriptions are refused.
+/* NURBS against the Cox-de Boor definition, and the descriptions that are refused.
  */
-#include "geometry/bezier.h"
+#include "model/geometry/bezier.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
@@ -17,7 +17,7 @@ static double basis(const double *u, int i, int degree, double t) {
          (right > 0 ? (u[i + degree + 1] - t) / right * basis(u, i + 1, degree - 1, t) : 0);
 }
 
-/* The plain open curve that a description stands for: periods unrolled. */
+/* The plain open curve that a description means: periods unrolled. */
 typedef struct plain_curve {
   int degree, count;
   double x[MOST], y[MOST], w[MOST], knots[2 * MOST];
@@ -201,16 +201,16 @@ static void mistakes_are_named(void) {
   desc.knots = (const double[6]){3, 3, 3, 3, 3, 3};
   check_refused(&desc, "knots 1 to 6 are all 3; the curve has no length between them");
   desc.knots = (const double[6]){0, 1, 1, 1, 2, 3};
-  check_refused(&desc, "knot 2, 1, stands 3 times; degree 2 allows 2 there");
+  check_refused(&desc, "knot 2, 1, appears 3 times; degree 2 allows 2 there");
   desc.knots = (const double[6]){0, 0, 1, 2, 3, 3}; /* three times where the period meets itself */
-  check_refused(&desc, "knot 5, 3, stands 3 times; degree 2 allows 2 there");
+  check_refused(&desc, "knot 5, 3, appears 3 times; degree 2 allows 2 there");
   desc.knot_count = 8;
   check_refused(&desc, "there are 8 knots; a periodic curve of degree 2 with 5 points needs 6");
   desc.closure = CELSPAN_NURBS_CLAMPED;
   desc.knots = (const double[8]){0, 0, 0, 0, 1, 2, 2, 2};
-  check_refused(&desc, "knot 1, 0, stands 4 times; degree 2 allows 3 there");
+  check_refused(&desc, "knot 1, 0, appears 4 times; degree 2 allows 3 there");
   desc.knots = (const double[8]){0, 0, 0, 1, 1, 1, 2, 2};
-  check_refused(&desc, "knot 4, 1, stands 3 times; degree 2 allows 2 there");
+  check_refused(&desc, "knot 4, 1, appears 3 times; degree 2 allows 2 there");
   desc.knots = NULL;
   desc.weights = (const double[5]){1, 1, 0, 1, 1};
   check_refused(&desc, "weight 3 is 0; weights must be above 0 and at most 1e12");

@@ -1,11 +1,11 @@
 /* Chains of operators: the same values as when all operands are given at once, at a cost that grows
- * with the length of the chain, on any threads, whatever is let go first.
+ * with the length of the chain, on any threads, whatever is released first.
  */
-#include "scene/operands.h"
+#include "model/scene/operands.h"
 
 #include <pthread.h>
 
-#include "scene/scene.h"
+#include "model/scene/scene.h"
 #include "tests/support/memory.h"
 #include "tests/support/scene.h"
 
@@ -18,7 +18,7 @@ static celspan_object *extend(celspan_context *context, celspan_object *chain,
   return longer;
 }
 
-/* A chain of `count` operands, made one by one; each shorter one is let go at once. */
+/* A chain of `count` operands, made one by one; each shorter one is released at once. */
 static celspan_object *chain_of(celspan_context *context, celspan_operator op,
                                 celspan_object *operand, size_t count) {
   celspan_object *chain = NULL;
@@ -55,8 +55,7 @@ static void test_equals_the_list(studio *s) {
   }
 }
 
-/* Only what is added is hashed: operands that are there already may change unnoticed, as they never
- * do. */
+/* Only added operands are hashed: the existing ones may change unnoticed, which they never do. */
 static void test_hash_goes_on(studio *s) {
   celspan_object *a = studio_rect(s, 0, 0, 5, 5, NULL), *b = studio_rect(s, 3, 0, 5, 5, NULL);
   celspan_object *pair = studio_pair(s, CELSPAN_UNION, a, b);
@@ -75,7 +74,7 @@ static void test_hash_goes_on(studio *s) {
     celspan_object_unref(made[i]);
 }
 
-/* The number of operands is told from their hashes, wherever it comes. */
+/* The number of operands is part of the hash, even if their own hashes are equal. */
 static void test_lengths_differ(studio *s) {
   celspan_object *empty = studio_boolean(s, CELSPAN_UNION, NULL, 0);
   celspan_object *one = extend(s->context, empty, empty), *two = extend(s->context, one, empty);
@@ -112,7 +111,7 @@ static void test_refusals(studio *s) {
 
 /* ---------------------------------------------------------------- sharing */
 
-/* Two that are made from one beginning, and a third after one of them is gone. */
+/* Two that share a beginning, and a third made after one of them was released. */
 static void test_branches(studio *s) {
   celspan_object *a = studio_rect(s, 0, 0, 1, 1, NULL), *b = studio_rect(s, 2, 0, 1, 1, NULL);
   celspan_object *base = chain_of(s->context, CELSPAN_UNION, a, 3);
@@ -131,7 +130,7 @@ static void test_branches(studio *s) {
   celspan_object_unref(with_b);
 }
 
-/* What was added goes with what added it, though the beginning lives on. */
+/* An added operand is released with the object that added it, though the beginning lives on. */
 static void test_nothing_is_held(void) {
   memory_watch watch = {0};
   studio s = {.context = memory_watch_context(&watch)};
@@ -151,7 +150,8 @@ static void test_nothing_is_held(void) {
   CHECK(watch.blocks == 0 && watch.size_errors == 0);
 }
 
-/* A chain that has itself as an operand, moved or as it is: whatever is let go first, nothing is kept. */
+/* A chain that has itself as an operand, moved or unchanged: whatever is released first, nothing is
+ * kept. */
 static void test_own_beginning(void) {
   static const int orders[][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
   for (int i = 0; i < 12; i++) {
@@ -175,7 +175,7 @@ static void test_own_beginning(void) {
 
 /* ---------------------------------------------------------------- cost */
 
-/* The bytes that one chain asks for while it is made, all in all. */
+/* The total number of bytes that one chain allocates while it is made. */
 typedef struct meter {
   size_t asked;
 } meter;
@@ -210,11 +210,11 @@ static void test_cost_grows_with_the_length(void) {
                                   CELSPAN_XOR};
   for (int i = 0; i < 4; i++) {
     size_t some = bytes_asked(ops[i], LONG / 8), many = bytes_asked(ops[i], LONG);
-    CHECK(many < 9 * some); /* a copy of all operands at each step asks for 50 times as much */
+    CHECK(many < 9 * some); /* copying all operands at each step would allocate 50 times as much */
   }
 }
 
-/* All steps of a chain at once hold as much as so many objects. */
+/* All steps of a chain at once hold as much memory as the same number of objects. */
 static void test_held_steps(void) {
   memory_watch watch = {0};
   celspan_context *context = memory_watch_context(&watch);
@@ -248,7 +248,7 @@ static void test_every_allocation_can_fail(void) {
     celspan_status status = celspan_object_extend_boolean(s.context, chain, &rect, 1, &longer);
     CHECK(status == CELSPAN_OK || (status == CELSPAN_NO_MEMORY && !longer));
     watch.fail_at = 0;
-    celspan_object *after = extend(s.context, chain, rect); /* the failed one took no place */
+    celspan_object *after = extend(s.context, chain, rect); /* the failed one used no place */
     CHECK(status == CELSPAN_OK || after->data->boolean->operands == chain->data->boolean->operands);
     celspan_object_unref(after);
     celspan_object_unref(longer);
@@ -266,7 +266,8 @@ typedef struct extender {
   bool is_good;
 } extender;
 
-/* Each thread has a context of its own; the base and its operands, some of them the base itself, are shared. */
+/* Each thread has a context of its own; the base and its operands, some of them the base itself,
+ * are shared. */
 static void *extend_often(void *user) {
   extender *e = user;
   celspan_context *context = NULL;

@@ -1,6 +1,6 @@
 /* Primitive outlines: their invariants, their shapes, their boxes. */
-#include "geometry/bezier.h"
-#include "geometry/matrix.h"
+#include "model/geometry/bezier.h"
+#include "model/geometry/matrix.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
@@ -98,7 +98,7 @@ static void boxes_are_tight_when_turned(void) {
   cs_outline_finish(&outline, context->memory);
 }
 
-/* Against many samples: none outside, the sides reached. */
+/* Against many samples: none is outside, and they reach all sides. */
 static void boxes_are_tight_in_perspective(void) {
   for (int seed = 1; seed <= 100; seed++) {
     test_random random = {(uint64_t)seed};
@@ -164,7 +164,7 @@ static void roots_are_found_where_signs_change(void) {
     CHECK_NEAR(roots[i], 0.25 * (i + 1), 1e-14);
   CHECK(cs_bezier_extrema(&curve, CS_BEZIER_Y, roots) == 2);
   CHECK_NEAR(roots[0], 0.5 - sqrt(1.0 / 48), 1e-12);
-  /* A line that is touched, or lain on, is not crossed. */
+  /* A line that is touched, or coincident, is not crossed. */
   cs_bezier touching = {.degree = 2, .points = {{0, 1, 1}, {1, -1, 1}, {2, 1, 1}}};
   CHECK(cs_bezier_crossings(&touching, (cs_bezier_form){.y = 1}, roots) != 1);
   cs_bezier flat = {.degree = 3, .points = {{0, 0.3, 1}, {1, 0.3, 1}, {2, 0.3, 1}, {3, 0.3, 1}}};

@@ -1,8 +1,9 @@
-/* paint/over_row.c: every set of instructions gives the same fold, and every pixel is independent.
+/* engine/paint/over_row.c: every instruction set gives the same fold, and every pixel is
+ * independent.
  */
-#include "paint/over_bare.h"
+#include "engine/paint/over_bare.h"
 
-#include "colour/srgb8.h"
+#include "model/colour/srgb8.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
@@ -42,7 +43,8 @@ static void fill(void) {
   }
 }
 
-/* Leaves 5 .. 0 from the front, in all the ways of painting, groups and lights between them. */
+/* Leaves 5 .. 0 from the front, given as flat layers, paints and samples, groups and lights between
+ * them. */
 static void fold(celspan_context *context, cs_arena *arena, cs_isa isa, int32_t from, int32_t count,
                  float (*out)[4]) {
   cs_over_row over;
@@ -63,7 +65,7 @@ static void fold(celspan_context *context, cs_arena *arena, cs_isa isa, int32_t 
   cs_over_row_end(&over, out);
 }
 
-/* The fold of one pixel by the book, in doubles; groups are folded by recursion. */
+/* The fold of one pixel by definition, in doubles; groups are folded by recursion. */
 static double by_hand_alpha(int i) {
   double through[3] = {1, 1, 1}, inner[3] = {1, 1, 1}, innermost[3] = {1, 1, 1}, mean = 0;
   for (int c = 0; c < 3; c++) {
@@ -84,7 +86,7 @@ static double by_hand_alpha(int i) {
   return 1 - (double)lights[0].keep * (double)lights[1].keep * mean;
 }
 
-/* The samples of a picture in the pixels that are shown; what lies beside them has no meaning. */
+/* The samples of a picture in the visible pixels; values outside them have no meaning. */
 static cs_samples shown_samples(const cs_over_bare *over, const float (*picture)[4],
                                 bool are_planes) {
   cs_samples out = {.are_planes = are_planes};
@@ -98,7 +100,7 @@ static cs_samples shown_samples(const cs_over_bare *over, const float (*picture)
   return out;
 }
 
-/* Pictures alone: what the general fold makes of them. */
+/* Pictures alone: the same result as the general fold. */
 static void check_bare(celspan_context *context, cs_arena *arena, const cs_stack *bare, cs_isa isa,
                        bool are_planes, int32_t count) {
   static cs_over_bare layers;
@@ -129,7 +131,7 @@ static void check_bare(celspan_context *context, cs_arena *arena, const cs_stack
   CHECK(codes[4 * count] == 77);
 }
 
-/* Where the first picture is opaque nothing of the second is asked for, but beside what is. */
+/* Where the first picture is opaque, the second is not sampled, except next to visible pixels. */
 static void check_shown(cs_isa isa, int32_t count, int32_t opaque) {
   static cs_over_bare over;
   cs_over_bare_begin(&over, count);
@@ -142,8 +144,8 @@ static void check_shown(cs_isa isa, int32_t count, int32_t opaque) {
     CHECK(shown.first <= opaque && shown.first > opaque - CS_SAMPLES_PLANE && shown.end == count);
 }
 
-/* A picture that is opaque wherever it is shown lets nothing be asked for behind it, whatever lies
- * beside the pixels that are shown. */
+/* If a picture is opaque wherever it is visible, nothing behind it is sampled, whatever lies
+ * outside the visible pixels. */
 static void check_ends(cs_isa isa) {
   for (int32_t count = 1; count <= 40; count++) {
     for (int i = 0; i < CS_OVER_ROW_BATCH; i++)

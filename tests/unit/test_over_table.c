@@ -1,7 +1,7 @@
-/* compose/over_table.c: the light of a set is that of its layers one over the other, by whatever
- * changes the set was arrived at, and whatever follows the last layer that counts.
+/* engine/compose/over_table.c: the light of a set is that of its layers composited one over the
+ * other, by whatever changes the set was reached, and whatever follows the last layer that counts.
  */
-#include "compose/over_table.h"
+#include "engine/compose/over_table.h"
 
 #include "tests/support/check.h"
 #include "tests/support/random.h"
@@ -16,7 +16,7 @@ static cs_stack stack = {.layers = layers, .layer_count = LEAVES};
 static uint64_t set[WORDS];
 static uint8_t filled[(WORDS + 7) / 8 * 8];
 
-/* through: what every layer lets through at least. */
+/* through: the least transmittance of a layer. */
 static void make_layers(float through) {
   for (int i = 0; i < LEAVES; i++)
     for (int c = 0; c < 3; c++) {
@@ -60,13 +60,14 @@ static int check_light(cs_over_pair light) {
   return last;
 }
 
-/* Puts one of the first `count` leaves into the set, as often as the density says, or out of it. */
+/* Puts one of the first `count` leaves into the set or removes it, with the probability
+ * `density`. */
 static void put_any(int count, float density) {
   float place = random_unit(&numbers), depth = random_unit(&numbers);
   put((int)(place * (float)count), depth < density);
 }
 
-/* A walk from set to set; a stranger who has seen none of them finds the same light. */
+/* A walk from set to set; a fresh table that has seen none of them finds the same light. */
 static void test_walk(celspan_context *context, float through, float density) {
   cs_over_table table, stranger;
   make_layers(through);

@@ -1,8 +1,8 @@
-/* compose/over_tree.c: the light of a set is that of its layers one over the other, by whatever
- * changes the set was arrived at, and whatever lies behind the last layer that counts; and which
- * stacks are folded by tree.
+/* engine/compose/over_tree.c: the light of a set is that of its layers composited one over the
+ * other, by whatever changes the set was reached, and whatever lies behind the last layer that
+ * counts; and which stacks are folded by tree.
  */
-#include "compose/over_tree.h"
+#include "engine/compose/over_tree.h"
 
 #include "tests/support/check.h"
 #include "tests/support/random.h"
@@ -16,7 +16,7 @@ static cs_layer layers[MOST];
 static cs_stack stack = {.layers = layers};
 static uint64_t set[WORDS];
 
-/* Layers that let through at least `through`; none of them is present. */
+/* Layers with a transmittance of at least `through`; none of them is present. */
 static void make_layers(int count, float through) {
   stack.layer_count = (size_t)count;
   memset(set, 0, sizeof set);
@@ -36,7 +36,8 @@ static void put(int layer, bool is_present) {
 
 static bool has(int layer) { return set[layer / 64] >> layer % 64 & 1; }
 
-/* Puts one of the first `count` layers into the set, as often as the density says, or out of it. */
+/* Puts one of the first `count` layers into the set or removes it, with the probability
+ * `density`. */
 static void put_any(int count, float density) {
   float place = random_unit(&numbers), depth = random_unit(&numbers);
   put((int)(place * (float)count), depth < density);
@@ -60,8 +61,8 @@ static bool same(cs_over_pair a, cs_over_pair b) {
   return cs_v4_same(a.e, b.e) && cs_v4_same(a.t, b.t);
 }
 
-/* One layer after the other, in doubles. Returns the last layer that is seen: behind it nothing
- * shines through, beyond all doubt by rounding. */
+/* One layer after the other, in doubles. Returns the last layer that is seen: nothing behind it
+ * shines through, whatever the rounding. */
 static int check_light(cs_over_pair light) {
   const double opaque = 0.999 * (double)CS_PAINT_OPAQUE;
   double e[3] = {0}, t[3] = {1, 1, 1};
@@ -79,8 +80,8 @@ static int check_light(cs_over_pair light) {
   return last;
 }
 
-/* A walk from set to set. A stranger who has seen none of them finds the same light, and so does
- * one who finds other layers behind the last that is seen. */
+/* A walk from set to set. A fresh tree that has seen none of them finds the same light, and so does
+ * one with other layers behind the last that is seen. */
 static void test_walk(celspan_context *context, int count, float through, float density) {
   cs_over_tree tree;
   int hidden = 0;
@@ -103,7 +104,7 @@ static void test_walk(celspan_context *context, int count, float through, float 
   cs_over_tree_finish(&tree);
 }
 
-/* Behind all others lies one that lets nothing through. */
+/* Behind all others lies an opaque layer. */
 static void test_background(celspan_context *context) {
   make_layers(1000, 0.95f);
   layers[0].t = cs_v4_all(0);

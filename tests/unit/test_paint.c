@@ -1,5 +1,5 @@
 /* Paints: the algebra of the Beta colour model in its two forms. */
-#include "colour/paint.h"
+#include "model/colour/paint.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
@@ -81,7 +81,7 @@ static void test_pictures(void) {
   const float sample[4] = {0.25f, 2, 0, 0.5f};
   check_same(cs_paint_from_picture(sample, CELSPAN_PICTURE_PAINT),
              (cs_paint){{0.25f, 2, 0}, {0.5f, 0.5f, 0.5f}, 0.5f}, 0);
-  /* Half a slide: its colour mixed with clear, never more light than there is. */
+  /* Half a slide: its colour mixed with clear, which never adds light. */
   check_same(cs_paint_from_picture(sample, CELSPAN_PICTURE_GEL),
              (cs_paint){{0, 0, 0}, {0.75f, 1, 0.5f}, 0}, 0);
 }
@@ -97,7 +97,7 @@ static void test_valid(void) {
   CHECK(!cs_paint_is_valid(&paint));
 }
 
-/* Opaque is what lets no light through, whatever beta says. */
+/* A paint is opaque if it lets no light through, whatever its beta. */
 static void test_opaque(void) {
   celspan_paint card = celspan_paint_gel(0, 0, 0);
   cs_paint paint = cs_paint_from_straight(&card);

@@ -1,6 +1,6 @@
 /* Layers of a painting in a frame: the pixels of the file, whatever the budget of pictures and the
- * number of workers, in a memory that does not grow with the layer; and failures with the status and
- * the sentence of the reader. */
+ * number of workers, with memory that does not grow with the layer; and failures with the status
+ * and the sentence of the reader. */
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -18,7 +18,7 @@ static void put(FILE *file, uint32_t number, int bytes) {
     fputc((int)(number >> 8 * bytes & 255), file);
 }
 
-/* A Photoshop document of one raw layer, of which `missing` bytes at the end are left out. */
+/* A Photoshop document with one raw layer, of which `missing` bytes at the end are left out. */
 static void write_document(const char *path, long missing) {
   const uint32_t plane = WIDTH * HEIGHT;
   const int ids[] = {0, 1, 2};
@@ -56,8 +56,8 @@ static void write_document(const char *path, long missing) {
   fclose(file);
 }
 
-/* The frame that shows the layer, as coded pixels. watch: its allocation `n` of those for the frame
- * fails; NULL: none. */
+/* The frame that shows the layer, as coded pixels. watch: the n-th allocation for the frame fails;
+ * NULL: none. */
 static celspan_status shoot_with(celspan_context *context, celspan_surface *surface, int workers,
                                  memory_watch *watch, size_t n, unsigned char *pixels) {
   studio s = {.context = context};
@@ -131,7 +131,7 @@ static void check_frame(const char *path, size_t budget, int workers) {
   free(pixels);
 }
 
-/* The sentence says where the file ends, and the status is that of files. */
+/* The sentence says where the file ends, and the status is that of file errors. */
 static void check_failure(const char *path) {
   celspan_context *context = NULL;
   celspan_painting *painting = NULL;
@@ -145,7 +145,7 @@ static void check_failure(const char *path) {
   CHECK(strstr(celspan_context_error(context), "changed while it was in use"));
   celspan_painting_unref(painting);
   CHECK(celspan_painting_read(context, path, &painting) == CELSPAN_INPUT);
-  CHECK(strstr(celspan_context_error(context), " tells of "));
+  CHECK(strstr(celspan_context_error(context), " should have "));
   celspan_context_destroy(context);
   free(pixels);
 }
@@ -162,7 +162,7 @@ static bool has_art(celspan_context *context) {
     return true;
   }
   CHECK(strstr(celspan_context_error(context), "celspan-art.so"));
-  printf("skipped: %s\n", celspan_context_error(context));
+  check_skip(celspan_context_error(context));
   return false;
 }
 
@@ -186,7 +186,7 @@ static void check_arguments(void) {
   celspan_context_destroy(context);
 }
 
-/* All that the functions tell of a painting is so for as long as somebody holds it. */
+/* Everything that the functions return about a painting stays valid as long as it is referenced. */
 static void check_facts(const char *path) {
   celspan_context *context = NULL;
   celspan_painting *painting = NULL;
@@ -213,7 +213,7 @@ static void check_facts(const char *path) {
   celspan_context_destroy(context);
 }
 
-/* A surface that is kept shows its pixels when its painting and even its context are gone. */
+/* A surface that is kept shows its pixels after its painting and even its context are released. */
 static void check_lifetimes(const char *path) {
   celspan_context *context = NULL, *later = NULL;
   celspan_painting *painting = NULL;
@@ -232,7 +232,7 @@ static void check_lifetimes(const char *path) {
   free(pixels);
 }
 
-/* A header and records may tell of as much as they like: memory is for what is there. */
+/* A header and records may declare any size: memory is allocated only for data in the file. */
 static void check_claims(const char *path) {
   memory_watch watch = {0};
   celspan_context *context = memory_watch_context(&watch);
@@ -289,8 +289,8 @@ static celspan_status use(celspan_context *context, const char *path) {
   return status;
 }
 
-/* Whichever allocation fails, alone or with all that follow: the status says so, nothing is lost, and
- * the context goes on. */
+/* Whichever allocation fails, alone or with all that follow: the status says so, nothing leaks, and
+ * the context stays usable. */
 static void check_allocations(const char *path, bool is_for_good) {
   bool is_done = false;
   for (size_t n = 1; n < 5000 && !is_done; n++) {
@@ -309,7 +309,7 @@ static void check_allocations(const char *path, bool is_for_good) {
   CHECK(is_done);
 }
 
-/* The rows of a layer, as a frame asks for them. */
+/* The rows of a layer, as a frame requests them. */
 static void check_rows(const char *path, bool is_for_good) {
   unsigned char *pixels = malloc((size_t)WIDTH * HEIGHT * 4);
   bool is_done = false;
@@ -323,7 +323,7 @@ static void check_rows(const char *path, bool is_for_good) {
     watch.is_for_good = is_for_good;
     celspan_status status = shoot_with(context, layer.surface, 1, &watch, n, pixels);
     is_done = watch.allocations < watch.fail_at;
-    /* What is kept to go faster may be given up instead. */
+    /* Caches that only save time may be given up instead. */
     CHECK(status == CELSPAN_OK ? is_file(pixels) : status == CELSPAN_NO_MEMORY && !is_done);
     watch.fail_at = 0;
     CHECK(shoot(context, layer.surface, 1, pixels) == CELSPAN_OK && is_file(pixels));

@@ -1,8 +1,8 @@
-/* SVG path data: what is read, how arcs are converted, what is refused and where.
+/* SVG path data: what is accepted, how arcs are converted, what is refused and where.
  */
 #include <stdlib.h>
 
-#include "geometry/bezier.h"
+#include "model/geometry/bezier.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
@@ -107,7 +107,7 @@ static celspan_point on_piece(const cs_outline *outline, size_t piece, double t)
 }
 
 /* The centre of the arc by the two points and the flags, in the circle's own space, then every
- * point of the pieces against it; the turning must agree with the flags too. */
+ * point of the pieces compared with it; the direction must agree with the flags too. */
 static void arcs_keep_their_ellipse(void) {
   for (int seed = 1; seed <= 500; seed++) {
     test_random random = {(uint64_t)seed};

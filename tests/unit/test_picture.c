@@ -1,5 +1,6 @@
-/* Pictures out and in: what is written is read back as light, and broken files are refused.
- * One file, because formats differ in little: what is painted, written and read back is shared. */
+/* Pictures out and in: a written picture is read back as the same light, and broken files are
+ * refused. One file, because formats differ little: painting, writing and reading back is
+ * shared. */
 #include <pthread.h>
 #include <sys/stat.h>
 
@@ -46,7 +47,7 @@ static void paint_bright(int x, int y, float rgba[4]) {
 
 /* ---------------------------------------------------------------- out and in again */
 
-/* The greatest difference between what was painted and what is read. */
+/* The greatest difference between the painted and the read picture. */
 static double difference(const cs_picture *picture, int width, int height, picture_paint paint) {
   double worst = 0;
   for (int y = 0; y < height; y++)
@@ -135,7 +136,7 @@ static void test_light_beyond_white(void) {
 
 /* ---------------------------------------------------------------- levels */
 
-/* Every level against the mean taken in double over the picture's own pixels. */
+/* Every level compared with the mean computed in double over the picture's own pixels. */
 static void check_levels(const cs_picture *picture, int width, int height, picture_paint paint) {
   double worst = 0;
   int level = 0;
@@ -356,7 +357,7 @@ static const unsigned char progressive[] = {
     0x01, 0xff, 0xd5, 0x01, 0xff, 0xd6, 0xa4, 0x9a, 0x7a, 0x5b, 0x2a, 0xbf, 0xff, 0xd9,
 };
 
-/* Bytes that are put together. */
+/* A buffer of bytes put together from parts. */
 typedef struct joined {
   unsigned char bytes[1 << 17];
   size_t size;
@@ -382,7 +383,7 @@ static joined painted_jpeg(int width, int height) {
   return out;
 }
 
-/* The picture, after its first marker a segment that holds a whole other picture. */
+/* The picture with, after its first marker, a segment that contains another complete picture. */
 static joined with_thumbnail(const joined *picture, const joined *thumbnail) {
   size_t length = thumbnail->size + 8;
   const unsigned char head[] = {
@@ -425,7 +426,7 @@ static void test_jpeg_ends(void) {
   join(&file, "and notes", 9);
   CHECK(read_bytes(file.bytes, file.size) == CELSPAN_OK);
   join(&filled, picture.bytes, 2);
-  join(&filled, "\xff\xff\xff", 3); /* markers may be filled up */
+  join(&filled, "\xff\xff\xff", 3); /* fill bytes before a marker are allowed */
   join(&filled, picture.bytes + 2, picture.size - 2);
   CHECK(read_bytes(filled.bytes, filled.size) == CELSPAN_OK);
   CHECK(read_bytes(progressive, sizeof progressive) == CELSPAN_OK);
@@ -433,7 +434,7 @@ static void test_jpeg_ends(void) {
     CHECK(read_bytes(progressive, size) != CELSPAN_OK);
 }
 
-/* Every byte of small files, changed: the answer may be anything but a crash or a hang. */
+/* Every byte of small files is changed: any result is right except a crash or a hang. */
 static void test_corrupt(void) {
   static const char *const names[] = {"c.png", "c.tga", "c.exr", "c.gif"};
   static unsigned char bytes[1 << 16];
@@ -473,7 +474,8 @@ static void test_huge_headers(void) {
   unlink(path);
 }
 
-/* A Photoshop document of 16 x 16 pixels with a layer, or a mask, of so many rows; no bytes follow. */
+/* A Photoshop document of 16 x 16 pixels whose layer and mask declare `rows` and `mask_rows` rows;
+ * no bytes follow. */
 static void check_rows(int32_t rows, int32_t mask_rows, celspan_status status) {
   const char *path = picture_path("rows.psd");
   unsigned char psd[26 + 8 + 8 + 2 + 18 + 6 + 12 + 4 + 24] = {
@@ -495,7 +497,7 @@ static void check_rows(int32_t rows, int32_t mask_rows, celspan_status status) {
   }
   write_bytes(path, psd, sizeof psd);
   CHECK(read_file(path) == status);
-  bool is_told = strstr(celspan_context_error(context), "tell of more rows than it has bytes");
+  bool is_told = strstr(celspan_context_error(context), "have more rows than the file has bytes");
   CHECK(is_told == (rows > (int32_t)sizeof psd || mask_rows > (int32_t)sizeof psd));
   unlink(path);
 }
@@ -596,7 +598,7 @@ static void test_parts(void) {
   unlink(path);
 }
 
-/* Every allocation fails once: nothing is lost, the next try succeeds. */
+/* Every allocation fails once: nothing leaks, the next try succeeds. */
 static void test_memory(void) {
   const char *path = picture_path("memory.png");
   CHECK(picture_write(context, path, NULL, 100, 70, paint_waves) == CELSPAN_OK);
@@ -656,7 +658,7 @@ static void write_oriented(const char *path, unsigned orientation) {
   write_bytes(path, bytes, (size_t)(at - bytes) + 4);
 }
 
-/* The corners as the tag's definition places them: what stands top left, top right, bottom left. */
+/* The corners as the tag's definition places them: the values top left, top right, bottom left. */
 static void test_orientation(void) {
   static const int corners[8][3] = {{10, 30, 40}, {30, 10, 60}, {60, 40, 30}, {40, 60, 10},
                                     {10, 40, 30}, {40, 10, 60}, {60, 30, 40}, {30, 60, 10}};
@@ -689,7 +691,6 @@ static void test_orientation(void) {
 /* ---------------------------------------------------------------- pictures made by others */
 
 static const char *material;
-static int material_skips;
 
 static const char *material_path(const char *name) {
   static char paths[2][1024];
@@ -697,7 +698,7 @@ static const char *material_path(const char *name) {
   char *path = paths[next++ % 2];
   snprintf(path, sizeof paths[0], "%s/%s", material, name);
   if (!material || access(path, R_OK) != 0) {
-    material_skips++;
+    check_skip(path);
     return NULL;
   }
   return path;
@@ -735,7 +736,7 @@ static void test_film_log(void) {
   cs_picture_unref(picture);
 }
 
-/* One texel of a file against a value known from elsewhere. */
+/* One texel of a file against a value known independently. */
 static void check_texel(const char *name, const char *layer, int width, int height, int x, int y,
                         double r, double g, double b, double a, double tolerance) {
   const char *path = material_path(name);
@@ -759,7 +760,7 @@ static void check_texel(const char *name, const char *layer, int width, int heig
 }
 
 static void test_windows(void) {
-  /* The overscan lies outside the display window and is cut away. */
+  /* The overscan lies outside the display window and is cropped. */
   check_texel("exr/grid-overscan.exr", NULL, 1000, 1000, 0, 0, 0.50049, 0.50049, 0.50049, 1, 1);
   check_texel("exr/DisplayWindow/t01.exr", NULL, 400, 300, 0, 0, 0.5, 0.5, 0.5, 1, 1);
   /* The data window is larger, smaller or elsewhere: the display window counts. */
@@ -772,7 +773,7 @@ static void test_windows(void) {
   }
 }
 
-/* The suite's good files are read, those that are corrupt on purpose refused. */
+/* The suite's good files are read, those that are corrupt on purpose are refused. */
 static void test_png_suite(void) {
   static const char *const good[] = {
       "basi0g02", "basi2c16", "basi3p01", "basi3p02", "basi3p08", "basi4a08", "basi6a16",
@@ -798,7 +799,7 @@ static void test_png_suite(void) {
   }
 }
 
-/* The merged picture; a layer by its name; a file whose reader runs in circles past its end when it
+/* The merged picture; a layer by its name; a file whose reader loops endlessly past its end when it
  * is given the file itself. */
 static void test_psd(void) {
   check_texel("psd/blend-modes/hard-mix.psd", NULL, 64, 64, 0, 0, 0.5, 0.5, 0.5, 0.5, 0.5);
@@ -820,7 +821,7 @@ int main(void) {
   material = getenv("CELSPAN_MATERIAL");
   test_arguments();
   test_hash();
-  if (picture_module_is_there(context)) {
+  if (picture_module_or_skip(context)) {
     test_round_trips();
     test_light_beyond_white();
     test_levels();
@@ -839,8 +840,6 @@ int main(void) {
     test_windows();
     test_png_suite();
     test_psd();
-    if (material_skips)
-      printf("%d pictures were not there (CELSPAN_MATERIAL)\n", material_skips);
   }
   celspan_context_destroy(context);
   return check_done();

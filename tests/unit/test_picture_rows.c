@@ -1,7 +1,7 @@
-/* Pictures in frames: the same pixels with codes and without, on any number of workers, from blocks
- * that are clear, opaque or neither.
+/* Pictures in frames: the same pixels with codes and without, with any number of workers, from
+ * blocks that are clear, opaque or mixed.
  */
-#include "output/pixels.h"
+#include "output/sinks/pixels.h"
 #include "tests/support/picture.h"
 #include "tests/support/scene.h"
 
@@ -48,7 +48,7 @@ static celspan_cel *picture_cel(studio *s, const char *file, celspan_matrix plac
 
 typedef struct sheet {
   unsigned char rows[HEIGHT][4 * WIDTH];
-  size_t coded, uncoded; /* pixels of arrays that came as codes, and others */
+  size_t coded, uncoded; /* pixels of arrays that are codes, and others */
   uint64_t evaluations;
 } sheet;
 
@@ -75,7 +75,7 @@ static void render(studio *s, celspan_rostrum *rostrum, int workers, bool takes_
   to->evaluations = statistics.colour_evaluations;
 }
 
-/* is_copied: pixels that need no colour, their codes are those of a picture. */
+/* is_copied: the codes of pixels without any colour effect are those of the picture. */
 static void check_frame(studio *s, celspan_cel **cels, size_t count, bool is_copied) {
   static sheet plain, coded;
   celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
@@ -123,7 +123,7 @@ int main(void) {
   studio s = {0};
   char ground[512], tiles[512];
   CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
-  if (picture_module_is_there(s.context)) {
+  if (picture_module_or_skip(s.context)) {
     snprintf(ground, sizeof ground, "%s", picture_path("ground.png"));
     snprintf(tiles, sizeof tiles, "%s", picture_path("tiles.png"));
     studio_check(&s, picture_write(s.context, ground, NULL, WIDTH, HEIGHT, paint_ground));

@@ -1,5 +1,5 @@
-/* Frames in the picture module's formats: what each can hold, and files that appear whole or not at
- * all.
+/* Frames in the picture module's formats: what each can represent, and files that appear complete
+ * or not at all.
  */
 #include <signal.h>
 #include <sys/resource.h>
@@ -22,7 +22,7 @@ static const char *const all[] = {"s.exr", "s.tif", "s.tga", "s.dpx",  "s.jpg", 
                                   "s.hdr", "s.ppm", "s.gif", "s.webp", "s.jp2"};
 #define ALL (sizeof all / sizeof *all)
 
-/* The status of beginning a frame of that size; nothing may be left of it. */
+/* The status of beginning a frame of that size; no file may be left. */
 static celspan_status begin(const char *name, int32_t width, int32_t height) {
   const char *path = picture_path(name);
   celspan_file_desc file = CELSPAN_FILE_DESC;
@@ -103,7 +103,7 @@ static void test_same_bytes(void) {
   }
 }
 
-/* The disk is full after a few bytes: OUTPUT, and what stood under the name stands. */
+/* The disk is full after a few bytes: OUTPUT, and the existing file is unchanged. */
 static void test_full_disk(void) {
   struct rlimit kept, small;
   getrlimit(RLIMIT_FSIZE, &kept);
@@ -127,7 +127,7 @@ static void test_full_disk(void) {
   signal(SIGXFSZ, SIG_DFL);
 }
 
-/* A file where a folder should be: nothing can be begun, and all is let go once. */
+/* A file where a folder should be: begin fails, and everything is released once. */
 static void test_no_folder(void) {
   char path[512], below[600];
   snprintf(path, sizeof path, "%s", picture_path("taken"));
@@ -175,7 +175,7 @@ static void test_memory(void) {
 int main(void) {
   CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
   test_codings();
-  if (picture_module_is_there(context)) {
+  if (picture_module_or_skip(context)) {
     test_limits();
     test_same_bytes();
     test_full_disk();

@@ -1,6 +1,6 @@
 /* base/pipeline.c: whatever the number of threads, items are made once and delivered in order, with
- * the owner's context; the first that fails is the one that is reported; what is not wanted is not
- * begun; nothing is lost when memory or threads run short. */
+ * the owner's context; the first that fails is the one that is reported; unwanted items are not
+ * begun; nothing leaks when memory or threads run short. */
 #include "base/pipeline.h"
 
 #include <dlfcn.h>
@@ -14,13 +14,13 @@
 
 enum { ITEMS = 60, NOWHERE = -1 };
 
-/* ---------------------------------------------------------------- threads that cannot be had */
+/* ---------------------------------------------------------------- shortage of threads */
 
 static int threads_left = INT32_MAX;
 
 typedef int (*creator)(pthread_t *, const pthread_attr_t *, void *(*)(void *), void *);
 
-/* In place of the library's own, for everything that is linked with this program. */
+/* Replaces the library's own for everything that is linked with this program. */
 int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*start)(void *),
                    void *argument) {
   void *found = dlsym(RTLD_NEXT, "pthread_create");
@@ -182,7 +182,7 @@ static void check_failing(celspan_context *context, int threads, bool owner_clai
   CHECK(w.delivered == 17 && w.faults == 0);
 }
 
-/* Whoever cancels: what has no slot yet is not begun any more. */
+/* Whoever cancels: items without a slot are not begun any more. */
 static void check_cancelled(celspan_context *context, int threads, bool owner_claims) {
   works w = quiet();
   w.cancels_in = 11;

@@ -1,12 +1,12 @@
-/* output/pixels.c and the sinks that use it alone: memory and digest. */
-#include "output/pixels.h"
+/* output/sinks/pixels.c and the sinks that use it alone: memory and digest. */
+#include "output/sinks/pixels.h"
 
 #include <stdlib.h>
 
-#include "colour/srgb8.h"
-#include "colour/transfer.h"
-#include "output/pixels8.h"
-#include "output/sink.h"
+#include "model/colour/srgb8.h"
+#include "model/colour/transfer.h"
+#include "output/sinks/pixels8.h"
+#include "output/sinks/sink.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
@@ -37,7 +37,8 @@ static void check_half(void) {
     wrong += code_half(nextafterf(middle, HUGE_VALF)) != half + 1;
   }
   CHECK(wrong == 0);
-  /* From the middle between the greatest half and the next power of two, rounding would overflow. */
+  /* From the middle between the greatest half and the next power of two, rounding would
+   * overflow. */
   static const float large[] = {65504, 65519, 65520, 65535, 65536, 1e30f, 3.4e38f};
   for (size_t i = 0; i < sizeof large / sizeof *large; i++)
     CHECK(code_half(large[i]) == 0x7bff && code_half(-large[i]) == 0xfbff);
@@ -159,8 +160,8 @@ static void check_row(celspan_coding coding, const celspan_span *spans, size_t c
   free(row);
 }
 
-/* Flat spans of every length at every place of the cache's lines, with bytes around that are not
- * the row's. */
+/* Flat spans of every length at every position in a cache line, between bytes that do not belong to
+ * the row. */
 static void check_lengths(celspan_coding coding) {
   enum { MOST = 150, AROUND = 80 };
   size_t size = celspan_coding_pixel_size(&coding);
@@ -200,7 +201,7 @@ static void check_rows(void) {
 
 /* ---------------------------------------------------------------- the usual coding */
 
-/* Runs as frames have them: most a pixel long, some long, a few very long. */
+/* Runs as in real frames: most a pixel long, some long, a few very long. */
 static int32_t random_length(test_random *random, int32_t most) {
   static const int32_t lengths[] = {1, 1, 1, 2, 16, 16, 40, 1100};
   int32_t length = 1 + random_below(random, lengths[random_below(random, 8)]);
@@ -237,7 +238,7 @@ static int count_wrong(const celspan_span *spans, size_t count, const unsigned c
   return wrong;
 }
 
-/* Whichever instructions write it, a row is right wherever it lies, and ends where it ends. */
+/* With every instruction set a row is right at any position, and ends where it should. */
 static void check_usual_rows(cs_isa isa) {
   enum { MOST = 60000, AROUND = 128 };
   static celspan_span spans[MOST];

@@ -1,10 +1,10 @@
-/* Plain pieces have a way of their own into boundaries and bounds, which must give the bits of the
- * way of all others. The two are compared on random paths: a matrix multiplied by 2 is the same map,
- * but the weights are then 2, so that nothing is plain; and no rounding differs by a factor of 2.
+/* Plain pieces have a separate path into boundaries and bounds, which must give the same bits as
+ * the general one. The two are compared on random paths: a matrix multiplied by 2 is the same map,
+ * but the weights are then 2, so that no piece is plain; and a factor of 2 changes no rounding.
  */
-#include "geometry/boundary_build.h"
-#include "geometry/matrix.h"
-#include "geometry/plain.h"
+#include "model/geometry/boundary_build.h"
+#include "model/geometry/matrix.h"
+#include "model/geometry/plain.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
@@ -13,13 +13,13 @@
 
 static celspan_context *context;
 
-/* Points on the grid may be on its sides. */
+/* Points on the grid may lie on its sides. */
 static const cs_boundary_frame frame = {0, 300, 0, 200};
 
 /* ---------------------------------------------------------------- random paths */
 
-/* Points on a grid give level lines, vertical lines and curves whose points coincide; those far away
- * give pieces that are cut at the sides of the frame, at its top and at its bottom. */
+/* Points on a grid give level lines, vertical lines and curves whose points coincide; those far
+ * away give pieces that are cut at the sides of the frame, at its top and at its bottom. */
 static cs_hpoint next_point(test_random *random, double size, bool has_grid) {
   celspan_point at = random_point(random, 150 - size, 150 + size, 100 - size, 100 + size);
   if (has_grid)

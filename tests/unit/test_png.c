@@ -1,5 +1,5 @@
-/* output/png/png_sink.c: whatever rows of spans it gets, libpng reads the pixels that
- * output/pixels.c makes of them.
+/* output/png/png_sink.c: whatever rows of spans it is given, libpng reads the pixels that
+ * output/sinks/pixels.c makes of them.
  */
 #include <png.h>
 #include <signal.h>
@@ -9,8 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "output/pixels.h"
-#include "output/sink.h"
+#include "output/sinks/pixels.h"
+#include "output/sinks/sink.h"
 #include "tests/support/check.h"
 #include "tests/support/span_frames.h"
 
@@ -113,7 +113,7 @@ static void check_frame(celspan_context *context, int32_t width, int32_t height,
   free(made.spans);
 }
 
-/* What was said to be opaque and is not. */
+/* Pixels that were declared opaque and are not. */
 static void check_clear_refused(celspan_context *context, int style, int workers) {
   frame made = {.width = 300, .height = 2000, .style = style};
   celspan_file_desc file = CELSPAN_FILE_DESC;
@@ -159,7 +159,8 @@ static void *failing_resize(void *user, void *block, size_t old_size, size_t new
   return --allocations_left == 0 ? NULL : realloc(block, new_size);
 }
 
-/* With the n-th allocation failing, for every n: the status says so, nothing leaks, and no file. */
+/* With the n-th allocation failing, for every n: the status says so, nothing leaks, and no file is
+ * left. */
 static void check_without_memory(int style, int workers, int32_t height) {
   static float arrays[4 * 500];
   static celspan_span spans[500];
@@ -194,7 +195,7 @@ static void check_without_memory(int style, int workers, int32_t height) {
 
 /* ---------------------------------------------------------------- no room */
 
-/* Files may not grow beyond `limit` bytes: nothing is left under the name, unless it fits. */
+/* Files may not grow beyond `limit` bytes: no file appears under the name unless it fits. */
 static void check_full(celspan_context *context, frame *made, rlim_t limit, off_t whole) {
   struct rlimit before, least;
   struct stat there;

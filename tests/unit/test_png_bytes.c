@@ -1,4 +1,4 @@
-/* output/png/bytes_wide.c: every set of instructions gives what PNG's definitions give, byte by
+/* output/png/bytes_wide.c: every instruction set gives the result of PNG's definitions, byte by
  * byte.
  */
 #include "output/png/bytes.h"
@@ -15,7 +15,7 @@ typedef struct rows {
   unsigned char row[BEFORE + SIZE_MOST + CS_PNG_BATCH], above[BEFORE + SIZE_MOST + CS_PNG_BATCH];
 } rows;
 
-/* Noise, runs, or rows that are nearly alike; zeros around them. */
+/* Noise, runs, or rows that are nearly equal; zeros around them. */
 static void fill_rows(test_random *random, rows *r, size_t size) {
   int style = (int)random_below(random, 3);
   *r = (rows){0};
@@ -68,7 +68,7 @@ static void check_rows(cs_isa isa, const rows *r, size_t pixel_size, size_t size
   CHECK(memcmp(costs, expected, sizeof costs) == 0);
 }
 
-/* Sums have no room to spare where every byte costs the most. */
+/* The accumulators hold the largest possible sum of every byte's cost. */
 static void check_dearest(cs_isa isa) {
   rows r = {0};
   uint64_t costs[CS_PNG_FILTERS] = {1, 1, 1, 1, 1};

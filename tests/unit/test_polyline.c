@@ -1,6 +1,6 @@
-/* Polylines against their curves in every pixel: how much of it lies right of what the sweep walks,
- * and how much right of the curve. The curve is the same outline walked FINE times as large, which
- * makes its polyline so many times as near.
+/* Polylines compared with their curves in every pixel: the area right of the polyline that the
+ * sweep walks, and the area right of the curve. The curve is the same outline walked FINE times as
+ * large, whose polyline has an error FINE times smaller.
  *
  *      +--------+        ###: between the curve and the polyline, in this pixel
  *      |  `.    |
@@ -12,16 +12,16 @@
  */
 #include <stdlib.h>
 
-#include "geometry/boundary_build.h"
-#include "geometry/boundary_walk.h"
-#include "geometry/matrix.h"
+#include "model/geometry/boundary_build.h"
+#include "model/geometry/boundary_walk.h"
+#include "model/geometry/matrix.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
 enum { SIDE = 64, FINE = 16, CASES = 400 };
 
 #define CODES 255.0
-/* What a pixel may be off by where one shape is opaque: less than the 2 of antialiasing by area,
+/* The allowed error of a pixel, with one opaque shape: less than the 2 of antialiasing by area,
  * because several shapes may meet in a pixel. */
 #define MOST 1.9
 #define RMS 0.45 /* of all pixels that an edge crosses */
@@ -71,7 +71,7 @@ static celspan_matrix random_matrix(test_random *random) {
 
 /* ---------------------------------------------------------------- areas */
 
-/* What is summed up of an outline: how much of each pixel lies right of its chains, signed. */
+/* The sums for an outline: the signed area of each pixel right of its chains. */
 typedef struct areas {
   double pixels[SIDE][SIDE];
   bool is_crossed[SIDE][SIDE];
@@ -96,7 +96,7 @@ static void add_line(areas *sum, celspan_point top, celspan_point foot, double s
   }
 }
 
-/* A line, cut at whole heights; what is outside the rows does not matter. */
+/* A line, cut at whole heights; the parts outside the rows do not matter. */
 static void add_lines(areas *sum, celspan_point top, celspan_point foot, double sign) {
   celspan_point above = top;
   for (double y = floor(fmax(top.y, -1)) + 1; y < fmin(foot.y, SIDE + 1); y++) {

@@ -1,5 +1,5 @@
-/* The oracle against values worked out by hand. The film is 100 x 50 units. One list of cases, each of
- * which stands alone. */
+/* The oracle against values worked out by hand. The film is 100 x 50 units. One list of independent
+ * cases. */
 #include "tests/support/memory.h"
 #include "tests/support/scene.h"
 
@@ -40,7 +40,7 @@ static void test_default_texture_is_black(studio *s) {
   EXPECT(s, studio_show(s, studio_rect(s, 0, 0, 9, 9, NULL)), 5, 5, 0, 0, 0, 1);
 }
 
-/* A circle of radius 10 about 50, 25: asked on both sides of its edge all the way round. */
+/* A circle of radius 10 around 50, 25: probed on both sides of its edge all the way round. */
 static void test_circle(studio *s) {
   celspan_object *circle = studio_circle(s, 50, 25, 10, NULL);
   for (int i = 0; i < 360; i++) {
@@ -62,7 +62,7 @@ static void test_rules(studio *s) {
   CHECK(celspan_object_contains(evenodd, (celspan_point){25, 5}));
 }
 
-/* Of slanted edges too the left ones are in and the right ones out. */
+/* On slanted edges too the left ones are in and the right ones out. */
 static void test_slanted_edges_are_half_open(studio *s) {
   const celspan_point points[] = {{10, 0}, {20, 10}, {10, 20}, {0, 10}};
   celspan_object *diamond = studio_polygon(s, points, 4, CELSPAN_RULE_NONZERO, NULL);
@@ -126,13 +126,14 @@ static void test_matrices_nest(studio *s) {
   EXPECT(s, r, 25, 5, 0, 0, 0, 0);
 }
 
-/* x' = x / (1 + y/100): what has y <= -100 is behind the horizon. */
+/* x' = x / (1 + y/100): points with y <= -100 are behind the horizon. */
 static void test_perspective(studio *s) {
   celspan_matrix matrix = {{1, 0, 0, 0, 1, 0, 0, 0.01, 1}};
   celspan_object *rect = studio_rect(s, -1000, -1000, 2000, 2000, studio_paint(s, red));
   celspan_object *tilted = studio_transform(s, rect, matrix);
   celspan_rostrum *r = studio_show(s, tilted);
-  /* Film y = Y/(1 + Y/100) stays below 100 for Y > -100; from above 100 one looks behind. */
+  /* Film y = Y/(1 + Y/100) stays below 100 for Y > -100; points above 100 are behind the
+   * horizon. */
   EXPECT(s, r, 50, 40, 1, 0, 0, 1);
   CHECK(celspan_object_contains(tilted, (celspan_point){0, 90}));
   CHECK(!celspan_object_contains(tilted, (celspan_point){0, 91}));    /* Y = 1000 lands on 90.9 */
@@ -141,7 +142,8 @@ static void test_perspective(studio *s) {
   CHECK(celspan_object_contains(tilted, (celspan_point){0, -400}));
 }
 
-/* A matrix and its negative are the same map, where no horizon tells them apart. */
+/* A matrix and its negative are the same map, as long as there is no horizon to distinguish
+ * them. */
 static void test_negative_affine(studio *s) {
   celspan_object *rect = studio_rect(s, 0, 0, 10, 10, NULL);
   celspan_matrix matrix = {{-1, 0, 0, 0, -1, 0, 0, 0, -1}};
@@ -150,7 +152,7 @@ static void test_negative_affine(studio *s) {
 
 /* ---------------------------------------------------------------- booleans */
 
-/* Red on columns 0..20, green on 10..30: asked at 5, 15, 25 and 35. */
+/* Red on columns 0..20, green on 10..30: probed at 5, 15, 25 and 35. */
 static void test_boolean_pair(studio *s, celspan_operator op, const char *expected) {
   celspan_object *a = studio_rect(s, 0, 0, 20, 50, studio_paint(s, red));
   celspan_object *b = studio_rect(s, 10, 0, 20, 50, studio_paint(s, green));
@@ -183,7 +185,7 @@ static void test_many_operands(studio *s) {
   EXPECT(s, studio_show(s, studio_boolean(s, CELSPAN_INTERSECTION, all, 3)), 15, 9, 0, 0, 0, 0);
 }
 
-/* An operand that is faded away is still there: it cuts, and lets the other one show. */
+/* An operand that is faded out still has its shape: it cuts, and lets the other one show. */
 static void test_fade_inside_boolean(studio *s) {
   celspan_object *a = studio_rect(s, 0, 0, 20, 50, studio_paint(s, red));
   celspan_object *b = studio_fade(s, studio_rect(s, 10, 0, 20, 50, studio_paint(s, green)), 0);
@@ -310,7 +312,7 @@ static void test_triangle_gradient(studio *s) {
   EXPECT(s, r, 0, 0, 1, 0, 0, 1);
   EXPECT(s, r, 5, 0, 0.5, 0.25, 0, 0.75);
   EXPECT(s, r, 2.5, 5, 0.25, 0.125, 0, 0.375);
-  /* Beyond the corners beta goes on to fall to 0 and is held there; S is held below it. */
+  /* Beyond the corners beta continues to fall to 0 and is clamped there; S is clamped below it. */
   EXPECT(s, r, 15, 0, 0, 0.25, 0, 0.25);
   EXPECT(s, r, 40, 0, 0, 0, 0, 0);
 }
@@ -340,7 +342,7 @@ static void test_radial_gradient(studio *s) {
   EXPECT(s, r, 90, 29, 0, 1, 0, 1);
 }
 
-/* Without a length to run along everything lies past the last stop, the last corner. */
+/* Gradients of no length: everything lies past the last stop, the last corner. */
 static void test_degenerate_gradients(studio *s) {
   const celspan_stop stops[] = {{0, {{1, 0, 0}, {1, 1, 1}, 1}}, {1, {{0, 1, 0}, {1, 1, 1}, 1}}};
   const celspan_point line[3] = {{0, 0}, {10, 10}, {30, 30}};
@@ -364,7 +366,7 @@ static void test_texture_moves_with_its_object(studio *s) {
 
 /* ---------------------------------------------------------------- procedures */
 
-/* Red on the first fifth of its bounds, from red to green on 4..8; y as it is asked for. */
+/* Red on the first fifth of its bounds, from red to green on 4..8; y as requested. */
 static celspan_status stripes(void *user, celspan_context *context, double y,
                               const celspan_scanline_row *row, celspan_scanline_output *output) {
   const celspan_paint ramp[] = {red, green};
@@ -385,7 +387,7 @@ static void test_scanline(studio *s) {
   EXPECT(s, r, 5, 3, 0, 0, 0, 0);
   EXPECT(s, r, 12, 3, 0.75, 0.25, 0, 1);
   EXPECT(s, r, 19.9, 3, 0.25625, 0.74375, 0, 1);
-  EXPECT(s, r, 21, 3, 0, 0, 0, 0); /* the span goes on to 12, the bounds end at 10 */
+  EXPECT(s, r, 21, 3, 0, 0, 0, 0); /* the span extends to 12, the bounds end at 10 */
   celspan_object *rect = studio_rect(s, 0, 0, 40, 40, studio_paint(s, blue));
   EXPECT(s, studio_show(s, studio_pair(s, CELSPAN_DIFFERENCE, rect, placed)), 1, 3, 0, 0, 0, 0);
   EXPECT(s, studio_show(s, studio_pair(s, CELSPAN_DIFFERENCE, rect, placed)), 5, 3, 0, 0, 1, 1);
@@ -398,7 +400,7 @@ static celspan_status emit_bad(void *user, celspan_context *context, double y,
   (void)user, (void)context, (void)y, (void)row;
   for (int i = 0; i < 2; i++)
     if (celspan_scanline_emit(output, bad_spans[i][0], bad_spans[i][1], &red, 1) != CELSPAN_OK)
-      break; /* and says nothing: the failure is remembered */
+      break; /* without reporting it: the failure is remembered */
   return CELSPAN_OK;
 }
 
@@ -486,11 +488,11 @@ static void test_pictures(studio *s) {
   if (celspan_picture_inspect(s->context, &desc, &info) == CELSPAN_OK)
     check_picture(s, desc);
   else
-    printf("skipped pictures: none can be read here\n");
+    check_skip("the picture module");
   remove(desc.file);
 }
 
-/* A box of no size draws nothing, and its picture is not even looked for. */
+/* A box of no size draws nothing, and its picture file is not even opened. */
 static void test_picture_without_size(studio *s) {
   celspan_picture_desc desc = {.file = "there/is/no/such.png", .has_box = true};
   EXPECT(s, show_picture(s, desc), 15, 15, 0, 0, 0, 0);

@@ -1,6 +1,6 @@
-/* Rows in which procedures are seen among other shapes: spans that touch each other, and edges of shapes
- * that lie where spans begin and end. Every pixel is what the probe says of its centre or, antialiased,
- * of all its width.
+/* Rows with procedures among other shapes: spans that touch each other, and edges of shapes at the
+ * ends of spans. Every pixel has the colour that the probe finds at its centre or, antialiased,
+ * over its whole width.
  */
 #include "tests/support/frame_rows.h"
 #include "tests/support/memory.h"
@@ -9,12 +9,12 @@
 #define WIDTH 40
 #define HEIGHT 3
 #define SPANS 6
-#define PARTS 16 /* of a pixel that are probed: edges lie between them */
+#define PARTS 16 /* probes of a pixel: edges lie between them */
 
 /* A procedure of upright stripes. */
 typedef struct stripes {
   double x[SPANS + 1];
-  bool is_there[SPANS]; /* between x[i] and x[i + 1] */
+  bool is_there[SPANS]; /* whether there is a stripe between x[i] and x[i + 1] */
   celspan_paint paints[SPANS];
 } stripes;
 
@@ -29,7 +29,7 @@ static celspan_status play(void *user, celspan_context *context, double y,
   return status;
 }
 
-/* A place that pixels are cut into eighths by: half of them lie at the middle or the edge of one. */
+/* A multiple of an eighth of a pixel: half of them lie at the middle or the edge of one. */
 static double random_place(test_random *random, double low, double high) {
   double steps = random_below(random, 2) ? 8 : 2;
   return floor(random_between(random, low, high) * steps) / steps;

@@ -1,6 +1,6 @@
-/* Light taken off pictures, through the public header: what is left of pictures whose S and T are
- * known, fields of light, refusals, and memory that fails anywhere. tests/spec/relight_spec.lua has
- * the pictures as they are rendered. */
+/* Taking light off pictures, through the public header: the remaining S and T of pictures for which
+ * they are known, fields of light, refusals, and failing allocations. tests/spec/relight_spec.lua
+ * has the pictures as rendered. */
 #include <stdlib.h>
 
 #include "celspan/celspan.h"
@@ -12,7 +12,7 @@ enum { WIDTH = 70, HEIGHT = 66, COUNT = WIDTH * HEIGHT };
 
 typedef float pixels[COUNT][4];
 
-/* What a card scatters and lets through, and what is made of it. */
+/* The S and T of a card, and the pictures made from it. */
 static pixels s_of, t_of, room[4];
 
 static void make_card(void) {
@@ -51,7 +51,7 @@ static celspan_status make_texture(celspan_context *context, const void *values,
   return status;
 }
 
-/* The texture in a light, before a ground. */
+/* The texture in a light, in front of a background. */
 static celspan_status render(celspan_context *context, celspan_texture *texture,
                              celspan_light front, celspan_light back, pixels out) {
   celspan_object *object = NULL;
@@ -164,7 +164,7 @@ static void both_ways_find_the_card(celspan_context *context) {
 
 /* ---------------------------------------------------------------- fields */
 
-/* A white sheet in a field of light: the field is found again, and taken off it leaves white. */
+/* A white sheet in a field of light: the field is found again, and removing it leaves white. */
 static void fields_are_fitted(celspan_context *context) {
   celspan_light_field truth = celspan_light_field_flat(0.8, 0.5, 0.3), found;
   celspan_texture *sheet = NULL, *white = NULL;
@@ -257,8 +257,8 @@ static void estimates_are_checked(celspan_context *context, celspan_texture *pic
   CHECK(celspan_light_estimate(context, &desc, &found) == CELSPAN_BAD_ARGUMENT);
 }
 
-/* Half of it almost dark and half brighter than any paper: no field that can be divided by is like
- * that, whatever else is known of the light. */
+/* Half of it almost dark and half brighter than any paper: such a field cannot be divided by,
+ * whatever else is known of the light. */
 static void fields_that_are_too_uneven_are_refused(celspan_context *context) {
   celspan_light_estimate_desc desc = CELSPAN_LIGHT_ESTIMATE_DESC;
   celspan_light_field found;
@@ -365,7 +365,7 @@ static const celspan_stack_light bright[CELS + 1] = {{{0, 0, 0, 1}, {1, 0, 0, 0}
                                                      {{3, 0.1f, 0.7f, 1}, {0, 1, 0, 0}},
                                                      {{0.5f, 0.4f, 1.5f, 1}, {0, 0, 2, 0}}};
 
-/* The stack in some lights against a scene that has them. */
+/* The stack in some lights compared with a scene that has them. */
 static void compare_lights(celspan_context *context, const celspan_stack *stack,
                            const celspan_stack_light *lights) {
   static float expected[SIDE * SIDE][4], found[SIDE * SIDE][4];
@@ -406,7 +406,7 @@ static void stacks_take_any_light(celspan_context *context) {
   compare_lights(context, stack, dim);
   compare_lights(context, stack, bright);
   memcpy(own, dim, sizeof own);
-  own[2].front.g = 4; /* one light that differs is added to the frame in the others */
+  own[2].front.g = 4; /* the difference of one light is added to the frame in the other lights */
   compare_lights(context, stack, own);
   own[2].front.g = -1;
   CHECK(celspan_stack_pixels(context, stack, own, 1, room[0][0]) == CELSPAN_BAD_ARGUMENT);

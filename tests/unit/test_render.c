@@ -210,9 +210,8 @@ static void check_sinks(studio *s) {
   }
 }
 
-/* A corner that does not show comes down to the foot of its row on an upright side that does, which
- * stands on a pixel's edge: at `x` it crosses no column, least of all the one right of the
- * frame. */
+/* A hidden corner comes down to the foot of its row on a visible vertical side that lies on a
+ * pixel's edge: at `x` it crosses no column, in particular not the one right of the frame. */
 static void check_touching_corner(studio *s, double x) {
   celspan_texture *ground = studio_paint(s, celspan_paint_rgb(1, 1, 1, 1));
   celspan_texture *shape = studio_paint(s, celspan_paint_rgb(0.3f, 0.7f, 0.1f, 1));
@@ -255,7 +254,7 @@ static bool stop_third(void *user, int32_t rows_done, int32_t rows_total) {
   return ++*(int *)user < 3;
 }
 
-/* Workers that fill shares of the sink stop amid them. */
+/* Workers that fill shares of the sink stop in the middle of them. */
 static void check_cancel_shares(studio *s) {
   celspan_exposure exposure = {random_rostrum(s, 18), 1};
   celspan_frame_desc desc = frame_of(&exposure, NULL);
@@ -299,7 +298,7 @@ static void check_refusals(studio *s) {
   studio_check(s, celspan_frame_digest(s->context, &desc, NULL, digest));
 }
 
-/* Nothing exposed is a clear frame. */
+/* A frame without exposures is clear. */
 static void check_nothing(studio *s) {
   celspan_frame_desc desc = frame_of(NULL, NULL);
   float *pixels = malloc(PIXEL_COUNT * 4 * sizeof(float));

@@ -1,5 +1,5 @@
 /* Rows of spans: merging, cropping, and the exposures of one frame. */
-#include "span/row.h"
+#include "engine/span/row.h"
 #include "tests/support/check.h"
 
 static celspan_context *context;
@@ -29,7 +29,7 @@ static void test_merging(void) {
   cs_row_finish(&row, context->memory);
 }
 
-/* Cropping moves no colour: every column shows what it showed. */
+/* Cropping moves no colour: every column keeps its colour. */
 static void test_cropping(void) {
   for (int32_t from = 0; from < 20; from++) {
     cs_row row, whole;
@@ -54,7 +54,7 @@ static void test_cropping(void) {
   }
 }
 
-/* Light adds, weighted; alpha likewise, held to 1 from the column where it passes it. */
+/* Light adds, weighted; so does alpha, clamped to 1 from the column where it exceeds it. */
 static void test_exposing(void) {
   cs_row rows[2], sum;
   float weights[2] = {0.5f, 2};
@@ -82,7 +82,7 @@ static void test_exposing(void) {
 }
 
 #ifdef CELSPAN_CHECKS
-/* The self-check sees what is wrong with a row, and nothing else. */
+/* The self-check finds every fault of a row, and nothing else. */
 static void test_self_check(void) {
   cs_row row;
   cs_row_init(&row);

@@ -1,11 +1,11 @@
 /* Pictures along rows: exact where they must be, the mean where they shrink, brute force elsewhere.
- * One file, because every way of sampling is held against the same sums. */
-#include "colour/srgb8.h"
-#include "sample/sampler.h"
-#include "sample/sampler_codes.h"
-#include "sample/sampler_level.h"
-#include "sample/sampler_row.h"
-#include "sample/sampler_taps.h"
+ * One file, because every way of sampling is compared with the same sums. */
+#include "engine/sample/sampler.h"
+#include "engine/sample/sampler_codes.h"
+#include "engine/sample/sampler_level.h"
+#include "engine/sample/sampler_row.h"
+#include "engine/sample/sampler_taps.h"
+#include "model/colour/srgb8.h"
 #include "tests/support/picture.h"
 #include "tests/support/random.h"
 
@@ -30,7 +30,7 @@ static void paint_check(int x, int y, float rgba[4]) {
   rgba[3] = 1;
 }
 
-/* Rings that grow finer than a pixel of a shrunk picture can show. */
+/* Rings that become finer than a pixel of a shrunk picture can show. */
 static void paint_zone(int x, int y, float rgba[4]) {
   double dx = x - 128, dy = y - 128;
   for (int c = 0; c < 3; c++)
@@ -185,7 +185,7 @@ static void test_borders(void) {
   float rgba[4];
   cs_sampler s = make_sampler(noise_picture, SIDE, SIDE, affine(8, 0, 0, 0, 8, 0),
                               CELSPAN_SAMPLING_BILINEAR, CELSPAN_WRAP_CLEAR);
-  sample(&s, 0, 0, rgba); /* no clear border creeps in */
+  sample(&s, 0, 0, rgba); /* without a clear border */
   CHECK(same(rgba, noise[0][0]));
   sample(&s, -1, 0, rgba);
   CHECK(rgba[3] == 0 && rgba[0] == 0);
@@ -299,7 +299,7 @@ static void test_checker(void) {
   CHECK(rgba[3] == 1);
 }
 
-/* Rings past what the shrunk picture can show come out grey, not as other rings. */
+/* Rings too fine for the shrunk picture become grey, not other rings. */
 static void test_zone_plate(void) {
   const celspan_matrix placements[] = {affine(0.25, 0, 0, 0, 0.25, 0),
                                        affine(0.2, -0.15, 40, 0.15, 0.2, 0)};
@@ -325,7 +325,7 @@ static void test_zone_plate(void) {
   }
 }
 
-/* ---------------------------------------------------------------- perspective and the like */
+/* ---------------------------------------------------------------- perspective and brute force */
 
 /* The mean of many bilinear samples over the pixel. */
 static void brute_force(const cs_sampler *s, int x, int y, int taps, double out[4]) {
@@ -366,7 +366,7 @@ static double compare_with_force(const cs_sampler *s, int x0, int x1, int y0, in
 
 static void test_perspective(void) {
   double deviation;
-  /* Enlarged: one interpolated sample at the centre, so one tap tells. */
+  /* Enlarged: one interpolated sample at the centre, so one tap is enough. */
   celspan_matrix near = {{3, 0.2, 10, 0.1, 3.5, 20, 0.0004, 0.0006, 1}};
   cs_sampler s =
       make_sampler(noise_picture, SIDE, SIDE, near, CELSPAN_SAMPLING_BILINEAR, CELSPAN_WRAP_CLEAR);
@@ -553,10 +553,10 @@ static void paint_tiles(int x, int y, float rgba[4]) {
     rgba[c] = 0;
 }
 
-/* What a opacity says of samples is true of them, and it says something. */
+/* What an opacity says about samples is true of them, and it is not always "mixed". */
 static void test_looks(void) {
   cs_picture *tiles = make_picture("tiles.exr", TILES, TILES, paint_tiles);
-  int told[3] = {0}, wrong = 0;
+  int counts[3] = {0}, wrong = 0;
   for (int p = 0; p < PLACEMENTS && tiles; p++)
     for (int wrap = 0; wrap <= CELSPAN_WRAP_REPEAT; wrap++)
       for (int sampling = 0; sampling <= CELSPAN_SAMPLING_BICUBIC; sampling++)
@@ -567,7 +567,7 @@ static void test_looks(void) {
             float row[16][4];
             cs_picture_opacity opacity;
             CHECK(cs_sampler_opacity(&texels, &s, run_of(x, 16, y + 0.5), &opacity) == CELSPAN_OK);
-            told[opacity]++;
+            counts[opacity]++;
             if (opacity == CS_PICTURE_MIXED)
               continue;
             CHECK(cs_sampler_run(&texels, &s, run_of(x, 16, y + 0.5), row) == CELSPAN_OK);
@@ -577,12 +577,12 @@ static void test_looks(void) {
                            : row[i][0] != 0 || row[i][1] != 0 || row[i][2] != 0 || row[i][3] != 0;
           }
   CHECK(wrong == 0);
-  CHECK(told[CS_PICTURE_OPAQUE] > 1000 && told[CS_PICTURE_CLEAR] > 1000);
+  CHECK(counts[CS_PICTURE_OPAQUE] > 1000 && counts[CS_PICTURE_CLEAR] > 1000);
   cs_block_cache_finish(&texels);
   remove_picture("tiles.exr", tiles);
 }
 
-/* Blocks of a picture of 8-bit codes are those codes, with the next texel beside each row. */
+/* Blocks of a picture of 8-bit codes contain those codes, with the next texel after each row. */
 static void test_coded(void) {
   cs_srgb8_curve curve;
   cs_srgb8_make_curve(&curve);
@@ -624,7 +624,7 @@ static void test_errors(void) {
 
 int main(void) {
   CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
-  if (!picture_module_is_there(context)) {
+  if (!picture_module_or_skip(context)) {
     celspan_context_destroy(context);
     return check_done();
   }

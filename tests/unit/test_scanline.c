@@ -1,7 +1,7 @@
-/* What a scan-line procedure emits on a row: it is checked and cut to the bounds, and its paints
- * stay at the columns where they were.
+/* The spans that a scan-line procedure emits on a row: they are checked and cut to the bounds, and
+ * their paints stay at the same columns.
  */
-#include "scene/scanline.h"
+#include "model/scene/scanline.h"
 
 #include "tests/support/check.h"
 #include "tests/support/memory.h"
@@ -104,9 +104,11 @@ static void test_bad_ends_are_refused(celspan_context *context) {
   check_ends(context, 2, INFINITY,
              "scanline: the end of span 2 at y = 1 must be a finite number, got inf");
   check_ends(context, 2e12, 3e12,
-             "scanline: the beginning of span 2 at y = 1 must be a number between -1e12 and 1e12, got 2e12");
-  check_ends(context, 3, 2e12,
-             "scanline: the end of span 2 at y = 1 must be a number between -1e12 and 1e12, got 2e12");
+             "scanline: the beginning of span 2 at y = 1 must be a number between -1e12 and 1e12, "
+             "got 2e12");
+  check_ends(
+      context, 3, 2e12,
+      "scanline: the end of span 2 at y = 1 must be a number between -1e12 and 1e12, got 2e12");
   check_ends(context, 4, 3, "scanline: span 2 at y = 1 ends at 3, before it begins at 4");
   check_ends(context, 1.5, 3,
              "scanline: span 2 at y = 1 begins at 1.5, before the one before it ends at 2; "
@@ -118,11 +120,12 @@ static celspan_status emit_without_looking(void *user, celspan_context *context,
                                            celspan_scanline_output *output) {
   (void)user, (void)context, (void)y, (void)row;
   for (int i = 4; i > 0; i--)
-    CHECK(celspan_scanline_emit(output, i, i + 1, ramp, 1) == (i == 4 ? CELSPAN_OK : CELSPAN_CALLBACK));
+    CHECK(celspan_scanline_emit(output, i, i + 1, ramp, 1) ==
+          (i == 4 ? CELSPAN_OK : CELSPAN_CALLBACK));
   return CELSPAN_OK;
 }
 
-/* A procedure that goes on after a refusal is told of the first, and so is who asked for the row. */
+/* If a procedure continues after a refusal, both it and the caller get the first refusal. */
 static void test_refusal_lasts(celspan_context *context) {
   celspan_scanline_output output;
   cs_scanline_init(&output);

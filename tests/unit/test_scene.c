@@ -1,7 +1,7 @@
 /* Scene values: which descriptions are refused with which sentence, bounds, hashes, limits, counts,
- * and that a failed allocation leaves nothing behind. One list of cases, as long as there are fields.
+ * and that a failed allocation leaks nothing. One list of cases, as long as the list of fields.
  */
-#include "scene/scene.h"
+#include "model/scene/scene.h"
 
 #include "base/context.h"
 #include "tests/support/memory.h"
@@ -297,7 +297,7 @@ static void test_cel_values(studio *s) {
   celspan_cel_unref(moved);
 }
 
-/* A corner's radius is held to half the shorter side. */
+/* A corner's radius is limited to half the shorter side. */
 static void test_rounded_rect(studio *s) {
   celspan_rect_desc desc = {0, 0, 20, 10, 100, NULL};
   celspan_object *pill = NULL;
@@ -318,7 +318,7 @@ static void test_image_without_reading(studio *s) {
   studio_check(s, celspan_object_create_image(s->context, &desc, &image));
   check_bounds(image, 1, 2, 30, 40);
   CHECK(image->data->texture->variation->wrap ==
-        CELSPAN_WRAP_CLAMP); /* its rectangle says where it ends */
+        CELSPAN_WRAP_CLAMP); /* its rectangle determines where it ends */
   celspan_object_unref(image);
   image = NULL;
   desc.width = 0;
@@ -369,7 +369,7 @@ static void test_image_sizes(studio *s) {
     fitted.fit = CELSPAN_FIT_COVER;
     check_image(s, fitted, (celspan_box){0, 0, 40, 40}, (celspan_box){-20, 0, 80, 40});
   } else {
-    printf("skipped the sizes of images: no picture can be read here\n");
+    check_skip("the picture module");
   }
   remove(path);
 }
@@ -383,7 +383,7 @@ static bool same_hash(const celspan_rostrum *a, const celspan_rostrum *b) {
   return one[0] == other[0] && one[1] == other[1];
 }
 
-/* A scene in which `change` 0 is the scene itself and every other number changes one thing. */
+/* A scene in which `change` 0 is the scene itself and every other number changes one property. */
 #define CHANGES 26
 static celspan_rostrum *scene(studio *s, int change) {
   celspan_paint paint = celspan_paint_rgb(change == 1 ? 0.5f : 0.25f, 0, 0, 1);
@@ -441,7 +441,7 @@ static void test_hash_of_degrees(studio *s) {
   CHECK(!same_hash(one, other));
 }
 
-/* What has no effect is not part of a scene's name. */
+/* Fields that have no effect are not part of a scene's hash. */
 static void test_hash_of_unused_fields(studio *s) {
   celspan_cel_desc a = CELSPAN_CEL_DESC, b = CELSPAN_CEL_DESC;
   b.front = (celspan_light){1, 2, 3, 1};
@@ -513,8 +513,8 @@ static void test_names_of_others(studio *s) {
   celspan_cel_unref(faded);
 }
 
-/* Sources live as long as the values that were made there; more than a context keeps are not
- * known, and long ones are cut. */
+/* Sources live as long as the values that were made there; beyond the number that a context keeps
+ * they are unknown, and long ones are cut. */
 static void test_origins(studio *s) {
   char source[300];
   memset(source, 'x', sizeof source - 1);

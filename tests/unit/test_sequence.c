@@ -1,12 +1,12 @@
-/* Lists of frames and the names of their files: what lists mean, where they are wrong, and which files
- * are those of a pattern. */
+/* Lists of frames and the names of their files: what lists mean, where they are wrong, and which
+ * files match a pattern. */
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "film/sequence.h"
+#include "frames/film/sequence.h"
 #include "tests/support/check.h"
 
-/* The frames of a list with blanks between, or the sentence of the refusal. */
+/* The frames of a list, separated by blanks, or the sentence of the refusal. */
 static const char *read_list(celspan_context *context, const char *list, char text[256]) {
   cs_sequence sequence = {0};
   size_t size = 0;
@@ -22,18 +22,18 @@ static const char *read_list(celspan_context *context, const char *list, char te
   return text;
 }
 
-static bool is_same(const char *told, const char *wanted) { return strcmp(told, wanted) == 0; }
+static bool is_same(const char *result, const char *wanted) { return strcmp(result, wanted) == 0; }
 
-static bool contains(const char *told, const char *wanted) { return strstr(told, wanted); }
+static bool contains(const char *result, const char *wanted) { return strstr(result, wanted); }
 
-/* Pairs of a list and what is to be told of it. */
+/* Pairs of a list and the expected frames or sentence. */
 static void check_lists(celspan_context *context, const char *const cases[][2], size_t count,
-                        bool (*agrees)(const char *told, const char *wanted)) {
+                        bool (*agrees)(const char *result, const char *wanted)) {
   char text[256];
   for (size_t i = 0; i < count; i++) {
-    const char *told = read_list(context, cases[i][0], text);
-    if (!CHECK(agrees(told, cases[i][1])))
-      fprintf(stderr, "  '%s': '%s', not '%s'\n", cases[i][0], told, cases[i][1]);
+    const char *result = read_list(context, cases[i][0], text);
+    if (!CHECK(agrees(result, cases[i][1])))
+      fprintf(stderr, "  '%s': '%s', not '%s'\n", cases[i][0], result, cases[i][1]);
   }
 }
 

@@ -1,8 +1,8 @@
-/* paint/shade.c: textures given by a formula have the paint that they mean at every point, and bend on a
- * row only where cs_shade_breaks says. A bend that is not told is smoothed away by the lines between:
- * the crease of a triangle, the ring of a stop.
+/* engine/paint/shade.c: textures given by a formula have the paint that they mean at every point,
+ * and bend on a row only where cs_shade_breaks says so. A bend that is not reported is smoothed
+ * away by the lines between: the crease of a triangle, the ring of a stop.
  */
-#include "paint/shade.h"
+#include "engine/paint/shade.h"
 
 #include <stdlib.h>
 
@@ -13,7 +13,7 @@
 #define WIDTH 200
 #define MOST 21     /* places at which any of them bends on a row */
 #define SAMPLES 9   /* between two such places */
-#define NARROW 0.01 /* columns: places that are nearer to each other are not told apart */
+#define NARROW 0.01 /* columns: closer places count as one */
 
 typedef struct formula {
   gradient gradient;
@@ -95,7 +95,7 @@ static int stops_before(const formula *f, double place) {
   return count;
 }
 
-/* Values 0..2 are the pigments by beta, 3..5 the media by what beta leaves, 6 is beta. */
+/* Values 0..2 are the pigments times beta, 3..5 the media times 1 - beta, 6 is beta. */
 static double value_of(const celspan_paint *paint, int value) {
   double beta = (double)paint->beta;
   return value < 3   ? beta * (double)paint->pigment[value]
@@ -112,7 +112,7 @@ static double plane_at(const formula *f, celspan_point at, int value) {
   return sum;
 }
 
-/* What a pigment or a medium of a triangle is at a point, and which formula gives it. */
+/* The formula that determines a pigment or a medium of a triangle at a point, and its value. */
 typedef enum formula_part { OWN, NOTHING, ALL, BETA } formula_part;
 
 static double triangle_value(const formula *f, celspan_point at, int value, formula_part *part) {
@@ -149,7 +149,7 @@ static void check_paint(const formula *f, double x, double y) {
 
 /* ---------------------------------------------------------------- bends */
 
-/* Which of its formulas a texture has at a point of the frame. */
+/* Which of its formulas applies to a texture at a point of the frame. */
 static int formula_at(const formula *f, double x, double y) {
   celspan_point at;
   if (!own_point(f, x, y, &at))
@@ -165,8 +165,8 @@ static int formula_at(const formula *f, double x, double y) {
   return all;
 }
 
-/* The distance from the focus by which an affine place bends the most where it is least: ways across
- * that from focus to centre count more, for circles there are narrower. */
+/* The distance from the focus by which an affine place bends the most where it is least: distances
+ * across the line from focus to centre count more, because circles are narrower there. */
 static double bent_distance(const formula *f, double x, double y) {
   celspan_point at, way = away(f->gradient.points[0], f->gradient.points[1]),
                     focus = f->gradient.points[2];

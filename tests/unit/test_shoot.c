@@ -1,6 +1,7 @@
-/* film/shoot.c without any script: frames are reported in order, and alike whatever the number of
- * workers; equal frames are copied; a frame that fails ends the run unless it is to go on. */
-#include "film/shoot.h"
+/* frames/film/shoot.c without any script: frames are reported in order, with the same result
+ * whatever the number of workers; equal frames are copied; a frame that fails ends the run unless
+ * the run keeps going. */
+#include "frames/film/shoot.h"
 
 #include "base/context.h"
 #include "tests/support/scene.h"

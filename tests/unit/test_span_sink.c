@@ -1,4 +1,4 @@
-/* Span files hold exactly the pixels that other sinks get, whatever the spans were.
+/* Span files contain exactly the pixels that other sinks get, whatever the spans.
  */
 #include <fcntl.h>
 #include <spanfile.h>
@@ -7,8 +7,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "output/pixels.h"
-#include "output/sink.h"
+#include "output/sinks/pixels.h"
+#include "output/sinks/sink.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
@@ -64,7 +64,7 @@ static void random_row(test_random *random, frame_row *row, int32_t width) {
   }
 }
 
-/* Moves the ends of single spans by a pixel or so: what rows of a picture do. */
+/* Moves the ends of single spans by a pixel or so, as in rows of a picture. */
 static void move_row(test_random *random, frame_row *row) {
   for (size_t i = 0; i + 1 < row->count; i++) {
     celspan_span *span = &row->spans[i], *next = span + 1;
@@ -171,7 +171,7 @@ static void test_codings(celspan_context *context) {
   CHECK(celspan_file_sink_create(context, "a.span", &file, &sink) == CELSPAN_BAD_ARGUMENT);
 }
 
-/* Rows that are missing, and an outcome that is not OK, leave nothing under the name. */
+/* If rows are missing, or the outcome is not OK, no file appears under the name. */
 static void test_unfinished(celspan_context *context) {
   char name[sizeof path + 16];
   snprintf(name, sizeof name, "%s-none.span", path);

@@ -1,6 +1,6 @@
-/* colour/srgb8.c: every set of instructions gives the same code for every colour.
+/* model/colour/srgb8.c: every instruction set gives the same code for every colour.
  */
-#include "colour/srgb8.h"
+#include "model/colour/srgb8.h"
 
 #include <math.h>
 
@@ -27,7 +27,7 @@ static void check_every_float(cs_isa isa) {
     for (int i = 0; i < PIXELS; i++)
       for (int c = 0; c < 3; c++)
         wrong += codes[4 * i + c] != cs_transfer_srgb8(colours[i][c]);
-    if (begun < 0x38800000) /* below 2^-14 all are 0: a few will do */
+    if (begun < 0x38800000) /* below 2^-14 all are 0: a few are enough */
       bits += 0x10000;
   }
   CHECK(wrong == 0);
@@ -77,7 +77,7 @@ static void check_lengths(cs_isa isa) {
   CHECK(wrong == 0);
 }
 
-/* A code that is decoded and premultiplied comes back, so pictures may be copied as codes. */
+/* A code that is decoded and premultiplied is restored, so pictures may be copied as codes. */
 static void check_round_trip(void) {
   int wrong = 0;
   for (int alpha = 1; alpha < 256; alpha++)

@@ -1,17 +1,17 @@
-/* Lines and arcs through points, and points taken apart into them: what is there is found, in points that
- * are as far off as is said. */
+/* Fitting lines and arcs to points, and splitting points into them: the expected ones are found,
+ * with the given error of the points. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "tests/support/check.h"
 #include "tests/support/random.h"
-#include "trace/stretches.h"
+#include "tools/trace/stretches.h"
 
 enum { CASES = 500, POINTS = 24 };
 #define NOISE 0.05
 
-/* Points a pixel apart on a circle, from its top on, that are off by at most so much. They are summed
- * about a place beside the circle. */
+/* Points a pixel apart on a circle, from its top on, with an error of at most `off`. They are
+ * summed relative to a place near the circle. */
 static cs_arc_sums sum_circle(test_random *random, celspan_point centre, double radius,
                               double off) {
   cs_arc_sums sums = cs_arc_begin((celspan_point){centre.x + 3, centre.y - radius - 7});
@@ -22,7 +22,7 @@ static cs_arc_sums sum_circle(test_random *random, celspan_point centre, double 
   return sums;
 }
 
-/* However short the arc is beside its circle, a place off the circle is known to be as far off as it is. */
+/* However short the arc is compared with its circle, the distance of a place from it is right. */
 static void arcs_are_those_of_their_points(void) {
   for (int i = 0; i < CASES; i++) {
     test_random random = {(uint64_t)i + 1};
@@ -39,7 +39,7 @@ static void arcs_are_those_of_their_points(void) {
   }
 }
 
-/* In whatever direction a line goes, and so for its arc, which has none of a circle's bend. */
+/* For any direction of a line, and for the arc fitted to it, which has no curvature. */
 static void lines_are_those_of_their_points(void) {
   for (int i = 0; i < CASES; i++) {
     test_random random = {(uint64_t)i + 1};
@@ -57,8 +57,8 @@ static void lines_are_those_of_their_points(void) {
   }
 }
 
-/* The mean of the squares is that of the noise, but for what the arc takes of it. */
-static void noise_is_told(void) {
+/* The mean of the squares is that of the noise, except for the part that the arc absorbs. */
+static void noise_is_measured(void) {
   double sum = 0;
   for (int i = 0; i < CASES; i++) {
     test_random random = {(uint64_t)i + 1};
@@ -90,9 +90,9 @@ static size_t count_stretches(celspan_context *context, const cs_points *points)
   return found;
 }
 
-/* Two lines that turn by some angle are two stretches, with a point between them that is rounded off;
- * as many points around a circle are one. */
-static void corners_are_told_from_bends(celspan_context *context) {
+/* Two lines that meet at some angle are two stretches, with a point between them that is rounded
+ * off; as many points around a circle are one. */
+static void corners_are_distinguished_from_bends(celspan_context *context) {
   for (int i = 0; i < CASES; i++) {
     test_random random = {(uint64_t)i + 1};
     cs_points angle = {.items = NULL}, bend = {.items = NULL};
@@ -116,8 +116,8 @@ int main(void) {
     return 1;
   arcs_are_those_of_their_points();
   lines_are_those_of_their_points();
-  noise_is_told();
-  corners_are_told_from_bends(context);
+  noise_is_measured();
+  corners_are_distinguished_from_bends(context);
   celspan_context_destroy(context);
   return check_done();
 }

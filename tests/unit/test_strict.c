@@ -1,7 +1,8 @@
-/* sandbox/strict.c and sandbox/roots.c: what a process can and cannot do once it is confined. Every
- * try is made in a process of its own, before and after: what fails before proves nothing.
+/* plugins/isolate/strict.c and roots.c: what a process can and cannot do once it is
+ * confined. Every try is made in a process of its own, before and after: one that fails before
+ * proves nothing.
  */
-#include "sandbox/strict.h"
+#include "plugins/isolate/strict.h"
 
 #include <arpa/inet.h>
 #include <errno.h>
@@ -171,7 +172,7 @@ int main(void) {
   if (answer(tell_refusal, 0) == 1)
     check_tries();
   else
-    fprintf(stderr, "the kernel cannot confine a process: the tries are skipped\n");
+    check_skip("a kernel that can confine a process");
   remove_files();
   return check_done();
 }

@@ -1,8 +1,9 @@
-/* Strokes: the curves that are handed to the sweep against the probe's own arithmetic.
+/* Strokes: the curves that are passed to the sweep, compared with the probe's own arithmetic.
  *
- * CELSPAN_STROKES=n tries n strokes instead of 400; CASE=n tries that one alone. Each is seen at 1,024
- * and at 1,048,576 pixels a side, at POINTS points each: half of them anywhere, half near an edge.
- * One file, because lines, joins, caps, dashes and tapers are drawn by one lot and judged by one rule.
+ * CELSPAN_STROKES=n tries n strokes instead of 400; CASE=n tries that one alone. Each is seen at
+ * 1,024 and at 1,048,576 pixels a side, at POINTS points each: half of them anywhere, half near an
+ * edge. One file, because lines, joins, caps, dashes and tapers share their random cases and one
+ * check.
  */
 #include <math.h>
 #include <stdio.h>
@@ -10,9 +11,9 @@
 #include <string.h>
 
 #include "celspan/celspan.h"
-#include "scene/inside.h"
-#include "stroke/outliner.h"
-#include "stroke/spoke.h"
+#include "model/scene/inside.h"
+#include "model/stroke/outliner.h"
+#include "model/stroke/spoke.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
@@ -119,7 +120,7 @@ static bool sees(const trial *t, double x, double y, bool *is_inside) {
   return true;
 }
 
-/* Whether some point nearer than EDGE is as the outline says. */
+/* Whether the outline agrees about some point nearer than EDGE. */
 static bool is_near_edge(const trial *t, double x, double y, bool drawn) {
   static const double shares[] = {1, 0.6, 0.25};
   for (int i = 0; i < 16; i++)
@@ -188,7 +189,7 @@ static void print_sketch(const sketch *s) {
   fprintf(stderr, "\n");
 }
 
-/* How a stroke is placed: as it is, turned, or in perspective. */
+/* The placement of a stroke: unchanged, rotated, or in perspective. */
 static celspan_matrix random_placement(test_random *random, double side) {
   celspan_matrix scale = celspan_matrix_scaling(side / SIDE, side / SIDE);
   int kind = random_below(random, 4);
@@ -266,7 +267,7 @@ static void make_outline(const counted *c, const cs_stroke_view *view, cs_outlin
   CHECK(cs_stroke_outline(c->context, c->object->data->stroke, view, outline) == CELSPAN_OK);
 }
 
-/* The curves that are handed to the sweep. */
+/* The number of curves that are passed to the sweep. */
 static size_t count_curves(const counted *c, const cs_stroke_view *view) {
   cs_outline outline;
   make_outline(c, view, &outline);
@@ -275,7 +276,7 @@ static size_t count_curves(const counted *c, const cs_stroke_view *view) {
   return count;
 }
 
-/* The outline made for some rows is on them what the whole one is. */
+/* The outline made for some rows equals the whole one there. */
 static void test_rows(celspan_context *context) {
   for (int number = 1; number <= 200; number++) {
     test_random random = {(uint64_t)number};
@@ -305,8 +306,9 @@ static void test_rows(celspan_context *context) {
   }
 }
 
-/* A wave from side to side of a frame of 1,048,576 pixels costs a strip what the strip shows: all
- * strips together have the whole outline's curves, and for every cut of it a few more. */
+/* For a wave from side to side of a frame of 1,048,576 pixels, the cost of a strip is that of
+ * its visible part: all strips together have the whole outline's curves, and a few more for
+ * every cut. */
 static void test_strip(celspan_context *context) {
   enum { STRIPS = 64 };
   celspan_stroke_desc desc = CELSPAN_STROKE_DESC;
@@ -353,8 +355,8 @@ static void test_dashes(celspan_context *context) {
   celspan_object_unref(c.object);
 }
 
-/* Very many dashes lie along a curve where a few of the same lengths do, past its cusp too: the
- * dash after 500 turns of a pattern begins where one of 500 times its length ends. */
+/* Very many dashes are placed along a curve like a few of the same lengths, past its cusp too: the
+ * dash after 500 repeats of a pattern begins where one 500 times as long ends. */
 static void test_many_dashes(celspan_context *context) {
   const double fine[] = {0.04, 0.04}, coarse[] = {40, 1000};
   celspan_stroke_desc desc = CELSPAN_STROKE_DESC;
@@ -373,9 +375,9 @@ static void test_many_dashes(celspan_context *context) {
   celspan_object_unref(few.object);
 }
 
-/* What is hard: where the sides turn round, and where they would need a line for every step. The number
- * of curves grows with the fourth root of the size or less, 5.7 from one size to the other, and where
- * a line stands still with its logarithm. */
+/* Hard cases: where the sides turn round, and where they would need a line for every step. The
+ * number of curves grows with the fourth root of the size or less, 5.7 from one size to the other;
+ * where a line stops it grows with its logarithm. */
 static void test_folds(celspan_context *context) {
   static celspan_point spiral[120];
   static double brush[120];
@@ -385,7 +387,7 @@ static void test_folds(celspan_context *context) {
     brush[i] = 12 + 10 * sin(0.7 * i);
   }
   static const struct {
-    const char *name, *data; /* none: the spiral */
+    const char *name, *data; /* NULL: the spiral */
     double width;
     size_t most[2]; /* at 1,024 and at 1,048,576 pixels a side */
   } lines[] = {{"hairpin", "M20 80C48 10 52 10 80 80", 60, {90, 380}},
@@ -421,8 +423,8 @@ static void test_folds(celspan_context *context) {
   }
 }
 
-/* Where a line turns back on itself the disc of that place is seen whole, to whichever side rounding turns
- * it: half of it lies beyond both sides. */
+/* Where a line turns back on itself the whole disc of that place is visible, whichever way rounding
+ * turns it: half of it lies beyond both sides. */
 static void test_cusps(celspan_context *context) {
   static const celspan_point shapes[][4] = {{{-20, -10}, {20, 10}, {-20, 10}, {20, -10}},
                                             {{-20, 0}, {20, 0}, {20, 0}, {-20, 0}},
@@ -457,8 +459,8 @@ static void test_cusps(celspan_context *context) {
   CHECK(wrong == 0);
 }
 
-/* One width among many of 0 makes a bump, whose flanks are so steep that discs are inside their
- * neighbours for a short way, anywhere along the piece. */
+/* A single nonzero width among many zeros makes a bump, whose flanks are so steep that discs are
+ * inside their neighbours for a short distance, anywhere along the piece. */
 static void test_swallowed(celspan_context *context) {
   celspan_point line[16];
   double bump[16];
@@ -488,8 +490,8 @@ static void test_swallowed(celspan_context *context) {
   }
 }
 
-/* Corners of pieces that are shorter than they are wide: nothing but the shapes of the corner itself
- * covers what is between their spokes. */
+/* Corners of pieces that are shorter than they are wide: only the shapes of the corner itself cover
+ * the area between their spokes. */
 static void test_short_corners(celspan_context *context) {
   celspan_point line[6];
   double widths[6];
@@ -519,8 +521,8 @@ static void test_short_corners(celspan_context *context) {
   }
 }
 
-/* A window of 1,024 pixels somewhere on a random stroke that is up to a million times as large: lines
- * leave it and come back, closed ones too. */
+/* A window of 1,024 pixels somewhere on a random stroke that is up to a million times as large:
+ * lines leave it and come back, closed ones too. */
 static void test_windows(celspan_context *context) {
   size_t most = 0;
   for (int number = 1; number <= 250; number++) {
@@ -555,7 +557,7 @@ static void test_windows(celspan_context *context) {
 
 /* ---------------------------------------------------------------- spokes and views */
 
-/* Where a line stands still its slope is that of what is beside it, along the way: there and back. */
+/* Where a line stops, its slope is that of its neighbouring points, in both directions. */
 static void test_rest(void) {
   cs_curve curve = {.line = {.degree = 2, .points = {{0, 0, 1}, {10, 0, 1}, {10, 0, 1}}},
                     .radius_degree = 1,
@@ -569,8 +571,8 @@ static void test_rest(void) {
   CHECK(cs_spoke_at(&curve, 0).slope == 0);
 }
 
-/* A circle of radius 10: a spoke of 8 goes forwards, one of 10 rests, one of 12 goes back about its
- * centre; on the outside all go forwards. */
+/* A circle of radius 10: a spoke of 8 moves forwards, one of 10 rests, one of 12 moves backwards
+ * around its centre; on the outside all move forwards. */
 static void test_motion(void) {
   const double k = 0.70710678118654752;
   cs_curve curve = {
@@ -591,7 +593,7 @@ static void test_motion(void) {
   }
 }
 
-/* Beside the frame a quarter of the distance is allowed, in it the tolerance. */
+/* Outside the frame a quarter of the distance is allowed, inside it the tolerance. */
 static void test_allowance(void) {
   const cs_stroke_view view = whole_view(celspan_matrix_scaling(2, 2), 1024);
   const celspan_box boxes[] = {
@@ -601,8 +603,8 @@ static void test_allowance(void) {
     CHECK_NEAR(cs_stroke_view_allowance(&view, &boxes[i]), allowed[i], 1e-12);
 }
 
-/* Dashes along a curve that goes far beyond the frame, at any scale: what is shown costs, not what is
- * there; and what is shown is right, however small a part it is. */
+/* Dashes along a curve that extends far beyond the frame, at any scale: the cost depends on the
+ * visible part only; and that is right, however small a part it is. */
 static void test_far(celspan_context *context) {
   celspan_stroke_desc desc = CELSPAN_STROKE_DESC;
   desc.data = "M0 50C30 -60 60 160 100 50";
@@ -627,7 +629,7 @@ static void test_far(celspan_context *context) {
   celspan_object_unref(c.object);
 }
 
-/* How many curves are handed over for lines of a drawing, 1,024 pixels a side: tests/bench/stroke.c
+/* The number of curves passed on for lines of a drawing, 1,024 pixels a side: tests/bench/stroke.c
  * compares the time with that of filling the same curves. */
 static void test_cost(celspan_context *context) {
   static const struct {
@@ -664,7 +666,7 @@ static void test_object_stroke(celspan_context *context) {
   CHECK(celspan_object_transform(context, square, &matrix, &large) == CELSPAN_OK);
   CHECK(celspan_object_fade(context, large, 0.25, &pale) == CELSPAN_OK);
   CHECK(celspan_object_stroke(context, pale, &desc, &ring) == CELSPAN_OK);
-  /* It stands where the object does, its width is scaled with it, its corner has a miter. */
+  /* It lies where the object does, its width is scaled with it, its corner has a miter. */
   CHECK(celspan_object_contains(ring, (celspan_point){97.1, -2.9}));
   CHECK(!celspan_object_contains(ring, (celspan_point){96.9, 15}));
   CHECK(celspan_object_contains(ring, (celspan_point){102.9, 15}));

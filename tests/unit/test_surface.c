@@ -1,9 +1,9 @@
 /* Surfaces: pictures in memory equal the same pictures in files to the bit, and functions that fill
- * rectangles are asked for what is seen, by the right threads, and may fail. One file, because both
- * kinds are held against the same pictures. */
+ * rectangles are called for the visible part, by the right threads, and may fail. One file, because
+ * both kinds are compared with the same pictures. */
 #include <pthread.h>
 
-#include "pictures/surface.h"
+#include "model/pictures/surface.h"
 #include "tests/support/memory.h"
 #include "tests/support/picture.h"
 #include "tests/support/scene.h"
@@ -27,7 +27,7 @@ static float float_code(uint32_t code) {
   return code % 97 == 0 ? odd[code / 97 % 8] : (float)(code % 4096) / 3000 - 0.1f;
 }
 
-/* All codes of 8 and of 16 bits, in every channel; floats that are no numbers too. */
+/* All codes of 8 and of 16 bits, in every channel; floats that are not numbers too. */
 static unsigned char *make_pixels(celspan_surface_format format) {
   size_t size = celspan_surface_pixel_size(format);
   size_t channels = format == CELSPAN_SURFACE_GREY8  ? 1
@@ -63,7 +63,8 @@ static void put_tag(FILE *file, uint32_t tag, uint32_t type, uint32_t count, uin
   put(file, value, 4);
 }
 
-/* An uncompressed TIFF of the pixels, in one strip: written here, read by another's library. */
+/* An uncompressed TIFF of the pixels, in one strip: written here, read by an independent
+ * library. */
 static void write_tiff(const char *path, const celspan_surface_desc *desc) {
   size_t size = celspan_surface_pixel_size(desc->format);
   uint32_t channels = size == 1 ? 1 : size == 3 ? 3 : 4, bits = (uint32_t)(8 * size / channels);
@@ -118,7 +119,7 @@ static bool is_same_block(const cs_picture_block *a, const cs_picture_block *b) 
          a->opacity == b->opacity && a->is_coded == b->is_coded;
 }
 
-/* Blocks that differ, on all levels. */
+/* The number of blocks that differ, on all levels. */
 static int count_different(celspan_context *context, const cs_picture *a, const cs_picture *b) {
   int different = 0;
   for (int level = 0; level < cs_mip_levels_count(WIDTH, HEIGHT); level++)
@@ -162,7 +163,7 @@ static void check_file(celspan_context *context, celspan_surface_desc desc, cons
   unlink(path);
 }
 
-/* budget: bytes of pictures; little makes other levels from the file than much. */
+/* budget: bytes of pictures; a small one makes other levels from the file than a large one. */
 static void test_files(size_t budget) {
   static const char *const colours[] = {NULL, "srgb", "linear", "rec709", "cineon"};
   for (int format = 0; format <= CELSPAN_SURFACE_RGBAF; format++) {
@@ -184,14 +185,14 @@ static void test_files(size_t budget) {
 /* ---------------------------------------------------------------- a host that fills */
 
 typedef struct host {
-  celspan_surface_desc buffer; /* what it gives, without gaps */
+  celspan_surface_desc buffer; /* the pixels it returns, without gaps */
   pthread_t thread;            /* that made it */
   pthread_mutex_t lock;
   int calls, foreign_calls, releases, bad_rectangles;
   int64_t pixels;
-  int32_t bottom; /* the last row asked for, and one */
+  int32_t bottom; /* the last row requested, plus one */
   /* Faults. */
-  int32_t fail_row, missing; /* missing: rows too few */
+  int32_t fail_row, missing; /* missing: the number of missing rows */
   bool has_sentence;
 } host;
 
@@ -244,7 +245,8 @@ static celspan_surface_desc filled_by(host *h, uint64_t key) {
 
 /* ---------------------------------------------------------------- frames of surfaces */
 
-/* One surface, turned and shrunk, as the only thing of the frame. The reference is the texture's. */
+/* One surface, turned and shrunk, as the only thing of the frame. The reference is the
+ * texture's. */
 static celspan_object *show(studio *s, const celspan_surface_desc *desc, double degrees,
                             double scale) {
   celspan_surface *surface = NULL;
@@ -310,7 +312,7 @@ static void test_ways(celspan_surface_format format, size_t budget) {
   free(pixels);
 }
 
-/* Rows below the frame are not asked for, hidden pictures not at all, and nothing twice. */
+/* Rows below the frame are not requested, hidden pictures not at all, and nothing twice. */
 static void test_demand(void) {
   unsigned char *pixels = make_pixels(CELSPAN_SURFACE_RGB8);
   host seen, hidden;
@@ -353,8 +355,8 @@ static celspan_texture *shown_by(studio *s, host *h, uint64_t key) {
   return texture;
 }
 
-/* As the light of a cel, inside another composition, and out of focus: wherever a surface is, its
- * function is called by the rendering thread alone. */
+/* As the light of a cel, inside another composition, and out of focus: wherever a surface is used,
+ * its function is called by the rendering thread alone. */
 static void test_places(void) {
   unsigned char *pixels = make_pixels(CELSPAN_SURFACE_RGBA8);
   for (int place = 0; place < 3; place++) {
@@ -472,8 +474,9 @@ static void test_failures(void) {
   free(pixels);
 }
 
-/* Coded rows of an opaque picture are copied. Where it cannot be read nothing is written beyond them:
- * these rows fill a whole piece of the row's memory, which the heap's own checks stand behind. */
+/* Coded rows of an opaque picture are copied. If the picture cannot be read nothing is written
+ * beyond them: these rows fill a whole piece of the row's memory, behind which the heap checks for
+ * writes. */
 static void test_wide_failure(void) {
   enum { WIDE = 16384, HIGH = 4 };
   const celspan_coding coding = {CELSPAN_DEPTH_8, CELSPAN_TRANSFER_SRGB, CELSPAN_ALPHA_STRAIGHT};
@@ -640,7 +643,7 @@ static void test_copies(void) {
   free(pixels);
 }
 
-/* A live surface: another key each frame. What is kept of those that went does not grow. */
+/* A live surface: another key each frame. Memory for those no longer used does not grow. */
 static void test_live(void) {
   unsigned char *pixels = make_pixels(CELSPAN_SURFACE_RGBA8);
   memory_watch watch = {0};
@@ -671,7 +674,7 @@ static void test_live(void) {
 
 /* ---------------------------------------------------------------- threads and memory */
 
-/* Everybody makes surfaces of its own and looks at those that all have; entries come and go. */
+/* Every thread makes surfaces of its own and uses shared ones; entries come and go. */
 static void *use_surfaces(void *user) {
   celspan_context *context = user, branch;
   unsigned char *pixels = make_pixels(CELSPAN_SURFACE_GREY8);
@@ -774,22 +777,22 @@ static void test_memory(bool is_filled) {
 
 /* ---------------------------------------------------------------- without a module */
 
-static bool has_module(void) {
+static bool has_module(bool (*ask)(celspan_context *context)) {
   celspan_context *context = NULL;
   CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
-  bool is_there = picture_module_is_there(context);
+  bool is_there = ask(context);
   celspan_context_destroy(context);
   return is_there;
 }
 
 int main(void) {
-  if (has_module() && !check_is_for_threads()) {
+  if (!check_is_for_threads() && has_module(picture_module_or_skip)) {
     test_files(0);
     test_files(300 << 10);
   }
   /* From here on no picture module can be loaded. */
   setenv("CELSPAN_PICTURE_MODULE", "/nonexistent/module.so", 1);
-  CHECK(!has_module());
+  CHECK(!has_module(picture_module_is_there));
   for (int format = 0; format <= CELSPAN_SURFACE_RGBAF; format++) {
     if (check_is_drawn(format))
       test_ways((celspan_surface_format)format, 0);

@@ -1,6 +1,7 @@
-/* Drawings through the C face: reading, questions, parts changed, and memory that fails at any place. */
+/* Drawings through the C interface: reading, questions, changed parts, and allocations that
+ * fail. */
 #include "celspan/celspan.h"
-#include "svg/colours.h"
+#include "readers/svg/colours.h"
 #include "tests/support/check.h"
 #include "tests/support/memory.h"
 
@@ -95,7 +96,7 @@ static void parts_are_changed(celspan_context *context) {
   celspan_svg_unref(svg);
 }
 
-static void faults_are_told(celspan_context *context) {
+static void faults_are_reported(celspan_context *context) {
   celspan_svg_desc desc = CELSPAN_SVG_DESC;
   celspan_svg *svg;
   CHECK(celspan_svg_read(context, NULL, &svg) == CELSPAN_BAD_ARGUMENT);
@@ -112,7 +113,7 @@ static void faults_are_told(celspan_context *context) {
   CHECK(strstr(celspan_context_error(context), "a.svg:2: stroke-width is \"nan\""));
 }
 
-/* The reader of a colour stays inside of its text. */
+/* The reader of a colour stays within its text. */
 static void a_colour_may_lack_its_end(void) {
   static const char *const texts[] = {"rgb(1, 2, 3", "hsl(1, 2%, 3%, .5", "rgba(1"};
   for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
@@ -123,7 +124,7 @@ static void a_colour_may_lack_its_end(void) {
   }
 }
 
-/* All that memory is taken for in ways of its own: clip paths, masks, markers, gradients, texts, images. */
+/* Everything with memory of its own: clip paths, masks, markers, gradients, texts, images. */
 static const char rich_drawing[] =
     "<svg xmlns='http://www.w3.org/2000/svg' width='40' height='30' viewBox='0 0 80 60'>\n"
     "<style>g > .a[id^=h], #none { fill: lime } @media x { rect { fill: red } }</style>\n"
@@ -148,13 +149,15 @@ static const char rich_drawing[] =
     "  <textPath href='#w' startOffset='20%'>DE</textPath></text>\n"
     "<switch><g systemLanguage='xx'/><g filter='url(#none)'><image width='9'\n"
     "  height='9' preserveAspectRatio='xMidYMid slice'\n"
-    "  href=\"data:image/svg+xml,%3Csvg xmlns='http://www.w3.org/2000/svg' width='2' height='1'%3E%3Crect "
+    "  href=\"data:image/svg+xml,%3Csvg xmlns='http://www.w3.org/2000/svg' width='2' "
+    "height='1'%3E%3Crect "
     "width='1' height='1' filter='x'/%3E%3C/svg%3E\"/></g></switch>\n"
     "<image x='20' width='9' height='9' href='data:image/png;base64,"
-    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR4nGP4z8DQAAAEgQGALFXOsAAAAABJRU5ErkJggg=='/>\n"
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR4nGP4z8DQAAAEgQGALFXOsAAAAABJRU5ErkJggg"
+    "=='/>\n"
     "</svg>";
 
-/* Reads the drawing and changes a part; the allocation of number `fail_at` of these fails. */
+/* Reads the drawing and changes a part; the allocation with the number `fail_at` fails. */
 static celspan_status read_and_change(celspan_context *context, memory_watch *watch,
                                       const char *text, size_t fail_at) {
   celspan_svg *svg, *other;
@@ -171,9 +174,8 @@ static celspan_status read_and_change(celspan_context *context, memory_watch *wa
   watch->fail_at = 0;
   return status;
 }
-
-/* Whichever allocation fails, alone or with all that follow: the status says so, nothing is lost, and
- * the context goes on. */
+/* Whichever allocation fails, alone or with all that follow: the status says so, nothing leaks, and
+ * the context stays usable. */
 static void memory_may_fail_anywhere(const char *text, bool is_for_good) {
   bool is_done = false;
   for (size_t fail_at = 1; fail_at < 5000 && !is_done; fail_at++) {
@@ -195,7 +197,7 @@ int main(void) {
     return check_done();
   a_drawing_answers(context);
   parts_are_changed(context);
-  faults_are_told(context);
+  faults_are_reported(context);
   celspan_context_destroy(context);
   a_colour_may_lack_its_end();
   for (int is_for_good = 0; is_for_good < 2; is_for_good++) {

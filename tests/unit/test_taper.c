@@ -1,6 +1,6 @@
-/* Tapers: the width of a stroke grows with the way from its beginning and falls with the way to its end,
- * whatever pieces its line has. A taper that is lost, or begins at the wrong place, leaves a blunt end or
- * a kink.
+/* Tapers: the width of a stroke grows with the distance from its beginning and falls with the
+ * distance to its end, whatever the pieces of its line. A taper that is lost, or begins at the
+ * wrong place, leaves a blunt end or a kink.
  */
 #include "celspan/celspan.h"
 #include "tests/support/check.h"
@@ -8,7 +8,7 @@
 #define WIDTH 4.0
 #define PI 3.14159265358979323846
 
-/* A line of which it is known where its ways lead. */
+/* A line whose points are known as a function of the distance along it. */
 typedef struct line {
   const char *data;
   double length;
@@ -34,7 +34,7 @@ static celspan_point on_circle(double way, celspan_point *across) {
   return (celspan_point){40 * across->x, 40 * across->y};
 }
 
-/* The straight line again, of one piece that goes slowly at its ends. */
+/* The straight line again, as one piece with a low speed at its ends. */
 static const line lines[] = {
     {"M0 0H120", 120, on_straight},
     {"M0 0H10H30H31H120", 120, on_straight},
@@ -53,7 +53,7 @@ static double half_width(double way, double length, double begin, double end) {
   return 0.5 * WIDTH * share;
 }
 
-/* Slopes are so small that a disc touches the side nearly across from its centre. */
+/* Slopes are so small that a disc touches the side almost exactly across from its centre. */
 static void check(celspan_context *context, const line *l, double begin, double end) {
   celspan_stroke_desc desc = CELSPAN_STROKE_DESC;
   celspan_object *object = NULL;

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "readers/text/layout.h"
 #include "tests/support/check.h"
 #include "tests/support/memory.h"
-#include "text/typeset.h"
 #ifdef TEST_FREETYPE
 #include <ft2build.h>
 #include FT_FREETYPE_H
@@ -25,13 +25,11 @@
 #define MOST 4000
 
 static celspan_context *context;
-static unsigned skipped;
 
 static bool is_there(const char *path) {
   if (access(path, R_OK) == 0)
     return true;
-  printf("%s: not there, skipped\n", path);
-  skipped++;
+  check_skip(path);
   return false;
 }
 
@@ -114,12 +112,16 @@ static void check_text_of(const char *font, double units, const char *text, cons
     check_line(text, fonts, 1, units, &whole, 1);
 }
 
+static bool has_hb_shape(void) {
+  bool is_installed = system("hb-shape --version >/dev/null 2>&1") == 0;
+  if (!is_installed)
+    check_skip("hb-shape");
+  return is_installed;
+}
+
 static void glyphs_are_those_of_hb_shape(void) {
-  if (system("hb-shape --version >/dev/null 2>&1") != 0) {
-    printf("hb-shape: not there, skipped\n");
-    skipped++;
+  if (!has_hb_shape())
     return;
-  }
   check_text_of(OWN, 1000, "Hamburgefonts -> AVATAR, \"1234567890\"", "");
   check_text_of(DEJAVU, 2048, "The office of Wolfgang AVATAR: fi fl ffi, To. V. 0123", "");
   check_text_of(DEJAVU, 2048, "Zażółć gęślą jaźń e\xcc\x81\xcc\xa7 \xc3\x85ngstr\xc3\xb6m", "");
@@ -132,9 +134,10 @@ static void glyphs_are_those_of_hb_shape(void) {
   check_text_of(JAPANESE, 1000, "「ガギグゲゴ」、カタカナ", "");
 }
 
-/* Lines of several scripts, fonts and directions, whose pieces are written here as they are seen. */
+/* Lines of several scripts, fonts and directions, whose pieces are written here as they are
+ * seen. */
 static void mixed_lines_are_those_of_hb_shape(void) {
-  bool has_all = system("hb-shape --version >/dev/null 2>&1") == 0;
+  bool has_all = has_hb_shape();
   const char *const needed[] = {DEJAVU, ARABIC, DEVANAGARI, JAPANESE};
   for (size_t i = 0; i < 4 && has_all; i++)
     has_all = is_there(needed[i]);
@@ -171,8 +174,8 @@ static void mixed_lines_are_those_of_hb_shape(void) {
 
 #ifdef TEST_FREETYPE
 
-/* Places are told in 64ths of a pixel, and a font unit is a pixel: not unscaled, because FreeType
- * then rounds to whole units what is turned, scaled or varied. */
+/* Places are in 64ths of a pixel, and a font unit is a pixel: not unscaled, because FreeType then
+ * rounds rotated, scaled or varied outlines to whole units. */
 #define SHIFT 8
 
 typedef struct contours {
@@ -315,10 +318,7 @@ static void outlines_are_those_of_freetype(void) {
 
 #else
 
-static void outlines_are_those_of_freetype(void) {
-  printf("FreeType: not there, skipped\n");
-  skipped++;
-}
+static void outlines_are_those_of_freetype(void) { check_skip("FreeType"); }
 
 #endif
 
@@ -388,7 +388,14 @@ static void bad_arguments_are_refused(void) {
   const char *const no_languages[] = {"", "en_GB", "d\xc3\xa9", "@", "[", "{", "/", ":", "`"};
   for (size_t i = 0; i < sizeof no_languages / sizeof *no_languages; i++)
     REFUSE(bad.language = no_languages[i], BAD_ARGUMENT, "language is a tag such as");
-  const char *const no_tags[] = {NULL, "", "abcde", " abc", "ab\x7f" "c", "ab\x1f" "c"};
+  const char *const no_tags[] = {NULL,
+                                 "",
+                                 "abcde",
+                                 " abc",
+                                 "ab\x7f"
+                                 "c",
+                                 "ab\x1f"
+                                 "c"};
   for (size_t i = 0; i < sizeof no_tags / sizeof *no_tags; i++) {
     const celspan_feature unnamed = {no_tags[i], 1};
     const celspan_variation nameless = {no_tags[i], 1};
@@ -423,8 +430,8 @@ static void letters_outlive_their_list(void) {
   celspan_object_unref(kept);
 }
 
-/* Whichever allocation fails, alone or with all that follow, the answer says so, nothing leaks, and
- * the context goes on. */
+/* Whichever allocation fails, alone or with all that follow, the status says so, nothing leaks, and
+ * the context stays usable. */
 static void every_allocation_may_fail(bool is_for_good) {
   const celspan_font fonts[] = {{OWN, NULL}, {OWN, NULL}};
   const celspan_variation variations[] = {{"wght", 700}};
@@ -466,6 +473,5 @@ int main(void) {
   every_allocation_may_fail(false);
   every_allocation_may_fail(true);
   celspan_context_destroy(context);
-  printf("%u skipped\n", skipped);
   return check_done();
 }

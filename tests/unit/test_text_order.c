@@ -1,25 +1,26 @@
-/* The order of characters and the ends of lines, against the tests of the Unicode Consortium where
- * the package unicode-data has them. The libraries know another version of Unicode than the tests:
- * what differs is counted, and may not become more.
+/* The order of characters and the ends of lines, against the tests of the Unicode Consortium if the
+ * package unicode-data is installed. The libraries implement another version of Unicode than the
+ * tests: differences are counted, and must not become more.
  */
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "artwork/artwork.h"
+#include "readers/text/runs.h"
+#include "readers/xml/artwork.h"
 #include "tests/support/check.h"
-#include "text/runs.h"
 
 #define FOLDER "/usr/share/unicode/"
 #define LONGEST 256
-/* Breaks that libunibreak 1.1, which knows Unicode 6.0, puts elsewhere than Unicode 15: at marks after
- * spaces and dashes, at brackets of East Asia, before small kana (it lets a line begin with one), at
- * numbers after commas and signs, and in emoji, flags and Hebrew, whose rules are newer. */
+/* Breaks that libunibreak 1.1, which knows Unicode 6.0, puts elsewhere than Unicode 15: at marks
+ * after spaces and dashes, at brackets of East Asia, before small kana (it lets a line begin
+ * with one), at numbers after commas and signs, and in emoji, flags and Hebrew, whose rules are
+ * newer. */
 #define BREAKS 657
 
 static const cs_type_functions *type;
 
-/* The numbers in base `base` at *text, up to a ';' or the end of the line; *text is behind it. An
- * "x" is UINT32_MAX. Signs of the break tests are skipped. */
+/* The numbers in base `base` at *text, up to a ';' or the end of the line; *text is then behind it.
+ * An "x" is UINT32_MAX. Signs of the break tests are skipped. */
 static size_t read_numbers(char **text, int base, uint32_t numbers[LONGEST]) {
   size_t count = 0;
   char *at = *text;
@@ -54,7 +55,7 @@ static bool agrees_in_order(char *line) {
   cs_text_run runs[LONGEST];
   for (size_t i = 0; i < count; i++) {
     if (levels[i] == UINT32_MAX)
-      continue; /* a sign that is not seen: it has no place in the order */
+      continue; /* an invisible character: it has no place in the order */
     if (levels[i] != embeddings[i])
       return false;
     runs[visible++] = (cs_text_run){i, i + 1, embeddings[i]};
@@ -92,7 +93,7 @@ static void run_file(const char *name, bool (*agrees)(char *line), unsigned most
   snprintf(path, sizeof path, FOLDER "%s", name);
   FILE *file = fopen(path, "r");
   if (!file) {
-    printf("%s: not there, skipped\n", name);
+    check_skip(path);
     return;
   }
   unsigned cases = 0, differing = 0;

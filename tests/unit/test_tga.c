@@ -1,9 +1,10 @@
-/* output/tga_sink.c: a plain decoder reads the pixels that output/pixels.c makes of the spans. */
+/* output/sinks/tga_sink.c: a plain decoder reads the pixels that output/sinks/pixels.c makes of the
+ * spans. */
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "output/pixels.h"
+#include "output/sinks/pixels.h"
 #include "tests/support/check.h"
 #include "tests/support/span_frames.h"
 
@@ -35,7 +36,8 @@ static void to_rgba(const unsigned char *at, size_t pixel_size, unsigned char rg
   rgba[3] = pixel_size == 4 ? at[3] : 255;
 }
 
-/* One row of packets, none of which goes on into the next row; 0 when it does, or the file ends. */
+/* One row of packets, none of which continues into the next row; 0 if one does, or the file
+ * ends. */
 static size_t decode_row(const contents *file, size_t at, size_t pixel_size, int32_t width,
                          unsigned char *rgba) {
   for (int32_t x = 0; x < width;) {
@@ -95,9 +97,9 @@ static void check_file(frame *made, const char *path, const celspan_coding *codi
 static void check_frame(celspan_context *context, int32_t width, int32_t height, int style,
                         celspan_coding coding) {
   static const char long_title[] =
-      "a title that goes on beyond the \xc3\xa4\xc3\xa4\xc3\xa4\xc3\xa4\xc3\xa4 of 40";
+      "a title that extends beyond the \xc3\xa4\xc3\xa4\xc3\xa4\xc3\xa4\xc3\xa4 of 40";
   static const char cut_title[] =
-      "a title that goes on beyond the \xc3\xa4\xc3\xa4\xc3\xa4\xc3\xa4";
+      "a title that extends beyond the \xc3\xa4\xc3\xa4\xc3\xa4\xc3\xa4";
   bool is_opaque = random_below(&numbers, 2), is_long = random_below(&numbers, 2);
   frame made = {.width = width, .height = height, .style = style, .is_opaque = is_opaque};
   celspan_file_desc file = CELSPAN_FILE_DESC;

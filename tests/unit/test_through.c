@@ -1,11 +1,10 @@
-/* What shines through: the bounds of layers hold everywhere, the layers of a tree that are said to
- * be painted are, and what is cut and culled by them shows in no pixel.
+/* Transmittance: the bounds of layers hold everywhere, the layers of a tree that are reported as
+ * painted are painted, and cutting and culling by them changes no pixel.
  */
-#include "compose/tree.h"
-#include "compose/tree_certain.h"
-#include "geometry/matrix.h"
-#include "paint/shade.h"
-#include "render/through.h"
+#include "engine/compose/tree.h"
+#include "engine/paint/shade.h"
+#include "frames/render/through.h"
+#include "model/geometry/matrix.h"
 #include "tests/support/frame_rows.h"
 #include "tests/support/random.h"
 
@@ -42,7 +41,7 @@ static celspan_texture *random_gradient(int kind, float least_beta) {
                      : studio_gradient(&s, points, paints);
 }
 
-/* The bound against samples in and about the part of the frame that is visible. */
+/* The bound against samples in and around the visible part of the frame. */
 static void check_bound(const cs_shade *shade, const cs_boundary_frame *visible) {
   cs_v4 bound = cs_through_shade(shade, visible), most = cs_v4_all(0);
   for (int i = 0; i <= 100; i++)
@@ -55,7 +54,7 @@ static void check_bound(const cs_shade *shade, const cs_boundary_frame *visible)
     CHECK(bound[c] >= most[c] && bound[c] <= 1);
 }
 
-/* Of stops no bound is greater than the greatest of them. */
+/* For stops no bound is greater than the greatest of them. */
 static bool is_tight(const cs_shade *shade, const cs_boundary_frame *visible) {
   cs_v4 bound = cs_through_shade(shade, visible);
   float most = 0;
@@ -113,7 +112,7 @@ static void make_steps(cs_stack *stack, uint32_t first, uint32_t end) {
       (cs_step){is_frame ? CS_STEP_FRAME : CS_STEP_OPERATOR, op, first, end, 2};
 }
 
-/* Whether layers are painted whatever is true of those of which it is not known where they are. */
+/* The layers that are painted whichever of the possible layers are present. */
 static uint64_t always_painted(const cs_stack *stack, uint64_t certain, uint64_t possible) {
   cs_tree_result results[32];
   uint64_t always = ~(uint64_t)0;
@@ -127,7 +126,7 @@ static uint64_t always_painted(const cs_stack *stack, uint64_t certain, uint64_t
   return always;
 }
 
-/* 64 tiles at a time, each with another choice of what is known. */
+/* 64 tiles at a time, each with another choice of known layers. */
 static void test_trees(void) {
   int painted_count = 0, missed = 0;
   for (int trial = 0; trial < 200; trial++) {
@@ -160,7 +159,7 @@ static void test_trees(void) {
     }
   }
   CHECK(painted_count > 5000);
-  CHECK(missed == 0); /* no layer is there twice, so nothing that is certain is overlooked */
+  CHECK(missed == 0); /* no layer occurs twice, so no certain layer is overlooked */
 }
 
 /* ---------------------------------------------------------------- frames */
@@ -248,8 +247,8 @@ static size_t count_left_out(const cs_cull *cull) {
   return count;
 }
 
-/* Deep stacks of trees, gradients and faded groups look the same, to the bit, whether what is hidden
- * is left out or not. */
+/* Deep stacks of trees, gradients and faded groups look the same, to the bit, whether hidden parts
+ * are left out or not. */
 static void test_cull(void) {
   static float with[SIDE * SIDE][4], without[SIDE * SIDE][4];
   const celspan_antialias_mode none = CELSPAN_ANTIALIAS_NONE;
@@ -271,7 +270,7 @@ static void test_cull(void) {
   CHECK(culled > 40 && left_out > 1000);
 }
 
-/* Stripes behind a picture all over the frame: how many boundaries are left out. */
+/* Stripes behind a picture that covers the frame: how many boundaries are left out. */
 static size_t left_out_behind(bool has_alpha, celspan_picture_use use, double fade) {
   const celspan_antialias_mode none = CELSPAN_ANTIALIAS_NONE;
   celspan_exposure exposure;
@@ -322,7 +321,7 @@ static uint32_t program_length(celspan_rostrum *rostrum) {
   return cell.length;
 }
 
-/* 60 gradients that let through at most a quarter of each channel, somewhere: eight hide what is
+/* 60 gradients that let through at most a quarter of each channel, somewhere: eight hide everything
  * behind them. Faded by a half, they let through 5/8. */
 static void test_programs(void) {
   celspan_stop stops[2] = {{0, celspan_paint_rgb(1, 0, 0, 0.75f)},

@@ -1,5 +1,6 @@
 /* A frame while memory fails: whichever allocation fails, the status says so, nothing leaks, and
- * the same context then makes the same frame. A frame that was made before allocates nothing more.
+ * the same context then makes the same frame. Making a frame for the second time allocates nothing
+ * more.
  */
 #include "tests/support/memory.h"
 #include "tests/support/random.h"
@@ -40,8 +41,8 @@ static celspan_texture *make_lamp(studio *s) {
   return studio_radial(s, (celspan_point){20, 30}, 50, stops, 2);
 }
 
-/* A cel that holds the scene as a composition of its own, under lights with a shape. radius: of its
- * defocus. */
+/* A cel that contains the scene as a composition of its own, under lights with a shape. radius: of
+ * its defocus. */
 static celspan_rostrum *nest(studio *s, celspan_cel *cel, double radius) {
   celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
   desc.has_size = true;
@@ -105,7 +106,7 @@ static void check_failures_of(studio *s, memory_watch *watch, const celspan_fram
   CHECK(watch->size_errors == 0);
 }
 
-/* Every row once, from top to bottom; returns the allocations that took. */
+/* Every row once, from top to bottom; returns the number of allocations. */
 static size_t visit_rows(studio *s, const memory_watch *watch, celspan_rows *rows) {
   size_t before = watch->allocations;
   for (int32_t y = 0; y < HEIGHT; y++) {

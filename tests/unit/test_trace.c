@@ -1,6 +1,6 @@
-/* Random pictures of few colours, from noise to blocks, traced: everywhere inside there is a shape; on
- * the sides of the pixels it is the right one; memory may fail anywhere. CELSPAN_TRACES=n tries n
- * pictures. */
+/* Random pictures of few colours, from noise to blocks, traced: every place inside is covered by a
+ * shape; on the sides of the pixels it is the right one; any allocation may fail. CELSPAN_TRACES=n
+ * tries n pictures. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -20,7 +20,7 @@ typedef struct drawing {
   unsigned char pixels[4 * MOST_SIDE * MOST_SIDE];
 } drawing;
 
-/* Pixels of their own, or blocks, or diagonals, in a few of the colours. */
+/* Independent pixels, or blocks, or diagonals, in a few of the colours. */
 static void make_drawing(test_random *random, drawing *out) {
   int kind = random_below(random, 3), colours = 1 + random_below(random, COLOURS);
   int block = 1 + random_below(random, 7), clear = random_below(random, 3);
@@ -59,7 +59,7 @@ static celspan_status trace(celspan_context *context, const drawing *from, celsp
   return status;
 }
 
-/* How many shapes hold a point, and the colour of one of them. */
+/* How many shapes contain a point, and the colour of one of them. */
 static int shapes_at(const celspan_trace *traced, celspan_point point, unsigned char colour[3]) {
   celspan_trace_shape shape;
   int count = 0;
@@ -79,7 +79,7 @@ static bool has_clear(const drawing *d) {
   return false;
 }
 
-/* On the sides of the pixels every pixel is in one shape, of its colour. */
+/* If shapes follow the sides of the pixels, every pixel is in one shape, of its colour. */
 static void pixels_come_back(celspan_context *context, const drawing *d) {
   celspan_trace_desc desc = CELSPAN_TRACE_DESC;
   celspan_trace *traced;
@@ -97,7 +97,7 @@ static void pixels_come_back(celspan_context *context, const drawing *d) {
   celspan_trace_unref(traced);
 }
 
-/* Wherever curves run, something is there. */
+/* With any curves, every place is covered. */
 static void all_is_covered(celspan_context *context, test_random *random, const drawing *d) {
   celspan_trace_desc desc = CELSPAN_TRACE_DESC;
   celspan_trace *traced;
@@ -144,7 +144,7 @@ static void random_pictures(celspan_context *context) {
   }
 }
 
-/* The allocation of number n fails, for all n until there are no more. */
+/* The allocation of number n fails, for every n up to the last. */
 static void memory_may_fail_anywhere(bool lines) {
   memory_watch watch = {0};
   celspan_context *context = memory_watch_context(&watch);
@@ -154,7 +154,7 @@ static void memory_may_fail_anywhere(bool lines) {
   celspan_trace_desc desc = CELSPAN_TRACE_DESC;
   make_drawing(&random, &d);
   desc.lines = lines;
-  celspan_status status = trace(context, &d, desc, &traced); /* makes what contexts keep */
+  celspan_status status = trace(context, &d, desc, &traced); /* fills the context's caches */
   if (!CHECK(status == CELSPAN_OK))
     return;
   celspan_trace_unref(traced);

@@ -1,5 +1,5 @@
-/* Trackers on sequences whose motion is known: a patterned card before a patterned ground, turned,
- * scaled and bent, under changing light, with noise, and partly or wholly covered. */
+/* Trackers on sequences whose motion is known: a patterned card in front of a patterned background,
+ * rotated, scaled and bent, under changing light, with noise, and partly or wholly covered. */
 #include <stdlib.h>
 
 #include "celspan/celspan.h"
@@ -9,7 +9,7 @@
 
 enum { WIDTH = 320, HEIGHT = 240, COUNT = WIDTH * HEIGHT };
 
-static const celspan_box card = {-70, -50, 140, 100}; /* in its own places */
+static const celspan_box card = {-70, -50, 140, 100}; /* in its own coordinates */
 
 /* ---------------------------------------------------------------- what is seen */
 
@@ -20,7 +20,7 @@ static double hashed(int x, int y, uint32_t seed) {
   return (double)((h ^ (h >> 15)) >> 8) * 0x1p-24;
 }
 
-/* Numbers at whole places, and smoothly from one to the next: 0..1. */
+/* Random numbers at whole coordinates, interpolated smoothly: 0..1. */
 static double smooth(double x, double y, uint32_t seed) {
   int i = (int)floor(x), k = (int)floor(y);
   double u = x - i, v = y - k;
@@ -43,7 +43,7 @@ typedef struct sequence {
   double covered_share; /* of the card, from its left */
 } sequence;
 
-/* How the card lies in frame i. */
+/* The position of the card in frame i. */
 static celspan_matrix pose(const sequence *s, int i) {
   double t = i / 10.0, x = 160 + 30 * sin(t), y = 120 + 18 * sin(1.3 * t);
   celspan_matrix placed = celspan_matrix_translation(x, y);
@@ -101,7 +101,7 @@ static celspan_tracker *start(celspan_context *context, const sequence *s, float
   return tracker;
 }
 
-/* The squares of how far five places of the card are from where they are. */
+/* The squared errors of five places of the card. */
 static double squares_of(const sequence *s, int i, celspan_matrix found) {
   static const double places[5][2] = {{-60, -40}, {60, -40}, {60, 40}, {-60, 40}, {0, 0}};
   double sum = 0;
@@ -114,7 +114,7 @@ static double squares_of(const sequence *s, int i, celspan_matrix found) {
   return sum;
 }
 
-/* Follows `frames` frames: within 0.1 pixel, and lost where all is covered alone. */
+/* Follows `frames` frames: within 0.1 pixel, and lost only where all is covered. */
 static void follow_sequence(celspan_context *context, const char *name, sequence s, int frames) {
   float *values = malloc(COUNT * sizeof *values);
   celspan_tracker *tracker = start(context, &s, values);
@@ -194,7 +194,7 @@ static void a_mask_leaves_out_what_it_does_not_cover(celspan_context *context) {
   celspan_tracker *tracker = NULL;
   celspan_sighting sighting;
   CHECK(celspan_tracker_create(context, &luma, &desc, &tracker) == CELSPAN_OK);
-  draw_frame(&s, 3, values); /* of the whole frame, most stands still */
+  draw_frame(&s, 3, values); /* most of the whole frame does not move */
   CHECK(celspan_tracker_follow(tracker, &luma, &sighting) == CELSPAN_OK && sighting.is_found);
   CHECK(squares_of(&s, 3, sighting.matrix) < 5 * 0.1 * 0.1);
   celspan_tracker_destroy(tracker);

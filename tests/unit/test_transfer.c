@@ -1,7 +1,7 @@
-/* colour/transfer.c against the formulas in long double; and its bits, which must be the same under
- * every compiler.
+/* model/colour/transfer.c against the formulas in long double; and its bits, which must be the same
+ * with every compiler.
  */
-#include "colour/transfer.h"
+#include "model/colour/transfer.h"
 
 #include <math.h>
 
@@ -93,7 +93,7 @@ static void check_names(void) {
   CHECK(untouched == CELSPAN_TRANSFER_REC709);
 }
 
-/* The sum was taken once. */
+/* The expected sum was computed once. */
 static void check_bits(void) {
   cs_hash hash = cs_hash_begin(0);
   for (int transfer = CELSPAN_TRANSFER_SRGB; transfer <= CELSPAN_TRANSFER_CINEON; transfer++)

@@ -1,7 +1,7 @@
-/* compose/tree.c: what contributes of a set of layers, against the operators one layer at a time, for
- * trees that begin, end and are as long as the words of a set are, and next to that.
+/* engine/compose/tree.c: the contributing layers of a set, compared with the operators applied one
+ * layer at a time, for trees that begin, end and are as long as the words of a set, or nearly so.
  */
-#include "compose/tree.h"
+#include "engine/compose/tree.h"
 
 #include "tests/support/check.h"
 #include "tests/support/random.h"
@@ -24,7 +24,7 @@ static void put(uint64_t *set, uint32_t layer, bool is_present) {
 
 /* ---------------------------------------------------------------- one layer at a time */
 
-/* Whether the operator yields anything: of operands that are here or not, in their order. */
+/* Whether the operator yields anything for operands that are present or not, in their order. */
 static bool yields(celspan_operator op, const bool *is_here, uint32_t count) {
   bool any = false, all = count > 0, odd = false, later = false;
   for (uint32_t i = 0; i < count; i++) {
@@ -47,7 +47,8 @@ static bool yields(celspan_operator op, const bool *is_here, uint32_t count) {
   return false;
 }
 
-/* Clears what one operator hides, whose operands are those ranges; whether it is present itself. */
+/* Clears the layers that one operator hides, whose operands are those ranges; returns whether it is
+ * present itself. */
 static bool hide(celspan_operator op, const range *operands, const bool *is_here, uint32_t count,
                  uint64_t *set) {
   bool is_present = yields(op, is_here, count);
@@ -65,7 +66,7 @@ static const celspan_operator operators[] = {CELSPAN_UNION, CELSPAN_INTERSECTION
 
 static const char *const densities[] = {"none", "one", "some", "all but one", "all"};
 
-/* A set of layers of which those in the range are there as the density says, and others at random. */
+/* A set of layers: those in the range are present with the given density, others at random. */
 static void fill(uint64_t *set, range tree, int density) {
   uint32_t odd_one = tree.first + (uint32_t)random_below(&numbers, (int)(tree.end - tree.first));
   for (uint32_t layer = 0; layer < MOST; layer++) {
@@ -77,7 +78,7 @@ static void fill(uint64_t *set, range tree, int density) {
   }
 }
 
-/* The steps of the tree, given a set, do to it what is expected, and nothing beside the tree. */
+/* The steps of the tree change a set as expected, and nothing outside the tree. */
 static void check_set(const cs_stack *stack, const uint64_t *before, const uint64_t *expected,
                       int density) {
   cs_tree_result results[4];
@@ -89,7 +90,7 @@ static void check_set(const cs_stack *stack, const uint64_t *before, const uint6
             densities[density]);
 }
 
-/* An operator over layers alone. */
+/* An operator over layers only. */
 static void check_layers(celspan_operator op, range tree) {
   uint32_t count = tree.end - tree.first;
   cs_step step = {CS_STEP_LAYERS, op, tree.first, tree.end, count};

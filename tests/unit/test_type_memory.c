@@ -1,5 +1,6 @@
-/* Type without memory: whichever allocation fails, of the libraries for type too, text is refused, and the same
- * context then makes it as ever. This program's malloc is that of all libraries in it.
+/* Type without memory: whichever allocation fails, also one of the libraries for type, text is
+ * refused, and the same context then makes it as usual. This program's malloc serves all its
+ * libraries.
  */
 #include <errno.h>
 #include <stdatomic.h>
@@ -12,7 +13,7 @@
 #define OWN TEST_ROOT "/scripts/type/block.ttf"
 #define DEJAVU "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
 
-/* The allocator that this one stands before; declared nowhere. */
+/* The allocator behind this one; no header declares it. */
 void *__libc_malloc(size_t size);
 void *__libc_calloc(size_t count, size_t size);
 void *__libc_realloc(void *block, size_t size);
@@ -68,7 +69,7 @@ static celspan_context *new_context(void) {
   return context;
 }
 
-/* Each try has a font of its own, of which nothing was asked yet. Returns whether an allocation failed. */
+/* Each try uses a fresh font. Returns whether an allocation failed. */
 static bool try_allocation(long number, const char *path, written right) {
   celspan_context *context = new_context();
   left = number;
@@ -85,7 +86,7 @@ static bool try_allocation(long number, const char *path, written right) {
 
 static void test_font(const char *path) {
   if (access(path, R_OK) != 0) {
-    printf("%s: not there, skipped\n", path);
+    check_skip(path);
     return;
   }
   celspan_context *context = new_context(); /* the module stays in the process */

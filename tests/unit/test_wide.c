@@ -1,10 +1,10 @@
-/* The sweep's vector code gives the same bits under every set of instructions.
+/* The sweep's vector code gives the same bits with every instruction set.
  */
-#include "area/edges.h"
-#include "geometry/polyline_vertex.h"
-#include "geometry/polyline_wide.h"
-#include "row/centre.h"
-#include "sweep/advance.h"
+#include "engine/area/edges.h"
+#include "engine/row/centre.h"
+#include "engine/sweep/advance.h"
+#include "model/geometry/polyline.h"
+#include "model/geometry/polyline_vertex.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
@@ -23,7 +23,7 @@ static double random_x(test_random *random) {
   return random_below(random, 4) ? x : (double)(int)x;
 }
 
-/* What stands beyond the count must not tell. */
+/* Values beyond the count must have no effect. */
 static void fill_with_rubbish(double array[ROOM]) {
   for (size_t i = 0; i < ROOM; i++)
     array[i] = i % 3 ? -1e300 : NAN;
@@ -113,7 +113,7 @@ static void check_edges(cs_isa isa, test_random *random) {
     }
 }
 
-/* Where visible cells end under pixel centres, and the spans that are placed there. */
+/* The ends of visible cells under pixel centres, and the spans that are placed there. */
 static void check_centres(cs_isa isa, test_random *random) {
   double x[ROOM];
   bool is_visible[ROOM], is_full = true;
@@ -121,7 +121,7 @@ static void check_centres(cs_isa isa, test_random *random) {
   static celspan_span spans[ROOM + 1];
   size_t count = (size_t)random_below(random, MOST), found = 0, wrong = 0;
   fill_with_rubbish(x);
-  memset(is_visible, true, sizeof is_visible); /* beyond the count, too, where it must not tell */
+  memset(is_visible, true, sizeof is_visible); /* also beyond the count, without effect */
   memset(spans, 1, sizeof spans);
   for (size_t i = 0; i < count; i++) {
     x[i] = random_below(random, 400) ? (WIDTH - 8) * (double)(i + 1) / MOST : random_x(random);
@@ -169,8 +169,8 @@ static void check_vertices(cs_isa isa, test_random *random) {
   CHECK(same_doubles(expected.y, found.y, count));
 }
 
-/* Vertices near an arc, one of them perhaps too far from it; what lies beyond them must not tell.
- */
+/* Vertices near an arc, one of them perhaps too far from it; those beyond the arc have no
+ * effect. */
 static void check_strays(cs_isa isa, test_random *random) {
   double x = random_x(random), y = random_x(random), height = random_between(random, 5, 50);
   double mean = random_between(random, -2, 2), curve = random_between(random, -0.03, 0.03);

@@ -1,10 +1,10 @@
 /* XML through the art module: what is read, what is refused and where.
  */
-#include "artwork/xml.h"
+#include "readers/xml/xml.h"
 
 #include <stdlib.h>
 
-#include "artwork/artwork.h"
+#include "readers/xml/artwork.h"
 #include "tests/support/check.h"
 
 static celspan_context *context;
@@ -170,7 +170,7 @@ static void every_cut_is_refused(void) {
   }
 }
 
-/* Larger than what is handed to expat at a time. */
+/* Larger than the parts that are passed to expat. */
 static void large_documents_are_read(void) {
   size_t size = 5u << 20;
   char *text = malloc(size);
@@ -184,7 +184,7 @@ static void large_documents_are_read(void) {
   free(text);
 }
 
-static void a_missing_module_is_told(void) {
+static void a_missing_module_is_reported(void) {
   celspan_context *other;
   if (!CHECK(celspan_context_create(NULL, &other) == CELSPAN_OK))
     return;
@@ -211,7 +211,7 @@ int main(void) {
   a_handler_can_stop();
   every_cut_is_refused();
   large_documents_are_read();
-  a_missing_module_is_told();
+  a_missing_module_is_reported();
   celspan_context_destroy(context);
   return check_done();
 }

@@ -1,14 +1,14 @@
 /* Pixels as Y'CbCr: every colour of a dense sample is the exact number rounded, and the colour of
  * four pixels is that of their mean.
  */
-#include "output/ycbcr.h"
+#include "output/sinks/ycbcr.h"
 
 #include <math.h>
 
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
-enum { COUNT = 61 }; /* no multiple of any register */
+enum { COUNT = 61 }; /* not a multiple of any register's width */
 
 static uint32_t pixel_of(const unsigned char rgb[3]) {
   uint32_t pixel;
@@ -17,7 +17,7 @@ static uint32_t pixel_of(const unsigned char rgb[3]) {
   return pixel;
 }
 
-/* The numbers of BT.709 before they are rounded: luma, cb, cr. */
+/* The numbers of BT.709 before rounding: luma, cb, cr. */
 static void exactly(const double rgb[3], double out[3]) {
   double y = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
   out[0] = 16 + 219 * y / 255;
@@ -46,7 +46,8 @@ static void test_colours(void) {
     for (int i = 0; i < COUNT; i++) {
       double exact[3];
       exactly((const double[3]){rgb[i][0], rgb[i][1], rgb[i][2]}, exact);
-      wrong += !is_near(luma[i], exact[0]) || !is_near(cb[i], exact[1]) || !is_near(cr[i], exact[2]);
+      wrong +=
+          !is_near(luma[i], exact[0]) || !is_near(cb[i], exact[1]) || !is_near(cr[i], exact[2]);
     }
     wrong += luma[COUNT] != 99 || cb[COUNT] != 99 || cr[COUNT] != 99;
   }

@@ -1,4 +1,4 @@
--- Close: the spark in his mitten, what he says to it, its second try, and the light on his face.
+-- Close: the spark in his mitten, his words to it, its second try, and the light on his face.
 local ease = require "celspan.ease"
 local keys = require "celspan.keys"
 local motion = require "celspan.motion"
@@ -71,7 +71,7 @@ end
 
 local up = ease "inOutSine"
 
---- Its way from his mitten up to the lamp: a loop of joy, then in at the glass from below.
+--- Its path from his mitten up to the lamp: a loop of joy, then into the glass from below.
 local function flight(from)
   local loop = "C%g %g 900 640 1010 690C1110 736 1190 640 1110 590C1020 540 1010 430 1180 440"
   return motion.along(("M%g %g" .. loop .. "C1300 446 1400 420 %g %g"):format(from[1], from[2],
@@ -83,7 +83,7 @@ local life = keys { { 13.5, 0.26 }, { 14.4, 0.22, "inOutSine" }, { 15.1, 0.34, "
   { at.rises + 0.4, 1, "outQuad" }, { at.enters, 1 }, { at.enters + 0.2, 0.5, "inOutSine" },
   { at.catches, 0.4 } }
 
---- Where it is, and the way behind it while it flies.
+--- Its position, and the trail behind it while it flies.
 local function spark_at(time, palm)
   local u = timing.share(time, at.rises + 0.3, at.enters - at.rises - 0.3)
   local hop = timing.share(time, at.rises, 0.3)
@@ -92,10 +92,10 @@ local function spark_at(time, palm)
   return trail[#trail], u < 1 and trail or nil
 end
 
---- When his breath is seen in the cold.
+--- The times at which his breath is visible in the cold.
 local breaths = { 13.9, at.coaxing + 0.5, at.coaxing + 1.9, at.thanks + 0.3, at.thanks + 0.85 }
 
---- How bright the lamp burns: it flickers twice, and takes.
+--- The brightness of the lamp: it flickers twice, and then catches.
 local burning = keys { { at.enters, 0 }, { at.enters + 0.03, 0.22, "outQuad" },
   { at.enters + 0.18, 0.05, "inQuad" }, { at.enters + 0.3, 0.3, "outQuad" },
   { at.enters + 0.44, 0.03, "inQuad" }, { at.catches - 0.03, 0.06 },
@@ -153,7 +153,7 @@ function shot.draw(time)
   set:plane("lantern", 0, front("near", 0.8), hang(lamp.frame))
   set:plane("lamplighter", 0, front("near", 1), body)
   if level > 0.05 then
-    -- The edges that look at the lamp catch more of its light than the rest of him.
+    -- The edges that face the lamp catch more of its light than the rest of him.
     set:plane("rim", 0, light.about(lx, ly, reach, strength + 1.5 * level * breath,
       light.at("near", time)), body - body:translate(-9, 7))
   end

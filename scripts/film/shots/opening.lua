@@ -32,7 +32,7 @@ local arrival = motion.along(("M-60 700C200 620 330 420 240 250C200 150 %g %g %g
 local dive = "M%g %gC%g %g 1800 120 1640 330C1500 520 1180 560 1010 700C900 800 800 860 700 900"
 local departure = motion.along(dive:format(stop[1], stop[2], stop[1] + 120, stop[2] - 40))
 
---- Where the spark is on the frame, how large, and the way behind it.
+--- The position of the spark on the frame, its size, and the trail behind it.
 local function spark_at(time)
   if time < rises.from then
     local u = ease "inOutQuad"(timing.share(time, 0.1, rises.from - 0.1))

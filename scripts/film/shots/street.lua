@@ -59,14 +59,14 @@ local near = keys { { 9.2, { 172, 442 } }, { at.reach, { 170, 444 } },
   { at.caught + 0.5, { 328, 392 }, "inOutSine" }, { 13.3, { 318, 386 }, "inOutSine" } }
 local palm = keys { { 11.7, 84 }, { 12.1, -12, "outQuad" } }
 
---- What does not stop while he stands: breath, and a scarf that comes to rest.
+--- The movement while he stands: breath, and a scarf that comes to rest.
 local function breath(time) return math.sin(time * 2.6) end
 
 local stream = keys { { 9.0, 0.75 }, { 9.35, 0.95, "outQuad" }, { 10.0, 0.18, "inOutSine" },
   { at.reach + 0.4, 0.1 }, { at.reach + 0.7, 0.5, "outQuad" }, { at.puff + 0.1, 0.35 },
   { at.puff + 0.3, 0.7, "outQuad" }, { 11.8, 0.2, "inOutSine" }, { 13.5, 0.16 } }
 
---- The pose at a time, and where he stands.
+--- The pose at a time, and his position.
 local function pose_at(time)
   local pose, way = acting.at(time)
   local step = lamplighter.step(pose.step)
@@ -89,7 +89,7 @@ end
 
 -- ---------------------------------------------------------------- the spark
 
---- Like a leaf, from the lamp down into his mitten.
+--- It falls like a leaf, from the lamp down into his mitten.
 local fall = keys { { at.puff + 0.12, { LAMP[1], LAMP[2] + 60 } },
   { 11.4, { LAMP[1] - 92, LAMP[2] + 130 }, "inOutSine" },
   { 11.75, { LAMP[1] - 12, LAMP[2] + 232 }, "inOutSine" },
@@ -99,7 +99,7 @@ local life = keys { { at.spark_in, 1 }, { at.puff, 1 }, { at.puff + 0.15, 0.75 }
 
 local function mixed(a, b, u) return { a[1] + (b[1] - a[1]) * u, a[2] + (b[2] - a[2]) * u } end
 
---- Where the spark is: on the pole, in the lamp, on its way down, in his mitten.
+--- The position of the spark: on the pole, in the lamp, on its way down, in his mitten.
 local function spark_at(time, tip, palm_at)
   if time < at.spark_in then return mixed(tip, LAMP,
     timing.share(time, at.spark_in - 0.12, 0.12)) end
@@ -121,13 +121,14 @@ local flakes = {
     sway = 50, soft = 0.6 }),
 }
 
--- Distances while the camera rests: what is in focus stays so when the camera comes nearer.
+-- Distances while the camera is at rest: planes in focus stay in focus when the camera comes
+-- nearer.
 local focus = keys { { 6.9, lens.FOCAL + BRANCH }, { 8.3, lens.FOCAL, "inOutCubic" } }
 local camera_z = keys { { 5.75, 0 }, { 8.6, 24, "inOutSine" }, { 13.5, 250, "inOutSine" } }
 local camera_y = keys { { 8.6, 0 }, { 13.5, 66, "inOutSine" } }
 local camera_x = keys { { 5.75, -46 }, { 8.6, 20, "inOutSine" }, { 13.5, 132, "inOutSine" } }
 
---- Footprints that he has left by now, and the shadow under him.
+--- The footprints that he has left so far, and the shadow under him.
 local function traces(x, way)
   local parts = {}
   local last = math.floor((way - 30) / 72)

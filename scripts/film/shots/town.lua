@@ -40,7 +40,7 @@ local tilt = keys { { 19.9, 60 }, { 21.9, 44, "inOutSine" }, { 24.7, -345, "inOu
 
 local STAR = { 1390, -150 }
 
---- The way of the spark from the lamp to its place among the stars, on the frame before the tilt.
+--- The path of the spark from the lamp to its place among the stars, on the frame before the tilt.
 local loop = "M%g %gC%g 640 1120 520 1290 420C1420 340 1500 260 1420 120C1380 40 %g -60 %g %g"
 local rising = motion.along(loop:format(LAMP[1], LAMP[2] - 110, LAMP[1] + 60, STAR[1] + 20, STAR[1],
   STAR[2]))
@@ -74,12 +74,12 @@ end
 
 -- ---------------------------------------------------------------- the star
 
---- How bright the frame is: it goes dark in the end, but for a glimmer.
+--- The brightness of the frame: it goes dark at the end, except for a glimmer.
 local function brightness_at(time)
   return 1 - 0.96 * ease "inOutSine"(timing.share(time, at.fade, at.seconds - at.fade - 0.1))
 end
 
---- The star that the spark becomes: four rays that open and breathe. It goes after all the rest.
+--- The star that the spark becomes: four rays that open and pulsate. It fades out last.
 local function star(time)
   local age, kept = time - at.star, brightness_at(time) ^ -0.7
   if age < 0 then return celspan.cel {} end

@@ -28,8 +28,8 @@
  * Threads: a context belongs to one thread at a time. Scene values are immutable and counted
  * atomically: they may be shared by all threads ("shared read").
  *
- * One file, because it is the manual too: read from top to bottom it goes from values to frames, and
- * no part of it can be used without the one before.
+ * One file, because it is the manual too: read from top to bottom it goes from values to frames,
+ * and no part of it can be used without the one before.
  */
 #ifndef CELSPAN_H
 #define CELSPAN_H
@@ -178,7 +178,7 @@ CELSPAN_API celspan_paint celspan_paint_rgb(float r, float g, float b, float alp
 CELSPAN_API celspan_paint celspan_paint_gel(float r, float g, float b);
 /* Nothing at all: beta 0, medium 1. */
 CELSPAN_API celspan_paint celspan_paint_clear(void);
-/* (1-u) p + u q, premultiplied; u is held to 0..1. */
+/* (1-u) p + u q, premultiplied; u is clamped to 0..1. */
 CELSPAN_API celspan_paint celspan_paint_mix(celspan_paint p, celspan_paint q, float u);
 /* "#rgb", "#rrggbb", "#rrggbbaa": sRGB-coded, alpha straight; false when the text is not one. */
 CELSPAN_API bool celspan_paint_parse(const char *text, celspan_paint *out);
@@ -195,9 +195,9 @@ typedef struct celspan_light {
 } celspan_light;
 
 /* A light with a shape, instead of one colour everywhere: at each point it is gain * beta * pigment
- * of its texture there, and as a back light its matte is matte * beta: with a matte of 0 it adds light
- * to what is behind and leaves its alpha. Media are not used. Beyond a picture there is no light; a
- * picture without a box lies on the film's frame. */
+ * of its texture there, and as a back light its matte is matte * beta: with a matte of 0 it adds
+ * light to the layers behind and leaves their alpha. Media are not used. Beyond a picture there is
+ * no light; a picture without a box lies on the film's frame. */
 typedef enum celspan_light_place {
   CELSPAN_LIGHT_ON_FRAME = 0, /* film units after the viewport: the camera moves it */
   CELSPAN_LIGHT_ON_CEL        /* the cel's own units: it moves with the cel */
@@ -253,8 +253,8 @@ typedef struct celspan_picture_desc {
   bool has_box; /* false: the primitive's own tight bounding rectangle */
   celspan_box box;
   celspan_surface *surface; /* kept; instead of a file. colour NULL: integers sRGB, floats linear */
-  const char *tried; /* NULL, or where it was looked for in vain: told when `file` is not there
-                        either; copied */
+  const char *tried;        /* NULL, or a path that was tried before: reported when `file` does
+                        not exist either; copied */
   /* A part of the picture, as if it were a file of its own: whole pixels, inside the picture, whose
    * header is read at once. */
   bool has_source;
@@ -264,8 +264,9 @@ typedef struct celspan_picture_desc {
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_paint(celspan_context *context,
                                                                         const celspan_paint *paint,
                                                                         celspan_texture **out);
-/* The paper's triangle: linear in premultiplied values, extrapolated outside: beta held to 0..1,
- * then S to 0..beta and T to 0..1-beta. A triangle without area has the last paint everywhere. */
+/* The paper's triangle: linear in premultiplied values, extrapolated outside: beta is clamped to
+ * 0..1, then S to 0..beta and T to 0..1-beta. A triangle without area has the last paint
+ * everywhere. */
 CELSPAN_API CELSPAN_CHECKED celspan_status
 celspan_texture_create_gradient(celspan_context *context, const celspan_point points[3],
                                 const celspan_paint paints[3], celspan_texture **out);
@@ -279,12 +280,12 @@ celspan_texture_create_linear(celspan_context *context, celspan_point from, cels
 CELSPAN_API CELSPAN_CHECKED celspan_status
 celspan_texture_create_radial(celspan_context *context, celspan_point centre, double radius,
                               const celspan_stop *stops, size_t stop_count, celspan_texture **out);
-/* A radial gradient whose 0 lies at the focus: its circles grow from there to the whole one. A focus
- * beyond the circle is held just inside of it. */
+/* A radial gradient whose 0 lies at the focus: its circles grow from there to the whole one. A
+ * focus beyond the circle is held just inside of it. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_focal(
     celspan_context *context, celspan_point centre, double radius, celspan_point focus,
     const celspan_stop *stops, size_t stop_count, celspan_texture **out);
-/* How a linear or radial gradient goes on before 0 and after 1. */
+/* How a linear or radial gradient continues before 0 and after 1. */
 typedef enum celspan_spread {
   CELSPAN_SPREAD_HOLD = 0, /* the first and the last colour */
   CELSPAN_SPREAD_REPEAT,   /* from 0 to 1 again and again */
@@ -297,7 +298,8 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_with_spread(celspan_c
                                                                        celspan_texture *texture,
                                                                        celspan_spread spread,
                                                                        celspan_texture **out);
-/* The linear or radial gradient moved by a matrix, while what it is on stays. A singular matrix makes
+/* The linear or radial gradient moved by a matrix, while what it is on stays. A singular matrix
+ * makes
  * it clear. out: new      Errors: NO_MEMORY, BAD_ARGUMENT. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_with_matrix(celspan_context *context,
                                                                        celspan_texture *texture,
@@ -310,10 +312,10 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_picture(
 /* A picture used as paint with a medium of its own: S is its rgb, beta its alpha, and T the rgb of
  * the picture `medium`, which lies where the texture's does. The colour, layer, subimage and source
  * of `medium` count, its sampling, use, wrap and box do not. As a light the texture is its picture
- * alone. out: new      Errors: NO_MEMORY; BAD_ARGUMENT for a texture that is no picture, or a gel. */
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_with_medium(
-    celspan_context *context, celspan_texture *texture, const celspan_picture_desc *medium,
-    celspan_texture **out);
+ * alone. out: new    Errors: NO_MEMORY; BAD_ARGUMENT for a texture that is no picture, or a gel. */
+CELSPAN_API CELSPAN_CHECKED celspan_status
+celspan_texture_with_medium(celspan_context *context, celspan_texture *texture,
+                            const celspan_picture_desc *medium, celspan_texture **out);
 /* _ref gives the value back, counted once more; _unref ignores NULL. Here and below: any thread. */
 CELSPAN_API celspan_texture *celspan_texture_ref(celspan_texture *texture);
 CELSPAN_API void celspan_texture_unref(celspan_texture *texture);
@@ -340,18 +342,18 @@ typedef struct celspan_picture_info {
   char colour[16]; /* how it would be read by default: "srgb", "linear", "cineon" */
 } celspan_picture_info;
 
-/* Reads a picture's header; tells of a surface without asking for its pixels. Errors: INPUT, LIMIT,
- * NO_MEMORY, BAD_ARGUMENT. */
+/* Reads a picture's header; describes a surface without asking for its pixels. Errors: INPUT,
+ * LIMIT, NO_MEMORY, BAD_ARGUMENT. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_picture_inspect(celspan_context *context,
                                                                    const celspan_picture_desc *desc,
                                                                    celspan_picture_info *out);
 
 /* ---- surfaces: pictures in memory */
 
-/* A picture in memory, a buffer of the caller's or what a function fills on demand, so that a host's
- * own images and live surfaces are textures. It is immutable and counted like a scene value, and
- * may be shared by pictures, threads and contexts. Channels are interleaved, in the machine's byte
- * order. */
+/* A picture in memory, a buffer of the caller's or what a function fills on demand, so that a
+ * host's own images and live surfaces are textures. It is immutable and counted like a scene value,
+ * and may be shared by pictures, threads and contexts. Channels are interleaved, in the machine's
+ * byte order. */
 typedef enum celspan_surface_format {
   CELSPAN_SURFACE_RGBA8 = 0,
   CELSPAN_SURFACE_RGB8,
@@ -365,12 +367,12 @@ typedef struct celspan_rectangle { /* pixels */
 } celspan_rectangle;
 
 /* Fills a rectangle of a surface: row i of it from destination + i * stride on, in the surface's
- * format. The rows that were filled, from the top, are to be set in *rows: fewer than the rectangle
- * has are a failure. Rectangles lie inside the surface; they are up to 64 rows of its whole width,
- * or where it is too large for `picture_bytes` of a part of it, and are asked for when they are
- * first seen, and again when they had to be forgotten.
- * A function that fails may record a sentence with celspan_context_fail. The frame then ends with
- * CALLBACK and a sentence that names the rectangle. It must not render with this surface itself. */
+ * format. The function sets *rows to the number of rows that it filled, from the top: fewer than
+ * the rectangle has are a failure. Rectangles lie inside the surface; they are up to 64 rows of its
+ * whole width, or where it is too large for `picture_bytes` of a part of it, and are asked for when
+ * they are first seen, and again when they had to be forgotten. A function that fails may record a
+ * sentence with celspan_context_fail. The frame then ends with CALLBACK and a sentence that names
+ * the rectangle. It must not render with this surface itself. */
 typedef celspan_status (*celspan_surface_fill)(void *user, celspan_context *context,
                                                const celspan_rectangle *rectangle,
                                                void *destination, size_t stride, int32_t *rows);
@@ -391,7 +393,7 @@ typedef struct celspan_surface_desc {
   bool any_thread; /* fill may be called by workers, by several at once; false: by the rendering
                       thread alone */
   /* A name for the content, instead of all of its bytes; a fill function needs one. Surfaces of the
-   * same key, size, format and alpha are taken for the same picture, in a frame and from frame to
+   * same key, size, format and alpha count as the same picture, in a frame and from frame to
    * frame: a live surface whose content changed is a new one with another key. */
   bool has_key;
   uint64_t key[2];
@@ -405,7 +407,7 @@ static inline celspan_surface_desc celspan_surface_desc_default(void) {
 #define CELSPAN_SURFACE_DESC (celspan_surface_desc_default())
 
 /* Premultiplied integers are coded colours multiplied by alpha, as in TIFF and most window systems.
- * Of floats NaN becomes 0, what is beyond 65504 becomes that, and alpha is held to 0..1, as in
+ * In floats NaN becomes 0, larger values become 65504, and alpha is clamped to 0..1, as in
  * files. The bytes of buffers do not count in picture_bytes; what is decoded from them does.
  * desc: borrowed      out: new      Errors: NO_MEMORY, BAD_ARGUMENT. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_surface_create(celspan_context *context,
@@ -432,7 +434,8 @@ typedef struct celspan_painting_layer {
   double opacity;              /* 0..1 */
   int32_t x, y, width, height; /* where its pixels lie, from the painting's top left corner */
   celspan_surface *surface;    /* borrowed; NULL: a group, or a layer without pixels */
-  const char *colour;          /* "srgb" or "linear": for the picture that is made of the surface */
+  const char *colour; /* "srgb" or "linear": for the picture that is made of the surface, whose
+                                  pixels are converted by the file's colour profile */
 } celspan_painting_layer;
 
 /* file: borrowed      out: new
@@ -453,9 +456,9 @@ CELSPAN_API size_t celspan_painting_layer_count(const celspan_painting *painting
  * there is none. */
 CELSPAN_API bool celspan_painting_layer_at(const celspan_painting *painting, size_t index,
                                            celspan_painting_layer *out);
-/* What of the file is not shown as the program that made it does, in sentences; *layer: the place of
- * the layer, or the count of layers where it is about the whole painting. NULL where there is no such
- * note. */
+/* What of the file is not shown as the program that made it does, in sentences; *layer: the place
+ * of the layer, or the count of layers where it is about the whole painting. NULL where there is no
+ * such note. */
 CELSPAN_API size_t celspan_painting_note_count(const celspan_painting *painting);
 CELSPAN_API const char *celspan_painting_note_at(const celspan_painting *painting, size_t index,
                                                  size_t *layer);
@@ -472,7 +475,7 @@ typedef enum celspan_rule { CELSPAN_RULE_NONZERO = 0, CELSPAN_RULE_EVENODD } cel
 
 typedef struct celspan_rect_desc {
   double x, y, width, height;
-  double radius; /* of the corners; held to half the shorter side */
+  double radius; /* of the corners; clamped to half the shorter side */
   celspan_texture *texture;
 } celspan_rect_desc;
 
@@ -531,14 +534,14 @@ typedef enum celspan_stroke_join {
 
 /* A line and its width: of points, data and outline, one is given. The sides are the envelope of a
  * disc of that width which is taken along the line, caps and joins have the width there, and a
- * smooth point has no join. The outline is made for every frame anew, as fine as that needs.
+ * smooth point has no join. The outline is made again for every frame, as fine as that frame needs.
  * Lengths are measured in the stroke's own units, along the line. */
 typedef struct celspan_stroke_desc {
   size_t struct_size;          /* sizeof(celspan_stroke_desc) */
   const celspan_point *points; /* of a spline, clamped or, when closed, periodic; copied */
   const double *widths;        /* one for each point; NULL: all `width`; copied */
   size_t point_count;
-  int degree;              /* of the spline, 1..15, held to point_count - 1; 1 */
+  int degree;              /* of the spline, 1..15, clamped to point_count - 1; 1 */
   bool closed;             /* the points' */
   const char *data;        /* SVG path data; Z closes a subpath; copied */
   celspan_object *outline; /* a primitive with an outline, whose transform and fade do not matter;
@@ -553,7 +556,7 @@ typedef struct celspan_stroke_desc {
   double dash_offset;   /* how far into the dashes every subpath begins */
   double taper[2];      /* lengths over which what is drawn of a subpath grows from 0 and falls to
                           * 0, scaled down together when it is shorter; not with dashes; 0 0 */
-  double from, to;      /* the part of the whole length that is drawn, held to 0..1; 0 and 1 */
+  double from, to;      /* the part of the whole length that is drawn, clamped to 0..1; 0 and 1 */
   celspan_texture *texture;
 } celspan_stroke_desc;
 
@@ -643,8 +646,8 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_scanline(
 
 typedef struct celspan_font {
   const char *file;  /* copied */
-  const char *tried; /* NULL, or where it was looked for in vain: told when `file` is not there
-                        either */
+  const char *tried; /* NULL, or a path that was tried before: reported when `file` does
+                        not exist either */
 } celspan_font;
 
 typedef struct celspan_feature { /* of OpenType, for the whole text */
@@ -654,7 +657,7 @@ typedef struct celspan_feature { /* of OpenType, for the whole text */
 
 typedef struct celspan_variation { /* an axis of variable fonts */
   const char *tag;                 /* four printable characters: "wght", "wdth" */
-  double value;                    /* in the axis's own units; held to its range */
+  double value;                    /* in the axis's own units; clamped to its range */
 } celspan_variation;
 
 typedef enum celspan_align {
@@ -706,17 +709,17 @@ static inline celspan_text_desc celspan_text_desc_default(void) {
 
 /* All letters as one primitive, filled by the non-zero rule. Fonts are read at once and kept in the
  * context. Text without letters, and of size 0, draws nothing.
- * desc: borrowed, but for the texture      out: new
- * Errors: NO_MEMORY; INPUT for a font that is missing, cut or none at all, and where the art module
- * is missing; BAD_ARGUMENT for numbers, for what is not UTF-8, for a character that no font has, for
- * an axis that no font has, and for fonts of coloured glyphs; LIMIT for more than 100,000 characters,
- * 16,777,216 points of outline, or 256 MiB of a font's file. */
+ * desc: borrowed, except for the texture      out: new
+ * Errors: NO_MEMORY; INPUT for a font that is missing, cut or not a font at all, and where the art
+ * module is missing; BAD_ARGUMENT for numbers, for what is not UTF-8, for a character that no font
+ * has, for an axis that no font has, and for fonts of coloured glyphs; LIMIT for more than 100,000
+ * characters, 16,777,216 points of outline, or 256 MiB of a font's file. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_text(celspan_context *context,
                                                                       const celspan_text_desc *desc,
                                                                       celspan_object **out);
 
-/* The same, letter by letter: what a reader takes for one, with its marks, or as a ligature. Line
- * ends are no letters; spaces are, and draw nothing. */
+/* The same, letter by letter: a letter is a user-perceived character with its marks, or a ligature.
+ * Line ends are not letters; spaces are, and draw nothing. */
 typedef struct celspan_glyph {
   celspan_object *object; /* borrowed; it lies where the text has it, its texture as in the text */
   double x, y;            /* its left end, on the baseline */
@@ -746,9 +749,9 @@ typedef enum celspan_operator {
   CELSPAN_CLIP          /* two operands: the first where the second is; only the first is painted */
 } celspan_operator;
 
-/* operands: kept, the list copied; none is legal (but for CLIP) and draws nothing. Nesting is
- * limited to 128 levels, and an object to 16,777,216 primitives, shared ones counted wherever they
- * are used. Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
+/* operands: kept, the list copied; an empty list is legal (except for CLIP) and draws nothing.
+ * Nesting is limited to 128 levels, and an object to 16,777,216 primitives, shared ones counted
+ * wherever they are used. Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_boolean(
     celspan_context *context, celspan_operator op, celspan_object *const *operands,
     size_t operand_count, celspan_object **out);
@@ -759,8 +762,8 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_boolean(
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_extend_boolean(
     celspan_context *context, celspan_object *boolean, celspan_object *const *operands,
     size_t operand_count, celspan_object **out);
-/* Applied after what is there already, about the origin. The object is kept in part, never changed.
- * Errors: NO_MEMORY; BAD_ARGUMENT when a number of the matrix, or of it with what is there, is not
+/* Applied after the existing matrix, about the origin. The object is kept in part, never changed.
+ * Errors: NO_MEMORY; BAD_ARGUMENT when a number of the matrix, or of the product, is not
  * finite or beyond 1e12. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_transform(celspan_context *context,
                                                                     celspan_object *object,
@@ -787,18 +790,20 @@ CELSPAN_API bool celspan_object_bounds(const celspan_object *object, celspan_box
 /* Whether the point is inside the shape, whatever its paint: left and top edges are in, right and
  * bottom ones out. A scan-line procedure is not asked; its shape is its bounds. Shared read. */
 CELSPAN_API bool celspan_object_contains(const celspan_object *object, celspan_point point);
-/* What an object shows in two halves, each 128 bits that are equal for equal content in every process:
- * drawing, all but its outermost transform and fade, and placement, those two. Exposure sheets tell
- * with them whether a drawing changed or only moved. false: the object holds a scan-line procedure,
- * which cannot be compared, and `drawing` differs from object to object. Shared read. */
+/* What an object shows in two halves, each 128 bits that are equal for equal content in every
+ * process: drawing, all but its outermost transform and fade, and placement, those two. Exposure
+ * sheets tell with them whether a drawing changed or only moved. false: the object holds a
+ * scan-line procedure, which cannot be compared, and `drawing` differs from object to object.
+ * Shared read. */
 CELSPAN_API bool celspan_object_hash(const celspan_object *object, uint64_t drawing[2],
                                      uint64_t placement[2]);
 
 /* ---------------------------------------------------------------- drawings in SVG */
 
-/* A drawing that was read from an SVG file: one object, and its parts by name. Immutable and counted
- * like a scene value. What is not drawn (see the reference, "svg") is told by _skipped, with its
- * line. Blending is in linear light, as everywhere; colours and gradients are those a browser shows.
+/* A drawing that was read from an SVG file: one object, and its parts by name. Immutable and
+ * counted like a scene value. _skipped lists the parts that are not drawn (see the reference,
+ * "svg"), with their lines. Blending is in linear light, as everywhere; colours and gradients are
+ * those a browser shows.
  *
  * Limits: a file of 256 MiB, 1,000,000 elements, nested 128 deep, 1,000,000 drawn when those of
  * `use` count each time, 65,536 rules of style; entities of plain text and elements, of 1,024 bytes
@@ -843,9 +848,9 @@ CELSPAN_API void celspan_svg_unref(celspan_svg *svg);
  * Borrowed from the drawing, as everything that the next four give. Shared read. */
 CELSPAN_API celspan_object *celspan_svg_object(const celspan_svg *svg);
 CELSPAN_API celspan_point celspan_svg_size(const celspan_svg *svg);
-/* Parts are the elements that have an id or, where it is the only one, a label of Inkscape's: in the
- * drawing's units, with the transforms of what they are in, but without its clips and opacity. What
- * only `use` shows is a part where it stands in the file. */
+/* Parts are the elements that have an id or, where it is the only one, a label of Inkscape's: in
+ * the drawing's units, with the transforms of what they are in, but without its clips and opacity.
+ * What only `use` shows is a part where it stands in the file. */
 CELSPAN_API size_t celspan_svg_part_count(const celspan_svg *svg);
 CELSPAN_API celspan_object *celspan_svg_part(const celspan_svg *svg, size_t index,
                                              const char **name);
@@ -876,8 +881,8 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_svg_with(celspan_context *con
 
 /* A picture as shapes: the areas of a flat-coloured drawing or of scanned line art as closed paths
  * of lines and cubics, one for each area that hangs together, or its lines as strokes. The border
- * between two areas is one curve, used by both of them in opposite directions, so that nothing shows
- * between them, at any size. Immutable and counted like a scene value.
+ * between two areas is one curve, used by both of them in opposite directions, so that nothing
+ * shows between them, at any size. Immutable and counted like a scene value.
  *
  * Limits: a picture of 268,435,456 pixels, 1,048,576 shapes. */
 typedef struct celspan_trace celspan_trace;
@@ -887,11 +892,11 @@ typedef struct celspan_trace_desc {
   celspan_picture_desc picture; /* what is traced; its sampling, use, wrap and box do not matter */
   int32_t colours; /* as many are found in the picture, or fewer where it has no more; 1..64; 2 */
   const unsigned char *codes; /* or those that are given: `colours` times 3 bytes, sRGB; borrowed */
-  /* How far curves may leave the edges: 1 stands for 0.15 pixels; 0..16; 1. 0: they are the sides of
-   * the pixels. In a picture without mixed pixels an edge is known to half a pixel, and that is
+  /* How far curves may leave the edges: 1 stands for 0.15 pixels; 0..16; 1. 0: they are the sides
+   * of the pixels. In a picture without mixed pixels an edge is known to half a pixel, and that is
    * allowed for. */
   double smooth;
-  int32_t speckle; /* areas of at most so many pixels go to their neighbours; 2 */
+  int32_t speckle; /* areas of at most this many pixels go to their neighbours; 2 */
   bool lines;      /* strokes along the middle of what is drawn on the ground, instead of areas */
 } celspan_trace_desc;
 
@@ -976,8 +981,8 @@ static inline celspan_cel_desc celspan_cel_desc_default(void) {
 }
 #define CELSPAN_CEL_DESC (celspan_cel_desc_default())
 
-/* desc: borrowed, but for the objects. Errors: NO_MEMORY; BAD_ARGUMENT for lights below 0, a matte
- * or opacity outside 0..1, a viewport without size. */
+/* desc: borrowed, except for the objects. Errors: NO_MEMORY; BAD_ARGUMENT for lights below 0, a
+ * matte or opacity outside 0..1, a viewport without size. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_cel_create(celspan_context *context,
                                                               const celspan_cel_desc *desc,
                                                               celspan_cel **out);
@@ -1025,7 +1030,7 @@ typedef celspan_status (*celspan_kernel_function)(void *user, celspan_context *c
 
 /* The boundaries of a row are filtered as they are, without a raster of samples: exactly in x, and
  * in y by cutting slanted ones into up to `rows` pieces a pixel. Where a kernel is negative, alpha
- * is held to 0..1 and each channel to the range of the values under the kernel. */
+ * is clamped to 0..1 and each channel to the range of the values under the kernel. */
 typedef struct celspan_filter_desc {
   celspan_kernel kernel;
   bool has_radius; /* false: the kernel's own, named above; FUNCTION has none */
@@ -1067,7 +1072,7 @@ static inline celspan_rostrum_desc celspan_rostrum_desc_default(void) {
 }
 #define CELSPAN_ROSTRUM_DESC (celspan_rostrum_desc_default())
 
-/* desc: borrowed, but for the cels. Errors: NO_MEMORY; BAD_ARGUMENT for lights or a brightness
+/* desc: borrowed, except for the cels. Errors: NO_MEMORY; BAD_ARGUMENT for lights or a brightness
  * below 0, a camera without width, a kernel that sums to nothing; what its function returns. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_rostrum_create(celspan_context *context,
                                                                   const celspan_rostrum_desc *desc,
@@ -1118,8 +1123,8 @@ typedef struct celspan_fault {
 typedef struct celspan_inspect_desc {
   size_t struct_size; /* sizeof(celspan_inspect_desc) */
   bool is_deep;       /* pictures are read whole, not only their headers */
-  /* Called for every fault, in the order of cels and primitives; false: that is enough. NULL:
-   * nobody is told. */
+  /* Called for every fault, in the order of cels and primitives; false: stop. NULL:
+   * faults are only counted. */
   bool (*report)(void *user, const celspan_fault *fault);
   /* Called now and then while a picture is read whole; false: stop. NULL: nobody asks. */
   bool (*progress)(void *user, int32_t rows_done, int32_t rows_total);
@@ -1183,7 +1188,7 @@ static inline void celspan_span_colour(const celspan_span *span, int32_t x, floa
 
 typedef struct celspan_frame_desc {
   size_t struct_size;
-  const celspan_exposure *exposures; /* borrowed; light adds, alpha adds and is held to 1 */
+  const celspan_exposure *exposures; /* borrowed; light adds, alpha adds and is clamped to 1 */
   size_t exposure_count;
   double film_width, film_height; /* film units; 0 0: the size in pixels */
   int32_t width, height;          /* pixels of the whole frame, 1..1,048,576 */
@@ -1314,9 +1319,9 @@ typedef struct celspan_file_desc {
   /* Of the sink's first pixel in the whole frame, where the depth dithers; celspan_frame_write adds
    * the corner of the crop. */
   int32_t place_x, place_y;
-  /* Of a strip, which `celspan join` puts under those above it: the row of the whole picture that its
-   * row 0 is, and how many rows that has. strip_height 0: a picture by itself. PNG, Targa and span
-   * files; BAD_ARGUMENT for others, and for a strip that is not within its picture. */
+  /* Of a strip, which `celspan join` puts under those above it: the row of the whole picture that
+   * its row 0 is, and how many rows that has. strip_height 0: a picture by itself. PNG, Targa and
+   * span files; BAD_ARGUMENT for others, and for a strip that is not within its picture. */
   int32_t strip_row, strip_height;
 } celspan_file_desc;
 
@@ -1328,7 +1333,7 @@ static inline celspan_file_desc celspan_file_desc_default(void) {
 #define CELSPAN_FILE_DESC (celspan_file_desc_default())
 
 /* Whether every pixel of the frame is certain to have alpha 1, because a back light of matte 1
- * stands behind everything. Shared read. */
+ * is behind everything. Shared read. */
 CELSPAN_API bool celspan_frame_is_opaque(const celspan_frame_desc *desc);
 
 /* Renders into a file; the file's is_opaque is found from the frame. The file appears under its
@@ -1342,7 +1347,7 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_write(celspan_context *
 
 /* The sink that celspan_frame_write renders into, for rows that come from elsewhere: call its
  * begin, then row for each row from the top, then end, which completes the file when the outcome is
- * OK and no call failed, else leaves nothing, and in any case destroys the sink. end is to be
+ * OK and no call failed, else leaves nothing, and in any case destroys the sink. end must be
  * called once whatever happened, even when begin failed or was not called.
  * path, file: copied; file may be NULL      out: new
  * Errors: NO_MEMORY, OUTPUT, LIMIT; BAD_ARGUMENT for a format or coding that is not known. */
@@ -1360,8 +1365,8 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_digest(celspan_context 
 /* ---------------------------------------------------------------- relighting */
 
 /* The light in which a picture was taken: one colour, or a field that changes slowly over the
- * picture. At x and y, from -1 at the left and the top edge of the picture to 1 at the right and the
- * bottom one, channel c is
+ * picture. At x and y, from -1 at the left and the top edge of the picture to 1 at the right and
+ * the bottom one, channel c is
  *
  *   colour[c] * exp(sum over k of terms[c][k] * b[k]),  b = x, y, xx, xy, yy, xxx, xxy, xyy, yyy
  *
@@ -1377,13 +1382,13 @@ CELSPAN_API celspan_light_field celspan_light_field_flat(double r, double g, dou
 /* The light at a place, from 0, 0 at the picture's top left corner to 1, 1. Any thread. */
 CELSPAN_API void celspan_light_field_at(const celspan_light_field *field, double u, double v,
                                         double rgb[3]);
-/* The field as a light with a shape, or as the paint that shows it: an opaque picture of so many
+/* The field as a light with a shape, or as the paint that shows it: an opaque picture of that many
  * pixels. out: new      Errors: NO_MEMORY; BAD_ARGUMENT for the field or the size. */
 CELSPAN_API CELSPAN_CHECKED celspan_status
 celspan_light_field_texture(celspan_context *context, const celspan_light_field *field,
                             int32_t width, int32_t height, celspan_texture **out);
 
-/* What is known of a picture whose light is to be found. */
+/* What is known of a picture whose light celspan must find. */
 typedef enum celspan_light_clue {
   CELSPAN_LIGHT_CLUE_GREY = 0, /* the mean pigment of the picture is `colour` */
   CELSPAN_LIGHT_CLUE_PATCH,    /* the pigment of a patch is `colour` */
@@ -1394,10 +1399,10 @@ typedef struct celspan_light_estimate_desc {
   size_t struct_size;             /* sizeof(celspan_light_estimate_desc) */
   const celspan_texture *picture; /* borrowed; a picture, of which its pixels count */
   celspan_light_clue clue;
-  double colour[3];  /* above 0; 0.18 each, which is what light meters take for grey */
+  double colour[3];  /* above 0; 0.18 each, which light meters treat as grey */
   celspan_box patch; /* pixels of the picture */
-  /* The light is uneven, so that a field is fitted: to the picture, whose pigments are then taken to
-   * be alike in every part of it, or to `blank`, the same light on something white or grey. */
+  /* The light is uneven, so that a field is fitted: to the picture, whose pigments are then taken
+   * to be alike in every part of it, or to `blank`, the same light on something white or grey. */
   bool is_uneven;
   const celspan_texture *blank; /* borrowed; NULL: the picture itself */
 } celspan_light_estimate_desc;
@@ -1410,26 +1415,27 @@ static inline celspan_light_estimate_desc celspan_light_estimate_desc_default(vo
 }
 #define CELSPAN_LIGHT_ESTIMATE_DESC (celspan_light_estimate_desc_default())
 
-/* Finds the light of a picture. desc: borrowed
- * Errors: those of pictures; BAD_ARGUMENT for the description, and where the picture tells too
- * little: a patch or a channel without light, too few places that are lit for a field. */
+/* Finds the light of a picture. desc: borrowed Errors: those of pictures; BAD_ARGUMENT for the
+ * description, and where the picture has too little information: a patch or a channel without
+ * light, too few places that are lit for a field. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_light_estimate(
     celspan_context *context, const celspan_light_estimate_desc *desc, celspan_light_field *out);
 
-/* Light taken off pictures, R = S F + T I at every pixel: textures of their own S, T and beta, which
- * take any light. Values of S above 1, such as highlights, are kept; up to 65504. The textures are
- * pictures in memory, of 16 bytes a pixel, or of 32 with a medium; at most 268,435,456 pixels. All
- * that are given are textures that are pictures, borrowed, and so are fields; the sampling, the wrap
- * and the box of the first one are those of the texture that is made. out: new
+/* Light taken off pictures, R = S F + T I at every pixel: textures of their own S, T and beta,
+ * which take any light. Values of S above 1, such as highlights, are kept; up to 65504. The
+ * textures are pictures in memory, of 16 bytes a pixel, or of 32 with a medium; at most 268,435,456
+ * pixels. All that are given are textures that are pictures, borrowed, and so are fields; the
+ * sampling, the wrap and the box of the first one are those of the texture that is made. out: new
  * Errors: those of pictures; BAD_ARGUMENT for a field, for pictures of different sizes, and where
  * the pictures cannot have been taken in that light, with what was found; LIMIT; NO_MEMORY.
  *
  * _picture: one picture, its alpha the share of it that is paint, and the rest clear.
  * _exposures: lit from the front alone, and from behind alone.
  * _grounds: twice in the same light, before two different grounds. */
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_relight_picture(
-    celspan_context *context, const celspan_texture *picture, const celspan_light_field *light,
-    celspan_texture **out);
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_relight_picture(celspan_context *context,
+                                                                   const celspan_texture *picture,
+                                                                   const celspan_light_field *light,
+                                                                   celspan_texture **out);
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_relight_exposures(
     celspan_context *context, const celspan_texture *front, const celspan_light_field *front_light,
     const celspan_texture *back, const celspan_light_field *back_light, celspan_texture **out);
@@ -1444,8 +1450,8 @@ CELSPAN_API CELSPAN_CHECKED celspan_status
 celspan_relight_grounds(celspan_context *context, const celspan_relight_ground grounds[2],
                         const celspan_light_field *light, celspan_texture **out);
 
-/* Writes a picture texture as an EXR of 32-bit floats with seven channels, whole or not at all:
- * R, G, B are S and A is beta, so that other programs show it in white light; medium.R, medium.G and
+/* Writes a picture texture as an EXR of 32-bit floats with seven channels, whole or not at all: R,
+ * G, B are S and A is beta, so that other programs show it in white light; medium.R, medium.G and
  * medium.B are T. Errors: those of pictures; OUTPUT; BAD_ARGUMENT for a texture that is no picture
  * used as paint, and for another ending than .exr. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_relight_write(celspan_context *context,
@@ -1457,7 +1463,7 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_relight_read(celspan_context 
                                                                 const char *path, const char *tried,
                                                                 celspan_texture **out);
 
-/* A rendered frame of which every light can be changed without rendering it anew: for each cel,
+/* A rendered frame of which every light can be changed without rendering it again: for each cel,
  * composed first and then antialiased, what a unit of its front light and of its back light adds to
  * each pixel, as rows of spans; a frame is the sum of these, weighted with the lights. It holds
  * flat lights only, and agrees with a frame of the same tolerance within 1/65535 of the brightest
@@ -1520,7 +1526,7 @@ typedef struct celspan_luma {
 typedef struct celspan_tracker_desc {
   celspan_motion model;
   celspan_box region;  /* pixels of the first frame; 18 x 18 or larger; cut to the frame */
-  const uint8_t *mask; /* NULL, or a byte for each pixel of the frame: 0 is not followed; borrowed */
+  const uint8_t *mask; /* NULL, or a byte a pixel of the frame: 0 is not followed; borrowed */
 } celspan_tracker_desc;
 
 typedef struct celspan_sighting {
@@ -1533,8 +1539,8 @@ typedef struct celspan_sighting {
 } celspan_sighting;
 
 /* first, desc: borrowed      out: new
- * Errors: BAD_ARGUMENT for a region that is too small or has too little texture, and for values that
- * are not finite; NO_MEMORY. */
+ * Errors: BAD_ARGUMENT for a region that is too small or has too little texture, and for values
+ * that are not finite; NO_MEMORY. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_tracker_create(celspan_context *context,
                                                                   const celspan_luma *first,
                                                                   const celspan_tracker_desc *desc,
@@ -1544,7 +1550,7 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_tracker_create(celspan_contex
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_tracker_follow(celspan_tracker *tracker,
                                                                   const celspan_luma *frame,
                                                                   celspan_sighting *out);
-/* Begins anew at the first frame, to follow the region the other way. */
+/* Begins again at the first frame, to follow the region the other way. */
 CELSPAN_API void celspan_tracker_rewind(celspan_tracker *tracker);
 CELSPAN_API void celspan_tracker_destroy(celspan_tracker *tracker); /* NULL is ignored */
 

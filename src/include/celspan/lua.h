@@ -5,12 +5,13 @@
  *   celspan_lua_frame(L, -1, film.first, &frame)     a frame of it, to be rendered by the C interface
  *
  * `require "celspan"` then finds the module, and the animation library (celspan.ease, celspan.keys,
- * ...) with it, without any search path. Every Lua state has one context: that of the host, or one of
- * its own, destroyed with the state.
+ * ...) with it, without any search path. Every Lua state has one context: that of the host, or one
+ * of its own, destroyed with the state.
  *
- * No celspan_lua_ function raises, calls the panic function, or changes the stack: failures come back
- * as a status, with their sentence in the state's context. They are called on the thread that owns
- * the state. Lua's own memory comes from the allocator of the state, all else from the context's.
+ * No celspan_lua_ function raises, calls the panic function, or changes the stack: failures come
+ * back as a status, with their sentence in the state's context. They are called on the thread that
+ * owns the state. Lua's own memory comes from the allocator of the state, all else from the
+ * context's.
  */
 #ifndef CELSPAN_LUA_H
 #define CELSPAN_LUA_H
@@ -27,11 +28,11 @@ CELSPAN_API int luaopen_celspan(lua_State *L);
 /* What the library's own Lua modules need from C: file names, nearest names. */
 CELSPAN_API int luaopen_celspan_core(lua_State *L);
 
-/* Opens celspan as luaL_requiref would. All that scripts make and render then goes through `context`:
- * its memory function, its limits, its last error.
- * context: borrowed until the state is closed, NULL for one of the state's own. It must not be in use
- * by another thread while Lua runs. In a state that is open already it must be the same, or NULL.
- * Errors: BAD_ARGUMENT when the state has another context; NO_MEMORY. The sentence is in `context`. */
+/* Opens celspan as luaL_requiref would. All that scripts make and render then goes through
+ * `context`: its memory function, its limits, its last error. context: borrowed until the state is
+ * closed, NULL for one of the state's own. It must not be in use by another thread while Lua runs.
+ * In a state that is open already it must be the same, or NULL. Errors: BAD_ARGUMENT when the state
+ * has another context; NO_MEMORY. The sentence is in `context`. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_open(lua_State *L, celspan_context *context);
 /* The context of a state; NULL when celspan was not opened in it, or is closed again. */
 CELSPAN_API celspan_context *celspan_lua_context(lua_State *L);
@@ -54,13 +55,13 @@ typedef struct celspan_film {
  * line. For anything else, and without memory, count is 0 and the sentence says what was found. */
 CELSPAN_API celspan_film celspan_lua_film(lua_State *L, int index);
 
-/* Calls the frame function of the film, or takes the rostrum, at index, for a frame's number.
- * out: new, for celspan_lua_frame_drop: the exposures, and the film's size as that of the film and
- * of the frame; set size, crop, workers and progress as you like and render it by any call that takes
- * a frame. Whatever Lua does meanwhile, its scene lives until it is dropped. Any thread may render it
- * with a context of its own, unless the film uses scan-line procedures, which enter Lua.
- * Errors: BAD_ARGUMENT for a number outside the film or a value that is not one; CALLBACK for an error
- * of the script, "shot.lua:12: frame 37: ..."; the core's own where it refused the scene. */
+/* Calls the frame function of the film, or takes the rostrum, at index, for a frame's number. out:
+ * new, for celspan_lua_frame_drop: the exposures, and the film's size as that of the film and of
+ * the frame; set size, crop, workers and progress as you like and render it by any call that takes
+ * a frame. Whatever Lua does meanwhile, its scene lives until it is dropped. Any thread may render
+ * it with a context of its own, unless the film uses scan-line procedures, which enter Lua. Errors:
+ * BAD_ARGUMENT for a number outside the film or a value that is not one; CALLBACK for an error of
+ * the script, "shot.lua:12: frame 37: ..."; the core's own where it refused the scene. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_frame(lua_State *L, int index,
                                                              int64_t number,
                                                              celspan_frame_desc *out);

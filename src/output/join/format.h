@@ -2,18 +2,42 @@
  *
  *   inspect, for every part --> begin --> add, for every part --> end
  *
- * INVARIANT: inspect reads what tells about the rows, add reads the rows; neither unpacks a pixel, and
- * memory is that of a cs_joining whatever the files hold.
+ * INVARIANT: inspect reads the data about the rows, add reads the rows; neither unpacks a pixel,
+ * and memory is that of a cs_joining whatever the files hold.
  */
 #ifndef CS_OUTPUT_JOIN_FORMAT_H
 #define CS_OUTPUT_JOIN_FORMAT_H
 
 #include <spanfile.h>
 
-#include "deflate/deflate.h"
-#include "output/file.h"
-#include "output/join/part.h"
-#include "output/tga.h"
+#include "base/hash.h"
+#include "output/deflate/deflate.h"
+#include "output/sinks/file.h"
+#include "output/sinks/strip.h"
+#include "output/sinks/tga.h"
+
+/* A file that will be joined: where it belongs, and its bytes. Nothing in it is believed: numbers
+ * are checked before they are used, and nothing is allocated by them. */
+typedef struct cs_join_part {
+  const char *path; /* borrowed */
+  int descriptor;   /* -1: not open */
+  uint64_t size;    /* bytes of the file */
+  int32_t width, height;
+  cs_strip strip;
+  cs_hash form;            /* of everything that all strips of a picture have in common */
+  uint64_t body, body_end; /* bytes that hold the rows; PNG: body_end is where IEND begins */
+} cs_join_part;
+
+/* Errors: INPUT, also for what is not an ordinary file. */
+CELSPAN_CHECKED celspan_status cs_join_part_open(celspan_context *context, const char *path,
+                                                 cs_join_part *out);
+void cs_join_part_close(cs_join_part *part);
+/* All bytes of [offset, offset + size). Errors: INPUT, also where the file ends before. */
+CELSPAN_CHECKED celspan_status cs_join_part_read(celspan_context *context, const cs_join_part *part,
+                                                 uint64_t offset, void *bytes, size_t size);
+/* INPUT: "PATH: what". */
+celspan_status cs_join_part_fail(celspan_context *context, const cs_join_part *part,
+                                 const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 enum { CS_JOIN_START = 26, CS_JOIN_PIECE = 1 << 16 };
 

@@ -4,9 +4,9 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-#include "output/ending.h"
 #include "output/join/format.h"
-#include "output/temporary.h"
+#include "output/sinks/file.h"
+#include "output/sinks/temporary.h"
 
 static const cs_join_format *const FORMATS[] = {&cs_join_png, &cs_join_tga, &cs_join_span};
 
@@ -45,7 +45,7 @@ static celspan_status inspect(celspan_context *context, cs_join_part *part,
                              "is a picture by itself: 'celspan render --strip' makes strips");
   if (!cs_strip_fits(part->strip, part->height))
     return cs_join_part_fail(context, part,
-                             "tells of rows from %d on, %d of %d, which no strip has: render it "
+                             "declares rows from %d on, %d of %d, which no strip has: render it "
                              "again",
                              part->strip.row, part->height, part->strip.height);
   return CELSPAN_OK;
@@ -112,7 +112,7 @@ static bool is_one_file(const char *a, const char *b) {
 }
 
 static celspan_status check_output(celspan_context *context, const job *j) {
-  const char *ending = cs_ending_of(j->output);
+  const char *ending = cs_file_ending(j->output);
   bool is_known = false;
   for (size_t i = 0; i < 3 && j->format->endings[i]; i++)
     is_known |= strcasecmp(ending, j->format->endings[i]) == 0;

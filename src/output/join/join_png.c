@@ -1,13 +1,15 @@
-/* PNG strips: their image data is a zlib stream each, of segments that end with whole bytes and refer
- * to nothing outside (deflate/deflate.h), so the segments of all strips make one stream.
+/* PNG strips: their image data is a zlib stream each, of segments that end with whole bytes and
+ * refer to nothing outside (output/deflate/deflate.h), so the segments of all strips make one
+ * stream.
  *
  *   strip 0   header (2) | segments | last block, checksum (6)
  *   strip 1   header (2) | segments | last block, checksum (6)
  *                          |                               \
  *   file      header (2) | segments of 0 | segments of 1 | last block, checksum of all (6)
  *
- * The first row of a strip is filtered without the row above (output/strip.h), so filters stay as they
- * are. The checksum of all is made from those of the strips and their sizes (adler32_combine).
+ * The first row of a strip is filtered without the row above (output/sinks/strip.h), so filters
+ * stay as they are. The checksum of all is made from those of the strips and their sizes
+ * (adler32_combine).
  *
  * Chunks are copied one for one, each with a checksum of its own; those before the image data come
  * from the first strip and must be the same in all.
@@ -135,7 +137,7 @@ static celspan_status inspect(celspan_context *context, cs_join_part *part) {
   part->form = cs_hash_begin('P');
   CS_TRY(read_front(context, part, &c));
   if (part->strip.height == 0)
-    return refuse(context, part, "it does not tell its place");
+    return refuse(context, part, "it does not say which rows it has");
   CS_TRY(read_body(context, part, &c));
   part->form = cs_hash_end(part->form);
   return CELSPAN_OK;
@@ -143,8 +145,8 @@ static celspan_status inspect(celspan_context *context, cs_join_part *part) {
 
 /* ---------------------------------------------------------------- copies of chunks */
 
-/* What is copied of a chunk: its data without `skipped` bytes at the start and `dropped` at the end,
- * and then `more`. */
+/* What is copied of a chunk: its data without `skipped` bytes at the start and `dropped` at the
+ * end, and then `more`. */
 typedef struct copied {
   uint32_t skipped, dropped;
   const unsigned char *more;
@@ -238,8 +240,8 @@ static celspan_status add_sum(cs_joining *joining, celspan_context *context,
   return CELSPAN_OK;
 }
 
-/* The last chunk of a part, without the end of its stream; that of the last part with the end of the
- * file's. */
+/* The last chunk of a part, without the end of its stream; that of the last part with the end of
+ * the file's. */
 static celspan_status add_last(cs_joining *joining, celspan_context *context,
                                const cs_join_part *part, const chunk *c, uint32_t skipped) {
   unsigned char trailer[CS_DEFLATE_TRAILER], own[CS_DEFLATE_TRAILER];

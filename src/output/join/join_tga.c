@@ -11,7 +11,7 @@ static bool claims(const unsigned char start[CS_JOIN_START]) {
          memcmp(start + CS_TGA_HEADER, CS_STRIP_MARK, 4) == 0;
 }
 
-/* The extension stands right before the footer, which points to it. */
+/* The extension is directly before the footer, which points to it. */
 static celspan_status read_end(celspan_context *context, cs_join_part *part) {
   unsigned char end[END];
   CS_TRY(cs_join_part_read(context, part, part->size < END ? part->size : part->size - END, end,
@@ -25,7 +25,7 @@ static celspan_status read_end(celspan_context *context, cs_join_part *part) {
     return cs_join_part_fail(context, part, "has more than 4 GiB of rows: make more strips");
   if (part->body_end < BODY || part->body_end + END != part->size)
     return cs_join_part_fail(context, part,
-                             "its footer tells of %llu bytes of rows, but the file is of %llu "
+                             "its footer declares %llu bytes of rows, but the file has %llu "
                              "bytes: render the strip again",
                              (unsigned long long)part->body_end, (unsigned long long)part->size);
   cs_hash_bytes(&part->form, end, CS_TGA_EXTENSION);
@@ -39,7 +39,7 @@ static celspan_status inspect(celspan_context *context, cs_join_part *part) {
   part->height = (int32_t)cs_tga_load_16(start + 14);
   uint32_t row = cs_tga_load_32(start + 22), height = cs_tga_load_32(start + 26);
   if (row > CS_TGA_SIDE_MOST || height > CS_TGA_SIDE_MOST)
-    return cs_join_part_fail(context, part, "tells of row %u of %u: Targa files have at most %d",
+    return cs_join_part_fail(context, part, "declares row %u of %u: Targa files have at most %d",
                              (unsigned)row, (unsigned)height, CS_TGA_SIDE_MOST);
   part->strip = (cs_strip){(int32_t)row, (int32_t)height};
   part->form = cs_hash_begin('T');

@@ -7,7 +7,7 @@
 #ifndef CS_OUTPUT_PNG_CHUNK_H
 #define CS_OUTPUT_PNG_CHUNK_H
 
-#include "output/file.h"
+#include "output/sinks/file.h"
 
 enum { CS_PNG_SIGNATURE = 8, CS_PNG_HEADER = 13, CS_PNG_CHUNK_HEAD = 8, CS_PNG_CHUNK_TAIL = 4 };
 

@@ -4,11 +4,11 @@
  */
 #include <string.h>
 
-#include "output/pixels.h"
 #include "output/png/chunk.h"
 #include "output/png/strips.h"
-#include "output/sink.h"
-#include "output/strip.h"
+#include "output/sinks/pixels.h"
+#include "output/sinks/sink.h"
+#include "output/sinks/strip.h"
 
 typedef struct png_sink {
   size_t allocated;

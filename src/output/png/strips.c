@@ -4,7 +4,7 @@
 #include <unistd.h>
 
 #include "base/pipeline.h"
-#include "span/row_queue.h"
+#include "engine/span/row_queue.h"
 
 enum {
   STRIP_PIXELS = 1 << 18,      /* enough for a thread of its own to pay */

@@ -10,7 +10,7 @@
 #define CS_OUTPUT_PNG_STRIPS_H
 
 #include "output/png/rows.h"
-#include "output/shares.h"
+#include "output/sinks/shares.h"
 
 typedef struct cs_png_strips cs_png_strips;
 

@@ -77,8 +77,8 @@ typedef struct spanfile_writer_desc {
   void *user;
   spanfile_resize resize; /* NULL: the C library's */
   void *resize_user;
-  /* Of a strip, some rows of a larger picture: the row there that its row 0 is, and how many rows that
-   * has; strip_height 0: a picture by itself. See spanfile_joiner. */
+  /* Of a strip, some rows of a larger picture: the row there that its row 0 is, and how many rows
+   * that has; strip_height 0: a picture by itself. See spanfile_joiner. */
   uint32_t strip_row, strip_height;
 } spanfile_writer_desc;
 
@@ -106,9 +106,9 @@ spanfile_status spanfile_writer_row(spanfile_writer *writer);
 spanfile_status spanfile_writer_finish(spanfile_writer *writer);
 
 /* Parts of a picture, packed by several threads: a part is the rows from a multiple of
- * SPANFILE_PART_ROWS up to the next one, or to the height. It is a writer without a file, which holds
- * the bytes of its part. Parts are joined to the file in order; the bytes of the file are what one
- * writer would have written of the same rows.
+ * SPANFILE_PART_ROWS up to the next one, or to the height. It is a writer without a file, which
+ * holds the bytes of its part. Parts are joined to the file in order; the bytes of the file are
+ * what one writer would have written of the same rows.
  *
  *   spanfile_writer_create_part(&desc, &part);            one or several for each thread
  *   spanfile_writer_begin_part(part, 256); rows           side by side
@@ -184,8 +184,9 @@ typedef struct spanfile_joiner spanfile_joiner;
 
 /* desc: of the whole picture. Otherwise as spanfile_writer_create. */
 spanfile_status spanfile_joiner_create(const spanfile_writer_desc *desc, spanfile_joiner **out);
-/* The next strip. source: borrowed during the call. BAD_FILE, with the fault: not a span file, or not
- * the strip that comes next, or a record is wrong. After a failure the joiner can only be destroyed. */
+/* The next strip. source: borrowed during the call. BAD_FILE, with the fault: not a span file, or
+ * not the strip that comes next, or a record is wrong. After a failure the joiner can only be
+ * destroyed. */
 spanfile_status spanfile_joiner_add(spanfile_joiner *joiner, const spanfile_source *source,
                                     spanfile_fault *fault);
 /* After the last strip: index and trailer. BAD_ARGUMENT: rows are missing. */

@@ -1,6 +1,6 @@
 /* A walk over the spans of the row (`now`) and of the row above (`model`), side by side. Each step
  * appends to `out` a span that agrees with the model, if the pixels allow it. Where they do not,
- * the row goes on with its own spans up to a run that both have.
+ * the row continues with its own spans up to a run that both have.
  */
 #include "fit.h"
 
@@ -44,7 +44,7 @@ static bool is_after_raw(const fitting *f) {
 
 static uint32_t length_left(const fitting *f) { return f->now->end - sf_row_end(f->out); }
 
-/* Appends the rest of the span as it is. */
+/* Appends the rest of the span unchanged. */
 static void keep(fitting *f) {
   const spanfile_span *span = f->now;
   uint32_t length = length_left(f);
@@ -160,7 +160,7 @@ static void fit_span(fitting *f) {
 
 /* ---------------------------------------------------------------- a whole row */
 
-/* The bytes of its packets, about. */
+/* The approximate number of bytes of its packets. */
 static size_t cost(const fitting *f, const sf_row *row) {
   return row->count * (3 + f->pixel_size) + row->values.size;
 }

@@ -2,7 +2,7 @@
  *
  *   strip 0    header |P M M S ... P M| index | trailer
  *   strip 1    header |P M S ... M| index | trailer
- *   file       header |P M M S ... P M|P M S ... M| index, made anew | trailer
+ *   file       header |P M M S ... P M|P M S ... M| index, made again | trailer
  *                                      row 256: a key row in the strip and in the file
  *
  * INVARIANT: memory is a window of the strip and the file's output, whatever lengths the records
@@ -51,7 +51,8 @@ fail(const spanfile_joiner *joiner, spanfile_status status, const char *format, 
 
 /* ---------------------------------------------------------------- bytes of the strip */
 
-/* So many bytes at least in the window, or all up to the trailer. least: at most HEAD_MOST. */
+/* Reads until at least `least` bytes, or all up to the trailer, are in the window. least: at most
+ * HEAD_MOST. */
 static spanfile_status fill(spanfile_joiner *joiner, size_t least) {
   size_t held = joiner->window_size - joiner->window;
   uint64_t left = joiner->end - joiner->at;
@@ -95,7 +96,7 @@ static spanfile_status view_head(spanfile_joiner *joiner, head *out) {
   held = held < HEAD_MOST ? held : HEAD_MOST;
   size_t length = held > 1 ? sf_load_varint(bytes + 1, held - 1, &out->payload) : 0;
   if (length == 0)
-    return fail(joiner, SPANFILE_BAD_FILE, "row %" PRIu32 ": its record has no proper length",
+    return fail(joiner, SPANFILE_BAD_FILE, "row %" PRIu32 ": its record has no valid length",
                 joiner->y);
   out->kind = bytes[0];
   out->size = 1 + length;

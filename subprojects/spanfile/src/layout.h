@@ -31,8 +31,8 @@ enum {
   SF_LEVELS = 4,       /* 512^4 is more than there can be rows */
   SF_LENGTH_BYTES = 9, /* of a varint that is a size, at most */
   SF_CHECK_BYTES = 4,
-  SF_KEY_ROWS = SPANFILE_PART_ROWS, /* every so many rows there is a key row */
-  SF_KEY_BYTES = 64 * 1024          /* after so many bytes, the next row is a key row */
+  SF_KEY_ROWS = SPANFILE_PART_ROWS, /* the number of rows between key rows */
+  SF_KEY_BYTES = 64 * 1024          /* after this many bytes, the next row is a key row */
 };
 
 /* The kind of a record, its first byte. */

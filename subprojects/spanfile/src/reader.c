@@ -3,8 +3,8 @@
  *   row y + 1   current row + the next record --> current row
  *   any row     root --> node --> ... --> key row --record by record--> row
  *
- * INVARIANT: nothing in the file is believed. Every number is checked before it is used, and
- * nothing is allocated for which the file does not have the bytes.
+ * INVARIANT: nothing in the file is trusted. Every number is checked before it is used, and memory
+ * is allocated only for data that the file contains.
  *
  * One file, because opening, finding a row and reading records share the checks and the state of
  * the reader.
@@ -120,7 +120,7 @@ static spanfile_status view_record(spanfile_reader *reader, uint64_t offset, uin
   TRY(view(reader, offset, head, &bytes));
   size_t length_size = head > 1 ? sf_load_varint(bytes + 1, head - 1, &length) : 0;
   if (length_size == 0)
-    return REFUSE(reader, offset, "%s: its record has no proper length", subject(row).text);
+    return REFUSE(reader, offset, "%s: its record has no valid length", subject(row).text);
   uint64_t rest = left - 1 - length_size;
   if (rest < SF_CHECK_BYTES || length > rest - SF_CHECK_BYTES || length > SIZE_MAX / 4)
     return REFUSE(reader, offset, "%s: its record runs past the end", subject(row).text);
@@ -208,7 +208,8 @@ static spanfile_status read_packets(spanfile_reader *reader, const file_record *
   for (size_t at = 0; at < record->size;)
     TRY(read_packet(reader, record, &at));
   if (sf_row_end(&reader->row) != reader->info.width)
-    return REFUSE(reader, record->offset, "row %" PRIu32 ": pixels are missing", reader->y);
+    return REFUSE(reader, record->offset, "row %" PRIu32 ": the number of pixels is wrong",
+                  reader->y);
   TRY(check_gradients(reader, record));
   return clear_moves(reader);
 }
@@ -233,7 +234,7 @@ static spanfile_status read_moves(spanfile_reader *reader, const file_record *re
       uint64_t number;
       size_t size = sf_load_varint(record->payload + more, left < 5 ? left : 5, &number);
       if (size == 0)
-        return REFUSE(reader, offset, "row %" PRIu32 ": a move is no proper number", reader->y);
+        return REFUSE(reader, offset, "row %" PRIu32 ": a move is not a valid number", reader->y);
       rest = sf_unzigzag(number);
       more += size;
     }
@@ -256,7 +257,7 @@ static spanfile_status read_moved(spanfile_reader *reader, const file_record *re
   uint64_t pixels = 0;
   TRY(read_moves(reader, record, &at, &pixels));
   if (pixels * reader->pixel_size != record->size - at)
-    return REFUSE(reader, record->offset, "row %" PRIu32 ": has not the pixels it needs",
+    return REFUSE(reader, record->offset, "row %" PRIu32 ": the number of pixels is wrong",
                   reader->y);
   row->values.size = 0;
   if (!sf_bytes_add(&reader->memory, &row->values, record->payload + at, record->size - at))
@@ -462,14 +463,14 @@ static spanfile_status read_trailer(spanfile_reader *reader, uint64_t size) {
   if (sf_load_32(trailer + 36) != sf_crc32c(0, trailer, 36))
     return REFUSE(reader, at, "the checksum of the trailer is wrong");
   if (sf_load_64(trailer + 16) != size)
-    return REFUSE(reader, at + 16, "of %" PRIu64 " bytes, but its trailer tells of %" PRIu64, size,
+    return REFUSE(reader, at + 16, "of %" PRIu64 " bytes, but its trailer declares %" PRIu64, size,
                   sf_load_64(trailer + 16));
   if (sf_load_32(trailer + 24) != reader->info.height)
-    return REFUSE(reader, at + 24, "of %" PRIu32 " rows, but its trailer tells of %" PRIu32,
+    return REFUSE(reader, at + 24, "of %" PRIu32 " rows, but its trailer declares %" PRIu32,
                   reader->info.height, sf_load_32(trailer + 24));
   reader->info.strip_height = sf_load_32(trailer + 32);
   if (!sf_has_place(&reader->info))
-    return REFUSE(reader, at + 32, "rows from %" PRIu32 " on are no strip of %" PRIu32 " rows",
+    return REFUSE(reader, at + 32, "rows from %" PRIu32 " on are not a strip of %" PRIu32 " rows",
                   reader->info.strip_row, reader->info.strip_height);
   reader->root = sf_load_64(trailer + 8);
   if (reader->root < SF_HEADER_BYTES || reader->root >= at)

@@ -1,7 +1,7 @@
 /* Growing memory, and a row while it is put together.
  *
  *   spans     | end 5, run p | end 9, raw | end 40, gradient | ...
- *   values    |  4 raw pixels |  2 pixels  | ...             of raw and gradient spans alone
+ *   values    |  4 raw pixels |  2 pixels  | ...             only of raw and gradient spans
  *
  * INVARIANT: `spans` and `values` are as spanfile_row describes, up to the end of the last span.
  */

@@ -3,18 +3,18 @@
  *   runs, pixels --pack--> row --fit to the row above--> record 'P', 'M' or 'S' --> output.h
  *
  * A row that can be read first (a key row), and one that has other spans than the row above, is
- * written whole, as 'P'. For others the end of each span is stored as a difference of its move: how
- * far the end lies from that in the row above, less the same of the row before.
+ * written whole, as 'P'. For others the end of each span is stored as a difference of its move: the
+ * distance of the end from that in the row above, minus the same for the row before.
  *
  *   row 7   |------20       moves      differences
  *   row 8   |-------22         2
  *   row 9   |---------24       2       0: an edge that goes straight on costs two bits a row
  *
- * Every SF_KEY_ROWS rows there is a key row, whatever came before, so the rows from there to the next
- * such row are the same bytes wherever they are packed: as a part, by a writer of its own that has no
- * file, and the bytes are joined to a file later.
+ * Every SF_KEY_ROWS rows there is a key row, whatever came before, so the rows from there to the
+ * next such row are the same bytes wherever they are packed: as a part, by a writer of its own that
+ * has no file, and the bytes are joined to a file later.
  *
- *   part 0 |key ... key .....|                      keys: what the index is told when it is joined
+ *   part 0 |key ... key .....|                      keys: entries for the index when it is joined
  *   part 1                   |key .........|
  *   file   header |bytes of part 0| node |bytes of part 1| ... trailer
  */
@@ -374,7 +374,7 @@ spanfile_status spanfile_writer_begin_part(spanfile_writer *writer, uint32_t row
   return SPANFILE_OK;
 }
 
-/* Whether a part is complete and the next one of the file. */
+/* Whether a part is complete and is the next one of the file. */
 static bool fits(const spanfile_writer *writer, const spanfile_writer *part) {
   return !writer->part && part->part && part->y == part->end && part->row.count == 0 &&
          writer->row.count == 0 && writer->y == part->part->first && writer->width == part->width &&

@@ -1,4 +1,4 @@
--- check_decoder.lua DECODER FOLDER COUNT: holds FOLDER/i.span against FOLDER/i.pixels.
+-- check_decoder.lua DECODER FOLDER COUNT: compares FOLDER/i.span with FOLDER/i.pixels.
 local decode, folder, count = dofile(arg[1]), arg[2], tonumber(arg[3])
 
 local function read(path)

@@ -1,4 +1,4 @@
--- A decoder of span files, written from docs/spanfile.md alone: all bytes in, all pixels out.
+-- A decoder of span files, written only from docs/spanfile.md: all bytes in, all pixels out.
 
 local function crc32c(bytes)
   local sum = 0xffffffff
@@ -46,7 +46,7 @@ local function gradient(layout, ends, count)
   return table.concat(pixels)
 end
 
--- The spans of a row from its packets, and the pixels of those that are no runs.
+-- The spans of a row from its packets, and the pixels of those that are not runs.
 local function read_packets(payload, size)
   local spans, values, at = {}, {}, 1
   while at <= #payload do

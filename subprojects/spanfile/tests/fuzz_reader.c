@@ -1,9 +1,9 @@
-/* Any bytes as a span file: no fault, no memory beyond what the bytes pay for, rows that are rows,
- * and small pictures the same after they are written again.
+/* Any bytes as a span file: no fault, memory in proportion to the bytes, valid rows, and small
+ * pictures that are the same after they are written again.
  *
- * The first byte decides whether the rest is read as it is, or with checksums (1) and ends (2) put
- * right. With clang's -fsanitize=fuzzer this is a fuzz target; with REPLAY_MAIN its own main runs
- * the files of a folder.
+ * The first byte decides whether the rest is read unchanged, or with corrected checksums (1) and
+ * ends (2). With clang's -fsanitize=fuzzer this is a fuzz target; with REPLAY_MAIN its own main
+ * runs the files of a folder.
  */
 #include "mend.h"
 
@@ -35,14 +35,14 @@ static void check_row(const spanfile_row *row, spanfile_info info) {
   for (size_t i = 0; i < row->count; start = row->spans[i++].end) {
     const spanfile_span *span = &row->spans[i], *before = i > 0 ? span - 1 : NULL;
     demand(span->end > start && span->end <= info.width, "a span is empty or too long");
-    demand(span->kind <= SPANFILE_GRADIENT, "a span is of no kind");
+    demand(span->kind <= SPANFILE_GRADIENT, "a span is of an unknown kind");
     if (before && span->kind == before->kind && span->kind != SPANFILE_GRADIENT)
       demand(span->kind == SPANFILE_RUN && span->pixel != before->pixel, "spans are not joined");
   }
   demand(start == info.width, "the row has another width");
 }
 
-/* Two parts of the row are the parts of the whole. */
+/* Two parts of the row are equal to those of the whole. */
 static void check_pixels(const spanfile_row *row, spanfile_info info) {
   unsigned char whole[64 * 8], parts[64 * 8];
   size_t pixel_size = spanfile_pixel_size(info.format);
@@ -68,7 +68,7 @@ static void read_rows(spanfile_reader *reader, size_t size) {
   }
 }
 
-/* What was read, written, read and written again: the same bytes. */
+/* Reading and writing twice gives the same bytes. */
 static void write_again(spanfile_reader *reader) {
   spanfile_info info = spanfile_reader_info(reader);
   if ((uint64_t)info.width * info.height > 2048)
@@ -77,8 +77,7 @@ static void write_again(spanfile_reader *reader) {
   p.pixels = malloc((size_t)p.width * p.height * p.pixel_size);
   for (uint32_t y = 0; y < p.height; y++) {
     spanfile_row row;
-    demand(spanfile_reader_row(reader, y, &row, NULL) == SPANFILE_OK,
-           "a row can be read once only");
+    demand(spanfile_reader_row(reader, y, &row, NULL) == SPANFILE_OK, "a row cannot be read again");
     spanfile_row_pixels(p.format, &row, 0, p.width, picture_row(&p, y));
   }
   memory_file file = write_picture(&p, p.width);

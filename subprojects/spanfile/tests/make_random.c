@@ -1,6 +1,6 @@
-/* Writes random pictures: `make_random FOLDER COUNT` makes 0.span, 0.pixels, ... there; for
- * decoders to be held against. With a third argument the span files begin with a byte of 0 to 3, as
- * the fuzzer's inputs do. */
+/* Writes random pictures: `make_random FOLDER COUNT` makes 0.span, 0.pixels, ... there, to compare
+ * decoders with. With a third argument the span files begin with a byte of 0 to 3, like the
+ * fuzzer's inputs. */
 #include "support.h"
 
 static void put_file(const char *folder, int number, const char *ending, int first,

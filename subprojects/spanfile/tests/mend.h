@@ -1,4 +1,5 @@
-/* Checksums put right in a file whose bytes were changed, so that what lies behind them is tested.
+/* Corrects the checksums of a file whose bytes were changed, so that the checks behind them are
+ * tested.
  */
 #ifndef SPANFILE_TESTS_MEND_H
 #define SPANFILE_TESTS_MEND_H
@@ -6,7 +7,7 @@
 #include "../src/crc32c.h"
 #include "support.h"
 
-/* Header and trailer, and the records as far as they can be told apart. */
+/* Corrects header and trailer, and the records as far as they can be recognised. */
 static inline void mend_sums(memory_file *file, uint32_t height) {
   size_t at = SF_HEADER_BYTES, end = file->size - SF_END_BYTES;
   uint32_t y = 0;
@@ -26,7 +27,7 @@ static inline void mend_sums(memory_file *file, uint32_t height) {
   }
 }
 
-/* Header and trailer made to agree with each other and the size: what a fuzzer would have to guess.
+/* Makes header and trailer agree with each other and the size, which a fuzzer would have to guess.
  */
 static inline void mend_ends(memory_file *file) {
   unsigned char *header = file->bytes, *trailer = file->bytes + file->size - SF_END_BYTES;

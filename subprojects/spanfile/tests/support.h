@@ -188,7 +188,8 @@ static inline uint64_t load_pixel(const unsigned char *at, size_t pixel_size) {
   return pixel;
 }
 
-/* The next pixels as at most 9 runs, cut now and then where nothing changes. How many pixels. */
+/* Writes the next pixels as at most 9 runs, now and then split where nothing changes. Returns the
+ * number of pixels. */
 static inline uint32_t write_runs(random_state *random, spanfile_writer *writer,
                                   const unsigned char *at, uint32_t left, size_t pixel_size) {
   spanfile_run runs[9];

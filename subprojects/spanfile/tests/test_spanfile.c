@@ -1,5 +1,5 @@
-/* What goes in comes out; what is cut, altered or lies is refused; what memory is needed. One list
- * of cases, long because every way of lying is one. */
+/* Written pictures are read back; truncated, altered and inconsistent files are refused; memory is
+ * limited. One list of cases, long because there are many kinds of damage. */
 #include "support.h"
 
 #include "mend.h"
@@ -55,7 +55,7 @@ static void test_round_trips(void) {
     check_round_trip(seed, 3, 3000);
 }
 
-/* Counts about the limits of a packet, in each kind of packet. */
+/* Counts around the limits of a packet, in each kind of packet. */
 static void test_counts(void) {
   static const uint32_t counts[] = {1,     2,     3,     127,   128,   129,
                                     32767, 32768, 32769, 65536, 65537, 1000000};
@@ -90,7 +90,7 @@ static void test_counts(void) {
     }
 }
 
-/* Any part of a row is that part of the row. */
+/* Any part of a row equals that part of the whole row. */
 static void test_parts_of_rows(void) {
   picture p = random_picture(11, 300, 30);
   memory_file file = write_picture(&p, 1);
@@ -171,7 +171,8 @@ static void check_parts(const picture *p) {
   free(whole.bytes);
 }
 
-/* Pictures of one part and of many; rows of many bytes, so that parts have key rows of their own. */
+/* Pictures of one part and of many; rows of many bytes, so that parts have key rows of their
+ * own. */
 static void test_parts(void) {
   for (uint64_t seed = 40; seed < 52; seed++) {
     picture p = random_picture(seed, seed % 3 == 0 ? 4000 : 60, seed % 4 == 0 ? 100 : 3000);
@@ -285,7 +286,7 @@ static bool is_a_row(const spanfile_row *row, uint32_t width) {
   return start == width;
 }
 
-/* Random bytes changed and the checksums put right: what is read then is still a row. */
+/* Random bytes are changed and the checksums corrected: a row that is read then is still valid. */
 static void test_lying(void) {
   for (uint64_t seed = 0; seed < 4000; seed++) {
     picture p = random_picture(seed % 40, 30, 12);
@@ -325,7 +326,7 @@ static void test_bad_files(void) {
   test_lying();
 }
 
-/* After a refused row the others can still be had. */
+/* After a refused row the others can still be read. */
 static void test_goes_on(void) {
   memory_file file = write_slanted(100000, 2000, 20, 1.5);
   picture p = {.format = SPANFILE_SRGB8, .width = 100000, .height = 2000, .pixel_size = 4};
@@ -532,8 +533,8 @@ static void check_join(const picture *p, memory_file *strips, uint32_t count, me
   }
 }
 
-/* Every byte of a strip counts: one that differs, or a file that is cut, is refused, or it is joined
- * to what the strip was; and memory stays what it is. */
+/* Every byte of a strip matters: a changed byte, or a truncated file, is refused or does not change
+ * the result; and memory use stays the same. */
 static void check_damage(const picture *p, memory_file *strips, uint32_t count, memory_file whole) {
   random_state random = {77};
   for (int i = 0; i < 400; i++) {
@@ -597,12 +598,12 @@ static void test_strips(void) {
   CHECK(spanfile_writer_create(&desc, &writer) == SPANFILE_BAD_ARGUMENT); /* ends at 556 */
 }
 
-/* A few bytes that claim millions of pixels do not get memory for them. */
+/* A few bytes that declare millions of pixels do not make the reader allocate memory for them. */
 static void test_claims(void) {
   memory_file file = write_slanted(4000000000u, 2, 3, 1);
   meter m = {.left = -1};
   CHECK(read_metered(&file, &m) == SPANFILE_OK);
-  size_t packets = 4000000000u / 32768; /* what its two rows are stored in */
+  size_t packets = 4000000000u / 32768; /* the packets of its two rows */
   CHECK(m.peak < 200 * 1024 + 2 * packets * 7 && file.size < 200000 + packets * 14);
   memset(file.bytes + 26, 0xff, 8);
   mend_sums(&file, UINT32_MAX);
@@ -703,7 +704,7 @@ static void test_gradients(void) {
   CHECK(middle[2] == 0 && middle[3] == 0 && middle[4] == 2 && middle[5] == 0);
 }
 
-/* Halves come through the arithmetic of gradients as they are. */
+/* Halves pass unchanged through the arithmetic of gradients. */
 static void test_halves(void) {
   for (uint32_t half = 0; half < 65536; half++) {
     if ((half & 0x7c00) == 0x7c00 || half == 0x8000)

@@ -1,6 +1,6 @@
 -- The plots of docs/bench.md. Arguments: the table of a run, the plot, the scene where it has one:
 --   shapes SCENE   time against side
---   ratios         how many times celspan's time others take
+--   ratios         how many times as long as celspan the others take
 --   figure13       the paper's shapes, beside its line
 --   figure14       the paper's pair, beside its curves
 --   defocus        time against radius
@@ -18,7 +18,7 @@ local colours = { celspan = "#c8102e", spans = "#e8743b", published = "#1b6ca8",
   blend2d = "#0d3552", skia = "#4c9f70", agg = "#8c6bb1", qt = "#6b7a3a", cairo = "#b08a2e",
   limit = "#7a8087", opencv = "#1b6ca8", vips = "#4c9f70" }
 
---- The seconds of the rows that are wanted, against x; a point where there is a row.
+--- The seconds of the wanted rows against x; a point for each row that exists.
 local function points(wanted, list, key)
   local out = {}
   for _, x in ipairs(list) do

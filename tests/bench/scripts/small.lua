@@ -1,4 +1,4 @@
--- A small script: how soon its first row is there is how long celspan takes to start.
+-- A small script: the time until its first row is the time that celspan takes to start.
 local celspan = require "celspan"
 
 return celspan.rostrum { back = "#fff",

@@ -1,8 +1,9 @@
--- Lines that wrap within a width, to the left, about the middle and to the right, with tracking; lines
--- that begin at the right, where signs and numbers change places about letters that do not.
+-- Lines that wrap within a width, left-aligned, centred and right-aligned, with tracking;
+-- right-to-left lines, in which signs and numbers are reordered around letters that are not.
 local celspan = require "celspan"
 local function set(text, x, y, more)
-  local fields = { text, font = "../../../scripts/type/block.ttf", size = 9, at = { x, y }, leading = 1.1,
+  local fields = { text, font = "../../../scripts/type/block.ttf", size = 9, at = { x, y },
+    leading = 1.1,
     texture = "#fff" }
   for name, value in pairs(more or {}) do fields[name] = value end
   return celspan.text(fields)

@@ -1,6 +1,6 @@
---- Reads C and C++ sources as far as their structure goes: what a file includes and defines.
+--- Reads the structure of C and C++ sources: the includes and definitions of a file.
 ---
----   local file = c_source.read "src/sweep/active.c"
+---   local file = c_source.read "src/engine/sweep/active.c"
 ---
 --- file.lines      how many there are
 --- file.includes   names between quotes
@@ -9,7 +9,7 @@
 --- file.types      { kind, is_typedef, name, line }: struct, union, enum, class with a name
 --- file.names      { kind, name, line, owner }: of types, fields, functions, prototypes,
 ---                 enumerators, macros
---- file.text       the tokens, without comments and directives; file.line: where they stand
+--- file.text       the tokens, without comments and directives; file.line: their lines
 local c_tokens = require "tests.support.rooms.c_tokens"
 
 local c_source = {}
@@ -20,7 +20,7 @@ local DECORATION = { __attribute__ = true, _Alignas = true, alignas = true, __de
 
 local function is_word(word) return word ~= nil and word:find "^[%a_]" ~= nil end
 
---- The positions of a stretch of tokens without what lies inside brackets, and without attributes.
+--- The positions of a range of tokens without those inside brackets, and without attributes.
 local function outline(file, from, to)
   local list, i = {}, from
   while i <= to do
@@ -148,7 +148,7 @@ local function add_declaration(file, from, to, owner)
   end
 end
 
---- What a brace opens, by what stands before it.
+--- The kind of block that a brace opens, according to the tokens before it.
 local function classify(file, from, brace)
   local list = outline(file, from, brace - 1)
   if find(file, list, "=") then return "value" end
@@ -183,7 +183,7 @@ function parse(file, from, to, owner)
         brace = i
       end
       i = kind == "transparent" and i or file.close[i]
-    elseif word == "}" then -- of what was transparent
+    elseif word == "}" then -- of a transparent block
       start = i + 1
     elseif owner and word == ":" and file.text[i - 1]:find "^p[ru][ibo]%a+" then
       start = i + 1 -- public:

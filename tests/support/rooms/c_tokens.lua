@@ -1,9 +1,9 @@
---- Cuts C and C++ sources into tokens: words, numbers, signs; strings are all `""`.
+--- Splits C and C++ sources into tokens: words, numbers, signs; all strings become `""`.
 local c_tokens = {}
 
 local OPEN = { ["("] = ")", ["["] = "]", ["{"] = "}" }
 
---- What comes at `at`: its kind and where it ends.
+--- The kind of the token at `at`, and its end.
 local function token_end(text, at)
   local first = text:sub(at, at)
   if first:find "[%a_]" then return "word", select(2, text:find("^[%w_]+", at)) end
@@ -37,8 +37,8 @@ local function read_directive(file, words, line)
   end
 end
 
---- Fills file.text, the tokens without comments and directives, file.line, where they stand, and
---- file.close: the token that closes the bracket which one opens. Also file.includes, and macros in
+--- Fills file.text, the tokens without comments and directives, file.line, their lines, and
+--- file.close: for an opening bracket the token that closes it. Also file.includes, and macros in
 --- file.names.
 function c_tokens.cut(file, text)
   local at, line, is_first = 1, 1, true -- is_first: nothing but blanks before it on its line

@@ -1,4 +1,4 @@
---- Circles of a graph: its strongly connected parts of more than one node.
+--- Cycles of a graph: its strongly connected components with more than one node.
 local circles = {}
 
 --- edges[from][to] = true; returns lists of names, each sorted, in the order of their first names.

@@ -6,7 +6,7 @@ local measures = {}
 
 local PUBLIC = "include/"
 
---- The value that `share` of a list lies at or below.
+--- The value below or at which a share of a list lies.
 function measures.quantile(list, share)
   table.sort(list)
   return list[math.max(1, math.ceil(#list * share))] or 0
@@ -23,10 +23,10 @@ function measures.functions(tree)
   return list
 end
 
---- What type_counts counts.
+--- The kinds that type_counts counts.
 measures.type_kinds = { "typedef struct", "struct", "union", "enum" }
 
---- How many types of each kind the files have that `is_meant` accepts, and how many in all.
+--- How many types of each kind are in the files that `is_meant` accepts, and how many in all.
 function measures.type_counts(tree, is_meant)
   local counts = { all = 0 }
   for _, kind in ipairs(measures.type_kinds) do counts[kind] = 0 end
@@ -62,7 +62,7 @@ function measures.room(tree, room)
   return row
 end
 
---- Circles between "room", "path" or "unit" by what they include; by_use: by what they call, too.
+--- Cycles between "room", "path" or "unit" by their includes; by_use: also by their calls.
 function measures.circles(tree, key, by_use)
   local edges = {}
   tree:each_edge(function(from, to)
@@ -85,7 +85,7 @@ function measures.climbs(tree)
   return list, count
 end
 
---- Whether a function is named by its file: cs_FILE_..., or cs_ROOM_FILE_... where the file's name
+--- Whether a function is named after its file: cs_FILE_..., or cs_ROOM_FILE_... if the file's name
 --- alone would say little. A file that ends in _wide belongs to the one without; a room in the
 --- plural is named in the singular.
 local function is_named_by(fn)
@@ -97,7 +97,7 @@ local function is_named_by(fn)
   return false
 end
 
---- Functions that other files use, and how many are named by their file.
+--- Functions that other files use, and how many are named after their file.
 function measures.naming(tree)
   local used, count, named = {}, 0, 0
   tree:each_edge(function(_, _, edge)
@@ -111,7 +111,7 @@ function measures.naming(tree)
 end
 
 --- Declared names with a house word where it does not belong: { { entry, file, name }, ... }; and
---- how many names there are. Functions count where they are defined, the public header not at all.
+--- the number of names. Functions count where they are defined, the public header not at all.
 function measures.misplaced(tree)
   local list, count = {}, 0
   for _, file in ipairs(tree.files) do

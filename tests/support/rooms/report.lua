@@ -31,7 +31,7 @@ end
 -- ---------------------------------------------------------------- rooms, types
 
 local function put_rooms(tree)
-  title "Rooms, from the ground up"
+  title "Rooms, from the bottom up"
   local rows, all = {}, { "all", 0, 0, 0, 0, 0 }
   for _, room in ipairs(tree.rooms) do
     local row = measures.room(tree, room)
@@ -81,9 +81,10 @@ end
 local function put_circles(tree)
   title "Circles"
   local kinds = {
-    { "top", "folders" }, { "room", "rooms, a folder inside a folder being one of its own" },
-    { "path", "files" }, { "unit", "units, by what they include" },
-    { "unit", "units, by what they call too", true },
+    { "wing", "wings" }, { "top", "folders" },
+    { "room", "rooms, a folder inside a folder being one of its own" },
+    { "path", "files" }, { "unit", "units, by their includes" },
+    { "unit", "units, by their calls too", true },
   }
   local inside = {}
   for _, kind in ipairs(kinds) do
@@ -151,7 +152,7 @@ local function put_names(tree)
     here.all = here.all + 1
     here.rooms[one.file.room] = (here.rooms[one.file.room] or 0) + 1
   end
-  say("   %d of %d declared names hold a house word where it does not belong", #list, names)
+  say("   %d of %d declared names contain a house word where it does not belong", #list, names)
   local rows = {}
   for _, entry in ipairs(words.list) do
     local here, told = found[entry] or { all = 0, rooms = {} }, {}
@@ -170,7 +171,7 @@ local function put_way(tree, maker)
   if not told then return say("   no function %s", maker) end
   say("   from %s: %d functions in %d files and their headers, %d folders", maker,
     told.functions, told.units, told.rooms)
-  say("   %d changes of folder there and back; %d when what was read before counts too",
+  say("   %d changes of folder there and back; %d when functions read before count too",
     told.changes, told.all_changes)
   local ways = {}
   for way, count in pairs(told.pairs) do ways[#ways + 1] = ("%3d  %s"):format(count, way) end
@@ -178,7 +179,7 @@ local function put_way(tree, maker)
   for _, way in ipairs(ways) do say("      %s", way) end
 end
 
---- The names that hold a house word where it does not belong, with their places.
+--- The names that contain a house word where it does not belong, with their places.
 function report.names(tree, word)
   for _, one in ipairs((measures.misplaced(tree))) do
     if one.entry.word == word then

@@ -1,15 +1,17 @@
 --- The sources of a tree: its rooms, which are the folders of src/ with sources, their files, and
---- who includes and who uses what.
+--- the includes and uses between them.
 local c_source = require "tests.support.rooms.c_source"
 
 local tree = {}
 tree.__index = tree
 
-local BUILT_APART = { "picture", "bind", "sandbox", "cli" }
+local BUILT_APART = { "plugins/oiio", "plugins/type", "plugins/icc", "lua/bind", "lua/nouns",
+  "lua/module", "lua/sandbox", "program" }
 local PUBLIC = "include/celspan"
 
---- The rank of each folder in the list of src/meson.build, followed by those that are built apart.
-local function folder_ranks(root)
+--- The rank of each folder in the list of src/meson.build, followed by those that are built
+--- separately.
+function tree.folder_ranks(root)
   local file = assert(io.open(root .. "/src/meson.build", "r"))
   local list = file:read("a"):match "foreach%s+layer%s*:%s*(%b[])"
   file:close()
@@ -25,7 +27,7 @@ local function folder_ranks(root)
   return ranks
 end
 
---- The sources below src/, with folders from it.
+--- The sources below src/, as paths relative to it.
 local function source_paths(root)
   local paths = {}
   local find = "cd '%s/src' && find . -name '*.[ch]' -o -name '*.cpp'"
@@ -36,20 +38,30 @@ local function source_paths(root)
   return paths
 end
 
---- file.room and file.unit: a .c or .cpp, its .h and the kernels of the same name are one unit.
-local function place(file, path)
+--- The listed folder that a path lies in: the longest of its beginnings that is in the list.
+function tree.listed(ranks, path)
+  local folder = path:match "^(.*)/"
+  while folder and not ranks[folder] do folder = folder:match "^(.*)/" end
+  return folder
+end
+
+--- file.wing and file.top: the first folder of its path, and the listed one, such as engine and
+--- engine/area. file.room: the folder that holds it. file.unit: a .c or .cpp, its .h and the
+--- kernels of the same name are one unit.
+local function place(file, path, ranks)
   file.path = path
   file.room = path:match "^(.*)/"
-  file.top = path:match "^[^/]+"
+  file.wing = path:match "^[^/]+"
+  file.top = tree.listed(ranks, path) or file.room
   file.is_header = path:find "%.h$" ~= nil
   file.unit = path:gsub("%.%a+$", ""):gsub("_wide$", "")
   file.name = file.unit:match "[^/]+$"
 end
 
---- The place of a file's folder in the list, from the ground up.
-function tree:rank(file) return self.ranks[file.room] or self.ranks[file.top] or math.huge end
+--- The position of a file's folder in the list, from the bottom up.
+function tree:rank(file) return self.ranks[file.top] or math.huge end
 
---- The folders with sources, from the ground up.
+--- The folders with sources, from the bottom up.
 local function collect_rooms(self)
   local rooms, rank = {}, {}
   for _, file in ipairs(self.files) do
@@ -66,11 +78,11 @@ local function collect_rooms(self)
 end
 
 function tree.read(root)
-  local self = setmetatable({ files = {}, named = {}, ranks = folder_ranks(root), shared = {},
+  local self = setmetatable({ files = {}, named = {}, ranks = tree.folder_ranks(root), shared = {},
                               own = {} }, tree)
   for _, path in ipairs(source_paths(root)) do
     local file = c_source.read(root .. "/src/" .. path)
-    place(file, path)
+    place(file, path, self.ranks)
     self.files[#self.files + 1] = file
     self.named[path:gsub("^include/", "")] = file
     self.own[file] = {}
@@ -89,16 +101,26 @@ local BEFORE_A_NAME = { ["("] = true, [","] = true, ["="] = true, ["{"] = true, 
                         [":"] = true }
 local AFTER_A_NAME = { [")"] = true, [","] = true, [";"] = true, ["}"] = true, [":"] = true }
 
---- The function that a token of a file names: where it is called, or handed on to be called.
+--- The function that a token of a file names: where it is called, or passed on to be called.
 function tree:used_at(file, i)
   local word, before, after = file.text[i], file.text[i - 1], file.text[i + 1]
   local fn = self.own[file][word] or self.shared[word]
   if not fn or before == "." or before == "->" then return end
-  local is_handed_on = BEFORE_A_NAME[before] and AFTER_A_NAME[after]
-  if after == "(" or is_handed_on or word:find "^cs_" then return fn end
+  local is_passed_on = BEFORE_A_NAME[before] and AFTER_A_NAME[after]
+  if after == "(" or is_passed_on or word:find "^cs_" then return fn end
 end
 
---- Calls visit(from, to, why) for each include of a file of the tree, and, unless told otherwise,
+--- Whether a token is in the body of a function.
+local function is_inside(file, i)
+  for _, fn in ipairs(file.functions) do
+    if i > fn.from and i < fn.to then return true end
+  end
+  return false
+end
+
+local function is_declaration(file, i) return file.is_header and not is_inside(file, i) end
+
+--- Calls visit(from, to, why) for each include of a file of the tree and, unless only_includes, for
 --- each use of another file's function.
 function tree:each_edge(visit, only_includes)
   for _, file in ipairs(self.files) do
@@ -109,19 +131,9 @@ function tree:each_edge(visit, only_includes)
     for i = 1, only_includes and 0 or #file.text do
       local fn = self:used_at(file, i)
       local is_other = fn and fn.file ~= file
-      if is_other and not self:is_declaration(file, i) then visit(file, fn.file, fn) end
+      if is_other and not is_declaration(file, i) then visit(file, fn.file, fn) end
     end
   end
-end
-
-function tree:is_declaration(file, i) return file.is_header and not self:is_inside(file, i) end
-
---- Whether a token stands in the body of a function.
-function tree:is_inside(file, i)
-  for _, fn in ipairs(file.functions) do
-    if i > fn.from and i < fn.to then return true end
-  end
-  return false
 end
 
 return tree

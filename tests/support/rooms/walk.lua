@@ -1,7 +1,7 @@
---- The way of a reader from one function down: each call in the order of the text, each body once.
+--- A reader's path from one function down: each call in the order of the text, each body once.
 local walk = {}
 
---- Left out: whoever calls it does not leave its room.
+--- Left out: calling it does not count as leaving the room.
 local EVERYWHERE = { base = true }
 
 --- The calls of a function's body that lead to another function of the tree, in order.
@@ -16,7 +16,7 @@ local function calls_of(tree, fn)
   return list
 end
 
---- Walks from the function of this name; nil when there is none. Returns counts: of functions, of
+--- Walks from the function of this name; nil if it does not exist. Returns counts: of functions, of
 --- units, of rooms, of changes of room there and back, and of those when bodies that were read
 --- before count too; and pairs["FROM -> TO"], how many calls made a change.
 function walk.from(tree, name)

@@ -1,4 +1,5 @@
---- The vocabulary of the house, to be edited: everyday words that mean one thing, and where.
+--- The vocabulary of the project; add to it freely: everyday words with one technical meaning, and
+--- where.
 local words = {}
 
 --- word    as a whole component of a name; -s at its end is left off
@@ -10,35 +11,46 @@ local words = {}
 words.list = {
   -- words that mean one thing, and where they mean it
   { word = "cel", means = "a sheet of artwork on the rostrum",
-    places = { "scene/", "render/", "defocus/", "relight/", "bind/", "cli/" } },
+    places = { "model/scene/", "frames/", "engine/defocus/", "tools/relight/", "lua/",
+               "program/" } },
   { word = "cell", means = "what lies between two neighbouring boundaries of a row",
-    places = { "compose/", "paint/", "area/", "kernel/", "row/", "defocus/edges", "defocus/s" } },
+    places = { "engine/compose/", "engine/paint/", "engine/area/", "engine/kernel/",
+               "engine/row/", "engine/defocus/edges", "engine/defocus/s" } },
   { word = "strip", means = "rows of a frame that are made together, by one worker or as a file",
-    places = { "render/", "output/png/", "output/join/", "output/strip", "output/tga", "output/span",
-               "relight/stack", "film/", "base/pipeline", "pictures/", "cli/farm", "cli/join", "cli/re",
-               "cli/view" } },
+    places = { "frames/render/", "output/png/", "output/join/", "output/sinks/strip",
+               "output/sinks/tga", "output/sinks/span", "tools/relight/stack", "frames/film/",
+               "base/pipeline", "model/pictures/", "program/farm", "program/join", "program/re",
+               "program/view" } },
   { word = "band", means = "node rows of a defocused cel's grid that are kept together",
-    places = { "defocus/", "sample/defocused" } },
+    places = { "engine/defocus/", "engine/sample/defocused" } },
   { word = "block", means = "64 x 64 texels of a picture, or a block of the deflate format",
-    places = { "pictures/", "sample/", "paint/painter", "deflate/", "trace/scan" } },
-  { word = "level", means = "a picture halved so many times",
-    places = { "pictures/", "sample/", "track/", "cli/tiles/", "cli/request", "cli/argument", "scene/" } },
-  { word = "slab", means = "a range of heights inside a row", places = { "area/" } },
+    places = { "model/pictures/", "engine/sample/", "engine/paint/painter", "output/deflate/",
+               "tools/trace/colours" } },
+  { word = "level", means = "a picture halved that many times",
+    places = { "model/pictures/", "engine/sample/", "tools/track/", "frames/tiles/",
+               "program/tiles", "program/request", "program/argument", "model/scene/" } },
+  { word = "slab", means = "a range of heights inside a row", places = { "engine/area/" } },
   { word = "segment", means = "a straight or parabolic piece of a boundary, or of a deflate stream",
-    places = { "geometry/", "sweep/", "area/", "kernel/", "defocus/", "deflate/" } },
-  { word = "window", means = "pixels that edges cross, summed together; elsewhere a window of the field",
-    places = { "area/", "deflate/", "oiio/", "pictures/load", "kernel/kernel" } },
+    places = { "model/geometry/", "engine/sweep/", "engine/area/", "engine/kernel/",
+               "engine/defocus/", "output/deflate/" } },
+  { word = "window",
+    means = "pixels that edges cross, summed together; elsewhere a window of the field",
+    places = { "engine/area/", "output/deflate/", "plugins/oiio/", "model/pictures/load",
+               "engine/kernel/kernel" } },
   { word = "span", means = "neighbouring pixels of a row with one description",
-    places = { "span/", "area/", "kernel/", "row/", "paint/", "compose/", "scene/", "sample/",
-               "defocus/", "render/", "relight/", "output/", "bind/", "cli/", "geometry/nurbs", "deflate/",
-               "oiio/plugin/" } },
+    places = { "engine/span/", "engine/area/", "engine/kernel/", "engine/row/", "engine/paint/",
+               "engine/compose/", "model/scene/", "engine/sample/", "engine/defocus/",
+               "frames/", "tools/relight/", "output/", "lua/", "program/",
+               "model/geometry/nurbs", "output/deflate/", "plugins/oiio/plugin/" } },
   { word = "lane", means = "one number of a register",
-    places = { "base/wide", "base/vector", "colour/", "geometry/polyline", "sweep/advance", "paint/",
-               "sample/", "output/" } },
-  { word = "knot", means = "a knot of a NURBS curve", places = { "geometry/", "scene/", "bind/", "trace/spline" } },
-  { word = "pen", means = "the current point of a path", places = { "geometry/" } },
+    places = { "base/wide", "base/vector", "model/colour/", "model/geometry/polyline",
+               "engine/sweep/advance", "engine/paint/", "engine/sample/", "output/" } },
+  { word = "knot", means = "a knot of a NURBS curve",
+    places = { "model/geometry/", "model/scene/", "lua/", "tools/trace/spline" } },
+  { word = "pen", means = "the current point of a path", places = { "model/geometry/" } },
   { word = "crossing", means = "how crossing a boundary changes a winding number",
-    places = { "sweep/", "compose/", "area/", "geometry/bezier", "scene/inside" } },
+    places = { "engine/sweep/", "engine/compose/", "engine/area/", "model/geometry/bezier",
+               "model/scene/inside" } },
   -- words that have no meaning here
   { word = "look", say = "side, term, change or cancelled" },
   { word = "reach", say = "extent, radius, advance or close" },
@@ -46,7 +58,7 @@ words.list = {
   { word = "shot", say = "plan for the compiled frame, script for the film that is open" },
   { word = "slide", say = "image layer" },
   { word = "leaf", forms = { "leaves" }, means = "a leaf of Huffman's tree",
-    places = { "deflate/" } },
+    places = { "output/deflate/" } },
   { word = "toggle", say = "deferred winding change" },
   { word = "detail", say = "what the index counts" },
   { word = "seen", say = "what is visible, or whose view it is" },
@@ -59,25 +71,25 @@ words.list = {
   { word = "glimpse", say = "pair of light and transmission" },
   { word = "palette", say = "gradient table" },
   { word = "ramp", means = "a share that grows evenly from column to column",
-    places = { "area/direct", "kernel/" } },
+    places = { "engine/area/direct", "engine/kernel/" } },
   { word = "fragment", say = "segment" },
   { word = "cluster", say = "local sweep" },
   { word = "meeting", say = "intersection" },
   { word = "gather", means = "collecting the layers of a cell that contribute",
-    places = { "compose/" } },
+    places = { "engine/compose/" } },
   { word = "trace", means = "a picture turned into shapes",
-    places = { "trace/", "bind/tracing", "cli/trace", "cli/request" } },
+    places = { "tools/trace/", "lua/module/tracing", "program/trace", "program/request" } },
   { word = "door", say = "check" },
 }
 
---- What the types of the biggest subjects are counted by: beginnings of paths.
+--- The path prefixes by which the types of the biggest subjects are counted.
 words.subjects = {
-  { name = "exact coverage", "area/" },
-  { name = "kernels", "kernel/" },
-  { name = "defocus", "defocus/", "sample/defocused", "paint/defocused" },
-  { name = "painting", "paint/" },
-  { name = "pictures", "pictures/", "sample/sampler", "sample/placement" },
-  { name = "how a row is driven", "row/" },
+  { name = "exact coverage", "engine/area/" },
+  { name = "kernels", "engine/kernel/" },
+  { name = "defocus", "engine/defocus/", "engine/sample/defocused", "engine/paint/defocused" },
+  { name = "painting", "engine/paint/" },
+  { name = "pictures", "model/pictures/", "engine/sample/sampler", "engine/sample/placement" },
+  { name = "how a row is driven", "engine/row/" },
 }
 
 function words.begins_with_any(path, beginnings)
@@ -93,7 +105,7 @@ for _, entry in ipairs(words.list) do
   for _, form in ipairs(entry.forms or {}) do entry_of[form] = entry end
 end
 
---- The entries whose words a name holds where it may not, each once.
+--- The entries whose words a name contains where it may not, each once.
 function words.misplaced(name, path)
   local list, seen = {}, {}
   for component in name:lower():gmatch "[^_]+" do

@@ -1,0 +1,385 @@
+--- The part of lua/celspan.d.lua that is written by hand: functions, methods, and tables that
+--- functions return. celspan.manual puts the annotations of a noun in the place of a line
+---
+---   ---@noun circle: celspan.object        a value, and the class that it extends
+---   ---@noun camera                        a table of options
+---
+--- from the rows of its fields, which are in src/lua.
+return [==[
+---@meta celspan
+--- Annotations of celspan for editors with the Lua language server. Film coordinates start at the
+--- top left, x to the right, y down. In every list, later is nearer the camera. Angles are degrees,
+--- clockwise. Colours are linear light, but strings are sRGB. It is one file because editors load a
+--- library as a whole.
+
+---@alias celspan.colour celspan.paint|string A paint, or "#rgb", "#rrggbb", "#rrggbbaa" (sRGB-coded)
+---@alias celspan.surface celspan.colour|celspan.texture The texture of a primitive
+---@alias celspan.light number[]|string|celspan.paint|celspan.texture|celspan.light_shape {r, g, b}, {r, g, b, a} or "#rrggbb"; an omitted a is 1; or a light with a shape
+---@alias celspan.shape celspan.object|celspan.rostrum A part of a cel or a boolean: an object, or a rostrum with a size
+---@alias celspan.point number[] {x, y}
+---@alias celspan.rule "nonzero"|"evenodd" How self-crossing outlines are filled
+---@alias celspan.antialias "area"|"none"|celspan.filter The exact mean over each pixel, pixel centres, or a kernel
+---@alias celspan.exposures celspan.rostrum|table[] A rostrum, or {{rostrum, weight}, ...}: light adds
+
+---@class celspan
+---@field _VERSION string "celspan 0.1.0"
+---@field clear celspan.paint Nothing at all: light passes unchanged
+local celspan = {}
+
+--- A value that can have a name. Transforms, fades and `with` keep the name.
+---@class celspan.nameable
+---@field name? string
+---@field origin? string The line that made it, "shot.lua:12"
+---@operator len: integer
+local nameable = {}
+
+--- The same value with a name, which messages use: 1 to 255 bytes without control characters.
+---@generic T: celspan.nameable
+---@param self T
+---@param name string
+---@return T
+function nameable:named(name) end
+
+---@noun paint: celspan.nameable
+
+--- A copy with changes.
+---@param changes celspan.paint.fields
+---@return celspan.paint
+function paint:with(changes) end
+
+--- A pigment over a clear medium.
+---@param r number
+---@param g number
+---@param b number
+---@param alpha? number Default 1
+---@return celspan.paint
+---@overload fun(colour: string, alpha?: number): celspan.paint
+function celspan.rgb(r, g, b, alpha) end
+
+--- A pure filter, like a coloured gel: it is only visible in light from behind.
+---@param r number
+---@param g number
+---@param b number
+---@param alpha? number Default 1; less mixes it with clear
+---@return celspan.paint
+---@overload fun(colour: string, alpha?: number): celspan.paint
+function celspan.gel(r, g, b, alpha) end
+
+--- (1-u) p + u q, premultiplied.
+---@param p celspan.colour
+---@param q celspan.colour
+---@param u number 0..1
+---@return celspan.paint
+function celspan.mix(p, q, u) end
+
+--- A gradient or a picture, in the units of its primitive; it moves with the primitive.
+---@class celspan.texture: celspan.nameable
+local texture = {}
+
+--- A copy with changes.
+---@param changes table
+---@return celspan.texture
+function texture:with(changes) end
+
+---@noun gradient: celspan.texture
+
+---@noun linear: celspan.texture
+
+---@noun radial: celspan.texture
+
+---@noun picture: celspan.texture
+
+--- The methods of objects and cels. Each method returns a new value.
+---@class celspan.placed: celspan.nameable
+local placed = {}
+
+--- Moves it.
+---@generic T: celspan.placed
+---@param self T
+---@param dx number
+---@param dy number
+---@return T
+function placed:translate(dx, dy) end
+
+--- Enlarges it, about the origin or a fixed centre.
+---@generic T: celspan.placed
+---@param self T
+---@param sx number
+---@param sy? number Default sx
+---@param cx? number
+---@param cy? number
+---@return T
+function placed:scale(sx, sy, cx, cy) end
+
+--- Turns clockwise on screen, about the origin or a centre.
+---@generic T: celspan.placed
+---@param self T
+---@param degrees number
+---@param cx? number
+---@param cy? number
+---@return T
+function placed:rotate(degrees, cx, cy) end
+
+--- Slants it, about the origin or a centre.
+---@generic T: celspan.placed
+---@param self T
+---@param degrees_x number
+---@param degrees_y number
+---@param cx? number
+---@param cy? number
+---@return T
+function placed:skew(degrees_x, degrees_y, cx, cy) end
+
+--- A 3x3 matrix row by row, for column vectors.
+---@generic T: celspan.placed
+---@param self T
+---@param matrix number[] Nine numbers
+---@return T
+function placed:transform(matrix) end
+
+--- The perspective that maps the first four points to the second.
+---@generic T: celspan.placed
+---@param self T
+---@param from celspan.point[]
+---@param to celspan.point[]
+---@return T
+function placed:quad(from, to) end
+
+--- The paint mixed with clear: 1 leaves it unchanged, 0 makes it invisible.
+---@generic T: celspan.placed
+---@param self T
+---@param k number 0..1
+---@return T
+function placed:fade(k) end
+
+--- The smallest axis-aligned rectangle around it; returns nothing if there is nothing to paint.
+---@return number? x, number? y, number? width, number? height
+function placed:bounds() end
+
+--- Whether a point is inside the shape, whatever its paint.
+---@param x number
+---@param y number
+---@return boolean
+function placed:contains(x, y) end
+
+--- A copy with changes; transforms and fades are kept.
+---@generic T: celspan.placed
+---@param self T
+---@param changes table
+---@return T
+function placed:with(changes) end
+
+--- A primitive or a boolean tree of them.
+---@class celspan.object: celspan.placed
+---@operator bor(celspan.object): celspan.boolean
+---@operator band(celspan.object): celspan.boolean
+---@operator bxor(celspan.object): celspan.boolean
+---@operator sub(celspan.object): celspan.boolean
+local object = {}
+
+--- The stroke of a primitive's outline, with the primitive's transform and fade.
+---@param style? celspan.stroke.style
+---@return celspan.stroke
+function object:stroke(style) end
+
+---@noun rect: celspan.object
+
+---@noun triangle: celspan.object
+
+---@noun circle: celspan.object
+
+---@noun ellipse: celspan.object
+
+---@noun polygon: celspan.object
+
+---@noun nurbs: celspan.object
+
+---@noun path: celspan.object
+
+---@noun stroke.style
+
+---@noun stroke: celspan.object
+
+---@noun image: celspan.object
+
+---@noun text: celspan.object
+
+---@noun glyph: celspan.object
+
+--- A letter of celspan.glyphs.
+---@class celspan.letter
+---@field object celspan.glyph At its place in the text
+---@field x number Its left end
+---@field y number Its baseline
+---@field advance number Its width, without tracking
+---@field text string
+---@field line integer From 1
+
+--- The letters of a text, each as an object, in reading order.
+---@param fields celspan.text.fields
+---@return celspan.letter[]
+function celspan.glyphs(fields) end
+
+--- A row of pixels, in the units of the primitive.
+---@class celspan.scanline.row
+---@field x0 number The visible part
+---@field x1 number
+---@field pixel number The width of a pixel
+
+---@noun scanline: celspan.object
+
+--- The result of the operators and of the functions below.
+---@class celspan.boolean: celspan.object
+---@field [integer] celspan.shape Its operands
+
+--- Later over earlier; a | b.
+---@param objects celspan.shape[]
+---@return celspan.boolean
+function celspan.union(objects) end
+
+--- The area in all of them, later over earlier; a & b.
+---@param objects celspan.shape[]
+---@return celspan.boolean
+function celspan.intersection(objects) end
+
+--- The first, outside all others; a - b.
+---@param objects celspan.shape[]
+---@return celspan.boolean
+function celspan.difference(objects) end
+
+--- The area in an odd number of them; a ~ b.
+---@param objects celspan.shape[]
+---@return celspan.boolean
+function celspan.xor(objects) end
+
+--- The art inside the shape; the shape's own texture is not painted.
+---@param art celspan.shape
+---@param shape celspan.shape
+---@return celspan.boolean
+function celspan.clip(art, shape) end
+
+---@noun defocus
+
+---@noun cel: celspan.placed
+
+---@noun light_shape
+
+---@noun rostrum: celspan.placed
+
+--- A copy with changes.
+---@param changes celspan.rostrum.fields
+---@return celspan.rostrum
+function rostrum:with(changes) end
+
+---@noun camera
+
+---@noun filter
+
+---@noun frame
+local frame = {}
+
+--- The index held for n frames: f:on(2) animates on twos.
+---@param n integer
+---@return integer
+function frame:on(n) end
+
+--- A random number that depends only on the film, the frame and the label: 0 <= x < 1, or 1..m, or
+--- m..n. Of the film, title and size count.
+---@param label string|number
+---@param m? integer
+---@param n? integer
+---@return number
+function frame:random(label, m, n) end
+
+---@noun film
+
+--- A copy with changes.
+---@param changes celspan.film.fields
+---@return celspan.film
+function film:with(changes) end
+
+--- The result of the frame function for a frame of the film, by its number.
+---@param number integer
+---@return celspan.exposures
+function film:at(number) end
+
+---@noun render.options
+
+--- Renders to files; #### or %04d is the frame's number.
+---@param what celspan.film|celspan.rostrum
+---@param pattern string
+---@param options? celspan.render.options
+---@return true? done
+---@return string? message
+function celspan.render(what, pattern, options) end
+
+--- Pixels in memory, linear and premultiplied.
+---@class celspan.pixels.image
+---@field width integer
+---@field height integer
+local raster = {}
+
+--- The colour of one pixel.
+---@param x integer From 0
+---@param y integer From 0
+---@return number r, number g, number b, number a
+function raster:get(x, y) end
+
+---@noun bytes.options
+
+--- RGBA, rows from top to bottom, little endian.
+---@param options? celspan.bytes.options
+---@return string
+function raster:bytes(options) end
+
+---@noun write.options
+
+--- Writes a file.
+---@param path string
+---@param options? celspan.write.options
+---@return true? done
+---@return string? message
+function raster:write(path, options) end
+
+---@noun pixels.options
+
+--- Renders one frame to memory.
+---@param what celspan.film|celspan.exposures
+---@param options? celspan.pixels.options
+---@return celspan.pixels.image? image
+---@return string? message
+function celspan.pixels(what, options) end
+
+--- One RGBA (single), those of the first and last pixel (gradient), or one per pixel (array).
+---@class celspan.span
+---@field x0 integer
+---@field x1 integer
+---@field kind "single"|"gradient"|"array"
+---@field [integer] number
+
+---@noun spans.options
+
+--- Rows of spans: rows[y] is a list.
+---@param what celspan.film|celspan.exposures
+---@param options? celspan.spans.options
+---@return table<integer, celspan.span[]>? rows
+---@return string? message
+function celspan.spans(what, options) end
+
+---@noun probe.options
+
+--- The colour of one point of the film by direct evaluation: no sweep, no antialiasing, no defocus.
+---@param what celspan.film|celspan.exposures
+---@param x number
+---@param y number
+---@param options? celspan.probe.options
+---@return number? r, number|string g, number b, number a
+function celspan.probe(what, x, y, options) end
+
+--- Random numbers from a seed: random(label [, m, n]) depends only on the seed and the label.
+---@param seed string|number
+---@return fun(label: string|number, m?: integer, n?: integer): number
+function celspan.random(seed) end
+
+return celspan
+]==]

@@ -1,0 +1,14 @@
+/* The monotonic clock. */
+#ifndef CS_BASE_CLOCK_H
+#define CS_BASE_CLOCK_H
+
+#include <time.h>
+
+/* Seconds since a fixed moment; never goes back. */
+static inline double cs_clock_seconds(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+#endif

@@ -1,0 +1,79 @@
+/* Build tool: texts as arrays of bytes, each ended by a zero.
+ *
+ *   embed OUT.c NAME=FILE ...                   an array NAME for each file
+ *   embed OUT.c --table HEADER TABLE FILE ...   one table, found by the files' names without folders;
+ *                                               HEADER declares cs_text and the table
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void stop(const char *what, const char *path) {
+  fprintf(stderr, "embed: %s %s\n", what, path);
+  exit(1);
+}
+
+/* The bytes of a file and the final zero, as an initialiser. */
+static void write_bytes(FILE *out, const char *path) {
+  FILE *in = fopen(path, "rb");
+  if (!in)
+    stop("cannot open", path);
+  long count = 0;
+  fputs("{", out);
+  for (int c; (c = getc(in)) != EOF; count++) {
+    if (c == 0)
+      stop("not a text:", path);
+    fprintf(out, "%s%d,", count % 24 ? "" : "\n  ", c);
+  }
+  if (ferror(in) || count == 0)
+    stop("cannot read", path);
+  fclose(in);
+  fputs(" 0};\n", out);
+}
+
+static void write_arrays(FILE *out, int count, char **arguments) {
+  for (int i = 0; i < count; i++) {
+    char *path = strchr(arguments[i], '=');
+    if (!path)
+      stop("no name before a =:", arguments[i]);
+    *path++ = 0;
+    fprintf(out, "extern const unsigned char %s[];\nconst unsigned char %s[] = ", arguments[i],
+            arguments[i]);
+    write_bytes(out, path);
+  }
+}
+
+static const char *name_of(const char *path) {
+  const char *slash = strrchr(path, '/');
+  return slash ? slash + 1 : path;
+}
+
+static void write_table(FILE *out, const char *header, const char *table, int count, char **paths) {
+  fprintf(out, "#include \"%s\"\n\n", header);
+  for (int i = 0; i < count; i++) {
+    fprintf(out, "static const unsigned char text_%d[] = ", i);
+    write_bytes(out, paths[i]);
+  }
+  fprintf(out, "\nconst cs_text %s[] = {\n", table);
+  for (int i = 0; i < count; i++)
+    fprintf(out, "  {\"%s\", (const char *)text_%d, sizeof text_%d - 1},\n", name_of(paths[i]), i,
+            i);
+  fprintf(out, "  {0}};\n");
+}
+
+int main(int argument_count, char **arguments) {
+  int is_table = argument_count > 2 && strcmp(arguments[2], "--table") == 0;
+  if (argument_count < (is_table ? 6 : 3))
+    stop("usage:", "embed OUT.c NAME=FILE ... | embed OUT.c --table HEADER TABLE FILE ...");
+  FILE *out = fopen(arguments[1], "w");
+  if (!out)
+    stop("cannot open", arguments[1]);
+  fprintf(out, "/* Made by embed.c; do not edit. */\n");
+  if (is_table)
+    write_table(out, arguments[3], arguments[4], argument_count - 5, arguments + 5);
+  else
+    write_arrays(out, argument_count - 2, arguments + 2);
+  if (fclose(out) != 0)
+    stop("cannot write", arguments[1]);
+  return 0;
+}

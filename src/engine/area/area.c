@@ -1,0 +1,452 @@
+/* Antialias "area": the exact mean over each pixel, by local events, in one walk along the row.
+ *
+ *              A               B   C          D         active boundaries at the top of the row,
+ *      y    +--\----+-------+--\---/+-------+-|-----+   from left to right
+ *           |   \   |       |   \ / |       | |     |
+ *           |    \  |       |    x  |       | |     |   x: an intersection
+ *           |     \ |       |   / \ |       | |     |
+ *      y+1  +------\+-------+--/---\+-------+-|-----+
+ *                  A           C   B          D         and at its foot
+ *
+ *            window            window         window    pixels that edges cross: summed by area
+ *                     span            span              the others: cells as they are
+ *                             interval                  replayed by a local sweep; it composes
+ *                                                       the one cell below x
+ *
+ *   alone     a visible boundary to which nothing happens in the row gives its edge segments: one,
+ *             or one for each straight piece
+ *   interval  neighbours that swap, begin or end inside the row are replayed (intervals.h says
+ *             which, local_sweep.h how)
+ *
+ * A replay costs events times members. So a row in which very much begins and ends is cut into
+ * slabs of its height, each walked by itself into one window, which is summed when all are done.
+ */
+#include "engine/area/area.h"
+
+#include <math.h>
+
+#include "base/number.h"
+#include "engine/area/intervals.h"
+#include "engine/area/window.h"
+#include "engine/compose/procedures.h"
+#include "engine/sweep/pieces.h"
+
+/* ---------------------------------------------------------------- committing the order */
+
+static celspan_status note(cs_commit *commit, size_t low, size_t count, cs_committed **out) {
+  cs_committed *committed = cs_arena_take(
+      commit->composer->context, commit->arena,
+      sizeof *committed + count * (sizeof *committed->cells + sizeof *committed->places));
+  if (!committed)
+    return CELSPAN_NO_MEMORY;
+  const cs_cell **cells = (const cs_cell **)(committed + 1);
+  *committed = (cs_committed){commit->first, low, count, cells, (uint32_t *)(cells + count)};
+  commit->first = *out = committed;
+  return CELSPAN_OK;
+}
+
+/* Whether boundary i is still there at the foot of the row. */
+static bool goes_on(const cs_active *active, size_t i) {
+  const cs_bend *bend = cs_active_bend(active, i);
+  return !bend || !bend->ends;
+}
+
+/* Notes that boundaries i and i + 1 have changed places, with a cell between them. */
+static CELSPAN_CHECKED celspan_status commit_pair(cs_commit *commit, size_t i,
+                                                  const cs_cell *between) {
+  cs_committed *committed;
+  if (!goes_on(commit->active, i) || !goes_on(commit->active, i + 1))
+    return CELSPAN_OK;
+  CS_TRY(note(commit, i, 2, &committed));
+  committed->places[0] = (uint32_t)i + 1;
+  committed->places[1] = (uint32_t)i;
+  committed->cells[0] = between;
+  committed->cells[1] = &commit->cells->cells[i + 2];
+  return CELSPAN_OK;
+}
+
+/* The cell right of boundary i. Where it is that of another place, a copy is kept: that place may
+ * be written to first. */
+static celspan_status keep_cell(cs_commit *commit, size_t i, const cs_cell *cell,
+                                const cs_cell **out) {
+  const cs_cell *cells = commit->cells->cells;
+  *out = cell;
+  if (cell < cells || cell >= cells + commit->cells->known || cell == &cells[i + 1])
+    return CELSPAN_OK;
+  cs_cell *copy = cs_arena_take(commit->composer->context, commit->arena, sizeof *copy);
+  if (!copy)
+    return CELSPAN_NO_MEMORY;
+  *copy = *cell;
+  *out = copy;
+  return CELSPAN_OK;
+}
+
+/* Notes how a local sweep of the boundaries [low, high) has ended, if that can be committed. */
+static CELSPAN_CHECKED celspan_status commit_sweep(cs_commit *commit, const cs_local_sweep *sweep,
+                                                   size_t low, size_t high) {
+  cs_committed *committed;
+  size_t count = high - low;
+  if (count == 0 || sweep->count != count)
+    return CELSPAN_OK;
+  for (size_t j = 0; j < count; j++) {
+    uint32_t place = sweep->members[j]->place;
+    if (place < low || place >= high || !goes_on(commit->active, place))
+      return CELSPAN_OK;
+  }
+  CS_TRY(note(commit, low, count, &committed));
+  for (size_t j = 0; j < count; j++) {
+    committed->places[j] = sweep->members[j]->place;
+    CS_TRY(keep_cell(commit, low + j, sweep->members[j]->right, &committed->cells[j]));
+  }
+  return CELSPAN_OK;
+}
+
+/* Brings the order and the cells of what has been noted to the foot of the row. */
+static CELSPAN_CHECKED celspan_status apply_commit(cs_commit *commit) {
+  for (const cs_committed *committed = commit->first; committed; committed = committed->next) {
+    uint64_t *room =
+        cs_arena_take(commit->composer->context, commit->arena, committed->count * sizeof *room);
+    if (!room)
+      return CELSPAN_NO_MEMORY;
+    cs_active_permute(commit->active, committed->low, committed->count, committed->places, room);
+    cs_cells_commit(commit->cells, commit->composer, commit->active, committed->low,
+                    committed->count, committed->cells);
+  }
+  commit->first = NULL;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- the row */
+
+void cs_area_init(cs_area *area, const cs_row_tools *tools) {
+  *area = (cs_area){.tools = *tools};
+  cs_window_init(&area->target.window, tools->painter, tools->arena, tools->width);
+  cs_local_sweep_init(&area->sweep, tools->composer, tools->arena, &area->target);
+  area->commit = (cs_commit){tools->active, tools->cells, tools->composer, tools->arena, NULL};
+}
+
+void cs_area_finish(cs_area *area, cs_memory *memory) {
+  cs_edges_finish(&area->edges, memory);
+  cs_window_finish(&area->target.window, memory);
+  cs_local_sweep_finish(&area->sweep, memory);
+  cs_dense_finish(&area->dense, memory);
+  *area = (cs_area){0};
+}
+
+/* The walk along a row, or along a slab of it, from left to right. */
+typedef struct row_walk {
+  cs_area *area;
+  const cs_cell *cells;    /* as in cs_cells; they do not change until the walk is done */
+  cs_intervals *intervals; /* between the two heights */
+  size_t visible;          /* the next visible boundary */
+  bool is_slab;            /* of a row whose other heights are walked by themselves */
+} row_walk;
+
+/* ---------------------------------------------------------------- alone */
+
+/* The first visible boundary from v on that is not left of boundary `end`. */
+static size_t find_visible(const cs_area *area, size_t v, size_t end) {
+  const cs_cells *cells = area->tools.cells;
+  if (end == area->tools.active->count)
+    return cells->visible_count;
+  while (v < cells->visible_count && cells->visible[v] < end)
+    v++;
+  return v;
+}
+
+/* Gives the target the segments of visible boundaries one by one. */
+static celspan_status add_boundaries(row_walk *w, const uint32_t *boundaries, size_t count) {
+  cs_area *area = w->area;
+  for (size_t k = 0; k < count; k++) {
+    size_t i = boundaries[k];
+    const cs_cell *left = &w->cells[i];
+    const cs_bend *bend = area->edges.is_bent[i] ? cs_active_bend(area->tools.active, i) : NULL;
+    cs_window_end_item(&area->target.window, left + 1);
+    for (cs_pieces p = cs_pieces_of(area->tools.active, i, bend); cs_pieces_next(&p);) {
+      const cs_segment segment = {p.above.x, p.above.y, p.below.x, p.below.y};
+      CS_TRY(cs_target_add(&area->target, &segment, left, left + 1));
+    }
+  }
+  return CELSPAN_OK;
+}
+
+/* Draws the visible boundaries up to boundary `end`, to which nothing happens but bends. What comes
+ * after them is at or right of x = next. */
+static celspan_status walk_alone(row_walk *w, size_t end, double next) {
+  cs_area *area = w->area;
+  size_t first = w->visible;
+  const uint32_t *boundaries = area->tools.cells->visible + first;
+  w->visible = find_visible(area, first, end);
+  if (w->is_slab || area->target.retained)
+    return add_boundaries(w, boundaries, w->visible - first);
+  cs_direct_edges edges = {area->tools.active, &area->edges,
+                           w->cells,           boundaries,
+                           w->visible - first, cs_edges_floor(next, area->tools.width),
+                           area->tools.width};
+  return cs_window_edges(&area->target.window, &edges);
+}
+
+/* ---------------------------------------------------------------- intervals */
+
+static void add_extent(const cs_member *members, size_t count, cs_extent *extent) {
+  for (size_t j = 0; j < count; j++)
+    for (uint32_t k = 0; k < members[j].point_count; k++)
+      cs_extent_add(extent, members[j].points[k].x);
+}
+
+/* How far the members of the sweep extend in the frame. */
+static cs_extent find_extent(const cs_area *area) {
+  const cs_local_sweep *sweep = &area->sweep;
+  cs_extent extent = cs_extent_nowhere();
+  add_extent(sweep->entering, sweep->count, &extent);
+  add_extent(sweep->begins, sweep->begin_count, &extent);
+  return (cs_extent){fmin(extent.low, area->tools.width), fmax(extent.high, 0)};
+}
+
+/* Brings the composer to the left of an interval, and the target to its least x. */
+static celspan_status begin_item(cs_area *area, const cs_cell *left, size_t low, double least) {
+  cs_local_sweep *sweep = &area->sweep;
+  cs_cells_walk_to(area->tools.cells, area->tools.composer, low, least);
+  sweep->left = left;
+  sweep->deferred = area->tools.cells->deferred;
+  sweep->deferred.first = sweep->deferred.next;
+  return cs_target_begin_item(&area->target, least);
+}
+
+/* Replays an interval. */
+static celspan_status walk_interval(row_walk *w, const cs_interval *interval) {
+  cs_area *area = w->area;
+  cs_local_sweep *sweep = &area->sweep;
+  size_t low = interval->low, high = interval->high;
+  CS_TRY(cs_intervals_pick_begins(w->intervals, interval, &sweep->begins, &sweep->begin_count));
+  sweep->y0 = w->intervals->y0;
+  sweep->y1 = w->intervals->y1;
+  CS_TRY(cs_local_sweep_begin(sweep, high - low));
+  for (size_t i = low; i < high; i++) {
+    cs_member *member = sweep->members[i - low];
+    CS_TRY(cs_intervals_member(w->intervals, i, member));
+    member->right = &w->cells[i + 1];
+  }
+  cs_extent extent = find_extent(area);
+  CS_TRY(begin_item(area, &w->cells[low], low, extent.low));
+  double shown = fmin(extent.high, area->tools.width) - fmax(extent.low, 0);
+  if (cs_dense_suits(sweep->count, shown)) {
+    CS_TRY(cs_dense_draw(&area->dense, sweep, &w->cells[high]));
+  } else {
+    CS_TRY(cs_local_sweep_replay(sweep));
+    CS_TRY(commit_sweep(&area->commit, sweep, low, high));
+  }
+  cs_window_end_item(&area->target.window, &w->cells[high]);
+  return CELSPAN_OK;
+}
+
+/* Whether an interval is two straight boundaries that cross: the bends of both, if any, keep to
+ * their chords. */
+static bool is_pair(const cs_area *area, const cs_interval *interval) {
+  const cs_active *active = area->tools.active;
+  size_t i = interval->low;
+  return interval->high - i == 2 && interval->events.low > interval->events.high &&
+         !area->edges.is_bent[i] && !area->edges.is_bent[i + 1] &&
+         active->x_next[i] > active->x_next[i + 1];
+}
+
+static celspan_status walk_pair(row_walk *w, const cs_interval *interval) {
+  cs_area *area = w->area;
+  size_t low = interval->low;
+  const cs_cell *between;
+  CS_TRY(begin_item(area, &w->cells[low], low, interval->extent.low));
+  CS_TRY(cs_local_sweep_pair(&area->sweep, area->tools.active, low, &between));
+  CS_TRY(commit_pair(&area->commit, low, between));
+  cs_window_end_item(&area->target.window, &w->cells[interval->high]);
+  return CELSPAN_OK;
+}
+
+static celspan_status walk_row(row_walk *w) {
+  const cs_area *area = w->area;
+  for (size_t k = 0; k < w->intervals->count; k++) {
+    const cs_interval *interval = &w->intervals->intervals[k];
+    CS_TRY(walk_alone(w, interval->low, interval->extent.low));
+    w->visible = find_visible(area, w->visible, interval->high);
+    CS_TRY(is_pair(area, interval) ? walk_pair(w, interval) : walk_interval(w, interval));
+  }
+  return walk_alone(w, area->tools.active->count, area->tools.width);
+}
+
+/* ---------------------------------------------------------------- procedures */
+
+/* An edge of a procedure's span as a member that lasts from y0 to y1. points: room for two. */
+static cs_member edge_member(const cs_procedure_edge *edge, double y0, double y1,
+                             celspan_point *points) {
+  points[0] = (celspan_point){edge->x, y0};
+  points[1] = (celspan_point){edge->x, y1};
+  return (cs_member){.points = points,
+                     .point_count = 2,
+                     .at = 1,
+                     .layer = edge->layer,
+                     .span = edge->span,
+                     .order = 2 * edge->span + (edge->direction < 0),
+                     .place = UINT32_MAX,
+                     .direction = edge->direction,
+                     .x = edge->x,
+                     .y = y0,
+                     .foot = edge->x};
+}
+
+/* Adds the edges at one of a row's heights, for its share of the row. */
+static celspan_status append_edges(cs_intervals *b, const cs_procedure_edges *edges, double y0,
+                                   double y1) {
+  size_t known = b->procedure_edge_count, count = known + edges->count;
+  cs_member *members = cs_arena_take(b->context, b->arena, count * sizeof *members);
+  celspan_point *points = cs_arena_take(b->context, b->arena, 2 * edges->count * sizeof *points);
+  if (!members || !points)
+    return CELSPAN_NO_MEMORY;
+  if (known > 0)
+    memcpy(members, b->procedure_edges, known * sizeof *members);
+  for (size_t k = 0; k < edges->count; k++) {
+    members[known + k] = edge_member(&edges->edges[k], y0, y1, points + 2 * k);
+    cs_extent_add(&b->procedures, edges->edges[k].x);
+  }
+  b->procedure_edges = members;
+  b->procedure_edge_count = count;
+  return CELSPAN_OK;
+}
+
+/* Calls every procedure at all heights of the row and adds its edges. */
+static celspan_status find_procedures(cs_area *area, cs_intervals *b) {
+  b->procedures = (cs_extent){area->tools.width, 0};
+  for (int j = 0; j < CS_PROCEDURES_ROWS; j++) {
+    cs_procedure_edges edges = {0};
+    double top = b->y0 + (double)j / CS_PROCEDURES_ROWS;
+    double foot = b->y0 + (j + 1.0) / CS_PROCEDURES_ROWS;
+    CS_TRY(cs_procedures_collect(area->tools.procedures, 0.5 * (top + foot), &edges));
+    CS_TRY(append_edges(b, &edges, top, foot));
+  }
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- rows and slabs */
+
+#define ROW_EVENTS 2048 /* begins and ends in a row that is not cut into slabs, at most */
+#define SLAB_EVENTS 128 /* and in a slab, about */
+#define SLABS_MOST 256
+#define SLAB_EDGES ((size_t)4 << 20) /* edges in all slabs of a row, about, at most */
+
+/* Whether the boundaries at the current height are dense: judged by the middle half of them, so
+ * that few others far away do not matter, as if all were as far apart as these over twice the
+ * width, because what ends and bends in the row divides them into several intervals. */
+static bool is_dense(const cs_area *area) {
+  const cs_active *active = area->tools.active;
+  size_t first = active->count / 4, last = first + active->count / 2;
+  if (active->count == 0)
+    return false;
+  double low = fmax(active->x[first], 0), high = fmin(active->x[last], area->tools.width);
+  return cs_dense_suits(active->count, 4 * fmax(high - low, 0));
+}
+
+/* Boundaries at any height of a row that is cut into slabs, at most: where there would be more, the
+ * slabs end, because the row is dense. */
+static size_t count_edges(const cs_area *area, size_t begins) {
+  size_t edges = area->tools.active->count + begins;
+  size_t most = 2 * CS_DENSE_A_PIXEL * ((size_t)area->tools.width + 1);
+  return edges < most ? edges : most;
+}
+
+/* Slabs of a row: a power of two, so that their heights are exact. */
+static int count_slabs(const cs_area *area, int32_t y) {
+  const cs_active *active = area->tools.active;
+  size_t begins = cs_intervals_count_begins(active, y + 1.0), events = begins;
+  size_t edges = count_edges(area, begins);
+  int slabs = 1;
+  if (begins + active->count <= ROW_EVENTS || is_dense(area) ||
+      cs_procedures_meet(area->tools.procedures, y))
+    return 1;
+  for (size_t i = 0; i < active->count; i++)
+    events += cs_active_chain(active, i)->y1 < y + 1.0;
+  while (slabs < SLABS_MOST && events > ROW_EVENTS && (size_t)slabs * SLAB_EVENTS < events &&
+         (size_t)slabs * edges < SLAB_EDGES)
+    slabs *= 2;
+  return slabs;
+}
+
+/* Copies the cells to room that lasts as long as the row: segments point to them. */
+static celspan_status keep_cells(cs_area *area, const cs_cell **out) {
+  size_t size = area->tools.cells->known * sizeof **out;
+  cs_cell *kept = cs_arena_take(area->tools.composer->context, area->tools.arena, size);
+  if (!kept)
+    return CELSPAN_NO_MEMORY;
+  *out = memcpy(kept, area->tools.cells->cells, size);
+  return CELSPAN_OK;
+}
+
+/* Moves the boundaries down to the next slab, which begins where the last one has ended. */
+static celspan_status next_slab(cs_area *area) {
+  cs_change change;
+  cs_composer *composer = area->tools.composer;
+  CS_TRY(cs_active_settle(composer->context, area->tools.active, &change));
+  if (!cs_change_is_none(change))
+    CS_TRY(cs_cells_update(area->tools.cells, composer, area->tools.active, change));
+  return composer->failure;
+}
+
+/* Walks the row between two heights; the boundaries are at the upper. */
+static celspan_status walk_heights(row_walk *w, double y0, double y1) {
+  cs_area *area = w->area;
+  celspan_context *context = area->tools.composer->context;
+  cs_cells_list(area->tools.cells);
+  cs_intervals intervals = {.context = context,
+                            .arena = area->tools.arena,
+                            .active = area->tools.active,
+                            .edges = &area->edges,
+                            .y0 = y0,
+                            .y1 = y1};
+  w->intervals = &intervals;
+  area->commit.first = NULL;
+  CS_TRY(cs_active_advance(context, area->tools.active, y1));
+  if (!w->is_slab && cs_procedures_meet(area->tools.procedures, (int32_t)y0))
+    CS_TRY(find_procedures(area, &intervals));
+  CS_TRY(cs_edges_measure(context, &area->edges, area->tools.active, area->tools.width));
+  CS_TRY(cs_intervals_find(&intervals));
+  return walk_row(w);
+}
+
+/* A row that becomes dense on the way is not cut any further: dense intervals cost less than the
+ * exact slabs of that many boundaries, and need no memory for their intersections. */
+static celspan_status walk_slabs(cs_area *area, int32_t y, int slabs, cs_row *out) {
+  cs_window *window = &area->target.window;
+  for (int k = 0, end; k < slabs; k = end) {
+    row_walk w = {.area = area, .is_slab = true};
+    if (k > 0)
+      CS_TRY(next_slab(area));
+    CS_TRY(keep_cells(area, &w.cells));
+    if (k == 0) {
+      cs_window_begin_row(window, y, w.cells, out);
+      cs_window_open_row(window);
+    }
+    cs_window_end_item(window, &w.cells[0]);
+    end = is_dense(area) ? slabs : k + 1;
+    CS_TRY(walk_heights(&w, y + (double)k / slabs, y + (double)end / slabs));
+    CS_TRY(apply_commit(&area->commit));
+  }
+  return cs_window_end_row(window);
+}
+
+celspan_status cs_area_row(cs_area *area, int32_t y, cs_row *out) {
+  row_walk w = {.area = area, .cells = area->tools.cells->cells};
+  int slabs = count_slabs(area, y);
+  area->target.retained = NULL;
+  if (slabs > 1)
+    return walk_slabs(area, y, slabs, out);
+  cs_window_begin_row(&area->target.window, y, w.cells, out);
+  CS_TRY(walk_heights(&w, y, y + 1.0));
+  CS_TRY(cs_window_end_row(&area->target.window));
+  return apply_commit(&area->commit);
+}
+
+celspan_status cs_area_retain(cs_area *area, int32_t y, cs_retained_row *retained) {
+  row_walk w = {.area = area, .cells = area->tools.cells->cells};
+  area->target.retained = retained;
+  cs_retained_begin(retained, y, w.cells[0].colour);
+  CS_TRY(walk_heights(&w, y, y + 1.0));
+  CS_TRY(cs_retained_seal(retained, area->tools.composer));
+  return apply_commit(&area->commit);
+}

@@ -1,0 +1,56 @@
+/* Dense intervals: so many boundaries share few pixels that to follow every one of their
+ * intersections would cost the square of their number, and show nothing.
+ *
+ *   y0  +--------+--------+        The interval is cut into sub-rows by height. In each of them its
+ *       |.\..|./.|.|..\./.| sub-   boundaries are put in order at its middle, and the row
+ *       |..\.|/..|..|../..| row    of cells between them is added to the pixels: exact along x
+ *       |...\|..|...|./.\.|        within 1/256 pixel, a mean of many sub-rows along y.
+ *       |../.|.|.....\|...|
+ *   y1  +--------+--------+        Each pixel becomes one flat cell, so later steps do not
+ *    left   flat    flat    right  grow with the number of boundaries.
+ *
+ * The cost is that of sorting: a boundary costs one sort per sub-row, a pixel at most 256 cells in
+ * each. The mean over the sub-rows of a pixel is within 1/255 (root of the mean square, of the
+ * brightest light) of the exact one; that of an interval which is not dense stays exact.
+ *
+ * Invariant: as for local sweeps (local_sweep.h): nothing changes left and right of the interval.
+ */
+#ifndef CS_AREA_DENSE_H
+#define CS_AREA_DENSE_H
+
+#include "engine/area/local_sweep.h"
+
+#define CS_DENSE_A_PIXEL 16 /* boundaries in each pixel, on the average, and more are dense */
+
+/* Where a boundary lies in a sub-row. */
+typedef struct cs_dense_place {
+  uint32_t x; /* in parts of a pixel, from the left of the interval */
+  uint32_t member;
+} cs_dense_place;
+
+/* What crossing a member changes. */
+typedef struct cs_dense_crossing {
+  uint32_t layer, span; /* span: as a member's */
+  int32_t direction;
+} cs_dense_crossing;
+
+typedef struct cs_dense {
+  cs_dense_place *places;       /* of several sub-rows, room for all members each */
+  cs_dense_place *spare;        /* room for all members */
+  cs_dense_crossing *crossings; /* by member */
+  size_t place_capacity, spare_capacity, crossing_capacity;
+  cs_sum4 *sums; /* by pixel of the interval */
+  size_t sum_capacity;
+} cs_dense;
+
+void cs_dense_finish(cs_dense *dense, cs_memory *memory);
+/* Whether members at the top of a row that lie within an extent, in pixels, are dense. What only
+ * begins in the row is not counted: it is replayed exactly, however small and regular it is. */
+bool cs_dense_suits(size_t members, double extent);
+/* Draws the members of a sweep, and those that begin, from sweep->y0 to sweep->y1. The composer is
+ * left of them all, and is there again afterwards. right: the cell right of them all.
+ * Errors: NO_MEMORY, those of painting. */
+CELSPAN_CHECKED celspan_status cs_dense_draw(cs_dense *dense, cs_local_sweep *sweep,
+                                             const cs_cell *right);
+
+#endif

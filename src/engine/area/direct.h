@@ -1,0 +1,116 @@
+/* Direct edges: boundaries that are drawn into the row at once, from what has been measured of
+ * them, without the segments of a window. That works for an edge that shares its pixels with no
+ * other one, and for a few that share pixels with each other and with nothing else. Nearly all
+ * edges of nearly all rows are such.
+ *
+ *              first           end           first, end: the columns that the edge crosses
+ *              |               |
+ *      +---+---+---+---+---+---+---+---+
+ *      | L | L |  .|-##|###|###| R | R |     L, R: the cells on its sides
+ *      +---+---+---+---+---+---+---+---+
+ *                one  sec +fall two          the share of a pixel right of the edge: one in the
+ *                   \_______/                first column, two in the last; between them it is
+ *                     ramp                   `second`, and `fall` more from column to column
+ *
+ *      pixel = L + share * (R - L)
+ *
+ * Invariant: what is drawn is what a window would sum, and the bits are the same whichever
+ * instructions draw it.
+ */
+#ifndef CS_AREA_DIRECT_H
+#define CS_AREA_DIRECT_H
+
+#include "base/wide.h"
+#include "engine/area/edges.h"
+#include "engine/compose/composer.h"
+#include "engine/span/row_writer.h"
+
+/* How many spans an edge becomes at most, and how many columns edges that share pixels may cross
+ * together. */
+#define CS_DIRECT_EACH 4
+#define CS_DIRECT_TOGETHER 32
+
+typedef struct cs_direct_edges {
+  const cs_active *active;
+  const cs_edges *edges;
+  const cs_cell *cells;       /* as in cs_cells */
+  const uint32_t *boundaries; /* `count` of them, to be drawn from left to right */
+  size_t count;
+  int32_t next; /* whatever is drawn after them lies at or right of this column */
+  int32_t width;
+} cs_direct_edges;
+
+/* Draws boundaries from the first one on and returns how many. It ends before a boundary that lies
+ * between cells that vary along the row, and before one that only a window can draw. Room for
+ * CS_DIRECT_EACH spans a boundary and CS_DIRECT_TOGETHER more is enough for at least one. */
+CS_WIDE_DECLARE(size_t, cs_direct_draw, (const cs_direct_edges *direct, cs_row_writer *writer));
+
+/* The area right of a straight edge in the pixels of a row, as the weight of colours: in the first
+ * column that it crosses, in the second and in the last, and what each column between has more than
+ * the one before. */
+typedef struct cs_direct_shares {
+  float one, second, two, fall;
+} cs_direct_shares;
+
+/* Draws an edge over more than two columns, [first, last]: its ends, and a ramp between them. base:
+ * the colour on its left; step: from there to its right. */
+static inline void cs_direct_ramp(cs_row_writer *writer, int32_t first, int32_t last, cs_v4 base,
+                                  cs_v4 step, cs_direct_shares shares) {
+  cs_v4 ramp = base + step * shares.second, slope = step * shares.fall;
+  cs_row_writer_to(writer, first, base);
+  cs_row_writer_to(writer, first + 1, cs_v4_bounded(base + step * shares.one));
+  if (last - first > 2 && !cs_v4_same(slope, cs_v4_all(0)))
+    cs_row_writer_gradient(writer, last, ramp, slope);
+  else
+    cs_row_writer_to(writer, last, cs_v4_bounded(ramp));
+  cs_row_writer_to(writer, last + 1, cs_v4_bounded(base + step * shares.two));
+}
+
+/* Four doubles: sums of colour steps. The alignment is that of any memory from an allocator. */
+typedef double cs_sum4 __attribute__((vector_size(32), aligned(16)));
+
+/* From a cs_v4. A macro, because a function that returns it would need the calling rules of AVX. */
+#define CS_SUM4(v) __builtin_convertvector(v, cs_sum4)
+
+/* A straight piece of an edge, and the columns [first, end) that it crosses. */
+typedef struct cs_direct_piece {
+  double xa, xb; /* at its top and at its foot */
+  double height; /* share of the row's height */
+  int32_t first, end;
+} cs_direct_piece;
+
+/* Adds a straight piece to sums by column: change[k] is by how much column `from` + k exceeds the
+ * column before. step: of colour, from its left to its right. Which columns a piece crosses can
+ * hardly be foreseen, so the only branch here is whether they are more than two. */
+static inline void cs_direct_add(cs_sum4 *change, int32_t from, cs_direct_piece piece,
+                                 const cs_sum4 *step) {
+  const int32_t first = piece.first, end = piece.end;
+  const double xa = piece.xa, xb = piece.xb, height = piece.height;
+  const double thin = 0x1p-100; /* least width: that of an upright piece would divide by 0 */
+  double low = cs_number_least(xa, xb), high = cs_number_most(xa, xb);
+  double by_twice = 0.5 / cs_number_most(high - low, thin), before = 0;
+  change += first - from;
+  if (end - first <= 2 && low >= first && high <= end) { /* nearly all pieces */
+    double split = first + 1, until = cs_number_least(high, split) - low;
+    double beyond = cs_number_most(high - split, 0), short_of = cs_number_most(split - high, 0);
+    double area = cs_edges_round(height * (until * until * by_twice + short_of));
+    double rest = cs_edges_round(height * (1 - beyond * beyond * by_twice));
+    change[0] += *step * area;
+    change[1] += *step * (rest - area);
+    change[2] += *step * (height - rest);
+    return;
+  }
+  double passed = cs_number_most(cs_number_least(first, high) - low, 0);
+  double sum = passed * passed * by_twice + cs_number_most(first - high, 0);
+  for (int32_t p = first; p < end; p++) {
+    double last = sum;
+    passed = cs_number_most(cs_number_least(p + 1, high) - low, 0);
+    sum = passed * passed * by_twice + cs_number_most(p + 1 - high, 0);
+    double area = cs_edges_round(height * (sum - last));
+    *change++ += *step * (area - before);
+    before = area;
+  }
+  *change += *step * (height - before);
+}
+
+#endif

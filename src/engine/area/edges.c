@@ -1,0 +1,112 @@
+#include "engine/area/edges.h"
+
+#include "engine/sweep/pieces.h"
+
+#include <string.h>
+
+/* Bytes of one boundary over all arrays. */
+#define ITEM_SIZE (4 * sizeof(double) + 4 * sizeof(float) + 2 * sizeof(int32_t) + sizeof(bool))
+
+/* Bytes of the arrays of `capacity` boundaries and of the gap before them, which aligns them. */
+static size_t storage_size(size_t capacity) {
+  return capacity > 0 ? capacity * ITEM_SIZE + CS_WIDE_LINE : 0;
+}
+
+void cs_edges_finish(cs_edges *edges, cs_memory *memory) {
+  cs_mem_free(memory, edges->storage, storage_size(edges->capacity));
+  *edges = (cs_edges){0};
+}
+
+/* The wider items come first, so that each array is aligned. Vector code works beyond the count:
+ * there zeros are quick, while leftover memory may hold denormal numbers, which are slow. */
+static celspan_status make_room(celspan_context *context, cs_edges *edges, size_t count) {
+  if (count <= edges->capacity)
+    return CELSPAN_OK;
+  size_t wanted = 2 * count;
+  void *storage = cs_mem_array(context->memory, 1, storage_size(wanted));
+  if (!storage)
+    return cs_fail_memory(context);
+  double *doubles = cs_wide_align(storage);
+  cs_mem_free(context->memory, edges->storage, storage_size(edges->capacity));
+  *edges = (cs_edges){.isa = cs_isa_best(),
+                      .low = doubles,
+                      .high = doubles + wanted,
+                      .area = doubles + 2 * wanted,
+                      .rest = doubles + 3 * wanted,
+                      .one = (float *)(doubles + 4 * wanted),
+                      .storage = storage,
+                      .capacity = wanted};
+  edges->two = edges->one + wanted;
+  edges->second = edges->two + wanted;
+  edges->fall = edges->second + wanted;
+  edges->first = (int32_t *)(edges->fall + wanted);
+  edges->end = edges->first + wanted;
+  edges->is_bent = (bool *)(edges->end + wanted);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- bent */
+
+/* Adds the areas right of a straight piece: in the column that ends at `split` to *area, and in the
+ * column after it to *rest. */
+static void add_piece(double *area, double *rest, celspan_point above, celspan_point below,
+                      double height, double split) {
+  double low = above.x < below.x ? above.x : below.x, high = above.x < below.x ? below.x : above.x;
+  double middle = 0.5 * (low + high);
+  if (high <= split) {
+    *area += cs_edges_round(height * (split - middle));
+    *rest += height;
+  } else if (low >= split) {
+    *rest += cs_edges_round(height * (split + 1 - middle));
+  } else {
+    double by_twice = 0.5 / (high - low);
+    *area += cs_edges_round(height * ((split - low) * (split - low) * by_twice));
+    *rest += cs_edges_round(height * (1 - (high - split) * (high - split) * by_twice));
+  }
+}
+
+/* The areas of a bent boundary over at most two columns. */
+static void measure_pieces(cs_edges *edges, const cs_active *active, const cs_bend *bend) {
+  size_t i = bend->boundary;
+  double area = 0, rest = 0, split = edges->first[i] + 1, passed = 0;
+  for (cs_pieces p = cs_pieces_of(active, i, bend); cs_pieces_next(&p);) {
+    double reached = cs_edges_round(p.below.y - active->y);
+    add_piece(&area, &rest, p.above, p.below, reached - passed, split);
+    passed = reached;
+  }
+  edges->area[i] = area;
+  edges->rest[i] = edges->end[i] - edges->first[i] > 1 ? rest : 1;
+  edges->one[i] = (float)edges->area[i];
+  edges->two[i] = (float)edges->rest[i];
+}
+
+/* As cs_edges_straight for a boundary with vertices in the row. */
+static void measure_bent(cs_edges *edges, const cs_active *active, const cs_bend *bend,
+                         int32_t width) {
+  size_t i = bend->boundary;
+  edges->low[i] = bend->low;
+  edges->high[i] = bend->high;
+  edges->is_bent[i] = true;
+  edges->fall[i] = 0;
+  edges->first[i] = cs_edges_floor(bend->low, width);
+  edges->end[i] = cs_edges_ceil(bend->high, width);
+  bool leaves = (bend->low < 0 && bend->high > 0) || (bend->high > width && bend->low < width);
+  if (leaves && edges->end[i] < edges->first[i] + 3)
+    edges->end[i] = edges->first[i] + 3;
+  if (edges->end[i] <= edges->first[i] + 2)
+    measure_pieces(edges, active, bend);
+}
+
+celspan_status cs_edges_measure(celspan_context *context, cs_edges *edges, const cs_active *active,
+                                int32_t width) {
+  size_t count = cs_advance_whole(active->count);
+  CS_TRY(make_room(context, edges, count));
+  CS_WIDE_CHOOSE(edges->isa, cs_edges_straight)
+  (edges, active->x, active->x_next, count, width);
+  if (count > 0) /* else there is no room yet */
+    memset(edges->is_bent, 0, count * sizeof *edges->is_bent);
+  for (size_t k = 0; k < active->bend_count; k++)
+    if (active->bends[k].vertex_count > 0)
+      measure_bent(edges, active, &active->bends[k], width);
+  return CELSPAN_OK;
+}

@@ -1,0 +1,85 @@
+/* The edges of a row: where every active boundary lies in it, and the area right of it in the
+ * pixels that it crosses, for all boundaries at once and several at a time.
+ *
+ *           low            high
+ *            |               |
+ *      +-----.-+-------+-------+-----
+ *      |     `.|#######|#######|##         ###: right of the edge
+ *      |       |`-.####|#######|##         area: the share of the first column
+ *      |       |   `-.#|#######|##         rest: the share of the last column
+ *      |       |      `|-.#####|##         fall: by how much the share grows from each column
+ *      |       |       |  `-.##|##               between them to the next
+ *      +-------+-------+-----`-+----
+ *      first   second  last
+ *
+ * Invariants: the values are the same whichever instructions compute them. Areas are multiples of
+ * 2^-28 (see window.h) of a whole row's height. They are given where the boundary crosses at most
+ * two columns, or is straight and stays in the frame; `end` of one that leaves the frame sideways
+ * is at least first + 3, or first when it does not enter it.
+ */
+#ifndef CS_AREA_EDGES_H
+#define CS_AREA_EDGES_H
+
+#include "base/number.h"
+#include "base/wide.h"
+#include "engine/sweep/active.h"
+
+typedef struct cs_edges {
+  cs_isa isa;           /* the instructions that straight boundaries are measured with */
+  double *low, *high;   /* least and greatest x in the row */
+  double *area, *rest;  /* shares of its first and of its last column that lie right of it */
+  float *one, *two;     /* area and rest again, as colours are weighted by them */
+  float *second, *fall; /* over more than two columns: the area in its second, and by how much it
+                           grows from each column to the next; 0 where areas are not given */
+  int32_t *first, *end; /* the columns it crosses; empty when it lies on a pixel's edge */
+  bool *is_bent;        /* it has vertices in the row */
+  void *storage;        /* one allocation, of all the arrays above */
+  size_t capacity;      /* of each of them */
+} cs_edges;
+
+void cs_edges_finish(cs_edges *edges, cs_memory *memory);
+/* Measures the boundaries between the current height and the height advanced to. width: of the row.
+ * Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_edges_measure(celspan_context *context, cs_edges *edges,
+                                                const cs_active *active, int32_t width);
+
+/* ---- edges_wide.c: the boundaries as if all were straight */
+
+CS_WIDE_DECLARE(void, cs_edges_straight,
+                (cs_edges * edges, const double *top, const double *foot, size_t count,
+                 int32_t width));
+
+/* Columns of the frame at or left of x (floor) and at or right of it (ceil), clamped to the row; 0
+ * of what is no number. */
+static inline int32_t cs_edges_floor(double x, int32_t width) {
+  return !(x > 0) ? 0 : x >= width ? width : (int32_t)x;
+}
+
+static inline int32_t cs_edges_ceil(double x, int32_t width) {
+  int32_t column = cs_edges_floor(x, width);
+  return column + (column < x && column < width);
+}
+
+/* To the nearest multiple of 2^-28, for |x| < 2^22: sums of such numbers are exact. */
+static inline double cs_edges_round(double x) {
+  const double bias = 0x1.8p24;
+  return (x + bias) - bias;
+}
+
+/* The integral up to x of the share of a piece's height at which the piece is left of that x. */
+static inline double cs_edges_passed(double low, double high, double x) {
+  return x <= low    ? 0
+         : x >= high ? (x - high) + 0.5 * (high - low)
+                     : (x - low) * (x - low) / (2 * (high - low));
+}
+
+/* The area right of a straight piece from xa to xb in the pixel of column p, 0..height. */
+static inline double cs_edges_cover(double xa, double xb, double height, int32_t p) {
+  double low = xa < xb ? xa : xb, high = xa < xb ? xb : xa;
+  if (low == high)
+    return cs_edges_round(height * cs_number_clamp(p + 1 - low, 0, 1));
+  return cs_edges_round(height *
+                        (cs_edges_passed(low, high, p + 1) - cs_edges_passed(low, high, p)));
+}
+
+#endif

@@ -1,0 +1,278 @@
+#include "engine/area/intersections.h"
+
+#include "base/vector.h"
+#include "engine/area/extent.h"
+
+#include <math.h>
+
+#define FOUR 4   /* shares that are compared at a time */
+#define BATCH 16 /* places that have a common least share */
+
+/* Bytes of one edge over all arrays. */
+#define ITEM_SIZE (sizeof(cs_active_edge) + 4 * sizeof(double) + 3 * sizeof(uint32_t))
+
+void cs_intersections_finish(cs_intersections *intersections, cs_memory *memory) {
+  cs_mem_free(memory, intersections->storage, intersections->edge_capacity * ITEM_SIZE);
+  cs_mem_free(memory, intersections->intersections,
+              intersections->capacity * sizeof *intersections->intersections);
+  *intersections = (cs_intersections){0};
+}
+
+/* The wider items come first, so that each array is aligned. */
+celspan_status cs_intersections_reserve(cs_intersections *intersections, celspan_context *context,
+                                        size_t edges) {
+  if (edges <= intersections->edge_capacity)
+    return CELSPAN_OK;
+  size_t wanted = (2 * edges + BATCH - 1) / BATCH * BATCH;
+  void *storage = cs_mem_array(context->memory, wanted, ITEM_SIZE);
+  if (!storage)
+    return cs_fail_memory(context);
+  cs_mem_free(context->memory, intersections->storage, intersections->edge_capacity * ITEM_SIZE);
+  intersections->storage = intersections->edges = storage;
+  intersections->top = (double *)(intersections->edges + wanted);
+  intersections->foot = intersections->top + wanted;
+  intersections->shares = intersections->foot + wanted;
+  intersections->least = intersections->shares + wanted;
+  intersections->order = (uint32_t *)(intersections->least + wanted);
+  intersections->first = intersections->order + wanted;
+  intersections->last = intersections->first + wanted;
+  intersections->edge_capacity = wanted;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- shares of a step */
+
+/* At which share of the step the boundary at a place crosses its right neighbour. Whether it does
+ * can hardly be foreseen, so the division is always made. */
+static inline double find_share(const cs_intersections *m, size_t place) {
+  double foot = m->foot[place] - m->foot[place + 1], gap = m->top[place + 1] - m->top[place];
+  double top = gap > 0 ? gap : 0, share = top / (top + foot);
+  return foot > 0 ? share : INFINITY;
+}
+
+static inline size_t batch_count(size_t count) { return (count + BATCH - 1) / BATCH; }
+
+/* The least of some shares, in both lanes. count: a multiple of four. */
+static inline cs_v2d least_of(const double *shares, size_t count) {
+  cs_v2d low = cs_v2d_load(shares), high = cs_v2d_load(shares + 2);
+  for (size_t i = FOUR; i < count; i += FOUR) {
+    low = cs_v2d_min(cs_v2d_load(shares + i), low);
+    high = cs_v2d_min(cs_v2d_load(shares + i + 2), high);
+  }
+  low = cs_v2d_min(low, high);
+  return cs_v2d_min(low, (cs_v2d){low[1], low[0]});
+}
+
+static void find_batch_least(cs_intersections *m, size_t batch) {
+  m->least[batch] = least_of(m->shares + batch * BATCH, BATCH)[0];
+}
+
+/* Whether there are so many places that the least share of every batch is kept. */
+static inline bool has_batches(size_t count) { return count > BATCH + 1; }
+
+/* Finds all shares, and fills the last four up. Returns whether any two cross. */
+static bool find_shares(cs_intersections *m, size_t count) {
+  int64_t crossings = 0;
+  for (size_t place = 0; place + 1 < count; place++) {
+    m->shares[place] = find_share(m, place);
+    crossings += m->foot[place] > m->foot[place + 1];
+  }
+  if (crossings == 0)
+    return false;
+  size_t unit = has_batches(count) ? BATCH : FOUR;
+  for (size_t place = count - 1; place % unit > 0; place++)
+    m->shares[place] = INFINITY;
+  for (size_t batch = 0; has_batches(count) && batch < batch_count(count - 1); batch++)
+    find_batch_least(m, batch);
+  return true;
+}
+
+/* The first place of the least among at most BATCH shares, a multiple of four. Where it is can
+ * hardly be foreseen, so nothing here is a branch. */
+static inline size_t find_least(const double *shares, size_t count) {
+  cs_v2d least = least_of(shares, count);
+  unsigned places = 0;
+  for (size_t i = 0; i < count; i += 2)
+    places |= cs_v2d_equal(cs_v2d_load(shares + i), least) << i;
+  return (size_t)__builtin_ctz(places);
+}
+
+static inline size_t find_least_batch(const cs_intersections *m, size_t count) {
+  double least = m->least[0];
+  size_t batch = 0;
+  for (size_t i = 1; i < count; i++)
+    least = m->least[i] < least ? m->least[i] : least;
+  for (size_t i = count; i-- > 0;)
+    batch = m->least[i] == least ? i : batch;
+  return batch;
+}
+
+/* The place of the next intersection; false: there is none left. */
+static bool find_next(const cs_intersections *m, size_t count, size_t *place) {
+  if (!has_batches(count)) {
+    *place = find_least(m->shares, (count - 1 + FOUR - 1) / FOUR * FOUR);
+  } else {
+    size_t batch = find_least_batch(m, batch_count(count - 1));
+    *place = batch * BATCH + find_least(m->shares + batch * BATCH, BATCH);
+  }
+  return m->shares[*place] < INFINITY;
+}
+
+/* ---------------------------------------------------------------- swaps */
+
+static inline void exchange(double *a, double *b) {
+  double kept = *a;
+  *a = *b;
+  *b = kept;
+}
+
+static inline void move_to(cs_active_edge *edge, double x, double y) {
+  edge->last_at = edge->at;
+  edge->last_x = x;
+  edge->last_y = y;
+}
+
+/* The boundaries at `place` and right of it change places, in that share of the step. */
+static celspan_status swap_places(cs_intersections *m, celspan_context *context, size_t place,
+                                  double share, double y) {
+  if (m->count == m->capacity)
+    CS_TRY(cs_mem_reserve(context, (void **)&m->intersections, &m->capacity, m->count + 1,
+                          sizeof *m->intersections));
+  uint32_t index = (uint32_t)m->count++, left = m->order[place], right = m->order[place + 1];
+  double left_x = m->top[place] + (m->foot[place] - m->top[place]) * share;
+  double right_x = m->top[place + 1] + (m->foot[place + 1] - m->top[place + 1]) * share;
+  cs_active_edge *from = &m->edges[left], *to = &m->edges[right];
+  bool is_first = m->first[place] == CS_INTERSECTIONS_NONE;
+  uint32_t previous = is_first ? CS_INTERSECTIONS_NONE : m->last[place];
+  m->intersections[index] = (cs_intersection){
+      y, left_x, right_x, from->at, to->at, left, right, CS_INTERSECTIONS_NONE, previous, NULL};
+  move_to(from, left_x, y);
+  move_to(to, right_x, y);
+  *(is_first ? &m->first[place] : &m->intersections[previous].next) = index;
+  m->last[place] = index;
+  m->order[place] = right;
+  m->order[place + 1] = left;
+  exchange(&m->top[place], &m->top[place + 1]);
+  exchange(&m->foot[place], &m->foot[place + 1]);
+  return CELSPAN_OK;
+}
+
+/* Finds the intersections of a step. */
+static celspan_status find_in_step(cs_intersections *m, celspan_context *context, size_t count,
+                                   double y0, double y1) {
+  double share = 0; /* of the step, so far */
+  if (!find_shares(m, count))
+    return CELSPAN_OK;
+  for (size_t place; find_next(m, count, &place);) {
+    share = m->shares[place] > share ? m->shares[place] : share;
+    CS_TRY(swap_places(m, context, place, share, y0 + (y1 - y0) * share));
+    size_t first = place > 0 ? place - 1 : 0, last = place + 2 < count ? place + 1 : place;
+    for (size_t i = first; i <= last; i++)
+      m->shares[i] = find_share(m, i);
+    if (has_batches(count))
+      find_batch_least(m, first / BATCH);
+    if (last / BATCH != first / BATCH)
+      find_batch_least(m, last / BATCH);
+  }
+  return CELSPAN_OK;
+}
+
+/* x at a height of the segment that ends at a point. At the point it is exactly that of the point;
+ * whether it is there can hardly be foreseen, so the division is always made. */
+static inline double segment_x(const celspan_point *end, double y) {
+  const celspan_point *from = end - 1;
+  double x = from->x + (end->x - from->x) * ((y - from->y) / (end->y - from->y));
+  return y >= end->y ? end->x : x;
+}
+
+/* ---------------------------------------------------------------- slabs without any */
+
+/* The way of an edge from a height, where it is at x, to a lower one. */
+typedef struct way {
+  cs_extent extent;
+  double foot; /* x at the lower height */
+  uint32_t at; /* the segment on which that is */
+} way;
+
+static inline way find_way(const cs_active_edge *edge, double x, double y0, double y1) {
+  way w = {{x, x}, 0, edge->at};
+  w.at += edge->points[w.at].y <= y0;
+  for (; edge->points[w.at].y < y1; w.at++)
+    cs_extent_add(&w.extent, edge->points[w.at].x);
+  w.foot = segment_x(edge->points + w.at, y1);
+  cs_extent_add(&w.extent, w.foot);
+  return w;
+}
+
+/* Whether the left of two neighbours is right of the other one at any vertex below y0, or at y1. */
+static bool do_cross(const cs_active_edge *left, const cs_active_edge *right, double y0,
+                     double y1) {
+  const celspan_point *a = left->points + left->at, *b = right->points + right->at;
+  for (double y = y0; y < y1;) {
+    a += a->y <= y;
+    b += b->y <= y;
+    y = a->y < b->y ? a->y : b->y;
+    y = y < y1 ? y : y1;
+    if (segment_x(a, y) > segment_x(b, y))
+      return true;
+  }
+  return false;
+}
+
+/* Goes down to y1 at once where no two neighbours cross on the way, which is nearly always so;
+ * false: some do, and nothing is changed. */
+static bool go_straight(cs_intersections *m, size_t count, double y0, double y1) {
+  double high = -INFINITY;
+  for (size_t i = 0; i < count; i++) {
+    way w = find_way(&m->edges[i], m->foot[i], y0, y1);
+    if (w.extent.low < high && do_cross(&m->edges[i - 1], &m->edges[i], y0, y1))
+      return false;
+    high = w.extent.high;
+    m->top[i] = w.foot; /* kept here until it is known that nothing crosses */
+    m->last[i] = w.at;
+  }
+  for (size_t i = 0; i < count; i++) {
+    m->foot[i] = m->top[i];
+    m->edges[i].at = m->last[i];
+  }
+  return true;
+}
+
+/* ---------------------------------------------------------------- steps */
+
+/* Moves on to the segments that continue below y, where a step has ended. Returns where the first
+ * of them ends, or y1. */
+static double begin_step(cs_intersections *m, size_t count, double y, double y1) {
+  double end = y1;
+  for (size_t i = 0; i < count; i++) {
+    cs_active_edge *edge = &m->edges[i];
+    edge->at += edge->points[edge->at].y <= y;
+    double next = edge->points[edge->at].y;
+    end = next < end ? next : end;
+  }
+  return end;
+}
+
+celspan_status cs_intersections_find(cs_intersections *m, celspan_context *context, size_t count,
+                                     double y0, double y1) {
+  m->count = 0;
+  for (size_t i = 0; i < count; i++) {
+    cs_active_edge *edge = &m->edges[i];
+    while (edge->points[edge->at].y < y0)
+      edge->at++;
+    m->order[i] = (uint32_t)i;
+    m->first[i] = CS_INTERSECTIONS_NONE;
+  }
+  if (go_straight(m, count, y0, y1))
+    return CELSPAN_OK;
+  for (double y = y0, end; y < y1; y = end) {
+    end = begin_step(m, count, y, y1);
+    for (size_t place = 0; place < count; place++) {
+      const cs_active_edge *edge = &m->edges[m->order[place]];
+      m->top[place] = m->foot[place]; /* the last step ended at this height, on the same x */
+      m->foot[place] = segment_x(edge->points + edge->at, end);
+    }
+    CS_TRY(find_in_step(m, context, count, y, end));
+  }
+  return CELSPAN_OK;
+}

@@ -1,0 +1,90 @@
+/* Intervals: which neighbouring boundaries of a row must be replayed together.
+ *
+ *      places   0     1   2      3        4   5
+ *      y    ----|-----\---/------|--------|---|----
+ *               |      \ /       |    .   |   |
+ *               |       x        |   / \  |   |         1 and 2 cross: an inversion group
+ *               |      / \       |  /   \ |   |         something begins at the dot
+ *      y+1  ----|-----/---\------|-/-----\|---|----
+ *                     [---]      [--------]
+ *                    interval     interval: 3 and 4 with what begins, because it may meet them
+ *
+ *   inversion group   neighbours that cross, with all that they may cross on the way
+ *   events            what begins and ends at one height in one layer (its windings balance only
+ *                     together), with all between, and all that it may meet further down
+ *
+ * An interval is one of these, or several that touch; intervals in which what begins could meet are
+ * one. So work is done where something happens, and not over the whole row.
+ *
+ * Invariant: after cs_intervals_find the intervals ascend and share no boundary; a place between
+ * two boundaries (low == high) touches no other interval.
+ */
+#ifndef CS_AREA_INTERVALS_H
+#define CS_AREA_INTERVALS_H
+
+#include "engine/area/edges.h"
+#include "engine/area/extent.h"
+#include "engine/area/local_sweep.h"
+
+/* Neighbours [low, high) that are replayed together; low == high: what begins and ends between two
+ * boundaries. */
+typedef struct cs_interval {
+  size_t low, high;
+  size_t last_low;  /* the greatest `low` of the intervals that were merged into it */
+  cs_extent events; /* of what begins or ends in it */
+  cs_extent extent; /* of its boundaries, and of what begins, in the row */
+} cs_interval;
+
+/* A begin or an end inside the row, and the extent in the row of what begins or ends. */
+typedef struct cs_interval_event {
+  double y;
+  cs_extent extent;
+  uint32_t layer;
+  int32_t begin; /* which of `begins` this is about; -1: a boundary that ends */
+  bool is_end;
+} cs_interval_event;
+
+/* In which interval something begins. */
+typedef struct cs_interval_begin {
+  size_t low; /* of the interval, before it was merged with others */
+  size_t begin;
+} cs_interval_begin;
+
+typedef struct cs_intervals {
+  /* given: borrowed */
+  celspan_context *context;
+  cs_arena *arena; /* of the row */
+  const cs_active *active;
+  const cs_edges *edges;      /* of the active boundaries */
+  double y0, y1;              /* the row, or a slab of it */
+  cs_member *procedure_edges; /* of scan-line primitives on this row */
+  size_t procedure_edge_count;
+  cs_extent procedures; /* of them */
+  /* found */
+  cs_interval *intervals; /* from left to right; while they are being found, groups come first */
+  size_t count, capacity, group_count;
+  cs_member *begins;            /* chains that begin inside the row, then the edges of procedures */
+  cs_interval *begin_intervals; /* for each: where its begin is replayed */
+  cs_interval_begin *begin_order; /* from left to right */
+  size_t begin_count, chain_count;
+  size_t picked; /* how many of begin_order have been handed out */
+  cs_interval_event *events;
+  size_t event_count;
+} cs_intervals;
+
+/* How many chains begin between the active boundaries' height and y1. */
+size_t cs_intervals_count_begins(const cs_active *active, double y1);
+/* Finds the intervals of the row that the active boundaries have been advanced through.
+ * Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_intervals_find(cs_intervals *intervals);
+/* Copies of the members that begin in an interval, by height, then x, then order. The intervals are
+ * asked from left to right. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_intervals_pick_begins(cs_intervals *intervals,
+                                                        const cs_interval *interval,
+                                                        cs_member **begins, size_t *count);
+/* Makes a member of active boundary i, at the top of its polyline through the row.
+ * Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_intervals_member(const cs_intervals *intervals, size_t i,
+                                                   cs_member *member);
+
+#endif

@@ -1,0 +1,119 @@
+/* Local sweeps: the small groups of boundaries that cross, begin or end inside a row of pixels are
+ * followed from its top to its foot, event by event.
+ *
+ *     y0  ------a-----b-----c---------   members at the top of the row, from left to right
+ *                \   /      |
+ *        slab     \ /       |
+ *                  x        |            intersection: a and b change places, and the one cell
+ *                 / \       |            between them is composed
+ *     y   -------b---a------c------d--   c ends and d begins: the next slab begins here
+ *        slab    |    \           /
+ *     y1  -------b-----a---------d----
+ *
+ *   slab          the heights between two at which some member begins or ends
+ *   intersection  two neighbours cross inside a slab (intersections.h)
+ *
+ * Intersections are found from the highest to the lowest. Their cells are then composed place by
+ * place: what is visible right of a place depends on the intersections there alone, so the composer
+ * goes from one to the next with few crossings. Swaps are always of neighbours, so an order exists
+ * at every moment and the work is bounded by the number of inversions.
+ *
+ * Invariant: the effect of a local sweep is closed: left of it and right of it the sets of layers
+ * present stay the same through the row. It knows only the members of its struct.
+ */
+#ifndef CS_AREA_LOCAL_SWEEP_H
+#define CS_AREA_LOCAL_SWEEP_H
+
+#include "engine/area/intersections.h"
+#include "engine/area/window.h"
+#include "engine/compose/cells.h"
+#include "engine/kernel/retained.h"
+
+/* Where the edge segments of a row go: to the window, which makes the row's pixels, or into a row
+ * of retained edges, for filters that extend over several rows.
+ *
+ *   lone boundaries --+                    +--> cs_window         pixels and spans of this row
+ *                     +--> segments: target
+ *   local sweeps   ---+                    +--> cs_retained_row   kept for kernel/, no pixels
+ *
+ * Invariant: items (lone boundaries and local sweeps) come from left to right; `retained` does not
+ * change between the beginning and the end of a row.
+ */
+
+typedef struct cs_target {
+  cs_window window;
+  cs_retained_row *retained; /* borrowed; NULL: the window has the segments */
+} cs_target;
+
+/* An item begins whose least x is `x`. */
+static inline CELSPAN_CHECKED celspan_status cs_target_begin_item(cs_target *target, double x) {
+  return target->retained ? CELSPAN_OK : cs_window_begin_item(&target->window, x);
+}
+
+/* A segment of the current item between two cells. */
+static inline CELSPAN_CHECKED celspan_status cs_target_add(cs_target *target,
+                                                           const cs_segment *segment,
+                                                           const cs_cell *left,
+                                                           const cs_cell *right) {
+  return target->retained
+             ? cs_retained_add(target->retained, target->window.composer, segment, left, right)
+             : cs_window_add(&target->window, segment, left, right);
+}
+
+/* One boundary of a local sweep: a polyline downwards from where it enters the row or begins. */
+typedef struct cs_member {
+  const celspan_point *points; /* ascending in y */
+  uint32_t point_count;
+  uint32_t at; /* the segment that y is on ends at points[at]; point_count: it has ended */
+  uint32_t layer;
+  uint32_t span;  /* of a procedure; UINT32_MAX for a chain */
+  uint32_t order; /* settles ties: the chain, or the edge of the procedure's span */
+  uint32_t place; /* in the order at the top of the row; UINT32_MAX: it begins in the row */
+  int32_t direction;
+  double x, y; /* its segments have been drawn down to here */
+  double foot; /* x at the foot of the current slab */
+  const cs_cell *right;
+} cs_member;
+
+typedef struct cs_local_sweep {
+  cs_composer *composer; /* borrowed */
+  cs_arena *arena;       /* borrowed: of the row, for cells */
+  cs_target *target;     /* borrowed: gets the edge segments */
+  /* given for each replay */
+  double y0, y1;       /* the row, or a slab of it */
+  const cs_cell *left; /* of all its members */
+  cs_member *begins;   /* those still to begin, by height, then x, then order */
+  size_t begin_count;
+  cs_deferred_cursor deferred; /* from the least x of the members on */
+  /* while it runs */
+  cs_member **members; /* those that are there at the current height, in order */
+  size_t count;
+  cs_member **spare;           /* room for as many */
+  const cs_cell **cells_below; /* right of each place at the foot of a slab; room for as many */
+  size_t crossed;              /* the composer is right of this many members, */
+  bool is_low;                 /* in their order at the foot of the slab, not at its top */
+  /* its own room, kept from one replay to the next */
+  cs_intersections intersections;
+  cs_member *entering; /* the members at the top of the row */
+  void **lists;        /* for members, spare and cells_below */
+  size_t member_capacity, list_capacity;
+} cs_local_sweep;
+
+void cs_local_sweep_init(cs_local_sweep *sweep, cs_composer *composer, cs_arena *arena,
+                         cs_target *target);
+void cs_local_sweep_finish(cs_local_sweep *sweep, cs_memory *memory);
+/* Makes room for `count` members at the top of the row, which the caller then fills through
+ * `members`, and for those that begin. y0, y1, left, begins and begin_count are given.
+ * Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_local_sweep_begin(cs_local_sweep *sweep, size_t count);
+/* Draws the members through the row. The composer is left of them all, and is there again
+ * afterwards. */
+CELSPAN_CHECKED celspan_status cs_local_sweep_replay(cs_local_sweep *sweep);
+
+/* The same for boundaries i and i + 1, straight through the row, that cross once, which is what
+ * nearly all local sweeps are. Given are left, of both, and deferred. *between: the
+ * cell between them after they have crossed, good until the row is done. */
+CELSPAN_CHECKED celspan_status cs_local_sweep_pair(cs_local_sweep *sweep, const cs_active *active,
+                                                   size_t i, const cs_cell **between);
+
+#endif

@@ -1,0 +1,462 @@
+/* Closing windows: how the pixels of one are made from its segments.
+ *
+ *   one segment over several columns, flat cells    its ends and a ramp            close_lone
+ *   flat cells, few columns                         the sums made on the way       close_narrow
+ *   flat cells, many columns                        sums, tile by tile             close_wide
+ *   cells that vary                                 colours weighted by areas      close_varying
+ */
+#include "engine/area/window.h"
+
+#include "base/number.h"
+#include "base/sort.h"
+#include "engine/area/direct.h"
+#include "engine/paint/colours.h"
+#include "engine/paint/run.h"
+#include "engine/sweep/pieces.h"
+
+#include <math.h>
+
+#define TILE 256 /* pixels summed at a time */
+#define FEW 2    /* pixels of a window between cells that vary, at most, that become single spans */
+
+/* Clears the sums of the open window. */
+static void clear_change(cs_window *window) {
+  int32_t columns = window->end - window->from;
+  columns = columns < CS_WINDOW_NARROW ? columns : CS_WINDOW_NARROW;
+  memset(window->change, 0, (size_t)(columns + 3) * sizeof *window->change);
+}
+
+void cs_window_init(cs_window *window, cs_painter *painter, cs_arena *arena, int32_t width) {
+  *window = (cs_window){
+      .painter = painter, .composer = painter->composer, .arena = arena, .width = width};
+}
+
+void cs_window_finish(cs_window *window, cs_memory *memory) {
+  cs_mem_free(memory, window->segments, window->segment_capacity * sizeof *window->segments);
+  cs_arena_finish(&window->tiles, memory);
+}
+
+void cs_window_begin_row(cs_window *window, int32_t y, const cs_cell *leftmost, cs_row *out) {
+  if (window->is_open) /* a row failed */
+    clear_change(window);
+  window->out = out;
+  window->centre = y + 0.5;
+  window->from = window->end = 0;
+  window->base = window->cell = leftmost;
+  window->segment_count = 0;
+  window->is_open = window->varies = window->is_whole_row = false;
+}
+
+void cs_window_open_row(cs_window *window) {
+  window->is_open = window->is_whole_row = true;
+  window->varies = window->base->length > 0;
+}
+
+/* The area right of the segment in the pixel of column p, 0..height. */
+static inline double cover(const cs_window_segment *f, int32_t p) {
+  return cs_edges_cover(f->xa, f->xb, f->height, p);
+}
+
+/* ---------------------------------------------------------------- closing */
+
+/* One segment that crosses columns, between flat cells. */
+static celspan_status close_lone(cs_window *window) {
+  const cs_window_segment *f = &window->segments[0];
+  cs_v4 base = window->base->colour, step = f->right->colour - f->left->colour;
+  int32_t last = f->end - 1;
+  double across = f->xa < f->xb ? f->xb - f->xa : f->xa - f->xb;
+  cs_direct_shares shares = {(float)cover(f, f->first), (float)cover(f, f->first + 1),
+                             (float)cover(f, last), (float)(f->height / across)};
+  CS_TRY(cs_row_reserve(window->composer->context, window->out, CS_DIRECT_EACH));
+  cs_row_writer p = cs_row_writer_begin(window->out, window->from);
+  cs_direct_ramp(&p, f->first, last, base, step, shares);
+  cs_row_writer_end(&p);
+  return CELSPAN_OK;
+}
+
+/* The first column at or right of p where some segment changes the sum; end when none does. */
+static int32_t next_change(const cs_window *window, int32_t p) {
+  int32_t next = window->end;
+  for (size_t i = 0; i < window->segment_count; i++) {
+    const cs_window_segment *f = &window->segments[i];
+    int32_t at = f->first > p ? f->first : p;
+    if (f->end >= p && at < next)
+      next = at;
+  }
+  return next;
+}
+
+/* Adds a segment to the sums by column: change[k] is by how much column p0 + k exceeds the one
+ * before.
+ */
+static void add_changes(const cs_window_segment *f, int32_t p0, int32_t p1, cs_sum4 *change) {
+  cs_sum4 step = CS_SUM4(f->right->colour) - CS_SUM4(f->left->colour);
+  int32_t p = f->first > p0 ? f->first : p0, end = f->end < p1 - 1 ? f->end : p1 - 1;
+  double before = p > f->first ? cover(f, p - 1) : 0;
+  for (; p <= end; p++) {
+    double now = p < f->end ? cover(f, p) : f->height;
+    change[p - p0] += step * (now - before);
+    before = now;
+  }
+}
+
+/* Draws the pixels from the writer's end to p1, and leaves the sum as it is in the last of them. */
+static inline void draw_sums(cs_row_writer *p, int32_t p1, const cs_sum4 *change, cs_sum4 *sum) {
+  for (int32_t k = 0, count = p1 - p->from; k < count; k++) {
+    *sum += change[k];
+    cs_row_writer_to(p, p->from + 1, cs_v4_bounded(__builtin_convertvector(*sum, cs_v4)));
+  }
+}
+
+/* Flat cells on all sides: sums of colour steps, in the order of the segments. */
+static celspan_status close_wide(cs_window *window) {
+  cs_sum4 change[TILE], sum = CS_SUM4(window->base->colour);
+  for (int32_t p0 = window->from; p0 < window->end;) {
+    int32_t next = next_change(window, p0);
+    int32_t stop = window->end - next < TILE ? window->end : next + TILE;
+    memset(change, 0, (size_t)(stop - next) * sizeof *change);
+    for (size_t i = 0; i < window->segment_count; i++)
+      add_changes(&window->segments[i], next, stop, change);
+    CS_TRY(cs_row_reserve(window->composer->context, window->out, (size_t)(stop - next) + 1));
+    cs_row_writer p = cs_row_writer_begin(window->out, window->from);
+    cs_row_writer_to(&p, next, cs_v4_bounded(__builtin_convertvector(sum, cs_v4)));
+    draw_sums(&p, stop, change, &sum);
+    cs_row_writer_end(&p);
+    window->from = p0 = stop;
+  }
+  return CELSPAN_OK;
+}
+
+/* The same where the window is a few pixels wide, as nearly all are: it has been summed already. */
+static celspan_status close_narrow(cs_window *window) {
+  cs_sum4 sum = CS_SUM4(window->base->colour);
+  CS_TRY(
+      cs_row_reserve(window->composer->context, window->out, (size_t)(window->end - window->from)));
+  cs_row_writer p = cs_row_writer_begin(window->out, window->from);
+  draw_sums(&p, window->end, window->change, &sum);
+  cs_row_writer_end(&p);
+  return CELSPAN_OK;
+}
+
+/* ---- cells that vary: every cell's colour at the pixel's centre, weighted by its area there
+ *
+ * The window is made in tiles from left to right. A segment takes area from the cell on its left
+ * and gives it to the one on its right: pixel by pixel in the columns that it crosses, and as a
+ * whole (the cell's carry) in all tiles after. Areas add exactly, so a cell that is not in a pixel
+ * weighs 0 there. */
+
+typedef struct weighted_cell {
+  const cs_cell *cell;
+  double carry;    /* its weight in pixels that no segment crosses */
+  double *weights; /* one a pixel of the tile; NULL: the carry in all of them */
+} weighted_cell;
+
+typedef struct cell_edge {
+  const cs_window_segment *segment;
+  uint32_t left, right; /* indices into cells */
+} cell_edge;
+
+typedef struct mixture {
+  cs_window *window;
+  weighted_cell *cells;
+  size_t cell_count;
+  cell_edge *edges; /* by first column */
+  size_t edge_count;
+  size_t begun, ended; /* edges [ended, begun) may cross the tile */
+} mixture;
+
+/* The index of a cell, or of another cell with the same colours. */
+static uint32_t find_cell(mixture *m, const cs_cell *cell) {
+  for (size_t i = 0; i < m->cell_count; i++)
+    if (m->cells[i].cell == cell || cs_composer_same(m->window->composer, m->cells[i].cell, cell))
+      return (uint32_t)i;
+  m->cells[m->cell_count] = (weighted_cell){.cell = cell};
+  return (uint32_t)m->cell_count++;
+}
+
+static inline bool edge_is_before(const cell_edge *a, const cell_edge *b) {
+  return a->segment->first != b->segment->first ? a->segment->first < b->segment->first
+                                                : a->segment < b->segment;
+}
+
+CS_SORT_DEFINE(sort_edges, cell_edge, edge_is_before)
+
+static celspan_status begin_mixture(cs_window *window, mixture *m) {
+  celspan_context *context = window->composer->context;
+  size_t count = window->segment_count;
+  *m = (mixture){.window = window, .edge_count = count};
+  m->cells = cs_arena_take(context, window->arena, (2 * count + 1) * sizeof *m->cells);
+  m->edges = cs_arena_take(context, window->arena, count * sizeof *m->edges);
+  if (!m->cells || !m->edges)
+    return CELSPAN_NO_MEMORY;
+  m->cells[find_cell(m, window->base)].carry = 1;
+  for (size_t i = 0; i < count; i++) {
+    const cs_window_segment *f = &window->segments[i];
+    uint32_t left = find_cell(m, f->left);
+    m->edges[i] = (cell_edge){f, left, find_cell(m, f->right)};
+  }
+  sort_edges(m->edges, count);
+  return CELSPAN_OK;
+}
+
+static celspan_status open_weights(mixture *m, weighted_cell *cell, int32_t count) {
+  if (cell->weights)
+    return CELSPAN_OK;
+  cell->weights = cs_arena_take(m->window->composer->context, &m->window->tiles,
+                                (size_t)count * sizeof *cell->weights);
+  for (int32_t k = 0; cell->weights && k < count; k++)
+    cell->weights[k] = cell->carry;
+  return cell->weights ? CELSPAN_OK : CELSPAN_NO_MEMORY;
+}
+
+/* Moves area from cell to cell in the pixels of the tile. */
+static celspan_status add_edge(mixture *m, const cell_edge *c, int32_t p0, int32_t p1) {
+  const cs_window_segment *f = c->segment;
+  weighted_cell *left = &m->cells[c->left], *right = &m->cells[c->right];
+  CS_TRY(open_weights(m, left, p1 - p0));
+  CS_TRY(open_weights(m, right, p1 - p0));
+  for (int32_t p = f->first > p0 ? f->first : p0; p < p1; p++) {
+    double area = p < f->end ? cover(f, p) : f->height;
+    left->weights[p - p0] -= area;
+    right->weights[p - p0] += area;
+  }
+  return CELSPAN_OK;
+}
+
+/* Turns the edges that end in the tile into carries; the others remain listed. */
+static void retire_edges(mixture *m, int32_t p1) {
+  size_t kept = m->begun;
+  for (size_t i = m->begun; i-- > m->ended;) {
+    const cell_edge c = m->edges[i];
+    if (c.segment->end > p1) {
+      m->edges[--kept] = c;
+      continue;
+    }
+    m->cells[c.left].carry -= c.segment->height;
+    m->cells[c.right].carry += c.segment->height;
+  }
+  m->ended = kept;
+}
+
+static inline double weight_in(const weighted_cell *cell, int32_t k) {
+  return cell->weights ? cell->weights[k] : cell->carry;
+}
+
+/* Adds a cell to the pixels in which it has area; only there its colours are computed. sum: four
+ * floats a pixel. */
+static celspan_status add_cell(const mixture *m, const weighted_cell *cell, int32_t p0, int32_t p1,
+                               float *sum) {
+  float rgba[TILE][4];
+  int32_t first = 0, end = p1 - p0;
+  while (first < end && weight_in(cell, first) == 0)
+    first++;
+  while (end > first && weight_in(cell, end - 1) == 0)
+    end--;
+  CS_TRY(cs_painter_colours(m->window->painter, cell->cell,
+                            (cs_run){p0 + first, p0 + end, m->window->centre}, rgba));
+  for (int32_t k = first; k < end; k++)
+    cs_v4_store(sum + 4 * k,
+                cs_v4_load(sum + 4 * k) + cs_v4_load(rgba[k - first]) * (float)weight_in(cell, k));
+  return CELSPAN_OK;
+}
+
+/* Room for the colours of [p0, p1), 4 floats a pixel: the row's own or, for few, `room`. */
+static celspan_status open_pixels(cs_window *window, int32_t p0, int32_t p1, float *room,
+                                  float **out) {
+  *out = room;
+  return p1 - p0 <= FEW ? CELSPAN_OK
+                        : cs_row_array(window->composer->context, window->out, p0, p1, out);
+}
+
+static celspan_status put_pixels(cs_window *window, int32_t p0, int32_t p1, float *sum) {
+  for (int32_t k = 0; k < p1 - p0; k++) {
+    cs_v4 colour = cs_v4_bounded(cs_v4_load(sum + 4 * k));
+    if (p1 - p0 > FEW)
+      cs_v4_store(sum + 4 * k, colour);
+    else
+      CS_TRY(cs_row_single(window->composer->context, window->out, p0 + k, p0 + k + 1, colour));
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status close_tile(mixture *m, int32_t p0, int32_t p1) {
+  cs_window *window = m->window;
+  float room[4 * FEW], *sum;
+  cs_arena_reset(&window->tiles);
+  for (size_t i = 0; i < m->cell_count; i++)
+    m->cells[i].weights = NULL;
+  while (m->begun < m->edge_count && m->edges[m->begun].segment->first < p1)
+    m->begun++;
+  for (size_t i = m->ended; i < m->begun; i++)
+    CS_TRY(add_edge(m, &m->edges[i], p0, p1));
+  CS_TRY(open_pixels(window, p0, p1, room, &sum));
+  memset(sum, 0, (size_t)(p1 - p0) * 4 * sizeof *sum);
+  for (size_t i = 0; i < m->cell_count; i++)
+    if (m->cells[i].weights || m->cells[i].carry != 0)
+      CS_TRY(add_cell(m, &m->cells[i], p0, p1, sum));
+  retire_edges(m, p1);
+  return put_pixels(window, p0, p1, sum);
+}
+
+/* The same where one segment goes through the row between two cells, as in most windows. */
+static celspan_status close_between(cs_window *window) {
+  const cs_window_segment *f = window->segments;
+  int32_t p0 = window->from, p1 = window->end;
+  float left[CS_WINDOW_NARROW][4], right[CS_WINDOW_NARROW][4], room[4 * FEW], *sum;
+  cs_run run = {p0, p1, window->centre};
+  CS_TRY(cs_painter_colours(window->painter, f->left, run, left));
+  CS_TRY(cs_painter_colours(window->painter, f->right, run, right));
+  CS_TRY(open_pixels(window, p0, p1, room, &sum));
+  for (int32_t p = p0; p < p1; p++) {
+    double area = p < f->end ? cover(f, p) : 1;
+    cs_v4_store(sum + 4 * (p - p0), cs_v4_load(left[p - p0]) * (float)(1 - area) +
+                                        cs_v4_load(right[p - p0]) * (float)area);
+  }
+  return put_pixels(window, p0, p1, sum);
+}
+
+static bool is_between(const cs_window *window) {
+  const cs_window_segment *f = window->segments;
+  const cs_composer *composer = window->composer;
+  return window->segment_count == 1 && window->end - window->from <= CS_WINDOW_NARROW &&
+         f->first == window->from && f->height == 1 &&
+         (f->left == window->base || cs_composer_same(composer, f->left, window->base)) &&
+         !cs_composer_same(composer, f->left, f->right);
+}
+
+static celspan_status close_varying(cs_window *window) {
+  mixture m;
+  if (is_between(window))
+    return close_between(window);
+  CS_TRY(begin_mixture(window, &m));
+  for (int32_t p = window->from; p < window->end; p += TILE)
+    CS_TRY(close_tile(&m, p, window->end - p < TILE ? window->end : p + TILE));
+  return CELSPAN_OK;
+}
+
+static celspan_status draw_window(cs_window *window) {
+  if (window->varies)
+    return close_varying(window);
+  if (window->segment_count == 1 && window->segments->end > window->segments->first)
+    return close_lone(window);
+  return window->end - window->from <= CS_WINDOW_NARROW ? close_narrow(window) : close_wide(window);
+}
+
+static celspan_status close_window(cs_window *window) {
+  int32_t from = window->from;
+  if (window->end > from)
+    CS_TRY(draw_window(window));
+  window->from = from;
+  clear_change(window);
+  window->from = window->end;
+  window->segment_count = 0;
+  window->is_open = window->varies = false;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- items */
+
+celspan_status cs_window_begin_item(cs_window *window, double x) {
+  int32_t first = cs_edges_floor(x, window->width);
+  if (window->is_whole_row || (window->is_open && first < window->end))
+    return CELSPAN_OK;
+  if (window->is_open)
+    CS_TRY(close_window(window));
+  CS_TRY(cs_painter_run(window->painter, window->cell,
+                        (cs_run){window->from, first, window->centre}, window->out));
+  if (first > window->from)
+    window->from = first;
+  window->end = window->from;
+  window->base = window->cell;
+  window->varies = window->base->length > 0;
+  window->is_open = true;
+  return CELSPAN_OK;
+}
+
+/* Extends the window to a new segment's columns and, where its cells are flat and the columns few,
+ * adds it to their sums. */
+static void note_segment(cs_window *window, cs_window_segment *f) {
+  if (f->first < window->from) { /* by rounding: the window begins where the written columns end */
+    f->first = window->from;
+    f->end = f->end > f->first ? f->end : f->first;
+  }
+  window->end = f->end > window->end ? f->end : window->end;
+  if ((f->left->length | f->right->length) != 0) {
+    window->varies = true;
+  } else if (f->end - window->from <= CS_WINDOW_NARROW) {
+    cs_sum4 step = CS_SUM4(f->right->colour) - CS_SUM4(f->left->colour);
+    cs_direct_add(window->change, window->from,
+                  (cs_direct_piece){f->xa, f->xb, f->height, f->first, f->end}, &step);
+  }
+}
+
+celspan_status cs_window_add(cs_window *window, const cs_segment *segment, const cs_cell *left,
+                             const cs_cell *right) {
+  if (window->segment_count == window->segment_capacity)
+    CS_TRY(cs_mem_reserve(window->composer->context, (void **)&window->segments,
+                          &window->segment_capacity, window->segment_count + 1,
+                          sizeof *window->segments));
+  double xa = segment->xa, xb = segment->xb, top = window->centre - 0.5;
+  double low = cs_number_least(xa, xb), high = cs_number_most(xa, xb);
+  cs_window_segment *f = &window->segments[window->segment_count++];
+  *f = (cs_window_segment){.xa = xa,
+                           .xb = xb,
+                           .left = left,
+                           .right = right,
+                           .height = cs_edges_round(segment->yb - top) -
+                                     cs_edges_round(segment->ya - top),
+                           .first = cs_edges_floor(low, window->width),
+                           .end = cs_edges_ceil(high, window->width)};
+  note_segment(window, f);
+  return CELSPAN_OK;
+}
+
+/* Draws the edges from the first on, up to one that cannot be drawn directly. Returns how many. */
+static size_t draw_edges(cs_window *window, const cs_direct_edges *direct) {
+  cs_row_writer writer = cs_row_writer_begin(window->out, window->from);
+  size_t done = CS_WIDE_CHOOSE(window->painter->isa, cs_direct_draw)(direct, &writer);
+  cs_row_writer_end(&writer);
+  window->from = window->end = writer.from;
+  if (done > 0)
+    window->cell = &direct->cells[direct->boundaries[done - 1] + 1];
+  return done;
+}
+
+/* Boundary i, as an item of the window. */
+static celspan_status add_boundary(cs_window *window, const cs_direct_edges *edges, size_t i) {
+  const cs_cell *left = &edges->cells[i];
+  const cs_bend *bend = edges->edges->is_bent[i] ? cs_active_bend(edges->active, i) : NULL;
+  CS_TRY(cs_window_begin_item(window, edges->edges->low[i]));
+  cs_window_end_item(window, left + 1);
+  for (cs_pieces p = cs_pieces_of(edges->active, i, bend); cs_pieces_next(&p);) {
+    const cs_segment segment = {p.above.x, p.above.y, p.below.x, p.below.y};
+    CS_TRY(cs_window_add(window, &segment, left, left + 1));
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_window_edges(cs_window *window, cs_direct_edges *rest) {
+  for (; rest->count > 0; rest->boundaries++, rest->count--) {
+    size_t i = rest->boundaries[0];
+    if (window->is_open && rest->edges->first[i] >= window->end)
+      CS_TRY(close_window(window));
+    if (!window->is_open) {
+      CS_TRY(cs_row_reserve(window->composer->context, window->out,
+                            CS_DIRECT_EACH * rest->count + CS_DIRECT_TOGETHER + 1));
+      size_t done = draw_edges(window, rest);
+      rest->boundaries += done;
+      rest->count -= done;
+      if (rest->count == 0)
+        break;
+    }
+    CS_TRY(add_boundary(window, rest, rest->boundaries[0]));
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_window_end_row(cs_window *window) {
+  if (window->is_open)
+    CS_TRY(close_window(window));
+  return cs_painter_run(window->painter, window->cell,
+                        (cs_run){window->from, window->width, window->centre}, window->out);
+}

@@ -1,0 +1,40 @@
+/* Cells and programs: what the composer says about the space between two boundaries.
+ *
+ * A cell has one colour everywhere, or a program: the layers that show in it, front to back, of
+ * which at least one varies along a row. Its colours are computed by paint/.
+ *
+ * Invariant: a cell depends on its set of layers alone, and on the procedure spans it lies in.
+ */
+#ifndef CS_COMPOSE_CELL_H
+#define CS_COMPOSE_CELL_H
+
+#include "engine/compose/set.h"
+
+/* One layer of a program. */
+typedef struct cs_item {
+  uint32_t layer;
+  uint32_t procedure_span; /* SCANLINE: which of the row's procedure spans; else 0 */
+} cs_item;
+
+typedef struct cs_cell {
+  cs_v4 colour;     /* where length == 0: premultiplied RGBA */
+  cs_set_hash hash; /* of the layers present */
+  uint32_t program; /* index of the first item among the composer's */
+  uint32_t length;  /* items; 0: one colour everywhere */
+} cs_cell;
+
+/* A span of a scan-line primitive on the current row (or sub-row), in frame pixels. */
+typedef struct cs_procedure_span {
+  double x0, x1;
+  const cs_paint *paints; /* evenly spaced from x0 to x1; one: the same everywhere */
+  size_t paint_count;
+} cs_procedure_span;
+
+/* A program that can be kept without the composer. */
+typedef struct cs_program {
+  const cs_item *items;                     /* front to back */
+  const cs_procedure_span *procedure_spans; /* that items of SCANLINE layers name */
+  uint32_t length;                          /* 0: nothing shows but back lights */
+} cs_program;
+
+#endif

@@ -1,0 +1,165 @@
+#include "engine/compose/cells.h"
+
+#include <math.h>
+#include <string.h>
+
+void cs_cells_init(cs_cells *cells) { *cells = (cs_cells){0}; }
+
+void cs_cells_finish(cs_cells *cells, cs_memory *memory) {
+  cs_mem_free(memory, cells->cells, cells->cell_capacity * sizeof *cells->cells);
+  cs_mem_free(memory, cells->is_visible, cells->flag_capacity * sizeof *cells->is_visible);
+  cs_mem_free(memory, cells->visible, cells->visible_capacity * sizeof *cells->visible);
+  cs_mem_free(memory, cells->crossing, cells->crossing_capacity * sizeof *cells->crossing);
+  *cells = (cs_cells){0};
+}
+
+void cs_cells_forget(cs_cells *cells) {
+  cells->known = cells->visible_count = 0;
+  cells->is_listed = false;
+}
+
+static celspan_status make_room(cs_cells *cells, celspan_context *context, size_t count) {
+  CS_TRY(cs_mem_reserve(context, (void **)&cells->cells, &cells->cell_capacity, count + 1,
+                        sizeof *cells->cells));
+  CS_TRY(cs_mem_reserve(context, (void **)&cells->is_visible, &cells->flag_capacity,
+                        count + CS_ADVANCE_BATCH, sizeof *cells->is_visible));
+  CS_TRY(cs_mem_reserve(context, (void **)&cells->crossing, &cells->crossing_capacity, count + 1,
+                        sizeof *cells->crossing));
+  return cs_mem_reserve(context, (void **)&cells->visible, &cells->visible_capacity, count + 1,
+                        sizeof *cells->visible);
+}
+
+void cs_cells_list(cs_cells *cells) {
+  size_t found = 0, count = cells->known - 1;
+  const bool *is_visible = cells->is_visible;
+  uint32_t *visible = cells->visible;
+  if (cells->is_listed)
+    return;
+  for (size_t i = 0; i < count; i++) { /* which are visible can hardly be foreseen: no branch */
+    visible[found] = (uint32_t)i;
+    found += is_visible[i];
+  }
+  cells->visible_count = found;
+  cells->is_listed = true;
+}
+
+/* Moves what belongs to the last `tail` boundaries to their places among `count`. */
+static void move_tail(cs_cells *cells, size_t count, size_t tail) {
+  size_t to = count - tail, from = cells->known - 1 - tail;
+  if (to == from)
+    return;
+  memmove(&cells->cells[to + 1], &cells->cells[from + 1], tail * sizeof *cells->cells);
+  memmove(&cells->is_visible[to], &cells->is_visible[from], tail * sizeof *cells->is_visible);
+}
+
+/* ---------------------------------------------------------------- the walk */
+
+static void cross_to(cs_cells *cells, cs_composer *composer, size_t place) {
+  if (cells->place < place)
+    cs_cells_cross(composer, cells->crossing, cells->place, place, 1);
+  else
+    cs_cells_cross(composer, cells->crossing, place, cells->place, -1);
+  cells->place = place;
+}
+
+/* Leaves the row at one end and enters it at the other: nothing is present at either, so the two
+ * ends are the same place. */
+static void walk_round(cs_cells *cells, cs_composer *composer, bool goes_right) {
+  cross_to(cells, composer, goes_right ? cells->count : 0);
+  cs_deferred_to(&cells->deferred, composer, goes_right ? INFINITY : -INFINITY);
+  cells->place = goes_right ? 0 : cells->count;
+  cells->deferred.next = goes_right ? cells->deferred.first : cells->deferred.end;
+}
+
+void cs_cells_walk_to(cs_cells *cells, cs_composer *composer, size_t place, double x) {
+  size_t from = cells->place, away = place > from ? place - from : from - place;
+  if (2 * away > cells->count) /* the way round the ends is shorter */
+    walk_round(cells, composer, place < from);
+  cross_to(cells, composer, place);
+  cs_deferred_to(&cells->deferred, composer, x);
+}
+
+void cs_cells_walk_home(cs_cells *cells, cs_composer *composer) {
+  if (2 * cells->place > cells->count)
+    walk_round(cells, composer, true);
+  cross_to(cells, composer, 0);
+  cs_deferred_to(&cells->deferred, composer, -INFINITY);
+}
+
+void cs_cells_restart(cs_cells *cells, cs_composer *composer) {
+  cs_composer_restart(composer);
+  cs_cells_forget(cells);
+  cells->place = 0;
+  cells->deferred.next = cells->deferred.first;
+}
+
+/* Adopts the new order of boundaries. Outside the range that changed the windings balance as
+ * before, so the walk has to move only if its place is inside. */
+static void adopt_order(cs_cells *cells, cs_composer *composer, const cs_active *active,
+                        cs_change change) {
+  size_t high = cells->count - change.tail;
+  if (change.low == 0 && change.tail == 0)
+    cs_cells_walk_home(cells, composer);
+  else if (cells->place > change.low && cells->place < high)
+    cross_to(cells, composer, change.low);
+  if (cells->place > change.low)
+    cells->place += active->count - cells->count;
+  size_t end = active->count == cells->count ? active->count - change.tail : active->count;
+  cells->count = active->count;
+  if (end > change.low)
+    memcpy(cells->crossing + change.low, active->crossing + change.low,
+           (end - change.low) * sizeof *cells->crossing);
+  if (change.low > 0 || change.tail > 0)
+    return;
+  cells->deferred.first = cells->deferred.next = cs_active_deferred(active, &cells->deferred.end);
+}
+
+/* ---------------------------------------------------------------- making */
+
+/* The cell right of i boundaries, which is where the walk is. */
+static inline void make_cell(cs_cells *cells, cs_composer *composer, size_t i) {
+  cs_cell *cell = &cells->cells[i];
+  if (i >= cells->known || !cs_set_hash_same(cell->hash, composer->hash))
+    cs_composer_cell(composer, cell);
+}
+
+/* Crosses the boundary right of the walk, which is at x. */
+static inline void cross_next(cs_cells *cells, cs_composer *composer, double x) {
+  cs_crossing crossing = cells->crossing[cells->place++];
+  cs_composer_cross(composer, crossing.layer, crossing.direction);
+  cs_deferred_forward(&cells->deferred, composer, x);
+}
+
+celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer, const cs_active *active,
+                               cs_change change) {
+  CS_TRY(make_room(cells, composer->context, active->count));
+  if (cells->known == 0)
+    change = cs_change_all;
+  adopt_order(cells, composer, active, change);
+  cs_cells_walk_to(cells, composer, change.low, change.low > 0 ? active->x[change.low - 1] : 0);
+  if (change.low == 0)
+    make_cell(cells, composer, 0);
+  if (cells->known == 0)
+    cells->known = 1; /* the one just made */
+  move_tail(cells, active->count, change.tail);
+  for (size_t i = change.low; i < active->count - change.tail; i++) {
+    cross_next(cells, composer, active->x[i]);
+    make_cell(cells, composer, i + 1);
+    cells->is_visible[i] = !cs_composer_same(composer, &cells->cells[i + 1], &cells->cells[i]);
+  }
+  cells->is_listed = false;
+  cells->known = active->count + 1;
+  return CELSPAN_OK;
+}
+
+void cs_cells_commit(cs_cells *cells, const cs_composer *composer, const cs_active *active,
+                     size_t low, size_t count, const cs_cell *const *right) {
+  memcpy(cells->crossing + low, active->crossing + low, count * sizeof *cells->crossing);
+  for (size_t k = 0; k < count; k++) {
+    cs_cell *cell = &cells->cells[low + k + 1];
+    if (right[k] != cell)
+      *cell = *right[k];
+    cells->is_visible[low + k] = !cs_composer_same(composer, cell, cell - 1);
+  }
+  cells->is_listed = false;
+}

@@ -1,0 +1,103 @@
+/* The cells of a row between its active boundaries, and which boundaries can be seen.
+ *
+ *     boundary           0        1        2                 3
+ *                        |        |        |        :        |        :
+ *     cells        0     |   1    |   2    |   3    :        |   4    :
+ *                        |        |        |        :        |        :
+ *     deferred changes                           culled             culled
+ *
+ *     the walk:  - - - - - - - - -> * place 2: right of boundaries 0 and 1
+ *
+ * A boundary that is culled is not active, yet the winding of its layer changes there: such a
+ * deferred change takes effect from its x on without being a boundary of its own, and nobody sees
+ * it. A cell is composed with the deferred changes at or left of its own left end, neither more nor
+ * fewer.
+ *
+ * Invariants: cells[0] is left of every boundary, cells[i + 1] right of boundary i; a boundary is
+ * visible iff the cells on its two sides differ. Cells belong to places in the order, not to
+ * boundaries: where the set of layers at a place is the same as before, its cell is kept; so a swap
+ * of two boundaries composes one cell and a row without events none. The walk of the composer
+ * is not moved between rows: events elsewhere do not change the set of layers at its place.
+ */
+#ifndef CS_COMPOSE_CELLS_H
+#define CS_COMPOSE_CELLS_H
+
+#include "engine/compose/composer.h"
+#include "engine/sweep/active.h"
+
+/* Where the walk is among the deferred winding changes of a row. */
+typedef struct cs_deferred_cursor {
+  const cs_deferred *first, *next, *end; /* those before next have been crossed */
+} cs_deferred_cursor;
+
+/* Crosses the changes at or left of x. */
+static inline void cs_deferred_forward(cs_deferred_cursor *cursor, cs_composer *composer,
+                                       double x) {
+  const cs_deferred *next = cursor->next;
+  for (; next < cursor->end && next->x <= x; next++)
+    cs_composer_cross(composer, next->layer, next->direction);
+  cursor->next = next;
+}
+
+/* The same; and crosses back those right of x. */
+static inline void cs_deferred_to(cs_deferred_cursor *cursor, cs_composer *composer, double x) {
+  cs_deferred_forward(cursor, composer, x);
+  for (; cursor->next > cursor->first && cursor->next[-1].x > x; cursor->next--)
+    cs_composer_cross(composer, cursor->next[-1].layer, -cursor->next[-1].direction);
+}
+
+/* Crosses the boundaries [low, high): from left to right where sign is 1, back where it is -1. */
+static inline void cs_cells_cross(cs_composer *composer, const cs_crossing *crossing, size_t low,
+                                  size_t high, int32_t sign) {
+  cs_presence *presences = composer->presences;
+  uint64_t *set = composer->set;
+  uint8_t *filled = composer->filled;
+  cs_set_hash hash = composer->hash; /* in registers on the way */
+  for (size_t i = low; i < high; i++)
+    cs_set_cross(presences, set, filled, &hash, crossing[i].layer, sign * crossing[i].direction);
+  composer->hash = hash;
+}
+
+typedef struct cs_cells {
+  cs_cell *cells;   /* count + 1 in use */
+  bool *is_visible; /* by boundary; room for whole batches (engine/sweep/advance.h) */
+  bool is_listed;
+  uint32_t *visible; /* where is_listed: the visible ones */
+  size_t visible_count;
+  size_t known; /* how many cells have been made, from the left */
+  /* The walk is right of the first `place` of `count` boundaries, in the order of `crossing`, and
+   * past the deferred changes before the cursor. */
+  size_t place, count;
+  cs_crossing *crossing;
+  cs_deferred_cursor deferred;
+  size_t cell_capacity, flag_capacity, visible_capacity, crossing_capacity;
+} cs_cells;
+
+void cs_cells_init(cs_cells *cells);
+void cs_cells_finish(cs_cells *cells, cs_memory *memory);
+/* Brings the cells up to date with the active boundaries. change: where they differ from those of
+ * the last update.
+ * Errors: NO_MEMORY; failures of composing stay in composer->failure. */
+CELSPAN_CHECKED celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer,
+                                               const cs_active *active, cs_change change);
+/* The boundaries low..low + count - 1 have changed places among themselves. right[k]: the cell now
+ * right of boundary low + k, which is copied. The walk is not between them. */
+void cs_cells_commit(cs_cells *cells, const cs_composer *composer, const cs_active *active,
+                     size_t low, size_t count, const cs_cell *const *right);
+/* Moves the walk to just left of boundary `place`, right of the deferred changes at or left of x:
+ * by the shorter way round. */
+void cs_cells_walk_to(cs_cells *cells, cs_composer *composer, size_t place, double x);
+/* Moves the walk to the left end of the row, where no layer is present. */
+void cs_cells_walk_home(cs_cells *cells, cs_composer *composer);
+/* Lists the visible boundaries. */
+void cs_cells_list(cs_cells *cells);
+/* Forgets every cell; the walk stays. */
+void cs_cells_forget(cs_cells *cells);
+/* The same after a failure: nothing is present at the place of the walk. */
+void cs_cells_restart(cs_cells *cells, cs_composer *composer);
+
+/* Self-check: whether the composer's windings and the set of every cell are those of a walk from
+ * the left end of the row. */
+bool cs_cells_are_true(const cs_cells *cells, const cs_composer *composer, const cs_active *active);
+
+#endif

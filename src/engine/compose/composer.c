@@ -1,0 +1,278 @@
+#include "engine/compose/composer.h"
+
+#define MEMO_SIZE 4096               /* cells remembered, two of one place; a power of two */
+#define ITEM_LIMIT ((size_t)1 << 15) /* program items kept from row to row */
+
+/* ---------------------------------------------------------------- life */
+
+static celspan_status allocate(cs_composer *composer, void *field, size_t count, size_t size) {
+  void *items = cs_mem_array(composer->context->memory, count, size);
+  if (!items && count > 0)
+    return cs_fail_memory(composer->context);
+  memcpy(field, &items, sizeof items);
+  return CELSPAN_OK;
+}
+
+/* What folds flat layers fast, if anything does. */
+static celspan_status make_table(cs_composer *composer) {
+  const cs_stack *stack = composer->stack;
+  bool has_table = cs_over_table_suits(stack), has_tree = has_table && cs_over_tree_suits(stack);
+  if (has_tree) {
+    CS_TRY(allocate(composer, &composer->tree, 1, sizeof(cs_over_tree)));
+    return cs_over_tree_init(composer->tree, composer->context, stack);
+  }
+  CS_TRY(allocate(composer, &composer->table, has_table, sizeof(cs_over_table)));
+  return has_table ? cs_over_table_init(composer->table, composer->context, stack) : CELSPAN_OK;
+}
+
+celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
+                                const cs_stack *stack, cs_image_opacity opacity) {
+  *composer = (cs_composer){.context = context, .stack = stack, .opacity = opacity};
+  size_t words = cs_stack_words(stack), filled = cs_set_filled_count(words);
+  CS_TRY(allocate(composer, &composer->set, words, sizeof(uint64_t)));
+  CS_TRY(allocate(composer, &composer->contributing, words, sizeof(uint64_t)));
+  CS_TRY(allocate(composer, &composer->filled, filled, sizeof(uint8_t)));
+  CS_TRY(allocate(composer, &composer->presences, stack->layer_count, sizeof(cs_presence)));
+  for (size_t layer = 0; layer < stack->layer_count; layer++)
+    composer->presences[layer].rule = stack->rules[layer];
+  if (stack->procedure_count > 0)
+    CS_TRY(allocate(composer, &composer->procedure_span_of, stack->layer_count, sizeof(uint32_t)));
+  CS_TRY(allocate(composer, &composer->results, stack->step_depth, sizeof(cs_tree_result)));
+  CS_TRY(make_table(composer));
+  return allocate(composer, &composer->memo, MEMO_SIZE, sizeof(cs_memo));
+}
+
+void cs_composer_finish(cs_composer *composer) {
+  if (!composer->stack)
+    return;
+  cs_memory *memory = composer->context->memory;
+  const cs_stack *stack = composer->stack;
+  size_t words = cs_stack_words(stack);
+  cs_mem_free(memory, composer->set, words * sizeof(uint64_t));
+  cs_mem_free(memory, composer->contributing, words * sizeof(uint64_t));
+  cs_mem_free(memory, composer->filled, cs_set_filled_count(words) * sizeof(uint8_t));
+  cs_mem_free(memory, composer->presences, stack->layer_count * sizeof(cs_presence));
+  cs_mem_free(memory, composer->procedure_span_of, stack->layer_count * sizeof(uint32_t));
+  cs_mem_free(memory, composer->results, stack->step_depth * sizeof(cs_tree_result));
+  if (composer->table)
+    cs_over_table_finish(composer->table);
+  cs_mem_free(memory, composer->table, sizeof(cs_over_table));
+  if (composer->tree)
+    cs_over_tree_finish(composer->tree);
+  cs_mem_free(memory, composer->tree, sizeof(cs_over_tree));
+  cs_mem_free(memory, composer->memo, MEMO_SIZE * sizeof(cs_memo));
+  cs_mem_free(memory, composer->items, composer->item_capacity * sizeof(cs_item));
+  cs_mem_free(memory, composer->gathered, composer->gathered_capacity * sizeof(cs_item));
+  cs_mem_free(memory, composer->procedure_spans,
+              composer->procedure_span_capacity * sizeof(cs_procedure_span));
+  *composer = (cs_composer){0};
+}
+
+bool cs_composer_begin_row(cs_composer *composer) {
+  composer->failure = CELSPAN_OK;
+  composer->procedure_span_count = 0;
+  if (composer->item_count <= ITEM_LIMIT)
+    return false;
+  composer->item_count = 0;
+  memset(composer->memo, 0, MEMO_SIZE * sizeof(cs_memo));
+  return true;
+}
+
+void cs_composer_restart(cs_composer *composer) {
+  size_t count = composer->stack->layer_count, words = cs_stack_words(composer->stack);
+  for (size_t layer = 0; layer < count; layer++)
+    composer->presences[layer].winding = 0;
+  if (count > 0) {
+    memset(composer->set, 0, words * sizeof *composer->set);
+    memset(composer->filled, 0, cs_set_filled_count(words) * sizeof *composer->filled);
+  }
+  composer->hash = (cs_set_hash){0};
+}
+
+/* ---------------------------------------------------------------- gathering */
+
+static celspan_status gather_item(cs_composer *composer, uint32_t layer) {
+  CS_TRY(cs_mem_reserve(composer->context, (void **)&composer->gathered,
+                        &composer->gathered_capacity, composer->gathered_count + 1,
+                        sizeof(cs_item)));
+  uint32_t procedure_span = composer->stack->layers[layer].kind == CS_LAYER_SCANLINE
+                                ? composer->procedure_span_of[layer]
+                                : 0;
+  composer->gathered[composer->gathered_count++] = (cs_item){layer, procedure_span};
+  return CELSPAN_OK;
+}
+
+/* The most that a layer which varies lets through. A picture whose header cannot be read counts as
+ * clear until it is really seen: only then is it an error. */
+static cs_v4 most_through(cs_composer *composer, const cs_layer *layer) {
+  const cs_image_opacity *opacity = &composer->opacity;
+  if (layer->kind != CS_LAYER_PICTURE || layer->role != CS_LAYER_PAINT ||
+      !opacity->is_opaque(opacity->painter, layer->index))
+    return layer->t;
+  return cs_v4_all(1 - layer->fade);
+}
+
+/* Adds the front lights of a group and of those around it that are not entered yet, outermost
+ * first. The fold has left all groups that do not hold this one. */
+static celspan_status gather_front(cs_composer *composer, cs_over *over, uint32_t group) {
+  if (group == CS_STACK_NONE || group == over->group)
+    return CELSPAN_OK;
+  const cs_group *entered = &composer->stack->groups[group];
+  CS_TRY(gather_front(composer, over, entered->parent)); /* at most CS_STACK_GROUPS levels */
+  if (!entered->has_light)
+    return CELSPAN_OK;
+  cs_over_move(over, entered->light, group);
+  return gather_item(composer, entered->light);
+}
+
+/* Adds one layer to a program, and to the fold: one that varies as if it let through everywhere the
+ * most it lets through anywhere, so that the program ends too late rather than too early. The light
+ * of that fold has no meaning. */
+static celspan_status gather_layer(cs_composer *composer, cs_over *over, uint32_t index) {
+  const cs_layer *layer = &composer->stack->layers[index];
+  if (composer->stack->has_group_light)
+    CS_TRY(gather_front(composer, over, layer->group));
+  cs_over_move(over, index, layer->group);
+  CS_TRY(gather_item(composer, index));
+  over->t *= layer->kind == CS_LAYER_FLAT ? layer->t : most_through(composer, layer);
+  return CELSPAN_OK;
+}
+
+/* Gathers the contributing layers from the front until nothing shines through. `filled` is that of
+ * the layers present: trees only take layers away. */
+static celspan_status gather(cs_composer *composer, const uint64_t *set) {
+  cs_over over;
+  cs_over_begin(&over, composer->stack);
+  composer->gathered_count = 0;
+  for (uint32_t layer, end = (uint32_t)composer->stack->layer_count;
+       (layer = cs_set_below(set, composer->filled, end)) != CS_STACK_NONE;) {
+    if (cs_over_reaches(&over, layer))
+      CS_TRY(gather_layer(composer, &over, layer));
+    end = cs_over_is_opaque(over.t) ? cs_over_hidden_end(&over) : layer;
+  }
+  return CELSPAN_OK;
+}
+
+static inline bool group_varies(const cs_stack *stack, uint32_t group) {
+  return group != CS_STACK_NONE && stack->groups[group].varies;
+}
+
+/* Folds them in the same way while all are flat; false where one is not. */
+static bool fold_flats(const cs_composer *composer, const uint64_t *set, cs_over *over) {
+  const cs_layer *layers = composer->stack->layers;
+  cs_over_begin(over, composer->stack);
+  for (uint32_t layer, end = (uint32_t)composer->stack->layer_count;
+       (layer = cs_set_below(set, composer->filled, end)) != CS_STACK_NONE;) {
+    if (cs_over_reaches(over, layer)) {
+      if (layers[layer].kind != CS_LAYER_FLAT || group_varies(composer->stack, layers[layer].group))
+        return false;
+      cs_over_move(over, layer, layers[layer].group);
+      cs_over_add(over, layers[layer].s, layers[layer].t);
+    }
+    end = cs_over_is_opaque(over->t) ? cs_over_hidden_end(over) : layer;
+  }
+  return true;
+}
+
+static celspan_status keep_program(cs_composer *composer, cs_cell *cell) {
+  size_t count = composer->gathered_count, needed = composer->item_count + count;
+  if (needed < ITEM_LIMIT) /* all that is kept from row to row, at once */
+    needed = ITEM_LIMIT;
+  CS_TRY(cs_mem_reserve(composer->context, (void **)&composer->items, &composer->item_capacity,
+                        needed, sizeof(cs_item)));
+  memcpy(composer->items + composer->item_count, composer->gathered, count * sizeof(cs_item));
+  cell->program = (uint32_t)composer->item_count;
+  cell->length = (uint32_t)count;
+  composer->item_count += count;
+  return CELSPAN_OK;
+}
+
+/* What contributes of the layers present. A boolean without operands is a tree without layers:
+ * there is nothing to copy then, and nowhere to copy it. */
+static const uint64_t *resolve(cs_composer *composer) {
+  if (composer->stack->tree_count == 0 || composer->stack->layer_count == 0)
+    return composer->set;
+  memcpy(composer->contributing, composer->set,
+         cs_stack_words(composer->stack) * sizeof *composer->set);
+  cs_tree_resolve(composer->stack, composer->contributing, composer->results);
+  return composer->contributing;
+}
+
+/* The same by what has been folded beforehand, in a table or a tree. */
+static celspan_status fold_prepared(cs_composer *composer, const uint64_t *set, cs_over *over) {
+  cs_over_pair light;
+  CS_TRY(composer->tree ? cs_over_tree_light(composer->tree, set, &light)
+                        : cs_over_table_light(composer->table, set, composer->filled, &light));
+  cs_over_begin(over, composer->stack);
+  over->e = light.e;
+  over->t = light.t;
+  return CELSPAN_OK;
+}
+
+static celspan_status compose(cs_composer *composer, cs_cell *cell) {
+  cs_over over;
+  composer->evaluations++;
+  const uint64_t *set = resolve(composer);
+  if (composer->table || composer->tree)
+    CS_TRY(fold_prepared(composer, set, &over));
+  if (composer->table || composer->tree || fold_flats(composer, set, &over)) {
+    cell->colour = cs_over_end(&over);
+    return CELSPAN_OK;
+  }
+  CS_TRY(gather(composer, set));
+  return keep_program(composer, cell);
+}
+
+/* ---------------------------------------------------------------- cells */
+
+void cs_composer_cross_span(cs_composer *composer, uint32_t layer, uint32_t procedure_span,
+                            int32_t direction) {
+  /* Every row numbers its procedure spans from 0, and a program names a span by its number. So a
+   * cell remembered from an earlier row is the right one: read with the spans of this row. */
+  const cs_layer_rule *rule = &composer->stack->rules[layer];
+  uint64_t name = (procedure_span + 1) * (uint64_t)0x9e3779b97f4a7c15u;
+  composer->set[layer / 64] ^= (uint64_t)1 << (layer % 64);
+  composer->filled[layer / 64] = composer->set[layer / 64] != 0;
+  composer->hash.a ^= rule->key[0] * (name | 1);
+  composer->hash.b ^= rule->key[1] ^ name;
+  if (direction > 0)
+    composer->procedure_span_of[layer] = procedure_span;
+}
+
+/* Composes the cell at the place of the walk. */
+static celspan_status compose_here(cs_composer *composer, cs_cell *out) {
+  *out = (cs_cell){.colour = cs_v4_all(0), .hash = composer->hash};
+  celspan_status status = compose(composer, out);
+  if (status != CELSPAN_OK && composer->failure == CELSPAN_OK)
+    composer->failure = status;
+  return status;
+}
+
+void cs_composer_cell(cs_composer *composer, cs_cell *out) {
+  if (composer->tree) { /* nearly every set is new, and its colour found as soon as its memo */
+    compose_here(composer, out);
+    return;
+  }
+  cs_memo *pair = &composer->memo[composer->hash.a & (MEMO_SIZE - 2)];
+  for (int i = 0; i < 2; i++)
+    if (pair[i].is_used && cs_set_hash_same(pair[i].cell.hash, composer->hash)) {
+      *out = pair[i].cell;
+      return;
+    }
+  celspan_status status = compose_here(composer, out);
+  pair[1] = pair[0];
+  pair[0] = (cs_memo){*out, status == CELSPAN_OK};
+}
+
+bool cs_composer_same(const cs_composer *composer, const cs_cell *a, const cs_cell *b) {
+  if (a->length != b->length)
+    return false;
+  if (a->length == 0)
+    return cs_v4_same(a->colour, b->colour);
+  return memcmp(&composer->items[a->program], &composer->items[b->program],
+                a->length * sizeof(cs_item)) == 0;
+}
+
+cs_program cs_composer_program(const cs_composer *composer, const cs_cell *cell) {
+  return (cs_program){&composer->items[cell->program], composer->procedure_spans, cell->length};
+}

@@ -1,0 +1,99 @@
+/* The composer: from the layers present at a place of a row to the colour of the cell there, or to
+ * the short program that gives its colour pixel by pixel.
+ *
+ *     boundaries of a row, from left to right
+ *        |         |   |            |
+ *        | --------> cross ---------> |          the walk: sets, windings, hash
+ *               cell |
+ *                    v
+ *       hash known? ----yes----> the same cell as before (not asked where over_tree.h folds)
+ *            | no
+ *       trees: what contributes (tree.h)
+ *            |
+ *       all of it flat? --yes--> one colour (over.h, over_table.h, over_tree.h)
+ *            | no
+ *       the layers that are not hidden, front to back = a program, for paint/ to paint
+ *
+ * Invariants
+ *   - The running set, windings and hash describe the place of the walk; crossing the same boundary
+ *     back undoes a crossing.
+ *   - The colour of a cell depends on its set alone, never on the way it was reached: a cell whose
+ *     hash is known is not composed again.
+ *   - A program lists the contributing layers front to back, cut where nothing shines through.
+ * One composer a worker; the stack is shared.
+ */
+#ifndef CS_COMPOSE_COMPOSER_H
+#define CS_COMPOSE_COMPOSER_H
+
+#include "engine/compose/cell.h"
+#include "engine/compose/over_table.h"
+#include "engine/compose/over_tree.h"
+#include "engine/compose/tree.h"
+
+typedef struct cs_memo {
+  cs_cell cell;
+  bool is_used;
+} cs_memo;
+
+/* The one question that the composer asks the painter: whether the picture of an image layer lets
+ * nothing through, wherever the layer is present. A picture that cannot be read does not. */
+typedef struct cs_image_opacity {
+  bool (*is_opaque)(void *painter, uint32_t image);
+  void *painter; /* borrowed */
+} cs_image_opacity;
+
+typedef struct cs_composer {
+  celspan_context *context; /* the worker's branch */
+  const cs_stack *stack;
+  cs_image_opacity opacity;
+  uint64_t *set;               /* layers present at the place of the walk */
+  uint8_t *filled;             /* of its words: see set.h */
+  uint64_t *contributing;      /* scratch */
+  cs_presence *presences;      /* one a layer */
+  uint32_t *procedure_span_of; /* a layer's span there; NULL without scan-line layers */
+  cs_set_hash hash;            /* of the set */
+  cs_tree_result *results;
+  cs_over_table *table; /* NULL where it does not suit the stack */
+  cs_over_tree *tree;   /* NULL where it does not; then there is no table, either */
+  cs_memo *memo;
+  cs_item *items; /* of all programs in use */
+  size_t item_count, item_capacity;
+  cs_item *gathered; /* scratch: the items of the cell being composed */
+  size_t gathered_count, gathered_capacity;
+  cs_procedure_span *procedure_spans; /* of the current row */
+  size_t procedure_span_count, procedure_span_capacity;
+  uint64_t evaluations;   /* cells composed */
+  celspan_status failure; /* sticky: the first failure of the row, recorded in context */
+} cs_composer;
+
+/* Errors: NO_MEMORY; cs_composer_finish must be called then, too. */
+CELSPAN_CHECKED celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
+                                                const cs_stack *stack, cs_image_opacity opacity);
+void cs_composer_finish(cs_composer *composer);
+/* Before each row: forgets the procedure spans, and programs when they have grown many; true when
+ * cells made before are no longer valid. */
+bool cs_composer_begin_row(cs_composer *composer);
+
+/* Moves the walk back to the left end of the row, wherever a failure has left it. */
+void cs_composer_restart(cs_composer *composer);
+
+/* Crosses a boundary of a layer that runs in `direction` (+1, -1), from left to right. */
+static inline void cs_composer_cross(cs_composer *composer, uint32_t layer, int32_t direction) {
+  cs_set_cross(composer->presences, composer->set, composer->filled, &composer->hash, layer,
+               direction);
+}
+
+/* Enters (+1) or leaves (-1) a procedure span of a scan-line layer. */
+void cs_composer_cross_span(cs_composer *composer, uint32_t layer, uint32_t procedure_span,
+                            int32_t direction);
+
+/* The cell at the place of the walk. On failure the cell is clear and composer->failure is set. */
+void cs_composer_cell(cs_composer *composer, cs_cell *out);
+
+/* Whether two cells show the same everywhere. */
+bool cs_composer_same(const cs_composer *composer, const cs_cell *a, const cs_cell *b);
+
+/* The program of a cell whose length is not 0, valid until the next cell is composed. */
+cs_program cs_composer_program(const cs_composer *composer, const cs_cell *cell);
+
+#endif

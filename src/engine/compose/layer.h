@@ -1,0 +1,110 @@
+/* One layer of a compiled frame, and what belongs to layers of each kind.
+ *
+ * A layer is one primitive in its place: what it paints and how it is lit. The sweep
+ * decides where it is present. What else a layer of some kind needs is in an array of that kind, at
+ * `index`.
+ *
+ * Invariant: nothing here changes while rows are made, so workers share it.
+ */
+#ifndef CS_COMPOSE_LAYER_H
+#define CS_COMPOSE_LAYER_H
+
+#include <assert.h>
+
+#include "base/vector.h"
+#include "model/colour/paint.h"
+#include "model/scene/scene.h"
+#include "model/scene/texture.h"
+
+#define CS_STACK_NONE UINT32_MAX /* no group, no layer */
+/* Where lights multiply, level by level, they are clamped to this, so that all sums stay finite. */
+#define CS_LAYER_BRIGHTEST 1e12f
+
+typedef enum cs_layer_kind {
+  CS_LAYER_FLAT,
+  CS_LAYER_SHADED,   /* triangle, linear or radial: varies along a row, as a formula */
+  CS_LAYER_PICTURE,  /* varies from pixel to pixel */
+  CS_LAYER_SCANLINE, /* paints come with the procedure spans of the row */
+  CS_LAYER_DEFOCUSED /* a defocused cel */
+} cs_layer_kind;
+
+/* What the paint of a layer does. */
+typedef enum cs_layer_role {
+  CS_LAYER_PAINT, /* covers what lies behind it */
+  CS_LAYER_BACK,  /* a back light with a shape: its pigment adds to the light, and dims nothing */
+  CS_LAYER_FRONT  /* the front light of its group, which its pigment lights. Present nowhere: it is
+                     listed when its group is entered */
+} cs_layer_role;
+
+typedef struct cs_layer {
+  cs_v4 s;        /* FLAT: light scattered under its front light; lane 3 is 0 */
+  cs_v4 t;        /* FLAT: transmission. Else the most that each channel lets through wherever the
+                     layer is present, fade included; PICTURE: unless the picture is known to be
+                     opaque. Lane 3 is 0 */
+  cs_v4 front;    /* front light of its cel, brightness included, or the gain of a light; lane 3 is
+                     0 */
+  uint32_t group; /* innermost group, or CS_STACK_NONE */
+  uint32_t index; /* all but FLAT: index into the array of its kind */
+  float fade;     /* of its paint, where that varies */
+  uint8_t kind;   /* a cs_layer_kind */
+  uint8_t role;   /* a cs_layer_role */
+} cs_layer;
+static_assert(sizeof(cs_layer) == 64, "a layer fills a line of the cache");
+
+/* What the walk along a row needs of a layer. */
+typedef struct cs_layer_rule {
+  uint64_t key[2];      /* names the layer in the hash of a set */
+  int32_t winding_mask; /* inside where (winding & mask) != 0: -1 non-zero, 1 even-odd */
+} cs_layer_rule;
+
+/* A formula as planes, value = a x + b y + c.
+ * TRIANGLE: premultiplied s, t and beta over own units.
+ * LINEAR: where a point lies along the stops, over frame pixels; RADIAL: the two legs of its
+ * distance from the centre, as shares of the radius. Both must be divided by the w of the point
+ * unless is_affine. */
+typedef struct cs_shade {
+  const celspan_texture *texture; /* borrowed from the scene */
+  celspan_matrix inverse;         /* frame pixels to own units */
+  double plane[7][3];
+  double eccentricity; /* RADIAL: 0 without a focus; else see engine/paint/shade.h */
+  bool is_affine;      /* and w above 0 everywhere */
+} cs_shade;
+
+typedef struct cs_image_layer {
+  const celspan_texture *texture; /* borrowed from the scene */
+  celspan_matrix inverse;         /* frame pixels to own units */
+  celspan_box box;                /* what the picture fills, own units */
+  celspan_wrap wrap;
+} cs_image_layer;
+
+/* Whether nothing shines through the layer wherever it is present if its picture has no alpha. */
+static inline bool cs_image_layer_hides(const cs_image_layer *image) {
+  return image->texture->variation->use == CELSPAN_PICTURE_PAINT &&
+         !image->texture->variation->medium && image->wrap != CELSPAN_WRAP_CLEAR;
+}
+
+typedef struct cs_procedure {
+  const celspan_scanline_desc *desc; /* borrowed from the scene */
+  uint32_t layer;
+  double scale_x, shift_x, scale_y, shift_y; /* own units to frame pixels */
+} cs_procedure;
+
+/* A boolean or a cel that is faded, or lit by a light with a shape: composited by itself, then lit,
+ * and mixed with clear. */
+typedef struct cs_group {
+  uint32_t parent; /* or CS_STACK_NONE */
+  uint32_t first;  /* its rearmost layer */
+  float fade;
+  bool has_light; /* a front light with a shape */
+  bool varies;    /* it has one, or a group around it has */
+  uint32_t light; /* has_light: the layer of that light, in front of all its others */
+} cs_group;
+
+/* A back light, met on the way from the camera before every layer below `below`. */
+typedef struct cs_back_light {
+  uint32_t below;
+  cs_v4 light; /* brightness included; lane 3 is 0 */
+  float keep;  /* 1 - matte */
+} cs_back_light;
+
+#endif

@@ -1,0 +1,77 @@
+#include "engine/compose/over.h"
+
+void cs_over_leave_group(cs_over *over) {
+  const cs_group *group = &over->stack->groups[over->group];
+  const cs_over_pair *outer = &over->outer[--over->depth];
+  over->e = outer->e + outer->t * (group->fade * over->e);
+  over->t = outer->t * ((1 - group->fade) + group->fade * over->t);
+  over->group = group->parent;
+}
+
+void cs_over_meet_light(cs_over *over) {
+  const cs_back_light *light = &over->stack->lights[over->light++];
+  over->e += over->t * light->light;
+  over->keep *= light->keep;
+}
+
+void cs_over_enter_group(cs_over *over, uint32_t group) {
+  const cs_group *inner = &over->stack->groups[group];
+  if (inner->parent != over->group)
+    cs_over_enter_group(over, inner->parent); /* at most CS_STACK_GROUPS levels */
+  over->outer[over->depth++] = (cs_over_pair){over->e, over->t};
+  over->e = cs_v4_all(0);
+  over->t = cs_v4_all(1);
+  over->group = group;
+}
+
+cs_v4 cs_over_end(cs_over *over) {
+  while (over->group != CS_STACK_NONE)
+    cs_over_leave_group(over);
+  while (over->light < over->stack->light_count)
+    cs_over_meet_light(over);
+  cs_v4 rgba = over->e;
+  rgba[3] = 1 - over->keep * cs_over_mean(over->t);
+  return rgba;
+}
+
+/* ---------------------------------------------------------------- quads */
+
+static void make_quad(const cs_stack *stack, size_t layer, cs_over_pair *quad) {
+  cs_over_pair halves[2][CS_OVER_FOUR]; /* what the lower two layers may give, and the upper two */
+  for (size_t half = 0; half < 2; half++) {
+    cs_over_pair *h = halves[half];
+    h[0] = cs_over_pair_clear;
+    h[1] = cs_over_layer_pair(stack, layer + 2 * half);
+    h[2] = cs_over_layer_pair(stack, layer + 2 * half + 1);
+    h[3] = cs_over_pair_over(h[2], h[1]);
+  }
+  for (size_t choice = 0; choice < CS_OVER_CHOICES; choice++)
+    quad[choice] =
+        cs_over_pair_over(halves[1][choice / CS_OVER_FOUR], halves[0][choice % CS_OVER_FOUR]);
+}
+
+celspan_status cs_over_quads_create(celspan_context *context, const cs_stack *stack, size_t i,
+                                    cs_over_pair **out) {
+  cs_over_pair *quads =
+      cs_mem_array(context->memory, CS_OVER_QUADS * CS_OVER_CHOICES, sizeof *quads);
+  *out = quads;
+  if (!quads)
+    return cs_fail_memory(context);
+  for (size_t quad = 0; quad < CS_OVER_QUADS; quad++)
+    make_quad(stack, 64 * i + CS_OVER_FOUR * quad, quads + CS_OVER_CHOICES * quad);
+  return CELSPAN_OK;
+}
+
+void cs_over_quads_free(cs_over_pair *quads, cs_memory *memory) {
+  cs_mem_free(memory, quads, CS_OVER_QUADS * CS_OVER_CHOICES * sizeof *quads);
+}
+
+cs_over_pair cs_over_word_layers(const cs_stack *stack, cs_over_pair light, size_t i,
+                                 uint64_t word) {
+  while (word != 0 && !cs_over_is_opaque(light.t)) {
+    int highest = 63 - __builtin_clzll(word);
+    word ^= (uint64_t)1 << highest;
+    light = cs_over_pair_over(light, cs_over_layer_pair(stack, 64 * i + (size_t)highest));
+  }
+  return light;
+}

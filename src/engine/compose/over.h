@@ -1,0 +1,159 @@
+/* Layers one over the other, folded from the camera backwards: the light gathered so far (e), and
+ * the share of what lies behind that still shines through (t), channel by channel.
+ *
+ *       camera
+ *          |               e = 0, t = 1
+ *       layer 9            add:   e += t * s9, t *= t9
+ *          |
+ *      +-- | ---+          enter a faded group: e and t are put aside,
+ *      | layer 8|                 and inside it begins again with 0 and 1
+ *      | layer 7|
+ *      +-- | ---+          leave: lit and faded as a whole, it is added to what was put aside
+ *          |
+ *      =========           meet a back light: e += t * light;
+ *          |                      its matte takes its share of the transparency
+ *       layer 5
+ *          |
+ *        rear              colour e, alpha = 1 - keep * the mean of t
+ *
+ * Before a layer is added three moves may be due, in this order: leave the groups that end in front
+ * of it, meet the back lights in front of it, enter the groups it is in.
+ *
+ * The same fold is written four times, since it must be fast on four kinds of data:
+ *   over.h            one cell, layer by layer;
+ *   over_table.h      one cell of a frame that has flat layers only, without groups: most layers
+ *                     of neighbouring cells are the same, so their light is looked up;
+ *   over_tree.h       the same where very many layers are seen at once;
+ *   engine/paint/over_row.h  up to 256 pixels of one program at once, a register at a time.
+ * Names and arithmetic are the same in all four.
+ */
+#ifndef CS_COMPOSE_OVER_H
+#define CS_COMPOSE_OVER_H
+
+#include "engine/compose/stack.h"
+
+/* Light of some layers by themselves, and what they let through. Lane 3 of e has no meaning. */
+typedef struct cs_over_pair {
+  cs_v4 e, t;
+} cs_over_pair;
+
+static const cs_over_pair cs_over_pair_clear = {{0, 0, 0, 0}, {1, 1, 1, 1}};
+
+/* One pair over another: exactly the other where one of them is clear. */
+static inline cs_over_pair cs_over_pair_over(cs_over_pair front, cs_over_pair back) {
+  return (cs_over_pair){front.e + front.t * back.e, front.t * back.t};
+}
+
+/* What a paint adds in its layer: its light under the front light of its cel, faded into clear. The
+ * loops of engine/paint/over_row_wide.c do the same for many pixels. */
+static inline cs_over_pair cs_over_lit(cs_v4 front, float fade, cs_v4 s, cs_v4 t) {
+  return (cs_over_pair){front * (fade * s), (1 - fade) + fade * t};
+}
+
+/* Whether nothing shines through. Lane 3 of a transmission is 0 once something has been painted. */
+static inline bool cs_over_is_opaque(cs_v4 t) {
+  return !cs_v4_any_above(t, cs_v4_all(CS_PAINT_OPAQUE));
+}
+
+/* The mean of the three channels of a transmission: exactly their value where they are equal. */
+static inline float cs_over_mean(cs_v4 t) {
+  return t[0] + ((t[1] - t[0]) + (t[2] - t[0])) * (1.0f / 3);
+}
+
+/* A fold under way. */
+typedef struct cs_over {
+  const cs_stack *stack;
+  cs_v4 e, t;     /* of the innermost group */
+  float keep;     /* what the mattes of back lights leave of transparency */
+  uint32_t group; /* the innermost that was entered, or CS_STACK_NONE */
+  size_t light;   /* the next back light to be met */
+  uint32_t depth;
+  cs_over_pair outer[CS_STACK_GROUPS + 1]; /* put aside, of the groups around */
+} cs_over;
+
+static inline void cs_over_begin(cs_over *over, const cs_stack *stack) {
+  over->stack = stack;
+  over->e = cs_v4_all(0);
+  over->t = cs_v4_all(1);
+  over->keep = 1;
+  over->group = CS_STACK_NONE;
+  over->light = 0;
+  over->depth = 0;
+}
+
+void cs_over_leave_group(cs_over *over);
+void cs_over_meet_light(cs_over *over);
+/* And the groups around it that were not entered yet. */
+void cs_over_enter_group(cs_over *over, uint32_t group);
+
+/* Leaves the groups that end in front of a layer. */
+static inline void cs_over_leave(cs_over *over, uint32_t layer) {
+  while (over->group != CS_STACK_NONE && layer < over->stack->groups[over->group].first)
+    cs_over_leave_group(over);
+}
+
+/* Moves back to just in front of a layer, which is in `group`. */
+static inline void cs_over_move(cs_over *over, uint32_t layer, uint32_t group) {
+  cs_over_leave(over, layer);
+  while (over->light < over->stack->light_count && layer < over->stack->lights[over->light].below)
+    cs_over_meet_light(over);
+  if (group != over->group)
+    cs_over_enter_group(over, group);
+}
+
+static inline void cs_over_add(cs_over *over, cs_v4 s, cs_v4 t) {
+  over->e += over->t * s;
+  over->t *= t;
+}
+
+/* Leaves the groups that end in front of a layer, and returns whether anything shines through then:
+ * a faded group may have been the last one needed to hide everything behind it. */
+static inline bool cs_over_reaches(cs_over *over, uint32_t layer) {
+  if (over->group == CS_STACK_NONE || layer >= over->stack->groups[over->group].first)
+    return true;
+  cs_over_leave(over, layer);
+  return !cs_over_is_opaque(over->t);
+}
+
+/* Where the fold continues once nothing shines through: behind the innermost group that is faded,
+ * which hides the rest of itself, or nowhere. */
+static inline uint32_t cs_over_hidden_end(const cs_over *over) {
+  uint32_t group = cs_stack_faded(over->stack, over->group);
+  return group == CS_STACK_NONE ? 0 : over->stack->groups[group].first;
+}
+
+/* Premultiplied RGBA; alpha is the mean of the three mattes. */
+cs_v4 cs_over_end(cs_over *over);
+
+/* Quads: the light of every choice of four neighbouring flat layers, made beforehand.
+ *
+ *     word of a set   [0110 | 0000 | ... | 1011 | 0100]     64 layers, 16 quads
+ *                                     |
+ *                  quad 1 of 16:   0000  0001  0010  ...  1011  ...  1111
+ *                                  clear                  layers 7, 5, 4, one over the other
+ *
+ * The fold by table (over_table.h) and the fold by tree (over_tree.h) begin with these.
+ */
+
+#define CS_OVER_FOUR 4     /* layers of a quad */
+#define CS_OVER_QUADS 16   /* of a word */
+#define CS_OVER_CHOICES 16 /* of the layers of a quad */
+
+/* A flat layer by itself; clear beyond the last layer. */
+static inline cs_over_pair cs_over_layer_pair(const cs_stack *stack, size_t layer) {
+  if (layer >= stack->layer_count)
+    return cs_over_pair_clear;
+  return (cs_over_pair){stack->layers[layer].s, stack->layers[layer].t};
+}
+
+/* Adds the layers of word i of a set to the light of what is in front of them, one by one from the
+ * front, until nothing shines through. */
+cs_over_pair cs_over_word_layers(const cs_stack *stack, cs_over_pair light, size_t i,
+                                 uint64_t word);
+
+/* Makes the quads of word i, CS_OVER_CHOICES pairs each. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_over_quads_create(celspan_context *context, const cs_stack *stack,
+                                                    size_t i, cs_over_pair **out);
+void cs_over_quads_free(cs_over_pair *quads, cs_memory *memory);
+
+#endif

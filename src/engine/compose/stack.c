@@ -1,0 +1,15 @@
+#include "engine/compose/stack.h"
+
+void cs_stack_finish(cs_stack *stack, cs_memory *memory) {
+  cs_mem_free(memory, stack->layers, stack->layer_capacity * sizeof *stack->layers);
+  cs_mem_free(memory, stack->rules, stack->rule_capacity * sizeof *stack->rules);
+  cs_mem_free(memory, stack->shades, stack->shade_capacity * sizeof *stack->shades);
+  cs_mem_free(memory, stack->images, stack->image_capacity * sizeof *stack->images);
+  cs_mem_free(memory, stack->procedures, stack->procedure_capacity * sizeof *stack->procedures);
+  cs_mem_free(memory, stack->defocused, stack->defocused_capacity * sizeof *stack->defocused);
+  cs_mem_free(memory, stack->groups, stack->group_capacity * sizeof *stack->groups);
+  cs_mem_free(memory, stack->lights, stack->light_capacity * sizeof *stack->lights);
+  cs_mem_free(memory, stack->steps, stack->step_capacity * sizeof *stack->steps);
+  cs_mem_free(memory, stack->trees, stack->tree_capacity * sizeof *stack->trees);
+  *stack = (cs_stack){0};
+}

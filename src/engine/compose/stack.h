@@ -1,0 +1,91 @@
+/* The stack: one compiled frame as the composer reads it, layers from the rear to the camera.
+ *
+ *     camera
+ *       layer n - 1   \
+ *       ...            > a group, a boolean tree: each a range of neighbouring layers
+ *       layer k       /
+ *       - - - - - - -   a back light: between layers
+ *       ...
+ *       layer 0
+ *     rear
+ *
+ * A cell of a row is described by the set of layers present in it, one bit a layer. Boolean trees
+ * turn presence into contribution (engine/compose/tree.h); what contributes is laid one over the
+ * other from the camera backwards, until nothing shines through (engine/compose/over.h).
+ *
+ * Invariants: layer i + 1 is nearer the camera than layer i; every group, tree and back light
+ * covers or follows a range of neighbouring layers; nothing here changes while rows are made, so
+ * workers share it.
+ */
+#ifndef CS_COMPOSE_STACK_H
+#define CS_COMPOSE_STACK_H
+
+#include "base/context.h"
+#include "engine/compose/layer.h"
+
+#define CS_STACK_LAYERS ((size_t)10000000)
+/* Groups around a layer, at most: a cel may be lit and faded, which are two, and at each level of
+ * nesting there is a faded object around it. */
+#define CS_STACK_GROUPS (3 * CS_SCENE_DEPTH + 2)
+
+/* One step of a boolean tree in post-order. */
+typedef enum cs_step_kind {
+  CS_STEP_LAYER,
+  CS_STEP_LAYERS,
+  CS_STEP_OPERATOR,
+  CS_STEP_FRAME /* of a rostrum that is an object: present where its first layer is */
+} cs_step_kind;
+
+typedef struct cs_step {
+  cs_step_kind kind;
+  celspan_operator op; /* LAYERS: of operands that are all layers; OPERATOR: of results */
+  uint32_t first, end; /* the layers below */
+  uint32_t operands;   /* FRAME: the results of the trees inside it */
+} cs_step;
+
+typedef struct cs_tree {
+  uint32_t first, end; /* layers */
+  uint32_t step, step_count;
+} cs_tree;
+
+typedef struct cs_stack {
+  cs_layer *layers;
+  cs_layer_rule *rules; /* one a layer */
+  cs_shade *shades;
+  cs_image_layer *images;
+  cs_procedure *procedures;
+  const struct cs_defocused **defocused; /* borrowed from the plan: engine/sample/defocused.h */
+  cs_group *groups;
+  cs_back_light *lights; /* nearest first */
+  cs_step *steps;
+  cs_tree *trees; /* disjoint, rear first */
+  size_t layer_count, layer_capacity, rule_capacity;
+  size_t shade_count, shade_capacity;
+  size_t image_count, image_capacity;
+  size_t procedure_count, procedure_capacity;
+  size_t defocused_count, defocused_capacity;
+  size_t group_count, group_capacity;
+  size_t light_count, light_capacity;
+  size_t step_count, step_capacity;
+  size_t tree_count, tree_capacity;
+  float span_error;     /* that gradient spans may have, of full scale; 0: 1/1023 */
+  size_t step_depth;    /* results a tree may need room for at a time */
+  bool has_group_light; /* any group has a light with a shape */
+} cs_stack;
+
+void cs_stack_finish(cs_stack *stack, cs_memory *memory);
+
+/* The innermost faded group that is `group` or around it: what is hidden inside hides nothing
+ * behind it. CS_STACK_NONE: there is none. */
+static inline uint32_t cs_stack_faded(const cs_stack *stack, uint32_t group) {
+  while (group != CS_STACK_NONE && stack->groups[group].fade == 1)
+    group = stack->groups[group].parent;
+  return group;
+}
+
+/* Words of a set of layers, one bit a layer. */
+static inline size_t cs_stack_words(const cs_stack *stack) {
+  return (stack->layer_count + 63) / 64;
+}
+
+#endif

@@ -1,0 +1,108 @@
+#include "engine/defocus/edges.h"
+
+#include "base/elementary.h"
+#include "base/number.h"
+
+#include <math.h>
+
+#define PHASES CS_DEFOCUS_EDGES_PHASES
+#define FINE 4   /* steps of the integral in a phase */
+#define SIGMAS 4 /* where a Gaussian is cut off */
+
+/* ---------------------------------------------------------------- tables */
+
+static size_t share_count(const cs_defocus_edges *edges) {
+  return (size_t)(PHASES + 1) * (size_t)(2 * edges->extent_x + 2);
+}
+
+/* The integral of a kernel along x, for increasing x. */
+typedef struct profile {
+  bool is_box;
+  double radius; /* BOX */
+  double sigma;
+  double x, sum, whole; /* GAUSSIAN: the integral up to x, by the midpoint rule */
+} profile;
+
+/* The share of the kernel left of x; x must not decrease from call to call. */
+static double share_left(profile *p, double x) {
+  if (p->is_box)
+    return cs_number_clamp(0.5 + 0.5 * x / p->radius, 0, 1);
+  const double step = 1.0 / (PHASES * FINE);
+  for (; p->x + 0.5 * step < x; p->x += step) {
+    double u = (p->x + 0.5 * step) / p->sigma;
+    p->sum += fabs(u) < SIGMAS ? cs_elementary_exp(-0.5 * u * u) : 0;
+  }
+  return p->sum / p->whole;
+}
+
+/* shares[phase][k]: of the kernel around column k - extent_x, the share right of an edge that lies
+ * phase/PHASES right of the centre of column 0. The kernel is even, so this is the share left of
+ * the mirrored edge. */
+static void fill_shares(cs_defocus_edges *edges, profile p) {
+  int32_t stride = 2 * edges->extent_x + 2, count = PHASES * stride;
+  p.x = -edges->extent_x - 1;
+  for (int32_t i = 0; i <= count; i++) {
+    int32_t phase = (PHASES - i % PHASES) % PHASES, k = (i + PHASES - 1) / PHASES - 1;
+    float share = (float)share_left(&p, (double)i / PHASES - edges->extent_x - 1);
+    if (k >= 0 && k < stride)
+      edges->shares[phase * stride + k] = share;
+    if (phase == 0 && k + 1 < stride)
+      edges->shares[PHASES * stride + k + 1] = share;
+  }
+}
+
+static profile find_profile(const cs_blur *blur, const cs_defocus_edges *edges) {
+  const double(*e)[2] = blur->edges;
+  profile p = {.is_box = blur->kind == CELSPAN_DEFOCUS_BOX,
+               .radius = fabs(e[0][0]) + fabs(e[1][0]),
+               .sigma = 0.5 * blur->radius_x,
+               .x = -edges->extent_x - 1,
+               .whole = 1};
+  p.whole = share_left(&p, edges->extent_x + 1);
+  p.sum = 0;
+  return p;
+}
+
+/* The weight of a line k + 1/2 rows away. The tents already spread edges by a variance of 1/6,
+ * which is subtracted from that of a Gaussian. */
+static double weight_at(const cs_blur *blur, int32_t k) {
+  const double(*e)[2] = blur->edges;
+  double variance = 0.25 * blur->radius_y * blur->radius_y - 1.0 / 6, away = k + 0.5;
+  return blur->kind == CELSPAN_DEFOCUS_BOX
+             ? cs_number_clamp(fabs(e[0][1]) + fabs(e[1][1]) - k, 0, 1)
+             : cs_elementary_exp(-0.5 * away * away / variance);
+}
+
+static void fill_weights(cs_defocus_edges *edges, const cs_blur *blur) {
+  double sum = 0;
+  for (int32_t k = edges->extent_y - 1; k >= 0; k--)
+    sum += 2 * weight_at(blur, k);
+  for (int32_t k = 0; k < edges->extent_y; k++)
+    edges->weights[k] = (float)(weight_at(blur, k) / sum);
+}
+
+celspan_status cs_defocus_edges_init(celspan_context *context, const cs_blur *blur,
+                                     cs_defocus_edges *out) {
+  cs_memory *memory = context->memory;
+  const double(*e)[2] = blur->edges;
+  bool is_box = blur->kind == CELSPAN_DEFOCUS_BOX;
+  double extent_x = is_box ? fabs(e[0][0]) + fabs(e[1][0]) : 0.5 * SIGMAS * blur->radius_x;
+  double extent_y = is_box ? fabs(e[0][1]) + fabs(e[1][1]) : 0.5 * SIGMAS * blur->radius_y;
+  *out = (cs_defocus_edges){.extent_x = cs_number_ceil(extent_x),
+                            .extent_y = cs_number_ceil(extent_y)};
+  out->shares = cs_mem_array(memory, share_count(out), sizeof *out->shares);
+  out->weights = cs_mem_array(memory, (size_t)out->extent_y, sizeof *out->weights);
+  if (!out->shares || !out->weights)
+    return cs_fail_memory(context);
+  fill_shares(out, find_profile(blur, out));
+  fill_weights(out, blur);
+  return CELSPAN_OK;
+}
+
+void cs_defocus_edges_finish(cs_defocus_edges *edges, cs_memory *memory) {
+  if (edges->shares)
+    cs_mem_free(memory, edges->shares, share_count(edges) * sizeof *edges->shares);
+  if (edges->weights)
+    cs_mem_free(memory, edges->weights, (size_t)edges->extent_y * sizeof *edges->weights);
+  *edges = (cs_defocus_edges){0};
+}

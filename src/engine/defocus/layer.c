@@ -1,0 +1,242 @@
+#include "engine/defocus/layer.h"
+
+#include "base/number.h"
+#include "model/scene/texture.h"
+
+#include <math.h>
+
+#define LEAST_RADIUS (1.0 / 64) /* pixels; a smaller blur is not visible */
+/* A layer whose radius is at most SHARP pixels is also averaged over each pixel. One of SMOOTH
+ * pixels or more is smooth at the scale of pixels, and its value at their centres is shown. */
+#define SHARP 0.5
+#define SMOOTH 2.0
+
+static const celspan_cel *cel_of(const cs_defocus_cel *place) {
+  return place->rostrum->cels[place->index];
+}
+
+/* ---------------------------------------------------------------- the kernel */
+
+/* A map near a point, as the affine one that touches it there: itself where it is affine. Film
+ * lies on the frame in perspective only where it is that of a rostrum inside another. */
+static celspan_matrix touching(const celspan_matrix *map, celspan_point at) {
+  celspan_matrix facing = cs_matrix_facing(map);
+  const double *m = facing.m;
+  if (m[6] == 0 && m[7] == 0 && m[8] == 1)
+    return facing;
+  cs_hpoint p = cs_matrix_apply(&facing, (cs_hpoint){at.x, at.y, 1});
+  double w = p.w > 0 ? p.w : 1;
+  return (celspan_matrix){{(m[0] - p.x / w * m[6]) / w, (m[1] - p.x / w * m[7]) / w, 0,
+                           (m[3] - p.y / w * m[6]) / w, (m[4] - p.y / w * m[7]) / w, 0, 0, 0, 1}};
+}
+
+/* The cel's kernel in pixels of the frame; in perspective, in the middle of its film. */
+static cs_blur find_blur(const cs_defocus_cel *place) {
+  const celspan_point middle = {place->film_width / 2, place->film_height / 2};
+  celspan_matrix camera = cs_scene_camera(place->rostrum, place->film_width, place->film_height);
+  celspan_matrix whole = celspan_matrix_then(camera, place->to_pixels);
+  celspan_matrix map = touching(&whole, middle);
+  const double *m = map.m;
+  double radius = cel_of(place)->defocus_radius;
+  cs_blur blur = {.kind = cel_of(place)->defocus_kernel,
+                  .radius_x = radius * sqrt(m[0] * m[0] + m[1] * m[1]),
+                  .radius_y = radius * sqrt(m[3] * m[3] + m[4] * m[4]),
+                  .edges = {{radius * m[0], radius * m[3]}, {radius * m[1], radius * m[4]}}};
+  double least = fmin(blur.radius_x, blur.radius_y);
+  if (place->is_antialiased)
+    blur.blur = cs_number_clamp((SMOOTH - least) / (SMOOTH - SHARP), 0, 1);
+  return blur;
+}
+
+bool cs_defocus_layer_is_needed(const cs_defocus_cel *place) {
+  if (!(cel_of(place)->defocus_radius > 0))
+    return false;
+  cs_blur blur = find_blur(place);
+  return fmax(blur.radius_x, blur.radius_y) >= LEAST_RADIUS;
+}
+
+/* Its extent along an axis, pixels. */
+static double extent(const cs_blur *blur, int axis) {
+  if (blur->kind == CELSPAN_DEFOCUS_BOX)
+    return fabs(blur->edges[0][axis]) + fabs(blur->edges[1][axis]);
+  double radius = axis == 0 ? blur->radius_x : blur->radius_y;
+  return blur->kind == CELSPAN_DEFOCUS_GAUSSIAN ? 2 * radius : radius;
+}
+
+/* ---------------------------------------------------------------- where it is visible */
+
+/* The box of the art on the frame, pixels. */
+static bool find_art(const cs_defocus_cel *place, cs_boundary_frame *out) {
+  const celspan_cel *cel = cel_of(place);
+  celspan_box box;
+  if (!celspan_cel_bounds(cel, &box))
+    return false;
+  celspan_matrix view = celspan_matrix_then(
+      cs_scene_view(place->rostrum, cel, place->film_width, place->film_height), place->to_pixels);
+  if (!cs_boundary_around_box(&box, &view, out))
+    *out = place->frame; /* beyond the horizon of a rostrum in perspective */
+  return true;
+}
+
+/* The art's box grown by the blur and by the distance between nodes, in whole pixels, cut to the
+ * part of the frame that can be seen. */
+static bool find_box(const cs_defocus_cel *place, const cs_blur *blur, const cs_defocused *grid,
+                     cs_boundary_frame *out) {
+  cs_boundary_frame art;
+  if (!find_art(place, &art))
+    return false;
+  double grow_x = extent(blur, 0) + 2 * grid->pitch_x + 1;
+  double grow_y = extent(blur, 1) + 2 * grid->pitch_y + 1;
+  out->left = fmax(floor(art.left - grow_x), place->frame.left);
+  out->right = fmin(ceil(art.right + grow_x), place->frame.right);
+  out->top = fmax(floor(art.top - grow_y), place->frame.top);
+  out->bottom = fmin(ceil(art.bottom + grow_y), place->frame.bottom);
+  return out->left < out->right && out->top < out->bottom;
+}
+
+/* ---------------------------------------------------------------- planes */
+
+/* Whether the cel is known to let the three channels through alike. */
+static bool stack_is_grey(const cs_stack *stack) {
+  if (stack->procedure_count > 0)
+    return false;
+  for (size_t i = 0; i < stack->defocused_count; i++)
+    if (stack->defocused[i]->planes > 1)
+      return false;
+  for (size_t i = 0; i < stack->layer_count; i++) {
+    const cs_layer *layer = &stack->layers[i];
+    const celspan_texture *texture =
+        layer->kind == CS_LAYER_SHADED    ? stack->shades[layer->index].texture
+        : layer->kind == CS_LAYER_PICTURE ? stack->images[layer->index].texture
+                                          : NULL;
+    bool is_flat_grey = layer->t[0] == layer->t[1] && layer->t[1] == layer->t[2];
+    if (!(texture ? cs_texture_is_grey(texture) : is_flat_grey))
+      return false;
+  }
+  return true;
+}
+
+static bool cel_varies(const celspan_cel *cel);
+
+/* A composition inside the cel. */
+static bool rostrum_varies(const celspan_rostrum *rostrum) {
+  bool varies = rostrum->front.texture || rostrum->back.texture;
+  for (size_t i = 0; i < rostrum->cel_count && !varies; i++) {
+    const celspan_cel *cel = rostrum->cels[i];
+    varies = cel->front.texture || cel->back.texture || cel->defocus_radius > 0 || cel_varies(cel);
+  }
+  return varies;
+}
+
+/* The recursion ends because nesting is at most CS_SCENE_DEPTH. */
+static bool object_varies(const celspan_object *object) {
+  const cs_primitive_data *data = object->data;
+  if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM)
+    return rostrum_varies(data->rostrum);
+  if (data->kind == CS_PRIMITIVE_DATA_OUTLINE)
+    return data->texture->kind != CS_TEXTURE_FLAT;
+  if (data->kind == CS_PRIMITIVE_DATA_SCANLINE)
+    return true;
+  for (size_t i = 0; i < data->boolean->operand_count; i++)
+    if (object_varies(data->boolean->operands[i]))
+      return true;
+  return false;
+}
+
+static bool cel_varies(const celspan_cel *cel) {
+  for (size_t i = 0; i < cel->object_count; i++)
+    if (object_varies(cel->objects[i]))
+      return true;
+  return false;
+}
+
+static celspan_status compile_plane(celspan_context *context, const cs_defocus_cel *place,
+                                    const cs_defocus_compiler *compiler, int plane,
+                                    cs_defocus *defocus) {
+  cs_defocus_job job = {.cel = cel_of(place),
+                        .matrix = celspan_matrix_then(place->matrix, cs_defocus_matrix(defocus)),
+                        .is_through = plane == 1,
+                        .front = plane == 1 ? &defocus->plans[0] : NULL};
+  cs_defocus_raster(defocus, &job.width, &job.height);
+  CS_TRY(cs_defocus_kernel(context, defocus, &job.kernel));
+  return compiler->compile(compiler->user, &job, &defocus->plans[plane]);
+}
+
+static celspan_status compile_planes(celspan_context *context, const cs_defocus_cel *place,
+                                     const cs_defocus_compiler *compiler, cs_defocus *defocus) {
+  CS_TRY(compile_plane(context, place, compiler, 0, defocus));
+  defocus->grid.planes = 1;
+  if (stack_is_grey(&defocus->plans[0].stack))
+    return CELSPAN_OK;
+  CS_TRY(compile_plane(context, place, compiler, 1, defocus));
+  defocus->grid.planes = 2;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- the key */
+
+/* Everything that the nodes depend on. */
+static cs_hash find_key(const cs_defocus_cel *place, const cs_blur *blur) {
+  const celspan_cel *cel = cel_of(place);
+  cs_hash hash = cs_hash_begin(0x736f6674u);
+  cs_hash_word(&hash, cel->object_count);
+  for (size_t i = 0; i < cel->object_count; i++)
+    cs_hash_hash(&hash, cel->objects[i]->hash);
+  for (int i = 0; i < 9; i++)
+    cs_hash_number(&hash, place->matrix.m[i]);
+  cs_hash_word(&hash, (uint64_t)place->width);
+  cs_hash_word(&hash, (uint64_t)place->height);
+  cs_hash_word(&hash, blur->kind);
+  cs_hash_number(&hash, blur->radius_x);
+  cs_hash_number(&hash, blur->radius_y);
+  for (int k = 0; k < 4; k++)
+    cs_hash_number(&hash, blur->edges[k / 2][k % 2]);
+  cs_hash_number(&hash, blur->blur);
+  return cs_hash_end(hash);
+}
+
+/* ---------------------------------------------------------------- life */
+
+static celspan_status add_box(celspan_context *context, const cs_boundary_frame *visible,
+                              cs_outline *box) {
+  return cs_outline_rect(context, box, visible->left, visible->top, visible->right - visible->left,
+                         visible->bottom - visible->top, 0);
+}
+
+celspan_status cs_defocus_layer_create(celspan_context *context, const cs_defocus_cel *place,
+                                       const cs_defocus_compiler *compiler, cs_defocus *made,
+                                       cs_outline *box, cs_defocus **out) {
+  cs_blur blur = find_blur(place);
+  cs_boundary_frame visible;
+  cs_defocus *defocus;
+  *out = NULL;
+  CS_TRY(cs_defocus_create(context, &blur, cel_varies(cel_of(place)), place->width, place->height,
+                           &defocus));
+  bool is_seen = find_box(place, &blur, &defocus->grid, &visible);
+  if (!is_seen || made) {
+    cs_defocus_free(defocus, context->memory);
+    *out = is_seen ? made : NULL;
+    return is_seen ? add_box(context, &visible, box) : CELSPAN_OK;
+  }
+  defocus->key = find_key(place, &blur);
+  celspan_status status = compile_planes(context, place, compiler, defocus);
+  if (status == CELSPAN_OK)
+    status = add_box(context, &visible, box);
+  if (status == CELSPAN_OK)
+    *out = defocus;
+  else
+    cs_defocus_layer_free(defocus, context->memory);
+  return status;
+}
+
+void cs_defocus_layer_free_plan(cs_plan *plan, cs_memory *memory) {
+  for (size_t i = 0; i < plan->defocus_count && !plan->borrows_defocus; i++)
+    cs_defocus_layer_free(plan->defocus[i], memory);
+  cs_plan_finish(plan, memory);
+}
+
+void cs_defocus_layer_free(cs_defocus *defocus, cs_memory *memory) {
+  cs_defocus_layer_free_plan(&defocus->plans[0], memory);
+  cs_defocus_layer_free_plan(&defocus->plans[1], memory);
+  cs_defocus_free(defocus, memory);
+}

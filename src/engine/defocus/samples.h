@@ -1,0 +1,54 @@
+/* Rows of samples under the nodes that are filled together, read tile by tile.
+ *
+ *            low               high
+ *    row 0    |.................|               a row of samples is a row of spans; under a tile it
+ *    row 1    |.................|.......        is spread into one colour for each sample
+ *             |<- under a tile ->
+ *
+ * Where all rows under a tile are one same colour (plain), so are its nodes, to the bit, and
+ * nothing needs to be spread or summed.
+ */
+#ifndef CS_DEFOCUS_SAMPLES_H
+#define CS_DEFOCUS_SAMPLES_H
+
+#include "engine/row/row.h"
+
+typedef struct cs_defocus_samples {
+  cs_row *rows;
+  size_t *from; /* by row: the first span that may meet the tile */
+  int32_t count;
+  int32_t low, high; /* the samples under the tile; tiles come from left to right */
+} cs_defocus_samples;
+
+/* Room for `count` rows. Must be finished after a failure too. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_defocus_samples_init(celspan_context *context, int32_t count,
+                                                       cs_defocus_samples *out);
+void cs_defocus_samples_finish(cs_defocus_samples *samples, cs_memory *memory);
+/* Makes the rows from row `first` of the maker on. Errors: those of its rows. */
+CELSPAN_CHECKED celspan_status cs_defocus_samples_make(cs_defocus_samples *samples,
+                                                       cs_row_maker *maker, int32_t first);
+/* Moves to the tile over the samples [low, high). */
+void cs_defocus_samples_move(cs_defocus_samples *samples, int32_t low, int32_t high);
+/* Whether row k is one colour under the tile; *out: the first colour there. */
+bool cs_defocus_samples_are_one(const cs_defocus_samples *samples, int32_t k, cs_v4 *out);
+/* Whether all rows are one same colour under the tile; *out: that colour. */
+bool cs_defocus_samples_are_plain(const cs_defocus_samples *samples, cs_v4 *out);
+/* Nodes that are summed from samples, tile by tile. Node x of a row lies over the samples from
+ * x * factor on, with `extent` of them on either side. */
+typedef struct cs_defocus_tiles {
+  int32_t columns, rows; /* of nodes */
+  int32_t width;         /* of a tile, in nodes, at most */
+  int32_t factor, extent;
+  void (*take_row)(void *user, int32_t k); /* row k of the samples under the tile */
+  /* Row y of the tile's nodes, `count` of them, when all rows of samples have been taken. */
+  void (*sum_nodes)(void *user, int32_t y, int32_t count, float (*nodes)[4]);
+  void *user;
+} cs_defocus_tiles;
+
+/* Sums all nodes; those of a tile that is plain get its colour. nodes: columns times rows. */
+void cs_defocus_samples_sum(cs_defocus_samples *samples, const cs_defocus_tiles *tiles,
+                            float (*nodes)[4]);
+/* Row k under the tile, sample by sample. */
+void cs_defocus_samples_spread(const cs_defocus_samples *samples, int32_t k, cs_v4 *out);
+
+#endif

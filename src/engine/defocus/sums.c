@@ -1,0 +1,181 @@
+#include "engine/defocus/sums.h"
+
+#include "base/elementary.h"
+#include "base/number.h"
+#include "engine/defocus/samples.h"
+
+#include <math.h>
+
+#define SAMPLES 4 /* in the lesser radius, where the factor allows it */
+#define FACTOR 9  /* at most */
+#define STEPS 64  /* of the integral over one sample */
+#define TILE 64   /* nodes of a row that are summed together */
+
+/* ---------------------------------------------------------------- weights */
+
+/* The variance of the weights, in samples, for a blur of the given variance. Interpolating linearly
+ * between samples spreads by 1/6. Boundaries are averaged by tents, which spread them by another
+ * 1/6; half of that is subtracted too, so that neither pictures nor boundaries are off by more than
+ * 1/12. */
+static double left_over(double variance) {
+  return variance > 1 ? variance - 0.25 : 0.75 * variance;
+}
+
+/* A Gaussian of two standard deviations in `radius` samples, integrated over the linear pieces from
+ * sample to sample. */
+static celspan_status fill_weights(celspan_context *context, double radius, int32_t *extent,
+                                   float **out) {
+  double variance = left_over(0.25 * radius * radius), sum = 0, last = 2 * radius;
+  *extent = cs_number_ceil(last);
+  size_t count = (size_t)*extent + 1;
+  float *weights = cs_mem_array(context->memory, count, sizeof *weights);
+  if (!weights)
+    return cs_fail_memory(context);
+  *out = weights;
+  for (int32_t k = *extent; k >= 0; k--) {
+    double weight = 0;
+    for (int j = -STEPS; j < STEPS; j++) {
+      double away = (j + 0.5) / STEPS, x = k + away;
+      if (fabs(x) < last)
+        weight += (1 - fabs(away)) * cs_elementary_exp(-0.5 * x * x / variance);
+    }
+    weights[k] = (float)weight;
+    sum += (k > 0 ? 2 : 1) * weight;
+  }
+  for (size_t k = 0; k < count; k++)
+    weights[k] = (float)((double)weights[k] / sum);
+  return CELSPAN_OK;
+}
+
+/* The least odd factor that gives the radius enough samples. */
+static int32_t choose_factor(double radius) {
+  int32_t factor = 1;
+  while (factor < FACTOR && factor * radius < SAMPLES)
+    factor += 2;
+  return factor;
+}
+
+/* Where a sample of a row is kept. */
+static size_t place_of(const cs_defocus_sums *sums, int32_t sample) {
+  size_t factor = (size_t)sums->factor, k = (size_t)sample;
+  return k % factor * sums->places + k / factor;
+}
+
+static celspan_status find_pairs(celspan_context *context, cs_defocus_sums *sums) {
+  int32_t x = sums->extent_x, y = sums->extent_y, half = sums->factor / 2;
+  sums->places = (size_t)(TILE + 2 * x / sums->factor + 1);
+  sums->across = cs_mem_array(context->memory, (size_t)x, sizeof *sums->across);
+  sums->down = cs_mem_array(context->memory, (size_t)y, sizeof *sums->down);
+  if ((x > 0 && !sums->across) || (y > 0 && !sums->down))
+    return cs_fail_memory(context);
+  for (int32_t k = x; k >= 1; k--)
+    sums->across[x - k] = (cs_defocus_pair){4 * place_of(sums, x + half - k),
+                                            4 * place_of(sums, x + half + k), sums->weights[0][k]};
+  for (int32_t k = y; k >= 1; k--)
+    sums->down[y - k] = (cs_defocus_pair){4 * TILE * (size_t)(y + half - k),
+                                          4 * TILE * (size_t)(y + half + k), sums->weights[1][k]};
+  return CELSPAN_OK;
+}
+
+celspan_status cs_defocus_sums_init(celspan_context *context, double radius_x, double radius_y,
+                                    cs_defocus_sums *out) {
+  *out = (cs_defocus_sums){.factor = choose_factor(fmin(radius_x, radius_y))};
+  CS_TRY(fill_weights(context, out->factor * radius_x, &out->extent_x, &out->weights[0]));
+  CS_TRY(fill_weights(context, out->factor * radius_y, &out->extent_y, &out->weights[1]));
+  return find_pairs(context, out);
+}
+
+void cs_defocus_sums_finish(cs_defocus_sums *sums, cs_memory *memory) {
+  for (int axis = 0; axis < 2; axis++) {
+    size_t extent = (size_t)(axis == 0 ? sums->extent_x : sums->extent_y);
+    cs_defocus_pair *pairs = axis == 0 ? sums->across : sums->down;
+    if (sums->weights[axis])
+      cs_mem_free(memory, sums->weights[axis], (extent + 1) * sizeof(float));
+    cs_mem_free(memory, pairs, extent * sizeof *pairs);
+  }
+  *sums = (cs_defocus_sums){0};
+}
+
+/* ---------------------------------------------------------------- sums */
+
+/* The rows of samples under the rows of nodes being filled, and one tile of these. */
+typedef struct summing {
+  const cs_defocus_sums *sums;
+  cs_isa isa;
+  cs_defocus_samples samples; /* those under all nodes */
+  cs_v4 *row;                 /* samples of one row under the tile, */
+  cs_v4 *placed;              /* and by their place within a node's width */
+  cs_v4 *across;              /* summed along the rows: TILE nodes a row */
+  float (*out)[4];            /* TILE nodes */
+} summing;
+
+static void place_samples(summing *s, int32_t k) {
+  size_t factor = (size_t)s->sums->factor, places = s->sums->places;
+  size_t count = (size_t)(s->samples.high - s->samples.low);
+  cs_v4 *first = s->placed;
+  cs_defocus_samples_spread(&s->samples, k, s->row);
+  for (size_t at = 0; at < count; first++)
+    for (size_t place = 0; place < factor && at < count; place++, at++)
+      first[place * places] = s->row[at];
+}
+
+static void sum_across(void *user, int32_t k) {
+  summing *s = user;
+  const cs_defocus_sums *sums = s->sums;
+  cs_v4 colour, *out = s->across + (size_t)k * TILE;
+  if (cs_defocus_samples_are_one(&s->samples, k, &colour)) {
+    for (int32_t x = 0; x < TILE; x++)
+      out[x] = colour;
+    return;
+  }
+  place_samples(s, k);
+  CS_WIDE_CHOOSE(s->isa, cs_defocus_sums_about)
+  (sums->across, sums->extent_x, (const float *)s->placed,
+   4 * place_of(sums, sums->extent_x + sums->factor / 2), TILE, (float *)out);
+}
+
+static void sum_down(void *user, int32_t y, int32_t count, float (*nodes)[4]) {
+  summing *s = user;
+  const cs_defocus_sums *sums = s->sums;
+  size_t first = (size_t)(y * sums->factor), middle = (size_t)(sums->extent_y + sums->factor / 2);
+  CS_WIDE_CHOOSE(s->isa, cs_defocus_sums_about)
+  (sums->down, sums->extent_y, (const float *)(s->across + first * TILE), 4 * TILE * middle, TILE,
+   s->out[0]);
+  memcpy(nodes, s->out, (size_t)count * sizeof *nodes);
+}
+
+celspan_status cs_defocus_sums_fill(const cs_defocus_sums *sums, cs_row_maker *maker,
+                                    int32_t columns, int32_t first, int32_t end,
+                                    float (*nodes)[4]) {
+  celspan_context *context = maker->context;
+  cs_memory *memory = context->memory;
+  summing s = {.sums = sums, .isa = maker->painter.isa};
+  const cs_defocus_tiles tiles = {.columns = columns,
+                                  .rows = end - first,
+                                  .width = TILE,
+                                  .factor = sums->factor,
+                                  .extent = sums->extent_x,
+                                  .take_row = sum_across,
+                                  .sum_nodes = sum_down,
+                                  .user = &s};
+  int32_t rows = (end - first) * sums->factor + 2 * sums->extent_y;
+  size_t samples = TILE * (size_t)sums->factor + 2 * (size_t)sums->extent_x;
+  size_t placed = sums->places * (size_t)sums->factor, across = (size_t)rows * TILE;
+  celspan_status status = cs_defocus_samples_init(context, rows, &s.samples);
+  s.row = cs_mem_array(memory, samples, sizeof *s.row);
+  s.placed = cs_mem_array(memory, placed, sizeof *s.placed);
+  s.across = cs_mem_array(memory, across, sizeof *s.across);
+  s.out = cs_mem_array(memory, TILE, sizeof *s.out);
+  if (status == CELSPAN_OK && (!s.row || !s.placed || !s.across || !s.out))
+    status = cs_fail_memory(context);
+  if (status == CELSPAN_OK)
+    status = cs_defocus_samples_make(&s.samples, maker, first * sums->factor);
+  if (status == CELSPAN_OK)
+    cs_defocus_samples_sum(&s.samples, &tiles, nodes);
+  cs_defocus_samples_finish(&s.samples, memory);
+  cs_mem_free(memory, s.row, samples * sizeof *s.row);
+  cs_mem_free(memory, s.placed, placed * sizeof *s.placed);
+  cs_mem_free(memory, s.across, across * sizeof *s.across);
+  cs_mem_free(memory, s.out, TILE * sizeof *s.out);
+  return status;
+}

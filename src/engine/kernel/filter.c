@@ -1,0 +1,370 @@
+#include "engine/kernel/filter.h"
+
+#include <math.h>
+
+#include "base/number.h"
+#include "engine/kernel/convolve_parts.h"
+#include "engine/paint/colours.h"
+#include "engine/paint/run.h"
+
+/* ---------------------------------------------------------------- a filtered row */
+
+/* Rows through a filter kernel: the retained edges of the rows around a row, each weighted by the
+ * share of the kernel that lies right of it.
+ *
+ *   rows y - 1 .. y + 1     |     /          retained edges
+ *                     ______|____/_____
+ *   kernel of pixel p  (    |   / )          the edges divide it: this share is left of them
+ *                     ------|--/-------
+ *   row y   [ flat ][ changes ][ flat ]      changes by column --sum--> spans
+ *
+ * An edge at x with the colour step d adds d times its height's share of the kernel to every pixel
+ * right of it, and to those within the radius the share of that which lies right of x. So the cost
+ * follows the edges, and stretches that no edge comes near remain one span.
+ *
+ * Layers that vary along a row are not filtered: a program is one more colour with some weight,
+ * sampled at the centre of the pixel that is made.
+ *
+ * Invariant: a row is a function of the retained rows around it, added in order of their rows.
+ */
+
+#define NOTHING 1e-9 /* weights and colours below this are rounding */
+
+/* ---------------------------------------------------------------- life */
+
+/* Columns of the sums of one stretch of an edge: those of the kernel, twice, with some room. */
+static size_t sum_count(const cs_kernel *kernel) { return 2 * (size_t)kernel->stride + 8; }
+
+/* Errors: NO_MEMORY. */
+static CELSPAN_CHECKED celspan_status init_convolve(cs_convolve *convolve, celspan_context *context,
+                                                    const cs_kernel *kernel, int32_t width) {
+  cs_memory *memory = context->memory;
+  size_t columns = (size_t)width;
+  *convolve = (cs_convolve){.kernel = kernel, .width = width};
+  convolve->changes = cs_mem_array(memory, columns, sizeof *convolve->changes);
+  convolve->touched = cs_mem_array(memory, cs_convolve_words(width), sizeof *convolve->touched);
+  convolve->shifts_at = cs_mem_array(memory, columns, sizeof *convolve->shifts_at);
+  bool is_whole = convolve->changes && convolve->touched && convolve->shifts_at;
+  convolve->values = cs_mem_array(memory, columns, sizeof *convolve->values);
+  is_whole = is_whole && convolve->values;
+  if (kernel->shape != CS_KERNEL_SEPARABLE) {
+    convolve->slopes = cs_mem_array(memory, columns, sizeof *convolve->slopes);
+    is_whole = is_whole && convolve->slopes;
+  } else {
+    convolve->sums = cs_mem_array(memory, sum_count(kernel), sizeof *convolve->sums);
+    is_whole = is_whole && convolve->sums;
+  }
+  if (kernel->is_signed) {
+    convolve->passed_at = cs_mem_array(memory, columns, sizeof *convolve->passed_at);
+    convolve->near = cs_mem_array(memory, columns, sizeof *convolve->near);
+    is_whole = is_whole && convolve->passed_at && convolve->near;
+  }
+  return is_whole ? CELSPAN_OK : cs_fail_memory(context);
+}
+
+static void finish_convolve(cs_convolve *convolve, cs_memory *memory) {
+  if (!convolve->kernel)
+    return; /* init_convolve has not been called */
+  size_t columns = (size_t)convolve->width;
+  cs_mem_free(memory, convolve->changes, columns * sizeof *convolve->changes);
+  cs_mem_free(memory, convolve->slopes, columns * sizeof *convolve->slopes);
+  cs_mem_free(memory, convolve->values, columns * sizeof *convolve->values);
+  cs_mem_free(memory, convolve->sums, sum_count(convolve->kernel) * sizeof *convolve->sums);
+  cs_mem_free(memory, convolve->touched, cs_convolve_words(convolve->width) * sizeof(uint64_t));
+  cs_mem_free(memory, convolve->shifts_at, columns * sizeof(uint32_t));
+  cs_mem_free(memory, convolve->passed_at, columns * sizeof(uint32_t));
+  cs_mem_free(memory, convolve->near, columns * sizeof *convolve->near);
+  cs_mem_free(memory, convolve->terms, convolve->term_capacity * sizeof *convolve->terms);
+  cs_mem_free(memory, convolve->shifts, convolve->shift_capacity * sizeof *convolve->shifts);
+  cs_mem_free(memory, convolve->passed, convolve->passed_capacity * sizeof *convolve->passed);
+  cs_mem_free(memory, convolve->sub_rows, convolve->sub_row_capacity * sizeof *convolve->sub_rows);
+  cs_mem_free(memory, convolve->ranges, convolve->range_capacity * sizeof *convolve->ranges);
+  *convolve = (cs_convolve){0};
+}
+
+/* ---------------------------------------------------------------- summing */
+
+/* Signed kernels: every sub-row under the kernel begins with the colour of the base. Sub-rows
+ * outside the kernel are marked as varying, so that their colours do not count. */
+static celspan_status begin_sub_rows(cs_convolve *convolve, celspan_context *context,
+                                     const cs_retained_row *const *retained_rows, size_t rows,
+                                     int32_t y) {
+  size_t count = convolve->kernel->is_signed ? rows * CS_CONVOLVE_SUB_ROWS : 0;
+  CS_TRY(cs_mem_reserve(context, (void **)&convolve->sub_rows, &convolve->sub_row_capacity, count,
+                        sizeof *convolve->sub_rows));
+  CS_TRY(cs_mem_reserve(context, (void **)&convolve->ranges, &convolve->range_capacity,
+                        count / CS_CONVOLVE_SUB_ROWS, sizeof *convolve->ranges));
+  for (size_t i = 0; i < count / CS_CONVOLVE_SUB_ROWS; i++)
+    convolve->ranges[i] = (cs_convolve_range){retained_rows[0]->base, retained_rows[0]->base};
+  for (size_t i = 0; i < count; i++) {
+    double height = retained_rows[i / CS_CONVOLVE_SUB_ROWS]->row +
+                    ((double)(i % CS_CONVOLVE_SUB_ROWS) + 0.5) / CS_CONVOLVE_SUB_ROWS;
+    cs_convolve_sub_row *sub_row = &convolve->sub_rows[i];
+    sub_row->varies = fabs(height - (y + 0.5)) >= convolve->kernel->radius_y;
+    sub_row->colour = cs_v4_wide(retained_rows[0]->base);
+  }
+  return CELSPAN_OK;
+}
+
+typedef struct summing {
+  cs_convolve *convolve;
+  cs_painter *painter;
+  cs_row *out;
+  double y;                /* centre */
+  size_t rows;             /* under the kernel */
+  int32_t at;              /* the current column */
+  double sum[4];           /* there: the weighted sum of the flat colours */
+  double slope[4];         /* by how much the sum grows from each column to the next */
+  cs_v4 here;              /* added at the current column only */
+  size_t varying;          /* terms whose weight is more than NOTHING */
+  cs_convolve_range range; /* of the colours under the kernel, except near edges */
+} summing;
+
+/* Rounds a sum of colours times weights, where the weights sum to 1. What lies beyond the 40th bit
+ * is an error of rounding; without it, the mean of one colour is that colour to the bit. */
+static double tidy(double value) { return rint(value * 0x1p40) * 0x1p-40; }
+
+/* Finds the range of the colours at the heights of a row. */
+static void find_range(cs_convolve *convolve, size_t row) {
+  cs_convolve_range range = cs_convolve_nothing();
+  const cs_convolve_sub_row *sub_row = &convolve->sub_rows[row * CS_CONVOLVE_SUB_ROWS];
+  for (int i = 0; i < CS_CONVOLVE_SUB_ROWS; i++)
+    if (sub_row[i].varies <= 0)
+      cs_convolve_widen(&range, cs_v4_narrow(sub_row[i].colour));
+  convolve->ranges[row] = range;
+}
+
+static void join_ranges(summing *s) {
+  s->range = s->convolve->ranges[0];
+  for (size_t row = 1; row < s->rows; row++)
+    s->range = cs_convolve_both(s->range, s->convolve->ranges[row]);
+}
+
+static void apply_passed(cs_convolve *convolve, const cs_convolve_passed *passed) {
+  for (int k = passed->sub_row; k < passed->sub_row_end; k++) {
+    cs_convolve_sub_row *sub_row =
+        &convolve->sub_rows[passed->row * CS_CONVOLVE_SUB_ROWS + (size_t)k];
+    sub_row->varies += passed->varies;
+    sub_row->colour = cs_v4d_add(sub_row->colour, passed->step);
+  }
+}
+
+/* Applies the passed events at column p. In the list, those of one retained row are neighbours, so
+ * the range of a row is found once. */
+static void apply_passed_events(summing *s, int32_t p) {
+  cs_convolve *convolve = s->convolve;
+  for (uint32_t at = convolve->passed_at[p]; at != 0;) {
+    const cs_convolve_passed *passed = &convolve->passed[at - 1];
+    apply_passed(convolve, passed);
+    at = passed->next;
+    if (at == 0 || convolve->passed[at - 1].row != passed->row)
+      find_range(convolve, passed->row);
+  }
+  join_ranges(s);
+}
+
+static void advance_to(summing *s, int32_t p) {
+  cs_convolve *convolve = s->convolve;
+  for (int c = 0; c < 4; c++) {
+    s->sum[c] += s->slope[c] * (p - s->at) + convolve->changes[p][c];
+    s->slope[c] += convolve->slopes ? convolve->slopes[p][c] : 0;
+  }
+  s->here = convolve->values[p];
+  s->at = p;
+  for (uint32_t at = convolve->shifts_at[p]; at != 0; at = convolve->shifts[at - 1].next) {
+    const cs_convolve_shift *shift = &convolve->shifts[at - 1];
+    double *weight = &convolve->terms[shift->term].weight;
+    s->varying -= fabs(*weight) > NOTHING;
+    *weight += shift->weight;
+    s->varying += fabs(*weight) > NOTHING;
+  }
+  if (convolve->kernel->is_signed && convolve->passed_at[p] != 0)
+    apply_passed_events(s, p);
+}
+
+static cs_v4 clamp(cs_v4 colour, cs_convolve_range range) {
+  for (int c = 0; c < 4; c++)
+    colour[c] = cs_number_clampf(colour[c], range.least[c], range.most[c]);
+  return colour;
+}
+
+static cs_v4 flat_sum(const summing *s, int32_t x) {
+  cs_v4 colour;
+  for (int c = 0; c < 4; c++)
+    colour[c] = (float)tidy(s->sum[c] + s->slope[c] * (x - s->at));
+  return colour + s->here;
+}
+
+static cs_v4 flat_slope(const summing *s) {
+  cs_v4 slope;
+  for (int c = 0; c < 4; c++)
+    slope[c] = (float)tidy(s->slope[c]);
+  return slope;
+}
+
+static cs_v4 clamp_alpha(cs_v4 colour) {
+  colour[3] = cs_number_clampf(colour[3], 0, 1);
+  return colour;
+}
+
+/* Adds a term, by its weight, to the colours of the columns from x0 on. */
+static celspan_status add_term(summing *s, const cs_convolve_term *term, int32_t x0, int32_t x1,
+                               cs_v4 *colours, cs_convolve_range *ranges) {
+  float rgba[64][4];
+  for (int32_t x = x0; x < x1; x += 64) {
+    int32_t end = x1 - x < 64 ? x1 : x + 64;
+    CS_TRY(cs_painter_program_colours(s->painter, term->program, (cs_run){x, end, s->y}, rgba));
+    for (int32_t k = x; k < end; k++) {
+      cs_v4 colour = cs_v4_load(rgba[k - x]);
+      colours[k - x0] += (float)term->weight * colour;
+      cs_convolve_widen(&ranges[k - x0], colour);
+    }
+  }
+  return CELSPAN_OK;
+}
+
+#define MIXED 64 /* columns mixed at a time */
+
+/* Writes up to MIXED columns in which layers that vary have some weight. */
+static celspan_status mix_some(summing *s, int32_t x0, int32_t x1, cs_convolve_range range,
+                               float *out) {
+  cs_convolve *convolve = s->convolve;
+  cs_v4 colours[MIXED];
+  cs_convolve_range ranges[MIXED];
+  for (int32_t k = 0; k < x1 - x0; k++) {
+    colours[k] = flat_sum(s, x0 + k);
+    ranges[k] = range;
+  }
+  for (size_t i = 0; i < convolve->term_count; i++)
+    if (fabs(convolve->terms[i].weight) > NOTHING)
+      CS_TRY(add_term(s, &convolve->terms[i], x0, x1, colours, ranges));
+  for (int32_t k = 0; k < x1 - x0; k++) {
+    cs_v4 colour = convolve->kernel->is_signed ? clamp(colours[k], ranges[k]) : colours[k];
+    cs_v4_store(out + 4 * (size_t)k, clamp_alpha(colour));
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status mix(summing *s, int32_t x0, int32_t x1, cs_convolve_range range) {
+  float *colours;
+  CS_TRY(cs_row_array(s->painter->context, s->out, x0, x1, &colours));
+  for (int32_t x = x0; x < x1; x += MIXED) {
+    int32_t end = x1 - x < MIXED ? x1 : x + MIXED;
+    CS_TRY(mix_some(s, x, end, range, colours + 4 * (size_t)(x - x0)));
+  }
+  return CELSPAN_OK;
+}
+
+/* The program that fills the kernel by itself; NULL where another program or a flat colour is
+ * visible under it too. */
+static const cs_program *lone_program(const summing *s) {
+  if (s->varying != 1)
+    return NULL;
+  for (int c = 0; c < 4; c++)
+    if (fabs(s->sum[c]) > NOTHING || fabs(s->slope[c]) > NOTHING)
+      return NULL;
+  for (size_t i = 0; i < s->convolve->term_count; i++)
+    if (fabs(s->convolve->terms[i].weight - 1) <= NOTHING)
+      return s->convolve->terms[i].program;
+  return NULL;
+}
+
+/* Writes the columns [x0, x1). Only the first is touched, so the sum then follows its slope. */
+static celspan_status write(summing *s, int32_t x0, int32_t x1) {
+  const cs_convolve *convolve = s->convolve;
+  cs_convolve_range range = s->range;
+  if (convolve->kernel->is_signed)
+    range = cs_convolve_both(range, convolve->near[x0]);
+  const cs_program *program = lone_program(s);
+  if (program)
+    return cs_painter_run_program(s->painter, program, (cs_run){x0, x1, s->y}, s->out);
+  if (s->varying > 0)
+    return mix(s, x0, x1, range);
+  cs_v4 colour = flat_sum(s, x0);
+  if (convolve->kernel->is_signed)
+    colour = clamp(colour, range);
+  return cs_row_gradient(s->painter->context, s->out, x0, x1, clamp_alpha(colour), flat_slope(s));
+}
+
+static int32_t next_touched(const cs_convolve *convolve, int32_t p) {
+  if (p >= convolve->width)
+    return convolve->width;
+  size_t word = (size_t)p / 64, words = cs_convolve_words(convolve->width);
+  uint64_t bits = convolve->touched[word] & (~(uint64_t)0 << (p % 64));
+  while (bits == 0 && ++word < words)
+    bits = convolve->touched[word];
+  return bits == 0 ? convolve->width : (int32_t)(word * 64) + __builtin_ctzll(bits);
+}
+
+static celspan_status sum_row(summing *s) {
+  int32_t width = s->convolve->width;
+  for (int32_t p = 0; p < width;) {
+    int32_t next = next_touched(s->convolve, p + 1);
+    advance_to(s, p);
+    CS_TRY(write(s, p, next));
+    p = next;
+  }
+  return CELSPAN_OK;
+}
+
+/* Row y from `count` retained rows, sealed, from the topmost under its kernel to the lowest.
+ * Errors: NO_MEMORY and what painting meets. */
+static CELSPAN_CHECKED celspan_status convolve_row(cs_convolve *convolve, cs_painter *painter,
+                                                   const cs_retained_row *const *retained_rows,
+                                                   size_t count, int32_t y, cs_row *out) {
+  CS_TRY(begin_sub_rows(convolve, painter->context, retained_rows, count, y));
+  CS_TRY(cs_scatter_rows(convolve, painter, retained_rows, count, y));
+  summing s = {.convolve = convolve,
+               .painter = painter,
+               .out = out,
+               .y = y + 0.5,
+               .rows = count,
+               .range = cs_convolve_nothing()};
+  for (int c = 0; c < 4; c++)
+    s.sum[c] = (double)retained_rows[0]->base[c];
+  if (convolve->kernel->is_signed)
+    join_ranges(&s);
+  return sum_row(&s);
+}
+
+/* ---------------------------------------------------------------- the ring of rows */
+
+celspan_status cs_filter_init(cs_filter *filter, const cs_kernel *kernel, cs_painter *painter,
+                              int32_t width, cs_filter_retain *retain, void *user) {
+  celspan_context *context = painter->context;
+  size_t count = 2 * (size_t)cs_kernel_extent(kernel) + 1;
+  *filter = (cs_filter){
+      .kernel = kernel, .painter = painter, .retain = retain, .user = user, .row_count = count};
+  filter->rows = cs_mem_array(context->memory, count, sizeof *filter->rows);
+  filter->under = cs_mem_array(context->memory, count, sizeof *filter->under);
+  if (!filter->rows || !filter->under)
+    return cs_fail_memory(context);
+  return init_convolve(&filter->convolve, context, kernel, width);
+}
+
+void cs_filter_finish(cs_filter *filter, cs_memory *memory) {
+  for (size_t i = 0; filter->rows && i < filter->row_count; i++)
+    cs_retained_finish(&filter->rows[i], memory);
+  cs_mem_free(memory, filter->rows, filter->row_count * sizeof *filter->rows);
+  cs_mem_free(memory, filter->under, filter->row_count * sizeof *filter->under);
+  finish_convolve(&filter->convolve, memory);
+  *filter = (cs_filter){0};
+}
+
+static cs_retained_row *place_of(cs_filter *filter, int32_t y) {
+  int32_t count = (int32_t)filter->row_count, place = y % count;
+  return &filter->rows[place < 0 ? place + count : place];
+}
+
+celspan_status cs_filter_row(cs_filter *filter, int32_t y, cs_row *out) {
+  double radius = filter->kernel->radius_y + 0.5 * filter->kernel->spread;
+  int32_t first = cs_number_floor(y + 0.5 - radius), end = cs_number_ceil(y + 0.5 + radius);
+  for (int32_t row = first; row < end; row++) {
+    cs_retained_row *retained = place_of(filter, row);
+    if (!retained->is_sealed || retained->row != row)
+      CS_TRY(filter->retain(filter->user, row, retained));
+    filter->under[row - first] = retained;
+  }
+  return convolve_row(&filter->convolve, filter->painter, filter->under, (size_t)(end - first), y,
+                      out);
+}

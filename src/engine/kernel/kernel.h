@@ -1,0 +1,85 @@
+/* A filter kernel as rows use it: its antiderivatives, tabulated, or an even shape.
+ *
+ *       share of the kernel                    an edge at x cuts the kernel of a pixel: what lies
+ *       1 |            ____                    right of the edge is weighted by the share right of
+ *         |          /                         it, read from the table
+ *      .5 |       /
+ *         |    /                                         |<-radius->|
+ *       0 |__/_____________ x                  (          *    |     )   kernel of the pixel at *
+ *           -1    0    1   times the radius                   edge
+ *
+ * In units of its radius, u in -1..1, a separable kernel is a step function over equal parts. Its
+ * integral is then piecewise linear, so a filtered edge has neither gap nor overlap: the weights
+ * that the integral gives to the parts of a whole sum to 1. An even shape (a disc, a turned box) is
+ * cut at a height into one interval, in which the kernel is constant.
+ */
+#ifndef CS_KERNEL_KERNEL_H
+#define CS_KERNEL_KERNEL_H
+
+#include "model/scene/antialias.h"
+
+/* The blur of a defocused cel, in the samples of a grid. */
+typedef struct cs_blur {
+  celspan_defocus_kernel kind;
+  double radius_x, radius_y; /* GAUSSIAN: of two sigmas, it reaches twice as far; DISC */
+  double edges[2][2];        /* BOX: half of two sides, as vectors */
+  double blur;               /* width of the square that is also averaged over; 0: none */
+} cs_blur;
+
+/* BOX: whether its sides lie along the axes. */
+bool cs_blur_is_upright(const cs_blur *blur);
+
+typedef enum cs_kernel_shape {
+  CS_KERNEL_SEPARABLE,
+  CS_KERNEL_ELLIPSE,      /* even inside, of radius_x and radius_y */
+  CS_KERNEL_PARALLELOGRAM /* even inside */
+} cs_kernel_shape;
+
+typedef struct cs_kernel {
+  cs_kernel_shape shape;
+  double radius_x, radius_y; /* pixels: how far it reaches */
+  double per_radius_y;       /* 1 / radius_y */
+  int rows;                  /* segments that a slanted edge is cut into, for each row */
+  bool is_signed;            /* negative somewhere */
+  double sharpness;          /* SEPARABLE: how finely a slanted edge is cut; 1 for the sharpest */
+  double edges[2][2];        /* PARALLELOGRAM: half of two sides; the second is the steeper */
+  int offsets;               /* even shapes: the mean of this many by this many of them */
+  double spread;             /* that lie evenly over a square of this width */
+  /* At -1 + 2 i / SAMPLES in units of the radius: shares of the kernel, 0 .. 1 */
+  double above[CS_ANTIALIAS_SAMPLES + 1]; /* over a height */
+  /* SEPARABLE: shares right of an edge that is phase/phases right of a pixel's centre, at the
+   * columns from `columns` left of that pixel on: `stride` of them, after which they are 1. */
+  float *shares;
+  int phases;
+  int32_t columns, stride;
+} cs_kernel;
+
+/* Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_kernel_create(celspan_context *context,
+                                                const cs_antialias *antialias, cs_kernel **out);
+/* The kernel of a defocused cel, as separable or even shape. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_kernel_create_defocus(celspan_context *context,
+                                                        const cs_blur *blur, cs_kernel **out);
+void cs_kernel_free(cs_kernel *kernel, cs_memory *memory);
+/* An even shape at height d from its centre: from *from to *to; false beyond it. */
+bool cs_kernel_chord(const cs_kernel *kernel, double d, double *from, double *to);
+/* Rows and columns that a kernel may extend beyond its pixel. */
+int32_t cs_kernel_extent(const cs_kernel *kernel);
+
+/* The value of a table at u, in units of the radius. */
+static inline double cs_kernel_interpolate(const double *table, double u) {
+  double at = (u + 1) * (CS_ANTIALIAS_SAMPLES / 2);
+  if (!(at > 0))
+    return 0;
+  if (at >= CS_ANTIALIAS_SAMPLES)
+    return 1;
+  int i = (int)at;
+  return table[i] + (at - i) * (table[i + 1] - table[i]);
+}
+
+/* The share of the kernel above the height d below its centre. */
+static inline double cs_kernel_above(const cs_kernel *kernel, double d) {
+  return cs_kernel_interpolate(kernel->above, d * kernel->per_radius_y);
+}
+
+#endif

@@ -1,0 +1,483 @@
+/* Scattering: where the colour steps of the edges under a kernel go, column by column. It is the
+ * first half of a filtered row; filter.c is the second.
+ *
+ *      kernel of the pixel at column p       a retained edge, cut to the heights of the kernel and
+ *          _____                             into segments so short that each may be upright
+ *         /     \
+ *      --|---p---|--------/------            columns whose kernel is left of it: nothing
+ *         \_____/        /                   columns whose kernel it divides: a share of the step
+ *                       /                    columns whose kernel is right of it: the whole step,
+ *                                            which is a change at the first of them, and for signed
+ *                                            kernels a passed event
+ */
+#include "engine/kernel/convolve_parts.h"
+
+#include <math.h>
+
+#include "base/number.h"
+
+/* The work of one row. */
+typedef struct cs_scatter {
+  cs_convolve *convolve;
+  celspan_context *context;
+  double centre;                   /* height of the row that is made */
+  const cs_retained_row *retained; /* the row that is read */
+  uint32_t row;                    /* its place among those under the kernel */
+  int32_t *terms;                  /* of the retained row's programs */
+} cs_scatter;
+
+/* ---------------------------------------------------------------- columns */
+
+static void touch(cs_convolve *convolve, int32_t p) {
+  uint64_t bit = (uint64_t)1 << (p % 64), *word = &convolve->touched[p / 64];
+  if (*word & bit)
+    return;
+  *word |= bit;
+  memset(convolve->changes[p], 0, sizeof convolve->changes[p]);
+  if (convolve->slopes)
+    memset(convolve->slopes[p], 0, sizeof convolve->slopes[p]);
+  convolve->values[p] = cs_v4_all(0);
+  convolve->shifts_at[p] = 0;
+  if (convolve->kernel->is_signed) {
+    convolve->passed_at[p] = 0;
+    convolve->near[p] = cs_convolve_nothing();
+  }
+}
+
+static celspan_status shift_term(cs_scatter *g, int32_t p, int32_t program, double weight) {
+  cs_convolve *convolve = g->convolve;
+  if (program < 0)
+    return CELSPAN_OK;
+  CS_TRY(cs_mem_reserve(g->context, (void **)&convolve->shifts, &convolve->shift_capacity,
+                        convolve->shift_count + 1, sizeof *convolve->shifts));
+  convolve->shifts[convolve->shift_count++] =
+      (cs_convolve_shift){convolve->shifts_at[p], (uint32_t)g->terms[program], weight};
+  convolve->shifts_at[p] = (uint32_t)convolve->shift_count;
+  return CELSPAN_OK;
+}
+
+/* The same step where colours are programs. Errors: NO_MEMORY. */
+static celspan_status add_shift(cs_scatter *g, const cs_retained_edge *edge, int32_t p,
+                                double weight) {
+  CS_TRY(shift_term(g, p, edge->left.program, -weight));
+  return shift_term(g, p, edge->right.program, weight);
+}
+
+/* From column p on, which is touched, the share of the colour right of the edge grows by `weight`,
+ * and that of the colour left of it shrinks by as much. */
+static void add_step(cs_scatter *g, const cs_retained_edge *edge, int32_t p, double weight) {
+  double *sum = g->convolve->changes[p];
+  for (int c = 0; c < 4; c++)
+    sum[c] += weight * ((double)edge->right.colour[c] - (double)edge->left.colour[c]);
+}
+
+/* ---------------------------------------------------------------- edges */
+
+static bool cut_edge(const cs_retained_edge *edge, double top, double foot, cs_retained_edge *out) {
+  double slope = (edge->xb - edge->xa) / (edge->yb - edge->ya);
+  *out = *edge;
+  if (edge->yb <= top || edge->ya >= foot)
+    return false;
+  if (edge->ya < top) {
+    out->ya = top;
+    out->xa = edge->xa + (top - edge->ya) * slope;
+  }
+  if (edge->yb > foot) {
+    out->yb = foot;
+    out->xb = edge->xa + (foot - edge->ya) * slope;
+  }
+  return true;
+}
+
+static bool has_flat_sides(const cs_retained_edge *edge) {
+  return edge->left.program < 0 && edge->right.program < 0;
+}
+
+/* ------------------------------------------------------ an edge under a separable kernel */
+
+/* An edge under a separable kernel.
+ *
+ *            /  ya
+ *           /  } segment    an edge is cut into segments so short that each may count as upright at
+ *          /   } segment    its middle x, with the share of the kernel at its heights as its weight
+ *         /  yb
+ *
+ *      column   p-2   p-1    p    p+1   p+2
+ *      share     0    .1    .5    .9     1      a row of the kernel's table: which shares of its
+ *                                               weight a segment adds to the columns around it
+ *
+ * The shares of all segments within a stretch of about a column are summed first, so that the
+ * colour step of the edge is added once a column.
+ */
+#define STRETCH 1.0 /* columns that segments summed together may cross */
+#define WIDEST 0.25 /* columns that one segment may cross */
+
+/* Into how many segments an edge is cut: the error of a segment grows as the product of its height
+ * and its width. */
+static int count_segments(const cs_kernel *kernel, double height, double across) {
+  double wanted = kernel->rows * kernel->sharpness * sqrt(height * across);
+  double least = across * kernel->sharpness / WIDEST;
+  return (int)ceil(fmax(wanted, fmax(least, 1)));
+}
+
+/* Segments that are summed together. They divide the kernels of the columns [first, end); in the
+ * columns after, their weight counts as a whole. */
+typedef struct stretch {
+  int32_t first, end;
+  double weight;
+} stretch;
+
+/* Adds the shares of a segment at x to the sums of a stretch, a number for each column. */
+static void add_segment(const cs_kernel *kernel, const stretch *s, double x, float weight,
+                        float *sums) {
+  double column = floor(x - 0.5), phase = (x - 0.5 - column) * kernel->phases;
+  /* Just left of a centre, phase rounds to `phases`. */
+  int32_t row = cs_number_row(phase, kernel->phases), stride = kernel->stride;
+  float t = (float)(phase - row);
+  const float *low = kernel->shares + (size_t)row * (size_t)stride, *high = low + stride;
+  float *out = sums + ((int32_t)column - kernel->columns - s->first);
+  cs_v4 near = cs_v4_all(weight * (1 - t)), far = cs_v4_all(weight * t);
+  for (int32_t k = 0; k < stride; k += 4)
+    cs_v4_store(out + k,
+                cs_v4_load(out + k) + (near * cs_v4_load(low + k) + far * cs_v4_load(high + k)));
+  for (float *rest = out + stride; rest < sums + (s->end - s->first); rest++)
+    *rest += weight;
+}
+
+/* The first sub-row of the retained row whose middle is at or below height y. */
+static int first_sub_row(const cs_scatter *g, double y) {
+  double sub_row = ceil((y - g->retained->row) * CS_CONVOLVE_SUB_ROWS - 0.5);
+  return (int)cs_number_clamp(sub_row, 0, CS_CONVOLVE_SUB_ROWS);
+}
+
+/* Notes that from column p on the kernel has passed the heights y0..y1 of an edge. */
+static celspan_status add_passed(cs_scatter *g, const cs_retained_edge *edge, int32_t p, double y0,
+                                 double y1) {
+  cs_convolve *convolve = g->convolve;
+  int sub_row = first_sub_row(g, y0), sub_row_end = first_sub_row(g, y1);
+  if (sub_row == sub_row_end)
+    return CELSPAN_OK;
+  CS_TRY(cs_mem_reserve(g->context, (void **)&convolve->passed, &convolve->passed_capacity,
+                        convolve->passed_count + 1, sizeof *convolve->passed));
+  cs_convolve_passed *passed = &convolve->passed[convolve->passed_count++];
+  *passed = (cs_convolve_passed){.next = convolve->passed_at[p],
+                                 .row = g->row,
+                                 .sub_row = sub_row,
+                                 .sub_row_end = sub_row_end,
+                                 .varies = (edge->right.program >= 0) - (edge->left.program >= 0)};
+  passed->step = cs_v4d_step(edge->left.colour, edge->right.colour);
+  convolve->passed_at[p] = (uint32_t)convolve->passed_count;
+  return CELSPAN_OK;
+}
+
+static cs_convolve_range range_of(const cs_retained_edge *edge) {
+  cs_convolve_range range = cs_convolve_nothing();
+  if (edge->left.program < 0)
+    cs_convolve_widen(&range, edge->left.colour);
+  if (edge->right.program < 0)
+    cs_convolve_widen(&range, edge->right.colour);
+  return range;
+}
+
+/* Adds the colour step of a stretch to its columns, by the sums of its segments. */
+static celspan_status put_stretch(cs_scatter *g, const cs_retained_edge *edge, const stretch *s,
+                                  const float *sums) {
+  cs_convolve *convolve = g->convolve;
+  cs_v4 step = edge->right.colour - edge->left.colour;
+  int32_t first = s->first > 0 ? s->first : 0;
+  int32_t end = s->end < convolve->width ? s->end : convolve->width;
+  bool is_flat = has_flat_sides(edge);
+  double before = 0;
+  for (int32_t p = first; p < end; p++) {
+    float share = sums[p - s->first];
+    touch(convolve, p);
+    convolve->values[p] += share * step;
+    if (!is_flat)
+      CS_TRY(add_shift(g, edge, p, (double)share - before));
+    before = (double)share;
+  }
+  if (convolve->kernel->is_signed) {
+    cs_convolve_range range = range_of(edge);
+    for (int32_t p = first; p < end; p++)
+      convolve->near[p] = cs_convolve_both(convolve->near[p], range);
+  }
+  if (s->end >= convolve->width)
+    return CELSPAN_OK;
+  int32_t rest = s->end > 0 ? s->end : 0;
+  touch(convolve, rest);
+  add_step(g, edge, rest, s->weight);
+  return add_shift(g, edge, rest, s->weight - before);
+}
+
+/* Adds the stretch `cut` of an edge, in `count` segments that are summed together. */
+static celspan_status add_stretch(cs_scatter *g, const cs_retained_edge *edge,
+                                  const cs_retained_edge *cut, int count) {
+  const cs_kernel *kernel = g->convolve->kernel;
+  float *sums = g->convolve->sums;
+  double low = fmin(cut->xa, cut->xb) - 0.5, high = fmax(cut->xa, cut->xb) - 0.5;
+  double above = cs_kernel_above(kernel, cut->ya - g->centre), begin = above;
+  stretch s = {(int32_t)floor(low) - kernel->columns, (int32_t)floor(high) + kernel->columns + 2,
+               0};
+  if (s.first >= g->convolve->width)
+    return CELSPAN_OK;
+  memset(sums, 0, (size_t)(s.end - s.first + kernel->stride) * sizeof *sums);
+  double across = (cut->xb - cut->xa) / count, down = (cut->yb - cut->ya) / count;
+  for (int k = 1; k <= count; k++) {
+    double foot = k == count ? cut->yb : cut->ya + k * down;
+    double below = cs_kernel_above(kernel, foot - g->centre);
+    if (s.end > 0)
+      add_segment(kernel, &s, cut->xa + (k - 0.5) * across, (float)(below - above), sums);
+    above = below;
+  }
+  s.weight = above - begin;
+  CS_TRY(put_stretch(g, edge, &s, sums));
+  return kernel->is_signed && s.end < g->convolve->width
+             ? add_passed(g, edge, s.end > 0 ? s.end : 0, cut->ya, cut->yb)
+             : CELSPAN_OK;
+}
+
+static celspan_status scatter_separable(cs_scatter *g, const cs_retained_edge *edge) {
+  const cs_kernel *kernel = g->convolve->kernel;
+  cs_retained_edge within, cut;
+  if (!cut_edge(edge, g->centre - kernel->radius_y, g->centre + kernel->radius_y, &within))
+    return CELSPAN_OK;
+  double height = within.yb - within.ya, across = within.xb - within.xa;
+  int stretches = (int)ceil(fmax(fabs(across) / STRETCH, 1));
+  int segments = count_segments(kernel, height, fabs(across));
+  segments = (segments + stretches - 1) / stretches;
+  cut = within;
+  for (int k = 1; k <= stretches; k++) {
+    double u = (double)k / stretches;
+    cut.xb = k == stretches ? within.xb : within.xa + u * across;
+    cut.yb = k == stretches ? within.yb : within.ya + u * height;
+    CS_TRY(add_stretch(g, edge, &cut, segments));
+    cut.xa = cut.xb;
+    cut.ya = cut.yb;
+  }
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- an edge under an even shape */
+
+/* An edge under an even shape: at each height the kernel is one interval, its chord, in which it is
+ * constant.
+ *
+ *         ___--/---___
+ *       /     /        \        the edge is cut into segments by height
+ *      |     /          |
+ *      |====*===========|       the kernel's chord at the middle height of a segment: the share of
+ *       \   |          /        the chord right of the segment is the share of the segment's weight
+ *         --|______---          that the pixel gets
+ *
+ * A long chord over an upright segment is a ramp along the columns: one change of slope where it
+ * begins, and one where it ends.
+ */
+#define NARROW 1e-4  /* of a chord: segments that cross less count as upright */
+#define NOTHING 1e-9 /* shorter chords have no weight worth adding */
+#define RAMP 8       /* columns; under longer chords, segments that cross little are ramps */
+
+/* A segment of an edge, and the share of the kernel at its heights. */
+typedef struct segment {
+  double low, high; /* x */
+  double from, to;  /* the kernel's chord at its middle height, relative to the kernel's centre */
+  double weight;
+  int32_t first, end; /* columns whose kernel it divides; from `end` on the kernel has passed it */
+} segment;
+
+static double half_square(double v) { return v > 0 ? 0.5 * v * v : 0; }
+
+/* The share of the chord of a kernel with centre c that lies right of a segment, as a mean over the
+ * segment's heights. scale: 1 / the chord's length, divided by the width of the segment unless that
+ * is upright. */
+static double share_right(const segment *t, double c, bool is_upright, double scale) {
+  if (is_upright)
+    return cs_number_clamp((c + t->to - 0.5 * (t->low + t->high)) * scale, 0, 1);
+  return (half_square(c + t->to - t->low) - half_square(c + t->from - t->low) -
+          half_square(c + t->to - t->high) + half_square(c + t->from - t->high)) *
+         scale;
+}
+
+/* Adds a segment to each column whose kernel it divides, and as a whole to the columns after. */
+static celspan_status spread(cs_scatter *g, const cs_retained_edge *edge, const segment *t) {
+  cs_convolve *convolve = g->convolve;
+  double before = 0, length = t->to - t->from, across = t->high - t->low;
+  bool is_upright = across < NARROW * length, is_flat = has_flat_sides(edge);
+  double scale = 1 / (is_upright ? length : length * across);
+  cs_v4 step = (float)t->weight * (edge->right.colour - edge->left.colour);
+  int32_t stop = t->end < convolve->width ? t->end : convolve->width;
+  for (int32_t p = t->first > 0 ? t->first : 0; p < stop; p++) {
+    double now = share_right(t, p + 0.5, is_upright, scale);
+    touch(convolve, p);
+    convolve->values[p] += (float)now * step;
+    if (!is_flat)
+      CS_TRY(add_shift(g, edge, p, t->weight * (now - before)));
+    before = now;
+  }
+  if (t->end >= convolve->width)
+    return CELSPAN_OK;
+  int32_t rest = t->end > 0 ? t->end : 0;
+  touch(convolve, rest);
+  add_step(g, edge, rest, t->weight);
+  return add_shift(g, edge, rest, t->weight * (1 - before));
+}
+
+static void tilt(cs_scatter *g, const cs_retained_edge *edge, int32_t p, double slope) {
+  double *sum = g->convolve->slopes[p];
+  for (int c = 0; c < 4; c++)
+    sum[c] += slope * ((double)edge->right.colour[c] - (double)edge->left.colour[c]);
+}
+
+/* An upright segment between flat colours under a chord is a ramp: one change where it begins, one
+ * where it ends. */
+static void spread_ramp(cs_scatter *g, const cs_retained_edge *edge, const segment *t) {
+  cs_convolve *convolve = g->convolve;
+  double x = 0.5 * (t->low + t->high), slope = 1 / (t->to - t->from);
+  int32_t first = cs_number_first_centre(x - t->to), end = cs_number_first_centre(x - t->from);
+  first = first > 0 ? first : 0;
+  if (first >= convolve->width)
+    return;
+  double now = end > first ? (first + 0.5 + t->to - x) * slope : 1;
+  touch(convolve, first);
+  add_step(g, edge, first, t->weight * now);
+  if (end <= first)
+    return;
+  tilt(g, edge, first, t->weight * slope);
+  if (end >= convolve->width)
+    return;
+  touch(convolve, end);
+  tilt(g, edge, end, -t->weight * slope);
+  add_step(g, edge, end, t->weight * (1 - (now + (end - first) * slope)));
+}
+
+static celspan_status add_even_segment(cs_scatter *g, const cs_retained_edge *edge, segment *t) {
+  if (t->weight == 0)
+    return CELSPAN_OK;
+  t->first = cs_number_first_centre(t->low - t->to);
+  t->end = cs_number_first_centre(t->high - t->from);
+  bool is_ramp = t->end - t->first > RAMP && t->high - t->low <= (t->to - t->from) / RAMP &&
+                 has_flat_sides(edge);
+  if (!is_ramp)
+    return spread(g, edge, t);
+  spread_ramp(g, edge, t);
+  return CELSPAN_OK;
+}
+
+/* Into how many segments an edge is cut so that the kernel has nearly one chord over the heights of
+ * each; an upright box has the same chord at all heights. */
+static int count_even_segments(const cs_kernel *kernel, const cs_retained_edge *edge) {
+  double height = edge->yb - edge->ya, across = fabs(edge->xb - edge->xa);
+  bool is_upright = kernel->shape == CS_KERNEL_PARALLELOGRAM && kernel->edges[0][1] == 0 &&
+                    kernel->edges[1][0] == 0;
+  double count = is_upright ? 1 : ceil(height * kernel->rows / kernel->radius_y);
+  if (2 * kernel->radius_x > RAMP)
+    count = fmax(count, ceil(across * RAMP / (2 * kernel->radius_x)));
+  return count > 1 ? (int)count : 1;
+}
+
+/* Adds an edge, cut to the heights of the kernel, to kernels whose centres are moved by dx, dy from
+ * the pixels' centres. share: of these kernels in the whole one. */
+static celspan_status add_cut(cs_scatter *g, const cs_retained_edge *edge, double dx, double dy,
+                              double share) {
+  const cs_kernel *kernel = g->convolve->kernel;
+  int count = count_even_segments(kernel, edge);
+  double xa = edge->xa, ya = edge->ya, centre = g->centre + dy;
+  double above = cs_kernel_above(kernel, ya - centre);
+  for (int k = 1; k <= count; k++) {
+    double u = (double)k / count;
+    double xb = k == count ? edge->xb : edge->xa + u * (edge->xb - edge->xa);
+    double yb = k == count ? edge->yb : edge->ya + u * (edge->yb - edge->ya);
+    double below = cs_kernel_above(kernel, yb - centre);
+    segment t = {.low = (xa < xb ? xa : xb) - dx,
+                 .high = (xa < xb ? xb : xa) - dx,
+                 .weight = share * (below - above)};
+    if (cs_kernel_chord(kernel, 0.5 * (ya + yb) - centre, &t.from, &t.to) &&
+        t.to - t.from > NOTHING)
+      CS_TRY(add_even_segment(g, edge, &t));
+    xa = xb;
+    ya = yb;
+    above = below;
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status add_offset(cs_scatter *g, const cs_retained_edge *edge, double dx, double dy,
+                                 double share) {
+  double radius = g->convolve->kernel->radius_y, centre = g->centre + dy;
+  cs_retained_edge cut;
+  return cut_edge(edge, centre - radius, centre + radius, &cut) ? add_cut(g, &cut, dx, dy, share)
+                                                                : CELSPAN_OK;
+}
+
+static celspan_status scatter_even(cs_scatter *g, const cs_retained_edge *edge) {
+  const cs_kernel *kernel = g->convolve->kernel;
+  int count = kernel->offsets;
+  if (count <= 1)
+    return add_offset(g, edge, 0, 0, 1);
+  for (int j = 0; j < count; j++)
+    for (int i = 0; i < count; i++)
+      CS_TRY(add_offset(g, edge, ((i + 0.5) / count - 0.5) * kernel->spread,
+                        ((j + 0.5) / count - 0.5) * kernel->spread, 1.0 / (count * count)));
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- a row */
+
+/* ---------------------------------------------------------------- programs */
+
+static bool are_same(const cs_painter *painter, const cs_program *a, const cs_program *b) {
+  if (a->length != b->length || memcmp(a->items, b->items, a->length * sizeof *a->items) != 0)
+    return false;
+  for (uint32_t i = 0; a->procedure_spans != b->procedure_spans && i < a->length; i++)
+    if (painter->stack->layers[a->items[i].layer].kind == CS_LAYER_SCANLINE)
+      return false; /* the numbers of procedure spans differ from row to row */
+  return true;
+}
+
+static celspan_status find_term(cs_scatter *g, const cs_painter *painter, const cs_program *program,
+                                int32_t *out) {
+  cs_convolve *convolve = g->convolve;
+  for (size_t i = convolve->term_count; i-- > 0;)
+    if (are_same(painter, convolve->terms[i].program, program)) {
+      *out = (int32_t)i;
+      return CELSPAN_OK;
+    }
+  CS_TRY(cs_mem_reserve(g->context, (void **)&convolve->terms, &convolve->term_capacity,
+                        convolve->term_count + 1, sizeof *convolve->terms));
+  convolve->terms[convolve->term_count] = (cs_convolve_term){.program = program};
+  *out = (int32_t)convolve->term_count++;
+  return CELSPAN_OK;
+}
+
+static celspan_status add_row(cs_scatter *g, cs_painter *painter) {
+  const cs_retained_row *retained = g->retained;
+  g->terms = NULL;
+  if (retained->program_count > 0) {
+    cs_arena_reset(&painter->scratch);
+    g->terms =
+        cs_arena_take(g->context, &painter->scratch, retained->program_count * sizeof *g->terms);
+    if (!g->terms)
+      return CELSPAN_NO_MEMORY;
+  }
+  for (size_t i = 0; i < retained->program_count; i++)
+    CS_TRY(find_term(g, painter, &retained->programs[i].program, &g->terms[i]));
+  for (size_t i = 0; i < retained->edge_count; i++)
+    CS_TRY(g->convolve->kernel->shape == CS_KERNEL_SEPARABLE
+               ? scatter_separable(g, &retained->edges[i])
+               : scatter_even(g, &retained->edges[i]));
+  return CELSPAN_OK;
+}
+
+celspan_status cs_scatter_rows(cs_convolve *convolve, cs_painter *painter,
+                               const cs_retained_row *const *retained_rows, size_t count,
+                               int32_t y) {
+  cs_scatter g = {.convolve = convolve, .context = painter->context, .centre = y + 0.5};
+  convolve->term_count = convolve->shift_count = convolve->passed_count = 0;
+  memset(convolve->touched, 0, cs_convolve_words(convolve->width) * sizeof *convolve->touched);
+  touch(convolve, 0);
+  for (size_t i = 0; i < count; i++) {
+    g.retained = retained_rows[i];
+    g.row = (uint32_t)i;
+    CS_TRY(add_row(&g, painter));
+  }
+  return CELSPAN_OK;
+}

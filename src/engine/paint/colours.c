@@ -1,0 +1,260 @@
+#include "engine/paint/colours.h"
+
+#include "base/number.h"
+#include "engine/paint/gradient_table.h"
+#include "engine/paint/over_bare.h"
+#include "engine/paint/over_row.h"
+#include "engine/paint/shade.h"
+#include "engine/paint/shown.h"
+#include "model/colour/srgb8.h"
+
+#include <math.h>
+
+/* ---------------------------------------------------------------- samples */
+
+/* The paint of a procedure span at x: one is flat, two or more are evenly spaced over it. */
+static cs_paint procedure_paint(const cs_procedure_span *span, double x) {
+  if (span->paint_count == 1)
+    return span->paints[0];
+  double last = (double)(span->paint_count - 1);
+  double at = cs_number_clamp((x - span->x0) / (span->x1 - span->x0), 0, 1) * last;
+  size_t i = (size_t)cs_number_clamp(floor(at), 0, last - 1);
+  return cs_paint_mix(&span->paints[i], &span->paints[i + 1], (float)(at - (double)i));
+}
+
+/* The samples and paints of one layer that varies, in a batch of pixels. */
+typedef struct samples {
+  float rgba[CS_OVER_ROW_BATCH][4];                       /* pictures */
+  float s[CS_OVER_ROW_BATCH][4], t[CS_OVER_ROW_BATCH][4]; /* all others; s is not lit */
+} samples;
+
+static void sample_shade(const cs_shade *shade, const cs_batch *batch, samples *out) {
+  for (int32_t k = 0; k < batch->count; k++) {
+    cs_shade_lanes paint = cs_shade_paint(shade, cs_batch_centre(batch, k), batch->y);
+    cs_v4_store(out->s[k], paint.s);
+    cs_v4_store(out->t[k], paint.t);
+  }
+}
+
+static void sample_procedure(const cs_procedure_span *span, const cs_batch *batch, samples *out) {
+  for (int32_t k = 0; k < batch->count; k++) {
+    cs_paint paint = procedure_paint(span, cs_batch_centre(batch, k));
+    cs_v4_store(out->s[k], (cs_v4){paint.s[0], paint.s[1], paint.s[2], 0});
+    cs_v4_store(out->t[k], (cs_v4){paint.t[0], paint.t[1], paint.t[2], 0});
+  }
+}
+
+static celspan_status sample(cs_painter *painter, const cs_sampler *sampler, const cs_batch *batch,
+                             float (*rgba)[4]) {
+  if (batch->columns)
+    return cs_sampler_at(painter->blocks, sampler, batch->columns, batch->count, batch->y, rgba);
+  cs_run run = {batch->x0, batch->x0 + batch->count, batch->y};
+  return cs_sampler_run(painter->blocks, sampler, run, rgba);
+}
+
+static celspan_status sample_picture(cs_painter *painter, const cs_layer *layer,
+                                     const cs_batch *batch, float (*rgba)[4]) {
+  const cs_image_view *view;
+  CS_TRY(cs_painter_image(painter, layer->index, &view));
+  return sample(painter, &view->sampler, batch, rgba);
+}
+
+/* The same of a picture with a medium of its own: its paints. */
+static celspan_status sample_media(cs_painter *painter, const cs_layer *layer,
+                                   const cs_batch *batch, samples *out) {
+  const cs_image_view *view;
+  CS_TRY(cs_painter_image(painter, layer->index, &view));
+  CS_TRY(sample(painter, &view->sampler, batch, out->s));
+  CS_TRY(sample(painter, &view->medium, batch, out->rgba));
+  for (int32_t k = 0; k < batch->count; k++) {
+    cs_paint paint = cs_paint_from_picture(out->rgba[k], CELSPAN_PICTURE_GEL);
+    out->s[k][3] = 0;
+    cs_v4_store(out->t[k], (cs_v4){paint.t[0], paint.t[1], paint.t[2], 0});
+  }
+  return CELSPAN_OK;
+}
+
+/* The same, of pictures that are shown as they are. */
+static celspan_status sample_bare(cs_painter *painter, const cs_layer *layer, const cs_batch *batch,
+                                  cs_samples *out) {
+  const cs_image_view *view;
+  cs_run run = {batch->x0, batch->x0 + batch->count, batch->y};
+  CS_TRY(cs_painter_image(painter, layer->index, &view));
+  if (!batch->columns)
+    return cs_sampler_samples(painter->blocks, &view->sampler, run, out);
+  out->are_planes = false;
+  return sample_picture(painter, layer, batch, out->rgba);
+}
+
+static celspan_status sample_defocused(cs_painter *painter, const cs_layer *layer,
+                                       const cs_batch *batch, samples *out) {
+  const cs_defocused *defocused = painter->stack->defocused[layer->index];
+  cs_defocused_view *view = &painter->defocused[layer->index];
+  CS_TRY(cs_defocused_move(defocused, painter->context, view, batch->y));
+  size_t line = 0;
+  for (int32_t k = 0; k < batch->count; k++) {
+    cs_v4 s, t;
+    cs_defocused_paint(defocused, view, cs_batch_centre(batch, k), &line, &s, &t);
+    cs_v4_store(out->s[k], s);
+    cs_v4_store(out->t[k], t);
+  }
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- one over the other */
+
+static celspan_status add_item(cs_painter *painter, cs_over_row *over,
+                               const cs_procedure_span *procedure_spans, cs_item item,
+                               const cs_batch *batch, samples *room) {
+  const cs_stack *stack = painter->stack;
+  const cs_layer *layer = &stack->layers[item.layer];
+  if (layer->kind == CS_LAYER_FLAT) {
+    cs_over_row_add_layer(over, layer);
+    return CELSPAN_OK;
+  }
+  if (layer->kind == CS_LAYER_PICTURE && !stack->images[layer->index].texture->variation->medium) {
+    CS_TRY(sample_picture(painter, layer, batch, room->rgba));
+    return cs_over_row_add_samples(over, layer, stack->images[layer->index].texture->variation->use,
+                                   (const float(*)[4])room->rgba);
+  }
+  if (layer->kind == CS_LAYER_DEFOCUSED)
+    CS_TRY(sample_defocused(painter, layer, batch, room));
+  else if (layer->kind == CS_LAYER_PICTURE)
+    CS_TRY(sample_media(painter, layer, batch, room));
+  else if (layer->kind == CS_LAYER_SHADED)
+    sample_shade(&stack->shades[layer->index], batch, room);
+  else
+    sample_procedure(&procedure_spans[item.procedure_span], batch, room);
+  return cs_over_row_add_paint(over, layer, (const float(*)[4])room->s, (const float(*)[4])room->t);
+}
+
+static celspan_status fold_items(cs_painter *painter, const cs_program *program,
+                                 const cs_batch *batch, float (*rgba)[4]) {
+  celspan_context *context = painter->context;
+  cs_arena *scratch = &painter->scratch;
+  cs_over_row over;
+  samples *room = cs_arena_take(context, scratch, sizeof *room);
+  if (!room)
+    return CELSPAN_NO_MEMORY;
+  CS_TRY(cs_over_row_begin(context, scratch, painter->stack, painter->isa, batch->count, &over));
+  for (uint32_t i = 0; i < program->length; i++) {
+    CS_TRY(cs_over_row_move(&over, program->items[i].layer));
+    CS_TRY(add_item(painter, &over, program->procedure_spans, program->items[i], batch, room));
+  }
+  cs_over_row_end(&over, rgba);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- pictures as they are */
+
+bool cs_painter_is_bare(const cs_painter *painter, cs_item item) {
+  const cs_stack *stack = painter->stack;
+  const cs_layer *layer = &stack->layers[item.layer];
+  return layer->kind == CS_LAYER_PICTURE && layer->role == CS_LAYER_PAINT &&
+         !stack->images[layer->index].texture->variation->medium && layer->group == CS_STACK_NONE &&
+         layer->fade == 1 && layer->front[0] == 1 && layer->front[1] == 1 && layer->front[2] == 1 &&
+         (stack->light_count == 0 || stack->lights[0].below <= item.layer);
+}
+
+static bool is_all_bare(const cs_painter *painter, const cs_program *program) {
+  const cs_stack *stack = painter->stack;
+  bool bare = program->length > 0 && stack->light_count <= 1;
+  for (uint32_t i = 0; i < program->length && bare; i++) {
+    const cs_layer *layer = &stack->layers[program->items[i].layer];
+    bare = cs_painter_is_bare(painter, program->items[i]) &&
+           stack->images[layer->index].texture->variation->use == CELSPAN_PICTURE_PAINT;
+  }
+  return bare;
+}
+
+/* Programs of pictures alone: each is sampled only where it shines through those in front. */
+static celspan_status fold_bare(cs_painter *painter, const cs_program *program,
+                                const cs_batch *batch, cs_over_bare *out) {
+  const cs_over_bare_range *shown = &out->shown;
+  cs_over_bare_begin(out, batch->count);
+  for (uint32_t i = 0; shown->first < shown->end; i++) {
+    const cs_layer *layer = &painter->stack->layers[program->items[i].layer];
+    cs_batch part = {batch->columns ? batch->columns + shown->first : NULL,
+                     batch->x0 + shown->first, shown->end - shown->first, batch->y};
+    CS_TRY(sample_bare(painter, layer, &part, &out->last));
+    if (i + 1 == program->length)
+      break;
+    cs_over_bare_add(painter->isa, out);
+  }
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- batches */
+
+celspan_status cs_painter_batch_colours(cs_painter *painter, const cs_program *program,
+                                        const cs_batch *batch, float (*rgba)[4]) {
+  const cs_gradient_table *table;
+  painter->evaluations += (uint64_t)batch->count;
+  CS_TRY(cs_gradient_table_find(painter->gradients, program, &table));
+  if (table) {
+    cs_gradient_table_colours(table, batch, rgba);
+    return CELSPAN_OK;
+  }
+  cs_arena_reset(&painter->scratch);
+  if (!is_all_bare(painter, program))
+    return fold_items(painter, program, batch, rgba);
+  cs_over_bare over;
+  CS_TRY(fold_bare(painter, program, batch, &over));
+  cs_over_bare_end(painter->isa, painter->stack, &over, rgba);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_painter_batch_codes(cs_painter *painter, const cs_program *program,
+                                      const cs_batch *batch, unsigned char *codes) {
+  if (is_all_bare(painter, program)) {
+    cs_over_bare over;
+    painter->evaluations += (uint64_t)batch->count;
+    CS_TRY(fold_bare(painter, program, batch, &over));
+    cs_over_bare_codes(painter->isa, painter->stack, &over, codes);
+    return CELSPAN_OK;
+  }
+  float rgba[CS_OVER_ROW_BATCH][4];
+  CS_TRY(cs_painter_batch_colours(painter, program, batch, rgba));
+  cs_srgb8_choose(painter->isa)(rgba[0], (size_t)batch->count, codes);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- runs */
+
+celspan_status cs_painter_shown_colours(cs_painter *painter, const cs_program *program, cs_run run,
+                                        float (*rgba)[4]) {
+  for (int32_t x = run.x0; x < run.x1; x += CS_OVER_ROW_BATCH) {
+    int32_t count = run.x1 - x < CS_OVER_ROW_BATCH ? run.x1 - x : CS_OVER_ROW_BATCH;
+    cs_batch batch = {NULL, x, count, run.y};
+    CS_TRY(cs_painter_batch_colours(painter, program, &batch, rgba + (x - run.x0)));
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_painter_program_colours(cs_painter *painter, const cs_program *program,
+                                          cs_run run, float (*rgba)[4]) {
+  if (!cs_shown_varies(painter->stack, program))
+    return cs_painter_shown_colours(painter, program, run, rgba);
+  int32_t stride = cs_shown_stride(painter, program);
+  cs_shown *shown = &painter->shown[0];
+  for (int32_t x = run.x0, end; x < run.x1; rgba += end - x, x = end) {
+    int32_t left = x / stride * stride;
+    cs_run known = cs_run_between(run, left, left + stride);
+    CS_TRY(cs_shown_find(painter, program, known, shown));
+    end = known.x1 < run.x1 ? known.x1 : run.x1;
+    const cs_program visible = {shown->items, program->procedure_spans, shown->length};
+    CS_TRY(cs_painter_shown_colours(painter, &visible, cs_run_between(run, x, end), rgba));
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_painter_colours(cs_painter *painter, const cs_cell *cell, cs_run run,
+                                  float (*rgba)[4]) {
+  if (cell->length > 0) {
+    cs_program program = cs_composer_program(painter->composer, cell);
+    return cs_painter_program_colours(painter, &program, run, rgba);
+  }
+  for (int32_t x = run.x0; x < run.x1; x++)
+    cs_v4_store(rgba[x - run.x0], cell->colour);
+  return CELSPAN_OK;
+}

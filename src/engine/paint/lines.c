@@ -1,0 +1,305 @@
+#include "engine/paint/lines.h"
+
+#include "base/number.h"
+#include "base/sort.h"
+#include "engine/paint/colours.h"
+#include "engine/paint/gradient_run.h"
+#include "engine/paint/gradient_table.h"
+#include "engine/paint/halving.h"
+#include "engine/paint/over_row.h"
+#include "engine/paint/painter.h"
+#include "engine/span/row.h"
+#include "engine/span/run.h"
+
+/* ---------------------------------------------------------------- where a run is cut */
+
+/* Where a run is cut into lines: at the columns in which a formula of its program bends, or a texel
+ * begins. Both ends of the run are among them.
+ *
+ *     columns                x0                          x1
+ *                            |                           |
+ *     layer with stops       |      '        '           |
+ *     texels of a picture    |  '        '       '       |       the columns of each layer ascend,
+ *                            |                           |       and are merged:
+ *     ends                   '  '   '    '   '   '       '
+ */
+
+/* Columns, ascending, in room of the row's own arena: the scratch arena is used again for every
+ * colour. */
+typedef struct cut_list {
+  int32_t *columns, *other; /* other: room to merge into */
+  size_t count;
+} cut_list;
+
+typedef struct finder {
+  cs_painter *painter;
+  const cs_program *program;
+  cs_run run;
+  cs_arena *arena;
+} finder;
+
+/* ---------------------------------------------------------------- breaks of one layer */
+
+static size_t procedure_breaks(const cs_procedure_span *span, cs_run run, double *out) {
+  size_t count = 0;
+  for (size_t i = 1; i + 1 < span->paint_count; i++) {
+    double u = (double)i / (double)(span->paint_count - 1);
+    double x = span->x0 + u * (span->x1 - span->x0);
+    if (x > run.x0 && x < run.x1)
+      out[count++] = x;
+  }
+  return count;
+}
+
+static size_t break_limit(const finder *f, cs_item item) {
+  const cs_stack *stack = f->painter->stack;
+  const cs_layer *layer = &stack->layers[item.layer];
+  switch ((cs_layer_kind)layer->kind) {
+  case CS_LAYER_SHADED:
+    return cs_shade_break_limit(&stack->shades[layer->index]);
+  case CS_LAYER_SCANLINE:
+    return f->program->procedure_spans[item.procedure_span].paint_count;
+  case CS_LAYER_DEFOCUSED:
+    return cs_defocused_break_limit(stack->defocused[layer->index]);
+  case CS_LAYER_PICTURE:
+    return cs_sampler_texel_edge_limit(&f->painter->images[layer->index].sampler, f->run);
+  case CS_LAYER_FLAT:
+    break;
+  }
+  return 0;
+}
+
+/* Where a formula bends inside the run, in any order. */
+static celspan_status find_breaks(const finder *f, cs_item item, double *out, size_t *count) {
+  const cs_stack *stack = f->painter->stack;
+  const cs_layer *layer = &stack->layers[item.layer];
+  *count = 0;
+  if (layer->kind == CS_LAYER_SHADED) {
+    *count = cs_shade_breaks(&stack->shades[layer->index], f->run, out);
+  } else if (layer->kind == CS_LAYER_SCANLINE) {
+    *count = procedure_breaks(&f->program->procedure_spans[item.procedure_span], f->run, out);
+  } else if (layer->kind == CS_LAYER_DEFOCUSED) {
+    const cs_defocused *defocused = stack->defocused[layer->index];
+    cs_defocused_view *view = &f->painter->defocused[layer->index];
+    CS_TRY(cs_defocused_move(defocused, f->painter->context, view, f->run.y));
+    *count = cs_defocused_breaks(defocused, view, f->run, out);
+  }
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- the columns of all */
+
+/* Merges the last `count` columns, which ascend, with those before. */
+static void merge(cut_list *list, size_t count) {
+  size_t before = list->count, i = 0, j = before, end = before + count;
+  list->count = end;
+  if (before == 0 || count == 0 || list->columns[before - 1] <= list->columns[before])
+    return;
+  for (size_t k = 0; k < end; k++)
+    list->other[k] = j == end || (i < before && list->columns[i] <= list->columns[j])
+                         ? list->columns[i++]
+                         : list->columns[j++];
+  int32_t *merged = list->other;
+  list->other = list->columns;
+  list->columns = merged;
+}
+
+static inline bool is_before(const int32_t *a, const int32_t *b) { return *a < *b; }
+
+CS_SORT_DEFINE(sort_columns, int32_t, is_before)
+
+static celspan_status add_formula(const finder *f, cs_item item, cut_list *list) {
+  size_t count;
+  double *breaks =
+      cs_arena_take(f->painter->context, f->arena, break_limit(f, item) * sizeof *breaks);
+  int32_t *columns = list->columns + list->count;
+  if (!breaks)
+    return CELSPAN_NO_MEMORY;
+  CS_TRY(find_breaks(f, item, breaks, &count));
+  for (size_t i = 0; i < count; i++)
+    columns[i] = cs_number_first_centre(breaks[i]);
+  sort_columns(columns, count);
+  merge(list, count);
+  return CELSPAN_OK;
+}
+
+static celspan_status add_item(const finder *f, cs_item item, cut_list *list) {
+  const cs_layer *layer = &f->painter->stack->layers[item.layer];
+  if (layer->kind == CS_LAYER_FLAT)
+    return CELSPAN_OK;
+  if (layer->kind == CS_LAYER_SHADED &&
+      cs_gradient_table_is_one_section(&f->painter->stack->shades[layer->index], f->run.x0 + 0.5,
+                                       f->run.x1 - 0.5, f->run.y))
+    return CELSPAN_OK;
+  if (layer->kind != CS_LAYER_PICTURE)
+    return add_formula(f, item, list);
+  merge(list, cs_sampler_texel_edges(&f->painter->images[layer->index].sampler, f->run,
+                                     list->columns + list->count));
+  return CELSPAN_OK;
+}
+
+static celspan_status make_room(const finder *f, cut_list *out) {
+  size_t limit = 2;
+  for (uint32_t i = 0; i < f->program->length; i++)
+    limit += break_limit(f, f->program->items[i]);
+  out->count = 0;
+  out->columns = cs_arena_take(f->painter->context, f->arena, limit * sizeof(int32_t));
+  out->other = cs_arena_take(f->painter->context, f->arena, limit * sizeof(int32_t));
+  return out->columns && out->other ? CELSPAN_OK : CELSPAN_NO_MEMORY;
+}
+
+/* The columns at which a run is cut, ascending, its own two ends among them. The pictures of the
+ * program are grids (cs_sampler_is_grid). Errors: NO_MEMORY, and those of making defocused cels. */
+static CELSPAN_CHECKED celspan_status find_ends(cs_painter *painter, const cs_program *program,
+                                                cs_run run, cs_row *row, cut_list *out) {
+  finder f = {painter, program, run, &row->colours};
+  CS_TRY(make_room(&f, out));
+  for (uint32_t i = 0; i < program->length; i++)
+    CS_TRY(add_item(&f, program->items[i], out));
+  size_t kept = 1;
+  out->other[0] = run.x0;
+  for (size_t i = 0; i < out->count; i++)
+    if (out->columns[i] > out->other[kept - 1] && out->columns[i] < run.x1)
+      out->other[kept++] = out->columns[i];
+  out->other[kept++] = run.x1;
+  out->columns = out->other;
+  out->count = kept;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- lines */
+
+/* A curve of colour along a run of a program. */
+typedef struct colour_curve {
+  cs_halving_curve curve;
+  cs_painter *painter;
+  const cs_program *program;
+  const cs_gradient_table *table; /* of the program, or NULL */
+  double y;
+} colour_curve;
+
+/* Many colours cost little more than one, since a batch is folded layer by layer. So the columns of
+ * many lines are gathered before their colours are computed. */
+static celspan_status find_colours(const colour_curve *c, const int32_t *columns, int32_t count,
+                                   float (*rgba)[4]) {
+  cs_batch batch = {columns, 0, count, c->y};
+  if (!c->table)
+    return cs_painter_batch_colours(c->painter, c->program, &batch, rgba);
+  c->painter->evaluations += (uint64_t)count;
+  cs_gradient_table_colours(c->table, &batch, rgba);
+  return CELSPAN_OK;
+}
+
+/* inner: the colours at the quarters. */
+static bool is_straight(const cs_halving_curve *curve, const cs_halving_point *first,
+                        const cs_halving_point *last, const float (*inner)[4]) {
+  cs_run run = cs_halving_run(first, last);
+  for (int quarter = 1; quarter <= 3 && run.x1 - run.x0 > 2; quarter++)
+    if (!cs_halving_is_near(curve, first, last, cs_halving_quarter(run, quarter),
+                            cs_v4_load(inner[quarter - 1])))
+      return false;
+  return true;
+}
+
+static celspan_status test_program(cs_halving_curve *curve, const cs_halving_point *first,
+                                   const cs_halving_point *last, bool *out) {
+  int32_t columns[3];
+  float inner[3][4] = {{0}};
+  for (int k = 0; k < 3; k++)
+    columns[k] = cs_halving_quarter(cs_halving_run(first, last), k + 1);
+  if (last->column - first->column > 1)
+    CS_TRY(find_colours((colour_curve *)curve, columns, 3, inner));
+  *out = is_straight(curve, first, last, (const float(*)[4])inner);
+  return CELSPAN_OK;
+}
+
+static celspan_status split_program(cs_halving_curve *curve, int32_t column,
+                                    cs_halving_point points[2]) {
+  int32_t columns[2] = {column, column + 1};
+  float rgba[2][4];
+  CS_TRY(find_colours((colour_curve *)curve, columns, 2, rgba));
+  for (int k = 0; k < 2; k++)
+    points[k] = (cs_halving_point){columns[k], 0, cs_v4_load(rgba[k])};
+  return CELSPAN_OK;
+}
+
+/* How many colours of the curve between two cuts are computed first. */
+typedef enum line_shape {
+  STEPPED = 1,  /* one colour, at any column */
+  STRAIGHT = 2, /* a line, by its ends */
+  CURVED = 5    /* its ends and the quarters; more if they are not on a line */
+} line_shape;
+
+static int bend_of(const cs_painter *painter, const cs_layer *layer) {
+  if (layer->kind == CS_LAYER_FLAT)
+    return 0;
+  if (layer->kind != CS_LAYER_PICTURE ||
+      painter->stack->images[layer->index].texture->variation->use == CELSPAN_PICTURE_GEL)
+    return 2;
+  return painter->images[layer->index].sampler.kernel == CS_SAMPLER_NEAREST ? 0 : 1;
+}
+
+/* One layer that is linear between two cuts gives a line, since light, fades and flat layers act
+ * linearly; the product of two such layers gives a curve. */
+static line_shape shape_of(const cs_painter *painter, const cs_program *program) {
+  int bends = 0;
+  for (uint32_t i = 0; i < program->length; i++)
+    bends += bend_of(painter, &painter->stack->layers[program->items[i].layer]);
+  return bends == 0 ? STEPPED : bends == 1 ? STRAIGHT : CURVED;
+}
+
+static void pick_columns(line_shape shape, cs_run run, int32_t *columns) {
+  if (shape == STEPPED)
+    columns[0] = run.x0 + (run.x1 - run.x0) / 2;
+  for (int k = 0; k < (int)shape && shape != STEPPED; k++)
+    columns[k] = cs_halving_quarter(run, shape == STRAIGHT ? 4 * k : k);
+}
+
+static celspan_status put_line(colour_curve *c, line_shape shape, cs_run run,
+                               const float (*rgba)[4]) {
+  cs_halving_point first = {run.x0, 0, cs_v4_load(rgba[0])};
+  cs_halving_point last = {run.x1 - 1, 0, cs_v4_load(rgba[shape - 1])};
+  if (shape == STEPPED)
+    return cs_row_single(c->curve.context, c->curve.row, run.x0, run.x1, first.colour);
+  if (shape == CURVED && !is_straight(&c->curve, &first, &last, rgba + 1))
+    return cs_halving_split(&c->curve, &first, &last);
+  return cs_halving_put(&c->curve, &first, &last);
+}
+
+static celspan_status put_lines(colour_curve *c, const cut_list *ends) {
+  line_shape shape = shape_of(c->painter, c->program);
+  int32_t columns[CS_OVER_ROW_BATCH];
+  float rgba[CS_OVER_ROW_BATCH][4];
+  const size_t each = (size_t)shape, most = CS_OVER_ROW_BATCH / each;
+  c->curve.test = test_program;
+  c->curve.split = split_program;
+  for (size_t i = 0; i + 1 < ends->count; i += most) {
+    const int32_t *end = ends->columns + i;
+    size_t lines = ends->count - 1 - i < most ? ends->count - 1 - i : most;
+    for (size_t k = 0; k < lines; k++)
+      pick_columns(shape, (cs_run){end[k], end[k + 1], c->y}, columns + k * each);
+    CS_TRY(find_colours(c, columns, (int32_t)(lines * each), rgba));
+    for (size_t k = 0; k < lines; k++)
+      CS_TRY(put_line(c, shape, (cs_run){end[k], end[k + 1], c->y},
+                      (const float(*)[4])rgba + k * each));
+  }
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- runs */
+
+celspan_status cs_lines_run(cs_painter *painter, const cs_program *program, cs_run run,
+                            cs_row *row) {
+  colour_curve c = {.curve = {.context = painter->context,
+                              .tolerance = cs_halving_tolerance(painter->stack->span_error),
+                              .row = row},
+                    .painter = painter,
+                    .program = program,
+                    .y = run.y};
+  cut_list ends;
+  CS_TRY(cs_gradient_table_find(painter->gradients, program, &c.table));
+  if (cs_gradient_run_fits(c.table))
+    return cs_gradient_run(painter, c.table, run, row);
+  CS_TRY(find_ends(painter, program, run, row, &ends));
+  return put_lines(&c, &ends);
+}

@@ -1,0 +1,104 @@
+/* The fold of over.h for a program over up to 256 pixels of a row: light gathered and what still
+ * shines through, pixel by pixel, from the camera backwards.
+ *
+ *     pixels          0    1    2    3   ...  count - 1
+ *     state  e     [ rgb. rgb. rgb. rgb. .............. ]   a state for each group that has been
+ *            t     [ rgb. rgb. rgb. rgb. .............. ]   entered and not yet left, and the front
+ *            front [ rgb. rgb. rgb. rgb. .............. ]   light of a group that has a shape
+ *
+ *   begin; then for every item from the front: move to its layer, add its paints; then end
+ *
+ * Invariant: a pixel's colour is the same whatever pixels are beside it, and whichever instructions
+ * made it.
+ */
+#ifndef CS_PAINT_OVER_ROW_H
+#define CS_PAINT_OVER_ROW_H
+
+#include "base/arena.h"
+#include "base/wide.h"
+#include "engine/compose/over.h"
+
+#define CS_OVER_ROW_BATCH 256 /* pixels, a multiple of those in a register */
+
+/* Pixels of one row, ascending: `count` from x0 on, or those listed. */
+typedef struct cs_batch {
+  const int32_t *columns; /* or NULL */
+  int32_t x0, count;      /* count: at most CS_OVER_ROW_BATCH */
+  double y;
+} cs_batch;
+
+static inline double cs_batch_centre(const cs_batch *batch, int32_t k) {
+  return (batch->columns ? batch->columns[k] : batch->x0 + k) + 0.5;
+}
+
+/* Four floats a pixel; lane 3 has no meaning. */
+typedef struct cs_over_row_state {
+  float e[CS_OVER_ROW_BATCH][4], t[CS_OVER_ROW_BATCH][4]; /* light gathered, and transmission */
+} cs_over_row_state;
+
+typedef struct cs_over_row {
+  celspan_context *context;
+  cs_arena *arena; /* of the states; borrowed */
+  const cs_stack *stack;
+  cs_isa isa;
+  int32_t count; /* pixels */
+  cs_over_row_state *state;
+  cs_over_row_state *outer[CS_STACK_GROUPS + 1]; /* those of the groups around it, put aside */
+  float (*fronts[CS_STACK_GROUPS + 1])[4]; /* the front lights with a shape of the groups entered */
+  uint32_t depth;
+  uint32_t group; /* the innermost that has been entered, or CS_STACK_NONE */
+  size_t light;   /* the next back light to be met */
+  float keep;     /* what the mattes of back lights leave of transparency */
+} cs_over_row;
+
+/* arena: lives as long as the fold. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_over_row_begin(celspan_context *context, cs_arena *arena,
+                                                 const cs_stack *stack, cs_isa isa, int32_t count,
+                                                 cs_over_row *out);
+/* Moves back to just in front of a layer: leaves groups, meets back lights, enters groups.
+ * Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_over_row_move(cs_over_row *over, uint32_t layer);
+/* Add a layer that has been moved to, by its role. rgba: a picture's samples; s and t: paints, s
+ * not yet lit. Room for a whole batch in each. Errors: NO_MEMORY. */
+void cs_over_row_add_layer(cs_over_row *over, const cs_layer *layer);
+CELSPAN_CHECKED celspan_status cs_over_row_add_samples(cs_over_row *over, const cs_layer *layer,
+                                                       celspan_picture_use use,
+                                                       const float (*rgba)[4]);
+CELSPAN_CHECKED celspan_status cs_over_row_add_paint(cs_over_row *over, const cs_layer *layer,
+                                                     const float (*s)[4], const float (*t)[4]);
+/* Moves to a layer and adds it: a flat one as it is, any other by its paints. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_over_row_layer(cs_over_row *over, uint32_t layer,
+                                                 const float (*s)[4], const float (*t)[4]);
+/* Premultiplied RGBA of the pixels. */
+void cs_over_row_end(cs_over_row *over, float (*rgba)[4]);
+
+/* ---- over_row_wide.c: loops over the pixels of a state */
+
+CS_WIDE_DECLARE(void, cs_over_row_clear, (cs_over_row_state * state, int32_t count));
+CS_WIDE_DECLARE(void, cs_over_row_add_flat,
+                (cs_over_row_state * state, int32_t count, const float s[4], const float t[4]));
+CS_WIDE_DECLARE(void, cs_over_row_add_picture,
+                (cs_over_row_state * state, int32_t count, const float front[4], float fade,
+                 bool is_gel, const float (*rgba)[4]));
+CS_WIDE_DECLARE(void, cs_over_row_add_paints,
+                (cs_over_row_state * state, int32_t count, const float front[4], float fade,
+                 const float (*s)[4], const float (*t)[4]));
+CS_WIDE_DECLARE(void, cs_over_row_add_light,
+                (cs_over_row_state * state, int32_t count, const float light[4]));
+/* Adds a back light with a shape: of a gain, and pigments. */
+CS_WIDE_DECLARE(void, cs_over_row_add_back,
+                (cs_over_row_state * state, int32_t count, const float gain[4],
+                 const float (*s)[4]));
+/* A front light with a shape: pigments times a gain; then the light of a group times that. */
+CS_WIDE_DECLARE(void, cs_over_row_make_front,
+                (int32_t count, const float gain[4], const float (*s)[4], float (*front)[4]));
+CS_WIDE_DECLARE(void, cs_over_row_light_group,
+                (cs_over_row_state * state, int32_t count, const float (*front)[4]));
+/* Adds a group that has been left to the state around it. */
+CS_WIDE_DECLARE(void, cs_over_row_add_group,
+                (cs_over_row_state * outer, int32_t count, float fade,
+                 const cs_over_row_state *inner));
+CS_WIDE_DECLARE(void, cs_over_row_to_rgba,
+                (const cs_over_row_state *state, int32_t count, float keep, float (*rgba)[4]));
+
+#endif

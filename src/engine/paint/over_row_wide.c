@@ -1,0 +1,98 @@
+/* The arithmetic of over.h, a register at a time. The last register of a row of pixels may go
+ * beyond them, never beyond the batch.
+ */
+#include "engine/paint/over_row.h"
+#include "engine/paint/over_wide.h"
+
+static inline void add(cs_over_row_state *state, int32_t i, cs_wide s, cs_wide t) {
+  cs_wide through = cs_wide_load(state->t[i]);
+  cs_wide_store(state->e[i], cs_wide_load(state->e[i]) + through * s);
+  cs_wide_store(state->t[i], through * t);
+}
+
+void CS_WIDE(cs_over_row_clear)(cs_over_row_state *state, int32_t count) {
+  for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS) {
+    cs_wide_store(state->e[i], cs_wide_all(0));
+    cs_wide_store(state->t[i], cs_wide_all(1));
+  }
+}
+
+void CS_WIDE(cs_over_row_add_flat)(cs_over_row_state *state, int32_t count, const float s[4],
+                                   const float t[4]) {
+  cs_wide wide_s = cs_over_wide_all(s), wide_t = cs_over_wide_all(t);
+  for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
+    add(state, i, wide_s, wide_t);
+}
+
+void CS_WIDE(cs_over_row_add_picture)(cs_over_row_state *state, int32_t count, const float front[4],
+                                      float fade, bool is_gel, const float (*rgba)[4]) {
+  const cs_wide_int rgb = CS_WIDE_PIXEL(-1, -1, -1, 0);
+  cs_wide light = cs_over_wide_all(front);
+  for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS) {
+    cs_wide v = cs_wide_load(rgba[i]);
+    cs_wide clear = 1 - cs_wide_unit(CS_WIDE_SPREAD(v, 3));
+    cs_wide colour = (cs_wide)((cs_wide_int)v & rgb);
+    if (is_gel)
+      add(state, i, cs_wide_all(0), (1 - fade) + fade * cs_wide_unit(clear + colour));
+    else
+      add(state, i, light * (fade * colour), (1 - fade) + fade * clear);
+  }
+}
+
+void CS_WIDE(cs_over_row_add_paints)(cs_over_row_state *state, int32_t count, const float front[4],
+                                     float fade, const float (*s)[4], const float (*t)[4]) {
+  cs_wide light = cs_over_wide_all(front);
+  for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
+    add(state, i, light * (fade * cs_wide_load(s[i])), (1 - fade) + fade * cs_wide_load(t[i]));
+}
+
+void CS_WIDE(cs_over_row_add_light)(cs_over_row_state *state, int32_t count, const float light[4]) {
+  cs_wide wide = cs_over_wide_all(light);
+  for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
+    cs_wide_store(state->e[i], cs_wide_load(state->e[i]) + cs_wide_load(state->t[i]) * wide);
+}
+
+void CS_WIDE(cs_over_row_add_back)(cs_over_row_state *state, int32_t count, const float gain[4],
+                                   const float (*s)[4]) {
+  cs_wide wide = cs_over_wide_all(gain);
+  for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
+    cs_wide_store(state->e[i], cs_wide_load(state->e[i]) +
+                                   cs_wide_load(state->t[i]) * (wide * cs_wide_load(s[i])));
+}
+
+void CS_WIDE(cs_over_row_make_front)(int32_t count, const float gain[4], const float (*s)[4],
+                                     float (*front)[4]) {
+  cs_wide wide = cs_over_wide_all(gain);
+  for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
+    cs_wide_store(front[i], wide * cs_wide_load(s[i]));
+}
+
+void CS_WIDE(cs_over_row_light_group)(cs_over_row_state *state, int32_t count,
+                                      const float (*front)[4]) {
+  const cs_wide brightest = cs_wide_all(CS_LAYER_BRIGHTEST);
+  for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS) {
+    cs_wide lit = cs_wide_load(state->e[i]) * cs_wide_load(front[i]);
+    cs_wide_store(state->e[i], cs_wide_choose(lit > brightest, brightest, lit));
+  }
+}
+
+void CS_WIDE(cs_over_row_add_group)(cs_over_row_state *outer, int32_t count, float fade,
+                                    const cs_over_row_state *inner) {
+  for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
+    add(outer, i, fade * cs_wide_load(inner->e[i]), (1 - fade) + fade * cs_wide_load(inner->t[i]));
+}
+
+/* Alpha is the mean of the three mattes, as cs_over_mean. */
+static inline cs_wide to_rgba(cs_wide e, cs_wide t, float keep) {
+  const cs_wide_int colours = CS_WIDE_PIXEL(-1, -1, -1, 0);
+  cs_wide first = CS_WIDE_SPREAD(t, 0), second = CS_WIDE_SPREAD(t, 1), third = CS_WIDE_SPREAD(t, 2);
+  cs_wide mean = first + ((second - first) + (third - first)) * (1.0f / 3);
+  return cs_wide_choose(colours, e, 1 - keep * mean);
+}
+
+void CS_WIDE(cs_over_row_to_rgba)(const cs_over_row_state *state, int32_t count, float keep,
+                                  float (*rgba)[4]) {
+  for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
+    cs_over_wide_put(to_rgba(cs_wide_load(state->e[i]), cs_wide_load(state->t[i]), keep), i, count,
+                     rgba);
+}

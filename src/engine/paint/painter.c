@@ -1,0 +1,98 @@
+#include "engine/paint/painter.h"
+
+#include "engine/paint/gradient_table.h"
+
+/* ---------------------------------------------------------------- life */
+
+static celspan_status allocate(cs_painter *painter, void *field, size_t count, size_t size) {
+  void *items = cs_mem_array(painter->context->memory, count, size);
+  if (!items && count > 0)
+    return cs_fail_memory(painter->context);
+  memcpy(field, &items, sizeof items);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_painter_init(cs_painter *painter, celspan_context *context,
+                               const cs_composer *composer) {
+  const cs_stack *stack = composer->stack;
+  *painter =
+      (cs_painter){.context = context, .composer = composer, .stack = stack, .isa = cs_isa_best()};
+  cs_arena_init(&painter->scratch);
+  CS_TRY(allocate(painter, &painter->images, stack->image_count, sizeof(cs_image_view)));
+  CS_TRY(allocate(painter, &painter->blocks, stack->image_count > 0, sizeof(cs_block_cache)));
+  if (painter->blocks)
+    cs_block_cache_init(painter->blocks, context);
+  CS_TRY(allocate(painter, &painter->defocused, stack->defocused_count, sizeof(cs_defocused_view)));
+  if (stack->shade_count == 0)
+    return CELSPAN_OK;
+  return cs_gradient_tables_create(context, stack, painter->isa, &painter->scratch,
+                                   &painter->gradients);
+}
+
+void cs_painter_finish(cs_painter *painter) {
+  if (!painter->stack)
+    return;
+  cs_memory *memory = painter->context->memory;
+  const cs_stack *stack = painter->stack;
+  cs_mem_free(memory, painter->images, stack->image_count * sizeof(cs_image_view));
+  if (painter->blocks)
+    cs_block_cache_finish(painter->blocks);
+  cs_mem_free(memory, painter->blocks, sizeof(cs_block_cache));
+  for (size_t i = 0; painter->defocused && i < stack->defocused_count; i++)
+    cs_defocused_release(stack->defocused[i], painter->context, &painter->defocused[i]);
+  cs_mem_free(memory, painter->defocused, stack->defocused_count * sizeof(cs_defocused_view));
+  cs_gradient_tables_destroy(painter->gradients, memory);
+  for (int i = 0; i < 2; i++)
+    cs_mem_free(memory, painter->shown[i].items,
+                painter->shown[i].capacity * sizeof *painter->shown[i].items);
+  cs_arena_finish(&painter->scratch, memory);
+  *painter = (cs_painter){0};
+}
+
+/* ---------------------------------------------------------------- image layers */
+
+static void prepare_sampler(const cs_painter *painter, const cs_image_layer *layer,
+                            const cs_picture *picture, const celspan_picture_info *info,
+                            cs_sampler *sampler) {
+  const celspan_box *box = &layer->box;
+  celspan_matrix to_picture = {{info->width / box->width, 0, -box->x * info->width / box->width, 0,
+                                info->height / box->height, -box->y * info->height / box->height, 0,
+                                0, 1}};
+  *sampler = (cs_sampler){.picture = picture,
+                          .inverse = celspan_matrix_then(layer->inverse, to_picture),
+                          .width = info->width,
+                          .height = info->height,
+                          .sampling = layer->texture->variation->sampling,
+                          .wrap = layer->wrap,
+                          .isa = painter->isa};
+  cs_sampler_prepare(sampler);
+}
+
+celspan_status cs_painter_image(cs_painter *painter, uint32_t image, const cs_image_view **out) {
+  cs_image_view *view = &painter->images[image];
+  *out = view;
+  if (view->is_ready)
+    return CELSPAN_OK;
+  const cs_image_layer *layer = &painter->stack->images[image];
+  const cs_texture_variation *variation = layer->texture->variation;
+  const cs_picture *picture = variation->picture, *medium = variation->medium;
+  celspan_picture_info info, medium_info;
+  CS_TRY(cs_store_info(painter->context, picture, &info));
+  if (medium) {
+    CS_TRY(cs_store_info(painter->context, medium, &medium_info));
+    prepare_sampler(painter, layer, medium, &medium_info, &view->medium);
+  }
+  prepare_sampler(painter, layer, picture, &info, &view->sampler);
+  view->is_opaque = !info.has_alpha && cs_image_layer_hides(layer);
+  view->is_ready = true;
+  return CELSPAN_OK;
+}
+
+static bool is_opaque(void *painter, uint32_t image) {
+  const cs_image_view *view;
+  return cs_painter_image(painter, image, &view) == CELSPAN_OK && view->is_opaque;
+}
+
+cs_image_opacity cs_painter_opacity(cs_painter *painter) {
+  return (cs_image_opacity){is_opaque, painter};
+}

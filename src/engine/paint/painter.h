@@ -1,0 +1,72 @@
+/* The painter: from the programs of cells to pixels and spans.
+ *
+ *     composer                          painter
+ *     cell: one colour ------------------------------------> one span
+ *     cell: program (layers, front to back)
+ *            |-- colours.h   samples, over_row --> pixels
+ *            `-- run.h       what shows where  --> shown.h
+ *                            a picture shows   --> pixels, or their codes
+ *                            formulas only     --> few linear spans (lines.h)
+ *                            one defocused cel --> from node to node (run.c)
+ *
+ * The composer says which layers are visible; the painter keeps the data that their colours need:
+ * headers and texels of pictures, grids of defocused cels, folded gradients. It reads the
+ * composer's programs and the procedure spans of the row, and changes nothing there.
+ *
+ * Invariant: a pixel depends on the program and its place alone, not on the run it is painted in.
+ * One painter a worker, beside its composer.
+ */
+#ifndef CS_PAINT_PAINTER_H
+#define CS_PAINT_PAINTER_H
+
+#include "base/arena.h"
+#include "engine/compose/composer.h"
+#include "engine/sample/defocused.h"
+#include "engine/sample/sampler.h"
+#include "model/pictures/block_cache.h"
+
+/* An image layer as this worker sees it: the header of its picture is read when it is needed. */
+typedef struct cs_image_view {
+  bool is_ready, is_opaque;
+  cs_sampler sampler;
+  cs_sampler medium; /* where the texture has one */
+} cs_image_view;
+
+/* What of a program shows over some columns: shown.h. */
+typedef struct cs_shown {
+  cs_item *items; /* those that are neither clear nor hidden there, front to back */
+  size_t capacity;
+  uint32_t length;
+  bool ends_opaque; /* nothing shines through them */
+  bool is_sure;     /* the same is known of every part of the columns */
+} cs_shown;
+
+typedef struct cs_painter {
+  celspan_context *context;    /* the worker's branch */
+  const cs_composer *composer; /* borrowed: its cells are painted */
+  const cs_stack *stack;
+  cs_isa isa; /* the instructions that loops over pixels are made with */
+  cs_image_view *images;
+  cs_block_cache *blocks; /* of its pictures; NULL without pictures */
+  cs_defocused_view *defocused;
+  struct cs_gradient_tables *gradients; /* NULL without formulas: gradient_table.h */
+  cs_arena scratch;                     /* of one run */
+  cs_shown shown[2];    /* of the columns being painted, and of those right of them */
+  uint64_t evaluations; /* pixels whose colour has been computed */
+} cs_painter;
+
+/* composer: initialized, borrowed. The painter must not be moved.
+ * Errors: NO_MEMORY; cs_painter_finish must be called then, too. */
+CELSPAN_CHECKED celspan_status cs_painter_init(cs_painter *painter, celspan_context *context,
+                                               const cs_composer *composer);
+void cs_painter_finish(cs_painter *painter);
+
+/* The question that the composer of the same worker asks the painter. The composer
+ * gets it before the painter is initialized, and asks it when the first cell is composed. */
+cs_image_opacity cs_painter_opacity(cs_painter *painter);
+
+/* The view of an image layer, its header read on first use. Errors: INPUT, LIMIT, NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_painter_image(cs_painter *painter, uint32_t image,
+                                                const cs_image_view **out);
+
+#endif

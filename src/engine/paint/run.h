@@ -1,0 +1,26 @@
+/* Runs of a cell as spans.
+ *
+ * Where pictures or defocused cels show in the program, some columns of the frame are examined at a
+ * time (shown.h): what is clear or hidden there is left out. The rest of the program is painted in
+ * the cheapest way that is right: as codes of texels, pixel by pixel, or as few linear spans as
+ * needed.
+ *
+ * Invariant: where a program varies as a formula, spans are cut so that they are right within
+ * 1/1023; the cuts depend on the run and the program alone.
+ */
+#ifndef CS_PAINT_RUN_H
+#define CS_PAINT_RUN_H
+
+#include "engine/paint/painter.h"
+#include "engine/span/row.h"
+#include "engine/span/run.h"
+
+/* Appends the spans of a run: of a cell, and of a program by itself. An empty run has none.
+ * Errors: NO_MEMORY, and those of reading pictures and making defocused cels. */
+CELSPAN_CHECKED celspan_status cs_painter_run(cs_painter *painter, const cs_cell *cell, cs_run run,
+                                              cs_row *row);
+CELSPAN_CHECKED celspan_status cs_painter_run_program(cs_painter *painter,
+                                                      const cs_program *program, cs_run run,
+                                                      cs_row *row);
+
+#endif

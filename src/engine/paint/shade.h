@@ -1,0 +1,59 @@
+/* Textures given by a formula: the three-paint triangle, linear and radial gradients.
+ *
+ *     TRIANGLE: a plane through the       LINEAR: one plane, 0 at      RADIAL: two planes, the legs
+ *     values at the corners, a channel    one end and 1 at the other   of the distance from the
+ *     each                                                             centre
+ *          . * c2                          \       \                         . - ~ - .
+ *       . '  /                             0 \ ----> \ 1                   '       * '
+ *     * c0  /                                 \       \                   |      / |  |
+ *       ` . *  c1                              \       \                  |    o---+  |
+ *                                          at = a x + b y + c              ' centre  '
+ *                                                                            ` - . - `
+ *
+ * A radial gradient with a focus has circles whose centres move from the focus to the centre while
+ * they grow from 0 to the radius. With p along the way from focus to centre, q across it, and e the
+ * focus's distance from the centre as a share of the radius,
+ *   at = sqrt(P^2 + Q^2) - e P    where P = p / (radius (1 - e^2)), Q = q / (radius sqrt(1 - e^2)),
+ * which solves |(p - at e radius, q)| = at radius. Without a focus e is 0. On a row `at` is convex.
+ *
+ * Invariant: between the places that cs_shade_breaks finds the paint is a smooth function of x on a
+ * row, so it may be cut into lines by comparing a few points.
+ */
+#ifndef CS_PAINT_SHADE_H
+#define CS_PAINT_SHADE_H
+
+#include "engine/compose/layer.h"
+#include "engine/span/run.h"
+
+#include <math.h>
+
+/* Fills the planes, from texture and inverse. */
+void cs_shade_prepare(cs_shade *shade);
+/* Where a point of the frame lies along the stops of a linear or radial texture. Not a number
+ * behind the horizon. */
+static inline double cs_shade_at(const cs_shade *shade, double x, double y) {
+  const double *p = shade->plane[0], *q = shade->plane[1], *m = shade->inverse.m;
+  double at = p[0] * x + (p[1] * y + p[2]);
+  if (shade->texture->kind == CS_TEXTURE_RADIAL) {
+    double v = q[0] * x + (q[1] * y + q[2]);
+    at = sqrt(at * at + v * v) - shade->eccentricity * at;
+  }
+  if (shade->is_affine)
+    return at;
+  double w = m[6] * x + (m[7] * y + m[8]);
+  return w > 0 ? at / w : NAN;
+}
+
+/* A paint in the form in which it is folded; lane 3 has no meaning. */
+typedef struct cs_shade_lanes {
+  cs_v4 s, t;
+} cs_shade_lanes;
+
+/* The paint at a point of the frame, pixels; clear behind the horizon. */
+cs_shade_lanes cs_shade_paint(const cs_shade *shade, double x, double y);
+/* The places x inside a run at which the formula bends, in no order; at most as many as the limit
+ * says. Returns how many. */
+size_t cs_shade_breaks(const cs_shade *shade, cs_run run, double *breaks);
+size_t cs_shade_break_limit(const cs_shade *shade);
+
+#endif

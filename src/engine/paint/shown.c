@@ -1,0 +1,133 @@
+#include "engine/paint/shown.h"
+
+/* Columns that defocused cels are asked for at a time. */
+#define STRIDE CS_PICTURE_BLOCK
+
+static const cs_v4 clear = {1, 1, 1, 0};
+
+/* What is known of an item in some columns. */
+typedef struct bound {
+  cs_v4 through; /* the most that each channel lets through there */
+  bool is_clear; /* it is clear in all of them */
+  bool is_sure;  /* as much is known of all columns together as of each one */
+} bound;
+
+/* ---------------------------------------------------------------- bounds */
+
+static cs_v4 faded(float fade, cs_v4 through) { return (1 - fade) + fade * through; }
+
+static celspan_status bound_picture(cs_painter *painter, const cs_layer *layer, cs_run run,
+                                    bound *out) {
+  const cs_image_view *view;
+  cs_picture_opacity opacity = CS_PICTURE_OPAQUE;
+  const cs_texture_variation *variation = painter->stack->images[layer->index].texture->variation;
+  if (variation->medium)
+    return CELSPAN_OK;
+  CS_TRY(cs_painter_image(painter, layer->index, &view));
+  if (!view->is_opaque)
+    CS_TRY(cs_sampler_opacity(painter->blocks, &view->sampler, run, &opacity));
+  out->is_clear = opacity == CS_PICTURE_CLEAR;
+  out->is_sure = opacity != CS_PICTURE_MIXED;
+  if (opacity == CS_PICTURE_OPAQUE && variation->use != CELSPAN_PICTURE_GEL)
+    out->through = cs_v4_all(1 - layer->fade);
+  return CELSPAN_OK;
+}
+
+static celspan_status bound_defocused(cs_painter *painter, const cs_layer *layer, cs_run run,
+                                      bound *out) {
+  const cs_defocused *defocused = painter->stack->defocused[layer->index];
+  cs_defocused_view *view = &painter->defocused[layer->index];
+  CS_TRY(cs_defocused_move(defocused, painter->context, view, run.y));
+  cs_v4 through = cs_defocused_through(defocused, view, run);
+  out->is_sure = cs_over_is_opaque(through);
+  out->through = faded(layer->fade, through);
+  return CELSPAN_OK;
+}
+
+/* is_last: nothing that would have to be read or made is behind the item. */
+static celspan_status find_bound(cs_painter *painter, const cs_layer *layer, bool is_last,
+                                 cs_run run, bound *out) {
+  *out = (bound){layer->role == CS_LAYER_FRONT ? clear : layer->t, .is_sure = true};
+  if (layer->role != CS_LAYER_PAINT)
+    return CELSPAN_OK;
+  if (layer->kind == CS_LAYER_PICTURE)
+    return bound_picture(painter, layer, run, out);
+  return layer->kind == CS_LAYER_DEFOCUSED && !is_last ? bound_defocused(painter, layer, run, out)
+                                                       : CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- programs */
+
+static cs_layer_kind kind_of(const cs_stack *stack, const cs_program *program, uint32_t i) {
+  return stack->layers[program->items[i].layer].kind;
+}
+
+/* How many items there are up to the rearmost that would have to be read or made. */
+static uint32_t count_dear(const cs_stack *stack, const cs_program *program) {
+  uint32_t count = program->length;
+  while (count > 0 && kind_of(stack, program, count - 1) != CS_LAYER_PICTURE &&
+         kind_of(stack, program, count - 1) != CS_LAYER_DEFOCUSED)
+    count--;
+  return count;
+}
+
+bool cs_shown_varies(const cs_stack *stack, const cs_program *program) {
+  uint32_t defocused = 0;
+  if (stack->image_count == 0 && stack->defocused_count < 2)
+    return false;
+  for (uint32_t i = 0; i < program->length; i++) {
+    cs_layer_kind kind = kind_of(stack, program, i);
+    if (kind == CS_LAYER_PICTURE || (kind == CS_LAYER_DEFOCUSED && ++defocused == 2))
+      return true;
+  }
+  return false;
+}
+
+int32_t cs_shown_stride(cs_painter *painter, const cs_program *program) {
+  uint32_t dear = count_dear(painter->stack, program);
+  int32_t columns = INT32_MAX;
+  for (uint32_t i = 0; i < dear; i++) {
+    const cs_layer *layer = &painter->stack->layers[program->items[i].layer];
+    const cs_image_view *view;
+    if (layer->kind == CS_LAYER_DEFOCUSED && i + 1 < dear && columns > STRIDE)
+      columns = STRIDE;
+    if (layer->kind == CS_LAYER_PICTURE &&
+        cs_painter_image(painter, layer->index, &view) == CELSPAN_OK && !view->is_opaque &&
+        view->sampler.opacity_columns < columns)
+      columns = view->sampler.opacity_columns;
+  }
+  return columns;
+}
+
+celspan_status cs_shown_find(cs_painter *painter, const cs_program *program, cs_run run,
+                             cs_shown *out) {
+  const cs_stack *stack = painter->stack;
+  uint32_t dear = count_dear(stack, program), end = UINT32_MAX;
+  cs_over over;
+  CS_TRY(cs_mem_reserve(painter->context, (void **)&out->items, &out->capacity, program->length,
+                        sizeof *out->items));
+  out->length = 0;
+  out->is_sure = true;
+  cs_over_begin(&over, stack);
+  for (uint32_t i = 0; i < program->length && end > 0; i++) {
+    cs_item item = program->items[i];
+    const cs_layer *layer = &stack->layers[item.layer];
+    if (item.layer < end && cs_over_reaches(&over, item.layer)) {
+      bound known;
+      CS_TRY(find_bound(painter, layer, i + 1 >= dear, run, &known));
+      cs_over_move(&over, item.layer, layer->group);
+      if (!known.is_clear)
+        out->items[out->length++] = item;
+      out->is_sure &= known.is_sure;
+      over.t *= known.through;
+    }
+    end = cs_over_is_opaque(over.t) ? cs_over_hidden_end(&over) : UINT32_MAX;
+  }
+  out->ends_opaque = end == 0;
+  return CELSPAN_OK;
+}
+
+bool cs_shown_same(const cs_shown *a, const cs_shown *b) {
+  return a->length == b->length && a->ends_opaque == b->ends_opaque &&
+         (a->length == 0 || memcmp(a->items, b->items, a->length * sizeof *a->items) == 0);
+}

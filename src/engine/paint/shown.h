@@ -1,0 +1,36 @@
+/* What of a program shows over some columns of a row.
+ *
+ *     columns        | 0 .. 63   64 .. 127   128 .. 191   192 .. 255 |
+ *     picture A      |   clear     mixed       opaque       mixed    |   by the blocks under them
+ *     picture B, 0.9 |   opaque    opaque      opaque       clear    |   of a cel faded to 0.9
+ *     gradient       |         lets through at most 0.00001          |
+ *     picture C      |  not asked, and so not read                   |
+ *
+ *     shown          |   B, grad   A, B, grad  A            A, grad  |
+ *
+ * The items are gone through as the composer did when it made the program, group by group, with
+ * bounds that hold in these columns instead of anywhere in the frame. So what is hidden here is
+ * left out where it is hidden only here, and what is clear here is left out too.
+ *
+ * Invariant: what is shown is a function of the program, the columns and the row.
+ */
+#ifndef CS_PAINT_SHOWN_H
+#define CS_PAINT_SHOWN_H
+
+#include "engine/paint/painter.h"
+#include "engine/span/run.h"
+
+/* Whether more may be known of a program in some columns than everywhere. */
+bool cs_shown_varies(const cs_stack *stack, const cs_program *program);
+/* How many columns are worth asking for at a time, counted from the left edge of the frame: the
+ * least that any picture of the program asks for (opacity_columns). One whose header cannot be read
+ * asks for none: only where it can be seen is it an error. */
+int32_t cs_shown_stride(cs_painter *painter, const cs_program *program);
+/* Fills `out`, whose room is kept. Errors: NO_MEMORY, and those of reading the visible pictures and
+ * making the visible defocused cels. */
+CELSPAN_CHECKED celspan_status cs_shown_find(cs_painter *painter, const cs_program *program,
+                                             cs_run run, cs_shown *out);
+/* Whether two show the same. */
+bool cs_shown_same(const cs_shown *a, const cs_shown *b);
+
+#endif

@@ -1,0 +1,35 @@
+/* The plan: a rostrum compiled for a frame of some size, in the flat form that rows are made from.
+ *
+ *   rostrum --render/compile.c--> plan --row/row.c, once a worker--> rows of spans
+ *
+ * Invariant: a plan never changes once it is made, so threads share it. It borrows the textures,
+ * pictures and procedures of the rostrum, which must outlive it.
+ */
+#ifndef CS_ROW_PLAN_H
+#define CS_ROW_PLAN_H
+
+#include "engine/compose/stack.h"
+#include "engine/kernel/kernel.h"
+#include "engine/sweep/cull.h"
+
+struct cs_defocus; /* engine/defocus/defocus.h */
+
+typedef struct cs_plan {
+  cs_stack stack;
+  cs_boundary_set boundaries;
+  cs_cull cull;
+  int32_t width, height; /* pixels */
+  int32_t margin;        /* pixels beyond the frame, on all sides, that rows may need */
+  celspan_antialias_mode antialias;
+  cs_kernel *kernel; /* owned; NULL: rows are not filtered */
+  /* The defocused cels: stack.defocused[i] is the grid of defocus[i]. Freed by cs_compile_free,
+   * unless they are those of another plan, which lives as long. */
+  struct cs_defocus **defocus;
+  size_t defocus_count, defocus_capacity;
+  bool borrows_defocus;
+} cs_plan;
+
+/* Frees what a plan holds, except for its defocused cels. */
+void cs_plan_finish(cs_plan *plan, cs_memory *memory);
+
+#endif

@@ -1,0 +1,441 @@
+#include "engine/sample/defocused.h"
+
+#include "base/number.h"
+
+#include <math.h>
+
+/* How far a line between vertices may be from the nodes: half the tolerance of other lines. */
+#define TOLERANCE (0.25f / 1023)
+#define CONSTANT 3 /* this many equal neighbouring nodes become a line of their own */
+
+/* ---------------------------------------------------------------- polylines */
+
+/* The constant stretch that was looked for last, since it is asked for several times. */
+typedef struct stretch {
+  int32_t from, end;
+} stretch;
+
+typedef struct node_row {
+  const float (*planes[2])[4]; /* nodes */
+  const bool *even;            /* as in cs_defocused_nodes */
+  int plane_count;
+  int32_t last; /* node */
+  stretch *found;
+  bool is_split; /* every node is a pixel: a line may end in one, and the next begin in the next */
+} node_row;
+
+static void free_polyline(cs_defocused_polyline *polyline, cs_memory *memory) {
+  cs_mem_free(memory, polyline->at, polyline->at_capacity * sizeof *polyline->at);
+  cs_mem_free(memory, polyline->values, polyline->value_capacity * sizeof *polyline->values);
+  cs_mem_free(memory, polyline->constant, polyline->constant_capacity * sizeof *polyline->constant);
+  *polyline = (cs_defocused_polyline){0};
+}
+
+static void add_vertex(const node_row *row, int32_t i, cs_defocused_polyline *out) {
+  float(*values)[4] = out->values + out->count * (size_t)row->plane_count;
+  for (int plane = 0; plane < row->plane_count; plane++)
+    memcpy(values[plane], row->planes[plane][i], sizeof *values);
+  out->at[out->count++] = i;
+}
+
+static inline bool is_constant(const node_row *row, int planes, int32_t i) {
+  for (int plane = 0; plane < planes; plane++)
+    if (!cs_v4_same(cs_v4_load(row->planes[plane][i]), cs_v4_load(row->planes[plane][i + 1])))
+      return false;
+  return true;
+}
+
+/* The last node of the even group that begins with node i; i where none does. */
+static inline int32_t even_end(const node_row *row, int32_t i) {
+  if ((uint32_t)i % CS_DEFOCUSED_GROUP != 0 || !row->even ||
+      !row->even[(uint32_t)i / CS_DEFOCUSED_GROUP])
+    return i;
+  int32_t end = i + CS_DEFOCUSED_GROUP - 1;
+  return end < row->last ? end : row->last;
+}
+
+/* Whether a constant stretch may begin with node i. */
+static inline bool may_be_constant(const node_row *row, int planes, int32_t i) {
+  return even_end(row, i) > i || is_constant(row, planes, i);
+}
+
+static inline int32_t same_until(const node_row *row, int planes, int32_t i) {
+  int32_t end = even_end(row, i);
+  while (end < row->last && is_constant(row, planes, end))
+    end = even_end(row, end + 1);
+  return end;
+}
+
+/* The last node of the constant stretch from i on; i where it is too short to count. */
+static int32_t constant_end(const node_row *row, int32_t i) {
+  stretch *found = row->found;
+  if (found->from == i)
+    return found->end;
+  int32_t end = row->plane_count == 1 ? same_until(row, 1, i) : same_until(row, 2, i);
+  *found = (stretch){i, end - i >= CONSTANT || end == row->last ? end : i};
+  return found->end;
+}
+
+/* The slopes that a line from a node on may have, so that it is near every node after it:
+ *
+ *     value                   . most
+ *       |               . - '
+ *       |         . - '  |               o  a node, and above and below it
+ *       |    . ' |       o               |  how far a line may pass from it
+ *       |  o     o       |
+ *       |    ` . |                   each node narrows the slopes; the line ends at the
+ *       |         ` - .              last node whose own slope is still among them
+ *       |               ` - . least
+ *       +--+-----+-------+-----> node
+ */
+typedef struct swing {
+  cs_v4 least[2], most[2];
+} swing;
+
+/* Whether the line from node `from` to a node is near all between; if so, narrows the slopes by it.
+ * across: how far the node is. */
+static inline bool swing_admits(swing *s, const node_row *row, int planes, int32_t from,
+                                int32_t across) {
+  float scale = 1 / (float)across;
+  cs_v4 slack = cs_v4_all(TOLERANCE * scale);
+  for (int plane = 0; plane < planes; plane++) {
+    const float(*start)[4] = row->planes[plane] + from;
+    cs_v4 slope = (cs_v4_load(start[across]) - cs_v4_load(start[0])) * scale;
+    if (!cs_v4_is_between(slope, s->least[plane], s->most[plane]))
+      return false;
+    s->least[plane] = cs_v4_max(s->least[plane], slope - slack);
+    s->most[plane] = cs_v4_min(s->most[plane], slope + slack);
+  }
+  return true;
+}
+
+/* The last node that a line from `from` may end at, or the first before it at which a constant
+ * stretch begins. */
+static inline int32_t swing_to(const node_row *row, int planes, int32_t from) {
+  swing s = {{cs_v4_all(-INFINITY), cs_v4_all(-INFINITY)},
+             {cs_v4_all(INFINITY), cs_v4_all(INFINITY)}};
+  for (int32_t i = from + 1; i <= row->last; i++) {
+    if (!swing_admits(&s, row, planes, from, i - from))
+      return i - 1;
+    if (i < row->last && may_be_constant(row, planes, i) && constant_end(row, i) > i)
+      return i;
+  }
+  return row->last;
+}
+
+/* The loop for one plane is nearly all of the time that is spent on rows of nodes. */
+static int32_t swing_end(const node_row *row, int32_t from) {
+  return row->plane_count == 1 ? swing_to(row, 1, from) : swing_to(row, 2, from);
+}
+
+/* By how much the sum of the nodes between two nodes grows when a line takes their place. */
+static cs_v4 light_added(const node_row *row, int plane, int32_t from, int32_t to) {
+  if (to - from == 1)
+    return cs_v4_all(0);
+  const float(*nodes)[4] = row->planes[plane];
+  cs_v4 sum = cs_v4_all(0), ends = cs_v4_load(nodes[from]) + cs_v4_load(nodes[to]);
+  for (int32_t i = from + 1; i < to; i++)
+    sum += cs_v4_load(nodes[i]);
+  return ends * (0.5f * (float)(to - from - 1)) - sum;
+}
+
+/* Whether a vertex keeps its value: at the ends of the row, and beside constant stretches. */
+static bool is_fixed(const cs_defocused_polyline *polyline, size_t first, size_t k) {
+  return k == first || k + 1 == polyline->count || polyline->constant[k - first] ||
+         polyline->constant[k - first - 1];
+}
+
+/* Lines between nodes lie above a hollow and below a hill of the nodes between them. So that the
+ * row keeps its light, what a line adds is taken from the values of its ends: half from each, or
+ * all from the one that may change. first: of the vertices of the row. */
+static void balance(const node_row *row, cs_defocused_polyline *polyline, size_t first) {
+  size_t planes = (size_t)row->plane_count;
+  for (size_t p = 0; p < planes; p++) {
+    cs_v4 owed = cs_v4_all(0); /* to be subtracted for the line that ends in the vertex */
+    bool moves_next = false;
+    for (size_t k = first; k + 1 < polyline->count; k++) {
+      bool moves = moves_next;
+      moves_next = !is_fixed(polyline, first, k + 1);
+      cs_v4 added = polyline->constant[k - first]
+                        ? cs_v4_all(0)
+                        : light_added(row, (int)p, polyline->at[k], polyline->at[k + 1]);
+      cs_v4 here = moves_next ? 0.5f * added : added;
+      if (moves) {
+        float *value = polyline->values[k * planes + p];
+        float wide = 0.5f * (float)(polyline->at[k + 1] - polyline->at[k - 1]);
+        cs_v4_store(value, cs_v4_bounded(cs_v4_load(value) - (owed + here) * (1 / wide)));
+      }
+      owed = moves ? added - here : added;
+    }
+  }
+}
+
+/* Appends the vertices of a row. */
+static celspan_status add_row(celspan_context *context, node_row *row, cs_defocused_polyline *out) {
+  stretch found = {-1, -1};
+  row->found = &found;
+  size_t first = out->count, limit = first + (size_t)row->last + 1;
+  CS_TRY(cs_mem_reserve(context, (void **)&out->at, &out->at_capacity, limit, sizeof *out->at));
+  CS_TRY(cs_mem_reserve(context, (void **)&out->values, &out->value_capacity,
+                        limit * (size_t)row->plane_count, sizeof *out->values));
+  CS_TRY(cs_mem_reserve(context, (void **)&out->constant, &out->constant_capacity,
+                        (size_t)row->last + 1, sizeof *out->constant));
+  add_vertex(row, 0, out);
+  for (int32_t i = 0; i < row->last;) {
+    int32_t end = constant_end(row, i);
+    out->constant[out->count - 1 - first] = end > i;
+    i = end > i ? end : swing_end(row, i);
+    add_vertex(row, i, out);
+    if (row->is_split && !out->constant[out->count - 2 - first] && i + 1 < row->last &&
+        constant_end(row, i) == i) {
+      out->constant[out->count - 1 - first] = false;
+      add_vertex(row, ++i, out);
+    }
+  }
+  out->constant[out->count - 1 - first] = false;
+  balance(row, out, first);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- bands */
+
+void cs_defocus_band_free(cs_defocus_band *band, cs_memory *memory) {
+  cs_mem_free(memory, band->nodes, band->node_count * sizeof *band->nodes);
+  cs_mem_free(memory, band->rows, band->row_capacity * sizeof *band->rows);
+  free_polyline(&band->polyline, memory);
+  *band = (cs_defocus_band){0};
+}
+
+size_t cs_defocus_band_bytes(const cs_defocus_band *band) {
+  return band->node_count * sizeof *band->nodes + band->row_capacity * sizeof *band->rows +
+         band->polyline.at_capacity * sizeof *band->polyline.at +
+         band->polyline.value_capacity * sizeof *band->polyline.values +
+         band->polyline.constant_capacity * sizeof *band->polyline.constant;
+}
+
+static const float (*band_row(const cs_defocused *defocused, const cs_defocus_band *band, int plane,
+                              int32_t row))[4] {
+  size_t at = (size_t)plane * (size_t)defocused->band_rows + (size_t)(row % defocused->band_rows);
+  return (const float(*)[4])band->nodes + at * (size_t)defocused->columns;
+}
+
+static node_row band_nodes(const cs_defocused *defocused, const cs_defocus_band *band,
+                           int32_t row) {
+  node_row out = {.plane_count = defocused->planes,
+                  .last = defocused->columns - 1,
+                  .is_split = defocused->pitch_x == 1};
+  for (int plane = 0; plane < defocused->planes; plane++)
+    out.planes[plane] = band_row(defocused, band, plane, row);
+  return out;
+}
+
+/* Gives back the room that vertices did not need. */
+static void fit(cs_memory *memory, void **items, size_t *capacity, size_t count, size_t size) {
+  void *smaller = cs_mem_resize(memory, *items, *capacity * size, count * size);
+  if (!smaller)
+    return;
+  *items = smaller;
+  *capacity = count;
+}
+
+celspan_status cs_defocus_band_room(const cs_defocused *defocused, celspan_context *context,
+                                    cs_defocus_band *band) {
+  size_t count =
+      (size_t)defocused->planes * (size_t)defocused->band_rows * (size_t)defocused->columns;
+  band->nodes = cs_mem_resize(context->memory, NULL, 0, count * sizeof *band->nodes);
+  if (!band->nodes)
+    return cs_fail_memory(context);
+  band->node_count = count;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_defocus_band_begin(celspan_context *context, int32_t rows,
+                                     cs_defocus_band *band) {
+  CS_TRY(cs_mem_reserve(context, (void **)&band->rows, &band->row_capacity, (size_t)rows + 1,
+                        sizeof *band->rows));
+  band->rows[0] = 0;
+  band->row_count = 0;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_defocus_band_add(const cs_defocused *defocused, celspan_context *context,
+                                   const cs_defocused_nodes *nodes, cs_defocus_band *band) {
+  node_row row = {.planes = {nodes->planes[0], nodes->planes[1]},
+                  .even = nodes->even,
+                  .plane_count = defocused->planes,
+                  .last = defocused->columns - 1,
+                  .is_split = defocused->pitch_x == 1};
+  CS_TRY(add_row(context, &row, &band->polyline));
+  band->rows[++band->row_count] = band->polyline.count;
+  return CELSPAN_OK;
+}
+
+void cs_defocus_band_end(const cs_defocused *defocused, cs_memory *memory, cs_defocus_band *band) {
+  cs_defocused_polyline *polyline = &band->polyline;
+  fit(memory, (void **)&polyline->at, &polyline->at_capacity, polyline->count,
+      sizeof *polyline->at);
+  fit(memory, (void **)&polyline->values, &polyline->value_capacity,
+      polyline->count * (size_t)defocused->planes, sizeof *polyline->values);
+}
+
+/* ---------------------------------------------------------------- rows */
+
+static void drop_band(const cs_defocused *defocused, celspan_context *context,
+                      cs_defocused_view *view, int i) {
+  if (view->bands[i])
+    defocused->release(defocused, context, view->bands[i]);
+  view->bands[i] = NULL;
+}
+
+void cs_defocused_release(const cs_defocused *defocused, celspan_context *context,
+                          cs_defocused_view *view) {
+  drop_band(defocused, context, view, 0);
+  drop_band(defocused, context, view, 1);
+  free_polyline(&view->own, context->memory);
+  cs_mem_free(context->memory, view->mixed,
+              (size_t)defocused->columns * (size_t)defocused->planes * sizeof *view->mixed);
+  *view = (cs_defocused_view){0};
+}
+
+/* Acquires a band as one of the two of a view: one of an even and one of an odd number. */
+static celspan_status pin_band(const cs_defocused *defocused, celspan_context *context,
+                               cs_defocused_view *view, int32_t number,
+                               const cs_defocus_band **out) {
+  int i = number % 2;
+  if (!view->bands[i] || view->numbers[i] != number) {
+    drop_band(defocused, context, view, i);
+    CS_TRY(defocused->acquire(defocused, context, number, &view->bands[i]));
+    view->numbers[i] = number;
+  }
+  *out = view->bands[i];
+  return CELSPAN_OK;
+}
+
+static celspan_status mix_rows(const cs_defocused *defocused, celspan_context *context,
+                               cs_defocused_view *view, node_row *upper, const node_row *lower,
+                               float share) {
+  size_t columns = (size_t)defocused->columns, size = columns * (size_t)defocused->planes;
+  if (!view->mixed && !(view->mixed = cs_mem_array(context->memory, size, sizeof *view->mixed)))
+    return cs_fail_memory(context);
+  for (int plane = 0; plane < defocused->planes; plane++) {
+    const float(*a)[4] = upper->planes[plane], (*b)[4] = lower->planes[plane];
+    float(*out)[4] = view->mixed + (size_t)plane * columns;
+    for (size_t i = 0; i < columns; i++) {
+      cs_v4 above = cs_v4_load(a[i]);
+      cs_v4_store(out[i], above + share * (cs_v4_load(b[i]) - above));
+    }
+    upper->planes[plane] = (const float(*)[4])out;
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status make_vertices(const cs_defocused *defocused, celspan_context *context,
+                                    cs_defocused_view *view, const cs_defocus_band *upper,
+                                    int32_t row, float share) {
+  node_row nodes = band_nodes(defocused, upper, row);
+  if (share > 0) {
+    const cs_defocus_band *lower;
+    CS_TRY(pin_band(defocused, context, view, (row + 1) / defocused->band_rows, &lower));
+    node_row below = band_nodes(defocused, lower, row + 1);
+    CS_TRY(mix_rows(defocused, context, view, &nodes, &below, share));
+  }
+  view->own.count = 0;
+  CS_TRY(add_row(context, &nodes, &view->own));
+  view->at = view->own.at;
+  view->values = (const float(*)[4])view->own.values;
+  view->count = view->own.count;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_defocused_move(const cs_defocused *defocused, celspan_context *context,
+                                 cs_defocused_view *view, double y) {
+  if (view->is_placed && view->y == y)
+    return CELSPAN_OK;
+  double at = cs_number_clamp(y / defocused->pitch_y + 0.5, 0, defocused->rows - 1);
+  int32_t row = cs_number_floor(at);
+  row = row > defocused->rows - 2 ? defocused->rows - 2 : row;
+  const cs_defocus_band *band;
+  view->is_placed = false;
+  CS_TRY(pin_band(defocused, context, view, row / defocused->band_rows, &band));
+  if (band->nodes) {
+    CS_TRY(make_vertices(defocused, context, view, band, row, (float)(at - row)));
+  } else {
+    size_t first = band->rows[row % defocused->band_rows];
+    view->at = band->polyline.at + first;
+    view->values = (const float(*)[4])band->polyline.values + first * (size_t)defocused->planes;
+    view->count = band->rows[row % defocused->band_rows + 1] - first;
+  }
+  view->is_placed = true;
+  view->y = y;
+  return CELSPAN_OK;
+}
+
+size_t cs_defocused_find(const cs_defocused_view *view, double at, size_t hint) {
+  size_t low = 0, high = view->count - 1; /* at[low] <= at, at < at[high] or high is the last */
+  if (hint < high && view->at[hint] <= at) {
+    low = hint;
+    if (hint + 1 == high || at < view->at[hint + 1])
+      return hint;
+    if (hint + 2 == high || at < view->at[hint + 2])
+      return hint + 1;
+  }
+  while (high - low > 1) {
+    size_t middle = low + (high - low) / 2;
+    *(view->at[middle] <= at ? &low : &high) = middle;
+  }
+  return low;
+}
+
+/* What a vertex lets through; lane 3 is 0. */
+static cs_v4 vertex_through(const cs_defocused *defocused, const cs_defocused_view *view,
+                            size_t vertex) {
+  cs_v4 t = defocused->planes == 2
+                ? cs_defocused_value(defocused, view, vertex, 1)
+                : cs_v4_all(1 - cs_defocused_value(defocused, view, vertex, 0)[3]);
+  t[3] = 0;
+  return t;
+}
+
+cs_v4 cs_defocused_through(const cs_defocused *defocused, const cs_defocused_view *view,
+                           cs_run run) {
+  double last = cs_defocused_at(defocused, run.x1 - 0.5);
+  size_t k = cs_defocused_find(view, cs_defocused_at(defocused, run.x0 + 0.5), 0);
+  cs_v4 most = vertex_through(defocused, view, k);
+  while (view->at[k] < last && k + 1 < view->count)
+    most = cs_v4_max(vertex_through(defocused, view, ++k), most);
+  return most;
+}
+
+void cs_defocused_paint(const cs_defocused *defocused, const cs_defocused_view *view, double x,
+                        size_t *line, cs_v4 *s, cs_v4 *t) {
+  double at = cs_defocused_at(defocused, x);
+  size_t k = *line = cs_defocused_find(view, at, *line), planes = (size_t)defocused->planes;
+  float share = (float)((at - view->at[k]) / (view->at[k + 1] - view->at[k]));
+  const float(*a)[4] = view->values + k * planes, (*b)[4] = a + planes;
+  cs_v4 left = cs_v4_load(a[0]), value = left + share * (cs_v4_load(b[0]) - left);
+  *s = value;
+  (*s)[3] = 0;
+  *t = cs_v4_all(1 - value[3]);
+  if (planes == 2) {
+    left = cs_v4_load(a[1]);
+    *t = left + share * (cs_v4_load(b[1]) - left);
+  }
+  (*t)[3] = 0;
+}
+
+size_t cs_defocused_break_limit(const cs_defocused *defocused) {
+  return (size_t)defocused->columns;
+}
+
+size_t cs_defocused_breaks(const cs_defocused *defocused, const cs_defocused_view *view, cs_run run,
+                           double *breaks) {
+  size_t count = 0, first = cs_defocused_find(view, cs_defocused_at(defocused, run.x0), 0);
+  for (size_t k = first; k < view->count; k++) {
+    double x = (view->at[k] - 0.5) * defocused->pitch_x;
+    if (x >= run.x1)
+      break;
+    if (x > run.x0)
+      breaks[count++] = x;
+  }
+  return count;
+}

@@ -1,0 +1,141 @@
+/* Defocused cels as values at the nodes of a grid over the frame.
+ *
+ *     node (i, j) is at ((i - 1/2) pitch_x, (j - 1/2) pitch_y) pixels
+ *
+ *         o - - - - o - - - - o - - - - o       j      o  nodes; the first column and row of them
+ *         :    |    :         :         :              lie outside the frame
+ *         :  --+----:---------:---------:---  y = 0
+ *         :    |    :         :         :
+ *         o - - - - o - - - - o - - - - o       j + 1
+ *         :    |    :         :         :
+ *      -  -  - | -  -  -  -  -  -  -  -  -  -   a row of the frame: mixed from the rows of nodes
+ *         :    |    :         :         :       above and below
+ *              x = 0
+ *
+ *     value   v-----v                              a row of nodes is kept as a polyline: its
+ *       |    /       `v--.                         vertices are nodes, the values between two of
+ *       |   v  .  .  .    ` v  .  . v              them lie on the line from one to the other
+ *       +---+--+--+--+--+---+--+----+--> node
+ *
+ *   bands (defocus/ makes them) --a row, or two mixed--> vertices --along the line--> paint at x
+ *
+ * A plane holds four values a node: the paint's S and its matte (1 - the mean of T); where T
+ * differs from channel to channel a second plane holds T.
+ *
+ * Invariant: the values of a node are a function of the cel, its placement and the frame's size;
+ * lines from vertex to vertex are within a quarter of 1/1023 of the nodes between them.
+ */
+#ifndef CS_SAMPLE_DEFOCUSED_H
+#define CS_SAMPLE_DEFOCUSED_H
+
+#include "base/context.h"
+#include "base/vector.h"
+#include "engine/span/run.h"
+
+/* Rows of nodes as polylines: equal values at two vertices are a constant stretch. */
+typedef struct cs_defocused_polyline {
+  int32_t *at;        /* nodes, ascending in each row, from the first to the last */
+  float (*values)[4]; /* of each vertex, plane after plane */
+  bool *constant;     /* scratch: of the row being made, which lines are constant */
+  size_t count, at_capacity, value_capacity, constant_capacity;
+} cs_defocused_polyline;
+
+/* The nodes of one row, plane after plane. Stretches of one colour are known group by group: in an
+ * even group all nodes are equal, and only its first and its last one need to be there. */
+#define CS_DEFOCUSED_GROUP 8
+typedef struct cs_defocused_nodes {
+  const float (*planes[2])[4];
+  const bool *even; /* by group, in all planes together; NULL: unknown */
+} cs_defocused_nodes;
+
+/* A band: band_rows rows of nodes that are made and kept together, plane after plane or as
+ * polylines. */
+typedef struct cs_defocus_band {
+  float (*nodes)[4]; /* NULL where they are polylines */
+  size_t node_count;
+  cs_defocused_polyline polyline;
+  size_t *rows; /* the first vertex of each row, and the end: band_rows + 1 */
+  size_t row_count, row_capacity;
+} cs_defocus_band;
+
+typedef struct cs_defocused cs_defocused;
+struct cs_defocused {
+  double pitch_x, pitch_y; /* pixels */
+  int32_t columns, rows;   /* nodes, at least 2 */
+  int32_t band_rows;
+  int planes;
+  /* Bands are shared; one that was acquired is kept until it is released. Threads: any.
+   * Errors: NO_MEMORY, and those of the rows of the cel. */
+  celspan_status (*acquire)(const cs_defocused *defocused, celspan_context *context, int32_t band,
+                            cs_defocus_band **out);
+  void (*release)(const cs_defocused *defocused, celspan_context *context, cs_defocus_band *band);
+};
+
+/* A defocused cel as one worker sees it, along one row. */
+typedef struct cs_defocused_view {
+  cs_defocus_band *bands[2]; /* acquired; NULL: none */
+  int32_t numbers[2];        /* the numbers of these bands */
+  bool is_placed;            /* the vertices are those at height y */
+  double y;
+  const int32_t *at; /* the vertices of the row: of a band, or its own */
+  const float (*values)[4];
+  size_t count;
+  cs_defocused_polyline own;
+  float (*mixed)[4]; /* a row of nodes, plane after plane */
+} cs_defocused_view;
+
+/* ---- bands */
+
+void cs_defocus_band_free(cs_defocus_band *band, cs_memory *memory);
+size_t cs_defocus_band_bytes(const cs_defocus_band *band);
+/* Room for the nodes of a band, which are not set. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_defocus_band_room(const cs_defocused *defocused,
+                                                    celspan_context *context,
+                                                    cs_defocus_band *band);
+/* Begins a band of `rows` rows that is kept as polylines; adds its next row; gives back the room
+ * that was not needed. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_defocus_band_begin(celspan_context *context, int32_t rows,
+                                                     cs_defocus_band *band);
+CELSPAN_CHECKED celspan_status cs_defocus_band_add(const cs_defocused *defocused,
+                                                   celspan_context *context,
+                                                   const cs_defocused_nodes *nodes,
+                                                   cs_defocus_band *band);
+void cs_defocus_band_end(const cs_defocused *defocused, cs_memory *memory, cs_defocus_band *band);
+/* How many groups a row of nodes has. */
+static inline int32_t cs_defocused_groups(const cs_defocused *defocused) {
+  return (defocused->columns + CS_DEFOCUSED_GROUP - 1) / CS_DEFOCUSED_GROUP;
+}
+
+/* ---- rows */
+
+/* Gives up all that a view has acquired. */
+void cs_defocused_release(const cs_defocused *defocused, celspan_context *context,
+                          cs_defocused_view *view);
+/* Moves a view to the height y, pixels. Errors: NO_MEMORY, and those of making a band. */
+CELSPAN_CHECKED celspan_status cs_defocused_move(const cs_defocused *defocused,
+                                                 celspan_context *context, cs_defocused_view *view,
+                                                 double y);
+/* Where x lies among the nodes of a row. */
+static inline double cs_defocused_at(const cs_defocused *defocused, double x) {
+  double at = x / defocused->pitch_x + 0.5, last = defocused->columns - 1;
+  return at < 0 ? 0 : at > last ? last : at;
+}
+static inline cs_v4 cs_defocused_value(const cs_defocused *defocused, const cs_defocused_view *view,
+                                       size_t vertex, int plane) {
+  return cs_v4_load(view->values[vertex * (size_t)defocused->planes + (size_t)plane]);
+}
+/* The line that a place among the nodes is on: its first vertex. hint: where to search first. */
+size_t cs_defocused_find(const cs_defocused_view *view, double at, size_t hint);
+/* The paint at x, at the height of the view. *line: a hint, and the line that x is on. */
+void cs_defocused_paint(const cs_defocused *defocused, const cs_defocused_view *view, double x,
+                        size_t *line, cs_v4 *s, cs_v4 *t);
+/* The most that each channel lets through anywhere in a run, at the height of the view. */
+cs_v4 cs_defocused_through(const cs_defocused *defocused, const cs_defocused_view *view,
+                           cs_run run);
+/* The vertices inside a run, as places x along the row; at most as many as the limit says. Returns
+ * how many. */
+size_t cs_defocused_breaks(const cs_defocused *defocused, const cs_defocused_view *view, cs_run run,
+                           double *breaks);
+size_t cs_defocused_break_limit(const cs_defocused *defocused);
+
+#endif

@@ -1,0 +1,197 @@
+#include "engine/span/row.h"
+
+#include "base/number.h"
+
+void cs_row_init(cs_row *row) {
+  *row = (cs_row){0};
+  cs_arena_init(&row->colours);
+}
+
+void cs_row_finish(cs_row *row, cs_memory *memory) {
+  cs_mem_free(memory, row->spans, row->capacity * sizeof *row->spans);
+  cs_arena_finish(&row->colours, memory);
+  *row = (cs_row){0};
+}
+
+void cs_row_clear(cs_row *row) {
+  row->count = 0;
+  row->varied = (cs_varied){0};
+  row->made_by.maker = NULL;
+  cs_arena_reset(&row->colours);
+}
+
+celspan_status cs_row_grow(celspan_context *context, cs_row *row) {
+  return cs_mem_reserve(context, (void **)&row->spans, &row->capacity, row->count + 1,
+                        sizeof *row->spans);
+}
+
+/* Appends a span that is not a single, to be filled in; NULL when there is no memory. */
+static inline celspan_span *append_varied(celspan_context *context, cs_row *row, int32_t x0,
+                                          int32_t x1, celspan_span_kind kind) {
+  if (row->count == row->capacity && cs_row_grow(context, row) != CELSPAN_OK)
+    return NULL;
+  celspan_span *span = &row->spans[row->count++];
+  span->x0 = span->origin = x0;
+  span->x1 = x1;
+  span->kind = kind;
+  cs_varied_count(&row->varied, kind);
+  return span;
+}
+
+celspan_status cs_row_gradient(celspan_context *context, cs_row *row, int32_t x0, int32_t x1,
+                               cs_v4 colour, cs_v4 slope) {
+  if (x1 - x0 < 2 || cs_v4_same(slope, cs_v4_all(0)))
+    return cs_row_single(context, row, x0, x1, colour);
+  celspan_span *span = append_varied(context, row, x0, x1, CELSPAN_SPAN_GRADIENT);
+  if (!span)
+    return CELSPAN_NO_MEMORY;
+  cs_v4_store(span->colour, colour);
+  cs_v4_store(span->slope, slope);
+  return CELSPAN_OK;
+}
+
+/* Appends an array of items of a size; its memory comes from the row's arena. */
+static celspan_status append_array(celspan_context *context, cs_row *row, int32_t x0, int32_t x1,
+                                   size_t size, void **room, celspan_span **out) {
+  *room = cs_arena_take(context, &row->colours, (size_t)(x1 - x0) * size);
+  *out = *room ? append_varied(context, row, x0, x1, CELSPAN_SPAN_ARRAY) : NULL;
+  return *out ? CELSPAN_OK : CELSPAN_NO_MEMORY;
+}
+
+celspan_status cs_row_array(celspan_context *context, cs_row *row, int32_t x0, int32_t x1,
+                            float **colours) {
+  celspan_span *span;
+  void *room;
+  CS_TRY(append_array(context, row, x0, x1, 4 * sizeof(float), &room, &span));
+  span->array = *colours = room;
+  span->codes = NULL;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_row_codes(celspan_context *context, cs_row *row, int32_t x0, int32_t x1,
+                            unsigned char **codes) {
+  celspan_span *span;
+  void *room;
+  CS_TRY(append_array(context, row, x0, x1, 4, &room, &span));
+  span->array = NULL;
+  span->codes = *codes = room;
+  return CELSPAN_OK;
+}
+
+void cs_row_crop(cs_row *row, int32_t x0, int32_t x1) {
+  size_t kept = 0;
+  row->varied = (cs_varied){0};
+  row->made_by.maker = NULL;
+  for (size_t i = 0; i < row->count; i++) {
+    celspan_span span = row->spans[i];
+    int32_t from = span.x0 < x0 ? x0 : span.x0, to = span.x1 > x1 ? x1 : span.x1;
+    if (from >= to)
+      continue;
+    size_t cut = 4 * (size_t)(from - span.x0);
+    if (span.kind == CELSPAN_SPAN_ARRAY && span.codes)
+      span.codes += cut;
+    else if (span.kind == CELSPAN_SPAN_ARRAY)
+      span.array += cut;
+    span.x0 = from - x0;
+    span.x1 = to - x0;
+    span.origin -= x0;
+    row->spans[kept++] = span;
+    cs_varied_count(&row->varied, span.kind);
+  }
+  row->count = kept;
+}
+
+/* ---------------------------------------------------------------- exposures */
+
+static inline cs_v4 colour_at(const celspan_span *span, int32_t x) {
+  cs_v4 colour = cs_v4_load(span->colour);
+  if (span->kind == CELSPAN_SPAN_ARRAY)
+    return cs_v4_load(span->array + 4 * (size_t)(x - span->x0));
+  if (span->kind == CELSPAN_SPAN_GRADIENT)
+    return colour + cs_v4_load(span->slope) * (float)(x - span->origin);
+  return colour;
+}
+
+/* How many of the `count` values first + k * slope, from k = 0 on, lie on the same side of 1 as the
+ * first. Rounding does not change their order, so halving finds the last of them. */
+static int32_t count_alike(float first, float slope, int32_t count) {
+  bool is_above = first > 1;
+  int32_t alike = 0, beyond = count; /* the first one known to be on the other side, or count */
+  if ((first + slope * (float)(count - 1) > 1) == is_above)
+    return count;
+  while (beyond - alike > 1) {
+    int32_t middle = alike + (beyond - alike) / 2;
+    if ((first + slope * (float)middle > 1) == is_above)
+      alike = middle;
+    else
+      beyond = middle;
+  }
+  return beyond;
+}
+
+/* A gradient whose alpha is limited to 1: two gradients that meet where the alpha passes 1. */
+static celspan_status expose_gradient(celspan_context *context, cs_row *out, int32_t x0, int32_t x1,
+                                      cs_v4 colour, cs_v4 slope) {
+  bool is_above = colour[3] > 1;
+  int32_t bend = x0 + count_alike(colour[3], slope[3], x1 - x0);
+  cs_v4 rest = colour + slope * (float)(bend - x0), rest_slope = slope;
+  if (is_above) {
+    colour[3] = 1;
+    slope[3] = 0;
+  } else {
+    rest[3] = 1;
+    rest_slope[3] = 0;
+  }
+  CS_TRY(cs_row_gradient(context, out, x0, bend, colour, slope));
+  return cs_row_gradient(context, out, bend, x1, rest, rest_slope);
+}
+
+/* The sum of one span of each row, all of which cover [x0, x1). */
+static celspan_status expose_array(celspan_context *context, cs_row *out,
+                                   const celspan_span *const *spans, const float *weights,
+                                   size_t count, int32_t x0, int32_t x1) {
+  float *colours;
+  CS_TRY(cs_row_array(context, out, x0, x1, &colours));
+  for (int32_t x = x0; x < x1; x++, colours += 4) {
+    cs_v4 sum = cs_v4_all(0);
+    for (size_t i = 0; i < count; i++)
+      sum += weights[i] * colour_at(spans[i], x);
+    sum[3] = sum[3] > 1 ? 1 : sum[3];
+    cs_v4_store(colours, sum);
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status expose_interval(celspan_context *context, cs_row *out,
+                                      const celspan_span *const *spans, const float *weights,
+                                      size_t count, int32_t x0, int32_t x1) {
+  cs_v4 first = cs_v4_all(0), slope = cs_v4_all(0);
+  for (size_t i = 0; i < count; i++) {
+    if (spans[i]->kind == CELSPAN_SPAN_ARRAY)
+      return expose_array(context, out, spans, weights, count, x0, x1);
+    first += weights[i] * colour_at(spans[i], x0);
+    if (spans[i]->kind == CELSPAN_SPAN_GRADIENT)
+      slope += weights[i] * cs_v4_load(spans[i]->slope);
+  }
+  return expose_gradient(context, out, x0, x1, first, slope);
+}
+
+celspan_status cs_row_expose(celspan_context *context, cs_row *out, const cs_row *rows,
+                             const float *weights, size_t count) {
+  const celspan_span **at = cs_arena_take(context, &out->colours, count * sizeof *at);
+  if (!at)
+    return CELSPAN_NO_MEMORY;
+  for (size_t i = 0; i < count; i++)
+    at[i] = rows[i].spans;
+  const celspan_span *end = rows[0].spans + rows[0].count;
+  for (int32_t x0 = 0; at[0] < end;) {
+    int32_t x1 = INT32_MAX;
+    for (size_t i = 0; i < count; i++)
+      x1 = at[i]->x1 < x1 ? at[i]->x1 : x1;
+    CS_TRY(expose_interval(context, out, at, weights, count, x0, x1));
+    for (size_t i = 0; i < count; i++)
+      at[i] += at[i]->x1 == x1;
+    x0 = x1;
+  }
+  return CELSPAN_OK;
+}

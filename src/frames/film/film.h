@@ -1,0 +1,34 @@
+/* A film and its frames as the core sees them. Who builds the frames does not matter here: a
+ * script, through lua/nouns/lua_film.h, or anything else that can give exposures for a number.
+ *
+ * INVARIANT: the exposures of a frame keep their scene alive by references of their own, so that a
+ * frame can be rendered by any thread after its builder has gone on to the next one.
+ */
+#ifndef CS_FILM_FILM_H
+#define CS_FILM_FILM_H
+
+#include "celspan/celspan.h"
+
+typedef struct cs_film_info {
+  int32_t width, height; /* film units, and pixels unless another size is asked for */
+  double frames_second;
+  int64_t first, count; /* frames first .. first + count - 1 */
+  const char *title;    /* NULL: none; the film's own, borrowed */
+  const char *sound;    /* NULL: none; as the script wrote it */
+  double sound_offset;  /* seconds */
+} cs_film_info;
+
+typedef struct cs_film_frame {
+  celspan_exposure *exposures; /* made by cs_film_frame_init alone, owned; each holds a reference to
+                                  its rostrum */
+  size_t count;
+} cs_film_frame;
+
+/* Copies the exposures and takes a reference to each rostrum. out: new, to be finished, by any
+ * thread and before or after the context is. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_film_frame_init(cs_film_frame *out, celspan_context *context,
+                                                  const celspan_exposure *exposures, size_t count);
+/* A frame that is all zero, or finished already, may be finished too. */
+void cs_film_frame_finish(cs_film_frame *frame);
+
+#endif

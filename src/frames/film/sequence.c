@@ -1,0 +1,261 @@
+#include "frames/film/sequence.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/open.h"
+
+#define MOST_FRAMES 10000000 /* of one list; 80 MB of numbers */
+#define MOST_NUMBER 1000000000000
+#define MOST_WIDTH 20
+
+/* ---------------------------------------------------------------- lists */
+
+typedef struct reader {
+  celspan_context *context;
+  const char *list, *at;
+} reader;
+
+static celspan_status refuse(const reader *r, const char *what) {
+  return celspan_context_fail(
+      r->context, CELSPAN_BAD_ARGUMENT,
+      "frames \"%.200s\": %s at character %d; write it like 1-10,20-30:2,45", r->list, what,
+      (int)(r->at - r->list) + 1);
+}
+
+static void skip_spaces(reader *r) { r->at += strspn(r->at, " \t"); }
+
+static bool skip(reader *r, char sign) {
+  skip_spaces(r);
+  if (*r->at != sign)
+    return false;
+  r->at++;
+  skip_spaces(r);
+  return true;
+}
+
+static celspan_status read_number(reader *r, int64_t *out) {
+  skip_spaces(r);
+  bool is_negative = *r->at == '-';
+  const char *digit = r->at + is_negative;
+  if (*digit < '0' || *digit > '9')
+    return refuse(r, "a whole number is missing");
+  int64_t number = 0;
+  for (; *digit >= '0' && *digit <= '9'; digit++) {
+    number = number * 10 + (*digit - '0');
+    if (number > MOST_NUMBER)
+      return refuse(r, "the number is too large");
+  }
+  r->at = digit;
+  *out = is_negative ? -number : number;
+  return CELSPAN_OK;
+}
+
+static celspan_status append(reader *r, cs_sequence *out, int64_t from, int64_t to, int64_t step) {
+  size_t added = (size_t)((to - from) / step) + 1;
+  if (added > MOST_FRAMES || out->count + added > MOST_FRAMES)
+    return celspan_context_fail(r->context, CELSPAN_LIMIT,
+                                "frames \"%.200s\": more than %d frames in one list", r->list,
+                                MOST_FRAMES);
+  int64_t *grown = realloc(out->frames, (out->count + added) * sizeof *grown);
+  if (!grown)
+    return celspan_context_fail(r->context, CELSPAN_NO_MEMORY, "not enough memory for the frames");
+  out->frames = grown;
+  for (size_t i = 0; i < added; i++)
+    out->frames[out->count++] = from + (int64_t)i * step;
+  return CELSPAN_OK;
+}
+
+static celspan_status read_element(reader *r, cs_sequence *out) {
+  int64_t from, to, step = 1;
+  celspan_status status = read_number(r, &from);
+  if (status != CELSPAN_OK)
+    return status;
+  to = from;
+  if (skip(r, '-') && (status = read_number(r, &to)) != CELSPAN_OK)
+    return status;
+  if (skip(r, ':') && (status = read_number(r, &step)) != CELSPAN_OK)
+    return status;
+  if (step == 0)
+    return refuse(r, "a step of 0 ends");
+  if (to != from && (to < from) != (step < 0))
+    return refuse(r, to < from ? "a range that goes down needs a step below 0"
+                               : "a range that goes up needs a step above 0");
+  return append(r, out, from, to, step);
+}
+
+static int compare(const void *a, const void *b) {
+  int64_t x = *(const int64_t *)a, y = *(const int64_t *)b;
+  return (x > y) - (x < y);
+}
+
+static celspan_status check_overlaps(const reader *r, const cs_sequence *sequence) {
+  int64_t *sorted = malloc(sequence->count * sizeof *sorted);
+  if (!sorted)
+    return celspan_context_fail(r->context, CELSPAN_NO_MEMORY, "not enough memory for the frames");
+  memcpy(sorted, sequence->frames, sequence->count * sizeof *sorted);
+  qsort(sorted, sequence->count, sizeof *sorted, compare);
+  celspan_status status = CELSPAN_OK;
+  for (size_t i = 1; i < sequence->count && status == CELSPAN_OK; i++)
+    if (sorted[i] == sorted[i - 1])
+      status = celspan_context_fail(r->context, CELSPAN_BAD_ARGUMENT,
+                                    "frames \"%.200s\": frame %lld stands in it twice", r->list,
+                                    (long long)sorted[i]);
+  free(sorted);
+  return status;
+}
+
+celspan_status cs_sequence_parse(celspan_context *context, const char *list, cs_sequence *out) {
+  reader r = {context, list, list};
+  cs_sequence sequence = {0};
+  celspan_status status;
+  do
+    status = read_element(&r, &sequence);
+  while (status == CELSPAN_OK && skip(&r, ','));
+  if (status == CELSPAN_OK && *r.at)
+    status = refuse(&r, "there is something that does not belong to a list");
+  if (status == CELSPAN_OK)
+    status = check_overlaps(&r, &sequence);
+  if (status != CELSPAN_OK)
+    cs_sequence_finish(&sequence);
+  else
+    *out = sequence;
+  return status;
+}
+
+celspan_status cs_sequence_count(celspan_context *context, int64_t first, int64_t count,
+                                 cs_sequence *out) {
+  reader r = {context, "all", "all"};
+  cs_sequence sequence = {0};
+  celspan_status status = append(&r, &sequence, first, first + count - 1, 1);
+  if (status == CELSPAN_OK)
+    *out = sequence;
+  return status;
+}
+
+void cs_sequence_finish(cs_sequence *sequence) {
+  free(sequence->frames);
+  *sequence = (cs_sequence){0};
+}
+
+celspan_status cs_sequence_within(celspan_context *context, const cs_sequence *sequence,
+                                  int64_t first, int64_t count) {
+  for (size_t i = 0; i < sequence->count; i++)
+    if (sequence->frames[i] < first || sequence->frames[i] >= first + count)
+      return celspan_context_fail(context, CELSPAN_BAD_ARGUMENT,
+                                  "frame %lld is outside the film, whose frames are %lld to %lld",
+                                  (long long)sequence->frames[i], (long long)first,
+                                  (long long)(first + count - 1));
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- names */
+
+/* Where the number goes: pattern[start .. end) is replaced by it, padded to `width`. */
+typedef struct number_field {
+  size_t start, end;
+  int width;
+  bool is_found;
+} number_field;
+
+/* The length of "%d", "%4d" or "%04d" at the beginning of the text; 0 when there is none. */
+static size_t match_percent(const char *text, int *width) {
+  size_t digits = text[0] == '%' ? strspn(text + 1, "0123456789") : 0;
+  if (text[0] != '%' || text[1 + digits] != 'd' || digits > 3)
+    return 0;
+  *width = atoi(text + 1);
+  return digits + 2;
+}
+
+static number_field find_number_field(const char *pattern) {
+  const char *slash = strrchr(pattern, '/');
+  number_field found = {0};
+  for (const char *at = slash ? slash + 1 : pattern; *at;) {
+    int width = 0;
+    size_t length = strspn(at, "#");
+    if (length)
+      width = (int)(length < MOST_WIDTH ? length : MOST_WIDTH);
+    else
+      length = match_percent(at, &width);
+    size_t start = (size_t)(at - pattern);
+    if (length)
+      found = (number_field){start, start + length, width < MOST_WIDTH ? width : MOST_WIDTH, true};
+    at += length ? length : 1;
+  }
+  return found;
+}
+
+bool cs_sequence_has_number(const char *pattern) { return find_number_field(pattern).is_found; }
+
+bool cs_sequence_matches(const char *pattern, const char *name) {
+  number_field at = find_number_field(pattern);
+  if (!at.is_found)
+    return strcmp(pattern, name) == 0;
+  size_t tail = strlen(pattern + at.end), length = strlen(name);
+  if (length < at.start + tail || strncmp(pattern, name, at.start) != 0 ||
+      strcmp(pattern + at.end, name + length - tail) != 0)
+    return false;
+  return strspn(name + at.start, "-0123456789 ") >= length - tail - at.start;
+}
+
+celspan_status cs_sequence_name(celspan_context *context, const char *pattern, int64_t frame,
+                                char *name, size_t size) {
+  number_field at = find_number_field(pattern);
+  int length = at.is_found ? snprintf(name, size, "%.*s%0*lld%s", (int)at.start, pattern, at.width,
+                                      (long long)frame, pattern + at.end)
+                           : snprintf(name, size, "%s", pattern);
+  if (length < 0 || (size_t)length >= size)
+    return celspan_context_fail(context, CELSPAN_BAD_ARGUMENT,
+                                "the file name \"%.80s...\" is too long", pattern);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- files that are there */
+
+enum { PATH_SIZE = 4096 };
+
+/* Adds the number of a file if its name is the one that the pattern gives to that number. */
+static celspan_status add_file(reader *r, const char *pattern, const char *name, cs_sequence *out) {
+  char expected[PATH_SIZE];
+  if (!cs_sequence_matches(pattern, name))
+    return CELSPAN_OK;
+  int64_t number = strtoll(name + find_number_field(pattern).start, NULL, 10);
+  celspan_status status = cs_sequence_name(r->context, pattern, number, expected, sizeof expected);
+  if (status != CELSPAN_OK || strcmp(expected, name) != 0)
+    return status;
+  return append(r, out, number, number, 1);
+}
+
+static celspan_status fail_folder(celspan_context *context, const char *pattern, int error) {
+  if (error == ENOMEM)
+    return celspan_context_fail(context, CELSPAN_NO_MEMORY,
+                                "%.600s: its folder cannot be read: out of memory", pattern);
+  return celspan_context_fail(context, CELSPAN_INPUT, "%.600s: its folder cannot be read: %s",
+                              pattern, strerror(error));
+}
+
+celspan_status cs_sequence_list(celspan_context *context, const char *pattern, cs_sequence *out) {
+  const char *slash = strrchr(pattern, '/'), *name = slash ? slash + 1 : pattern;
+  char path[PATH_SIZE];
+  int length = snprintf(path, sizeof path, "%.*s", (int)(name - pattern), pattern);
+  DIR *folder = length < PATH_SIZE ? opendir(length ? path : ".") : NULL;
+  if (!folder)
+    return fail_folder(context, pattern, length < PATH_SIZE ? errno : ENAMETOOLONG);
+  reader r = {context, pattern, pattern};
+  cs_sequence sequence = {0};
+  celspan_status status = CELSPAN_OK;
+  for (struct dirent *entry; status == CELSPAN_OK && (entry = cs_open_entry(folder));)
+    status = add_file(&r, name, entry->d_name, &sequence);
+  if (status == CELSPAN_OK && errno)
+    status = fail_folder(context, pattern, errno);
+  closedir(folder);
+  if (sequence.count > 0)
+    qsort(sequence.frames, sequence.count, sizeof *sequence.frames, compare);
+  if (status == CELSPAN_OK)
+    *out = sequence;
+  else
+    cs_sequence_finish(&sequence);
+  return status;
+}

@@ -1,0 +1,74 @@
+/* Shooting a film: its frames are built in order by one thread, made by several workers, and put
+ * into files or digests. celspan.render and the command line share it.
+ *
+ *   build --> keep?  -->  make, or copy from an equal frame  -->  finished
+ *   \_____________/      \_________________________________/       \______/
+ *   calling thread,         any worker; copies, and           calling thread,
+ *   in order                procedures: calling thread        in order
+ *
+ * A frame that shows the same as an earlier frame of the run is copied from it. Frames that contain
+ * scan-line procedures are never copied: a procedure can be compared with nothing, and the calling
+ * thread has to call it before it builds the next frame.
+ *
+ * INVARIANT: frames are reported in their order, and what is reported of them does not depend on
+ * the number of workers.
+ */
+#ifndef CS_FILM_SHOOT_H
+#define CS_FILM_SHOOT_H
+
+#include "base/hash.h"
+#include "frames/film/film.h"
+#include "frames/film/sequence.h"
+#include "output/sinks/file.h"
+
+#define CS_SHOOT_PATH 4096
+
+typedef enum cs_shoot_way {
+  CS_SHOOT_MADE = 0,
+  CS_SHOOT_COPIED, /* from an equal frame */
+  CS_SHOOT_KEPT    /* it was there already */
+} cs_shoot_way;
+
+typedef struct cs_shoot_frame {
+  int64_t number;
+  char path[CS_SHOOT_PATH]; /* "" where there is no file */
+  cs_shoot_way way;
+  bool is_named; /* it contains no procedure: `scene` and `inputs` say what it shows */
+  cs_hash scene;
+  cs_hash inputs; /* of its pictures' files; set only where `keep` is given */
+  uint64_t digest[2];
+  cs_file_contents contents; /* of its file, where that was made or copied */
+} cs_shoot_frame;
+
+typedef struct cs_shoot {
+  celspan_context *context;
+  cs_film_info film;
+  const cs_sequence *frames;
+  const char *pattern;      /* of the files' names; NULL: no files */
+  celspan_frame_desc frame; /* without exposures; workers: of the whole run */
+  celspan_file_desc file;   /* without the fields that come from the film and its frames */
+  bool has_digests;         /* each frame's pixels are hashed */
+  bool keeps_going;         /* a frame that fails does not end the run */
+  bool keeps_nothing;       /* nothing is carried over from one frame to the next */
+  void *user;
+  /* The exposures of a frame: new. Errors: with their sentence in the context. Calling thread, in
+   * order. */
+  celspan_status (*build)(void *user, int64_t number, cs_film_frame *out);
+  /* What is done with each frame instead of writing a file: frame->way is set where it was not
+   * made, and frame->digest where there are digests. Calling thread, in order. NULL: files. */
+  celspan_status (*put)(void *user, const celspan_frame_desc *desc, cs_shoot_frame *frame);
+  /* Whether the frame is there already. Its number, path and hashes are set; where there are
+   * digests, this function sets the frame's. Calling thread. NULL: no frame is. */
+  bool (*keep)(void *user, cs_shoot_frame *frame);
+  /* A frame is finished or has failed; in order. The sentence of a failure is in the context and
+   * names the frame. A result other than OK ends the run. */
+  celspan_status (*finished)(void *user, const cs_shoot_frame *frame, celspan_status status);
+  /* As in cs_frame_pipeline: the share of the frames that are not reported yet, in frames. NULL:
+   * nobody asks. */
+  bool (*tick)(void *user, double share);
+} cs_shoot;
+
+/* Errors: those of `finished`; CANCELLED; NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_shoot_run(const cs_shoot *shoot);
+
+#endif

@@ -1,0 +1,302 @@
+#include "frames/render/compile.h"
+
+#include "engine/compose/tree.h"
+#include "engine/defocus/layer.h"
+#include "frames/render/compiler.h"
+#include "frames/render/layers.h"
+#include "frames/render/lights.h"
+#include "frames/render/objects.h"
+#include "frames/render/through.h"
+#include "model/geometry/matrix.h"
+
+/* ---------------------------------------------------------------- what is hidden */
+
+/* What is hidden: the layers of a plan as the cull needs to know them.
+ *
+ *   layer  the most that it lets through     a bound (through.h), the same that cuts the
+ *                                            programs of the composer: where a tile is dead, the
+ *                                            fold of colours has stopped before
+ *                                            (of a picture by its header, which is read for it)
+ *   group  faded, or lit by a light with a shape
+ *   tree   where its layers are certain to be painted (engine/compose/tree.h)
+ */
+
+#define LAYERS_LEAST 8
+#define ROWS_LEAST 20 /* of the frame, for each piece of the outlines, on the average */
+#define DEPTH_LEAST 6 /* halvings of light; a tile dies at CS_THROUGH_OPAQUE */
+
+/* ---------------------------------------------------------------- in the words of the cull */
+
+typedef struct hidden {
+  const cs_stack *stack;
+  cs_cull_layer *layers;
+  cs_cull_group *groups;
+  cs_cull_tree *trees;
+} hidden;
+
+static double most_of(cs_v4 t) {
+  float most = t[0] > t[1] ? t[0] : t[1];
+  return most > t[2] ? most : t[2];
+}
+
+static void resolve(const void *user, size_t tree, const cs_cull_presence *presences, void *scratch,
+                    uint64_t *painted) {
+  const hidden *h = user;
+  cs_tree_certain(h->stack, &h->stack->trees[tree], presences, scratch, painted);
+}
+
+static void fill(celspan_context *context, hidden *h) {
+  const cs_stack *stack = h->stack;
+  for (size_t i = 0; i < stack->layer_count; i++) {
+    const cs_layer *layer = &stack->layers[i];
+    h->layers[i] = (cs_cull_layer){.through = most_of(cs_through_layer(context, stack, layer)),
+                                   .winding_mask = stack->rules[i].winding_mask,
+                                   .group = layer->group,
+                                   .is_anywhere = layer->kind == CS_LAYER_SCANLINE};
+  }
+  for (size_t i = 0; i < stack->group_count; i++) {
+    const cs_group *group = &stack->groups[i];
+    h->groups[i] = (cs_cull_group){group->parent, group->first, (double)group->fade};
+  }
+  for (size_t i = 0; i < stack->tree_count; i++)
+    h->trees[i] = (cs_cull_tree){stack->trees[i].first, stack->trees[i].end};
+}
+
+/* ---------------------------------------------------------------- the cull */
+
+static celspan_status cull(cs_compiler *c, const hidden *h) {
+  const cs_stack *stack = h->stack;
+  const cs_cull_desc desc = {.set = &c->plan->boundaries,
+                             .layers = h->layers,
+                             .layer_count = stack->layer_count,
+                             .groups = h->groups,
+                             .group_count = stack->group_count,
+                             .trees = h->trees,
+                             .tree_count = stack->tree_count,
+                             .resolve = resolve,
+                             .user = h,
+                             .scratch_size = stack->step_depth * sizeof(cs_tree_certain_result),
+                             .width = c->plan->width,
+                             .height = c->plan->height,
+                             .margin = c->plan->margin,
+                             .opaque = (double)CS_PAINT_OPAQUE * 0.999,
+                             .workers = c->workers};
+  return cs_cull_create(c->context, &desc, &c->plan->cull);
+}
+
+/* A chain costs the cull about as much as the sweep pays for it in some tens of rows, so it pays
+ * where chains are long, and layers so deep that many tiles die. */
+static bool pays(const cs_compiler *c) {
+  return c->plan->stack.layer_count >= LAYERS_LEAST &&
+         c->census.rows >= ROWS_LEAST * c->census.pieces && c->census.depth >= DEPTH_LEAST;
+}
+
+/* Culls the boundaries of a plan, which are in their final order, if that pays. Errors: NO_MEMORY.
+ */
+static CELSPAN_CHECKED celspan_status cull_hidden(cs_compiler *c) {
+  const cs_stack *stack = &c->plan->stack;
+  cs_memory *memory = c->context->memory;
+  if (!pays(c))
+    return CELSPAN_OK;
+  size_t layers = stack->layer_count, groups = stack->group_count, trees = stack->tree_count;
+  hidden h = {stack, cs_mem_array(memory, layers, sizeof *h.layers),
+              cs_mem_array(memory, groups, sizeof *h.groups),
+              cs_mem_array(memory, trees, sizeof *h.trees)};
+  celspan_status status = CELSPAN_OK;
+  if ((!h.layers && layers > 0) || (!h.groups && groups > 0) || (!h.trees && trees > 0))
+    status = cs_fail_memory(c->context);
+  if (status == CELSPAN_OK) {
+    fill(c->context, &h);
+    status = cull(c, &h);
+  }
+  cs_mem_free(memory, h.layers, layers * sizeof *h.layers);
+  cs_mem_free(memory, h.groups, groups * sizeof *h.groups);
+  cs_mem_free(memory, h.trees, trees * sizeof *h.trees);
+  return status;
+}
+
+/* ---------------------------------------------------------------- defocused cels */
+
+static celspan_status append_defocused(cs_compiler *c, const cs_defocus_cel *place,
+                                       const cs_outline *box, uint32_t detail) {
+  cs_stack *stack = &c->plan->stack;
+  celspan_matrix identity = celspan_matrix_identity();
+  double opacity = place->rostrum->cels[place->index]->opacity;
+  uint32_t index;
+  CS_TRY(cs_layers_append(c, opacity, CELSPAN_RULE_NONZERO, &index));
+  stack->layers[index].kind = CS_LAYER_DEFOCUSED;
+  stack->layers[index].index = detail;
+  stack->layers[index].t = (cs_v4){1, 1, 1, 0};
+  return cs_boundary_add(c->boundaries, box, &identity, index);
+}
+
+static celspan_status compile_alone(void *user, const cs_defocus_job *job, cs_plan *out);
+
+/* A defocused cel: one layer, present in the box that its blurred art covers. */
+static celspan_status compile_defocused(cs_compiler *c, const cs_defocus_cel *place) {
+  cs_plan *plan = c->plan;
+  cs_stack *stack = &plan->stack;
+  const cs_defocus_compiler alone = {compile_alone, c};
+  cs_outline box;
+  CS_TRY(CS_COMPILER_APPEND(c, defocused, defocused_count, defocused_capacity));
+  CS_TRY(cs_mem_reserve(c->context, (void **)&plan->defocus, &plan->defocus_capacity,
+                        plan->defocus_count + 1, sizeof(cs_defocus *)));
+  cs_outline_init(&box);
+  cs_defocus *defocus = NULL, *made = NULL;
+  if (c->front_plan && plan->defocus_count < c->front_plan->defocus_count)
+    made = c->front_plan->defocus[plan->defocus_count];
+  celspan_status status = cs_defocus_layer_create(c->context, place, &alone, made, &box, &defocus);
+  if (status == CELSPAN_OK && defocus) {
+    plan->defocus[plan->defocus_count++] = defocus;
+    stack->defocused[stack->defocused_count] = &defocus->grid;
+    status = append_defocused(c, place, &box, (uint32_t)stack->defocused_count++);
+  }
+  cs_outline_finish(&box, c->context->memory);
+  return status;
+}
+
+/* ---------------------------------------------------------------- cels */
+
+static celspan_status compile_sharp(cs_compiler *c, const celspan_cel *cel,
+                                    const celspan_matrix *matrix) {
+  cs_objects_outside outer;
+  CS_TRY(cs_objects_begin_group(c, cel->opacity, false, &outer));
+  CS_TRY(cs_objects_add(c, cel->objects, cel->object_count, matrix));
+  cs_objects_end_group(c, outer);
+  return CELSPAN_OK;
+}
+
+static celspan_status compile_paint(cs_compiler *c, const celspan_rostrum *rostrum, size_t index,
+                                    const celspan_matrix *matrix, const cs_compiler_film *film) {
+  const cs_defocus_cel place = {rostrum,         index,
+                                film->to_pixels, film->width,
+                                film->height,    *matrix,
+                                c->frame,        c->plan->width,
+                                c->plan->height, c->plan->antialias != CELSPAN_ANTIALIAS_NONE};
+  return cs_defocus_layer_is_needed(&place) ? compile_defocused(c, &place)
+                                            : compile_sharp(c, rostrum->cels[index], matrix);
+}
+
+static celspan_status compile_cel(cs_compiler *c, const celspan_rostrum *rostrum, size_t index,
+                                  const cs_compiler_film *film) {
+  celspan_matrix matrix;
+  cs_objects_outside outer;
+  cs_lights_front front;
+  CS_TRY(cs_scene_cel_matrix(c->context, rostrum, index, film->width, film->height, &matrix));
+  matrix = celspan_matrix_then(matrix, film->to_pixels);
+  CS_TRY(cs_lights_add_back(c, rostrum, index, &rostrum->cels[index]->back, film));
+  CS_TRY(cs_lights_set_front(c, rostrum, index, film, &front));
+  CS_TRY(cs_objects_begin_group(c, 1, front.is_shape, &outer));
+  CS_TRY(compile_paint(c, rostrum, index, &matrix, film));
+  if (front.is_shape)
+    CS_TRY(cs_lights_light_group(c, &front, film));
+  cs_objects_end_group(c, outer);
+  return CELSPAN_OK;
+}
+
+/* The cels of a film, from the rear. */
+static celspan_status compile_film(cs_compiler *c, const celspan_rostrum *rostrum,
+                                   const cs_compiler_film *film) {
+  CS_TRY(cs_lights_add_mattes(c, rostrum, film));
+  CS_TRY(cs_lights_add_back(c, rostrum, 0, &rostrum->back, film));
+  for (size_t i = 0; i < rostrum->cel_count; i++) {
+    if (!c->is_nested) { /* a nested one is named by the cel that holds it */
+      c->cel = i + 1;
+      c->mark = rostrum->cels[i]->mark;
+    }
+    CS_TRY(compile_cel(c, rostrum, i, film));
+  }
+  return CELSPAN_OK;
+}
+
+/* The composer needs lights from the camera backwards. */
+static void reverse_lights(cs_stack *stack) {
+  for (size_t i = 0, j = stack->light_count; i + 1 < j; i++) {
+    cs_back_light light = stack->lights[i];
+    stack->lights[i] = stack->lights[--j];
+    stack->lights[j] = light;
+  }
+}
+
+static celspan_status compile_rostrum(cs_compiler *c, const celspan_rostrum *rostrum,
+                                      double film_width, double film_height) {
+  const cs_compiler_film film = {.width = film_width,
+                                 .height = film_height,
+                                 .to_pixels = celspan_matrix_scaling(c->plan->width / film_width,
+                                                                     c->plan->height / film_height),
+                                 .shine = {1, 1, 1, 0}};
+  CS_TRY(compile_film(c, rostrum, &film));
+  reverse_lights(&c->plan->stack);
+  cs_boundary_sort(&c->plan->boundaries);
+  return cull_hidden(c);
+}
+
+static void begin(cs_compiler *c, cs_boundary_builder *boundaries, celspan_context *context,
+                  cs_plan *plan, int32_t first_row, int32_t end_row) {
+  double margin = plan->margin;
+  *c = (cs_compiler){.context = context,
+                     .plan = plan,
+                     .boundaries = boundaries,
+                     .frame = {-margin, plan->width + margin, -margin, plan->height + margin},
+                     .first_height = first_row - margin - 1, /* a pixel more, against rounding */
+                     .end_height = end_row + margin + 1,
+                     .group = CS_STACK_NONE,
+                     .compile_nested = compile_film};
+  cs_boundary_init(&plan->boundaries);
+  cs_boundary_builder_init(boundaries, context, &plan->boundaries, &c->frame);
+}
+
+/* status: that of compiling. The plan is given away, or freed. */
+static celspan_status finish(cs_compiler *c, celspan_status status, cs_plan *out) {
+  cs_boundary_builder_finish(c->boundaries);
+  if (status == CELSPAN_OK)
+    *out = *c->plan;
+  else
+    cs_compile_free(c->plan, c->context->memory);
+  return status;
+}
+
+celspan_status cs_compile(celspan_context *context, const celspan_rostrum *rostrum,
+                          const cs_view *view, const cs_antialias *antialias, int workers,
+                          cs_plan *out) {
+  cs_plan plan = {.width = view->width, .height = view->height, .antialias = antialias->mode};
+  if (antialias->mode == CELSPAN_ANTIALIAS_FILTER) {
+    CS_TRY(cs_kernel_create(context, antialias, &plan.kernel));
+    plan.margin = cs_kernel_extent(plan.kernel);
+  }
+  cs_compiler c;
+  cs_boundary_builder boundaries;
+  begin(&c, &boundaries, context, &plan, view->first_row, view->end_row);
+  c.workers = workers;
+  plan.stack.span_error = view->span_error;
+  return finish(&c, compile_rostrum(&c, rostrum, view->film_width, view->film_height), out);
+}
+
+/* ---------------------------------------------------------------- one cel alone */
+
+static celspan_status compile_objects(cs_compiler *c, const cs_defocus_job *job) {
+  c->front = job->is_through ? cs_v4_all(0) : (cs_v4){1, 1, 1, 0};
+  if (job->is_through)
+    CS_TRY(cs_lights_add_flat(c, (celspan_light){1, 1, 1, 0}));
+  CS_TRY(cs_objects_add(c, job->cel->objects, job->cel->object_count, &job->matrix));
+  cs_boundary_sort(&c->plan->boundaries);
+  return cull_hidden(c);
+}
+
+static celspan_status compile_alone(void *user, const cs_defocus_job *job, cs_plan *out) {
+  const cs_compiler *outer = user;
+  cs_plan plan = {.width = job->width,
+                  .height = job->height,
+                  .margin = job->kernel ? cs_kernel_extent(job->kernel) : 0,
+                  .kernel = job->kernel,
+                  .borrows_defocus = job->front != NULL};
+  cs_compiler c;
+  cs_boundary_builder boundaries;
+  begin(&c, &boundaries, outer->context, &plan, 0, job->height);
+  c.front_plan = job->front;
+  c.workers = 1;
+  c.cel = outer->cel;
+  return finish(&c, compile_objects(&c, job), out);
+}
+
+void cs_compile_free(cs_plan *plan, cs_memory *memory) { cs_defocus_layer_free_plan(plan, memory); }

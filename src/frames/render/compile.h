@@ -1,0 +1,43 @@
+/* Compiling: a rostrum and a frame size become a plan, the flat form that rows are made from.
+ *
+ *  camera                                     layer 3   a primitive of the front cel
+ *    |     cel 2  ====  objects, trees        layer 2   a primitive of the front cel
+ *    |     cel 1  ====  one object            back light, shining on everything above it
+ *    v     cel 0  ====  defocused             layer 1   a primitive of cel 1
+ *  rear light                                 layer 0   the whole of cel 0 (engine/defocus/layer.h)
+ *
+ *   rostrum --walk from the rear to the front--> layers, groups, trees, back lights, in order
+ *                                                (engine/compose/stack.h)
+ *                                              + chains of boundaries in frame pixels
+ *                                                (model/geometry/boundary.h)
+ *
+ * The plan borrows textures, pictures and procedures of the rostrum, which must outlive it.
+ *
+ * A defocused cel is compiled by this compiler too, alone and onto a raster of its own: it is given
+ * to engine/defocus/layer.h as a callback. A cel that is compiled alone is compiled without its
+ * blur.
+ */
+#ifndef CS_RENDER_COMPILE_H
+#define CS_RENDER_COMPILE_H
+
+#include "engine/row/plan.h"
+#include "model/scene/scene.h"
+
+/* The view of a film: its size in units, the frame's size in pixels, and the rows that will be
+ * asked for. Outlines wholly above or below those rows are left out, which changes no bit of the
+ * rows. */
+typedef struct cs_view {
+  double film_width, film_height;
+  int32_t width, height;
+  int32_t first_row, end_row;
+  float span_error; /* see engine/compose/stack.h */
+} cs_view;
+
+/* workers: threads at most. Errors: NO_MEMORY; LIMIT; BAD_ARGUMENT for a singular viewport or
+ * camera and for a rotated scan-line primitive, naming the cel. */
+CELSPAN_CHECKED celspan_status cs_compile(celspan_context *context, const celspan_rostrum *rostrum,
+                                          const cs_view *view, const cs_antialias *antialias,
+                                          int workers, cs_plan *out);
+void cs_compile_free(cs_plan *plan, cs_memory *memory);
+
+#endif

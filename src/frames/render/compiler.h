@@ -1,0 +1,62 @@
+/* A frame being compiled: what the files of this room share.
+ *
+ *   compile.c    rostrum, cels            calls
+ *   objects.c    objects, trees, groups   |  |  ^  a rostrum that is an object comes back
+ *   lights.c     lights of a film         v  |  |  as a callback
+ *   layers.c     layers of primitives        v  |
+ *
+ * Layers are appended from the rear to the camera. Invariant: the layers of a group, and those of a
+ * tree, are neighbours; nothing else is appended between them.
+ */
+#ifndef CS_RENDER_COMPILER_H
+#define CS_RENDER_COMPILER_H
+
+#include "engine/row/plan.h"
+#include "model/geometry/boundary_build.h"
+#include "model/scene/scene.h"
+
+/* The film that cels belong to: the frame itself, or a rostrum that is an object. */
+typedef struct cs_compiler_film {
+  double width, height;
+  celspan_matrix to_pixels;  /* film units to pixels of the frame */
+  cs_v4 shine;               /* what falls on it from outside: multiplies its lights; lane 3 is 0 */
+  const cs_outline *outline; /* of an object's frame, film units; NULL: the whole plane */
+} cs_compiler_film;
+
+/* What outlines in the frame are like. Those that are left out because they are on no row asked for
+ * are included, so that it depends on the scene and the frame's size alone. */
+typedef struct cs_compiler_census {
+  double pieces, rows; /* rows: the heights of the outlines, pixels */
+  double depth;        /* halvings of light that the layers make behind a point, on the average */
+} cs_compiler_census;
+
+typedef struct cs_compiler cs_compiler;
+struct cs_compiler {
+  celspan_context *context;
+  cs_plan *plan;
+  int workers; /* threads at most */
+  cs_boundary_frame frame;
+  cs_boundary_builder *boundaries; /* of the plan, in the frame; shared by copies */
+  double first_height, end_height; /* of the rows that will be asked for, with their margin */
+  size_t cel;                      /* from 1; it and the mark are for messages */
+  cs_mark mark;                    /* of the cel; borrowed */
+  cs_v4 front;
+  uint32_t group;   /* the group being filled, or CS_STACK_NONE */
+  bool records;     /* what is compiled is an operand: it leaves one result on the tree's stack */
+  bool is_nested;   /* inside a rostrum that is an object, so inside a tree */
+  uint32_t results; /* is_nested: those that the trees inside it have left so far */
+  bool fades_out;   /* inside something faded to nothing: present, but clear */
+  cs_compiler_census census;
+  const cs_plan *front_plan; /* the same lit from the front, whose defocused cels are borrowed */
+  /* Compiles the cels of a rostrum that is an object. */
+  celspan_status (*compile_nested)(cs_compiler *c, const celspan_rostrum *rostrum,
+                                   const cs_compiler_film *film);
+};
+
+/* Room for one more item of an array of the stack. Errors: NO_MEMORY. */
+#define CS_COMPILER_APPEND(compiler, array, count, capacity)                                       \
+  cs_mem_reserve((compiler)->context, (void **)&(compiler)->plan->stack.array,                     \
+                 &(compiler)->plan->stack.capacity, (compiler)->plan->stack.count + 1,             \
+                 sizeof *(compiler)->plan->stack.array)
+
+#endif

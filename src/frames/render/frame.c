@@ -1,0 +1,188 @@
+#include "frames/render/frame.h"
+
+#include "base/number.h"
+#include "engine/defocus/defocus.h"
+#include "frames/render/compile.h"
+#include "model/pictures/surface.h"
+#include "model/scene/check.h"
+
+#include <unistd.h>
+
+#define SIDE_LIMIT 1048576
+#define WORKER_LIMIT 1024
+
+/* ---------------------------------------------------------------- checking */
+
+static celspan_status check_size(celspan_context *context, const celspan_frame_desc *desc) {
+  if (desc->struct_size != sizeof *desc)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "frame: struct_size is %zu; set it to sizeof(celspan_frame_desc)",
+                   desc->struct_size);
+  if (desc->width < 1 || desc->height < 1 || desc->width > SIDE_LIMIT || desc->height > SIDE_LIMIT)
+    return cs_fail(context, CELSPAN_LIMIT,
+                   "frame: size is %d x %d; each side must be 1 to %d pixels", (int)desc->width,
+                   (int)desc->height, SIDE_LIMIT);
+  if (desc->film_width == 0 && desc->film_height == 0)
+    return CELSPAN_OK;
+  CS_TRY(cs_check_positive(context, "frame", "film width", desc->film_width));
+  return cs_check_positive(context, "frame", "film height", desc->film_height);
+}
+
+static celspan_status check_crop(celspan_context *context, const celspan_frame_desc *desc) {
+  if (desc->crop_width == 0 && desc->crop_height == 0)
+    return CELSPAN_OK;
+  int64_t right = (int64_t)desc->crop_x + desc->crop_width;
+  int64_t bottom = (int64_t)desc->crop_y + desc->crop_height;
+  if (desc->crop_x < 0 || desc->crop_y < 0 || desc->crop_width < 1 || desc->crop_height < 1 ||
+      right > desc->width || bottom > desc->height)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "frame: crop %d,%d,%d,%d does not lie inside the frame of %d x %d pixels",
+                   (int)desc->crop_x, (int)desc->crop_y, (int)desc->crop_width,
+                   (int)desc->crop_height, (int)desc->width, (int)desc->height);
+  return CELSPAN_OK;
+}
+
+static celspan_status check_exposures(celspan_context *context, const celspan_frame_desc *desc) {
+  CS_TRY(cs_check_list(context, "frame", "exposures", desc->exposures, desc->exposure_count,
+                       CS_CHECK_ITEMS));
+  for (size_t i = 0; i < desc->exposure_count; i++) {
+    CS_TRY(cs_check_item(context, (cs_check_field){"frame", "exposures", i + 1, "weight"},
+                         desc->exposures[i].weight, 0, CS_NUMBER_LIMIT));
+    if (!desc->exposures[i].rostrum)
+      return cs_fail(context, CELSPAN_BAD_ARGUMENT, "frame: exposure %zu has no rostrum", i + 1);
+  }
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- the frame */
+
+static void set_crop(cs_frame *frame, const celspan_frame_desc *desc) {
+  bool is_whole = desc->crop_width == 0 && desc->crop_height == 0;
+  frame->width = desc->width;
+  frame->height = desc->height;
+  frame->crop_x = is_whole ? 0 : desc->crop_x;
+  frame->crop_y = is_whole ? 0 : desc->crop_y;
+  frame->crop_width = is_whole ? desc->width : desc->crop_width;
+  frame->crop_height = is_whole ? desc->height : desc->crop_height;
+}
+
+/* picture: may be NULL. */
+static bool picture_stays_on_thread(const cs_picture *picture) {
+  return picture && picture->surface && cs_surface_stays_on_thread(picture->surface);
+}
+
+static bool stays_on_thread(const cs_plan *plan) {
+  for (size_t k = 0; k < plan->stack.procedure_count; k++)
+    if (!plan->stack.procedures[k].desc->any_thread)
+      return true;
+  for (size_t k = 0; k < plan->stack.image_count; k++) {
+    const cs_texture_variation *variation = plan->stack.images[k].texture->variation;
+    if (picture_stays_on_thread(variation->picture) || picture_stays_on_thread(variation->medium))
+      return true;
+  }
+  for (size_t k = 0; k < plan->defocus_count; k++)
+    if (stays_on_thread(&plan->defocus[k]->plans[0]))
+      return true;
+  return false;
+}
+
+/* Procedures and surfaces that must stay on the rendering thread leave one worker. */
+static bool needs_one_thread(const cs_frame *frame) {
+  for (size_t i = 0; i < frame->count; i++)
+    if (stays_on_thread(&frame->plans[i]))
+      return true;
+  return false;
+}
+
+int cs_frame_workers(int wanted) {
+  double count = wanted > 0 ? wanted : (double)sysconf(_SC_NPROCESSORS_ONLN);
+  return (int)cs_number_clamp(count, 1, WORKER_LIMIT);
+}
+
+static void choose_workers(cs_frame *frame, const celspan_frame_desc *desc) {
+  frame->workers = needs_one_thread(frame) ? 1 : cs_frame_workers(desc->workers);
+  int32_t share = frame->crop_height / (frame->workers * 8);
+  frame->strip_height = desc->strip_rows > 0 ? desc->strip_rows
+                        : share < 4          ? 4
+                        : share > 64         ? 64
+                                             : share;
+}
+
+/* antialias: of all exposures, or NULL: each its own. */
+static celspan_status compile_exposure(celspan_context *context, const celspan_frame_desc *desc,
+                                       const cs_antialias *antialias,
+                                       const celspan_exposure *exposure, cs_frame *frame) {
+  if (exposure->weight == 0)
+    return CELSPAN_OK;
+  bool has_film = desc->film_width != 0;
+  cs_view view = {.film_width = has_film ? desc->film_width : desc->width,
+                  .film_height = has_film ? desc->film_height : desc->height,
+                  .width = desc->width,
+                  .height = desc->height,
+                  .first_row = frame->crop_y,
+                  .end_row = frame->crop_y + frame->crop_height,
+                  .span_error = (float)desc->tolerance};
+  CS_TRY(cs_compile(context, exposure->rostrum, &view,
+                    antialias ? antialias : &exposure->rostrum->antialias,
+                    cs_frame_workers(desc->workers), &frame->plans[frame->count]));
+  frame->weights[frame->count++] = (float)exposure->weight;
+  return CELSPAN_OK;
+}
+
+static celspan_status compile_exposures(celspan_context *context, const celspan_frame_desc *desc,
+                                        cs_frame *frame) {
+  cs_antialias antialias = {0};
+  if (desc->antialias)
+    CS_TRY(cs_antialias_make(context, "frame: antialias", *desc->antialias, &desc->filter,
+                             &antialias));
+  celspan_status status = CELSPAN_OK;
+  for (size_t i = 0; status == CELSPAN_OK && i < desc->exposure_count; i++)
+    status = compile_exposure(context, desc, desc->antialias ? &antialias : NULL,
+                              &desc->exposures[i], frame);
+  cs_antialias_free(&antialias, context->memory);
+  return status;
+}
+
+static celspan_status fill_frame(celspan_context *context, const celspan_frame_desc *desc,
+                                 cs_frame *frame) {
+  size_t count = desc->exposure_count;
+  frame->plans = cs_mem_array(context->memory, count, sizeof *frame->plans);
+  frame->weights = cs_mem_array(context->memory, count, sizeof *frame->weights);
+  frame->capacity = count;
+  if (count > 0 && (!frame->plans || !frame->weights))
+    return cs_fail_memory(context);
+  CS_TRY(compile_exposures(context, desc, frame));
+  choose_workers(frame, desc);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_frame_check(celspan_context *context, const celspan_frame_desc *desc) {
+  CS_TRY(cs_check_given(context, "frame", "the description", desc));
+  CS_TRY(check_size(context, desc));
+  CS_TRY(check_crop(context, desc));
+  if (desc->tolerance != 0)
+    CS_TRY(cs_check_item(context, (cs_check_field){"frame", "tolerance", 0, ""}, desc->tolerance,
+                         1.0 / 1048576, 1));
+  return check_exposures(context, desc);
+}
+
+celspan_status cs_frame_create(celspan_context *context, const celspan_frame_desc *desc,
+                               cs_frame *out) {
+  CS_TRY(cs_frame_check(context, desc));
+  cs_frame frame = {0};
+  set_crop(&frame, desc);
+  celspan_status status = fill_frame(context, desc, &frame);
+  if (status == CELSPAN_OK)
+    *out = frame;
+  else
+    cs_frame_free(&frame, context->memory);
+  return status;
+}
+
+void cs_frame_free(cs_frame *frame, cs_memory *memory) {
+  for (size_t i = 0; i < frame->count; i++)
+    cs_compile_free(&frame->plans[i], memory);
+  cs_mem_free(memory, frame->plans, frame->capacity * sizeof *frame->plans);
+  cs_mem_free(memory, frame->weights, frame->capacity * sizeof *frame->weights);
+  *frame = (cs_frame){0};
+}

@@ -1,0 +1,383 @@
+#include "frames/render/objects.h"
+
+#include <math.h>
+
+#include "frames/render/compiler.h"
+#include "frames/render/layers.h"
+#include "frames/render/lights.h"
+#include "model/geometry/matrix.h"
+
+/* ---------------------------------------------------------------- objects that are hidden */
+
+/* Objects of which nothing can be seen, because upright opaque rectangles lie in front of them:
+ * they are left out before anything is compiled for them.
+ *
+ *   +-----+-----+-----+-----+   The frame is divided into tiles of whole pixels. From the camera
+ *   |  ...|.....|..   |     |   backwards, an opaque rectangle (.) covers the tiles that lie wholly
+ *   |  ...|#####|..   |     |   inside it (#). An object is left out when all the tiles that its
+ *   +-----+#####+-----+-----+   bounds touch have been covered before.
+ *   |  ...|.....|..   |     |
+ *   +-----+-----+-----+-----+
+ *
+ * So a list of very many small rectangles costs as much as those of them that are seen, whatever
+ * lies behind. Invariant: what is left out depends on the scene and the frame's size alone; the
+ * objects of one list hide each other wholly, however their cel is faded or lit.
+ */
+
+/* The objects of a list, one bit each: those that are left out. No bits: none is. */
+typedef struct unseen {
+  uint64_t *bits;
+  size_t count;
+} unseen;
+
+static inline bool is_unseen(const unseen *list, size_t i) {
+  return list->bits && list->bits[i / 64] >> (i % 64) & 1;
+}
+
+#define OBJECTS_LEAST 1024 /* of a list that is searched */
+#define SIDE 256           /* tiles in a row, and rows of tiles, at most */
+#define WORDS (SIDE / 64)
+/* Pixels: how near a rectangle's edge must be to that of a tile, to cover it, against rounding; it
+ * is far less than shows. And how far outlines may reach beyond their bounds. */
+#define NEAR 1e-9
+#define BEYOND (2 * CS_BOUNDARY_TOLERANCE)
+
+typedef struct tiles {
+  const cs_boundary_frame *frame;
+  double size; /* pixels, whole */
+  int columns, rows;
+  uint64_t covered[SIDE][WORDS];
+} tiles;
+
+/* Tiles [left, right) of rows [top, bottom). */
+typedef struct range {
+  int left, right, top, bottom;
+} range;
+
+/* ---------------------------------------------------------------- tiles */
+
+static void begin(tiles *t, const cs_boundary_frame *frame) {
+  double width = frame->right - frame->left, height = frame->bottom - frame->top;
+  *t = (tiles){.frame = frame, .size = ceil(fmax(width, height) / SIDE)};
+  t->columns = (int)ceil(width / t->size);
+  t->rows = (int)ceil(height / t->size);
+}
+
+static int held(double tile, int count) {
+  return tile <= 0 ? 0 : tile >= count ? count : (int)tile;
+}
+
+/* The tiles inside a rectangle. Places beyond the frame count as inside. */
+static range tiles_inside(const tiles *t, const cs_boundary_frame *box) {
+  const cs_boundary_frame *frame = t->frame;
+  double right = box->right >= frame->right ? HUGE_VAL : box->right;
+  double bottom = box->bottom >= frame->bottom ? HUGE_VAL : box->bottom;
+  return (range){held(ceil((box->left - frame->left - NEAR) / t->size), t->columns),
+                 held(floor((right - frame->left + NEAR) / t->size), t->columns),
+                 held(ceil((box->top - frame->top - NEAR) / t->size), t->rows),
+                 held(floor((bottom - frame->top + NEAR) / t->size), t->rows)};
+}
+
+/* The tiles of the frame that a rectangle touches. */
+static range tiles_touched(const tiles *t, const cs_boundary_frame *box) {
+  const cs_boundary_frame *frame = t->frame;
+  return (range){held(floor((box->left - frame->left - BEYOND) / t->size), t->columns),
+                 held(ceil((box->right - frame->left + BEYOND) / t->size), t->columns),
+                 held(floor((box->top - frame->top - BEYOND) / t->size), t->rows),
+                 held(ceil((box->bottom - frame->top + BEYOND) / t->size), t->rows)};
+}
+
+/* The bits of one word that lie in tiles [left, right). */
+static uint64_t mask_of(const range *r, int word) {
+  int from = r->left - 64 * word, to = r->right - 64 * word;
+  if (from >= 64 || to <= 0 || from >= to)
+    return 0;
+  uint64_t mask = ~(uint64_t)0;
+  mask &= from > 0 ? mask << from : mask;
+  return to < 64 ? mask & (((uint64_t)1 << to) - 1) : mask;
+}
+
+static void cover(tiles *t, const range *r) {
+  for (int row = r->top; row < r->bottom; row++)
+    for (int word = r->left / 64; 64 * word < r->right; word++)
+      t->covered[row][word] |= mask_of(r, word);
+}
+
+static bool is_covered(const tiles *t, const range *r) {
+  bool is_there = r->left < r->right && r->top < r->bottom;
+  for (int row = r->top; row < r->bottom && is_there; row++)
+    for (int word = r->left / 64; 64 * word < r->right && is_there; word++)
+      is_there = (mask_of(r, word) & ~t->covered[row][word]) == 0;
+  return is_there;
+}
+
+/* ---------------------------------------------------------------- the search */
+
+/* Whether nothing but its paint is lost with the object: pictures that cannot be read must be
+ * reported, and procedures called, wherever they are. */
+static bool can_go(const cs_primitive_data *data) {
+  return data->kind == CS_PRIMITIVE_DATA_OUTLINE && data->texture->kind != CS_TEXTURE_PICTURE;
+}
+
+static bool is_upright(const celspan_matrix *matrix) {
+  const double *m = matrix->m;
+  return m[1] == 0 && m[3] == 0 && m[6] == 0 && m[7] == 0;
+}
+
+/* Whether its bounds are all painted, with light from behind held back. */
+static bool hides(const celspan_object *object, const celspan_matrix *matrix) {
+  const cs_primitive_data *data = object->data;
+  const float *t = data->texture->flat.t;
+  return data->is_box && object->fade == 1 && data->texture->kind == CS_TEXTURE_FLAT && t[0] == 0 &&
+         t[1] == 0 && t[2] == 0 && is_upright(matrix);
+}
+
+/* Whether the object is behind what the tiles were covered with; else it covers its own. */
+static bool is_behind(tiles *t, const celspan_object *object, const celspan_matrix *parent) {
+  const cs_primitive_data *data = object->data;
+  cs_boundary_frame box;
+  if (!can_go(data))
+    return false;
+  celspan_matrix whole = celspan_matrix_then(*object->matrix, *parent);
+  celspan_matrix matrix = cs_matrix_facing(&whole);
+  if (!cs_boundary_around_box(&data->bounds, &matrix, &box))
+    return false;
+  const range touched = tiles_touched(t, &box), inside = tiles_inside(t, &box);
+  if (is_covered(t, &touched))
+    return true;
+  if (hides(object, &matrix))
+    cover(t, &inside);
+  return false;
+}
+
+/* matrix: of the list, to pixels. Short lists are not searched. Errors: NO_MEMORY. */
+static CELSPAN_CHECKED celspan_status find_unseen(const cs_compiler *c,
+                                                  celspan_object *const *objects, size_t count,
+                                                  const celspan_matrix *matrix, unseen *out) {
+  tiles t;
+  *out = (unseen){NULL, count};
+  if (count < OBJECTS_LEAST || c->fades_out)
+    return CELSPAN_OK;
+  out->bits = cs_mem_array(c->context->memory, count / 64 + 1, sizeof *out->bits);
+  if (!out->bits)
+    return cs_fail_memory(c->context);
+  begin(&t, &c->frame);
+  for (size_t i = count; i-- > 0;)
+    if (is_behind(&t, objects[i], matrix))
+      out->bits[i / 64] |= (uint64_t)1 << (i % 64);
+  return CELSPAN_OK;
+}
+
+static void finish_unseen(unseen *list, cs_memory *memory) {
+  if (list->bits)
+    cs_mem_free(memory, list->bits, (list->count / 64 + 1) * sizeof *list->bits);
+  *list = (unseen){0};
+}
+
+static celspan_status add_object(cs_compiler *c, const celspan_object *object,
+                                 const celspan_matrix *parent);
+
+/* ---------------------------------------------------------------- groups */
+
+celspan_status cs_objects_begin_group(cs_compiler *c, double fade, bool is_lit,
+                                      cs_objects_outside *outer) {
+  cs_stack *stack = &c->plan->stack;
+  *outer = (cs_objects_outside){c->group, c->fades_out};
+  c->fades_out |= fade == 0;
+  if ((fade == 1 && !is_lit) || c->fades_out)
+    return CELSPAN_OK;
+  CS_TRY(CS_COMPILER_APPEND(c, groups, group_count, group_capacity));
+  bool varies = is_lit || (c->group != CS_STACK_NONE && stack->groups[c->group].varies);
+  stack->groups[stack->group_count] = (cs_group){.parent = c->group,
+                                                 .first = (uint32_t)stack->layer_count,
+                                                 .fade = (float)fade,
+                                                 .varies = varies};
+  c->group = (uint32_t)stack->group_count++;
+  return CELSPAN_OK;
+}
+
+void cs_objects_end_group(cs_compiler *c, cs_objects_outside outer) {
+  c->group = outer.group;
+  c->fades_out = outer.fades_out;
+}
+
+/* ---------------------------------------------------------------- trees */
+
+static celspan_status append_step(cs_compiler *c, cs_step step) {
+  cs_stack *stack = &c->plan->stack;
+  CS_TRY(CS_COMPILER_APPEND(c, steps, step_count, step_capacity));
+  stack->steps[stack->step_count++] = step;
+  return CELSPAN_OK;
+}
+
+static bool is_layer(const celspan_object *object) {
+  cs_primitive_data_kind kind = object->data->kind;
+  return kind == CS_PRIMITIVE_DATA_OUTLINE || kind == CS_PRIMITIVE_DATA_SCANLINE;
+}
+
+static bool operands_are_layers(const cs_primitive_data *data) {
+  for (size_t i = 0; i < data->boolean->operand_count; i++)
+    if (!is_layer(data->boolean->operands[i]))
+      return false;
+  return true;
+}
+
+/* An operator: the layers of its operands, and the step that combines them. */
+static celspan_status add_operator(cs_compiler *c, const cs_primitive_data *data,
+                                   const celspan_matrix *matrix) {
+  uint32_t first = (uint32_t)c->plan->stack.layer_count;
+  bool records = c->records, over_layers = operands_are_layers(data);
+  for (size_t i = 0; i < data->boolean->operand_count; i++) {
+    uint32_t layer = (uint32_t)c->plan->stack.layer_count;
+    c->records = records && !over_layers;
+    CS_TRY(add_object(c, data->boolean->operands[i], matrix));
+    if (c->records && is_layer(data->boolean->operands[i]))
+      CS_TRY(append_step(c, (cs_step){.kind = CS_STEP_LAYER, .first = layer, .end = layer + 1}));
+  }
+  c->records = records;
+  if (!records)
+    return CELSPAN_OK;
+  return append_step(c, (cs_step){.kind = over_layers ? CS_STEP_LAYERS : CS_STEP_OPERATOR,
+                                  .op = data->boolean->op,
+                                  .first = first,
+                                  .end = (uint32_t)c->plan->stack.layer_count,
+                                  .operands = (uint32_t)data->boolean->operand_count});
+}
+
+/* Unions of unions need no steps: every layer that is present is painted. A rostrum has a tree of
+ * its own. */
+static bool is_plain_union(const cs_primitive_data *data) {
+  if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN)
+    return true;
+  if (data->boolean->op != CELSPAN_UNION)
+    return false;
+  for (size_t i = 0; i < data->boolean->operand_count; i++)
+    if (!is_plain_union(data->boolean->operands[i]->data))
+      return false;
+  return true;
+}
+
+/* The greatest number of results that the steps of a tree keep at a time. */
+static size_t measure_depth(const cs_stack *stack, const cs_tree *tree) {
+  size_t depth = 0, most = 0;
+  for (uint32_t i = 0; i < tree->step_count; i++) {
+    const cs_step *step = &stack->steps[tree->step + i];
+    if (step->kind == CS_STEP_OPERATOR || step->kind == CS_STEP_FRAME)
+      depth -= step->operands;
+    depth++;
+    most = depth > most ? depth : most;
+  }
+  return most;
+}
+
+/* A tree begins with the next layer. */
+static cs_tree begin_tree(const cs_compiler *c) {
+  const cs_stack *stack = &c->plan->stack;
+  return (cs_tree){.first = (uint32_t)stack->layer_count, .step = (uint32_t)stack->step_count};
+}
+
+static celspan_status end_tree(cs_compiler *c, cs_tree tree) {
+  cs_stack *stack = &c->plan->stack;
+  tree.end = (uint32_t)stack->layer_count;
+  tree.step_count = (uint32_t)stack->step_count - tree.step;
+  CS_TRY(CS_COMPILER_APPEND(c, trees, tree_count, tree_capacity));
+  stack->trees[stack->tree_count++] = tree;
+  size_t depth = measure_depth(stack, &tree) + 1;
+  stack->step_depth = depth > stack->step_depth ? depth : stack->step_depth;
+  return CELSPAN_OK;
+}
+
+/* A boolean object. One that is not an operand of another is the root of a tree, unless it needs no
+ * steps, or is inside a rostrum: then it belongs to the tree of that. */
+static celspan_status add_boolean(cs_compiler *c, const cs_primitive_data *data,
+                                  const celspan_matrix *matrix) {
+  if (c->records || is_plain_union(data))
+    return add_operator(c, data, matrix);
+  cs_tree tree = begin_tree(c);
+  c->records = true;
+  CS_TRY(add_operator(c, data, matrix));
+  c->records = false;
+  c->results++;
+  return c->is_nested ? CELSPAN_OK : end_tree(c, tree);
+}
+
+/* ---------------------------------------------------------------- a rostrum inside another */
+
+/* The layer of its frame: clear, except for the part that the mattes of its flat back lights hold
+ * back. */
+static celspan_status add_frame(cs_compiler *c, const cs_primitive_data *data,
+                                const celspan_matrix *matrix) {
+  uint32_t index;
+  float keep = c->fades_out ? 1 : cs_lights_keep(data->rostrum);
+  CS_TRY(cs_layers_append(c, 1, CELSPAN_RULE_NONZERO, &index));
+  cs_layer *layer = &c->plan->stack.layers[index];
+  cs_layers_fill_flat(layer, CS_PAINT_CLEAR, 1);
+  layer->t = (cs_v4){keep, keep, keep, 0};
+  cs_outline_box room;
+  return cs_layers_add_outline(c, cs_primitive_data_outline(data, &room), &data->bounds, matrix,
+                               index);
+}
+
+/* Its layers, and the step that cuts them at the frame and leaves one result. */
+static celspan_status add_framed(cs_compiler *inner, const cs_primitive_data *data,
+                                 const celspan_matrix *matrix) {
+  const cs_stack *stack = &inner->plan->stack;
+  const celspan_rostrum *rostrum = data->rostrum;
+  cs_outline_box room;
+  const cs_compiler_film film = {rostrum->width, rostrum->height, *matrix, inner->front,
+                                 cs_primitive_data_outline(data, &room)};
+  uint32_t first = (uint32_t)stack->layer_count;
+  CS_TRY(add_frame(inner, data, matrix));
+  CS_TRY(inner->compile_nested(inner, rostrum, &film));
+  return append_step(inner, (cs_step){.kind = CS_STEP_FRAME,
+                                      .first = first,
+                                      .end = (uint32_t)stack->layer_count,
+                                      .operands = inner->results});
+}
+
+/* What changes inside is the compiler's copy, which has the same plan. */
+static celspan_status add_rostrum(cs_compiler *c, const cs_primitive_data *data,
+                                  const celspan_matrix *matrix) {
+  cs_compiler inner = *c;
+  cs_tree tree = begin_tree(c);
+  inner.records = false;
+  inner.is_nested = true;
+  inner.results = 0;
+  CS_TRY(add_framed(&inner, data, matrix));
+  c->results += !c->records;
+  return c->records || c->is_nested ? CELSPAN_OK : end_tree(c, tree);
+}
+
+/* ---------------------------------------------------------------- lists of objects */
+
+static celspan_status add_object(cs_compiler *c, const celspan_object *object,
+                                 const celspan_matrix *parent) {
+  const cs_primitive_data *data = object->data;
+  celspan_matrix matrix = celspan_matrix_then(*object->matrix, *parent);
+  if (is_layer(object))
+    return cs_layers_add(c, data, object->fade, &matrix);
+  cs_objects_outside outer;
+  CS_TRY(cs_objects_begin_group(c, object->fade, false, &outer));
+  CS_TRY(data->kind == CS_PRIMITIVE_DATA_ROSTRUM ? add_rostrum(c, data, &matrix)
+                                                 : add_boolean(c, data, &matrix));
+  cs_objects_end_group(c, outer);
+  return CELSPAN_OK;
+}
+
+/* Those that are not behind others. */
+static celspan_status add_visible(cs_compiler *c, celspan_object *const *objects,
+                                  const unseen *list, const celspan_matrix *matrix) {
+  for (size_t i = 0; i < list->count; i++)
+    if (!is_unseen(list, i))
+      CS_TRY(add_object(c, objects[i], matrix));
+  return CELSPAN_OK;
+}
+
+celspan_status cs_objects_add(cs_compiler *c, celspan_object *const *objects, size_t count,
+                              const celspan_matrix *matrix) {
+  unseen list;
+  CS_TRY(find_unseen(c, objects, count, matrix, &list));
+  celspan_status status = add_visible(c, objects, &list, matrix);
+  finish_unseen(&list, c->context->memory);
+  return status;
+}

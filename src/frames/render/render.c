@@ -1,0 +1,220 @@
+/* The public entries: a frame into a sink, into pixels, into a file, into a digest, or row by
+ * row. */
+#include "frames/render/strips.h"
+#include "model/scene/check.h"
+#include "model/scene/inspect.h"
+#include "output/sinks/dither.h"
+#include "output/sinks/pixels.h"
+#include "output/sinks/sink.h"
+
+/* ---------------------------------------------------------------- into a sink */
+
+/* Measures the peak of the memory from the beginning of the frame; afterwards the context's own
+ * peak is restored. */
+typedef struct meter {
+  size_t bytes, peak;
+  uint64_t allocations;
+} meter;
+
+static meter meter_begin(celspan_context *context) {
+  meter m;
+  celspan_context_memory(context, &m.bytes, &m.peak, &m.allocations);
+  atomic_store(&context->memory->peak, m.bytes);
+  return m;
+}
+
+static void meter_end(celspan_context *context, const meter *m, celspan_statistics *statistics) {
+  size_t bytes, peak;
+  uint64_t allocations;
+  celspan_context_memory(context, &bytes, &peak, &allocations);
+  statistics->peak_bytes = peak - m->bytes;
+  statistics->allocations = allocations - m->allocations;
+  if (peak < m->peak)
+    atomic_store(&context->memory->peak, m->peak);
+}
+
+/* *ended: the sink's end was called, so it has freed itself. */
+static celspan_status feed_sink(celspan_context *context, const cs_frame *frame,
+                                const celspan_frame_desc *desc, const celspan_sink *sink,
+                                celspan_statistics *statistics, bool *ended) {
+  if (sink->begin)
+    CS_TRY(sink->begin(sink->user, context, frame->crop_width, frame->crop_height));
+  celspan_status status = cs_strips_render(context, frame, desc, sink, statistics);
+  if (!sink->end)
+    return status;
+  char error[sizeof context->error];
+  memcpy(error, context->error, sizeof error);
+  *ended = true;
+  celspan_status last = sink->end(sink->user, context, status);
+  if (status == CELSPAN_OK)
+    return last;
+  memcpy(context->error, error, sizeof error); /* the first failure is reported */
+  return status;
+}
+
+static celspan_status render(celspan_context *context, const celspan_frame_desc *desc,
+                             const celspan_sink *sink, celspan_statistics *statistics,
+                             bool *ended) {
+  celspan_statistics counted = {0};
+  meter m = {0};
+  if (statistics) /* otherwise other frames may be made at the same time and change the peak too */
+    m = meter_begin(context);
+  cs_frame frame;
+  celspan_status status = cs_frame_create(context, desc, &frame);
+  if (status == CELSPAN_OK) {
+    frame.takes_codes = sink->takes_codes;
+    status = feed_sink(context, &frame, desc, sink, &counted, ended);
+    cs_frame_free(&frame, context->memory);
+  }
+  if (status == CELSPAN_INPUT)
+    status = cs_blame_picture(context, desc->exposures, desc->exposure_count, status);
+  if (statistics) {
+    meter_end(context, &m, &counted);
+    *statistics = counted;
+  }
+  return status;
+}
+
+celspan_status celspan_frame_render(celspan_context *context, const celspan_frame_desc *desc,
+                                    const celspan_sink *sink, celspan_statistics *statistics) {
+  bool ended = false;
+  CS_TRY(cs_check_given(context, "frame", "the sink", sink));
+  return render(context, desc, sink, statistics, &ended);
+}
+
+/* ---------------------------------------------------------------- our own sinks */
+
+/* Renders into a sink of output/, and frees it if its `end` was not called. */
+static celspan_status render_own(celspan_context *context, const celspan_frame_desc *desc,
+                                 celspan_sink *sink, celspan_statistics *statistics) {
+  bool ended = false;
+  celspan_status status = render(context, desc, sink, statistics, &ended);
+  if (!ended)
+    cs_sink_discard(context, sink);
+  return status;
+}
+
+void celspan_spans_code(const celspan_coding *coding, const celspan_span *spans, size_t span_count,
+                        void *pixels) {
+  celspan_spans_code_at(coding, 0, 0, spans, span_count, pixels);
+}
+
+void celspan_spans_code_at(const celspan_coding *coding, int32_t x, int32_t y,
+                           const celspan_span *spans, size_t span_count, void *pixels) {
+  celspan_coding resolved = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
+  if (coding && coding->depth == CELSPAN_DEPTH_8_DITHER)
+    cs_dither_row(&resolved, x, y, spans, span_count, pixels);
+  else
+    cs_pixels_row(&resolved, spans, span_count, pixels);
+}
+
+celspan_status celspan_frame_pixels(celspan_context *context, const celspan_frame_desc *desc,
+                                    const celspan_coding *coding, void *pixels, size_t stride,
+                                    celspan_statistics *statistics) {
+  celspan_sink sink;
+  celspan_coding resolved = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
+  CS_TRY(cs_frame_check(context, desc));
+  CS_TRY(cs_pixels_check(context, coding));
+  CS_TRY(cs_sink_memory(context, &resolved, pixels, stride, &sink));
+  CS_TRY(cs_dither_sink(context, coding, &resolved, desc->crop_x, desc->crop_y, &sink));
+  return render_own(context, desc, &sink, statistics);
+}
+
+static bool is_backed(const celspan_rostrum *rostrum) {
+  if (rostrum->back.flat.a == 1)
+    return true;
+  for (size_t i = 0; i < rostrum->cel_count; i++)
+    if (rostrum->cels[i]->back.flat.a == 1)
+      return true;
+  return false;
+}
+
+/* The alphas of exposures add up. The weights of a shutter of many exposures sum to 1, except for
+ * rounding. */
+bool celspan_frame_is_opaque(const celspan_frame_desc *desc) {
+  double alpha = 0;
+  size_t count = desc && desc->exposures ? desc->exposure_count : 0;
+  for (size_t i = 0; i < count && count <= CS_CHECK_ITEMS; i++)
+    if (desc->exposures[i].rostrum && is_backed(desc->exposures[i].rostrum))
+      alpha += desc->exposures[i].weight;
+  return alpha > 1 - 1e-9;
+}
+
+celspan_status celspan_frame_write(celspan_context *context, const celspan_frame_desc *desc,
+                                   const char *path, const celspan_file_desc *file,
+                                   celspan_statistics *statistics) {
+  celspan_sink sink;
+  CS_TRY(cs_frame_check(context, desc));
+  celspan_file_desc known = file ? *file : CELSPAN_FILE_DESC;
+  known.is_opaque = known.is_opaque || celspan_frame_is_opaque(desc);
+  known.workers = known.workers ? known.workers : desc->workers;
+  known.place_x += desc->crop_x;
+  known.place_y += desc->crop_y;
+  CS_TRY(cs_sink_file(context, path, &known, &sink));
+  return render_own(context, desc, &sink, statistics);
+}
+
+celspan_status celspan_frame_digest(celspan_context *context, const celspan_frame_desc *desc,
+                                    const celspan_coding *coding, uint64_t digest[2]) {
+  celspan_sink sink;
+  celspan_coding resolved = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
+  CS_TRY(cs_frame_check(context, desc));
+  CS_TRY(cs_pixels_check(context, coding));
+  CS_TRY(cs_check_given(context, "frame", "the digest", digest));
+  CS_TRY(cs_sink_digest(context, &resolved, digest, &sink));
+  CS_TRY(cs_dither_sink(context, coding, &resolved, desc->crop_x, desc->crop_y, &sink));
+  return render_own(context, desc, &sink, NULL);
+}
+
+/* ---------------------------------------------------------------- row by row */
+
+struct celspan_rows {
+  celspan_context *context;
+  cs_memory *memory;
+  cs_frame frame;
+  cs_row_worker row_worker;
+};
+
+celspan_status celspan_rows_create(celspan_context *context, const celspan_frame_desc *desc,
+                                   celspan_rows **out) {
+  celspan_rows *rows = cs_mem_array(context->memory, 1, sizeof *rows);
+  if (!rows)
+    return cs_fail_memory(context);
+  rows->context = context;
+  rows->memory = cs_memory_ref(context->memory);
+  celspan_status status = cs_frame_create(context, desc, &rows->frame);
+  if (status == CELSPAN_OK) {
+    status = cs_row_worker_init(&rows->row_worker, context, &rows->frame);
+    if (status != CELSPAN_OK)
+      (void)cs_fail(context, status, "%s", rows->row_worker.context.error);
+  }
+  if (status == CELSPAN_OK)
+    *out = rows;
+  else
+    celspan_rows_destroy(rows);
+  return status;
+}
+
+celspan_status celspan_rows_get(celspan_rows *rows, int32_t y, const celspan_span **spans,
+                                size_t *span_count) {
+  const cs_row *row;
+  if (y < 0 || y >= rows->frame.crop_height)
+    return cs_fail(rows->context, CELSPAN_BAD_ARGUMENT, "rows: row %d is not in 0..%d", (int)y,
+                   (int)rows->frame.crop_height - 1);
+  celspan_status status = cs_row_worker_row(&rows->row_worker, y, &row);
+  if (status != CELSPAN_OK)
+    return cs_fail(rows->context, status, "%s", rows->row_worker.context.error);
+  *spans = row->spans;
+  *span_count = row->count;
+  return CELSPAN_OK;
+}
+
+void celspan_rows_destroy(celspan_rows *rows) {
+  if (!rows)
+    return;
+  cs_memory *memory = rows->memory;
+  cs_row_worker_finish(&rows->row_worker);
+  cs_frame_free(&rows->frame, memory);
+  cs_mem_free(memory, rows, sizeof *rows);
+  cs_memory_unref(memory);
+}

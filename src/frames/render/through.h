@@ -1,0 +1,35 @@
+/* Bounds on the light that shines through a layer: what is hidden behind several of them need not
+ * be looked at.
+ *
+ *     T of a layer
+ *       |  - - - - - - - - - - - - - - -  bound: no channel lets through more, wherever the layer
+ *       |      .-o-.                      is present
+ *       |  o-'      ` - . _ o
+ *       |  :   :            :
+ *       +--------------------------> x    between stops a paint is a mix of theirs, and outside of
+ *          stops                          them it is that of the nearest
+ *
+ * Invariant: a bound depends on the scene and the frame's size alone, so that what is cut behind it
+ * is the same for every worker, strip and crop.
+ */
+#ifndef CS_RENDER_THROUGH_H
+#define CS_RENDER_THROUGH_H
+
+#include "engine/compose/stack.h"
+#include "model/geometry/boundary.h"
+
+/* Of a formula that is visible in a part of the frame, pixels. Lane 3 is 0. */
+cs_v4 cs_through_shade(const cs_shade *shade, const cs_boundary_frame *visible);
+
+/* The same of a layer that is painted, wherever it is present and fade included. A picture's header
+ * is read for it; one that cannot be read counts as clear, since it may be hidden itself. */
+cs_v4 cs_through_layer(celspan_context *context, const cs_stack *stack, const cs_layer *layer);
+/* The least that this may be, before a header is read. */
+cs_v4 cs_through_least(const cs_stack *stack, const cs_layer *layer);
+
+/* How often what lets through at most `t` halves the light behind it, roughly; CS_THROUGH_OPAQUE
+ * where that is so often or more. */
+#define CS_THROUGH_OPAQUE 16
+double cs_through_halvings(cs_v4 t);
+
+#endif

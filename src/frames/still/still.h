@@ -1,0 +1,49 @@
+/* A picture as rows of a frame. The rows of a span file are its own spans. Any other picture
+ * becomes a scene: one image rectangle of the picture's size, lit white and sampled at pixel
+ * centres, so that every pixel keeps its value.
+ */
+#ifndef CS_STILL_STILL_H
+#define CS_STILL_STILL_H
+
+#include "frames/still/span_view.h"
+
+typedef struct cs_still {
+  celspan_picture_info info;
+  celspan_exposure exposure; /* its rostrum is owned; NULL for a span file */
+  cs_span_reader *spans;     /* owned; NULL for any other picture */
+} cs_still;
+
+/* out: new. Errors: those of reading a picture. */
+CELSPAN_CHECKED celspan_status cs_still_open(celspan_context *context, const char *path,
+                                             cs_still *out);
+/* still: may be all zero. */
+void cs_still_close(cs_still *still);
+/* Sets the exposures of a frame, whose film has the size of the picture. */
+void cs_still_expose(const cs_still *still, celspan_frame_desc *frame);
+
+/* Writes the frame to a file. */
+CELSPAN_CHECKED celspan_status cs_still_write(celspan_context *context, const cs_still *still,
+                                              const celspan_frame_desc *frame, const char *path,
+                                              const celspan_file_desc *file);
+
+/* Renders the frame, or another size or crop of it, into a sink of the caller. */
+CELSPAN_CHECKED celspan_status cs_still_render(celspan_context *context, const cs_still *still,
+                                               const celspan_frame_desc *frame,
+                                               const celspan_sink *sink);
+
+/* The rows of the frame; one of the two fields is NULL. */
+typedef struct cs_still_rows {
+  celspan_rows *rendered;
+  cs_span_view *view;
+} cs_still_rows;
+/* still: must live as long as the rows. out: new. */
+CELSPAN_CHECKED celspan_status cs_still_rows_create(celspan_context *context, const cs_still *still,
+                                                    const celspan_frame_desc *frame,
+                                                    cs_still_rows *out);
+/* rows: may be all zero. */
+void cs_still_rows_destroy(cs_still_rows *rows);
+/* y: row of the crop, from 0. Valid until the next call. */
+CELSPAN_CHECKED celspan_status cs_still_rows_get(cs_still_rows *rows, int32_t y,
+                                                 const celspan_span **spans, size_t *span_count);
+
+#endif

@@ -1,0 +1,249 @@
+#include "frames/tiles/log.h"
+
+#include <errno.h>
+#include <ftw.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "base/context.h"
+#include "frames/process/journal.h"
+#include "model/pictures/picture.h"
+#include "model/scene/scene.h"
+#include "model/scene/walk.h"
+
+enum {
+  LINE_SIZE = 128,
+  OPEN_FOLDERS = 16,
+  PAUSE = 2 /* minimum of seconds between two flushes */
+};
+
+static celspan_status fail(celspan_context *context, const char *path, const char *what) {
+  celspan_status status = errno == ENOMEM ? CELSPAN_NO_MEMORY : CELSPAN_OUTPUT;
+  return cs_fail(context, status, "%s: %s: %s", path, what, strerror(errno));
+}
+
+/* ---------------------------------------------------------------- digest */
+
+static void add_file_state(cs_hash *hash, const char *path) {
+  struct stat found;
+  memset(&found, 0, sizeof found);
+  if (stat(path, &found) != 0)
+    found.st_size = -1;
+  cs_hash_word(hash, (uint64_t)found.st_size);
+  cs_hash_word(hash, (uint64_t)found.st_mtim.tv_sec);
+  cs_hash_word(hash, (uint64_t)found.st_mtim.tv_nsec);
+}
+
+static void add_file(cs_hash *hash, const char *path) {
+  unsigned char bytes[4096];
+  size_t size;
+  FILE *file = fopen(path, "rb");
+  if (!file)
+    return;
+  while ((size = fread(bytes, 1, sizeof bytes, file)) > 0)
+    cs_hash_bytes(hash, bytes, size);
+  fclose(file);
+}
+
+/* Hashes the structure of a scene, and the name, size and time of its pictures. A procedure has no
+ * structure: for a scene with procedures, the script and its arguments are hashed too. */
+static void add_scene(cs_hash *hash, const cs_tile_inputs *inputs) {
+  const celspan_frame_desc *frame = inputs->frame;
+  const celspan_exposure *exposures = frame->exposures;
+  for (size_t i = 0; i < frame->exposure_count; i++) {
+    if (!cs_scene_has_procedure(&exposures[i], 1))
+      cs_hash_hash(hash, exposures[i].rostrum->hash);
+    cs_hash_number(hash, exposures[i].weight);
+  }
+  cs_hash_hash(hash, cs_walk_hash_files(exposures, frame->exposure_count));
+  if (!cs_scene_has_procedure(exposures, frame->exposure_count))
+    return;
+  add_file(hash, inputs->file);
+  for (size_t i = 0; i < inputs->argument_count; i++)
+    cs_hash_text(hash, inputs->arguments[i]);
+}
+
+static void add_shape(cs_hash *hash, const cs_pyramid *pyramid) {
+  const int32_t numbers[] = {(int32_t)pyramid->layout, pyramid->width, pyramid->height,
+                             pyramid->tile, pyramid->overlap};
+  for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+    cs_hash_word(hash, (uint64_t)numbers[i]);
+  cs_hash_text(hash, pyramid->ending);
+}
+
+static cs_hash digest_of(const cs_tile_inputs *inputs, const cs_pyramid *pyramid) {
+  const celspan_frame_desc *frame = inputs->frame;
+  cs_hash hash = cs_hash_begin(inputs->is_script);
+  cs_hash_text(&hash, celspan_version());
+  add_shape(&hash, pyramid);
+  cs_hash_number(&hash, frame->film_width);
+  cs_hash_number(&hash, frame->film_height);
+  cs_hash_word(&hash, frame->antialias ? 1 + (uint64_t)*frame->antialias : 0);
+  cs_hash_word(&hash, (uint64_t)frame->filter.kernel);
+  cs_hash_word(&hash, (uint64_t)frame->filter.rows);
+  cs_hash_word(&hash, inputs->skips_empty);
+  if (inputs->is_script)
+    add_scene(&hash, inputs);
+  else
+    add_file_state(&hash, inputs->file);
+  return cs_hash_end(hash);
+}
+
+/* ---------------------------------------------------------------- reading */
+
+static void write_head(const cs_tile_log *log, char line[LINE_SIZE]) {
+  snprintf(line, LINE_SIZE, "celspan tiles 1 %016" PRIx64 "%016" PRIx64 "\n", log->digest.a,
+           log->digest.b);
+}
+
+static celspan_status keep_row(celspan_context *context, cs_tile_log *log, cs_tile_row row) {
+  CS_TRY(cs_mem_reserve(context, (void **)&log->rows, &log->capacity, log->count + 1,
+                        sizeof *log->rows));
+  log->rows[log->count++] = row;
+  return CELSPAN_OK;
+}
+
+static celspan_status read_rows(celspan_context *context, cs_tile_log *log, FILE *file) {
+  char line[LINE_SIZE], end;
+  cs_tile_row row;
+  while (fgets(line, sizeof line, file))
+    if (sscanf(line, "row %" SCNd32 " %" SCNd32 " %" SCNd32 " %" SCNd32 "%c", &row.level, &row.row,
+               &row.first, &row.end, &end) == 5 &&
+        end == '\n')
+      CS_TRY(keep_row(context, log, row));
+  return CELSPAN_OK;
+}
+
+static bool exists(const char *path) {
+  struct stat found;
+  return stat(path, &found) == 0;
+}
+
+celspan_status cs_tile_log_read(celspan_context *context, const cs_pyramid *pyramid,
+                                const cs_tile_inputs *inputs, cs_tile_log *log,
+                                cs_tile_log_state *state) {
+  char head[LINE_SIZE], line[LINE_SIZE], folder[4096];
+  log->digest = digest_of(inputs, pyramid);
+  log->descriptor = -1;
+  size_t size = sizeof log->path;
+  if (snprintf(log->path, size, "%s/%s.tiles", pyramid->folder, pyramid->name) >= (int)size ||
+      !cs_pyramid_tiles_folder(pyramid, folder, sizeof folder))
+    return cs_pyramid_too_long(context, pyramid);
+  write_head(log, head);
+  FILE *file = fopen(log->path, "r");
+  if (!file && errno != ENOENT)
+    return fail(context, log->path, "cannot read");
+  if (!file) {
+    *state = exists(folder) ? CS_TILE_LOG_FOREIGN : CS_TILE_LOG_NEW;
+    return CELSPAN_OK;
+  }
+  celspan_status status = CELSPAN_OK;
+  *state = CS_TILE_LOG_OTHER;
+  if (fgets(line, sizeof line, file) && strcmp(line, head) == 0) {
+    *state = CS_TILE_LOG_SAME;
+    status = read_rows(context, log, file);
+    log->written = log->count;
+  }
+  fclose(file);
+  return status;
+}
+
+bool cs_tile_log_has(const cs_tile_log *log, cs_tile_row row) {
+  for (size_t i = 0; i < log->count; i++) {
+    const cs_tile_row *known = &log->rows[i];
+    if (known->level == row.level && known->row == row.row && known->first <= row.first &&
+        known->end >= row.end)
+      return true;
+  }
+  return false;
+}
+
+/* ---------------------------------------------------------------- locking */
+
+/* Opens the record, or creates it, and locks it. */
+static celspan_status lock(celspan_context *context, cs_tile_log *log) {
+  log->descriptor = cs_journal_open(log->path);
+  if (log->descriptor < 0)
+    return fail(context, log->path, "cannot write");
+  if (flock(log->descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    return cs_fail(context, CELSPAN_OUTPUT, "%s: another celspan is writing these tiles",
+                   log->path);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- clearing */
+
+static int remove_one(const char *path, const struct stat *found, int kind, struct FTW *where) {
+  (void)found, (void)kind, (void)where;
+  return remove(path);
+}
+
+/* The record is removed last, so that --fresh works even if an earlier run was stopped here. */
+celspan_status cs_tile_log_clear(celspan_context *context, const cs_pyramid *pyramid,
+                                 cs_tile_log *log) {
+  char folder[4096];
+  log->count = log->written = 0;
+  CS_TRY(lock(context, log));
+  if (cs_pyramid_tiles_folder(pyramid, folder, sizeof folder) && exists(folder) &&
+      nftw(folder, remove_one, OPEN_FOLDERS, FTW_DEPTH | FTW_PHYS) != 0)
+    return fail(context, folder, "cannot remove its tiles");
+  if (unlink(log->path) != 0 && errno != ENOENT)
+    return fail(context, log->path, "cannot remove");
+  close(log->descriptor);
+  log->descriptor = -1;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- writing */
+
+static celspan_status append(celspan_context *context, const cs_tile_log *log, const char *line) {
+  return cs_journal_add(log->descriptor, line) ? CELSPAN_OK
+                                               : fail(context, log->path, "cannot write");
+}
+
+celspan_status cs_tile_log_open(celspan_context *context, cs_tile_log *log) {
+  char head[LINE_SIZE];
+  if (!cs_journal_make_folders(log->path))
+    return fail(context, log->path, "cannot make its folder");
+  CS_TRY(lock(context, log));
+  off_t size = lseek(log->descriptor, 0, SEEK_END);
+  write_head(log, head);
+  if (size <= 0)
+    return append(context, log, head);
+  return cs_journal_end_last(log->descriptor) ? CELSPAN_OK
+                                              : fail(context, log->path, "cannot write");
+}
+
+celspan_status cs_tile_log_flush(celspan_context *context, cs_tile_log *log) {
+  char line[LINE_SIZE];
+  if (log->written == log->count)
+    return CELSPAN_OK;
+  if (syncfs(log->descriptor) != 0)
+    return fail(context, log->path, "cannot sync the tiles");
+  for (; log->written < log->count; log->written++) {
+    const cs_tile_row *row = &log->rows[log->written];
+    snprintf(line, sizeof line, "row %d %d %d %d\n", row->level, row->row, row->first, row->end);
+    CS_TRY(append(context, log, line));
+  }
+  log->synced = cs_clock_seconds();
+  return CELSPAN_OK;
+}
+
+celspan_status cs_tile_log_add(celspan_context *context, cs_tile_log *log, cs_tile_row row) {
+  CS_TRY(keep_row(context, log, row));
+  return cs_clock_seconds() - log->synced < PAUSE ? CELSPAN_OK : cs_tile_log_flush(context, log);
+}
+
+void cs_tile_log_close(celspan_context *context, cs_tile_log *log) {
+  if (log->descriptor >= 0)
+    close(log->descriptor);
+  log->descriptor = -1;
+  cs_mem_free(context->memory, log->rows, log->capacity * sizeof *log->rows);
+  log->rows = NULL;
+  log->count = log->written = log->capacity = 0;
+}

@@ -1,0 +1,248 @@
+#include "frames/video/encoder.h"
+
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "frames/process/interrupt.h"
+
+#define NANOSECONDS 1000000000     /* in a second */
+#define PAUSE_NANOSECONDS 50000000 /* between two checks for a signal */
+#define LAST_SECONDS 2.0 /* for an encoder that has stopped reading to write its message and end */
+
+/* ---------------------------------------------------------------- the writing thread */
+
+/* 0, or an errno. */
+static int write_all(int descriptor, const unsigned char *bytes, size_t size) {
+  while (size > 0) {
+    ssize_t written = write(descriptor, bytes, size);
+    if (written < 0 && errno != EINTR)
+      return errno;
+    if (written > 0) {
+      bytes += written;
+      size -= (size_t)written;
+    }
+  }
+  return 0;
+}
+
+/* The place at the head of the queue; -1 when there are no more frames. Locked. */
+static int wait_for_frame(cs_encoder *encoder) {
+  while (encoder->waiting == 0 && !encoder->is_complete)
+    pthread_cond_wait(&encoder->changed, &encoder->mutex);
+  return encoder->waiting > 0 ? encoder->queue[encoder->head] : -1;
+}
+
+static void drop_head(cs_encoder *encoder) {
+  encoder->places[encoder->queue[encoder->head]].queued--;
+  encoder->head = (encoder->head + 1) % CS_ENCODER_QUEUE;
+  encoder->waiting--;
+}
+
+static void write_frames(void *user, int worker) {
+  cs_encoder *encoder = user;
+  (void)worker;
+  pthread_mutex_lock(&encoder->mutex);
+  for (int place; !encoder->is_broken && (place = wait_for_frame(encoder)) >= 0;) {
+    pthread_mutex_unlock(&encoder->mutex);
+    int error =
+        write_all(encoder->process.input, encoder->places[place].pixels, encoder->frame_size);
+    pthread_mutex_lock(&encoder->mutex);
+    encoder->is_broken = error != 0;
+    encoder->error = error == EPIPE ? 0 : error;
+    drop_head(encoder);
+    pthread_cond_broadcast(&encoder->changed);
+  }
+  close(encoder->process.input);
+  encoder->is_done = true;
+  pthread_cond_broadcast(&encoder->changed);
+  pthread_mutex_unlock(&encoder->mutex);
+}
+
+/* ---------------------------------------------------------------- opening */
+
+static celspan_status fail_start(const cs_encoder *encoder, const char *program, int error) {
+  if (error == ENOENT)
+    return cs_fail(encoder->context, CELSPAN_OUTPUT,
+                   "%s: %s, which makes videos, is not in PATH: install the package ffmpeg",
+                   encoder->name, program);
+  return cs_fail(encoder->context, CELSPAN_OUTPUT, "%s: %s cannot be started: %s", encoder->name,
+                 program, strerror(error));
+}
+
+static void free_places(cs_encoder *encoder) {
+  for (int i = 0; i < CS_ENCODER_PLACES; i++)
+    cs_mem_free(encoder->context->memory, encoder->places[i].pixels, encoder->frame_size);
+}
+
+static celspan_status make_places(cs_encoder *encoder) {
+  for (int i = 0; i < CS_ENCODER_PLACES; i++) {
+    encoder->places[i].pixels =
+        cs_mem_resize(encoder->context->memory, NULL, 0, encoder->frame_size);
+    if (!encoder->places[i].pixels)
+      return cs_fail_memory(encoder->context);
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status start_writer(cs_encoder *encoder) {
+  if (cs_threads_start(&encoder->writer, 1, write_frames, encoder) == 1)
+    return CELSPAN_OK;
+  close(encoder->process.input);
+  cs_child_end(&encoder->process, 0);
+  return cs_fail(encoder->context, CELSPAN_LIMIT, "%s: no thread can be started for the encoder",
+                 encoder->name);
+}
+
+static celspan_status start(cs_encoder *encoder, const char *const *arguments) {
+  CS_TRY(make_places(encoder));
+  int error = cs_child_start(&encoder->process, arguments);
+  return error ? fail_start(encoder, arguments[0], error) : start_writer(encoder);
+}
+
+static void free_all(cs_encoder *encoder) {
+  free_places(encoder);
+  pthread_cond_destroy(&encoder->changed);
+  pthread_mutex_destroy(&encoder->mutex);
+}
+
+celspan_status cs_encoder_open(cs_encoder *out, celspan_context *context, const char *name,
+                               const char *const *arguments, size_t frame_size) {
+  pthread_condattr_t attributes;
+  *out = (cs_encoder){.context = context, .name = name, .frame_size = frame_size, .last = -1};
+  pthread_condattr_init(&attributes);
+  pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC);
+  pthread_cond_init(&out->changed, &attributes);
+  pthread_condattr_destroy(&attributes);
+  pthread_mutex_init(&out->mutex, NULL);
+  celspan_status status = start(out, arguments);
+  out->is_open = status == CELSPAN_OK;
+  if (status != CELSPAN_OK)
+    free_all(out);
+  return status;
+}
+
+/* ---------------------------------------------------------------- the end */
+
+/* Ends the encoder. The result is that of cs_child_end. */
+static bool close_encoder(cs_encoder *encoder, double seconds) {
+  bool is_over = cs_child_end(&encoder->process, seconds);
+  pthread_mutex_lock(&encoder->mutex);
+  encoder->is_broken = encoder->is_broken || !encoder->is_done;
+  encoder->is_complete = true;
+  pthread_cond_broadcast(&encoder->changed);
+  pthread_mutex_unlock(&encoder->mutex);
+  cs_threads_join(&encoder->writer, 1);
+  free_all(encoder);
+  encoder->is_open = false;
+  return is_over;
+}
+
+void cs_encoder_discard(cs_encoder *encoder) {
+  if (encoder->is_open)
+    close_encoder(encoder, 0);
+}
+
+static celspan_status stop(cs_encoder *encoder) {
+  cs_encoder_discard(encoder);
+  return cs_fail(encoder->context, CELSPAN_CANCELLED, "%s: stopped", encoder->name);
+}
+
+/* Waits for the end of an encoder that has read all frames, or has stopped reading. */
+static celspan_status end(cs_encoder *encoder, bool has_read_all) {
+  char how[CS_CHILD_ERROR + 64];
+  const cs_child *process = &encoder->process;
+  bool is_over = close_encoder(encoder, has_read_all ? INFINITY : LAST_SECONDS);
+  if (!is_over && cs_interrupt_signal())
+    return stop(encoder);
+  if (has_read_all && process->exit_code == 0)
+    return CELSPAN_OK;
+  if (encoder->error)
+    return cs_fail(encoder->context, CELSPAN_OUTPUT, "%s: cannot write to ffmpeg: %s",
+                   encoder->name, strerror(encoder->error));
+  cs_child_describe(process, how, sizeof how);
+  return cs_fail(encoder->context, CELSPAN_OUTPUT, "%s: ffmpeg %s", encoder->name,
+                 !is_over                  ? "reads no more frames, and does not end"
+                 : process->exit_code == 0 ? "ended before it had read every frame"
+                                           : how);
+}
+
+/* ---------------------------------------------------------------- waiting */
+
+/* Waits for the writing thread while `holds`. false: a signal asks to stop. Locked. */
+static bool wait_while(cs_encoder *encoder, bool (*holds)(const cs_encoder *encoder)) {
+  while (holds(encoder) && !encoder->is_broken) {
+    struct timespec until;
+    if (cs_interrupt_signal())
+      return false;
+    clock_gettime(CLOCK_MONOTONIC, &until);
+    until.tv_nsec += PAUSE_NANOSECONDS;
+    until.tv_sec += until.tv_nsec / NANOSECONDS;
+    until.tv_nsec %= NANOSECONDS;
+    pthread_cond_timedwait(&encoder->changed, &encoder->mutex, &until);
+  }
+  return true;
+}
+
+/* The same, and fails if the encoder has stopped reading. */
+static celspan_status wait_for(cs_encoder *encoder, bool (*holds)(const cs_encoder *encoder)) {
+  pthread_mutex_lock(&encoder->mutex);
+  bool continues = wait_while(encoder, holds), is_broken = encoder->is_broken;
+  pthread_mutex_unlock(&encoder->mutex);
+  if (!continues)
+    return stop(encoder);
+  return is_broken ? end(encoder, false) : CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- frames */
+
+static int free_place(const cs_encoder *encoder) {
+  for (int i = 0; i < CS_ENCODER_PLACES; i++)
+    if (i != encoder->last && encoder->places[i].queued == 0)
+      return i;
+  return -1;
+}
+
+static bool is_full(const cs_encoder *encoder) { return encoder->waiting == CS_ENCODER_QUEUE; }
+static bool has_no_place(const cs_encoder *encoder) {
+  return is_full(encoder) || free_place(encoder) < 0;
+}
+static bool is_writing(const cs_encoder *encoder) { return !encoder->is_done; }
+
+unsigned char *cs_encoder_pixels(const cs_encoder *encoder, int place) {
+  return encoder->places[place].pixels;
+}
+
+celspan_status cs_encoder_take(cs_encoder *encoder, int *place) {
+  CS_TRY(wait_for(encoder, has_no_place));
+  pthread_mutex_lock(&encoder->mutex);
+  *place = free_place(encoder);
+  pthread_mutex_unlock(&encoder->mutex);
+  return CELSPAN_OK;
+}
+
+void cs_encoder_give(cs_encoder *encoder, int place) {
+  pthread_mutex_lock(&encoder->mutex);
+  encoder->queue[(encoder->head + encoder->waiting++) % CS_ENCODER_QUEUE] = place;
+  encoder->places[place].queued++;
+  encoder->last = place;
+  pthread_cond_broadcast(&encoder->changed);
+  pthread_mutex_unlock(&encoder->mutex);
+}
+
+celspan_status cs_encoder_repeat(cs_encoder *encoder) {
+  CS_TRY(wait_for(encoder, is_full));
+  cs_encoder_give(encoder, encoder->last);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_encoder_finish(cs_encoder *encoder) {
+  pthread_mutex_lock(&encoder->mutex);
+  encoder->is_complete = true;
+  pthread_cond_broadcast(&encoder->changed);
+  pthread_mutex_unlock(&encoder->mutex);
+  CS_TRY(wait_for(encoder, is_writing));
+  return end(encoder, true);
+}

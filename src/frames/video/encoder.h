@@ -1,0 +1,59 @@
+/* A queue of frames for an encoder, which runs while the next frames are made.
+ *
+ *   take: a free place --> pixels --> give --> queue --thread--> the encoder's standard input
+ *                                    repeat --^                  (frames/process/child.h)
+ *
+ * There are places for three frames: one that is written, one that waits, one that is made. A frame
+ * that is shown again is queued again, not copied.
+ *
+ * INVARIANT: frames are written in the order in which they were given, each as often as it was
+ * given or repeated. An encoder that failed is closed already.
+ */
+#ifndef CS_VIDEO_ENCODER_H
+#define CS_VIDEO_ENCODER_H
+
+#include <pthread.h>
+
+#include "frames/process/child.h"
+
+enum { CS_ENCODER_PLACES = 3, CS_ENCODER_QUEUE = 64 };
+
+typedef struct cs_encoder {
+  celspan_context *context; /* borrowed */
+  const char *name;         /* of the film, for messages; borrowed */
+  cs_child process;
+  size_t frame_size;
+  cs_thread writer;
+  pthread_mutex_t mutex; /* protects all fields below */
+  pthread_cond_t changed;
+  struct {
+    unsigned char *pixels; /* owned */
+    size_t queued;         /* how often it is queued or being written */
+  } places[CS_ENCODER_PLACES];
+  int queue[CS_ENCODER_QUEUE]; /* of places; a ring */
+  size_t head, waiting;
+  int last; /* place of the frame given last; -1: none */
+  bool is_complete, is_broken, is_done;
+  int error;    /* of a failed write, except a closed pipe; 0: none */
+  bool is_open; /* used by the calling thread only */
+} cs_encoder;
+
+/* Starts the encoder, whose arguments begin with its name. out: must not move while it is open.
+ * Errors: OUTPUT, if it cannot be started; NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_encoder_open(cs_encoder *out, celspan_context *context,
+                                               const char *name, const char *const *arguments,
+                                               size_t frame_size);
+/* Finds a place for the pixels of the next frame. Errors: OUTPUT, with the message of an encoder
+ * that has ended; CANCELLED. */
+CELSPAN_CHECKED celspan_status cs_encoder_take(cs_encoder *encoder, int *place);
+unsigned char *cs_encoder_pixels(const cs_encoder *encoder, int place);
+void cs_encoder_give(cs_encoder *encoder, int place);
+/* Repeats the frame given last. Errors: as above. */
+CELSPAN_CHECKED celspan_status cs_encoder_repeat(cs_encoder *encoder);
+/* Waits until all frames are written and the encoder has succeeded, and closes it. Errors: as
+ * above. */
+CELSPAN_CHECKED celspan_status cs_encoder_finish(cs_encoder *encoder);
+/* Kills the encoder and closes it, unless it is closed already. */
+void cs_encoder_discard(cs_encoder *encoder);
+
+#endif

@@ -1,0 +1,338 @@
+#include "frames/video/format.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+#define FROM_RGB                                                                                   \
+  "scale=out_color_matrix=bt709:out_range=tv:flags=area+accurate_rnd+full_chroma_int,"
+#define MOST_DENOMINATOR 1001000 /* of frames a second: NTSC rates such as 24000/1001 are exact */
+
+/* ---------------------------------------------------------------- formats */
+
+/* Drawings are flat between sharp edges: -tune animation uses bits for edges, not for grain. */
+static const char *const H264[] = {"-c:v",  "libx264",   "-preset", "medium",
+                                   "-tune", "animation", NULL};
+static const char *const PRORES[] = {"-c:v", "prores_ks",   "-profile:v", "4444", "-vendor",
+                                     "apl0", "-alpha_bits", "16",         NULL};
+static const char *const VP9[] = {"-c:v",      "libvpx-vp9", "-b:v",    "0", "-deadline", "good",
+                                  "-cpu-used", "3",          "-row-mt", "1", NULL};
+static const char *const GIF[] = {"-c:v", "gif", "-loop", "0", NULL};
+static const char *const WEBP[] = {"-c:v", "libwebp_anim", "-loop", "0", NULL};
+
+static const char *const AAC[] = {"-c:a", "aac", "-b:a", "192k", NULL};
+static const char *const FLAC[] = {"-c:a", "flac", NULL};
+static const char *const PCM[] = {"-c:a", "pcm_s24le", NULL};
+static const char *const OPUS[] = {"-c:a", "libopus", "-b:a", "160k", NULL};
+
+#define ENDLESS 1e6
+#define ISO_FLAGS "+faststart+write_colr" /* the index comes first; colour tags are written */
+#define EBML "\x1a\x45\xdf\xa3"
+
+/* For H.264, quality 75 is the constant rate factor 18, at which most people see no difference. The
+ * values of the other encoders give about the same error at 75 and below. */
+static const cs_video_format FORMATS[] = {
+    {.name = "mp4",
+     .muxer = "mp4",
+     .is_halved = true,
+     .most_frames_second = ENDLESS,
+     .pixels = "yuv420p",
+     .deep_pixels = "yuv420p10le",
+     .encoder = H264,
+     .quality = "-crf",
+     .best = 8,
+     .worst = 48,
+     .sound = AAC,
+     .flags = ISO_FLAGS,
+     .mark = {4, "ftyp"}},
+    {.name = "mkv",
+     .muxer = "matroska",
+     .most_frames_second = 1000,
+     .pixels = "yuv444p",
+     .deep_pixels = "yuv444p10le",
+     .encoder = H264,
+     .quality = "-crf",
+     .best = 8,
+     .worst = 48,
+     .sound = FLAC,
+     .mark = {0, EBML}},
+    {.name = "mov",
+     .muxer = "mov",
+     .is_deep = true,
+     .has_alpha = true,
+     .most_frames_second = ENDLESS,
+     .pixels = "yuv444p10le",
+     .deep_pixels = "yuv444p10le",
+     .alpha_pixels = "yuva444p10le",
+     .deep_alpha_pixels = "yuva444p10le",
+     .encoder = PRORES,
+     .quality = "-q:v",
+     .best = 5,
+     .worst = 33,
+     .sound = PCM,
+     .flags = ISO_FLAGS,
+     .mark = {4, "ftyp"}},
+    {.name = "webm",
+     .muxer = "webm",
+     .has_alpha = true,
+     .most_frames_second = 1000,
+     .pixels = "yuv420p",
+     .deep_pixels = "yuv420p10le",
+     .alpha_pixels = "yuva420p",
+     .encoder = VP9,
+     .quality = "-crf",
+     .best = 11,
+     .worst = 63,
+     .sound = OPUS,
+     .mark = {0, EBML}},
+    {.name = "gif",
+     .muxer = "gif",
+     .is_picture = true,
+     .is_rgb = true,
+     .has_alpha = true,
+     .most_frames_second = 100,
+     .pixels = "pal8",
+     .alpha_pixels = "pal8",
+     .encoder = GIF,
+     .best = 256, /* colours of a frame's palette */
+     .worst = 8,
+     .mark = {0, "GIF8"}},
+    {.name = "webp",
+     .muxer = "webp",
+     .is_picture = true,
+     .is_rgb = true,
+     .has_alpha = true,
+     .most_frames_second = 1000,
+     .pixels = "bgra",
+     .alpha_pixels = "bgra",
+     .encoder = WEBP,
+     .quality = "-quality",
+     .best = 100,
+     .worst = 0,
+     .mark = {8, "WEBP"}},
+};
+
+const cs_video_format *cs_video_format_named(const char *name) {
+  for (size_t i = 0; i < sizeof FORMATS / sizeof *FORMATS; i++)
+    if (strcasecmp(name, FORMATS[i].name) == 0)
+      return &FORMATS[i];
+  return NULL;
+}
+
+/* Whether the encoder gets frames of 16 bits. */
+static bool is_deep(const cs_video_format *format, const cs_video_options *options) {
+  if (options->coding.depth == CELSPAN_DEPTH_DEFAULT && !options->dithers)
+    return format->is_deep;
+  return options->coding.depth == CELSPAN_DEPTH_16;
+}
+
+static bool has_alpha(const cs_video_format *format, const cs_video_options *options) {
+  return format->has_alpha && !options->is_opaque;
+}
+
+const char *cs_video_pixels(const cs_video_format *format, const cs_video_options *options) {
+  if (has_alpha(format, options))
+    return is_deep(format, options) ? format->deep_alpha_pixels : format->alpha_pixels;
+  return is_deep(format, options) ? format->deep_pixels : format->pixels;
+}
+
+cs_video_layout cs_video_layout_of(const cs_video_format *format, const cs_video_options *options) {
+  const char *pixels = cs_video_pixels(format, options);
+  return strcmp(pixels, "yuv420p") == 0   ? CS_VIDEO_420
+         : strcmp(pixels, "yuv444p") == 0 ? CS_VIDEO_444
+                                          : CS_VIDEO_RGBA;
+}
+
+celspan_coding cs_video_coding(const cs_video_format *format, const cs_video_options *options) {
+  celspan_coding coding = options->coding;
+  coding.depth = options->dithers           ? CELSPAN_DEPTH_8_DITHER
+                 : is_deep(format, options) ? CELSPAN_DEPTH_16
+                                            : CELSPAN_DEPTH_8;
+  if (coding.transfer == CELSPAN_TRANSFER_DEFAULT)
+    coding.transfer = CELSPAN_TRANSFER_SRGB;
+  if (!has_alpha(format, options))
+    coding.alpha = CELSPAN_ALPHA_PREMULTIPLIED;
+  return coding;
+}
+
+/* ---------------------------------------------------------------- arguments */
+
+static void add(cs_video_command *command, const char *argument) {
+  if (command->count + 1 < CS_VIDEO_ARGUMENTS)
+    command->arguments[command->count++] = argument;
+}
+
+__attribute__((format(printf, 2, 3))) static void add_text(cs_video_command *command,
+                                                           const char *format, ...) {
+  char *text = command->text + command->text_size;
+  size_t room = sizeof command->text - command->text_size;
+  va_list values;
+  va_start(values, format);
+  int size = vsnprintf(text, room, format, values);
+  va_end(values);
+  if (size < 0 || (size_t)size >= room)
+    return;
+  command->text_size += (size_t)size + 1;
+  add(command, text);
+}
+
+static void add_all(cs_video_command *command, const char *const *arguments) {
+  for (; *arguments; arguments++)
+    add(command, *arguments);
+}
+
+static void begin(cs_video_command *command) {
+  static const char *const first[] = {"ffmpeg", "-nostdin", "-hide_banner", "-loglevel",
+                                      "error",  "-xerror",  "-y",           NULL};
+  *command = (cs_video_command){0};
+  add_all(command, first);
+}
+
+/* ---------------------------------------------------------------- frames */
+
+/* Adds the nearest fraction, found by continued fractions: 23.976023976... is 24000/1001. */
+static void add_rate(cs_video_command *command, double rate) {
+  double numerator[2] = {1, floor(rate)}, denominator[2] = {0, 1}, rest = rate - floor(rate);
+  while (rest > 1e-9 && fabs(numerator[1] / denominator[1] - rate) > rate * 1e-12) {
+    double whole = floor(1 / rest), next_numerator = whole * numerator[1] + numerator[0],
+           next_denominator = whole * denominator[1] + denominator[0];
+    if (next_denominator > MOST_DENOMINATOR)
+      break;
+    rest = 1 / rest - whole;
+    numerator[0] = numerator[1];
+    numerator[1] = next_numerator;
+    denominator[0] = denominator[1];
+    denominator[1] = next_denominator;
+  }
+  add_text(command, "%.0f/%.0f", numerator[1], denominator[1]);
+}
+
+/* Without alpha the fourth byte is declared unused, because frames over black still have alpha in
+ * it. */
+static const char *frame_pixels(const cs_video_format *format, const cs_video_options *options) {
+  if (cs_video_layout_of(format, options) != CS_VIDEO_RGBA)
+    return cs_video_pixels(format, options);
+  if (is_deep(format, options))
+    return "rgba64le";
+  return has_alpha(format, options) ? "rgba" : "rgb0";
+}
+
+static void add_frames(cs_video_command *command, const cs_video_format *format,
+                       const cs_video_options *options, const cs_video_frames *frames) {
+  add(command, "-f");
+  add(command, "rawvideo");
+  add(command, "-pixel_format");
+  add(command, frame_pixels(format, options));
+  add(command, "-video_size");
+  add_text(command, "%dx%d", (int)frames->width, (int)frames->height);
+  add(command, "-framerate");
+  add_rate(command, frames->frames_second);
+  add(command, "-i");
+  add(command, "pipe:0");
+}
+
+/* ---------------------------------------------------------------- pictures */
+
+/* The value of the encoder's quality option. */
+static int encoder_quality(const cs_video_format *format, int32_t quality) {
+  return (int)lround(format->worst + (format->best - format->worst) * quality / 100);
+}
+
+/* Makes a palette for each frame, so that frames are not kept until the last one arrives. Dithering
+ * looks better than bands, and makes the file larger. */
+static void add_indexed(cs_video_command *command, const cs_video_format *format,
+                        const cs_video_options *options) {
+  add(command, "-filter_complex");
+  add_text(command,
+           "[0:v]split[a][b];[a]palettegen=stats_mode=single:max_colors=%d:reserve_transparent=%d"
+           "[p];[b][p]paletteuse=new=1:dither=%s",
+           encoder_quality(format, options->quality), has_alpha(format, options),
+           options->quality < 50 ? "none" : "sierra2_4a");
+}
+
+/* By default ffmpeg assumes BT.601 for pictures of any size, and writes no colour tags. Rounding is
+ * exact, and 2 x 2 pixels that share a colour get their mean, so that flat colours are unchanged.
+ * Planes are passed on unchanged. */
+static void add_yuv(cs_video_command *command, const cs_video_format *format,
+                    const cs_video_options *options) {
+  bool is_rec709 = options->coding.transfer == CELSPAN_TRANSFER_REC709;
+  const char *transfer = is_rec709 ? "bt709" : "iec61966-2-1";
+  bool is_made = cs_video_layout_of(format, options) != CS_VIDEO_RGBA;
+  const char *const tags[] = {
+      "-color_range", "tv",         "-colorspace", "bt709", "-color_primaries",
+      "bt709",        "-color_trc", transfer,      NULL};
+  add(command, "-vf");
+  add_text(command,
+           "%sformat=%s,setparams=range=tv:colorspace=bt709:color_primaries=bt709:color_trc=%s",
+           is_made ? "" : FROM_RGB, cs_video_pixels(format, options), transfer);
+  add_all(command, tags);
+}
+
+static void add_pictures(cs_video_command *command, const cs_video_format *format,
+                         const cs_video_options *options) {
+  if (!format->quality)
+    add_indexed(command, format, options);
+  else if (!format->is_rgb)
+    add_yuv(command, format, options);
+  add_all(command, format->encoder);
+  if (format->quality) {
+    add(command, format->quality);
+    add_text(command, "%d", encoder_quality(format, options->quality));
+  }
+  if (format->is_rgb && format->quality) {
+    add(command, "-pix_fmt");
+    add(command, cs_video_pixels(format, options));
+  }
+}
+
+/* ---------------------------------------------------------------- sound */
+
+/* Shifts the samples, because some players ignore time stamps: silence is added before the sound,
+ * or its beginning cut; then silence is added up to the last frame, or the sound cut there. */
+static void add_sound(cs_video_command *command, const cs_video_format *format,
+                      const cs_video_sound *sound) {
+  add(command, "-filter_complex");
+  if (sound->start >= 0)
+    add_text(command, "[1:a:0]asetpts=N/SR/TB,adelay=delays=%.6f:all=1,apad,atrim=end=%.9f[s]",
+             sound->start * 1000, sound->length);
+  else
+    add_text(command,
+             "[1:a:0]asetpts=N/SR/TB,apad,atrim=start=%.9f:end=%.9f,asetpts=PTS-STARTPTS[s]",
+             -sound->start, sound->length - sound->start);
+  add(command, "-map");
+  add(command, "0:v");
+  add(command, "-map");
+  add(command, "[s]");
+  add_all(command, format->sound);
+}
+
+void cs_video_command_encode(cs_video_command *command, const cs_video_format *format,
+                             const cs_video_options *options, const cs_video_frames *frames,
+                             const cs_video_sound *sound, const char *file) {
+  begin(command);
+  add_frames(command, format, options, frames);
+  if (sound->path) {
+    add(command, "-i");
+    add_text(command, "file:%s", sound->path);
+  }
+  add_pictures(command, format, options);
+  if (sound->path)
+    add_sound(command, format, sound);
+  if (format->flags) {
+    add(command, "-movflags");
+    add(command, format->flags);
+  }
+  add(command, "-f");
+  add(command, format->muxer);
+  add_text(command, "file:%s", file);
+}
+
+void cs_video_command_listen(cs_video_command *command, const char *sound) {
+  static const char *const rest[] = {"-map", "0:a:0", "-t", "0.1", "-f", "null", "-", NULL};
+  begin(command);
+  add(command, "-i");
+  add_text(command, "file:%s", sound);
+  add_all(command, rest);
+}

@@ -1,0 +1,97 @@
+/* The video formats: the encoder and the pixels for each file ending, and the command of ffmpeg.
+ *
+ *   planes of Y'CbCr, or RGBA --standard input--> [matrix and range of BT.709] --> encoder --> file
+ *   sound, shifted and cut to the frames -------------------------------> encoder ---^
+ *
+ *   ending  encoder      pixels                               alpha      sound
+ *   mp4     H.264        4:2:0, 8 bits (10 under --depth 16)  none       AAC
+ *   mkv     H.264        4:4:4, 8 bits (10 under --depth 16)  none       FLAC
+ *   mov     ProRes 4444  4:4:4, 10 bits                       16 bits    PCM
+ *   webm    VP9          4:2:0, 8 bits (10 without alpha)     8 bits     Opus
+ *   gif     GIF          256 colours a frame                  1 bit      none
+ *   webp    WebP         4:2:0, 8 bits                        8 bits     none
+ *
+ * INVARIANT: a film with a background is opaque, and its file has no alpha. In all other films,
+ * alpha is kept if the format has it. No shell reads the arguments, and file names begin with
+ * "file:", so that ffmpeg does not treat them as options or addresses.
+ */
+#ifndef CS_VIDEO_FORMAT_H
+#define CS_VIDEO_FORMAT_H
+
+#include "base/context.h"
+
+typedef struct cs_video_format {
+  const char *name;  /* the ending */
+  const char *muxer; /* its name in ffmpeg */
+  bool is_picture;   /* one frame is a picture; several are a video */
+  bool is_halved;    /* the encoder accepts even sides only */
+  bool is_rgb;       /* the encoder accepts RGB; the file has no colour tags */
+  bool is_deep;      /* frames have 16 bits unless options request fewer */
+  bool has_alpha;
+  double most_frames_second;        /* the resolution of its clock */
+  const char *pixels, *deep_pixels; /* without alpha; NULL: not available */
+  const char *alpha_pixels, *deep_alpha_pixels;
+  const char *const *encoder; /* options of ffmpeg, NULL at the end */
+  const char *flags;          /* of the muxer, or NULL */
+  const char *quality;        /* the option for the quality; NULL: the size of a palette */
+  double best, worst;         /* its values at quality 100 and 0 */
+  const char *const *sound;   /* options of ffmpeg; NULL: the format has no sound */
+  struct {                    /* bytes in every file of the format */
+    size_t offset;
+    const char *bytes;
+  } mark;
+} cs_video_format;
+
+/* The layout of the frames for the encoder. */
+typedef enum cs_video_layout {
+  CS_VIDEO_RGBA, /* 8 or 16 bits; ffmpeg converts them */
+  CS_VIDEO_444,  /* planes of 8 bits, made by video.c */
+  CS_VIDEO_420
+} cs_video_layout;
+
+/* The requested properties of a video. */
+typedef struct cs_video_options {
+  celspan_coding coding; /* its depth and transfer */
+  bool dithers;
+  bool is_opaque;  /* it has a background */
+  int32_t quality; /* 0 to 100; the same quality looks alike in every format */
+} cs_video_options;
+
+typedef struct cs_video_frames {
+  int32_t width, height; /* pixels */
+  double frames_second;
+} cs_video_frames;
+
+typedef struct cs_video_sound {
+  const char *path; /* NULL: none */
+  double start;  /* seconds from the first frame to its beginning; below 0: its beginning is cut */
+  double length; /* seconds of all frames */
+} cs_video_sound;
+
+enum { CS_VIDEO_ARGUMENTS = 72, CS_VIDEO_TEXT = 16384 };
+
+/* Arguments of ffmpeg, its name first. */
+typedef struct cs_video_command {
+  const char *arguments[CS_VIDEO_ARGUMENTS]; /* NULL at the end */
+  size_t count;
+  char text[CS_VIDEO_TEXT]; /* of formatted arguments */
+  size_t text_size;
+} cs_video_command;
+
+/* The format of that name, or else NULL. */
+const cs_video_format *cs_video_format_named(const char *name);
+/* The pixels of the encoder under the options; NULL: not available. */
+const char *cs_video_pixels(const cs_video_format *format, const cs_video_options *options);
+/* Planes where the encoder accepts 8 bits without alpha. */
+cs_video_layout cs_video_layout_of(const cs_video_format *format, const cs_video_options *options);
+/* The coding of the frames for the encoder; over black where there is no alpha. */
+celspan_coding cs_video_coding(const cs_video_format *format, const cs_video_options *options);
+
+/* The command that makes a video of raw frames, as above. file: the name of the output. */
+void cs_video_command_encode(cs_video_command *command, const cs_video_format *format,
+                             const cs_video_options *options, const cs_video_frames *frames,
+                             const cs_video_sound *sound, const char *file);
+/* A command whose exit code is 0 if ffmpeg can read the sound. */
+void cs_video_command_listen(cs_video_command *command, const char *sound);
+
+#endif

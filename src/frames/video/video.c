@@ -1,0 +1,278 @@
+#include "frames/video/video.h"
+
+#include <errno.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/open.h"
+#include "output/sinks/dither.h"
+#include "output/sinks/pixels.h"
+#include "output/sinks/sink.h"
+#include "output/sinks/temporary.h"
+#include "output/sinks/ycbcr.h"
+
+/* ---------------------------------------------------------------- planes */
+
+/* A sink that converts the rows of a frame to planes of Y'CbCr for an encoder of eight bits.
+ *
+ *   spans -> a row of RGBA --> y y y y y y      then all cb, then all cr: a row of each (4:4:4),
+ *            (two rows, kept)  y y y y y y      or of two rows one of half the width (4:2:0)
+ *
+ * This is a third of the bytes of RGBA, and ffmpeg does not convert colours. An odd width or height
+ * is rounded up: the last pixel or row then counts twice.
+ */
+typedef struct yuv_planes {
+  celspan_coding coding; /* without defaults, except the depth of dithering */
+  int32_t x, y;          /* the place of the first pixel in the whole frame */
+  bool is_halved;        /* 4:2:0 */
+  int32_t width, height;
+  unsigned char *bytes; /* of all planes; borrowed */
+  uint32_t *rows[2];    /* the even and the odd row; rows[0] owned, one block */
+} yuv_planes;
+
+static size_t halves(int32_t count) { return ((size_t)count + 1) / 2; }
+
+/* Pixels of a kept row: an even number of them. */
+static size_t row_pixels(const yuv_planes *planes) { return 2 * halves(planes->width); }
+
+static size_t rows_size(const yuv_planes *planes) {
+  return 2 * row_pixels(planes) * sizeof *planes->rows[0];
+}
+
+static size_t luma_size(int32_t width, int32_t height) { return (size_t)width * (size_t)height; }
+
+static size_t chroma_size(int32_t width, int32_t height, bool is_halved) {
+  return is_halved ? halves(width) * halves(height) : luma_size(width, height);
+}
+
+static size_t planes_size(int32_t width, int32_t height, bool is_halved) {
+  return luma_size(width, height) + 2 * chroma_size(width, height, is_halved);
+}
+
+static celspan_status begin_planes(void *user, celspan_context *context, int32_t width,
+                                   int32_t height) {
+  yuv_planes *planes = user;
+  planes->width = width;
+  planes->height = height;
+  planes->rows[0] = cs_mem_resize(context->memory, NULL, 0, rows_size(planes));
+  if (!planes->rows[0])
+    return cs_fail_memory(context);
+  planes->rows[1] = planes->rows[0] + row_pixels(planes);
+  return CELSPAN_OK;
+}
+
+/* Converts the row, or the pair of rows that ends with it. */
+static void put_chroma(const yuv_planes *planes, int32_t y, const uint32_t *row) {
+  size_t size = chroma_size(planes->width, planes->height, planes->is_halved);
+  unsigned char *cb = planes->bytes + luma_size(planes->width, planes->height), *cr = cb + size;
+  if (!planes->is_halved) {
+    size_t offset = (size_t)y * (size_t)planes->width;
+    cs_ycbcr_chroma(row, planes->width, cb + offset, cr + offset);
+  } else if (y % 2 == 1 || y == planes->height - 1) {
+    size_t offset = (size_t)(y / 2) * halves(planes->width);
+    cs_ycbcr_halved(planes->rows[0], row, (int32_t)halves(planes->width), cb + offset, cr + offset);
+  }
+}
+
+static celspan_status put_row(void *user, celspan_context *context, int32_t y,
+                              const celspan_span *spans, size_t span_count) {
+  const yuv_planes *planes = user;
+  uint32_t *row = planes->rows[y % 2];
+  (void)context;
+  celspan_spans_code_at(&planes->coding, planes->x, planes->y + y, spans, span_count, row);
+  row[row_pixels(planes) - 1] = row[planes->width - 1];
+  cs_ycbcr_luma(row, planes->width, planes->bytes + (size_t)y * (size_t)planes->width);
+  put_chroma(planes, y, row);
+  return CELSPAN_OK;
+}
+
+static celspan_status end_planes(void *user, celspan_context *context, celspan_status outcome) {
+  yuv_planes *planes = user;
+  cs_mem_free(context->memory, planes->rows[0], planes->rows[0] ? rows_size(planes) : 0);
+  planes->rows[0] = NULL;
+  return outcome;
+}
+
+static celspan_sink planes_sink(yuv_planes *planes, const celspan_coding *coding,
+                                const celspan_frame_desc *frame, bool is_halved,
+                                unsigned char *bytes) {
+  bool dithers = coding->depth == CELSPAN_DEPTH_8_DITHER;
+  *planes = (yuv_planes){.coding = cs_pixels_resolve(coding, CELSPAN_DEPTH_8),
+                         .x = frame->crop_x,
+                         .y = frame->crop_y,
+                         .is_halved = is_halved,
+                         .bytes = bytes};
+  if (celspan_frame_is_opaque(frame)) /* the same result, faster */
+    planes->coding.alpha = CELSPAN_ALPHA_STRAIGHT;
+  bool takes_codes = !dithers && cs_pixels_takes_codes(&planes->coding);
+  if (dithers)
+    planes->coding.depth = CELSPAN_DEPTH_8_DITHER;
+  return (celspan_sink){planes, begin_planes, put_row, end_planes, takes_codes};
+}
+
+/* ---------------------------------------------------------------- opening */
+
+static bool is_same(const char *pattern, const char *name) { return strcmp(pattern, name) == 0; }
+
+static size_t frame_size(const cs_video *video, int32_t width, int32_t height) {
+  return video->layout == CS_VIDEO_RGBA ? video->stride * (size_t)height
+                                        : planes_size(width, height, video->layout == CS_VIDEO_420);
+}
+
+static celspan_status start(cs_video *video, const cs_video_command *command, int32_t width,
+                            int32_t height) {
+  size_t size = frame_size(video, width, height);
+  celspan_status status =
+      cs_encoder_open(&video->encoder, video->context, video->path, command->arguments, size);
+  if (status != CELSPAN_OK)
+    cs_file_discard(video->file, video->context);
+  return status;
+}
+
+static celspan_status open_file(cs_video *video, const char **name) {
+  cs_temporary_sweep(video->path, is_same);
+  CS_TRY(cs_file_create(video->context, NULL, video->path, &video->file));
+  return cs_file_temporary(video->file, video->context, name);
+}
+
+celspan_status cs_video_open(cs_video *out, celspan_context *context, const cs_video_desc *desc) {
+  const cs_video_frames *frames = &desc->frames;
+  cs_video_command command;
+  const char *name = NULL;
+  *out = (cs_video){.context = context,
+                    .path = desc->path,
+                    .format = desc->format,
+                    .coding = cs_video_coding(desc->format, &desc->options),
+                    .layout = cs_video_layout_of(desc->format, &desc->options),
+                    .has_digests = desc->has_digests,
+                    .keeps_nothing = desc->keeps_nothing};
+  out->stride = (size_t)frames->width * celspan_coding_pixel_size(&out->coding);
+  CS_TRY(open_file(out, &name));
+  cs_video_command_encode(&command, desc->format, &desc->options, frames, &desc->sound, name);
+  return start(out, &command, frames->width, frames->height);
+}
+
+/* ---------------------------------------------------------------- frames */
+
+static bool is_repeated(const cs_video *video, const cs_shoot_frame *frame) {
+  return video->has_last && frame->is_named && !video->keeps_nothing &&
+         frame->scene.a == video->last.a && frame->scene.b == video->last.b;
+}
+
+/* A sink for the pixels in the layout of the encoder. planes: must live as long as the sink. */
+static celspan_status open_sink(const cs_video *video, const celspan_frame_desc *desc,
+                                unsigned char *pixels, yuv_planes *planes, celspan_sink *out) {
+  if (video->layout != CS_VIDEO_RGBA) {
+    *out = planes_sink(planes, &video->coding, desc, video->layout == CS_VIDEO_420, pixels);
+    return CELSPAN_OK;
+  }
+  celspan_coding plain = cs_pixels_resolve(&video->coding, CELSPAN_DEPTH_8);
+  CS_TRY(cs_sink_memory(video->context, &plain, pixels, video->stride, out));
+  return cs_dither_sink(video->context, &video->coding, &plain, desc->crop_x, desc->crop_y, out);
+}
+
+/* A sink that hashes RGBA pixels. */
+static celspan_status open_digest(cs_video *video, const celspan_frame_desc *desc,
+                                  celspan_sink *out) {
+  celspan_coding plain = cs_pixels_resolve(&video->coding, CELSPAN_DEPTH_8);
+  CS_TRY(cs_sink_digest(video->context, &plain, video->digest, out));
+  return cs_dither_sink(video->context, &video->coding, &plain, desc->crop_x, desc->crop_y, out);
+}
+
+/* Makes and hashes the frame in one pass over its rows. */
+static celspan_status make_both(cs_video *video, const celspan_frame_desc *desc,
+                                unsigned char *pixels) {
+  yuv_planes planes;
+  cs_tee tee;
+  CS_TRY(open_sink(video, desc, pixels, &planes, &tee.sinks[0]));
+  celspan_status status = open_digest(video, desc, &tee.sinks[1]);
+  if (status != CELSPAN_OK) {
+    cs_sink_discard(video->context, &tee.sinks[0]);
+    return status;
+  }
+  celspan_sink sink = cs_tee_sink(&tee);
+  status = celspan_frame_render(video->context, desc, &sink, NULL);
+  for (int i = 0; i < 2 && !tee.is_ended; i++)
+    cs_sink_discard(video->context, &tee.sinks[i]);
+  return status;
+}
+
+static celspan_status make_one(const cs_video *video, const celspan_frame_desc *desc,
+                               unsigned char *pixels) {
+  yuv_planes planes;
+  if (video->layout == CS_VIDEO_RGBA)
+    return celspan_frame_pixels(video->context, desc, &video->coding, pixels, video->stride, NULL);
+  celspan_sink sink =
+      planes_sink(&planes, &video->coding, desc, video->layout == CS_VIDEO_420, pixels);
+  return celspan_frame_render(video->context, desc, &sink, NULL);
+}
+
+static celspan_status make(cs_video *video, const celspan_frame_desc *desc) {
+  int place;
+  CS_TRY(cs_encoder_take(&video->encoder, &place));
+  unsigned char *pixels = cs_encoder_pixels(&video->encoder, place);
+  CS_TRY(video->has_digests ? make_both(video, desc, pixels) : make_one(video, desc, pixels));
+  cs_encoder_give(&video->encoder, place);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_video_put(cs_video *video, const celspan_frame_desc *desc,
+                            cs_shoot_frame *frame) {
+  if (is_repeated(video, frame)) {
+    frame->way = CS_SHOOT_COPIED;
+    CS_TRY(cs_encoder_repeat(&video->encoder));
+  } else {
+    CS_TRY(make(video, desc));
+  }
+  video->has_last = frame->is_named;
+  video->last = frame->scene;
+  memcpy(frame->digest, video->digest, sizeof frame->digest);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- the end */
+
+/* Reads the first bytes of a file. Returns their number, or -1 and errno. */
+static ssize_t read_head(const char *name, char *bytes, size_t size) {
+  int descriptor = cs_open_to_read(name);
+  if (descriptor < 0)
+    return -1;
+  ssize_t got = cs_open_read_at(descriptor, bytes, size, 0);
+  close(descriptor);
+  return got;
+}
+
+/* Checks that the encoder has written a file of its format. */
+static celspan_status check_mark(const cs_video *video, const char *name) {
+  char bytes[16] = {0};
+  ssize_t size = read_head(name, bytes, sizeof bytes);
+  const char *mark = video->format->mark.bytes;
+  if (size < 0)
+    return cs_fail(video->context, CELSPAN_OUTPUT, "%s: cannot be read back: %s", video->path,
+                   strerror(errno));
+  if (size == sizeof bytes && memcmp(bytes + video->format->mark.offset, mark, 4) == 0)
+    return CELSPAN_OK;
+  return cs_fail(video->context, CELSPAN_OUTPUT, "%s: the output of ffmpeg is not in the format %s",
+                 video->path, video->format->name);
+}
+
+static celspan_status complete(cs_video *video) {
+  const char *name;
+  CS_TRY(cs_encoder_finish(&video->encoder));
+  CS_TRY(cs_file_temporary(video->file, video->context, &name));
+  CS_TRY(check_mark(video, name));
+  return cs_file_adopt(video->file, video->context);
+}
+
+celspan_status cs_video_finish(cs_video *video) {
+  celspan_status status = complete(video);
+  if (status == CELSPAN_OK)
+    return cs_file_commit(video->file, video->context);
+  cs_video_discard(video);
+  return status;
+}
+
+void cs_video_discard(cs_video *video) {
+  cs_encoder_discard(&video->encoder);
+  cs_file_discard(video->file, video->context);
+}

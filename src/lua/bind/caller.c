@@ -1,0 +1,166 @@
+#include "lua/bind/caller.h"
+
+#include <lauxlib.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#define MOST_CALLERS 6 /* told of a chain: the first ones and the last */
+#define MOST_CALLS 500 /* looked at for it: Lua counts them anew for each, from the innermost */
+
+/* The modules that are built in have these names: embed.c. */
+static bool is_own(const lua_Debug *info) {
+  static const char own[] = "@celspan/";
+  return strncmp(info->source, own, sizeof own - 1) == 0;
+}
+
+static bool get(lua_State *L, int level, lua_Debug *info) {
+  return lua_getstack(L, level, info) && lua_getinfo(L, "Sl", info);
+}
+
+static bool is_function(lua_State *L, lua_Debug *info, lua_CFunction function) {
+  lua_getinfo(L, "f", info);
+  bool is_same = lua_tocfunction(L, -1) == function;
+  lua_pop(L, 1);
+  return is_same;
+}
+
+/* ---------------------------------------------------------------- positions */
+
+static void push_position(lua_State *L, const lua_Debug *info) {
+  if (info->currentline > 0)
+    lua_pushfstring(L, "%s:%d: ", info->short_src, info->currentline);
+  else
+    lua_pushliteral(L, "");
+}
+
+bool cs_caller_find(lua_State *L, lua_Debug *out) {
+  for (int level = 1; get(L, level, out); level++)
+    if (out->currentline > 0 && !is_own(out))
+      return true;
+  return false;
+}
+
+int cs_caller_error(lua_State *L, const char *format, ...) {
+  lua_Debug info = {.source = "", .currentline = -1};
+  int level = 1;
+  while (get(L, level, &info) && is_own(&info))
+    level++;
+  push_position(L, &info);
+  va_list arguments;
+  va_start(arguments, format);
+  lua_pushvfstring(L, format, arguments);
+  va_end(arguments);
+  lua_concat(L, 2);
+  return lua_error(L);
+}
+
+void cs_caller_push_position(lua_State *L, lua_CFunction last) {
+  lua_Debug info;
+  for (int level = 1; get(L, level, &info) && !is_function(L, &info, last); level++)
+    if (info.currentline > 0 && !is_own(&info)) {
+      push_position(L, &info);
+      return;
+    }
+  lua_pushliteral(L, "");
+}
+
+/* ---------------------------------------------------------------- files */
+
+static bool is_file(const lua_Debug *info) {
+  return info->currentline > 0 && info->source[0] == '@' && !is_own(info);
+}
+
+const char *cs_caller_push_folder_of(lua_State *L, const char *path) {
+  const char *slash = strrchr(path, '/');
+  if (!slash)
+    return lua_pushliteral(L, "");
+  return lua_pushlstring(L, path, slash == path ? 1 : (size_t)(slash - path));
+}
+
+bool cs_caller_push_folder(lua_State *L) {
+  lua_Debug info;
+  for (int level = 1; get(L, level, &info); level++)
+    if (is_file(&info)) {
+      cs_caller_push_folder_of(L, info.source + 1);
+      return true;
+    }
+  return false;
+}
+
+/* ---------------------------------------------------------------- the chain */
+
+typedef struct place {
+  char text[LUA_IDSIZE + 16]; /* "shot.lua:40" */
+} place;
+
+static place place_of(const lua_Debug *info) {
+  place p;
+  snprintf(p.text, sizeof p.text, "%s:%d", info->short_src, info->currentline);
+  return p;
+}
+
+/* Whether a message begins with this place. */
+static bool is_at(const char *position, const place *p) {
+  size_t size = strlen(p->text);
+  return strncmp(position, p->text, size) == 0 && position[size] == ':';
+}
+
+/* The level of the next file's function from `level` on, below `last`; 0: there is none. */
+static int next_file(lua_State *L, int level, lua_CFunction last, lua_Debug *info) {
+  for (; level <= MOST_CALLS && get(L, level, info) && !is_function(L, info, last); level++)
+    if (is_file(info))
+      return level;
+  return 0;
+}
+
+/* The level after the one at `position`; where none is there, after the innermost one. */
+static int first_caller(lua_State *L, const char *position, lua_CFunction last) {
+  lua_Debug info;
+  int innermost = next_file(L, 1, last, &info);
+  for (int level = innermost; level; level = next_file(L, level + 1, last, &info)) {
+    place p = place_of(&info);
+    if (is_at(position, &p))
+      return level + 1;
+  }
+  return position[0] ? 1 : innermost + 1;
+}
+
+/* Appends to the text on top of the stack. */
+static void append(lua_State *L, const char *before, const char *text) {
+  lua_pushfstring(L, "%s%s", before, text);
+  lua_concat(L, 2);
+}
+
+void cs_caller_push_chain(lua_State *L, const char *position, lua_CFunction last) {
+  lua_Debug info;
+  place before = {""};
+  int count = 0;
+  luaL_checkstack(L, 6, "too many callers");
+  lua_pushliteral(L, "");
+  for (int level = next_file(L, first_caller(L, position, last), last, &info); level;
+       level = next_file(L, level + 1, last, &info)) {
+    place p = place_of(&info);
+    if (strcmp(p.text, before.text) == 0) /* a function that calls itself */
+      continue;
+    before = p;
+    if (++count < MOST_CALLERS)
+      append(L, count == 1 ? " (called from " : ", ", p.text);
+  }
+  if (count >= MOST_CALLERS)
+    append(L, count > MOST_CALLERS ? ", ..., " : ", ", before.text);
+  if (count)
+    append(L, ")", "");
+}
+
+/* ---------------------------------------------------------------- functions */
+
+void cs_caller_push_function(lua_State *L, int index) {
+  lua_Debug info;
+  lua_pushvalue(L, index);
+  lua_getinfo(L, ">S", &info);
+  if (info.linedefined > 0)
+    lua_pushfstring(L, "%s:%d: ", info.short_src, info.linedefined);
+  else
+    lua_pushliteral(L, "");
+}

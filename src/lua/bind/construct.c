@@ -1,0 +1,149 @@
+#include "lua/bind/construct.h"
+
+#include <lauxlib.h>
+
+#include "lua/bind/caller.h"
+#include "lua/bind/form.h"
+#include "lua/bind/host.h"
+#include "lua/bind/named.h"
+#include "lua/bind/userdata.h"
+
+/* Room for presets in the kept fields: more than this are added more slowly. */
+#define PRESETS 3
+
+/* ---------------------------------------------------------------- making */
+
+void cs_construct_push_fields(lua_State *L, const cs_noun *noun, int fields) {
+  cs_userdata_push_copy(L, fields, PRESETS);
+  cs_packed_set_presets(L, noun, lua_gettop(L));
+  if (noun->complete)
+    noun->complete(L, lua_gettop(L));
+}
+
+/* Gives the value on top of the stack a copy of the table at `fields`, with the presets. */
+static void freeze(lua_State *L, const cs_noun *noun, int fields) {
+  cs_construct_push_fields(L, noun, fields);
+  lua_setiuservalue(L, -2, 1);
+}
+
+/* like: whose line and name the value gets; NULL: the line of the caller. */
+static void make(lua_State *L, const cs_noun *noun, int fields, const cs_userdata *like) {
+  cs_form form = cs_form_open(L, noun, fields);
+  celspan_context *context = cs_host_context(L);
+  if (like)
+    cs_named_begin_as(context, like);
+  else
+    cs_named_begin(L, context);
+  cs_packed packed;
+  cs_packed_push_other(L, noun, form.table, &packed);
+  cs_userdata *value = cs_userdata_push_packed(L, noun, like && like->is_placed, &packed);
+  int place = lua_gettop(L);
+  noun->create(&form, value);
+  cs_named_end(context);
+  if (like)
+    cs_named_copy(L, like, value);
+  lua_settop(L, place);
+  lua_insert(L, place - 1);
+  if (packed.has_other && packed.size > 0)
+    lua_setiuservalue(L, -2, 1);
+  else
+    lua_pop(L, 1);
+  if (packed.size == 0)
+    freeze(L, noun, form.table);
+}
+
+void cs_construct_value(lua_State *L, const cs_noun *noun, int fields) {
+  make(L, noun, fields, NULL);
+}
+
+static int constructor(lua_State *L) {
+  cs_construct_value(L, lua_touserdata(L, lua_upvalueindex(1)), 1);
+  return 1;
+}
+
+void cs_construct_push(lua_State *L, const cs_noun *noun) {
+  lua_pushlightuserdata(L, (void *)noun);
+  lua_pushcclosure(L, constructor, 1);
+}
+
+/* ---------------------------------------------------------------- with */
+
+static void copy_into(lua_State *L, int from, int to) {
+  for (lua_pushnil(L); lua_next(L, from); lua_pop(L, 1)) {
+    lua_pushvalue(L, -2);
+    lua_pushvalue(L, -2);
+    lua_rawset(L, to);
+  }
+}
+
+static void clear_list(lua_State *L, int table) {
+  for (lua_Integer i = (lua_Integer)lua_rawlen(L, table); i >= 1; i--) {
+    lua_pushnil(L);
+    lua_rawseti(L, table, i);
+  }
+}
+
+static bool has(lua_State *L, int table, const char *name) {
+  lua_pushstring(L, name);
+  bool found = lua_rawget(L, table) != LUA_TNIL;
+  lua_pop(L, 1);
+  return found;
+}
+
+static void drop(lua_State *L, int table, const char *name) {
+  lua_pushstring(L, name);
+  lua_pushnil(L);
+  lua_rawset(L, table);
+}
+
+/* Of two fields that exclude each other the one that the changes do not name is removed. The kept
+ * fields of a value can have both, because the noun completes them: then the second is, if the
+ * changes name none. */
+static void drop_other(lua_State *L, const cs_noun *noun, int changes, int fields) {
+  const char *first = noun->either[0], *second = noun->either[1];
+  if (!first)
+    return;
+  if (has(L, changes, second)) {
+    drop(L, fields, first);
+  } else if (has(L, changes, first) || (has(L, fields, first) && has(L, fields, second))) {
+    drop(L, fields, second);
+    for (const char *const *name = noun->second; name && *name; name++)
+      drop(L, fields, *name);
+  }
+}
+
+/* Transforms and fades the value as `from` was after its constructor. */
+static void reapply(lua_State *L, const cs_userdata *from, cs_userdata *value) {
+  const cs_kind *kind = value->noun->kind;
+  celspan_context *context = cs_host_context(L);
+  const cs_placement placement = cs_userdata_placement(from);
+  void *changed = NULL;
+  if (!from->is_placed)
+    return;
+  cs_host_try(L, "with", kind->transform(context, value->handle, &placement.matrix, &changed));
+  kind->unref(value->handle);
+  value->handle = changed;
+  cs_host_try(L, "with", kind->fade(context, value->handle, placement.fade, &changed));
+  kind->unref(value->handle);
+  value->handle = changed;
+  cs_userdata_place(value, &placement);
+}
+
+int cs_construct_with(lua_State *L) {
+  const cs_userdata *self = cs_userdata_any(L, 1);
+  if (!self)
+    return cs_caller_error(L, "with: call it as a method, value:with{...}");
+  const cs_noun *noun = self->noun;
+  if (lua_type(L, 2) != LUA_TTABLE)
+    return cs_caller_error(L, "%s: with takes a table of changes, got %s", noun->name,
+                           cs_userdata_type(L, 2));
+  lua_settop(L, 2);
+  cs_userdata_push_fields(L, 1);
+  drop_other(L, noun, 2, 3);
+  if (noun->list == CS_LIST_ITEMS && lua_rawgeti(L, 2, 1) != LUA_TNIL)
+    clear_list(L, 3);
+  copy_into(L, 2, 3);
+  make(L, noun, 3, self);
+  reapply(L, self, lua_touserdata(L, -1));
+  return 1;
+}

@@ -1,0 +1,50 @@
+#include "lua/bind/files.h"
+
+#include <string.h>
+#include <unistd.h>
+
+#include "lua/bind/caller.h"
+#include "lua/bind/host.h"
+
+/* Replaces the folder on top of the stack by the file in it. */
+static const char *push_in_folder(lua_State *L, const char *name) {
+  const char *folder = lua_tostring(L, -1);
+  lua_pushfstring(L, "%s%s%s", folder, folder[0] && strcmp(folder, "/") != 0 ? "/" : "", name);
+  lua_remove(L, -2);
+  return lua_tostring(L, -1);
+}
+
+static bool exists(const char *path) { return access(path, F_OK) == 0; }
+
+const char *cs_files_find_from(lua_State *L, const char *folder, const char *name,
+                               const char **tried) {
+  bool is_relative = name[0] != '/';
+  const char *near = NULL;
+  if (is_relative && folder) {
+    lua_pushstring(L, folder);
+    near = push_in_folder(L, name);
+  }
+  const char *beside = is_relative && cs_host_push_folder(L) ? push_in_folder(L, name) : NULL;
+  if (!near && !beside)
+    near = lua_pushstring(L, name);
+  bool is_near = near && (!beside || strcmp(near, beside) == 0 || exists(near));
+  bool is_found = is_near || !near || exists(beside);
+  *tried = is_found ? NULL : beside;
+  const char *path = is_near || !is_found ? near : beside;
+  lua_pushstring(L, path);
+  lua_pushstring(L, *tried);
+  for (int i = !!near + !!beside; i > 0; i--)
+    lua_remove(L, -3);
+  *tried = lua_tostring(L, -1);
+  path = lua_tostring(L, -2);
+  cs_host_admit(L, path);
+  return path;
+}
+
+const char *cs_files_find(lua_State *L, const char *name, const char **tried) {
+  bool has_folder = cs_caller_push_folder(L);
+  const char *path = cs_files_find_from(L, has_folder ? lua_tostring(L, -1) : NULL, name, tried);
+  if (has_folder)
+    lua_remove(L, -3);
+  return path;
+}

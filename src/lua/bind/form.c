@@ -1,0 +1,236 @@
+#include "lua/bind/form.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "lua/bind/caller.h"
+#include "lua/bind/host.h"
+#include "lua/bind/numbers.h"
+#include "lua/bind/unknown.h"
+#include "lua/bind/userdata.h"
+
+#define MOST_ITEMS 10000000 /* of a list: times the size of one it fits into 32 bits */
+
+_Noreturn void cs_form_fail(const cs_form *form, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  const char *text = lua_pushvfstring(form->L, format, arguments);
+  va_end(arguments);
+  cs_caller_error(form->L, "%s: %s", form->noun->name, text);
+  for (;;) /* cs_caller_error does not return, though its declaration does not say so */
+    ;
+}
+
+const char *cs_form_digits(lua_State *L, double number) { return cs_numbers_digits(L, number); }
+
+void cs_form_try(const cs_form *form, celspan_status status) {
+  cs_host_try(form->L, form->noun->name, status);
+}
+
+/* ---------------------------------------------------------------- names */
+
+static bool is_known(const cs_noun *noun, const char *name) {
+  for (const cs_field *field = noun->fields; field->name; field = cs_field_next(field))
+    if (strcmp(field->name, name) == 0)
+      return true;
+  return false;
+}
+
+static void check_position(const cs_form *form, lua_Integer place, lua_Integer length) {
+  if (form->noun->list == CS_LIST_NONE)
+    cs_form_fail(form, "takes named fields only, but was given a value at place %I",
+                 (LUAI_UACINT)place);
+  if (place < 1 || place > length)
+    cs_form_fail(form, "there is a value at place %I of the list, but none at place %I",
+                 (LUAI_UACINT)place, (LUAI_UACINT)(length + 1));
+}
+
+/* Checks all names before any value, so that a mistyped name is what people read about. Of
+ * several unknown names the least is reported, whatever the order of the table. */
+static void check_names(const cs_form *form) {
+  lua_State *L = form->L;
+  lua_Integer length = (lua_Integer)lua_rawlen(L, form->table);
+  const char *unknown = NULL;
+  for (lua_pushnil(L); lua_next(L, form->table); lua_pop(L, 1)) {
+    if (lua_type(L, -2) == LUA_TSTRING) {
+      const char *name = lua_tostring(L, -2);
+      if (!is_known(form->noun, name) && (!unknown || strcmp(name, unknown) < 0))
+        unknown = name;
+    } else if (lua_isinteger(L, -2))
+      check_position(form, lua_tointeger(L, -2), length);
+    else
+      cs_form_fail(form, "a field's name must be a word, got %s", cs_userdata_type(L, -2));
+  }
+  if (unknown)
+    cs_unknown_fail(L, form->noun, form->table, unknown);
+}
+
+static void check_either(const cs_form *form) {
+  const char *const *either = form->noun->either;
+  if (either[0] && cs_form_has(form, either[0]) && cs_form_has(form, either[1]))
+    cs_form_fail(form, "give '%s' or '%s', not both", either[0], either[1]);
+  for (const char *const *name = form->noun->second; name && *name; name++)
+    if (cs_form_has(form, *name) && !cs_form_has(form, either[1]))
+      cs_form_fail(form, "field '%s' goes with '%s', which is not given", *name, either[1]);
+}
+
+cs_form cs_form_open(lua_State *L, const cs_noun *noun, int index) {
+  cs_form form = {L, noun, lua_absindex(L, index)};
+  luaL_checkstack(L, 40, noun->name);
+  if (lua_type(L, index) != LUA_TTABLE)
+    cs_form_fail(&form, "takes a table%s%s{ ... }, got %s", noun->kind ? ", " : " ",
+                 noun->kind ? noun->name : "", cs_userdata_type(L, index));
+  check_names(&form);
+  check_either(&form);
+  return form;
+}
+
+/* ---------------------------------------------------------------- fields */
+
+int cs_form_get(const cs_form *form, const char *name) {
+  lua_pushstring(form->L, name);
+  return lua_rawget(form->L, form->table);
+}
+
+bool cs_form_has(const cs_form *form, const char *name) {
+  bool found = cs_form_get(form, name) != LUA_TNIL;
+  lua_pop(form->L, 1);
+  return found;
+}
+
+/* ---------------------------------------------------------------- colours */
+
+/* Reads the value at index: a paint, or a string that names a colour. */
+static bool read_paint(lua_State *L, int index, celspan_paint *out) {
+  if (lua_type(L, index) == LUA_TSTRING)
+    return celspan_paint_parse(lua_tostring(L, index), out);
+  const cs_userdata *value = cs_userdata_test(L, index, &cs_kind_paint);
+  if (value)
+    *out = *(const celspan_paint *)cs_userdata_own(value);
+  return value != NULL;
+}
+
+static _Noreturn void fail_colour(const cs_form *form, const char *subject, const char *wanted) {
+  cs_form_fail(form, "%s must be %s, got %s", subject, wanted, cs_userdata_shown(form->L, -1));
+}
+
+celspan_texture *cs_form_texture(const cs_form *form, const char *name) {
+  lua_State *L = form->L;
+  cs_userdata *value = cs_userdata_test(L, -1, &cs_kind_texture);
+  if (!value)
+    value = cs_userdata_test(L, -1, &cs_kind_paint);
+  if (value)
+    return value->handle; /* the stack holds it */
+  celspan_paint paint;
+  if (!read_paint(L, -1, &paint)) {
+    const char *subject = lua_pushfstring(L, "field '%s'", name);
+    lua_insert(L, -2);
+    fail_colour(form, subject, "a paint, a texture or a colour like \"#rrggbb\"");
+  }
+  value = cs_userdata_push(L, &cs_noun_paint);
+  celspan_texture *texture = NULL;
+  cs_form_try(form, celspan_texture_create_paint(cs_host_context(L), &paint, &texture));
+  value->handle = texture;
+  return texture;
+}
+
+/* ---------------------------------------------------------------- lists */
+
+int cs_form_length(const cs_form *form) {
+  size_t length = lua_rawlen(form->L, form->table);
+  if (length > MOST_ITEMS)
+    cs_form_fail(form, "the list has %I items; at most %d are allowed", (LUAI_UACINT)length,
+                 MOST_ITEMS);
+  return (int)length;
+}
+
+void cs_form_item(const cs_form *form, int i, int type, const char *what, const char *shape) {
+  lua_State *L = form->L;
+  if (lua_rawgeti(L, form->table, i) != type)
+    cs_form_fail(form, "%s %d must be %s, got %s", what, i, shape, cs_userdata_type(L, -1));
+  bool is_empty = type == LUA_TTABLE && lua_rawlen(L, -1) == 0;
+  if (is_empty && cs_unknown_push_places(L, -1, shape))
+    cs_form_fail(form, "%s %d must be %s: %s", what, i, shape, lua_tostring(L, -1));
+}
+
+void *cs_form_scratch(lua_State *L, size_t count, size_t size) {
+  if (count > MOST_ITEMS)
+    cs_caller_error(L, "the list has %I items; at most %d are allowed", (LUAI_UACINT)count,
+                    MOST_ITEMS);
+  return lua_newuserdatauv(L, count ? count * size : 1, 0);
+}
+
+celspan_point *cs_form_points(const cs_form *form, int index, size_t count,
+                              const double **weights) {
+  lua_State *L = form->L;
+  int list = lua_absindex(L, index), most = weights ? 3 : 2;
+  celspan_point *points = cs_form_scratch(L, count, sizeof *points);
+  double *weight = weights ? cs_form_scratch(L, count, sizeof *weight) : NULL;
+  cs_numbers_name name = {.noun = form->noun->name,
+                          .whole = "point %d",
+                          .item = "point %d: its value %d",
+                          .shape = weights ? "{x, y} or {x, y, weight}" : "{x, y}"};
+  for (int i = 0; i < (int)count; i++) {
+    double n[3] = {0, 0, 1};
+    name.number = i + 1;
+    lua_rawgeti(L, list, i + 1);
+    bool has_weight = cs_numbers_read(L, -1, &name, 2, most, n) == 3;
+    points[i] = (celspan_point){n[0], n[1]};
+    if (weights)
+      weight[i] = n[2];
+    if (has_weight)
+      *weights = weight;
+    lua_pop(L, 1);
+  }
+  return points;
+}
+
+double *cs_form_array(const cs_form *form, const char *name, size_t *count) {
+  lua_State *L = form->L;
+  int type = cs_form_get(form, name), place = lua_gettop(L);
+  if (type == LUA_TNIL)
+    return NULL;
+  if (type != LUA_TTABLE)
+    cs_form_fail(form, "field '%s' must be an array of numbers, got %s", name,
+                 cs_userdata_type(L, -1));
+  *count = lua_rawlen(L, place);
+  const cs_numbers_name list = {.noun = form->noun->name, .field = name};
+  double *numbers = cs_form_scratch(L, *count, sizeof *numbers);
+  cs_numbers_read_all(L, place, &list, (int)*count, numbers);
+  return numbers;
+}
+
+double cs_form_tuple_number(const cs_form *form, int index, int i, const char *what, int item) {
+  lua_State *L = form->L;
+  bool good = lua_rawgeti(L, index, i) == LUA_TNUMBER && isfinite(lua_tonumber(L, -1));
+  const char *subject = good ? what : lua_pushfstring(L, "%s %d: its value %d", what, item, i);
+  double number = cs_numbers_check(L, good ? -1 : -2, form->noun->name, subject);
+  lua_pop(L, 1);
+  return number;
+}
+
+celspan_paint cs_form_tuple_paint(const cs_form *form, int index, int i, const char *what,
+                                  int item) {
+  lua_State *L = form->L;
+  index = lua_absindex(L, index);
+  const char *subject = NULL;
+  celspan_paint paint;
+  lua_rawgeti(L, index, i);
+  if (!read_paint(L, -1, &paint)) {
+    subject = lua_pushfstring(L, "%s %d: its value %d", what, item, i);
+    lua_insert(L, -2);
+    fail_colour(form, subject, "a paint or a colour like \"#rrggbb\"");
+  }
+  lua_pop(L, 1);
+  return paint;
+}
+
+double cs_form_argument(lua_State *L, int index, const char *function, const char *name) {
+  double number = cs_numbers_check(L, index, function, name);
+  if (fabs(number) > CS_NUMBER_LIMIT)
+    cs_caller_error(L, "%s: %s must be between -1e12 and 1e12, got %s", function, name,
+                    cs_form_digits(L, number));
+  return number;
+}

@@ -1,0 +1,61 @@
+/* Reading the table that a constructor is given: its names, its list, and values that a noun reads
+ * itself; fields.h reads those that are described by data. A fault is raised in one sentence, at the
+ * caller's line.
+ *
+ * INVARIANT: reading is raw (no metamethods run), so nothing a script does can change a table while
+ * it is read. Scratch memory belongs to Lua and stays on the stack until the constructor returns,
+ * so that an error at any point leaks nothing.
+ */
+#ifndef CS_BIND_FORM_H
+#define CS_BIND_FORM_H
+
+#include <lauxlib.h>
+
+#include "lua/bind/noun.h"
+
+typedef struct cs_form {
+  lua_State *L;
+  const cs_noun *noun;
+  int table; /* absolute index */
+} cs_form;
+
+/* Checks that the value at index is a table that has no unknown fields and no holes in its list. */
+cs_form cs_form_open(lua_State *L, const cs_noun *noun, int index);
+/* Raises "noun: ..." with the formats of lua_pushfstring. */
+_Noreturn void cs_form_fail(const cs_form *form, const char *format, ...);
+/* Pushes a number as messages show it: a whole number has no point. */
+const char *cs_form_digits(lua_State *L, double number);
+/* Raises the core's refusal unless the status is OK. */
+void cs_form_try(const cs_form *form, celspan_status status);
+
+/* Pushes a field, raw; its type. */
+int cs_form_get(const cs_form *form, const char *name);
+bool cs_form_has(const cs_form *form, const char *name);
+/* A texture, a paint or a colour like "#rrggbb": the value on top of the stack, the field `name`.
+ * Borrowed from a value that is left on the stack. */
+celspan_texture *cs_form_texture(const cs_form *form, const char *name);
+
+/* The array part. */
+int cs_form_length(const cs_form *form);
+/* Pushes item i; raises unless its type is `type`. what: "point", "stop". */
+void cs_form_item(const cs_form *form, int i, int type, const char *what, const char *shape);
+/* Points {x, y} of the table at index, or {x, y, w} where weights is not NULL. New scratch memory,
+ * left on the stack. *weights stays NULL when every weight is left out. */
+celspan_point *cs_form_points(const cs_form *form, int index, size_t count, const double **weights);
+/* The numbers of an array field as scratch memory on the stack; NULL when missing. */
+double *cs_form_array(const cs_form *form, const char *name, size_t *count);
+
+/* Numbers and paints in tuples such as {at, paint}: value number `i` of the table at index. what,
+ * item: what the tuple is, for the message "stop 2". */
+double cs_form_tuple_number(const cs_form *form, int index, int i, const char *what, int item);
+celspan_paint cs_form_tuple_paint(const cs_form *form, int index, int i, const char *what,
+                                  int item);
+
+/* A plain argument of a function or method that must be a number within 1e12. Raises "function:
+ * name must be a number, got ...". */
+double cs_form_argument(lua_State *L, int index, const char *function, const char *name);
+
+/* count items of `size` bytes, owned by Lua, pushed. */
+void *cs_form_scratch(lua_State *L, size_t count, size_t size);
+
+#endif

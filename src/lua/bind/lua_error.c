@@ -1,0 +1,113 @@
+#include "lua/bind/lua_error.h"
+
+#include <lauxlib.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "lua/bind/caller.h"
+#include "lua/bind/host.h"
+#include "lua/bind/userdata.h"
+
+/* ---------------------------------------------------------------- messages */
+
+size_t cs_lua_error_position(const char *message) {
+  for (const char *colon = strchr(message, ':'); colon; colon = strchr(colon + 1, ':')) {
+    size_t digits = strspn(colon + 1, "0123456789");
+    if (digits && strncmp(colon + 1 + digits, ": ", 2) == 0)
+      return (size_t)(colon + 1 + digits + 2 - message);
+  }
+  return 0;
+}
+
+/* A frame that is built inside a frame has put its callers into the message already. */
+static void push_chain(lua_State *L, const char *message, const char *position) {
+  if (strstr(message, " (called from "))
+    lua_pushliteral(L, "");
+  else
+    cs_caller_push_chain(L, position, lua_tocfunction(L, lua_upvalueindex(2)));
+}
+
+/* The message handler. A message without a position gets that of the innermost function of a
+ * script. A frame that is built inside a frame has put its label into the message already. */
+static int handle_error(lua_State *L) {
+  lua_settop(L, 1);
+  const char *message = lua_type(L, 1) == LUA_TSTRING ? lua_tostring(L, 1) : NULL;
+  if (!message)
+    message = lua_pushfstring(L, "the error is not a message: %s", cs_userdata_type(L, 1));
+  const char *label = lua_tostring(L, lua_upvalueindex(1));
+  if (strstr(message, label))
+    label = "";
+  size_t position = cs_lua_error_position(message);
+  if (position)
+    lua_pushlstring(L, message, position);
+  else
+    cs_caller_push_position(L, lua_tocfunction(L, lua_upvalueindex(2)));
+  const char *where = lua_tostring(L, -1);
+  lua_pushfstring(L, "%s%s", label, message + position);
+  push_chain(L, message, where);
+  lua_concat(L, 3);
+  return 1;
+}
+
+void cs_lua_error_push_handler(lua_State *L, const char *label, lua_CFunction last) {
+  lua_pushstring(L, label);
+  lua_pushcfunction(L, last);
+  lua_pushcclosure(L, handle_error, 2);
+}
+
+/* function, arguments -> results. Runs protected. */
+static int call_handled(lua_State *L) {
+  cs_lua_error_push_handler(L, "", lua_tocfunction(L, 1));
+  lua_insert(L, 1);
+  if (lua_pcall(L, lua_gettop(L) - 2, LUA_MULTRET, 1) != LUA_OK)
+    return lua_error(L);
+  return lua_gettop(L) - 1;
+}
+
+int cs_lua_error_call(lua_State *L, int arguments, int results) {
+  lua_pushcfunction(L, call_handled);
+  lua_insert(L, -2 - arguments);
+  return lua_pcall(L, arguments + 1, results, 0);
+}
+
+bool cs_lua_error_is_memory(lua_State *L, int outcome) {
+  const char *message = lua_tostring(L, -1);
+  return outcome == LUA_ERRMEM || (message && strcmp(message, "not enough memory") == 0);
+}
+
+/* ---------------------------------------------------------------- the context's sentence */
+
+/* The status of the failure whose message is on top of the stack. */
+static celspan_status status_of(lua_State *L, int outcome) {
+  const char *message = lua_tostring(L, -1);
+  return cs_lua_error_is_memory(L, outcome) ? CELSPAN_NO_MEMORY
+         : message                          ? cs_host_blame(L, message)
+                                            : CELSPAN_CALLBACK;
+}
+
+celspan_status cs_lua_error_report_as(lua_State *L, celspan_status status) {
+  const char *message = lua_tostring(L, -1);
+  char copy[1024]; /* the message may quote the sentence that is about to be replaced */
+  snprintf(copy, sizeof copy, "%s", message ? message : "the error is not a message");
+  lua_pop(L, 1);
+  return celspan_context_fail(cs_host_context(L), status, "%s", copy);
+}
+
+bool cs_lua_error_is_limit(lua_State *L, int outcome) {
+  const cs_host_rules *rules = cs_host_get(L)->rules;
+  const char *message = lua_tostring(L, -1);
+  if (cs_lua_error_is_memory(L, outcome))
+    outcome = LUA_ERRMEM;
+  const char *sentence = rules ? rules->limit(rules->user, outcome, message) : NULL;
+  if (sentence && (!message || !strstr(message, sentence))) {
+    lua_pop(L, 1);
+    lua_pushstring(L, sentence);
+  }
+  return sentence != NULL;
+}
+
+celspan_status cs_lua_error_report(lua_State *L, int outcome) {
+  if (cs_lua_error_is_limit(L, outcome))
+    return cs_lua_error_report_as(L, CELSPAN_LIMIT);
+  return cs_lua_error_report_as(L, status_of(L, outcome));
+}

@@ -1,0 +1,132 @@
+/* The values that Lua scripts make, as data.
+ *
+ *   noun    what a constructor makes ("circle"), or a table of options ("camera")
+ *   field   a named field of its table: how it is read, and what people need to know about it
+ *   kind    what can be done with a value ("object"): one metatable each
+ *
+ * Everything that is known about a field is in its row: cs_fields_read fills the description of the
+ * core from the rows, messages and :with use them, and cs_describe_push gives them to the Lua
+ * module that prints `celspan help lua` and the annotations for editors, lua/celspan.d.lua.
+ */
+#ifndef CS_BIND_NOUN_H
+#define CS_BIND_NOUN_H
+
+#include <lauxlib.h>
+#include <stddef.h>
+
+#include "base/number.h"
+#include "celspan/celspan.h"
+
+struct cs_userdata;
+struct cs_form;
+
+typedef struct cs_kind {
+  const char *name; /* of the metatable, "celspan.object" */
+  void (*unref)(void *handle);
+  /* The name of a value, and the line that made it; NULL: values of this kind have none. */
+  celspan_status (*named)(celspan_context *context, void *handle, const char *name, void **out);
+  const char *(*name_of)(const void *handle);
+  celspan_origin (*origin_of)(const void *handle);
+  /* NULL: values of this kind have no place. */
+  celspan_status (*transform)(celspan_context *context, void *handle, const celspan_matrix *matrix,
+                              void **out);
+  celspan_status (*fade)(celspan_context *context, void *handle, double k, void **out);
+  celspan_status (*bounds)(celspan_context *context, const void *handle, bool *is_there,
+                           celspan_box *out);
+  bool (*contains)(const void *handle, celspan_point point);
+  const luaL_Reg *methods, *operators; /* operators NULL: none */
+  size_t own_size; /* bytes that a value has of its own: a paint's numbers, a frame's seed */
+  int kept;        /* user values of a value in addition to its fields, which are the first */
+} cs_kind;
+
+/* What a field is in the description that it is read into. */
+typedef enum cs_type {
+  CS_TYPE_OWN,     /* the noun reads it itself */
+  CS_TYPE_NUMBER,  /* double */
+  CS_TYPE_WHOLE,   /* int */
+  CS_TYPE_FLAG,    /* bool */
+  CS_TYPE_CHOICE,  /* an enum: the place of a word among the choices */
+  CS_TYPE_TEXT,    /* const char *, borrowed from a value that is left on the stack */
+  CS_TYPE_NUMBERS, /* `count` doubles: an array, a celspan_point, a celspan_box */
+  CS_TYPE_PIXELS,  /* `count` int32_t */
+  CS_TYPE_TEXTURE  /* celspan_texture *, borrowed from a value that is left on the stack */
+} cs_type;
+
+typedef struct cs_field {
+  const char *name;
+  cs_type type;
+  bool is_required;
+  bool is_above;      /* the range is without its least value */
+  uint16_t at;        /* offset in the description */
+  uint16_t has;       /* offset of a bool that is set if the field is given; 0: there is none */
+  uint16_t count;     /* NUMBERS and PIXELS: how many */
+  double least, most; /* the range; equal: any number within 1e12 */
+  const char *preset; /* what it reads as when it was left out, a number or a word; NULL: nil */
+  const char *const *choices; /* CHOICE: the words, ended by NULL; the first one is the default */
+  const char *shape;          /* NUMBERS: "a point {x, y}"; NULL: "an array of 9 numbers" */
+  const char *written;        /* its type in annotations; NULL: that of `type` */
+  const char *read; /* its type in a value, where the value always has it but not as it was given */
+  const char *about;           /* for people, without its range and default; NULL: nothing to say */
+  const char *fallback;        /* for people: what is used if it is left out and has no preset */
+  const struct cs_field *more; /* of the row without a name, which ends the fields: a group of
+                                * fields that several nouns share and that follows; NULL: none */
+} cs_field;
+
+/* The fields of a noun: for (field = noun->fields; field->name; field = cs_field_next(field)) */
+static inline const cs_field *cs_field_next(const cs_field *field) {
+  return field[1].name || !field[1].more ? field + 1 : field[1].more;
+}
+
+/* The offset of a member, which must have this type. */
+#define CS_MEMBER(desc, member, type)                                                              \
+  (offsetof(desc, member) + 0 * sizeof(_Generic(((desc *)0)->member, type : 0)))
+#define CS_NUMBER(desc, member) .type = CS_TYPE_NUMBER, .at = CS_MEMBER(desc, member, double)
+#define CS_WHOLE(desc, member) .type = CS_TYPE_WHOLE, .at = CS_MEMBER(desc, member, int)
+#define CS_FLAG(desc, member) .type = CS_TYPE_FLAG, .at = CS_MEMBER(desc, member, bool)
+#define CS_CHOICE(desc, member, words)                                                             \
+  .type = CS_TYPE_CHOICE, .at = offsetof(desc, member), .choices = (words)
+#define CS_TEXT(desc, member) .type = CS_TYPE_TEXT, .at = CS_MEMBER(desc, member, const char *)
+#define CS_NUMBERS(desc, member)                                                                   \
+  .type = CS_TYPE_NUMBERS, .at = offsetof(desc, member),                                           \
+  .count = sizeof(((desc *)0)->member) / sizeof(double)
+#define CS_POINT(desc, member)                                                                     \
+  CS_NUMBERS(desc, member), .shape = "a point {x, y}", .written = "celspan.point"
+#define CS_SIZE(desc, member) CS_NUMBERS(desc, member), .shape = "a size {w, h}"
+#define CS_BOX(desc, member) CS_NUMBERS(desc, member), .shape = "a box {x, y, w, h}"
+#define CS_PIXELS(desc, member)                                                                    \
+  .type = CS_TYPE_PIXELS, .at = offsetof(desc, member),                                            \
+  .count = sizeof(((desc *)0)->member) / sizeof(int32_t)
+#define CS_SURFACE(desc, member)                                                                   \
+  .type = CS_TYPE_TEXTURE, .at = CS_MEMBER(desc, member, celspan_texture *)
+#define CS_TEXTURE(desc, member) "texture", CS_SURFACE(desc, member), .preset = "#000000"
+#define CS_OWN(type) .written = (type)
+#define CS_FROM(low) .least = (low), .most = CS_NUMBER_LIMIT
+#define CS_ABOVE_0 .is_above = true, .most = CS_NUMBER_LIMIT
+#define CS_HAS(desc, member) .has = CS_MEMBER(desc, member, bool)
+
+/* What the array part of the table holds. */
+typedef enum cs_list {
+  CS_LIST_NONE,
+  CS_LIST_TUPLE, /* a fixed number of values: :with changes them one by one */
+  CS_LIST_ITEMS  /* any number of items: :with{a, b} replaces them all */
+} cs_list;
+
+typedef struct cs_noun {
+  const char *name;
+  const char *about;   /* what it makes, a sentence */
+  const char *table;   /* what annotations call its table; NULL: "celspan.NAME.fields" */
+  const cs_kind *kind; /* NULL: a table of options, not a value */
+  cs_list list;
+  const char *item;          /* "object": one of them; NULL without a list */
+  const char *item_written;  /* the type of an item in annotations */
+  const char *item_about;    /* what the items are, for people; NULL: nothing to say */
+  const cs_field *fields;    /* ended by a row without a name */
+  const char *places;        /* TUPLE: "{x, y, w, h}" for messages; NULL: they have no names */
+  const char *either[2];     /* fields of which only one may be given; NULL: none */
+  const char *const *second; /* fields that go with either[1] alone, ended by NULL; NULL: none */
+  void (*create)(const struct cs_form *form, struct cs_userdata *value);
+  /* Adds fields that follow from others; NULL: none. */
+  void (*complete)(lua_State *L, int fields);
+} cs_noun;
+
+#endif

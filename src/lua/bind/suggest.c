@@ -1,0 +1,92 @@
+#include "lua/bind/suggest.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+#define LONGEST 32
+
+static int least(int a, int b, int c) {
+  int m = a < b ? a : b;
+  return m < c ? m : c;
+}
+
+int cs_suggest_distance(const char *a, const char *b) {
+  size_t m = strlen(a), n = strlen(b);
+  if (m > LONGEST || n > LONGEST)
+    return 99;
+  int d[LONGEST + 1][LONGEST + 1];
+  for (size_t i = 0; i <= m; i++)
+    d[i][0] = (int)i;
+  for (size_t j = 0; j <= n; j++)
+    d[0][j] = (int)j;
+  for (size_t i = 1; i <= m; i++)
+    for (size_t j = 1; j <= n; j++) {
+      d[i][j] = least(d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1]));
+      bool is_swap = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (is_swap && d[i - 2][j - 2] + 1 < d[i][j])
+        d[i][j] = d[i - 2][j - 2] + 1;
+    }
+  return d[m][n];
+}
+
+/* Words that people bring along from elsewhere, where the one meant has other letters. */
+static const char *const others[][2] = {
+    {"color", "texture"},
+    {"colour", "texture"},
+    {"fill", "texture"},
+    {"paint", "texture"},
+    {"r", "radius"},
+    {"center", "centre"},
+    {"width", "w"},
+    {"height", "h"},
+    {"path", "file"},
+    {"filename", "file"},
+    {"name", "file"},
+    {"src", "file"},
+    {"alpha", "opacity"},
+    {"blur", "defocus"},
+    {"angle", "rotate"},
+    {"rotation", "rotate"},
+    {"background", "back"},
+    {"light", "front"},
+    {"interpolation", "sampling"},
+    {"filter", "antialias"},
+    {"fillrule", "rule"},
+    {"fill_rule", "rule"},
+    {"move", "translate"},
+    {"length", "duration"},
+    {"count", "frames"},
+    {"threads", "workers"},
+};
+
+static const char *find(const char *name, const char *const *names, size_t count) {
+  for (size_t i = 0; i < count; i++)
+    if (strcmp(names[i], name) == 0)
+      return names[i];
+  return NULL;
+}
+
+/* The known name that another word stands for. */
+static const char *find_other(const char *word, const char *const *names, size_t count) {
+  const char *found = NULL;
+  for (size_t i = 0; !found && i < sizeof others / sizeof *others; i++)
+    if (strcmp(others[i][0], word) == 0)
+      found = find(others[i][1], names, count);
+  return found;
+}
+
+const char *cs_suggest_name(const char *word, const char *const *names, size_t count) {
+  const char *other = find_other(word, names, count);
+  if (other)
+    return other;
+  const char *best = NULL;
+  int best_distance = (int)strlen(word) <= 4 ? 2 : 3; /* one slip in a short word, two in a long */
+  for (size_t i = 0; i < count; i++) {
+    int d = cs_suggest_distance(word, names[i]);
+    if (d < best_distance) {
+      best = names[i];
+      best_distance = d;
+    }
+  }
+  return best;
+}

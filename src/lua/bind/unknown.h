@@ -1,0 +1,25 @@
+/* Names that a noun does not have: what was probably meant.
+ *
+ *   circle: unknown field 'raduis'; did you mean 'radius'?
+ *   rect: write rect{ 1, 2, 3, 4 }, not rect{ x = 1, y = 2, w = 3, h = 4 }
+ *   circle: unknown field 'x'; write centre = {10, 20}, not x = 10, y = 20
+ */
+#ifndef CS_BIND_UNKNOWN_H
+#define CS_BIND_UNKNOWN_H
+
+#include <lua.h>
+
+#include "lua/bind/noun.h"
+
+/* Raises what there is to say about a field of the table at `table` that the noun does not have. */
+_Noreturn void cs_unknown_fail(lua_State *L, const cs_noun *noun, int table, const char *name);
+/* Raises that a noun has no such name: of the `count` names that it has, the nearest is told, or
+ * all of them. */
+_Noreturn void cs_unknown_fail_name(lua_State *L, const char *noun, const char *name,
+                                    const char *const *names, size_t count);
+
+/* places: "{x, y}". Pushes "write {10, 20}, not {x = 10, y = 20}" if the table at index names one
+ * of these places; else false, and nothing is pushed. */
+bool cs_unknown_push_places(lua_State *L, int index, const char *places);
+
+#endif

@@ -1,0 +1,96 @@
+/* Values: full userdata that hold a reference to something in the core, and the fields they were
+ * made from.
+ *
+ *   [ noun, handle | the kind's own | placement | packed fields ]   and user value 1
+ *                                     only of     only where they fit; else a table is user value 1
+ *                                     values that were placed
+ *
+ * INVARIANT: a userdata is made closed (handle NULL), then filled; __gc releases it, and no script
+ * can call it, because __metatable hides the metatables. Its user value
+ * is a table that no script can reach: fields that are read come out as copies. Chains of an
+ * operator share a table of operands, of which each shows the first ones.
+ */
+#ifndef CS_BIND_USERDATA_H
+#define CS_BIND_USERDATA_H
+
+#include <lauxlib.h>
+
+#include "lua/bind/noun.h"
+#include "lua/bind/packed.h"
+
+typedef struct cs_userdata {
+  const cs_noun *noun;
+  void *handle;    /* a reference to something in the core; NULL: closed, or a noun without one */
+  int32_t shown;   /* of the operands in a table that chains share; 0: not shared */
+  uint16_t packed; /* bytes of its packed fields; 0: they are a table */
+  bool is_chain;   /* made by an operator and not touched since: the next one flattens it */
+  bool is_placed;  /* there is room for a placement */
+} cs_userdata;
+
+/* What was applied to an object or a cel since its constructor, for :with. */
+typedef struct cs_placement {
+  celspan_matrix matrix;
+  double fade;
+} cs_placement;
+
+extern const cs_noun cs_noun_paint, cs_noun_rostrum, cs_noun_rostrum_object, cs_noun_film;
+extern const cs_kind cs_kind_paint, cs_kind_texture, cs_kind_object, cs_kind_cel, cs_kind_rostrum,
+    cs_kind_film, cs_kind_frame;
+extern const cs_kind *const cs_kinds[]; /* all of them, ended by NULL */
+
+/* Makes the metatable of a kind: its operators, and __index, __newindex, __tostring, __gc,
+ * __metatable and __name. */
+void cs_userdata_register(lua_State *L, const cs_kind *kind);
+
+/* Pushes a closed value. */
+cs_userdata *cs_userdata_push(lua_State *L, const cs_noun *noun);
+/* The same, with room for a placement, and with packed fields, of which the value of another type is
+ * still to be set as user value 1. A size of 0: the fields will be a table. */
+cs_userdata *cs_userdata_push_packed(lua_State *L, const cs_noun *noun, bool is_placed,
+                                     const cs_packed *packed);
+/* What the kind says a value has of its own: kind->own_size bytes, zeros at first. */
+void *cs_userdata_own(const cs_userdata *value);
+/* No transform and no fade where it was not placed. */
+cs_placement cs_userdata_placement(const cs_userdata *value);
+/* Of a value with room for it. */
+void cs_userdata_place(cs_userdata *value, const cs_placement *placement);
+/* Pushes a copy of the fields of the value at `index`. */
+void cs_userdata_push_fields(lua_State *L, int index);
+/* Pushes the table of fields of the value at `index`, which must not be changed, or nil. */
+void cs_userdata_push_kept(lua_State *L, int index);
+/* Pushes a closed value that is else like the one at index: noun, fields, placement, and what its kind
+ * has. is_placed: with room for a placement in any case. */
+cs_userdata *cs_userdata_push_like(lua_State *L, int index, bool is_placed);
+/* Pushes a copy of the table at `table`, with the tables in it, that has room for `more` fields. */
+void cs_userdata_push_copy(lua_State *L, int table, int more);
+
+/* The value at index if it is of this kind, else NULL. Raises when it is closed. */
+cs_userdata *cs_userdata_test(lua_State *L, int index, const cs_kind *kind);
+/* The value at index, of any kind that constructors make (frames are not), else NULL. The kind is
+ * told by the identity of its metatable, never by what a metatable says. */
+cs_userdata *cs_userdata_any(lua_State *L, int index);
+/* The `self` of a method; raises when it is not of this kind. */
+cs_userdata *cs_userdata_self(lua_State *L, const cs_kind *kind, const char *method);
+
+/* Pushes what the value at index is, for messages: "a circle", "number". */
+const char *cs_userdata_type(lua_State *L, int index);
+/* Pushes the same, but of a string its beginning, in quotes and without control characters. */
+const char *cs_userdata_shown(lua_State *L, int index);
+
+/* ---------------------------------------------------------------- holders */
+
+/* A holder keeps what C holds while Lua runs, and releases it in any case: a call that fails leaves
+ * by a long jump, and no C code after it is run.
+ *
+ *   holder = cs_userdata_push_holder(L, "celspan.painting", sizeof *holder, release)
+ *   *holder = what was made             the collector calls release(L) with it as argument 1
+ *
+ * INVARIANT: a metatable is in the registry whole or not at all, so that one whose making failed for
+ * want of memory is made again. Scripts can neither read nor change it.
+ */
+
+/* Pushes zeroed memory with one user value, whose finaliser is `release`: the same one for all of
+ * a kind. Raises an error when out of memory. */
+void *cs_userdata_push_holder(lua_State *L, const char *kind, size_t size, lua_CFunction release);
+
+#endif

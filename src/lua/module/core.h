@@ -1,0 +1,127 @@
+/* The functions of the module celspan, and those of celspan.core, of which celspan's own Lua modules
+ * are made; scripts do not see the latter. A function that can fail returns nil and a message.
+ */
+#ifndef CS_MODULE_CORE_H
+#define CS_MODULE_CORE_H
+
+#include <lua.h>
+
+/* ---------------------------------------------------------------- celspan */
+
+int cs_render_make(lua_State *L); /* (film or rostrum, pattern [, options]) */
+int cs_pixels_make(lua_State *L); /* (what [, options]) */
+int cs_spans_make(lua_State *L);  /* (what [, options]) */
+int cs_spans_probe(lua_State *L); /* (what, x, y [, options]) */
+/* Makes the metatable of the images of celspan.pixels. */
+void cs_pixels_open(lua_State *L);
+
+/* ---------------------------------------------------------------- built-in Lua modules */
+
+/* Puts them into package.preload. */
+void cs_embedded_open(lua_State *L);
+/* (name) -> the source of a module, for celspan.manual */
+int cs_embedded_source(lua_State *L);
+
+/* ---------------------------------------------------------------- files */
+
+/* (path) -> the names of the files of a folder | nil, message */
+int cs_folders_names(lua_State *L);
+/* (folder, name) -> path | nil: the file does not exist, or is outside the folder */
+int cs_folders_within(lua_State *L);
+/* (pattern [, list]) -> the numbers of the files of a pattern such as walk.####.png that exist, or
+ * those of a list | nil, message */
+int cs_folders_frames(lua_State *L);
+/* (pattern, number) -> the name of a file | nil, message */
+int cs_folders_frame_name(lua_State *L);
+
+/* ---------------------------------------------------------------- layered documents */
+
+/* (path) -> { width =, height =, layers = {...}, notes = {...} } | nil, message
+ *
+ *   layers[i]: name, blend, parent (its place, or nil), group, visible, opacity, x, y, width, height,
+ *              and pixels: a value that celspan.image accepts as `pixels`
+ *   notes[i]:  layer (its place), what */
+int cs_painting_read(lua_State *L);
+
+/* ---------------------------------------------------------------- SVG */
+
+/* Adds read_svg to the table on top of the stack, for lua/celspan/svg.lua. */
+void cs_drawing_open(lua_State *L);
+
+/* ---------------------------------------------------------------- tracing */
+
+/* (path, { colours = n | { "#rrggbb", ... }, smooth =, speckle =, lines = })
+ *   -> { width =, height =, shapes = {...} } | nil, message
+ *
+ *   shapes[i]: colour ("#rrggbb"), x, y, area, and d, or points ({ x, y, width }) and closed */
+int cs_tracing_make(lua_State *L);
+/* (path, options as for cs_tracing_make, output) -> true | nil, message. Writes SVG, or a script
+ * where the name of the output ends in .lua. */
+int cs_tracing_write(lua_State *L);
+
+/* ---------------------------------------------------------------- tracking */
+
+/* (bytes, width, height, model, {x, y, w, h} [, mask]) -> tracker | nil, message. bytes: RGBA in
+ * 16-bit codes; mask: the same; its alpha covers the region; model: from 0. */
+int cs_track_tracker(lua_State *L);
+/* (tracker, bytes, width, height) -> {matrix}, corners, agreeing, error | nil, message; nil alone:
+ * lost */
+int cs_track_follow(lua_State *L);
+/* (tracker): back to the first frame */
+int cs_track_rewind(lua_State *L);
+/* (matrix) -> the inverse of nine numbers | nil */
+int cs_track_inverse(lua_State *L);
+
+/* ---------------------------------------------------------------- relighting */
+
+/* A light field in Lua is {r, g, b}, and if it is uneven `terms`, three lists of nine numbers. */
+
+/* (texture) -> its width and height in pixels */
+int cs_relight_size(lua_State *L);
+/* (texture, clue, {r, g, b}, {x, y, w, h} | nil, is_uneven, blank | nil) -> field */
+int cs_relight_estimate(lua_State *L);
+/* (texture, field) -> texture */
+int cs_relight_picture(lua_State *L);
+/* (front, field, back, field) -> texture */
+int cs_relight_exposures(lua_State *L);
+/* (picture, ground, picture, ground, field) -> texture; a ground is a texture or {r, g, b} */
+int cs_relight_grounds(lua_State *L);
+/* (field, width, height) -> texture */
+int cs_relight_shape(lua_State *L);
+/* (texture, path) -> true */
+int cs_relight_write(lua_State *L);
+/* (path) -> texture, looked for as pictures are */
+int cs_relight_read(lua_State *L);
+
+/* ---------------------------------------------------------------- frames by their lights */
+
+/* The lights of a stack are a list with eight numbers for each: r, g, b, a of its front and of its
+ * back. The first is that of the rostrum itself. */
+
+/* (rostrum or film, options) -> stack, { cels = {{ name =, has_front = }, ...}, brightness =,
+ * width =, height =, bytes = } */
+int cs_stack_make(lua_State *L);
+/* (stack) -> the lights of the rostrum */
+int cs_stack_lights(lua_State *L);
+/* (stack, lights) -> image */
+int cs_stack_light(lua_State *L);
+
+/* ---------------------------------------------------------------- comparing */
+
+/* (first, second, width, tolerance): two strings of RGBA codes, 8 bits, sRGB, straight alpha, rows
+ * of `width` pixels -> count, largest, x, y, channel, picture
+ *
+ * count: the pixels in which a code differs by more than the tolerance, 0..1; largest: the largest
+ * difference, at x, y; picture: the codes of output/sinks/difference.h. For equal strings only 0 is
+ * returned. The colour under an alpha of 0 does not count. */
+int cs_difference_of(lua_State *L);
+
+/* ---------------------------------------------------------------- parts of frames */
+
+/* (rostrum or {{rostrum, weight}, ...}) -> { { kind =, name =, drawing =, placement =,
+ * procedure = }, ... }: every named cel and object as often as it occurs, rearmost first, and the
+ * cels without a name, which are named by their places. drawing, placement: hashes, as strings of
+ * 16 bytes; procedure: true if they cannot be compared. */
+int cs_parts_list(lua_State *L);
+
+#endif

@@ -1,0 +1,141 @@
+/* What hosts that embed Lua see of it: celspan/lua.h.
+ *
+ * INVARIANT: everything that may raise, and that is nearly every call into Lua, because it may need
+ * memory, runs protected; the stack is left as it was.
+ */
+#include <lauxlib.h>
+
+#include "celspan/lua.h"
+#include "lua/bind/host.h"
+#include "lua/bind/lua_error.h"
+#include "lua/bind/userdata.h"
+#include "lua/nouns/lua_film.h"
+
+/* ---------------------------------------------------------------- opening */
+
+typedef struct opening {
+  celspan_context *context;
+  celspan_status status;
+} opening;
+
+/* light userdata: an opening. Runs protected. */
+static int open_celspan(lua_State *L) {
+  opening *o = lua_touserdata(L, 1);
+  cs_host_open(L, o->context);
+  if (o->context && cs_host_context(L) != o->context) {
+    o->status = celspan_context_fail(o->context, CELSPAN_BAD_ARGUMENT,
+                                     "celspan is open in this Lua state with another context");
+    return 0;
+  }
+  luaL_requiref(L, "celspan", luaopen_celspan, 0);
+  return 0;
+}
+
+celspan_status celspan_lua_open(lua_State *L, celspan_context *context) {
+  opening o = {context, CELSPAN_OK};
+  if (!lua_checkstack(L, 2))
+    return context ? cs_fail(context, CELSPAN_LIMIT, "Lua's stack is full") : CELSPAN_LIMIT;
+  lua_pushcfunction(L, open_celspan);
+  lua_pushlightuserdata(L, &o);
+  if (lua_pcall(L, 1, 0, 0) == LUA_OK)
+    return o.status;
+  const char *message = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "no message";
+  if (context)
+    cs_fail(context, CELSPAN_NO_MEMORY, "celspan could not be opened: %s", message);
+  lua_pop(L, 1);
+  return CELSPAN_NO_MEMORY;
+}
+
+celspan_context *celspan_lua_context(lua_State *L) {
+  const cs_host *host = lua_checkstack(L, 1) ? cs_host_find(L) : NULL;
+  return host ? host->context : NULL;
+}
+
+/* ---------------------------------------------------------------- values */
+
+/* Calls the function protected, with the value at index and `user`; `results` values are left on the
+ * stack when it goes well, and else the sentence is in the context. */
+static celspan_status visit(lua_State *L, int index, lua_CFunction function, void *user,
+                            int results) {
+  index = lua_absindex(L, index);
+  const cs_host *host = lua_checkstack(L, 4) ? cs_host_find(L) : NULL;
+  if (!host)
+    return CELSPAN_BAD_ARGUMENT;
+  lua_pushcfunction(L, function);
+  lua_pushvalue(L, index);
+  lua_pushlightuserdata(L, user);
+  int outcome = lua_pcall(L, 2, results, 0);
+  return outcome == LUA_OK       ? CELSPAN_OK
+         : outcome == LUA_ERRMEM ? cs_lua_error_report(L, outcome)
+                                 : cs_lua_error_report_as(L, CELSPAN_BAD_ARGUMENT);
+}
+
+/* value, light userdata: where the rostrum goes */
+static int read_rostrum(lua_State *L) {
+  const cs_userdata *value = cs_userdata_test(L, 1, &cs_kind_rostrum);
+  if (!value)
+    return luaL_error(L, "a rostrum is needed, got %s", cs_userdata_type(L, 1));
+  *(celspan_rostrum **)lua_touserdata(L, 2) = value->handle;
+  return 0;
+}
+
+celspan_rostrum *celspan_lua_rostrum(lua_State *L, int index) {
+  celspan_rostrum *rostrum = NULL;
+  return visit(L, index, read_rostrum, &rostrum, 0) == CELSPAN_OK ? rostrum : NULL;
+}
+
+/* value, light userdata: where the film's facts go -> film */
+static int read_film(lua_State *L) {
+  if (!cs_lua_film_push(L, 1))
+    return luaL_error(L, "a film or a rostrum is needed, got %s", cs_userdata_type(L, 1));
+  cs_lua_film_read(L, lua_gettop(L), lua_touserdata(L, 2));
+  return 1;
+}
+
+celspan_film celspan_lua_film(lua_State *L, int index) {
+  cs_film_info info = {0};
+  if (visit(L, index, read_film, &info, 0) != CELSPAN_OK)
+    return (celspan_film){0};
+  return (celspan_film){.width = info.width,
+                        .height = info.height,
+                        .frames_second = info.frames_second,
+                        .first = info.first,
+                        .count = info.count,
+                        .title = info.title,
+                        .sound = info.sound,
+                        .sound_offset = info.sound_offset};
+}
+
+/* ---------------------------------------------------------------- frames */
+
+/* The frame of the film on top of the stack. */
+static celspan_status build(lua_State *L, const cs_film_info *film, int64_t number,
+                            celspan_frame_desc *out) {
+  cs_film_frame frame;
+  if (number < film->first || number > film->first + film->count - 1)
+    return cs_fail(cs_host_context(L), CELSPAN_BAD_ARGUMENT,
+                   "frame %lld: the film has frames %lld to %lld", (long long)number,
+                   (long long)film->first, (long long)(film->first + film->count - 1));
+  CS_TRY(cs_lua_film_build(L, -1, number, &frame));
+  *out = CELSPAN_FRAME_DESC;
+  out->exposures = frame.exposures;
+  out->exposure_count = frame.count;
+  out->film_width = out->width = film->width;
+  out->film_height = out->height = film->height;
+  return CELSPAN_OK;
+}
+
+celspan_status celspan_lua_frame(lua_State *L, int index, int64_t number, celspan_frame_desc *out) {
+  cs_film_info film;
+  CS_TRY(visit(L, index, read_film, &film, 1));
+  celspan_status status = build(L, &film, number, out);
+  lua_pop(L, 1);
+  return status;
+}
+
+void celspan_lua_frame_drop(celspan_frame_desc *frame) {
+  cs_film_frame built = {(celspan_exposure *)frame->exposures, frame->exposure_count};
+  cs_film_frame_finish(&built);
+  frame->exposures = NULL;
+  frame->exposure_count = 0;
+}

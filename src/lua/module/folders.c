@@ -1,0 +1,122 @@
+/* Folders, and the files of a pattern such as walk.####.png. */
+#include <errno.h>
+#include <lauxlib.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/open.h"
+#include "frames/film/sequence.h"
+#include "lua/bind/host.h"
+#include "lua/bind/userdata.h"
+#include "lua/module/core.h"
+
+#define MOST_FILES 100000
+
+/* ---------------------------------------------------------------- folders */
+
+static int close_folder(lua_State *L) {
+  DIR **folder = lua_touserdata(L, 1);
+  if (*folder)
+    closedir(*folder);
+  *folder = NULL;
+  return 0;
+}
+
+/* Pushes a place for an open folder that is closed whatever happens. */
+static DIR **push_folder_holder(lua_State *L) {
+  return cs_userdata_push_holder(L, "celspan.folder", sizeof(DIR *), close_folder);
+}
+
+/* For an errno. */
+static int fail_folder(lua_State *L, const char *path, const char *what) {
+  lua_pushnil(L);
+  lua_pushfstring(L, "%s: %s: %s", path, what, strerror(errno));
+  return 2;
+}
+
+int cs_folders_names(lua_State *L) {
+  const char *path = luaL_checkstring(L, 1);
+  cs_host_admit(L, path);
+  DIR **folder = push_folder_holder(L);
+  *folder = opendir(path);
+  if (!*folder)
+    return fail_folder(L, path, "cannot be opened");
+  lua_newtable(L);
+  lua_Integer count = 0;
+  for (struct dirent *entry; (entry = cs_open_entry(*folder));) {
+    if (entry->d_name[0] == '.')
+      continue;
+    if (count == MOST_FILES) {
+      lua_pushnil(L);
+      lua_pushfstring(L, "%s: has more than %d files, which is the limit", path, MOST_FILES);
+      return 2;
+    }
+    lua_pushstring(L, entry->d_name);
+    lua_rawseti(L, -2, ++count);
+  }
+  return errno ? fail_folder(L, path, "cannot be read") : 1;
+}
+
+/* Whether a resolved path lies in a resolved folder. */
+static bool lies_in(const char *folder, const char *path) {
+  size_t size = strlen(folder);
+  while (size > 0 && folder[size - 1] == '/')
+    size--;
+  return strncmp(folder, path, size) == 0 && path[size] == '/';
+}
+
+int cs_folders_within(lua_State *L) {
+  const char *folder = luaL_checkstring(L, 1);
+  const char *path = lua_pushfstring(L, "%s/%s", folder, luaL_checkstring(L, 2));
+  char *real_folder = realpath(folder, NULL), *real_path = realpath(path, NULL);
+  bool is_within = real_folder && real_path && lies_in(real_folder, real_path);
+  free(real_folder);
+  free(real_path);
+  if (!is_within)
+    lua_pushnil(L);
+  return 1;
+}
+
+/* ---------------------------------------------------------------- patterns */
+
+static void push_numbers(lua_State *L, const cs_sequence *sequence) {
+  lua_createtable(L, sequence->count < INT_MAX ? (int)sequence->count : 0, 0);
+  for (size_t i = 0; i < sequence->count; i++) {
+    lua_pushinteger(L, sequence->frames[i]);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+}
+
+static int release(lua_State *L) {
+  cs_sequence_finish(lua_touserdata(L, 1));
+  return 0;
+}
+
+/* A sequence that is released whatever happens. */
+static cs_sequence *push_sequence(lua_State *L) {
+  return cs_userdata_push_holder(L, "celspan.sequence", sizeof(cs_sequence), release);
+}
+
+int cs_folders_frames(lua_State *L) {
+  const char *pattern = luaL_checkstring(L, 1), *list = luaL_optstring(L, 2, NULL);
+  celspan_context *context = cs_host_context(L);
+  cs_sequence *sequence = push_sequence(L);
+  celspan_status status = list ? cs_sequence_parse(context, list, sequence)
+                               : cs_sequence_list(context, pattern, sequence);
+  if (status != CELSPAN_OK)
+    return cs_host_fail(L, status);
+  push_numbers(L, sequence);
+  return 1;
+}
+
+int cs_folders_frame_name(lua_State *L) {
+  char name[4096];
+  celspan_context *context = cs_host_context(L);
+  celspan_status status =
+      cs_sequence_name(context, luaL_checkstring(L, 1), luaL_checkinteger(L, 2), name, sizeof name);
+  if (status != CELSPAN_OK)
+    return cs_host_fail(L, status);
+  lua_pushstring(L, name);
+  return 1;
+}

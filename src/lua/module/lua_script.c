@@ -1,0 +1,183 @@
+#include "lua/module/lua_script.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <lauxlib.h>
+#include <lualib.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/open.h"
+#include "celspan/lua.h"
+#include "lua/bind/caller.h"
+#include "lua/bind/host.h"
+#include "lua/bind/lua_error.h"
+#include "lua/bind/userdata.h"
+#include "lua/nouns/lua_film.h"
+
+/* ---------------------------------------------------------------- what is a script */
+
+enum { HEAD = 4096, ESCAPE = 27 };
+
+/* Control codes other than white space and escape are in no source text. */
+static bool is_binary(const char *head, size_t size) {
+  for (size_t i = 0; i < size; i++) {
+    unsigned char c = (unsigned char)head[i];
+    if (c == 127 || (c < 32 && c != ESCAPE && !(c >= '\t' && c <= '\r')))
+      return true;
+  }
+  return false;
+}
+
+/* "P6 640 360 ...", with white space or a comment before the width: PNM, which "P1 = 3" is not. */
+static bool is_pnm(const char *head) {
+  if (head[0] != 'P' || !head[1] || !strchr("123456fF", head[1]) ||
+      !isspace((unsigned char)head[2]))
+    return false;
+  const char *next = head + 2 + strspn(head + 2, " \t\r\n");
+  return isdigit((unsigned char)*next) || *next == '#';
+}
+
+static bool is_text_picture(const char *head) {
+  return is_pnm(head) || strncmp(head, "#?RADIANCE", 10) == 0 || strncmp(head, "#?RGBE", 6) == 0;
+}
+
+bool cs_lua_script_accepts(const char *path) {
+  char head[HEAD + 1];
+  struct stat status;
+  int descriptor = cs_open_to_read(path);
+  bool is_file = descriptor >= 0 && fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+  ssize_t size = is_file ? read(descriptor, head, HEAD) : 0;
+  if (descriptor >= 0)
+    close(descriptor);
+  if (size <= 0 || head[0] == ESCAPE)
+    return true;
+  head[size] = '\0';
+  return !is_binary(head, (size_t)size) && !is_text_picture(head);
+}
+
+/* ---------------------------------------------------------------- where require looks */
+
+/* Puts `before` in front of package[field] and removes the current directory from it. */
+static void set_path(lua_State *L, const char *field, const char *before, const char *const *here) {
+  lua_getglobal(L, "package");
+  int package = lua_gettop(L);
+  lua_getfield(L, package, field);
+  lua_pushfstring(L, ";%s", luaL_optstring(L, -1, ""));
+  for (; *here; here++)
+    luaL_gsub(L, lua_tostring(L, -1), *here, "");
+  const char *rest = lua_tostring(L, -1);
+  lua_pushfstring(L, "%s%s", before, before[0] ? rest : rest + (rest[0] == ';'));
+  lua_setfield(L, package, field);
+  lua_settop(L, package - 1);
+}
+
+/* require searches the script's own folder, then $CELSPAN_PATH, then where Lua is installed; the
+ * current directory only when the script is there. */
+static void set_search_path(lua_State *L, const char *folder) {
+  static const char *const here[] = {";./?.lua", ";./?/init.lua", NULL};
+  static const char *const here_c[] = {";./?.so", NULL};
+  const char *at = folder[0] ? folder : ".", *more = getenv("CELSPAN_PATH");
+  const char *before = lua_pushfstring(L, "%s/?.lua;%s/?/init.lua%s%s", at, at,
+                                       more && more[0] ? ";" : "", more ? more : "");
+  set_path(L, "path", before, here);
+  set_path(L, "cpath", "", here_c);
+  lua_pop(L, 1);
+}
+
+/* ---------------------------------------------------------------- running */
+
+typedef struct call {
+  const char *path;
+  int argument_count;
+  const char *const *arguments;
+  bool is_missing;
+} call;
+
+/* light userdata -> film. Runs protected. */
+static int run(lua_State *L) {
+  call *c = lua_touserdata(L, 1);
+  const char *folder = cs_caller_push_folder_of(L, c->path);
+  cs_host_set_folder(L, folder);
+  bool is_sandboxed = cs_host_push_globals(L);
+  if (!is_sandboxed)
+    set_search_path(L, folder); /* a sandbox has its own `require` */
+  if (!cs_lua_script_accepts(c->path))
+    return luaL_error(L,
+                      "%s: is not a Lua script, but a picture or other binary data ('celspan info "
+                      "%s' tells of pictures)",
+                      c->path, c->path);
+  int outcome = luaL_loadfilex(L, c->path, "t");
+  if (outcome == LUA_ERRFILE && strstr(lua_tostring(L, -1), strerror(ENOMEM)))
+    lua_pushliteral(L, "not enough memory"); /* for the file's buffer */
+  else
+    c->is_missing = outcome == LUA_ERRFILE;
+  if (outcome == LUA_ERRSYNTAX && cs_lua_error_position(lua_tostring(L, -1)) == 0)
+    return luaL_error(L, "%s: %s", c->path, lua_tostring(L, -1)); /* a compiled chunk */
+  if (outcome != LUA_OK)
+    return lua_error(L);
+  if (is_sandboxed) {
+    lua_pushvalue(L, -2);
+    lua_setupvalue(L, -2, 1);
+  }
+  luaL_checkstack(L, c->argument_count + 4, "too many arguments");
+  for (int i = 0; i < c->argument_count; i++)
+    lua_pushstring(L, c->arguments[i]);
+  lua_call(L, c->argument_count, 1);
+  if (!cs_lua_film_push(L, -1))
+    luaL_error(L, "%s must return a film or a rostrum, got %s", c->path, cs_userdata_type(L, -1));
+  return 1;
+}
+
+celspan_status cs_lua_script_run(lua_State *L, const char *path, int argument_count,
+                                 const char *const *arguments) {
+  call c = {path, argument_count, arguments, false};
+  cs_host_get(L)->failure = CELSPAN_OK;
+  lua_pushcfunction(L, run);
+  lua_pushlightuserdata(L, &c);
+  cs_host_begin(L, CS_HOST_LOAD, 0);
+  int outcome = cs_lua_error_call(L, 1, 1);
+  cs_host_end(L);
+  if (outcome == LUA_OK)
+    return CELSPAN_OK;
+  return c.is_missing ? cs_lua_error_report_as(L, CELSPAN_INPUT) : cs_lua_error_report(L, outcome);
+}
+
+/* ---------------------------------------------------------------- the manual */
+
+/* light userdata: a name -> page | nil, message. Runs protected. */
+static int find_page(lua_State *L) {
+  luaL_openlibs(L);
+  lua_getglobal(L, "require");
+  lua_pushliteral(L, "celspan.manual");
+  lua_call(L, 1, 1);
+  lua_getfield(L, -1, "page");
+  lua_pushstring(L, lua_touserdata(L, 1));
+  lua_call(L, 1, 2);
+  return 2;
+}
+
+static celspan_status print_page(lua_State *L, celspan_context *context, const char *name,
+                                 FILE *stream) {
+  CS_TRY(celspan_lua_open(L, context));
+  lua_pushcfunction(L, find_page);
+  lua_pushlightuserdata(L, (void *)name);
+  int outcome = lua_pcall(L, 1, 2, 0);
+  if (outcome != LUA_OK)
+    return cs_lua_error_report(L, outcome);
+  if (lua_isnil(L, -2))
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s", lua_tostring(L, -1));
+  fputs(lua_tostring(L, -2), stream);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_lua_script_help(celspan_context *context, const char *name, FILE *stream) {
+  lua_State *L = luaL_newstate();
+  if (!L)
+    return cs_fail_memory(context);
+  celspan_status status = print_page(L, context, name, stream);
+  lua_close(L);
+  return status;
+}

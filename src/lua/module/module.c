@@ -1,0 +1,139 @@
+/* luaopen_celspan: the module table. */
+#include <lauxlib.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "celspan/lua.h"
+#include "lua/bind/caller.h"
+#include "lua/bind/construct.h"
+#include "lua/bind/files.h"
+#include "lua/bind/host.h"
+#include "lua/bind/suggest.h"
+#include "lua/module/core.h"
+#include "lua/nouns/nouns.h"
+#include "lua/nouns/random.h"
+
+#define MOST_NAMES 512
+
+/* core.find(name): where a file is and, if it is not there, where else it was looked for. */
+static int find(lua_State *L) {
+  const char *tried;
+  cs_files_find(L, luaL_checkstring(L, 1), &tried);
+  return 2;
+}
+
+/* core.nearest(word, names): the name that was probably meant, or nil. */
+static int nearest(lua_State *L) {
+  const char *word = luaL_checkstring(L, 1);
+  luaL_checktype(L, 2, LUA_TTABLE);
+  const char *names[MOST_NAMES] = {0};
+  size_t count = lua_rawlen(L, 2) < MOST_NAMES ? lua_rawlen(L, 2) : MOST_NAMES;
+  for (size_t i = 0; i < count; i++) {
+    if (lua_rawgeti(L, 2, (lua_Integer)i + 1) != LUA_TSTRING)
+      return luaL_error(L, "nearest: name %d is not a string", (int)i + 1);
+    names[i] = lua_tostring(L, -1); /* the table keeps it alive */
+    lua_pop(L, 1);
+  }
+  lua_pushstring(L, cs_suggest_name(word, names, count));
+  return 1;
+}
+
+/* core.refuse(message): raises it at the line of the nearest caller that is not celspan's own. */
+static int refuse(lua_State *L) { return cs_caller_error(L, "%s", luaL_checkstring(L, 1)); }
+
+int luaopen_celspan_core(lua_State *L) {
+  static const luaL_Reg functions[] = {{"find", find},
+                                       {"nearest", nearest},
+                                       {"nouns", cs_nouns_push},
+                                       {"source", cs_embedded_source},
+                                       {"refuse", refuse},
+                                       {"difference", cs_difference_of},
+                                       {"painting", cs_painting_read},
+                                       {"parts", cs_parts_list},
+                                       {"folder", cs_folders_names},
+                                       {"within", cs_folders_within},
+                                       {"trace", cs_tracing_make},
+                                       {"trace_write", cs_tracing_write},
+                                       {"tracker", cs_track_tracker},
+                                       {"follow", cs_track_follow},
+                                       {"rewind", cs_track_rewind},
+                                       {"inverse", cs_track_inverse},
+                                       {"frames", cs_folders_frames},
+                                       {"frame_name", cs_folders_frame_name},
+                                       {"picture_size", cs_relight_size},
+                                       {"light_estimate", cs_relight_estimate},
+                                       {"light_shape", cs_relight_shape},
+                                       {"relight_picture", cs_relight_picture},
+                                       {"relight_exposures", cs_relight_exposures},
+                                       {"relight_grounds", cs_relight_grounds},
+                                       {"stack", cs_stack_make},
+                                       {"stack_lights", cs_stack_lights},
+                                       {"stack_light", cs_stack_light},
+                                       {"relight_write", cs_relight_write},
+                                       {"relight_read", cs_relight_read},
+                                       {NULL, NULL}};
+  cs_host_open(L, NULL);
+  luaL_newlib(L, functions);
+  cs_drawing_open(L);
+  return 1;
+}
+
+static int compare(const void *a, const void *b) {
+  return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+/* celspan.circl: reading a name that the module does not have. */
+static int fail_unknown(lua_State *L) {
+  if (lua_type(L, 2) != LUA_TSTRING)
+    return 0;
+  const char *names[MOST_NAMES], *name = lua_tostring(L, 2);
+  size_t count = 0;
+  lua_pushnil(L);
+  for (; count < MOST_NAMES && lua_next(L, 1); lua_pop(L, 1))
+    if (lua_type(L, -2) == LUA_TSTRING)
+      names[count++] = lua_tostring(L, -2); /* the module keeps it alive */
+  qsort(names, count, sizeof *names, compare);
+  const char *nearest = cs_suggest_name(name, names, count);
+  if (nearest)
+    return cs_caller_error(L, "celspan has no '%s'; did you mean '%s'?", name, nearest);
+  return cs_caller_error(L, "celspan has no '%s'", name);
+}
+
+static void set_reading(lua_State *L) {
+  lua_createtable(L, 0, 1);
+  lua_pushcfunction(L, fail_unknown);
+  lua_setfield(L, -2, "__index");
+  lua_setmetatable(L, -2);
+}
+
+int luaopen_celspan(lua_State *L) {
+  static const luaL_Reg functions[] = {{"rgb", cs_nouns_rgb},
+                                       {"gel", cs_nouns_gel},
+                                       {"mix", cs_nouns_mix},
+                                       {"clip", cs_nouns_clip},
+                                       {"glyphs", cs_nouns_glyphs},
+                                       {"random", cs_random_make},
+                                       {"render", cs_render_make},
+                                       {"pixels", cs_pixels_make},
+                                       {"spans", cs_spans_make},
+                                       {"probe", cs_spans_probe},
+                                       {NULL, NULL}};
+  luaL_checkversion(L);
+  cs_host_open(L, NULL);
+  lua_createtable(L, 0, 40);
+  lua_pushfstring(L, "celspan %s", celspan_version());
+  lua_setfield(L, -2, "_VERSION");
+  for (const cs_kind *const *kind = cs_kinds; *kind; kind++)
+    cs_userdata_register(L, *kind);
+  for (const cs_noun *const *noun = cs_nouns_made; *noun; noun++) {
+    cs_construct_push(L, *noun);
+    lua_setfield(L, -2, (*noun)->name);
+  }
+  luaL_setfuncs(L, functions, 0);
+  cs_nouns_push_clear(L);
+  lua_setfield(L, -2, "clear");
+  cs_pixels_open(L);
+  cs_embedded_open(L);
+  set_reading(L);
+  return 1;
+}

@@ -1,0 +1,204 @@
+/* Light taken off pictures, for celspan.relight. */
+#include <lauxlib.h>
+
+#include "lua/bind/files.h"
+#include "lua/bind/form.h"
+#include "lua/bind/host.h"
+#include "lua/bind/named.h"
+#include "lua/bind/userdata.h"
+#include "lua/module/core.h"
+#include "model/pictures/store.h"
+#include "model/scene/texture.h"
+
+/* ---------------------------------------------------------------- values */
+
+/* What was taken off its light cannot be made again from fields. */
+static void refuse_with(const cs_form *form, cs_userdata *value) {
+  (void)value;
+  cs_form_fail(form, "has no fields that could be changed");
+}
+
+static const cs_field no_fields[] = {{0}};
+static const cs_noun noun = {
+    .name = "relit", .kind = &cs_kind_texture, .fields = no_fields, .create = refuse_with};
+
+/* Pushes a value that is to be filled: before the core makes what it holds. */
+static cs_userdata *push_value(lua_State *L, celspan_context *context) {
+  cs_named_begin(L, context);
+  cs_userdata *value = cs_userdata_push(L, &noun);
+  lua_newtable(L);
+  lua_setiuservalue(L, -2, 1);
+  return value;
+}
+
+/* Fills the value on top of the stack, or answers the failure. */
+static int finish(lua_State *L, celspan_context *context, cs_userdata *value, celspan_status status,
+                  celspan_texture *texture) {
+  cs_named_end(context);
+  if (status != CELSPAN_OK)
+    return cs_host_fail(L, status);
+  value->handle = texture;
+  return 1;
+}
+
+static celspan_texture *texture_at(lua_State *L, int index) {
+  cs_userdata *value = cs_userdata_test(L, index, &cs_kind_texture);
+  luaL_argcheck(L, value, index, "must be a picture");
+  return value->handle;
+}
+
+/* `count` numbers of the table at index. */
+static void read_numbers(lua_State *L, int index, int count, double *out) {
+  luaL_checktype(L, index, LUA_TTABLE);
+  for (int i = 0; i < count; i++) {
+    lua_rawgeti(L, index, i + 1);
+    out[i] = luaL_checknumber(L, -1);
+    lua_pop(L, 1);
+  }
+}
+
+static celspan_light_field field_at(lua_State *L, int index) {
+  celspan_light_field field = CELSPAN_ZERO;
+  read_numbers(L, index, 3, field.colour);
+  if (lua_getfield(L, index, "terms") == LUA_TTABLE)
+    for (int c = 0; c < 3; c++) {
+      lua_rawgeti(L, -1, c + 1);
+      read_numbers(L, lua_gettop(L), CELSPAN_LIGHT_FIELD_TERMS, field.terms[c]);
+      lua_pop(L, 1);
+    }
+  lua_pop(L, 1);
+  return field;
+}
+
+static void push_numbers(lua_State *L, const double *numbers, int count) {
+  lua_createtable(L, count, 1);
+  for (int i = 0; i < count; i++) {
+    lua_pushnumber(L, numbers[i]);
+    lua_rawseti(L, -2, i + 1);
+  }
+}
+
+static void push_field(lua_State *L, const celspan_light_field *field, bool is_uneven) {
+  push_numbers(L, field->colour, 3);
+  if (!is_uneven)
+    return;
+  lua_createtable(L, 3, 0);
+  for (int c = 0; c < 3; c++) {
+    push_numbers(L, field->terms[c], CELSPAN_LIGHT_FIELD_TERMS);
+    lua_rawseti(L, -2, c + 1);
+  }
+  lua_setfield(L, -2, "terms");
+}
+
+/* ---------------------------------------------------------------- lights */
+
+int cs_relight_size(lua_State *L) {
+  const celspan_texture *texture = texture_at(L, 1);
+  celspan_context *context = cs_host_context(L);
+  celspan_picture_info info;
+  luaL_argcheck(L, texture->variation->picture, 1, "must be a picture");
+  celspan_status status = cs_store_info(context, texture->variation->picture, &info);
+  if (status != CELSPAN_OK)
+    return cs_host_fail(L, status);
+  lua_pushinteger(L, info.width);
+  lua_pushinteger(L, info.height);
+  return 2;
+}
+
+int cs_relight_estimate(lua_State *L) {
+  celspan_context *context = cs_host_context(L);
+  celspan_light_estimate_desc desc = CELSPAN_LIGHT_ESTIMATE_DESC;
+  double patch[4] = {0, 0, 0, 0};
+  desc.picture = texture_at(L, 1);
+  desc.clue = (celspan_light_clue)luaL_checkinteger(L, 2);
+  read_numbers(L, 3, 3, desc.colour);
+  if (!lua_isnoneornil(L, 4))
+    read_numbers(L, 4, 4, patch);
+  desc.patch = (celspan_box){patch[0], patch[1], patch[2], patch[3]};
+  desc.is_uneven = lua_toboolean(L, 5);
+  desc.blank = lua_isnoneornil(L, 6) ? NULL : texture_at(L, 6);
+  celspan_light_field field;
+  celspan_status status = celspan_light_estimate(context, &desc, &field);
+  if (status != CELSPAN_OK)
+    return cs_host_fail(L, status);
+  push_field(L, &field, desc.is_uneven);
+  return 1;
+}
+
+int cs_relight_shape(lua_State *L) {
+  celspan_light_field field = field_at(L, 1);
+  int32_t width = (int32_t)luaL_checkinteger(L, 2), height = (int32_t)luaL_checkinteger(L, 3);
+  celspan_context *context = cs_host_context(L);
+  celspan_texture *texture = NULL;
+  cs_userdata *value = push_value(L, context);
+  celspan_status status = celspan_light_field_texture(context, &field, width, height, &texture);
+  return finish(L, context, value, status, texture);
+}
+
+/* ---------------------------------------------------------------- light taken off */
+
+int cs_relight_picture(lua_State *L) {
+  const celspan_texture *picture = texture_at(L, 1);
+  celspan_light_field light = field_at(L, 2);
+  celspan_context *context = cs_host_context(L);
+  celspan_texture *texture = NULL;
+  cs_userdata *value = push_value(L, context);
+  celspan_status status = celspan_relight_picture(context, picture, &light, &texture);
+  return finish(L, context, value, status, texture);
+}
+
+int cs_relight_exposures(lua_State *L) {
+  const celspan_texture *front = texture_at(L, 1), *back = texture_at(L, 3);
+  celspan_light_field front_light = field_at(L, 2), back_light = field_at(L, 4);
+  celspan_context *context = cs_host_context(L);
+  celspan_texture *texture = NULL;
+  cs_userdata *value = push_value(L, context);
+  celspan_status status =
+      celspan_relight_exposures(context, front, &front_light, back, &back_light, &texture);
+  return finish(L, context, value, status, texture);
+}
+
+/* The picture at index, and its ground after it. */
+static celspan_relight_ground ground_at(lua_State *L, int index) {
+  celspan_relight_ground ground = {.picture = texture_at(L, index)};
+  if (lua_istable(L, index + 1))
+    read_numbers(L, index + 1, 3, ground.colour);
+  else
+    ground.ground = texture_at(L, index + 1);
+  return ground;
+}
+
+int cs_relight_grounds(lua_State *L) {
+  const celspan_relight_ground grounds[2] = {ground_at(L, 1), ground_at(L, 3)};
+  celspan_light_field light = field_at(L, 5);
+  celspan_context *context = cs_host_context(L);
+  celspan_texture *texture = NULL;
+  cs_userdata *value = push_value(L, context);
+  celspan_status status = celspan_relight_grounds(context, grounds, &light, &texture);
+  return finish(L, context, value, status, texture);
+}
+
+/* ---------------------------------------------------------------- files */
+
+int cs_relight_write(lua_State *L) {
+  const celspan_texture *texture = texture_at(L, 1);
+  const char *path = luaL_checkstring(L, 2);
+  celspan_context *context = cs_host_context(L);
+  if (!cs_host_may_write(L, path))
+    return cs_host_fail(L, CELSPAN_CALLBACK);
+  celspan_status status = celspan_relight_write(context, texture, path);
+  if (status != CELSPAN_OK)
+    return cs_host_fail(L, status);
+  lua_pushboolean(L, true);
+  return 1;
+}
+
+int cs_relight_read(lua_State *L) {
+  const char *tried;
+  const char *path = cs_files_find(L, luaL_checkstring(L, 1), &tried);
+  celspan_context *context = cs_host_context(L);
+  celspan_texture *texture = NULL;
+  cs_userdata *value = push_value(L, context);
+  celspan_status status = celspan_relight_read(context, path, tried, &texture);
+  return finish(L, context, value, status, texture);
+}

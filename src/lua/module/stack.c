@@ -1,0 +1,144 @@
+/* Frames taken apart by their lights, celspan_stack, for relight.stack. */
+#include <lauxlib.h>
+
+#include "lua/bind/host.h"
+#include "lua/bind/userdata.h"
+#include "lua/module/core.h"
+#include "lua/module/pixels.h"
+#include "lua/module/subject.h"
+#include "model/scene/scene.h"
+
+#define STACK "celspan.stack"
+enum { NUMBERS = 8 }; /* of one light */
+
+/* ---------------------------------------------------------------- the value */
+
+typedef struct holder {
+  celspan_stack *stack; /* NULL: released */
+  int32_t x, y;         /* of its first pixel in the whole frame */
+} holder;
+
+static int release(lua_State *L) {
+  holder *held = luaL_checkudata(L, 1, STACK);
+  celspan_stack_unref(held->stack);
+  held->stack = NULL;
+  return 0;
+}
+
+static holder *push_holder(lua_State *L) {
+  return cs_userdata_push_holder(L, STACK, sizeof(holder), release);
+}
+
+static const holder *holder_at(lua_State *L, int index) {
+  const holder *held = luaL_checkudata(L, index, STACK);
+  luaL_argcheck(L, held->stack, index, "is closed");
+  return held;
+}
+
+/* ---------------------------------------------------------------- making */
+
+static void set_number(lua_State *L, const char *name, lua_Number value) {
+  lua_pushnumber(L, value);
+  lua_setfield(L, -2, name);
+}
+
+static void push_cel(lua_State *L, const celspan_cel *cel) {
+  lua_createtable(L, 0, 2);
+  lua_pushstring(L, celspan_cel_name(cel));
+  lua_setfield(L, -2, "name");
+  lua_pushboolean(L, cel->front.is_given);
+  lua_setfield(L, -2, "has_front");
+}
+
+/* What scripts need to know of a stack. */
+static void push_facts(lua_State *L, const celspan_rostrum *rostrum, const celspan_stack *stack) {
+  int32_t width, height;
+  celspan_stack_size(stack, &width, &height);
+  lua_createtable(L, 0, 5);
+  lua_createtable(L, (int)rostrum->cel_count, 0);
+  for (size_t i = 0; i < rostrum->cel_count; i++) {
+    push_cel(L, rostrum->cels[i]);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  lua_setfield(L, -2, "cels");
+  set_number(L, "brightness", rostrum->brightness);
+  set_number(L, "width", width);
+  set_number(L, "height", height);
+  set_number(L, "bytes", (lua_Number)celspan_stack_bytes(stack));
+}
+
+int cs_stack_make(lua_State *L) {
+  lua_settop(L, 2);
+  cs_options options;
+  celspan_context *context = cs_host_context(L);
+  celspan_status status = cs_subject_read(L, &cs_noun_stack, &options);
+  if (status != CELSPAN_OK)
+    return cs_host_fail(L, status);
+  holder *held = push_holder(L);
+  lua_State *before = cs_host_enter(L);
+  status = celspan_stack_create(context, &options.desc, &held->stack);
+  cs_host_leave(L, before);
+  if (status != CELSPAN_OK)
+    return cs_host_fail(L, status);
+  held->x = options.desc.crop_x;
+  held->y = options.desc.crop_y;
+  push_facts(L, options.desc.exposures[0].rostrum, held->stack);
+  return 2;
+}
+
+/* ---------------------------------------------------------------- lights */
+
+int cs_stack_lights(lua_State *L) {
+  const holder *held = holder_at(L, 1);
+  size_t count = celspan_stack_light_count(held->stack);
+  celspan_stack_light *lights = cs_form_scratch(L, count, sizeof *lights);
+  celspan_stack_lights(held->stack, lights);
+  lua_createtable(L, (int)(NUMBERS * count), 0);
+  for (size_t i = 0; i < count; i++) {
+    const celspan_light *f = &lights[i].front, *b = &lights[i].back;
+    const float values[NUMBERS] = {f->r, f->g, f->b, f->a, b->r, b->g, b->b, b->a};
+    for (size_t k = 0; k < NUMBERS; k++) {
+      lua_pushnumber(L, values[k]);
+      lua_rawseti(L, -2, (lua_Integer)(NUMBERS * i + k + 1));
+    }
+  }
+  return 1;
+}
+
+static celspan_light light_at(lua_State *L, int index, size_t first) {
+  float values[4];
+  for (size_t k = 0; k < 4; k++) {
+    lua_rawgeti(L, index, (lua_Integer)(first + k + 1));
+    values[k] = (float)luaL_checknumber(L, -1);
+    lua_pop(L, 1);
+  }
+  return (celspan_light){values[0], values[1], values[2], values[3]};
+}
+
+/* The lights of the list at index 2, in scratch memory on the stack. *is_opaque: a matte of 1 is
+ * behind all. */
+static const celspan_stack_light *read_lights(lua_State *L, size_t count, bool *is_opaque) {
+  celspan_stack_light *lights = cs_form_scratch(L, count, sizeof *lights);
+  luaL_checktype(L, 2, LUA_TTABLE);
+  *is_opaque = false;
+  for (size_t i = 0; i < count; i++) {
+    lights[i] = (celspan_stack_light){light_at(L, 2, NUMBERS * i), light_at(L, 2, NUMBERS * i + 4)};
+    *is_opaque = *is_opaque || lights[i].back.a == 1;
+  }
+  return lights;
+}
+
+int cs_stack_light(lua_State *L) {
+  const holder *held = holder_at(L, 1);
+  celspan_context *context = cs_host_context(L);
+  int32_t width, height;
+  bool is_opaque;
+  const celspan_stack_light *lights =
+      read_lights(L, celspan_stack_light_count(held->stack), &is_opaque);
+  celspan_stack_size(held->stack, &width, &height);
+  float *pixels = cs_pixels_push(L, width, height, held->x, held->y, is_opaque);
+  if (!pixels)
+    return luaL_error(L, "stack: %d x %d pixels cannot be held in memory", width, height);
+  celspan_status status = celspan_stack_pixels(context, held->stack, lights, 0, pixels);
+  return status == CELSPAN_OK ? 1 : cs_host_fail(L, status);
+}

@@ -1,0 +1,157 @@
+/* The shapes of a picture, for celspan.trace. */
+#include <lauxlib.h>
+#include <stdio.h>
+
+#include "lua/bind/host.h"
+#include "lua/bind/userdata.h"
+#include "lua/module/core.h"
+#include "model/colour/transfer.h"
+#include "tools/trace/result.h"
+
+#define MOST_COLOURS 64
+
+/* ---------------------------------------------------------------- the value */
+
+static int release(lua_State *L) {
+  celspan_trace **trace = lua_touserdata(L, 1);
+  celspan_trace_unref(*trace);
+  *trace = NULL;
+  return 0;
+}
+
+/* Pushes a place for a tracing that is released whatever happens. */
+static celspan_trace **push_holder(lua_State *L) {
+  return cs_userdata_push_holder(L, "celspan.tracing", sizeof(celspan_trace *), release);
+}
+
+/* ---------------------------------------------------------------- options */
+
+/* The codes of colour i of the list on top of the stack. */
+static bool read_code(lua_State *L, int i, unsigned char *code) {
+  celspan_paint paint;
+  lua_rawgeti(L, -1, i);
+  const char *text = lua_tostring(L, -1);
+  bool is_read = text && celspan_paint_parse(text, &paint) && paint.beta == 1;
+  for (int c = 0; c < 3 && is_read; c++)
+    code[c] = cs_transfer_srgb8(paint.pigment[c]);
+  lua_pop(L, 1);
+  return is_read;
+}
+
+/* Argument 2. codes: room for all colours. */
+static celspan_trace_desc read_options(lua_State *L, unsigned char codes[3 * MOST_COLOURS]) {
+  celspan_trace_desc desc = CELSPAN_TRACE_DESC;
+  desc.picture.file = luaL_checkstring(L, 1);
+  luaL_checktype(L, 2, LUA_TTABLE);
+  if (lua_getfield(L, 2, "colours") == LUA_TTABLE) {
+    desc.colours = (int32_t)lua_rawlen(L, -1);
+    desc.codes = codes;
+    for (int i = 0; i < desc.colours && i < MOST_COLOURS; i++)
+      if (!read_code(L, i + 1, codes + 3 * i))
+        luaL_error(L, "trace: colours[%d] must be a colour like #336699", i + 1);
+  } else {
+    desc.colours = (int32_t)luaL_optinteger(L, -1, desc.colours);
+  }
+  lua_getfield(L, 2, "smooth");
+  desc.smooth = luaL_optnumber(L, -1, desc.smooth);
+  lua_getfield(L, 2, "speckle");
+  desc.speckle = (int32_t)luaL_optinteger(L, -1, desc.speckle);
+  lua_getfield(L, 2, "lines");
+  desc.lines = lua_toboolean(L, -1);
+  lua_pop(L, 4);
+  return desc;
+}
+
+/* ---------------------------------------------------------------- shapes */
+
+static void set_number(lua_State *L, const char *name, double number) {
+  lua_Integer whole = (lua_Integer)number;
+  if ((double)whole == number)
+    lua_pushinteger(L, whole);
+  else
+    lua_pushnumber(L, number);
+  lua_setfield(L, -2, name);
+}
+
+static void push_points(lua_State *L, const celspan_trace_shape *shape) {
+  lua_createtable(L, (int)shape->point_count, 0);
+  for (size_t i = 0; i < shape->point_count; i++) {
+    lua_createtable(L, 3, 0);
+    lua_pushnumber(L, shape->points[i].x);
+    lua_rawseti(L, -2, 1);
+    lua_pushnumber(L, shape->points[i].y);
+    lua_rawseti(L, -2, 2);
+    lua_pushnumber(L, shape->widths[i]);
+    lua_rawseti(L, -2, 3);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+}
+
+static void push_shape(lua_State *L, const celspan_trace_shape *shape) {
+  char colour[8];
+  snprintf(colour, sizeof colour, "#%02x%02x%02x", shape->colour[0], shape->colour[1],
+           shape->colour[2]);
+  lua_createtable(L, 0, 6);
+  lua_pushstring(L, colour);
+  lua_setfield(L, -2, "colour");
+  set_number(L, "x", shape->x);
+  set_number(L, "y", shape->y);
+  set_number(L, "area", shape->area);
+  if (shape->data) {
+    lua_pushstring(L, shape->data);
+    lua_setfield(L, -2, "d");
+    return;
+  }
+  push_points(L, shape);
+  lua_setfield(L, -2, "points");
+  lua_pushboolean(L, shape->is_closed);
+  lua_setfield(L, -2, "closed");
+}
+
+static void push_result(lua_State *L, const celspan_trace *trace) {
+  int32_t width, height;
+  celspan_trace_shape shape;
+  celspan_trace_size(trace, &width, &height);
+  lua_createtable(L, 0, 3);
+  set_number(L, "width", width);
+  set_number(L, "height", height);
+  lua_createtable(L, (int)celspan_trace_shape_count(trace), 0);
+  for (size_t i = 0; celspan_trace_shape_at(trace, i, &shape); i++) {
+    push_shape(L, &shape);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  lua_setfield(L, -2, "shapes");
+}
+
+/* Pushes a holder of the tracing of arguments 1 and 2. */
+static celspan_status push_tracing(lua_State *L, const celspan_trace **out) {
+  unsigned char codes[3 * MOST_COLOURS];
+  celspan_trace_desc desc = read_options(L, codes);
+  celspan_trace **trace = push_holder(L);
+  celspan_status status = cs_result_make(cs_host_context(L), &desc, trace);
+  *out = *trace;
+  return status;
+}
+
+int cs_tracing_make(lua_State *L) {
+  const celspan_trace *trace;
+  celspan_status status = push_tracing(L, &trace);
+  if (status != CELSPAN_OK)
+    return cs_host_fail(L, status);
+  push_result(L, trace);
+  return 1;
+}
+
+int cs_tracing_write(lua_State *L) {
+  const celspan_trace *trace;
+  const char *output = luaL_checkstring(L, 3);
+  if (!cs_host_may_write(L, output))
+    return cs_host_fail(L, CELSPAN_CALLBACK);
+  celspan_status status = push_tracing(L, &trace);
+  if (status == CELSPAN_OK)
+    status = celspan_trace_write(cs_host_context(L), trace, output);
+  if (status != CELSPAN_OK)
+    return cs_host_fail(L, status);
+  lua_pushboolean(L, true);
+  return 1;
+}

@@ -1,0 +1,65 @@
+/* celspan.cel: a list of objects with its own lights and defocus. */
+#include "lua/bind/fields.h"
+#include "lua/bind/host.h"
+#include "lua/nouns/light.h"
+#include "lua/nouns/nouns.h"
+#include "lua/nouns/placed.h"
+
+static const char *const kernels[] = {"gaussian", "box", "disc", NULL};
+#define DESC celspan_cel_desc
+static const cs_field defocus_fields[] = {
+    {"radius", CS_NUMBER(DESC, defocus_radius), CS_FROM(0), .is_required = true,
+     .about = "Film units on the frame"},
+    {"kernel", CS_CHOICE(DESC, defocus_kernel, kernels), .preset = "gaussian"},
+    {0}};
+const cs_noun cs_noun_defocus = {.name = "cel: defocus",
+                                 .about = "How far a cel is out of focus.",
+                                 .table = "celspan.defocus",
+                                 .fields = defocus_fields};
+
+/* The field `defocus` is a number or { radius =, kernel = }. */
+static void read_defocus(const cs_form *form, celspan_cel_desc *desc) {
+  lua_State *L = form->L;
+  int type = cs_form_get(form, "defocus");
+  if (type == LUA_TNUMBER)
+    desc->defocus_radius = lua_tonumber(L, -1);
+  else if (type == LUA_TTABLE) {
+    cs_form inner = cs_form_open(L, &cs_noun_defocus, -1);
+    cs_fields_read(&inner, desc);
+  } else if (type != LUA_TNIL)
+    cs_form_fail(form, "field 'defocus' must be a radius or {radius =, kernel =}, got %s",
+                 cs_userdata_type(L, -1));
+}
+
+static void create(const cs_form *form, cs_userdata *value) {
+  lua_State *L = form->L;
+  celspan_cel_desc desc = CELSPAN_CEL_DESC;
+  int count = cs_form_length(form);
+  desc.objects = cs_placed_items(form, count);
+  desc.object_count = (size_t)count;
+  desc.has_front = cs_light_read(form, "front", &desc.front, &desc.front_texture);
+  cs_light_read(form, "back", &desc.back, &desc.back_texture);
+  read_defocus(form, &desc);
+  cs_fields_read(form, &desc);
+  celspan_cel *cel = NULL;
+  cs_form_try(form, celspan_cel_create(cs_host_context(L), &desc, &cel));
+  value->handle = cel;
+}
+
+static const cs_field fields[] = {
+    {"front", CS_OWN("celspan.light"), .fallback = "that of the rostrum, else white"},
+    {"back", CS_OWN("celspan.light"),
+     .about = "Shines through the whole frame from behind this cel", .fallback = "none"},
+    {"viewport", CS_BOX(DESC, viewport), CS_HAS(DESC, has_viewport),
+     .about = "The part that fills the frame"},
+    {"defocus", CS_OWN("number|celspan.defocus"), .about = "A radius, or with a kernel"},
+    {"opacity", CS_NUMBER(DESC, opacity), .least = 0, .most = 1, .preset = "1"},
+    {0}};
+const cs_noun cs_noun_cel = {.name = "cel",
+                             .about = "A sheet with objects and its own lights.",
+                             .kind = &cs_kind_cel,
+                             .list = CS_LIST_ITEMS,
+                             .item = "object",
+                             .item_written = "celspan.shape",
+                             .fields = fields,
+                             .create = create};

@@ -1,0 +1,87 @@
+/* What can be done with values: the functions of the core, by kind. */
+#include "lua/bind/construct.h"
+#include "lua/bind/named.h"
+#include "lua/nouns/nouns.h"
+#include "model/scene/bounds.h"
+
+/* ---------------------------------------------------------------- functions without their types */
+
+#define VALUE(type)                                                                                \
+  static void type##_unref(void *handle) { celspan_##type##_unref(handle); }                       \
+  static celspan_status type##_named(celspan_context *context, void *handle, const char *name,     \
+                                     void **out) {                                                 \
+    celspan_##type *made = NULL;                                                                   \
+    celspan_status status = celspan_##type##_named(context, handle, name, &made);                  \
+    if (status == CELSPAN_OK)                                                                      \
+      *out = made;                                                                                 \
+    return status;                                                                                 \
+  }                                                                                                \
+  static const char *type##_name_of(const void *handle) { return celspan_##type##_name(handle); }  \
+  static celspan_origin type##_origin_of(const void *handle) {                                     \
+    return celspan_##type##_origin(handle);                                                        \
+  }
+VALUE(texture)
+VALUE(object)
+VALUE(cel)
+VALUE(rostrum)
+
+#define PLACED(type)                                                                               \
+  static celspan_status type##_transform(celspan_context *context, void *handle,                   \
+                                         const celspan_matrix *matrix, void **out) {               \
+    celspan_##type *made = NULL;                                                                   \
+    celspan_status status = celspan_##type##_transform(context, handle, matrix, &made);            \
+    if (status == CELSPAN_OK)                                                                      \
+      *out = made;                                                                                 \
+    return status;                                                                                 \
+  }                                                                                                \
+  static celspan_status type##_fade(celspan_context *context, void *handle, double k,              \
+                                    void **out) {                                                  \
+    celspan_##type *made = NULL;                                                                   \
+    celspan_status status = celspan_##type##_fade(context, handle, k, &made);                      \
+    if (status == CELSPAN_OK)                                                                      \
+      *out = made;                                                                                 \
+    return status;                                                                                 \
+  }                                                                                                \
+  static celspan_status type##_bounds(celspan_context *context, const void *handle,                \
+                                      bool *is_there, celspan_box *out) {                          \
+    return cs_bounds_##type(context, handle, is_there, out);                                       \
+  }                                                                                                \
+  static bool type##_contains(const void *handle, celspan_point point) {                           \
+    return celspan_##type##_contains(handle, point);                                               \
+  }
+PLACED(object)
+PLACED(cel)
+
+/* ---------------------------------------------------------------- kinds */
+
+#define HAS_VALUE(type)                                                                            \
+  .unref = type##_unref, .named = type##_named, .name_of = type##_name_of,                         \
+  .origin_of = type##_origin_of
+#define HAS_PLACE(type)                                                                            \
+  .transform = type##_transform, .fade = type##_fade, .bounds = type##_bounds,                     \
+  .contains = type##_contains
+
+static const luaL_Reg texture_methods[] = {
+    {"with", cs_construct_with}, {"named", cs_named_method}, {NULL, NULL}};
+
+const cs_kind cs_kind_paint = {.name = "celspan.paint",
+                               HAS_VALUE(texture),
+                               .methods = texture_methods,
+                               .own_size = sizeof(celspan_paint)};
+const cs_kind cs_kind_texture = {
+    .name = "celspan.texture", HAS_VALUE(texture), .methods = texture_methods};
+const cs_kind cs_kind_object = {.name = "celspan.object",
+                                HAS_VALUE(object),
+                                HAS_PLACE(object),
+                                .methods = cs_placed_object_methods,
+                                .operators = cs_boolean_operators};
+const cs_kind cs_kind_cel = {
+    .name = "celspan.cel", HAS_VALUE(cel), HAS_PLACE(cel), .methods = cs_placed_methods};
+const cs_kind cs_kind_rostrum = {.name = "celspan.rostrum",
+                                 HAS_VALUE(rostrum),
+                                 .methods = cs_placed_methods,
+                                 .operators = cs_boolean_operators};
+
+const cs_kind *const cs_kinds[] = {
+    &cs_kind_object,  &cs_kind_cel,  &cs_kind_paint, &cs_kind_texture,
+    &cs_kind_rostrum, &cs_kind_film, &cs_kind_frame, NULL};

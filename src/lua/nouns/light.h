@@ -1,0 +1,17 @@
+/* Lights of cels and rostrums, as scripts give them:
+ *
+ *   {r, g, b}, {r, g, b, a}, "#rrggbb"                   one colour
+ *   a texture                                            a shape, on the frame
+ *   { texture = t, gain = 1, on = "frame" | "cel" }      a shape
+ */
+#ifndef CS_NOUNS_LIGHT_H
+#define CS_NOUNS_LIGHT_H
+
+#include "lua/bind/fields.h"
+
+/* The field `name`: *flat or *shape; false when it is missing, and both are left alone. The texture
+ * is borrowed from a value that is left on the stack. */
+bool cs_light_read(const cs_form *form, const char *name, celspan_light *flat,
+                   celspan_light_texture *shape);
+
+#endif

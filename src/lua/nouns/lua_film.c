@@ -1,0 +1,394 @@
+#include "lua/nouns/lua_film.h"
+
+#include <lauxlib.h>
+#include <math.h>
+#include <string.h>
+
+#include "lua/bind/caller.h"
+#include "lua/bind/construct.h"
+#include "lua/bind/fields.h"
+#include "lua/bind/files.h"
+#include "lua/bind/host.h"
+#include "lua/bind/lua_error.h"
+#include "lua/nouns/nouns.h"
+#include "lua/nouns/options.h"
+#include "lua/nouns/random.h"
+
+#define MOST_FRAMES 1000000000 /* half a year of film: numbers stay exact, lists stay possible */
+#define MOST_SIDE 1048576
+
+enum { SOUND_FOLDER = 2 }; /* the user value with the folder of the file that named the sound */
+
+/* ---------------------------------------------------------------- the value */
+
+/* The fields as they are checked; the value keeps its table. */
+typedef struct film_form {
+  int32_t size[2];
+  double fps, duration, sound_offset;
+  int frames, first;
+  const char *title, *sound;
+} film_form;
+
+static void check_film(const cs_form *form, cs_userdata *value) {
+  lua_State *L = form->L;
+  int film = lua_gettop(L);
+  film_form read = {.fps = 24, .duration = 1};
+  (void)value;
+  if (cs_caller_push_folder(L))
+    lua_setiuservalue(L, film, SOUND_FOLDER);
+  cs_fields_read(form, &read);
+  if (!(read.duration * read.fps <= MOST_FRAMES))
+    cs_form_fail(form, "field 'duration' must be at most %d frames, got %s", MOST_FRAMES,
+                 cs_form_digits(form->L, read.duration));
+  if (read.sound && !read.sound[0])
+    cs_form_fail(form, "field 'sound' must be the name of a file, got an empty text");
+  if (cs_form_get(form, "frame") != LUA_TFUNCTION)
+    cs_form_fail(form, "field 'frame' must be a function(f) that returns a rostrum, got %s",
+                 cs_userdata_type(L, -1));
+}
+
+/* Adds what was left out: the size, and the number of frames from the duration or the other way
+ * round.
+ */
+static void complete(lua_State *L, int table) {
+  if (lua_getfield(L, table, "size") == LUA_TNIL) {
+    lua_createtable(L, 2, 0);
+    lua_pushinteger(L, 1920);
+    lua_rawseti(L, -2, 1);
+    lua_pushinteger(L, 1080);
+    lua_rawseti(L, -2, 2);
+    lua_setfield(L, table, "size");
+  }
+  lua_getfield(L, table, "fps");
+  double fps = lua_tonumber(L, -1), frames = 1;
+  if (lua_getfield(L, table, "duration") != LUA_TNIL)
+    frames = fmax(1, floor(lua_tonumber(L, -1) * fps + 0.5));
+  else if (lua_getfield(L, table, "frames") != LUA_TNIL)
+    frames = lua_tonumber(L, -1);
+  lua_pushinteger(L, (lua_Integer)frames);
+  lua_setfield(L, table, "frames");
+  lua_pushnumber(L, frames / fps);
+  lua_setfield(L, table, "duration");
+  lua_settop(L, table);
+}
+
+static const cs_field fields[] = {
+    {"size", CS_PIXELS(film_form, size), .least = 1, .most = MOST_SIDE, .shape = "a size {w, h}",
+     .read = "integer[]", .fallback = "{1920, 1080}"},
+    {"fps", CS_NUMBER(film_form, fps), .is_above = true, .most = 1e6, .preset = "24",
+     .about = "Frames per second"},
+    {"frames", CS_WHOLE(film_form, frames), .least = 1, .most = MOST_FRAMES, .read = "integer",
+     .about = "How many", .fallback = "1"},
+    {"duration", CS_NUMBER(film_form, duration), CS_ABOVE_0, .read = "number",
+     .about = "Seconds, instead of frames"},
+    {"first", CS_WHOLE(film_form, first), .least = -MOST_FRAMES, .most = MOST_FRAMES, .preset = "1",
+     .about = "The number of the first frame"},
+    {"title", CS_TEXT(film_form, title)},
+    {"sound", CS_TEXT(film_form, sound), .about = "A file: the sound of videos"},
+    {"sound_offset", CS_NUMBER(film_form, sound_offset), .least = -MOST_FRAMES, .most = MOST_FRAMES,
+     .preset = "0",
+     .about = "Seconds: the time of the film at which the sound begins; a negative value cuts its "
+              "beginning"},
+    {"frame", CS_OWN("fun(f: celspan.frame): celspan.exposures"), .is_required = true,
+     .about = "A pure function of f"},
+    {0}};
+const cs_noun cs_noun_film = {.name = "film",
+                              .about = "The value that a script returns.",
+                              .kind = &cs_kind_film,
+                              .fields = fields,
+                              .either = {"frames", "duration"},
+                              .create = check_film,
+                              .complete = complete};
+
+/* film:at(number): what the frame function returns, for tests and tools. */
+static int film_at(lua_State *L) {
+  cs_userdata_self(L, &cs_kind_film, "at");
+  cs_film_info film;
+  cs_lua_film_read(L, 1, &film);
+  double number = cs_form_argument(L, 2, "at", "the frame's number"),
+         last = (double)(film.first + film.count - 1);
+  if (!(number >= (double)film.first && number <= last) || number != floor(number))
+    return cs_caller_error(L, "at: the frame's number must be a whole number from %s to %s, got %s",
+                           cs_form_digits(L, (double)film.first), cs_form_digits(L, last),
+                           cs_form_digits(L, number));
+  cs_lua_film_push_frame(L, 1, (int64_t)number);
+  return 1;
+}
+
+/* A sound that is not named anew stays where it is. */
+static int film_with(lua_State *L) {
+  cs_construct_with(L);
+  if (lua_getfield(L, 2, "sound") == LUA_TNIL) {
+    lua_getiuservalue(L, 1, SOUND_FOLDER);
+    lua_setiuservalue(L, -3, SOUND_FOLDER);
+  }
+  lua_pop(L, 1);
+  return 1;
+}
+
+static int constant_frame(lua_State *L) {
+  lua_pushvalue(L, lua_upvalueindex(1));
+  return 1;
+}
+
+void cs_lua_film_push_still(lua_State *L, int rostrum, int32_t width, int32_t height) {
+  rostrum = lua_absindex(L, rostrum);
+  lua_createtable(L, 0, 2);
+  int form = lua_gettop(L);
+  if (lua_getfield(L, rostrum, "size") == LUA_TNIL) {
+    lua_createtable(L, 2, 0);
+    lua_pushinteger(L, width);
+    lua_rawseti(L, -2, 1);
+    lua_pushinteger(L, height);
+    lua_rawseti(L, -2, 2);
+  }
+  lua_setfield(L, form, "size");
+  lua_settop(L, form);
+  lua_pushvalue(L, rostrum);
+  lua_pushcclosure(L, constant_frame, 1);
+  lua_setfield(L, -2, "frame");
+  cs_construct_value(L, &cs_noun_film, lua_gettop(L));
+  lua_remove(L, -2);
+}
+
+bool cs_lua_film_push(lua_State *L, int index) {
+  if (cs_userdata_test(L, index, &cs_kind_film))
+    lua_pushvalue(L, index);
+  else if (cs_userdata_test(L, index, &cs_kind_rostrum))
+    cs_lua_film_push_still(L, index, 1920, 1080);
+  else
+    return false;
+  return true;
+}
+
+static const luaL_Reg methods[] = {{"with", film_with}, {"at", film_at}, {NULL, NULL}};
+const cs_kind cs_kind_film = {.name = "celspan.film", .methods = methods, .kept = 1};
+
+/* ---------------------------------------------------------------- reading */
+
+static double read_number(lua_State *L, int table, const char *name) {
+  lua_getfield(L, table, name);
+  double number = lua_tonumber(L, -1);
+  lua_pop(L, 1);
+  return number;
+}
+
+static const char *read_text(lua_State *L, int table, const char *name) {
+  lua_getfield(L, table, name);
+  const char *text = lua_tostring(L, -1); /* the film's fields keep it alive */
+  lua_pop(L, 1);
+  return text;
+}
+
+void cs_lua_film_read(lua_State *L, int film, cs_film_info *out) {
+  lua_getiuservalue(L, film, 1);
+  int table = lua_gettop(L);
+  lua_getfield(L, table, "size");
+  lua_rawgeti(L, -1, 1);
+  lua_rawgeti(L, -2, 2);
+  *out = (cs_film_info){.width = (int32_t)lua_tonumber(L, -2),
+                        .height = (int32_t)lua_tonumber(L, -1),
+                        .frames_second = read_number(L, table, "fps"),
+                        .first = (int64_t)read_number(L, table, "first"),
+                        .count = (int64_t)read_number(L, table, "frames"),
+                        .title = read_text(L, table, "title"),
+                        .sound = read_text(L, table, "sound"),
+                        .sound_offset = read_number(L, table, "sound_offset")};
+  lua_settop(L, table - 1);
+}
+
+/* film -> path, tried. Runs protected. */
+static int find_sound(lua_State *L) {
+  const char *tried;
+  lua_getiuservalue(L, 1, 1);
+  lua_getiuservalue(L, 1, SOUND_FOLDER);
+  const char *folder = lua_tostring(L, -1);
+  if (lua_getfield(L, 2, "sound") == LUA_TNIL)
+    lua_pushnil(L);
+  else
+    cs_files_find_from(L, folder, lua_tostring(L, -1), &tried);
+  return 2;
+}
+
+celspan_status cs_lua_film_push_sound(lua_State *L, int film) {
+  film = lua_absindex(L, film);
+  if (!lua_checkstack(L, 4))
+    return celspan_context_fail(cs_host_context(L), CELSPAN_LIMIT, "Lua's stack is full");
+  lua_pushcfunction(L, find_sound);
+  lua_pushvalue(L, film);
+  int outcome = lua_pcall(L, 1, 2, 0);
+  return outcome == LUA_OK ? CELSPAN_OK : cs_lua_error_report(L, outcome);
+}
+
+/* ---------------------------------------------------------------- the `f` of frame functions */
+
+#define ALWAYS(type) CS_OWN(type), .is_required = true
+static const cs_field frame_fields[] = {
+    {"number", ALWAYS("integer"), .about = "Counted from `first`"},
+    {"index", ALWAYS("integer"), .about = "From 0"},
+    {"time", ALWAYS("number"), .about = "Seconds: index / fps"},
+    {"middle", ALWAYS("number"), .about = "Seconds at the middle of the frame"},
+    {"count", ALWAYS("integer")},
+    {"fps", ALWAYS("number")},
+    {"width", ALWAYS("integer")},
+    {"height", ALWAYS("integer")},
+    {"progress", ALWAYS("number"), .about = "0 at the first frame, 1 at the last"},
+    {0}};
+const cs_noun cs_noun_frame = {.name = "frame",
+                               .about = "The argument of a frame function.",
+                               .table = "celspan.frame",
+                               .kind = &cs_kind_frame,
+                               .fields = frame_fields};
+
+/* Of the film's title and size, and the frame's number. */
+static uint64_t seed_of(const cs_film_info *film, int64_t number) {
+  const char *title = film->title ? film->title : "";
+  uint64_t seed = cs_random_bytes(cs_random_begin, title, strlen(title));
+  seed = cs_random_integer(seed, (uint64_t)film->width);
+  seed = cs_random_integer(seed, (uint64_t)film->height);
+  return cs_random_integer(seed, (uint64_t)number);
+}
+
+/* f:random(label [, m [, n]]) */
+static int random_number(lua_State *L) {
+  const cs_userdata *frame = cs_userdata_self(L, &cs_kind_frame, "random");
+  return cs_random_push(L, *(const uint64_t *)cs_userdata_own(frame), 2);
+}
+
+/* Whether the value is a whole number; 2.0 is one too. */
+static bool is_whole(lua_State *L, int index, lua_Integer *out) {
+  int good = 0;
+  if (lua_type(L, index) == LUA_TNUMBER)
+    *out = lua_tointegerx(L, index, &good);
+  return good;
+}
+
+/* f:on(n): the index of the first of n frames that share a drawing. */
+static int on(lua_State *L) {
+  cs_userdata_self(L, &cs_kind_frame, "on");
+  lua_Integer step = 0;
+  if (!is_whole(L, 2, &step) || step < 1)
+    return cs_caller_error(L, "on: takes a whole number of frames, 1 or more, f:on(2), got %s",
+                           lua_type(L, 2) == LUA_TNUMBER ? luaL_tolstring(L, 2, NULL)
+                                                         : cs_userdata_type(L, 2));
+  lua_getiuservalue(L, 1, 1);
+  lua_getfield(L, -1, "index");
+  lua_Integer index = lua_tointeger(L, -1);
+  lua_pushinteger(L, index - index % step);
+  return 1;
+}
+
+static const luaL_Reg frame_methods[] = {{"on", on}, {"random", random_number}, {NULL, NULL}};
+const cs_kind cs_kind_frame = {
+    .name = "celspan.frame", .methods = frame_methods, .own_size = sizeof(uint64_t)};
+
+static void set_integer(lua_State *L, const char *name, int64_t number) {
+  lua_pushinteger(L, number);
+  lua_setfield(L, -2, name);
+}
+
+static void set_number(lua_State *L, const char *name, double number) {
+  lua_pushnumber(L, number);
+  lua_setfield(L, -2, name);
+}
+
+static void push_frame(lua_State *L, const cs_film_info *film, int64_t number) {
+  int64_t index = number - film->first;
+  cs_userdata *value = cs_userdata_push(L, &cs_noun_frame);
+  *(uint64_t *)cs_userdata_own(value) = seed_of(film, number);
+  lua_createtable(L, 0, 9);
+  set_integer(L, "number", number);
+  set_integer(L, "index", index);
+  set_integer(L, "count", film->count);
+  set_integer(L, "width", film->width);
+  set_integer(L, "height", film->height);
+  set_number(L, "fps", film->frames_second);
+  set_number(L, "time", (double)index / film->frames_second);
+  set_number(L, "middle", ((double)index + 0.5) / film->frames_second);
+  set_number(L, "progress", film->count > 1 ? (double)index / (double)(film->count - 1) : 0);
+  lua_setiuservalue(L, -2, 1);
+}
+
+/* ---------------------------------------------------------------- frames */
+
+/* Pushes "script.lua:12: the frame function's result". */
+static const char *push_result_name(lua_State *L, int function) {
+  cs_caller_push_function(L, function);
+  lua_pushliteral(L, "the frame function's result");
+  lua_concat(L, 2);
+  return lua_tostring(L, -1);
+}
+
+/* frame function, f -> exposures */
+static int call_frame(lua_State *L) {
+  const char *name = push_result_name(L, 1);
+  lua_pushvalue(L, 1);
+  lua_pushvalue(L, 2);
+  lua_call(L, 1, 1);
+  int result = lua_gettop(L);
+  celspan_frame_desc desc;
+  cs_options_exposures(L, result, name, &desc);
+  lua_settop(L, result);
+  return 1;
+}
+
+/* Pushes the exposures, or the message; the answer is that of lua_pcall. film: an absolute index.
+ */
+static int protected_frame(lua_State *L, int film, int64_t number) {
+  cs_film_info info;
+  cs_lua_film_read(L, film, &info);
+  const char *label = lua_pushfstring(L, "frame %I: ", (LUAI_UACINT)number);
+  cs_lua_error_push_handler(L, label, call_frame);
+  lua_remove(L, -2);
+  int handler = lua_gettop(L);
+  lua_pushcfunction(L, call_frame);
+  lua_getiuservalue(L, film, 1);
+  lua_getfield(L, -1, "frame");
+  lua_remove(L, -2);
+  push_frame(L, &info, number);
+  cs_host_begin(L, CS_HOST_FRAME, number);
+  int outcome = lua_pcall(L, 2, 1, handler);
+  cs_host_end(L);
+  lua_remove(L, handler);
+  return outcome;
+}
+
+void cs_lua_film_push_frame(lua_State *L, int film, int64_t number) {
+  if (protected_frame(L, lua_absindex(L, film), number) != LUA_OK)
+    lua_error(L);
+}
+
+/* One frame that is asked for from outside of Lua. */
+typedef struct request {
+  int64_t number;
+  cs_film_frame frame;
+  celspan_status status; /* of the core, when it could not take the exposures */
+} request;
+
+/* film, light userdata: fills the request. Runs protected. */
+static int build_frame(lua_State *L) {
+  request *r = lua_touserdata(L, 2);
+  cs_lua_film_push_frame(L, 1, r->number);
+  celspan_frame_desc desc;
+  cs_options_exposures(L, -1, "the frame function's result", &desc);
+  r->status =
+      cs_film_frame_init(&r->frame, cs_host_context(L), desc.exposures, desc.exposure_count);
+  return 0;
+}
+
+celspan_status cs_lua_film_build(lua_State *L, int film, int64_t number, cs_film_frame *out) {
+  film = lua_absindex(L, film);
+  request r = {.number = number, .status = CELSPAN_OK};
+  cs_host_get(L)->failure = CELSPAN_OK;
+  if (!lua_checkstack(L, 10))
+    return celspan_context_fail(cs_host_context(L), CELSPAN_LIMIT, "Lua's stack is full");
+  lua_pushcfunction(L, build_frame);
+  lua_pushvalue(L, film);
+  lua_pushlightuserdata(L, &r);
+  int outcome = lua_pcall(L, 2, 0, 0);
+  if (outcome != LUA_OK)
+    return cs_lua_error_report(L, outcome);
+  if (r.status == CELSPAN_OK)
+    *out = r.frame;
+  return r.status;
+}

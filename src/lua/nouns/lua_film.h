@@ -1,0 +1,35 @@
+/* Films in Lua: the value that a script returns, and its frames one by one.
+ *
+ *   cs_lua_film_read    the facts of a film
+ *   cs_lua_film_build   frame n as exposures, for callers outside of Lua
+ *
+ * INVARIANT: cs_lua_film_read and cs_lua_film_build do not raise: an error of the frame function
+ * comes back as a status with its sentence in the context, "shot.lua:12: frame 37: circle: ...".
+ */
+#ifndef CS_NOUNS_LUA_FILM_H
+#define CS_NOUNS_LUA_FILM_H
+
+#include <lua.h>
+
+#include "frames/film/film.h"
+
+/* film: index of a film. The texts live as long as the film. */
+void cs_lua_film_read(lua_State *L, int film, cs_film_info *out);
+/* Pushes where the film's sound is, or nil where it has none, and after it where else it was looked
+ * for if it is in neither place, or nil: beside the Lua file of the frame function, then beside the
+ * script. Errors: NO_MEMORY; nothing is pushed then. */
+CELSPAN_CHECKED celspan_status cs_lua_film_push_sound(lua_State *L, int film);
+/* Calls the frame function. out: new, to be finished; untouched on failure. */
+CELSPAN_CHECKED celspan_status cs_lua_film_build(lua_State *L, int film, int64_t number,
+                                                 cs_film_frame *out);
+
+/* Pushes a film of one frame around the rostrum at index. Raises. */
+void cs_lua_film_push_still(lua_State *L, int rostrum, int32_t width, int32_t height);
+/* Pushes the film at index, or for a rostrum a film of one frame, 1920 x 1080, 24 a second: what a
+ * script may return. false, and nothing pushed, for anything else. Raises. */
+bool cs_lua_film_push(lua_State *L, int index);
+/* Calls the frame function for a frame and pushes what it returns, checked to be exposures; raises
+ * with the frame's number in the message. */
+void cs_lua_film_push_frame(lua_State *L, int film, int64_t number);
+
+#endif

@@ -1,0 +1,40 @@
+/* All nouns, and what the files of this folder know of each other.
+ *
+ * INVARIANT: every noun of which scripts make values, and every table that they fill in, is in one of
+ * the two lists, so that annotations and `celspan help lua` have it.
+ */
+#ifndef CS_NOUNS_NOUNS_H
+#define CS_NOUNS_NOUNS_H
+
+#include "lua/bind/userdata.h"
+
+extern const cs_noun cs_noun_gradient, cs_noun_linear, cs_noun_radial, cs_noun_picture,
+    cs_noun_rect, cs_noun_triangle, cs_noun_circle, cs_noun_ellipse, cs_noun_polygon, cs_noun_nurbs,
+    cs_noun_path, cs_noun_image, cs_noun_stroke, cs_noun_stroke_style, cs_noun_text, cs_noun_glyph,
+    cs_noun_scanline, cs_noun_union, cs_noun_intersection, cs_noun_difference, cs_noun_xor,
+    cs_noun_light, cs_noun_defocus, cs_noun_cel, cs_noun_camera, cs_noun_frame;
+
+/* Those with a constructor, celspan.circle, and tables: of values without one, of options, and in
+ * fields of others. Ended by NULL. */
+extern const cs_noun *const cs_nouns_made[], *const cs_nouns_tables[];
+/* Pushes all of them by name, with the rows of their fields, for the Lua module celspan.manual. */
+int cs_nouns_push(lua_State *L);
+
+/* The methods of cels and rostrums; those of objects. */
+extern const luaL_Reg cs_placed_methods[], cs_placed_object_methods[];
+extern const luaL_Reg cs_boolean_operators[];
+
+/* primitive:stroke{ ... }: celspan.stroke{ outline = primitive, ... } with the primitive's transform
+ * and fade. */
+int cs_stroke_method(lua_State *L);
+
+/* Functions of the module celspan. */
+int cs_nouns_rgb(lua_State *L);
+int cs_nouns_gel(lua_State *L);
+int cs_nouns_mix(lua_State *L);
+int cs_nouns_clip(lua_State *L);
+int cs_nouns_glyphs(lua_State *L);
+/* Pushes celspan.clear. */
+void cs_nouns_push_clear(lua_State *L);
+
+#endif

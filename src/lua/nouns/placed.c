@@ -1,0 +1,203 @@
+#include "lua/nouns/placed.h"
+
+#include <math.h>
+
+#include "lua/bind/caller.h"
+#include "lua/bind/construct.h"
+#include "lua/bind/form.h"
+#include "lua/bind/host.h"
+#include "lua/bind/named.h"
+#include "lua/bind/numbers.h"
+#include "lua/nouns/nouns.h"
+#include "model/geometry/matrix.h"
+
+#define PI 3.14159265358979323846
+
+/* ---------------------------------------------------------------- shapes */
+
+cs_userdata *cs_placed_at(lua_State *L, int index) {
+  cs_userdata *value = cs_userdata_test(L, index, &cs_kind_object);
+  if (value)
+    return value;
+  const cs_userdata *rostrum = cs_userdata_test(L, index, &cs_kind_rostrum);
+  if (!rostrum)
+    return NULL;
+  int place = lua_absindex(L, index);
+  celspan_object *object = NULL;
+  value = cs_userdata_push(L, &cs_noun_rostrum_object);
+  cs_host_try(L, "rostrum",
+              celspan_object_create_rostrum(cs_host_context(L), rostrum->handle, &object));
+  value->handle = object;
+  lua_getiuservalue(L, place, 1); /* never changed, so it can be shared */
+  lua_setiuservalue(L, -2, 1);
+  lua_replace(L, place);
+  return value;
+}
+
+celspan_object **cs_placed_items(const cs_form *form, int count) {
+  lua_State *L = form->L;
+  celspan_object **objects = cs_form_scratch(L, (size_t)count, sizeof *objects);
+  lua_createtable(L, count, 0); /* holds them: a finaliser may take them out of the list */
+  int kept = lua_gettop(L);
+  for (int i = 0; i < count; i++) {
+    lua_rawgeti(L, form->table, i + 1);
+    const cs_userdata *value = cs_placed_at(L, -1);
+    if (!value)
+      cs_form_fail(form, "item %d must be an object, got %s", i + 1, cs_userdata_type(L, -1));
+    objects[i] = value->handle;
+    lua_rawseti(L, kept, i + 1);
+  }
+  return objects;
+}
+
+/* ---------------------------------------------------------------- methods */
+
+double cs_placed_radians(double degrees) { return fmod(degrees, 360) * (PI / 180); }
+
+static cs_userdata *self(lua_State *L, const char *method) {
+  cs_userdata *value = cs_placed_at(L, 1);
+  return value ? value : cs_userdata_self(L, &cs_kind_cel, method);
+}
+
+static int push_transformed(lua_State *L, const char *method, const cs_userdata *value,
+                            celspan_matrix matrix) {
+  cs_userdata *copy = cs_userdata_push_like(L, 1, true);
+  cs_placement placement = cs_userdata_placement(value);
+  cs_host_try(
+      L, method,
+      value->noun->kind->transform(cs_host_context(L), value->handle, &matrix, &copy->handle));
+  placement.matrix = celspan_matrix_then(placement.matrix, matrix);
+  cs_userdata_place(copy, &placement);
+  return 1;
+}
+
+static int translate(lua_State *L) {
+  const cs_userdata *value = self(L, "translate");
+  double dx = cs_form_argument(L, 2, "translate", "dx"),
+         dy = cs_form_argument(L, 3, "translate", "dy");
+  return push_transformed(L, "translate", value, celspan_matrix_translation(dx, dy));
+}
+
+/* The arguments cx, cy at `index`: both or none, which is the origin. */
+static celspan_point read_centre(lua_State *L, int index, const char *method) {
+  celspan_point centre = {0, 0};
+  if (!lua_isnoneornil(L, index) || !lua_isnoneornil(L, index + 1)) {
+    centre.x = cs_form_argument(L, index, method, "the centre's x");
+    centre.y = cs_form_argument(L, index + 1, method, "the centre's y");
+  }
+  return centre;
+}
+
+static int scale(lua_State *L) {
+  const cs_userdata *value = self(L, "scale");
+  double sx = cs_form_argument(L, 2, "scale", "sx");
+  double sy = lua_isnoneornil(L, 3) ? sx : cs_form_argument(L, 3, "scale", "sy");
+  celspan_point centre = read_centre(L, 4, "scale");
+  return push_transformed(L, "scale", value, celspan_matrix_scaling_about(sx, sy, centre));
+}
+
+static int rotate(lua_State *L) {
+  const cs_userdata *value = self(L, "rotate");
+  double degrees = cs_form_argument(L, 2, "rotate", "the angle in degrees");
+  celspan_point centre = read_centre(L, 3, "rotate");
+  return push_transformed(L, "rotate", value, cs_matrix_turn(degrees, centre));
+}
+
+static int skew(lua_State *L) {
+  const cs_userdata *value = self(L, "skew");
+  double x = cs_form_argument(L, 2, "skew", "the first angle in degrees");
+  double y = cs_form_argument(L, 3, "skew", "the second angle in degrees");
+  celspan_point centre = read_centre(L, 4, "skew");
+  celspan_matrix matrix =
+      celspan_matrix_skewing_about(cs_placed_radians(x), cs_placed_radians(y), centre);
+  return push_transformed(L, "skew", value, matrix);
+}
+
+static int transform(lua_State *L) {
+  static const cs_numbers_name name = {.noun = "transform",
+                                       .whole = "the matrix",
+                                       .item = "value %d of the matrix",
+                                       .shape = "{a,b,c, d,e,f, g,h,i}"};
+  const cs_userdata *value = self(L, "transform");
+  celspan_matrix matrix;
+  cs_numbers_read(L, 2, &name, 9, 9, matrix.m);
+  return push_transformed(L, "transform", value, matrix);
+}
+
+static void read_corners(lua_State *L, int index, const char *which, celspan_point corners[4]) {
+  cs_numbers_name name = {.noun = "quad",
+                          .whole = lua_pushfstring(L, "point %%d of %s", which),
+                          .item = lua_pushfstring(L, "point %%d of %s: its value %%d", which),
+                          .shape = "{x, y}"};
+  bool is_table = lua_istable(L, index);
+  if (!is_table || lua_rawlen(L, index) != 4)
+    cs_caller_error(L, "quad: %s must be four points {{x, y}, {x, y}, {x, y}, {x, y}}, got %s",
+                    which,
+                    is_table ? lua_pushfstring(L, "%d of them", (int)lua_rawlen(L, index))
+                             : cs_userdata_type(L, index));
+  for (int i = 0; i < 4; i++) {
+    double pair[2];
+    name.number = i + 1;
+    lua_rawgeti(L, index, i + 1);
+    cs_numbers_read(L, -1, &name, 2, 2, pair);
+    corners[i] = (celspan_point){pair[0], pair[1]};
+    lua_pop(L, 1);
+  }
+}
+
+static int quad(lua_State *L) {
+  const cs_userdata *value = self(L, "quad");
+  lua_settop(L, 3);
+  celspan_point from[4], to[4];
+  read_corners(L, 2, "the first four", from);
+  read_corners(L, 3, "the other four", to);
+  celspan_matrix matrix;
+  if (!celspan_matrix_quad(from, to, &matrix))
+    return cs_caller_error(L, "quad: no perspective takes the first four points to the second; "
+                              "no three of them may lie on one line");
+  return push_transformed(L, "quad", value, matrix);
+}
+
+static int fade(lua_State *L) {
+  const cs_userdata *value = self(L, "fade");
+  double k = cs_form_argument(L, 2, "fade", "k");
+  cs_userdata *copy = cs_userdata_push_like(L, 1, true);
+  cs_placement placement = cs_userdata_placement(value);
+  cs_host_try(L, "fade",
+              value->noun->kind->fade(cs_host_context(L), value->handle, k, &copy->handle));
+  placement.fade *= k;
+  cs_userdata_place(copy, &placement);
+  return 1;
+}
+
+static int bounds(lua_State *L) {
+  const cs_userdata *value = self(L, "bounds");
+  celspan_box box;
+  bool is_there = false;
+  cs_host_try(L, "bounds",
+              value->noun->kind->bounds(cs_host_context(L), value->handle, &is_there, &box));
+  if (!is_there)
+    return 0;
+  lua_pushnumber(L, box.x);
+  lua_pushnumber(L, box.y);
+  lua_pushnumber(L, box.width);
+  lua_pushnumber(L, box.height);
+  return 4;
+}
+
+static int contains(lua_State *L) {
+  const cs_userdata *value = self(L, "contains");
+  celspan_point point = {cs_form_argument(L, 2, "contains", "x"),
+                         cs_form_argument(L, 3, "contains", "y")};
+  lua_pushboolean(L, value->noun->kind->contains(value->handle, point));
+  return 1;
+}
+
+#define METHODS                                                                                    \
+  {"translate", translate}, {"scale", scale}, {"rotate", rotate}, {"skew", skew},                  \
+      {"transform", transform}, {"quad", quad}, {"fade", fade}, {"bounds", bounds},                \
+      {"contains", contains}, {"named", cs_named_method}, {"with", cs_construct_with}, {           \
+    NULL, NULL                                                                                     \
+  }
+const luaL_Reg cs_placed_methods[] = {METHODS};
+const luaL_Reg cs_placed_object_methods[] = {{"stroke", cs_stroke_method}, METHODS};

@@ -1,0 +1,287 @@
+/* Text: celspan.text, one object; celspan.glyphs, an object a letter. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lua/bind/construct.h"
+#include "lua/bind/fields.h"
+#include "lua/bind/files.h"
+#include "lua/bind/host.h"
+#include "lua/bind/named.h"
+#include "lua/nouns/nouns.h"
+
+#define HOLDER "celspan.letters"
+#define MOST_SETTINGS 65 /* one more than the core allows, so that it says so */
+#define MOST_FONTS 17
+
+typedef struct text_form {
+  celspan_text_desc desc;
+  int face, index; /* in Lua from 1 */
+} text_form;
+
+/* ---------------------------------------------------------------- reading */
+
+static void read_string(const cs_form *form, celspan_text_desc *desc) {
+  lua_State *L = form->L;
+  int length = cs_form_length(form);
+  if (length != 1)
+    cs_form_fail(form, "takes one string, the text, got %d values", length);
+  cs_form_item(form, 1, LUA_TSTRING, "value", "a string, the text");
+  desc->text = lua_tolstring(L, -1, &desc->text_size); /* the table keeps it alive */
+  lua_pop(L, 1);
+}
+
+/* The font on top of the stack; what finding it pushes is left above it. */
+static celspan_font read_font(const cs_form *form) {
+  lua_State *L = form->L;
+  if (lua_type(L, -1) != LUA_TSTRING)
+    cs_form_fail(form, "field 'font' must be the name of a file, or a list of them, got %s",
+                 cs_userdata_type(L, -1));
+  const char *name = lua_tostring(L, -1);
+  if (strlen(name) != lua_rawlen(L, -1))
+    cs_form_fail(form, "field 'font' must not hold a zero byte");
+  celspan_font font = {0};
+  font.file = cs_files_find(L, name, &font.tried);
+  return font;
+}
+
+static void read_fonts(const cs_form *form, celspan_text_desc *desc) {
+  lua_State *L = form->L;
+  celspan_font *fonts = cs_form_scratch(L, MOST_FONTS, sizeof *fonts);
+  desc->fonts = fonts;
+  luaL_checkstack(L, 3 * MOST_FONTS, "fonts");
+  if (cs_form_get(form, "font") == LUA_TNIL)
+    cs_form_fail(form, "field 'font' is missing: the file of a font, or a list of them");
+  int list = lua_gettop(L);
+  if (lua_type(L, list) != LUA_TTABLE) {
+    fonts[desc->font_count++] = read_font(form);
+    return;
+  }
+  lua_Integer count = (lua_Integer)lua_rawlen(L, list);
+  for (lua_Integer i = 1; i <= count && i <= MOST_FONTS; i++) {
+    lua_rawgeti(L, list, i);
+    fonts[desc->font_count++] = read_font(form);
+  }
+}
+
+/* Pushes the field; false if it is missing. Raises an error unless it is a table by name. */
+static bool get_settings(const cs_form *form, const char *field) {
+  int type = cs_form_get(form, field);
+  if (type != LUA_TTABLE && type != LUA_TNIL)
+    cs_form_fail(form, "field '%s' must be a table by name, got %s", field,
+                 cs_userdata_type(form->L, -1));
+  return type == LUA_TTABLE;
+}
+
+static const char *setting_name(const cs_form *form, const char *field) {
+  lua_State *L = form->L;
+  if (lua_type(L, -2) != LUA_TSTRING)
+    cs_form_fail(form, "field '%s' is a table by name, such as { %s }, but has the key %s", field,
+                 field[0] == 'f' ? "liga = false" : "wght = 700", luaL_tolstring(L, -2, NULL));
+  return lua_tostring(L, -2);
+}
+
+/* true, false, or a whole number. */
+static uint32_t feature_value(const cs_form *form, const char *name) {
+  lua_State *L = form->L;
+  if (lua_isboolean(L, -1))
+    return (uint32_t)lua_toboolean(L, -1);
+  double number = lua_type(L, -1) == LUA_TNUMBER ? lua_tonumber(L, -1) : -1;
+  if (!(number >= 0 && number <= 65535) || number != floor(number))
+    cs_form_fail(form, "features: %s must be true, false or a whole number from 0 to 65535, got %s",
+                 name, luaL_tolstring(L, -1, NULL));
+  return (uint32_t)number;
+}
+
+static int compare_features(const void *a, const void *b) {
+  return strcmp(((const celspan_feature *)a)->tag, ((const celspan_feature *)b)->tag);
+}
+
+static int compare_variations(const void *a, const void *b) {
+  return strcmp(((const celspan_variation *)a)->tag, ((const celspan_variation *)b)->tag);
+}
+
+static void read_features(const cs_form *form, celspan_text_desc *desc) {
+  lua_State *L = form->L;
+  celspan_feature *features = cs_form_scratch(L, MOST_SETTINGS, sizeof *features);
+  if (!get_settings(form, "features"))
+    return;
+  int table = lua_gettop(L);
+  for (lua_pushnil(L); desc->feature_count < MOST_SETTINGS && lua_next(L, table); lua_pop(L, 1)) {
+    const char *name = setting_name(form, "features");
+    features[desc->feature_count++] = (celspan_feature){name, feature_value(form, name)};
+  }
+  lua_settop(L, table);
+  qsort(features, desc->feature_count, sizeof *features, compare_features);
+  desc->features = features;
+}
+
+static void read_variations(const cs_form *form, celspan_text_desc *desc) {
+  lua_State *L = form->L;
+  celspan_variation *variations = cs_form_scratch(L, MOST_SETTINGS, sizeof *variations);
+  if (!get_settings(form, "variations"))
+    return;
+  int table = lua_gettop(L);
+  for (lua_pushnil(L); desc->variation_count < MOST_SETTINGS && lua_next(L, table); lua_pop(L, 1)) {
+    const char *name = setting_name(form, "variations");
+    if (lua_type(L, -1) != LUA_TNUMBER)
+      cs_form_fail(form, "variations: %s must be a number, got %s", name, cs_userdata_type(L, -1));
+    variations[desc->variation_count++] = (celspan_variation){name, lua_tonumber(L, -1)};
+  }
+  lua_settop(L, table);
+  qsort(variations, desc->variation_count, sizeof *variations, compare_variations);
+  desc->variations = variations;
+}
+
+/* Borrows from values that are left on the stack. */
+static text_form read_text(const cs_form *form) {
+  text_form read = {.desc = CELSPAN_TEXT_DESC, .face = 1};
+  read_string(form, &read.desc);
+  cs_fields_read(form, &read);
+  read_fonts(form, &read.desc);
+  read.desc.face = (uint32_t)read.face - 1;
+  read_features(form, &read.desc);
+  read_variations(form, &read.desc);
+  return read;
+}
+
+/* ---------------------------------------------------------------- text */
+
+static void create_text(const cs_form *form, cs_userdata *value) {
+  text_form read = read_text(form);
+  celspan_object *object = NULL;
+  cs_form_try(form, celspan_object_create_text(cs_host_context(form->L), &read.desc, &object));
+  value->handle = object;
+}
+
+static const char *const aligns[] = {"left", "centre", "right", NULL};
+static const char *const directions[] = {"auto", "ltr", "rtl", NULL};
+
+static const cs_field text_fields[] = {
+    {"font", CS_OWN("string|string[]"), .is_required = true,
+     .about = "Files; each letter is taken from the first font that has it"},
+    {"size", CS_NUMBER(text_form, desc.size), CS_FROM(0), .preset = "48", .about = "The em"},
+    {"at", CS_POINT(text_form, desc.at), .about = "The baseline of the first line",
+     .fallback = "{0, 0}"},
+    {"align", CS_CHOICE(text_form, desc.align, aligns), .preset = "left",
+     .about = "The same in every script"},
+    {"width", CS_NUMBER(text_form, desc.width), CS_HAS(text_form, desc.has_width), CS_FROM(0),
+     .about = "Lines wrap, and align within at[1] .. at[1] + width"},
+    {"leading", CS_NUMBER(text_form, desc.leading), .preset = "1.2",
+     .about = "From baseline to baseline, times size"},
+    {"tracking", CS_NUMBER(text_form, desc.tracking), .preset = "0",
+     .about = "Thousandths of an em after each letter"},
+    {"features", CS_OWN("table<string, boolean|integer>"),
+     .about = "OpenType features: { liga = false, ss01 = true, salt = 2 }"},
+    {"variations", CS_OWN("table<string, number>"),
+     .about = "Axes of variable fonts: { wght = 700 }"},
+    {"language", CS_TEXT(text_form, desc.language), .about = "\"en\", \"tr\", \"zh-Hant\""},
+    {"direction", CS_CHOICE(text_form, desc.direction, directions),
+     .fallback = "by the first letter of each line of the text"},
+    {"face", CS_WHOLE(text_form, face), CS_FROM(1), .preset = "1",
+     .about = "The number of the font in a collection (.ttc, .otc)"},
+    {CS_TEXTURE(text_form, desc.texture)},
+    {0}};
+static const cs_field glyph_fields[] = {
+    {"index", CS_WHOLE(text_form, index), .is_required = true, .about = "From 1"},
+    {.more = text_fields}};
+
+#define STRING                                                                                     \
+  .list = CS_LIST_TUPLE, .item = "string", .item_written = "string",                               \
+  .item_about = "The text; \\n breaks lines"
+const cs_noun cs_noun_text = {.name = "text",
+                              .about = "The letters of a text as one primitive.",
+                              .kind = &cs_kind_object,
+                              .fields = text_fields,
+                              .create = create_text,
+                              STRING};
+static const cs_noun noun_glyphs = {.name = "glyphs", .fields = text_fields, STRING};
+
+/* ---------------------------------------------------------------- glyphs */
+
+static int release(lua_State *L) {
+  celspan_glyphs **holder = lua_touserdata(L, 1);
+  celspan_glyphs_destroy(*holder);
+  *holder = NULL;
+  return 0;
+}
+
+/* Pushes a holder of the letters, which keeps them until they are values. */
+static celspan_glyphs **push_letters(const cs_form *form, const celspan_text_desc *desc) {
+  lua_State *L = form->L;
+  celspan_glyphs **holder = cs_userdata_push_holder(L, HOLDER, sizeof *holder, release);
+  cs_form_try(form, celspan_glyphs_create(cs_host_context(L), desc, holder));
+  return holder;
+}
+
+/* One of the letters, made again by :with. */
+static void create_glyph(const cs_form *form, cs_userdata *value) {
+  text_form read = read_text(form);
+  int index = read.index;
+  const celspan_glyphs *letters = *push_letters(form, &read.desc);
+  size_t count = celspan_glyphs_count(letters);
+  if (index < 1 || (size_t)index > count)
+    cs_form_fail(form, "field 'index' must be from 1 to %d, the letters of the text, got %d",
+                 (int)count, index);
+  value->handle = celspan_object_ref(celspan_glyphs_get(letters, (size_t)index - 1)->object);
+}
+
+const cs_noun cs_noun_glyph = {.name = "glyph",
+                               .about = "A letter as an object; `with` returns the letter of "
+                                        "the same index of the changed text.",
+                               .kind = &cs_kind_object,
+                               .fields = glyph_fields,
+                               .create = create_glyph,
+                               STRING};
+
+/* Pushes a letter's object, whose fields are those at index `fields` and its place. */
+static void push_object(lua_State *L, int fields, const celspan_glyph *glyph, lua_Integer index) {
+  cs_userdata *value = cs_userdata_push(L, &cs_noun_glyph);
+  value->handle = celspan_object_ref(glyph->object);
+  lua_newtable(L);
+  for (lua_pushnil(L); lua_next(L, fields);) {
+    lua_pushvalue(L, -2);
+    lua_insert(L, -2);
+    lua_rawset(L, -4);
+  }
+  lua_pushinteger(L, index);
+  lua_setfield(L, -2, "index");
+  lua_setiuservalue(L, -2, 1);
+}
+
+static void push_glyph(lua_State *L, int fields, const celspan_glyph *glyph, lua_Integer index) {
+  lua_createtable(L, 0, 6);
+  push_object(L, fields, glyph, index);
+  lua_setfield(L, -2, "object");
+  lua_pushnumber(L, glyph->x);
+  lua_setfield(L, -2, "x");
+  lua_pushnumber(L, glyph->y);
+  lua_setfield(L, -2, "y");
+  lua_pushnumber(L, glyph->advance);
+  lua_setfield(L, -2, "advance");
+  lua_pushlstring(L, glyph->text, glyph->text_size);
+  lua_setfield(L, -2, "text");
+  lua_pushinteger(L, glyph->line);
+  lua_setfield(L, -2, "line");
+}
+
+int cs_nouns_glyphs(lua_State *L) {
+  lua_settop(L, 1);
+  cs_form form = cs_form_open(L, &noun_glyphs, 1);
+  celspan_context *context = cs_host_context(L);
+  cs_named_begin(L, context);
+  text_form read = read_text(&form);
+  celspan_glyphs **holder = push_letters(&form, &read.desc);
+  cs_named_end(context);
+  cs_construct_push_fields(L, &cs_noun_glyph, 1);
+  int fields = lua_gettop(L);
+  size_t count = celspan_glyphs_count(*holder);
+  lua_createtable(L, (int)count, 0);
+  for (size_t i = 0; i < count; i++) {
+    push_glyph(L, fields, celspan_glyphs_get(*holder, i), (lua_Integer)i + 1);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  celspan_glyphs_destroy(*holder);
+  *holder = NULL;
+  return 1;
+}

@@ -1,0 +1,197 @@
+/* Textures: gradients and pictures. */
+#include "lua/nouns/texture.h"
+
+#include "lua/bind/files.h"
+#include "lua/bind/host.h"
+#include "lua/nouns/nouns.h"
+
+static void create_gradient(const cs_form *form, cs_userdata *value) {
+  int count = cs_form_length(form);
+  if (count != 3)
+    cs_form_fail(form, "takes three corners {x, y, paint}, got %d", count);
+  celspan_point points[3];
+  celspan_paint paints[3];
+  for (int i = 0; i < 3; i++) {
+    cs_form_item(form, i + 1, LUA_TTABLE, "corner", "{x, y, paint}");
+    points[i].x = cs_form_tuple_number(form, -1, 1, "corner", i + 1);
+    points[i].y = cs_form_tuple_number(form, -1, 2, "corner", i + 1);
+    paints[i] = cs_form_tuple_paint(form, -1, 3, "corner", i + 1);
+  }
+  celspan_texture *texture = NULL;
+  cs_form_try(form,
+              celspan_texture_create_gradient(cs_host_context(form->L), points, paints, &texture));
+  value->handle = texture;
+}
+
+/* The stops {at, paint} of the array part: scratch memory, left on the stack. */
+static celspan_stop *read_stops(const cs_form *form, int count) {
+  celspan_stop *stops = cs_form_scratch(form->L, (size_t)count, sizeof *stops);
+  for (int i = 0; i < count; i++) {
+    cs_form_item(form, i + 1, LUA_TTABLE, "stop", "{at, paint}");
+    stops[i].at = cs_form_tuple_number(form, -1, 1, "stop", i + 1);
+    stops[i].paint = cs_form_tuple_paint(form, -1, 2, "stop", i + 1);
+    lua_pop(form->L, 1);
+  }
+  return stops;
+}
+
+/* The fields of a gradient along a line or around a point, as they are read. */
+typedef struct gradient {
+  celspan_point from, to; /* or centre, focus */
+  double radius;
+  bool has_focus, has_matrix;
+  celspan_matrix matrix;
+  celspan_spread spread;
+} gradient;
+
+/* Gives the gradient its matrix and its spread; the texture belongs to the value from the beginning,
+ * so that it is released if one of them is refused. */
+static void set_extent(const cs_form *form, const gradient *given, celspan_texture *texture,
+                       cs_userdata *value) {
+  celspan_context *context = cs_host_context(form->L);
+  value->handle = texture;
+  if (given->has_matrix) {
+    cs_form_try(form,
+                celspan_texture_with_matrix(context, value->handle, &given->matrix, &texture));
+    celspan_texture_unref(value->handle);
+    value->handle = texture;
+  }
+  if (given->spread != CELSPAN_SPREAD_HOLD) {
+    cs_form_try(form, celspan_texture_with_spread(context, value->handle, given->spread, &texture));
+    celspan_texture_unref(value->handle);
+    value->handle = texture;
+  }
+}
+
+static void create_linear(const cs_form *form, cs_userdata *value) {
+  gradient g = {.spread = CELSPAN_SPREAD_HOLD};
+  cs_fields_read(form, &g);
+  int count = cs_form_length(form);
+  celspan_stop *stops = read_stops(form, count);
+  celspan_texture *texture = NULL;
+  cs_form_try(form, celspan_texture_create_linear(cs_host_context(form->L), g.from, g.to, stops,
+                                                  (size_t)count, &texture));
+  set_extent(form, &g, texture, value);
+}
+
+static void create_radial(const cs_form *form, cs_userdata *value) {
+  gradient g = {.spread = CELSPAN_SPREAD_HOLD};
+  cs_fields_read(form, &g);
+  int count = cs_form_length(form);
+  celspan_stop *stops = read_stops(form, count);
+  celspan_texture *texture = NULL;
+  cs_form_try(form, celspan_texture_create_focal(cs_host_context(form->L), g.from, g.radius,
+                                                 g.has_focus ? g.to : g.from, stops, (size_t)count,
+                                                 &texture));
+  set_extent(form, &g, texture, value);
+}
+
+static const char *const spreads[] = {"hold", "repeat", "reflect", NULL};
+static const cs_field no_fields[] = {{0}};
+static const cs_field extent_fields[] = {
+    {"spread", CS_CHOICE(gradient, spread, spreads), .about = "The values before 0 and after 1",
+     .fallback = "\"hold\""},
+    {"matrix", CS_NUMBERS(gradient, matrix), CS_HAS(gradient, has_matrix),
+     .about = "Nine numbers: moves the gradient alone"},
+    {0}};
+static const cs_field linear_fields[] = {
+    {"from", CS_POINT(gradient, from), .is_required = true, .about = "Where 0 lies"},
+    {"to", CS_POINT(gradient, to), .is_required = true, .about = "Where 1 lies"},
+    {.more = extent_fields}};
+static const cs_field radial_fields[] = {
+    {"centre", CS_POINT(gradient, from), .is_required = true},
+    {"radius", CS_NUMBER(gradient, radius), CS_FROM(0), .is_required = true,
+     .about = "Of the circle where 1 lies"},
+    {"focus", CS_POINT(gradient, to), CS_HAS(gradient, has_focus), .about = "Where 0 lies",
+     .fallback = "the centre"},
+    {.more = extent_fields}};
+
+/* ---------------------------------------------------------------- pictures */
+
+const char *const cs_texture_pixels_fields[] = {"size", "format", "alpha", NULL};
+
+void cs_texture_read_picture(const cs_form *form, int holder, cs_texture_picture *out) {
+  celspan_picture_desc *desc = &out->image.picture;
+  cs_fields_read(form, out);
+  if (cs_form_has(form, "pixels"))
+    desc->surface = cs_pixel_string_surface(form, &out->pixels, holder);
+  else if (out->file)
+    desc->file = cs_files_find(form->L, out->file, &desc->tried);
+  else
+    cs_form_fail(form, "field 'file' must be a string, got nil");
+}
+
+static void create_picture(const cs_form *form, cs_userdata *value) {
+  cs_texture_picture read = CELSPAN_ZERO;
+  cs_texture_read_picture(form, lua_gettop(form->L), &read);
+  celspan_texture *texture = NULL;
+  cs_form_try(form, celspan_texture_create_picture(cs_host_context(form->L), &read.image.picture,
+                                                   &texture));
+  value->handle = texture;
+}
+
+static const char *const samplings[] = {"auto", "nearest", "bilinear", "bicubic", NULL};
+static const char *const wraps[] = {"clear", "clamp", "repeat", NULL};
+static const char *const uses[] = {"paint", "gel", NULL};
+
+#define READ cs_texture_picture
+const cs_field cs_texture_picture_fields[] = {
+    {"file", CS_TEXT(READ, file),
+     .about = "Relative to the script; required unless `pixels` is given"},
+    {"colour", CS_TEXT(READ, image.picture.colour),
+     .about = "\"srgb\", \"linear\", \"rec709\" or \"cineon\"", .fallback = "by the file"},
+    {"sampling", CS_CHOICE(READ, image.picture.sampling, samplings), .preset = "auto"},
+    {"as", CS_CHOICE(READ, image.picture.use, uses), .preset = "paint",
+     .about = "Paint, or a slide lit from behind"},
+    {"wrap", CS_CHOICE(READ, image.picture.wrap, wraps), .preset = "clear",
+     .about = "Outside the box"},
+    {"subimage", CS_WHOLE(READ, image.picture.subimage), .about = "From 0", .fallback = "0"},
+    {"layer", CS_TEXT(READ, image.picture.layer), .about = "The name of a subimage"},
+    {"source", CS_BOX(READ, image.picture.source), CS_HAS(READ, image.picture.has_source),
+     .written = "integer[]", .about = "A part of the picture, in its pixels"},
+    {"pixels", CS_OWN("string"), .about = "Pixels in memory, rows from top to bottom without gaps"},
+    {"size", CS_PIXELS(READ, pixels.size), CS_HAS(READ, pixels.has_size), .least = 1,
+     .most = CS_PIXEL_STRING_SIDE, .shape = "a size {w, h}", .about = "Of the pixels"},
+    {"format", CS_CHOICE(READ, pixels.format, cs_pixel_string_formats),
+     .about = "Of the pixels, in the machine's byte order", .fallback = "\"rgba8\""},
+    {"alpha", CS_CHOICE(READ, pixels.alpha, cs_pixel_string_alphas), CS_HAS(READ, pixels.has_alpha),
+     .about = "Of the pixels", .fallback = "integers straight, floats premultiplied"},
+    {0}};
+static const cs_field picture_fields[] = {{"box", CS_BOX(READ, image.picture.box),
+                                           CS_HAS(READ, image.picture.has_box),
+                                           .fallback = "the bounding rectangle of the primitive"},
+                                          {.more = cs_texture_picture_fields}};
+
+const cs_noun cs_noun_gradient = {.name = "gradient",
+                                  .about =
+                                      "The triangle gradient; it continues outside the triangle.",
+                                  .kind = &cs_kind_texture,
+                                  .list = CS_LIST_TUPLE,
+                                  .item = "corner",
+                                  .item_written = "table",
+                                  .item_about = "Three corners {x, y, paint}",
+                                  .fields = no_fields,
+                                  .create = create_gradient};
+
+#define STOPS                                                                                      \
+  .kind = &cs_kind_texture, .list = CS_LIST_ITEMS, .item = "stop", .item_written = "table",        \
+  .item_about = "Stops {at, paint}, at ascending in 0..1"
+const cs_noun cs_noun_linear = {.name = "linear",
+                                .about =
+                                    "A gradient along a line; beyond the ends it holds or repeats.",
+                                STOPS,
+                                .fields = linear_fields,
+                                .create = create_linear};
+const cs_noun cs_noun_radial = {
+    .name = "radial",
+    .about = "A gradient around a point; outside the circle it holds or repeats.",
+    STOPS,
+    .fields = radial_fields,
+    .create = create_radial};
+const cs_noun cs_noun_picture = {
+    .name = "picture",
+    .about = "A picture as a texture: a file, read when it is first visible, or pixels in memory.",
+    .kind = &cs_kind_texture,
+    .fields = picture_fields,
+    CS_TEXTURE_PICTURE_EITHER,
+    .create = create_picture};

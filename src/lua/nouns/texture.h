@@ -1,0 +1,26 @@
+/* The picture fields that celspan.picture and celspan.image share. */
+#ifndef CS_NOUNS_TEXTURE_H
+#define CS_NOUNS_TEXTURE_H
+
+#include "lua/nouns/pixel_string.h"
+
+/* The fields as they are read. */
+typedef struct cs_texture_picture {
+  celspan_image_desc image; /* celspan.picture uses its picture alone */
+  const char *file;         /* NULL: there are pixels */
+  cs_pixel_string pixels;
+} cs_texture_picture;
+
+extern const cs_field cs_texture_picture_fields[];
+/* A picture is a file or pixels in memory. */
+#define CS_TEXTURE_PICTURE_EITHER                                                                  \
+  .either = {"file", "pixels"}, .second = cs_texture_pixels_fields,                                \
+  .complete = cs_pixel_string_complete
+extern const char *const cs_texture_pixels_fields[];
+
+/* Reads all fields of the noun for the value at index `holder`; strings are borrowed from the table
+ * or from the stack, where the name of the file, as it was found, is left. A surface is kept alive
+ * by the value. */
+void cs_texture_read_picture(const cs_form *form, int holder, cs_texture_picture *out);
+
+#endif

@@ -1,0 +1,128 @@
+#include "lua/sandbox/library.h"
+
+#include <lauxlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "lua/bind/host.h"
+#include "lua/sandbox/guard.h"
+
+#define SOURCE_MOST ((off_t)16 << 20)
+
+int cs_library_require_own(lua_State *L) {
+  const char *name = luaL_checkstring(L, 1);
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
+  if (lua_getfield(L, -1, name) != LUA_TNIL)
+    return 1;
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_PRELOAD_TABLE);
+  if (lua_getfield(L, -1, name) == LUA_TNIL)
+    return luaL_error(L, "module '%s' not found", name);
+  lua_pushvalue(L, 1);
+  lua_call(L, 1, 1);
+  lua_pushvalue(L, -1);
+  lua_setfield(L, 2, name);
+  return 1;
+}
+
+/* ---------------------------------------------------------------- finding */
+
+/* celspan.core does not check paths, and celspan.spec is for specs, which have the whole of Lua. */
+static bool is_for_scripts(const char *name) {
+  return strcmp(name, "celspan.core") != 0 && strcmp(name, "celspan.spec") != 0;
+}
+
+static bool is_celspan(const char *name) {
+  return strcmp(name, "celspan") == 0 || strncmp(name, "celspan.", 8) == 0;
+}
+
+static bool is_regular(const char *path, off_t *size) {
+  struct stat found;
+  if (stat(path, &found) != 0 || !S_ISREG(found.st_mode))
+    return false;
+  *size = found.st_size;
+  return true;
+}
+
+/* Pushes the path of the module, or the paths that were tried. Returns whether it was found. */
+static bool push_file(lua_State *L, const char *name, const char *templates, off_t *size) {
+  const char *words = luaL_gsub(L, name, ".", "/");
+  lua_pushliteral(L, "");
+  while (*templates) {
+    size_t length = strcspn(templates, ";");
+    lua_pushlstring(L, templates, length);
+    const char *path = luaL_gsub(L, lua_tostring(L, -1), "?", words);
+    lua_remove(L, -2);
+    if (length && is_regular(path, size))
+      return true;
+    lua_pushfstring(L, "\n\tno file '%s'", path);
+    lua_remove(L, -2);
+    lua_concat(L, 2);
+    templates += length + (templates[length] == ';');
+  }
+  return false;
+}
+
+/* Pushes the search path of modules: the script's folder comes first. */
+static const char *push_templates(lua_State *L, const char *search) {
+  const char *folder = cs_host_push_folder(L) ? lua_tostring(L, -1) : "";
+  const char *at = folder[0] ? folder : ".";
+  return lua_pushfstring(L, "%s/?.lua;%s/?/init.lua;%s", at, at, search);
+}
+
+/* Pushes the module's function and its path. */
+static void load_module(lua_State *L, const char *search, const char *name) {
+  off_t size = 0;
+  if (!push_file(L, name, push_templates(L, search), &size))
+    luaL_error(L, "module '%s' not found:%s", name, lua_tostring(L, -1));
+  const char *path = lua_tostring(L, -1);
+  cs_host_admit(L, path);
+  if (size > SOURCE_MOST)
+    luaL_error(L, "%s: a module of more than 16 MiB", path);
+  cs_guard_charge(L, (uint64_t)size / 16);
+  if (luaL_loadfilex(L, path, "t") != LUA_OK)
+    luaL_error(L, "error loading module '%s' from file '%s':\n\t%s", name, path,
+               lua_tostring(L, -1));
+  cs_host_push_globals(L);
+  lua_setupvalue(L, -2, 1);
+  lua_insert(L, -2);
+}
+
+/* upvalues: the search path, the loaded modules */
+static int require(lua_State *L) {
+  const char *search = lua_tostring(L, lua_upvalueindex(1));
+  const char *name = luaL_checkstring(L, 1);
+  lua_settop(L, 1);
+  if (lua_getfield(L, lua_upvalueindex(2), name) != LUA_TNIL)
+    return 1;
+  if (is_celspan(name)) {
+    if (!is_for_scripts(name))
+      return luaL_error(L, "module '%s' is not in the sandbox (--trust gives the whole of Lua)",
+                        name);
+    lua_settop(L, 1);
+    return cs_library_require_own(L);
+  }
+  load_module(L, search, name);
+  lua_pushvalue(L, 1);
+  lua_insert(L, -2); /* function, name, path */
+  lua_call(L, 2, 1);
+  if (lua_isnil(L, -1)) {
+    lua_pop(L, 1);
+    lua_pushboolean(L, 1);
+  }
+  lua_pushvalue(L, -1);
+  lua_setfield(L, lua_upvalueindex(2), name);
+  return 1;
+}
+
+void cs_library_push_require(lua_State *L, int globals, const char *search) {
+  static const char *const libraries[] = {"string",    "table", "math", "utf8",
+                                          "coroutine", "_G",    NULL};
+  globals = lua_absindex(L, globals);
+  lua_pushstring(L, search ? search : "");
+  lua_newtable(L);
+  for (int i = 0; libraries[i]; i++) {
+    lua_getfield(L, globals, libraries[i]);
+    lua_setfield(L, -2, libraries[i]);
+  }
+  lua_pushcclosure(L, require, 2);
+}

@@ -1,0 +1,53 @@
+/* Arrays of colours to 8-bit pixels in sRGB with straight alpha: nearly every frame is coded so.
+ *
+ * Invariant: a pixel is cs_srgb8_pixel of its colour, whichever instructions made it.
+ */
+#ifndef CS_COLOUR_SRGB8_H
+#define CS_COLOUR_SRGB8_H
+
+#include <stddef.h>
+
+#include "base/wide.h"
+#include "model/colour/transfer.h"
+
+/* One premultiplied linear colour as a pixel, red in the lowest byte. */
+static inline uint32_t cs_srgb8_pixel(const float rgba[4]) {
+  float r = rgba[0], g = rgba[1], b = rgba[2], alpha = rgba[3];
+  if (!(alpha > 0))
+    return 0;
+  if (alpha != 1) {
+    r /= alpha;
+    g /= alpha;
+    b /= alpha;
+  }
+  /* Round half up; the product is exact. */
+  uint32_t a = alpha >= 1 ? 255 : (uint32_t)((double)alpha * 255 + 0.5);
+  return cs_transfer_srgb8(r) | (uint32_t)cs_transfer_srgb8(g) << 8 |
+         (uint32_t)cs_transfer_srgb8(b) << 16 | a << 24;
+}
+
+/* The light of every code. */
+typedef struct cs_srgb8_curve {
+  float light[256];
+  unsigned char bytes[4][256]; /* the four bytes of those floats, the lowest first */
+} cs_srgb8_curve;
+
+void cs_srgb8_make_curve(cs_srgb8_curve *out);
+
+/* The premultiplied linear colour of a pixel. */
+static inline void cs_srgb8_colour(const cs_srgb8_curve *curve, const unsigned char pixel[4],
+                                   float rgba[4]) {
+  float alpha = (float)pixel[3] * (1.0f / 255);
+  for (int c = 0; c < 3; c++)
+    rgba[c] = curve->light[pixel[c]] * alpha;
+  rgba[3] = alpha;
+}
+
+typedef void (*cs_srgb8)(const float *rgba, size_t count, unsigned char *out);
+cs_srgb8 cs_srgb8_choose(cs_isa isa);
+
+/* ---- srgb8_lanes_wide.c */
+
+CS_WIDE_DECLARE(void, cs_srgb8_code, (const float *rgba, size_t count, unsigned char *out));
+
+#endif

@@ -1,0 +1,111 @@
+/* Outlines: closed contours of rational Bezier pieces, the one form of every primitive.
+ *
+ *            p1 o - - - o p2             piece 0: cubic, points p0 p1 p2 p3
+ *              .         .               piece 1: a line,   points p3 p4
+ *          p0 *           * p3           piece 2: a line,   points p4 p5, where p5 equals p0
+ *              \         /
+ *               \       /               *  a joint: stored once, shared by two pieces
+ *                * p4                    o  a control point
+ *
+ * Invariants: points are homogeneous (w*x, w*y, w) with w > 0; piece i has degrees[i] + 1 points
+ * from starts[i] on; consecutive pieces of a contour share their joint (the last point of one is
+ * the first of the next: starts[i + 1] == starts[i] + degrees[i] inside a contour), and the last
+ * point of a contour equals its first bitwise. contours[c] is the first piece of contour c.
+ */
+#ifndef CS_GEOMETRY_OUTLINE_H
+#define CS_GEOMETRY_OUTLINE_H
+
+#include "base/context.h"
+
+#define CS_OUTLINE_PLAIN_DEGREE 3
+
+typedef struct cs_hpoint {
+  double x, y, w;
+} cs_hpoint;
+
+typedef struct cs_outline {
+  cs_hpoint *points;
+  uint32_t *starts;
+  uint8_t *degrees;
+  uint32_t *contours;
+  size_t point_count, point_capacity;
+  size_t piece_count, start_capacity, degree_capacity;
+  size_t contour_count, contour_capacity;
+  /* Every weight is 1, every coordinate passes cs_number_is_sane, and no piece has a degree over
+   * CS_OUTLINE_PLAIN_DEGREE. */
+  bool is_plain;
+} cs_outline;
+
+/* An empty outline; finish frees its arrays. */
+void cs_outline_init(cs_outline *outline);
+void cs_outline_finish(cs_outline *outline, cs_memory *memory);
+
+/* Building: move begins a contour, the others append a piece from the current point, close ends the
+ * contour with a line when it is open. A contour without pieces vanishes.
+ * Errors: NO_MEMORY; LIMIT past 2^31 points. */
+CELSPAN_CHECKED celspan_status cs_outline_move(celspan_context *context, cs_outline *outline,
+                                               cs_hpoint to);
+CELSPAN_CHECKED celspan_status cs_outline_line(celspan_context *context, cs_outline *outline,
+                                               cs_hpoint to);
+/* As move, but the contour before is left open: for lines, which need not come back. */
+CELSPAN_CHECKED celspan_status cs_outline_begin(celspan_context *context, cs_outline *outline,
+                                                cs_hpoint to);
+/* points: degree homogeneous points after the current one. */
+CELSPAN_CHECKED celspan_status cs_outline_piece(celspan_context *context, cs_outline *outline,
+                                                int degree, const cs_hpoint *points);
+CELSPAN_CHECKED celspan_status cs_outline_close(celspan_context *context, cs_outline *outline);
+
+/* The whole outlines of the primitives. Arguments have been checked (model/scene/check.h). */
+CELSPAN_CHECKED celspan_status cs_outline_rect(celspan_context *context, cs_outline *outline,
+                                               double x, double y, double width, double height,
+                                               double radius);
+/* Its corners are quarters of an ellipse, whose radii are above 0 and at most half the sides. */
+CELSPAN_CHECKED celspan_status cs_outline_rounded(celspan_context *context, cs_outline *outline,
+                                                  const celspan_box *box, double radius_x,
+                                                  double radius_y);
+CELSPAN_CHECKED celspan_status cs_outline_ellipse(celspan_context *context, cs_outline *outline,
+                                                  celspan_point centre, double radius_x,
+                                                  double radius_y);
+CELSPAN_CHECKED celspan_status cs_outline_polygon(celspan_context *context, cs_outline *outline,
+                                                  const celspan_point *points, size_t count);
+/* Errors: BAD_ARGUMENT for knots, weights, degree and counts (it checks them, naming the knot). */
+CELSPAN_CHECKED celspan_status cs_outline_nurbs(celspan_context *context, cs_outline *outline,
+                                                const celspan_nurbs_desc *desc);
+/* Errors: BAD_ARGUMENT naming the offset and what was expected. */
+CELSPAN_CHECKED celspan_status cs_outline_path(celspan_context *context, cs_outline *outline,
+                                               const char *data);
+/* The contours that path data close with Z, and the pieces that continue the arc of the previous
+ * piece; both ascending; finish frees them. */
+typedef struct cs_outline_closed {
+  uint32_t *contours, *inner;
+  size_t count, capacity, inner_count, inner_capacity;
+} cs_outline_closed;
+/* Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_outline_closed_add(celspan_context *context,
+                                                     cs_outline_closed *closed, size_t contour);
+void cs_outline_closed_finish(cs_outline_closed *closed, cs_memory *memory);
+/* Path data as lines: a subpath that Z does not close stays open, and Z without a command before it
+ * makes a line of no length. Errors: as above. */
+CELSPAN_CHECKED celspan_status cs_outline_path_open(celspan_context *context, cs_outline *outline,
+                                                    cs_outline_closed *closed, const char *data);
+
+/* An outline that will not change, in one block with its arrays: it has no room to grow. The
+ * original stays as it is. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_outline_pack(celspan_context *context, const cs_outline *outline,
+                                               cs_outline **out);
+void cs_outline_free_packed(cs_outline *packed, cs_memory *memory);
+
+/* The outline of a box that has an area, as cs_outline_rect makes it, in memory of the caller. */
+typedef struct cs_outline_box {
+  cs_outline outline;
+  cs_hpoint points[5];
+  uint32_t starts[4], contour;
+  uint8_t degrees[4];
+} cs_outline_box;
+const cs_outline *cs_outline_of_box(const celspan_box *box, cs_outline_box *room);
+
+/* The tight box of the outline under a matrix, cut at the horizon; false when there is nothing in
+ * front of it. */
+bool cs_outline_bounds(const cs_outline *outline, const celspan_matrix *matrix, celspan_box *out);
+
+#endif

@@ -1,0 +1,378 @@
+#include "model/geometry/polyline.h"
+#include "model/geometry/polyline_vertex.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A single chord must be nearer than the tolerance, because its vertices are the ends of the piece,
+ * which cannot be displaced to keep the area. */
+#define ONE_CHORD (CS_BOUNDARY_TOLERANCE / 8)
+/* Pixels. A piece that is lower counts as flat: one chord without a slope. Its slope might be
+ * beyond every number, and so might what an arc divides by the third power of a height. */
+#define FLAT 0x1p-100
+/* 4 times the distance that an arc may have from its chord within a row: pixels. */
+#define ARC_CURVE 0.02
+/* Groups of fewer chords are not cut: two chords alone would need a vertex far from the curve. */
+#define HALVES_LEAST 6
+/* The sag of even chords of a middle length. */
+#define CHORD_SAG (0.8 * CS_BOUNDARY_TOLERANCE)
+/* How the number of chords follows from their length: see choose_chords. Measured. */
+#define CHORDS_MOST 2.45
+#define CHORDS_SHORT 1.64
+#define CHORD_LIMIT 1e9
+#define LEAP_MOST 8 /* groups */
+/* How much larger the second derivative may be between two samples of it. */
+#define SAMPLING_MARGIN 1.25
+
+/* ---------------------------------------------------------------- evaluation */
+
+/* De Casteljau down to three points, from which value and both derivatives follow; then the
+ * quotient rule. */
+static cs_polyline_point at_rational(const cs_hpoint *points, int degree, double t) {
+  cs_hpoint work[CS_BEZIER_DEGREE + 1];
+  for (int i = 0; degree > 2 && i <= degree; i++)
+    work[i] = points[i];
+  for (int level = degree; level > 2; level--)
+    for (int i = 0; i < level; i++) {
+      work[i].x += t * (work[i + 1].x - work[i].x);
+      work[i].y += t * (work[i + 1].y - work[i].y);
+      work[i].w += t * (work[i + 1].w - work[i].w);
+    }
+  const cs_hpoint *p = degree > 2 ? work : points;
+  double s = 1 - t, b0 = s * s, b1 = 2 * s * t, b2 = t * t, scale = degree * (degree - 1.0);
+  double w = b0 * p[0].w + b1 * p[1].w + b2 * p[2].w;
+  double w1 = degree * (s * (p[1].w - p[0].w) + t * (p[2].w - p[1].w));
+  double w2 = scale * (p[0].w - 2 * p[1].w + p[2].w);
+  double x1 = degree * (s * (p[1].x - p[0].x) + t * (p[2].x - p[1].x));
+  double y1 = degree * (s * (p[1].y - p[0].y) + t * (p[2].y - p[1].y));
+  double by_w = 1 / w;
+  double x = (b0 * p[0].x + b1 * p[1].x + b2 * p[2].x) * by_w;
+  double y = (b0 * p[0].y + b1 * p[1].y + b2 * p[2].y) * by_w;
+  double slope_x = (x1 - w1 * x) * by_w, slope_y = (y1 - w1 * y) * by_w;
+  double x2 = scale * (p[0].x - 2 * p[1].x + p[2].x);
+  double y2 = scale * (p[0].y - 2 * p[1].y + p[2].y);
+  return (cs_polyline_point){x,
+                             y,
+                             slope_x,
+                             slope_y,
+                             (x2 - 2 * w1 * slope_x - w2 * x) * by_w,
+                             (y2 - 2 * w1 * slope_y - w2 * y) * by_w};
+}
+
+/* 4 coefficients of x and 4 of y of a piece in powers. */
+static inline void load_powers(const cs_boundary_set *set, const cs_boundary_piece *piece,
+                               double c[8]) {
+  const cs_hpoint *p = set->points + piece->point;
+  const cs_hpoint cubic = piece->degree == 3 ? p[3] : (cs_hpoint){0};
+  for (int i = 0; i < 3; i++) {
+    c[i] = p[i].x;
+    c[4 + i] = p[i].y;
+  }
+  c[3] = cubic.x;
+  c[7] = cubic.y;
+}
+
+static cs_polyline_point at(const cs_boundary_set *set, const cs_boundary_piece *piece, double t) {
+  double c[8];
+  if (!piece->is_power)
+    return at_rational(set->points + piece->point, piece->degree, t);
+  load_powers(set, piece, c);
+  return cs_polyline_power(c, t);
+}
+
+static inline void put_point(cs_polyline_point p, int k, cs_polyline_points *points) {
+  points->x[k] = p.x;
+  points->y[k] = p.y;
+  points->slope_x[k] = p.slope_x;
+  points->slope_y[k] = p.slope_y;
+  points->bend_x[k] = p.bend_x;
+  points->bend_y[k] = p.bend_y;
+}
+
+/* The vertices of a piece that is not in powers. */
+static void find_vertices(const cs_boundary_set *set, const cs_boundary_piece *piece,
+                          uint32_t first, uint32_t stride, cs_polyline_vertices *out) {
+  cs_polyline_points points = {0};
+  cs_polyline_seats seats;
+  for (int k = 0; k <= piece->group; k++)
+    put_point(at(set, piece, cs_polyline_parameter(piece, first + stride * (uint32_t)k)), k,
+              &points);
+  CS_WIDE_CHOOSE(cs_isa_best(), cs_polyline_sit)(&points, piece, first, stride, &seats);
+  for (int k = 0; k <= piece->group; k++)
+    put_point(at(set, piece, seats.t[k + 1]), k, &points);
+  CS_WIDE_CHOOSE(cs_isa_best(), cs_polyline_place)(&points, piece, first, stride, &seats, out);
+}
+
+/* ---------------------------------------------------------------- groups */
+
+/* The vertices of a group, or every stride-th of a leap's. */
+static void make_vertices(const cs_boundary_set *set, const cs_boundary_piece *piece,
+                          uint32_t first, uint32_t stride, cs_polyline_vertices *v) {
+  double c[8];
+  if (piece->is_power) {
+    load_powers(set, piece, c);
+    CS_WIDE_CHOOSE(cs_isa_best(), cs_polyline_powers)(c, piece, first, stride, v);
+  } else {
+    find_vertices(set, piece, first, stride, v);
+  }
+}
+
+/* The arc through vertices first and end that has the area of the chords between them. */
+static cs_polyline_arc fit_arc(const double *vx, const double *vy, int first, int end) {
+  double x = vx[first], y = vy[first], height = vy[end] - y, width = vx[end] - x;
+  double area = 0; /* twice that of the chords, left of them */
+  for (int k = first; k < end; k++)
+    area += ((vx[k] - x) + (vx[k + 1] - x)) * (vy[k + 1] - vy[k]);
+  double curve = 3 * (width * height - area) / (height * height * height);
+  return (cs_polyline_arc){x, y, height, width / height, curve};
+}
+
+/* Whether the arc is near its chord within every row: rows treat it as one. */
+static bool is_straight(const cs_polyline_arc *a) {
+  double top = a->mean - a->curve * a->height, foot = a->mean + a->curve * a->height;
+  double gentlest = top < 0 ? -foot : foot, other = top < 0 ? -top : top;
+  gentlest = other < gentlest ? other : gentlest; /* less than 0 where x has an extremum inside */
+  return fabs(a->curve) <= ARC_CURVE * (gentlest > 1 ? gentlest : 1);
+}
+
+/* Adds one arc for the chords from vertex first to end, if it is near the curve. x, y: the
+ * vertices. */
+static bool add_arc(const cs_polyline_vertices *v, const double *x, const double *y, int first,
+                    int end, cs_boundary_group *out) {
+  if (end - first < 2)
+    return false;
+  cs_polyline_arc a = fit_arc(x, y, first, end);
+  if (!(a.height > 0) || !is_straight(&a) ||
+      CS_WIDE_CHOOSE(cs_isa_best(), cs_polyline_strays)(&a, v, first, end))
+    return false;
+  out->x[out->count] = a.x;
+  out->y[out->count] = a.y;
+  out->slope[out->count] = a.mean - a.curve * a.height;
+  out->curve[out->count++] = a.curve;
+  return true;
+}
+
+/* All chords of a group. */
+static void set_chords(const cs_polyline_vertices *v, int count, cs_boundary_group *out) {
+  memcpy(out->x, v->x, sizeof out->x);
+  memcpy(out->y, v->y, sizeof out->y);
+  memcpy(out->slope, v->slope, sizeof out->slope);
+  memset(out->curve, 0, sizeof out->curve);
+  out->count = (uint32_t)count;
+}
+
+static void end_group(const cs_polyline_vertices *v, int count, uint32_t first, uint32_t groups,
+                      cs_boundary_group *out) {
+  out->x[out->count] = v->x[count];
+  out->y[out->count] = v->y[count];
+  out->first = first;
+  out->groups = groups;
+}
+
+/* One arc for the whole leap of a group, if the leap is complete and the arc near enough. */
+static bool try_leap(const cs_boundary_set *set, const cs_boundary_piece *piece, uint32_t group,
+                     cs_boundary_group *out) {
+  cs_polyline_vertices v;
+  uint32_t leap = piece->leap, base = group - group % leap;
+  if (leap == 1 || (base + leap) * piece->group > piece->chords)
+    return false;
+  make_vertices(set, piece, base * piece->group, leap, &v);
+  if (v.is_bent_above || v.is_bent_below || !add_arc(&v, v.x, v.y, 0, piece->group, out))
+    return false;
+  end_group(&v, piece->group, base, leap, out);
+  return true;
+}
+
+/* An arc for the whole group, or one for each half. */
+static bool try_arcs(const cs_polyline_vertices *v, int half, int count, cs_boundary_group *out) {
+  if (add_arc(v, v->x, v->y, 0, count, out))
+    return true;
+  return half < count && add_arc(v, v->halved_x, v->halved_y, 0, half, out) &&
+         add_arc(v, v->halved_x, v->halved_y, half, count, out);
+}
+
+static inline bool is_flat(const cs_boundary_piece *piece) { return piece->y1 - piece->y0 < FLAT; }
+
+/* The one chord of a piece. */
+static void set_line(const cs_boundary_piece *piece, cs_boundary_group *out) {
+  out->x[0] = piece->x0;
+  out->y[0] = piece->y0;
+  out->x[1] = piece->x1;
+  out->y[1] = piece->y1;
+  out->slope[0] = is_flat(piece) ? 0 : (piece->x1 - piece->x0) / (piece->y1 - piece->y0);
+  out->curve[0] = 0;
+  out->count = 1;
+  out->first = 0;
+  out->groups = 1;
+}
+
+void cs_polyline_group(const cs_boundary_set *set, const cs_boundary_piece *piece, uint32_t group,
+                       bool leaps, cs_boundary_group *out) {
+  cs_polyline_vertices v;
+  int half = piece->half, count = piece->group;
+  if (piece->chords == 1) {
+    set_line(piece, out);
+    return;
+  }
+  out->count = 0;
+  if (leaps && try_leap(set, piece, group, out))
+    return;
+  make_vertices(set, piece, group * piece->group, 1, &v);
+  if (v.is_bent_above || v.is_bent_below || !try_arcs(&v, half, count, out))
+    set_chords(&v, count, out);
+  end_group(&v, count, group, 1, out);
+}
+
+celspan_point cs_polyline_plain(const cs_boundary_set *set, const cs_boundary_piece *piece,
+                                uint32_t vertex) {
+  if (vertex == 0)
+    return (celspan_point){piece->x0, piece->y0};
+  if (vertex == piece->chords)
+    return (celspan_point){piece->x1, piece->y1};
+  cs_polyline_point p = at(set, piece, cs_polyline_parameter(piece, vertex));
+  return (celspan_point){p.x, p.y};
+}
+
+/* ---------------------------------------------------------------- fitting */
+
+static inline double bend_at(const cs_pair *p) {
+  cs_pair bend = p[0] - 2 * p[1] + p[2];
+  bend *= bend;
+  return bend[0] + bend[1];
+}
+
+/* The largest second derivative of a polynomial, by its control points. */
+static inline double polynomial_bend(const cs_pair *p, int degree) {
+  double largest = 0;
+  for (int i = 0; i + 2 <= degree; i++) {
+    double bend = bend_at(&p[i]);
+    largest = bend > largest ? bend : largest;
+  }
+  return degree * (degree - 1) * sqrt(largest);
+}
+
+static double rational_bend(const cs_bezier *curve) {
+  double largest = 0;
+  int steps = 4 * curve->degree;
+  for (int i = 0; i <= steps; i++) {
+    cs_polyline_point p = at_rational(curve->points, curve->degree, (double)i / steps);
+    largest = fmax(largest, p.bend_x * p.bend_x + p.bend_y * p.bend_y);
+  }
+  return SAMPLING_MARGIN * sqrt(largest);
+}
+
+static inline cs_hpoint power(cs_pair coefficient) {
+  return (cs_hpoint){coefficient[0], coefficient[1], 0};
+}
+
+/* p: in pixels; of the second degree, or the third. */
+static inline void to_powers(const cs_pair *p, int degree, cs_hpoint *c) {
+  double n = degree, pairs = n * (n - 1) / 2;
+  cs_pair first = p[1] - p[0], second = p[2] - p[1];
+  c[0] = power(p[0]);
+  c[1] = power(n * first);
+  c[2] = power(pairs * (second - first));
+  if (degree == 3)
+    c[3] = power((p[3] - p[0]) - 3 * second);
+}
+
+/* Points of a piece, for which there is room; it is then of that degree. */
+static inline cs_hpoint *append_points(cs_boundary_set *set, int degree, cs_boundary_piece *piece) {
+  size_t first = set->point_count;
+  piece->point = (uint32_t)first;
+  piece->degree = (uint8_t)degree;
+  set->point_count = first + (size_t)degree + 1;
+  return &set->points[first];
+}
+
+/* The error of an arc grows with the cube of its length, that of a chord with the square. So an arc
+ * can replace more chords the more chords the piece has, in proportion to the third root. The
+ * factor 40 was measured. */
+static uint8_t choose_leap(uint32_t chords) {
+  uint32_t leap = 1;
+  while (leap < LEAP_MOST && 40 * (leap + 1) * (leap + 1) * (leap + 1) <= chords)
+    leap++;
+  return (uint8_t)leap;
+}
+
+/* The next whole number of a positive one. */
+static inline uint32_t ceiling(double x) {
+  int32_t whole = (int32_t)x;
+  return (uint32_t)whole + (whole < x);
+}
+
+/* A little more than the length of the control polygon. */
+static inline double length_of(const cs_pair *p, int degree) {
+  double length = 0;
+  for (int i = 0; i < degree; i++) {
+    cs_pair leg = p[i + 1] - p[i];
+    double x = fabs(leg[0]), y = fabs(leg[1]);
+    length += cs_number_most(x, y) + 0.5 * cs_number_least(x, y);
+  }
+  return length;
+}
+
+/* False: a single chord is near enough.
+ *
+ * What counts is the area between curve and polyline in a pixel, about where a vertex is displaced:
+ *
+ *    .-o-.         short chords: a pixel sees both sides of   .--.__o__.--.  long ones: it sees one
+ *   '     '        the curve, and they cancel each other      |    |  |   |
+ *  |       |                                                       pixel
+ *  pixel
+ *
+ * So chords shorter than about two pixels may have a larger sag, and longer ones must have a
+ * smaller one; by the square of the number of chords, sag x length / (length + CHORDS_SHORT) stays
+ * about the same. */
+static inline bool choose_chords(double bend, double length, cs_boundary_piece *piece) {
+  if (!(bend > 8 * ONE_CHORD) || is_flat(piece))
+    return false;
+  double even = sqrt(bend / (8 * CHORD_SAG));
+  double by_length = sqrt(CHORDS_MOST * length / (length + CHORDS_SHORT * even));
+  double wanted = even * by_length + 2 * CS_POLYLINE_LEAD;
+  uint32_t chords = ceiling(cs_number_clamp(wanted, 2, CHORD_LIMIT));
+  uint32_t groups = (chords + CS_BOUNDARY_GROUP - 1) / CS_BOUNDARY_GROUP;
+  piece->group = (uint8_t)((chords + groups - 1) / groups);
+  piece->half = piece->group >= HALVES_LEAST ? piece->group / 2 : piece->group;
+  piece->chords = piece->group * groups;
+  piece->leap = choose_leap(piece->chords);
+  piece->step = cs_polyline_step(piece->chords);
+  piece->sag = bend * (1.0 / 8) * (piece->step * piece->step);
+  return true;
+}
+
+static inline void fit_plain(cs_boundary_set *set, const cs_pair *points, int degree,
+                             cs_boundary_piece *piece) {
+  if (!choose_chords(polynomial_bend(points, degree), length_of(points, degree), piece))
+    return;
+  piece->is_power = true;
+  to_powers(points, degree, append_points(set, degree, piece));
+}
+
+void cs_polyline_fit_plain(cs_boundary_set *set, const cs_plain *curve, cs_boundary_piece *piece) {
+  if (curve->degree == CS_PLAIN_DEGREE) /* most are, and the compiler then needs no loops */
+    fit_plain(set, curve->points, CS_PLAIN_DEGREE, piece);
+  else
+    fit_plain(set, curve->points, curve->degree, piece);
+}
+
+celspan_status cs_polyline_fit(celspan_context *context, cs_boundary_set *set,
+                               const cs_bezier *curve, cs_boundary_piece *piece) {
+  bool is_polynomial = cs_bezier_is_polynomial(curve);
+  int degree = curve->degree;
+  cs_pair p[CS_BEZIER_DEGREE + 1];
+  for (int i = 0; i <= degree; i++)
+    p[i] = cs_pair_load(&curve->points[i]) / curve->points[i].w;
+  double bend = is_polynomial ? polynomial_bend(p, degree) : rational_bend(curve);
+  if (!choose_chords(bend, length_of(p, degree), piece))
+    return CELSPAN_OK;
+  CS_TRY(cs_polyline_reserve(context, set, (size_t)degree + 1));
+  cs_hpoint *points = append_points(set, degree, piece);
+  piece->is_power = is_polynomial && degree <= 3;
+  for (int i = 0; i <= degree; i++) {
+    points[i] = curve->points[i];
+  }
+  if (piece->is_power)
+    to_powers(p, degree, points);
+  return CELSPAN_OK;
+}

@@ -1,0 +1,117 @@
+/* The polyline of a monotone piece: what the sweep walks instead of the curve.
+ *
+ *      *                *  the border of two groups: on the curve (.), or displaced where no arc
+ *       \.                 can be near the curve, so that none ends there
+ *        \.             o  a vertex inside a group: it is displaced outwards from the curve
+ *        \.
+ *         .o            group 0: chords from vertex to vertex. Because the vertices are displaced,
+ *         .|            the area left of the chords is the area left of the curve.
+ *         .o
+ *        /.
+ *       /.
+ *      *
+ *       )               group 1: one arc, x as a polynomial of the second degree in y. It has the
+ *       )               area of the chords and replaces them where it is near enough to the curve.
+ *      *                A group may be two arcs instead, one for each half.
+ *     (
+ *    (                  groups 2 and 3: a leap, one arc for several groups
+ *    (
+ *     (
+ *      *
+ *
+ * Every group is a pure function of the piece and the group's number, so a walk can begin anywhere.
+ * Vertex k of a piece, 0..chords, is where step k of the curve's parameter ends. Vertices near a
+ * whole height are moved along the curve to that height, so that rows have few bends.
+ */
+#ifndef CS_GEOMETRY_POLYLINE_H
+#define CS_GEOMETRY_POLYLINE_H
+
+#include "base/wide.h"
+#include "model/geometry/boundary.h"
+#include "model/geometry/plain.h"
+
+/* Chooses the chords of a piece whose ends and limits in x are set, and which is one chord until
+ * then; stores the points that its vertices are made from. curve: in the direction of the piece,
+ * with weights that are > 0 and within a factor of about 2. Errors: NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_polyline_fit(celspan_context *context, cs_boundary_set *set,
+                                               const cs_bezier *curve, cs_boundary_piece *piece);
+/* The same for a plain curve of the second or third degree; there must be room for its points. */
+void cs_polyline_fit_plain(cs_boundary_set *set, const cs_plain *curve, cs_boundary_piece *piece);
+/* Makes room for `count` more points. Errors: NO_MEMORY, LIMIT. */
+static inline CELSPAN_CHECKED celspan_status cs_polyline_reserve(celspan_context *context,
+                                                                 cs_boundary_set *set,
+                                                                 size_t points) {
+  if (set->point_count > UINT32_MAX - points)
+    return cs_fail(context, CELSPAN_LIMIT, "the frame has more than 4294967295 curve points");
+  return cs_mem_reserve(context, (void **)&set->points, &set->point_capacity,
+                        set->point_count + points, sizeof *set->points);
+}
+/* Makes group 0..chords / group - 1; or, where leaps is true, the whole leap that the group is in,
+ * if one arc is near enough to all of it. */
+void cs_polyline_group(const cs_boundary_set *set, const cs_boundary_piece *piece, uint32_t group,
+                       bool leaps, cs_boundary_group *out);
+/* A vertex that is neither displaced nor moved: on the curve, in even steps of the parameter. y
+ * rises with the number, except for rounding. */
+celspan_point cs_polyline_plain(const cs_boundary_set *set, const cs_boundary_piece *piece,
+                                uint32_t vertex);
+
+/* Groups of vertices in vector code: all vertices of a group at once (polyline_wide.c).
+ *
+ *   points at even steps --seats--> parameters --points there--> places beside the curve
+ *
+ * A piece in powers goes all the way at once (cs_polyline_powers); the points of others are made
+ * one at a time between the two steps (polyline.c).
+ */
+
+#define CS_POLYLINE_ROOM (CS_BOUNDARY_GROUP + 1)
+
+/* The fields of cs_polyline_point, of all vertices of a group. */
+typedef struct cs_polyline_points {
+  double x[CS_POLYLINE_ROOM], y[CS_POLYLINE_ROOM];
+  double slope_x[CS_POLYLINE_ROOM], slope_y[CS_POLYLINE_ROOM];
+  double bend_x[CS_POLYLINE_ROOM], bend_y[CS_POLYLINE_ROOM];
+} cs_polyline_points;
+
+/* The seats of a group's vertices. */
+typedef struct cs_polyline_seats {
+  double t[CS_POLYLINE_ROOM + 2];  /* of vertex k at k + 1; 0 before the first and after the last */
+  double y[CS_POLYLINE_ROOM];      /* the whole height nearest to each */
+  int64_t whole[CS_POLYLINE_ROOM]; /* -1: the vertex is moved there; 0: it is not */
+  double bent[CS_POLYLINE_ROOM];   /* 1: no arc can be near the curve here; 0 */
+} cs_polyline_seats;
+
+/* The vertices of a group: on the curve, and displaced so that chords keep the area. Elements
+ * beyond a short group are not used. */
+typedef struct cs_polyline_vertices {
+  double x[CS_POLYLINE_ROOM + 1], y[CS_POLYLINE_ROOM + 1];
+  double slope[CS_POLYLINE_ROOM]; /* dx/dy of the chord that begins there; 0 without height */
+  double on_x[CS_POLYLINE_ROOM], on_y[CS_POLYLINE_ROOM];
+  /* The same with piece->half on the curve too; set where halves are wanted. */
+  double halved_x[CS_POLYLINE_ROOM], halved_y[CS_POLYLINE_ROOM];
+  bool is_bent_above, is_bent_below; /* no arc can be near the curve at the first, at the last */
+} cs_polyline_vertices;
+
+/* c: the coefficients of a piece in powers, 4 of x and 4 of y. first: the group's first vertex.
+ * stride: from vertex to vertex, more than 1 for the groups of a leap. */
+CS_WIDE_DECLARE(void, cs_polyline_powers,
+                (const double c[8], const cs_boundary_piece *piece, uint32_t first, uint32_t stride,
+                 cs_polyline_vertices *out));
+/* The two steps of it. points: those at even steps, and those at the seats. */
+CS_WIDE_DECLARE(void, cs_polyline_sit,
+                (const cs_polyline_points *points, const cs_boundary_piece *piece, uint32_t first,
+                 uint32_t stride, cs_polyline_seats *out));
+CS_WIDE_DECLARE(void, cs_polyline_place,
+                (const cs_polyline_points *points, const cs_boundary_piece *piece, uint32_t first,
+                 uint32_t stride, const cs_polyline_seats *seats, cs_polyline_vertices *out));
+
+/* An arc: x + down (mean + curve (down - height)) at y + down. */
+typedef struct cs_polyline_arc {
+  double x, y, height, mean, curve;
+} cs_polyline_arc;
+
+/* Whether an arc for the vertices first..end is too far from one of their places on the curve. */
+CS_WIDE_DECLARE(bool, cs_polyline_strays,
+                (const cs_polyline_arc *arc, const cs_polyline_vertices *vertices, int first,
+                 int end));
+
+#endif

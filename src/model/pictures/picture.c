@@ -1,0 +1,165 @@
+#include "model/pictures/picture.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "model/colour/transfer.h"
+#include "model/pictures/surface.h"
+
+#define SIDE_MOST 1048576
+
+static char *copy_text(cs_memory *memory, const char *text) {
+  size_t size = strlen(text) + 1;
+  char *copy = cs_mem_resize(memory, NULL, 0, size);
+  return copy ? memcpy(copy, text, size) : NULL;
+}
+
+static void free_text(cs_memory *memory, char *text) {
+  if (text)
+    cs_mem_free(memory, text, strlen(text) + 1);
+}
+
+static cs_hash hash_of(const celspan_picture_desc *desc) {
+  cs_hash hash = cs_hash_begin(0x70696374u);
+  if (desc->surface)
+    cs_hash_hash(&hash, desc->surface->hash);
+  cs_hash_text(&hash, desc->file);
+  cs_hash_text(&hash, desc->colour);
+  cs_hash_text(&hash, desc->layer);
+  cs_hash_word(&hash, (uint64_t)(desc->layer ? 0 : desc->subimage));
+  return cs_hash_end(hash);
+}
+
+static celspan_status check_surface(celspan_context *context, const celspan_picture_desc *desc) {
+  celspan_transfer transfer;
+  if (desc->file)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "picture: give a file or a surface, not both");
+  if (desc->layer || desc->subimage != 0)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "picture: %s is given, but pixels in memory have no layers",
+                   desc->layer ? "layer" : "subimage");
+  if (desc->colour && !cs_transfer_parse(desc->colour, &transfer))
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "picture: colour is \"%s\"; of pixels in memory it must be \"srgb\", "
+                   "\"linear\", \"rec709\" or \"cineon\"",
+                   desc->colour);
+  return CELSPAN_OK;
+}
+
+static celspan_status check_source(celspan_context *context, const celspan_box *source) {
+  static const char *const names[] = {"x", "y", "w", "h"};
+  const double numbers[] = {source->x, source->y, source->width, source->height};
+  for (int i = 0; i < 4; i++) {
+    double least = i < 2 ? 0 : 1;
+    if (!(numbers[i] >= least && numbers[i] <= SIDE_MOST) || numbers[i] != floor(numbers[i]))
+      return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                     "picture: %s of source is %.9g; it must be a whole number of pixels, %.0f or "
+                     "more",
+                     names[i], numbers[i], least);
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status check(celspan_context *context, const celspan_picture_desc *desc) {
+  celspan_transfer transfer;
+  if (desc->has_source)
+    CS_TRY(check_source(context, &desc->source));
+  if (desc->surface)
+    return check_surface(context, desc);
+  if (!desc->file || !*desc->file)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "picture: file must name a file");
+  if (desc->subimage < 0)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "picture: subimage is %d; it must be 0 or more",
+                   desc->subimage);
+  if (desc->colour && !cs_transfer_parse(desc->colour, &transfer) && !getenv("OCIO"))
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "picture: colour is \"%s\"; it must be \"srgb\", \"linear\", \"rec709\", "
+                   "\"cineon\", or a space of the OpenColorIO configuration that the environment "
+                   "variable OCIO names",
+                   desc->colour);
+  return CELSPAN_OK;
+}
+
+static celspan_status create(celspan_context *context, const celspan_picture_desc *desc,
+                             cs_picture **out) {
+  cs_picture *picture = cs_mem_array(context->memory, 1, sizeof *picture);
+  if (!picture)
+    return cs_fail_memory(context);
+  atomic_init(&picture->references, 1);
+  picture->memory = cs_memory_ref(context->memory);
+  picture->hash = hash_of(desc);
+  picture->subimage = desc->layer ? 0 : desc->subimage;
+  picture->surface = desc->surface ? celspan_surface_ref(desc->surface) : NULL;
+  picture->file = copy_text(picture->memory, desc->surface ? "" : desc->file);
+  picture->colour = desc->colour ? copy_text(picture->memory, desc->colour) : NULL;
+  picture->layer = desc->layer ? copy_text(picture->memory, desc->layer) : NULL;
+  picture->tried = desc->tried ? copy_text(picture->memory, desc->tried) : NULL;
+  if (!picture->file || !picture->colour != !desc->colour || !picture->layer != !desc->layer ||
+      !picture->tried != !desc->tried) {
+    cs_picture_unref(picture);
+    return cs_fail_memory(context);
+  }
+  *out = picture;
+  return CELSPAN_OK;
+}
+
+/* Makes *picture, which is the whole, a part of it. On failure it is dropped. */
+static celspan_status cut(celspan_context *context, const celspan_picture_desc *desc,
+                          cs_picture **picture) {
+  cs_picture *whole = *picture, *part;
+  celspan_status status = create(context, desc, &part);
+  if (status != CELSPAN_OK) {
+    cs_picture_unref(whole);
+    return status;
+  }
+  const celspan_box *source = &desc->source;
+  part->whole = whole;
+  part->x = (int32_t)source->x;
+  part->y = (int32_t)source->y;
+  part->width = (int32_t)source->width;
+  part->height = (int32_t)source->height;
+  cs_hash hash = cs_hash_begin(0x70617274u);
+  cs_hash_hash(&hash, whole->hash);
+  cs_hash_word(&hash, (uint64_t)part->x << 32 | (uint64_t)part->y);
+  cs_hash_word(&hash, (uint64_t)part->width << 32 | (uint64_t)part->height);
+  part->hash = cs_hash_end(hash);
+  *picture = part;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_picture_create(celspan_context *context, const celspan_picture_desc *desc,
+                                 cs_picture **out) {
+  CS_TRY(check(context, desc));
+  cs_picture *picture;
+  CS_TRY(create(context, desc, &picture));
+  if (desc->has_source)
+    CS_TRY(cut(context, desc, &picture));
+  *out = picture;
+  return CELSPAN_OK;
+}
+
+cs_picture *cs_picture_ref(cs_picture *picture) {
+  atomic_fetch_add_explicit(&picture->references, 1, memory_order_relaxed);
+  return picture;
+}
+
+void cs_picture_unref(cs_picture *picture) {
+  if (!picture || atomic_fetch_sub_explicit(&picture->references, 1, memory_order_acq_rel) != 1)
+    return;
+  cs_memory *memory = picture->memory;
+  celspan_surface_unref(picture->surface);
+  cs_picture_unref(picture->whole);
+  free_text(memory, picture->file);
+  free_text(memory, picture->colour);
+  free_text(memory, picture->layer);
+  free_text(memory, picture->tried);
+  cs_mem_free(memory, picture, sizeof *picture);
+  cs_memory_unref(memory);
+}
+
+cs_hash cs_picture_hash(const cs_picture *picture) { return picture->hash; }
+
+const char *cs_picture_name(const cs_picture *picture) {
+  return picture->surface ? "a picture in memory" : picture->file;
+}

@@ -1,0 +1,37 @@
+/* A picture: a file or a surface that a texture shows, and how to read it; or a part of one.
+ *
+ * A cs_picture is an immutable value like the rest of the scene. The decoded picture is kept in the
+ * context's store (model/pictures/store.h), found by the picture's hash and shared by all workers.
+ * A part is a picture of its own there, with edges and levels of its own, made of the blocks of the
+ * whole.
+ */
+#ifndef CS_PICTURES_PICTURE_H
+#define CS_PICTURES_PICTURE_H
+
+#include "base/context.h"
+#include "base/hash.h"
+
+typedef struct cs_picture {
+  atomic_size_t references;
+  cs_memory *memory;
+  cs_hash hash;
+  celspan_surface *surface; /* a reference; NULL: a file */
+  char *file;               /* "" where there is a surface */
+  char *colour, *layer;     /* may be NULL */
+  char *tried;              /* where it was looked for before; may be NULL; not hashed */
+  int subimage;
+  struct cs_picture *whole;    /* what this is a part of, a reference; NULL: it is no part */
+  int32_t x, y, width, height; /* of a part, in pixels of the whole */
+} cs_picture;
+
+/* desc's box, sampling, use and wrap are not part of a picture. Errors: NO_MEMORY, BAD_ARGUMENT. */
+CELSPAN_CHECKED celspan_status cs_picture_create(celspan_context *context,
+                                                 const celspan_picture_desc *desc,
+                                                 cs_picture **out);
+cs_picture *cs_picture_ref(cs_picture *picture);
+void cs_picture_unref(cs_picture *picture);
+cs_hash cs_picture_hash(const cs_picture *picture);
+/* For messages: the name of the file, or what else it is. */
+const char *cs_picture_name(const cs_picture *picture);
+
+#endif

@@ -1,0 +1,130 @@
+/* The store of decoded pictures: blocks of texels in one budget, shared by all threads.
+ *
+ *   entry   one for each picture: its header, its open reader, how its codes become light
+ *   block   64 x 64 texels of one level of an entry, in the store's cache (base/cache.h)
+ *
+ * Reading goes through the picture module (model/pictures/module.h), a shared object that is loaded
+ * on first use: a film without pictures never loads it, nor one of which all are in memory.
+ *
+ * Locks: `lock` guards entries and tables, and is never held while pixels are read; an entry's
+ * `reading` guards its reader and is locked before `lock`. The contents of a block are a function
+ * of the picture alone, so frames depend neither on the budget nor on the number of threads.
+ */
+#ifndef CS_PICTURES_STORE_H
+#define CS_PICTURES_STORE_H
+
+#include "base/cache.h"
+#include "model/colour/srgb8.h"
+#include "model/pictures/mip_levels.h"
+#include "model/pictures/picture.h"
+
+/* Texels of a block's side. */
+#define CS_PICTURE_BLOCK 64
+/* Codes in a row of a block: those of its texels, and that of the texel right of the block. */
+#define CS_PICTURE_CODES_ROW (CS_PICTURE_BLOCK + 1)
+/* The sizes of a block's codes, and of its texels and codes. */
+#define CS_PICTURE_CODES_BYTES ((size_t)CS_PICTURE_BLOCK * 4 * CS_PICTURE_CODES_ROW)
+#define CS_PICTURE_BLOCK_BYTES                                                                     \
+  ((size_t)CS_PICTURE_BLOCK * 16 * CS_PICTURE_BLOCK + CS_PICTURE_CODES_BYTES)
+
+/* What all texels of a block that lie in the picture have in common. */
+typedef enum cs_picture_opacity {
+  CS_PICTURE_MIXED,
+  CS_PICTURE_OPAQUE, /* alpha is 1 */
+  CS_PICTURE_CLEAR   /* colour and alpha are 0 */
+} cs_picture_opacity;
+
+typedef struct cs_picture_entry cs_picture_entry;
+typedef struct cs_picture_store cs_picture_store;
+
+/* One block of a picture at a mip level (a texel is the mean of 2^level x 2^level pixels, in linear
+ * light). Constant once it is in the store. */
+typedef struct cs_picture_block {
+  cs_cache_entry cached; /* key: the picture's hash, level, column and row */
+  cs_picture_store *store;
+  int level;
+  int32_t column, row;
+  cs_picture_opacity opacity;
+  /* Whether the codes are exact: cs_srgb8_colour makes the texels from them to the bit, including
+   * the column right of the block unless the picture ends there. */
+  bool is_coded;
+  /* Premultiplied linear RGBA, row-major; clear beyond the picture. */
+  float texels[4 * CS_PICTURE_BLOCK * CS_PICTURE_BLOCK];
+  /* Of level 0: its texels as 8-bit pixels, sRGB and straight, as cs_srgb8_pixel makes them; else
+   * NULL. A row of a frame is read from the codes of many blocks in turn, which is twice as quick
+   * where they lie close together: so they are apart from the texels. */
+  unsigned char (*codes)[4 * CS_PICTURE_CODES_ROW];
+} cs_picture_block;
+
+struct cs_picture_entry {
+  cs_picture_entry *next;
+  cs_picture_store *store;
+  cs_hash hash;
+  atomic_size_t users; /* calls that have the entry now; that of a surface may go without them */
+  cs_picture *picture; /* a reference; NULL: of a surface */
+  cs_picture_header header;
+  cs_mip_levels_decoder decoder;
+  int level_count;
+  /* The first level of which all blocks fit into `share`. The levels up to it are made from the
+   * rows of the file, those above from the level below. */
+  int base;
+  size_t share; /* blocks that one pass over the file may make: half the budget */
+  pthread_mutex_t reading;
+  cs_picture_reader *reader;      /* NULL while closed, and of a part */
+  int32_t next_strip;             /* of a sequential format: the first row of blocks not read yet */
+  const celspan_surface *surface; /* while `reading` is locked: of the picture that is loaded */
+  const cs_picture *part;         /* likewise, where it is a part */
+};
+
+struct cs_picture_store {
+  cs_service service;
+  cs_memory *memory;
+  const cs_picture_module *module; /* NULL until it is needed */
+  cs_cache blocks; /* its budget is at least a row of blocks of the widest picture */
+  pthread_mutex_t lock;
+  cs_picture_entry *entries[256];      /* by hash */
+  size_t surface_count, surface_limit; /* entries of surfaces; those in use may be more */
+  size_t reader_count;                 /* readers open now */
+  float *tables[8][17];                /* light by code, for each transfer and number of bits */
+  cs_srgb8_curve curve;                /* the light of all codes */
+};
+
+/* The facts of the header, which is read once in a context. Errors: INPUT, LIMIT, NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_store_info(celspan_context *context, const cs_picture *picture,
+                                             celspan_picture_info *out);
+/* The picture module. failure: the status when there is none, INPUT or OUTPUT. */
+CELSPAN_CHECKED celspan_status cs_store_module(celspan_context *context, celspan_status failure,
+                                               const cs_picture_module **out);
+/* What the module is asked for. The texts are the picture's. */
+cs_picture_request cs_store_request(const cs_picture *picture);
+/* Removes a pin. */
+void cs_store_release(cs_picture_block *block);
+
+/* ---------------------------------------------------------------- for model/pictures/load.c */
+
+/* The entry of a picture, in use until cs_store_leave. Errors: as cs_store_info, BAD_ARGUMENT. */
+CELSPAN_CHECKED celspan_status cs_store_entry(celspan_context *context, const cs_picture *picture,
+                                              cs_picture_entry **out);
+void cs_store_leave(cs_picture_entry *entry);
+/* Pins a block and returns it; NULL when it is not in the store. */
+cs_picture_block *cs_store_pin(const cs_picture_entry *entry, int level, int32_t column,
+                               int32_t row);
+/* A new block, zeroed and without codes, not yet in the store, but counted. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_store_create_block(celspan_context *context,
+                                                     cs_picture_entry *entry, int level,
+                                                     int32_t column, int32_t row,
+                                                     cs_picture_block **out);
+/* Gives a new block room for its codes. Those of blocks that get it one after the other lie close
+ * together. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_store_add_codes(celspan_context *context,
+                                                  cs_picture_block *block);
+/* Puts the block into the store; one that is there already is returned instead. */
+cs_picture_block *cs_store_insert(cs_picture_block *block, bool is_pinned);
+/* Frees a block that was never inserted. NULL is ignored. */
+void cs_store_discard(cs_picture_block *block);
+/* Opens the entry's reader; closes it until it is needed again. The caller has locked `reading`. */
+CELSPAN_CHECKED celspan_status cs_store_open_reader(celspan_context *context,
+                                                    cs_picture_entry *entry);
+void cs_store_close_reader(cs_picture_entry *entry);
+
+#endif

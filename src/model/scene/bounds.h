@@ -1,0 +1,26 @@
+/* Boxes around objects and cels for callers whose picture depends on them: gradients that are
+ * spread over a box, places that scripts take from it. celspan_object_bounds and celspan_cel_bounds
+ * are for those that only leave out what lies beyond: without memory theirs are larger.
+ *
+ *   +-------------+
+ *   |   .--.      |  the outer box always holds the stroke; the inner one is tight and takes memory:
+ *   |  +----+     |  the stroke's outline is made for it
+ *   |  | // |     |
+ *   |  +----+     |
+ *   +-------------+
+ *
+ * INVARIANT: a box from here is the tight one.
+ */
+#ifndef CS_SCENE_BOUNDS_H
+#define CS_SCENE_BOUNDS_H
+
+#include "model/scene/scene.h"
+
+/* *is_there: whether there is anything; else *out is not set. Errors: NO_MEMORY. Shared read. */
+CELSPAN_CHECKED celspan_status cs_bounds_object(celspan_context *context,
+                                                const celspan_object *object, bool *is_there,
+                                                celspan_box *out);
+CELSPAN_CHECKED celspan_status cs_bounds_cel(celspan_context *context, const celspan_cel *cel,
+                                             bool *is_there, celspan_box *out);
+
+#endif

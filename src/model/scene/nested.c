@@ -1,0 +1,54 @@
+/* A rostrum as an object: a composition inside another one.
+ *
+ *    film of the outer rostrum
+ *    +--------------------------------+
+ *    |        ...-----.               |     The object is present in the frame of the inner
+ *    |     .-+---------+-.            |     rostrum, {0, 0, width, height}. Cels that reach beyond
+ *    |    :  | frame   |  :           |     the frame are clipped at it. The frame is placed by the
+ *    |     `-+---------+-'  cels      |     object's matrix, like any outline.
+ *    |        `-----'''               |
+ *    +--------------------------------+
+ *
+ * Values are immutable, so no rostrum can contain itself.
+ */
+#include "model/scene/check.h"
+#include "model/scene/primitive_data.h"
+
+static celspan_status check(celspan_context *context, const celspan_rostrum *rostrum) {
+  celspan_matrix matrix;
+  CS_TRY(cs_check_given(context, "rostrum", "the rostrum", rostrum));
+  if (!rostrum->has_size)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "rostrum: size is missing; a rostrum that is used as an object needs one");
+  for (size_t i = 0; i < rostrum->cel_count; i++)
+    CS_TRY(cs_scene_cel_matrix(context, rostrum, i, rostrum->width, rostrum->height, &matrix));
+  return CELSPAN_OK;
+}
+
+/* What the objects of all cels come to. */
+static celspan_status measure(celspan_context *context, cs_primitive_data *data) {
+  data->primitive_count = 1; /* the frame */
+  for (size_t i = 0; i < data->rostrum->cel_count; i++) {
+    const celspan_cel *cel = data->rostrum->cels[i];
+    CS_TRY(cs_primitive_data_measure(context, "rostrum", cel->objects, cel->object_count, data));
+  }
+  return cs_primitive_data_deepen(context, "rostrum", data);
+}
+
+static celspan_status fill(celspan_context *context, cs_primitive_data *data,
+                           celspan_rostrum *rostrum) {
+  data->rostrum = celspan_rostrum_ref(rostrum);
+  data->bounds = (celspan_box){0, 0, rostrum->width, rostrum->height};
+  CS_TRY(cs_primitive_data_set_box(context, data, &data->bounds));
+  return measure(context, data);
+}
+
+celspan_status celspan_object_create_rostrum(celspan_context *context, celspan_rostrum *rostrum,
+                                             celspan_object **out) {
+  CS_TRY(check(context, rostrum));
+  cs_primitive_data *data;
+  CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_ROSTRUM, NULL, &data));
+  CS_TRY(cs_primitive_data_wrap(context, data, fill(context, data, rostrum), out));
+  (*out)->mark = cs_mark_keep(rostrum->mark); /* which replaces a mark without a name */
+  return CELSPAN_OK;
+}

@@ -1,0 +1,142 @@
+/* The public constructors of primitives: they check the description and make the primitive data,
+ * that is outline, bounds and texture. */
+#include "model/scene/check.h"
+#include "model/scene/primitive_data.h"
+
+static celspan_status begin(celspan_context *context, const char *noun, celspan_rule rule,
+                            celspan_texture *texture, cs_primitive_data **out) {
+  CS_TRY(cs_check_choice(context, noun, "rule", (unsigned)rule, CELSPAN_RULE_EVENODD + 1));
+  CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_OUTLINE, texture, out));
+  (*out)->rule = rule;
+  return CELSPAN_OK;
+}
+
+static celspan_status create_rounded(celspan_context *context, cs_primitive_data *data,
+                                     const celspan_rect_desc *desc, celspan_object **out) {
+  cs_outline outline;
+  cs_outline_init(&outline);
+  celspan_status status =
+      cs_outline_rect(context, &outline, desc->x, desc->y, desc->width, desc->height, desc->radius);
+  return cs_primitive_data_complete(context, data, &outline, status, out);
+}
+
+celspan_status celspan_object_create_rect(celspan_context *context, const celspan_rect_desc *desc,
+                                          celspan_object **out) {
+  CS_TRY(cs_check_given(context, "rect", "the description", desc));
+  CS_TRY(cs_check_number(context, "rect", "x", desc->x));
+  CS_TRY(cs_check_number(context, "rect", "y", desc->y));
+  CS_TRY(cs_check_size(context, "rect", "w", desc->width));
+  CS_TRY(cs_check_size(context, "rect", "h", desc->height));
+  CS_TRY(cs_check_size(context, "rect", "radius", desc->radius));
+  cs_primitive_data *data;
+  CS_TRY(begin(context, "rect", CELSPAN_RULE_NONZERO, desc->texture, &data));
+  if (desc->radius > 0)
+    return create_rounded(context, data, desc, out);
+  const celspan_box box = {desc->x, desc->y, desc->width, desc->height};
+  return cs_primitive_data_complete_box(context, data, &box, out);
+}
+
+static celspan_status check_points(celspan_context *context, const char *noun,
+                                   const celspan_point *points, size_t count) {
+  CS_TRY(cs_check_list(context, noun, "points", points, count, CS_CHECK_ITEMS));
+  for (size_t i = 0; i < count; i++)
+    CS_TRY(cs_check_point(context, noun, "points", i + 1, points[i]));
+  return CELSPAN_OK;
+}
+
+static celspan_status create_polygon(celspan_context *context, const char *noun,
+                                     const celspan_polygon_desc *desc, celspan_object **out) {
+  CS_TRY(check_points(context, noun, desc->points, desc->point_count));
+  cs_primitive_data *data;
+  CS_TRY(begin(context, noun, desc->rule, desc->texture, &data));
+  cs_outline outline;
+  cs_outline_init(&outline);
+  celspan_status status = cs_outline_polygon(context, &outline, desc->points, desc->point_count);
+  return cs_primitive_data_complete(context, data, &outline, status, out);
+}
+
+celspan_status celspan_object_create_polygon(celspan_context *context,
+                                             const celspan_polygon_desc *desc,
+                                             celspan_object **out) {
+  CS_TRY(cs_check_given(context, "polygon", "the description", desc));
+  return create_polygon(context, "polygon", desc, out);
+}
+
+celspan_status celspan_object_create_triangle(celspan_context *context,
+                                              const celspan_triangle_desc *desc,
+                                              celspan_object **out) {
+  CS_TRY(cs_check_given(context, "triangle", "the description", desc));
+  celspan_polygon_desc polygon = {desc->points, 3, CELSPAN_RULE_NONZERO, desc->texture};
+  return create_polygon(context, "triangle", &polygon, out);
+}
+
+celspan_status celspan_object_create_ellipse(celspan_context *context,
+                                             const celspan_ellipse_desc *desc,
+                                             celspan_object **out) {
+  CS_TRY(cs_check_given(context, "ellipse", "the description", desc));
+  CS_TRY(cs_check_point(context, "ellipse", "centre", 0, desc->centre));
+  CS_TRY(cs_check_size(context, "ellipse", "radii[1]", desc->radius_x));
+  CS_TRY(cs_check_size(context, "ellipse", "radii[2]", desc->radius_y));
+  cs_primitive_data *data;
+  CS_TRY(begin(context, "ellipse", CELSPAN_RULE_NONZERO, desc->texture, &data));
+  cs_outline outline;
+  cs_outline_init(&outline);
+  celspan_status status =
+      cs_outline_ellipse(context, &outline, desc->centre, desc->radius_x, desc->radius_y);
+  return cs_primitive_data_complete(context, data, &outline, status, out);
+}
+
+celspan_status celspan_object_create_nurbs(celspan_context *context, const celspan_nurbs_desc *desc,
+                                           celspan_object **out) {
+  CS_TRY(cs_check_given(context, "nurbs", "the description", desc));
+  CS_TRY(check_points(context, "nurbs", desc->points, desc->point_count));
+  CS_TRY(cs_check_choice(context, "nurbs", "closed", (unsigned)desc->closure,
+                         CELSPAN_NURBS_CLAMPED + 1));
+  cs_primitive_data *data;
+  CS_TRY(begin(context, "nurbs", desc->rule, desc->texture, &data));
+  cs_outline outline;
+  cs_outline_init(&outline);
+  celspan_status status = cs_outline_nurbs(context, &outline, desc);
+  return cs_primitive_data_complete(context, data, &outline, status, out);
+}
+
+celspan_status celspan_object_create_path(celspan_context *context, const celspan_path_desc *desc,
+                                          celspan_object **out) {
+  CS_TRY(cs_check_given(context, "path", "the description", desc));
+  CS_TRY(cs_check_given(context, "path", "d", desc->data));
+  cs_primitive_data *data;
+  CS_TRY(begin(context, "path", desc->rule, desc->texture, &data));
+  cs_outline outline;
+  cs_outline_init(&outline);
+  celspan_status status = cs_outline_path(context, &outline, desc->data);
+  return cs_primitive_data_complete(context, data, &outline, status, out);
+}
+
+celspan_status cs_primitive_data_of_outline(celspan_context *context, cs_outline *outline,
+                                            celspan_rule rule, celspan_texture *texture,
+                                            celspan_object **out) {
+  cs_primitive_data *data;
+  celspan_status status = begin(context, "outline", rule, texture, &data);
+  if (status != CELSPAN_OK) {
+    cs_outline_finish(outline, context->memory);
+    return status;
+  }
+  return cs_primitive_data_complete(context, data, outline, CELSPAN_OK, out);
+}
+
+celspan_status celspan_object_create_scanline(celspan_context *context,
+                                              const celspan_scanline_desc *desc,
+                                              celspan_object **out) {
+  CS_TRY(cs_check_given(context, "scanline", "the description", desc));
+  CS_TRY(cs_check_box(context, "scanline", "bounds", &desc->bounds));
+  if (!desc->spans)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "scanline: spans is missing");
+  cs_primitive_data *data;
+  CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_SCANLINE, NULL, &data));
+  celspan_object *object;
+  CS_TRY(cs_primitive_data_complete_box(context, data, &desc->bounds, &object));
+  /* Not earlier: if no object is made, releasing `user` is left to the caller. */
+  *data->scanline = *desc;
+  *out = object;
+  return CELSPAN_OK;
+}

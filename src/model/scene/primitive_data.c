@@ -1,0 +1,356 @@
+#include "model/scene/primitive_data.h"
+
+#include "model/geometry/matrix.h"
+#include "model/scene/check.h"
+#include "model/scene/texture.h"
+#include "model/scene/unroll.h"
+#include "model/scene/value.h"
+
+/* ---------------------------------------------------------------- data */
+
+/* What only data of this kind have. */
+static celspan_status create_part(celspan_context *context, cs_primitive_data *data) {
+  if (data->kind == CS_PRIMITIVE_DATA_SCANLINE) {
+    data->scanline = cs_mem_array(context->memory, 1, sizeof *data->scanline);
+    return data->scanline ? CELSPAN_OK : cs_fail_memory(context);
+  }
+  if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN) {
+    data->boolean = cs_mem_array(context->memory, 1, sizeof *data->boolean);
+    return data->boolean ? CELSPAN_OK : cs_fail_memory(context);
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_primitive_data_create(celspan_context *context, cs_primitive_data_kind kind,
+                                        celspan_texture *texture, cs_primitive_data **out) {
+  cs_primitive_data *data = cs_mem_array(context->memory, 1, sizeof *data);
+  if (!data)
+    return cs_fail_memory(context);
+  atomic_init(&data->references, 1);
+  data->memory = cs_memory_ref(context->memory);
+  data->kind = kind;
+  data->has_procedure = kind == CS_PRIMITIVE_DATA_SCANLINE;
+  celspan_status status = kind == CS_PRIMITIVE_DATA_OUTLINE
+                              ? cs_texture_or_black(context, texture, &data->texture)
+                              : create_part(context, data);
+  if (status != CELSPAN_OK) {
+    cs_primitive_data_unref(data);
+    return status;
+  }
+  *out = data;
+  return CELSPAN_OK;
+}
+
+static void free_scanline(celspan_scanline_desc *scanline, cs_memory *memory) {
+  if (scanline && scanline->release)
+    scanline->release(scanline->user);
+  cs_mem_free(memory, scanline, sizeof *scanline);
+}
+
+static void free_boolean(cs_boolean *boolean, cs_memory *memory) {
+  if (boolean)
+    cs_operands_finish(&boolean->view);
+  cs_mem_free(memory, boolean, sizeof *boolean);
+}
+
+static void free_part(cs_primitive_data *data) {
+  switch (data->kind) {
+  case CS_PRIMITIVE_DATA_SCANLINE:
+    free_scanline(data->scanline, data->memory);
+    break;
+  case CS_PRIMITIVE_DATA_BOOLEAN:
+    free_boolean(data->boolean, data->memory);
+    break;
+  case CS_PRIMITIVE_DATA_ROSTRUM:
+    celspan_rostrum_unref(data->rostrum);
+    break;
+  case CS_PRIMITIVE_DATA_OUTLINE:
+    break;
+  }
+}
+
+/* Recursion ends: nesting is at most CS_SCENE_DEPTH. */
+void cs_primitive_data_unref(cs_primitive_data *data) {
+  if (!data || !cs_value_drop(&data->references))
+    return;
+  cs_memory *memory = data->memory;
+  free_part(data);
+  if (!data->is_box)
+    cs_outline_free_packed(data->outline, memory);
+  if (data->stroke)
+    cs_stroke_finish(data->stroke, memory);
+  cs_mem_free(memory, data->stroke, sizeof *data->stroke);
+  celspan_texture_unref(data->texture);
+  cs_mem_free(memory, data, sizeof *data);
+  cs_memory_unref(memory);
+}
+
+static void hash_outline(cs_hash *hash, const cs_outline *outline) {
+  cs_hash_word(hash, outline->contour_count);
+  for (size_t i = 0; i < outline->contour_count; i++)
+    cs_hash_word(hash, outline->contours[i]);
+  cs_hash_word(hash, outline->piece_count);
+  for (size_t i = 0; i < outline->piece_count; i++)
+    cs_hash_word(hash, outline->degrees[i]);
+  cs_hash_word(hash, outline->point_count);
+  for (size_t i = 0; i < outline->point_count; i++) {
+    cs_hash_number(hash, outline->points[i].x);
+    cs_hash_number(hash, outline->points[i].y);
+    cs_hash_number(hash, outline->points[i].w);
+  }
+}
+
+/* Nothing is known about the spans of a procedure, so it equals only itself. Its address can be
+ * used again after it was freed, but the count of allocations only grows. */
+static void hash_procedure(cs_hash *hash, const cs_primitive_data *data) {
+  cs_hash_word(hash, (uint64_t)(uintptr_t)data);
+  cs_hash_word(hash, atomic_load_explicit(&data->memory->allocations, memory_order_relaxed));
+}
+
+static cs_hash hash_primitive(const cs_primitive_data *data) {
+  static const cs_outline none = {.is_plain = true};
+  cs_outline_box room;
+  const cs_outline *outline = cs_primitive_data_outline(data, &room);
+  cs_hash hash = cs_hash_begin(CS_VALUE_DATA);
+  cs_hash_word(&hash, data->kind);
+  hash_outline(&hash, outline ? outline : &none);
+  if (data->stroke) {
+    hash_outline(&hash, &data->stroke->line);
+    cs_stroke_hash(&hash, data->stroke);
+  }
+  cs_hash_word(&hash, data->rule);
+  if (data->texture)
+    cs_hash_hash(&hash, data->texture->hash);
+  if (data->kind == CS_PRIMITIVE_DATA_SCANLINE)
+    hash_procedure(&hash, data);
+  if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM)
+    cs_hash_hash(&hash, data->rostrum->hash);
+  return cs_hash_end(hash);
+}
+
+/* The length comes last, so that the hash of more operands begins with that of fewer. */
+static cs_hash hash_boolean(cs_boolean *boolean) {
+  bool is_extended = boolean->hashed_count > 0;
+  cs_hash hash = is_extended ? boolean->operands_hash : cs_hash_begin(CS_VALUE_DATA);
+  if (!is_extended) {
+    cs_hash_word(&hash, CS_PRIMITIVE_DATA_BOOLEAN);
+    cs_hash_word(&hash, boolean->op);
+  }
+  for (size_t i = boolean->hashed_count; i < boolean->operand_count; i++)
+    cs_hash_hash(&hash, boolean->operands[i]->hash);
+  boolean->operands_hash = hash;
+  boolean->hashed_count = boolean->operand_count;
+  cs_hash_word(&hash, boolean->operand_count);
+  return cs_hash_end(hash);
+}
+
+/* ---------------------------------------------------------------- objects */
+
+static const celspan_matrix identity = {{1, 0, 0, 0, 1, 0, 0, 0, 1}};
+
+static size_t size_of(const celspan_object *object) {
+  return sizeof *object + (object->matrix == object->own ? sizeof *object->own : 0);
+}
+
+/* matrix: is copied, unless it is `identity` itself. mark: a reference that the object takes;
+ * dropped on failure. */
+static celspan_status create_object(celspan_context *context, cs_primitive_data *data,
+                                    const celspan_matrix *matrix, double fade, cs_mark mark,
+                                    celspan_object **out) {
+  bool is_shared = matrix == &identity;
+  celspan_object *object =
+      cs_mem_array(context->memory, 1, sizeof *object + (is_shared ? 0 : sizeof *object->own));
+  if (!object) {
+    cs_mark_drop(mark);
+    return cs_fail_memory(context);
+  }
+  if (!is_shared)
+    object->own[0] = *matrix;
+  object->matrix = is_shared ? &identity : object->own;
+  object->mark = mark;
+  atomic_init(&object->references, 1);
+  object->memory = cs_memory_ref(context->memory);
+  cs_value_keep(&data->references);
+  object->data = data;
+  object->fade = fade;
+  cs_hash hash = cs_hash_begin(CS_VALUE_OBJECT);
+  cs_hash_hash(&hash, data->hash);
+  cs_value_hash_matrix(&hash, matrix);
+  cs_hash_number(&hash, fade);
+  object->hash = cs_hash_end(hash);
+  *out = object;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_primitive_data_wrap(celspan_context *context, cs_primitive_data *data,
+                                      celspan_status status, celspan_object **out) {
+  if (status == CELSPAN_OK && data->texture)
+    status = cs_texture_unroll(context, &data->texture, &data->bounds);
+  if (status == CELSPAN_OK) {
+    data->hash = data->kind == CS_PRIMITIVE_DATA_BOOLEAN ? hash_boolean(data->boolean)
+                                                         : hash_primitive(data);
+    status = create_object(context, data, &identity, 1, cs_mark_now(context), out);
+  }
+  cs_primitive_data_unref(data);
+  return status;
+}
+
+/* Finds the bounds of data that have an outline. */
+static void measure_outline(cs_primitive_data *data) {
+  cs_outline_box room;
+  if (!cs_outline_bounds(cs_primitive_data_outline(data, &room), &identity, &data->bounds))
+    data->bounds = (celspan_box){0, 0, 0, 0};
+  data->is_empty = !(data->bounds.width > 0 && data->bounds.height > 0);
+  data->primitive_count = 1;
+}
+
+celspan_status cs_primitive_data_complete(celspan_context *context, cs_primitive_data *data,
+                                          cs_outline *outline, celspan_status status,
+                                          celspan_object **out) {
+  if (status == CELSPAN_OK)
+    status = cs_outline_pack(context, outline, &data->outline);
+  cs_outline_finish(outline, context->memory);
+  if (status == CELSPAN_OK)
+    measure_outline(data);
+  return cs_primitive_data_wrap(context, data, status, out);
+}
+
+celspan_status cs_primitive_data_set_box(celspan_context *context, cs_primitive_data *data,
+                                         const celspan_box *box) {
+  data->is_box = box->x + box->width > box->x && box->y + box->height > box->y;
+  if (data->is_box) {
+    data->box = *box;
+    return CELSPAN_OK;
+  }
+  cs_outline outline;
+  cs_outline_init(&outline);
+  celspan_status status =
+      cs_outline_rect(context, &outline, box->x, box->y, box->width, box->height, 0);
+  if (status == CELSPAN_OK)
+    status = cs_outline_pack(context, &outline, &data->outline);
+  cs_outline_finish(&outline, context->memory);
+  return status;
+}
+
+celspan_status cs_primitive_data_complete_box(celspan_context *context, cs_primitive_data *data,
+                                              const celspan_box *box, celspan_object **out) {
+  celspan_status status = cs_primitive_data_set_box(context, data, box);
+  if (status == CELSPAN_OK)
+    measure_outline(data);
+  return cs_primitive_data_wrap(context, data, status, out);
+}
+
+celspan_status cs_primitive_data_check_placement(celspan_context *context,
+                                                 const cs_primitive_data *data,
+                                                 const celspan_matrix *matrix) {
+  if (!data->has_procedure || cs_matrix_is_upright(matrix))
+    return CELSPAN_OK;
+  return cs_fail(
+      context, CELSPAN_BAD_ARGUMENT,
+      "transform: a scan-line primitive can be moved and scaled, but not rotated, skewed "
+      "or put in perspective");
+}
+
+celspan_status celspan_object_transform(celspan_context *context, celspan_object *object,
+                                        const celspan_matrix *matrix, celspan_object **out) {
+  CS_TRY(cs_check_given(context, "transform", "the object", object));
+  celspan_matrix whole;
+  CS_TRY(cs_check_transform(context, object->matrix, matrix, &whole));
+  CS_TRY(cs_primitive_data_check_placement(context, object->data, &whole));
+  return create_object(context, object->data, &whole, object->fade, cs_mark_keep(object->mark),
+                       out);
+}
+
+celspan_status celspan_object_fade(celspan_context *context, celspan_object *object, double k,
+                                   celspan_object **out) {
+  CS_TRY(cs_check_given(context, "fade", "the object", object));
+  CS_TRY(cs_check_share(context, "fade", "k", k));
+  return create_object(context, object->data, object->matrix, object->fade * k,
+                       cs_mark_keep(object->mark), out);
+}
+
+bool celspan_object_hash(const celspan_object *object, uint64_t drawing[2], uint64_t placement[2]) {
+  cs_hash rest = cs_hash_begin(CS_VALUE_OBJECT);
+  cs_value_hash_matrix(&rest, object->matrix);
+  cs_hash_number(&rest, object->fade);
+  cs_value_hash_give(object->data->hash, drawing);
+  cs_value_hash_give(cs_hash_end(rest), placement);
+  return !object->data->has_procedure;
+}
+
+celspan_status celspan_object_named(celspan_context *context, celspan_object *object,
+                                    const char *name, celspan_object **out) {
+  CS_TRY(cs_check_given(context, "named", "the object", object));
+  cs_mark mark;
+  CS_TRY(cs_mark_named(context, object->mark, name, &mark));
+  return create_object(context, object->data, object->matrix, object->fade, mark, out);
+}
+
+const char *celspan_object_name(const celspan_object *object) { return cs_mark_name(object->mark); }
+
+celspan_origin celspan_object_origin(const celspan_object *object) {
+  return cs_mark_origin(object->mark);
+}
+
+celspan_object *celspan_object_ref(celspan_object *object) {
+  cs_value_keep(&object->references);
+  return object;
+}
+
+void celspan_object_unref(celspan_object *object) {
+  if (!object || !cs_value_drop(&object->references))
+    return;
+  cs_memory *memory = object->memory;
+  cs_primitive_data_unref(object->data);
+  cs_mark_drop(object->mark);
+  cs_mem_free(memory, object, size_of(object));
+  cs_memory_unref(memory);
+}
+
+/* ---------------------------------------------------------------- lists */
+
+celspan_status cs_primitive_data_list_copy(celspan_context *context, const char *noun,
+                                           const char *field, celspan_object *const *objects,
+                                           size_t count, celspan_object ***out) {
+  CS_TRY(cs_check_list(context, noun, field, objects, count, CS_CHECK_ITEMS));
+  for (size_t i = 0; i < count; i++)
+    if (!objects[i])
+      return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: %s[%zu] is missing", noun, field, i + 1);
+  celspan_object **copy = cs_mem_array(context->memory, count, sizeof *copy);
+  if (!copy && count > 0)
+    return cs_fail_memory(context);
+  for (size_t i = 0; i < count; i++)
+    copy[i] = celspan_object_ref(objects[i]);
+  *out = copy;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_primitive_data_measure(celspan_context *context, const char *noun,
+                                         celspan_object *const *objects, size_t count,
+                                         cs_primitive_data *data) {
+  for (size_t i = 0; i < count; i++) {
+    const cs_primitive_data *item = objects[i]->data;
+    data->depth = item->depth > data->depth ? item->depth : data->depth;
+    data->primitive_count += item->primitive_count; /* both at most the limit: no overflow */
+    data->has_procedure |= item->has_procedure;
+    if (data->primitive_count > CS_SCENE_PRIMITIVES)
+      return cs_fail(context, CELSPAN_LIMIT, "%s: it holds more than %d primitives", noun,
+                     CS_SCENE_PRIMITIVES);
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_primitive_data_deepen(celspan_context *context, const char *noun,
+                                        cs_primitive_data *data) {
+  data->depth++;
+  if (data->depth > CS_SCENE_DEPTH)
+    return cs_fail(context, CELSPAN_LIMIT, "%s: nested %d levels deep; the limit is %d", noun,
+                   data->depth, CS_SCENE_DEPTH);
+  return CELSPAN_OK;
+}
+
+void cs_primitive_data_list_free(cs_memory *memory, celspan_object **objects, size_t count) {
+  for (size_t i = 0; i < count; i++)
+    celspan_object_unref(objects[i]);
+  cs_mem_free(memory, objects, count * sizeof *objects);
+}

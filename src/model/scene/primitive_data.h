@@ -1,0 +1,84 @@
+/* Primitive data, and the objects made of them.
+ *
+ *   object: matrix, fade --\
+ *   object: matrix, fade ---+--> primitive data: outline + texture, or operands of a boolean
+ *   object: matrix, fade --/
+ *
+ * Primitive data are an object without its transform and fade. Transformed and faded copies of an
+ * object share them. Invariant: the data of a scan-line procedure have an outline too, the
+ * rectangle of its bounds, so that geometry needs no special case.
+ */
+#ifndef CS_SCENE_PRIMITIVE_DATA_H
+#define CS_SCENE_PRIMITIVE_DATA_H
+
+#include "model/scene/scene.h"
+
+/* New, empty data, which the caller fills. texture: gets a reference more; NULL is opaque black.
+ * Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_primitive_data_create(celspan_context *context,
+                                                        cs_primitive_data_kind kind,
+                                                        celspan_texture *texture,
+                                                        cs_primitive_data **out);
+void cs_primitive_data_unref(cs_primitive_data *data);
+
+/* Hashes data that have been filled and wraps them into a new object, which takes the caller's
+ * reference. status: whether filling them has succeeded; if not, or on failure here, the reference
+ * is dropped. Errors: `status`, NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_primitive_data_wrap(celspan_context *context,
+                                                      cs_primitive_data *data,
+                                                      celspan_status status, celspan_object **out);
+
+/* A primitive with an outline of its own making, whose arrays are taken over (and freed on
+ * failure). Every coordinate of it passes cs_number_is_sane. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_primitive_data_of_outline(celspan_context *context,
+                                                            cs_outline *outline, celspan_rule rule,
+                                                            celspan_texture *texture,
+                                                            celspan_object **out);
+/* A stroke along a line, which is copied; `closed` says which of its contours are closed. Points,
+ * data and outline of the description are ignored. Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_primitive_data_of_line(celspan_context *context,
+                                                         const cs_outline *line,
+                                                         const cs_outline_closed *closed,
+                                                         const celspan_stroke_desc *desc,
+                                                         celspan_object **out);
+/* As cs_primitive_data_wrap, for data with this outline, whose bounds are found first. It is
+ * copied, and finished in any case. */
+CELSPAN_CHECKED celspan_status cs_primitive_data_complete(celspan_context *context,
+                                                          cs_primitive_data *data,
+                                                          cs_outline *outline,
+                                                          celspan_status status,
+                                                          celspan_object **out);
+/* The same of an upright rectangle. */
+CELSPAN_CHECKED celspan_status cs_primitive_data_complete_box(celspan_context *context,
+                                                              cs_primitive_data *data,
+                                                              const celspan_box *box,
+                                                              celspan_object **out);
+/* Gives data, which have no outline yet, that of an upright rectangle. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_primitive_data_set_box(celspan_context *context,
+                                                         cs_primitive_data *data,
+                                                         const celspan_box *box);
+
+/* BAD_ARGUMENT when the data contain a procedure whose rows would not be parallel to the
+ * frame's. */
+CELSPAN_CHECKED celspan_status cs_primitive_data_check_placement(celspan_context *context,
+                                                                 const cs_primitive_data *data,
+                                                                 const celspan_matrix *matrix);
+
+/* Copies a list, keeping every object; *out is NULL when count is 0. noun and field are for the
+ * message. Errors: NO_MEMORY, BAD_ARGUMENT for an object that is NULL. */
+CELSPAN_CHECKED celspan_status cs_primitive_data_list_copy(celspan_context *context,
+                                                           const char *noun, const char *field,
+                                                           celspan_object *const *objects,
+                                                           size_t count, celspan_object ***out);
+void cs_primitive_data_list_free(cs_memory *memory, celspan_object **objects, size_t count);
+
+/* Adds what a list's objects come to: their greatest depth, their primitives and procedures.
+ * Errors: LIMIT. */
+CELSPAN_CHECKED celspan_status cs_primitive_data_measure(celspan_context *context, const char *noun,
+                                                         celspan_object *const *objects,
+                                                         size_t count, cs_primitive_data *data);
+/* Adds the level that the data are themselves. Errors: LIMIT. */
+CELSPAN_CHECKED celspan_status cs_primitive_data_deepen(celspan_context *context, const char *noun,
+                                                        cs_primitive_data *data);
+
+#endif

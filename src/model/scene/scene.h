@@ -1,0 +1,227 @@
+/* The scene: textures, objects, cels, rostrum. Immutable once made, counted atomically, each with a
+ * 128-bit structural hash made at construction.
+ *
+ *   rostrum -> cels -> objects (boolean trees) -> primitives -> texture
+ *      ^        |                  |
+ *      |        +-> lights         |     a rostrum may be an object of a cel of another one: a
+ *      +---------------------------+     composition inside a composition
+ *
+ * Only scene/ writes these; the compiler of frames (frames/render/compile.c) and the oracle
+ * (model/scene/probe.c) read them. Invariant: every number was checked (finite, in range), every
+ * child pointer is set, nesting is at most CS_SCENE_DEPTH, and an object has at most
+ * CS_SCENE_PRIMITIVES primitives, where a shared operand counts each time it occurs.
+ */
+#ifndef CS_SCENE_SCENE_H
+#define CS_SCENE_SCENE_H
+
+#include "base/hash.h"
+#include "base/mark.h"
+#include "celspan/celspan.h"
+#include "model/geometry/outline.h"
+#include "model/scene/antialias.h"
+#include "model/scene/operands.h"
+#include "model/scene/texture.h"
+#include "model/stroke/stroke.h"
+
+/* A light of a cel or a rostrum: one colour everywhere, or a texture.
+ *
+ *     flat          r, g, b; and the matte a of a back light
+ *     texture       gain * beta * pigment at each point; the matte is matte * beta
+ *
+ *         on = FRAME                             on = CEL
+ *      +------------------+                   +------------------+
+ *      |   .  * .         |  stays while      |        .  * .    |  moves with the cel
+ *      |  . light .  cel  |  the cel moves    |   cel . light .  |
+ *      |     . .          |                   |          . .     |
+ *      +------------------+                   +------------------+
+ *
+ * Invariant: a texture here is no flat one, and its paints have clear media, so its T is 1 - beta.
+ */
+typedef struct cs_light {
+  bool is_given;            /* front lights: false for a cel that takes its rostrum's */
+  celspan_light flat;       /* where there is no texture; else 0 */
+  celspan_texture *texture; /* NULL: flat */
+  double gain;              /* of the texture; else 0 */
+  celspan_light_place on;   /* likewise */
+  double matte;             /* likewise: what the texture's beta is multiplied by */
+} cs_light;
+
+/* What a description says of one light. */
+typedef struct cs_light_desc {
+  const char *noun, *field;
+  bool is_given; /* the plain light is */
+  celspan_light flat;
+  const celspan_light_texture *texture;
+} cs_light_desc;
+
+/* *out: owns a reference to its texture. Errors: NO_MEMORY, BAD_ARGUMENT. */
+CELSPAN_CHECKED celspan_status cs_light_make(celspan_context *context, const cs_light_desc *desc,
+                                             cs_light *out);
+/* Another owner of the same light. */
+cs_light cs_light_ref(const cs_light *light);
+void cs_light_unref(const cs_light *light);
+void cs_light_hash(cs_hash *hash, const cs_light *light);
+/* The light times a brightness; the matte does not change. Borrows the texture. */
+cs_light cs_light_scale(const cs_light *light, double brightness);
+
+#define CS_SCENE_DEPTH 128
+#define CS_SCENE_PRIMITIVES 16777216 /* in one object, every level counted */
+
+typedef enum cs_primitive_data_kind {
+  CS_PRIMITIVE_DATA_OUTLINE,
+  CS_PRIMITIVE_DATA_SCANLINE,
+  CS_PRIMITIVE_DATA_BOOLEAN,
+  CS_PRIMITIVE_DATA_ROSTRUM
+} cs_primitive_data_kind;
+
+/* What only booleans have. */
+typedef struct cs_boolean {
+  celspan_operator op;
+  cs_operands view;          /* keeps the operands */
+  celspan_object **operands; /* those of the view */
+  size_t operand_count;
+  cs_hash operands_hash; /* of the first hashed_count operands; more continue it */
+  size_t hashed_count;
+} cs_boolean;
+
+/* The data of an object without its transform and fade: shared by all its transformed copies. A
+ * scene may have a million of them, nearly all outlines: what other kinds have is behind a
+ * pointer, and an upright rectangle is kept as a box. cs_primitive_data_outline gives the
+ * outline of either. */
+typedef struct cs_primitive_data {
+  atomic_size_t references;
+  cs_memory *memory;
+  cs_hash hash;
+  cs_primitive_data_kind kind;
+  celspan_rule rule;
+  bool is_empty;            /* nothing to draw: no contour, or an operator without operands */
+  bool has_procedure;       /* below or with this one */
+  bool is_box;              /* the outline is that of `box`, which has an area */
+  int depth;                /* levels of booleans and rostrums below and with this one */
+  uint32_t primitive_count; /* below and with this one, each time it occurs */
+  celspan_texture *texture; /* OUTLINE; never NULL */
+  celspan_box bounds; /* all but BOOLEAN: own units; tight, but of a stroke only where that shows */
+  cs_stroke *stroke;  /* OUTLINE, instead of an outline; else NULL. Owned */
+  union {
+    celspan_box box;     /* is_box. SCANLINE: its bounds; ROSTRUM: its frame */
+    cs_outline *outline; /* else; packed and owned. NULL of strokes and booleans */
+  };
+  union {
+    cs_boolean *boolean;             /* BOOLEAN; owned */
+    celspan_scanline_desc *scanline; /* SCANLINE; owned */
+    struct celspan_rostrum *rostrum; /* ROSTRUM; a reference */
+  };
+} cs_primitive_data;
+
+/* The outline of data that have one, else NULL. room: where that of a box is made. */
+static inline const cs_outline *cs_primitive_data_outline(const cs_primitive_data *data,
+                                                          cs_outline_box *room) {
+  return data->is_box ? cs_outline_of_box(&data->box, room) : data->outline;
+}
+
+struct celspan_object {
+  atomic_size_t references;
+  cs_memory *memory;
+  cs_hash hash;
+  cs_mark mark;
+  cs_primitive_data *data;
+  double fade;                  /* 0..1 */
+  const celspan_matrix *matrix; /* own units to the parent's: `own`, or the identity, shared */
+  celspan_matrix own[];         /* one; none where the matrix is shared */
+};
+
+struct celspan_cel {
+  atomic_size_t references;
+  cs_memory *memory;
+  cs_hash hash;
+  cs_mark mark;
+  celspan_object **objects;
+  size_t object_count;
+  celspan_matrix matrix; /* the cel's own transform, before the viewport */
+  cs_light front, back;
+  bool has_viewport;
+  celspan_box viewport;
+  double defocus_radius;
+  celspan_defocus_kernel defocus_kernel;
+  double opacity;
+};
+
+struct celspan_rostrum {
+  atomic_size_t references;
+  cs_memory *memory;
+  cs_hash hash;
+  cs_mark mark;
+  celspan_cel **cels;
+  size_t cel_count;
+  cs_light front, back;
+  double brightness;
+  bool has_size;
+  double width, height; /* 0 without a size */
+  bool has_camera_centre, has_camera_width;
+  celspan_point camera_centre;
+  double camera_width;
+  double camera_rotation;
+  cs_antialias antialias;
+};
+
+/* The matrix from a cel's units (before its own transform) to film units on the frame: transform,
+ * then viewport, then camera. Errors: BAD_ARGUMENT, naming the cel, when viewport or camera is
+ * singular. cel_index is only for the message. */
+CELSPAN_CHECKED celspan_status cs_scene_cel_matrix(celspan_context *context,
+                                                   const celspan_rostrum *rostrum, size_t cel_index,
+                                                   double film_width, double film_height,
+                                                   celspan_matrix *out);
+/* The factors of that matrix that come after the cel's own transform: the view is the viewport and
+ * then the camera; without a camera, that factor is the identity. They are not checked. */
+celspan_matrix cs_scene_view(const celspan_rostrum *rostrum, const celspan_cel *cel,
+                             double film_width, double film_height);
+celspan_matrix cs_scene_camera(const celspan_rostrum *rostrum, double film_width,
+                               double film_height);
+/* The front light of a cel, brightness included: the cel's own, else the rostrum's, else white. */
+cs_light cs_scene_front(const celspan_rostrum *rostrum, const celspan_cel *cel);
+/* A back light times the rostrum's brightness; the matte does not change. */
+cs_light cs_scene_back(const celspan_rostrum *rostrum, const cs_light *back);
+/* *out: new; like `from`, name and line included, with these cels, which are kept, and this back
+ * light, both right already: for tools that show a part of a frame, or show it before another
+ * ground. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_rostrum_change(celspan_context *context,
+                                                 const celspan_rostrum *from,
+                                                 celspan_cel *const *cels, size_t cel_count,
+                                                 celspan_light back, celspan_rostrum **out);
+/* A hash of what exposures show, independent of the frame's size. Exposures with equal hashes show
+ * the same, provided that they contain no procedure and the files of their pictures do not
+ * change. */
+cs_hash cs_scene_hash(const celspan_exposure *exposures, size_t count);
+/* Whether any exposure contains a scan-line procedure. */
+bool cs_scene_has_procedure(const celspan_exposure *exposures, size_t count);
+
+/* A rostrum in which one light shines, at 1, and all others are out.
+ *
+ *     camera
+ *       |    cel n      front 0, back 0
+ *       |    ...
+ *       |    cel i      front 1            or   back 1, behind it
+ *       v    ---------------------------
+ *            cels behind it are left out: no light of theirs is left
+ *
+ * What it sends to the camera is what a unit of that light adds to the whole. Mattes are 0, so that
+ * the alpha of what is sent is 1 less the mean of what comes through all of these cels.
+ *
+ * INVARIANT: it borrows everything from the rostrum that it was made of, which must outlive it; its
+ * hashes are those of what it was made of, which is right for what is kept by them, since that does
+ * not depend on lights.
+ */
+typedef struct cs_lit_alone {
+  celspan_rostrum rostrum;
+  celspan_cel *cels; /* owned; the rostrum's list points to them */
+  size_t count;
+} cs_lit_alone;
+
+/* index: the place of the cel, from 0; is_back: its back light, else its front light.
+ * Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_lit_alone_make(celspan_context *context,
+                                                 const celspan_rostrum *rostrum, size_t index,
+                                                 bool is_back, cs_lit_alone *out);
+void cs_lit_alone_finish(celspan_context *context, cs_lit_alone *alone);
+
+#endif

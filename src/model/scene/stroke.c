@@ -1,0 +1,155 @@
+/* Strokes: the constructors, which check the description. */
+#include "model/geometry/matrix.h"
+#include "model/scene/check.h"
+#include "model/scene/primitive_data.h"
+#include "model/stroke/outliner.h"
+
+#define NOUN "stroke"
+
+/* ---------------------------------------------------------------- checks */
+
+static celspan_status check_points(celspan_context *context, const celspan_stroke_desc *desc) {
+  CS_TRY(cs_check_list(context, NOUN, "points", desc->points, desc->point_count, CS_CHECK_ITEMS));
+  for (size_t i = 0; i < desc->point_count; i++) {
+    CS_TRY(cs_check_point(context, NOUN, "points", i + 1, desc->points[i]));
+    if (desc->widths)
+      CS_TRY(cs_check_item(context, (cs_check_field){NOUN, "points", i + 1, "width"},
+                           desc->widths[i], 0, 1e12));
+  }
+  if (desc->degree < 1 || desc->degree > 15)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "stroke: degree is %d; it must be from 1 to 15",
+                   desc->degree);
+  return CELSPAN_OK;
+}
+
+static celspan_status check_dashes(celspan_context *context, const celspan_stroke_desc *desc) {
+  double sum = 0;
+  CS_TRY(cs_check_list(context, NOUN, "dash", desc->dashes, desc->dash_count, CS_CHECK_ITEMS));
+  if (!desc->dashes)
+    return CELSPAN_OK;
+  if (desc->dash_count == 0)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "stroke: dash is empty; leave it out for a line without dashes");
+  for (size_t i = 0; i < desc->dash_count; i++) {
+    CS_TRY(cs_check_item(context, (cs_check_field){NOUN, "dash", i + 1, ""}, desc->dashes[i], 0,
+                         1e12));
+    sum += desc->dashes[i];
+  }
+  if (!(sum > 0))
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "stroke: the lengths of dash are all 0; their sum must be above 0");
+  return CELSPAN_OK;
+}
+
+static celspan_status check_numbers(celspan_context *context, const celspan_stroke_desc *desc) {
+  CS_TRY(cs_check_size(context, NOUN, "width", desc->width));
+  CS_TRY(cs_check_choice(context, NOUN, "cap", (unsigned)desc->cap, CELSPAN_CAP_SQUARE + 1));
+  CS_TRY(cs_check_choice(context, NOUN, "join", (unsigned)desc->join, CELSPAN_JOIN_BEVEL + 1));
+  CS_TRY(cs_check_range(context, NOUN, "miter", desc->miter, 1, 1e6));
+  CS_TRY(cs_check_number(context, NOUN, "dash_offset", desc->dash_offset));
+  CS_TRY(cs_check_size(context, NOUN, "taper[1]", desc->taper[0]));
+  CS_TRY(cs_check_size(context, NOUN, "taper[2]", desc->taper[1]));
+  CS_TRY(cs_check_number(context, NOUN, "from", desc->from));
+  CS_TRY(cs_check_number(context, NOUN, "to", desc->to));
+  return check_dashes(context, desc);
+}
+
+static celspan_status check_outline(celspan_context *context, const celspan_object *object) {
+  const cs_primitive_data *data = object->data;
+  if (data->kind == CS_PRIMITIVE_DATA_OUTLINE && !data->stroke)
+    return CELSPAN_OK;
+  const char *what = data->kind == CS_PRIMITIVE_DATA_OUTLINE    ? "a stroke"
+                     : data->kind == CS_PRIMITIVE_DATA_SCANLINE ? "a scan-line procedure"
+                     : data->kind == CS_PRIMITIVE_DATA_ROSTRUM  ? "a rostrum"
+                                                                : "a boolean object";
+  return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                 "stroke: the outline must be that of a primitive; %s has none", what);
+}
+
+/* ---------------------------------------------------------------- construction */
+
+/* A picture without a box lies on the tight bounds; for everything else those of the line and its
+ * largest reach do. */
+static celspan_status find_bounds(celspan_context *context, cs_primitive_data *data) {
+  const cs_stroke *stroke = data->stroke;
+  data->is_empty = !(stroke->around.width > 0 && stroke->around.height > 0);
+  data->bounds = stroke->around;
+  if (data->is_empty || data->texture->kind != CS_TEXTURE_PICTURE ||
+      data->texture->variation->has_box)
+    return CELSPAN_OK;
+  const celspan_matrix identity = celspan_matrix_identity();
+  cs_outline outline;
+  cs_outline_init(&outline);
+  celspan_status status = cs_stroke_outline_fine(context, stroke, &outline);
+  if (status == CELSPAN_OK && !cs_outline_bounds(&outline, &identity, &data->bounds))
+    data->is_empty = true;
+  cs_outline_finish(&outline, context->memory);
+  return status;
+}
+
+static celspan_status fill(celspan_context *context, cs_primitive_data *data,
+                           const celspan_stroke_desc *desc, const cs_outline *outline,
+                           const cs_outline_closed *closed) {
+  data->primitive_count = 1;
+  data->stroke = cs_mem_array(context->memory, 1, sizeof *data->stroke);
+  if (!data->stroke)
+    return cs_fail_memory(context);
+  cs_outline_init(&data->stroke->line);
+  CS_TRY(cs_stroke_init(context, data->stroke, desc, outline, closed));
+  return find_bounds(context, data);
+}
+
+static celspan_status create(celspan_context *context, const celspan_stroke_desc *desc,
+                             const celspan_object *outlined, celspan_object **out) {
+  cs_primitive_data *data;
+  CS_TRY(check_numbers(context, desc));
+  if (outlined)
+    CS_TRY(check_outline(context, outlined));
+  else if (!desc->data)
+    CS_TRY(check_points(context, desc));
+  CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_OUTLINE, desc->texture, &data));
+  cs_outline_box room;
+  const cs_outline *outline = outlined ? cs_primitive_data_outline(outlined->data, &room) : NULL;
+  celspan_status status = fill(context, data, desc, outline, NULL);
+  return cs_primitive_data_wrap(context, data, status, out);
+}
+
+celspan_status cs_primitive_data_of_line(celspan_context *context, const cs_outline *line,
+                                         const cs_outline_closed *closed,
+                                         const celspan_stroke_desc *desc, celspan_object **out) {
+  cs_primitive_data *data;
+  CS_TRY(check_numbers(context, desc));
+  CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_OUTLINE, desc->texture, &data));
+  celspan_status status = fill(context, data, desc, line, closed);
+  return cs_primitive_data_wrap(context, data, status, out);
+}
+
+celspan_status celspan_object_create_stroke(celspan_context *context,
+                                            const celspan_stroke_desc *desc, celspan_object **out) {
+  CS_TRY(cs_check_given(context, NOUN, "the description", desc));
+  CS_TRY(cs_check_version(context, NOUN, desc->struct_size, sizeof *desc));
+  int given = (desc->points != NULL) + (desc->data != NULL) + (desc->outline != NULL);
+  if (given != 1)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "stroke: %s of points, d and outline must be given",
+                   given == 0 ? "one" : "only one");
+  return create(context, desc, desc->outline, out);
+}
+
+celspan_status celspan_object_stroke(celspan_context *context, celspan_object *object,
+                                     const celspan_stroke_desc *desc, celspan_object **out) {
+  CS_TRY(cs_check_given(context, NOUN, "the object", object));
+  CS_TRY(cs_check_given(context, NOUN, "the description", desc));
+  CS_TRY(cs_check_version(context, NOUN, desc->struct_size, sizeof *desc));
+  if (desc->points || desc->data)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "stroke: the line is the object's outline; points and d do not go with it");
+  celspan_object *plain, *placed;
+  CS_TRY(create(context, desc, object, &plain));
+  celspan_status status = celspan_object_transform(context, plain, object->matrix, &placed);
+  celspan_object_unref(plain);
+  CS_TRY(status);
+  status = celspan_object_fade(context, placed, object->fade, out);
+  celspan_object_unref(placed);
+  return status;
+}

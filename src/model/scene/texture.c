@@ -1,0 +1,476 @@
+#include "model/scene/texture.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/self_check.h"
+#include "model/pictures/store.h"
+#include "model/scene/check.h"
+#include "model/scene/value.h"
+
+/* Twice the area of a triangle below this share of its longest side squared is rounding. */
+#define FLAT_TRIANGLE 1e-12
+/* A focus lies inside its circle: at most so far from the centre, as a share of the radius. */
+#define FOCUS_SHARE 0.9999
+
+static const cs_texture_variation no_variation = {.stop_count = 0};
+
+typedef struct varying {
+  celspan_texture texture;
+  cs_texture_variation variation;
+} varying;
+
+static size_t size_of(cs_texture_kind kind) {
+  return kind == CS_TEXTURE_FLAT ? sizeof(celspan_texture) : sizeof(varying);
+}
+
+cs_texture_variation *cs_texture_own(celspan_texture *texture) {
+  CS_SELF_CHECK(texture->kind != CS_TEXTURE_FLAT);
+  return &((varying *)texture)->variation;
+}
+
+static celspan_status create(celspan_context *context, cs_texture_kind kind,
+                             celspan_texture **out) {
+  celspan_texture *texture = cs_mem_array(context->memory, 1, size_of(kind));
+  if (!texture)
+    return cs_fail_memory(context);
+  texture->variation = kind == CS_TEXTURE_FLAT ? &no_variation : &((varying *)texture)->variation;
+  atomic_init(&texture->references, 1);
+  texture->memory = cs_memory_ref(context->memory);
+  texture->mark = cs_mark_now(context);
+  texture->kind = kind;
+  *out = texture;
+  return CELSPAN_OK;
+}
+
+static void hash_picture(cs_hash *hash, const celspan_texture *texture) {
+  cs_hash_hash(hash, cs_picture_hash(texture->variation->picture));
+  if (texture->variation->medium)
+    cs_hash_hash(hash, cs_picture_hash(texture->variation->medium));
+  cs_hash_word(hash, texture->variation->sampling);
+  cs_hash_word(hash, texture->variation->use);
+  cs_hash_word(hash, texture->variation->wrap);
+  cs_hash_word(hash, texture->variation->has_box);
+  cs_value_hash_box(hash, &texture->variation->box);
+}
+
+static cs_hash hash_texture(const celspan_texture *texture) {
+  const cs_texture_variation *variation = texture->variation;
+  cs_hash hash = cs_hash_begin(CS_VALUE_TEXTURE);
+  cs_hash_word(&hash, texture->kind);
+  cs_value_hash_paint(&hash, &texture->flat);
+  for (int i = 0; i < 3; i++) {
+    cs_value_hash_point(&hash, variation->points[i]);
+    cs_value_hash_paint(&hash, &variation->corners[i]);
+  }
+  cs_hash_number(&hash, variation->radius);
+  cs_hash_word(&hash, variation->stop_count);
+  for (size_t i = 0; i < variation->stop_count; i++) {
+    cs_hash_number(&hash, variation->stops[i].at);
+    cs_value_hash_paint(&hash, &variation->stops[i].paint);
+  }
+  cs_hash_word(&hash, variation->spread);
+  cs_hash_word(&hash, variation->has_matrix);
+  if (variation->has_matrix)
+    cs_value_hash_matrix(&hash, &variation->matrix);
+  if (texture->kind == CS_TEXTURE_PICTURE)
+    hash_picture(&hash, texture);
+  return cs_hash_end(hash);
+}
+
+void cs_texture_rehash(celspan_texture *texture) { texture->hash = hash_texture(texture); }
+
+static celspan_status finish(celspan_texture *texture, celspan_texture **out) {
+  texture->hash = hash_texture(texture);
+  *out = texture;
+  return CELSPAN_OK;
+}
+
+static celspan_status create_flat(celspan_context *context, const cs_paint *paint,
+                                  celspan_texture **out) {
+  celspan_texture *texture;
+  CS_TRY(create(context, CS_TEXTURE_FLAT, &texture));
+  texture->flat = *paint;
+  return finish(texture, out);
+}
+
+static celspan_status create_flat_straight(celspan_context *context, const celspan_paint *paint,
+                                           celspan_texture **out) {
+  cs_paint flat = cs_paint_from_straight(paint);
+  return create_flat(context, &flat, out);
+}
+
+celspan_status celspan_texture_create_paint(celspan_context *context, const celspan_paint *paint,
+                                            celspan_texture **out) {
+  CS_TRY(cs_check_given(context, "paint", "the paint", paint));
+  CS_TRY(cs_check_paint(context, "paint", "", 0, paint));
+  return create_flat_straight(context, paint, out);
+}
+
+celspan_status cs_texture_or_black(celspan_context *context, celspan_texture *texture,
+                                   celspan_texture **out) {
+  const celspan_paint black = celspan_paint_rgb(0, 0, 0, 1);
+  if (!texture)
+    return create_flat_straight(context, &black, out);
+  *out = celspan_texture_ref(texture);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- gradients */
+
+static double square(double x) { return x * x; }
+
+static double distance_squared(celspan_point a, celspan_point b) {
+  return square(a.x - b.x) + square(a.y - b.y);
+}
+
+static bool triangle_is_flat(const celspan_point p[3]) {
+  double area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y);
+  double longest = distance_squared(p[0], p[1]);
+  longest = fmax(longest, distance_squared(p[1], p[2]));
+  longest = fmax(longest, distance_squared(p[2], p[0]));
+  return fabs(area) <= FLAT_TRIANGLE * longest;
+}
+
+celspan_status celspan_texture_create_gradient(celspan_context *context,
+                                               const celspan_point points[3],
+                                               const celspan_paint paints[3],
+                                               celspan_texture **out) {
+  CS_TRY(cs_check_given(context, "gradient", "points", points));
+  CS_TRY(cs_check_given(context, "gradient", "paints", paints));
+  for (size_t i = 0; i < 3; i++) {
+    CS_TRY(cs_check_point(context, "gradient", "points", i + 1, points[i]));
+    CS_TRY(cs_check_paint(context, "gradient", "paints", i + 1, &paints[i]));
+  }
+  if (triangle_is_flat(points))
+    return create_flat_straight(context, &paints[2], out);
+  celspan_texture *texture;
+  CS_TRY(create(context, CS_TEXTURE_TRIANGLE, &texture));
+  for (int i = 0; i < 3; i++) {
+    cs_texture_own(texture)->points[i] = points[i];
+    cs_texture_own(texture)->corners[i] = cs_paint_from_straight(&paints[i]);
+  }
+  return finish(texture, out);
+}
+
+static celspan_status check_stops(celspan_context *context, const char *noun,
+                                  const celspan_stop *stops, size_t count) {
+  if (!stops || count == 0)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: there is no stop; it needs one or more",
+                   noun);
+  CS_TRY(cs_check_list(context, noun, "stops", stops, count, CS_CHECK_ITEMS));
+  for (size_t i = 0; i < count; i++) {
+    CS_TRY(cs_check_item(context, (cs_check_field){noun, "stops", i + 1, "at"}, stops[i].at, 0, 1));
+    if (i > 0 && stops[i].at < stops[i - 1].at)
+      return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                     "%s: stops[%zu].at is %s, less than %s of the stop before; stops must ascend",
+                     noun, i + 1, cs_check_number_text(stops[i].at).text,
+                     cs_check_number_text(stops[i - 1].at).text);
+    CS_TRY(cs_check_paint(context, noun, "stops", i + 1, &stops[i].paint));
+  }
+  return CELSPAN_OK;
+}
+
+/* is_degenerate: there is no length over which the stops could be spread; then every point lies
+ * past the last stop. */
+static celspan_status create_stops(celspan_context *context, cs_texture_kind kind,
+                                   const celspan_stop *stops, size_t count, bool is_degenerate,
+                                   celspan_texture **out) {
+  if (is_degenerate || count == 1)
+    return create_flat_straight(context, &stops[count - 1].paint, out);
+  celspan_texture *texture;
+  CS_TRY(create(context, kind, &texture));
+  cs_texture_variation *variation = cs_texture_own(texture);
+  variation->stops = cs_mem_array(context->memory, count, sizeof *variation->stops);
+  if (!variation->stops) {
+    celspan_texture_unref(texture);
+    return cs_fail_memory(context);
+  }
+  variation->stop_count = count;
+  for (size_t i = 0; i < count; i++)
+    variation->stops[i] = (cs_stop){stops[i].at, cs_paint_from_straight(&stops[i].paint)};
+  *out = texture;
+  return CELSPAN_OK;
+}
+
+celspan_status celspan_texture_create_linear(celspan_context *context, celspan_point from,
+                                             celspan_point to, const celspan_stop *stops,
+                                             size_t stop_count, celspan_texture **out) {
+  CS_TRY(cs_check_point(context, "linear", "from", 0, from));
+  CS_TRY(cs_check_point(context, "linear", "to", 0, to));
+  CS_TRY(check_stops(context, "linear", stops, stop_count));
+  celspan_texture *texture;
+  CS_TRY(create_stops(context, CS_TEXTURE_LINEAR, stops, stop_count,
+                      !(distance_squared(from, to) > 0), &texture));
+  if (texture->kind == CS_TEXTURE_LINEAR) {
+    cs_texture_own(texture)->points[0] = from;
+    cs_texture_own(texture)->points[1] = to;
+  }
+  return finish(texture, out);
+}
+
+/* The way from the centre to the focus, which is held inside the circle. */
+static celspan_point focus_offset(celspan_point centre, double radius, celspan_point focus) {
+  celspan_point offset = {focus.x - centre.x, focus.y - centre.y};
+  double distance = sqrt(square(offset.x) + square(offset.y)), most = FOCUS_SHARE * radius;
+  double share = distance > most ? most / distance : 1;
+  return (celspan_point){share * offset.x, share * offset.y};
+}
+
+celspan_status celspan_texture_create_radial(celspan_context *context, celspan_point centre,
+                                             double radius, const celspan_stop *stops,
+                                             size_t stop_count, celspan_texture **out) {
+  return celspan_texture_create_focal(context, centre, radius, centre, stops, stop_count, out);
+}
+
+celspan_status celspan_texture_create_focal(celspan_context *context, celspan_point centre,
+                                            double radius, celspan_point focus,
+                                            const celspan_stop *stops, size_t stop_count,
+                                            celspan_texture **out) {
+  CS_TRY(cs_check_point(context, "radial", "centre", 0, centre));
+  CS_TRY(cs_check_size(context, "radial", "radius", radius));
+  CS_TRY(cs_check_point(context, "radial", "focus", 0, focus));
+  CS_TRY(check_stops(context, "radial", stops, stop_count));
+  celspan_texture *texture;
+  CS_TRY(create_stops(context, CS_TEXTURE_RADIAL, stops, stop_count, !(radius > 0), &texture));
+  if (texture->kind == CS_TEXTURE_RADIAL) {
+    cs_texture_variation *variation = cs_texture_own(texture);
+    variation->points[0] = centre;
+    variation->points[1] = focus_offset(centre, radius, focus);
+    variation->radius = radius;
+  }
+  return finish(texture, out);
+}
+
+/* ---------------------------------------------------------------- pictures */
+
+static celspan_status check_picture(celspan_context *context, const celspan_picture_desc *desc) {
+  CS_TRY(cs_check_given(context, "picture", "the description", desc));
+  CS_TRY(cs_check_choice(context, "picture", "sampling", (unsigned)desc->sampling,
+                         CELSPAN_SAMPLING_BICUBIC + 1));
+  CS_TRY(cs_check_choice(context, "picture", "use", (unsigned)desc->use, CELSPAN_PICTURE_GEL + 1));
+  CS_TRY(
+      cs_check_choice(context, "picture", "wrap", (unsigned)desc->wrap, CELSPAN_WRAP_REPEAT + 1));
+  return desc->has_box ? cs_check_box(context, "picture", "box", &desc->box) : CELSPAN_OK;
+}
+
+celspan_status celspan_texture_create_picture(celspan_context *context,
+                                              const celspan_picture_desc *desc,
+                                              celspan_texture **out) {
+  const cs_paint clear = CS_PAINT_CLEAR;
+  CS_TRY(check_picture(context, desc));
+  cs_picture *picture;
+  CS_TRY(cs_picture_create(context, desc, &picture));
+  celspan_picture_info info;
+  celspan_status status = desc->has_source ? cs_store_info(context, picture, &info) : CELSPAN_OK;
+  if (status != CELSPAN_OK) {
+    cs_picture_unref(picture);
+    return status;
+  }
+  bool is_degenerate = desc->has_box && !(desc->box.width > 0 && desc->box.height > 0);
+  celspan_texture *texture;
+  status = is_degenerate ? create_flat(context, &clear, &texture)
+                         : create(context, CS_TEXTURE_PICTURE, &texture);
+  if (status != CELSPAN_OK || is_degenerate)
+    cs_picture_unref(picture);
+  CS_TRY(status);
+  if (!is_degenerate) {
+    cs_texture_variation *variation = cs_texture_own(texture);
+    variation->picture = picture;
+    variation->sampling = desc->sampling;
+    variation->use = desc->use;
+    variation->wrap = desc->wrap;
+    variation->has_box = desc->has_box;
+    if (desc->has_box)
+      variation->box = desc->box;
+  }
+  return finish(texture, out);
+}
+
+/* ---------------------------------------------------------------- media */
+
+celspan_status cs_texture_copy_medium(celspan_context *context, const celspan_texture *texture,
+                                      cs_picture *medium, celspan_texture **out) {
+  celspan_texture *copy;
+  CS_TRY(cs_texture_copy(context, texture, texture->variation->stop_count,
+                         cs_mark_keep(texture->mark), &copy));
+  cs_texture_variation *variation = cs_texture_own(copy);
+  if (variation->medium)
+    cs_picture_unref(variation->medium);
+  variation->medium = medium ? cs_picture_ref(medium) : NULL;
+  return finish(copy, out);
+}
+
+celspan_status celspan_texture_with_medium(celspan_context *context, celspan_texture *texture,
+                                           const celspan_picture_desc *medium,
+                                           celspan_texture **out) {
+  CS_TRY(cs_check_given(context, "medium", "the texture", texture));
+  CS_TRY(check_picture(context, medium));
+  if (texture->kind != CS_TEXTURE_PICTURE || texture->variation->use != CELSPAN_PICTURE_PAINT)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "medium: the texture must be a picture that is used as paint");
+  cs_picture *picture;
+  CS_TRY(cs_picture_create(context, medium, &picture));
+  celspan_status status = cs_texture_copy_medium(context, texture, picture, out);
+  cs_picture_unref(picture);
+  return status;
+}
+
+/* ---------------------------------------------------------------- lights */
+
+static cs_paint light_paint(const cs_paint *paint) {
+  cs_paint light = *paint;
+  for (int c = 0; c < 3; c++)
+    light.t[c] = 1 - paint->beta;
+  return light;
+}
+
+static celspan_status copy_stops(celspan_context *context, const cs_texture_variation *from,
+                                 cs_texture_variation *to) {
+  to->stops = cs_mem_array(context->memory, from->stop_count, sizeof *to->stops);
+  if (!to->stops)
+    return cs_fail_memory(context);
+  to->stop_count = from->stop_count;
+  for (size_t i = 0; i < from->stop_count; i++)
+    to->stops[i] = (cs_stop){from->stops[i].at, light_paint(&from->stops[i].paint)};
+  return CELSPAN_OK;
+}
+
+/* Errors: NO_MEMORY. */
+static celspan_status fill_light(celspan_context *context, const cs_texture_variation *from,
+                                 cs_texture_variation *to) {
+  to->radius = from->radius;
+  to->spread = from->spread;
+  to->has_matrix = from->has_matrix;
+  to->matrix = from->matrix;
+  to->inverse = from->inverse;
+  for (int i = 0; i < 3; i++) {
+    to->points[i] = from->points[i];
+    to->corners[i] = light_paint(&from->corners[i]);
+  }
+  return from->stop_count > 0 ? copy_stops(context, from, to) : CELSPAN_OK;
+}
+
+celspan_status cs_texture_create_light(celspan_context *context, celspan_texture *texture,
+                                       celspan_texture **out) {
+  const cs_paint clear = CS_PAINT_CLEAR;
+  celspan_texture *light;
+  if (texture->kind == CS_TEXTURE_PICTURE && texture->variation->use == CELSPAN_PICTURE_GEL)
+    return create_flat(context, &clear, out);
+  if (texture->variation->medium)
+    return cs_texture_copy_medium(context, texture, NULL, out);
+  if (texture->kind == CS_TEXTURE_PICTURE) {
+    *out = celspan_texture_ref(texture);
+    return CELSPAN_OK;
+  }
+  CS_TRY(create(context, texture->kind, &light));
+  light->flat = light_paint(&texture->flat);
+  if (light->kind != CS_TEXTURE_FLAT &&
+      fill_light(context, texture->variation, cs_texture_own(light)) != CELSPAN_OK) {
+    celspan_texture_unref(light);
+    return CELSPAN_NO_MEMORY;
+  }
+  return finish(light, out);
+}
+
+/* ---------------------------------------------------------------- questions */
+
+static bool is_grey(const cs_paint *paint) {
+  return paint->t[0] == paint->t[1] && paint->t[1] == paint->t[2];
+}
+
+static bool all_paints_are_grey(const celspan_texture *texture) {
+  const cs_paint *corners = texture->variation->corners;
+  if (texture->kind == CS_TEXTURE_FLAT)
+    return is_grey(&texture->flat);
+  if (texture->kind == CS_TEXTURE_TRIANGLE)
+    return is_grey(&corners[0]) && is_grey(&corners[1]) && is_grey(&corners[2]);
+  for (size_t i = 0; i < texture->variation->stop_count; i++)
+    if (!is_grey(&texture->variation->stops[i].paint))
+      return false;
+  return true;
+}
+
+bool cs_texture_is_grey(const celspan_texture *texture) {
+  return texture->kind == CS_TEXTURE_PICTURE
+             ? texture->variation->use == CELSPAN_PICTURE_PAINT && !texture->variation->medium
+             : all_paints_are_grey(texture);
+}
+
+/* ---------------------------------------------------------------- copies */
+
+/* The variation of a copy, with its own stops, for which there is room. */
+static void copy_variation(const cs_texture_variation *from, cs_stop *stops, size_t stop_count,
+                           cs_texture_variation *to) {
+  size_t kept = stop_count < from->stop_count ? stop_count : from->stop_count;
+  *to = *from;
+  to->stops = stops;
+  to->stop_count = stop_count;
+  if (kept > 0)
+    memcpy(stops, from->stops, kept * sizeof *stops);
+  if (to->picture)
+    cs_picture_ref(to->picture);
+  if (to->medium)
+    cs_picture_ref(to->medium);
+  if (to->origin)
+    celspan_texture_ref(to->origin);
+}
+
+celspan_status cs_texture_copy(celspan_context *context, const celspan_texture *texture,
+                               size_t stop_count, cs_mark mark, celspan_texture **out) {
+  celspan_texture *copy = NULL;
+  cs_stop *stops = cs_mem_array(context->memory, stop_count, sizeof *stops);
+  celspan_status status =
+      !stops && stop_count > 0 ? cs_fail_memory(context) : create(context, texture->kind, &copy);
+  if (status != CELSPAN_OK) {
+    cs_mem_free(context->memory, stops, stop_count * sizeof *stops);
+    cs_mark_drop(mark);
+    return status;
+  }
+  copy->hash = texture->hash;
+  copy->mark = mark;
+  copy->flat = texture->flat;
+  if (copy->kind != CS_TEXTURE_FLAT)
+    copy_variation(texture->variation, stops, stop_count, cs_texture_own(copy));
+  *out = copy;
+  return CELSPAN_OK;
+}
+
+celspan_status celspan_texture_named(celspan_context *context, celspan_texture *texture,
+                                     const char *name, celspan_texture **out) {
+  CS_TRY(cs_check_given(context, "named", "the texture", texture));
+  cs_mark mark;
+  CS_TRY(cs_mark_named(context, texture->mark, name, &mark));
+  return cs_texture_copy(context, texture, texture->variation->stop_count, mark, out);
+}
+
+const char *celspan_texture_name(const celspan_texture *texture) {
+  return cs_mark_name(texture->mark);
+}
+
+celspan_origin celspan_texture_origin(const celspan_texture *texture) {
+  return cs_mark_origin(texture->mark);
+}
+
+/* ---------------------------------------------------------------- references */
+
+celspan_texture *celspan_texture_ref(celspan_texture *texture) {
+  cs_value_keep(&texture->references);
+  return texture;
+}
+
+void celspan_texture_unref(celspan_texture *texture) {
+  if (!texture || !cs_value_drop(&texture->references))
+    return;
+  cs_memory *memory = texture->memory;
+  const cs_texture_variation *variation = texture->variation;
+  cs_mem_free(memory, variation->stops, variation->stop_count * sizeof *variation->stops);
+  if (variation->picture)
+    cs_picture_unref(variation->picture);
+  if (variation->medium)
+    cs_picture_unref(variation->medium);
+  celspan_texture_unref(variation->origin);
+  cs_mark_drop(texture->mark);
+  cs_mem_free(memory, texture, size_of(texture->kind));
+  cs_memory_unref(memory);
+}

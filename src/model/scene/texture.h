@@ -1,0 +1,91 @@
+/* Textures: the colours of a primitive. Immutable once made, counted atomically.
+ *
+ * Invariants, so that no reader checks again: a triangle has an area, a linear gradient a length, a
+ * radial one a radius, a picture's box (if any) a size, and there are two stops or more. A texture
+ * that would break them is made FLAT at its construction.
+ *
+ *   FLAT        [ texture ]                      most textures of most scenes: they are kept small
+ *   all others  [ texture | its variation ]      one allocation
+ */
+#ifndef CS_SCENE_TEXTURE_H
+#define CS_SCENE_TEXTURE_H
+
+#include "base/hash.h"
+#include "base/mark.h"
+#include "model/colour/paint.h"
+#include "model/pictures/picture.h"
+
+typedef enum cs_texture_kind {
+  CS_TEXTURE_FLAT,
+  CS_TEXTURE_TRIANGLE,
+  CS_TEXTURE_LINEAR,
+  CS_TEXTURE_RADIAL,
+  CS_TEXTURE_PICTURE
+} cs_texture_kind;
+
+typedef struct cs_stop {
+  double at;
+  cs_paint paint;
+} cs_stop;
+
+/* What textures have that vary from point to point. */
+typedef struct cs_texture_variation {
+  celspan_point points[3]; /* TRIANGLE: corners; LINEAR: from, to; RADIAL: centre, and the way
+                              from it to the focus, less than the radius */
+  double radius;           /* RADIAL */
+  cs_paint corners[3];     /* TRIANGLE */
+  cs_stop *stops;          /* LINEAR, RADIAL */
+  size_t stop_count;
+  celspan_spread spread;          /* LINEAR, RADIAL; of what primitives and lights have: HOLD */
+  bool has_matrix;                /* LINEAR, RADIAL; not singular: */
+  celspan_matrix matrix, inverse; /* from the units of points to the primitive's */
+  celspan_texture *origin; /* what was unrolled to this one, a reference; NULL: nothing was */
+  cs_picture *picture;     /* PICTURE */
+  cs_picture *medium; /* PICTURE, of a paint: its rgb is T; NULL: T is 1 - alpha of `picture` */
+  celspan_sampling sampling;
+  celspan_picture_use use;
+  celspan_wrap wrap;
+  bool has_box;
+  celspan_box box; /* where has_box; else the primitive's tight bounds */
+} cs_texture_variation;
+
+struct celspan_texture {
+  atomic_size_t references;
+  cs_memory *memory;
+  cs_hash hash;
+  cs_mark mark;
+  cs_texture_kind kind;
+  cs_paint flat; /* FLAT */
+  const cs_texture_variation
+      *variation; /* its own; FLAT: one of nothing but zeros, which all share */
+};
+
+/* *out: `texture` with a reference more, or new opaque black when it is NULL. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_texture_or_black(celspan_context *context,
+                                                   celspan_texture *texture, celspan_texture **out);
+
+/* The texture as a light: with clear media, so that T is 1 - beta; a gel gives no light. *out: new,
+ * or `texture` with a reference more. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_texture_create_light(celspan_context *context,
+                                                       celspan_texture *texture,
+                                                       celspan_texture **out);
+
+/* The variation of a texture that is being made and is not FLAT, to be filled. */
+cs_texture_variation *cs_texture_own(celspan_texture *texture);
+/* A copy with its own mark, which is taken over, and room for so many stops, of which those that
+ * fit are copied. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_texture_copy(celspan_context *context,
+                                               const celspan_texture *texture, size_t stop_count,
+                                               cs_mark mark, celspan_texture **out);
+/* A copy with another medium, which is kept, or none. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_texture_copy_medium(celspan_context *context,
+                                                      const celspan_texture *texture,
+                                                      cs_picture *medium, celspan_texture **out);
+/* To be called when a copy was changed. */
+void cs_texture_rehash(celspan_texture *texture);
+
+/* Whether every colour of the texture lets the three channels through alike. A picture is grey
+ * unless it is a gel or has a medium. */
+bool cs_texture_is_grey(const celspan_texture *texture);
+
+#endif

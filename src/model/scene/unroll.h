@@ -1,0 +1,22 @@
+/* Gradients that repeat, as far as they can be seen: unrolled to longer ones that hold.
+ *
+ *   one period    0 ---- 1                          places of stops
+ *   unrolled      0 ---- 1/3 ---- 2/3 ---- 1        from the first period to the last one
+ *                 ^ ---- from' ---------- to' ^     so many times as long
+ *
+ * Invariant: inside the box the unrolled gradient shows what the one that repeats does.
+ */
+#ifndef CS_SCENE_UNROLL_H
+#define CS_SCENE_UNROLL_H
+
+#include "model/scene/texture.h"
+
+#define CS_UNROLL_STOPS 4096
+
+/* Puts another texture in the place of *texture, which is given up then, where it repeats. box:
+ * around what it is on, in its units; NULL: a light's, which may be anywhere. Errors: NO_MEMORY;
+ * LIMIT for more than CS_UNROLL_STOPS. */
+CELSPAN_CHECKED celspan_status cs_texture_unroll(celspan_context *context,
+                                                 celspan_texture **texture, const celspan_box *box);
+
+#endif

@@ -1,0 +1,40 @@
+/* Reference counts and hashes of scene values.
+ *
+ * A value is made with one reference, and dropping the last reference frees it. Only the count of
+ * references ever changes in a value.
+ */
+#ifndef CS_SCENE_VALUE_H
+#define CS_SCENE_VALUE_H
+
+#include "base/context.h"
+#include "base/hash.h"
+#include "model/colour/paint.h"
+
+/* The first word of every structural hash, so that values of different kinds have different
+ * hashes. */
+typedef enum cs_value_kind {
+  CS_VALUE_TEXTURE = 1,
+  CS_VALUE_DATA,
+  CS_VALUE_OBJECT,
+  CS_VALUE_CEL,
+  CS_VALUE_ROSTRUM
+} cs_value_kind;
+
+static inline void cs_value_keep(atomic_size_t *references) {
+  atomic_fetch_add_explicit(references, 1, memory_order_relaxed);
+}
+
+/* Returns whether this was the last reference. */
+static inline bool cs_value_drop(atomic_size_t *references) {
+  return atomic_fetch_sub_explicit(references, 1, memory_order_acq_rel) == 1;
+}
+
+void cs_value_hash_point(cs_hash *hash, celspan_point point);
+void cs_value_hash_box(cs_hash *hash, const celspan_box *box);
+void cs_value_hash_matrix(cs_hash *hash, const celspan_matrix *matrix);
+void cs_value_hash_paint(cs_hash *hash, const cs_paint *paint);
+void cs_value_hash_light(cs_hash *hash, const celspan_light *light);
+/* A hash as the two words that hosts are given. */
+void cs_value_hash_give(cs_hash hash, uint64_t out[2]);
+
+#endif

@@ -1,0 +1,46 @@
+/* Making a stroke from its description: the line, its parts, and the box around all. */
+#include <math.h>
+
+#include "model/stroke/parts.h"
+
+/* The control points of a piece hold it: with positive weights it lies in their hull. */
+static void find_around(cs_stroke *stroke) {
+  double left = HUGE_VAL, right = -HUGE_VAL, top = HUGE_VAL, bottom = -HUGE_VAL;
+  double extent = cs_stroke_extent(stroke) * stroke->largest;
+  for (size_t i = 0; i < stroke->line.point_count; i++) {
+    cs_hpoint p = stroke->line.points[i];
+    left = fmin(left, p.x / p.w);
+    right = fmax(right, p.x / p.w);
+    top = fmin(top, p.y / p.w);
+    bottom = fmax(bottom, p.y / p.w);
+  }
+  if (stroke->part_count > 0 && stroke->largest > 0)
+    stroke->around = (celspan_box){left - extent, top - extent, right - left + 2 * extent,
+                                   bottom - top + 2 * extent};
+}
+
+static celspan_status build(celspan_context *context, cs_stroke *stroke,
+                            const celspan_stroke_desc *desc, const cs_stroke_raw *raw) {
+  cs_outline_closed none = {0};
+  bool tapers = desc->dash_count == 0 && (desc->taper[0] > 0 || desc->taper[1] > 0);
+  for (size_t i = 0; i < raw->line.contour_count; i++)
+    CS_TRY(cs_stroke_append_contour(context, stroke, raw, i));
+  CS_TRY(cs_stroke_divide(context, stroke, desc, tapers ? &none : &raw->closed));
+  if (tapers)
+    CS_TRY(cs_stroke_taper(context, stroke, desc->taper));
+  find_around(stroke);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_stroke_init(celspan_context *context, cs_stroke *stroke,
+                              const celspan_stroke_desc *desc, const cs_outline *outline,
+                              const cs_outline_closed *closed) {
+  *stroke = (cs_stroke){.cap = desc->cap, .join = desc->join, .miter = desc->miter};
+  cs_outline_init(&stroke->line);
+  cs_stroke_raw raw;
+  celspan_status status = cs_stroke_raw_init(context, &raw, desc, outline, closed);
+  if (status == CELSPAN_OK)
+    status = build(context, stroke, desc, &raw);
+  cs_stroke_raw_finish(&raw, context->memory);
+  return status;
+}

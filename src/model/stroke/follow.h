@@ -1,0 +1,22 @@
+/* Following a curve: the way of the tips of its spokes, as cubics.
+ *
+ *    line       a ---------------------> b     A curve is halved until five of its spokes, evenly
+ *                \      \    |    /     /      spaced by the parameter, turn by little and go one
+ *    spokes       \      \   |   /     /       way: forwards, where one cubic is fitted to their
+ *                  *------*--*--*-----*        tips, or backwards, where another is fitted to their
+ *                s[0]   s[1] .. s[3] s[4]      pivots. Where the tips turn round it is cut.
+ *
+ * Invariants: the cubics are within the view's tolerance of the spokes, so their number grows with
+ * the fourth root of the size, or less. Two sides of a curve are halved at the same places, which
+ * makes what they share the same to the bit.
+ */
+#ifndef CS_STROKE_FOLLOW_H
+#define CS_STROKE_FOLLOW_H
+
+#include "model/stroke/side.h"
+
+/* Along a curve, from the tip of its first spoke to that of its last. Errors: NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_follow_curve(cs_side *side, const cs_curve *curve,
+                                               const cs_spoke *first, const cs_spoke *last);
+
+#endif

@@ -1,0 +1,309 @@
+#include "model/stroke/outliner.h"
+
+#include "model/geometry/matrix.h"
+#include "model/stroke/curve.h"
+#include "model/stroke/follow.h"
+#include "model/stroke/side.h"
+
+#define DEPTH 32 /* halvings of a piece that is larger than the frame */
+#define FEW 16   /* parts that are looked at one by one */
+
+/* A stretch of the line between two parameters of a piece. */
+typedef struct stretch {
+  size_t piece;
+  double begin, end;
+  cs_spoke first, last;
+  bool is_swallowed; /* every disc is inside its neighbour */
+  bool is_cut;       /* what comes before it cannot be seen */
+} stretch;
+
+typedef struct outliner {
+  const cs_stroke *stroke;
+  const cs_stroke_view *view;
+  cs_side side;
+  stretch *stretches; /* of one part */
+  size_t count, capacity;
+  double extent;
+  bool is_all_visible; /* all of the stroke is in the frame, on the rows that are asked for */
+  bool is_cut;         /* something was hidden since the last stretch */
+} outliner;
+
+/* ---------------------------------------------------------------- stretches */
+
+static celspan_status append_stretch(outliner *o, stretch s) {
+  CS_TRY(cs_mem_reserve(o->side.context, (void **)&o->stretches, &o->capacity, o->count + 1,
+                        sizeof *o->stretches));
+  s.is_cut = o->is_cut;
+  o->is_cut = false;
+  o->stretches[o->count++] = s;
+  return CELSPAN_OK;
+}
+
+/* The spoke at a parameter. At a change the slope is 1 or -1, so both sides' tips are one point:
+ * were it left to rounding, its root would set them millionths apart, and light would leak between
+ * them. */
+static cs_spoke spoke_at(const cs_curve *curve, double t, bool is_change) {
+  cs_spoke spoke = cs_spoke_at(curve, t);
+  return is_change
+             ? cs_spoke_make(spoke.centre, spoke.radius, spoke.tangent, spoke.slope > 0 ? 1 : -1)
+             : spoke;
+}
+
+/* base: the stretch that the curve is; from, to: of its own parameter. */
+static celspan_status add_between(outliner *o, const stretch *base, const cs_curve *curve,
+                                  double from, double to) {
+  stretch s = *base;
+  double length = base->end - base->begin;
+  s.begin = from > 0 ? base->begin + from * length : base->begin;
+  s.end = to < 1 ? base->begin + to * length : base->end;
+  s.first = spoke_at(curve, from, from > 0);
+  s.last = spoke_at(curve, to, to < 1);
+  s.is_swallowed = curve->radius_degree > 0 && cs_curve_is_swallowed(curve, 0.5 * (from + to));
+  return append_stretch(o, s);
+}
+
+/* Divides a stretch where discs begin or cease to be inside their neighbours. */
+static celspan_status add_visible(outliner *o, const stretch *base, const cs_curve *curve) {
+  double changes[CS_CURVE_SWALLOW_CHANGES], from = 0;
+  int count = cs_curve_swallow_changes(curve, changes);
+  for (int i = 0; i < count; i++) {
+    double to = i + 1 < count ? changes[i + 1] : 1;
+    if (cs_curve_is_swallowed(curve, 0.5 * (from + changes[i])) ==
+        cs_curve_is_swallowed(curve, 0.5 * (changes[i] + to)))
+      continue; /* it is rounding that changes */
+    CS_TRY(add_between(o, base, curve, from, changes[i]));
+    from = changes[i];
+  }
+  return add_between(o, base, curve, from, 1);
+}
+
+/* Whether it is worth while to look at parts of a curve. One that is shorter than it is wide looks
+ * alike from both ends. */
+static bool is_long(const outliner *o, const cs_curve *curve, const celspan_box *box) {
+  celspan_box line = cs_curve_box(curve, 0);
+  return line.width + line.height > box->width - line.width &&
+         cs_stroke_view_is_exceeded(o->view, &line);
+}
+
+/* Adds what can be seen of a curve, between two parameters of a piece. */
+static celspan_status add_curve(outliner *o, const stretch *base, const cs_curve *curve,
+                                int depth) {
+  if (!o->is_all_visible) {
+    celspan_box box = cs_curve_box(curve, o->extent);
+    if (cs_stroke_view_hides(o->view, &box)) {
+      o->is_cut = true;
+      return CELSPAN_OK;
+    }
+    if (depth < DEPTH && !cs_curve_is_straight(&curve->line) && is_long(o, curve, &box)) {
+      double middle = 0.5 * (base->begin + base->end);
+      stretch half = {.piece = base->piece, .begin = base->begin, .end = middle};
+      cs_curve low, high;
+      cs_curve_split(curve, 0.5, &low, &high);
+      CS_TRY(add_curve(o, &half, &low, depth + 1));
+      half = (stretch){.piece = base->piece, .begin = middle, .end = base->end};
+      return add_curve(o, &half, &high, depth + 1);
+    }
+  }
+  return add_visible(o, base, curve);
+}
+
+static celspan_status add_stretches(outliner *o, const cs_stroke_part *part) {
+  o->count = 0;
+  o->is_cut = false;
+  for (size_t i = 0; i < part->count; i++) {
+    const stretch base = {.piece = cs_stroke_piece(o->stroke, part, i),
+                          .begin = i == 0 ? part->begin : 0,
+                          .end = i + 1 == part->count ? part->end : 1};
+    if (!(base.begin < base.end))
+      continue;
+    cs_curve curve;
+    cs_curve_load(o->stroke, base.piece, base.begin, base.end, &curve);
+    CS_TRY(add_curve(o, &base, &curve, 0));
+  }
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- sides */
+
+static celspan_status follow(outliner *o, const stretch *s) {
+  cs_side *side = &o->side;
+  if (s->is_swallowed) { /* both sides go along its chord, so that it has no area */
+    CS_TRY(cs_side_go(side, side->is_turned ? s->last.centre : s->first.centre));
+    return cs_side_go(side, side->is_turned ? s->first.centre : s->last.centre);
+  }
+  cs_curve curve;
+  cs_curve_load(o->stroke, s->piece, s->begin, s->end, &curve);
+  if (!side->is_turned)
+    return cs_follow_curve(side, &curve, &s->first, &s->last);
+  cs_spoke first = cs_spoke_turned(&s->last), last = cs_spoke_turned(&s->first);
+  cs_curve_reverse(&curve);
+  return cs_follow_curve(side, &curve, &first, &last);
+}
+
+static celspan_status turn(outliner *o, const stretch *a, const stretch *b) {
+  cs_spoke in = o->side.is_turned ? cs_spoke_turned(&b->first) : a->last;
+  cs_spoke out = o->side.is_turned ? cs_spoke_turned(&a->last) : b->first;
+  return cs_corner_turn(&o->side, o->stroke, &in, &out);
+}
+
+/* The right side of stretches [begin, end), on the way there or back. */
+static celspan_status add_side(outliner *o, size_t begin, size_t end, bool is_turned) {
+  o->side.is_turned = is_turned;
+  for (size_t i = begin; i < end; i++) {
+    size_t at = is_turned ? end - 1 - (i - begin) : i;
+    if (i > begin)
+      CS_TRY(is_turned ? turn(o, &o->stretches[at], &o->stretches[at + 1])
+                       : turn(o, &o->stretches[at - 1], &o->stretches[at]));
+    CS_TRY(follow(o, &o->stretches[at]));
+  }
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- runs */
+
+static celspan_status add_ring(outliner *o) {
+  for (int back = 0; back < 2; back++) {
+    CS_TRY(add_side(o, 0, o->count, back == 1));
+    CS_TRY(turn(o, &o->stretches[o->count - 1], &o->stretches[0]));
+    CS_TRY(cs_side_close(&o->side));
+  }
+  return cs_corner_turn_more(&o->side, o->stroke, &o->stretches[o->count - 1].last,
+                             &o->stretches[0].first);
+}
+
+static celspan_status add_end(outliner *o, const cs_spoke *end, bool is_cut) {
+  return is_cut ? cs_corner_cut(&o->side, end) : cs_corner_cap(&o->side, o->stroke, end);
+}
+
+/* Stretches [begin, end), which follow each other. */
+static celspan_status add_run(outliner *o, size_t begin, size_t end, bool is_cut_before,
+                              bool is_cut_after) {
+  const cs_spoke *last = &o->stretches[end - 1].last;
+  cs_spoke first = cs_spoke_turned(&o->stretches[begin].first);
+  CS_TRY(add_side(o, begin, end, false));
+  CS_TRY(add_end(o, last, is_cut_after));
+  CS_TRY(add_side(o, begin, end, true));
+  CS_TRY(add_end(o, &first, is_cut_before));
+  CS_TRY(cs_side_close(&o->side));
+  if (!is_cut_after)
+    CS_TRY(cs_corner_cap_more(&o->side, o->stroke, last));
+  return is_cut_before ? CELSPAN_OK : cs_corner_cap_more(&o->side, o->stroke, &first);
+}
+
+static celspan_status add_turns(outliner *o, size_t begin, size_t end) {
+  for (size_t i = begin + 1; i < end; i++)
+    CS_TRY(cs_corner_turn_more(&o->side, o->stroke, &o->stretches[i - 1].last,
+                               &o->stretches[i].first));
+  return CELSPAN_OK;
+}
+
+static void reverse(stretch *stretches, size_t count) {
+  for (size_t i = 0, j = count; i + 1 < j; i++) {
+    stretch swapped = stretches[i];
+    stretches[i] = stretches[--j];
+    stretches[j] = swapped;
+  }
+}
+
+/* Brings a closed part into the order that begins after something that is hidden. */
+static void begin_at_cut(outliner *o) {
+  size_t first = 0;
+  o->stretches[0].is_cut |= o->is_cut;
+  while (first < o->count && !o->stretches[first].is_cut)
+    first++;
+  if (first == 0 || first == o->count)
+    return;
+  reverse(o->stretches, first);
+  reverse(o->stretches + first, o->count - first);
+  reverse(o->stretches, o->count);
+}
+
+static celspan_status add_part_runs(outliner *o, const cs_stroke_part *part) {
+  if (part->is_closed) {
+    begin_at_cut(o);
+    if (!o->stretches[0].is_cut) {
+      CS_TRY(add_turns(o, 0, o->count));
+      return add_ring(o);
+    }
+  }
+  for (size_t begin = 0, end; begin < o->count; begin = end) {
+    end = begin + 1;
+    while (end < o->count && !o->stretches[end].is_cut)
+      end++;
+    CS_TRY(add_turns(o, begin, end));
+    CS_TRY(add_run(o, begin, end, o->stretches[begin].is_cut,
+                   end < o->count || o->is_cut || part->is_closed));
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status add_dot(outliner *o, const cs_stroke_part *part) {
+  cs_curve curve;
+  cs_curve_load(o->stroke, part->first, 0, 1, &curve);
+  cs_spoke place = cs_spoke_at(&curve, part->begin);
+  place = cs_spoke_make(place.centre, place.radius, place.tangent, 0);
+  return cs_corner_dot(&o->side, o->stroke, &place);
+}
+
+static celspan_status add_part(outliner *o, const cs_stroke_part *part) {
+  if (part->count == 1 && part->begin == part->end)
+    return add_dot(o, part);
+  CS_TRY(add_stretches(o, part));
+  return o->count > 0 ? add_part_runs(o, part) : CELSPAN_OK;
+}
+
+/* Whether two parts and all those between them are of one piece, no part of which can be seen from
+ * the beginning of the one to the end of the other. */
+static bool are_hidden(const outliner *o, const cs_stroke_part *first, const cs_stroke_part *last) {
+  if (first->first != last->first || first->count != 1 || last->count != 1 ||
+      !(first->begin < last->end))
+    return false;
+  cs_curve curve;
+  cs_curve_load(o->stroke, first->first, first->begin, last->end, &curve);
+  celspan_box box = cs_curve_box(&curve, o->extent);
+  return cs_stroke_view_hides(o->view, &box);
+}
+
+/* Parts [begin, end). Of very many dashes, few may be in the frame: these are found by halving. */
+static celspan_status add_parts(outliner *o, size_t begin, size_t end) {
+  const cs_stroke_part *parts = o->stroke->parts;
+  if (end - begin > FEW) {
+    size_t middle = begin + (end - begin) / 2;
+    if (!o->is_all_visible && are_hidden(o, &parts[begin], &parts[end - 1]))
+      return CELSPAN_OK;
+    CS_TRY(add_parts(o, begin, middle));
+    return add_parts(o, middle, end);
+  }
+  for (size_t i = begin; i < end; i++)
+    CS_TRY(add_part(o, &parts[i]));
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- public */
+
+celspan_status cs_stroke_outline(celspan_context *context, const cs_stroke *stroke,
+                                 const cs_stroke_view *view, cs_outline *outline) {
+  outliner o = {.stroke = stroke, .view = view, .extent = cs_stroke_extent(stroke)};
+  o.is_all_visible = cs_stroke_view_holds(view, &stroke->around);
+  if (cs_stroke_view_hides(view, &stroke->around))
+    return CELSPAN_OK;
+  cs_side_init(&o.side, context, view, outline);
+  o.side.may_hide = !o.is_all_visible;
+  celspan_status status = add_parts(&o, 0, stroke->part_count);
+  if (status == CELSPAN_OK)
+    status = cs_side_add_folds(&o.side);
+  cs_mem_free(context->memory, o.stretches, o.capacity * sizeof *o.stretches);
+  cs_side_finish(&o.side);
+  return status;
+}
+
+celspan_status cs_stroke_outline_fine(celspan_context *context, const cs_stroke *stroke,
+                                      cs_outline *outline) {
+  const celspan_box *box = &stroke->around;
+  const cs_stroke_view view = {.matrix = celspan_matrix_identity(),
+                               .frame = {box->x, box->x + box->width, box->y, box->y + box->height},
+                               .tolerance = 0x1p-27 * fmax(box->width, box->height),
+                               .top = box->y,
+                               .bottom = box->y + box->height};
+  return cs_stroke_outline(context, stroke, &view, outline);
+}

@@ -1,0 +1,32 @@
+/* The outline of a stroke, made for a view.
+ *
+ *            right side, forwards                A part that is drawn becomes runs: what of it can
+ *     .----->--------->--------->----.           be seen, as one contour each, up to where it is
+ *     |  .......... the line .....>  | cap       hidden. A closed part that is all seen has one
+ *     '-----<---------<---------<----'           contour for either side. Folds and some shapes of
+ *            right side, backwards               ends are contours of their own.
+ *
+ * Invariants: the outline is right within the view's tolerance by the nonzero rule, whose windings
+ * are 0 or more everywhere. It depends on the stroke and the view alone.
+ *
+ * Source: the envelope of discs along a curve, as in Farouki and Sverrisson, Approximation of
+ * rolling-ball blends for free-form parametric surfaces, 1996; that caps of the discs at both ends
+ * make the winding at a point the number of times that a line comes near it follows from counting
+ * the extrema of its distance.
+ */
+#ifndef CS_STROKE_OUTLINER_H
+#define CS_STROKE_OUTLINER_H
+
+#include "model/stroke/stroke.h"
+
+#define CS_STROKE_TOLERANCE 0.004 /* pixels: the sweep's own comes on top of it */
+
+/* Appends the outline, in the stroke's own units. Errors: NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_stroke_outline(celspan_context *context, const cs_stroke *stroke,
+                                                 const cs_stroke_view *view, cs_outline *outline);
+/* An outline that is right within 2^-27 of the stroke's size, wherever it is seen. Errors: as
+ * above. */
+CELSPAN_CHECKED celspan_status cs_stroke_outline_fine(celspan_context *context,
+                                                      const cs_stroke *stroke, cs_outline *outline);
+
+#endif

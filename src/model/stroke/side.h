@@ -1,0 +1,106 @@
+/* One side of a stroke: the pieces of an outline along the right of a line's way.
+ *
+ * A stroke is the union of what its spokes sweep over. Where the line bends less than the side is
+ * away, the tips go forwards. Where it bends more sharply, the tips on the inside go backwards, for
+ * a spoke turns about its pivot, and the part beyond the pivot moves the other way:
+ *
+ *         a --------> b     the line    A contour must not go round anything in the wrong
+ *          \        /                   order, or parts that lie over each other cancel. So the
+ *           \      /                    side goes from tip a along spoke a to its pivot, then
+ *            '.  .'   the way of the    along the way of the pivots, then along spoke b out to
+ *              \/     pivots            tip b. The part beyond the pivots is a contour of its
+ *              /\                       own, a fold: from tip b along the tips back to tip a, then
+ *            .'  '.                     as the side goes, to tip b. The way of the pivots is in
+ *    tip b  *--<---* tip a              both, to the bit: 2 or 0 windings are added by crossing it.
+ *
+ * Invariant: contours go round in one order, so that their windings never cancel.
+ */
+#ifndef CS_STROKE_SIDE_H
+#define CS_STROKE_SIDE_H
+
+#include "model/stroke/spoke.h"
+#include "model/stroke/stroke.h"
+
+typedef struct cs_side {
+  celspan_context *context;
+  const cs_stroke_view *view;
+  cs_outline *outline;
+  bool may_hide;  /* some of the stroke may be out of sight: what is has straight sides */
+  bool is_turned; /* the line is followed from its end to its beginning */
+  bool is_begun;  /* the outline has an open contour, which ends at `at` */
+  celspan_point at;
+  cs_outline tips;   /* of the fold that is under way: an open contour, as they go; or nothing */
+  size_t fold_begin; /* the piece of the outline with which the side left its first tip */
+  cs_outline folds;  /* those that are done */
+} cs_side;
+
+void cs_side_init(cs_side *side, celspan_context *context, const cs_stroke_view *view,
+                  cs_outline *outline);
+void cs_side_finish(cs_side *side);
+
+/* How far from its place, in pixels, what is near some points may be drawn; in the box of them that
+ * is larger by a share of its size on every side. */
+double cs_side_allowance(const cs_side *side, const celspan_point *points, int count, double share);
+celspan_point cs_side_on_cubic(const celspan_point p[4], double t);
+
+/* All: Errors NO_MEMORY, LIMIT. A straight line to a point; the first one begins a contour. */
+CELSPAN_CHECKED celspan_status cs_side_go(cs_side *side, celspan_point to);
+/* A cubic from where the side is. */
+CELSPAN_CHECKED celspan_status cs_side_curve(cs_side *side, const celspan_point p[4]);
+/* An arc about a centre by an angle > 0, with the order of a contour, from one direction to
+ * another. */
+CELSPAN_CHECKED celspan_status cs_side_arc(cs_side *side, const cs_spoke *about, celspan_point from,
+                                           celspan_point to, double angle);
+/* A part of a fold: the tips go backwards on one cubic, the pivots meanwhile on another. Parts that
+ * follow each other from tip to tip make one fold. */
+CELSPAN_CHECKED celspan_status cs_side_fold(cs_side *side, const celspan_point tips[4],
+                                            const celspan_point pivots[4]);
+/* A fold about one pivot, the centre of `to`, by an angle > 0 against the order of a contour. */
+CELSPAN_CHECKED celspan_status cs_side_fold_arc(cs_side *side, const cs_spoke *from,
+                                                const cs_spoke *to, double angle);
+/* Ends the contour. */
+CELSPAN_CHECKED celspan_status cs_side_close(cs_side *side);
+/* Moves the folds into the outline; no contour may be open. */
+CELSPAN_CHECKED celspan_status cs_side_add_folds(cs_side *side);
+
+/* Corners, caps and other places where the side of a stroke changes its direction at a point.
+ *
+ *     round             bevel             miter              the inside, and cuts
+ *
+ *        .---.          o-----o               o tip
+ *      .'     '.       /       \            .' '.             o         o
+ *     o         o     o  chord  o          o     o              \     /
+ *      \       /       \       /            \   /                 \ /
+ *       centre          centre              centre                centre
+ *
+ * A round shape fills the disc between two spokes, which is where the disc of that place lies
+ * outside of all its neighbours; a smooth place where the radius bends is treated so too. The other
+ * shapes have the width of their place: if the spokes lean, the space between them and the normals
+ * is filled as at the end of a stroke that has butt caps.
+ *
+ *   butt end     o tip           the width falls from here:       tip o    the width grows: the
+ *                | \             the disc up to the normal            |    end is straight from
+ *     the line's |  o                                                 |    tip to tip
+ *     end        *--->                                            <---*
+ */
+
+/* From the tip where the side comes in to the one where it goes out, at one place. Errors:
+ * NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_corner_turn(cs_side *side, const cs_stroke *stroke,
+                                              const cs_spoke *in, const cs_spoke *out);
+/* From the tip on the right of a line's end to that on its left. Errors: as above. */
+CELSPAN_CHECKED celspan_status cs_corner_cap(cs_side *side, const cs_stroke *stroke,
+                                             const cs_spoke *end);
+/* The same, where the line is only cut. */
+CELSPAN_CHECKED celspan_status cs_corner_cut(cs_side *side, const cs_spoke *end);
+/* Contours of their own, for what does not lie along the side: the straight ends of both lines at a
+ * corner, and a square cap before a straight end. */
+CELSPAN_CHECKED celspan_status cs_corner_turn_more(cs_side *side, const cs_stroke *stroke,
+                                                   const cs_spoke *in, const cs_spoke *out);
+CELSPAN_CHECKED celspan_status cs_corner_cap_more(cs_side *side, const cs_stroke *stroke,
+                                                  const cs_spoke *end);
+/* A line of no length. Errors: as above. */
+CELSPAN_CHECKED celspan_status cs_corner_dot(cs_side *side, const cs_stroke *stroke,
+                                             const cs_spoke *place);
+
+#endif

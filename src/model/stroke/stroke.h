@@ -1,0 +1,101 @@
+/* Strokes: a line and a radius along it, and the parts of it that are drawn.
+ *
+ *        spoke                    c(t): the line; r(t): half the width there
+ *      \   |  r                   two spokes leave every place, to the points where the disc of
+ *    ---o--+------- side          that radius touches its neighbours' envelope. They are at a
+ *          |                      right angle to the line where the width is constant, and lean
+ *    ------*------> line          towards where it is less.
+ *          |
+ *    ---o--+------- side          A point is in a stroke iff a spoke of a drawn part reaches over
+ *      /   |                      it, or it is in the shape of a cap or of a join (outliner.h).
+ *
+ * Invariants: the line's pieces have a length, except in a contour that is a single point. Piece i
+ * has the radius sum of radii[radius_starts[i] + j] * Bernstein polynomial j of degree
+ * radius_degrees[i] at the piece's own parameter; radii are 0 or more. Contours are left open
+ * unless a part says that it is closed. Parts begin and end inside one contour, count at least one
+ * piece, and go over the contour's end only where it is closed. A part that begins where it ends,
+ * of one piece, is a dot.
+ */
+#ifndef CS_STROKE_STROKE_H
+#define CS_STROKE_STROKE_H
+
+#include "base/hash.h"
+#include "model/geometry/boundary.h"
+#include "model/geometry/outline.h"
+
+#define CS_STROKE_RADIUS_DEGREE 20 /* of a width, and of the way along a piece (taper.c) */
+#define CS_STROKE_DASHES 1000000   /* the most in one stroke */
+
+typedef struct cs_stroke_part {
+  uint32_t contour;  /* whose pieces these are */
+  uint32_t first;    /* piece in which it begins */
+  uint32_t count;    /* of pieces */
+  double begin, end; /* parameters, in the first and in the last piece */
+  bool is_closed;    /* its end is its beginning: it has no caps */
+} cs_stroke_part;
+
+typedef struct cs_stroke {
+  cs_outline line;
+  double *radii;
+  uint32_t *radius_starts;
+  uint8_t *radius_degrees;
+  cs_stroke_part *parts;
+  size_t radius_count, radius_capacity, radius_start_capacity, radius_degree_capacity;
+  size_t part_count, part_capacity;
+  celspan_stroke_cap cap;
+  celspan_stroke_join join;
+  double miter;       /* as SVG's miter limit */
+  double largest;     /* radius */
+  celspan_box around; /* nothing of the stroke is outside it; not tight */
+} cs_stroke;
+
+/* Makes a stroke of a description whose numbers have been checked. outline: what desc->outline is
+ * made of, or another line; NULL for one of the description. closed: which contours of it are;
+ * NULL: all. Errors: NO_MEMORY; BAD_ARGUMENT for path data, degree and counts; LIMIT for more
+ * dashes than CS_STROKE_DASHES. finish frees it, also after an error. */
+CELSPAN_CHECKED celspan_status cs_stroke_init(celspan_context *context, cs_stroke *stroke,
+                                              const celspan_stroke_desc *desc,
+                                              const cs_outline *outline,
+                                              const cs_outline_closed *closed);
+void cs_stroke_finish(cs_stroke *stroke, cs_memory *memory);
+void cs_stroke_hash(cs_hash *hash, const cs_stroke *stroke);
+
+/* How far beyond the line a stroke may extent, in radii: spokes, caps and joins. */
+double cs_stroke_extent(const cs_stroke *stroke);
+/* The pieces of a contour: [*begin, *end). */
+void cs_stroke_contour(const cs_outline *line, size_t contour, size_t *begin, size_t *end);
+/* Piece `i` of a part, which may go over the end of its contour. */
+size_t cs_stroke_piece(const cs_stroke *stroke, const cs_stroke_part *part, size_t i);
+
+/* The view of a stroke: where its own units are seen, and how exactly.
+ *
+ *        frame            In the frame an outline may be wrong by `tolerance` pixels. What is d
+ *     +---------+         pixels outside of it may be wrong by d / 4: it cannot come in.
+ *     |         |   d
+ *     |         |<------> *
+ *     +---------+
+ *
+ * Of a frame some rows may be asked for: what lies wholly above or below them is left out, and what
+ * does not is the same, to the bit, as without that.
+ */
+
+typedef struct cs_stroke_view {
+  celspan_matrix matrix; /* own units to pixels; faces the viewer (model/geometry/matrix.h) */
+  cs_boundary_frame frame;
+  double tolerance;   /* pixels */
+  double top, bottom; /* of the rows that are asked for, pixels */
+} cs_stroke_view;
+
+/* How far from their place, in pixels, the contents of a box may be drawn. */
+double cs_stroke_view_allowance(const cs_stroke_view *view, const celspan_box *box);
+/* The distance in pixels between two points that ought to be one. 0 behind the horizon. */
+double cs_stroke_view_error(const cs_stroke_view *view, celspan_point is, celspan_point ought);
+/* Whether nothing in the box can be seen on the rows that are asked for. */
+bool cs_stroke_view_hides(const cs_stroke_view *view, const celspan_box *box);
+/* Whether everything in the box is in the frame, and on the rows that are asked for. */
+bool cs_stroke_view_holds(const cs_stroke_view *view, const celspan_box *box);
+/* Whether the box is much larger than the frame, so that it is worth while to look at parts of
+ * it. */
+bool cs_stroke_view_is_exceeded(const cs_stroke_view *view, const celspan_box *box);
+
+#endif

@@ -1,0 +1,106 @@
+#include "output/sinks/dither.h"
+
+#include <string.h>
+
+#include "output/sinks/pixels.h"
+#include "output/sinks/sink.h"
+
+/* ---------------------------------------------------------------- rounding */
+
+/* Bayer's thresholds: (2 k + 1)/512 for a k of 0..255, each once in 16 x 16 pixels. k is made of
+ * the bits of x ^ y and of y in turn, the lowest first, so that neighbours are far apart. */
+static double threshold(uint32_t x, uint32_t y) {
+  uint32_t k = 0, mixed = x ^ y;
+  for (int bit = 0; bit < 4; bit++)
+    k = k << 2 | (mixed >> bit & 1) << 1 | (y >> bit & 1);
+  return (2 * k + 1) / 512.0;
+}
+
+/* Rounds down where the rest of the number is below the place's threshold, else up. */
+static unsigned char round_at(float x, double limit) {
+  return !(x > 0) ? 0 : x >= 1 ? 255 : (unsigned char)((double)x * 255 + 1 - limit);
+}
+
+static void round_pixel(const float coded[4], double limit, unsigned char *pixel) {
+  for (int c = 0; c < 4; c++)
+    pixel[c] = round_at(coded[c], limit);
+}
+
+static void row_of_single(const celspan_coding *coding, int32_t x, int32_t y,
+                          const celspan_span *span, unsigned char *out) {
+  float coded[4];
+  unsigned char period[16][4];
+  cs_pixels_encode(coding, span->colour, coded);
+  for (uint32_t i = 0; i < 16; i++)
+    round_pixel(coded, threshold((uint32_t)x + i, (uint32_t)y), period[i]);
+  for (int32_t i = 0; i < span->x1 - span->x0; i++)
+    memcpy(out + 4 * (size_t)i, period[i % 16], 4);
+}
+
+void cs_dither_row(const celspan_coding *coding, int32_t x, int32_t y, const celspan_span *spans,
+                   size_t span_count, unsigned char *row) {
+  for (const celspan_span *span = spans; span < spans + span_count; span++) {
+    unsigned char *out = row + 4 * (size_t)span->x0;
+    if (span->kind == CELSPAN_SPAN_SINGLE) {
+      row_of_single(coding, x + span->x0, y, span, out);
+      continue;
+    }
+    for (int32_t column = span->x0; column < span->x1; column++, out += 4) {
+      float colour[4], coded[4];
+      celspan_span_colour(span, column, colour);
+      cs_pixels_encode(coding, colour, coded);
+      round_pixel(coded, threshold((uint32_t)(x + column), (uint32_t)y), out);
+    }
+  }
+}
+
+/* ---------------------------------------------------------------- the sink */
+
+typedef struct dither_sink {
+  celspan_sink inner;
+  celspan_coding coding;
+  int32_t x, y;
+  int32_t width;
+  unsigned char *row; /* from begin to end */
+} dither_sink;
+
+static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
+  dither_sink *sink = user;
+  sink->width = width;
+  sink->row = cs_mem_array(context->memory, (size_t)width, 4);
+  if (!sink->row)
+    return cs_fail_memory(context);
+  return sink->inner.begin(sink->inner.user, context, width, height);
+}
+
+/* The inner sink gets the final bytes. */
+static celspan_status put_row(void *user, celspan_context *context, int32_t y,
+                              const celspan_span *spans, size_t span_count) {
+  dither_sink *sink = user;
+  cs_dither_row(&sink->coding, sink->x, sink->y + y, spans, span_count, sink->row);
+  const celspan_span coded = {.x1 = sink->width, .kind = CELSPAN_SPAN_ARRAY, .codes = sink->row};
+  return sink->inner.row(sink->inner.user, context, y, &coded, 1);
+}
+
+static celspan_status end(void *user, celspan_context *context, celspan_status outcome) {
+  dither_sink *sink = user;
+  outcome = sink->inner.end(sink->inner.user, context, outcome);
+  cs_mem_free(context->memory, sink->row, 4 * (size_t)sink->width);
+  cs_mem_free(context->memory, sink, sizeof *sink);
+  return outcome;
+}
+
+celspan_status cs_dither_sink(celspan_context *context, const celspan_coding *asked,
+                              const celspan_coding *coding, int32_t x, int32_t y,
+                              celspan_sink *sink) {
+  if (!asked || asked->depth != CELSPAN_DEPTH_8_DITHER)
+    return CELSPAN_OK;
+  dither_sink *dither = cs_mem_array(context->memory, 1, sizeof *dither);
+  if (!dither) {
+    cs_sink_discard(context, sink);
+    return cs_fail_memory(context);
+  }
+  *dither = (dither_sink){.inner = *sink, .coding = *coding, .x = x, .y = y};
+  *sink = (celspan_sink){.user = dither, .begin = begin, .row = put_row, .end = end};
+  return CELSPAN_OK;
+}

@@ -1,0 +1,30 @@
+/* Dithering: 8-bit numbers rounded up or down by the place of their pixel, so that the mean of a
+ * flat field is what rounding would lose, and gradients show no bands.
+ *
+ *   a channel at 100.25 of 255, pixel by pixel           thresholds of 2 x 2 pixels (here 16 x 16)
+ *
+ *     100 100 101 100 100 100 101 100                       1/8  5/8
+ *     100 100 100 100 100 100 100 100                       7/8  3/8
+ *
+ * Invariants: a pixel's bytes depend on its colour and its place in the whole frame alone, so
+ * crops, strips and workers change nothing. A number that is exact in 8 bits stays as it is. Over
+ * 16 x 16 pixels of one colour the mean is within 1/130560 (half of 1/256 of 1/255) of the colour.
+ */
+#ifndef CS_OUTPUT_DITHER_H
+#define CS_OUTPUT_DITHER_H
+
+#include "base/context.h"
+
+/* Codes the spans of a row, which cover [0, width) without gap. x, y: the place of its first pixel
+ * in the whole frame. coding: resolved, of 8 bits. Any thread. */
+void cs_dither_row(const celspan_coding *coding, int32_t x, int32_t y, const celspan_span *spans,
+                   size_t span_count, unsigned char *row);
+
+/* Where the coding that was asked for has depth 8_DITHER, puts a sink that dithers in front of
+ * *sink, which takes pixels in `coding`, resolved; else does nothing. x, y: the place of the first
+ * pixel. On failure *sink is discarded. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_dither_sink(celspan_context *context, const celspan_coding *asked,
+                                              const celspan_coding *coding, int32_t x, int32_t y,
+                                              celspan_sink *sink);
+
+#endif

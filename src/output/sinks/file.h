@@ -1,0 +1,75 @@
+/* Files that appear whole or not at all.
+ *
+ * Bytes go to a temporary file `.NAME.XXXX.part` in the same folder; cs_file_commit syncs it,
+ * checks its size, renames it and syncs the folder.
+ *
+ *   write --> buffer --> .NAME.XXXX.part --commit: check, sync, rename--> NAME, sync of the folder
+ *                              +---------discard: unlink
+ *
+ * INVARIANT: until the rename, a file that was there under the name is untouched; and however it
+ * ends, no temporary file is left. Errors stick: after a failed write the file can only be
+ * discarded or fail to commit.
+ */
+#ifndef CS_OUTPUT_FILE_H
+#define CS_OUTPUT_FILE_H
+
+#include <sys/stat.h>
+#include <sys/types.h>
+
+#include "base/context.h"
+#include "base/hash.h"
+
+typedef struct cs_file cs_file;
+
+/* What a file has that was completed. A context whose `contents` points to one has those of the
+ * last file that it committed: taken of the temporary file, which nobody else has opened, before it
+ * gets its name. What happens to the file afterwards does not change them. */
+typedef struct cs_file_contents {
+  cs_hash hash;
+  uint64_t bytes;
+} cs_file_contents;
+
+/* Reads all of a file, from its first byte on. false when it cannot be read; then errno says
+ * why. */
+bool cs_file_contents_read(int descriptor, cs_file_contents *out);
+
+/* The system calls that a file needs, as in POSIX; tests replace them to make them fail. */
+typedef struct cs_file_system {
+  int (*open)(const char *path, int flags, mode_t mode);
+  ssize_t (*pwrite)(int descriptor, const void *bytes, size_t size, off_t offset);
+  int (*fstat)(int descriptor, struct stat *out);
+  int (*fsync)(int descriptor);
+  int (*close)(int descriptor);
+  int (*rename)(const char *from, const char *to);
+  int (*unlink)(const char *path);
+  int (*mkdir)(const char *path, mode_t mode);
+} cs_file_system;
+
+/* Opens the temporary file; missing folders are made. path: copied. system: NULL for the real one,
+ * else borrowed until the file ends. Errors: OUTPUT, NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_file_create(celspan_context *context,
+                                              const cs_file_system *system, const char *path,
+                                              cs_file **out);
+/* Appends. */
+CELSPAN_CHECKED celspan_status cs_file_write(cs_file *file, celspan_context *context,
+                                             const void *bytes, size_t size);
+/* Writes anywhere, over earlier bytes or beyond them; cs_file_write still appends at the end. */
+CELSPAN_CHECKED celspan_status cs_file_write_at(cs_file *file, celspan_context *context,
+                                                uint64_t offset, const void *bytes, size_t size);
+/* Bytes from the start to the end. */
+uint64_t cs_file_size(const cs_file *file);
+/* Hands all bytes so far to the system, so that the temporary file can be read. *name: its name,
+ * borrowed until the file ends. */
+CELSPAN_CHECKED celspan_status cs_file_temporary(cs_file *file, celspan_context *context,
+                                                 const char **name);
+/* Takes what another program has written under the temporary name as the file's contents. */
+CELSPAN_CHECKED celspan_status cs_file_adopt(cs_file *file, celspan_context *context);
+/* Both end the file, whatever they return. NULL is ignored by discard. */
+CELSPAN_CHECKED celspan_status cs_file_commit(cs_file *file, celspan_context *context);
+void cs_file_discard(cs_file *file, celspan_context *context);
+
+/* The ending of a file's name, which says its format where nothing else does: what follows the last
+ * dot in the last part of the path; "" where there is no dot. Points into the path. */
+const char *cs_file_ending(const char *path);
+
+#endif

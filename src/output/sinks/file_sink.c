@@ -1,0 +1,251 @@
+#include <string.h>
+#include <strings.h>
+
+#include "base/context.h"
+#include "output/sinks/dither.h"
+#include "output/sinks/file.h"
+#include "output/sinks/pixels.h"
+#include "output/sinks/shares.h"
+#include "output/sinks/sink.h"
+
+/* ---------------------------------------------------------------- the guard */
+
+/* The door of every sink that writes a file: what a caller may do with it, in which order.
+ *
+ *   create --> begin --> row 0, row 1, ... row height-1 --> end(OK)         the file is complete
+ *      |         |          |
+ *      +---------+----------+-- a call out of order, spans that do not cover the row, a failure:
+ *                               every later call is refused, and end leaves nothing
+ *
+ * INVARIANT: the sink behind the door gets calls in this order alone: one begin with a size of 1 to
+ * 1,048,576 pixels a side, rows whose spans cover them without gap, and an end whose outcome is OK
+ * only if all rows were put. So no format asks for this again.
+ */
+#define SIDE_MOST 1048576
+
+typedef struct guard {
+  celspan_sink inner;
+  size_t allocated;
+  int32_t width, height;  /* 0 before a begin that succeeded */
+  int32_t rows;           /* that were put */
+  celspan_status failure; /* of the first call that failed; then nothing but end is allowed */
+  bool has_shares;        /* rows are put into shares, past the guard */
+  bool takes_codes;
+  char path[];
+} guard;
+
+/* A call that is refused ends what can be done with the sink, as one that failed does. */
+#define REFUSE(guard, context, ...)                                                                \
+  ((guard)->failure = cs_fail((context), CELSPAN_BAD_ARGUMENT, __VA_ARGS__))
+
+static celspan_status refuse_failed(const guard *g, celspan_context *context) {
+  return cs_fail(context, g->failure, "%s: the picture cannot continue after a failure (%s)",
+                 g->path, celspan_status_name(g->failure));
+}
+
+/* ---------------------------------------------------------------- begin */
+
+static celspan_status check_begin(guard *g, celspan_context *context, int32_t width,
+                                  int32_t height) {
+  if (g->failure != CELSPAN_OK)
+    return refuse_failed(g, context);
+  if (g->width > 0)
+    return REFUSE(g, context, "%s: the picture has begun already", g->path);
+  if (width < 1 || height < 1 || width > SIDE_MOST || height > SIDE_MOST)
+    return REFUSE(g, context, "%s: the frame is %d x %d pixels; it must have 1 to %d a side",
+                  g->path, (int)width, (int)height, SIDE_MOST);
+  return CELSPAN_OK;
+}
+
+static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
+  guard *g = user;
+  CS_TRY(check_begin(g, context, width, height));
+  g->failure = g->inner.begin(g->inner.user, context, width, height);
+  if (g->failure == CELSPAN_OK) {
+    g->width = width;
+    g->height = height;
+  }
+  return g->failure;
+}
+
+/* ---------------------------------------------------------------- rows */
+
+static bool has_pixels(const guard *g, const celspan_span *span) {
+  switch (span->kind) {
+  case CELSPAN_SPAN_SINGLE:
+  case CELSPAN_SPAN_GRADIENT:
+    return true;
+  case CELSPAN_SPAN_ARRAY:
+    return span->array || (g->takes_codes && span->codes);
+  }
+  return false;
+}
+
+static celspan_status check_spans(guard *g, celspan_context *context, int32_t y,
+                                  const celspan_span *spans, size_t span_count) {
+  int32_t x = 0;
+  if (!spans || span_count == 0 || span_count > (size_t)g->width)
+    return REFUSE(g, context, "%s: row %d has %zu spans; a row of %d pixels has from 1 to %d",
+                  g->path, (int)y, spans ? span_count : 0, (int)g->width, (int)g->width);
+  for (const celspan_span *span = spans; span < spans + span_count; span++) {
+    if (span->x0 != x || span->x1 <= x || span->x1 > g->width)
+      return REFUSE(g, context,
+                    "%s: row %d: span %zu is from %d to %d; it must begin at %d and end by %d",
+                    g->path, (int)y, (size_t)(span - spans) + 1, (int)span->x0, (int)span->x1,
+                    (int)x, (int)g->width);
+    if (!has_pixels(g, span))
+      return REFUSE(g, context, "%s: row %d: span %zu is of kind %d and has no array of pixels",
+                    g->path, (int)y, (size_t)(span - spans) + 1, (int)span->kind);
+    x = span->x1;
+  }
+  if (x < g->width)
+    return REFUSE(g, context, "%s: row %d: the spans end at %d of %d pixels", g->path, (int)y,
+                  (int)x, (int)g->width);
+  return CELSPAN_OK;
+}
+
+static celspan_status check_row(guard *g, celspan_context *context, int32_t y) {
+  if (g->failure != CELSPAN_OK)
+    return refuse_failed(g, context);
+  if (g->width == 0)
+    return REFUSE(g, context, "%s: row %d comes before the picture has begun", g->path, (int)y);
+  if (g->rows == g->height)
+    return REFUSE(g, context, "%s: row %d comes after all %d rows", g->path, (int)y,
+                  (int)g->height);
+  if (y != g->rows)
+    return REFUSE(g, context, "%s: row %d comes where row %d is due", g->path, (int)y,
+                  (int)g->rows);
+  return CELSPAN_OK;
+}
+
+static celspan_status put_row(void *user, celspan_context *context, int32_t y,
+                              const celspan_span *spans, size_t span_count) {
+  guard *g = user;
+  CS_TRY(check_row(g, context, y));
+  CS_TRY(check_spans(g, context, y, spans, span_count));
+  g->failure = g->inner.row(g->inner.user, context, y, spans, span_count);
+  g->rows += g->failure == CELSPAN_OK;
+  return g->failure;
+}
+
+/* ---------------------------------------------------------------- end */
+
+static celspan_status check_end(guard *g, celspan_context *context) {
+  if (g->failure != CELSPAN_OK)
+    return refuse_failed(g, context);
+  if (g->width == 0)
+    return REFUSE(g, context, "%s: the picture ends without a beginning", g->path);
+  if (g->rows < g->height && !(g->has_shares && g->rows == 0))
+    return REFUSE(g, context, "%s: the picture ends after %d of %d rows", g->path, (int)g->rows,
+                  (int)g->height);
+  return CELSPAN_OK;
+}
+
+static celspan_status end(void *user, celspan_context *context, celspan_status outcome) {
+  guard *g = user;
+  if (outcome == CELSPAN_OK)
+    outcome = check_end(g, context);
+  outcome = g->inner.end(g->inner.user, context, outcome);
+  cs_mem_free(context->memory, g, g->allocated);
+  return outcome;
+}
+
+/* Puts a guard in front of *sink. path: for messages; copied. On failure *sink is discarded.
+ * Errors: NO_MEMORY. */
+static CELSPAN_CHECKED celspan_status guard_sink(celspan_context *context, const char *path,
+                                                 celspan_sink *sink) {
+  size_t path_size = strlen(path) + 1, size = sizeof(guard) + path_size;
+  guard *g = cs_mem_array(context->memory, 1, size);
+  if (!g) {
+    cs_sink_discard(context, sink);
+    return cs_fail_memory(context);
+  }
+  g->inner = *sink;
+  g->allocated = size;
+  g->takes_codes = sink->takes_codes;
+  memcpy(g->path, path, path_size);
+  *sink = (celspan_sink){
+      .user = g, .begin = begin, .row = put_row, .end = end, .takes_codes = g->takes_codes};
+  return CELSPAN_OK;
+}
+
+/* The sink behind a guard, whose rows come in shares from now on; of another sink that sink
+ * itself. */
+static const celspan_sink *open_guard(const celspan_sink *sink) {
+  if (sink->row != put_row)
+    return sink;
+  guard *g = sink->user;
+  g->has_shares = true;
+  return &g->inner;
+}
+
+/* ---------------------------------------------------------------- the choice of a format */
+
+static const char *format_of(const char *path, const celspan_file_desc *file) {
+  return file->format ? file->format : cs_file_ending(path);
+}
+
+bool cs_sink_file_is_numbered(const char *path, const celspan_file_desc *file) {
+  static const char *const unnumbered[] = {"png", "tga", "targa", "span"};
+  for (size_t i = 0; i < sizeof unnumbered / sizeof *unnumbered; i++)
+    if (strcasecmp(format_of(path, file), unnumbered[i]) == 0)
+      return false;
+  return true;
+}
+
+/* PNG and Targa, which are made from spans, or from dithered pixels. */
+static celspan_status
+create_pixels(celspan_context *context, const char *path, const celspan_file_desc *file,
+              celspan_status (*create)(celspan_context *, const char *, const celspan_file_desc *,
+                                       celspan_sink *),
+              celspan_sink *out) {
+  celspan_sink sink;
+  celspan_coding coding = cs_pixels_resolve(&file->coding, CELSPAN_DEPTH_8);
+  CS_TRY(create(context, path, file, &sink));
+  CS_TRY(cs_dither_sink(context, &file->coding, &coding, file->place_x, file->place_y, &sink));
+  *out = sink;
+  return CELSPAN_OK;
+}
+
+static celspan_status create(celspan_context *context, const char *path,
+                             const celspan_file_desc *file, celspan_sink *out) {
+  const char *format = format_of(path, file);
+  if (format[0] == '\0')
+    return cs_fail(
+        context, CELSPAN_BAD_ARGUMENT,
+        "%s: the format is unknown: give the file an ending such as .png, or name a format", path);
+  bool is_targa = strcasecmp(format, "tga") == 0 || strcasecmp(format, "targa") == 0;
+  if (is_targa || strcasecmp(format, "png") == 0)
+    return create_pixels(context, path, file, is_targa ? cs_sink_tga : cs_sink_png, out);
+  if (strcasecmp(format, "span") == 0)
+    return cs_sink_span(context, path, file, out);
+  if (file->strip_height != 0)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "%s: strips can be joined in PNG, Targa and span files alone", path);
+  return cs_sink_picture(context, path, file, out);
+}
+
+celspan_status cs_sink_file(celspan_context *context, const char *path,
+                            const celspan_file_desc *file, celspan_sink *out) {
+  celspan_sink sink;
+  if (!path || !*path)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "the file to write has no name");
+  CS_TRY(cs_pixels_check(context, &file->coding));
+  CS_TRY(create(context, path, file, &sink));
+  CS_TRY(guard_sink(context, path, &sink));
+  *out = sink;
+  return CELSPAN_OK;
+}
+
+celspan_status celspan_file_sink_create(celspan_context *context, const char *path,
+                                        const celspan_file_desc *file, celspan_sink *out) {
+  celspan_file_desc defaults = CELSPAN_FILE_DESC;
+  return cs_sink_file(context, path, file ? file : &defaults, out);
+}
+
+bool cs_sink_shares(const celspan_sink *sink, cs_shares *out) {
+  const celspan_sink *inner = open_guard(sink);
+  *out = (cs_shares){.rows = 0};
+  return !inner->row || cs_memory_sink_shares(inner, out) || cs_png_sink_shares(inner, out) ||
+         cs_span_sink_shares(inner, out);
+}

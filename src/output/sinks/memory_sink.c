@@ -1,0 +1,90 @@
+/* Pixels into the caller's memory; or, to measure, into one row for each thread, overwritten again
+ * and again.
+ */
+#include "output/sinks/pixels.h"
+#include "output/sinks/shares.h"
+#include "output/sinks/sink.h"
+
+typedef struct memory_sink {
+  celspan_coding coding;
+  unsigned char *pixels; /* NULL: rows are dropped */
+  size_t stride;
+  size_t row_size;
+  unsigned char *row; /* where rows are dropped */
+} memory_sink;
+
+static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
+  memory_sink *sink = user;
+  (void)height;
+  sink->row_size = (size_t)width * celspan_coding_pixel_size(&sink->coding);
+  if (!sink->pixels)
+    sink->row = cs_mem_array(context->memory, 1, sink->row_size);
+  if (sink->pixels ? sink->stride >= sink->row_size : sink->row != NULL)
+    return CELSPAN_OK;
+  if (!sink->pixels)
+    return cs_fail_memory(context);
+  return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                 "the stride is %zu bytes; a row of %d pixels needs at least %zu", sink->stride,
+                 (int)width, sink->row_size);
+}
+
+/* worker: the thread's own row, where rows are dropped; NULL: the sink's row. */
+static celspan_status fill_row(void *user, void *worker, celspan_context *context, int32_t y,
+                               const celspan_span *spans, size_t span_count) {
+  const memory_sink *sink = user;
+  unsigned char *own = worker ? worker : sink->row;
+  (void)context;
+  cs_pixels_row(&sink->coding, spans, span_count,
+                sink->pixels ? sink->pixels + (size_t)y * sink->stride : own);
+  return CELSPAN_OK;
+}
+
+static celspan_status put_row(void *user, celspan_context *context, int32_t y,
+                              const celspan_span *spans, size_t span_count) {
+  return fill_row(user, NULL, context, y, spans, span_count);
+}
+
+static celspan_status end(void *user, celspan_context *context, celspan_status outcome) {
+  memory_sink *sink = user;
+  cs_mem_free(context->memory, sink->row, sink->row_size);
+  cs_mem_free(context->memory, sink, sizeof *sink);
+  return outcome;
+}
+
+celspan_status cs_sink_memory(celspan_context *context, const celspan_coding *coding, void *pixels,
+                              size_t stride, celspan_sink *out) {
+  memory_sink *sink = cs_mem_array(context->memory, 1, sizeof *sink);
+  if (!sink)
+    return cs_fail_memory(context);
+  sink->coding = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
+  sink->pixels = pixels;
+  sink->stride = stride;
+  *out = (celspan_sink){.user = sink,
+                        .begin = begin,
+                        .row = put_row,
+                        .end = end,
+                        .takes_codes = cs_pixels_takes_codes(&sink->coding)};
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- several threads */
+
+static celspan_status open_worker(void *user, celspan_context *context, void **worker) {
+  const memory_sink *sink = user;
+  *worker = sink->pixels ? NULL : cs_mem_array(context->memory, 1, sink->row_size);
+  return sink->pixels || *worker ? CELSPAN_OK : cs_fail_memory(context);
+}
+
+static void close_worker(void *user, celspan_context *context, void *worker) {
+  cs_mem_free(context->memory, worker, ((const memory_sink *)user)->row_size);
+}
+
+bool cs_memory_sink_shares(const celspan_sink *sink, cs_shares *out) {
+  if (sink->row != put_row)
+    return false;
+  *out = (cs_shares){.user = sink->user,
+                     .open_worker = open_worker,
+                     .close_worker = close_worker,
+                     .row = fill_row};
+  return true;
+}

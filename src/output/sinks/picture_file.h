@@ -1,0 +1,40 @@
+/* A file that the picture module writes: its bytes go to the core's file, which appears whole or
+ * not at all.
+ *
+ *   rows --cs_picture_file_rows--> module --put--> file.h --close: read back, commit--> file
+ *
+ * INVARIANT: one that was opened is ended once, by close or by discard. It must not be moved,
+ * because the module keeps its address.
+ */
+#ifndef CS_OUTPUT_PICTURE_FILE_H
+#define CS_OUTPUT_PICTURE_FILE_H
+
+#include "model/pictures/module.h"
+#include "output/sinks/file.h"
+
+typedef struct cs_picture_file {
+  celspan_context *context; /* of the call in progress, for put */
+  const cs_picture_module *module;
+  cs_picture_writer *writer;
+  cs_file *file;
+  cs_picture_output output;
+  celspan_status put_status;
+  bool is_abandoned;
+} cs_picture_file;
+
+/* output: its put and user are set here; the texts that it names are borrowed until the file ends.
+ * When it fails there is nothing to end. Errors: OUTPUT, NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_picture_file_open(celspan_context *context,
+                                                    const cs_picture_output *output,
+                                                    cs_picture_file *out);
+/* `count` rows from y on, as the output says; rows come in order. Errors: OUTPUT. */
+CELSPAN_CHECKED celspan_status cs_picture_file_rows(cs_picture_file *file, celspan_context *context,
+                                                    int32_t y, int32_t count, const void *rows);
+/* Completes the file, and ends it whatever happens. Errors: OUTPUT, also where what was written
+ * cannot be read back. */
+CELSPAN_CHECKED celspan_status cs_picture_file_close(cs_picture_file *file,
+                                                     celspan_context *context);
+/* Leaves nothing. One that was never opened, and is zero, is ignored. */
+void cs_picture_file_discard(cs_picture_file *file, celspan_context *context);
+
+#endif

@@ -1,0 +1,293 @@
+/* Each depth has a coder, which turns colours into bytes, many at once. Single spans give it one
+ * colour, arrays all of theirs, and gradients up to CHUNK colours at a time. The coding in which
+ * nearly every frame is written, 8 bits, sRGB, straight, has rows of its own
+ * (output/sinks/pixels8.h).
+ */
+#include "output/sinks/pixels.h"
+
+#include <assert.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/vector.h"
+#include "model/colour/srgb8.h"
+#include "model/colour/transfer.h"
+#include "output/sinks/pixels8.h"
+
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "pixels are written little endian");
+
+enum { CHUNK = 64 };
+
+size_t celspan_coding_pixel_size(const celspan_coding *coding) {
+  switch (coding->depth) {
+  case CELSPAN_DEPTH_16:
+  case CELSPAN_DEPTH_HALF:
+    return 8;
+  case CELSPAN_DEPTH_FLOAT:
+    return 16;
+  default:
+    return 4;
+  }
+}
+
+celspan_status cs_pixels_check(celspan_context *context, const celspan_coding *coding) {
+  if (!coding || ((unsigned)coding->depth <= CELSPAN_DEPTH_8_DITHER &&
+                  (unsigned)coding->transfer <= CELSPAN_TRANSFER_CINEON &&
+                  (unsigned)coding->alpha <= CELSPAN_ALPHA_PREMULTIPLIED))
+    return CELSPAN_OK;
+  return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                 "coding: there is none of depth %d, transfer %d and alpha %d", (int)coding->depth,
+                 (int)coding->transfer, (int)coding->alpha);
+}
+
+celspan_coding cs_pixels_resolve(const celspan_coding *coding, celspan_depth default_depth) {
+  celspan_coding resolved = coding ? *coding : (celspan_coding){0};
+  if (resolved.depth == CELSPAN_DEPTH_DEFAULT)
+    resolved.depth = default_depth == CELSPAN_DEPTH_DEFAULT ? CELSPAN_DEPTH_8 : default_depth;
+  if (resolved.depth == CELSPAN_DEPTH_8_DITHER)
+    resolved.depth = CELSPAN_DEPTH_8;
+  bool integer = resolved.depth == CELSPAN_DEPTH_8 || resolved.depth == CELSPAN_DEPTH_16;
+  if (resolved.transfer == CELSPAN_TRANSFER_DEFAULT)
+    resolved.transfer = integer ? CELSPAN_TRANSFER_SRGB : CELSPAN_TRANSFER_LINEAR;
+  if (resolved.alpha == CELSPAN_ALPHA_DEFAULT)
+    resolved.alpha = integer ? CELSPAN_ALPHA_STRAIGHT : CELSPAN_ALPHA_PREMULTIPLIED;
+  return resolved;
+}
+
+bool cs_pixels_takes_codes(const celspan_coding *coding) {
+  return coding->depth == CELSPAN_DEPTH_8 && coding->transfer == CELSPAN_TRANSFER_SRGB &&
+         coding->alpha == CELSPAN_ALPHA_STRAIGHT;
+}
+
+celspan_span cs_pixels_crop(const celspan_span *span, int32_t x, int32_t count) {
+  celspan_span cropped = *span;
+  size_t cut = 4 * (size_t)(x - span->x0);
+  cropped.x0 = 0;
+  cropped.x1 = count;
+  cropped.origin = span->origin - x;
+  if (span->kind == CELSPAN_SPAN_ARRAY && span->codes)
+    cropped.codes += cut;
+  else if (span->kind == CELSPAN_SPAN_ARRAY)
+    cropped.array += cut;
+  return cropped;
+}
+
+/* ---------------------------------------------------------------- one pixel */
+
+static uint32_t float_bits(float x) {
+  uint32_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  return bits;
+}
+
+/* x, limited to 0..1, times `most`, rounded half up. The product is exact in double. NaN is 0. */
+static unsigned to_integer(float x, double most) {
+  return !(x > 0) ? 0 : x >= 1 ? (unsigned)most : (unsigned)((double)x * most + 0.5);
+}
+
+/* IEEE 754 binary16, rounded half to even. Too large a number becomes 65504; NaN stays NaN. */
+static uint16_t to_half(float x) {
+  uint32_t bits = float_bits(x), sign = bits >> 16 & 0x8000, size = bits & 0x7fffffff;
+  if (size > 0x7f800000)
+    return (uint16_t)(sign | 0x7e00);
+  if (size >= 0x477ff000)
+    return (uint16_t)(sign | 0x7bff);
+  if (size <
+      0x38800000) { /* below 2^-14, the number is a multiple of 2^-24, and so is one above 1/2 */
+    float above_half = fabsf(x) + 0.5f;
+    return (uint16_t)(sign | (float_bits(above_half) - 0x3f000000));
+  }
+  uint32_t even = size >> 13 & 1;
+  return (uint16_t)(sign | ((size - 0x38000000 + 0xfff + even) >> 13));
+}
+
+/* The colour the transfer curve is applied to. */
+void cs_pixels_encode(const celspan_coding *coding, const float rgba[4], float coded[4]) {
+  bool divide = coding->alpha == CELSPAN_ALPHA_STRAIGHT && rgba[3] != 1;
+  for (int c = 0; c < 3; c++) {
+    float light = !divide ? rgba[c] : rgba[3] > 0 ? rgba[c] / rgba[3] : 0;
+    coded[c] = cs_transfer_encode(coding->transfer, light);
+  }
+  coded[3] = rgba[3];
+}
+
+/* ---------------------------------------------------------------- runs */
+
+typedef void (*coder)(const celspan_coding *coding, const float *rgba, size_t count,
+                      unsigned char *out);
+
+static void code_8_srgb_straight(const celspan_coding *coding, const float *rgba, size_t count,
+                                 unsigned char *out) {
+  (void)coding;
+  cs_srgb8_choose(cs_isa_best())(rgba, count, out);
+}
+
+/* Light that is not divided by alpha is coded as if it were opaque. */
+static void code_8_srgb_premultiplied(const celspan_coding *coding, const float *rgba, size_t count,
+                                      unsigned char *out) {
+  cs_srgb8 code = cs_srgb8_choose(cs_isa_best());
+  (void)coding;
+  for (size_t portion; count > 0; count -= portion, rgba += 4 * portion, out += 4 * portion) {
+    float opaque[4 * CHUNK];
+    portion = count < CHUNK ? count : CHUNK;
+    memcpy(opaque, rgba, 4 * portion * sizeof *rgba);
+    for (size_t i = 0; i < portion; i++)
+      opaque[4 * i + 3] = 1;
+    code(opaque, portion, out);
+    for (size_t i = 0; i < portion; i++)
+      out[4 * i + 3] = (unsigned char)to_integer(rgba[4 * i + 3], 255);
+  }
+}
+
+static void code_8(const celspan_coding *coding, const float *rgba, size_t count,
+                   unsigned char *out) {
+  for (; count > 0; count--, rgba += 4, out += 4) {
+    float coded[4];
+    cs_pixels_encode(coding, rgba, coded);
+    for (int c = 0; c < 4; c++)
+      out[c] = (unsigned char)to_integer(coded[c], 255);
+  }
+}
+
+static void code_16(const celspan_coding *coding, const float *rgba, size_t count,
+                    unsigned char *out) {
+  for (; count > 0; count--, rgba += 4, out += 8) {
+    float coded[4];
+    uint16_t numbers[4];
+    cs_pixels_encode(coding, rgba, coded);
+    for (int c = 0; c < 4; c++)
+      numbers[c] = (uint16_t)to_integer(coded[c], 65535);
+    memcpy(out, numbers, sizeof numbers);
+  }
+}
+
+static void code_half(const celspan_coding *coding, const float *rgba, size_t count,
+                      unsigned char *out) {
+  for (; count > 0; count--, rgba += 4, out += 8) {
+    float coded[4];
+    uint16_t numbers[4];
+    cs_pixels_encode(coding, rgba, coded);
+    for (int c = 0; c < 4; c++)
+      numbers[c] = to_half(coded[c]);
+    memcpy(out, numbers, sizeof numbers);
+  }
+}
+
+static void code_float(const celspan_coding *coding, const float *rgba, size_t count,
+                       unsigned char *out) {
+  for (; count > 0; count--, rgba += 4, out += 16) {
+    float coded[4];
+    cs_pixels_encode(coding, rgba, coded);
+    memcpy(out, coded, sizeof coded);
+  }
+}
+
+static coder choose_coder(const celspan_coding *coding) {
+  switch (coding->depth) {
+  case CELSPAN_DEPTH_16:
+    return code_16;
+  case CELSPAN_DEPTH_HALF:
+    return code_half;
+  case CELSPAN_DEPTH_FLOAT:
+    return code_float;
+  default:
+    return coding->transfer != CELSPAN_TRANSFER_SRGB ? code_8
+           : coding->alpha == CELSPAN_ALPHA_STRAIGHT ? code_8_srgb_straight
+                                                     : code_8_srgb_premultiplied;
+  }
+}
+
+void cs_pixels_code(const celspan_coding *coding, const float rgba[4], void *pixel) {
+  choose_coder(coding)(coding, rgba, 1, pixel);
+}
+
+/* ---------------------------------------------------------------- spans */
+
+/* Pixels of adjacent gradients, gathered to be coded together because gradients may be short. */
+typedef struct gathered {
+  float rgba[CHUNK][4];
+  size_t count; /* pixels waiting */
+  unsigned char *out;
+} gathered;
+
+static void flush(gathered *waiting, const celspan_coding *coding, coder code) {
+  if (waiting->count > 0)
+    code(coding, waiting->rgba[0], waiting->count, waiting->out);
+  waiting->count = 0;
+}
+
+static void put_gradient(gathered *waiting, const celspan_coding *coding, coder code,
+                         const celspan_span *span, size_t pixel_size, unsigned char *out) {
+  cs_v4 colour = cs_v4_load(span->colour), slope = cs_v4_load(span->slope);
+  for (int32_t x = span->x0; x < span->x1;) {
+    if (waiting->count == 0)
+      waiting->out = out + (size_t)(x - span->x0) * pixel_size;
+    size_t room = CHUNK - waiting->count, rest = (size_t)(span->x1 - x);
+    size_t count = rest < room ? rest : room;
+    for (size_t k = 0; k < count; k++, x++)
+      cs_v4_store(waiting->rgba[waiting->count + k], colour + slope * (float)(x - span->origin));
+    waiting->count += count;
+    if (waiting->count == CHUNK)
+      flush(waiting, coding, code);
+  }
+}
+
+/* Arrays and flat spans. */
+static void code_span(const celspan_coding *coding, coder code, const celspan_span *span,
+                      size_t pixel_size, unsigned char *out) {
+  size_t count = (size_t)(span->x1 - span->x0);
+  if (span->kind == CELSPAN_SPAN_ARRAY && span->codes) {
+    memcpy(out, span->codes, count * pixel_size);
+    return;
+  }
+  if (span->kind == CELSPAN_SPAN_ARRAY) {
+    code(coding, span->array, count, out);
+    return;
+  }
+  unsigned char pixel[16];
+  code(coding, span->colour, 1, pixel);
+  CS_WIDE_CHOOSE(cs_isa_best(), cs_fill_run)(out, count * pixel_size, pixel, pixel_size);
+}
+
+static void code_spans(const celspan_coding *coding, const celspan_span *spans, size_t span_count,
+                       unsigned char *row) {
+  coder code = choose_coder(coding);
+  size_t pixel_size = celspan_coding_pixel_size(coding);
+  gathered waiting;
+  waiting.count = 0;
+  for (const celspan_span *span = spans; span < spans + span_count; span++) {
+    unsigned char *out = row + (size_t)span->x0 * pixel_size;
+    if (span->kind == CELSPAN_SPAN_GRADIENT) {
+      put_gradient(&waiting, coding, code, span, pixel_size, out);
+      continue;
+    }
+    flush(&waiting, coding, code);
+    code_span(coding, code, span, pixel_size, out);
+  }
+  flush(&waiting, coding, code);
+}
+
+void cs_pixels_row(const celspan_coding *coding, const celspan_span *spans, size_t span_count,
+                   void *row) {
+  if (span_count == 0)
+    return;
+  if (cs_pixels_takes_codes(coding))
+    CS_WIDE_CHOOSE(cs_isa_best(), cs_pixels8_row)(spans, span_count, row);
+  else
+    code_spans(coding, spans, span_count, row);
+}
+
+/* ---------------------------------------------------------------- single colours */
+
+/* Pixels that vector code handles together. The count is rounded up to a multiple, so that none is
+ * coded one by one; the colours beyond it are left over from earlier calls. */
+enum { AT_ONCE = 4 };
+
+void cs_single_colours_code(cs_single_colours *colours, const celspan_coding *coding,
+                            const celspan_span *spans, size_t count) {
+  for (size_t i = 0; i < count; i++)
+    memcpy(colours->rgba + 4 * i, spans[i].colour, sizeof spans[i].colour);
+  size_t whole = (count + AT_ONCE - 1) / AT_ONCE * AT_ONCE;
+  celspan_span all = {.x1 = (int32_t)whole, .kind = CELSPAN_SPAN_ARRAY, .array = colours->rgba};
+  cs_pixels_row(coding, &all, 1, colours->coded);
+}

@@ -1,0 +1,71 @@
+/* Spans to rows of coded pixels, four channels each, in the machine's byte order (little endian):
+ *
+ *   depth     bytes of a pixel
+ *   8         R G B A                     straight or premultiplied, along a transfer curve
+ *   16        RR GG BB AA
+ *   half      RR GG BB AA                 IEEE 754 binary16
+ *   float     RRRR GGGG BBBB AAAA         IEEE 754 binary32
+ *
+ * INVARIANT: a pixel's bytes depend on its colour and the coding alone; not on the spans around it,
+ * the length of its run, the address of the row or the set of instructions.
+ */
+#ifndef CS_OUTPUT_PIXELS_H
+#define CS_OUTPUT_PIXELS_H
+
+#include <string.h>
+
+#include "base/context.h"
+#include "celspan/celspan.h"
+
+/* Whether the numbers of a coding that a caller gave are values of their enumerations; NULL is a
+ * coding. Errors: BAD_ARGUMENT. */
+CELSPAN_CHECKED celspan_status cs_pixels_check(celspan_context *context,
+                                               const celspan_coding *coding);
+/* The coding with every default filled in, for integers and floats alike. 8_DITHER becomes 8: the
+ * rest is done by output/sinks/dither.h. */
+celspan_coding cs_pixels_resolve(const celspan_coding *coding, celspan_depth default_depth);
+
+/* Writes one row of pixels: the spans cover [0, width) without gap. A single span is coded once and
+ * filled. Codes of arrays are copied: of 8 bits, and in this coding. coding: resolved. Threads:
+ * any. */
+void cs_pixels_row(const celspan_coding *coding, const celspan_span *spans, size_t span_count,
+                   void *row);
+/* Whether array spans may hold codes, pixels coded already, in this coding. coding: resolved. */
+bool cs_pixels_takes_codes(const celspan_coding *coding);
+/* Columns [x, x + count) of a span, as a span from column 0. */
+celspan_span cs_pixels_crop(const celspan_span *span, int32_t x, int32_t count);
+/* One colour, linear premultiplied, as the numbers that integers are rounded from: 1 is the
+ * largest.
+ */
+void cs_pixels_encode(const celspan_coding *coding, const float rgba[4], float coded[4]);
+/* One colour, linear premultiplied, to one coded pixel. */
+void cs_pixels_code(const celspan_coding *coding, const float rgba[4], void *pixel);
+
+/* The coded colours of single spans. Most spans of a drawn frame have one colour and few pixels;
+ * coded together, their colours cost a fraction of what they cost one by one.
+ *
+ * INVARIANT: entry i belongs to span i of the last call; that of a span which is not single has no
+ * meaning.
+ */
+enum { CS_SINGLE_COLOURS_MOST = 512 };
+
+typedef struct cs_single_colours {
+  float rgba[4 * CS_SINGLE_COLOURS_MOST];
+  unsigned char coded[8 * CS_SINGLE_COLOURS_MOST];
+} cs_single_colours;
+
+/* count: at most CS_SINGLE_COLOURS_MOST. coding: resolved, not float. */
+void cs_single_colours_code(cs_single_colours *colours, const celspan_coding *coding,
+                            const celspan_span *spans, size_t count);
+
+/* The coded pixel of span i, its first byte lowest. pixel_size: 4 or 8. */
+static inline uint64_t cs_single_colours_pixel(const cs_single_colours *colours, size_t pixel_size,
+                                               size_t i) {
+  uint64_t eight;
+  uint32_t four;
+  if (pixel_size == 8)
+    return memcpy(&eight, colours->coded + 8 * i, sizeof eight), eight;
+  return memcpy(&four, colours->coded + 4 * i, sizeof four), four;
+}
+
+#endif

@@ -1,0 +1,286 @@
+/* A frame may have 10^9 pixels in rows of this coding, most of them in long runs, while most runs
+ * have one pixel. Neither should wait for the other, so a portion of spans at a time goes through
+ * three passes (a chunk is 64 bytes, 16 pixels; lines are chunks on cache lines):
+ *
+ *   spans      |a|b|         c                       |d| e  |
+ *   lines                |cccccccc|cccccccc|cccccccc|
+ *   heads      |aaaaaaaa|
+ *                |bbbbbbbb|
+ *                  |cccccccc|
+ *                                                    |dddddddd|
+ *                                                      |eeeeeeee|
+ *   row        |a|b|ccccccccccccccccccccccccccccccccc|d|eeee
+ *
+ *   1. the colours of all spans are coded, several at once;
+ *   2. each line that begins inside a run longer than a chunk is filled with that run's pixel;
+ *   3. from left to right, each span writes a head, the first chunk from its start.
+ *
+ * Where a line or a head covers more than its span, the pixels belong to spans further right, whose
+ * heads come later. Only at the end of the row must nothing be written beyond. So there is no
+ * branch on the length of a run, which a processor could not predict.
+ */
+#include "output/sinks/pixels8.h"
+
+#include "model/colour/srgb8_lanes.h"
+
+#ifdef __SSE2__
+#include <immintrin.h>
+#endif
+
+enum {
+  PORTION = 64, /* spans: as many as a word has bits */
+  LINES = 1024, /* in a portion at most; a wider portion is filled run by run */
+  LINE_PIXELS = CS_FILL_CHUNK / 4
+};
+
+/* A row being written. */
+typedef struct target {
+  unsigned char *pixels;
+  size_t size;     /* bytes */
+  uintptr_t phase; /* see output/sinks/pixels8.h */
+} target;
+
+static inline cs_wide_int all_of(uint32_t pixel) { return (cs_wide_int){0} + (int32_t)pixel; }
+
+/* ---------------------------------------------------------------- colours */
+
+static inline cs_wide load_colours(const celspan_span *const spans[CS_SRGB8_PIXELS]) {
+#ifdef __AVX512F__
+  __m512 v = _mm512_castps128_ps512(_mm_loadu_ps(spans[0]->colour));
+  v = _mm512_insertf32x4(v, _mm_loadu_ps(spans[1]->colour), 1);
+  v = _mm512_insertf32x4(v, _mm_loadu_ps(spans[2]->colour), 2);
+  return (cs_wide)_mm512_insertf32x4(v, _mm_loadu_ps(spans[3]->colour), 3);
+#elif defined(__AVX2__)
+  __m256 v = _mm256_castps128_ps256(_mm_loadu_ps(spans[0]->colour));
+  return (cs_wide)_mm256_insertf128_ps(v, _mm_loadu_ps(spans[1]->colour), 1);
+#else
+  return cs_wide_load(spans[0]->colour);
+#endif
+}
+
+/* codes: of a portion. Entries of spans that are not single have no meaning. */
+static inline void code_colours(const celspan_span *spans, size_t count, uint32_t *codes) {
+  for (size_t k = 0; k < count; k += CS_SRGB8_PIXELS) {
+    const celspan_span *together[CS_SRGB8_PIXELS];
+    for (size_t i = 0; i < CS_SRGB8_PIXELS; i++)
+      together[i] = &spans[k + i < count ? k + i : k];
+    cs_srgb8_lanes(load_colours(together), (unsigned char *)(codes + k));
+  }
+}
+
+/* ---------------------------------------------------------------- lines of long runs */
+
+typedef int32_t quad __attribute__((vector_size(16)));
+
+static inline quad load_place(const celspan_span *span) {
+  quad place; /* x0 and x1, and two fields that are not used */
+  memcpy(&place, span, sizeof place);
+  return place;
+}
+
+static inline bool is_long(const celspan_span *span) { return span->x1 - span->x0 > LINE_PIXELS; }
+
+/* Which of four spans are longer than their heads, a bit for each. */
+static inline uint64_t are_long(const celspan_span *spans) {
+#ifdef __SSE2__
+  quad low = __builtin_shufflevector(load_place(spans), load_place(spans + 1), 0, 4, 1, 5);
+  quad high = __builtin_shufflevector(load_place(spans + 2), load_place(spans + 3), 0, 4, 1, 5);
+  quad x0 = __builtin_shufflevector(low, high, 0, 1, 4, 5);
+  quad x1 = __builtin_shufflevector(low, high, 2, 3, 6, 7);
+  return (uint64_t)_mm_movemask_ps((__m128)(x1 - x0 > LINE_PIXELS));
+#else
+  uint64_t bits = 0;
+  for (int k = 0; k < 4; k++)
+    bits |= (uint64_t)is_long(&spans[k]) << k;
+  return bits;
+#endif
+}
+
+/* The same for up to 64 spans. */
+static inline uint64_t find_long(const celspan_span *spans, size_t count) {
+  uint64_t longs = 0;
+  size_t k = 0;
+  for (; k + 4 <= count; k += 4)
+    longs |= are_long(spans + k) << k;
+  for (; k < count; k++)
+    longs |= (uint64_t)is_long(&spans[k]) << k;
+  return longs;
+}
+
+/* How many lines begin in columns [first, x), where a line begins at `first`. */
+static inline size_t lines_before(int32_t x, int32_t first) {
+  return (uint32_t)(x - (first - (LINE_PIXELS - 1))) / LINE_PIXELS;
+}
+
+/* owners[i] becomes the span in which line i begins, if that is a long run; else any span. (Lines
+ * are bytes here, so a fill marks 64 of them.) */
+static inline void mark_lines(const celspan_span *spans, uint64_t longs, int32_t first,
+                              unsigned char *owners) {
+  for (size_t line = 0; line < LINES; line += CS_FILL_CHUNK)
+    cs_fill_store(owners + line, all_of(0));
+  for (; longs != 0; longs &= longs - 1) {
+    uint32_t k = (uint32_t)__builtin_ctzll(longs);
+    cs_wide_int mark = all_of(k * 0x01010101u);
+    size_t line = lines_before(spans[k].x0, first), end = lines_before(spans[k].x1, first);
+    do {
+      cs_fill_store(owners + line, mark);
+      line += CS_FILL_CHUNK;
+    } while (line < end);
+  }
+}
+
+/* Fills the lines run by run: where runs are few and very long. */
+static inline void fill_runs(const target *row, const celspan_span *spans, uint64_t longs,
+                             const uint32_t *codes) {
+  for (; longs != 0; longs &= longs - 1) {
+    size_t k = (size_t)__builtin_ctzll(longs);
+    cs_fill_lines(row->pixels + 4 * (size_t)spans[k].x0, row->pixels + 4 * (size_t)spans[k].x1,
+                  all_of(codes[k]), row->phase);
+  }
+}
+
+static inline void fill_lines(const target *row, const celspan_span *spans, size_t count,
+                              const uint32_t *codes) {
+  unsigned char owners[LINES + 2 * CS_FILL_CHUNK];
+  uint64_t longs = find_long(spans, count);
+  if (longs == 0)
+    return;
+  uintptr_t offset = ((uintptr_t)row->pixels - row->phase) % CS_FILL_CHUNK;
+  int32_t first = offset > 0 ? (int32_t)(CS_FILL_CHUNK - offset) / 4 : 0;
+  first += LINE_PIXELS * (int32_t)lines_before(spans[__builtin_ctzll(longs)].x0, first);
+  size_t lines = lines_before(spans[63 - __builtin_clzll(longs)].x1, first);
+  if (lines > LINES) {
+    fill_runs(row, spans, longs, codes);
+    return;
+  }
+  mark_lines(spans, longs, first, owners);
+  unsigned char *out = row->pixels + 4 * (size_t)first;
+  size_t line = 0;
+  for (; line + 4 <= lines; line += 4, out += 4 * CS_FILL_CHUNK)
+    for (size_t k = 0; k < 4; k++)
+      cs_fill_store(out + k * CS_FILL_CHUNK, all_of(codes[owners[line + k]]));
+  for (; line < lines; line++, out += CS_FILL_CHUNK)
+    cs_fill_store(out, all_of(codes[owners[line]]));
+}
+
+/* ---------------------------------------------------------------- gradients and arrays */
+
+static inline cs_wide repeat_pixel(const float rgba[4]) {
+#ifdef __AVX512F__
+  return (cs_wide)_mm512_broadcast_f32x4(_mm_loadu_ps(rgba));
+#elif defined(__AVX2__)
+  return (cs_wide)_mm256_broadcast_ps((const __m128 *)(const void *)rgba);
+#else
+  return cs_wide_load(rgba);
+#endif
+}
+
+/* The number of its pixel in each lane: 0, 0, 0, 0, 1, 1, 1, 1, ... */
+static inline cs_wide pixel_numbers(void) {
+  float lanes[CS_WIDE_LANES];
+  for (int i = 0; i < CS_WIDE_LANES; i++)
+    lanes[i] = (float)(i / 4);
+  return cs_wide_load(lanes);
+}
+
+/* room: bytes up to the end of the row, which may be written. */
+static inline void put_short_gradient(const celspan_span *span, unsigned char *out, size_t room) {
+  const cs_wide colour = repeat_pixel(span->colour), slope = repeat_pixel(span->slope);
+  const cs_wide numbers = pixel_numbers();
+  unsigned char last[CS_WIDE_LANES];
+  for (int32_t x = span->x0; x < span->x1; x += CS_SRGB8_PIXELS) {
+    cs_wide rgba = colour + slope * (numbers + (float)(x - span->origin));
+    cs_srgb8_lanes(rgba, room >= sizeof last ? out : last);
+    if (room < sizeof last) {
+      memcpy(out, last, room);
+      return;
+    }
+    out += sizeof last;
+    room -= sizeof last;
+  }
+}
+
+#ifdef __AVX512F__
+
+/* Sixteen pixels at once, channel by channel. */
+static inline void put_gradient(const celspan_span *span, unsigned char *out, size_t room) {
+  const __m512 numbers = _mm512_setr_ps(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  if (span->x1 - span->x0 <= CS_WIDE_LANES / 2) {
+    put_short_gradient(span, out, room);
+    return;
+  }
+  for (int32_t x = span->x0; x < span->x1; x += CS_WIDE_LANES, out += 4 * CS_WIDE_LANES) {
+    const cs_wide at = (cs_wide)numbers + (float)(x - span->origin);
+    cs_srgb8_planes colours;
+    for (int c = 0; c < 4; c++)
+      colours.channels[c] = span->colour[c] + span->slope[c] * at;
+    __mmask16 inside = (__mmask16)(0xffff >> (span->x1 - x < 16 ? 16 - (span->x1 - x) : 0));
+    _mm512_mask_storeu_epi32(out, inside, (__m512i)cs_srgb8_code_planes(&colours));
+  }
+}
+
+#else
+
+static inline void put_gradient(const celspan_span *span, unsigned char *out, size_t room) {
+  put_short_gradient(span, out, room);
+}
+
+#endif
+
+static void put_varied(const target *row, const celspan_span *span) {
+  size_t at = 4 * (size_t)span->x0, count = (size_t)(span->x1 - span->x0);
+  if (span->kind == CELSPAN_SPAN_GRADIENT)
+    put_gradient(span, row->pixels + at, row->size - at);
+  else if (span->codes)
+    memcpy(row->pixels + at, span->codes, 4 * count);
+  else
+    CS_WIDE(cs_srgb8_code)(span->array, count, row->pixels + at);
+}
+
+/* ---------------------------------------------------------------- rows */
+
+static inline void put_heads(const target *row, const celspan_span *spans, size_t count,
+                             const uint32_t *codes) {
+  for (size_t k = 0; k < count; k++)
+    if (spans[k].kind == CELSPAN_SPAN_SINGLE)
+      cs_fill_store(row->pixels + 4 * (size_t)spans[k].x0, all_of(codes[k]));
+    else
+      put_varied(row, &spans[k]);
+}
+
+/* Spans so near the end of the row that nothing may be written beyond them. */
+static inline void put_last(const target *row, const celspan_span *spans, size_t count,
+                            const uint32_t *codes) {
+  for (size_t k = 0; k < count; k++)
+    if (spans[k].kind == CELSPAN_SPAN_SINGLE)
+      cs_fill_exactly(row->pixels + 4 * (size_t)spans[k].x0, row->pixels + 4 * (size_t)spans[k].x1,
+                      all_of(codes[k]), row->phase);
+    else
+      put_varied(row, &spans[k]);
+}
+
+void CS_WIDE(cs_pixels8_row)(const celspan_span *spans, size_t count, unsigned char *pixels) {
+  const target row = {pixels, 4 * (size_t)spans[count - 1].x1, (uintptr_t)pixels % 4};
+  uint32_t codes[PORTION];
+  for (size_t portion; count > 0; count -= portion, spans += portion) {
+    portion = count < PORTION ? count : PORTION;
+    code_colours(spans, portion, codes);
+    size_t inner = portion;
+    while (inner > 0 && 4 * (size_t)spans[inner - 1].x1 + CS_FILL_CHUNK > row.size)
+      inner--;
+    fill_lines(&row, spans, inner, codes);
+    put_heads(&row, spans, inner, codes);
+    put_last(&row, spans + inner, portion - inner, codes + inner);
+  }
+}
+
+void CS_WIDE(cs_fill_run)(unsigned char *out, size_t size, const unsigned char *pixel,
+                          size_t pixel_size) {
+  unsigned char bytes[sizeof(cs_wide_int)];
+  cs_wide_int pattern;
+  memcpy(bytes, pixel, pixel_size);
+  for (size_t done = pixel_size; done < sizeof bytes; done *= 2)
+    memcpy(bytes + done, bytes, done);
+  memcpy(&pattern, bytes, sizeof pattern);
+  cs_fill_exactly(out, out + size, pattern, (uintptr_t)out % pixel_size);
+}

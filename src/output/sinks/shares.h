@@ -1,0 +1,47 @@
+/* How a sink receives rows from several threads: in shares. A share is some successive rows, put by
+ * one thread into a store of its own; finished shares are joined in order by the calling thread.
+ *
+ *   worker 0   | share 0 | share 3 | ...    put rows, each into its own share, at the same time
+ *   worker 1   | share 1 | share 2 |
+ *                   |         |
+ *   caller          join 0, join 1, join 2, ...  --> file or memory
+ *
+ * Nothing is copied on the way, and a worker waits for the others only at the end.
+ *
+ * INVARIANT: the result is what the sink's own `row` would make of the same rows. begin and end of
+ * the sink are called as always; its `row` is not called.
+ */
+#ifndef CS_OUTPUT_SHARES_H
+#define CS_OUTPUT_SHARES_H
+
+#include "base/context.h"
+
+/* Functions may be NULL where there is nothing to do. */
+typedef struct cs_shares {
+  void *user;
+  int32_t rows;     /* of each share, but the last may have fewer; 0: the caller may choose */
+  bool takes_above; /* the row above a share, where there is one, is put before its own rows */
+  /* Workers, one a thread, and shares are opened once and used again and again. context: of the
+   * thread. Errors: NO_MEMORY. */
+  celspan_status (*open_worker)(void *user, celspan_context *context, void **worker);
+  void (*close_worker)(void *user, celspan_context *context, void *worker);
+  celspan_status (*open_share)(void *user, celspan_context *context, void **share);
+  void (*close_share)(void *user, celspan_context *context, void *share);
+  /* A share from begin to end. worker, share: NULL where there is no function to open them. y: a
+   * row of the crop. */
+  celspan_status (*begin)(void *worker, celspan_context *context, void *share, int32_t index);
+  celspan_status (*row)(void *user, void *worker, celspan_context *context, int32_t y,
+                        const celspan_span *spans, size_t span_count);
+  celspan_status (*end)(void *worker, celspan_context *context);
+  celspan_status (*join)(void *user, celspan_context *context, void *share, int32_t index);
+} cs_shares;
+
+/* How one kind of sink each fills its shares; false: the sink, which has begun, is of another kind.
+ * cs_sink_shares asks them all. */
+bool cs_memory_sink_shares(const celspan_sink *sink, cs_shares *out);
+bool cs_png_sink_shares(const celspan_sink *sink, cs_shares *out);
+bool cs_span_sink_shares(const celspan_sink *sink, cs_shares *out);
+/* Whether the sink, which has begun, receives rows in shares. A sink without `row` always does. */
+bool cs_sink_shares(const celspan_sink *sink, cs_shares *out);
+
+#endif

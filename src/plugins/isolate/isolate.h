@@ -1,0 +1,18 @@
+/* A picture module and a colour module that work in processes of their own. The program uses them
+ * unless it was given --trust.
+ *
+ *   core --cs_picture_module--> reader.c, isolate.c --+--> worker.c --sockets--> workers
+ *        --cs_colour_module---> isolate.c ------------'
+ */
+#ifndef CS_ISOLATE_ISOLATE_H
+#define CS_ISOLATE_ISOLATE_H
+
+#include "plugins/isolate/worker.h"
+
+/* From now on, workers decode the pictures of this context and sample its colour profiles. Nothing
+ * is started yet. */
+void cs_isolate_begin(celspan_context *context, const cs_worker_limits *limits);
+/* Ends all workers and the zygote, after the context was destroyed. */
+void cs_isolate_finish(void);
+
+#endif

@@ -1,0 +1,120 @@
+/* The messages between the program, the zygote and the workers, and how they are sent.
+ *
+ *   program --START, END--------------------> zygote      (one socket; zygote.h)
+ *   program --OPEN, READ, ... ROWS, ...-----> worker      (a socket for each; worker_loop.h)
+ *           <--PART or PUT, answered--------'
+ *           <--DONE-------------------------'
+ *
+ *   shared memory of a worker:   0                      CS_SHARED_PUT        CS_SHARED
+ *                                | texts of a request,  | bytes of the file  |
+ *                                | pixels or rows, or   | that is written,   |
+ *                                | a colour profile     | or a table         |
+ *
+ * INVARIANT: a malicious picture may have taken over a worker. So nothing from a worker is trusted:
+ * numbers and texts are checked when they arrive, descriptors are not accepted, pixels are copied
+ * before they are used, and the size of the shared memory cannot be changed.
+ */
+#ifndef CS_ISOLATE_MESSAGE_H
+#define CS_ISOLATE_MESSAGE_H
+
+#include "readers/layered/profile_table.h"
+
+#define CS_SHARED ((size_t)64 << 20)
+#define CS_SHARED_PUT ((size_t)32 << 20)
+
+typedef enum cs_message_kind {
+  CS_MESSAGE_START = 1, /* to the zygote, with shared memory: fork a worker */
+  CS_MESSAGE_END,       /* to the zygote: end a worker; answered with how it ended */
+  CS_MESSAGE_OPEN,      /* with the file; in shared memory: the layer, then the space */
+  CS_MESSAGE_READ,
+  CS_MESSAGE_LIST,
+  CS_MESSAGE_CLOSE, /* not answered */
+  CS_MESSAGE_WRITE, /* in shared memory: name, format, title, names of channels */
+  CS_MESSAGE_ROWS,
+  CS_MESSAGE_COMPLETE,
+  CS_MESSAGE_PROFILE, /* in shared memory: the profile; the answer has its table there */
+  CS_MESSAGE_DONE,    /* the last answer; its status is the outcome, `text` the sentence */
+  CS_MESSAGE_PART,    /* of LIST; the answer is a status, OK: continue */
+  CS_MESSAGE_PUT      /* of WRITE, ROWS and COMPLETE; answered in the same way */
+} cs_message_kind;
+
+typedef enum cs_worker_task {
+  CS_WORKER_READS = 0, /* pictures, through the picture module */
+  CS_WORKER_WRITES,    /* one picture, likewise; without limits except that of loading */
+  CS_WORKER_SAMPLES    /* colour profiles, through the colour module */
+} cs_worker_task;
+
+typedef struct cs_message_start {
+  uint64_t memory; /* bytes that the worker may allocate after its start; 0: any */
+  double loading;  /* seconds that loading the module may take; 0: any */
+  int32_t task;    /* cs_worker_task */
+} cs_message_start;
+
+typedef struct cs_message_open {
+  int32_t subimage, has_layer, has_space;
+} cs_message_open;
+
+/* cs_colour_request without its bytes. */
+typedef struct cs_message_profile {
+  uint64_t size; /* 0: no profile */
+  uint32_t power, places[8];
+  int32_t has_places;
+} cs_message_profile;
+
+/* cs_picture_header, with numbers in place of bool and enum, whose values C restricts. */
+typedef struct cs_message_header {
+  int32_t width, height, channels, bits, alpha;
+  int32_t has_alpha, is_float, is_linear, is_turned, is_whole, is_sequential;
+  int64_t file_size, file_time;
+  uint64_t file_number;
+  char format[16], colour[16];
+} cs_message_header;
+
+/* cs_picture_output without its texts. */
+typedef struct cs_message_output {
+  int32_t width, height, channels, depth, bits, is_straight, transfer, frame, has_title, has_names;
+  double frames_second;
+} cs_message_output;
+
+typedef struct cs_message {
+  int32_t kind, status; /* a celspan_status */
+  uint32_t number;      /* of the worker in the zygote, or of the reader in the worker */
+  union {
+    cs_message_start start;
+    cs_message_open open;
+    celspan_rectangle rectangle;
+    cs_message_header header;
+    cs_picture_part part;
+    cs_message_output output;
+    cs_message_profile profile;
+    struct {
+      int32_t first, count;
+    } rows;
+    struct {
+      uint64_t offset, size;
+    } put;
+    int32_t ending; /* as waitpid returns it */
+  };
+  char text[sizeof((cs_picture_failure *)0)->text]; /* sent up to its end */
+} cs_message;
+
+typedef enum cs_message_arrival {
+  CS_MESSAGE_ARRIVED,
+  CS_MESSAGE_LATE, /* nothing arrived in time, or a signal arrived first */
+  CS_MESSAGE_OVER, /* the other side has ended */
+  CS_MESSAGE_BAD   /* the other side violates the protocol */
+} cs_message_arrival;
+
+/* descriptor: sent with the message, and still owned by the caller; -1: none. false: the other side
+ * has ended. */
+bool cs_message_send(int socket, const cs_message *message, int descriptor);
+/* *descriptor: the one sent with the message, or -1; NULL: none is accepted. */
+cs_message_arrival cs_message_receive(int socket, cs_message *out, int *descriptor);
+
+void cs_message_set_header(cs_message *message, const cs_picture_header *header);
+/* false: it is invalid. */
+bool cs_message_header_of(const cs_message *message, cs_picture_header *out);
+/* The part of a PART, with terminated texts. */
+cs_picture_part cs_message_part_of(const cs_message *message);
+
+#endif

@@ -1,0 +1,28 @@
+/* Folders that may be read, with links resolved.
+ *
+ *   roots of a script: its folder, --allow DIR ..., the folders of CELSPAN_PATH
+ *
+ * INVARIANT: a path is below a root if, with all links resolved, it begins with the resolved root
+ * and a slash. For a path that does not exist, the nearest existing folder above it decides.
+ */
+#ifndef CS_ISOLATE_ROOTS_H
+#define CS_ISOLATE_ROOTS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { CS_ROOTS_MOST = 64 };
+
+typedef struct cs_roots {
+  char *paths[CS_ROOTS_MOST]; /* resolved; owned */
+  size_t count;
+} cs_roots;
+
+/* Adds a folder; "" is the current one. A folder that does not exist is ignored. false: there are
+ * too many, or, with ENOMEM in errno, no memory. */
+bool cs_roots_add(cs_roots *roots, const char *folder);
+void cs_roots_finish(cs_roots *roots);
+/* Whether the path is below one of them. Without memory: false, with ENOMEM in errno. */
+bool cs_roots_hold(const cs_roots *roots, const char *path);
+
+#endif

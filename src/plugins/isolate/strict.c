@@ -1,0 +1,156 @@
+#include "plugins/isolate/strict.h"
+
+#ifdef __linux__
+#include <errno.h>
+#include <fcntl.h>
+#include <linux/audit.h>
+#include <linux/filter.h>
+#include <linux/landlock.h>
+#include <linux/seccomp.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+/* ---------------------------------------------------------------- files */
+
+#define READ_FILES (LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR)
+#define OF_FILES (LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_WRITE_FILE)
+#define ALL_OF_FIRST ((UINT64_C(1) << 13) - 1) /* the rights that Linux 5.13 knows */
+/* Rights of later kernels, by their numbers: the headers may be older than the kernel. */
+#define REFER (UINT64_C(1) << 13)
+#define TRUNCATE (UINT64_C(1) << 14)
+#define IOCTL_DEVICE (UINT64_C(1) << 15)
+#define BIND_AND_CONNECT 3
+#define ABSTRACT_SOCKETS_AND_SIGNALS 3
+
+/* Files that libraries read: their own, the description of the processor, random numbers. */
+static const char *const SYSTEM[] = {"/usr",
+                                     "/lib",
+                                     "/lib64",
+                                     "/etc/ld.so.cache",
+                                     "/etc/ld.so.conf",
+                                     "/proc/cpuinfo",
+                                     "/proc/meminfo",
+                                     "/proc/self/maps",
+                                     "/dev/null",
+                                     "/dev/urandom",
+                                     "/sys/devices/system/cpu"};
+
+typedef struct ruleset {
+  uint64_t files, network, scopes;
+} ruleset;
+
+static bool allow(int rules, const char *path, uint64_t rights) {
+  struct landlock_path_beneath_attr rule = {.allowed_access = rights};
+  struct stat found;
+  rule.parent_fd = open(path, O_PATH | O_CLOEXEC);
+  if (rule.parent_fd < 0)
+    return errno == ENOENT || errno == EACCES; /* a missing file needs no right */
+  if (fstat(rule.parent_fd, &found) == 0 && !S_ISDIR(found.st_mode))
+    rule.allowed_access &= OF_FILES | TRUNCATE;
+  bool is_added = syscall(SYS_landlock_add_rule, rules, LANDLOCK_RULE_PATH_BENEATH, &rule, 0) == 0;
+  close(rule.parent_fd);
+  return is_added;
+}
+
+static bool allow_all(int rules, const cs_roots *roots, uint64_t rights) {
+  for (size_t i = 0; i < roots->count; i++)
+    if (!allow(rules, roots->paths[i], rights))
+      return false;
+  return true;
+}
+
+/* The rights that this kernel knows; abi: its version of Landlock. */
+static ruleset known_rights(long abi) {
+  ruleset known = {.files = ALL_OF_FIRST};
+  known.files |= (abi >= 2 ? REFER : 0) | (abi >= 3 ? TRUNCATE : 0) | (abi >= 5 ? IOCTL_DEVICE : 0);
+  known.network = abi >= 4 ? BIND_AND_CONNECT : 0;
+  known.scopes = abi >= 6 ? ABSTRACT_SOCKETS_AND_SIGNALS : 0;
+  return known;
+}
+
+static bool add_rules(int rules, const cs_roots *read, const cs_roots *write, uint64_t all) {
+  for (size_t i = 0; i < sizeof SYSTEM / sizeof *SYSTEM; i++)
+    if (!allow(rules, SYSTEM[i], READ_FILES))
+      return false;
+  return allow(rules, "/dev/null", OF_FILES) && allow_all(rules, read, READ_FILES) &&
+         allow_all(rules, write, all & ~(uint64_t)LANDLOCK_ACCESS_FS_EXECUTE);
+}
+
+static const char *confine_files(const cs_roots *read, const cs_roots *write) {
+  long abi = syscall(SYS_landlock_create_ruleset, NULL, 0, LANDLOCK_CREATE_RULESET_VERSION);
+  if (abi < 1)
+    return "the kernel has no Landlock (Linux 5.13 and later have it, where it is enabled)";
+  ruleset known = known_rights(abi);
+  size_t size = abi >= 6 ? sizeof known : abi >= 4 ? 2 * sizeof(uint64_t) : sizeof(uint64_t);
+  int rules = (int)syscall(SYS_landlock_create_ruleset, &known, size, 0);
+  if (rules < 0)
+    return "Landlock accepts no rules";
+  bool is_confined = add_rules(rules, read, write, known.files) &&
+                     syscall(SYS_landlock_restrict_self, rules, 0) == 0;
+  close(rules);
+  return is_confined ? NULL : "Landlock refused the rules";
+}
+
+/* ---------------------------------------------------------------- system calls */
+
+#if defined(__x86_64__)
+#define ARCHITECTURE AUDIT_ARCH_X86_64
+#elif defined(__aarch64__)
+#define ARCHITECTURE AUDIT_ARCH_AARCH64
+#endif
+
+#ifdef ARCHITECTURE
+#define OTHER_TABLE 0x40000000u /* x86-64: numbers of a second table of the same calls */
+#define LOAD(field) BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, field))
+#define ANSWER(what) BPF_STMT(BPF_RET | BPF_K, what)
+#define REFUSAL ANSWER(SECCOMP_RET_ERRNO | EPERM)
+#define REFUSE(number) BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, number, 0, 1), REFUSAL
+
+static const char *confine_calls(void) {
+  struct sock_filter filter[] = {
+      LOAD(arch), BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, ARCHITECTURE, 1, 0),
+      ANSWER(SECCOMP_RET_KILL_PROCESS), LOAD(nr),
+      BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, OTHER_TABLE, 0, 1), REFUSAL,
+      /* other programs and other processes */
+      REFUSE(SYS_execve), REFUSE(SYS_execveat), REFUSE(SYS_ptrace), REFUSE(SYS_process_vm_readv),
+      REFUSE(SYS_process_vm_writev), REFUSE(SYS_kill), REFUSE(SYS_pidfd_open),
+      REFUSE(SYS_pidfd_getfd), REFUSE(SYS_pidfd_send_signal),
+      /* the network */
+      REFUSE(SYS_socket), REFUSE(SYS_socketpair), REFUSE(SYS_connect), REFUSE(SYS_bind),
+      REFUSE(SYS_listen), REFUSE(SYS_accept), REFUSE(SYS_accept4),
+      /* other interfaces of the kernel */
+      REFUSE(SYS_io_uring_setup), REFUSE(SYS_bpf), REFUSE(SYS_perf_event_open),
+      REFUSE(SYS_userfaultfd), REFUSE(SYS_keyctl), REFUSE(SYS_add_key), REFUSE(SYS_request_key),
+      REFUSE(SYS_mount), REFUSE(SYS_umount2), REFUSE(SYS_unshare), REFUSE(SYS_setns),
+      REFUSE(SYS_chroot), REFUSE(SYS_pivot_root), REFUSE(SYS_open_by_handle_at),
+      REFUSE(SYS_personality), ANSWER(SECCOMP_RET_ALLOW)};
+  struct sock_fprog program = {sizeof filter / sizeof *filter, filter};
+  return prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0
+             ? NULL
+             : "the kernel accepts no filter of system calls (seccomp)";
+}
+#else
+static const char *confine_calls(void) {
+  return "system calls cannot be filtered on this processor";
+}
+#endif
+
+const char *cs_strict_enter(const cs_roots *read, const cs_roots *write) {
+  const struct rlimit none = {0, 0};
+  if (setrlimit(RLIMIT_CORE, &none) != 0 || prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
+    return "the kernel does not let a process give up privileges";
+  const char *refusal = confine_files(read, write);
+  return refusal ? refusal : confine_calls();
+}
+
+#else
+const char *cs_strict_enter(const cs_roots *read, const cs_roots *write) {
+  (void)read, (void)write;
+  return "it needs Landlock and seccomp of Linux";
+}
+#endif

@@ -1,0 +1,41 @@
+/* A worker: a process in which a module reads and writes files, or reads colour profiles.
+ *
+ *   zygote --fork--> confined: no other programs, no network, no written files, bounded memory
+ *                       `--> message, module, answer, message, ...
+ *
+ * It ends when the program's end of the socket is closed, and when the zygote ends.
+ */
+#ifndef CS_ISOLATE_WORKER_LOOP_H
+#define CS_ISOLATE_WORKER_LOOP_H
+
+#include "plugins/isolate/message.h"
+#include "plugins/isolate/roots.h"
+
+/* The exit code of a worker or the zygote that crashed after a failed allocation. */
+#define CS_WORKER_NO_MEMORY 33
+/* The exit code of the system's loader. The libraries exist, because the program has loaded them,
+ * so the reason is a lack of memory. */
+#define CS_WORKER_NOT_LOADED 127
+
+/* Whether a process with this status of waitpid had no memory. A system without memory ends
+ * processes by SIGKILL; GLib, which libraries behind OpenImageIO use, ends its own process by
+ * SIGTRAP. */
+bool cs_worker_loop_is_starved(int ending);
+
+typedef struct cs_worker_desc {
+  const cs_picture_module *module; /* of tasks other than SAMPLES */
+  const cs_colour_module *colour;  /* of SAMPLES */
+  const cs_roots *roots; /* that may be read, which the kernel must enforce; NULL: all files, and a
+                            kernel that cannot confine the process is accepted */
+  cs_message_start start;
+  int zygote;         /* process number */
+  int socket, memory; /* to the program; the shared memory */
+} cs_worker_desc;
+
+/* From now on, a crash, SIGALRM or a library that ends this process after a failed allocation ends
+ * it with CS_WORKER_NO_MEMORY. */
+void cs_worker_loop_watch_faults(void);
+/* Handles messages in this process until the other side has ended. */
+_Noreturn void cs_worker_loop_run(const cs_worker_desc *desc);
+
+#endif

@@ -1,0 +1,603 @@
+/* Reading: from a file to the facts of its header, and to RGBA floats of a rectangle.
+ *
+ *   file --Source--> ImageInput --rows or tiles--> batch --> channels, window, orientation --> RGBA
+ *
+ *   +-----------------------+ display window, of stored_width x stored_height pixels; a rectangle
+ *   |  (data_x, data_y)     | is asked for in it, after it was turned upright
+ *   |     +----------------------+
+ *   |     | data window: the     |  may lie over the edges of the display window; outside it
+ *   |     | pixels in the file   |  pixels are clear
+ *   +-----|                      |
+ *         +----------------------+
+ *
+ * One file, because the header's facts and the reading of rectangles share channels, windows and
+ * orientation.
+ */
+#include <OpenImageIO/color.h>
+#include <OpenImageIO/imagebufalgo.h>
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "plugins/oiio/checks.h"
+#include "plugins/oiio/shared.h"
+#include "plugins/oiio/sniff.h"
+#include "plugins/oiio/source.h"
+
+using OIIO::ImageInput;
+using OIIO::ImageSpec;
+using OIIO::TypeDesc;
+
+/* Bytes of decoded pixels in memory at a time. */
+static const size_t BATCH = size_t(4) << 20;
+/* Pixels at most of a picture whose reader keeps it whole in memory. */
+static const uint64_t WHOLE = uint64_t(1) << 28;
+
+struct cs_picture_reader {
+  std::string name;
+  std::unique_ptr<Source> source;
+  std::unique_ptr<ImageInput> input;
+  Sniffed kind;
+  ImageSpec spec;
+  int subimage = 0;
+  int channel[4];                  /* in the file, of red, green, blue, alpha; alpha -1: none */
+  int first, last;                 /* the range of channels that is read */
+  int orientation;                 /* TIFF's: 1 upright .. 8 */
+  int data_x, data_y;              /* the data window, from the display window's corner */
+  int stored_width, stored_height; /* the display window as stored, before turning */
+  int next_row = 0;                /* of the data window, for sequential formats */
+  OIIO::ColorProcessorHandle processor;
+  std::vector<float> batch;
+  std::vector<unsigned char> stored;
+};
+
+namespace {
+
+void check_size(uint64_t width, uint64_t height, bool is_whole) {
+  if (width < 1 || height < 1)
+    throw Failure(CELSPAN_INPUT, "is a picture without pixels");
+  std::string size = std::to_string(width) + " x " + std::to_string(height);
+  if (width > CS_PICTURE_SIDE || height > CS_PICTURE_SIDE)
+    throw Failure(CELSPAN_LIMIT, "is " + size + " pixels; at most 1048576 a side are read");
+  if (is_whole && width * height > WHOLE)
+    throw Failure(CELSPAN_LIMIT, "is " + size +
+                                     " pixels in a format that can only be read whole; at "
+                                     "most 268435456 pixels are");
+}
+
+/* Readers of some formats have races in their shared state, so one is opened at a time. */
+std::mutex &opening() {
+  static std::mutex lock;
+  return lock;
+}
+
+[[noreturn]] void fail_input(const std::string &what, const std::string &message) {
+  throw Failure(CELSPAN_INPUT, what + ": " + first_line(message));
+}
+
+void open_input(cs_picture_reader &reader) {
+  std::lock_guard<std::mutex> guard(opening());
+  reader.source->forgive();
+  reader.source->seek(0);
+  reader.next_row = 0;
+  reader.input = ImageInput::create(reader.kind.format);
+  if (!reader.input)
+    fail_input("cannot be read as " + reader.kind.format, OIIO::geterror());
+  ImageSpec wish;
+  wish.attribute("oiio:UnassociatedAlpha", 1);
+  /* The JPEG reader claims to support a source of ours, and then refuses it. */
+  if (reader.input->supports("ioproxy") && reader.kind.format != "jpeg") {
+    void *proxy = reader.source.get();
+    wish.attribute("oiio:ioproxy", TypeDesc::PTR, &proxy);
+  }
+  ImageSpec spec;
+  if (!reader.input->open(reader.name, spec, wish))
+    fail_input("cannot be read as " + reader.kind.format, reader.input->geterror());
+  if (reader.subimage && !reader.input->seek_subimage(reader.subimage, 0))
+    throw Failure(CELSPAN_INPUT, "has no subimage " + std::to_string(reader.subimage));
+  reader.spec = reader.input->spec(reader.subimage);
+}
+
+int find_channel(const ImageSpec &spec, const std::string &prefix, const char *name) {
+  for (int i = 0; i < spec.nchannels; i++)
+    if (OIIO::Strutil::iequals(spec.channelnames[size_t(i)], prefix + name))
+      return i;
+  return -1;
+}
+
+/* prefix: "" or "layer."; false when the picture has no channels of such names. */
+bool choose_channels(cs_picture_reader &reader, const std::string &prefix) {
+  const ImageSpec &spec = reader.spec;
+  static const char *const names[4] = {"R", "G", "B", "A"};
+  int found[4];
+  for (int i = 0; i < 4; i++)
+    found[i] = find_channel(spec, prefix, names[i]);
+  int grey = find_channel(spec, prefix, "Y");
+  if (found[0] >= 0 && found[1] >= 0 && found[2] >= 0) {
+    std::copy(found, found + 3, reader.channel);
+  } else if (grey >= 0) {
+    std::fill(reader.channel, reader.channel + 3, grey);
+  } else if (prefix.empty()) {
+    bool has_colour = spec.nchannels >= 3;
+    for (int i = 0; i < 3; i++)
+      reader.channel[i] = has_colour ? i : 0;
+  } else {
+    return false;
+  }
+  reader.channel[3] = found[3];
+  if (found[3] < 0 && prefix.empty() && (spec.nchannels == 2 || spec.nchannels == 4) &&
+      spec.alpha_channel == spec.nchannels - 1)
+    reader.channel[3] = spec.alpha_channel;
+  auto bounds = std::minmax_element(reader.channel, reader.channel + 3);
+  reader.first = *bounds.first;
+  reader.last = *bounds.second + 1;
+  if (reader.channel[3] >= 0) {
+    reader.first = std::min(reader.first, reader.channel[3]);
+    reader.last = std::max(reader.last, reader.channel[3] + 1);
+  }
+  return true;
+}
+
+/* Where formats have the name of a subimage. */
+const char *const name_keys[] = {"oiio:subimagename", "name", "psd:LayerName", "ImageDescription"};
+const int SUBIMAGES = 10000;
+
+bool choose_subimage(cs_picture_reader &reader, const std::string &layer) {
+  for (int i = 0; i < SUBIMAGES; i++) {
+    ImageSpec spec = reader.input->spec(i);
+    if (spec.undefined())
+      return false;
+    for (const char *key : name_keys)
+      if (layer == spec.get_string_attribute(key).c_str()) {
+        reader.subimage = i;
+        return true;
+      }
+  }
+  return false;
+}
+
+void choose_layer(cs_picture_reader &reader, const cs_picture_request &request) {
+  if (request.layer) {
+    if (choose_subimage(reader, request.layer)) {
+      if (!reader.input->seek_subimage(reader.subimage, 0))
+        fail_input("its layer cannot be read", reader.input->geterror());
+      reader.spec = reader.input->spec(reader.subimage);
+    } else if (choose_channels(reader, std::string(request.layer) + ".")) {
+      return;
+    } else {
+      throw Failure(CELSPAN_INPUT, std::string("has no layer \"") + request.layer + "\"");
+    }
+  }
+  choose_channels(reader, "");
+}
+
+/* The display window is that of the header, or for a layer of a PSD that of the whole picture. */
+void choose_window(cs_picture_reader &reader) {
+  const ImageSpec &spec = reader.spec;
+  const std::string &format = reader.kind.format;
+  int64_t left = 0, top = 0;
+  reader.stored_width = spec.width;
+  reader.stored_height = spec.height;
+  if (format == "openexr" && spec.full_width > 0 && spec.full_height > 0) {
+    reader.stored_width = spec.full_width;
+    reader.stored_height = spec.full_height;
+    left = int64_t(spec.x) - spec.full_x;
+    top = int64_t(spec.y) - spec.full_y;
+  } else if (format == "psd") {
+    ImageSpec whole = reader.input->spec(0);
+    reader.stored_width = whole.width;
+    reader.stored_height = whole.height;
+    left = spec.x;
+    top = spec.y;
+  }
+  if (std::max(std::abs(left), std::abs(top)) > (int64_t(1) << 30))
+    throw Failure(CELSPAN_INPUT, "has a data window too far from its display window");
+  reader.data_x = int(left);
+  reader.data_y = int(top);
+  int orientation = spec.get_int_attribute("Orientation", 1);
+  reader.orientation = orientation >= 1 && orientation <= 8 ? orientation : 1;
+}
+
+bool is_transposed(const cs_picture_reader &reader) { return reader.orientation >= 5; }
+
+/* Film scans name their transfer in the header. Those that do not count as film if they have ten
+ * bits. */
+const char *film_colour(const ImageSpec &spec) {
+  std::string transfer = spec.get_string_attribute("dpx:Transfer").c_str();
+  if (transfer == "Linear")
+    return "linear";
+  if (transfer == "SMPTE 274M" || transfer.find("709") != std::string::npos ||
+      transfer.find("601") != std::string::npos)
+    return "rec709";
+  bool is_log = transfer == "Printing density" || transfer == "Logarithmic";
+  return is_log || spec.get_int_attribute("oiio:BitsPerSample") == 10 ? "cineon" : "srgb";
+}
+
+const char *default_colour(const cs_picture_reader &reader) {
+  if (reader.kind.format == "cineon")
+    return "cineon";
+  if (reader.kind.format == "dpx")
+    return film_colour(reader.spec);
+  return reader.spec.format.is_floating_point() ? "linear" : "srgb";
+}
+
+/* All readers are asked for straight alpha. These still multiply by alpha, or their files have
+ * multiplied values. */
+bool is_multiplied(const cs_picture_reader &reader) {
+  if (reader.channel[3] < 0 || reader.spec.get_int_attribute("oiio:UnassociatedAlpha") == 1)
+    return false;
+  const std::string &format = reader.kind.format;
+  return format == "openexr" || format == "tiff" || format == "webp" || format == "dpx";
+}
+
+int coded_bits(const ImageSpec &spec) {
+  if (spec.format == TypeDesc::UINT8)
+    return 8;
+  if (spec.format != TypeDesc::UINT16)
+    return 0;
+  int bits = spec.get_int_attribute("oiio:BitsPerSample", 16);
+  return bits > 8 && bits < 16 ? bits : 16;
+}
+
+void describe(const cs_picture_reader &reader, cs_picture_header *header) {
+  const ImageSpec &spec = reader.spec;
+  *header = {};
+  header->info.width = is_transposed(reader) ? reader.stored_height : reader.stored_width;
+  header->info.height = is_transposed(reader) ? reader.stored_width : reader.stored_height;
+  header->info.channels = spec.nchannels;
+  header->info.has_alpha = reader.channel[3] >= 0;
+  header->info.is_float = spec.format.is_floating_point();
+  snprintf(header->info.format, sizeof header->info.format, "%s", reader.kind.format.c_str());
+  snprintf(header->info.colour, sizeof header->info.colour, "%s", default_colour(reader));
+  header->alpha = is_multiplied(reader) ? CS_PICTURE_ALPHA_CODED : CS_PICTURE_ALPHA_STRAIGHT;
+  header->bits = coded_bits(spec);
+  header->is_linear = reader.processor != nullptr;
+  header->is_turned = reader.orientation != 1;
+  header->is_whole = reader.kind.is_whole;
+  header->is_sequential = reader.kind.is_sequential;
+  const struct stat &status = reader.source->status();
+  header->file_size = int64_t(status.st_size);
+  header->file_time = int64_t(status.st_mtim.tv_sec) * 1000000000 + status.st_mtim.tv_nsec;
+  header->file_number = uint64_t(status.st_ino);
+}
+
+void choose_space(cs_picture_reader &reader, const char *space) {
+  if (!space)
+    return;
+  if (!getenv("OCIO"))
+    throw Failure(
+        CELSPAN_BAD_ARGUMENT,
+        std::string("colour \"") + space +
+            "\" is not known; \"srgb\", \"linear\", "
+            "\"rec709\" and \"cineon\" are, and the spaces of an OpenColorIO configuration "
+            "when the environment variable OCIO names one");
+  static const OIIO::ColorConfig config;
+  reader.processor = config.createColorProcessor(space, "scene_linear");
+  if (!reader.processor)
+    throw Failure(CELSPAN_BAD_ARGUMENT, std::string("colour \"") + space +
+                                            "\" is not a space of the OpenColorIO configuration");
+}
+
+/* Whole rows of the chosen channels as they are stored. Asked for another type, the library would
+ * take memory for 256 rows at least, however wide they are, and convert them from there. */
+bool read_stored(cs_picture_reader &reader, int y0, int y1) {
+  const ImageSpec &spec = reader.spec;
+  reader.stored.resize(size_t(spec.width) * spec.pixel_bytes(reader.first, reader.last, true) *
+                       size_t(y1 - y0));
+  return reader.input->read_scanlines(reader.subimage, 0, spec.y + y0, spec.y + y1, spec.z,
+                                      reader.first, reader.last, TypeDesc::UNKNOWN,
+                                      reader.stored.data());
+}
+
+/* Columns of stored rows of bytes as floats: what OpenImageIO makes of them, in a third of the
+ * time. */
+void convert_bytes(const cs_picture_reader &reader, int x0, int x1, float *out) {
+  size_t channels = size_t(reader.last - reader.first), row = size_t(reader.spec.width) * channels;
+  size_t count = size_t(x1 - x0) * channels;
+  for (size_t at = size_t(x0) * channels; at < reader.stored.size(); at += row, out += count)
+    for (size_t i = 0; i < count; i++)
+      out[i] = float(reader.stored[at + i]) * (1.0f / 255);
+}
+
+/* Columns of stored rows as floats. Channels may each have a type of their own. */
+bool convert_stored(const cs_picture_reader &reader, int x0, int x1, int rows, float *out) {
+  const ImageSpec &spec = reader.spec;
+  bool is_mixed = !spec.channelformats.empty(), is_good = true;
+  if (spec.format == TypeDesc::UINT8 && !is_mixed) {
+    convert_bytes(reader, x0, x1, out);
+    return true;
+  }
+  int channels = reader.last - reader.first, together = is_mixed ? 1 : channels;
+  auto pixel = OIIO::stride_t(spec.pixel_bytes(reader.first, reader.last, true));
+  const unsigned char *from = reader.stored.data() + x0 * pixel;
+  for (int c = 0; c < channels && is_good; c += together) {
+    TypeDesc type = spec.channelformat(reader.first + c);
+    is_good = OIIO::convert_image(together, x1 - x0, rows, 1, from, type, pixel, pixel * spec.width,
+                                  OIIO::AutoStride, out + c, TypeDesc::FLOAT,
+                                  OIIO::stride_t(sizeof(float)) * channels, OIIO::AutoStride,
+                                  OIIO::AutoStride);
+    from += type.size();
+  }
+  return is_good;
+}
+
+/* Rows [y0, y1) and columns [x0, x1) of the data window, the chosen channels, into `out`. */
+void read_rows(cs_picture_reader &reader, int x0, int x1, int y0, int y1, float *out) {
+  const ImageSpec &spec = reader.spec;
+  bool is_good = spec.tile_width > 0
+                     ? reader.input->read_tiles(reader.subimage, 0, spec.x + x0, spec.x + x1,
+                                                spec.y + y0, spec.y + y1, spec.z, spec.z + 1,
+                                                reader.first, reader.last, TypeDesc::FLOAT, out)
+                     : read_stored(reader, y0, y1) && convert_stored(reader, x0, x1, y1 - y0, out);
+  if (!is_good)
+    fail_input("is corrupt or truncated", reader.input->geterror());
+}
+
+/* Extends a range to whole tiles, because the library reads nothing else. */
+void align(int size, int tile, int *low, int *high) {
+  *low = *low / tile * tile;
+  *high = int(std::min<int64_t>(size, (int64_t(*high) + tile - 1) / tile * tile));
+}
+
+struct Target {
+  float *rgba;
+  int64_t at, step_x, step_y; /* pixels: of stored pixel (0, 0), and to its neighbours */
+};
+
+/* Where the stored pixel (sx, sy) goes in the rectangle asked for, by the orientation. */
+Target make_target(const cs_picture_reader &reader, int32_t x, int32_t y, int32_t width,
+                   float *rgba) {
+  int64_t right = reader.stored_width - 1, bottom = reader.stored_height - 1;
+  struct {
+    int64_t x0, y0, xx, xy, yx, yy; /* display = (x0 + xx sx + xy sy, y0 + yx sx + yy sy) */
+  } const maps[8] = {
+      {0, 0, 1, 0, 0, 1},
+      {right, 0, -1, 0, 0, 1},
+      {right, bottom, -1, 0, 0, -1},
+      {0, bottom, 1, 0, 0, -1},
+      {0, 0, 0, 1, 1, 0},
+      {bottom, 0, 0, -1, 1, 0},
+      {bottom, right, 0, -1, -1, 0},
+      {0, right, 0, 1, -1, 0},
+  };
+  auto map = maps[reader.orientation - 1];
+  return {rgba, (map.y0 - y) * width + (map.x0 - x), map.yx * width + map.xx,
+          map.yy * width + map.xy};
+}
+
+/* The rectangle of stored pixels, inside the data window, that fills the one asked for. */
+struct Rectangle {
+  int x0, x1, y0, y1; /* of the data window */
+};
+
+Rectangle make_rectangle(const cs_picture_reader &reader, int32_t x, int32_t y, int32_t width,
+                         int32_t height) {
+  int64_t w = reader.stored_width, h = reader.stored_height;
+  int64_t x0 = x, x1 = int64_t(x) + width, y0 = y, y1 = int64_t(y) + height;
+  if (is_transposed(reader)) {
+    std::swap(x0, y0);
+    std::swap(x1, y1);
+  }
+  int o = reader.orientation;
+  if (o == 2 || o == 3 || o == 7 || o == 8) {
+    int64_t low = w - x1;
+    x1 = w - x0;
+    x0 = low;
+  }
+  if (o == 3 || o == 4 || o == 6 || o == 7) {
+    int64_t low = h - y1;
+    y1 = h - y0;
+    y0 = low;
+  }
+  auto clamp = [](int64_t v, int64_t high) { return int(std::max<int64_t>(0, std::min(v, high))); };
+  const ImageSpec &spec = reader.spec;
+  return {clamp(x0 - reader.data_x, spec.width), clamp(x1 - reader.data_x, spec.width),
+          clamp(y0 - reader.data_y, spec.height), clamp(y1 - reader.data_y, spec.height)};
+}
+
+void scatter(const cs_picture_reader &reader, const Rectangle &wanted, const Rectangle &read,
+             const Target &target) {
+  size_t channels = size_t(reader.last - reader.first);
+  int alpha = reader.channel[3] - reader.first;
+  int red = reader.channel[0] - reader.first, green = reader.channel[1] - reader.first,
+      blue = reader.channel[2] - reader.first;
+  for (int y = std::max(wanted.y0, read.y0); y < std::min(wanted.y1, read.y1); y++) {
+    const float *from =
+        reader.batch.data() +
+        (size_t(y - read.y0) * size_t(read.x1 - read.x0) + size_t(wanted.x0 - read.x0)) * channels;
+    int64_t at = target.at + (wanted.x0 + reader.data_x) * target.step_x +
+                 (y + reader.data_y) * target.step_y;
+    for (int x = wanted.x0; x < wanted.x1; x++, from += channels, at += target.step_x) {
+      float *to = target.rgba + 4 * at;
+      to[0] = from[red];
+      to[1] = from[green];
+      to[2] = from[blue];
+      to[3] = reader.channel[3] >= 0 ? from[alpha] : 1.0f;
+    }
+  }
+}
+
+/* To linear light by OpenColorIO, which needs straight colour; then premultiplied. */
+void apply_space(const cs_picture_reader &reader, float *rgba, int32_t width, int32_t height) {
+  bool is_coded = is_multiplied(reader);
+  for (int64_t i = 0; i < int64_t(width) * height; i++)
+    if (is_coded && rgba[4 * i + 3] > 0)
+      for (int c = 0; c < 3; c++)
+        rgba[4 * i + c] /= rgba[4 * i + 3];
+  const ptrdiff_t pixel = 4 * sizeof(float);
+  reader.processor->apply(rgba, width, height, 4, sizeof(float), pixel, pixel * width);
+  for (int64_t i = 0; i < int64_t(width) * height; i++)
+    for (int c = 0; c < 3; c++)
+      rgba[4 * i + c] *= rgba[4 * i + 3];
+}
+
+void read_rectangle(cs_picture_reader &reader, int32_t x, int32_t y, int32_t width, int32_t height,
+                    float *rgba) {
+  if (!reader.source->is_unchanged())
+    throw Failure(CELSPAN_INPUT, "changed while it was in use");
+  reader.source->forgive();
+  Rectangle wanted = make_rectangle(reader, x, y, width, height);
+  if (int64_t(wanted.x1 - wanted.x0) * (wanted.y1 - wanted.y0) < int64_t(width) * height)
+    memset(rgba, 0, size_t(width) * size_t(height) * 4 * sizeof(float));
+  if (wanted.x0 >= wanted.x1 || wanted.y0 >= wanted.y1)
+    return;
+  Target target = make_target(reader, x, y, width, rgba);
+  const ImageSpec &spec = reader.spec;
+  Rectangle read = wanted;
+  int step_multiple = 1;
+  if (spec.tile_width > 0) {
+    align(spec.width, spec.tile_width, &read.x0, &read.x1);
+    align(spec.height, spec.tile_height, &read.y0, &read.y1);
+    step_multiple = spec.tile_height;
+  }
+  size_t row_values = size_t(read.x1 - read.x0) * size_t(reader.last - reader.first);
+  size_t wide =
+      spec.tile_width > 0 ? row_values : size_t(spec.width) * size_t(reader.last - reader.first);
+  int64_t step =
+      std::max<int64_t>(1, int64_t(BATCH / (wide * sizeof(float))) / step_multiple) * step_multiple;
+  if (reader.kind.is_sequential && read.y0 < reader.next_row)
+    open_input(reader);
+  int end = read.y1;
+  for (int64_t row = read.y0; row < end; row += step) {
+    read.y0 = int(row);
+    read.y1 = int(std::min<int64_t>(end, row + step));
+    reader.batch.resize(row_values * size_t(read.y1 - read.y0));
+    read_rows(reader, read.x0, read.x1, read.y0, read.y1, reader.batch.data());
+    reader.next_row = read.y1;
+    scatter(reader, wanted, read, target);
+  }
+  if (reader.processor)
+    apply_space(reader, rgba, width, height);
+}
+
+std::unique_ptr<cs_picture_reader> make_reader(const cs_picture_request &request) {
+  auto reader = std::make_unique<cs_picture_reader>();
+  reader->name = request.file;
+  reader->source = std::make_unique<Source>(request.file);
+  reader->kind = sniff(*reader->source);
+  if (reader->kind.width || reader->kind.height)
+    check_size(reader->kind.width, reader->kind.height, reader->kind.is_whole);
+  check_file(*reader->source, reader->kind.format);
+  reader->subimage = request.layer ? 0 : request.subimage;
+  open_input(*reader);
+  choose_layer(*reader, request);
+  choose_window(*reader);
+  const ImageSpec &spec = reader->spec;
+  check_size(uint64_t(spec.width), uint64_t(spec.height), reader->kind.is_whole);
+  check_size(uint64_t(reader->stored_width), uint64_t(reader->stored_height), false);
+  if (spec.depth > 1)
+    throw Failure(CELSPAN_INPUT, "is a volume, not a picture");
+  if (spec.nchannels < 1 || spec.nchannels > CS_PICTURE_CHANNELS)
+    throw Failure(CELSPAN_LIMIT,
+                  "has " + std::to_string(spec.nchannels) + " channels; at most 64 are read");
+  choose_space(*reader, request.space);
+  return reader;
+}
+
+/* ---------------------------------------------------------------- what else is in the file */
+
+std::string depth_of(const ImageSpec &spec) {
+  if (spec.format == TypeDesc::HALF || spec.format == TypeDesc::FLOAT ||
+      spec.format == TypeDesc::DOUBLE)
+    return spec.format.c_str();
+  int bits = int(spec.format.basesize()) * 8;
+  return std::to_string(spec.get_int_attribute("oiio:BitsPerSample", bits));
+}
+
+cs_picture_part describe_part(const ImageSpec &spec, int subimage, const std::string &name) {
+  cs_picture_part part = {};
+  part.subimage = subimage;
+  part.width = spec.width;
+  part.height = spec.height;
+  part.channels = spec.nchannels;
+  snprintf(part.name, sizeof part.name, "%s", name.c_str());
+  snprintf(part.depth, sizeof part.depth, "%s", depth_of(spec).c_str());
+  return part;
+}
+
+std::string name_of(const ImageSpec &spec) {
+  for (const char *key : name_keys)
+    if (!spec.get_string_attribute(key).empty())
+      return spec.get_string_attribute(key).c_str();
+  return "";
+}
+
+/* The layers of a subimage are groups of channels such as light.R, light.G, light.B; in order. */
+std::vector<cs_picture_part> layers_of(const ImageSpec &spec) {
+  std::vector<cs_picture_part> layers;
+  for (const std::string &channel : spec.channelnames) {
+    size_t dot = channel.rfind('.');
+    std::string name = channel.substr(0, dot == std::string::npos ? 0 : dot);
+    auto known = std::find_if(layers.begin(), layers.end(),
+                              [&](const cs_picture_part &part) { return name == part.name; });
+    bool is_colour =
+        find_channel(spec, name + ".", "Y") >= 0 ||
+        (find_channel(spec, name + ".", "R") >= 0 && find_channel(spec, name + ".", "G") >= 0 &&
+         find_channel(spec, name + ".", "B") >= 0);
+    if (known != layers.end()) {
+      known->channels++;
+    } else if (!name.empty() && is_colour) {
+      layers.push_back(describe_part(spec, -1, name));
+      layers.back().channels = 1;
+    }
+  }
+  return layers;
+}
+
+void list_parts(cs_picture_reader &reader, bool (*put)(void *user, const cs_picture_part *part),
+                void *user) {
+  reader.source->forgive();
+  for (int i = 0; i < SUBIMAGES; i++) {
+    ImageSpec spec = reader.input->spec(i);
+    if (spec.undefined())
+      return;
+    cs_picture_part part = describe_part(spec, i, name_of(spec));
+    if (!put(user, &part))
+      return;
+    for (const cs_picture_part &layer : i == 0 ? layers_of(spec) : std::vector<cs_picture_part>())
+      if (!put(user, &layer))
+        return;
+  }
+}
+
+} // namespace
+
+celspan_status open_reader(const cs_picture_request *request, cs_picture_reader **out,
+                           cs_picture_header *header, cs_picture_failure *failure) {
+  return fence(failure, CELSPAN_INPUT, request->file, [&] {
+    prepare_library();
+    auto reader = make_reader(*request);
+    cs_picture_header made;
+    describe(*reader, &made);
+    check_memory();
+    *header = made;
+    *out = reader.release();
+  });
+}
+
+celspan_status read_reader(cs_picture_reader *reader, int32_t x, int32_t y, int32_t width,
+                           int32_t height, float *rgba, cs_picture_failure *failure) {
+  return fence(failure, CELSPAN_INPUT, reader->name, [&] {
+    read_rectangle(*reader, x, y, width, height, rgba);
+    check_memory();
+  });
+}
+
+celspan_status list_reader(cs_picture_reader *reader,
+                           bool (*put)(void *user, const cs_picture_part *part), void *user,
+                           cs_picture_failure *failure) {
+  return fence(failure, CELSPAN_INPUT, reader->name, [&] {
+    list_parts(*reader, put, user);
+    check_memory();
+  });
+}
+
+void close_reader(cs_picture_reader *reader) {
+  cs_picture_failure ignored;
+  std::string name = reader->name;
+  celspan_status status = fence(&ignored, CELSPAN_INPUT, name, [&] { delete reader; });
+  (void)status;
+}

@@ -1,0 +1,95 @@
+/* What the values of options may be, and reading them: from text into a field of C.
+ *
+ * A reader changes its field only when it answers true. Numbers are read in the C locale, which
+ * main() sets for its thread.
+ */
+#ifndef CS_CLI_ARGUMENT_H
+#define CS_CLI_ARGUMENT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "celspan/celspan.h"
+
+#define CS_SIDE_MAX 1048576
+
+typedef enum cs_progress_style {
+  CS_PROGRESS_AUTO = 0,
+  CS_PROGRESS_BAR,
+  CS_PROGRESS_LINES,
+  CS_PROGRESS_NONE,
+  CS_PROGRESS_JSON,
+  CS_PROGRESS_OPENJD
+} cs_progress_style;
+
+typedef struct cs_given_antialias {
+  celspan_antialias_mode mode;
+  celspan_filter_desc filter; /* of mode FILTER */
+} cs_given_antialias;
+
+enum { CS_TEXTS_MOST = 48 };
+
+/* Of an option that may be given several times. */
+typedef struct cs_given_texts {
+  const char *items[CS_TEXTS_MOST];
+  size_t count;
+} cs_given_texts;
+
+/* The limits of the processes that decode pictures, and of a script. */
+typedef enum cs_limit {
+  CS_LIMIT_PICTURE_MEMORY, /* bytes */
+  CS_LIMIT_PICTURE_TIME,   /* seconds */
+  CS_LIMIT_MEMORY,         /* bytes */
+  CS_LIMIT_STEPS,
+  CS_LIMIT_TIME,  /* seconds */
+  CS_LIMIT_PRINT, /* bytes */
+  CS_LIMIT_COUNT
+} cs_limit;
+
+/* Those that are not given have their defaults. */
+typedef struct cs_given_limits {
+  bool has[CS_LIMIT_COUNT];
+  double values[CS_LIMIT_COUNT]; /* whole numbers but for times */
+} cs_given_limits;
+
+/* A kind of value. */
+typedef struct cs_argument {
+  const char *allowed; /* in messages: "--size: '12' is not ..." */
+  bool (*read)(const struct cs_argument *kind, const char *text, void *field);
+  double least, most; /* of a number, and of each in a list */
+  char separator;     /* of two numbers or more */
+  const struct cs_choice *choices;
+} cs_argument;
+
+/* Whether the text is a value of this kind, which is then in the field. */
+bool cs_argument_read(const cs_argument *kind, const char *text, void *field);
+
+/* const char *: a text that is not empty */
+extern const cs_argument cs_argument_text, cs_argument_file, cs_argument_folder,
+    cs_argument_file_or_folder, cs_argument_frames, cs_argument_format, cs_argument_cel,
+    cs_argument_pattern, cs_argument_picture;
+/* const char *: what it means is the verb's to find out */
+extern const cs_argument cs_argument_colours, cs_argument_lamp, cs_argument_light;
+/* int32_t */
+extern const cs_argument cs_argument_integer, cs_argument_every, cs_argument_mebibytes,
+    cs_argument_minutes, cs_argument_count, cs_argument_pixels, cs_argument_tile,
+    cs_argument_workers, cs_argument_memory, cs_argument_quality;
+/* int32_t[2]; of rows and levels the first is not above the last, of a share it is 1 or more too */
+extern const cs_argument cs_argument_size, cs_argument_grid, cs_argument_onion, cs_argument_share,
+    cs_argument_rows, cs_argument_levels;
+/* int32_t[4]: x, y, width, height */
+extern const cs_argument cs_argument_crop;
+/* double */
+extern const cs_argument cs_argument_scale, cs_argument_tolerance, cs_argument_smooth;
+/* The enumeration of the name: celspan_depth, celspan_transfer, celspan_alpha, cs_pyramid_layout,
+ * cs_progress_style; of the model of a track a number. */
+extern const cs_argument cs_argument_depth, cs_argument_colour, cs_argument_alpha,
+    cs_argument_layout, cs_argument_progress, cs_argument_model;
+extern const cs_argument cs_argument_antialias; /* cs_given_antialias */
+extern const cs_argument cs_argument_tint;      /* float[3]: linear light, opaque */
+extern const cs_argument cs_argument_texts;     /* cs_given_texts: adds a folder */
+/* cs_given_limits: adds "memory=512M,steps=2e9,time=60,print=1M,picture-memory=1G,picture-time=20";
+ * the other one takes those of pictures alone. */
+extern const cs_argument cs_argument_limits, cs_argument_picture_limits;
+
+#endif

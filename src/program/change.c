@@ -1,0 +1,228 @@
+#include "program/change.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/context.h"
+#include "frames/process/interrupt.h"
+#include "lua/bind/host.h"
+#include "lua/bind/lua_error.h"
+#include "lua/bind/suggest.h"
+#include "lua/bind/userdata.h"
+#include "model/scene/scene.h"
+#include "program/service.h"
+
+#define MOST_NAMES 200 /* that are remembered for the message */
+#define SHOWN_NAMES 12
+#define MOST_FRAMES 10000 /* of the rest of the film that are searched for a name */
+
+cs_change cs_change_read(const cs_request *request) {
+  cs_change change = {.cel = cs_request_text(request, "--cel")};
+  change.has_background = cs_request_read(request, "--background", change.background);
+  return change;
+}
+
+/* ---------------------------------------------------------------- the frame */
+
+static bool is_wanted(const celspan_cel *cel, const char *name) {
+  return !name || strcmp(cs_mark_name(cel->mark), name) == 0;
+}
+
+/* The rostrum's own back light, unless it has a shape, before the background. */
+static celspan_light back_of(const cs_change *change, const celspan_rostrum *rostrum) {
+  const celspan_light none = {0, 0, 0, 0};
+  const float *ground = change->background;
+  celspan_light own = change->cel ? none : rostrum->back.flat;
+  if (!change->has_background)
+    return own;
+  float through = 1 - own.a;
+  return (celspan_light){own.r + through * ground[0], own.g + through * ground[1],
+                         own.b + through * ground[2], 1};
+}
+
+/* A back light with a shape, as that of an empty cel. */
+static celspan_status make_lamp(celspan_context *context, const cs_light *light,
+                                celspan_cel **out) {
+  celspan_cel_desc desc = CELSPAN_CEL_DESC;
+  desc.back_texture = (celspan_light_texture){
+      .texture = light->texture, .gain = light->gain, .on = light->on, .matte = light->matte};
+  return celspan_cel_create(context, &desc, out);
+}
+
+static celspan_status change_into(celspan_context *context, const cs_change *change,
+                                  const celspan_rostrum *from, celspan_cel **cels,
+                                  celspan_rostrum **out) {
+  size_t count = 0;
+  celspan_cel *lamp = NULL;
+  if (from->back.texture && !change->cel) {
+    CS_TRY(make_lamp(context, &from->back, &lamp));
+    cels[count++] = lamp;
+  }
+  for (size_t i = 0; i < from->cel_count; i++)
+    if (is_wanted(from->cels[i], change->cel))
+      cels[count++] = from->cels[i];
+  celspan_status status = cs_rostrum_change(context, from, cels, count, back_of(change, from), out);
+  celspan_cel_unref(lamp);
+  return status;
+}
+
+static celspan_status change_one(celspan_context *context, const cs_change *change,
+                                 celspan_exposure *exposure) {
+  celspan_rostrum *from = exposure->rostrum, *changed;
+  size_t most = from->cel_count + 1;
+  celspan_cel **cels = cs_mem_array(context->memory, most, sizeof *cels);
+  if (!cels)
+    return cs_fail_memory(context);
+  celspan_status status = change_into(context, change, from, cels, &changed);
+  cs_mem_free(context->memory, cels, most * sizeof *cels);
+  if (status != CELSPAN_OK)
+    return status;
+  celspan_rostrum_unref(from);
+  exposure->rostrum = changed;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_change_frame(celspan_context *context, const cs_change *change,
+                               cs_film_frame *frame) {
+  if (!change->cel && !change->has_background)
+    return CELSPAN_OK;
+  for (size_t i = 0; i < frame->count; i++)
+    CS_TRY(change_one(context, change, &frame->exposures[i]));
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- unknown names */
+
+typedef struct name_list {
+  const char *wanted;
+  struct listed {
+    cs_mark mark; /* a reference */
+    int distance;
+  } names[MOST_NAMES];
+  size_t count;
+  bool is_found, has_more;
+} name_list;
+
+static void list_name(name_list *list, cs_mark mark) {
+  const char *name = cs_mark_name(mark);
+  for (size_t i = 0; i < list->count; i++)
+    if (strcmp(cs_mark_name(list->names[i].mark), name) == 0)
+      return;
+  list->has_more |= list->count == MOST_NAMES;
+  if (list->count < MOST_NAMES)
+    list->names[list->count++] =
+        (struct listed){cs_mark_keep(mark), cs_suggest_distance(list->wanted, name)};
+}
+
+static void list_frame(name_list *list, const cs_film_frame *frame) {
+  for (size_t e = 0; e < frame->count; e++) {
+    const celspan_rostrum *rostrum = frame->exposures[e].rostrum;
+    for (size_t i = 0; i < rostrum->cel_count; i++) {
+      if (!rostrum->cels[i]->mark.name)
+        continue;
+      list->is_found |= is_wanted(rostrum->cels[i], list->wanted);
+      list_name(list, rostrum->cels[i]->mark);
+    }
+  }
+}
+
+static int compare(const void *a, const void *b) {
+  const struct listed *left = a, *right = b;
+  return left->distance != right->distance
+             ? left->distance - right->distance
+             : strcmp(cs_mark_name(left->mark), cs_mark_name(right->mark));
+}
+
+static cs_exit report(name_list *list) {
+  char text[1024] = "";
+  if (list->count == 0)
+    return cs_report_usage("--cel %s: no cel of the film has a name; give it one with "
+                           "cel:named(\"%s\")",
+                           list->wanted, list->wanted);
+  qsort(list->names, list->count, sizeof list->names[0], compare);
+  size_t shown = list->count < SHOWN_NAMES ? list->count : SHOWN_NAMES, length = 0;
+  for (size_t i = 0; i < shown && length < sizeof text; i++)
+    length += (size_t)snprintf(text + length, sizeof text - length, "%s%s", i ? ", " : "",
+                               cs_mark_name(list->names[i].mark));
+  bool has_more = list->has_more || shown < list->count || length >= sizeof text;
+  return cs_report_usage("--cel %s: no cel of the film has this name; there %s %s%s", list->wanted,
+                         list->count == 1 ? "is" : "are", text, has_more ? " and others" : "");
+}
+
+static void search_frame(name_list *list, cs_script *script, int64_t number) {
+  if (cs_interrupt_signal())
+    list->is_found = true;
+  else if (cs_script_try(script, number) == CELSPAN_OK)
+    list_frame(list, &script->frame);
+  else
+    list->is_found = true; /* the frame's own failure is reported when its turn comes */
+}
+
+cs_exit cs_change_refuse(cs_script *script, const cs_change *change, const cs_sequence *frames) {
+  name_list list = {.wanted = change->cel};
+  cs_exit outcome = CS_EXIT_OK;
+  list.is_found = !change->cel;
+  for (size_t i = 0; i < frames->count && !list.is_found; i++)
+    search_frame(&list, script, frames->frames[i]);
+  for (int64_t i = 0; i < script->film.count && i < MOST_FRAMES && !list.is_found; i++)
+    search_frame(&list, script, script->film.first + i);
+  if (!list.is_found)
+    outcome = report(&list);
+  for (size_t i = 0; i < list.count; i++)
+    cs_mark_drop(list.names[i].mark);
+  return outcome;
+}
+
+/* ---------------------------------------------------------------- onion skin */
+
+typedef struct onion {
+  int32_t counts[2]; /* before, after */
+  const celspan_frame_desc *frame;
+} onion;
+
+/* same(cel, cel): whether they show the same. */
+static int is_same(lua_State *L) {
+  const cs_userdata *a = cs_userdata_test(L, 1, &cs_kind_cel);
+  const cs_userdata *b = cs_userdata_test(L, 2, &cs_kind_cel);
+  if (!a || !b)
+    return luaL_error(L, "same: two cels are needed");
+  const celspan_cel *one = a->handle, *other = b->handle;
+  lua_pushboolean(L, one->hash.a == other->hash.a && one->hash.b == other->hash.b);
+  return 1;
+}
+
+/* film, light userdata: an onion -> film. Runs protected. */
+static int lay(lua_State *L) {
+  const onion *o = lua_touserdata(L, 2);
+  lua_settop(L, 1);
+  cs_service_load(L, "onion.lua");
+  lua_insert(L, 1);
+  lua_pushinteger(L, o->counts[0]);
+  lua_pushinteger(L, o->counts[1]);
+  lua_pushinteger(L, o->frame->width);
+  lua_pushinteger(L, o->frame->height);
+  lua_pushcfunction(L, is_same);
+  lua_call(L, 6, 1);
+  return 1;
+}
+
+cs_exit cs_change_lay_onion(cs_script *script, const cs_request *request,
+                            const celspan_frame_desc *frame) {
+  onion o = {.frame = frame};
+  if (!cs_request_read(request, "--onion", o.counts))
+    return CS_EXIT_OK;
+  if (cs_request_has(request, "--cel"))
+    return cs_report_usage("--onion lays whole frames over one another: leave --cel out");
+  lua_State *L = script->L;
+  lua_pushcfunction(L, lay);
+  lua_pushvalue(L, CS_SCRIPT_FILM);
+  lua_pushlightuserdata(L, &o);
+  cs_host_begin(L, CS_HOST_VERB, 0);
+  int outcome = lua_pcall(L, 2, 1, 0);
+  cs_host_end(L);
+  if (outcome != LUA_OK)
+    return cs_report_failure(script->context, cs_lua_error_report(L, outcome), NULL);
+  lua_replace(L, CS_SCRIPT_FILM);
+  return CS_EXIT_OK;
+}

@@ -1,0 +1,225 @@
+#include "program/confine.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "frames/process/interrupt.h"
+#include "frames/process/journal.h"
+#include "plugins/isolate/client.h"
+#include "plugins/isolate/isolate.h"
+#include "plugins/isolate/strict.h"
+
+#define PICTURE_MEMORY ((uint64_t)1 << 30)
+#define PICTURE_SECONDS 20
+
+enum { PATH_SIZE = 4096 };
+
+/* ---------------------------------------------------------------- limits */
+
+static bool is_trusted(const cs_request *request) { return cs_request_has(request, "--trust"); }
+
+static cs_given_limits given_limits(const cs_request *request) {
+  cs_given_limits given = {.has = {false}};
+  cs_request_read(request, "--limit", &given);
+  return given;
+}
+
+static cs_limits limits_of(const cs_request *request) {
+  const cs_given_limits given = given_limits(request);
+  const double *values = given.values;
+  cs_limits limits = is_trusted(request) ? (cs_limits){0} : CS_LIMITS_DEFAULT;
+  if (given.has[CS_LIMIT_MEMORY])
+    limits.memory = (size_t)values[CS_LIMIT_MEMORY];
+  if (given.has[CS_LIMIT_STEPS])
+    limits.steps = (uint64_t)values[CS_LIMIT_STEPS];
+  if (given.has[CS_LIMIT_TIME])
+    limits.seconds = values[CS_LIMIT_TIME];
+  if (given.has[CS_LIMIT_PRINT])
+    limits.print = (size_t)values[CS_LIMIT_PRINT];
+  return limits;
+}
+
+cs_exit cs_confine_pictures(celspan_context *context, const cs_request *request) {
+  const cs_given_limits given = given_limits(request);
+  bool has_memory = given.has[CS_LIMIT_PICTURE_MEMORY], has_time = given.has[CS_LIMIT_PICTURE_TIME];
+  const cs_worker_limits limits = {
+      .memory = has_memory ? (uint64_t)given.values[CS_LIMIT_PICTURE_MEMORY] : PICTURE_MEMORY,
+      .seconds = has_time ? given.values[CS_LIMIT_PICTURE_TIME] : PICTURE_SECONDS};
+  if (!is_trusted(request)) {
+    cs_isolate_begin(context, &limits);
+    return CS_EXIT_OK;
+  }
+  if (!has_memory && !has_time)
+    return CS_EXIT_OK;
+  return cs_report_usage(
+      "--trust decodes pictures in this process, which has no limits for them: leave "
+      "--limit %s out",
+      has_memory ? "picture-memory" : "picture-time");
+}
+
+cs_exit cs_confine_refuse(const cs_request *request) {
+  const cs_given_limits given = given_limits(request);
+  bool has_limit = false;
+  for (size_t i = CS_LIMIT_MEMORY; i < CS_LIMIT_COUNT; i++)
+    has_limit |= given.has[i];
+  if (!has_limit && !cs_request_has(request, "--strict") && !cs_request_has(request, "--allow"))
+    return CS_EXIT_OK;
+  return cs_report_usage(
+      "--strict, --allow and all of --limit but that of pictures are for scripts, and "
+      "%s is none",
+      request->operands[0]);
+}
+
+static cs_exit refuse_both(const cs_request *request) {
+  bool is_strict = cs_request_has(request, "--strict");
+  if (!is_strict && !cs_request_has(request, "--allow"))
+    return CS_EXIT_OK;
+  return cs_report_usage("--trust lets the script do all: leave %s out",
+                         is_strict ? "--strict" : "--allow");
+}
+
+bool cs_confine_is_needed(const cs_request *request) {
+  cs_limits limits = limits_of(request);
+  return !is_trusted(request) || cs_request_has(request, "--strict") ||
+         cs_request_has(request, "--allow") || limits.memory || limits.steps || limits.seconds > 0;
+}
+
+static bool is_interrupted(void) { return cs_interrupt_signal() != 0; }
+
+/* The watchdog's last word. What the main thread does meanwhile is not known, so nothing of it is
+ * touched: the locks of its streams may be held for ever. */
+static void kill_script(const char *sentence) {
+  char line[512];
+  int length = snprintf(line, sizeof line, "celspan: error: %s\n", sentence);
+  ssize_t written = write(STDERR_FILENO, line, (size_t)length);
+  (void)written;
+  _exit(CS_EXIT_LIMIT);
+}
+
+/* ---------------------------------------------------------------- folders */
+
+static void folder_of(const char *path, char out[PATH_SIZE]) {
+  const char *slash = strrchr(path, '/');
+  int length = !slash ? 0 : slash == path ? 1 : (int)(slash - path);
+  snprintf(out, PATH_SIZE, "%.*s", length, path);
+}
+
+static cs_exit refuse_folder(const char *folder) {
+  if (access(folder, X_OK) == 0)
+    return CS_EXIT_OK;
+  return cs_report_usage("--allow %s: there is no such folder", folder);
+}
+
+/* Folders that could not be added. */
+static cs_exit refuse_roots(void) {
+  if (errno != ENOMEM)
+    return cs_report_usage("--allow and CELSPAN_PATH name too many folders");
+  cs_report_error("out of memory");
+  return CS_EXIT_MEMORY;
+}
+
+static cs_exit open_roots(const cs_request *request, const char *script, cs_sandbox *out) {
+  char folder[PATH_SIZE];
+  cs_given_texts allowed = {.count = 0};
+  const char *search = getenv("CELSPAN_PATH");
+  cs_request_read(request, "--allow", &allowed);
+  folder_of(script, folder);
+  errno = 0;
+  bool is_good = cs_roots_add(&out->roots, folder);
+  for (size_t i = 0; i < allowed.count && is_good; i++) {
+    cs_exit outcome = refuse_folder(allowed.items[i]);
+    if (outcome != CS_EXIT_OK)
+      return outcome;
+    is_good = cs_sandbox_allow(out, allowed.items[i]);
+  }
+  if (search && is_good)
+    is_good = cs_sandbox_allow_search(out, search);
+  return is_good ? CS_EXIT_OK : refuse_roots();
+}
+
+/* ---------------------------------------------------------------- strict */
+
+/* The folder that what is made goes to, made if it is missing; "": nothing is made. */
+static void output_folder(const cs_request *request, char out[PATH_SIZE]) {
+  const char *output = cs_request_text(request, "-o");
+  out[0] = '\0';
+  if (!output || strcmp(output, "-") == 0)
+    return;
+  if (request->verb->makes_folder)
+    snprintf(out, PATH_SIZE, "%s/.", output);
+  else
+    folder_of(output, out);
+  char within[PATH_SIZE + 4];
+  snprintf(within, sizeof within, "%s/x", out[0] ? out : ".");
+  cs_journal_make_folders(within);
+  if (!out[0])
+    strcpy(out, ".");
+}
+
+/* What the program reads beside the script's folders: its modules, the settings of colours, and what
+ * else the command line names. */
+static bool add_own_folders(const cs_request *request, cs_roots *read) {
+  static const char *const variables[] = {"OCIO", "CELSPAN_PICTURE_MODULE", "CELSPAN_ART_MODULE"};
+  char folder[PATH_SIZE];
+  ssize_t size = readlink("/proc/self/exe", folder, sizeof folder - 1);
+  folder[size > 0 ? size : 0] = '\0';
+  char *slash = strrchr(folder, '/');
+  if (slash)
+    *slash = '\0';
+  bool is_good = size <= 0 || cs_roots_add(read, folder);
+  for (size_t i = 0; i < sizeof variables / sizeof *variables && is_good; i++) {
+    const char *path = getenv(variables[i]);
+    folder_of(path ? path : "", folder);
+    is_good = !path || cs_roots_add(read, folder);
+  }
+  const char *const named[] = {cs_request_text(request, "--viewer"),
+                               cs_request_text(request, "--places")};
+  for (size_t i = 0; i < 2 && is_good; i++)
+    is_good = !named[i] || cs_roots_add(read, named[i]);
+  return is_good;
+}
+
+static bool copy_roots(const cs_roots *from, cs_roots *to) {
+  for (size_t i = 0; i < from->count; i++)
+    if (!cs_roots_add(to, from->paths[i]))
+      return false;
+  return true;
+}
+
+static cs_exit enter_strict(const cs_request *request, const cs_sandbox *sandbox) {
+  char folder[PATH_SIZE];
+  cs_roots read = {.count = 0}, write = {.count = 0};
+  output_folder(request, folder);
+  bool is_good = copy_roots(&sandbox->roots, &read) && add_own_folders(request, &read) &&
+                 (!folder[0] || (cs_roots_add(&write, folder) && cs_roots_add(&read, folder)));
+  const char *refusal = is_good ? NULL : "there are too many folders to read";
+  if (!refusal && !cs_client_confine(&read))
+    refusal = "the picture decoder cannot be started";
+  if (!refusal)
+    refusal = cs_strict_enter(&read, &write);
+  cs_roots_finish(&read);
+  cs_roots_finish(&write);
+  if (!refusal)
+    return CS_EXIT_OK;
+  cs_report_error("--strict: %s; without --strict the sandbox of the language alone is left",
+                  refusal);
+  return CS_EXIT_LIMIT;
+}
+
+cs_exit cs_confine_open(const cs_request *request, const char *script, cs_sandbox *out) {
+  static bool is_strict; /* it is entered once, for the whole process */
+  cs_limits limits = limits_of(request);
+  cs_sandbox_init(out, &limits);
+  out->guard.is_interrupted = is_interrupted;
+  out->guard.kill = kill_script;
+  if (is_trusted(request))
+    return refuse_both(request);
+  cs_exit outcome = open_roots(request, script, out);
+  if (outcome != CS_EXIT_OK || !cs_request_has(request, "--strict") || is_strict)
+    return outcome;
+  is_strict = true;
+  return enter_strict(request, out);
+}

@@ -1,0 +1,20 @@
+/* What the command line says of the rights and limits of scripts and pictures: --trust, --strict,
+ * --allow, --limit.
+ */
+#ifndef CS_CLI_CONFINE_H
+#define CS_CLI_CONFINE_H
+
+#include "lua/sandbox/sandbox.h"
+#include "program/request.h"
+
+/* Has pictures decoded by processes of their own, unless they are trusted. OK, or reported. */
+cs_exit cs_confine_pictures(celspan_context *context, const cs_request *request);
+/* Refuses the options of scripts where a verb reads a FILE, in which none is run. OK, or reported. */
+cs_exit cs_confine_refuse(const cs_request *request);
+/* Whether a script of this request has a sandbox or a limit. */
+bool cs_confine_is_needed(const cs_request *request);
+/* Makes the sandbox of a script under the request and enters strict where that is asked for. OK, or
+ * reported; either way *out may be finished. */
+cs_exit cs_confine_open(const cs_request *request, const char *script, cs_sandbox *out);
+
+#endif

@@ -1,0 +1,189 @@
+/* Files for verbs in Lua: what they are, folders, and what is written. */
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/open.h"
+#include "frames/process/journal.h"
+#include "frames/still/span_reader.h"
+#include "lua/bind/userdata.h"
+#include "lua/module/lua_script.h"
+#include "output/join/join.h"
+#include "output/sinks/file.h"
+#include "program/service.h"
+#include "program/target.h"
+#include "program/video_target.h"
+
+/* ---------------------------------------------------------------- kinds */
+
+enum { HEAD = 64 };
+
+/* White space and a byte order mark may stand before a document of XML; no script begins so. */
+static bool is_markup(const char *head) {
+  const char *start = strncmp(head, "\xEF\xBB\xBF", 3) == 0 ? head + 3 : head;
+  return start[strspn(start, " \t\r\n")] == '<';
+}
+
+/* The start of a regular file, as a text; "" where there is none. Whether it is a folder. */
+static bool read_head(const char *path, char head[HEAD + 1]) {
+  struct stat facts;
+  head[0] = '\0';
+  int descriptor = cs_open_to_read(path);
+  if (descriptor < 0)
+    return false;
+  bool is_known = fstat(descriptor, &facts) == 0;
+  if (is_known && S_ISREG(facts.st_mode)) {
+    ssize_t size = read(descriptor, head, HEAD);
+    head[size > 0 ? size : 0] = '\0';
+  }
+  close(descriptor);
+  return is_known && S_ISDIR(facts.st_mode);
+}
+
+/* kind(path) -> what a file can be, by its first bytes: "folder", "archive", "psd", "svg", "span",
+ * "script" or "picture" */
+static int kind(lua_State *L) {
+  char head[HEAD + 1];
+  const char *path = luaL_checkstring(L, 1);
+  bool is_folder = read_head(path, head);
+  lua_pushstring(L, is_folder                         ? "folder"
+                    : strncmp(head, "PK\3\4", 4) == 0 ? "archive"
+                    : strncmp(head, "8BPS", 4) == 0   ? "psd"
+                    : is_markup(head)                 ? "svg"
+                    : cs_span_reader_accepts(path)    ? "span"
+                    : cs_lua_script_accepts(path)     ? "script"
+                                                      : "picture");
+  return 1;
+}
+
+/* ---------------------------------------------------------------- folders */
+
+/* make_folders(path): those of a file that is to be written. Where it fails, so does writing. */
+static int make_folders(lua_State *L) {
+  lua_pushboolean(L, cs_journal_make_folders_for(luaL_checkstring(L, 1)));
+  return 1;
+}
+
+static int close_folder(lua_State *L) {
+  DIR **folder = lua_touserdata(L, 1);
+  if (*folder)
+    closedir(*folder);
+  *folder = NULL;
+  return 0;
+}
+
+static int fail_system(lua_State *L, const char *how) {
+  luaL_pushfail(L);
+  lua_pushstring(L, strerror(errno));
+  lua_pushstring(L, how);
+  return 3;
+}
+
+/* entries(path) -> the names in a folder, hidden ones too; false for a file; nil, the system's
+ * reason, and "missing" where there is nothing of that name, "cut" where not all names could be
+ * read, else "closed" */
+static int entries(lua_State *L) {
+  const char *path = luaL_checkstring(L, 1);
+  struct stat facts;
+  DIR **folder = cs_userdata_push_holder(L, "celspan.program.folder", sizeof(DIR *), close_folder);
+  if (stat(path, &facts) != 0)
+    return fail_system(L, errno == ENOENT ? "missing" : "closed");
+  lua_pushboolean(L, false);
+  if (!S_ISDIR(facts.st_mode))
+    return 1;
+  *folder = opendir(path);
+  if (!*folder)
+    return fail_system(L, "closed");
+  lua_newtable(L);
+  lua_Integer count = 0;
+  for (struct dirent *entry; (entry = cs_open_entry(*folder));)
+    if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0) {
+      lua_pushstring(L, entry->d_name);
+      lua_rawseti(L, -2, ++count);
+    }
+  return errno ? fail_system(L, "cut") : 1;
+}
+
+/* working_folder() -> its path */
+static int working_folder(lua_State *L) {
+  char folder[4096];
+  if (getcwd(folder, sizeof folder)) {
+    lua_pushstring(L, folder);
+    return 1;
+  }
+  cs_report_error("the current folder has no name: %s", strerror(errno));
+  return cs_service_end(L, CS_EXIT_INPUT);
+}
+
+/* ---------------------------------------------------------------- outputs */
+
+/* has_number(path) -> whether it is a pattern with a place for a number */
+static int has_number(lua_State *L) {
+  lua_pushboolean(L, cs_sequence_has_number(luaL_checkstring(L, 1)));
+  return 1;
+}
+
+/* is_video(path) -> whether the request makes a video there, of one frame or several */
+static int is_video(lua_State *L) {
+  lua_pushboolean(L, cs_video_target_is_wanted(cs_service_program(L)->request, 1));
+  return 1;
+}
+
+/* refuse_target(path): ends the verb where no picture can be written there under the request. */
+static int refuse_target(lua_State *L) {
+  const cs_program *program = cs_service_program(L);
+  cs_service_require(L,
+                     cs_target_refuse(program->context, luaL_checkstring(L, 1), program->request));
+  return 0;
+}
+
+static celspan_status save_text(celspan_context *context, const char *path, const char *text,
+                                size_t size) {
+  cs_file *file;
+  CS_TRY(cs_file_create(context, NULL, path, &file));
+  celspan_status status = cs_file_write(file, context, text, size);
+  if (status == CELSPAN_OK)
+    return cs_file_commit(file, context);
+  cs_file_discard(file, context);
+  return status;
+}
+
+/* save(path, text): a file that appears whole or not at all, in folders that are made. */
+static int save(lua_State *L) {
+  size_t size;
+  const char *path = luaL_checkstring(L, 1), *text = luaL_checklstring(L, 2, &size);
+  cs_service_try(L, save_text(cs_service_program(L)->context, path, text, size));
+  return 0;
+}
+
+/* join(paths, output): strips of a frame into one picture. */
+static int join(lua_State *L) {
+  celspan_context *context = cs_service_program(L)->context;
+  size_t count = lua_rawlen(L, 1);
+  const char **paths = lua_newuserdatauv(L, (count + 1) * sizeof *paths, 0);
+  for (size_t i = 0; i < count; i++) {
+    lua_rawgeti(L, 1, (lua_Integer)i + 1);
+    paths[i] = luaL_checkstring(L, -1); /* the list keeps it alive */
+    lua_pop(L, 1);
+  }
+  celspan_status status = cs_join(context, paths, count, luaL_checkstring(L, 2));
+  if (status == CELSPAN_BAD_ARGUMENT)
+    cs_service_end(L, cs_report_usage("%s", celspan_context_error(context)));
+  cs_service_try(L, status);
+  return 0;
+}
+
+void cs_service_add_files(lua_State *L) {
+  static const luaL_Reg services[] = {{"kind", kind},
+                                      {"make_folders", make_folders},
+                                      {"entries", entries},
+                                      {"working_folder", working_folder},
+                                      {"has_number", has_number},
+                                      {"is_video", is_video},
+                                      {"refuse_target", refuse_target},
+                                      {"save", save},
+                                      {"join", join},
+                                      {NULL, NULL}};
+  cs_service_add(L, services);
+}

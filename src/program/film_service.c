@@ -1,0 +1,323 @@
+/* program.film(): the film of a script, for verbs in Lua.
+ *
+ *   script's state                        program's state
+ *   frame function --> scene of the core --> { { rostrum, weight }, ... }
+ *
+ * A frame is what celspan's own functions take: celspan.probe, celspan.pixels, celspan.sheet. What
+ * is asked of a frame's scene alone is asked of the one that was built last.
+ */
+#include "celspan/lua.h"
+#include "frames/process/interrupt.h"
+#include "frames/video/sound.h"
+#include "lua/bind/host.h"
+#include "lua/bind/userdata.h"
+#include "model/scene/inspect.h"
+#include "model/scene/scene.h"
+#include "program/service.h"
+#include "program/target.h"
+#include "program/video_target.h"
+#include "program/view.h"
+
+typedef struct film {
+  cs_script script;
+  cs_inspection pictures; /* those that were looked at */
+} film;
+
+static int close_film(lua_State *L) {
+  film *f = lua_touserdata(L, 1);
+  cs_script_close(&f->script);
+  cs_inspection_finish(&f->pictures);
+  return 0;
+}
+
+/* The film that is argument 1. */
+static film *self(lua_State *L) {
+  lua_getfield(L, 1, "open");
+  film *f = lua_touserdata(L, -1);
+  lua_pop(L, 1);
+  return f;
+}
+
+/* ---------------------------------------------------------------- frames */
+
+/* Pushes the frame that was built last. */
+static int push_frame(lua_State *L, const cs_film_frame *frame) {
+  lua_createtable(L, (int)frame->count, 0);
+  for (size_t i = 0; i < frame->count; i++) {
+    lua_createtable(L, 2, 0);
+    cs_userdata *rostrum = cs_userdata_push(L, &cs_noun_rostrum);
+    lua_newtable(L);
+    lua_setiuservalue(L, -2, 1);
+    rostrum->handle = celspan_rostrum_ref(frame->exposures[i].rostrum);
+    lua_rawseti(L, -2, 1);
+    lua_pushnumber(L, frame->exposures[i].weight);
+    lua_rawseti(L, -2, 2);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  return 1;
+}
+
+/* film:build(number): ends the verb where it cannot be built. */
+static int build(lua_State *L) {
+  cs_service_try(L, cs_script_try(&self(L)->script, luaL_checkinteger(L, 2)));
+  return 0;
+}
+
+/* film:try(number) -> true | nil, message, exit code */
+static int try_frame(lua_State *L) {
+  film *f = self(L);
+  celspan_status status = cs_script_try(&f->script, luaL_checkinteger(L, 2));
+  lua_pushboolean(L, status == CELSPAN_OK);
+  if (status == CELSPAN_OK)
+    return 1;
+  lua_pushstring(L, celspan_context_error(f->script.context));
+  lua_pushinteger(L, cs_report_exit(status));
+  return 3;
+}
+
+/* film:at(number) -> frame */
+static int at(lua_State *L) {
+  film *f = self(L);
+  cs_service_try(L, cs_script_try(&f->script, luaL_checkinteger(L, 2)));
+  return push_frame(L, &f->script.frame);
+}
+
+/* film:chosen() -> the frame of --frame or the first, and its number */
+static int chosen(lua_State *L) {
+  film *f = self(L);
+  celspan_frame_desc desc;
+  cs_service_require(L, cs_script_frame(&f->script, cs_service_program(L)->request, &desc));
+  push_frame(L, &f->script.frame);
+  lua_pushinteger(L, f->script.number);
+  return 2;
+}
+
+static int release_numbers(lua_State *L) {
+  cs_sequence_finish(lua_touserdata(L, 1));
+  return 0;
+}
+
+/* film:numbers(output or nil) -> the numbers of --frames, or of all frames, which each have a name
+ * in the output */
+static int numbers(lua_State *L) {
+  const cs_request *request = cs_service_program(L)->request;
+  const char *output = luaL_optstring(L, 2, NULL);
+  cs_sequence *list =
+      cs_userdata_push_holder(L, "celspan.program.numbers", sizeof *list, release_numbers);
+  cs_service_require(L, cs_target_frames(&self(L)->script, request, output, list));
+  lua_createtable(L, (int)list->count, 0);
+  for (size_t i = 0; i < list->count; i++) {
+    lua_pushinteger(L, list->frames[i]);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  return 1;
+}
+
+/* film:refuse_view(): ends the verb where the request has no frame of this film. */
+static int refuse_view(lua_State *L) {
+  const cs_film_info *info = &self(L)->script.film;
+  celspan_frame_desc desc;
+  cs_service_require(
+      L, cs_view_frame(cs_service_program(L)->request, info->width, info->height, &desc));
+  return 0;
+}
+
+/* film:check_sound() -> the exit code of what is wrong with the sound, which is reported; 0 */
+static int check_sound(lua_State *L) {
+  film *f = self(L);
+  const char *path = NULL;
+  celspan_status status = cs_video_target_sound(&f->script, &path);
+  if (status == CELSPAN_OK && path && f->pictures.is_deep)
+    status = cs_sound_listen(f->script.context, path);
+  lua_pushinteger(L, cs_report_failure(f->script.context, status, NULL));
+  return 1;
+}
+
+/* ---------------------------------------------------------------- scenes */
+
+/* film:scene() -> 16 bytes, equal for equal scenes; nil where a procedure draws */
+static int scene(lua_State *L) {
+  const cs_film_frame *frame = &self(L)->script.frame;
+  if (cs_scene_has_procedure(frame->exposures, frame->count))
+    return 0;
+  cs_hash hash = cs_scene_hash(frame->exposures, frame->count);
+  lua_pushlstring(L, (const char *)&hash, sizeof hash);
+  return 1;
+}
+
+/* film:counts() -> cels, primitives, pictures */
+static int counts(lua_State *L) {
+  const cs_film_frame *frame = &self(L)->script.frame;
+  celspan_rostrum_counts all = {0, 0, 0};
+  for (size_t i = 0; i < frame->count; i++) {
+    celspan_rostrum_counts one;
+    celspan_rostrum_count(frame->exposures[i].rostrum, &one);
+    all.cels += one.cels;
+    all.primitives += one.primitives;
+    all.pictures += one.pictures;
+  }
+  lua_pushinteger(L, (lua_Integer)all.cels);
+  lua_pushinteger(L, (lua_Integer)all.primitives);
+  lua_pushinteger(L, (lua_Integer)all.pictures);
+  return 3;
+}
+
+/* Calls the function that is argument 2 with a name, the kind of the value that has it, and where
+ * that was made. */
+static void add_name(lua_State *L, const char *kind, cs_mark mark) {
+  if (!mark.name)
+    return;
+  celspan_origin origin = cs_mark_origin(mark);
+  lua_pushvalue(L, 2);
+  lua_pushstring(L, kind);
+  lua_pushstring(L, cs_mark_name(mark));
+  lua_pushstring(L, origin.line > 0 ? origin.source : NULL);
+  lua_pushinteger(L, origin.line);
+  lua_call(L, 4, 0);
+}
+
+static void add_rostrum(lua_State *L, const celspan_rostrum *rostrum);
+
+/* Recursion ends: nesting is at most CS_SCENE_DEPTH. */
+static void add_objects(lua_State *L, celspan_object *const *objects, size_t count) {
+  for (size_t i = 0; i < count; i++) {
+    const cs_primitive_data *data = objects[i]->data;
+    add_name(L, "object", objects[i]->mark);
+    if (data->texture)
+      add_name(L, "texture", data->texture->mark);
+    if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM)
+      add_rostrum(L, data->rostrum);
+    else if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN)
+      add_objects(L, data->boolean->operands, data->boolean->operand_count);
+  }
+}
+
+static void add_rostrum(lua_State *L, const celspan_rostrum *rostrum) {
+  add_name(L, "rostrum", rostrum->mark);
+  for (size_t i = 0; i < rostrum->cel_count; i++) {
+    const celspan_cel *cel = rostrum->cels[i];
+    add_name(L, "cel", cel->mark);
+    add_objects(L, cel->objects, cel->object_count);
+  }
+}
+
+/* film:names(add): calls add(kind, name, source or nil, line) for each value that has a name. */
+static int names(lua_State *L) {
+  const cs_film_frame *frame = &self(L)->script.frame;
+  luaL_checkstack(L, 8, "too many names");
+  for (size_t i = 0; i < frame->count; i++)
+    add_rostrum(L, frame->exposures[i].rostrum);
+  return 0;
+}
+
+/* ---------------------------------------------------------------- pictures */
+
+/* function, where, message, exit code. Runs protected: the core is at work. */
+static int call_with_fault(lua_State *L) {
+  const celspan_fault *found = lua_touserdata(L, 2);
+  char where[CS_INSPECT_PLACE];
+  cs_inspect_place(found, where);
+  lua_settop(L, 1);
+  lua_pushstring(L, where);
+  lua_pushstring(L, found->message);
+  lua_pushinteger(L, cs_report_exit(found->status));
+  lua_call(L, 3, 0);
+  return 0;
+}
+
+static bool add_fault(void *user, const celspan_fault *found) {
+  lua_State *L = user;
+  lua_pushcfunction(L, call_with_fault);
+  lua_pushvalue(L, 2);
+  lua_pushlightuserdata(L, (void *)(size_t)found);
+  bool is_added = lua_pcall(L, 2, 0, 0) == LUA_OK;
+  if (!is_added)
+    lua_pop(L, 1);
+  return is_added && cs_interrupt_signal() == 0;
+}
+
+/* film:faults(add): looks at the pictures and calls add(where, message, exit code) for each that
+ * cannot be read. */
+static int faults(lua_State *L) {
+  film *f = self(L);
+  const cs_film_frame *frame = &f->script.frame;
+  luaL_checkstack(L, 8, "too many faults");
+  for (size_t i = 0; i < frame->count; i++) {
+    celspan_status status =
+        cs_inspect_rostrum(&f->pictures, frame->exposures[i].rostrum, add_fault, L);
+    if (status == CELSPAN_NO_MEMORY)
+      cs_service_try(L, status);
+  }
+  return 0;
+}
+
+/* ---------------------------------------------------------------- the film */
+
+/* Sets what a celspan.film has. */
+static void set_facts(lua_State *L, const cs_film_info *info) {
+  lua_pushinteger(L, info->first);
+  lua_setfield(L, -2, "first");
+  lua_pushinteger(L, info->count);
+  lua_setfield(L, -2, "frames");
+  lua_pushnumber(L, info->frames_second);
+  lua_setfield(L, -2, "fps");
+  lua_pushstring(L, info->title);
+  lua_setfield(L, -2, "title");
+  lua_createtable(L, 2, 0);
+  lua_pushinteger(L, info->width);
+  lua_rawseti(L, -2, 1);
+  lua_pushinteger(L, info->height);
+  lua_rawseti(L, -2, 2);
+  lua_setfield(L, -2, "size");
+}
+
+static int describe(lua_State *L) {
+  lua_pushliteral(L, "film of a script");
+  return 1;
+}
+
+/* Sets the methods of the film on top of the stack. */
+static void set_methods(lua_State *L) {
+  static const luaL_Reg methods[] = {{"build", build},
+                                     {"try", try_frame},
+                                     {"at", at},
+                                     {"chosen", chosen},
+                                     {"numbers", numbers},
+                                     {"refuse_view", refuse_view},
+                                     {"check_sound", check_sound},
+                                     {"scene", scene},
+                                     {"counts", counts},
+                                     {"names", names},
+                                     {"faults", faults},
+                                     {NULL, NULL}};
+  lua_createtable(L, 0, 2);
+  lua_pushcfunction(L, describe);
+  lua_setfield(L, -2, "__tostring");
+  lua_newtable(L);
+  cs_service_add(L, methods);
+  lua_setfield(L, -2, "__index");
+  lua_setmetatable(L, -2);
+}
+
+/* film(path or nil) -> the film of that script, or of the request's */
+static int open_film(lua_State *L) {
+  const cs_program *program = cs_service_program(L);
+  const cs_request *request = program->request;
+  const char *path = luaL_optstring(L, 1, request->operands[0]);
+  luaL_requiref(L, "celspan", luaopen_celspan, 0);
+  lua_createtable(L, 0, 8);
+  film *f = cs_userdata_push_holder(L, "celspan.program.film", sizeof *f, close_film);
+  f->pictures.context = program->context;
+  f->pictures.progress = cs_interrupt_progress;
+  f->pictures.is_deep = cs_request_has(request, "--deep");
+  cs_service_require(L, cs_script_open(program->context, request, path, &f->script));
+  lua_setfield(L, -2, "open");
+  set_facts(L, &f->script.film);
+  set_methods(L);
+  return 1;
+}
+
+void cs_service_add_film(lua_State *L) {
+  static const luaL_Reg services[] = {{"film", open_film}, {NULL, NULL}};
+  cs_service_add(L, services);
+}

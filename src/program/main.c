@@ -1,0 +1,152 @@
+/* The command line: chooses the verb, runs it, and turns its outcome into the exit code.
+ *
+ *   main -> request (the options) -> a verb -> report (exit code, one line of error)
+ *
+ * Nothing is loaded that the verb does not need: a Lua state is made by the verbs that are Lua or run
+ * a script; OpenImageIO by the first picture, in another process (plugins/isolate/zygote.h).
+ */
+#include <errno.h>
+#include <fcntl.h>
+#include <locale.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "frames/process/interrupt.h"
+#include "lua/bind/suggest.h"
+#include "lua/module/lua_script.h"
+#include "plugins/isolate/isolate.h"
+#include "plugins/isolate/zygote.h"
+#include "program/confine.h"
+#include "program/progress.h"
+#include "program/service.h"
+#include "program/verbs.h"
+
+enum { VERBS_MOST = 32 };
+
+static const cs_verb *find_verb(const char *name) {
+  for (const cs_verb *verb = cs_verbs; verb->name; verb++)
+    if (strcmp(verb->name, name) == 0)
+      return verb;
+  return NULL;
+}
+
+static cs_exit refuse_verb(const char *name) {
+  const char *names[VERBS_MOST];
+  size_t count = 0;
+  for (const cs_verb *verb = cs_verbs; verb->name && count < VERBS_MOST; verb++)
+    names[count++] = verb->name;
+  const char *nearest = cs_suggest_name(name, names, count);
+  if (nearest)
+    return cs_report_usage("unknown verb '%s': did you mean '%s'?", name, nearest);
+  return cs_report_usage("unknown verb '%s' ('celspan help' lists them)", name);
+}
+
+/* The page about a name of the Lua interface; NULL: the list of names. */
+static cs_exit help_lua(const char *name) {
+  celspan_context *context = NULL;
+  if (celspan_context_create(NULL, &context) != CELSPAN_OK) {
+    cs_report_error("no memory to begin");
+    return CS_EXIT_MEMORY;
+  }
+  celspan_status status = cs_lua_script_help(context, name, stdout);
+  cs_exit outcome = CS_EXIT_OK;
+  if (status == CELSPAN_BAD_ARGUMENT)
+    outcome = cs_report_usage("%s", celspan_context_error(context));
+  else if (status != CELSPAN_OK)
+    outcome = cs_report_failure(context, status, NULL);
+  celspan_context_destroy(context);
+  return outcome;
+}
+
+static cs_exit run(const cs_request *request) {
+  celspan_context *context = NULL;
+  celspan_context_desc desc = {.struct_size = sizeof desc};
+  int32_t memory = 0; /* MiB; 0: the defaults of the context */
+  cs_request_read(request, "--memory", &memory);
+  desc.defocus_bytes = (size_t)memory * 1048576 / 3; /* divided as the defaults are */
+  desc.picture_bytes = 2 * desc.defocus_bytes;
+  if (celspan_context_create(&desc, &context) != CELSPAN_OK) {
+    cs_report_error("no memory to begin");
+    return CS_EXIT_MEMORY;
+  }
+  cs_exit outcome = cs_confine_pictures(context, request);
+  if (outcome == CS_EXIT_OK)
+    outcome = request->verb->run ? request->verb->run(context, request)
+                                 : cs_service_run(context, request);
+  celspan_context_destroy(context);
+  cs_isolate_finish();
+  return outcome;
+}
+
+static cs_exit parse_and_run(const cs_verb *verb, size_t count, char *const *words) {
+  cs_request request;
+  cs_progress_style style = CS_PROGRESS_AUTO;
+  cs_exit outcome = cs_request_parse(verb, count, words, &request);
+  if (outcome != CS_EXIT_OK)
+    return outcome;
+  cs_request_read(&request, "--progress", &style);
+  cs_progress_choose(style);
+  return run(&request);
+}
+
+/* word: a verb, or an option of the help; NULL: it lists the verbs. */
+static cs_exit help(const char *word) {
+  bool is_list = !word || strcmp(word, "help") == 0;
+  if (!is_list && word[0] != '-' && !find_verb(word))
+    return refuse_verb(word);
+  return parse_and_run(find_verb("help"), is_list ? 0 : 1, (char *const *)&word);
+}
+
+static cs_exit run_verb(const cs_verb *verb, size_t count, char *const *words) {
+  for (size_t i = 0; i < count && strcmp(words[i], "--") != 0; i++)
+    if (strcmp(words[i], "--help") == 0 || strcmp(words[i], "-h") == 0)
+      return help(verb->name);
+  return parse_and_run(verb, count, words);
+}
+
+static cs_exit dispatch(int count, char **arguments) {
+  if (count < 2) {
+    cs_exit outcome = help("--stderr");
+    return outcome == CS_EXIT_OK ? CS_EXIT_USAGE : outcome;
+  }
+  const char *first = arguments[1];
+  if (strcmp(first, "--version") == 0) {
+    printf("celspan %s\n", celspan_version());
+    return CS_EXIT_OK;
+  }
+  if (strcmp(first, "--man") == 0)
+    return help(first);
+  if (strcmp(first, "help") == 0 && count > 2 && strcmp(arguments[2], "lua") == 0)
+    return help_lua(count > 3 ? arguments[3] : NULL);
+  if (strcmp(first, "help") == 0 || strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0)
+    return help(count > 2 ? arguments[2] : NULL);
+  const cs_verb *verb = find_verb(first);
+  return verb ? run_verb(verb, (size_t)count - 2, arguments + 2) : refuse_verb(first);
+}
+
+/* Daemons and farms start programs with descriptors 0 to 2 closed; the next file opened would then
+ * take their place, and messages would be written into frames. /dev/null holds the places. It is
+ * opened for reading alone where standard output was, so that what is written there still fails. */
+static bool hold_descriptors(void) {
+  static const int modes[] = {O_RDONLY, O_RDONLY, O_WRONLY};
+  for (int number = 0; number <= 2; number++)
+    if (fcntl(number, F_GETFD) < 0 && errno == EBADF && open("/dev/null", modes[number]) != number)
+      return false;
+  return true;
+}
+
+int main(int count, char **arguments) {
+  if (!hold_descriptors())
+    return CS_EXIT_INTERNAL;
+  /* Numbers are read and printed in the C locale by this thread, whatever a script may set. */
+  uselocale(newlocale(LC_ALL_MASK, "C", (locale_t)0));
+  if (cs_zygote_is_meant(count, arguments))
+    cs_zygote_run(count, arguments);
+  cs_interrupt_install();
+  cs_exit outcome = dispatch(count, arguments);
+  outcome = cs_report_close_output(outcome);
+  if (cs_interrupt_signal())
+    cs_interrupt_die();
+  return (int)outcome;
+}

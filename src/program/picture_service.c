@@ -1,0 +1,403 @@
+/* Pictures for verbs in Lua: their facts, two compared, one converted, a frame written.
+ *
+ * Whether two pictures show the same is decided row by row, span by span.
+ * Coded values are compared: sRGB, straight, at 16 bits when both pictures hold integers and as
+ * floats when one of them does not.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "base/context.h"
+#include "frames/process/interrupt.h"
+#include "frames/still/still.h"
+#include "lua/bind/userdata.h"
+#include "lua/nouns/options.h"
+#include "model/colour/transfer.h"
+#include "model/pictures/store.h"
+#include "output/sinks/difference.h"
+#include "output/sinks/pixels.h"
+#include "program/service.h"
+#include "program/target.h"
+#include "program/view.h"
+
+static void set_text(lua_State *L, const char *name, const char *text) {
+  lua_pushstring(L, text);
+  lua_setfield(L, -2, name);
+}
+
+static void set_integer(lua_State *L, const char *name, int64_t number) {
+  lua_pushinteger(L, number);
+  lua_setfield(L, -2, name);
+}
+
+/* ---------------------------------------------------------------- what a picture holds */
+
+typedef struct picture {
+  celspan_context *context;
+  const cs_picture_module *module;
+  cs_picture_reader *reader;
+  cs_picture_part *parts;
+  size_t count, capacity;
+  celspan_status status; /* of adding a part */
+} picture;
+
+static int close_picture(lua_State *L) {
+  picture *p = lua_touserdata(L, 1);
+  if (p->reader)
+    p->module->close(p->reader);
+  p->reader = NULL;
+  if (p->parts)
+    cs_mem_free(p->context->memory, p->parts, p->capacity * sizeof *p->parts);
+  p->parts = NULL;
+  return 0;
+}
+
+static bool add_part(void *user, const cs_picture_part *part) {
+  picture *p = user;
+  p->status =
+      cs_mem_reserve(p->context, (void **)&p->parts, &p->capacity, p->count + 1, sizeof *p->parts);
+  if (p->status == CELSPAN_OK)
+    p->parts[p->count++] = *part;
+  return p->status == CELSPAN_OK;
+}
+
+static celspan_status read_picture(picture *p, const char *path, cs_picture_header *header) {
+  const cs_picture_request request = {.file = path};
+  cs_picture_failure failure;
+  CS_TRY(cs_store_module(p->context, CELSPAN_INPUT, &p->module));
+  celspan_status status = p->module->open(&request, &p->reader, header, &failure);
+  if (status == CELSPAN_OK)
+    status = p->module->list(p->reader, add_part, p, &failure);
+  return status == CELSPAN_OK ? p->status : cs_fail(p->context, status, "%s", failure.text);
+}
+
+/* Pushes the subimages, and the layers of the first one, which have no subimage. */
+static void push_parts(lua_State *L, const picture *p) {
+  lua_createtable(L, (int)p->count, 0);
+  for (size_t i = 0; i < p->count; i++) {
+    const cs_picture_part *part = &p->parts[i];
+    lua_createtable(L, 0, 6);
+    if (part->subimage >= 0)
+      set_integer(L, "subimage", part->subimage);
+    set_text(L, "name", part->name);
+    set_integer(L, "width", part->width);
+    set_integer(L, "height", part->height);
+    set_integer(L, "channels", part->channels);
+    set_text(L, "depth", part->depth);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+}
+
+/* picture(path) -> { format =, width =, height =, channels =, alpha =, colour =, bytes =, parts = },
+ * of which alpha is nil, "straight" or "premultiplied" */
+static int read_facts(lua_State *L) {
+  const char *path = luaL_checkstring(L, 1);
+  picture *p = cs_userdata_push_holder(L, "celspan.program.picture", sizeof *p, close_picture);
+  p->context = cs_service_program(L)->context;
+  cs_picture_header header;
+  cs_service_try(L, read_picture(p, path, &header));
+  bool is_premultiplied = header.alpha == CS_PICTURE_ALPHA_CODED;
+  lua_createtable(L, 0, 8);
+  set_text(L, "format", header.info.format);
+  set_integer(L, "width", header.info.width);
+  set_integer(L, "height", header.info.height);
+  set_integer(L, "channels", header.info.channels);
+  if (header.info.has_alpha)
+    set_text(L, "alpha", is_premultiplied ? "premultiplied" : "straight");
+  set_text(L, "colour", header.info.colour);
+  set_integer(L, "bytes", header.file_size);
+  push_parts(L, p);
+  lua_setfield(L, -2, "parts");
+  return 1;
+}
+
+static int close_spans(lua_State *L) {
+  cs_span_reader **file = lua_touserdata(L, 1);
+  cs_span_reader_close(*file);
+  *file = NULL;
+  return 0;
+}
+
+/* spans(path) -> what the whole file consists of */
+static int read_spans(lua_State *L) {
+  celspan_context *context = cs_service_program(L)->context;
+  cs_span_reader **file =
+      cs_userdata_push_holder(L, "celspan.program.spans", sizeof(cs_span_reader *), close_spans);
+  spanfile_counts counts;
+  cs_service_try(L, cs_span_reader_open(context, luaL_checkstring(L, 1), file));
+  cs_service_try(L, cs_span_reader_check(*file, &counts));
+  spanfile_info info = cs_span_reader_info(*file);
+  lua_createtable(L, 0, 10);
+  set_integer(L, "width", info.width);
+  set_integer(L, "height", info.height);
+  set_text(L, "depth", info.format == SPANFILE_HALF ? "half" : "8");
+  set_integer(L, "bytes", (int64_t)cs_span_reader_bytes(*file));
+  set_integer(L, "rows_same", (int64_t)counts.same_rows);
+  set_integer(L, "rows_moved", (int64_t)counts.moved_rows);
+  set_integer(L, "rows_literal", (int64_t)counts.literal_rows);
+  set_integer(L, "runs", (int64_t)counts.spans[SPANFILE_RUN]);
+  set_integer(L, "raw_spans", (int64_t)counts.spans[SPANFILE_RAW]);
+  set_integer(L, "gradients", (int64_t)counts.spans[SPANFILE_GRADIENT]);
+  return 1;
+}
+
+/* ---------------------------------------------------------------- two pictures, row by row */
+
+typedef struct comparison {
+  celspan_coding coding;
+  int32_t width, height;
+  double tolerance;
+  double largest;
+  int32_t x, y; /* where the largest difference is */
+  int channel;
+  uint64_t differing; /* pixels */
+  uint8_t *picture;   /* with -o: a row of the picture of differences; borrowed */
+  float *linear;      /* with -o: the same row for its sink; borrowed */
+} comparison;
+
+static double value(const comparison *c, const void *row, size_t i) {
+  return c->coding.depth == CELSPAN_DEPTH_16 ? ((const uint16_t *)row)[i] / 65535.0
+                                             : (double)((const float *)row)[i];
+}
+
+static double difference(double a, double b) {
+  if (isnan(a) || isnan(b))
+    return isnan(a) && isnan(b) ? 0 : (double)INFINITY;
+  return a == b ? 0 : fabs(a - b); /* equal infinities are equal */
+}
+
+/* Compares coded pixels from column x0 on. Each pixel counts for `times` columns. */
+static void compare_pixels(comparison *c, int32_t x0, int32_t y, int32_t count, int32_t times,
+                           const void *pixels_a, const void *pixels_b) {
+  for (int32_t x = 0; x < count; x++) {
+    bool differs = false;
+    double most = 0;
+    for (int channel = 0; channel < 4; channel++) {
+      size_t i = 4 * (size_t)x + (size_t)channel;
+      double d = difference(value(c, pixels_a, i), value(c, pixels_b, i));
+      differs |= d > c->tolerance;
+      most = d > most ? d : most;
+      if (d > c->largest) {
+        c->largest = d;
+        c->x = x0 + x;
+        c->y = y;
+        c->channel = channel;
+      }
+    }
+    c->differing += differs ? (uint64_t)times : 0;
+    if (differs && c->picture)
+      cs_difference_mark(most, c->picture + 4 * (size_t)(x0 + x), (size_t)times);
+  }
+}
+
+/* Codes `count` columns of a span, from column x on. */
+static void code_columns(const comparison *c, const celspan_span *span, int32_t x, int32_t count,
+                         void *pixels) {
+  celspan_span columns = *span;
+  columns.x0 = 0;
+  columns.x1 = count;
+  columns.origin = span->origin - x;
+  if (span->kind == CELSPAN_SPAN_ARRAY)
+    columns.array = span->array + 4 * (size_t)(x - span->x0);
+  cs_pixels_row(&c->coding, &columns, 1, pixels);
+}
+
+/* Compares columns [x0, x1), which are in one span of each picture. Where both spans have a single
+ * colour, one pixel is enough. */
+static void compare_columns(comparison *c, int32_t y, const celspan_span *a, const celspan_span *b,
+                            int32_t x0, int32_t x1) {
+  enum { CHUNK = 1024 };
+  float pixels_a[4 * CHUNK], pixels_b[4 * CHUNK];
+  bool is_even = a->kind == CELSPAN_SPAN_SINGLE && b->kind == CELSPAN_SPAN_SINGLE;
+  if (is_even && memcmp(a->colour, b->colour, sizeof a->colour) == 0)
+    return;
+  for (int32_t x = x0, next; x < x1; x = next) {
+    next = is_even || x1 - x < CHUNK ? x1 : x + CHUNK;
+    int32_t count = is_even ? 1 : next - x;
+    code_columns(c, a, x, count, pixels_a);
+    code_columns(c, b, x, count, pixels_b);
+    compare_pixels(c, x, y, count, is_even ? next - x : 1, pixels_a, pixels_b);
+  }
+}
+
+/* The row of the picture of differences before anything is marked. */
+static void begin_row(const comparison *c, const celspan_span *spans, size_t count) {
+  static const celspan_coding coding = {CELSPAN_DEPTH_8, CELSPAN_TRANSFER_SRGB,
+                                        CELSPAN_ALPHA_STRAIGHT};
+  cs_pixels_row(&coding, spans, count, c->picture);
+  cs_difference_pale(c->picture, (size_t)c->width);
+}
+
+static celspan_status compare_row(comparison *c, int32_t y, cs_still_rows *rows_a,
+                                  cs_still_rows *rows_b) {
+  const celspan_span *a = NULL, *b = NULL;
+  size_t count_a = 0, count_b = 0;
+  celspan_status status = cs_still_rows_get(rows_a, y, &a, &count_a);
+  if (status == CELSPAN_OK && c->picture)
+    begin_row(c, a, count_a);
+  if (status == CELSPAN_OK)
+    status = cs_still_rows_get(rows_b, y, &b, &count_b);
+  for (int32_t x = 0, next; x < c->width && status == CELSPAN_OK; x = next) {
+    next = a->x1 < b->x1 ? a->x1 : b->x1;
+    compare_columns(c, y, a, b, x, next);
+    a += a->x1 == next;
+    b += b->x1 == next;
+  }
+  return status;
+}
+
+/* Gives the row of the picture of differences to its sink, as codes that it takes as they are. */
+static celspan_status put_row(celspan_context *context, const comparison *c,
+                              const celspan_sink *sink, int32_t y) {
+  float *pixels = c->linear;
+  for (size_t i = 0; i < 4 * (size_t)c->width; i++)
+    pixels[i] = i % 4 == 3 ? 1 : cs_transfer_decode(CELSPAN_TRANSFER_SRGB, c->picture[i] / 255.0f);
+  const celspan_span span = {.x1 = c->width, .kind = CELSPAN_SPAN_ARRAY, .array = pixels};
+  return sink->row(sink->user, context, y, &span, 1);
+}
+
+/* sink: NULL without -o. */
+static celspan_status compare_all(celspan_context *context, comparison *c, cs_still_rows *a,
+                                  cs_still_rows *b, const celspan_sink *sink) {
+  celspan_status status = sink ? sink->begin(sink->user, context, c->width, c->height) : CELSPAN_OK;
+  for (int32_t y = 0; y < c->height && status == CELSPAN_OK; y++) {
+    status = cs_interrupt_signal() ? CELSPAN_CANCELLED : compare_row(c, y, a, b);
+    if (status == CELSPAN_OK && sink)
+      status = put_row(context, c, sink, y);
+  }
+  return sink ? sink->end(sink->user, context, status) : status;
+}
+
+/* The sink, NULL without -o, is ended whatever happens. */
+static celspan_status compare_stills(celspan_context *context, comparison *c,
+                                     const celspan_sink *sink, const cs_still *still_a,
+                                     const celspan_frame_desc *frame_a, const cs_still *still_b,
+                                     const celspan_frame_desc *frame_b) {
+  cs_still_rows a = {NULL, NULL}, b = a;
+  celspan_status status = cs_still_rows_create(context, still_a, frame_a, &a);
+  if (status == CELSPAN_OK)
+    status = cs_still_rows_create(context, still_b, frame_b, &b);
+  if (status == CELSPAN_OK)
+    status = compare_all(context, c, &a, &b, sink);
+  else if (sink)
+    status = sink->end(sink->user, context, status);
+  cs_still_rows_destroy(&a);
+  cs_still_rows_destroy(&b);
+  return status;
+}
+
+/* With the rows and the sink that -o needs, or without. */
+static celspan_status compare_into(celspan_context *context, comparison *c, const char *output,
+                                   const cs_still *still_a, const celspan_frame_desc *frame_a,
+                                   const cs_still *still_b, const celspan_frame_desc *frame_b) {
+  if (!output)
+    return compare_stills(context, c, NULL, still_a, frame_a, still_b, frame_b);
+  size_t channels = 4 * (size_t)c->width;
+  celspan_file_desc file = CELSPAN_FILE_DESC;
+  celspan_sink sink;
+  file.is_opaque = true;
+  c->picture = cs_mem_array(context->memory, channels, sizeof *c->picture);
+  c->linear = cs_mem_array(context->memory, channels, sizeof *c->linear);
+  celspan_status status = c->picture && c->linear
+                              ? celspan_file_sink_create(context, output, &file, &sink)
+                              : cs_fail_memory(context);
+  if (status == CELSPAN_OK)
+    status = compare_stills(context, c, &sink, still_a, frame_a, still_b, frame_b);
+  cs_mem_free(context->memory, c->picture, channels * sizeof *c->picture);
+  cs_mem_free(context->memory, c->linear, channels * sizeof *c->linear);
+  return status;
+}
+
+static void push_answer(lua_State *L, const comparison *c) {
+  lua_createtable(L, 0, 6);
+  lua_pushnumber(L, c->largest);
+  lua_setfield(L, -2, "largest");
+  set_integer(L, "x", c->x);
+  set_integer(L, "y", c->y);
+  lua_pushlstring(L, &"rgba"[c->channel], 1);
+  lua_setfield(L, -2, "channel");
+  set_integer(L, "differing", (int64_t)c->differing);
+  set_integer(L, "pixels", (int64_t)c->width * c->height);
+}
+
+static void push_sizes(lua_State *L, const cs_still stills[2]) {
+  lua_createtable(L, 0, 1);
+  lua_createtable(L, 4, 0);
+  for (int i = 0; i < 2; i++) {
+    lua_pushinteger(L, stills[i].info.width);
+    lua_rawseti(L, -2, 2 * i + 1);
+    lua_pushinteger(L, stills[i].info.height);
+    lua_rawseti(L, -2, 2 * i + 2);
+  }
+  lua_setfield(L, -2, "sizes");
+}
+
+static int close_stills(lua_State *L) {
+  cs_still *stills = lua_touserdata(L, 1);
+  cs_still_close(&stills[0]);
+  cs_still_close(&stills[1]);
+  return 0;
+}
+
+/* compare(a, b, difference or nil) -> { largest =, x =, y =, channel =, differing =, pixels = }, or
+ * { sizes = { w, h, w, h } } where they differ */
+static int compare(lua_State *L) {
+  const cs_program *program = cs_service_program(L);
+  const char *output = luaL_optstring(L, 3, NULL);
+  cs_still *stills =
+      cs_userdata_push_holder(L, "celspan.program.stills", 2 * sizeof *stills, close_stills);
+  celspan_frame_desc frames[2];
+  for (int i = 0; i < 2; i++)
+    cs_service_try(L, cs_still_open(program->context, luaL_checkstring(L, i + 1), &stills[i]));
+  const celspan_picture_info *a = &stills[0].info, *b = &stills[1].info;
+  if (a->width != b->width || a->height != b->height) {
+    push_sizes(L, stills);
+    return 1;
+  }
+  for (int i = 0; i < 2; i++)
+    cs_service_require(L, cs_view_still(program->request, &stills[i], &frames[i]));
+  const celspan_coding coding = {a->is_float || b->is_float ? CELSPAN_DEPTH_FLOAT
+                                                            : CELSPAN_DEPTH_16,
+                                 CELSPAN_TRANSFER_SRGB, CELSPAN_ALPHA_STRAIGHT};
+  comparison c = {.coding = coding, .width = a->width, .height = a->height};
+  cs_request_read(program->request, "--fail", &c.tolerance);
+  cs_service_try(L, compare_into(program->context, &c, output, &stills[0], &frames[0], &stills[1],
+                                 &frames[1]));
+  push_answer(L, &c);
+  return 1;
+}
+
+/* convert(in, out): a picture under the request into another file. */
+static int convert(lua_State *L) {
+  const cs_program *program = cs_service_program(L);
+  cs_still *stills =
+      cs_userdata_push_holder(L, "celspan.program.stills", 2 * sizeof *stills, close_stills);
+  celspan_file_desc file = cs_target_file(program->request);
+  celspan_frame_desc frame;
+  cs_service_try(L, cs_still_open(program->context, luaL_checkstring(L, 1), stills));
+  cs_service_require(L, cs_view_still(program->request, stills, &frame));
+  cs_service_try(L,
+                 cs_still_write(program->context, stills, &frame, luaL_checkstring(L, 2), &file));
+  return 0;
+}
+
+/* write(frame, path, width, height): a frame into a picture under the request. */
+static int write_frame(lua_State *L) {
+  const cs_program *program = cs_service_program(L);
+  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
+  desc.film_width = desc.width = (int32_t)luaL_checkinteger(L, 3);
+  desc.film_height = desc.height = (int32_t)luaL_checkinteger(L, 4);
+  cs_request_read(program->request, "--workers", &desc.workers);
+  cs_options_exposures(L, 1, "write", &desc);
+  celspan_file_desc file = cs_target_file(program->request);
+  cs_service_try(L,
+                 celspan_frame_write(program->context, &desc, luaL_checkstring(L, 2), &file, NULL));
+  return 0;
+}
+
+void cs_service_add_pictures(lua_State *L) {
+  static const luaL_Reg services[] = {{"picture", read_facts}, {"spans", read_spans},
+                                      {"compare", compare},    {"convert", convert},
+                                      {"write", write_frame},  {NULL, NULL}};
+  cs_service_add(L, services);
+}

@@ -1,0 +1,113 @@
+/* Processes for verbs in Lua: runs of this program beside it, several at a time.
+ *
+ *   start --> celspan ...      what it prints goes to a file, its descriptor 3 is another
+ *   wait  <-- the one that ended
+ *
+ * A signal that asks to stop ends them.
+ */
+#include <errno.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "frames/process/interrupt.h"
+#include "frames/process/spawn.h"
+#include "program/service.h"
+
+enum { CHILDREN_MOST = 1024, WORDS_MOST = 16 };
+
+/* Those that run; 0: a free place. */
+static volatile pid_t children[CHILDREN_MOST];
+
+/* Runs in the signal handler: kill(2) is safe there. */
+static void stop_children(void) {
+  for (size_t i = 0; i < CHILDREN_MOST; i++)
+    if (children[i] > 0)
+      kill(children[i], SIGTERM);
+}
+
+static void replace_child(pid_t from, pid_t to) {
+  for (size_t i = 0; i < CHILDREN_MOST; i++)
+    if (children[i] == from) {
+      children[i] = to;
+      return;
+    }
+}
+
+static int descriptor_at(lua_State *L, int index) {
+  return fileno(((luaL_Stream *)luaL_checkudata(L, index, LUA_FILEHANDLE))->f);
+}
+
+/* start(words, printed, other) -> the number of a process, which runs this program with the words, of
+ * which there are at most 14; nil, message. At most 1024 at a time. */
+static int start(lua_State *L) {
+  const char *words[WORDS_MOST] = {"celspan"};
+  int printed = descriptor_at(L, 2), other = descriptor_at(L, 3);
+  const int files[] = {CS_SPAWN_SAME, printed, printed, other};
+  for (int i = 1; i < WORDS_MOST - 1 && lua_rawgeti(L, 1, i) == LUA_TSTRING; i++)
+    words[i] = lua_tostring(L, -1);
+  pid_t process;
+  cs_interrupt_call(stop_children);
+  int error = cs_spawn(&process, "/proc/self/exe", words, files, sizeof files / sizeof *files);
+  errno = error;
+  if (error)
+    return luaL_fileresult(L, 0, NULL);
+  replace_child(0, process);
+  lua_pushinteger(L, process);
+  return 1;
+}
+
+/* wait() -> the number of a process that ended, its exit code, or nil, the signal that ended it and
+ * its name; or nil where there is none to wait for. Another program's children, inherited by exec,
+ * are answered too. */
+static int wait_for_one(lua_State *L) {
+  int status;
+  pid_t ended;
+  do
+    ended = waitpid(-1, &status, 0);
+  while (ended < 0 && errno == EINTR);
+  if (ended < 0)
+    return 0;
+  replace_child(ended, 0);
+  lua_pushinteger(L, ended);
+  if (WIFEXITED(status)) {
+    lua_pushinteger(L, WEXITSTATUS(status));
+    return 2;
+  }
+  luaL_pushfail(L);
+  lua_pushinteger(L, WTERMSIG(status));
+  lua_pushstring(L, strsignal(WTERMSIG(status)));
+  return 4;
+}
+
+/* default_signals(): signals end this process as they end any program, and programs that it starts. */
+static int default_signals(lua_State *L) {
+  static const int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ};
+  (void)L;
+  for (size_t i = 0; i < sizeof signals / sizeof *signals; i++)
+    signal(signals[i], SIG_DFL);
+  return 0;
+}
+
+/* processors() -> how many there are */
+static int processors(lua_State *L) {
+  long count = sysconf(_SC_NPROCESSORS_ONLN);
+  lua_pushinteger(L, count > 0 ? count : 1);
+  return 1;
+}
+
+/* clock() -> seconds since some moment, which never go back */
+static int clock_now(lua_State *L) {
+  lua_pushnumber(L, cs_clock_seconds());
+  return 1;
+}
+
+void cs_service_add_processes(lua_State *L) {
+  static const luaL_Reg services[] = {
+      {"start", start},           {"wait", wait_for_one}, {"default_signals", default_signals},
+      {"processors", processors}, {"clock", clock_now},   {NULL, NULL}};
+  cs_service_add(L, services);
+}

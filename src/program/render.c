@@ -1,0 +1,415 @@
+/* celspan render SCRIPT -o OUT: the frames of a film.
+ *
+ *   target (where to) -> shoot (frames/film/shoot.h: build, make, copy) -> finished, frame by frame
+ *
+ * Everything that can be refused is refused before the first frame is made. A frame that fails ends
+ * the run, except under --keep-going; the frames before it are complete and stay.
+ */
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/context.h"
+#include "frames/film/shoot.h"
+#include "frames/process/interrupt.h"
+#include "frames/video/video.h"
+#include "output/sinks/pixels.h"
+#include "program/change.h"
+#include "program/progress.h"
+#include "program/record.h"
+#include "program/target.h"
+#include "program/verbs.h"
+#include "program/video_target.h"
+#include "program/view.h"
+
+typedef struct render_job {
+  cs_script *script;
+  const cs_request *request;
+  const char *output; /* NULL: digests alone */
+  bool has_digests, resumes, keeps_going;
+  cs_change change;
+  celspan_frame_desc frame;
+  cs_sequence frames;
+  cs_progress progress;
+  cs_record record;
+  bool is_video;
+  cs_video video;  /* where it is one */
+  int64_t *failed; /* frames; owned */
+  size_t failed_count, failed_capacity;
+  cs_exit outcome; /* of what was reported */
+} render_job;
+
+/* ---------------------------------------------------------------- raw frames */
+
+/* A sink that writes the rows of a frame to standard output as coded pixels, without a file format. */
+typedef struct raw_rows {
+  celspan_coding coding; /* without defaults, except for the depth of dithering */
+  int32_t x, y;          /* the place of the first pixel in the whole frame */
+  unsigned char *row;
+  size_t row_size;
+} raw_rows;
+
+static celspan_status begin_raw(void *user, celspan_context *context, int32_t width,
+                                int32_t height) {
+  raw_rows *raw = user;
+  (void)height;
+  raw->row_size = (size_t)width * celspan_coding_pixel_size(&raw->coding);
+  raw->row = cs_mem_resize(context->memory, NULL, 0, raw->row_size);
+  return raw->row ? CELSPAN_OK : cs_fail_memory(context);
+}
+
+static celspan_status put_raw_row(void *user, celspan_context *context, int32_t y,
+                                  const celspan_span *spans, size_t span_count) {
+  raw_rows *raw = user;
+  celspan_spans_code_at(&raw->coding, raw->x, raw->y + y, spans, span_count, raw->row);
+  if (fwrite(raw->row, 1, raw->row_size, stdout) == raw->row_size)
+    return CELSPAN_OK;
+  return celspan_context_fail(context, CELSPAN_OUTPUT, "standard output: row %d: %s", y,
+                              strerror(errno));
+}
+
+static celspan_status end_raw(void *user, celspan_context *context, celspan_status outcome) {
+  raw_rows *raw = user;
+  cs_mem_free(context->memory, raw->row, raw->row_size);
+  raw->row = NULL;
+  if (outcome == CELSPAN_OK && fflush(stdout) != 0)
+    return celspan_context_fail(context, CELSPAN_OUTPUT, "standard output: %s", strerror(errno));
+  return outcome;
+}
+
+static celspan_sink raw_sink(raw_rows *raw, const celspan_coding *coding,
+                             const celspan_frame_desc *frame) {
+  bool dithers = coding->depth == CELSPAN_DEPTH_8_DITHER;
+  *raw = (raw_rows){
+      .coding = cs_pixels_resolve(coding, CELSPAN_DEPTH_8), .x = frame->crop_x, .y = frame->crop_y};
+  bool takes_codes = !dithers && cs_pixels_takes_codes(&raw->coding);
+  if (dithers)
+    raw->coding.depth = CELSPAN_DEPTH_8_DITHER;
+  return (celspan_sink){raw, begin_raw, put_raw_row, end_raw, takes_codes};
+}
+
+/* ---------------------------------------------------------------- frames */
+
+static celspan_status put_raw(void *user, const celspan_frame_desc *frame, cs_shoot_frame *unused) {
+  const render_job *job = user;
+  (void)unused;
+  raw_rows raw;
+  const celspan_coding coding = cs_target_coding(job->request);
+  celspan_sink sink = raw_sink(&raw, &coding, frame);
+  return celspan_frame_render(job->script->context, frame, &sink, NULL);
+}
+
+static celspan_status put_video(void *user, const celspan_frame_desc *desc, cs_shoot_frame *frame) {
+  render_job *job = user;
+  return cs_video_put(&job->video, desc, frame);
+}
+
+static bool keep(void *user, cs_shoot_frame *frame) {
+  render_job *job = user;
+  return cs_record_has(&job->record, frame);
+}
+
+static bool tick(void *user, double share) {
+  render_job *job = user;
+  return cs_progress_tick(&job->progress, share);
+}
+
+/* ---------------------------------------------------------------- reports */
+
+static celspan_status remember_failure(render_job *job, int64_t number) {
+  CS_TRY(cs_mem_reserve(job->script->context, (void **)&job->failed, &job->failed_capacity,
+                        job->failed_count + 1, sizeof *job->failed));
+  job->failed[job->failed_count++] = number;
+  return CELSPAN_OK;
+}
+
+/* Reports a frame that failed, and remembers it. Under --keep-going the run goes on. */
+static celspan_status report_failure(render_job *job, int64_t number, celspan_status status) {
+  cs_exit outcome = cs_report_frame_failure(job->script->context, status, number);
+  celspan_status remembered =
+      outcome == CS_EXIT_SIGNAL ? CELSPAN_OK : remember_failure(job, number);
+  if (outcome != CS_EXIT_SIGNAL && job->keeps_going)
+    return remembered;
+  job->outcome = outcome;
+  return status;
+}
+
+static const char *destination_of(const render_job *job, const cs_shoot_frame *frame) {
+  const char *output = job->output;
+  return !output                       ? "hashed"
+         : cs_target_is_stream(output) ? "standard output"
+         : job->is_video               ? output
+                                       : frame->path;
+}
+
+static celspan_status build(void *user, int64_t number, cs_film_frame *out) {
+  const render_job *job = user;
+  cs_film_frame built;
+  CS_TRY(cs_lua_film_build(job->script->L, CS_SCRIPT_FILM, number, &built));
+  celspan_status status = cs_change_frame(job->script->context, &job->change, &built);
+  if (status == CELSPAN_OK)
+    *out = built;
+  else
+    cs_film_frame_finish(&built);
+  return status;
+}
+
+static celspan_status finished(void *user, const cs_shoot_frame *frame, celspan_status status) {
+  static const char *const ways[] = {"made", "copied", "kept"};
+  render_job *job = user;
+  if (status == CELSPAN_OK && job->resumes)
+    status = cs_record_add(&job->record, frame);
+  if (status != CELSPAN_OK)
+    return report_failure(job, frame->number, status);
+  if (job->has_digests)
+    printf("%" PRId64 " %016" PRIx64 "%016" PRIx64 "\n", frame->number, frame->digest[0],
+           frame->digest[1]);
+  cs_progress_frame(&job->progress, frame->number, destination_of(job, frame), ways[frame->way]);
+  return CELSPAN_OK;
+}
+
+/* "2, 5-6": the frames that failed, in the order of the run; "2, 5-6, ..." where not all fit. */
+static void list_failed(const render_job *job, char *out, size_t size) {
+  static const char more[] = ", ...";
+  const int64_t *failed = job->failed;
+  size_t length = 0;
+  for (size_t i = 0, end; i < job->failed_count; i = end) {
+    char run[48];
+    for (end = i + 1; end < job->failed_count && failed[end] == failed[end - 1] + 1;)
+      end++;
+    int added = snprintf(run, sizeof run, "%s%" PRId64, i ? ", " : "", failed[i]);
+    if (end > i + 1)
+      added += snprintf(run + added, sizeof run - (size_t)added, "-%" PRId64, failed[end - 1]);
+    if (length + (size_t)added + sizeof more > size) {
+      memcpy(out + length, more, sizeof more);
+      return;
+    }
+    memcpy(out + length, run, (size_t)added + 1);
+    length += (size_t)added;
+  }
+}
+
+static cs_exit sum_up(const render_job *job, cs_exit outcome) {
+  char list[1024];
+  size_t done = job->progress.frames_done, count = job->frames.count;
+  if (done < count && count > 1 && job->is_video)
+    cs_report_note("%s is not made: it ended at %zu of %zu frames", job->output, done, count);
+  else if (done < count && count > 1)
+    cs_report_note("%zu of %zu frames are finished", done, count);
+  if (job->failed_count == 0 || !job->keeps_going)
+    return outcome;
+  list_failed(job, list, sizeof list);
+  cs_report_error("%zu of %zu frames failed: %s", job->failed_count, count, list);
+  return outcome == CS_EXIT_OK ? CS_EXIT_PARTIAL : outcome;
+}
+
+/* All that there is to say is said before the end. */
+static cs_exit report_end(render_job *job, cs_exit outcome) {
+  cs_progress_failures failed = {job->failed, job->failed_count};
+  outcome = cs_report_flush_output(sum_up(job, outcome));
+  cs_progress_end(&job->progress, failed, (int)outcome);
+  return outcome;
+}
+
+/* ---------------------------------------------------------------- the run */
+
+static celspan_file_desc describe_file(const render_job *job) {
+  celspan_file_desc file = cs_target_file(job->request);
+  bool is_strip = cs_request_has(job->request, "--strip");
+  file.strip_row = is_strip ? job->frame.crop_y : 0;
+  file.strip_height = is_strip ? job->frame.height : 0;
+  return file;
+}
+
+static cs_exit shoot(render_job *job) {
+  int32_t memory = 1;
+  cs_request_read(job->request, "--memory", &memory);
+  bool is_stream = job->output && cs_target_is_stream(job->output);
+  const cs_shoot shoot = {.context = job->script->context,
+                          .film = job->script->film,
+                          .frames = &job->frames,
+                          .pattern = is_stream || job->is_video ? NULL : job->output,
+                          .frame = job->frame,
+                          .file = describe_file(job),
+                          .has_digests = job->has_digests,
+                          .keeps_going = job->keeps_going,
+                          .keeps_nothing = memory == 0,
+                          .user = job,
+                          .put = job->is_video ? put_video
+                                 : is_stream   ? put_raw
+                                               : NULL,
+                          .keep = job->resumes ? keep : NULL,
+                          .build = build,
+                          .finished = finished,
+                          .tick = tick};
+  celspan_status status = cs_shoot_run(&shoot);
+  return job->outcome != CS_EXIT_OK ? job->outcome
+                                    : cs_report_failure(job->script->context, status, NULL);
+}
+
+/* The frames of a video are finished when its file is. */
+static cs_exit shoot_video(render_job *job) {
+  cs_exit outcome = shoot(job);
+  if (outcome == CS_EXIT_OK)
+    return cs_report_failure(job->script->context, cs_video_finish(&job->video), NULL);
+  cs_video_discard(&job->video);
+  return outcome;
+}
+
+static cs_exit render_all(render_job *job) {
+  cs_progress_style style = CS_PROGRESS_AUTO;
+  cs_request_read(job->request, "--progress", &style);
+  cs_progress_start(&job->progress, style, job->frames.count);
+  return report_end(job, job->is_video ? shoot_video(job) : shoot(job));
+}
+
+static cs_exit resume_all(render_job *job) {
+  if (!job->resumes)
+    return render_all(job);
+  celspan_status status = cs_record_open(&job->record, job->script, job->request, &job->frame);
+  cs_exit outcome = cs_report_failure(job->script->context, status, NULL);
+  if (outcome == CS_EXIT_OK)
+    outcome = render_all(job);
+  cs_record_close(&job->record);
+  return outcome;
+}
+
+static cs_exit refuse_stream(const cs_request *request) {
+  const char *format = cs_request_text(request, "--format");
+  cs_progress_style style = CS_PROGRESS_AUTO;
+  cs_request_read(request, "--progress", &style);
+  if (cs_request_has(request, "--quality"))
+    return cs_report_usage("--quality belongs to videos, such as film.mp4");
+  if (cs_request_has(request, "--hash"))
+    return cs_report_usage("--hash prints to standard output, where -o - puts the frames: give one "
+                           "of them");
+  if (style == CS_PROGRESS_OPENJD)
+    return cs_report_usage("--progress openjd prints to standard output, where -o - puts the "
+                           "frames: give one of them");
+  if (format)
+    return cs_report_usage("--format %s goes into files: with -o - frames are raw RGBA rows",
+                           format);
+  return CS_EXIT_OK;
+}
+
+static cs_exit refuse_resume(const cs_request *request, const char *output) {
+  bool resumes = cs_request_has(request, "--resume");
+  if (cs_request_has(request, "--force") && !resumes)
+    return cs_report_usage("--force belongs to --resume");
+  if (resumes && (!output || cs_target_is_stream(output)))
+    return cs_report_usage("--resume looks for the frames of an earlier run: give -o "
+                           "shot.####.png");
+  return CS_EXIT_OK;
+}
+
+/* Refuses what cannot be written. frame_count: 0 where it is not known yet. */
+static cs_exit refuse_output(celspan_context *context, const cs_request *request,
+                             size_t frame_count) {
+  if (cs_video_target_is_wanted(request, frame_count))
+    return cs_request_has(request, "--strict")
+               ? cs_report_usage("--strict starts no programs, and ffmpeg makes videos: render "
+                                 "frames, and make the video of them")
+               : cs_video_target_refuse(request, frame_count);
+  if (cs_request_has(request, "--quality"))
+    return cs_report_usage("--quality belongs to videos, such as film.mp4");
+  const char *output = cs_request_text(request, "-o");
+  return output ? cs_target_refuse(context, output, request) : CS_EXIT_OK;
+}
+
+static cs_exit refuse_dither(const cs_request *request) {
+  celspan_depth depth = CELSPAN_DEPTH_8;
+  cs_request_read(request, "--depth", &depth);
+  return cs_request_has(request, "--dither") && depth != CELSPAN_DEPTH_8
+             ? cs_report_usage("--dither makes 8 bits: leave --depth out, or give --depth 8")
+             : CS_EXIT_OK;
+}
+
+/* Strips and tasks are files, which go their own ways. */
+static cs_exit refuse_division(const cs_request *request, const char *output) {
+  const char *option = cs_request_has(request, "--strip")  ? "--strip"
+                       : cs_request_has(request, "--task") ? "--task"
+                                                           : NULL;
+  if (!option)
+    return CS_EXIT_OK;
+  if (output && cs_target_is_stream(output))
+    return cs_report_usage("%s makes files: give -o shot.####.png", option);
+  if (cs_video_target_is_wanted(request, 0))
+    return cs_report_usage("%s: a video is made of all its frames in one run; render frames, and "
+                           "make the video of them",
+                           option);
+  return CS_EXIT_OK;
+}
+
+/* Refuses what can be refused without running the script. */
+static cs_exit refuse_early(celspan_context *context, const cs_request *request) {
+  const char *output = cs_request_text(request, "-o");
+  if (!output && !cs_request_has(request, "--hash"))
+    return cs_report_usage("where to? give -o shot.####.png (or --hash for digests alone)");
+  cs_exit outcome = refuse_resume(request, output);
+  if (outcome == CS_EXIT_OK)
+    outcome = refuse_dither(request);
+  if (outcome == CS_EXIT_OK)
+    outcome = refuse_division(request, output);
+  if (outcome != CS_EXIT_OK)
+    return outcome;
+  if (output && cs_target_is_stream(output))
+    return refuse_stream(request);
+  return refuse_output(context, request, 0);
+}
+
+/* Whether one picture or a video is asked for is known here, where the frames are. */
+static cs_exit open_video(render_job *job) {
+  const cs_request *request = job->request;
+  job->is_video = cs_video_target_is_wanted(request, job->frames.count);
+  if (job->is_video)
+    return cs_video_target_open(&job->video, job->script, request, &job->frame, &job->frames);
+  bool is_named = job->output && !cs_target_is_stream(job->output);
+  return is_named ? refuse_output(job->script->context, request, job->frames.count) : CS_EXIT_OK;
+}
+
+/* A film may have become shorter than the tasks that it was divided into. */
+static cs_exit make_frames(render_job *job) {
+  if (job->frames.count == 0) {
+    int32_t task[2] = {0, 0};
+    cs_request_read(job->request, "--task", task);
+    cs_report_note("task %d of %d has no frames", task[0], task[1]);
+    return CS_EXIT_OK;
+  }
+  cs_exit outcome = cs_change_refuse(job->script, &job->change, &job->frames);
+  if (outcome == CS_EXIT_OK)
+    outcome = open_video(job);
+  return outcome == CS_EXIT_OK ? resume_all(job) : outcome;
+}
+
+static cs_exit run(cs_script *script, const cs_request *request) {
+  render_job job = {.script = script,
+                    .request = request,
+                    .output = cs_request_text(request, "-o"),
+                    .has_digests = cs_request_has(request, "--hash"),
+                    .resumes = cs_request_has(request, "--resume"),
+                    .keeps_going = cs_request_has(request, "--keep-going"),
+                    .change = cs_change_read(request)};
+  cs_exit outcome = cs_view_frame(request, script->film.width, script->film.height, &job.frame);
+  if (outcome == CS_EXIT_OK)
+    outcome = cs_change_lay_onion(script, request, &job.frame);
+  if (outcome == CS_EXIT_OK)
+    outcome = cs_target_frames(script, request, job.output, &job.frames);
+  if (outcome == CS_EXIT_OK)
+    outcome = make_frames(&job);
+  cs_mem_free(script->context->memory, job.failed, job.failed_capacity * sizeof *job.failed);
+  cs_sequence_finish(&job.frames);
+  return outcome;
+}
+
+cs_exit cs_verb_render(celspan_context *context, const cs_request *request) {
+  cs_exit outcome = refuse_early(context, request);
+  if (outcome != CS_EXIT_OK)
+    return outcome;
+  cs_script script;
+  outcome = cs_script_open(context, request, request->operands[0], &script);
+  if (outcome == CS_EXIT_OK)
+    outcome = run(&script, request);
+  cs_script_close(&script);
+  return outcome;
+}

@@ -1,0 +1,180 @@
+#include "program/report.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "frames/process/interrupt.h"
+
+enum {
+  SENTENCE = 8192,       /* bytes; paths may be 4096 long */
+  VISIBLE = 5 * SENTENCE /* what a sentence may become: see make_visible */
+};
+
+static void (*clear_line)(void);
+static cs_report_form chosen;
+
+void cs_report_choose(cs_report_form form) { chosen = form; }
+
+cs_exit cs_report_exit(celspan_status status) {
+  switch (status) {
+  case CELSPAN_OK:
+    return CS_EXIT_OK;
+  case CELSPAN_CANCELLED:
+    return CS_EXIT_SIGNAL;
+  case CELSPAN_NO_MEMORY:
+    return CS_EXIT_MEMORY;
+  case CELSPAN_BAD_ARGUMENT:
+  case CELSPAN_CALLBACK:
+    return CS_EXIT_SCRIPT;
+  case CELSPAN_LIMIT:
+    return CS_EXIT_LIMIT;
+  case CELSPAN_INPUT:
+    return CS_EXIT_INPUT;
+  case CELSPAN_OUTPUT:
+    return CS_EXIT_OUTPUT;
+  case CELSPAN_INTERNAL:
+    break;
+  }
+  return CS_EXIT_INTERNAL;
+}
+
+void cs_report_event(cs_json *event) { fputs(cs_json_end(event), stderr); }
+
+static void print_openjd(const char *name, char *text) {
+  for (char *at = text; *at; at++)
+    if ((unsigned char)*at < ' ')
+      *at = ' ';
+  printf("openjd_%s: %s\n", name, text);
+  fflush(stdout);
+}
+
+void cs_report_openjd(const char *name, const char *format, ...) {
+  char text[SENTENCE];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  print_openjd(name, text);
+}
+
+/* What scripts and names of files bring into a message does not move the cursor or colour the
+ * terminal, and does not look like a message of its own: a new line is indented, other controls are
+ * written as numbers. Those of C1 are C2 80 to C2 9F in UTF-8. */
+static void make_visible(const char *text, char out[VISIBLE]) {
+  for (const unsigned char *at = (const unsigned char *)text; *at; at++)
+    if (*at == '\n')
+      out = stpcpy(out, "\n    ");
+    else if ((*at < ' ' && *at != '\t') || *at == 0x7f || (*at == 0xc2 && (at[1] & 0xe0) == 0x80))
+      out += snprintf(out, sizeof "\\x00", "\\x%02x", *at == 0xc2 ? *++at : *at);
+    else
+      *out++ = (char)*at;
+  *out = 0;
+}
+
+static void print_words(bool is_error, const char *text) {
+  char visible[VISIBLE];
+  make_visible(text, visible);
+  if (clear_line)
+    clear_line();
+  fprintf(stderr, "celspan: %s%s\n", is_error ? "error: " : "", visible);
+}
+
+/* number: NULL, or of the frame that failed. */
+static void print_event(bool is_error, const int64_t *number, const char *text) {
+  cs_json event;
+  cs_json_begin(&event);
+  cs_json_text(&event, "event", is_error ? "error" : "note");
+  if (number)
+    cs_json_integer(&event, "number", *number);
+  cs_json_text(&event, "message", text);
+  cs_report_event(&event);
+}
+
+static void print_text(bool is_error, const int64_t *number, char *text) {
+  if (chosen == CS_REPORT_JSON)
+    print_event(is_error, number, text);
+  else
+    print_words(is_error, text);
+  if (chosen == CS_REPORT_OPENJD && is_error)
+    print_openjd("fail", text);
+}
+
+__attribute__((format(printf, 2, 0))) static void print_line(bool is_error, const char *format,
+                                                             va_list arguments) {
+  char text[SENTENCE];
+  vsnprintf(text, sizeof text, format, arguments);
+  print_text(is_error, NULL, text);
+}
+
+void cs_report_error(const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  print_line(true, format, arguments);
+  va_end(arguments);
+}
+
+void cs_report_note(const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  print_line(false, format, arguments);
+  va_end(arguments);
+}
+
+cs_exit cs_report_usage(const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  print_line(true, format, arguments);
+  va_end(arguments);
+  return CS_EXIT_USAGE;
+}
+
+/* where: NULL, or what comes before the sentence. number: as in print_event. */
+static cs_exit fail(const celspan_context *context, celspan_status status, const char *where,
+                    const int64_t *number) {
+  char text[SENTENCE];
+  if (status == CELSPAN_OK)
+    return CS_EXIT_OK;
+  if (status == CELSPAN_CANCELLED || cs_interrupt_signal())
+    return CS_EXIT_SIGNAL;
+  const char *sentence = celspan_context_error(context);
+  if (!sentence[0])
+    sentence = celspan_status_name(status);
+  bool has_where = where && where[0];
+  snprintf(text, sizeof text, "%s%s%s%s", has_where ? where : "", has_where ? ": " : "", sentence,
+           status == CELSPAN_INTERNAL ? " (a fault of celspan itself: please report it)" : "");
+  print_text(true, number, text);
+  return cs_report_exit(status);
+}
+
+cs_exit cs_report_failure(const celspan_context *context, celspan_status status,
+                          const char *where) {
+  return fail(context, status, where, NULL);
+}
+
+cs_exit cs_report_frame_failure(const celspan_context *context, celspan_status status,
+                                int64_t number) {
+  return fail(context, status, NULL, &number);
+}
+
+void cs_report_before_line(void (*clear)(void)) { clear_line = clear; }
+
+static cs_exit judge_output(cs_exit outcome, bool is_good) {
+  if (is_good || outcome != CS_EXIT_OK)
+    return outcome; /* a run that failed has reported why */
+  cs_report_error("standard output: %s", errno ? strerror(errno) : "not everything was written");
+  return CS_EXIT_OUTPUT;
+}
+
+cs_exit cs_report_flush_output(cs_exit outcome) {
+  errno = 0;
+  bool is_flushed = fflush(stdout) == 0;
+  return judge_output(outcome, is_flushed && !ferror(stdout));
+}
+
+cs_exit cs_report_close_output(cs_exit outcome) {
+  errno = 0;
+  bool had_error = ferror(stdout) != 0;
+  return judge_output(outcome, fclose(stdout) == 0 && !had_error);
+}

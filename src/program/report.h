@@ -1,0 +1,68 @@
+/* Diagnostics: exit codes, and lines on standard error.
+ *
+ * INVARIANT  Every exit code of the program is named here and nowhere else, and every diagnostic
+ * leaves through this file, so that a progress bar can be cleared first and standard output
+ * carries nothing but data.
+ */
+#ifndef CS_CLI_REPORT_H
+#define CS_CLI_REPORT_H
+
+#include "celspan/celspan.h"
+#include "program/json.h"
+
+typedef enum cs_exit {
+  CS_EXIT_OK = 0,
+  CS_EXIT_DIFFERENT = 1, /* compare: not the same */
+  CS_EXIT_PARTIAL = 1,   /* some frames failed under --keep-going */
+  CS_EXIT_USAGE = 2,
+  CS_EXIT_SCRIPT = 3, /* the script failed, or its scene was refused */
+  CS_EXIT_INPUT = 4,
+  CS_EXIT_OUTPUT = 5,
+  CS_EXIT_LIMIT = 6,
+  CS_EXIT_MEMORY = 33, /* the number render farms read as "more memory, then again" */
+  CS_EXIT_INTERNAL = 70,
+  CS_EXIT_SIGNAL = 128 /* main() dies by the signal, which adds its number */
+} cs_exit;
+
+/* The exit code of a call. */
+cs_exit cs_report_exit(celspan_status status);
+
+/* "celspan: error: ..." */
+void cs_report_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
+/* "celspan: ..." */
+void cs_report_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
+/* Reports an error and returns CS_EXIT_USAGE. */
+cs_exit cs_report_usage(const char *format, ...) __attribute__((format(printf, 1, 2)));
+/* Reports the context's sentence, after "where: " when where is not NULL or empty, and returns the
+ * exit code. Reports nothing for CANCELLED, and nothing at all once a signal asked to stop. */
+cs_exit cs_report_failure(const celspan_context *context, celspan_status status, const char *where);
+
+/* The same of a frame: programs are told its number. The sentence names it already. */
+cs_exit cs_report_frame_failure(const celspan_context *context, celspan_status status,
+                                int64_t number);
+
+/* The form of diagnostics. */
+typedef enum cs_report_form {
+  CS_REPORT_WORDS = 0, /* "celspan: error: ..." */
+  CS_REPORT_JSON,  /* {"event":"error","number":3,"message":"..."}; a number if it is a frame's */
+  CS_REPORT_OPENJD /* as words, and errors on standard output too: "openjd_fail: ..." */
+} cs_report_form;
+
+void cs_report_choose(cs_report_form form);
+/* Writes an event as a line on standard error. */
+void cs_report_event(cs_json *event);
+/* "openjd_NAME: ..." on standard output, at once. */
+void cs_report_openjd(const char *name, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* Sets a function that is called before each line on standard error, to clear the progress bar
+ * there; NULL: there is none. */
+void cs_report_before_line(void (*clear)(void));
+
+/* Writes what standard output still holds. The answer is as below. */
+cs_exit cs_report_flush_output(cs_exit outcome);
+/* Closes standard output. The answer is the outcome; where that is OK but not everything could be
+ * written, it is CS_EXIT_OUTPUT, reported. */
+cs_exit cs_report_close_output(cs_exit outcome);
+
+#endif

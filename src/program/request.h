@@ -1,0 +1,67 @@
+/* What a verb takes, and what it was given.
+ *
+ *   cs_verb: operands, options, help --> parsing, the help, the manual page, names that are suggested
+ *   cs_request: the words of the command line, in which a verb looks for its options
+ */
+#ifndef CS_CLI_REQUEST_H
+#define CS_CLI_REQUEST_H
+
+#include "celspan/celspan.h"
+#include "program/argument.h"
+#include "program/report.h"
+
+#define CS_OPERANDS_MAX 1024
+
+struct cs_request;
+
+typedef struct cs_option {
+  const char *name;
+  const char *value;       /* what the help calls it; NULL: a flag */
+  const cs_argument *kind; /* of the value; NULL: a flag */
+  const char *help;
+} cs_option;
+
+typedef struct cs_verb {
+  const char *name;
+  const char *operands; /* as the help shows them */
+  size_t operand_least, operand_most;
+  bool is_hidden;           /* the help does not list it */
+  bool has_script;          /* it runs one, which gets what follows "--" */
+  bool makes_folder;        /* its -o names one */
+  const char *summary;      /* one line */
+  const char *notes;        /* more help, whole lines, or NULL */
+  const cs_option *options; /* the last one has no name */
+  /* NULL: the text NAME.lua in verbs/ is run */
+  cs_exit (*run)(celspan_context *context, const struct cs_request *request);
+} cs_verb;
+
+/* All texts are borrowed from the command line. */
+typedef struct cs_request {
+  const cs_verb *verb;
+  char *const *words; /* after the verb */
+  size_t word_count;
+  const char *operands[CS_OPERANDS_MAX];
+  size_t operand_count;
+  char *const *script_arguments; /* what follows -- */
+  size_t script_argument_count;
+} cs_request;
+
+/* words: what follows the verb. OK, or reported and CS_EXIT_USAGE. */
+cs_exit cs_request_parse(const cs_verb *verb, size_t count, char *const *words, cs_request *out);
+
+/* Whether an option was given. */
+bool cs_request_has(const cs_request *request, const char *name);
+/* Reads an option into the field that its kind fills. false: it was not given, or the verb has none
+ * of this name, and the field is as it was. */
+bool cs_request_read(const cs_request *request, const char *name, void *field);
+/* The text of an option that is one; NULL: it was not given. */
+const char *cs_request_text(const cs_request *request, const char *name);
+/* The strip of --strip I/N; of a farm's --strips N the last one; false, and 0 0, without either. */
+bool cs_request_strip(const cs_request *request, int32_t strip[2]);
+/* Calls `call` for each option that was given, in their order. value: NULL for a flag. */
+void cs_request_each(const cs_request *request,
+                     void (*call)(void *user, const char *name, const char *value), void *user);
+/* Reports "--at: '1,2' is not ..." for an option that was given. */
+cs_exit cs_request_refuse(const cs_request *request, const char *name);
+
+#endif

@@ -1,0 +1,215 @@
+#include "program/script.h"
+
+#include <lauxlib.h>
+#include <lualib.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/context.h"
+#include "celspan/lua.h"
+#include "frames/process/interrupt.h"
+#include "lua/bind/host.h"
+#include "lua/bind/lua_error.h"
+#include "lua/module/lua_script.h"
+#include "program/confine.h"
+#include "program/view.h"
+
+/* The states that a signal interrupts: of the verb, and of the script that ran last; NULL: none. */
+static lua_State *volatile states[2];
+
+static void raise_interrupt(lua_State *L, lua_Debug *where) {
+  (void)where;
+  luaL_error(L, "interrupted");
+}
+
+/* Runs in the signal handler: lua_sethook is one of the few calls that are safe there. */
+static void interrupt_states(void) {
+  const int always = LUA_MASKCALL | LUA_MASKRET | LUA_MASKLINE | LUA_MASKCOUNT;
+  for (int i = 0; i < 2; i++)
+    if (states[i])
+      lua_sethook(states[i], raise_interrupt, always, 1);
+}
+
+void cs_script_watch(lua_State *L) {
+  states[0] = L;
+  cs_interrupt_call(interrupt_states);
+}
+
+void cs_script_unwatch(void) { states[0] = NULL; }
+
+static void watch_script(lua_State *L) {
+  states[1] = L;
+  cs_interrupt_call(interrupt_states);
+}
+
+/* What a script prints goes to standard error, because standard output is for results. A script
+ * cannot end the program: otherwise a run that did nothing could seem to have done everything. */
+static const char HOUSE_RULES[] =
+    "local stderr, pack, concat, tostring = io.stderr, table.pack, table.concat, tostring\n"
+    "io.output(stderr)\n"
+    "function print(...)\n"
+    "  local words = pack(...)\n"
+    "  for i = 1, words.n do words[i] = tostring(words[i]) end\n"
+    "  stderr:write(concat(words, '\\t'), '\\n')\n"
+    "end\n"
+    "function os.exit() error('os.exit: a script cannot end celspan; raise an error', 2) end\n";
+
+/* The whole of Lua; pcall and xpcall pass on limits where there are any. */
+static void open_libraries(lua_State *L, const cs_script *script) {
+  static const luaL_Reg catching[] = {
+      {"pcall", cs_guard_pcall}, {"xpcall", cs_guard_xpcall}, {NULL, NULL}};
+  luaL_openlibs(L);
+  if (luaL_dostring(L, HOUSE_RULES) != LUA_OK)
+    lua_error(L);
+  lua_pushglobaltable(L);
+  luaL_setfuncs(L, script->sandbox ? catching : catching + 2, 0);
+  lua_pop(L, 1);
+}
+
+/* light userdata: the script. Runs protected. */
+static int prepare(lua_State *L) {
+  const cs_script *script = lua_touserdata(L, 1);
+  bool is_sandboxed = script->sandbox && !script->is_trusted;
+  if (is_sandboxed)
+    cs_sandbox_open_libraries(L);
+  else
+    open_libraries(L, script);
+  cs_host_open(L, script->context);
+  if (script->sandbox)
+    cs_sandbox_attach(script->sandbox, L, script->is_trusted);
+  if (is_sandboxed)
+    cs_sandbox_open_globals(script->sandbox, L);
+  luaL_requiref(L, "celspan", luaopen_celspan, 0);
+  return 0;
+}
+
+static lua_State *new_state(const cs_script *script) {
+  if (!script->sandbox)
+    return luaL_newstate();
+  lua_State *L = lua_newstate(cs_guard_allocate, &script->sandbox->guard);
+  if (L)
+    *(cs_guard **)lua_getextraspace(L) = NULL;
+  return L;
+}
+
+/* Lua has no memory, or the core has none for the module and its first values: neither may have had
+ * a context yet to say it to, but all say it. */
+static bool lacks_memory(const char *message) { return !message || strstr(message, "memory"); }
+
+cs_exit cs_script_report_start(lua_State *L) {
+  if (!L) {
+    cs_report_error("no memory for Lua");
+    return CS_EXIT_MEMORY;
+  }
+  const char *message = lua_tostring(L, -1);
+  cs_report_error("Lua could not be started: %s", message ? message : "not enough memory");
+  return lacks_memory(message) ? CS_EXIT_MEMORY : CS_EXIT_INTERNAL;
+}
+
+static cs_exit open_state(cs_script *script) {
+  script->L = new_state(script);
+  if (!script->L)
+    return cs_script_report_start(NULL);
+  lua_pushcfunction(script->L, prepare);
+  lua_pushlightuserdata(script->L, script);
+  return lua_pcall(script->L, 1, 0, 0) == LUA_OK ? CS_EXIT_OK : cs_script_report_start(script->L);
+}
+
+static cs_exit start(cs_script *out) {
+  cs_exit outcome = open_state(out);
+  if (outcome != CS_EXIT_OK)
+    return outcome;
+  watch_script(out->L);
+  return CS_EXIT_OK;
+}
+
+/* film, light userdata: where it is told. Runs protected. */
+static int read_film(lua_State *L) {
+  cs_lua_film_read(L, 1, lua_touserdata(L, 2));
+  return 0;
+}
+
+cs_exit cs_script_start(celspan_context *context, cs_script *out) {
+  *out = (cs_script){.context = context};
+  return start(out);
+}
+
+/* The sandbox outlives values that the script made, so it has a place of its own. */
+static cs_exit confine(cs_script *script, const cs_request *request, const char *path) {
+  if (!cs_confine_is_needed(request))
+    return CS_EXIT_OK;
+  script->sandbox = cs_mem_array(script->context->memory, 1, sizeof *script->sandbox);
+  return script->sandbox
+             ? cs_confine_open(request, path, script->sandbox)
+             : cs_report_failure(script->context, cs_fail_memory(script->context), NULL);
+}
+
+static void close_sandbox(cs_script *script) {
+  if (!script->sandbox)
+    return;
+  cs_sandbox_finish(script->sandbox);
+  cs_mem_free(script->context->memory, script->sandbox, sizeof *script->sandbox);
+  script->sandbox = NULL;
+}
+
+cs_exit cs_script_open(celspan_context *context, const cs_request *request, const char *path,
+                       cs_script *out) {
+  *out = (cs_script){.context = context, .is_trusted = cs_request_has(request, "--trust")};
+  cs_exit outcome = confine(out, request, path);
+  if (outcome == CS_EXIT_OK)
+    outcome = start(out);
+  if (outcome != CS_EXIT_OK)
+    return outcome;
+  celspan_status status = cs_lua_script_run(out->L, path, (int)request->script_argument_count,
+                                            (const char *const *)request->script_arguments);
+  if (status != CELSPAN_OK)
+    return cs_report_failure(context, status, NULL);
+  lua_pushcfunction(out->L, read_film);
+  lua_pushvalue(out->L, CS_SCRIPT_FILM);
+  lua_pushlightuserdata(out->L, &out->film);
+  int raised = lua_pcall(out->L, 2, 0, 0);
+  return raised == LUA_OK ? CS_EXIT_OK
+                          : cs_report_failure(context, cs_lua_error_report(out->L, raised), NULL);
+}
+
+void cs_script_close(cs_script *script) {
+  if (states[1] == script->L)
+    states[1] = NULL;
+  cs_film_frame_finish(&script->frame);
+  if (script->L)
+    lua_close(script->L);
+  script->L = NULL;
+  close_sandbox(script);
+}
+
+celspan_status cs_script_try(cs_script *script, int64_t number) {
+  watch_script(script->L);
+  cs_film_frame_finish(&script->frame);
+  script->number = number;
+  return cs_lua_film_build(script->L, CS_SCRIPT_FILM, number, &script->frame);
+}
+
+cs_exit cs_script_build(cs_script *script, int64_t number) {
+  return cs_report_failure(script->context, cs_script_try(script, number), NULL);
+}
+
+cs_exit cs_script_frame(cs_script *script, const cs_request *request, celspan_frame_desc *out) {
+  int64_t first = script->film.first, last = first + script->film.count - 1;
+  int32_t number = (int32_t)first;
+  cs_request_read(request, "--frame", &number);
+  if (number < first || number > last)
+    return cs_report_usage("--frame %d: the film has frames %lld to %lld", number, (long long)first,
+                           (long long)last);
+  cs_exit outcome = cs_view_frame(request, script->film.width, script->film.height, out);
+  if (outcome == CS_EXIT_OK)
+    outcome = cs_script_build(script, number);
+  out->exposures = script->frame.exposures;
+  out->exposure_count = script->frame.count;
+  return outcome;
+}
+
+cs_exit cs_script_failure(const cs_script *script, celspan_status status) {
+  char where[32];
+  snprintf(where, sizeof where, "frame %lld", (long long)script->number);
+  return cs_report_failure(script->context, status, where);
+}

@@ -1,0 +1,49 @@
+/* A script's film, opened for a verb in a Lua state of its own. Its faults are reported as the
+ * command line reports faults.
+ */
+#ifndef CS_CLI_SCRIPT_H
+#define CS_CLI_SCRIPT_H
+
+#include "lua/nouns/lua_film.h"
+#include "lua/sandbox/sandbox.h"
+#include "program/request.h"
+
+#define CS_SCRIPT_FILM 1 /* index of the film on the state's stack */
+
+typedef struct cs_script {
+  celspan_context *context; /* borrowed */
+  lua_State *L;             /* owned; NULL: not open */
+  cs_film_info film;        /* its texts live as long as the state */
+  int64_t number;           /* of the frame built last */
+  cs_film_frame frame;      /* that frame; owned */
+  bool is_trusted;          /* it has the whole of Lua */
+  cs_sandbox *sandbox;      /* owned; NULL: the whole of Lua without limits */
+} cs_script;
+
+/* From now on a signal interrupts this state too. */
+void cs_script_watch(lua_State *L);
+/* From now on a signal interrupts scripts alone: the verb asks for signals. */
+void cs_script_unwatch(void);
+/* Reports that a new state could not be made ready, for the reason on top of its stack; NULL: there
+ * was no memory for it. Its outcome. */
+cs_exit cs_script_report_start(lua_State *L);
+
+/* Makes the Lua state of a verb that runs celspan's own modules and no script. OK, or reported;
+ * either way *out may be closed. */
+cs_exit cs_script_start(celspan_context *context, cs_script *out);
+/* Runs the script under the request. OK, or reported; either way *out may be closed. */
+cs_exit cs_script_open(celspan_context *context, const cs_request *request, const char *path,
+                       cs_script *out);
+void cs_script_close(cs_script *script);
+
+/* Builds a frame of the film and frees the one before. On failure the sentence, which names the
+ * frame, is in the context. */
+celspan_status cs_script_try(cs_script *script, int64_t number);
+/* The same, with failures reported. */
+cs_exit cs_script_build(cs_script *script, int64_t number);
+/* Builds the frame of --frame, or the first, and describes it under the request. */
+cs_exit cs_script_frame(cs_script *script, const cs_request *request, celspan_frame_desc *out);
+/* Reports "frame N: ..." unless the status is OK; for failures after the frame was built. */
+cs_exit cs_script_failure(const cs_script *script, celspan_status status);
+
+#endif

@@ -1,0 +1,113 @@
+/* celspan spans SCRIPT: the spans of one frame as text, or with --stats their counts. */
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "program/script.h"
+#include "program/verbs.h"
+#include "program/view.h"
+
+static void print_colour(const celspan_span *span, int32_t x) {
+  float rgba[4];
+  celspan_span_colour(span, x, rgba);
+  printf(" %.9g %.9g %.9g %.9g", (double)rgba[0], (double)rgba[1], (double)rgba[2],
+         (double)rgba[3]);
+}
+
+static void print_span(int32_t y, const celspan_span *span) {
+  printf("%d %d %d ", y, span->x0, span->x1);
+  switch (span->kind) {
+  case CELSPAN_SPAN_SINGLE:
+    fputs("single", stdout);
+    print_colour(span, span->x0);
+    break;
+  case CELSPAN_SPAN_GRADIENT:
+    fputs("gradient", stdout);
+    print_colour(span, span->x0);
+    print_colour(span, span->x1 - 1);
+    break;
+  case CELSPAN_SPAN_ARRAY:
+    printf("array %d", span->x1 - span->x0);
+    break;
+  }
+  putchar('\n');
+}
+
+static celspan_status print_row(void *user, celspan_context *context, int32_t y,
+                                const celspan_span *spans, size_t span_count) {
+  const int32_t *first_row = user;
+  for (size_t i = 0; i < span_count; i++)
+    print_span(*first_row + y, &spans[i]);
+  if (!ferror(stdout))
+    return CELSPAN_OK;
+  return celspan_context_fail(context, CELSPAN_OUTPUT, "standard output: %s", strerror(errno));
+}
+
+static void print_statistics(const celspan_statistics *s, double seconds) {
+  printf("rows %" PRIu64 " spans %" PRIu64 " single %" PRIu64 " gradient %" PRIu64 " array %" PRIu64
+         " pixels_in_arrays %" PRIu64 " colour_evaluations %" PRIu64 " allocations %" PRIu64
+         " peak_bytes %" PRIu64 " seconds %.6f\n",
+         s->rows, s->spans, s->single, s->gradient, s->array, s->pixels_in_arrays,
+         s->colour_evaluations, s->allocations, s->peak_bytes, seconds);
+}
+
+static celspan_status measure(celspan_context *context, const cs_request *request,
+                              const celspan_frame_desc *frame) {
+  celspan_coding coding = CELSPAN_ZERO;
+  const celspan_sink nowhere = {.row = NULL};
+  celspan_statistics statistics;
+  memset(&statistics, 0, sizeof statistics);
+  double started = cs_clock_seconds();
+  celspan_status status = cs_request_read(request, "--pixels", &coding.depth)
+                              ? celspan_frame_pixels(context, frame, &coding, NULL, 0, &statistics)
+                              : celspan_frame_render(context, frame, &nowhere, &statistics);
+  if (status == CELSPAN_OK)
+    print_statistics(&statistics, cs_clock_seconds() - started);
+  return status;
+}
+
+static celspan_status print_spans(celspan_context *context, const celspan_frame_desc *frame) {
+  int32_t first_row = frame->crop_y;
+  celspan_sink sink = {.user = &first_row, .row = print_row};
+  return celspan_frame_render(context, frame, &sink, NULL);
+}
+
+/* The rows are a crop of full width, so that columns keep their numbers. */
+static cs_exit set_rows(const cs_request *request, celspan_frame_desc *frame) {
+  int32_t rows[2];
+  if (!cs_request_read(request, "--rows", rows))
+    return CS_EXIT_OK;
+  if (rows[1] >= frame->height)
+    return cs_report_usage("--rows %d-%d: the frame has rows 0 to %d", rows[0], rows[1],
+                           frame->height - 1);
+  frame->crop_y = rows[0];
+  frame->crop_width = frame->width;
+  frame->crop_height = rows[1] - rows[0] + 1;
+  return CS_EXIT_OK;
+}
+
+static cs_exit run(cs_script *script, const cs_request *request) {
+  celspan_frame_desc frame;
+  cs_exit outcome = cs_script_frame(script, request, &frame);
+  if (outcome == CS_EXIT_OK)
+    outcome = set_rows(request, &frame);
+  if (outcome != CS_EXIT_OK)
+    return outcome;
+  celspan_status status = cs_request_has(request, "--stats")
+                              ? measure(script->context, request, &frame)
+                              : print_spans(script->context, &frame);
+  return cs_script_failure(script, status);
+}
+
+cs_exit cs_verb_spans(celspan_context *context, const cs_request *request) {
+  if (cs_request_has(request, "--pixels") && !cs_request_has(request, "--stats"))
+    return cs_report_usage("--pixels goes with --stats");
+  cs_script script;
+  cs_exit outcome = cs_script_open(context, request, request->operands[0], &script);
+  if (outcome == CS_EXIT_OK)
+    outcome = run(&script, request);
+  cs_script_close(&script);
+  return outcome;
+}

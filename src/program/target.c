@@ -1,0 +1,91 @@
+#include "program/target.h"
+
+#include <string.h>
+
+#include "output/sinks/file.h"
+#include "output/sinks/sink.h"
+#include "program/video_target.h"
+
+celspan_coding cs_target_coding(const cs_request *request) {
+  celspan_coding coding = CELSPAN_ZERO;
+  cs_request_read(request, "--depth", &coding.depth);
+  cs_request_read(request, "--colour", &coding.transfer);
+  cs_request_read(request, "--alpha", &coding.alpha);
+  if (cs_request_has(request, "--dither"))
+    coding.depth = CELSPAN_DEPTH_8_DITHER;
+  return coding;
+}
+
+celspan_file_desc cs_target_file(const cs_request *request) {
+  celspan_file_desc file = CELSPAN_FILE_DESC;
+  file.format = cs_request_text(request, "--format");
+  file.coding = cs_target_coding(request);
+  int32_t strip[2];
+  if (cs_request_strip(request, strip))
+    file.strip_height = strip[1]; /* rows at least, until the view is known */
+  return file;
+}
+
+/* Makes a sink and discards it: a sink opens no file before its first row. */
+static cs_exit refuse_file(celspan_context *context, const char *path, const cs_request *request) {
+  celspan_file_desc file = cs_target_file(request);
+  celspan_sink sink;
+  celspan_status status = celspan_file_sink_create(context, path, &file, &sink);
+  if (status == CELSPAN_BAD_ARGUMENT)
+    return cs_report_usage("%s", celspan_context_error(context));
+  if (status == CELSPAN_OK)
+    cs_sink_discard(context, &sink);
+  return cs_report_failure(context, status, NULL);
+}
+
+cs_exit cs_target_refuse(celspan_context *context, const char *path, const cs_request *request) {
+  const char *format = cs_request_text(request, "--format");
+  const cs_video_format *video = cs_video_format_named(format ? format : cs_file_ending(path));
+  if (video && !video->is_picture)
+    return cs_report_usage("%s: %s is a video, which 'celspan render' makes of a film; write a "
+                           "picture such as shot.png",
+                           path, video->name);
+  return refuse_file(context, path, request);
+}
+
+bool cs_target_is_stream(const char *path) { return strcmp(path, "-") == 0; }
+
+static celspan_status list_frames(const cs_script *script, const cs_request *request,
+                                  cs_sequence *out) {
+  const cs_film_info *film = &script->film;
+  const char *list = cs_request_text(request, "--frames");
+  if (!list)
+    return cs_sequence_count(script->context, film->first, film->count, out);
+  celspan_status status = cs_sequence_parse(script->context, list, out);
+  if (status == CELSPAN_OK)
+    status = cs_sequence_within(script->context, out, film->first, film->count);
+  return status;
+}
+
+/* Leaves the frames of the request's task, as many as in any other or one less. */
+static void take_task(const cs_request *request, cs_sequence *frames) {
+  int32_t task[2];
+  if (!cs_request_read(request, "--task", task))
+    return;
+  size_t count = frames->count, of = (size_t)task[1];
+  size_t begin = count * ((size_t)task[0] - 1) / of, end = count * (size_t)task[0] / of;
+  memmove(frames->frames, frames->frames + begin, (end - begin) * sizeof *frames->frames);
+  frames->count = end - begin;
+}
+
+cs_exit cs_target_frames(const cs_script *script, const cs_request *request, const char *output,
+                         cs_sequence *out) {
+  celspan_status status = list_frames(script, request, out);
+  if (status == CELSPAN_BAD_ARGUMENT)
+    return cs_report_usage("%s", celspan_context_error(script->context));
+  if (status != CELSPAN_OK)
+    return cs_report_failure(script->context, status, NULL);
+  bool is_one_file = output && !cs_target_is_stream(output) && !cs_sequence_has_number(output) &&
+                     !cs_video_target_is_wanted(request, 0);
+  if (is_one_file && out->count > 1)
+    return cs_report_usage("%s: several frames (%zu) need a number in the name, such as "
+                           "shot.####.png",
+                           output, out->count);
+  take_task(request, out);
+  return CS_EXIT_OK;
+}

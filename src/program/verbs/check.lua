@@ -1,0 +1,181 @@
+--- celspan check SCRIPT: builds every frame and renders none.
+--
+--   frames of a part   1 2 3 ... n | n+1 ...        part by part, so that memory has a bound:
+--
+--   the film's sound
+--   first pass    -->  in order: frames that cannot be built, pictures that cannot be read
+--   second pass   <--  a fresh film, last frame first: a frame whose scene now differs was not made
+--                      by a pure function of its number
+--
+-- All faults are reported in the end, equal ones in one line with the frames that have them:
+--
+--   frames 3-17, 20: cel 2, primitive 5: night.png: cannot be opened: No such file or directory
+--   frames 1, 3, 5, 7, 9, 11, 13, 15 and 4992 more up to 9999: shot.lua:7: ...
+--
+-- Memory is that of different sentences and not of frames: at most FAULTS_MOST sentences are kept,
+-- and for each RUNS_MOST runs of frames; the rest is counted.
+local program, request = ...
+
+local PART = 4096 -- frames of a part
+local FAULTS_MOST, RUNS_MOST = 1000, 8
+local SCRIPT = 3 -- the exit code
+local IMPURE = "the frame function is not pure: asked again in another order it gave another scene; "
+  .. "let it depend on nothing but its argument"
+
+-- ---------------------------------------------------------------- faults
+
+local faults = { by_text = {}, met = 0, beyond = 0 }
+
+local function touches(run, first, last) return first <= run.last + 1 and last >= run.first - 1 end
+
+--- Joins a run with another that it now touches.
+local function join_runs(runs, run)
+  for i, other in ipairs(runs) do
+    if other ~= run and touches(run, other.first, other.last) then
+      run.first, run.last = math.min(run.first, other.first), math.max(run.last, other.last)
+      table.remove(runs, i)
+      return
+    end
+  end
+end
+
+local function add_frame(fault, frame)
+  for _, run in ipairs(fault.runs) do
+    if frame >= run.first and frame <= run.last then return end
+  end
+  for _, run in ipairs(fault.runs) do
+    if touches(run, frame, frame) then
+      run.first, run.last = math.min(run.first, frame), math.max(run.last, frame)
+      return join_runs(fault.runs, run)
+    end
+  end
+  if #fault.runs < RUNS_MOST then
+    table.insert(fault.runs, { first = frame, last = frame })
+  else
+    fault.greatest = math.max(fault.greatest or frame, frame)
+    fault.beyond = fault.beyond + 1
+  end
+end
+
+--- where: the place in the scene, or "". A fault of a frame that was stopped is none.
+local function add_fault(frame, where, message, code)
+  if program.is_stopped() then return end
+  local text = message:gsub(("frame %d: "):format(frame), "", 1) -- so that equal faults are one
+  local fault = faults.by_text[text]
+  faults.met, faults.code = faults.met + 1, faults.code or code
+  if not fault and #faults == FAULTS_MOST then
+    faults.beyond = faults.beyond + 1
+    return
+  end
+  if not fault then
+    fault = { text = text, where = where, runs = {}, beyond = 0 }
+    faults.by_text[text], faults[#faults + 1] = fault, fault
+  end
+  fault.is_everywhere = fault.is_everywhere or fault.where ~= where
+  add_frame(fault, frame)
+end
+
+-- ---------------------------------------------------------------- the two passes
+
+local function first_pass(film, numbers, scenes)
+  for i, number in ipairs(numbers) do
+    if program.is_stopped() then return i - 1 end
+    local good, message, code = film:try(number)
+    if good then
+      scenes[i] = film:scene()
+      film:faults(function(...) add_fault(number, ...) end)
+    else
+      add_fault(number, "", message, code)
+    end
+  end
+  return #numbers
+end
+
+local function second_pass(film, numbers, scenes)
+  for i = #numbers, 1, -1 do
+    if program.is_stopped() then return end
+    if scenes[i] and not (film:try(numbers[i]) and film:scene() == scenes[i]) then
+      add_fault(numbers[i], "", IMPURE, SCRIPT)
+    end
+  end
+end
+
+--- The film of the script, run once more; nil and an exit code, reported.
+local function fresh_film(film)
+  local good, fresh = pcall(program.film)
+  if not good then return nil, program.outcome() end
+  if fresh.first == film.first and fresh.frames == film.frames then return fresh end
+  program.error("the script made a film of other frames when it was run again: %d from %d, not %d "
+    .. "from %d", fresh.frames, fresh.first, film.frames, film.first)
+  return nil, SCRIPT
+end
+
+--- The numbers of the part that begins after `done` frames.
+local function part_of(film, listed, done, count)
+  local numbers = {}
+  for i = done + 1, math.min(done + PART, count) do
+    numbers[#numbers + 1] = listed and listed[i] or film.first + i - 1
+  end
+  return numbers
+end
+
+--- How many frames were built, and the exit code of what ended that before its time, or nil.
+local function check_parts(film, listed, count)
+  local done, fresh = 0
+  while done < count and not program.is_stopped() do
+    local numbers, scenes = part_of(film, listed, done, count), {}
+    done = done + first_pass(film, numbers, scenes)
+    if program.is_stopped() then break end
+    if not fresh then
+      local code
+      fresh, code = fresh_film(film)
+      if not fresh then return done, code end
+    end
+    second_pass(fresh, numbers, scenes)
+  end
+  return done
+end
+
+-- ---------------------------------------------------------------- the report
+
+--- "frame 3", "frames 3-17, 20 and 5 more up to 99".
+local function frames_of(fault)
+  local runs, words = fault.runs, {}
+  table.sort(runs, function(a, b) return a.first < b.first end)
+  for i, run in ipairs(runs) do
+    words[i] = run.last > run.first and ("%d-%d"):format(run.first, run.last) or tostring(run.first)
+  end
+  local is_one = #runs == 1 and runs[1].first == runs[1].last and fault.beyond == 0
+  local more = fault.beyond > 0
+    and (" and %d more up to %d"):format(fault.beyond, fault.greatest) or ""
+  return (is_one and "frame " or "frames ") .. table.concat(words, ", ") .. more
+end
+
+local function plural(count) return count == 1 and "" or "s" end
+
+local function report(done, count, sound)
+  for _, fault in ipairs(faults) do
+    program.error("%s: %s%s%s%s", frames_of(fault), fault.where,
+      fault.is_everywhere and ", and elsewhere" or "", fault.where == "" and "" or ": ", fault.text)
+  end
+  if faults.beyond > 0 then
+    program.error("%d more with other sentences are not listed: give --frames to look at fewer frames",
+      faults.beyond)
+  end
+  if done < count then program.note("stopped after %d of %d frames", done, count) end
+  if faults.met > 0 then
+    program.note("%s%d fault%s, met %d time%s in %d frame%s", faults.beyond > 0 and "more than " or "",
+      #faults, plural(#faults), faults.met, plural(faults.met), done, plural(done))
+  elseif done == count then
+    program.note("%d frame%s checked: no faults%s", done, plural(done),
+      sound == 0 and "" or " but the sound")
+  end
+end
+
+local film = program.film()
+local listed = request.frames and film:numbers()
+local count = listed and #listed or film.frames
+local sound = film:check_sound()
+local done, ended = check_parts(film, listed, count)
+report(done, count, sound)
+return faults.code or ended or sound

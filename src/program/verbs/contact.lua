@@ -1,0 +1,106 @@
+--- celspan contact SCRIPT -o SHEET: frames of a film side by side, each with its number below.
+--
+--   +------+ +------+ +------+       panels of the film's shape, row by row, a number under each
+--   |      | |      | |      |
+--   +------+ +------+ +------+
+--    1        5        9
+--
+-- Without --every the frames are thinned until they fit on one page; with it there may be several,
+-- numbered by #### in SHEET. Numbers are strokes of this file, so that no font is needed.
+local program, request = ...
+local celspan = require "celspan"
+local core = require "celspan.core"
+
+local PANEL_MOST, SHEET_MOST, PANEL_LEAST = 480, 3840, 16 -- pixels
+local GAP, LABEL, DIGIT = 12, 24, 12 -- between panels, below them, and the height of a digit
+
+-- ---------------------------------------------------------------- numbers
+
+--- Digits on a grid of 4 by 8, as strokes.
+local strokes = {
+  ["0"] = "M1 0 H3 L4 1 V7 L3 8 H1 L0 7 V1 Z",
+  ["1"] = "M1 1.5 L2.5 0 V8",
+  ["2"] = "M0 1.5 Q0 0 2 0 Q4 0 4 2 Q4 3.5 0 8 H4",
+  ["3"] = "M0 0 H4 L1.8 3 Q4 3 4 5.5 Q4 8 2 8 Q0.5 8 0 6.8",
+  ["4"] = "M3 8 V0 L0 5.5 H4",
+  ["5"] = "M4 0 H0.5 L0.2 3.5 Q4 2.5 4 5.4 Q4 8 2 8 Q0.5 8 0 7",
+  ["6"] = "M3.6 0 Q0 2 0 5.5 Q0 8 2 8 Q4 8 4 5.5 Q4 3.4 2 3.4 Q0.6 3.4 0 5",
+  ["7"] = "M0 0 H4 L1.4 8",
+  ["8"] = "M2 0 Q4 0 4 1.8 Q4 3.6 2 3.6 Q0 3.6 0 1.8 Q0 0 2 0 Z "
+    .. "M2 3.6 Q4 3.6 4 5.8 Q4 8 2 8 Q0 8 0 5.8 Q0 3.6 2 3.6 Z",
+  ["9"] = "M0.4 8 Q4 6 4 2.5 Q4 0 2 0 Q0 0 0 2.5 Q0 4.6 2 4.6 Q3.4 4.6 4 3",
+  ["-"] = "M0.5 4 H3.5",
+}
+
+--- A number with its upper left corner at x, y.
+local function number_at(number, x, y)
+  local parts, scale = {}, DIGIT / 8
+  for i = 1, #number do
+    local digit = celspan.stroke { d = strokes[number:sub(i, i)], width = 1, cap = "round",
+      join = "round", texture = "#333" }
+    parts[i] = digit:scale(scale):translate(x + (i - 1) * 6 * scale, y)
+  end
+  return celspan.union(parts)
+end
+
+-- ---------------------------------------------------------------- a page
+
+--- A frame of the film at the size of a panel, as an image at x, y.
+local function panel_of(film, number, size, x, y)
+  local pixels = program.check(celspan.pixels(film:at(number),
+    { size = size, film = film.size, workers = math.tointeger(request.workers) }))
+  return celspan.image { x = x, y = y, w = size[1], h = size[2], size = size, format = "rgba16",
+    pixels = pixels:bytes { depth = 16, colour = "srgb", alpha = "straight" } }
+end
+
+--- The page with the frames of these numbers, and its size.
+local function page_of(film, numbers, columns, panel)
+  local w, h = panel[1], panel[2]
+  local across, down = math.min(columns, #numbers), (#numbers - 1) // columns + 1
+  local width, height = GAP + across * (w + GAP), GAP + down * (h + LABEL)
+  local objects = { celspan.rect { 0, 0, width, height, texture = "#e8e6e1" } }
+  for i, number in ipairs(numbers) do
+    local x, y = GAP + (i - 1) % columns * (w + GAP), GAP + (i - 1) // columns * (h + LABEL)
+    local count = #objects
+    objects[count + 1] = celspan.rect { x - 1, y - 1, w + 2, h + 2, texture = "#8a8780" }
+    objects[count + 2] = celspan.rect { x, y, w, h, texture = "#fff" }
+    objects[count + 3] = panel_of(film, number, panel, x, y)
+    objects[count + 4] = number_at(tostring(number), x + 1, y + h + 6)
+  end
+  return celspan.rostrum { celspan.cel(objects) }, width, height
+end
+
+-- ---------------------------------------------------------------- the sheet
+
+--- A panel has the film's shape; it is no larger than the film, and no larger than fits.
+local function panel_size(film, columns)
+  local side, most = math.max(film.size[1], film.size[2]), math.min(SHEET_MOST / columns, PANEL_MOST)
+  local scale, size = math.min(1, most / side), {}
+  for i = 1, 2 do size[i] = math.max(PANEL_LEAST, math.floor(film.size[i] * scale + 0.5)) end
+  return size
+end
+
+local function make_sheet(film, output)
+  local grid = program.numbers(request.grid or "6x4")
+  local columns, panels, numbers = grid[1], grid[1] * grid[2], film:numbers()
+  local every = math.tointeger(request.every) or (#numbers + panels - 1) // panels
+  local shown = (#numbers + every - 1) // every
+  if shown > panels and not program.has_number(output) then
+    program.usage("%s: %d frames do not fit into a grid of %d x %d: give a larger --grid or --every, "
+      .. "or a name with a number, such as sheet.####.png", output, shown, columns, grid[2])
+  end
+  local size = panel_size(film, columns)
+  for page = 1, (shown + panels - 1) // panels do
+    local on_page = {}
+    for i = (page - 1) * panels, math.min(page * panels, shown) - 1 do
+      on_page[#on_page + 1] = numbers[1 + i * every]
+    end
+    local path = program.check(core.frame_name(output, page))
+    local rostrum, width, height = page_of(film, on_page, columns, size)
+    program.write(rostrum, path, width, height)
+  end
+end
+
+if not request.output then program.usage "where to? give -o sheet.png" end
+program.refuse_target(request.output)
+make_sheet(program.film(), request.output)

@@ -1,0 +1,397 @@
+--- celspan farm SCRIPT -o OUT --slurm|--openjd: a job for a render farm, on standard output.
+--
+--   what render would refuse --> how many tasks --> the text of the job
+--
+-- The tasks of a job run `celspan render` with the options of the request as they were given, and a
+-- part of the frames, or of the frame, each: all that can be known to fail on a farm fails here.
+--
+--   job.strips    whether tasks are strips of one frame, else parts of the frames
+--   job.tasks     how many; job.frames: how many frames they make
+--   job.script, job.output, job.folder    as they were given, and the folder they were given in
+--   job.options   of render, in their order: {name =, value =}; value nil: a flag
+--   job.arguments of the script
+--   job.name, job.logs, job.workers, job.memory (MiB), job.minutes    nil: not given
+--   job.version   of celspan
+local program, request = ...
+local core = require "celspan.core"
+
+local CHUNK = 10 -- frames of a task
+local STRIPS_MOST = 1000 -- which one command can join
+local OPTIONS_MOST, PATH_MOST = 128, 4095
+local ARRAY_MOST = 1000 -- the tasks of an array that Slurm takes, unless it is told otherwise
+
+-- ---------------------------------------------------------------- both engines
+
+local function absolute(path, folder)
+  return path:sub(1, 1) == "/" and path or folder:gsub("/$", "") .. "/" .. path
+end
+
+local function split(path) return path:match "^(.*)/([^/]*)$" end
+
+--- The ending of a strip's file: that of the picture it is of.
+local function ending_of(path) return path:match "%.([^./]*)$" or "" end
+
+local function strip_pattern(output, number)
+  return ("%s.strips/%s.%s"):format(output, number, ending_of(output))
+end
+
+local function name_of(job)
+  return job.name or job.script:match "([^/]+)$":gsub("%.lua$", "")
+end
+
+local function summary_of(job)
+  if job.strips then return ("one frame of %s in %d strips"):format(job.script, job.tasks) end
+  return ("%d %s of %s in %d %s"):format(job.frames, job.frames == 1 and "frame" or "frames",
+    job.script, job.tasks, job.tasks == 1 and "task" or "tasks")
+end
+
+-- ---------------------------------------------------------------- Slurm
+
+--- A word for bash that stands for any text: everything between single quotes is itself.
+local function quoted(text)
+  if text:find "^[%w%%+,./:=@_-]+$" then return text end
+  return "'" .. text:gsub("'", [['\'']]) .. "'"
+end
+
+--- A text in a comment: it stays on its line.
+local function plain(text) return (text:gsub("%c", "?")) end
+
+--- What follows the other arguments of render, with a space before it.
+local function words_of(job)
+  local words = { "" }
+  for _, option in ipairs(job.options) do
+    words[#words + 1] = option.name
+    if option.value then words[#words + 1] = quoted(option.value) end
+  end
+  if #job.arguments > 0 then words[#words + 1] = "--" end
+  for _, argument in ipairs(job.arguments) do words[#words + 1] = quoted(argument) end
+  return table.concat(words, " ")
+end
+
+local function directives_of(job)
+  local lines = {}
+  local function add(format, ...) lines[#lines + 1] = "#SBATCH --" .. format:format(...) end
+  add("job-name=%s", name_of(job):gsub("[^%w._-]", "-"))
+  add("array=1-%d", job.tasks)
+  add("requeue")
+  add("open-mode=append")
+  if job.workers then add("cpus-per-task=%d", job.workers) end
+  if job.memory then add("mem=%dM", job.memory) end
+  if job.minutes then add("time=%d", job.minutes) end
+  if job.logs then
+    add('output="%s/%%x-%%A_%%a.log"', absolute(job.logs, job.folder):gsub("%%", "%%%%"))
+  end
+  return table.concat(lines, "\n")
+end
+
+local SLURM_HEAD = [[
+#!/bin/bash
+# @SUMMARY@, written by celspan @VERSION@.
+#
+#   bash THIS_FILE         puts it into the queue@AND_JOIN@
+@HOW@
+@DIRECTIVES@
+
+celspan=${CELSPAN:-celspan}
+tasks=@TASKS@
+tries=3 # how often a task that may succeed another time is put back into the queue
+]]
+
+local CHUNK_HOW = "#   sbatch THIS_FILE       the same"
+local STRIP_HOW = "#   bash THIS_FILE join    joins the strips, once they are all there"
+
+local CHUNK_QUEUE = [[
+
+if [ -z "${SLURM_ARRAY_TASK_ID:-}" ]; then@LOGS@
+  exec sbatch "$0"
+fi
+]]
+
+local STRIP_QUEUE = [[
+
+if [ -z "${SLURM_ARRAY_TASK_ID:-}" ] && [ "${1:-}" != join ]; then@LOGS@
+  job=$(sbatch --parsable "$0") || exit
+  job=${job%%;*}
+  echo "Submitted batch job $job"
+  exec sbatch --array=1 --dependency="afterok:$job" --kill-on-invalid-dep=yes "$0" join
+fi
+]]
+
+local CHUNK_RUN = [[
+
+run() {
+  "$celspan" render @SCRIPT@ -o @OUTPUT@ \
+    --task "$SLURM_ARRAY_TASK_ID/$tasks" --resume --workers @WORKERS@@WORDS@
+}
+]]
+
+local STRIP_RUN = [[
+
+strips=@STRIPS@
+
+run() {
+  if [ "${1:-}" = join ]; then
+    local parts=() i
+    for ((i = 1; i <= tasks; i++)); do parts+=("$strips/$i.@ENDING@"); done
+    "$celspan" join "${parts[@]}" -o @OUTPUT@
+  else
+    "$celspan" render @SCRIPT@ -o "$strips/$SLURM_ARRAY_TASK_ID.@ENDING@" \
+      --strip "$SLURM_ARRAY_TASK_ID/$tasks" --resume --workers @WORKERS@@WORDS@
+  fi
+}
+]]
+
+local SLURM_TAIL = [[
+
+cd -- @FOLDER@ || exit 5
+run "$@"
+code=$?
+case $code in
+  5 | 33 | 137) # the output could not be written, no memory, killed: another time it may be
+    if [ -n "${SLURM_ARRAY_JOB_ID:-}" ] && [ "${SLURM_RESTART_COUNT:-0}" -lt "$tries" ] &&
+      scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"; then
+      sleep 600 # Slurm ends this script
+    fi ;;
+esac
+exit "$code"
+]]
+
+local function slurm(job)
+  local logs = job.logs and absolute(job.logs, job.folder)
+  if logs and logs:find '[%c"\\]' then
+    return nil, "--logs: Slurm takes no name with control characters, quotation marks or \\"
+  end
+  local values = {
+    SUMMARY = plain(summary_of(job)), VERSION = job.version, TASKS = job.tasks,
+    AND_JOIN = job.strips and ", and the join behind it" or "",
+    HOW = job.strips and STRIP_HOW or CHUNK_HOW, DIRECTIVES = directives_of(job),
+    LOGS = logs and "\n  mkdir -p " .. quoted(logs) .. " || exit" or "",
+    SCRIPT = quoted(job.script), OUTPUT = quoted(job.output), FOLDER = quoted(job.folder),
+    STRIPS = quoted(absolute(job.output, job.folder) .. ".strips"),
+    ENDING = quoted(ending_of(job.output)), WORDS = words_of(job),
+    WORKERS = job.workers or '"${SLURM_CPUS_ON_NODE:-1}"',
+  }
+  local body = job.strips and STRIP_QUEUE .. STRIP_RUN or CHUNK_QUEUE .. CHUNK_RUN
+  return ((SLURM_HEAD .. body .. SLURM_TAIL):gsub("@([A-Z_]+)@", values))
+end
+
+-- ---------------------------------------------------------------- JSON
+
+local shorts = { ['"'] = '\\"', ["\\"] = "\\\\", ["\n"] = "\\n", ["\t"] = "\\t" }
+
+local function json_text(text)
+  return '"' .. text:gsub('[%c"\\]', function(c)
+    return shorts[c] or ("\\u%04x"):format(c:byte())
+  end) .. '"'
+end
+
+--- Objects are lists of {name, value}, so that they keep their order; lists have the field `list`.
+local function json(value, indent)
+  if type(value) ~= "table" then
+    return type(value) == "string" and json_text(value) or tostring(value)
+  end
+  local inner, items = indent .. "  ", {}
+  for i, item in ipairs(value.list or value) do
+    items[i] = inner .. (value.list and json(item, inner)
+      or json_text(item[1]) .. ": " .. json(item[2], inner))
+  end
+  local open, close = value.list and "[" or "{", value.list and "]" or "}"
+  return ("%s\n%s\n%s%s"):format(open, table.concat(items, ",\n"), indent, close)
+end
+
+-- ---------------------------------------------------------------- Open Job Description
+
+local MOST_PARAMETERS, MOST_TEXT, MOST_NAME = 50, 1024, 128
+
+--- The parameters of the job, as they are needed.
+local function new_parameters()
+  local parameters = { list = {}, counts = {} }
+  function parameters:add(name, kind, default, more)
+    local members = { { "name", name }, { "type", kind }, { "default", default } }
+    for _, member in ipairs(more or {}) do table.insert(members, member) end
+    table.insert(self.list, members)
+    if #default > MOST_TEXT then
+      self.fault = ("%s has more than %d characters"):format(name, MOST_TEXT)
+    end
+    return ("{{Param.%s}}"):format(name)
+  end
+  --- The next of several of a kind: Allow1, Allow2.
+  function parameters:add_numbered(kind, ...)
+    self.counts[kind] = (self.counts[kind] or 0) + 1
+    return self:add(kind .. self.counts[kind], ...)
+  end
+  --- A text as an argument, which may hold neither control characters nor braces of its own.
+  function parameters:argument(text)
+    if not text:find "%c" and not text:find("{{", 1, true) then return text end
+    return self:add_numbered("Text", "STRING", text)
+  end
+  return parameters
+end
+
+local FILE_IN = { { "objectType", "FILE" }, { "dataFlow", "IN" } }
+local FOLDER_IN = { { "objectType", "DIRECTORY" }, { "dataFlow", "IN" } }
+local FOLDER_OUT = { { "objectType", "DIRECTORY" }, { "dataFlow", "OUT" } }
+
+local function add_options(job, parameters, arguments)
+  for _, option in ipairs(job.options) do
+    arguments[#arguments + 1] = option.name
+    if option.name == "--allow" then
+      arguments[#arguments + 1] = parameters:add_numbered("Allow", "PATH",
+        absolute(option.value, job.folder), FOLDER_IN)
+    elseif option.value then
+      arguments[#arguments + 1] = parameters:argument(option.value)
+    end
+  end
+  if #job.arguments > 0 then arguments[#arguments + 1] = "--" end
+  for _, argument in ipairs(job.arguments) do
+    arguments[#arguments + 1] = parameters:argument(argument)
+  end
+end
+
+local function action(arguments, minutes)
+  local members = { { "command", "{{Param.Celspan}}" }, { "args", { list = arguments } } }
+  if minutes then members[#members + 1] = { "timeout", 60 * minutes } end
+  members[#members + 1] = { "cancelation",
+    { { "mode", "NOTIFY_THEN_TERMINATE" }, { "notifyPeriodInSeconds", 10 } } }
+  return { { "actions", { { "onRun", members } } } }
+end
+
+local function requirements(job)
+  local amounts = {}
+  local function add(name, least) amounts[#amounts + 1] = { { "name", name }, { "min", least } } end
+  if job.workers then add("amount.worker.vcpu", job.workers) end
+  if job.memory then add("amount.worker.memory", job.memory) end
+  return #amounts > 0 and { { "amounts", { list = amounts } } } or nil
+end
+
+--- output: as in the arguments of a task.
+local function render_step(job, parameters, script, output)
+  local task = job.strips and "Strip" or "Task"
+  local number = ("{{Task.Param.%s}}"):format(task)
+  local range = job.tasks == 1 and "1" or "1-" .. job.tasks
+  local arguments = { "render", script, "-o",
+    job.strips and strip_pattern(output, number) or output,
+    job.strips and "--strip" or "--task", ("%s/%d"):format(number, job.tasks),
+    "--resume", "--progress", "openjd" }
+  if job.workers then
+    table.move({ "--workers", tostring(job.workers) }, 1, 2, #arguments + 1, arguments)
+  end
+  add_options(job, parameters, arguments)
+  local step = { { "name", "Render" },
+    { "parameterSpace", { { "taskParameterDefinitions", { list = {
+      { { "name", task }, { "type", "INT" }, { "range", range } } } } } } },
+    { "script", action(arguments, job.minutes) } }
+  local needs = requirements(job)
+  if needs then table.insert(step, 2, { "hostRequirements", needs }) end
+  return step
+end
+
+local function join_step(job, output)
+  local arguments = { "join" }
+  for i = 1, job.tasks do arguments[#arguments + 1] = strip_pattern(output, i) end
+  table.move({ "-o", output }, 1, 2, #arguments + 1, arguments)
+  return { { "name", "Join" },
+    { "dependencies", { list = { { { "dependsOn", "Render" } } } } },
+    { "script", action(arguments) } }
+end
+
+--- Without control characters and braces, and not too long.
+local function template_name(job)
+  local name = plain(name_of(job)):gsub("[{}]", "-")
+  local cut = utf8.len(name) and utf8.offset(name, MOST_NAME + 1)
+  return cut and name:sub(1, cut - 1) or name
+end
+
+local function template_text(job, parameters, steps)
+  return json({
+    { "specificationVersion", "jobtemplate-2023-09" },
+    { "name", template_name(job) },
+    { "description", ("%s, written by celspan %s."):format(plain(summary_of(job)), job.version) },
+    { "parameterDefinitions", { list = parameters.list } },
+    { "steps", { list = steps } },
+  }, "") .. "\n"
+end
+
+local function openjd(job)
+  local parameters = new_parameters()
+  local folder, file = split(absolute(job.output, job.folder))
+  parameters:add("Celspan", "STRING", "celspan")
+  local script = parameters:add("Script", "PATH", absolute(job.script, job.folder), FILE_IN)
+  local place = parameters:add("Output", "PATH", folder == "" and "/" or folder, FOLDER_OUT)
+  local output = place .. "/" .. parameters:argument(file)
+  local steps = { render_step(job, parameters, script, output) }
+  if job.strips then steps[2] = join_step(job, output) end
+  local fault = parameters.fault
+  if #parameters.list > MOST_PARAMETERS then
+    fault = ("it needs %d parameters, and a template has at most %d: give fewer --allow")
+      :format(#parameters.list, MOST_PARAMETERS)
+  end
+  if fault then return nil, "Open Job Description: " .. fault end
+  local text = template_text(job, parameters, steps)
+  if not utf8.len(text) then
+    return nil, "Open Job Description: the template is UTF-8, and a name or an argument is not"
+  end
+  return text
+end
+
+-- ---------------------------------------------------------------- what is asked for
+
+local own = { ["-o"] = true, ["--slurm"] = true, ["--openjd"] = true, ["--chunk"] = true,
+  ["--strips"] = true, ["--job-name"] = true, ["--job-memory"] = true, ["--job-time"] = true,
+  ["--logs"] = true, ["--workers"] = true } -- which are not handed to the tasks
+
+local function refuse()
+  local output = request.output
+  if not output then program.usage "where to? give -o shot.####.png, as for render" end
+  if request.slurm == request.openjd then
+    program.usage "for which farm? give --slurm or --openjd, one of them"
+  end
+  if request.chunk and request.strips then
+    program.usage "--chunk divides a film and --strips a frame: give one of them"
+  end
+  if request.strips and math.tointeger(request.strips) > STRIPS_MOST then
+    program.usage("--strips %s: at most %d strips can be joined at once", request.strips, STRIPS_MOST)
+  end
+  if output == "-" or program.is_video(output) then
+    program.usage "a farm makes files of frames: give -o shot.####.png (and make a video of them)"
+  end
+  if #output > PATH_MOST then program.usage("%.80s...: the name is too long", output) end
+  program.refuse_target(output)
+end
+
+--- Sets how many frames and tasks there are, and what they make.
+local function count_tasks(job)
+  local film = program.film()
+  local numbers = film:numbers(request.output)
+  job.frames, job.tasks, job.output = #numbers, math.tointeger(request.strips), request.output
+  if request.strips then
+    if #numbers ~= 1 then
+      program.usage("--strips divides one frame, and there are %d: name it with --frames", #numbers)
+    end
+    job.output = program.check(core.frame_name(request.output, numbers[1]))
+  else
+    local chunk = math.tointeger(request.chunk) or CHUNK
+    job.tasks = (#numbers + chunk - 1) // chunk
+  end
+  film:refuse_view()
+end
+
+refuse()
+local job = { strips = request.strips, script = request[1], folder = program.working_folder(), name = request.job_name,
+  logs = request.logs, workers = math.tointeger(request.workers),
+  memory = math.tointeger(request.job_memory), minutes = math.tointeger(request.job_time),
+  arguments = request.arguments, options = {}, version = program.version }
+for _, option in ipairs(request.given) do
+  if not own[option.name] then table.insert(job.options, option) end
+  if #job.options > OPTIONS_MOST then
+    program.usage("%s: there are more than %d options", option.name, OPTIONS_MOST)
+  end
+end
+count_tasks(job)
+local text, message = (request.slurm and slurm or openjd)(job)
+if not text then program.usage("%s", message) end
+io.write(text)
+if request.slurm and job.tasks > ARRAY_MOST then
+  program.note("%d tasks: Slurm takes arrays of %d unless MaxArraySize is set higher; with --chunk "
+    .. "there are fewer", job.tasks, ARRAY_MOST)
+end

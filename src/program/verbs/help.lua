@@ -1,0 +1,165 @@
+--- celspan help [VERB], and the manual page: made from what the verbs say of themselves.
+local program, request = ...
+
+local WIDTH = 100
+
+local exit_codes = {
+  { "0", "every frame asked for exists" }, { "1", "some frames failed, or differ" },
+  { "2", "wrong usage" }, { "3", "the script or its scene failed" },
+  { "4", "an input is missing or broken" }, { "5", "an output cannot be written" },
+  { "6", "a limit was hit" }, { "33", "out of memory" }, { "70", "internal error" },
+  { "128+n", "ended by signal n" },
+}
+
+local environment = {
+  { "CELSPAN_PATH", "where require looks after the script's folder; scripts may read there" },
+  { "CELSPAN_PICTURE_MODULE",
+    "the file of the picture module, when it is not where celspan looks" },
+  { "OCIO", "an OpenColorIO configuration: its colour spaces may be named in colour" },
+}
+
+local verbs = program.verbs()
+
+--- What stands behind a verb on a command line.
+local function usage_of(verb)
+  return verb.operands .. " [options]" .. (verb.has_script and " [-- ARGS]" or "")
+end
+
+-- ---------------------------------------------------------------- help
+
+--- A text in lines, of which all but the first begin with an indent. Lines that begin with a space stay
+--- as they are.
+local function wrapped(text, indent)
+  local lines = {}
+  for paragraph in text:gmatch "[^\n]+" do
+    local line = paragraph:sub(1, 1) == " " and paragraph
+    for word in (line and "" or paragraph):gmatch "%S+" do
+      if not line then
+        line = word
+      elseif indent + #line + 1 + #word > WIDTH then
+        lines[#lines + 1], line = line, word
+      else
+        line = line .. " " .. word
+      end
+    end
+    lines[#lines + 1] = line
+  end
+  return table.concat(lines, "\n" .. (" "):rep(indent))
+end
+
+local function put_verb(out, verb)
+  out:write(("celspan %s %s\n\n%s\n"):format(verb.name, usage_of(verb), verb.summary))
+  if verb.notes then out:write("\n", wrapped(verb.notes, 0), "\n") end
+  if verb.options[1] then out:write "\nOptions\n" end
+  for _, option in ipairs(verb.options) do
+    out:write(("  %-18s %s\n"):format(option.name .. " " .. (option.value or ""),
+      wrapped(option.help, 21)))
+  end
+  if verb.has_script then
+    out:write "\nThe words after -- are the arguments (...) of the script.\n"
+  end
+end
+
+local function put_list(out)
+  out:write(("celspan %s - compositing for cel animation: Lua scripts in, frames out\n\n"
+    .. "celspan VERB ...\n"):format(program.version))
+  for _, verb in ipairs(verbs) do
+    out:write(("  %-8s %-19s %s\n"):format(verb.name, verb.operands, verb.summary))
+  end
+  out:write(("  %-8s %-19s %s\n\n"):format("help", "VERB|lua [NAME]",
+    "Says more about a verb, or about a name of the Lua interface."),
+    "celspan --version prints the version, celspan --man the manual page.\n\nExit codes\n")
+  local half = (#exit_codes + 1) // 2 -- two columns, from the top to the bottom of each
+  for i = 1, half do
+    local left, right = exit_codes[i], exit_codes[i + half]
+    out:write(("  %-3s %-33s %-6s %s\n"):format(left[1], left[2], right[1], right[2]))
+  end
+end
+
+-- ---------------------------------------------------------------- the manual page
+
+local escapes = { ["-"] = "\\-", ["\\"] = "\\e", ["^"] = "\\(ha", ["~"] = "\\(ti", ["`"] = "\\(ga" }
+
+--- A text in which nothing is a request or an escape of roff; every run of blanks is one.
+local function roff(text)
+  return (text:gsub("[-\\^~`]", escapes):gsub("%s+", " "):gsub("^[.']", "\\&%0"))
+end
+
+local function put_notes(out, notes)
+  local is_plain = true
+  for line in notes:gmatch "[^\n]+" do
+    local is_indented = line:sub(1, 1) == " "
+    if is_indented == is_plain then out:write(is_indented and ".PP\n.nf\n" or ".fi\n.PP\n") end
+    is_plain = not is_indented
+    out:write(roff(line), "\n")
+  end
+  if not is_plain then out:write ".fi\n" end
+end
+
+local function put_term(out, name, meaning)
+  out:write(".TP\n", name, "\n", roff(meaning), "\n")
+end
+
+local function put_section(out, verb)
+  out:write(".SS celspan ", verb.name, " ", roff(usage_of(verb)), "\n", roff(verb.summary), "\n")
+  if verb.notes then
+    out:write ".PP\n"
+    put_notes(out, verb.notes)
+  end
+  for _, option in ipairs(verb.options) do
+    local value = option.value and (" \\fI%s\\fR"):format(roff(option.value)) or ""
+    put_term(out, ("\\fB%s\\fR%s"):format(roff(option.name), value), option.help)
+  end
+end
+
+local HEAD = [[
+.TH CELSPAN 1 "" "celspan @VERSION@" "User Commands"
+.nh
+.SH NAME
+celspan \- compositing for cel animation: Lua scripts in, frames out
+.SH SYNOPSIS
+.B celspan
+.I VERB
+.RI [ operands ]
+.RI [ options ]
+.RB [ \-\-
+.IR ARGS ]
+.br
+.B celspan help
+.RI [ VERB ]
+.br
+.B celspan help lua
+.RI [ NAME ]
+.br
+.B celspan \-\-version
+.br
+.B celspan \-\-man
+.SH DESCRIPTION
+A Lua script describes a film frame by frame; celspan turns the frames into files.
+.PP
+Options may come before or after the operands; a value follows its option after a space
+or an equals sign. The words after \-\- are the arguments of the script.
+Diagnostics go to standard error.
+.PP
+\-\-man prints this page.
+.SH VERBS
+]]
+
+local function put_manual(out)
+  out:write((HEAD:gsub("@VERSION@", program.version)))
+  for _, verb in ipairs(verbs) do put_section(out, verb) end
+  out:write ".SH EXIT STATUS\n"
+  for _, code in ipairs(exit_codes) do put_term(out, ".B " .. roff(code[1]), code[2]) end
+  out:write ".SH ENVIRONMENT\n"
+  for _, variable in ipairs(environment) do put_term(out, ".B " .. variable[1], variable[2]) end
+end
+
+if request.man then
+  put_manual(io.stdout)
+elseif request[1] then
+  for _, verb in ipairs(verbs) do
+    if verb.name == request[1] then put_verb(io.stdout, verb) end
+  end
+else
+  put_list(request.stderr and io.stderr or io.stdout)
+end

@@ -1,0 +1,126 @@
+--- celspan info SCRIPT|FILE: a film, a picture, artwork or a span file in figures, one "name value" a
+--- line. Which of them it is, its content shows.
+local program, request = ...
+
+local DIFFERENT_MOST = 1 << 19 -- scenes that are told apart, in some 40 MB
+local NAMES_MOST = 1000
+
+local path = request[1]
+
+local function put(format, ...) io.write(format:format(...), "\n") end
+
+-- ---------------------------------------------------------------- films
+
+--- Adds the names of a frame's values: one entry for each kind of value that has a name, in the order
+--- in which they are met.
+local function add_names(film, names, frame)
+  film:names(function(kind, name, source, line)
+    local key = kind .. " " .. name
+    local entry = names[key]
+    if not entry and #names == NAMES_MOST then
+      names.has_more = true
+      return
+    end
+    if not entry then
+      entry = { kind = kind, name = name, frames = 0,
+                place = source and (" (%s:%d)"):format(source, line) or "" }
+      names[key], names[#names + 1] = entry, entry
+    end
+    if entry.last ~= frame then entry.frames, entry.last = entry.frames + 1, frame end
+  end)
+end
+
+--- Counts the frames that are not equal to one before.
+local function count_scene(film, total)
+  local scene = film:scene()
+  if scene and total.scenes[scene] then return end
+  if scene and total.kept == DIFFERENT_MOST then
+    total.is_least = true
+    return
+  end
+  total.different = total.different + 1
+  if scene then total.scenes[scene], total.kept = true, total.kept + 1 end
+end
+
+local function count_film(film)
+  local total = { scenes = {}, kept = 0, different = 0, names = {}, most = { 0, 0, 0 } }
+  for number = film.first, film.first + film.frames - 1 do
+    film:build(number)
+    add_names(film, total.names, number)
+    count_scene(film, total)
+    for i, count in ipairs { film:counts() } do total.most[i] = math.max(total.most[i], count) end
+  end
+  return total
+end
+
+local function describe_film()
+  local film = program.film()
+  local total = count_film(film)
+  if film.title then put("title %s", film.title) end
+  put("frames %d\nfirst %d\nlast %d", film.frames, film.first, film.first + film.frames - 1)
+  put("fps %.9g\nseconds %.9g\nsize %dx%d", film.fps, film.frames / film.fps, table.unpack(film.size))
+  put("cels %d\nprimitives %d\npictures %d", table.unpack(total.most))
+  put("different%s %d", total.is_least and "_at_least" or "", total.different)
+  for _, entry in ipairs(total.names) do
+    put("named %s %d %s%s", entry.kind, entry.frames, entry.name, entry.place)
+  end
+  if total.names.has_more then put "named more" end
+end
+
+-- ---------------------------------------------------------------- files
+
+--- Names come from the file: what could end a line is shown as a space.
+local function plain(text) return (text:gsub("[%c\127]", " ")) end
+
+local function describe_picture()
+  local picture = program.picture(path)
+  local depth, subimages, lines = "", 0, {}
+  for i, part in ipairs(picture.parts) do
+    local name = part.name == "" and "" or " " .. plain(part.name)
+    if part.subimage == 0 then depth = part.depth end
+    if part.subimage then
+      subimages = subimages + 1
+      lines[i] = ("subimage %d size %dx%d channels %d depth %s%s\n"):format(part.subimage, part.width,
+        part.height, part.channels, part.depth, name == "" and "" or " layer" .. name)
+    else
+      lines[i] = ("layer%s channels %d\n"):format(name, part.channels)
+    end
+  end
+  put("format %s\nsize %dx%d\nchannels %d\nalpha %s\ndepth %s\ncolour %s\nbytes %d\nsubimages %d",
+    picture.format, picture.width, picture.height, picture.channels, picture.alpha or "none", depth,
+    picture.colour, picture.bytes, subimages)
+  io.write(table.concat(lines))
+end
+
+local function describe_spans()
+  local spans = program.spans(path)
+  put("format span\nsize %dx%d\ndepth %s\nbytes %d", spans.width, spans.height, spans.depth,
+    spans.bytes)
+  for _, name in ipairs { "rows_same", "rows_moved", "rows_literal", "runs", "raw_spans", "gradients" } do
+    put("%s %d", name, spans[name])
+  end
+end
+
+local function describe_painting(format)
+  local text = program.input(require "celspan.inform".painting(path))
+  io.write("format ", format, "\n", text)
+end
+
+local describe = {
+  script = describe_film,
+  picture = describe_picture,
+  span = describe_spans,
+  archive = function() describe_painting "painting" end,
+  folder = function() describe_painting "folder" end,
+  svg = function() io.write((program.input(require "celspan.inform".drawing(path)))) end,
+  --- A Photoshop document is a picture with subimages for `layer`, and a painting with more in it.
+  psd = function()
+    describe_picture()
+    local text, message = require "celspan.inform".painting(path)
+    io.write((program.input(text, message, ("layers unread: %s\n"):format(message))))
+  end,
+}
+
+local kind = program.kind(path)
+if kind ~= "script" then program.refuse_rights() end
+describe[kind]()

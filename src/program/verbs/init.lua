@@ -1,0 +1,43 @@
+--- celspan init NAME: a folder with a film that renders and tests that pass.
+--
+--   project/ --@NAME@, @ANNOTATIONS@ replaced--> NAME/...
+--
+-- Nothing that is there is replaced: the folder must be new or empty. The picture that the spec
+-- compares the film with is rendered from the film itself, so that the tests pass from the start.
+local program, request = ...
+
+local NAME_MOST, PATH_MOST = 100, 2047
+
+local texts = { -- by the names of the files
+  ["film.lua"] = "film.lua", ["walk.txt"] = "walk.txt", ["spec/film_spec.lua"] = "film_spec.lua",
+  ["README.md"] = "README.md", [".luarc.json"] = "luarc.json", [".luacheckrc"] = "luacheckrc",
+  [".busted"] = "busted", [".gitignore"] = "gitignore",
+}
+
+local folder = request[1]
+local name = folder:match "[^/]*$" -- it goes into Lua and Markdown as it is
+
+if #name > NAME_MOST or not name:find "^[%w_-][%w_.-]*$" then
+  program.usage("'%s' is no name for a film: letters, digits, '_', '-' and '.', not first a '.'", folder)
+elseif #folder > PATH_MOST then
+  program.usage("'%.60s...' is too long a path", folder)
+end
+
+local entries, message, how = program.entries(folder)
+if how == "cut" then
+  program.fail("output", "%s: cannot be read: %s", folder, message)
+elseif not entries and how ~= "missing" then
+  program.fail("output", "%s: cannot be a folder for the film: %s", folder,
+    message or "Not a directory")
+elseif entries and #entries > 0 then
+  program.fail("output", "%s: there is something in it already; choose another name", folder)
+end
+
+local marks = { NAME = name, ANNOTATIONS = program.annotations }
+for path, text in pairs(texts) do
+  program.save(folder .. "/" .. path, (program.text(text):gsub("@(%u+)@", marks)))
+end
+local film = program.film(folder .. "/film.lua")
+program.write(film:at(film.first), folder .. "/spec/frame1.png", table.unpack(film.size))
+print(("%s: a film of two seconds, its sheet and its spec\n  cd %s\n  celspan test\n"
+  .. "  celspan render film.lua -o out/film.mp4"):format(folder, folder))

@@ -1,0 +1,17 @@
+--- celspan join STRIP ... -o OUT: strips of a frame to the frame.
+local program, request = ...
+local core = require "celspan.core"
+
+if not request.output then program.usage "where to? give -o with the name of the picture" end
+local paths = {}
+for _, path in ipairs(request) do
+  local numbers = program.has_number(path) and program.check(core.frames(path))
+  if numbers and #numbers == 0 then
+    program.fail("input", "%s: there are no files of this pattern", path)
+  end
+  for _, number in ipairs(numbers or {}) do
+    paths[#paths + 1] = program.check(core.frame_name(path, number))
+  end
+  if not numbers then paths[#paths + 1] = path end
+end
+program.join(paths, request.output)

@@ -1,0 +1,18 @@
+--- celspan probe SCRIPT X Y: the colour of one point, by direct evaluation of the scene.
+local program, request = ...
+local celspan = require "celspan"
+
+local function coordinate(name, text)
+  local number = not text:find "%s" and tonumber(text)
+  if not number or number - number ~= 0 then
+    program.usage("%s: '%s' is not a number of film units", name, text)
+  end
+  return number
+end
+
+local x, y = coordinate("X", request[2]), coordinate("Y", request[3])
+local film = program.film()
+local frame, number = film:chosen()
+local r, g, b, a = celspan.probe(frame, x, y, { film = film.size })
+if not r then program.check(nil, ("frame %d: %s"):format(number, g)) end
+print(("%.9g %.9g %.9g %.9g"):format(r, g, b, a))

@@ -1,0 +1,164 @@
+--- celspan test [SPEC ...]: busted in this program's own interpreter, several spec files at a time.
+--
+--   list of files --> a process each (spec.lua), as many as workers --> one summary
+--
+-- What is printed is in the order of the list, whichever process ends first.
+local program, request = ...
+
+local OUTPUT, MEMORY, DIFFERENT = 5, 33, 1 -- exit codes
+local ENDING, FOLDERS_DEEP, PATH_MOST = "_spec.lua", 32, 4095
+
+-- ---------------------------------------------------------------- which
+
+--- Adds the specs below a folder, whose entries are these.
+local function add_folder(list, folder, entries, depth)
+  for _, name in ipairs(entries) do
+    local path = folder .. "/" .. name
+    if name:sub(1, 1) ~= "." and #path <= PATH_MOST then
+      local inner, message, how = program.entries(path)
+      if inner and depth + 1 < FOLDERS_DEEP then
+        add_folder(list, path, inner, depth + 1)
+      elseif inner == nil and how ~= "missing" then
+        program.fail("input", "%s: cannot be read: %s", path, message)
+      elseif not inner and #name > #ENDING and name:sub(-#ENDING) == ENDING then
+        list[#list + 1] = path
+      end
+    end
+  end
+end
+
+--- The spec files of an operand, a file or a folder.
+local function specs_of(path)
+  local entries, message = program.entries(path)
+  if entries == nil then program.fail("input", "%s: cannot be opened: %s", path, message) end
+  if not entries then return { path } end
+  local list = {}
+  add_folder(list, path, entries, 0)
+  if #list == 0 then program.fail("input", "%s: no file in it ends in %s", path, ENDING) end
+  table.sort(list)
+  return list
+end
+
+local function all_specs()
+  local runs = {}
+  for _, operand in ipairs(request[1] and request or { "spec" }) do
+    for _, path in ipairs(specs_of(operand)) do
+      runs[#runs + 1] = { path = path, passed = 0, failed = 0, skipped = 0 }
+    end
+  end
+  return runs
+end
+
+-- ---------------------------------------------------------------- one spec file
+
+--- Starts the process; false: reported.
+local function start(run)
+  local message, other
+  run.records, message = io.tmpfile()
+  run.printed, other = io.tmpfile()
+  if run.records and run.printed then
+    local words = { "spec", "--", run.path, request.only }
+    run.process, message = program.start(words, run.printed, run.records)
+  end
+  if not run.process then
+    program.error("%s: no process for it: %s", run.path, message or other)
+  end
+  return run.process ~= nil
+end
+
+--- Counts what the process recorded, "KIND LENGTH\n" and a text each, and prints what is to be seen.
+--- Returns whether it came to its end.
+local function read_records(run)
+  local kind
+  run.records:seek "set"
+  for line in run.records:lines() do
+    local size
+    kind, size = line:match "^(%l+) (%d+)$"
+    local text = run.records:read(math.tointeger(size)) or ""
+    if kind == "pass" then run.passed = run.passed + 1 end
+    if kind == "skip" then
+      run.skipped = run.skipped + 1
+      print("skipped: " .. text)
+    elseif kind == "fail" then
+      run.failed = run.failed + 1
+      print("failed: " .. text)
+    end
+  end
+  return kind == "done"
+end
+
+local function report_death(run, code, signal, name)
+  run.failed = run.failed + 1
+  if code then
+    print(("failed: %s ended before its tests did, with exit code %d"):format(run.path, code))
+  else
+    print(("failed: %s was ended by signal %d (%s)"):format(run.path, signal, name))
+  end
+end
+
+local function print_run(run)
+  if not read_records(run) then report_death(run, table.unpack(run.ended)) end
+  run.printed:seek "set"
+  local printed = run.printed:read "a"
+  if printed ~= "" then io.write("printed by ", run.path, ":\n", printed) end
+  print(("%s: %d passed, %d failed, %d skipped"):format(run.path, run.passed, run.failed, run.skipped))
+  io.stdout:flush()
+  run.records:close()
+  run.printed:close()
+end
+
+-- ---------------------------------------------------------------- all of them
+
+--- Runs them; how many ended, and whether every process could be started.
+local function run_all(runs, workers)
+  local by_process, running, started, printed, is_well = {}, 0, 0, 0, true
+  while running > 0 or started < #runs and is_well and not program.is_stopped() do
+    if started < #runs and running < workers and is_well and not program.is_stopped() then
+      local run = runs[started + 1]
+      is_well = start(run)
+      if is_well then
+        started, running = started + 1, running + 1
+        by_process[run.process] = run
+      end
+    else
+      local ended = table.pack(program.wait())
+      local run = by_process[ended[1]]
+      if not ended[1] then break end
+      if run then
+        run.ended = table.pack(table.unpack(ended, 2, 4))
+        by_process[ended[1]], running = nil, running - 1
+      end
+      while printed < started and runs[printed + 1].ended do
+        printed = printed + 1
+        print_run(runs[printed])
+      end
+    end
+  end
+  return printed, is_well
+end
+
+local function sum_up(runs, count, is_well, begun)
+  local passed, failed, skipped = 0, 0, 0
+  for i = 1, count do
+    passed, failed = passed + runs[i].passed, failed + runs[i].failed
+    skipped = skipped + runs[i].skipped
+  end
+  print(("%d passed, %d failed, %d skipped in %d spec file%s, %.1f seconds"):format(passed, failed,
+    skipped, count, count == 1 and "" or "s", program.clock() - begun))
+  if not is_well then return MEMORY end
+  if passed + failed + skipped == 0 and not program.is_stopped() then
+    program.error(request.only and "no test has a name that --only asks for" or "no spec holds a test")
+    return DIFFERENT
+  end
+  return failed > 0 and DIFFERENT or 0
+end
+
+if not package.searchpath("busted.runner", package.path) then
+  program.error("busted is not installed: it runs the specs. Install the Debian package "
+    .. "lua-busted, or `luarocks install busted` for Lua 5.4")
+  return OUTPUT
+end
+local runs, begun = all_specs(), program.clock()
+local workers = math.tointeger(request.workers) or program.processors()
+local count, is_well = run_all(runs, workers)
+return sum_up(runs, count, is_well, begun)

@@ -1,0 +1,158 @@
+#include "program/video_target.h"
+
+#include <string.h>
+
+#include "frames/video/sound.h"
+#include "output/sinks/file.h"
+
+enum {
+  MOST_SIDE = 16384, /* of H.264, VP9 and WebP alike */
+  QUALITY = 75       /* where none is given */
+};
+
+static cs_video_options options_of(const cs_request *request) {
+  cs_video_options options = {.dithers = cs_request_has(request, "--dither"),
+                              .is_opaque = cs_request_has(request, "--background"),
+                              .quality = QUALITY};
+  cs_request_read(request, "--depth", &options.coding.depth);
+  cs_request_read(request, "--colour", &options.coding.transfer);
+  cs_request_read(request, "--alpha", &options.coding.alpha);
+  cs_request_read(request, "--quality", &options.quality);
+  return options;
+}
+
+/* ---------------------------------------------------------------- refusals */
+
+static const cs_video_format *format_of(const cs_request *request) {
+  const char *output = cs_request_text(request, "-o");
+  const char *format = cs_request_text(request, "--format");
+  bool has_file = output && strcmp(output, "-") != 0;
+  return has_file ? cs_video_format_named(format ? format : cs_file_ending(output)) : NULL;
+}
+
+bool cs_video_target_is_wanted(const cs_request *request, size_t frame_count) {
+  const cs_video_format *format = format_of(request);
+  if (!format || !format->is_picture)
+    return format != NULL;
+  return frame_count != 1 && !cs_sequence_has_number(cs_request_text(request, "-o"));
+}
+
+static cs_exit refuse_options(const cs_request *request, const cs_video_format *format) {
+  const char *output = cs_request_text(request, "-o");
+  const cs_video_options options = options_of(request);
+  if (cs_sequence_has_number(output))
+    return cs_report_usage("%s: a video is one file: leave the frame's number out of its name",
+                           output);
+  if (cs_request_has(request, "--resume"))
+    return cs_report_usage("%s: --resume keeps frames that are files, and a video is made whole: "
+                           "leave --resume out, or render shot.####.png",
+                           output);
+  if (cs_request_has(request, "--keep-going"))
+    return cs_report_usage("%s: --keep-going leaves frames out, and a video has them all: leave it "
+                           "out, or render shot.####.png",
+                           output);
+  if (options.coding.transfer == CELSPAN_TRANSFER_LINEAR ||
+      options.coding.transfer == CELSPAN_TRANSFER_CINEON)
+    return cs_report_usage("%s: a video is coded as srgb or rec709: leave --colour out", output);
+  if (options.coding.depth == CELSPAN_DEPTH_HALF || options.coding.depth == CELSPAN_DEPTH_FLOAT)
+    return cs_report_usage("%s: a video takes --depth 8 or 16", output);
+  if (!cs_video_pixels(format, &options))
+    return cs_report_usage(
+        "%s: %s holds 8 bits%s: leave --depth 16 out, or write .mov", output, format->name,
+        format->deep_pixels ? " where it has alpha (--background takes it away)" : "");
+  return CS_EXIT_OK;
+}
+
+cs_exit cs_video_target_refuse(const cs_request *request, size_t frame_count) {
+  const cs_video_format *format = format_of(request);
+  return format->is_picture && frame_count == 0 ? CS_EXIT_OK : refuse_options(request, format);
+}
+
+/* 4:2:0 gives one colour to 2 x 2 pixels, and H.264 has no half ones at the edge. */
+static cs_exit refuse_size(const cs_video_desc *video) {
+  const char *output = video->path;
+  int32_t width = video->frames.width, height = video->frames.height;
+  int32_t even_width = width > 1 ? width & ~1 : 2, even_height = height > 1 ? height & ~1 : 2;
+  if (width > MOST_SIDE || height > MOST_SIDE)
+    return cs_report_usage("%s: %d x %d pixels: a video has at most %d a side", output, (int)width,
+                           (int)height, MOST_SIDE);
+  if (video->format->is_halved && (even_width != width || even_height != height))
+    return cs_report_usage("%s: %d x %d pixels: %s needs an even width and height: give --size "
+                           "%dx%d, or write .mov, .webm or .mkv",
+                           output, (int)width, (int)height, video->format->name, (int)even_width,
+                           (int)even_height);
+  return CS_EXIT_OK;
+}
+
+static cs_exit refuse_rate(const cs_video_desc *video) {
+  double frames_second = video->frames.frames_second;
+  if (frames_second <= video->format->most_frames_second)
+    return CS_EXIT_OK;
+  return cs_report_usage("%s: %g frames a second: %s holds at most %g", video->path, frames_second,
+                         video->format->name, video->format->most_frames_second);
+}
+
+/* ---------------------------------------------------------------- sound */
+
+static bool is_run(const cs_sequence *frames) {
+  for (size_t i = 1; i < frames->count; i++)
+    if (frames->frames[i] != frames->frames[i - 1] + 1)
+      return false;
+  return true;
+}
+
+celspan_status cs_video_target_sound(cs_script *script, const char **path) {
+  CS_TRY(cs_lua_film_push_sound(script->L, CS_SCRIPT_FILM));
+  *path = lua_tostring(script->L, -2);
+  return *path ? cs_sound_find(script->context, *path, lua_tostring(script->L, -1)) : CELSPAN_OK;
+}
+
+/* The film's sound, as it goes with these frames. */
+static cs_exit set_sound(cs_video_desc *video, cs_script *script, const cs_request *request,
+                         const cs_sequence *frames) {
+  const cs_film_info *film = &script->film;
+  cs_video_sound *sound = &video->sound;
+  if (!film->sound || !video->format->sound) {
+    if (film->sound)
+      cs_report_note("%s: %s holds no sound: it is left out", video->path, video->format->name);
+    return CS_EXIT_OK;
+  }
+  if (!is_run(frames))
+    return cs_report_usage("--frames %s: the film has a sound, which goes with one run of frames "
+                           "such as 10-20",
+                           cs_request_text(request, "--frames"));
+  celspan_status status = cs_video_target_sound(script, &sound->path);
+  if (status == CELSPAN_OK)
+    status = cs_sound_listen(script->context, sound->path);
+  sound->start =
+      film->sound_offset - (double)(frames->frames[0] - film->first) / film->frames_second;
+  sound->length = (double)frames->count / film->frames_second;
+  return cs_report_failure(script->context, status, NULL);
+}
+
+/* ---------------------------------------------------------------- opening */
+
+cs_exit cs_video_target_open(cs_video *out, cs_script *script, const cs_request *request,
+                             const celspan_frame_desc *frame, const cs_sequence *frames) {
+  bool is_part = frame->crop_width > 0;
+  int32_t memory = 1;
+  bool has_memory = cs_request_read(request, "--memory", &memory);
+  cs_video_desc desc = {.path = cs_request_text(request, "-o"),
+                        .format = format_of(request),
+                        .options = options_of(request),
+                        .frames = {.width = is_part ? frame->crop_width : frame->width,
+                                   .height = is_part ? frame->crop_height : frame->height,
+                                   .frames_second = script->film.frames_second},
+                        .has_digests = cs_request_has(request, "--hash"),
+                        .keeps_nothing = has_memory && memory == 0};
+  cs_exit outcome = cs_video_target_refuse(request, SIZE_MAX);
+  if (outcome == CS_EXIT_OK)
+    outcome = refuse_size(&desc);
+  if (outcome == CS_EXIT_OK)
+    outcome = refuse_rate(&desc);
+  if (outcome == CS_EXIT_OK)
+    outcome = set_sound(&desc, script, request, frames);
+  if (outcome != CS_EXIT_OK)
+    return outcome;
+  return cs_report_failure(script->context, cs_video_open(out, script->context, &desc), NULL);
+}

@@ -1,0 +1,92 @@
+#include "program/view.h"
+
+#include "frames/process/interrupt.h"
+#include "output/sinks/strip.h"
+
+/* Film units to pixels, rounded, at least 1; -1 when that is more than a frame can have. */
+static int32_t pixels(double units, double scale) {
+  double side = units * scale + 0.5;
+  if (!(side < CS_SIDE_MAX + 1.0))
+    return -1;
+  return side < 1 ? 1 : (int32_t)side;
+}
+
+static cs_exit set_size(const cs_request *request, celspan_frame_desc *out) {
+  int32_t size[2];
+  double scale = 1;
+  bool has_size = cs_request_read(request, "--size", size);
+  if (cs_request_read(request, "--scale", &scale) && has_size)
+    return cs_report_usage("--size and --scale say the same thing twice: give one of them");
+  out->width = has_size ? size[0] : pixels(out->film_width, scale);
+  out->height = has_size ? size[1] : pixels(out->film_height, scale);
+  if (out->width > 0 && out->height > 0)
+    return CS_EXIT_OK;
+  cs_report_error("a film of %g x %g at scale %g is more than %d pixels a side: lower --scale",
+                  out->film_width, out->film_height, scale, CS_SIDE_MAX);
+  return CS_EXIT_LIMIT;
+}
+
+static cs_exit set_crop(const int32_t crop[4], celspan_frame_desc *out) {
+  if ((int64_t)crop[0] + crop[2] > out->width || (int64_t)crop[1] + crop[3] > out->height)
+    return cs_report_usage("--crop %d,%d,%d,%d is not within the frame of %d x %d pixels", crop[0],
+                           crop[1], crop[2], crop[3], out->width, out->height);
+  out->crop_x = crop[0];
+  out->crop_y = crop[1];
+  out->crop_width = crop[2];
+  out->crop_height = crop[3];
+  return CS_EXIT_OK;
+}
+
+/* Strips are as even as their grid of CS_STRIP_ROWS rows allows. */
+static cs_exit set_strip(const int32_t strip[2], celspan_frame_desc *out) {
+  int64_t bands = (out->height + CS_STRIP_ROWS - 1) / CS_STRIP_ROWS;
+  if (strip[1] > bands)
+    return cs_report_usage("--strip %d/%d: strips begin at every %d rows, so a frame of %d rows "
+                           "makes at most %d",
+                           strip[0], strip[1], CS_STRIP_ROWS, out->height, (int)bands);
+  int32_t begin = (int32_t)(bands * (strip[0] - 1) / strip[1]) * CS_STRIP_ROWS;
+  int32_t end = (int32_t)(bands * strip[0] / strip[1]) * CS_STRIP_ROWS;
+  end = end < out->height ? end : out->height;
+  return set_crop((int32_t[4]){0, begin, out->width, end - begin}, out);
+}
+
+static cs_exit set_part(const cs_request *request, celspan_frame_desc *out) {
+  int32_t crop[4], strip[2];
+  bool has_crop = cs_request_read(request, "--crop", crop);
+  bool has_strip = cs_request_strip(request, strip);
+  if (has_strip && has_crop)
+    return cs_report_usage("--strip and --crop both say which part to make: give one of them");
+  return has_crop ? set_crop(crop, out) : has_strip ? set_strip(strip, out) : CS_EXIT_OK;
+}
+
+static void set_antialias(const cs_request *request, celspan_frame_desc *out) {
+  static const celspan_antialias_mode modes[] = {CELSPAN_ANTIALIAS_AREA, CELSPAN_ANTIALIAS_NONE,
+                                                 CELSPAN_ANTIALIAS_FILTER};
+  cs_given_antialias given;
+  if (!cs_request_read(request, "--antialias", &given))
+    return;
+  out->antialias = &modes[given.mode];
+  out->filter = given.filter;
+}
+
+cs_exit cs_view_frame(const cs_request *request, double film_width, double film_height,
+                      celspan_frame_desc *out) {
+  *out = CELSPAN_FRAME_DESC;
+  out->film_width = film_width;
+  out->film_height = film_height;
+  out->progress = cs_interrupt_progress;
+  cs_request_read(request, "--workers", &out->workers);
+  set_antialias(request, out);
+  cs_exit outcome = set_size(request, out);
+  return outcome == CS_EXIT_OK ? set_part(request, out) : outcome;
+}
+
+cs_exit cs_view_open_still(celspan_context *context, const char *path, cs_still *out) {
+  return cs_report_failure(context, cs_still_open(context, path, out), NULL);
+}
+
+cs_exit cs_view_still(const cs_request *request, const cs_still *still, celspan_frame_desc *out) {
+  cs_exit outcome = cs_view_frame(request, still->info.width, still->info.height, out);
+  cs_still_expose(still, out);
+  return outcome;
+}

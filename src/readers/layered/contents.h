@@ -1,0 +1,95 @@
+/* The contents of a painting: its layers and groups, and notes on what cannot be shown.
+ *
+ *   sky        layer   0   parent 3    layers are in the order of painting, rearmost first; a group
+ *   hills      layer   1   parent 3    comes after its layers, so the parent of a layer is greater
+ *   clouds     group   2   ...         than the layer itself
+ *   backdrop   group   3   none
+ *
+ * INVARIANT: parents are greater than their layers, at most CS_CONTENTS_DEPTH groups lie in one
+ * another, and no layer has more than CS_CONTENTS_PIXELS pixels. While a painting is read a layer
+ * owns its source; the layers of a painting that is complete have surfaces instead.
+ */
+#ifndef CS_PAINTING_CONTENTS_H
+#define CS_PAINTING_CONTENTS_H
+
+#include "readers/layered/rows.h"
+
+#define CS_CONTENTS_LAYERS 65536
+#define CS_CONTENTS_DEPTH 100
+#define CS_CONTENTS_SIDE 1048576
+#define CS_CONTENTS_PIXELS ((int64_t)1 << 28)
+#define CS_CONTENTS_FARTHEST ((int64_t)1 << 30) /* of a layer's corner, from the painting's */
+#define CS_CONTENTS_NONE SIZE_MAX
+#define CS_CONTENTS_TEXT 256 /* bytes of a name or note, with their NUL */
+#define CS_PROFILES_MOST 32  /* different colour profiles of a painting */
+
+typedef struct cs_contents_layer {
+  char name[CS_CONTENTS_TEXT]; /* valid UTF-8 without control characters; may be "" */
+  char blend[32];
+  size_t parent; /* CS_CONTENTS_NONE: of no group */
+  bool is_group, is_visible;
+  int depth;      /* groups it lies in; set when the painting is complete */
+  double opacity; /* 0..1 */
+  int32_t x, y, width, height;
+  const char *colour;             /* static: how its codes are taken, as in celspan_picture_desc */
+  cs_rows_source *source;         /* owned; NULL: no pixels */
+  struct cs_profile_table *table; /* the painting's: converts its codes; NULL: they stay */
+  celspan_surface *surface;       /* a reference */
+} cs_contents_layer;
+
+typedef struct cs_contents_remark {
+  size_t layer; /* CS_CONTENTS_NONE: the whole painting */
+  char text[CS_CONTENTS_TEXT];
+} cs_contents_remark;
+
+struct celspan_painting {
+  atomic_size_t references;
+  cs_memory *memory;
+  int32_t width, height;
+  cs_contents_layer *layers;
+  size_t count, capacity;
+  cs_contents_remark *notes;
+  size_t note_count, note_capacity;
+  struct cs_profile_table *tables[CS_PROFILES_MOST]; /* references; until surfaces are made */
+  size_t table_count;
+};
+
+/* An empty painting. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_contents_create(celspan_context *context, celspan_painting **out);
+/* Appends a layer: visible, opaque, normal, without pixels and of no group. Its address is valid
+ * until the next one. name: size bytes, repaired and cut to what a name may be.
+ * Errors: LIMIT, NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_contents_add(celspan_context *context, const cs_input *input,
+                                               celspan_painting *painting, const char *name,
+                                               size_t size, cs_contents_layer **out);
+/* The layer added last. */
+static inline size_t cs_contents_last(const celspan_painting *painting) {
+  return painting->count - 1;
+}
+/* Appends a note on a layer, or on the whole painting (CS_CONTENTS_NONE): what of it is not shown
+ * as in the program that made it. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_contents_note(celspan_context *context,
+                                                celspan_painting *painting, size_t layer,
+                                                const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+/* Errors: LIMIT for groups that are nested too deeply, INPUT for layers in a layer that is not a
+ * group.
+ */
+CELSPAN_CHECKED celspan_status cs_contents_check_depth(celspan_context *context,
+                                                       const cs_input *input,
+                                                       celspan_painting *painting);
+/* Reverses a list that has the foremost layer first, and groups before their layers. */
+void cs_contents_reverse(celspan_painting *painting);
+/* Errors: LIMIT for pictures beyond the limits above, INPUT for those without pixels. what: for the
+ * message. */
+CELSPAN_CHECKED celspan_status cs_contents_check_size(celspan_context *context,
+                                                      const cs_input *input, const char *what,
+                                                      int64_t width, int64_t height);
+/* Whether a corner is within reach. Errors: LIMIT. */
+CELSPAN_CHECKED celspan_status cs_contents_check_corner(celspan_context *context,
+                                                        const cs_input *input, const char *what,
+                                                        int64_t x, int64_t y);
+/* Sets the place and the source, which the layer owns from now on. */
+void cs_contents_set_pixels(cs_contents_layer *layer, int32_t x, int32_t y, cs_rows_source *source);
+
+#endif

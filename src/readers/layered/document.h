@@ -1,0 +1,86 @@
+/* The XML documents that describe the contents of an archive of a painting: elements whose
+ * attributes are numbers and words, foremost layer first.
+ *
+ *   OpenRaster  stack.xml     <image> <stack> <layer/> <stack> <layer/> ... </stack> </stack> ...
+ *   Krita       maindoc.xml   <IMAGE> <layers> <layer/> <layer> <layers> ... </layers> </layer> ...
+ *
+ * A format has a function for each element that begins and one for each that ends. Open groups are
+ * kept here.
+ *
+ * INVARIANT: while a document is read, the painting's layers are foremost first, groups before
+ * their layers; then their order is reversed (readers/layered/contents.h).
+ */
+#ifndef CS_PAINTING_DOCUMENT_H
+#define CS_PAINTING_DOCUMENT_H
+
+#include "readers/layered/contents.h"
+#include "readers/layered/profile.h"
+#include "readers/layered/zip.h"
+
+#define CS_DOCUMENT_BYTES ((size_t)16 << 20) /* of its XML at most */
+/* Bytes that all members together may unpack to while the painting is read: this number, and as
+ * many as the second for each byte of the file. Many layers may name one member that unpacks to a
+ * lot. */
+#define CS_DOCUMENT_SCANNED ((int64_t)64 << 20)
+#define CS_DOCUMENT_SCANNED_EACH 64
+
+typedef struct cs_document cs_document;
+
+typedef struct cs_document_format {
+  const char *member;  /* of the archive */
+  const char *purpose; /* for the message where the art module is missing */
+  /* name: without its namespace. Any error stops the reading. */
+  celspan_status (*start)(cs_document *document, const char *name);
+  celspan_status (*end)(cs_document *document, const char *name);
+  uint32_t depth; /* of elements in one another, for the deepest groups */
+} cs_document_format;
+
+struct cs_document {
+  celspan_context *context;
+  const cs_input *input;
+  const cs_zip *zip;
+  celspan_painting *painting;
+  const cs_document_format *format;
+  const char *const *attributes; /* of the element that begins */
+  uint64_t line;
+  celspan_status status;
+  size_t group;       /* the innermost open one; CS_CONTENTS_NONE: none */
+  bool has_size;      /* an element had the size of the painting */
+  char folder[256];   /* Krita: of the archive, where the layers lie */
+  size_t unnamed;     /* OpenRaster: open stacks, the outermost of which is the painting itself */
+  int64_t scanned;    /* bytes of members that were unpacked */
+  cs_profile profile; /* Krita: of the image */
+};
+
+/* Reads the format's document and all that it names. Errors: INPUT, LIMIT, NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_document_read(celspan_context *context, const cs_input *input,
+                                                const cs_zip *zip, const cs_document_format *format,
+                                                celspan_painting *painting);
+/* The value of an attribute; NULL: it is not given. */
+const char *cs_document_text(const cs_document *document, const char *name);
+/* A number; the second function rounds it. *out keeps its value where the attribute is missing.
+ * Errors: INPUT for a value that is not a number from least to most. */
+CELSPAN_CHECKED celspan_status cs_document_number(const cs_document *document, const char *name,
+                                                  double least, double most, double *out);
+CELSPAN_CHECKED celspan_status cs_document_whole(const cs_document *document, const char *name,
+                                                 int32_t *out);
+/* The size of the painting. Errors: INPUT, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_document_size(cs_document *document, const char *width,
+                                                const char *height);
+/* Adds a layer of the open group, named by `name`, or a group that is open until it is closed. */
+CELSPAN_CHECKED celspan_status cs_document_add(cs_document *document, bool is_group,
+                                               cs_contents_layer **out);
+void cs_document_close_group(cs_document *document);
+/* Counts bytes that were unpacked. Errors: LIMIT. */
+CELSPAN_CHECKED celspan_status cs_document_scan(cs_document *document, int64_t count);
+/* Records "path: member:line: sentence". */
+celspan_status cs_document_fail(const cs_document *document, celspan_status status,
+                                const char *format, ...) __attribute__((format(printf, 3, 4)));
+/* The word for a blend mode: that of the file without the name of its program. */
+void cs_document_blend(const char *file, char out[32]);
+/* Whether a name is allowed in an archive: relative, and without "..". */
+bool cs_document_is_inside(const char *name);
+
+extern const cs_document_format cs_openraster_format, cs_krita_format;
+
+#endif

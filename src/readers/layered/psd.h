@@ -1,0 +1,23 @@
+/* Photoshop documents (PSD, and PSB for large ones): their layers, or the one picture of those that
+ * have none.
+ *
+ *   header | colour table | resources | layers and masks | merged picture
+ *                                        |
+ *                                        records, rearmost first | channels of all layers
+ *
+ * RGB and grey of 8 and 16 bits a channel are read. Layers of 16 bits lie in a tagged block behind
+ * the place of those of 8 bits. What Photoshop computes when it paints (adjustments, fills,
+ * effects, clipping, conditional blending) is noted, not drawn.
+ */
+#ifndef CS_PAINTING_PSD_H
+#define CS_PAINTING_PSD_H
+
+#include "readers/layered/contents.h"
+
+/* Whether the first bytes are those of such a document. */
+bool cs_psd_is(const unsigned char start[4]);
+/* Errors: INPUT, LIMIT, NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_psd_read(celspan_context *context, const cs_input *input,
+                                           celspan_painting *painting);
+
+#endif

@@ -1,0 +1,307 @@
+#include "readers/svg/art.h"
+
+#include <string.h>
+
+#include "base/hash_table.h"
+#include "model/scene/value.h"
+
+/* ---------------------------------------------------------------- life */
+
+celspan_status cs_svg_art_create(celspan_context *context, celspan_svg **out) {
+  celspan_svg *art = cs_mem_array(context->memory, 1, sizeof *art);
+  if (!art)
+    return cs_fail_memory(context);
+  atomic_init(&art->references, 1);
+  art->memory = cs_memory_ref(context->memory);
+  cs_arena_init(&art->arena);
+  *out = art;
+  return CELSPAN_OK;
+}
+
+celspan_svg *celspan_svg_ref(celspan_svg *svg) {
+  cs_value_keep(&svg->references);
+  return svg;
+}
+
+void cs_svg_mask_drop(cs_svg_mask *mask) {
+  for (size_t i = 0; mask && i < mask->count; i++)
+    celspan_object_unref(mask->shapes[i]);
+}
+
+/* Drops what items hold, not the items. Recursion: the depth of items, which that of the document
+ * limits. */
+void cs_svg_item_drop(cs_svg_item *item) {
+  for (; item; item = item->next) {
+    cs_svg_item_drop(item->first);
+    celspan_object_unref(item->own);
+    celspan_object_unref(item->clip);
+    celspan_object_unref(item->object);
+    cs_svg_mask_drop(item->mask);
+  }
+}
+
+void celspan_svg_unref(celspan_svg *svg) {
+  if (!svg || !cs_value_drop(&svg->references))
+    return;
+  cs_svg_item_drop(svg->root);
+  for (size_t i = 0; i < svg->part_count; i++)
+    celspan_object_unref(svg->parts[i].object);
+  celspan_object_unref(svg->object);
+  celspan_svg_unref(svg->origin);
+  cs_memory *memory = svg->memory;
+  cs_arena_finish(&svg->arena, memory);
+  cs_mem_free(memory, svg, sizeof *svg);
+  cs_memory_unref(memory);
+}
+
+/* ---------------------------------------------------------------- items */
+
+static void append(cs_svg_item *parent, cs_svg_item *item) {
+  if (parent->last)
+    parent->last = parent->last->next = item;
+  else
+    parent->first = parent->last = item;
+}
+
+celspan_status cs_svg_item_append(celspan_context *context, celspan_svg *art, cs_svg_item *parent,
+                                  cs_svg_item **out) {
+  cs_svg_item *item = cs_arena_take(context, &art->arena, sizeof *item);
+  if (!item)
+    return CELSPAN_NO_MEMORY;
+  *item = (cs_svg_item){.opacity = 1};
+  if (parent)
+    append(parent, item);
+  *out = item;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_svg_text_copy(celspan_context *context, celspan_svg *art, const char *text,
+                                const char **out) {
+  size_t size = strlen(text) + 1;
+  char *copy = cs_arena_take(context, &art->arena, size);
+  if (!copy)
+    return CELSPAN_NO_MEMORY;
+  *out = memcpy(copy, text, size);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- composing */
+
+/* Replaces *object, which is given up, by what `status` made of it. */
+static celspan_status replace(celspan_status status, celspan_object *made,
+                              celspan_object **object) {
+  celspan_object_unref(*object);
+  *object = status == CELSPAN_OK ? made : NULL;
+  return status;
+}
+
+/* The union of the objects of the items inside; NULL for none. */
+static celspan_status unite(celspan_context *context, const cs_svg_item *item,
+                            celspan_object **out) {
+  size_t count = 0, most = 0;
+  for (const cs_svg_item *inner = item->first; inner; inner = inner->next)
+    most += inner->object != NULL;
+  *out = NULL;
+  if (most == 0)
+    return CELSPAN_OK;
+  celspan_object **objects = cs_mem_array(context->memory, most, sizeof(celspan_object *));
+  if (!objects)
+    return cs_fail_memory(context);
+  for (const cs_svg_item *inner = item->first; inner; inner = inner->next)
+    if (inner->object)
+      objects[count++] = inner->object;
+  celspan_status status = CELSPAN_OK;
+  if (count == 1)
+    *out = celspan_object_ref(objects[0]);
+  else
+    status = celspan_object_create_boolean(context, CELSPAN_UNION, objects, count, out);
+  cs_mem_free(context->memory, objects, most * sizeof(celspan_object *));
+  return status;
+}
+
+static celspan_status clip(celspan_context *context, celspan_object *shape,
+                           celspan_object **object) {
+  celspan_object *both[2] = {*object, shape}, *made = NULL;
+  celspan_status status = CELSPAN_OK;
+  if (shape)
+    status = celspan_object_create_boolean(context, CELSPAN_CLIP, both, 2, &made);
+  return replace(status, made, object);
+}
+
+static celspan_status fade(celspan_context *context, double share, celspan_object **object) {
+  celspan_object *made = NULL;
+  if (share == 1)
+    return CELSPAN_OK;
+  celspan_status status = celspan_object_fade(context, *object, share, &made);
+  return replace(status, made, object);
+}
+
+/* One piece of what a mask lets through. */
+static celspan_status let_through(celspan_context *context, celspan_object *art,
+                                  celspan_object *shape, double share, celspan_object **out) {
+  *out = celspan_object_ref(art);
+  CS_TRY(clip(context, shape, out));
+  return fade(context, share, out);
+}
+
+static celspan_status mask(celspan_context *context, const cs_svg_mask *by,
+                           celspan_object **object) {
+  celspan_object *made = NULL;
+  if (by->count == 0)
+    return replace(CELSPAN_OK, NULL, object);
+  celspan_object **pieces = cs_mem_array(context->memory, by->count, sizeof(celspan_object *));
+  if (!pieces)
+    return cs_fail_memory(context);
+  celspan_status status = CELSPAN_OK;
+  size_t count = 0;
+  for (size_t i = 0; i < by->count && status == CELSPAN_OK; i++) {
+    if (by->shapes[i])
+      status = let_through(context, *object, by->shapes[i], by->shares[i], &pieces[count]);
+    count += status == CELSPAN_OK && by->shapes[i];
+  }
+  if (status == CELSPAN_OK && count > 0)
+    status = celspan_object_create_boolean(context, CELSPAN_UNION, pieces, count, &made);
+  for (size_t i = 0; i < count; i++)
+    celspan_object_unref(pieces[i]);
+  cs_mem_free(context->memory, pieces, by->count * sizeof(celspan_object *));
+  return replace(status, made, object);
+}
+
+/* Names are for messages; an id that is not allowed as the name of an object is ignored. */
+static celspan_status name(celspan_context *context, const char *id, celspan_object **object) {
+  celspan_object *made;
+  celspan_status status = celspan_object_named(context, *object, id, &made);
+  if (status == CELSPAN_BAD_ARGUMENT)
+    return CELSPAN_OK;
+  return replace(status, made, object);
+}
+
+celspan_status cs_svg_item_compose(celspan_context *context, cs_svg_item *item) {
+  celspan_object_unref(item->object);
+  item->object = NULL;
+  if (item->own)
+    item->object = celspan_object_ref(item->own);
+  else
+    CS_TRY(unite(context, item, &item->object));
+  if (item->object && item->has_clip)
+    CS_TRY(clip(context, item->clip, &item->object));
+  if (item->object && item->mask)
+    CS_TRY(mask(context, item->mask, &item->object));
+  if (item->object)
+    CS_TRY(fade(context, item->opacity, &item->object));
+  if (item->object && item->id)
+    CS_TRY(name(context, item->id, &item->object));
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- parts */
+
+typedef struct listing {
+  celspan_context *context;
+  cs_hash_table names; /* to places in the list */
+  cs_svg_part *parts;
+  bool *is_shared; /* more than one item has this label */
+  size_t count, capacity, shared_capacity;
+} listing;
+
+static cs_hash hash_name(const char *text) {
+  cs_hash hash = cs_hash_begin(0x70617274u);
+  cs_hash_text(&hash, text);
+  return cs_hash_end(hash);
+}
+
+/* An item's object where it stands in the file. */
+static celspan_status at_home(celspan_context *context, const cs_svg_item *item,
+                              celspan_object **out) {
+  if (item->is_moved)
+    return celspan_object_transform(context, item->object, &item->back, out);
+  *out = celspan_object_ref(item->object);
+  return CELSPAN_OK;
+}
+
+static celspan_status list_part(listing *list, const char *text, const cs_svg_item *item,
+                                bool is_label) {
+  size_t place;
+  if (cs_hash_table_find(&list->names, hash_name(text), &place)) {
+    list->is_shared[place] = list->is_shared[place] || is_label;
+    return CELSPAN_OK;
+  }
+  CS_TRY(cs_mem_reserve(list->context, (void **)&list->parts, &list->capacity, list->count + 1,
+                        sizeof *list->parts));
+  CS_TRY(cs_mem_reserve(list->context, (void **)&list->is_shared, &list->shared_capacity,
+                        list->count + 1, sizeof *list->is_shared));
+  CS_TRY(cs_hash_table_add(&list->names, list->context, hash_name(text), list->count));
+  list->is_shared[list->count] = false;
+  list->parts[list->count] = (cs_svg_part){text, is_label, NULL};
+  return at_home(list->context, item, &list->parts[list->count++].object);
+}
+
+/* First those that are drawn at their own place, then those that only `use` shows. Recursion: the
+ * depth of items. */
+static celspan_status list_parts(listing *list, const cs_svg_item *item, bool is_label,
+                                 bool is_moved) {
+  for (; item; item = item->next) {
+    const char *text = is_label ? item->label : item->id;
+    if (text && *text && item->object && item->is_moved == is_moved)
+      CS_TRY(list_part(list, text, item, is_label));
+    CS_TRY(list_parts(list, item->first, is_label, is_moved));
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status copy_parts(listing *list, celspan_svg *art) {
+  art->parts = cs_arena_take(list->context, &art->arena, list->count * sizeof *art->parts);
+  if (!art->parts)
+    return CELSPAN_NO_MEMORY;
+  for (size_t i = 0; i < list->count; i++)
+    if (!list->is_shared[i]) {
+      art->parts[art->part_count++] = list->parts[i];
+      list->parts[i].object = NULL;
+    }
+  return CELSPAN_OK;
+}
+
+static celspan_status make_parts(celspan_context *context, celspan_svg *art) {
+  listing list = {.context = context};
+  celspan_status status = CELSPAN_OK;
+  for (int pass = 0; pass < 4 && status == CELSPAN_OK; pass++)
+    status = list_parts(&list, art->root, pass >= 2, pass % 2 == 1);
+  if (status == CELSPAN_OK)
+    status = copy_parts(&list, art);
+  for (size_t i = 0; i < list.count; i++)
+    celspan_object_unref(list.parts[i].object);
+  cs_hash_table_finish(&list.names, context);
+  cs_mem_free(context->memory, list.parts, list.capacity * sizeof *list.parts);
+  cs_mem_free(context->memory, list.is_shared, list.shared_capacity * sizeof *list.is_shared);
+  return status;
+}
+
+celspan_status cs_svg_art_complete(celspan_context *context, celspan_svg *art) {
+  if (art->root->object)
+    art->object = celspan_object_ref(art->root->object);
+  else
+    CS_TRY(celspan_object_create_boolean(context, CELSPAN_UNION, NULL, 0, &art->object));
+  return make_parts(context, art);
+}
+
+/* ---------------------------------------------------------------- questions */
+
+celspan_object *celspan_svg_object(const celspan_svg *svg) { return svg->object; }
+
+celspan_point celspan_svg_size(const celspan_svg *svg) {
+  return (celspan_point){svg->width, svg->height};
+}
+
+size_t celspan_svg_part_count(const celspan_svg *svg) { return svg->part_count; }
+
+celspan_object *celspan_svg_part(const celspan_svg *svg, size_t index, const char **part_name) {
+  *part_name = svg->parts[index].name;
+  return svg->parts[index].object;
+}
+
+size_t celspan_svg_skipped_count(const celspan_svg *svg) { return svg->skipped_count; }
+
+const char *celspan_svg_skipped(const celspan_svg *svg, size_t index, int32_t *line) {
+  *line = svg->skipped[index].line;
+  return svg->skipped[index].what;
+}

@@ -1,0 +1,79 @@
+/* A drawing that was read: a tree of items, and the scene value that each of them is.
+ *
+ *        item "arm" ---- item (a path)          object of an item =
+ *          |    \                                 its own, or the union of its items' objects,
+ *          |     item "hand" --- item ...         clipped, masked, faded
+ *          clip, opacity
+ *
+ * Items are what `with` needs to put another object in the place of a part: only the objects above
+ * it are made again. Invariant: an item's object follows from its own object or items, clip, mask
+ * and opacity; everything is in the drawing's units.
+ */
+#ifndef CS_SVG_ART_H
+#define CS_SVG_ART_H
+
+#include "base/arena.h"
+
+/* What a flat mask lets through: `count` shapes, no two of which overlap, each with a share. */
+typedef struct cs_svg_mask {
+  celspan_object **shapes; /* owned */
+  double *shares;
+  size_t count;
+} cs_svg_mask;
+
+typedef struct cs_svg_item {
+  struct cs_svg_item *next, *first, *last; /* first, last: items inside */
+  const char *id, *label;                  /* NULL: none; in the arena */
+  celspan_object *own;                     /* NULL for a group, and for nothing */
+  bool has_clip;
+  celspan_object *clip; /* NULL with has_clip: everything is cut away */
+  cs_svg_mask *mask;    /* NULL: none */
+  double opacity;
+  bool is_moved;              /* shown by `use` elsewhere than where it stands in the file: */
+  celspan_matrix moved, back; /* from there to here, and the inverse */
+  celspan_object *object;     /* NULL: nothing is drawn */
+} cs_svg_item;
+
+typedef struct cs_svg_part {
+  const char *name;
+  bool is_label;          /* the name is a label, and not an id */
+  celspan_object *object; /* where it stands in the file; owned */
+} cs_svg_part;
+
+typedef struct cs_svg_note {
+  int32_t line;
+  const char *what;
+} cs_svg_note;
+
+struct celspan_svg {
+  atomic_size_t references;
+  cs_memory *memory;
+  cs_arena arena;
+  celspan_svg *origin; /* what it was made of with changes, whose texts it borrows; NULL: none */
+  cs_svg_item *root;
+  double width, height;
+  celspan_object *object; /* never NULL */
+  cs_svg_part *parts;
+  size_t part_count;
+  cs_svg_note *skipped;
+  size_t skipped_count;
+};
+
+/* Without items. *out: new. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_svg_art_create(celspan_context *context, celspan_svg **out);
+/* A new item inside `parent`, after those that are there; NULL: one by itself. Errors: NO_MEMORY.
+ */
+CELSPAN_CHECKED celspan_status cs_svg_item_append(celspan_context *context, celspan_svg *art,
+                                                  cs_svg_item *parent, cs_svg_item **out);
+CELSPAN_CHECKED celspan_status cs_svg_text_copy(celspan_context *context, celspan_svg *art,
+                                                const char *text, const char **out);
+/* Releases what a mask holds; NULL is allowed. */
+void cs_svg_mask_drop(cs_svg_mask *mask);
+/* Releases what a list of items holds. */
+void cs_svg_item_drop(cs_svg_item *item);
+/* Makes an item's object of its contents, which are complete. Errors: NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_svg_item_compose(celspan_context *context, cs_svg_item *item);
+/* Makes the object of the whole and the list of parts, when all items are composed. */
+CELSPAN_CHECKED celspan_status cs_svg_art_complete(celspan_context *context, celspan_svg *art);
+
+#endif

@@ -1,0 +1,20 @@
+/* The box around what an element shows, without lines and clips: what shares of it are shares of.
+ *
+ *   shapes by their outlines, texts by their lines and advances, images by their places, and all
+ *   that is in groups and that `use` shows
+ *
+ * Source: SVG 2, 8.10.
+ */
+#ifndef CS_SVG_BOXES_H
+#define CS_SVG_BOXES_H
+
+#include "readers/svg/reading.h"
+
+/* The box in the units of `place`; *is_there: false, and *out is untouched, when there is none.
+ * What cannot be drawn is noted when the element is drawn. Errors: NO_MEMORY, LIMIT; INPUT for
+ * numbers that are unfit. */
+CELSPAN_CHECKED celspan_status cs_svg_box_of(cs_svg_reading *reading, const cs_svg_node *node,
+                                             const cs_svg_place *place, celspan_box *out,
+                                             bool *is_there);
+
+#endif

@@ -1,0 +1,328 @@
+#include "readers/svg/build.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "readers/svg/clips.h"
+#include "readers/svg/image.h"
+#include "readers/svg/markers.h"
+#include "readers/svg/masks.h"
+#include "readers/svg/naming.h"
+#include "readers/svg/paint.h"
+#include "readers/svg/shapes.h"
+#include "readers/svg/shown.h"
+#include "readers/svg/strokes.h"
+#include "readers/svg/text.h"
+#include "readers/svg/viewport.h"
+
+/* The size of a drawing that gives none. Source: CSS 2.1, 10.3.2. */
+#define DEFAULT_WIDTH 300
+#define DEFAULT_HEIGHT 150
+
+typedef struct builder {
+  cs_svg_reading *reading;
+  celspan_svg *art;
+  celspan_matrix root_matrix; /* user units of the outermost element to the drawing's */
+} builder;
+
+/* Adds what an element draws to `parent`. place: of what it is in. Recursion: at most CS_SVG_DEPTH
+ * elements deep, those of `use` counted. */
+static celspan_status add_element(builder *b, const cs_svg_node *node, cs_svg_place place,
+                                  cs_svg_item *parent);
+
+static celspan_status add_children(builder *b, const cs_svg_node *node, const cs_svg_place *place,
+                                   cs_svg_item *parent) {
+  for (const cs_svg_node *child = node->first; child; child = child->next)
+    CS_TRY(add_element(b, child, *place, parent));
+  return CELSPAN_OK;
+}
+
+/* Counts an element against the limits. */
+static celspan_status count_element(builder *b, const cs_svg_node *node) {
+  cs_svg_reading *reading = b->reading;
+  CS_TRY(cs_svg_count_drawn(reading, node));
+  if (++reading->depth > CS_SVG_DEPTH)
+    return cs_fail(reading->context, CELSPAN_LIMIT,
+                   "line %u: what use shows is nested more than %d deep", node->line, CS_SVG_DEPTH);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- viewports */
+
+/* Adds the content of a nested svg element or a symbol, whose style *place has. */
+static celspan_status add_viewport(builder *b, const cs_svg_node *node, const cs_svg_node *sizes,
+                                   cs_svg_place *place, cs_svg_item *parent) {
+  celspan_box box;
+  CS_TRY(cs_svg_viewport_find(b->reading, node, sizes, place, &box));
+  if (!(box.width > 0) || !(box.height > 0))
+    return CELSPAN_OK;
+  cs_svg_item *inside = parent;
+  if (!place->style.shows_overflow) {
+    CS_TRY(cs_svg_item_append(b->reading->context, b->art, parent, &inside));
+    inside->has_clip = true;
+    CS_TRY(cs_svg_rectangle(b->reading->context, &box, &place->matrix, &inside->clip));
+  }
+  cs_svg_viewport_enter(node, &box, place);
+  CS_TRY(add_children(b, node, place, inside));
+  return inside == parent ? CELSPAN_OK : cs_svg_item_compose(b->reading->context, inside);
+}
+
+/* ---------------------------------------------------------------- use */
+
+/* The drawing's units at the place where an element stands in the file: the transforms of what it
+ * is in. */
+static celspan_status find_home(builder *b, const cs_svg_node *node, const cs_svg_place *root,
+                                celspan_matrix *out) {
+  celspan_matrix whole = celspan_matrix_identity();
+  cs_svg_style style;
+  for (; node && node->parent; node = node->parent) {
+    CS_TRY(cs_svg_style_in_file(b->reading, node, &style));
+    whole = celspan_matrix_then(whole, cs_svg_transform_of(&style, &root->measure));
+  }
+  *out = celspan_matrix_then(whole, b->root_matrix);
+  return CELSPAN_OK;
+}
+
+/* Notes in *place how far from its own place the element is shown. */
+static celspan_status note_moved(builder *b, const cs_svg_node *used, cs_svg_place *place) {
+  celspan_matrix home, back;
+  CS_TRY(find_home(b, used->parent, place, &home));
+  place->is_moved = celspan_matrix_inverse(home, &back);
+  if (place->is_moved)
+    place->moved = celspan_matrix_then(back, place->matrix);
+  place->is_moved = place->is_moved && celspan_matrix_inverse(place->moved, &back);
+  return CELSPAN_OK;
+}
+
+static celspan_status add_used(builder *b, const cs_svg_node *node, const cs_svg_place *place,
+                               cs_svg_item *parent) {
+  celspan_context *context = b->reading->context;
+  const cs_svg_node *used = cs_svg_linked(b->reading, node);
+  cs_svg_place inner = *place;
+  double x, y;
+  if (!used)
+    return cs_svg_node_value(node, CS_SVG_HREF)
+               ? cs_svg_skip(b->reading, node, "use of what is not in the file")
+               : CELSPAN_OK;
+  if (cs_svg_is_open(place->open, used))
+    return cs_fail(context, CELSPAN_INPUT,
+                   "line %u: use goes in a circle: it is inside of what it "
+                   "shows",
+                   node->line);
+  CS_TRY(cs_svg_number_of(context, node, CS_SVG_X, CS_SVG_AXIS_X, &place->measure, &x));
+  CS_TRY(cs_svg_number_of(context, node, CS_SVG_Y, CS_SVG_AXIS_Y, &place->measure, &y));
+  inner.matrix = celspan_matrix_then(celspan_matrix_translation(x, y), inner.matrix);
+  CS_TRY(note_moved(b, used, &inner));
+  inner.style.context_fill = place->style.fill;
+  inner.style.context_stroke = place->style.stroke;
+  inner.sizes = node;
+  return add_element(b, used, inner, parent);
+}
+
+/* ---------------------------------------------------------------- groups */
+
+static celspan_status add_switch(builder *b, const cs_svg_node *node, const cs_svg_place *place,
+                                 cs_svg_item *parent) {
+  const cs_svg_node *chosen = cs_svg_shown_choice(node);
+  return chosen ? add_element(b, chosen, *place, parent) : CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- shapes */
+
+/* Adds the contents of a marker, for one mark of the shape at `shape`. */
+static celspan_status add_mark(builder *b, const cs_svg_mark *mark, const cs_svg_place *shape,
+                               cs_svg_item *parent) {
+  const cs_svg_open open = {mark->marker, shape->open};
+  cs_svg_place place = *shape;
+  cs_svg_item *item;
+  if (!mark->marker->first)
+    return CELSPAN_OK;
+  CS_TRY(cs_svg_style_in_file(b->reading, mark->marker, &place.style));
+  place.open = &open;
+  place.measure = mark->measure;
+  place.measure.font_size = place.style.font_size;
+  place.style.context_fill = shape->style.fill;
+  place.style.context_stroke = shape->style.stroke;
+  place.matrix = celspan_matrix_then(mark->viewport, shape->matrix);
+  CS_TRY(cs_svg_item_append(b->reading->context, b->art, parent, &item));
+  if (!place.style.shows_overflow) {
+    const celspan_box box = {0, 0, mark->width, mark->height};
+    item->has_clip = true;
+    CS_TRY(cs_svg_rectangle(b->reading->context, &box, &place.matrix, &item->clip));
+  }
+  place.matrix = celspan_matrix_then(mark->content, place.matrix);
+  CS_TRY(note_moved(b, mark->marker->first, &place));
+  CS_TRY(add_children(b, mark->marker, &place, item));
+  return cs_svg_item_compose(b->reading->context, item);
+}
+
+static celspan_status add_marks(builder *b, const cs_svg_node *node, const cs_svg_place *place,
+                                cs_svg_item *parent) {
+  cs_svg_marks marks;
+  celspan_status status = cs_svg_marks_find(b->reading, node, place, &marks);
+  for (size_t i = 0; i < marks.count && status == CELSPAN_OK; i++) {
+    status = count_element(b, node);
+    if (status == CELSPAN_OK)
+      status = add_mark(b, &marks.items[i], place, parent);
+    b->reading->depth--;
+  }
+  cs_svg_marks_finish(&marks, b->reading->context->memory);
+  return status;
+}
+
+/* One of the things that a shape is painted with. */
+static celspan_status add_layer(builder *b, const cs_svg_node *node, const cs_svg_place *place,
+                                cs_svg_layer layer, cs_svg_item *parent) {
+  cs_svg_item *item;
+  CS_TRY(cs_svg_item_append(b->reading->context, b->art, parent, &item));
+  if (layer == CS_SVG_LAYER_FILL)
+    CS_TRY(cs_svg_fill(b->reading, node, place, &item->own));
+  else if (layer == CS_SVG_LAYER_MARKERS && cs_svg_is_marked(node, &place->style))
+    CS_TRY(add_marks(b, node, place, item));
+  else if (layer == CS_SVG_LAYER_STROKE && cs_svg_is_stroked(&place->style))
+    CS_TRY(cs_svg_stroke(b->reading, node, place, &item->own));
+  return cs_svg_item_compose(b->reading->context, item);
+}
+
+static celspan_status add_shape(builder *b, const cs_svg_node *node, const cs_svg_place *place,
+                                cs_svg_item *item) {
+  const cs_svg_style *style = &place->style;
+  if (!style->is_visible)
+    return CELSPAN_OK;
+  if (!cs_svg_is_stroked(style) && !cs_svg_is_marked(node, style))
+    return cs_svg_fill(b->reading, node, place, &item->own);
+  for (int i = 0; i < 3; i++)
+    CS_TRY(add_layer(b, node, place, style->paint_order[i], item));
+  return CELSPAN_OK;
+}
+
+/* The contents of the element, whose style *place has. sizes: see cs_svg_viewport_find. */
+static celspan_status add_content(builder *b, const cs_svg_node *node, const cs_svg_node *sizes,
+                                  cs_svg_place *place, cs_svg_item *item) {
+  switch (node->element) {
+  case CS_SVG_ELEMENT_A:
+  case CS_SVG_ELEMENT_G:
+    return add_children(b, node, place, item);
+  case CS_SVG_ELEMENT_SVG:
+  case CS_SVG_ELEMENT_SYMBOL:
+    return add_viewport(b, node, sizes, place, item);
+  case CS_SVG_ELEMENT_SWITCH:
+    return add_switch(b, node, place, item);
+  case CS_SVG_ELEMENT_USE:
+    return add_used(b, node, place, item);
+  case CS_SVG_ELEMENT_TEXT:
+    return cs_svg_text_add(b->reading, b->art, node, place, item);
+  case CS_SVG_ELEMENT_IMAGE:
+    return cs_svg_image_add(b->reading, node, place, item);
+  default:
+    return cs_svg_is_shape(node) ? add_shape(b, node, place, item)
+                                 : cs_svg_skip(b->reading, node, "%.50s", node->tag);
+  }
+}
+
+/* ---------------------------------------------------------------- elements */
+
+/* What is done to all of the element at once. */
+static celspan_status read_effects(builder *b, const cs_svg_node *node, const cs_svg_place *place,
+                                   cs_svg_item *item) {
+  const cs_svg_style *style = &place->style;
+  item->opacity = style->opacity;
+  if (style->has_clip_path)
+    CS_TRY(cs_svg_clip_make(b->reading, node, place, &item->clip, &item->has_clip));
+  if (style->has_mask)
+    CS_TRY(cs_svg_mask_make(b->reading, b->art, node, place, &item->mask));
+  if (style->has_filter)
+    CS_TRY(cs_svg_skip(b->reading, node, "filter of %.40s", node->tag));
+  if (style->has_blend)
+    CS_TRY(cs_svg_skip(b->reading, node, "mix-blend-mode of %.40s", node->tag));
+  return CELSPAN_OK;
+}
+
+/* A singular transform draws nothing. */
+static bool is_regular(const celspan_matrix *matrix) {
+  celspan_matrix inverse;
+  return celspan_matrix_inverse(*matrix, &inverse);
+}
+
+static celspan_status add_element(builder *b, const cs_svg_node *node, cs_svg_place place,
+                                  cs_svg_item *parent) {
+  const cs_svg_node *sizes = place.sizes;
+  const cs_svg_open open = {node, place.open};
+  if (!cs_svg_is_shown(node, sizes))
+    return CELSPAN_OK;
+  CS_TRY(count_element(b, node));
+  CS_TRY(cs_svg_enter(b->reading, node, &place));
+  place.open = &open;
+  if (place.style.is_displayed && is_regular(&place.matrix)) {
+    cs_svg_item *item;
+    CS_TRY(cs_svg_item_append(b->reading->context, b->art, parent, &item));
+    CS_TRY(cs_svg_item_name(b->reading, b->art, node, &place, item));
+    CS_TRY(read_effects(b, node, &place, item));
+    place.sizes = NULL;
+    CS_TRY(add_content(b, node, sizes, &place, item));
+    CS_TRY(cs_svg_item_compose(b->reading->context, item));
+  }
+  b->reading->depth--;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- the whole */
+
+/* The size of the outermost element; per cents and none are of its view box. */
+static celspan_status read_size(builder *b, const cs_svg_node *node, const cs_svg_view_box *box) {
+  const cs_svg_length whole = {100, CS_SVG_UNIT_PERCENT};
+  cs_svg_measure measure = {.width = box->is_given ? box->width : DEFAULT_WIDTH,
+                            .height = box->is_given ? box->height : DEFAULT_HEIGHT};
+  measure.page_width = measure.width;
+  measure.page_height = measure.height;
+  measure.font_size = measure.root_font_size = cs_svg_style_initial().font_size;
+  CS_TRY(cs_svg_length_of(b->reading->context, node, CS_SVG_WIDTH, CS_SVG_AXIS_X, &measure, whole,
+                          &b->art->width));
+  CS_TRY(cs_svg_length_of(b->reading->context, node, CS_SVG_HEIGHT, CS_SVG_AXIS_Y, &measure, whole,
+                          &b->art->height));
+  b->art->width = fmax(0, b->art->width);
+  b->art->height = fmax(0, b->art->height);
+  return CELSPAN_OK;
+}
+
+/* Moves *place into the outermost element. */
+static celspan_status enter_root(builder *b, const cs_svg_node *node, cs_svg_place *place) {
+  const celspan_svg *art = b->art;
+  *place = (cs_svg_place){.style = cs_svg_style_initial(), .matrix = celspan_matrix_identity()};
+  place->measure = (cs_svg_measure){.width = art->width,
+                                    .height = art->height,
+                                    .page_width = art->width,
+                                    .page_height = art->height,
+                                    .font_size = place->style.font_size,
+                                    .root_font_size = place->style.font_size};
+  CS_TRY(cs_svg_enter(b->reading, node, place));
+  place->measure.root_font_size = place->style.font_size;
+  cs_svg_viewport_enter(node, &(celspan_box){0, 0, art->width, art->height}, place);
+  b->root_matrix = place->matrix;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_svg_build(cs_svg_reading *reading, celspan_svg *art) {
+  builder b = {.reading = reading, .art = art};
+  const cs_svg_node *node = reading->document->root;
+  cs_svg_view_box box = {.is_given = false};
+  const char *value = cs_svg_node_value(node, CS_SVG_VIEW_BOX);
+  cs_svg_place place;
+  const cs_svg_open open = {node, NULL};
+  if (value)
+    (void)cs_svg_parse_view_box(value, &box);
+  CS_TRY(read_size(&b, node, &box));
+  CS_TRY(enter_root(&b, node, &place));
+  place.open = &open;
+  CS_TRY(cs_svg_item_append(reading->context, art, NULL, &art->root));
+  CS_TRY(cs_svg_item_name(reading, art, node, &place, art->root));
+  CS_TRY(read_effects(&b, node, &place, art->root));
+  if (place.style.is_displayed && art->width > 0 && art->height > 0)
+    CS_TRY(add_children(&b, node, &place, art->root));
+  if (reading->document->sheet.omitted)
+    CS_TRY(cs_svg_skip(reading, &(cs_svg_node){.line = reading->document->sheet_line},
+                       "style: selectors or at-rules that do not count"));
+  CS_TRY(cs_svg_item_compose(reading->context, art->root));
+  return cs_svg_art_complete(reading->context, art);
+}

@@ -1,0 +1,369 @@
+#include "readers/svg/css.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "readers/svg/values.h"
+
+/* Compounds of one selector and classes of one compound; a selector with more is left out. */
+#define COMPOUNDS 32
+#define CLASSES 16
+#define CONDITIONS 16
+/* Weights of what a compound asks for. Source: CSS Selectors Level 3, 9. */
+#define ID_WEIGHT 65536u
+#define CLASS_WEIGHT 256u
+
+static bool is_name(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+         c == '_' || (unsigned char)c >= 128;
+}
+
+/* A copy of [begin, end) without space at its ends. NULL without memory. */
+static const char *copy_trimmed(celspan_context *context, cs_arena *arena, const char *begin,
+                                const char *end) {
+  while (begin < end && cs_svg_is_space(*begin))
+    begin++;
+  while (begin < end && cs_svg_is_space(end[-1]))
+    end--;
+  size_t size = (size_t)(end - begin);
+  char *copy = cs_arena_take(context, arena, size + 1);
+  if (!copy)
+    return NULL;
+  memcpy(copy, begin, size);
+  copy[size] = 0;
+  return copy;
+}
+
+/* A copy with a blank for each comment, and for the marks of an XML comment around everything. */
+static char *copy_without_comments(celspan_context *context, cs_arena *arena, const char *text) {
+  char *copy = cs_arena_take(context, arena, strlen(text) + 1), *to = copy;
+  if (!copy)
+    return NULL;
+  while (*text) {
+    size_t skipped = strncmp(text, "<!--", 4) == 0 ? 4 : strncmp(text, "-->", 3) == 0 ? 3 : 0;
+    if (strncmp(text, "/*", 2) == 0) {
+      const char *end = strstr(text + 2, "*/");
+      skipped = end ? (size_t)(end + 2 - text) : strlen(text);
+    }
+    *to++ = skipped > 0 ? ' ' : *text;
+    text += skipped > 0 ? skipped : 1;
+  }
+  *to = 0;
+  return copy;
+}
+
+/* ---------------------------------------------------------------- declarations */
+
+/* Which quote is open behind `c`, where `quote` was before it; 0: none. A string ends with its line
+ * at the latest. */
+static char open_quote(char quote, char c) {
+  if (quote)
+    return c == quote || c == '\n' ? 0 : quote;
+  return c == '"' || c == '\'' ? c : 0;
+}
+
+/* The end of a declaration's value: the next ';' that is in no string and no parentheses. */
+static const char *value_end(const char *text, const char *end) {
+  char quote = 0;
+  int depth = 0;
+  for (; text < end; text++) {
+    quote = open_quote(quote, *text);
+    if (quote)
+      continue;
+    depth += (*text == '(') - (*text == ')');
+    if (*text == ';' && depth <= 0)
+      break;
+  }
+  return text;
+}
+
+/* Cuts "!important" off the end. */
+static bool cut_important(const char *begin, const char **end) {
+  const char *mark = *end;
+  while (mark > begin && *mark != '!')
+    mark--;
+  if (*mark != '!' || strncasecmp(cs_svg_skip_space(mark + 1), "important", 9) != 0)
+    return false;
+  *end = mark;
+  return true;
+}
+
+/* name: value, as text. False for what is no property that counts here. */
+static celspan_status parse_declaration(celspan_context *context, cs_arena *arena,
+                                        const char *begin, const char *end, cs_css_declaration *out,
+                                        bool *is_known) {
+  char text[32];
+  *is_known = false;
+  begin = begin < end ? cs_svg_skip_space(begin) : begin;
+  const char *name_end = begin;
+  while (name_end < end && is_name(*name_end))
+    name_end++;
+  const char *colon = name_end < end ? cs_svg_skip_space(name_end) : end;
+  size_t size = (size_t)(name_end - begin);
+  if (colon >= end || *colon != ':' || size == 0 || size >= sizeof text)
+    return CELSPAN_OK;
+  memcpy(text, begin, size);
+  text[size] = 0;
+  out->name = cs_svg_name_of(text);
+  if (out->name == CS_SVG_NAME_COUNT || !cs_svg_is_property(out->name))
+    return CELSPAN_OK;
+  out->is_important = cut_important(colon, &end);
+  out->value = copy_trimmed(context, arena, colon + 1, end);
+  *is_known = true;
+  return out->value ? CELSPAN_OK : CELSPAN_NO_MEMORY;
+}
+
+static celspan_status parse_declarations(celspan_context *context, cs_arena *arena,
+                                         const char *begin, const char *end,
+                                         cs_css_declarations *out) {
+  size_t most = 1, count = 0;
+  for (const char *at = begin; at < end; at++)
+    most += *at == ';';
+  cs_css_declaration *items = cs_arena_take(context, arena, most * sizeof *items);
+  if (!items)
+    return CELSPAN_NO_MEMORY;
+  while (begin < end) {
+    bool is_known;
+    const char *stop = value_end(begin, end);
+    CS_TRY(parse_declaration(context, arena, begin, stop, &items[count], &is_known));
+    count += is_known;
+    begin = stop + 1;
+  }
+  *out = (cs_css_declarations){items, count};
+  return CELSPAN_OK;
+}
+
+celspan_status cs_css_declarations_parse(celspan_context *context, cs_arena *arena,
+                                         const char *text, cs_css_declarations *out) {
+  const char *plain = strstr(text, "/*") ? copy_without_comments(context, arena, text) : text;
+  if (!plain)
+    return CELSPAN_NO_MEMORY;
+  return parse_declarations(context, arena, plain, plain + strlen(plain), out);
+}
+
+/* ---------------------------------------------------------------- selectors */
+
+typedef struct parser {
+  celspan_context *context;
+  cs_arena *arena;
+  cs_css_sheet *sheet;
+} parser;
+
+/* The name that text begins with; *text is moved behind it. NULL without memory; "" where there is
+ * none. */
+static const char *take_name(parser *p, const char **text) {
+  const char *begin = *text;
+  while (is_name(**text))
+    ++*text;
+  return copy_trimmed(p->context, p->arena, begin, *text);
+}
+
+/* The value of a condition, quoted or a name; its end is left at *text. NULL without memory. */
+static const char *take_condition_value(parser *p, const char **text) {
+  char quote = **text == '"' || **text == '\'' ? *(*text)++ : 0;
+  if (!quote)
+    return take_name(p, text);
+  const char *begin = *text;
+  while (**text && **text != quote)
+    ++*text;
+  const char *value = copy_trimmed(p->context, p->arena, begin, *text);
+  *text += **text == quote;
+  return value;
+}
+
+/* A condition from behind its '[' to behind its ']'; *is_simple: it was understood. */
+static celspan_status parse_condition(parser *p, const char **text, cs_css_condition *out,
+                                      bool *is_simple) {
+  const char *at = cs_svg_skip_space(*text), *name = take_name(p, &at);
+  if (!name)
+    return CELSPAN_NO_MEMORY;
+  *out = (cs_css_condition){.name = cs_svg_name_of(name), .value = ""};
+  at = cs_svg_skip_space(at);
+  if (*at && strchr("~|^$*", *at) && at[1] == '=')
+    out->comparison = *at++;
+  if (*at == '=') {
+    out->comparison = out->comparison ? out->comparison : '=';
+    at = cs_svg_skip_space(at + 1);
+    if (!(out->value = take_condition_value(p, &at)))
+      return CELSPAN_NO_MEMORY;
+    at = cs_svg_skip_space(at);
+  }
+  *is_simple = *is_simple && out->name != CS_SVG_NAME_COUNT && *at == ']';
+  *text = at + (*at == ']');
+  return CELSPAN_OK;
+}
+
+/* The conditions that follow one another. */
+static celspan_status parse_conditions(parser *p, const char **text, cs_css_compound *out,
+                                       uint32_t *specificity, bool *is_simple) {
+  cs_css_condition conditions[CONDITIONS];
+  while (*is_simple && **text == '[') {
+    ++*text;
+    *is_simple = out->condition_count < CONDITIONS;
+    if (*is_simple)
+      CS_TRY(parse_condition(p, text, &conditions[out->condition_count], is_simple));
+    out->condition_count += *is_simple;
+    *specificity += CLASS_WEIGHT;
+  }
+  out->conditions =
+      cs_arena_take(p->context, p->arena, out->condition_count * sizeof *out->conditions);
+  if (!out->conditions)
+    return CELSPAN_NO_MEMORY;
+  memcpy(out->conditions, conditions, out->condition_count * sizeof *conditions);
+  return CELSPAN_OK;
+}
+
+/* One compound; *is_simple: all of it was understood. */
+static celspan_status parse_compound(parser *p, const char **text, cs_css_compound *out,
+                                     uint32_t *specificity, bool *is_simple) {
+  const char *classes[CLASSES], *name;
+  const char *begin = *text;
+  if (**text == '*') {
+    ++*text;
+  } else if (is_name(**text)) {
+    if (!(out->element = take_name(p, text)))
+      return CELSPAN_NO_MEMORY;
+    ++*specificity;
+  }
+  while (**text == '.' || **text == '#') {
+    bool is_id = *(*text)++ == '#';
+    if (!(name = take_name(p, text)))
+      return CELSPAN_NO_MEMORY;
+    *is_simple = *is_simple && *name && (is_id ? !out->id : out->class_count < CLASSES);
+    if (is_id)
+      out->id = name;
+    else if (*is_simple)
+      classes[out->class_count++] = name;
+    *specificity += is_id ? ID_WEIGHT : CLASS_WEIGHT;
+  }
+  CS_TRY(parse_conditions(p, text, out, specificity, is_simple));
+  *is_simple = *is_simple && *text > begin;
+  out->classes = cs_arena_take(p->context, p->arena, out->class_count * sizeof *out->classes);
+  if (!out->classes)
+    return CELSPAN_NO_MEMORY;
+  memcpy(out->classes, classes, out->class_count * sizeof *classes);
+  return CELSPAN_OK;
+}
+
+/* The chain of one selector, which ends at `end`. */
+static celspan_status parse_selector(parser *p, const char *text, const char *end,
+                                     cs_css_rule *rule, bool *is_simple) {
+  cs_css_compound compounds[COMPOUNDS];
+  *is_simple = true;
+  rule->compound_count = 0;
+  rule->specificity = 0;
+  text = cs_svg_skip_space(text);
+  while (*is_simple && text < end) {
+    cs_css_compound *compound = &compounds[rule->compound_count];
+    *compound = (cs_css_compound){.is_child = *text == '>'};
+    if (compound->is_child)
+      text = cs_svg_skip_space(text + 1);
+    CS_TRY(parse_compound(p, &text, compound, &rule->specificity, is_simple));
+    const char *after = cs_svg_skip_space(text);
+    *is_simple = *is_simple && (after > text || after >= end || *after == '>') &&
+                 ++rule->compound_count < COMPOUNDS;
+    text = after;
+  }
+  *is_simple = *is_simple && rule->compound_count > 0 && !compounds[0].is_child;
+  rule->compounds =
+      cs_arena_take(p->context, p->arena, rule->compound_count * sizeof *rule->compounds);
+  if (!rule->compounds)
+    return CELSPAN_NO_MEMORY;
+  memcpy(rule->compounds, compounds, rule->compound_count * sizeof *compounds);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- sheets */
+
+static celspan_status add_rule(parser *p, cs_css_rule *rule) {
+  cs_css_sheet *sheet = p->sheet;
+  if (sheet->count >= CS_CSS_RULES)
+    return cs_fail(p->context, CELSPAN_LIMIT, "the style sheets have more than %d rules",
+                   CS_CSS_RULES);
+  CS_TRY(cs_mem_reserve(p->context, (void **)&sheet->rules, &sheet->capacity, sheet->count + 1,
+                        sizeof *sheet->rules));
+  rule->order = (uint32_t)sheet->count;
+  sheet->rules[sheet->count++] = *rule;
+  return CELSPAN_OK;
+}
+
+/* A rule for each selector of the list [text, brace). */
+static celspan_status add_selectors(parser *p, const char *text, const char *brace,
+                                    cs_css_declarations declarations) {
+  while (text < brace) {
+    const char *comma = memchr(text, ',', (size_t)(brace - text)), *end = comma ? comma : brace;
+    cs_css_rule rule = {.declarations = declarations};
+    bool is_simple;
+    while (end > text && cs_svg_is_space(end[-1]))
+      end--;
+    CS_TRY(parse_selector(p, text, end, &rule, &is_simple));
+    if (is_simple)
+      CS_TRY(add_rule(p, &rule));
+    p->sheet->omitted = p->sheet->omitted || !is_simple;
+    text = comma ? comma + 1 : brace;
+  }
+  return CELSPAN_OK;
+}
+
+/* What follows an at-rule: it ends with a block or with a semicolon. */
+static const char *skip_at_rule(const char *text) {
+  int depth = 0;
+  for (; *text; text++) {
+    depth += (*text == '{') - (*text == '}');
+    if ((*text == ';' && depth == 0) || (*text == '}' && depth <= 0))
+      return text + 1;
+  }
+  return text;
+}
+
+static int compare_rules(const void *a, const void *b) {
+  const cs_css_rule *first = a, *second = b;
+  if (first->specificity != second->specificity)
+    return first->specificity < second->specificity ? -1 : 1;
+  return first->order < second->order ? -1 : first->order > second->order;
+}
+
+/* The next '}' that is in no string, or the end. */
+static const char *body_end(const char *text) {
+  char quote = 0;
+  while (*text && (quote || *text != '}'))
+    quote = open_quote(quote, *text++);
+  return text;
+}
+
+static celspan_status parse_sheet(parser *p, const char *text) {
+  for (text = cs_svg_skip_space(text); *text; text = cs_svg_skip_space(text)) {
+    if (*text == '@') {
+      p->sheet->omitted = true;
+      text = skip_at_rule(text);
+      continue;
+    }
+    const char *brace = strchr(text, '{');
+    if (!brace)
+      break;
+    const char *end = body_end(brace);
+    cs_css_declarations declarations;
+    CS_TRY(parse_declarations(p->context, p->arena, brace + 1, end, &declarations));
+    CS_TRY(add_selectors(p, text, brace, declarations));
+    text = *end ? end + 1 : end;
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_css_sheet_parse(celspan_context *context, cs_arena *arena, const char *text,
+                                  cs_css_sheet *out) {
+  parser p = {context, arena, out};
+  const char *plain = copy_without_comments(context, arena, text);
+  if (!plain)
+    return CELSPAN_NO_MEMORY;
+  CS_TRY(parse_sheet(&p, plain));
+  if (out->count > 0)
+    qsort(out->rules, out->count, sizeof *out->rules, compare_rules);
+  return CELSPAN_OK;
+}
+
+void cs_css_sheet_finish(cs_css_sheet *sheet, celspan_context *context) {
+  cs_mem_free(context->memory, sheet->rules, sheet->capacity * sizeof *sheet->rules);
+  *sheet = (cs_css_sheet){0};
+}

@@ -1,0 +1,71 @@
+/* Style sheets: as much of CSS as drawings use.
+ *
+ *   g.sleeve > path#cuff, .red { fill: #a00; stroke: none !important }
+ *   '---------selector--------'  '------------declarations-----------'
+ *
+ * A selector is a chain of compounds, the last of which is the element itself: element, classes and
+ * id and attributes, joined by descent or by being a child. Selectors with other parts
+ * (pseudo-classes, siblings, attributes without a meaning here) and at-rules are left out, and set
+ * `omitted`.
+ */
+#ifndef CS_SVG_CSS_H
+#define CS_SVG_CSS_H
+
+#include "base/arena.h"
+#include "readers/svg/names.h"
+
+#define CS_CSS_RULES 65536
+
+typedef struct cs_css_declaration {
+  cs_svg_name name; /* a property */
+  bool is_important;
+  const char *value; /* without space at its ends */
+} cs_css_declaration;
+
+typedef struct cs_css_declarations {
+  const cs_css_declaration *items;
+  size_t count;
+} cs_css_declarations;
+
+/* [name], [name=value], or with a sign before the '=': ~ a word of it, | it or what it begins
+ * with before a hyphen, ^ its beginning, $ its end, * any part of it. */
+typedef struct cs_css_condition {
+  cs_svg_name name;
+  char comparison; /* 0: the attribute exists; '=': it is the value; else the sign before the '=' */
+  const char *value;
+} cs_css_condition;
+
+typedef struct cs_css_compound {
+  const char *element, *id; /* NULL: any */
+  const char **classes;     /* all of them */
+  size_t class_count;
+  cs_css_condition *conditions; /* all of them */
+  size_t condition_count;
+  bool is_child; /* of what the compound before it is, not only below it */
+} cs_css_compound;
+
+typedef struct cs_css_rule {
+  cs_css_compound *compounds;
+  size_t compound_count;
+  uint32_t specificity;
+  uint32_t order;
+  cs_css_declarations declarations;
+} cs_css_rule;
+
+typedef struct cs_css_sheet {
+  cs_css_rule *rules; /* ascending: later ones win */
+  size_t count, capacity;
+  bool omitted;
+} cs_css_sheet;
+
+/* Parses what a `style` attribute holds. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_css_declarations_parse(celspan_context *context, cs_arena *arena,
+                                                         const char *text,
+                                                         cs_css_declarations *out);
+/* Parses a style sheet. *out must be finished even after a failure. Errors: NO_MEMORY; LIMIT for
+ * more than CS_CSS_RULES rules. */
+CELSPAN_CHECKED celspan_status cs_css_sheet_parse(celspan_context *context, cs_arena *arena,
+                                                  const char *text, cs_css_sheet *out);
+void cs_css_sheet_finish(cs_css_sheet *sheet, celspan_context *context);
+
+#endif

@@ -1,0 +1,280 @@
+#include "readers/svg/document.h"
+
+#include <string.h>
+
+#include "readers/xml/xml.h"
+
+#define SVG_NAMESPACE "http://www.w3.org/2000/svg"
+#define LINK_NAMESPACE "http://www.w3.org/1999/xlink"
+#define INKSCAPE_NAMESPACE "http://www.inkscape.org/namespaces/inkscape"
+#define XML_NAMESPACE "http://www.w3.org/XML/1998/namespace"
+/* Attributes of one element that count; more are left out. */
+#define ATTRIBUTES 64
+
+typedef struct reader {
+  celspan_context *context;
+  const char *name;
+  cs_svg_document *document;
+  cs_svg_node *open;      /* the innermost element that is open; NULL: none */
+  uint32_t foreign_depth; /* elements of other namespaces that are open, and those inside */
+  char *css;              /* of the style elements so far */
+  size_t css_size, css_capacity;
+  char *characters; /* of the text that is open, since its last element */
+  size_t character_size, character_capacity;
+  uint64_t character_line; /* where they begin */
+  celspan_status failure;
+} reader;
+
+/* ---------------------------------------------------------------- names */
+
+static bool has_prefix(const char *text, const char *prefix) {
+  return strncmp(text, prefix, strlen(prefix)) == 0;
+}
+
+/* The local part of a name of SVG, or NULL. Files without namespaces count as SVG. */
+static const char *svg_name(const char *name) {
+  const char *blank = strchr(name, ' ');
+  if (!blank)
+    return name;
+  return has_prefix(name, SVG_NAMESPACE " ") ? blank + 1 : NULL;
+}
+
+static cs_svg_name attribute_name(const char *name) {
+  if (strcmp(name, LINK_NAMESPACE " href") == 0)
+    return CS_SVG_HREF;
+  if (strcmp(name, INKSCAPE_NAMESPACE " label") == 0)
+    return CS_SVG_LABEL;
+  if (strcmp(name, XML_NAMESPACE " space") == 0)
+    return CS_SVG_SPACE;
+  cs_svg_name found = strchr(name, ' ') ? CS_SVG_NAME_COUNT : cs_svg_name_of(name);
+  return found == CS_SVG_LABEL || found == CS_SVG_SPACE ? CS_SVG_NAME_COUNT : found;
+}
+
+/* ---------------------------------------------------------------- elements */
+
+static const char *copy_text(reader *r, const char *text) {
+  size_t size = strlen(text) + 1;
+  char *copy = cs_arena_take(r->context, &r->document->arena, size);
+  return copy ? memcpy(copy, text, size) : NULL;
+}
+
+/* An attribute of no namespace wins over one of the same name in the namespace of links. */
+static bool is_weaker(const cs_svg_attribute *list, size_t count, cs_svg_name name,
+                      const char *given) {
+  if (name != CS_SVG_HREF || !strchr(given, ' '))
+    return false;
+  for (size_t i = 0; i < count; i++)
+    if (list[i].name == name)
+      return true;
+  return false;
+}
+
+static celspan_status read_attributes(reader *r, cs_svg_node *node, const char *const *attributes) {
+  cs_svg_attribute list[ATTRIBUTES];
+  size_t count = 0;
+  for (; *attributes && count < ATTRIBUTES; attributes += 2) {
+    cs_svg_name name = attribute_name(attributes[0]);
+    if (name == CS_SVG_NAME_COUNT || is_weaker(list, count, name, attributes[0]))
+      continue;
+    list[count] = (cs_svg_attribute){name, copy_text(r, attributes[1])};
+    if (!list[count].value)
+      return CELSPAN_NO_MEMORY;
+    if (name == CS_SVG_STYLE)
+      CS_TRY(cs_css_declarations_parse(r->context, &r->document->arena, list[count].value,
+                                       &node->style));
+    count++;
+  }
+  cs_svg_attribute *copy = cs_arena_take(r->context, &r->document->arena, count * sizeof *copy);
+  if (!copy)
+    return CELSPAN_NO_MEMORY;
+  memcpy(copy, list, count * sizeof *copy);
+  node->attributes = copy;
+  node->attribute_count = count;
+  return CELSPAN_OK;
+}
+
+static cs_hash hash_id(const char *id, size_t size) {
+  cs_hash hash = cs_hash_begin(0x737667u);
+  cs_hash_bytes(&hash, id, size);
+  return cs_hash_end(hash);
+}
+
+static celspan_status remember_id(reader *r, cs_svg_node *node) {
+  cs_svg_document *document = r->document;
+  const char *id = cs_svg_node_value(node, CS_SVG_ID);
+  size_t there;
+  if (!id || !*id || cs_hash_table_find(&document->ids, hash_id(id, strlen(id)), &there))
+    return CELSPAN_OK;
+  CS_TRY(cs_mem_reserve(r->context, (void **)&document->named, &document->named_capacity,
+                        document->named_count + 1, sizeof(cs_svg_node *)));
+  document->named[document->named_count] = node;
+  return cs_hash_table_add(&document->ids, r->context, hash_id(id, strlen(id)),
+                           document->named_count++);
+}
+
+static void append_child(reader *r, cs_svg_node *node) {
+  cs_svg_node *parent = r->open;
+  node->parent = parent;
+  if (!parent)
+    r->document->root = node;
+  else if (parent->last)
+    parent->last = parent->last->next = node;
+  else
+    parent->first = parent->last = node;
+}
+
+static celspan_status count_element(reader *r, uint64_t line) {
+  if (++r->document->element_count <= CS_SVG_ELEMENTS)
+    return CELSPAN_OK;
+  return cs_fail(r->context, CELSPAN_LIMIT, "%s:%u: there are more than %d elements", r->name,
+                 (unsigned)line, CS_SVG_ELEMENTS);
+}
+
+static celspan_status add_element(reader *r, const char *tag, const char *const *attributes,
+                                  uint64_t line) {
+  CS_TRY(count_element(r, line));
+  cs_svg_node *node = cs_arena_take(r->context, &r->document->arena, sizeof *node);
+  if (!node)
+    return CELSPAN_NO_MEMORY;
+  *node = (cs_svg_node){.line = (uint32_t)line, .element = cs_svg_element_named(tag)};
+  if (!r->open && node->element != CS_SVG_ELEMENT_SVG)
+    return cs_fail(r->context, CELSPAN_INPUT,
+                   "%s:%u: the document is \"%.100s\"; a drawing begins with svg", r->name,
+                   (unsigned)line, tag);
+  node->tag = copy_text(r, tag);
+  if (!node->tag)
+    return CELSPAN_NO_MEMORY;
+  CS_TRY(read_attributes(r, node, attributes));
+  CS_TRY(remember_id(r, node));
+  append_child(r, node);
+  r->open = node;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- characters */
+
+/* Whether characters in the open element are part of a text. */
+static bool is_in_text(const cs_svg_node *node) {
+  while (node && (node->element == CS_SVG_ELEMENT_TSPAN || node->element == CS_SVG_ELEMENT_A ||
+                  node->element == CS_SVG_ELEMENT_TEXT_PATH))
+    node = node->parent;
+  return node && node->element == CS_SVG_ELEMENT_TEXT;
+}
+
+/* Appends to a text that grows, and ends it with a zero. */
+static celspan_status append_bytes(reader *r, char **text, size_t *size, size_t *capacity,
+                                   const char *bytes, size_t count) {
+  CS_TRY(cs_mem_reserve(r->context, (void **)text, capacity, *size + count + 1, 1));
+  memcpy(*text + *size, bytes, count);
+  *size += count;
+  (*text)[*size] = 0;
+  return CELSPAN_OK;
+}
+
+/* The characters since the last element, or the last end of one, as a node of their own. */
+static celspan_status end_characters(reader *r) {
+  if (r->character_size == 0)
+    return CELSPAN_OK;
+  CS_TRY(count_element(r, r->character_line));
+  cs_svg_node *node = cs_arena_take(r->context, &r->document->arena, sizeof *node);
+  if (!node)
+    return CELSPAN_NO_MEMORY;
+  *node = (cs_svg_node){.line = (uint32_t)r->character_line,
+                        .element = CS_SVG_ELEMENT_CHARACTERS,
+                        .tag = r->open->tag};
+  node->text = copy_text(r, r->characters);
+  if (!node->text)
+    return CELSPAN_NO_MEMORY;
+  append_child(r, node);
+  r->character_size = 0;
+  return CELSPAN_OK;
+}
+
+static bool on_start(void *user, const char *name, const char *const *attributes, uint64_t line) {
+  reader *r = user;
+  const char *tag = svg_name(name);
+  if (r->foreign_depth > 0 || (!tag && r->open)) {
+    r->foreign_depth++;
+    return true;
+  }
+  r->failure = end_characters(r);
+  if (r->failure == CELSPAN_OK)
+    r->failure = add_element(r, tag ? tag : name, attributes, line);
+  return r->failure == CELSPAN_OK;
+}
+
+static bool on_end(void *user, const char *name, uint64_t line) {
+  (void)name, (void)line;
+  reader *r = user;
+  if (r->foreign_depth > 0) {
+    r->foreign_depth--;
+    return true;
+  }
+  r->failure = end_characters(r);
+  r->open = r->open->parent;
+  return r->failure == CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- texts of elements */
+
+static bool is_style_sheet(const cs_svg_node *node) {
+  const char *type = node ? cs_svg_node_value(node, CS_SVG_TYPE) : NULL;
+  return node && node->element == CS_SVG_ELEMENT_STYLE &&
+         (!type || !*type || strcmp(type, "text/css") == 0);
+}
+
+static bool on_text(void *user, const char *bytes, size_t size, uint64_t line) {
+  reader *r = user;
+  if (r->foreign_depth > 0)
+    return true;
+  if (is_in_text(r->open)) {
+    if (r->character_size == 0)
+      r->character_line = line;
+    r->failure =
+        append_bytes(r, &r->characters, &r->character_size, &r->character_capacity, bytes, size);
+  } else if (is_style_sheet(r->open)) {
+    if (r->document->sheet_line == 0)
+      r->document->sheet_line = (uint32_t)line;
+    r->failure = append_bytes(r, &r->css, &r->css_size, &r->css_capacity, bytes, size);
+  }
+  return r->failure == CELSPAN_OK;
+}
+
+celspan_status cs_svg_document_read(celspan_context *context, const char *name, const char *bytes,
+                                    size_t size, cs_svg_document *out) {
+  *out = (cs_svg_document){0};
+  cs_arena_init(&out->arena);
+  reader r = {.context = context, .name = name, .document = out};
+  const cs_xml_handler handler = {on_start, on_end, on_text, &r, CS_SVG_DEPTH};
+  celspan_status status =
+      cs_xml_parse(context, name, "reading SVG", bytes, size, &handler, &r.failure);
+  if (status == CELSPAN_OK && r.css)
+    status = cs_css_sheet_parse(context, &out->arena, r.css, &out->sheet);
+  cs_mem_free(context->memory, r.css, r.css_capacity);
+  cs_mem_free(context->memory, r.characters, r.character_capacity);
+  return status;
+}
+
+void cs_svg_document_finish(cs_svg_document *document, celspan_context *context) {
+  cs_css_sheet_finish(&document->sheet, context);
+  cs_hash_table_finish(&document->ids, context);
+  cs_mem_free(context->memory, document->named, document->named_capacity * sizeof(cs_svg_node *));
+  cs_arena_finish(&document->arena, context->memory);
+  *document = (cs_svg_document){0};
+}
+
+/* ---------------------------------------------------------------- questions */
+
+const cs_svg_node *cs_svg_document_find(const cs_svg_document *document, const char *id,
+                                        size_t size) {
+  size_t place;
+  return cs_hash_table_find(&document->ids, hash_id(id, size), &place) ? document->named[place]
+                                                                       : NULL;
+}
+
+const char *cs_svg_node_value(const cs_svg_node *node, cs_svg_name name) {
+  for (size_t i = 0; i < node->attribute_count; i++)
+    if (node->attributes[i].name == name)
+      return node->attributes[i].value;
+  return NULL;
+}

@@ -1,0 +1,58 @@
+/* An SVG file as a tree of elements, with the rules of its style sheets.
+ *
+ * Invariants: the tree is at most CS_SVG_DEPTH deep and has at most CS_SVG_ELEMENTS elements;
+ * elements of other namespaces are left out, and so are characters outside of text; everything
+ * lives in the document's arena.
+ */
+#ifndef CS_SVG_DOCUMENT_H
+#define CS_SVG_DOCUMENT_H
+
+#include "base/arena.h"
+#include "base/hash_table.h"
+#include "readers/svg/css.h"
+#include "readers/svg/names.h"
+
+#define CS_SVG_DEPTH 128
+#define CS_SVG_ELEMENTS 1000000
+
+typedef struct cs_svg_attribute {
+  cs_svg_name name;
+  const char *value;
+} cs_svg_attribute;
+
+typedef struct cs_svg_node {
+  cs_svg_element element;
+  const char *tag;  /* its name, without a namespace */
+  const char *text; /* of CHARACTERS: UTF-8, as the file has it; else NULL */
+  uint32_t line;
+  struct cs_svg_node *parent, *first, *last, *next; /* NULL: none; first, last: children */
+  const cs_svg_attribute *attributes;
+  size_t attribute_count;
+  cs_css_declarations style; /* of its attribute `style` */
+} cs_svg_node;
+
+typedef struct cs_svg_document {
+  cs_arena arena;
+  cs_svg_node *root; /* an svg element */
+  size_t element_count;
+  cs_svg_node **named; /* those with an id; the first of each id is in `ids` */
+  size_t named_count, named_capacity;
+  cs_hash_table ids; /* to places in `named` */
+  cs_css_sheet sheet;
+  uint32_t sheet_line; /* where the first style element begins; 0: there is none */
+} cs_svg_document;
+
+/* name: of the file, for messages. *out must be finished even after a failure. Errors: INPUT with
+ * the line for a file that is not XML or not SVG, LIMIT, NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_svg_document_read(celspan_context *context, const char *name,
+                                                    const char *bytes, size_t size,
+                                                    cs_svg_document *out);
+void cs_svg_document_finish(cs_svg_document *document, celspan_context *context);
+
+/* The element with the id that these bytes are, or NULL. */
+const cs_svg_node *cs_svg_document_find(const cs_svg_document *document, const char *id,
+                                        size_t size);
+/* The value of an attribute, or NULL. */
+const char *cs_svg_node_value(const cs_svg_node *node, cs_svg_name name);
+
+#endif

@@ -1,0 +1,24 @@
+/* The fonts of a text: of those that the caller gave, the ones that its font-family names, then the
+ * one for all families.
+ *
+ *   font-family: Arial, "Gill Sans"; font-weight: bold
+ *   tried: "Arial Bold", "Arial", "Gill Sans Bold", "Gill Sans", "default"
+ */
+#ifndef CS_SVG_FACES_H
+#define CS_SVG_FACES_H
+
+#include "readers/svg/reading.h"
+#include "readers/text/layout.h"
+
+typedef struct cs_svg_faces {
+  celspan_font fonts[CS_TEXT_FONTS]; /* borrowed from the source; each is asked for what those
+                                        before it lack */
+  size_t count;                      /* 0: none was given */
+  bool is_plain;                     /* the first is bold or italic less than it should be */
+} cs_svg_faces;
+
+void cs_svg_faces_find(const cs_svg_source *source, const cs_svg_style *style, cs_svg_faces *out);
+/* Whether two styles have the same fonts, of one size and spacing. */
+bool cs_svg_faces_are_same(const cs_svg_style *a, const cs_svg_style *b);
+
+#endif

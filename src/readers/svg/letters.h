@@ -1,0 +1,68 @@
+/* The places of the letters of a text: its characters are shaped, and placed as the file says.
+ *
+ *   runs of characters with the same fonts, shaped one by one (readers/text/layout.h)
+ *   |  side by side on one line
+ *   v
+ *   letters at (advance, 0) --textLength--> --x, y, dx, dy--> --text-anchor--> --textPath--> in
+ *                                                                                       user units
+ *
+ * A chunk reaches from one absolute position to the next; it is anchored as a whole.
+ *
+ *        x=10             x=60, text-anchor="middle"
+ *        v                   v
+ *        |F i r s t|      |S e c|
+ *
+ * Source: SVG 2, 11.5, except that dx and dy are added to x and y, as in browsers.
+ */
+#ifndef CS_SVG_LETTERS_H
+#define CS_SVG_LETTERS_H
+
+#include "model/geometry/outline.h"
+#include "readers/svg/written.h"
+#include "readers/text/layout.h"
+
+typedef struct cs_svg_letter {
+  size_t run;
+  size_t first, count;       /* glyphs of the run's layout */
+  size_t character;          /* of the text: the first that it stands for */
+  double origin_x, origin_y; /* where the layout has it */
+  double x, y, advance;      /* its left end on the baseline, user units */
+  double scale;              /* of its width */
+  double turn;               /* of the line that it runs along, degrees */
+} cs_svg_letter;
+
+typedef struct cs_svg_run {
+  size_t begin, end; /* characters */
+  double size;       /* the em */
+  double width;
+  cs_layout layout;
+} cs_svg_run;
+
+typedef struct cs_svg_letters {
+  celspan_context *context;
+  cs_svg_run *runs;
+  size_t run_count, run_capacity;
+  cs_svg_letter *letters; /* as they are seen, from left to right */
+  size_t count, capacity;
+  uint32_t *order; /* by character: the letter that begins with it, from 1; 0: none */
+  size_t order_count;
+} cs_svg_letters;
+
+/* Notes what cannot be drawn. node: the text element. *out must be finished even after a
+ * failure. Errors: NO_MEMORY; INPUT for a font that is missing, cut off or not a font. */
+CELSPAN_CHECKED celspan_status cs_svg_letters_make(cs_svg_reading *reading, const cs_svg_node *node,
+                                                   const cs_svg_written *written,
+                                                   cs_svg_letters *out);
+void cs_svg_letters_finish(cs_svg_letters *letters);
+
+/* Appends the outlines of the letters that begin with characters begin .. end - 1. Errors:
+ * NO_MEMORY, LIMIT; INPUT for outlines that make no sense. */
+CELSPAN_CHECKED celspan_status cs_svg_letters_outline(const cs_svg_letters *letters,
+                                                      const cs_svg_written *written, size_t begin,
+                                                      size_t end, cs_outline *outline);
+/* The box around all letters, each as wide as its advance and as high as its font's lines, in user
+ * units; false: there is none. */
+bool cs_svg_letters_box(const cs_svg_letters *letters, const cs_svg_written *written,
+                        celspan_box *out);
+
+#endif

@@ -1,0 +1,18 @@
+/* The object of a basic shape or a path: its outline, filled. */
+#ifndef CS_SVG_PAINT_H
+#define CS_SVG_PAINT_H
+
+#include "model/geometry/outline.h"
+#include "readers/svg/reading.h"
+
+/* *out: new, in the drawing's units; NULL for nothing. */
+CELSPAN_CHECKED celspan_status cs_svg_fill(cs_svg_reading *reading, const cs_svg_node *node,
+                                           const cs_svg_place *place, celspan_object **out);
+
+/* The same of an outline in the user units of `place`, which is taken over where it is drawn. box:
+ * what gradients in shares of a box are of; NULL: its own. */
+CELSPAN_CHECKED celspan_status cs_svg_fill_outline(cs_svg_reading *reading, const cs_svg_node *node,
+                                                   const cs_svg_place *place, cs_outline *outline,
+                                                   const celspan_box *box, celspan_object **out);
+
+#endif

@@ -1,0 +1,178 @@
+#include "readers/svg/reading.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "model/colour/transfer.h"
+#include "readers/svg/shapes.h"
+
+celspan_status cs_svg_skip(cs_svg_reading *reading, const cs_svg_node *node, const char *format,
+                           ...) {
+  if (reading->skipped_count >= CS_SVG_SKIPPED)
+    return CELSPAN_OK;
+  CS_TRY(cs_mem_reserve(reading->context, (void **)&reading->skipped, &reading->skipped_capacity,
+                        reading->skipped_count + 1, sizeof *reading->skipped));
+  cs_svg_skipped *entry = &reading->skipped[reading->skipped_count++];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(entry->what, sizeof entry->what, format, arguments);
+  va_end(arguments);
+  entry->line = node->line;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_svg_count_drawn(cs_svg_reading *reading, const cs_svg_node *node) {
+  if (++reading->drawn <= CS_SVG_DRAWN)
+    return CELSPAN_OK;
+  return cs_fail(reading->context, CELSPAN_LIMIT, "line %u: more than %d elements are drawn",
+                 node->line, CS_SVG_DRAWN);
+}
+
+bool cs_svg_is_open(const cs_svg_open *open, const cs_svg_node *node) {
+  for (; open; open = open->outer)
+    if (open->node == node)
+      return true;
+  return false;
+}
+
+const cs_svg_node *cs_svg_referred(const cs_svg_reading *reading, cs_svg_reference reference) {
+  return reference.size > 0 ? cs_svg_document_find(reading->document, reference.id, reference.size)
+                            : NULL;
+}
+
+const cs_svg_node *cs_svg_linked(const cs_svg_reading *reading, const cs_svg_node *node) {
+  const char *href = cs_svg_node_value(node, CS_SVG_HREF);
+  href = href ? cs_svg_skip_space(href) : "";
+  size_t size = strcspn(href, " \t\r\n");
+  return *href == '#' ? cs_svg_document_find(reading->document, href + 1, size - 1) : NULL;
+}
+
+/* ---------------------------------------------------------------- styles and transforms */
+
+/* Recursion: at most as deep as the document, CS_SVG_DEPTH. */
+celspan_status cs_svg_style_in_file(cs_svg_reading *reading, const cs_svg_node *node,
+                                    cs_svg_style *out) {
+  cs_svg_style above = cs_svg_style_initial();
+  if (node->parent)
+    CS_TRY(cs_svg_style_in_file(reading, node->parent, &above));
+  return cs_svg_style_resolve(reading->context, reading->document, node, &above, &reading->tests,
+                              out);
+}
+
+/* One value of transform-origin: a length, a percentage or a word. */
+static double take_origin(const char **text, cs_svg_axis axis, const cs_svg_measure *measure) {
+  static const struct {
+    const char *word;
+    double share;
+  } words[] = {{"left", 0}, {"top", 0}, {"center", 0.5}, {"right", 1}, {"bottom", 1}};
+  double size = axis == CS_SVG_AXIS_X ? measure->width : measure->height;
+  cs_svg_length length;
+  *text = cs_svg_skip_space(*text);
+  for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+    if (cs_svg_take_word(text, words[i].word))
+      return words[i].share * size;
+  return cs_svg_take_length(text, &length) ? cs_svg_resolve(length, axis, measure) : 0.5 * size;
+}
+
+static celspan_point origin_of(const char *text, const cs_svg_measure *measure) {
+  text = cs_svg_skip_space(text);
+  const char *at = text;
+  bool begins_with_y = cs_svg_take_word(&at, "top") || cs_svg_take_word(&at, "bottom");
+  celspan_point origin;
+  if (begins_with_y) {
+    origin.y = take_origin(&text, CS_SVG_AXIS_Y, measure);
+    origin.x = take_origin(&text, CS_SVG_AXIS_X, measure);
+  } else {
+    origin.x = take_origin(&text, CS_SVG_AXIS_X, measure);
+    origin.y = take_origin(&text, CS_SVG_AXIS_Y, measure);
+  }
+  return origin;
+}
+
+celspan_matrix cs_svg_about_origin(celspan_matrix matrix, const char *text,
+                                   const cs_svg_measure *measure) {
+  celspan_point origin = origin_of(text, measure);
+  matrix = celspan_matrix_then(celspan_matrix_translation(-origin.x, -origin.y), matrix);
+  return celspan_matrix_then(matrix, celspan_matrix_translation(origin.x, origin.y));
+}
+
+celspan_matrix cs_svg_transform_of(const cs_svg_style *style, const cs_svg_measure *measure) {
+  celspan_matrix matrix;
+  if (!style->transform || !cs_svg_parse_transform(style->transform, &matrix))
+    return celspan_matrix_identity();
+  return style->transform_origin ? cs_svg_about_origin(matrix, style->transform_origin, measure)
+                                 : matrix;
+}
+
+celspan_status cs_svg_enter(cs_svg_reading *reading, const cs_svg_node *node, cs_svg_place *place) {
+  const cs_svg_style above = place->style;
+  CS_TRY(cs_svg_style_resolve(reading->context, reading->document, node, &above, &reading->tests,
+                              &place->style));
+  if (node->element == CS_SVG_ELEMENT_SYMBOL)
+    place->style.transform = NULL; /* as most renderers have it */
+  place->measure.font_size = place->style.font_size;
+  if (place->style.transform && cs_svg_is_unfit(place->style.transform))
+    return cs_fail(reading->context, CELSPAN_INPUT, "line %u: transform is \"%.40s\"", node->line,
+                   place->style.transform);
+  place->matrix =
+      celspan_matrix_then(cs_svg_transform_of(&place->style, &place->measure), place->matrix);
+  for (int i = 0; i < 9; i++)
+    if (!cs_number_is_sane(place->matrix.m[i]))
+      return cs_fail(reading->context, CELSPAN_INPUT,
+                     "line %u: the transforms so far go beyond 1e12", node->line);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- colours */
+
+celspan_paint cs_svg_paint_of(const cs_svg_reading *reading, const cs_svg_colour *colour,
+                              double opacity) {
+  float rgb[3];
+  for (int c = 0; c < 3; c++) {
+    rgb[c] = (float)cs_number_clamp(colour->rgb[c], 0, 1);
+    if (!reading->is_coded)
+      rgb[c] = cs_number_clampf(cs_transfer_decode(CELSPAN_TRANSFER_SRGB, rgb[c]), 0, 1);
+  }
+  return celspan_paint_rgb(rgb[0], rgb[1], rgb[2],
+                           (float)cs_number_clamp(colour->alpha * opacity, 0, 1));
+}
+
+/* ---------------------------------------------------------------- images */
+
+static cs_hash key_of(const void *element) {
+  cs_hash hash = cs_hash_begin(0x696d67u);
+  cs_hash_word(&hash, (uint64_t)(uintptr_t)element);
+  return cs_hash_end(hash);
+}
+
+bool cs_svg_kept_image_find(const cs_svg_kept_images *list, const void *element,
+                            cs_svg_kept_image *out) {
+  size_t place;
+  if (!cs_hash_table_find(&list->places, key_of(element), &place))
+    return false;
+  *out = list->items[place];
+  return true;
+}
+
+celspan_status cs_svg_kept_image_add(cs_svg_kept_images *list, celspan_context *context,
+                                     const void *element, cs_svg_kept_image image) {
+  celspan_status status = cs_mem_reserve(context, (void **)&list->items, &list->capacity,
+                                         list->count + 1, sizeof *list->items);
+  if (status == CELSPAN_OK)
+    status = cs_hash_table_add(&list->places, context, key_of(element), list->count);
+  if (status == CELSPAN_OK)
+    list->items[list->count++] = image;
+  else
+    celspan_object_unref(image.object);
+  return status;
+}
+
+void cs_svg_kept_images_finish(cs_svg_kept_images *list, celspan_context *context) {
+  for (size_t i = 0; i < list->count; i++)
+    celspan_object_unref(list->items[i].object);
+  cs_mem_free(context->memory, list->items, list->capacity * sizeof *list->items);
+  cs_hash_table_finish(&list->places, context);
+}

@@ -1,0 +1,126 @@
+/* The state of the reading of one file: the document, how much of the limits is used, and what was
+ * not drawn.
+ *
+ *   document --build.c--> items --art.c--> scene values
+ *                 |
+ *                 +-- shapes.c outlines   servers.c gradients   clips.c clip paths   masks.c masks
+ */
+#ifndef CS_SVG_READING_H
+#define CS_SVG_READING_H
+
+#include "base/hash_table.h"
+#include "readers/svg/style.h"
+
+#define CS_SVG_DRAWN 1000000             /* elements drawn, those of `use` counted each time */
+#define CS_SVG_SELECTOR_TESTS 100000000u /* of elements against rules, in all */
+#define CS_SVG_SKIPPED 10000             /* entries; more are not reported */
+
+typedef struct cs_svg_skipped {
+  uint32_t line;
+  char what[160];
+} cs_svg_skipped;
+
+/* Where a document is from: a file, or bytes inside of another document. */
+typedef struct cs_svg_source {
+  const char *name; /* for messages */
+  const char *file; /* NULL: bytes */
+  const celspan_svg_font *fonts;
+  size_t font_count;
+  const struct cs_svg_source *outer; /* the drawing that shows this one as an image; NULL: none */
+  uint64_t device, number;           /* of the file, by which it is known in itself */
+} cs_svg_source;
+
+/* Images that were read, by their elements: one that `use` shows a thousand times is decoded once.
+ */
+typedef struct cs_svg_kept_image {
+  celspan_object *object; /* from (0, 0) to its size, owned; NULL: nothing is shown */
+  double width, height;
+} cs_svg_kept_image;
+
+/* All zero is an empty list. */
+typedef struct cs_svg_kept_images {
+  cs_hash_table places; /* by element */
+  cs_svg_kept_image *items;
+  size_t count, capacity;
+} cs_svg_kept_images;
+
+typedef struct cs_svg_reading {
+  celspan_context *context;
+  cs_svg_document *document;
+  const cs_svg_source *source; /* where the document is from */
+  /* Reads a drawing that is an image of this one, whose limits it uses up. *out: new. Errors:
+   * INPUT, LIMIT, NO_MEMORY. */
+  celspan_status (*read_inner)(struct cs_svg_reading *outer, const cs_svg_source *source,
+                               const char *bytes, size_t size, celspan_svg **out);
+  bool is_coded;        /* colours stay as they are coded, for comparisons with other renderers */
+  uint64_t tests;       /* of selectors, that are left */
+  uint32_t drawn;       /* elements so far */
+  uint32_t depth;       /* elements being built, one inside the other */
+  uint64_t image_bytes; /* of images so far */
+  cs_svg_kept_images images;
+  /* Drawings in files of their own are part of it, or a file that it names could not be shown: the
+   * next reading may give another drawing. */
+  bool has_other_files;
+  bool has_failed; /* the system could not read a file: the drawing may be right */
+  cs_svg_skipped *skipped;
+  size_t skipped_count, skipped_capacity;
+} cs_svg_reading;
+
+/* Elements that are being built: a reference to one of them is circular. */
+typedef struct cs_svg_open {
+  const cs_svg_node *node;
+  const struct cs_svg_open *outer;
+} cs_svg_open;
+
+/* Where an element is drawn, and how. */
+typedef struct cs_svg_place {
+  cs_svg_style style;
+  celspan_matrix matrix; /* user units to the drawing's */
+  cs_svg_measure measure;
+  bool is_moved;        /* a `use` shows it elsewhere than its own place: */
+  celspan_matrix moved; /* the drawing's units there to those here */
+  const cs_svg_open *open;
+  const cs_svg_node *sizes; /* the `use` that shows the element next entered; NULL: none */
+} cs_svg_place;
+
+/* Notes what is not drawn. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_svg_skip(cs_svg_reading *reading, const cs_svg_node *node,
+                                           const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Counts an element that is drawn, or measured to be. Errors: LIMIT for more than CS_SVG_DRAWN. */
+CELSPAN_CHECKED celspan_status cs_svg_count_drawn(cs_svg_reading *reading, const cs_svg_node *node);
+
+bool cs_svg_is_open(const cs_svg_open *open, const cs_svg_node *node);
+
+/* The element that a reference means; NULL: there is none. */
+const cs_svg_node *cs_svg_referred(const cs_svg_reading *reading, cs_svg_reference reference);
+/* The element that its attribute href means; NULL: none. */
+const cs_svg_node *cs_svg_linked(const cs_svg_reading *reading, const cs_svg_node *node);
+
+/* The style that an element has at its place in the file. */
+CELSPAN_CHECKED celspan_status cs_svg_style_in_file(cs_svg_reading *reading,
+                                                    const cs_svg_node *node, cs_svg_style *out);
+/* Moves *place into the element: its style, its transform. */
+CELSPAN_CHECKED celspan_status cs_svg_enter(cs_svg_reading *reading, const cs_svg_node *node,
+                                            cs_svg_place *place);
+/* A transform about the origin that an attribute names: transform-origin. */
+celspan_matrix cs_svg_about_origin(celspan_matrix matrix, const char *origin,
+                                   const cs_svg_measure *measure);
+/* An element's transform with its origin; the identity where there is none. */
+celspan_matrix cs_svg_transform_of(const cs_svg_style *style, const cs_svg_measure *measure);
+
+/* The paint of a colour: opacity multiplies its alpha. */
+celspan_paint cs_svg_paint_of(const cs_svg_reading *reading, const cs_svg_colour *colour,
+                              double opacity);
+
+/* False: the element's image was not read yet. out: borrowed from the list. */
+bool cs_svg_kept_image_find(const cs_svg_kept_images *list, const void *element,
+                            cs_svg_kept_image *out);
+/* Takes the object over, also after a failure. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_svg_kept_image_add(cs_svg_kept_images *list,
+                                                     celspan_context *context, const void *element,
+                                                     cs_svg_kept_image image);
+void cs_svg_kept_images_finish(cs_svg_kept_images *list, celspan_context *context);
+
+#endif

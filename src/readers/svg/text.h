@@ -1,0 +1,26 @@
+/* Texts: from an element to an item with the outlines of its letters.
+ *
+ *   element --written.c--> characters --letters.c--> letters --paint.c--> objects
+ *
+ * An element inside of a text is an item inside of the text's, and so may be a part. */
+#ifndef CS_SVG_TEXT_H
+#define CS_SVG_TEXT_H
+
+#include "model/geometry/outline.h"
+#include "readers/svg/art.h"
+#include "readers/svg/reading.h"
+
+/* Adds what a text element, whose style *place has, draws to `item`. Errors: NO_MEMORY, LIMIT;
+ * INPUT for numbers that are unfit and for fonts that cannot be read. */
+CELSPAN_CHECKED celspan_status cs_svg_text_add(cs_svg_reading *reading, celspan_svg *art,
+                                               const cs_svg_node *node, const cs_svg_place *place,
+                                               cs_svg_item *item);
+/* Appends the outlines of all letters of a text, in its user units. Errors: as above. */
+CELSPAN_CHECKED celspan_status cs_svg_text_outline(cs_svg_reading *reading, const cs_svg_node *node,
+                                                   const cs_svg_place *place, cs_outline *outline);
+/* The box around a text, in its user units: see cs_svg_letters_box. Errors: as above. */
+CELSPAN_CHECKED celspan_status cs_svg_text_box(cs_svg_reading *reading, const cs_svg_node *node,
+                                               const cs_svg_place *place, celspan_box *out,
+                                               bool *is_there);
+
+#endif

@@ -1,0 +1,30 @@
+/* The properties of texts: fonts, spacing, anchor, direction. All but the last are inherited. */
+#ifndef CS_SVG_TEXT_STYLE_H
+#define CS_SVG_TEXT_STYLE_H
+
+#include "readers/svg/document.h"
+#include "readers/svg/values.h"
+
+/* Which part of a text lies at its position: of one that runs to the right the start is left. */
+typedef enum cs_svg_anchor {
+  CS_SVG_ANCHOR_START,
+  CS_SVG_ANCHOR_MIDDLE,
+  CS_SVG_ANCHOR_END
+} cs_svg_anchor;
+
+typedef struct cs_svg_text_style {
+  const char *font_family; /* a list, as it is written; NULL: none */
+  bool is_italic, is_bold;
+  double letter_spacing, word_spacing; /* user units */
+  cs_svg_anchor anchor;
+  bool is_leftward;  /* the direction of texts */
+  bool is_preserved; /* every space of a text counts */
+  const char *unset; /* a property that is given, but does not count; NULL: none */
+} cs_svg_text_style;
+
+/* Reads what `values`, the ones that win by their names, say of texts. em: the element's font size
+ * in user units. *out holds what is inherited. */
+void cs_svg_text_style_read(const cs_svg_node *node, const char *const *values, double em,
+                            cs_svg_text_style *out);
+
+#endif

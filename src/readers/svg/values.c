@@ -1,0 +1,266 @@
+#include "readers/svg/values.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/decimal.h"
+#include "base/number.h"
+#include "model/geometry/matrix.h"
+
+#define PI 3.14159265358979323846
+
+static char lower(char c) { return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c; }
+
+const char *cs_svg_skip_space(const char *text) {
+  while (cs_svg_is_space(*text))
+    text++;
+  return text;
+}
+
+const char *cs_svg_skip_comma(const char *text) {
+  text = cs_svg_skip_space(text);
+  return *text == ',' ? cs_svg_skip_space(text + 1) : text;
+}
+
+bool cs_svg_take_number(const char **text, double *out) {
+  double value;
+  const char *end = cs_decimal_read(*text, &value);
+  if (!end || !cs_number_is_sane(value))
+    return false;
+  *text = end;
+  *out = value;
+  return true;
+}
+
+static bool is_word_character(char c) {
+  c = lower(c);
+  return (c >= 'a' && c <= 'z') || c == '-';
+}
+
+bool cs_svg_take_word(const char **text, const char *word) {
+  const char *at = *text;
+  for (; *word; word++, at++)
+    if (lower(*at) != lower(*word))
+      return false;
+  if (is_word_character(*at))
+    return false;
+  *text = at;
+  return true;
+}
+
+bool cs_svg_is_word(const char *text, const char *word) {
+  text = cs_svg_skip_space(text);
+  return cs_svg_take_word(&text, word) && !*cs_svg_skip_space(text);
+}
+
+/* ---------------------------------------------------------------- lengths */
+
+bool cs_svg_take_length(const char **text, cs_svg_length *out) {
+  static const struct {
+    const char *name;
+    cs_svg_unit unit;
+    double factor;
+  } units[] = {{"px", CS_SVG_UNIT_NUMBER, 1},
+               {"pt", CS_SVG_UNIT_NUMBER, 4.0 / 3},
+               {"pc", CS_SVG_UNIT_NUMBER, 16},
+               {"mm", CS_SVG_UNIT_NUMBER, 96 / 25.4},
+               {"cm", CS_SVG_UNIT_NUMBER, 96 / 2.54},
+               {"in", CS_SVG_UNIT_NUMBER, 96},
+               {"em", CS_SVG_UNIT_EM, 1},
+               {"ex", CS_SVG_UNIT_EX, 1},
+               {"Q", CS_SVG_UNIT_NUMBER, 24 / 25.4},
+               {"rem", CS_SVG_UNIT_REM, 1},
+               {"vw", CS_SVG_UNIT_VW, 0.01},
+               {"vh", CS_SVG_UNIT_VH, 0.01},
+               {"vmin", CS_SVG_UNIT_VMIN, 0.01},
+               {"vmax", CS_SVG_UNIT_VMAX, 0.01}};
+  const char *at = *text;
+  double value;
+  if (!cs_svg_take_number(&at, &value))
+    return false;
+  *out = (cs_svg_length){value, CS_SVG_UNIT_NUMBER};
+  if (*at == '%') {
+    out->unit = CS_SVG_UNIT_PERCENT;
+    at++;
+  }
+  for (size_t i = 0; is_word_character(*at) && i < sizeof units / sizeof *units; i++)
+    if (cs_svg_take_word(&at, units[i].name)) {
+      *out = (cs_svg_length){value * units[i].factor, units[i].unit};
+      break;
+    }
+  if (is_word_character(*at))
+    return false;
+  *text = at;
+  return true;
+}
+
+bool cs_svg_parse_length(const char *text, cs_svg_length *out) {
+  text = cs_svg_skip_space(text);
+  return cs_svg_take_length(&text, out) && !*cs_svg_skip_space(text);
+}
+
+bool cs_svg_is_unfit(const char *text) {
+  double value;
+  text = cs_svg_skip_space(text);
+  if (cs_decimal_read(text, &value))
+    return !cs_number_is_sane(value);
+  text += *text == '+' || *text == '-';
+  return cs_svg_take_word(&text, "nan") || cs_svg_take_word(&text, "inf") ||
+         cs_svg_take_word(&text, "infinity");
+}
+
+double cs_svg_resolve(cs_svg_length length, cs_svg_axis axis, const cs_svg_measure *measure) {
+  double width = measure->width, height = measure->height;
+  switch (length.unit) {
+  case CS_SVG_UNIT_EM:
+    return length.value * measure->font_size;
+  case CS_SVG_UNIT_EX:
+    return length.value * measure->font_size * 0.5;
+  case CS_SVG_UNIT_REM:
+    return length.value * measure->root_font_size;
+  case CS_SVG_UNIT_VW:
+    return length.value * measure->page_width;
+  case CS_SVG_UNIT_VH:
+    return length.value * measure->page_height;
+  case CS_SVG_UNIT_VMIN:
+    return length.value * fmin(measure->page_width, measure->page_height);
+  case CS_SVG_UNIT_VMAX:
+    return length.value * fmax(measure->page_width, measure->page_height);
+  case CS_SVG_UNIT_PERCENT:
+    return length.value / 100 *
+           (axis == CS_SVG_AXIS_X   ? width
+            : axis == CS_SVG_AXIS_Y ? height
+                                    : sqrt((width * width + height * height) / 2));
+  default:
+    return length.value;
+  }
+}
+
+/* ---------------------------------------------------------------- references */
+
+bool cs_svg_take_reference(const char **text, cs_svg_reference *out) {
+  const char *at = *text;
+  if (strncmp(at, "url(", 4) != 0)
+    return false;
+  at = cs_svg_skip_space(at + 4);
+  char quote = *at == '"' || *at == '\'' ? *at++ : 0;
+  const char *end = at;
+  while (*end && *end != quote && *end != ')')
+    end++;
+  const char *close = strchr(end, ')');
+  if (!close)
+    return false;
+  while (!quote && end > at && cs_svg_is_space(end[-1]))
+    end--;
+  *out =
+      *at == '#' ? (cs_svg_reference){at + 1, (size_t)(end - at - 1)} : (cs_svg_reference){at, 0};
+  *text = close + 1;
+  return true;
+}
+
+/* ---------------------------------------------------------------- transforms */
+
+/* The numbers between parentheses, at most six; units of angles and lengths are passed over. */
+static bool take_arguments(const char **text, double *numbers, int *count) {
+  const char *at = cs_svg_skip_space(*text);
+  *count = 0;
+  if (*at++ != '(')
+    return false;
+  for (at = cs_svg_skip_space(at); *at != ')'; at = cs_svg_skip_comma(at)) {
+    if (*count == 6 || !cs_svg_take_number(&at, &numbers[*count]))
+      return false;
+    (void)(cs_svg_take_word(&at, "deg") || cs_svg_take_word(&at, "px"));
+    ++*count;
+  }
+  *text = at + 1;
+  return true;
+}
+
+typedef enum operation { MATRIX, TRANSLATE, SCALE, ROTATE, SKEW_X, SKEW_Y, OPERATIONS } operation;
+
+static bool make_matrix(operation what, const double *n, int count, celspan_matrix *out) {
+  const celspan_point centre = {count == 3 ? n[1] : 0, count == 3 ? n[2] : 0};
+  switch (what) {
+  case MATRIX:
+    *out = (celspan_matrix){{n[0], n[2], n[4], n[1], n[3], n[5], 0, 0, 1}};
+    return count == 6;
+  case TRANSLATE:
+    *out = celspan_matrix_translation(n[0], count == 2 ? n[1] : 0);
+    return count == 1 || count == 2;
+  case SCALE:
+    *out = celspan_matrix_scaling(n[0], count == 2 ? n[1] : n[0]);
+    return count == 1 || count == 2;
+  case ROTATE:
+    *out = cs_matrix_turn(n[0], centre);
+    return count == 1 || count == 3;
+  case SKEW_X:
+    *out = celspan_matrix_skewing(fmod(n[0], 360) * (PI / 180), 0);
+    return count == 1;
+  default:
+    *out = celspan_matrix_skewing(0, fmod(n[0], 360) * (PI / 180));
+    return count == 1;
+  }
+}
+
+bool cs_svg_parse_transform(const char *text, celspan_matrix *out) {
+  static const char *const words[OPERATIONS] = {"matrix", "translate", "scale",
+                                                "rotate", "skewX",     "skewY"};
+  celspan_matrix whole = celspan_matrix_identity();
+  text = cs_svg_skip_space(text);
+  if (cs_svg_take_word(&text, "none"))
+    text = cs_svg_skip_space(text);
+  for (; *text; text = cs_svg_skip_comma(text)) {
+    operation what = MATRIX;
+    while (what < OPERATIONS && !cs_svg_take_word(&text, words[what]))
+      what++;
+    double numbers[6] = {0};
+    int count;
+    celspan_matrix step;
+    if (what == OPERATIONS || !take_arguments(&text, numbers, &count) ||
+        !make_matrix(what, numbers, count, &step))
+      return false;
+    whole = celspan_matrix_then(step, whole);
+  }
+  for (int i = 0; i < 9; i++)
+    if (!cs_number_is_sane(whole.m[i]))
+      return false;
+  *out = whole;
+  return true;
+}
+
+/* ---------------------------------------------------------------- viewports */
+
+bool cs_svg_parse_view_box(const char *text, cs_svg_view_box *out) {
+  double numbers[4];
+  text = cs_svg_skip_space(text);
+  for (int i = 0; i < 4; i++, text = cs_svg_skip_comma(text))
+    if (!cs_svg_take_number(&text, &numbers[i]))
+      return false;
+  if (*text || !(numbers[2] > 0) || !(numbers[3] > 0))
+    return false;
+  *out = (cs_svg_view_box){true, numbers[0], numbers[1], numbers[2], numbers[3]};
+  return true;
+}
+
+/* 0, 1/2 or 1: where the slack goes that is left along one axis. word: "xMidYMax". */
+static double alignment(const char *word, size_t at) {
+  return strncmp(word + at, "Min", 3) == 0 ? 0 : strncmp(word + at, "Max", 3) == 0 ? 1 : 0.5;
+}
+
+celspan_matrix cs_svg_fit(const cs_svg_view_box *box, double width, double height,
+                          const char *aspect) {
+  const char *at = cs_svg_skip_space(aspect ? aspect : "");
+  double sx = width / box->width, sy = height / box->height, align_x = 0.5, align_y = 0.5;
+  if (cs_svg_take_word(&at, "none"))
+    return (celspan_matrix){{sx, 0, -box->x * sx, 0, sy, -box->y * sy, 0, 0, 1}};
+  if (strlen(at) >= 8 && at[0] == 'x' && at[4] == 'Y') {
+    align_x = alignment(at, 1);
+    align_y = alignment(at, 5);
+    at = cs_svg_skip_space(at + 8);
+  }
+  bool is_slice = cs_svg_is_word(at, "slice");
+  double scale = is_slice ? fmax(sx, sy) : fmin(sx, sy);
+  return (celspan_matrix){{scale, 0, (width - box->width * scale) * align_x - box->x * scale, 0,
+                           scale, (height - box->height * scale) * align_y - box->y * scale, 0, 0,
+                           1}};
+}

@@ -1,0 +1,27 @@
+/* Viewports: where a nested svg element or a symbol is shown, and the units of its contents.
+ *
+ *     x, y +-----------------+      the viewport, in the units at the element's place in the file;
+ *          |  +-----------+  |      the view box is fitted into it, and has the units of its
+ *          |  | view box  |  | h    contents
+ *          |  +-----------+  |
+ *          +-----------------+
+ *                   w
+ */
+#ifndef CS_SVG_VIEWPORT_H
+#define CS_SVG_VIEWPORT_H
+
+#include "readers/svg/reading.h"
+
+/* Finds the viewport of `node`, and moves *place so far that the point of a symbol that refX and
+ * refY name lies where its corner would. sizes: the element whose width and height count before its
+ * own; NULL: none. *out may be without a size: nothing is shown then. Errors: INPUT for numbers
+ * that are unfit. */
+CELSPAN_CHECKED celspan_status cs_svg_viewport_find(cs_svg_reading *reading,
+                                                    const cs_svg_node *node,
+                                                    const cs_svg_node *sizes, cs_svg_place *place,
+                                                    celspan_box *out);
+/* Moves *place into the viewport, to the units of its contents. */
+void cs_svg_viewport_enter(const cs_svg_node *node, const celspan_box *viewport,
+                           cs_svg_place *place);
+
+#endif

@@ -1,0 +1,60 @@
+/* A text as it is written: the characters of an element and of those inside of it, with the
+ * positions that the file gives them.
+ *
+ *   <text x="10 20">A <tspan dy="3"> b</tspan></text>
+ *
+ *   characters   A     ' '   b           spaces collapsed
+ *   x            10    20    .           .: not said
+ *   dy           .     .     3
+ *   text nodes   |---------| |---|       each with the style of its element
+ */
+#ifndef CS_SVG_WRITTEN_H
+#define CS_SVG_WRITTEN_H
+
+#include "readers/svg/text_path.h"
+
+#define CS_SVG_TEXT_LENGTHS 64 /* of one text */
+#define CS_SVG_TEXT_PATHS 64   /* of one text */
+
+typedef struct cs_svg_character {
+  uint32_t byte; /* where it begins */
+  /* NAN where the file does not give it. User units; degrees. */
+  double x, y, dx, dy, rotate;
+} cs_svg_character;
+
+typedef struct cs_svg_text_node {
+  const cs_svg_node *node; /* of kind CHARACTERS */
+  cs_svg_place place;
+  size_t begin, end; /* characters */
+} cs_svg_text_node;
+
+/* The length that characters must have: textLength. */
+typedef struct cs_svg_text_length {
+  size_t begin, end;
+  double length;
+  bool stretches_glyphs;
+} cs_svg_text_length;
+
+typedef struct cs_svg_written {
+  cs_svg_reading *reading;
+  char *bytes; /* UTF-8 */
+  size_t size, byte_capacity;
+  cs_svg_character *characters;
+  size_t count, capacity;
+  cs_svg_text_node *nodes; /* none is empty */
+  size_t node_count, node_capacity;
+  cs_svg_text_length lengths[CS_SVG_TEXT_LENGTHS]; /* inner ones first */
+  size_t length_count;
+  cs_svg_text_path paths[CS_SVG_TEXT_PATHS]; /* ascending, apart; none is empty */
+  size_t path_count;
+  bool ends_in_space; /* which collapses with what follows */
+  bool is_too_long;
+} cs_svg_written;
+
+/* place: of the element, which it was entered with. *out must be finished even after a failure.
+ * Errors: NO_MEMORY; INPUT for numbers that are unfit. */
+CELSPAN_CHECKED celspan_status cs_svg_written_read(cs_svg_reading *reading, const cs_svg_node *node,
+                                                   const cs_svg_place *place, cs_svg_written *out);
+void cs_svg_written_finish(cs_svg_written *written);
+
+#endif

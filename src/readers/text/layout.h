@@ -1,0 +1,85 @@
+/* The places of the glyphs of a text.
+ *
+ *   "Hello\nשלום 12"                      characters
+ *      | embeddings, scripts, breaks        by paragraph: what was typed as one line
+ *      | runs: one direction and script     by line
+ *      | shaping, each letter by the first font that has it
+ *      v
+ *     glyphs, from left to right            ---H---e---l---l---o---   line 1
+ *     letters: glyphs of the same text      ----1---2-----ם---ו----   line 2
+ *
+ * A letter is a user-perceived character (grapheme cluster): a character with its marks, or several
+ * as a ligature.
+ *
+ * INVARIANT: the glyphs of a letter are neighbours, and letters are in the order of their glyphs.
+ */
+#ifndef CS_TEXT_LAYOUT_H
+#define CS_TEXT_LAYOUT_H
+
+#include "readers/text/font.h"
+
+#define CS_TEXT_CHARACTERS 100000
+#define CS_TEXT_FONTS 16
+#define CS_TEXT_SETTINGS 64
+#define CS_TEXT_POINTS ((size_t)16 << 20)
+
+typedef struct cs_text_glyph {
+  cs_font *font; /* borrowed from the layout */
+  uint32_t glyph;
+  double x, y; /* its origin */
+} cs_text_glyph;
+
+typedef struct cs_text_letter {
+  uint32_t begin, end; /* characters, in the order of reading */
+  size_t glyph, glyph_count;
+  double x, y, advance; /* its left end on the baseline; its width, without tracking */
+  int32_t line;         /* from 0 */
+} cs_text_letter;
+
+/* A glyph as its font shapes it, before it is placed. */
+typedef struct cs_text_shaped {
+  cs_font *font;
+  cs_type_glyph glyph; /* characters are those of the text */
+  bool is_leftward;
+} cs_text_shaped;
+
+typedef struct cs_layout {
+  celspan_context *context;
+  const char *noun; /* for messages */
+  const celspan_text_desc *desc;
+  const cs_type_functions *type;
+  cs_font *fonts[CS_TEXT_FONTS]; /* pinned */
+  size_t font_count;
+
+  /* By character; all have room for `room` items. */
+  size_t count, room;
+  uint32_t *characters;
+  uint32_t *places; /* the byte of the text that each begins at */
+  uint32_t *scripts;
+  uint8_t *embeddings; /* in the paragraph */
+  uint8_t *directions; /* embeddings in the line that is made */
+  uint8_t *breaks;
+  double *advances; /* of the letter that begins there, tracking included; else 0 */
+
+  cs_text_shaped *shaped; /* of the line that is made, from left to right */
+  size_t shaped_count, shaped_capacity;
+  cs_text_glyph *glyphs;
+  size_t glyph_count, glyph_capacity;
+  cs_text_letter *letters;
+  size_t letter_count, letter_capacity;
+  int32_t line; /* the next one */
+} cs_layout;
+
+/* Lays out what desc says, which was not checked yet: fonts, characters, lines. The layout must be
+ * finished whatever the result is. noun: for messages. Errors: see celspan_object_create_text. */
+CELSPAN_CHECKED celspan_status cs_typeset_make(cs_layout *layout, celspan_context *context,
+                                               const char *noun, const celspan_text_desc *desc);
+void cs_typeset_finish(cs_layout *layout);
+/* Adds the lines of characters begin .. end - 1, which were typed as one line. Errors: NO_MEMORY,
+ * LIMIT; BAD_ARGUMENT for a character that no font has. */
+CELSPAN_CHECKED celspan_status cs_lines_add_paragraph(cs_layout *layout, size_t begin, size_t end);
+/* Fills layout->shaped with the glyphs of characters begin .. end - 1, which are a line, by their
+ * `directions` and scripts. Errors: as above. */
+CELSPAN_CHECKED celspan_status cs_shaping_make(cs_layout *layout, size_t begin, size_t end);
+
+#endif

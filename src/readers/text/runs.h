@@ -1,0 +1,31 @@
+/* Runs: characters of a line that have one direction and one script.
+ *
+ *   characters   a b c  D H 1 2 W  d       embeddings  0 0 0 1 1 2 2 1 0
+ *   runs         [abc] [DH] [12] [W] [d]   reordered   [abc] [W] [12] [DH] [d]
+ *
+ * Odd embeddings run to the left.
+ */
+#ifndef CS_TEXT_RUNS_H
+#define CS_TEXT_RUNS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct cs_text_run {
+  size_t begin, end; /* characters */
+  uint8_t embedding;
+} cs_text_run;
+
+/* What is known of each character of a text. */
+typedef struct cs_run_characters {
+  const uint32_t *characters, *scripts;
+  const uint8_t *embeddings;
+} cs_run_characters;
+
+/* The runs of characters begin .. end - 1, in their order; the answer is how many. A long run is
+ * cut after a space, or where there is none for long, anywhere. runs: NULL, or room for them */
+size_t cs_runs_find(const cs_run_characters *text, size_t begin, size_t end, cs_text_run *runs);
+/* Puts them into the order in which they are seen, from left to right. */
+void cs_runs_reorder(cs_text_run *runs, size_t count);
+
+#endif

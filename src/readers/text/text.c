@@ -1,0 +1,173 @@
+/* The public constructors of text: all letters as one primitive, or one primitive a letter. */
+#include <string.h>
+
+#include "model/scene/primitive_data.h"
+#include "readers/text/layout.h"
+
+struct celspan_glyphs {
+  cs_memory *memory;
+  char *text; /* a copy, which the glyphs point into */
+  size_t text_size;
+  celspan_glyph *glyphs;
+  size_t count, capacity;
+};
+
+/* ---------------------------------------------------------------- outlines */
+
+static celspan_status append_glyphs(cs_layout *layout, size_t first, size_t count,
+                                    cs_outline *outline) {
+  for (size_t i = first; i < first + count; i++) {
+    const cs_text_glyph *glyph = &layout->glyphs[i];
+    cs_font_place place = {glyph->x, glyph->y,
+                           layout->desc->size / (double)glyph->font->info.units};
+    CS_TRY(cs_font_append(layout->context, glyph->font, glyph->glyph, place, outline));
+    if (outline->point_count > CS_TEXT_POINTS)
+      return cs_fail(layout->context, CELSPAN_LIMIT,
+                     "%s: the outlines have more than %zu points; make several texts of it",
+                     layout->noun, CS_TEXT_POINTS);
+  }
+  return CELSPAN_OK;
+}
+
+/* An object of `count` glyphs from `first` on. */
+static celspan_status create_object(cs_layout *layout, size_t first, size_t count,
+                                    celspan_object **out) {
+  cs_primitive_data *data;
+  CS_TRY(cs_primitive_data_create(layout->context, CS_PRIMITIVE_DATA_OUTLINE, layout->desc->texture,
+                                  &data));
+  data->rule = CELSPAN_RULE_NONZERO;
+  celspan_status status = CELSPAN_OK;
+  cs_outline outline;
+  cs_outline_init(&outline);
+  if (layout->desc->size > 0)
+    status = append_glyphs(layout, first, count, &outline);
+  return cs_primitive_data_complete(layout->context, data, &outline, status, out);
+}
+
+celspan_status celspan_object_create_text(celspan_context *context, const celspan_text_desc *desc,
+                                          celspan_object **out) {
+  cs_layout layout;
+  celspan_status status = cs_typeset_make(&layout, context, "text", desc);
+  if (status == CELSPAN_OK)
+    status = create_object(&layout, 0, layout.glyph_count, out);
+  cs_typeset_finish(&layout);
+  return status;
+}
+
+/* ---------------------------------------------------------------- letter by letter */
+
+/* Letters in the order of reading; every letter gets its last character. order[i]: the letter that
+ * begins with character i, counted from 1; 0: none does. */
+static void end_letters(cs_layout *layout, uint32_t *order) {
+  for (size_t i = 0; i < layout->letter_count; i++)
+    order[layout->letters[i].begin] = (uint32_t)i + 1;
+  cs_text_letter *before = NULL;
+  for (size_t at = 0; at < layout->count; at++) {
+    cs_text_letter *letter = order[at] ? &layout->letters[order[at] - 1] : NULL;
+    before = letter ? letter : before;
+    bool is_end = layout->characters[at] == '\n' || layout->characters[at] == 0x2028 ||
+                  layout->characters[at] == 0x2029;
+    before = is_end ? NULL : before;
+    if (before)
+      before->end = (uint32_t)at + 1;
+  }
+}
+
+static size_t byte_of(const cs_layout *layout, size_t character) {
+  return character < layout->count ? layout->places[character] : layout->desc->text_size;
+}
+
+static celspan_status add_glyph(cs_layout *layout, const cs_text_letter *letter,
+                                celspan_glyphs *glyphs) {
+  celspan_glyph *glyph = &glyphs->glyphs[glyphs->count];
+  size_t begin = byte_of(layout, letter->begin), end = byte_of(layout, letter->end);
+  /* A "\r" before the end of a line is no character. */
+  while (end > begin && glyphs->text[end - 1] == '\r')
+    end--;
+  *glyph = (celspan_glyph){.x = letter->x,
+                           .y = letter->y,
+                           .advance = letter->advance,
+                           .text = glyphs->text + begin,
+                           .text_size = end - begin,
+                           .line = letter->line + 1};
+  CS_TRY(create_object(layout, letter->glyph, letter->glyph_count, &glyph->object));
+  glyphs->count++;
+  return CELSPAN_OK;
+}
+
+static celspan_status fill(cs_layout *layout, celspan_glyphs *glyphs) {
+  if (layout->letter_count == 0)
+    return CELSPAN_OK;
+  uint32_t *order = cs_mem_array(glyphs->memory, layout->count, sizeof *order);
+  if (!order)
+    return cs_fail_memory(layout->context);
+  end_letters(layout, order);
+  celspan_status status = CELSPAN_OK;
+  for (size_t at = 0; at < layout->count && status == CELSPAN_OK; at++)
+    if (order[at])
+      status = add_glyph(layout, &layout->letters[order[at] - 1], glyphs);
+  cs_mem_free(glyphs->memory, order, layout->count * sizeof *order);
+  return status;
+}
+
+/* Glyphs with room for `capacity` of them, and a copy of the text. */
+static celspan_status create_glyphs(celspan_context *context, const celspan_text_desc *desc,
+                                    size_t capacity, celspan_glyphs **out) {
+  celspan_glyphs *glyphs = cs_mem_array(context->memory, 1, sizeof *glyphs);
+  if (!glyphs)
+    return cs_fail_memory(context);
+  glyphs->memory = cs_memory_ref(context->memory);
+  glyphs->capacity = capacity;
+  glyphs->text_size = desc->text_size;
+  glyphs->glyphs = cs_mem_array(context->memory, capacity, sizeof *glyphs->glyphs);
+  glyphs->text = cs_mem_array(context->memory, desc->text_size, 1);
+  bool is_made = (glyphs->glyphs || capacity == 0) && (glyphs->text || desc->text_size == 0);
+  if (!is_made) {
+    celspan_glyphs_destroy(glyphs);
+    return cs_fail_memory(context);
+  }
+  if (desc->text_size > 0)
+    memcpy(glyphs->text, desc->text, desc->text_size);
+  *out = glyphs;
+  return CELSPAN_OK;
+}
+
+static celspan_status make_glyphs(cs_layout *layout, celspan_glyphs **out) {
+  celspan_glyphs *glyphs = NULL;
+  CS_TRY(create_glyphs(layout->context, layout->desc, layout->letter_count, &glyphs));
+  celspan_status status = fill(layout, glyphs);
+  if (status != CELSPAN_OK) {
+    celspan_glyphs_destroy(glyphs);
+    return status;
+  }
+  *out = glyphs;
+  return CELSPAN_OK;
+}
+
+celspan_status celspan_glyphs_create(celspan_context *context, const celspan_text_desc *desc,
+                                     celspan_glyphs **out) {
+  cs_layout layout;
+  celspan_status status = cs_typeset_make(&layout, context, "glyphs", desc);
+  if (status == CELSPAN_OK)
+    status = make_glyphs(&layout, out);
+  cs_typeset_finish(&layout);
+  return status;
+}
+
+size_t celspan_glyphs_count(const celspan_glyphs *glyphs) { return glyphs->count; }
+
+const celspan_glyph *celspan_glyphs_get(const celspan_glyphs *glyphs, size_t index) {
+  return &glyphs->glyphs[index];
+}
+
+void celspan_glyphs_destroy(celspan_glyphs *glyphs) {
+  if (!glyphs)
+    return;
+  cs_memory *memory = glyphs->memory;
+  for (size_t i = 0; i < glyphs->count; i++)
+    celspan_object_unref(glyphs->glyphs[i].object);
+  cs_mem_free(memory, glyphs->glyphs, glyphs->capacity * sizeof *glyphs->glyphs);
+  cs_mem_free(memory, glyphs->text, glyphs->text_size);
+  cs_mem_free(memory, glyphs, sizeof *glyphs);
+  cs_memory_unref(memory);
+}

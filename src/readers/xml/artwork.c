@@ -1,0 +1,65 @@
+#include "readers/xml/artwork.h"
+
+#include "base/module.h"
+
+/* What a context keeps of the module: the table, NULL until it is loaded. Two threads that load it
+ * at once get the same table. */
+typedef struct loaded_module {
+  cs_service service;
+  cs_memory *memory;
+  _Atomic(const cs_art_module *) table;
+} loaded_module;
+
+static celspan_status create(celspan_context *context, cs_service **out) {
+  loaded_module *loaded = cs_mem_array(context->memory, 1, sizeof *loaded);
+  if (!loaded)
+    return cs_fail_memory(context);
+  loaded->memory = context->memory;
+  *out = &loaded->service;
+  return CELSPAN_OK;
+}
+
+static void destroy(cs_service *service) {
+  loaded_module *loaded = (loaded_module *)service;
+  cs_mem_free(loaded->memory, loaded, sizeof *loaded);
+}
+
+static void trim(cs_service *service) { (void)service; }
+
+static const cs_service_kind loaded_kind = {create, destroy, trim};
+
+static celspan_status load(celspan_context *context, const char *purpose,
+                           const cs_art_module **out) {
+  const cs_module_desc desc = {
+      .file = "celspan-art.so",
+      .folder = "plugins/type",
+      .override = "CELSPAN_ART_MODULE",
+      .symbol = "celspan_art_module",
+      .purpose = purpose,
+#ifdef CELSPAN_WITHOUT_ART
+      .advice = "this celspan was built without expat, HarfBuzz, FriBidi and libunibreak; build it "
+                "with -Dart=enabled",
+#else
+      .advice = "install the celspan package with drawings and type",
+#endif
+      .version = CS_ART_MODULE_VERSION,
+  };
+  const void *table;
+  CS_TRY(cs_module_load(context, &desc, CELSPAN_INPUT, &table));
+  *out = table;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_artwork_module(celspan_context *context, const char *purpose,
+                                 const cs_art_module **out) {
+  cs_service *service;
+  CS_TRY(cs_context_service(context, &loaded_kind, &service));
+  loaded_module *loaded = (loaded_module *)service;
+  const cs_art_module *module = atomic_load_explicit(&loaded->table, memory_order_acquire);
+  if (!module) {
+    CS_TRY(load(context, purpose, &module));
+    atomic_store_explicit(&loaded->table, module, memory_order_release);
+  }
+  *out = module;
+  return CELSPAN_OK;
+}

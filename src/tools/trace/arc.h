@@ -1,0 +1,45 @@
+/* A line or an arc of a circle along points, by least squares of their distances.
+ *
+ *         . .-.--. .           f(p) = bend |p|^2 + across . p + offset, p from the origin:
+ *       ./         `.          0 on it, and near it the distance from it, below 0 on one side
+ *       '           '
+ *
+ * Sums over points are added to one by one, so that growing sets of points are fitted at little
+ * cost. The circle is that of Taubin ("Estimation of planar curves, surfaces, and nonplanar space
+ * curves defined by implicit equations", 1991), which stays true for arcs that are short or noisy.
+ *
+ * INVARIANT: bend is 0 for a line, and half of one divided by the radius for an arc.
+ */
+#ifndef CS_TRACE_ARC_H
+#define CS_TRACE_ARC_H
+
+#include "celspan/celspan.h"
+
+/* Sums over points, as they lie from an origin; z is x^2 + y^2. */
+typedef struct cs_arc_sums {
+  celspan_point origin;
+  double count, x, y, xx, xy, yy, xz, yz, zz;
+} cs_arc_sums;
+
+typedef struct cs_arc {
+  celspan_point origin, across;
+  double bend, offset;
+} cs_arc;
+
+static inline cs_arc_sums cs_arc_begin(celspan_point origin) {
+  return (cs_arc_sums){.origin = origin};
+}
+void cs_arc_add(cs_arc_sums *sums, celspan_point point);
+
+/* The mean of the squares of distances from the line, and from the arc, that are nearest to all. */
+double cs_arc_line_error(const cs_arc_sums *sums);
+double cs_arc_error(const cs_arc_sums *sums);
+/* The line or the arc itself, of two points or more in different places. */
+cs_arc cs_arc_of(const cs_arc_sums *sums, bool is_line);
+
+/* How far a point is from it, and in what direction that grows. */
+double cs_arc_off(const cs_arc *arc, celspan_point point, celspan_point *across);
+/* The place on it that is nearest to a point. */
+celspan_point cs_arc_nearest(const cs_arc *arc, celspan_point point);
+
+#endif

@@ -1,0 +1,45 @@
+/* Corners of a border, found in the points of its edge.
+ *
+ *      . . . . . C         where not all points about one lie on an arc they are taken apart into
+ *                 .        lines and arcs (stretches.h), of the whole of both sides; where two of
+ *       line       .       these, prolonged, intersect at an angle there is a corner
+ *                  .
+ *            line  .       points next to it, which antialiasing or whole pixels round, say little
+ *
+ * On a smooth border, however much it bends, one arc continues where the other ends.
+ */
+#ifndef CS_TRACE_CORNERS_H
+#define CS_TRACE_CORNERS_H
+
+#include "tools/trace/edge.h"
+
+/* How points are fitted. */
+typedef struct cs_fit_rules {
+  double tolerance; /* pixels between a point and what is fitted */
+  double mean;      /* and root mean square of all of them */
+  double straight;  /* pixels between a point and a line from corner to corner */
+  int about;        /* points on either side that give a tangent */
+  double turn;      /* cosine of the least angle that is a corner */
+  int near;         /* points on either side that lie on an arc where there is no corner */
+  double rounding;  /* pixels that points next to a corner are off both of its sides */
+  double noise;     /* pixels, root mean square, that points are off a smooth border */
+  bool is_exact;    /* what is fitted passes all gates: tolerance, mean and straight do not count */
+} cs_fit_rules;
+
+typedef struct cs_corner {
+  size_t at; /* the point that is nearest */
+  celspan_point point;
+} cs_corner;
+
+typedef struct cs_corner_list {
+  cs_corner *items;
+  size_t count, capacity;
+} cs_corner_list;
+
+/* The corners of points, closed or with ends, which do not count; in order. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_corners_find(celspan_context *context, const cs_points *points,
+                                               bool is_closed, const cs_fit_rules *rules,
+                                               cs_corner_list *out);
+void cs_corners_finish(celspan_context *context, cs_corner_list *corners);
+
+#endif

@@ -1,0 +1,292 @@
+#include "tools/trace/regions.h"
+
+#include <string.h>
+
+static size_t run_count(const cs_regions *regions) { return regions->rows[regions->height]; }
+
+/* ---------------------------------------------------------------- runs */
+
+/* The first x, from `x` on, at which another label begins; eight are compared at a time. */
+static int32_t end_of_run(const unsigned char *row, int32_t x, int32_t width) {
+  for (; x + 8 <= width; x += 8) {
+    uint64_t here, before;
+    memcpy(&here, row + x, sizeof here);
+    memcpy(&before, row + x - 1, sizeof before);
+    if (here != before)
+      break;
+  }
+  while (x < width && row[x] == row[x - 1])
+    x++;
+  return x;
+}
+
+/* Runs of a row; with out NULL they are only counted. */
+static size_t find_runs(const cs_labels *labels, int32_t y, cs_region_run *out) {
+  const unsigned char *row = cs_labels_at(labels, 0, y);
+  size_t count = 0;
+  for (int32_t x = 0; x < labels->width; x = end_of_run(row, x + 1, labels->width)) {
+    if (out)
+      out[count].x0 = x;
+    count++;
+  }
+  return count;
+}
+
+static celspan_status make_runs(celspan_context *context, const cs_labels *labels,
+                                cs_regions *out) {
+  out->rows = cs_mem_array(context->memory, (size_t)labels->height + 1, sizeof *out->rows);
+  if (!out->rows)
+    return cs_fail_memory(context);
+  for (int32_t y = 0; y < labels->height; y++)
+    out->rows[y + 1] = out->rows[y] + find_runs(labels, y, NULL);
+  out->runs = cs_mem_array(context->memory, run_count(out), sizeof *out->runs);
+  if (!out->runs)
+    return cs_fail_memory(context);
+  for (int32_t y = 0; y < labels->height; y++)
+    find_runs(labels, y, out->runs + out->rows[y]);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- what hangs together */
+
+/* While regions are made, a run's region is another run of it, or itself for the first one. */
+static uint32_t first_of(cs_region_run *runs, uint32_t run) {
+  while (runs[run].region != run) {
+    runs[run].region = runs[runs[run].region].region;
+    run = runs[run].region;
+  }
+  return run;
+}
+
+static void unite(cs_region_run *runs, uint32_t a, uint32_t b) {
+  a = first_of(runs, a);
+  b = first_of(runs, b);
+  if (a < b)
+    runs[b].region = a;
+  else
+    runs[a].region = b;
+}
+
+typedef struct maker {
+  const cs_material *material;
+  cs_regions *regions;
+  cs_corners corners;
+} maker;
+
+/* Whether a run of row y - 1 and one of row y, of the same label, hang together. */
+static bool are_joined(const maker *m, int32_t y, size_t upper, size_t lower) {
+  int32_t upper_end = cs_regions_end(m->regions, y - 1, upper);
+  int32_t lower_end = cs_regions_end(m->regions, y, lower);
+  int32_t upper_x0 = m->regions->runs[upper].x0, lower_x0 = m->regions->runs[lower].x0;
+  if (upper_x0 < lower_end && lower_x0 < upper_end)
+    return true;
+  if (m->corners == CS_CORNERS_JOIN)
+    return true;
+  return upper_end == lower_x0 ? cs_material_join(m->material, lower_x0, y) == CS_JOIN_NW_SE
+                               : cs_material_join(m->material, upper_x0, y) == CS_JOIN_NE_SW;
+}
+
+static unsigned char label_of(const maker *m, int32_t y, size_t run) {
+  return *cs_labels_at(m->material->labels, m->regions->runs[run].x0, y);
+}
+
+/* Both rows from left to right; runs that touch by their corners count as neighbours too. */
+static void join_rows(const maker *m, int32_t y) {
+  const cs_regions *regions = m->regions;
+  size_t upper = regions->rows[y - 1], lower = regions->rows[y];
+  size_t upper_last = lower, lower_last = regions->rows[y + 1];
+  while (upper < upper_last && lower < lower_last) {
+    int32_t upper_end = cs_regions_end(regions, y - 1, upper);
+    int32_t lower_end = cs_regions_end(regions, y, lower);
+    if (label_of(m, y - 1, upper) == label_of(m, y, lower) && are_joined(m, y, upper, lower))
+      unite(regions->runs, (uint32_t)upper, (uint32_t)lower);
+    /* where both end in one corner, each touches the other's next run there */
+    if (upper_end == lower_end) {
+      if (upper + 1 < upper_last && label_of(m, y - 1, upper + 1) == label_of(m, y, lower) &&
+          are_joined(m, y, upper + 1, lower))
+        unite(regions->runs, (uint32_t)upper + 1, (uint32_t)lower);
+      if (lower + 1 < lower_last && label_of(m, y - 1, upper) == label_of(m, y, lower + 1) &&
+          are_joined(m, y, upper, lower + 1))
+        unite(regions->runs, (uint32_t)upper, (uint32_t)lower + 1);
+    }
+    upper += upper_end <= lower_end;
+    lower += lower_end <= upper_end;
+  }
+}
+
+/* ---------------------------------------------------------------- numbers */
+
+static size_t count_regions(const cs_regions *regions) {
+  size_t count = 0;
+  for (size_t i = 0; i < run_count(regions); i++)
+    count += regions->runs[i].region == i;
+  return count;
+}
+
+/* Runs come in the order of pixels, and what a run refers to comes before it. */
+static void number_regions(const cs_labels *labels, cs_regions *regions) {
+  for (int32_t y = 0; y < regions->height; y++)
+    for (size_t i = regions->rows[y]; i < regions->rows[y + 1]; i++) {
+      cs_region_run *run = &regions->runs[i];
+      if (run->region == i) {
+        run->region = (uint32_t)regions->count;
+        regions->list[regions->count++] =
+            (cs_region){run->x0, y, 0, *cs_labels_at(labels, run->x0, y)};
+      } else {
+        run->region = regions->runs[run->region].region;
+      }
+      regions->list[run->region].area += (uint32_t)(cs_regions_end(regions, y, i) - run->x0);
+    }
+}
+
+static celspan_status make(celspan_context *context, const cs_material *material,
+                           cs_corners corners, cs_regions *out) {
+  CS_TRY(make_runs(context, material->labels, out));
+  const maker m = {material, out, corners};
+  for (size_t i = 0; i < run_count(out); i++)
+    out->runs[i].region = (uint32_t)i;
+  for (int32_t y = 1; y < out->height; y++)
+    join_rows(&m, y);
+  out->list = cs_mem_array(context->memory, count_regions(out), sizeof *out->list);
+  if (!out->list)
+    return cs_fail_memory(context);
+  number_regions(material->labels, out);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_regions_make(celspan_context *context, const cs_material *material,
+                               cs_corners corners, cs_regions *out) {
+  *out = (cs_regions){.width = material->labels->width, .height = material->labels->height};
+  celspan_status status = make(context, material, corners, out);
+  if (status != CELSPAN_OK)
+    cs_regions_finish(out, context);
+  return status;
+}
+
+void cs_regions_finish(cs_regions *regions, celspan_context *context) {
+  cs_memory *memory = context->memory;
+  cs_mem_free(memory, regions->list, regions->count * sizeof *regions->list);
+  if (regions->runs) /* otherwise there may be no rows, which hold the count */
+    cs_mem_free(memory, regions->runs, run_count(regions) * sizeof *regions->runs);
+  cs_mem_free(memory, regions->rows, ((size_t)regions->height + 1) * sizeof *regions->rows);
+  *regions = (cs_regions){.rows = NULL};
+}
+
+/* The last run of the row that begins at x or before. */
+uint32_t cs_regions_at(const cs_regions *regions, int32_t x, int32_t y) {
+  if (x < 0 || y < 0 || x >= regions->width || y >= regions->height)
+    return CS_REGION_OUTSIDE;
+  size_t low = regions->rows[y], high = regions->rows[y + 1];
+  while (high - low > 1) {
+    size_t middle = low + (high - low) / 2;
+    if (regions->runs[middle].x0 <= x)
+      low = middle;
+    else
+      high = middle;
+  }
+  return regions->runs[low].region;
+}
+
+/* ---------------------------------------------------------------- speckles */
+
+/* How often what is left is tried again. */
+#define ROUNDS 8
+#define NO_RUN UINT32_MAX
+
+typedef struct sweeper {
+  const cs_material *material;
+  cs_regions regions;
+  uint32_t most;
+  uint32_t *first, *next; /* a region's runs as a list: by region, by run */
+  int32_t *run_rows;      /* by run */
+} sweeper;
+
+static bool is_speckle(const sweeper *s, uint32_t region) {
+  return s->regions.list[region].area <= s->most;
+}
+
+static void list_runs(sweeper *s) {
+  for (size_t i = 0; i < s->regions.count; i++)
+    s->first[i] = NO_RUN;
+  for (int32_t y = 0; y < s->regions.height; y++)
+    for (size_t i = s->regions.rows[y]; i < s->regions.rows[y + 1]; i++) {
+      uint32_t *first = &s->first[s->regions.runs[i].region];
+      s->run_rows[i] = y;
+      s->next[i] = *first;
+      *first = (uint32_t)i;
+    }
+}
+
+static void vote(const sweeper *s, int32_t x, int32_t y, uint32_t votes[256]) {
+  uint32_t region = cs_regions_at(&s->regions, x, y);
+  if (region != CS_REGION_OUTSIDE && !is_speckle(s, region))
+    votes[s->regions.list[region].label]++;
+}
+
+/* The label of most of its border, the first of those; its own where it borders on speckles
+ * alone. */
+static unsigned char neighbour(const sweeper *s, uint32_t region) {
+  uint32_t votes[256] = {0};
+  for (uint32_t run = s->first[region]; run != NO_RUN; run = s->next[run]) {
+    int32_t y = s->run_rows[run], end = cs_regions_end(&s->regions, y, run);
+    vote(s, s->regions.runs[run].x0 - 1, y, votes);
+    vote(s, end, y, votes);
+    for (int32_t x = s->regions.runs[run].x0; x < end; x++) {
+      vote(s, x, y - 1, votes);
+      vote(s, x, y + 1, votes);
+    }
+  }
+  unsigned char best = s->regions.list[region].label;
+  for (int label = 255; label >= 0; label--)
+    if (votes[label] > 0 && votes[label] >= votes[best])
+      best = (unsigned char)label;
+  return best;
+}
+
+static void relabel(const sweeper *s, uint32_t region, unsigned char label) {
+  for (uint32_t run = s->first[region]; run != NO_RUN; run = s->next[run]) {
+    int32_t x0 = s->regions.runs[run].x0, y = s->run_rows[run];
+    memset(cs_labels_at(s->material->labels, x0, y), label,
+           (size_t)(cs_regions_end(&s->regions, y, run) - x0));
+  }
+}
+
+/* A speckle is relabelled from its non-speckle neighbours only; these do not change during a pass,
+ * so the order does not matter. */
+static bool drop_once(sweeper *s) {
+  bool has_changed = false;
+  list_runs(s);
+  for (uint32_t i = 0; i < s->regions.count; i++) {
+    unsigned char label = is_speckle(s, i) ? neighbour(s, i) : s->regions.list[i].label;
+    if (label == s->regions.list[i].label)
+      continue;
+    relabel(s, i, label);
+    has_changed = true;
+  }
+  return has_changed;
+}
+
+static celspan_status drop_round(celspan_context *context, sweeper *s, bool *has_changed) {
+  cs_memory *memory = context->memory;
+  CS_TRY(cs_regions_make(context, s->material, CS_CORNERS_JOIN, &s->regions));
+  size_t runs = s->regions.rows[s->regions.height], regions = s->regions.count;
+  s->first = cs_mem_array(memory, regions, sizeof *s->first);
+  s->next = cs_mem_array(memory, runs, sizeof *s->next);
+  s->run_rows = cs_mem_array(memory, runs, sizeof *s->run_rows);
+  bool is_made = s->first && s->next && s->run_rows;
+  *has_changed = is_made && drop_once(s);
+  cs_mem_free(memory, s->first, regions * sizeof *s->first);
+  cs_mem_free(memory, s->next, runs * sizeof *s->next);
+  cs_mem_free(memory, s->run_rows, runs * sizeof *s->run_rows);
+  cs_regions_finish(&s->regions, context);
+  return is_made ? CELSPAN_OK : cs_fail_memory(context);
+}
+
+celspan_status cs_speckles_drop(celspan_context *context, const cs_material *material,
+                                uint32_t most) {
+  sweeper s = {.material = material, .most = most};
+  bool has_changed = most > 0;
+  for (int round = 0; round < ROUNDS && has_changed; round++)
+    CS_TRY(drop_round(context, &s, &has_changed));
+  return CELSPAN_OK;
+}

@@ -1,0 +1,63 @@
+/* Pixels of one label that hang together: regions, kept as runs of rows.
+ *
+ *      row 0   |0 0 0|1 1 1 1|0 0|        runs: x0 and the region, to the x0 of the next
+ *      row 1   |0 0|1 1 1 1 1 1|0|
+ *
+ * INVARIANT: regions are numbered in the order of their first pixels, from the top left. Pixels
+ * hang together by their sides, and by their corners as the caller says.
+ */
+#ifndef CS_TRACE_REGIONS_H
+#define CS_TRACE_REGIONS_H
+
+#include "tools/trace/labels.h"
+
+#define CS_REGION_OUTSIDE UINT32_MAX
+
+typedef enum cs_corners {
+  CS_CORNERS_JOIN,      /* all */
+  CS_CORNERS_AS_BORDERS /* those that cs_material_join names */
+} cs_corners;
+
+typedef struct cs_region_run {
+  int32_t x0;
+  uint32_t region;
+} cs_region_run;
+
+typedef struct cs_region {
+  int32_t x, y; /* its first pixel */
+  uint32_t area;
+  unsigned char label;
+} cs_region;
+
+typedef struct cs_regions {
+  int32_t width, height;
+  size_t *rows; /* height + 1: where the runs of each row begin */
+  cs_region_run *runs;
+  cs_region *list;
+  size_t count;
+} cs_regions;
+
+/* Errors: NO_MEMORY. On failure there is nothing to finish. */
+CELSPAN_CHECKED celspan_status cs_regions_make(celspan_context *context,
+                                               const cs_material *material, cs_corners corners,
+                                               cs_regions *out);
+void cs_regions_finish(cs_regions *regions, celspan_context *context);
+/* The region of a pixel; CS_REGION_OUTSIDE beyond the picture. */
+uint32_t cs_regions_at(const cs_regions *regions, int32_t x, int32_t y);
+/* Where a run of row y ends. */
+static inline int32_t cs_regions_end(const cs_regions *regions, int32_t y, size_t run) {
+  return run + 1 < regions->rows[y + 1] ? regions->runs[run + 1].x0 : regions->width;
+}
+
+/* Speckles: regions of few pixels, which get the label of what they border on most.
+ *
+ * INVARIANT: only labels of speckles change. A speckle whose neighbours are all speckles stays
+ * until one of them is not a speckle any more; where everything is speckled nothing changes.
+ */
+
+/* Drops regions of at most `most` pixels, which hang together by sides or corners. Errors:
+ * NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_speckles_drop(celspan_context *context,
+                                                const cs_material *material, uint32_t most);
+
+#endif

@@ -1,0 +1,68 @@
+/* Regions thinned to lines of single pixels.
+ *
+ *      . # # # # # .         . . . . . . .       each colour by itself, from all sides at once, as
+ *      . # # # # # .   -->   . . # # # . .       long as it hangs together and has its ends
+ *      . # # # # # .         . . . . . . .
+ *
+ * Zhang and Suen, "A fast parallel algorithm for thinning digital patterns", 1984; but no pixel
+ * goes that, of those that are left when its turn comes, holds others together: so nothing
+ * vanishes.
+ *
+ * INVARIANT: a pixel that is left can not be taken away without taking a line apart or shortening
+ * it.
+ */
+#ifndef CS_TRACE_THINNING_H
+#define CS_TRACE_THINNING_H
+
+#include "tools/trace/labels.h"
+
+/* A plane of pixels with a rim of one pixel, like labels: 1 + label, 0: not drawn. */
+typedef struct cs_thin {
+  int32_t width, height;
+  size_t stride;
+  unsigned char *plane;
+  uint16_t *depths; /* thirds of a pixel to what is not drawn, before thinning */
+} cs_thin;
+
+/* The neighbours of a pixel, clockwise from the one above, as offsets into the plane. */
+void cs_thin_offsets(const cs_thin *thin, ptrdiff_t offsets[8]);
+
+/* ground: the label that is not drawn, nor is nothing. Errors: NO_MEMORY. On failure there is
+ * nothing to finish. */
+CELSPAN_CHECKED celspan_status cs_thin_make(celspan_context *context, const cs_material *material,
+                                            unsigned char ground, cs_thin *out);
+/* Takes away pixels at which lines turn by a side where they could go by a corner, from the places
+ * in the list. */
+void cs_thin_tidy(cs_thin *thin, const uint32_t *places, size_t count);
+void cs_thin_finish(cs_thin *thin, celspan_context *context);
+
+/* The graph of thinned lines: branches of pixels from end or fork to end or fork, or around.
+ *
+ *      o                     o: ends     f: forks, with three neighbours or more
+ *       \      .--o         a branch that ends within the width of the line that it leaves is
+ *        .--f--.             a spur of thinning, and goes
+ *           |
+ *           o
+ *
+ * INVARIANT: every pixel of a thinned line is in one branch, but forks, which are at the end of
+ * several.
+ */
+
+typedef struct cs_branch {
+  size_t first, count; /* places in the plane of thinned lines */
+  bool is_closed;
+} cs_branch;
+
+typedef struct cs_branches {
+  cs_branch *list;
+  size_t count, capacity;
+  uint32_t *places;
+  size_t place_count, place_capacity;
+} cs_branches;
+
+/* Errors: NO_MEMORY. To be finished, whatever happens. */
+CELSPAN_CHECKED celspan_status cs_branches_find(celspan_context *context, cs_thin *thin,
+                                                cs_branches *out);
+void cs_branches_finish(cs_branches *branches, celspan_context *context);
+
+#endif

@@ -1,0 +1,363 @@
+/* Tracing, from the picture to its shapes:
+ *
+ *   picture --scan--> codes --colours--> a few --labels--> one a pixel --speckles--> fewer
+ *     --regions, borders--> graph --curves--> lines and cubics --shapes--> paths, objects
+ *                              \--lines--> centre lines and widths --> strokes
+ */
+#include <string.h>
+
+#include "base/sort.h"
+#include "tools/trace/borders.h"
+#include "tools/trace/colours.h"
+#include "tools/trace/curves.h"
+#include "tools/trace/lines.h"
+#include "tools/trace/regions.h"
+#include "tools/trace/result.h"
+#include "tools/trace/text.h"
+
+/* ---------------------------------------------------------------- shapes */
+
+/* Regions as shapes: closed paths, each made of the chains around its region.
+ *
+ *     +-------A-------+       region 1: A, then back along B
+ *     |   1   |       |       region 2: B, then C
+ *     +---+   B   2   C       B is the same curve in both, in opposite directions: so nothing shows
+ *         |   |       |       through between them
+ *     +---+---+-------+
+ *
+ * INVARIANT: every chain is in two paths, once in each direction, except the picture's rim, which
+ * is in one. So at every point of the picture the winding numbers of all paths add up to 1,
+ * wherever the curves run, even across each other: some path is always there, and no light leaks
+ * between.
+ */
+
+typedef struct maker {
+  celspan_context *context;
+  const cs_material *material;
+  const cs_regions *regions;
+  const cs_borders *borders;
+  const cs_curves *curves;
+  cs_way *first;       /* by region: its first way */
+  cs_way *next;        /* by way: another one around the same region */
+  unsigned char *used; /* by way: it is in a path */
+} maker;
+
+/* ---------------------------------------------------------------- ways around a region */
+
+static uint32_t region_left_of(const cs_borders *borders, cs_way way) {
+  const cs_chain *chain = &borders->chains[way / 2];
+  return way % 2 == 0 ? chain->left : chain->right;
+}
+
+static void list_ways(const maker *m) {
+  for (size_t i = 0; i < m->regions->count; i++)
+    m->first[i] = CS_WAY_NONE;
+  for (size_t i = 2 * m->borders->chain_count; i-- > 0;) {
+    uint32_t region = region_left_of(m->borders, (cs_way)i);
+    if (region == CS_REGION_OUTSIDE)
+      continue;
+    m->next[i] = m->first[region];
+    m->first[region] = (cs_way)i;
+  }
+}
+
+/* The chain that continues around the region on the left: the sharpest turn to the left. */
+static cs_way go_on(const cs_borders *borders, cs_way way) {
+  const cs_chain *chain = &borders->chains[way / 2];
+  bool is_back = way % 2 == 1;
+  uint32_t end = is_back ? chain->from : chain->to;
+  if (end == CS_NODE_NONE)
+    return way;
+  int direction = is_back ? (borders->directions[chain->first] + 2) % 4
+                          : borders->directions[chain->first + chain->count - 1];
+  static const int turns[] = {3, 0, 1, 2};
+  for (size_t i = 0; i < sizeof turns / sizeof *turns; i++) {
+    cs_way next = borders->nodes[end].out[(direction + turns[i]) % 4];
+    if (next != CS_WAY_NONE)
+      return next;
+  }
+  return way;
+}
+
+/* ---------------------------------------------------------------- paths */
+
+static celspan_point start_of(const maker *m, cs_way way) {
+  const cs_trace_curve *curve = &m->curves->list[way / 2];
+  const cs_piece *pieces = m->curves->pieces.items + curve->first;
+  return way % 2 == 0 || curve->count == 0 ? curve->start : pieces[curve->count - 1].to;
+}
+
+static celspan_status draw_way(const maker *m, cs_writing *path, cs_way way) {
+  const cs_trace_curve *curve = &m->curves->list[way / 2];
+  const cs_piece *pieces = m->curves->pieces.items + curve->first;
+  bool is_back = way % 2 == 1;
+  for (size_t i = 0; i < curve->count; i++) {
+    size_t at = is_back ? curve->count - 1 - i : i;
+    celspan_point to = !is_back ? pieces[at].to : at > 0 ? pieces[at - 1].to : curve->start;
+    CS_TRY(cs_pieces_draw(m->context, path, &pieces[at], to, is_back));
+  }
+  return CELSPAN_OK;
+}
+
+/* Around, from one way until it comes again. */
+static celspan_status draw_around(const maker *m, cs_writing *path, cs_way begun) {
+  celspan_point start = start_of(m, begun);
+  CS_TRY(cs_writing_draw(m->context, path, 'M', &start, 1));
+  cs_way way = begun;
+  do {
+    m->used[way] = 1;
+    CS_TRY(draw_way(m, path, way));
+    way = go_on(m->borders, way);
+  } while (way != begun && !m->used[way]);
+  return cs_writing_add(m->context, path, "Z");
+}
+
+static celspan_status draw_region(const maker *m, cs_writing *path, uint32_t region) {
+  for (cs_way way = m->first[region]; way != CS_WAY_NONE; way = m->next[way])
+    if (!m->used[way])
+      CS_TRY(draw_around(m, path, way));
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- shapes */
+
+static celspan_status add_shape(const maker *m, uint32_t region, celspan_trace *out) {
+  const cs_region *from = &m->regions->list[region];
+  const cs_flat_colour *colour = &m->material->colours->list[from->label];
+  cs_shape shape = {.x = from->x, .y = from->y, .area = from->area};
+  cs_writing path = {.bytes = NULL};
+  memcpy(shape.colour, colour->code, sizeof shape.colour);
+  celspan_status status = draw_region(m, &path, region);
+  if (status != CELSPAN_OK) {
+    cs_writing_finish(m->context, &path);
+    return status;
+  }
+  shape.data = path.bytes;
+  shape.data_size = path.capacity;
+  return cs_result_add(m->context, out, &shape);
+}
+
+typedef struct place {
+  uint32_t region, area;
+} place;
+
+static inline bool is_before(const place *a, const place *b) {
+  return a->area != b->area ? a->area > b->area : a->region < b->region;
+}
+CS_SORT_DEFINE(sort_places, place, is_before)
+
+static celspan_status add_shapes(const maker *m, place *order, celspan_trace *out) {
+  size_t count = 0;
+  list_ways(m);
+  for (uint32_t i = 0; i < m->regions->count; i++)
+    if (m->regions->list[i].label < m->material->colours->count)
+      order[count++] = (place){i, m->regions->list[i].area};
+  sort_places(order, count);
+  for (size_t i = 0; i < count; i++)
+    CS_TRY(add_shape(m, order[i].region, out));
+  return CELSPAN_OK;
+}
+
+/* Adds a shape for each region that has a colour, the largest first. Errors: NO_MEMORY, LIMIT. */
+static CELSPAN_CHECKED celspan_status make_shapes(celspan_context *context,
+                                                  const cs_material *material,
+                                                  const cs_regions *regions,
+                                                  const cs_borders *borders,
+                                                  const cs_curves *curves, celspan_trace *out) {
+  cs_memory *memory = context->memory;
+  size_t ways = 2 * borders->chain_count;
+  maker m = {context, material, regions, borders, curves, NULL, NULL, NULL};
+  m.first = cs_mem_array(memory, regions->count, sizeof *m.first);
+  m.next = cs_mem_array(memory, ways, sizeof *m.next);
+  m.used = cs_mem_array(memory, ways, 1);
+  place *order = cs_mem_array(memory, regions->count, sizeof *order);
+  celspan_status status =
+      m.first && m.next && m.used && order ? add_shapes(&m, order, out) : cs_fail_memory(context);
+  cs_mem_free(memory, m.first, regions->count * sizeof *m.first);
+  cs_mem_free(memory, m.next, ways * sizeof *m.next);
+  cs_mem_free(memory, m.used, ways);
+  cs_mem_free(memory, order, regions->count * sizeof *order);
+  return status;
+}
+
+#define SMOOTH_MOST 16
+
+/* ---------------------------------------------------------------- objects */
+
+static celspan_status make_texture(celspan_context *context, const unsigned char code[3],
+                                   celspan_texture **out) {
+  celspan_paint paint =
+      celspan_paint_rgb(cs_transfer_decode(CELSPAN_TRANSFER_SRGB, (float)code[0] / 255.0f),
+                        cs_transfer_decode(CELSPAN_TRANSFER_SRGB, (float)code[1] / 255.0f),
+                        cs_transfer_decode(CELSPAN_TRANSFER_SRGB, (float)code[2] / 255.0f), 1);
+  return celspan_texture_create_paint(context, &paint, out);
+}
+
+static celspan_status make_object(celspan_context *context, cs_shape *shape) {
+  celspan_texture *texture;
+  celspan_status status;
+  CS_TRY(make_texture(context, shape->colour, &texture));
+  if (shape->data) {
+    const celspan_path_desc path = {.data = shape->data, .texture = texture};
+    status = celspan_object_create_path(context, &path, &shape->object);
+  } else {
+    celspan_stroke_desc stroke = cs_lines_stroke(shape);
+    stroke.texture = texture;
+    status = celspan_object_create_stroke(context, &stroke, &shape->object);
+  }
+  celspan_texture_unref(texture);
+  return status;
+}
+
+/* The union of all shapes. */
+static celspan_status unite(celspan_context *context, celspan_trace *trace) {
+  celspan_object **objects = cs_mem_array(context->memory, trace->count + 1, sizeof *objects);
+  if (!objects)
+    return cs_fail_memory(context);
+  for (size_t i = 0; i < trace->count; i++)
+    objects[i] = trace->shapes[i].object;
+  celspan_status status =
+      celspan_object_create_boolean(context, CELSPAN_UNION, objects, trace->count, &trace->object);
+  cs_mem_free(context->memory, objects, (trace->count + 1) * sizeof *objects);
+  return status;
+}
+
+static celspan_status make_objects(celspan_context *context, celspan_trace *trace) {
+  for (size_t i = 0; i < trace->count; i++)
+    CS_TRY(make_object(context, &trace->shapes[i]));
+  return unite(context, trace);
+}
+
+/* ---------------------------------------------------------------- tracing */
+
+static celspan_status outline_regions(celspan_context *context, const celspan_trace_desc *desc,
+                                      const cs_material *given, const cs_regions *regions,
+                                      celspan_trace *out) {
+  cs_material told = *given;
+  const cs_material *material = &told;
+  told.is_whole = cs_edge_is_whole(given, regions);
+  cs_borders borders;
+  cs_curves curves = {.list = NULL};
+  celspan_status status = cs_borders_make(context, material, regions, &borders);
+  if (status == CELSPAN_OK)
+    status = cs_curves_make(context, material, &borders, desc->smooth, &curves);
+  if (status == CELSPAN_OK)
+    status = make_shapes(context, material, regions, &borders, &curves, out);
+  cs_curves_finish(&curves, context);
+  cs_borders_finish(&borders, context);
+  return status;
+}
+
+static celspan_status trace_regions(celspan_context *context, const celspan_trace_desc *desc,
+                                    const cs_material *material, celspan_trace *out) {
+  cs_regions regions;
+  CS_TRY(cs_speckles_drop(context, material, (uint32_t)desc->speckle));
+  CS_TRY(cs_regions_make(context, material, CS_CORNERS_AS_BORDERS, &regions));
+  celspan_status status = desc->lines
+                              ? cs_lines_make(context, material, &regions, desc->smooth, out)
+                              : outline_regions(context, desc, material, &regions, out);
+  cs_regions_finish(&regions, context);
+  return status;
+}
+
+static celspan_status trace_scan(celspan_context *context, const celspan_trace_desc *desc,
+                                 const cs_scan *scan, celspan_trace *out) {
+  cs_colours colours;
+  cs_labels labels;
+  out->width = scan->width;
+  out->height = scan->height;
+  CS_TRY(desc->codes ? cs_colours_take(context, scan, desc->codes, (size_t)desc->colours, &colours)
+                     : cs_colours_find(context, scan, (size_t)desc->colours, &colours));
+  CS_TRY(cs_labels_make(context, scan, &colours, &labels));
+  const cs_material material = {scan, &colours, &labels, false};
+  celspan_status status = trace_regions(context, desc, &material, out);
+  cs_labels_finish(&labels, context);
+  return status;
+}
+
+static celspan_status trace_picture(celspan_context *context, const celspan_trace_desc *desc,
+                                    celspan_trace *out) {
+  cs_picture *picture;
+  cs_scan scan;
+  CS_TRY(cs_picture_create(context, &desc->picture, &picture));
+  celspan_status status = cs_scan_read(context, picture, &scan);
+  if (status == CELSPAN_OK) {
+    status = trace_scan(context, desc, &scan, out);
+    cs_scan_finish(&scan, context);
+  }
+  cs_picture_unref(picture);
+  return status;
+}
+
+static celspan_status check(celspan_context *context, const celspan_trace_desc *desc) {
+  if (desc->struct_size != sizeof *desc)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "trace: struct_size is not that of the header");
+  if (desc->colours < 1 || desc->colours > CS_COLOURS_MOST)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "trace: colours must be 1 to %d, got %d",
+                   CS_COLOURS_MOST, desc->colours);
+  if (!(desc->smooth >= 0 && desc->smooth <= SMOOTH_MOST))
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "trace: smooth must be 0 to %d, got %g",
+                   SMOOTH_MOST, desc->smooth);
+  if (desc->speckle < 0)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "trace: speckle must be 0 or more, got %d",
+                   desc->speckle);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_result_make(celspan_context *context, const celspan_trace_desc *desc,
+                              celspan_trace **out) {
+  CS_TRY(check(context, desc));
+  celspan_trace *trace = cs_mem_array(context->memory, 1, sizeof *trace);
+  if (!trace)
+    return cs_fail_memory(context);
+  trace->references = 1;
+  trace->memory = cs_memory_ref(context->memory);
+  celspan_status status = trace_picture(context, desc, trace);
+  if (status == CELSPAN_OK)
+    *out = trace;
+  else
+    celspan_trace_unref(trace);
+  return status;
+}
+
+celspan_status celspan_trace_create(celspan_context *context, const celspan_trace_desc *desc,
+                                    celspan_trace **out) {
+  celspan_trace *trace;
+  CS_TRY(cs_result_make(context, desc, &trace));
+  celspan_status status = make_objects(context, trace);
+  if (status == CELSPAN_OK)
+    *out = trace;
+  else
+    celspan_trace_unref(trace);
+  return status;
+}
+
+/* ---------------------------------------------------------------- facts */
+
+void celspan_trace_size(const celspan_trace *trace, int32_t *width, int32_t *height) {
+  *width = trace->width;
+  *height = trace->height;
+}
+
+celspan_object *celspan_trace_object(const celspan_trace *trace) { return trace->object; }
+
+size_t celspan_trace_shape_count(const celspan_trace *trace) { return trace->count; }
+
+bool celspan_trace_shape_at(const celspan_trace *trace, size_t index, celspan_trace_shape *out) {
+  if (index >= trace->count)
+    return false;
+  const cs_shape *shape = &trace->shapes[index];
+  *out = (celspan_trace_shape){
+      .object = shape->object,
+      .colour = {shape->colour[0], shape->colour[1], shape->colour[2]},
+      .area = shape->area,
+      .x = shape->x,
+      .y = shape->y,
+      .data = shape->data,
+      .points = shape->points,
+      .widths = shape->widths,
+      .point_count = shape->point_count,
+      .is_closed = shape->is_closed,
+  };
+  return true;
+}

@@ -1,0 +1,49 @@
+/* A square of pixels that is found again in another picture (Lucas and Kanade 1981, in the inverse
+ * form of Baker and Matthews 2004).
+ *
+ *      the first picture               another one            the square is turned, scaled and
+ *     +-------------------+       +-------------------+       skewed as the motion says; what is
+ *     |    +---+          |       |         /\        |       sought is its middle, so that its
+ *     |    | + |          |  ->   |        / +\/      |       pixels are most alike, brighter or
+ *     |    +---+          |       |        \  /       |       darker, of more or less contrast
+ *     |                   |       |         \/        |
+ *     +-------------------+       +-------------------+
+ */
+#ifndef CS_TRACK_PATCH_H
+#define CS_TRACK_PATCH_H
+
+#include "tools/track/plane.h"
+
+enum {
+  CS_PATCH_RADIUS = 9,
+  CS_PATCH_SIDE = 2 * CS_PATCH_RADIUS + 1,
+  CS_PATCH_COUNT = CS_PATCH_SIDE * CS_PATCH_SIDE
+};
+
+/* Where the pixel (u, v) of a patch lies, counted from its middle: (x + a u + b v, y + c u + d
+ * v). */
+typedef struct cs_patch_place {
+  double x, y, a, b, c, d;
+} cs_patch_place;
+
+typedef struct cs_patch {
+  float value[CS_PATCH_COUNT];   /* with a mean of 0 */
+  float slope_x[CS_PATCH_COUNT]; /* by a pixel of the patch */
+  float slope_y[CS_PATCH_COUNT];
+  double inverse[3]; /* xx, xy, yy of the inverse of the sum of slope times slope */
+  double deviation;  /* of the values */
+} cs_patch;
+
+/* False where the patch is not wholly in the picture, or has no texture in one direction. */
+bool cs_patch_take(const cs_plane *plane, const cs_patch_place *place, cs_patch *out);
+/* Moves the middle of `place` to where the patch is found; likeness: the correlation there, -1..1.
+ * False where it leaves the picture or does not settle. */
+bool cs_patch_find(const cs_patch *patch, const cs_plane *plane, cs_patch_place *place,
+                   double *likeness);
+
+/* The same from afar: tries the middle at all whole offsets up to `radius` pixels, and moves it to
+ * the one where the pixels are most alike. likeness: there; -1 where none is in the picture. */
+void cs_patch_search(const cs_patch *patch, const cs_plane *plane, int radius,
+                     cs_patch_place *place, double *likeness);
+
+#endif

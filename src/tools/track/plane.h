@@ -1,0 +1,70 @@
+/* Grey pictures at halved sizes, for following what moves in them.
+ *
+ *   level 0   +---+---+---+---+    pixel i is centred at x = i; all places here are of that kind
+ *             | 0 | 1 | 2 | 3 |
+ *             +---+---+---+---+
+ *   level 1   |   0   |   1   |    its pixel i lies over pixels 2 i and 2 i + 1: x' = (x - 0.5) / 2
+ *             +-------+-------+
+ *
+ * A level is the one before it, smoothed by the binomial weights 1 3 3 1 in both directions.
+ */
+#ifndef CS_TRACK_PLANE_H
+#define CS_TRACK_PLANE_H
+
+#include "base/context.h"
+
+enum { CS_PLANE_LEVELS = 6 };
+
+typedef struct cs_plane {
+  int32_t width, height;
+  float *values; /* rows from top to bottom, `width` each */
+} cs_plane;
+
+typedef struct cs_plane_levels {
+  cs_memory *memory;
+  int32_t count; /* of levels */
+  cs_plane levels[CS_PLANE_LEVELS];
+} cs_plane_levels;
+
+/* values: width x height, copied. count: of levels that are wanted; there are fewer where one would
+ * be narrower than 16 pixels. out: new, for cs_plane_levels_finish. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_plane_levels_make(celspan_context *context, const float *values,
+                                                    int32_t width, int32_t height, int32_t count,
+                                                    cs_plane_levels *out);
+void cs_plane_levels_finish(cs_plane_levels *planes); /* also one of zeros */
+
+/* A place of level 0 on a level, and the other way. */
+static inline double cs_plane_down(double at, int32_t level) {
+  double scale = 1.0 / (double)(1 << level);
+  return (at + 0.5) * scale - 0.5;
+}
+static inline double cs_plane_up(double at, int32_t level) {
+  double scale = (double)(1 << level);
+  return (at + 0.5) * scale - 0.5;
+}
+
+/* Where in a region a picture can be held on to: pixels around which its slopes go in two
+ * directions (Shi and Tomasi 1994).
+ *
+ *     flat          edge          corner
+ *    . . . .       . . # #       . . . .      The smaller eigenvalue of the sum of slope times
+ *    . . . .       . . # #       . . # #      slope over a square is large at corners alone.
+ *    . . . .       . . # #       . . # #
+ */
+
+enum { CS_FEATURES_MOST = 240 };
+
+/* Pixels [x0, x1) x [y0, y1), and of these where mask (one byte a pixel of the picture) is not 0.
+ * mask NULL: all. */
+typedef struct cs_features_region {
+  int32_t x0, y0, x1, y1;
+  const uint8_t *mask;
+} cs_features_region;
+
+/* The strongest corners, spread over the region, into `out`, which has room for CS_FEATURES_MOST.
+ * Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_features_find(celspan_context *context, const cs_plane *plane,
+                                                const cs_features_region *region,
+                                                celspan_point *out, size_t *count);
+
+#endif

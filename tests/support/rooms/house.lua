@@ -1,0 +1,96 @@
+--- The size of the house in a dozen figures, to compare two trees:
+--- `lua5.4 tests/support/rooms.lua --house [ROOT]`.
+local measures = require "tests.support.rooms.measures"
+
+local house = {}
+
+--- Headers that only one unit includes, apart from the unit of the header's own name. Tests count
+--- as users: a header included by a test is an interface.
+function house.single_user_headers(tree, root)
+  local users = {}
+  for _, file in ipairs(tree.files) do
+    for _, include in ipairs(file.includes) do
+      local header = tree.named[include.name]
+      if header and header.unit ~= file.unit then
+        users[header] = users[header] or {}
+        users[header][file.unit] = true
+      end
+    end
+  end
+  for name in house.test_includes(root) do
+    local header = tree.named[name]
+    if header then
+      users[header] = users[header] or {}
+      users[header].tests = true
+    end
+  end
+  local list = {}
+  for _, file in ipairs(tree.files) do
+    local count = 0
+    for _ in pairs(users[file] or {}) do count = count + 1 end
+    if file.is_header and file.wing ~= "include" and count <= 1 then
+      list[#list + 1] = file.path
+    end
+  end
+  return list
+end
+
+--- The names between quotes that the C files of tests/ include.
+function house.test_includes(root)
+  local pipe = assert(io.popen(("cd '%s' && grep -rhoE '^#include \"[^\"]+\"' tests examples "
+    .. "--include=*.c --include=*.h --include=*.cpp"):format(root)))
+  local text = pipe:read("a")
+  pipe:close()
+  return text:gmatch '"([^"]+)"'
+end
+
+--- Names of types that are defined in two places: { { name, place, place }, ... }.
+function house.doubled_types(tree)
+  local places, list = {}, {}
+  for _, file in ipairs(tree.files) do
+    for _, one in ipairs(file.types) do
+      local place = ("%s:%d"):format(file.path, one.line)
+      if one.name:find "^cs_" or one.name:find "^celspan_" then
+        places[one.name] = places[one.name] or {}
+        table.insert(places[one.name], place)
+      end
+    end
+  end
+  for name, found in pairs(places) do
+    if #found > 1 then list[#list + 1] = name .. ": " .. table.concat(found, ", ") end
+  end
+  table.sort(list)
+  return list
+end
+
+local function folder_count(tree)
+  local seen, count = {}, 0
+  for _, file in ipairs(tree.files) do
+    if not seen[file.wing] then seen[file.wing], count = true, count + 1 end
+  end
+  return count
+end
+
+function house.put(tree, root)
+  local lines, program = 0, 0
+  for _, file in ipairs(tree.files) do
+    lines = lines + file.lines
+    if file.wing == "program" or file.wing == "cli" then program = program + 1 end
+  end
+  local headers = house.single_user_headers(tree, root)
+  local doubled = house.doubled_types(tree)
+  local circles = measures.circles(tree, "unit", true)
+  local function say(name, figure) print(("%6d  %s"):format(figure, name)) end
+  say("files of C and C++ in src", #tree.files)
+  say("lines of them", lines)
+  say("folders in src", folder_count(tree))
+  say("files of the program", program)
+  say("headers with one user", #headers)
+  for _, path in ipairs(headers) do print("          " .. path) end
+  say("type names that are defined twice", #doubled)
+  for _, text in ipairs(doubled) do print("          " .. text) end
+  say("circles of units, by calls", #circles)
+  for _, circle in ipairs(circles) do print("          " .. table.concat(circle, " <-> ")) end
+end
+
+return house
