@@ -281,6 +281,13 @@ static int run(lua_State *L) {
   return 1;
 }
 
+/* program, light userdata. A closure takes memory: so it is made where failing is caught. */
+static int begin(lua_State *L) {
+  lua_pushcclosure(L, run, 1);
+  lua_call(L, 0, 1);
+  return 1;
+}
+
 static cs_exit outcome_of(lua_State *L, const cs_program *program, int raised) {
   if (raised == LUA_OK)
     return (cs_exit)lua_tointeger(L, -1);
@@ -296,10 +303,10 @@ cs_exit cs_service_run(celspan_context *context, const cs_request *request) {
   lua_State *L = luaL_newstate();
   if (!L)
     return cs_script_report_start(NULL);
+  lua_pushcfunction(L, begin);
   lua_pushlightuserdata(L, &program);
-  lua_pushcclosure(L, run, 1);
   cs_script_watch(L);
-  cs_exit outcome = outcome_of(L, &program, cs_lua_error_call(L, 0, 1));
+  cs_exit outcome = outcome_of(L, &program, cs_lua_error_call(L, 1, 1));
   cs_script_watch(NULL);
   lua_close(L);
   return outcome;
