@@ -1,3 +1,4 @@
+/* Files of every format: the choice of the sink, and a guard in front of it. */
 #include <string.h>
 #include <strings.h>
 
