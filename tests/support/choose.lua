@@ -1,6 +1,7 @@
 -- Chooses among the tests of build-test. From the top of the tree:
 --
---   lua5.4 tests/support/choose.lua --near FILE...    the golden tests, and those nearest to files
+--   lua5.4 tests/support/choose.lua --near FILE...    those nearest to files; and the golden
+--                                                     tests, if the files may change pixels
 --   lua5.4 tests/support/choose.lua --named NAME...   the tests of these names or folders
 --   lua5.4 tests/support/choose.lua --check           checks that each folder has nearest tests
 --
@@ -60,8 +61,16 @@ end
 --- Appends a list to another.
 local function append(list, more) table.move(more, 1, #more, #list + 1, list) end
 
+--- Whether a change of a file may change pixels: one of pages and of verbs in Lua does not.
+local function may_change_pixels(path)
+  return not path:find "%.md$" and not path:find "^src/program/verbs/"
+end
+
 local function near_tests(paths)
-  local units, names = near.units ".", { ALWAYS }
+  local units, names = near.units ".", {}
+  for _, path in ipairs(paths) do
+    if may_change_pixels(path) then names[1] = ALWAYS end
+  end
   for _, path in ipairs(paths) do append(names, near.tests(path, units)) end
   return names
 end

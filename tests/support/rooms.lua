@@ -5,7 +5,8 @@
 --   lua5.4 tests/support/rooms.lua --names WORD [ROOT]   names with a house word out of place
 --   lua5.4 tests/support/rooms.lua --check [ROOT]        the limits below, as checks
 --   lua5.4 tests/support/rooms.lua --house [ROOT]        files, lines, headers with one user, ...
---   lua5.4 tests/support/rooms.lua --map [ROOT]          the folders, with a sentence each
+--   lua5.4 tests/support/rooms.lua --map [FOLDER...]     the folders, or the units of some, with a
+--                                                        sentence each
 --   lua5.4 tests/support/rooms.lua --prose [PLACE...]    phrases of rooms/phrases.lua in comments,
 --                                                        messages and pages, from the root
 --   lua5.4 tests/support/rooms.lua --columns [PLACE]     lines of more than 100 columns
@@ -104,6 +105,8 @@ elseif rest[1] == "--names" then
   what = table.remove(rest, 1)
   rest.word = assert(table.remove(rest, 1), "--names WORD [ROOT]")
 end
+local folders = {}
+if what == "--map" then folders, rest = rest, {} end
 local root = rest[1] or "."
 if what == "--columns" then
   os.exit(report_faults(function(fault) return columns.check(root, fault) end))
@@ -113,7 +116,8 @@ if what == "--check" then
   os.exit(report_faults(function(fault) return check_tree(tree, root, fault) end))
 end
 if what == "--map" then
-  map.put(tree, root)
+  if not folders[1] then map.put(tree, root)
+  elseif not map.put_units(tree, root, folders) then os.exit(2) end
 elseif what == "--house" then
   house.put(tree, root)
 elseif what == "--names" then

@@ -1,3 +1,4 @@
+/* How the cull of a frame is made: the chains of each row of tiles, found and culled by workers. */
 #include "base/thread_pool.h"
 #include "engine/sweep/cull_grid.h"
 

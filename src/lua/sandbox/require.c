@@ -1,3 +1,4 @@
+/* The require of scripts, and that of celspan's own modules. */
 #include "lua/sandbox/library.h"
 
 #include <lauxlib.h>

@@ -1,3 +1,4 @@
+/* The box around an outline. */
 #include <math.h>
 
 #include "model/geometry/matrix.h"

@@ -1,3 +1,4 @@
+/* Cels: checked, hashed, and made again with a transform, a fade or a name. */
 #include "base/number.h"
 #include "model/scene/check.h"
 #include "model/scene/primitive_data.h"

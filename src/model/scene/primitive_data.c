@@ -3,7 +3,7 @@
 #include "model/geometry/matrix.h"
 #include "model/scene/check.h"
 #include "model/scene/texture.h"
-#include "model/scene/unroll.h"
+#include "model/scene/texture_unroll.h"
 #include "model/scene/value.h"
 
 /* ---------------------------------------------------------------- data */

@@ -1,3 +1,4 @@
+/* Rostrums: the description of a composition, checked, copied and hashed. */
 #include "model/scene/scene.h"
 
 #include "base/number.h"

@@ -4,7 +4,7 @@
 #include "base/number.h"
 #include "model/scene/check.h"
 #include "model/scene/texture.h"
-#include "model/scene/unroll.h"
+#include "model/scene/texture_unroll.h"
 #include "model/scene/value.h"
 
 static bool has_procedure(const celspan_cel *cel) {

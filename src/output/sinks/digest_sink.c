@@ -1,3 +1,4 @@
+/* A hash of all coded pixels: cs_sink_digest of output/sinks/sink.h. */
 #include "base/hash.h"
 #include "output/sinks/pixels.h"
 #include "output/sinks/sink.h"

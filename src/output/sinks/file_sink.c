@@ -1,3 +1,4 @@
+/* Files of every format: the choice of the sink, and a guard in front of it. */
 #include <string.h>
 #include <strings.h>
 
@@ -181,48 +182,56 @@ static const celspan_sink *open_guard(const celspan_sink *sink) {
 
 /* ---------------------------------------------------------------- the choice of a format */
 
-static const char *format_of(const char *path, const celspan_file_desc *file) {
+/* A format that is made from spans. */
+typedef struct file_format {
+  const char *endings[2];
+  celspan_status (*create)(celspan_context *, const char *, const celspan_file_desc *,
+                           celspan_sink *);
+  bool is_dithered; /* depth 8_DITHER is allowed: a sink in front of it dithers */
+  bool has_strips;  /* output/join puts them together */
+} file_format;
+
+static const file_format formats[] = {{{"png"}, cs_sink_png, true, true},
+                                      {{"tga", "targa"}, cs_sink_tga, true, true},
+                                      {{"span"}, cs_sink_span, false, true}};
+/* Any other. */
+static const file_format picture_format = {{NULL}, cs_sink_picture, false, false};
+
+static const char *format_name(const char *path, const celspan_file_desc *file) {
   return file->format ? file->format : cs_file_ending(path);
 }
 
-bool cs_sink_file_is_numbered(const char *path, const celspan_file_desc *file) {
-  static const char *const unnumbered[] = {"png", "tga", "targa", "span"};
-  for (size_t i = 0; i < sizeof unnumbered / sizeof *unnumbered; i++)
-    if (strcasecmp(format_of(path, file), unnumbered[i]) == 0)
-      return false;
-  return true;
+static const file_format *find_format(const char *path, const celspan_file_desc *file) {
+  const char *name = format_name(path, file);
+  for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
+    for (size_t k = 0; k < 2 && formats[i].endings[k]; k++)
+      if (strcasecmp(name, formats[i].endings[k]) == 0)
+        return &formats[i];
+  return &picture_format;
 }
 
-/* PNG and Targa, which are made from spans, or from dithered pixels. */
-static celspan_status
-create_pixels(celspan_context *context, const char *path, const celspan_file_desc *file,
-              celspan_status (*create)(celspan_context *, const char *, const celspan_file_desc *,
-                                       celspan_sink *),
-              celspan_sink *out) {
-  celspan_sink sink;
-  celspan_coding coding = cs_pixels_resolve(&file->coding, CELSPAN_DEPTH_8);
-  CS_TRY(create(context, path, file, &sink));
-  CS_TRY(cs_dither_sink(context, &file->coding, &coding, file->place_x, file->place_y, &sink));
-  *out = sink;
-  return CELSPAN_OK;
+bool cs_sink_file_is_numbered(const char *path, const celspan_file_desc *file) {
+  return find_format(path, file) == &picture_format;
 }
 
 static celspan_status create(celspan_context *context, const char *path,
                              const celspan_file_desc *file, celspan_sink *out) {
-  const char *format = format_of(path, file);
-  if (format[0] == '\0')
+  const file_format *format = find_format(path, file);
+  if (format_name(path, file)[0] == '\0')
     return cs_fail(
         context, CELSPAN_BAD_ARGUMENT,
         "%s: the format is unknown: give the file an ending such as .png, or name a format", path);
-  bool is_targa = strcasecmp(format, "tga") == 0 || strcasecmp(format, "targa") == 0;
-  if (is_targa || strcasecmp(format, "png") == 0)
-    return create_pixels(context, path, file, is_targa ? cs_sink_tga : cs_sink_png, out);
-  if (strcasecmp(format, "span") == 0)
-    return cs_sink_span(context, path, file, out);
-  if (file->strip_height != 0)
+  if (file->strip_height != 0 && !format->has_strips)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "%s: strips can be joined in PNG, Targa and span files alone", path);
-  return cs_sink_picture(context, path, file, out);
+  celspan_sink sink;
+  CS_TRY(format->create(context, path, file, &sink));
+  if (format->is_dithered) {
+    celspan_coding coding = cs_pixels_resolve(&file->coding, CELSPAN_DEPTH_8);
+    CS_TRY(cs_dither_sink(context, &file->coding, &coding, file->place_x, file->place_y, &sink));
+  }
+  *out = sink;
+  return CELSPAN_OK;
 }
 
 celspan_status cs_sink_file(celspan_context *context, const char *path,

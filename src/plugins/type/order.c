@@ -1,3 +1,4 @@
+/* The order of characters (FriBidi) and where lines may break (libunibreak). */
 #include "plugins/type/type.h"
 
 #include <fribidi.h>

@@ -1,3 +1,4 @@
+/* XML documents through expat, element by element. */
 #include "plugins/type/type.h"
 
 /* The header declares the functions that limit the growth of entities only if this is defined; the

@@ -1,3 +1,4 @@
+/* What a text asks for, checked, with its fonts, characters and paragraphs, before it is shaped. */
 #include "readers/text/layout.h"
 
 #include <string.h>

@@ -1,5 +1,14 @@
---- The folders of src/ with a sentence each, from the bottom up: `./run map`.
+--- The folders of src/ with a sentence each, from the bottom up: `./run map`; and the units of some
+--- of them: `./run map FOLDER`.
+local units_of_folder = require("tests.support.rooms.units").of
+
 local map = {}
+
+--- Folders of Lua: they have no folder.md, since all their files are installed or embedded.
+local LUA = {
+  { "lua/celspan", "The modules of celspan in Lua: the animation library and readers of files." },
+  { "src/program/verbs", "The verbs of the command that are written in Lua." },
+}
 
 --- The one sentence of a folder, from its folder.md; nil when it has none.
 local function sentence_of(root, folder)
@@ -49,6 +58,12 @@ local function wrapped(text, width)
   return lines
 end
 
+local function put_wrapped(label, text, width)
+  local lines = wrapped(text, width)
+  print(label .. lines[1])
+  for i = 2, #lines do print((" "):rep(#label) .. lines[i]) end
+end
+
 function map.put(tree, root)
   print("Folders of src/ from the bottom up; each includes its own files and earlier "
     .. "folders only.\n")
@@ -58,13 +73,60 @@ function map.put(tree, root)
     local units, lines = units_of(tree, folder)
     local name = is_wing and folder .. "/" or "  " .. folder:match "/(.*)" .. "/"
     local figures = units > 0 and ("%5d %6d"):format(units, lines) or (" "):rep(12)
-    local text = wrapped(sentence_of(root, folder) or "", 72)
-    print(("%s%-18s %s  %s"):format(is_wing and "\n" or "", name, figures, text[1]))
-    for i = 2, #text do print((" "):rep(33) .. text[i]) end
+    if is_wing then print() end
+    put_wrapped(("%-18s %s  "):format(name, figures), sentence_of(root, folder) or "", 67)
+  end
+  print()
+  for _, pair in ipairs(LUA) do put_wrapped(("%-31s  "):format(pair[1] .. "/"), pair[2], 67) end
+  print "\n./run map FOLDER, such as `./run map svg`, lists the units of a folder."
+end
+
+-- ---------------------------------------------------------------- units
+
+--- The folder that a word means: a path, or the end of one, such as svg.
+local function find_folder(tree, root, word)
+  word = "/" .. word:gsub("/+$", "")
+  local paths = {}
+  for i, room in ipairs(tree.rooms) do paths[i] = "src/" .. room end
+  for _, pair in ipairs(LUA) do paths[#paths + 1] = pair[1] end
+  for _, path in ipairs(paths) do
+    if ("/" .. path):sub(-#word) == word then return root .. "/" .. path end
   end
 end
 
---- Each folder has a sentence that ends with a full stop, and only one.
+--- Prints the units of folders; false, after a message, if a word means none.
+function map.put_units(tree, root, words)
+  for _, word in ipairs(words) do
+    local folder = find_folder(tree, root, word)
+    local list = folder and units_of_folder(folder) or {}
+    if #list == 0 then
+      io.stderr:write(("run: map: '%s' is not a folder with sources; `./run map` lists them\n")
+        :format(word))
+      return false
+    end
+    print(folder:gsub("^%./", "") .. "/\n")
+    for _, unit in ipairs(list) do
+      put_wrapped(("%-22s %5d  "):format(unit.name, unit.lines), unit.sentence or "", 70)
+    end
+  end
+  return true
+end
+
+-- ---------------------------------------------------------------- checks
+
+--- Each unit of a folder begins with a sentence.
+local function check_units(root, folder, fault)
+  local list = units_of_folder(root .. "/" .. folder)
+  for _, unit in ipairs(list) do
+    if not unit.sentence then
+      fault("%s/%s: none of %s begins with a comment, which `./run map` prints", folder, unit.name,
+        table.concat(unit.files, ", "))
+    end
+  end
+  return #list
+end
+
+--- Each folder has a sentence that ends with a full stop, and only one; and each unit has one.
 function map.check(tree, root, fault)
   local list = folders(tree)
   for _, folder in ipairs(list) do
@@ -75,7 +137,10 @@ function map.check(tree, root, fault)
       fault("src/%s/folder.md is not one sentence with a full stop", folder)
     end
   end
-  return #list
+  local count = #list
+  for _, room in ipairs(tree.rooms) do count = count + check_units(root, "src/" .. room, fault) end
+  for _, pair in ipairs(LUA) do count = count + check_units(root, pair[1], fault) end
+  return count
 end
 
 return map

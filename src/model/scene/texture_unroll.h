@@ -6,8 +6,8 @@
  *
  * Invariant: inside the box the unrolled gradient shows what the one that repeats does.
  */
-#ifndef CS_SCENE_UNROLL_H
-#define CS_SCENE_UNROLL_H
+#ifndef CS_SCENE_TEXTURE_UNROLL_H
+#define CS_SCENE_TEXTURE_UNROLL_H
 
 #include "model/scene/texture.h"
 

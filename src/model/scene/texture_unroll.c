@@ -1,4 +1,4 @@
-#include "model/scene/unroll.h"
+#include "model/scene/texture_unroll.h"
 
 #include <math.h>
 
