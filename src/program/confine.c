@@ -68,8 +68,8 @@ cs_exit cs_confine_refuse(const cs_request *request) {
   if (!has_limit && !cs_request_has(request, "--strict") && !cs_request_has(request, "--allow"))
     return CS_EXIT_OK;
   return cs_report_usage(
-      "--strict, --allow and all of --limit but that of pictures are for scripts, and "
-      "%s is none",
+      "--strict, --allow and every --limit except those of pictures are for scripts, and "
+      "%s is not a script: leave them out",
       request->operands[0]);
 }
 
@@ -159,8 +159,8 @@ static void output_folder(const cs_request *request, char out[PATH_SIZE]) {
     strcpy(out, ".");
 }
 
-/* What the program reads beside the script's folders: its modules, the settings of colours, and what
- * else the command line names. */
+/* Adds what the program itself reads: its modules, the settings of colours, and the files that
+ * options name. */
 static bool add_own_folders(const cs_request *request, cs_roots *read) {
   static const char *const variables[] = {"OCIO", "CELSPAN_PICTURE_MODULE", "CELSPAN_ART_MODULE"};
   char folder[PATH_SIZE];

@@ -2,8 +2,9 @@
  *
  *   main -> request (the options) -> a verb -> report (exit code, one line of error)
  *
- * Nothing is loaded that the verb does not need: a Lua state is made by the verbs that are Lua or run
- * a script; OpenImageIO by the first picture, in another process (plugins/isolate/zygote.h).
+ * Nothing is loaded that the verb does not need. A Lua state is made by the verbs that are written
+ * in Lua or run a script; OpenImageIO is loaded for the first picture, in another process
+ * (plugins/isolate/zygote.h).
  */
 #include <errno.h>
 #include <fcntl.h>

@@ -179,7 +179,7 @@ const char *cs_request_text(const cs_request *request, const char *name) {
   return find_given(request, name, &r) ? r.text : NULL;
 }
 
-/* In the order in which they were given, because some add to what is there. */
+/* In the order in which they were given, because some options add to those before them. */
 bool cs_request_read(const cs_request *request, const char *name, void *field) {
   bool is_given = false;
   for (reading r = {.request = request}; next_option(&r);)

@@ -1,5 +1,5 @@
-/* The verbs: what each takes, and what its help says. Texts are wrapped where they are printed; lines
- * that begin with a space are left as they are. */
+/* The verbs: what each takes, and what its help says. Texts are wrapped when they are printed;
+ * lines that begin with a space are left as they are. */
 #include "program/verbs.h"
 
 /* ---------------------------------------------------------------- options of several verbs */
@@ -57,7 +57,7 @@
         "with --resume: keep every complete frame file, even if its content would differ"          \
   }
 #define KEEP_GOING                                                                                 \
-  { "--keep-going", NULL, NULL, "go on after frames that fail; the exit code is then 1" }
+  { "--keep-going", NULL, NULL, "continue after frames that fail; the exit code is then 1" }
 #define MEMORY                                                                                     \
   {                                                                                                \
     "--memory", "MiB", &cs_argument_memory,                                                        \
@@ -332,7 +332,7 @@ const cs_verb cs_verbs[] = {
          "folder, or the text that is printed; a name that ends in .lua is a script. The sheet "
          "of a film has a row for each cel and object with a name, and for cels without one by "
          "their places. Drawings are numbered as they appear:\n"
-         "  |   the drawing above goes on\n"
+         "  |   the same drawing as above\n"
          "  -   there is no drawing\n"
          "  /m  its placement, fade, viewport or lights changed\n"
          "  /p  a procedure draws it: not compared",

@@ -20,15 +20,15 @@ local environment = {
 
 local verbs = program.verbs()
 
---- What stands behind a verb on a command line.
+--- What follows a verb on a command line.
 local function usage_of(verb)
   return verb.operands .. " [options]" .. (verb.has_script and " [-- ARGS]" or "")
 end
 
 -- ---------------------------------------------------------------- help
 
---- A text in lines, of which all but the first begin with an indent. Lines that begin with a space stay
---- as they are.
+--- A text in lines, of which all except the first begin with an indent. Lines that begin with a
+--- space stay as they are.
 local function wrapped(text, indent)
   local lines = {}
   for paragraph in text:gmatch "[^\n]+" do
