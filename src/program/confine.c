@@ -77,7 +77,7 @@ static cs_exit refuse_both(const cs_request *request) {
   bool is_strict = cs_request_has(request, "--strict");
   if (!is_strict && !cs_request_has(request, "--allow"))
     return CS_EXIT_OK;
-  return cs_report_usage("--trust lets the script do all: leave %s out",
+  return cs_report_usage("--trust already allows everything: leave %s out",
                          is_strict ? "--strict" : "--allow");
 }
 
@@ -204,7 +204,7 @@ static cs_exit enter_strict(const cs_request *request, const cs_sandbox *sandbox
   cs_roots_finish(&write);
   if (!refusal)
     return CS_EXIT_OK;
-  cs_report_error("--strict: %s; without --strict the sandbox of the language alone is left",
+  cs_report_error("--strict: %s; without --strict, only Lua's own sandbox confines the script",
                   refusal);
   return CS_EXIT_LIMIT;
 }

@@ -47,7 +47,7 @@ static cs_exit refuse_verb(const char *name) {
 static cs_exit help_lua(const char *name) {
   celspan_context *context = NULL;
   if (celspan_context_create(NULL, &context) != CELSPAN_OK) {
-    cs_report_error("no memory to begin");
+    cs_report_error("not enough memory to start");
     return CS_EXIT_MEMORY;
   }
   celspan_status status = cs_lua_script_help(context, name, stdout);
@@ -68,7 +68,7 @@ static cs_exit run(const cs_request *request) {
   desc.defocus_bytes = (size_t)memory * 1048576 / 3; /* divided as the defaults are */
   desc.picture_bytes = 2 * desc.defocus_bytes;
   if (celspan_context_create(&desc, &context) != CELSPAN_OK) {
-    cs_report_error("no memory to begin");
+    cs_report_error("not enough memory to start");
     return CS_EXIT_MEMORY;
   }
   cs_exit outcome = cs_confine_pictures(context, request);

@@ -98,7 +98,7 @@ static bool lacks_memory(const char *message) { return !message || strstr(messag
 
 cs_exit cs_script_report_start(lua_State *L) {
   if (!L) {
-    cs_report_error("no memory for Lua");
+    cs_report_error("not enough memory for Lua");
     return CS_EXIT_MEMORY;
   }
   const char *message = lua_tostring(L, -1);

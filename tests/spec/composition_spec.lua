@@ -362,7 +362,7 @@ describe("a light with a shape", function()
       assert.matches("cel: front: takes named fields only, but was given a value at place 1",
         message(light), 1, true)
     end
-    assert.matches("rostrum: back cannot lie on the cel", raised(function()
+    assert.matches("rostrum: back cannot be on a cel", raised(function()
       return celspan.rostrum { back = { texture = slope, on = "cel" } }
     end), 1, true)
   end)

@@ -213,7 +213,8 @@ static celspan_status create(celspan_context *context, const char *path,
   if (format[0] == '\0')
     return cs_fail(
         context, CELSPAN_BAD_ARGUMENT,
-        "%s: the format is unknown: give the file an ending such as .png, or name a format", path);
+        "%s: the format is unknown: give the file an extension such as .png, or name a format",
+        path);
   bool is_targa = strcasecmp(format, "tga") == 0 || strcasecmp(format, "targa") == 0;
   if (is_targa || strcasecmp(format, "png") == 0)
     return create_pixels(context, path, file, is_targa ? cs_sink_tga : cs_sink_png, out);
@@ -221,7 +222,7 @@ static celspan_status create(celspan_context *context, const char *path,
     return cs_sink_span(context, path, file, out);
   if (file->strip_height != 0)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "%s: strips can be joined in PNG, Targa and span files alone", path);
+                   "%s: strips can be joined only as PNG, Targa or span files", path);
   return cs_sink_picture(context, path, file, out);
 }
 

@@ -102,6 +102,6 @@ local function make_sheet(film, output)
   end
 end
 
-if not request.output then program.usage "where to? give -o sheet.png" end
+if not request.output then program.usage "-o is missing: give -o sheet.png" end
 program.refuse_target(request.output)
 make_sheet(program.film(), request.output)

@@ -342,7 +342,7 @@ local own = { ["-o"] = true, ["--slurm"] = true, ["--openjd"] = true, ["--chunk"
 
 local function refuse()
   local output = request.output
-  if not output then program.usage "where to? give -o shot.####.png, as for render" end
+  if not output then program.usage "-o is missing: give -o shot.####.png, as for render" end
   if request.slurm == request.openjd then
     program.usage "for which farm? give --slurm or --openjd, one of them"
   end

@@ -72,7 +72,8 @@ local function put_list(out)
     .. "celspan VERB ...\n"):format(program.version))
   for _, verb in ipairs(verbs) do put_row(out, verb.name, verb.operands, verb.summary) end
   put_row(out, "help", "VERB|lua [NAME]", "Describes a verb, or a name of the Lua interface.")
-  out:write("\ncelspan --version prints the version, celspan --man the manual page.\n\nExit codes\n")
+  out:write("\ncelspan --version prints the version, celspan --man the manual page.\n\n"
+    .. "Exit codes\n")
   local half = (#exit_codes + 1) // 2 -- two columns, from the top to the bottom of each
   for i = 1, half do
     local left, right = exit_codes[i], exit_codes[i + half]

@@ -37,17 +37,17 @@ end
 
 local taken_off = relight.read(input)
 
-if not output then program.usage "-o is needed: the file to make" end
+if not output then program.usage "-o is missing: give -o and the file to make" end
 if not light and not taken_off then
-  program.usage("--light is needed: the light in which '%s' was taken: a colour such as #ffe0b0, "
-    .. "r,g,b, or grey", input)
+  program.usage("--light is missing: give the light in which '%s' was taken, a colour such as "
+    .. "#ffe0b0, r,g,b, or grey", input)
 elseif light and taken_off then
   program.usage("--light: the light of '%s' has been taken off already: leave the option out",
     input)
 elseif to then
   program.refuse_target(output)
 elseif taken_off then
-  program.usage("--to is needed: the light in which to show '%s'", input)
+  program.usage("--to is missing: give the light in which to show '%s'", input)
 end
 
 local texture = taken_off or program.check(relight.from { picture = input, light = known,

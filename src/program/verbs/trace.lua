@@ -19,7 +19,7 @@ local function colours_of(text)
   return count or list
 end
 
-if not output then program.usage "-o is needed: a file that ends in .svg or .lua" end
+if not output then program.usage "-o is missing: give -o art.svg or -o art.lua" end
 if not program.has_ending(output, ".svg", ".lua") then
   program.usage("-o: '%s' must end in .svg or .lua", output)
 end
