@@ -62,7 +62,7 @@ return {
   { "bytecode", [[return load("\27Lua\x54\0\x19\x93\r\n\x1a\n") ~= nil]],
     "%(a nil value%)$|false" },
   { "bytecode by mode", [[local f, why = load("\27Lua", "x", "b") return f ~= nil or why]],
-    "loads text" },
+    "loads only text" },
   { "bytecode by both modes", [[local f, why = load("\27Lua", "x", "bt") return f ~= nil or why]],
     "binary chunk" },
   { "a global that has no name", [[return _G[1] ~= nil or "none"]], "^none$" },
@@ -160,19 +160,19 @@ return {
     "@celspan/x.lua", "t", { celspan = celspan })() ~= nil]], "can read only files in" },
 
   -- files that celspan writes
-  { "render", [[return assert(celspan.render(FILM, OUT))]], "write no files" },
+  { "render", [[return assert(celspan.render(FILM, OUT))]], "cannot write files" },
   { "render into the folder", [[return assert(celspan.render(FILM, "out.png"))]],
-    "write no files" },
-  { "image:write", [[return assert(celspan.pixels(FILM):write(OUT))]], "write no files" },
+    "cannot write files" },
+  { "image:write", [[return assert(celspan.pixels(FILM):write(OUT))]], "cannot write files" },
   { "image:write into the folder", [[return assert(celspan.pixels(FILM):write("out.png"))]],
-    "write no files" },
+    "cannot write files" },
   { "image:write of another format",
     [[return assert(celspan.pixels(FILM):write(OUT, { format = "tga" }))]],
-    "write no files" },
+    "cannot write files" },
   { "sheet:write",
     [[return assert(require("celspan.sheet").new{ fps = 24, frames = 1, layers = {} ]]
     .. [[}:write("x.csv"))]],
-    "write no files" },
+    "cannot write files" },
   { "replacing the script", [[return assert(celspan.pixels(FILM):write("script.lua"))]], "." },
 
   -- metatables

@@ -174,7 +174,7 @@ describe("the sandbox", function()
       assert.equal(0, (celspan("info scripts/writes.lua --trust")))
       assert.truthy(bench:read("out.png"))
       os.remove(bench.folder .. "/out.png")
-      refused("info scripts/writes.lua", "write no files", 3)
+      refused("info scripts/writes.lua", "cannot write files", 3)
       refused("render scripts/loops.lua --hash --trust --limit steps=1e6",
         "scripts/loops.lua:6: frame 2: more than 1000000", 6)
     end)

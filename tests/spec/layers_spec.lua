@@ -1134,7 +1134,7 @@ describe("a Photoshop document", function()
         "byte 24: is a Photoshop document in " .. name .. " colour; RGB and grey are read")
     end
     refused((whole:gsub("\0\8\0\3", "\0\32\0\3", 1)),
-      "byte 22: is a Photoshop document of 32 bits a channel; 8 and 16 are read")
+      "byte 22: is a Photoshop document of 32 bits per channel; 8 and 16 are read")
   end)
 
   it("is refused for layers of 2^31 pixels, unclosed groups and groups 10,000 deep", function()

@@ -203,7 +203,7 @@ describe("a video", function()
       assert.falsy(bench:read("out.webp"):find("ANMF", 1, true))
     end)
 
-    it_reads("has exactly 23.976 frames a second", function()
+    it_reads("has exactly 23.976 frames per second", function()
       bench:write("film.lua", (chart_script():gsub("fps = 24", "fps = 24000/1001")))
       render "-o out.mp4"
       assert.equal("24000/1001", probe("out.mp4", "stream=r_frame_rate").r_frame_rate)
@@ -455,7 +455,7 @@ end }]])
       "return require 'celspan'.film { fps = 101, frames = 2, frame = function() end }\n")
     local code, _, err = celspan "-o out.gif"
     assert.equal(2, code, err)
-    assert.truthy(err:find("out.gif: 101 frames a second: gif holds at most 100", 1, true), err)
+    assert.truthy(err:find("out.gif: 101 frames per second: gif holds at most 100", 1, true), err)
     nothing_is_left()
   end)
 

@@ -38,7 +38,7 @@ static celspan_status check_mode(const document *d, int mode) {
                          name ? name : "an unknown kind of");
   if (d->bits != 8 && d->bits != 16)
     return cs_input_fail(d->context, d->input, 22, CELSPAN_INPUT,
-                         "is a Photoshop document of %d bits a channel; 8 and 16 are read",
+                         "is a Photoshop document of %d bits per channel; 8 and 16 are read",
                          d->bits);
   return CELSPAN_OK;
 }
