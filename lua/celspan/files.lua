@@ -43,7 +43,7 @@ function files.read_found(path, most)
   local found_at, tried = core.find(path)
   local text, message = files.read(found_at, most)
   if text or not tried then return text, message end
-  return nil, ("%s; nor is it there: %s"):format(message, tried)
+  return nil, ("%s; also looked for at %s"):format(message, tried)
 end
 
 ---@param path string Relative to the current folder

@@ -195,7 +195,7 @@ local function from_folder(path, names)
     local base, ending = name:match "^(.*)%.(%w+)$"
     local file = path .. "/" .. name
     if not base or not endings[ending:lower()] then
-      skipped[#skipped + 1] = { layer = name, what = "no picture: it is left out" }
+      skipped[#skipped + 1] = { layer = name, what = "not a picture: it is left out" }
     elseif not core.within(path, name) then
       return nil, ("%s: %s lies outside the folder"):format(path, name)
     else
@@ -272,7 +272,7 @@ function layers.read(path)
   local found_at, tried = core.find(path)
   local tree, message = read_any(found_at)
   if not tree and tried and not is_there(found_at) then
-    message = ("%s; nor is it there: %s"):format(message, tried)
+    message = ("%s; also looked for at %s"):format(message, tried)
   end
   return tree, message
 end

@@ -1,12 +1,12 @@
---- The manual of the Lua interface: the annotations for editors, lua/celspan.d.lua, and the pages of
---- `celspan help lua`. The fields of nouns come from their rows in C (src/lua/nouns), the rest from
---- celspan.annotations and from the annotations in the modules.
+--- The manual of the Lua interface: the annotations for editors, lua/celspan.d.lua, and the pages
+--- of `celspan help lua`. The fields of nouns come from their rows in C (src/lua/nouns), the rest
+--- from celspan.annotations and from the annotations in the modules.
 local core = require "celspan.core"
 
 local manual = {}
 
-local MODULES = { "ease", "keys", "motion", "multiplane", "shutter", "lips", "sheet", "svg", "trace",
-                  "track", "relight", "layers", "oca", "json", "spec" }
+local MODULES = { "ease", "keys", "motion", "multiplane", "shutter", "lips", "sheet", "svg",
+                  "trace", "track", "relight", "layers", "oca", "json", "spec" }
 local WIDTH = 100
 
 --- Adds a text in lines of at most WIDTH characters; those after the first begin with `indent`.
@@ -60,7 +60,8 @@ end
 local function add_class(lines, noun, name)
   lines[#lines + 1] = "---@class " .. name
   if noun.item then
-    lines[#lines + 1] = "---@field [integer] " .. noun.item .. (noun.items and " " .. noun.items or "")
+    local about = noun.items and " " .. noun.items or ""
+    lines[#lines + 1] = "---@field [integer] " .. noun.item .. about
   end
   for _, field in ipairs(noun) do
     lines[#lines + 1] = ("---@field %s%s %s%s"):format(field.name, field.is_required and "" or "?",
@@ -108,8 +109,8 @@ function manual.annotations()
   local text = require "celspan.annotations"
   return (text:gsub("%-%-%-@noun ([%w_.]+):? ?([%w_.]*)", function(name, parent)
     local noun = assert(by_line[name], name)
-    return expand(noun, parent ~= "" and parent or nil, text:find("function " .. name .. ":", 1, true),
-      rawget(celspan, name))
+    local has_methods = text:find("function " .. name .. ":", 1, true)
+    return expand(noun, parent ~= "" and parent or nil, has_methods, rawget(celspan, name))
   end))
 end
 
@@ -165,8 +166,8 @@ local function close_block(block, line, owners)
   block.name = block.name or block.class
 end
 
---- The blocks of annotations of a text: name, about (lines), params, fields and returns; the first
---- block is what the text says of itself. owners: the names of its variables, { keys = "celspan.keys" }.
+--- The blocks of annotations in a text: name, about (lines), params, fields and returns. The first
+--- block describes the whole text. owners: the names of its variables, { keys = "celspan.keys" }.
 function manual.read(text, owners)
   local blocks, block = {}, nil
   for line in (text .. "\n"):gmatch "(.-)\n" do
@@ -187,7 +188,8 @@ end
 
 local cached
 
---- All blocks: those of celspan, then those of each module, { [1] = block, ..., modules = { keys = {...} } }.
+--- All blocks: those of celspan as a list, and those of each module in its field `modules`:
+--- { [1] = block, ..., modules = { keys = {...} } }.
 local function blocks_of_all()
   if cached then return cached end
   cached = manual.read(manual.annotations(), { celspan = "celspan" })
@@ -237,36 +239,40 @@ local function class_rows(class, rows)
   return rows
 end
 
---- Whether a type is a table that a function is given.
+--- Whether a type is a table that is given to a function.
 local function is_given(name)
   return name:find "%.fields$" or name:find "%.options$" or name:find "%.style$"
 end
 
---- The rows of the parameters of a function; those of a table that it is given in its place.
+local function name_of(param) return param.name .. (param.is_optional and "?" or "") end
+
+--- The rows of the parameters of a function. A table that is given to it is replaced by its fields.
 local function function_rows(block)
   local rows = {}
   for _, param in ipairs(block.params) do
     local class = is_given(param.type) and find_class(param.type)
     if param.name ~= "self" and not class then rows[#rows + 1] = row_of(param) end
     if class then
-      if #block.params > 1 then rows[#rows + 1] = { param.name .. (param.is_optional and "?" or ""), "a table:" } end
+      if #block.params > 1 then rows[#rows + 1] = { name_of(param), "a table:" } end
       class_rows(class, rows)
     end
   end
-  for _, text in ipairs(block.returns) do rows[#rows + 1] = { "returns", text == "T" and "its own type" or plain(text) } end
+  for _, text in ipairs(block.returns) do
+    rows[#rows + 1] = { "returns", text == "T" and "its own type" or plain(text) }
+  end
   return rows
 end
 
 local function signature(block)
   local names = {}
   for _, param in ipairs(block.params) do
-    if param.name ~= "self" then names[#names + 1] = param.name .. (param.is_optional and "?" or "") end
+    if param.name ~= "self" then names[#names + 1] = name_of(param) end
   end
   local name = block.is_method or block.owner == "celspan" and block.name or plain(block.name)
   return ("%s(%s)"):format(name, table.concat(names, ", "))
 end
 
---- Adds what there is to say about a function, a class or another name, which is one of blocks.
+--- Adds the description of a function, a class or another name: `block`, one of `blocks`.
 local function add_block(page, blocks, block)
   if #page > 0 then page[#page + 1] = "" end
   page[#page + 1] = block.is_function and signature(block) or plain(block.name)
@@ -276,7 +282,8 @@ local function add_block(page, blocks, block)
   if #block.about > 0 then add_wrapped(page, "  ", table.concat(block.about, " "), "  ") end
   add_rows(page, block.is_function and function_rows(block) or class_rows(block, {}))
   for _, other in ipairs(blocks) do
-    if block.class and other.owner == block.class then page[#page + 1] = "  " .. signature(other) end
+    local is_method = block.class and other.owner == block.class
+    if is_method then page[#page + 1] = "  " .. signature(other) end
   end
 end
 
@@ -301,7 +308,9 @@ local function add_meant(page, blocks, name)
     is_function = is_function or block.is_function and not block.is_method and is_meant(block, name)
   end
   for _, block in ipairs(blocks) do
-    if is_meant(block, name) and not (block.class and is_function) then add_block(page, blocks, block) end
+    if is_meant(block, name) and not (block.class and is_function) then
+      add_block(page, blocks, block)
+    end
   end
 end
 
@@ -354,9 +363,12 @@ function manual.list()
   add_wrapped(page, "  ", table.concat(types, ", "), "  ")
   page[#page + 1] = '\nModules, local NAME = require "celspan.NAME":'
   rows = {}
-  for _, name in ipairs(MODULES) do rows[#rows + 1] = { name, first_sentence(all.modules[name][1]) } end
+  for _, name in ipairs(MODULES) do
+    rows[#rows + 1] = { name, first_sentence(all.modules[name][1]) }
+  end
   add_rows(page, rows)
-  page[#page + 1] = "\ncelspan help lua annotations prints all of celspan for the Lua language server."
+  page[#page + 1] = "\ncelspan help lua annotations prints the annotations for the Lua language "
+    .. "server."
   return table.concat(page, "\n") .. "\n"
 end
 

@@ -290,7 +290,7 @@ function sheet.read(path, options)
   local found_at, tried = core.find(path)
   local text, message = read_whole(found_at)
   if not text then
-    return nil, tried and ("%s; nor is it there: %s"):format(message, tried) or message
+    return nil, tried and ("%s; also looked for at %s"):format(message, tried) or message
   end
   local made
   made, message = caught(decode, text, path, options.table or 1)

@@ -383,7 +383,7 @@ function claims.shows(subject, arguments)
   local place = ("frame %d shows %s at %.14g, %.14g"):format(subject.frame, found, subject.x,
     subject.y)
   if most > tolerance then
-    return false, ("%s, not %s: they are %s codes of 8 bits apart, and %s pass"):format(place,
+    return false, ("%s, not %s: they differ by %s codes of 8 bits, more than %s"):format(place,
       wanted, code(most), code(tolerance))
   end
   return true, place .. ", and it should not"

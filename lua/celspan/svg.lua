@@ -113,7 +113,7 @@ function svg.read(path, options)
   if not fonts then error(refused, 2) end
   local drawing, message = core.read_svg(found_at, false, fonts)
   if drawing then return wrap(drawing) end
-  return nil, tried and ("%s; nor is it there: %s"):format(message, tried) or message
+  return nil, tried and ("%s; also looked for at %s"):format(message, tried) or message
 end
 
 return fields.seal("svg", svg)

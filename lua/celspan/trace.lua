@@ -120,7 +120,7 @@ function trace.picture(path, options)
   local found_at, tried = core.find(path)
   local found, message = core.trace(found_at, checked)
   if found then return wrap(found) end
-  return nil, tried and ("%s; nor is it there: %s"):format(message, tried) or message
+  return nil, tried and ("%s; also looked for at %s"):format(message, tried) or message
 end
 
 return fields.seal("trace", trace)

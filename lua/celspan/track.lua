@@ -167,7 +167,7 @@ local function find_pattern(pattern, from)
   if not name then return nil, message end
   local there, tried = core.find(name)
   if tried then
-    return nil, ("%s: No such file; nor is it there: %s"):format(there, tried)
+    return nil, ("%s: No such file; also looked for at %s"):format(there, tried)
   end
   return there:sub(1, #there - #name) .. pattern
 end

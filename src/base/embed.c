@@ -1,8 +1,8 @@
 /* Build tool: texts as arrays of bytes, each ended by a zero.
  *
  *   embed OUT.c NAME=FILE ...                   an array NAME for each file
- *   embed OUT.c --table HEADER TABLE FILE ...   one table, found by the files' names without folders;
- *                                               HEADER declares cs_text and the table
+ *   embed OUT.c --table HEADER TABLE FILE ...   one table, with the names of the files without
+ *                                               folders; HEADER declares cs_text and the table
  */
 #include <stdio.h>
 #include <stdlib.h>

@@ -92,7 +92,7 @@ static celspan_status check_name(celspan_context *context, const char *name) {
     size = character((const unsigned char *)name + i);
     if (size == 0)
       return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                     "named: byte %zu of the name is no text; it must be UTF-8 without control "
+                     "named: byte %zu of the name is not text; it must be UTF-8 without control "
                      "characters",
                      i + 1);
   }

@@ -118,7 +118,7 @@ static celspan_status fail_search(celspan_context *context, const cs_module_desc
   if (search->error)
     return cs_fail(
         context, failure,
-        "%s needs the module %s, but %s cannot be read: %s; let it be read, or name another "
+        "%s needs the module %s, but %s cannot be read: %s; make it readable, or name another "
         "file in %s",
         desc->purpose, desc->file, search->unreadable, cs_error_text(search->error, text),
         desc->override);

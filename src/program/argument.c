@@ -46,7 +46,7 @@ TEXT(picture, "png or jpg");
 TEXT(colours, "a whole number from 1 to 64, or colours like #ffffff,#203040");
 TEXT(lamp, "a colour like #ffe0b0, r,g,b with each above 0, or grey");
 TEXT(light, "a colour like #203060, or r,g,b");
-const cs_argument cs_argument_texts = {.allowed = "the name of a folder, of which there may be 48",
+const cs_argument cs_argument_texts = {.allowed = "the name of a folder; at most 48 can be given",
                                        .read = add_text};
 
 /* ---------------------------------------------------------------- numbers */

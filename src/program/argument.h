@@ -49,7 +49,7 @@ typedef enum cs_limit {
 /* Those that are not given have their defaults. */
 typedef struct cs_given_limits {
   bool has[CS_LIMIT_COUNT];
-  double values[CS_LIMIT_COUNT]; /* whole numbers but for times */
+  double values[CS_LIMIT_COUNT]; /* whole numbers, except times */
 } cs_given_limits;
 
 /* A kind of value. */

@@ -146,8 +146,8 @@ static cs_exit report(name_list *list) {
     length += (size_t)snprintf(text + length, sizeof text - length, "%s%s", i ? ", " : "",
                                cs_mark_name(list->names[i].mark));
   bool has_more = list->has_more || shown < list->count || length >= sizeof text;
-  return cs_report_usage("--cel %s: no cel of the film has this name; there %s %s%s", list->wanted,
-                         list->count == 1 ? "is" : "are", text, has_more ? " and others" : "");
+  return cs_report_usage("--cel %s: no cel of the film has this name; its names are %s%s",
+                         list->wanted, text, has_more ? " and others" : "");
 }
 
 static void search_frame(name_list *list, cs_script *script, int64_t number) {

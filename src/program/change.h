@@ -1,12 +1,13 @@
 /* What --cel, --background and --onion change in a film between building a frame and making it.
  *
- *   --cel NAME     the cels of that name remain, with their lights; the rostrum's own back light does
- *                  not. A frame without one is empty, but some frame must have one
- *   --background   a back light of matte 1 behind everything. Where the rostrum has a back light of
- *                  its own with matte a, the background shines through 1 - a of it; one with a shape
- *                  is added
- *   --onion B,A    the film of the script is replaced by one whose frames lie under tinted ones
- *                  before and after (verbs/onion.lua)
+ *   --cel NAME     only the cels of that name remain, with their lights; the rostrum's own back
+ *                  light does not. A frame without such a cel is empty, but some frame must have
+ *                  one
+ *   --background   a back light of matte 1 behind everything. If the rostrum has a flat back light
+ *                  of its own, with matte a, the background shines through 1 - a of it; a back
+ *                  light with a shape is added to the background
+ *   --onion B,A    the film of the script is replaced by one that shows each frame with tinted
+ *                  copies of those before and after it (verbs/onion.lua)
  *
  * INVARIANT: without these options, frames stay as they are.
  */
@@ -23,15 +24,15 @@ typedef struct cs_change {
 } cs_change;
 
 cs_change cs_change_read(const cs_request *request);
-/* Looks for a cel of the name in the frames, then in the rest of the film: they are built one after
- * the other until there is one. OK, also without --cel; or reported, with the names that there are.
- */
+/* Looks for a cel of the name in the frames, then in the rest of the film, which are built one by
+ * one until a frame has such a cel. OK if it was found, and without --cel; otherwise the error is
+ * reported, with the names of the cels in the film. */
 cs_exit cs_change_refuse(cs_script *script, const cs_change *change, const cs_sequence *frames);
 /* Changes a frame's rostrums. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_change_frame(celspan_context *context, const cs_change *change,
                                                cs_film_frame *frame);
-/* Replaces the film of the script by that of --onion. frame: the size of the output. OK, also without
- * the option; or reported. */
+/* Replaces the film of the script by that of --onion. frame: the size of the output. OK, also
+ * without the option; or reported. */
 cs_exit cs_change_lay_onion(cs_script *script, const cs_request *request,
                             const celspan_frame_desc *frame);
 

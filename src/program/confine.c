@@ -68,8 +68,8 @@ cs_exit cs_confine_refuse(const cs_request *request) {
   if (!has_limit && !cs_request_has(request, "--strict") && !cs_request_has(request, "--allow"))
     return CS_EXIT_OK;
   return cs_report_usage(
-      "--strict, --allow and all of --limit but that of pictures are for scripts, and "
-      "%s is none",
+      "--strict, --allow and every --limit except those of pictures are for scripts, and "
+      "%s is not a script: leave them out",
       request->operands[0]);
 }
 
@@ -77,7 +77,7 @@ static cs_exit refuse_both(const cs_request *request) {
   bool is_strict = cs_request_has(request, "--strict");
   if (!is_strict && !cs_request_has(request, "--allow"))
     return CS_EXIT_OK;
-  return cs_report_usage("--trust lets the script do all: leave %s out",
+  return cs_report_usage("--trust already allows everything: leave %s out",
                          is_strict ? "--strict" : "--allow");
 }
 
@@ -159,8 +159,8 @@ static void output_folder(const cs_request *request, char out[PATH_SIZE]) {
     strcpy(out, ".");
 }
 
-/* What the program reads beside the script's folders: its modules, the settings of colours, and what
- * else the command line names. */
+/* Adds what the program itself reads: its modules, the settings of colours, and the files that
+ * options name. */
 static bool add_own_folders(const cs_request *request, cs_roots *read) {
   static const char *const variables[] = {"OCIO", "CELSPAN_PICTURE_MODULE", "CELSPAN_ART_MODULE"};
   char folder[PATH_SIZE];
@@ -204,7 +204,7 @@ static cs_exit enter_strict(const cs_request *request, const cs_sandbox *sandbox
   cs_roots_finish(&write);
   if (!refusal)
     return CS_EXIT_OK;
-  cs_report_error("--strict: %s; without --strict the sandbox of the language alone is left",
+  cs_report_error("--strict: %s; without --strict, only Lua's own sandbox confines the script",
                   refusal);
   return CS_EXIT_LIMIT;
 }

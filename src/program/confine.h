@@ -1,4 +1,4 @@
-/* What the command line says of the rights and limits of scripts and pictures: --trust, --strict,
+/* The rights and limits of scripts and pictures, as the command line gives them: --trust, --strict,
  * --allow, --limit.
  */
 #ifndef CS_CLI_CONFINE_H
@@ -9,7 +9,8 @@
 
 /* Has pictures decoded by processes of their own, unless they are trusted. OK, or reported. */
 cs_exit cs_confine_pictures(celspan_context *context, const cs_request *request);
-/* Refuses the options of scripts where a verb reads a FILE, in which none is run. OK, or reported. */
+/* Refuses the options of scripts for a verb that reads a FILE and runs no script. OK, or reported.
+ */
 cs_exit cs_confine_refuse(const cs_request *request);
 /* Whether a script of this request has a sandbox or a limit. */
 bool cs_confine_is_needed(const cs_request *request);

@@ -19,7 +19,7 @@
 
 enum { HEAD = 64 };
 
-/* White space and a byte order mark may stand before a document of XML; no script begins so. */
+/* White space and a byte order mark may come before an XML document; no script begins like that. */
 static bool is_markup(const char *head) {
   const char *start = strncmp(head, "\xEF\xBB\xBF", 3) == 0 ? head + 3 : head;
   return start[strspn(start, " \t\r\n")] == '<';
@@ -59,7 +59,8 @@ static int kind(lua_State *L) {
 
 /* ---------------------------------------------------------------- folders */
 
-/* make_folders(path): those of a file that is to be written. Where it fails, so does writing. */
+/* make_folders(path): makes the folders of a file before it is written. Nothing is reported here if
+ * that fails, because writing the file then fails too. */
 static int make_folders(lua_State *L) {
   lua_pushboolean(L, cs_journal_make_folders_for(luaL_checkstring(L, 1)));
   return 1;

@@ -2,8 +2,9 @@
  *
  *   main -> request (the options) -> a verb -> report (exit code, one line of error)
  *
- * Nothing is loaded that the verb does not need: a Lua state is made by the verbs that are Lua or run
- * a script; OpenImageIO by the first picture, in another process (plugins/isolate/zygote.h).
+ * Nothing is loaded that the verb does not need. A Lua state is made by the verbs that are written
+ * in Lua or run a script; OpenImageIO is loaded for the first picture, in another process
+ * (plugins/isolate/zygote.h).
  */
 #include <errno.h>
 #include <fcntl.h>
@@ -46,7 +47,7 @@ static cs_exit refuse_verb(const char *name) {
 static cs_exit help_lua(const char *name) {
   celspan_context *context = NULL;
   if (celspan_context_create(NULL, &context) != CELSPAN_OK) {
-    cs_report_error("no memory to begin");
+    cs_report_error("not enough memory to start");
     return CS_EXIT_MEMORY;
   }
   celspan_status status = cs_lua_script_help(context, name, stdout);
@@ -67,7 +68,7 @@ static cs_exit run(const cs_request *request) {
   desc.defocus_bytes = (size_t)memory * 1048576 / 3; /* divided as the defaults are */
   desc.picture_bytes = 2 * desc.defocus_bytes;
   if (celspan_context_create(&desc, &context) != CELSPAN_OK) {
-    cs_report_error("no memory to begin");
+    cs_report_error("not enough memory to start");
     return CS_EXIT_MEMORY;
   }
   cs_exit outcome = cs_confine_pictures(context, request);

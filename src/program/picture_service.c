@@ -88,8 +88,10 @@ static void push_parts(lua_State *L, const picture *p) {
   }
 }
 
-/* picture(path) -> { format =, width =, height =, channels =, alpha =, colour =, bytes =, parts = },
- * of which alpha is nil, "straight" or "premultiplied" */
+/* picture(path)
+ *   -> { format =, width =, height =, channels =, alpha =, colour =, bytes =, parts = }
+ *
+ * alpha is nil, "straight" or "premultiplied". */
 static int read_facts(lua_State *L) {
   const char *path = luaL_checkstring(L, 1);
   picture *p = cs_userdata_push_holder(L, "celspan.program.picture", sizeof *p, close_picture);

@@ -42,7 +42,7 @@ typedef struct render_job {
 
 /* ---------------------------------------------------------------- raw frames */
 
-/* A sink that writes the rows of a frame to standard output as coded pixels, without a file format. */
+/* A sink that writes the rows of a frame to standard output as coded pixels without a header. */
 typedef struct raw_rows {
   celspan_coding coding; /* without defaults, except for the depth of dithering */
   int32_t x, y;          /* the place of the first pixel in the whole frame */
@@ -124,7 +124,7 @@ static celspan_status remember_failure(render_job *job, int64_t number) {
   return CELSPAN_OK;
 }
 
-/* Reports a frame that failed, and remembers it. Under --keep-going the run goes on. */
+/* Reports a frame that failed, and remembers it. Under --keep-going the run continues. */
 static celspan_status report_failure(render_job *job, int64_t number, celspan_status status) {
   cs_exit outcome = cs_report_frame_failure(job->script->context, status, number);
   celspan_status remembered =
@@ -194,7 +194,8 @@ static cs_exit sum_up(const render_job *job, cs_exit outcome) {
   char list[1024];
   size_t done = job->progress.frames_done, count = job->frames.count;
   if (done < count && count > 1 && job->is_video)
-    cs_report_note("%s is not made: it ended at %zu of %zu frames", job->output, done, count);
+    cs_report_note("%s was not made: the run ended after %zu of %zu frames", job->output, done,
+                   count);
   else if (done < count && count > 1)
     cs_report_note("%zu of %zu frames are finished", done, count);
   if (job->failed_count == 0 || !job->keeps_going)
@@ -280,7 +281,7 @@ static cs_exit refuse_stream(const cs_request *request) {
   cs_progress_style style = CS_PROGRESS_AUTO;
   cs_request_read(request, "--progress", &style);
   if (cs_request_has(request, "--quality"))
-    return cs_report_usage("--quality belongs to videos, such as film.mp4");
+    return cs_report_usage("--quality is only for videos, such as film.mp4");
   if (cs_request_has(request, "--hash"))
     return cs_report_usage("--hash prints to standard output, where -o - puts the frames: give one "
                            "of them");
@@ -296,7 +297,7 @@ static cs_exit refuse_stream(const cs_request *request) {
 static cs_exit refuse_resume(const cs_request *request, const char *output) {
   bool resumes = cs_request_has(request, "--resume");
   if (cs_request_has(request, "--force") && !resumes)
-    return cs_report_usage("--force belongs to --resume");
+    return cs_report_usage("--force needs --resume");
   if (resumes && (!output || cs_target_is_stream(output)))
     return cs_report_usage("--resume looks for the frames of an earlier run: give -o "
                            "shot.####.png");
@@ -312,7 +313,7 @@ static cs_exit refuse_output(celspan_context *context, const cs_request *request
                                  "frames, and make the video of them")
                : cs_video_target_refuse(request, frame_count);
   if (cs_request_has(request, "--quality"))
-    return cs_report_usage("--quality belongs to videos, such as film.mp4");
+    return cs_report_usage("--quality is only for videos, such as film.mp4");
   const char *output = cs_request_text(request, "-o");
   return output ? cs_target_refuse(context, output, request) : CS_EXIT_OK;
 }
@@ -345,7 +346,7 @@ static cs_exit refuse_division(const cs_request *request, const char *output) {
 static cs_exit refuse_early(celspan_context *context, const cs_request *request) {
   const char *output = cs_request_text(request, "-o");
   if (!output && !cs_request_has(request, "--hash"))
-    return cs_report_usage("where to? give -o shot.####.png (or --hash for digests alone)");
+    return cs_report_usage("-o is missing: give -o shot.####.png (or --hash for digests only)");
   cs_exit outcome = refuse_resume(request, output);
   if (outcome == CS_EXIT_OK)
     outcome = refuse_dither(request);

@@ -37,7 +37,8 @@ cs_exit cs_report_usage(const char *format, ...) __attribute__((format(printf, 1
  * exit code. Reports nothing for CANCELLED, and nothing at all once a signal asked to stop. */
 cs_exit cs_report_failure(const celspan_context *context, celspan_status status, const char *where);
 
-/* The same of a frame: programs are told its number. The sentence names it already. */
+/* The same for a frame. Its number is added to the diagnostics for programs; the sentence of the
+ * context names it already. */
 cs_exit cs_report_frame_failure(const celspan_context *context, celspan_status status,
                                 int64_t number);
 

@@ -113,7 +113,7 @@ static cs_exit take_option(const reading *r, cs_given_texts *texts) {
 
 static cs_exit take_operand(const char *operand, cs_request *out) {
   if (out->operand_count == out->verb->operand_most)
-    return cs_report_usage("'%s' is one too many: celspan %s %s [options]", operand,
+    return cs_report_usage("unexpected argument '%s'; usage: celspan %s %s [options]", operand,
                            out->verb->name, out->verb->operands);
   out->operands[out->operand_count++] = operand;
   return CS_EXIT_OK;
@@ -125,7 +125,7 @@ static cs_exit take_script_arguments(const reading *r, cs_request *out) {
   if (first > out->word_count)
     return CS_EXIT_OK;
   if (!out->verb->has_script)
-    return cs_report_usage("'--' ends the options of verbs that run a script; '%s' runs none",
+    return cs_report_usage("'--' passes arguments to a script, but '%s' does not run one",
                            out->verb->name);
   out->script_arguments = out->words + first;
   out->script_argument_count = out->word_count - first;
@@ -145,7 +145,7 @@ cs_exit cs_request_parse(const cs_verb *verb, size_t count, char *const *words, 
   if (outcome == CS_EXIT_OK)
     outcome = take_script_arguments(&r, out);
   if (outcome == CS_EXIT_OK && out->operand_count < verb->operand_least)
-    return cs_report_usage("usage: celspan %s %s [options] ('celspan help %s' says more)",
+    return cs_report_usage("usage: celspan %s %s [options] ('celspan help %s' describes them)",
                            verb->name, verb->operands, verb->name);
   return outcome;
 }
@@ -179,7 +179,7 @@ const char *cs_request_text(const cs_request *request, const char *name) {
   return find_given(request, name, &r) ? r.text : NULL;
 }
 
-/* In the order in which they were given, because some add to what is there. */
+/* In the order in which they were given, because some options add to those before them. */
 bool cs_request_read(const cs_request *request, const char *name, void *field) {
   bool is_given = false;
   for (reading r = {.request = request}; next_option(&r);)

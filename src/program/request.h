@@ -1,6 +1,6 @@
 /* What a verb takes, and what it was given.
  *
- *   cs_verb: operands, options, help --> parsing, the help, the manual page, names that are suggested
+ *   cs_verb: operands, options, help --> parsing, the help, the manual page, suggestions for names
  *   cs_request: the words of the command line, in which a verb looks for its options
  */
 #ifndef CS_CLI_REQUEST_H

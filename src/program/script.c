@@ -98,7 +98,7 @@ static bool lacks_memory(const char *message) { return !message || strstr(messag
 
 cs_exit cs_script_report_start(lua_State *L) {
   if (!L) {
-    cs_report_error("no memory for Lua");
+    cs_report_error("not enough memory for Lua");
     return CS_EXIT_MEMORY;
   }
   const char *message = lua_tostring(L, -1);
@@ -123,7 +123,7 @@ static cs_exit start(cs_script *out) {
   return CS_EXIT_OK;
 }
 
-/* film, light userdata: where it is told. Runs protected. */
+/* Arguments: the film, and a light userdata where its facts are stored. Runs in protected mode. */
 static int read_film(lua_State *L) {
   cs_lua_film_read(L, 1, lua_touserdata(L, 2));
   return 0;

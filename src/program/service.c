@@ -118,7 +118,7 @@ static int is_stopped(lua_State *L) {
   return 1;
 }
 
-/* refuse(option): its value is none that the verb takes, as the help describes them. */
+/* refuse(option): reports that the verb does not take the value that was given. */
 static int refuse(lua_State *L) {
   const cs_request *request = cs_service_program(L)->request;
   return cs_service_end(L, cs_request_refuse(request, luaL_checkstring(L, 1)));

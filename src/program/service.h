@@ -8,8 +8,8 @@
  * Texts are part of the binary. A state loads program.lua and the text of its verb, and celspan's
  * modules when one of them is required.
  *
- * INVARIANT: a script's film has a state of its own. What passes from there to the program's state
- * is numbers, texts and references to values of the core, never a value of Lua. A service that fails
+ * INVARIANT: a script's film has a Lua state of its own. Only numbers, texts and references to
+ * values of the core pass from it to the program's state, never values of Lua. A service that fails
  * reports why and ends the verb with its exit code, unless it is one that returns a message.
  */
 #ifndef CS_CLI_SERVICE_H

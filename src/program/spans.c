@@ -103,7 +103,7 @@ static cs_exit run(cs_script *script, const cs_request *request) {
 
 cs_exit cs_verb_spans(celspan_context *context, const cs_request *request) {
   if (cs_request_has(request, "--pixels") && !cs_request_has(request, "--stats"))
-    return cs_report_usage("--pixels goes with --stats");
+    return cs_report_usage("--pixels needs --stats");
   cs_script script;
   cs_exit outcome = cs_script_open(context, request, request->operands[0], &script);
   if (outcome == CS_EXIT_OK)

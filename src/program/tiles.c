@@ -137,7 +137,8 @@ static cs_exit set_pyramid(tiles_job *job) {
     return cs_report_usage("--tile %d: a tile has %d to %d pixels a side", pyramid->tile,
                            TILE_LEAST, TILE_MOST);
   if (!is_dzi && pyramid->overlap > 0)
-    return cs_report_usage("--overlap goes with --format dzi: the tiles of IIIF share no pixels");
+    return cs_report_usage("--overlap is only for --format dzi: the tiles of IIIF share no "
+                           "pixels");
   if (pyramid->overlap > pyramid->tile / 2)
     return cs_report_usage("--overlap %d: it can be half of a tile's %d pixels at most",
                            pyramid->overlap, pyramid->tile);
@@ -327,7 +328,7 @@ cs_exit cs_verb_tiles(celspan_context *context, const cs_request *request) {
                    .skips_empty = cs_request_has(request, "--skip-empty"),
                    .log.descriptor = -1};
   if (!job.output)
-    return cs_report_usage("where to? give -o DIR, the folder for the tiles and their page");
+    return cs_report_usage("-o is missing: give -o DIR, the folder for the tiles and their page");
   cs_exit outcome = run(&job);
   cs_tile_log_close(context, &job.log);
   cs_tile_plan_free(context, &job.plan);

@@ -1,5 +1,5 @@
-/* The verbs: what each takes, and what its help says. Texts are wrapped where they are printed; lines
- * that begin with a space are left as they are. */
+/* The verbs: what each takes, and what its help says. Texts are wrapped when they are printed;
+ * lines that begin with a space are left as they are. */
 #include "program/verbs.h"
 
 /* ---------------------------------------------------------------- options of several verbs */
@@ -9,27 +9,31 @@
 #define FRAMES                                                                                     \
   { "--frames", "LIST", &cs_argument_frames, "the frames, such as 1-10,20-30:2,45; default: all" }
 #define FRAME                                                                                      \
-  { "--frame", "N", &cs_argument_integer, "the frame; default: the first" }
+  { "--frame", "N", &cs_argument_integer, "the frame number; default: the first" }
 #define SIZE                                                                                       \
   {                                                                                                \
     "--size", "WxH", &cs_argument_size,                                                            \
-        "pixels of the whole frame; each axis is scaled on its own"                                \
+        "pixels of the whole frame; each axis is scaled separately"                                \
   }
 #define SCALE                                                                                      \
-  { "--scale", "S", &cs_argument_scale, "pixels a film unit, instead of --size" }
+  { "--scale", "S", &cs_argument_scale, "pixels per film unit, instead of --size" }
 #define CROP                                                                                       \
-  { "--crop", "X,Y,W,H", &cs_argument_crop, "the part to make, in pixels of the output" }
+  { "--crop", "X,Y,W,H", &cs_argument_crop, "the part to render, in pixels of the output" }
 #define ANTIALIAS                                                                                  \
   {                                                                                                \
     "--antialias", "MODE", &cs_argument_antialias,                                                 \
-        "area (the mean over each pixel), none (pixel centres), or KERNEL[:ROWS]: box, gaussian, " \
-        "mitchell or lanczos; ROWS: parts of a pixel row, 16"                                      \
+        "area (the average over each pixel), none (pixel centres), or KERNEL[:ROWS]: "             \
+        "box, gaussian, mitchell or lanczos; ROWS: the parts into which a row of "                 \
+        "pixels is cut, 16; default: each rostrum's own"                                           \
   }
 #define WORKERS                                                                                    \
-  { "--workers", "N", &cs_argument_workers, "threads that render; default: one a processor" }
+  {                                                                                                \
+    "--workers", "N", &cs_argument_workers,                                                        \
+        "the number of rendering threads; default: one per processor"                              \
+  }
 /* The coding of a file's pixels. */
 #define CODING                                                                                     \
-  {"--format", "NAME", &cs_argument_format, "file format; default: by the ending of OUT"},         \
+  {"--format", "NAME", &cs_argument_format, "the file format; default: by the extension of OUT"},  \
       {"--depth", "DEPTH", &cs_argument_depth, "8, 16, half or float; default: by the format"},    \
       {"--colour", "CODING", &cs_argument_colour,                                                  \
        "srgb, linear, rec709 or cineon; default: srgb, floats linear"},                            \
@@ -38,18 +42,25 @@
         "straight or premultiplied; default: straight, floats premultiplied"                       \
   }
 #define DITHER                                                                                     \
-  { "--dither", NULL, NULL, "8 bits without bands: rounded up or down by the place of the pixel" }
+  {                                                                                                \
+    "--dither", NULL, NULL,                                                                        \
+        "8 bits without banding: rounded up or down by the position of the pixel"                  \
+  }
 #define BACKGROUND                                                                                 \
   {                                                                                                \
     "--background", "RGB", &cs_argument_tint,                                                      \
-        "a back light of this colour and matte 1 behind everything"                                \
+        "a back light of this colour, with matte 1, behind everything"                             \
   }
 #define CEL                                                                                        \
-  { "--cel", "NAME", &cs_argument_cel, "only the cels of this name (cel:named), with their lights" }
+  {                                                                                                \
+    "--cel", "NAME", &cs_argument_cel,                                                             \
+        "only the cels with this name (cel:named), with their lights"                              \
+  }
 #define ONION                                                                                      \
   {                                                                                                \
     "--onion", "B,A", &cs_argument_onion,                                                          \
-        "lay B frames before (red) and A after (green) over each frame"                            \
+        "draw the B frames before (red) and the A frames after (green) over each "                 \
+        "frame"                                                                                    \
   }
 #define FORCE                                                                                      \
   {                                                                                                \
@@ -57,13 +68,12 @@
         "with --resume: keep every complete frame file, even if its content would differ"          \
   }
 #define KEEP_GOING                                                                                 \
-  { "--keep-going", NULL, NULL, "go on after frames that fail; the exit code is then 1" }
+  { "--keep-going", NULL, NULL, "continue after frames that fail; the exit code is then 1" }
 #define MEMORY                                                                                     \
   {                                                                                                \
     "--memory", "MiB", &cs_argument_memory,                                                        \
-        "pictures and defocused cels kept in memory; default: 768; 0: every frame is made as if "  \
-        "it "                                                                                      \
-        "were the first"                                                                           \
+        "the size of the caches of decoded pictures and defocused cels; default: 768; "            \
+        "0: every frame is rendered as if it were the first"                                       \
   }
 #define PROGRESS                                                                                   \
   {                                                                                                \
@@ -73,24 +83,27 @@
 /* The rights of a script. */
 #define RIGHTS                                                                                     \
   {"--trust", NULL, NULL,                                                                          \
-   "give the script the whole of Lua: files, programs, no limits; decode pictures in this "        \
-   "process, without limits"},                                                                     \
+   "give the script all of Lua, with files and programs, and no limits; decode "                   \
+   "pictures in this process, without limits"},                                                    \
       {"--strict", NULL, NULL,                                                                     \
-       "confine the process too, by the kernel: no other files, programs or network"},             \
+       "let the kernel confine the process too: no other files, no programs, no "                  \
+       "network"},                                                                                 \
       {"--allow", "DIR", &cs_argument_texts,                                                       \
-       "let the script read below this folder too; may be given several times"},                   \
+       "let the script also read this folder and the folders in it; may be given "                 \
+       "several times"},                                                                           \
   {                                                                                                \
     "--limit", "NAME=V", &cs_argument_limits,                                                      \
-        "limits of the script: memory=512M, steps=2e9 (a frame), time=60 (seconds a call), "       \
-        "print=1M (a frame) are the defaults; of decoding a picture: picture-memory=1G, "          \
-        "picture-time=20 (seconds a part); several with commas; 0: none"                           \
+        "limits, several separated by commas; 0: no limit. Of the script: "                        \
+        "memory=512M, steps=2e9 per frame, time=60 seconds per call, print=1M per "                \
+        "frame; of decoding a picture: picture-memory=1G, picture-time=20 seconds per "            \
+        "part. These values are the defaults"                                                      \
   }
 /* The rights of pictures, where there is no script. */
 #define PICTURE_RIGHTS                                                                             \
   {"--trust", NULL, NULL, "decode pictures in this process, without limits"}, {                    \
     "--limit", "NAME=V", &cs_argument_picture_limits,                                              \
-        "limits of decoding a picture: picture-memory=1G, picture-time=20 (seconds a part) are "   \
-        "the defaults; 0: none"                                                                    \
+        "limits of decoding a picture; 0: no limit. picture-memory=1G and "                        \
+        "picture-time=20 seconds per part are the defaults"                                        \
   }
 
 /* ---------------------------------------------------------------- options of each */
@@ -99,13 +112,14 @@ static const cs_option NONE[] = {{0}};
 
 static const cs_option RENDER[] = {
     OUTPUT("OUT", "shot.####.png, shot.%04d.exr, one.png for a single frame, - for raw frames; "
-                  "film.mp4, .mov, .webm, .mkv, .gif or .webp: a video, by ffmpeg"),
+                  "film.mp4, .mov, .webm, .mkv, .gif or .webp: a video, made by ffmpeg"),
     FRAMES,
     SIZE,
     SCALE,
     CROP,
-    {"--strip", "I/N", &cs_argument_share, "the I-th of N strips of the frame, for 'celspan join'"},
-    {"--task", "I/N", &cs_argument_share, "the I-th of N parts of the frames"},
+    {"--strip", "I/N", &cs_argument_share,
+     "only the I-th of N strips of the frame, for 'celspan join'"},
+    {"--task", "I/N", &cs_argument_share, "only the I-th of N parts of the frames"},
     ANTIALIAS,
     CODING,
     DITHER,
@@ -116,9 +130,8 @@ static const cs_option RENDER[] = {
     ONION,
     WORKERS,
     PROGRESS,
-    {"--hash", NULL, NULL, "print FRAME DIGEST for each frame's pixels; OUT may be left out"},
-    {"--resume", NULL, NULL,
-     "keep the frames of earlier runs with --resume that would be the same again"},
+    {"--hash", NULL, NULL, "print FRAME DIGEST for the pixels of each frame; -o may be omitted"},
+    {"--resume", NULL, NULL, "keep the frames of earlier runs with --resume that would not change"},
     FORCE,
     KEEP_GOING,
     RIGHTS,
@@ -128,17 +141,23 @@ static const cs_option RENDER[] = {
 static const cs_option INFO[] = {RIGHTS, {0}};
 
 static const cs_option CHECK[] = {
-    FRAMES, {"--deep", NULL, NULL, "read pictures whole, not only their headers"}, RIGHTS, {0}};
+    FRAMES,
+    {"--deep", NULL, NULL,
+     "read every picture completely, not only its header, and have ffmpeg read the "
+     "sound"},
+    RIGHTS,
+    {0}};
 
 static const cs_option SPANS[] = {
     FRAME,
     SIZE,
-    {"--rows", "A-B", &cs_argument_rows, "rows from A to B, both included; default: all"},
+    {"--rows", "A-B", &cs_argument_rows, "rows A to B, inclusive; default: all"},
     ANTIALIAS,
     WORKERS,
-    {"--stats", NULL, NULL, "make all rows, count their spans by kind, print one line of counts"},
+    {"--stats", NULL, NULL, "make all rows, but print only one line of statistics"},
     {"--pixels", "DEPTH", &cs_argument_depth,
-     "with --stats: make each row as pixels, in a row that is reused"},
+     "with --stats: also convert each row to pixels of this depth, in a buffer "
+     "that is reused"},
     RIGHTS,
     MEMORY,
     {0}};
@@ -148,15 +167,15 @@ static const cs_option PROBE[] = {FRAME, RIGHTS, {0}};
 static const cs_option CONVERT[] = {SIZE, CROP, CODING, WORKERS, PICTURE_RIGHTS, {0}};
 
 static const cs_option COMPARE[] = {
-    OUTPUT("DIFFERENCE", "a picture of where they differ: A in pale grey, differences in red"),
+    OUTPUT("DIFFERENCE", "a picture of the differences: A in pale grey, what differs in red"),
     {"--fail", "D", &cs_argument_tolerance,
-     "largest difference of coded values (0..1) that is accepted; default 0"},
+     "the largest difference of coded values (0..1) that is accepted; default: 0"},
     PICTURE_RIGHTS,
     {0}};
 
 static const cs_option TILES[] = {
     {"-o", "DIR", &cs_argument_folder,
-     "the folder for the pyramid and its page; made when it is missing"},
+     "the folder for the pyramid and its page; created if it is missing"},
     FRAME,
     SIZE,
     SCALE,
@@ -168,17 +187,21 @@ static const cs_option TILES[] = {
     WORKERS,
     PROGRESS,
     {"--picture", "NAME", &cs_argument_picture, "png or jpg: the format of a tile; default: png"},
-    {"--tile", "N", &cs_argument_tile, "pixels of a tile's side; default: 254, iiif 512"},
+    {"--tile", "N", &cs_argument_tile, "the side of a tile in pixels; default: 254, iiif 512"},
     {"--overlap", "N", &cs_argument_pixels,
      "pixels that tiles share with their neighbours; default: 1, iiif 0"},
-    {"--levels", "A-B", &cs_argument_levels, "levels to make, 0 is one pixel; default: all"},
+    {"--levels", "A-B", &cs_argument_levels,
+     "the levels to make; level 0 is one pixel; default: all"},
     {"--places", "FILE", &cs_argument_file,
-     "lines X Y WIDTH NAME: links in the page; deeper levels are made around them"},
-    {"--tiles-limit", "N", &cs_argument_count, "tiles to make at most; default: 200000"},
-    {"--skip-empty", NULL, NULL, "leave out tiles that show nothing but the background"},
-    {"--fresh", NULL, NULL, "remove the tiles of an earlier run and start over"},
+     "lines X Y WIDTH NAME: links in the page; more levels are made around these "
+     "places"},
+    {"--tiles-limit", "N", &cs_argument_count,
+     "the largest number of tiles to make; default: 200000"},
+    {"--skip-empty", NULL, NULL, "omit tiles that show only the background"},
+    {"--fresh", NULL, NULL, "remove the tiles of an earlier run and start again"},
     {"--viewer", "PATH", &cs_argument_file_or_folder,
-     "OpenSeadragon, which is copied beside the page and replaces its own viewer"},
+     "OpenSeadragon, a folder or file that is copied beside the page and replaces "
+     "the built-in viewer"},
     RIGHTS,
     {0}};
 
@@ -193,39 +216,42 @@ static const cs_option CONTACT[] = {
     OUTPUT("SHEET", "the picture to make; sheet.####.png for several pages"),
     FRAMES,
     {"--grid", "CxR", &cs_argument_grid, "columns and rows of a page; default: 6x4"},
-    {"--every", "N", &cs_argument_every,
-     "one frame in N; default: the number that fits on one page"},
+    {"--every", "N", &cs_argument_every, "one frame in N; default: as many as fit on one page"},
     WORKERS,
     RIGHTS,
     {0}};
 
 static const cs_option RELIGHT[] = {
-    OUTPUT("OUT", "the picture in the light --to; without it an .exr that takes any light"),
+    OUTPUT("OUT", "the picture in the light --to; without --to, an .exr that can be shown in "
+                  "any light"),
     {"--light", "COLOUR", &cs_argument_lamp,
-     "the light that IN was taken in; grey: that in which its mean is a grey of 0.18"},
-    {"--to", "COLOUR", &cs_argument_light, "the light to show it in"},
+     "the light in which IN was taken, #rrggbb or r,g,b; grey: the light in which "
+     "the average of IN is a grey of 0.18"},
+    {"--to", "COLOUR", &cs_argument_light, "the light in which to show it"},
     CODING,
     PICTURE_RIGHTS,
     {0}};
 
 static const cs_option TRACE[] = {
-    OUTPUT("OUT", "art.svg, or art.lua: a script that shows the drawing, and is a module"),
+    OUTPUT("OUT", "art.svg, or art.lua: a script that shows the drawing and is also a module"),
     {"--colours", "N|LIST", &cs_argument_colours,
-     "how many colours are found in the picture, or a list of them; default: 2"},
+     "the number of colours to find, or a list of colours; default: 2"},
     {"--smooth", "S", &cs_argument_smooth,
-     "how far curves may leave the edges; 0: the sides of the pixels; default: 1"},
+     "how far curves may deviate from the edges; 0: the sides of the pixels; "
+     "default: 1"},
     {"--speckle", "N", &cs_argument_pixels,
-     "areas of at most N pixels go to their neighbours; default: 2"},
-    {"--lines", NULL, NULL, "strokes along what is drawn on the ground, instead of areas"},
+     "areas of at most N pixels are merged into their neighbours; default: 2"},
+    {"--lines", NULL, NULL, "strokes along the drawing on the background, instead of areas"},
     PICTURE_RIGHTS,
     {0}};
 
 static const cs_option TRACK[] = {
-    OUTPUT("OUT.json", "the track, for celspan.track; default: on standard output"),
+    OUTPUT("OUT.json", "the track, for celspan.track; default: standard output"),
     {"--from", "N", &cs_argument_integer, "the frame in which the region is given"},
     {"--at", "X,Y,W,H", &cs_argument_crop, "the region in that frame, in pixels"},
     {"--model", "NAME", &cs_argument_model,
-     "translation, similarity (turned and scaled too) or perspective; default: similarity"},
+     "translation, similarity (also rotation and scale) or perspective; default: "
+     "similarity"},
     FRAMES,
     PICTURE_RIGHTS,
     {0}};
@@ -235,16 +261,18 @@ static const cs_option FARM[] = {
            "the output of the job, as for render: shot.####.png, one.png for a single frame"),
     {"--slurm", NULL, NULL, "an array script for Slurm"},
     {"--openjd", NULL, NULL, "a template of Open Job Description 2023-09, in JSON"},
-    {"--chunk", "N", &cs_argument_every, "at most N frames a task; default: 10"},
+    {"--chunk", "N", &cs_argument_every, "the largest number of frames in a task; default: 10"},
     {"--strips", "N", &cs_argument_every,
-     "one frame in N strips, a task each, and a task that joins them"},
-    {"--job-name", "NAME", &cs_argument_text, "the name of the job; default: that of the script"},
-    {"--job-memory", "MiB", &cs_argument_mebibytes,
-     "memory of each task; default: that of the farm"},
-    {"--job-time", "MIN", &cs_argument_minutes, "minutes of each task; default: that of the farm"},
-    {"--logs", "DIR", &cs_argument_folder, "directory for Slurm's task logs; default: Slurm's own"},
+     "one frame in N strips, with a task for each strip and one that joins them"},
+    {"--job-name", "NAME", &cs_argument_text,
+     "the name of the job; default: the name of the script"},
+    {"--job-memory", "MiB", &cs_argument_mebibytes, "the memory of each task; default: the farm's"},
+    {"--job-time", "MIN", &cs_argument_minutes,
+     "the minutes that each task may take; default: the farm's"},
+    {"--logs", "DIR", &cs_argument_folder,
+     "the folder for Slurm's task logs; default: Slurm's own"},
     {"--workers", "N", &cs_argument_workers,
-     "processors, and threads, of each task; default: that of the farm"},
+     "processors, and threads, of each task; default: the farm's"},
     FRAMES,
     SIZE,
     SCALE,
@@ -262,11 +290,12 @@ static const cs_option FARM[] = {
     {0}};
 
 static const cs_option JOIN[] = {
-    OUTPUT("OUT", "the picture to make; its ending is that of the strips"), {0}};
+    OUTPUT("OUT", "the picture to make, in the same format as the strips"), {0}};
 
 static const cs_option TEST[] = {
     {"--only", "PATTERN", &cs_argument_pattern, "only tests whose names match this Lua pattern"},
-    {"--workers", "N", &cs_argument_workers, "spec files at a time; default: one a processor"},
+    {"--workers", "N", &cs_argument_workers,
+     "the number of spec files at a time; default: one per processor"},
     {0}};
 
 static const cs_option HELP[] = {{"--man", NULL, NULL, "the manual page"},
@@ -277,28 +306,30 @@ static const cs_option HELP[] = {{"--man", NULL, NULL, "the manual page"},
 
 const cs_verb cs_verbs[] = {
     {"render", "SCRIPT -o OUT", 1, 1, .has_script = true,
-     .summary = "Renders the frames of a film to files, or raw to standard output.",
-     .notes =
-         "Missing folders are made and existing frames are replaced; a frame appears under its "
-         "name whole or not at all. Colours are computed in linear light. By default integers are "
-         "8 bit, sRGB-coded, alpha straight; floats are linear, alpha premultiplied. With -o - "
-         "RGBA rows go to standard output, top to bottom, little endian. A video is made by "
-         "ffmpeg, with the film's sound in step: mp4 and mkv hold H.264, mov ProRes 4444 and webm "
-         "VP9, both with alpha.",
+     .summary = "Renders the frames of a film to files, a video or standard output.",
+     .notes = "Missing folders are created and existing frames are replaced. A frame is "
+              "either complete under its name or absent. Colours are computed in linear "
+              "light. By default, integers have 8 bits, are sRGB-coded and have straight "
+              "alpha; floats are linear with premultiplied alpha. With -o - the frames are "
+              "written to standard output as rows of RGBA pixels, top to bottom, little "
+              "endian. A video is made by ffmpeg, with the film's sound in sync: mp4 and "
+              "mkv contain H.264 without alpha, mov ProRes 4444 and webm VP9, both with "
+              "alpha.",
      .options = RENDER, .run = cs_verb_render},
     {"info", "SCRIPT|FILE", 1, 1, .has_script = true,
-     .summary = "Prints frames, size, cels, primitives and pictures of a film; or the facts of a "
-                "picture or span file.",
-     .notes = "The content of the file decides which it is. Of a picture the headers are read: "
-              "format, size, channels, alpha, depth, colour, subimages and layers. A span file is "
-              "read to its end and every checksum is verified.",
+     .summary = "Prints figures about a film, picture, painting, drawing or span file.",
+     .notes = "The type of the file is detected from its content. Every frame of a film is "
+              "built. Only the headers of a picture are read: format, size, channels, "
+              "alpha, depth, colour, subimages and layers. A span file is read to its end, "
+              "and every checksum is verified.",
      .options = INFO},
     {"check", "SCRIPT", 1, 1, .has_script = true,
-     .summary = "Builds every frame without rendering and reports all faults.",
-     .notes = "Each frame is built twice, the second time in another order in a fresh film: a "
-              "frame function that answers differently is not a pure function of its frame. Every "
-              "picture is looked for, hidden or not. Frames that hold scan-line procedures are "
-              "built, but not compared. Equal faults are one line, with the frames that have them.",
+     .summary = "Builds every frame without rendering it, and reports all faults.",
+     .notes = "Each frame is built twice, the second time in another order in a fresh film: "
+              "a frame function that then returns another scene is not a pure function of "
+              "its frame. Every picture must exist, hidden or not, and so must the film's "
+              "sound. Frames with scan-line procedures are built, but not compared. Equal "
+              "faults are reported in one line, with all frames that have them.",
      .options = CHECK},
     {"spans", "SCRIPT", 1, 1, .has_script = true, .summary = "Prints the spans of a frame as text.",
      .notes = "One line a span, colours linear and premultiplied, columns half-open, rows from 0:\n"
@@ -307,81 +338,90 @@ const cs_verb cs_verbs[] = {
               "  row x0 x1 array N",
      .options = SPANS, .run = cs_verb_spans},
     {"probe", "SCRIPT X Y", 3, 3, .has_script = true,
-     .summary = "Prints r g b a of one point, by direct evaluation: linear, premultiplied.",
-     .notes = "X and Y are film units. There is no antialiasing and no defocus at a point.",
+     .summary = "Prints the colour of one point as r g b a, linear and premultiplied.",
+     .notes = "X and Y are film units. The scene is evaluated directly at the point, "
+              "without antialiasing or defocus.",
      .options = PROBE},
-    {"convert", "IN OUT", 2, 2, .summary = "Converts any picture to any other.",
-     .options = CONVERT},
+    {"convert", "IN OUT", 2, 2,
+     .summary = "Converts a picture or span file to another format or size.", .options = CONVERT},
     {"compare", "A B", 2, 2,
-     .summary = "Compares two pictures or films: exit 0 when they show the same, 1 when not.",
-     .notes =
-         "Prints the largest difference of coded values (0..1: sRGB, alpha straight), where it "
-         "is, and how many pixels differ by more than --fail. A and B may be patterns such as "
-         "shot.####.png: then there is a line for each frame.",
+     .summary = "Compares two pictures or films: the exit code is 0 if they show the same, "
+                "else 1.",
+     .notes = "Prints the largest difference of coded values (0..1: sRGB, straight alpha), "
+              "its position, and how many pixels differ by more than --fail. If A and B are "
+              "patterns such as shot.####.png, a line is printed for each frame.",
      .options = COMPARE},
     {"tiles", "SCRIPT|FILE -o DIR", 1, 1, .has_script = true, .makes_folder = true,
-     .summary = "Cuts a frame or a picture into tiles for exploring it in a browser.",
-     .notes = "Makes a pyramid of tiles straight from the scene, and index.html, which shows it. A "
-              "FILE is any picture; a name that ends in .lua is a script. Equal tiles are one file "
-              "with several names. A run that was stopped continues where it was.",
+     .summary = "Cuts a frame or a picture into tiles, with a page to explore it in a "
+                "browser.",
+     .notes = "Makes a pyramid of tiles directly from the scene, and index.html, which "
+              "shows it. A name that ends in .lua is a script; a FILE is any picture. Equal "
+              "tiles are one file with several names. A run that was stopped continues "
+              "where it stopped.",
      .options = TILES, .run = cs_verb_tiles},
     {"sheet", "FILE|SCRIPT", 1, 1, .has_script = true,
-     .summary = "Prints an exposure sheet as text, converts it, or writes the sheet of a film.",
-     .notes =
-         "A FILE is an exposure sheet: XDTS, the CSV of TVPaint, Krita or Clip Studio, an OCA "
-         "folder, or the text that is printed; a name that ends in .lua is a script. The sheet "
-         "of a film has a row for each cel and object with a name, and for cels without one by "
-         "their places. Drawings are numbered as they appear:\n"
-         "  |   the drawing above goes on\n"
-         "  -   there is no drawing\n"
-         "  /m  its placement, fade, viewport or lights changed\n"
-         "  /p  a procedure draws it: not compared",
+     .summary = "Prints or converts an exposure sheet, or writes the sheet of a film.",
+     .notes = "A name that ends in .lua is a script. A FILE is an exposure sheet: XDTS, the "
+              "CSV of TVPaint, Krita or Clip Studio, an OCA folder, or the text that this "
+              "verb prints. The sheet of a film has a column for each cel and object with a "
+              "name, and for each cel without one, by its position. Drawings are numbered "
+              "in the order in which they appear:\n"
+              "  |   the same drawing as above\n"
+              "  -   no drawing\n"
+              "  /m  the placement, fade, viewport or lights changed\n"
+              "  /p  drawn by a procedure, so not compared",
      .options = SHEET},
     {"contact", "SCRIPT -o SHEET", 1, 1, .has_script = true,
-     .summary = "Makes a sheet of frames side by side, each with its number.",
-     .notes = "Without --every the frames are thinned until they fit on one page. With it, SHEET "
-              "needs a number such as sheet.####.png when there are more frames than cells.",
+     .summary = "Makes a contact sheet: frames side by side, each with its number.",
+     .notes = "Without --every, as many frames are left out as necessary to fit on one "
+              "page. With --every, SHEET needs a number, as in sheet.####.png, if the "
+              "frames do not fit on one page.",
      .options = CONTACT},
     {"relight", "IN -o OUT", 1, 1,
-     .summary = "Takes the light off a picture, and shows it in another light.",
-     .notes = "IN is any picture, and --light what it was taken in; highlights are kept. Without "
-              "--to OUT is an EXR file of seven channels, which takes any light: for "
-              "celspan.relight, or as IN of another run, which needs no --light.",
+     .summary = "Removes the light from a picture, and shows the picture in another light.",
+     .notes = "IN is any picture, and --light is the light in which it was taken. "
+              "Highlights are kept. Without --to, OUT is an EXR file of seven channels that "
+              "can be shown in any light: by celspan.relight, or as the IN of another run, "
+              "which then needs no --light.",
      .options = RELIGHT},
     {"trace", "IN -o OUT", 1, 1,
      .summary = "Turns a scanned or flat-coloured drawing into shapes: SVG, or a script.",
-     .notes = "IN is any picture. Areas of one colour become closed paths of lines and cubics; "
-              "adjacent areas share their border, so that there are no gaps between them. A script "
-              "renders as it is, and gives its shapes to other scripts by require. OUT appears "
-              "whole or not at all.",
+     .notes = "IN is any picture. Areas of one colour become closed paths of lines and "
+              "cubic curves. Adjacent areas share their border, so there are no gaps "
+              "between them. A script can be rendered, and other scripts can require it to "
+              "use its shapes. OUT is either complete or absent.",
      .options = TRACE},
     {"track", "PATTERN --from N --at X,Y,W,H", 1, 1,
-     .summary = "Follows a region through frames, and writes its position in each.",
-     .notes = "PATTERN names pictures with a number, such as head.####.png. Frames in which the "
-              "region was not found are reported as lost. The track is for celspan.track, which "
-              "places art on it.",
+     .summary = "Follows a region through frames, and writes its position in each frame.",
+     .notes = "PATTERN names pictures by number, such as head.####.png. Frames in which the "
+              "region is not found are reported as lost. The module celspan.track reads the "
+              "track and places art on it.",
      .options = TRACK},
     {"farm", "SCRIPT -o OUT", 1, 1, .has_script = true,
-     .summary = "Writes a job for a render farm: a Slurm array script, or an Open Job Description.",
-     .notes = "The job goes to standard output. Its tasks render the frames to OUT as 'celspan "
-              "render' would, in chunks that continue where they were stopped, or one frame in "
-              "strips, which are joined at the end.",
+     .summary = "Writes a job for a render farm: an array script for Slurm, or an Open Job "
+                "Description.",
+     .notes = "The job is written to standard output. Its tasks render the frames to OUT as "
+              "'celspan render' does: in chunks that continue where they were stopped, or "
+              "one frame in strips, which are joined at the end.",
      .options = FARM},
     {"join", "STRIP ... -o OUT", 1, CS_OPERANDS_MAX,
-     .summary = "Puts strips of a frame together, without unpacking them.",
-     .notes = "STRIPs are PNG, Targa or span files of 'celspan render --strip', from the top down, "
-              "or a pattern such as strips/####.png. OUT shows what the whole frame would, and "
-              "appears whole or not at all.",
+     .summary = "Joins strips of a frame without decompressing them.",
+     .notes = "STRIPs are PNG, Targa or span files made by 'celspan render --strip', from "
+              "top to bottom, or a pattern such as strips/####.png. OUT shows the same as "
+              "the frame rendered as a whole, and is either complete or absent.",
      .options = JOIN},
     {"test", "[SPEC ...]", 0, CS_OPERANDS_MAX,
-     .summary = "Runs specs in busted, with the assertions of celspan.spec.",
-     .notes = "A SPEC is a file, or a folder whose files that end in _spec.lua are run; default: "
-              "spec. Each file is run in a process of its own, several at a time. Exit code 1 when "
-              "a test failed, 5 when busted is not installed.",
+     .summary = "Runs specs with busted and the assertions of celspan.spec.",
+     .notes = "A SPEC is a file, or a folder, of which all files that end in _spec.lua are "
+              "run; the default is the folder spec. Each file runs in its own process, "
+              "several at a time. The exit code is 1 if a test failed, and 5 if busted is "
+              "not installed.",
      .options = TEST},
     {"init", "NAME", 1, 1,
-     .summary = "Lays out a film: script, sheet, spec, settings for editors, a page about it.",
-     .notes = "NAME is a folder, new or empty. The film renders and its tests pass as they are.",
+     .summary = "Creates a film to start from: script, sheet, spec, settings for editors, "
+                "README.",
+     .notes = "NAME is a new or empty folder. The film renders and its tests pass without "
+              "changes.",
      .options = NONE},
     {"help", "[VERB]", 0, 1, .is_hidden = true, .options = HELP},
     {"spec", "-- FILE [PATTERN]", 0, 0, .is_hidden = true, .has_script = true, .options = NONE},

@@ -1,5 +1,5 @@
-/* The verbs that are written in C, each in the file of its name; the others are texts in verbs/. They
- * have reported whatever they do not answer with CS_EXIT_OK.
+/* The verbs that are written in C, each in the file of its name; the others are Lua in verbs/. A
+ * verb that returns anything other than CS_EXIT_OK has reported the error.
  */
 #ifndef CS_CLI_VERBS_H
 #define CS_CLI_VERBS_H

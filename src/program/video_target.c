@@ -88,8 +88,8 @@ static cs_exit refuse_rate(const cs_video_desc *video) {
   double frames_second = video->frames.frames_second;
   if (frames_second <= video->format->most_frames_second)
     return CS_EXIT_OK;
-  return cs_report_usage("%s: %g frames a second: %s holds at most %g", video->path, frames_second,
-                         video->format->name, video->format->most_frames_second);
+  return cs_report_usage("%s: %g frames per second: %s holds at most %g", video->path,
+                         frames_second, video->format->name, video->format->most_frames_second);
 }
 
 /* ---------------------------------------------------------------- sound */

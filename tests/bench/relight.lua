@@ -3,7 +3,7 @@
 --   LUA_CPATH=build/?.so lua5.4 tests/bench/relight.lua [FILM.lua [FRAME]]
 --
 -- Two frames of 1920 x 1080: 40 cels of pictures with alpha, each half as wide and high as the
--- frame, with a soft edge and 8 bits a channel, scattered over it; and a frame of a film
+-- frame, with a soft edge and 8 bits per channel, scattered over it; and a frame of a film
 -- (scripts/demo.lua by default) whose lights that are textures are made flat. Measured for each:
 -- rendering to floats, taking the frame apart once, and the frame with a new light for one cel in
 -- the middle, and for all of them. Times are processor time of all threads, the least of several

@@ -65,7 +65,13 @@ local function union_of(text)
   return found
 end
 
---- The values that a type requires, for a union those of a member that `take` chooses:
+--- Classes of tables whose names have none of the usual endings.
+local TABLES = {
+  ["celspan.camera"] = true, ["celspan.defocus"] = true, ["celspan.filter"] = true,
+  ["celspan.light_shape"] = true, ["celspan.gradient"] = true,
+}
+
+--- The values that a type requires; of a union, those of the member that `take` chooses:
 ---
 ---   "word", value        a literal             "list", type       a list of that type
 ---   "function", type     with that answer      "class", name      a table of its fields
@@ -78,9 +84,9 @@ function annotations.parse(text, take)
   local literal = text:match '^"(.*)"$' or tonumber(text)
   if literal then return "word", literal end
   if text:find "%[%]$" then return "list", text:sub(1, -3) end
-  local is_table = classes[text] and (text:find "fields$" or text:find "options$" or text:find "style$"
-    or text == "celspan.camera" or text == "celspan.defocus" or text == "celspan.filter" or text == "celspan.light_shape" or text == "celspan.gradient")
-  return is_table and "class" or "plain", text
+  local is_table = TABLES[text] or text:find "fields$" or text:find "options$"
+    or text:find "style$"
+  return classes[text] and is_table and "class" or "plain", text
 end
 
 return annotations

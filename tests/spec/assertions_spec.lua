@@ -156,7 +156,7 @@ describe("shows", function()
     assert.point(film, 3, 20, 10).shows "#ff8800"
     assert.point(film, 3, 4, 10).shows(celspan.rgb "#204060")
     told(message_of(function() assert.point(film, 3, 20, 10).shows "#204060" end),
-      "frame 3 shows #ff8800 at 20, 10, not #204060", "codes of 8 bits apart")
+      "frame 3 shows #ff8800 at 20, 10, not #204060", "they differ by ")
   end)
 
   it("accepts a tolerance", function()

@@ -56,7 +56,7 @@ describe("render", function()
   it("refuses a cel that no frame has, and lists the existing ones, nearest first", function()
     local code, said = render("--cel bakc -o " .. path("x.####.png"))
     assert.are.equal(2, code)
-    assert.is_truthy(said:find("--cel bakc: no cel of the film has this name; there are "
+    assert.is_truthy(said:find("--cel bakc: no cel of the film has this name; its names are "
       .. "back, hand\n",
       1, true), said)
     assert.are.equal(0, (render("--cel hand --frames 3 -o " .. path("x.png")))) -- empty

@@ -167,9 +167,9 @@ describe("the command line", function()
     end)
 
     it("refuses impossible output files before it runs the script", function()
-      usage_error("render x.lua -o y.xyz", 'the format "xyz" is not written')
+      usage_error("render x.lua -o y.xyz", 'the format "xyz" cannot be written')
       usage_error("render x.lua -o y", "the format is unknown")
-      usage_error("render x.lua -o y.png --format xyz", 'the format "xyz" is not written')
+      usage_error("render x.lua -o y.png --format xyz", 'the format "xyz" cannot be written')
       usage_error("render x.lua -o y.png --depth half", "PNG holds 8 or 16 bits")
       usage_error("convert x.png -", "the format is unknown")
       usage_error("render x.lua -o - --format png", "--format png")
@@ -177,8 +177,8 @@ describe("the command line", function()
 
     it("counts operands", function()
       usage_error("probe x.lua 1", "usage: celspan probe SCRIPT X Y")
-      usage_error("info x.lua y.lua", "'y.lua' is one too many")
-      usage_error("convert a b -- c", "runs none")
+      usage_error("info x.lua y.lua", "unexpected argument 'y.lua'")
+      usage_error("convert a b -- c", "does not run one")
       usage_error("probe " .. plain .. " one 2", "X: 'one' is not a number")
       usage_error("probe " .. plain .. " 1 two", "Y: 'two' is not a number")
       for _, x in ipairs { "' 1'", "1x", "nan", "inf", "1e999", "''" } do
@@ -299,7 +299,8 @@ describe("the command line", function()
         return celspan.film{ size = {8, 4}, frames = 3 + count, frame = function()
           return celspan.rostrum{ celspan.cel{ celspan.rect{ 0, 0, 8, 4 } } } end
             }]]):format(folder)),
-        "the script made a film of other frames when it was run again: 4 from 1, not 3 from 1")
+        "the script returned a film with other frames when it was run again: 4 from number 1, "
+          .. "not 3 from number 1")
     end)
 
     it("of a closed pipe end with 5, not with a signal", function()
@@ -684,14 +685,14 @@ describe("the command line", function()
       assert.same({ 3, "" }, { code, out })
       assert.equal(("celspan: error: frames 3-17, 20: %s:4: bad\n"):format(script)
         .. ("celspan: error: frame 25: %s:5: bad 25\n"):format(script)
-        .. "celspan: 2 faults, met 17 times in 30 frames\n", err)
+        .. "celspan: 2 faults, found 17 times in 30 frames\n", err)
     end)
 
     it("lists a few runs of frames and counts the rest", function()
       local script = film(9000, "if n % 2 == 1 then error 'odd' end")
       local _, _, err = celspan("check " .. script)
       assert.equal(("celspan: error: frames 1, 3, 5, 7, 9, 11, 13, 15 and 4492 more up to 8999: "
-        .. "%s:4: odd\ncelspan: 1 fault, met 4500 times in 9000 frames\n"):format(script), err)
+        .. "%s:4: odd\ncelspan: 1 fault, found 4500 times in 9000 frames\n"):format(script), err)
     end)
 
     it("joins the runs of parts that are checked in both directions", function()
@@ -713,9 +714,9 @@ describe("the command line", function()
       local _, lines = err:gsub("\n", "")
       assert.equal(1002, lines)
       assert.truthy(err:find("frame 1000: " .. script .. ":4: bad 1000\n"
-        .. "celspan: error: 500 more with other sentences are not listed: give --frames to look at "
-        .. "fewer frames\ncelspan: more than 1000 faults, met 1500 times in 1500 frames\n", 1,
-        true),
+        .. "celspan: error: 500 more faults with other sentences are not listed: check fewer "
+        .. "frames at a time, with --frames\n"
+        .. "celspan: more than 1000 faults, found 1500 times in 1500 frames\n", 1, true),
         err:sub(-400))
     end)
 
@@ -724,7 +725,7 @@ describe("the command line", function()
       assert.equal(0, (celspan("check " .. script .. " --frames 1-6,8-30:2")))
       local _, _, err = celspan("check " .. script .. " --frames 8,7,6")
       assert.equal(("celspan: error: frame 7: %s:4: bad\n"):format(script)
-        .. "celspan: 1 fault, met 1 time in 3 frames\n", err)
+        .. "celspan: 1 fault, found 1 time in 3 frames\n", err)
       usage_error("check " .. script .. " --frames 31", "31")
     end)
 
@@ -766,7 +767,7 @@ describe("the command line", function()
         .. "known format (png, tiff, openexr, jpeg, targa, dpx, cineon, psd, bmp, webp, gif, hdr, "
         .. "pnm, jpeg2000, sgi)\ncelspan: error: frame 2: cel 2 %s, primitive 2 %s: %s/c.png: "
         .. gone
-        .. "celspan: 4 faults, met 12 times in 3 frames\n")
+        .. "celspan: 4 faults, found 12 times in 3 frames\n")
         :format(at(5), at(2), folder, at(5), at(2), folder, at(6), at(2), folder, at(6), at(2),
         folder), err)
     end)

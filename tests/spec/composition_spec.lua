@@ -350,16 +350,19 @@ describe("a light with a shape", function()
     local function message(light, field)
       return raised(function() return celspan.cel { [field or "front"] = light } end)
     end
-    assert.matches("cel: front: gain is -1; it must be 0 or more", message { texture = slope, gain = -1 }, 1, true)
-    assert.matches("cel: front: unknown field 'gian'; did you mean 'gain'?", message { texture = slope, gian = 1 }, 1, true)
-    assert.matches("cel: front: field 'texture' must be a paint, a texture or a colour", message { gain = 1 }, 1, true)
+    assert.matches("cel: front: gain is -1; it must be 0 or more",
+      message { texture = slope, gain = -1 }, 1, true)
+    assert.matches("cel: front: unknown field 'gian'; did you mean 'gain'?",
+      message { texture = slope, gian = 1 }, 1, true)
+    assert.matches("cel: front: field 'texture' must be a paint, a texture or a colour",
+      message { gain = 1 }, 1, true)
     assert.matches("frame", message { texture = slope, on = "film" }, 1, true)
     for _, light in ipairs { { 1, 1, 1, texture = slope }, { 1, 1, 1, gain = 2 },
       { 1, 1, 1, on = "cel" } } do
       assert.matches("cel: front: takes named fields only, but was given a value at place 1",
         message(light), 1, true)
     end
-    assert.matches("rostrum: back cannot lie on the cel", raised(function()
+    assert.matches("rostrum: back cannot be on a cel", raised(function()
       return celspan.rostrum { back = { texture = slope, on = "cel" } }
     end), 1, true)
   end)

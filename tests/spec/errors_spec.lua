@@ -282,10 +282,10 @@ describe("named numbers that must be positional", function()
       function() celspan.ellipse { centre = { 0, 0 }, rx = 3, ry = 4 } end },
     { "film: unknown field 'height'; write size = {8, 6}, not width = 8, height = 6",
       function() celspan.film { width = 8, height = 6, frame = print } end },
-    { "polygon: unknown field 'points'; the points stand in the table itself, "
+    { "polygon: unknown field 'points'; write the points into the table itself, "
       .. "polygon{ a, b, ... }, not polygon{ points = ... }",
       function() celspan.polygon { points = { { 0, 0 } } } end },
-    { "cel: unknown field 'objects'; the objects stand in the table itself, cel{ a, b, ... }, "
+    { "cel: unknown field 'objects'; write the objects into the table itself, cel{ a, b, ... }, "
       .. "not cel{ objects = ... }", function() celspan.cel { objects = {} } end },
   }
   for _, case in ipairs(cases) do

@@ -81,8 +81,10 @@ describe("antialiasing kernels", function()
 
   it("are refused with a sentence", function()
     local cases = {
-      { "rostrum: antialias: radius is -2; it must be between 0 and 256", { kernel = "box", radius = -2 } },
-      { "rostrum: antialias: field 'radius' must be a finite number, got nan", { kernel = "box", radius = 0 / 0 } },
+      { "rostrum: antialias: radius is -2; it must be between 0 and 256",
+        { kernel = "box", radius = -2 } },
+      { "rostrum: antialias: field 'radius' must be a finite number, got nan",
+        { kernel = "box", radius = 0 / 0 } },
       { "rostrum: antialias: field 'radius' must be a finite number, got inf",
         { kernel = function() return 1 end, radius = math.huge } },
       { "rostrum: antialias: radius is missing; a kernel given as a function needs one",
@@ -91,10 +93,12 @@ describe("antialiasing kernels", function()
         { kernel = function(x) return x end, radius = 2 } },
       { "rostrum: antialias: the kernel's value at -0.9995117 must be a finite number, got inf",
         { kernel = function() return 1 / 0 end, radius = 1 } },
-      { "rostrum: antialias: the kernel function must return a number, got nil at x = -0.99951171875",
-        { kernel = function() end, radius = 1 } },
-      { "rostrum: antialias: rows is 0; it must be between 1 and 256", { kernel = "box", rows = 0 } },
-      { "rostrum: antialias: rows is 1000; it must be between 1 and 256", { kernel = "box", rows = 1000 } },
+      { "rostrum: antialias: the kernel function must return a number, got nil at "
+        .. "x = -0.99951171875", { kernel = function() end, radius = 1 } },
+      { "rostrum: antialias: rows is 0; it must be between 1 and 256",
+        { kernel = "box", rows = 0 } },
+      { "rostrum: antialias: rows is 1000; it must be between 1 and 256",
+        { kernel = "box", rows = 1000 } },
     }
     for _, case in ipairs(cases) do
       assert.are.equal(case[1], sentence(function() edge(case[2]) end))

@@ -146,11 +146,11 @@ describe("join refuses, naming the file and a remedy:", function()
         for _, i in ipairs { ... } do list[#list + 1] = ("s/%d.%s"):format(i, ending) end
         return table.concat(list, " ") .. " -o joined." .. ending
       end
-      refused(4, "s/3." .. ending .. ": begins at row 512, where row 256 comes next", "join %s",
+      refused(4, "s/3." .. ending .. ": begins at row 512, but the next row is 256", "join %s",
         names(1, 3, 2, 4))
-      refused(4, "s/2." .. ending .. ": begins at row 256, where row 0 comes next", "join %s",
+      refused(4, "s/2." .. ending .. ": begins at row 256, but the next row is 0", "join %s",
         names(2, 3, 4))
-      refused(4, "s/1." .. ending .. ": begins at row 0, where row 256 comes next", "join %s",
+      refused(4, "s/1." .. ending .. ": begins at row 0, but the next row is 256", "join %s",
         names(1, 1, 2))
       refused(4, "s/3." .. ending .. ": ends before row 768, but the picture has 900", "join %s",
         names(1, 2, 3))
@@ -163,7 +163,7 @@ describe("join refuses, naming the file and a remedy:", function()
       refused(4, "other." .. ending .. ": is not of the same picture as s/1." .. ending,
         "join s/1.%s other.%s -o joined.%s", ending, ending, ending)
       render(("--strip 2/2 --size 300x901 -o other.%s"):format(ending))
-      refused(4, "other." .. ending .. ": is of a picture of 901 rows",
+      refused(4, "other." .. ending .. ": belongs to a picture of 901 rows",
         "join s/1.%s other.%s -o joined.%s", ending, ending, ending)
     end)
 
@@ -204,9 +204,9 @@ describe("join refuses, naming the file and a remedy:", function()
     local whole = bench:read "s/1.png"
     local huge = ("\xff"):rep(4)
     bench:write("s/1.png", whole:sub(1, 8) .. huge .. whole:sub(13))
-    refused(4, "there is no proper chunk", "join s/#.png -o joined.png")
+    refused(4, "there is no valid chunk", "join s/#.png -o joined.png")
     bench:write("s/1.png", whole:sub(1, 8) .. "\x7f\xff\xff\xff" .. whole:sub(13))
-    refused(4, "is cut", "join s/#.png -o joined.png")
+    refused(4, "is truncated", "join s/#.png -o joined.png")
     bench:write("s/1.png", whole:sub(1, 16) .. huge .. whole:sub(21))
     refused(4, "its size", "join s/#.png -o joined.png")
   end)
@@ -268,7 +268,7 @@ describe("join refuses, naming the file and a remedy:", function()
       { place "\0\0\0\0", "its place" }, { place(("\255"):rep(8)), "its place" },
       { place(string.pack(">I4I4", 0, 1 << 30)), "its place" },
       { place(("\0"):rep(8)), "it does not say which rows it has" },
-      { place(string.pack(">I4I4", 8, 900)), "declares rows from 8 on" },
+      { place(string.pack(">I4I4", 8, 900)), "declares a first row of 8" },
       { function(chunks)
         for i = #chunks, 1, -1 do
           if chunks[i][1] == "IDAT" then table.remove(chunks, i) end
@@ -312,9 +312,9 @@ describe("join refuses, naming the file and a remedy:", function()
       { with(#whole - 25, "\0\0\0\0"), "more than 4 GiB of rows" },
       { with(#whole - 25, "\1\0\0\0"), "its footer declares 1 bytes of rows" },
       { with(#whole - 10, "x"), "it has no footer" },
-      { with(1, "\9"), "is no strip" }, { with(3, "\2"), "is no strip" },
-      { with(18, "\0"), "is no strip" },
-      { with(19, "x"), "is no strip" },
+      { with(1, "\9"), "is not a strip" }, { with(3, "\2"), "is not a strip" },
+      { with(18, "\0"), "is not a strip" },
+      { with(19, "x"), "is not a strip" },
     } do
       bench:write("s/1.tga", case[1])
       refused(4, case[2], "join s/#.tga -o joined.tga")
@@ -324,10 +324,10 @@ describe("join refuses, naming the file and a remedy:", function()
   it("other kinds of files", function()
     render_strips("png", 2)
     bench:write("text.png", ("no picture "):rep(10))
-    refused(4, "text.png: is no strip", "join text.png -o joined.png")
+    refused(4, "text.png: is not a strip", "join text.png -o joined.png")
     refused(4, "none.png: No such file", "join none.png -o joined.png")
     refused(4, ".: is not a file", "join . -o joined.png")
-    refused(4, "there are no files of this pattern", "join none.####.png -o joined.png")
+    refused(4, "no file matches this pattern", "join none.####.png -o joined.png")
     refused(2, "the name must end in .png", "join s/#.png -o joined.tga")
     refused(2, "s/1.png is one of the strips", "join s/#.png -o s/1.png")
     refused(2, "give -o", "join s/#.png")
@@ -360,7 +360,7 @@ describe("render --strip", function()
   it("refuses formats whose strips cannot be joined", function()
     local code, _, err = celspan "render film.lua --frames 1 --strip 1/2 -o s.exr"
     assert.is_truthy(code == 2 or err:find("celspan-picture.so", 1, true), err)
-    assert.is_truthy(err:find("PNG, Targa and span", 1, true), err)
+    assert.is_truthy(err:find("PNG, Targa or span", 1, true), err)
   end)
 
   it("resumes, and distinguishes a strip from a crop of the same rows", function()

@@ -774,8 +774,8 @@ describe("a folder of pictures", function()
     local tree = assert(layers.read(folder))
     assert.are.equal("a1 0,0 1.00 normal; b9 0,0 1.00 normal; b10 0,0 1.00 normal", shape_of(tree))
     assert.are.equal("10 20 30 255", codes_of(tree[2].object, 3, 3)(1, 1))
-    assert.are.same({ { layer = "notes.txt", what = "no picture: it is left out" },
-      { layer = "sub", what = "no picture: it is left out" } }, tree.skipped)
+    assert.are.same({ { layer = "notes.txt", what = "not a picture: it is left out" },
+      { layer = "sub", what = "not a picture: it is left out" } }, tree.skipped)
   end)
 
   it_reads_pictures("is refused if it is empty, or one is damaged or a link to the outside",
@@ -973,8 +973,8 @@ end
 
 describe("a file that is not a painting", function()
   it("is refused with its name and the reason", function()
-    refused("", "is no layered painting; OpenRaster, Krita and Photoshop files are read")
-    refused("GIF89a", "is no layered painting")
+    refused("", "is not a layered painting; OpenRaster, Krita and Photoshop files are read")
+    refused("GIF89a", "is not a layered painting")
     refused(paintings.zip { { name = "a", data = "b" } }, "neither an OpenRaster file")
     local _, message = layers.read "there/is/none.kra"
     assert.matches("there/is/none%.kra: cannot be opened: No such file", message)
@@ -1022,7 +1022,7 @@ describe("an OpenRaster file", function()
     ["stack.xml:1: w is \"1e99\"; it must be a number"] = '<image w="1e99" h="4"/>',
     ["the painting has 1048576 x 1048576 pixels; at most 1048576 a side and 268435456 in all"] =
       '<image w="1048576" h="1048576"/>',
-    ["stack.xml:1: has no size of the painting"] = "<stack/>",
+    ["stack.xml:1: does not declare the size of the painting"] = "<stack/>",
     ["stack.xml:1: a layer without src"] = '<image w="4" h="4"><stack><layer/></stack></image>',
     ['src is "%.%./x%.png"; it must lie in the archive'] =
       '<image w="4" h="4"><stack><layer src="../x.png"/></stack></image>',
@@ -1094,7 +1094,7 @@ describe("a Krita document", function()
     ['filename is "%.%./bad"; it must name a layer'] = image:format(layer:format "../bad"),
     ['filename is "none", which is not in the archive'] = image:format(layer:format "none"),
     ["a layer comes before the image"] = "<DOC>" .. layer:format "bad" .. "</DOC>",
-    ['lies in "a", which is no group'] = image:format('<layer nodetype="filterlayer" name="a">'
+    ['lies in "a", which is not a group'] = image:format('<layer nodetype="filterlayer" name="a">'
       .. '<layer nodetype="filterlayer" name="b"/></layer>'),
     ["nested more than 216 deep"] = image:format(('<layer nodetype="grouplayer"><layers>'):rep(
       9999)),
@@ -1134,7 +1134,7 @@ describe("a Photoshop document", function()
         "byte 24: is a Photoshop document in " .. name .. " colour; RGB and grey are read")
     end
     refused((whole:gsub("\0\8\0\3", "\0\32\0\3", 1)),
-      "byte 22: is a Photoshop document of 32 bits a channel; 8 and 16 are read")
+      "byte 22: is a Photoshop document of 32 bits per channel; 8 and 16 are read")
   end)
 
   it("is refused for layers of 2^31 pixels, unclosed groups and groups 10,000 deep", function()

@@ -53,7 +53,7 @@ for _, kind in ipairs { "PICTURE", "ART", colour } do
       local path = bench.folder .. "/turning.so"
       bench:shell(("ln -s '%s' '%s'"):format(path, path))
       assert_said(kind, path, { needed, "but " .. path .. " cannot be read: ",
-        "Too many levels of symbolic links; let it be read, ", ADVICE:format("another", kind) })
+        "Too many levels of symbolic links; make it readable, ", ADVICE:format("another", kind) })
     end)
 
     it("must be installed, or another named, when it cannot be loaded", function()

@@ -78,7 +78,7 @@ describe("a name", function()
     for bytes, at in pairs { ["a\nb"] = 2, ["\127"] = 1, ["\xc2\x85"] = 1, ["ab\xff"] = 3,
       ["\xc0\xaf"] = 1,
                              ["\xed\xa0\x80"] = 1, ["\xf4\x90\x80\x80"] = 1, ["\xe2\x82"] = 1 } do
-      assert.are.equal("named: byte " .. at .. " of the name is no text; it must be UTF-8 without "
+      assert.are.equal("named: byte " .. at .. " of the name is not text; it must be UTF-8 without "
         .. "control characters", refusal(bytes))
     end
     for _, name in ipairs { ("x"):rep(255), "main gauche – 手 🖐", " " } do

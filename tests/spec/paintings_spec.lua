@@ -304,8 +304,8 @@ describe("a Photoshop document", function()
 
   it("is refused if it contradicts itself", function()
     refused(psd({}, { version = 3 }), "an unknown version")
-    refused(psd({}, { channels = 2 }), "no such number of channels")
-    refused(psd({}, { channels = 57 }), "no such number of channels")
+    refused(psd({}, { channels = 2 }), "the number of channels is invalid")
+    refused(psd({}, { channels = 57 }), "the number of channels is invalid")
     refused(psd({}, { w = 0 }), "the document has a size of 0 x 10 pixels")
     local function masked(fields)
       fields.value = function() return 0 end
@@ -401,7 +401,7 @@ describe("an archive", function()
     refused(told_size(1 << 25, 9), "the table of members has 33554432 bytes; at most %d+ are read")
     refused("PK\6\7" .. ("\0"):rep(16) .. "PK\5\6" .. ("\255"):rep(16) .. "\0\0",
       "byte 42: the file ends here; 14 more bytes are missing")
-    refused("PQ" .. ("x"):rep(99), "is no layered painting")
+    refused("PQ" .. ("x"):rep(99), "is not a layered painting")
   end)
 end)
 

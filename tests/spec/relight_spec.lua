@@ -464,11 +464,11 @@ describe("celspan relight", function()
     local black = bench.folder .. "/black.png"
     assert(show("#000000"):write(black))
     local cases = {
-      { 2, path .. " --light grey", "-o is needed" },
-      { 2, path .. " -o x.exr", "--light is needed" },
+      { 2, path .. " --light grey", "-o is missing" },
+      { 2, path .. " -o x.exr", "--light is missing" },
       { 2, path .. " -o x.exr --light 1,0,1", "--light: '1,0,1' is not a colour" },
       { 2, path .. " -o x.exr --light warm", "--light: 'warm' is not a colour" },
-      { 2, bare .. " -o x.exr", "--to is needed" },
+      { 2, bare .. " -o x.exr", "--to is missing" },
       { 2, bare .. " -o x.png --light grey --to 1,1,1", "has been taken off already" },
       { 2, path .. " -o x.xyz --light grey --to 1,1,1", "xyz" },
       { 3, path .. " -o x.png --light grey", "must end in .exr" },

@@ -431,7 +431,7 @@ describe("a sheet", function()
     end):find "has no number")
   end)
 
-  it("follows the time of a film with other frames a second", function()
+  it("follows the time of a film with other frames per second", function()
     local ones = {}
     for n = 1, 12 do ones[n] = tostring(n) end
     local twelve = sheet.new { fps = 12, layers = { "A" }, drawings = { A = ones } }

@@ -151,7 +151,8 @@ describe("style sheets", function()
       ("svg "):rep(40) .. "rect", ",", "@media print{rect{fill:red}} @import 'a.css'; @x" } do
       local art = read(sheet("rect{fill:lime} " .. selector .. "{fill:red}"))
       assert.is_true(bytes(art.object) == bytes(read(LIME).object), selector)
-      assert.are.same({ { line = 2, what = "style: selectors or at-rules that do not count" } },
+      local what = "style: selectors or at-rules that are not supported"
+      assert.are.same({ { line = 2, what = what } },
         art.skipped, selector)
     end
   end)
@@ -382,7 +383,7 @@ describe("clip paths", function()
 
   it("that do not exist, or cut themselves, are reported", function()
     left_out {
-      { cut "", "clip-path \"c\", which is not there" },
+      { cut "", "clip-path \"c\", which is not in the file" },
       { cut(clip('<rect width="9" height="9"/>', 'clip-path="url(#c)"')),
         "clipPath that clips itself" },
       { cut(clip '<rect width="9" height="9" clip-path="url(#c)"/>'),
@@ -446,7 +447,7 @@ describe("masks", function()
     local many = ('<rect width="1" height="1" fill="white"/>'):rep(5000)
     left_out {
       { masked('', "", "") .. filled "lime" :gsub("/>", ' mask="url(#n)"/>'),
-        "mask that is not there" },
+        "mask that is not in the file" },
       { masked('<rect width="9" height="9" fill="white"/>', 'mask="url(#m)"'),
         "mask that is not flat" },
       { masked '<rect width="9" height="9" mask="url(#m)"/>', "mask that is not flat" },
@@ -598,7 +599,8 @@ describe("shapes", function()
       '<symbol id="s">' .. LIME .. "</symbol>", "<use/>", "<switch/>",
       '<g display="none">' .. LIME .. "</g>" }
     left_out {
-      { '<use href="#none"/>', "use of what is not in the file" }, { "<blink/>", "blink" },
+      { '<use href="#none"/>', "use of an element that is not in the file" },
+      { "<blink/>", "blink" },
       { '<polygon points="0 0 50 0 50 60 7"/>', "polygon from a fault in its data on" },
       { '<path d="x"/>', "path from a fault in its data on" },
       { '<polygon points="x"/>', "polygon from a fault in its data on" },

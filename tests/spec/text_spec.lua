@@ -295,14 +295,14 @@ describe("fonts", function()
 
   local bytes = read(PATH)
   local broken = {
-    ["half of one"] = { bytes:sub(1, #bytes // 2), "the font is cut" },
-    ["its beginning"] = { bytes:sub(1, 200), "the font is cut" },
+    ["half of one"] = { bytes:sub(1, #bytes // 2), "the font is truncated" },
+    ["its beginning"] = { bytes:sub(1, 200), "the font is truncated" },
     ["a few bytes"] = { bytes:sub(1, 8), "is not a TrueType or OpenType font" },
     ["nothing"] = { "", "is not a TrueType or OpenType font" },
     ["a picture"] = { "\137PNG\r\n\26\n" .. ("\0"):rep(100), "is not a TrueType or OpenType font" },
-    ["one packed for the web"] = { "wOF2" .. ("\0"):rep(100), "unpack it" },
+    ["one packed for the web"] = { "wOF2" .. ("\0"):rep(100), "convert it" },
     ["a collection of none"] = { "ttcf\0\1\0\0" .. ("\0"):rep(8), "is not a TrueType" },
-    ["a collection that is cut"] = { "ttcf\0\1\0\0\0\0\0\1\0\0\1\0", "the font is cut" },
+    ["a collection that is cut"] = { "ttcf\0\1\0\0\0\0\0\1\0\0\1\0", "the font is truncated" },
   }
   for name, case in pairs(broken) do
     it("that are " .. name .. " are refused", function()
@@ -410,12 +410,12 @@ describe("bad text is refused:", function()
     { "no text", {}, "takes one string, the text, got 0 values" },
     { "two texts", { "a", "b" }, "got 2 values" },
     { "a number", { 5 }, "value 1 must be a string, the text, got number" },
-    { "a cut character", { "ab\xe2\x82" }, "what begins at byte 3 (0xe2) is not UTF-8" },
-    { "a byte that begins none", { "\xff" }, "what begins at byte 1 (0xff) is not UTF-8" },
-    { "an overlong one", { "a\xc0\x80" }, "byte 2 (0xc0) is not UTF-8" },
-    { "an overlong one of three bytes", { "\xe0\x81\x81" }, "byte 1 (0xe0) is not UTF-8" },
-    { "one beyond the last", { "\xf4\x90\x80\x80" }, "byte 1 (0xf4) is not UTF-8" },
-    { "a surrogate", { "\xed\xa0\x80" }, "byte 1 (0xed) is not UTF-8" },
+    { "a cut character", { "ab\xe2\x82" }, "the text is not UTF-8 at byte 3 (0xe2)" },
+    { "a byte that begins none", { "\xff" }, "the text is not UTF-8 at byte 1 (0xff)" },
+    { "an overlong one", { "a\xc0\x80" }, "not UTF-8 at byte 2 (0xc0)" },
+    { "an overlong one of three bytes", { "\xe0\x81\x81" }, "not UTF-8 at byte 1 (0xe0)" },
+    { "one beyond the last", { "\xf4\x90\x80\x80" }, "not UTF-8 at byte 1 (0xf4)" },
+    { "a surrogate", { "\xed\xa0\x80" }, "not UTF-8 at byte 1 (0xed)" },
     { "a zero", { "a\0b" }, "control character U+0000 at byte 2" },
     { "a tab", { "a\tb" }, "control character U+0009 at byte 2" },
     { "a lone return", { "a\rb" }, "control character U+000D at byte 2" },

@@ -203,7 +203,7 @@ describe("a video", function()
       assert.falsy(bench:read("out.webp"):find("ANMF", 1, true))
     end)
 
-    it_reads("has exactly 23.976 frames a second", function()
+    it_reads("has exactly 23.976 frames per second", function()
       bench:write("film.lua", (chart_script():gsub("fps = 24", "fps = 24000/1001")))
       render "-o out.mp4"
       assert.equal("24000/1001", probe("out.mp4", "stream=r_frame_rate").r_frame_rate)
@@ -373,7 +373,7 @@ end }]])
       local code, _, err = check()
       assert.equal(4, code)
       assert.truthy(err:find("shots/click.wav cannot be opened: No such file", 1, true), err)
-      assert.truthy(err:find("3 frames checked: no faults but the sound", 1, true), err)
+      assert.truthy(err:find("3 frames checked: no faults except in the sound", 1, true), err)
       bench:write("shots/click.wav", click(0.1))
       code, _, err = check()
       assert.equal(0, code, err)
@@ -440,8 +440,8 @@ end }]])
       ["-o out.webm --depth 16"] = "webm holds 8 bits where it has alpha",
       ["-o out.gif --depth 16"] = "gif holds 8 bits",
       ["-o out.mp4 --quality 101"] = "a whole number from 0 to 100",
-      ["-o out.####.png --quality 50"] = "--quality belongs to videos",
-      ["-o - --quality 50"] = "--quality belongs to videos",
+      ["-o out.####.png --quality 50"] = "--quality is only for videos",
+      ["-o - --quality 50"] = "--quality is only for videos",
       ["-o out.mp4 --size 20000x20"] = "a video has at most 16384 a side",
       ["-o out.mp4 --size 20x20000"] = "a video has at most 16384 a side",
       ["-o out.mp4 --size 1x7"] = "mp4 needs an even width and height: give --size 2x6",
@@ -455,7 +455,7 @@ end }]])
       "return require 'celspan'.film { fps = 101, frames = 2, frame = function() end }\n")
     local code, _, err = celspan "-o out.gif"
     assert.equal(2, code, err)
-    assert.truthy(err:find("out.gif: 101 frames a second: gif holds at most 100", 1, true), err)
+    assert.truthy(err:find("out.gif: 101 frames per second: gif holds at most 100", 1, true), err)
     nothing_is_left()
   end)
 
@@ -497,7 +497,8 @@ end }]])
       { "writes nothing", "cat >/dev/null\n", "the output of ffmpeg is not in the format mp4" },
       { "writes garbage", "cat >/dev/null; for last; do :; done; seq 1000 >\"${last#file:}\"\n",
         "the output of ffmpeg is not in the format mp4" },
-      { "reads no more", "exec 0<&-; sleep 60\n", "ffmpeg reads no more frames, and does not end" },
+      { "reads no more", "exec 0<&-; sleep 60\n",
+        "ffmpeg stopped reading frames, but did not end" },
     }
     for _, death in ipairs(deaths) do
       it(death[1] .. ", says so and leaves nothing", function()
@@ -530,7 +531,8 @@ end }]])
       local code, _, err = faked "-o out.mp4"
       assert.equal(3, code, err)
       assert.truthy(err:find("frame 2: torn", 1, true), err)
-      assert.truthy(err:find("out.mp4 is not made: it ended at 1 of 3 frames", 1, true), err)
+      assert.truthy(err:find("out.mp4 was not made: the run ended after 1 of 3 frames", 1, true),
+        err)
       nothing_is_left()
     end)
   end)

@@ -78,8 +78,9 @@ describe("wrong calls", function()
       end, "duration" },
       { function() celspan.film { size = { 4, 4 }, sound = "", frame = frame } end,
         "field 'sound' must be the name of a file, got an empty text" },
-      { function() celspan.film { size = { 4, 4 }, sound = "a.wav", sound_offset = 1e12, frame = frame } end,
-        "sound_offset is 1e12; it must be between -1e09 and 1e09" },
+      { function()
+        celspan.film { size = { 4, 4 }, sound = "a.wav", sound_offset = 1e12, frame = frame }
+      end, "sound_offset is 1e12; it must be between -1e09 and 1e09" },
       { function() film:at(9) end, "9" }, { function() film:at "x" end, "at" },
       { function() film:at(0) end, "0" },
     }
@@ -110,7 +111,9 @@ describe("wrong calls", function()
       { function() celspan.polygon { { 0, 0 }, { 1, 1 }, [5] = { 2, 2 } } end, "place" },
       { function() celspan.nurbs { points = { { 0, 0 }, { 1, 1 }, { 2, 0 } }, degree = 0 } end,
         "nurbs: degree is 0; it must be between 1 and 15" },
-      { function() celspan.nurbs { points = { { 0, 0 }, { 1, 1 }, { 2, 0 } }, degree = 1e10 } end, "degree" },
+      { function()
+        celspan.nurbs { points = { { 0, 0 }, { 1, 1 }, { 2, 0 } }, degree = 1e10 }
+      end, "degree" },
       { function() celspan.nurbs { points = { { 0, 0 }, { 1, 1 }, { 2, 0 } }, knots = 3 } end,
         "an array of numbers" },
       { function() celspan.scanline { spans = function() end } end,

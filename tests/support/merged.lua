@@ -2,7 +2,7 @@
 --
 --   merged.read(path) -> { width =, height =, channels =, [c] = { [y * width + x] = 0..255 } }
 --
--- 8 bits a channel, raw or PackBits.
+-- 8 bits per channel, raw or PackBits.
 local system = require "tests.support.system"
 
 local merged = {}
@@ -37,7 +37,7 @@ end
 function merged.read(path)
   local text = assert(system.read(path))
   local channels, height, width, depth = string.unpack(">I2I4I4I2", text, 13)
-  assert(depth == 8, "8 bits a channel")
+  assert(depth == 8, "8 bits per channel")
   local at = 27
   for _ = 1, 3 do at = at + 4 + string.unpack(">I4", text, at) end
   local picture = { width = width, height = height, channels = channels }

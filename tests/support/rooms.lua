@@ -98,7 +98,7 @@ end
 local what, rest = "report", { ... }
 if rest[1] == "--prose" then
   table.remove(rest, 1)
-  os.exit(prose.check(rest) and 0 or 1)
+  os.exit(report_faults(function(fault) return prose.check(rest, fault) end))
 elseif ("--check --columns --map --house"):find(rest[1] or "none", 1, true) then
   what = table.remove(rest, 1)
 elseif rest[1] == "--names" then

@@ -181,7 +181,7 @@ static void check_arguments(void) {
   check_refused(context, "/nowhere/a.psd", CELSPAN_INPUT, "/nowhere/a.psd: cannot be opened");
   check_refused(context, "/tmp", CELSPAN_INPUT, "/tmp: is not a file");
   check_refused(context, "/dev/zero", CELSPAN_INPUT, "/dev/zero: is not a file");
-  check_refused(context, TEST_ROOT "/meson.build", CELSPAN_INPUT, "is no layered painting");
+  check_refused(context, TEST_ROOT "/meson.build", CELSPAN_INPUT, "is not a layered painting");
   celspan_painting_unref(NULL);
   celspan_context_destroy(context);
 }

@@ -761,9 +761,10 @@ static void test_light_doors(studio *s) {
   refuse_cel(s, desc, "cel: front.matte must be a finite number, got nan");
   celspan_rostrum_desc rostrum_desc = CELSPAN_ROSTRUM_DESC;
   rostrum_desc.back_texture = (celspan_light_texture){texture, 1, CELSPAN_LIGHT_ON_CEL, 1};
-  refuse_rostrum(s, rostrum_desc,
-                 "rostrum: back cannot lie on the cel, because it belongs to none; it lies on the "
-                 "frame");
+  refuse_rostrum(
+      s, rostrum_desc,
+      "rostrum: back cannot be on a cel, because it does not belong to one; put it on the "
+      "frame");
 }
 
 /* A rostrum is an object if it has a size; equal ones have equal hashes. */

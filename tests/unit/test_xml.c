@@ -97,20 +97,20 @@ static void entities_of_plain_text_are_read(void) {
 }
 
 static void other_entities_are_refused(void) {
-  check_refuses("<!DOCTYPE a [\n<!ENTITY b 'cc'><!ENTITY d '&b;&b;'>]>\n<a/>", CELSPAN_INPUT,
-                "a.xml:2: the entity \"d\" is made of others, which is not read: write out what it "
-                "stands for");
-  check_refuses("<!DOCTYPE a [<!ENTITY b '&#38;b;'>]><a>&b;</a>", CELSPAN_INPUT,
-                "a.xml:1: the entity \"b\" is made of others, which is not read: write out what it "
-                "stands for");
   check_refuses(
-      "<!DOCTYPE a [<!ENTITY b SYSTEM '/etc/passwd'>]>\n<a>&b;</a>", CELSPAN_INPUT,
-      "a.xml:1: the entity \"b\" is in another file, and no other file is read: write out "
-      "what it stands for");
+      "<!DOCTYPE a [\n<!ENTITY b 'cc'><!ENTITY d '&b;&b;'>]>\n<a/>", CELSPAN_INPUT,
+      "a.xml:2: the entity \"d\" refers to other entities, which is not allowed: write out what it "
+      "stands for");
   check_refuses(
-      "<!DOCTYPE a [<!ENTITY % b '<!ENTITY c \"d\">'> %b;]>\n<a>&c;</a>", CELSPAN_INPUT,
-      "a.xml:1: the entity \"b\" is of the document type; only those of the text are read: "
-      "write out what it stands for");
+      "<!DOCTYPE a [<!ENTITY b '&#38;b;'>]><a>&b;</a>", CELSPAN_INPUT,
+      "a.xml:1: the entity \"b\" refers to other entities, which is not allowed: write out what it "
+      "stands for");
+  check_refuses("<!DOCTYPE a [<!ENTITY b SYSTEM '/etc/passwd'>]>\n<a>&b;</a>", CELSPAN_INPUT,
+                "a.xml:1: the entity \"b\" is in another file, which is not read: write out "
+                "what it stands for");
+  check_refuses("<!DOCTYPE a [<!ENTITY % b '<!ENTITY c \"d\">'> %b;]>\n<a>&c;</a>", CELSPAN_INPUT,
+                "a.xml:1: the entity \"b\" is a parameter entity, which is not read: "
+                "write out what it stands for");
   check_refuses("<!DOCTYPE a SYSTEM 'x.dtd'><a>\n&nbsp;</a>", CELSPAN_INPUT,
                 "a.xml:2: the entity \"nbsp\" is not declared here: write out what it stands for");
 }

@@ -20,7 +20,7 @@ typedef struct cs_frame_pipeline_frame cs_frame_pipeline_frame;
 
 typedef struct cs_frame_pipeline {
   size_t count;      /* of frames */
-  int workers;       /* 0: one a processor */
+  int workers;       /* 0: one per processor */
   bool keeps_going;  /* failures of frames do not keep others from being made */
   size_t frame_size; /* bytes that a frame carries; zero when it is built */
   void *user;

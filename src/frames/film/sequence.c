@@ -79,7 +79,7 @@ static celspan_status read_element(reader *r, cs_sequence *out) {
   if (skip(r, ':') && (status = read_number(r, &step)) != CELSPAN_OK)
     return status;
   if (step == 0)
-    return refuse(r, "a step of 0 ends");
+    return refuse(r, "the step is 0");
   if (to != from && (to < from) != (step < 0))
     return refuse(r, to < from ? "a range that goes down needs a step below 0"
                                : "a range that goes up needs a step above 0");
@@ -101,7 +101,7 @@ static celspan_status check_overlaps(const reader *r, const cs_sequence *sequenc
   for (size_t i = 1; i < sequence->count && status == CELSPAN_OK; i++)
     if (sorted[i] == sorted[i - 1])
       status = celspan_context_fail(r->context, CELSPAN_BAD_ARGUMENT,
-                                    "frames \"%.200s\": frame %lld stands in it twice", r->list,
+                                    "frames \"%.200s\": frame %lld is listed twice", r->list,
                                     (long long)sorted[i]);
   free(sorted);
   return status;
@@ -115,7 +115,7 @@ celspan_status cs_sequence_parse(celspan_context *context, const char *list, cs_
     status = read_element(&r, &sequence);
   while (status == CELSPAN_OK && skip(&r, ','));
   if (status == CELSPAN_OK && *r.at)
-    status = refuse(&r, "there is something that does not belong to a list");
+    status = refuse(&r, "there is an unexpected character");
   if (status == CELSPAN_OK)
     status = check_overlaps(&r, &sequence);
   if (status != CELSPAN_OK)

@@ -14,10 +14,7 @@
 /* ---------------------------------------------------------------- checking */
 
 static celspan_status check_size(celspan_context *context, const celspan_frame_desc *desc) {
-  if (desc->struct_size != sizeof *desc)
-    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "frame: struct_size is %zu; set it to sizeof(celspan_frame_desc)",
-                   desc->struct_size);
+  CS_TRY(cs_check_version(context, "frame", desc->struct_size, sizeof *desc));
   if (desc->width < 1 || desc->height < 1 || desc->width > SIDE_LIMIT || desc->height > SIDE_LIMIT)
     return cs_fail(context, CELSPAN_LIMIT,
                    "frame: size is %d x %d; each side must be 1 to %d pixels", (int)desc->width,

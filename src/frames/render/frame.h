@@ -28,7 +28,7 @@ CELSPAN_CHECKED celspan_status cs_frame_check(celspan_context *context,
 CELSPAN_CHECKED celspan_status cs_frame_create(celspan_context *context,
                                                const celspan_frame_desc *desc, cs_frame *out);
 void cs_frame_free(cs_frame *frame, cs_memory *memory);
-/* The number of threads for a number that is wanted; 0 or less: one a processor. */
+/* The number of threads for a number that is wanted; 0 or less: one per processor. */
 int cs_frame_workers(int wanted);
 
 #endif

@@ -164,7 +164,7 @@ static celspan_status end(cs_encoder *encoder, bool has_read_all) {
                    encoder->name, strerror(encoder->error));
   cs_child_describe(process, how, sizeof how);
   return cs_fail(encoder->context, CELSPAN_OUTPUT, "%s: ffmpeg %s", encoder->name,
-                 !is_over                  ? "reads no more frames, and does not end"
+                 !is_over                  ? "stopped reading frames, but did not end"
                  : process->exit_code == 0 ? "ended before it had read every frame"
                                            : how);
 }

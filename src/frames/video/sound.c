@@ -17,7 +17,7 @@ celspan_status cs_sound_find(celspan_context *context, const char *path, const c
   if (error == 0)
     return CELSPAN_OK;
   return cs_fail(context, CELSPAN_INPUT, "the sound %s cannot be opened: %s%s%s", path,
-                 strerror(error), tried ? "; nor is it there: " : "", tried ? tried : "");
+                 strerror(error), tried ? "; also looked for at " : "", tried ? tried : "");
 }
 
 celspan_status cs_sound_listen(celspan_context *context, const char *path) {

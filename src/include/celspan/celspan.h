@@ -420,10 +420,10 @@ CELSPAN_API size_t celspan_surface_pixel_size(celspan_surface_format format);
 
 /* ---- layered paintings */
 
-/* What an OpenRaster file (.ora), a Krita document (.kra) or a Photoshop document (.psd, .psb, with
- * 8 or 16 bits a channel, RGB or grey) holds: layers and groups of them. Only the file's tables are
- * read; the pixels of a layer are when they are first seen, and are then kept like those of any
- * picture. The file must not change while surfaces of it are in use. */
+/* The contents of an OpenRaster file (.ora), a Krita document (.kra) or a Photoshop document (.psd,
+ * .psb, with 8 or 16 bits per channel, RGB or grey): layers and groups of them. Only the file's
+ * tables are read at first; the pixels of a layer are read when they are first visible, and then
+ * kept like those of any picture. The file must not change while surfaces of it are in use. */
 typedef struct celspan_painting celspan_painting;
 
 typedef struct celspan_painting_layer {
@@ -1196,7 +1196,7 @@ typedef struct celspan_frame_desc {
   int32_t crop_width, crop_height;         /* 0 0: the whole frame */
   const celspan_antialias_mode *antialias; /* NULL: each rostrum's own */
   celspan_filter_desc filter;              /* where *antialias is FILTER */
-  int workers;                             /* 0: one a processor; 1: the calling thread alone */
+  int workers;                             /* 0: one per processor; 1: the calling thread alone */
   int strip_rows;                          /* rows handed to a worker at a time; 0: chosen */
   /* Called by the rendering thread between strips; false stops with CANCELLED. NULL: never. */
   bool (*progress)(void *user, int32_t rows_done, int32_t rows_total);
@@ -1315,7 +1315,7 @@ typedef struct celspan_file_desc {
   double frames_second; /* metadata; 0: none */
   int32_t frame;        /* metadata: the frame's number */
   bool is_opaque;       /* every pixel's alpha is 1: formats that can leave it out */
-  int workers;          /* threads that compress; 0: one a processor; the bytes do not change */
+  int workers;          /* threads that compress; 0: one per processor; the bytes do not change */
   /* Of the sink's first pixel in the whole frame, where the depth dithers; celspan_frame_write adds
    * the corner of the crop. */
   int32_t place_x, place_y;
@@ -1494,7 +1494,7 @@ CELSPAN_API void celspan_stack_lights(const celspan_stack *stack, celspan_stack_
 /* Bytes that its rows of spans take. */
 CELSPAN_API size_t celspan_stack_bytes(const celspan_stack *stack);
 /* The frame in these lights, as many as it takes, into width x height RGBA floats, linear and
- * premultiplied, rows from top to bottom. workers: threads at most; 0: one a processor
+ * premultiplied, rows from top to bottom. workers: threads at most; 0: one per processor
  * rgba: best where 16 divides its address: pixels then go past the caches
  * Errors: BAD_ARGUMENT for a light that is negative or not finite; NO_MEMORY. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_stack_pixels(celspan_context *context,

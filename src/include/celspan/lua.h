@@ -2,7 +2,7 @@
  *
  *   celspan_lua_open(L, context)              celspan in a state, under the host's context
  *   celspan_film film = celspan_lua_film(L, -1)      what a script returned
- *   celspan_lua_frame(L, -1, film.first, &frame)     a frame of it, to be rendered by the C interface
+ *   celspan_lua_frame(L, -1, film.first, &frame)     a frame of it, to render by the C interface
  *
  * `require "celspan"` then finds the module, and the animation library (celspan.ease, celspan.keys,
  * ...) with it, without any search path. Every Lua state has one context: that of the host, or one

@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#define MOST_CALLERS 6 /* told of a chain: the first ones and the last */
-#define MOST_CALLS 500 /* looked at for it: Lua counts them anew for each, from the innermost */
+#define MOST_CALLERS 6 /* named in a message: the first ones of a chain and the last */
+#define MOST_CALLS 500 /* searched for them: Lua walks to each from the innermost call */
 
 /* The modules that are built in have these names: embed.c. */
 static bool is_own(const lua_Debug *info) {

@@ -1,11 +1,11 @@
-/* Who called: the Lua function that people wrote, behind celspan's own modules.
+/* The caller: the innermost Lua function on the stack that is not part of celspan's own modules.
  *
- *   shot.lua:40       frame = function(f)         one of those who called
- *   hand.lua:12         finger(f)                 the caller: errors stand here, and files are
- *   celspan/keys.lua      keys{ ... }             celspan's own      looked for beside this one
- *   [C]                     celspan.mix(p, q, u)  where it is asked
+ *   shot.lua:40       frame = function(f)         called the caller
+ *   hand.lua:12         finger(f)                 the caller: errors name this line, and files are
+ *   celspan/keys.lua      keys{ ... }             celspan's own      looked for beside this file
+ *   [C]                     celspan.mix(p, q, u)  the C function that uses this header
  *
- * INVARIANT: nothing here changes the stack but for what it pushes.
+ * INVARIANT: nothing here changes the stack except by what it pushes.
  */
 #ifndef CS_BIND_CALLER_H
 #define CS_BIND_CALLER_H
@@ -13,8 +13,8 @@
 #include <lua.h>
 #include <stdbool.h>
 
-/* The nearest function that has lines and is not celspan's own, with its source and line; false when
- * there is none. */
+/* Finds the nearest function that has lines and is not celspan's own, with its source and line;
+ * false when there is none. */
 bool cs_caller_find(lua_State *L, lua_Debug *out);
 /* Raises a message with the formats of lua_pushfstring at the caller's line; without a line where C
  * called. Does not return; the type is that of luaL_error. */
@@ -32,9 +32,9 @@ bool cs_caller_push_folder(lua_State *L);
 /* Pushes the folder of a path; "" when it has none. */
 const char *cs_caller_push_folder_of(lua_State *L, const char *path);
 
-/* Pushes " (called from shot.lua:40, shot.lua:55)": those who called the function that stands at
- * `position`, up to the C function `last`; "" when nobody did. For message handlers, while the
- * stack of the failed call is there. */
+/* Pushes " (called from shot.lua:40, shot.lua:55)": the callers of the function at `position`, up
+ * to the C function `last`; "" when there are none. For message handlers, while the stack of the
+ * failed call still exists. */
 void cs_caller_push_chain(lua_State *L, const char *position, lua_CFunction last);
 
 #endif

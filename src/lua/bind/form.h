@@ -1,5 +1,5 @@
 /* Reading the table that a constructor is given: its names, its list, and values that a noun reads
- * itself; fields.h reads those that are described by data. A fault is raised in one sentence, at the
+ * itself; fields.h reads those that are described by data. An error is one sentence, raised at the
  * caller's line.
  *
  * INVARIANT: reading is raw (no metamethods run), so nothing a script does can change a table while

@@ -17,9 +17,8 @@
  * position of the message. last: the function whose call is protected, with which the callers
  * end. */
 void cs_lua_error_push_handler(lua_State *L, const char *label, lua_CFunction last);
-/* lua_pcall(L, arguments, results, ...) of `function`, which is below its arguments, with such a
- * handler. The handler is made protected, too: where there is no memory for it, that is the outcome.
- */
+/* lua_pcall(L, arguments, results, ...) of the function below the arguments, with such a handler.
+ * The handler is made in protected mode, too: if memory runs out there, LUA_ERRMEM is returned. */
 int cs_lua_error_call(lua_State *L, int arguments, int results);
 /* The length of the position "script.lua:12: " that a message begins with; 0: it begins with none.
  */

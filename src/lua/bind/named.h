@@ -9,9 +9,9 @@
 
 #include "lua/bind/userdata.h"
 
-/* Tells the context where the values made from here on are made. */
+/* Sets the line that the context gives to the values made from now on: that of the caller. */
 void cs_named_begin(lua_State *L, celspan_context *context);
-/* The same, but where `value` was made. */
+/* The same, with the line where `value` was made. */
 void cs_named_begin_as(celspan_context *context, const cs_userdata *value);
 void cs_named_end(celspan_context *context);
 

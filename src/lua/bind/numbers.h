@@ -1,4 +1,4 @@
-/* Lists of numbers, such as {x, y}, in any table: what is wrong with one is told by its place.
+/* Lists of numbers, such as {x, y}, in any table. Messages name the place of the wrong number.
  *
  *   circle: centre[1] must be a number, got nil
  *   circle: field 'centre' must be a point {x, y}: write {10, 20}, not {x = 10, y = 20}
@@ -22,8 +22,8 @@ typedef struct cs_numbers_name {
       *shape; /* what it must be, "{x, y}", by names of its places; NULL: "an array of 9 numbers" */
 } cs_numbers_name;
 
-/* Reads `least` to `most` numbers of the list at index, and raises unless there are so many. The
- * number of them. */
+/* Reads the `least` to `most` numbers of the list at index, and returns how many there are. Raises
+ * when there are fewer or more. */
 int cs_numbers_read(lua_State *L, int index, const cs_numbers_name *name, int least, int most,
                     double *out);
 /* Reads all `count` numbers of the table at index, whose length that is. */

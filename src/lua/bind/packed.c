@@ -8,7 +8,7 @@ enum { NIL, INTEGER, FLOAT, LIST, OTHER };
 
 /* ---------------------------------------------------------------- packing */
 
-/* Packing goes on until something does not fit. */
+/* Packing continues until something does not fit. */
 typedef struct packer {
   lua_State *L;
   cs_packed *out;

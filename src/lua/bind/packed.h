@@ -6,9 +6,11 @@
  *     |                                         |     |
  *     items of the list                      radius  texture
  *
- * A scene may have a million squares, and a table costs more than all that the core keeps of one. What
- * has no more than numbers, short lists of numbers and one value of another type is packed; the others
- * keep a table. Invariant: unpacking gives what the copy of the table that was packed would be.
+ * A scene may have a million squares, and a table takes more memory than everything that the core
+ * keeps of one square. Values whose fields are only numbers, short lists of numbers and at most one
+ * value of another type are packed; the others keep a table.
+ *
+ * INVARIANT: unpacking gives a table equal to the one that was packed.
  */
 #ifndef CS_BIND_PACKED_H
 #define CS_BIND_PACKED_H

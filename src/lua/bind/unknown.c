@@ -156,8 +156,8 @@ static void fail_list(lua_State *L, const cs_noun *noun, int table, const char *
     is_list |= strcmp(lists[i], name) == 0;
   if (is_list)
     cs_caller_error(L,
-                    "%s: unknown field '%s'; the %ss stand in the table itself, %s{ a, b, ... }, "
-                    "not %s{ %s = ... }",
+                    "%s: unknown field '%s'; write the %ss into the table itself, %s{ a, b, ... "
+                    "}, not %s{ %s = ... }",
                     noun->name, name, noun->item, noun->name, noun->name, name);
 }
 

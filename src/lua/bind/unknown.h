@@ -11,10 +11,10 @@
 
 #include "lua/bind/noun.h"
 
-/* Raises what there is to say about a field of the table at `table` that the noun does not have. */
+/* Raises the message about a field of the table at `table` that the noun does not have. */
 _Noreturn void cs_unknown_fail(lua_State *L, const cs_noun *noun, int table, const char *name);
-/* Raises that a noun has no such name: of the `count` names that it has, the nearest is told, or
- * all of them. */
+/* Raises the message that a noun has no such name. It suggests the nearest of the `count` names
+ * that exist, or lists all of them. */
 _Noreturn void cs_unknown_fail_name(lua_State *L, const char *noun, const char *name,
                                     const char *const *names, size_t count);
 

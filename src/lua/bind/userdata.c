@@ -85,8 +85,8 @@ void cs_userdata_push_kept(lua_State *L, int index) {
   lua_remove(L, -2);
 }
 
-/* Pushes a copy of the table at index, with room for so many fields; tables deeper than `depth` are
- * left out. */
+/* Pushes a copy of the table at index, with room for `room` fields; tables deeper than `depth`
+ * are left out. */
 static void push_copy(lua_State *L, int index, int room, int depth) {
   index = lua_absindex(L, index);
   luaL_checkstack(L, 6, "copying a table");
@@ -371,7 +371,7 @@ static int describe(lua_State *L) {
   return 1;
 }
 
-/* Keeps the table on top of the stack as the metatable of a kind, closed to scripts, and pops it. */
+/* Keeps the table on top of the stack as the metatable of a kind, hidden from scripts. Pops it. */
 static void keep_metatable(lua_State *L, const char *kind) {
   lua_pushstring(L, kind);
   lua_setfield(L, -2, "__name");

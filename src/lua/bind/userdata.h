@@ -44,8 +44,8 @@ void cs_userdata_register(lua_State *L, const cs_kind *kind);
 
 /* Pushes a closed value. */
 cs_userdata *cs_userdata_push(lua_State *L, const cs_noun *noun);
-/* The same, with room for a placement, and with packed fields, of which the value of another type is
- * still to be set as user value 1. A size of 0: the fields will be a table. */
+/* The same, with packed fields and, if is_placed, room for a placement. The caller then sets user
+ * value 1: the field of another type, or, if packed->size is 0, the table of fields. */
 cs_userdata *cs_userdata_push_packed(lua_State *L, const cs_noun *noun, bool is_placed,
                                      const cs_packed *packed);
 /* What the kind says a value has of its own: kind->own_size bytes, zeros at first. */
@@ -58,8 +58,8 @@ void cs_userdata_place(cs_userdata *value, const cs_placement *placement);
 void cs_userdata_push_fields(lua_State *L, int index);
 /* Pushes the table of fields of the value at `index`, which must not be changed, or nil. */
 void cs_userdata_push_kept(lua_State *L, int index);
-/* Pushes a closed value that is else like the one at index: noun, fields, placement, and what its kind
- * has. is_placed: with room for a placement in any case. */
+/* Pushes a closed value with the same noun, fields, placement and own data of its kind as the one
+ * at index. is_placed: with room for a placement in any case. */
 cs_userdata *cs_userdata_push_like(lua_State *L, int index, bool is_placed);
 /* Pushes a copy of the table at `table`, with the tables in it, that has room for `more` fields. */
 void cs_userdata_push_copy(lua_State *L, int table, int more);
@@ -67,7 +67,7 @@ void cs_userdata_push_copy(lua_State *L, int table, int more);
 /* The value at index if it is of this kind, else NULL. Raises when it is closed. */
 cs_userdata *cs_userdata_test(lua_State *L, int index, const cs_kind *kind);
 /* The value at index, of any kind that constructors make (frames are not), else NULL. The kind is
- * told by the identity of its metatable, never by what a metatable says. */
+ * recognized by the identity of its metatable, never by what a metatable contains. */
 cs_userdata *cs_userdata_any(lua_State *L, int index);
 /* The `self` of a method; raises when it is not of this kind. */
 cs_userdata *cs_userdata_self(lua_State *L, const cs_kind *kind, const char *method);
@@ -85,8 +85,8 @@ const char *cs_userdata_shown(lua_State *L, int index);
  *   holder = cs_userdata_push_holder(L, "celspan.painting", sizeof *holder, release)
  *   *holder = what was made             the collector calls release(L) with it as argument 1
  *
- * INVARIANT: a metatable is in the registry whole or not at all, so that one whose making failed for
- * want of memory is made again. Scripts can neither read nor change it.
+ * INVARIANT: a metatable is in the registry complete or not at all. If memory runs out while one is
+ * made, the next call makes it again. Scripts can neither read nor change it.
  */
 
 /* Pushes zeroed memory with one user value, whose finaliser is `release`: the same one for all of

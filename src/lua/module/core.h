@@ -1,5 +1,5 @@
-/* The functions of the module celspan, and those of celspan.core, of which celspan's own Lua modules
- * are made; scripts do not see the latter. A function that can fail returns nil and a message.
+/* The functions of the module celspan, and those of celspan.core, which celspan's own Lua modules
+ * use and which scripts do not see. A function that can fail returns nil and a message.
  */
 #ifndef CS_MODULE_CORE_H
 #define CS_MODULE_CORE_H
@@ -38,8 +38,8 @@ int cs_folders_frame_name(lua_State *L);
 
 /* (path) -> { width =, height =, layers = {...}, notes = {...} } | nil, message
  *
- *   layers[i]: name, blend, parent (its place, or nil), group, visible, opacity, x, y, width, height,
- *              and pixels: a value that celspan.image accepts as `pixels`
+ *   layers[i]: name, blend, parent (its place, or nil), group, visible, opacity, x, y, width,
+ *              height, and pixels: a value that celspan.image accepts as `pixels`
  *   notes[i]:  layer (its place), what */
 int cs_painting_read(lua_State *L);
 

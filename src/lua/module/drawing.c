@@ -214,7 +214,8 @@ static const char *entry_string(lua_State *L, int place) {
   return text;
 }
 
-/* The list at 3, whose entries are strings: svg.lua saw to it. Scratch memory, left on the stack. */
+/* The list at 3. svg.lua has checked that its entries are strings. Scratch memory, left on the
+ * stack. */
 static const celspan_svg_font *read_fonts(lua_State *L, size_t *count) {
   *count = lua_istable(L, 3) ? (size_t)lua_rawlen(L, 3) : 0;
   celspan_svg_font *fonts = cs_form_scratch(L, *count + 1, sizeof *fonts);

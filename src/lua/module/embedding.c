@@ -53,8 +53,8 @@ celspan_context *celspan_lua_context(lua_State *L) {
 
 /* ---------------------------------------------------------------- values */
 
-/* Calls the function protected, with the value at index and `user`; `results` values are left on the
- * stack when it goes well, and else the sentence is in the context. */
+/* Calls the function in protected mode with the value at index and `user`. On success `results`
+ * values are left on the stack; otherwise the sentence is in the context. */
 static celspan_status visit(lua_State *L, int index, lua_CFunction function, void *user,
                             int results) {
   index = lua_absindex(L, index);

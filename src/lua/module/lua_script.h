@@ -20,9 +20,9 @@
 CELSPAN_CHECKED celspan_status cs_lua_script_run(lua_State *L, const char *path, int argument_count,
                                                  const char *const *arguments);
 
-/* Whether a file can be a script at all, by its first bytes. false: it holds binary data, or is a
- * picture whose format is text; Lua itself refuses compiled chunks. Only files that can be read twice
- * are read: pipes and missing files may be scripts, which Lua finds out. */
+/* Whether a file can be a script at all, by its first bytes. false: it contains binary data, or is
+ * a picture whose format is text; Lua itself refuses compiled chunks. Only files that can be read
+ * twice are read; for pipes and missing files the result is true, and Lua reports what is wrong. */
 bool cs_lua_script_accepts(const char *path);
 
 /* Writes the page of celspan.manual about a name, or the list of names for NULL. Errors:

@@ -22,7 +22,7 @@ static const cs_field no_fields[] = {{0}};
 static const cs_noun noun = {
     .name = "relit", .kind = &cs_kind_texture, .fields = no_fields, .create = refuse_with};
 
-/* Pushes a value that is to be filled: before the core makes what it holds. */
+/* Pushes a closed value, before the core makes the texture that it will hold. */
 static cs_userdata *push_value(lua_State *L, celspan_context *context) {
   cs_named_begin(L, context);
   cs_userdata *value = cs_userdata_push(L, &noun);

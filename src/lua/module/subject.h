@@ -1,7 +1,7 @@
 /* Argument 1 of celspan.pixels, spans and probe: a film, a rostrum or exposures.
  *
- * INVARIANT: the exposures live as long as the stack on which their owner was left, so that an error
- * at any point leaks nothing.
+ * INVARIANT: the exposures live as long as the stack that holds their owner, so that an error at
+ * any point leaks nothing.
  */
 #ifndef CS_MODULE_SUBJECT_H
 #define CS_MODULE_SUBJECT_H
@@ -10,8 +10,8 @@
 
 /* Reads argument 2, the options of the noun, and argument 1 as the exposures of options->desc. Of a
  * film they are those of the frame options->frame, or of the first frame, and sizes that were not
- * given are those of the film. Errors: those of the frame function, with the sentence in the context.
- * Raises an error for wrong arguments. */
+ * given are those of the film. Errors: those of the frame function, with the sentence in the
+ * context. Raises an error for wrong arguments. */
 CELSPAN_CHECKED celspan_status cs_subject_read(lua_State *L, const cs_noun *noun,
                                                cs_options *options);
 

@@ -88,8 +88,8 @@ static void push_operands(lua_State *L, lua_Integer count) {
   lua_rawseti(L, -2, count + 1);
 }
 
-/* A chain goes on, or one begins: what cs_construct_value would make of the operands in a table,
- * without going through those that are there. */
+/* Makes what cs_construct_value would make of a table of all operands, but without visiting the
+ * earlier operands of a chain such as a | b | c. */
 static int operate(lua_State *L, const cs_noun *noun, celspan_operator op, const char *sign) {
   const cs_userdata *left = operand(L, 1, sign);
   celspan_object *const pair[] = {left->handle, operand(L, 2, sign)->handle};

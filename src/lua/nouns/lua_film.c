@@ -115,7 +115,7 @@ static int film_at(lua_State *L) {
   return 1;
 }
 
-/* A sound that is not named anew stays where it is. */
+/* If no new sound is given, the new film keeps the sound and where it was found. */
 static int film_with(lua_State *L) {
   cs_construct_with(L);
   if (lua_getfield(L, 2, "sound") == LUA_TNIL) {

@@ -1,7 +1,7 @@
 /* All nouns, and what the files of this folder know of each other.
  *
- * INVARIANT: every noun of which scripts make values, and every table that they fill in, is in one of
- * the two lists, so that annotations and `celspan help lua` have it.
+ * INVARIANT: every noun of which scripts make values, and every table that they fill in, is in one
+ * of the two lists, so that it is in the annotations and in `celspan help lua`.
  */
 #ifndef CS_NOUNS_NOUNS_H
 #define CS_NOUNS_NOUNS_H
@@ -24,8 +24,8 @@ int cs_nouns_push(lua_State *L);
 extern const luaL_Reg cs_placed_methods[], cs_placed_object_methods[];
 extern const luaL_Reg cs_boolean_operators[];
 
-/* primitive:stroke{ ... }: celspan.stroke{ outline = primitive, ... } with the primitive's transform
- * and fade. */
+/* primitive:stroke{ ... }: celspan.stroke{ outline = primitive, ... } with the transform and fade
+ * of the primitive. */
 int cs_stroke_method(lua_State *L);
 
 /* Functions of the module celspan. */

@@ -22,8 +22,8 @@ typedef struct cs_options {
 extern const cs_noun cs_noun_filter, cs_noun_render, cs_noun_pixels, cs_noun_stack, cs_noun_bytes,
     cs_noun_write, cs_noun_spans, cs_noun_probe;
 
-/* Reads the table at index, or a new empty one, as options of the noun. It stays on the stack. Sizes
- * that are not given are 1920 x 1080. */
+/* Reads the table at index, or a new empty one, as options of the noun. It stays on the stack. The
+ * default size is 1920 x 1080. */
 void cs_options_read(lua_State *L, const cs_noun *noun, int index, cs_options *out);
 /* Sizes that were not given become those of the film. */
 void cs_options_use_film(cs_options *options, const cs_film_info *film);

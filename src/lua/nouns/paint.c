@@ -164,8 +164,8 @@ int cs_nouns_rgb(lua_State *L) {
   return push_paint(L, "rgb", pigment, NULL, alpha);
 }
 
-/* gel(r, g, b), gel("#rrggbb"), each also with an alpha: it mixes the gel with clear, as in a picture
- * of gels. */
+/* gel(r, g, b), gel("#rrggbb"), each also with an alpha, which mixes the gel with clear as in a
+ * picture of gels. */
 int cs_nouns_gel(lua_State *L) {
   double medium[3], alpha = 1;
   read_colour(L, "gel", medium, &alpha);

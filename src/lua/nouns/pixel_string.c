@@ -95,7 +95,7 @@ static box *push_box(const cs_form *form, const celspan_surface_desc *desc, int 
   return b;
 }
 
-/* The surface in the field `pixels`, kept by the fields of the value; NULL: the field is a string. */
+/* The surface in the field `pixels`, kept by the fields of the value; NULL if it is a string. */
 static celspan_surface *find_surface(const cs_form *form) {
   cs_form_get(form, "pixels");
   const box *b = luaL_testudata(form->L, -1, "celspan.surface");

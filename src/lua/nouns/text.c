@@ -51,7 +51,7 @@ static void read_fonts(const cs_form *form, celspan_text_desc *desc) {
   desc->fonts = fonts;
   luaL_checkstack(L, 3 * MOST_FONTS, "fonts");
   if (cs_form_get(form, "font") == LUA_TNIL)
-    cs_form_fail(form, "field 'font' is missing: the file of a font, or a list of them");
+    cs_form_fail(form, "field 'font' is missing: give the file of a font, or a list of files");
   int list = lua_gettop(L);
   if (lua_type(L, list) != LUA_TTABLE) {
     fonts[desc->font_count++] = read_font(form);

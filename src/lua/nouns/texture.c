@@ -44,8 +44,8 @@ typedef struct gradient {
   celspan_spread spread;
 } gradient;
 
-/* Gives the gradient its matrix and its spread; the texture belongs to the value from the beginning,
- * so that it is released if one of them is refused. */
+/* Gives the gradient its matrix and its spread. The value owns the texture before that, so that it
+ * is released if one of them is refused. */
 static void set_extent(const cs_form *form, const gradient *given, celspan_texture *texture,
                        cs_userdata *value) {
   celspan_context *context = cs_host_context(form->L);

@@ -135,7 +135,8 @@ static int random_number(lua_State *L) {
 
 static int seed_random(lua_State *L) {
   if (lua_isnone(L, 1))
-    return luaL_error(L, "randomseed: needs a number: without one it would be another in each run");
+    return luaL_error(L, "randomseed: give a number: without one, random numbers would differ in "
+                         "each run");
   double number = luaL_checknumber(L, 1);
   uint64_t seed;
   memcpy(&seed, &number, sizeof seed);

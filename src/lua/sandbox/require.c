@@ -78,7 +78,7 @@ static void load_module(lua_State *L, const char *search, const char *name) {
   const char *path = lua_tostring(L, -1);
   cs_host_admit(L, path);
   if (size > SOURCE_MOST)
-    luaL_error(L, "%s: a module of more than 16 MiB", path);
+    luaL_error(L, "%s: the module has more than 16 MiB, which is the limit", path);
   cs_guard_charge(L, (uint64_t)size / 16);
   if (luaL_loadfilex(L, path, "t") != LUA_OK)
     luaL_error(L, "error loading module '%s' from file '%s':\n\t%s", name, path,
@@ -97,8 +97,7 @@ static int require(lua_State *L) {
     return 1;
   if (is_celspan(name)) {
     if (!is_for_scripts(name))
-      return luaL_error(L, "module '%s' is not in the sandbox (--trust gives the whole of Lua)",
-                        name);
+      return luaL_error(L, "module '%s' is not in the sandbox (--trust gives all of Lua)", name);
     lua_settop(L, 1);
     return cs_library_require_own(L);
   }

@@ -63,7 +63,7 @@ static int load(lua_State *L) {
   cs_guard_charge(L, size / BYTES_A_STEP);
   if (!strchr(mode, 't') || luaL_loadbufferx(L, text, size, name, "t") != LUA_OK) {
     if (!strchr(mode, 't'))
-      lua_pushfstring(L, "load: mode '%s': the sandbox loads text ('t') alone", mode);
+      lua_pushfstring(L, "load: mode '%s': the sandbox loads only text ('t')", mode);
     return push_failure(L);
   }
   if (has_globals)

@@ -93,7 +93,8 @@ static void admit(void *user, lua_State *L, const char *path) {
     cs_host_try(L, path, cs_fail_memory(cs_host_context(L)));
   else
     cs_caller_error(L,
-                    "%s: the sandbox lets scripts read below %s alone (--allow DIR adds a folder)",
+                    "%s: scripts in the sandbox can read only files in %s (--allow DIR adds a "
+                    "folder)",
                     path, sandbox->roots.count ? sandbox->roots.paths[0] : "their folder");
 }
 
@@ -103,7 +104,7 @@ static bool may_write(void *user, lua_State *L, const char *path) {
     return true;
   return celspan_context_fail(
              cs_host_context(L), CELSPAN_OUTPUT,
-             "%.500s: scripts in the sandbox write no files (--trust gives the whole of Lua)",
+             "%.500s: scripts in the sandbox cannot write files (--trust gives all of Lua)",
              path) == CELSPAN_OK;
 }
 
@@ -203,7 +204,7 @@ static int tell_absent(lua_State *L) {
   const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "";
   for (size_t i = 0; i < sizeof absent / sizeof *absent; i++)
     if (strcmp(name, absent[i]) == 0)
-      return cs_caller_error(L, "%s is not in the sandbox (--trust gives scripts the whole of Lua)",
+      return cs_caller_error(L, "%s is not in the sandbox (--trust gives scripts all of Lua)",
                              name);
   return 0;
 }

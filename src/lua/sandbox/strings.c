@@ -250,7 +250,8 @@ static int format(lua_State *L) {
     char letter = conversion_at(at);
     argument++;
     if (letter == 'p')
-      return luaL_error(L, "format: '%%p' prints an address, which the sandbox does not tell");
+      return luaL_error(L, "format: '%%p' is not in the sandbox, because addresses differ in "
+                           "each run");
     if (letter == 's' && lua_gettop(L) >= argument) {
       cs_library_push_text(L, argument);
       lua_replace(L, argument);

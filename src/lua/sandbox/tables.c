@@ -22,8 +22,8 @@ static lua_Integer check_length(lua_State *L, int index, const char *name) {
   luaL_checktype(L, index, LUA_TTABLE);
   if (luaL_getmetafield(L, index, "__len") != LUA_TNIL)
     luaL_error(L,
-               "%s: the length of the table is a function (__len); the sandbox takes plain "
-               "tables here",
+               "%s: the table has a length function (__len), which the sandbox does not accept "
+               "here",
                name);
   return (lua_Integer)lua_rawlen(L, index);
 }

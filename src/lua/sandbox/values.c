@@ -27,7 +27,7 @@ static void check_metatable(lua_State *L, int own) {
   for (int i = 0; i < 2; i++) {
     lua_pushstring(L, refused[i]);
     if (lua_rawget(L, own) != LUA_TNIL)
-      luaL_error(L, "setmetatable: %s is not in the sandbox (--trust gives the whole of Lua)",
+      luaL_error(L, "setmetatable: %s is not in the sandbox (--trust gives all of Lua)",
                  refused[i]);
     lua_pop(L, 1);
   }
@@ -151,7 +151,8 @@ static int check_rank(lua_State *L, int index, const char *name) {
   int rank = rank_of(L, index);
   if (rank < 0)
     luaL_error(L,
-               "%s: a key is a %s: such keys have another order in each run; keep a list of them",
+               "%s: a key is a %s: the order of such keys differs in each run; use a list "
+               "instead",
                name, luaL_typename(L, index));
   return rank;
 }

@@ -218,7 +218,8 @@ static celspan_status read_part(const file_pass *pass, int32_t y, int32_t rows) 
   return CELSPAN_OK;
 }
 
-/* Blocks are made once there are rows for them: a damaged file that claims to be large takes no memory. */
+/* Blocks are made when there are rows for them: a damaged file that claims to be large takes no
+ * memory. */
 static celspan_status read_rows(file_pass *pass) {
   int32_t width = pass->x1 - pass->x0;
   for (int32_t y = pass->y0; y < pass->y1; y += pass->batch_rows) {

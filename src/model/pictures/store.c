@@ -240,8 +240,8 @@ static celspan_status open_file(celspan_context *context, const cs_picture *pict
   celspan_status status = module->open(&request, &entry->reader, &entry->header, &failure);
   bool was_tried = status != CELSPAN_OK && picture->tried && access(picture->file, F_OK) != 0;
   if (status != CELSPAN_OK)
-    return cs_fail(context, status, "%s%s%s", failure.text, was_tried ? "; nor is it there: " : "",
-                   was_tried ? picture->tried : "");
+    return cs_fail(context, status, "%s%s%s", failure.text,
+                   was_tried ? "; also looked for at " : "", was_tried ? picture->tried : "");
   entry->picture = cs_picture_ref((cs_picture *)(uintptr_t)picture);
   return CELSPAN_OK;
 }

@@ -1,10 +1,10 @@
 /* Boxes around objects and cels for callers whose picture depends on them: gradients that are
  * spread over a box, places that scripts take from it. celspan_object_bounds and celspan_cel_bounds
- * are for those that only leave out what lies beyond: without memory theirs are larger.
+ * are for callers that only leave out what lies outside: their boxes are larger if memory runs out.
  *
  *   +-------------+
- *   |   .--.      |  the outer box always holds the stroke; the inner one is tight and takes memory:
- *   |  +----+     |  the stroke's outline is made for it
+ *   |   .--.      |  the outer box always contains the stroke; the inner one is tight and takes
+ *   |  +----+     |  memory, because the outline of the stroke is made for it
  *   |  | // |     |
  *   |  +----+     |
  *   +-------------+

@@ -23,7 +23,7 @@ static celspan_status check(celspan_context *context, const celspan_rostrum_desc
   if (desc->back_texture.texture && desc->back_texture.on == CELSPAN_LIGHT_ON_CEL)
     return cs_fail(
         context, CELSPAN_BAD_ARGUMENT,
-        "rostrum: back cannot lie on the cel, because it belongs to none; it lies on the "
+        "rostrum: back cannot be on a cel, because it does not belong to one; put it on the "
         "frame");
   if (desc->has_size) {
     CS_TRY(cs_check_positive(context, "rostrum", "size.width", desc->width));

@@ -100,8 +100,8 @@ static celspan_status unroll(celspan_context *context, celspan_texture *texture,
   if (count * (double)stops_of_period(texture) > CS_UNROLL_STOPS)
     return cs_fail(
         context, CELSPAN_LIMIT,
-        "%s: the gradient is repeated %s times where it is shown; with its stops that may "
-        "be %d times",
+        "%s: the gradient is repeated %s times where it is shown; with its stops, at most %d "
+        "times are allowed",
         texture->kind == CS_TEXTURE_LINEAR ? "linear" : "radial", cs_check_number_text(count).text,
         CS_UNROLL_STOPS / (int)stops_of_period(texture));
   CS_TRY(cs_texture_copy(context, texture, (size_t)count * stops_of_period(texture),
@@ -126,7 +126,7 @@ celspan_status cs_texture_unroll(celspan_context *context, celspan_texture **tex
   double first = from->kind == CS_TEXTURE_RADIAL ? 0 : -half, last = fmax(half, 1);
   if (box && !find_periods(from, box, &first, &last))
     return cs_fail(context, CELSPAN_LIMIT,
-                   "%s: a gradient that repeats may have no horizon where it is shown",
+                   "%s: a gradient that repeats must not be shown at the horizon of its matrix",
                    from->kind == CS_TEXTURE_LINEAR ? "linear" : "radial");
   CS_TRY(unroll(context, from, first, last, &made));
   celspan_texture_unref(from);

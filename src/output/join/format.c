@@ -43,7 +43,9 @@ void cs_join_part_close(cs_join_part *part) {
 celspan_status cs_join_part_read(celspan_context *context, const cs_join_part *part,
                                  uint64_t offset, void *bytes, size_t size) {
   if (offset > part->size || size > part->size - offset)
-    return cs_join_part_fail(context, part, "is cut: it ends at byte %llu; render the strip again",
+    return cs_join_part_fail(context, part,
+                             "is truncated: it ends at byte %llu; render the "
+                             "strip again",
                              (unsigned long long)part->size);
   ssize_t got = cs_open_read_at(part->descriptor, bytes, size, (off_t)offset);
   if (got < 0)

@@ -37,16 +37,16 @@ static celspan_status inspect(celspan_context *context, cs_join_part *part,
   *format = format_of(start);
   if (!*format)
     return cs_join_part_fail(context, part,
-                             "is no strip: 'celspan render --strip' makes them, in PNG, Targa and "
-                             "span files");
+                             "is not a strip: 'celspan render --strip' makes strips, as PNG, "
+                             "Targa or span files");
   CS_TRY((*format)->inspect(context, part));
   if (part->strip.height == 0)
     return cs_join_part_fail(context, part,
-                             "is a picture by itself: 'celspan render --strip' makes strips");
+                             "is a complete picture: 'celspan render --strip' makes strips");
   if (!cs_strip_fits(part->strip, part->height))
     return cs_join_part_fail(context, part,
-                             "declares rows from %d on, %d of %d, which no strip has: render it "
-                             "again",
+                             "declares a first row of %d and %d of %d rows, which is not "
+                             "possible for a strip: render it again",
                              part->strip.row, part->height, part->strip.height);
   return CELSPAN_OK;
 }
@@ -61,12 +61,14 @@ static celspan_status check_next(celspan_context *context, const job *j, const c
                              "size, depth and colours",
                              j->first.path);
   if (j->row > 0 && part->strip.height != j->first.strip.height)
-    return cs_join_part_fail(context, part, "is of a picture of %d rows, and %s of one of %d",
+    return cs_join_part_fail(context, part,
+                             "belongs to a picture of %d rows, and %s to one of "
+                             "%d: join strips of one picture",
                              part->strip.height, j->first.path, j->first.strip.height);
   if (part->strip.row != j->row)
     return cs_join_part_fail(context, part,
-                             "begins at row %d, where row %d comes next: give every strip once, "
-                             "from the top down",
+                             "begins at row %d, but the next row is %d: give every strip once, "
+                             "from top to bottom",
                              part->strip.row, j->row);
   return CELSPAN_OK;
 }
@@ -118,8 +120,8 @@ static celspan_status check_output(celspan_context *context, const job *j) {
     is_known |= strcasecmp(ending, j->format->endings[i]) == 0;
   if (!is_known)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "%s: the strips are %s files, which are joined as they are: the name must end "
-                   "in .%s",
+                   "%s: the strips are %s files, and joining does not convert them: the name "
+                   "must end in .%s",
                    j->output, j->format->name, j->format->endings[0]);
   for (size_t i = 0; i < j->count; i++)
     if (is_one_file(j->paths[i], j->output))

@@ -45,8 +45,7 @@ static celspan_status read_chunk(celspan_context *context, const cs_join_part *p
   memcpy(out->type, head + 4, 4);
   if (out->size > SIZE_MOST)
     return cs_join_part_fail(context, part,
-                             "byte %llu: there is no proper chunk; render the strip "
-                             "again",
+                             "byte %llu: there is no valid chunk; render the strip again",
                              (unsigned long long)offset);
   return cs_join_part_read(context, part, data_of(out) + out->size, out->tail, sizeof out->tail);
 }
@@ -59,8 +58,8 @@ static bool claims(const unsigned char start[CS_JOIN_START]) {
 
 static celspan_status refuse(celspan_context *context, const cs_join_part *part, const char *why) {
   return cs_join_part_fail(context, part,
-                           "is no strip that celspan has written (%s): 'celspan "
-                           "render --strip' makes them",
+                           "is not a strip that celspan has written (%s): 'celspan render "
+                           "--strip' makes them",
                            why);
 }
 

@@ -18,7 +18,9 @@ static celspan_status read_end(celspan_context *context, cs_join_part *part) {
                            sizeof end));
   const unsigned char *footer = end + CS_TGA_EXTENSION;
   if (memcmp(footer + 8, CS_TGA_SIGNATURE, sizeof CS_TGA_SIGNATURE) != 0)
-    return cs_join_part_fail(context, part, "is cut: it has no footer; render the strip again");
+    return cs_join_part_fail(context, part,
+                             "is truncated: it has no footer; render the strip "
+                             "again");
   part->body = BODY;
   part->body_end = cs_tga_load_32(footer);
   if (part->body_end == 0)

@@ -129,7 +129,7 @@ static celspan_status check_coding(celspan_context *context, const char *path,
                                    const celspan_coding *coding) {
   if (coding->depth != CELSPAN_DEPTH_8 && coding->depth != CELSPAN_DEPTH_16)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "%s: PNG holds 8 or 16 bits a channel; for half and float use EXR or TIFF",
+                   "%s: PNG holds 8 or 16 bits per channel; for half and float use EXR or TIFF",
                    path);
   if (coding->alpha != CELSPAN_ALPHA_STRAIGHT)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,

@@ -388,7 +388,7 @@ static celspan_status reserve_bytes(const cs_png_rows *rows, celspan_context *co
   return CELSPAN_OK;
 }
 
-/* Coded pixels of 16 bits a channel to those of the file, in place. */
+/* Coded pixels of 16 bits per channel to those of the file, in place. */
 static inline void pack_samples(cs_png_rows *rows, unsigned char *bytes, size_t pixel_size) {
   unsigned char *to = bytes;
   for (int32_t x = 0; x < rows->width; x++, to += pixel_size) {

@@ -19,7 +19,7 @@ typedef struct cs_png_picture {
   bool is_opaque;
   bool is_strip; /* there are rows above row 0, which is filtered without them */
   int32_t width, height;
-  int workers; /* 0: one a processor */
+  int workers; /* 0: one per processor */
 } cs_png_picture;
 
 /* write: called by the thread that calls here, with a part at a time. Errors: NO_MEMORY. */

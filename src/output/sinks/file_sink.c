@@ -220,10 +220,11 @@ static celspan_status create(celspan_context *context, const char *path,
   if (format_name(path, file)[0] == '\0')
     return cs_fail(
         context, CELSPAN_BAD_ARGUMENT,
-        "%s: the format is unknown: give the file an ending such as .png, or name a format", path);
+        "%s: the format is unknown: give the file an extension such as .png, or name a format",
+        path);
   if (file->strip_height != 0 && !format->has_strips)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "%s: strips can be joined in PNG, Targa and span files alone", path);
+                   "%s: strips can be joined only as PNG, Targa or span files", path);
   celspan_sink sink;
   CS_TRY(format->create(context, path, file, &sink));
   if (format->is_dithered) {

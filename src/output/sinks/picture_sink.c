@@ -269,8 +269,8 @@ celspan_status cs_sink_picture(celspan_context *context, const char *path,
   if (!made.format)
     return cs_fail(
         context, CELSPAN_BAD_ARGUMENT,
-        "%s: the format \"%s\" is not written; png, tga, span, exr, tiff, dpx, jpeg, bmp, "
-        "hdr, ppm, webp, gif and jp2 are",
+        "%s: the format \"%s\" cannot be written; use png, tga, span, exr, tiff, dpx, jpeg, bmp, "
+        "hdr, ppm, webp, gif or jp2",
         path, name);
   CS_TRY(choose_coding(context, path, &file->coding, &made));
   made.path = copy_text(context->memory, path);

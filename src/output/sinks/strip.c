@@ -16,7 +16,7 @@ celspan_status cs_strip_check(celspan_context *context, const char *path, cs_str
     return CELSPAN_OK;
   return cs_fail(
       context, CELSPAN_BAD_ARGUMENT,
-      "%s: rows %d to %lld are no strip of %d rows: strips begin and end at multiples of "
-      "%d rows, or at the end",
+      "%s: rows %d to %lld are not a strip of a frame of %d rows: strips begin and end at "
+      "multiples of %d rows, or at the end",
       path, (int)strip.row, (long long)strip.row + height - 1, (int)strip.height, CS_STRIP_ROWS);
 }

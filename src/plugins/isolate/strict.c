@@ -84,12 +84,12 @@ static bool add_rules(int rules, const cs_roots *read, const cs_roots *write, ui
 static const char *confine_files(const cs_roots *read, const cs_roots *write) {
   long abi = syscall(SYS_landlock_create_ruleset, NULL, 0, LANDLOCK_CREATE_RULESET_VERSION);
   if (abi < 1)
-    return "the kernel has no Landlock (Linux 5.13 and later have it, where it is enabled)";
+    return "the kernel has no Landlock (it needs Linux 5.13 or later, with Landlock enabled)";
   ruleset known = known_rights(abi);
   size_t size = abi >= 6 ? sizeof known : abi >= 4 ? 2 * sizeof(uint64_t) : sizeof(uint64_t);
   int rules = (int)syscall(SYS_landlock_create_ruleset, &known, size, 0);
   if (rules < 0)
-    return "Landlock accepts no rules";
+    return "Landlock does not accept rules";
   bool is_confined = add_rules(rules, read, write, known.files) &&
                      syscall(SYS_landlock_restrict_self, rules, 0) == 0;
   close(rules);
@@ -132,7 +132,7 @@ static const char *confine_calls(void) {
   struct sock_fprog program = {sizeof filter / sizeof *filter, filter};
   return prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0
              ? NULL
-             : "the kernel accepts no filter of system calls (seccomp)";
+             : "the kernel does not accept a filter of system calls (seccomp)";
 }
 #else
 static const char *confine_calls(void) {

@@ -82,12 +82,12 @@ static void on_text(void *user, const XML_Char *bytes, int size) {
  * without bound. value is text, in which character references are undone: NULL for another file. */
 static const char *refusal_of(const XML_Char *value, int size, int is_parameter) {
   if (is_parameter)
-    return "is of the document type; only those of the text are read";
+    return "is a parameter entity, which is not read";
   if (!value)
-    return "is in another file, and no other file is read";
+    return "is in another file, which is not read";
   if (size > ENTITY_BYTES)
     return "is longer than 1,024 bytes";
-  return memchr(value, '&', (size_t)size) ? "is made of others, which is not read" : NULL;
+  return memchr(value, '&', (size_t)size) ? "refers to other entities, which is not allowed" : NULL;
 }
 
 static void on_entity(void *user, const XML_Char *name, int is_parameter, const XML_Char *value,

@@ -1,26 +1,26 @@
 --- celspan check SCRIPT: builds every frame and renders none.
 --
---   frames of a part   1 2 3 ... n | n+1 ...        part by part, so that memory has a bound:
+--   frames of a part   1 2 3 ... n | n+1 ...        in parts, so that memory is bounded:
 --
 --   the film's sound
 --   first pass    -->  in order: frames that cannot be built, pictures that cannot be read
 --   second pass   <--  a fresh film, last frame first: a frame whose scene now differs was not made
 --                      by a pure function of its number
 --
--- All faults are reported in the end, equal ones in one line with the frames that have them:
+-- All faults are reported at the end, equal ones in one line with the frames that have them:
 --
 --   frames 3-17, 20: cel 2, primitive 5: night.png: cannot be opened: No such file or directory
 --   frames 1, 3, 5, 7, 9, 11, 13, 15 and 4992 more up to 9999: shot.lua:7: ...
 --
--- Memory is that of different sentences and not of frames: at most FAULTS_MOST sentences are kept,
--- and for each RUNS_MOST runs of frames; the rest is counted.
+-- Memory depends on the number of different sentences, not of frames: at most FAULTS_MOST sentences
+-- are kept, each with at most RUNS_MOST runs of frames; the rest is counted.
 local program, request = ...
 
 local PART = 4096 -- frames of a part
 local FAULTS_MOST, RUNS_MOST = 1000, 8
 local SCRIPT = 3 -- the exit code
-local IMPURE = "the frame function is not pure: asked again in another order it gave another scene; "
-  .. "let it depend on nothing but its argument"
+local IMPURE = "the frame function is not pure: called again in another order it returned another "
+  .. "scene; let it depend on its argument only"
 
 -- ---------------------------------------------------------------- faults
 
@@ -57,7 +57,8 @@ local function add_frame(fault, frame)
   end
 end
 
---- where: the place in the scene, or "". A fault of a frame that was stopped is none.
+--- where: the place in the scene, or "". After a signal to stop nothing is added, because frames
+--- then fail for that reason.
 local function add_fault(frame, where, message, code)
   if program.is_stopped() then return end
   local text = message:gsub(("frame %d: "):format(frame), "", 1) -- so that equal faults are one
@@ -105,8 +106,9 @@ local function fresh_film(film)
   local good, fresh = pcall(program.film)
   if not good then return nil, program.outcome() end
   if fresh.first == film.first and fresh.frames == film.frames then return fresh end
-  program.error("the script made a film of other frames when it was run again: %d from %d, not %d "
-    .. "from %d", fresh.frames, fresh.first, film.frames, film.first)
+  program.error("the script returned a film with other frames when it was run again: %d from "
+    .. "number %d, not %d from number %d; let it return the same film each time", fresh.frames,
+    fresh.first, film.frames, film.first)
   return nil, SCRIPT
 end
 
@@ -159,16 +161,17 @@ local function report(done, count, sound)
       fault.is_everywhere and ", and elsewhere" or "", fault.where == "" and "" or ": ", fault.text)
   end
   if faults.beyond > 0 then
-    program.error("%d more with other sentences are not listed: give --frames to look at fewer frames",
-      faults.beyond)
+    program.error("%d more faults with other sentences are not listed: check fewer frames at a "
+      .. "time, with --frames", faults.beyond)
   end
   if done < count then program.note("stopped after %d of %d frames", done, count) end
   if faults.met > 0 then
-    program.note("%s%d fault%s, met %d time%s in %d frame%s", faults.beyond > 0 and "more than " or "",
-      #faults, plural(#faults), faults.met, plural(faults.met), done, plural(done))
+    local more = faults.beyond > 0 and "more than " or ""
+    program.note("%s%d fault%s, found %d time%s in %d frame%s", more, #faults, plural(#faults),
+      faults.met, plural(faults.met), done, plural(done))
   elseif done == count then
     program.note("%d frame%s checked: no faults%s", done, plural(done),
-      sound == 0 and "" or " but the sound")
+      sound == 0 and "" or " except in the sound")
   end
 end
 

@@ -24,7 +24,7 @@ end
 
 local function numbers_of(pattern)
   local numbers = program.check(core.frames(pattern))
-  if #numbers == 0 then program.fail("input", "%s: there is no file of that pattern", pattern) end
+  if #numbers == 0 then program.fail("input", "%s: no file matches this pattern", pattern) end
   local has = {}
   for _, number in ipairs(numbers) do has[number] = true end
   return numbers, has

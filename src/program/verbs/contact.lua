@@ -74,8 +74,8 @@ end
 
 --- A panel has the film's shape; it is no larger than the film, and no larger than fits.
 local function panel_size(film, columns)
-  local side, most = math.max(film.size[1], film.size[2]), math.min(SHEET_MOST / columns, PANEL_MOST)
-  local scale, size = math.min(1, most / side), {}
+  local most = math.min(SHEET_MOST / columns, PANEL_MOST)
+  local scale, size = math.min(1, most / math.max(film.size[1], film.size[2])), {}
   for i = 1, 2 do size[i] = math.max(PANEL_LEAST, math.floor(film.size[i] * scale + 0.5)) end
   return size
 end
@@ -86,8 +86,9 @@ local function make_sheet(film, output)
   local every = math.tointeger(request.every) or (#numbers + panels - 1) // panels
   local shown = (#numbers + every - 1) // every
   if shown > panels and not program.has_number(output) then
-    program.usage("%s: %d frames do not fit into a grid of %d x %d: give a larger --grid or --every, "
-      .. "or a name with a number, such as sheet.####.png", output, shown, columns, grid[2])
+    program.usage("%s: %d frames do not fit into a grid of %d x %d: give a larger --grid or "
+      .. "--every, or a name with a number, such as sheet.####.png", output, shown, columns,
+      grid[2])
   end
   local size = panel_size(film, columns)
   for page = 1, (shown + panels - 1) // panels do
@@ -101,6 +102,6 @@ local function make_sheet(film, output)
   end
 end
 
-if not request.output then program.usage "where to? give -o sheet.png" end
+if not request.output then program.usage "-o is missing: give -o sheet.png" end
 program.refuse_target(request.output)
 make_sheet(program.film(), request.output)

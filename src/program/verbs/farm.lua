@@ -18,7 +18,7 @@ local core = require "celspan.core"
 local CHUNK = 10 -- frames of a task
 local STRIPS_MOST = 1000 -- which one command can join
 local OPTIONS_MOST, PATH_MOST = 128, 4095
-local ARRAY_MOST = 1000 -- the tasks of an array that Slurm takes, unless it is told otherwise
+local ARRAY_MOST = 1000 -- the tasks of an array that Slurm accepts by default
 
 -- ---------------------------------------------------------------- both engines
 
@@ -342,7 +342,7 @@ local own = { ["-o"] = true, ["--slurm"] = true, ["--openjd"] = true, ["--chunk"
 
 local function refuse()
   local output = request.output
-  if not output then program.usage "where to? give -o shot.####.png, as for render" end
+  if not output then program.usage "-o is missing: give -o shot.####.png, as for render" end
   if request.slurm == request.openjd then
     program.usage "for which farm? give --slurm or --openjd, one of them"
   end
@@ -350,7 +350,8 @@ local function refuse()
     program.usage "--chunk divides a film and --strips a frame: give one of them"
   end
   if request.strips and math.tointeger(request.strips) > STRIPS_MOST then
-    program.usage("--strips %s: at most %d strips can be joined at once", request.strips, STRIPS_MOST)
+    program.usage("--strips %s: at most %d strips can be joined at once", request.strips,
+      STRIPS_MOST)
   end
   if output == "-" or program.is_video(output) then
     program.usage "a farm makes files of frames: give -o shot.####.png (and make a video of them)"
@@ -377,8 +378,8 @@ local function count_tasks(job)
 end
 
 refuse()
-local job = { strips = request.strips, script = request[1], folder = program.working_folder(), name = request.job_name,
-  logs = request.logs, workers = math.tointeger(request.workers),
+local job = { strips = request.strips, script = request[1], folder = program.working_folder(),
+  name = request.job_name, logs = request.logs, workers = math.tointeger(request.workers),
   memory = math.tointeger(request.job_memory), minutes = math.tointeger(request.job_time),
   arguments = request.arguments, options = {}, version = program.version }
 for _, option in ipairs(request.given) do

@@ -4,31 +4,32 @@ local program, request = ...
 local WIDTH = 100
 
 local exit_codes = {
-  { "0", "every frame asked for exists" }, { "1", "some frames failed, or differ" },
+  { "0", "every requested frame exists" }, { "1", "some frames failed, or differ" },
   { "2", "wrong usage" }, { "3", "the script or its scene failed" },
-  { "4", "an input is missing or broken" }, { "5", "an output cannot be written" },
-  { "6", "a limit was hit" }, { "33", "out of memory" }, { "70", "internal error" },
+  { "4", "an input is missing or damaged" }, { "5", "an output cannot be written" },
+  { "6", "a limit was exceeded" }, { "33", "out of memory" }, { "70", "internal error" },
   { "128+n", "ended by signal n" },
 }
 
 local environment = {
-  { "CELSPAN_PATH", "where require looks after the script's folder; scripts may read there" },
+  { "CELSPAN_PATH",
+    "where require searches after the script's folder; scripts may read these folders" },
   { "CELSPAN_PICTURE_MODULE",
-    "the file of the picture module, when it is not where celspan looks" },
+    "the file of the picture module, if celspan does not find it by itself" },
   { "OCIO", "an OpenColorIO configuration: its colour spaces may be named in colour" },
 }
 
 local verbs = program.verbs()
 
---- What stands behind a verb on a command line.
+--- What follows a verb on a command line.
 local function usage_of(verb)
   return verb.operands .. " [options]" .. (verb.has_script and " [-- ARGS]" or "")
 end
 
 -- ---------------------------------------------------------------- help
 
---- A text in lines, of which all but the first begin with an indent. Lines that begin with a space stay
---- as they are.
+--- A text in lines, of which all except the first begin with an indent. Lines that begin with a
+--- space stay as they are.
 local function wrapped(text, indent)
   local lines = {}
   for paragraph in text:gmatch "[^\n]+" do
@@ -60,15 +61,19 @@ local function put_verb(out, verb)
   end
 end
 
+--- A verb in the list: its operands in a column, or on a line of their own if they are too long.
+local function put_row(out, name, operands, summary)
+  local gap = #operands > 19 and "\n" .. (" "):rep(31) or " "
+  out:write(("  %-8s %-19s%s%s\n"):format(name, operands, gap, wrapped(summary, 31)))
+end
+
 local function put_list(out)
   out:write(("celspan %s - compositing for cel animation: Lua scripts in, frames out\n\n"
     .. "celspan VERB ...\n"):format(program.version))
-  for _, verb in ipairs(verbs) do
-    out:write(("  %-8s %-19s %s\n"):format(verb.name, verb.operands, verb.summary))
-  end
-  out:write(("  %-8s %-19s %s\n\n"):format("help", "VERB|lua [NAME]",
-    "Says more about a verb, or about a name of the Lua interface."),
-    "celspan --version prints the version, celspan --man the manual page.\n\nExit codes\n")
+  for _, verb in ipairs(verbs) do put_row(out, verb.name, verb.operands, verb.summary) end
+  put_row(out, "help", "VERB|lua [NAME]", "Describes a verb, or a name of the Lua interface.")
+  out:write("\ncelspan --version prints the version, celspan --man the manual page.\n\n"
+    .. "Exit codes\n")
   local half = (#exit_codes + 1) // 2 -- two columns, from the top to the bottom of each
   for i = 1, half do
     local left, right = exit_codes[i], exit_codes[i + half]

@@ -1,5 +1,5 @@
---- celspan info SCRIPT|FILE: a film, a picture, artwork or a span file in figures, one "name value" a
---- line. Which of them it is, its content shows.
+--- celspan info SCRIPT|FILE: a film, a picture, artwork or a span file in figures, one "name value"
+--- a line. The content of the file decides which of them it is.
 local program, request = ...
 
 local DIFFERENT_MOST = 1 << 19 -- scenes that are told apart, in some 40 MB
@@ -11,8 +11,8 @@ local function put(format, ...) io.write(format:format(...), "\n") end
 
 -- ---------------------------------------------------------------- films
 
---- Adds the names of a frame's values: one entry for each kind of value that has a name, in the order
---- in which they are met.
+--- Adds the names of a frame's values: one entry for each kind of value that has a name, in the
+--- order of the scene.
 local function add_names(film, names, frame)
   film:names(function(kind, name, source, line)
     local key = kind .. " " .. name
@@ -58,7 +58,8 @@ local function describe_film()
   local total = count_film(film)
   if film.title then put("title %s", film.title) end
   put("frames %d\nfirst %d\nlast %d", film.frames, film.first, film.first + film.frames - 1)
-  put("fps %.9g\nseconds %.9g\nsize %dx%d", film.fps, film.frames / film.fps, table.unpack(film.size))
+  put("fps %.9g\nseconds %.9g", film.fps, film.frames / film.fps)
+  put("size %dx%d", table.unpack(film.size))
   put("cels %d\nprimitives %d\npictures %d", table.unpack(total.most))
   put("different%s %d", total.is_least and "_at_least" or "", total.different)
   for _, entry in ipairs(total.names) do
@@ -80,8 +81,8 @@ local function describe_picture()
     if part.subimage == 0 then depth = part.depth end
     if part.subimage then
       subimages = subimages + 1
-      lines[i] = ("subimage %d size %dx%d channels %d depth %s%s\n"):format(part.subimage, part.width,
-        part.height, part.channels, part.depth, name == "" and "" or " layer" .. name)
+      lines[i] = ("subimage %d size %dx%d channels %d depth %s%s\n"):format(part.subimage,
+        part.width, part.height, part.channels, part.depth, name == "" and "" or " layer" .. name)
     else
       lines[i] = ("layer%s channels %d\n"):format(name, part.channels)
     end
@@ -96,9 +97,8 @@ local function describe_spans()
   local spans = program.spans(path)
   put("format span\nsize %dx%d\ndepth %s\nbytes %d", spans.width, spans.height, spans.depth,
     spans.bytes)
-  for _, name in ipairs { "rows_same", "rows_moved", "rows_literal", "runs", "raw_spans", "gradients" } do
-    put("%s %d", name, spans[name])
-  end
+  local counts = { "rows_same", "rows_moved", "rows_literal", "runs", "raw_spans", "gradients" }
+  for _, name in ipairs(counts) do put("%s %d", name, spans[name]) end
 end
 
 local function describe_painting(format)

@@ -2,8 +2,8 @@
 --
 --   project/ --@NAME@, @ANNOTATIONS@ replaced--> NAME/...
 --
--- Nothing that is there is replaced: the folder must be new or empty. The picture that the spec
--- compares the film with is rendered from the film itself, so that the tests pass from the start.
+-- No existing file is replaced: the folder must be new or empty. The picture that the spec compares
+-- the film with is rendered from the film itself, so that the tests pass from the start.
 local program, request = ...
 
 local NAME_MOST, PATH_MOST = 100, 2047
@@ -18,9 +18,10 @@ local folder = request[1]
 local name = folder:match "[^/]*$" -- it goes into Lua and Markdown as it is
 
 if #name > NAME_MOST or not name:find "^[%w_-][%w_.-]*$" then
-  program.usage("'%s' is no name for a film: letters, digits, '_', '-' and '.', not first a '.'", folder)
+  program.usage("'%s' cannot be the name of a film: use at most %d letters, digits, '_', '-' and "
+    .. "'.', and do not begin with '.'", folder, NAME_MOST)
 elseif #folder > PATH_MOST then
-  program.usage("'%.60s...' is too long a path", folder)
+  program.usage("'%.60s...' is too long a path: use at most %d bytes", folder, PATH_MOST)
 end
 
 local entries, message, how = program.entries(folder)
@@ -30,7 +31,7 @@ elseif not entries and how ~= "missing" then
   program.fail("output", "%s: cannot be a folder for the film: %s", folder,
     message or "Not a directory")
 elseif entries and #entries > 0 then
-  program.fail("output", "%s: there is something in it already; choose another name", folder)
+  program.fail("output", "%s: the folder is not empty; choose another name", folder)
 end
 
 local marks = { NAME = name, ANNOTATIONS = program.annotations }

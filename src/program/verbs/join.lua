@@ -2,12 +2,12 @@
 local program, request = ...
 local core = require "celspan.core"
 
-if not request.output then program.usage "where to? give -o with the name of the picture" end
+if not request.output then program.usage "-o is missing: give -o and the name of the picture" end
 local paths = {}
 for _, path in ipairs(request) do
   local numbers = program.has_number(path) and program.check(core.frames(path))
   if numbers and #numbers == 0 then
-    program.fail("input", "%s: there are no files of this pattern", path)
+    program.fail("input", "%s: no file matches this pattern", path)
   end
   for _, number in ipairs(numbers or {}) do
     paths[#paths + 1] = program.check(core.frame_name(path, number))

@@ -1,4 +1,4 @@
---- What every verb in Lua has beside the services of service.c, which are added to here.
+--- What every verb in Lua uses: the services of service.c, and the functions added to them here.
 local program = ...
 
 local fail, note, report = program.fail, program.note, program.error
@@ -6,7 +6,7 @@ local fail, note, report = program.fail, program.note, program.error
 --- "celspan: ..." on standard error.
 function program.note(...) note(string.format(...)) end
 
---- "celspan: error: ...": the verb goes on.
+--- "celspan: error: ..." on standard error; the verb continues.
 function program.error(...) report(string.format(...)) end
 
 --- Reports an error and ends the verb. kind: "usage", "script", "input", "output" or "limit".
@@ -14,7 +14,7 @@ function program.fail(kind, ...) fail(kind, string.format(...)) end
 
 function program.usage(...) program.fail("usage", ...) end
 
---- Whether a path ends so, in large or small letters.
+--- Whether a path has one of these endings, in upper or lower case.
 function program.has_ending(path, ...)
   for _, ending in ipairs { ... } do
     if #path > #ending and path:sub(-#ending):lower() == ending then return true end

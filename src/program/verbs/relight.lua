@@ -8,7 +8,7 @@ local relight = require "celspan.relight"
 
 local input, output, light, to = request[1], request.output, request.light, request.to
 
---- A light as the core has it: three floats. What is not a light is refused.
+--- A light as the core stores it: three floats. Other values of the option are refused.
 local function light_of(option, text, may_be_dark)
   local rgb = program.colour(text)
   if not rgb then
@@ -27,8 +27,8 @@ end
 local known = light and light ~= "grey" and light_of("--light", light, false) or nil
 local shown = to and light_of("--to", to, true)
 
---- The texture in a light, as a scene of the picture's size. Without alpha it covers what is behind
---- it, and is opaque.
+--- The texture in a light, as a scene of the picture's size. If the picture has no alpha, the scene
+--- is opaque.
 local function scene_of(texture, picture)
   return celspan.rostrum { antialias = "none", back = { 0, 0, 0, picture.alpha and 0 or 1 },
     celspan.cel { front = shown,
@@ -37,16 +37,17 @@ end
 
 local taken_off = relight.read(input)
 
-if not output then program.usage "-o is needed: the file to make" end
+if not output then program.usage "-o is missing: give -o and the file to make" end
 if not light and not taken_off then
-  program.usage("--light is needed: the light that '%s' was taken in, a colour like #ffe0b0, r,g,b, "
-    .. "or grey", input)
+  program.usage("--light is missing: give the light in which '%s' was taken, a colour such as "
+    .. "#ffe0b0, r,g,b, or grey", input)
 elseif light and taken_off then
-  program.usage("--light: the light of '%s' has been taken off already", input)
+  program.usage("--light: the light of '%s' has been taken off already: leave the option out",
+    input)
 elseif to then
   program.refuse_target(output)
 elseif taken_off then
-  program.usage("--to is needed: the light that '%s' is to be shown in", input)
+  program.usage("--to is missing: give the light in which to show '%s'", input)
 end
 
 local texture = taken_off or program.check(relight.from { picture = input, light = known,

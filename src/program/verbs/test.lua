@@ -61,13 +61,13 @@ local function start(run)
     run.process, message = program.start(words, run.printed, run.records)
   end
   if not run.process then
-    program.error("%s: no process for it: %s", run.path, message or other)
+    program.error("%s: cannot be run: no process could be started: %s", run.path, message or other)
   end
   return run.process ~= nil
 end
 
---- Counts what the process recorded, "KIND LENGTH\n" and a text each, and prints what is to be seen.
---- Returns whether it came to its end.
+--- Counts the results that the process recorded, each "KIND LENGTH\n" and a text, and prints those
+--- of skipped and failed tests. Returns whether the process ran all tests.
 local function read_records(run)
   local kind
   run.records:seek "set"
@@ -101,7 +101,8 @@ local function print_run(run)
   run.printed:seek "set"
   local printed = run.printed:read "a"
   if printed ~= "" then io.write("printed by ", run.path, ":\n", printed) end
-  print(("%s: %d passed, %d failed, %d skipped"):format(run.path, run.passed, run.failed, run.skipped))
+  print(("%s: %d passed, %d failed, %d skipped"):format(run.path, run.passed, run.failed,
+    run.skipped))
   io.stdout:flush()
   run.records:close()
   run.printed:close()
@@ -147,7 +148,8 @@ local function sum_up(runs, count, is_well, begun)
     skipped, count, count == 1 and "" or "s", program.clock() - begun))
   if not is_well then return MEMORY end
   if passed + failed + skipped == 0 and not program.is_stopped() then
-    program.error(request.only and "no test has a name that --only asks for" or "no spec holds a test")
+    program.error("%s", request.only and "no test has a name that matches --only"
+      or "the spec files contain no tests")
     return DIFFERENT
   end
   return failed > 0 and DIFFERENT or 0

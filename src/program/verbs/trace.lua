@@ -6,17 +6,20 @@ local COLOURS_MOST = 64
 
 local output = request.output
 
---- How many colours, or which.
+--- The value of --colours: a number of colours, or a list of them.
 local function colours_of(text)
   local count = text:find "^[+-]?%d+$" and math.tointeger(text)
   local list = program.split(text)
-  local is_right = count and count >= 1 and count <= COLOURS_MOST or not count and #list <= COLOURS_MOST
-  for _, colour in ipairs(count and {} or list) do is_right = is_right and program.colour(colour) end
+  local length = count or #list
+  local is_right = length >= 1 and length <= COLOURS_MOST
+  for _, colour in ipairs(count and {} or list) do
+    is_right = is_right and program.colour(colour)
+  end
   if not is_right then program.refuse "--colours" end
   return count or list
 end
 
-if not output then program.usage "-o is needed: a file that ends in .svg or .lua" end
+if not output then program.usage "-o is missing: give -o art.svg or -o art.lua" end
 if not program.has_ending(output, ".svg", ".lua") then
   program.usage("-o: '%s' must end in .svg or .lua", output)
 end

@@ -116,7 +116,7 @@ celspan_status cs_contents_check_depth(celspan_context *context, const cs_input 
       continue;
     if (!layers[parent].is_group)
       return cs_input_fail(context, input, -1, CELSPAN_INPUT,
-                           "the layer \"%s\" lies in \"%s\", which is no group", layers[i].name,
+                           "the layer \"%s\" lies in \"%s\", which is not a group", layers[i].name,
                            layers[parent].name);
     layers[i].depth = layers[parent].depth + 1;
     if (layers[i].depth > CS_CONTENTS_DEPTH)

@@ -151,7 +151,7 @@ static celspan_status parse(cs_document *document, const char *bytes, size_t siz
   CS_TRY(cs_xml_parse(document->context, name, format->purpose, bytes, size, &handler,
                       &document->status));
   if (!document->has_size)
-    return cs_document_fail(document, CELSPAN_INPUT, "has no size of the painting");
+    return cs_document_fail(document, CELSPAN_INPUT, "does not declare the size of the painting");
   cs_contents_reverse(document->painting);
   return CELSPAN_OK;
 }

@@ -50,7 +50,7 @@ static celspan_status read_pixels(cs_document *document, cs_contents_layer *laye
   if (!ending || strcmp(ending, ".png") != 0)
     return cs_contents_note(document->context, document->painting,
                             cs_contents_last(document->painting),
-                            "\"%.100s\", which is no PNG: it is empty", name);
+                            "\"%.100s\", which is not a PNG: it is empty", name);
   const cs_zip_member *member = cs_zip_find(document->zip, name);
   if (!member)
     return cs_document_fail(document, CELSPAN_INPUT,

@@ -42,7 +42,8 @@ static celspan_status read_format(celspan_context *context, const cs_input *inpu
   if (start[0] == 'P' && start[1] == 'K')
     return read_archive(context, input, painting);
   return cs_input_fail(context, input, -1, CELSPAN_INPUT,
-                       "is no layered painting; OpenRaster, Krita and Photoshop files are read");
+                       "is not a layered painting; OpenRaster, Krita and Photoshop files are "
+                       "read");
 }
 
 static void drop_tables(celspan_painting *painting) {

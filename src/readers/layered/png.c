@@ -165,8 +165,9 @@ static unsigned char nearest(int left, int above, int corner) {
   return (unsigned char)(to_above <= to_corner ? above : corner);
 }
 
-/* Adds to each byte what the filter predicted; false: an unknown filter. step: the bytes of a pixel, at
- * least 1. The bytes on the left of the first pixel are 0. Source: PNG (Third Edition), 9.2. */
+/* Adds to each byte what the filter predicted; false: an unknown filter. step: the bytes of a
+ * pixel, at least 1. The bytes on the left of the first pixel are 0. Source: PNG (Third Edition),
+ * 9.2. */
 static bool unfilter(int filter, unsigned char *row, const unsigned char *last, size_t size,
                      size_t step) {
   size_t first = step < size ? step : size;

@@ -38,7 +38,7 @@ static celspan_status check_mode(const document *d, int mode) {
                          name ? name : "an unknown kind of");
   if (d->bits != 8 && d->bits != 16)
     return cs_input_fail(d->context, d->input, 22, CELSPAN_INPUT,
-                         "is a Photoshop document of %d bits a channel; 8 and 16 are read",
+                         "is a Photoshop document of %d bits per channel; 8 and 16 are read",
                          d->bits);
   return CELSPAN_OK;
 }
@@ -59,7 +59,7 @@ static celspan_status read_header(document *d, cs_cursor *cursor) {
   CS_TRY(check_mode(d, (int)mode));
   CS_TRY(cs_contents_check_size(d->context, d->input, "the document", width, height));
   if (d->channels < (d->is_grey ? 1 : 3) || d->channels > CS_PSD_MOST_CHANNELS)
-    return fail(d, 12, "the document has no such number of channels");
+    return fail(d, 12, "the number of channels is invalid");
   d->painting->width = d->width = (int32_t)width;
   d->painting->height = d->height = (int32_t)height;
   return CELSPAN_OK;

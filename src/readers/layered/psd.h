@@ -5,7 +5,7 @@
  *                                        |
  *                                        records, rearmost first | channels of all layers
  *
- * RGB and grey of 8 and 16 bits a channel are read. Layers of 16 bits lie in a tagged block behind
+ * RGB and grey of 8 and 16 bits per channel are read. Layers of 16 bits are in a tagged block after
  * the place of those of 8 bits. What Photoshop computes when it paints (adjustments, fills,
  * effects, clipping, conditional blending) is noted, not drawn.
  */

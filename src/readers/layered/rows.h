@@ -5,7 +5,7 @@
  *   cs_rows          an iterator over them, from the first row to the last; made when pixels are
  *                    needed, destroyed after the last row
  *
- * A row is RGBA, interleaved, alpha straight, 8 or 16 bits a channel in the machine's byte order,
+ * A row is RGBA, interleaved, alpha straight, 8 or 16 bits per channel in the machine's byte order,
  * coded as in the file.
  *
  * INVARIANT: rows are given in order, each once.

@@ -44,7 +44,8 @@ static celspan_status count_element(builder *b, const cs_svg_node *node) {
   CS_TRY(cs_svg_count_drawn(reading, node));
   if (++reading->depth > CS_SVG_DEPTH)
     return cs_fail(reading->context, CELSPAN_LIMIT,
-                   "line %u: what use shows is nested more than %d deep", node->line, CS_SVG_DEPTH);
+                   "line %u: elements shown by use are nested more than %d deep", node->line,
+                   CS_SVG_DEPTH);
   return CELSPAN_OK;
 }
 
@@ -103,13 +104,11 @@ static celspan_status add_used(builder *b, const cs_svg_node *node, const cs_svg
   double x, y;
   if (!used)
     return cs_svg_node_value(node, CS_SVG_HREF)
-               ? cs_svg_skip(b->reading, node, "use of what is not in the file")
+               ? cs_svg_skip(b->reading, node, "use of an element that is not in the file")
                : CELSPAN_OK;
   if (cs_svg_is_open(place->open, used))
     return cs_fail(context, CELSPAN_INPUT,
-                   "line %u: use goes in a circle: it is inside of what it "
-                   "shows",
-                   node->line);
+                   "line %u: use is recursive: it is inside the element that it shows", node->line);
   CS_TRY(cs_svg_number_of(context, node, CS_SVG_X, CS_SVG_AXIS_X, &place->measure, &x));
   CS_TRY(cs_svg_number_of(context, node, CS_SVG_Y, CS_SVG_AXIS_Y, &place->measure, &y));
   inner.matrix = celspan_matrix_then(celspan_matrix_translation(x, y), inner.matrix);
@@ -322,7 +321,7 @@ celspan_status cs_svg_build(cs_svg_reading *reading, celspan_svg *art) {
     CS_TRY(add_children(&b, node, &place, art->root));
   if (reading->document->sheet.omitted)
     CS_TRY(cs_svg_skip(reading, &(cs_svg_node){.line = reading->document->sheet_line},
-                       "style: selectors or at-rules that do not count"));
+                       "style: selectors or at-rules that are not supported"));
   CS_TRY(cs_svg_item_compose(reading->context, art->root));
   return cs_svg_art_complete(reading->context, art);
 }

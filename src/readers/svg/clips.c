@@ -349,7 +349,7 @@ celspan_status cs_svg_clip_make(cs_svg_reading *reading, const cs_svg_node *node
   if (!*is_clip)
     return place->style.clip_path.size > 0
                ? cs_svg_skip(
-                     reading, node, "clip-path \"%.*s\", which is not there",
+                     reading, node, "clip-path \"%.*s\", which is not in the file",
                      (int)(place->style.clip_path.size < 30 ? place->style.clip_path.size : 30),
                      place->style.clip_path.id)
                : CELSPAN_OK;

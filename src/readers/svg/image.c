@@ -102,9 +102,9 @@ static celspan_status show_drawing(image *of, cs_svg_source inner, const char *b
   inner.font_count = reading->source->font_count;
   inner.outer = reading->source;
   if (shows_itself(reading->source, &inner))
-    return note(of, "the drawing shows itself");
+    return note(of, "the drawing contains itself");
   if (depth_of(reading->source) > CS_SVG_IMAGE_DEPTH)
-    return note(of, "drawings are images of one another too deep");
+    return note(of, "drawings contain one another too deep");
   celspan_status status = reading->read_inner(reading, &inner, bytes, size, &art);
   if (status != CELSPAN_OK)
     return note_failure(of, status);

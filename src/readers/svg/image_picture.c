@@ -179,7 +179,7 @@ static celspan_status read_opened(decoding *d, const cs_picture_module *module,
   d->alpha = header->alpha == CS_PICTURE_ALPHA_CODED ? CELSPAN_ALPHA_PREMULTIPLIED
                                                      : CELSPAN_ALPHA_STRAIGHT;
   if (header->bits == 0 || strcmp(header->info.colour, "srgb") != 0)
-    return note(d, "its colours are no sRGB codes; make it a file beside the drawing");
+    return note(d, "its colours are not sRGB-coded; save it as a file beside the drawing");
   CS_TRY(make_room(d));
   celspan_status status = read_module_rows(d, module, reader, &failure);
   return status == CELSPAN_OK ? make_surface(d, out) : note_module(d, status, name, failure.text);

@@ -186,7 +186,7 @@ static celspan_status read_facts(celspan_context *context, int descriptor, cs_sv
   if (fstat(descriptor, &about) != 0)
     return fail(context, out, reason);
   if (!S_ISREG(about.st_mode)) {
-    *reason = "it is no file";
+    *reason = "it is not a file";
     return CELSPAN_OK;
   }
   out->size = (uint64_t)about.st_size;

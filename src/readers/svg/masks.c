@@ -273,8 +273,9 @@ celspan_status cs_svg_mask_make(cs_svg_reading *reading, celspan_svg *art,
   const cs_svg_node *node = cs_svg_referred(reading, place->style.mask);
   *out = NULL;
   if (!node || node->element != CS_SVG_ELEMENT_MASK)
-    return place->style.mask.size > 0 ? cs_svg_skip(reading, element, "mask that is not there")
-                                      : CELSPAN_OK;
+    return place->style.mask.size > 0
+               ? cs_svg_skip(reading, element, "mask that is not in the file")
+               : CELSPAN_OK;
   if (cs_svg_is_open(place->open, node))
     return cs_svg_skip(reading, node, "mask that masks itself");
   mask m = {.reading = reading};

@@ -239,7 +239,7 @@ static celspan_status read_or_find(celspan_context *context, const char *file, i
   if (fstat(descriptor, &about) != 0)
     return fail_file(context, file);
   if (!S_ISREG(about.st_mode))
-    return cs_fail(context, CELSPAN_INPUT, "%s: that is no file", file);
+    return cs_fail(context, CELSPAN_INPUT, "%s: is not a file", file);
   if ((uint64_t)about.st_size > FILE_BYTES)
     return cs_fail(context, CELSPAN_LIMIT, "%s: the file has %lld bytes; at most %zu are read",
                    file, (long long)about.st_size, FILE_BYTES);

@@ -16,7 +16,7 @@ celspan_status cs_font_file_stat(celspan_context *context, const celspan_font *f
   if (stat(font->file, out) != 0) {
     char text[CS_ERROR_TEXT_SIZE];
     return cs_fail(context, CELSPAN_INPUT, "%s: %s%s%s", font->file, cs_error_text(errno, text),
-                   font->tried ? "; nor is it there: " : "", font->tried ? font->tried : "");
+                   font->tried ? "; also looked for at " : "", font->tried ? font->tried : "");
   }
   if (!S_ISREG(out->st_mode))
     return cs_fail(context, CELSPAN_INPUT, "%s: is not a file; a font must be one", font->file);
@@ -81,15 +81,15 @@ static uint32_t number_at(const font_bytes *font, size_t at) {
 static celspan_status fail_format(const font_bytes *font) {
   bool is_web = font->size >= 3 && memcmp(font->bytes, "wOF", 3) == 0;
   return cs_fail(font->context, CELSPAN_INPUT,
-                 is_web ? "%s: a font packed for the web (WOFF); unpack it to .ttf or .otf"
+                 is_web ? "%s: the font is compressed for the web (WOFF); convert it to .ttf or "
+                          ".otf"
                         : "%s: this is not a TrueType or OpenType font",
                  font->file);
 }
 
 static celspan_status fail_cut(const font_bytes *font, size_t wanted) {
-  return cs_fail(font->context, CELSPAN_INPUT,
-                 "%s: the font is cut: it has %zu bytes, and goes on to byte %zu", font->file,
-                 font->size, wanted);
+  return cs_fail(font->context, CELSPAN_INPUT, "%s: the font is truncated: it has %zu bytes of %zu",
+                 font->file, font->size, wanted);
 }
 
 bool cs_font_file_is_collection(const uint8_t *bytes, size_t size) {
@@ -155,8 +155,7 @@ celspan_status cs_font_file_check(celspan_context *context, const char *file, co
   }
   if (has_colours)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "%s: a font of coloured glyphs; text takes outlines, which its texture paints",
-                   file);
+                   "%s: the font has coloured glyphs; use a font of plain outlines", file);
   if (!has_outlines)
     return cs_fail(context, CELSPAN_INPUT, "%s: the font has no outlines", file);
   return CELSPAN_OK;

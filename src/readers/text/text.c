@@ -23,7 +23,7 @@ static celspan_status append_glyphs(cs_layout *layout, size_t first, size_t coun
     CS_TRY(cs_font_append(layout->context, glyph->font, glyph->glyph, place, outline));
     if (outline->point_count > CS_TEXT_POINTS)
       return cs_fail(layout->context, CELSPAN_LIMIT,
-                     "%s: the outlines have more than %zu points; make several texts of it",
+                     "%s: the outlines have more than %zu points; split it into several texts",
                      layout->noun, CS_TEXT_POINTS);
   }
   return CELSPAN_OK;

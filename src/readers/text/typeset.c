@@ -80,7 +80,8 @@ static celspan_status check(celspan_context *context, const char *noun,
   if (desc->text_size > 0)
     CS_TRY(cs_check_given(context, noun, "text", desc->text));
   if (desc->font_count == 0)
-    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: font is missing: the file of one", noun);
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: font is missing: give the file of a font",
+                   noun);
   CS_TRY(cs_check_list(context, noun, "fonts", desc->fonts, desc->font_count, CS_TEXT_FONTS));
   for (size_t i = 0; i < desc->font_count; i++)
     CS_TRY(cs_check_given(context, noun, "font", desc->fonts[i].file));
@@ -136,8 +137,8 @@ static celspan_status read_characters(cs_layout *layout) {
   }
   if (desc->text_size > 4 * most || layout->count > most)
     return cs_fail(context, CELSPAN_LIMIT,
-                   "%s: the text has more than %zu characters; make several of it", layout->noun,
-                   most);
+                   "%s: the text has more than %zu characters; split it into several texts",
+                   layout->noun, most);
   return CELSPAN_OK;
 }
 

@@ -41,15 +41,14 @@ celspan_status cs_utf8_decode(celspan_context *context, const char *noun, const 
     uint32_t character = decode((const unsigned char *)bytes + at, size - at, &length);
     if (character == UINT32_MAX)
       return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                     "%s: what begins at byte %zu (0x%02x) is not UTF-8", noun, at + 1,
+                     "%s: the text is not UTF-8 at byte %zu (0x%02x)", noun, at + 1,
                      (unsigned char)bytes[at]);
     if (character == '\r' && at + 1 < size && bytes[at + 1] == '\n')
       continue;
     if (is_control(character))
       return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                     "%s: there is the control character U+%04X at byte %zu; of those only line "
-                     "breaks are allowed",
-                     noun, character, at + 1);
+                     "%s: control character U+%04X at byte %zu; only line breaks are allowed", noun,
+                     character, at + 1);
     characters[made] = character;
     places[made++] = (uint32_t)at;
   }

@@ -285,10 +285,7 @@ static void scale_to_mean(const double mean[3], celspan_light_field *field) {
 static celspan_status check_desc(celspan_context *context,
                                  const celspan_light_estimate_desc *desc) {
   CS_TRY(cs_check_given(context, "light", "the description", desc));
-  if (desc->struct_size != sizeof *desc)
-    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "light: struct_size is %zu; set it to sizeof(celspan_light_estimate_desc)",
-                   desc->struct_size);
+  CS_TRY(cs_check_version(context, "light", desc->struct_size, sizeof *desc));
   CS_TRY(cs_check_choice(context, "light", "clue", (unsigned)desc->clue,
                          CELSPAN_LIGHT_CLUE_LIGHT + 1));
   celspan_light_field colour =

@@ -55,8 +55,8 @@ static celspan_status fail_share(celspan_context *context, const doubts *d, cons
                                  const char *advice) {
   return cs_fail(
       context, CELSPAN_BAD_ARGUMENT,
-      "%s: cannot have been taken so: %lld values lie outside of what is possible; at pixel "
-      "%d,%d %.3g times as much %s comes through as fell on it; %s",
+      "%s: %lld values are impossible in this light: at pixel %d,%d, %.3g times as much %s comes "
+      "through as fell on it; %s",
       name, (long long)d->count, d->x, d->y, d->worst, cs_light_field_channel(d->channel), advice);
 }
 
@@ -73,8 +73,8 @@ static celspan_status check_bright(celspan_context *context, const doubts *d,
     return CELSPAN_OK;
   return cs_fail(
       context, CELSPAN_BAD_ARGUMENT,
-      "%s: the light is too dim: at pixel %d,%d the picture has %.3g times as much %s; at "
-      "most %g can be kept",
+      "%s: the light is too dim: at pixel %d,%d the picture has %.3g times as much %s; at most "
+      "%g times is possible",
       cs_picture_name(picture), d->x, d->y, d->worst, cs_light_field_channel(d->channel), MOST);
 }
 
@@ -210,7 +210,7 @@ celspan_status celspan_relight_exposures(celspan_context *context, const celspan
   celspan_status status = open_one(context, front, &s.all);
   if (status == CELSPAN_OK)
     status = open_one(context, back, &s.all);
-  return finish(context, &s, status, front, "the light behind was brighter than that", out);
+  return finish(context, &s, status, front, "the light behind must have been brighter", out);
 }
 
 /* ---------------------------------------------------------------- two grounds */
@@ -307,5 +307,7 @@ celspan_status celspan_relight_grounds(celspan_context *context,
   if (status == CELSPAN_OK)
     status = check_contrast(context, &s);
   return finish(context, &s, status, grounds[0].picture,
-                "the grounds, or the light in front, were others in the two pictures", out);
+                "the grounds, or the light in front, must have been different in the two "
+                "pictures",
+                out);
 }

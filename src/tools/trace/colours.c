@@ -268,8 +268,8 @@ celspan_status cs_colours_take(celspan_context *context, const cs_scan *scan,
   for (size_t i = 0; i < count; i++) {
     if (is_listed(out, codes + 3 * i))
       return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                     "trace: colour %zu of the list is there twice; each must differ from the "
-                     "others",
+                     "trace: colour %zu of the list is there twice; each colour must be "
+                     "different",
                      i + 1);
     set_colour(&out->list[out->count++], scan, codes + 3 * i);
   }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/sort.h"
+#include "model/scene/check.h"
 #include "tools/trace/borders.h"
 #include "tools/trace/colours.h"
 #include "tools/trace/curves.h"
@@ -290,8 +291,7 @@ static celspan_status trace_picture(celspan_context *context, const celspan_trac
 }
 
 static celspan_status check(celspan_context *context, const celspan_trace_desc *desc) {
-  if (desc->struct_size != sizeof *desc)
-    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "trace: struct_size is not that of the header");
+  CS_TRY(cs_check_version(context, "trace", desc->struct_size, sizeof *desc));
   if (desc->colours < 1 || desc->colours > CS_COLOURS_MOST)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "trace: colours must be 1 to %d, got %d",
                    CS_COLOURS_MOST, desc->colours);

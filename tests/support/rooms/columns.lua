@@ -9,22 +9,25 @@ local FIND = "find %s -type d \\( -name 'build*' -o -name out -o -name '.?*' \\)
   .. "\\( -name '*.[ch]' -o -name '*.[ch]pp' -o -name '*.lua' -o -name '*.sh' -o -name '*.py' "
   .. "-o -name run \\) -print | LC_ALL=C sort"
 
---- Calls fault(format, ...) for each line that is too long in the sources of a folder, or in one
---- file; returns the number of lines.
-function columns.check(place, fault)
-  local count = 0
-  for _, path in ipairs(system.lines(FIND:format(system.quote(place)))) do
-    local number = 0
-    for line in io.lines(path) do
-      number = number + 1
-      local length = utf8.len(line) or #line
-      if length > MOST and not line:find "^%s*%-%-%-@" then
-        fault("%s:%d: %d columns, more than %d", path, number, length, MOST)
-      end
+--- Reports a file by fault(sentence), once, with a line for each of its lines that is too long.
+local function check_file(path, fault)
+  local number, long = 0, {}
+  for line in io.lines(path) do
+    number = number + 1
+    local length = utf8.len(line) or #line
+    if length > MOST and not line:find "^%s*%-%-%-@" then
+      long[#long + 1] = ("%s:%d: %d columns, more than %d"):format(path, number, length, MOST)
     end
-    count = count + number
   end
-  return count
+  if #long > 0 then fault("%s", table.concat(long, "\n")) end
+end
+
+--- Calls fault(format, ...) for each file with lines that are too long, in the sources of a folder
+--- or in one file; returns the number of files.
+function columns.check(place, fault)
+  local paths = system.lines(FIND:format(system.quote(place)))
+  for _, path in ipairs(paths) do check_file(path, fault) end
+  return #paths
 end
 
 return columns

@@ -95,14 +95,12 @@ end
 
 local function line_of(text, at) return select(2, text:sub(1, at):gsub("\n", "")) + 1 end
 
---- Calls visit(line, words, entry) for each phrase in a file. Returns how many words were read.
-local function read(path, name, used, visit)
-  local file = assert(io.open(path, "rb"))
+--- Calls visit(line, words, entry) for each phrase in a file, unless it is of an unknown kind.
+local function read(name, used, visit)
+  local file = assert(io.open(name, "rb"))
   local text = file:read "a"
   file:close()
-  local body = prose_text.of(text, path)
-  if not body then return 0 end
-  local words = split(body)
+  local words = split(prose_text.of(text, name) or "")
   for i = 1, #words do
     for _, phrase in ipairs(INDEX[words[i]] or {}) do
       local last = match_end(words, i, phrase)
@@ -114,7 +112,6 @@ local function read(path, name, used, visit)
       end
     end
   end
-  return #words
 end
 
 -- ---------------------------------------------------------------- a tree
@@ -157,32 +154,24 @@ local function unused_exceptions(used, files)
   return list
 end
 
---- Reports the phrases in the places, or in the whole tree when there are none. True without one.
-function prose.check(places)
-  local names = files_of(#places > 0 and places or PLACES)
-  local words, hits, used, with_phrases = 0, 0, {}, {}
-  local function complain(format, ...)
-    hits = hits + 1
-    io.stderr:write(format:format(...), "\n")
-  end
-  for _, name in ipairs(names) do
-    words = words + read(name, name, used, function(line, found, entry)
-      with_phrases[name] = true
-      complain("%s:%d: %s: %s", name, line, found, entry.say)
-    end)
-  end
+--- Reports a file by fault(sentence), once, with a line for each of its phrases.
+local function check_file(name, used, fault)
+  local lines = {}
+  read(name, used, function(line, found, entry)
+    lines[#lines + 1] = ("%s:%d: %s: %s"):format(name, line, found, entry.say)
+  end)
+  if #lines > 0 then fault("%s", table.concat(lines, "\n")) end
+end
+
+--- Calls fault(format, ...) for each file with phrases in the places, or in the whole tree when
+--- there are no places; returns the number of files.
+function prose.check(places, fault)
+  local names, used = files_of(#places > 0 and places or PLACES), {}
+  for _, name in ipairs(names) do check_file(name, used, fault) end
   for _, one in ipairs(unused_exceptions(used, names)) do
-    complain("%s: the exception \"%s\" is not needed", one.place, one.text)
+    fault("%s: the exception \"%s\" is not needed", one.place, one.text)
   end
-  if hits == 0 then
-    print(("%d checks passed"):format(words))
-    return true
-  end
-  local count = 0
-  for _ in pairs(with_phrases) do count = count + 1 end
-  print(("%d phrases in %d files"):format(hits, count))
-  print(("%d of %d checks failed"):format(hits, words))
-  return false
+  return #names + #phrases.exceptions
 end
 
 return prose
