@@ -20,7 +20,7 @@ void cs_sampler_row_run(const cs_sampling *run, cs_run pixels, float (*rgba)[4])
 void cs_sampler_row_at(const cs_sampling *run, const int32_t *columns, int32_t count, double y,
                        float (*rgba)[4]);
 
-/* ---- sampler_wide.c: loops over `count` pixels or texels */
+/* ---- sampler_row_wide.c: loops over `count` pixels or texels */
 
 /* out = a + share (b - a); out may be a. */
 CS_WIDE_DECLARE(void, cs_sampler_mix_rows,

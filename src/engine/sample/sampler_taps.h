@@ -48,7 +48,7 @@ typedef struct cs_sampler_tap {
   double x, y;
 } cs_sampler_tap;
 
-/* ---- sampler_wide.c: loops over `count` pixels */
+/* ---- sampler_taps_wide.c: loops over `count` pixels */
 
 /* The centres of an affine map. */
 CS_WIDE_DECLARE(void, cs_sampler_map_affine,

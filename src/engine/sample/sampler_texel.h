@@ -44,6 +44,12 @@ static inline int32_t cs_sampler_wrap(int32_t i, int32_t size, celspan_wrap mode
   return rest < 0 ? rest + size : rest;
 }
 
+/* For kernels: a coordinate that fits an int32_t; NaN becomes the least. */
+static inline double cs_sampler_bounded(double u) {
+  u = u > -1e9 ? u : -1e9;
+  return u < 1e9 ? u : 1e9;
+}
+
 /* A repeated picture is sampled near its own origin, so far tiles cost no precision. Afterwards a
  * coordinate fits an int32_t. */
 static inline double cs_sampler_reduce(double u, int32_t size, celspan_wrap mode) {

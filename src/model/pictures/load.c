@@ -21,6 +21,7 @@
 
 #include <string.h>
 
+#include "model/colour/srgb8_lanes.h"
 #include "model/pictures/surface.h"
 
 #define BATCH_BYTES ((size_t)4 << 20)
