@@ -1,10 +1,10 @@
 /* What --cel, --background and --onion change in a film between building a frame and making it.
  *
- *   --cel NAME     the cels of that name remain, with their lights; the rostrum's own back light does
- *                  not. A frame without one is empty, but some frame must have one
- *   --background   a back light of matte 1 behind everything. Where the rostrum has a back light of
- *                  its own with matte a, the background shines through 1 - a of it; one with a shape
- *                  is added
+ *   --cel NAME     the cels of that name remain, with their lights; the rostrum's own back light
+ *                  does not. A frame without one is empty, but some frame must have one
+ *   --background   a back light of matte 1 behind everything. Where the rostrum has a back light
+ *                  of its own with matte a, the background shines through 1 - a of it; one with a
+ *                  shape is added
  *   --onion B,A    the film of the script is replaced by one whose frames lie under tinted ones
  *                  before and after (verbs/onion.lua)
  *
@@ -16,22 +16,23 @@
 #include "frames/film/sequence.h"
 #include "program/script.h"
 
-typedef struct cs_change {
+typedef struct cs_frame_change {
   const char *cel; /* the name of the cels that stay; NULL: all */
   bool has_background;
   float background[3]; /* linear light */
-} cs_change;
+} cs_frame_change;
 
-cs_change cs_change_read(const cs_request *request);
+cs_frame_change cs_change_read(const cs_request *request);
 /* Looks for a cel of the name in the frames, then in the rest of the film: they are built one after
- * the other until there is one. OK, also without --cel; or reported, with the names that there are.
+ * the other until there is one. OK, also without --cel; or reported, with the names of the film.
  */
-cs_exit cs_change_refuse(cs_script *script, const cs_change *change, const cs_sequence *frames);
+cs_exit cs_change_refuse(cs_script *script, const cs_frame_change *change,
+                         const cs_sequence *frames);
 /* Changes a frame's rostrums. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_change_frame(celspan_context *context, const cs_change *change,
-                                               cs_film_frame *frame);
-/* Replaces the film of the script by that of --onion. frame: the size of the output. OK, also without
- * the option; or reported. */
+CELSPAN_CHECKED celspan_status cs_change_frame(celspan_context *context,
+                                               const cs_frame_change *change, cs_film_frame *frame);
+/* Replaces the film of the script by that of --onion. frame: the size of the output. OK, also
+ * without the option; or reported. */
 cs_exit cs_change_lay_onion(cs_script *script, const cs_request *request,
                             const celspan_frame_desc *frame);
 

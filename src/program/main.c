@@ -2,8 +2,8 @@
  *
  *   main -> request (the options) -> a verb -> report (exit code, one line of error)
  *
- * Nothing is loaded that the verb does not need: a Lua state is made by the verbs that are Lua or run
- * a script; OpenImageIO by the first picture, in another process (plugins/isolate/zygote.h).
+ * Nothing is loaded that the verb does not need: a Lua state is made by the verbs that are Lua or
+ * run a script; OpenImageIO by the first picture, in another process (plugins/isolate/zygote.h).
  */
 #include <errno.h>
 #include <fcntl.h>
@@ -18,8 +18,8 @@
 #include "plugins/isolate/isolate.h"
 #include "plugins/isolate/zygote.h"
 #include "program/confine.h"
+#include "program/lua_verb.h"
 #include "program/progress.h"
-#include "program/service.h"
 #include "program/verbs.h"
 
 enum { VERBS_MOST = 32 };
@@ -73,7 +73,7 @@ static cs_exit run(const cs_request *request) {
   cs_exit outcome = cs_confine_pictures(context, request);
   if (outcome == CS_EXIT_OK)
     outcome = request->verb->run ? request->verb->run(context, request)
-                                 : cs_service_run(context, request);
+                                 : cs_lua_verb_run(context, request);
   celspan_context_destroy(context);
   cs_isolate_finish();
   return outcome;

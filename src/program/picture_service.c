@@ -88,12 +88,12 @@ static void push_parts(lua_State *L, const picture *p) {
   }
 }
 
-/* picture(path) -> { format =, width =, height =, channels =, alpha =, colour =, bytes =, parts = },
- * of which alpha is nil, "straight" or "premultiplied" */
+/* picture(path) -> { format =, width =, height =, channels =, alpha =, colour =, bytes =, parts =
+ * }, of which alpha is nil, "straight" or "premultiplied" */
 static int read_facts(lua_State *L) {
   const char *path = luaL_checkstring(L, 1);
   picture *p = cs_userdata_push_holder(L, "celspan.program.picture", sizeof *p, close_picture);
-  p->context = cs_service_program(L)->context;
+  p->context = cs_service_session(L)->context;
   cs_picture_header header;
   cs_service_try(L, read_picture(p, path, &header));
   bool is_premultiplied = header.alpha == CS_PICTURE_ALPHA_CODED;
@@ -120,7 +120,7 @@ static int close_spans(lua_State *L) {
 
 /* spans(path) -> what the whole file consists of */
 static int read_spans(lua_State *L) {
-  celspan_context *context = cs_service_program(L)->context;
+  celspan_context *context = cs_service_session(L)->context;
   cs_span_reader **file =
       cs_userdata_push_holder(L, "celspan.program.spans", sizeof(cs_span_reader *), close_spans);
   spanfile_counts counts;
@@ -342,26 +342,26 @@ static int close_stills(lua_State *L) {
 /* compare(a, b, difference or nil) -> { largest =, x =, y =, channel =, differing =, pixels = }, or
  * { sizes = { w, h, w, h } } where they differ */
 static int compare(lua_State *L) {
-  const cs_program *program = cs_service_program(L);
+  const cs_session *session = cs_service_session(L);
   const char *output = luaL_optstring(L, 3, NULL);
   cs_still *stills =
       cs_userdata_push_holder(L, "celspan.program.stills", 2 * sizeof *stills, close_stills);
   celspan_frame_desc frames[2];
   for (int i = 0; i < 2; i++)
-    cs_service_try(L, cs_still_open(program->context, luaL_checkstring(L, i + 1), &stills[i]));
+    cs_service_try(L, cs_still_open(session->context, luaL_checkstring(L, i + 1), &stills[i]));
   const celspan_picture_info *a = &stills[0].info, *b = &stills[1].info;
   if (a->width != b->width || a->height != b->height) {
     push_sizes(L, stills);
     return 1;
   }
   for (int i = 0; i < 2; i++)
-    cs_service_require(L, cs_view_still(program->request, &stills[i], &frames[i]));
+    cs_service_require(L, cs_view_still(session->request, &stills[i], &frames[i]));
   const celspan_coding coding = {a->is_float || b->is_float ? CELSPAN_DEPTH_FLOAT
                                                             : CELSPAN_DEPTH_16,
                                  CELSPAN_TRANSFER_SRGB, CELSPAN_ALPHA_STRAIGHT};
   comparison c = {.coding = coding, .width = a->width, .height = a->height};
-  cs_request_read(program->request, "--fail", &c.tolerance);
-  cs_service_try(L, compare_into(program->context, &c, output, &stills[0], &frames[0], &stills[1],
+  cs_request_read(session->request, "--fail", &c.tolerance);
+  cs_service_try(L, compare_into(session->context, &c, output, &stills[0], &frames[0], &stills[1],
                                  &frames[1]));
   push_answer(L, &c);
   return 1;
@@ -369,29 +369,29 @@ static int compare(lua_State *L) {
 
 /* convert(in, out): a picture under the request into another file. */
 static int convert(lua_State *L) {
-  const cs_program *program = cs_service_program(L);
+  const cs_session *session = cs_service_session(L);
   cs_still *stills =
       cs_userdata_push_holder(L, "celspan.program.stills", 2 * sizeof *stills, close_stills);
-  celspan_file_desc file = cs_target_file(program->request);
+  celspan_file_desc file = cs_target_file(session->request);
   celspan_frame_desc frame;
-  cs_service_try(L, cs_still_open(program->context, luaL_checkstring(L, 1), stills));
-  cs_service_require(L, cs_view_still(program->request, stills, &frame));
+  cs_service_try(L, cs_still_open(session->context, luaL_checkstring(L, 1), stills));
+  cs_service_require(L, cs_view_still(session->request, stills, &frame));
   cs_service_try(L,
-                 cs_still_write(program->context, stills, &frame, luaL_checkstring(L, 2), &file));
+                 cs_still_write(session->context, stills, &frame, luaL_checkstring(L, 2), &file));
   return 0;
 }
 
 /* write(frame, path, width, height): a frame into a picture under the request. */
 static int write_frame(lua_State *L) {
-  const cs_program *program = cs_service_program(L);
+  const cs_session *session = cs_service_session(L);
   celspan_frame_desc desc = CELSPAN_FRAME_DESC;
   desc.film_width = desc.width = (int32_t)luaL_checkinteger(L, 3);
   desc.film_height = desc.height = (int32_t)luaL_checkinteger(L, 4);
-  cs_request_read(program->request, "--workers", &desc.workers);
+  cs_request_read(session->request, "--workers", &desc.workers);
   cs_options_exposures(L, 1, "write", &desc);
-  celspan_file_desc file = cs_target_file(program->request);
+  celspan_file_desc file = cs_target_file(session->request);
   cs_service_try(L,
-                 celspan_frame_write(program->context, &desc, luaL_checkstring(L, 2), &file, NULL));
+                 celspan_frame_write(session->context, &desc, luaL_checkstring(L, 2), &file, NULL));
   return 0;
 }
 

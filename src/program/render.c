@@ -28,7 +28,7 @@ typedef struct render_job {
   const cs_request *request;
   const char *output; /* NULL: digests alone */
   bool has_digests, resumes, keeps_going;
-  cs_change change;
+  cs_frame_change change;
   celspan_frame_desc frame;
   cs_sequence frames;
   cs_progress progress;
@@ -42,7 +42,7 @@ typedef struct render_job {
 
 /* ---------------------------------------------------------------- raw frames */
 
-/* A sink that writes the rows of a frame to standard output as coded pixels, without a file format. */
+/* A sink that writes the rows of a frame to standard output as coded pixels, in no file format. */
 typedef struct raw_rows {
   celspan_coding coding; /* without defaults, except for the depth of dithering */
   int32_t x, y;          /* the place of the first pixel in the whole frame */
@@ -124,7 +124,7 @@ static celspan_status remember_failure(render_job *job, int64_t number) {
   return CELSPAN_OK;
 }
 
-/* Reports a frame that failed, and remembers it. Under --keep-going the run goes on. */
+/* Reports a frame that failed, and remembers it. Under --keep-going the run continues. */
 static celspan_status report_failure(render_job *job, int64_t number, celspan_status status) {
   cs_exit outcome = cs_report_frame_failure(job->script->context, status, number);
   celspan_status remembered =
