@@ -74,7 +74,9 @@ function house.doubled_types(tree)
   end
   for name, found in pairs(places) do
     local is_one = is_opaque[name] and not in_header[name]
-    if #found > 1 and not is_one then list[#list + 1] = name .. ": " .. table.concat(found, ", ") end
+    if #found > 1 and not is_one then
+      list[#list + 1] = name .. ": " .. table.concat(found, ", ")
+    end
   end
   table.sort(list)
   return list
