@@ -41,8 +41,8 @@ static int descriptor_at(lua_State *L, int index) {
   return fileno(((luaL_Stream *)luaL_checkudata(L, index, LUA_FILEHANDLE))->f);
 }
 
-/* start(words, printed, other) -> the number of a process, which runs this program with the words, at
- * most 14; nil, message. At most 1024 at a time. */
+/* start(words, printed, other) -> the number of a process, which runs this program with the words,
+ * at most 14; nil, message. At most 1024 at a time. */
 static int start(lua_State *L) {
   const char *words[WORDS_MOST] = {"celspan"};
   int printed = descriptor_at(L, 2), other = descriptor_at(L, 3);
@@ -83,7 +83,7 @@ static int wait_for_one(lua_State *L) {
   return 4;
 }
 
-/* default_signals(): signals end this process, and those that it starts, as they end any program. */
+/* default_signals(): signals end this process, and those it starts, as they end any program. */
 static int default_signals(lua_State *L) {
   static const int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ};
   (void)L;
