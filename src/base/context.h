@@ -83,6 +83,10 @@ static inline CELSPAN_CHECKED celspan_status cs_mem_reserve(celspan_context *con
                              : cs_mem_grow(context, items, capacity, needed, item_size);
 }
 
+/* cs_mem_reserve for a typed array, `items`, and its capacity, both variables. */
+#define CS_RESERVE(context, items, capacity, needed)                                               \
+  cs_mem_reserve(context, (void **)&(items), &(capacity), needed, sizeof *(items))
+
 /* Records the sentence that format describes, and returns status. */
 celspan_status cs_fail(celspan_context *context, celspan_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

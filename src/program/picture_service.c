@@ -54,8 +54,7 @@ static int close_picture(lua_State *L) {
 
 static bool add_part(void *user, const cs_picture_part *part) {
   picture *p = user;
-  p->status =
-      cs_mem_reserve(p->context, (void **)&p->parts, &p->capacity, p->count + 1, sizeof *p->parts);
+  p->status = CS_RESERVE(p->context, p->parts, p->capacity, p->count + 1);
   if (p->status == CELSPAN_OK)
     p->parts[p->count++] = *part;
   return p->status == CELSPAN_OK;

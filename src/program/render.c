@@ -118,8 +118,8 @@ static bool tick(void *user, double share) {
 /* ---------------------------------------------------------------- reports */
 
 static celspan_status remember_failure(render_job *job, int64_t number) {
-  CS_TRY(cs_mem_reserve(job->script->context, (void **)&job->failed, &job->failed_capacity,
-                        job->failed_count + 1, sizeof *job->failed));
+  CS_TRY(
+      CS_RESERVE(job->script->context, job->failed, job->failed_capacity, job->failed_count + 1));
   job->failed[job->failed_count++] = number;
   return CELSPAN_OK;
 }

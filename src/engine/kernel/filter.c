@@ -90,10 +90,9 @@ static celspan_status begin_sub_rows(cs_convolve *convolve, celspan_context *con
                                      const cs_retained_row *const *retained_rows, size_t rows,
                                      int32_t y) {
   size_t count = convolve->kernel->is_signed ? rows * CS_CONVOLVE_SUB_ROWS : 0;
-  CS_TRY(cs_mem_reserve(context, (void **)&convolve->sub_rows, &convolve->sub_row_capacity, count,
-                        sizeof *convolve->sub_rows));
-  CS_TRY(cs_mem_reserve(context, (void **)&convolve->ranges, &convolve->range_capacity,
-                        count / CS_CONVOLVE_SUB_ROWS, sizeof *convolve->ranges));
+  CS_TRY(CS_RESERVE(context, convolve->sub_rows, convolve->sub_row_capacity, count));
+  CS_TRY(CS_RESERVE(context, convolve->ranges, convolve->range_capacity,
+                    count / CS_CONVOLVE_SUB_ROWS));
   for (size_t i = 0; i < count / CS_CONVOLVE_SUB_ROWS; i++)
     convolve->ranges[i] = (cs_convolve_range){retained_rows[0]->base, retained_rows[0]->base};
   for (size_t i = 0; i < count; i++) {

@@ -62,7 +62,7 @@ CELSPAN_CHECKED celspan_status cs_row_grow(celspan_context *context, cs_row *row
 /* Makes room for `count` spans in all. */
 static inline CELSPAN_CHECKED celspan_status cs_row_room(celspan_context *context, cs_row *row,
                                                          size_t count) {
-  return cs_mem_reserve(context, (void **)&row->spans, &row->capacity, count, sizeof *row->spans);
+  return CS_RESERVE(context, row->spans, row->capacity, count);
 }
 /* Makes room for `more` spans after those that the row has. */
 static inline CELSPAN_CHECKED celspan_status cs_row_reserve(celspan_context *context, cs_row *row,

@@ -55,8 +55,7 @@ struct cs_compiler {
 
 /* Room for one more item of an array of the stack. Errors: NO_MEMORY. */
 #define CS_COMPILER_APPEND(compiler, array, count, capacity)                                       \
-  cs_mem_reserve((compiler)->context, (void **)&(compiler)->plan->stack.array,                     \
-                 &(compiler)->plan->stack.capacity, (compiler)->plan->stack.count + 1,             \
-                 sizeof *(compiler)->plan->stack.array)
+  CS_RESERVE((compiler)->context, (compiler)->plan->stack.array, (compiler)->plan->stack.capacity, \
+             (compiler)->plan->stack.count + 1)
 
 #endif

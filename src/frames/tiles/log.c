@@ -102,8 +102,7 @@ static void write_head(const cs_tile_log *log, char line[LINE_SIZE]) {
 }
 
 static celspan_status keep_row(celspan_context *context, cs_tile_log *log, cs_tile_row row) {
-  CS_TRY(cs_mem_reserve(context, (void **)&log->rows, &log->capacity, log->count + 1,
-                        sizeof *log->rows));
+  CS_TRY(CS_RESERVE(context, log->rows, log->capacity, log->count + 1));
   log->rows[log->count++] = row;
   return CELSPAN_OK;
 }

@@ -169,8 +169,7 @@ static celspan_status note_inner(reader *r) {
   cs_outline_closed *closed = r->closed;
   if (!closed)
     return CELSPAN_OK;
-  CS_TRY(cs_mem_reserve(r->context, (void **)&closed->inner, &closed->inner_capacity,
-                        closed->inner_count + 1, sizeof *closed->inner));
+  CS_TRY(CS_RESERVE(r->context, closed->inner, closed->inner_capacity, closed->inner_count + 1));
   closed->inner[closed->inner_count++] = (uint32_t)r->outline->piece_count;
   return CELSPAN_OK;
 }
@@ -349,8 +348,7 @@ celspan_status cs_outline_path_open(celspan_context *context, cs_outline *outlin
 
 celspan_status cs_outline_closed_add(celspan_context *context, cs_outline_closed *closed,
                                      size_t contour) {
-  CS_TRY(cs_mem_reserve(context, (void **)&closed->contours, &closed->capacity, closed->count + 1,
-                        sizeof *closed->contours));
+  CS_TRY(CS_RESERVE(context, closed->contours, closed->capacity, closed->count + 1));
   closed->contours[closed->count++] = (uint32_t)contour;
   return CELSPAN_OK;
 }

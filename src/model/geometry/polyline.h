@@ -43,8 +43,7 @@ static inline CELSPAN_CHECKED celspan_status cs_polyline_reserve(celspan_context
                                                                  size_t points) {
   if (set->point_count > UINT32_MAX - points)
     return cs_fail(context, CELSPAN_LIMIT, "the frame has more than 4294967295 curve points");
-  return cs_mem_reserve(context, (void **)&set->points, &set->point_capacity,
-                        set->point_count + points, sizeof *set->points);
+  return CS_RESERVE(context, set->points, set->point_capacity, set->point_count + points);
 }
 /* Makes group 0..chords / group - 1; or, where leaps is true, the whole leap that the group is in,
  * if one arc is near enough to all of it. */

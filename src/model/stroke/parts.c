@@ -61,8 +61,7 @@ static double parameter_at(ruler *r, size_t piece, double length) {
 
 static celspan_status append_part(celspan_context *context, cs_stroke *stroke,
                                   cs_stroke_part part) {
-  CS_TRY(cs_mem_reserve(context, (void **)&stroke->parts, &stroke->part_capacity,
-                        stroke->part_count + 1, sizeof *stroke->parts));
+  CS_TRY(CS_RESERVE(context, stroke->parts, stroke->part_capacity, stroke->part_count + 1));
   stroke->parts[stroke->part_count++] = part;
   return CELSPAN_OK;
 }
@@ -354,12 +353,9 @@ static void settle(cs_bezier *line) {
 celspan_status cs_stroke_append(celspan_context *context, cs_stroke *stroke, const cs_curve *curve,
                                 bool is_first) {
   size_t piece = stroke->line.piece_count, count = (size_t)curve->radius_degree + 1;
-  CS_TRY(cs_mem_reserve(context, (void **)&stroke->radii, &stroke->radius_capacity,
-                        stroke->radius_count + count, sizeof *stroke->radii));
-  CS_TRY(cs_mem_reserve(context, (void **)&stroke->radius_starts, &stroke->radius_start_capacity,
-                        piece + 1, sizeof *stroke->radius_starts));
-  CS_TRY(cs_mem_reserve(context, (void **)&stroke->radius_degrees, &stroke->radius_degree_capacity,
-                        piece + 1, sizeof *stroke->radius_degrees));
+  CS_TRY(CS_RESERVE(context, stroke->radii, stroke->radius_capacity, stroke->radius_count + count));
+  CS_TRY(CS_RESERVE(context, stroke->radius_starts, stroke->radius_start_capacity, piece + 1));
+  CS_TRY(CS_RESERVE(context, stroke->radius_degrees, stroke->radius_degree_capacity, piece + 1));
   if (is_first)
     CS_TRY(cs_outline_begin(context, &stroke->line, curve->line.points[0]));
   cs_bezier line;

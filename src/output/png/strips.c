@@ -52,8 +52,7 @@ struct cs_png_strips {
 
 static celspan_status append(void *user, celspan_context *context, const void *bytes, size_t size) {
   buffer *packed = *(buffer **)user;
-  CS_TRY(
-      cs_mem_reserve(context, (void **)&packed->bytes, &packed->capacity, packed->size + size, 1));
+  CS_TRY(CS_RESERVE(context, packed->bytes, packed->capacity, packed->size + size));
   memcpy(packed->bytes + packed->size, bytes, size);
   packed->size += size;
   return CELSPAN_OK;

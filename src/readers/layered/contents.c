@@ -63,8 +63,7 @@ celspan_status cs_contents_add(celspan_context *context, const cs_input *input,
     return cs_input_fail(context, input, -1, CELSPAN_LIMIT,
                          "has more than %d layers and groups, which is the limit",
                          CS_CONTENTS_LAYERS);
-  CS_TRY(cs_mem_reserve(context, (void **)&painting->layers, &painting->capacity,
-                        painting->count + 1, sizeof *painting->layers));
+  CS_TRY(CS_RESERVE(context, painting->layers, painting->capacity, painting->count + 1));
   cs_contents_layer *layer = &painting->layers[painting->count++];
   *layer = (cs_contents_layer){.blend = "normal",
                                .parent = CS_CONTENTS_NONE,
@@ -78,8 +77,7 @@ celspan_status cs_contents_add(celspan_context *context, const cs_input *input,
 
 celspan_status cs_contents_note(celspan_context *context, celspan_painting *painting, size_t layer,
                                 const char *format, ...) {
-  CS_TRY(cs_mem_reserve(context, (void **)&painting->notes, &painting->note_capacity,
-                        painting->note_count + 1, sizeof *painting->notes));
+  CS_TRY(CS_RESERVE(context, painting->notes, painting->note_capacity, painting->note_count + 1));
   cs_contents_remark *note = &painting->notes[painting->note_count++];
   note->layer = layer;
   va_list arguments;

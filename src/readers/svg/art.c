@@ -226,10 +226,8 @@ static celspan_status list_part(listing *list, const char *text, const cs_svg_it
     list->is_shared[place] = list->is_shared[place] || is_label;
     return CELSPAN_OK;
   }
-  CS_TRY(cs_mem_reserve(list->context, (void **)&list->parts, &list->capacity, list->count + 1,
-                        sizeof *list->parts));
-  CS_TRY(cs_mem_reserve(list->context, (void **)&list->is_shared, &list->shared_capacity,
-                        list->count + 1, sizeof *list->is_shared));
+  CS_TRY(CS_RESERVE(list->context, list->parts, list->capacity, list->count + 1));
+  CS_TRY(CS_RESERVE(list->context, list->is_shared, list->shared_capacity, list->count + 1));
   CS_TRY(cs_hash_table_add(&list->names, list->context, hash_name(text), list->count));
   list->is_shared[list->count] = false;
   list->parts[list->count] = (cs_svg_part){text, is_label, NULL};

@@ -16,9 +16,8 @@ static celspan_status append_character(cs_svg_written *w, const char *bytes, siz
     w->is_too_long = true;
     return CELSPAN_OK;
   }
-  CS_TRY(cs_mem_reserve(context, (void **)&w->bytes, &w->byte_capacity, w->size + size, 1));
-  CS_TRY(cs_mem_reserve(context, (void **)&w->characters, &w->capacity, w->count + 1,
-                        sizeof *w->characters));
+  CS_TRY(CS_RESERVE(context, w->bytes, w->byte_capacity, w->size + size));
+  CS_TRY(CS_RESERVE(context, w->characters, w->capacity, w->count + 1));
   w->characters[w->count++] = (cs_svg_character){(uint32_t)w->size, NAN, NAN, NAN, NAN, NAN};
   memcpy(w->bytes + w->size, bytes, size);
   w->size += size;
@@ -60,8 +59,7 @@ static celspan_status add_text_node(cs_svg_written *w, const cs_svg_node *node,
   CS_TRY(add_characters(w, node->text, place->style.text.is_preserved));
   if (w->count == begin)
     return CELSPAN_OK;
-  CS_TRY(cs_mem_reserve(w->reading->context, (void **)&w->nodes, &w->node_capacity,
-                        w->node_count + 1, sizeof *w->nodes));
+  CS_TRY(CS_RESERVE(w->reading->context, w->nodes, w->node_capacity, w->node_count + 1));
   w->nodes[w->node_count++] = (cs_svg_text_node){node, *place, begin, w->count};
   return CELSPAN_OK;
 }

@@ -85,10 +85,9 @@ void cs_addend_writer_finish(celspan_context *context, cs_addend_writer *writer)
 /* Appends a span with room for its values, which the caller fills. */
 static celspan_status append(celspan_context *context, cs_addend *addend, cs_addend_span span,
                              size_t value_count, float **values) {
-  CS_TRY(cs_mem_reserve(context, (void **)&addend->spans, &addend->span_capacity,
-                        addend->span_count + 1, sizeof *addend->spans));
-  CS_TRY(cs_mem_reserve(context, (void **)&addend->values, &addend->value_capacity,
-                        addend->value_count + value_count, sizeof *addend->values));
+  CS_TRY(CS_RESERVE(context, addend->spans, addend->span_capacity, addend->span_count + 1));
+  CS_TRY(CS_RESERVE(context, addend->values, addend->value_capacity,
+                    addend->value_count + value_count));
   span.first = addend->value_count;
   *values = addend->values + addend->value_count;
   addend->value_count += value_count;

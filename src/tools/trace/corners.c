@@ -139,8 +139,7 @@ static celspan_status add(const finder *f, size_t at, celspan_point point) {
   cs_corner_list *out = f->out;
   if (out->count > 0 && out->items[out->count - 1].at == at)
     return CELSPAN_OK;
-  CS_TRY(cs_mem_reserve(f->context, (void **)&out->items, &out->capacity, out->count + 1,
-                        sizeof *out->items));
+  CS_TRY(CS_RESERVE(f->context, out->items, out->capacity, out->count + 1));
   out->items[out->count++] = (cs_corner){at, point};
   return CELSPAN_OK;
 }

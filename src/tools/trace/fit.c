@@ -22,8 +22,7 @@ celspan_point cs_fit_snap(celspan_point point) {
 
 celspan_status cs_pieces_add(celspan_context *context, cs_fit_pieces *pieces,
                              const cs_piece *piece) {
-  CS_TRY(cs_mem_reserve(context, (void **)&pieces->items, &pieces->capacity, pieces->count + 1,
-                        sizeof *pieces->items));
+  CS_TRY(CS_RESERVE(context, pieces->items, pieces->capacity, pieces->count + 1));
   pieces->items[pieces->count++] =
       (cs_piece){piece->is_line,
                  {cs_fit_snap(piece->control[0]), cs_fit_snap(piece->control[1])},
