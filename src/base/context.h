@@ -71,6 +71,12 @@ void *cs_mem_resize(cs_memory *memory, void *storage, size_t old_size, size_t ne
 void cs_mem_free(cs_memory *memory, void *storage, size_t size);
 /* count items of item_size bytes, zeroed. NULL on overflow, without memory, and for count 0. */
 void *cs_mem_array(cs_memory *memory, size_t count, size_t item_size);
+/* The same as *items. Errors: NO_MEMORY, also for count 0; *items is then NULL. */
+CELSPAN_CHECKED celspan_status cs_mem_make(celspan_context *context, void **items, size_t count,
+                                           size_t item_size);
+/* cs_mem_make for a typed array or a value, a variable. */
+#define CS_MAKE(context, items, count)                                                             \
+  cs_mem_make(context, (void **)&(items), count, sizeof *(items))
 
 /* Doubles *items, an array of *capacity items, until it has room for `needed` of them; its contents
  * are kept. Errors: NO_MEMORY; *items is then unchanged. */

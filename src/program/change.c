@@ -71,9 +71,8 @@ static celspan_status change_one(celspan_context *context, const cs_frame_change
                                  celspan_exposure *exposure) {
   celspan_rostrum *from = exposure->rostrum, *changed;
   size_t most = from->cel_count + 1;
-  celspan_cel **cels = cs_mem_array(context->memory, most, sizeof *cels);
-  if (!cels)
-    return cs_fail_memory(context);
+  celspan_cel **cels;
+  CS_TRY(CS_MAKE(context, cels, most));
   celspan_status status = change_into(context, change, from, cels, &changed);
   cs_mem_free(context->memory, cels, most * sizeof *cels);
   if (status != CELSPAN_OK)

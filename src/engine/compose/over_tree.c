@@ -43,9 +43,7 @@ static celspan_status make_nodes(cs_over_tree *tree) {
   }
   counts[tree->top] = 1;
   tree->node_count++;
-  tree->nodes = cs_mem_array(tree->context->memory, tree->node_count, sizeof *tree->nodes);
-  if (!tree->nodes)
-    return cs_fail_memory(tree->context);
+  CS_TRY(CS_MAKE(tree->context, tree->nodes, tree->node_count));
   for (size_t i = 0; i < tree->node_count; i++)
     tree->nodes[i] = cs_over_pair_clear;
   cs_over_pair *next = tree->nodes;

@@ -218,9 +218,7 @@ celspan_status cs_stroke_divide(celspan_context *context, cs_stroke *stroke,
   ruler r = {.context = context, .stroke = stroke, .desc = desc, .marked = SIZE_MAX};
   if (count == 0)
     return CELSPAN_OK;
-  r.ends = cs_mem_array(context->memory, count, sizeof *r.ends);
-  if (!r.ends)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, r.ends, count));
   if (desc->dash_count > 0 || desc->from > 0 || desc->to < 1)
     measure(&r);
   else /* where a piece ends does not matter: all are drawn */
@@ -274,9 +272,8 @@ static celspan_status add_spline(celspan_context *context, cs_outline *line,
 static celspan_status add_widths(celspan_context *context, cs_stroke_raw *raw,
                                  const celspan_stroke_desc *desc) {
   size_t count = desc->point_count;
-  celspan_point *widths = cs_mem_array(context->memory, count, sizeof *widths);
-  if (!widths)
-    return cs_fail_memory(context);
+  celspan_point *widths;
+  CS_TRY(CS_MAKE(context, widths, count));
   for (size_t i = 0; i < count; i++)
     widths[i].x = desc->widths[i];
   celspan_status status = add_spline(context, &raw->widths, widths, count, desc);

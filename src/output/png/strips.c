@@ -254,9 +254,8 @@ static celspan_status init_strips(cs_png_strips *strips, celspan_context *contex
 
 celspan_status cs_png_strips_create(celspan_context *context, const cs_png_picture *picture,
                                     cs_deflate_write write, void *user, cs_png_strips **out) {
-  cs_png_strips *strips = cs_mem_array(context->memory, 1, sizeof *strips);
-  if (!strips)
-    return cs_fail_memory(context);
+  cs_png_strips *strips;
+  CS_TRY(CS_MAKE(context, strips, 1));
   strips->picture = *picture;
   strips->write = write;
   strips->user = user;

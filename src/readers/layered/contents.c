@@ -47,9 +47,8 @@ static void set_name(char out[CS_CONTENTS_TEXT], const char *name, size_t size) 
 /* ---------------------------------------------------------------- building */
 
 celspan_status cs_contents_create(celspan_context *context, celspan_painting **out) {
-  celspan_painting *painting = cs_mem_array(context->memory, 1, sizeof *painting);
-  if (!painting)
-    return cs_fail_memory(context);
+  celspan_painting *painting;
+  CS_TRY(CS_MAKE(context, painting, 1));
   atomic_init(&painting->references, 1);
   painting->memory = cs_memory_ref(context->memory);
   *out = painting;

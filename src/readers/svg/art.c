@@ -8,9 +8,8 @@
 /* ---------------------------------------------------------------- life */
 
 celspan_status cs_svg_art_create(celspan_context *context, celspan_svg **out) {
-  celspan_svg *art = cs_mem_array(context->memory, 1, sizeof *art);
-  if (!art)
-    return cs_fail_memory(context);
+  celspan_svg *art;
+  CS_TRY(CS_MAKE(context, art, 1));
   atomic_init(&art->references, 1);
   art->memory = cs_memory_ref(context->memory);
   cs_arena_init(&art->arena);

@@ -161,9 +161,7 @@ static celspan_status spread_stops(cs_svg_reading *reading, spread_kind spread, 
                                    gradient_stops *stops) {
   gradient_stops whole = {0};
   whole.capacity = stops->count * (size_t)(last - first);
-  whole.items = cs_mem_array(reading->context->memory, whole.capacity, sizeof *whole.items);
-  if (!whole.items)
-    return cs_fail_memory(reading->context);
+  CS_TRY(CS_MAKE(reading->context, whole.items, whole.capacity));
   for (int period = first; period < last; period++) {
     bool is_turned = spread == SPREAD_REFLECT && (period & 1) != 0;
     for (size_t i = 0; i < stops->count; i++) {

@@ -340,9 +340,8 @@ static celspan_status check(celspan_context *context, const celspan_frame_desc *
 celspan_status celspan_stack_create(celspan_context *context, const celspan_frame_desc *desc,
                                     celspan_stack **out) {
   CS_TRY(check(context, desc));
-  celspan_stack *stack = cs_mem_array(context->memory, 1, sizeof *stack);
-  if (!stack)
-    return cs_fail_memory(context);
+  celspan_stack *stack;
+  CS_TRY(CS_MAKE(context, stack, 1));
   atomic_init(&stack->references, 1);
   stack->memory = cs_memory_ref(context->memory);
   stack->width = desc->crop_width > 0 ? desc->crop_width : desc->width;

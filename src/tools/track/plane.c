@@ -213,9 +213,7 @@ celspan_status cs_features_find(celspan_context *context, const cs_plane *plane,
   *count = 0;
   if (size == 0)
     return CELSPAN_OK;
-  m.strengths = cs_mem_array(context->memory, size, sizeof *m.strengths);
-  if (!m.strengths)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, m.strengths, size));
   measure(plane, region, &m);
   celspan_status status = choose(context, &m, out, count);
   cs_mem_free(context->memory, m.strengths, size * sizeof *m.strengths);

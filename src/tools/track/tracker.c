@@ -318,9 +318,8 @@ static celspan_status fill(celspan_tracker *tracker, const celspan_luma *luma,
 celspan_status celspan_tracker_create(celspan_context *context, const celspan_luma *first,
                                       const celspan_tracker_desc *desc, celspan_tracker **out) {
   *out = NULL;
-  celspan_tracker *tracker = cs_mem_array(context->memory, 1, sizeof *tracker);
-  if (!tracker)
-    return cs_fail_memory(context);
+  celspan_tracker *tracker;
+  CS_TRY(CS_MAKE(context, tracker, 1));
   tracker->context = context;
   tracker->model = desc->model;
   tracker->last = tracker->before_last = celspan_matrix_identity();
