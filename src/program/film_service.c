@@ -10,6 +10,7 @@
 #include "frames/process/interrupt.h"
 #include "frames/video/sound.h"
 #include "lua/bind/host.h"
+#include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "model/scene/inspect.h"
 #include "model/scene/scene.h"
@@ -255,14 +256,10 @@ static int faults(lua_State *L) {
 
 /* Sets what a celspan.film has. */
 static void set_facts(lua_State *L, const cs_film_info *info) {
-  lua_pushinteger(L, info->first);
-  lua_setfield(L, -2, "first");
-  lua_pushinteger(L, info->count);
-  lua_setfield(L, -2, "frames");
-  lua_pushnumber(L, info->frames_second);
-  lua_setfield(L, -2, "fps");
-  lua_pushstring(L, info->title);
-  lua_setfield(L, -2, "title");
+  cs_put_integer(L, "first", info->first);
+  cs_put_integer(L, "frames", info->count);
+  cs_put_number(L, "fps", info->frames_second);
+  cs_put_text(L, "title", info->title);
   lua_createtable(L, 2, 0);
   lua_pushinteger(L, info->width);
   lua_rawseti(L, -2, 1);

@@ -6,6 +6,7 @@
 #include "celspan/lua.h"
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"
+#include "lua/bind/put.h"
 #include "lua/module/core.h"
 #include "program/script.h"
 #include "program/service.h"
@@ -33,10 +34,8 @@ static void set_option(void *user, const char *name, const char *value) {
     lua_pushboolean(L, true);
   lua_rawset(L, -4);
   lua_createtable(L, 0, 2);
-  lua_pushstring(L, name);
-  lua_setfield(L, -2, "name");
-  lua_pushstring(L, value);
-  lua_setfield(L, -2, "value");
+  cs_put_text(L, "name", name);
+  cs_put_text(L, "value", value);
   lua_rawseti(L, -2, (lua_Integer)lua_rawlen(L, -2) + 1);
 }
 
@@ -61,18 +60,13 @@ static void push_request(lua_State *L, const cs_request *request) {
 
 /* ---------------------------------------------------------------- the verbs */
 
-static void set_text(lua_State *L, const char *name, const char *text) {
-  lua_pushstring(L, text);
-  lua_setfield(L, -2, name);
-}
-
 static void push_options(lua_State *L, const cs_option *options) {
   lua_newtable(L);
   for (lua_Integer i = 1; options->name; i++, options++) {
     lua_createtable(L, 0, 3);
-    set_text(L, "name", options->name);
-    set_text(L, "value", options->value);
-    set_text(L, "help", options->help);
+    cs_put_text(L, "name", options->name);
+    cs_put_text(L, "value", options->value);
+    cs_put_text(L, "help", options->help);
     lua_rawseti(L, -2, i);
   }
 }
@@ -85,12 +79,11 @@ static int push_verbs(lua_State *L) {
     if (verb->is_hidden)
       continue;
     lua_createtable(L, 0, 6);
-    set_text(L, "name", verb->name);
-    set_text(L, "operands", verb->operands);
-    set_text(L, "summary", verb->summary);
-    set_text(L, "notes", verb->notes);
-    lua_pushboolean(L, verb->has_script);
-    lua_setfield(L, -2, "has_script");
+    cs_put_text(L, "name", verb->name);
+    cs_put_text(L, "operands", verb->operands);
+    cs_put_text(L, "summary", verb->summary);
+    cs_put_text(L, "notes", verb->notes);
+    cs_put_flag(L, "has_script", verb->has_script);
     push_options(L, verb->options);
     lua_setfield(L, -2, "options");
     lua_rawseti(L, -2, (lua_Integer)lua_rawlen(L, -2) + 1);
@@ -115,8 +108,8 @@ static void push_program(lua_State *L) {
   static const luaL_Reg services[] = {{"verbs", push_verbs}, {NULL, NULL}};
   lua_newtable(L);
   cs_service_add(L, services);
-  set_text(L, "version", celspan_version());
-  set_text(L, "annotations", CS_ANNOTATIONS); /* the folder, as it is installed */
+  cs_put_text(L, "version", celspan_version());
+  cs_put_text(L, "annotations", CS_ANNOTATIONS); /* the folder, as it is installed */
   cs_service_add_reports(L);
   cs_service_add_film(L);
   cs_service_add_files(L);

@@ -10,6 +10,7 @@
 #include "base/context.h"
 #include "frames/process/interrupt.h"
 #include "frames/still/still.h"
+#include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "lua/nouns/options.h"
 #include "model/colour/transfer.h"
@@ -19,16 +20,6 @@
 #include "program/service.h"
 #include "program/target.h"
 #include "program/view.h"
-
-static void set_text(lua_State *L, const char *name, const char *text) {
-  lua_pushstring(L, text);
-  lua_setfield(L, -2, name);
-}
-
-static void set_integer(lua_State *L, const char *name, int64_t number) {
-  lua_pushinteger(L, number);
-  lua_setfield(L, -2, name);
-}
 
 /* ---------------------------------------------------------------- what a picture holds */
 
@@ -77,12 +68,12 @@ static void push_parts(lua_State *L, const picture *p) {
     const cs_picture_part *part = &p->parts[i];
     lua_createtable(L, 0, 6);
     if (part->subimage >= 0)
-      set_integer(L, "subimage", part->subimage);
-    set_text(L, "name", part->name);
-    set_integer(L, "width", part->width);
-    set_integer(L, "height", part->height);
-    set_integer(L, "channels", part->channels);
-    set_text(L, "depth", part->depth);
+      cs_put_integer(L, "subimage", part->subimage);
+    cs_put_text(L, "name", part->name);
+    cs_put_integer(L, "width", part->width);
+    cs_put_integer(L, "height", part->height);
+    cs_put_integer(L, "channels", part->channels);
+    cs_put_text(L, "depth", part->depth);
     lua_rawseti(L, -2, (lua_Integer)i + 1);
   }
 }
@@ -97,14 +88,14 @@ static int read_facts(lua_State *L) {
   cs_service_try(L, read_picture(p, path, &header));
   bool is_premultiplied = header.alpha == CS_PICTURE_ALPHA_CODED;
   lua_createtable(L, 0, 8);
-  set_text(L, "format", header.info.format);
-  set_integer(L, "width", header.info.width);
-  set_integer(L, "height", header.info.height);
-  set_integer(L, "channels", header.info.channels);
+  cs_put_text(L, "format", header.info.format);
+  cs_put_integer(L, "width", header.info.width);
+  cs_put_integer(L, "height", header.info.height);
+  cs_put_integer(L, "channels", header.info.channels);
   if (header.info.has_alpha)
-    set_text(L, "alpha", is_premultiplied ? "premultiplied" : "straight");
-  set_text(L, "colour", header.info.colour);
-  set_integer(L, "bytes", header.file_size);
+    cs_put_text(L, "alpha", is_premultiplied ? "premultiplied" : "straight");
+  cs_put_text(L, "colour", header.info.colour);
+  cs_put_integer(L, "bytes", header.file_size);
   push_parts(L, p);
   lua_setfield(L, -2, "parts");
   return 1;
@@ -127,16 +118,16 @@ static int read_spans(lua_State *L) {
   cs_service_try(L, cs_span_reader_check(*file, &counts));
   spanfile_info info = cs_span_reader_info(*file);
   lua_createtable(L, 0, 10);
-  set_integer(L, "width", info.width);
-  set_integer(L, "height", info.height);
-  set_text(L, "depth", info.format == SPANFILE_HALF ? "half" : "8");
-  set_integer(L, "bytes", (int64_t)cs_span_reader_bytes(*file));
-  set_integer(L, "rows_same", (int64_t)counts.same_rows);
-  set_integer(L, "rows_moved", (int64_t)counts.moved_rows);
-  set_integer(L, "rows_literal", (int64_t)counts.literal_rows);
-  set_integer(L, "runs", (int64_t)counts.spans[SPANFILE_RUN]);
-  set_integer(L, "raw_spans", (int64_t)counts.spans[SPANFILE_RAW]);
-  set_integer(L, "gradients", (int64_t)counts.spans[SPANFILE_GRADIENT]);
+  cs_put_integer(L, "width", info.width);
+  cs_put_integer(L, "height", info.height);
+  cs_put_text(L, "depth", info.format == SPANFILE_HALF ? "half" : "8");
+  cs_put_integer(L, "bytes", (int64_t)cs_span_reader_bytes(*file));
+  cs_put_integer(L, "rows_same", (int64_t)counts.same_rows);
+  cs_put_integer(L, "rows_moved", (int64_t)counts.moved_rows);
+  cs_put_integer(L, "rows_literal", (int64_t)counts.literal_rows);
+  cs_put_integer(L, "runs", (int64_t)counts.spans[SPANFILE_RUN]);
+  cs_put_integer(L, "raw_spans", (int64_t)counts.spans[SPANFILE_RAW]);
+  cs_put_integer(L, "gradients", (int64_t)counts.spans[SPANFILE_GRADIENT]);
   return 1;
 }
 
@@ -309,14 +300,13 @@ static celspan_status compare_into(celspan_context *context, comparison *c, cons
 
 static void push_answer(lua_State *L, const comparison *c) {
   lua_createtable(L, 0, 6);
-  lua_pushnumber(L, c->largest);
-  lua_setfield(L, -2, "largest");
-  set_integer(L, "x", c->x);
-  set_integer(L, "y", c->y);
+  cs_put_number(L, "largest", c->largest);
+  cs_put_integer(L, "x", c->x);
+  cs_put_integer(L, "y", c->y);
   lua_pushlstring(L, &"rgba"[c->channel], 1);
   lua_setfield(L, -2, "channel");
-  set_integer(L, "differing", (int64_t)c->differing);
-  set_integer(L, "pixels", (int64_t)c->width * c->height);
+  cs_put_integer(L, "differing", (int64_t)c->differing);
+  cs_put_integer(L, "pixels", (int64_t)c->width * c->height);
 }
 
 static void push_sizes(lua_State *L, const cs_still stills[2]) {
