@@ -5,8 +5,7 @@
  * get a branch of it, which has an error text of its own and shares the memory. All failures pass
  * through cs_fail, which makes it a natural breakpoint.
  */
-#ifndef CS_BASE_CONTEXT_H
-#define CS_BASE_CONTEXT_H
+#pragma once
 
 #include <stdatomic.h>
 
@@ -116,5 +115,3 @@ void cs_context_trim(celspan_context *context);
     if (try_status_ != CELSPAN_OK)                                                                 \
       return try_status_;                                                                          \
   } while (0)
-
-#endif

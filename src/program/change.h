@@ -10,8 +10,7 @@
  *
  * INVARIANT: without these options, frames stay as they are.
  */
-#ifndef CS_CLI_CHANGE_H
-#define CS_CLI_CHANGE_H
+#pragma once
 
 #include "frames/film/sequence.h"
 #include "program/script.h"
@@ -35,5 +34,3 @@ CELSPAN_CHECKED celspan_status cs_change_frame(celspan_context *context,
  * without the option; or reported. */
 cs_exit cs_change_lay_onion(cs_script *script, const cs_request *request,
                             const celspan_frame_desc *frame);
-
-#endif

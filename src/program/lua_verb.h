@@ -8,12 +8,9 @@
  * Texts are part of the binary. A state loads program.lua and the text of its verb, and celspan's
  * modules when one of them is required.
  */
-#ifndef CS_PROGRAM_LUA_VERB_H
-#define CS_PROGRAM_LUA_VERB_H
+#pragma once
 
 #include "program/request.h"
 
 /* Runs a verb. Its outcome, reported. */
 cs_exit cs_lua_verb_run(celspan_context *context, const cs_request *request);
-
-#endif

@@ -4,8 +4,7 @@
  * leaves through this file, so that a progress bar can be cleared first and standard output
  * carries nothing but data.
  */
-#ifndef CS_CLI_REPORT_H
-#define CS_CLI_REPORT_H
+#pragma once
 
 #include "celspan/celspan.h"
 #include "program/json.h"
@@ -64,5 +63,3 @@ cs_exit cs_report_flush_output(cs_exit outcome);
 /* Closes standard output. The answer is the outcome; where that is OK but not everything could be
  * written, it is CS_EXIT_OUTPUT, reported. */
 cs_exit cs_report_close_output(cs_exit outcome);
-
-#endif

@@ -1,8 +1,7 @@
 /* A script's film, opened for a verb in a Lua state of its own. Its faults are reported as the
  * command line reports faults.
  */
-#ifndef CS_CLI_SCRIPT_H
-#define CS_CLI_SCRIPT_H
+#pragma once
 
 #include "lua/nouns/lua_film.h"
 #include "lua/sandbox/sandbox.h"
@@ -45,5 +44,3 @@ cs_exit cs_script_build(cs_script *script, int64_t number);
 cs_exit cs_script_frame(cs_script *script, const cs_request *request, celspan_frame_desc *out);
 /* Reports "frame N: ..." unless the status is OK; for failures after the frame was built. */
 cs_exit cs_script_failure(const cs_script *script, celspan_status status);
-
-#endif

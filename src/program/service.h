@@ -4,8 +4,7 @@
  * is numbers, texts and references to values of the core, never a value of Lua. A service that
  * fails reports why and ends the verb with its exit code, unless it returns a message.
  */
-#ifndef CS_PROGRAM_SERVICE_H
-#define CS_PROGRAM_SERVICE_H
+#pragma once
 
 #include <lauxlib.h>
 
@@ -36,5 +35,3 @@ void cs_service_add_film(lua_State *L);
 void cs_service_add_files(lua_State *L);
 void cs_service_add_pictures(lua_State *L);
 void cs_service_add_processes(lua_State *L);
-
-#endif

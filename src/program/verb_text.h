@@ -1,6 +1,5 @@
 /* The texts of verbs/, which are part of the binary: verbs in Lua, and what they write. */
-#ifndef CS_PROGRAM_VERB_TEXT_H
-#define CS_PROGRAM_VERB_TEXT_H
+#pragma once
 
 #include <lauxlib.h>
 
@@ -17,5 +16,3 @@ extern const cs_verb_text cs_verb_texts[]; /* the last one has no name */
 const cs_verb_text *cs_verb_text_find(const char *name);
 /* Pushes the text of that name as a function. Raises. */
 void cs_verb_text_load(lua_State *L, const char *name);
-
-#endif

@@ -11,8 +11,7 @@
  *   bilinear   the two rows about it, mixed
  *   box        the rows that the footprint covers, their mean
  */
-#ifndef CS_SAMPLE_SAMPLER_ROW_H
-#define CS_SAMPLE_SAMPLER_ROW_H
+#pragma once
 
 #include "engine/sample/sampler_texel.h"
 
@@ -50,5 +49,3 @@ CS_WIDE_DECLARE(void, cs_sampler_split_row,
 CS_WIDE_DECLARE(void, cs_sampler_mix_along,
                 (const float (*texels)[4], int32_t first, const int32_t *at, const float *across,
                  int32_t count, float (*rgba)[4]));
-
-#endif

@@ -8,8 +8,7 @@
  * Invariant: all sums over texels are made of differences to one of them, so a constant picture
  * keeps its value to the bit.
  */
-#ifndef CS_SAMPLE_SAMPLER_TEXEL_H
-#define CS_SAMPLE_SAMPLER_TEXEL_H
+#pragma once
 
 #include <math.h>
 
@@ -88,5 +87,3 @@ static inline double cs_sampler_row_u(const cs_sampler *s, int32_t column, doubl
 static inline double cs_sampler_row_v(const cs_sampler *s, double y) {
   return s->m[4] * y + s->m[5];
 }
-
-#endif

@@ -8,8 +8,7 @@
  * Layers are appended from the rear to the camera. Invariant: the layers of a group, and those of a
  * tree, are neighbours; nothing else is appended between them.
  */
-#ifndef CS_RENDER_COMPILER_H
-#define CS_RENDER_COMPILER_H
+#pragma once
 
 #include "engine/row/plan.h"
 #include "model/geometry/boundary_build.h"
@@ -57,5 +56,3 @@ struct cs_compiler {
 #define CS_COMPILER_APPEND(compiler, array, count, capacity)                                       \
   CS_RESERVE((compiler)->context, (compiler)->plan->stack.array, (compiler)->plan->stack.capacity, \
              (compiler)->plan->stack.count + 1)
-
-#endif

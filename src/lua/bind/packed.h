@@ -10,8 +10,7 @@
  * has no more than numbers, short lists of numbers and one value of another type is packed; the others
  * keep a table. Invariant: unpacking gives what the copy of the table that was packed would be.
  */
-#ifndef CS_BIND_PACKED_H
-#define CS_BIND_PACKED_H
+#pragma once
 
 #include <lauxlib.h>
 
@@ -39,5 +38,3 @@ void cs_packed_push_fields(lua_State *L, const cs_noun *noun, const unsigned cha
 
 /* Sets the fields of a table that have a preset and were left out. */
 void cs_packed_set_presets(lua_State *L, const cs_noun *noun, int table);
-
-#endif

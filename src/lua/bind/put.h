@@ -1,6 +1,5 @@
 /* Fields of the table on top of the stack. */
-#ifndef CS_BIND_PUT_H
-#define CS_BIND_PUT_H
+#pragma once
 
 #include <lauxlib.h>
 #include <stdbool.h>
@@ -10,5 +9,3 @@ void cs_put_integer(lua_State *L, const char *name, lua_Integer number);
 void cs_put_number(lua_State *L, const char *name, lua_Number number);
 /* text: NULL puts nil. */
 void cs_put_text(lua_State *L, const char *name, const char *text);
-
-#endif

@@ -1,8 +1,7 @@
 /* A colour as an 8-bit pixel in sRGB with straight alpha, and back. Nearly every frame is coded so,
  * in the loops of srgb8_lanes.h.
  */
-#ifndef CS_COLOUR_SRGB8_H
-#define CS_COLOUR_SRGB8_H
+#pragma once
 
 #include <stddef.h>
 
@@ -40,5 +39,3 @@ static inline void cs_srgb8_colour(const cs_srgb8_curve *curve, const unsigned c
     rgba[c] = curve->light[pixel[c]] * alpha;
   rgba[3] = alpha;
 }
-
-#endif

@@ -3,8 +3,7 @@
  *
  * Invariant: a pixel is cs_srgb8_pixel of its colour, whichever instructions made it.
  */
-#ifndef CS_COLOUR_SRGB8_LANES_H
-#define CS_COLOUR_SRGB8_LANES_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -249,5 +248,3 @@ CS_WIDE_DECLARE(void, cs_srgb8_code, (const float *rgba, size_t count, unsigned 
 typedef void (*cs_srgb8)(const float *rgba, size_t count, unsigned char *out);
 
 static inline cs_srgb8 cs_srgb8_choose(cs_isa isa) { return CS_WIDE_CHOOSE(isa, cs_srgb8_code); }
-
-#endif

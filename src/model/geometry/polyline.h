@@ -23,8 +23,7 @@
  * Vertex k of a piece, 0..chords, is where step k of the curve's parameter ends. Vertices near a
  * whole height are moved along the curve to that height, so that rows have few bends.
  */
-#ifndef CS_GEOMETRY_POLYLINE_H
-#define CS_GEOMETRY_POLYLINE_H
+#pragma once
 
 #include "base/wide.h"
 #include "model/geometry/boundary.h"
@@ -112,5 +111,3 @@ typedef struct cs_polyline_arc {
 CS_WIDE_DECLARE(bool, cs_polyline_strays,
                 (const cs_polyline_arc *arc, const cs_polyline_vertices *vertices, int first,
                  int end));
-
-#endif

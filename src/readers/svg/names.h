@@ -2,8 +2,7 @@
  *
  * Invariant: both lists are sorted as strcmp sorts their texts, which is how they are searched.
  */
-#ifndef CS_SVG_NAMES_H
-#define CS_SVG_NAMES_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -152,5 +151,3 @@ cs_svg_name cs_svg_name_of(const char *text);
 /* Whether a style sheet may set it. */
 bool cs_svg_is_property(cs_svg_name name);
 const char *cs_svg_name_text(cs_svg_name name);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * INVARIANT: what is decoded are Unicode scalar values, of which no control character but "\n".
  */
-#ifndef CS_TEXT_UTF8_H
-#define CS_TEXT_UTF8_H
+#pragma once
 
 #include "base/context.h"
 
@@ -21,5 +20,3 @@ typedef struct cs_utf8_text {
   char text[5];
 } cs_utf8_text;
 cs_utf8_text cs_utf8_encode(uint32_t character);
-
-#endif
