@@ -12,7 +12,6 @@
 
 #include "base/context.h"
 #include "frames/film/shoot.h"
-#include "frames/process/interrupt.h"
 #include "frames/video/video.h"
 #include "output/sinks/pixels.h"
 #include "program/change.h"

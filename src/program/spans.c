@@ -7,7 +7,6 @@
 #include "base/clock.h"
 #include "program/script.h"
 #include "program/verbs.h"
-#include "program/view.h"
 
 static void print_colour(const celspan_span *span, int32_t x) {
   float rgba[4];

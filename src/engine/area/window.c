@@ -14,8 +14,6 @@
 #include "engine/paint/run.h"
 #include "engine/sweep/pieces.h"
 
-#include <math.h>
-
 #define TILE 256 /* pixels summed at a time */
 #define FEW 2    /* pixels of a window between cells that vary, at most, that become single spans */
 

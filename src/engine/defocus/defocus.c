@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "base/elementary.h"
 #include "base/number.h"
 #include "engine/defocus/edges.h"
 #include "engine/defocus/lines.h"

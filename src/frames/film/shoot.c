@@ -1,6 +1,5 @@
 #include "frames/film/shoot.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "base/hash_table.h"

@@ -7,7 +7,6 @@
 #include "frames/render/lights.h"
 #include "frames/render/objects.h"
 #include "frames/render/through.h"
-#include "model/geometry/matrix.h"
 
 /* ---------------------------------------------------------------- what is hidden */
 

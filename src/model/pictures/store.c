@@ -1,6 +1,5 @@
 #include "model/pictures/store.h"
 
-#include <string.h>
 #include <unistd.h>
 
 #include "base/module.h"

@@ -1,5 +1,4 @@
 /* Strokes: the constructors, which check the description. */
-#include "model/geometry/matrix.h"
 #include "model/scene/check.h"
 #include "model/scene/primitive_data.h"
 #include "model/stroke/outliner.h"

@@ -1,6 +1,5 @@
 #include "readers/svg/markers.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "base/number.h"

@@ -1,7 +1,5 @@
 #include "readers/svg/text_path.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "base/number.h"
 #include "model/stroke/curve.h"

@@ -4,7 +4,6 @@
 
 #include "model/scene/check.h"
 #include "readers/text/utf8.h"
-#include "readers/xml/artwork.h"
 
 #define LANGUAGE_BYTES 64
 
