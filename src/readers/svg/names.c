@@ -4,7 +4,7 @@
 #include <string.h>
 
 #define ELEMENT(name, text) text
-static const char *const elements[] = {CS_SVG_ELEMENTS(ELEMENT)};
+static const char *const elements[] = {CS_SVG_ELEMENT_LIST(ELEMENT)};
 
 typedef struct name_entry {
   const char *text;
@@ -13,7 +13,7 @@ typedef struct name_entry {
 
 #define NAME(name, text, is_property)                                                              \
   { text, is_property }
-static const name_entry names[] = {CS_SVG_NAMES(NAME)};
+static const name_entry names[] = {CS_SVG_NAME_LIST(NAME)};
 
 static int compare_text(const void *key, const void *item) {
   return strcmp(key, *(const char *const *)item);

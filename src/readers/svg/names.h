@@ -7,7 +7,7 @@
 #include <stdbool.h>
 
 /* Each element: its enumerator after CS_SVG_ELEMENT_, its text. */
-#define CS_SVG_ELEMENTS(ELEMENT)                                                                   \
+#define CS_SVG_ELEMENT_LIST(ELEMENT)                                                               \
   ELEMENT(A, "a"), ELEMENT(CIRCLE, "circle"), ELEMENT(CLIP_PATH, "clipPath"),                      \
       ELEMENT(DEFS, "defs"), ELEMENT(DESC, "desc"), ELEMENT(ELLIPSE, "ellipse"),                   \
       ELEMENT(FILTER, "filter"), ELEMENT(FOREIGN_OBJECT, "foreignObject"), ELEMENT(G, "g"),        \
@@ -22,7 +22,7 @@
 
 typedef enum cs_svg_element {
 #define ELEMENT(name, text) CS_SVG_ELEMENT_##name
-  CS_SVG_ELEMENTS(ELEMENT),
+  CS_SVG_ELEMENT_LIST(ELEMENT),
 #undef ELEMENT
   CS_SVG_ELEMENT_OTHER,      /* any other of SVG */
   CS_SVG_ELEMENT_CHARACTERS, /* those of a text, between its elements */
@@ -30,7 +30,7 @@ typedef enum cs_svg_element {
 } cs_svg_element;
 
 /* Each attribute or property: its enumerator after CS_SVG_, its text, whether it is a property. */
-#define CS_SVG_NAMES(NAME)                                                                         \
+#define CS_SVG_NAME_LIST(NAME)                                                                     \
   NAME(BASELINE_SHIFT, "baseline-shift", true), NAME(CLASS, "class", false),                       \
       NAME(CLIP_PATH, "clip-path", true), NAME(CLIP_RULE, "clip-rule", true),                      \
       NAME(CLIP_PATH_UNITS, "clipPathUnits", false), NAME(COLOR, "color", true),                   \
@@ -81,7 +81,7 @@ typedef enum cs_svg_element {
 
 typedef enum cs_svg_name {
 #define NAME(name, text, is_property) CS_SVG_##name
-  CS_SVG_NAMES(NAME),
+  CS_SVG_NAME_LIST(NAME),
 #undef NAME
   CS_SVG_NAME_COUNT
 } cs_svg_name;
