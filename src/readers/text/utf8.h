@@ -15,6 +15,9 @@ CELSPAN_CHECKED celspan_status cs_utf8_decode(celspan_context *context, const ch
                                               const char *bytes, size_t size, uint32_t *characters,
                                               uint32_t *places, size_t *count);
 
+/* How many bytes the first character of a text has, which is not ""; 0 where it is not UTF-8. */
+size_t cs_utf8_length(const char *text);
+
 /* A character as UTF-8, ended by a zero. */
 typedef struct cs_utf8_text {
   char text[5];
