@@ -82,9 +82,7 @@ static cs_exit run(const cs_request *request) {
 static cs_exit parse_and_run(const cs_verb *verb, size_t count, char *const *words) {
   cs_request request;
   cs_progress_style style = CS_PROGRESS_AUTO;
-  cs_exit outcome = cs_request_parse(verb, count, words, &request);
-  if (outcome != CS_EXIT_OK)
-    return outcome;
+  CS_TRY_EXIT(cs_request_parse(verb, count, words, &request));
   cs_request_read(&request, "--progress", &style);
   cs_progress_choose(style);
   return run(&request);

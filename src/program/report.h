@@ -23,6 +23,14 @@ typedef enum cs_exit {
   CS_EXIT_SIGNAL = 128 /* main() dies by the signal, which adds its number */
 } cs_exit;
 
+/* Returns the exit code of a call from the function, unless it is OK. */
+#define CS_TRY_EXIT(call)                                                                          \
+  do {                                                                                             \
+    cs_exit try_exit_ = (call);                                                                    \
+    if (try_exit_ != CS_EXIT_OK)                                                                   \
+      return try_exit_;                                                                            \
+  } while (0)
+
 /* The exit code of a call. */
 cs_exit cs_report_exit(celspan_status status);
 
