@@ -92,6 +92,12 @@ static inline CELSPAN_CHECKED celspan_status cs_mem_reserve(celspan_context *con
 #define CS_RESERVE(context, items, capacity, needed)                                               \
   cs_mem_reserve(context, (void **)&(items), &(capacity), needed, sizeof *(items))
 
+/* Appends an item, the last argument, to a typed array. Errors: NO_MEMORY. */
+#define CS_APPEND(context, items, count, capacity, ...)                                            \
+  (CS_RESERVE(context, items, capacity, (count) + 1) == CELSPAN_OK                                 \
+       ? ((items)[(count)++] = (__VA_ARGS__), CELSPAN_OK)                                          \
+       : CELSPAN_NO_MEMORY)
+
 /* Records the sentence that format describes, and returns status. */
 celspan_status cs_fail(celspan_context *context, celspan_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

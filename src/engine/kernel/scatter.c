@@ -48,10 +48,9 @@ static celspan_status shift_term(cs_scatter *g, int32_t p, int32_t program, doub
   cs_convolve *convolve = g->convolve;
   if (program < 0)
     return CELSPAN_OK;
-  CS_TRY(CS_RESERVE(g->context, convolve->shifts, convolve->shift_capacity,
-                    convolve->shift_count + 1));
-  convolve->shifts[convolve->shift_count++] =
-      (cs_convolve_shift){convolve->shifts_at[p], (uint32_t)g->terms[program], weight};
+  CS_TRY(
+      CS_APPEND(g->context, convolve->shifts, convolve->shift_count, convolve->shift_capacity,
+                (cs_convolve_shift){convolve->shifts_at[p], (uint32_t)g->terms[program], weight}));
   convolve->shifts_at[p] = (uint32_t)convolve->shift_count;
   return CELSPAN_OK;
 }

@@ -314,9 +314,8 @@ celspan_status cs_active_start(celspan_context *context, cs_active *active, doub
 }
 
 static celspan_status note_vertex(celspan_context *context, cs_active *active, double x, double y) {
-  CS_TRY(CS_RESERVE(context, active->vertices, active->vertex_capacity, active->vertex_count + 1));
-  active->vertices[active->vertex_count++] = (celspan_point){x, y};
-  return CELSPAN_OK;
+  return CS_APPEND(context, active->vertices, active->vertex_count, active->vertex_capacity,
+                   (celspan_point){x, y});
 }
 
 static void widen(cs_bend *noted, double x) {

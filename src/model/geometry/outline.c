@@ -50,9 +50,8 @@ celspan_status cs_outline_move(celspan_context *context, cs_outline *outline, cs
 celspan_status cs_outline_begin(celspan_context *context, cs_outline *outline, cs_hpoint to) {
   drop_empty(outline);
   CS_TRY(reserve_points(context, outline, 1));
-  CS_TRY(CS_RESERVE(context, outline->contours, outline->contour_capacity,
-                    outline->contour_count + 1));
-  outline->contours[outline->contour_count++] = (uint32_t)outline->piece_count;
+  CS_TRY(CS_APPEND(context, outline->contours, outline->contour_count, outline->contour_capacity,
+                   (uint32_t)outline->piece_count));
   append_point(outline, to);
   return CELSPAN_OK;
 }

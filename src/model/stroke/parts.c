@@ -61,9 +61,7 @@ static double parameter_at(ruler *r, size_t piece, double length) {
 
 static celspan_status append_part(celspan_context *context, cs_stroke *stroke,
                                   cs_stroke_part part) {
-  CS_TRY(CS_RESERVE(context, stroke->parts, stroke->part_capacity, stroke->part_count + 1));
-  stroke->parts[stroke->part_count++] = part;
-  return CELSPAN_OK;
+  return CS_APPEND(context, stroke->parts, stroke->part_count, stroke->part_capacity, part);
 }
 
 /* The part of a contour from one length of the line to another. */

@@ -99,9 +99,8 @@ static int count_pieces(const cs_svg_reading *reading, const cs_svg_colour *a,
 
 static celspan_status append(cs_svg_reading *reading, double at, const cs_svg_colour *colour,
                              double opacity, gradient_stops *out) {
-  CS_TRY(CS_RESERVE(reading->context, out->items, out->capacity, out->count + 1));
-  out->items[out->count++] = (celspan_stop){at, cs_svg_paint_of(reading, colour, opacity)};
-  return CELSPAN_OK;
+  return CS_APPEND(reading->context, out->items, out->count, out->capacity,
+                   (celspan_stop){at, cs_svg_paint_of(reading, colour, opacity)});
 }
 
 /* The stops after `last` up to and with `next`. */

@@ -55,10 +55,8 @@ static int go_on(const walker *w, int32_t x, int32_t y, int direction) {
 
 static celspan_status add_node(walker *w, int32_t x, int32_t y) {
   cs_borders *out = w->out;
-  CS_TRY(CS_RESERVE(w->context, out->nodes, out->node_capacity, out->node_count + 1));
-  out->nodes[out->node_count++] =
-      (cs_node){x, y, {CS_WAY_NONE, CS_WAY_NONE, CS_WAY_NONE, CS_WAY_NONE}};
-  return CELSPAN_OK;
+  return CS_APPEND(w->context, out->nodes, out->node_count, out->node_capacity,
+                   (cs_node){x, y, {CS_WAY_NONE, CS_WAY_NONE, CS_WAY_NONE, CS_WAY_NONE}});
 }
 
 static bool is_side(const walker *w, int32_t x, int32_t y) {

@@ -21,9 +21,7 @@
 
 celspan_status cs_points_copy(celspan_context *context, cs_points *points,
                               const cs_edge_point *point) {
-  CS_TRY(CS_RESERVE(context, points->items, points->capacity, points->count + 1));
-  points->items[points->count++] = *point;
-  return CELSPAN_OK;
+  return CS_APPEND(context, points->items, points->count, points->capacity, *point);
 }
 
 celspan_status cs_points_add(celspan_context *context, cs_points *points, celspan_point point) {

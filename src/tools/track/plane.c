@@ -158,8 +158,8 @@ static celspan_status list_peaks(celspan_context *context, const map *m, candida
     for (int32_t x = 0; x < m->width; x++) {
       if (!is_peak(m, x, y))
         continue;
-      CS_TRY(CS_RESERVE(context, *list, *capacity, *count + 1));
-      (*list)[(*count)++] = (candidate){strength_in(m, x, y), m->x0 + x, m->y0 + y};
+      CS_TRY(CS_APPEND(context, *list, *count, *capacity,
+                       (candidate){strength_in(m, x, y), m->x0 + x, m->y0 + y}));
     }
   return CELSPAN_OK;
 }
