@@ -70,7 +70,8 @@ static void set_number(lua_State *L, const char *name, double number) {
   if ((double)whole == number)
     lua_pushinteger(L, whole);
   else
-    cs_put_number(L, name, number);
+    lua_pushnumber(L, number);
+  lua_setfield(L, -2, name);
 }
 
 static void push_points(lua_State *L, const celspan_trace_shape *shape) {

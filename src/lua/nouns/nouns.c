@@ -42,7 +42,8 @@ static void push_field(lua_State *L, const cs_field *field) {
   if (!field->written && field->choices)
     push_choices(L, field->choices);
   else
-    cs_put_text(L, "type", field->written ? field->written : written[field->type]);
+    lua_pushstring(L, field->written ? field->written : written[field->type]);
+  lua_setfield(L, -2, "type");
   cs_put_text(L, "read", field->read);
   cs_put_text(L, "shape", field->type == CS_TYPE_OWN ? NULL : field->shape);
   cs_put_text(L, "preset", field->preset);
