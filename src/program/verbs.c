@@ -1,32 +1,23 @@
-/* The verbs: what each takes, and what its help says. Texts are wrapped where they are printed; lines
- * that begin with a space are left as they are. */
+/* The verbs: what each takes, and what its help says. Texts are wrapped where they are printed;
+ * lines that begin with a space are left as they are. */
 #include "program/verbs.h"
 
 /* ---------------------------------------------------------------- options of several verbs */
 
-#define OUTPUT(value, help)                                                                        \
-  { "-o", value, &cs_argument_file, help }
+#define OUTPUT(value, help) "-o", value, &cs_argument_file, help
 #define FRAMES                                                                                     \
-  { "--frames", "LIST", &cs_argument_frames, "the frames, such as 1-10,20-30:2,45; default: all" }
-#define FRAME                                                                                      \
-  { "--frame", "N", &cs_argument_integer, "the frame; default: the first" }
+  "--frames", "LIST", &cs_argument_frames, "the frames, such as 1-10,20-30:2,45; default: all"
+#define FRAME "--frame", "N", &cs_argument_integer, "the frame; default: the first"
 #define SIZE                                                                                       \
-  {                                                                                                \
-    "--size", "WxH", &cs_argument_size,                                                            \
-        "pixels of the whole frame; each axis is scaled on its own"                                \
-  }
-#define SCALE                                                                                      \
-  { "--scale", "S", &cs_argument_scale, "pixels a film unit, instead of --size" }
-#define CROP                                                                                       \
-  { "--crop", "X,Y,W,H", &cs_argument_crop, "the part to make, in pixels of the output" }
+  "--size", "WxH", &cs_argument_size, "pixels of the whole frame; each axis is scaled on its own"
+#define SCALE "--scale", "S", &cs_argument_scale, "pixels a film unit, instead of --size"
+#define CROP "--crop", "X,Y,W,H", &cs_argument_crop, "the part to make, in pixels of the output"
 #define ANTIALIAS                                                                                  \
-  {                                                                                                \
-    "--antialias", "MODE", &cs_argument_antialias,                                                 \
-        "area (the mean over each pixel), none (pixel centres), or KERNEL[:ROWS]: box, gaussian, " \
-        "mitchell or lanczos; ROWS: parts of a pixel row, 16"                                      \
-  }
+  "--antialias", "MODE", &cs_argument_antialias,                                                   \
+      "area (the mean over each pixel), none (pixel centres), or KERNEL[:ROWS]: box, gaussian, "   \
+      "mitchell or lanczos; ROWS: parts of a pixel row, 16"
 #define WORKERS                                                                                    \
-  { "--workers", "N", &cs_argument_workers, "threads that render; default: one a processor" }
+  "--workers", "N", &cs_argument_workers, "threads that render; default: one a processor"
 /* The coding of a file's pixels. */
 #define CODING                                                                                     \
   {"--format", "NAME", &cs_argument_format, "file format; default: by the ending of OUT"},         \
@@ -38,38 +29,27 @@
         "straight or premultiplied; default: straight, floats premultiplied"                       \
   }
 #define DITHER                                                                                     \
-  { "--dither", NULL, NULL, "8 bits without bands: rounded up or down by the place of the pixel" }
+  "--dither", NULL, NULL, "8 bits without bands: rounded up or down by the place of the pixel"
 #define BACKGROUND                                                                                 \
-  {                                                                                                \
-    "--background", "RGB", &cs_argument_tint,                                                      \
-        "a back light of this colour and matte 1 behind everything"                                \
-  }
+  "--background", "RGB", &cs_argument_tint,                                                        \
+      "a back light of this colour and matte 1 behind everything"
 #define CEL                                                                                        \
-  { "--cel", "NAME", &cs_argument_cel, "only the cels of this name (cel:named), with their lights" }
+  "--cel", "NAME", &cs_argument_cel, "only the cels of this name (cel:named), with their lights"
 #define ONION                                                                                      \
-  {                                                                                                \
-    "--onion", "B,A", &cs_argument_onion,                                                          \
-        "lay B frames before (red) and A after (green) over each frame"                            \
-  }
+  "--onion", "B,A", &cs_argument_onion,                                                            \
+      "lay B frames before (red) and A after (green) over each frame"
 #define FORCE                                                                                      \
-  {                                                                                                \
-    "--force", NULL, NULL,                                                                         \
-        "with --resume: keep every complete frame file, even if its content would differ"          \
-  }
+  "--force", NULL, NULL,                                                                           \
+      "with --resume: keep every complete frame file, even if its content would differ"
 #define KEEP_GOING                                                                                 \
-  { "--keep-going", NULL, NULL, "go on after frames that fail; the exit code is then 1" }
+  "--keep-going", NULL, NULL, "go on after frames that fail; the exit code is then 1"
 #define MEMORY                                                                                     \
-  {                                                                                                \
-    "--memory", "MiB", &cs_argument_memory,                                                        \
-        "pictures and defocused cels kept in memory; default: 768; 0: every frame is made as if "  \
-        "it "                                                                                      \
-        "were the first"                                                                           \
-  }
+  "--memory", "MiB", &cs_argument_memory,                                                          \
+      "pictures and defocused cels kept in memory; default: 768; 0: every frame is made as if "    \
+      "it were the first"
 #define PROGRESS                                                                                   \
-  {                                                                                                \
-    "--progress", "HOW", &cs_argument_progress,                                                    \
-        "auto, bar, lines, none or json on standard error; openjd on standard output"              \
-  }
+  "--progress", "HOW", &cs_argument_progress,                                                      \
+      "auto, bar, lines, none or json on standard error; openjd on standard output"
 /* The rights of a script. */
 #define RIGHTS                                                                                     \
   {"--trust", NULL, NULL,                                                                          \
@@ -98,57 +78,57 @@
 static const cs_option NONE[] = {{0}};
 
 static const cs_option RENDER[] = {
-    OUTPUT("OUT", "shot.####.png, shot.%04d.exr, one.png for a single frame, - for raw frames; "
-                  "film.mp4, .mov, .webm, .mkv, .gif or .webp: a video, by ffmpeg"),
-    FRAMES,
-    SIZE,
-    SCALE,
-    CROP,
+    {OUTPUT("OUT", "shot.####.png, shot.%04d.exr, one.png for a single frame, - for raw frames; "
+                   "film.mp4, .mov, .webm, .mkv, .gif or .webp: a video, by ffmpeg")},
+    {FRAMES},
+    {SIZE},
+    {SCALE},
+    {CROP},
     {"--strip", "I/N", &cs_argument_share, "the I-th of N strips of the frame, for 'celspan join'"},
     {"--task", "I/N", &cs_argument_share, "the I-th of N parts of the frames"},
-    ANTIALIAS,
+    {ANTIALIAS},
     CODING,
-    DITHER,
+    {DITHER},
     {"--quality", "Q", &cs_argument_quality,
      "of a video: 0 (small) to 100 (hardly any loss); default: 75"},
-    BACKGROUND,
-    CEL,
-    ONION,
-    WORKERS,
-    PROGRESS,
+    {BACKGROUND},
+    {CEL},
+    {ONION},
+    {WORKERS},
+    {PROGRESS},
     {"--hash", NULL, NULL, "print FRAME DIGEST for each frame's pixels; OUT may be left out"},
     {"--resume", NULL, NULL,
      "keep the frames of earlier runs with --resume that would be the same again"},
-    FORCE,
-    KEEP_GOING,
+    {FORCE},
+    {KEEP_GOING},
     RIGHTS,
-    MEMORY,
+    {MEMORY},
     {0}};
 
 static const cs_option INFO[] = {RIGHTS, {0}};
 
 static const cs_option CHECK[] = {
-    FRAMES, {"--deep", NULL, NULL, "read pictures whole, not only their headers"}, RIGHTS, {0}};
+    {FRAMES}, {"--deep", NULL, NULL, "read pictures whole, not only their headers"}, RIGHTS, {0}};
 
 static const cs_option SPANS[] = {
-    FRAME,
-    SIZE,
+    {FRAME},
+    {SIZE},
     {"--rows", "A-B", &cs_argument_rows, "rows from A to B, both included; default: all"},
-    ANTIALIAS,
-    WORKERS,
+    {ANTIALIAS},
+    {WORKERS},
     {"--stats", NULL, NULL, "make all rows, count their spans by kind, print one line of counts"},
     {"--pixels", "DEPTH", &cs_argument_depth,
      "with --stats: make each row as pixels, in a row that is reused"},
     RIGHTS,
-    MEMORY,
+    {MEMORY},
     {0}};
 
-static const cs_option PROBE[] = {FRAME, RIGHTS, {0}};
+static const cs_option PROBE[] = {{FRAME}, RIGHTS, {0}};
 
-static const cs_option CONVERT[] = {SIZE, CROP, CODING, WORKERS, PICTURE_RIGHTS, {0}};
+static const cs_option CONVERT[] = {{SIZE}, {CROP}, CODING, {WORKERS}, PICTURE_RIGHTS, {0}};
 
 static const cs_option COMPARE[] = {
-    OUTPUT("DIFFERENCE", "a picture of where they differ: A in pale grey, differences in red"),
+    {OUTPUT("DIFFERENCE", "a picture of where they differ: A in pale grey, differences in red")},
     {"--fail", "D", &cs_argument_tolerance,
      "largest difference of coded values (0..1) that is accepted; default 0"},
     PICTURE_RIGHTS,
@@ -157,16 +137,16 @@ static const cs_option COMPARE[] = {
 static const cs_option TILES[] = {
     {"-o", "DIR", &cs_argument_folder,
      "the folder for the pyramid and its page; made when it is missing"},
-    FRAME,
-    SIZE,
-    SCALE,
+    {FRAME},
+    {SIZE},
+    {SCALE},
     {"--crop", "X,Y,W,H", &cs_argument_crop,
      "only tiles that touch this part of the frame, in its pixels"},
-    ANTIALIAS,
+    {ANTIALIAS},
     {"--format", "NAME", &cs_argument_layout,
      "dzi (Deep Zoom) or iiif (IIIF Image API 3.0, level 0); default: dzi"},
-    WORKERS,
-    PROGRESS,
+    {WORKERS},
+    {PROGRESS},
     {"--picture", "NAME", &cs_argument_picture, "png or jpg: the format of a tile; default: png"},
     {"--tile", "N", &cs_argument_tile, "pixels of a tile's side; default: 254, iiif 512"},
     {"--overlap", "N", &cs_argument_pixels,
@@ -183,24 +163,24 @@ static const cs_option TILES[] = {
     {0}};
 
 static const cs_option SHEET[] = {
-    OUTPUT("OUT",
-           "shot.xdts, shot.csv (TVPaint, Krita) or shot.txt; default: text on standard output"),
-    FRAMES,
+    {OUTPUT("OUT",
+            "shot.xdts, shot.csv (TVPaint, Krita) or shot.txt; default: text on standard output")},
+    {FRAMES},
     RIGHTS,
     {0}};
 
 static const cs_option CONTACT[] = {
-    OUTPUT("SHEET", "the picture to make; sheet.####.png for several pages"),
-    FRAMES,
+    {OUTPUT("SHEET", "the picture to make; sheet.####.png for several pages")},
+    {FRAMES},
     {"--grid", "CxR", &cs_argument_grid, "columns and rows of a page; default: 6x4"},
     {"--every", "N", &cs_argument_every,
      "one frame in N; default: the number that fits on one page"},
-    WORKERS,
+    {WORKERS},
     RIGHTS,
     {0}};
 
 static const cs_option RELIGHT[] = {
-    OUTPUT("OUT", "the picture in the light --to; without it an .exr that takes any light"),
+    {OUTPUT("OUT", "the picture in the light --to; without it an .exr that takes any light")},
     {"--light", "COLOUR", &cs_argument_lamp,
      "the light that IN was taken in; grey: that in which its mean is a grey of 0.18"},
     {"--to", "COLOUR", &cs_argument_light, "the light to show it in"},
@@ -209,7 +189,7 @@ static const cs_option RELIGHT[] = {
     {0}};
 
 static const cs_option TRACE[] = {
-    OUTPUT("OUT", "art.svg, or art.lua: a script that shows the drawing, and is a module"),
+    {OUTPUT("OUT", "art.svg, or art.lua: a script that shows the drawing, and is a module")},
     {"--colours", "N|LIST", &cs_argument_colours,
      "how many colours are found in the picture, or a list of them; default: 2"},
     {"--smooth", "S", &cs_argument_smooth,
@@ -221,18 +201,18 @@ static const cs_option TRACE[] = {
     {0}};
 
 static const cs_option TRACK[] = {
-    OUTPUT("OUT.json", "the track, for celspan.track; default: on standard output"),
+    {OUTPUT("OUT.json", "the track, for celspan.track; default: on standard output")},
     {"--from", "N", &cs_argument_integer, "the frame in which the region is given"},
     {"--at", "X,Y,W,H", &cs_argument_crop, "the region in that frame, in pixels"},
     {"--model", "NAME", &cs_argument_model,
      "translation, similarity (turned and scaled too) or perspective; default: similarity"},
-    FRAMES,
+    {FRAMES},
     PICTURE_RIGHTS,
     {0}};
 
 static const cs_option FARM[] = {
-    OUTPUT("OUT",
-           "the output of the job, as for render: shot.####.png, one.png for a single frame"),
+    {OUTPUT("OUT",
+            "the output of the job, as for render: shot.####.png, one.png for a single frame")},
     {"--slurm", NULL, NULL, "an array script for Slurm"},
     {"--openjd", NULL, NULL, "a template of Open Job Description 2023-09, in JSON"},
     {"--chunk", "N", &cs_argument_every, "at most N frames a task; default: 10"},
@@ -245,24 +225,24 @@ static const cs_option FARM[] = {
     {"--logs", "DIR", &cs_argument_folder, "directory for Slurm's task logs; default: Slurm's own"},
     {"--workers", "N", &cs_argument_workers,
      "processors, and threads, of each task; default: that of the farm"},
-    FRAMES,
-    SIZE,
-    SCALE,
-    CROP,
-    ANTIALIAS,
+    {FRAMES},
+    {SIZE},
+    {SCALE},
+    {CROP},
+    {ANTIALIAS},
     CODING,
-    DITHER,
-    BACKGROUND,
-    CEL,
-    ONION,
-    FORCE,
-    KEEP_GOING,
+    {DITHER},
+    {BACKGROUND},
+    {CEL},
+    {ONION},
+    {FORCE},
+    {KEEP_GOING},
     RIGHTS,
-    MEMORY,
+    {MEMORY},
     {0}};
 
 static const cs_option JOIN[] = {
-    OUTPUT("OUT", "the picture to make; its ending is that of the strips"), {0}};
+    {OUTPUT("OUT", "the picture to make; its ending is that of the strips")}, {0}};
 
 static const cs_option TEST[] = {
     {"--only", "PATTERN", &cs_argument_pattern, "only tests whose names match this Lua pattern"},

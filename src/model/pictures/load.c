@@ -133,9 +133,7 @@ static size_t block_count(const file_pass *pass) {
 }
 
 static celspan_status make_blocks(file_pass *pass) {
-  pass->blocks = cs_mem_array(pass->context->memory, block_count(pass), sizeof(cs_picture_block *));
-  if (!pass->blocks)
-    return cs_fail_memory(pass->context);
+  CS_TRY(CS_MAKE(pass->context, pass->blocks, block_count(pass)));
   for (size_t i = 0; i < block_count(pass); i++) {
     int32_t row = (int32_t)(i / (size_t)pass->columns),
             column = (int32_t)(i % (size_t)pass->columns);

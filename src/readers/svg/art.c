@@ -103,9 +103,8 @@ static celspan_status unite(celspan_context *context, const cs_svg_item *item,
   *out = NULL;
   if (most == 0)
     return CELSPAN_OK;
-  celspan_object **objects = cs_mem_array(context->memory, most, sizeof(celspan_object *));
-  if (!objects)
-    return cs_fail_memory(context);
+  celspan_object **objects;
+  CS_TRY(CS_MAKE(context, objects, most));
   for (const cs_svg_item *inner = item->first; inner; inner = inner->next)
     if (inner->object)
       objects[count++] = inner->object;
@@ -148,9 +147,8 @@ static celspan_status mask(celspan_context *context, const cs_svg_mask *by,
   celspan_object *made = NULL;
   if (by->count == 0)
     return replace(CELSPAN_OK, NULL, object);
-  celspan_object **pieces = cs_mem_array(context->memory, by->count, sizeof(celspan_object *));
-  if (!pieces)
-    return cs_fail_memory(context);
+  celspan_object **pieces;
+  CS_TRY(CS_MAKE(context, pieces, by->count));
   celspan_status status = CELSPAN_OK;
   size_t count = 0;
   for (size_t i = 0; i < by->count && status == CELSPAN_OK; i++) {

@@ -289,9 +289,7 @@ static void take_level(celspan_tracker *tracker, int32_t level) {
 static celspan_status take_patches(celspan_tracker *tracker) {
   celspan_context *context = tracker->context;
   for (int32_t level = 0; level < tracker->first.count; level++) {
-    tracker->patches[level] = cs_mem_array(context->memory, tracker->count, sizeof(cs_patch));
-    if (!tracker->patches[level])
-      return cs_fail_memory(context);
+    CS_TRY(CS_MAKE(context, tracker->patches[level], tracker->count));
     take_level(tracker, level);
   }
   return CELSPAN_OK;
