@@ -55,10 +55,8 @@ static celspan_status make_nodes(cs_over_tree *tree) {
 celspan_status cs_over_tree_init(cs_over_tree *tree, celspan_context *context,
                                  const cs_stack *stack) {
   *tree = (cs_over_tree){.context = context, .stack = stack, .word_count = cs_stack_words(stack)};
-  tree->words = cs_mem_array(context->memory, tree->word_count, sizeof *tree->words);
-  tree->quads = cs_mem_array(context->memory, tree->word_count, sizeof *tree->quads);
-  if (!tree->words || !tree->quads)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, tree->words, tree->word_count));
+  CS_TRY(CS_MAKE(context, tree->quads, tree->word_count));
   return make_nodes(tree);
 }
 

@@ -334,10 +334,8 @@ celspan_status cs_filter_init(cs_filter *filter, const cs_kernel *kernel, cs_pai
   size_t count = 2 * (size_t)cs_kernel_extent(kernel) + 1;
   *filter = (cs_filter){
       .kernel = kernel, .painter = painter, .retain = retain, .user = user, .row_count = count};
-  filter->rows = cs_mem_array(context->memory, count, sizeof *filter->rows);
-  filter->under = cs_mem_array(context->memory, count, sizeof *filter->under);
-  if (!filter->rows || !filter->under)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, filter->rows, count));
+  CS_TRY(CS_MAKE(context, filter->under, count));
   return init_convolve(&filter->convolve, context, kernel, width);
 }
 

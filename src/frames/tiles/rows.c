@@ -303,10 +303,8 @@ static celspan_status begin(void *user, celspan_context *context, int32_t width,
   const cs_pyramid *pyramid = rows->output->pyramid;
   (void)width, (void)height;
   rows->ring_count = pyramid->tile + 2 * pyramid->overlap;
-  rows->ring = cs_mem_array(context->memory, (size_t)rows->ring_count, sizeof *rows->ring);
-  rows->writers = cs_mem_array(context->memory, (size_t)rows->workers, sizeof *rows->writers);
-  if (!rows->ring || !rows->writers)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, rows->ring, (size_t)rows->ring_count));
+  CS_TRY(CS_MAKE(context, rows->writers, (size_t)rows->workers));
   for (int i = 0; i < rows->workers; i++)
     init_writer(&rows->writers[i], rows);
   return CELSPAN_OK;

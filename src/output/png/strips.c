@@ -242,11 +242,8 @@ static celspan_status init_worker(cs_png_strips *strips, celspan_context *contex
 }
 
 static celspan_status init_strips(cs_png_strips *strips, celspan_context *context) {
-  strips->workers =
-      cs_mem_array(context->memory, (size_t)strips->worker_count, sizeof *strips->workers);
-  strips->ring = cs_mem_array(context->memory, (size_t)strips->ring_size, sizeof *strips->ring);
-  if (!strips->workers || !strips->ring)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, strips->workers, (size_t)strips->worker_count));
+  CS_TRY(CS_MAKE(context, strips->ring, (size_t)strips->ring_size));
   for (int i = 0; i < strips->worker_count; i++)
     CS_TRY(init_worker(strips, context, &strips->workers[i]));
   return strips->worker_count > 1 ? start_pipeline(strips, context) : CELSPAN_OK;
