@@ -127,11 +127,6 @@ static int read_film(lua_State *L) {
   return 0;
 }
 
-cs_exit cs_script_start(celspan_context *context, cs_script *out) {
-  *out = (cs_script){.context = context};
-  return start(out);
-}
-
 /* The sandbox outlives values that the script made, so it has a place of its own. */
 static cs_exit confine(cs_script *script, const cs_request *request, const char *path) {
   if (!cs_confine_is_needed(request))

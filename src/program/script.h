@@ -27,9 +27,6 @@ void cs_script_unwatch(void);
  * was no memory for it. Its outcome. */
 cs_exit cs_script_report_start(lua_State *L);
 
-/* Makes the Lua state of a verb that runs celspan's own modules and no script. OK, or reported;
- * either way *out may be closed. */
-cs_exit cs_script_start(celspan_context *context, cs_script *out);
 /* Runs the script under the request. OK, or reported; either way *out may be closed. */
 cs_exit cs_script_open(celspan_context *context, const cs_request *request, const char *path,
                        cs_script *out);
