@@ -4,8 +4,7 @@
  * Invariant: a reset invalidates all memory that was taken before, but does not free it, so that a
  * row allocates from the heap only when it needs more than every row before it.
  */
-#ifndef CS_BASE_ARENA_H
-#define CS_BASE_ARENA_H
+#pragma once
 
 #include "base/context.h"
 
@@ -21,5 +20,3 @@ void cs_arena_finish(cs_arena *arena, cs_memory *memory);
 void cs_arena_reset(cs_arena *arena);
 /* size bytes, aligned to 16. NULL when there is no memory; the context then has the error. */
 void *cs_arena_take(celspan_context *context, cs_arena *arena, size_t size);
-
-#endif

@@ -17,8 +17,7 @@
  * want it wait. With cs_cache_create, _insert and _discard a thread makes several entries together;
  * when two threads made the same, the first to insert it wins.
  */
-#ifndef CS_BASE_CACHE_H
-#define CS_BASE_CACHE_H
+#pragma once
 
 #include <pthread.h>
 
@@ -99,5 +98,3 @@ void cs_cache_discard(cs_cache *cache, cs_cache_entry *entry);
 /* Self-check: whether buckets, pins, the idle list and the bytes agree. The lock is held, or no
  * other thread uses the cache. */
 bool cs_cache_is_sound(const cs_cache *cache);
-
-#endif

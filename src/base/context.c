@@ -93,6 +93,11 @@ void *cs_mem_array(cs_memory *memory, size_t count, size_t item_size) {
   return items ? memset(items, 0, size) : NULL;
 }
 
+celspan_status cs_mem_make(celspan_context *context, void **items, size_t count, size_t item_size) {
+  *items = cs_mem_array(context->memory, count, item_size);
+  return *items ? CELSPAN_OK : cs_fail_memory(context);
+}
+
 celspan_status cs_mem_grow(celspan_context *context, void **items, size_t *capacity, size_t needed,
                            size_t item_size) {
   size_t wanted = *capacity < 16 ? 16 : *capacity, size;

@@ -5,8 +5,7 @@
  * get a branch of it, which has an error text of its own and shares the memory. All failures pass
  * through cs_fail, which makes it a natural breakpoint.
  */
-#ifndef CS_BASE_CONTEXT_H
-#define CS_BASE_CONTEXT_H
+#pragma once
 
 #include <stdatomic.h>
 
@@ -71,6 +70,12 @@ void *cs_mem_resize(cs_memory *memory, void *storage, size_t old_size, size_t ne
 void cs_mem_free(cs_memory *memory, void *storage, size_t size);
 /* count items of item_size bytes, zeroed. NULL on overflow, without memory, and for count 0. */
 void *cs_mem_array(cs_memory *memory, size_t count, size_t item_size);
+/* The same as *items. Errors: NO_MEMORY, also for count 0; *items is then NULL. */
+CELSPAN_CHECKED celspan_status cs_mem_make(celspan_context *context, void **items, size_t count,
+                                           size_t item_size);
+/* cs_mem_make for a typed array or a value, a variable. */
+#define CS_MAKE(context, items, count)                                                             \
+  cs_mem_make(context, (void **)&(items), count, sizeof *(items))
 
 /* Doubles *items, an array of *capacity items, until it has room for `needed` of them; its contents
  * are kept. Errors: NO_MEMORY; *items is then unchanged. */
@@ -82,6 +87,16 @@ static inline CELSPAN_CHECKED celspan_status cs_mem_reserve(celspan_context *con
   return needed <= *capacity ? CELSPAN_OK
                              : cs_mem_grow(context, items, capacity, needed, item_size);
 }
+
+/* cs_mem_reserve for a typed array, `items`, and its capacity, both variables. */
+#define CS_RESERVE(context, items, capacity, needed)                                               \
+  cs_mem_reserve(context, (void **)&(items), &(capacity), needed, sizeof *(items))
+
+/* Appends an item, the last argument, to a typed array. Errors: NO_MEMORY. */
+#define CS_APPEND(context, items, count, capacity, ...)                                            \
+  (CS_RESERVE(context, items, capacity, (count) + 1) == CELSPAN_OK                                 \
+       ? ((items)[(count)++] = (__VA_ARGS__), CELSPAN_OK)                                          \
+       : CELSPAN_NO_MEMORY)
 
 /* Records the sentence that format describes, and returns status. */
 celspan_status cs_fail(celspan_context *context, celspan_status status, const char *format, ...)
@@ -106,5 +121,3 @@ void cs_context_trim(celspan_context *context);
     if (try_status_ != CELSPAN_OK)                                                                 \
       return try_status_;                                                                          \
   } while (0)
-
-#endif

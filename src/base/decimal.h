@@ -4,11 +4,8 @@
  * everywhere: the first nineteen digits with a single rounding as long as the power of ten is
  * exact.
  */
-#ifndef CS_BASE_DECIMAL_H
-#define CS_BASE_DECIMAL_H
+#pragma once
 
 /* The number that text begins with; infinite when it is too large. Returns what follows it, or NULL
  * when text begins with none. An e without digits after it is not part of the number. */
 const char *cs_decimal_read(const char *text, double *out);
-
-#endif

@@ -2,7 +2,7 @@
  *
  *   embed OUT.c NAME=FILE ...                   an array NAME for each file
  *   embed OUT.c --table HEADER TABLE FILE ...   one table, with the names of the files without
- *                                               folders; HEADER declares cs_text and the table
+ *                                               folders; HEADER declares cs_verb_text and the table
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -54,7 +54,7 @@ static void write_table(FILE *out, const char *header, const char *table, int co
     fprintf(out, "static const unsigned char text_%d[] = ", i);
     write_bytes(out, paths[i]);
   }
-  fprintf(out, "\nconst cs_text %s[] = {\n", table);
+  fprintf(out, "\nconst cs_verb_text %s[] = {\n", table);
   for (int i = 0; i < count; i++)
     fprintf(out, "  {\"%s\", (const char *)text_%d, sizeof text_%d - 1},\n", name_of(paths[i]), i,
             i);

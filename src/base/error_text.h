@@ -4,8 +4,7 @@
  * POSIX's, which musl has, fills the buffer and answers 0 or an error. The
  * type of the function shows which one it is.
  */
-#ifndef CS_BASE_ERROR_TEXT_H
-#define CS_BASE_ERROR_TEXT_H
+#pragma once
 
 #include <stdio.h>
 #include <string.h>
@@ -30,5 +29,3 @@ static inline const char *cs_error_text(int number, char text[CS_ERROR_TEXT_SIZE
                   : cs_error_text_posix, default
                   : cs_error_text_gnu)(strerror_r(number, text, CS_ERROR_TEXT_SIZE), text, number);
 }
-
-#endif

@@ -3,8 +3,7 @@
  * A hash is built by feeding a kind tag, then every field in a fixed order; doubles are fed by
  * their bits (minus zero as zero), lists with their length first.
  */
-#ifndef CS_BASE_HASH_H
-#define CS_BASE_HASH_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -20,5 +19,3 @@ void cs_hash_bytes(cs_hash *hash, const void *bytes, size_t size);
 void cs_hash_text(cs_hash *hash, const char *text); /* NULL differs from "" */
 void cs_hash_hash(cs_hash *hash, cs_hash other);
 cs_hash cs_hash_end(cs_hash hash); /* final avalanche */
-
-#endif

@@ -14,9 +14,7 @@ static cs_hash_slot *slot_of(const cs_hash_table *table, cs_hash key) {
 static celspan_status grow(cs_hash_table *table, celspan_context *context) {
   cs_hash_table grown = {.slot_count = table->slots ? 2 * table->slot_count : SLOTS_LEAST,
                          .count = table->count};
-  grown.slots = cs_mem_array(context->memory, grown.slot_count, sizeof *grown.slots);
-  if (!grown.slots)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, grown.slots, grown.slot_count));
   for (size_t i = 0; i < table->slot_count; i++)
     if (table->slots[i].number > 0)
       *slot_of(&grown, table->slots[i].key) = table->slots[i];

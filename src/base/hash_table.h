@@ -2,8 +2,7 @@
  *
  * INVARIANT: at most half of the slots are used, so that a search always meets a free one.
  */
-#ifndef CS_BASE_HASH_TABLE_H
-#define CS_BASE_HASH_TABLE_H
+#pragma once
 
 #include "base/context.h"
 #include "base/hash.h"
@@ -25,5 +24,3 @@ bool cs_hash_table_find(const cs_hash_table *table, cs_hash key, size_t *number)
 CELSPAN_CHECKED celspan_status cs_hash_table_add(cs_hash_table *table, celspan_context *context,
                                                  cs_hash key, size_t number);
 void cs_hash_table_finish(cs_hash_table *table, celspan_context *context);
-
-#endif

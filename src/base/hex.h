@@ -1,6 +1,5 @@
 /* Digits of sixteen, as colours and addresses have them. */
-#ifndef CS_BASE_HEX_H
-#define CS_BASE_HEX_H
+#pragma once
 
 /* The value of a hexadecimal digit, 0..15, of either case; -1 for any other character. */
 static inline int cs_hex_digit(char c) {
@@ -10,5 +9,3 @@ static inline int cs_hex_digit(char c) {
     return c - 'a' + 10;
   return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
-
-#endif

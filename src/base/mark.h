@@ -8,8 +8,7 @@
  * part of a value's hash. Invariant: a name is valid UTF-8 of 1 to CS_MARK_NAME bytes, without
  * control characters.
  */
-#ifndef CS_BASE_MARK_H
-#define CS_BASE_MARK_H
+#pragma once
 
 #include "base/context.h"
 
@@ -47,5 +46,3 @@ typedef struct cs_mark_text {
   char text[CS_MARK_NAME + 288];
 } cs_mark_text;
 cs_mark_text cs_mark_describe(cs_mark mark);
-
-#endif

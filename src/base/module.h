@@ -5,8 +5,7 @@
  * it was built. Once loaded it stays in the process: libraries under it keep threads and statics
  * that do not survive unloading.
  */
-#ifndef CS_BASE_MODULE_H
-#define CS_BASE_MODULE_H
+#pragma once
 
 #include <stdint.h>
 
@@ -27,5 +26,3 @@ typedef struct cs_module_desc {
  * do. NO_MEMORY. Any thread. */
 CELSPAN_CHECKED celspan_status cs_module_load(celspan_context *context, const cs_module_desc *desc,
                                               celspan_status failure, const void **table);
-
-#endif

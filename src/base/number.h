@@ -3,8 +3,7 @@
  * Invariant: a number that passed cs_number_is_sane is finite and |x| <= 1e12; a double becomes an
  * integer only through the saturating helpers here (NaN becomes 0).
  */
-#ifndef CS_BASE_NUMBER_H
-#define CS_BASE_NUMBER_H
+#pragma once
 
 #include <math.h>
 #include <stdbool.h>
@@ -64,5 +63,3 @@ static inline float cs_number_clampf(float x, float low, float high) {
 static inline int32_t cs_number_row(double at, int32_t rows) {
   return at < rows ? (int32_t)at : rows - 1;
 }
-
-#endif

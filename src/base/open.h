@@ -2,8 +2,7 @@
  * inherit them, a pipe to which nobody writes is not waited for, and where a signal comes the call
  * is made again.
  */
-#ifndef CS_BASE_OPEN_H
-#define CS_BASE_OPEN_H
+#pragma once
 
 #include <dirent.h>
 #include <errno.h>
@@ -46,5 +45,3 @@ static inline bool cs_open_is_about_file(int error) {
   return error == ENOENT || error == ENOTDIR || error == EACCES || error == EPERM ||
          error == ELOOP || error == ENAMETOOLONG || error == ENXIO || error == EISDIR;
 }
-
-#endif

@@ -200,9 +200,8 @@ static bool allocate(cs_pipeline *p) {
 
 celspan_status cs_pipeline_create(celspan_context *context, const cs_pipeline_desc *desc,
                                   cs_pipeline **out) {
-  cs_pipeline *p = cs_mem_array(context->memory, 1, sizeof *p);
-  if (!p)
-    return cs_fail_memory(context);
+  cs_pipeline *p;
+  CS_TRY(CS_MAKE(context, p, 1));
   p->memory = context->memory;
   p->desc = *desc;
   atomic_init(&p->end, desc->count);

@@ -26,8 +26,7 @@
  *   thread (worker 0) or another; all other functions run in the owner's thread.
  *   With fewer threads than were wanted, or none, the same items are delivered in the same order.
  */
-#ifndef CS_BASE_PIPELINE_H
-#define CS_BASE_PIPELINE_H
+#pragma once
 
 #include "base/context.h"
 
@@ -90,5 +89,3 @@ CELSPAN_CHECKED celspan_status cs_pipeline_deliver(cs_pipeline *pipeline, celspa
 void cs_pipeline_end_at(cs_pipeline *pipeline, size_t item);
 /* Any thread. */
 bool cs_pipeline_is_wanted(const cs_pipeline *pipeline, size_t item);
-
-#endif

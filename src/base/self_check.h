@@ -7,8 +7,7 @@
  * A claim that is false is a fault of the core, never of data that came from outside: it ends the
  * process at once, as `assert` does, so that a debugger or a sanitizer shows who broke it.
  */
-#ifndef CS_BASE_SELF_CHECK_H
-#define CS_BASE_SELF_CHECK_H
+#pragma once
 
 #ifdef CELSPAN_CHECKS
 
@@ -20,7 +19,5 @@ _Noreturn void cs_self_check_failed(const char *claim, const char *file, int lin
 #else
 
 #define CS_SELF_CHECK(claim) ((void)0)
-
-#endif
 
 #endif

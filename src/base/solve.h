@@ -1,6 +1,5 @@
 /* Systems of a few linear equations. */
-#ifndef CS_BASE_SOLVE_H
-#define CS_BASE_SOLVE_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -14,5 +13,3 @@
  * The rows are overwritten. Returns false where no pivot is above `least`, that is, where the
  * equations do not determine the unknowns. */
 bool cs_solve(double *rows, int n, int stride, double least, double *out);
-
-#endif

@@ -7,8 +7,7 @@
  * Invariant: where is_before is a strict order of all items, the result does not depend on the
  * order that they had.
  */
-#ifndef CS_BASE_SORT_H
-#define CS_BASE_SORT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -55,5 +54,3 @@
       name##_sift(items, 0, i);                                                                    \
     }                                                                                              \
   }
-
-#endif

@@ -1,8 +1,7 @@
 /* splitmix64 (Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014): a
  * counter whose values are mixed. Seeds that lie side by side give streams that have nothing in
  * common, and every 64-bit value comes once in 2^64 steps. */
-#ifndef CS_BASE_SPLITMIX_H
-#define CS_BASE_SPLITMIX_H
+#pragma once
 
 #include <stdint.h>
 
@@ -13,5 +12,3 @@ static inline uint64_t cs_splitmix_next(uint64_t *state) {
   word = (word ^ word >> 27) * UINT64_C(0x94d049bb133111eb);
   return word ^ word >> 31;
 }
-
-#endif

@@ -4,8 +4,7 @@
  *   Signals from outside are delivered to the calling thread alone.
  *   Where the system gives fewer threads than are wanted, fewer do the same work.
  */
-#ifndef CS_BASE_THREAD_POOL_H
-#define CS_BASE_THREAD_POOL_H
+#pragma once
 
 #include <pthread.h>
 #include <stdint.h>
@@ -28,5 +27,3 @@ void cs_threads_join(cs_thread *threads, int count);
  * `workers` threads, of which the caller's is worker 0; returns when all are done. */
 void cs_thread_pool_run(int workers, int32_t count, void (*step)(void *user, int worker, int32_t i),
                         void *user);
-
-#endif

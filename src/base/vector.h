@@ -1,7 +1,6 @@
 /* Vectors of four floats, made with the compiler's vector types. Every lane is plain IEEE
  * arithmetic, so the bits do not depend on the instruction set. */
-#ifndef CS_BASE_VECTOR_H
-#define CS_BASE_VECTOR_H
+#pragma once
 
 #include <string.h>
 #ifdef __SSE__
@@ -134,5 +133,3 @@ static inline int cs_v4_same(cs_v4 a, cs_v4 b) {
   return (differ[0] | differ[1]) == 0;
 #endif
 }
-
-#endif

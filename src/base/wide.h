@@ -4,8 +4,7 @@
  * instructions; its functions are named by CS_WIDE, and one is chosen at run time. Every lane is
  * plain IEEE arithmetic and nothing is fused, so the bits are the same whichever function runs.
  */
-#ifndef CS_BASE_WIDE_H
-#define CS_BASE_WIDE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -113,5 +112,3 @@ static inline cs_wide cs_wide_unit(cs_wide v) {
   return cs_wide_choose(v > 1, cs_wide_all(1), v);
 #endif
 }
-
-#endif

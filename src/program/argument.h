@@ -3,8 +3,7 @@
  * A reader changes its field only when it answers true. Numbers are read in the C locale, which
  * main() sets for its thread.
  */
-#ifndef CS_CLI_ARGUMENT_H
-#define CS_CLI_ARGUMENT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -91,5 +90,3 @@ extern const cs_argument cs_argument_texts;     /* cs_given_texts: adds a folder
 /* cs_given_limits: adds "memory=512M,steps=2e9,time=60,print=1M,picture-memory=1G,picture-time=20";
  * the other one takes those of pictures alone. */
 extern const cs_argument cs_argument_limits, cs_argument_picture_limits;
-
-#endif

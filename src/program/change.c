@@ -11,14 +11,14 @@
 #include "lua/bind/suggest.h"
 #include "lua/bind/userdata.h"
 #include "model/scene/scene.h"
-#include "program/service.h"
+#include "program/verb_text.h"
 
 #define MOST_NAMES 200 /* that are remembered for the message */
 #define SHOWN_NAMES 12
 #define MOST_FRAMES 10000 /* of the rest of the film that are searched for a name */
 
-cs_change cs_change_read(const cs_request *request) {
-  cs_change change = {.cel = cs_request_text(request, "--cel")};
+cs_frame_change cs_change_read(const cs_request *request) {
+  cs_frame_change change = {.cel = cs_request_text(request, "--cel")};
   change.has_background = cs_request_read(request, "--background", change.background);
   return change;
 }
@@ -30,7 +30,7 @@ static bool is_wanted(const celspan_cel *cel, const char *name) {
 }
 
 /* The rostrum's own back light, unless it has a shape, before the background. */
-static celspan_light back_of(const cs_change *change, const celspan_rostrum *rostrum) {
+static celspan_light back_of(const cs_frame_change *change, const celspan_rostrum *rostrum) {
   const celspan_light none = {0, 0, 0, 0};
   const float *ground = change->background;
   celspan_light own = change->cel ? none : rostrum->back.flat;
@@ -50,7 +50,7 @@ static celspan_status make_lamp(celspan_context *context, const cs_light *light,
   return celspan_cel_create(context, &desc, out);
 }
 
-static celspan_status change_into(celspan_context *context, const cs_change *change,
+static celspan_status change_into(celspan_context *context, const cs_frame_change *change,
                                   const celspan_rostrum *from, celspan_cel **cels,
                                   celspan_rostrum **out) {
   size_t count = 0;
@@ -67,13 +67,12 @@ static celspan_status change_into(celspan_context *context, const cs_change *cha
   return status;
 }
 
-static celspan_status change_one(celspan_context *context, const cs_change *change,
+static celspan_status change_one(celspan_context *context, const cs_frame_change *change,
                                  celspan_exposure *exposure) {
   celspan_rostrum *from = exposure->rostrum, *changed;
   size_t most = from->cel_count + 1;
-  celspan_cel **cels = cs_mem_array(context->memory, most, sizeof *cels);
-  if (!cels)
-    return cs_fail_memory(context);
+  celspan_cel **cels;
+  CS_TRY(CS_MAKE(context, cels, most));
   celspan_status status = change_into(context, change, from, cels, &changed);
   cs_mem_free(context->memory, cels, most * sizeof *cels);
   if (status != CELSPAN_OK)
@@ -83,7 +82,7 @@ static celspan_status change_one(celspan_context *context, const cs_change *chan
   return CELSPAN_OK;
 }
 
-celspan_status cs_change_frame(celspan_context *context, const cs_change *change,
+celspan_status cs_change_frame(celspan_context *context, const cs_frame_change *change,
                                cs_film_frame *frame) {
   if (!change->cel && !change->has_background)
     return CELSPAN_OK;
@@ -159,7 +158,8 @@ static void search_frame(name_list *list, cs_script *script, int64_t number) {
     list->is_found = true; /* the frame's own failure is reported when its turn comes */
 }
 
-cs_exit cs_change_refuse(cs_script *script, const cs_change *change, const cs_sequence *frames) {
+cs_exit cs_change_refuse(cs_script *script, const cs_frame_change *change,
+                         const cs_sequence *frames) {
   name_list list = {.wanted = change->cel};
   cs_exit outcome = CS_EXIT_OK;
   list.is_found = !change->cel;
@@ -196,7 +196,7 @@ static int is_same(lua_State *L) {
 static int lay(lua_State *L) {
   const onion *o = lua_touserdata(L, 2);
   lua_settop(L, 1);
-  cs_service_load(L, "onion.lua");
+  cs_verb_text_load(L, "onion.lua");
   lua_insert(L, 1);
   lua_pushinteger(L, o->counts[0]);
   lua_pushinteger(L, o->counts[1]);

@@ -11,29 +11,27 @@
  *
  * INVARIANT: without these options, frames stay as they are.
  */
-#ifndef CS_CLI_CHANGE_H
-#define CS_CLI_CHANGE_H
+#pragma once
 
 #include "frames/film/sequence.h"
 #include "program/script.h"
 
-typedef struct cs_change {
+typedef struct cs_frame_change {
   const char *cel; /* the name of the cels that stay; NULL: all */
   bool has_background;
   float background[3]; /* linear light */
-} cs_change;
+} cs_frame_change;
 
-cs_change cs_change_read(const cs_request *request);
+cs_frame_change cs_change_read(const cs_request *request);
 /* Looks for a cel of the name in the frames, then in the rest of the film, which are built one by
  * one until a frame has such a cel. OK if it was found, and without --cel; otherwise the error is
  * reported, with the names of the cels in the film. */
-cs_exit cs_change_refuse(cs_script *script, const cs_change *change, const cs_sequence *frames);
+cs_exit cs_change_refuse(cs_script *script, const cs_frame_change *change,
+                         const cs_sequence *frames);
 /* Changes a frame's rostrums. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_change_frame(celspan_context *context, const cs_change *change,
-                                               cs_film_frame *frame);
+CELSPAN_CHECKED celspan_status cs_change_frame(celspan_context *context,
+                                               const cs_frame_change *change, cs_film_frame *frame);
 /* Replaces the film of the script by that of --onion. frame: the size of the output. OK, also
  * without the option; or reported. */
 cs_exit cs_change_lay_onion(cs_script *script, const cs_request *request,
                             const celspan_frame_desc *frame);
-
-#endif

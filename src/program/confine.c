@@ -130,9 +130,7 @@ static cs_exit open_roots(const cs_request *request, const char *script, cs_sand
   errno = 0;
   bool is_good = cs_roots_add(&out->roots, folder);
   for (size_t i = 0; i < allowed.count && is_good; i++) {
-    cs_exit outcome = refuse_folder(allowed.items[i]);
-    if (outcome != CS_EXIT_OK)
-      return outcome;
+    CS_TRY_EXIT(refuse_folder(allowed.items[i]));
     is_good = cs_sandbox_allow(out, allowed.items[i]);
   }
   if (search && is_good)

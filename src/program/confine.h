@@ -1,8 +1,7 @@
 /* The rights and limits of scripts and pictures, as the command line gives them: --trust, --strict,
  * --allow, --limit.
  */
-#ifndef CS_CLI_CONFINE_H
-#define CS_CLI_CONFINE_H
+#pragma once
 
 #include "lua/sandbox/sandbox.h"
 #include "program/request.h"
@@ -17,5 +16,3 @@ bool cs_confine_is_needed(const cs_request *request);
 /* Makes the sandbox of a script under the request and enters strict where that is asked for. OK, or
  * reported; either way *out may be finished. */
 cs_exit cs_confine_open(const cs_request *request, const char *script, cs_sandbox *out);
-
-#endif

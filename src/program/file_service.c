@@ -127,15 +127,15 @@ static int has_number(lua_State *L) {
 
 /* is_video(path) -> whether the request makes a video there, of one frame or several */
 static int is_video(lua_State *L) {
-  lua_pushboolean(L, cs_video_target_is_wanted(cs_service_program(L)->request, 1));
+  lua_pushboolean(L, cs_video_target_is_wanted(cs_service_session(L)->request, 1));
   return 1;
 }
 
 /* refuse_target(path): ends the verb where no picture can be written there under the request. */
 static int refuse_target(lua_State *L) {
-  const cs_program *program = cs_service_program(L);
+  const cs_session *session = cs_service_session(L);
   cs_service_require(L,
-                     cs_target_refuse(program->context, luaL_checkstring(L, 1), program->request));
+                     cs_target_refuse(session->context, luaL_checkstring(L, 1), session->request));
   return 0;
 }
 
@@ -154,13 +154,13 @@ static celspan_status save_text(celspan_context *context, const char *path, cons
 static int save(lua_State *L) {
   size_t size;
   const char *path = luaL_checkstring(L, 1), *text = luaL_checklstring(L, 2, &size);
-  cs_service_try(L, save_text(cs_service_program(L)->context, path, text, size));
+  cs_service_try(L, save_text(cs_service_session(L)->context, path, text, size));
   return 0;
 }
 
 /* join(paths, output): strips of a frame into one picture. */
 static int join(lua_State *L) {
-  celspan_context *context = cs_service_program(L)->context;
+  celspan_context *context = cs_service_session(L)->context;
   size_t count = lua_rawlen(L, 1);
   const char **paths = lua_newuserdatauv(L, (count + 1) * sizeof *paths, 0);
   for (size_t i = 0; i < count; i++) {

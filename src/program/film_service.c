@@ -10,6 +10,7 @@
 #include "frames/process/interrupt.h"
 #include "frames/video/sound.h"
 #include "lua/bind/host.h"
+#include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "model/scene/inspect.h"
 #include "model/scene/scene.h"
@@ -86,7 +87,7 @@ static int at(lua_State *L) {
 static int chosen(lua_State *L) {
   film *f = self(L);
   celspan_frame_desc desc;
-  cs_service_require(L, cs_script_frame(&f->script, cs_service_program(L)->request, &desc));
+  cs_service_require(L, cs_script_frame(&f->script, cs_service_session(L)->request, &desc));
   push_frame(L, &f->script.frame);
   lua_pushinteger(L, f->script.number);
   return 2;
@@ -100,7 +101,7 @@ static int release_numbers(lua_State *L) {
 /* film:numbers(output or nil) -> the numbers of --frames, or of all frames, which each have a name
  * in the output */
 static int numbers(lua_State *L) {
-  const cs_request *request = cs_service_program(L)->request;
+  const cs_request *request = cs_service_session(L)->request;
   const char *output = luaL_optstring(L, 2, NULL);
   cs_sequence *list =
       cs_userdata_push_holder(L, "celspan.program.numbers", sizeof *list, release_numbers);
@@ -118,7 +119,7 @@ static int refuse_view(lua_State *L) {
   const cs_film_info *info = &self(L)->script.film;
   celspan_frame_desc desc;
   cs_service_require(
-      L, cs_view_frame(cs_service_program(L)->request, info->width, info->height, &desc));
+      L, cs_view_frame(cs_service_session(L)->request, info->width, info->height, &desc));
   return 0;
 }
 
@@ -255,14 +256,10 @@ static int faults(lua_State *L) {
 
 /* Sets what a celspan.film has. */
 static void set_facts(lua_State *L, const cs_film_info *info) {
-  lua_pushinteger(L, info->first);
-  lua_setfield(L, -2, "first");
-  lua_pushinteger(L, info->count);
-  lua_setfield(L, -2, "frames");
-  lua_pushnumber(L, info->frames_second);
-  lua_setfield(L, -2, "fps");
-  lua_pushstring(L, info->title);
-  lua_setfield(L, -2, "title");
+  cs_put_integer(L, "first", info->first);
+  cs_put_integer(L, "frames", info->count);
+  cs_put_number(L, "fps", info->frames_second);
+  cs_put_text(L, "title", info->title);
   lua_createtable(L, 2, 0);
   lua_pushinteger(L, info->width);
   lua_rawseti(L, -2, 1);
@@ -301,16 +298,16 @@ static void set_methods(lua_State *L) {
 
 /* film(path or nil) -> the film of that script, or of the request's */
 static int open_film(lua_State *L) {
-  const cs_program *program = cs_service_program(L);
-  const cs_request *request = program->request;
+  const cs_session *session = cs_service_session(L);
+  const cs_request *request = session->request;
   const char *path = luaL_optstring(L, 1, request->operands[0]);
   luaL_requiref(L, "celspan", luaopen_celspan, 0);
   lua_createtable(L, 0, 8);
   film *f = cs_userdata_push_holder(L, "celspan.program.film", sizeof *f, close_film);
-  f->pictures.context = program->context;
+  f->pictures.context = session->context;
   f->pictures.progress = cs_interrupt_progress;
   f->pictures.is_deep = cs_request_has(request, "--deep");
-  cs_service_require(L, cs_script_open(program->context, request, path, &f->script));
+  cs_service_require(L, cs_script_open(session->context, request, path, &f->script));
   lua_setfield(L, -2, "open");
   set_facts(L, &f->script.film);
   set_methods(L);

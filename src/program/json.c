@@ -5,28 +5,14 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "readers/text/utf8.h"
+
 enum {
   CHARACTER = 8, /* bytes of the longest escape, and a zero */
   RESERVE = 4096 /* for the members that come after the longest texts and lists */
 };
 
 /* ---------------------------------------------------------------- characters */
-
-/* The length of the UTF-8 sequence at text (RFC 3629); 0 when there is none. */
-static size_t sequence_length(const unsigned char *text) {
-  unsigned char first = text[0], low = 0x80, high = 0xbf;
-  size_t length = first < 0x80                     ? 1
-                  : first >= 0xc2 && first <= 0xdf ? 2
-                  : first >= 0xe0 && first <= 0xef ? 3
-                  : first >= 0xf0 && first <= 0xf4 ? 4
-                                                   : 0;
-  low = first == 0xe0 ? 0xa0 : first == 0xf0 ? 0x90 : low;
-  high = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : high;
-  for (size_t i = 1; i < length; i++, low = 0x80, high = 0xbf)
-    if (text[i] < low || text[i] > high)
-      return 0;
-  return length;
-}
 
 /* Writes the first character of the text, which is not "", as it is written inside a JSON string;
  * *size: bytes written. The answer: bytes of the text that it was read from. */
@@ -38,7 +24,7 @@ static size_t write_character(const char *text, char out[CHARACTER], size_t *siz
     *size = (size_t)snprintf(out, CHARACTER, is_short ? "\\%c" : "\\u%04x", *bytes);
     return 1;
   }
-  size_t length = sequence_length(bytes);
+  size_t length = cs_utf8_length(text);
   *size = length ? length : sizeof REPLACEMENT - 1;
   memcpy(out, length ? text : REPLACEMENT, *size);
   return length ? length : 1;

@@ -3,8 +3,7 @@
  * INVARIANT  The object is valid JSON whatever its texts contain: bytes that are not UTF-8 come out
  * as U+FFFD, and a text that is too long is cut.
  */
-#ifndef CS_CLI_JSON_H
-#define CS_CLI_JSON_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -23,5 +22,3 @@ void cs_json_number(cs_json *json, const char *name, double value);
 void cs_json_integers(cs_json *json, const char *name, const int64_t *values, size_t count);
 /* Ends the object and its line. The text stays the json's. */
 const char *cs_json_end(cs_json *json);
-
-#endif

@@ -19,8 +19,8 @@
 #include "plugins/isolate/isolate.h"
 #include "plugins/isolate/zygote.h"
 #include "program/confine.h"
+#include "program/lua_verb.h"
 #include "program/progress.h"
-#include "program/service.h"
 #include "program/verbs.h"
 
 enum { VERBS_MOST = 32 };
@@ -74,7 +74,7 @@ static cs_exit run(const cs_request *request) {
   cs_exit outcome = cs_confine_pictures(context, request);
   if (outcome == CS_EXIT_OK)
     outcome = request->verb->run ? request->verb->run(context, request)
-                                 : cs_service_run(context, request);
+                                 : cs_lua_verb_run(context, request);
   celspan_context_destroy(context);
   cs_isolate_finish();
   return outcome;
@@ -83,9 +83,7 @@ static cs_exit run(const cs_request *request) {
 static cs_exit parse_and_run(const cs_verb *verb, size_t count, char *const *words) {
   cs_request request;
   cs_progress_style style = CS_PROGRESS_AUTO;
-  cs_exit outcome = cs_request_parse(verb, count, words, &request);
-  if (outcome != CS_EXIT_OK)
-    return outcome;
+  CS_TRY_EXIT(cs_request_parse(verb, count, words, &request));
   cs_request_read(&request, "--progress", &style);
   cs_progress_choose(style);
   return run(&request);

@@ -10,6 +10,7 @@
 #include "base/context.h"
 #include "frames/process/interrupt.h"
 #include "frames/still/still.h"
+#include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "lua/nouns/options.h"
 #include "model/colour/transfer.h"
@@ -19,16 +20,6 @@
 #include "program/service.h"
 #include "program/target.h"
 #include "program/view.h"
-
-static void set_text(lua_State *L, const char *name, const char *text) {
-  lua_pushstring(L, text);
-  lua_setfield(L, -2, name);
-}
-
-static void set_integer(lua_State *L, const char *name, int64_t number) {
-  lua_pushinteger(L, number);
-  lua_setfield(L, -2, name);
-}
 
 /* ---------------------------------------------------------------- what a picture holds */
 
@@ -54,8 +45,7 @@ static int close_picture(lua_State *L) {
 
 static bool add_part(void *user, const cs_picture_part *part) {
   picture *p = user;
-  p->status =
-      cs_mem_reserve(p->context, (void **)&p->parts, &p->capacity, p->count + 1, sizeof *p->parts);
+  p->status = CS_RESERVE(p->context, p->parts, p->capacity, p->count + 1);
   if (p->status == CELSPAN_OK)
     p->parts[p->count++] = *part;
   return p->status == CELSPAN_OK;
@@ -78,12 +68,12 @@ static void push_parts(lua_State *L, const picture *p) {
     const cs_picture_part *part = &p->parts[i];
     lua_createtable(L, 0, 6);
     if (part->subimage >= 0)
-      set_integer(L, "subimage", part->subimage);
-    set_text(L, "name", part->name);
-    set_integer(L, "width", part->width);
-    set_integer(L, "height", part->height);
-    set_integer(L, "channels", part->channels);
-    set_text(L, "depth", part->depth);
+      cs_put_integer(L, "subimage", part->subimage);
+    cs_put_text(L, "name", part->name);
+    cs_put_integer(L, "width", part->width);
+    cs_put_integer(L, "height", part->height);
+    cs_put_integer(L, "channels", part->channels);
+    cs_put_text(L, "depth", part->depth);
     lua_rawseti(L, -2, (lua_Integer)i + 1);
   }
 }
@@ -95,19 +85,19 @@ static void push_parts(lua_State *L, const picture *p) {
 static int read_facts(lua_State *L) {
   const char *path = luaL_checkstring(L, 1);
   picture *p = cs_userdata_push_holder(L, "celspan.program.picture", sizeof *p, close_picture);
-  p->context = cs_service_program(L)->context;
+  p->context = cs_service_session(L)->context;
   cs_picture_header header;
   cs_service_try(L, read_picture(p, path, &header));
   bool is_premultiplied = header.alpha == CS_PICTURE_ALPHA_CODED;
   lua_createtable(L, 0, 8);
-  set_text(L, "format", header.info.format);
-  set_integer(L, "width", header.info.width);
-  set_integer(L, "height", header.info.height);
-  set_integer(L, "channels", header.info.channels);
+  cs_put_text(L, "format", header.info.format);
+  cs_put_integer(L, "width", header.info.width);
+  cs_put_integer(L, "height", header.info.height);
+  cs_put_integer(L, "channels", header.info.channels);
   if (header.info.has_alpha)
-    set_text(L, "alpha", is_premultiplied ? "premultiplied" : "straight");
-  set_text(L, "colour", header.info.colour);
-  set_integer(L, "bytes", header.file_size);
+    cs_put_text(L, "alpha", is_premultiplied ? "premultiplied" : "straight");
+  cs_put_text(L, "colour", header.info.colour);
+  cs_put_integer(L, "bytes", header.file_size);
   push_parts(L, p);
   lua_setfield(L, -2, "parts");
   return 1;
@@ -122,7 +112,7 @@ static int close_spans(lua_State *L) {
 
 /* spans(path) -> what the whole file consists of */
 static int read_spans(lua_State *L) {
-  celspan_context *context = cs_service_program(L)->context;
+  celspan_context *context = cs_service_session(L)->context;
   cs_span_reader **file =
       cs_userdata_push_holder(L, "celspan.program.spans", sizeof(cs_span_reader *), close_spans);
   spanfile_counts counts;
@@ -130,16 +120,16 @@ static int read_spans(lua_State *L) {
   cs_service_try(L, cs_span_reader_check(*file, &counts));
   spanfile_info info = cs_span_reader_info(*file);
   lua_createtable(L, 0, 10);
-  set_integer(L, "width", info.width);
-  set_integer(L, "height", info.height);
-  set_text(L, "depth", info.format == SPANFILE_HALF ? "half" : "8");
-  set_integer(L, "bytes", (int64_t)cs_span_reader_bytes(*file));
-  set_integer(L, "rows_same", (int64_t)counts.same_rows);
-  set_integer(L, "rows_moved", (int64_t)counts.moved_rows);
-  set_integer(L, "rows_literal", (int64_t)counts.literal_rows);
-  set_integer(L, "runs", (int64_t)counts.spans[SPANFILE_RUN]);
-  set_integer(L, "raw_spans", (int64_t)counts.spans[SPANFILE_RAW]);
-  set_integer(L, "gradients", (int64_t)counts.spans[SPANFILE_GRADIENT]);
+  cs_put_integer(L, "width", info.width);
+  cs_put_integer(L, "height", info.height);
+  cs_put_text(L, "depth", info.format == SPANFILE_HALF ? "half" : "8");
+  cs_put_integer(L, "bytes", (int64_t)cs_span_reader_bytes(*file));
+  cs_put_integer(L, "rows_same", (int64_t)counts.same_rows);
+  cs_put_integer(L, "rows_moved", (int64_t)counts.moved_rows);
+  cs_put_integer(L, "rows_literal", (int64_t)counts.literal_rows);
+  cs_put_integer(L, "runs", (int64_t)counts.spans[SPANFILE_RUN]);
+  cs_put_integer(L, "raw_spans", (int64_t)counts.spans[SPANFILE_RAW]);
+  cs_put_integer(L, "gradients", (int64_t)counts.spans[SPANFILE_GRADIENT]);
   return 1;
 }
 
@@ -312,14 +302,13 @@ static celspan_status compare_into(celspan_context *context, comparison *c, cons
 
 static void push_answer(lua_State *L, const comparison *c) {
   lua_createtable(L, 0, 6);
-  lua_pushnumber(L, c->largest);
-  lua_setfield(L, -2, "largest");
-  set_integer(L, "x", c->x);
-  set_integer(L, "y", c->y);
+  cs_put_number(L, "largest", c->largest);
+  cs_put_integer(L, "x", c->x);
+  cs_put_integer(L, "y", c->y);
   lua_pushlstring(L, &"rgba"[c->channel], 1);
   lua_setfield(L, -2, "channel");
-  set_integer(L, "differing", (int64_t)c->differing);
-  set_integer(L, "pixels", (int64_t)c->width * c->height);
+  cs_put_integer(L, "differing", (int64_t)c->differing);
+  cs_put_integer(L, "pixels", (int64_t)c->width * c->height);
 }
 
 static void push_sizes(lua_State *L, const cs_still stills[2]) {
@@ -344,26 +333,26 @@ static int close_stills(lua_State *L) {
 /* compare(a, b, difference or nil) -> { largest =, x =, y =, channel =, differing =, pixels = }, or
  * { sizes = { w, h, w, h } } where they differ */
 static int compare(lua_State *L) {
-  const cs_program *program = cs_service_program(L);
+  const cs_session *session = cs_service_session(L);
   const char *output = luaL_optstring(L, 3, NULL);
   cs_still *stills =
       cs_userdata_push_holder(L, "celspan.program.stills", 2 * sizeof *stills, close_stills);
   celspan_frame_desc frames[2];
   for (int i = 0; i < 2; i++)
-    cs_service_try(L, cs_still_open(program->context, luaL_checkstring(L, i + 1), &stills[i]));
+    cs_service_try(L, cs_still_open(session->context, luaL_checkstring(L, i + 1), &stills[i]));
   const celspan_picture_info *a = &stills[0].info, *b = &stills[1].info;
   if (a->width != b->width || a->height != b->height) {
     push_sizes(L, stills);
     return 1;
   }
   for (int i = 0; i < 2; i++)
-    cs_service_require(L, cs_view_still(program->request, &stills[i], &frames[i]));
+    cs_service_require(L, cs_view_still(session->request, &stills[i], &frames[i]));
   const celspan_coding coding = {a->is_float || b->is_float ? CELSPAN_DEPTH_FLOAT
                                                             : CELSPAN_DEPTH_16,
                                  CELSPAN_TRANSFER_SRGB, CELSPAN_ALPHA_STRAIGHT};
   comparison c = {.coding = coding, .width = a->width, .height = a->height};
-  cs_request_read(program->request, "--fail", &c.tolerance);
-  cs_service_try(L, compare_into(program->context, &c, output, &stills[0], &frames[0], &stills[1],
+  cs_request_read(session->request, "--fail", &c.tolerance);
+  cs_service_try(L, compare_into(session->context, &c, output, &stills[0], &frames[0], &stills[1],
                                  &frames[1]));
   push_answer(L, &c);
   return 1;
@@ -371,29 +360,29 @@ static int compare(lua_State *L) {
 
 /* convert(in, out): a picture under the request into another file. */
 static int convert(lua_State *L) {
-  const cs_program *program = cs_service_program(L);
+  const cs_session *session = cs_service_session(L);
   cs_still *stills =
       cs_userdata_push_holder(L, "celspan.program.stills", 2 * sizeof *stills, close_stills);
-  celspan_file_desc file = cs_target_file(program->request);
+  celspan_file_desc file = cs_target_file(session->request);
   celspan_frame_desc frame;
-  cs_service_try(L, cs_still_open(program->context, luaL_checkstring(L, 1), stills));
-  cs_service_require(L, cs_view_still(program->request, stills, &frame));
+  cs_service_try(L, cs_still_open(session->context, luaL_checkstring(L, 1), stills));
+  cs_service_require(L, cs_view_still(session->request, stills, &frame));
   cs_service_try(L,
-                 cs_still_write(program->context, stills, &frame, luaL_checkstring(L, 2), &file));
+                 cs_still_write(session->context, stills, &frame, luaL_checkstring(L, 2), &file));
   return 0;
 }
 
 /* write(frame, path, width, height): a frame into a picture under the request. */
 static int write_frame(lua_State *L) {
-  const cs_program *program = cs_service_program(L);
+  const cs_session *session = cs_service_session(L);
   celspan_frame_desc desc = CELSPAN_FRAME_DESC;
   desc.film_width = desc.width = (int32_t)luaL_checkinteger(L, 3);
   desc.film_height = desc.height = (int32_t)luaL_checkinteger(L, 4);
-  cs_request_read(program->request, "--workers", &desc.workers);
+  cs_request_read(session->request, "--workers", &desc.workers);
   cs_options_exposures(L, 1, "write", &desc);
-  celspan_file_desc file = cs_target_file(program->request);
+  celspan_file_desc file = cs_target_file(session->request);
   cs_service_try(L,
-                 celspan_frame_write(program->context, &desc, luaL_checkstring(L, 2), &file, NULL));
+                 celspan_frame_write(session->context, &desc, luaL_checkstring(L, 2), &file, NULL));
   return 0;
 }
 

@@ -6,8 +6,7 @@
  * INVARIANT  Percentage and remaining time refer to the whole run; 100 % is shown only when it is
  * done.
  */
-#ifndef CS_CLI_PROGRESS_H
-#define CS_CLI_PROGRESS_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -40,5 +39,3 @@ typedef struct cs_progress_failures {
 /* Removes the bar, and sums up the run if all frames are done. Nothing is reported afterwards.
  * outcome: the exit code, unless a signal stopped the run. */
 void cs_progress_end(cs_progress *progress, cs_progress_failures failed, int outcome);
-
-#endif

@@ -99,8 +99,7 @@ static celspan_status read_lines(cs_record *record, FILE *file) {
   while (fgets(text, sizeof text, file)) {
     if (!read_line(text, &line))
       continue;
-    CS_TRY(cs_mem_reserve(record->context, (void **)&record->lines, &record->capacity,
-                          record->count + 1, sizeof *record->lines));
+    CS_TRY(CS_RESERVE(record->context, record->lines, record->capacity, record->count + 1));
     line.order = record->count;
     record->lines[record->count++] = line;
   }

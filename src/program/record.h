@@ -12,8 +12,7 @@
  * added, each in one write, so that several runs may share a record; a line that was cut off is
  * ignored. A record with another head, of another version, is replaced.
  */
-#ifndef CS_CLI_RECORD_H
-#define CS_CLI_RECORD_H
+#pragma once
 
 #include "frames/film/shoot.h"
 #include "program/script.h"
@@ -46,5 +45,3 @@ bool cs_record_has(const cs_record *record, cs_shoot_frame *frame);
 /* Adds the line of a frame that was made or copied. */
 CELSPAN_CHECKED celspan_status cs_record_add(cs_record *record, const cs_shoot_frame *frame);
 void cs_record_close(cs_record *record);
-
-#endif

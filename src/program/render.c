@@ -12,7 +12,6 @@
 
 #include "base/context.h"
 #include "frames/film/shoot.h"
-#include "frames/process/interrupt.h"
 #include "frames/video/video.h"
 #include "output/sinks/pixels.h"
 #include "program/change.h"
@@ -28,7 +27,7 @@ typedef struct render_job {
   const cs_request *request;
   const char *output; /* NULL: digests alone */
   bool has_digests, resumes, keeps_going;
-  cs_change change;
+  cs_frame_change change;
   celspan_frame_desc frame;
   cs_sequence frames;
   cs_progress progress;
@@ -118,8 +117,8 @@ static bool tick(void *user, double share) {
 /* ---------------------------------------------------------------- reports */
 
 static celspan_status remember_failure(render_job *job, int64_t number) {
-  CS_TRY(cs_mem_reserve(job->script->context, (void **)&job->failed, &job->failed_capacity,
-                        job->failed_count + 1, sizeof *job->failed));
+  CS_TRY(
+      CS_RESERVE(job->script->context, job->failed, job->failed_capacity, job->failed_count + 1));
   job->failed[job->failed_count++] = number;
   return CELSPAN_OK;
 }
@@ -347,13 +346,9 @@ static cs_exit refuse_early(celspan_context *context, const cs_request *request)
   const char *output = cs_request_text(request, "-o");
   if (!output && !cs_request_has(request, "--hash"))
     return cs_report_usage("-o is missing: give -o shot.####.png (or --hash for digests only)");
-  cs_exit outcome = refuse_resume(request, output);
-  if (outcome == CS_EXIT_OK)
-    outcome = refuse_dither(request);
-  if (outcome == CS_EXIT_OK)
-    outcome = refuse_division(request, output);
-  if (outcome != CS_EXIT_OK)
-    return outcome;
+  CS_TRY_EXIT(refuse_resume(request, output));
+  CS_TRY_EXIT(refuse_dither(request));
+  CS_TRY_EXIT(refuse_division(request, output));
   if (output && cs_target_is_stream(output))
     return refuse_stream(request);
   return refuse_output(context, request, 0);
@@ -377,10 +372,9 @@ static cs_exit make_frames(render_job *job) {
     cs_report_note("task %d of %d has no frames", task[0], task[1]);
     return CS_EXIT_OK;
   }
-  cs_exit outcome = cs_change_refuse(job->script, &job->change, &job->frames);
-  if (outcome == CS_EXIT_OK)
-    outcome = open_video(job);
-  return outcome == CS_EXIT_OK ? resume_all(job) : outcome;
+  CS_TRY_EXIT(cs_change_refuse(job->script, &job->change, &job->frames));
+  CS_TRY_EXIT(open_video(job));
+  return resume_all(job);
 }
 
 static cs_exit run(cs_script *script, const cs_request *request) {
@@ -404,11 +398,9 @@ static cs_exit run(cs_script *script, const cs_request *request) {
 }
 
 cs_exit cs_verb_render(celspan_context *context, const cs_request *request) {
-  cs_exit outcome = refuse_early(context, request);
-  if (outcome != CS_EXIT_OK)
-    return outcome;
+  CS_TRY_EXIT(refuse_early(context, request));
   cs_script script;
-  outcome = cs_script_open(context, request, request->operands[0], &script);
+  cs_exit outcome = cs_script_open(context, request, request->operands[0], &script);
   if (outcome == CS_EXIT_OK)
     outcome = run(&script, request);
   cs_script_close(&script);

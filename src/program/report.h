@@ -4,8 +4,7 @@
  * leaves through this file, so that a progress bar can be cleared first and standard output
  * carries nothing but data.
  */
-#ifndef CS_CLI_REPORT_H
-#define CS_CLI_REPORT_H
+#pragma once
 
 #include "celspan/celspan.h"
 #include "program/json.h"
@@ -23,6 +22,14 @@ typedef enum cs_exit {
   CS_EXIT_INTERNAL = 70,
   CS_EXIT_SIGNAL = 128 /* main() dies by the signal, which adds its number */
 } cs_exit;
+
+/* Returns the exit code of a call from the function, unless it is OK. */
+#define CS_TRY_EXIT(call)                                                                          \
+  do {                                                                                             \
+    cs_exit try_exit_ = (call);                                                                    \
+    if (try_exit_ != CS_EXIT_OK)                                                                   \
+      return try_exit_;                                                                            \
+  } while (0)
 
 /* The exit code of a call. */
 cs_exit cs_report_exit(celspan_status status);
@@ -65,5 +72,3 @@ cs_exit cs_report_flush_output(cs_exit outcome);
 /* Closes standard output. The answer is the outcome; where that is OK but not everything could be
  * written, it is CS_EXIT_OUTPUT, reported. */
 cs_exit cs_report_close_output(cs_exit outcome);
-
-#endif

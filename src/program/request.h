@@ -3,8 +3,7 @@
  *   cs_verb: operands, options, help --> parsing, the help, the manual page, suggestions for names
  *   cs_request: the words of the command line, in which a verb looks for its options
  */
-#ifndef CS_CLI_REQUEST_H
-#define CS_CLI_REQUEST_H
+#pragma once
 
 #include "celspan/celspan.h"
 #include "program/argument.h"
@@ -63,5 +62,3 @@ void cs_request_each(const cs_request *request,
                      void (*call)(void *user, const char *name, const char *value), void *user);
 /* Reports "--at: '1,2' is not ..." for an option that was given. */
 cs_exit cs_request_refuse(const cs_request *request, const char *name);
-
-#endif

@@ -116,9 +116,7 @@ static cs_exit open_state(cs_script *script) {
 }
 
 static cs_exit start(cs_script *out) {
-  cs_exit outcome = open_state(out);
-  if (outcome != CS_EXIT_OK)
-    return outcome;
+  CS_TRY_EXIT(open_state(out));
   watch_script(out->L);
   return CS_EXIT_OK;
 }
@@ -127,11 +125,6 @@ static cs_exit start(cs_script *out) {
 static int read_film(lua_State *L) {
   cs_lua_film_read(L, 1, lua_touserdata(L, 2));
   return 0;
-}
-
-cs_exit cs_script_start(celspan_context *context, cs_script *out) {
-  *out = (cs_script){.context = context};
-  return start(out);
 }
 
 /* The sandbox outlives values that the script made, so it has a place of its own. */
@@ -155,11 +148,8 @@ static void close_sandbox(cs_script *script) {
 cs_exit cs_script_open(celspan_context *context, const cs_request *request, const char *path,
                        cs_script *out) {
   *out = (cs_script){.context = context, .is_trusted = cs_request_has(request, "--trust")};
-  cs_exit outcome = confine(out, request, path);
-  if (outcome == CS_EXIT_OK)
-    outcome = start(out);
-  if (outcome != CS_EXIT_OK)
-    return outcome;
+  CS_TRY_EXIT(confine(out, request, path));
+  CS_TRY_EXIT(start(out));
   celspan_status status = cs_lua_script_run(out->L, path, (int)request->script_argument_count,
                                             (const char *const *)request->script_arguments);
   if (status != CELSPAN_OK)

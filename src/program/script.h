@@ -1,8 +1,7 @@
 /* A script's film, opened for a verb in a Lua state of its own. Its faults are reported as the
  * command line reports faults.
  */
-#ifndef CS_CLI_SCRIPT_H
-#define CS_CLI_SCRIPT_H
+#pragma once
 
 #include "lua/nouns/lua_film.h"
 #include "lua/sandbox/sandbox.h"
@@ -28,9 +27,6 @@ void cs_script_unwatch(void);
  * was no memory for it. Its outcome. */
 cs_exit cs_script_report_start(lua_State *L);
 
-/* Makes the Lua state of a verb that runs celspan's own modules and no script. OK, or reported;
- * either way *out may be closed. */
-cs_exit cs_script_start(celspan_context *context, cs_script *out);
 /* Runs the script under the request. OK, or reported; either way *out may be closed. */
 cs_exit cs_script_open(celspan_context *context, const cs_request *request, const char *path,
                        cs_script *out);
@@ -45,5 +41,3 @@ cs_exit cs_script_build(cs_script *script, int64_t number);
 cs_exit cs_script_frame(cs_script *script, const cs_request *request, celspan_frame_desc *out);
 /* Reports "frame N: ..." unless the status is OK; for failures after the frame was built. */
 cs_exit cs_script_failure(const cs_script *script, celspan_status status);
-
-#endif

@@ -1,51 +1,27 @@
-/* Verbs in Lua: the text verbs/NAME.lua, with a table of services and the request as its arguments.
- *
- *   main --> cs_service_run --> verbs/program.lua, verbs/NAME.lua     the program's state
- *                                   |
- *                                   +--> services: reports, files, processes
- *                                   +--> film_service.c --> script.c   the script's state
- *
- * Texts are part of the binary. A state loads program.lua and the text of its verb, and celspan's
- * modules when one of them is required.
+/* Services: the functions in C that verbs in Lua call (program/lua_verb.h).
  *
  * INVARIANT: a script's film has a Lua state of its own. Only numbers, texts and references to
  * values of the core pass from it to the program's state, never values of Lua. A service that fails
  * reports why and ends the verb with its exit code, unless it is one that returns a message.
  */
-#ifndef CS_CLI_SERVICE_H
-#define CS_CLI_SERVICE_H
+#pragma once
 
 #include <lauxlib.h>
 
 #include "program/request.h"
 
-/* A text in the binary, which ends with a zero. */
-typedef struct cs_text {
-  const char *name; /* of its file */
-  const char *bytes;
-  size_t size;
-} cs_text;
-
-extern const cs_text cs_verb_texts[]; /* the last one has no name */
-
-typedef struct cs_program {
+/* One run of a verb in Lua. */
+typedef struct cs_session {
   celspan_context *context;
   const cs_request *request;
   cs_exit outcome; /* of the service that ended the verb; OK: none did */
-} cs_program;
+} cs_session;
 
-/* Runs a verb. Its outcome, reported. */
-cs_exit cs_service_run(celspan_context *context, const cs_request *request);
-
-/* The text of that name, which there is. */
-const cs_text *cs_service_text(const char *name);
-/* Pushes the text of that name as a function. Raises. */
-void cs_service_load(lua_State *L, const char *name);
 /* Adds services to the table on top of the stack. */
 void cs_service_add(lua_State *L, const luaL_Reg *functions);
 
-/* For services: the program that they belong to. */
-cs_program *cs_service_program(lua_State *L);
+/* For services: the run that they belong to. */
+cs_session *cs_service_session(lua_State *L);
 /* Ends the verb with an exit code, whose reason was reported unless it is OK. Does not return. */
 int cs_service_end(lua_State *L, cs_exit outcome);
 /* Ends the verb unless the outcome is OK. */
@@ -54,9 +30,8 @@ void cs_service_require(lua_State *L, cs_exit outcome);
 void cs_service_try(lua_State *L, celspan_status status);
 
 /* Each adds its services to the table on top of the stack. */
+void cs_service_add_reports(lua_State *L);
 void cs_service_add_film(lua_State *L);
 void cs_service_add_files(lua_State *L);
 void cs_service_add_pictures(lua_State *L);
 void cs_service_add_processes(lua_State *L);
-
-#endif

@@ -7,7 +7,6 @@
 #include "base/clock.h"
 #include "program/script.h"
 #include "program/verbs.h"
-#include "program/view.h"
 
 static void print_colour(const celspan_span *span, int32_t x) {
   float rgba[4];
@@ -90,11 +89,8 @@ static cs_exit set_rows(const cs_request *request, celspan_frame_desc *frame) {
 
 static cs_exit run(cs_script *script, const cs_request *request) {
   celspan_frame_desc frame;
-  cs_exit outcome = cs_script_frame(script, request, &frame);
-  if (outcome == CS_EXIT_OK)
-    outcome = set_rows(request, &frame);
-  if (outcome != CS_EXIT_OK)
-    return outcome;
+  CS_TRY_EXIT(cs_script_frame(script, request, &frame));
+  CS_TRY_EXIT(set_rows(request, &frame));
   celspan_status status = cs_request_has(request, "--stats")
                               ? measure(script->context, request, &frame)
                               : print_spans(script->context, &frame);

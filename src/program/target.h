@@ -1,6 +1,5 @@
 /* Where frames go: standard output, one file, or a numbered sequence of files. */
-#ifndef CS_CLI_TARGET_H
-#define CS_CLI_TARGET_H
+#pragma once
 
 #include "frames/film/sequence.h"
 #include "program/script.h"
@@ -20,5 +19,3 @@ cs_exit cs_target_frames(const cs_script *script, const cs_request *request, con
                          cs_sequence *out);
 /* Standard output, for raw frames. */
 bool cs_target_is_stream(const char *path);
-
-#endif

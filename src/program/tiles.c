@@ -55,20 +55,17 @@ static void set_name(const char *path, char name[NAME_SIZE]) {
 }
 
 static cs_exit open_still(tiles_job *job) {
-  cs_exit outcome = cs_confine_refuse(job->request);
-  if (outcome == CS_EXIT_OK)
-    outcome = cs_view_open_still(job->context, job->request->operands[0], &job->still);
-  return outcome == CS_EXIT_OK ? cs_view_still(job->request, &job->still, &job->frame) : outcome;
+  CS_TRY_EXIT(cs_confine_refuse(job->request));
+  CS_TRY_EXIT(cs_view_open_still(job->context, job->request->operands[0], &job->still));
+  return cs_view_still(job->request, &job->still, &job->frame);
 }
 
 static cs_exit open_script(tiles_job *job) {
-  cs_exit outcome =
-      cs_script_open(job->context, job->request, job->request->operands[0], &job->script);
-  if (outcome == CS_EXIT_OK)
-    outcome = cs_script_frame(&job->script, job->request, &job->frame);
-  if (outcome == CS_EXIT_OK && job->script.film.title)
+  CS_TRY_EXIT(cs_script_open(job->context, job->request, job->request->operands[0], &job->script));
+  CS_TRY_EXIT(cs_script_frame(&job->script, job->request, &job->frame));
+  if (job->script.film.title)
     job->title = job->script.film.title;
-  return outcome;
+  return CS_EXIT_OK;
 }
 
 /* A script where the name ends in .lua, else a picture. */
@@ -181,14 +178,12 @@ static cs_exit make_plan(tiles_job *job) {
   cs_tile_plan_desc desc = {.pyramid = &job->pyramid,
                             .frame = &job->frame,
                             .places = cs_request_text(job->request, "--places")};
-  cs_exit outcome = choose_levels(job->request, &job->pyramid, desc.levels);
-  if (outcome != CS_EXIT_OK)
-    return outcome;
+  CS_TRY_EXIT(choose_levels(job->request, &job->pyramid, desc.levels));
   celspan_status status = cs_tile_plan_make(job->context, &desc, &job->plan);
   if (status == CELSPAN_BAD_ARGUMENT)
     return cs_report_usage("%s", celspan_context_error(job->context));
-  outcome = cs_report_failure(job->context, status, NULL);
-  return outcome == CS_EXIT_OK ? check_limit(job, &desc) : outcome;
+  CS_TRY_EXIT(cs_report_failure(job->context, status, NULL));
+  return check_limit(job, &desc);
 }
 
 /* ---------------------------------------------------------------- an earlier run */
@@ -309,16 +304,12 @@ static cs_exit find_inputs(const tiles_job *job) {
 }
 
 static cs_exit run(tiles_job *job) {
-  cs_exit outcome = find_inputs(job);
-  if (outcome == CS_EXIT_OK)
-    outcome = open_subject(job);
-  if (outcome == CS_EXIT_OK)
-    outcome = set_pyramid(job);
-  if (outcome == CS_EXIT_OK)
-    outcome = make_plan(job);
-  if (outcome == CS_EXIT_OK)
-    outcome = open_log(job);
-  return outcome == CS_EXIT_OK ? make_pyramid(job) : outcome;
+  CS_TRY_EXIT(find_inputs(job));
+  CS_TRY_EXIT(open_subject(job));
+  CS_TRY_EXIT(set_pyramid(job));
+  CS_TRY_EXIT(make_plan(job));
+  CS_TRY_EXIT(open_log(job));
+  return make_pyramid(job);
 }
 
 cs_exit cs_verb_tiles(celspan_context *context, const cs_request *request) {

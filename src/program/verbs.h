@@ -1,8 +1,7 @@
 /* The verbs that are written in C, each in the file of its name; the others are Lua in verbs/. A
  * verb that returns anything other than CS_EXIT_OK has reported the error.
  */
-#ifndef CS_CLI_VERBS_H
-#define CS_CLI_VERBS_H
+#pragma once
 
 #include "program/request.h"
 
@@ -12,5 +11,3 @@ extern const cs_verb cs_verbs[];
 cs_exit cs_verb_render(celspan_context *context, const cs_request *request);
 cs_exit cs_verb_spans(celspan_context *context, const cs_request *request);
 cs_exit cs_verb_tiles(celspan_context *context, const cs_request *request);
-
-#endif

@@ -145,14 +145,9 @@ cs_exit cs_video_target_open(cs_video *out, cs_script *script, const cs_request 
                                    .frames_second = script->film.frames_second},
                         .has_digests = cs_request_has(request, "--hash"),
                         .keeps_nothing = has_memory && memory == 0};
-  cs_exit outcome = cs_video_target_refuse(request, SIZE_MAX);
-  if (outcome == CS_EXIT_OK)
-    outcome = refuse_size(&desc);
-  if (outcome == CS_EXIT_OK)
-    outcome = refuse_rate(&desc);
-  if (outcome == CS_EXIT_OK)
-    outcome = set_sound(&desc, script, request, frames);
-  if (outcome != CS_EXIT_OK)
-    return outcome;
+  CS_TRY_EXIT(cs_video_target_refuse(request, SIZE_MAX));
+  CS_TRY_EXIT(refuse_size(&desc));
+  CS_TRY_EXIT(refuse_rate(&desc));
+  CS_TRY_EXIT(set_sound(&desc, script, request, frames));
   return cs_report_failure(script->context, cs_video_open(out, script->context, &desc), NULL);
 }

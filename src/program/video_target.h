@@ -3,8 +3,7 @@
  * Everything that can be refused is refused before the first frame: options and sizes that the
  * format does not have, a missing ffmpeg, a missing sound.
  */
-#ifndef CS_CLI_VIDEO_TARGET_H
-#define CS_CLI_VIDEO_TARGET_H
+#pragma once
 
 #include "frames/video/video.h"
 #include "program/script.h"
@@ -20,5 +19,3 @@ CELSPAN_CHECKED celspan_status cs_video_target_sound(cs_script *script, const ch
 /* Starts the encoder for these frames, with the film's sound. OK, or reported. */
 cs_exit cs_video_target_open(cs_video *out, cs_script *script, const cs_request *request,
                              const celspan_frame_desc *frame, const cs_sequence *frames);
-
-#endif

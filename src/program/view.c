@@ -77,8 +77,8 @@ cs_exit cs_view_frame(const cs_request *request, double film_width, double film_
   out->progress = cs_interrupt_progress;
   cs_request_read(request, "--workers", &out->workers);
   set_antialias(request, out);
-  cs_exit outcome = set_size(request, out);
-  return outcome == CS_EXIT_OK ? set_part(request, out) : outcome;
+  CS_TRY_EXIT(set_size(request, out));
+  return set_part(request, out);
 }
 
 cs_exit cs_view_open_still(celspan_context *context, const char *path, cs_still *out) {

@@ -1,8 +1,7 @@
 /* From a film's size and the request to the description of what is rendered: size, crop,
  * antialiasing, workers. One rule for every verb that makes rows.
  */
-#ifndef CS_CLI_VIEW_H
-#define CS_CLI_VIEW_H
+#pragma once
 
 #include "frames/still/still.h"
 #include "program/request.h"
@@ -15,5 +14,3 @@ cs_exit cs_view_frame(const cs_request *request, double film_width, double film_
 cs_exit cs_view_open_still(celspan_context *context, const char *path, cs_still *out);
 /* The same as cs_view_frame for a picture, with its exposures. */
 cs_exit cs_view_still(const cs_request *request, const cs_still *still, celspan_frame_desc *out);
-
-#endif

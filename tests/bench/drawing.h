@@ -21,8 +21,7 @@
  * INVARIANT: every shape has its outline as moves, lines and cubics; each contour begins with a
  * move.
  */
-#ifndef CELSPAN_BENCH_DRAWING_H
-#define CELSPAN_BENCH_DRAWING_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -72,5 +71,4 @@ void bench_drawing_free(bench_drawing *drawing);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

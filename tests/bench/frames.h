@@ -2,8 +2,7 @@
  *
  * INVARIANT: between open and close a job has its pixels if its output asks for them.
  */
-#ifndef CELSPAN_BENCH_FRAMES_H
-#define CELSPAN_BENCH_FRAMES_H
+#pragma once
 
 #include "celspan/celspan.h"
 
@@ -34,5 +33,3 @@ void bench_job_measure(bench_frame_job *job);
 /* Prints the picture's cells; the output is whole. */
 void bench_job_look(bench_frame_job *job);
 void bench_job_close(bench_frame_job *job);
-
-#endif

@@ -1,8 +1,7 @@
 /* The processor's instruction counter, where the system gives access to it: many virtual machines
  * have none, and on others only root may read it.
  */
-#ifndef CELSPAN_BENCH_INSTRUCTIONS_H
-#define CELSPAN_BENCH_INSTRUCTIONS_H
+#pragma once
 
 #ifdef __cplusplus
 extern "C" {
@@ -14,5 +13,4 @@ double bench_instructions(void);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

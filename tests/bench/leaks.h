@@ -10,8 +10,7 @@
  *      |        / \    |          |   |         \ |   |
  *      +-------/---\---+          +---|----------\|---+
  */
-#ifndef CELSPAN_BENCH_LEAKS_H
-#define CELSPAN_BENCH_LEAKS_H
+#pragma once
 
 #include "celspan/celspan.h"
 
@@ -21,5 +20,3 @@ typedef enum bench_cover { BENCH_FANS, BENCH_BARS } bench_cover;
  * Prints the numbers of `frames` and `pixels`, the `worst` light of a pixel in 255ths, and how many
  * pixels are `leaking`. */
 void bench_tell_leaks(celspan_context *context, bench_cover cover, int rounds);
-
-#endif

@@ -4,8 +4,7 @@
  * BENCH_SECONDS are spent or the limit of runs is reached. The line consists of `KEY VALUE` pairs
  * on standard output.
  */
-#ifndef CELSPAN_BENCH_MEASURE_H
-#define CELSPAN_BENCH_MEASURE_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -58,5 +57,4 @@ void bench_tell_digest(uint64_t digest);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -3,8 +3,7 @@
  * Shapes are drawn band by band into one band of memory that is reused, as a program would do that
  * wants a large picture.
  */
-#ifndef CELSPAN_BENCH_PEER_H
-#define CELSPAN_BENCH_PEER_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -37,5 +36,4 @@ static inline bool bench_shape_meets(const bench_shape *shape, int side, int fir
 
 #ifdef __cplusplus
 }
-#endif
 #endif

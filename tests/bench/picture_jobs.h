@@ -7,13 +7,10 @@
  *
  * The pictures are decoded before anything is measured.
  */
-#ifndef CELSPAN_BENCH_PICTURE_JOBS_H
-#define CELSPAN_BENCH_PICTURE_JOBS_H
+#pragma once
 
 #include "frames.h"
 
 void bench_picture(bench_frame_job *job, int count, char **words);
 void bench_backed(bench_frame_job *job, int count, char **words);
 void bench_planes(bench_frame_job *job, int count, char **words);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * INVARIANT: pixels are 8-bit RGBA; a job's own are premultiplied, those of the files straight.
  */
-#ifndef CELSPAN_BENCH_PICTURES_H
-#define CELSPAN_BENCH_PICTURES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -37,5 +36,4 @@ void bench_pictures_write(const char *folder);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,6 +1,5 @@
 /* Drawings as scenes of celspan. */
-#ifndef CELSPAN_BENCH_SCENE_H
-#define CELSPAN_BENCH_SCENE_H
+#pragma once
 
 #include "celspan/celspan.h"
 #include "drawing.h"
@@ -28,5 +27,4 @@ celspan_frame_desc bench_frame(const celspan_exposure *exposure, int width, int 
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -16,8 +16,7 @@
  *   CLOSE(name, type)                                        -1, although it has closed
  *   SYNC(name)                                               -1
  */
-#ifndef CELSPAN_TESTS_CALLS_H
-#define CELSPAN_TESTS_CALLS_H
+#pragma once
 
 #include "tests/faults/fault.h"
 
@@ -77,5 +76,3 @@
 
 /* The plan of the hooks in a test program. */
 extern fault_plan fault_calls;
-
-#endif

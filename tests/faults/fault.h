@@ -3,8 +3,7 @@
  * A plan belongs to one kind of calls: to the system, to a host's functions, or for memory. Calls
  * may come from any thread; the plan changes only while there is one thread.
  */
-#ifndef CELSPAN_TESTS_FAULT_H
-#define CELSPAN_TESTS_FAULT_H
+#pragma once
 
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -41,5 +40,3 @@ static inline bool fault_comes(fault_plan *plan, const char *call) {
     plan->call = call;
   return comes;
 }
-
-#endif

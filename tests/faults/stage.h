@@ -3,8 +3,7 @@
  * After the renders of a list comes one of a surface that this host fills, which scripts cannot
  * make.
  */
-#ifndef CELSPAN_TESTS_STAGE_H
-#define CELSPAN_TESTS_STAGE_H
+#pragma once
 
 #include "celspan/lua.h"
 #include "tests/faults/calls.h"
@@ -55,5 +54,3 @@ const char *stage_render_sink(const stage *s, size_t number, size_t n);
 void stage_render(stage *s, size_t number, const char *sink, stage_outcome *out);
 /* How many files are in the folder. */
 int stage_count_files(const stage *s);
-
-#endif

@@ -1,7 +1,6 @@
 /* The bytes of a fuzzer as choices, read one after the other. When none are left all further ones
  * are 0, so that every input is complete. */
-#ifndef CELSPAN_TESTS_FUZZ_BYTES_H
-#define CELSPAN_TESTS_FUZZ_BYTES_H
+#pragma once
 
 #include <math.h>
 #include <stddef.h>
@@ -28,5 +27,3 @@ static inline double bytes_number(bytes_reader *r) {
     return low == 254 ? (double)NAN : HUGE_VAL;
   return (high & 128 ? -number : number) * scales[high >> 5 & 3];
 }
-
-#endif

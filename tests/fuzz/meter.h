@@ -1,6 +1,5 @@
 /* A context's memory function that records the peak, and refuses allocations beyond a bound. */
-#ifndef CELSPAN_TESTS_FUZZ_METER_H
-#define CELSPAN_TESTS_FUZZ_METER_H
+#pragma once
 
 #include "tests/support/memory.h"
 
@@ -32,5 +31,3 @@ static inline void meter_close(const meter *m) {
   demand(m->watch.blocks == 0 && m->watch.size_errors == 0,
          "memory is kept, or its size forgotten");
 }
-
-#endif

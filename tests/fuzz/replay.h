@@ -5,8 +5,7 @@
  *   fail_at       the number of the allocation that fails, 0: none
  *   allocations   how many the last run made
  */
-#ifndef CELSPAN_TESTS_FUZZ_REPLAY_H
-#define CELSPAN_TESTS_FUZZ_REPLAY_H
+#pragma once
 
 #include <dirent.h>
 #include <stdio.h>
@@ -62,5 +61,3 @@ int main(int count, char **arguments) {
   printf("%zu checks passed\n", runs);
   return 0;
 }
-
-#endif

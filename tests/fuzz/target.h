@@ -4,8 +4,7 @@
  * a main that runs the files given to it. A target aborts if a promise is broken: `./run fuzz`
  * keeps the bytes that caused it.
  */
-#ifndef CELSPAN_TESTS_FUZZ_TARGET_H
-#define CELSPAN_TESTS_FUZZ_TARGET_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -21,5 +20,3 @@ static inline void demand(bool holds, const char *text) {
   fprintf(stderr, "%s\n", text);
   abort();
 }
-
-#endif

@@ -1,8 +1,7 @@
 /* Checks for unit tests: a plain main calls them and ends with `return check_done();`. A failed
  * check is printed with its place and the test continues.
  */
-#ifndef CELSPAN_TESTS_CHECK_H
-#define CELSPAN_TESTS_CHECK_H
+#pragma once
 
 #include <math.h>
 #include <stdio.h>
@@ -82,5 +81,3 @@ static inline int check_done(void) {
     printf("%d checks skipped\n", check_skips);
   return check_failures != 0;
 }
-
-#endif

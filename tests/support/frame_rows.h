@@ -5,8 +5,7 @@
  *   const cs_row *row = worker_row(&rows.worker, y);
  *   frame_rows_close(&rows);
  */
-#ifndef CELSPAN_TESTS_FRAME_ROWS_H
-#define CELSPAN_TESTS_FRAME_ROWS_H
+#pragma once
 
 #include <stdlib.h>
 
@@ -71,5 +70,3 @@ static inline image make_image(studio *s, const celspan_frame_desc *desc, int32_
   frame_rows_close(&rows);
   return out;
 }
-
-#endif

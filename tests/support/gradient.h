@@ -1,8 +1,7 @@
 /* Gradients by definition, for tests: the position of a point along the stops, and the weight of
  * each corner at it. Nothing is shared with engine/paint/shade.c.
  */
-#ifndef CELSPAN_TESTS_GRADIENT_H
-#define CELSPAN_TESTS_GRADIENT_H
+#pragma once
 
 #include <math.h>
 
@@ -51,5 +50,3 @@ static inline void gradient_weights(const gradient *g, celspan_point at, double 
   for (int i = 0; i < 3; i++)
     weights[i] = cross(away(at, p[(i + 1) % 3]), away(at, p[(i + 2) % 3])) / whole;
 }
-
-#endif

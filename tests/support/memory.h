@@ -1,7 +1,6 @@
 /* A memory hook for tests: counts allocated bytes, checks the sizes passed to it, and can make the
  * n-th allocation fail, once or with all that follow. Threads may share one. */
-#ifndef CELSPAN_TESTS_MEMORY_H
-#define CELSPAN_TESTS_MEMORY_H
+#pragma once
 
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -52,5 +51,3 @@ static inline celspan_context *memory_watch_context(memory_watch *watch) {
   celspan_context *context = NULL;
   return celspan_context_create(&desc, &context) == CELSPAN_OK ? context : NULL;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* Pictures for tests: files made from a function of the pixel, and texels read back. */
-#ifndef CELSPAN_TESTS_PICTURE_H
-#define CELSPAN_TESTS_PICTURE_H
+#pragma once
 
 #include <stdlib.h>
 #include <unistd.h>
@@ -86,5 +85,3 @@ static inline bool picture_module_or_skip(celspan_context *context) {
     check_skip(celspan_context_error(context));
   return is_there;
 }
-
-#endif

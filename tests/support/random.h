@@ -1,8 +1,7 @@
 /* Numbered random cases: the same numbers for the same seed everywhere (splitmix64). Never draw two
  * of them among the arguments of one call, or the operands of one sum, because C does not define
  * their order (draws.lua checks this). */
-#ifndef CELSPAN_TESTS_RANDOM_H
-#define CELSPAN_TESTS_RANDOM_H
+#pragma once
 
 #include <stdint.h>
 
@@ -39,5 +38,3 @@ static inline float random_unit(test_random *random) {
 static inline int random_below(test_random *random, int count) {
   return (int)(random_bits(random) % (uint64_t)count);
 }
-
-#endif

@@ -54,6 +54,20 @@ local function check_circles(tree, fault)
   return #tree.files
 end
 
+local function check_types(tree, fault)
+  for _, text in ipairs(house.doubled_types(tree)) do
+    fault("two types have one name: %s", text)
+  end
+  return #tree.files
+end
+
+local function check_calls(tree, fault)
+  for _, circle in ipairs(house.circles(tree)) do
+    fault("units call each other in a circle: %s", table.concat(circle, ", "))
+  end
+  return #tree.files
+end
+
 local function check_includes(tree, fault)
   local climbs, count = measures.climbs(tree)
   for _, climb in ipairs(climbs) do
@@ -77,6 +91,7 @@ end
 
 local function check_tree(tree, root, fault)
   return check_functions(tree, fault) + check_circles(tree, fault)
+    + check_types(tree, fault) + check_calls(tree, fault)
     + check_includes(tree, fault) + check_words(tree, fault) + map.check(tree, root, fault)
 end
 

@@ -1,7 +1,6 @@
 /* Scenes in few words, for tests: everything made is kept in a list and released at the end; a
  * failure is a failed check. */
-#ifndef CELSPAN_TESTS_SCENE_H
-#define CELSPAN_TESTS_SCENE_H
+#pragma once
 
 #include "celspan/celspan.h"
 #include "tests/support/check.h"
@@ -156,5 +155,3 @@ static inline celspan_frame_desc studio_frame(const celspan_exposure *exposures,
   desc.antialias = mode;
   return desc;
 }
-
-#endif

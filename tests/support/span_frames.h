@@ -1,6 +1,5 @@
 /* Random frames of spans of every kind, the same for the same numbers. */
-#ifndef CELSPAN_TESTS_SPAN_FRAMES_H
-#define CELSPAN_TESTS_SPAN_FRAMES_H
+#pragma once
 
 #include <math.h>
 #include <stdint.h>
@@ -101,5 +100,3 @@ static celspan_status write_frame(celspan_context *context, frame *made, const c
   }
   return sink.end(sink.user, context, status);
 }
-
-#endif

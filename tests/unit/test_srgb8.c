@@ -1,6 +1,6 @@
 /* model/colour/srgb8.c: every instruction set gives the same code for every colour.
  */
-#include "model/colour/srgb8.h"
+#include "model/colour/srgb8_lanes.h"
 
 #include <math.h>
 

@@ -6,8 +6,7 @@
  * Invariant: the mean is of composed colour (composite first, integrate after), and depends on the
  * plan and the row's number alone.
  */
-#ifndef CS_AREA_AREA_H
-#define CS_AREA_AREA_H
+#pragma once
 
 #include "engine/area/dense.h"
 #include "engine/area/edges.h"
@@ -61,5 +60,3 @@ CELSPAN_CHECKED celspan_status cs_area_row(cs_area *area, int32_t y, cs_row *out
 /* The same, but the visible edges of the row are kept in `retained`, which is begun and sealed, and
  * no pixels are made. y: may lie beyond the frame. */
 CELSPAN_CHECKED celspan_status cs_area_retain(cs_area *area, int32_t y, cs_retained_row *retained);
-
-#endif

@@ -212,14 +212,10 @@ static celspan_status draw_means(const drawing *d, int all, const cs_cell *right
 
 static celspan_status reserve(const drawing *d) {
   cs_dense *dense = d->dense;
-  CS_TRY(cs_mem_reserve(d->context, (void **)&dense->places, &dense->place_capacity,
-                        TOGETHER * d->members, sizeof *dense->places));
-  CS_TRY(cs_mem_reserve(d->context, (void **)&dense->crossings, &dense->crossing_capacity,
-                        d->members, sizeof *dense->crossings));
-  CS_TRY(cs_mem_reserve(d->context, (void **)&dense->spare, &dense->spare_capacity, d->members,
-                        sizeof *dense->spare));
-  return cs_mem_reserve(d->context, (void **)&dense->sums, &dense->sum_capacity, (size_t)d->count,
-                        sizeof *dense->sums);
+  CS_TRY(CS_RESERVE(d->context, dense->places, dense->place_capacity, TOGETHER * d->members));
+  CS_TRY(CS_RESERVE(d->context, dense->crossings, dense->crossing_capacity, d->members));
+  CS_TRY(CS_RESERVE(d->context, dense->spare, dense->spare_capacity, d->members));
+  return CS_RESERVE(d->context, dense->sums, dense->sum_capacity, (size_t)d->count);
 }
 
 static void list_crossings(const drawing *d) {

@@ -15,8 +15,7 @@
  *
  * Invariant: as for local sweeps (local_sweep.h): nothing changes left and right of the interval.
  */
-#ifndef CS_AREA_DENSE_H
-#define CS_AREA_DENSE_H
+#pragma once
 
 #include "engine/area/local_sweep.h"
 
@@ -52,5 +51,3 @@ bool cs_dense_suits(size_t members, double extent);
  * Errors: NO_MEMORY, those of painting. */
 CELSPAN_CHECKED celspan_status cs_dense_draw(cs_dense *dense, cs_local_sweep *sweep,
                                              const cs_cell *right);
-
-#endif

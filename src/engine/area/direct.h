@@ -17,8 +17,7 @@
  * Invariant: what is drawn is what a window would sum, and the bits are the same whichever
  * instructions draw it.
  */
-#ifndef CS_AREA_DIRECT_H
-#define CS_AREA_DIRECT_H
+#pragma once
 
 #include "base/wide.h"
 #include "engine/area/edges.h"
@@ -112,5 +111,3 @@ static inline void cs_direct_add(cs_sum4 *change, int32_t from, cs_direct_piece 
   }
   *change += *step * (height - before);
 }
-
-#endif

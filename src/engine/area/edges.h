@@ -17,8 +17,7 @@
  * two columns, or is straight and stays in the frame; `end` of one that leaves the frame sideways
  * is at least first + 3, or first when it does not enter it.
  */
-#ifndef CS_AREA_EDGES_H
-#define CS_AREA_EDGES_H
+#pragma once
 
 #include "base/number.h"
 #include "base/wide.h"
@@ -81,5 +80,3 @@ static inline double cs_edges_cover(double xa, double xb, double height, int32_t
   return cs_edges_round(height *
                         (cs_edges_passed(low, high, p + 1) - cs_edges_passed(low, high, p)));
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* How far something extends along a row. */
-#ifndef CS_AREA_EXTENT_H
-#define CS_AREA_EXTENT_H
+#pragma once
 
 #include <math.h>
 
@@ -22,5 +21,3 @@ static inline void cs_extent_add(cs_extent *extent, double x) {
 static inline int cs_extent_has(cs_extent extent, double x) {
   return x >= extent.low && x <= extent.high;
 }
-
-#endif

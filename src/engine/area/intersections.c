@@ -136,8 +136,7 @@ static inline void move_to(cs_active_edge *edge, double x, double y) {
 static celspan_status swap_places(cs_intersections *m, celspan_context *context, size_t place,
                                   double share, double y) {
   if (m->count == m->capacity)
-    CS_TRY(cs_mem_reserve(context, (void **)&m->intersections, &m->capacity, m->count + 1,
-                          sizeof *m->intersections));
+    CS_TRY(CS_RESERVE(context, m->intersections, m->capacity, m->count + 1));
   uint32_t index = (uint32_t)m->count++, left = m->order[place], right = m->order[place + 1];
   double left_x = m->top[place] + (m->foot[place] - m->top[place]) * share;
   double right_x = m->top[place + 1] + (m->foot[place + 1] - m->top[place + 1]) * share;

@@ -18,8 +18,7 @@
  * Invariant: swaps are always of neighbours, so an order exists at every moment, there are no more
  * of them than inversions, and at the foot all are in order.
  */
-#ifndef CS_AREA_INTERSECTIONS_H
-#define CS_AREA_INTERSECTIONS_H
+#pragma once
 
 #include "base/context.h"
 
@@ -66,5 +65,3 @@ CELSPAN_CHECKED celspan_status cs_intersections_reserve(cs_intersections *inters
 CELSPAN_CHECKED celspan_status cs_intersections_find(cs_intersections *intersections,
                                                      celspan_context *context, size_t count,
                                                      double y0, double y1);
-
-#endif

@@ -19,8 +19,7 @@
  * Invariant: after cs_intervals_find the intervals ascend and share no boundary; a place between
  * two boundaries (low == high) touches no other interval.
  */
-#ifndef CS_AREA_INTERVALS_H
-#define CS_AREA_INTERVALS_H
+#pragma once
 
 #include "engine/area/edges.h"
 #include "engine/area/extent.h"
@@ -86,5 +85,3 @@ CELSPAN_CHECKED celspan_status cs_intervals_pick_begins(cs_intervals *intervals,
  * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_intervals_member(const cs_intervals *intervals, size_t i,
                                                    cs_member *member);
-
-#endif

@@ -21,10 +21,8 @@ void cs_local_sweep_finish(cs_local_sweep *sweep, cs_memory *memory) {
 celspan_status cs_local_sweep_begin(cs_local_sweep *sweep, size_t count) {
   celspan_context *context = sweep->composer->context;
   size_t most = count + sweep->begin_count;
-  CS_TRY(cs_mem_reserve(context, (void **)&sweep->entering, &sweep->member_capacity, most,
-                        sizeof *sweep->entering));
-  CS_TRY(cs_mem_reserve(context, (void **)&sweep->lists, &sweep->list_capacity, 3 * most,
-                        sizeof *sweep->lists));
+  CS_TRY(CS_RESERVE(context, sweep->entering, sweep->member_capacity, most));
+  CS_TRY(CS_RESERVE(context, sweep->lists, sweep->list_capacity, 3 * most));
   sweep->members = (cs_member **)sweep->lists;
   sweep->spare = sweep->members + most;
   sweep->cells_below = (const cs_cell **)(sweep->lists + 2 * most);

@@ -21,8 +21,7 @@
  * Invariant: the effect of a local sweep is closed: left of it and right of it the sets of layers
  * present stay the same through the row. It knows only the members of its struct.
  */
-#ifndef CS_AREA_LOCAL_SWEEP_H
-#define CS_AREA_LOCAL_SWEEP_H
+#pragma once
 
 #include "engine/area/intersections.h"
 #include "engine/area/window.h"
@@ -115,5 +114,3 @@ CELSPAN_CHECKED celspan_status cs_local_sweep_replay(cs_local_sweep *sweep);
  * cell between them after they have crossed, good until the row is done. */
 CELSPAN_CHECKED celspan_status cs_local_sweep_pair(cs_local_sweep *sweep, const cs_active *active,
                                                    size_t i, const cs_cell **between);
-
-#endif

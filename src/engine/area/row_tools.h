@@ -1,7 +1,6 @@
 /* The tools of a row maker that its filters borrow: area/ for exact means, engine/row/centre.h for
  * pixel centres. All of them outlive the filter, and none of them moves. */
-#ifndef CS_AREA_ROW_TOOLS_H
-#define CS_AREA_ROW_TOOLS_H
+#pragma once
 
 #include "engine/compose/cells.h"
 #include "engine/compose/procedures.h"
@@ -16,5 +15,3 @@ typedef struct cs_row_tools {
   cs_arena *arena; /* of the current row */
   int32_t width;   /* of the row, pixels */
 } cs_row_tools;
-
-#endif

@@ -14,8 +14,6 @@
 #include "engine/paint/run.h"
 #include "engine/sweep/pieces.h"
 
-#include <math.h>
-
 #define TILE 256 /* pixels summed at a time */
 #define FEW 2    /* pixels of a window between cells that vary, at most, that become single spans */
 
@@ -393,9 +391,8 @@ static void note_segment(cs_window *window, cs_window_segment *f) {
 celspan_status cs_window_add(cs_window *window, const cs_segment *segment, const cs_cell *left,
                              const cs_cell *right) {
   if (window->segment_count == window->segment_capacity)
-    CS_TRY(cs_mem_reserve(window->composer->context, (void **)&window->segments,
-                          &window->segment_capacity, window->segment_count + 1,
-                          sizeof *window->segments));
+    CS_TRY(CS_RESERVE(window->composer->context, window->segments, window->segment_capacity,
+                      window->segment_count + 1));
   double xa = segment->xa, xb = segment->xb, top = window->centre - 0.5;
   double low = cs_number_least(xa, xb), high = cs_number_most(xa, xb);
   cs_window_segment *f = &window->segments[window->segment_count++];

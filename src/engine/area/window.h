@@ -22,8 +22,7 @@
  * colour of the cell on its left; windows and cells tile [0, width). Items (lone boundaries or
  * local sweeps) come from left to right. Between windows `change` is all 0.
  */
-#ifndef CS_AREA_WINDOW_H
-#define CS_AREA_WINDOW_H
+#pragma once
 
 #include "engine/area/direct.h"
 #include "engine/paint/painter.h"
@@ -81,5 +80,3 @@ static inline void cs_window_end_item(cs_window *window, const cs_cell *cell) {
 }
 /* Closes the last window and writes the rest of the row. */
 CELSPAN_CHECKED celspan_status cs_window_end_row(cs_window *window);
-
-#endif

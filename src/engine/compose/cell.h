@@ -5,8 +5,7 @@
  *
  * Invariant: a cell depends on its set of layers alone, and on the procedure spans it lies in.
  */
-#ifndef CS_COMPOSE_CELL_H
-#define CS_COMPOSE_CELL_H
+#pragma once
 
 #include "engine/compose/set.h"
 
@@ -36,5 +35,3 @@ typedef struct cs_program {
   const cs_procedure_span *procedure_spans; /* that items of SCANLINE layers name */
   uint32_t length;                          /* 0: nothing shows but back lights */
 } cs_program;
-
-#endif

@@ -19,14 +19,10 @@ void cs_cells_forget(cs_cells *cells) {
 }
 
 static celspan_status make_room(cs_cells *cells, celspan_context *context, size_t count) {
-  CS_TRY(cs_mem_reserve(context, (void **)&cells->cells, &cells->cell_capacity, count + 1,
-                        sizeof *cells->cells));
-  CS_TRY(cs_mem_reserve(context, (void **)&cells->is_visible, &cells->flag_capacity,
-                        count + CS_ADVANCE_BATCH, sizeof *cells->is_visible));
-  CS_TRY(cs_mem_reserve(context, (void **)&cells->crossing, &cells->crossing_capacity, count + 1,
-                        sizeof *cells->crossing));
-  return cs_mem_reserve(context, (void **)&cells->visible, &cells->visible_capacity, count + 1,
-                        sizeof *cells->visible);
+  CS_TRY(CS_RESERVE(context, cells->cells, cells->cell_capacity, count + 1));
+  CS_TRY(CS_RESERVE(context, cells->is_visible, cells->flag_capacity, count + CS_ADVANCE_BATCH));
+  CS_TRY(CS_RESERVE(context, cells->crossing, cells->crossing_capacity, count + 1));
+  return CS_RESERVE(context, cells->visible, cells->visible_capacity, count + 1);
 }
 
 void cs_cells_list(cs_cells *cells) {

@@ -19,8 +19,7 @@
  * of two boundaries composes one cell and a row without events none. The walk of the composer
  * is not moved between rows: events elsewhere do not change the set of layers at its place.
  */
-#ifndef CS_COMPOSE_CELLS_H
-#define CS_COMPOSE_CELLS_H
+#pragma once
 
 #include "engine/compose/composer.h"
 #include "engine/sweep/active.h"
@@ -99,5 +98,3 @@ void cs_cells_restart(cs_cells *cells, cs_composer *composer);
 /* Self-check: whether the composer's windings and the set of every cell are those of a walk from
  * the left end of the row. */
 bool cs_cells_are_true(const cs_cells *cells, const cs_composer *composer, const cs_active *active);
-
-#endif

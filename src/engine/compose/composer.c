@@ -92,9 +92,8 @@ void cs_composer_restart(cs_composer *composer) {
 /* ---------------------------------------------------------------- gathering */
 
 static celspan_status gather_item(cs_composer *composer, uint32_t layer) {
-  CS_TRY(cs_mem_reserve(composer->context, (void **)&composer->gathered,
-                        &composer->gathered_capacity, composer->gathered_count + 1,
-                        sizeof(cs_item)));
+  CS_TRY(CS_RESERVE(composer->context, composer->gathered, composer->gathered_capacity,
+                    composer->gathered_count + 1));
   uint32_t procedure_span = composer->stack->layers[layer].kind == CS_LAYER_SCANLINE
                                 ? composer->procedure_span_of[layer]
                                 : 0;
@@ -178,8 +177,7 @@ static celspan_status keep_program(cs_composer *composer, cs_cell *cell) {
   size_t count = composer->gathered_count, needed = composer->item_count + count;
   if (needed < ITEM_LIMIT) /* all that is kept from row to row, at once */
     needed = ITEM_LIMIT;
-  CS_TRY(cs_mem_reserve(composer->context, (void **)&composer->items, &composer->item_capacity,
-                        needed, sizeof(cs_item)));
+  CS_TRY(CS_RESERVE(composer->context, composer->items, composer->item_capacity, needed));
   memcpy(composer->items + composer->item_count, composer->gathered, count * sizeof(cs_item));
   cell->program = (uint32_t)composer->item_count;
   cell->length = (uint32_t)count;

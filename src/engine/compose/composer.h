@@ -22,8 +22,7 @@
  *   - A program lists the contributing layers front to back, cut where nothing shines through.
  * One composer a worker; the stack is shared.
  */
-#ifndef CS_COMPOSE_COMPOSER_H
-#define CS_COMPOSE_COMPOSER_H
+#pragma once
 
 #include "engine/compose/cell.h"
 #include "engine/compose/over_table.h"
@@ -95,5 +94,3 @@ bool cs_composer_same(const cs_composer *composer, const cs_cell *a, const cs_ce
 
 /* The program of a cell whose length is not 0, valid until the next cell is composed. */
 cs_program cs_composer_program(const cs_composer *composer, const cs_cell *cell);
-
-#endif

@@ -6,8 +6,7 @@
  *
  * Invariant: nothing here changes while rows are made, so workers share it.
  */
-#ifndef CS_COMPOSE_LAYER_H
-#define CS_COMPOSE_LAYER_H
+#pragma once
 
 #include <assert.h>
 
@@ -106,5 +105,3 @@ typedef struct cs_back_light {
   cs_v4 light; /* brightness included; lane 3 is 0 */
   float keep;  /* 1 - matte */
 } cs_back_light;
-
-#endif

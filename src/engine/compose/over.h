@@ -27,8 +27,7 @@
  *   engine/paint/over_row.h  up to 256 pixels of one program at once, a register at a time.
  * Names and arithmetic are the same in all four.
  */
-#ifndef CS_COMPOSE_OVER_H
-#define CS_COMPOSE_OVER_H
+#pragma once
 
 #include "engine/compose/stack.h"
 
@@ -155,5 +154,3 @@ cs_over_pair cs_over_word_layers(const cs_stack *stack, cs_over_pair light, size
 CELSPAN_CHECKED celspan_status cs_over_quads_create(celspan_context *context, const cs_stack *stack,
                                                     size_t i, cs_over_pair **out);
 void cs_over_quads_free(cs_over_pair *quads, cs_memory *memory);
-
-#endif

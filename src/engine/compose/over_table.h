@@ -17,8 +17,7 @@
  * folded in an order given by their numbers, whatever was known before; the word in which the light
  * ends is folded layer by layer, and the layers behind the end are left out.
  */
-#ifndef CS_COMPOSE_OVER_TABLE_H
-#define CS_COMPOSE_OVER_TABLE_H
+#pragma once
 
 #include "engine/compose/over.h"
 
@@ -45,5 +44,3 @@ void cs_over_table_finish(cs_over_table *table);
 /* The light of a set; filled: of its words, see set.h. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_over_table_light(cs_over_table *table, const uint64_t *set,
                                                    const uint8_t *filled, cs_over_pair *out);
-
-#endif

@@ -43,9 +43,7 @@ static celspan_status make_nodes(cs_over_tree *tree) {
   }
   counts[tree->top] = 1;
   tree->node_count++;
-  tree->nodes = cs_mem_array(tree->context->memory, tree->node_count, sizeof *tree->nodes);
-  if (!tree->nodes)
-    return cs_fail_memory(tree->context);
+  CS_TRY(CS_MAKE(tree->context, tree->nodes, tree->node_count));
   for (size_t i = 0; i < tree->node_count; i++)
     tree->nodes[i] = cs_over_pair_clear;
   cs_over_pair *next = tree->nodes;
@@ -57,10 +55,8 @@ static celspan_status make_nodes(cs_over_tree *tree) {
 celspan_status cs_over_tree_init(cs_over_tree *tree, celspan_context *context,
                                  const cs_stack *stack) {
   *tree = (cs_over_tree){.context = context, .stack = stack, .word_count = cs_stack_words(stack)};
-  tree->words = cs_mem_array(context->memory, tree->word_count, sizeof *tree->words);
-  tree->quads = cs_mem_array(context->memory, tree->word_count, sizeof *tree->quads);
-  if (!tree->words || !tree->quads)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, tree->words, tree->word_count));
+  CS_TRY(CS_MAKE(context, tree->quads, tree->word_count));
   return make_nodes(tree);
 }
 

@@ -22,8 +22,7 @@
  * given by the numbers of the layers, whatever was known before. Layers behind others that let
  * clearly less through than CS_PAINT_OPAQUE change no bit: for the cull leaves them out.
  */
-#ifndef CS_COMPOSE_OVER_TREE_H
-#define CS_COMPOSE_OVER_TREE_H
+#pragma once
 
 #include "engine/compose/over.h"
 
@@ -52,5 +51,3 @@ void cs_over_tree_finish(cs_over_tree *tree);
 /* The light of a set. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_over_tree_light(cs_over_tree *tree, const uint64_t *set,
                                                   cs_over_pair *out);
-
-#endif

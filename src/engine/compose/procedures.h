@@ -12,8 +12,7 @@
  * Invariant: the edges lie in the frame and its margin, and the composer has the spans they name
  * until its next row begins.
  */
-#ifndef CS_COMPOSE_PROCEDURES_H
-#define CS_COMPOSE_PROCEDURES_H
+#pragma once
 
 #include "base/arena.h"
 #include "engine/compose/composer.h"
@@ -51,5 +50,3 @@ CELSPAN_CHECKED celspan_status cs_procedures_collect(cs_procedures *procedures, 
                                                      cs_procedure_edges *edges);
 /* Puts the edges in order from left to right. */
 void cs_procedures_sort(cs_procedure_edges *edges);
-
-#endif

@@ -10,8 +10,7 @@
  * Invariant: the hash depends on the set alone; a layer that is entered and left again leaves no
  * trace.
  */
-#ifndef CS_COMPOSE_SET_H
-#define CS_COMPOSE_SET_H
+#pragma once
 
 #include "engine/compose/layer.h"
 
@@ -77,5 +76,3 @@ static inline uint32_t cs_set_below(const uint64_t *set, const uint8_t *filled, 
   }
   return word * 64 + 63 - (uint32_t)__builtin_clzll(bits);
 }
-
-#endif

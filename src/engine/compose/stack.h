@@ -17,8 +17,7 @@
  * covers or follows a range of neighbouring layers; nothing here changes while rows are made, so
  * workers share it.
  */
-#ifndef CS_COMPOSE_STACK_H
-#define CS_COMPOSE_STACK_H
+#pragma once
 
 #include "base/context.h"
 #include "engine/compose/layer.h"
@@ -87,5 +86,3 @@ static inline uint32_t cs_stack_faded(const cs_stack *stack, uint32_t group) {
 static inline size_t cs_stack_words(const cs_stack *stack) {
   return (stack->layer_count + 63) / 64;
 }
-
-#endif

@@ -17,8 +17,7 @@
  * A rostrum that is an object has a layer for its frame, behind all its others: where that one is
  * absent, all are cleared; where it is present, the object is, whatever is painted there.
  */
-#ifndef CS_COMPOSE_TREE_H
-#define CS_COMPOSE_TREE_H
+#pragma once
 
 #include "engine/compose/stack.h"
 #include "engine/sweep/cull.h"
@@ -56,5 +55,3 @@ typedef struct cs_tree_certain_result {
  * room for step_depth entries. */
 void cs_tree_certain(const cs_stack *stack, const cs_tree *tree, const cs_cull_presence *presences,
                      cs_tree_certain_result *results, uint64_t *painted);
-
-#endif

@@ -19,9 +19,8 @@ static void clear_entry(cs_cache_entry *cached, cs_memory *memory) {
 }
 
 static celspan_status create(celspan_context *context, cs_service **out) {
-  bands *b = cs_mem_array(context->memory, 1, sizeof *b);
-  if (!b)
-    return cs_fail_memory(context);
+  bands *b;
+  CS_TRY(CS_MAKE(context, b, 1));
   b->cache = (cs_cache){.memory = context->memory,
                         .entry_size = sizeof(entry),
                         .clear = clear_entry,

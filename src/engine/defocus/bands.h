@@ -8,8 +8,7 @@
  * a hash of everything that its layer depends on, so a defocused cel that does not change from one
  * frame to the next is not blurred again. The invariants are those of base/cache.h.
  */
-#ifndef CS_DEFOCUS_BANDS_H
-#define CS_DEFOCUS_BANDS_H
+#pragma once
 
 #include "base/cache.h"
 #include "base/hash.h"
@@ -33,5 +32,3 @@ CELSPAN_CHECKED celspan_status cs_defocus_bands_acquire(celspan_context *context
                                                         const void *layer, cs_defocus_band **out);
 void cs_defocus_bands_release(celspan_context *context, cs_defocus_band *band);
 cs_cache_counts cs_defocus_bands_count(celspan_context *context);
-
-#endif

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "base/elementary.h"
 #include "base/number.h"
 #include "engine/defocus/edges.h"
 #include "engine/defocus/lines.h"
@@ -252,9 +251,8 @@ static cs_defocus_way choose_way(const cs_blur *blur, bool varies) {
 celspan_status cs_defocus_create(celspan_context *context, const cs_blur *blur, bool varies,
                                  int32_t width, int32_t height, cs_defocus **out) {
   CS_TRY(cs_defocus_bands_ready(context));
-  cs_defocus *defocus = cs_mem_array(context->memory, 1, sizeof *defocus);
-  if (!defocus)
-    return cs_fail_memory(context);
+  cs_defocus *defocus;
+  CS_TRY(CS_MAKE(context, defocus, 1));
   cs_defocused *grid = &defocus->grid;
   grid->pitch_x = choose_pitch(blur, 0);
   grid->pitch_y = choose_pitch(blur, 1);

@@ -18,8 +18,7 @@
  * by line (lines.h). Where pictures and gradients vary between the boundaries, samples on a finer
  * grid are summed: sums.h for a Gaussian, slices.h for even kernels.
  */
-#ifndef CS_DEFOCUS_DEFOCUS_H
-#define CS_DEFOCUS_DEFOCUS_H
+#pragma once
 
 #include "engine/defocus/bands.h"
 #include "engine/defocus/edges.h"
@@ -58,5 +57,3 @@ CELSPAN_CHECKED celspan_status cs_defocus_kernel(celspan_context *context,
                                                  const cs_defocus *defocus, cs_kernel **out);
 /* Frees everything except the plans. */
 void cs_defocus_free(cs_defocus *defocus, cs_memory *memory);
-
-#endif

@@ -83,17 +83,14 @@ static void fill_weights(cs_defocus_edges *edges, const cs_blur *blur) {
 
 celspan_status cs_defocus_edges_init(celspan_context *context, const cs_blur *blur,
                                      cs_defocus_edges *out) {
-  cs_memory *memory = context->memory;
   const double(*e)[2] = blur->edges;
   bool is_box = blur->kind == CELSPAN_DEFOCUS_BOX;
   double extent_x = is_box ? fabs(e[0][0]) + fabs(e[1][0]) : 0.5 * SIGMAS * blur->radius_x;
   double extent_y = is_box ? fabs(e[0][1]) + fabs(e[1][1]) : 0.5 * SIGMAS * blur->radius_y;
   *out = (cs_defocus_edges){.extent_x = cs_number_ceil(extent_x),
                             .extent_y = cs_number_ceil(extent_y)};
-  out->shares = cs_mem_array(memory, share_count(out), sizeof *out->shares);
-  out->weights = cs_mem_array(memory, (size_t)out->extent_y, sizeof *out->weights);
-  if (!out->shares || !out->weights)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, out->shares, share_count(out)));
+  CS_TRY(CS_MAKE(context, out->weights, (size_t)out->extent_y));
   fill_shares(out, find_profile(blur, out));
   fill_weights(out, blur);
   return CELSPAN_OK;

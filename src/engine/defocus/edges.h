@@ -16,8 +16,7 @@
  * axis shows where inside a sample an edge lies. For a box of radius r this rounds its kinks by
  * 1/(12 r). Here are the tables; lines.h sweeps the rows.
  */
-#ifndef CS_DEFOCUS_EDGES_H
-#define CS_DEFOCUS_EDGES_H
+#pragma once
 
 #include "engine/kernel/kernel.h"
 
@@ -33,5 +32,3 @@ typedef struct cs_defocus_edges {
 CELSPAN_CHECKED celspan_status cs_defocus_edges_init(celspan_context *context, const cs_blur *blur,
                                                      cs_defocus_edges *out);
 void cs_defocus_edges_finish(cs_defocus_edges *edges, cs_memory *memory);
-
-#endif

@@ -21,8 +21,7 @@
  * same compiler, which comes as a callback. A cel that is compiled alone is compiled without its
  * blur; a composition inside it may hold defocused cels of its own, level by level.
  */
-#ifndef CS_DEFOCUS_LAYER_H
-#define CS_DEFOCUS_LAYER_H
+#pragma once
 
 #include "engine/defocus/defocus.h"
 
@@ -69,5 +68,3 @@ CELSPAN_CHECKED celspan_status cs_defocus_layer_create(celspan_context *context,
 void cs_defocus_layer_free(cs_defocus *defocus, cs_memory *memory);
 /* Frees what a plan holds, its defocused cels too, unless they are borrowed. */
 void cs_defocus_layer_free_plan(cs_plan *plan, cs_memory *memory);
-
-#endif

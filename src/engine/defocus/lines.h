@@ -15,8 +15,7 @@
  *
  * Invariant: the nodes of a row are a function of the plan and the row's number.
  */
-#ifndef CS_DEFOCUS_LINES_H
-#define CS_DEFOCUS_LINES_H
+#pragma once
 
 #include "base/vector.h"
 #include "base/wide.h"
@@ -69,5 +68,3 @@ CS_WIDE_DECLARE(void, cs_defocus_lines_sum,
 CS_WIDE_DECLARE(void, cs_defocus_lines_weigh,
                 (const float *const *lines, const float *weights, int32_t pairs, int32_t first,
                  int32_t end, float *nodes));
-
-#endif

@@ -8,8 +8,7 @@
  * Where all rows under a tile are one same colour (plain), so are its nodes, to the bit, and
  * nothing needs to be spread or summed.
  */
-#ifndef CS_DEFOCUS_SAMPLES_H
-#define CS_DEFOCUS_SAMPLES_H
+#pragma once
 
 #include "engine/row/row.h"
 
@@ -50,5 +49,3 @@ void cs_defocus_samples_sum(cs_defocus_samples *samples, const cs_defocus_tiles 
                             float (*nodes)[4]);
 /* Row k under the tile, sample by sample. */
 void cs_defocus_samples_spread(const cs_defocus_samples *samples, int32_t k, cs_v4 *out);
-
-#endif

@@ -47,11 +47,8 @@ static celspan_status add_slice(celspan_context *context, cs_defocus_slices *sli
   if (!(weight > 0) || !cs_kernel_chord(kernel, 0.5 * (top + foot), &from, &to) ||
       to - from < SHORT)
     return CELSPAN_OK;
-  CS_TRY(cs_mem_reserve(context, (void **)&slices->slices, &slices->capacity, slices->count + 1,
-                        sizeof *slices->slices));
-  slices->slices[slices->count++] =
-      slice_at(slices, row, centre_x + from, centre_x + to, weight / (to - from));
-  return CELSPAN_OK;
+  return CS_APPEND(context, slices->slices, slices->count, slices->capacity,
+                   slice_at(slices, row, centre_x + from, centre_x + to, weight / (to - from)));
 }
 
 celspan_status cs_defocus_slices_init(celspan_context *context, const cs_blur *blur,

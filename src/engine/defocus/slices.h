@@ -19,8 +19,7 @@
  *
  * Where all samples under a tile are one colour, so are its nodes.
  */
-#ifndef CS_DEFOCUS_SLICES_H
-#define CS_DEFOCUS_SLICES_H
+#pragma once
 
 #include "base/wide.h"
 #include "engine/row/row.h"
@@ -59,5 +58,3 @@ CELSPAN_CHECKED celspan_status cs_defocus_slices_fill(const cs_defocus_slices *s
 CS_WIDE_DECLARE(void, cs_defocus_slices_sum,
                 (const cs_defocus_slice *slices, size_t slice_count, const float *sums,
                  int32_t count, float *nodes));
-
-#endif

@@ -28,9 +28,8 @@ static celspan_status fill_weights(celspan_context *context, double radius, int3
   double variance = left_over(0.25 * radius * radius), sum = 0, last = 2 * radius;
   *extent = cs_number_ceil(last);
   size_t count = (size_t)*extent + 1;
-  float *weights = cs_mem_array(context->memory, count, sizeof *weights);
-  if (!weights)
-    return cs_fail_memory(context);
+  float *weights;
+  CS_TRY(CS_MAKE(context, weights, count));
   *out = weights;
   for (int32_t k = *extent; k >= 0; k--) {
     double weight = 0;

@@ -12,8 +12,7 @@
  * samples that neighbouring nodes need are neighbours too, and are read many at a time. Stretches
  * in which all rows are one colour are not summed.
  */
-#ifndef CS_DEFOCUS_SUMS_H
-#define CS_DEFOCUS_SUMS_H
+#pragma once
 
 #include "base/wide.h"
 #include "engine/row/row.h"
@@ -52,5 +51,3 @@ CELSPAN_CHECKED celspan_status cs_defocus_sums_fill(const cs_defocus_sums *sums,
 CS_WIDE_DECLARE(void, cs_defocus_sums_about,
                 (const cs_defocus_pair *pairs, int32_t pair_count, const float *values,
                  size_t middle, int32_t count, float *out));
-
-#endif

@@ -16,8 +16,7 @@
  * Invariant: lists by column are only valid for columns that are touched; each begins with 0, which
  * is the empty list, and is linked by index + 1.
  */
-#ifndef CS_KERNEL_CONVOLVE_PARTS_H
-#define CS_KERNEL_CONVOLVE_PARTS_H
+#pragma once
 
 #include "engine/kernel/kernel.h"
 #include "engine/kernel/retained.h"
@@ -101,5 +100,3 @@ static inline cs_convolve_range cs_convolve_nothing(void) {
 CELSPAN_CHECKED celspan_status cs_scatter_rows(cs_convolve *convolve, cs_painter *painter,
                                                const cs_retained_row *const *retained_rows,
                                                size_t count, int32_t y);
-
-#endif

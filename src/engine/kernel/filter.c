@@ -90,10 +90,9 @@ static celspan_status begin_sub_rows(cs_convolve *convolve, celspan_context *con
                                      const cs_retained_row *const *retained_rows, size_t rows,
                                      int32_t y) {
   size_t count = convolve->kernel->is_signed ? rows * CS_CONVOLVE_SUB_ROWS : 0;
-  CS_TRY(cs_mem_reserve(context, (void **)&convolve->sub_rows, &convolve->sub_row_capacity, count,
-                        sizeof *convolve->sub_rows));
-  CS_TRY(cs_mem_reserve(context, (void **)&convolve->ranges, &convolve->range_capacity,
-                        count / CS_CONVOLVE_SUB_ROWS, sizeof *convolve->ranges));
+  CS_TRY(CS_RESERVE(context, convolve->sub_rows, convolve->sub_row_capacity, count));
+  CS_TRY(CS_RESERVE(context, convolve->ranges, convolve->range_capacity,
+                    count / CS_CONVOLVE_SUB_ROWS));
   for (size_t i = 0; i < count / CS_CONVOLVE_SUB_ROWS; i++)
     convolve->ranges[i] = (cs_convolve_range){retained_rows[0]->base, retained_rows[0]->base};
   for (size_t i = 0; i < count; i++) {
@@ -335,10 +334,8 @@ celspan_status cs_filter_init(cs_filter *filter, const cs_kernel *kernel, cs_pai
   size_t count = 2 * (size_t)cs_kernel_extent(kernel) + 1;
   *filter = (cs_filter){
       .kernel = kernel, .painter = painter, .retain = retain, .user = user, .row_count = count};
-  filter->rows = cs_mem_array(context->memory, count, sizeof *filter->rows);
-  filter->under = cs_mem_array(context->memory, count, sizeof *filter->under);
-  if (!filter->rows || !filter->under)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, filter->rows, count));
+  CS_TRY(CS_MAKE(context, filter->under, count));
   return init_convolve(&filter->convolve, context, kernel, width);
 }
 

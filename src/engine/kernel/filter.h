@@ -9,8 +9,7 @@
  * Invariant: a retained row is a function of the plan and its number, so it does not matter whether
  * it was kept or has been swept again.
  */
-#ifndef CS_KERNEL_FILTER_H
-#define CS_KERNEL_FILTER_H
+#pragma once
 
 #include "engine/kernel/convolve_parts.h"
 
@@ -36,5 +35,3 @@ CELSPAN_CHECKED celspan_status cs_filter_init(cs_filter *filter, const cs_kernel
 void cs_filter_finish(cs_filter *filter, cs_memory *memory);
 /* Row y, into an empty row. Errors: NO_MEMORY and what retain returns. */
 CELSPAN_CHECKED celspan_status cs_filter_row(cs_filter *filter, int32_t y, cs_row *out);
-
-#endif

@@ -102,9 +102,7 @@ static celspan_status finish(celspan_context *context, const double *first, cs_k
     kernel->phases *= 2;
   kernel->columns = cs_number_ceil(kernel->radius_x);
   kernel->stride = (2 * kernel->columns + 2 + 3) / 4 * 4;
-  kernel->shares = cs_mem_array(context->memory, share_count(kernel), sizeof *kernel->shares);
-  if (!kernel->shares)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, kernel->shares, share_count(kernel)));
   for (int phase = 0; phase <= kernel->phases; phase++)
     for (int32_t k = 0; k < kernel->stride; k++) {
       double x = k - kernel->columns - (double)phase / kernel->phases;
@@ -193,9 +191,8 @@ static void fill_axis(celspan_defocus_kernel kind, double blur, axis *work, doub
 
 static celspan_status fill_separable(celspan_context *context, const cs_blur *blur,
                                      cs_kernel *kernel) {
-  axis *work = cs_mem_array(context->memory, 1, sizeof *work);
-  if (!work)
-    return cs_fail_memory(context);
+  axis *work;
+  CS_TRY(CS_MAKE(context, work, 1));
   double scale = blur->kind == CELSPAN_DEFOCUS_GAUSSIAN ? 2 : 1;
   kernel->radius_x = scale * blur->radius_x;
   kernel->radius_y = scale * blur->radius_y;

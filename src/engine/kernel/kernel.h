@@ -13,8 +13,7 @@
  * that the integral gives to the parts of a whole sum to 1. An even shape (a disc, a turned box) is
  * cut at a height into one interval, in which the kernel is constant.
  */
-#ifndef CS_KERNEL_KERNEL_H
-#define CS_KERNEL_KERNEL_H
+#pragma once
 
 #include "model/scene/antialias.h"
 
@@ -81,5 +80,3 @@ static inline double cs_kernel_interpolate(const double *table, double u) {
 static inline double cs_kernel_above(const cs_kernel *kernel, double d) {
   return cs_kernel_interpolate(kernel->above, d * kernel->per_radius_y);
 }
-
-#endif

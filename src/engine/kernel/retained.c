@@ -34,10 +34,10 @@ static celspan_status keep_program(cs_retained_row *retained, const cs_composer 
       return CELSPAN_OK;
     }
   celspan_context *context = composer->context;
-  CS_TRY(cs_mem_reserve(context, (void **)&retained->programs, &retained->program_capacity,
-                        retained->program_count + 1, sizeof *retained->programs));
-  CS_TRY(cs_mem_reserve(context, (void **)&retained->items, &retained->item_capacity,
-                        retained->item_count + program.length, sizeof *retained->items));
+  CS_TRY(CS_RESERVE(context, retained->programs, retained->program_capacity,
+                    retained->program_count + 1));
+  CS_TRY(CS_RESERVE(context, retained->items, retained->item_capacity,
+                    retained->item_count + program.length));
   memcpy(&retained->items[retained->item_count], program.items,
          program.length * sizeof *program.items);
   retained->programs[retained->program_count] =
@@ -59,8 +59,8 @@ static celspan_status copy_side(cs_retained_row *retained, const cs_composer *co
 celspan_status cs_retained_add(cs_retained_row *retained, const cs_composer *composer,
                                const cs_segment *segment, const cs_cell *left,
                                const cs_cell *right) {
-  CS_TRY(cs_mem_reserve(composer->context, (void **)&retained->edges, &retained->edge_capacity,
-                        retained->edge_count + 1, sizeof *retained->edges));
+  CS_TRY(CS_RESERVE(composer->context, retained->edges, retained->edge_capacity,
+                    retained->edge_count + 1));
   cs_retained_edge *edge = &retained->edges[retained->edge_count++];
   edge->xa = segment->xa;
   edge->ya = segment->ya;
@@ -79,9 +79,8 @@ static bool uses_procedures(const cs_retained_row *retained, const cs_composer *
 
 static celspan_status copy_procedure_spans(cs_retained_row *retained, const cs_composer *composer) {
   celspan_context *context = composer->context;
-  CS_TRY(cs_mem_reserve(context, (void **)&retained->procedure_spans,
-                        &retained->procedure_span_capacity, composer->procedure_span_count,
-                        sizeof *retained->procedure_spans));
+  CS_TRY(CS_RESERVE(context, retained->procedure_spans, retained->procedure_span_capacity,
+                    composer->procedure_span_count));
   for (size_t i = 0; i < composer->procedure_span_count; i++) {
     cs_procedure_span procedure_span = composer->procedure_spans[i];
     size_t size = procedure_span.paint_count * sizeof *procedure_span.paints;

@@ -12,8 +12,7 @@
  *
  * Invariant: a retained row is a function of the plan and its row's number.
  */
-#ifndef CS_KERNEL_RETAINED_H
-#define CS_KERNEL_RETAINED_H
+#pragma once
 
 #include "base/arena.h"
 #include "engine/compose/composer.h"
@@ -63,5 +62,3 @@ CELSPAN_CHECKED celspan_status cs_retained_add(cs_retained_row *retained,
  * has failed. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_retained_seal(cs_retained_row *retained,
                                                 const cs_composer *composer);
-
-#endif

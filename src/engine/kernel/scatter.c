@@ -48,10 +48,9 @@ static celspan_status shift_term(cs_scatter *g, int32_t p, int32_t program, doub
   cs_convolve *convolve = g->convolve;
   if (program < 0)
     return CELSPAN_OK;
-  CS_TRY(cs_mem_reserve(g->context, (void **)&convolve->shifts, &convolve->shift_capacity,
-                        convolve->shift_count + 1, sizeof *convolve->shifts));
-  convolve->shifts[convolve->shift_count++] =
-      (cs_convolve_shift){convolve->shifts_at[p], (uint32_t)g->terms[program], weight};
+  CS_TRY(
+      CS_APPEND(g->context, convolve->shifts, convolve->shift_count, convolve->shift_capacity,
+                (cs_convolve_shift){convolve->shifts_at[p], (uint32_t)g->terms[program], weight}));
   convolve->shifts_at[p] = (uint32_t)convolve->shift_count;
   return CELSPAN_OK;
 }
@@ -157,8 +156,8 @@ static celspan_status add_passed(cs_scatter *g, const cs_retained_edge *edge, in
   int sub_row = first_sub_row(g, y0), sub_row_end = first_sub_row(g, y1);
   if (sub_row == sub_row_end)
     return CELSPAN_OK;
-  CS_TRY(cs_mem_reserve(g->context, (void **)&convolve->passed, &convolve->passed_capacity,
-                        convolve->passed_count + 1, sizeof *convolve->passed));
+  CS_TRY(CS_RESERVE(g->context, convolve->passed, convolve->passed_capacity,
+                    convolve->passed_count + 1));
   cs_convolve_passed *passed = &convolve->passed[convolve->passed_count++];
   *passed = (cs_convolve_passed){.next = convolve->passed_at[p],
                                  .row = g->row,
@@ -441,8 +440,8 @@ static celspan_status find_term(cs_scatter *g, const cs_painter *painter, const 
       *out = (int32_t)i;
       return CELSPAN_OK;
     }
-  CS_TRY(cs_mem_reserve(g->context, (void **)&convolve->terms, &convolve->term_capacity,
-                        convolve->term_count + 1, sizeof *convolve->terms));
+  CS_TRY(
+      CS_RESERVE(g->context, convolve->terms, convolve->term_capacity, convolve->term_count + 1));
   convolve->terms[convolve->term_count] = (cs_convolve_term){.program = program};
   *out = (int32_t)convolve->term_count++;
   return CELSPAN_OK;

@@ -6,7 +6,7 @@
 #include "engine/paint/over_row.h"
 #include "engine/paint/shade.h"
 #include "engine/paint/shown.h"
-#include "model/colour/srgb8.h"
+#include "model/colour/srgb8_lanes.h"
 
 #include <math.h>
 

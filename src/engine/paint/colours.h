@@ -4,8 +4,7 @@
  * gradients alone are read from a table (gradient_table.h); unchanged pictures alone take a shorter
  * way to the same bits (over_bare.h).
  */
-#ifndef CS_PAINT_COLOURS_H
-#define CS_PAINT_COLOURS_H
+#pragma once
 
 #include "engine/paint/over_row.h"
 #include "engine/paint/painter.h"
@@ -36,5 +35,3 @@ CELSPAN_CHECKED celspan_status cs_painter_batch_codes(cs_painter *painter,
 /* Whether an item shows the samples of its picture unchanged: not faded, lit white, in no group,
  * and in front of every back light. */
 bool cs_painter_is_bare(const cs_painter *painter, cs_item item);
-
-#endif

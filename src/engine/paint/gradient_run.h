@@ -12,8 +12,7 @@
  *
  *     LINEAR: where the row meets the lines of its stops
  */
-#ifndef CS_PAINT_GRADIENT_RUN_H
-#define CS_PAINT_GRADIENT_RUN_H
+#pragma once
 
 #include "engine/paint/gradient_table.h"
 #include "engine/paint/painter.h"
@@ -25,5 +24,3 @@ bool cs_gradient_run_fits(const cs_gradient_table *table);
 /* Appends the spans of a run, as cs_lines_run. */
 CELSPAN_CHECKED celspan_status cs_gradient_run(cs_painter *painter, const cs_gradient_table *table,
                                                cs_run run, cs_row *row);
-
-#endif

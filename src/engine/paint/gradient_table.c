@@ -18,9 +18,8 @@ struct cs_gradient_tables {
 
 celspan_status cs_gradient_tables_create(celspan_context *context, const cs_stack *stack,
                                          cs_isa isa, cs_arena *scratch, cs_gradient_tables **out) {
-  cs_gradient_tables *tables = cs_mem_array(context->memory, 1, sizeof *tables);
-  if (!tables)
-    return cs_fail_memory(context);
+  cs_gradient_tables *tables;
+  CS_TRY(CS_MAKE(context, tables, 1));
   tables->context = context;
   tables->stack = stack;
   tables->isa = isa;
@@ -28,8 +27,7 @@ celspan_status cs_gradient_tables_create(celspan_context *context, const cs_stac
   cs_arena_init(&tables->sections);
   cs_arena_init(&tables->lasting);
   *out = tables;
-  tables->tints = cs_mem_array(context->memory, stack->shade_count, sizeof *tables->tints);
-  return tables->tints ? CELSPAN_OK : cs_fail_memory(context);
+  return CS_MAKE(context, tables->tints, stack->shade_count);
 }
 
 void cs_gradient_tables_destroy(cs_gradient_tables *tables, cs_memory *memory) {

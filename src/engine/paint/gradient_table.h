@@ -15,8 +15,7 @@
  * Invariant: a pixel's colour depends on the program and the place alone. One store a painter; its
  * tables are right as long as the stack lives.
  */
-#ifndef CS_PAINT_GRADIENT_TABLE_H
-#define CS_PAINT_GRADIENT_TABLE_H
+#pragma once
 
 #include "base/arena.h"
 #include "base/number.h"
@@ -103,5 +102,3 @@ static inline bool cs_gradient_table_is_one_section(const cs_shade *shade, doubl
          cs_gradient_table_section_at(shade, cs_shade_at(shade, x, y)) ==
              cs_gradient_table_section_at(shade, cs_shade_at(shade, last, y));
 }
-
-#endif

@@ -14,8 +14,7 @@
  *
  * A curve of two columns is always straight, so the depth of halving is at most log2 of the width.
  */
-#ifndef CS_PAINT_HALVING_H
-#define CS_PAINT_HALVING_H
+#pragma once
 
 #include "engine/span/row.h"
 #include "engine/span/run.h"
@@ -86,5 +85,3 @@ static inline CELSPAN_CHECKED celspan_status cs_halving_put(const cs_halving_cur
   return cs_row_gradient(curve->context, curve->row, first->column, last->column + 1, first->colour,
                          (last->colour - first->colour) / steps);
 }
-
-#endif

@@ -10,8 +10,7 @@
  *       +--+----+----+-----------+--------+---> column
  *          x0  cut  cut         cut       x1
  */
-#ifndef CS_PAINT_LINES_H
-#define CS_PAINT_LINES_H
+#pragma once
 
 #include "engine/paint/painter.h"
 #include "engine/span/row.h"
@@ -20,5 +19,3 @@
 /* As cs_painter_run_program, where no picture shows pixel by pixel. */
 CELSPAN_CHECKED celspan_status cs_lines_run(cs_painter *painter, const cs_program *program,
                                             cs_run run, cs_row *row);
-
-#endif

@@ -8,8 +8,7 @@
  * A folded pixel is light gathered and, as its fourth number, what still shines through: of a
  * picture that is the same for all channels.
  */
-#ifndef CS_PAINT_OVER_BARE_H
-#define CS_PAINT_OVER_BARE_H
+#pragma once
 
 #include "base/wide.h"
 #include "engine/paint/over_row.h"
@@ -50,5 +49,3 @@ CS_WIDE_DECLARE(void, cs_over_bare_mix_rgba,
 /* The same, coded. */
 CS_WIDE_DECLARE(void, cs_over_bare_mix_codes,
                 (const cs_back_light *behind, const cs_over_bare *over, unsigned char *out));
-
-#endif

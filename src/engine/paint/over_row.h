@@ -11,8 +11,7 @@
  * Invariant: a pixel's colour is the same whatever pixels are beside it, and whichever instructions
  * made it.
  */
-#ifndef CS_PAINT_OVER_ROW_H
-#define CS_PAINT_OVER_ROW_H
+#pragma once
 
 #include "base/arena.h"
 #include "base/wide.h"
@@ -100,5 +99,3 @@ CS_WIDE_DECLARE(void, cs_over_row_add_group,
                  const cs_over_row_state *inner));
 CS_WIDE_DECLARE(void, cs_over_row_to_rgba,
                 (const cs_over_row_state *state, int32_t count, float keep, float (*rgba)[4]));
-
-#endif

@@ -1,8 +1,7 @@
 /* What the loops over pixels of over_row and over_bare share: pixels of four floats, a register of
  * them at a time. For files that are compiled once for every set of instructions (base/wide.h).
  */
-#ifndef CS_PAINT_OVER_WIDE_H
-#define CS_PAINT_OVER_WIDE_H
+#pragma once
 
 #include <string.h>
 
@@ -23,5 +22,3 @@ static inline void cs_over_wide_put(cs_wide colour, int32_t i, int32_t count, fl
   else
     memcpy(rgba[i], &colour, (size_t)(count - i) * sizeof *rgba);
 }
-
-#endif

@@ -16,8 +16,7 @@
  * Invariant: a pixel depends on the program and its place alone, not on the run it is painted in.
  * One painter a worker, beside its composer.
  */
-#ifndef CS_PAINT_PAINTER_H
-#define CS_PAINT_PAINTER_H
+#pragma once
 
 #include "base/arena.h"
 #include "engine/compose/composer.h"
@@ -68,5 +67,3 @@ cs_image_opacity cs_painter_opacity(cs_painter *painter);
 /* The view of an image layer, its header read on first use. Errors: INPUT, LIMIT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_painter_image(cs_painter *painter, uint32_t image,
                                                 const cs_image_view **out);
-
-#endif

@@ -8,8 +8,7 @@
  * Invariant: where a program varies as a formula, spans are cut so that they are right within
  * 1/1023; the cuts depend on the run and the program alone.
  */
-#ifndef CS_PAINT_RUN_H
-#define CS_PAINT_RUN_H
+#pragma once
 
 #include "engine/paint/painter.h"
 #include "engine/span/row.h"
@@ -22,5 +21,3 @@ CELSPAN_CHECKED celspan_status cs_painter_run(cs_painter *painter, const cs_cell
 CELSPAN_CHECKED celspan_status cs_painter_run_program(cs_painter *painter,
                                                       const cs_program *program, cs_run run,
                                                       cs_row *row);
-
-#endif

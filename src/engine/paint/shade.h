@@ -19,8 +19,7 @@
  * Invariant: between the places that cs_shade_breaks finds the paint is a smooth function of x on a
  * row, so it may be cut into lines by comparing a few points.
  */
-#ifndef CS_PAINT_SHADE_H
-#define CS_PAINT_SHADE_H
+#pragma once
 
 #include "engine/compose/layer.h"
 #include "engine/span/run.h"
@@ -55,5 +54,3 @@ cs_shade_lanes cs_shade_paint(const cs_shade *shade, double x, double y);
  * says. Returns how many. */
 size_t cs_shade_breaks(const cs_shade *shade, cs_run run, double *breaks);
 size_t cs_shade_break_limit(const cs_shade *shade);
-
-#endif

@@ -104,8 +104,7 @@ celspan_status cs_shown_find(cs_painter *painter, const cs_program *program, cs_
   const cs_stack *stack = painter->stack;
   uint32_t dear = count_dear(stack, program), end = UINT32_MAX;
   cs_over over;
-  CS_TRY(cs_mem_reserve(painter->context, (void **)&out->items, &out->capacity, program->length,
-                        sizeof *out->items));
+  CS_TRY(CS_RESERVE(painter->context, out->items, out->capacity, program->length));
   out->length = 0;
   out->is_sure = true;
   cs_over_begin(&over, stack);

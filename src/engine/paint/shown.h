@@ -14,8 +14,7 @@
  *
  * Invariant: what is shown is a function of the program, the columns and the row.
  */
-#ifndef CS_PAINT_SHOWN_H
-#define CS_PAINT_SHOWN_H
+#pragma once
 
 #include "engine/paint/painter.h"
 #include "engine/span/run.h"
@@ -32,5 +31,3 @@ CELSPAN_CHECKED celspan_status cs_shown_find(cs_painter *painter, const cs_progr
                                              cs_run run, cs_shown *out);
 /* Whether two show the same. */
 bool cs_shown_same(const cs_shown *a, const cs_shown *b);
-
-#endif

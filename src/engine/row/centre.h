@@ -5,8 +5,7 @@
  * made_by), keeps its colours: only the cells that have changed since write theirs. `changes`
  * counts how often the cells have changed, and the row notes the count at which it was filled.
  */
-#ifndef CS_ROW_CENTRE_H
-#define CS_ROW_CENTRE_H
+#pragma once
 
 #include "engine/area/row_tools.h"
 #include "engine/span/row.h"
@@ -36,5 +35,3 @@ CELSPAN_CHECKED celspan_status cs_centre_row(cs_centre *centre, int32_t y, cs_ro
 CS_WIDE_DECLARE(size_t, cs_centre_place,
                 (const double *x, const bool *is_visible, size_t count, int32_t width,
                  celspan_span *spans, int32_t *ends));
-
-#endif

@@ -5,8 +5,7 @@
  * Invariant: a plan never changes once it is made, so threads share it. It borrows the textures,
  * pictures and procedures of the rostrum, which must outlive it.
  */
-#ifndef CS_ROW_PLAN_H
-#define CS_ROW_PLAN_H
+#pragma once
 
 #include "engine/compose/stack.h"
 #include "engine/kernel/kernel.h"
@@ -31,5 +30,3 @@ typedef struct cs_plan {
 
 /* Frees what a plan holds, except for its defocused cels. */
 void cs_plan_finish(cs_plan *plan, cs_memory *memory);
-
-#endif

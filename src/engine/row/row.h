@@ -5,8 +5,7 @@
  * Invariant: a row is a function of the plan and its number alone. What a row maker remembers from
  * one row to the next only saves work.
  */
-#ifndef CS_ROW_ROW_H
-#define CS_ROW_ROW_H
+#pragma once
 
 #include "engine/area/area.h"
 #include "engine/kernel/filter.h"
@@ -42,5 +41,3 @@ CELSPAN_CHECKED celspan_status cs_row_make(cs_row_maker *maker, int32_t y, cs_ro
 /* Keeps the visible edges of any row, those beyond the frame too. */
 CELSPAN_CHECKED celspan_status cs_row_retain(cs_row_maker *maker, int32_t y,
                                              cs_retained_row *retained);
-
-#endif

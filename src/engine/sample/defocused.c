@@ -175,11 +175,9 @@ static celspan_status add_row(celspan_context *context, node_row *row, cs_defocu
   stretch found = {-1, -1};
   row->found = &found;
   size_t first = out->count, limit = first + (size_t)row->last + 1;
-  CS_TRY(cs_mem_reserve(context, (void **)&out->at, &out->at_capacity, limit, sizeof *out->at));
-  CS_TRY(cs_mem_reserve(context, (void **)&out->values, &out->value_capacity,
-                        limit * (size_t)row->plane_count, sizeof *out->values));
-  CS_TRY(cs_mem_reserve(context, (void **)&out->constant, &out->constant_capacity,
-                        (size_t)row->last + 1, sizeof *out->constant));
+  CS_TRY(CS_RESERVE(context, out->at, out->at_capacity, limit));
+  CS_TRY(CS_RESERVE(context, out->values, out->value_capacity, limit * (size_t)row->plane_count));
+  CS_TRY(CS_RESERVE(context, out->constant, out->constant_capacity, (size_t)row->last + 1));
   add_vertex(row, 0, out);
   for (int32_t i = 0; i < row->last;) {
     int32_t end = constant_end(row, i);
@@ -251,8 +249,7 @@ celspan_status cs_defocus_band_room(const cs_defocused *defocused, celspan_conte
 
 celspan_status cs_defocus_band_begin(celspan_context *context, int32_t rows,
                                      cs_defocus_band *band) {
-  CS_TRY(cs_mem_reserve(context, (void **)&band->rows, &band->row_capacity, (size_t)rows + 1,
-                        sizeof *band->rows));
+  CS_TRY(CS_RESERVE(context, band->rows, band->row_capacity, (size_t)rows + 1));
   band->rows[0] = 0;
   band->row_count = 0;
   return CELSPAN_OK;

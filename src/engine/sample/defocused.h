@@ -25,8 +25,7 @@
  * Invariant: the values of a node are a function of the cel, its placement and the frame's size;
  * lines from vertex to vertex are within a quarter of 1/1023 of the nodes between them.
  */
-#ifndef CS_SAMPLE_DEFOCUSED_H
-#define CS_SAMPLE_DEFOCUSED_H
+#pragma once
 
 #include "base/context.h"
 #include "base/vector.h"
@@ -137,5 +136,3 @@ cs_v4 cs_defocused_through(const cs_defocused *defocused, const cs_defocused_vie
 size_t cs_defocused_breaks(const cs_defocused *defocused, const cs_defocused_view *view, cs_run run,
                            double *breaks);
 size_t cs_defocused_break_limit(const cs_defocused *defocused);
-
-#endif

@@ -8,8 +8,7 @@
  *
  * Invariant: nothing here changes once cs_sampler_prepare has filled it in.
  */
-#ifndef CS_SAMPLE_PLACEMENT_H
-#define CS_SAMPLE_PLACEMENT_H
+#pragma once
 
 #include "base/wide.h"
 #include "model/geometry/matrix.h"
@@ -55,5 +54,3 @@ typedef struct cs_sampler {
   double radius; /* affine: how far the texels of a sample lie from its centre, picture pixels */
   double wide, high; /* BOX: the sides of the footprint, in picture pixels */
 } cs_sampler;
-
-#endif

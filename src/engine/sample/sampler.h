@@ -14,8 +14,7 @@
  * The samples of a run depend on the pixel and the maps alone, never on where the run begins, nor
  * on the instructions that make them.
  */
-#ifndef CS_SAMPLE_SAMPLER_H
-#define CS_SAMPLE_SAMPLER_H
+#pragma once
 
 #include "engine/sample/placement.h"
 #include "engine/sample/samples.h"
@@ -50,5 +49,3 @@ bool cs_sampler_is_grid(const cs_sampler *sampler);
  * limit says. Returns how many. */
 size_t cs_sampler_texel_edges(const cs_sampler *sampler, cs_run run, int32_t *columns);
 size_t cs_sampler_texel_edge_limit(const cs_sampler *sampler, cs_run run);
-
-#endif

@@ -11,8 +11,7 @@
  *     |          |          |  :: 5    |     4 and 5
  *     +----------+----------+----------+
  */
-#ifndef CS_SAMPLE_SAMPLER_CODES_H
-#define CS_SAMPLE_SAMPLER_CODES_H
+#pragma once
 
 #include "engine/sample/sampler_texel.h"
 
@@ -85,5 +84,3 @@ CS_WIDE_DECLARE(void, cs_sampler_decode_codes,
 CS_WIDE_DECLARE(void, cs_sampler_decode_planes,
                 (const cs_srgb8_curve *curve, const unsigned char *codes, int32_t count,
                  float (*planes)[4]));
-
-#endif

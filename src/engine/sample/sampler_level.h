@@ -7,8 +7,7 @@
  * A level halves both sides of the picture. More texels under a footprint are more exact at its
  * edges, and slower.
  */
-#ifndef CS_SAMPLE_SAMPLER_LEVEL_H
-#define CS_SAMPLE_SAMPLER_LEVEL_H
+#pragma once
 
 #include <math.h>
 #include <string.h>
@@ -55,5 +54,3 @@ static inline int32_t cs_sampler_tap_count(double squared, double texel) {
   int32_t whole = (int32_t)taps;
   return whole + (whole < taps);
 }
-
-#endif

@@ -6,8 +6,7 @@
  *     texels                   first               last
  *     weights                   .6     1     1    .6               how much of each is covered
  */
-#ifndef CS_SAMPLE_SAMPLER_PIXEL_H
-#define CS_SAMPLE_SAMPLER_PIXEL_H
+#pragma once
 
 #include "engine/sample/sampler_level.h"
 
@@ -23,5 +22,3 @@ typedef struct cs_sampler_extent {
 
 void cs_sampler_cut_extent(const cs_sampler *sampler, double centre, double width, int32_t size,
                            cs_sampler_extent *out);
-
-#endif

@@ -11,8 +11,7 @@
  *   bilinear   the two rows about it, mixed
  *   box        the rows that the footprint covers, their mean
  */
-#ifndef CS_SAMPLE_SAMPLER_ROW_H
-#define CS_SAMPLE_SAMPLER_ROW_H
+#pragma once
 
 #include "engine/sample/sampler_texel.h"
 
@@ -20,7 +19,7 @@ void cs_sampler_row_run(const cs_sampling *run, cs_run pixels, float (*rgba)[4])
 void cs_sampler_row_at(const cs_sampling *run, const int32_t *columns, int32_t count, double y,
                        float (*rgba)[4]);
 
-/* ---- sampler_wide.c: loops over `count` pixels or texels */
+/* ---- sampler_row_wide.c: loops over `count` pixels or texels */
 
 /* out = a + share (b - a); out may be a. */
 CS_WIDE_DECLARE(void, cs_sampler_mix_rows,
@@ -50,5 +49,3 @@ CS_WIDE_DECLARE(void, cs_sampler_split_row,
 CS_WIDE_DECLARE(void, cs_sampler_mix_along,
                 (const float (*texels)[4], int32_t first, const int32_t *at, const float *across,
                  int32_t count, float (*rgba)[4]));
-
-#endif

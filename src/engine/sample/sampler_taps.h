@@ -18,8 +18,7 @@
  *
  *   centres of pixels --moved by a tap--> quads of texels --by stretches in one block--> mixes
  */
-#ifndef CS_SAMPLE_SAMPLER_TAPS_H
-#define CS_SAMPLE_SAMPLER_TAPS_H
+#pragma once
 
 #include "engine/sample/sampler_texel.h"
 
@@ -48,7 +47,7 @@ typedef struct cs_sampler_tap {
   double x, y;
 } cs_sampler_tap;
 
-/* ---- sampler_wide.c: loops over `count` pixels */
+/* ---- sampler_taps_wide.c: loops over `count` pixels */
 
 /* The centres of an affine map. */
 CS_WIDE_DECLARE(void, cs_sampler_map_affine,
@@ -85,5 +84,3 @@ CS_WIDE_DECLARE(void, cs_sampler_mix_quads,
                  ptrdiff_t ahead, float (*rgba)[4]));
 CS_WIDE_DECLARE(void, cs_sampler_clear_invisible,
                 (const int32_t *visible, int32_t count, float (*rgba)[4]));
-
-#endif

@@ -8,8 +8,7 @@
  * Invariant: all sums over texels are made of differences to one of them, so a constant picture
  * keeps its value to the bit.
  */
-#ifndef CS_SAMPLE_SAMPLER_TEXEL_H
-#define CS_SAMPLE_SAMPLER_TEXEL_H
+#pragma once
 
 #include <math.h>
 
@@ -42,6 +41,12 @@ static inline int32_t cs_sampler_wrap(int32_t i, int32_t size, celspan_wrap mode
     return i < 0 ? 0 : size - 1;
   int32_t rest = i % size;
   return rest < 0 ? rest + size : rest;
+}
+
+/* For kernels: a coordinate that fits an int32_t; NaN becomes the least. */
+static inline double cs_sampler_bounded(double u) {
+  u = u > -1e9 ? u : -1e9;
+  return u < 1e9 ? u : 1e9;
 }
 
 /* A repeated picture is sampled near its own origin, so far tiles cost no precision. Afterwards a
@@ -82,5 +87,3 @@ static inline double cs_sampler_row_u(const cs_sampler *s, int32_t column, doubl
 static inline double cs_sampler_row_v(const cs_sampler *s, double y) {
   return s->m[4] * y + s->m[5];
 }
-
-#endif

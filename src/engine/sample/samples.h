@@ -8,8 +8,7 @@
  * Planes are what sixteen codes become when they are decoded in registers of 64 bytes, and what
  * they are coded from: lane 4 l + j is pixel 4 j + l. Only AVX-512 makes and reads them.
  */
-#ifndef CS_SAMPLE_SAMPLES_H
-#define CS_SAMPLE_SAMPLES_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -20,5 +19,3 @@ typedef struct cs_samples {
   bool are_planes;
   float rgba[CS_SAMPLER_BATCH][4]; /* or planes: the last ones may be of more pixels than asked */
 } cs_samples;
-
-#endif

@@ -21,8 +21,7 @@ void cs_row_clear(cs_row *row) {
 }
 
 celspan_status cs_row_grow(celspan_context *context, cs_row *row) {
-  return cs_mem_reserve(context, (void **)&row->spans, &row->capacity, row->count + 1,
-                        sizeof *row->spans);
+  return CS_RESERVE(context, row->spans, row->capacity, row->count + 1);
 }
 
 /* Appends a span that is not a single, to be filled in; NULL when there is no memory. */

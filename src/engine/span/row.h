@@ -12,8 +12,7 @@
  * Invariant: spans are sorted, disjoint and not empty; two neighbouring singles never have the same
  * colour; array colours lie in the row's arena and are not moved until the next clear.
  */
-#ifndef CS_SPAN_ROW_H
-#define CS_SPAN_ROW_H
+#pragma once
 
 #include "base/arena.h"
 #include "base/vector.h"
@@ -62,7 +61,7 @@ CELSPAN_CHECKED celspan_status cs_row_grow(celspan_context *context, cs_row *row
 /* Makes room for `count` spans in all. */
 static inline CELSPAN_CHECKED celspan_status cs_row_room(celspan_context *context, cs_row *row,
                                                          size_t count) {
-  return cs_mem_reserve(context, (void **)&row->spans, &row->capacity, count, sizeof *row->spans);
+  return CS_RESERVE(context, row->spans, row->capacity, count);
 }
 /* Makes room for `more` spans after those that the row has. */
 static inline CELSPAN_CHECKED celspan_status cs_row_reserve(celspan_context *context, cs_row *row,
@@ -105,5 +104,3 @@ CELSPAN_CHECKED celspan_status cs_row_expose(celspan_context *context, cs_row *o
 /* Self-check: whether the spans cover the columns [0, width) without gap or overlap, none empty, no
  * two neighbouring singles have the same colour, and `varied` counts the other spans. */
 bool cs_row_is_whole(const cs_row *row, int32_t width);
-
-#endif

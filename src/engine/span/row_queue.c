@@ -32,10 +32,8 @@ static celspan_status copy_array(celspan_context *context, cs_row_queue *queue,
 }
 
 static celspan_status reserve(celspan_context *context, cs_row_queue *queue, size_t spans) {
-  CS_TRY(cs_mem_reserve(context, (void **)&queue->spans, &queue->span_capacity, spans,
-                        sizeof *queue->spans));
-  return cs_mem_reserve(context, (void **)&queue->ends, &queue->end_capacity, queue->count + 1,
-                        sizeof *queue->ends);
+  CS_TRY(CS_RESERVE(context, queue->spans, queue->span_capacity, spans));
+  return CS_RESERVE(context, queue->ends, queue->end_capacity, queue->count + 1);
 }
 
 celspan_status cs_row_queue_add(celspan_context *context, cs_row_queue *queue,

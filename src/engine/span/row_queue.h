@@ -5,8 +5,7 @@
  * Invariant: row i of a queue is the i-th that was added since it was cleared. Its spans and the
  * arrays they point to are valid until the next clear, which keeps the memory for the next rows.
  */
-#ifndef CS_SPAN_ROW_QUEUE_H
-#define CS_SPAN_ROW_QUEUE_H
+#pragma once
 
 #include "engine/span/row.h"
 
@@ -41,5 +40,3 @@ CELSPAN_CHECKED celspan_status cs_row_queue_add(celspan_context *context, cs_row
 CELSPAN_CHECKED celspan_status cs_row_queue_add_small(celspan_context *context, cs_row_queue *queue,
                                                       const celspan_span *spans, size_t count);
 cs_row_queue_row cs_row_queue_get(const cs_row_queue *queue, size_t row);
-
-#endif

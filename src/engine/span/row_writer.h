@@ -8,8 +8,7 @@
  * Invariant: between cs_row_writer_begin and cs_row_writer_end nothing else appends to the row, and
  * the row has room for all spans that are written.
  */
-#ifndef CS_SPAN_ROW_WRITER_H
-#define CS_SPAN_ROW_WRITER_H
+#pragma once
 
 #include "engine/span/row.h"
 
@@ -69,5 +68,3 @@ static inline void cs_row_writer_gradient(cs_row_writer *writer, int32_t to, cs_
   writer->colour = cs_row_writer_no_colour();
   writer->from = to;
 }
-
-#endif

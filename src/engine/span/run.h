@@ -10,8 +10,7 @@
  * middle of a pixel, x + 1/2. The height is that at which colours are asked for: the middle of the
  * row, except where a row is made of several heights.
  */
-#ifndef CS_SPAN_RUN_H
-#define CS_SPAN_RUN_H
+#pragma once
 
 #include <stdint.h>
 
@@ -25,5 +24,3 @@ typedef struct cs_run {
 static inline cs_run cs_run_between(cs_run run, int32_t x0, int32_t x1) {
   return (cs_run){x0, x1, run.y};
 }
-
-#endif

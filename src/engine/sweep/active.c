@@ -314,10 +314,8 @@ celspan_status cs_active_start(celspan_context *context, cs_active *active, doub
 }
 
 static celspan_status note_vertex(celspan_context *context, cs_active *active, double x, double y) {
-  CS_TRY(cs_mem_reserve(context, (void **)&active->vertices, &active->vertex_capacity,
-                        active->vertex_count + 1, sizeof *active->vertices));
-  active->vertices[active->vertex_count++] = (celspan_point){x, y};
-  return CELSPAN_OK;
+  return CS_APPEND(context, active->vertices, active->vertex_count, active->vertex_capacity,
+                   (celspan_point){x, y});
 }
 
 static void widen(cs_bend *noted, double x) {
@@ -326,8 +324,7 @@ static void widen(cs_bend *noted, double x) {
 }
 
 static celspan_status note_bend(celspan_context *context, cs_active *active, const cs_bend *noted) {
-  CS_TRY(cs_mem_reserve(context, (void **)&active->bends, &active->bend_capacity,
-                        active->bend_count + 1, sizeof *active->bends));
+  CS_TRY(CS_RESERVE(context, active->bends, active->bend_capacity, active->bend_count + 1));
   active->bend_of[noted->boundary] = (uint32_t)active->bend_count;
   active->bends[active->bend_count++] = *noted;
   return CELSPAN_OK;

@@ -16,8 +16,7 @@
  *     set alone, not on the rows swept before (so strips agree to the bit);
  *   - x[i] is cs_boundary_x at y on the segment that y crosses.
  */
-#ifndef CS_SWEEP_ACTIVE_H
-#define CS_SWEEP_ACTIVE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -163,5 +162,3 @@ static inline const cs_bend *cs_active_bend(const cs_active *active, size_t i) {
 /* Self-check: whether the boundaries are those that the current height crosses, each at its x, in
  * order, and no other begins while the row is said to be calm. */
 bool cs_active_is_ordered(const cs_active *active);
-
-#endif

@@ -9,8 +9,7 @@
  *                *
  *              y1        y1 <= y: the segment has ended
  */
-#ifndef CS_SWEEP_ADVANCE_H
-#define CS_SWEEP_ADVANCE_H
+#pragma once
 
 #include "base/wide.h"
 #include <stdbool.h>
@@ -44,5 +43,3 @@ CS_WIDE_DECLARE(cs_advanced, cs_advance_to,
                  uint32_t *ended));
 /* Whether each of x is less than the one after it. */
 CS_WIDE_DECLARE(bool, cs_advance_rises, (const double *x, size_t count));
-
-#endif

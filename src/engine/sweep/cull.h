@@ -25,8 +25,7 @@
  *     a dead tile is opaque over its whole width;
  *   - which chains are kept depends on the frame and on the row of tiles alone.
  */
-#ifndef CS_SWEEP_CULL_H
-#define CS_SWEEP_CULL_H
+#pragma once
 
 #include "model/geometry/boundary.h"
 
@@ -121,5 +120,3 @@ static inline bool cs_cull_keeps(const cs_cull *cull, uint32_t chain, int32_t ro
     return true;
   return cull->kept[cull->places[chain] + (size_t)(row - cull->first_rows[chain])];
 }
-
-#endif

@@ -145,9 +145,7 @@ static celspan_status run_jobs(celspan_context *context, const cs_cull_grid *gri
   int32_t rows = grid->cull->tile_rows, wanted = workers > 1 ? JOBS_A_WORKER * workers : 1;
   int32_t count = wanted < rows ? wanted : rows;
   *all = (jobs){.grid = grid};
-  all->list = cs_mem_array(context->memory, (size_t)count, sizeof *all->list);
-  if (!all->list)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, all->list, (size_t)count));
   all->count = count;
   for (int32_t i = 0; i < count; i++) {
     cs_context_branch(&all->list[i].context, context);

@@ -6,8 +6,7 @@
  *
  * Every row of tiles is treated by itself, so several threads can.
  */
-#ifndef CS_SWEEP_CULL_GRID_H
-#define CS_SWEEP_CULL_GRID_H
+#pragma once
 
 #include "engine/sweep/cull.h"
 
@@ -72,5 +71,3 @@ CELSPAN_CHECKED celspan_status cs_cull_row_walk(const cs_cull_grid *grid, cs_cul
 /* Room for the scratch of a job. Errors: NO_MEMORY; free it then, too. */
 CELSPAN_CHECKED celspan_status cs_cull_row_begin(const cs_cull_grid *grid, cs_cull_job *job);
 void cs_cull_row_end(const cs_cull_grid *grid, cs_cull_job *job);
-
-#endif

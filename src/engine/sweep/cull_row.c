@@ -253,8 +253,8 @@ celspan_status cs_cull_row_walk(const cs_cull_grid *grid, cs_cull_job *job, int3
   w.veil->live = ~(uint64_t)0;
   w.veil->dimmed = 0;
   w.veil->group = CS_CULL_NONE;
-  CS_TRY(cs_mem_reserve(&job->context, (void **)&job->deferred_list, &job->deferred_capacity,
-                        before + (end - from), sizeof *job->deferred_list));
+  CS_TRY(
+      CS_RESERVE(&job->context, job->deferred_list, job->deferred_capacity, before + (end - from)));
   for (uint32_t next; from < end; from = next) {
     uint32_t layer = layer_of(&w, from);
     if (find_tree(&w, layer)) {

@@ -8,8 +8,7 @@
  *          |\        this height a is right of b
  *          b a
  */
-#ifndef CS_SWEEP_ORDER_H
-#define CS_SWEEP_ORDER_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -20,5 +19,3 @@ static inline bool cs_order_is_right(double slope_a, uint32_t chain_a, double sl
                                      uint32_t chain_b) {
   return slope_a != slope_b ? slope_a > slope_b : chain_a > chain_b;
 }
-
-#endif

@@ -12,8 +12,7 @@
  *   for (cs_pieces p = cs_pieces_of(active, i, bend); cs_pieces_next(&p);)
  *     ... p.above, p.below ...
  */
-#ifndef CS_SWEEP_PIECES_H
-#define CS_SWEEP_PIECES_H
+#pragma once
 
 #include "engine/sweep/active.h"
 
@@ -39,5 +38,3 @@ static inline bool cs_pieces_next(cs_pieces *pieces) {
   pieces->below = --pieces->rest > 0 ? *pieces->vertex++ : pieces->foot;
   return true;
 }
-
-#endif

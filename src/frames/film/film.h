@@ -4,8 +4,7 @@
  * INVARIANT: the exposures of a frame keep their scene alive by references of their own, so that a
  * frame can be rendered by any thread after its builder has gone on to the next one.
  */
-#ifndef CS_FILM_FILM_H
-#define CS_FILM_FILM_H
+#pragma once
 
 #include "celspan/celspan.h"
 
@@ -30,5 +29,3 @@ CELSPAN_CHECKED celspan_status cs_film_frame_init(cs_film_frame *out, celspan_co
                                                   const celspan_exposure *exposures, size_t count);
 /* A frame that is all zero, or finished already, may be finished too. */
 void cs_film_frame_finish(cs_film_frame *frame);
-
-#endif

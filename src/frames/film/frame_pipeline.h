@@ -10,8 +10,7 @@
  * them does not depend on it either; the failure that ends a run is that of its first frame that
  * failed.
  */
-#ifndef CS_FILM_FRAME_PIPELINE_H
-#define CS_FILM_FRAME_PIPELINE_H
+#pragma once
 
 #include "base/pipeline.h"
 
@@ -44,5 +43,3 @@ CELSPAN_CHECKED celspan_status cs_frame_pipeline_run(celspan_context *context,
                                                      const cs_frame_pipeline *pipeline);
 /* A celspan_frame_desc.progress function; user: the frame. false when it is not wanted any more. */
 bool cs_frame_pipeline_progress(void *frame, int32_t rows_done, int32_t rows_total);
-
-#endif

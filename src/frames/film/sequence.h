@@ -8,8 +8,7 @@
  *
  * INVARIANT: no frame occurs twice in a sequence, and its order is that of the list.
  */
-#ifndef CS_FILM_SEQUENCE_H
-#define CS_FILM_SEQUENCE_H
+#pragma once
 
 #include "celspan/celspan.h"
 
@@ -41,5 +40,3 @@ CELSPAN_CHECKED celspan_status cs_sequence_list(celspan_context *context, const 
 /* Writes the file name of a frame. BAD_ARGUMENT when it does not fit into `size` bytes. */
 CELSPAN_CHECKED celspan_status cs_sequence_name(celspan_context *context, const char *pattern,
                                                 int64_t frame, char *name, size_t size);
-
-#endif

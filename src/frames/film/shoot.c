@@ -1,6 +1,5 @@
 #include "frames/film/shoot.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "base/hash_table.h"
@@ -40,8 +39,7 @@ static CELSPAN_CHECKED celspan_status add_duplicate(known_frames *duplicates,
   *is_new = !cs_hash_table_find(&duplicates->indices, scene, index);
   if (!*is_new)
     return CELSPAN_OK;
-  CS_TRY(cs_mem_reserve(context, (void **)&duplicates->known, &duplicates->capacity,
-                        duplicates->count + 1, sizeof *duplicates->known));
+  CS_TRY(CS_RESERVE(context, duplicates->known, duplicates->capacity, duplicates->count + 1));
   CS_TRY(cs_hash_table_add(&duplicates->indices, context, scene, duplicates->count));
   *index = duplicates->count++;
   duplicates->known[*index] = (known_frame){.number = number};

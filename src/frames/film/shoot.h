@@ -13,8 +13,7 @@
  * INVARIANT: frames are reported in their order, and what is reported of them does not depend on
  * the number of workers.
  */
-#ifndef CS_FILM_SHOOT_H
-#define CS_FILM_SHOOT_H
+#pragma once
 
 #include "base/hash.h"
 #include "frames/film/film.h"
@@ -70,5 +69,3 @@ typedef struct cs_shoot {
 
 /* Errors: those of `finished`; CANCELLED; NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_shoot_run(const cs_shoot *shoot);
-
-#endif

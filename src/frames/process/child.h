@@ -7,8 +7,7 @@
  * INVARIANT: each child that was started is ended exactly once, by cs_child_end, together with its
  * process group.
  */
-#ifndef CS_PROCESS_CHILD_H
-#define CS_PROCESS_CHILD_H
+#pragma once
 
 #include <sys/types.h>
 
@@ -36,5 +35,3 @@ int cs_child_start(cs_child *process, const char *const *arguments);
 bool cs_child_end(cs_child *process, double seconds);
 /* Writes "ended with exit code 1: its last bytes". */
 void cs_child_describe(const cs_child *process, char *out, size_t size);
-
-#endif

@@ -9,8 +9,7 @@
  * are ignored, so that a closed pipe or a file that has become too long is a failed write with a
  * message.
  */
-#ifndef CS_PROCESS_INTERRUPT_H
-#define CS_PROCESS_INTERRUPT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -26,5 +25,3 @@ void cs_interrupt_die(void);
 /* A celspan_frame_desc.progress function: continues until a signal requests a stop. user:
  * unused. */
 bool cs_interrupt_progress(void *user, int32_t rows_done, int32_t rows_total);
-
-#endif

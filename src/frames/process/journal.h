@@ -4,8 +4,7 @@
  * INVARIANT  All lines are complete except perhaps the last; who appends the next one terminates it
  * first.
  */
-#ifndef CS_PROCESS_JOURNAL_H
-#define CS_PROCESS_JOURNAL_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -20,5 +19,3 @@ int cs_journal_open(const char *path);
 bool cs_journal_add(int descriptor, const char *text);
 /* Terminates the last line of a file that is not empty. false: errno has the reason. */
 bool cs_journal_end_last(int descriptor);
-
-#endif

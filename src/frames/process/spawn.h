@@ -3,8 +3,7 @@
  * It gets a process group of its own, so that Ctrl-C reaches this program only, which then ends the
  * whole group.
  */
-#ifndef CS_PROCESS_SPAWN_H
-#define CS_PROCESS_SPAWN_H
+#pragma once
 
 #include <stddef.h>
 #include <sys/types.h>
@@ -16,5 +15,3 @@ enum { CS_SPAWN_NULL = -1, CS_SPAWN_SAME = -2 };
  * an errno. */
 int cs_spawn(pid_t *id, const char *path, const char *const *arguments, const int *files,
              size_t file_count);
-
-#endif

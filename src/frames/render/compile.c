@@ -7,7 +7,6 @@
 #include "frames/render/lights.h"
 #include "frames/render/objects.h"
 #include "frames/render/through.h"
-#include "model/geometry/matrix.h"
 
 /* ---------------------------------------------------------------- what is hidden */
 
@@ -139,8 +138,7 @@ static celspan_status compile_defocused(cs_compiler *c, const cs_defocus_cel *pl
   const cs_defocus_compiler alone = {compile_alone, c};
   cs_outline box;
   CS_TRY(CS_COMPILER_APPEND(c, defocused, defocused_count, defocused_capacity));
-  CS_TRY(cs_mem_reserve(c->context, (void **)&plan->defocus, &plan->defocus_capacity,
-                        plan->defocus_count + 1, sizeof(cs_defocus *)));
+  CS_TRY(CS_RESERVE(c->context, plan->defocus, plan->defocus_capacity, plan->defocus_count + 1));
   cs_outline_init(&box);
   cs_defocus *defocus = NULL, *made = NULL;
   if (c->front_plan && plan->defocus_count < c->front_plan->defocus_count)

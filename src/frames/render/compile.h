@@ -17,8 +17,7 @@
  * to engine/defocus/layer.h as a callback. A cel that is compiled alone is compiled without its
  * blur.
  */
-#ifndef CS_RENDER_COMPILE_H
-#define CS_RENDER_COMPILE_H
+#pragma once
 
 #include "engine/row/plan.h"
 #include "model/scene/scene.h"
@@ -39,5 +38,3 @@ CELSPAN_CHECKED celspan_status cs_compile(celspan_context *context, const celspa
                                           const cs_view *view, const cs_antialias *antialias,
                                           int workers, cs_plan *out);
 void cs_compile_free(cs_plan *plan, cs_memory *memory);
-
-#endif

@@ -8,8 +8,7 @@
  * Layers are appended from the rear to the camera. Invariant: the layers of a group, and those of a
  * tree, are neighbours; nothing else is appended between them.
  */
-#ifndef CS_RENDER_COMPILER_H
-#define CS_RENDER_COMPILER_H
+#pragma once
 
 #include "engine/row/plan.h"
 #include "model/geometry/boundary_build.h"
@@ -55,8 +54,5 @@ struct cs_compiler {
 
 /* Room for one more item of an array of the stack. Errors: NO_MEMORY. */
 #define CS_COMPILER_APPEND(compiler, array, count, capacity)                                       \
-  cs_mem_reserve((compiler)->context, (void **)&(compiler)->plan->stack.array,                     \
-                 &(compiler)->plan->stack.capacity, (compiler)->plan->stack.count + 1,             \
-                 sizeof *(compiler)->plan->stack.array)
-
-#endif
+  CS_RESERVE((compiler)->context, (compiler)->plan->stack.array, (compiler)->plan->stack.capacity, \
+             (compiler)->plan->stack.count + 1)

@@ -4,8 +4,7 @@
  *
  * Invariant: a frame does not change once it is made; the row workers share it.
  */
-#ifndef CS_RENDER_FRAME_H
-#define CS_RENDER_FRAME_H
+#pragma once
 
 #include "engine/row/plan.h"
 
@@ -30,5 +29,3 @@ CELSPAN_CHECKED celspan_status cs_frame_create(celspan_context *context,
 void cs_frame_free(cs_frame *frame, cs_memory *memory);
 /* The number of threads for a number that is wanted; 0 or less: one per processor. */
 int cs_frame_workers(int wanted);
-
-#endif

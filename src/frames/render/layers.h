@@ -4,8 +4,7 @@
  *                     ---> shade, image or procedure       by its kind
  *                     ---> boundaries, in frame pixels     model/geometry/boundary.h
  */
-#ifndef CS_RENDER_LAYERS_H
-#define CS_RENDER_LAYERS_H
+#pragma once
 
 #include "frames/render/compiler.h"
 
@@ -35,5 +34,3 @@ CELSPAN_CHECKED celspan_status cs_layers_add_outline(cs_compiler *c, const cs_ou
 /* A primitive: an outline or a procedure. Errors: NO_MEMORY, LIMIT, BAD_ARGUMENT. */
 CELSPAN_CHECKED celspan_status cs_layers_add(cs_compiler *c, const cs_primitive_data *data,
                                              double fade, const celspan_matrix *matrix);
-
-#endif

@@ -12,8 +12,7 @@
  *       camera   cel 1   back light of cel 1   cel 0   rear light   mattes   the matte of an object
  *         <--------|-------------|---------------|----------|----------|------------------ light
  */
-#ifndef CS_RENDER_LIGHTS_H
-#define CS_RENDER_LIGHTS_H
+#pragma once
 
 #include "frames/render/compiler.h"
 
@@ -48,5 +47,3 @@ CELSPAN_CHECKED celspan_status cs_lights_set_front(cs_compiler *c, const celspan
  * Errors: NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_lights_light_group(cs_compiler *c, const cs_lights_front *front,
                                                      const cs_compiler_film *film);
-
-#endif

@@ -158,9 +158,7 @@ static CELSPAN_CHECKED celspan_status find_unseen(const cs_compiler *c,
   *out = (unseen){NULL, count};
   if (count < OBJECTS_LEAST || c->fades_out)
     return CELSPAN_OK;
-  out->bits = cs_mem_array(c->context->memory, count / 64 + 1, sizeof *out->bits);
-  if (!out->bits)
-    return cs_fail_memory(c->context);
+  CS_TRY(CS_MAKE(c->context, out->bits, count / 64 + 1));
   begin(&t, &c->frame);
   for (size_t i = count; i-- > 0;)
     if (is_behind(&t, objects[i], matrix))

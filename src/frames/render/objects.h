@@ -8,8 +8,7 @@
  *      rostrum                           the layer of its frame, those of its lights and cels, and
  *                                        a step of a tree that cuts all of them at the frame
  */
-#ifndef CS_RENDER_OBJECTS_H
-#define CS_RENDER_OBJECTS_H
+#pragma once
 
 #include "frames/render/compiler.h"
 
@@ -27,5 +26,3 @@ void cs_objects_end_group(cs_compiler *c, cs_objects_outside outer);
 /* The objects of a list, rear first. Errors: NO_MEMORY, LIMIT, BAD_ARGUMENT. */
 CELSPAN_CHECKED celspan_status cs_objects_add(cs_compiler *c, celspan_object *const *objects,
                                               size_t count, const celspan_matrix *matrix);
-
-#endif

@@ -177,9 +177,8 @@ struct celspan_rows {
 
 celspan_status celspan_rows_create(celspan_context *context, const celspan_frame_desc *desc,
                                    celspan_rows **out) {
-  celspan_rows *rows = cs_mem_array(context->memory, 1, sizeof *rows);
-  if (!rows)
-    return cs_fail_memory(context);
+  celspan_rows *rows;
+  CS_TRY(CS_MAKE(context, rows, 1));
   rows->context = context;
   rows->memory = cs_memory_ref(context->memory);
   celspan_status status = cs_frame_create(context, desc, &rows->frame);

@@ -224,10 +224,7 @@ static void close_shares(strips *s) {
 
 static celspan_status open_shares(strips *s) {
   const cs_shares *shares = &s->shares;
-  s->share_workers =
-      cs_mem_array(s->context->memory, (size_t)s->worker_count, sizeof *s->share_workers);
-  if (!s->share_workers)
-    return cs_fail_memory(s->context);
+  CS_TRY(CS_MAKE(s->context, s->share_workers, (size_t)s->worker_count));
   for (int i = 0; shares->open_worker && i < s->worker_count; i++)
     CS_TRY(shares->open_worker(shares->user, s->context, &s->share_workers[i]));
   for (int i = 0; shares->open_share && i < s->ring_size; i++)

@@ -9,8 +9,7 @@
  * INVARIANT: the sink gets the same spans whatever the number of workers and the height of strips;
  * the failure reported is that of the topmost row that failed.
  */
-#ifndef CS_RENDER_STRIPS_H
-#define CS_RENDER_STRIPS_H
+#pragma once
 
 #include "engine/row/row.h"
 #include "frames/render/frame.h"
@@ -49,5 +48,3 @@ CELSPAN_CHECKED celspan_status cs_strips_render(celspan_context *context, const 
                                                 const celspan_frame_desc *desc,
                                                 const celspan_sink *sink,
                                                 celspan_statistics *statistics);
-
-#endif

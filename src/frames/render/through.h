@@ -12,8 +12,7 @@
  * Invariant: a bound depends on the scene and the frame's size alone, so that what is cut behind it
  * is the same for every worker, strip and crop.
  */
-#ifndef CS_RENDER_THROUGH_H
-#define CS_RENDER_THROUGH_H
+#pragma once
 
 #include "engine/compose/stack.h"
 #include "model/geometry/boundary.h"
@@ -31,5 +30,3 @@ cs_v4 cs_through_least(const cs_stack *stack, const cs_layer *layer);
  * where that is so often or more. */
 #define CS_THROUGH_OPAQUE 16
 double cs_through_halvings(cs_v4 t);
-
-#endif

@@ -195,12 +195,9 @@ static celspan_status make_room(cs_span_reader *file, const row_range *range) {
   }
   celspan_context *context = file->context;
   size_t pixel_size = spanfile_pixel_size(file->info.format);
-  CS_TRY(cs_mem_reserve(context, (void **)&file->spans, &file->span_capacity, spans,
-                        sizeof *file->spans));
-  CS_TRY(cs_mem_reserve(context, (void **)&file->colours, &file->colour_capacity, 4 * arrays,
-                        sizeof *file->colours));
-  return cs_mem_reserve(context, (void **)&file->pixels, &file->pixel_capacity,
-                        longest * pixel_size, 1);
+  CS_TRY(CS_RESERVE(context, file->spans, file->span_capacity, spans));
+  CS_TRY(CS_RESERVE(context, file->colours, file->colour_capacity, 4 * arrays));
+  return CS_RESERVE(context, file->pixels, file->pixel_capacity, longest * pixel_size);
 }
 
 /* Writes the array's colours. The span is passed as a row by itself, so that only it is decoded. */

@@ -2,8 +2,7 @@
  *
  * Only requested rows are read. Memory: one row.
  */
-#ifndef CS_STILL_SPAN_READER_H
-#define CS_STILL_SPAN_READER_H
+#pragma once
 
 #include <spanfile.h>
 
@@ -29,5 +28,3 @@ CELSPAN_CHECKED celspan_status cs_span_reader_row(cs_span_reader *file, int32_t 
                                                   size_t *span_count);
 /* Reads the whole file and counts its elements. */
 CELSPAN_CHECKED celspan_status cs_span_reader_check(cs_span_reader *file, spanfile_counts *counts);
-
-#endif

@@ -265,9 +265,8 @@ static bool make_buffers(cs_span_view *view) {
 celspan_status cs_span_view_create(celspan_context *context, cs_span_reader *file,
                                    const celspan_frame_desc *frame, cs_span_view **out) {
   spanfile_info info = cs_span_reader_info(file);
-  cs_span_view *view = cs_mem_array(context->memory, 1, sizeof *view);
-  if (!view)
-    return cs_fail_memory(context);
+  cs_span_view *view;
+  CS_TRY(CS_MAKE(context, view, 1));
   view->context = context;
   view->file = file;
   bool is_whole = frame->crop_width == 0;

@@ -12,8 +12,7 @@
  * linearly between the nearest two. Only the rows that the crop covers are read. Memory: a few
  * rows.
  */
-#ifndef CS_STILL_SPAN_VIEW_H
-#define CS_STILL_SPAN_VIEW_H
+#pragma once
 
 #include "frames/still/span_reader.h"
 
@@ -27,5 +26,3 @@ void cs_span_view_destroy(cs_span_view *view);
 /* y: row of the crop, from 0. Valid until the next call. */
 CELSPAN_CHECKED celspan_status cs_span_view_row(cs_span_view *view, int32_t y,
                                                 const celspan_span **spans, size_t *span_count);
-
-#endif

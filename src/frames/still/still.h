@@ -2,8 +2,7 @@
  * becomes a scene: one image rectangle of the picture's size, lit white and sampled at pixel
  * centres, so that every pixel keeps its value.
  */
-#ifndef CS_STILL_STILL_H
-#define CS_STILL_STILL_H
+#pragma once
 
 #include "frames/still/span_view.h"
 
@@ -45,5 +44,3 @@ void cs_still_rows_destroy(cs_still_rows *rows);
 /* y: row of the crop, from 0. Valid until the next call. */
 CELSPAN_CHECKED celspan_status cs_still_rows_get(cs_still_rows *rows, int32_t y,
                                                  const celspan_span **spans, size_t *span_count);
-
-#endif

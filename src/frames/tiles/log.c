@@ -102,10 +102,7 @@ static void write_head(const cs_tile_log *log, char line[LINE_SIZE]) {
 }
 
 static celspan_status keep_row(celspan_context *context, cs_tile_log *log, cs_tile_row row) {
-  CS_TRY(cs_mem_reserve(context, (void **)&log->rows, &log->capacity, log->count + 1,
-                        sizeof *log->rows));
-  log->rows[log->count++] = row;
-  return CELSPAN_OK;
+  return CS_APPEND(context, log->rows, log->count, log->capacity, row);
 }
 
 static celspan_status read_rows(celspan_context *context, cs_tile_log *log, FILE *file) {

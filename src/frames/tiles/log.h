@@ -6,8 +6,7 @@
  * INVARIANT  A line is appended when all its tiles are on the disk. A line that was cut off by a
  * crash is ignored, so its tiles are made again.
  */
-#ifndef CS_TILES_LOG_H
-#define CS_TILES_LOG_H
+#pragma once
 
 #include "base/hash.h"
 #include "frames/tiles/rows.h"
@@ -56,5 +55,3 @@ CELSPAN_CHECKED celspan_status cs_tile_log_add(celspan_context *context, cs_tile
 /* Waits until all tiles are on the disk, then appends the lines of all finished rows. */
 CELSPAN_CHECKED celspan_status cs_tile_log_flush(celspan_context *context, cs_tile_log *log);
 void cs_tile_log_close(celspan_context *context, cs_tile_log *log);
-
-#endif

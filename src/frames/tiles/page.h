@@ -1,7 +1,6 @@
 /* The files beside the tiles: the description that viewers read, and the page that shows the tiles.
  */
-#ifndef CS_TILES_PAGE_H
-#define CS_TILES_PAGE_H
+#pragma once
 
 #include "frames/tiles/log.h"
 #include "frames/tiles/plan.h"
@@ -25,5 +24,3 @@ CELSPAN_CHECKED celspan_status cs_tile_page_find_viewer(celspan_context *context
 CELSPAN_CHECKED celspan_status cs_tile_page_copy_viewer(celspan_context *context,
                                                         const cs_pyramid *pyramid,
                                                         const char *from);
-
-#endif

@@ -11,10 +11,7 @@ enum { PLACE_WIDTH = 2560, PLACE_HEIGHT = 1440, LINE_SIZE = 512 };
 /* ---------------------------------------------------------------- places */
 
 static celspan_status add_place(celspan_context *context, cs_tile_plan *plan, cs_tile_place place) {
-  CS_TRY(cs_mem_reserve(context, (void **)&plan->places, &plan->place_capacity,
-                        plan->place_count + 1, sizeof *plan->places));
-  plan->places[plan->place_count++] = place;
-  return CELSPAN_OK;
+  return CS_APPEND(context, plan->places, plan->place_count, plan->place_capacity, place);
 }
 
 /* "X Y WIDTH NAME"; the name extends to the end of the line. */
@@ -69,10 +66,7 @@ static celspan_status load_places(celspan_context *context, const cs_tile_plan_d
 /* ---------------------------------------------------------------- levels */
 
 static celspan_status add_job(celspan_context *context, cs_tile_plan *plan, cs_tile_job job) {
-  CS_TRY(cs_mem_reserve(context, (void **)&plan->jobs, &plan->capacity, plan->count + 1,
-                        sizeof *plan->jobs));
-  plan->jobs[plan->count++] = job;
-  return CELSPAN_OK;
+  return CS_APPEND(context, plan->jobs, plan->count, plan->capacity, job);
 }
 
 static int32_t clamped(double pixel, int32_t least, int32_t most) {

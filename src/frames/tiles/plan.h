@@ -1,6 +1,5 @@
 /* The plan of a run: rectangles of tiles, level by level, and the places that the page links to. */
-#ifndef CS_TILES_PLAN_H
-#define CS_TILES_PLAN_H
+#pragma once
 
 #include "frames/tiles/pyramid.h"
 
@@ -38,5 +37,3 @@ int64_t cs_tile_plan_count(const cs_tile_plan *plan);
  * and their number of tiles; -1: the first level alone has more. */
 int32_t cs_tile_plan_last_within(const cs_tile_plan_desc *desc, int64_t limit, int64_t *count);
 void cs_tile_plan_free(celspan_context *context, cs_tile_plan *plan);
-
-#endif

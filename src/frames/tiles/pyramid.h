@@ -16,8 +16,7 @@
  * as in Deep Zoom: level i of a frame of top level L is ceil(size / 2^(L - i)), and level 0 is one
  * pixel. IIIF counts scale factors instead: level i has 2^(L - i).
  */
-#ifndef CS_TILES_PYRAMID_H
-#define CS_TILES_PYRAMID_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -71,5 +70,3 @@ bool cs_pyramid_description_path(const cs_pyramid *pyramid, char *path, size_t s
 bool cs_pyramid_tiles_folder(const cs_pyramid *pyramid, char *path, size_t size);
 /* Sets and returns the failure of a path that is too long. */
 celspan_status cs_pyramid_too_long(celspan_context *context, const cs_pyramid *pyramid);
-
-#endif

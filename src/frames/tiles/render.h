@@ -5,8 +5,7 @@
  * A level is rendered in as few passes as possible. Each pass compiles the scene and sweeps whole
  * rows, once for all tiles of a row; tiles that were rendered one by one would repeat this work.
  */
-#ifndef CS_TILES_RENDER_H
-#define CS_TILES_RENDER_H
+#pragma once
 
 #include "frames/tiles/log.h"
 #include "frames/tiles/plan.h"
@@ -46,5 +45,3 @@ size_t cs_tile_render_row_count(const cs_tile_render *render);
 /* Errors: those of rendering and writing; CANCELLED. The record contains all finished rows, also
  * after a failure. */
 CELSPAN_CHECKED celspan_status cs_tile_render_run(cs_tile_render *render);
-
-#endif

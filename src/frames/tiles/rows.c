@@ -43,8 +43,7 @@ static bool find_known(cs_tile_known *known, cs_hash hash, cs_pyramid_tile *out)
 /* The mutex is held. */
 static celspan_status add_locked(cs_tile_known *known, celspan_context *context, cs_hash hash,
                                  cs_pyramid_tile tile) {
-  CS_TRY(cs_mem_reserve(context, (void **)&known->tiles, &known->capacity, known->count + 1,
-                        sizeof *known->tiles));
+  CS_TRY(CS_RESERVE(context, known->tiles, known->capacity, known->count + 1));
   CS_TRY(cs_hash_table_add(&known->indices, context, hash, known->count));
   known->tiles[known->count++] = tile;
   return CELSPAN_OK;
@@ -132,8 +131,7 @@ static void finish_writer(cs_tile_writer *writer) {
 
 /* Called before a thread writes tiles of a row from left to right. rows: pixels. */
 static celspan_status begin_writer(cs_tile_writer *writer, int32_t rows) {
-  CS_TRY(cs_mem_reserve(&writer->context, (void **)&writer->starts, &writer->start_capacity,
-                        (size_t)rows, sizeof *writer->starts));
+  CS_TRY(CS_RESERVE(&writer->context, writer->starts, writer->start_capacity, (size_t)rows));
   memset(writer->starts, 0, (size_t)rows * sizeof *writer->starts);
   return CELSPAN_OK;
 }
@@ -159,8 +157,7 @@ static celspan_status cut_row(cs_tile_writer *writer, const cs_pyramid_box *box,
   size_t end = *start;
   while (end < row.count && row.spans[end].x0 < x1)
     end++;
-  CS_TRY(cs_mem_reserve(&writer->context, (void **)&writer->spans, &writer->span_capacity,
-                        end - *start, sizeof *writer->spans));
+  CS_TRY(CS_RESERVE(&writer->context, writer->spans, writer->span_capacity, end - *start));
   for (size_t i = *start; i < end; i++)
     writer->spans[kept++] = cut_span(row.spans[i], x0, x1);
   *out_count = kept;
@@ -186,8 +183,7 @@ static celspan_status read_content(cs_tile_writer *writer, const cs_pyramid_box 
   const celspan_coding *coding = &output->file.coding;
   size_t pixel_size = celspan_coding_pixel_size(coding);
   size_t size = (size_t)(box->x1 - box->x0) * pixel_size, count;
-  CS_TRY(
-      cs_mem_reserve(&writer->context, (void **)&writer->pixels, &writer->pixel_capacity, size, 1));
+  CS_TRY(CS_RESERVE(&writer->context, writer->pixels, writer->pixel_capacity, size));
   cs_hash hash = cs_hash_begin((uint64_t)(box->x1 - box->x0));
   out->is_empty = output->skips_empty;
   for (int32_t y = box->y0; y < box->y1; y++) {
@@ -307,10 +303,8 @@ static celspan_status begin(void *user, celspan_context *context, int32_t width,
   const cs_pyramid *pyramid = rows->output->pyramid;
   (void)width, (void)height;
   rows->ring_count = pyramid->tile + 2 * pyramid->overlap;
-  rows->ring = cs_mem_array(context->memory, (size_t)rows->ring_count, sizeof *rows->ring);
-  rows->writers = cs_mem_array(context->memory, (size_t)rows->workers, sizeof *rows->writers);
-  if (!rows->ring || !rows->writers)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, rows->ring, (size_t)rows->ring_count));
+  CS_TRY(CS_MAKE(context, rows->writers, (size_t)rows->workers));
   for (int i = 0; i < rows->workers; i++)
     init_writer(&rows->writers[i], rows);
   return CELSPAN_OK;

@@ -9,8 +9,7 @@
  * INVARIANT  A tile appears under its name whole or not at all. Tiles with the same pixels are one
  * file with several names, as far as the file system has links.
  */
-#ifndef CS_TILES_ROWS_H
-#define CS_TILES_ROWS_H
+#pragma once
 
 #include <pthread.h>
 #include <stdatomic.h>
@@ -68,5 +67,3 @@ typedef struct cs_tile_rows {
 /* A sink for the given pixels of the level. rows: all fields up to `user` are set, and `next` is
  * tiles.y0; it must live as long as the sink. */
 celspan_sink cs_tile_rows_sink(cs_tile_rows *rows);
-
-#endif

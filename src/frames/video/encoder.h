@@ -9,8 +9,7 @@
  * INVARIANT: frames are written in the order in which they were given, each as often as it was
  * given or repeated. An encoder that failed is closed already.
  */
-#ifndef CS_VIDEO_ENCODER_H
-#define CS_VIDEO_ENCODER_H
+#pragma once
 
 #include <pthread.h>
 
@@ -55,5 +54,3 @@ CELSPAN_CHECKED celspan_status cs_encoder_repeat(cs_encoder *encoder);
 CELSPAN_CHECKED celspan_status cs_encoder_finish(cs_encoder *encoder);
 /* Kills the encoder and closes it, unless it is closed already. */
 void cs_encoder_discard(cs_encoder *encoder);
-
-#endif

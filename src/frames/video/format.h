@@ -15,8 +15,7 @@
  * alpha is kept if the format has it. No shell reads the arguments, and file names begin with
  * "file:", so that ffmpeg does not treat them as options or addresses.
  */
-#ifndef CS_VIDEO_FORMAT_H
-#define CS_VIDEO_FORMAT_H
+#pragma once
 
 #include "base/context.h"
 
@@ -93,5 +92,3 @@ void cs_video_command_encode(cs_video_command *command, const cs_video_format *f
                              const cs_video_sound *sound, const char *file);
 /* A command whose exit code is 0 if ffmpeg can read the sound. */
 void cs_video_command_listen(cs_video_command *command, const char *sound);
-
-#endif

@@ -1,6 +1,5 @@
 /* The sound file of a film. */
-#ifndef CS_VIDEO_SOUND_H
-#define CS_VIDEO_SOUND_H
+#pragma once
 
 #include "base/context.h"
 
@@ -11,5 +10,3 @@ CELSPAN_CHECKED celspan_status cs_sound_find(celspan_context *context, const cha
 /* Checks that ffmpeg can read the beginning of the sound; OK if ffmpeg is missing. Errors: INPUT,
  * with the message of ffmpeg; CANCELLED. */
 CELSPAN_CHECKED celspan_status cs_sound_listen(celspan_context *context, const char *path);
-
-#endif

@@ -6,8 +6,7 @@
  * INVARIANT: the file appears under its name when cs_video_finish returns OK, not before. After
  * cs_video_finish and cs_video_discard there is no temporary file and no process.
  */
-#ifndef CS_VIDEO_VIDEO_H
-#define CS_VIDEO_VIDEO_H
+#pragma once
 
 #include "frames/film/shoot.h"
 #include "frames/video/encoder.h"
@@ -49,5 +48,3 @@ CELSPAN_CHECKED celspan_status cs_video_put(cs_video *video, const celspan_frame
 /* Both end the video, whatever they return. */
 CELSPAN_CHECKED celspan_status cs_video_finish(cs_video *video);
 void cs_video_discard(cs_video *video);
-
-#endif

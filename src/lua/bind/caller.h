@@ -7,8 +7,7 @@
  *
  * INVARIANT: nothing here changes the stack except by what it pushes.
  */
-#ifndef CS_BIND_CALLER_H
-#define CS_BIND_CALLER_H
+#pragma once
 
 #include <lua.h>
 #include <stdbool.h>
@@ -36,5 +35,3 @@ const char *cs_caller_push_folder_of(lua_State *L, const char *path);
  * to the C function `last`; "" when there are none. For message handlers, while the stack of the
  * failed call still exists. */
 void cs_caller_push_chain(lua_State *L, const char *position, lua_CFunction last);
-
-#endif

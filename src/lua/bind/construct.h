@@ -3,8 +3,7 @@
  * INVARIANT: a value keeps a copy of the fields that it was made from, completed by the presets of
  * its noun, so that reading a field gives what was used and :with can start from it.
  */
-#ifndef CS_BIND_CONSTRUCT_H
-#define CS_BIND_CONSTRUCT_H
+#pragma once
 
 #include "lua/bind/noun.h"
 
@@ -16,5 +15,3 @@ void cs_construct_push_fields(lua_State *L, const cs_noun *noun, int fields);
 void cs_construct_push(lua_State *L, const cs_noun *noun);
 /* The method :with of every kind that has one. */
 int cs_construct_with(lua_State *L);
-
-#endif

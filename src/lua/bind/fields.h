@@ -1,6 +1,5 @@
 /* Reading the named fields of a table into a description of the core, as their rows say. */
-#ifndef CS_BIND_FIELDS_H
-#define CS_BIND_FIELDS_H
+#pragma once
 
 #include "lua/bind/form.h"
 
@@ -10,5 +9,3 @@
 void cs_fields_read(const cs_form *form, void *desc);
 /* The place of the word on top of the stack among words (ended by NULL). name: of its field. */
 int cs_fields_word(const cs_form *form, const char *name, const char *const *words);
-
-#endif

@@ -6,8 +6,7 @@
  * A relative name is looked for beside the Lua file of the nearest caller that is not celspan's
  * own, then beside the script, where there is one. Nothing is opened here.
  */
-#ifndef CS_BIND_FILES_H
-#define CS_BIND_FILES_H
+#pragma once
 
 #include <lua.h>
 
@@ -18,5 +17,3 @@ const char *cs_files_find_from(lua_State *L, const char *folder, const char *nam
                                const char **tried);
 /* The same, beside the nearest caller's file. */
 const char *cs_files_find(lua_State *L, const char *name, const char **tried);
-
-#endif

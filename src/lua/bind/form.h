@@ -6,8 +6,7 @@
  * it is read. Scratch memory belongs to Lua and stays on the stack until the constructor returns,
  * so that an error at any point leaks nothing.
  */
-#ifndef CS_BIND_FORM_H
-#define CS_BIND_FORM_H
+#pragma once
 
 #include <lauxlib.h>
 
@@ -57,5 +56,3 @@ double cs_form_argument(lua_State *L, int index, const char *function, const cha
 
 /* count items of `size` bytes, owned by Lua, pushed. */
 void *cs_form_scratch(lua_State *L, size_t count, size_t size);
-
-#endif

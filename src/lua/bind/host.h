@@ -4,8 +4,7 @@
  * every scan-line procedure has one, because objects may outlive their state. After closing,
  * `state` and `context` are NULL and nothing enters Lua any more.
  */
-#ifndef CS_BIND_HOST_H
-#define CS_BIND_HOST_H
+#pragma once
 
 #include <lua.h>
 
@@ -86,5 +85,3 @@ bool cs_host_push_globals(lua_State *L);
 void cs_host_set_folder(lua_State *L, const char *folder);
 /* Pushes it; false, and nothing pushed, where no script is run. */
 bool cs_host_push_folder(lua_State *L);
-
-#endif

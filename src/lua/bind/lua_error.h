@@ -6,8 +6,7 @@
  * while the stack of the failed call still exists; afterwards the message becomes the sentence of
  * the context, with a status.
  */
-#ifndef CS_BIND_LUA_ERROR_H
-#define CS_BIND_LUA_ERROR_H
+#pragma once
 
 #include <lua.h>
 
@@ -37,5 +36,3 @@ bool cs_lua_error_is_limit(lua_State *L, int outcome);
 celspan_status cs_lua_error_report(lua_State *L, int outcome);
 /* The same with a status that the caller knows. */
 celspan_status cs_lua_error_report_as(lua_State *L, celspan_status status);
-
-#endif

@@ -4,8 +4,7 @@
  * innermost function that is not one of celspan's own. A method such as :rotate needs no line,
  * because the core keeps that of the value it changes; :with takes it over here.
  */
-#ifndef CS_BIND_NAMED_H
-#define CS_BIND_NAMED_H
+#pragma once
 
 #include "lua/bind/userdata.h"
 
@@ -19,5 +18,3 @@ void cs_named_end(celspan_context *context);
 void cs_named_copy(lua_State *L, const cs_userdata *from, cs_userdata *value);
 /* v:named("hand") */
 int cs_named_method(lua_State *L);
-
-#endif

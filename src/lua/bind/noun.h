@@ -8,8 +8,7 @@
  * core from the rows, messages and :with use them, and cs_describe_push gives them to the Lua
  * module that prints `celspan help lua` and the annotations for editors, lua/celspan.d.lua.
  */
-#ifndef CS_BIND_NOUN_H
-#define CS_BIND_NOUN_H
+#pragma once
 
 #include <lauxlib.h>
 #include <stddef.h>
@@ -128,5 +127,3 @@ typedef struct cs_noun {
   /* Adds fields that follow from others; NULL: none. */
   void (*complete)(lua_State *L, int fields);
 } cs_noun;
-
-#endif

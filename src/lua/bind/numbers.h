@@ -6,8 +6,7 @@
  *
  * INVARIANT: every number read here is finite. Ranges are checked by the core.
  */
-#ifndef CS_BIND_NUMBERS_H
-#define CS_BIND_NUMBERS_H
+#pragma once
 
 #include <lua.h>
 
@@ -34,5 +33,3 @@ double cs_numbers_check(lua_State *L, int index, const char *noun, const char *s
 
 /* Pushes a number as messages show it: a whole number has no point. */
 const char *cs_numbers_digits(lua_State *L, double number);
-
-#endif

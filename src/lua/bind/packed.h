@@ -12,8 +12,7 @@
  *
  * INVARIANT: unpacking gives a table equal to the one that was packed.
  */
-#ifndef CS_BIND_PACKED_H
-#define CS_BIND_PACKED_H
+#pragma once
 
 #include <lauxlib.h>
 
@@ -41,5 +40,3 @@ void cs_packed_push_fields(lua_State *L, const cs_noun *noun, const unsigned cha
 
 /* Sets the fields of a table that have a preset and were left out. */
 void cs_packed_set_presets(lua_State *L, const cs_noun *noun, int table);
-
-#endif

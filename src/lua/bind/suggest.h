@@ -1,6 +1,5 @@
 /* "Did you mean ...?": the known name that is nearest to a mistyped one. */
-#ifndef CS_BIND_SUGGEST_H
-#define CS_BIND_SUGGEST_H
+#pragma once
 
 #include <stddef.h>
 
@@ -8,5 +7,3 @@
 int cs_suggest_distance(const char *a, const char *b);
 /* The nearest of `count` names to a word; NULL when none is near. */
 const char *cs_suggest_name(const char *word, const char *const *names, size_t count);
-
-#endif

@@ -4,8 +4,7 @@
  *   rect: write rect{ 1, 2, 3, 4 }, not rect{ x = 1, y = 2, w = 3, h = 4 }
  *   circle: unknown field 'x'; write centre = {10, 20}, not x = 10, y = 20
  */
-#ifndef CS_BIND_UNKNOWN_H
-#define CS_BIND_UNKNOWN_H
+#pragma once
 
 #include <lua.h>
 
@@ -21,5 +20,3 @@ _Noreturn void cs_unknown_fail_name(lua_State *L, const char *noun, const char *
 /* places: "{x, y}". Pushes "write {10, 20}, not {x = 10, y = 20}" if the table at index names one
  * of these places; else false, and nothing is pushed. */
 bool cs_unknown_push_places(lua_State *L, int index, const char *places);
-
-#endif

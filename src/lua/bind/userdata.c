@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "lua/bind/caller.h"
+#include "lua/bind/put.h"
 #include "lua/bind/unknown.h"
 
 /* Deep enough for every field there is: a list of points. */
@@ -373,8 +374,7 @@ static int describe(lua_State *L) {
 
 /* Keeps the table on top of the stack as the metatable of a kind, hidden from scripts. Pops it. */
 static void keep_metatable(lua_State *L, const char *kind) {
-  lua_pushstring(L, kind);
-  lua_setfield(L, -2, "__name");
+  cs_put_text(L, "__name", kind);
   lua_pushstring(L, kind); /* the result of getmetatable: no script can call __gc */
   lua_setfield(L, -2, "__metatable");
   lua_setfield(L, LUA_REGISTRYINDEX, kind);

@@ -10,8 +10,7 @@
  * is a table that no script can reach: fields that are read come out as copies. Chains of an
  * operator share a table of operands, of which each shows the first ones.
  */
-#ifndef CS_BIND_USERDATA_H
-#define CS_BIND_USERDATA_H
+#pragma once
 
 #include <lauxlib.h>
 
@@ -92,5 +91,3 @@ const char *cs_userdata_shown(lua_State *L, int index);
 /* Pushes zeroed memory with one user value, whose finaliser is `release`: the same one for all of
  * a kind. Raises an error when out of memory. */
 void *cs_userdata_push_holder(lua_State *L, const char *kind, size_t size, lua_CFunction release);
-
-#endif

@@ -1,8 +1,7 @@
 /* The functions of the module celspan, and those of celspan.core, which celspan's own Lua modules
  * use and which scripts do not see. A function that can fail returns nil and a message.
  */
-#ifndef CS_MODULE_CORE_H
-#define CS_MODULE_CORE_H
+#pragma once
 
 #include <lua.h>
 
@@ -123,5 +122,3 @@ int cs_difference_of(lua_State *L);
  * cels without a name, which are named by their places. drawing, placement: hashes, as strings of
  * 16 bytes; procedure: true if they cannot be compared. */
 int cs_parts_list(lua_State *L);
-
-#endif

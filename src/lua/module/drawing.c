@@ -17,6 +17,7 @@
 #include "lua/bind/form.h"
 #include "lua/bind/host.h"
 #include "lua/bind/named.h"
+#include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "lua/nouns/placed.h"
 #include "readers/svg/read.h"
@@ -108,10 +109,8 @@ static int skipped(lua_State *L) {
     int32_t line;
     const char *what = celspan_svg_skipped(svg, i, &line);
     lua_createtable(L, 0, 2);
-    lua_pushinteger(L, line);
-    lua_setfield(L, -2, "line");
-    lua_pushstring(L, what);
-    lua_setfield(L, -2, "what");
+    cs_put_integer(L, "line", line);
+    cs_put_text(L, "what", what);
     lua_rawseti(L, -2, (lua_Integer)i + 1);
   }
   return 1;

@@ -3,8 +3,7 @@
  * INVARIANT: nothing here raises. A Lua error comes back as a status, with its sentence in the
  * context.
  */
-#ifndef CS_MODULE_LUA_SCRIPT_H
-#define CS_MODULE_LUA_SCRIPT_H
+#pragma once
 
 #include <lua.h>
 #include <stdbool.h>
@@ -29,5 +28,3 @@ bool cs_lua_script_accepts(const char *path);
  * BAD_ARGUMENT for an unknown name; NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_lua_script_help(celspan_context *context, const char *name,
                                                   FILE *stream);
-
-#endif

@@ -1,5 +1,6 @@
 /* Layered documents. */
 #include "lua/bind/host.h"
+#include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/core.h"
 #include "lua/nouns/pixel_string.h"
@@ -16,40 +17,20 @@ static celspan_painting **push_holder(lua_State *L) {
   return cs_userdata_push_holder(L, "celspan.painting", sizeof(celspan_painting *), release);
 }
 
-static void set_number(lua_State *L, const char *name, double number) {
-  lua_pushnumber(L, number);
-  lua_setfield(L, -2, name);
-}
-
-static void set_integer(lua_State *L, const char *name, lua_Integer number) {
-  lua_pushinteger(L, number);
-  lua_setfield(L, -2, name);
-}
-
-static void set_text(lua_State *L, const char *name, const char *text) {
-  lua_pushstring(L, text);
-  lua_setfield(L, -2, name);
-}
-
-static void set_boolean(lua_State *L, const char *name, bool is_so) {
-  lua_pushboolean(L, is_so);
-  lua_setfield(L, -2, name);
-}
-
 static void push_layer(lua_State *L, const celspan_painting_layer *layer, size_t count) {
   lua_createtable(L, 0, 13);
-  set_text(L, "name", layer->name);
-  set_text(L, "blend", layer->blend);
-  set_text(L, "colour", layer->colour);
-  set_boolean(L, "group", layer->is_group);
-  set_boolean(L, "visible", layer->is_visible);
-  set_number(L, "opacity", layer->opacity);
-  set_integer(L, "x", layer->x);
-  set_integer(L, "y", layer->y);
-  set_integer(L, "width", layer->width);
-  set_integer(L, "height", layer->height);
+  cs_put_text(L, "name", layer->name);
+  cs_put_text(L, "blend", layer->blend);
+  cs_put_text(L, "colour", layer->colour);
+  cs_put_flag(L, "group", layer->is_group);
+  cs_put_flag(L, "visible", layer->is_visible);
+  cs_put_number(L, "opacity", layer->opacity);
+  cs_put_integer(L, "x", layer->x);
+  cs_put_integer(L, "y", layer->y);
+  cs_put_integer(L, "width", layer->width);
+  cs_put_integer(L, "height", layer->height);
   if (layer->parent < count)
-    set_integer(L, "parent", (lua_Integer)layer->parent + 1);
+    cs_put_integer(L, "parent", (lua_Integer)layer->parent + 1);
   if (layer->surface) {
     cs_pixel_string_push_surface(L, layer->surface);
     lua_setfield(L, -2, "pixels");
@@ -72,9 +53,9 @@ static void push_notes(lua_State *L, const celspan_painting *painting) {
   lua_newtable(L);
   for (size_t i = 0; (text = celspan_painting_note_at(painting, i, &layer)); i++) {
     lua_createtable(L, 0, 2);
-    set_text(L, "what", text);
+    cs_put_text(L, "what", text);
     if (layer < count)
-      set_integer(L, "layer", (lua_Integer)layer + 1);
+      cs_put_integer(L, "layer", (lua_Integer)layer + 1);
     lua_rawseti(L, -2, (lua_Integer)i + 1);
   }
 }
@@ -90,8 +71,8 @@ int cs_painting_read(lua_State *L) {
     return cs_host_fail(L, status);
   celspan_painting_size(*painting, &width, &height);
   lua_createtable(L, 0, 4);
-  set_integer(L, "width", width);
-  set_integer(L, "height", height);
+  cs_put_integer(L, "width", width);
+  cs_put_integer(L, "height", height);
   push_layers(L, *painting);
   lua_setfield(L, -2, "layers");
   push_notes(L, *painting);

@@ -2,6 +2,7 @@
 #include <lauxlib.h>
 #include <stdio.h>
 
+#include "lua/bind/put.h"
 #include "lua/module/core.h"
 #include "lua/nouns/options.h"
 #include "model/scene/scene.h"
@@ -28,15 +29,12 @@ static void set_hash(lua_State *L, const char *field, const uint64_t hash[2]) {
 static void add(list *to, const part *one) {
   lua_State *L = to->L;
   lua_createtable(L, 0, 5);
-  lua_pushstring(L, one->kind);
-  lua_setfield(L, -2, "kind");
-  lua_pushstring(L, one->name);
-  lua_setfield(L, -2, "name");
+  cs_put_text(L, "kind", one->kind);
+  cs_put_text(L, "name", one->name);
   set_hash(L, "drawing", one->drawing);
   set_hash(L, "placement", one->placement);
   if (!one->is_known) {
-    lua_pushboolean(L, true);
-    lua_setfield(L, -2, "procedure");
+    cs_put_flag(L, "procedure", true);
   }
   lua_rawseti(L, to->table, ++to->count);
 }

@@ -1,7 +1,6 @@
 /* The image that celspan.pixels gives: linear, premultiplied floats, which can be read, coded and
  * written. */
-#ifndef CS_MODULE_PIXELS_H
-#define CS_MODULE_PIXELS_H
+#pragma once
 
 #include <lua.h>
 #include <stdbool.h>
@@ -12,5 +11,3 @@
  * NULL, and nothing pushed, if it is too large. */
 float *cs_pixels_push(lua_State *L, int32_t width, int32_t height, int32_t x, int32_t y,
                       bool is_opaque);
-
-#endif

@@ -1,5 +1,6 @@
 /* celspan.spans: rows of spans as tables; celspan.probe: one point by direct evaluation. */
 #include "lua/bind/host.h"
+#include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/core.h"
 #include "lua/module/subject.h"
@@ -38,12 +39,9 @@ static void set_colours(lua_State *L, const celspan_span *span) {
 static void push_span(lua_State *L, const celspan_span *span) {
   static const char *const kinds[] = {"single", "gradient", "array"};
   lua_createtable(L, span->kind == CELSPAN_SPAN_SINGLE ? 4 : 8, 3);
-  lua_pushinteger(L, span->x0);
-  lua_setfield(L, -2, "x0");
-  lua_pushinteger(L, span->x1);
-  lua_setfield(L, -2, "x1");
-  lua_pushstring(L, kinds[span->kind]);
-  lua_setfield(L, -2, "kind");
+  cs_put_integer(L, "x0", span->x0);
+  cs_put_integer(L, "x1", span->x1);
+  cs_put_text(L, "kind", kinds[span->kind]);
   set_colours(L, span);
 }
 

@@ -2,6 +2,7 @@
 #include <lauxlib.h>
 
 #include "lua/bind/host.h"
+#include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/core.h"
 #include "lua/module/pixels.h"
@@ -37,17 +38,10 @@ static const holder *holder_at(lua_State *L, int index) {
 
 /* ---------------------------------------------------------------- making */
 
-static void set_number(lua_State *L, const char *name, lua_Number value) {
-  lua_pushnumber(L, value);
-  lua_setfield(L, -2, name);
-}
-
 static void push_cel(lua_State *L, const celspan_cel *cel) {
   lua_createtable(L, 0, 2);
-  lua_pushstring(L, celspan_cel_name(cel));
-  lua_setfield(L, -2, "name");
-  lua_pushboolean(L, cel->front.is_given);
-  lua_setfield(L, -2, "has_front");
+  cs_put_text(L, "name", celspan_cel_name(cel));
+  cs_put_flag(L, "has_front", cel->front.is_given);
 }
 
 /* What scripts need to know of a stack. */
@@ -61,10 +55,10 @@ static void push_facts(lua_State *L, const celspan_rostrum *rostrum, const celsp
     lua_rawseti(L, -2, (lua_Integer)i + 1);
   }
   lua_setfield(L, -2, "cels");
-  set_number(L, "brightness", rostrum->brightness);
-  set_number(L, "width", width);
-  set_number(L, "height", height);
-  set_number(L, "bytes", (lua_Number)celspan_stack_bytes(stack));
+  cs_put_number(L, "brightness", rostrum->brightness);
+  cs_put_number(L, "width", width);
+  cs_put_number(L, "height", height);
+  cs_put_number(L, "bytes", (lua_Number)celspan_stack_bytes(stack));
 }
 
 int cs_stack_make(lua_State *L) {

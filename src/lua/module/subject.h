@@ -3,8 +3,7 @@
  * INVARIANT: the exposures live as long as the stack that holds their owner, so that an error at
  * any point leaks nothing.
  */
-#ifndef CS_MODULE_SUBJECT_H
-#define CS_MODULE_SUBJECT_H
+#pragma once
 
 #include "lua/nouns/options.h"
 
@@ -14,5 +13,3 @@
  * context. Raises an error for wrong arguments. */
 CELSPAN_CHECKED celspan_status cs_subject_read(lua_State *L, const cs_noun *noun,
                                                cs_options *options);
-
-#endif

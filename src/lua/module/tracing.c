@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "lua/bind/host.h"
+#include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/core.h"
 #include "model/colour/transfer.h"
@@ -92,20 +93,17 @@ static void push_shape(lua_State *L, const celspan_trace_shape *shape) {
   snprintf(colour, sizeof colour, "#%02x%02x%02x", shape->colour[0], shape->colour[1],
            shape->colour[2]);
   lua_createtable(L, 0, 6);
-  lua_pushstring(L, colour);
-  lua_setfield(L, -2, "colour");
+  cs_put_text(L, "colour", colour);
   set_number(L, "x", shape->x);
   set_number(L, "y", shape->y);
   set_number(L, "area", shape->area);
   if (shape->data) {
-    lua_pushstring(L, shape->data);
-    lua_setfield(L, -2, "d");
+    cs_put_text(L, "d", shape->data);
     return;
   }
   push_points(L, shape);
   lua_setfield(L, -2, "points");
-  lua_pushboolean(L, shape->is_closed);
-  lua_setfield(L, -2, "closed");
+  cs_put_flag(L, "closed", shape->is_closed);
 }
 
 static void push_result(lua_State *L, const celspan_trace *trace) {

@@ -4,8 +4,7 @@
  *   a texture                                            a shape, on the frame
  *   { texture = t, gain = 1, on = "frame" | "cel" }      a shape
  */
-#ifndef CS_NOUNS_LIGHT_H
-#define CS_NOUNS_LIGHT_H
+#pragma once
 
 #include "lua/bind/fields.h"
 
@@ -13,5 +12,3 @@
  * is borrowed from a value that is left on the stack. */
 bool cs_light_read(const cs_form *form, const char *name, celspan_light *flat,
                    celspan_light_texture *shape);
-
-#endif

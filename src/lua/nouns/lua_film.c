@@ -10,6 +10,7 @@
 #include "lua/bind/files.h"
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"
+#include "lua/bind/put.h"
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/options.h"
 #include "lua/nouns/random.h"
@@ -282,30 +283,20 @@ static const luaL_Reg frame_methods[] = {{"on", on}, {"random", random_number}, 
 const cs_kind cs_kind_frame = {
     .name = "celspan.frame", .methods = frame_methods, .own_size = sizeof(uint64_t)};
 
-static void set_integer(lua_State *L, const char *name, int64_t number) {
-  lua_pushinteger(L, number);
-  lua_setfield(L, -2, name);
-}
-
-static void set_number(lua_State *L, const char *name, double number) {
-  lua_pushnumber(L, number);
-  lua_setfield(L, -2, name);
-}
-
 static void push_frame(lua_State *L, const cs_film_info *film, int64_t number) {
   int64_t index = number - film->first;
   cs_userdata *value = cs_userdata_push(L, &cs_noun_frame);
   *(uint64_t *)cs_userdata_own(value) = seed_of(film, number);
   lua_createtable(L, 0, 9);
-  set_integer(L, "number", number);
-  set_integer(L, "index", index);
-  set_integer(L, "count", film->count);
-  set_integer(L, "width", film->width);
-  set_integer(L, "height", film->height);
-  set_number(L, "fps", film->frames_second);
-  set_number(L, "time", (double)index / film->frames_second);
-  set_number(L, "middle", ((double)index + 0.5) / film->frames_second);
-  set_number(L, "progress", film->count > 1 ? (double)index / (double)(film->count - 1) : 0);
+  cs_put_integer(L, "number", number);
+  cs_put_integer(L, "index", index);
+  cs_put_integer(L, "count", film->count);
+  cs_put_integer(L, "width", film->width);
+  cs_put_integer(L, "height", film->height);
+  cs_put_number(L, "fps", film->frames_second);
+  cs_put_number(L, "time", (double)index / film->frames_second);
+  cs_put_number(L, "middle", ((double)index + 0.5) / film->frames_second);
+  cs_put_number(L, "progress", film->count > 1 ? (double)index / (double)(film->count - 1) : 0);
   lua_setiuservalue(L, -2, 1);
 }
 

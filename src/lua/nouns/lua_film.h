@@ -6,8 +6,7 @@
  * INVARIANT: cs_lua_film_read and cs_lua_film_build do not raise: an error of the frame function
  * comes back as a status with its sentence in the context, "shot.lua:12: frame 37: circle: ...".
  */
-#ifndef CS_NOUNS_LUA_FILM_H
-#define CS_NOUNS_LUA_FILM_H
+#pragma once
 
 #include <lua.h>
 
@@ -31,5 +30,3 @@ bool cs_lua_film_push(lua_State *L, int index);
 /* Calls the frame function for a frame and pushes what it returns, checked to be exposures; raises
  * with the frame's number in the message. */
 void cs_lua_film_push_frame(lua_State *L, int film, int64_t number);
-
-#endif

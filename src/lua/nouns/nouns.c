@@ -1,5 +1,6 @@
 #include "lua/nouns/nouns.h"
 
+#include "lua/bind/put.h"
 #include "lua/nouns/options.h"
 
 const cs_noun *const cs_nouns_made[] = {
@@ -24,11 +25,6 @@ const cs_noun *const cs_nouns_tables[] = {&cs_noun_stroke_style, &cs_noun_glyph,
 static const char *const written[] = {NULL,     "number",   "integer",   "boolean",        NULL,
                                       "string", "number[]", "integer[]", "celspan.surface"};
 
-static void set_text(lua_State *L, const char *name, const char *text) {
-  lua_pushstring(L, text);
-  lua_setfield(L, -2, name);
-}
-
 static void push_choices(lua_State *L, const char *const *words) {
   luaL_Buffer text;
   luaL_buffinit(L, &text);
@@ -42,35 +38,32 @@ static void push_choices(lua_State *L, const char *const *words) {
 
 static void push_field(lua_State *L, const cs_field *field) {
   lua_createtable(L, 0, 10);
-  set_text(L, "name", field->name);
+  cs_put_text(L, "name", field->name);
   if (!field->written && field->choices)
     push_choices(L, field->choices);
   else
     lua_pushstring(L, field->written ? field->written : written[field->type]);
   lua_setfield(L, -2, "type");
-  set_text(L, "read", field->read);
-  set_text(L, "shape", field->type == CS_TYPE_OWN ? NULL : field->shape);
-  set_text(L, "preset", field->preset);
-  set_text(L, "about", field->about);
-  set_text(L, "fallback", field->fallback);
-  lua_pushboolean(L, field->is_required);
-  lua_setfield(L, -2, "is_required");
+  cs_put_text(L, "read", field->read);
+  cs_put_text(L, "shape", field->type == CS_TYPE_OWN ? NULL : field->shape);
+  cs_put_text(L, "preset", field->preset);
+  cs_put_text(L, "about", field->about);
+  cs_put_text(L, "fallback", field->fallback);
+  cs_put_flag(L, "is_required", field->is_required);
   if (field->least >= field->most)
     return;
-  lua_pushnumber(L, field->least);
-  lua_setfield(L, -2, field->is_above ? "above" : "least");
-  lua_pushnumber(L, field->most);
-  lua_setfield(L, -2, field->most < CS_NUMBER_LIMIT ? "most" : "limit");
+  cs_put_number(L, field->is_above ? "above" : "least", field->least);
+  cs_put_number(L, field->most < CS_NUMBER_LIMIT ? "most" : "limit", field->most);
 }
 
 static void push_noun(lua_State *L, const cs_noun *noun) {
   lua_Integer count = 0;
   lua_newtable(L);
-  set_text(L, "name", noun->name);
-  set_text(L, "about", noun->about);
-  set_text(L, "table", noun->table);
-  set_text(L, "item", noun->item_written);
-  set_text(L, "items", noun->item_about);
+  cs_put_text(L, "name", noun->name);
+  cs_put_text(L, "about", noun->about);
+  cs_put_text(L, "table", noun->table);
+  cs_put_text(L, "item", noun->item_written);
+  cs_put_text(L, "items", noun->item_about);
   for (const cs_field *field = noun->fields; field->name; field = cs_field_next(field)) {
     push_field(L, field);
     lua_rawseti(L, -2, ++count);

@@ -3,8 +3,7 @@
  * INVARIANT: every noun of which scripts make values, and every table that they fill in, is in one
  * of the two lists, so that it is in the annotations and in `celspan help lua`.
  */
-#ifndef CS_NOUNS_NOUNS_H
-#define CS_NOUNS_NOUNS_H
+#pragma once
 
 #include "lua/bind/userdata.h"
 
@@ -36,5 +35,3 @@ int cs_nouns_clip(lua_State *L);
 int cs_nouns_glyphs(lua_State *L);
 /* Pushes celspan.clear. */
 void cs_nouns_push_clear(lua_State *L);
-
-#endif

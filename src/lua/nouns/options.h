@@ -1,6 +1,5 @@
 /* Options that several functions share: antialiasing, sizes, crops, codings, exposures. */
-#ifndef CS_NOUNS_OPTIONS_H
-#define CS_NOUNS_OPTIONS_H
+#pragma once
 
 #include "frames/film/film.h"
 #include "lua/bind/fields.h"
@@ -34,5 +33,3 @@ bool cs_options_antialias(const cs_form *form, celspan_antialias_mode *mode,
 /* The value at index, a rostrum or {{rostrum, weight}, ...}, as exposures of *desc: scratch memory,
  * left on the stack; the rostrums are borrowed from the value. name: for messages. */
 void cs_options_exposures(lua_State *L, int index, const char *name, celspan_frame_desc *desc);
-
-#endif

@@ -10,6 +10,7 @@
 #include "lua/nouns/pixel_string.h"
 
 #include "lua/bind/host.h"
+#include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 
 typedef struct box {
@@ -35,8 +36,7 @@ static void push_table(lua_State *L, const char *key, const char *mode) {
   lua_pop(L, 1);
   lua_newtable(L);
   lua_createtable(L, 0, 1);
-  lua_pushstring(L, mode);
-  lua_setfield(L, -2, "__mode");
+  cs_put_text(L, "__mode", mode);
   lua_setmetatable(L, -2);
   lua_pushvalue(L, -1);
   lua_rawsetp(L, LUA_REGISTRYINDEX, key);

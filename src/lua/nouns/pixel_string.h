@@ -1,6 +1,5 @@
 /* Pictures whose pixels are a Lua string, or a surface of the core in the place of one. */
-#ifndef CS_NOUNS_PIXEL_STRING_H
-#define CS_NOUNS_PIXEL_STRING_H
+#pragma once
 
 #include "lua/bind/fields.h"
 
@@ -24,5 +23,3 @@ celspan_surface *cs_pixel_string_surface(const cs_form *form, const cs_pixel_str
 void cs_pixel_string_push_surface(lua_State *L, celspan_surface *surface);
 /* Adds the format if it is left out. */
 void cs_pixel_string_complete(lua_State *L, int fields);
-
-#endif

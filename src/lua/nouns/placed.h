@@ -6,8 +6,7 @@
  *
  * The methods each return a new value. Angles are degrees; multiples of 90 give exact matrices.
  */
-#ifndef CS_NOUNS_PLACED_H
-#define CS_NOUNS_PLACED_H
+#pragma once
 
 #include "lua/bind/form.h"
 #include "lua/bind/userdata.h"
@@ -21,5 +20,3 @@ celspan_object **cs_placed_items(const cs_form *form, int count);
 
 /* Degrees to radians, without whole turns. */
 double cs_placed_radians(double degrees);
-
-#endif

@@ -1,8 +1,7 @@
 /* Random numbers as pure functions of a seed and a label: FNV-1a over the bytes, SplitMix64's
  * finaliser on top. The same on every machine.
  */
-#ifndef CS_NOUNS_RANDOM_H
-#define CS_NOUNS_RANDOM_H
+#pragma once
 
 #include <lua.h>
 #include <stddef.h>
@@ -18,5 +17,3 @@ int cs_random_push(lua_State *L, uint64_t seed, int first);
 
 /* celspan.random(seed) */
 int cs_random_make(lua_State *L);
-
-#endif

@@ -8,6 +8,7 @@
 #include "lua/bind/fields.h"
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"
+#include "lua/bind/put.h"
 #include "lua/nouns/nouns.h"
 
 typedef struct procedure {
@@ -39,12 +40,9 @@ typedef struct request {
 
 static void push_row(lua_State *L, const celspan_scanline_row *row) {
   lua_createtable(L, 0, 3);
-  lua_pushnumber(L, row->x0);
-  lua_setfield(L, -2, "x0");
-  lua_pushnumber(L, row->x1);
-  lua_setfield(L, -2, "x1");
-  lua_pushnumber(L, row->pixel);
-  lua_setfield(L, -2, "pixel");
+  cs_put_number(L, "x0", row->x0);
+  cs_put_number(L, "x1", row->x1);
+  cs_put_number(L, "pixel", row->pixel);
 }
 
 /* The paints of the span on top of the stack: values 3 and 4, or `array`. Scratch memory. */

@@ -8,6 +8,7 @@
 #include "lua/bind/files.h"
 #include "lua/bind/host.h"
 #include "lua/bind/named.h"
+#include "lua/bind/put.h"
 #include "lua/nouns/nouns.h"
 
 #define HOLDER "celspan.letters"
@@ -244,8 +245,7 @@ static void push_object(lua_State *L, int fields, const celspan_glyph *glyph, lu
     lua_insert(L, -2);
     lua_rawset(L, -4);
   }
-  lua_pushinteger(L, index);
-  lua_setfield(L, -2, "index");
+  cs_put_integer(L, "index", index);
   lua_setiuservalue(L, -2, 1);
 }
 
@@ -253,16 +253,12 @@ static void push_glyph(lua_State *L, int fields, const celspan_glyph *glyph, lua
   lua_createtable(L, 0, 6);
   push_object(L, fields, glyph, index);
   lua_setfield(L, -2, "object");
-  lua_pushnumber(L, glyph->x);
-  lua_setfield(L, -2, "x");
-  lua_pushnumber(L, glyph->y);
-  lua_setfield(L, -2, "y");
-  lua_pushnumber(L, glyph->advance);
-  lua_setfield(L, -2, "advance");
+  cs_put_number(L, "x", glyph->x);
+  cs_put_number(L, "y", glyph->y);
+  cs_put_number(L, "advance", glyph->advance);
   lua_pushlstring(L, glyph->text, glyph->text_size);
   lua_setfield(L, -2, "text");
-  lua_pushinteger(L, glyph->line);
-  lua_setfield(L, -2, "line");
+  cs_put_integer(L, "line", glyph->line);
 }
 
 int cs_nouns_glyphs(lua_State *L) {

@@ -1,6 +1,5 @@
 /* The picture fields that celspan.picture and celspan.image share. */
-#ifndef CS_NOUNS_TEXTURE_H
-#define CS_NOUNS_TEXTURE_H
+#pragma once
 
 #include "lua/nouns/pixel_string.h"
 
@@ -22,5 +21,3 @@ extern const char *const cs_texture_pixels_fields[];
  * or from the stack, where the name of the file, as it was found, is left. A surface is kept alive
  * by the value. */
 void cs_texture_read_picture(const cs_form *form, int holder, cs_texture_picture *out);
-
-#endif

@@ -14,8 +14,7 @@
  * they do not depend on the computer. They are counted per load or frame; time is measured per
  * outermost call.
  */
-#ifndef CS_SANDBOX_GUARD_H
-#define CS_SANDBOX_GUARD_H
+#pragma once
 
 #include <lua.h>
 #include <pthread.h>
@@ -95,5 +94,3 @@ void cs_guard_pass(lua_State *L, int outcome);
 /* pcall and xpcall that propagate limits. */
 int cs_guard_pcall(lua_State *L);
 int cs_guard_xpcall(lua_State *L);
-
-#endif

@@ -9,8 +9,7 @@
  * never the originals: setting a field of a metatable in use, and weak tables, break Lua 5.4.4 when
  * memory runs out.
  */
-#ifndef CS_SANDBOX_LIBRARY_H
-#define CS_SANDBOX_LIBRARY_H
+#pragma once
 
 #include <lauxlib.h>
 #include <lua.h>
@@ -45,5 +44,3 @@ int cs_library_require_own(lua_State *L);
 const char *cs_library_push_text(lua_State *L, int index);
 /* Restarts math.random with a seed. */
 void cs_library_seed(lua_State *L, uint64_t seed);
-
-#endif

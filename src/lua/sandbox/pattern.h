@@ -8,8 +8,7 @@
  *              `------- single characters and their repetitions are matched one after the other,
  *                       with backtracking when the rest does not match
  */
-#ifndef CS_SANDBOX_PATTERN_H
-#define CS_SANDBOX_PATTERN_H
+#pragma once
 
 #include <lua.h>
 #include <stdbool.h>
@@ -44,5 +43,3 @@ void cs_pattern_push(cs_match *match, int i, const char *begin, const char *end)
 /* Pushes all captures, or the whole match if there are none, and returns their number. begin NULL:
  * never the whole match. */
 int cs_pattern_push_all(cs_match *match, const char *begin, const char *end);
-
-#endif

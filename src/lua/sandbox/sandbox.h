@@ -5,8 +5,7 @@
  *
  * A trusted script has the whole of Lua, and only the limits that were requested.
  */
-#ifndef CS_SANDBOX_SANDBOX_H
-#define CS_SANDBOX_SANDBOX_H
+#pragma once
 
 #include "lua/bind/host.h"
 #include "lua/sandbox/guard.h"
@@ -37,5 +36,3 @@ void cs_sandbox_attach(cs_sandbox *sandbox, lua_State *L, bool is_trusted);
 void cs_sandbox_open_libraries(lua_State *L);
 /* Opens the functions that need the sandbox; called last, after attaching. Raises errors. */
 void cs_sandbox_open_globals(cs_sandbox *sandbox, lua_State *L);
-
-#endif

@@ -10,8 +10,7 @@
  * Invariant: 0 <= S <= beta and 0 <= T <= 1 - beta; only pictures may have a greater S. A paint is
  * opaque if T = 0, whatever beta is.
  */
-#ifndef CS_COLOUR_PAINT_H
-#define CS_COLOUR_PAINT_H
+#pragma once
 
 #include "celspan/celspan.h"
 
@@ -39,5 +38,3 @@ static inline bool cs_paint_is_opaque(const cs_paint *paint) {
   return paint->t[0] <= CS_PAINT_OPAQUE && paint->t[1] <= CS_PAINT_OPAQUE &&
          paint->t[2] <= CS_PAINT_OPAQUE;
 }
-
-#endif

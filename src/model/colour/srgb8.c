@@ -1,5 +1,7 @@
 #include "model/colour/srgb8.h"
 
+#include <string.h>
+
 void cs_srgb8_make_curve(cs_srgb8_curve *out) {
   for (int code = 0; code < 256; code++) {
     float light = cs_transfer_decode(CELSPAN_TRANSFER_SRGB, (float)(code / 255.0));
@@ -10,5 +12,3 @@ void cs_srgb8_make_curve(cs_srgb8_curve *out) {
       out->bytes[k][code] = (unsigned char)(bits >> 8 * k);
   }
 }
-
-cs_srgb8 cs_srgb8_choose(cs_isa isa) { return CS_WIDE_CHOOSE(isa, cs_srgb8_code); }

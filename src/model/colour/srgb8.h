@@ -1,13 +1,10 @@
-/* Arrays of colours to 8-bit pixels in sRGB with straight alpha: nearly every frame is coded so.
- *
- * Invariant: a pixel is cs_srgb8_pixel of its colour, whichever instructions made it.
+/* A colour as an 8-bit pixel in sRGB with straight alpha, and back. Nearly every frame is coded so,
+ * in the loops of srgb8_lanes.h.
  */
-#ifndef CS_COLOUR_SRGB8_H
-#define CS_COLOUR_SRGB8_H
+#pragma once
 
 #include <stddef.h>
 
-#include "base/wide.h"
 #include "model/colour/transfer.h"
 
 /* One premultiplied linear colour as a pixel, red in the lowest byte. */
@@ -42,12 +39,3 @@ static inline void cs_srgb8_colour(const cs_srgb8_curve *curve, const unsigned c
     rgba[c] = curve->light[pixel[c]] * alpha;
   rgba[3] = alpha;
 }
-
-typedef void (*cs_srgb8)(const float *rgba, size_t count, unsigned char *out);
-cs_srgb8 cs_srgb8_choose(cs_isa isa);
-
-/* ---- srgb8_lanes_wide.c */
-
-CS_WIDE_DECLARE(void, cs_srgb8_code, (const float *rgba, size_t count, unsigned char *out));
-
-#endif

@@ -3,11 +3,11 @@
  *
  * Invariant: a pixel is cs_srgb8_pixel of its colour, whichever instructions made it.
  */
-#ifndef CS_COLOUR_SRGB8_LANES_H
-#define CS_COLOUR_SRGB8_LANES_H
+#pragma once
 
 #include <stdbool.h>
 
+#include "base/wide.h"
 #include "model/colour/srgb8.h"
 
 /* The sRGB curve in vector code, rounded to codes.
@@ -240,4 +240,11 @@ static inline cs_wide_int cs_srgb8_code_planes(const cs_srgb8_planes *colours) {
 
 #endif
 
-#endif
+/* ---------------------------------------------------------------- arrays, for any code */
+
+CS_WIDE_DECLARE(void, cs_srgb8_code, (const float *rgba, size_t count, unsigned char *out));
+
+/* Codes `count` colours as pixels. */
+typedef void (*cs_srgb8)(const float *rgba, size_t count, unsigned char *out);
+
+static inline cs_srgb8 cs_srgb8_choose(cs_isa isa) { return CS_WIDE_CHOOSE(isa, cs_srgb8_code); }

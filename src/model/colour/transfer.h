@@ -3,8 +3,7 @@
  * Decode maps coded to linear, encode linear to coded. Deterministic: same bits on every machine.
  * Values beyond 0..1 are continued (negative ones by odd symmetry for sRGB and Rec.709).
  */
-#ifndef CS_COLOUR_TRANSFER_H
-#define CS_COLOUR_TRANSFER_H
+#pragma once
 
 #include "celspan/celspan.h"
 
@@ -14,5 +13,3 @@ float cs_transfer_encode(celspan_transfer transfer, float linear);
 bool cs_transfer_parse(const char *name, celspan_transfer *out);
 /* An exact fast path: linear 0..1 to an 8-bit sRGB code, round to nearest of the true curve. */
 uint8_t cs_transfer_srgb8(float linear);
-
-#endif

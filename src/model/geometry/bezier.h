@@ -11,8 +11,7 @@
  * given order; cs_bezier_canonise gives a piece and its reversed copy the same order. Where all
  * weights are equal bitwise, splitting keeps them so.
  */
-#ifndef CS_GEOMETRY_BEZIER_H
-#define CS_GEOMETRY_BEZIER_H
+#pragma once
 
 #include "model/geometry/outline.h"
 
@@ -76,5 +75,3 @@ bool cs_bezier_horizon(const cs_outline *outline, const celspan_matrix *matrix, 
 typedef celspan_status (*cs_bezier_visit)(void *user, const cs_bezier *part);
 CELSPAN_CHECKED celspan_status cs_bezier_clip(const cs_bezier *piece, double least,
                                               cs_bezier_visit visit, void *user);
-
-#endif

@@ -22,8 +22,7 @@
  *   - Chords and arcs deviate from the curve by at most about CS_BOUNDARY_TOLERANCE pixels and keep
  *     the area left of it: in any one pixel to less than 2/255 (tests/unit/test_polyline.c).
  */
-#ifndef CS_GEOMETRY_BOUNDARY_H
-#define CS_GEOMETRY_BOUNDARY_H
+#pragma once
 
 #include "model/geometry/outline.h"
 
@@ -85,5 +84,3 @@ typedef struct cs_boundary_group {
   uint32_t count;                      /* of segments; an arc is one */
   uint32_t first, groups;              /* of the piece: one, or those of a leap */
 } cs_boundary_group;
-
-#endif

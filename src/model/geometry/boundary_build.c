@@ -25,8 +25,7 @@ typedef cs_boundary_builder builder;
 
 static celspan_status reserve_stretches(builder *b, size_t more) {
   cs_boundary_stretches *stretches = &b->stretches;
-  return cs_mem_reserve(b->context, (void **)&stretches->items, &stretches->capacity,
-                        stretches->count + more, sizeof *stretches->items);
+  return CS_RESERVE(b->context, stretches->items, stretches->capacity, stretches->count + more);
 }
 
 /* A straight one, for which there is room. */
@@ -283,8 +282,7 @@ static celspan_status add_front(builder *b, cs_bezier *curve, bool is_turned) {
 
 static celspan_status keep_front(void *user, const cs_bezier *curve) {
   builder *b = user;
-  CS_TRY(cs_mem_reserve(b->context, (void **)&b->fronts, &b->front_capacity, b->front_count + 1,
-                        sizeof *b->fronts));
+  CS_TRY(CS_RESERVE(b->context, b->fronts, b->front_capacity, b->front_count + 1));
   cs_bezier_copy(curve, &b->fronts[b->front_count++]);
   return CELSPAN_OK;
 }
@@ -505,10 +503,8 @@ static void append_chain(const cs_boundary_stretch *items, size_t begin, size_t 
 static celspan_status reserve(celspan_context *context, size_t count, cs_boundary_set *set) {
   if (count > UINT32_MAX - set->piece_count)
     return cs_fail(context, CELSPAN_LIMIT, "the frame has more than 4294967295 curve pieces");
-  CS_TRY(cs_mem_reserve(context, (void **)&set->pieces, &set->piece_capacity,
-                        set->piece_count + count, sizeof *set->pieces));
-  return cs_mem_reserve(context, (void **)&set->chains, &set->chain_capacity,
-                        set->chain_count + count, sizeof *set->chains);
+  CS_TRY(CS_RESERVE(context, set->pieces, set->piece_capacity, set->piece_count + count));
+  return CS_RESERVE(context, set->chains, set->chain_capacity, set->chain_count + count);
 }
 
 celspan_status cs_stretches_join(celspan_context *context, const cs_boundary_stretches *stretches,

@@ -16,8 +16,7 @@
  *
  * Invariant: the short way gives the bits of the long one.
  */
-#ifndef CS_GEOMETRY_BOUNDARY_BUILD_H
-#define CS_GEOMETRY_BOUNDARY_BUILD_H
+#pragma once
 
 #include "model/geometry/boundary.h"
 #include "model/geometry/plain.h"
@@ -76,5 +75,3 @@ void cs_boundary_builder_finish(cs_boundary_builder *builder);
 CELSPAN_CHECKED celspan_status cs_boundary_add(cs_boundary_builder *builder,
                                                const cs_outline *outline,
                                                const celspan_matrix *matrix, uint32_t layer);
-
-#endif

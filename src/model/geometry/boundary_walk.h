@@ -11,8 +11,7 @@
  *
  * Invariant: the segment at a height, and so x there, does not depend on where the walk began.
  */
-#ifndef CS_GEOMETRY_BOUNDARY_WALK_H
-#define CS_GEOMETRY_BOUNDARY_WALK_H
+#pragma once
 
 #include "model/geometry/boundary.h"
 
@@ -37,5 +36,3 @@ static inline double cs_boundary_x(const cs_boundary_walk *walk, double y) {
   double down = y - walk->y0;
   return walk->x0 + down * (walk->slope + down * walk->curve);
 }
-
-#endif

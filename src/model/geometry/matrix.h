@@ -11,8 +11,7 @@
  *
  * An affine matrix (m6 = m7 = 0) has no horizon.
  */
-#ifndef CS_GEOMETRY_MATRIX_H
-#define CS_GEOMETRY_MATRIX_H
+#pragma once
 
 #include "celspan/celspan.h"
 #include "model/geometry/outline.h"
@@ -38,5 +37,3 @@ celspan_matrix cs_matrix_facing(const celspan_matrix *matrix);
 /* A rotation by degrees, clockwise on screen, about a centre; quarter turns are exact: no rounded
  * sine is in them. */
 celspan_matrix cs_matrix_turn(double degrees, celspan_point centre);
-
-#endif

@@ -12,8 +12,7 @@
  * the first of the next: starts[i + 1] == starts[i] + degrees[i] inside a contour), and the last
  * point of a contour equals its first bitwise. contours[c] is the first piece of contour c.
  */
-#ifndef CS_GEOMETRY_OUTLINE_H
-#define CS_GEOMETRY_OUTLINE_H
+#pragma once
 
 #include "base/context.h"
 
@@ -107,5 +106,3 @@ const cs_outline *cs_outline_of_box(const celspan_box *box, cs_outline_box *room
 /* The tight box of the outline under a matrix, cut at the horizon; false when there is nothing in
  * front of it. */
 bool cs_outline_bounds(const cs_outline *outline, const celspan_matrix *matrix, celspan_box *out);
-
-#endif

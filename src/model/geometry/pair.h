@@ -1,8 +1,7 @@
 /* A pair: x and y of a point in one register. What is done to it is done to both, with the bits
  * that two numbers would get.
  */
-#ifndef CS_GEOMETRY_PAIR_H
-#define CS_GEOMETRY_PAIR_H
+#pragma once
 
 #include <string.h>
 
@@ -33,5 +32,3 @@ static inline cs_pair cs_pair_most(cs_pair a, cs_pair b) {
 /* A point on the line from a to b. In this form the mean of two equal numbers is the same
  * number. */
 static inline cs_pair cs_pair_between(cs_pair a, cs_pair b, double t) { return a + t * (b - a); }
-
-#endif

@@ -169,10 +169,8 @@ static celspan_status note_inner(reader *r) {
   cs_outline_closed *closed = r->closed;
   if (!closed)
     return CELSPAN_OK;
-  CS_TRY(cs_mem_reserve(r->context, (void **)&closed->inner, &closed->inner_capacity,
-                        closed->inner_count + 1, sizeof *closed->inner));
-  closed->inner[closed->inner_count++] = (uint32_t)r->outline->piece_count;
-  return CELSPAN_OK;
+  return CS_APPEND(r->context, closed->inner, closed->inner_count, closed->inner_capacity,
+                   (uint32_t)r->outline->piece_count);
 }
 
 static celspan_status draw_arc(reader *r, const double *arguments, celspan_point to) {
@@ -349,10 +347,7 @@ celspan_status cs_outline_path_open(celspan_context *context, cs_outline *outlin
 
 celspan_status cs_outline_closed_add(celspan_context *context, cs_outline_closed *closed,
                                      size_t contour) {
-  CS_TRY(cs_mem_reserve(context, (void **)&closed->contours, &closed->capacity, closed->count + 1,
-                        sizeof *closed->contours));
-  closed->contours[closed->count++] = (uint32_t)contour;
-  return CELSPAN_OK;
+  return CS_APPEND(context, closed->contours, closed->count, closed->capacity, (uint32_t)contour);
 }
 
 void cs_outline_closed_finish(cs_outline_closed *closed, cs_memory *memory) {

@@ -10,8 +10,7 @@
  *
  * Invariant: a plain piece has the bits of the same cs_bezier, whatever is done to both.
  */
-#ifndef CS_GEOMETRY_PLAIN_H
-#define CS_GEOMETRY_PLAIN_H
+#pragma once
 
 #include "model/geometry/bezier.h"
 #include "model/geometry/matrix.h"
@@ -99,5 +98,3 @@ cs_pair cs_plain_at(const cs_plain *piece, double t);
 
 /* The same piece with its weights. */
 void cs_plain_weigh(const cs_plain *piece, cs_bezier *out);
-
-#endif

@@ -23,8 +23,7 @@
  * Vertex k of a piece, 0..chords, is where step k of the curve's parameter ends. Vertices near a
  * whole height are moved along the curve to that height, so that rows have few bends.
  */
-#ifndef CS_GEOMETRY_POLYLINE_H
-#define CS_GEOMETRY_POLYLINE_H
+#pragma once
 
 #include "base/wide.h"
 #include "model/geometry/boundary.h"
@@ -43,8 +42,7 @@ static inline CELSPAN_CHECKED celspan_status cs_polyline_reserve(celspan_context
                                                                  size_t points) {
   if (set->point_count > UINT32_MAX - points)
     return cs_fail(context, CELSPAN_LIMIT, "the frame has more than 4294967295 curve points");
-  return cs_mem_reserve(context, (void **)&set->points, &set->point_capacity,
-                        set->point_count + points, sizeof *set->points);
+  return CS_RESERVE(context, set->points, set->point_capacity, set->point_count + points);
 }
 /* Makes group 0..chords / group - 1; or, where leaps is true, the whole leap that the group is in,
  * if one arc is near enough to all of it. */
@@ -113,5 +111,3 @@ typedef struct cs_polyline_arc {
 CS_WIDE_DECLARE(bool, cs_polyline_strays,
                 (const cs_polyline_arc *arc, const cs_polyline_vertices *vertices, int first,
                  int end));
-
-#endif

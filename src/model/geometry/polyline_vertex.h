@@ -17,8 +17,7 @@
  * of the parameter between them, except at the ends of a piece, and a vertex within a sixth of a
  * step from a whole height gets the parameter of that height.
  */
-#ifndef CS_GEOMETRY_POLYLINE_VERTEX_H
-#define CS_GEOMETRY_POLYLINE_VERTEX_H
+#pragma once
 
 #include "base/number.h"
 #include "model/geometry/boundary.h"
@@ -55,5 +54,3 @@ static inline double cs_polyline_parameter(const cs_boundary_piece *piece, uint3
   double t = (vertex - CS_POLYLINE_LEAD) * piece->step;
   return t > 0 ? t < 1 ? t : 1 : 0;
 }
-
-#endif

@@ -4,11 +4,8 @@
  *               \
  *                * (xb, yb)
  */
-#ifndef CS_GEOMETRY_SEGMENT_H
-#define CS_GEOMETRY_SEGMENT_H
+#pragma once
 
 typedef struct cs_segment {
   double xa, ya, xb, yb; /* pixels, from (xa, ya) down to (xb, yb) */
 } cs_segment;
-
-#endif

@@ -9,8 +9,7 @@
  * each pair. A pair is chosen by the place of the block in its picture, so that neighbours in a row
  * and the blocks under one footprint do not displace each other.
  */
-#ifndef CS_PICTURES_BLOCK_CACHE_H
-#define CS_PICTURES_BLOCK_CACHE_H
+#pragma once
 
 #include "model/pictures/store.h"
 
@@ -104,5 +103,3 @@ static inline const float *cs_block_cache_at(cs_block_cache *cache,
       cs_block_cache_block(cache, source, level, x / CS_PICTURE_BLOCK, y / CS_PICTURE_BLOCK);
   return block + 4 * (y % CS_PICTURE_BLOCK * CS_PICTURE_BLOCK + x % CS_PICTURE_BLOCK);
 }
-
-#endif

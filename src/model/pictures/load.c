@@ -21,6 +21,7 @@
 
 #include <string.h>
 
+#include "model/colour/srgb8_lanes.h"
 #include "model/pictures/surface.h"
 
 #define BATCH_BYTES ((size_t)4 << 20)
@@ -132,9 +133,7 @@ static size_t block_count(const file_pass *pass) {
 }
 
 static celspan_status make_blocks(file_pass *pass) {
-  pass->blocks = cs_mem_array(pass->context->memory, block_count(pass), sizeof(cs_picture_block *));
-  if (!pass->blocks)
-    return cs_fail_memory(pass->context);
+  CS_TRY(CS_MAKE(pass->context, pass->blocks, block_count(pass)));
   for (size_t i = 0; i < block_count(pass); i++) {
     int32_t row = (int32_t)(i / (size_t)pass->columns),
             column = (int32_t)(i % (size_t)pass->columns);

@@ -3,8 +3,7 @@
  * INVARIANT: a block is read by one thread at a time, under its entry's `reading`; others that want
  * a block of the same picture wait for it.
  */
-#ifndef CS_PICTURES_LOAD_H
-#define CS_PICTURES_LOAD_H
+#pragma once
 
 #include "model/pictures/store.h"
 
@@ -13,5 +12,3 @@
 CELSPAN_CHECKED celspan_status cs_load_block(celspan_context *context, const cs_picture *picture,
                                              int level, int32_t column, int32_t row,
                                              cs_picture_block **out);
-
-#endif

@@ -11,8 +11,7 @@
  * INVARIANT: a texel is a function of the four below it alone, so its bits do not depend on the
  * order or the sizes in which a level was computed.
  */
-#ifndef CS_PICTURES_MIP_LEVELS_H
-#define CS_PICTURES_MIP_LEVELS_H
+#pragma once
 
 #include "model/pictures/module.h"
 
@@ -51,5 +50,3 @@ typedef struct cs_mip_levels_decoder {
 /* Coded RGBA to linear light, premultiplied, in place. The result has no NaN and nothing beyond the
  * largest half float, and alpha is in 0..1. */
 void cs_mip_levels_decode(const cs_mip_levels_decoder *decoder, float *rgba, size_t count);
-
-#endif

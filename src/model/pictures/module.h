@@ -9,8 +9,7 @@
  * INVARIANT: no exception crosses the interface, no memory changes its owner, and every failure
  * comes with a sentence.
  */
-#ifndef CS_PICTURES_MODULE_H
-#define CS_PICTURES_MODULE_H
+#pragma once
 
 #include "celspan/celspan.h"
 
@@ -114,5 +113,4 @@ CELSPAN_API const void *celspan_picture_module(void);
 
 #ifdef __cplusplus
 }
-#endif
 #endif

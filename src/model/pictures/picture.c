@@ -83,9 +83,8 @@ static celspan_status check(celspan_context *context, const celspan_picture_desc
 
 static celspan_status create(celspan_context *context, const celspan_picture_desc *desc,
                              cs_picture **out) {
-  cs_picture *picture = cs_mem_array(context->memory, 1, sizeof *picture);
-  if (!picture)
-    return cs_fail_memory(context);
+  cs_picture *picture;
+  CS_TRY(CS_MAKE(context, picture, 1));
   atomic_init(&picture->references, 1);
   picture->memory = cs_memory_ref(context->memory);
   picture->hash = hash_of(desc);

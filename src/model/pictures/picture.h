@@ -5,8 +5,7 @@
  * A part is a picture of its own there, with edges and levels of its own, made of the blocks of the
  * whole.
  */
-#ifndef CS_PICTURES_PICTURE_H
-#define CS_PICTURES_PICTURE_H
+#pragma once
 
 #include "base/context.h"
 #include "base/hash.h"
@@ -33,5 +32,3 @@ void cs_picture_unref(cs_picture *picture);
 cs_hash cs_picture_hash(const cs_picture *picture);
 /* For messages: the name of the file, or what else it is. */
 const char *cs_picture_name(const cs_picture *picture);
-
-#endif

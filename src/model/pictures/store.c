@@ -1,6 +1,5 @@
 #include "model/pictures/store.h"
 
-#include <string.h>
 #include <unistd.h>
 
 #include "base/module.h"
@@ -58,9 +57,8 @@ static void clear_block(cs_cache_entry *entry, cs_memory *memory) {
 }
 
 static celspan_status create_store(celspan_context *context, cs_service **out) {
-  cs_picture_store *store = cs_mem_array(context->memory, 1, sizeof *store);
-  if (!store)
-    return cs_fail_memory(context);
+  cs_picture_store *store;
+  CS_TRY(CS_MAKE(context, store, 1));
   store->memory = context->memory;
   store->blocks = (cs_cache){.memory = context->memory,
                              .entry_size = sizeof(cs_picture_block),

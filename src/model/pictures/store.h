@@ -10,8 +10,7 @@
  * `reading` guards its reader and is locked before `lock`. The contents of a block are a function
  * of the picture alone, so frames depend neither on the budget nor on the number of threads.
  */
-#ifndef CS_PICTURES_STORE_H
-#define CS_PICTURES_STORE_H
+#pragma once
 
 #include "base/cache.h"
 #include "model/colour/srgb8.h"
@@ -126,5 +125,3 @@ void cs_store_discard(cs_picture_block *block);
 CELSPAN_CHECKED celspan_status cs_store_open_reader(celspan_context *context,
                                                     cs_picture_entry *entry);
 void cs_store_close_reader(cs_picture_entry *entry);
-
-#endif

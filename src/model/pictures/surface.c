@@ -111,9 +111,8 @@ static bool copy_pixels(celspan_surface *surface) {
 static celspan_status create(celspan_context *context, const celspan_surface_desc *desc,
                              bool is_reader, celspan_surface **out) {
   CS_TRY(check(context, desc));
-  celspan_surface *surface = cs_mem_array(context->memory, 1, sizeof *surface);
-  if (!surface)
-    return cs_fail_memory(context);
+  celspan_surface *surface;
+  CS_TRY(CS_MAKE(context, surface, 1));
   atomic_init(&surface->references, 1);
   surface->memory = cs_memory_ref(context->memory);
   surface->desc = *desc;

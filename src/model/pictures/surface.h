@@ -18,8 +18,7 @@
  * time for equal pictures, by several where its surface is shown in different ways. A frame that
  * shows one which stays on its thread is made with one worker (frames/render/frame.c).
  */
-#ifndef CS_PICTURES_SURFACE_H
-#define CS_PICTURES_SURFACE_H
+#pragma once
 
 #include "base/context.h"
 #include "base/hash.h"
@@ -48,5 +47,3 @@ CELSPAN_CHECKED celspan_status cs_surface_read(celspan_context *context,
                                                const celspan_rectangle *rectangle, float *rgba);
 /* Whether its pixels can be asked for by the rendering thread alone. */
 bool cs_surface_stays_on_thread(const celspan_surface *surface);
-
-#endif

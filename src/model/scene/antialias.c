@@ -111,9 +111,7 @@ celspan_status cs_antialias_make(celspan_context *context, const char *noun,
     *out = (cs_antialias){.mode = CELSPAN_ANTIALIAS_NONE};
     return CELSPAN_OK;
   }
-  out->samples = cs_mem_array(context->memory, CS_ANTIALIAS_SAMPLES, sizeof *out->samples);
-  if (!out->samples)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, out->samples, CS_ANTIALIAS_SAMPLES));
   celspan_status status = sample(context, noun, desc, out);
   if (status != CELSPAN_OK)
     cs_antialias_free(out, context->memory);
@@ -125,9 +123,7 @@ celspan_status cs_antialias_copy(celspan_context *context, const cs_antialias *f
   *out = *from;
   if (!from->samples)
     return CELSPAN_OK;
-  out->samples = cs_mem_array(context->memory, CS_ANTIALIAS_SAMPLES, sizeof *out->samples);
-  if (!out->samples)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, out->samples, CS_ANTIALIAS_SAMPLES));
   memcpy(out->samples, from->samples, CS_ANTIALIAS_SAMPLES * sizeof *out->samples);
   return CELSPAN_OK;
 }

@@ -4,8 +4,7 @@
  * Invariants: the values of a kernel are sampled at construction, so that making rows never calls a
  * function of the caller; their sum is not 0. A filter of radius 0 is the mode NONE.
  */
-#ifndef CS_SCENE_ANTIALIAS_H
-#define CS_SCENE_ANTIALIAS_H
+#pragma once
 
 #include "base/context.h"
 #include "base/hash.h"
@@ -29,5 +28,3 @@ CELSPAN_CHECKED celspan_status cs_antialias_copy(celspan_context *context, const
                                                  cs_antialias *out);
 void cs_antialias_free(cs_antialias *antialias, cs_memory *memory);
 void cs_antialias_hash(cs_hash *hash, const cs_antialias *antialias);
-
-#endif

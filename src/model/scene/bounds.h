@@ -11,8 +11,7 @@
  *
  * INVARIANT: a box from here is the tight one.
  */
-#ifndef CS_SCENE_BOUNDS_H
-#define CS_SCENE_BOUNDS_H
+#pragma once
 
 #include "model/scene/scene.h"
 
@@ -22,5 +21,3 @@ CELSPAN_CHECKED celspan_status cs_bounds_object(celspan_context *context,
                                                 celspan_box *out);
 CELSPAN_CHECKED celspan_status cs_bounds_cel(celspan_context *context, const celspan_cel *cel,
                                              bool *is_there, celspan_box *out);
-
-#endif

@@ -6,8 +6,7 @@
  *
  * Lists are counted from 1, as scripts count them. All functions: BAD_ARGUMENT, or OK.
  */
-#ifndef CS_SCENE_CHECK_H
-#define CS_SCENE_CHECK_H
+#pragma once
 
 #include "base/context.h"
 
@@ -78,5 +77,3 @@ CELSPAN_CHECKED celspan_status cs_check_list(celspan_context *context, const cha
 /* given: the struct_size of a description. */
 CELSPAN_CHECKED celspan_status cs_check_version(celspan_context *context, const char *noun,
                                                 size_t given, size_t expected);
-
-#endif

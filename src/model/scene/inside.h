@@ -11,8 +11,7 @@
  * A point is taken to a primitive's own units by the inverse of the matrix of all levels together.
  * A point behind the horizon is in no shape.
  */
-#ifndef CS_SCENE_INSIDE_H
-#define CS_SCENE_INSIDE_H
+#pragma once
 
 #include "model/geometry/outline.h"
 #include "model/scene/scene.h"
@@ -61,5 +60,3 @@ static inline bool cs_inside_is_present(celspan_operator op, size_t present, siz
 static inline bool cs_inside_shows(celspan_operator op, size_t index) {
   return index == 0 || (op != CELSPAN_DIFFERENCE && op != CELSPAN_CLIP);
 }
-
-#endif

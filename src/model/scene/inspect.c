@@ -166,8 +166,7 @@ static celspan_status remember(cs_inspection *inspection, const cs_picture *pict
   cs_inspection_outcome outcome = {.status = status};
   if (inspection->count == CS_INSPECTION_MOST)
     forget(inspection);
-  CS_TRY(cs_mem_reserve(context, (void **)&inspection->outcomes, &inspection->capacity,
-                        inspection->count + 1, sizeof *inspection->outcomes));
+  CS_TRY(CS_RESERVE(context, inspection->outcomes, inspection->capacity, inspection->count + 1));
   if (status != CELSPAN_OK &&
       !copy_text(context->memory, celspan_context_error(context), &outcome.message))
     return cs_fail_memory(context);

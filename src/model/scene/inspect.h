@@ -3,8 +3,7 @@
  * INVARIANT: a fault is reported once a primitive, in the order of cels and primitives; the
  * inspection remembers pictures, so a picture of many primitives is read once.
  */
-#ifndef CS_SCENE_INSPECT_H
-#define CS_SCENE_INSPECT_H
+#pragma once
 
 #include "base/hash_table.h"
 #include "base/mark.h"
@@ -76,5 +75,3 @@ cs_blame_text cs_blame_object(size_t number, cs_mark cel, const celspan_object *
  * status. */
 celspan_status cs_blame_picture(celspan_context *context, const celspan_exposure *exposures,
                                 size_t count, celspan_status status);
-
-#endif

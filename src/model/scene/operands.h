@@ -19,8 +19,7 @@
  * What a living view shows never changes. Threads: views of one list may be extended and dropped on
  * any threads.
  */
-#ifndef CS_SCENE_OPERANDS_H
-#define CS_SCENE_OPERANDS_H
+#pragma once
 
 #include "base/context.h"
 
@@ -45,5 +44,3 @@ CELSPAN_CHECKED celspan_status cs_operands_extend(celspan_context *context, cons
                                                   celspan_object *const *objects, size_t count,
                                                   cs_operands *out);
 void cs_operands_finish(cs_operands *operands);
-
-#endif

@@ -1,8 +1,7 @@
 /* Textures at a point, in doubles: a second implementation, with which the tests compare the
  * frames. It shares no code with the composer.
  */
-#ifndef CS_SCENE_ORACLE_H
-#define CS_SCENE_ORACLE_H
+#pragma once
 
 #include "model/scene/scene.h"
 
@@ -32,5 +31,3 @@ CELSPAN_CHECKED celspan_status cs_oracle_primitive(celspan_context *context,
                                                    const cs_primitive_data *data,
                                                    celspan_point point, bool *is_there,
                                                    cs_oracle_paint *out);
-
-#endif

@@ -11,21 +11,18 @@
 /* What only data of this kind have. */
 static celspan_status create_part(celspan_context *context, cs_primitive_data *data) {
   if (data->kind == CS_PRIMITIVE_DATA_SCANLINE) {
-    data->scanline = cs_mem_array(context->memory, 1, sizeof *data->scanline);
-    return data->scanline ? CELSPAN_OK : cs_fail_memory(context);
+    return CS_MAKE(context, data->scanline, 1);
   }
   if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN) {
-    data->boolean = cs_mem_array(context->memory, 1, sizeof *data->boolean);
-    return data->boolean ? CELSPAN_OK : cs_fail_memory(context);
+    return CS_MAKE(context, data->boolean, 1);
   }
   return CELSPAN_OK;
 }
 
 celspan_status cs_primitive_data_create(celspan_context *context, cs_primitive_data_kind kind,
                                         celspan_texture *texture, cs_primitive_data **out) {
-  cs_primitive_data *data = cs_mem_array(context->memory, 1, sizeof *data);
-  if (!data)
-    return cs_fail_memory(context);
+  cs_primitive_data *data;
+  CS_TRY(CS_MAKE(context, data, 1));
   atomic_init(&data->references, 1);
   data->memory = cs_memory_ref(context->memory);
   data->kind = kind;

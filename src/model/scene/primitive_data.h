@@ -8,8 +8,7 @@
  * object share them. Invariant: the data of a scan-line procedure have an outline too, the
  * rectangle of its bounds, so that geometry needs no special case.
  */
-#ifndef CS_SCENE_PRIMITIVE_DATA_H
-#define CS_SCENE_PRIMITIVE_DATA_H
+#pragma once
 
 #include "model/scene/scene.h"
 
@@ -80,5 +79,3 @@ CELSPAN_CHECKED celspan_status cs_primitive_data_measure(celspan_context *contex
 /* Adds the level that the data are themselves. Errors: LIMIT. */
 CELSPAN_CHECKED celspan_status cs_primitive_data_deepen(celspan_context *context, const char *noun,
                                                         cs_primitive_data *data);
-
-#endif

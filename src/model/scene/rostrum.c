@@ -111,9 +111,8 @@ static void free_parts(celspan_rostrum *rostrum, cs_memory *memory) {
 celspan_status celspan_rostrum_create(celspan_context *context, const celspan_rostrum_desc *desc,
                                       celspan_rostrum **out) {
   CS_TRY(check(context, desc));
-  celspan_rostrum *rostrum = cs_mem_array(context->memory, 1, sizeof *rostrum);
-  if (!rostrum)
-    return cs_fail_memory(context);
+  celspan_rostrum *rostrum;
+  CS_TRY(CS_MAKE(context, rostrum, 1));
   celspan_status status = make_parts(context, desc, rostrum);
   if (status != CELSPAN_OK) {
     free_parts(rostrum, context->memory);

@@ -11,8 +11,7 @@
  * Invariants: spans ascend, do not overlap and lie in the bounds; each has at least one paint; all
  * paints are valid. A span that is cut keeps the ends of its paints, so cutting moves no colour.
  */
-#ifndef CS_SCENE_SCANLINE_H
-#define CS_SCENE_SCANLINE_H
+#pragma once
 
 #include "base/context.h"
 #include "model/colour/paint.h"
@@ -46,5 +45,3 @@ CELSPAN_CHECKED celspan_status cs_scanline_collect(celspan_context *context,
                                                    const celspan_scanline_desc *desc, double y,
                                                    const celspan_scanline_row *row,
                                                    celspan_scanline_output *output);
-
-#endif

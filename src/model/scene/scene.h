@@ -11,8 +11,7 @@
  * child pointer is set, nesting is at most CS_SCENE_DEPTH, and an object has at most
  * CS_SCENE_PRIMITIVES primitives, where a shared operand counts each time it occurs.
  */
-#ifndef CS_SCENE_SCENE_H
-#define CS_SCENE_SCENE_H
+#pragma once
 
 #include "base/hash.h"
 #include "base/mark.h"
@@ -223,5 +222,3 @@ CELSPAN_CHECKED celspan_status cs_lit_alone_make(celspan_context *context,
                                                  const celspan_rostrum *rostrum, size_t index,
                                                  bool is_back, cs_lit_alone *out);
 void cs_lit_alone_finish(celspan_context *context, cs_lit_alone *alone);
-
-#endif

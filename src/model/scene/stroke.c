@@ -1,5 +1,4 @@
 /* Strokes: the constructors, which check the description. */
-#include "model/geometry/matrix.h"
 #include "model/scene/check.h"
 #include "model/scene/primitive_data.h"
 #include "model/stroke/outliner.h"
@@ -91,9 +90,7 @@ static celspan_status fill(celspan_context *context, cs_primitive_data *data,
                            const celspan_stroke_desc *desc, const cs_outline *outline,
                            const cs_outline_closed *closed) {
   data->primitive_count = 1;
-  data->stroke = cs_mem_array(context->memory, 1, sizeof *data->stroke);
-  if (!data->stroke)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, data->stroke, 1));
   cs_outline_init(&data->stroke->line);
   CS_TRY(cs_stroke_init(context, data->stroke, desc, outline, closed));
   return find_bounds(context, data);

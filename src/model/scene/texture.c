@@ -327,9 +327,7 @@ static cs_paint light_paint(const cs_paint *paint) {
 
 static celspan_status copy_stops(celspan_context *context, const cs_texture_variation *from,
                                  cs_texture_variation *to) {
-  to->stops = cs_mem_array(context->memory, from->stop_count, sizeof *to->stops);
-  if (!to->stops)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, to->stops, from->stop_count));
   to->stop_count = from->stop_count;
   for (size_t i = 0; i < from->stop_count; i++)
     to->stops[i] = (cs_stop){from->stops[i].at, light_paint(&from->stops[i].paint)};

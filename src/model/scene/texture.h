@@ -7,8 +7,7 @@
  *   FLAT        [ texture ]                      most textures of most scenes: they are kept small
  *   all others  [ texture | its variation ]      one allocation
  */
-#ifndef CS_SCENE_TEXTURE_H
-#define CS_SCENE_TEXTURE_H
+#pragma once
 
 #include "base/hash.h"
 #include "base/mark.h"
@@ -87,5 +86,3 @@ void cs_texture_rehash(celspan_texture *texture);
 /* Whether every colour of the texture lets the three channels through alike. A picture is grey
  * unless it is a gel or has a medium. */
 bool cs_texture_is_grey(const celspan_texture *texture);
-
-#endif

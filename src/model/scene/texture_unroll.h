@@ -6,8 +6,7 @@
  *
  * Invariant: inside the box the unrolled gradient shows what the one that repeats does.
  */
-#ifndef CS_SCENE_TEXTURE_UNROLL_H
-#define CS_SCENE_TEXTURE_UNROLL_H
+#pragma once
 
 #include "model/scene/texture.h"
 
@@ -18,5 +17,3 @@
  * LIMIT for more than CS_UNROLL_STOPS. */
 CELSPAN_CHECKED celspan_status cs_texture_unroll(celspan_context *context,
                                                  celspan_texture **texture, const celspan_box *box);
-
-#endif

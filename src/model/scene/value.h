@@ -3,8 +3,7 @@
  * A value is made with one reference, and dropping the last reference frees it. Only the count of
  * references ever changes in a value.
  */
-#ifndef CS_SCENE_VALUE_H
-#define CS_SCENE_VALUE_H
+#pragma once
 
 #include "base/context.h"
 #include "base/hash.h"
@@ -36,5 +35,3 @@ void cs_value_hash_paint(cs_hash *hash, const cs_paint *paint);
 void cs_value_hash_light(cs_hash *hash, const celspan_light *light);
 /* A hash as the two words that hosts are given. */
 void cs_value_hash_give(cs_hash hash, uint64_t out[2]);
-
-#endif

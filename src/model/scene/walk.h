@@ -5,8 +5,7 @@
  *
  * INVARIANT: the order is that of the lists, back to front; what occurs twice is met twice.
  */
-#ifndef CS_SCENE_WALK_H
-#define CS_SCENE_WALK_H
+#pragma once
 
 #include "model/scene/scene.h"
 
@@ -28,5 +27,3 @@ CELSPAN_CHECKED celspan_status cs_walk_lights(cs_walk *walk, const cs_light *fro
                                               const cs_light *back);
 /* The sizes and times of change of the pictures' files as they are now. */
 cs_hash cs_walk_hash_files(const celspan_exposure *exposures, size_t count);
-
-#endif

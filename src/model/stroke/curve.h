@@ -1,7 +1,6 @@
 /* A piece of a line with its radius, or a part of one: what strokes are measured and outlined by.
  */
-#ifndef CS_STROKE_CURVE_H
-#define CS_STROKE_CURVE_H
+#pragma once
 
 #include "model/geometry/bezier.h"
 #include "model/stroke/stroke.h"
@@ -72,5 +71,3 @@ double cs_curve_marked_parameter(const cs_bezier *line, const double marks[CS_CU
 /* Parameters inside (0, 1) where that changes, ascending; their number. */
 int cs_curve_swallow_changes(const cs_curve *curve, double changes[CS_CURVE_SWALLOW_CHANGES]);
 bool cs_curve_is_swallowed(const cs_curve *curve, double t);
-
-#endif

@@ -10,13 +10,10 @@
  * the fourth root of the size, or less. Two sides of a curve are halved at the same places, which
  * makes what they share the same to the bit.
  */
-#ifndef CS_STROKE_FOLLOW_H
-#define CS_STROKE_FOLLOW_H
+#pragma once
 
 #include "model/stroke/side.h"
 
 /* Along a curve, from the tip of its first spoke to that of its last. Errors: NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_follow_curve(cs_side *side, const cs_curve *curve,
                                                const cs_spoke *first, const cs_spoke *last);
-
-#endif

@@ -31,8 +31,7 @@ typedef struct outliner {
 /* ---------------------------------------------------------------- stretches */
 
 static celspan_status append_stretch(outliner *o, stretch s) {
-  CS_TRY(cs_mem_reserve(o->side.context, (void **)&o->stretches, &o->capacity, o->count + 1,
-                        sizeof *o->stretches));
+  CS_TRY(CS_RESERVE(o->side.context, o->stretches, o->capacity, o->count + 1));
   s.is_cut = o->is_cut;
   o->is_cut = false;
   o->stretches[o->count++] = s;

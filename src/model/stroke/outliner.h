@@ -14,8 +14,7 @@
  * make the winding at a point the number of times that a line comes near it follows from counting
  * the extrema of its distance.
  */
-#ifndef CS_STROKE_OUTLINER_H
-#define CS_STROKE_OUTLINER_H
+#pragma once
 
 #include "model/stroke/stroke.h"
 
@@ -28,5 +27,3 @@ CELSPAN_CHECKED celspan_status cs_stroke_outline(celspan_context *context, const
  * above. */
 CELSPAN_CHECKED celspan_status cs_stroke_outline_fine(celspan_context *context,
                                                       const cs_stroke *stroke, cs_outline *outline);
-
-#endif

@@ -61,10 +61,7 @@ static double parameter_at(ruler *r, size_t piece, double length) {
 
 static celspan_status append_part(celspan_context *context, cs_stroke *stroke,
                                   cs_stroke_part part) {
-  CS_TRY(cs_mem_reserve(context, (void **)&stroke->parts, &stroke->part_capacity,
-                        stroke->part_count + 1, sizeof *stroke->parts));
-  stroke->parts[stroke->part_count++] = part;
-  return CELSPAN_OK;
+  return CS_APPEND(context, stroke->parts, stroke->part_count, stroke->part_capacity, part);
 }
 
 /* The part of a contour from one length of the line to another. */
@@ -219,9 +216,7 @@ celspan_status cs_stroke_divide(celspan_context *context, cs_stroke *stroke,
   ruler r = {.context = context, .stroke = stroke, .desc = desc, .marked = SIZE_MAX};
   if (count == 0)
     return CELSPAN_OK;
-  r.ends = cs_mem_array(context->memory, count, sizeof *r.ends);
-  if (!r.ends)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, r.ends, count));
   if (desc->dash_count > 0 || desc->from > 0 || desc->to < 1)
     measure(&r);
   else /* where a piece ends does not matter: all are drawn */
@@ -275,9 +270,8 @@ static celspan_status add_spline(celspan_context *context, cs_outline *line,
 static celspan_status add_widths(celspan_context *context, cs_stroke_raw *raw,
                                  const celspan_stroke_desc *desc) {
   size_t count = desc->point_count;
-  celspan_point *widths = cs_mem_array(context->memory, count, sizeof *widths);
-  if (!widths)
-    return cs_fail_memory(context);
+  celspan_point *widths;
+  CS_TRY(CS_MAKE(context, widths, count));
   for (size_t i = 0; i < count; i++)
     widths[i].x = desc->widths[i];
   celspan_status status = add_spline(context, &raw->widths, widths, count, desc);
@@ -354,12 +348,9 @@ static void settle(cs_bezier *line) {
 celspan_status cs_stroke_append(celspan_context *context, cs_stroke *stroke, const cs_curve *curve,
                                 bool is_first) {
   size_t piece = stroke->line.piece_count, count = (size_t)curve->radius_degree + 1;
-  CS_TRY(cs_mem_reserve(context, (void **)&stroke->radii, &stroke->radius_capacity,
-                        stroke->radius_count + count, sizeof *stroke->radii));
-  CS_TRY(cs_mem_reserve(context, (void **)&stroke->radius_starts, &stroke->radius_start_capacity,
-                        piece + 1, sizeof *stroke->radius_starts));
-  CS_TRY(cs_mem_reserve(context, (void **)&stroke->radius_degrees, &stroke->radius_degree_capacity,
-                        piece + 1, sizeof *stroke->radius_degrees));
+  CS_TRY(CS_RESERVE(context, stroke->radii, stroke->radius_capacity, stroke->radius_count + count));
+  CS_TRY(CS_RESERVE(context, stroke->radius_starts, stroke->radius_start_capacity, piece + 1));
+  CS_TRY(CS_RESERVE(context, stroke->radius_degrees, stroke->radius_degree_capacity, piece + 1));
   if (is_first)
     CS_TRY(cs_outline_begin(context, &stroke->line, curve->line.points[0]));
   cs_bezier line;

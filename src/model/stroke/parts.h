@@ -8,8 +8,7 @@
  * Without dashes, taper scales the radius by the way from the ends of a part: what is not drawn is
  * then cut off the line.
  */
-#ifndef CS_STROKE_PARTS_H
-#define CS_STROKE_PARTS_H
+#pragma once
 
 #include "model/stroke/curve.h"
 
@@ -50,5 +49,3 @@ CELSPAN_CHECKED celspan_status cs_stroke_divide(celspan_context *context, cs_str
 /* Makes the line again from the stroke's parts, with tapered radii. Errors: NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_stroke_taper(celspan_context *context, cs_stroke *stroke,
                                                const double taper[2]);
-
-#endif

@@ -1,7 +1,5 @@
 #include "model/stroke/side.h"
 
-#include "base/elementary.h"
-
 #define PI 3.14159265358979323846
 #define ARC_DEPTH 20
 #define ARC_WORST 0.2113 /* parameter at which a cubic is farthest from its arc */

@@ -15,8 +15,7 @@
  *
  * Invariant: contours go round in one order, so that their windings never cancel.
  */
-#ifndef CS_STROKE_SIDE_H
-#define CS_STROKE_SIDE_H
+#pragma once
 
 #include "model/stroke/spoke.h"
 #include "model/stroke/stroke.h"
@@ -102,5 +101,3 @@ CELSPAN_CHECKED celspan_status cs_corner_cap_more(cs_side *side, const cs_stroke
 /* A line of no length. Errors: as above. */
 CELSPAN_CHECKED celspan_status cs_corner_dot(cs_side *side, const cs_stroke *stroke,
                                              const cs_spoke *place);
-
-#endif

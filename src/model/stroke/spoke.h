@@ -6,8 +6,7 @@
  * -----*-----> tangent        The envelope continues at a right angle to the spoke. Where the slope
  *    centre                   is beyond +-1 a disc is inside its neighbour: it is clamped to that.
  */
-#ifndef CS_STROKE_SPOKE_H
-#define CS_STROKE_SPOKE_H
+#pragma once
 
 #include <math.h>
 
@@ -60,5 +59,3 @@ cs_spoke cs_spoke_turned(const cs_spoke *spoke);
  * -pi .. pi, > 0 with the order of a contour. */
 double cs_spoke_lean(const cs_spoke *spoke);
 double cs_spoke_angle(celspan_point from, celspan_point to);
-
-#endif

@@ -16,8 +16,7 @@
  * piece, and go over the contour's end only where it is closed. A part that begins where it ends,
  * of one piece, is a dot.
  */
-#ifndef CS_STROKE_STROKE_H
-#define CS_STROKE_STROKE_H
+#pragma once
 
 #include "base/hash.h"
 #include "model/geometry/boundary.h"
@@ -97,5 +96,3 @@ bool cs_stroke_view_holds(const cs_stroke_view *view, const celspan_box *box);
 /* Whether the box is much larger than the frame, so that it is worth while to look at parts of
  * it. */
 bool cs_stroke_view_is_exceeded(const cs_stroke_view *view, const celspan_box *box);
-
-#endif

@@ -17,8 +17,7 @@
  * CS_DEFLATE_NEAR: so a run of a colour, whose distance is the size of a pixel, takes a token for
  * each 128 longest matches.
  */
-#ifndef CS_DEFLATE_BLOCK_H
-#define CS_DEFLATE_BLOCK_H
+#pragma once
 
 #include <string.h>
 
@@ -230,5 +229,3 @@ static inline void cs_deflate_block_run(cs_deflate_block *block, size_t bytes, s
 
 /* Puts the waiting tokens, fills the last byte with an empty block, and writes all bytes. */
 void cs_deflate_block_end(cs_deflate_block *block);
-
-#endif

@@ -86,9 +86,8 @@ struct cs_deflate {
 
 celspan_status cs_deflate_create(celspan_context *context, size_t pixel_size,
                                  cs_deflate_write write, void *user, cs_deflate **out) {
-  cs_deflate *deflate = cs_mem_array(context->memory, 1, sizeof *deflate);
-  if (!deflate)
-    return cs_fail_memory(context);
+  cs_deflate *deflate;
+  CS_TRY(CS_MAKE(context, deflate, 1));
   deflate->pixel_size = deflate->search.pixel_size = pixel_size;
   deflate->search.block = &deflate->block;
   deflate->block.output.write = write;

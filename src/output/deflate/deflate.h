@@ -20,8 +20,7 @@
  * cs_deflate_end. It ends with a whole byte and refers to nothing outside, so segments can be
  * joined by writing one after the other. Memory: about 850 KiB for each cs_deflate.
  */
-#ifndef CS_DEFLATE_DEFLATE_H
-#define CS_DEFLATE_DEFLATE_H
+#pragma once
 
 #include "base/context.h"
 
@@ -80,5 +79,3 @@ void cs_deflate_header(unsigned char header[CS_DEFLATE_HEADER]);
 /* sum: of all segments, joined in order. */
 void cs_deflate_trailer(cs_deflate_sum sum, unsigned char trailer[CS_DEFLATE_TRAILER]);
 cs_deflate_sum cs_deflate_join(cs_deflate_sum first, cs_deflate_sum second);
-
-#endif

@@ -3,8 +3,7 @@
  * INVARIANT: the sum of lengths times counts is the least that any prefix code within the limit
  * has; and which of several such codes is chosen depends on the counts alone.
  */
-#ifndef CS_DEFLATE_HUFFMAN_H
-#define CS_DEFLATE_HUFFMAN_H
+#pragma once
 
 #include <stdint.h>
 
@@ -15,5 +14,3 @@ enum { CS_DEFLATE_HUFFMAN_SYMBOLS = 288, CS_DEFLATE_HUFFMAN_LIMIT = 15 };
 void cs_deflate_huffman_lengths(const uint32_t *counts, int symbols, int limit, uint8_t *lengths);
 /* The canonical codes of these lengths, each with its first bit lowest. */
 void cs_deflate_huffman_codes(const uint8_t *lengths, int symbols, uint16_t *codes);
-
-#endif

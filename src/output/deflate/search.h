@@ -9,8 +9,7 @@
  * INVARIANT: the tokens depend on the bytes since the last cs_deflate_search_begin, and on where
  * among them cs_deflate_search_flush was called; on nothing before.
  */
-#ifndef CS_DEFLATE_SEARCH_H
-#define CS_DEFLATE_SEARCH_H
+#pragma once
 
 #include "output/deflate/block.h"
 
@@ -49,5 +48,3 @@ static inline void cs_deflate_search_commit(cs_deflate_search *search, size_t si
 }
 /* Makes tokens of all bytes that wait, and drops the history: tokens of others may follow. */
 void cs_deflate_search_flush(cs_deflate_search *search);
-
-#endif

@@ -5,8 +5,7 @@
  * INVARIANT: inspect reads the data about the rows, add reads the rows; neither unpacks a pixel,
  * and memory is that of a cs_joining whatever the files hold.
  */
-#ifndef CS_OUTPUT_JOIN_FORMAT_H
-#define CS_OUTPUT_JOIN_FORMAT_H
+#pragma once
 
 #include <spanfile.h>
 
@@ -64,5 +63,3 @@ typedef struct cs_join_format {
 } cs_join_format;
 
 extern const cs_join_format cs_join_png, cs_join_tga, cs_join_span;
-
-#endif

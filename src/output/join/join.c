@@ -161,9 +161,8 @@ static bool is_name(const char *wanted, const char *name) { return strcmp(wanted
 /* Strips are large, and so is what a run that was killed has left of their picture. */
 static celspan_status write_file(celspan_context *context, job *j) {
   cs_temporary_sweep(j->output, is_name);
-  cs_joining *joining = cs_mem_array(context->memory, 1, sizeof *joining);
-  if (!joining)
-    return cs_fail_memory(context);
+  cs_joining *joining;
+  CS_TRY(CS_MAKE(context, joining, 1));
   celspan_status status = cs_file_create(context, NULL, j->output, &joining->file);
   if (status == CELSPAN_OK)
     status = write_parts(context, j, joining);

@@ -9,8 +9,7 @@
  * are one picture from its first row to its last. Memory does not depend on the contents of the
  * parts. Unfinished files of this name that nobody writes any more are removed.
  */
-#ifndef CS_OUTPUT_JOIN_JOIN_H
-#define CS_OUTPUT_JOIN_JOIN_H
+#pragma once
 
 #include "base/context.h"
 
@@ -19,5 +18,3 @@
  * one of the parts; OUTPUT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_join(celspan_context *context, const char *const *paths,
                                        size_t count, const char *output);
-
-#endif

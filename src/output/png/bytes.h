@@ -9,8 +9,7 @@
  * INVARIANT: a kernel gives the same bytes for every set of instructions. Less than CS_PNG_BATCH
  * bytes beyond the end of the output may be overwritten.
  */
-#ifndef CS_OUTPUT_PNG_BYTES_H
-#define CS_OUTPUT_PNG_BYTES_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -45,5 +44,3 @@ CS_WIDE_DECLARE(void, cs_png_bytes_add_costs,
                  size_t size, uint64_t costs[CS_PNG_FILTERS]));
 /* Removes the alpha of 8-bit pixels, in place. Returns the bits that are set in all of them. */
 CS_WIDE_DECLARE(uint32_t, cs_png_bytes_drop_alpha, (unsigned char *bytes, size_t pixel_count));
-
-#endif

@@ -4,8 +4,7 @@
  *
  * INVARIANT: numbers have their highest byte first.
  */
-#ifndef CS_OUTPUT_PNG_CHUNK_H
-#define CS_OUTPUT_PNG_CHUNK_H
+#pragma once
 
 #include "output/sinks/file.h"
 
@@ -24,5 +23,3 @@ static inline uint32_t cs_png_load_32(const unsigned char *at) {
 /* Writes a chunk. Errors: OUTPUT. */
 CELSPAN_CHECKED celspan_status cs_png_chunk_put(cs_file *file, celspan_context *context,
                                                 const char *type, const void *bytes, size_t size);
-
-#endif

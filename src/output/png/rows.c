@@ -228,8 +228,7 @@ static CELSPAN_CHECKED celspan_status put_filtered_runs(cs_png_filter_runs *filt
                                                         cs_deflate *deflate) {
   size_t most = 2 * (row->count + above->count) + 1;
   for (int i = 0; i < 2; i++)
-    CS_TRY(cs_mem_reserve(context, (void **)&filter->differences[i], &filter->capacities[i], most,
-                          sizeof *filter->differences[i]));
+    CS_TRY(CS_RESERVE(context, filter->differences[i], filter->capacities[i], most));
   filtered best = filter_row(filter, row, above);
   cs_deflate_byte(deflate, (unsigned char)best.filter);
   return cs_deflate_runs(deflate, context, best.runs, best.count);
@@ -462,8 +461,7 @@ static celspan_status code_row(cs_png_rows *rows, celspan_context *context,
   if (row->is_bytes) {
     CS_TRY(spans_to_bytes(rows, context, spans, span_count, row));
   } else {
-    CS_TRY(cs_mem_reserve(context, (void **)&row->runs.runs, &row->runs.capacity, runs,
-                          sizeof *row->runs.runs));
+    CS_TRY(CS_RESERVE(context, row->runs.runs, row->runs.capacity, runs));
     spans_to_runs(rows, spans, span_count, &row->runs);
   }
   return check_opaque(rows, context);

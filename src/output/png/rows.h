@@ -15,8 +15,7 @@
  * INVARIANT: rows[!current] is the row put last, which the next one is filtered against; it is the
  * only earlier row that is kept.
  */
-#ifndef CS_OUTPUT_PNG_ROWS_H
-#define CS_OUTPUT_PNG_ROWS_H
+#pragma once
 
 #include "output/deflate/deflate.h"
 #include "output/png/bytes.h"
@@ -85,5 +84,3 @@ CELSPAN_CHECKED celspan_status cs_png_rows_put(cs_png_rows *rows, celspan_contex
 CELSPAN_CHECKED celspan_status cs_png_rows_set_above(cs_png_rows *rows, celspan_context *context,
                                                      const celspan_span *spans, size_t span_count);
 void cs_png_rows_end(cs_png_rows *rows, celspan_context *context);
-
-#endif

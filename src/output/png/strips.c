@@ -52,8 +52,7 @@ struct cs_png_strips {
 
 static celspan_status append(void *user, celspan_context *context, const void *bytes, size_t size) {
   buffer *packed = *(buffer **)user;
-  CS_TRY(
-      cs_mem_reserve(context, (void **)&packed->bytes, &packed->capacity, packed->size + size, 1));
+  CS_TRY(CS_RESERVE(context, packed->bytes, packed->capacity, packed->size + size));
   memcpy(packed->bytes + packed->size, bytes, size);
   packed->size += size;
   return CELSPAN_OK;
@@ -243,11 +242,8 @@ static celspan_status init_worker(cs_png_strips *strips, celspan_context *contex
 }
 
 static celspan_status init_strips(cs_png_strips *strips, celspan_context *context) {
-  strips->workers =
-      cs_mem_array(context->memory, (size_t)strips->worker_count, sizeof *strips->workers);
-  strips->ring = cs_mem_array(context->memory, (size_t)strips->ring_size, sizeof *strips->ring);
-  if (!strips->workers || !strips->ring)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, strips->workers, (size_t)strips->worker_count));
+  CS_TRY(CS_MAKE(context, strips->ring, (size_t)strips->ring_size));
   for (int i = 0; i < strips->worker_count; i++)
     CS_TRY(init_worker(strips, context, &strips->workers[i]));
   return strips->worker_count > 1 ? start_pipeline(strips, context) : CELSPAN_OK;
@@ -255,9 +251,8 @@ static celspan_status init_strips(cs_png_strips *strips, celspan_context *contex
 
 celspan_status cs_png_strips_create(celspan_context *context, const cs_png_picture *picture,
                                     cs_deflate_write write, void *user, cs_png_strips **out) {
-  cs_png_strips *strips = cs_mem_array(context->memory, 1, sizeof *strips);
-  if (!strips)
-    return cs_fail_memory(context);
+  cs_png_strips *strips;
+  CS_TRY(CS_MAKE(context, strips, 1));
   strips->picture = *picture;
   strips->write = write;
   strips->user = user;

@@ -6,8 +6,7 @@
  * rows and the one above them: the bytes are the same however many threads there are. With one
  * thread nothing is copied.
  */
-#ifndef CS_OUTPUT_PNG_STRIPS_H
-#define CS_OUTPUT_PNG_STRIPS_H
+#pragma once
 
 #include "output/png/rows.h"
 #include "output/sinks/shares.h"
@@ -39,5 +38,3 @@ CELSPAN_CHECKED celspan_status cs_png_strips_finish(cs_png_strips *strips,
 cs_shares cs_png_strips_shares(cs_png_strips *strips);
 /* At any time; NULL is ignored. */
 void cs_png_strips_destroy(cs_png_strips *strips, celspan_context *context);
-
-#endif

@@ -3,8 +3,7 @@
  *
  *   grey  255 - 2/5 of the darkness over white        red  255..165, 150..0, 75..0 for 0..1
  */
-#ifndef CS_OUTPUT_DIFFERENCE_H
-#define CS_OUTPUT_DIFFERENCE_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -13,5 +12,3 @@
 void cs_difference_pale(uint8_t *pixels, size_t count);
 /* distance: of coded values, 0..1; more counts as 1. */
 void cs_difference_mark(double distance, uint8_t *pixels, size_t count);
-
-#endif

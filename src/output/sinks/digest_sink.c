@@ -52,9 +52,8 @@ static celspan_status end(void *user, celspan_context *context, celspan_status o
 
 celspan_status cs_sink_digest(celspan_context *context, const celspan_coding *coding,
                               uint64_t digest[2], celspan_sink *out) {
-  digest_sink *sink = cs_mem_array(context->memory, 1, sizeof *sink);
-  if (!sink)
-    return cs_fail_memory(context);
+  digest_sink *sink;
+  CS_TRY(CS_MAKE(context, sink, 1));
   sink->coding = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
   sink->digest = digest;
   sink->hash = cs_hash_begin(1);

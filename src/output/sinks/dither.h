@@ -10,8 +10,7 @@
  * crops, strips and workers change nothing. A number that is exact in 8 bits stays as it is. Over
  * 16 x 16 pixels of one colour the mean is within 1/130560 (half of 1/256 of 1/255) of the colour.
  */
-#ifndef CS_OUTPUT_DITHER_H
-#define CS_OUTPUT_DITHER_H
+#pragma once
 
 #include "base/context.h"
 
@@ -26,5 +25,3 @@ void cs_dither_row(const celspan_coding *coding, int32_t x, int32_t y, const cel
 CELSPAN_CHECKED celspan_status cs_dither_sink(celspan_context *context, const celspan_coding *asked,
                                               const celspan_coding *coding, int32_t x, int32_t y,
                                               celspan_sink *sink);
-
-#endif

@@ -10,8 +10,7 @@
  * ends, no temporary file is left. Errors stick: after a failed write the file can only be
  * discarded or fail to commit.
  */
-#ifndef CS_OUTPUT_FILE_H
-#define CS_OUTPUT_FILE_H
+#pragma once
 
 #include <sys/stat.h>
 #include <sys/types.h>
@@ -71,5 +70,3 @@ void cs_file_discard(cs_file *file, celspan_context *context);
 /* The ending of a file's name, which says its format where nothing else does: what follows the last
  * dot in the last part of the path; "" where there is no dot. Points into the path. */
 const char *cs_file_ending(const char *path);
-
-#endif

@@ -3,8 +3,7 @@
  * INVARIANT: a copy has the bytes that the original had when its stamp was read. Every write to a
  * file, and every other file under its name, changes the stamp.
  */
-#ifndef CS_OUTPUT_FILE_COPY_H
-#define CS_OUTPUT_FILE_COPY_H
+#pragma once
 
 #include <sys/types.h>
 #include <time.h>
@@ -28,5 +27,3 @@ bool cs_file_stamp_read(const char *path, cs_file_stamp *out);
 CELSPAN_CHECKED celspan_status cs_file_copy(celspan_context *context, const char *from,
                                             const cs_file_stamp *stamp, const char *to,
                                             bool *copied);
-
-#endif

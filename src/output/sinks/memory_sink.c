@@ -53,9 +53,8 @@ static celspan_status end(void *user, celspan_context *context, celspan_status o
 
 celspan_status cs_sink_memory(celspan_context *context, const celspan_coding *coding, void *pixels,
                               size_t stride, celspan_sink *out) {
-  memory_sink *sink = cs_mem_array(context->memory, 1, sizeof *sink);
-  if (!sink)
-    return cs_fail_memory(context);
+  memory_sink *sink;
+  CS_TRY(CS_MAKE(context, sink, 1));
   sink->coding = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
   sink->pixels = pixels;
   sink->stride = stride;

@@ -6,8 +6,7 @@
  * INVARIANT: one that was opened is ended once, by close or by discard. It must not be moved,
  * because the module keeps its address.
  */
-#ifndef CS_OUTPUT_PICTURE_FILE_H
-#define CS_OUTPUT_PICTURE_FILE_H
+#pragma once
 
 #include "model/pictures/module.h"
 #include "output/sinks/file.h"
@@ -36,5 +35,3 @@ CELSPAN_CHECKED celspan_status cs_picture_file_close(cs_picture_file *file,
                                                      celspan_context *context);
 /* Leaves nothing. One that was never opened, and is zero, is ignored. */
 void cs_picture_file_discard(cs_picture_file *file, celspan_context *context);
-
-#endif

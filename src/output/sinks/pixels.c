@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "base/vector.h"
-#include "model/colour/srgb8.h"
+#include "model/colour/srgb8_lanes.h"
 #include "model/colour/transfer.h"
 #include "output/sinks/pixels8.h"
 

@@ -9,8 +9,7 @@
  * INVARIANT: a pixel's bytes depend on its colour and the coding alone; not on the spans around it,
  * the length of its run, the address of the row or the set of instructions.
  */
-#ifndef CS_OUTPUT_PIXELS_H
-#define CS_OUTPUT_PIXELS_H
+#pragma once
 
 #include <string.h>
 
@@ -67,5 +66,3 @@ static inline uint64_t cs_single_colours_pixel(const cs_single_colours *colours,
     return memcpy(&eight, colours->coded + 8 * i, sizeof eight), eight;
   return memcpy(&four, colours->coded + 4 * i, sizeof four), four;
 }
-
-#endif

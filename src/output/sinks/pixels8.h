@@ -1,6 +1,5 @@
 /* Rows of 8 bits, sRGB, straight alpha, which is how nearly every frame is written. */
-#ifndef CS_OUTPUT_PIXELS8_H
-#define CS_OUTPUT_PIXELS8_H
+#pragma once
 
 #include <stddef.h>
 
@@ -61,5 +60,3 @@ static inline void cs_fill_exactly(unsigned char *out, unsigned char *end, cs_wi
 /* Repeats a pixel of `pixel_size` bytes, 1, 2, 4, 8 or 16, over `size` bytes, a multiple of it. */
 CS_WIDE_DECLARE(void, cs_fill_run,
                 (unsigned char *out, size_t size, const unsigned char *pixel, size_t pixel_size));
-
-#endif

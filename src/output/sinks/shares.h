@@ -11,8 +11,7 @@
  * INVARIANT: the result is what the sink's own `row` would make of the same rows. begin and end of
  * the sink are called as always; its `row` is not called.
  */
-#ifndef CS_OUTPUT_SHARES_H
-#define CS_OUTPUT_SHARES_H
+#pragma once
 
 #include "base/context.h"
 
@@ -43,5 +42,3 @@ bool cs_png_sink_shares(const celspan_sink *sink, cs_shares *out);
 bool cs_span_sink_shares(const celspan_sink *sink, cs_shares *out);
 /* Whether the sink, which has begun, receives rows in shares. A sink without `row` always does. */
 bool cs_sink_shares(const celspan_sink *sink, cs_shares *out);
-
-#endif

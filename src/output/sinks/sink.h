@@ -6,8 +6,7 @@
  * INVARIANT: a sink is destroyed by its `end` or by cs_sink_discard, and by nothing else: not by a
  * begin or a row that fails. Files appear whole or not at all (output/sinks/file.h).
  */
-#ifndef CS_OUTPUT_SINK_H
-#define CS_OUTPUT_SINK_H
+#pragma once
 
 #include "base/context.h"
 #include "celspan/celspan.h"
@@ -54,5 +53,3 @@ typedef struct cs_tee {
 
 /* tee: its sinks are set; borrowed until the sink ends. */
 celspan_sink cs_tee_sink(cs_tee *tee);
-
-#endif

@@ -17,8 +17,7 @@
  * does. So rows of span files are stored as they are in the whole; and the first row of a strip in
  * PNG is filtered without the row above, which its file does not have.
  */
-#ifndef CS_OUTPUT_STRIP_H
-#define CS_OUTPUT_STRIP_H
+#pragma once
 
 #include "base/context.h"
 
@@ -39,5 +38,3 @@ bool cs_strip_fits(cs_strip strip, int32_t height);
  * BAD_ARGUMENT. */
 CELSPAN_CHECKED celspan_status cs_strip_check(celspan_context *context, const char *path,
                                               cs_strip strip, int32_t height);
-
-#endif

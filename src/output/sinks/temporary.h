@@ -5,8 +5,7 @@
  * INVARIANT: a temporary file is locked as long as the process that writes it lives; so one that
  * can be locked was left behind by a process that is gone.
  */
-#ifndef CS_OUTPUT_TEMPORARY_H
-#define CS_OUTPUT_TEMPORARY_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -21,5 +20,3 @@ void cs_temporary_sweep(const char *pattern,
 /* Removes every temporary file that this process has open, which must then not continue. Safe in a
  * signal handler. */
 void cs_temporary_abandon(void);
-
-#endif

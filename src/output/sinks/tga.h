@@ -7,8 +7,7 @@
  * INVARIANT: the footer says where the extension begins. Offsets have 32 bits, so a file whose
  * body ends beyond them has no extension.
  */
-#ifndef CS_OUTPUT_TGA_H
-#define CS_OUTPUT_TGA_H
+#pragma once
 
 #include "output/sinks/file.h"
 
@@ -41,5 +40,3 @@ static inline uint32_t cs_tga_load_32(const unsigned char *at) {
 /* Writes the extension and the footer behind the last packet. Errors: OUTPUT. */
 CELSPAN_CHECKED celspan_status cs_tga_put_end(cs_file *file, celspan_context *context,
                                               const unsigned char extension[CS_TGA_EXTENSION]);
-
-#endif

@@ -13,8 +13,7 @@
  *
  * Source: Rec. ITU-R BT.709-6, items 3.2 to 3.5.
  */
-#ifndef CS_OUTPUT_YCBCR_H
-#define CS_OUTPUT_YCBCR_H
+#pragma once
 
 #include <stdint.h>
 
@@ -24,5 +23,3 @@ void cs_ycbcr_chroma(const uint32_t *pixels, int32_t count, unsigned char *cb, u
 /* 4:2:0 of two rows. count: of colours; 2 count pixels are read of either row. */
 void cs_ycbcr_halved(const uint32_t *upper, const uint32_t *lower, int32_t count, unsigned char *cb,
                      unsigned char *cr);
-
-#endif

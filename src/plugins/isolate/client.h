@@ -3,8 +3,7 @@
  *
  * INVARIANT: after cs_client_finish the zygote and all workers have ended.
  */
-#ifndef CS_ISOLATE_CLIENT_H
-#define CS_ISOLATE_CLIENT_H
+#pragma once
 
 #include "plugins/isolate/message.h"
 #include "plugins/isolate/roots.h"
@@ -25,5 +24,3 @@ celspan_status cs_client_refuse(int error, celspan_status other, cs_picture_fail
  * worker with it. */
 int cs_client_end(uint32_t number);
 void cs_client_finish(void);
-
-#endif

@@ -4,8 +4,7 @@
  *   core --cs_picture_module--> reader.c, isolate.c --+--> worker.c --sockets--> workers
  *        --cs_colour_module---> isolate.c ------------'
  */
-#ifndef CS_ISOLATE_ISOLATE_H
-#define CS_ISOLATE_ISOLATE_H
+#pragma once
 
 #include "plugins/isolate/worker.h"
 
@@ -14,5 +13,3 @@
 void cs_isolate_begin(celspan_context *context, const cs_worker_limits *limits);
 /* Ends all workers and the zygote, after the context was destroyed. */
 void cs_isolate_finish(void);
-
-#endif

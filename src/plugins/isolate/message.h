@@ -14,8 +14,7 @@
  * numbers and texts are checked when they arrive, descriptors are not accepted, pixels are copied
  * before they are used, and the size of the shared memory cannot be changed.
  */
-#ifndef CS_ISOLATE_MESSAGE_H
-#define CS_ISOLATE_MESSAGE_H
+#pragma once
 
 #include "readers/layered/profile_table.h"
 
@@ -116,5 +115,3 @@ void cs_message_set_header(cs_message *message, const cs_picture_header *header)
 bool cs_message_header_of(const cs_message *message, cs_picture_header *out);
 /* The part of a PART, with terminated texts. */
 cs_picture_part cs_message_part_of(const cs_message *message);
-
-#endif

@@ -7,8 +7,7 @@
  * its worker is refused from then on; the other pictures of that worker are opened again when they
  * are read next.
  */
-#ifndef CS_ISOLATE_READER_H
-#define CS_ISOLATE_READER_H
+#pragma once
 
 #include "model/pictures/module.h"
 
@@ -20,5 +19,3 @@ celspan_status cs_reader_list(cs_picture_reader *reader,
                               bool (*put)(void *user, const cs_picture_part *part), void *user,
                               cs_picture_failure *failure);
 void cs_reader_close(cs_picture_reader *reader);
-
-#endif

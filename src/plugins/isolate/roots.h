@@ -5,8 +5,7 @@
  * INVARIANT: a path is below a root if, with all links resolved, it begins with the resolved root
  * and a slash. For a path that does not exist, the nearest existing folder above it decides.
  */
-#ifndef CS_ISOLATE_ROOTS_H
-#define CS_ISOLATE_ROOTS_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -24,5 +23,3 @@ bool cs_roots_add(cs_roots *roots, const char *folder);
 void cs_roots_finish(cs_roots *roots);
 /* Whether the path is below one of them. Without memory: false, with ENOMEM in errno. */
 bool cs_roots_hold(const cs_roots *roots, const char *path);
-
-#endif

@@ -7,8 +7,7 @@
  * INVARIANT: it cannot be undone, and applies to all threads that are started later; so it is
  * entered before the first one starts.
  */
-#ifndef CS_ISOLATE_STRICT_H
-#define CS_ISOLATE_STRICT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -17,5 +16,3 @@
 
 /* NULL, or the reason of a failure: the process may then be partly confined, and must end. */
 const char *cs_strict_enter(const cs_roots *read, const cs_roots *write);
-
-#endif

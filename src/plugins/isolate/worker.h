@@ -12,8 +12,7 @@
  * filled until after the result was copied. A worker that writes needs no lock, because it has a
  * single user.
  */
-#ifndef CS_ISOLATE_WORKER_H
-#define CS_ISOLATE_WORKER_H
+#pragma once
 
 #include <pthread.h>
 
@@ -82,5 +81,3 @@ bool cs_worker_put_texts(const cs_worker *worker, const char *const *texts, size
  * other: the status where none is more specific. */
 celspan_status cs_worker_explain(const cs_worker *worker, cs_worker_outcome outcome,
                                  celspan_status other, cs_picture_failure *failure);
-
-#endif

@@ -5,8 +5,7 @@
  *
  * It ends when the program's end of the socket is closed, and when the zygote ends.
  */
-#ifndef CS_ISOLATE_WORKER_LOOP_H
-#define CS_ISOLATE_WORKER_LOOP_H
+#pragma once
 
 #include "plugins/isolate/message.h"
 #include "plugins/isolate/roots.h"
@@ -37,5 +36,3 @@ typedef struct cs_worker_desc {
 void cs_worker_loop_watch_faults(void);
 /* Handles messages in this process until the other side has ended. */
 _Noreturn void cs_worker_loop_run(const cs_worker_desc *desc);
-
-#endif

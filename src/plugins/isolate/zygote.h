@@ -14,8 +14,7 @@
  * the program ended, and ends its workers first. While it loads a module, it ends after the time
  * limit of loading at the latest.
  */
-#ifndef CS_ISOLATE_ZYGOTE_H
-#define CS_ISOLATE_ZYGOTE_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -26,5 +25,3 @@
 /* Whether this process was started as a zygote. */
 bool cs_zygote_is_meant(int count, char **arguments);
 _Noreturn void cs_zygote_run(int count, char **arguments);
-
-#endif

@@ -3,13 +3,10 @@
  *
  * INVARIANT: no file that is complete and undamaged is refused.
  */
-#ifndef CS_OIIO_CHECKS_H
-#define CS_OIIO_CHECKS_H
+#pragma once
 
 #include "plugins/oiio/source.h"
 
 /* To be called before the library opens the file. format: by the library's name. Throws Failure for
  * a damaged file, and hides from the reader parts that it should not read. */
 void check_file(Source &source, const std::string &format);
-
-#endif

@@ -4,8 +4,7 @@
  *
  * INVARIANT: every function of the table runs inside fence(), so no exception leaves the module.
  */
-#ifndef CS_OIIO_SHARED_H
-#define CS_OIIO_SHARED_H
+#pragma once
 
 #include <OpenImageIO/imageio.h>
 
@@ -78,5 +77,3 @@ celspan_status write_writer(cs_picture_writer *writer, int32_t y, int32_t count,
                             cs_picture_failure *failure);
 celspan_status close_writer(cs_picture_writer *writer, cs_picture_failure *failure);
 void abandon_writer(cs_picture_writer *writer);
-
-#endif

@@ -4,8 +4,7 @@
  * whole picture when it is opened, the size is found here, so that a header with an absurd size is
  * refused first.
  */
-#ifndef CS_OIIO_SNIFF_H
-#define CS_OIIO_SNIFF_H
+#pragma once
 
 #include <string>
 
@@ -20,5 +19,3 @@ struct Sniffed {
 
 /* Throws Failure for other files; it names those that are known. */
 Sniffed sniff(Source &source);
-
-#endif

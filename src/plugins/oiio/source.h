@@ -4,8 +4,7 @@
  * that keeps reading past the end is stopped by an exception after MISSES reads: some readers never
  * check whether a read succeeded.
  */
-#ifndef CS_OIIO_SOURCE_H
-#define CS_OIIO_SOURCE_H
+#pragma once
 
 #include <OpenImageIO/filesystem.h>
 #include <sys/stat.h>
@@ -50,5 +49,3 @@ private:
   int misses_ = 0;
   struct stat status_;
 };
-
-#endif

@@ -1,7 +1,6 @@
 /* What the files of the art module share: see the tables in readers/xml/module.h and
  * readers/xml/type.h. */
-#ifndef CS_ART_TYPE_H
-#define CS_ART_TYPE_H
+#pragma once
 
 #include "readers/xml/module.h"
 
@@ -16,5 +15,3 @@ celspan_status cs_order_end_line(const uint32_t *characters, size_t begin, size_
                                  uint8_t *embeddings);
 celspan_status cs_order_breaks(const uint32_t *characters, size_t count, const char *language,
                                uint8_t *breaks);
-
-#endif

@@ -1,6 +1,5 @@
 /* Numbers in files, by the order of their bytes. */
-#ifndef CS_PAINTING_BYTES_H
-#define CS_PAINTING_BYTES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -22,5 +21,3 @@ static inline uint32_t cs_bytes_little32(const unsigned char *at) {
 static inline uint64_t cs_bytes_little64(const unsigned char *at) {
   return (uint64_t)cs_bytes_little32(at + 4) << 32 | cs_bytes_little32(at);
 }
-
-#endif

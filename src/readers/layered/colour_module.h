@@ -15,8 +15,7 @@
  * INVARIANT: no memory changes its owner, nothing outside the bytes is read, and every failure
  * comes with a sentence.
  */
-#ifndef CS_PAINTING_COLOUR_MODULE_H
-#define CS_PAINTING_COLOUR_MODULE_H
+#pragma once
 
 #include "model/pictures/module.h"
 
@@ -62,5 +61,3 @@ typedef struct cs_colour_module {
 
 /* The module's one symbol. */
 CELSPAN_API const void *celspan_colour_module(void);
-
-#endif

@@ -47,9 +47,8 @@ static void set_name(char out[CS_CONTENTS_TEXT], const char *name, size_t size) 
 /* ---------------------------------------------------------------- building */
 
 celspan_status cs_contents_create(celspan_context *context, celspan_painting **out) {
-  celspan_painting *painting = cs_mem_array(context->memory, 1, sizeof *painting);
-  if (!painting)
-    return cs_fail_memory(context);
+  celspan_painting *painting;
+  CS_TRY(CS_MAKE(context, painting, 1));
   atomic_init(&painting->references, 1);
   painting->memory = cs_memory_ref(context->memory);
   *out = painting;
@@ -63,8 +62,7 @@ celspan_status cs_contents_add(celspan_context *context, const cs_input *input,
     return cs_input_fail(context, input, -1, CELSPAN_LIMIT,
                          "has more than %d layers and groups, which is the limit",
                          CS_CONTENTS_LAYERS);
-  CS_TRY(cs_mem_reserve(context, (void **)&painting->layers, &painting->capacity,
-                        painting->count + 1, sizeof *painting->layers));
+  CS_TRY(CS_RESERVE(context, painting->layers, painting->capacity, painting->count + 1));
   cs_contents_layer *layer = &painting->layers[painting->count++];
   *layer = (cs_contents_layer){.blend = "normal",
                                .parent = CS_CONTENTS_NONE,
@@ -78,8 +76,7 @@ celspan_status cs_contents_add(celspan_context *context, const cs_input *input,
 
 celspan_status cs_contents_note(celspan_context *context, celspan_painting *painting, size_t layer,
                                 const char *format, ...) {
-  CS_TRY(cs_mem_reserve(context, (void **)&painting->notes, &painting->note_capacity,
-                        painting->note_count + 1, sizeof *painting->notes));
+  CS_TRY(CS_RESERVE(context, painting->notes, painting->note_capacity, painting->note_count + 1));
   cs_contents_remark *note = &painting->notes[painting->note_count++];
   note->layer = layer;
   va_list arguments;

@@ -9,8 +9,7 @@
  * another, and no layer has more than CS_CONTENTS_PIXELS pixels. While a painting is read a layer
  * owns its source; the layers of a painting that is complete have surfaces instead.
  */
-#ifndef CS_PAINTING_CONTENTS_H
-#define CS_PAINTING_CONTENTS_H
+#pragma once
 
 #include "readers/layered/rows.h"
 
@@ -91,5 +90,3 @@ CELSPAN_CHECKED celspan_status cs_contents_check_corner(celspan_context *context
                                                         int64_t x, int64_t y);
 /* Sets the place and the source, which the layer owns from now on. */
 void cs_contents_set_pixels(cs_contents_layer *layer, int32_t x, int32_t y, cs_rows_source *source);
-
-#endif

@@ -3,8 +3,7 @@
  * INVARIANT: after a failure every number read is 0, nothing more is read, and `status` keeps the
  * failure: so a run of numbers is checked once, at its end. A cursor never passes its end.
  */
-#ifndef CS_PAINTING_CURSOR_H
-#define CS_PAINTING_CURSOR_H
+#pragma once
 
 #include "readers/layered/input.h"
 
@@ -32,5 +31,3 @@ uint64_t cs_cursor_64(cs_cursor *cursor);
 int64_t cs_cursor_section(cs_cursor *cursor, uint64_t size, const char *what);
 /* Records a failure at the cursor. */
 void cs_cursor_fail(cs_cursor *cursor, celspan_status status, const char *sentence);
-
-#endif

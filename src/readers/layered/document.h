@@ -10,8 +10,7 @@
  * INVARIANT: while a document is read, the painting's layers are foremost first, groups before
  * their layers; then their order is reversed (readers/layered/contents.h).
  */
-#ifndef CS_PAINTING_DOCUMENT_H
-#define CS_PAINTING_DOCUMENT_H
+#pragma once
 
 #include "readers/layered/contents.h"
 #include "readers/layered/profile.h"
@@ -82,5 +81,3 @@ void cs_document_blend(const char *file, char out[32]);
 bool cs_document_is_inside(const char *name);
 
 extern const cs_document_format cs_openraster_format, cs_krita_format;
-
-#endif

@@ -6,8 +6,7 @@
  *
  * An input is used by one thread at a time.
  */
-#ifndef CS_PAINTING_INPUT_H
-#define CS_PAINTING_INPUT_H
+#pragma once
 
 #include "base/context.h"
 
@@ -31,5 +30,3 @@ CELSPAN_CHECKED celspan_status cs_input_read(celspan_context *context, const cs_
 celspan_status cs_input_fail(celspan_context *context, const cs_input *input, int64_t offset,
                              celspan_status status, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
-
-#endif

@@ -403,9 +403,8 @@ celspan_status cs_krita_tiles_create(celspan_context *context, const cs_input *i
   CS_TRY(scan(context, input, member, form, &is_empty));
   if (is_empty)
     return CELSPAN_OK;
-  tiles_source *source = cs_mem_array(context->memory, 1, sizeof *source);
-  if (!source)
-    return cs_fail_memory(context);
+  tiles_source *source;
+  CS_TRY(CS_MAKE(context, source, 1));
   *source = (tiles_source){.base = {&kind, context->memory, form->width, form->height, form->bits},
                            .member = *member,
                            .form = *form};

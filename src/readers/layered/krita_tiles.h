@@ -15,8 +15,7 @@
  *   |      | tile |   a row of tiles is unpacked at a time
  *   +------+------+
  */
-#ifndef CS_PAINTING_KRITA_TILES_H
-#define CS_PAINTING_KRITA_TILES_H
+#pragma once
 
 #include "readers/layered/rows.h"
 #include "readers/layered/zip.h"
@@ -44,5 +43,3 @@ CELSPAN_CHECKED celspan_status cs_krita_tiles_create(celspan_context *context,
                                                      const cs_zip_member *member,
                                                      cs_krita_tiles_form *form,
                                                      cs_rows_source **out);
-
-#endif

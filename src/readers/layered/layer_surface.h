@@ -5,8 +5,7 @@
  * The store asks for rows from top to bottom and keeps what it got within its budget, so a layer is
  * unpacked once. Where it asks for rows that are past, the layer is begun again.
  */
-#ifndef CS_PAINTING_LAYER_SURFACE_H
-#define CS_PAINTING_LAYER_SURFACE_H
+#pragma once
 
 #include "readers/layered/profile_table.h"
 #include "readers/layered/rows.h"
@@ -19,5 +18,3 @@ CELSPAN_CHECKED celspan_status cs_layer_surface_create(celspan_context *context,
                                                        cs_rows_source *source,
                                                        cs_profile_table *table,
                                                        celspan_surface **out);
-
-#endif

@@ -4,13 +4,10 @@
  *   lllooooo oooooooo          copy l + 2 bytes from o + 1 bytes back; l from 1 to 6
  *   111ooooo llllllll oooooooo   the same with l + 9 bytes
  */
-#ifndef CS_PAINTING_LZF_H
-#define CS_PAINTING_LZF_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
 
 /* False unless the packed bytes unpack to exactly out_size bytes. */
 bool cs_lzf_unpack(const unsigned char *packed, size_t size, unsigned char *out, size_t out_size);
-
-#endif

@@ -337,9 +337,8 @@ celspan_status cs_png_create(celspan_context *context, const cs_input *input,
   png_source found = {.base = {.kind = &kind, .memory = context->memory}, .member = *member};
   CS_TRY(read_header(context, input, member->name, head, &found));
   found.member.name = "a PNG picture"; /* the archive's table does not outlive its reading */
-  png_source *source = cs_mem_array(context->memory, 1, sizeof *source);
-  if (!source)
-    return cs_fail_memory(context);
+  png_source *source;
+  CS_TRY(CS_MAKE(context, source, 1));
   *source = found;
   *out = &source->base;
   return CELSPAN_OK;

@@ -5,8 +5,7 @@
  * All colour types and depths are read, with palettes and transparent colours. Interlaced pictures
  * are refused: their rows do not come in order. Chunks that are not needed are skipped.
  */
-#ifndef CS_PAINTING_PNG_H
-#define CS_PAINTING_PNG_H
+#pragma once
 
 #include "readers/layered/rows.h"
 #include "readers/layered/zip.h"
@@ -15,5 +14,3 @@
  * Errors: INPUT, LIMIT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_png_create(celspan_context *context, const cs_input *input,
                                              const cs_zip_member *member, cs_rows_source **out);
-
-#endif

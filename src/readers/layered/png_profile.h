@@ -5,8 +5,7 @@
  *
  * The first two take precedence; without any of them the codes are those of sRGB.
  */
-#ifndef CS_PAINTING_PNG_PROFILE_H
-#define CS_PAINTING_PNG_PROFILE_H
+#pragma once
 
 #include "readers/layered/profile.h"
 #include "readers/layered/zip.h"
@@ -20,5 +19,3 @@ CELSPAN_CHECKED celspan_status cs_png_read_profile(celspan_context *context, con
                                                    const cs_zip_member *member,
                                                    celspan_painting *painting, cs_profile *out,
                                                    int64_t *scanned);
-
-#endif

@@ -11,8 +11,7 @@
  * INVARIANT: a painting has a table for each of its different profiles, at most CS_PROFILES_MOST,
  * until its surfaces are made; those that need it have references.
  */
-#ifndef CS_PAINTING_PROFILE_H
-#define CS_PAINTING_PROFILE_H
+#pragma once
 
 #include "readers/layered/contents.h"
 #include "readers/layered/profile_table.h"
@@ -44,5 +43,3 @@ void cs_profile_apply(const cs_profile *profile, cs_contents_layer *layer);
  * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_profile_note(celspan_context *context, celspan_painting *painting,
                                                size_t layer, const cs_profile *profile);
-
-#endif

@@ -141,9 +141,8 @@ static void decode_grid(float colour[3]) {
 
 celspan_status cs_profile_table_create(celspan_context *context, const cs_input *input,
                                        const cs_colour_request *request, cs_profile_table **out) {
-  cs_profile_table *table = cs_mem_array(context->memory, 1, sizeof *table);
-  if (!table)
-    return cs_fail_memory(context);
+  cs_profile_table *table;
+  CS_TRY(CS_MAKE(context, table, 1));
   atomic_init(&table->references, 1);
   table->memory = context->memory;
   table->hash = cs_profile_table_hash(request);

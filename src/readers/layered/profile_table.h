@@ -4,8 +4,7 @@
  *
  * INVARIANT: immutable and counted; any thread.
  */
-#ifndef CS_PAINTING_PROFILE_TABLE_H
-#define CS_PAINTING_PROFILE_TABLE_H
+#pragma once
 
 #include "base/hash.h"
 #include "readers/layered/colour_module.h"
@@ -43,5 +42,3 @@ void cs_profile_table_unref(cs_profile_table *table);
 /* Converts `count` pixels, RGBA of `bits` a channel. table: of codes CONVERTED. */
 void cs_profile_table_convert(const cs_profile_table *table, int bits, const void *codes,
                               size_t count, float *out);
-
-#endif

@@ -277,9 +277,7 @@ static celspan_status read_layers(document *d, cs_cursor *cursor) {
   /* A record has at least 34 bytes. */
   if ((int64_t)records > (cursor->end - cursor->at) / 34)
     return fail(d, cursor->at - 2, "the document declares more layers than it has bytes for");
-  d->records = cs_mem_array(d->context->memory, records, sizeof *d->records);
-  if (!d->records)
-    return cs_fail_memory(d->context);
+  CS_TRY(CS_MAKE(d->context, d->records, records));
   d->count = records;
   for (size_t i = 0; i < records && cursor->status == CELSPAN_OK; i++)
     cs_psd_record_read(cursor, d->is_large, &d->records[i]);

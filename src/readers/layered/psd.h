@@ -9,8 +9,7 @@
  * the place of those of 8 bits. What Photoshop computes when it paints (adjustments, fills,
  * effects, clipping, conditional blending) is noted, not drawn.
  */
-#ifndef CS_PAINTING_PSD_H
-#define CS_PAINTING_PSD_H
+#pragma once
 
 #include "readers/layered/contents.h"
 
@@ -19,5 +18,3 @@ bool cs_psd_is(const unsigned char start[4]);
 /* Errors: INPUT, LIMIT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_psd_read(celspan_context *context, const cs_input *input,
                                            celspan_painting *painting);
-
-#endif

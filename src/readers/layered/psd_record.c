@@ -3,8 +3,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "readers/layered/bytes.h"
-
 /* ---------------------------------------------------------------- tagged blocks */
 
 /* Keys whose lengths have 8 bytes in large documents. */

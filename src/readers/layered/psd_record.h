@@ -6,8 +6,7 @@
  *   ...
  *   the group         CS_PSD_GROUP           its name, opacity and blend mode
  */
-#ifndef CS_PAINTING_PSD_RECORD_H
-#define CS_PAINTING_PSD_RECORD_H
+#pragma once
 
 #include "readers/layered/contents.h"
 #include "readers/layered/cursor.h"
@@ -43,5 +42,3 @@ void cs_psd_record_blend(const char key[5], char out[32]);
 /* Reads the signature, key and length of a tagged block at the cursor; false where there is none.
  */
 bool cs_psd_record_tag(cs_cursor *cursor, bool is_large, char key[5], uint64_t *size);
-
-#endif

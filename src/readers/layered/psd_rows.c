@@ -226,9 +226,8 @@ static const cs_rows_kind kind = {begin, next, end, destroy};
 
 celspan_status cs_psd_rows_create(celspan_context *context, const cs_psd_layer *layer,
                                   cs_rows_source **out) {
-  cs_psd_layer *source = cs_mem_array(context->memory, 1, sizeof *source);
-  if (!source)
-    return cs_fail_memory(context);
+  cs_psd_layer *source;
+  CS_TRY(CS_MAKE(context, source, 1));
   *source = *layer;
   source->base.kind = &kind;
   source->base.memory = context->memory;

@@ -9,8 +9,7 @@
  *
  * A channel that is missing is full. Grey has one colour channel.
  */
-#ifndef CS_PAINTING_PSD_ROWS_H
-#define CS_PAINTING_PSD_ROWS_H
+#pragma once
 
 #include "readers/layered/rows.h"
 
@@ -50,5 +49,3 @@ typedef struct cs_psd_layer {
 /* A source of the layer's rows. layer: copied. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_psd_rows_create(celspan_context *context,
                                                   const cs_psd_layer *layer, cs_rows_source **out);
-
-#endif

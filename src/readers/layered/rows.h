@@ -10,8 +10,7 @@
  *
  * INVARIANT: rows are given in order, each once.
  */
-#ifndef CS_PAINTING_ROWS_H
-#define CS_PAINTING_ROWS_H
+#pragma once
 
 #include "readers/layered/input.h"
 
@@ -45,5 +44,3 @@ struct cs_rows {
 static inline size_t cs_rows_size(const cs_rows_source *source) {
   return (size_t)source->width * 4 * (size_t)(source->bits / 8);
 }
-
-#endif

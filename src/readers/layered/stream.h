@@ -5,8 +5,7 @@
  * INVARIANT: a stream gives no byte twice, and never more than its range has; the memory that it
  * uses does not depend on how much it gives. Its input is open while it is read from.
  */
-#ifndef CS_PAINTING_STREAM_H
-#define CS_PAINTING_STREAM_H
+#pragma once
 
 #include <zlib.h>
 
@@ -63,5 +62,3 @@ CELSPAN_CHECKED celspan_status cs_stream_inflate_init(cs_stream_inflate *stream,
                                                       celspan_context *context, cs_stream *source,
                                                       cs_stream_wrapping wrapping);
 void cs_stream_inflate_finish(cs_stream_inflate *stream);
-
-#endif

@@ -12,8 +12,7 @@
  *
  * Limits: CS_ZIP_MEMBERS members, a table of CS_ZIP_TABLE bytes.
  */
-#ifndef CS_PAINTING_ZIP_H
-#define CS_PAINTING_ZIP_H
+#pragma once
 
 #include "readers/layered/stream.h"
 
@@ -66,5 +65,3 @@ void cs_zip_close(cs_zip_stream *stream);
 CELSPAN_CHECKED celspan_status cs_zip_load(celspan_context *context, const cs_input *input,
                                            const cs_zip_member *member, size_t most,
                                            unsigned char **out, size_t *size);
-
-#endif

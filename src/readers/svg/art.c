@@ -8,9 +8,8 @@
 /* ---------------------------------------------------------------- life */
 
 celspan_status cs_svg_art_create(celspan_context *context, celspan_svg **out) {
-  celspan_svg *art = cs_mem_array(context->memory, 1, sizeof *art);
-  if (!art)
-    return cs_fail_memory(context);
+  celspan_svg *art;
+  CS_TRY(CS_MAKE(context, art, 1));
   atomic_init(&art->references, 1);
   art->memory = cs_memory_ref(context->memory);
   cs_arena_init(&art->arena);
@@ -104,9 +103,8 @@ static celspan_status unite(celspan_context *context, const cs_svg_item *item,
   *out = NULL;
   if (most == 0)
     return CELSPAN_OK;
-  celspan_object **objects = cs_mem_array(context->memory, most, sizeof(celspan_object *));
-  if (!objects)
-    return cs_fail_memory(context);
+  celspan_object **objects;
+  CS_TRY(CS_MAKE(context, objects, most));
   for (const cs_svg_item *inner = item->first; inner; inner = inner->next)
     if (inner->object)
       objects[count++] = inner->object;
@@ -149,9 +147,8 @@ static celspan_status mask(celspan_context *context, const cs_svg_mask *by,
   celspan_object *made = NULL;
   if (by->count == 0)
     return replace(CELSPAN_OK, NULL, object);
-  celspan_object **pieces = cs_mem_array(context->memory, by->count, sizeof(celspan_object *));
-  if (!pieces)
-    return cs_fail_memory(context);
+  celspan_object **pieces;
+  CS_TRY(CS_MAKE(context, pieces, by->count));
   celspan_status status = CELSPAN_OK;
   size_t count = 0;
   for (size_t i = 0; i < by->count && status == CELSPAN_OK; i++) {
@@ -226,10 +223,8 @@ static celspan_status list_part(listing *list, const char *text, const cs_svg_it
     list->is_shared[place] = list->is_shared[place] || is_label;
     return CELSPAN_OK;
   }
-  CS_TRY(cs_mem_reserve(list->context, (void **)&list->parts, &list->capacity, list->count + 1,
-                        sizeof *list->parts));
-  CS_TRY(cs_mem_reserve(list->context, (void **)&list->is_shared, &list->shared_capacity,
-                        list->count + 1, sizeof *list->is_shared));
+  CS_TRY(CS_RESERVE(list->context, list->parts, list->capacity, list->count + 1));
+  CS_TRY(CS_RESERVE(list->context, list->is_shared, list->shared_capacity, list->count + 1));
   CS_TRY(cs_hash_table_add(&list->names, list->context, hash_name(text), list->count));
   list->is_shared[list->count] = false;
   list->parts[list->count] = (cs_svg_part){text, is_label, NULL};

@@ -9,8 +9,7 @@
  * it are made again. Invariant: an item's object follows from its own object or items, clip, mask
  * and opacity; everything is in the drawing's units.
  */
-#ifndef CS_SVG_ART_H
-#define CS_SVG_ART_H
+#pragma once
 
 #include "base/arena.h"
 
@@ -75,5 +74,3 @@ void cs_svg_item_drop(cs_svg_item *item);
 CELSPAN_CHECKED celspan_status cs_svg_item_compose(celspan_context *context, cs_svg_item *item);
 /* Makes the object of the whole and the list of parts, when all items are composed. */
 CELSPAN_CHECKED celspan_status cs_svg_art_complete(celspan_context *context, celspan_svg *art);
-
-#endif

@@ -5,8 +5,7 @@
  *
  * Source: SVG 2, 8.10.
  */
-#ifndef CS_SVG_BOXES_H
-#define CS_SVG_BOXES_H
+#pragma once
 
 #include "readers/svg/reading.h"
 
@@ -16,5 +15,3 @@
 CELSPAN_CHECKED celspan_status cs_svg_box_of(cs_svg_reading *reading, const cs_svg_node *node,
                                              const cs_svg_place *place, celspan_box *out,
                                              bool *is_there);
-
-#endif

@@ -1,11 +1,8 @@
 /* From the elements of a document to the items of a drawing. */
-#ifndef CS_SVG_BUILD_H
-#define CS_SVG_BUILD_H
+#pragma once
 
 #include "readers/svg/art.h"
 #include "readers/svg/reading.h"
 
 /* Fills in the size and the items of *art. Errors: INPUT and LIMIT with the line, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_svg_build(cs_svg_reading *reading, celspan_svg *art);
-
-#endif

@@ -268,8 +268,7 @@ static celspan_status unite_children(cs_svg_reading *reading, const cs_svg_node 
   celspan_status status = CELSPAN_OK;
   for (const cs_svg_node *child = clip->first; child && status == CELSPAN_OK; child = child->next) {
     cs_svg_style style;
-    status = cs_mem_reserve(reading->context, (void **)&objects, &capacity, count + 1,
-                            sizeof(celspan_object *));
+    status = CS_RESERVE(reading->context, objects, capacity, count + 1);
     if (status == CELSPAN_OK)
       status = cs_svg_shape_object(reading, child, *place, false, &objects[count], &style);
     count += status == CELSPAN_OK && objects[count];

@@ -3,8 +3,7 @@
  *
  *   clip path = union of its children, each inside its own clip path, inside the clip path's own
  */
-#ifndef CS_SVG_CLIPS_H
-#define CS_SVG_CLIPS_H
+#pragma once
 
 #include "readers/svg/reading.h"
 
@@ -24,4 +23,3 @@ CELSPAN_CHECKED celspan_status cs_svg_clip_make(cs_svg_reading *reading, const c
 /* The intersection of two objects, both of which are given up; NULL where either is. */
 CELSPAN_CHECKED celspan_status cs_svg_intersect(cs_svg_reading *reading, celspan_object *a,
                                                 celspan_object *b, celspan_object **out);
-#endif

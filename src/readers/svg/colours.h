@@ -1,6 +1,5 @@
 /* Colours as SVG and CSS write them: sRGB-coded, 0..1, alpha straight. */
-#ifndef CS_SVG_COLOURS_H
-#define CS_SVG_COLOURS_H
+#pragma once
 
 #include "celspan/celspan.h"
 
@@ -11,5 +10,3 @@ typedef struct cs_svg_colour {
 /* "#rgb", "#rrggbb" and with alpha, rgb(), rgba(), hsl(), hsla(), a name, transparent: reads what
  * *text begins with and moves *text behind it. False when there is no colour. */
 bool cs_svg_take_colour(const char **text, cs_svg_colour *out);
-
-#endif

@@ -281,8 +281,7 @@ static celspan_status add_rule(parser *p, cs_css_rule *rule) {
   if (sheet->count >= CS_CSS_RULES)
     return cs_fail(p->context, CELSPAN_LIMIT, "the style sheets have more than %d rules",
                    CS_CSS_RULES);
-  CS_TRY(cs_mem_reserve(p->context, (void **)&sheet->rules, &sheet->capacity, sheet->count + 1,
-                        sizeof *sheet->rules));
+  CS_TRY(CS_RESERVE(p->context, sheet->rules, sheet->capacity, sheet->count + 1));
   rule->order = (uint32_t)sheet->count;
   sheet->rules[sheet->count++] = *rule;
   return CELSPAN_OK;

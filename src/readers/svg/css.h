@@ -8,8 +8,7 @@
  * (pseudo-classes, siblings, attributes without a meaning here) and at-rules are left out, and set
  * `omitted`.
  */
-#ifndef CS_SVG_CSS_H
-#define CS_SVG_CSS_H
+#pragma once
 
 #include "base/arena.h"
 #include "readers/svg/names.h"
@@ -67,5 +66,3 @@ CELSPAN_CHECKED celspan_status cs_css_declarations_parse(celspan_context *contex
 CELSPAN_CHECKED celspan_status cs_css_sheet_parse(celspan_context *context, cs_arena *arena,
                                                   const char *text, cs_css_sheet *out);
 void cs_css_sheet_finish(cs_css_sheet *sheet, celspan_context *context);
-
-#endif

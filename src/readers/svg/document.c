@@ -105,8 +105,8 @@ static celspan_status remember_id(reader *r, cs_svg_node *node) {
   size_t there;
   if (!id || !*id || cs_hash_table_find(&document->ids, hash_id(id, strlen(id)), &there))
     return CELSPAN_OK;
-  CS_TRY(cs_mem_reserve(r->context, (void **)&document->named, &document->named_capacity,
-                        document->named_count + 1, sizeof(cs_svg_node *)));
+  CS_TRY(
+      CS_RESERVE(r->context, document->named, document->named_capacity, document->named_count + 1));
   document->named[document->named_count] = node;
   return cs_hash_table_add(&document->ids, r->context, hash_id(id, strlen(id)),
                            document->named_count++);
@@ -164,7 +164,7 @@ static bool is_in_text(const cs_svg_node *node) {
 /* Appends to a text that grows, and ends it with a zero. */
 static celspan_status append_bytes(reader *r, char **text, size_t *size, size_t *capacity,
                                    const char *bytes, size_t count) {
-  CS_TRY(cs_mem_reserve(r->context, (void **)text, capacity, *size + count + 1, 1));
+  CS_TRY(CS_RESERVE(r->context, *text, *capacity, *size + count + 1));
   memcpy(*text + *size, bytes, count);
   *size += count;
   (*text)[*size] = 0;

@@ -4,8 +4,7 @@
  * elements of other namespaces are left out, and so are characters outside of text; everything
  * lives in the document's arena.
  */
-#ifndef CS_SVG_DOCUMENT_H
-#define CS_SVG_DOCUMENT_H
+#pragma once
 
 #include "base/arena.h"
 #include "base/hash_table.h"
@@ -54,5 +53,3 @@ const cs_svg_node *cs_svg_document_find(const cs_svg_document *document, const c
                                         size_t size);
 /* The value of an attribute, or NULL. */
 const char *cs_svg_node_value(const cs_svg_node *node, cs_svg_name name);
-
-#endif

@@ -4,8 +4,7 @@
  *   font-family: Arial, "Gill Sans"; font-weight: bold
  *   tried: "Arial Bold", "Arial", "Gill Sans Bold", "Gill Sans", "default"
  */
-#ifndef CS_SVG_FACES_H
-#define CS_SVG_FACES_H
+#pragma once
 
 #include "readers/svg/reading.h"
 #include "readers/text/layout.h"
@@ -20,5 +19,3 @@ typedef struct cs_svg_faces {
 void cs_svg_faces_find(const cs_svg_source *source, const cs_svg_style *style, cs_svg_faces *out);
 /* Whether two styles have the same fonts, of one size and spacing. */
 bool cs_svg_faces_are_same(const cs_svg_style *a, const cs_svg_style *b);
-
-#endif

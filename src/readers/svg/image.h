@@ -7,8 +7,7 @@
  * Nothing else is opened: no absolute names, no "..", no addresses, no links that lead out of the
  * folder. A drawing that shows itself, through however many files, ends there.
  */
-#ifndef CS_SVG_IMAGE_H
-#define CS_SVG_IMAGE_H
+#pragma once
 
 #include "readers/svg/art.h"
 #include "readers/svg/reading.h"
@@ -24,5 +23,3 @@ CELSPAN_CHECKED celspan_status cs_svg_image_add(cs_svg_reading *reading, const c
 CELSPAN_CHECKED celspan_status cs_svg_image_box(cs_svg_reading *reading, const cs_svg_node *node,
                                                 const cs_svg_measure *measure, celspan_box *out,
                                                 bool *is_there);
-
-#endif

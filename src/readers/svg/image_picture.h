@@ -5,8 +5,7 @@
  *
  * The library that reads the others needs a file, so it gets one that exists only in memory.
  */
-#ifndef CS_SVG_IMAGE_PICTURE_H
-#define CS_SVG_IMAGE_PICTURE_H
+#pragma once
 
 #include "readers/svg/reading.h"
 
@@ -21,5 +20,3 @@ CELSPAN_CHECKED celspan_status cs_svg_image_picture(cs_svg_reading *reading,
                                                     const cs_svg_node *node,
                                                     const unsigned char *bytes, size_t size,
                                                     celspan_surface **out);
-
-#endif

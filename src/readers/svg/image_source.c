@@ -1,7 +1,6 @@
 #include "readers/svg/image_source.h"
 
 #include <errno.h>
-#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>

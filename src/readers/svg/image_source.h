@@ -9,8 +9,7 @@
  *
  * The first bytes determine the format: the type before the comma is often wrong.
  */
-#ifndef CS_SVG_IMAGE_SOURCE_H
-#define CS_SVG_IMAGE_SOURCE_H
+#pragma once
 
 #include "base/context.h"
 
@@ -51,5 +50,3 @@ CELSPAN_CHECKED celspan_status cs_svg_image_file_find(celspan_context *context, 
  * Errors: INPUT where the system failed; NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_svg_image_file_load(celspan_context *context,
                                                       const cs_svg_image_file *file, char **out);
-
-#endif

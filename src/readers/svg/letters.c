@@ -67,8 +67,7 @@ static celspan_status fill_run(cs_svg_reading *reading, const cs_svg_written *wr
 static celspan_status add_run(cs_svg_reading *reading, const cs_svg_written *written, size_t first,
                               size_t end, cs_svg_letters *out) {
   const cs_svg_text_node *nodes = written->nodes;
-  CS_TRY(cs_mem_reserve(reading->context, (void **)&out->runs, &out->run_capacity,
-                        out->run_count + 1, sizeof *out->runs));
+  CS_TRY(CS_RESERVE(reading->context, out->runs, out->run_capacity, out->run_count + 1));
   cs_svg_run *run = &out->runs[out->run_count++];
   *run = (cs_svg_run){.begin = nodes[first].begin,
                       .end = nodes[end - 1].end,

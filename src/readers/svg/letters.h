@@ -14,8 +14,7 @@
  *
  * Source: SVG 2, 11.5, except that dx and dy are added to x and y, as in browsers.
  */
-#ifndef CS_SVG_LETTERS_H
-#define CS_SVG_LETTERS_H
+#pragma once
 
 #include "model/geometry/outline.h"
 #include "readers/svg/written.h"
@@ -64,5 +63,3 @@ CELSPAN_CHECKED celspan_status cs_svg_letters_outline(const cs_svg_letters *lett
  * units; false: there is none. */
 bool cs_svg_letters_box(const cs_svg_letters *letters, const cs_svg_written *written,
                         celspan_box *out);
-
-#endif

@@ -1,6 +1,5 @@
 #include "readers/svg/markers.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "base/number.h"
@@ -170,10 +169,7 @@ static celspan_status add_mark(marking *m, int which, const vertex *v) {
   if (!cs_matrix_is_sane(&mark.viewport) || !cs_matrix_is_sane(&mark.content) ||
       !celspan_matrix_inverse(mark.viewport, &inverse))
     return CELSPAN_OK;
-  CS_TRY(cs_mem_reserve(m->reading->context, (void **)&m->marks->items, &m->marks->capacity,
-                        m->marks->count + 1, sizeof *m->marks->items));
-  m->marks->items[m->marks->count++] = mark;
-  return CELSPAN_OK;
+  return CS_APPEND(m->reading->context, m->marks->items, m->marks->count, m->marks->capacity, mark);
 }
 
 /* ---------------------------------------------------------------- vertices */

@@ -6,8 +6,7 @@
  *                        \                    last of all subpaths, along the bisector of the
  *                         >                   directions in which the line comes and goes
  */
-#ifndef CS_SVG_MARKERS_H
-#define CS_SVG_MARKERS_H
+#pragma once
 
 #include "readers/svg/reading.h"
 
@@ -31,5 +30,3 @@ bool cs_svg_is_marked(const cs_svg_node *node, const cs_svg_style *style);
 CELSPAN_CHECKED celspan_status cs_svg_marks_find(cs_svg_reading *reading, const cs_svg_node *node,
                                                  const cs_svg_place *place, cs_svg_marks *marks);
 void cs_svg_marks_finish(cs_svg_marks *marks, cs_memory *memory);
-
-#endif

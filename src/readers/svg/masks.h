@@ -1,8 +1,7 @@
 /* Flat masks: those whose shapes have one colour each and hide one another entirely, or do not
  * overlap. What lies under such a mask is cut into pieces with a share each.
  */
-#ifndef CS_SVG_MASKS_H
-#define CS_SVG_MASKS_H
+#pragma once
 
 #include "readers/svg/art.h"
 #include "readers/svg/reading.h"
@@ -12,5 +11,3 @@
 CELSPAN_CHECKED celspan_status cs_svg_mask_make(cs_svg_reading *reading, celspan_svg *art,
                                                 const cs_svg_node *node, const cs_svg_place *place,
                                                 cs_svg_mask **out);
-
-#endif

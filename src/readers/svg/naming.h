@@ -1,6 +1,5 @@
 /* The names that an element gives its item, by which it is a part. */
-#ifndef CS_SVG_NAMING_H
-#define CS_SVG_NAMING_H
+#pragma once
 
 #include "readers/svg/art.h"
 #include "readers/svg/reading.h"
@@ -9,5 +8,3 @@
 CELSPAN_CHECKED celspan_status cs_svg_item_name(cs_svg_reading *reading, celspan_svg *art,
                                                 const cs_svg_node *node, const cs_svg_place *place,
                                                 cs_svg_item *item);
-
-#endif

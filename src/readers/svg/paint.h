@@ -1,6 +1,5 @@
 /* The object of a basic shape or a path: its outline, filled. */
-#ifndef CS_SVG_PAINT_H
-#define CS_SVG_PAINT_H
+#pragma once
 
 #include "model/geometry/outline.h"
 #include "readers/svg/reading.h"
@@ -14,5 +13,3 @@ CELSPAN_CHECKED celspan_status cs_svg_fill(cs_svg_reading *reading, const cs_svg
 CELSPAN_CHECKED celspan_status cs_svg_fill_outline(cs_svg_reading *reading, const cs_svg_node *node,
                                                    const cs_svg_place *place, cs_outline *outline,
                                                    const celspan_box *box, celspan_object **out);
-
-#endif

@@ -33,9 +33,8 @@ typedef struct drawing_store {
 } drawing_store;
 
 static celspan_status create_store(celspan_context *context, cs_service **out) {
-  drawing_store *store = cs_mem_array(context->memory, 1, sizeof *store);
-  if (!store)
-    return cs_fail_memory(context);
+  drawing_store *store;
+  CS_TRY(CS_MAKE(context, store, 1));
   store->memory = context->memory;
   pthread_mutex_init(&store->lock, NULL);
   *out = &store->service;

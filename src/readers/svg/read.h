@@ -1,8 +1,7 @@
 /* Reading drawings, with a switch for comparisons: coded drawings keep colours as they are coded,
  * so that what is composed of them as light is what other renderers compose of codes.
  */
-#ifndef CS_SVG_READ_H
-#define CS_SVG_READ_H
+#pragma once
 
 #include "readers/svg/reading.h"
 
@@ -16,5 +15,3 @@ typedef struct cs_svg_options {
 /* See celspan_svg_read. */
 CELSPAN_CHECKED celspan_status cs_svg_read_file(celspan_context *context, const char *file,
                                                 const cs_svg_options *options, celspan_svg **out);
-
-#endif

@@ -1,6 +1,5 @@
 #include "readers/svg/reading.h"
 
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,8 +12,8 @@ celspan_status cs_svg_skip(cs_svg_reading *reading, const cs_svg_node *node, con
                            ...) {
   if (reading->skipped_count >= CS_SVG_SKIPPED)
     return CELSPAN_OK;
-  CS_TRY(cs_mem_reserve(reading->context, (void **)&reading->skipped, &reading->skipped_capacity,
-                        reading->skipped_count + 1, sizeof *reading->skipped));
+  CS_TRY(CS_RESERVE(reading->context, reading->skipped, reading->skipped_capacity,
+                    reading->skipped_count + 1));
   cs_svg_skipped *entry = &reading->skipped[reading->skipped_count++];
   va_list arguments;
   va_start(arguments, format);
@@ -159,8 +158,7 @@ bool cs_svg_kept_image_find(const cs_svg_kept_images *list, const void *element,
 
 celspan_status cs_svg_kept_image_add(cs_svg_kept_images *list, celspan_context *context,
                                      const void *element, cs_svg_kept_image image) {
-  celspan_status status = cs_mem_reserve(context, (void **)&list->items, &list->capacity,
-                                         list->count + 1, sizeof *list->items);
+  celspan_status status = CS_RESERVE(context, list->items, list->capacity, list->count + 1);
   if (status == CELSPAN_OK)
     status = cs_hash_table_add(&list->places, context, key_of(element), list->count);
   if (status == CELSPAN_OK)

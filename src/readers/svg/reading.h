@@ -5,8 +5,7 @@
  *                 |
  *                 +-- shapes.c outlines   servers.c gradients   clips.c clip paths   masks.c masks
  */
-#ifndef CS_SVG_READING_H
-#define CS_SVG_READING_H
+#pragma once
 
 #include "base/hash_table.h"
 #include "readers/svg/style.h"
@@ -122,5 +121,3 @@ CELSPAN_CHECKED celspan_status cs_svg_kept_image_add(cs_svg_kept_images *list,
                                                      celspan_context *context, const void *element,
                                                      cs_svg_kept_image image);
 void cs_svg_kept_images_finish(cs_svg_kept_images *list, celspan_context *context);
-
-#endif

@@ -99,10 +99,8 @@ static int count_pieces(const cs_svg_reading *reading, const cs_svg_colour *a,
 
 static celspan_status append(cs_svg_reading *reading, double at, const cs_svg_colour *colour,
                              double opacity, gradient_stops *out) {
-  CS_TRY(cs_mem_reserve(reading->context, (void **)&out->items, &out->capacity, out->count + 1,
-                        sizeof *out->items));
-  out->items[out->count++] = (celspan_stop){at, cs_svg_paint_of(reading, colour, opacity)};
-  return CELSPAN_OK;
+  return CS_APPEND(reading->context, out->items, out->count, out->capacity,
+                   (celspan_stop){at, cs_svg_paint_of(reading, colour, opacity)});
 }
 
 /* The stops after `last` up to and with `next`. */
@@ -162,9 +160,7 @@ static celspan_status spread_stops(cs_svg_reading *reading, spread_kind spread, 
                                    gradient_stops *stops) {
   gradient_stops whole = {0};
   whole.capacity = stops->count * (size_t)(last - first);
-  whole.items = cs_mem_array(reading->context->memory, whole.capacity, sizeof *whole.items);
-  if (!whole.items)
-    return cs_fail_memory(reading->context);
+  CS_TRY(CS_MAKE(reading->context, whole.items, whole.capacity));
   for (int period = first; period < last; period++) {
     bool is_turned = spread == SPREAD_REFLECT && (period & 1) != 0;
     for (size_t i = 0; i < stops->count; i++) {

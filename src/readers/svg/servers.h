@@ -7,8 +7,7 @@
  * straight alpha; stops are added until what lies between two of them differs from that by less
  * than 1/255.
  */
-#ifndef CS_SVG_SERVERS_H
-#define CS_SVG_SERVERS_H
+#pragma once
 
 #include "readers/svg/reading.h"
 
@@ -40,5 +39,3 @@ CELSPAN_CHECKED celspan_status cs_svg_server_find(cs_svg_reading *reading,
                                                   const cs_svg_paint *paint,
                                                   const cs_svg_style *style,
                                                   const cs_svg_painted *shape, cs_svg_server *out);
-
-#endif

@@ -1,7 +1,6 @@
 #include "readers/svg/shapes.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/number.h"
 

@@ -1,6 +1,5 @@
 /* Outlines of the basic shapes and of paths, in the user units of their element; rectangles. */
-#ifndef CS_SVG_SHAPES_H
-#define CS_SVG_SHAPES_H
+#pragma once
 
 #include "model/geometry/outline.h"
 #include "readers/svg/document.h"
@@ -54,5 +53,3 @@ CELSPAN_CHECKED celspan_status cs_svg_rectangle(celspan_context *context, const 
                                                 const celspan_matrix *matrix, celspan_object **out);
 /* From shares of a box to user units. */
 celspan_matrix cs_svg_box_matrix(const celspan_box *box);
-
-#endif

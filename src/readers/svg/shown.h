@@ -1,6 +1,5 @@
 /* Which elements are shown at their place in the file. */
-#ifndef CS_SVG_SHOWN_H
-#define CS_SVG_SHOWN_H
+#pragma once
 
 #include "readers/svg/document.h"
 
@@ -9,5 +8,3 @@
 bool cs_svg_is_shown(const cs_svg_node *node, const cs_svg_node *sizes);
 /* The child that a `switch` shows; NULL: none. */
 const cs_svg_node *cs_svg_shown_choice(const cs_svg_node *node);
-
-#endif

@@ -36,8 +36,7 @@ static celspan_status take_dashes(stroking *p, const char *text, bool *is_fit) {
     *is_fit = cs_svg_take_length(&text, &length) && length.value >= 0;
     if (!*is_fit)
       return CELSPAN_OK;
-    CS_TRY(cs_mem_reserve(p->reading->context, (void **)&p->dashes, &p->dash_capacity,
-                          p->desc.dash_count + 1, sizeof *p->dashes));
+    CS_TRY(CS_RESERVE(p->reading->context, p->dashes, p->dash_capacity, p->desc.dash_count + 1));
     double dash = cs_svg_resolve(length, CS_SVG_AXIS_BOTH, &p->place->measure);
     p->dashes[p->desc.dash_count++] = dash;
     sum += dash;

@@ -3,8 +3,7 @@
  *   one colour:  the stroke itself
  *   gradient:    a rectangle in the gradient's units, clipped by the stroke
  */
-#ifndef CS_SVG_STROKES_H
-#define CS_SVG_STROKES_H
+#pragma once
 
 #include "model/geometry/outline.h"
 #include "readers/svg/reading.h"
@@ -19,5 +18,3 @@ CELSPAN_CHECKED celspan_status cs_svg_stroke_outline(cs_svg_reading *reading,
                                                      const cs_svg_node *node,
                                                      const cs_svg_place *place, cs_outline *outline,
                                                      const celspan_box *box, celspan_object **out);
-
-#endif

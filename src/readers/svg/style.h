@@ -3,8 +3,7 @@
  *
  *   attribute  <  rule, by weight and order  <  style="..."  <  the same with !important
  */
-#ifndef CS_SVG_STYLE_H
-#define CS_SVG_STYLE_H
+#pragma once
 
 #include "readers/svg/colours.h"
 #include "readers/svg/document.h"
@@ -72,5 +71,3 @@ CELSPAN_CHECKED celspan_status cs_svg_style_resolve(celspan_context *context,
                                                     const cs_svg_node *node,
                                                     const cs_svg_style *parent, uint64_t *tests,
                                                     cs_svg_style *out);
-
-#endif

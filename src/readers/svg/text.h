@@ -3,8 +3,7 @@
  *   element --written.c--> characters --letters.c--> letters --paint.c--> objects
  *
  * An element inside of a text is an item inside of the text's, and so may be a part. */
-#ifndef CS_SVG_TEXT_H
-#define CS_SVG_TEXT_H
+#pragma once
 
 #include "model/geometry/outline.h"
 #include "readers/svg/art.h"
@@ -22,5 +21,3 @@ CELSPAN_CHECKED celspan_status cs_svg_text_outline(cs_svg_reading *reading, cons
 CELSPAN_CHECKED celspan_status cs_svg_text_box(cs_svg_reading *reading, const cs_svg_node *node,
                                                const cs_svg_place *place, celspan_box *out,
                                                bool *is_there);
-
-#endif

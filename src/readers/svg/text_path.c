@@ -1,7 +1,5 @@
 #include "readers/svg/text_path.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "base/number.h"
 #include "model/stroke/curve.h"
@@ -31,9 +29,7 @@ static celspan_status measure_line(celspan_context *context, cs_svg_text_path *p
   size_t count = path->outline.piece_count;
   if (count == 0)
     return CELSPAN_OK;
-  path->lengths = cs_mem_array(context->memory, count, sizeof *path->lengths);
-  if (!path->lengths)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, path->lengths, count));
   for (size_t i = 0; i < count; i++) {
     cs_bezier piece;
     cs_curve_load_line(&path->outline, i, 0, 1, &piece);

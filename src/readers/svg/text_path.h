@@ -6,8 +6,7 @@
  *
  * Source: SVG 2, 11.8.3.
  */
-#ifndef CS_SVG_TEXT_PATH_H
-#define CS_SVG_TEXT_PATH_H
+#pragma once
 
 #include "model/geometry/outline.h"
 #include "readers/svg/reading.h"
@@ -32,5 +31,3 @@ void cs_svg_text_path_finish(cs_svg_text_path *path, cs_memory *memory);
 /* The point at a distance from the line's begin, 0 .. length, and the direction there in degrees.
  */
 celspan_point cs_svg_text_path_at(const cs_svg_text_path *path, double distance, double *degrees);
-
-#endif

@@ -1,6 +1,5 @@
 /* The properties of texts: fonts, spacing, anchor, direction. All but the last are inherited. */
-#ifndef CS_SVG_TEXT_STYLE_H
-#define CS_SVG_TEXT_STYLE_H
+#pragma once
 
 #include "readers/svg/document.h"
 #include "readers/svg/values.h"
@@ -26,5 +25,3 @@ typedef struct cs_svg_text_style {
  * in user units. *out holds what is inherited. */
 void cs_svg_text_style_read(const cs_svg_node *node, const char *const *values, double em,
                             cs_svg_text_style *out);
-
-#endif

@@ -3,8 +3,7 @@
  * A value that is not what it should be counts as if it were not given, as in browsers; one that is
  * not finite or beyond 1e12 is unfit, and the file is refused.
  */
-#ifndef CS_SVG_VALUES_H
-#define CS_SVG_VALUES_H
+#pragma once
 
 #include "celspan/celspan.h"
 
@@ -74,5 +73,3 @@ double cs_svg_resolve(cs_svg_length length, cs_svg_axis axis, const cs_svg_measu
  * preserveAspectRatio, or NULL. */
 celspan_matrix cs_svg_fit(const cs_svg_view_box *box, double width, double height,
                           const char *aspect);
-
-#endif

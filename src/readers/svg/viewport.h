@@ -7,8 +7,7 @@
  *          +-----------------+
  *                   w
  */
-#ifndef CS_SVG_VIEWPORT_H
-#define CS_SVG_VIEWPORT_H
+#pragma once
 
 #include "readers/svg/reading.h"
 
@@ -23,5 +22,3 @@ CELSPAN_CHECKED celspan_status cs_svg_viewport_find(cs_svg_reading *reading,
 /* Moves *place into the viewport, to the units of its contents. */
 void cs_svg_viewport_enter(const cs_svg_node *node, const celspan_box *viewport,
                            cs_svg_place *place);
-
-#endif

@@ -16,10 +16,9 @@ static celspan_status append_character(cs_svg_written *w, const char *bytes, siz
     w->is_too_long = true;
     return CELSPAN_OK;
   }
-  CS_TRY(cs_mem_reserve(context, (void **)&w->bytes, &w->byte_capacity, w->size + size, 1));
-  CS_TRY(cs_mem_reserve(context, (void **)&w->characters, &w->capacity, w->count + 1,
-                        sizeof *w->characters));
-  w->characters[w->count++] = (cs_svg_character){(uint32_t)w->size, NAN, NAN, NAN, NAN, NAN};
+  CS_TRY(CS_RESERVE(context, w->bytes, w->byte_capacity, w->size + size));
+  CS_TRY(CS_APPEND(context, w->characters, w->count, w->capacity,
+                   (cs_svg_character){(uint32_t)w->size, NAN, NAN, NAN, NAN, NAN}));
   memcpy(w->bytes + w->size, bytes, size);
   w->size += size;
   return CELSPAN_OK;
@@ -60,10 +59,8 @@ static celspan_status add_text_node(cs_svg_written *w, const cs_svg_node *node,
   CS_TRY(add_characters(w, node->text, place->style.text.is_preserved));
   if (w->count == begin)
     return CELSPAN_OK;
-  CS_TRY(cs_mem_reserve(w->reading->context, (void **)&w->nodes, &w->node_capacity,
-                        w->node_count + 1, sizeof *w->nodes));
-  w->nodes[w->node_count++] = (cs_svg_text_node){node, *place, begin, w->count};
-  return CELSPAN_OK;
+  return CS_APPEND(w->reading->context, w->nodes, w->node_count, w->node_capacity,
+                   (cs_svg_text_node){node, *place, begin, w->count});
 }
 
 /* ---------------------------------------------------------------- what is said of them */

@@ -8,8 +8,7 @@
  *   dy           .     .     3
  *   text nodes   |---------| |---|       each with the style of its element
  */
-#ifndef CS_SVG_WRITTEN_H
-#define CS_SVG_WRITTEN_H
+#pragma once
 
 #include "readers/svg/text_path.h"
 
@@ -56,5 +55,3 @@ typedef struct cs_svg_written {
 CELSPAN_CHECKED celspan_status cs_svg_written_read(cs_svg_reading *reading, const cs_svg_node *node,
                                                    const cs_svg_place *place, cs_svg_written *out);
 void cs_svg_written_finish(cs_svg_written *written);
-
-#endif

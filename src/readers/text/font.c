@@ -42,9 +42,8 @@ static void clear_font(cs_cache_entry *entry, cs_memory *memory) {
 }
 
 static celspan_status create_store(celspan_context *context, cs_service **out) {
-  font_store *store = cs_mem_array(context->memory, 1, sizeof *store);
-  if (!store)
-    return cs_fail_memory(context);
+  font_store *store;
+  CS_TRY(CS_MAKE(context, store, 1));
   store->fonts = (cs_cache){.memory = context->memory,
                             .entry_size = sizeof(cs_font),
                             .clear = clear_font,
@@ -91,8 +90,7 @@ static celspan_status open_font(celspan_context *context, const request *wanted,
   pthread_mutex_init(&font->lock, NULL);
   if (font->info.glyphs == 0)
     return cs_fail(context, CELSPAN_INPUT, "%s: the font has no glyphs", wanted->file);
-  font->glyphs = cs_mem_array(context->memory, font->info.glyphs, sizeof *font->glyphs);
-  return font->glyphs ? CELSPAN_OK : cs_fail_memory(context);
+  return CS_MAKE(context, font->glyphs, font->info.glyphs);
 }
 
 static celspan_status make_font(void *user, celspan_context *context, cs_cache_entry *entry) {
@@ -205,9 +203,8 @@ static celspan_status find_outline(celspan_context *context, cs_font *font, uint
   if (!font->glyphs[glyph]) {
     if (font->points > KEPT_POINTS)
       drop_outlines(font, context->memory);
-    cs_outline *made = cs_mem_array(context->memory, 1, sizeof *made);
-    if (!made)
-      return cs_fail_memory(context);
+    cs_outline *made;
+    CS_TRY(CS_MAKE(context, made, 1));
     cs_outline_init(made);
     celspan_status status = draw(context, font, glyph, made);
     if (status != CELSPAN_OK) {

@@ -7,8 +7,7 @@
  *
  * INVARIANT: a font does not change while it is kept, except for the outlines that are added to it.
  */
-#ifndef CS_TEXT_FONT_H
-#define CS_TEXT_FONT_H
+#pragma once
 
 #include "base/cache.h"
 #include "model/geometry/outline.h"
@@ -44,5 +43,3 @@ void cs_font_release(celspan_context *context, cs_font *font);
 CELSPAN_CHECKED celspan_status cs_font_append(celspan_context *context, cs_font *font,
                                               uint32_t glyph, cs_font_place place,
                                               cs_outline *outline);
-
-#endif

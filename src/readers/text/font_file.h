@@ -7,8 +7,7 @@
  * no colours.
  * Source: OpenType 1.9, "Organization of an OpenType Font" (all numbers are big-endian).
  */
-#ifndef CS_TEXT_FONT_FILE_H
-#define CS_TEXT_FONT_FILE_H
+#pragma once
 
 #include <sys/stat.h>
 
@@ -28,5 +27,3 @@ CELSPAN_CHECKED celspan_status cs_font_file_read(celspan_context *context, const
 CELSPAN_CHECKED celspan_status cs_font_file_check(celspan_context *context, const char *file,
                                                   const uint8_t *bytes, size_t size, uint32_t face);
 bool cs_font_file_is_collection(const uint8_t *bytes, size_t size);
-
-#endif

@@ -13,8 +13,7 @@
  *
  * INVARIANT: the glyphs of a letter are neighbours, and letters are in the order of their glyphs.
  */
-#ifndef CS_TEXT_LAYOUT_H
-#define CS_TEXT_LAYOUT_H
+#pragma once
 
 #include "readers/text/font.h"
 
@@ -81,5 +80,3 @@ CELSPAN_CHECKED celspan_status cs_lines_add_paragraph(cs_layout *layout, size_t 
 /* Fills layout->shaped with the glyphs of characters begin .. end - 1, which are a line, by their
  * `directions` and scripts. Errors: as above. */
 CELSPAN_CHECKED celspan_status cs_shaping_make(cs_layout *layout, size_t begin, size_t end);
-
-#endif

@@ -73,10 +73,9 @@ typedef struct extent {
 /* Puts one letter, whose glyphs have been shaped, at *x, and goes past it. */
 static celspan_status place_letter(cs_layout *layout, size_t first, size_t end, double *x) {
   celspan_context *context = layout->context;
-  CS_TRY(cs_mem_reserve(context, (void **)&layout->letters, &layout->letter_capacity,
-                        layout->letter_count + 1, sizeof *layout->letters));
-  CS_TRY(cs_mem_reserve(context, (void **)&layout->glyphs, &layout->glyph_capacity,
-                        layout->glyph_count + (end - first), sizeof *layout->glyphs));
+  CS_TRY(CS_RESERVE(context, layout->letters, layout->letter_capacity, layout->letter_count + 1));
+  CS_TRY(CS_RESERVE(context, layout->glyphs, layout->glyph_capacity,
+                    layout->glyph_count + (end - first)));
   cs_text_letter *letter = &layout->letters[layout->letter_count++];
   *letter = (cs_text_letter){.begin = layout->shaped[first].glyph.character,
                              .glyph = layout->glyph_count,

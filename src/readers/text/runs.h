@@ -5,8 +5,7 @@
  *
  * Odd embeddings run to the left.
  */
-#ifndef CS_TEXT_RUNS_H
-#define CS_TEXT_RUNS_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -27,5 +26,3 @@ typedef struct cs_run_characters {
 size_t cs_runs_find(const cs_run_characters *text, size_t begin, size_t end, cs_text_run *runs);
 /* Puts them into the order in which they are seen, from left to right. */
 void cs_runs_reorder(cs_text_run *runs, size_t count);
-
-#endif

@@ -38,8 +38,8 @@ static bool take(void *user, const cs_type_glyph *glyph) {
                         layout->noun, GLYPHS);
     return false;
   }
-  p->status = cs_mem_reserve(layout->context, (void **)&layout->shaped, &layout->shaped_capacity,
-                             layout->shaped_count + 1, sizeof *layout->shaped);
+  p->status = CS_RESERVE(layout->context, layout->shaped, layout->shaped_capacity,
+                         layout->shaped_count + 1);
   if (p->status != CELSPAN_OK)
     return false;
   cs_text_shaped *shaped = &layout->shaped[layout->shaped_count++];
@@ -117,8 +117,8 @@ typedef struct queue {
 } queue;
 
 static celspan_status append(cs_layout *layout, const cs_text_shaped *glyphs, size_t count) {
-  CS_TRY(cs_mem_reserve(layout->context, (void **)&layout->shaped, &layout->shaped_capacity,
-                        layout->shaped_count + count, sizeof *layout->shaped));
+  CS_TRY(CS_RESERVE(layout->context, layout->shaped, layout->shaped_capacity,
+                    layout->shaped_count + count));
   memcpy(layout->shaped + layout->shaped_count, glyphs, count * sizeof *glyphs);
   layout->shaped_count += count;
   return CELSPAN_OK;
@@ -175,9 +175,7 @@ static celspan_status complete(const part *p, size_t first) {
     gap = missing_part(p, &q);
     return fail_missing(&gap);
   }
-  q.glyphs = cs_mem_array(layout->context->memory, q.count, sizeof *q.glyphs);
-  if (!q.glyphs)
-    return cs_fail_memory(layout->context);
+  CS_TRY(CS_MAKE(layout->context, q.glyphs, q.count));
   memcpy(q.glyphs, layout->shaped + first, q.count * sizeof *q.glyphs);
   layout->shaped_count = first;
   celspan_status status = fill_gaps(p, &q);
@@ -210,9 +208,8 @@ celspan_status cs_shaping_make(cs_layout *layout, size_t begin, size_t end) {
   size_t count = cs_runs_find(&text, begin, end, NULL);
   if (count == 0)
     return CELSPAN_OK;
-  cs_text_run *runs = cs_mem_array(layout->context->memory, count, sizeof *runs);
-  if (!runs)
-    return cs_fail_memory(layout->context);
+  cs_text_run *runs;
+  CS_TRY(CS_MAKE(layout->context, runs, count));
   cs_runs_find(&text, begin, end, runs);
   cs_runs_reorder(runs, count);
   celspan_status status = shape_runs(layout, runs, count, begin, end);

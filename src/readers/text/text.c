@@ -113,9 +113,8 @@ static celspan_status fill(cs_layout *layout, celspan_glyphs *glyphs) {
 /* Glyphs with room for `capacity` of them, and a copy of the text. */
 static celspan_status create_glyphs(celspan_context *context, const celspan_text_desc *desc,
                                     size_t capacity, celspan_glyphs **out) {
-  celspan_glyphs *glyphs = cs_mem_array(context->memory, 1, sizeof *glyphs);
-  if (!glyphs)
-    return cs_fail_memory(context);
+  celspan_glyphs *glyphs;
+  CS_TRY(CS_MAKE(context, glyphs, 1));
   glyphs->memory = cs_memory_ref(context->memory);
   glyphs->capacity = capacity;
   glyphs->text_size = desc->text_size;

@@ -5,7 +5,6 @@
 
 #include "model/scene/check.h"
 #include "readers/text/utf8.h"
-#include "readers/xml/artwork.h"
 
 #define LANGUAGE_BYTES 64
 

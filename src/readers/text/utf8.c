@@ -1,6 +1,8 @@
 /* Source: The Unicode Standard, 3.9, table 3-7 (well-formed UTF-8 byte sequences). */
 #include "readers/text/utf8.h"
 
+#include <string.h>
+
 /* How many bytes a character has that begins so; 0 where none does. */
 static int length_of(unsigned char first) {
   return first < 0x80   ? 1
@@ -31,6 +33,12 @@ static uint32_t decode(const unsigned char *at, size_t left, int *length) {
 
 static bool is_control(uint32_t character) {
   return (character < 0x20 && character != '\n') || (character >= 0x7f && character < 0xa0);
+}
+
+size_t cs_utf8_length(const char *text) {
+  int length;
+  uint32_t character = decode((const unsigned char *)text, strnlen(text, 4), &length);
+  return character == UINT32_MAX ? 0 : (size_t)length;
 }
 
 celspan_status cs_utf8_decode(celspan_context *context, const char *noun, const char *bytes,

@@ -2,8 +2,7 @@
  *
  * INVARIANT: what is decoded are Unicode scalar values, of which no control character but "\n".
  */
-#ifndef CS_TEXT_UTF8_H
-#define CS_TEXT_UTF8_H
+#pragma once
 
 #include "base/context.h"
 
@@ -16,10 +15,11 @@ CELSPAN_CHECKED celspan_status cs_utf8_decode(celspan_context *context, const ch
                                               const char *bytes, size_t size, uint32_t *characters,
                                               uint32_t *places, size_t *count);
 
+/* How many bytes the first character of a text has, which is not ""; 0 where it is not UTF-8. */
+size_t cs_utf8_length(const char *text);
+
 /* A character as UTF-8, ended by a zero. */
 typedef struct cs_utf8_text {
   char text[5];
 } cs_utf8_text;
 cs_utf8_text cs_utf8_encode(uint32_t character);
-
-#endif

@@ -11,9 +11,8 @@ typedef struct loaded_module {
 } loaded_module;
 
 static celspan_status create(celspan_context *context, cs_service **out) {
-  loaded_module *loaded = cs_mem_array(context->memory, 1, sizeof *loaded);
-  if (!loaded)
-    return cs_fail_memory(context);
+  loaded_module *loaded;
+  CS_TRY(CS_MAKE(context, loaded, 1));
   loaded->memory = context->memory;
   *out = &loaded->service;
   return CELSPAN_OK;

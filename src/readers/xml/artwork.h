@@ -1,7 +1,6 @@
 /* The art module for a context: loaded on first use, so a film without drawings and type pays
  * nothing for it. */
-#ifndef CS_ARTWORK_ARTWORK_H
-#define CS_ARTWORK_ARTWORK_H
+#pragma once
 
 #include "base/context.h"
 #include "readers/xml/module.h"
@@ -10,5 +9,3 @@
  * thread. */
 CELSPAN_CHECKED celspan_status cs_artwork_module(celspan_context *context, const char *purpose,
                                                  const cs_art_module **out);
-
-#endif

@@ -8,8 +8,7 @@
  * INVARIANT: no memory changes its owner, nothing outside the bytes is read, and every failure
  * comes with a sentence.
  */
-#ifndef CS_ARTWORK_MODULE_H
-#define CS_ARTWORK_MODULE_H
+#pragma once
 
 #include "readers/xml/type.h"
 
@@ -46,5 +45,3 @@ typedef struct cs_art_module {
 
 /* The module's one symbol. */
 CELSPAN_API const void *celspan_art_module(void);
-
-#endif

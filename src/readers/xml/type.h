@@ -11,8 +11,7 @@
  *
  * INVARIANT: no memory changes its owner, and nothing outside the bytes is read.
  */
-#ifndef CS_ARTWORK_TYPE_H
-#define CS_ARTWORK_TYPE_H
+#pragma once
 
 #include "celspan/celspan.h"
 
@@ -93,5 +92,3 @@ typedef struct cs_type_functions {
                            uint8_t *breaks);
   void (*scripts)(const uint32_t *characters, size_t count, uint32_t *scripts);
 } cs_type_functions;
-
-#endif

@@ -4,8 +4,7 @@
  * and elements, which made it at most twice as large or a MiB, and never had more than `depth`
  * elements open.
  */
-#ifndef CS_ARTWORK_XML_H
-#define CS_ARTWORK_XML_H
+#pragma once
 
 #include "base/context.h"
 #include "readers/xml/module.h"
@@ -20,5 +19,3 @@ CELSPAN_CHECKED celspan_status cs_xml_parse(celspan_context *context, const char
                                             const char *purpose, const char *bytes, size_t size,
                                             const cs_xml_handler *handler,
                                             const celspan_status *failure);
-
-#endif

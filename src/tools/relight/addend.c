@@ -17,8 +17,7 @@
 celspan_status cs_addend_init(celspan_context *context, int32_t width, int32_t height,
                               cs_addend *out) {
   *out = (cs_addend){.width = width, .height = height};
-  out->rows = cs_mem_array(context->memory, (size_t)height + 1, sizeof *out->rows);
-  return out->rows ? CELSPAN_OK : cs_fail_memory(context);
+  return CS_MAKE(context, out->rows, (size_t)height + 1);
 }
 
 void cs_addend_finish(cs_addend *addend, cs_memory *memory) {
@@ -55,9 +54,7 @@ celspan_status cs_addend_writer_init(celspan_context *context, cs_addend *addend
                                      cs_addend_writer *out) {
   *out = (cs_addend_writer){.addend = addend, .budget = budget, .isa = cs_isa_best()};
   out->plane_count = is_through ? 1 : 3;
-  out->dense =
-      cs_mem_array(context->memory, (size_t)addend->width * out->plane_count, sizeof *out->dense);
-  return out->dense ? CELSPAN_OK : cs_fail_memory(context);
+  return CS_MAKE(context, out->dense, (size_t)addend->width * out->plane_count);
 }
 
 /* Gives back the room that was not needed. */
@@ -85,10 +82,9 @@ void cs_addend_writer_finish(celspan_context *context, cs_addend_writer *writer)
 /* Appends a span with room for its values, which the caller fills. */
 static celspan_status append(celspan_context *context, cs_addend *addend, cs_addend_span span,
                              size_t value_count, float **values) {
-  CS_TRY(cs_mem_reserve(context, (void **)&addend->spans, &addend->span_capacity,
-                        addend->span_count + 1, sizeof *addend->spans));
-  CS_TRY(cs_mem_reserve(context, (void **)&addend->values, &addend->value_capacity,
-                        addend->value_count + value_count, sizeof *addend->values));
+  CS_TRY(CS_RESERVE(context, addend->spans, addend->span_capacity, addend->span_count + 1));
+  CS_TRY(CS_RESERVE(context, addend->values, addend->value_capacity,
+                    addend->value_count + value_count));
   span.first = addend->value_count;
   *values = addend->values + addend->value_count;
   addend->value_count += value_count;

@@ -17,8 +17,7 @@
  * or three for each column, plane by plane; codes have the least number and the step of each plane,
  * then codes likewise, two in the room of a value.
  */
-#ifndef CS_RELIGHT_ADDEND_H
-#define CS_RELIGHT_ADDEND_H
+#pragma once
 
 #include "base/context.h"
 #include "base/wide.h"
@@ -103,5 +102,3 @@ CS_WIDE_DECLARE(void, cs_addend_add,
 /* Pixels of four planes: three of colours, and what comes through, of which `keep` counts. */
 CS_WIDE_DECLARE(void, cs_addend_pixels,
                 (const float *planes, size_t stride, float keep, int32_t count, float *rgba));
-
-#endif

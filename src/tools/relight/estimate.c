@@ -168,9 +168,8 @@ typedef struct workspace {
  * few parts are lit to tell a field. */
 static CELSPAN_CHECKED celspan_status fit_shape(celspan_context *context, cs_original *original,
                                                 celspan_light_field *field) {
-  workspace *w = cs_mem_array(context->memory, 1, sizeof *w);
-  if (!w)
-    return cs_fail_memory(context);
+  workspace *w;
+  CS_TRY(CS_MAKE(context, w, 1));
   celspan_status status = average_parts(context, original, &w->all);
   for (int c = 0; c < 3 && status == CELSPAN_OK; c++)
     status = fit_channel(context, original, &w->all, c, w->samples, field);

@@ -9,8 +9,7 @@
  * INVARIANT: a field that was checked is above 0 and finite everywhere, because of the exponential;
  * so a picture can be divided by it.
  */
-#ifndef CS_RELIGHT_LIGHT_FIELD_H
-#define CS_RELIGHT_LIGHT_FIELD_H
+#pragma once
 
 #include "base/context.h"
 
@@ -36,5 +35,3 @@ cs_light_row cs_light_row_make(const celspan_light_field *field, int32_t width, 
                                int32_t y);
 /* At the centre of a pixel. */
 void cs_light_row_at(const cs_light_row *row, int32_t x, double rgb[3]);
-
-#endif

@@ -117,9 +117,8 @@ static void release(void *user) {
 /* Takes the pixels over, and leaves NULL there, when it succeeds. */
 static celspan_status make_surface(celspan_context *context, const cs_unlit *unlit, float **pixels,
                                    celspan_surface **out) {
-  owned_pixels *owned = cs_mem_array(context->memory, 1, sizeof *owned);
-  if (!owned)
-    return cs_fail_memory(context);
+  owned_pixels *owned;
+  CS_TRY(CS_MAKE(context, owned, 1));
   *owned = (owned_pixels){cs_memory_ref(context->memory), *pixels, bytes_of(unlit)};
   celspan_surface_desc desc = CELSPAN_SURFACE_DESC;
   desc.width = unlit->width;

@@ -6,8 +6,7 @@
  * INVARIANT: `rows` holds the rows from `first` on that lie in the picture, CS_ORIGINAL_ROWS at
  * most.
  */
-#ifndef CS_RELIGHT_ORIGINAL_H
-#define CS_RELIGHT_ORIGINAL_H
+#pragma once
 
 #include "model/pictures/store.h"
 #include "model/scene/texture.h"
@@ -82,5 +81,3 @@ static inline float *cs_unlit_paint(const cs_unlit *unlit, int32_t x, int32_t y)
 static inline float *cs_unlit_medium(const cs_unlit *unlit, int32_t x, int32_t y) {
   return unlit->medium + 4 * ((size_t)y * (size_t)unlit->width + (size_t)x);
 }
-
-#endif

@@ -310,11 +310,9 @@ static void destroy(celspan_stack *stack) {
 static celspan_status fill(celspan_context *context, const celspan_frame_desc *desc,
                            celspan_stack *stack) {
   size_t count = stack->light_count;
-  stack->own = cs_mem_array(context->memory, count, sizeof *stack->own);
-  stack->fronts = cs_mem_array(context->memory, count, sizeof *stack->fronts);
-  stack->backs = cs_mem_array(context->memory, count, sizeof *stack->backs);
-  if (!stack->own || !stack->fronts || !stack->backs)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, stack->own, count));
+  CS_TRY(CS_MAKE(context, stack->fronts, count));
+  CS_TRY(CS_MAKE(context, stack->backs, count));
   CS_TRY(find_lights(context, desc->exposures[0].rostrum, stack->own));
   for (size_t i = 0; i < count; i++) {
     CS_TRY(cs_addend_init(context, stack->width, stack->height, &stack->fronts[i]));
@@ -340,9 +338,8 @@ static celspan_status check(celspan_context *context, const celspan_frame_desc *
 celspan_status celspan_stack_create(celspan_context *context, const celspan_frame_desc *desc,
                                     celspan_stack **out) {
   CS_TRY(check(context, desc));
-  celspan_stack *stack = cs_mem_array(context->memory, 1, sizeof *stack);
-  if (!stack)
-    return cs_fail_memory(context);
+  celspan_stack *stack;
+  CS_TRY(CS_MAKE(context, stack, 1));
   atomic_init(&stack->references, 1);
   stack->memory = cs_memory_ref(context->memory);
   stack->width = desc->crop_width > 0 ? desc->crop_width : desc->width;

@@ -10,8 +10,7 @@
  *
  * INVARIANT: bend is 0 for a line, and half of one divided by the radius for an arc.
  */
-#ifndef CS_TRACE_ARC_H
-#define CS_TRACE_ARC_H
+#pragma once
 
 #include "celspan/celspan.h"
 
@@ -41,5 +40,3 @@ cs_arc cs_arc_of(const cs_arc_sums *sums, bool is_line);
 double cs_arc_off(const cs_arc *arc, celspan_point point, celspan_point *across);
 /* The place on it that is nearest to a point. */
 celspan_point cs_arc_nearest(const cs_arc *arc, celspan_point point);
-
-#endif

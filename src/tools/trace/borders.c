@@ -55,11 +55,8 @@ static int go_on(const walker *w, int32_t x, int32_t y, int direction) {
 
 static celspan_status add_node(walker *w, int32_t x, int32_t y) {
   cs_borders *out = w->out;
-  CS_TRY(cs_mem_reserve(w->context, (void **)&out->nodes, &out->node_capacity, out->node_count + 1,
-                        sizeof *out->nodes));
-  out->nodes[out->node_count++] =
-      (cs_node){x, y, {CS_WAY_NONE, CS_WAY_NONE, CS_WAY_NONE, CS_WAY_NONE}};
-  return CELSPAN_OK;
+  return CS_APPEND(w->context, out->nodes, out->node_count, out->node_capacity,
+                   (cs_node){x, y, {CS_WAY_NONE, CS_WAY_NONE, CS_WAY_NONE, CS_WAY_NONE}});
 }
 
 static bool is_side(const walker *w, int32_t x, int32_t y) {
@@ -121,8 +118,8 @@ static bool is_walked(const walker *w, int32_t x, int32_t y, int direction) {
 static celspan_status add_direction(walker *w, int32_t x, int32_t y, int direction) {
   cs_borders *out = w->out;
   unsigned char bit;
-  CS_TRY(cs_mem_reserve(w->context, (void **)&out->directions, &out->direction_capacity,
-                        out->direction_count + 1, 1));
+  CS_TRY(
+      CS_RESERVE(w->context, out->directions, out->direction_capacity, out->direction_count + 1));
   out->directions[out->direction_count++] = (unsigned char)direction;
   unsigned char *mark = mark_of(w, x, y, direction, &bit);
   *mark |= bit;
@@ -162,8 +159,7 @@ static celspan_status add_chain(walker *w, int32_t x, int32_t y, int direction, 
   chain.left = region_beside(w, x, y, direction, true);
   chain.right = region_beside(w, x, y, direction, false);
   CS_TRY(walk(w, &chain, direction));
-  CS_TRY(cs_mem_reserve(w->context, (void **)&out->chains, &out->chain_capacity,
-                        out->chain_count + 1, sizeof *out->chains));
+  CS_TRY(CS_RESERVE(w->context, out->chains, out->chain_capacity, out->chain_count + 1));
   cs_way way = (cs_way)(2 * out->chain_count);
   out->chains[out->chain_count++] = chain;
   if (from == CS_NODE_NONE)

@@ -14,8 +14,7 @@
  * exactly one chain, and a chain has one region on its left and one on its right, all along. A
  * closed chain has no node. Around every region lead its chains, each once.
  */
-#ifndef CS_TRACE_BORDERS_H
-#define CS_TRACE_BORDERS_H
+#pragma once
 
 #include "tools/trace/regions.h"
 
@@ -66,5 +65,3 @@ CELSPAN_CHECKED celspan_status cs_borders_make(celspan_context *context,
                                                const cs_material *material,
                                                const cs_regions *regions, cs_borders *out);
 void cs_borders_finish(cs_borders *borders, celspan_context *context);
-
-#endif

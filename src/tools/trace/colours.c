@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/elementary.h"
+#include "model/colour/srgb8_lanes.h"
 #include "model/pictures/load.h"
 
 enum { BITS = 5, BINS = 1 << 3 * BITS, ROUNDS = 32 };

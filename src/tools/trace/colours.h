@@ -11,8 +11,7 @@
  * INVARIANT: the result is a function of the pixels alone. The colours differ from each other, and
  * the one that most flat pixels have comes first; given colours keep their order.
  */
-#ifndef CS_TRACE_COLOURS_H
-#define CS_TRACE_COLOURS_H
+#pragma once
 
 #include "model/colour/srgb8.h"
 #include "model/pictures/picture.h"
@@ -88,5 +87,3 @@ CELSPAN_CHECKED celspan_status cs_colours_find(celspan_context *context, const c
 CELSPAN_CHECKED celspan_status cs_colours_take(celspan_context *context, const cs_scan *scan,
                                                const unsigned char *codes, size_t count,
                                                cs_colours *out);
-
-#endif

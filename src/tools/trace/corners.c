@@ -139,10 +139,7 @@ static celspan_status add(const finder *f, size_t at, celspan_point point) {
   cs_corner_list *out = f->out;
   if (out->count > 0 && out->items[out->count - 1].at == at)
     return CELSPAN_OK;
-  CS_TRY(cs_mem_reserve(f->context, (void **)&out->items, &out->capacity, out->count + 1,
-                        sizeof *out->items));
-  out->items[out->count++] = (cs_corner){at, point};
-  return CELSPAN_OK;
+  return CS_APPEND(f->context, out->items, out->count, out->capacity, (cs_corner){at, point});
 }
 
 /* ---------------------------------------------------------------- ranges */

@@ -8,8 +8,7 @@
  *
  * On a smooth border, however much it bends, one arc continues where the other ends.
  */
-#ifndef CS_TRACE_CORNERS_H
-#define CS_TRACE_CORNERS_H
+#pragma once
 
 #include "tools/trace/edge.h"
 
@@ -41,5 +40,3 @@ CELSPAN_CHECKED celspan_status cs_corners_find(celspan_context *context, const c
                                                bool is_closed, const cs_fit_rules *rules,
                                                cs_corner_list *out);
 void cs_corners_finish(celspan_context *context, cs_corner_list *corners);
-
-#endif

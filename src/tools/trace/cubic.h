@@ -8,8 +8,7 @@
  * Parameters begin as lengths along the points and are brought to the curve's nearest places, a few
  * times over.
  */
-#ifndef CS_TRACE_CUBIC_H
-#define CS_TRACE_CUBIC_H
+#pragma once
 
 #include "tools/trace/edge.h"
 
@@ -36,5 +35,3 @@ bool cs_cubic_fit(const cs_edge_point *points, size_t count, const cs_cubic_end 
  * are passed farthest aside get the more weight, round by round (Lawson's algorithm, 1961). */
 bool cs_cubic_thread(const cs_edge_point *points, size_t count, const cs_cubic_end ends[2],
                      cs_cubic_station *stations, celspan_point control[2]);
-
-#endif

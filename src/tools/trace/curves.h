@@ -8,8 +8,7 @@
  *
  * INVARIANT: chains that end in one node have the same point there, to the bit.
  */
-#ifndef CS_TRACE_CURVES_H
-#define CS_TRACE_CURVES_H
+#pragma once
 
 #include "tools/trace/edge.h"
 #include "tools/trace/fit.h"
@@ -47,5 +46,3 @@ CELSPAN_CHECKED celspan_status cs_curves_make(celspan_context *context, const cs
                                               const cs_borders *borders, double smooth,
                                               cs_curves *out);
 void cs_curves_finish(cs_curves *curves, celspan_context *context);
-
-#endif

@@ -21,10 +21,7 @@
 
 celspan_status cs_points_copy(celspan_context *context, cs_points *points,
                               const cs_edge_point *point) {
-  CS_TRY(cs_mem_reserve(context, (void **)&points->items, &points->capacity, points->count + 1,
-                        sizeof *points->items));
-  points->items[points->count++] = *point;
-  return CELSPAN_OK;
+  return CS_APPEND(context, points->items, points->count, points->capacity, *point);
 }
 
 celspan_status cs_points_add(celspan_context *context, cs_points *points, celspan_point point) {

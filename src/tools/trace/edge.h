@@ -27,8 +27,7 @@
  *
  * INVARIANT: a point is less than CS_EDGE_FAR from its side, and a function of the pixels near it.
  */
-#ifndef CS_TRACE_EDGE_H
-#define CS_TRACE_EDGE_H
+#pragma once
 
 #include "tools/trace/borders.h"
 #include "tools/trace/street.h"
@@ -81,5 +80,3 @@ CELSPAN_CHECKED celspan_status cs_edge_points(celspan_context *context, const cs
 /* Whether hardly any pixel of the borders is a mixture: a picture of whole pixels, in which an edge
  * may be anywhere within half a pixel of a side. */
 bool cs_edge_is_whole(const cs_material *material, const cs_regions *regions);
-
-#endif

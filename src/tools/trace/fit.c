@@ -22,13 +22,10 @@ celspan_point cs_fit_snap(celspan_point point) {
 
 celspan_status cs_pieces_add(celspan_context *context, cs_fit_pieces *pieces,
                              const cs_piece *piece) {
-  CS_TRY(cs_mem_reserve(context, (void **)&pieces->items, &pieces->capacity, pieces->count + 1,
-                        sizeof *pieces->items));
-  pieces->items[pieces->count++] =
-      (cs_piece){piece->is_line,
-                 {cs_fit_snap(piece->control[0]), cs_fit_snap(piece->control[1])},
-                 cs_fit_snap(piece->to)};
-  return CELSPAN_OK;
+  return CS_APPEND(context, pieces->items, pieces->count, pieces->capacity,
+                   (cs_piece){piece->is_line,
+                              {cs_fit_snap(piece->control[0]), cs_fit_snap(piece->control[1])},
+                              cs_fit_snap(piece->to)});
 }
 
 celspan_status cs_pieces_draw(celspan_context *context, cs_writing *path, const cs_piece *piece,

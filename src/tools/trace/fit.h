@@ -15,8 +15,7 @@
  * INVARIANT: the result is a function of the points and rules. Coordinates are whole multiples of
  * 1 / CS_FIT_GRID, so that they are the same when written as decimals and read again.
  */
-#ifndef CS_TRACE_FIT_H
-#define CS_TRACE_FIT_H
+#pragma once
 
 #include "tools/trace/corners.h"
 #include "tools/trace/text.h"
@@ -55,5 +54,3 @@ CELSPAN_CHECKED celspan_status cs_fit_closed(celspan_context *context, const cs_
 CELSPAN_CHECKED celspan_status cs_fit_lines(celspan_context *context, const cs_points *points,
                                             cs_fit_pieces *out);
 celspan_point cs_fit_snap(celspan_point point);
-
-#endif

@@ -11,8 +11,7 @@
  *
  * INVARIANT: a label is a function of the pixels within two of it.
  */
-#ifndef CS_TRACE_LABELS_H
-#define CS_TRACE_LABELS_H
+#pragma once
 
 #include "tools/trace/colours.h"
 
@@ -72,5 +71,3 @@ typedef enum cs_join { CS_JOIN_NONE, CS_JOIN_NW_SE, CS_JOIN_NE_SW } cs_join;
 /* Of the four pixels about the corner (x, y), 0 <= x <= width, of which no two side by side are
  * alike. */
 cs_join cs_material_join(const cs_material *material, int32_t x, int32_t y);
-
-#endif

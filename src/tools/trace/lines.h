@@ -9,8 +9,7 @@
  * INVARIANT: the ground, the colour that most of the picture's rim has, is not drawn; every other
  * region is, each part of it once.
  */
-#ifndef CS_TRACE_LINES_H
-#define CS_TRACE_LINES_H
+#pragma once
 
 #include "tools/trace/regions.h"
 #include "tools/trace/result.h"
@@ -21,5 +20,3 @@ CELSPAN_CHECKED celspan_status cs_lines_make(celspan_context *context, const cs_
                                              celspan_trace *out);
 /* What such a shape is drawn with, without a texture. */
 celspan_stroke_desc cs_lines_stroke(const cs_shape *shape);
-
-#endif

@@ -34,14 +34,10 @@ static size_t find_runs(const cs_labels *labels, int32_t y, cs_region_run *out) 
 
 static celspan_status make_runs(celspan_context *context, const cs_labels *labels,
                                 cs_regions *out) {
-  out->rows = cs_mem_array(context->memory, (size_t)labels->height + 1, sizeof *out->rows);
-  if (!out->rows)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, out->rows, (size_t)labels->height + 1));
   for (int32_t y = 0; y < labels->height; y++)
     out->rows[y + 1] = out->rows[y] + find_runs(labels, y, NULL);
-  out->runs = cs_mem_array(context->memory, run_count(out), sizeof *out->runs);
-  if (!out->runs)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, out->runs, run_count(out)));
   for (int32_t y = 0; y < labels->height; y++)
     find_runs(labels, y, out->runs + out->rows[y]);
   return CELSPAN_OK;
@@ -147,9 +143,7 @@ static celspan_status make(celspan_context *context, const cs_material *material
     out->runs[i].region = (uint32_t)i;
   for (int32_t y = 1; y < out->height; y++)
     join_rows(&m, y);
-  out->list = cs_mem_array(context->memory, count_regions(out), sizeof *out->list);
-  if (!out->list)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, out->list, count_regions(out)));
   number_regions(material->labels, out);
   return CELSPAN_OK;
 }

@@ -6,8 +6,7 @@
  * INVARIANT: regions are numbered in the order of their first pixels, from the top left. Pixels
  * hang together by their sides, and by their corners as the caller says.
  */
-#ifndef CS_TRACE_REGIONS_H
-#define CS_TRACE_REGIONS_H
+#pragma once
 
 #include "tools/trace/labels.h"
 
@@ -59,5 +58,3 @@ static inline int32_t cs_regions_end(const cs_regions *regions, int32_t y, size_
  * NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_speckles_drop(celspan_context *context,
                                                 const cs_material *material, uint32_t most);
-
-#endif

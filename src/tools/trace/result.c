@@ -13,8 +13,7 @@ celspan_status cs_result_add(celspan_context *context, celspan_trace *trace,
                              const cs_shape *shape) {
   celspan_status status =
       trace->count < SHAPES_MOST
-          ? cs_mem_reserve(context, (void **)&trace->shapes, &trace->capacity, trace->count + 1,
-                           sizeof *trace->shapes)
+          ? CS_RESERVE(context, trace->shapes, trace->capacity, trace->count + 1)
           : cs_fail(context, CELSPAN_LIMIT,
                     "trace: there are more than %d shapes, which is the limit; ask for fewer "
                     "colours, or drop larger speckles",

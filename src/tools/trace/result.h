@@ -3,8 +3,7 @@
  * INVARIANT: immutable once it is made, and counted. A shape's object is made from its text, so
  * that whoever reads the text makes the same object.
  */
-#ifndef CS_TRACE_RESULT_H
-#define CS_TRACE_RESULT_H
+#pragma once
 
 #include "base/context.h"
 
@@ -38,5 +37,3 @@ CELSPAN_CHECKED celspan_status cs_result_add(celspan_context *context, celspan_t
 CELSPAN_CHECKED celspan_status cs_result_make(celspan_context *context,
                                               const celspan_trace_desc *desc, celspan_trace **out);
 void cs_result_finish_shape(cs_memory *memory, cs_shape *shape);
-
-#endif

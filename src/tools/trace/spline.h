@@ -4,8 +4,7 @@
  * The control points are those of the least squares of all distances, by conjugate gradients; their
  * number grows until no point is farther away than the tolerance.
  */
-#ifndef CS_TRACE_SPLINE_H
-#define CS_TRACE_SPLINE_H
+#pragma once
 
 #include "base/context.h"
 
@@ -28,5 +27,3 @@ CELSPAN_CHECKED celspan_status cs_spline_fit(celspan_context *context, const cs_
  * four points at least, and one of fewer than four a lesser degree. */
 cs_station cs_spline_at(const celspan_point *points, const double *widths, size_t count,
                         bool is_closed, double parameter);
-
-#endif

@@ -10,8 +10,7 @@
  * The least distance is found by Wolfe ("Finding the nearest point in a polytope", 1976), in steps
  * of which each is nearer than all before.
  */
-#ifndef CS_TRACE_STREET_H
-#define CS_TRACE_STREET_H
+#pragma once
 
 #include "tools/trace/arc.h"
 
@@ -55,5 +54,3 @@ bool cs_street_find(const cs_gate_row *row, bool is_line, cs_street *out);
 bool cs_street_find_any(const cs_gate_row *row, bool is_line, cs_street *out);
 /* Whether the middle of a street passes one more gate. */
 bool cs_street_passes(const cs_street *street, const cs_gate *gate);
-
-#endif

@@ -263,10 +263,7 @@ static cs_stretch stretch_of(const finder *f, ptrdiff_t end) {
 }
 
 static celspan_status add(celspan_context *context, cs_stretches *out, const cs_stretch *stretch) {
-  CS_TRY(cs_mem_reserve(context, (void **)&out->items, &out->capacity, out->count + 1,
-                        sizeof *out->items));
-  out->items[out->count++] = *stretch;
-  return CELSPAN_OK;
+  return CS_APPEND(context, out->items, out->count, out->capacity, *stretch);
 }
 
 /* Goes the ways back from the last point, and turns round what it finds. */

@@ -16,8 +16,7 @@
  * INVARIANT: stretches are in order, do not overlap, and have CS_STRETCH_FEWEST points at least and
  * CS_STRETCH_MOST at most; the total is the least that any such stretches have.
  */
-#ifndef CS_TRACE_STRETCHES_H
-#define CS_TRACE_STRETCHES_H
+#pragma once
 
 #include "tools/trace/arc.h"
 #include "tools/trace/edge.h"
@@ -56,5 +55,3 @@ CELSPAN_CHECKED celspan_status cs_stretches_thread(celspan_context *context,
                                                    const cs_points *points, ptrdiff_t from,
                                                    ptrdiff_t to, cs_stretches *out);
 void cs_stretches_finish(celspan_context *context, cs_stretches *stretches);
-
-#endif

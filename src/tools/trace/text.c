@@ -6,8 +6,7 @@
 
 static celspan_status add(celspan_context *context, cs_writing *writing, const char *bytes,
                           size_t size) {
-  CS_TRY(cs_mem_reserve(context, (void **)&writing->bytes, &writing->capacity,
-                        writing->count + size + 1, 1));
+  CS_TRY(CS_RESERVE(context, writing->bytes, writing->capacity, writing->count + size + 1));
   memcpy(writing->bytes + writing->count, bytes, size);
   writing->count += size;
   writing->bytes[writing->count] = '\0';

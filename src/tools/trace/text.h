@@ -3,8 +3,7 @@
  * INVARIANT: a coordinate is written as a decimal of at most three places, which stands for the
  * same number when it is read again.
  */
-#ifndef CS_TRACE_TEXT_H
-#define CS_TRACE_TEXT_H
+#pragma once
 
 #include "base/context.h"
 
@@ -25,5 +24,3 @@ typedef struct cs_decimal {
 } cs_decimal;
 cs_decimal cs_decimal_of(double number);
 void cs_writing_finish(celspan_context *context, cs_writing *writing);
-
-#endif

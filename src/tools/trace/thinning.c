@@ -22,10 +22,7 @@ void cs_thin_offsets(const cs_thin *thin, ptrdiff_t offsets[8]) {
 }
 
 static celspan_status add(celspan_context *context, place_list *list, size_t place) {
-  CS_TRY(cs_mem_reserve(context, (void **)&list->items, &list->capacity, list->count + 1,
-                        sizeof *list->items));
-  list->items[list->count++] = (uint32_t)place;
-  return CELSPAN_OK;
+  return CS_APPEND(context, list->items, list->count, list->capacity, (uint32_t)place);
 }
 
 /* ---------------------------------------------------------------- one pixel */
@@ -243,9 +240,7 @@ static celspan_status list_pixels(finder *f) {
   for (size_t i = thin->stride; i < thin->stride * ((size_t)thin->height + 1); i++) {
     if (!thin->plane[i])
       continue;
-    CS_TRY(cs_mem_reserve(f->context, (void **)&f->pixels, &f->pixel_capacity, f->pixel_count + 1,
-                          sizeof *f->pixels));
-    f->pixels[f->pixel_count++] = (uint32_t)i;
+    CS_TRY(CS_APPEND(f->context, f->pixels, f->pixel_count, f->pixel_capacity, (uint32_t)i));
   }
   return CELSPAN_OK;
 }
@@ -254,10 +249,7 @@ static celspan_status list_pixels(finder *f) {
 
 static celspan_status add_place(finder *f, size_t place) {
   cs_branches *out = f->out;
-  CS_TRY(cs_mem_reserve(f->context, (void **)&out->places, &out->place_capacity,
-                        out->place_count + 1, sizeof *out->places));
-  out->places[out->place_count++] = (uint32_t)place;
-  return CELSPAN_OK;
+  return CS_APPEND(f->context, out->places, out->place_count, out->place_capacity, (uint32_t)place);
 }
 
 /* The neighbour of a pixel on a line that is not the one that was before; by its side rather than
@@ -289,10 +281,7 @@ static celspan_status walk(finder *f, size_t from, size_t over) {
   if (place && !branch.is_closed)
     CS_TRY(add_place(f, place));
   branch.count = out->place_count - branch.first;
-  CS_TRY(cs_mem_reserve(f->context, (void **)&out->list, &out->capacity, out->count + 1,
-                        sizeof *out->list));
-  out->list[out->count++] = branch;
-  return CELSPAN_OK;
+  return CS_APPEND(f->context, out->list, out->count, out->capacity, branch);
 }
 
 /* A branch of one step, between two ends or forks, is walked from the first of them; between two

@@ -11,8 +11,7 @@
  * INVARIANT: a pixel that is left can not be taken away without taking a line apart or shortening
  * it.
  */
-#ifndef CS_TRACE_THINNING_H
-#define CS_TRACE_THINNING_H
+#pragma once
 
 #include "tools/trace/labels.h"
 
@@ -64,5 +63,3 @@ typedef struct cs_branches {
 CELSPAN_CHECKED celspan_status cs_branches_find(celspan_context *context, cs_thin *thin,
                                                 cs_branches *out);
 void cs_branches_finish(cs_branches *branches, celspan_context *context);
-
-#endif

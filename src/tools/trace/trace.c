@@ -212,9 +212,8 @@ static celspan_status make_object(celspan_context *context, cs_shape *shape) {
 
 /* The union of all shapes. */
 static celspan_status unite(celspan_context *context, celspan_trace *trace) {
-  celspan_object **objects = cs_mem_array(context->memory, trace->count + 1, sizeof *objects);
-  if (!objects)
-    return cs_fail_memory(context);
+  celspan_object **objects;
+  CS_TRY(CS_MAKE(context, objects, trace->count + 1));
   for (size_t i = 0; i < trace->count; i++)
     objects[i] = trace->shapes[i].object;
   celspan_status status =
@@ -307,9 +306,8 @@ static celspan_status check(celspan_context *context, const celspan_trace_desc *
 celspan_status cs_result_make(celspan_context *context, const celspan_trace_desc *desc,
                               celspan_trace **out) {
   CS_TRY(check(context, desc));
-  celspan_trace *trace = cs_mem_array(context->memory, 1, sizeof *trace);
-  if (!trace)
-    return cs_fail_memory(context);
+  celspan_trace *trace;
+  CS_TRY(CS_MAKE(context, trace, 1));
   trace->references = 1;
   trace->memory = cs_memory_ref(context->memory);
   celspan_status status = trace_picture(context, desc, trace);

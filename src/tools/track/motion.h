@@ -9,8 +9,7 @@
  * INVARIANT: the answer depends on the pairs and their order alone: samples are drawn by a
  * generator that begins with the same seed each time.
  */
-#ifndef CS_TRACK_MOTION_H
-#define CS_TRACK_MOTION_H
+#pragma once
 
 #include "base/context.h"
 
@@ -37,5 +36,3 @@ bool cs_motion_agree(celspan_motion model, cs_motion_pair *pairs, size_t count, 
 
 /* Where a motion takes a point. False behind the horizon. */
 bool cs_motion_apply(const celspan_matrix *matrix, celspan_point point, celspan_point *out);
-
-#endif

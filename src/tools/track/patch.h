@@ -9,8 +9,7 @@
  *     |                   |       |         \/        |
  *     +-------------------+       +-------------------+
  */
-#ifndef CS_TRACK_PATCH_H
-#define CS_TRACK_PATCH_H
+#pragma once
 
 #include "tools/track/plane.h"
 
@@ -45,5 +44,3 @@ bool cs_patch_find(const cs_patch *patch, const cs_plane *plane, cs_patch_place 
  * the one where the pixels are most alike. likeness: there; -1 where none is in the picture. */
 void cs_patch_search(const cs_patch *patch, const cs_plane *plane, int radius,
                      cs_patch_place *place, double *likeness);
-
-#endif

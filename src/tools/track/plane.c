@@ -158,8 +158,8 @@ static celspan_status list_peaks(celspan_context *context, const map *m, candida
     for (int32_t x = 0; x < m->width; x++) {
       if (!is_peak(m, x, y))
         continue;
-      CS_TRY(cs_mem_reserve(context, (void **)list, capacity, *count + 1, sizeof **list));
-      (*list)[(*count)++] = (candidate){strength_in(m, x, y), m->x0 + x, m->y0 + y};
+      CS_TRY(CS_APPEND(context, *list, *count, *capacity,
+                       (candidate){strength_in(m, x, y), m->x0 + x, m->y0 + y}));
     }
   return CELSPAN_OK;
 }
@@ -213,9 +213,7 @@ celspan_status cs_features_find(celspan_context *context, const cs_plane *plane,
   *count = 0;
   if (size == 0)
     return CELSPAN_OK;
-  m.strengths = cs_mem_array(context->memory, size, sizeof *m.strengths);
-  if (!m.strengths)
-    return cs_fail_memory(context);
+  CS_TRY(CS_MAKE(context, m.strengths, size));
   measure(plane, region, &m);
   celspan_status status = choose(context, &m, out, count);
   cs_mem_free(context->memory, m.strengths, size * sizeof *m.strengths);

@@ -8,8 +8,7 @@
  *
  * A level is the one before it, smoothed by the binomial weights 1 3 3 1 in both directions.
  */
-#ifndef CS_TRACK_PLANE_H
-#define CS_TRACK_PLANE_H
+#pragma once
 
 #include "base/context.h"
 
@@ -66,5 +65,3 @@ typedef struct cs_features_region {
 CELSPAN_CHECKED celspan_status cs_features_find(celspan_context *context, const cs_plane *plane,
                                                 const cs_features_region *region,
                                                 celspan_point *out, size_t *count);
-
-#endif

@@ -289,9 +289,7 @@ static void take_level(celspan_tracker *tracker, int32_t level) {
 static celspan_status take_patches(celspan_tracker *tracker) {
   celspan_context *context = tracker->context;
   for (int32_t level = 0; level < tracker->first.count; level++) {
-    tracker->patches[level] = cs_mem_array(context->memory, tracker->count, sizeof(cs_patch));
-    if (!tracker->patches[level])
-      return cs_fail_memory(context);
+    CS_TRY(CS_MAKE(context, tracker->patches[level], tracker->count));
     take_level(tracker, level);
   }
   return CELSPAN_OK;
@@ -318,9 +316,8 @@ static celspan_status fill(celspan_tracker *tracker, const celspan_luma *luma,
 celspan_status celspan_tracker_create(celspan_context *context, const celspan_luma *first,
                                       const celspan_tracker_desc *desc, celspan_tracker **out) {
   *out = NULL;
-  celspan_tracker *tracker = cs_mem_array(context->memory, 1, sizeof *tracker);
-  if (!tracker)
-    return cs_fail_memory(context);
+  celspan_tracker *tracker;
+  CS_TRY(CS_MAKE(context, tracker, 1));
   tracker->context = context;
   tracker->model = desc->model;
   tracker->last = tracker->before_last = celspan_matrix_identity();

@@ -120,13 +120,32 @@ end
 
 local function is_declaration(file, i) return file.is_header and not is_inside(file, i) end
 
+--- Whether a header declares functions that a source defines: a self-check, or one of several
+--- sources behind a header. The source includes it for these declarations.
+local function is_declared_by(source, header)
+  if not header.declared then
+    header.declared = {}
+    for _, name in ipairs(header.is_header and header.names or {}) do
+      if name.kind == "prototype" then header.declared[name.name] = true end
+    end
+  end
+  for _, fn in ipairs(source.functions) do
+    if not fn.is_static and header.declared[fn.name] then return true end
+  end
+  return false
+end
+
 --- Calls visit(from, to, why) for each include of a file of the tree and, unless only_includes, for
---- each use of another file's function.
+--- each use of another file's function. With those uses, the include of the header that declares a
+--- source's own functions does not count: what the source needs of that unit, it calls.
 function tree:each_edge(visit, only_includes)
   for _, file in ipairs(self.files) do
     for _, include in ipairs(file.includes) do
       local to = self.named[include.name]
-      if to and to.room ~= PUBLIC then visit(file, to, include) end
+      local is_meant = to and to.room ~= PUBLIC
+      if is_meant and (only_includes or not is_declared_by(file, to)) then
+        visit(file, to, include)
+      end
     end
     for i = 1, only_includes and 0 or #file.text do
       local fn = self:used_at(file, i)

@@ -1,8 +1,7 @@
-/* The sampler's loops over pixels. What must not depend on the instructions is written out: no
- * division where a product is meant, every sum in its order.
+/* The sampler's loops over the pixels of turned pictures. What must not depend on the
+ * instructions is written out: no division where a product is meant, every sum in its order.
  */
 #include "engine/sample/sampler_level.h"
-#include "engine/sample/sampler_row.h"
 #include "engine/sample/sampler_taps.h"
 
 #define SAME CS_SAMPLER_SAME
@@ -123,19 +122,14 @@ void CS_WIDE(cs_sampler_find_quads)(const cs_sampler *sampler, int level, int32_
   }
 }
 
-static inline double clamped(double u) {
-  u = u > -1e9 ? u : -1e9;
-  return u < 1e9 ? u : 1e9;
-}
-
 void CS_WIDE(cs_sampler_place_taps)(const cs_sampler *sampler, int32_t x0, int32_t count, double y,
                                     double *restrict u, double *restrict v) {
   const double *m = sampler->m;
   double row_u = m[1] * y + m[2], row_v = m[4] * y + m[5], m0 = m[0], m3 = m[3];
   for (int32_t i = 0; i < count; i++) {
     double x = (double)(x0 + i) + 0.5;
-    u[i] = clamped(m0 * x + row_u);
-    v[i] = clamped(m3 * x + row_v);
+    u[i] = cs_sampler_bounded(m0 * x + row_u);
+    v[i] = cs_sampler_bounded(m3 * x + row_v);
   }
 }
 
@@ -153,81 +147,6 @@ void CS_WIDE(cs_sampler_mix_quads)(const float *restrict block, const cs_sampler
     texel right = __builtin_shufflevector(column, column, 4, 5, 6, 7);
     texel mixed = left + quads->across[i] * (right - left);
     memcpy(rgba[i - from], &mixed, sizeof mixed);
-  }
-}
-
-/* ---------------------------------------------------------------- rows */
-
-void CS_WIDE(cs_sampler_mix_rows)(const float (*a)[4], const float (*b)[4], float share,
-                                  int32_t count, float (*out)[4]) {
-  for (int32_t i = 0; i < count; i++)
-    for (int c = 0; c < 4; c++)
-      out[i][c] = a[i][c] + share * (b[i][c] - a[i][c]);
-}
-
-void CS_WIDE(cs_sampler_add_row)(const float (*restrict texels)[4],
-                                 const float (*restrict first)[4], float weight, int32_t count,
-                                 float (*restrict sum)[4]) {
-  for (int32_t i = 0; i < count; i++)
-    for (int c = 0; c < 4; c++)
-      sum[i][c] += weight * (texels[i][c] - first[i][c]);
-}
-
-void CS_WIDE(cs_sampler_end_sum)(const float (*restrict first)[4], float total, int32_t count,
-                                 float (*restrict sum)[4]) {
-  for (int32_t i = 0; i < count; i++)
-    for (int c = 0; c < 4; c++)
-      sum[i][c] = first[i][c] + sum[i][c] / total;
-}
-
-void CS_WIDE(cs_sampler_place_row)(const cs_sampler *sampler, int32_t x0, int32_t count, double y,
-                                   double *restrict u) {
-  double step = sampler->m[0], start = sampler->m[1] * y + sampler->m[2];
-  for (int32_t i = 0; i < count; i++)
-    u[i] = step * ((double)(x0 + i) + 0.5) + start;
-}
-
-void CS_WIDE(cs_sampler_place_columns)(const cs_sampler *sampler, const int32_t *restrict columns,
-                                       int32_t count, double y, double *restrict u) {
-  double step = sampler->m[0], start = sampler->m[1] * y + sampler->m[2];
-  for (int32_t i = 0; i < count; i++)
-    u[i] = step * ((double)columns[i] + 0.5) + start;
-}
-
-void CS_WIDE(cs_sampler_clamp_row)(int32_t count, double *u) {
-  for (int32_t i = 0; i < count; i++)
-    u[i] = clamped(u[i]);
-}
-
-void CS_WIDE(cs_sampler_floor_row)(const double *restrict u, int32_t count, int32_t *restrict at) {
-  for (int32_t i = 0; i < count; i++) {
-    double place = u[i] + SAME;
-    int32_t whole = (int32_t)place;
-    at[i] = whole - (place < whole);
-  }
-}
-
-void CS_WIDE(cs_sampler_split_row)(const double *restrict u, int32_t count, int32_t *restrict at,
-                                   float *restrict across) {
-  for (int32_t i = 0; i < count; i++) {
-    double place = u[i] - 0.5;
-    int32_t left = (int32_t)(place + SAME);
-    left -= place + SAME < left;
-    double rest = place - left;
-    at[i] = left;
-    across[i] = rest < SAME ? 0.0f : (float)rest;
-  }
-}
-
-void CS_WIDE(cs_sampler_mix_along)(const float (*restrict texels)[4], int32_t first,
-                                   const int32_t *restrict at, const float *restrict across,
-                                   int32_t count, float (*restrict rgba)[4]) {
-  for (int32_t i = 0; i < count; i++) {
-    texel left, right;
-    memcpy(&left, texels[at[i] - first], sizeof left);
-    memcpy(&right, texels[at[i] - first + 1], sizeof right);
-    left += across[i] * (right - left);
-    memcpy(rgba[i], &left, sizeof left);
   }
 }
 

@@ -1,0 +1,11 @@
+/* Fields of the table on top of the stack. */
+#pragma once
+
+#include <lauxlib.h>
+#include <stdbool.h>
+
+void cs_put_flag(lua_State *L, const char *name, bool flag);
+void cs_put_integer(lua_State *L, const char *name, lua_Integer number);
+void cs_put_number(lua_State *L, const char *name, lua_Number number);
+/* text: NULL puts nil. */
+void cs_put_text(lua_State *L, const char *name, const char *text);

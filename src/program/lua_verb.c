@@ -1,0 +1,166 @@
+#include "program/lua_verb.h"
+
+#include <lualib.h>
+#include <string.h>
+
+#include "celspan/lua.h"
+#include "lua/bind/host.h"
+#include "lua/bind/lua_error.h"
+#include "lua/bind/put.h"
+#include "lua/module/core.h"
+#include "program/script.h"
+#include "program/service.h"
+#include "program/verb_text.h"
+#include "program/verbs.h"
+
+/* ---------------------------------------------------------------- the request */
+
+/* "--job-name" is the field job_name, "-o" output. */
+static void push_field_name(lua_State *L, const char *option) {
+  if (strcmp(option, "-o") == 0)
+    lua_pushliteral(L, "output");
+  else
+    luaL_gsub(L, option + 2, "-", "_");
+}
+
+/* request, given: adds an option to both. Values are the texts that were given, which their readers
+ * have accepted; of a flag, true. */
+static void set_option(void *user, const char *name, const char *value) {
+  lua_State *L = user;
+  push_field_name(L, name);
+  if (value)
+    lua_pushstring(L, value);
+  else
+    lua_pushboolean(L, true);
+  lua_rawset(L, -4);
+  lua_createtable(L, 0, 2);
+  cs_put_text(L, "name", name);
+  cs_put_text(L, "value", value);
+  lua_rawseti(L, -2, (lua_Integer)lua_rawlen(L, -2) + 1);
+}
+
+static void push_texts(lua_State *L, const char *const *texts, size_t count) {
+  lua_createtable(L, (int)count, 8);
+  for (size_t i = 0; i < count; i++) {
+    lua_pushstring(L, texts[i]);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+}
+
+/* request[1], ...: its operands; request.job_name: an option; request.arguments: of the script;
+ * request.given: the options in their order, { name = "--job-name", value = "walk" }. */
+static void push_request(lua_State *L, const cs_request *request) {
+  push_texts(L, request->operands, request->operand_count);
+  push_texts(L, (const char *const *)request->script_arguments, request->script_argument_count);
+  lua_setfield(L, -2, "arguments");
+  lua_newtable(L);
+  cs_request_each(request, set_option, L);
+  lua_setfield(L, -2, "given");
+}
+
+/* ---------------------------------------------------------------- the verbs */
+
+static void push_options(lua_State *L, const cs_option *options) {
+  lua_newtable(L);
+  for (lua_Integer i = 1; options->name; i++, options++) {
+    lua_createtable(L, 0, 3);
+    cs_put_text(L, "name", options->name);
+    cs_put_text(L, "value", options->value);
+    cs_put_text(L, "help", options->help);
+    lua_rawseti(L, -2, i);
+  }
+}
+
+/* verbs() -> what each verb is and takes: { name =, operands =, summary =, notes =, has_script =,
+ * options = { { name =, value =, help = }, ... } } */
+static int push_verbs(lua_State *L) {
+  lua_newtable(L);
+  for (const cs_verb *verb = cs_verbs; verb->name; verb++) {
+    if (verb->is_hidden)
+      continue;
+    lua_createtable(L, 0, 6);
+    cs_put_text(L, "name", verb->name);
+    cs_put_text(L, "operands", verb->operands);
+    cs_put_text(L, "summary", verb->summary);
+    cs_put_text(L, "notes", verb->notes);
+    cs_put_flag(L, "has_script", verb->has_script);
+    push_options(L, verb->options);
+    lua_setfield(L, -2, "options");
+    lua_rawseti(L, -2, (lua_Integer)lua_rawlen(L, -2) + 1);
+  }
+  return 1;
+}
+
+/* ---------------------------------------------------------------- the state */
+
+static void open_libraries(lua_State *L, celspan_context *context) {
+  static const luaL_Reg modules[] = {{"celspan", luaopen_celspan}, {NULL, NULL}};
+  luaL_openlibs(L);
+  cs_host_open(L, context);
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_PRELOAD_TABLE);
+  luaL_setfuncs(L, modules, 0);
+  lua_pop(L, 1);
+  cs_embedded_open(L);
+}
+
+/* Pushes the table of services. */
+static void push_program(lua_State *L) {
+  static const luaL_Reg services[] = {{"verbs", push_verbs}, {NULL, NULL}};
+  lua_newtable(L);
+  cs_service_add(L, services);
+  cs_put_text(L, "version", celspan_version());
+  cs_put_text(L, "annotations", CS_ANNOTATIONS); /* the folder, as it is installed */
+  cs_service_add_reports(L);
+  cs_service_add_film(L);
+  cs_service_add_files(L);
+  cs_service_add_pictures(L);
+  cs_service_add_processes(L);
+}
+
+/* Upvalue: the program. Returns the verb's exit code, or nothing. Runs protected. */
+static int run(lua_State *L) {
+  const cs_session *session = cs_service_session(L);
+  open_libraries(L, session->context);
+  push_program(L);
+  push_request(L, session->request);
+  cs_verb_text_load(L, "program.lua");
+  lua_pushvalue(L, 1);
+  lua_call(L, 1, 0);
+  lua_pushfstring(L, "%s.lua", session->request->verb->name);
+  cs_verb_text_load(L, lua_tostring(L, -1));
+  lua_insert(L, 1);
+  lua_settop(L, 3);
+  lua_call(L, 2, 1);
+  return 1;
+}
+
+/* session, light userdata. A closure takes memory: so it is made where failing is caught. */
+static int begin(lua_State *L) {
+  lua_pushcclosure(L, run, 1);
+  lua_call(L, 0, 1);
+  return 1;
+}
+
+static cs_exit outcome_of(lua_State *L, const cs_session *session, int raised) {
+  if (raised == LUA_OK)
+    return (cs_exit)lua_tointeger(L, -1);
+  if (session->outcome != CS_EXIT_OK)
+    return session->outcome;
+  if (!cs_host_find(L))
+    return cs_script_report_start(L);
+  return cs_report_failure(session->context, cs_lua_error_report(L, raised), NULL);
+}
+
+cs_exit cs_lua_verb_run(celspan_context *context, const cs_request *request) {
+  cs_session session = {.context = context, .request = request};
+  lua_State *L = luaL_newstate();
+  if (!L)
+    return cs_script_report_start(NULL);
+  lua_pushcfunction(L, begin);
+  lua_pushlightuserdata(L, &session);
+  cs_script_watch(L);
+  cs_exit outcome = outcome_of(L, &session, cs_lua_error_call(L, 1, 1));
+  cs_script_watch(NULL);
+  lua_close(L);
+  return outcome;
+}
