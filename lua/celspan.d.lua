@@ -18,6 +18,12 @@
 ---@field clear celspan.paint Nothing at all: light passes unchanged
 local celspan = {}
 
+--- The text of a file, of at most 256 MiB. Modules read tables (csv), JSON (json) and captions.
+---@param path string Relative to the caller's file, else to the script
+---@return string? text
+---@return string? message
+function celspan.read(path) end
+
 --- A value that can have a name. Transforms, fades and `with` keep the name.
 ---@class celspan.nameable
 ---@field name? string
@@ -130,6 +136,7 @@ function celspan.radial(fields) end
 ---@class celspan.picture.fields
 ---@field box? number[] {x, y, w, h}; default the bounding rectangle of the primitive
 ---@field file? string Relative to the script; required unless `pixels` is given
+---@field frame? integer The number in the name of the file, where the name has #### or %04d
 ---@field colour? string "srgb", "linear", "rec709" or "cineon"; default by the file
 ---@field sampling? "auto"|"nearest"|"bilinear"|"bicubic" Default "auto"
 ---@field as? "paint"|"gel" Paint, or a slide lit from behind; default "paint"
@@ -396,6 +403,7 @@ function celspan.stroke(fields) end
 ---@field h? number 0 or more
 ---@field fit? "fill"|"contain"|"cover" If both w and h are given; default "fill"
 ---@field file? string Relative to the script; required unless `pixels` is given
+---@field frame? integer The number in the name of the file, where the name has #### or %04d
 ---@field colour? string "srgb", "linear", "rec709" or "cineon"; default by the file
 ---@field sampling? "auto"|"nearest"|"bilinear"|"bicubic" Default "auto"
 ---@field as? "paint"|"gel" Paint, or a slide lit from behind; default "paint"

@@ -26,6 +26,12 @@ return [==[
 ---@field clear celspan.paint Nothing at all: light passes unchanged
 local celspan = {}
 
+--- The text of a file, of at most 256 MiB. Modules read tables (csv), JSON (json) and captions.
+---@param path string Relative to the caller's file, else to the script
+---@return string? text
+---@return string? message
+function celspan.read(path) end
+
 --- A value that can have a name. Transforms, fades and `with` keep the name.
 ---@class celspan.nameable
 ---@field name? string

@@ -1,6 +1,6 @@
---- A JSON reader (RFC 8259) with limits: for cue sheets and exposure sheets, not for logs.
+--- A JSON reader (RFC 8259) with limits: for data and sheets, not for logs.
 --
---   json.decode(text) -> value | nil, message
+--   local cast = assert(json.read "cast.json")
 --
 -- Objects and arrays become tables, null becomes json.null. A name that is twice in an object has
 -- its last value.
@@ -123,6 +123,7 @@ function read_value(text, at, depth)
   return read_number(text, at)
 end
 
+--- Reads a value from a text.
 ---@param text string
 ---@return any value
 ---@return string? message
@@ -143,6 +144,19 @@ function json.decode(text)
     local _, problem = pcall(fail, text, at, "something follows the value")
     return nil, problem.message
   end
+  return value
+end
+
+--- Reads a value from a file.
+---@param path string Relative to the caller's file, else to the script
+---@return any value
+---@return string? message
+function json.read(path)
+  if type(path) ~= "string" then error("json: read takes a file name, got " .. type(path), 2) end
+  local text, message = require "celspan.files".read_found(path, json.most_bytes)
+  if not text then return nil, message end
+  local value, problem = json.decode(text)
+  if value == nil then return nil, ("%s: %s"):format(path, problem) end
   return value
 end
 
