@@ -11,7 +11,7 @@ local bench
 before_each(function() bench = workbench.new() end)
 after_each(function() bench:remove() end)
 
-local function list(text, options)
+local function joined(text, options)
   local rows = assert(csv.decode(text, options))
   local lines = {}
   for i, row in ipairs(rows) do lines[i] = table.concat(row, "|") end
@@ -23,24 +23,24 @@ local bare = { header = false }
 describe("csv", function()
   -- RFC 4180, section 2, by its numbers
   it("reads the seven rules of RFC 4180", function()
-    assert.are.equal("aaa|bbb|ccc/zzz|yyy|xxx", list("aaa,bbb,ccc\r\nzzz,yyy,xxx\r\n", bare)) -- 1
-    assert.are.equal("aaa|bbb|ccc/zzz|yyy|xxx", list("aaa,bbb,ccc\r\nzzz,yyy,xxx", bare)) -- 2
-    assert.are.equal("zzz|yyy", list("name,other\r\nzzz,yyy")) -- 3
-    assert.are.equal(" a| b ", list(" a, b ", bare)) -- 4: spaces belong to a field
-    assert.are.equal("aaa|bbb|ccc/zzz|y", list('"aaa","bbb","ccc"\r\nzzz,y,', bare):gsub("|$", "")) -- 5
-    assert.are.equal("aaa|b\r\nb|c,c", list('"aaa","b\r\nb","c,c"', bare)) -- 6
-    assert.are.equal('aaa|b"bb|"', list('"aaa","b""bb",""""', bare)) -- 7
+    assert.are.equal("aaa|bbb|ccc/zzz|yyy|xxx", joined("aaa,bbb,ccc\r\nzzz,yyy,xxx\r\n", bare)) -- 1
+    assert.are.equal("aaa|bbb|ccc/zzz|yyy|xxx", joined("aaa,bbb,ccc\r\nzzz,yyy,xxx", bare)) -- 2
+    assert.are.equal("zzz|yyy", joined("name,other\r\nzzz,yyy")) -- 3
+    assert.are.equal(" a| b ", joined(" a, b ", bare)) -- 4: spaces belong to a field
+    assert.are.equal("aaa|bbb|ccc/zzz|y", joined('"aaa","bbb","ccc"\r\nzzz,y,', bare):gsub("|$", "")) -- 5
+    assert.are.equal("aaa|b\r\nb|c,c", joined('"aaa","b\r\nb","c,c"', bare)) -- 6
+    assert.are.equal('aaa|b"bb|"', joined('"aaa","b""bb",""""', bare)) -- 7
   end)
 
   it("reads lines that end with LF, empty lines, a byte order mark and UTF-8", function()
-    assert.are.equal("é|b/c|d", list("\239\187\191é,b\n\n\r\nc,d\n\n", bare))
+    assert.are.equal("é|b/c|d", joined("\239\187\191é,b\n\n\r\nc,d\n\n", bare))
   end)
 
   it("finds the separator in the first line, outside of quotes", function()
-    assert.are.equal("a|b,c", list("a;b,c", bare))
-    assert.are.equal("x;y|z", list('"x;y",z', bare))
-    assert.are.equal("a|b;c", list("a\tb;c", bare))
-    assert.are.equal("a,b", list("a,b", { header = false, separator = "|" }))
+    assert.are.equal("a|b,c", joined("a;b,c", bare))
+    assert.are.equal("x;y|z", joined('"x;y",z', bare))
+    assert.are.equal("a|b;c", joined("a\tb;c", bare))
+    assert.are.equal("a,b", joined("a,b", { header = false, separator = "|" }))
   end)
 
   it("gives values by the name and by the place of their column", function()
