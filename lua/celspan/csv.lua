@@ -124,27 +124,35 @@ local function make_row(record, header, types, line)
   return row
 end
 
-local function decode(text, options)
-  local types, header, width = options.types or {}, nil, nil
-  local at = text:find "^\239\187\191" and 4 or 1 -- a byte order mark is skipped
-  local separator, line, rows = options.separator or find_separator(text:sub(at, at + 65535)), 1, {}
-  while at <= #text do
-    local record, next_at, next_line = csv.record(text, at, line, separator)
-    if #record > 1 or record[1] ~= "" then
-      width = width or #record
-      if #record ~= width then
-        fail(line, "the row has %d field%s; the first has %d", #record, #record == 1 and "" or "s",
-          width)
-      end
-      if not header and options.header ~= false then
-        header = record
-        check_header(header, types)
-      else
-        rows[#rows + 1] = make_row(record, header, types, line)
+--- The first row of a text, and a function that returns each of the following rows and its line, and
+--- nil after the last. Both raise { message = }.
+function csv.rows(text, separator)
+  local at, line, width = text:find "^\239\187\191" and 4 or 1, 1, nil -- after a byte order mark
+  separator = separator or find_separator(text:sub(at, at + 65535))
+  local function next_row()
+    while at <= #text do
+      local first, record = line
+      record, at, line = csv.record(text, at, line, separator)
+      if #record > 1 or record[1] ~= "" then
+        width = width or #record
+        if #record ~= width then
+          fail(first, "the row has %d field%s; the first has %d", #record, #record == 1 and "" or "s",
+            width)
+        end
+        return record, first
       end
     end
-    at, line = next_at, next_line
   end
+  return next_row() or {}, next_row
+end
+
+local function decode(text, options)
+  local first, next_row = csv.rows(text, options.separator)
+  local types, rows = options.types or {}, {}
+  local header = options.header ~= false and first or nil
+  if header then check_header(header, types) end
+  if not header and #first > 0 then rows[1] = make_row(first, nil, types, 1) end
+  for row, line in next_row do rows[#rows + 1] = make_row(row, header, types, line) end
   return rows
 end
 

@@ -160,4 +160,34 @@ function json.read(path)
   return value
 end
 
+-- ---------------------------------------------------------------- writing
+
+local shorts = { ['"'] = '\\"', ["\\"] = "\\\\", ["\n"] = "\\n", ["\t"] = "\\t" }
+
+local function encode_text(text)
+  return '"' .. text:gsub('[%c"\\]', function(c)
+    return shorts[c] or ("\\u%04x"):format(c:byte())
+  end) .. '"'
+end
+
+--- Writes a value as JSON. Objects are lists of { name, value }, so that they keep their order; a
+--- list has the field `list`.
+---@param value any
+---@param indent? string Before every line but the first; default ""
+---@return string text
+function json.encode(value, indent)
+  if type(value) ~= "table" then
+    return type(value) == "string" and encode_text(value) or tostring(value)
+  end
+  indent = indent or ""
+  local inner, items = indent .. "  ", {}
+  for i, item in ipairs(value.list or value) do
+    items[i] = inner .. (value.list and json.encode(item, inner)
+      or encode_text(item[1]) .. ": " .. json.encode(item[2], inner))
+  end
+  local open, close = value.list and "[" or "{", value.list and "]" or "}"
+  if #items == 0 then return open .. close end
+  return ("%s\n%s\n%s%s"):format(open, table.concat(items, ",\n"), indent, close)
+end
+
 return require "celspan.fields".seal("json", json)

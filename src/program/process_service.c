@@ -17,7 +17,7 @@
 #include "frames/process/spawn.h"
 #include "program/service.h"
 
-enum { CHILDREN_MOST = 1024, WORDS_MOST = 16 };
+enum { CHILDREN_MOST = 1024, WORDS_MOST = 1024 };
 
 /* Those that run; 0: a free place. */
 static volatile pid_t children[CHILDREN_MOST];
@@ -42,7 +42,7 @@ static int descriptor_at(lua_State *L, int index) {
 }
 
 /* start(words, printed, other) -> the number of a process, which runs this program with the words, of
- * which there are at most 14; nil, message. At most 1024 at a time. */
+ * which there are at most 1022; nil, message. At most 1024 at a time. */
 static int start(lua_State *L) {
   const char *words[WORDS_MOST] = {"celspan"};
   int printed = descriptor_at(L, 2), other = descriptor_at(L, 3);

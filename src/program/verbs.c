@@ -70,7 +70,11 @@
     "--progress", "HOW", &cs_argument_progress,                                                    \
         "auto, bar, lines, none or json on standard error; openjd on standard output"              \
   }
-/* The rights of a script. */
+/* What scripts are given, and their rights. */
+#define SCRIPT                                                                                     \
+  {"--set", "NAME=V", &cs_argument_setting,                                                        \
+   "the value of a parameter that the script declares; may be given several times"},               \
+      {"--set-from", "FILE", &cs_argument_file, "values of parameters, as a JSON object"}, RIGHTS
 #define RIGHTS                                                                                     \
   {"--trust", NULL, NULL,                                                                          \
    "give the script the whole of Lua: files, programs, no limits; decode pictures in this "        \
@@ -121,14 +125,19 @@ static const cs_option RENDER[] = {
      "keep the frames of earlier runs with --resume that would be the same again"},
     FORCE,
     KEEP_GOING,
-    RIGHTS,
+    {"--table", "FILE", &cs_argument_file,
+     "a film for each row of a CSV file, whose columns are parameters, or {NAME} in OUT"},
+    SCRIPT,
     MEMORY,
     {0}};
 
-static const cs_option INFO[] = {RIGHTS, {0}};
+static const cs_option INFO[] = {{"--parameters", NULL, NULL, "only the parameters of a script"},
+                                 {"--json", NULL, NULL, "with --parameters: as JSON Schema"},
+                                 SCRIPT,
+                                 {0}};
 
 static const cs_option CHECK[] = {
-    FRAMES, {"--deep", NULL, NULL, "read pictures whole, not only their headers"}, RIGHTS, {0}};
+    FRAMES, {"--deep", NULL, NULL, "read pictures whole, not only their headers"}, SCRIPT, {0}};
 
 static const cs_option SPANS[] = {
     FRAME,
@@ -139,11 +148,11 @@ static const cs_option SPANS[] = {
     {"--stats", NULL, NULL, "make all rows, count their spans by kind, print one line of counts"},
     {"--pixels", "DEPTH", &cs_argument_depth,
      "with --stats: make each row as pixels, in a row that is reused"},
-    RIGHTS,
+    SCRIPT,
     MEMORY,
     {0}};
 
-static const cs_option PROBE[] = {FRAME, RIGHTS, {0}};
+static const cs_option PROBE[] = {FRAME, SCRIPT, {0}};
 
 static const cs_option CONVERT[] = {SIZE, CROP, CODING, WORKERS, PICTURE_RIGHTS, {0}};
 
@@ -179,14 +188,14 @@ static const cs_option TILES[] = {
     {"--fresh", NULL, NULL, "remove the tiles of an earlier run and start over"},
     {"--viewer", "PATH", &cs_argument_file_or_folder,
      "OpenSeadragon, which is copied beside the page and replaces its own viewer"},
-    RIGHTS,
+    SCRIPT,
     {0}};
 
 static const cs_option SHEET[] = {
     OUTPUT("OUT",
            "shot.xdts, shot.csv (TVPaint, Krita) or shot.txt; default: text on standard output"),
     FRAMES,
-    RIGHTS,
+    SCRIPT,
     {0}};
 
 static const cs_option CONTACT[] = {
@@ -196,7 +205,7 @@ static const cs_option CONTACT[] = {
     {"--every", "N", &cs_argument_every,
      "one frame in N; default: the number that fits on one page"},
     WORKERS,
-    RIGHTS,
+    SCRIPT,
     {0}};
 
 static const cs_option RELIGHT[] = {
@@ -257,7 +266,7 @@ static const cs_option FARM[] = {
     ONION,
     FORCE,
     KEEP_GOING,
-    RIGHTS,
+    SCRIPT,
     MEMORY,
     {0}};
 

@@ -103,6 +103,7 @@ return {
   ["lua/celspan/mouths.lua"] = { "unit/fuzz-lips", "spec/lips" },
   ["lua/celspan/multiplane.lua"] = { "spec/camera", "spec/names", "spec/callers" },
   ["lua/celspan/oca.lua"] = { "spec/layers" },
+  ["lua/celspan/parameters.lua"] = { "spec/parameters" },
   ["lua/celspan/pathdata.lua"] = { "spec/motion" },
   ["lua/celspan/relight.lua"] = { "spec/relight", "property/stack" },
   ["lua/celspan/sheet.lua"] = { "unit/fuzz-sheets", "spec/sheet" },

@@ -24,6 +24,11 @@ void cs_embedded_require(lua_State *L, const char *name);
 /* (name) -> the source of a module, for celspan.manual */
 int cs_embedded_source(lua_State *L);
 
+/* ---------------------------------------------------------------- parameters */
+
+/* () -> the settings of this state, which lua/celspan/parameters.lua describes */
+int cs_core_settings(lua_State *L);
+
 /* ---------------------------------------------------------------- files */
 
 /* (path) -> the names of the files of a folder | nil, message */

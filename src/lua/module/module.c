@@ -41,12 +41,18 @@ static int nearest(lua_State *L) {
 /* core.refuse(message): raises it at the line of the nearest caller that is not celspan's own. */
 static int refuse(lua_State *L) { return cs_caller_error(L, "%s", luaL_checkstring(L, 1)); }
 
+int cs_core_settings(lua_State *L) {
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, "celspan.settings");
+  return 1;
+}
+
 int luaopen_celspan_core(lua_State *L) {
   static const luaL_Reg functions[] = {{"find", find},
                                        {"nearest", nearest},
                                        {"nouns", cs_nouns_push},
                                        {"source", cs_embedded_source},
                                        {"refuse", refuse},
+                                       {"settings", cs_core_settings},
                                        {"difference", cs_difference_of},
                                        {"painting", cs_painting_read},
                                        {"parts", cs_parts_list},
@@ -85,7 +91,8 @@ static int compare(const void *a, const void *b) {
 /* Functions of celspan that are written in Lua; each is loaded when it is first read. */
 static const struct {
   const char *name, *module, *function;
-} written_in_lua[] = {{"read", "celspan.files", "text"}};
+} written_in_lua[] = {{"read", "celspan.files", "text"},
+                      {"parameters", "celspan.parameters", "declare"}};
 
 #define WRITTEN_IN_LUA (sizeof written_in_lua / sizeof *written_in_lua)
 
