@@ -1,7 +1,7 @@
 --- Captions with their times, from SubRip (.srt) and WebVTT (.vtt) files.
 --
 --   local captions = assert(captions.read "line.vtt")
---   local text = captions:at(f.seconds)          -- nil between captions
+--   local text = captions:at(f.time)          -- nil between captions
 --
 -- Both formats are blocks between empty lines: an optional name or number, the times, the text.
 local fields = require "celspan.fields"
