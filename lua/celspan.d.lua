@@ -18,6 +18,20 @@
 ---@field clear celspan.paint Nothing at all: light passes unchanged
 local celspan = {}
 
+--- Declares the parameters of a film, once, and returns their values. Each name has its default: a
+--- string, a number, a boolean, a list of strings of which one is chosen, { colour = "#f26419" },
+--- { file = "a.wav" }, or { default, min =, max =, about = }. `--set` and `--set-from` give other
+--- values.
+---@param parameters table<string, any>
+---@return table<string, any> values
+function celspan.parameters(parameters) end
+
+--- The text of a file, of at most 256 MiB. Modules read tables (csv), JSON (json) and captions.
+---@param path string Relative to the caller's file, else to the script
+---@return string? text
+---@return string? message
+function celspan.read(path) end
+
 --- A value that can have a name. Transforms, fades and `with` keep the name.
 ---@class celspan.nameable
 ---@field name? string
@@ -130,6 +144,7 @@ function celspan.radial(fields) end
 ---@class celspan.picture.fields
 ---@field box? number[] {x, y, w, h}; default the bounding rectangle of the primitive
 ---@field file? string Relative to the script; required unless `pixels` is given
+---@field frame? integer The number in the name of the file, where the name has #### or %04d
 ---@field colour? string "srgb", "linear", "rec709" or "cineon"; default by the file
 ---@field sampling? "auto"|"nearest"|"bilinear"|"bicubic" Default "auto"
 ---@field as? "paint"|"gel" Paint, or a slide lit from behind; default "paint"
@@ -396,6 +411,7 @@ function celspan.stroke(fields) end
 ---@field h? number 0 or more
 ---@field fit? "fill"|"contain"|"cover" If both w and h are given; default "fill"
 ---@field file? string Relative to the script; required unless `pixels` is given
+---@field frame? integer The number in the name of the file, where the name has #### or %04d
 ---@field colour? string "srgb", "linear", "rec709" or "cineon"; default by the file
 ---@field sampling? "auto"|"nearest"|"bilinear"|"bicubic" Default "auto"
 ---@field as? "paint"|"gel" Paint, or a slide lit from behind; default "paint"

@@ -26,6 +26,20 @@ return [==[
 ---@field clear celspan.paint Nothing at all: light passes unchanged
 local celspan = {}
 
+--- Declares the parameters of a film, once, and returns their values. Each name has its default: a
+--- string, a number, a boolean, a list of strings of which one is chosen, { colour = "#f26419" },
+--- { file = "a.wav" }, or { default, min =, max =, about = }. `--set` and `--set-from` give other
+--- values.
+---@param parameters table<string, any>
+---@return table<string, any> values
+function celspan.parameters(parameters) end
+
+--- The text of a file, of at most 256 MiB. Modules read tables (csv), JSON (json) and captions.
+---@param path string Relative to the caller's file, else to the script
+---@return string? text
+---@return string? message
+function celspan.read(path) end
+
 --- A value that can have a name. Transforms, fades and `with` keep the name.
 ---@class celspan.nameable
 ---@field name? string

@@ -3,6 +3,7 @@ local core = require "celspan.core"
 
 local files = {}
 
+local MOST_BYTES = 256 * 1024 * 1024 -- of a file that a script reads as text
 local PIECE = 65536 -- bytes; read allocates the requested size before it knows the file's size
 
 --- The text of an open file; of a file that is too long, enough to see that.
@@ -44,6 +45,14 @@ function files.read_found(path, most)
   local text, message = files.read(found_at, most)
   if text or not tried then return text, message end
   return nil, ("%s; also looked for at %s"):format(message, tried)
+end
+
+--- celspan.read: the text of a file named in a script.
+function files.text(path)
+  if type(path) ~= "string" then
+    error("celspan: read takes a file name, got " .. type(path), 2)
+  end
+  return files.read_found(path, MOST_BYTES)
 end
 
 ---@param path string Relative to the current folder

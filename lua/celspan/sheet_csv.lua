@@ -1,6 +1,7 @@
 --- Exposure sheets as comma-separated values: of TVPaint and Krita, "CSV 1.0", read and written;
 --- and of Clip Studio, read.
 local columns = require "celspan.columns"
+local csv = require "celspan.csv"
 local fields = require "celspan.fields"
 
 local sheet_csv = {}
@@ -12,41 +13,8 @@ local holds = { [""] = true, ["|"] = true, ["\u{FF5C}"] = true, ["\u{2502}"] = t
 
 -- ---------------------------------------------------------------- cells
 
-local function strip(text) return text:match "^%s*(.-)%s*$" end
-
---- The cells of a line, which may be in quotes, where "" is a quote.
-local function split(line, number)
-  if not line:find('"', 1, true) then
-    local cells = {}
-    for cell in (line .. ","):gmatch "([^,]*)," do cells[#cells + 1] = strip(cell) end
-    return cells
-  end
-  local cells, at = {}, 1
-  while at <= #line + 1 do
-    local start = line:find("[^%s]", at) or #line + 1
-    if line:sub(start, start) == '"' then
-      local from, stop = start + 1
-      repeat
-        stop = line:find('"', from, true)
-        if not stop then columns.fail("line %d: a quote is not closed", number) end
-        from = stop + 2
-      until line:sub(stop + 1, stop + 1) ~= '"'
-      cells[#cells + 1] = line:sub(start + 1, stop - 1):gsub('""', '"')
-      local rest = line:find("[^%s]", stop + 1) or #line + 1
-      if rest <= #line and line:sub(rest, rest) ~= "," then
-        columns.fail("line %d: a comma is missing after a quote", number)
-      end
-      at = rest + 1
-      if rest > #line then break end
-    else
-      local comma = line:find(",", start, true) or #line + 1
-      cells[#cells + 1] = strip(line:sub(start, comma - 1))
-      at = comma + 1
-      if comma > #line then break end
-    end
-  end
-  return cells
-end
+--- The cells of a line, which may be in quotes.
+local function split(line, number) return (csv.record(line, 1, number, ",", true)) end
 
 local function check_count(count, number)
   if count > columns.most_layers then

@@ -31,6 +31,16 @@ static bool add_text(const cs_argument *kind, const char *text, void *field) {
   return true;
 }
 
+/* A name, =, and any text. */
+static bool read_setting(const cs_argument *kind, const char *text, void *field) {
+  size_t length = strcspn(text, "=");
+  (void)kind;
+  if (length == 0 || text[length] != '=')
+    return false;
+  *(const char **)field = text;
+  return true;
+}
+
 #define TEXT(name, words)                                                                          \
   const cs_argument cs_argument_##name = {.allowed = (words), .read = read_text}
 
@@ -46,6 +56,7 @@ TEXT(picture, "png or jpg");
 TEXT(colours, "a whole number from 1 to 64, or colours like #ffffff,#203040");
 TEXT(lamp, "a colour like #ffe0b0, r,g,b with each above 0, or grey");
 TEXT(light, "a colour like #203060, or r,g,b");
+const cs_argument cs_argument_setting = {.allowed = "NAME=VALUE", .read = read_setting};
 const cs_argument cs_argument_texts = {.allowed = "the name of a folder; at most 48 can be given",
                                        .read = add_text};
 

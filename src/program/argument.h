@@ -66,7 +66,7 @@ bool cs_argument_read(const cs_argument *kind, const char *text, void *field);
 /* const char *: a text that is not empty */
 extern const cs_argument cs_argument_text, cs_argument_file, cs_argument_folder,
     cs_argument_file_or_folder, cs_argument_frames, cs_argument_format, cs_argument_cel,
-    cs_argument_pattern, cs_argument_picture;
+    cs_argument_pattern, cs_argument_picture, cs_argument_setting;
 /* const char *: what it means is the verb's to find out */
 extern const cs_argument cs_argument_colours, cs_argument_lamp, cs_argument_light;
 /* int32_t */

@@ -10,8 +10,10 @@
 #include "frames/process/interrupt.h"
 #include "frames/video/sound.h"
 #include "lua/bind/host.h"
+#include "lua/bind/lua_error.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
+#include "lua/module/core.h"
 #include "model/scene/inspect.h"
 #include "model/scene/scene.h"
 #include "program/service.h"
@@ -202,6 +204,29 @@ static void add_rostrum(lua_State *L, const celspan_rostrum *rostrum) {
   }
 }
 
+/* Runs protected. The name of a function, its argument -> what it returns */
+static int describe_parameters(lua_State *L) {
+  cs_embedded_require(L, "celspan.parameters");
+  lua_getfield(L, -1, lua_touserdata(L, 1));
+  lua_pushstring(L, lua_touserdata(L, 2));
+  lua_call(L, 1, 1);
+  return 1;
+}
+
+/* film:parameters(what, text) -> a text: calls that function of celspan.parameters. */
+static int parameters(lua_State *L) {
+  lua_State *script = self(L)->script.L;
+  lua_pushcfunction(script, describe_parameters);
+  lua_pushlightuserdata(script, (void *)luaL_checkstring(L, 2));
+  lua_pushlightuserdata(script, (void *)luaL_checkstring(L, 3));
+  int outcome = lua_pcall(script, 2, 1, 0);
+  if (outcome != LUA_OK)
+    cs_service_try(L, cs_lua_error_report(script, outcome));
+  lua_pushstring(L, lua_tostring(script, -1));
+  lua_pop(script, 1);
+  return 1;
+}
+
 /* film:names(add): calls add(kind, name, source or nil, line) for each value that has a name. */
 static int names(lua_State *L) {
   const cs_film_frame *frame = &self(L)->script.frame;
@@ -285,6 +310,7 @@ static void set_methods(lua_State *L) {
                                      {"scene", scene},
                                      {"counts", counts},
                                      {"names", names},
+                                     {"parameters", parameters},
                                      {"faults", faults},
                                      {NULL, NULL}};
   lua_createtable(L, 0, 2);

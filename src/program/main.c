@@ -60,6 +60,11 @@ static cs_exit help_lua(const char *name) {
   return outcome;
 }
 
+/* Rendering a table of films is glue, though rendering one is not. */
+static bool is_in_lua(const cs_request *request) {
+  return !request->verb->run || cs_request_has(request, "--table");
+}
+
 static cs_exit run(const cs_request *request) {
   celspan_context *context = NULL;
   celspan_context_desc desc = {.struct_size = sizeof desc};
@@ -73,8 +78,8 @@ static cs_exit run(const cs_request *request) {
   }
   cs_exit outcome = cs_confine_pictures(context, request);
   if (outcome == CS_EXIT_OK)
-    outcome = request->verb->run ? request->verb->run(context, request)
-                                 : cs_lua_verb_run(context, request);
+    outcome = is_in_lua(request) ? cs_lua_verb_run(context, request)
+                                 : request->verb->run(context, request);
   celspan_context_destroy(context);
   cs_isolate_finish();
   return outcome;

@@ -17,7 +17,7 @@
 #include "frames/process/spawn.h"
 #include "program/service.h"
 
-enum { CHILDREN_MOST = 1024, WORDS_MOST = 16 };
+enum { CHILDREN_MOST = 1024, WORDS_MOST = 1024 };
 
 /* Those that run; 0: a free place. */
 static volatile pid_t children[CHILDREN_MOST];
@@ -43,7 +43,7 @@ static int descriptor_at(lua_State *L, int index) {
 
 /* start(words, printed, other) -> the number of a process | nil, message
  *
- * The process runs this program with the words, at most 14. At most 1024 processes at a time. */
+ * The process runs this program with the words, at most 1022. At most 1024 processes at a time. */
 static int start(lua_State *L) {
   const char *words[WORDS_MOST] = {"celspan"};
   int printed = descriptor_at(L, 2), other = descriptor_at(L, 3);

@@ -12,6 +12,7 @@
 #include "lua/bind/lua_error.h"
 #include "lua/module/lua_script.h"
 #include "program/confine.h"
+#include "program/settings.h"
 #include "program/view.h"
 
 /* The states that a signal interrupts: of the verb, and of the script that ran last; NULL: none. */
@@ -145,13 +146,37 @@ static void close_sandbox(cs_script *script) {
   script->sandbox = NULL;
 }
 
+/* Runs protected. */
+static int give_settings(lua_State *L) {
+  cs_settings_give(L, lua_touserdata(L, 1));
+  return 0;
+}
+
+/* Reads the settings before the sandbox is entered, in which their file may not be read. */
+static cs_exit start_script(cs_script *out, const cs_request *request, const char *path) {
+  cs_settings settings;
+  cs_exit outcome = cs_settings_open(out->context, request, &settings);
+  if (outcome == CS_EXIT_OK)
+    outcome = confine(out, request, path);
+  if (outcome == CS_EXIT_OK)
+    outcome = start(out);
+  if (outcome == CS_EXIT_OK) {
+    lua_pushcfunction(out->L, give_settings);
+    lua_pushlightuserdata(out->L, &settings);
+    if (lua_pcall(out->L, 1, 0, 0) != LUA_OK)
+      outcome = cs_script_report_start(out->L);
+  }
+  cs_settings_close(out->context, &settings);
+  return outcome;
+}
+
 cs_exit cs_script_open(celspan_context *context, const cs_request *request, const char *path,
                        cs_script *out) {
   *out = (cs_script){.context = context, .is_trusted = cs_request_has(request, "--trust")};
-  CS_TRY_EXIT(confine(out, request, path));
-  CS_TRY_EXIT(start(out));
+  CS_TRY_EXIT(start_script(out, request, path));
   celspan_status status = cs_lua_script_run(out->L, path, (int)request->script_argument_count,
                                             (const char *const *)request->script_arguments);
+  CS_TRY_EXIT(cs_settings_outcome(out->L));
   if (status != CELSPAN_OK)
     return cs_report_failure(context, status, NULL);
   lua_pushcfunction(out->L, read_film);

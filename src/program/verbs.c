@@ -80,7 +80,11 @@
     "--progress", "HOW", &cs_argument_progress,                                                    \
         "auto, bar, lines, none or json on standard error; openjd on standard output"              \
   }
-/* The rights of a script. */
+/* What scripts are given, and their rights. */
+#define SCRIPT                                                                                     \
+  {"--set", "NAME=V", &cs_argument_setting,                                                        \
+   "the value of a parameter that the script declares; may be given several times"},               \
+      {"--set-from", "FILE", &cs_argument_file, "values of parameters, as a JSON object"}, RIGHTS
 #define RIGHTS                                                                                     \
   {"--trust", NULL, NULL,                                                                          \
    "give the script all of Lua, with files and programs, and no limits; decode "                   \
@@ -134,18 +138,23 @@ static const cs_option RENDER[] = {
     {"--resume", NULL, NULL, "keep the frames of earlier runs with --resume that would not change"},
     FORCE,
     KEEP_GOING,
-    RIGHTS,
+    {"--table", "FILE", &cs_argument_file,
+     "a film for each row of a CSV file, whose columns are parameters, or {NAME} in OUT"},
+    SCRIPT,
     MEMORY,
     {0}};
 
-static const cs_option INFO[] = {RIGHTS, {0}};
+static const cs_option INFO[] = {{"--parameters", NULL, NULL, "only the parameters of a script"},
+                                 {"--json", NULL, NULL, "with --parameters: as JSON Schema"},
+                                 SCRIPT,
+                                 {0}};
 
 static const cs_option CHECK[] = {
     FRAMES,
     {"--deep", NULL, NULL,
      "read every picture completely, not only its header, and have ffmpeg read the "
      "sound"},
-    RIGHTS,
+    SCRIPT,
     {0}};
 
 static const cs_option SPANS[] = {
@@ -158,11 +167,11 @@ static const cs_option SPANS[] = {
     {"--pixels", "DEPTH", &cs_argument_depth,
      "with --stats: also convert each row to pixels of this depth, in a buffer "
      "that is reused"},
-    RIGHTS,
+    SCRIPT,
     MEMORY,
     {0}};
 
-static const cs_option PROBE[] = {FRAME, RIGHTS, {0}};
+static const cs_option PROBE[] = {FRAME, SCRIPT, {0}};
 
 static const cs_option CONVERT[] = {SIZE, CROP, CODING, WORKERS, PICTURE_RIGHTS, {0}};
 
@@ -202,14 +211,14 @@ static const cs_option TILES[] = {
     {"--viewer", "PATH", &cs_argument_file_or_folder,
      "OpenSeadragon, a folder or file that is copied beside the page and replaces "
      "the built-in viewer"},
-    RIGHTS,
+    SCRIPT,
     {0}};
 
 static const cs_option SHEET[] = {
     OUTPUT("OUT",
            "shot.xdts, shot.csv (TVPaint, Krita) or shot.txt; default: text on standard output"),
     FRAMES,
-    RIGHTS,
+    SCRIPT,
     {0}};
 
 static const cs_option CONTACT[] = {
@@ -218,7 +227,7 @@ static const cs_option CONTACT[] = {
     {"--grid", "CxR", &cs_argument_grid, "columns and rows of a page; default: 6x4"},
     {"--every", "N", &cs_argument_every, "one frame in N; default: as many as fit on one page"},
     WORKERS,
-    RIGHTS,
+    SCRIPT,
     {0}};
 
 static const cs_option RELIGHT[] = {
@@ -285,7 +294,7 @@ static const cs_option FARM[] = {
     ONION,
     FORCE,
     KEEP_GOING,
-    RIGHTS,
+    SCRIPT,
     MEMORY,
     {0}};
 

@@ -41,12 +41,18 @@ static int nearest(lua_State *L) {
 /* core.refuse(message): raises it at the line of the nearest caller that is not celspan's own. */
 static int refuse(lua_State *L) { return cs_caller_error(L, "%s", luaL_checkstring(L, 1)); }
 
+int cs_core_settings(lua_State *L) {
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, "celspan.settings");
+  return 1;
+}
+
 int luaopen_celspan_core(lua_State *L) {
   static const luaL_Reg functions[] = {{"find", find},
                                        {"nearest", nearest},
                                        {"nouns", cs_nouns_push},
                                        {"source", cs_embedded_source},
                                        {"refuse", refuse},
+                                       {"settings", cs_core_settings},
                                        {"difference", cs_difference_of},
                                        {"painting", cs_painting_read},
                                        {"parts", cs_parts_list},
@@ -82,17 +88,48 @@ static int compare(const void *a, const void *b) {
   return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
-/* celspan.circl: reading a name that the module does not have. */
-static int fail_unknown(lua_State *L) {
-  if (lua_type(L, 2) != LUA_TSTRING)
-    return 0;
-  const char *names[MOST_NAMES], *name = lua_tostring(L, 2);
+/* Functions of celspan that are written in Lua; each is loaded when it is first read. */
+static const struct {
+  const char *name, *module, *function;
+} written_in_lua[] = {{"read", "celspan.files", "text"},
+                      {"parameters", "celspan.parameters", "declare"}};
+
+#define WRITTEN_IN_LUA (sizeof written_in_lua / sizeof *written_in_lua)
+
+/* Pushes the function that is read, and puts it into the module; false: nothing is pushed. */
+static bool push_written(lua_State *L, const char *name) {
+  for (size_t i = 0; i < WRITTEN_IN_LUA; i++)
+    if (strcmp(name, written_in_lua[i].name) == 0) {
+      cs_embedded_require(L, written_in_lua[i].module);
+      lua_getfield(L, -1, written_in_lua[i].function);
+      lua_pushvalue(L, -1);
+      lua_setfield(L, 1, name);
+      return true;
+    }
+  return false;
+}
+
+/* The names that the module has, sorted; the module keeps them alive. */
+static size_t list_names(lua_State *L, const char **names) {
   size_t count = 0;
+  for (; count < WRITTEN_IN_LUA; count++)
+    names[count] = written_in_lua[count].name;
   lua_pushnil(L);
   for (; count < MOST_NAMES && lua_next(L, 1); lua_pop(L, 1))
     if (lua_type(L, -2) == LUA_TSTRING)
-      names[count++] = lua_tostring(L, -2); /* the module keeps it alive */
+      names[count++] = lua_tostring(L, -2);
   qsort(names, count, sizeof *names, compare);
+  return count;
+}
+
+/* celspan.circl: reading a name that the module's table does not have. */
+static int read_missing(lua_State *L) {
+  if (lua_type(L, 2) != LUA_TSTRING)
+    return 0;
+  const char *names[MOST_NAMES], *name = lua_tostring(L, 2);
+  if (push_written(L, name))
+    return 1;
+  size_t count = list_names(L, names);
   const char *nearest = cs_suggest_name(name, names, count);
   if (nearest)
     return cs_caller_error(L, "celspan has no '%s'; did you mean '%s'?", name, nearest);
@@ -101,7 +138,7 @@ static int fail_unknown(lua_State *L) {
 
 static void set_reading(lua_State *L) {
   lua_createtable(L, 0, 1);
-  lua_pushcfunction(L, fail_unknown);
+  lua_pushcfunction(L, read_missing);
   lua_setfield(L, -2, "__index");
   lua_setmetatable(L, -2);
 }

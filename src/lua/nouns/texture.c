@@ -1,6 +1,9 @@
 /* Textures: gradients and pictures. */
 #include "lua/nouns/texture.h"
 
+#include <limits.h>
+
+#include "frames/film/sequence.h"
 #include "lua/bind/files.h"
 #include "lua/bind/host.h"
 #include "lua/nouns/nouns.h"
@@ -110,13 +113,30 @@ static const cs_field radial_fields[] = {
 
 const char *const cs_texture_pixels_fields[] = {"size", "format", "alpha", NULL};
 
+/* The name of the file, or of one of a sequence of files, which is pushed. */
+static const char *name_of_file(const cs_form *form, const cs_texture_picture *read) {
+  char name[PATH_MAX];
+  if (!read->has_frame)
+    return read->file;
+  if (!cs_sequence_has_number(read->file))
+    cs_form_fail(form,
+                 "field 'frame' needs a file with a place for its number, such as "
+                 "\"roto.####.png\", got \"%s\"",
+                 read->file);
+  cs_form_try(
+      form, cs_sequence_name(cs_host_context(form->L), read->file, read->frame, name, sizeof name));
+  return lua_pushstring(form->L, name);
+}
+
 void cs_texture_read_picture(const cs_form *form, int holder, cs_texture_picture *out) {
   celspan_picture_desc *desc = &out->image.picture;
   cs_fields_read(form, out);
+  if (out->has_frame && !out->file)
+    cs_form_fail(form, "field 'frame' needs field 'file'");
   if (cs_form_has(form, "pixels"))
     desc->surface = cs_pixel_string_surface(form, &out->pixels, holder);
   else if (out->file)
-    desc->file = cs_files_find(form->L, out->file, &desc->tried);
+    desc->file = cs_files_find(form->L, name_of_file(form, out), &desc->tried);
   else
     cs_form_fail(form, "field 'file' must be a string, got nil");
 }
@@ -138,6 +158,8 @@ static const char *const uses[] = {"paint", "gel", NULL};
 const cs_field cs_texture_picture_fields[] = {
     {"file", CS_TEXT(READ, file),
      .about = "Relative to the script; required unless `pixels` is given"},
+    {"frame", CS_WHOLE(READ, frame), CS_HAS(READ, has_frame),
+     .about = "The number in the name of the file, where the name has #### or %04d"},
     {"colour", CS_TEXT(READ, image.picture.colour),
      .about = "\"srgb\", \"linear\", \"rec709\" or \"cineon\"", .fallback = "by the file"},
     {"sampling", CS_CHOICE(READ, image.picture.sampling, samplings), .preset = "auto"},

@@ -7,6 +7,8 @@
 typedef struct cs_texture_picture {
   celspan_image_desc image; /* celspan.picture uses its picture alone */
   const char *file;         /* NULL: there are pixels */
+  int frame;                /* of a file such as roto.####.png */
+  bool has_frame;
   cs_pixel_string pixels;
 } cs_texture_picture;
 

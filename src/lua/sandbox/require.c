@@ -6,22 +6,13 @@
 #include <sys/stat.h>
 
 #include "lua/bind/host.h"
+#include "lua/module/core.h"
 #include "lua/sandbox/guard.h"
 
 #define SOURCE_MOST ((off_t)16 << 20)
 
 int cs_library_require_own(lua_State *L) {
-  const char *name = luaL_checkstring(L, 1);
-  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
-  if (lua_getfield(L, -1, name) != LUA_TNIL)
-    return 1;
-  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_PRELOAD_TABLE);
-  if (lua_getfield(L, -1, name) == LUA_TNIL)
-    return luaL_error(L, "module '%s' not found", name);
-  lua_pushvalue(L, 1);
-  lua_call(L, 1, 1);
-  lua_pushvalue(L, -1);
-  lua_setfield(L, 2, name);
+  cs_embedded_require(L, luaL_checkstring(L, 1));
   return 1;
 }
 

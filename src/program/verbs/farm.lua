@@ -14,6 +14,7 @@
 --   job.version   of celspan
 local program, request = ...
 local core = require "celspan.core"
+local json = require "celspan.json"
 
 local CHUNK = 10 -- frames of a task
 local STRIPS_MOST = 1000 -- which one command can join
@@ -175,30 +176,6 @@ local function slurm(job)
   return ((SLURM_HEAD .. body .. SLURM_TAIL):gsub("@([A-Z_]+)@", values))
 end
 
--- ---------------------------------------------------------------- JSON
-
-local shorts = { ['"'] = '\\"', ["\\"] = "\\\\", ["\n"] = "\\n", ["\t"] = "\\t" }
-
-local function json_text(text)
-  return '"' .. text:gsub('[%c"\\]', function(c)
-    return shorts[c] or ("\\u%04x"):format(c:byte())
-  end) .. '"'
-end
-
---- Objects are lists of {name, value}, so that they keep their order; lists have the field `list`.
-local function json(value, indent)
-  if type(value) ~= "table" then
-    return type(value) == "string" and json_text(value) or tostring(value)
-  end
-  local inner, items = indent .. "  ", {}
-  for i, item in ipairs(value.list or value) do
-    items[i] = inner .. (value.list and json(item, inner)
-      or json_text(item[1]) .. ": " .. json(item[2], inner))
-  end
-  local open, close = value.list and "[" or "{", value.list and "]" or "}"
-  return ("%s\n%s\n%s%s"):format(open, table.concat(items, ",\n"), indent, close)
-end
-
 -- ---------------------------------------------------------------- Open Job Description
 
 local MOST_PARAMETERS, MOST_TEXT, MOST_NAME = 50, 1024, 128
@@ -214,6 +191,13 @@ local function new_parameters()
       self.fault = ("%s has more than %d characters"):format(name, MOST_TEXT)
     end
     return ("{{Param.%s}}"):format(name)
+  end
+  --- One that may be given several times: the last counts.
+  function parameters:set(name, value)
+    for _, members in ipairs(self.list) do
+      if members[1][2] == name then members[3][2] = value return ("{{Param.%s}}"):format(name) end
+    end
+    return self:add(name, "STRING", value)
   end
   --- The next of several of a kind: Allow1, Allow2.
   function parameters:add_numbered(kind, ...)
@@ -235,7 +219,13 @@ local FOLDER_OUT = { { "objectType", "DIRECTORY" }, { "dataFlow", "OUT" } }
 local function add_options(job, parameters, arguments)
   for _, option in ipairs(job.options) do
     arguments[#arguments + 1] = option.name
-    if option.name == "--allow" then
+    if option.name == "--set" then
+      local name, value = option.value:match "^(.-)=(.*)$"
+      arguments[#arguments + 1] = name .. "=" .. parameters:set("Set_" .. name, value)
+    elseif option.name == "--set-from" then
+      arguments[#arguments + 1] = parameters:add("SetFrom", "PATH",
+        absolute(option.value, job.folder), FILE_IN)
+    elseif option.name == "--allow" then
       arguments[#arguments + 1] = parameters:add_numbered("Allow", "PATH",
         absolute(option.value, job.folder), FOLDER_IN)
     elseif option.value then
@@ -303,13 +293,13 @@ local function template_name(job)
 end
 
 local function template_text(job, parameters, steps)
-  return json({
+  return json.encode({
     { "specificationVersion", "jobtemplate-2023-09" },
     { "name", template_name(job) },
     { "description", ("%s, written by celspan %s."):format(plain(summary_of(job)), job.version) },
     { "parameterDefinitions", { list = parameters.list } },
     { "steps", { list = steps } },
-  }, "") .. "\n"
+  }) .. "\n"
 end
 
 local function openjd(job)

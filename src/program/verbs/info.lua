@@ -55,6 +55,12 @@ end
 
 local function describe_film()
   local film = program.film()
+  if request.json then
+    io.write((film:parameters("schema", film.title or path:match "[^/]*$")))
+    return
+  end
+  io.write((film:parameters("lines", "")))
+  if request.parameters then return end
   local total = count_film(film)
   if film.title then put("title %s", film.title) end
   put("frames %d\nfirst %d\nlast %d", film.frames, film.first, film.first + film.frames - 1)
@@ -122,5 +128,9 @@ local describe = {
 }
 
 local kind = program.kind(path)
+if request.json and not request.parameters then program.usage("--json goes with --parameters") end
+if kind ~= "script" and request.parameters then
+  program.usage("--parameters is for scripts: %s is not a script", path)
+end
 if kind ~= "script" then program.refuse_rights() end
 describe[kind]()

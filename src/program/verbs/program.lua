@@ -54,3 +54,37 @@ function program.put(document, output, subject)
   if not text then program.fail("limit", "%s: %s", subject, message) end
   io.stdout:write(text)
 end
+
+--- Runs processes, as many at a time as `workers`. next_item() returns the next item, or nil after
+--- the last; start(item) returns its process, or nil where it could not be started, which ends all;
+--- finish(item, code, signal, name) is called in the order of the items, and returns false to start
+--- no more. Returns how many were finished, and whether all could be started.
+function program.run_all(next_item, workers, start, finish)
+  local by_process, ended, items = {}, {}, {}
+  local running, started, finished, is_well, goes_on = 0, 0, 0, true, true
+  local item = next_item()
+  while running > 0 or item do
+    if program.is_stopped() or not goes_on then item = nil end
+    if item and running < workers then
+      local process = start(item)
+      is_well = process ~= nil and process ~= false
+      if is_well then
+        started, running = started + 1, running + 1
+        items[started], by_process[process] = item, started
+      end
+      item = is_well and next_item() or nil
+    elseif running > 0 then
+      local one = table.pack(program.wait())
+      local place = by_process[one[1]]
+      if not one[1] then break end
+      if place then ended[place], by_process[one[1]], running = one, nil, running - 1 end
+      while ended[finished + 1] do
+        finished = finished + 1
+        if finish(items[finished], table.unpack(ended[finished], 2,
+          4)) == false then goes_on = false end
+        items[finished], ended[finished] = nil, nil
+      end
+    end
+  end
+  return finished, is_well
+end

@@ -51,7 +51,7 @@ end
 
 -- ---------------------------------------------------------------- one spec file
 
---- Starts the process; false: reported.
+--- Starts the process; nil: reported.
 local function start(run)
   local message, other
   run.records, message = io.tmpfile()
@@ -63,7 +63,7 @@ local function start(run)
   if not run.process then
     program.error("%s: cannot be run: no process could be started: %s", run.path, message or other)
   end
-  return run.process ~= nil
+  return run.process
 end
 
 --- Counts the results that the process recorded, each "KIND LENGTH\n" and a text, and prints those
@@ -96,8 +96,8 @@ local function report_death(run, code, signal, name)
   end
 end
 
-local function print_run(run)
-  if not read_records(run) then report_death(run, table.unpack(run.ended)) end
+local function print_run(run, ...)
+  if not read_records(run) then report_death(run, ...) end
   run.printed:seek "set"
   local printed = run.printed:read "a"
   if printed ~= "" then io.write("printed by ", run.path, ":\n", printed) end
@@ -109,34 +109,6 @@ local function print_run(run)
 end
 
 -- ---------------------------------------------------------------- all of them
-
---- Runs them; how many ended, and whether every process could be started.
-local function run_all(runs, workers)
-  local by_process, running, started, printed, is_well = {}, 0, 0, 0, true
-  while running > 0 or started < #runs and is_well and not program.is_stopped() do
-    if started < #runs and running < workers and is_well and not program.is_stopped() then
-      local run = runs[started + 1]
-      is_well = start(run)
-      if is_well then
-        started, running = started + 1, running + 1
-        by_process[run.process] = run
-      end
-    else
-      local ended = table.pack(program.wait())
-      local run = by_process[ended[1]]
-      if not ended[1] then break end
-      if run then
-        run.ended = table.pack(table.unpack(ended, 2, 4))
-        by_process[ended[1]], running = nil, running - 1
-      end
-      while printed < started and runs[printed + 1].ended do
-        printed = printed + 1
-        print_run(runs[printed])
-      end
-    end
-  end
-  return printed, is_well
-end
 
 local function sum_up(runs, count, is_well, begun)
   local passed, failed, skipped = 0, 0, 0
@@ -162,5 +134,9 @@ if not package.searchpath("busted.runner", package.path) then
 end
 local runs, begun = all_specs(), program.clock()
 local workers = math.tointeger(request.workers) or program.processors()
-local count, is_well = run_all(runs, workers)
+local place = 0
+local count, is_well = program.run_all(function()
+  place = place + 1
+  return runs[place]
+end, workers, start, print_run)
 return sum_up(runs, count, is_well, begun)

@@ -1,0 +1,183 @@
+--- Captions with their times, from SubRip (.srt) and WebVTT (.vtt) files.
+--
+--   local captions = assert(captions.read "line.vtt")
+--   local text = captions:at(f.time)          -- nil between captions
+--
+-- Both formats are blocks between empty lines: an optional name or number, the times, the text.
+local fields = require "celspan.fields"
+local files = require "celspan.files"
+
+local captions = {}
+
+local MOST_BYTES = 64 * 1024 * 1024
+
+---@class celspan.captions.caption
+---@field from number Seconds; the caption is shown from here ...
+---@field to number ... until just before this
+---@field text string Without tags
+---@field markup string As it is written
+
+---@class celspan.captions: celspan.captions.caption[] In the order of `from`
+local Captions = {}
+Captions.__index = fields.reads("a list of captions", Captions)
+Captions.__name = "celspan.captions"
+
+local function fail(line, format, ...)
+  error({ message = ("line %d: "):format(line) .. format:format(...) }, 0)
+end
+
+-- ---------------------------------------------------------------- text
+
+local entities = { amp = "&", lt = "<", gt = ">", nbsp = "\u{A0}", lrm = "\u{200E}",
+                   rlm = "\u{200F}", quot = '"', apos = "'" }
+
+local function read_entity(name)
+  local digits, base = name:match "^#(%d+)$", 10
+  if not digits then digits, base = name:match "^#[xX](%x+)$", 16 end
+  local code = digits and #digits < 9 and tonumber(digits, base)
+  if not code then return entities[name] end
+  if code == 0 or code > 0x10FFFF or code >= 0xD800 and code < 0xE000 then code = 0xFFFD end
+  return utf8.char(code)
+end
+
+--- Without tags (<b>, <v Ann>, <00:01.000>, and SubRip's {\an8}), entities as characters.
+local function plain(markup)
+  local text = markup:gsub("<[^>]*>", ""):gsub("{\\[^}]*}", "")
+  return (text:gsub("&([#%w]+);", read_entity))
+end
+
+-- ---------------------------------------------------------------- times
+
+--- "01:02:03,500", "02:03.500"; hours may have more digits.
+local function read_time(text)
+  local rest, seconds, milli = text:match "^([%d:]*:)(%d%d)[.,](%d%d%d)$"
+  if not rest then return nil end
+  local hours, minutes = rest:match "^(%d+):(%d%d):$"
+  minutes = minutes or rest:match "^(%d%d):$"
+  if not minutes or tonumber(minutes) > 59 or tonumber(seconds) > 59 then return nil end
+  return (tonumber(hours or 0) * 60 + minutes) * 60 + seconds + milli / 1000
+end
+
+--- The line with the arrow; settings after the second time are ignored.
+local function read_times(line, number)
+  local first, last = line:match "^%s*(%S+)%s*%-%->%s*(%S+)"
+  local from, to = read_time(first or ""), read_time(last or "")
+  if not from or not to then
+    fail(number, "'%s' must be two times with an arrow, 00:00:01.000 --> 00:00:02.500",
+      line:sub(1, 60))
+  end
+  if to <= from then
+    fail(number, "the caption ends (%s) before it begins (%s), or at the same time", last, first)
+  end
+  return from, to
+end
+
+-- ---------------------------------------------------------------- files
+
+--- The blocks of a text: { line =, lines... }. A line with an arrow begins a block also where the
+--- empty line before it is missing.
+local function read_blocks(text)
+  local blocks, block, number = {}, nil, 0
+  for line in (text .. "\n"):gmatch "([^\n]*)\n" do
+    number = number + 1
+    local has_arrow = line:find("-->", 1, true) ~= nil
+    if line:find "^%s*$" or has_arrow and block and block.has_arrow then block = nil end
+    if not line:find "^%s*$" then
+      if not block then
+        block = { line = number, has_arrow = false }
+        blocks[#blocks + 1] = block
+      end
+      block[#block + 1] = line
+      block.has_arrow = block.has_arrow or has_arrow
+    end
+  end
+  return blocks
+end
+
+--- Adds the caption of a block. Notes, styles and regions of WebVTT have no arrow.
+local function read_block(block, is_vtt, list)
+  local first = block[1]
+  if not block.has_arrow then
+    if is_vtt then return end
+    fail(block.line, "'%s' begins a block without times", first:sub(1, 60))
+  end
+  local at = first:find("-->", 1, true) and 1 or 2
+  local times = block[at]
+  if not times:find("-->", 1, true) then
+    fail(block.line + 1, "the times of a caption are on its first or second line")
+  end
+  local from, to = read_times(times, block.line + at - 1)
+  local markup = table.concat(block, "\n", at + 1)
+  list[#list + 1] = { from = from, to = to, text = plain(markup), markup = markup,
+                      place = #list + 1 }
+end
+
+local function in_order(a, b)
+  if a.from ~= b.from then return a.from < b.from end
+  return a.place < b.place
+end
+
+local function decode(text)
+  text = text:gsub("^\239\187\191", ""):gsub("\r\n?", "\n")
+  local is_vtt, list = text:find "^WEBVTT%f[%s\0]" ~= nil, {}
+  for i, block in ipairs(read_blocks(text)) do
+    if not (is_vtt and i == 1 and not block.has_arrow) then read_block(block, is_vtt, list) end
+  end
+  table.sort(list, in_order)
+  for _, caption in ipairs(list) do caption.place = nil end
+  return setmetatable(list, Captions)
+end
+
+--- How many captions begin at `seconds` or before.
+local function count_begun(list, seconds)
+  local low, high = 0, #list
+  while low < high do
+    local middle = (low + high + 1) // 2
+    if list[middle].from <= seconds then low = middle else high = middle - 1 end
+  end
+  return low
+end
+
+--- The text that is shown at a time, the texts of several captions in lines; nil if there is none.
+---@param seconds number
+---@return string? text
+function Captions:at(seconds)
+  fields.self("captions", Captions, self, "at")
+  if not fields.is_finite(seconds) then
+    error("captions: at takes seconds, a finite number, got " .. fields.shown(seconds), 2)
+  end
+  local texts = {}
+  for i = 1, count_begun(self, seconds) do
+    if self[i].to > seconds then texts[#texts + 1] = self[i].text end
+  end
+  return texts[1] and table.concat(texts, "\n")
+end
+
+--- Reads captions from a text.
+---@param text string
+---@return celspan.captions? captions
+---@return string? message
+function captions.decode(text)
+  if type(text) ~= "string" then error("captions: decode takes a string, got " .. type(text), 2) end
+  if not utf8.len(text) then return nil, "the text is not UTF-8" end
+  local good, list = pcall(decode, text)
+  if not good and type(list) ~= "table" then error(list, 0) end
+  if not good then return nil, list.message end
+  return list
+end
+
+--- Reads captions from a file.
+---@param path string Relative to the caller's file, else to the script
+---@return celspan.captions? captions
+---@return string? message
+function captions.read(path)
+  if type(path) ~= "string" then error("captions: read takes a file name, got " .. type(path),
+    2) end
+  local text, message = files.read_found(path, MOST_BYTES)
+  if not text then return nil, message end
+  local list, problem = captions.decode(text)
+  if not list then return nil, ("%s: %s"):format(path, problem) end
+  return list
+end
+
+return fields.seal("captions", captions)

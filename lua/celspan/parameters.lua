@@ -1,0 +1,276 @@
+--- celspan.parameters: values of a film that are given from outside.
+--
+--   parameters{...} --> declared: { { name =, kind =, default =, ... }, ... }, sorted by name
+--   --set, --set-from --> settings --> checked against it --> values
+--
+-- The settings are a table in the registry of the Lua state. The program fills it before it runs the
+-- script, with { name =, text = } or { path =, json = } for each option. Two fields are answers to
+-- the program: `declared`, and `refused`, the sentence about a wrong setting.
+local celspan = require "celspan"
+local core = require "celspan.core"
+local fields = require "celspan.fields"
+local json = require "celspan.json"
+
+local parameters = {}
+
+local booleans = { ["true"] = true, yes = true, ["1"] = true, ["false"] = false, no = false,
+                   ["0"] = false }
+
+-- ---------------------------------------------------------------- kinds
+
+local function range_of(one)
+  if one.min and one.max then return (" from %.14g to %.14g"):format(one.min, one.max) end
+  return one.min and (" of %.14g or more"):format(one.min)
+    or one.max and (" of at most %.14g"):format(one.max) or ""
+end
+
+local function is_in_range(one, number)
+  return fields.is_finite(number) and number >= (one.min or number)
+    and number <= (one.max or number)
+end
+
+--- What the kinds allow; a reader makes a value of a text, and nil of a wrong one.
+local kinds = {
+  text = { type = "string", read = function(_, text) return text end },
+  file = {
+    type = "string",
+    allowed = function() return "the name of a file" end,
+    read = function(_, text) return text ~= "" and text or nil end,
+  },
+  number = {
+    type = "number",
+    allowed = function(one) return "a number" .. range_of(one) end,
+    read = function(one, text)
+      local number = type(text) == "number" and text or not text:find "[xX]" and tonumber(text)
+      return number and is_in_range(one, number) and number or nil
+    end,
+  },
+  boolean = {
+    type = "boolean",
+    allowed = function() return "true, false, yes, no, 1 or 0" end,
+    read = function(_, text)
+      if type(text) == "boolean" then return text end
+      return booleans[text:lower()]
+    end,
+  },
+  choice = {
+    type = "string",
+    allowed = function(one) return "one of " .. table.concat(one.choices, ", ") end,
+    read = function(one, text)
+      for _, choice in ipairs(one.choices) do
+        if choice == text then return text end
+      end
+    end,
+  },
+  colour = {
+    type = "string",
+    allowed = function() return 'a colour, "#rgb", "#rrggbb" or "#rrggbbaa"' end,
+    read = function(_, text) return pcall(celspan.rgb, text) and text or nil end,
+  },
+}
+
+-- ---------------------------------------------------------------- declaring
+
+local function refuse(name, format, ...)
+  error(("parameters: '%s' "):format(name) .. format:format(...), 0)
+end
+
+--- The kind of a table, and its default.
+local function kind_of_table(name, given)
+  if given.colour ~= nil then return "colour", given.colour end
+  if given.file ~= nil then return "file", given.file end
+  local first = given[1]
+  if type(first) == "string" then return given[2] ~= nil and "choice" or "text", first end
+  if type(first) == "number" or type(first) == "boolean" then return type(first), first end
+  refuse(name, "must be a string, a number, a boolean, a list of strings, or a table with a "
+    .. "default "
+    .. "as [1], colour or file")
+end
+
+local known = { number = { 1, min = 1, max = 1, about = 1 }, boolean = { 1, about = 1 },
+                text = { 1, about = 1 }, colour = { colour = 1, about = 1 },
+                file = { file = 1, about = 1 }, choice = { about = 1 } }
+
+local function check_names(name, kind, given)
+  for field in pairs(given) do
+    if not known[kind][field] and not (kind == "choice" and math.type(field) == "integer") then
+      refuse(name, "is a %s, which has no field '%s'", kind, tostring(field))
+    end
+  end
+end
+
+local function read_choices(name, given)
+  local choices, seen = {}, {}
+  for i, choice in ipairs(given) do
+    if type(choice) ~= "string" then refuse(name, "has choices that are no strings") end
+    if seen[choice] then refuse(name, "has the choice \"%s\" twice", choice) end
+    choices[i], seen[choice] = choice, true
+  end
+  return choices
+end
+
+local function declare_one(name, given)
+  if type(name) ~= "string" or not name:find "^[%a_][%w_]*$" then
+    error(("parameters: %s is not a name: letters, digits and _, not beginning with a digit")
+      :format(type(name) == "string" and "'" .. name .. "'" or tostring(name)), 0)
+  end
+  if type(given) ~= "table" then
+    given = type(given) == "string" and { given } or { given }
+  end
+  local kind, default = kind_of_table(name, given)
+  check_names(name, kind, given)
+  local one = { name = name, kind = kind, default = default, min = given.min, max = given.max,
+                about = given.about, choices = kind == "choice" and read_choices(name, given)
+                  or nil }
+  for _, bound in ipairs { "min", "max" } do
+    if one[bound] ~= nil and not fields.is_finite(one[bound]) then
+      refuse(name, "has a field '%s' that is not a finite number", bound)
+    end
+  end
+  if one.about ~= nil and type(one.about) ~= "string" then
+    refuse(name, "has a field 'about' that is not a string")
+  end
+  if type(default) ~= kinds[kind].type or kinds[kind].read(one, default) == nil then
+    refuse(name, "has a default that is not %s", kinds[kind].allowed(one))
+  end
+  return one
+end
+
+local function declare_all(given)
+  local declared = {}
+  for name, value in pairs(given) do declared[#declared + 1] = declare_one(name, value) end
+  table.sort(declared, function(a, b) return a.name < b.name end)
+  return declared
+end
+
+-- ---------------------------------------------------------------- settings
+
+--- Ends the script; the program reports the sentence as wrong usage.
+local function refuse_setting(settings, format, ...)
+  settings.refused = format:format(...)
+  error(settings.refused, 0)
+end
+
+local function find(settings, declared, how, name)
+  local names = {}
+  for i, one in ipairs(declared) do
+    if one.name == name then return one end
+    names[i] = one.name
+  end
+  local hint = core.nearest(name, names)
+  refuse_setting(settings, "%s: the script has no parameter '%s'%s", how, name,
+    hint and ("; did you mean '%s'?"):format(hint)
+      or #names > 0 and "; there are " .. table.concat(names, ", ") or "")
+end
+
+local function shown(value) return type(value) == "string" and "'" .. value .. "'"
+  or tostring(value) end
+
+local function set(settings, declared, values, how, name, value)
+  local one = find(settings, declared, how, name)
+  local kind = kinds[one.kind]
+  local is_readable = type(value) == "string" and how == "--set" or type(value) == kind.type
+  local read
+  if is_readable then read = kind.read(one, value) end
+  if read == nil then
+    refuse_setting(settings, "%s: %s is %s; it must be %s", how, name, shown(value),
+      kind.allowed and kind.allowed(one) or "a text")
+  end
+  values[name] = read
+end
+
+--- Sets what a JSON object says.
+local function set_from(settings, declared, values, given)
+  local how = "--set-from " .. given.path
+  local object, problem = json.decode(given.json)
+  if object == nil then refuse_setting(settings, "%s: %s", how, problem) end
+  if type(object) ~= "table" or object == json.null or #object > 0 then
+    refuse_setting(settings, "%s: it must be a JSON object, { \"name\": value }", how)
+  end
+  local names = {}
+  for name in pairs(object) do names[#names + 1] = name end
+  table.sort(names)
+  for _, name in ipairs(names) do set(settings, declared, values, how, name, object[name]) end
+end
+
+--- Makes it an error to read an unknown name.
+local function sealed(values)
+  return setmetatable(values, { __index = fields.reads("parameters", {}),
+                                __name = "celspan.parameters" })
+end
+
+--- celspan.parameters.
+function parameters.declare(given)
+  local settings = core.settings()
+  if type(given) ~= "table" then
+    error("parameters: takes a table of names and defaults, got " .. fields.kind(given), 2)
+  end
+  if settings.declared then error("parameters: a script declares its parameters once", 2) end
+  local good, declared = pcall(declare_all, given)
+  if not good then error(declared, 2) end
+  settings.declared = declared
+  local values = {}
+  for _, one in ipairs(declared) do values[one.name] = one.default end
+  for _, one in ipairs(settings) do
+    if one.json then
+      set_from(settings, declared, values, one)
+    else
+      set(settings, declared, values, "--set", one.name, one.text)
+    end
+  end
+  return sealed(values)
+end
+
+--- Why "NAME=VALUE" cannot be set; "" where it can.
+function parameters.fault(setting)
+  local settings, name, value = core.settings(), setting:match "^(.-)=(.*)$"
+  local good, message = pcall(set, settings, settings.declared or {}, {}, "--set", name, value)
+  settings.refused = nil
+  return good and "" or message
+end
+
+-- ---------------------------------------------------------------- JSON Schema
+
+local types = { text = "string", file = "string", choice = "string", colour = "string",
+                number = "number", boolean = "boolean" }
+local formats = { colour = "color", file = "path" }
+
+local function schema_of(one)
+  local members = { { "type", types[one.kind] }, { "default", one.default } }
+  local function add(name, value) if value ~= nil then members[#members + 1] = { name,
+    value } end end
+  add("description", one.about)
+  add("enum", one.choices and { list = one.choices })
+  add("minimum", one.min)
+  add("maximum", one.max)
+  add("format", formats[one.kind])
+  return members
+end
+
+--- The parameters that the script of this state has declared, as JSON Schema.
+function parameters.schema(title)
+  local properties = {}
+  for i, one in ipairs(core.settings().declared or {}) do
+    properties[i] = { one.name, schema_of(one) }
+  end
+  return json.encode({
+    { "$schema", "https://json-schema.org/draft/2020-12/schema" },
+    { "title", title },
+    { "type", "object" },
+    { "properties", properties },
+    { "additionalProperties", false },
+  }) .. "\n"
+end
+
+--- The same as lines, "name kind default".
+function parameters.lines()
+  local lines = {}
+  for i, one in ipairs(core.settings().declared or {}) do
+    local allowed = kinds[one.kind].allowed
+    lines[i] = ("parameter %s %s %s%s\n"):format(one.name, one.kind, tostring(one.default),
+      allowed and " (" .. allowed(one) .. ")" or "")
+  end
+  return table.concat(lines)
+end
+
+return fields.seal("parameters", parameters)

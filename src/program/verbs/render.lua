@@ -1,0 +1,196 @@
+--- celspan render SCRIPT -o OUT --table FILE: a film for each row of a table.
+--
+--   table --> every row is checked --> a process a row, `celspan render` with --set, as many as
+-- workers
+--
+-- Rows are read from the text one by one, twice, so that only the names of the outputs are kept.
+local program, request = ...
+local csv = require "celspan.csv"
+local json = require "celspan.json"
+
+local OUTPUT_MOST = 4095 -- bytes of a name
+
+-- ---------------------------------------------------------------- the table
+
+local function read_text(path)
+  local file, message = io.open(path, "rb")
+  if not file then program.fail("input", "--table %s", message) end
+  local text, problem = file:read(csv.most_bytes + 1)
+  file:close()
+  if problem then program.fail("input", "--table %s: %s", path, problem) end
+  if text and #text > csv.most_bytes then
+    program.fail("input", "--table %s: it has more than %d bytes", path, csv.most_bytes)
+  end
+  return text or ""
+end
+
+--- What a call that reads the table returns.
+local function try(call, ...)
+  local good, one, other = pcall(call, ...)
+  if good then return one, other end
+  program.fail("input", "--table %s: %s", request.table, type(one) == "table" and one.message
+    or one)
+end
+
+--- The names of the columns, and a function that returns a row of texts and its line; nil after the
+--- last.
+local function reader(text)
+  local header, next_row = try(csv.rows, text)
+  return header, function() return try(next_row) end
+end
+
+-- ---------------------------------------------------------------- a row
+
+--- The output of a row: each {name} in OUT is the text in that column.
+local function output_of(row, line, columns)
+  local output = request.output:gsub("{([%w_]+)}", function(name)
+    local text = columns[name] and row[columns[name]]
+    if text and (text == "" or text:find "/" or text:find("..", 1, true) or text:find "%c") then
+      program.usage("--table %s: line %d: column '%s' is '%s': in the name of a file it must not "
+        .. "be "
+        .. "empty nor have / or .. in it", request.table, line, name, text)
+    end
+    return text
+  end)
+  if #output > OUTPUT_MOST then
+    program.usage("--table %s: line %d: the name of the output has more than %d bytes",
+      request.table,
+      line, OUTPUT_MOST)
+  end
+  return output
+end
+
+--- The options that the process of a row has too.
+local own = { ["-o"] = true, ["--table"] = true, ["--workers"] = true, ["--progress"] = true }
+
+local function words_of(row, output, header, is_parameter, threads)
+  local words = { "render", request[1], "-o", output, "--workers", tostring(threads),
+                  "--progress", "none" }
+  for _, option in ipairs(request.given) do
+    if not own[option.name] then
+      words[#words + 1] = option.name
+      words[#words + 1] = option.value
+    end
+  end
+  for i, name in ipairs(header) do
+    if is_parameter[name] then
+      words[#words + 1] = "--set"
+      words[#words + 1] = name .. "=" .. row[i]
+    end
+  end
+  if #request.arguments > 0 then words[#words + 1] = "--" end
+  return table.move(request.arguments, 1, #request.arguments, #words + 1, words)
+end
+
+-- ---------------------------------------------------------------- checks
+
+--- The names of the script's parameters, as keys.
+local function parameters_of(film)
+  local names = {}
+  for name in pairs(assert(json.decode(film:parameters("schema", ""))).properties) do
+    names[name] = true
+  end
+  return names
+end
+
+--- The places of the columns by their names.
+local function check_header(header, is_parameter)
+  local columns = {}
+  for i, name in ipairs(header) do
+    if not is_parameter[name] and not request.output:find("{" .. name .. "}", 1, true) then
+      program.usage("--table %s: column '%s' is neither a parameter of the script nor {%s} in OUT",
+        request.table, name, name)
+    end
+    columns[name] = i
+  end
+  return columns
+end
+
+--- Checks the values of every row, and that no two have the same output. Returns how many there
+--- are.
+local function check_rows(text, film, columns, is_parameter)
+  local header, next_row = reader(text)
+  local lines, count = {}, 0
+  for row, line in next_row do
+    for i, name in ipairs(header) do
+      local fault = is_parameter[name] and film:parameters("fault", name .. "=" .. row[i]) or ""
+      if fault ~= "" then
+        program.usage("--table %s: line %d: %s", request.table, line, (fault:gsub("^%-%-set: ",
+          "")))
+      end
+    end
+    local output = output_of(row, line, columns)
+    if lines[output] then
+      program.usage("--table %s: lines %d and %d would both make %s: put a column in OUT, as "
+        .. "{NAME}",
+        request.table, lines[output], line, output)
+    end
+    lines[output], count = line, count + 1
+  end
+  if count == 0 then program.usage("--table %s: it has no rows", request.table) end
+  return count
+end
+
+-- ---------------------------------------------------------------- the processes
+
+--- Starts the process of an item; nil: reported.
+local function start(item)
+  local message, other
+  item.printed, message = io.tmpfile()
+  item.other, other = io.tmpfile()
+  local process
+  if item.printed and item.other then
+    process, message = program.start(item.words, item.printed, item.other)
+  end
+  if not process then
+    program.error("%s: no process for it: %s", item.output, message or other)
+  end
+  return process
+end
+
+--- Shows what a process printed; what went wrong is known by its exit code.
+local function show(item)
+  item.printed:seek "set"
+  io.stderr:write((item.printed:read "a"))
+  item.printed:close()
+  item.other:close()
+end
+
+local function run(text, count, columns, is_parameter)
+  local workers = math.tointeger(request.workers) or 0
+  if workers == 0 then workers = program.processors() end
+  local threads = math.max(1, workers // count)
+  local header, next_row = reader(text)
+  local place, failed, outcome = 0, 0, 0
+  local function next_item()
+    local row, line = next_row()
+    if not row then return nil end
+    local output = output_of(row, line, columns)
+    return { line = line, output = output,
+             words = words_of(row, output, header, is_parameter, threads) }
+  end
+  local function finish(item, code, signal, name)
+    show(item)
+    place = place + 1
+    if code == 0 then
+      if request.progress ~= "none" then program.note("%d/%d %s", place, count, item.output) end
+      return true
+    end
+    failed = failed + 1
+    if outcome == 0 then outcome = code or 128 + signal end
+    program.error("--table %s: line %d (%s): %s", request.table, item.line, item.output,
+      code and "exit code " .. code or "ended by signal " .. signal .. " (" .. name .. ")")
+    return request.keep_going ~= nil
+  end
+  local _, is_well = program.run_all(next_item, math.min(workers, count), start, finish)
+  if not is_well then return 33 end
+  return failed > 0 and request.keep_going and 1 or outcome
+end
+
+if request.hash then program.usage("--table renders several films: leave --hash out") end
+if request.output == "-" then program.usage("--table writes files: name them in OUT, as "
+  .. "{NAME}.mp4") end
+local text, film = read_text(request.table), program.film()
+local is_parameter, header = parameters_of(film), reader(text)
+local columns = check_header(header, is_parameter)
+return run(text, check_rows(text, film, columns, is_parameter), columns, is_parameter)

@@ -1,0 +1,222 @@
+-- celspan.parameters, and the options that set them: --set, --set-from, --table, info --parameters.
+local json = require "celspan.json"
+local workbench = require "tests.support.workbench"
+
+local FILM = [[
+local celspan = require "celspan"
+local p = celspan.parameters { title = "Hello", side = { "left", "right" }, on = true,
+  speed = { 1, min = 0, max = 4, about = "Widths of the frame in a second" },
+  tint = { colour = "#f26419" }, take = { file = "a.wav" } }
+print(p.title, p.side, p.speed, p.on, p.tint, p.take)
+return celspan.film { size = { 8, 8 }, frames = 2, frame = function()
+  return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 8, 8, texture = p.tint } } }
+end }
+]]
+
+local bench
+
+before_each(function()
+  bench = workbench.new()
+  bench:write("film.lua", FILM)
+end)
+after_each(function() bench:remove() end)
+
+local function render(options)
+  return bench:celspan("render '%s/film.lua' -o '%s/f.#.png' --progress none %s", bench.folder,
+    bench.folder, options or "")
+end
+
+--- What the script printed; the render ends well.
+local function values(options)
+  local code, out, err = render(options)
+  assert.are.equal(0, code, err)
+  return (out .. err):gsub("\n", "")
+end
+
+--- The sentence that refuses the options.
+local function refusal(expected, options)
+  local code, _, err = render(options)
+  assert.are.equal(expected, code, err)
+  return err:match "celspan: error: ([^\n]*)\n$"
+end
+
+describe("parameters", function()
+  it("have their defaults, or the values of --set", function()
+    assert.are.equal("Hello\tleft\t1\ttrue\t#f26419\ta.wav", values())
+    assert.are.equal("a=b c\tright\t2.5\tfalse\t#fff\tdir/b.wav", values("--set 'title=a=b c' "
+      .. "--set side=right --set speed=2.5 --set on=no --set tint=#fff --set take=dir/b.wav"))
+  end)
+
+  it("take the last of two values, and --set before --set-from", function()
+    bench:write("p.json", '{ "speed": 3, "on": false, "title": "J" }')
+    assert.are.equal("K\tleft\t3\tfalse\t#f26419\ta.wav",
+      values(("--set title=I --set-from '%s/p.json' --set title=K"):format(bench.folder)))
+  end)
+
+  it("refuse what they do not allow as wrong usage", function()
+    for given, message in pairs {
+      ["speed=9"] = "--set: speed is '9'; it must be a number from 0 to 4",
+      ["speed=0x1"] = "--set: speed is '0x1'; it must be a number from 0 to 4",
+      ["speed=nan"] = "--set: speed is 'nan'; it must be a number from 0 to 4",
+      ["on=maybe"] = "--set: on is 'maybe'; it must be true, false, yes, no, 1 or 0",
+      ["side=up"] = "--set: side is 'up'; it must be one of left, right",
+      ["tint=red"] = '--set: tint is \'red\'; it must be a colour, "#rgb", "#rrggbb" or '
+        .. '"#rrggbbaa"',
+      ["take="] = "--set: take is ''; it must be the name of a file",
+      ["sped=1"] = "--set: the script has no parameter 'sped'; did you mean 'speed'?",
+      ["speed"] = "--set: 'speed' is not NAME=VALUE",
+    } do
+      assert.are.equal(message, refusal(2, "--set " .. given))
+    end
+  end)
+
+  it("are refused where the script declares none, or catches the error", function()
+    bench:write("film.lua", "return require 'celspan'.film { size = { 1, 1 }, frames = 1, "
+      .. "frame = function() return require 'celspan'.rostrum {} end }")
+    assert.are.equal("--set and --set-from give values to parameters, and the script declares none "
+      .. "(celspan.parameters)", refusal(2, "--set a=1"))
+    bench:write("film.lua", "pcall(require 'celspan'.parameters, { b = 1 })\n"
+      .. FILM:gsub("local p",
+      "do return celspan.film { size = { 1, 1 }, frames = 1, frame = function() end } end local p"))
+    assert.are.equal("--set: the script has no parameter 'alpha'; there are b",
+      refusal(2, "--set alpha=1"))
+  end)
+
+  it("name the file of --set-from in messages", function()
+    local path = bench:write("p.json", '{ "speed": "3" }')
+    assert.are.equal("--set-from " .. path .. ": speed is '3'; it must be a number from 0 to 4",
+      refusal(2, "--set-from " .. path))
+    for text, message in pairs { ["[1]"] = "it must be a JSON object, { \"name\": value }",
+                                 ["{"] = "line 1: a name in quotes is missing in an object" } do
+      bench:write("p.json", text)
+      assert.are.equal("--set-from " .. path .. ": " .. message, refusal(2, "--set-from " .. path))
+    end
+    assert.are.equal("--set-from " .. path .. "x: No such file or directory",
+      refusal(4, "--set-from " .. path .. "x"))
+  end)
+
+  it("are checked where they are declared", function()
+    for declared, message in pairs {
+      ["speed = { 5, max = 4 }"] = "'speed' has a default that is not a number of at most 4",
+      ["side = { 'a', 'b', 'a' }"] = "'side' has the choice \"a\" twice",
+      ["tint = { colour = 'red' }"] =
+        "'tint' has a default that is not a colour, \"#rgb\", \"#rrggbb\" or \"#rrggbbaa\"",
+      ["speed = { 1, most = 4 }"] = "'speed' is a number, which has no field 'most'",
+      ["['a-b'] = 1"] = "'a-b' is not a name: letters, digits and _, not beginning with a digit",
+      ["a = {}"] = "'a' must be a string, a number, a boolean, a list of strings, or a table with "
+        .. "a "
+        .. "default as [1], colour or file",
+    } do
+      bench:write("film.lua", "local celspan = require 'celspan'\ncelspan.parameters { "
+        .. declared .. " }")
+      assert.are.equal(("%s/film.lua:2: parameters: %s"):format(bench.folder, message), refusal(3))
+    end
+    bench:write("film.lua", "local c = require 'celspan'\nc.parameters {}\nc.parameters {}")
+    assert.is_truthy(refusal(3):find("film.lua:3: parameters: a script declares", 1, true))
+    bench:write("film.lua", "local p = require 'celspan'.parameters { speed = 1 }\nprint(p.sped)")
+    assert.is_truthy(refusal(3):find("film.lua:2: parameters has no 'sped'; did you mean 'speed'?",
+      1, true))
+  end)
+
+  it("decide what --resume renders again", function()
+    local function rendered(options)
+      local _, _, err = bench:celspan("render '%s/film.lua' -o '%s/f.#.png' --progress json "
+        .. "--resume %s",
+        bench.folder, bench.folder, options)
+      local _, kept = err:gsub('"kept"', "")
+      return kept
+    end
+    rendered ""
+    local before = bench:read "f.1.png"
+    rendered "--set tint=#000"
+    assert.are_not.equal(before, bench:read "f.1.png")
+    rendered "--set title=x"
+    assert.are.equal(before, bench:read "f.1.png")
+  end)
+
+  it("are listed by info, as lines and as JSON Schema", function()
+    local function info(options)
+      local code, out, err = bench:celspan("info '%s/film.lua' --parameters %s", bench.folder,
+        options)
+      assert.are.equal(0, code, err)
+      return out
+    end
+    assert.is_truthy(info "":find("parameter speed number 1 (a number from 0 to 4)\n", 1, true))
+    local schema = assert(json.decode((info "--json":gsub("^Hello[^\n]*\n", ""))))
+    assert.are.same({ type = "number", default = 1, minimum = 0, maximum = 4,
+      description = "Widths of the frame in a second" }, schema.properties.speed)
+    assert.are.same({ "left", "right" }, schema.properties.side.enum)
+    assert.are.same({ "object", false, "film.lua" },
+      { schema.type, schema.additionalProperties, schema.title })
+  end)
+
+  it("are parameters of a job for Open Job Description", function()
+    local code, out, err = bench:celspan("farm '%s/film.lua' -o '%s/f.#.png' --openjd --set "
+      .. "title=A "
+      .. "--set 'title=B {{x}}'", bench.folder, bench.folder)
+    assert.are.equal(0, code, err)
+    local job = assert(json.decode((out:gsub("^Hello[^\n]*\n", ""):gsub("^B[^\n]*\n", ""))))
+    local found
+    for _, one in ipairs(job.parameterDefinitions) do
+      if one.name == "Set_title" then found = one.default end
+    end
+    assert.are.equal("B {{x}}", found)
+    local words = table.concat(job.steps[1].script.actions.onRun.args, " ")
+    assert.is_truthy(words:find("--set title={{Param.Set_title}}", 1, true))
+  end)
+end)
+
+describe("--table", function()
+  local function film_of(rows, options, output)
+    bench:write("rows.csv", rows)
+    return bench:celspan("render '%s/film.lua' -o '%s/%s' --table '%s/rows.csv' %s", bench.folder,
+      bench.folder, output or "{lang}.#.png", bench.folder, options or "")
+  end
+
+  it("renders a film for each row, as --set would", function()
+    local code, _, err = film_of("lang,tint\nen,#f00\nde,#0000ff\n", "--workers 2")
+    assert.are.equal(0, code, err)
+    assert.is_truthy(err:find("celspan: 1/2 " .. bench.folder .. "/en.#.png\n", 1, true))
+    render "--set tint=#00f"
+    assert.are.equal(bench:read "f.2.png", bench:read "de.2.png")
+    assert.are.same({ "de.1.png", "de.2.png", "en.1.png", "en.2.png" },
+      { table.unpack(bench:files(), 1, 4) })
+  end)
+
+  it("is refused before the first frame", function()
+    for rows, message in pairs {
+      ["lang,size\nen,1\n"] = "column 'size' is neither a parameter of the script nor {size} in "
+        .. "OUT",
+      ["lang,speed\nen,1\nde,9\n"] = "line 3: speed is '9'; it must be a number from 0 to 4",
+      ["lang\n../x\n"] = "line 2: column 'lang' is '../x': in the name of a file it must not be "
+        .. "empty "
+        .. "nor have / or .. in it",
+      ["lang,on\nen,1\nen,0\n"] = "lines 2 and 3 would both make " .. bench.folder
+        .. "/{lang}.#.png: put a column in OUT, as {NAME}",
+      ["lang\n"] = "it has no rows",
+    } do
+      local code, _, err = film_of(rows)
+      message = message:gsub("{lang}", "en")
+      assert.are.equal(2, code, err)
+      assert.is_truthy(err:find("rows.csv: " .. message .. "\n", 1, true), err)
+    end
+    local code, _, err = film_of('lang\n"en\n')
+    assert.are.equal(4, code)
+    assert.is_truthy(err:find("rows.csv: line 2: a quote is not closed\n", 1, true))
+    for _, name in ipairs(bench:files()) do assert.is_nil(name:find "png$") end
+  end)
+
+  it("ends at the first row that fails, or continues with --keep-going", function()
+    bench:write("film.lua", "local celspan = require 'celspan'\n"
+      .. "local p = celspan.parameters { n = 0 }\nassert(p.n ~= 1, 'one')\n"
+      .. FILM:gsub("local p = .-\nprint%b()", "p.tint = '#fff'"):gsub("^[^\n]*\n", ""))
+    local code, _, err = film_of("n\n1\n2\n3\n", "--workers 1", "{n}.#.png")
+    assert.are.equal(3, code)
+    assert.is_truthy(err:find("rows.csv: line 2 (" .. bench.folder .. "/1.#.png): exit code 3\n",
+      1, true))
+    assert.is_nil(bench:read "3.1.png")
+    code = film_of("n\n1\n2\n3\n", "--keep-going", "{n}.#.png")
+    assert.are.equal(1, code)
+    assert.is_truthy(bench:read "3.1.png")
+  end)
+end)
