@@ -227,8 +227,8 @@ return {
     "^none$" },
   { "the address of a thread",
     [[return tostring(coroutine.create(print)):find("%x%x%x%x") ~= nil or "none"]], "^none$" },
-  { "addresses by %p", [[return ("%p"):format({}) ~= nil]], "prints an address" },
-  { "addresses by a wide %p", [[return ("%-20p"):format({}) ~= nil]], "prints an address" },
+  { "addresses by %p", [[return ("%p"):format({}) ~= nil]], "addresses differ in each run" },
+  { "addresses by a wide %p", [[return ("%-20p"):format({}) ~= nil]], "addresses differ in each run" },
   { "addresses by %s",
     [[return ("%s %10.4s"):format({}, print):find("0x", 1, true) ~= nil or "none"]], "^none$" },
   { "addresses of values",
@@ -239,7 +239,7 @@ return {
     return why:find("0x", 1, true) ~= nil or "none"]], "^none$" },
   { "addresses as order", [[for k in pairs{ [{}] = 1 } do return true end]], "a key is a table" },
   { "addresses as order of next", [[return next{ [print] = 1 } ~= nil]], "a key is a function" },
-  { "a seed from the clock", [[math.randomseed() return true]], "needs a number" },
+  { "a seed from the clock", [[math.randomseed() return true]], "give a number" },
   { "random numbers", [[return ("%.17g"):format(math.random())]], "^0%.883310808213642" },
   { "random numbers of a range", [[local all = {}
     for i = 1, 12 do all[i] = math.random(i % 3 == 0 and 3 or -1, 3) end
