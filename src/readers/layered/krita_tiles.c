@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "readers/layered/contents.h"
-#include "readers/layered/lzf.h"
 
 #define SIDE 64 /* of a tile */
 
@@ -45,6 +44,44 @@ bool cs_krita_tiles_form_of(const char *space, cs_krita_tiles_form *form) {
       return true;
     }
   return false;
+}
+
+/* ---------------------------------------------------------------- LZF */
+
+/* LZF, the packing of tiles: literal runs and copies of what was unpacked before.
+ *
+ *   000nnnnn                   n + 1 bytes follow
+ *   lllooooo oooooooo          copy l + 2 bytes from o + 1 bytes back; l from 1 to 6
+ *   111ooooo llllllll oooooooo   the same with l + 9 bytes
+ *
+ * False unless the packed bytes unpack to exactly out_size bytes. */
+static bool unpack_lzf(const unsigned char *packed, size_t size, unsigned char *out,
+                       size_t out_size) {
+  size_t at = 0, done = 0;
+  while (at < size) {
+    size_t head = packed[at++], count = head >> 5;
+    if (count == 0) {
+      count = head + 1;
+      if (count > size - at || count > out_size - done)
+        return false;
+      memcpy(out + done, packed + at, count);
+      at += count;
+      done += count;
+      continue;
+    }
+    size_t needed = count == 7 ? 2 : 1;
+    if (needed > size - at)
+      return false;
+    if (count == 7)
+      count += packed[at++];
+    count += 2;
+    size_t back = ((head & 31) << 8 | packed[at++]) + 1;
+    if (back > done || count > out_size - done)
+      return false;
+    for (size_t i = 0; i < count; i++, done++) /* may overlap what it writes: a repeated pattern */
+      out[done] = out[done - back];
+  }
+  return done == out_size;
 }
 
 /* ---------------------------------------------------------------- lines of text */
@@ -255,7 +292,7 @@ static bool unpack(tiles_rows *rows, const tile *t, size_t pixel_size) {
     memcpy(rows->pixels, from + 1, size);
   if (from[0] == 0)
     return t->count == size + 1;
-  if (from[0] != 1 || !cs_lzf_unpack(from + 1, t->count - 1, rows->planes, size))
+  if (from[0] != 1 || !unpack_lzf(from + 1, t->count - 1, rows->planes, size))
     return false;
   for (size_t i = 0; i < size; i++)
     rows->pixels[i % (SIDE * SIDE) * pixel_size + i / (SIDE * SIDE)] = rows->planes[i];
