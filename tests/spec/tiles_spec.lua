@@ -231,8 +231,8 @@ describe("a large frame", function()
       assert_success("tiles %s -o %s/%s/whole %s", script, folder, format, options)
       assert_success("tiles %s -o %s/%s/part --crop 300,400,400,100 %s", script, folder, format,
         options)
-      local _, different = shell(("cd '%s/%s/part' && find . -name '*.png' | while read -r tile; do "
-        .. "cmp \"$tile\" \"../whole/$tile\"; done"):format(folder, format))
+      local _, different = shell(("cd '%s/%s/part' && find . -name '*.png' | while read -r tile; "
+        .. "do cmp \"$tile\" \"../whole/$tile\"; done"):format(folder, format))
       assert.are.equal("", different)
     end
   end)

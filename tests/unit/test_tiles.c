@@ -2,8 +2,9 @@
  * stopped, each tile shows what a render of its level shows, or, on the small levels, what the mean
  * over the larger level is. The tiles are Targa files, which are easy to read.
  *
- * A plain run tries SAMPLE of the PYRAMIDS pyramids, which the seed selects, and damages the records
- * at one byte in SAMPLE_BYTES. CELSPAN_PYRAMIDS=n tries n whole ones; CASE=n tries that one alone.
+ * A plain run tries SAMPLE of the PYRAMIDS pyramids, which the seed selects, and damages the
+ * records at one byte in SAMPLE_BYTES. CELSPAN_PYRAMIDS=n tries n with all their bytes; CASE=n
+ * tries only that one.
  */
 #include <ftw.h>
 #include <sys/stat.h>
@@ -152,7 +153,7 @@ static void write_file(const char *path, const void *bytes, size_t size) {
     fclose(file);
 }
 
-/* Decodes the packets of a Targa file to RGBA. false: it is not the file of so many pixels. */
+/* Decodes the packets of a Targa file to RGBA. false: the file has another size. */
 static bool decode(const unsigned char *file, size_t size, int32_t width, int32_t height,
                    unsigned char *out) {
   if (size < 18 || file[12] + 256 * file[13] != width || file[14] + 256 * file[15] != height)

@@ -6,7 +6,7 @@
  * CHECK, of 16 hexadecimal digits, is made from this line and all lines above it.
  *
  * INVARIANT  A line is appended when all its tiles are on the disk. The first line that was cut off
- * or altered, and all lines after it, are removed before more are appended, and their tiles are made
+ * or altered, and all lines after it, are removed before more are appended; their tiles are made
  * again.
  */
 #ifndef CS_TILES_LOG_H
