@@ -93,6 +93,50 @@ describe("the sandbox", function()
     end
   end)
 
+  describe("answers alike for files outside that exist and that do not:", function()
+    -- Each returns what a script learns of the file NAME in the folder above its own, which the
+    -- link LINK and the module MODULE lead to. A file of the name TWIN is beside the script, too.
+    local ASKED = {
+      ["a picture beside a made-up chunk"] = [[return load("return celspan.picture{ file = '"
+        .. TWIN .. "' }", "@" .. ABOVE .. "/x.lua", "t", { celspan = celspan })()]],
+      ["a picture named from a folder below"] = [[return load("return celspan.picture{ file = '../"
+        .. NAME .. "' }", "@" .. ABOVE .. "/scripts/below/x.lua", "t", { celspan = celspan })()]],
+      ["a picture"] = [[return celspan.picture{ file = "../" .. NAME }]],
+      ["a picture through a linked folder"] = [[return celspan.picture{ file = "around/" .. NAME }]],
+      ["a picture through a link"] = [[return celspan.picture{ file = LINK }]],
+      ["lips through a link"] = [[return select(2, require("celspan.lips").read(LINK))]],
+      ["an image of a drawing through a link"] = [[
+        return require("celspan.svg").read(LINK .. ".svg").skipped[1].what]],
+      ["a module through a link"] = [[return require(LINK)]],
+      ["a module through a linked folder"] = [[return require("around." .. MODULE)]],
+    }
+
+    for what, text in pairs(ASKED) do
+      it(what, function()
+        local answers = {}
+        bench:shell(([[cd '%s' && mkdir -p scripts/below && touch twin_beside.lua && for name in beside absent; do
+          touch scripts/twin_$name.lua; ln -sf ../$name.lua scripts/to_$name; ln -sf ../$name.lua scripts/to_$name.lua
+          echo '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"><image width="9"
+            height="9" href="to_'$name'"/></svg>' >scripts/to_$name.svg; done]])
+          :format(bench.folder))
+        for _, name in ipairs { "beside", "absent" } do
+          bench:write("scripts/asks.lua", ([[
+            local celspan = require "celspan"
+            local ABOVE, MODULE, NAME, LINK = %q, "NAMED", "NAMED.lua", "to_NAMED"
+            local TWIN = "twin_" .. NAME
+            local _, answer = pcall(function() %s end)
+            print(answer, TWIN)
+            return celspan.rostrum{}]]):gsub("NAMED", name):format(bench.folder, text))
+          local _, out, err = bench:shell(("cd '%s' && '%s' info scripts/asks.lua")
+            :format(bench.folder, workbench.absolute))
+          answers[name] = (out .. err):gsub(name, "NAMED")
+        end
+        assert.truthy(answers.beside:find "NAMED", answers.beside)
+        assert.equal(answers.absent, answers.beside)
+      end)
+    end
+  end)
+
   describe("with its options", function()
     -- A leak check attaches to the process from another one, which --strict does not allow.
     local function celspan(arguments)
