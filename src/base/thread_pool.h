@@ -2,6 +2,7 @@
  *
  * INVARIANTS
  *   Signals from outside are delivered to the calling thread alone.
+ *   A thread has a stack of 8 MiB, whatever limit the process has for its own.
  *   Where the system gives fewer threads than are wanted, fewer do the same work.
  */
 #ifndef CS_BASE_THREAD_POOL_H
@@ -17,6 +18,8 @@ typedef struct cs_thread {
   int worker;
 } cs_thread;
 
+/* pthread_create, with that stack; signals are the caller's business. Returns an errno, or 0. */
+int cs_thread_create(pthread_t *id, void *(*run)(void *), void *user);
 /* Starts up to `wanted` threads that call run(user, worker), workers being numbered from 1 on.
  * Returns how many there are: the first ones of `threads`, which stay where they are until the
  * threads are joined. */

@@ -68,8 +68,9 @@ static celspan_status fail_start(const cs_encoder *encoder, const char *program,
     return cs_fail(encoder->context, CELSPAN_OUTPUT,
                    "%s: %s, which makes videos, is not in PATH: install the package ffmpeg",
                    encoder->name, program);
-  return cs_fail(encoder->context, CELSPAN_OUTPUT, "%s: %s cannot be started: %s", encoder->name,
-                 program, strerror(error));
+  bool is_starved = error == ENOMEM || error == EAGAIN;
+  return cs_fail(encoder->context, is_starved ? CELSPAN_NO_MEMORY : CELSPAN_OUTPUT,
+                 "%s: %s cannot be started: %s", encoder->name, program, strerror(error));
 }
 
 static void free_places(cs_encoder *encoder) {
@@ -92,8 +93,8 @@ static celspan_status start_writer(cs_encoder *encoder) {
     return CELSPAN_OK;
   close(encoder->process.input);
   cs_child_end(&encoder->process, 0);
-  return cs_fail(encoder->context, CELSPAN_LIMIT, "%s: no thread can be started for the encoder",
-                 encoder->name);
+  return cs_fail(encoder->context, CELSPAN_NO_MEMORY,
+                 "%s: the system allows no thread for the encoder", encoder->name);
 }
 
 static celspan_status start(cs_encoder *encoder, const char *const *arguments) {
