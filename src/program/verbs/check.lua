@@ -6,6 +6,8 @@
 --   first pass    -->  in order: frames that cannot be built, pictures that cannot be read
 --   second pass   <--  a fresh film, last frame first: a frame whose scene now differs was not made
 --                      by a pure function of its number
+--   further ones  < -  more fresh films, some frames: each Lua state draws another seed for its
+--                      tables, so scenes that depend on it differ
 --
 -- All faults are reported in the end, equal ones in one line with the frames that have them:
 --
@@ -19,8 +21,10 @@ local program, request = ...
 local PART = 4096 -- frames of a part
 local FAULTS_MOST, RUNS_MOST = 1000, 8
 local SCRIPT = 3 -- the exit code
-local IMPURE = "the frame function is not pure: asked again in another order it gave another scene; "
-  .. "let it depend on nothing but its argument"
+local STATES, SAMPLE = 3, 24 -- fresh films in all; frames that the further ones build
+local IMPURE = "the frame function is not pure: asked again in another order, or in another Lua state, "
+  .. "it gave another scene; let it depend on nothing but its argument, and not on the length (#) of "
+  .. "a table with holes"
 
 -- ---------------------------------------------------------------- faults
 
@@ -91,11 +95,13 @@ local function first_pass(film, numbers, scenes)
   return #numbers
 end
 
-local function second_pass(film, numbers, scenes)
-  for i = #numbers, 1, -1 do
+--- step: one in so many frames is built.
+local function pass_again(film, numbers, scenes, step)
+  for i = #numbers, 1, -step do
     if program.is_stopped() then return end
     if scenes[i] and not (film:try(numbers[i]) and film:scene() == scenes[i]) then
       add_fault(numbers[i], "", IMPURE, SCRIPT)
+      scenes[i] = nil -- reported
     end
   end
 end
@@ -108,6 +114,17 @@ local function fresh_film(film)
   program.error("the script made a film of other frames when it was run again: %d from %d, not %d "
     .. "from %d", fresh.frames, fresh.first, film.frames, film.first)
   return nil, SCRIPT
+end
+
+--- The films for the further passes; nil and an exit code, reported.
+local function fresh_films(film)
+  local films = {}
+  for i = 1, STATES do
+    local fresh, code = fresh_film(film)
+    if not fresh then return nil, code end
+    films[i] = fresh
+  end
+  return films
 end
 
 --- The numbers of the part that begins after `done` frames.
@@ -128,10 +145,12 @@ local function check_parts(film, listed, count)
     if program.is_stopped() then break end
     if not fresh then
       local code
-      fresh, code = fresh_film(film)
+      fresh, code = fresh_films(film)
       if not fresh then return done, code end
     end
-    second_pass(fresh, numbers, scenes)
+    for i, again in ipairs(fresh) do
+      pass_again(again, numbers, scenes, i == 1 and 1 or math.max(1, count // SAMPLE))
+    end
   end
   return done
 end
