@@ -102,7 +102,8 @@ describe("the sandbox", function()
       ["a picture named from a folder below"] = [[return load("return celspan.picture{ file = '../"
         .. NAME .. "' }", "@" .. ABOVE .. "/scripts/below/x.lua", "t", { celspan = celspan })()]],
       ["a picture"] = [[return celspan.picture{ file = "../" .. NAME }]],
-      ["a picture through a linked folder"] = [[return celspan.picture{ file = "around/" .. NAME }]],
+      ["a picture through a linked folder"] = [[
+        return celspan.picture{ file = "around/" .. NAME }]],
       ["a picture through a link"] = [[return celspan.picture{ file = LINK }]],
       ["lips through a link"] = [[return select(2, require("celspan.lips").read(LINK))]],
       ["an image of a drawing through a link"] = [[

@@ -22,9 +22,9 @@ local PART = 4096 -- frames of a part
 local FAULTS_MOST, RUNS_MOST = 1000, 8
 local SCRIPT = 3 -- the exit code
 local STATES, SAMPLE = 3, 24 -- fresh films in all; frames that the further ones build
-local IMPURE = "the frame function is not pure: asked again in another order, or in another Lua state, "
-  .. "it gave another scene; let it depend on nothing but its argument, and not on the length (#) of "
-  .. "a table with holes"
+local IMPURE = "the frame function is not pure: asked again in another order, or in another Lua "
+  .. "state, it gave another scene; let it depend on nothing but its argument, and not on the "
+  .. "length (#) of a table with holes"
 
 -- ---------------------------------------------------------------- faults
 
@@ -95,7 +95,7 @@ local function first_pass(film, numbers, scenes)
   return #numbers
 end
 
---- step: one in so many frames is built.
+--- Builds one of every `step` frames.
 local function pass_again(film, numbers, scenes, step)
   for i = #numbers, 1, -step do
     if program.is_stopped() then return end
