@@ -115,8 +115,11 @@ describe("the sandbox", function()
     for what, text in pairs(ASKED) do
       it(what, function()
         local answers = {}
-        bench:shell(([[cd '%s' && mkdir -p scripts/below && touch twin_beside.lua && for name in beside absent; do
-          touch scripts/twin_$name.lua; ln -sf ../$name.lua scripts/to_$name; ln -sf ../$name.lua scripts/to_$name.lua
+        bench:shell(([[cd '%s' && mkdir -p scripts/below && touch twin_beside.lua
+          for name in beside absent; do
+          touch scripts/twin_$name.lua
+          ln -sf ../$name.lua scripts/to_$name
+          ln -sf ../$name.lua scripts/to_$name.lua
           echo '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"><image width="9"
             height="9" href="to_'$name'"/></svg>' >scripts/to_$name.svg; done]])
           :format(bench.folder))

@@ -35,8 +35,8 @@ static void copy_into(lua_State *L, int from, int to) {
   }
 }
 
-/* Replaces the table at `fields` by a copy without the places of its list that hold nil or false, if
- * it has any and the noun leaves them out. */
+/* Replaces the table at `fields` by a copy without the places of its list that hold nil or false,
+ * if there are any and the noun leaves them out. */
 static void close_gaps(lua_State *L, const cs_noun *noun, int fields) {
   if (!noun->has_gaps || !lua_istable(L, fields))
     return;

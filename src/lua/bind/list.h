@@ -9,8 +9,8 @@
 #include <lua.h>
 #include <stdbool.h>
 
-/* The greatest whole-number key above 0 of the table at index, metamethods aside; at most INT32_MAX.
- * 0: none. */
+/* The greatest whole-number key above 0 of the table at index, without metamethods and at most
+ * INT32_MAX. 0: there is none. */
 lua_Integer cs_list_length(lua_State *L, int index);
 /* The first place from 1 to `length` at which there is nothing: nil, or with takes_false also
  * false. 0: there is something at all of them. */

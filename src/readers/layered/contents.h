@@ -6,8 +6,8 @@
  *   backdrop   group   3   none
  *
  * INVARIANT: parents are greater than their layers, at most CS_CONTENTS_DEPTH groups lie in one
- * another, no layer has more than CS_CONTENTS_PIXELS pixels, and all layers together, those that show
- * the same file counted each, have at most CS_CONTENTS_PIXELS_ALL. While a painting is read a layer
+ * another, no layer has more than CS_CONTENTS_PIXELS pixels, and all layers together have at most
+ * CS_CONTENTS_PIXELS_ALL, also if they show the same file. While a painting is read a layer
  * owns its source; the layers of a painting that is complete have surfaces instead.
  */
 #ifndef CS_PAINTING_CONTENTS_H
