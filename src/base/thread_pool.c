@@ -55,6 +55,26 @@ void cs_threads_join(cs_thread *threads, int count) {
     pthread_join(threads[--count].id, NULL);
 }
 
+static void pass(void *user, int worker) {
+  pthread_mutex_t *gate = user;
+  (void)worker;
+  pthread_mutex_lock(gate);
+  pthread_mutex_unlock(gate);
+}
+
+/* The threads wait for the gate, so that all of them exist together. */
+bool cs_threads_are_free(int wanted) {
+  cs_thread threads[THREADS_MOST];
+  pthread_mutex_t gate = PTHREAD_MUTEX_INITIALIZER;
+  wanted = wanted < THREADS_MOST ? wanted : THREADS_MOST;
+  pthread_mutex_lock(&gate);
+  int started = cs_threads_start(threads, wanted, pass, &gate);
+  pthread_mutex_unlock(&gate);
+  cs_threads_join(threads, started);
+  pthread_mutex_destroy(&gate);
+  return started == wanted;
+}
+
 /* ---------------------------------------------------------------- fork and join */
 
 typedef struct job {

@@ -9,6 +9,7 @@
 #define CS_BASE_THREAD_POOL_H
 
 #include <pthread.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 typedef struct cs_thread {
@@ -26,6 +27,9 @@ int cs_thread_create(pthread_t *id, void *(*run)(void *), void *user);
 int cs_threads_start(cs_thread *threads, int wanted, void (*run)(void *user, int worker),
                      void *user);
 void cs_threads_join(cs_thread *threads, int count);
+
+/* Whether the system allows as many more threads at a time, at most 64. */
+bool cs_threads_are_free(int wanted);
 
 /* Calls step(user, worker, i) once for every i in [0, count), in no particular order, from up to
  * `workers` threads, of which the caller's is worker 0; returns when all are done. */
