@@ -1074,11 +1074,11 @@ describe("an archive of many large layers", function()
   -- 14,000 pixels a side each: 43 of them are within the limit, 44 are not.
   local function archive(layer_count, member_count)
     local stack, members = {}, {}
-    local png = paintings.png_of(14000, 14000, 8, 6, "")
+    local large = paintings.png_of(14000, 14000, 8, 6, "")
     for i = 1, layer_count do
       stack[i] = ('<layer name="l" src="%d.png"/>'):format(i % member_count)
     end
-    for i = 1, member_count do members[i] = { name = i % member_count .. ".png", data = png } end
+    for i = 1, member_count do members[i] = { name = i % member_count .. ".png", data = large } end
     return ora_with(('<image w="9" h="9"><stack>%s</stack></image>')
       :format(table.concat(stack)), members)
   end
