@@ -7,7 +7,7 @@
 #include "lua/sandbox/library.h"
 
 #define ITEMS_MOST 10000000
-#define EXACT 64 /* insert and remove look through as many items, so that they stay fast */
+#define EXACT 16 /* insert and remove look through as many items, so that they stay fast */
 
 static lua_Integer check_count(lua_State *L, const char *name, lua_Integer first,
                                lua_Integer last) {
