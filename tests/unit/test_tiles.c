@@ -407,7 +407,9 @@ static void try_pyramid(celspan_context *context, int number, bool is_whole) {
   if (open_subject(&s, context, number)) {
     s.is_whole = is_whole;
     set_right(&s);
-    int wrong = run(&s, NULL, &rows) + try_crops(&s, &random) + try_records(&s, &random);
+    int wrong = run(&s, NULL, &rows);
+    wrong += try_crops(&s, &random);
+    wrong += try_records(&s, &random);
     if (!CHECK(wrong == 0))
       fprintf(stderr, "CASE=%d: %d x %d, tiles of %d, overlap %d: %d wrong tiles\n", number,
               s.pyramid.width, s.pyramid.height, s.pyramid.tile, s.pyramid.overlap, wrong);
