@@ -5,7 +5,8 @@
 --
 -- Frame n (from 1) shows the time from (n-1)/fps to n/fps: the shape that covers most of it. A
 -- shape stays for at least `hold` frames, so that mouths do not flicker. Closed mouths (A, MBP, X,
--- rest) are never dropped: viewers notice when they are missing.
+-- rest) are never dropped: viewers notice when they are missing. After the last cue the mouth is at
+-- rest: X in Rhubarb's files, where a last X only marks the end, and rest in the others.
 local cues = require "celspan.cues"
 local fields = require "celspan.fields"
 local files = require "celspan.files"
@@ -18,6 +19,7 @@ local lips = {}
 ---@field frames integer
 ---@field fps number
 ---@field shapes string[]
+---@field rest any The shape after the last frame
 local Track = {}
 Track.__index = fields.reads("a track of mouths", Track)
 Track.__name = "celspan.lips"
@@ -54,7 +56,8 @@ local function namer(options)
   end
 end
 
---- The mouth shape at a frame, counted from 1; the first and the last hold beyond the ends.
+--- The mouth shape at a frame, counted from 1: before it the first shape, after the last frame the
+--- mouth at rest.
 ---@param frame integer
 ---@return any shape
 function Track:at(frame)
@@ -62,7 +65,9 @@ function Track:at(frame)
   if not fields.is_finite(frame) then
     error("lips: at takes a frame's number, a finite number, got " .. fields.shown(frame), 2)
   end
-  return self.shapes[math.max(1, math.min(#self.shapes, math.floor(frame)))]
+  local n = math.max(1, math.floor(frame))
+  if n > self.frames then return self.rest end
+  return self.shapes[n]
 end
 
 ---@class celspan.lips.options
@@ -95,7 +100,8 @@ function lips.read(path, options)
   shapes = mouths.hold(shapes, options.hold or 2)
   local name = namer(options)
   for n, shape in ipairs(shapes) do shapes[n] = name(shape) end
-  return setmetatable({ shapes = shapes, frames = #shapes, fps = fps }, Track)
+  local rest = name(found.cues and "X" or "rest")
+  return setmetatable({ shapes = shapes, frames = #shapes, fps = fps, rest = rest }, Track)
 end
 
 return fields.seal("lips", lips)

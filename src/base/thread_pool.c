@@ -4,6 +4,7 @@
 #include <stdatomic.h>
 
 #define THREADS_MOST 64
+#define STACK_SIZE ((size_t)8 << 20) /* the usual limit of processes, which is only address space */
 
 /* Signals that a thread raises itself, by a fault: blocked, they would end the process without the
  * host's handler, or a sanitizer, having been called. */
@@ -15,6 +16,18 @@ static void *thread_main(void *argument) {
   const cs_thread *thread = argument;
   thread->run(thread->user, thread->worker);
   return NULL;
+}
+
+int cs_thread_create(pthread_t *id, void *(*run)(void *), void *user) {
+  pthread_attr_t attributes;
+  int error = pthread_attr_init(&attributes);
+  if (error)
+    return error;
+  error = pthread_attr_setstacksize(&attributes, STACK_SIZE);
+  if (!error)
+    error = pthread_create(id, &attributes, run, user);
+  pthread_attr_destroy(&attributes);
+  return error;
 }
 
 int cs_threads_start(cs_thread *threads, int wanted, void (*run)(void *user, int worker),
@@ -30,7 +43,7 @@ int cs_threads_start(cs_thread *threads, int wanted, void (*run)(void *user, int
   for (; started < wanted; started++) {
     cs_thread *thread = &threads[started];
     *thread = (cs_thread){.run = run, .user = user, .worker = started + 1};
-    if (pthread_create(&thread->id, NULL, thread_main, thread) != 0)
+    if (cs_thread_create(&thread->id, thread_main, thread) != 0)
       break;
   }
   pthread_sigmask(SIG_SETMASK, &before, NULL);
@@ -40,6 +53,26 @@ int cs_threads_start(cs_thread *threads, int wanted, void (*run)(void *user, int
 void cs_threads_join(cs_thread *threads, int count) {
   while (count > 0)
     pthread_join(threads[--count].id, NULL);
+}
+
+static void pass(void *user, int worker) {
+  pthread_mutex_t *gate = user;
+  (void)worker;
+  pthread_mutex_lock(gate);
+  pthread_mutex_unlock(gate);
+}
+
+/* The threads wait for the gate, so that all of them exist together. */
+bool cs_threads_are_free(int wanted) {
+  cs_thread threads[THREADS_MOST];
+  pthread_mutex_t gate = PTHREAD_MUTEX_INITIALIZER;
+  wanted = wanted < THREADS_MOST ? wanted : THREADS_MOST;
+  pthread_mutex_lock(&gate);
+  int started = cs_threads_start(threads, wanted, pass, &gate);
+  pthread_mutex_unlock(&gate);
+  cs_threads_join(threads, started);
+  pthread_mutex_destroy(&gate);
+  return started == wanted;
 }
 
 /* ---------------------------------------------------------------- fork and join */

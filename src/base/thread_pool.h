@@ -2,11 +2,13 @@
  *
  * INVARIANTS
  *   Signals from outside are delivered to the calling thread alone.
+ *   A thread has a stack of 8 MiB, whatever limit the process has for its own.
  *   Where the system gives fewer threads than are wanted, fewer do the same work.
  */
 #pragma once
 
 #include <pthread.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 typedef struct cs_thread {
@@ -16,12 +18,17 @@ typedef struct cs_thread {
   int worker;
 } cs_thread;
 
+/* pthread_create, with that stack; signals are the caller's business. Returns an errno, or 0. */
+int cs_thread_create(pthread_t *id, void *(*run)(void *), void *user);
 /* Starts up to `wanted` threads that call run(user, worker), workers being numbered from 1 on.
  * Returns how many there are: the first ones of `threads`, which stay where they are until the
  * threads are joined. */
 int cs_threads_start(cs_thread *threads, int wanted, void (*run)(void *user, int worker),
                      void *user);
 void cs_threads_join(cs_thread *threads, int count);
+
+/* Whether the system allows as many more threads at a time, at most 64. */
+bool cs_threads_are_free(int wanted);
 
 /* Calls step(user, worker, i) once for every i in [0, count), in no particular order, from up to
  * `workers` threads, of which the caller's is worker 0; returns when all are done. */

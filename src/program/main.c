@@ -12,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 
 #include "frames/process/interrupt.h"
 #include "lua/bind/suggest.h"
@@ -140,9 +141,20 @@ static bool hold_descriptors(void) {
   return true;
 }
 
+/* A stack that grows to 8 MiB, the usual limit, as far as the process may raise its own. */
+static void widen_stack(void) {
+  struct rlimit limit;
+  const rlim_t usual = (rlim_t)8 << 20;
+  if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= usual)
+    return;
+  limit.rlim_cur = limit.rlim_max < usual ? limit.rlim_max : usual;
+  setrlimit(RLIMIT_STACK, &limit);
+}
+
 int main(int count, char **arguments) {
   if (!hold_descriptors())
     return CS_EXIT_INTERNAL;
+  widen_stack();
   /* Numbers are read and printed in the C locale by this thread, whatever a script may set. */
   uselocale(newlocale(LC_ALL_MASK, "C", (locale_t)0));
   if (cs_zygote_is_meant(count, arguments))

@@ -209,14 +209,14 @@ static cs_exit open_log(tiles_job *job) {
                                  .argument_count = request->script_argument_count,
                                  .skips_empty = job->skips_empty};
   cs_tile_log_state state = CS_TILE_LOG_NEW;
-  celspan_status status = cs_tile_log_read(job->context, &job->pyramid, &inputs, &job->log, &state);
+  celspan_status status = cs_tile_log_find(job->context, &job->pyramid, &inputs, &job->log, &state);
   bool is_known = state == CS_TILE_LOG_SAME || state == CS_TILE_LOG_OTHER;
   if (status == CELSPAN_OK && cs_request_has(request, "--fresh") && is_known)
     status = cs_tile_log_clear(job->context, &job->pyramid, &job->log);
   else if (status == CELSPAN_OK && (state == CS_TILE_LOG_OTHER || state == CS_TILE_LOG_FOREIGN))
     return refuse_state(job, state);
   if (status == CELSPAN_OK)
-    status = cs_tile_log_open(job->context, &job->log);
+    status = cs_tile_log_open(job->context, &job->pyramid, &job->log);
   return cs_report_failure(job->context, status, NULL);
 }
 

@@ -54,7 +54,7 @@ return {
   ["test.lua"] = { "spec/desk", "spec/assertions" },
   ["trace.lua"] = { "spec/trace" },
   ["track.lua"] = { "spec/track" },
-  tiles = { "spec/tiles" },
+  tiles = { "unit/tiles", "spec/tiles" },
   video = { "spec/video" },
   sandbox = { "spec/source", "sandbox/sandbox" },
   svg = { "unit/fuzz-colour", "unit/fuzz-svg", "spec/svg_same", "spec/svg" },

@@ -93,6 +93,151 @@ describe("the sandbox", function()
     end
   end)
 
+  describe("answers alike for files outside that exist and that do not:", function()
+    -- Each returns what a script learns of the file NAME in the folder above its own, which the
+    -- link LINK and the module MODULE lead to. A file of the name TWIN is beside the script, too.
+    local ASKED = {
+      ["a picture beside a made-up chunk"] = [[return load("return celspan.picture{ file = '"
+        .. TWIN .. "' }", "@" .. ABOVE .. "/x.lua", "t", { celspan = celspan })()]],
+      ["a picture named from a folder below"] = [[return load("return celspan.picture{ file = '../"
+        .. NAME .. "' }", "@" .. ABOVE .. "/scripts/below/x.lua", "t", { celspan = celspan })()]],
+      ["a picture"] = [[return celspan.picture{ file = "../" .. NAME }]],
+      ["a picture through a linked folder"] = [[
+        return celspan.picture{ file = "around/" .. NAME }]],
+      ["a picture through a link"] = [[return celspan.picture{ file = LINK }]],
+      ["lips through a link"] = [[return select(2, require("celspan.lips").read(LINK))]],
+      ["an image of a drawing through a link"] = [[
+        return require("celspan.svg").read(LINK .. ".svg").skipped[1].what]],
+      ["a module through a link"] = [[return require(LINK)]],
+      ["a module through a linked folder"] = [[return require("around." .. MODULE)]],
+    }
+
+    for what, text in pairs(ASKED) do
+      it(what, function()
+        local answers = {}
+        bench:shell(([[cd '%s' && mkdir -p scripts/below && touch twin_beside.lua
+          for name in beside absent; do
+          touch scripts/twin_$name.lua
+          ln -sf ../$name.lua scripts/to_$name
+          ln -sf ../$name.lua scripts/to_$name.lua
+          echo '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"><image width="9"
+            height="9" href="to_'$name'"/></svg>' >scripts/to_$name.svg; done]])
+          :format(bench.folder))
+        for _, name in ipairs { "beside", "absent" } do
+          bench:write("scripts/asks.lua", ([[
+            local celspan = require "celspan"
+            local ABOVE, MODULE, NAME, LINK = %q, "NAMED", "NAMED.lua", "to_NAMED"
+            local TWIN = "twin_" .. NAME
+            local _, answer = pcall(function() %s end)
+            print(answer, TWIN)
+            return celspan.rostrum{}]]):gsub("NAMED", name):format(bench.folder, text))
+          local _, out, err = bench:shell(("cd '%s' && '%s' info scripts/asks.lua")
+            :format(bench.folder, workbench.absolute))
+          answers[name] = (out .. err):gsub(name, "NAMED")
+        end
+        assert.truthy(answers.beside:find "NAMED", answers.beside)
+        assert.equal(answers.absent, answers.beside)
+      end)
+    end
+  end)
+
+  -- Lua's own length of `t` differs from process to process: after keys were removed, when the
+  -- table grows depends on which keys collide.
+  local HOLED = [[
+    local celspan = require "celspan"
+    local function holed(n)
+      local t = {}
+      for i = 1, n do t["key" .. i] = i end
+      for i = 1, n, 2 do t["key" .. i] = nil end
+      for i = 1, n do if i % 5 ~= 2 then t[i] = i end end
+      return t
+    end
+  ]]
+
+  describe("a list with holes", function()
+    local function printed(text)
+      bench:write("scripts/holed.lua", HOLED .. text .. "\nreturn celspan.rostrum{}")
+      local code, _, err = bench:shell(("cd '%s' && '%s' info scripts/holed.lua")
+        :format(bench.folder, workbench.absolute))
+      assert.equal(0, code, err)
+      return (err:match "^[^\n]*")
+    end
+
+    it("ends at its first hole for the functions of table", function()
+      assert.equal("1,2\t2\t4\ttrue\t2\ttrue\t2", printed [[
+        local function list() return { 1, 2, nil, 4 } end
+        local t, u, v = list(), list(), list()
+        table.insert(t, "new")
+        local removed = table.remove(u)
+        table.sort(v, function(a, b) return a > b end)
+        print(table.concat(list(), ","), select("#", table.unpack(list())), t[4], t[3] == "new",
+          removed, u[2] == nil and u[4] == 4, v[1])]])
+    end)
+
+    it("gives the same in every run", function()
+      local seen, count = {}, 0
+      for _ = 1, 20 do
+        local answer = printed [[
+          local all = {}
+          for n = 3, 100 do
+            local t, u, v = holed(n), holed(n), holed(n)
+            for _, list in ipairs { t, u, v } do list[1], list[n + 5] = n, n end
+            table.insert(t, 2, -1)
+            table.insert(t, -2)
+            all[#all + 1] = table.concat({ table.concat(t, "."), select("#", table.unpack(u)),
+              table.remove(u), tostring(u[1]), #celspan.cel { celspan.rect { 0, 0, 1, 1 } } }, ":")
+          end
+          print(table.concat(all, " "))]]
+        if not seen[answer] then seen[answer], count = true, count + 1 end
+      end
+      assert.equal(1, count)
+    end)
+
+    it("is drawn to its greatest place, without nil and false", function()
+      assert.equal("3\t2\t2\t1\t3\t40", printed [[
+        local a, b = celspan.rect { 0, 0, 1, 1 }, celspan.rect { 2, 0, 1, 1 }
+        local cel = celspan.cel { nil, a, false, b, nil, a, opacity = 0.5 }
+        local far = { a, key = nil }
+        far[40] = b
+        local many = {}
+        for i = 1, 80, 2 do many[i] = a end
+        print(#cel, #celspan.union { false, a, b }, #(a ~ b), #celspan.rostrum { nil, cel, nil },
+          #celspan.cel{}:with { false, a, b, nil, a }, #celspan.cel(many))]])
+    end)
+
+    it("is refused where each place has a meaning", function()
+      assert.truthy(printed [[
+        print(select(2, pcall(celspan.polygon, { { 0, 0 }, { 1, 0 }, nil, { 1, 1 } })))]]
+        :find("there is a value at place 4 of the list, but none at place 3", 1, true))
+    end)
+
+    it("that # measures is found by check", function()
+      bench:write("scripts/measured.lua", HOLED .. [[
+        return celspan.film { size = { 9, 9 }, frames = 3, frame = function()
+          local list = {}
+          for n = 3, 100 do list[n - 2] = celspan.rect { #holed(n), n, 1, 1 } end
+          return celspan.rostrum { celspan.cel(list) }
+        end }]])
+      for _ = 1, 3 do
+        local code, _, err = bench:shell(("cd '%s' && '%s' check scripts/measured.lua")
+          :format(bench.folder, workbench.absolute))
+        assert.equal(3, code)
+        assert.truthy(err:find("in another Lua state, it returned another scene", 1, true), err)
+      end
+    end)
+  end)
+
+  it("refuses the order of keys that differs from run to run", function()
+    bench:write("scripts/keys.lua", [[
+      local keys = { [{}] = 1, [print] = 2 }
+      print(pcall(pairs, keys))
+      print(pcall(next, keys))
+      return require("celspan").rostrum{}]])
+    local _, _, err = bench:shell(("cd '%s' && '%s' info scripts/keys.lua")
+      :format(bench.folder, workbench.absolute))
+    assert.equal(2, select(2, err:gsub("false\t", "")), err)
+  end)
+
   describe("with its options", function()
     -- A leak check attaches to the process from another one, which --strict does not allow.
     local function celspan(arguments)

@@ -2,6 +2,7 @@
 -- that names the picture, soon and within limits, and no process or file is left.
 local paintings = require "tests.support.paintings"
 local present = require "tests.support.present"
+local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
 
 local HOSTILE = workbench.build .. "/tests/hostile_module.so"
@@ -154,6 +155,36 @@ return celspan.film { size = { 64, 64 }, frames = 2, frame = function(f)
   end
 end)
 
+describe("a limit of processes", function()
+  -- It does not count for root, so the program runs as a user who has no other processes.
+  local is_possible = present.pictures() and present.program "setpriv" and present.program "prlimit"
+    and system.lines("id -u")[1] == "0"
+  local it_as_a_user = is_possible and it or pending
+
+  it_as_a_user("is an error with exit code 33, whatever cannot be started", function()
+    bench:shell(("chmod 755 '%s' && mkdir '%s/open' && chmod 777 '%s/open'")
+      :format(bench.folder, bench.folder, bench.folder))
+    bench:write("make.lua", 'return require "celspan".rostrum { size = { 8, 8 } }')
+    assert.are.equal(0, (bench:shell(("cd '%s' && '%s' render make.lua --progress none -o in.tif")
+      :format(bench.folder, workbench.absolute))))
+    bench:write("film.lua", [[local celspan = require "celspan"
+      return celspan.rostrum { size = { 8, 8 }, celspan.cel {
+        celspan.image { file = "in.tif", w = 8, h = 8 } } }]])
+    local seen, asked = {}, { "film.lua -o open/a.png", "make.lua -o open/a.tif" }
+    if present.program "ffmpeg" then asked[3] = "make.lua -o open/a.mp4" end
+    for most = 1, 14 do
+      for _, arguments in ipairs(asked) do
+        local code, _, err = bench:shell(("cd '%s' && setpriv --reuid=23457 --clear-groups prlimit "
+          .. "--nproc=%d '%s' render %s --progress none")
+          :format(bench.folder, most, workbench.absolute, arguments))
+        assert.is_true(code == 0 or code == 33, most .. ": " .. err)
+        seen[code] = true
+      end
+    end
+    assert.are.same({ [0] = true, [33] = true }, seen)
+  end)
+end)
+
 describe("a decoder", function()
   it("is not started with --trust", function()
     film { "crash.png" }
@@ -191,7 +222,7 @@ describe("a decoder", function()
     film { "good.png" }
     local loading = {
       crash = { 4, "ended during its start %(signal 11%); %-%-trust runs without it" },
-      leave = { 33, "out of memory while starting the picture decoder" } }
+      leave = { 33, "out of memory or processes while starting the picture decoder" } }
     for how, expected in pairs(is_slow and {} or loading) do
       fails(expected[1], "good%.png: .*" .. expected[2], "render film.lua --hash --progress none",
         "HOSTILE_LOADING=" .. how)
@@ -209,7 +240,7 @@ describe("a decoder", function()
       .. "%-%-limit picture%-time",
       options, "HOSTILE_LOADING=hang")
     if is_slow then return end -- the sanitizers' handlers replace those of the program
-    fails(33, "good%.png: out of memory while starting the picture decoder", options,
+    fails(33, "good%.png: out of memory or processes while starting the picture decoder", options,
       "HOSTILE_LOADING=stick")
   end)
 

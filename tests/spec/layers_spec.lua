@@ -1070,6 +1070,31 @@ describe("an OpenRaster file", function()
   end)
 end)
 
+describe("an archive of many large layers", function()
+  -- 14,000 pixels a side each: 43 of them are within the limit, 44 are not.
+  local function archive(layer_count, member_count)
+    local stack, members = {}, {}
+    local large = paintings.png_of(14000, 14000, 8, 6, "")
+    for i = 1, layer_count do
+      stack[i] = ('<layer name="l" src="%d.png"/>'):format(i % member_count)
+    end
+    for i = 1, member_count do members[i] = { name = i % member_count .. ".png", data = large } end
+    return ora_with(('<image w="9" h="9"><stack>%s</stack></image>')
+      :format(table.concat(stack)), members)
+  end
+
+  it("is refused if all layers together have too many pixels", function()
+    assert(layers.read(write(archive(43, 43))))
+    refused(archive(100, 100),
+      "its layers have 19600000000 pixels in all; at most 8589934592 are read")
+  end)
+
+  it("counts a member for each layer that shows it", function()
+    refused(archive(5000, 1),
+      "its layers have 980000000000 pixels in all; at most 8589934592 are read")
+  end)
+end)
+
 describe("a Krita document", function()
   local function krita(xml)
     return paintings.zip { { name = "maindoc.xml", data = xml },

@@ -53,9 +53,21 @@ describe("the shape of a frame", function()
       shapes("0.00\tC\n0.30\tB\n0.40\tD\n0.80\tX\n", { fps = 10 }))
   end)
 
-  it("holds outside the recording", function()
+  it("is the first one before the recording, and the mouth at rest after it", function()
     local track = assert(lips.read(write "0.00\tB\n0.50\tX\n", { fps = 10 }))
-    assert.are.same({ "B", "B", 5 }, { track:at(-3), track:at(99), track.frames })
+    assert.are.same({ "B", "B", "B", "X", "X", 5 }, { track:at(-3), track:at(5), track:at(5.9),
+      track:at(6), track:at(99), track.frames })
+    assert.are.equal("X", track.rest)
+    track = assert(lips.read(write "MohoSwitch1\n1 E\n3 etc\n4 etc\n"))
+    assert.are.same({ "etc", "rest", "rest" }, { track:at(4), track:at(5), track.rest })
+  end)
+
+  it("at rest has the name of its drawing", function()
+    local text = "0.00\tB\n0.50\tX\n"
+    local track = assert(lips.read(write(text), { set = { "A", "B" }, map = { A = "closed" } }))
+    assert.are.equal("closed", track:at(99))
+    track = assert(lips.read(write(text), { map = { X = "smile" } }))
+    assert.are.equal("smile", track:at(99))
   end)
 end)
 
@@ -193,6 +205,9 @@ describe("real recordings", function()
       local xml = assert(lips.read(path .. ".rhubarb.xml"))
       assert.are.same(tsv.shapes, json.shapes, path)
       assert.are.same(tsv.shapes, xml.shapes, path)
+      for _, track in ipairs { tsv, json, xml } do
+        assert.are.equal("X", track:at(track.frames + 1), path)
+      end
     end)
   end)
 
@@ -227,6 +242,7 @@ describe("real recordings", function()
     each(function(path)
       local moho = assert(lips.read(path .. ".moho.dat"))
       assert.are.equal("rest", moho:at(moho.frames))
+      assert.are.equal("rest", moho:at(moho.frames + 1))
       if path:find "human" then
         local papagayo = assert(lips.read(path .. ".pgo"))
         assert.is_true(math.abs(papagayo.frames - moho.frames) <= 8)

@@ -1473,6 +1473,21 @@ describe("an image", function()
     assert.matches("drawings contain one another too deep$", art.skipped[1].what)
   end)
 
+  it("may not be one of thousands of drawings inside drawings", function()
+    local function write_images(name, shown)
+      bench:write(name .. ".svg", in_svg(('<image width="9" height="9" href="%s.svg"/>')
+        :format(shown):rep(40)))
+    end
+    bench:write("third.svg", in_svg('<rect width="5" height="5"/>'))
+    write_images("second", "third")
+    write_images("first", "second")
+    write_images("zeroth", "first")
+    assert(svg.read(bench.folder .. "/second.svg"))
+    local art, message = svg.read(bench.folder .. "/zeroth.svg")
+    assert.is_nil(art)
+    assert.matches("zeroth.svg:%d+: more than 1000 drawings are read as images$", message)
+  end)
+
   it("is reported if its name is too long, or its drawing has no size or is damaged", function()
     local function told(href)
       return (read(('<image width="9" height="9" href="%s"/>'):format(href)).skipped[1]

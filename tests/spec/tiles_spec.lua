@@ -224,6 +224,18 @@ describe("a large frame", function()
       script, folder)
     assert.are.equal(4, count_files(folder .. "/p/plain_files"))
   end)
+
+  it("makes the same tiles for a crop as for the whole frame, at small levels too", function()
+    for _, format in ipairs { "dzi", "iiif" } do
+      local options = ("--tile 64 --format %s --progress none"):format(format)
+      assert_success("tiles %s -o %s/%s/whole %s", script, folder, format, options)
+      assert_success("tiles %s -o %s/%s/part --crop 300,400,400,100 %s", script, folder, format,
+        options)
+      local _, different = shell(("cd '%s/%s/part' && find . -name '*.png' | while read -r tile; "
+        .. "do cmp \"$tile\" \"../whole/$tile\"; done"):format(folder, format))
+      assert.are.equal("", different)
+    end
+  end)
 end)
 
 describe("a resumed run", function()
@@ -305,13 +317,47 @@ describe("a resumed run", function()
     shell(("rm -r '%s/p/small_files'"):format(folder))
     assert_success("tiles %s --size 20x20 -o %s/p --fresh --progress none", small, folder)
     assert.is_truthy(read(folder .. "/p/small_files/5/0_0.png"))
-    for _, record in ipairs { "", "celspan tiles 0\n",
-      "celspan tiles 1 00112233445566778899aabbccddeeff\n" } do
+    for _, record in ipairs { "", "celspan tiles 1\n",
+      "celspan tiles 2 00112233445566778899aabbccddeeff\n" } do
       write("p/small.tiles", record)
       local code, _, err = celspan("tiles %s --size 20x20 -o %s/p --progress none", small, folder)
       assert.are.equal(2, code)
       assert.is_truthy(err:find("give --fresh to remove them", 1, true), err)
     end
+  end)
+
+  it("makes a row again if a digit of its line was changed, and all rows after it", function()
+    assert_success("tiles %s -o %s/whole --tile 64 --levels 8-8 --progress none", script, folder)
+    assert_success("tiles %s -o %s/p --tile 64 --levels 8-8 --progress none", script, folder)
+    local record = read(folder .. "/p/plain.tiles")
+    local changed, count = record:gsub("row 8 1 ", "row 9 1 ")
+    assert.are.equal(1, count)
+    write("p/plain.tiles", changed)
+    os.remove(folder .. "/p/plain_files/8/0_1.png")
+    assert_success("tiles %s -o %s/p --tile 64 --levels 8-8 --progress none", script, folder)
+    assert.are.equal(record, read(folder .. "/p/plain.tiles"))
+    assert.are.equal(0, (shell(("diff -r %s/whole/plain_files %s/p/plain_files"):format(folder,
+      folder))))
+  end)
+
+  it("removes the temporary files of a killed one, and no others", function()
+    local small = write("small.lua", SMALL)
+    assert_success("tiles %s --size 20x20 -o %s/p --progress none", small, folder)
+    shell(("mkdir '%s/p/openseadragon'"):format(folder))
+    local dead = { "small_files/5/.0_0.png.7f30.part", "small_files/.x.png.0000.part",
+      ".index.html.12ef.part", ".small.dzi.0001.part",
+      "openseadragon/.openseadragon.min.js.00aa.part" }
+    local others = { "small_files/5/mine.part", ".mine.xyz1.part", "mine" }
+    for _, names in ipairs { dead, others } do
+      for _, name in ipairs(names) do write("p/" .. name, "part of a file") end
+    end
+    write("p/.alive.png.0002.part", "")
+    local code = shell(("flock '%s/p/.alive.png.0002.part' '%s' tiles '%s' --size 20x20 -o '%s/p' "
+      .. "--progress none"):format(folder, workbench.binary, small, folder))
+    assert.are.equal(0, code)
+    for _, name in ipairs(dead) do assert.is_nil(read(folder .. "/p/" .. name), name) end
+    for _, name in ipairs(others) do assert.is_not_nil(read(folder .. "/p/" .. name), name) end
+    assert.is_not_nil(read(folder .. "/p/.alive.png.0002.part"))
   end)
 
   it("distinguishes the arguments of a script from others, if it has procedures", function()

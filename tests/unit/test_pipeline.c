@@ -6,7 +6,10 @@
 #include <dlfcn.h>
 #include <errno.h>
 #include <pthread.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
 #include <time.h>
+#include <unistd.h>
 
 #include "base/thread_pool.h"
 #include "tests/support/check.h"
@@ -263,7 +266,38 @@ static void check_pool(int workers, int given) {
     CHECK(t.times[i] == 1);
 }
 
-int main(void) {
+/* Uses a megabyte of the stack. */
+static void step_deep(void *user, int worker, int32_t i) {
+  volatile char deep[1 << 20];
+  (void)user, (void)i;
+  if (worker > 0)
+    for (size_t at = 0; at < sizeof deep; at += 1024)
+      deep[at] = 1;
+}
+
+/* The C library makes the stacks of threads as large as the limit with which a program begins. */
+static void check_stack(char *program) {
+  char deep[] = "deep", *arguments[] = {program, deep, NULL};
+  int ending = -1;
+  pid_t child = fork();
+  if (child == 0) {
+    struct rlimit limit;
+    getrlimit(RLIMIT_STACK, &limit);
+    limit.rlim_cur = 256 << 10;
+    setrlimit(RLIMIT_STACK, &limit);
+    execv(program, arguments);
+    _exit(1);
+  }
+  CHECK(child > 0 && waitpid(child, &ending, 0) == child);
+  CHECK(ending == 0);
+}
+
+int main(int count, char **arguments) {
+  if (count > 1) {
+    cs_thread_pool_run(4, ITEMS, step_deep, NULL);
+    return 0;
+  }
+  check_stack(arguments[0]);
   static const int threads[] = {0, 1, 2, 7, 40};
   celspan_context *context = NULL;
   if (celspan_context_create(NULL, &context) != CELSPAN_OK)

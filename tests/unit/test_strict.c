@@ -16,6 +16,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "plugins/isolate/message.h"
 #include "tests/support/check.h"
 
 static char folder[] = "/tmp/celspan-strict-XXXXXX";
@@ -164,9 +165,25 @@ static void remove_files(void) {
   CHECK(rmdir(folder) == 0);
 }
 
+/* A socket that always answers EAGAIN, of a process whose other side never ends. */
+static void check_patience(void) {
+  int ends[2], descriptor = -1;
+  cs_message message;
+  CHECK(socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0, ends) == 0);
+  CHECK(cs_message_receive(ends[0], &message, &descriptor) == CS_MESSAGE_LATE);
+  CHECK(cs_message_wait(ends[0], 0.05, &message, &descriptor) == CS_MESSAGE_OVER);
+  message = (cs_message){.kind = CS_MESSAGE_END, .number = 7};
+  CHECK(cs_message_send(ends[1], &message, -1));
+  CHECK(cs_message_wait(ends[0], 0.05, &message, &descriptor) == CS_MESSAGE_ARRIVED);
+  CHECK(message.number == 7);
+  close(ends[0]);
+  close(ends[1]);
+}
+
 static int tell_refusal(void) { return confine() == NULL; }
 
 int main(void) {
+  check_patience();
   make_files();
   check_roots();
   if (answer(tell_refusal, 0) == 1)

@@ -5,7 +5,6 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -15,6 +14,7 @@
 #include "model/pictures/picture.h"
 #include "model/scene/scene.h"
 #include "model/scene/walk.h"
+#include "output/sinks/temporary.h"
 
 enum {
   LINE_SIZE = 128,
@@ -94,26 +94,53 @@ static cs_hash digest_of(const cs_tile_inputs *inputs, const cs_pyramid *pyramid
   return cs_hash_end(hash);
 }
 
-/* ---------------------------------------------------------------- reading */
+/* ---------------------------------------------------------------- lines */
 
 static void write_head(const cs_tile_log *log, char line[LINE_SIZE]) {
-  snprintf(line, LINE_SIZE, "celspan tiles 1 %016" PRIx64 "%016" PRIx64 "\n", log->digest.a,
+  snprintf(line, LINE_SIZE, "celspan tiles 2 %016" PRIx64 "%016" PRIx64 "\n", log->digest.a,
            log->digest.b);
 }
+
+/* The line of a row that follows the lines of which `check` is made, and adds it to these. */
+static void write_row(cs_tile_row row, cs_hash *check, char line[LINE_SIZE]) {
+  int length = snprintf(line, LINE_SIZE, "row %" PRId32 " %" PRId32 " %" PRId32 " %" PRId32,
+                        row.level, row.row, row.first, row.end);
+  cs_hash_text(check, line);
+  snprintf(line + length, (size_t)(LINE_SIZE - length), " %016" PRIx64 "\n", cs_hash_end(*check).a);
+}
+
+/* Whether the text is the line of a row after those lines; then it is added to these. */
+static bool read_row(const char *text, cs_hash *check, cs_tile_row *row) {
+  char line[LINE_SIZE];
+  cs_hash added = *check;
+  if (sscanf(text, "row %" SCNd32 " %" SCNd32 " %" SCNd32 " %" SCNd32, &row->level, &row->row,
+             &row->first, &row->end) != 4)
+    return false;
+  write_row(*row, &added, line);
+  if (strcmp(line, text) != 0)
+    return false;
+  *check = added;
+  return true;
+}
+
+/* ---------------------------------------------------------------- reading */
 
 static celspan_status keep_row(celspan_context *context, cs_tile_log *log, cs_tile_row row) {
   return CS_APPEND(context, log->rows, log->count, log->capacity, row);
 }
 
-static celspan_status read_rows(celspan_context *context, cs_tile_log *log, FILE *file) {
-  char line[LINE_SIZE], end;
+/* Reads rows up to the first line that does not check. *trusted: the bytes before that line. */
+static celspan_status read_rows(celspan_context *context, cs_tile_log *log, FILE *file,
+                                off_t *trusted) {
+  char line[LINE_SIZE];
   cs_tile_row row;
-  while (fgets(line, sizeof line, file))
-    if (sscanf(line, "row %" SCNd32 " %" SCNd32 " %" SCNd32 " %" SCNd32 "%c", &row.level, &row.row,
-               &row.first, &row.end, &end) == 5 &&
-        end == '\n')
-      CS_TRY(keep_row(context, log, row));
-  return CELSPAN_OK;
+  *trusted = ftello(file);
+  while (fgets(line, sizeof line, file) && read_row(line, &log->check, &row)) {
+    CS_TRY(keep_row(context, log, row));
+    *trusted = ftello(file);
+  }
+  log->written = log->count;
+  return ferror(file) ? fail(context, log->path, "cannot read") : CELSPAN_OK;
 }
 
 static bool exists(const char *path) {
@@ -121,33 +148,33 @@ static bool exists(const char *path) {
   return stat(path, &found) == 0;
 }
 
-celspan_status cs_tile_log_read(celspan_context *context, const cs_pyramid *pyramid,
+static bool has_head(const cs_tile_log *log, FILE *file) {
+  char head[LINE_SIZE], line[LINE_SIZE];
+  write_head(log, head);
+  return fgets(line, sizeof line, file) && strcmp(line, head) == 0;
+}
+
+celspan_status cs_tile_log_find(celspan_context *context, const cs_pyramid *pyramid,
                                 const cs_tile_inputs *inputs, cs_tile_log *log,
                                 cs_tile_log_state *state) {
-  char head[LINE_SIZE], line[LINE_SIZE], folder[4096];
+  char folder[4096];
   log->digest = digest_of(inputs, pyramid);
+  log->check = log->digest;
   log->descriptor = -1;
   size_t size = sizeof log->path;
   if (snprintf(log->path, size, "%s/%s.tiles", pyramid->folder, pyramid->name) >= (int)size ||
       !cs_pyramid_tiles_folder(pyramid, folder, sizeof folder))
     return cs_pyramid_too_long(context, pyramid);
-  write_head(log, head);
   FILE *file = fopen(log->path, "r");
   if (!file && errno != ENOENT)
     return fail(context, log->path, "cannot read");
-  if (!file) {
+  if (file)
+    *state = has_head(log, file) ? CS_TILE_LOG_SAME : CS_TILE_LOG_OTHER;
+  else
     *state = exists(folder) ? CS_TILE_LOG_FOREIGN : CS_TILE_LOG_NEW;
-    return CELSPAN_OK;
-  }
-  celspan_status status = CELSPAN_OK;
-  *state = CS_TILE_LOG_OTHER;
-  if (fgets(line, sizeof line, file) && strcmp(line, head) == 0) {
-    *state = CS_TILE_LOG_SAME;
-    status = read_rows(context, log, file);
-    log->written = log->count;
-  }
-  fclose(file);
-  return status;
+  if (file)
+    fclose(file);
+  return CELSPAN_OK;
 }
 
 bool cs_tile_log_has(const cs_tile_log *log, cs_tile_row row) {
@@ -167,7 +194,7 @@ static celspan_status lock(celspan_context *context, cs_tile_log *log) {
   log->descriptor = cs_journal_open(log->path);
   if (log->descriptor < 0)
     return fail(context, log->path, "cannot write");
-  if (flock(log->descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+  if (!cs_temporary_claim(log->descriptor))
     return cs_fail(context, CELSPAN_OUTPUT, "%s: another celspan is writing these tiles",
                    log->path);
   return CELSPAN_OK;
@@ -184,7 +211,6 @@ static int remove_one(const char *path, const struct stat *found, int kind, stru
 celspan_status cs_tile_log_clear(celspan_context *context, const cs_pyramid *pyramid,
                                  cs_tile_log *log) {
   char folder[4096];
-  log->count = log->written = 0;
   CS_TRY(lock(context, log));
   if (cs_pyramid_tiles_folder(pyramid, folder, sizeof folder) && exists(folder) &&
       nftw(folder, remove_one, OPEN_FOLDERS, FTW_DEPTH | FTW_PHYS) != 0)
@@ -203,17 +229,58 @@ static celspan_status append(celspan_context *context, const cs_tile_log *log, c
                                                : fail(context, log->path, "cannot write");
 }
 
-celspan_status cs_tile_log_open(celspan_context *context, cs_tile_log *log) {
+/* Reads the rows of a locked record, and cuts off what follows them. */
+static celspan_status read_locked(celspan_context *context, cs_tile_log *log) {
+  off_t trusted = 0;
+  FILE *file = fopen(log->path, "r");
+  if (!file)
+    return fail(context, log->path, "cannot read");
+  celspan_status status =
+      has_head(log, file)
+          ? read_rows(context, log, file, &trusted)
+          : cs_fail(context, CELSPAN_OUTPUT, "%s: another celspan has just replaced it", log->path);
+  fclose(file);
+  if (status == CELSPAN_OK && ftruncate(log->descriptor, trusted) != 0)
+    return fail(context, log->path, "cannot write");
+  return status;
+}
+
+static bool is_any(const char *pattern, const char *name) { return pattern && name; }
+
+static void sweep(const char *folder) {
+  char inside[4096];
+  if (snprintf(inside, sizeof inside, "%s/", folder) < (int)sizeof inside)
+    cs_temporary_sweep(inside, is_any);
+}
+
+static int sweep_folder(const char *path, const struct stat *found, int kind, struct FTW *where) {
+  (void)found, (void)where;
+  if (kind == FTW_D)
+    sweep(path);
+  return 0;
+}
+
+/* The tiles, the page, and the viewer. */
+static void sweep_all(const cs_pyramid *pyramid) {
+  char folder[4096];
+  sweep(pyramid->folder);
+  if (cs_pyramid_tiles_folder(pyramid, folder, sizeof folder))
+    nftw(folder, sweep_folder, OPEN_FOLDERS, FTW_PHYS);
+  if (snprintf(folder, sizeof folder, "%s/openseadragon", pyramid->folder) < (int)sizeof folder)
+    sweep(folder);
+}
+
+celspan_status cs_tile_log_open(celspan_context *context, const cs_pyramid *pyramid,
+                                cs_tile_log *log) {
   char head[LINE_SIZE];
   if (!cs_journal_make_folders(log->path))
     return fail(context, log->path, "cannot make its folder");
   CS_TRY(lock(context, log));
-  off_t size = lseek(log->descriptor, 0, SEEK_END);
+  sweep_all(pyramid);
+  if (lseek(log->descriptor, 0, SEEK_END) > 0)
+    return read_locked(context, log);
   write_head(log, head);
-  if (size <= 0)
-    return append(context, log, head);
-  return cs_journal_end_last(log->descriptor) ? CELSPAN_OK
-                                              : fail(context, log->path, "cannot write");
+  return append(context, log, head);
 }
 
 celspan_status cs_tile_log_flush(celspan_context *context, cs_tile_log *log) {
@@ -223,8 +290,7 @@ celspan_status cs_tile_log_flush(celspan_context *context, cs_tile_log *log) {
   if (syncfs(log->descriptor) != 0)
     return fail(context, log->path, "cannot sync the tiles");
   for (; log->written < log->count; log->written++) {
-    const cs_tile_row *row = &log->rows[log->written];
-    snprintf(line, sizeof line, "row %d %d %d %d\n", row->level, row->row, row->first, row->end);
+    write_row(log->rows[log->written], &log->check, line);
     CS_TRY(append(context, log, line));
   }
   log->synced = cs_clock_seconds();

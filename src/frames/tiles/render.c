@@ -65,28 +65,31 @@ static void mean_over(const cs_tile_means *base, double x0, double x1, double y0
     out[c] = (float)(sum[c] / all);
 }
 
-static celspan_status put_rows(celspan_context *context, const cs_tile_means *base, int32_t width,
-                               int32_t height, float *row, const celspan_sink *sink) {
-  double across = (double)base->width / width, down = (double)base->height / height;
+/* The crop of the level that the frame describes, row by row. */
+static celspan_status put_rows(celspan_context *context, const cs_tile_means *base,
+                               const celspan_frame_desc *frame, float *row,
+                               const celspan_sink *sink) {
+  double across = (double)base->width / frame->width, down = (double)base->height / frame->height;
+  int32_t left = frame->crop_x, top = frame->crop_y, width = frame->crop_width;
   const celspan_span span = {.x0 = 0, .x1 = width, .kind = CELSPAN_SPAN_ARRAY, .array = row};
-  CS_TRY(sink->begin(sink->user, context, width, height));
-  for (int32_t y = 0; y < height; y++) {
+  CS_TRY(sink->begin(sink->user, context, width, frame->crop_height));
+  for (int32_t y = top; y < top + frame->crop_height; y++) {
     if (cs_interrupt_signal())
       return CELSPAN_CANCELLED;
-    for (int32_t x = 0; x < width; x++)
-      mean_over(base, x * across, (x + 1) * across, y * down, (y + 1) * down, row + 4 * (size_t)x);
-    CS_TRY(sink->row(sink->user, context, y, &span, 1));
+    for (int32_t x = left; x < left + width; x++)
+      mean_over(base, x * across, (x + 1) * across, y * down, (y + 1) * down,
+                row + 4 * (size_t)(x - left));
+    CS_TRY(sink->row(sink->user, context, y - top, &span, 1));
   }
   return CELSPAN_OK;
 }
 
-/* Puts a level of width x height pixels into a sink. */
+/* Puts the crop of a level into a sink, as rendering it would. */
 static celspan_status render_mean(celspan_context *context, const cs_tile_means *base,
-                                  int32_t width, int32_t height, const celspan_sink *sink) {
-  size_t size = (size_t)width * 4 * sizeof(float);
+                                  const celspan_frame_desc *frame, const celspan_sink *sink) {
+  size_t size = (size_t)frame->crop_width * 4 * sizeof(float);
   float *row = cs_mem_array(context->memory, 1, size);
-  celspan_status status =
-      row ? put_rows(context, base, width, height, row, sink) : cs_fail_memory(context);
+  celspan_status status = row ? put_rows(context, base, frame, row, sink) : cs_fail_memory(context);
   status = sink->end(sink->user, context, status);
   cs_mem_free(context->memory, row, size);
   return status;
@@ -118,7 +121,6 @@ static bool go_on(void *user, int32_t rows_done, int32_t rows_total) {
   return render->tick(render->user);
 }
 
-/* The frame of a whole level; the caller sets the crop. */
 static celspan_frame_desc level_frame(cs_tile_render *render, int32_t level) {
   celspan_frame_desc frame = *render->frame;
   cs_pyramid_size(render->pyramid, level, &frame.width, &frame.height);
@@ -144,28 +146,32 @@ static celspan_status render_base(cs_tile_render *render) {
   return status;
 }
 
-static celspan_status render_run(cs_tile_render *render, int32_t level, cs_pyramid_box tiles) {
+/* Draws the pixels of a level into a sink: as means, or from the scene. */
+static celspan_status draw_level(cs_tile_render *render, int32_t level, cs_pyramid_box pixels,
+                                 const celspan_sink *sink) {
   celspan_frame_desc frame = level_frame(render, level);
-  cs_pyramid_box pixels = cs_pyramid_pixels(render->pyramid, level, &tiles);
-  bool is_mean_level = is_mean(render->pyramid, level);
-  if (is_mean_level && !render->means.pixels)
-    CS_TRY(render_base(render));
-  cs_tile_rows rows = {.output = &render->output,
-                       .level = level,
-                       .tiles = tiles,
-                       .pixels = pixels,
-                       .next = tiles.y0,
-                       .workers = render->threads,
-                       .finished = finished,
-                       .user = render};
-  celspan_sink sink = cs_tile_rows_sink(&rows);
-  if (is_mean_level)
-    return render_mean(render->context, &render->means, frame.width, frame.height, &sink);
   frame.crop_x = pixels.x0;
   frame.crop_y = pixels.y0;
   frame.crop_width = pixels.x1 - pixels.x0;
   frame.crop_height = pixels.y1 - pixels.y0;
-  return render->draw(render->user, &frame, &sink);
+  return is_mean(render->pyramid, level)
+             ? render_mean(render->context, &render->means, &frame, sink)
+             : render->draw(render->user, &frame, sink);
+}
+
+static celspan_status render_run(cs_tile_render *render, int32_t level, cs_pyramid_box tiles) {
+  cs_tile_rows rows = {.output = &render->output,
+                       .level = level,
+                       .tiles = tiles,
+                       .pixels = cs_pyramid_pixels(render->pyramid, level, &tiles),
+                       .next = tiles.y0,
+                       .workers = render->threads,
+                       .finished = finished,
+                       .user = render};
+  if (is_mean(render->pyramid, level) && !render->means.pixels)
+    CS_TRY(render_base(render));
+  celspan_sink sink = cs_tile_rows_sink(&rows);
+  return draw_level(render, level, rows.pixels, &sink);
 }
 
 static celspan_status render_job(cs_tile_render *render, const cs_tile_job *job) {

@@ -11,6 +11,7 @@
 #include "frames/process/journal.h"
 #include "output/sinks/pixels.h"
 #include "output/sinks/sink.h"
+#include "output/sinks/temporary.h"
 
 enum {
   PATH_SIZE = 4096,
@@ -81,8 +82,8 @@ void cs_tile_output_skip(cs_tile_output *output, const float rgba[4]) {
  * false: the file system has no links, or the file has too many, so that the tile must be
  * written. */
 static bool link_file(const char *from, char *to) {
-  char temporary[PATH_SIZE + 16];
-  snprintf(temporary, sizeof temporary, "%s.link.part", to);
+  char temporary[PATH_SIZE + CS_TEMPORARY_EXTRA];
+  cs_temporary_name(to, (unsigned)getpid(), temporary, sizeof temporary);
   unlink(temporary);
   bool is_linked = link(from, temporary) == 0;
   if (!is_linked && errno == ENOENT && cs_journal_make_folders(to))
@@ -301,7 +302,10 @@ static celspan_status write_tile_row(cs_tile_rows *rows, celspan_context *contex
 static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
   cs_tile_rows *rows = user;
   const cs_pyramid *pyramid = rows->output->pyramid;
-  (void)width, (void)height;
+  const cs_pyramid_box *pixels = &rows->pixels;
+  if (width != pixels->x1 - pixels->x0 || height != pixels->y1 - pixels->y0)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "tiles of %d x %d pixels cannot show %d x %d",
+                   pixels->x1 - pixels->x0, pixels->y1 - pixels->y0, width, height);
   rows->ring_count = pyramid->tile + 2 * pyramid->overlap;
   CS_TRY(CS_MAKE(context, rows->ring, (size_t)rows->ring_count));
   CS_TRY(CS_MAKE(context, rows->writers, (size_t)rows->workers));

@@ -64,6 +64,6 @@ typedef struct cs_tile_rows {
   struct cs_tile_writer *writers; /* one for each worker */
 } cs_tile_rows;
 
-/* A sink for the given pixels of the level. rows: all fields up to `user` are set, and `next` is
- * tiles.y0; it must live as long as the sink. */
+/* A sink for the given pixels of the level, which fails if it gets a picture of another size. rows:
+ * all fields up to `user` are set, and `next` is tiles.y0; it must live as long as the sink. */
 celspan_sink cs_tile_rows_sink(cs_tile_rows *rows);

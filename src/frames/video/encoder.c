@@ -6,8 +6,10 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/thread_pool.h"
 #include "frames/process/interrupt.h"
 
+#define THREADS_NEEDED 32          /* as many as the codecs of a film may start */
 #define NANOSECONDS 1000000000     /* in a second */
 #define PAUSE_NANOSECONDS 50000000 /* between two checks for a signal */
 #define LAST_SECONDS 2.0 /* for an encoder that has stopped reading to write its message and end */
@@ -68,8 +70,9 @@ static celspan_status fail_start(const cs_encoder *encoder, const char *program,
     return cs_fail(encoder->context, CELSPAN_OUTPUT,
                    "%s: %s, which makes videos, is not in PATH: install the package ffmpeg",
                    encoder->name, program);
-  return cs_fail(encoder->context, CELSPAN_OUTPUT, "%s: %s cannot be started: %s", encoder->name,
-                 program, strerror(error));
+  bool is_starved = error == ENOMEM || error == EAGAIN;
+  return cs_fail(encoder->context, is_starved ? CELSPAN_NO_MEMORY : CELSPAN_OUTPUT,
+                 "%s: %s cannot be started: %s", encoder->name, program, strerror(error));
 }
 
 static void free_places(cs_encoder *encoder) {
@@ -92,8 +95,8 @@ static celspan_status start_writer(cs_encoder *encoder) {
     return CELSPAN_OK;
   close(encoder->process.input);
   cs_child_end(&encoder->process, 0);
-  return cs_fail(encoder->context, CELSPAN_LIMIT, "%s: no thread can be started for the encoder",
-                 encoder->name);
+  return cs_fail(encoder->context, CELSPAN_NO_MEMORY,
+                 "%s: the system allows no thread for the encoder", encoder->name);
 }
 
 static celspan_status start(cs_encoder *encoder, const char *const *arguments) {
@@ -150,6 +153,15 @@ static celspan_status stop(cs_encoder *encoder) {
   return cs_fail(encoder->context, CELSPAN_CANCELLED, "%s: stopped", encoder->name);
 }
 
+/* ffmpeg does not say that its codecs could start no threads. */
+static celspan_status fail_threads(const cs_encoder *encoder) {
+  char how[CS_CHILD_ERROR + 64];
+  cs_child_describe(&encoder->process, how, sizeof how);
+  return cs_fail(encoder->context, CELSPAN_NO_MEMORY,
+                 "%s: ffmpeg %s; the system allows fewer than %d more threads, which it may need",
+                 encoder->name, how, THREADS_NEEDED);
+}
+
 /* Waits for the end of an encoder that has read all frames, or has stopped reading. */
 static celspan_status end(cs_encoder *encoder, bool has_read_all) {
   char how[CS_CHILD_ERROR + 64];
@@ -159,6 +171,8 @@ static celspan_status end(cs_encoder *encoder, bool has_read_all) {
     return stop(encoder);
   if (has_read_all && process->exit_code == 0)
     return CELSPAN_OK;
+  if (process->exit_code > 0 && !cs_threads_are_free(THREADS_NEEDED))
+    return fail_threads(encoder);
   if (encoder->error)
     return cs_fail(encoder->context, CELSPAN_OUTPUT, "%s: cannot write to ffmpeg: %s",
                    encoder->name, strerror(encoder->error));

@@ -5,6 +5,7 @@
 #include "lua/bind/caller.h"
 #include "lua/bind/form.h"
 #include "lua/bind/host.h"
+#include "lua/bind/list.h"
 #include "lua/bind/named.h"
 #include "lua/bind/userdata.h"
 
@@ -26,8 +27,40 @@ static void freeze(lua_State *L, const cs_noun *noun, int fields) {
   lua_setiuservalue(L, -2, 1);
 }
 
+static void copy_into(lua_State *L, int from, int to) {
+  for (lua_pushnil(L); lua_next(L, from); lua_pop(L, 1)) {
+    lua_pushvalue(L, -2);
+    lua_pushvalue(L, -2);
+    lua_rawset(L, to);
+  }
+}
+
+/* Replaces the table at `fields` by a copy without the places of its list that hold nil or false,
+ * if there are any and the noun leaves them out. */
+static void close_gaps(lua_State *L, const cs_noun *noun, int fields) {
+  if (!noun->has_gaps || !lua_istable(L, fields))
+    return;
+  lua_Integer length = cs_list_length(L, fields), kept = 0;
+  if (length > CS_FORM_ITEMS_MOST || !cs_list_find_gap(L, fields, length, true))
+    return;
+  lua_newtable(L);
+  copy_into(L, fields, lua_gettop(L));
+  for (lua_Integer i = 1; i <= length; i++) {
+    lua_rawgeti(L, fields, i);
+    lua_pushnil(L);
+    lua_rawseti(L, -3, i);
+    if (lua_toboolean(L, -1))
+      lua_rawseti(L, -2, ++kept);
+    else
+      lua_pop(L, 1);
+  }
+  lua_replace(L, fields);
+}
+
 /* like: whose line and name the value gets; NULL: the line of the caller. */
 static void make(lua_State *L, const cs_noun *noun, int fields, const cs_userdata *like) {
+  fields = lua_absindex(L, fields);
+  close_gaps(L, noun, fields);
   cs_form form = cs_form_open(L, noun, fields);
   celspan_context *context = cs_host_context(L);
   if (like)
@@ -68,16 +101,8 @@ void cs_construct_push(lua_State *L, const cs_noun *noun) {
 
 /* ---------------------------------------------------------------- with */
 
-static void copy_into(lua_State *L, int from, int to) {
-  for (lua_pushnil(L); lua_next(L, from); lua_pop(L, 1)) {
-    lua_pushvalue(L, -2);
-    lua_pushvalue(L, -2);
-    lua_rawset(L, to);
-  }
-}
-
 static void clear_list(lua_State *L, int table) {
-  for (lua_Integer i = (lua_Integer)lua_rawlen(L, table); i >= 1; i--) {
+  for (lua_Integer i = cs_list_length(L, table); i >= 1; i--) {
     lua_pushnil(L);
     lua_rawseti(L, table, i);
   }

@@ -27,7 +27,11 @@ const char *cs_files_find_from(lua_State *L, const char *folder, const char *nam
   const char *beside = is_relative && cs_host_push_folder(L) ? push_in_folder(L, name) : NULL;
   if (!near && !beside)
     near = lua_pushstring(L, name);
+  if (near)
+    cs_host_admit(L, near);
   bool is_near = near && (!beside || strcmp(near, beside) == 0 || exists(near));
+  if (!is_near)
+    cs_host_admit(L, beside);
   bool is_found = is_near || !near || exists(beside);
   *tried = is_found ? NULL : beside;
   const char *path = is_near || !is_found ? near : beside;
@@ -36,9 +40,7 @@ const char *cs_files_find_from(lua_State *L, const char *folder, const char *nam
   for (int i = !!near + !!beside; i > 0; i--)
     lua_remove(L, -3);
   *tried = lua_tostring(L, -1);
-  path = lua_tostring(L, -2);
-  cs_host_admit(L, path);
-  return path;
+  return lua_tostring(L, -2);
 }
 
 const char *cs_files_find(lua_State *L, const char *name, const char **tried) {

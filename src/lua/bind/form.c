@@ -7,11 +7,10 @@
 #include "base/number.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/host.h"
+#include "lua/bind/list.h"
 #include "lua/bind/numbers.h"
 #include "lua/bind/unknown.h"
 #include "lua/bind/userdata.h"
-
-#define MOST_ITEMS 10000000 /* of a list: times the size of one it fits into 32 bits */
 
 _Noreturn void cs_form_fail(const cs_form *form, const char *format, ...) {
   va_list arguments;
@@ -38,20 +37,29 @@ static bool is_known(const cs_noun *noun, const char *name) {
   return false;
 }
 
-static void check_position(const cs_form *form, lua_Integer place, lua_Integer length) {
+static void check_position(const cs_form *form, lua_Integer place) {
   if (form->noun->list == CS_LIST_NONE)
     cs_form_fail(form, "takes named fields only, but was given a value at place %I",
                  (LUAI_UACINT)place);
-  if (place < 1 || place > length)
+  if (place < 1)
+    cs_form_fail(form, "there is a value at place %I of the list, which begins at place 1",
+                 (LUAI_UACINT)place);
+}
+
+/* A list without a value at some place would end there in one process and later in another. */
+static void check_gaps(const cs_form *form) {
+  lua_State *L = form->L;
+  lua_Integer length = cs_form_length(form);
+  lua_Integer gap = cs_list_find_gap(L, form->table, length, false);
+  if (gap > 0)
     cs_form_fail(form, "there is a value at place %I of the list, but none at place %I",
-                 (LUAI_UACINT)place, (LUAI_UACINT)(length + 1));
+                 (LUAI_UACINT)length, (LUAI_UACINT)gap);
 }
 
 /* Checks all names before any value, so that a mistyped name is what people read about. Of
  * several unknown names the least is reported, whatever the order of the table. */
 static void check_names(const cs_form *form) {
   lua_State *L = form->L;
-  lua_Integer length = (lua_Integer)lua_rawlen(L, form->table);
   const char *unknown = NULL;
   for (lua_pushnil(L); lua_next(L, form->table); lua_pop(L, 1)) {
     if (lua_type(L, -2) == LUA_TSTRING) {
@@ -59,12 +67,13 @@ static void check_names(const cs_form *form) {
       if (!is_known(form->noun, name) && (!unknown || strcmp(name, unknown) < 0))
         unknown = name;
     } else if (lua_isinteger(L, -2))
-      check_position(form, lua_tointeger(L, -2), length);
+      check_position(form, lua_tointeger(L, -2));
     else
       cs_form_fail(form, "a field's name must be a word, got %s", cs_userdata_type(L, -2));
   }
   if (unknown)
     cs_unknown_fail(L, form->noun, form->table, unknown);
+  check_gaps(form);
 }
 
 static void check_either(const cs_form *form) {
@@ -139,10 +148,10 @@ celspan_texture *cs_form_texture(const cs_form *form, const char *name) {
 /* ---------------------------------------------------------------- lists */
 
 int cs_form_length(const cs_form *form) {
-  size_t length = lua_rawlen(form->L, form->table);
-  if (length > MOST_ITEMS)
+  lua_Integer length = cs_list_length(form->L, form->table);
+  if (length > CS_FORM_ITEMS_MOST)
     cs_form_fail(form, "the list has %I items; at most %d are allowed", (LUAI_UACINT)length,
-                 MOST_ITEMS);
+                 CS_FORM_ITEMS_MOST);
   return (int)length;
 }
 
@@ -156,9 +165,9 @@ void cs_form_item(const cs_form *form, int i, int type, const char *what, const 
 }
 
 void *cs_form_scratch(lua_State *L, size_t count, size_t size) {
-  if (count > MOST_ITEMS)
+  if (count > CS_FORM_ITEMS_MOST)
     cs_caller_error(L, "the list has %I items; at most %d are allowed", (LUAI_UACINT)count,
-                    MOST_ITEMS);
+                    CS_FORM_ITEMS_MOST);
   return lua_newuserdatauv(L, count ? count * size : 1, 0);
 }
 
@@ -195,7 +204,7 @@ double *cs_form_array(const cs_form *form, const char *name, size_t *count) {
   if (type != LUA_TTABLE)
     cs_form_fail(form, "field '%s' must be an array of numbers, got %s", name,
                  cs_userdata_type(L, -1));
-  *count = lua_rawlen(L, place);
+  *count = (size_t)cs_list_length(L, place);
   const cs_numbers_name list = {.noun = form->noun->name, .field = name};
   double *numbers = cs_form_scratch(L, *count, sizeof *numbers);
   cs_numbers_read_all(L, place, &list, (int)*count, numbers);

@@ -36,6 +36,7 @@ celspan_texture *cs_form_texture(const cs_form *form, const char *name);
 
 /* The array part. */
 int cs_form_length(const cs_form *form);
+#define CS_FORM_ITEMS_MOST 10000000 /* times the size of an item it fits into 32 bits */
 /* Pushes item i; raises unless its type is `type`. what: "point", "stop". */
 void cs_form_item(const cs_form *form, int i, int type, const char *what, const char *shape);
 /* Points {x, y} of the table at index, or {x, y, w} where weights is not NULL. New scratch memory,

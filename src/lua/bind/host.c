@@ -158,6 +158,11 @@ void cs_host_end(lua_State *L) {
     rules->end(rules->user);
 }
 
+bool cs_host_admits(lua_State *L, const char *path) {
+  const cs_host_rules *rules = cs_host_get(L)->rules;
+  return !rules || !rules->admits || rules->admits(rules->user, path);
+}
+
 void cs_host_admit(lua_State *L, const char *path) {
   const cs_host_rules *rules = cs_host_get(L)->rules;
   if (rules && rules->admit)

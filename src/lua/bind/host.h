@@ -25,7 +25,10 @@ typedef struct cs_host_rules {
   /* Before and after a call into the script; calls may be nested. number: of the frame; else 0. */
   void (*begin)(void *user, lua_State *L, cs_host_call call, int64_t number);
   void (*end)(void *user);
-  /* Raises unless the script may read the file or folder at this path; NULL: it may read all. */
+  /* Whether the script may read the file or folder at this path; the answer does not depend on
+   * whether it exists. NULL: it may read all. */
+  bool (*admits)(void *user, const char *path);
+  /* Raises if it may not. */
   void (*admit)(void *user, lua_State *L, const char *path);
   /* Whether it may write there; else the sentence that refuses it is in the context. NULL: it may
    * write everywhere. */
@@ -71,7 +74,9 @@ celspan_status cs_host_blame(lua_State *L, const char *message);
 /* Before and after a call into the script; without rules nothing happens. */
 void cs_host_begin(lua_State *L, cs_host_call call, int64_t number);
 void cs_host_end(lua_State *L);
-/* Raises unless the script may read there. */
+/* Whether the script may read there. */
+bool cs_host_admits(lua_State *L, const char *path);
+/* Raises unless it may. Called before anything is asked about the file, also whether it exists. */
 void cs_host_admit(lua_State *L, const char *path);
 /* Whether the script may write there; else the sentence is in the context. */
 bool cs_host_may_write(lua_State *L, const char *path);

@@ -120,6 +120,7 @@ typedef struct cs_noun {
   const char *item_written;  /* the type of an item in annotations */
   const char *item_about;    /* what the items are, for people; NULL: nothing to say */
   const cs_field *fields;    /* ended by a row without a name */
+  bool has_gaps;             /* ITEMS: places with nil or false are left out */
   const char *places;        /* TUPLE: "{x, y, w, h}" for messages; NULL: they have no names */
   const char *either[2];     /* fields of which only one may be given; NULL: none */
   const char *const *second; /* fields that go with either[1] alone, ended by NULL; NULL: none */

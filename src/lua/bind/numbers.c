@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "lua/bind/caller.h"
+#include "lua/bind/list.h"
 #include "lua/bind/unknown.h"
 #include "lua/bind/userdata.h"
 
@@ -69,7 +70,7 @@ static int fail_list(lua_State *L, int index, const cs_numbers_name *name, int l
   if (places && cs_unknown_push_places(L, index, places))
     return cs_caller_error(L, "%s: %s must be %s: %s", name->noun, whole, shape,
                            lua_tostring(L, -1));
-  int length = (int)lua_rawlen(L, index);
+  int length = (int)cs_list_length(L, index);
   if (length == 0 && lua_rawgeti(L, index, least) == LUA_TNIL) {
     bool has_names = lua_next(L, index) != 0; /* after the nil that is on top */
     return cs_caller_error(L, "%s: %s must be %s, got %s", name->noun, whole, shape,
@@ -99,7 +100,7 @@ int cs_numbers_read(lua_State *L, int index, const cs_numbers_name *name, int le
                     double *out) {
   index = lua_absindex(L, index);
   bool is_table = lua_type(L, index) == LUA_TTABLE;
-  size_t length = is_table ? lua_rawlen(L, index) : 0;
+  size_t length = is_table ? (size_t)cs_list_length(L, index) : 0;
   if (!is_table || length < (size_t)least || length > (size_t)most ||
       !read(L, index, (int)length, out))
     fail_list(L, index, name, least, most);

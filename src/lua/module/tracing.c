@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "lua/bind/host.h"
+#include "lua/bind/list.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/core.h"
@@ -45,7 +46,7 @@ static celspan_trace_desc read_options(lua_State *L, unsigned char codes[3 * MOS
   desc.picture.file = luaL_checkstring(L, 1);
   luaL_checktype(L, 2, LUA_TTABLE);
   if (lua_getfield(L, 2, "colours") == LUA_TTABLE) {
-    desc.colours = (int32_t)lua_rawlen(L, -1);
+    desc.colours = (int32_t)cs_list_length(L, -1);
     desc.codes = codes;
     for (int i = 0; i < desc.colours && i < MOST_COLOURS; i++)
       if (!read_code(L, i + 1, codes + 3 * i))

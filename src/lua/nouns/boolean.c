@@ -37,10 +37,10 @@ static const cs_field no_fields[] = {{0}};
 #define BOOLEAN(noun)                                                                              \
   .name = #noun, .kind = &cs_kind_object, .fields = no_fields, .item = "object",                   \
   .item_written = "celspan.shape", .create = create_##noun
-const cs_noun cs_noun_union = {BOOLEAN(union), .list = CS_LIST_ITEMS};
+const cs_noun cs_noun_union = {BOOLEAN(union), .list = CS_LIST_ITEMS, .has_gaps = true};
 const cs_noun cs_noun_intersection = {BOOLEAN(intersection), .list = CS_LIST_ITEMS};
 const cs_noun cs_noun_difference = {BOOLEAN(difference), .list = CS_LIST_ITEMS};
-const cs_noun cs_noun_xor = {BOOLEAN(xor), .list = CS_LIST_ITEMS};
+const cs_noun cs_noun_xor = {BOOLEAN(xor), .list = CS_LIST_ITEMS, .has_gaps = true};
 static const cs_noun noun_clip = {BOOLEAN(clip), .list = CS_LIST_TUPLE};
 
 int cs_nouns_clip(lua_State *L) {

@@ -1,5 +1,6 @@
 #include "lua/nouns/light.h"
 
+#include "lua/bind/list.h"
 #include "lua/bind/numbers.h"
 #include "lua/nouns/nouns.h"
 
@@ -38,8 +39,8 @@ static bool has_field(lua_State *L, const char *name) {
 /* Whether all keys of the table on top of the stack are names, except those of colours: for these,
  * the error says how to write the numbers. */
 static bool has_names_alone(lua_State *L) {
-  return lua_rawlen(L, -1) == 0 && !has_field(L, "r") && !has_field(L, "g") && !has_field(L, "b") &&
-         (lua_pushnil(L), lua_next(L, -2)) && (lua_pop(L, 2), true);
+  return cs_list_length(L, -1) == 0 && !has_field(L, "r") && !has_field(L, "g") &&
+         !has_field(L, "b") && (lua_pushnil(L), lua_next(L, -2)) && (lua_pop(L, 2), true);
 }
 
 /* Whether it is a light with a shape, well or badly described. */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "lua/bind/caller.h"
+#include "lua/bind/list.h"
 #include "lua/bind/numbers.h"
 #include "lua/bind/userdata.h"
 #include "model/scene/antialias.h"
@@ -259,10 +260,10 @@ static celspan_exposure read_exposure(lua_State *L, int list, int anchors, int i
 void cs_options_exposures(lua_State *L, int index, const char *name, celspan_frame_desc *desc) {
   index = lua_absindex(L, index);
   const cs_userdata *rostrum = cs_userdata_test(L, index, &cs_kind_rostrum);
-  if (!rostrum && (!lua_istable(L, index) || lua_rawlen(L, index) > 100000))
+  if (!rostrum && (!lua_istable(L, index) || cs_list_length(L, index) > 100000))
     cs_caller_error(L, "%s must be a rostrum or a list {{rostrum, weight}, ...}, got %s", name,
                     lua_istable(L, index) ? "a list that is too long" : cs_userdata_type(L, index));
-  size_t count = rostrum ? 1 : lua_rawlen(L, index);
+  size_t count = rostrum ? 1 : (size_t)cs_list_length(L, index);
   celspan_exposure *exposures = cs_form_scratch(L, count, sizeof *exposures);
   lua_newtable(L);
   int anchors = lua_gettop(L);

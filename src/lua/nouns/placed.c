@@ -6,6 +6,7 @@
 #include "lua/bind/construct.h"
 #include "lua/bind/form.h"
 #include "lua/bind/host.h"
+#include "lua/bind/list.h"
 #include "lua/bind/named.h"
 #include "lua/bind/numbers.h"
 #include "lua/nouns/nouns.h"
@@ -130,10 +131,10 @@ static void read_corners(lua_State *L, int index, const char *which, celspan_poi
                           .item = lua_pushfstring(L, "point %%d of %s: its value %%d", which),
                           .shape = "{x, y}"};
   bool is_table = lua_istable(L, index);
-  if (!is_table || lua_rawlen(L, index) != 4)
+  if (!is_table || cs_list_length(L, index) != 4)
     cs_caller_error(L, "quad: %s must be four points {{x, y}, {x, y}, {x, y}, {x, y}}, got %s",
                     which,
-                    is_table ? lua_pushfstring(L, "%d of them", (int)lua_rawlen(L, index))
+                    is_table ? lua_pushfstring(L, "%d of them", (int)cs_list_length(L, index))
                              : cs_userdata_type(L, index));
   for (int i = 0; i < 4; i++) {
     double pair[2];

@@ -3,6 +3,7 @@
 
 #include "lua/bind/fields.h"
 #include "lua/bind/host.h"
+#include "lua/bind/list.h"
 #include "lua/bind/numbers.h"
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/texture.h"
@@ -120,7 +121,7 @@ static void create_nurbs(const cs_form *form, cs_userdata *value) {
   if (cs_form_get(form, "points") != LUA_TTABLE)
     cs_form_fail(form, "field 'points' must be an array of points {x, y} or {x, y, weight}, got %s",
                  cs_userdata_type(L, -1));
-  desc.point_count = lua_rawlen(L, -1);
+  desc.point_count = (size_t)cs_list_length(L, -1);
   desc.points = cs_form_points(form, -1, desc.point_count, &desc.weights);
   desc.knots = cs_form_array(form, "knots", &desc.knot_count);
   celspan_object *object = NULL;

@@ -7,6 +7,7 @@
 #include "lua/bind/caller.h"
 #include "lua/bind/fields.h"
 #include "lua/bind/host.h"
+#include "lua/bind/list.h"
 #include "lua/bind/lua_error.h"
 #include "lua/bind/put.h"
 #include "lua/nouns/nouns.h"
@@ -53,9 +54,9 @@ static celspan_paint *read_paints(const cs_form *form, int i, size_t *count) {
   if (lua_rawget(L, span) == LUA_TTABLE) {
     from = lua_gettop(L);
     first = 1;
-    *count = lua_rawlen(L, from);
+    *count = (size_t)cs_list_length(L, from);
   } else
-    *count = lua_rawlen(L, span) >= 4 ? 2 : 1;
+    *count = cs_list_length(L, span) >= 4 ? 2 : 1;
   celspan_paint *paints = cs_form_scratch(L, *count, sizeof *paints);
   for (size_t p = 0; p < *count; p++)
     paints[p] = cs_form_tuple_paint(form, from, first + (int)p, "span", i);

@@ -3,6 +3,7 @@
 #include "lua/bind/construct.h"
 #include "lua/bind/fields.h"
 #include "lua/bind/host.h"
+#include "lua/bind/list.h"
 #include "lua/bind/numbers.h"
 #include "lua/nouns/nouns.h"
 
@@ -15,7 +16,7 @@ static void read_points(const cs_form *form, celspan_stroke_desc *desc) {
   if (type != LUA_TTABLE)
     cs_form_fail(form, "field 'points' must be an array of points {x, y} or {x, y, width}, got %s",
                  cs_userdata_type(L, -1));
-  size_t count = lua_rawlen(L, list);
+  size_t count = (size_t)cs_list_length(L, list);
   celspan_point *points = cs_form_scratch(L, count, sizeof *points);
   double *widths = cs_form_scratch(L, count, sizeof *widths);
   cs_numbers_name name = {.noun = form->noun->name,

@@ -7,6 +7,7 @@
 #include "lua/bind/fields.h"
 #include "lua/bind/files.h"
 #include "lua/bind/host.h"
+#include "lua/bind/list.h"
 #include "lua/bind/named.h"
 #include "lua/bind/put.h"
 #include "lua/nouns/nouns.h"
@@ -58,7 +59,7 @@ static void read_fonts(const cs_form *form, celspan_text_desc *desc) {
     fonts[desc->font_count++] = read_font(form);
     return;
   }
-  lua_Integer count = (lua_Integer)lua_rawlen(L, list);
+  lua_Integer count = cs_list_length(L, list);
   for (lua_Integer i = 1; i <= count && i <= MOST_FONTS; i++) {
     lua_rawgeti(L, list, i);
     fonts[desc->font_count++] = read_font(form);

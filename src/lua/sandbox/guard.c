@@ -9,6 +9,7 @@
 #include <time.h>
 
 #include "base/context.h"
+#include "base/thread_pool.h"
 #include "lua/bind/caller.h"
 
 enum {
@@ -231,7 +232,7 @@ static void start_watchdog(cs_guard *guard) {
   pthread_condattr_destroy(&attributes);
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
-  guard->has_watchdog = pthread_create(&guard->watchdog, NULL, watch, guard) == 0;
+  guard->has_watchdog = cs_thread_create(&guard->watchdog, watch, guard) == 0;
   pthread_sigmask(SIG_SETMASK, &before, NULL);
   if (!guard->has_watchdog)
     guard->kill = NULL;

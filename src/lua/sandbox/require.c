@@ -44,9 +44,11 @@ static bool push_file(lua_State *L, const char *name, const char *templates, off
     lua_pushlstring(L, templates, length);
     const char *path = luaL_gsub(L, lua_tostring(L, -1), "?", words);
     lua_remove(L, -2);
-    if (length && is_regular(path, size))
+    bool is_admitted = cs_host_admits(L, path);
+    if (length && is_admitted && is_regular(path, size))
       return true;
-    lua_pushfstring(L, "\n\tno file '%s'", path);
+    lua_pushfstring(L, "\n\tno file '%s'%s", path,
+                    is_admitted ? "" : " that the sandbox lets scripts read");
     lua_remove(L, -2);
     lua_concat(L, 2);
     templates += length + (templates[length] == ';');
@@ -67,7 +69,6 @@ static void load_module(lua_State *L, const char *search, const char *name) {
   if (!push_file(L, name, push_templates(L, search), &size))
     luaL_error(L, "module '%s' not found:%s", name, lua_tostring(L, -1));
   const char *path = lua_tostring(L, -1);
-  cs_host_admit(L, path);
   if (size > SOURCE_MOST)
     luaL_error(L, "%s: the module has more than 16 MiB, which is the limit", path);
   cs_guard_charge(L, (uint64_t)size / 16);

@@ -84,10 +84,14 @@ static void begin(void *user, lua_State *L, cs_host_call call, int64_t number) {
 
 static void end(void *user) { cs_guard_end(&((cs_sandbox *)user)->guard); }
 
+static bool admits(void *user, const char *path) {
+  return cs_roots_hold(&((const cs_sandbox *)user)->roots, path);
+}
+
 static void admit(void *user, lua_State *L, const char *path) {
   const cs_sandbox *sandbox = user;
   errno = 0;
-  if (cs_roots_hold(&sandbox->roots, path))
+  if (admits(user, path))
     return;
   if (errno == ENOMEM)
     cs_host_try(L, path, cs_fail_memory(cs_host_context(L)));
@@ -116,6 +120,7 @@ void cs_sandbox_attach(cs_sandbox *sandbox, lua_State *L, bool is_trusted) {
   sandbox->rules = (cs_host_rules){.user = sandbox,
                                    .begin = begin,
                                    .end = end,
+                                   .admits = is_trusted ? NULL : admits,
                                    .admit = is_trusted ? NULL : admit,
                                    .may_write = is_trusted ? NULL : may_write,
                                    .limit = limit};

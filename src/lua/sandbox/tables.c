@@ -1,10 +1,13 @@
-/* table: lengths are those of the table itself, and ranges are checked before the work begins. */
+/* table: lengths are those of the table itself, the same in every process, and ranges are checked
+ * before the work begins. */
 #include <lauxlib.h>
 
+#include "lua/bind/list.h"
 #include "lua/sandbox/guard.h"
 #include "lua/sandbox/library.h"
 
 #define ITEMS_MOST 10000000
+#define EXACT 16 /* insert and remove look through as many items, so that they stay fast */
 
 static lua_Integer check_count(lua_State *L, const char *name, lua_Integer first,
                                lua_Integer last) {
@@ -17,15 +20,16 @@ static lua_Integer check_count(lua_State *L, const char *name, lua_Integer first
   return (lua_Integer)count + 1;
 }
 
-/* The length of the table at index. Lengths by a metamethod are refused. */
-static lua_Integer check_length(lua_State *L, int index, const char *name) {
+/* The length of the table at index, as cs_list_border finds it. Lengths by a metamethod are
+ * refused. */
+static lua_Integer check_length(lua_State *L, int index, const char *name, lua_Integer exact) {
   luaL_checktype(L, index, LUA_TTABLE);
   if (luaL_getmetafield(L, index, "__len") != LUA_TNIL)
     luaL_error(L,
                "%s: the table has a length function (__len), which the sandbox does not accept "
                "here",
                name);
-  return (lua_Integer)lua_rawlen(L, index);
+  return cs_list_border(L, index, exact);
 }
 
 /* Calls Lua's function, upvalue 1, with the arguments. */
@@ -37,18 +41,38 @@ static int call(lua_State *L) {
   return lua_gettop(L);
 }
 
+/* As Lua's, of which the length would be another one. */
 static int insert(lua_State *L) {
-  lua_Integer length = check_length(L, 1, "insert");
-  if (lua_gettop(L) > 2 && luaL_checkinteger(L, 2) > 0)
-    check_count(L, "insert", luaL_checkinteger(L, 2), length);
-  return call(L);
+  lua_Integer end = check_length(L, 1, "insert", EXACT) + 1, at = end;
+  int count = lua_gettop(L);
+  if (count != 2 && count != 3)
+    return luaL_error(L, "wrong number of arguments to 'insert'");
+  if (count == 3)
+    at = luaL_checkinteger(L, 2);
+  luaL_argcheck(L, at >= 1 && at <= end, 2, "position out of bounds");
+  check_count(L, "insert", at, end);
+  for (lua_Integer i = end; i > at; i--) {
+    lua_geti(L, 1, i - 1);
+    lua_seti(L, 1, i);
+  }
+  lua_seti(L, 1, at);
+  return 0;
 }
 
 static int remove_item(lua_State *L) {
-  lua_Integer length = check_length(L, 1, "remove");
-  if (!lua_isnoneornil(L, 2) && luaL_checkinteger(L, 2) > 0)
-    check_count(L, "remove", luaL_checkinteger(L, 2), length);
-  return call(L);
+  lua_Integer length = check_length(L, 1, "remove", EXACT);
+  lua_Integer at = luaL_optinteger(L, 2, length);
+  bool is_inside = (at >= 1 && at <= length + 1) || at == length;
+  luaL_argcheck(L, is_inside, 1, "position out of bounds"); /* Lua counts it as the first */
+  check_count(L, "remove", at, length);
+  lua_geti(L, 1, at);
+  for (; at < length; at++) {
+    lua_geti(L, 1, at + 1);
+    lua_seti(L, 1, at);
+  }
+  lua_pushnil(L);
+  lua_seti(L, 1, at);
+  return 1;
 }
 
 static int move(lua_State *L) {
@@ -57,18 +81,29 @@ static int move(lua_State *L) {
   return call(L);
 }
 
-static int concat(lua_State *L) {
-  lua_Integer length = check_length(L, 1, "concat");
-  check_count(L, "concat", luaL_optinteger(L, 3, 1), luaL_optinteger(L, 4, length));
+/* Calls Lua's function with the end of the range as argument `last`. */
+static int call_to(lua_State *L, int last, lua_Integer end) {
+  if (lua_gettop(L) < last)
+    lua_settop(L, last);
+  lua_pushinteger(L, end);
+  lua_replace(L, last);
   return call(L);
+}
+
+static int concat(lua_State *L) {
+  lua_Integer length = check_length(L, 1, "concat", ITEMS_MOST);
+  lua_Integer first = luaL_optinteger(L, 3, 1), last = luaL_optinteger(L, 4, length);
+  check_count(L, "concat", first, last);
+  return call_to(L, 4, last);
 }
 
 /* Also for celspan's values, which define their length. */
 static int unpack(lua_State *L) {
   lua_Integer length =
-      lua_type(L, 1) == LUA_TUSERDATA ? luaL_len(L, 1) : check_length(L, 1, "unpack");
-  check_count(L, "unpack", luaL_optinteger(L, 2, 1), luaL_optinteger(L, 3, length));
-  return call(L);
+      lua_type(L, 1) == LUA_TUSERDATA ? luaL_len(L, 1) : check_length(L, 1, "unpack", ITEMS_MOST);
+  lua_Integer first = luaL_optinteger(L, 2, 1), last = luaL_optinteger(L, 3, length);
+  check_count(L, "unpack", first, last);
+  return call_to(L, 3, last);
 }
 
 /* ---------------------------------------------------------------- sorting */
@@ -115,7 +150,7 @@ static lua_Integer least(lua_Integer a, lua_Integer b) { return a < b ? a : b; }
 /* Merges runs of doubling length, alternating between two tables. The sort is stable; Lua's own
  * sort is not, and its choice of pivots depends on the clock. */
 static int sort(lua_State *L) {
-  lua_Integer length = check_length(L, 1, "sort");
+  lua_Integer length = check_length(L, 1, "sort", ITEMS_MOST);
   lua_settop(L, 2);
   if (!lua_isnil(L, 2))
     luaL_checktype(L, 2, LUA_TFUNCTION);

@@ -11,12 +11,7 @@
 #include "base/open.h"
 #include "output/sinks/temporary.h"
 
-enum {
-  BUFFER_BYTES = 1 << 16,
-  NAME_BYTES = 200, /* of NAME in the temporary name, which may have 255 bytes in all */
-  TEMPORARY_EXTRA = 16,
-  NAME_ATTEMPTS = 1000
-};
+enum { BUFFER_BYTES = 1 << 16, NAME_ATTEMPTS = 1000 };
 
 struct cs_file {
   const cs_file_system *system;
@@ -79,7 +74,7 @@ static void release(cs_file *file, celspan_context *context) {
 /* ---------------------------------------------------------------- opening */
 
 static cs_file *allocate(celspan_context *context, const char *path) {
-  size_t length = strlen(path), size = sizeof(cs_file) + 2 * length + 2 + TEMPORARY_EXTRA;
+  size_t length = strlen(path), size = sizeof(cs_file) + 2 * length + 2 + CS_TEMPORARY_EXTRA;
   cs_file *file = cs_mem_resize(context->memory, NULL, 0, size);
   if (!file)
     return NULL;
@@ -119,18 +114,18 @@ static int open_again(const cs_file_system *system, const char *path, int flags,
 
 /* Tries names until one is free: another process may be writing the same frame. */
 static int open_temporary(cs_file *file) {
-  const char *name = file->path + file->folder_length;
   size_t room = file->allocated - sizeof *file - strlen(file->path) - 1;
   unsigned start = (unsigned)getpid();
   for (unsigned i = 0; i < NAME_ATTEMPTS; i++) {
-    snprintf(file->temporary, room, "%.*s.%.*s.%04x.part", (int)file->folder_length, file->path,
-             NAME_BYTES, name, (start + i) & 0xffff);
+    cs_temporary_name(file->path, start + i, file->temporary, room);
     file->descriptor = open_again(file->system, file->temporary,
                                   O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (file->descriptor >= 0 ? cs_temporary_claim(file->descriptor) : errno != EEXIST)
       break;
-    if (file->descriptor >= 0)
-      file->system->close(file->descriptor);
+    if (file->descriptor < 0)
+      continue;
+    cs_temporary_drop(file->descriptor, file->temporary);
+    file->system->close(file->descriptor);
     file->descriptor = -1;
   }
   return file->descriptor >= 0 ? 0 : -1;

@@ -14,10 +14,17 @@
 
 enum {
   NAME_SIZE = 512,
+  NAME_BYTES = 200,   /* of NAME in the temporary name, which may have 255 bytes in all */
   DESCRIPTORS = 4096, /* that may be open, of a process that is ended */
   DIGITS = 4,
   TAIL_SIZE = 1 + DIGITS + sizeof TAIL - 1 /* ".12ef.part" */
 };
+
+void cs_temporary_name(const char *path, unsigned number, char *out, size_t size) {
+  const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+  snprintf(out, size, "%.*s.%.*s.%04x" TAIL, (int)(name - path), path, NAME_BYTES, name,
+           number & 0xffff);
+}
 
 /* Where the file system has no locks, no sweep can lock the file either, so it is safe. */
 bool cs_temporary_claim(int descriptor) {
@@ -50,6 +57,11 @@ static bool is_named(int descriptor, int folder, const char *temporary) {
   return fstat(descriptor, &opened) == 0 &&
          fstatat(folder, temporary, &named, AT_SYMLINK_NOFOLLOW) == 0 &&
          opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
+void cs_temporary_drop(int descriptor, const char *path) {
+  if (is_named(descriptor, AT_FDCWD, path))
+    unlink(path);
 }
 
 static void sweep(int folder, const char *temporary) {

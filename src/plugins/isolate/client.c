@@ -111,7 +111,8 @@ static celspan_status explain(cs_message_arrival arrival, const cs_message_start
   if (arrival == CS_MESSAGE_LATE)
     return fail(failure, CELSPAN_CANCELLED, "a signal asked to stop");
   if (cs_worker_loop_is_starved(ending))
-    return fail(failure, CELSPAN_NO_MEMORY, "out of memory while starting the picture decoder");
+    return fail(failure, CELSPAN_NO_MEMORY,
+                "out of memory or processes while starting the picture decoder");
   if (WIFSIGNALED(ending) && WTERMSIG(ending) == SIGALRM)
     return explain_late(desc, failure);
   fail(failure, other, "");

@@ -4,7 +4,12 @@
 #include <stddef.h>
 #include <string.h>
 #include <sys/socket.h>
+#include <time.h>
 #include <unistd.h>
+
+#include "base/clock.h"
+
+enum { PAUSE_NANOSECONDS = 10000000 };
 
 #define HEAD offsetof(cs_message, text)
 
@@ -63,6 +68,24 @@ cs_message_arrival cs_message_receive(int socket, cs_message *out, int *descript
   if (descriptor && *descriptor >= 0)
     close(*descriptor);
   return got > 0 ? CS_MESSAGE_BAD : CS_MESSAGE_OVER;
+}
+
+/* A socket that blocks answers EAGAIN only where something is wrong with it or with the system. */
+cs_message_arrival cs_message_wait(int socket, double patience, cs_message *out, int *descriptor) {
+  const struct timespec pause = {.tv_nsec = PAUSE_NANOSECONDS};
+  double begun = cs_clock_seconds();
+  for (;;) {
+    errno = 0;
+    cs_message_arrival arrival = cs_message_receive(socket, out, descriptor);
+    if (arrival != CS_MESSAGE_LATE)
+      return arrival;
+    if (errno == EINTR)
+      begun = cs_clock_seconds();
+    else if (cs_clock_seconds() - begun > patience)
+      return CS_MESSAGE_OVER;
+    else
+      nanosleep(&pause, NULL);
+  }
 }
 
 /* ---------------------------------------------------------------- headers and parts */

@@ -97,6 +97,8 @@ typedef struct cs_message {
   char text[sizeof((cs_picture_failure *)0)->text]; /* sent up to its end */
 } cs_message;
 
+#define CS_MESSAGE_PATIENCE 5.0
+
 typedef enum cs_message_arrival {
   CS_MESSAGE_ARRIVED,
   CS_MESSAGE_LATE, /* nothing arrived in time, or a signal arrived first */
@@ -109,6 +111,9 @@ typedef enum cs_message_arrival {
 bool cs_message_send(int socket, const cs_message *message, int descriptor);
 /* *descriptor: the one sent with the message, or -1; NULL: none is accepted. */
 cs_message_arrival cs_message_receive(int socket, cs_message *out, int *descriptor);
+/* The same on a socket that blocks, without LATE: where it has only answered EAGAIN for as many
+ * seconds as `patience`, the other side counts as ended. */
+cs_message_arrival cs_message_wait(int socket, double patience, cs_message *out, int *descriptor);
 
 void cs_message_set_header(cs_message *message, const cs_picture_header *header);
 /* false: it is invalid. */

@@ -2,8 +2,8 @@
  *
  *   roots of a script: its folder, --allow DIR ..., the folders of CELSPAN_PATH
  *
- * INVARIANT: a path is below a root if, with all links resolved, it begins with the resolved root
- * and a slash. For a path that does not exist, the nearest existing folder above it decides.
+ * INVARIANT: a path is below a root if what it leads to (base/resolve.h) is. So the answer does not
+ * say whether a file outside the roots exists.
  */
 #pragma once
 

@@ -33,9 +33,12 @@ typedef struct worker_loop {
 /* ---------------------------------------------------------------- faults */
 
 /* A failed allocation sets errno, which is still set where a library continued without memory until
- * it crashed, or ended the process by an uncaught exception. */
+ * it crashed, or ended the process by an uncaught exception. So does a thread that the limit of
+ * processes does not allow. */
+static bool is_without_means(void) { return errno == ENOMEM || errno == EAGAIN; }
+
 static void end_by_fault(int number) {
-  if (errno == ENOMEM)
+  if (is_without_means())
     _exit(CS_WORKER_NO_MEMORY);
   signal(number, SIG_DFL);
   raise(number);
@@ -46,7 +49,7 @@ static bool is_serving; /* false while libraries are loaded */
 /* The zygote and workers end only by _exit. A library that calls exit while it is loaded has no
  * memory to start with, whatever value errno has by then. */
 static void end_by_library(void) {
-  if (!is_serving || errno == ENOMEM)
+  if (!is_serving || is_without_means())
     _exit(CS_WORKER_NO_MEMORY);
 }
 
@@ -124,11 +127,8 @@ static void answer(const worker_loop *loop, const cs_message *message) {
 
 static cs_message receive(const worker_loop *loop, int *descriptor) {
   cs_message message;
-  cs_message_arrival arrival;
-  do
-    arrival = cs_message_receive(loop->socket, &message, descriptor);
-  while (arrival == CS_MESSAGE_LATE);
-  if (arrival != CS_MESSAGE_ARRIVED)
+  if (cs_message_wait(loop->socket, CS_MESSAGE_PATIENCE, &message, descriptor) !=
+      CS_MESSAGE_ARRIVED)
     _exit(0);
   return message;
 }

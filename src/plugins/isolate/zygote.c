@@ -154,10 +154,8 @@ static void start_worker(zygote *z, cs_message *message, int memory) {
 static void serve(zygote *z) {
   int memory;
   cs_message message;
-  cs_message_arrival arrival = cs_message_receive(CS_ZYGOTE_SOCKET, &message, &memory);
-  if (arrival == CS_MESSAGE_LATE)
-    return;
-  if (arrival != CS_MESSAGE_ARRIVED)
+  if (cs_message_wait(CS_ZYGOTE_SOCKET, CS_MESSAGE_PATIENCE, &message, &memory) !=
+      CS_MESSAGE_ARRIVED)
     finish(z);
   errno = 0;
   if (message.kind == CS_MESSAGE_START) {

@@ -11,6 +11,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <system_error>
 
 #include "model/pictures/module.h"
 
@@ -39,6 +40,13 @@ celspan_status fence(cs_picture_failure *failure, celspan_status other, const st
     } catch (const std::bad_alloc &) {
       status = CELSPAN_NO_MEMORY;
       text = "out of memory";
+    } catch (const std::system_error &e) {
+      bool is_starved = e.code() == std::errc::resource_unavailable_try_again;
+      status = is_starved ? CELSPAN_NO_MEMORY : other;
+      failure->status = status;
+      snprintf(failure->text, sizeof failure->text, "%s: %s%s", name.c_str(),
+               is_starved ? "the system allows no more threads: " : "", e.what());
+      return status;
     } catch (const std::exception &e) {
       failure->status = other;
       snprintf(failure->text, sizeof failure->text, "%s: %s", name.c_str(), e.what());

@@ -6,6 +6,8 @@
 --   first pass    -->  in order: frames that cannot be built, pictures that cannot be read
 --   second pass   <--  a fresh film, last frame first: a frame whose scene now differs was not made
 --                      by a pure function of its number
+--   further ones  < -  more fresh films, some frames: each Lua state draws another seed for its
+--                      tables, so scenes that depend on it differ
 --
 -- All faults are reported at the end, equal ones in one line with the frames that have them:
 --
@@ -19,8 +21,10 @@ local program, request = ...
 local PART = 4096 -- frames of a part
 local FAULTS_MOST, RUNS_MOST = 1000, 8
 local SCRIPT = 3 -- the exit code
-local IMPURE = "the frame function is not pure: called again in another order it returned another "
-  .. "scene; let it depend on its argument only"
+local STATES, SAMPLE = 3, 24 -- fresh films in all; frames that the further ones build
+local IMPURE = "the frame function is not pure: called again in another order, or in another Lua "
+  .. "state, it returned another scene; let it depend only on its argument, and not on the "
+  .. "length (#) of a table with holes"
 
 -- ---------------------------------------------------------------- faults
 
@@ -92,11 +96,13 @@ local function first_pass(film, numbers, scenes)
   return #numbers
 end
 
-local function second_pass(film, numbers, scenes)
-  for i = #numbers, 1, -1 do
+--- Builds one of every `step` frames.
+local function pass_again(film, numbers, scenes, step)
+  for i = #numbers, 1, -step do
     if program.is_stopped() then return end
     if scenes[i] and not (film:try(numbers[i]) and film:scene() == scenes[i]) then
       add_fault(numbers[i], "", IMPURE, SCRIPT)
+      scenes[i] = nil -- reported
     end
   end
 end
@@ -110,6 +116,17 @@ local function fresh_film(film)
     .. "number %d, not %d from number %d; let it return the same film each time", fresh.frames,
     fresh.first, film.frames, film.first)
   return nil, SCRIPT
+end
+
+--- The films for the further passes; nil and an exit code, reported.
+local function fresh_films(film)
+  local films = {}
+  for i = 1, STATES do
+    local fresh, code = fresh_film(film)
+    if not fresh then return nil, code end
+    films[i] = fresh
+  end
+  return films
 end
 
 --- The numbers of the part that begins after `done` frames.
@@ -130,10 +147,12 @@ local function check_parts(film, listed, count)
     if program.is_stopped() then break end
     if not fresh then
       local code
-      fresh, code = fresh_film(film)
+      fresh, code = fresh_films(film)
       if not fresh then return done, code end
     end
-    second_pass(fresh, numbers, scenes)
+    for i, again in ipairs(fresh) do
+      pass_again(again, numbers, scenes, i == 1 and 1 or math.max(1, count // SAMPLE))
+    end
   end
   return done
 end

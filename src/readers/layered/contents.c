@@ -104,8 +104,8 @@ void cs_contents_reverse(celspan_painting *painting) {
 
 /* ---------------------------------------------------------------- limits */
 
-celspan_status cs_contents_check_depth(celspan_context *context, const cs_input *input,
-                                       celspan_painting *painting) {
+static celspan_status check_depth(celspan_context *context, const cs_input *input,
+                                  celspan_painting *painting) {
   cs_contents_layer *layers = painting->layers;
   for (size_t i = painting->count; i-- > 0;) {
     size_t parent = layers[i].parent;
@@ -121,6 +121,18 @@ celspan_status cs_contents_check_depth(celspan_context *context, const cs_input 
                            "groups lie in one another more than %d deep", CS_CONTENTS_DEPTH);
   }
   return CELSPAN_OK;
+}
+
+celspan_status cs_contents_check_whole(celspan_context *context, const cs_input *input,
+                                       celspan_painting *painting) {
+  int64_t pixels = 0;
+  for (size_t i = 0; i < painting->count; i++)
+    pixels += (int64_t)painting->layers[i].width * painting->layers[i].height;
+  if (pixels > CS_CONTENTS_PIXELS_ALL)
+    return cs_input_fail(context, input, -1, CELSPAN_LIMIT,
+                         "its layers have %lld pixels in all; at most %lld are read",
+                         (long long)pixels, (long long)CS_CONTENTS_PIXELS_ALL);
+  return check_depth(context, input, painting);
 }
 
 celspan_status cs_contents_check_size(celspan_context *context, const cs_input *input,

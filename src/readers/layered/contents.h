@@ -6,7 +6,8 @@
  *   backdrop   group   3   none
  *
  * INVARIANT: parents are greater than their layers, at most CS_CONTENTS_DEPTH groups lie in one
- * another, and no layer has more than CS_CONTENTS_PIXELS pixels. While a painting is read a layer
+ * another, no layer has more than CS_CONTENTS_PIXELS pixels, and all layers together have at most
+ * CS_CONTENTS_PIXELS_ALL, also if they show the same file. While a painting is read a layer
  * owns its source; the layers of a painting that is complete have surfaces instead.
  */
 #pragma once
@@ -17,6 +18,7 @@
 #define CS_CONTENTS_DEPTH 100
 #define CS_CONTENTS_SIDE 1048576
 #define CS_CONTENTS_PIXELS ((int64_t)1 << 28)
+#define CS_CONTENTS_PIXELS_ALL ((int64_t)1 << 33)
 #define CS_CONTENTS_FARTHEST ((int64_t)1 << 30) /* of a layer's corner, from the painting's */
 #define CS_CONTENTS_NONE SIZE_MAX
 #define CS_CONTENTS_TEXT 256 /* bytes of a name or note, with their NUL */
@@ -71,10 +73,9 @@ CELSPAN_CHECKED celspan_status cs_contents_note(celspan_context *context,
                                                 celspan_painting *painting, size_t layer,
                                                 const char *format, ...)
     __attribute__((format(printf, 4, 5)));
-/* Errors: LIMIT for groups that are nested too deeply, INPUT for layers in a layer that is not a
- * group.
- */
-CELSPAN_CHECKED celspan_status cs_contents_check_depth(celspan_context *context,
+/* Errors: LIMIT for groups that are nested too deeply, and for too many pixels in all; INPUT for
+ * layers in a layer that is not a group. */
+CELSPAN_CHECKED celspan_status cs_contents_check_whole(celspan_context *context,
                                                        const cs_input *input,
                                                        celspan_painting *painting);
 /* Reverses a list that has the foremost layer first, and groups before their layers. */

@@ -70,7 +70,7 @@ static celspan_status read_file(celspan_context *context, cs_input *input,
   CS_TRY(cs_input_open(context, input));
   celspan_status status = read_format(context, input, painting);
   if (status == CELSPAN_OK)
-    status = cs_contents_check_depth(context, input, painting);
+    status = cs_contents_check_whole(context, input, painting);
   cs_input_close(input);
   return status == CELSPAN_OK ? make_surfaces(context, input, painting) : status;
 }

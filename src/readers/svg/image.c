@@ -105,6 +105,10 @@ static celspan_status show_drawing(image *of, cs_svg_source inner, const char *b
     return note(of, "the drawing contains itself");
   if (depth_of(reading->source) > CS_SVG_IMAGE_DEPTH)
     return note(of, "drawings contain one another too deep");
+  if (++reading->drawings > CS_SVG_DRAWINGS)
+    return cs_fail(reading->context, CELSPAN_LIMIT,
+                   "line %u: more than %d drawings are read as images", of->node->line,
+                   CS_SVG_DRAWINGS);
   celspan_status status = reading->read_inner(reading, &inner, bytes, size, &art);
   if (status != CELSPAN_OK)
     return note_failure(of, status);

@@ -10,6 +10,7 @@
 #include "base/error_text.h"
 #include "base/hex.h"
 #include "base/open.h"
+#include "base/resolve.h"
 
 /* ---------------------------------------------------------------- codes */
 
@@ -157,23 +158,19 @@ static celspan_status fail(celspan_context *context, const cs_svg_image_file *fi
   return cs_fail(context, CELSPAN_INPUT, "%s: %s", file->path, cs_error_text(errno, text));
 }
 
-/* Whether a file lies below the folder of another, links followed. Both are there. */
+/* Whether an image lies below the folder of the drawing, links followed. */
 static celspan_status check_below(celspan_context *context, const char *file,
                                   const cs_svg_image_file *image, const char **reason) {
   char folder[CS_SVG_PATH];
-  bool is_inside = false;
   celspan_status status = CELSPAN_OK;
   *reason = "its name is too long";
   if (!join(file, ".", folder))
     return CELSPAN_OK;
-  char *above = realpath(folder, NULL), *whole = above ? realpath(image->path, NULL) : NULL;
-  if (whole) {
-    size_t size = strlen(above);
-    is_inside = strncmp(whole, above, size) == 0 && (whole[size] == '/' || size == 1);
-    *reason = is_inside ? NULL : "it lies outside of the drawing's folder";
-  } else {
+  char *above = realpath(folder, NULL), *whole = above ? cs_resolve_path(image->path) : NULL;
+  if (whole)
+    *reason = cs_resolve_is_below(above, whole) ? NULL : "it lies outside of the drawing's folder";
+  else
     status = fail(context, image, reason);
-  }
   free(above);
   free(whole);
   return status;
@@ -221,12 +218,13 @@ celspan_status cs_svg_image_file_find(celspan_context *context, const char *file
   *reason = refuse(file, href, out->path);
   if (*reason)
     return CELSPAN_OK;
+  CS_TRY(check_below(context, file, out, reason));
+  if (*reason)
+    return CELSPAN_OK;
   int descriptor = cs_open_to_read(out->path);
   if (descriptor < 0)
     return fail(context, out, reason);
-  celspan_status status = check_below(context, file, out, reason);
-  if (status == CELSPAN_OK && !*reason)
-    status = read_facts(context, descriptor, out, reason);
+  celspan_status status = read_facts(context, descriptor, out, reason);
   close(descriptor);
   return status;
 }

@@ -160,6 +160,7 @@ static celspan_status read_inner(cs_svg_reading *outer, const cs_svg_source *sou
   celspan_status status = read_bytes(&inner, bytes, size, out);
   outer->tests = inner.tests;
   outer->drawn = inner.drawn;
+  outer->drawings = inner.drawings;
   outer->image_bytes = inner.image_bytes;
   outer->has_other_files = outer->has_other_files || inner.has_other_files;
   outer->has_failed = outer->has_failed || inner.has_failed;

@@ -12,6 +12,7 @@
 
 #define CS_SVG_DRAWN 1000000             /* elements drawn, those of `use` counted each time */
 #define CS_SVG_SELECTOR_TESTS 100000000u /* of elements against rules, in all */
+#define CS_SVG_DRAWINGS 1000             /* read as images, one inside the other or not */
 #define CS_SVG_SKIPPED 10000             /* entries; more are not reported */
 
 typedef struct cs_svg_skipped {
@@ -55,6 +56,7 @@ typedef struct cs_svg_reading {
   uint64_t tests;       /* of selectors, that are left */
   uint32_t drawn;       /* elements so far */
   uint32_t depth;       /* elements being built, one inside the other */
+  uint32_t drawings;    /* that were read as images so far */
   uint64_t image_bytes; /* of images so far */
   cs_svg_kept_images images;
   /* Drawings in files of their own are part of it, or a file that it names could not be shown: the
