@@ -5,6 +5,7 @@
 
 #include "base/number.h"
 #include "readers/svg/clips.h"
+#include "readers/svg/geometry.h"
 #include "readers/svg/image.h"
 #include "readers/svg/markers.h"
 #include "readers/svg/masks.h"
@@ -106,10 +107,7 @@ static celspan_status add_used(builder *b, const cs_svg_node *node, const cs_svg
                ? cs_svg_skip(b->reading, node, "use of what is not in the file")
                : CELSPAN_OK;
   if (cs_svg_is_open(place->open, used))
-    return cs_fail(context, CELSPAN_INPUT,
-                   "line %u: use goes in a circle: it is inside of what it "
-                   "shows",
-                   node->line);
+    return cs_svg_skip(b->reading, node, "use that is inside of what it shows");
   CS_TRY(cs_svg_number_of(context, node, CS_SVG_X, CS_SVG_AXIS_X, &place->measure, &x));
   CS_TRY(cs_svg_number_of(context, node, CS_SVG_Y, CS_SVG_AXIS_Y, &place->measure, &y));
   inner.matrix = celspan_matrix_then(celspan_matrix_translation(x, y), inner.matrix);
@@ -216,8 +214,11 @@ static celspan_status add_content(builder *b, const cs_svg_node *node, const cs_
   case CS_SVG_ELEMENT_IMAGE:
     return cs_svg_image_add(b->reading, node, place, item);
   default:
-    return cs_svg_is_shape(node) ? add_shape(b, node, place, item)
-                                 : cs_svg_skip(b->reading, node, "%.50s", node->tag);
+    if (cs_svg_is_shape(node))
+      return add_shape(b, node, place, item);
+    return node->element == CS_SVG_ELEMENT_OTHER /* noted when it was read */
+               ? CELSPAN_OK
+               : cs_svg_skip(b->reading, node, "%.50s", node->tag);
   }
 }
 
@@ -310,6 +311,7 @@ celspan_status cs_svg_build(cs_svg_reading *reading, celspan_svg *art) {
   const char *value = cs_svg_node_value(node, CS_SVG_VIEW_BOX);
   cs_svg_place place;
   const cs_svg_open open = {node, NULL};
+  CS_TRY(cs_svg_geometry_apply(reading->context, reading->document, &reading->tests));
   if (value)
     (void)cs_svg_parse_view_box(value, &box);
   CS_TRY(read_size(&b, node, &box));

@@ -1,6 +1,8 @@
-/* The names of SVG that mean something here, as numbers: elements, attributes and properties.
+/* The names of SVG that mean something here, as numbers: elements, attributes and properties, with
+ * the values that are read of them. These lists are the one place that says what is drawn: whatever
+ * a document names besides is noted (unread.h).
  *
- * Invariant: both lists are sorted as strcmp sorts their texts, which is how they are searched.
+ * Invariant: all lists are sorted as strcmp sorts their texts, which is how they are searched.
  */
 #ifndef CS_SVG_NAMES_H
 #define CS_SVG_NAMES_H
@@ -47,6 +49,7 @@ typedef enum cs_svg_element {
 } cs_svg_element;
 
 typedef enum cs_svg_name {
+  CS_SVG_ALIGNMENT_BASELINE,
   CS_SVG_BASELINE_SHIFT,
   CS_SVG_CLASS,
   CS_SVG_CLIP_PATH,
@@ -58,6 +61,7 @@ typedef enum cs_svg_name {
   CS_SVG_D,
   CS_SVG_DIRECTION,
   CS_SVG_DISPLAY,
+  CS_SVG_DOMINANT_BASELINE,
   CS_SVG_DX,
   CS_SVG_DY,
   CS_SVG_FILL,
@@ -91,6 +95,7 @@ typedef enum cs_svg_name {
   CS_SVG_MASK_TYPE,
   CS_SVG_MASK_CONTENT_UNITS,
   CS_SVG_MASK_UNITS,
+  CS_SVG_MEDIA,
   CS_SVG_MIX_BLEND_MODE,
   CS_SVG_OFFSET,
   CS_SVG_OPACITY,
@@ -108,6 +113,7 @@ typedef enum cs_svg_name {
   CS_SVG_ROTATE,
   CS_SVG_RX,
   CS_SVG_RY,
+  CS_SVG_SCALE,
   CS_SVG_SIDE,
   CS_SVG_SPACE,
   CS_SVG_SPREAD_METHOD,
@@ -129,6 +135,7 @@ typedef enum cs_svg_name {
   CS_SVG_TEXT_LENGTH,
   CS_SVG_TRANSFORM,
   CS_SVG_TRANSFORM_ORIGIN,
+  CS_SVG_TRANSLATE,
   CS_SVG_TYPE,
   CS_SVG_VECTOR_EFFECT,
   CS_SVG_VIEW_BOX,
@@ -145,12 +152,58 @@ typedef enum cs_svg_name {
   CS_SVG_NAME_COUNT
 } cs_svg_name;
 
+/* Where a name stands. */
+typedef enum cs_svg_use {
+  CS_SVG_USE_ATTRIBUTE, /* an attribute alone */
+  CS_SVG_USE_PRESENTED, /* a property; the attribute of this name gives it, too */
+  CS_SVG_USE_STYLED,    /* a property of styles alone */
+  CS_SVG_USE_GEOMETRY,  /* an attribute, which a style may give to some elements */
+  CS_SVG_USE_APART      /* an attribute, and a property with another meaning */
+} cs_svg_use;
+
+/* What a value looks like. */
+typedef enum cs_svg_form {
+  CS_SVG_FORM_ANY, /* it is judged where it is used */
+  CS_SVG_FORM_WORD,
+  CS_SVG_FORM_NUMBER,
+  CS_SVG_FORM_SHARE, /* a number or a percentage */
+  CS_SVG_FORM_LENGTH,
+  CS_SVG_FORM_SIZE, /* a length that is not negative */
+  CS_SVG_FORM_LENGTHS,
+  CS_SVG_FORM_ANGLE,
+  CS_SVG_FORM_ROTATION, /* of an attribute: numbers; of a style: an angle about the z axis */
+  CS_SVG_FORM_COLOUR,
+  CS_SVG_FORM_PAINT,
+  CS_SVG_FORM_REFERENCE,
+  CS_SVG_FORM_TRANSFORM,
+  CS_SVG_FORM_TRANSLATE,
+  CS_SVG_FORM_SCALE,
+  CS_SVG_FORM_SLANT,
+  CS_SVG_FORM_ORDER, /* of fill, stroke and markers */
+  CS_SVG_FORM_VIEW_BOX,
+  CS_SVG_FORM_ASPECT
+} cs_svg_form;
+
+typedef struct cs_svg_name_facts {
+  const char *text;
+  cs_svg_use use;
+  cs_svg_form form;
+  const char *words;   /* that are values, too, with '|' between them; NULL: none */
+  const char *initial; /* of a property that is inherited; NULL: it is not */
+} cs_svg_name_facts;
+
 /* OTHER for one that is not in the list. */
 cs_svg_element cs_svg_element_named(const char *text);
 /* CS_SVG_NAME_COUNT for one that is not in the list. */
 cs_svg_name cs_svg_name_of(const char *text);
-/* Whether a style sheet may set it. */
+/* Whether it, or what is in it, may be seen; false for notes, scripts and filters. */
+bool cs_svg_element_is_drawn(cs_svg_element element);
+const cs_svg_name_facts *cs_svg_name_facts_of(cs_svg_name name);
+/* Whether a style may set it. */
 bool cs_svg_is_property(cs_svg_name name);
 const char *cs_svg_name_text(cs_svg_name name);
+
+/* Whether one of the words, with '|' between them, is the value. */
+bool cs_svg_words_have(const char *words, const char *value);
 
 #endif

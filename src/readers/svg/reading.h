@@ -17,6 +17,7 @@
 
 typedef struct cs_svg_skipped {
   uint32_t line;
+  size_t number; /* in the order in which they are made; given at the end */
   char what[160];
 } cs_svg_skipped;
 

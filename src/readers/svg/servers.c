@@ -5,6 +5,7 @@
 #include "base/number.h"
 #include "model/colour/transfer.h"
 #include "readers/svg/shapes.h"
+#include "readers/svg/transforms.h"
 
 /* Templates that follow one another through href, at most. */
 #define TEMPLATES 32
@@ -260,7 +261,7 @@ static celspan_status read_radial(gradient *g) {
 static void read_matrix(gradient *g) {
   celspan_matrix own;
   g->matrix = celspan_matrix_identity();
-  if (cs_svg_parse_transform(text_of(g, CS_SVG_GRADIENT_TRANSFORM), &own))
+  if (cs_svg_parse_transform(text_of(g, CS_SVG_GRADIENT_TRANSFORM), &g->measure, &own))
     g->matrix = own;
   const char *origin = text_of(g, CS_SVG_TRANSFORM_ORIGIN);
   if (*origin)

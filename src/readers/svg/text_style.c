@@ -44,25 +44,6 @@ static void read_anchor(const char *text, cs_svg_anchor *out) {
     *out = CS_SVG_ANCHOR_END;
 }
 
-/* The first property that is given, but does not count. */
-static const char *find_unset(const char *const *values) {
-  static const struct {
-    cs_svg_name name;
-    const char *word; /* the value that changes nothing */
-  } properties[] = {{CS_SVG_TEXT_DECORATION, "none"},
-                    {CS_SVG_WRITING_MODE, "lr-tb"},
-                    {CS_SVG_BASELINE_SHIFT, "baseline"}};
-  for (size_t i = 0; i < sizeof properties / sizeof *properties; i++) {
-    const char *value = values[properties[i].name];
-    bool is_usual = !value || cs_svg_is_word(value, properties[i].word) ||
-                    cs_svg_is_word(value, "inherit") || cs_svg_is_word(value, "horizontal-tb") ||
-                    cs_svg_is_word(value, "lr") || cs_svg_is_word(value, "0");
-    if (!is_usual)
-      return cs_svg_name_text(properties[i].name);
-  }
-  return NULL;
-}
-
 void cs_svg_text_style_read(const cs_svg_node *node, const char *const *values, double em,
                             cs_svg_text_style *out) {
   const char *family = values[CS_SVG_FONT_FAMILY], *direction = values[CS_SVG_DIRECTION];
@@ -78,5 +59,4 @@ void cs_svg_text_style_read(const cs_svg_node *node, const char *const *values, 
     out->is_leftward = cs_svg_is_word(direction, "rtl");
   if (space)
     out->is_preserved = cs_svg_is_word(space, "preserve");
-  out->unset = find_unset(values);
 }

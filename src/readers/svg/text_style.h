@@ -19,7 +19,6 @@ typedef struct cs_svg_text_style {
   cs_svg_anchor anchor;
   bool is_leftward;  /* the direction of texts */
   bool is_preserved; /* every space of a text counts */
-  const char *unset; /* a property that is given, but does not count; NULL: none */
 } cs_svg_text_style;
 
 /* Reads what `values`, the ones that win by their names, say of texts. em: the element's font size

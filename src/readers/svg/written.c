@@ -202,15 +202,15 @@ static celspan_status add_child(cs_svg_written *w, const cs_svg_node *node,
   case CS_SVG_ELEMENT_DESC:
     return CELSPAN_OK;
   default:
-    return cs_svg_skip(w->reading, node, "%.40s in text", node->tag);
+    return node->element == CS_SVG_ELEMENT_OTHER /* noted when it was read */
+               ? CELSPAN_OK
+               : cs_svg_skip(w->reading, node, "%.40s in text", node->tag);
   }
 }
 
 static celspan_status add_content(cs_svg_written *w, const cs_svg_node *node,
                                   const cs_svg_place *place) {
   size_t begin = w->count;
-  if (place->style.text.unset)
-    CS_TRY(cs_svg_skip(w->reading, node, "%s of %.40s", place->style.text.unset, node->tag));
   for (const cs_svg_node *child = node->first; child; child = child->next)
     CS_TRY(add_child(w, child, place));
   return give_values(w, node, &place->measure, begin);
