@@ -8,8 +8,9 @@ typedef struct cs_svg_colour {
   double rgb[3], alpha;
 } cs_svg_colour;
 
-/* "#rgb", "#rrggbb" and with alpha, rgb(), rgba(), hsl(), hsla(), a name, transparent: reads what
- * *text begins with and moves *text behind it. False when there is no colour. */
+/* "#rgb", "#rrggbb" and with alpha, rgb(), rgba(), hsl(), hsla(), those of colour_spaces.h, a name,
+ * transparent: reads what *text begins with and moves *text behind it. False when there is no
+ * colour. */
 bool cs_svg_take_colour(const char **text, cs_svg_colour *out);
 
 #endif

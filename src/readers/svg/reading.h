@@ -73,6 +73,13 @@ typedef struct cs_svg_open {
   const struct cs_svg_open *outer;
 } cs_svg_open;
 
+/* The element whose fill or stroke others take over: gradients are fitted to it. */
+typedef struct cs_svg_context_box {
+  celspan_box box;
+  celspan_matrix matrix; /* its user units to the drawing's */
+  cs_svg_measure measure;
+} cs_svg_context_box;
+
 /* Where an element is drawn, and how. */
 typedef struct cs_svg_place {
   cs_svg_style style;
