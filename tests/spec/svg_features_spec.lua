@@ -81,7 +81,8 @@ describe("transforms in styles", function()
       { styled "transform:scaleX(2) scaleY(3)", moved "scale(2 3)" },
       { styled "transform:scale(200%, 3)", moved "scale(2 3)" },
       { styled "transform:skew(10deg)", moved "skewX(10)" },
-      { styled "transform:skew(10deg, 5deg)", moved "matrix(1 .08748866352592401 .17632698 1 0 0)" },
+      { styled "transform:skew(10deg, 5deg)",
+        moved "matrix(1 .08748866352592401 .17632698 1 0 0)" },
       { styled "transform:matrix(2,0,0,2,5,5)", moved "translate(5 5)scale(2)" },
       { styled "transform:matrix3d(2,0,0,0,0,2,0,0,0,0,1,0,5,5,0,1)",
         moved "translate(5 5)scale(2)" },
@@ -142,7 +143,8 @@ describe("places and sizes in styles", function()
         '<ellipse cx="30" cy="40" rx="20" ry="16"/>' },
       { [[<path style="d:path('M0 0H50V50')"/>]], '<path d="M0 0H50V50"/>' },
       { [[<path d="M0 0H9V9" style='d:path("M0 0H50V50")'/>]], '<path d="M0 0H50V50"/>' },
-      { '<svg style="width:50px;height:50px" viewBox="0 0 10 10"><rect width="10" height="10"/></svg>',
+      { '<svg style="width:50px;height:50px" viewBox="0 0 10 10"><rect width="10" height="10"/>'
+        .. "</svg>",
         '<rect width="50" height="50"/>' },
       { '<style>g{width:5px}text{x:5px}</style><g>' .. text "A" .. "</g>", text "A" },
     }
@@ -162,7 +164,8 @@ describe("variables", function()
     drawn {
       { styled "fill:var(--none, red)", box() },
       { '<g style="--a:red">' .. styled "fill:var(--a)" .. "</g>", box() },
-      { '<g style="--a:red"><g style="--a:blue;--a:red">' .. styled "fill:var(--a, blue)" .. "</g></g>",
+      { '<g style="--a:red"><g style="--a:blue;--a:red">' .. styled "fill:var(--a, blue)"
+        .. "</g></g>",
         box() },
       { "<style>:root{--a:red;--b:var(--a)}</style>" .. styled "fill:var( --b )", box() },
       { "<style>:root{--a:blue} rect{--a:red;fill:var(--a)}</style>" .. box 'class="a"', box() },
@@ -228,7 +231,8 @@ describe("colours of other spaces", function()
       for i = 1, 3 do
         local c = found[i]
         c = c <= 0.0031308 and 12.92 * c or 1.055 * c ^ (1 / 2.4) - 0.055
-        assert.is_true(math.abs(c - wanted[i]) < 0.003, ("%s: %g, not %g"):format(fill, c, wanted[i]))
+        assert.is_true(math.abs(c - wanted[i]) < 0.003, ("%s: %g, not %g"):format(fill, c,
+          wanted[i]))
       end
     end
   end)
@@ -254,11 +258,16 @@ describe("baselines", function()
       { '<g dominant-baseline="middle">' .. text "A" .. "</g>", text("A", 'dy="5"') },
       { '<g dominant-baseline="middle">' .. text("A", 'dominant-baseline="auto"') .. "</g>",
         text "A" },
-      { text('<tspan alignment-baseline="middle">A</tspan>B'), text '<tspan dy="5">A</tspan><tspan dy="-5">B</tspan>' },
-      { text('<tspan baseline-shift="5">A</tspan>B'), text '<tspan dy="-5">A</tspan><tspan dy="5">B</tspan>' },
-      { text('<tspan baseline-shift="25%">A</tspan>B'), text '<tspan dy="-5">A</tspan><tspan dy="5">B</tspan>' },
-      { text('<tspan baseline-shift="sub">A</tspan>B'), text '<tspan dy="4">A</tspan><tspan dy="-4">B</tspan>' },
-      { text('<tspan baseline-shift="2"><tspan baseline-shift="3">A</tspan></tspan>'), text("A", 'dy="-5"') },
+      { text('<tspan alignment-baseline="middle">A</tspan>B'),
+        text '<tspan dy="5">A</tspan><tspan dy="-5">B</tspan>' },
+      { text('<tspan baseline-shift="5">A</tspan>B'),
+        text '<tspan dy="-5">A</tspan><tspan dy="5">B</tspan>' },
+      { text('<tspan baseline-shift="25%">A</tspan>B'),
+        text '<tspan dy="-5">A</tspan><tspan dy="5">B</tspan>' },
+      { text('<tspan baseline-shift="sub">A</tspan>B'),
+        text '<tspan dy="4">A</tspan><tspan dy="-4">B</tspan>' },
+      { text('<tspan baseline-shift="2"><tspan baseline-shift="3">A</tspan></tspan>'), text("A",
+        'dy="-5"') },
       { '<g baseline-shift="9">' .. text("A", 'baseline-shift="9"') .. "</g>", text "A" },
     }
   end)
@@ -290,9 +299,10 @@ describe("texts", function()
     }
   end)
 
-  it("begin anew on every line that they run along", function()
+  it("begin again on every line that they run along", function()
     local lines = '<path id="a" d="M10 30H90" fill="none"/><path id="b" d="M10 60H90" fill="none"/>'
-    local function along(content) return lines .. '<text font-size="20">' .. content .. "</text>" end
+    local function along(content) return lines .. '<text font-size="20">' .. content
+      .. "</text>" end
     drawn {
       { along '<textPath href="#a">AB</textPath><textPath href="#b">C</textPath>',
         along '<textPath href="#a">AB</textPath>' .. along '<textPath href="#b">C</textPath>' },
@@ -303,7 +313,8 @@ describe("texts", function()
   end)
 
   it("list what is not drawn, wherever it is inherited from", function()
-    local function over(property, value) return { ('<g %s="%s">'):format(property, value) .. text "A" .. "</g>",
+    local function over(property, value) return { ('<g %s="%s">'):format(property, value)
+      .. text "A" .. "</g>",
       ('%s "%s"'):format(property, value) } end
     listed { over("text-decoration", "underline"), over("writing-mode", "tb"),
       over("writing-mode", "vertical-rl"), over("font-variant", "small-caps"),
@@ -317,7 +328,8 @@ describe("texts", function()
       with "font-size-adjust:.5", with "shape-inside:url(#s)", with "font-kerning:none",
       with "text-orientation:upright", with "font-variant-caps:small-caps",
       with "word-spacing:x", with "hyphenate-character:'-'" }
-    listed { { '<path id="p" d="M0 50H90"/><text><textPath href="#p" method="stretch">A</textPath></text>',
+    listed { { '<path id="p" d="M0 50H90"/>'
+      .. '<text><textPath href="#p" method="stretch">A</textPath></text>',
       'method "stretch"' } }
   end)
 end)
@@ -326,10 +338,11 @@ describe("markers", function()
   local MARKER = '<marker id="k" markerWidth="6" markerHeight="6" refX="3" refY="3" %s>'
     .. '<rect width="6" height="6" fill="lime"/></marker>'
   local function marked(shape, attributes)
-    return MARKER:format(attributes or "") .. "<g marker-start='url(#k)' marker-mid='url(#k)' marker-end='url(#k)'>"
+    return MARKER:format(attributes or "")
+      .. "<g marker-start='url(#k)' marker-mid='url(#k)' marker-end='url(#k)'>"
       .. shape .. "</g>"
   end
-  it("stand on all shapes", function()
+  it("are drawn on all shapes", function()
     drawn {
       { marked '<rect x="20" y="20" width="40" height="30"/>',
         marked '<path d="M20 20H60V50H20Z"/>' },
@@ -347,7 +360,8 @@ describe("markers", function()
 
   it("inherit how they overflow if they say so", function()
     local large = '<g overflow="visible"><marker id="k" markerWidth="2" markerHeight="2" %s>'
-      .. '<rect width="9" height="9" fill="lime"/></marker></g><path d="M10 10H50" marker-end="url(#k)"/>'
+      .. '<rect width="9" height="9" fill="lime"/></marker></g>'
+      .. '<path d="M10 10H50" marker-end="url(#k)"/>'
     drawn { { large:format 'overflow="inherit"', large:format 'overflow="visible"' } }
     assert.is_true(
       bytes(read(large:format "")) ~= bytes(read(large:format 'overflow="inherit"')))
@@ -360,8 +374,10 @@ describe("markers", function()
       { gradient .. '<defs><g id="u"><rect width="20" height="20" fill="context-fill"/>'
         .. '<rect x="60" width="20" height="20" fill="context-fill"/></g></defs>'
         .. '<use href="#u" fill="url(#g)"/>',
-        '<rect width="20" height="20" fill="red"/><rect x="60" width="20" height="20" fill="blue"/>' },
-      { gradient .. '<marker id="m" markerUnits="userSpaceOnUse" markerWidth="10" markerHeight="10" '
+        '<rect width="20" height="20" fill="red"/>'
+          .. '<rect x="60" width="20" height="20" fill="blue"/>' },
+      { gradient
+        .. '<marker id="m" markerUnits="userSpaceOnUse" markerWidth="10" markerHeight="10" '
         .. 'refX="5" refY="5"><rect width="10" height="10" fill="context-stroke"/></marker>'
         .. '<path d="M20 50L80 51" stroke="url(#g)" stroke-width="0" fill="none" '
         .. 'marker-start="url(#m)" marker-end="url(#m)"/>',
@@ -374,7 +390,7 @@ describe("markers", function()
   end)
 end)
 
-describe("values that are none", function()
+describe("invalid values", function()
   it("do not count, and are listed", function()
     local function same(first, second, note)
       local art = read(first)
@@ -408,7 +424,7 @@ describe("values that are none", function()
 end)
 
 describe("references", function()
-  it("of no namespace win, wherever they stand", function()
+  it("of no namespace win, in any order", function()
     local two = '<defs><rect id="r" width="9" height="9" fill="red"/>'
       .. '<rect id="g" width="9" height="9" fill="lime"/></defs>'
     local green = '<rect width="9" height="9" fill="lime"/>'

@@ -6,7 +6,12 @@
 #ifndef CS_SVG_COLOUR_SPACES_H
 #define CS_SVG_COLOUR_SPACES_H
 
-#include "readers/svg/colours.h"
+#include "celspan/celspan.h"
+
+/* sRGB-coded, 0..1, alpha straight. */
+typedef struct cs_svg_colour {
+  double rgb[3], alpha;
+} cs_svg_colour;
 
 /* Reads what *text begins with and moves *text behind it; false: it is no such colour. */
 bool cs_svg_take_space_colour(const char **text, cs_svg_colour *out);

@@ -6,7 +6,6 @@
 
 #include "base/hex.h"
 #include "base/number.h"
-#include "readers/svg/colour_spaces.h"
 #include "readers/svg/transforms.h"
 
 /* The colours that have names, sorted. Source: CSS Color Module Level 4, 6.1. */

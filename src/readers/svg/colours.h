@@ -2,11 +2,7 @@
 #ifndef CS_SVG_COLOURS_H
 #define CS_SVG_COLOURS_H
 
-#include "celspan/celspan.h"
-
-typedef struct cs_svg_colour {
-  double rgb[3], alpha;
-} cs_svg_colour;
+#include "readers/svg/colour_spaces.h"
 
 /* "#rgb", "#rrggbb" and with alpha, rgb(), rgba(), hsl(), hsla(), those of colour_spaces.h, a name,
  * transparent: reads what *text begins with and moves *text behind it. False when there is no

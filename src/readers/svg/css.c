@@ -79,8 +79,8 @@ static const char *value_end(const char *text, const char *end) {
   return text;
 }
 
-/* What follows the block that begins at a '{', or the end. */
-static const char *block_end(const char *text, const char *end) {
+/* What follows the braces that begin at a '{', or the end. */
+static const char *braces_end(const char *text, const char *end) {
   char quote = 0;
   int depth = 0;
   for (; text < end; text++) {
@@ -157,7 +157,7 @@ static celspan_status parse_declarations(const cs_css_place *place, const char *
                               cs_svg_name_facts_of(items[count].name)->use == CS_SVG_USE_GEOMETRY);
     out->has_nested = out->has_nested || is_nested;
     count += counts;
-    begin = is_nested ? block_end(stop, end) : stop + 1;
+    begin = is_nested ? braces_end(stop, end) : stop + 1;
   }
   out->count = count;
   return CELSPAN_OK;
@@ -369,7 +369,7 @@ static celspan_status parse_sheet(parser *p, const char *text) {
     const char *brace = strchr(text, '{');
     if (!brace)
       break;
-    const char *after = block_end(brace, brace + strlen(brace));
+    const char *after = braces_end(brace, brace + strlen(brace));
     const char *end = after[-1] == '}' ? after - 1 : after;
     cs_css_declarations declarations;
     CS_TRY(parse_declarations(p->place, brace + 1, end, &declarations));

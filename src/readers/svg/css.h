@@ -26,7 +26,7 @@ typedef struct cs_css_place {
 
 typedef struct cs_css_declaration {
   cs_svg_name name;   /* a property; CS_SVG_NAME_COUNT: a variable */
-  const char *custom; /* the variable's name, with its hyphens; NULL: it is none */
+  const char *custom; /* the variable's name, with its hyphens; NULL: no variable */
   bool is_important;
   bool has_variable; /* the value refers to variables */
   const char *value; /* without space at its ends */

@@ -87,7 +87,7 @@ static celspan_status note_attribute(reader *r, const cs_svg_node *node, cs_svg_
 }
 
 /* Takes an attribute into the list. One of no namespace wins over one of the same name in the
- * namespace of links, wherever they stand. */
+ * namespace of links, in any order. */
 static celspan_status take_attribute(reader *r, cs_svg_node *node, const char *const *attribute,
                                      cs_svg_attribute *list, size_t *count) {
   cs_svg_name name = attribute_name(attribute[0]);

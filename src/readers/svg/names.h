@@ -1,6 +1,6 @@
 /* The names of SVG that mean something here, as numbers: elements, attributes and properties, with
  * the values that are read of them. These lists are the one place that says what is drawn: whatever
- * a document names besides is noted (unread.h).
+ * else a document names is noted (unread.h).
  *
  * Invariant: all lists are sorted as strcmp sorts their texts, which is how they are searched.
  */
@@ -152,7 +152,7 @@ typedef enum cs_svg_name {
   CS_SVG_NAME_COUNT
 } cs_svg_name;
 
-/* Where a name stands. */
+/* Where a name is used. */
 typedef enum cs_svg_use {
   CS_SVG_USE_ATTRIBUTE, /* an attribute alone */
   CS_SVG_USE_PRESENTED, /* a property; the attribute of this name gives it, too */
@@ -196,7 +196,7 @@ typedef struct cs_svg_name_facts {
 cs_svg_element cs_svg_element_named(const char *text);
 /* CS_SVG_NAME_COUNT for one that is not in the list. */
 cs_svg_name cs_svg_name_of(const char *text);
-/* Whether it, or what is in it, may be seen; false for notes, scripts and filters. */
+/* Whether the element or its contents may be seen; false for notes, scripts and filters. */
 bool cs_svg_element_is_drawn(cs_svg_element element);
 const cs_svg_name_facts *cs_svg_name_facts_of(cs_svg_name name);
 /* Whether a style may set it. */

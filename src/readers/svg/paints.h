@@ -29,8 +29,9 @@ typedef enum cs_svg_layer {
   CS_SVG_LAYER_MARKERS
 } cs_svg_layer;
 
-/* Each takes the whole value; false: it is invalid. Of an order, the lowest layer is first: those that are named, in that order, then the others in theirs. */
-bool cs_svg_parse_order(const char *text, cs_svg_layer out[3]);
+/* Each takes the whole value; false: it is invalid. */
 bool cs_svg_parse_paint(const char *text, cs_svg_paint *out);
+/* The lowest layer is first: those that are named, in that order, then the others in theirs. */
+bool cs_svg_parse_order(const char *text, cs_svg_layer out[3]);
 
 #endif

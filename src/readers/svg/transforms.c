@@ -242,7 +242,7 @@ bool cs_svg_parse_scale(const char *text, celspan_matrix *out) {
   return is_none(text, out) || (take_list(text, 1, 3, &c) && make_scale(&c, out));
 }
 
-/* [z | 0 0 z] angle; the axis may stand on either side of the angle. */
+/* [z | 0 0 z] angle; the axis may be on either side of the angle. */
 bool cs_svg_parse_rotate(const char *text, celspan_matrix *out) {
   double degrees, x, y, z = 1;
   if (is_none(text, out))

@@ -11,7 +11,7 @@
 /* An angle with deg, grad, rad or turn, or in degrees, as degrees; as the functions of values.h. */
 bool cs_svg_take_angle(const char **text, double *degrees);
 
-/* Each takes the whole value; false: it is none, or goes beyond 1e12. Percentages are of the
+/* Each takes the whole value; false: it is invalid, or goes beyond 1e12. Percentages are of the
  * viewport of `measure`. */
 bool cs_svg_parse_transform(const char *text, const cs_svg_measure *measure, celspan_matrix *out);
 bool cs_svg_parse_translate(const char *text, const cs_svg_measure *measure, celspan_matrix *out);

@@ -1,5 +1,5 @@
 /* What a document names that is not drawn: an attribute, a property, an element, or a value of one
- * of them; once for each name, at the line where it stands first.
+ * of them; once for each name, at the line where it appears first.
  */
 #ifndef CS_SVG_UNREAD_H
 #define CS_SVG_UNREAD_H

@@ -57,7 +57,7 @@ static const char *closing(const char *text, const char *end) {
 /* Appends [text, end) with its variables filled in. Recursion: DEEPEST. */
 static bool append(filling *f, const char *text, const char *end);
 
-/* What stands between the parentheses of var(). */
+/* The text between the parentheses of var(). */
 static bool append_variable(filling *f, const char *text, const char *end) {
   while (text < end && cs_svg_is_space(*text))
     text++;

@@ -10,7 +10,7 @@
 
 #define CS_SVG_VARIABLE_BYTES ((size_t)64 << 20) /* that all of a document may take */
 
-/* One variable, before those that it hides or stands beside; NULL: none. */
+/* One variable, before those that it hides and those of other names; NULL: the last. */
 typedef struct cs_svg_variable {
   const char *name, *value;
   const struct cs_svg_variable *next;
