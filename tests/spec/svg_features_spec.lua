@@ -438,6 +438,46 @@ describe("references", function()
   end)
 end)
 
+describe("gradients that are not level", function()
+  local function gradient(attributes, stops)
+    return ('<linearGradient id="g" gradientUnits="userSpaceOnUse" %s>%s</linearGradient>'
+      .. '<rect width="100" height="100" fill="url(#g)"/>'):format(attributes, stops)
+  end
+  local function stop(offset, colour)
+    return ('<stop offset="%g" stop-color="%s"/>'):format(offset, colour)
+  end
+  local once = stop(0, "red") .. stop(1, "blue")
+  --- Four periods, from (10, 10) to (90, 50), as one.
+  local function periods(is_reflected)
+    local stops = {}
+    for i = 0, 3 do
+      local is_turned = is_reflected and i % 2 == 0 -- the second period is the gradient itself
+      stops[#stops + 1] = stop(i / 4, is_turned and "blue" or "red")
+      stops[#stops + 1] = stop((i + 1) / 4, is_turned and "red" or "blue")
+    end
+    return table.concat(stops)
+  end
+
+  it("are repeated and reflected along their own direction", function()
+    for spread, is_reflected in pairs { ["repeat"] = false, reflect = true } do
+      local first = read(gradient('x1="30" y1="20" x2="50" y2="30" spreadMethod="' .. spread .. '"',
+        once))
+      local second = read(gradient('x1="10" y1="10" x2="90" y2="50"', periods(is_reflected)))
+      for _, point in ipairs { { 15, 20 }, { 35, 30 }, { 45, 18 }, { 60, 40 }, { 70, 33 } } do
+        local colours = {}
+        for i, art in ipairs { first, second } do
+          local rostrum = celspan.rostrum { celspan.cel { art.object } }
+          colours[i] = { celspan.probe(rostrum, point[1], point[2], { film = { SIDE, SIDE } }) }
+        end
+        for c = 1, 3 do
+          assert.is_true(math.abs(colours[1][c] - colours[2][c]) < 0.01,
+            ("%s at %g %g"):format(spread, point[1], point[2]))
+        end
+      end
+    end
+  end)
+end)
+
 describe("lengths that lines declare", function()
   it("are what their dashes are measured by", function()
     local function dashed(attributes)

@@ -52,6 +52,19 @@ local paper, ink = "#ffffff", "#202020"
 local two = { ["#"] = ink, [" "] = paper, ["+"] = "#c03030" }
 
 describe("trace.picture", function()
+  it_traces("follows an edge between two corners with a few curves", function()
+    local half = celspan.intersection {
+      celspan.circle { centre = { 50, 50 }, radius = 40.3, texture = ink },
+      celspan.rect { 0, 0, 100, 50, texture = ink } }
+    local ground = celspan.rect { 0, 0, 100, 100, texture = paper }
+    local art = assert(trace.picture(draw(half | ground, 100, 100, "area"), { colours = 2 }))
+    local pieces = 0
+    for _, shape in ipairs(art.shapes) do
+      pieces = pieces + select(2, shape.d:gsub("[LCQAHV]", ""))
+    end
+    assert.is_true(pieces <= 20, pieces .. " pieces")
+  end)
+
   it_traces("finds the areas, the largest first, with their colours and sizes", function()
     local path = write({ "          ", "  ####    ", "  #  #  + ", "  ####    ", "          " },
       two)
