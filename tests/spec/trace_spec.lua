@@ -56,10 +56,11 @@ describe("trace.picture", function()
     local half = celspan.intersection {
       celspan.circle { centre = { 50, 50 }, radius = 40.3, texture = ink },
       celspan.rect { 0, 0, 100, 50, texture = ink } }
-    local ground = celspan.rect { 0, 0, 100, 100, texture = paper }
-    local art = assert(trace.picture(draw(half | ground, 100, 100, "area"), { colours = 2 }))
+    local path = bench.folder .. "/half.png"
+    assert(celspan.render(celspan.rostrum { back = paper, celspan.cel { half } }, path,
+      { size = { 100, 100 } }))
     local pieces = 0
-    for _, shape in ipairs(art.shapes) do
+    for _, shape in ipairs(assert(trace.picture(path, { colours = 2 })).shapes) do
       pieces = pieces + select(2, shape.d:gsub("[LCQAHV]", ""))
     end
     assert.is_true(pieces <= 20, pieces .. " pieces")
