@@ -554,6 +554,8 @@ describe("whatever else a document names", function()
       '<switch><blink/><g>' .. box() .. "</g></switch>",
       '<filter id="f"><feGaussianBlur stdDeviation="2"/></filter>' .. box(),
       '<style media="print">rect{unheard:1}</style>' .. box(),
+      box 'space="preserve" label="a"',
+      '<pattern id="p" patternUnits="userSpaceOnUse" patternTransform="scale(2)"/>' .. box(),
       '<a xlink:href="#b" xlink:title="c" target="_blank">' .. box() .. "</a>",
     }
   end)

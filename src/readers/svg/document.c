@@ -73,14 +73,19 @@ static cs_css_place css_place(reader *r, uint64_t line) {
   return (cs_css_place){r->context, &r->document->arena, &r->document->unread, (uint32_t)line};
 }
 
+/* Whether an attribute that is not read changes nothing: those of other namespaces, and names that
+ * count in a namespace alone. */
+static bool is_silent(const char *const *attribute) {
+  return strchr(attribute[0], ' ') || cs_svg_name_of(attribute[0]) != CS_SVG_NAME_COUNT ||
+         cs_svg_name_is_silent(attribute[0], attribute[1]);
+}
+
 /* Notes an attribute that is not read, or a value that is not. */
 static celspan_status note_attribute(reader *r, const cs_svg_node *node, cs_svg_name name,
                                      const char *const *attribute) {
-  bool is_known = name != CS_SVG_NAME_COUNT;
-  bool is_read = is_known && cs_svg_value_is_read(name, attribute[1], false);
-  if (is_read || !cs_svg_element_is_drawn(node->element) ||
-      (!is_known &&
-       (strchr(attribute[0], ' ') || cs_svg_name_is_silent(attribute[0], attribute[1]))))
+  bool is_quiet = name != CS_SVG_NAME_COUNT ? cs_svg_value_is_read(name, attribute[1], false)
+                                            : is_silent(attribute);
+  if (is_quiet || !cs_svg_element_is_drawn(node->element))
     return CELSPAN_OK;
   return cs_svg_unread_add(&r->document->unread, r->context, &r->document->arena, node->line,
                            attribute[0], attribute[1]);
