@@ -90,7 +90,7 @@ describe("transforms in styles", function()
         moved "translate(5 5)scale(2)" },
       { styled "transform:translate(40px) rotate3d(0,0,1,90deg)",
         moved "translate(40)rotate(90)" },
-      { styled "transform:TRANSLATEX(10PX)", moved "translate(10)" },
+      { styled "TRANSFORM:TRANSLATEX(10PX)", moved "translate(10)" },
       { "<style>rect{transform:translateX(10px)}</style>" .. box(), moved "translate(10)" },
     }
   end)
@@ -254,6 +254,7 @@ describe("baselines", function()
     drawn {
       { text("A", 'dominant-baseline="auto"'), text "A" },
       { text("A", 'dominant-baseline="alphabetic"'), text "A" },
+      { text("A", 'dominant-baseline=" MIDDLE "'), text("A", 'dy="5"') },
       { text("A", 'dominant-baseline="middle"'), text("A", 'dy="5"') },
       { '<g dominant-baseline="middle">' .. text "A" .. "</g>", text("A", 'dy="5"') },
       { '<g dominant-baseline="middle">' .. text("A", 'dominant-baseline="auto"') .. "</g>",

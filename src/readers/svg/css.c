@@ -22,7 +22,7 @@ static bool is_name(char c) {
 }
 
 /* A copy of [begin, end) without space at its ends. NULL without memory. */
-static const char *copy_trimmed(const cs_css_place *place, const char *begin, const char *end) {
+static char *copy_trimmed(const cs_css_place *place, const char *begin, const char *end) {
   while (begin < end && cs_svg_is_space(*begin))
     begin++;
   while (begin < end && cs_svg_is_space(end[-1]))
@@ -132,10 +132,14 @@ static celspan_status parse_declaration(const cs_css_place *place, const char *b
   const char *colon = name_end < end ? cs_svg_skip_space(name_end) : end;
   if (colon >= end || *colon != ':' || name_end == begin)
     return CELSPAN_OK;
-  const char *name = copy_trimmed(place, begin, name_end);
+  char *name = copy_trimmed(place, begin, name_end);
   out->is_important = cut_important(colon, &end);
   out->value = copy_trimmed(place, colon + 1, end);
-  return name && out->value ? judge(place, name, out, counts) : CELSPAN_NO_MEMORY;
+  if (!name || !out->value)
+    return CELSPAN_NO_MEMORY;
+  for (char *at = name; *at && strncmp(name, "--", 2) != 0; at++)
+    *at = *at >= 'A' && *at <= 'Z' ? (char)(*at - 'A' + 'a') : *at;
+  return judge(place, name, out, counts);
 }
 
 static celspan_status parse_declarations(const cs_css_place *place, const char *begin,

@@ -118,7 +118,7 @@ static bool is_path_function(const char *text) {
   size_t size = strlen(text);
   const char *begin = strpbrk(text, "\"'"), *end = begin ? strrchr(text, *begin) : NULL;
   return cs_svg_is_word(text, "none") ||
-         (strncmp(text, "path(", 5) == 0 && end > begin && text[size - 1] == ')');
+         (begin && strncmp(text, "path(", 5) == 0 && end > begin && text[size - 1] == ')');
 }
 
 /* A place or a size in a style: a length of CSS has a unit. */
@@ -153,22 +153,13 @@ static bool has_form(cs_svg_form form, const char *text, bool is_style) {
   return tests[form] ? tests[form](text) : form == CS_SVG_FORM_ANY;
 }
 
-static bool is_word_of(const char *words, const char *text) {
-  char word[32];
-  size_t size = strcspn(text, " \t\r\n\f");
-  if (!words || size == 0 || size >= sizeof word || *cs_svg_skip_space(text + size))
-    return false;
-  memcpy(word, text, size);
-  word[size] = 0;
-  return cs_svg_words_have(words, word);
-}
-
 bool cs_svg_value_is_read(cs_svg_name name, const char *value, bool is_style) {
   const cs_svg_name_facts *facts = cs_svg_name_facts_of(name);
   bool is_property = is_style || facts->use == CS_SVG_USE_PRESENTED;
   value = cs_svg_skip_space(value);
-  if (cs_svg_has_variable(value) || cs_svg_is_unfit(value) || is_word_of(facts->words, value) ||
-      (is_property && is_word_of("inherit|initial|unset|revert|revert-layer", value)))
+  if (cs_svg_has_variable(value) || cs_svg_is_unfit(value) ||
+      cs_svg_words_have(facts->words, value) ||
+      (is_property && cs_svg_words_have("inherit|initial|unset|revert|revert-layer", value)))
     return true;
   if (is_style && facts->use == CS_SVG_USE_GEOMETRY)
     return is_geometry(name, value);

@@ -181,8 +181,13 @@ bool cs_svg_is_property(cs_svg_name name) { return names[name].use != CS_SVG_USE
 
 const char *cs_svg_name_text(cs_svg_name name) { return names[name].text; }
 
+#define SPACE " \t\n\v\f\r"
+
 bool cs_svg_words_have(const char *words, const char *value) {
-  size_t size = strlen(value);
+  value += strspn(value, SPACE);
+  size_t size = strcspn(value, SPACE);
+  if (size == 0 || value[size + strspn(value + size, SPACE)])
+    return false;
   for (const char *at = words; at; at = strchr(at, '|') ? strchr(at, '|') + 1 : NULL)
     if (strncasecmp(at, value, size) == 0 && (at[size] == '|' || at[size] == 0))
       return true;

@@ -203,7 +203,8 @@ const cs_svg_name_facts *cs_svg_name_facts_of(cs_svg_name name);
 bool cs_svg_is_property(cs_svg_name name);
 const char *cs_svg_name_text(cs_svg_name name);
 
-/* Whether one of the words, with '|' between them, is the value. */
+/* Whether one of the words, with '|' between them, is the value; letters may be of either case.
+ * words: NULL: none. */
 bool cs_svg_words_have(const char *words, const char *value);
 
 #endif
