@@ -265,8 +265,9 @@ describe("styles", function()
       assert.are.equal("style: selectors or at-rules that do not count", art.skipped[1].what)
     end
     local sheet = '<?xml-stylesheet href="red.css" type="text/css"?>'
-    assert.are.equal("000000 255",
-      at(assert(svg.read(write(sheet .. in_svg '<rect width="9" height="9"/>'))).object, 5, 5))
+    local art = assert(svg.read(write(sheet .. in_svg '<rect width="9" height="9"/>')))
+    assert.are.equal("000000 255", at(art.object, 5, 5))
+    assert.are.same({ { line = 1, what = "xml-stylesheet" } }, art.skipped)
   end)
 end)
 

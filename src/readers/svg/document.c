@@ -309,6 +309,15 @@ static bool on_text(void *user, const char *bytes, size_t size, uint64_t line) {
   return r->failure == CELSPAN_OK;
 }
 
+/* Notes a style sheet in a file of its own, which the instruction before the document names. */
+static celspan_status note_other_sheet(reader *r, const char *bytes, size_t size) {
+  static const char instruction[] = "<?xml-stylesheet";
+  return memmem(bytes, size, instruction, sizeof instruction - 1)
+             ? cs_svg_unread_add(&r->document->unread, r->context, &r->document->arena, 1,
+                                 "xml-stylesheet", NULL)
+             : CELSPAN_OK;
+}
+
 celspan_status cs_svg_document_read(celspan_context *context, const char *name, const char *bytes,
                                     size_t size, cs_svg_document *out) {
   *out = (cs_svg_document){0};
@@ -318,6 +327,8 @@ celspan_status cs_svg_document_read(celspan_context *context, const char *name, 
   const cs_xml_handler handler = {on_start, on_end, on_text, &r, CS_SVG_DEPTH};
   celspan_status status =
       cs_xml_parse(context, name, "reading SVG", bytes, size, &handler, &r.failure);
+  if (status == CELSPAN_OK)
+    status = note_other_sheet(&r, bytes, size);
   const cs_css_place place = css_place(&r, out->sheet_line);
   if (status == CELSPAN_OK && r.css)
     status = cs_css_sheet_parse(&place, r.css, &out->sheet);
