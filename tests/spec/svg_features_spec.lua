@@ -529,6 +529,7 @@ describe("whatever else a document names", function()
       { styled "animation:turn 1s", 'animation "turn 1s"' },
       { styled "clip:rect(0,1px,1px,0)", 'clip "rect(0,1px,1px,0)"' },
       { styled "zoom:2", 'zoom "2"' }, { styled "z-index:2", 'z-index "2"' },
+      { styled "vector-effect:inherit", 'vector-effect "inherit"' },
       { styled "an-unheard-of-property:1" .. styled "an-unheard-of-property:2",
         'an-unheard-of-property "1"' },
       { box 'unheard="a"' .. box 'unheard="b"', 'unheard "a"' },

@@ -159,7 +159,8 @@ bool cs_svg_value_is_read(cs_svg_name name, const char *value, bool is_style) {
   value = cs_svg_skip_space(value);
   if (cs_svg_has_variable(value) || cs_svg_is_unfit(value) ||
       cs_svg_words_have(facts->words, value) ||
-      (is_property && cs_svg_words_have("inherit|initial|unset|revert|revert-layer", value)))
+      (is_property && cs_svg_words_have("initial|unset|revert|revert-layer", value)) ||
+      (facts->initial && cs_svg_words_have("inherit", value)))
     return true;
   if (is_style && facts->use == CS_SVG_USE_GEOMETRY)
     return is_geometry(name, value);
