@@ -15,7 +15,8 @@ local layers = {}
 
 ---@class celspan.layers.entry
 ---@field name string
----@field object celspan.object The picture at its place, without opacity; or a group's visible layers
+---@field object celspan.object The picture at its place, without opacity; or a group's visible '
+  .. 'layers
 ---@field x number Of its left edge, in pixels of the painting
 ---@field y number Of its top edge
 ---@field opacity number 0..1
@@ -113,10 +114,34 @@ local function note_blends(list, path, is_faded, skipped)
   end
 end
 
+--- The rearmost visible picture of a list, and its path; nil where a group with opacity comes
+--- first.
+local function rearmost(list, path)
+  for _, entry in ipairs(list) do
+    if entry.visible and entry.children then
+      if entry.opacity < 1 then return nil end
+      local found, where = rearmost(entry.children, path .. entry.name .. "/")
+      if found then return found, where end
+    elseif entry.visible then
+      return entry, path .. entry.name
+    end
+  end
+end
+
+--- Light over nothing has no alpha, where painting programs show it as paint.
+local function note_light(list, skipped)
+  local entry, path = rearmost(list, "")
+  if entry and entry.blend == "add" then
+    skipped[#skipped + 1] = { layer = path,
+      what = 'blend mode "add" with no layer behind it: it is light without alpha' }
+  end
+end
+
 local function make_tree(list, width, height, skipped)
   local tree = { width = width, height = height, skipped = skipped }
   for i, entry in ipairs(list) do tree[i] = entry end
   note_blends(list, "", false, skipped)
+  note_light(list, skipped)
   return setmetatable(tree, Tree)
 end
 
@@ -290,6 +315,7 @@ local function find(list, path)
       if found then return found end
     end
   end
+  return nil
 end
 
 --- The layer or group of a path, "group/layer"; the rearmost if several have it.

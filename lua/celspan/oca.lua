@@ -5,7 +5,8 @@
 --     -> { width =, height =, layers = {...}, skipped = {...} } | nil, message
 --
 -- A layer: name, x, y, opacity, visible, blend, and picture (the fields of an image) or children. A
--- layer with several drawings becomes a group of them, of which the first is visible.
+-- layer with several drawings becomes a group of them, of which the first is visible; none is if
+-- the first frame is empty.
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
@@ -85,9 +86,35 @@ end
 
 -- ---------------------------------------------------------------- layers
 
---- The drawings of a layer that are not empty, in order.
+--- Whether the document is of a version before 1.1.1, which first says that the opacities of a
+--- layer and of its frames are multiplied.
+local function has_one_opacity(version)
+  local major, minor, patch = version:match "^(%d+)%.?(%d*)%.?(%d*)"
+  local number = (tonumber(major) or 9) * 1e6 + (tonumber(minor) or 0) * 1e3 + (tonumber(patch)
+    or 0)
+  return number < 1001001
+end
+
+--- Makes the opacity of a layer and those of its drawings factors of each other. Some programs
+--- write the opacity of a layer again into its frames: equal ones below 1 count once, and all in
+--- documents of versions that do not multiply them.
+local function share_opacity(state, layer, drawings)
+  local differs = false
+  for _, drawing in ipairs(drawings) do
+    differs = differs or drawing.opacity ~= layer.opacity and drawing.opacity ~= 1
+  end
+  if state.has_one_opacity and differs then
+    layer.opacity = 1
+    return
+  end
+  for _, drawing in ipairs(drawings) do
+    if drawing.opacity == layer.opacity then drawing.opacity = 1 end
+  end
+end
+
+--- The drawings of a layer that are not empty, in order, and whether its first frame is empty.
 local function read_drawings(state, layer, path, what)
-  local list = {}
+  local list, is_late = {}, false
   for i, frame in ipairs(value_of(layer, what, "frames", {})) do
     local here = ("%s: frame %d"):format(what, i)
     if type(frame) ~= "table" then
@@ -98,16 +125,20 @@ local function read_drawings(state, layer, path, what)
     local file = value_of(frame, here, "fileName", "")
     if file ~= "" and name ~= "_blank" then
       local x, y, w, h = place_of(frame, here, state.width, state.height)
-      list[#list + 1] = { name = name, x = x, y = y, visible = #list == 0, blend = "normal",
+      list[#list + 1] = { name = name, x = x, y = y, blend = "normal",
+        visible = #list == 0 and not is_late,
         opacity = number_of(frame, here, "opacity", 1, 0, 1),
         picture = { file = file_of(state, here, file), x = x, y = y, w = w, h = h } }
+    elseif #list == 0 then
+      is_late = true
     end
   end
-  if #list > 1 then
+  if #list > 1 or is_late and #list > 0 then
     state.skipped[#state.skipped + 1] = { layer = path,
-      what = ("%d drawings: the first is visible"):format(#list) }
+      what = ("%d drawings: %s is visible"):format(#list,
+        is_late and "the first frame is empty, and none" or "the first") }
   end
-  return list
+  return list, is_late
 end
 
 local read_layers
@@ -131,8 +162,9 @@ local function read_layer(state, layer, folder, what)
       what .. ": ")
     return out
   end
-  local drawings = read_drawings(state, layer, path, what)
-  if #drawings > 1 then
+  local drawings, is_late = read_drawings(state, layer, path, what)
+  share_opacity(state, out, drawings)
+  if #drawings > 1 or is_late and #drawings > 0 then
     out.children = drawings
   elseif #drawings == 1 then
     out.x, out.y, out.picture = drawings[1].x, drawings[1].y, drawings[1].picture
@@ -170,6 +202,7 @@ local function read_document(folder, text)
   local state = { folder = folder, count = 0, skipped = {},
     width = number_of(document, "the document", "width", 1920, 1, 1048576),
     height = number_of(document, "the document", "height", 1080, 1, 1048576) }
+  state.has_one_opacity = has_one_opacity(value_of(document, "the document", "ocaVersion", ""))
   local list = value_of(document, "the document", "layers", {})
   local read = read_layers(state, list, "", "")
   local ground = background(document, state.width, state.height)

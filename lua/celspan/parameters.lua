@@ -4,8 +4,8 @@
 --   --set, --set-from --> settings --> checked against it --> values
 --
 -- The settings are a table in the registry of the Lua state. The program fills it before it runs
--- the script, with { name =, text = } or { path =, json = } for each option. Two fields are answers to
--- the program: `declared`, and `refused`, the sentence about a wrong setting.
+-- the script, with { name =, text = } or { path =, json = } for each option. Two fields are answers
+-- to the program: `declared`, and `refused`, the sentence about a wrong setting.
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"

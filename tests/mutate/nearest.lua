@@ -57,7 +57,7 @@ return {
   tiles = { "unit/tiles", "spec/tiles" },
   video = { "spec/video" },
   sandbox = { "spec/source", "sandbox/sandbox" },
-  svg = { "unit/fuzz-colour", "unit/fuzz-svg", "spec/svg_same", "spec/svg" },
+  svg = { "unit/fuzz-colour", "unit/fuzz-svg", "spec/svg_features", "spec/svg_same", "spec/svg" },
   text = { "unit/text", "spec/text", "golden/golden" },
   trace = { "unit/stretches", "property/trace", "spec/trace" },
   track = { "spec/track" },

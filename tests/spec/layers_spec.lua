@@ -811,12 +811,12 @@ describe("an OCA folder", function()
         [
         {"name": "moves", "frames": [%s, %s], "blendingMode": "linear_dodge"}]},
       {"name": "guide", "reference": true, "frames": []}]}]]):format(
-    drawing:format("s1", [[sub\\one.png]], 0.5), drawing:format("m1", "sub/one.png", 1),
+    drawing:format("s1", [[sub\\one.png]], 0.25), drawing:format("m1", "sub/one.png", 1),
     drawing:format("m2", "sub/two.png", 1))
 
   it_reads_pictures("is a tree in which a layer of several drawings is a group", function()
     local tree = assert(layers.read(oca_folder(document)))
-    assert.are.equal("background 0,0 1.00 normal; still 8,10 0.25 multiply; "
+    assert.are.equal("background 0,0 1.00 normal; still 8,10 0.12 multiply; "
       .. "group 0,0 1.00 pass-through hidden [moves 0,0 1.00 add [m1 8,10 1.00 normal; "
       .. "m2 8,10 1.00 normal hidden]]; guide 0,0 1.00 normal hidden", shape_of(tree))
     assert.are.equal("40 50 60 255", codes_of(tree:find("group/moves/m2").object, 40, 30)(8, 10))
@@ -888,6 +888,53 @@ describe("an OCA folder", function()
     assert.are.equal(1080, empty.height)
   end)
 
+  it_reads_pictures("counts an opacity once that is that of the layer and of its frames", function()
+    local function opacity(version, layer, frame)
+      local tree = assert(with_layer(('"opacity": %s, '):format(layer),
+        one .. place .. ('"opacity": %s, '):format(frame),
+        version and ('"ocaVersion": "%s",'):format(version)))
+      return tree[1].opacity
+    end
+    assert.are.equal(0.5, opacity("1.1.1", 0.5, 0.5))
+    assert.are.equal(0.5, opacity(nil, 0.5, 0.5))
+    assert.are.equal(0.125, opacity("1.1.1", 0.5, 0.25))
+    assert.are.equal(0.125, opacity(nil, 0.5, 0.25))
+    assert.are.equal(0.25, opacity("1.1.0", 0.5, 0.25))
+    assert.are.equal(0.25, opacity("1.0", 0.5, 0.25))
+    assert.are.equal(0.5, opacity("1.1.0", 0.5, 1))
+    assert.are.equal(0.25, opacity("1.1.0", 1, 0.25))
+  end)
+
+  it_reads_pictures("shows nothing of a layer whose first frame is empty", function()
+    local blank = '{"name": "_blank", "fileName": "", "frameNumber": 0, "duration": 8}'
+    for drawings, list in pairs { [drawing:format("a", "sub/one.png", 1)] = "a",
+      [drawing:format("a", "sub/one.png", 1) .. "," .. drawing:format("b", "sub/two.png",
+        1)] = "ab",
+    } do
+      local tree = assert(layers.read(oca_folder(
+        ('{"layers": [{"name": "late", "frames": [%s, %s]}]}'):format(blank, drawings))))
+      assert.are.equal(#list, #tree[1].children)
+      for _, child in ipairs(tree[1].children) do assert.is_false(child.visible) end
+      assert.are.same({ { layer = "late",
+        what = ("%d drawings: the first frame is empty, and none is visible"):format(#list) } },
+        tree.skipped)
+      assert.are.same({}, { tree[1].object:bounds() })
+    end
+  end)
+
+  it_reads_pictures("finds nil for a path that does not exist", function()
+    local tree = assert(with_layer("", one .. place))
+    assert.are.equal(1, select("#", tree:find "no/such"))
+    assert.is_nil(tree:find "no/such")
+  end)
+
+  it_reads_pictures("says that light over nothing has no alpha", function()
+    local tree = assert(with_layer('"blendingMode": "add", ', one .. place))
+    assert.are.same({ { layer = "ink",
+      what = 'blend mode "add" with no layer behind it: it is light without alpha' } },
+      tree.skipped)
+  end)
+
   it_reads_pictures("has blank drawings that show nothing", function()
     for _, fields in ipairs { '"name": "_blank", ' .. one, '"fileName": "", ' } do
       local tree = assert(with_layer("", fields .. place))
@@ -901,8 +948,9 @@ describe("an OCA folder", function()
     local known = { normal = "normal", multiply = "multiply", add = "add", linear_dodge = "add",
       plus = "add", Multiply = "multiply" }
     for word, blend in pairs(known) do
-      local tree = assert(with_layer(('"blendingMode": "%s", '):format(word), one .. place))
-      assert.are.equal(blend, tree[1].blend)
+      local tree = assert(with_layer(('"blendingMode": "%s", '):format(word), one .. place,
+        '"backgroundColor": [1, 1, 1, 1], '))
+      assert.are.equal(blend, tree[2].blend)
       assert.are.same({}, tree.skipped)
     end
     for _, word in ipairs { "screen", "overlay", "erase", "soft_light" } do

@@ -344,6 +344,18 @@ describe("fonts", function()
   it("without an axis refuse its name", function()
     local message = message_of { "A", variations = { wdth = 80 } }
     assert.is_truthy(message:find('has no axis "wdth"', 1, true), message)
+    assert.is_truthy(message:find("%S+%.%a+ has no axis"), message) -- the only font is named
+  end)
+end)
+
+describe("languages and features", function()
+  it("may have every digit in their names", function()
+    for _, language in ipairs { "es-419", "x-0", "x-9" } do
+      assert.has_no.errors(function() return text { "A", language = language } end)
+    end
+    for _, feature in ipairs { "cv01", "ss20", "cv99" } do
+      assert.has_no.errors(function() return text { "A", features = { [feature] = true } } end)
+    end
   end)
 end)
 

@@ -52,6 +52,20 @@ local paper, ink = "#ffffff", "#202020"
 local two = { ["#"] = ink, [" "] = paper, ["+"] = "#c03030" }
 
 describe("trace.picture", function()
+  it_traces("follows an edge between two corners with a few curves", function()
+    local half = celspan.intersection {
+      celspan.circle { centre = { 50, 50 }, radius = 40.3, texture = ink },
+      celspan.rect { 0, 0, 100, 50, texture = ink } }
+    local path = bench.folder .. "/half.png"
+    assert(celspan.render(celspan.rostrum { back = paper, celspan.cel { half } }, path,
+      { size = { 100, 100 } }))
+    local pieces = 0
+    for _, shape in ipairs(assert(trace.picture(path, { colours = 2 })).shapes) do
+      pieces = pieces + select(2, shape.d:gsub("[LCQAHV]", ""))
+    end
+    assert.is_true(pieces <= 20, pieces .. " pieces")
+  end)
+
   it_traces("finds the areas, the largest first, with their colours and sizes", function()
     local path = write({ "          ", "  ####    ", "  #  #  + ", "  ####    ", "          " },
       two)

@@ -44,6 +44,8 @@ describe("wrong calls", function()
         celspan.pixels(rostrum, with { size = { 4, 0 } })
       end, "4 x 0 pixels are asked for" },
       { function() celspan.pixels(rostrum, with { size = { 4.5, 4 } }) end, "size" },
+      { function() celspan.film { size = { 279.84, 200 }, frame = print } end,
+        "got 279.84; math.ceil makes a number whole" },
       { function() celspan.pixels({ { rostrum } }, one):bytes { depth = 12 } end,
         "field 'depth' must be 8, 16" },
       { function() celspan.pixels({ { rostrum } }, one):bytes { depth = "many" } end,

@@ -125,6 +125,19 @@ static void a_colour_may_lack_its_end(void) {
 }
 
 /* Everything with memory of its own: clip paths, masks, markers, gradients, texts, images. */
+/* Styles in every form, and what is noted of them. */
+static const char styled_drawing[] =
+    "<svg xmlns='http://www.w3.org/2000/svg' width='40' height='30'>\n"
+    "<style>:root{--a:red;--b:var(--a)} rect{width:9px;height:9px;fill:var(--b);unheard:1}\n"
+    "path{d:path('M0 0H9V9');stroke:oklch(.5 .1 20);zoom:2;rx:2} g{a{fill:red}}</style>\n"
+    "<g id='hand' style='--c:5px;translate:var(--c);opacity:x' unknown='1'>\n"
+    "<rect/><path stroke-dasharray='1' pathLength='9'/><blink/>\n"
+    "<text dominant-baseline='middle'>A<tspan baseline-shift='super'>B</tspan></text></g>\n"
+    "<linearGradient id='l'><stop stop-color='red'/><stop offset='1'/></linearGradient>\n"
+    "<g id='u'><rect fill='context-fill'/><use href='#u'/></g>\n"
+    "<use href='#u' fill='url(#l)' style='--a:hwb(9 9% 9%)'/>\n"
+    "</svg>";
+
 static const char rich_drawing[] =
     "<svg xmlns='http://www.w3.org/2000/svg' width='40' height='30' viewBox='0 0 80 60'>\n"
     "<style>g > .a[id^=h], #none { fill: lime } @media x { rect { fill: red } }</style>\n"
@@ -203,6 +216,7 @@ int main(void) {
   for (int is_for_good = 0; is_for_good < 2; is_for_good++) {
     memory_may_fail_anywhere(drawing, is_for_good);
     memory_may_fail_anywhere(rich_drawing, is_for_good);
+    memory_may_fail_anywhere(styled_drawing, is_for_good);
   }
   return check_done();
 }

@@ -51,6 +51,11 @@ static bool is_whole(double number) {
   return number >= INT_MIN && number <= INT_MAX && number == (int)number;
 }
 
+/* The end of a message about a number that is not whole: what to do. */
+static const char *rounding_hint(double number) {
+  return number == floor(number) ? "" : "; math.ceil makes a number whole";
+}
+
 static int whole_of(const cs_form *form, const cs_field *field) {
   double number = number_of(form, field);
   if (!is_whole(number))
@@ -72,12 +77,12 @@ static void read_pixels(const cs_form *form, const cs_field *field, int32_t *out
   for (int i = 0; i < field->count; i++) {
     bool is_good = is_whole(numbers[i]) && (!has_range(field) || is_in_range(field, numbers[i]));
     if (!is_good && has_range(field))
-      cs_form_fail(form, "%s[%d] must be a whole number from %s to %s, got %s", field->name, i + 1,
-                   cs_form_digits(L, field->least), cs_form_digits(L, field->most),
-                   cs_form_digits(L, numbers[i]));
+      cs_form_fail(form, "%s[%d] must be a whole number from %s to %s, got %s%s", field->name,
+                   i + 1, cs_form_digits(L, field->least), cs_form_digits(L, field->most),
+                   cs_form_digits(L, numbers[i]), rounding_hint(numbers[i]));
     else if (!is_good)
-      cs_form_fail(form, "field '%s' must hold whole numbers of pixels, got %s", field->name,
-                   cs_form_digits(L, numbers[i]));
+      cs_form_fail(form, "field '%s' must hold whole numbers of pixels, got %s%s", field->name,
+                   cs_form_digits(L, numbers[i]), rounding_hint(numbers[i]));
     out[i] = (int32_t)numbers[i];
   }
 }

@@ -38,13 +38,12 @@ static celspan_status add_shape_box(cs_svg_reading *reading, const cs_svg_node *
 static celspan_status add_element_box(cs_svg_reading *reading, const cs_svg_node *node,
                                       cs_svg_place place, celspan_box *whole, bool *is_there) {
   const cs_svg_open open = {node, place.open};
-  if (!cs_svg_is_shown(node, place.sizes))
-    return CELSPAN_OK;
-  if (cs_svg_is_open(place.open, node) || ++reading->depth > CS_SVG_DEPTH)
+  if (!cs_svg_is_shown(node, place.sizes) || cs_svg_is_open(place.open, node))
+    return CELSPAN_OK; /* what shows itself is noted when it is drawn */
+  if (++reading->depth > CS_SVG_DEPTH)
     return cs_fail(reading->context, CELSPAN_LIMIT,
-                   "line %u: elements refer to one another in a "
-                   "circle, or more than %d deep",
-                   node->line, CS_SVG_DEPTH);
+                   "line %u: elements refer to one another more than %d deep", node->line,
+                   CS_SVG_DEPTH);
   CS_TRY(cs_svg_count_drawn(reading, node));
   CS_TRY(cs_svg_enter(reading, node, &place));
   place.open = &open;

@@ -4,7 +4,9 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "readers/svg/boxes.h"
 #include "readers/svg/clips.h"
+#include "readers/svg/geometry.h"
 #include "readers/svg/image.h"
 #include "readers/svg/markers.h"
 #include "readers/svg/masks.h"
@@ -69,6 +71,36 @@ static celspan_status add_viewport(builder *b, const cs_svg_node *node, const cs
   return inside == parent ? CELSPAN_OK : cs_svg_item_compose(b->reading->context, inside);
 }
 
+/* ---------------------------------------------------------------- contexts */
+
+/* A paint as it is in `place`, for what takes it over: one with a context already keeps that. */
+static cs_svg_paint context_paint(cs_svg_paint paint, const cs_svg_style *style,
+                                  const cs_svg_context_box *context) {
+  if (paint.kind == CS_SVG_PAINT_CURRENT) {
+    paint.kind = CS_SVG_PAINT_COLOUR;
+    paint.colour = style->colour;
+  }
+  if (paint.has_server && !paint.context)
+    paint.context = context;
+  return paint;
+}
+
+/* Gives the contents of a `use` or a marker, in *inner, the paints of the element at `place`.
+ * *context: lives as long as they are drawn. */
+static celspan_status enter_context(builder *b, const cs_svg_node *node, const cs_svg_place *place,
+                                    cs_svg_context_box *context, cs_svg_place *inner) {
+  const cs_svg_style *style = &place->style;
+  cs_svg_place own = *place;
+  bool is_there = false;
+  *context = (cs_svg_context_box){{0, 0, 0, 0}, place->matrix, place->measure};
+  own.matrix = celspan_matrix_identity();
+  if (style->fill.has_server || style->stroke.has_server)
+    CS_TRY(cs_svg_box_of(b->reading, node, &own, &context->box, &is_there));
+  inner->style.context_fill = context_paint(style->fill, style, context);
+  inner->style.context_stroke = context_paint(style->stroke, style, context);
+  return CELSPAN_OK;
+}
+
 /* ---------------------------------------------------------------- use */
 
 /* The drawing's units at the place where an element stands in the file: the transforms of what it
@@ -101,20 +133,19 @@ static celspan_status add_used(builder *b, const cs_svg_node *node, const cs_svg
   celspan_context *context = b->reading->context;
   const cs_svg_node *used = cs_svg_linked(b->reading, node);
   cs_svg_place inner = *place;
+  cs_svg_context_box box;
   double x, y;
   if (!used)
     return cs_svg_node_value(node, CS_SVG_HREF)
                ? cs_svg_skip(b->reading, node, "use of an element that is not in the file")
                : CELSPAN_OK;
   if (cs_svg_is_open(place->open, used))
-    return cs_fail(context, CELSPAN_INPUT,
-                   "line %u: use is recursive: it is inside the element that it shows", node->line);
+    return cs_svg_skip(b->reading, node, "use that is inside the element that it shows");
   CS_TRY(cs_svg_number_of(context, node, CS_SVG_X, CS_SVG_AXIS_X, &place->measure, &x));
   CS_TRY(cs_svg_number_of(context, node, CS_SVG_Y, CS_SVG_AXIS_Y, &place->measure, &y));
   inner.matrix = celspan_matrix_then(celspan_matrix_translation(x, y), inner.matrix);
   CS_TRY(note_moved(b, used, &inner));
-  inner.style.context_fill = place->style.fill;
-  inner.style.context_stroke = place->style.stroke;
+  CS_TRY(enter_context(b, node, place, &box, &inner));
   inner.sizes = node;
   return add_element(b, used, inner, parent);
 }
@@ -130,10 +161,11 @@ static celspan_status add_switch(builder *b, const cs_svg_node *node, const cs_s
 /* ---------------------------------------------------------------- shapes */
 
 /* Adds the contents of a marker, for one mark of the shape at `shape`. */
-static celspan_status add_mark(builder *b, const cs_svg_mark *mark, const cs_svg_place *shape,
-                               cs_svg_item *parent) {
+static celspan_status add_mark(builder *b, const cs_svg_node *node, const cs_svg_mark *mark,
+                               const cs_svg_place *shape, cs_svg_item *parent) {
   const cs_svg_open open = {mark->marker, shape->open};
   cs_svg_place place = *shape;
+  cs_svg_context_box context;
   cs_svg_item *item;
   if (!mark->marker->first)
     return CELSPAN_OK;
@@ -141,8 +173,7 @@ static celspan_status add_mark(builder *b, const cs_svg_mark *mark, const cs_svg
   place.open = &open;
   place.measure = mark->measure;
   place.measure.font_size = place.style.font_size;
-  place.style.context_fill = shape->style.fill;
-  place.style.context_stroke = shape->style.stroke;
+  CS_TRY(enter_context(b, node, shape, &context, &place));
   place.matrix = celspan_matrix_then(mark->viewport, shape->matrix);
   CS_TRY(cs_svg_item_append(b->reading->context, b->art, parent, &item));
   if (!place.style.shows_overflow) {
@@ -163,7 +194,7 @@ static celspan_status add_marks(builder *b, const cs_svg_node *node, const cs_sv
   for (size_t i = 0; i < marks.count && status == CELSPAN_OK; i++) {
     status = count_element(b, node);
     if (status == CELSPAN_OK)
-      status = add_mark(b, &marks.items[i], place, parent);
+      status = add_mark(b, node, &marks.items[i], place, parent);
     b->reading->depth--;
   }
   cs_svg_marks_finish(&marks, b->reading->context->memory);
@@ -215,8 +246,11 @@ static celspan_status add_content(builder *b, const cs_svg_node *node, const cs_
   case CS_SVG_ELEMENT_IMAGE:
     return cs_svg_image_add(b->reading, node, place, item);
   default:
-    return cs_svg_is_shape(node) ? add_shape(b, node, place, item)
-                                 : cs_svg_skip(b->reading, node, "%.50s", node->tag);
+    if (cs_svg_is_shape(node))
+      return add_shape(b, node, place, item);
+    return node->element == CS_SVG_ELEMENT_OTHER /* noted when it was read */
+               ? CELSPAN_OK
+               : cs_svg_skip(b->reading, node, "%.50s", node->tag);
   }
 }
 
@@ -309,6 +343,7 @@ celspan_status cs_svg_build(cs_svg_reading *reading, celspan_svg *art) {
   const char *value = cs_svg_node_value(node, CS_SVG_VIEW_BOX);
   cs_svg_place place;
   const cs_svg_open open = {node, NULL};
+  CS_TRY(cs_svg_geometry_apply(reading->context, reading->document, &reading->tests));
   if (value)
     (void)cs_svg_parse_view_box(value, &box);
   CS_TRY(read_size(&b, node, &box));

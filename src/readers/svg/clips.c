@@ -7,6 +7,7 @@
 #include "readers/svg/boxes.h"
 #include "readers/svg/shapes.h"
 #include "readers/svg/text.h"
+#include "readers/svg/transforms.h"
 
 /* ---------------------------------------------------------------- objects */
 
@@ -314,9 +315,9 @@ static celspan_status make_clip(cs_svg_reading *reading, const cs_svg_node *node
   CS_TRY(cs_svg_enter(reading, clip, &place));
   CS_TRY(find_units(reading, node, clip, element, &place, &is_sized));
   celspan_matrix ignored;
-  bool is_regular =
-      !place.style.transform || (cs_svg_parse_transform(place.style.transform, &ignored) &&
-                                 celspan_matrix_inverse(ignored, &ignored));
+  bool is_regular = !place.style.transform ||
+                    (cs_svg_parse_transform(place.style.transform, &place.measure, &ignored) &&
+                     celspan_matrix_inverse(ignored, &ignored));
   if (!is_sized || !is_regular)
     return CELSPAN_OK;
   CS_TRY(unite_children(reading, clip, &place, out));

@@ -6,7 +6,7 @@
 
 #include "base/hex.h"
 #include "base/number.h"
-#include "readers/svg/values.h"
+#include "readers/svg/transforms.h"
 
 /* The colours that have names, sorted. Source: CSS Color Module Level 4, 6.1. */
 static const struct named_colour {
@@ -182,50 +182,47 @@ static bool take_digits(const char **text, cs_svg_colour *out) {
 }
 
 /* A number of a function, from 0 to `whole` or in per cent, as a share. */
-static bool take_share(const char **text, double whole, double *out) {
+static bool take_share(const char **text, double whole, double *out, bool *is_percent) {
   double value;
   if (!cs_svg_take_number(text, &value))
     return false;
-  bool is_percent = **text == '%';
-  *text += is_percent;
-  *out = cs_number_clamp(value / (is_percent ? 100 : whole), 0, 1);
+  *is_percent = **text == '%';
+  *text += *is_percent;
+  *out = cs_number_clamp(value / (*is_percent ? 100 : whole), 0, 1);
   return true;
-}
-
-/* One channel. Source: CSS Color Module Level 4, 7.1. */
-static double hue_channel(double hue, double saturation, double lightness, double n) {
-  double k = fmod(n + hue / 30, 12), a = saturation * fmin(lightness, 1 - lightness);
-  return lightness - a * fmax(-1, fmin(fmin(k - 3, 9 - k), 1));
 }
 
 static bool take_hue(const char **text, cs_svg_colour *out) {
   double hue, saturation, lightness;
-  if (!cs_svg_take_number(text, &hue))
-    return false;
-  (void)cs_svg_take_word(text, "deg");
-  *text = cs_svg_skip_comma(*text);
-  if (!take_share(text, 100, &saturation))
+  bool is_percent;
+  if (!cs_svg_take_angle(text, &hue))
     return false;
   *text = cs_svg_skip_comma(*text);
-  if (!take_share(text, 100, &lightness))
+  if (!take_share(text, 100, &saturation, &is_percent))
     return false;
-  hue -= 360 * floor(hue / 360);
-  for (int c = 0; c < 3; c++)
-    out->rgb[c] = hue_channel(hue, saturation, lightness, c == 0 ? 0 : c == 1 ? 8 : 4);
+  *text = cs_svg_skip_comma(*text);
+  if (!take_share(text, 100, &lightness, &is_percent))
+    return false;
+  cs_svg_colour_of_hue(hue, saturation, lightness, out);
   return true;
 }
 
+/* With commas between them all are numbers, or all percentages. */
 static bool take_channels(const char **text, cs_svg_colour *out) {
+  bool is_percent[3], has_comma = false;
   for (int c = 0; c < 3; c++) {
+    *text = cs_svg_skip_space(*text);
+    has_comma = has_comma || **text == ',';
     *text = cs_svg_skip_comma(*text);
-    if (!take_share(text, 255, &out->rgb[c]))
+    if (!take_share(text, 255, &out->rgb[c], &is_percent[c]))
       return false;
   }
-  return true;
+  return !has_comma || (is_percent[0] == is_percent[1] && is_percent[1] == is_percent[2]);
 }
 
 /* What follows "rgb(" and "hsl(". */
 static bool take_function(const char **text, bool is_hue, cs_svg_colour *out) {
+  bool is_percent;
   *text = cs_svg_skip_space(*text);
   out->alpha = 1;
   if (!(is_hue ? take_hue(text, out) : take_channels(text, out)))
@@ -233,7 +230,7 @@ static bool take_function(const char **text, bool is_hue, cs_svg_colour *out) {
   *text = cs_svg_skip_comma(*text);
   if (**text == '/')
     *text = cs_svg_skip_space(*text + 1);
-  if (**text != ')' && !take_share(text, 1, &out->alpha))
+  if (**text != ')' && !take_share(text, 1, &out->alpha, &is_percent))
     return false;
   *text = cs_svg_skip_space(*text);
   bool is_closed = **text == ')';
@@ -282,5 +279,6 @@ bool cs_svg_take_colour(const char **text, cs_svg_colour *out) {
       *text = at;
       return take_function(text, i >= 2, out);
     }
-  return *at == '#' ? take_digits(text, out) : take_name(text, out);
+  return *at == '#' ? take_digits(text, out)
+                    : cs_svg_take_space_colour(text, out) || take_name(text, out);
 }

@@ -1,12 +1,9 @@
 /* Colours as SVG and CSS write them: sRGB-coded, 0..1, alpha straight. */
 #pragma once
 
-#include "celspan/celspan.h"
+#include "readers/svg/colour_spaces.h"
 
-typedef struct cs_svg_colour {
-  double rgb[3], alpha;
-} cs_svg_colour;
-
-/* "#rgb", "#rrggbb" and with alpha, rgb(), rgba(), hsl(), hsla(), a name, transparent: reads what
- * *text begins with and moves *text behind it. False when there is no colour. */
+/* "#rgb", "#rrggbb" and with alpha, rgb(), rgba(), hsl(), hsla(), those of colour_spaces.h, a name,
+ * transparent: reads what *text begins with and moves *text behind it. False when there is no
+ * colour. */
 bool cs_svg_take_colour(const char **text, cs_svg_colour *out);

@@ -4,6 +4,8 @@
 #include <string.h>
 #include <strings.h>
 
+#include "readers/svg/forms.h"
+#include "readers/svg/silent.h"
 #include "readers/svg/values.h"
 
 /* Compounds of one selector and classes of one compound; a selector with more is left out. */
@@ -20,14 +22,13 @@ static bool is_name(char c) {
 }
 
 /* A copy of [begin, end) without space at its ends. NULL without memory. */
-static const char *copy_trimmed(celspan_context *context, cs_arena *arena, const char *begin,
-                                const char *end) {
+static char *copy_trimmed(const cs_css_place *place, const char *begin, const char *end) {
   while (begin < end && cs_svg_is_space(*begin))
     begin++;
   while (begin < end && cs_svg_is_space(end[-1]))
     end--;
   size_t size = (size_t)(end - begin);
-  char *copy = cs_arena_take(context, arena, size + 1);
+  char *copy = cs_arena_take(place->context, place->arena, size + 1);
   if (!copy)
     return NULL;
   memcpy(copy, begin, size);
@@ -36,8 +37,8 @@ static const char *copy_trimmed(celspan_context *context, cs_arena *arena, const
 }
 
 /* A copy with a blank for each comment, and for the marks of an XML comment around everything. */
-static char *copy_without_comments(celspan_context *context, cs_arena *arena, const char *text) {
-  char *copy = cs_arena_take(context, arena, strlen(text) + 1), *to = copy;
+static char *copy_without_comments(const cs_css_place *place, const char *text) {
+  char *copy = cs_arena_take(place->context, place->arena, strlen(text) + 1), *to = copy;
   if (!copy)
     return NULL;
   while (*text) {
@@ -63,7 +64,7 @@ static char open_quote(char quote, char c) {
   return c == '"' || c == '\'' ? c : 0;
 }
 
-/* The end of a declaration's value: the next ';' that is in no string and no parentheses. */
+/* The end of a declaration's value: the next ';' or '{' that is in no string and no parentheses. */
 static const char *value_end(const char *text, const char *end) {
   char quote = 0;
   int depth = 0;
@@ -72,10 +73,23 @@ static const char *value_end(const char *text, const char *end) {
     if (quote)
       continue;
     depth += (*text == '(') - (*text == ')');
-    if (*text == ';' && depth <= 0)
+    if ((*text == ';' && depth <= 0) || *text == '{')
       break;
   }
   return text;
+}
+
+/* What follows the braces that begin at a '{', or the end. */
+static const char *braces_end(const char *text, const char *end) {
+  char quote = 0;
+  int depth = 0;
+  for (; text < end; text++) {
+    quote = open_quote(quote, *text);
+    depth += quote ? 0 : (*text == '{') - (*text == '}');
+    if (depth == 0)
+      return text + 1;
+  }
+  return end;
 }
 
 /* Cuts "!important" off the end. */
@@ -89,64 +103,82 @@ static bool cut_important(const char *begin, const char **end) {
   return true;
 }
 
-/* name: value, as text. False for what is no property that counts here. */
-static celspan_status parse_declaration(celspan_context *context, cs_arena *arena,
-                                        const char *begin, const char *end, cs_css_declaration *out,
-                                        bool *is_known) {
-  char text[32];
-  *is_known = false;
+/* Judges a declaration with this name; *counts: false for one that is not read, which is noted
+ * where it would change what is drawn. */
+static celspan_status judge(const cs_css_place *place, const char *name, cs_css_declaration *it,
+                            bool *counts) {
+  it->name = cs_svg_name_of(name);
+  it->custom = strncmp(name, "--", 2) == 0 ? name : NULL;
+  it->has_variable = cs_svg_has_variable(it->value);
+  *counts = it->custom;
+  if (it->custom)
+    return CELSPAN_OK;
+  bool is_known = it->name != CS_SVG_NAME_COUNT && cs_svg_is_property(it->name);
+  *counts = is_known && cs_svg_value_is_read(it->name, it->value, true);
+  if (*counts || (!is_known && cs_svg_name_is_silent(name, it->value)))
+    return CELSPAN_OK;
+  return cs_svg_unread_add(place->unread, place->context, place->arena, place->line, name,
+                           it->value);
+}
+
+/* name: value, as text. */
+static celspan_status parse_declaration(const cs_css_place *place, const char *begin,
+                                        const char *end, cs_css_declaration *out, bool *counts) {
+  *counts = false;
   begin = begin < end ? cs_svg_skip_space(begin) : begin;
   const char *name_end = begin;
   while (name_end < end && is_name(*name_end))
     name_end++;
   const char *colon = name_end < end ? cs_svg_skip_space(name_end) : end;
-  size_t size = (size_t)(name_end - begin);
-  if (colon >= end || *colon != ':' || size == 0 || size >= sizeof text)
+  if (colon >= end || *colon != ':' || name_end == begin)
     return CELSPAN_OK;
-  memcpy(text, begin, size);
-  text[size] = 0;
-  out->name = cs_svg_name_of(text);
-  if (out->name == CS_SVG_NAME_COUNT || !cs_svg_is_property(out->name))
-    return CELSPAN_OK;
+  char *name = copy_trimmed(place, begin, name_end);
   out->is_important = cut_important(colon, &end);
-  out->value = copy_trimmed(context, arena, colon + 1, end);
-  *is_known = true;
-  return out->value ? CELSPAN_OK : CELSPAN_NO_MEMORY;
+  out->value = copy_trimmed(place, colon + 1, end);
+  if (!name || !out->value)
+    return CELSPAN_NO_MEMORY;
+  for (char *at = name; *at && strncmp(name, "--", 2) != 0; at++)
+    *at = *at >= 'A' && *at <= 'Z' ? (char)(*at - 'A' + 'a') : *at;
+  return judge(place, name, out, counts);
 }
 
-static celspan_status parse_declarations(celspan_context *context, cs_arena *arena,
-                                         const char *begin, const char *end,
-                                         cs_css_declarations *out) {
+static celspan_status parse_declarations(const cs_css_place *place, const char *begin,
+                                         const char *end, cs_css_declarations *out) {
   size_t most = 1, count = 0;
   for (const char *at = begin; at < end; at++)
     most += *at == ';';
-  cs_css_declaration *items = cs_arena_take(context, arena, most * sizeof *items);
+  cs_css_declaration *items = cs_arena_take(place->context, place->arena, most * sizeof *items);
+  *out = (cs_css_declarations){.items = items};
   if (!items)
     return CELSPAN_NO_MEMORY;
   while (begin < end) {
-    bool is_known;
     const char *stop = value_end(begin, end);
-    CS_TRY(parse_declaration(context, arena, begin, stop, &items[count], &is_known));
-    count += is_known;
-    begin = stop + 1;
+    bool is_nested = stop < end && *stop == '{', counts = false;
+    if (!is_nested)
+      CS_TRY(parse_declaration(place, begin, stop, &items[count], &counts));
+    out->has_geometry =
+        out->has_geometry || (counts && !items[count].custom &&
+                              cs_svg_name_facts_of(items[count].name)->use == CS_SVG_USE_GEOMETRY);
+    out->has_nested = out->has_nested || is_nested;
+    count += counts;
+    begin = is_nested ? braces_end(stop, end) : stop + 1;
   }
-  *out = (cs_css_declarations){items, count};
+  out->count = count;
   return CELSPAN_OK;
 }
 
-celspan_status cs_css_declarations_parse(celspan_context *context, cs_arena *arena,
-                                         const char *text, cs_css_declarations *out) {
-  const char *plain = strstr(text, "/*") ? copy_without_comments(context, arena, text) : text;
+celspan_status cs_css_declarations_parse(const cs_css_place *place, const char *text,
+                                         cs_css_declarations *out) {
+  const char *plain = strstr(text, "/*") ? copy_without_comments(place, text) : text;
   if (!plain)
     return CELSPAN_NO_MEMORY;
-  return parse_declarations(context, arena, plain, plain + strlen(plain), out);
+  return parse_declarations(place, plain, plain + strlen(plain), out);
 }
 
 /* ---------------------------------------------------------------- selectors */
 
 typedef struct parser {
-  celspan_context *context;
-  cs_arena *arena;
+  const cs_css_place *place;
   cs_css_sheet *sheet;
 } parser;
 
@@ -156,7 +188,7 @@ static const char *take_name(parser *p, const char **text) {
   const char *begin = *text;
   while (is_name(**text))
     ++*text;
-  return copy_trimmed(p->context, p->arena, begin, *text);
+  return copy_trimmed(p->place, begin, *text);
 }
 
 /* The value of a condition, quoted or a name; its end is left at *text. NULL without memory. */
@@ -167,7 +199,7 @@ static const char *take_condition_value(parser *p, const char **text) {
   const char *begin = *text;
   while (**text && **text != quote)
     ++*text;
-  const char *value = copy_trimmed(p->context, p->arena, begin, *text);
+  const char *value = copy_trimmed(p->place, begin, *text);
   *text += **text == quote;
   return value;
 }
@@ -206,8 +238,8 @@ static celspan_status parse_conditions(parser *p, const char **text, cs_css_comp
     out->condition_count += *is_simple;
     *specificity += CLASS_WEIGHT;
   }
-  out->conditions =
-      cs_arena_take(p->context, p->arena, out->condition_count * sizeof *out->conditions);
+  out->conditions = cs_arena_take(p->place->context, p->place->arena,
+                                  out->condition_count * sizeof *out->conditions);
   if (!out->conditions)
     return CELSPAN_NO_MEMORY;
   memcpy(out->conditions, conditions, out->condition_count * sizeof *conditions);
@@ -226,8 +258,14 @@ static celspan_status parse_compound(parser *p, const char **text, cs_css_compou
       return CELSPAN_NO_MEMORY;
     ++*specificity;
   }
-  while (**text == '.' || **text == '#') {
-    bool is_id = *(*text)++ == '#';
+  while (**text == '.' || **text == '#' || strncmp(*text, ":root", 5) == 0) {
+    bool is_id = **text == '#';
+    if (*(*text)++ == ':') {
+      *text += 4;
+      out->is_root = true;
+      *specificity += CLASS_WEIGHT;
+      continue;
+    }
     if (!(name = take_name(p, text)))
       return CELSPAN_NO_MEMORY;
     *is_simple = *is_simple && *name && (is_id ? !out->id : out->class_count < CLASSES);
@@ -239,7 +277,8 @@ static celspan_status parse_compound(parser *p, const char **text, cs_css_compou
   }
   CS_TRY(parse_conditions(p, text, out, specificity, is_simple));
   *is_simple = *is_simple && *text > begin;
-  out->classes = cs_arena_take(p->context, p->arena, out->class_count * sizeof *out->classes);
+  out->classes =
+      cs_arena_take(p->place->context, p->place->arena, out->class_count * sizeof *out->classes);
   if (!out->classes)
     return CELSPAN_NO_MEMORY;
   memcpy(out->classes, classes, out->class_count * sizeof *classes);
@@ -266,8 +305,8 @@ static celspan_status parse_selector(parser *p, const char *text, const char *en
     text = after;
   }
   *is_simple = *is_simple && rule->compound_count > 0 && !compounds[0].is_child;
-  rule->compounds =
-      cs_arena_take(p->context, p->arena, rule->compound_count * sizeof *rule->compounds);
+  rule->compounds = cs_arena_take(p->place->context, p->place->arena,
+                                  rule->compound_count * sizeof *rule->compounds);
   if (!rule->compounds)
     return CELSPAN_NO_MEMORY;
   memcpy(rule->compounds, compounds, rule->compound_count * sizeof *compounds);
@@ -279,9 +318,9 @@ static celspan_status parse_selector(parser *p, const char *text, const char *en
 static celspan_status add_rule(parser *p, cs_css_rule *rule) {
   cs_css_sheet *sheet = p->sheet;
   if (sheet->count >= CS_CSS_RULES)
-    return cs_fail(p->context, CELSPAN_LIMIT, "the style sheets have more than %d rules",
+    return cs_fail(p->place->context, CELSPAN_LIMIT, "the style sheets have more than %d rules",
                    CS_CSS_RULES);
-  CS_TRY(CS_RESERVE(p->context, sheet->rules, sheet->capacity, sheet->count + 1));
+  CS_TRY(CS_RESERVE(p->place->context, sheet->rules, sheet->capacity, sheet->count + 1));
   rule->order = (uint32_t)sheet->count;
   sheet->rules[sheet->count++] = *rule;
   return CELSPAN_OK;
@@ -323,14 +362,6 @@ static int compare_rules(const void *a, const void *b) {
   return first->order < second->order ? -1 : first->order > second->order;
 }
 
-/* The next '}' that is in no string, or the end. */
-static const char *body_end(const char *text) {
-  char quote = 0;
-  while (*text && (quote || *text != '}'))
-    quote = open_quote(quote, *text++);
-  return text;
-}
-
 static celspan_status parse_sheet(parser *p, const char *text) {
   for (text = cs_svg_skip_space(text); *text; text = cs_svg_skip_space(text)) {
     if (*text == '@') {
@@ -341,19 +372,21 @@ static celspan_status parse_sheet(parser *p, const char *text) {
     const char *brace = strchr(text, '{');
     if (!brace)
       break;
-    const char *end = body_end(brace);
+    const char *after = braces_end(brace, brace + strlen(brace));
+    const char *end = after[-1] == '}' ? after - 1 : after;
     cs_css_declarations declarations;
-    CS_TRY(parse_declarations(p->context, p->arena, brace + 1, end, &declarations));
+    CS_TRY(parse_declarations(p->place, brace + 1, end, &declarations));
+    p->sheet->omitted = p->sheet->omitted || declarations.has_nested;
+    p->sheet->has_geometry = p->sheet->has_geometry || declarations.has_geometry;
     CS_TRY(add_selectors(p, text, brace, declarations));
-    text = *end ? end + 1 : end;
+    text = after;
   }
   return CELSPAN_OK;
 }
 
-celspan_status cs_css_sheet_parse(celspan_context *context, cs_arena *arena, const char *text,
-                                  cs_css_sheet *out) {
-  parser p = {context, arena, out};
-  const char *plain = copy_without_comments(context, arena, text);
+celspan_status cs_css_sheet_parse(const cs_css_place *place, const char *text, cs_css_sheet *out) {
+  parser p = {place, out};
+  const char *plain = copy_without_comments(place, text);
   if (!plain)
     return CELSPAN_NO_MEMORY;
   CS_TRY(parse_sheet(&p, plain));

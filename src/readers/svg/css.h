@@ -5,25 +5,37 @@
  *
  * A selector is a chain of compounds, the last of which is the element itself: element, classes and
  * id and attributes, joined by descent or by being a child. Selectors with other parts
- * (pseudo-classes, siblings, attributes without a meaning here) and at-rules are left out, and set
- * `omitted`.
+ * (pseudo-classes except :root, siblings, attributes without a meaning here), rules inside of rules
+ * and at-rules are left out, and set `omitted`.
  */
 #pragma once
 
-#include "base/arena.h"
 #include "readers/svg/names.h"
+#include "readers/svg/unread.h"
 
 #define CS_CSS_RULES 65536
 
+/* Where texts of style sheets are read to. */
+typedef struct cs_css_place {
+  celspan_context *context;
+  cs_arena *arena;
+  cs_svg_unread *unread; /* what is not read: a property, or a value, which does not count then */
+  uint32_t line;         /* of the text */
+} cs_css_place;
+
 typedef struct cs_css_declaration {
-  cs_svg_name name; /* a property */
+  cs_svg_name name;   /* a property; CS_SVG_NAME_COUNT: a variable */
+  const char *custom; /* the variable's name, with its hyphens; NULL: no variable */
   bool is_important;
+  bool has_variable; /* the value refers to variables */
   const char *value; /* without space at its ends */
 } cs_css_declaration;
 
 typedef struct cs_css_declarations {
   const cs_css_declaration *items;
   size_t count;
+  bool has_geometry; /* some are of CS_SVG_USE_GEOMETRY */
+  bool has_nested;   /* there were rules between them, which are left out */
 } cs_css_declarations;
 
 /* [name], [name=value], or with a sign before the '=': ~ a word of it, | it or what it begins
@@ -36,6 +48,7 @@ typedef struct cs_css_condition {
 
 typedef struct cs_css_compound {
   const char *element, *id; /* NULL: any */
+  bool is_root;             /* the outermost element: ":root" */
   const char **classes;     /* all of them */
   size_t class_count;
   cs_css_condition *conditions; /* all of them */
@@ -55,14 +68,15 @@ typedef struct cs_css_sheet {
   cs_css_rule *rules; /* ascending: later ones win */
   size_t count, capacity;
   bool omitted;
+  bool has_geometry; /* in any rule */
 } cs_css_sheet;
 
 /* Parses what a `style` attribute holds. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_css_declarations_parse(celspan_context *context, cs_arena *arena,
+CELSPAN_CHECKED celspan_status cs_css_declarations_parse(const cs_css_place *place,
                                                          const char *text,
                                                          cs_css_declarations *out);
 /* Parses a style sheet. *out must be finished even after a failure. Errors: NO_MEMORY; LIMIT for
  * more than CS_CSS_RULES rules. */
-CELSPAN_CHECKED celspan_status cs_css_sheet_parse(celspan_context *context, cs_arena *arena,
-                                                  const char *text, cs_css_sheet *out);
+CELSPAN_CHECKED celspan_status cs_css_sheet_parse(const cs_css_place *place, const char *text,
+                                                  cs_css_sheet *out);
 void cs_css_sheet_finish(cs_css_sheet *sheet, celspan_context *context);

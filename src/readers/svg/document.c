@@ -2,14 +2,17 @@
 
 #include <string.h>
 
+#include "readers/svg/forms.h"
+#include "readers/svg/silent.h"
+#include "readers/svg/values.h"
 #include "readers/xml/xml.h"
 
 #define SVG_NAMESPACE "http://www.w3.org/2000/svg"
 #define LINK_NAMESPACE "http://www.w3.org/1999/xlink"
 #define INKSCAPE_NAMESPACE "http://www.inkscape.org/namespaces/inkscape"
 #define XML_NAMESPACE "http://www.w3.org/XML/1998/namespace"
-/* Attributes of one element that count; more are left out. */
-#define ATTRIBUTES 64
+#define PAGE_NAMESPACE "http://www.w3.org/1999/xhtml"
+#define FORMULA_NAMESPACE "http://www.w3.org/1998/Math/MathML"
 
 typedef struct reader {
   celspan_context *context;
@@ -58,32 +61,65 @@ static const char *copy_text(reader *r, const char *text) {
   return copy ? memcpy(copy, text, size) : NULL;
 }
 
-/* An attribute of no namespace wins over one of the same name in the namespace of links. */
-static bool is_weaker(const cs_svg_attribute *list, size_t count, cs_svg_name name,
-                      const char *given) {
-  if (name != CS_SVG_HREF || !strchr(given, ' '))
-    return false;
-  for (size_t i = 0; i < count; i++)
-    if (list[i].name == name)
-      return true;
-  return false;
+/* The place of a name in the list, or its end. */
+static size_t place_of(const cs_svg_attribute *list, size_t count, cs_svg_name name) {
+  size_t i = 0;
+  while (i < count && list[i].name != name)
+    i++;
+  return i;
+}
+
+static cs_css_place css_place(reader *r, uint64_t line) {
+  return (cs_css_place){r->context, &r->document->arena, &r->document->unread, (uint32_t)line};
+}
+
+/* Whether an attribute that is not read changes nothing: those of other namespaces, and names that
+ * count in a namespace alone. */
+static bool is_silent(const char *const *attribute) {
+  return strchr(attribute[0], ' ') || cs_svg_name_of(attribute[0]) != CS_SVG_NAME_COUNT ||
+         cs_svg_name_is_silent(attribute[0], attribute[1]);
+}
+
+/* Notes an attribute that is not read, or a value that is not. */
+static celspan_status note_attribute(reader *r, const cs_svg_node *node, cs_svg_name name,
+                                     const char *const *attribute) {
+  bool is_quiet = name != CS_SVG_NAME_COUNT ? cs_svg_value_is_read(name, attribute[1], false)
+                                            : is_silent(attribute);
+  if (is_quiet || !cs_svg_element_is_drawn(node->element))
+    return CELSPAN_OK;
+  return cs_svg_unread_add(&r->document->unread, r->context, &r->document->arena, node->line,
+                           attribute[0], attribute[1]);
+}
+
+/* Takes an attribute into the list. One of no namespace wins over one of the same name in the
+ * namespace of links, in any order. */
+static celspan_status take_attribute(reader *r, cs_svg_node *node, const char *const *attribute,
+                                     cs_svg_attribute *list, size_t *count) {
+  cs_svg_name name = attribute_name(attribute[0]);
+  CS_TRY(note_attribute(r, node, name, attribute));
+  if (name == CS_SVG_NAME_COUNT)
+    return CELSPAN_OK;
+  size_t place = place_of(list, *count, name);
+  bool is_weaker = name == CS_SVG_HREF && strchr(attribute[0], ' ');
+  if (place < *count && is_weaker)
+    return CELSPAN_OK;
+  const char *value = copy_text(r, attribute[1]);
+  if (!value)
+    return CELSPAN_NO_MEMORY;
+  list[place] = (cs_svg_attribute){name, cs_svg_has_variable(value), value};
+  *count += place == *count;
+  const cs_css_place css = css_place(r, node->line);
+  if (name == CS_SVG_STYLE)
+    CS_TRY(cs_css_declarations_parse(&css, value, &node->style));
+  r->document->has_geometry = r->document->has_geometry || node->style.has_geometry;
+  return CELSPAN_OK;
 }
 
 static celspan_status read_attributes(reader *r, cs_svg_node *node, const char *const *attributes) {
-  cs_svg_attribute list[ATTRIBUTES];
+  cs_svg_attribute list[CS_SVG_NAME_COUNT];
   size_t count = 0;
-  for (; *attributes && count < ATTRIBUTES; attributes += 2) {
-    cs_svg_name name = attribute_name(attributes[0]);
-    if (name == CS_SVG_NAME_COUNT || is_weaker(list, count, name, attributes[0]))
-      continue;
-    list[count] = (cs_svg_attribute){name, copy_text(r, attributes[1])};
-    if (!list[count].value)
-      return CELSPAN_NO_MEMORY;
-    if (name == CS_SVG_STYLE)
-      CS_TRY(cs_css_declarations_parse(r->context, &r->document->arena, list[count].value,
-                                       &node->style));
-    count++;
-  }
+  for (; *attributes; attributes += 2)
+    CS_TRY(take_attribute(r, node, attributes, list, &count));
   cs_svg_attribute *copy = cs_arena_take(r->context, &r->document->arena, count * sizeof *copy);
   if (!copy)
     return CELSPAN_NO_MEMORY;
@@ -130,6 +166,31 @@ static celspan_status count_element(reader *r, uint64_t line) {
                  (unsigned)line, CS_SVG_ELEMENTS);
 }
 
+/* Whether an element in `parent` is seen by nobody, or replaced by another one. */
+static bool is_apart(const cs_svg_node *parent) {
+  for (; parent; parent = parent->parent)
+    if (parent->element == CS_SVG_ELEMENT_SWITCH || !cs_svg_element_is_drawn(parent->element))
+      return true;
+  return false;
+}
+
+/* Notes an element that is not in the list of names. */
+static celspan_status note_element(reader *r, const cs_svg_node *node, uint64_t line) {
+  if (node->element != CS_SVG_ELEMENT_OTHER || is_apart(r->open))
+    return CELSPAN_OK;
+  return cs_svg_unread_add(&r->document->unread, r->context, &r->document->arena, (uint32_t)line,
+                           node->tag, NULL);
+}
+
+/* Notes an element of pages or of formulas. */
+static celspan_status note_foreign(reader *r, const char *name, uint64_t line) {
+  bool is_seen = has_prefix(name, PAGE_NAMESPACE " ") || has_prefix(name, FORMULA_NAMESPACE " ");
+  if (!is_seen || is_apart(r->open))
+    return CELSPAN_OK;
+  return cs_svg_unread_add(&r->document->unread, r->context, &r->document->arena, (uint32_t)line,
+                           strchr(name, ' ') + 1, NULL);
+}
+
 static celspan_status add_element(reader *r, const char *tag, const char *const *attributes,
                                   uint64_t line) {
   CS_TRY(count_element(r, line));
@@ -144,6 +205,7 @@ static celspan_status add_element(reader *r, const char *tag, const char *const 
   node->tag = copy_text(r, tag);
   if (!node->tag)
     return CELSPAN_NO_MEMORY;
+  CS_TRY(note_element(r, node, line));
   CS_TRY(read_attributes(r, node, attributes));
   CS_TRY(remember_id(r, node));
   append_child(r, node);
@@ -194,8 +256,9 @@ static bool on_start(void *user, const char *name, const char *const *attributes
   reader *r = user;
   const char *tag = svg_name(name);
   if (r->foreign_depth > 0 || (!tag && r->open)) {
-    r->foreign_depth++;
-    return true;
+    if (r->foreign_depth++ == 0)
+      r->failure = note_foreign(r, name, line);
+    return r->failure == CELSPAN_OK;
   }
   r->failure = end_characters(r);
   if (r->failure == CELSPAN_OK)
@@ -217,10 +280,16 @@ static bool on_end(void *user, const char *name, uint64_t line) {
 
 /* ---------------------------------------------------------------- texts of elements */
 
+/* Whether a style element is not for paper or voices alone. */
+static bool is_for_screens(const cs_svg_node *node) {
+  const char *media = cs_svg_node_value(node, CS_SVG_MEDIA);
+  return !media || !*cs_svg_skip_space(media) || strstr(media, "all") || strstr(media, "screen");
+}
+
 static bool is_style_sheet(const cs_svg_node *node) {
   const char *type = node ? cs_svg_node_value(node, CS_SVG_TYPE) : NULL;
   return node && node->element == CS_SVG_ELEMENT_STYLE &&
-         (!type || !*type || strcmp(type, "text/css") == 0);
+         (!type || !*type || strcmp(type, "text/css") == 0) && is_for_screens(node);
 }
 
 static bool on_text(void *user, const char *bytes, size_t size, uint64_t line) {
@@ -240,16 +309,30 @@ static bool on_text(void *user, const char *bytes, size_t size, uint64_t line) {
   return r->failure == CELSPAN_OK;
 }
 
+/* Notes a style sheet in a file of its own, which the instruction before the document names. */
+static celspan_status note_other_sheet(reader *r, const char *bytes, size_t size) {
+  static const char instruction[] = "<?xml-stylesheet";
+  return memmem(bytes, size, instruction, sizeof instruction - 1)
+             ? cs_svg_unread_add(&r->document->unread, r->context, &r->document->arena, 1,
+                                 "xml-stylesheet", NULL)
+             : CELSPAN_OK;
+}
+
 celspan_status cs_svg_document_read(celspan_context *context, const char *name, const char *bytes,
                                     size_t size, cs_svg_document *out) {
   *out = (cs_svg_document){0};
   cs_arena_init(&out->arena);
+  out->variables = (cs_svg_variables){context, &out->arena, 0};
   reader r = {.context = context, .name = name, .document = out};
   const cs_xml_handler handler = {on_start, on_end, on_text, &r, CS_SVG_DEPTH};
   celspan_status status =
       cs_xml_parse(context, name, "reading SVG", bytes, size, &handler, &r.failure);
+  if (status == CELSPAN_OK)
+    status = note_other_sheet(&r, bytes, size);
+  const cs_css_place place = css_place(&r, out->sheet_line);
   if (status == CELSPAN_OK && r.css)
-    status = cs_css_sheet_parse(context, &out->arena, r.css, &out->sheet);
+    status = cs_css_sheet_parse(&place, r.css, &out->sheet);
+  out->has_geometry = out->has_geometry || out->sheet.has_geometry;
   cs_mem_free(context->memory, r.css, r.css_capacity);
   cs_mem_free(context->memory, r.characters, r.character_capacity);
   return status;
@@ -257,6 +340,7 @@ celspan_status cs_svg_document_read(celspan_context *context, const char *name, 
 
 void cs_svg_document_finish(cs_svg_document *document, celspan_context *context) {
   cs_css_sheet_finish(&document->sheet, context);
+  cs_svg_unread_finish(&document->unread, context);
   cs_hash_table_finish(&document->ids, context);
   cs_mem_free(context->memory, document->named, document->named_capacity * sizeof(cs_svg_node *));
   cs_arena_finish(&document->arena, context->memory);

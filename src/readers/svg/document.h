@@ -10,12 +10,14 @@
 #include "base/hash_table.h"
 #include "readers/svg/css.h"
 #include "readers/svg/names.h"
+#include "readers/svg/variables.h"
 
 #define CS_SVG_DEPTH 128
 #define CS_SVG_ELEMENTS 1000000
 
 typedef struct cs_svg_attribute {
   cs_svg_name name;
+  bool has_variable; /* the value refers to variables */
   const char *value;
 } cs_svg_attribute;
 
@@ -39,6 +41,9 @@ typedef struct cs_svg_document {
   cs_hash_table ids; /* to places in `named` */
   cs_css_sheet sheet;
   uint32_t sheet_line; /* where the first style element begins; 0: there is none */
+  bool has_geometry;   /* a style gives places or sizes */
+  cs_svg_unread unread;
+  cs_svg_variables variables; /* made while styles are read */
 } cs_svg_document;
 
 /* name: of the file, for messages. *out must be finished even after a failure. Errors: INPUT with

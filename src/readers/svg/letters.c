@@ -9,6 +9,7 @@
 /* Sizes of letters beyond this make no picture. */
 #define LARGEST 1e6
 #define PI 3.14159265358979323846
+#define EX 0.5 /* the height of an x, as the unit ex has it */
 
 /* ---------------------------------------------------------------- runs */
 
@@ -241,11 +242,38 @@ static void anchor_chunk(const cs_svg_written *written, const chunk *part, cs_sv
   }
 }
 
+/* How far below its place the baseline of a letter lies, by the line that is wanted there. */
+static double lowered(const cs_svg_letters *letters, const cs_svg_letter *letter,
+                      const cs_svg_text_style *style) {
+  const cs_svg_run *run = &letters->runs[letter->run];
+  if (letter->count == 0)
+    return 0;
+  const cs_type_font_info *info = &run->layout.glyphs[letter->first].font->info;
+  double em = run->size / (double)info->units;
+  double ascent = em * info->ascent, descent = em * info->descent;
+  switch (style->own) {
+  case CS_SVG_BASELINE_MIDDLE:
+    return 0.5 * EX * run->size - style->raised;
+  case CS_SVG_BASELINE_CENTRAL:
+    return 0.5 * (ascent - descent) - style->raised;
+  case CS_SVG_BASELINE_HANGING:
+    return 0.8 * ascent - style->raised;
+  case CS_SVG_BASELINE_MATHEMATICAL:
+    return 0.5 * ascent - style->raised;
+  case CS_SVG_BASELINE_BOTTOM:
+    return -descent - style->raised;
+  case CS_SVG_BASELINE_TOP:
+    return ascent - style->raised;
+  default:
+    return -style->raised;
+  }
+}
+
 /* Moves all letters from the line to their places, chunk by chunk. */
 static void place_letters(const cs_svg_written *written, cs_svg_letters *letters) {
   chunk part = {0, 0, 0};
   double dx = 0, y = 0, shift = 0, line = 0;
-  size_t at = 0;
+  size_t at = 0, node = 0;
   bool is_first = true;
   for (size_t i = 0; i < written->count; i++) {
     const cs_svg_character *said = &written->characters[i];
@@ -267,7 +295,7 @@ static void place_letters(const cs_svg_written *written, cs_svg_letters *letters
       is_first = false;
     }
     letter->x += dx;
-    letter->y = y;
+    letter->y = y + lowered(letters, letter, &node_of(written, i, &node)->place.style.text);
   }
   part.end = written->count;
   anchor_chunk(written, &part, letters, &at);

@@ -5,6 +5,7 @@
 #include "base/number.h"
 #include "model/geometry/matrix.h"
 #include "readers/svg/shapes.h"
+#include "readers/svg/transforms.h"
 
 #define DEFAULT_SIZE 3 /* of markerWidth and markerHeight. Source: SVG 2, 11.6.2 */
 
@@ -26,11 +27,8 @@ typedef struct vertex {
 } vertex;
 
 bool cs_svg_is_marked(const cs_svg_node *node, const cs_svg_style *style) {
-  bool takes_markers =
-      node->element == CS_SVG_ELEMENT_LINE || node->element == CS_SVG_ELEMENT_PATH ||
-      node->element == CS_SVG_ELEMENT_POLYGON || node->element == CS_SVG_ELEMENT_POLYLINE;
-  return takes_markers && (style->markers[START].size > 0 || style->markers[MID].size > 0 ||
-                           style->markers[END].size > 0);
+  return cs_svg_is_shape(node) && (style->markers[START].size > 0 || style->markers[MID].size > 0 ||
+                                   style->markers[END].size > 0);
 }
 
 void cs_svg_marks_finish(cs_svg_marks *marks, cs_memory *memory) {
@@ -89,20 +87,9 @@ static celspan_point bisector(celspan_point in, celspan_point out) {
 
 /* A direction in degrees by the attribute orient; false where it is that of the line. */
 static bool read_angle(const char *text, double *degrees) {
-  static const struct {
-    const char *word;
-    double degrees;
-  } units[] = {{"deg", 1}, {"grad", 0.9}, {"rad", 57.29577951308232}, {"turn", 360}};
   *degrees = 0;
   text = cs_svg_skip_space(text ? text : "");
-  if (!cs_svg_take_number(&text, degrees))
-    return *text == 0 || strncmp(text, "auto", 4) != 0;
-  for (size_t i = 0; i < sizeof units / sizeof *units; i++)
-    if (cs_svg_take_word(&text, units[i].word)) {
-      *degrees *= units[i].degrees;
-      break;
-    }
-  return true;
+  return cs_svg_take_angle(&text, degrees) || *text == 0 || strncmp(text, "auto", 4) != 0;
 }
 
 static celspan_matrix turn_of(const cs_svg_node *marker, int which, const vertex *v) {

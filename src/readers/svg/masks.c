@@ -89,16 +89,15 @@ static celspan_status add_shape(mask *m, const cs_svg_node *node, const cs_svg_p
 static celspan_status add_child(mask *m, const cs_svg_node *node, const cs_svg_place *parent,
                                 double opacity);
 
-/* What `use` shows; what would show itself is not flat. */
+/* What `use` shows. */
 static celspan_status add_used(mask *m, const cs_svg_node *node, cs_svg_place *place,
                                double opacity) {
   const cs_svg_node *used = cs_svg_linked(m->reading, node);
   double x, y;
   if (!used)
     return CELSPAN_OK;
-  m->is_flat = m->is_flat && !cs_svg_is_open(place->open, used);
-  if (!m->is_flat)
-    return CELSPAN_OK;
+  if (cs_svg_is_open(place->open, used))
+    return cs_svg_skip(m->reading, node, "use that is inside the element that it shows");
   CS_TRY(cs_svg_number_of(m->reading->context, node, CS_SVG_X, CS_SVG_AXIS_X, &place->measure, &x));
   CS_TRY(cs_svg_number_of(m->reading->context, node, CS_SVG_Y, CS_SVG_AXIS_Y, &place->measure, &y));
   place->matrix = celspan_matrix_then(celspan_matrix_translation(x, y), place->matrix);

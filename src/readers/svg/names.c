@@ -2,25 +2,140 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #define ELEMENT(name, text) text
 static const char *const elements[] = {CS_SVG_ELEMENT_LIST(ELEMENT)};
 
-typedef struct name_entry {
-  const char *text;
-  bool is_property;
-} name_entry;
+#define ATTRIBUTE CS_SVG_USE_ATTRIBUTE
+#define PRESENTED CS_SVG_USE_PRESENTED
+#define STYLED CS_SVG_USE_STYLED
+#define GEOMETRY CS_SVG_USE_GEOMETRY
+#define APART CS_SVG_USE_APART
+#define FORM(name) CS_SVG_FORM_##name
 
-#define NAME(name, text, is_property)                                                              \
-  { text, is_property }
-static const name_entry names[] = {CS_SVG_NAME_LIST(NAME)};
+/* Where a baseline may lie. */
+#define BASELINES                                                                                  \
+  "auto|baseline|alphabetic|middle|central|hanging|mathematical|ideographic|text-top|text-bottom|" \
+  "before-edge|after-edge|text-before-edge|text-after-edge"
+
+static const cs_svg_name_facts names[CS_SVG_NAME_COUNT] = {
+    {"alignment-baseline", PRESENTED, FORM(WORD), BASELINES "|top|center|bottom", NULL},
+    {"baseline-shift", PRESENTED, FORM(LENGTH), "baseline|sub|super", NULL},
+    {"class", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"clip-path", PRESENTED, FORM(ANY), NULL, NULL},
+    {"clip-rule", PRESENTED, FORM(WORD), "nonzero|evenodd", "nonzero"},
+    {"clipPathUnits", ATTRIBUTE, FORM(WORD), "userSpaceOnUse|objectBoundingBox", NULL},
+    {"color", PRESENTED, FORM(COLOUR), NULL, "black"},
+    {"cx", GEOMETRY, FORM(LENGTH), NULL, NULL},
+    {"cy", GEOMETRY, FORM(LENGTH), NULL, NULL},
+    {"d", GEOMETRY, FORM(ANY), NULL, NULL},
+    {"direction", PRESENTED, FORM(WORD), "ltr|rtl", "ltr"},
+    {"display", PRESENTED, FORM(ANY), NULL, NULL},
+    {"dominant-baseline", PRESENTED, FORM(WORD), BASELINES "|use-script|no-change|reset-size",
+     "auto"},
+    {"dx", ATTRIBUTE, FORM(LENGTHS), NULL, NULL},
+    {"dy", ATTRIBUTE, FORM(LENGTHS), NULL, NULL},
+    {"fill", PRESENTED, FORM(PAINT), NULL, "black"},
+    {"fill-opacity", PRESENTED, FORM(SHARE), NULL, "1"},
+    {"fill-rule", PRESENTED, FORM(WORD), "nonzero|evenodd", "nonzero"},
+    {"filter", PRESENTED, FORM(ANY), NULL, NULL},
+    {"font-family", PRESENTED, FORM(ANY), NULL, ""},
+    {"font-size", PRESENTED, FORM(SIZE),
+     "xx-small|x-small|small|medium|large|x-large|xx-large|xxx-large|smaller|larger", "medium"},
+    {"font-style", PRESENTED, FORM(SLANT), "normal|italic|oblique", "normal"},
+    {"font-weight", PRESENTED, FORM(NUMBER), "normal|bold|bolder|lighter", "normal"},
+    {"fr", ATTRIBUTE, FORM(LENGTH), NULL, NULL},
+    {"fx", ATTRIBUTE, FORM(LENGTH), NULL, NULL},
+    {"fy", ATTRIBUTE, FORM(LENGTH), NULL, NULL},
+    {"gradientTransform", ATTRIBUTE, FORM(TRANSFORM), NULL, NULL},
+    {"gradientUnits", ATTRIBUTE, FORM(WORD), "userSpaceOnUse|objectBoundingBox", NULL},
+    {"height", GEOMETRY, FORM(LENGTH), "auto", NULL},
+    {"href", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"id", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"isolation", PRESENTED, FORM(WORD), "auto|isolate", NULL},
+    {"label", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"lengthAdjust", ATTRIBUTE, FORM(WORD), "spacing|spacingAndGlyphs", NULL},
+    {"letter-spacing", PRESENTED, FORM(LENGTH), "normal", "normal"},
+    {"marker", STYLED, FORM(REFERENCE), "none", "none"},
+    {"marker-end", PRESENTED, FORM(REFERENCE), "none", "none"},
+    {"marker-mid", PRESENTED, FORM(REFERENCE), "none", "none"},
+    {"marker-start", PRESENTED, FORM(REFERENCE), "none", "none"},
+    {"markerHeight", ATTRIBUTE, FORM(LENGTH), NULL, NULL},
+    {"markerUnits", ATTRIBUTE, FORM(WORD), "strokeWidth|userSpaceOnUse", NULL},
+    {"markerWidth", ATTRIBUTE, FORM(LENGTH), NULL, NULL},
+    {"mask", PRESENTED, FORM(REFERENCE), "none|inherit", NULL},
+    {"mask-type", PRESENTED, FORM(WORD), "luminance|alpha", NULL},
+    {"maskContentUnits", ATTRIBUTE, FORM(WORD), "userSpaceOnUse|objectBoundingBox", NULL},
+    {"maskUnits", ATTRIBUTE, FORM(WORD), "userSpaceOnUse|objectBoundingBox", NULL},
+    {"media", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"mix-blend-mode", PRESENTED, FORM(ANY), NULL, NULL},
+    {"offset", ATTRIBUTE, FORM(SHARE), NULL, NULL},
+    {"opacity", PRESENTED, FORM(SHARE), "inherit", NULL},
+    {"orient", ATTRIBUTE, FORM(ANGLE), "auto|auto-start-reverse", NULL},
+    {"overflow", PRESENTED, FORM(WORD), "visible|hidden|scroll|auto|clip|inherit", NULL},
+    {"paint-order", PRESENTED, FORM(ORDER), "normal", "normal"},
+    {"pathLength", ATTRIBUTE, FORM(NUMBER), NULL, NULL},
+    {"points", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"preserveAspectRatio", ATTRIBUTE, FORM(ASPECT), NULL, NULL},
+    {"r", GEOMETRY, FORM(LENGTH), NULL, NULL},
+    {"refX", ATTRIBUTE, FORM(LENGTH), "left|center|right", NULL},
+    {"refY", ATTRIBUTE, FORM(LENGTH), "top|center|bottom", NULL},
+    {"requiredExtensions", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"requiredFeatures", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"rotate", APART, FORM(ROTATION), NULL, NULL},
+    {"rx", GEOMETRY, FORM(LENGTH), "auto", NULL},
+    {"ry", GEOMETRY, FORM(LENGTH), "auto", NULL},
+    {"scale", STYLED, FORM(SCALE), "none", NULL},
+    {"side", ATTRIBUTE, FORM(WORD), "left|right", NULL},
+    {"space", ATTRIBUTE, FORM(WORD), "default|preserve", NULL},
+    {"spreadMethod", ATTRIBUTE, FORM(WORD), "pad|reflect|repeat", NULL},
+    {"startOffset", ATTRIBUTE, FORM(LENGTH), NULL, NULL},
+    {"stop-color", PRESENTED, FORM(COLOUR), "inherit", NULL},
+    {"stop-opacity", PRESENTED, FORM(SHARE), NULL, NULL},
+    {"stroke", PRESENTED, FORM(PAINT), NULL, "none"},
+    {"stroke-dasharray", PRESENTED, FORM(LENGTHS), "none", "none"},
+    {"stroke-dashoffset", PRESENTED, FORM(LENGTH), NULL, "0"},
+    {"stroke-linecap", PRESENTED, FORM(WORD), "butt|round|square", "butt"},
+    {"stroke-linejoin", PRESENTED, FORM(WORD), "miter|miter-clip|arcs|round|bevel", "miter"},
+    {"stroke-miterlimit", PRESENTED, FORM(NUMBER), NULL, "4"},
+    {"stroke-opacity", PRESENTED, FORM(SHARE), NULL, "1"},
+    {"stroke-width", PRESENTED, FORM(SIZE), NULL, "1"},
+    {"style", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"systemLanguage", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"text-anchor", PRESENTED, FORM(WORD), "start|middle|end", "start"},
+    {"text-decoration", PRESENTED, FORM(WORD), "none", NULL},
+    {"textLength", ATTRIBUTE, FORM(LENGTH), NULL, NULL},
+    {"transform", PRESENTED, FORM(TRANSFORM), "none|inherit", NULL},
+    {"transform-origin", PRESENTED, FORM(ANY), NULL, NULL},
+    {"translate", STYLED, FORM(TRANSLATE), "none", NULL},
+    {"type", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"vector-effect", PRESENTED, FORM(WORD), "none|non-scaling-stroke", NULL},
+    {"viewBox", ATTRIBUTE, FORM(VIEW_BOX), NULL, NULL},
+    {"visibility", PRESENTED, FORM(WORD), "visible|hidden|collapse", "visible"},
+    {"width", GEOMETRY, FORM(LENGTH), "auto", NULL},
+    {"word-spacing", PRESENTED, FORM(LENGTH), "normal", "normal"},
+    {"writing-mode", PRESENTED, FORM(WORD), "horizontal-tb|lr|lr-tb", "horizontal-tb"},
+    {"x", GEOMETRY, FORM(LENGTHS), NULL, NULL},
+    {"x1", ATTRIBUTE, FORM(LENGTH), NULL, NULL},
+    {"x2", ATTRIBUTE, FORM(LENGTH), NULL, NULL},
+    {"y", GEOMETRY, FORM(LENGTHS), NULL, NULL},
+    {"y1", ATTRIBUTE, FORM(LENGTH), NULL, NULL},
+    {"y2", ATTRIBUTE, FORM(LENGTH), NULL, NULL},
+};
+
+#undef ATTRIBUTE
+#undef PRESENTED
+#undef STYLED
+#undef GEOMETRY
+#undef APART
 
 static int compare_text(const void *key, const void *item) {
   return strcmp(key, *(const char *const *)item);
 }
 
 static int compare_name(const void *key, const void *item) {
-  return strcmp(key, ((const name_entry *)item)->text);
+  return strcmp(key, ((const cs_svg_name_facts *)item)->text);
 }
 
 cs_svg_element cs_svg_element_named(const char *text) {
@@ -29,11 +144,43 @@ cs_svg_element cs_svg_element_named(const char *text) {
   return found ? (cs_svg_element)(found - elements) : CS_SVG_ELEMENT_OTHER;
 }
 
+bool cs_svg_element_is_drawn(cs_svg_element element) {
+  switch (element) {
+  case CS_SVG_ELEMENT_DESC:
+  case CS_SVG_ELEMENT_FILTER:
+  case CS_SVG_ELEMENT_FOREIGN_OBJECT:
+  case CS_SVG_ELEMENT_METADATA:
+  case CS_SVG_ELEMENT_SCRIPT:
+  case CS_SVG_ELEMENT_TITLE:
+  case CS_SVG_ELEMENT_VIEW:
+  case CS_SVG_ELEMENT_OTHER:
+    return false;
+  default:
+    return true;
+  }
+}
+
 cs_svg_name cs_svg_name_of(const char *text) {
-  const name_entry *found = bsearch(text, names, CS_SVG_NAME_COUNT, sizeof *names, compare_name);
+  const cs_svg_name_facts *found =
+      bsearch(text, names, CS_SVG_NAME_COUNT, sizeof *names, compare_name);
   return found ? (cs_svg_name)(found - names) : CS_SVG_NAME_COUNT;
 }
 
-bool cs_svg_is_property(cs_svg_name name) { return names[name].is_property; }
+const cs_svg_name_facts *cs_svg_name_facts_of(cs_svg_name name) { return &names[name]; }
+
+bool cs_svg_is_property(cs_svg_name name) { return names[name].use != CS_SVG_USE_ATTRIBUTE; }
 
 const char *cs_svg_name_text(cs_svg_name name) { return names[name].text; }
+
+#define SPACE " \t\n\v\f\r"
+
+bool cs_svg_words_have(const char *words, const char *value) {
+  value += strspn(value, SPACE);
+  size_t size = strcspn(value, SPACE);
+  if (size == 0 || value[size + strspn(value + size, SPACE)])
+    return false;
+  for (const char *at = words; at; at = strchr(at, '|') ? strchr(at, '|') + 1 : NULL)
+    if (strncasecmp(at, value, size) == 0 && (at[size] == '|' || at[size] == 0))
+      return true;
+  return false;
+}

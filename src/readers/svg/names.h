@@ -1,6 +1,8 @@
-/* The names of SVG that mean something here, as numbers: elements, attributes and properties.
+/* The names of SVG that mean something here, as numbers: elements, attributes and properties, with
+ * the values that are read of them. These lists are the one place that says what is drawn: whatever
+ * else a document names is noted (unread.h).
  *
- * Invariant: both lists are sorted as strcmp sorts their texts, which is how they are searched.
+ * Invariant: all lists are sorted as strcmp sorts their texts, which is how they are searched.
  */
 #pragma once
 
@@ -29,67 +31,161 @@ typedef enum cs_svg_element {
   CS_SVG_ELEMENT_COUNT = CS_SVG_ELEMENT_OTHER
 } cs_svg_element;
 
-/* Each attribute or property: its enumerator after CS_SVG_, its text, whether it is a property. */
-#define CS_SVG_NAME_LIST(NAME)                                                                     \
-  NAME(BASELINE_SHIFT, "baseline-shift", true), NAME(CLASS, "class", false),                       \
-      NAME(CLIP_PATH, "clip-path", true), NAME(CLIP_RULE, "clip-rule", true),                      \
-      NAME(CLIP_PATH_UNITS, "clipPathUnits", false), NAME(COLOR, "color", true),                   \
-      NAME(CX, "cx", false), NAME(CY, "cy", false), NAME(D, "d", false),                           \
-      NAME(DIRECTION, "direction", true), NAME(DISPLAY, "display", true), NAME(DX, "dx", false),   \
-      NAME(DY, "dy", false), NAME(FILL, "fill", true), NAME(FILL_OPACITY, "fill-opacity", true),   \
-      NAME(FILL_RULE, "fill-rule", true), NAME(FILTER, "filter", true),                            \
-      NAME(FONT_FAMILY, "font-family", true), NAME(FONT_SIZE, "font-size", true),                  \
-      NAME(FONT_STYLE, "font-style", true), NAME(FONT_WEIGHT, "font-weight", true),                \
-      NAME(FR, "fr", false), NAME(FX, "fx", false), NAME(FY, "fy", false),                         \
-      NAME(GRADIENT_TRANSFORM, "gradientTransform", false),                                        \
-      NAME(GRADIENT_UNITS, "gradientUnits", false), NAME(HEIGHT, "height", false),                 \
-      NAME(HREF, "href", false), NAME(ID, "id", false), NAME(ISOLATION, "isolation", true),        \
-      NAME(LABEL, "label", false), NAME(LENGTH_ADJUST, "lengthAdjust", false),                     \
-      NAME(LETTER_SPACING, "letter-spacing", true), NAME(MARKER, "marker", true),                  \
-      NAME(MARKER_END, "marker-end", true), NAME(MARKER_MID, "marker-mid", true),                  \
-      NAME(MARKER_START, "marker-start", true), NAME(MARKER_HEIGHT, "markerHeight", false),        \
-      NAME(MARKER_UNITS, "markerUnits", false), NAME(MARKER_WIDTH, "markerWidth", false),          \
-      NAME(MASK, "mask", true), NAME(MASK_TYPE, "mask-type", true),                                \
-      NAME(MASK_CONTENT_UNITS, "maskContentUnits", false), NAME(MASK_UNITS, "maskUnits", false),   \
-      NAME(MIX_BLEND_MODE, "mix-blend-mode", true), NAME(OFFSET, "offset", false),                 \
-      NAME(OPACITY, "opacity", true), NAME(ORIENT, "orient", false),                               \
-      NAME(OVERFLOW, "overflow", true), NAME(PAINT_ORDER, "paint-order", true),                    \
-      NAME(PATH_LENGTH, "pathLength", false), NAME(POINTS, "points", false),                       \
-      NAME(PRESERVE_ASPECT_RATIO, "preserveAspectRatio", false), NAME(R, "r", false),              \
-      NAME(REF_X, "refX", false), NAME(REF_Y, "refY", false),                                      \
-      NAME(REQUIRED_EXTENSIONS, "requiredExtensions", false),                                      \
-      NAME(REQUIRED_FEATURES, "requiredFeatures", false), NAME(ROTATE, "rotate", false),           \
-      NAME(RX, "rx", false), NAME(RY, "ry", false), NAME(SIDE, "side", false),                     \
-      NAME(SPACE, "space", false), NAME(SPREAD_METHOD, "spreadMethod", false),                     \
-      NAME(START_OFFSET, "startOffset", false), NAME(STOP_COLOR, "stop-color", true),              \
-      NAME(STOP_OPACITY, "stop-opacity", true), NAME(STROKE, "stroke", true),                      \
-      NAME(STROKE_DASHARRAY, "stroke-dasharray", true),                                            \
-      NAME(STROKE_DASHOFFSET, "stroke-dashoffset", true),                                          \
-      NAME(STROKE_LINECAP, "stroke-linecap", true),                                                \
-      NAME(STROKE_LINEJOIN, "stroke-linejoin", true),                                              \
-      NAME(STROKE_MITERLIMIT, "stroke-miterlimit", true),                                          \
-      NAME(STROKE_OPACITY, "stroke-opacity", true), NAME(STROKE_WIDTH, "stroke-width", true),      \
-      NAME(STYLE, "style", false), NAME(SYSTEM_LANGUAGE, "systemLanguage", false),                 \
-      NAME(TEXT_ANCHOR, "text-anchor", true), NAME(TEXT_DECORATION, "text-decoration", true),      \
-      NAME(TEXT_LENGTH, "textLength", false), NAME(TRANSFORM, "transform", true),                  \
-      NAME(TRANSFORM_ORIGIN, "transform-origin", true), NAME(TYPE, "type", false),                 \
-      NAME(VECTOR_EFFECT, "vector-effect", true), NAME(VIEW_BOX, "viewBox", false),                \
-      NAME(VISIBILITY, "visibility", true), NAME(WIDTH, "width", false),                           \
-      NAME(WORD_SPACING, "word-spacing", true), NAME(WRITING_MODE, "writing-mode", true),          \
-      NAME(X, "x", false), NAME(X1, "x1", false), NAME(X2, "x2", false), NAME(Y, "y", false),      \
-      NAME(Y1, "y1", false), NAME(Y2, "y2", false)
-
 typedef enum cs_svg_name {
-#define NAME(name, text, is_property) CS_SVG_##name
-  CS_SVG_NAME_LIST(NAME),
-#undef NAME
+  CS_SVG_ALIGNMENT_BASELINE,
+  CS_SVG_BASELINE_SHIFT,
+  CS_SVG_CLASS,
+  CS_SVG_CLIP_PATH,
+  CS_SVG_CLIP_RULE,
+  CS_SVG_CLIP_PATH_UNITS,
+  CS_SVG_COLOR,
+  CS_SVG_CX,
+  CS_SVG_CY,
+  CS_SVG_D,
+  CS_SVG_DIRECTION,
+  CS_SVG_DISPLAY,
+  CS_SVG_DOMINANT_BASELINE,
+  CS_SVG_DX,
+  CS_SVG_DY,
+  CS_SVG_FILL,
+  CS_SVG_FILL_OPACITY,
+  CS_SVG_FILL_RULE,
+  CS_SVG_FILTER,
+  CS_SVG_FONT_FAMILY,
+  CS_SVG_FONT_SIZE,
+  CS_SVG_FONT_STYLE,
+  CS_SVG_FONT_WEIGHT,
+  CS_SVG_FR,
+  CS_SVG_FX,
+  CS_SVG_FY,
+  CS_SVG_GRADIENT_TRANSFORM,
+  CS_SVG_GRADIENT_UNITS,
+  CS_SVG_HEIGHT,
+  CS_SVG_HREF,
+  CS_SVG_ID,
+  CS_SVG_ISOLATION,
+  CS_SVG_LABEL,
+  CS_SVG_LENGTH_ADJUST,
+  CS_SVG_LETTER_SPACING,
+  CS_SVG_MARKER,
+  CS_SVG_MARKER_END,
+  CS_SVG_MARKER_MID,
+  CS_SVG_MARKER_START,
+  CS_SVG_MARKER_HEIGHT,
+  CS_SVG_MARKER_UNITS,
+  CS_SVG_MARKER_WIDTH,
+  CS_SVG_MASK,
+  CS_SVG_MASK_TYPE,
+  CS_SVG_MASK_CONTENT_UNITS,
+  CS_SVG_MASK_UNITS,
+  CS_SVG_MEDIA,
+  CS_SVG_MIX_BLEND_MODE,
+  CS_SVG_OFFSET,
+  CS_SVG_OPACITY,
+  CS_SVG_ORIENT,
+  CS_SVG_OVERFLOW,
+  CS_SVG_PAINT_ORDER,
+  CS_SVG_PATH_LENGTH,
+  CS_SVG_POINTS,
+  CS_SVG_PRESERVE_ASPECT_RATIO,
+  CS_SVG_R,
+  CS_SVG_REF_X,
+  CS_SVG_REF_Y,
+  CS_SVG_REQUIRED_EXTENSIONS,
+  CS_SVG_REQUIRED_FEATURES,
+  CS_SVG_ROTATE,
+  CS_SVG_RX,
+  CS_SVG_RY,
+  CS_SVG_SCALE,
+  CS_SVG_SIDE,
+  CS_SVG_SPACE,
+  CS_SVG_SPREAD_METHOD,
+  CS_SVG_START_OFFSET,
+  CS_SVG_STOP_COLOR,
+  CS_SVG_STOP_OPACITY,
+  CS_SVG_STROKE,
+  CS_SVG_STROKE_DASHARRAY,
+  CS_SVG_STROKE_DASHOFFSET,
+  CS_SVG_STROKE_LINECAP,
+  CS_SVG_STROKE_LINEJOIN,
+  CS_SVG_STROKE_MITERLIMIT,
+  CS_SVG_STROKE_OPACITY,
+  CS_SVG_STROKE_WIDTH,
+  CS_SVG_STYLE,
+  CS_SVG_SYSTEM_LANGUAGE,
+  CS_SVG_TEXT_ANCHOR,
+  CS_SVG_TEXT_DECORATION,
+  CS_SVG_TEXT_LENGTH,
+  CS_SVG_TRANSFORM,
+  CS_SVG_TRANSFORM_ORIGIN,
+  CS_SVG_TRANSLATE,
+  CS_SVG_TYPE,
+  CS_SVG_VECTOR_EFFECT,
+  CS_SVG_VIEW_BOX,
+  CS_SVG_VISIBILITY,
+  CS_SVG_WIDTH,
+  CS_SVG_WORD_SPACING,
+  CS_SVG_WRITING_MODE,
+  CS_SVG_X,
+  CS_SVG_X1,
+  CS_SVG_X2,
+  CS_SVG_Y,
+  CS_SVG_Y1,
+  CS_SVG_Y2,
   CS_SVG_NAME_COUNT
 } cs_svg_name;
+
+/* Where a name is used. */
+typedef enum cs_svg_use {
+  CS_SVG_USE_ATTRIBUTE, /* an attribute alone */
+  CS_SVG_USE_PRESENTED, /* a property; the attribute of this name gives it, too */
+  CS_SVG_USE_STYLED,    /* a property of styles alone */
+  CS_SVG_USE_GEOMETRY,  /* an attribute, which a style may give to some elements */
+  CS_SVG_USE_APART      /* an attribute, and a property with another meaning */
+} cs_svg_use;
+
+/* What a value looks like. */
+typedef enum cs_svg_form {
+  CS_SVG_FORM_ANY, /* it is judged where it is used */
+  CS_SVG_FORM_WORD,
+  CS_SVG_FORM_NUMBER,
+  CS_SVG_FORM_SHARE, /* a number or a percentage */
+  CS_SVG_FORM_LENGTH,
+  CS_SVG_FORM_SIZE, /* a length that is not negative */
+  CS_SVG_FORM_LENGTHS,
+  CS_SVG_FORM_ANGLE,
+  CS_SVG_FORM_ROTATION, /* of an attribute: numbers; of a style: an angle about the z axis */
+  CS_SVG_FORM_COLOUR,
+  CS_SVG_FORM_PAINT,
+  CS_SVG_FORM_REFERENCE,
+  CS_SVG_FORM_TRANSFORM,
+  CS_SVG_FORM_TRANSLATE,
+  CS_SVG_FORM_SCALE,
+  CS_SVG_FORM_SLANT,
+  CS_SVG_FORM_ORDER, /* of fill, stroke and markers */
+  CS_SVG_FORM_VIEW_BOX,
+  CS_SVG_FORM_ASPECT
+} cs_svg_form;
+
+typedef struct cs_svg_name_facts {
+  const char *text;
+  cs_svg_use use;
+  cs_svg_form form;
+  const char *words;   /* that are values, too, with '|' between them; NULL: none */
+  const char *initial; /* of a property that is inherited; NULL: it is not */
+} cs_svg_name_facts;
 
 /* OTHER for one that is not in the list. */
 cs_svg_element cs_svg_element_named(const char *text);
 /* CS_SVG_NAME_COUNT for one that is not in the list. */
 cs_svg_name cs_svg_name_of(const char *text);
-/* Whether a style sheet may set it. */
+/* Whether the element or its contents may be seen; false for notes, scripts and filters. */
+bool cs_svg_element_is_drawn(cs_svg_element element);
+const cs_svg_name_facts *cs_svg_name_facts_of(cs_svg_name name);
+/* Whether a style may set it. */
 bool cs_svg_is_property(cs_svg_name name);
 const char *cs_svg_name_text(cs_svg_name name);
+
+/* Whether one of the words, with '|' between them, is the value; letters may be of either case.
+ * words: NULL: none. */
+bool cs_svg_words_have(const char *words, const char *value);

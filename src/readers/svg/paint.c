@@ -38,7 +38,8 @@ static celspan_status fill(cs_svg_reading *reading, const cs_svg_node *node,
                            const cs_svg_place *place, cs_outline *outline, const celspan_box *box,
                            celspan_object **out) {
   const celspan_matrix identity = celspan_matrix_identity();
-  cs_svg_painted shape = {node, &place->measure, {.x = 0}, {.x = 0}, place->style.fill_opacity};
+  cs_svg_painted shape = {node,     &place->measure,           {.x = 0},
+                          {.x = 0}, place->style.fill_opacity, &place->matrix};
   cs_svg_server server;
   if (outline->piece_count == 0 ||
       (place->style.fill.has_server && !cs_outline_bounds(outline, &identity, &shape.box)))

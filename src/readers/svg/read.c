@@ -1,6 +1,7 @@
 /* Reading a drawing: the file, and the drawings that are kept from frame to frame. */
 #include <errno.h>
 #include <pthread.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -89,8 +90,30 @@ static void keep(drawing_store *store, cs_hash key, celspan_svg *art) {
 
 /* ---------------------------------------------------------------- reading bytes */
 
+/* Adds what the document names and is not read. */
+static celspan_status note_unread(cs_svg_reading *reading) {
+  const cs_svg_unread *unread = &reading->document->unread;
+  for (size_t i = 0; i < unread->count; i++)
+    CS_TRY(cs_svg_skip(reading, &(cs_svg_node){.line = unread->items[i].line}, "%s",
+                       unread->items[i].what));
+  return CELSPAN_OK;
+}
+
+/* By the lines of the file; those of one line in the order in which they were made. */
+static int compare_notes(const void *a, const void *b) {
+  const cs_svg_skipped *first = a, *second = b;
+  if (first->line != second->line)
+    return first->line < second->line ? -1 : 1;
+  return first->number < second->number ? -1 : first->number > second->number;
+}
+
 static celspan_status copy_notes(cs_svg_reading *reading, celspan_svg *art) {
   celspan_context *context = reading->context;
+  CS_TRY(note_unread(reading));
+  for (size_t i = 0; i < reading->skipped_count; i++)
+    reading->skipped[i].number = i;
+  if (reading->skipped_count > 0)
+    qsort(reading->skipped, reading->skipped_count, sizeof *reading->skipped, compare_notes);
   art->skipped = cs_arena_take(context, &art->arena, reading->skipped_count * sizeof *art->skipped);
   if (!art->skipped)
     return CELSPAN_NO_MEMORY;

@@ -7,6 +7,7 @@
 #include "base/number.h"
 #include "model/colour/transfer.h"
 #include "readers/svg/shapes.h"
+#include "readers/svg/transforms.h"
 
 celspan_status cs_svg_skip(cs_svg_reading *reading, const cs_svg_node *node, const char *format,
                            ...) {
@@ -98,12 +99,21 @@ celspan_matrix cs_svg_about_origin(celspan_matrix matrix, const char *text,
   return celspan_matrix_then(matrix, celspan_matrix_translation(origin.x, origin.y));
 }
 
+/* Source: CSS Transforms Module Level 2, 7: the functions are done first. */
 celspan_matrix cs_svg_transform_of(const cs_svg_style *style, const cs_svg_measure *measure) {
-  celspan_matrix matrix;
-  if (!style->transform || !cs_svg_parse_transform(style->transform, &matrix))
-    return celspan_matrix_identity();
-  return style->transform_origin ? cs_svg_about_origin(matrix, style->transform_origin, measure)
-                                 : matrix;
+  celspan_matrix matrix = celspan_matrix_identity(), step;
+  if (style->transform && cs_svg_parse_transform(style->transform, measure, &step))
+    matrix = step;
+  if (style->scale && cs_svg_parse_scale(style->scale, &step))
+    matrix = celspan_matrix_then(matrix, step);
+  if (style->rotate && cs_svg_parse_rotate(style->rotate, &step))
+    matrix = celspan_matrix_then(matrix, step);
+  if (style->translate && cs_svg_parse_translate(style->translate, measure, &step))
+    matrix = celspan_matrix_then(matrix, step);
+  bool is_given = style->transform || style->scale || style->rotate || style->translate;
+  return is_given && style->transform_origin
+             ? cs_svg_about_origin(matrix, style->transform_origin, measure)
+             : matrix;
 }
 
 celspan_status cs_svg_enter(cs_svg_reading *reading, const cs_svg_node *node, cs_svg_place *place) {

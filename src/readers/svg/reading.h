@@ -17,6 +17,7 @@
 
 typedef struct cs_svg_skipped {
   uint32_t line;
+  size_t number; /* in the order in which they are made; given at the end */
   char what[160];
 } cs_svg_skipped;
 
@@ -72,6 +73,13 @@ typedef struct cs_svg_open {
   const cs_svg_node *node;
   const struct cs_svg_open *outer;
 } cs_svg_open;
+
+/* The element whose fill or stroke others take over: gradients are fitted to it. */
+typedef struct cs_svg_context_box {
+  celspan_box box;
+  celspan_matrix matrix; /* its user units to the drawing's */
+  cs_svg_measure measure;
+} cs_svg_context_box;
 
 /* Where an element is drawn, and how. */
 typedef struct cs_svg_place {

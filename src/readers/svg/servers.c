@@ -5,6 +5,7 @@
 #include "base/number.h"
 #include "model/colour/transfer.h"
 #include "readers/svg/shapes.h"
+#include "readers/svg/transforms.h"
 
 /* Templates that follow one another through href, at most. */
 #define TEMPLATES 32
@@ -256,7 +257,7 @@ static celspan_status read_radial(gradient *g) {
 static void read_matrix(gradient *g) {
   celspan_matrix own;
   g->matrix = celspan_matrix_identity();
-  if (cs_svg_parse_transform(text_of(g, CS_SVG_GRADIENT_TRANSFORM), &own))
+  if (cs_svg_parse_transform(text_of(g, CS_SVG_GRADIENT_TRANSFORM), &g->measure, &own))
     g->matrix = own;
   const char *origin = text_of(g, CS_SVG_TRANSFORM_ORIGIN);
   if (*origin)
@@ -415,11 +416,36 @@ static celspan_status plain_paint(cs_svg_reading *reading, const cs_svg_paint *p
               opacity, out);
 }
 
+/* Finds the paint of the element whose context it is, and brings it to the shape's units. */
+static celspan_status find_in_context(cs_svg_reading *reading, const cs_svg_paint *paint,
+                                      const cs_svg_style *style, const cs_svg_painted *shape,
+                                      cs_svg_server *out) {
+  const cs_svg_context_box *context = paint->context;
+  cs_svg_paint own = *paint;
+  cs_svg_painted other = *shape;
+  celspan_matrix from, to;
+  if (!celspan_matrix_inverse(context->matrix, &from) ||
+      !celspan_matrix_inverse(*shape->matrix, &to))
+    return CELSPAN_OK;
+  const celspan_matrix there = celspan_matrix_then(*shape->matrix, from);
+  own.context = NULL;
+  other.measure = &context->measure;
+  other.box = context->box;
+  other.painted = cs_svg_box_mapped(&shape->painted, &there);
+  other.matrix = &context->matrix;
+  CS_TRY(cs_svg_server_find(reading, &own, style, &other, out));
+  if (out->kind == CS_SVG_SERVER_GRADIENT)
+    out->matrix = celspan_matrix_then(celspan_matrix_then(out->matrix, context->matrix), to);
+  return CELSPAN_OK;
+}
+
 celspan_status cs_svg_server_find(cs_svg_reading *reading, const cs_svg_paint *paint,
                                   const cs_svg_style *style, const cs_svg_painted *shape,
                                   cs_svg_server *out) {
   *out = (cs_svg_server){.matrix = celspan_matrix_identity()};
   const cs_svg_node *node = paint->has_server ? cs_svg_referred(reading, paint->server) : NULL;
+  if (node && is_gradient(node) && paint->context)
+    return find_in_context(reading, paint, style, shape, out);
   if (node && is_gradient(node)) {
     bool is_without_box;
     CS_TRY(make_gradient(reading, node, shape, &is_without_box, out));

@@ -32,6 +32,7 @@ typedef struct cs_svg_painted {
   celspan_box box;     /* of its outline, in its user units */
   celspan_box painted; /* around all of it that is painted, in the same */
   double opacity;
+  const celspan_matrix *matrix; /* the same units to the drawing's */
 } cs_svg_painted;
 
 /* What a shape is painted with, by its property fill or stroke. Errors: NO_MEMORY, LIMIT, INPUT. */

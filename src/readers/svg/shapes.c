@@ -252,6 +252,20 @@ bool cs_svg_outline_map(cs_outline *outline, const celspan_matrix *matrix) {
 
 /* ---------------------------------------------------------------- rectangles */
 
+celspan_box cs_svg_box_mapped(const celspan_box *box, const celspan_matrix *matrix) {
+  const double *m = matrix->m;
+  double left = HUGE_VAL, right = -HUGE_VAL, top = HUGE_VAL, bottom = -HUGE_VAL;
+  for (int i = 0; i < 4; i++) {
+    double x = box->x + (i & 1) * box->width, y = box->y + (i >> 1) * box->height;
+    double to_x = m[0] * x + m[1] * y + m[2], to_y = m[3] * x + m[4] * y + m[5];
+    left = fmin(left, to_x);
+    right = fmax(right, to_x);
+    top = fmin(top, to_y);
+    bottom = fmax(bottom, to_y);
+  }
+  return (celspan_box){left, top, right - left, bottom - top};
+}
+
 celspan_matrix cs_svg_box_matrix(const celspan_box *box) {
   return (celspan_matrix){{box->width, 0, box->x, 0, box->height, box->y, 0, 0, 1}};
 }

@@ -51,5 +51,7 @@ bool cs_svg_outline_map(cs_outline *outline, const celspan_matrix *matrix);
 /* A rectangle in user units as an object; `matrix` converts these to the drawing's units. */
 CELSPAN_CHECKED celspan_status cs_svg_rectangle(celspan_context *context, const celspan_box *box,
                                                 const celspan_matrix *matrix, celspan_object **out);
+/* The box around a box under an affine matrix. */
+celspan_box cs_svg_box_mapped(const celspan_box *box, const celspan_matrix *matrix);
 /* From shares of a box to user units. */
 celspan_matrix cs_svg_box_matrix(const celspan_box *box);

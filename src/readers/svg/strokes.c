@@ -5,6 +5,7 @@
 #include "base/number.h"
 #include "model/scene/bounds.h"
 #include "model/scene/primitive_data.h"
+#include "model/stroke/curve.h"
 #include "readers/svg/servers.h"
 #include "readers/svg/shapes.h"
 
@@ -29,7 +30,7 @@ bool cs_svg_is_stroked(const cs_svg_style *style) {
 /* ---------------------------------------------------------------- dashes */
 
 /* Appends the lengths of the list; *is_fit: false for what is no list of lengths that are drawn. */
-static celspan_status take_dashes(stroking *p, const char *text, bool *is_fit) {
+static celspan_status take_dashes(stroking *p, const char *text, double unit, bool *is_fit) {
   double sum = 0;
   cs_svg_length length;
   for (text = cs_svg_skip_space(text); *text; text = cs_svg_skip_comma(text)) {
@@ -37,7 +38,7 @@ static celspan_status take_dashes(stroking *p, const char *text, bool *is_fit) {
     if (!*is_fit)
       return CELSPAN_OK;
     CS_TRY(CS_RESERVE(p->reading->context, p->dashes, p->dash_capacity, p->desc.dash_count + 1));
-    double dash = cs_svg_resolve(length, CS_SVG_AXIS_BOTH, &p->place->measure);
+    double dash = unit * cs_svg_resolve(length, CS_SVG_AXIS_BOTH, &p->place->measure);
     p->dashes[p->desc.dash_count++] = dash;
     sum += dash;
   }
@@ -45,16 +46,37 @@ static celspan_status take_dashes(stroking *p, const char *text, bool *is_fit) {
   return CELSPAN_OK;
 }
 
+/* How many units one unit of the lengths in which dashes are written has: the element may say how
+ * long its line shall count. */
+static celspan_status dash_unit(stroking *p, double *out) {
+  double declared, length = 0;
+  *out = 1;
+  CS_TRY(cs_svg_number_of(p->reading->context, p->node, CS_SVG_PATH_LENGTH, CS_SVG_AXIS_BOTH,
+                          &p->place->measure, &declared));
+  if (declared < 0 || !cs_svg_node_value(p->node, CS_SVG_PATH_LENGTH))
+    return CELSPAN_OK;
+  for (size_t i = 0; i < p->outline->piece_count; i++) {
+    cs_bezier piece;
+    cs_curve_load_line(p->outline, i, 0, 1, &piece);
+    length += cs_curve_length(&piece, 0, 1);
+  }
+  *out = declared > 0 ? length / declared : 0;
+  return CELSPAN_OK;
+}
+
 static celspan_status read_dashes(stroking *p) {
   const cs_svg_style *style = &p->place->style;
   bool is_fit = false;
-  if (style->dashes)
-    CS_TRY(take_dashes(p, style->dashes, &is_fit));
+  double unit = 1;
+  if (style->dashes) {
+    CS_TRY(dash_unit(p, &unit));
+    CS_TRY(take_dashes(p, style->dashes, unit, &is_fit));
+  }
   if (!is_fit) {
     p->desc.dash_count = 0;
     return CELSPAN_OK;
   }
-  double offset = cs_svg_resolve(style->dash_offset, CS_SVG_AXIS_BOTH, &p->place->measure);
+  double offset = unit * cs_svg_resolve(style->dash_offset, CS_SVG_AXIS_BOTH, &p->place->measure);
   p->desc.dashes = p->dashes;
   p->desc.dash_offset = cs_number_is_sane(offset) ? offset : 0;
   return CELSPAN_OK;
@@ -91,21 +113,6 @@ static celspan_status make_stroke(stroking *p, celspan_texture *texture, celspan
   return status;
 }
 
-/* The box around a box under an affine matrix. */
-static celspan_box mapped_box(const celspan_box *box, const celspan_matrix *matrix) {
-  const double *m = matrix->m;
-  double left = HUGE_VAL, right = -HUGE_VAL, top = HUGE_VAL, bottom = -HUGE_VAL;
-  for (int i = 0; i < 4; i++) {
-    double x = box->x + (i & 1) * box->width, y = box->y + (i >> 1) * box->height;
-    double to_x = m[0] * x + m[1] * y + m[2], to_y = m[3] * x + m[4] * y + m[5];
-    left = fmin(left, to_x);
-    right = fmax(right, to_x);
-    top = fmin(top, to_y);
-    bottom = fmax(bottom, to_y);
-  }
-  return (celspan_box){left, top, right - left, bottom - top};
-}
-
 /* A rectangle in the gradient's units that covers `box` of the drawing's, brought there. *out: NULL
  * where numbers do not reach so far. */
 static celspan_status cover(stroking *p, const cs_svg_server *server, const celspan_box *box,
@@ -116,7 +123,7 @@ static celspan_status cover(stroking *p, const cs_svg_server *server, const cels
   *out = NULL;
   if (!celspan_matrix_inverse(whole, &inverse))
     return CELSPAN_OK;
-  celspan_box area = mapped_box(box, &inverse);
+  celspan_box area = cs_svg_box_mapped(box, &inverse);
   if (!cs_number_is_sane(area.x) || !cs_number_is_sane(area.y) ||
       !cs_number_is_sane(area.x + area.width) || !cs_number_is_sane(area.y + area.height))
     return CELSPAN_OK;
@@ -144,8 +151,8 @@ static celspan_status clip_cover(stroking *p, const cs_svg_server *server, celsp
 static celspan_status paint_by_server(stroking *p, const celspan_box *outline_box,
                                       celspan_object **out) {
   const cs_svg_style *style = &p->place->style;
-  cs_svg_painted shape = {
-      p->node, &p->place->measure, *outline_box, {.x = 0}, style->stroke_opacity};
+  cs_svg_painted shape = {p->node,  &p->place->measure,    *outline_box,
+                          {.x = 0}, style->stroke_opacity, &p->place->matrix};
   cs_svg_server server;
   celspan_object *stroke;
   celspan_matrix inverse;
@@ -154,7 +161,7 @@ static celspan_status paint_by_server(stroking *p, const celspan_box *outline_bo
   CS_TRY(make_stroke(p, NULL, &stroke));
   celspan_status status = cs_bounds_object(p->reading->context, stroke, &is_there, &box);
   if (status == CELSPAN_OK && is_there && celspan_matrix_inverse(p->place->matrix, &inverse)) {
-    shape.painted = mapped_box(&box, &inverse);
+    shape.painted = cs_svg_box_mapped(&box, &inverse);
     status = cs_svg_server_find(p->reading, &style->stroke, style, &shape, &server);
     if (status == CELSPAN_OK && server.kind == CS_SVG_SERVER_FLAT)
       status = make_stroke(p, server.texture, out);
@@ -168,8 +175,8 @@ static celspan_status paint_by_server(stroking *p, const celspan_box *outline_bo
 
 static celspan_status paint_flat(stroking *p, celspan_object **out) {
   const cs_svg_style *style = &p->place->style;
-  const cs_svg_painted shape = {
-      p->node, &p->place->measure, {.x = 0}, {.x = 0}, style->stroke_opacity};
+  const cs_svg_painted shape = {p->node,  &p->place->measure,    {.x = 0},
+                                {.x = 0}, style->stroke_opacity, &p->place->matrix};
   cs_svg_server server;
   CS_TRY(cs_svg_server_find(p->reading, &style->stroke, style, &shape, &server));
   celspan_status status =

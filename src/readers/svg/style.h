@@ -1,38 +1,16 @@
-/* The style of an element: its properties, computed from its attributes, the style sheets and what
- * it inherits.
- *
- *   attribute  <  rule, by weight and order  <  style="..."  <  the same with !important
+/* The style of an element: its properties, computed from the values that win (cascade.h) and
+ * from what it inherits.
  */
 #pragma once
 
-#include "readers/svg/colours.h"
 #include "readers/svg/document.h"
+#include "readers/svg/paints.h"
 #include "readers/svg/text_style.h"
 #include "readers/svg/values.h"
 
-typedef enum cs_svg_paint_kind {
-  CS_SVG_PAINT_NONE,
-  CS_SVG_PAINT_COLOUR,
-  CS_SVG_PAINT_CURRENT /* that of the property `color` */
-} cs_svg_paint_kind;
-
-typedef struct cs_svg_paint {
-  bool has_server;
-  cs_svg_reference server; /* wins over the rest where it is found and can be drawn */
-  bool has_fallback;       /* the rest was written after a server */
-  cs_svg_paint_kind kind;
-  cs_svg_colour colour;
-} cs_svg_paint;
-
-/* The things that a shape is painted with, one over the other. */
-typedef enum cs_svg_layer {
-  CS_SVG_LAYER_FILL,
-  CS_SVG_LAYER_STROKE,
-  CS_SVG_LAYER_MARKERS
-} cs_svg_layer;
-
 typedef struct cs_svg_style {
   /* inherited */
+  const cs_svg_variable *variables;
   cs_svg_colour colour;
   cs_svg_paint fill, stroke;
   cs_svg_paint context_fill, context_stroke; /* of the `use` or marker that shows it */
@@ -54,12 +32,14 @@ typedef struct cs_svg_style {
   cs_svg_reference clip_path, mask;
   const char *clip_shape; /* clip-path where it is no reference; NULL: it is, or none */
   bool has_clip_path, has_mask;
-  bool has_filter, has_blend;               /* a filter, a blend mode other than normal */
-  bool keeps_width;                         /* the stroke's: transforms do not change it */
-  bool shows_overflow;                      /* of svg, symbol and marker elements */
-  bool uses_alpha;                          /* of a mask: alpha instead of luminance */
-  cs_svg_colour stop_colour;                /* stop-opacity multiplied in */
-  const char *transform, *transform_origin; /* NULL: none */
+  bool has_filter, has_blend; /* a filter, a blend mode other than normal */
+  bool keeps_width;           /* the stroke's: transforms do not change it */
+  bool shows_overflow;        /* of svg, symbol and marker elements */
+  bool uses_alpha;            /* of a mask: alpha instead of luminance */
+  cs_svg_colour stop_colour;  /* stop-opacity multiplied in */
+  /* Functions, and the properties done after them; NULL: none. */
+  const char *transform, *translate, *rotate, *scale;
+  const char *transform_origin; /* NULL: none */
 } cs_svg_style;
 
 cs_svg_style cs_svg_style_initial(void);
@@ -67,7 +47,7 @@ cs_svg_style cs_svg_style_initial(void);
 /* node's style under that of its parent. tests: how often selectors may still be tried, counted
  * down. Errors: LIMIT when that is used up; INPUT for a number that is unfit. */
 CELSPAN_CHECKED celspan_status cs_svg_style_resolve(celspan_context *context,
-                                                    const cs_svg_document *document,
+                                                    cs_svg_document *document,
                                                     const cs_svg_node *node,
                                                     const cs_svg_style *parent, uint64_t *tests,
                                                     cs_svg_style *out);

@@ -1,4 +1,4 @@
-/* The properties of texts: fonts, spacing, anchor, direction. All but the last are inherited. */
+/* The properties of texts: fonts, spacing, anchor, direction. All are inherited except `own`. */
 #pragma once
 
 #include "readers/svg/document.h"
@@ -11,17 +11,29 @@ typedef enum cs_svg_anchor {
   CS_SVG_ANCHOR_END
 } cs_svg_anchor;
 
+/* The line of a letter that lies at its place. */
+typedef enum cs_svg_baseline {
+  CS_SVG_BASELINE_ALPHABETIC,
+  CS_SVG_BASELINE_MIDDLE,
+  CS_SVG_BASELINE_CENTRAL,
+  CS_SVG_BASELINE_HANGING,
+  CS_SVG_BASELINE_MATHEMATICAL,
+  CS_SVG_BASELINE_BOTTOM,
+  CS_SVG_BASELINE_TOP
+} cs_svg_baseline;
+
 typedef struct cs_svg_text_style {
   const char *font_family; /* a list, as it is written; NULL: none */
   bool is_italic, is_bold;
   double letter_spacing, word_spacing; /* user units */
   cs_svg_anchor anchor;
-  bool is_leftward;  /* the direction of texts */
-  bool is_preserved; /* every space of a text counts */
-  const char *unset; /* a property that is given, but does not count; NULL: none */
+  cs_svg_baseline dominant, own; /* own: that of the element alone */
+  double raised;                 /* by baseline-shift, user units, with what the element is in */
+  bool is_leftward;              /* the direction of texts */
+  bool is_preserved;             /* every space of a text counts */
 } cs_svg_text_style;
 
-/* Reads what `values`, the ones that win by their names, say of texts. em: the element's font size
- * in user units. *out holds what is inherited. */
+/* Reads what `values`, the ones that win by their names, say of texts. em, parent_em: the font size
+ * of the element and of the one it is in, in user units. *out holds what is inherited. */
 void cs_svg_text_style_read(const cs_svg_node *node, const char *const *values, double em,
-                            cs_svg_text_style *out);
+                            double parent_em, cs_svg_text_style *out);

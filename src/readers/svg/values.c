@@ -5,9 +5,6 @@
 
 #include "base/decimal.h"
 #include "base/number.h"
-#include "model/geometry/matrix.h"
-
-#define PI 3.14159265358979323846
 
 static char lower(char c) { return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c; }
 
@@ -99,6 +96,17 @@ bool cs_svg_parse_length(const char *text, cs_svg_length *out) {
   return cs_svg_take_length(&text, out) && !*cs_svg_skip_space(text);
 }
 
+bool cs_svg_parse_share(const char *text, double *out) {
+  text = cs_svg_skip_space(text);
+  if (!cs_svg_take_number(&text, out))
+    return false;
+  if (*text == '%') {
+    *out /= 100;
+    text++;
+  }
+  return !*cs_svg_skip_space(text);
+}
+
 bool cs_svg_is_unfit(const char *text) {
   double value;
   text = cs_svg_skip_space(text);
@@ -155,76 +163,6 @@ bool cs_svg_take_reference(const char **text, cs_svg_reference *out) {
   *out =
       *at == '#' ? (cs_svg_reference){at + 1, (size_t)(end - at - 1)} : (cs_svg_reference){at, 0};
   *text = close + 1;
-  return true;
-}
-
-/* ---------------------------------------------------------------- transforms */
-
-/* The numbers between parentheses, at most six; units of angles and lengths are passed over. */
-static bool take_arguments(const char **text, double *numbers, int *count) {
-  const char *at = cs_svg_skip_space(*text);
-  *count = 0;
-  if (*at++ != '(')
-    return false;
-  for (at = cs_svg_skip_space(at); *at != ')'; at = cs_svg_skip_comma(at)) {
-    if (*count == 6 || !cs_svg_take_number(&at, &numbers[*count]))
-      return false;
-    (void)(cs_svg_take_word(&at, "deg") || cs_svg_take_word(&at, "px"));
-    ++*count;
-  }
-  *text = at + 1;
-  return true;
-}
-
-typedef enum operation { MATRIX, TRANSLATE, SCALE, ROTATE, SKEW_X, SKEW_Y, OPERATIONS } operation;
-
-static bool make_matrix(operation what, const double *n, int count, celspan_matrix *out) {
-  const celspan_point centre = {count == 3 ? n[1] : 0, count == 3 ? n[2] : 0};
-  switch (what) {
-  case MATRIX:
-    *out = (celspan_matrix){{n[0], n[2], n[4], n[1], n[3], n[5], 0, 0, 1}};
-    return count == 6;
-  case TRANSLATE:
-    *out = celspan_matrix_translation(n[0], count == 2 ? n[1] : 0);
-    return count == 1 || count == 2;
-  case SCALE:
-    *out = celspan_matrix_scaling(n[0], count == 2 ? n[1] : n[0]);
-    return count == 1 || count == 2;
-  case ROTATE:
-    *out = cs_matrix_turn(n[0], centre);
-    return count == 1 || count == 3;
-  case SKEW_X:
-    *out = celspan_matrix_skewing(fmod(n[0], 360) * (PI / 180), 0);
-    return count == 1;
-  default:
-    *out = celspan_matrix_skewing(0, fmod(n[0], 360) * (PI / 180));
-    return count == 1;
-  }
-}
-
-bool cs_svg_parse_transform(const char *text, celspan_matrix *out) {
-  static const char *const words[OPERATIONS] = {"matrix", "translate", "scale",
-                                                "rotate", "skewX",     "skewY"};
-  celspan_matrix whole = celspan_matrix_identity();
-  text = cs_svg_skip_space(text);
-  if (cs_svg_take_word(&text, "none"))
-    text = cs_svg_skip_space(text);
-  for (; *text; text = cs_svg_skip_comma(text)) {
-    operation what = MATRIX;
-    while (what < OPERATIONS && !cs_svg_take_word(&text, words[what]))
-      what++;
-    double numbers[6] = {0};
-    int count;
-    celspan_matrix step;
-    if (what == OPERATIONS || !take_arguments(&text, numbers, &count) ||
-        !make_matrix(what, numbers, count, &step))
-      return false;
-    whole = celspan_matrix_then(step, whole);
-  }
-  for (int i = 0; i < 9; i++)
-    if (!cs_number_is_sane(whole.m[i]))
-      return false;
-  *out = whole;
   return true;
 }
 

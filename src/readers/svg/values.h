@@ -1,4 +1,4 @@
-/* Values of attributes: numbers, lengths, lists, transforms, references, viewBox.
+/* Values of attributes: numbers, lengths, words, references, viewBox.
  *
  * A value that is not what it should be counts as if it were not given, as in browsers; one that is
  * not finite or beyond 1e12 is unfit, and the file is refused.
@@ -60,7 +60,7 @@ bool cs_svg_take_word(const char **text, const char *word);
 
 /* The whole value. */
 bool cs_svg_parse_length(const char *text, cs_svg_length *out);
-bool cs_svg_parse_transform(const char *text, celspan_matrix *out);
+bool cs_svg_parse_share(const char *text, double *out); /* a number or a percentage, as a share */
 bool cs_svg_parse_view_box(const char *text, cs_svg_view_box *out);
 bool cs_svg_is_word(const char *text, const char *word);
 /* Whether a value that could not be read is a number that no value may be: NaN, infinite, beyond

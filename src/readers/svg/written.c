@@ -6,6 +6,7 @@
 
 #include "base/number.h"
 #include "readers/svg/shapes.h"
+#include "readers/svg/shown.h"
 #include "readers/text/layout.h"
 
 /* ---------------------------------------------------------------- characters */
@@ -192,22 +193,22 @@ static celspan_status add_child(cs_svg_written *w, const cs_svg_node *node,
     return add_text_node(w, node, place);
   case CS_SVG_ELEMENT_TSPAN:
   case CS_SVG_ELEMENT_A:
-    return add_inner(w, node, *place);
+    return cs_svg_is_shown(node, NULL) ? add_inner(w, node, *place) : CELSPAN_OK;
   case CS_SVG_ELEMENT_TEXT_PATH:
-    return add_path(w, node, place);
+    return cs_svg_is_shown(node, NULL) ? add_path(w, node, place) : CELSPAN_OK;
   case CS_SVG_ELEMENT_TITLE:
   case CS_SVG_ELEMENT_DESC:
     return CELSPAN_OK;
   default:
-    return cs_svg_skip(w->reading, node, "%.40s in text", node->tag);
+    return node->element == CS_SVG_ELEMENT_OTHER /* noted when it was read */
+               ? CELSPAN_OK
+               : cs_svg_skip(w->reading, node, "%.40s in text", node->tag);
   }
 }
 
 static celspan_status add_content(cs_svg_written *w, const cs_svg_node *node,
                                   const cs_svg_place *place) {
   size_t begin = w->count;
-  if (place->style.text.unset)
-    CS_TRY(cs_svg_skip(w->reading, node, "%s of %.40s", place->style.text.unset, node->tag));
   for (const cs_svg_node *child = node->first; child; child = child->next)
     CS_TRY(add_child(w, child, place));
   return give_values(w, node, &place->measure, begin);
@@ -231,7 +232,7 @@ static void drop_last(cs_svg_written *w) {
 }
 
 /* Along a line x counts from where its first letter begins, and y from the line; behind it the text
- * continues at the line's end. */
+ * continues at the line's end, or along the next line. */
 static void enter_paths(cs_svg_written *w) {
   for (size_t i = 0; i < w->path_count; i++) {
     const cs_svg_text_path *path = &w->paths[i];
@@ -244,7 +245,8 @@ static void enter_paths(cs_svg_written *w) {
     }
     first->x = isnan(first->x) ? path->start : first->x;
     first->y = 0;
-    if (path->end < w->count) {
+    bool is_last = i + 1 == w->path_count || w->paths[i + 1].begin > path->end;
+    if (path->end < w->count && is_last) {
       behind->x = isnan(behind->x) ? end.x : behind->x;
       behind->y = isnan(behind->y) ? end.y : behind->y;
     }

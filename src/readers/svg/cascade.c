@@ -1,0 +1,172 @@
+#include "readers/svg/cascade.h"
+
+#include <string.h>
+
+#include "readers/svg/forms.h"
+#include "readers/svg/values.h"
+
+/* ---------------------------------------------------------------- selectors */
+
+/* Whether one of the words of `list` is `word`. */
+static bool has_class(const char *list, const char *word) {
+  size_t size = strlen(word);
+  for (const char *at = cs_svg_skip_space(list); *at; at = cs_svg_skip_space(at)) {
+    size_t length = strcspn(at, " \t\n\f\r");
+    if (length == size && memcmp(at, word, size) == 0)
+      return true;
+    at += length;
+  }
+  return false;
+}
+
+/* Whether an attribute's value is as a condition of a selector asks. */
+static bool fits_condition(const cs_css_condition *condition, const char *value) {
+  if (!value || !condition->comparison)
+    return value;
+  size_t size = strlen(condition->value), length = strlen(value);
+  bool begins = strncmp(value, condition->value, size) == 0;
+  switch (condition->comparison) {
+  case '=':
+    return strcmp(value, condition->value) == 0;
+  case '~':
+    return size > 0 && has_class(value, condition->value);
+  case '|':
+    return begins && (value[size] == 0 || value[size] == '-');
+  case '^':
+    return size > 0 && begins;
+  case '$':
+    return size > 0 && length >= size && strcmp(value + length - size, condition->value) == 0;
+  default:
+    return size > 0 && strstr(value, condition->value);
+  }
+}
+
+static bool fits_compound(const cs_css_compound *compound, const cs_svg_node *node) {
+  if (compound->element && strcmp(compound->element, node->tag) != 0)
+    return false;
+  if (compound->is_root && node->parent)
+    return false;
+  const char *id = compound->id ? cs_svg_node_value(node, CS_SVG_ID) : NULL;
+  if (compound->id && (!id || strcmp(compound->id, id) != 0))
+    return false;
+  const char *classes = compound->class_count > 0 ? cs_svg_node_value(node, CS_SVG_CLASS) : "";
+  for (size_t i = 0; i < compound->class_count; i++)
+    if (!classes || !has_class(classes, compound->classes[i]))
+      return false;
+  for (size_t i = 0; i < compound->condition_count; i++)
+    if (!fits_condition(&compound->conditions[i],
+                        cs_svg_node_value(node, compound->conditions[i].name)))
+      return false;
+  return true;
+}
+
+/* Whether the first `count` compounds fit the element and what it is in. */
+static bool fits_chain(const cs_css_rule *rule, size_t count, const cs_svg_node *node,
+                       uint64_t *tests) {
+  if (*tests == 0 || --*tests == 0 || !fits_compound(&rule->compounds[count - 1], node))
+    return false;
+  if (count == 1)
+    return true;
+  bool is_child = rule->compounds[count - 1].is_child;
+  for (const cs_svg_node *above = node->parent; above; above = is_child ? NULL : above->parent)
+    if (fits_chain(rule, count - 1, above, tests))
+      return true;
+  return false;
+}
+
+/* ---------------------------------------------------------------- values that win */
+
+typedef struct collecting {
+  celspan_context *context;
+  cs_svg_document *document;
+  const cs_svg_node *node;
+  uint64_t *tests;
+  cs_svg_cascade *out;
+  bool has_variable; /* a value refers to variables */
+} collecting;
+
+static celspan_status apply_declarations(collecting *c, const cs_css_declarations *list,
+                                         bool is_important) {
+  for (size_t i = 0; i < list->count; i++) {
+    const cs_css_declaration *it = &list->items[i];
+    if (it->is_important != is_important)
+      continue;
+    if (it->custom) {
+      CS_TRY(
+          cs_svg_variable_add(&c->document->variables, it->custom, it->value, &c->out->variables));
+      continue;
+    }
+    c->out->values[it->name] = it->value;
+    c->has_variable = c->has_variable || it->has_variable;
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status apply_sheet(collecting *c, bool is_important) {
+  const cs_css_sheet *sheet = &c->document->sheet;
+  for (size_t i = 0; i < sheet->count; i++) {
+    const cs_css_rule *rule = &sheet->rules[i];
+    if (fits_chain(rule, rule->compound_count, c->node, c->tests))
+      CS_TRY(apply_declarations(c, &rule->declarations, is_important));
+  }
+  return CELSPAN_OK;
+}
+
+static void apply_attributes(collecting *c) {
+  for (size_t i = 0; i < c->node->attribute_count; i++) {
+    const cs_svg_attribute *it = &c->node->attributes[i];
+    if (cs_svg_name_facts_of(it->name)->use != CS_SVG_USE_PRESENTED)
+      continue;
+    c->out->values[it->name] = it->value;
+    c->has_variable = c->has_variable || it->has_variable;
+  }
+}
+
+/* A value that cannot be filled, or is not one of its property then, counts as not given. */
+static celspan_status fill_variables(collecting *c) {
+  for (int i = 0; i < CS_SVG_NAME_COUNT && c->has_variable; i++) {
+    const char **value = &c->out->values[i], *given = *value;
+    if (!given || !cs_svg_has_variable(given))
+      continue;
+    CS_TRY(cs_svg_variable_fill(&c->document->variables, c->out->variables, given, value));
+    if (*value && cs_svg_value_is_read((cs_svg_name)i, *value, true))
+      continue;
+    *value = NULL;
+    CS_TRY(cs_svg_unread_add(&c->document->unread, c->context, &c->document->arena, c->node->line,
+                             cs_svg_name_text((cs_svg_name)i), given));
+  }
+  return CELSPAN_OK;
+}
+
+/* What the words that every property has mean, as far as it is the same for all. */
+static const char *common_value(cs_svg_name name, const char *value) {
+  const char *initial = cs_svg_name_facts_of(name)->initial;
+  if (!*value || !strchr("iurIUR", *value))
+    return value;
+  if (cs_svg_is_word(value, "initial"))
+    return initial;
+  bool is_unset = cs_svg_is_word(value, "unset") || cs_svg_is_word(value, "revert") ||
+                  cs_svg_is_word(value, "revert-layer") ||
+                  (initial && cs_svg_is_word(value, "inherit"));
+  return is_unset ? NULL : value;
+}
+
+celspan_status cs_svg_cascade_collect(celspan_context *context, cs_svg_document *document,
+                                      const cs_svg_node *node, const cs_svg_variable *inherited,
+                                      uint64_t *tests, cs_svg_cascade *out) {
+  collecting c = {context, document, node, tests, out, false};
+  *out = (cs_svg_cascade){.variables = inherited};
+  apply_attributes(&c);
+  CS_TRY(apply_sheet(&c, false));
+  CS_TRY(apply_declarations(&c, &node->style, false));
+  CS_TRY(apply_sheet(&c, true));
+  CS_TRY(apply_declarations(&c, &node->style, true));
+  if (*tests == 0)
+    return cs_fail(context, CELSPAN_LIMIT,
+                   "line %u: the selectors of the style sheets take too long", node->line);
+  CS_TRY(fill_variables(&c));
+  for (int i = 0; i < CS_SVG_NAME_COUNT; i++)
+    if (out->values[i])
+      out->values[i] = common_value((cs_svg_name)i, out->values[i]);
+  return CELSPAN_OK;
+}

@@ -1,0 +1,23 @@
+/* The value that wins for each property of an element:
+ *
+ *   attribute  <  rule, by weight and order  <  style="..."  <  the same with !important
+ *
+ * with the values of variables in the place of var().
+ */
+#pragma once
+
+#include "readers/svg/document.h"
+
+typedef struct cs_svg_cascade {
+  const char *values[CS_SVG_NAME_COUNT]; /* NULL: none is given */
+  const cs_svg_variable *variables;      /* of the element */
+} cs_svg_cascade;
+
+/* inherited: the variables of what the element is in. tests: how often selectors may still be
+ * tried, counted down. Errors: NO_MEMORY; LIMIT when that is used up, or variables take too much.
+ */
+CELSPAN_CHECKED celspan_status cs_svg_cascade_collect(celspan_context *context,
+                                                      cs_svg_document *document,
+                                                      const cs_svg_node *node,
+                                                      const cs_svg_variable *inherited,
+                                                      uint64_t *tests, cs_svg_cascade *out);

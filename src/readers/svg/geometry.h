@@ -1,0 +1,9 @@
+/* Places and sizes that styles give: x, y, cx, cy, width, height, r, rx, ry and d. */
+#pragma once
+
+#include "readers/svg/cascade.h"
+
+/* Puts what styles say into the attributes of the elements that have such a property, so that all
+ * else reads attributes alone. Errors: NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_svg_geometry_apply(celspan_context *context,
+                                                     cs_svg_document *document, uint64_t *tests);

@@ -1,0 +1,34 @@
+/* What a shape is filled or stroked with, as it is written: a colour, currentColor, none, or a
+ * reference with one of them in case that it leads nowhere.
+ */
+#pragma once
+
+#include "readers/svg/colours.h"
+#include "readers/svg/values.h"
+
+typedef enum cs_svg_paint_kind {
+  CS_SVG_PAINT_NONE,
+  CS_SVG_PAINT_COLOUR,
+  CS_SVG_PAINT_CURRENT /* that of the property `color` */
+} cs_svg_paint_kind;
+
+typedef struct cs_svg_paint {
+  bool has_server;
+  cs_svg_reference server; /* wins over the rest where it is found and can be drawn */
+  bool has_fallback;       /* the rest was written after a server */
+  cs_svg_paint_kind kind;
+  cs_svg_colour colour;
+  const struct cs_svg_context_box *context; /* the element whose paint it is; NULL: the shape */
+} cs_svg_paint;
+
+/* The things that a shape is painted with, one over the other. */
+typedef enum cs_svg_layer {
+  CS_SVG_LAYER_FILL,
+  CS_SVG_LAYER_STROKE,
+  CS_SVG_LAYER_MARKERS
+} cs_svg_layer;
+
+/* Each takes the whole value; false: it is invalid. */
+bool cs_svg_parse_paint(const char *text, cs_svg_paint *out);
+/* The lowest layer is first: those that are named, in that order, then the others in theirs. */
+bool cs_svg_parse_order(const char *text, cs_svg_layer out[3]);

@@ -1,0 +1,11 @@
+/* What a document may name although it changes nothing that is drawn.
+ *
+ * Invariant: no name of names.h is in this list, which is sorted as strcmp sorts texts.
+ */
+#pragma once
+
+#include <stdbool.h>
+
+/* Whether an attribute or a property that names.h does not list changes nothing that is drawn, with
+ * any value or with this one. */
+bool cs_svg_name_is_silent(const char *text, const char *value);
