@@ -199,7 +199,7 @@ static cs_exit enter_strict(const cs_request *request, const cs_sandbox *sandbox
   if (!refusal && !cs_client_confine(&read))
     refusal = "the picture decoder cannot be started";
   if (!refusal)
-    refusal = cs_strict_enter(&read, &write);
+    refusal = cs_strict_enter(&(cs_strict_rights){.read = &read, .write = &write});
   cs_roots_finish(&read);
   cs_roots_finish(&write);
   if (!refusal)
