@@ -1,6 +1,6 @@
--- Sounds: their formats are found from the first bytes, and ffmpeg decodes them where the kernel lets
--- it do nothing else. Whatever a file contains, nothing outside of the script's folder is read, no run
--- hangs, and no process is left.
+-- Sounds: their formats are found from the first bytes, and ffmpeg decodes them where the kernel
+-- lets it do nothing else. Whatever a file contains, nothing outside of the script's folder is read,
+-- no run hangs, and no process is left.
 
 local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
@@ -95,7 +95,8 @@ local REFUSED = {
     .. "m=audio 5004 RTP/AVP 0\n",
   ["dash.mpd"] = "<?xml version='1.0'?><MPD xmlns='urn:mpeg:dash:schema:mpd:2011'><Period>"
     .. "<BaseURL>file://OUT/</BaseURL></Period></MPD>",
-  ["smooth.ism"] = "<SmoothStreamingMedia><StreamIndex Url='../secret.wav'/></SmoothStreamingMedia>",
+  ["smooth.ism"] = "<SmoothStreamingMedia><StreamIndex Url='../secret.wav'/>"
+    .. "</SmoothStreamingMedia>",
   ["disc.cue"] = 'FILE "../secret.wav" WAVE\n  TRACK 01 AUDIO\n    INDEX 01 00:00:00\n',
   ["graph.wav"] = "amovie=../secret.wav\n",
   ["data.wav"] = ";FFMETADATA1\ntitle=../secret.wav\n",
@@ -361,8 +362,8 @@ describe("a sound", function()
     if not has_ffmpeg then return pending "there is no ffmpeg" end
     for _, name in ipairs { "slow.wav", "nothing.wav" } do
       bench:write("in/" .. name, STRANGE[name])
-      local code, _, err = in_folder("timeout -s KILL %d '%s' render film.lua -o out.mov --progress "
-        .. "none -- %s && ffmpeg -v error -i out.mov -f s16le - | od -An -v -tx1 | tr -d ' 0\\n'",
+      local code, _, err = in_folder("timeout -s KILL %d '%s' render film.lua -o out.mov "
+        .. "--progress none -- %s && ffmpeg -v error -i out.mov -f s16le - | od -An -v -tx1 | tr -d ' 0\\n'",
         SECONDS, workbench.absolute, name)
       assert.equal(0, code, err)
       assert.equal("", bench:read "stdout")
