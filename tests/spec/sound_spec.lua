@@ -1,6 +1,6 @@
 -- Sounds: their formats are found from the first bytes, and ffmpeg decodes them where the kernel
--- lets it do nothing else. Whatever a file contains, nothing outside of the script's folder is read,
--- no run hangs, and no process is left.
+-- lets it do nothing else. Whatever a file contains, nothing outside of the script's folder is
+-- read, no run hangs, and no process is left.
 
 local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
@@ -363,7 +363,8 @@ describe("a sound", function()
     for _, name in ipairs { "slow.wav", "nothing.wav" } do
       bench:write("in/" .. name, STRANGE[name])
       local code, _, err = in_folder("timeout -s KILL %d '%s' render film.lua -o out.mov "
-        .. "--progress none -- %s && ffmpeg -v error -i out.mov -f s16le - | od -An -v -tx1 | tr -d ' 0\\n'",
+        .. "--progress none -- %s && ffmpeg -v error -i out.mov -f s16le - | od -An -v -tx1 "
+        .. "| tr -d ' 0\\n'",
         SECONDS, workbench.absolute, name)
       assert.equal(0, code, err)
       assert.equal("", bench:read "stdout")
