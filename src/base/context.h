@@ -21,11 +21,19 @@ typedef struct cs_memory {
   atomic_size_t bytes;
   atomic_size_t peak;
   atomic_uint_fast64_t allocations;
+  atomic_size_t kept;        /* bytes of caches */
+  atomic_size_t rendering;   /* other bytes of the frames that are rendered now */
+  atomic_uint renders;       /* the number of these frames */
+  size_t most_rendering;     /* the limit of `rendering`; 0: none. Set before frames are rendered */
   struct cs_source *sources; /* files that values were made in; owned */
   /* Whether this thread is refused `more` further bytes; NULL: it has no limit. Set before other
    * threads use the memory. */
   bool (*refuses)(const struct cs_memory *memory, size_t more);
 } cs_memory;
+
+/* For whom a thread allocates, which threads that it starts inherit. What a script has rendered
+ * counts for the script. */
+typedef enum cs_account { CS_ACCOUNT_NONE, CS_ACCOUNT_SCRIPT, CS_ACCOUNT_RENDERING } cs_account;
 
 /* A service is something that a higher folder keeps for a context, such as decoded pictures;
  * cs_service is the first member of its structure. A context has at most one service of a kind,
@@ -64,6 +72,18 @@ struct celspan_context {
 
 cs_memory *cs_memory_ref(cs_memory *memory);
 void cs_memory_unref(cs_memory *memory);
+
+/* Sets the account of this thread; returns the one before. */
+cs_account cs_account_set(cs_account account);
+/* A frame is rendered from now on, by this thread and those that it starts. Returns the account
+ * before, for the end. */
+cs_account cs_account_begin_rendering(cs_memory *memory);
+void cs_account_end_rendering(cs_memory *memory, cs_account before);
+/* A cache has taken these bytes, which were allocated, or gives them up, to free them. */
+void cs_account_keep(cs_memory *memory, size_t bytes);
+void cs_account_give_up(cs_memory *memory, size_t bytes);
+/* Bytes that are neither kept by caches nor used to render a frame: those of scripts and scenes. */
+size_t cs_account_scene_bytes(const cs_memory *memory);
 
 /* Allocates, resizes or (new_size 0) frees; NULL when there is no memory. Any thread. Does not
  * record an error: callers that report use cs_fail_memory. */

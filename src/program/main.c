@@ -70,6 +70,7 @@ static cs_exit run(const cs_request *request) {
     cs_report_error("no memory to begin");
     return CS_EXIT_MEMORY;
   }
+  cs_confine_rendering(context, request);
   cs_exit outcome = cs_confine_pictures(context, request);
   if (outcome == CS_EXIT_OK)
     outcome = request->verb->run ? request->verb->run(context, request)

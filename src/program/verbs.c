@@ -82,8 +82,9 @@
   {                                                                                                \
     "--limit", "NAME=V", &cs_argument_limits,                                                      \
         "limits of the script: memory=512M, steps=2e9 (a frame), time=60 (seconds a call), "       \
-        "print=1M (a frame) are the defaults; of decoding a picture: picture-memory=1G, "          \
-        "picture-time=20 (seconds a part); several with commas; 0: none"                           \
+        "print=1M (a frame) are the defaults; of rendering: render-memory=SIZE, three quarters "   \
+        "of the machine's; of decoding a picture: picture-memory=1G, picture-time=20 (seconds a "  \
+        "part); several with commas; 0: none"                                                      \
   }
 /* The rights of pictures, where there is no script. */
 #define PICTURE_RIGHTS                                                                             \

@@ -106,8 +106,23 @@ bool cs_lua_error_is_limit(lua_State *L, int outcome) {
   return sentence != NULL;
 }
 
+int cs_lua_error_settle(lua_State *L, int outcome, int results) {
+  const cs_host_rules *rules = cs_host_get(L)->rules;
+  const char *sentence =
+      rules && outcome == LUA_OK ? rules->limit(rules->user, LUA_OK, NULL) : NULL;
+  if (!sentence)
+    return outcome;
+  lua_pop(L, results);
+  lua_pushstring(L, sentence);
+  return LUA_ERRRUN;
+}
+
+/* What ended a script with the core's sentence was the system, not the limit of the script. */
 celspan_status cs_lua_error_report(lua_State *L, int outcome) {
-  if (cs_lua_error_is_limit(L, outcome))
-    return cs_lua_error_report_as(L, CELSPAN_LIMIT);
+  if (cs_lua_error_is_limit(L, outcome)) {
+    const char *message = lua_tostring(L, -1);
+    bool is_starved = message && cs_host_blame(L, message) == CELSPAN_NO_MEMORY;
+    return cs_lua_error_report_as(L, is_starved ? CELSPAN_NO_MEMORY : CELSPAN_LIMIT);
+  }
   return cs_lua_error_report_as(L, status_of(L, outcome));
 }

@@ -32,6 +32,11 @@ bool cs_lua_error_is_memory(lua_State *L, int outcome);
  * sentence that says which: one of Lua that has no memory left does not. */
 bool cs_lua_error_is_limit(lua_State *L, int outcome);
 
+/* The outcome of a call into the script, which had `results` results and has ended well by this
+ * outcome: if a limit was exceeded and nothing has raised that, its sentence replaces the results,
+ * and the outcome is an error. */
+int cs_lua_error_settle(lua_State *L, int outcome, int results);
+
 /* Turns the message on top of the stack, left by lua_pcall with this outcome, into the context's
  * sentence, and pops it. The status: the core's own where its refusal was raised, NO_MEMORY or
  * CALLBACK. */

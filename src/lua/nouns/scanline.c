@@ -135,7 +135,7 @@ static celspan_status spans(void *user, celspan_context *context, double y,
   lua_pushcfunction(L, call_placed);
   lua_pushlightuserdata(L, &r);
   cs_host_begin(L, CS_HOST_PROCEDURE, 0);
-  int outcome = lua_pcall(L, 1, 0, 0);
+  int outcome = cs_lua_error_settle(L, lua_pcall(L, 1, 0, 0), 0);
   cs_host_end(L);
   if (outcome == LUA_OK)
     return r.status;

@@ -24,7 +24,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "celspan/celspan.h"
 #include "lua/bind/host.h"
 
 /* 0: without limit */
@@ -49,6 +48,7 @@ typedef struct cs_guard {
   void (*kill)(const char *sentence);
   size_t bytes;          /* of Lua */
   int depth;             /* of calls into the script */
+  cs_account account;    /* of the thread before the outermost call */
   bool is_verb;          /* the outermost call is of a verb */
   bool is_refused;       /* memory, to Lua, in this call */
   bool is_scene_refused; /* the same, to the scene */
@@ -56,8 +56,8 @@ typedef struct cs_guard {
   char refused_in[LUA_IDSIZE];
   uint64_t steps, checked; /* in this frame; at the last reading of the clock */
   size_t printed;
-  char tripped[256];         /* the sentence of the exceeded limit; "": none */
-  _Atomic(int64_t) deadline; /* of the call, in nanoseconds of the monotonic clock; 0: none */
+  char tripped[CS_ERROR_SIZE]; /* the sentence of the exceeded limit; "": none */
+  _Atomic(int64_t) deadline;   /* of the call, in nanoseconds of the monotonic clock; 0: none */
   bool has_watchdog, is_finished;
   pthread_t watchdog;
   pthread_mutex_t lock; /* of is_finished */
@@ -84,6 +84,10 @@ void cs_guard_end(cs_guard *guard);
 void cs_guard_charge(lua_State *L, uint64_t steps);
 /* Counts printed bytes. Raises an error when a limit is exceeded. */
 void cs_guard_print(lua_State *L, size_t bytes);
+
+/* There was no memory, as the sentence says: in a call into the script raises it, or that of the
+ * limit of memory where that was the reason. Like an exceeded limit, it ends the outermost call. */
+void cs_guard_starve(lua_State *L, const char *sentence);
 
 /* The sentence of the limit that ended a call with this result of lua_pcall and this message (NULL:
  * not a string); NULL: no limit did. */
