@@ -41,6 +41,7 @@ static cs_memory *memory_create(celspan_resize resize, void *user) {
   atomic_init(&memory->rendering, 0);
   atomic_init(&memory->renders, 0);
   memory->most_rendering = 0;
+  memory->account = NULL;
   memory->sources = NULL;
   memory->refuses = NULL;
   return memory;
@@ -63,33 +64,35 @@ void cs_memory_unref(cs_memory *memory) {
 
 /* ---------------------------------------------------------------- accounts */
 
-static _Thread_local cs_account account_of_thread;
-static _Thread_local bool is_rendering_refused; /* the last allocation of this thread */
+cs_account_kind cs_account_of(const cs_memory *memory) {
+  return memory->account ? memory->account()->kind : CS_ACCOUNT_NONE;
+}
 
-cs_account cs_account_set(cs_account account) {
-  cs_account before = account_of_thread;
-  account_of_thread = account;
+cs_account_kind cs_account_set(const cs_memory *memory, cs_account_kind kind) {
+  cs_account_kind before = cs_account_of(memory);
+  if (memory->account)
+    memory->account()->kind = kind;
   return before;
 }
 
-cs_account cs_account_begin_rendering(cs_memory *memory) {
-  cs_account before = account_of_thread;
+cs_account_kind cs_account_begin_rendering(cs_memory *memory) {
+  cs_account_kind before = cs_account_of(memory);
   atomic_fetch_add(&memory->renders, 1);
   if (before == CS_ACCOUNT_NONE)
-    account_of_thread = CS_ACCOUNT_RENDERING;
+    cs_account_set(memory, CS_ACCOUNT_RENDERING);
   return before;
 }
 
 /* A block may be freed on another account than it was allocated on. Such differences end when no
  * frame is rendered. */
-void cs_account_end_rendering(cs_memory *memory, cs_account before) {
-  account_of_thread = before;
+void cs_account_end_rendering(cs_memory *memory, cs_account_kind before) {
+  cs_account_set(memory, before);
   if (atomic_fetch_sub(&memory->renders, 1) == 1)
     atomic_store(&memory->rendering, 0);
 }
 
 static void count_rendering(cs_memory *memory, size_t change) {
-  if (account_of_thread == CS_ACCOUNT_RENDERING)
+  if (cs_account_of(memory) == CS_ACCOUNT_RENDERING)
     atomic_fetch_add_explicit(&memory->rendering, change, memory_order_relaxed);
 }
 
@@ -103,7 +106,7 @@ void cs_account_give_up(cs_memory *memory, size_t bytes) {
   count_rendering(memory, bytes);
 }
 
-/* Below 0, as unsigned numbers are, is none. */
+/* A number below 0, which is unsigned here, counts as 0. */
 static size_t rendering_bytes(const cs_memory *memory) {
   size_t bytes = atomic_load_explicit(&memory->rendering, memory_order_relaxed);
   return bytes > SIZE_MAX / 2 ? 0 : bytes;
@@ -118,9 +121,11 @@ size_t cs_account_scene_bytes(const cs_memory *memory) {
 
 static bool refuses_rendering(const cs_memory *memory, size_t more) {
   size_t most = memory->most_rendering;
-  is_rendering_refused = most && account_of_thread == CS_ACCOUNT_RENDERING &&
-                         (more > most || rendering_bytes(memory) > most - more);
-  return is_rendering_refused;
+  if (!most || cs_account_of(memory) != CS_ACCOUNT_RENDERING)
+    return false;
+  bool is_refused = more > most || rendering_bytes(memory) > most - more;
+  memory->account()->is_refused = is_refused;
+  return is_refused;
 }
 
 /* ---------------------------------------------------------------- allocating */
@@ -222,13 +227,14 @@ celspan_status celspan_context_fail(celspan_context *context, celspan_status sta
 }
 
 celspan_status cs_fail_memory(celspan_context *context) {
-  if (is_rendering_refused)
+  const cs_memory *memory = context->memory;
+  if (cs_account_of(memory) == CS_ACCOUNT_RENDERING && memory->account()->is_refused)
     return cs_fail(context, CELSPAN_NO_MEMORY,
                    "out of memory: rendering needs more than %zu MiB (--limit "
                    "render-memory=SIZE allows more)",
-                   context->memory->most_rendering >> 20);
+                   memory->most_rendering >> 20);
   return cs_fail(context, CELSPAN_NO_MEMORY, "out of memory (%zu bytes are held)",
-                 atomic_load_explicit(&context->memory->bytes, memory_order_relaxed));
+                 atomic_load_explicit(&memory->bytes, memory_order_relaxed));
 }
 
 /* ---------------------------------------------------------------- context */

@@ -13,7 +13,6 @@ static const int faults[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGSYS};
 
 static void *thread_main(void *argument) {
   const cs_thread *thread = argument;
-  cs_account_set(thread->account);
   thread->run(thread->user, thread->worker);
   return NULL;
 }
@@ -24,15 +23,13 @@ int cs_threads_start(cs_thread *threads, int wanted, void (*run)(void *user, int
   int started = 0;
   if (wanted < 1)
     return 0;
-  cs_account account = cs_account_set(CS_ACCOUNT_NONE);
-  cs_account_set(account);
   sigfillset(&all);
   for (size_t i = 0; i < sizeof faults / sizeof *faults; i++)
     sigdelset(&all, faults[i]);
   pthread_sigmask(SIG_SETMASK, &all, &before);
   for (; started < wanted; started++) {
     cs_thread *thread = &threads[started];
-    *thread = (cs_thread){.run = run, .user = user, .worker = started + 1, .account = account};
+    *thread = (cs_thread){.run = run, .user = user, .worker = started + 1};
     if (pthread_create(&thread->id, NULL, thread_main, thread) != 0)
       break;
   }

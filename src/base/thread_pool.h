@@ -10,14 +10,11 @@
 #include <pthread.h>
 #include <stdint.h>
 
-#include "base/context.h"
-
 typedef struct cs_thread {
   pthread_t id;
   void (*run)(void *user, int worker);
   void *user;
   int worker;
-  cs_account account; /* of the thread that started it */
 } cs_thread;
 
 /* Starts up to `wanted` threads that call run(user, worker), workers being numbered from 1 on.

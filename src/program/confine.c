@@ -68,6 +68,7 @@ static size_t most_of_memory(void) {
 
 void cs_confine_rendering(celspan_context *context, const cs_request *request) {
   const cs_given_limits given = given_limits(request);
+  context->memory->account = cs_guard_account;
   if (given.has[CS_LIMIT_RENDER_MEMORY])
     context->memory->most_rendering = (size_t)given.values[CS_LIMIT_RENDER_MEMORY];
   else if (!is_trusted(request))

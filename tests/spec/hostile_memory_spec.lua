@@ -74,7 +74,7 @@ if way == "close" then
   local raising <const> = setmetatable({}, { __close = function() error "another" end })
   pcall(function() local closed <close> = raising; svg.read "drawing.svg" end)
 end
-print "it goes on"
+print "it continues"
 return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 9, 9 } } }
 ]]
 
@@ -102,7 +102,7 @@ local function ends(arguments, code, sentence, limit)
   local where = ("%s: exit code %d, %d MiB: %s"):format(arguments, got, bytes >> 20, words)
   assert.equal(code, got, where)
   assert.truthy(words:find(sentence, 1, true), where)
-  assert.falsy(words:find("it goes on", 1, true), where)
+  assert.falsy(words:find("it continues", 1, true), where)
   assert.is_true(bytes < 1.5 * limit, where)
 end
 
@@ -129,7 +129,7 @@ describe("the limit of memory", function()
   for name, work in pairs(SCRIPTS) do
     it_measures("ends a script that makes too much: " .. name, function()
       bench:write("film.lua", "local celspan = require 'celspan'\npcall(function() " .. work
-        .. " end)\nprint 'it goes on'\n" .. "return celspan.rostrum {}\n")
+        .. " end)\nprint 'it continues'\n" .. "return celspan.rostrum {}\n")
       ends("check film.lua --limit memory=64M", 6, sentence, LIMIT)
     end)
   end
@@ -159,7 +159,8 @@ return celspan.film { size = { 64, 64 }, frames = 2, frame = function(f)
     local limit = "render-memory=128M"
     ends("render film.lua --hash --progress none --limit " .. limit, 33, "frame 1: out of memory: "
       .. "rendering needs more than 128 MiB (--limit render-memory=SIZE allows more)", 128 << 20)
-    local code, out = watched("render film.lua --hash --progress none --keep-going --limit " .. limit)
+    local code, out =
+      watched("render film.lua --hash --progress none --keep-going --limit " .. limit)
     assert.equal(1, code)
     assert.truthy(out:find "2 %x+\n", out)
   end)

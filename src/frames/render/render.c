@@ -59,7 +59,7 @@ static celspan_status render(celspan_context *context, const celspan_frame_desc 
   meter m = {0};
   if (statistics) /* otherwise other frames may be made at the same time and change the peak too */
     m = meter_begin(context);
-  cs_account before = cs_account_begin_rendering(context->memory);
+  cs_account_kind before = cs_account_begin_rendering(context->memory);
   cs_frame frame;
   celspan_status status = cs_frame_create(context, desc, &frame);
   if (status == CELSPAN_OK) {

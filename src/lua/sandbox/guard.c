@@ -74,6 +74,11 @@ void *cs_guard_allocate(void *user, void *storage, size_t old_size, size_t new_s
  * time do not count for the script. */
 static _Thread_local cs_guard *entered;
 
+cs_account *cs_guard_account(void) {
+  static _Thread_local cs_account account;
+  return &account;
+}
+
 static bool refuses_scene(const cs_memory *memory, size_t more) {
   if (!entered || entered->context->memory != memory || !is_too_much(entered, more))
     return false;
@@ -199,6 +204,7 @@ void cs_guard_attach(cs_guard *guard, lua_State *L, celspan_context *context) {
   guard->L = L;
   guard->context = context;
   context->memory->refuses = refuses_scene;
+  context->memory->account = cs_guard_account;
   *(cs_guard **)lua_getextraspace(L) = guard;
   set_hook(guard, L);
 }
@@ -275,7 +281,7 @@ bool cs_guard_begin(cs_guard *guard, lua_State *L, cs_host_call call) {
   guard->is_verb = guard->is_verb || call == CS_HOST_VERB;
   entered = guard;
   if (depth == 0)
-    guard->account = cs_account_set(CS_ACCOUNT_SCRIPT);
+    guard->account = cs_account_set(guard->context->memory, CS_ACCOUNT_SCRIPT);
   guard->tripped[0] = '\0';
   guard->is_refused = guard->is_scene_refused = false;
   guard->refused_line = 0;
@@ -290,7 +296,7 @@ void cs_guard_end(cs_guard *guard) {
   if (--guard->depth > 0)
     return;
   entered = NULL;
-  cs_account_set(guard->account);
+  cs_account_set(guard->context->memory, guard->account);
   guard->is_verb = false;
   atomic_store_explicit(&guard->deadline, 0, memory_order_relaxed);
 }

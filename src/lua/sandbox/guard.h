@@ -8,7 +8,8 @@
  *
  * INVARIANT: an exceeded limit stays exceeded until the outermost call ends: the hook then fires at
  * every instruction, and pcall, xpcall and resume of this folder propagate it. So no script can
- * continue after it or catch it.
+ * continue after it or catch it. The same holds for a lack of memory. If a function of the core has
+ * hidden an exceeded limit, the call fails at its end (cs_lua_error_settle).
  *
  * Steps are instructions of the Lua virtual machine, and the charges of C functions for their work;
  * they do not depend on the computer. They are counted per load or frame; time is measured per
@@ -46,13 +47,13 @@ typedef struct cs_guard {
   bool (*is_interrupted)(void);
   /* Called by the watchdog thread with the sentence; ends the process. */
   void (*kill)(const char *sentence);
-  size_t bytes;          /* of Lua */
-  int depth;             /* of calls into the script */
-  cs_account account;    /* of the thread before the outermost call */
-  bool is_verb;          /* the outermost call is of a verb */
-  bool is_refused;       /* memory, to Lua, in this call */
-  bool is_scene_refused; /* the same, to the scene */
-  int refused_line;      /* where, if it is known; 0 */
+  size_t bytes;            /* of Lua */
+  int depth;               /* of calls into the script */
+  cs_account_kind account; /* of the thread before the outermost call */
+  bool is_verb;            /* the outermost call is of a verb */
+  bool is_refused;         /* memory, to Lua, in this call */
+  bool is_scene_refused;   /* the same, to the scene */
+  int refused_line;        /* where, if it is known; 0 */
   char refused_in[LUA_IDSIZE];
   uint64_t steps, checked; /* in this frame; at the last reading of the clock */
   size_t printed;
@@ -72,6 +73,9 @@ void cs_guard_finish(cs_guard *guard);
 void *cs_guard_allocate(void *user, void *storage, size_t old_size, size_t new_size);
 /* Attaches the main thread of a state, and all coroutines that are created later. */
 void cs_guard_attach(cs_guard *guard, lua_State *L, celspan_context *context);
+
+/* The account of this thread: cs_memory.account of a program. */
+cs_account *cs_guard_account(void);
 
 /* The guard of a state, or NULL. */
 cs_guard *cs_guard_of(lua_State *L);
