@@ -139,10 +139,11 @@ static celspan_status spans(void *user, celspan_context *context, double y,
   cs_host_end(L);
   if (outcome == LUA_OK)
     return r.status;
-  celspan_status status = cs_lua_error_is_limit(L, outcome)    ? CELSPAN_LIMIT
-                          : cs_lua_error_is_memory(L, outcome) ? CELSPAN_NO_MEMORY
-                                                               : CELSPAN_CALLBACK;
-  status = celspan_context_fail(context, status, "%s", lua_tostring(L, -1));
+  const char *text = lua_tostring(L, -1);
+  celspan_status status = cs_lua_error_limit(L, outcome, &text);
+  if (status == CELSPAN_OK)
+    status = cs_lua_error_is_memory(L, outcome) ? CELSPAN_NO_MEMORY : CELSPAN_CALLBACK;
+  status = celspan_context_fail(context, status, "%s", text);
   lua_pop(L, 1);
   return status;
 }
