@@ -15,8 +15,7 @@ local layers = {}
 
 ---@class celspan.layers.entry
 ---@field name string
----@field object celspan.object The picture at its place, without opacity; or a group's visible '
-  .. 'layers
+---@field object celspan.object The picture at its place, without opacity; or a group's visible layers
 ---@field x number Of its left edge, in pixels of the painting
 ---@field y number Of its top edge
 ---@field opacity number 0..1

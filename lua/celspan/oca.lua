@@ -90,8 +90,8 @@ end
 --- layer and of its frames are multiplied.
 local function has_one_opacity(version)
   local major, minor, patch = version:match "^(%d+)%.?(%d*)%.?(%d*)"
-  local number = (tonumber(major) or 9) * 1e6 + (tonumber(minor) or 0) * 1e3 + (tonumber(patch)
-    or 0)
+  local number = (tonumber(major) or 9) * 1e6 + (tonumber(minor) or 0) * 1e3
+    + (tonumber(patch) or 0)
   return number < 1001001
 end
 

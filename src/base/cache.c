@@ -77,6 +77,7 @@ static void idle_append(cs_cache *cache, cs_cache_entry *entry) {
 
 static void free_entry(cs_cache *cache, cs_cache_entry *entry) {
   cache->counts.bytes -= entry->bytes;
+  cs_account_give_up(cache->memory, entry->bytes);
   if (cache->clear)
     cache->clear(entry, cache->memory);
   cs_mem_free(cache->memory, entry, cache->entry_size);
@@ -138,6 +139,7 @@ static cs_cache_entry *create_entry(cs_cache *cache, cs_cache_key key, size_t by
   entry->key = key;
   entry->bytes = bytes;
   cache->counts.bytes += bytes;
+  cs_account_keep(cache->memory, bytes);
   return entry;
 }
 
@@ -182,6 +184,7 @@ static celspan_status make_entry(cs_cache *cache, celspan_context *context, cs_c
   celspan_status status = make(user, context, entry);
   pthread_mutex_lock(&cache->lock);
   cache->counts.bytes += entry->bytes;
+  cs_account_keep(cache->memory, entry->bytes);
   entry->is_made = status == CELSPAN_OK;
   cache->counts.made += entry->is_made;
   if (!entry->is_made) {

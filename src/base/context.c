@@ -37,6 +37,11 @@ static cs_memory *memory_create(celspan_resize resize, void *user) {
   atomic_init(&memory->bytes, 0);
   atomic_init(&memory->peak, 0);
   atomic_init(&memory->allocations, 0);
+  atomic_init(&memory->kept, 0);
+  atomic_init(&memory->rendering, 0);
+  atomic_init(&memory->renders, 0);
+  memory->most_rendering = 0;
+  memory->account = NULL;
   memory->sources = NULL;
   memory->refuses = NULL;
   return memory;
@@ -57,6 +62,74 @@ void cs_memory_unref(cs_memory *memory) {
   memory->resize(memory->user, memory, sizeof *memory, 0);
 }
 
+/* ---------------------------------------------------------------- accounts */
+
+cs_account_kind cs_account_of(const cs_memory *memory) {
+  return memory->account ? memory->account()->kind : CS_ACCOUNT_NONE;
+}
+
+cs_account_kind cs_account_set(const cs_memory *memory, cs_account_kind kind) {
+  cs_account_kind before = cs_account_of(memory);
+  if (memory->account)
+    memory->account()->kind = kind;
+  return before;
+}
+
+cs_account_kind cs_account_begin_rendering(cs_memory *memory) {
+  cs_account_kind before = cs_account_of(memory);
+  atomic_fetch_add(&memory->renders, 1);
+  if (before == CS_ACCOUNT_NONE)
+    cs_account_set(memory, CS_ACCOUNT_RENDERING);
+  return before;
+}
+
+/* A block may be freed on another account than it was allocated on. Such differences end when no
+ * frame is rendered. */
+void cs_account_end_rendering(cs_memory *memory, cs_account_kind before) {
+  cs_account_set(memory, before);
+  if (atomic_fetch_sub(&memory->renders, 1) == 1)
+    atomic_store(&memory->rendering, 0);
+}
+
+static void count_rendering(cs_memory *memory, size_t change) {
+  if (cs_account_of(memory) == CS_ACCOUNT_RENDERING)
+    atomic_fetch_add_explicit(&memory->rendering, change, memory_order_relaxed);
+}
+
+void cs_account_keep(cs_memory *memory, size_t bytes) {
+  atomic_fetch_add_explicit(&memory->kept, bytes, memory_order_relaxed);
+  count_rendering(memory, 0 - bytes);
+}
+
+void cs_account_give_up(cs_memory *memory, size_t bytes) {
+  atomic_fetch_sub_explicit(&memory->kept, bytes, memory_order_relaxed);
+  count_rendering(memory, bytes);
+}
+
+/* A number below 0, which is unsigned here, counts as 0. */
+static size_t rendering_bytes(const cs_memory *memory) {
+  size_t bytes = atomic_load_explicit(&memory->rendering, memory_order_relaxed);
+  return bytes > SIZE_MAX / 2 ? 0 : bytes;
+}
+
+size_t cs_account_scene_bytes(const cs_memory *memory) {
+  size_t all = atomic_load_explicit(&memory->bytes, memory_order_relaxed);
+  size_t apart =
+      atomic_load_explicit(&memory->kept, memory_order_relaxed) + rendering_bytes(memory);
+  return all > apart ? all - apart : 0;
+}
+
+static bool refuses_rendering(const cs_memory *memory, size_t more) {
+  size_t most = memory->most_rendering;
+  if (!most || cs_account_of(memory) != CS_ACCOUNT_RENDERING)
+    return false;
+  bool is_refused = more > most || rendering_bytes(memory) > most - more;
+  memory->account()->is_refused = is_refused;
+  return is_refused;
+}
+
+/* ---------------------------------------------------------------- allocating */
+
 static void count_bytes(cs_memory *memory, size_t old_size, size_t new_size) {
   size_t now =
       atomic_fetch_add_explicit(&memory->bytes, new_size - old_size, memory_order_relaxed) +
@@ -69,7 +142,10 @@ static void count_bytes(cs_memory *memory, size_t old_size, size_t new_size) {
 
 void *cs_mem_resize(cs_memory *memory, void *storage, size_t old_size, size_t new_size) {
   size_t more = new_size - (storage ? old_size : 0);
-  if (memory->refuses && new_size > (storage ? old_size : 0) && memory->refuses(memory, more))
+  bool grows = new_size > (storage ? old_size : 0);
+  if (grows && memory->refuses && memory->refuses(memory, more))
+    return NULL;
+  if (grows && refuses_rendering(memory, more))
     return NULL;
   void *resized = memory->resize(memory->user, storage, old_size, new_size);
   if (!resized && new_size > 0)
@@ -77,6 +153,7 @@ void *cs_mem_resize(cs_memory *memory, void *storage, size_t old_size, size_t ne
   if (new_size > 0)
     atomic_fetch_add_explicit(&memory->allocations, 1, memory_order_relaxed);
   count_bytes(memory, storage ? old_size : 0, new_size);
+  count_rendering(memory, more);
   return resized;
 }
 
@@ -155,8 +232,14 @@ celspan_status celspan_context_fail(celspan_context *context, celspan_status sta
 }
 
 celspan_status cs_fail_memory(celspan_context *context) {
+  const cs_memory *memory = context->memory;
+  if (cs_account_of(memory) == CS_ACCOUNT_RENDERING && memory->account()->is_refused)
+    return cs_fail(context, CELSPAN_NO_MEMORY,
+                   "out of memory: rendering needs more than %zu MiB (--limit "
+                   "render-memory=SIZE allows more)",
+                   memory->most_rendering >> 20);
   return cs_fail(context, CELSPAN_NO_MEMORY, "out of memory (%zu bytes are held)",
-                 atomic_load_explicit(&context->memory->bytes, memory_order_relaxed));
+                 atomic_load_explicit(&memory->bytes, memory_order_relaxed));
 }
 
 /* ---------------------------------------------------------------- context */

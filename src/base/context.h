@@ -11,6 +11,18 @@
 
 #include "celspan/celspan.h"
 
+/* For whom a thread allocates. What a script has rendered counts for the script. */
+typedef enum cs_account_kind {
+  CS_ACCOUNT_NONE,
+  CS_ACCOUNT_SCRIPT,
+  CS_ACCOUNT_RENDERING
+} cs_account_kind;
+
+typedef struct cs_account {
+  cs_account_kind kind;
+  bool is_refused; /* the last allocation, because of the limit of rendering */
+} cs_account;
+
 /* Shared by a context, its branches and every value made in it; counted, because scene values may
  * outlive their context. */
 typedef struct cs_memory {
@@ -20,6 +32,13 @@ typedef struct cs_memory {
   atomic_size_t bytes;
   atomic_size_t peak;
   atomic_uint_fast64_t allocations;
+  atomic_size_t kept;      /* bytes of caches */
+  atomic_size_t rendering; /* other bytes of the frames that are rendered now */
+  atomic_uint renders;     /* the number of these frames */
+  size_t most_rendering;   /* the limit of `rendering`; 0: none */
+  /* The account of this thread, which the host keeps; NULL: threads have none. Both are set before
+   * other threads use the memory. */
+  cs_account *(*account)(void);
   struct cs_source *sources; /* files that values were made in; owned */
   /* Whether this thread is refused `more` further bytes; NULL: it has no limit. Set before other
    * threads use the memory. */
@@ -63,6 +82,19 @@ struct celspan_context {
 
 cs_memory *cs_memory_ref(cs_memory *memory);
 void cs_memory_unref(cs_memory *memory);
+
+/* Sets the account of this thread; returns the one before. A thread that works for another one sets
+ * that one's. */
+cs_account_kind cs_account_set(const cs_memory *memory, cs_account_kind kind);
+cs_account_kind cs_account_of(const cs_memory *memory);
+/* A frame is rendered from now on. Returns the account before, for the end. */
+cs_account_kind cs_account_begin_rendering(cs_memory *memory);
+void cs_account_end_rendering(cs_memory *memory, cs_account_kind before);
+/* A cache has taken these bytes, which were allocated, or gives them up, to free them. */
+void cs_account_keep(cs_memory *memory, size_t bytes);
+void cs_account_give_up(cs_memory *memory, size_t bytes);
+/* Bytes that are neither kept by caches nor used to render a frame: those of scripts and scenes. */
+size_t cs_account_scene_bytes(const cs_memory *memory);
 
 /* Allocates, resizes or (new_size 0) frees; NULL when there is no memory. Any thread. Does not
  * record an error: callers that report use cs_fail_memory. */

@@ -20,7 +20,8 @@ struct cs_pipeline {
   slot *slots;
   celspan_context *contexts; /* one a thread */
   cs_thread *threads;
-  int thread_count; /* started */
+  int thread_count;        /* started */
+  cs_account_kind account; /* of the owner */
   pthread_mutex_t lock;
   pthread_cond_t added_some, done_some;
   size_t added, claimed, delivered;
@@ -86,6 +87,7 @@ static void make(cs_pipeline *p, celspan_context *context, int worker, size_t it
 static void run_worker(void *user, int worker) {
   cs_pipeline *p = user;
   size_t item;
+  cs_account_set(p->memory, p->account);
   pthread_mutex_lock(&p->lock);
   while (!p->is_over) {
     if (claim(p, &item))
@@ -203,6 +205,7 @@ celspan_status cs_pipeline_create(celspan_context *context, const cs_pipeline_de
   cs_pipeline *p;
   CS_TRY(CS_MAKE(context, p, 1));
   p->memory = context->memory;
+  p->account = cs_account_of(context->memory);
   p->desc = *desc;
   atomic_init(&p->end, desc->count);
   init_locks(p);

@@ -269,7 +269,8 @@ static bool read_limit(const char *text, const char *end, size_t count, cs_given
                              [CS_LIMIT_MEMORY] = {"memory=", "KMG", 1e15},
                              [CS_LIMIT_STEPS] = {"steps=", "", 1e15},
                              [CS_LIMIT_TIME] = {"time=", "", 1e6},
-                             [CS_LIMIT_PRINT] = {"print=", "KMG", 1e15}};
+                             [CS_LIMIT_PRINT] = {"print=", "KMG", 1e15},
+                             [CS_LIMIT_RENDER_MEMORY] = {"render-memory=", "KMG", 1e15}};
   size_t i = 0;
   while (i < count && strncmp(text, known[i].name, strlen(known[i].name)) != 0)
     i++;
@@ -296,7 +297,8 @@ static bool read_limits(const cs_argument *kind, const char *text, void *field) 
 
 const cs_argument cs_argument_limits = {.allowed =
                                             "memory=SIZE, steps=N, time=SECONDS, print=SIZE, "
-                                            "picture-memory=SIZE or picture-time=SECONDS, "
+                                            "render-memory=SIZE, picture-memory=SIZE or "
+                                            "picture-time=SECONDS, "
                                             "such as memory=512M,time=60; 0: no limit",
                                         .read = read_limits,
                                         .most = CS_LIMIT_COUNT};

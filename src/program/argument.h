@@ -34,14 +34,15 @@ typedef struct cs_given_texts {
   size_t count;
 } cs_given_texts;
 
-/* The limits of the processes that decode pictures, and of a script. */
+/* The limits of the processes that decode pictures, of a script, and of rendering what it made. */
 typedef enum cs_limit {
   CS_LIMIT_PICTURE_MEMORY, /* bytes */
   CS_LIMIT_PICTURE_TIME,   /* seconds */
   CS_LIMIT_MEMORY,         /* bytes */
   CS_LIMIT_STEPS,
-  CS_LIMIT_TIME,  /* seconds */
-  CS_LIMIT_PRINT, /* bytes */
+  CS_LIMIT_TIME,          /* seconds */
+  CS_LIMIT_PRINT,         /* bytes */
+  CS_LIMIT_RENDER_MEMORY, /* bytes */
   CS_LIMIT_COUNT
 } cs_limit;
 
@@ -87,6 +88,6 @@ extern const cs_argument cs_argument_depth, cs_argument_colour, cs_argument_alph
 extern const cs_argument cs_argument_antialias; /* cs_given_antialias */
 extern const cs_argument cs_argument_tint;      /* float[3]: linear light, opaque */
 extern const cs_argument cs_argument_texts;     /* cs_given_texts: adds a folder */
-/* cs_given_limits: adds "memory=512M,steps=2e9,time=60,print=1M,picture-memory=1G,picture-time=20";
- * the other one takes those of pictures alone. */
+/* cs_given_limits: adds "memory=512M,steps=2e9,time=60,print=1M,render-memory=8G,picture-memory=1G,
+ * picture-time=20"; the other one takes those of pictures alone. */
 extern const cs_argument cs_argument_limits, cs_argument_picture_limits;

@@ -60,6 +60,21 @@ cs_exit cs_confine_pictures(celspan_context *context, const cs_request *request)
       has_memory ? "picture-memory" : "picture-time");
 }
 
+/* Three quarters of the memory of this machine; 0: unknown. */
+static size_t most_of_memory(void) {
+  long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
+  return pages > 0 && size > 0 ? (size_t)pages / 4 * 3 * (size_t)size : 0;
+}
+
+void cs_confine_rendering(celspan_context *context, const cs_request *request) {
+  const cs_given_limits given = given_limits(request);
+  context->memory->account = cs_guard_account;
+  if (given.has[CS_LIMIT_RENDER_MEMORY])
+    context->memory->most_rendering = (size_t)given.values[CS_LIMIT_RENDER_MEMORY];
+  else if (!is_trusted(request))
+    context->memory->most_rendering = most_of_memory();
+}
+
 cs_exit cs_confine_refuse(const cs_request *request) {
   const cs_given_limits given = given_limits(request);
   bool has_limit = false;
@@ -197,7 +212,7 @@ static cs_exit enter_strict(const cs_request *request, const cs_sandbox *sandbox
   if (!refusal && !cs_client_confine(&read))
     refusal = "the picture decoder cannot be started";
   if (!refusal)
-    refusal = cs_strict_enter(&read, &write);
+    refusal = cs_strict_enter(&(cs_strict_rights){.read = &read, .write = &write});
   cs_roots_finish(&read);
   cs_roots_finish(&write);
   if (!refusal)

@@ -8,6 +8,8 @@
 
 /* Has pictures decoded by processes of their own, unless they are trusted. OK, or reported. */
 cs_exit cs_confine_pictures(celspan_context *context, const cs_request *request);
+/* Limits the memory of the frames that are rendered at a time. */
+void cs_confine_rendering(celspan_context *context, const cs_request *request);
 /* Refuses the options of scripts for a verb that reads a FILE and runs no script. OK, or reported.
  */
 cs_exit cs_confine_refuse(const cs_request *request);

@@ -8,7 +8,6 @@
  */
 #include "celspan/lua.h"
 #include "frames/process/interrupt.h"
-#include "frames/video/sound.h"
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"
 #include "lua/bind/put.h"
@@ -16,6 +15,7 @@
 #include "lua/module/core.h"
 #include "model/scene/inspect.h"
 #include "model/scene/scene.h"
+#include "plugins/sound/sound.h"
 #include "program/service.h"
 #include "program/target.h"
 #include "program/video_target.h"
@@ -129,9 +129,11 @@ static int refuse_view(lua_State *L) {
 static int check_sound(lua_State *L) {
   film *f = self(L);
   const char *path = NULL;
+  const cs_film_info *info = &f->script.film;
+  double heard = (double)info->count / info->frames_second - info->sound_offset;
   celspan_status status = cs_video_target_sound(&f->script, &path);
   if (status == CELSPAN_OK && path && f->pictures.is_deep)
-    status = cs_sound_listen(f->script.context, path);
+    status = cs_sound_check(f->script.context, path, heard);
   lua_pushinteger(L, cs_report_failure(f->script.context, status, NULL));
   return 1;
 }

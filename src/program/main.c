@@ -77,6 +77,7 @@ static cs_exit run(const cs_request *request) {
     cs_report_error("not enough memory to start");
     return CS_EXIT_MEMORY;
   }
+  cs_confine_rendering(context, request);
   cs_exit outcome = cs_confine_pictures(context, request);
   if (outcome == CS_EXIT_OK)
     outcome = is_in_lua(request) ? cs_lua_verb_run(context, request)

@@ -52,7 +52,11 @@ static int start(lua_State *L) {
     words[i] = lua_tostring(L, -1);
   pid_t process;
   cs_interrupt_call(stop_children);
-  int error = cs_spawn(&process, "/proc/self/exe", words, files, sizeof files / sizeof *files);
+  const cs_spawn_desc desc = {.path = "/proc/self/exe",
+                              .arguments = words,
+                              .files = files,
+                              .file_count = sizeof files / sizeof *files};
+  int error = cs_spawn(&process, &desc);
   errno = error;
   if (error)
     return luaL_fileresult(L, 0, NULL);

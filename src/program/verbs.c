@@ -99,8 +99,9 @@
     "--limit", "NAME=V", &cs_argument_limits,                                                      \
         "limits, several separated by commas; 0: no limit. Of the script: "                        \
         "memory=512M, steps=2e9 per frame, time=60 seconds per call, print=1M per "                \
-        "frame; of decoding a picture: picture-memory=1G, picture-time=20 seconds per "            \
-        "part. These values are the defaults"                                                      \
+        "frame; of rendering: render-memory=SIZE, three quarters of the machine's; of "            \
+        "decoding a picture: picture-memory=1G, picture-time=20 seconds per part. "                \
+        "These values are the defaults"                                                            \
   }
 /* The rights of pictures, where there is no script. */
 #define PICTURE_RIGHTS                                                                             \

@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-#include "frames/video/sound.h"
 #include "output/sinks/file.h"
+#include "plugins/sound/sound.h"
 
 enum {
   MOST_SIDE = 16384, /* of H.264, VP9 and WebP alike */
@@ -121,9 +121,10 @@ static cs_exit set_sound(cs_video_desc *video, cs_script *script, const cs_reque
     return cs_report_usage("--frames %s: the film has a sound, which goes with one run of frames "
                            "such as 10-20",
                            cs_request_text(request, "--frames"));
-  celspan_status status = cs_video_target_sound(script, &sound->path);
+  const char *path = NULL;
+  celspan_status status = cs_video_target_sound(script, &path);
   if (status == CELSPAN_OK)
-    status = cs_sound_listen(script->context, sound->path);
+    status = cs_sound_open(script->context, &(cs_sound_request){.path = path}, &sound->samples);
   sound->start =
       film->sound_offset - (double)(frames->frames[0] - film->first) / film->frames_second;
   sound->length = (double)frames->count / film->frames_second;

@@ -55,6 +55,9 @@
   CALL(int, memfd_create, -1, (const char *name, unsigned flags), (name, flags))                   \
   CALL(int, pipe2, -1, (int ends[2], int flags), (ends, flags))                                    \
   CALL(int, dup2, -1, (int from, int to), (from, to))                                              \
+  CALL(int, execv, -1, (const char *path, char *const *arguments), (path, arguments))              \
+  CALL(int, execvp, -1, (const char *name, char *const *arguments), (name, arguments))             \
+  CALL(int, poll, -1, (struct pollfd * list, nfds_t count, int most), (list, count, most))         \
   CALL(pid_t, fork, -1, (void), ())                                                                \
   CALL(pid_t, waitpid, -1, (pid_t process, int *state, int flags), (process, state, flags))        \
   DATA(read, (int descriptor, void *bytes, size_t size), (descriptor, bytes, size), size)          \
@@ -66,10 +69,6 @@
   NUMBER(pthread_create,                                                                           \
          (pthread_t * thread, const pthread_attr_t *attributes, void *(*run)(void *), void *user), \
          (thread, attributes, run, user))                                                          \
-  NUMBER(posix_spawnp,                                                                             \
-         (pid_t * process, const char *file, const posix_spawn_file_actions_t *actions,            \
-          const posix_spawnattr_t *attributes, char *const *arguments, char *const *environment),  \
-         (process, file, actions, attributes, arguments, environment))                             \
   CLOSE(close, int)                                                                                \
   CLOSE(fclose, FILE *)                                                                            \
   SYNC(fsync)

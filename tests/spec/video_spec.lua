@@ -382,8 +382,8 @@ end }]])
       assert.equal(0, (check()))
     end)
 
-    it_reads("is decoded by check --deep", function()
-      bench:write("noise.wav", "no sound at all")
+    it_reads("is decoded by check --deep, up to the end of the film", function()
+      bench:write("noise.wav", "RIFF\0\0\0\0WAVE")
       bench:write("film.lua",
         "return require 'celspan'.film { size = { 8, 8 }, sound = 'noise.wav',\n"
         .. "frame = function() return require 'celspan'.rostrum {} end }\n")
@@ -398,11 +398,14 @@ end }]])
     it_reads("is refused with a sentence if it is invalid", function()
       bench:write("click.wav", click(0.1))
       bench:write("noise.wav", "no sound at all")
+      bench:write("torn.wav", "RIFF\0\0\0\0WAVE")
       fake ""
       local refusals = {
         { 4, "the sound nowhere.wav cannot be opened: No such file", "-o out.mp4 -- nowhere.wav" },
         { 4, "the sound ./bin cannot be opened: Is a directory", "-o out.mp4 -- ./bin" },
-        { 4, "the sound noise.wav cannot be read: ffmpeg ended", "-o out.mp4 -- noise.wav" },
+        { 4, "the sound noise.wav has none of the formats that are read",
+          "-o out.mp4 -- noise.wav" },
+        { 4, "the sound torn.wav cannot be read: ffmpeg ended", "-o out.mp4 -- torn.wav" },
         { 2, "goes with one run of frames", "-o out.mp4 --frames 1-7:2 -- click.wav" },
         { 0, "gif holds no sound", "-o out.gif -- click.wav" },
       }

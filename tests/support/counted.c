@@ -25,8 +25,8 @@ int __real_raise(int number);
 int __real_setrlimit64(int resource, const struct rlimit *limit);
 int __wrap_setrlimit64(int resource, const struct rlimit *limit);
 int __wrap_raise(int number);
-const char *__real_cs_strict_enter(const cs_roots *read, const cs_roots *write);
-const char *__wrap_cs_strict_enter(const cs_roots *read, const cs_roots *write);
+const char *__real_cs_strict_enter(const cs_strict_rights *rights);
+const char *__wrap_cs_strict_enter(const cs_strict_rights *rights);
 
 static bool has_size_limit(void) {
   struct rlimit files;
@@ -98,14 +98,18 @@ int __wrap_setrlimit64(int resource, const struct rlimit *limit) {
   return resource == RLIMIT_FSIZE ? 0 : __real_setrlimit64(resource, limit);
 }
 
-const char *__wrap_cs_strict_enter(const cs_roots *read, const cs_roots *write) {
+const char *__wrap_cs_strict_enter(const cs_strict_rights *rights) {
   cs_roots with = {.count = 0};
-  if (has_size_limit())
-    return __real_cs_strict_enter(read, write);
+  cs_strict_rights more = *rights;
+  if (rights->program)
+    tell();
+  if (rights->program || has_size_limit())
+    return __real_cs_strict_enter(rights);
   bool is_good = cs_roots_add(&with, COUNTED_BUILD);
-  for (size_t i = 0; i < write->count && is_good; i++)
-    is_good = cs_roots_add(&with, write->paths[i]);
-  const char *refusal = is_good ? __real_cs_strict_enter(read, &with) : "too many folders";
+  for (size_t i = 0; rights->write && i < rights->write->count && is_good; i++)
+    is_good = cs_roots_add(&with, rights->write->paths[i]);
+  more.write = &with;
+  const char *refusal = is_good ? __real_cs_strict_enter(&more) : "too many folders";
   cs_roots_finish(&with);
   return refusal;
 }

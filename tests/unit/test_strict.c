@@ -85,7 +85,7 @@ static const char *confine(void) {
   snprintf(out, sizeof out, "%s/out", folder);
   cs_roots_add(&read, in);
   cs_roots_add(&write, out);
-  const char *refusal = cs_strict_enter(&read, &write);
+  const char *refusal = cs_strict_enter(&(cs_strict_rights){.read = &read, .write = &write});
   cs_roots_finish(&read);
   cs_roots_finish(&write);
   return refusal;

@@ -128,12 +128,14 @@ typedef struct jobs {
   const cs_cull_grid *grid;
   cs_cull_job *list;
   int32_t count;
+  cs_account_kind account; /* of the thread that starts them */
 } jobs;
 
 static void run_job(void *user, int worker, int32_t number) {
   const jobs *all = user;
   (void)worker;
   cs_cull_job *job = &all->list[number];
+  cs_account_set(job->context.memory, all->account);
   job->status = cs_cull_row_begin(all->grid, job);
   for (int32_t row = job->first; row < job->end && job->status == CELSPAN_OK; row++)
     job->status = cs_cull_row_walk(all->grid, job, row);
@@ -144,7 +146,7 @@ static celspan_status run_jobs(celspan_context *context, const cs_cull_grid *gri
   int workers = grid->desc->workers;
   int32_t rows = grid->cull->tile_rows, wanted = workers > 1 ? JOBS_A_WORKER * workers : 1;
   int32_t count = wanted < rows ? wanted : rows;
-  *all = (jobs){.grid = grid};
+  *all = (jobs){.grid = grid, .account = cs_account_of(context->memory)};
   CS_TRY(CS_MAKE(context, all->list, (size_t)count));
   all->count = count;
   for (int32_t i = 0; i < count; i++) {

@@ -5,13 +5,23 @@
  */
 #pragma once
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <sys/types.h>
 
-enum { CS_SPAWN_NULL = -1, CS_SPAWN_SAME = -2 };
+enum { CS_SPAWN_NULL = -1, CS_SPAWN_SAME = -2, CS_SPAWN_FILES = 8 };
 
-/* arguments: its name first, found through PATH unless `path` is given, NULL at the end. files: its
- * descriptors 0, 1, ...: each a descriptor of this process, /dev/null, or unchanged. Returns 0 or
- * an errno. */
-int cs_spawn(pid_t *id, const char *path, const char *const *arguments, const int *files,
-             size_t file_count);
+typedef struct cs_spawn_desc {
+  const char *path;             /* NULL: found through PATH, by the first argument */
+  const char *const *arguments; /* its name first, NULL at the end */
+  const int *files; /* its descriptors 0, 1, ...: each a descriptor of this process that is not one
+                        of those numbers, or its own; /dev/null; or unchanged */
+  size_t file_count;
+  bool is_bound; /* the kernel ends it when the thread that starts it ends, for whatever reason */
+} cs_spawn_desc;
+
+/* Opens a pipe whose ends have numbers that no file of a new process gets, even if lower ones are
+ * free. Returns 0, or an errno; the ends are -1 then. */
+int cs_spawn_pipe(int ends[2]);
+/* Returns 0 or an errno. */
+int cs_spawn(pid_t *id, const cs_spawn_desc *desc);

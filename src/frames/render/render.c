@@ -59,6 +59,7 @@ static celspan_status render(celspan_context *context, const celspan_frame_desc 
   meter m = {0};
   if (statistics) /* otherwise other frames may be made at the same time and change the peak too */
     m = meter_begin(context);
+  cs_account_kind before = cs_account_begin_rendering(context->memory);
   cs_frame frame;
   celspan_status status = cs_frame_create(context, desc, &frame);
   if (status == CELSPAN_OK) {
@@ -66,6 +67,7 @@ static celspan_status render(celspan_context *context, const celspan_frame_desc 
     status = feed_sink(context, &frame, desc, sink, &counted, ended);
     cs_frame_free(&frame, context->memory);
   }
+  cs_account_end_rendering(context->memory, before);
   if (status == CELSPAN_INPUT)
     status = cs_blame_picture(context, desc->exposures, desc->exposure_count, status);
   if (statistics) {

@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <math.h>
 #include <string.h>
+#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -15,20 +16,6 @@
 #define LAST_SECONDS 2.0 /* for an encoder that has stopped reading to write its message and end */
 
 /* ---------------------------------------------------------------- the writing thread */
-
-/* 0, or an errno. */
-static int write_all(int descriptor, const unsigned char *bytes, size_t size) {
-  while (size > 0) {
-    ssize_t written = write(descriptor, bytes, size);
-    if (written < 0 && errno != EINTR)
-      return errno;
-    if (written > 0) {
-      bytes += written;
-      size -= (size_t)written;
-    }
-  }
-  return 0;
-}
 
 /* The place at the head of the queue; -1 when there are no more frames. Locked. */
 static int wait_for_frame(cs_encoder *encoder) {
@@ -50,7 +37,7 @@ static void write_frames(void *user, int worker) {
   for (int place; !encoder->is_broken && (place = wait_for_frame(encoder)) >= 0;) {
     pthread_mutex_unlock(&encoder->mutex);
     int error =
-        write_all(encoder->process.input, encoder->places[place].pixels, encoder->frame_size);
+        cs_child_write(encoder->process.input, encoder->places[place].pixels, encoder->frame_size);
     pthread_mutex_lock(&encoder->mutex);
     encoder->is_broken = error != 0;
     encoder->error = error == EPIPE ? 0 : error;
@@ -93,16 +80,29 @@ static celspan_status make_places(cs_encoder *encoder) {
 static celspan_status start_writer(cs_encoder *encoder) {
   if (cs_threads_start(&encoder->writer, 1, write_frames, encoder) == 1)
     return CELSPAN_OK;
-  close(encoder->process.input);
-  cs_child_end(&encoder->process, 0);
   return cs_fail(encoder->context, CELSPAN_NO_MEMORY,
                  "%s: the system allows no thread for the encoder", encoder->name);
 }
 
-static celspan_status start(cs_encoder *encoder, const char *const *arguments) {
+static celspan_status start_threads(cs_encoder *encoder, cs_sound_stream *samples) {
+  celspan_status status = CELSPAN_OK;
+  if (samples->user)
+    status = cs_feeder_open(&encoder->feeder, encoder->context, samples, encoder->process.samples);
+  if (status == CELSPAN_OK)
+    status = start_writer(encoder);
+  if (status == CELSPAN_OK)
+    return status;
+  close(encoder->process.input);
+  cs_child_end(&encoder->process, 0);
+  cs_feeder_end(&encoder->feeder);
+  return status;
+}
+
+static celspan_status start(cs_encoder *encoder, const char *const *arguments,
+                            cs_sound_stream *samples) {
   CS_TRY(make_places(encoder));
-  int error = cs_child_start(&encoder->process, arguments);
-  return error ? fail_start(encoder, arguments[0], error) : start_writer(encoder);
+  int error = cs_child_start(&encoder->process, arguments, samples->user != NULL);
+  return error ? fail_start(encoder, arguments[0], error) : start_threads(encoder, samples);
 }
 
 static void free_all(cs_encoder *encoder) {
@@ -112,7 +112,8 @@ static void free_all(cs_encoder *encoder) {
 }
 
 celspan_status cs_encoder_open(cs_encoder *out, celspan_context *context, const char *name,
-                               const char *const *arguments, size_t frame_size) {
+                               const char *const *arguments, size_t frame_size,
+                               cs_sound_stream *samples) {
   pthread_condattr_t attributes;
   *out = (cs_encoder){.context = context, .name = name, .frame_size = frame_size, .last = -1};
   pthread_condattr_init(&attributes);
@@ -120,7 +121,7 @@ celspan_status cs_encoder_open(cs_encoder *out, celspan_context *context, const 
   pthread_cond_init(&out->changed, &attributes);
   pthread_condattr_destroy(&attributes);
   pthread_mutex_init(&out->mutex, NULL);
-  celspan_status status = start(out, arguments);
+  celspan_status status = start(out, arguments, samples);
   out->is_open = status == CELSPAN_OK;
   if (status != CELSPAN_OK)
     free_all(out);
@@ -138,6 +139,7 @@ static bool close_encoder(cs_encoder *encoder, double seconds) {
   pthread_cond_broadcast(&encoder->changed);
   pthread_mutex_unlock(&encoder->mutex);
   cs_threads_join(&encoder->writer, 1);
+  cs_feeder_end(&encoder->feeder);
   free_all(encoder);
   encoder->is_open = false;
   return is_over;
@@ -155,8 +157,8 @@ static celspan_status stop(cs_encoder *encoder) {
 
 /* ffmpeg does not say that its codecs could start no threads. */
 static celspan_status fail_threads(const cs_encoder *encoder) {
-  char how[CS_CHILD_ERROR + 64];
-  cs_child_describe(&encoder->process, how, sizeof how);
+  char how[CS_WORDS + 64];
+  cs_words_describe(&encoder->process.words, encoder->process.ending, how, sizeof how);
   return cs_fail(encoder->context, CELSPAN_NO_MEMORY,
                  "%s: ffmpeg %s; the system allows fewer than %d more threads, which it may need",
                  encoder->name, how, THREADS_NEEDED);
@@ -164,23 +166,25 @@ static celspan_status fail_threads(const cs_encoder *encoder) {
 
 /* Waits for the end of an encoder that has read all frames, or has stopped reading. */
 static celspan_status end(cs_encoder *encoder, bool has_read_all) {
-  char how[CS_CHILD_ERROR + 64];
+  char how[CS_WORDS + 64];
   const cs_child *process = &encoder->process;
-  bool is_over = close_encoder(encoder, has_read_all ? INFINITY : LAST_SECONDS);
+  bool has_failed = cs_feeder_has_failed(&encoder->feeder);
+  bool is_over = close_encoder(encoder, has_read_all ? INFINITY : has_failed ? 0 : LAST_SECONDS);
   if (!is_over && cs_interrupt_signal())
     return stop(encoder);
-  if (has_read_all && process->exit_code == 0)
+  CS_TRY(cs_feeder_outcome(&encoder->feeder, encoder->context));
+  if (has_read_all && process->ending == 0)
     return CELSPAN_OK;
-  if (process->exit_code > 0 && !cs_threads_are_free(THREADS_NEEDED))
+  if (WIFEXITED(process->ending) && !cs_threads_are_free(THREADS_NEEDED))
     return fail_threads(encoder);
   if (encoder->error)
     return cs_fail(encoder->context, CELSPAN_OUTPUT, "%s: cannot write to ffmpeg: %s",
                    encoder->name, strerror(encoder->error));
-  cs_child_describe(process, how, sizeof how);
+  cs_words_describe(&process->words, process->ending, how, sizeof how);
   return cs_fail(encoder->context, CELSPAN_OUTPUT, "%s: ffmpeg %s", encoder->name,
-                 !is_over                  ? "stopped reading frames, but did not end"
-                 : process->exit_code == 0 ? "ended before it had read every frame"
-                                           : how);
+                 !is_over               ? "stopped reading frames, but did not end"
+                 : process->ending == 0 ? "ended before it had read every frame"
+                                        : how);
 }
 
 /* ---------------------------------------------------------------- waiting */
@@ -189,6 +193,7 @@ static celspan_status end(cs_encoder *encoder, bool has_read_all) {
 static bool wait_while(cs_encoder *encoder, bool (*holds)(const cs_encoder *encoder)) {
   while (holds(encoder) && !encoder->is_broken) {
     struct timespec until;
+    encoder->is_broken = cs_feeder_has_failed(&encoder->feeder);
     if (cs_interrupt_signal())
       return false;
     clock_gettime(CLOCK_MONOTONIC, &until);

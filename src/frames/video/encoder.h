@@ -2,6 +2,7 @@
  *
  *   take: a free place --> pixels --> give --> queue --thread--> the encoder's standard input
  *                                    repeat --^                  (frames/process/child.h)
+ *   samples --feeder.h--thread--> its second pipe
  *
  * There are places for three frames: one that is written, one that waits, one that is made. A frame
  * that is shown again is queued again, not copied.
@@ -14,6 +15,7 @@
 #include <pthread.h>
 
 #include "frames/process/child.h"
+#include "frames/video/feeder.h"
 
 enum { CS_ENCODER_PLACES = 3, CS_ENCODER_QUEUE = 64 };
 
@@ -23,6 +25,7 @@ typedef struct cs_encoder {
   cs_child process;
   size_t frame_size;
   cs_thread writer;
+  cs_feeder feeder;      /* of the sound, if there is one */
   pthread_mutex_t mutex; /* protects all fields below */
   pthread_cond_t changed;
   struct {
@@ -37,13 +40,14 @@ typedef struct cs_encoder {
   bool is_open; /* used by the calling thread only */
 } cs_encoder;
 
-/* Starts the encoder, whose arguments begin with its name. out: must not move while it is open.
- * Errors: OUTPUT, if it cannot be started; NO_MEMORY. */
+/* Starts the encoder, whose arguments begin with its name. *samples: moved to the encoder, if there
+ * are some. out: must not move while it is open. Errors: OUTPUT, if it cannot be started; LIMIT;
+ * NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_encoder_open(cs_encoder *out, celspan_context *context,
                                                const char *name, const char *const *arguments,
-                                               size_t frame_size);
+                                               size_t frame_size, cs_sound_stream *samples);
 /* Finds a place for the pixels of the next frame. Errors: OUTPUT, with the message of an encoder
- * that has ended; CANCELLED. */
+ * that has ended; those of the samples; CANCELLED. */
 CELSPAN_CHECKED celspan_status cs_encoder_take(cs_encoder *encoder, int *place);
 unsigned char *cs_encoder_pixels(const cs_encoder *encoder, int place);
 void cs_encoder_give(cs_encoder *encoder, int place);

@@ -6,6 +6,8 @@
 #include <string.h>
 #include <strings.h>
 
+#include "frames/process/child.h"
+
 #define FROM_RGB                                                                                   \
   "scale=out_color_matrix=bt709:out_range=tv:flags=area+accurate_rnd+full_chroma_int,"
 #define MOST_DENOMINATOR 1001000 /* of frames per second: NTSC rates such as 24000/1001 are exact */
@@ -190,6 +192,14 @@ static void begin(cs_video_command *command) {
   add_all(command, first);
 }
 
+/* Whatever the bytes are, ffmpeg opens nothing else because of them. */
+static void add_pipe(cs_video_command *command, int number) {
+  add(command, "-protocol_whitelist");
+  add(command, "pipe");
+  add(command, "-i");
+  add_text(command, "pipe:%d", number);
+}
+
 /* ---------------------------------------------------------------- frames */
 
 /* Adds the nearest fraction, found by continued fractions: 23.976023976... is 24000/1001. */
@@ -229,8 +239,7 @@ static void add_frames(cs_video_command *command, const cs_video_format *format,
   add_text(command, "%dx%d", (int)frames->width, (int)frames->height);
   add(command, "-framerate");
   add_rate(command, frames->frames_second);
-  add(command, "-i");
-  add(command, "pipe:0");
+  add_pipe(command, 0);
 }
 
 /* ---------------------------------------------------------------- pictures */
@@ -289,6 +298,20 @@ static void add_pictures(cs_video_command *command, const cs_video_format *forma
 
 /* ---------------------------------------------------------------- sound */
 
+static void add_samples(cs_video_command *command, const cs_sound_stream *samples) {
+  add(command, "-f");
+  add(command, "f32le");
+  add(command, "-ar");
+  add_text(command, "%d", (int)samples->rate);
+  add(command, "-ac");
+  add_text(command, "%d", (int)samples->channels);
+  if (samples->places) {
+    add(command, "-channel_layout");
+    add_text(command, "0x%x", (unsigned)samples->places);
+  }
+  add_pipe(command, CS_CHILD_SAMPLES);
+}
+
 /* Shifts the samples, because some players ignore time stamps: silence is added before the sound,
  * or its beginning cut; then silence is added up to the last frame, or the sound cut there. */
 static void add_sound(cs_video_command *command, const cs_video_format *format,
@@ -313,12 +336,10 @@ void cs_video_command_encode(cs_video_command *command, const cs_video_format *f
                              const cs_video_sound *sound, const char *file) {
   begin(command);
   add_frames(command, format, options, frames);
-  if (sound->path) {
-    add(command, "-i");
-    add_text(command, "file:%s", sound->path);
-  }
+  if (sound->samples.user)
+    add_samples(command, &sound->samples);
   add_pictures(command, format, options);
-  if (sound->path)
+  if (sound->samples.user)
     add_sound(command, format, sound);
   if (format->flags) {
     add(command, "-movflags");
@@ -327,12 +348,4 @@ void cs_video_command_encode(cs_video_command *command, const cs_video_format *f
   add(command, "-f");
   add(command, format->muxer);
   add_text(command, "file:%s", file);
-}
-
-void cs_video_command_listen(cs_video_command *command, const char *sound) {
-  static const char *const rest[] = {"-map", "0:a:0", "-t", "0.1", "-f", "null", "-", NULL};
-  begin(command);
-  add(command, "-i");
-  add_text(command, "file:%s", sound);
-  add_all(command, rest);
 }

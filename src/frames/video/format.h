@@ -1,7 +1,7 @@
 /* The video formats: the encoder and the pixels for each file ending, and the command of ffmpeg.
  *
  *   planes of Y'CbCr, or RGBA --standard input--> [matrix and range of BT.709] --> encoder --> file
- *   sound, shifted and cut to the frames -------------------------------> encoder ---^
+ *   sound --second pipe--> shifted and cut to the frames ---------------> encoder ---^
  *
  *   ending  encoder      pixels                               alpha      sound
  *   mp4     H.264        4:2:0, 8 bits (10 under --depth 16)  none       AAC
@@ -12,12 +12,12 @@
  *   webp    WebP         4:2:0, 8 bits                        8 bits     none
  *
  * INVARIANT: a film with a background is opaque, and its file has no alpha. In all other films,
- * alpha is kept if the format has it. No shell reads the arguments, and file names begin with
- * "file:", so that ffmpeg does not treat them as options or addresses.
+ * alpha is kept if the format has it. No shell reads the arguments. ffmpeg opens no file to read,
+ * and the name of the one that it writes begins with "file:", so that it is no option or address.
  */
 #pragma once
 
-#include "base/context.h"
+#include "frames/video/sound_stream.h"
 
 typedef struct cs_video_format {
   const char *name;  /* the ending */
@@ -62,7 +62,7 @@ typedef struct cs_video_frames {
 } cs_video_frames;
 
 typedef struct cs_video_sound {
-  const char *path; /* NULL: none */
+  cs_sound_stream samples; /* none: there is no sound */
   double start;  /* seconds from the first frame to its beginning; below 0: its beginning is cut */
   double length; /* seconds of all frames */
 } cs_video_sound;
@@ -90,5 +90,3 @@ celspan_coding cs_video_coding(const cs_video_format *format, const cs_video_opt
 void cs_video_command_encode(cs_video_command *command, const cs_video_format *format,
                              const cs_video_options *options, const cs_video_frames *frames,
                              const cs_video_sound *sound, const char *file);
-/* A command whose exit code is 0 if ffmpeg can read the sound. */
-void cs_video_command_listen(cs_video_command *command, const char *sound);

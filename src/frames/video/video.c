@@ -120,10 +120,10 @@ static size_t frame_size(const cs_video *video, int32_t width, int32_t height) {
 }
 
 static celspan_status start(cs_video *video, const cs_video_command *command, int32_t width,
-                            int32_t height) {
+                            int32_t height, cs_sound_stream *samples) {
   size_t size = frame_size(video, width, height);
-  celspan_status status =
-      cs_encoder_open(&video->encoder, video->context, video->path, command->arguments, size);
+  celspan_status status = cs_encoder_open(&video->encoder, video->context, video->path,
+                                          command->arguments, size, samples);
   if (status != CELSPAN_OK)
     cs_file_discard(video->file, video->context);
   return status;
@@ -147,9 +147,14 @@ celspan_status cs_video_open(cs_video *out, celspan_context *context, const cs_v
                     .has_digests = desc->has_digests,
                     .keeps_nothing = desc->keeps_nothing};
   out->stride = (size_t)frames->width * celspan_coding_pixel_size(&out->coding);
-  CS_TRY(open_file(out, &name));
-  cs_video_command_encode(&command, desc->format, &desc->options, frames, &desc->sound, name);
-  return start(out, &command, frames->width, frames->height);
+  cs_sound_stream samples = desc->sound.samples;
+  celspan_status status = open_file(out, &name);
+  if (status == CELSPAN_OK) {
+    cs_video_command_encode(&command, desc->format, &desc->options, frames, &desc->sound, name);
+    status = start(out, &command, frames->width, frames->height, &samples);
+  }
+  cs_sound_stream_close(&samples);
+  return status;
 }
 
 /* ---------------------------------------------------------------- frames */

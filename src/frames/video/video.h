@@ -1,7 +1,7 @@
 /* A film as one file with its sound, made by ffmpeg.
  *
  *   frames --> encoder.h --> ffmpeg --> .film.mp4.1a2b.part --finish--> film.mp4
- *   sound  ----------------^
+ *   samples ---------------^
  *
  * INVARIANT: the file appears under its name when cs_video_finish returns OK, not before. After
  * cs_video_finish and cs_video_discard there is no temporary file and no process.
@@ -38,8 +38,8 @@ typedef struct cs_video {
   uint64_t digest[2]; /* of its pixels, if has_digests */
 } cs_video;
 
-/* Starts the encoder. out: must not move until it is finished or discarded. Errors: OUTPUT,
- * NO_MEMORY, LIMIT. */
+/* Starts the encoder. The samples of the sound are the video's, whatever it returns. out: must not
+ * move until it is finished or discarded. Errors: OUTPUT, NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_video_open(cs_video *out, celspan_context *context,
                                              const cs_video_desc *desc);
 /* Makes a frame, or repeats the previous one if it is equal. */

@@ -110,16 +110,24 @@ static const char *sentence_of(const cs_host *host) {
   return has_noun ? sentence + word + 2 : sentence;
 }
 
+/* Notes the failure. A lack of memory ends a script in a sandbox. */
+static cs_host *note_failure(lua_State *L, celspan_status status) {
+  cs_host *host = cs_host_get(L);
+  host->failure = status;
+  if (status == CELSPAN_NO_MEMORY && host->rules)
+    host->rules->starve(host->rules->user, L, sentence_of(host));
+  return host;
+}
+
 void cs_host_try(lua_State *L, const char *noun, celspan_status status) {
   if (status == CELSPAN_OK)
     return;
-  cs_host *host = cs_host_get(L);
-  host->failure = status;
+  const cs_host *host = note_failure(L, status);
   cs_caller_error(L, "%s: %s", noun, sentence_of(host));
 }
 
 int cs_host_fail(lua_State *L, celspan_status status) {
-  cs_host_get(L)->failure = status;
+  note_failure(L, status);
   luaL_pushfail(L);
   lua_pushstring(L, celspan_context_error(cs_host_context(L)));
   return 2;

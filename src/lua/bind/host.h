@@ -36,6 +36,9 @@ typedef struct cs_host_rules {
   /* The sentence of the limit that ended a call with this outcome of lua_pcall and this message
    * (NULL: no text); NULL: none did. */
   const char *(*limit)(void *user, int outcome, const char *message);
+  /* There was no memory, as this sentence says: raises it, or that of the limit that was exceeded,
+   * in a way that no script can catch. */
+  void (*starve)(void *user, lua_State *L, const char *sentence);
 } cs_host_rules;
 
 typedef struct cs_host {
@@ -65,7 +68,9 @@ void cs_host_leave(lua_State *L, lua_State *before);
 /* Raises the context's sentence at the caller's line, "noun: sentence", unless status is OK. */
 void cs_host_try(lua_State *L, const char *noun, celspan_status status);
 /* Pushes nil and the context's sentence, for a function that answers so what went wrong; a script
- * that raises the sentence raises it with this status. Returns 2, which is how many were pushed. */
+ * that raises the sentence raises it with this status. Returns 2, which is how many were pushed. In
+ * a sandbox a lack of memory is raised instead, as by cs_host_try: what a script makes must not
+ * depend on it. */
 int cs_host_fail(lua_State *L, celspan_status status);
 /* The status of a message that was raised: the core's own when the message contains the core's
  * sentence, else CALLBACK. */

@@ -93,21 +93,37 @@ celspan_status cs_lua_error_report_as(lua_State *L, celspan_status status) {
   return celspan_context_fail(cs_host_context(L), status, "%s", copy);
 }
 
-bool cs_lua_error_is_limit(lua_State *L, int outcome) {
+/* What ended a script with the core's sentence was the system, not the limit of the script. */
+celspan_status cs_lua_error_limit(lua_State *L, int outcome, const char **text) {
   const cs_host_rules *rules = cs_host_get(L)->rules;
   const char *message = lua_tostring(L, -1);
   if (cs_lua_error_is_memory(L, outcome))
     outcome = LUA_ERRMEM;
   const char *sentence = rules ? rules->limit(rules->user, outcome, message) : NULL;
-  if (sentence && (!message || !strstr(message, sentence))) {
-    lua_pop(L, 1);
-    lua_pushstring(L, sentence);
-  }
-  return sentence != NULL;
+  if (!sentence)
+    return CELSPAN_OK;
+  *text = message && strstr(message, sentence) ? message : sentence;
+  return cs_host_blame(L, *text) == CELSPAN_NO_MEMORY ? CELSPAN_NO_MEMORY : CELSPAN_LIMIT;
 }
 
+int cs_lua_error_settle(lua_State *L, int outcome, int results) {
+  const cs_host_rules *rules = cs_host_get(L)->rules;
+  if (outcome != LUA_OK || !rules || !rules->limit(rules->user, LUA_OK, NULL))
+    return outcome;
+  lua_pop(L, results);
+  lua_pushnil(L);
+  return LUA_ERRRUN;
+}
+
+/* Nothing is pushed, because there may be no memory. */
 celspan_status cs_lua_error_report(lua_State *L, int outcome) {
-  if (cs_lua_error_is_limit(L, outcome))
-    return cs_lua_error_report_as(L, CELSPAN_LIMIT);
+  const char *text;
+  char copy[CS_ERROR_SIZE]; /* as above */
+  celspan_status limit = cs_lua_error_limit(L, outcome, &text);
+  if (limit != CELSPAN_OK) {
+    snprintf(copy, sizeof copy, "%s", text);
+    lua_pop(L, 1);
+    return celspan_context_fail(cs_host_context(L), limit, "%s", copy);
+  }
   return cs_lua_error_report_as(L, status_of(L, outcome));
 }

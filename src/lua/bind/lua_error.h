@@ -26,9 +26,14 @@ size_t cs_lua_error_position(const char *message);
 /* Whether the message on top of the stack, left by lua_pcall with this outcome, says that there was
  * no memory: Lua's own message keeps its meaning where it was raised again. */
 bool cs_lua_error_is_memory(lua_State *L, int outcome);
-/* Whether the call ended by a limit of the sandbox. The message on top of the stack is then a
- * sentence that says which: one of Lua that has no memory left does not. */
-bool cs_lua_error_is_limit(lua_State *L, int outcome);
+/* LIMIT if the call ended by a limit of the sandbox, NO_MEMORY if by a lack of memory in it, and
+ * the text that says so; else OK. The message is on top of the stack; the text is valid while it
+ * is. */
+celspan_status cs_lua_error_limit(lua_State *L, int outcome, const char **text);
+/* The outcome of a call into the script that has `results` results: if it ended well, but a limit
+ * was exceeded and nothing has raised that, an error, and nil, as its message, replaces the
+ * results. */
+int cs_lua_error_settle(lua_State *L, int outcome, int results);
 
 /* Turns the message on top of the stack, left by lua_pcall with this outcome, into the context's
  * sentence, and pops it. The status: the core's own where its refusal was raised, NO_MEMORY or

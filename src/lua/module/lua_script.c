@@ -139,6 +139,7 @@ celspan_status cs_lua_script_run(lua_State *L, const char *path, int argument_co
   lua_pushlightuserdata(L, &c);
   cs_host_begin(L, CS_HOST_LOAD, 0);
   int outcome = cs_lua_error_call(L, 1, 1);
+  outcome = cs_lua_error_settle(L, outcome, 1);
   cs_host_end(L);
   if (outcome == LUA_OK)
     return CELSPAN_OK;

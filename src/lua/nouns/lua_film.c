@@ -338,7 +338,7 @@ static int protected_frame(lua_State *L, int film, int64_t number) {
   lua_remove(L, -2);
   push_frame(L, &info, number);
   cs_host_begin(L, CS_HOST_FRAME, number);
-  int outcome = lua_pcall(L, 2, 1, handler);
+  int outcome = cs_lua_error_settle(L, lua_pcall(L, 2, 1, handler), 1);
   cs_host_end(L);
   lua_remove(L, handler);
   return outcome;

@@ -134,14 +134,15 @@ static celspan_status spans(void *user, celspan_context *context, double y,
   lua_pushcfunction(L, call_placed);
   lua_pushlightuserdata(L, &r);
   cs_host_begin(L, CS_HOST_PROCEDURE, 0);
-  int outcome = lua_pcall(L, 1, 0, 0);
+  int outcome = cs_lua_error_settle(L, lua_pcall(L, 1, 0, 0), 0);
   cs_host_end(L);
   if (outcome == LUA_OK)
     return r.status;
-  celspan_status status = cs_lua_error_is_limit(L, outcome)    ? CELSPAN_LIMIT
-                          : cs_lua_error_is_memory(L, outcome) ? CELSPAN_NO_MEMORY
-                                                               : CELSPAN_CALLBACK;
-  status = celspan_context_fail(context, status, "%s", lua_tostring(L, -1));
+  const char *text = lua_tostring(L, -1);
+  celspan_status status = cs_lua_error_limit(L, outcome, &text);
+  if (status == CELSPAN_OK)
+    status = cs_lua_error_is_memory(L, outcome) ? CELSPAN_NO_MEMORY : CELSPAN_CALLBACK;
+  status = celspan_context_fail(context, status, "%s", text);
   lua_pop(L, 1);
   return status;
 }

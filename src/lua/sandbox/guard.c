@@ -11,6 +11,7 @@
 #include "base/context.h"
 #include "base/thread_pool.h"
 #include "lua/bind/caller.h"
+#include "lua/bind/lua_error.h"
 
 enum {
   STRIDE = 1000,       /* instructions between two calls of the hook */
@@ -48,16 +49,10 @@ static void note_refusal(cs_guard *guard) {
   }
 }
 
-/* The caches of pictures and defocused cels do not count for the script. */
-static size_t scene_bytes(const celspan_context *context) {
-  size_t kept = context->picture_bytes + context->defocus_bytes;
-  size_t all = atomic_load_explicit(&context->memory->bytes, memory_order_relaxed);
-  return all > kept ? all - kept : 0;
-}
-
 static bool is_too_much(const cs_guard *guard, size_t more) {
   size_t most = guard->limits.memory;
-  return most && (more > most || guard->bytes + scene_bytes(guard->context) > most - more);
+  return most && (more > most ||
+                  guard->bytes + cs_account_scene_bytes(guard->context->memory) > most - more);
 }
 
 void *cs_guard_allocate(void *user, void *storage, size_t old_size, size_t new_size) {
@@ -79,6 +74,11 @@ void *cs_guard_allocate(void *user, void *storage, size_t old_size, size_t new_s
 /* The guard of the script call in this thread; NULL: there is none. Workers that render at the same
  * time do not count for the script. */
 static _Thread_local cs_guard *entered;
+
+cs_account *cs_guard_account(void) {
+  static _Thread_local cs_account account;
+  return &account;
+}
 
 static bool refuses_scene(const cs_memory *memory, size_t more) {
   if (!entered || entered->context->memory != memory || !is_too_much(entered, more))
@@ -108,7 +108,10 @@ static void raise_limit(lua_State *L, cs_guard *guard) {
   set_hook(guard, L);
   if (strcmp(guard->tripped, "interrupted") == 0)
     luaL_error(L, "interrupted");
-  cs_caller_error(L, "%s", guard->tripped);
+  if (!cs_lua_error_position(guard->tripped))
+    cs_caller_error(L, "%s", guard->tripped);
+  lua_pushstring(L, guard->tripped);
+  lua_error(L);
 }
 
 static void trip_steps(cs_guard *guard) {
@@ -185,12 +188,24 @@ void cs_guard_print(lua_State *L, size_t bytes) {
   raise_limit(L, guard);
 }
 
+void cs_guard_starve(lua_State *L, const char *sentence) {
+  cs_guard *guard = cs_guard_of(L);
+  if (!guard || guard->depth == 0)
+    return;
+  if (guard->is_scene_refused)
+    trip_memory(guard);
+  else
+    snprintf(guard->tripped, sizeof guard->tripped, "%s", sentence);
+  raise_limit(L, guard);
+}
+
 /* ---------------------------------------------------------------- calls */
 
 void cs_guard_attach(cs_guard *guard, lua_State *L, celspan_context *context) {
   guard->L = L;
   guard->context = context;
   context->memory->refuses = refuses_scene;
+  context->memory->account = cs_guard_account;
   *(cs_guard **)lua_getextraspace(L) = guard;
   set_hook(guard, L);
 }
@@ -266,6 +281,8 @@ bool cs_guard_begin(cs_guard *guard, lua_State *L, cs_host_call call) {
     return false;
   guard->is_verb = guard->is_verb || call == CS_HOST_VERB;
   entered = guard;
+  if (depth == 0)
+    guard->account = cs_account_set(guard->context->memory, CS_ACCOUNT_SCRIPT);
   guard->tripped[0] = '\0';
   guard->is_refused = guard->is_scene_refused = false;
   guard->refused_line = 0;
@@ -280,6 +297,7 @@ void cs_guard_end(cs_guard *guard) {
   if (--guard->depth > 0)
     return;
   entered = NULL;
+  cs_account_set(guard->context->memory, guard->account);
   guard->is_verb = false;
   atomic_store_explicit(&guard->deadline, 0, memory_order_relaxed);
 }
@@ -302,6 +320,8 @@ const char *cs_guard_limit(cs_guard *guard, int outcome, const char *message) {
 void cs_guard_pass(lua_State *L, int outcome) {
   cs_guard *guard = cs_guard_of(L);
   const char *sentence = guard ? cs_guard_limit(guard, outcome, lua_tostring(L, -1)) : NULL;
+  if (!sentence && guard && cs_lua_error_is_memory(L, outcome))
+    lua_error(L); /* of the system: what a script makes must not depend on it */
   if (!sentence)
     return;
   set_hook(guard, L);

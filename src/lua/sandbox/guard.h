@@ -8,7 +8,8 @@
  *
  * INVARIANT: an exceeded limit stays exceeded until the outermost call ends: the hook then fires at
  * every instruction, and pcall, xpcall and resume of this folder propagate it. So no script can
- * continue after it or catch it.
+ * continue after it or catch it. The same holds for a lack of memory. If a function of the core has
+ * hidden an exceeded limit, the call fails at its end (cs_lua_error_settle).
  *
  * Steps are instructions of the Lua virtual machine, and the charges of C functions for their work;
  * they do not depend on the computer. They are counted per load or frame; time is measured per
@@ -23,7 +24,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "celspan/celspan.h"
 #include "lua/bind/host.h"
 
 /* 0: without limit */
@@ -46,17 +46,18 @@ typedef struct cs_guard {
   bool (*is_interrupted)(void);
   /* Called by the watchdog thread with the sentence; ends the process. */
   void (*kill)(const char *sentence);
-  size_t bytes;          /* of Lua */
-  int depth;             /* of calls into the script */
-  bool is_verb;          /* the outermost call is of a verb */
-  bool is_refused;       /* memory, to Lua, in this call */
-  bool is_scene_refused; /* the same, to the scene */
-  int refused_line;      /* where, if it is known; 0 */
+  size_t bytes;            /* of Lua */
+  int depth;               /* of calls into the script */
+  cs_account_kind account; /* of the thread before the outermost call */
+  bool is_verb;            /* the outermost call is of a verb */
+  bool is_refused;         /* memory, to Lua, in this call */
+  bool is_scene_refused;   /* the same, to the scene */
+  int refused_line;        /* where, if it is known; 0 */
   char refused_in[LUA_IDSIZE];
   uint64_t steps, checked; /* in this frame; at the last reading of the clock */
   size_t printed;
-  char tripped[256];         /* the sentence of the exceeded limit; "": none */
-  _Atomic(int64_t) deadline; /* of the call, in nanoseconds of the monotonic clock; 0: none */
+  char tripped[CS_ERROR_SIZE]; /* the sentence of the exceeded limit; "": none */
+  _Atomic(int64_t) deadline;   /* of the call, in nanoseconds of the monotonic clock; 0: none */
   bool has_watchdog, is_finished;
   pthread_t watchdog;
   pthread_mutex_t lock; /* of is_finished */
@@ -72,6 +73,9 @@ void *cs_guard_allocate(void *user, void *storage, size_t old_size, size_t new_s
 /* Attaches the main thread of a state, and all coroutines that are created later. */
 void cs_guard_attach(cs_guard *guard, lua_State *L, celspan_context *context);
 
+/* The account of this thread: cs_memory.account of a program. */
+cs_account *cs_guard_account(void);
+
 /* The guard of a state, or NULL. */
 cs_guard *cs_guard_of(lua_State *L);
 
@@ -83,6 +87,10 @@ void cs_guard_end(cs_guard *guard);
 void cs_guard_charge(lua_State *L, uint64_t steps);
 /* Counts printed bytes. Raises an error when a limit is exceeded. */
 void cs_guard_print(lua_State *L, size_t bytes);
+
+/* There was no memory, as the sentence says: in a call into the script raises it, or that of the
+ * limit of memory where that was the reason. Like an exceeded limit, it ends the outermost call. */
+void cs_guard_starve(lua_State *L, const char *sentence);
 
 /* The sentence of the limit that ended a call with this result of lua_pcall and this message (NULL:
  * not a string); NULL: no limit did. */

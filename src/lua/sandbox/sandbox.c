@@ -116,6 +116,11 @@ static const char *limit(void *user, int outcome, const char *message) {
   return cs_guard_limit(&((cs_sandbox *)user)->guard, outcome, message);
 }
 
+static void starve(void *user, lua_State *L, const char *sentence) {
+  (void)user;
+  cs_guard_starve(L, sentence);
+}
+
 void cs_sandbox_attach(cs_sandbox *sandbox, lua_State *L, bool is_trusted) {
   sandbox->rules = (cs_host_rules){.user = sandbox,
                                    .begin = begin,
@@ -123,7 +128,8 @@ void cs_sandbox_attach(cs_sandbox *sandbox, lua_State *L, bool is_trusted) {
                                    .admits = is_trusted ? NULL : admits,
                                    .admit = is_trusted ? NULL : admit,
                                    .may_write = is_trusted ? NULL : may_write,
-                                   .limit = limit};
+                                   .limit = limit,
+                                   .starve = starve};
   cs_host_get(L)->rules = &sandbox->rules;
   cs_guard_attach(&sandbox->guard, L, cs_host_context(L));
 }

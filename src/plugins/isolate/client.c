@@ -43,7 +43,11 @@ static int spawn(const cs_roots *roots) {
     return errno;
   const int files[] = {CS_SPAWN_NULL, CS_SPAWN_NULL, WORDS, ends[1]};
   setsockopt(ends[0], SOL_SOCKET, SO_RCVTIMEO, &pause, sizeof pause);
-  int error = cs_spawn(&zygote.id, "/proc/self/exe", arguments, files, CS_ZYGOTE_SOCKET + 1);
+  const cs_spawn_desc desc = {.path = "/proc/self/exe",
+                              .arguments = arguments,
+                              .files = files,
+                              .file_count = CS_ZYGOTE_SOCKET + 1};
+  int error = cs_spawn(&zygote.id, &desc);
   close(ends[1]);
   if (error) {
     close(ends[0]);

@@ -22,9 +22,10 @@
 #define CS_SHARED_PUT ((size_t)32 << 20)
 
 typedef enum cs_message_kind {
-  CS_MESSAGE_START = 1, /* to the zygote, with shared memory: fork a worker */
+  CS_MESSAGE_START = 1, /* to the zygote, with a descriptor: fork a worker */
   CS_MESSAGE_END,       /* to the zygote: end a worker; answered with how it ended */
-  CS_MESSAGE_OPEN,      /* with the file; in shared memory: the layer, then the space */
+  CS_MESSAGE_OPEN,      /* with the file; in shared memory: the layer, then the space. To a worker
+                           that decodes a sound, `text` is the name of its format in ffmpeg */
   CS_MESSAGE_READ,
   CS_MESSAGE_LIST,
   CS_MESSAGE_CLOSE, /* not answered */
@@ -40,9 +41,11 @@ typedef enum cs_message_kind {
 typedef enum cs_worker_task {
   CS_WORKER_READS = 0, /* pictures, through the picture module */
   CS_WORKER_WRITES,    /* one picture, likewise; without limits except that of loading */
-  CS_WORKER_SAMPLES    /* colour profiles, through the colour module */
+  CS_WORKER_SAMPLES,   /* colour profiles, through the colour module */
+  CS_WORKER_LISTENS    /* one sound, as ffmpeg */
 } cs_worker_task;
 
+/* It comes with the shared memory, or with the pipe that the samples of a sound go to. */
 typedef struct cs_message_start {
   uint64_t memory; /* bytes that the worker may allocate after its start; 0: any */
   double loading;  /* seconds that loading the module may take; 0: any */
@@ -52,6 +55,11 @@ typedef struct cs_message_start {
 typedef struct cs_message_open {
   int32_t subimage, has_layer, has_space;
 } cs_message_open;
+
+/* The form of the samples; 0: that of the file. */
+typedef struct cs_message_sound {
+  int32_t rate, channels;
+} cs_message_sound;
 
 /* cs_colour_request without its bytes. */
 typedef struct cs_message_profile {
@@ -81,6 +89,7 @@ typedef struct cs_message {
   union {
     cs_message_start start;
     cs_message_open open;
+    cs_message_sound sound;
     celspan_rectangle rectangle;
     cs_message_header header;
     cs_picture_part part;

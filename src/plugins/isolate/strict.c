@@ -18,7 +18,9 @@
 /* ---------------------------------------------------------------- files */
 
 #define READ_FILES (LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR)
-#define OF_FILES (LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_WRITE_FILE)
+#define OF_FILES                                                                                   \
+  (LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_EXECUTE)
+#define START_FILES (LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_EXECUTE)
 #define ALL_OF_FIRST ((UINT64_C(1) << 13) - 1) /* the rights that Linux 5.13 knows */
 /* Rights of later kernels, by their numbers: the headers may be older than the kernel. */
 #define REFER (UINT64_C(1) << 13)
@@ -27,8 +29,10 @@
 #define BIND_AND_CONNECT 3
 #define ABSTRACT_SOCKETS_AND_SIGNALS 3
 
-/* Files that libraries read: their own, the description of the processor, random numbers. */
-static const char *const SYSTEM[] = {"/usr",
+/* Libraries, and what they read: the description of the processor, random numbers. */
+static const char *const SYSTEM[] = {"/usr/lib",
+                                     "/usr/lib64",
+                                     "/usr/local/lib",
                                      "/lib",
                                      "/lib64",
                                      "/etc/ld.so.cache",
@@ -39,6 +43,16 @@ static const char *const SYSTEM[] = {"/usr",
                                      "/dev/null",
                                      "/dev/urandom",
                                      "/sys/devices/system/cpu"};
+
+/* What libraries read that a process has loaded itself: fonts, colours, languages. */
+#define SHARED "/usr"
+
+/* The program that starts programs with shared libraries. */
+#ifdef __aarch64__
+#define LOADER "/lib/ld-linux-aarch64.so.1"
+#else
+#define LOADER "/lib64/ld-linux-x86-64.so.2"
+#endif
 
 typedef struct ruleset {
   uint64_t files, network, scopes;
@@ -58,7 +72,7 @@ static bool allow(int rules, const char *path, uint64_t rights) {
 }
 
 static bool allow_all(int rules, const cs_roots *roots, uint64_t rights) {
-  for (size_t i = 0; i < roots->count; i++)
+  for (size_t i = 0; roots && i < roots->count; i++)
     if (!allow(rules, roots->paths[i], rights))
       return false;
   return true;
@@ -73,15 +87,21 @@ static ruleset known_rights(long abi) {
   return known;
 }
 
-static bool add_rules(int rules, const cs_roots *read, const cs_roots *write, uint64_t all) {
+static bool add_rules(int rules, const cs_strict_rights *rights, uint64_t all) {
+  uint64_t writing = all & ~(uint64_t)LANDLOCK_ACCESS_FS_EXECUTE;
   for (size_t i = 0; i < sizeof SYSTEM / sizeof *SYSTEM; i++)
     if (!allow(rules, SYSTEM[i], READ_FILES))
       return false;
-  return allow(rules, "/dev/null", OF_FILES) && allow_all(rules, read, READ_FILES) &&
-         allow_all(rules, write, all & ~(uint64_t)LANDLOCK_ACCESS_FS_EXECUTE);
+  if (!allow(rules, "/dev/null", OF_FILES & writing))
+    return false;
+  if (rights->program)
+    return allow(rules, LOADER, START_FILES) && allow(rules, rights->program, START_FILES) &&
+           allow(rules, rights->file, READ_FILES);
+  return allow(rules, SHARED, READ_FILES) && allow_all(rules, rights->read, READ_FILES) &&
+         allow_all(rules, rights->write, writing);
 }
 
-static const char *confine_files(const cs_roots *read, const cs_roots *write) {
+static const char *confine_files(const cs_strict_rights *rights) {
   long abi = syscall(SYS_landlock_create_ruleset, NULL, 0, LANDLOCK_CREATE_RULESET_VERSION);
   if (abi < 1)
     return "the kernel has no Landlock (it needs Linux 5.13 or later, with Landlock enabled)";
@@ -90,8 +110,8 @@ static const char *confine_files(const cs_roots *read, const cs_roots *write) {
   int rules = (int)syscall(SYS_landlock_create_ruleset, &known, size, 0);
   if (rules < 0)
     return "Landlock does not accept rules";
-  bool is_confined = add_rules(rules, read, write, known.files) &&
-                     syscall(SYS_landlock_restrict_self, rules, 0) == 0;
+  bool is_confined =
+      add_rules(rules, rights, known.files) && syscall(SYS_landlock_restrict_self, rules, 0) == 0;
   close(rules);
   return is_confined ? NULL : "Landlock refused the rules";
 }
@@ -111,13 +131,15 @@ static const char *confine_files(const cs_roots *read, const cs_roots *write) {
 #define REFUSAL ANSWER(SECCOMP_RET_ERRNO | EPERM)
 #define REFUSE(number) BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, number, 0, 1), REFUSAL
 
-static const char *confine_calls(void) {
+static const char *confine_calls(bool starts_program) {
   struct sock_filter filter[] = {
       LOAD(arch), BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, ARCHITECTURE, 1, 0),
       ANSWER(SECCOMP_RET_KILL_PROCESS), LOAD(nr),
       BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, OTHER_TABLE, 0, 1), REFUSAL,
-      /* other programs and other processes */
-      REFUSE(SYS_execve), REFUSE(SYS_execveat), REFUSE(SYS_ptrace), REFUSE(SYS_process_vm_readv),
+      /* other programs and other processes; a process stays in its group, which is ended as one */
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_execve, 0, 1),
+      ANSWER(starts_program ? SECCOMP_RET_ALLOW : SECCOMP_RET_ERRNO | EPERM), REFUSE(SYS_execveat),
+      REFUSE(SYS_setpgid), REFUSE(SYS_setsid), REFUSE(SYS_ptrace), REFUSE(SYS_process_vm_readv),
       REFUSE(SYS_process_vm_writev), REFUSE(SYS_kill), REFUSE(SYS_pidfd_open),
       REFUSE(SYS_pidfd_getfd), REFUSE(SYS_pidfd_send_signal),
       /* the network */
@@ -135,22 +157,23 @@ static const char *confine_calls(void) {
              : "the kernel does not accept a filter of system calls (seccomp)";
 }
 #else
-static const char *confine_calls(void) {
+static const char *confine_calls(bool starts_program) {
+  (void)starts_program;
   return "system calls cannot be filtered on this processor";
 }
 #endif
 
-const char *cs_strict_enter(const cs_roots *read, const cs_roots *write) {
+const char *cs_strict_enter(const cs_strict_rights *rights) {
   const struct rlimit none = {0, 0};
   if (setrlimit(RLIMIT_CORE, &none) != 0 || prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
     return "the kernel does not let a process give up privileges";
-  const char *refusal = confine_files(read, write);
-  return refusal ? refusal : confine_calls();
+  const char *refusal = confine_files(rights);
+  return refusal ? refusal : confine_calls(rights->program != NULL);
 }
 
 #else
-const char *cs_strict_enter(const cs_roots *read, const cs_roots *write) {
-  (void)read, (void)write;
+const char *cs_strict_enter(const cs_strict_rights *rights) {
+  (void)rights;
   return "it needs Landlock and seccomp of Linux";
 }
 #endif

@@ -1,11 +1,12 @@
 /* Strict confinement: the kernel restricts the process from now on, even if it is taken over.
  *
- *   Landlock     files: read below some folders, write below others; no TCP
+ *   Landlock     files: read below some folders, write below others; start one program or none;
+ *                no TCP
  *   seccomp      no other programs, no sockets, no access to other processes
  *   limits       no core file
  *
- * INVARIANT: it cannot be undone, and applies to all threads that are started later; so it is
- * entered before the first one starts.
+ * INVARIANT: it cannot be undone, and applies to all threads and programs that are started later;
+ * so it is entered before the first one starts.
  */
 #pragma once
 
@@ -14,5 +15,13 @@
 
 #include "plugins/isolate/roots.h"
 
+/* What the process may still do. In any case it may read the libraries of the system. */
+typedef struct cs_strict_rights {
+  const cs_roots *read, *write; /* folders; NULL: none */
+  /* A process with a program reads, instead of folders, this program, which it may start, and one
+   * file. Both NULL: it starts none. */
+  const char *program, *file;
+} cs_strict_rights;
+
 /* NULL, or the reason of a failure: the process may then be partly confined, and must end. */
-const char *cs_strict_enter(const cs_roots *read, const cs_roots *write);
+const char *cs_strict_enter(const cs_strict_rights *rights);

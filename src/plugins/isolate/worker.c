@@ -25,6 +25,8 @@ static struct {
 
 void cs_worker_limit(const cs_worker_limits *limits) { all.limits = *limits; }
 
+cs_worker_limits cs_worker_limits_set(void) { return all.limits; }
+
 void cs_worker_lock(cs_worker *worker) { pthread_mutex_lock(&worker->asking); }
 
 void cs_worker_unlock(cs_worker *worker) { pthread_mutex_unlock(&worker->asking); }

@@ -11,8 +11,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "plugins/isolate/strict.h"
-
 enum {
   READERS = 1024, /* open at a time: many more than the store keeps open */
   REFUSED = 6,    /* the exit code where the kernel cannot confine */
@@ -107,15 +105,21 @@ static void limit_memory_and_files(uint64_t memory) {
 #endif
 }
 
-static void confine(const cs_worker_desc *desc) {
-  cs_roots none = {.count = 0}, all = {.count = 0};
+void cs_worker_loop_confine(const cs_worker_desc *desc, const cs_strict_rights *rights) {
+  if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != desc->zygote)
+    _exit(0);
   limit_memory_and_files(desc->start.memory);
   limit(RLIMIT_CORE, 0);
-  bool is_known = desc->roots || cs_roots_add(&all, "/");
-  const char *refusal = is_known ? cs_strict_enter(desc->roots ? desc->roots : &all, &none) : "";
-  cs_roots_finish(&all);
-  if (refusal && desc->roots)
+  if (cs_strict_enter(rights) && desc->roots)
     _exit(REFUSED);
+}
+
+static void confine(const cs_worker_desc *desc) {
+  cs_roots all = {.count = 0};
+  if (!desc->roots && !cs_roots_add(&all, "/"))
+    _exit(CS_WORKER_NO_MEMORY);
+  cs_worker_loop_confine(desc, &(cs_strict_rights){.read = desc->roots ? desc->roots : &all});
+  cs_roots_finish(&all);
 }
 
 /* ---------------------------------------------------------------- answers */
@@ -347,8 +351,6 @@ void cs_worker_loop_run(const cs_worker_desc *desc) {
   void *shared = mmap(NULL, CS_SHARED, PROT_READ | PROT_WRITE, MAP_SHARED, desc->memory, 0);
   if (!loop || shared == MAP_FAILED)
     _exit(CS_WORKER_NO_MEMORY);
-  if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != desc->zygote)
-    _exit(0);
   close(desc->memory);
   loop->module = desc->start.task == CS_WORKER_SAMPLES ? NULL : desc->module;
   loop->colour = desc->colour;

@@ -8,7 +8,7 @@
 #pragma once
 
 #include "plugins/isolate/message.h"
-#include "plugins/isolate/roots.h"
+#include "plugins/isolate/strict.h"
 
 /* The exit code of a worker or the zygote that crashed after a failed allocation. */
 #define CS_WORKER_NO_MEMORY 33
@@ -28,11 +28,14 @@ typedef struct cs_worker_desc {
                             kernel that cannot confine the process is accepted */
   cs_message_start start;
   int zygote;         /* process number */
-  int socket, memory; /* to the program; the shared memory */
+  int socket, memory; /* to the program; the descriptor of the START */
 } cs_worker_desc;
 
 /* From now on, a crash, SIGALRM or a library that ends this process after a failed allocation ends
  * it with CS_WORKER_NO_MEMORY. */
 void cs_worker_loop_watch_faults(void);
+/* Binds this process to the zygote, and has the kernel confine it to its limits and these rights.
+ * Ends the process if that is demanded and not possible. */
+void cs_worker_loop_confine(const cs_worker_desc *desc, const cs_strict_rights *rights);
 /* Handles messages in this process until the other side has ended. */
 _Noreturn void cs_worker_loop_run(const cs_worker_desc *desc);

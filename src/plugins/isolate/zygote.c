@@ -13,7 +13,7 @@
 
 #include "base/context.h"
 #include "model/pictures/store.h"
-#include "plugins/isolate/worker_loop.h"
+#include "plugins/isolate/sound_worker.h"
 
 enum { WORKERS = 256 };
 
@@ -36,12 +36,18 @@ bool cs_zygote_is_meant(int count, char **arguments) {
 
 /* ---------------------------------------------------------------- the end of workers */
 
+/* A worker that decodes a sound leads a group, which holds whatever it has started. */
+static void kill_worker(pid_t worker) {
+  kill(worker, SIGKILL);
+  kill(-worker, SIGKILL);
+}
+
 /* Ends a worker, if it has not ended by itself. The result is the status of waitpid. */
 static int end_worker(zygote *z, uint32_t number) {
   int ending = 0;
   if (number >= WORKERS || !z->workers[number])
     return 0;
-  kill(z->workers[number], SIGKILL);
+  kill_worker(z->workers[number]);
   while (waitpid(z->workers[number], &ending, 0) < 0 && errno == EINTR)
     continue;
   z->workers[number] = 0;
@@ -51,7 +57,7 @@ static int end_worker(zygote *z, uint32_t number) {
 static _Noreturn void finish(zygote *z) {
   for (uint32_t number = 0; number < WORKERS; number++)
     if (z->workers[number])
-      kill(z->workers[number], SIGKILL);
+      kill_worker(z->workers[number]);
   for (uint32_t number = 0; number < WORKERS; number++)
     end_worker(z, number);
   _exit(0);
@@ -77,6 +83,8 @@ static _Noreturn void become_worker(const zygote *z, const cs_message_start *sta
                                .socket = socket,
                                .memory = memory};
   close(CS_ZYGOTE_SOCKET);
+  if (start->task == CS_WORKER_LISTENS)
+    cs_sound_worker_run(&desc);
   cs_worker_loop_run(&desc);
 }
 
@@ -94,7 +102,7 @@ static int fork_worker(zygote *z, cs_message *message, int memory) {
   errno = EAGAIN;
   if (message->number == WORKERS ||
       socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) {
-    fail(message, "a picture decoder cannot be created");
+    fail(message, "a decoder cannot be created");
     return -1;
   }
   pid_t child = fork();
@@ -107,7 +115,7 @@ static int fork_worker(zygote *z, cs_message *message, int memory) {
     z->workers[message->number] = child;
     return ends[0];
   }
-  fail(message, "a picture decoder cannot be forked");
+  fail(message, "a decoder cannot be forked");
   close(ends[0]);
   return -1;
 }
@@ -126,7 +134,7 @@ static celspan_status load(zygote *z, const cs_message_start *start) {
   set_alarm(start->loading);
   if (start->task == CS_WORKER_SAMPLES && !z->colour)
     status = cs_profile_table_module(z->context, &z->colour);
-  else if (start->task != CS_WORKER_SAMPLES && !z->module)
+  else if (start->task < CS_WORKER_SAMPLES && !z->module)
     status = cs_store_module(
         z->context, start->task == CS_WORKER_WRITES ? CELSPAN_OUTPUT : CELSPAN_INPUT, &z->module);
   set_alarm(0);

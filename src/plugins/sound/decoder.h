@@ -1,0 +1,19 @@
+/* A sound that ffmpeg decodes in a worker (plugins/isolate/sound_worker.h), as a stream of samples.
+ *
+ * INVARIANT: what the worker sends is checked, because a malicious sound may have taken it over:
+ * the form of the samples has bounds, and infinite samples become 0.
+ */
+#pragma once
+
+#include "frames/video/sound_stream.h"
+
+typedef struct cs_decoder_desc {
+  const char *path;       /* for messages */
+  const char *kind;       /* the name of its format in ffmpeg */
+  int descriptor;         /* of the file; borrowed until it is open */
+  int32_t rate, channels; /* that are wanted; 0: those of the file */
+} cs_decoder_desc;
+
+/* Errors: those of cs_sound_open. */
+CELSPAN_CHECKED celspan_status cs_decoder_open(celspan_context *context,
+                                               const cs_decoder_desc *desc, cs_sound_stream *out);

@@ -1,0 +1,96 @@
+#include "plugins/sound/sound.h"
+
+#include <fcntl.h>
+#include <math.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/open.h"
+#include "plugins/sound/decoder.h"
+#include "plugins/sound/kind.h"
+
+/* ---------------------------------------------------------------- finding */
+
+static celspan_status refuse_opening(celspan_context *context, const char *path, const char *tried,
+                                     int error) {
+  return cs_fail(context, CELSPAN_INPUT, "the sound %s cannot be opened: %s%s%s", path,
+                 strerror(error), tried ? "; also looked for at " : "", tried ? tried : "");
+}
+
+/* *kind: its format. The descriptor is not one of the standard streams. */
+static celspan_status recognize(celspan_context *context, const char *path, int descriptor,
+                                const char **kind) {
+  struct stat found;
+  if (fstat(descriptor, &found) != 0)
+    return refuse_opening(context, path, NULL, errno);
+  if (S_ISDIR(found.st_mode))
+    return refuse_opening(context, path, NULL, EISDIR);
+  if (!S_ISREG(found.st_mode))
+    return cs_fail(context, CELSPAN_INPUT, "the sound %s is not a file; a sound must be one", path);
+  *kind = cs_sound_kind(descriptor);
+  if (!*kind && errno)
+    return cs_fail(context, CELSPAN_INPUT, "the sound %s cannot be read: %s", path,
+                   strerror(errno));
+  if (!*kind)
+    return cs_fail(context, CELSPAN_INPUT,
+                   "the sound %s has none of the formats that are read, which are found by the "
+                   "first bytes of a file and not by its name: convert it to " CS_SOUND_KINDS,
+                   path);
+  return CELSPAN_OK;
+}
+
+/* *descriptor: of the sound, and *kind its format, if the result is OK. */
+static celspan_status open_file(celspan_context *context, const char *path, const char *tried,
+                                int *descriptor, const char **kind) {
+  *descriptor = cs_open_to_read(path);
+  if (*descriptor < 0)
+    return refuse_opening(context, path, tried, errno);
+  celspan_status status = recognize(context, path, *descriptor, kind);
+  if (status != CELSPAN_OK)
+    close(*descriptor);
+  return status;
+}
+
+celspan_status cs_sound_find(celspan_context *context, const char *path, const char *tried) {
+  const char *kind;
+  int descriptor;
+  CS_TRY(open_file(context, path, tried, &descriptor, &kind));
+  close(descriptor);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- decoding */
+
+celspan_status cs_sound_open(celspan_context *context, const cs_sound_request *request,
+                             cs_sound_stream *out) {
+  const char *kind;
+  int descriptor;
+  *out = (cs_sound_stream){.user = NULL};
+  CS_TRY(open_file(context, request->path, NULL, &descriptor, &kind));
+  const cs_decoder_desc desc = {.path = request->path,
+                                .kind = kind,
+                                .descriptor = descriptor,
+                                .rate = request->rate,
+                                .channels = request->channels};
+  celspan_status status = cs_decoder_open(context, &desc, out);
+  close(descriptor);
+  return status;
+}
+
+celspan_status cs_sound_check(celspan_context *context, const char *path, double seconds) {
+  float part[4096];
+  cs_sound_stream samples;
+  celspan_status status = cs_sound_open(context, &(cs_sound_request){.path = path}, &samples);
+  if (status == CELSPAN_OUTPUT)
+    return CELSPAN_OK;
+  if (status != CELSPAN_OK)
+    return status;
+  size_t most = sizeof part / sizeof *part / (size_t)samples.channels, got = most;
+  for (double left = ceil(seconds * samples.rate); left > 0 && got == most; left -= (double)got) {
+    status = samples.read(samples.user, context, part, most, &got);
+    if (status != CELSPAN_OK)
+      break;
+  }
+  cs_sound_stream_close(&samples);
+  return status;
+}

@@ -1,0 +1,28 @@
+/* The sound files of films: the one place where they are opened and decoded.
+ *
+ *   file --kind.h--> its format --plugins/isolate/sound_worker.h--> decoder.h --> cs_sound_stream
+ *
+ * INVARIANT: a sound is opened here, and nothing else opens it by its name. Pipes, devices and
+ * folders are refused at once. A decoder that sends no more samples is ended after the time limit
+ * of pictures, and ends with this program in any case.
+ */
+#pragma once
+
+#include "frames/video/sound_stream.h"
+
+typedef struct cs_sound_request {
+  const char *path;
+  int32_t rate, channels; /* that are wanted; 0: those of the file */
+} cs_sound_request;
+
+/* Checks that the file can be opened and has one of the formats. tried: other paths that do not
+ * exist either, or NULL. Errors: INPUT. */
+CELSPAN_CHECKED celspan_status cs_sound_find(celspan_context *context, const char *path,
+                                             const char *tried);
+/* Starts to decode the sound; its first samples are there. Errors: INPUT, with the message of
+ * ffmpeg; LIMIT; OUTPUT, if there is no ffmpeg; NO_MEMORY; CANCELLED. */
+CELSPAN_CHECKED celspan_status cs_sound_open(celspan_context *context,
+                                             const cs_sound_request *request, cs_sound_stream *out);
+/* Decodes at most that many seconds of the sound; OK if there is no ffmpeg. Errors: as above. */
+CELSPAN_CHECKED celspan_status cs_sound_check(celspan_context *context, const char *path,
+                                              double seconds);

@@ -1,0 +1,175 @@
+/* A program in the place of ffmpeg for tests of the code that decodes sounds: it does what the word
+ * after the first eight bytes of the sound says.
+ *
+ *   try      tries what the kernel should not allow, and names on standard error what it could do
+ *   hang     sends nothing, and never ends
+ *   starve   sends the form of the samples and some of them, and then hangs
+ *   fork     starts a process that leaves the group and outlives it, and ends
+ *   eat      uses memory until none is left
+ *   babble   sends bytes that are no samples
+ *   shout    writes to standard error without end
+ *   wide     sends a form with more channels than there may be
+ *   odd      sends infinite samples and a part of one, and ends well
+ *   long     sends samples without end
+ *
+ * Started by a test itself, with the word as argument, it does the same without confinement.
+ */
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ptrace.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { SOUND = 3, PIECE = 1 << 20 };
+
+/* ---------------------------------------------------------------- tries */
+
+static int can_open(const char *name, int flags) {
+  int descriptor = open(name, flags, 0600);
+  if (descriptor >= 0)
+    close(descriptor);
+  return descriptor >= 0;
+}
+
+static int read_script(void) { return can_open("film.lua", O_RDONLY); }
+static int read_passwords(void) { return can_open("/etc/passwd", O_RDONLY); }
+static int read_environment(void) { return can_open("/proc/self/environ", O_RDONLY); }
+static int list_folder(void) { return can_open(".", O_RDONLY | O_DIRECTORY); }
+static int write_sound(void) { return can_open("/proc/self/fd/3", O_WRONLY); }
+static int make_file(void) { return can_open("made", O_WRONLY | O_CREAT) && unlink("made") == 0; }
+static int make_folder(void) { return mkdir("made", 0700) == 0 && rmdir("made") == 0; }
+static int rename_script(void) {
+  return rename("film.lua", "moved") == 0 && rename("moved", "film.lua") == 0;
+}
+static int open_socket(void) { return socket(AF_INET, SOCK_STREAM, 0) >= 0; }
+static int open_local_socket(void) { return socket(AF_UNIX, SOCK_STREAM, 0) >= 0; }
+static int signal_parent(void) { return kill(getppid(), 0) == 0; }
+static int trace_parent(void) {
+  return ptrace(PTRACE_SEIZE, getppid(), NULL, NULL) == 0 || errno != EPERM;
+}
+
+/* In a process of its own, whose exit code 0 means that it could. */
+static int could(int (*act)(void)) {
+  int status = 1;
+  pid_t child = fork();
+  if (child == 0)
+    _exit(act() ? 0 : 1);
+  return child > 0 && waitpid(child, &status, 0) == child && status == 0;
+}
+
+static int exec_true(void) {
+  execl("/usr/bin/true", "true", (char *)NULL);
+  return 0;
+}
+static int start_program(void) { return could(exec_true); }
+static int make_session(void) { return setsid() >= 0; }
+static int leave_group(void) { return could(make_session); }
+
+static void try_all(void) {
+  static const struct {
+    const char *name;
+    int (*act)(void);
+  } tries[] = {{"read the script", read_script},
+               {"read passwords", read_passwords},
+               {"read its environment", read_environment},
+               {"list the folder", list_folder},
+               {"write the sound", write_sound},
+               {"make a file", make_file},
+               {"make a folder", make_folder},
+               {"rename the script", rename_script},
+               {"open a socket", open_socket},
+               {"open a local socket", open_local_socket},
+               {"signal its parent", signal_parent},
+               {"trace its parent", trace_parent},
+               {"start a program", start_program},
+               {"leave its group", leave_group}};
+  int count = 0, all = (int)(sizeof tries / sizeof *tries);
+  for (int i = 0; i < all; i++)
+    if (tries[i].act()) {
+      fprintf(stderr, "could %s, ", tries[i].name);
+      count++;
+    }
+  fprintf(stderr, "%d of %d\n", count, all);
+  exit(1);
+}
+
+/* ---------------------------------------------------------------- samples */
+
+/* A form with this number of channels, and a second of samples with this value. */
+static void send_samples(int channels, float value) {
+  unsigned char head[44] = "RIFF\377\377\377\377WAVEfmt \20\0\0\0\3";
+  head[22] = (unsigned char)channels;
+  head[24] = 0x40; /* 8,000 */
+  head[25] = 0x1f;
+  head[34] = 32;
+  memcpy(head + 36, "data\377\377\377\377", 8);
+  fwrite(head, 1, sizeof head, stdout);
+  for (int i = 0; i < 8000; i++)
+    fwrite(&value, sizeof value, 1, stdout);
+  fflush(stdout);
+}
+
+static _Noreturn void wait_for_ever(void) {
+  for (;;)
+    pause();
+}
+
+/* ---------------------------------------------------------------- what it does */
+
+static void fork_away(void) {
+  if (fork() == 0) {
+    setsid();
+    close(STDOUT_FILENO);
+    close(STDERR_FILENO);
+    wait_for_ever();
+  }
+  send_samples(1, 0);
+}
+
+static void eat(void) {
+  for (char *piece; (piece = malloc(PIECE));)
+    memset(piece, 1, PIECE);
+  fputs("Cannot allocate memory\n", stderr);
+  exit(1);
+}
+
+static void act(const char *word) {
+  if (strcmp(word, "try") == 0)
+    try_all();
+  else if (strcmp(word, "hang") == 0)
+    wait_for_ever();
+  else if (strcmp(word, "fork") == 0)
+    fork_away();
+  else if (strcmp(word, "eat") == 0)
+    eat();
+  else if (strcmp(word, "babble") == 0)
+    puts("nothing that is a sound");
+  else if (strcmp(word, "wide") == 0)
+    send_samples(65, 0);
+  else if (strcmp(word, "odd") == 0) {
+    send_samples(1, INFINITY);
+    fputs("\1\2\3", stdout);
+  } else {
+    send_samples(1, 0);
+    while (strcmp(word, "shout") == 0)
+      fputs("louder ", stderr);
+    while (strcmp(word, "long") == 0)
+      send_samples(1, 0);
+    wait_for_ever();
+  }
+}
+
+int main(int count, char **arguments) {
+  char word[16] = "";
+  ssize_t size = count == 2 ? -1 : pread(SOUND, word, sizeof word - 1, 8);
+  word[size > 0 ? size : 0] = '\0';
+  act(count == 2 ? arguments[1] : word);
+  return 0;
+}
