@@ -3,7 +3,9 @@
 --   ease "inOutQuad" (u)      tween.lua's names
 --   ease "quadinout" (u)      flux's names
 --   ease "in-out-quad" (u)    hump.timer's names
---   ease "linear", ease "steps:4", ease "bezier:.4,0,.2,1", ease(function)
+--   ease "easeInOutQuad" (u)  Penner's names
+--   ease "ease-in-out" (u)    CSS's names: ease, ease-in, ease-out, ease-in-out
+--   ease "linear", ease "hold", ease "steps:4", ease "bezier:.4,0,.2,1", ease(function)
 --
 -- A curve starts at 0 for u <= 0 and ends at 1 for u >= 1; back and elastic overshoot between.
 local core = require "celspan.core"
@@ -68,7 +70,8 @@ local function held(f)
   end
 end
 
-local names, curves = { "linear" }, { linear = held(function(u) return u end) }
+local names = { "linear", "hold" }
+local curves = { linear = held(function(u) return u end), hold = held(function() return 0 end) }
 
 for _, family in ipairs { "quad", "cubic", "quart", "quint", "sine", "expo", "circ", "back",
                           "bounce", "elastic" } do
@@ -99,15 +102,8 @@ local function bezier_at(a, b, t)
   return 3 * s * s * t * a + 3 * s * t * t * b + t * t * t
 end
 
---- "bezier:x1,y1,x2,y2" as in CSS: the y where the curve's x is u, by bisection.
-local function bezier(text)
-  local n = {}
-  for word in (text .. ","):gmatch "%s*([^,]*)," do n[#n + 1] = tonumber(word) or 0 / 0 end
-  local x1, y1, x2, y2 = table.unpack(n)
-  local good = #n == 4 and x1 >= 0 and x1 <= 1 and x2 >= 0 and x2 <= 1 and y1 == y1 and y2 == y2
-  if not good then
-    error(("ease: bezier takes x1,y1,x2,y2 with x1 and x2 in 0..1, got %q"):format(text), 3)
-  end
+--- A curve through 0, 0 and 1, 1 with inner control points: the y where its x is u, by bisection.
+local function bezier_curve(x1, y1, x2, y2)
   return held(function(u)
     local low, high = 0, 1
     for _ = 1, 52 do
@@ -116,6 +112,25 @@ local function bezier(text)
     end
     return bezier_at(y1, y2, (low + high) / 2)
   end)
+end
+
+-- CSS Easing Functions Level 1, section 2.2
+for name, points in pairs { ease = { 0.25, 0.1, 0.25, 1 }, easein = { 0.42, 0, 1, 1 },
+                            easeout = { 0, 0, 0.58, 1 }, easeinout = { 0.42, 0, 0.58, 1 } } do
+  curves[name] = bezier_curve(table.unpack(points))
+end
+table.move({ "ease", "easein", "easeout", "easeinout" }, 1, 4, #names + 1, names)
+
+--- "bezier:x1,y1,x2,y2" as in CSS.
+local function bezier(text)
+  local n = {}
+  for word in (text .. ","):gmatch "%s*([^,]*)," do n[#n + 1] = tonumber(word) or 0 / 0 end
+  local x1, y1, x2, y2 = table.unpack(n)
+  local good = #n == 4 and x1 >= 0 and x1 <= 1 and x2 >= 0 and x2 <= 1 and y1 == y1 and y2 == y2
+  if not good then
+    error(("ease: bezier takes x1,y1,x2,y2 with x1 and x2 in 0..1, got %q"):format(text), 3)
+  end
+  return bezier_curve(x1, y1, x2, y2)
 end
 
 local function find(name)
@@ -127,11 +142,12 @@ local function find(name)
   if kind == "steps" then return steps(text) end
   if kind == "bezier" then return bezier(text) end
   local plain = name:lower():gsub("[-_ ]", "")
-  local curve = curves[plain]
+  local curve = curves[plain] or curves[plain:match "^ease(.*)$"]
   if curve then return curve end
   local hint = core.nearest(plain, names)
   error(("ease: there is no curve %q%s"):format(name,
-    hint and ("; did you mean %q?"):format(hint) or ""), 3)
+    hint and ("; did you mean %q?"):format(hint)
+      or "; celspan help lua ease describes the names"), 3)
 end
 
 ---@class celspan.ease

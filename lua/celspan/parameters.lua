@@ -64,7 +64,7 @@ local kinds = {
   },
   colour = {
     type = "string",
-    allowed = function() return 'a colour, "#rgb", "#rrggbb" or "#rrggbbaa"' end,
+    allowed = function() return 'a colour, such as "#f80" or "#ff8800"' end,
     read = function(_, text) return pcall(celspan.rgb, text) and text or nil end,
   },
 }

@@ -166,6 +166,7 @@ static cs_exit start_script(cs_script *out, const cs_request *request, const cha
     if (lua_pcall(out->L, 1, 0, 0) != LUA_OK)
       outcome = cs_script_report_start(out->L);
   }
+  out->given = cs_settings_hash(&settings);
   cs_settings_close(out->context, &settings);
   return outcome;
 }

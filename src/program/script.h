@@ -3,6 +3,7 @@
  */
 #pragma once
 
+#include "base/hash.h"
 #include "lua/nouns/lua_film.h"
 #include "lua/sandbox/sandbox.h"
 #include "program/request.h"
@@ -15,6 +16,7 @@ typedef struct cs_script {
   cs_film_info film;        /* its texts live as long as the state */
   int64_t number;           /* of the frame built last */
   cs_film_frame frame;      /* that frame; owned */
+  cs_hash given;            /* of its arguments and the values of its parameters */
   bool is_trusted;          /* it has the whole of Lua */
   cs_sandbox *sandbox;      /* owned; NULL: the whole of Lua without limits */
 } cs_script;

@@ -49,6 +49,21 @@ void cs_settings_close(celspan_context *context, cs_settings *settings) {
   settings->json = NULL;
 }
 
+static void hash_one(void *user, const char *name, const char *value) {
+  if (strcmp(name, "--set") == 0)
+    cs_hash_text(user, value);
+}
+
+cs_hash cs_settings_hash(const cs_settings *settings) {
+  const cs_request *request = settings->request;
+  cs_hash hash = cs_hash_begin(request->script_argument_count);
+  for (size_t i = 0; i < request->script_argument_count; i++)
+    cs_hash_text(&hash, request->script_arguments[i]);
+  cs_hash_bytes(&hash, settings->json, settings->size);
+  cs_request_each(request, hash_one, &hash);
+  return cs_hash_end(hash);
+}
+
 /* ---------------------------------------------------------------- the registry */
 
 /* Appends the table on top of the stack to the one below it. */

@@ -8,6 +8,7 @@
 
 #include <lua.h>
 
+#include "base/hash.h"
 #include "program/request.h"
 
 typedef struct cs_settings {
@@ -21,6 +22,8 @@ typedef struct cs_settings {
  * *out may be closed. */
 cs_exit cs_settings_open(celspan_context *context, const cs_request *request, cs_settings *out);
 void cs_settings_close(celspan_context *context, cs_settings *settings);
+/* Of all that the script is given: its arguments, and the values of its parameters. */
+cs_hash cs_settings_hash(const cs_settings *settings);
 /* Puts them into the registry of a state that has celspan. Raises. */
 void cs_settings_give(lua_State *L, const cs_settings *settings);
 /* After the script: wrong usage, reported, where a setting was refused or no parameters were

@@ -205,8 +205,7 @@ static cs_exit open_log(tiles_job *job) {
   const cs_tile_inputs inputs = {.frame = &job->frame,
                                  .file = request->operands[0],
                                  .is_script = job->is_script,
-                                 .arguments = request->script_arguments,
-                                 .argument_count = request->script_argument_count,
+                                 .given = job->script.given,
                                  .skips_empty = job->skips_empty};
   cs_tile_log_state state = CS_TILE_LOG_NEW;
   celspan_status status = cs_tile_log_find(job->context, &job->pyramid, &inputs, &job->log, &state);

@@ -81,11 +81,9 @@ end
 
 -- ---------------------------------------------------------------- what is right
 
---- Exit codes: an input (the script, its modules) cannot be read; an output; no thread could be
---- started.
-local expected = { [4] = true, [5] = true, [6] = true }
---- The process that writes the pictures may run out of memory.
-local expected_apart = { [4] = true, [5] = true, [6] = true, [33] = true }
+--- Exit codes: an input (the script, its modules) cannot be read; an output; a limit; no thread or
+--- process could be started, or there was no memory.
+local expected = { [4] = true, [5] = true, [6] = true, [33] = true }
 
 --- Not every call's errno is the reported one.
 local others = {
@@ -138,7 +136,7 @@ local function check(format, right, at, lasts, number)
     lasts and " and all after it" or "", errors[number], code, err)
   local _, call = calls()
   if code ~= 0 and not is_end_of_libraries(format, code, err) then
-    assert.is_true((format.is_apart and expected_apart or expected)[code], where)
+    assert.is_true(expected[code], where)
     assert.is_truthy(format.is_apart or is_said(err, number, call, lasts), where .. call)
     assert.is_truthy(err:find("^celspan: "), where)
   end

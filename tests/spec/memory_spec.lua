@@ -181,7 +181,7 @@ describe("a picture in memory", function()
       { "field 'size' must be {width, height} of the pixels, got nil", { pixels = pixels } },
       { "size[1] must be a whole number from 1 to 1048576, got 0",
         { pixels = "", size = { 0, 10 } } },
-      { "size[2] must be a whole number from 1 to 1048576, got 2.5",
+      { "size[2] must be a whole number from 1 to 1048576, got 2.5; math.ceil makes a number whole",
         { pixels = "", size = { 1, 2.5 } } },
       { "field 'pixels' must be a string, got table", { pixels = {}, size = { 1, 1 } } },
       { [[field 'format' must be "rgba8", "rgb8", "grey8", "rgba16" or "rgbaf", got "bgra8"]],

@@ -100,7 +100,7 @@ describe("parameters", function()
       ["speed = { 5, max = 4 }"] = "'speed' has a default that is not a number of at most 4",
       ["side = { 'a', 'b', 'a' }"] = "'side' has the choice \"a\" twice",
       ["tint = { colour = 'red' }"] =
-        "'tint' has a default that is not a colour, \"#rgb\", \"#rrggbb\" or \"#rrggbbaa\"",
+        "'tint' has a default that is not a colour, such as \"#f80\" or \"#ff8800\"",
       ["speed = { 1, most = 4 }"] = "'speed' is a number, which has no field 'most'",
       ["['a-b'] = 1"] = "'a-b' is not a name: letters, digits and _, not beginning with a digit",
       ["a = {}"] = "'a' must be a string, a number, a boolean, a list of strings, or a table with "

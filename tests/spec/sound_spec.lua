@@ -196,10 +196,10 @@ local STRANGE = {
 --- Arguments that name no file of the folder, and a part of the message.
 local MISSING = {
   { "nowhere.wav", "cannot be opened: No such file" },
-  { "../secret.wav", "the sandbox lets scripts read" },
-  { "OUT/secret.wav", "the sandbox lets scripts read" },
-  { "around/secret.wav", "the sandbox lets scripts read" },
-  { "link.wav", "the sandbox lets scripts read" },
+  { "../secret.wav", "scripts in the sandbox can read only" },
+  { "OUT/secret.wav", "scripts in the sandbox can read only" },
+  { "around/secret.wav", "scripts in the sandbox can read only" },
+  { "link.wav", "scripts in the sandbox can read only" },
   { "file:../secret.wav", "cannot be opened: No such file" },
   { "concat:../secret.wav", "cannot be opened: No such file" },
   { "data:audio/wav;base64,UklGRg", "cannot be opened: No such file" },
@@ -208,7 +208,7 @@ local MISSING = {
   { "pipe", "is not a file; a sound must be one" },
   { "/dev/zero", "is not a file; a sound must be one", "--allow /dev" },
   { "dangling.wav", "cannot be opened: No such file" },
-  { "circle.wav", "cannot be opened: " },
+  { "circle.wav", "scripts in the sandbox can read only" },
 }
 
 -- ---------------------------------------------------------------- running

@@ -534,9 +534,9 @@ describe("whatever else a document names", function()
         'an-unheard-of-property "1"' },
       { box 'unheard="a"' .. box 'unheard="b"', 'unheard "a"' },
       { "<style>rect{fill:red;&amp;:hover{fill:blue}}</style>" .. BOX,
-        "style: selectors or at-rules that do not count" },
+        "style: selectors or at-rules that are not supported" },
       { "<style>g{rect{fill:blue}}</style>" .. BOX,
-        "style: selectors or at-rules that do not count" },
+        "style: selectors or at-rules that are not supported" },
     }
   end)
 

@@ -360,16 +360,18 @@ describe("a resumed run", function()
     assert.is_not_nil(read(folder .. "/p/.alive.png.0002.part"))
   end)
 
-  it("distinguishes the arguments of a script from others, if it has procedures", function()
+  it("distinguishes what a script is given from other values, if it has procedures", function()
     local small = write("small.lua", [[
       local celspan = require "celspan"
-      local colour = ...
+      local colour = ... or celspan.parameters { tint = { colour = "#0f0" } }.tint
       return celspan.rostrum{ celspan.cel{ celspan.scanline{ bounds = {0, 0, 9, 9},
         spans = function(y) return { {0, y, colour} } end } } }]])
-    local arguments = "tiles %s --size 20x20 -o %s/p --progress none -- %s"
-    assert_success(arguments, small, folder, "'#f00'")
-    assert_success(arguments, small, folder, "'#f00'")
-    assert.are.equal(2, (celspan(arguments, small, folder, "'#00f'")))
+    local arguments = "tiles %s --size 20x20 -o %s/p%d --progress none %s"
+    for i, way in ipairs { "-- '%s'", "--set 'tint=%s'" } do
+      assert_success(arguments, small, folder, i, way:format "#f00")
+      assert_success(arguments, small, folder, i, way:format "#f00")
+      assert.are.equal(2, (celspan(arguments, small, folder, i, way:format "#00f")))
+    end
   end)
 
   it("names the tile that cannot be written", function()

@@ -12,6 +12,15 @@ describe("ease", function()
       assert.are.equal(expected, ease "in-out-quad" (u))
     end
     assert.are.equal(ease "quad" (0.3), ease "inQuad" (0.3))
+    assert.are.equal(ease "inOutQuad" (0.3), ease "easeInOutQuad" (0.3))
+  end)
+
+  it("knows the names of CSS, and holds", function()
+    for name, points in pairs { ease = ".25,.1,.25,1", ["ease-in"] = ".42,0,1,1",
+                                ["ease-out"] = "0,0,.58,1", ["ease-in-out"] = ".42,0,.58,1" } do
+      assert.are.equal(ease("bezier:" .. points)(0.3), ease(name)(0.3))
+    end
+    assert.are.same({ 0, 0, 1 }, { ease "hold" (0), ease "hold" (0.999), ease "hold" (1) })
   end)
 
   it("starts at 0 and ends at 1, and is constant outside", function()

@@ -115,7 +115,11 @@ static void test_parse(void) {
   CHECK(celspan_paint_parse("#Ff880080", &paint));
   CHECK_NEAR((double)paint.beta, 128.0 / 255, 1e-7);
   CHECK_NEAR((double)paint.pigment[1], 0.2462013, 1e-6);
-  const char *const wrong[] = {"", "#", "f80", "#f8", "#ffff", "#12345g", "#1234567", "#123456789"};
+  CHECK(celspan_paint_parse("#f808", &paint));
+  CHECK_NEAR((double)paint.beta, 136.0 / 255, 1e-7);
+  CHECK(paint.pigment[0] == 1);
+  const char *const wrong[] = {"",       "#",       "f80",      "#f8",
+                               "#fffff", "#12345g", "#1234567", "#123456789"};
   for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
     CHECK(!celspan_paint_parse(wrong[i], &paint));
   CHECK(!celspan_paint_parse(NULL, &paint));

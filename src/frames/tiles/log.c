@@ -51,7 +51,7 @@ static void add_file(cs_hash *hash, const char *path) {
 }
 
 /* Hashes the structure of a scene, and the name, size and time of its pictures. A procedure has no
- * structure: for a scene with procedures, the script and its arguments are hashed too. */
+ * structure: for a scene with procedures, the script and what it is given are hashed too. */
 static void add_scene(cs_hash *hash, const cs_tile_inputs *inputs) {
   const celspan_frame_desc *frame = inputs->frame;
   const celspan_exposure *exposures = frame->exposures;
@@ -64,8 +64,7 @@ static void add_scene(cs_hash *hash, const cs_tile_inputs *inputs) {
   if (!cs_scene_has_procedure(exposures, frame->exposure_count))
     return;
   add_file(hash, inputs->file);
-  for (size_t i = 0; i < inputs->argument_count; i++)
-    cs_hash_text(hash, inputs->arguments[i]);
+  cs_hash_hash(hash, inputs->given);
 }
 
 static void add_shape(cs_hash *hash, const cs_pyramid *pyramid) {

@@ -180,7 +180,8 @@ CELSPAN_API celspan_paint celspan_paint_gel(float r, float g, float b);
 CELSPAN_API celspan_paint celspan_paint_clear(void);
 /* (1-u) p + u q, premultiplied; u is clamped to 0..1. */
 CELSPAN_API celspan_paint celspan_paint_mix(celspan_paint p, celspan_paint q, float u);
-/* "#rgb", "#rrggbb", "#rrggbbaa": sRGB-coded, alpha straight; false when the text is not one. */
+/* "#rgb", "#rgba", "#rrggbb", "#rrggbbaa": sRGB-coded, alpha straight; false when the text is not
+ * one. */
 CELSPAN_API bool celspan_paint_parse(const char *text, celspan_paint *out);
 
 typedef enum celspan_alpha {

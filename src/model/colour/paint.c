@@ -37,15 +37,16 @@ celspan_paint celspan_paint_mix(celspan_paint p, celspan_paint q, float u) {
 
 bool celspan_paint_parse(const char *text, celspan_paint *out) {
   size_t length = text && text[0] == '#' ? strlen(text + 1) : 0;
-  if (length != 3 && length != 6 && length != 8)
+  bool is_short = length == 3 || length == 4, has_alpha = length == 4 || length == 8;
+  if (!is_short && length != 6 && length != 8)
     return false;
   int digits[8];
   for (size_t i = 0; i < length; i++)
     if ((digits[i] = cs_hex_digit(text[1 + i])) < 0)
       return false;
   int codes[4] = {0, 0, 0, 255};
-  for (size_t i = 0; i < (length == 8 ? 4u : 3u); i++)
-    codes[i] = length == 3 ? 17 * digits[i] : 16 * digits[2 * i] + digits[2 * i + 1];
+  for (size_t i = 0; i < (has_alpha ? 4u : 3u); i++)
+    codes[i] = is_short ? 17 * digits[i] : 16 * digits[2 * i] + digits[2 * i + 1];
   float rgb[3];
   for (int c = 0; c < 3; c++)
     rgb[c] = cs_transfer_decode(CELSPAN_TRANSFER_SRGB, (float)codes[c] / 255);
