@@ -174,9 +174,9 @@ describe("a limit of processes", function()
     if present.program "ffmpeg" then asked[3] = "make.lua -o open/a.mp4" end
     for most = 1, 14 do
       for _, arguments in ipairs(asked) do
-        local code, _, err = bench:shell(("cd '%s' && setpriv --reuid=23457 --clear-groups prlimit "
-          .. "--nproc=%d '%s' render %s --progress none")
-          :format(bench.folder, most, workbench.absolute, arguments))
+        local code, _, err = bench:shell(("cd '%s' && %s setpriv --reuid=23457 --clear-groups "
+          .. "prlimit --nproc=%d '%s' render %s --progress none")
+          :format(bench.folder, OPTIONS, most, workbench.absolute, arguments))
         assert.is_true(code == 0 or code == 33, most .. ": " .. err)
         seen[code] = true
       end
