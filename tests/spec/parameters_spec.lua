@@ -60,8 +60,8 @@ describe("parameters", function()
       ["speed=nan"] = "--set: speed is 'nan'; it must be a number from 0 to 4",
       ["on=maybe"] = "--set: on is 'maybe'; it must be true, false, yes, no, 1 or 0",
       ["side=up"] = "--set: side is 'up'; it must be one of left, right",
-      ["tint=red"] = '--set: tint is \'red\'; it must be a colour, "#rgb", "#rrggbb" or '
-        .. '"#rrggbbaa"',
+      ["tint=red"] = '--set: tint is \'red\'; it must be a colour, such as "#f80" or '
+        .. '"#ff8800"',
       ["take="] = "--set: take is ''; it must be the name of a file",
       ["sped=1"] = "--set: the script has no parameter 'sped'; did you mean 'speed'?",
       ["speed"] = "--set: 'speed' is not NAME=VALUE",
