@@ -4,7 +4,7 @@
 --- clockwise. Colours are linear light, but strings are sRGB. It is one file because editors load a
 --- library as a whole.
 
----@alias celspan.colour celspan.paint|string A paint, or "#rgb", "#rrggbb", "#rrggbbaa" (sRGB-coded)
+---@alias celspan.colour celspan.paint|string A paint, or "#rgb", "#rgba", "#rrggbb", "#rrggbbaa" (sRGB-coded)
 ---@alias celspan.surface celspan.colour|celspan.texture The texture of a primitive
 ---@alias celspan.light number[]|string|celspan.paint|celspan.texture|celspan.light_shape {r, g, b}, {r, g, b, a} or "#rrggbb"; an omitted a is 1; or a light with a shape
 ---@alias celspan.shape celspan.object|celspan.rostrum A part of a cel or a boolean: an object, or a rostrum with a size

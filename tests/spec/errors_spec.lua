@@ -409,7 +409,8 @@ describe("the library", function()
     { "multiplane: camera: takes named fields only, but was given a list",
       function() multiplane { film = { 8, 8 }, camera = { 1, 2 } } end },
     { "keys: takes a table, got a cel", function() require "celspan.keys" (celspan.cel {}) end },
-    { 'keys: key 2 cannot have this ease: there is no curve "ot"',
+    { 'keys: key 2 cannot have this ease: there is no curve "ot"; '
+        .. "celspan help lua ease describes the names",
       function() require "celspan.keys" { { 0, 1 }, { 1, 1, "ot" } } end },
     { "motion: wiggle takes a seed, a string or a finite number, got nan",
       function() motion.wiggle(0 / 0) end },
