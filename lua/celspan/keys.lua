@@ -159,10 +159,7 @@ end
 ---@param time number
 ---@return any
 function Track:at(time)
-  fields.self("keys", Track, self, "at")
-  if not fields.is_finite(time) then
-    error("keys: at takes a time, a finite number, got " .. fields.shown(time), 2)
-  end
+  fields.check_at("keys", Track, self, time, "a time")
   time = fold(self, time)
   local i = place(self.keys, time)
   local before, after = self.keys[i], self.keys[i + 1]

@@ -273,7 +273,7 @@ describe("baselines", function()
     }
   end)
 
-  it("are told apart by the lines of the font", function()
+  it("are placed by the lines of the font", function()
     local seen = {}
     for _, word in ipairs { "alphabetic", "middle", "central", "hanging", "mathematical",
       "text-bottom", "text-top" } do

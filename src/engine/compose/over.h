@@ -145,8 +145,8 @@ static inline cs_over_pair cs_over_layer_pair(const cs_stack *stack, size_t laye
   return (cs_over_pair){stack->layers[layer].s, stack->layers[layer].t};
 }
 
-/* Adds the layers of word i of a set to the light of what is in front of them, one by one from the
- * front, until nothing shines through. */
+/* light: of all layers in front of word i of a set. Adds the layers of the word to it, one by one
+ * from the front, until nothing shines through. */
 cs_over_pair cs_over_word_layers(const cs_stack *stack, cs_over_pair light, size_t i,
                                  uint64_t word);
 
