@@ -1,7 +1,6 @@
 -- Promises of docs/trust.md that no other file here tests, and the page itself: every test that it
 -- names exists.
 local markdown = require "tests.support.markdown"
-local present = require "tests.support.present"
 local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
 
