@@ -38,8 +38,8 @@ end
 --- The output of a row: each {name} in OUT is the text in that column.
 local function output_of(row, line, columns)
   local output = request.output:gsub("{([%w_]+)}", function(name)
-    local text = columns[name] and row[columns[name]]
-    if text and (text == "" or text:find "/" or text:find("..", 1, true) or text:find "%c") then
+    local text = row[columns[name]]
+    if text == "" or text:find "/" or text:find("..", 1, true) or text:find "%c" then
       program.usage("--table %s: line %d: column '%s' is '%s': in the name of a file it must not "
         .. "be empty nor have / or .. in it", request.table, line, name, text)
     end
@@ -92,6 +92,12 @@ local function check_header(header, is_parameter)
     if not is_parameter[name] and not request.output:find("{" .. name .. "}", 1, true) then
       program.usage("--table %s: column '%s' is neither a parameter of the script nor {%s} in OUT",
         request.table, name, name)
+    end
+  end
+  for name in request.output:gmatch "{([%w_]+)}" do
+    if not columns[name] then
+      program.usage("--table %s: there is no column '%s' for {%s} in OUT; there are %s",
+        request.table, name, name, table.concat(header, ", "))
     end
   end
   return columns
