@@ -151,7 +151,8 @@ local celspan = require "celspan"
 return celspan.film { size = { 64, 64 }, frames = 2, frame = function(f)
   local list = {}
   for i = 1, f.number == 1 and 1 or 0 do
-    list[i] = celspan.stroke { d = "M0 " .. 3 * i .. "H100", dash = { 0.0001, 0.000025 } }
+    local square = celspan.rect { 9, 9, 9, 9 }
+    for k = 1, 500000 do list[k] = square end
   end
   return celspan.rostrum { celspan.cel(list) } end }
 ]])
@@ -162,5 +163,21 @@ return celspan.film { size = { 64, 64 }, frames = 2, frame = function(f)
       watched("render film.lua --hash --progress none --keep-going --limit " .. limit)
     assert.equal(1, code)
     assert.truthy(out:find "2 %x+\n", out)
+  end)
+
+  it_measures("is enough for any number of dashes: a few are in memory at a time", function()
+    bench:write("film.lua", [[
+local celspan = require "celspan"
+local list = {}
+for i = 1, 4 do
+  list[i] = celspan.stroke { d = "M0 " .. 3 * i .. "H64", dash = { 0.0016, 0.0004 } }
+end
+local rostrum = celspan.rostrum { celspan.cel(list) }
+return celspan.film { size = { 64, 16 }, frame = function() return rostrum end }
+]])
+    local code, out, bytes = watched("render film.lua --hash --progress none --workers 1 "
+      .. "--limit memory=8M --limit render-memory=32M")
+    assert.equal(0, code, out)
+    assert.is_true(bytes < 1.5 * (40 << 20), bytes)
   end)
 end)

@@ -22,6 +22,8 @@
 
 #define LAYERS_LEAST 8
 #define ROWS_LEAST 20 /* of the frame, for each piece of the outlines, on the average */
+#define BESIDE                                                                                     \
+  0x1p-6 /* pixels beside the columns asked for, for rounding: many dashes may be there */
 #define DEPTH_LEAST 6 /* halvings of light; a tile dies at CS_THROUGH_OPAQUE */
 
 /* ---------------------------------------------------------------- in the words of the cull */
@@ -95,7 +97,7 @@ static bool pays(const cs_compiler *c) {
 static CELSPAN_CHECKED celspan_status cull_hidden(cs_compiler *c) {
   const cs_stack *stack = &c->plan->stack;
   cs_memory *memory = c->context->memory;
-  if (!pays(c))
+  if (c->plan->is_crowded || !pays(c))
     return CELSPAN_OK;
   size_t layers = stack->layer_count, groups = stack->group_count, trees = stack->tree_count;
   hidden h = {stack, cs_mem_array(memory, layers, sizeof *h.layers),
@@ -230,14 +232,17 @@ static celspan_status compile_rostrum(cs_compiler *c, const celspan_rostrum *ros
 }
 
 static void begin(cs_compiler *c, cs_boundary_builder *boundaries, celspan_context *context,
-                  cs_plan *plan, int32_t first_row, int32_t end_row) {
+                  cs_plan *plan, const cs_view *view) {
   double margin = plan->margin;
   *c = (cs_compiler){.context = context,
                      .plan = plan,
                      .boundaries = boundaries,
                      .frame = {-margin, plan->width + margin, -margin, plan->height + margin},
-                     .first_height = first_row - margin - 1, /* a pixel more, against rounding */
-                     .end_height = end_row + margin + 1,
+                     .first_height = view->first_row - margin - 1, /* a pixel more, for rounding */
+                     .end_height = view->end_row + margin + 1,
+                     .first_place = view->first_column - margin - BESIDE,
+                     .end_place = view->end_column + margin + BESIDE,
+                     .most_dashes = view->most_dashes,
                      .group = CS_STACK_NONE,
                      .compile_nested = compile_film};
   cs_boundary_init(&plan->boundaries);
@@ -264,7 +269,7 @@ celspan_status cs_compile(celspan_context *context, const celspan_rostrum *rostr
   }
   cs_compiler c;
   cs_boundary_builder boundaries;
-  begin(&c, &boundaries, context, &plan, view->first_row, view->end_row);
+  begin(&c, &boundaries, context, &plan, view);
   c.workers = workers;
   plan.stack.span_error = view->span_error;
   return finish(&c, compile_rostrum(&c, rostrum, view->film_width, view->film_height), out);
@@ -290,7 +295,8 @@ static celspan_status compile_alone(void *user, const cs_defocus_job *job, cs_pl
                   .borrows_defocus = job->front != NULL};
   cs_compiler c;
   cs_boundary_builder boundaries;
-  begin(&c, &boundaries, outer->context, &plan, 0, job->height);
+  const cs_view view = {.end_row = job->height, .end_column = job->width, .most_dashes = SIZE_MAX};
+  begin(&c, &boundaries, outer->context, &plan, &view);
   c.front_plan = job->front;
   c.workers = 1;
   c.cel = outer->cel;

@@ -37,6 +37,8 @@ struct cs_compiler {
   cs_boundary_frame frame;
   cs_boundary_builder *boundaries; /* of the plan, in the frame; shared by copies */
   double first_height, end_height; /* of the rows that will be asked for, with their margin */
+  double first_place, end_place;   /* of the columns */
+  size_t most_dashes;              /* with more in view, the plan is crowded */
   size_t cel;                      /* from 1; it and the mark are for messages */
   cs_mark mark;                    /* of the cel; borrowed */
   cs_v4 front;

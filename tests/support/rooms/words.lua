@@ -23,6 +23,8 @@ words.list = {
                "program/farm", "program/join", "program/re", "program/view" } },
   { word = "band", means = "node rows of a defocused cel's grid that are kept together",
     places = { "engine/defocus/", "engine/sample/defocused" } },
+  { word = "pane", means = "a part of a crowded frame, compiled by itself",
+    places = { "frames/render/" } },
   { word = "block", means = "64 x 64 texels of a picture, or a block of the deflate format",
     places = { "model/pictures/", "engine/sample/", "engine/paint/painter", "output/deflate/",
                "tools/trace/colours" } },
