@@ -15,10 +15,9 @@
 #include "lua/module/core.h"
 #include "model/scene/inspect.h"
 #include "model/scene/scene.h"
-#include "plugins/sound/sound.h"
 #include "program/service.h"
+#include "program/soundtrack.h"
 #include "program/target.h"
-#include "program/video_target.h"
 #include "program/view.h"
 
 typedef struct film {
@@ -128,12 +127,7 @@ static int refuse_view(lua_State *L) {
 /* film:check_sound() -> the exit code of what is wrong with the sound, which is reported; 0 */
 static int check_sound(lua_State *L) {
   film *f = self(L);
-  const char *path = NULL;
-  const cs_film_info *info = &f->script.film;
-  double heard = (double)info->count / info->frames_second - info->sound_offset;
-  celspan_status status = cs_video_target_sound(&f->script, &path);
-  if (status == CELSPAN_OK && path && f->pictures.is_deep)
-    status = cs_sound_check(f->script.context, path, heard);
+  celspan_status status = cs_soundtrack_check(&f->script, f->pictures.is_deep);
   lua_pushinteger(L, cs_report_failure(f->script.context, status, NULL));
   return 1;
 }
