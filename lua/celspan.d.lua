@@ -643,6 +643,19 @@ function frame:on(n) end
 ---@return number
 function frame:random(label, m, n) end
 
+--- A sound of a film, and when it is heard.
+---@class celspan.sound
+---@field [integer] string|celspan.film A file, or a film whose sounds are meant
+---@field at? number Second of the film at which it begins; -1e9 to 1e9; default 0
+---@field from? number Second of the file at which it begins; 0 to 1e9; default 0
+---@field to? number Second of the file at which it ends; more than 0, at most 1e9; default the end of the file
+---@field speed? number 2: twice as fast; the pitch is kept; 0.01 to 100; default 1
+---@field gain? number A factor of the amplitude; 0 to 1000; default 1
+---@field fade? number[] {in, out}; linear in amplitude; default {0, 0}
+---@field pan? number -1: left, 1: right, with constant power; -1 to 1; default 0
+---@field name? string For `duck`
+---@field duck? string The name of sounds that are 12 dB lower while this one sounds
+
 ---@class celspan.film.fields
 ---@field size? integer[] {w, h}; 1 to 1048576; default {1920, 1080}
 ---@field fps? number Frames per second; more than 0, at most 1000000; default 24

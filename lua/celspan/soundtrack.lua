@@ -36,11 +36,11 @@ local function gain_of(sound)
 end
 
 --- The one sound of a file.
-local function of_file(sound, number)
+local function of_file(sound)
   local start = sound.at - sound.from / sound.speed
   local left, right = gain_of(sound)
   return { {
-    path = sound.path, tried = sound.tried, number = number, start = start, speed = sound.speed,
+    path = sound.path, tried = sound.tried, number = sound.number, start = start, speed = sound.speed,
     from = sound.from, left = left, right = right, duckers = {},
     windows = { { sound.at, sound.to and start + sound.to / sound.speed or math.huge,
       sound.fade_in, sound.fade_out } },
@@ -95,7 +95,7 @@ function flatten(film)
   local items, all = {}, {}
   for i, sound in ipairs(core.sounds(film)) do
     sound.at = sound.at + film.sound_offset
-    local list = sound.path and of_file(sound, i) or of_film(sound)
+    local list = sound.path and of_file(sound) or of_film(sound)
     items[i] = { sound = sound, list = list }
     table.move(list, 1, #list, #all + 1, all)
     if #all > MOST then

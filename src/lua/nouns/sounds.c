@@ -22,10 +22,10 @@ typedef struct sound_form {
 #define SECONDS(member) CS_NUMBER(sound_form, member), .least = 0, .most = MOST_SECONDS
 static const cs_field fields[] = {
     {"at", CS_NUMBER(sound_form, at), .least = -MOST_SECONDS, .most = MOST_SECONDS, .preset = "0",
-     .about = "Seconds of the film at which it begins"},
-    {"from", SECONDS(from), .preset = "0", .about = "Seconds of the file that are left out"},
+     .about = "Second of the film at which it begins"},
+    {"from", SECONDS(from), .preset = "0", .about = "Second of the file at which it begins"},
     {"to", SECONDS(to), CS_HAS(sound_form, has_to), .is_above = true,
-     .about = "Seconds of the file at which it ends", .fallback = "the end of the file"},
+     .about = "Second of the file at which it ends", .fallback = "the end of the file"},
     {"speed", CS_NUMBER(sound_form, speed), .least = 0.01, .most = 100, .preset = "1",
      .about = "2: twice as fast; the pitch is kept"},
     {"gain", CS_NUMBER(sound_form, gain), .least = 0, .most = 1000, .preset = "1",
@@ -219,6 +219,7 @@ void cs_sounds_push(lua_State *L, int film, const char *folder) {
     for (lua_Integer i = 1; push_item(L, i); lua_settop(L, list + 1), i++)
       if (lua_toboolean(L, -1)) {
         complete(L, folder);
+        cs_put_integer(L, "number", i);
         lua_rawseti(L, list, ++count);
       }
   lua_settop(L, list);

@@ -15,7 +15,7 @@ extern const cs_noun cs_noun_sound;
 
 /* Checks the field `sound` of a film. Raises. */
 void cs_sounds_check(const cs_form *film);
-/* Pushes the list of the field `sound` of the fields of a film, at index: { file or film, path =, tried =,
+/* Pushes the list of the field `sound` of the fields of a film, at index: { file or film, number =, path =, tried =,
  * at =, from =, to = or nil, speed =, gain =, fade_in =, fade_out =, pan =, name =, duck = }.
  * folder: where files are looked for first, or NULL. Raises only where a file may not be read and
  * out of memory. */
