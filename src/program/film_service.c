@@ -275,6 +275,18 @@ static int faults(lua_State *L) {
 
 /* ---------------------------------------------------------------- the film */
 
+/* Sets `marks`: a list { { name =, frame = }, ... } in the order of the frames. */
+static void set_marks(lua_State *L, const cs_film_info *info) {
+  lua_createtable(L, (int)info->mark_count, 0);
+  for (size_t i = 0; i < info->mark_count; i++) {
+    lua_createtable(L, 0, 2);
+    cs_put_text(L, "name", info->marks[i].name);
+    cs_put_integer(L, "frame", info->marks[i].frame);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  lua_setfield(L, -2, "marks");
+}
+
 /* Sets what a celspan.film has. */
 static void set_facts(lua_State *L, const cs_film_info *info) {
   cs_put_integer(L, "first", info->first);
@@ -287,6 +299,7 @@ static void set_facts(lua_State *L, const cs_film_info *info) {
   lua_pushinteger(L, info->height);
   lua_rawseti(L, -2, 2);
   lua_setfield(L, -2, "size");
+  set_marks(L, info);
 }
 
 static int describe(lua_State *L) {
