@@ -1,7 +1,7 @@
 --- The sounds of a film as one flat list, for the mix (src/plugins/sound/mix.h).
 --
 --   film A: voice.wav at 1 s                     voice.wav: start 5 - 2 + 1, heard from 5 to 8
---   film B: { A, at = 5, from = 2, to = 5 }  --> (the window of A in B), and in A's own windows
+--   film B: { A, at = 5, from = 2, to = 5 }  --> (the passage of A in B), and in A's own passages
 --
 -- A sound of a film that is a sound of another one is moved, and heard at another speed, with all
 -- that lies around it.
@@ -16,7 +16,7 @@ local core = require "celspan.core"
 ---@field from number Seconds of the file that are left out
 ---@field left number
 ---@field right number
----@field windows number[][] { begin, end, fade in, fade out }
+---@field passages number[][] { begin, end, fade in, fade out }
 ---@field duckers celspan.soundtrack.sound[]
 
 local soundtrack = {}
@@ -42,16 +42,16 @@ local function of_file(sound)
   return { {
     path = sound.path, tried = sound.tried, number = sound.number, start = start, speed = sound.speed,
     from = sound.from, left = left, right = right, duckers = {},
-    windows = { { sound.at, sound.to and start + sound.to / sound.speed or math.huge,
+    passages = { { sound.at, sound.to and start + sound.to / sound.speed or math.huge,
       sound.fade_in, sound.fade_out } },
   } }
 end
 
---- Whether all windows are open at some time.
-local function is_heard(windows)
+--- Whether all passages are open at some time.
+local function is_heard(passages)
   local first, last = -math.huge, math.huge
-  for _, window in ipairs(windows) do
-    first, last = math.max(first, window[1]), math.min(last, window[2])
+  for _, passage in ipairs(passages) do
+    first, last = math.max(first, passage[1]), math.min(last, passage[2])
   end
   return first < last
 end
@@ -65,14 +65,14 @@ local function of_film(sound)
   local function moved(seconds) return sound.at + (seconds - sound.from) / sound.speed end
   local left, right = gain_of(sound)
   for _, inner in ipairs(flatten(film)) do
-    for i, window in ipairs(inner.windows) do
-      inner.windows[i] = { moved(window[1]), moved(window[2]), window[3] / sound.speed,
-        window[4] / sound.speed }
+    for i, passage in ipairs(inner.passages) do
+      inner.passages[i] = { moved(passage[1]), moved(passage[2]), passage[3] / sound.speed,
+        passage[4] / sound.speed }
     end
-    table.insert(inner.windows, { sound.at, moved(to), sound.fade_in, sound.fade_out })
+    table.insert(inner.passages, { sound.at, moved(to), sound.fade_in, sound.fade_out })
     inner.start, inner.speed = moved(inner.start), inner.speed * sound.speed
     inner.left, inner.right = inner.left * left, inner.right * right
-    if is_heard(inner.windows) then list[#list + 1] = inner end
+    if is_heard(inner.passages) then list[#list + 1] = inner end
   end
   return list
 end

@@ -24,27 +24,27 @@ static const char *text_of(lua_State *L, const char *name) {
 
 /* Memory that lives as long as the table at `list`. */
 static void *keep(lua_State *L, int list, size_t count, size_t size) {
-  void *block = lua_newuserdatauv(L, count * size + 1, 0);
+  void *piece = lua_newuserdatauv(L, count * size + 1, 0);
   lua_rawseti(L, list, (lua_Integer)lua_rawlen(L, list) + 1);
-  return block;
+  return piece;
 }
 
-/* Reads the windows of the sound on top of the stack. */
-static void read_windows(lua_State *L, int kept, cs_mix_sound *out) {
-  lua_getfield(L, -1, "windows");
-  out->window_count = lua_rawlen(L, -1);
-  cs_mix_window *windows = keep(L, kept, out->window_count, sizeof *windows);
-  for (size_t i = 0; i < out->window_count; i++) {
+/* Reads the passages of the sound on top of the stack. */
+static void read_passages(lua_State *L, int kept, cs_mix_sound *out) {
+  lua_getfield(L, -1, "passages");
+  out->passage_count = lua_rawlen(L, -1);
+  cs_mix_passage *passages = keep(L, kept, out->passage_count, sizeof *passages);
+  for (size_t i = 0; i < out->passage_count; i++) {
     double numbers[4];
     lua_rawgeti(L, -1, (lua_Integer)i + 1);
     for (int k = 0; k < 4; k++, lua_pop(L, 1)) {
       lua_rawgeti(L, -1, k + 1);
       numbers[k] = lua_tonumber(L, -1);
     }
-    windows[i] = (cs_mix_window){numbers[0], numbers[1], numbers[2], numbers[3]};
+    passages[i] = (cs_mix_passage){numbers[0], numbers[1], numbers[2], numbers[3]};
     lua_pop(L, 1);
   }
-  out->windows = windows;
+  out->passages = passages;
   lua_pop(L, 1);
 }
 
@@ -68,7 +68,7 @@ static void read_sound(lua_State *L, int kept, cs_mix_sound *out) {
                         .speed = number_of(L, "speed"),
                         .from = number_of(L, "from"),
                         .gain = {number_of(L, "left"), number_of(L, "right")}};
-  read_windows(L, kept, out);
+  read_passages(L, kept, out);
   read_duckers(L, kept, out);
 }
 

@@ -1,4 +1,4 @@
-/* The marks of a film: names for frames, in a block of memory that Lua owns. */
+/* The marks of a film: names for frames, in one piece of memory that Lua owns. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -26,8 +26,10 @@ static void check_mark(const cs_form *film, int64_t first, int64_t count) {
     cs_form_fail(film, "marks must be { title = 1, chase = 49 }, got %s as a name",
                  cs_userdata_type(L, -2));
   if (!is_name(name, length))
-    cs_form_fail(film, "mark %s: a name has 1 to 255 bytes, begins with a letter, and has no "
-                       "comma and no colon", cs_userdata_shown(L, -2));
+    cs_form_fail(film,
+                 "mark %s: a name has 1 to 255 bytes, begins with a letter, and has no "
+                 "comma and no colon",
+                 cs_userdata_shown(L, -2));
   int is_whole;
   lua_Integer frame = lua_tointegerx(L, -1, &is_whole);
   if (!is_whole || lua_type(L, -1) != LUA_TNUMBER || frame < first || frame > first + count - 1)
@@ -44,14 +46,14 @@ static int compare(const void *a, const void *b) {
   return strcmp(x->name, y->name);
 }
 
-/* The block: a count, the marks, their names. */
-typedef struct block {
+/* In one piece: a count, the marks, their names. */
+typedef struct store {
   size_t count;
   cs_film_mark marks[];
-} block;
+} store;
 
-/* Fills the block on top of the stack from the table below it. */
-static void fill(lua_State *L, block *out) {
+/* Fills the store on top of the stack from the table below it. */
+static void fill(lua_State *L, store *out) {
   int table = lua_gettop(L) - 1;
   char *names = (char *)(out->marks + out->count);
   cs_film_mark *mark = out->marks;
@@ -80,14 +82,14 @@ void cs_marks_push(const cs_form *film, int64_t first, int64_t count) {
   }
   if (marks > MOST_MARKS)
     cs_form_fail(film, "field 'marks' has more than %d marks", MOST_MARKS);
-  block *out = lua_newuserdatauv(L, sizeof *out + marks * sizeof *out->marks + bytes, 0);
+  store *out = lua_newuserdatauv(L, sizeof *out + marks * sizeof *out->marks + bytes, 0);
   out->count = marks;
   fill(L, out);
   lua_remove(L, -2);
 }
 
 const cs_film_mark *cs_marks_read(lua_State *L, int index, size_t *count) {
-  const block *marks = lua_touserdata(L, index);
+  const store *marks = lua_touserdata(L, index);
   *count = marks ? marks->count : 0;
   return marks ? marks->marks : NULL;
 }

@@ -77,8 +77,10 @@ static cs_form open_sound(lua_State *L, const cs_noun *noun, sound_form *out) {
   *out = (sound_form){.speed = 1, .gain = 1};
   cs_form form = cs_form_open(L, noun, -1);
   if (cs_form_length(&form) > 1)
-    cs_form_fail(&form, "takes one file, { \"voice.wav\", at = 2 }, got %d: write a list "
-                        "{ { \"a.wav\" }, { \"b.wav\" } }", cs_form_length(&form));
+    cs_form_fail(&form,
+                 "takes one file, { \"voice.wav\", at = 2 }, got %d: write a list "
+                 "{ { \"a.wav\" }, { \"b.wav\" } }",
+                 cs_form_length(&form));
   read_times(&form, out);
   lua_rawgeti(L, form.table, 1);
   return form;

@@ -11,8 +11,6 @@
 #include "frames/film/film.h"
 #include "lua/bind/form.h"
 
-extern const cs_noun cs_noun_sound;
-
 /* Checks the field `sound` of a film. Raises. */
 void cs_sounds_check(const cs_form *film);
 /* Pushes the list of the field `sound` of the fields of a film, at index: { file or film, number =, path =, tried =,
@@ -21,8 +19,8 @@ void cs_sounds_check(const cs_form *film);
  * out of memory. */
 void cs_sounds_push(lua_State *L, int film, const char *folder);
 
-/* Pushes the marks of a film as a block of memory that has their names too, in the order of their
+/* Pushes the marks of a film as one piece of memory that has their names too, in the order of their
  * frames; nil if it has none. first, count: its frames. Raises. */
 void cs_marks_push(const cs_form *film, int64_t first, int64_t count);
-/* The marks of the block at index. */
+/* The marks in the piece at index. */
 const cs_film_mark *cs_marks_read(lua_State *L, int index, size_t *count);

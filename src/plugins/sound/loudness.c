@@ -4,7 +4,7 @@
 
 #include "plugins/sound/sound.h"
 
-enum { BLOCK = 1024, LOW_FREQUENCY = 1 << 3 /* its bit among the places of WAV files */ };
+enum { PIECE = 1024, LOW_FREQUENCY = 1 << 3 /* its bit among the places of WAV files */ };
 #define BEHIND ((uint32_t)0x38730) /* the places beside and behind the listener */
 
 /* A filter of second order: y = b0 x + b1 x' + b2 x'' - a1 y' - a2 y''. */
@@ -26,7 +26,7 @@ typedef struct listening {
   cs_sound_stream samples;
   memory kept[CS_SOUND_STREAM_CHANNELS][2];
   double weights[CS_SOUND_STREAM_CHANNELS];
-  float block[BLOCK * CS_SOUND_STREAM_CHANNELS];
+  float piece[PIECE * CS_SOUND_STREAM_CHANNELS];
   double sum;
 } listening;
 
@@ -71,14 +71,16 @@ static celspan_status add_moment(listening *l, celspan_context *context, const f
 static celspan_status add_all(listening *l, celspan_context *context, const char *path,
                               cs_loudness *out) {
   const int64_t most = (int64_t)CS_LOUDNESS_HOURS * 3600 * CS_LOUDNESS_RATE;
-  size_t got = BLOCK;
-  while (got == BLOCK) {
-    CS_TRY(l->samples.read(l->samples.user, context, l->block, BLOCK, &got));
+  size_t got = PIECE;
+  while (got == PIECE) {
+    CS_TRY(l->samples.read(l->samples.user, context, l->piece, PIECE, &got));
     for (size_t i = 0; i < got; i++)
-      CS_TRY(add_moment(l, context, l->block + i * (size_t)l->samples.channels, out));
+      CS_TRY(add_moment(l, context, l->piece + i * (size_t)l->samples.channels, out));
     if (out->moments > most)
-      return cs_fail(context, CELSPAN_LIMIT, "the sound %s has more than %d hours, which is the "
-                                             "limit", path, CS_LOUDNESS_HOURS);
+      return cs_fail(context, CELSPAN_LIMIT,
+                     "the sound %s has more than %d hours, which is the "
+                     "limit",
+                     path, CS_LOUDNESS_HOURS);
   }
   return CS_APPEND(context, out->sums, out->count, out->capacity, l->sum);
 }

@@ -12,8 +12,8 @@
 
 enum {
   CS_LOUDNESS_RATE = 48000,
-  CS_LOUDNESS_STEP = 480,                 /* moments of a sum */
-  CS_LOUDNESS_HOURS = 24                  /* of a sound, at most */
+  CS_LOUDNESS_STEP = 480, /* moments of a sum */
+  CS_LOUDNESS_HOURS = 24  /* of a sound, at most */
 };
 
 typedef struct cs_loudness {

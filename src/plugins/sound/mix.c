@@ -6,7 +6,7 @@
 
 #include "plugins/sound/sound.h"
 
-enum { BLOCK = 4096 /* moments that are mixed at a time */ };
+enum { PIECE = 4096 /* moments that are mixed at a time */ };
 
 /* One sound while it is mixed. Places are in moments of the film. */
 typedef struct part {
@@ -26,8 +26,8 @@ typedef struct mix {
   int64_t place, end;    /* of the next moment, and after the last one */
   pthread_mutex_t mutex; /* held while samples are opened or closed, and by `stop` */
   bool stops;            /* protected by the mutex */
-  double sum[BLOCK * CS_MIX_CHANNELS];
-  float samples[BLOCK * CS_MIX_CHANNELS];
+  double sum[PIECE * CS_MIX_CHANNELS];
+  float samples[PIECE * CS_MIX_CHANNELS];
 } mix;
 
 static int64_t moment_of(double seconds) { return llround(seconds * CS_MIX_RATE); }
@@ -59,9 +59,9 @@ static celspan_status count_moments(celspan_context *context, const cs_mix_sound
   cs_sound_stream samples;
   CS_TRY(open_samples(context, sound, &samples));
   celspan_status status = CELSPAN_OK;
-  size_t got = BLOCK;
-  for (*out = 0; status == CELSPAN_OK && got == BLOCK && *out < most; *out += (int64_t)got)
-    status = samples.read(samples.user, context, scratch, BLOCK, &got);
+  size_t got = PIECE;
+  for (*out = 0; status == CELSPAN_OK && got == PIECE && *out < most; *out += (int64_t)got)
+    status = samples.read(samples.user, context, scratch, PIECE, &got);
   cs_sound_stream_close(&samples);
   return status;
 }
@@ -69,8 +69,8 @@ static celspan_status count_moments(celspan_context *context, const cs_mix_sound
 /* The last second of the film that can matter to how the sound is heard. */
 static double last_second(const mix *m, const cs_mix_sound *sound) {
   double last = (double)m->end / CS_MIX_RATE;
-  for (size_t i = 0; i < sound->window_count; i++)
-    last = fmin(last, sound->windows[i].end);
+  for (size_t i = 0; i < sound->passage_count; i++)
+    last = fmin(last, sound->passages[i].end);
   return last;
 }
 
@@ -98,9 +98,9 @@ static celspan_status refuse_from(celspan_context *context, const cs_mix_sound *
 /* Whether it is heard in the mix, or close enough to duck what is. */
 static bool matters(const mix *m, const cs_mix_sound *sound) {
   double first = (double)m->place / CS_MIX_RATE, last = (double)m->end / CS_MIX_RATE;
-  for (size_t i = 0; i < sound->window_count; i++)
-    if (sound->windows[i].begin > last + CS_MIX_DUCK_SECONDS ||
-        sound->windows[i].end < first - CS_MIX_DUCK_SECONDS)
+  for (size_t i = 0; i < sound->passage_count; i++)
+    if (sound->passages[i].begin > last + CS_MIX_DUCK_SECONDS ||
+        sound->passages[i].end < first - CS_MIX_DUCK_SECONDS)
       return false;
   return true;
 }
@@ -108,28 +108,28 @@ static bool matters(const mix *m, const cs_mix_sound *sound) {
 /* Finds out when the sound ends. */
 static celspan_status measure(mix *m, celspan_context *context, part *p) {
   const cs_mix_sound *sound = &p->sound;
-  double last = last_second(m, sound) + sound->windows[0].fade_out;
-  int64_t most = moment_of(fmax(last, sound->windows[0].begin) - sound->start) + 1;
+  double last = last_second(m, sound) + sound->passages[0].fade_out;
+  int64_t most = moment_of(fmax(last, sound->passages[0].begin) - sound->start) + 1;
   int64_t moments = known_moments(m, p, most);
   if (moments < 0)
     CS_TRY(count_moments(context, sound, most, m->samples, &moments));
   p->end = sound->start + (double)moments / CS_MIX_RATE;
   p->is_whole = moments < most;
-  if (sound->from > 0 && p->origin + moments <= moment_of(sound->windows[0].begin))
+  if (sound->from > 0 && p->origin + moments <= moment_of(sound->passages[0].begin))
     return refuse_from(context, sound, moments);
   return CELSPAN_OK;
 }
 
-static double window_end(const part *p, size_t i) {
-  double end = p->sound.windows[i].end;
+static double passage_end(const part *p, size_t i) {
+  double end = p->sound.passages[i].end;
   return i == 0 ? fmin(end, p->end) : end;
 }
 
 static void set_heard(part *p) {
   p->heard = INT64_MIN;
   p->silent = INT64_MAX;
-  for (size_t i = 0; i < p->sound.window_count; i++) {
-    int64_t begin = moment_of(p->sound.windows[i].begin), end = moment_of(window_end(p, i));
+  for (size_t i = 0; i < p->sound.passage_count; i++) {
+    int64_t begin = moment_of(p->sound.passages[i].begin), end = moment_of(passage_end(p, i));
     p->heard = begin > p->heard ? begin : p->heard;
     p->silent = end < p->silent ? end : p->silent;
   }
@@ -141,12 +141,12 @@ static double fade_at(double distance, double length) {
   return length > 0 ? fmax(0, fmin(1, distance / length)) : 1;
 }
 
-static double windows_at(const part *p, double seconds) {
+static double passages_at(const part *p, double seconds) {
   double gain = 1;
-  for (size_t i = 0; i < p->sound.window_count; i++) {
-    const cs_mix_window *window = &p->sound.windows[i];
-    gain *= fade_at(seconds - window->begin, window->fade_in) *
-            fade_at(window_end(p, i) - seconds, window->fade_out);
+  for (size_t i = 0; i < p->sound.passage_count; i++) {
+    const cs_mix_passage *passage = &p->sound.passages[i];
+    gain *= fade_at(seconds - passage->begin, passage->fade_in) *
+            fade_at(passage_end(p, i) - seconds, passage->fade_out);
   }
   return gain;
 }
@@ -192,7 +192,7 @@ static celspan_status open_part(mix *m, celspan_context *context, part *p) {
   return CELSPAN_OK;
 }
 
-/* Reads up to BLOCK samples; *got: fewer at the end. */
+/* Reads up to PIECE samples; *got: fewer at the end. */
 static celspan_status read_part(mix *m, celspan_context *context, part *p, int64_t count,
                                 size_t *got) {
   CS_TRY(p->samples.read(p->samples.user, context, m->samples, (size_t)count, got));
@@ -206,7 +206,7 @@ static celspan_status skip_to(mix *m, celspan_context *context, part *p, int64_t
   size_t got = 1;
   while (p->place < place && got > 0) {
     int64_t left = place - p->place;
-    CS_TRY(read_part(m, context, p, left < BLOCK ? left : BLOCK, &got));
+    CS_TRY(read_part(m, context, p, left < PIECE ? left : PIECE, &got));
   }
   *is_there = p->place == place;
   return CELSPAN_OK;
@@ -217,7 +217,7 @@ static void add_samples(mix *m, const part *p, int64_t place, size_t count) {
   double *sum = m->sum + (place - m->place) * CS_MIX_CHANNELS;
   for (size_t i = 0; i < count; i++) {
     int64_t at = place + (int64_t)i;
-    double gain = windows_at(p, (double)at / CS_MIX_RATE) * duck_at(m, p, at);
+    double gain = passages_at(p, (double)at / CS_MIX_RATE) * duck_at(m, p, at);
     for (int c = 0; c < CS_MIX_CHANNELS; c++)
       sum[i * CS_MIX_CHANNELS + (size_t)c] +=
           (double)m->samples[i * (size_t)channels + (size_t)(c < channels ? c : 0)] * gain *
@@ -245,7 +245,7 @@ static celspan_status add_part(mix *m, celspan_context *context, part *p, int64_
 
 /* ---------------------------------------------------------------- the stream */
 
-static celspan_status mix_block(mix *m, celspan_context *context, float *out, size_t count) {
+static celspan_status mix_piece(mix *m, celspan_context *context, float *out, size_t count) {
   int64_t end = m->place + (int64_t)count;
   memset(m->sum, 0, count * CS_MIX_CHANNELS * sizeof *m->sum);
   for (size_t i = 0; i < m->count; i++)
@@ -269,8 +269,8 @@ static celspan_status read_mix(void *user, celspan_context *context, float *out,
   for (*got = 0; *got < count && m->place < m->end && !is_stopped(m);) {
     int64_t left = m->end - m->place, wanted = (int64_t)(count - *got);
     int64_t most = wanted < left ? wanted : left;
-    size_t size = (size_t)(most < BLOCK ? most : BLOCK);
-    CS_TRY(mix_block(m, context, out + *got * CS_MIX_CHANNELS, size));
+    size_t size = (size_t)(most < PIECE ? most : PIECE);
+    CS_TRY(mix_piece(m, context, out + *got * CS_MIX_CHANNELS, size));
     *got += size;
   }
   return CELSPAN_OK;

@@ -2,10 +2,10 @@
  *
  *   film seconds   0      start       begin                    end
  *                  |        |---------|========================|----------
- *                           first     heard: its windows, its fades, its gains; 12 dB lower
+ *                           first     heard: its passages, its fades, its gains; 12 dB lower
  *                           sample    while a sound is heard that ducks it
  *
- *   sounds --measured, when it is opened--> windows in samples --sum in double--> cs_sound_stream
+ *   sounds --measured, when it is opened--> passages in samples --sum in double--> cs_sound_stream
  *
  * INVARIANT: all sounds were decoded to their end, or to that of the film, before the first moment
  * is given, so what cannot be read is refused before the first frame. A sample depends on the
@@ -25,10 +25,10 @@ enum {
 #define CS_MIX_DUCK_SECONDS 0.1           /* of the ramps before and after */
 
 /* A part of the film in which a sound is heard, in its seconds, with linear fades at its ends. */
-typedef struct cs_mix_window {
+typedef struct cs_mix_passage {
   double begin, end; /* end: INFINITY where it is that of the sound */
   double fade_in, fade_out;
-} cs_mix_window;
+} cs_mix_passage;
 
 typedef struct cs_mix_sound {
   const char *path;
@@ -38,8 +38,8 @@ typedef struct cs_mix_sound {
   double from;       /* seconds of the file that are left out, for messages */
   int number;        /* in the film's list, for messages */
   double gain[CS_MIX_CHANNELS];
-  const cs_mix_window *windows; /* of the sound itself, then those around it: all must be open */
-  size_t window_count;
+  const cs_mix_passage *passages; /* of the sound itself, then those around it: all must be open */
+  size_t passage_count;
   const uint32_t *duckers; /* sounds of the list that make it lower */
   size_t ducker_count;
 } cs_mix_sound;
@@ -48,7 +48,7 @@ typedef struct cs_mix_sound {
 CELSPAN_CHECKED celspan_status cs_mix_find(celspan_context *context, const cs_mix_sound *sounds,
                                            size_t count);
 /* The mix from second `begin` of the film, `moments` of them. sounds: copied, except their paths,
- * windows and duckers, which are borrowed until it is closed. Errors: those of cs_sound_open. */
+ * passages and duckers, which are borrowed until it is closed. Errors: those of cs_sound_open. */
 CELSPAN_CHECKED celspan_status cs_mix_open(celspan_context *context, const cs_mix_sound *sounds,
                                            size_t count, double begin, int64_t moments,
                                            cs_sound_stream *out);

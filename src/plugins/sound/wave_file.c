@@ -5,15 +5,15 @@
 
 #include "output/sinks/file.h"
 
-enum { BLOCK = 4096, HEAD = 58, FLOAT = 3, WHOLE = 1 };
+enum { PIECE = 4096, HEAD = 58, FLOAT = 3, WHOLE = 1 };
 
 typedef struct writing {
   cs_file *file;
   const cs_sound_stream *samples;
   bool is_float;
   double peak;
-  float block[BLOCK];
-  unsigned char bytes[BLOCK * sizeof(float)];
+  float piece[PIECE];
+  unsigned char bytes[PIECE * sizeof(float)];
 } writing;
 
 /* ---------------------------------------------------------------- bytes */
@@ -56,26 +56,26 @@ static unsigned char *put_sample(const writing *w, unsigned char *at, float samp
 
 /* ---------------------------------------------------------------- the file */
 
-static celspan_status write_block(writing *w, celspan_context *context, size_t moments) {
+static celspan_status write_piece(writing *w, celspan_context *context, size_t moments) {
   size_t count = moments * (size_t)w->samples->channels;
   unsigned char *at = w->bytes;
   for (size_t i = 0; i < count; i++) {
-    w->peak = fmax(w->peak, fabs((double)w->block[i]));
-    at = put_sample(w, at, w->block[i]);
+    w->peak = fmax(w->peak, fabs((double)w->piece[i]));
+    at = put_sample(w, at, w->piece[i]);
   }
   return cs_file_write(w->file, context, w->bytes, (size_t)(at - w->bytes));
 }
 
 static celspan_status write_all(writing *w, celspan_context *context, int64_t moments) {
   unsigned char head[HEAD];
-  size_t most = BLOCK / (size_t)w->samples->channels;
+  size_t most = PIECE / (size_t)w->samples->channels;
   CS_TRY(cs_file_write(w->file, context, head, make_head(w, (uint32_t)moments, head)));
   while (moments > 0) {
     size_t got, wanted = moments < (int64_t)most ? (size_t)moments : most;
-    CS_TRY(w->samples->read(w->samples->user, context, w->block, wanted, &got));
+    CS_TRY(w->samples->read(w->samples->user, context, w->piece, wanted, &got));
     if (got < wanted)
       return cs_fail(context, CELSPAN_CANCELLED, "the sound was stopped");
-    CS_TRY(write_block(w, context, got));
+    CS_TRY(write_piece(w, context, got));
     moments -= (int64_t)got;
   }
   return CELSPAN_OK;
