@@ -7,7 +7,7 @@
 -- it; its sounds and marks are moved by name.
 --
 --   shot 1   |==================|               start 0, count 20
---   shot 2                 |=======...          start 20 - n: a transition of n frames overlaps both
+--   shot 2                 |=======...          start 20 - n: n frames of a transition
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
@@ -195,8 +195,8 @@ local function iris_light(centre, low, high, is_second)
     { math.max(0, low) / high, light(inner) }, { 1, light(0) } }
 end
 
---- The second shot is seen in a circle that grows. centre: default the middle of the film; softness:
---- the width of the edge, as a share of the greatest radius.
+--- The second shot is seen in a circle that grows. centre: default the middle of the film;
+--- softness: the width of the edge, as a share of the greatest radius.
 ---@param settings? { centre?: celspan.point, softness?: number }
 ---@return fun(seconds: number): celspan.cut.transition
 function cut.iris(settings)
@@ -315,7 +315,9 @@ local function read_shot(i, part, like)
   end
   fields.check(("cut: part %d"):format(i), part, part_fields, 5)
   local film = part.film
-  if not is_film(film) then complain(i, "field 'film' must be a film, got %s", fields.kind(film)) end
+  if not is_film(film) then
+    complain(i, "field 'film' must be a film, got %s", fields.kind(film))
+  end
   check_frame(i, part, "from", film)
   check_frame(i, part, "to", film)
   local from, to = part.from or film.first, part.to or film.first + film.frames - 1

@@ -1,4 +1,4 @@
---- How loud a sound is at a moment, and when something begins in it: for drawings that move with it.
+--- How loud a sound is at a moment, and when something begins in it, for drawings that follow it.
 --
 --   local voice = assert(sound.read "voice.wav")
 --   local mouth = voice:loudness(f.time)      -- 0..1
@@ -86,8 +86,8 @@ local function steepest(sums, i)
   return best
 end
 
---- The times at which the sound becomes louder by 6 dB or more at once, such as beats and syllables,
---- to a hundredth of a second; at least a tenth of a second apart.
+--- The times at which the sound becomes louder by 6 dB or more at once, such as beats and
+--- syllables, to a hundredth of a second; at least a tenth of a second apart.
 ---@return number[] seconds
 function Sound:onsets()
   check(self, "onsets")

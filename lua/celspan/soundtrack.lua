@@ -40,8 +40,8 @@ local function of_file(sound)
   local start = sound.at - sound.from / sound.speed
   local left, right = gain_of(sound)
   return { {
-    path = sound.path, tried = sound.tried, number = sound.number, start = start, speed = sound.speed,
-    from = sound.from, left = left, right = right, duckers = {},
+    path = sound.path, tried = sound.tried, number = sound.number, start = start,
+    speed = sound.speed, from = sound.from, left = left, right = right, duckers = {},
     passages = { { sound.at, sound.to and start + sound.to / sound.speed or math.huge,
       sound.fade_in, sound.fade_out } },
   } }

@@ -401,7 +401,7 @@ return celspan.film { size = { 8, 8 }, fps = 4, frames = 12, marks = { title = 1
       ["check film.lua --frames chase"] = "6 frames checked",
       ["sheet film.lua --frames chase"] = "5",
       ["contact film.lua --frames title -o sheet.png"] = "",
-      ["farm film.lua --slurm -o a.####.png --frames chase --chunk 3"] = "6 frames of film.lua in 2",
+      ["farm film.lua --slurm -o a.####.png --frames chase --chunk 3"] = "6 frames of film",
     } do
       local code, out, err = bench:celspan_inside(command)
       assert.are.equal(0, code, err)

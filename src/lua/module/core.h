@@ -42,9 +42,9 @@ int cs_folders_frame_name(lua_State *L);
 
 /* ---------------------------------------------------------------- sounds */
 
-/* What a host gives that can decode sounds: (path, tried | nil) -> seconds, loudness | nil, message.
- * loudness: 8-byte floats, as plugins/sound/loudness.h describes them. Scripts of a state without
- * one cannot read sounds. */
+/* A function of a host that can decode sounds: (path, tried | nil) -> seconds, sums | nil, message.
+ * sums: 8-byte floats, as plugins/sound/loudness.h describes them. Scripts of a state without one
+ * cannot read sounds. */
 #define CS_CORE_HEAR "celspan.hear" /* its name in the registry */
 
 /* ---------------------------------------------------------------- layered documents */

@@ -97,7 +97,7 @@ static const cs_field fields[] = {
      .about = "A file, a sound, or a list of sounds, which are mixed"},
     {"sound_offset", CS_NUMBER(film_form, sound_offset), .least = -MOST_FRAMES, .most = MOST_FRAMES,
      .preset = "0",
-     .about = "Seconds: all sounds begin so much later; a negative value cuts the beginning"},
+     .about = "Seconds by which all sounds begin later; a negative value cuts the beginning"},
     {"marks", CS_OWN("table<string, integer>"),
      .about = "Names of frames, { title = 1 }, for --frames"},
     {"frame", CS_OWN("fun(f: celspan.frame): celspan.exposures"), .is_required = true,

@@ -1,7 +1,7 @@
 /* Samples as a WAV file: 16-bit numbers, or 32-bit floats.
  *
  * INVARIANT: the file appears under its name when it is whole, or not at all. A 16-bit sample is
- * the float times 32,768, rounded to the nearest number and held to -32,768 .. 32,767.
+ * the float times 32,768, rounded to the nearest number within -32,768 .. 32,767.
  */
 #pragma once
 
