@@ -664,7 +664,7 @@ function frame:random(label, m, n) end
 ---@field first? integer The number of the first frame; -1e9 to 1e9; default 1
 ---@field title? string
 ---@field sound? string|celspan.sound|celspan.sound[] A file, a sound, or a list of sounds, which are mixed
----@field sound_offset? number Seconds: all sounds begin so much later; a negative value cuts the beginning; -1e9 to 1e9; default 0
+---@field sound_offset? number Seconds by which all sounds begin later; a negative value cuts the beginning; -1e9 to 1e9; default 0
 ---@field marks? table<string, integer> Names of frames, { title = 1 }, for --frames
 ---@field frame fun(f: celspan.frame): celspan.exposures A pure function of f
 

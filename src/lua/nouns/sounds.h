@@ -13,10 +13,13 @@
 
 /* Checks the field `sound` of a film. Raises. */
 void cs_sounds_check(const cs_form *film);
-/* Pushes the list of the field `sound` of the fields of a film, at index: { file or film, number =,
- * path =, tried =, at =, from =, to = or nil, speed =, gain =, fade_in =, fade_out =, pan =,
- * name =, duck = }. number: its place in the field. folder: where files are looked for first, or NULL. Raises only where a file may not be read and
- * out of memory. */
+/* Pushes the list of the field `sound` of the fields of a film, at index:
+ *
+ *   { file or film, number =, path =, tried =, at =, from =, to = or nil, speed =, gain =,
+ *     fade_in =, fade_out =, pan =, name =, duck = }
+ *
+ * number: its place in the field. folder: where files are looked for first, or NULL. Raises only
+ * where a file may not be read and out of memory. */
 void cs_sounds_push(lua_State *L, int film, const char *folder);
 
 /* Pushes the marks of a film as one piece of memory that has their names too, in the order of their

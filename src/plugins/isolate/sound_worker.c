@@ -65,7 +65,8 @@ static void add_number(const char **arguments, const char *option, int32_t numbe
 }
 
 /* Samples get new times, in the order in which they come, so that ffmpeg adds and drops none
- * because of its time. One filter halves the tempo at most, and sounds best if it doubles it at most. */
+ * because of its time. One filter halves the tempo at most, and sounds best if it doubles it at
+ * most. */
 static void write_filter(double speed, char out[FILTER]) {
   int size = snprintf(out, FILTER, "asetpts=N/SR/TB");
   while (speed > 0 && speed != 1 && size < FILTER) {
