@@ -391,7 +391,7 @@ describe("a sound that cannot be mixed", function()
   end)
 
   it("is refused by the verb if there is none, or its name is no WAV file", function()
-    bench:write("film.lua", FILM .. "return film {}")
+    bench:write("film.lua", FILM .. "return film { sound = {} }")
     for arguments, message in pairs {
       ["-o mix.wav"] = "film.lua: the film has no sound",
       [""] = "%-o is missing: the file to write, such as mix.wav",
@@ -402,7 +402,7 @@ describe("a sound that cannot be mixed", function()
       assert.are.equal(2, code, err)
       assert.truthy(err:find(message), err)
     end
-    bench:write("film.lua", FILM .. "return film { frames = 9, sound = {} }")
+    bench:write("film.lua", FILM .. "return film { frames = 9, sound = { film {} } }")
     local code, _, err = run "sound film.lua -o mix.wav --frames 1-7:2"
     assert.are.equal(2, code, err)
     assert.truthy(err:find "goes with one run of frames", err)

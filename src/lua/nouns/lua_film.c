@@ -9,6 +9,7 @@
 #include "lua/bind/fields.h"
 #include "lua/bind/files.h"
 #include "lua/bind/host.h"
+#include "lua/bind/list.h"
 #include "lua/bind/lua_error.h"
 #include "lua/bind/put.h"
 #include "lua/nouns/nouns.h"
@@ -206,7 +207,8 @@ void cs_lua_film_read(lua_State *L, int film, cs_film_info *out) {
                         .title = read_text(L, table, "title"),
                         .sound = read_text(L, table, "sound"),
                         .sound_offset = read_number(L, table, "sound_offset")};
-  out->has_sound = lua_getfield(L, table, "sound") != LUA_TNIL;
+  int type = lua_getfield(L, table, "sound");
+  out->has_sound = type == LUA_TSTRING || (type == LUA_TTABLE && cs_list_length(L, -1) > 0);
   lua_getiuservalue(L, film, MARKS);
   out->marks = cs_marks_read(L, -1, &out->mark_count);
   lua_settop(L, table - 1);
