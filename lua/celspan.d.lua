@@ -693,7 +693,7 @@ function film:with(changes) end
 function film:at(number) end
 
 ---@class celspan.render.options
----@field frames? string|integer "1-10,20-30:2,45"; default all
+---@field frames? string|integer "1-10,20-30:2,45", "2s-4s" or a mark; default all
 ---@field progress? fun(share: number, frame: integer): boolean? The share of the whole job that is done; false stops
 ---@field format? string Default by the ending of the file
 ---@field depth? 8|16|"half"|"float" Bits, or floats

@@ -577,6 +577,19 @@ function cut.retime(film, list, duration)
   }
 end
 
+---@class celspan.cut.part
+---@field film celspan.film
+---@field from? integer The number of its first frame
+---@field to? integer The number of its last frame
+---@field speed? number 0.01 to 100; default 1
+---@field name? string A mark at the first frame that shows it
+
+---@class celspan.cut.parts
+---@field [integer] celspan.film|celspan.cut.part|celspan.cut.transition
+---@field title? string
+---@field sound? string|celspan.sound|celspan.sound[] In addition to the sounds of the films
+---@field marks? table<string, integer> In addition to those of the films
+
 ---@class celspan.cut
----@overload fun(parts: table): celspan.film
+---@overload fun(parts: celspan.cut.parts): celspan.film
 return fields.seal("cut", setmetatable(cut, { __call = new }))

@@ -4,14 +4,14 @@
 --   local mouth = voice:loudness(f.time)      -- 0..1
 --   local beats = voice:onsets()              -- seconds
 --
--- Loudness is that of EBU R 128, momentary: of the last 0.4 seconds. It is measured in C
--- (src/plugins/sound/loudness.h), as one sum for each hundredth of a second.
+-- Loudness is that of EBU R 128, momentary: of the last 0.4 seconds.
 local core = require "celspan.core"
 local fields = require "celspan.fields"
 
 local sound = {}
 
-local STEP = 0.01 -- seconds of a sum
+-- The sums of src/plugins/sound/loudness.h, one for each step.
+local STEP = 0.01 -- seconds
 local MOMENTS = 480 -- of a step
 local WINDOW = 0.4 -- seconds
 local QUIET = -60 -- LUFS that is 0

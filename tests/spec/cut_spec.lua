@@ -93,6 +93,31 @@ describe("a cut", function()
     end
   end)
 
+  it("has the same digests whole and frame by frame, on any number of workers", function()
+    local bench = workbench.new()
+    bench:write("film.lua", [[
+local celspan, cut = require "celspan", require "celspan.cut"
+local function shot(colour)
+  return celspan.film { size = { 32, 18 }, frames = 8, frame = function(f)
+    return celspan.rostrum { back = colour, celspan.cel { celspan.circle {
+      centre = { 3 * f.number, 9.3 }, radius = 4 + f:random "r", texture = "#f80c" } } }
+  end }
+end
+return cut { shot "#123", cut.iris { softness = 0.3 }(0.1), shot "#642", cut.wipe { angle = 33 }(0.1),
+  shot "#123", cut.dissolve(0.1), { film = shot "#9ab", to = 4, speed = 0.5 } }]])
+    local code, whole = bench:celspan_inside "render film.lua --hash --workers 2 --progress none"
+    assert.are.equal(0, code, whole)
+    local list = {}
+    for number in whole:gmatch "(%d+) %x+\n" do
+      local _, alone = bench:celspan_inside("render film.lua --hash --progress none --frames %s",
+        number)
+      list[#list + 1] = alone
+    end
+    assert.are.equal(26, #list)
+    assert.are.equal(whole, table.concat(list))
+    bench:remove()
+  end)
+
   it("can be a shot of another one", function()
     local a, b = numbered(4), numbered(20, { first = 11 })
     local inner = cut { { film = b, to = 12 }, a }

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <pthread.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "plugins/sound/sound.h"
@@ -31,6 +32,18 @@ typedef struct mix {
 } mix;
 
 static int64_t moment_of(double seconds) { return llround(seconds * CS_MIX_RATE); }
+
+/* ---------------------------------------------------------------- failures */
+
+/* Puts the place of the sound before the sentence. */
+static celspan_status name_sound(celspan_context *context, const cs_mix_sound *sound,
+                                 celspan_status status) {
+  char sentence[CS_ERROR_SIZE];
+  if (status != CELSPAN_INPUT)
+    return status;
+  snprintf(sentence, sizeof sentence, "%s", context->error);
+  return cs_fail(context, status, "film: sound %d: %s", sound->number, sentence);
+}
 
 /* ---------------------------------------------------------------- lengths */
 
@@ -90,9 +103,8 @@ static celspan_status refuse_from(celspan_context *context, const cs_mix_sound *
                                   int64_t moments) {
   double seconds = (double)moments / CS_MIX_RATE * sound->speed;
   return cs_fail(context, CELSPAN_INPUT,
-                 "film: sound %d: field 'from' must be below the length of %s, %.6g seconds, got "
-                 "%.6g",
-                 sound->number, sound->path, seconds, sound->from);
+                 "field 'from' must be below the length of %s, %.6g seconds, got %.6g", sound->path,
+                 seconds, sound->from);
 }
 
 /* Whether it is heard in the mix, or close enough to duck what is. */
@@ -249,7 +261,7 @@ static celspan_status mix_piece(mix *m, celspan_context *context, float *out, si
   int64_t end = m->place + (int64_t)count;
   memset(m->sum, 0, count * CS_MIX_CHANNELS * sizeof *m->sum);
   for (size_t i = 0; i < m->count; i++)
-    CS_TRY(add_part(m, context, &m->parts[i], end));
+    CS_TRY(name_sound(context, &m->parts[i].sound, add_part(m, context, &m->parts[i], end)));
   for (size_t i = 0; i < count * CS_MIX_CHANNELS; i++)
     out[i] = (float)m->sum[i];
   m->place = end;
@@ -300,7 +312,8 @@ static void close_mix(void *user) {
 
 celspan_status cs_mix_find(celspan_context *context, const cs_mix_sound *sounds, size_t count) {
   for (size_t i = 0; i < count; i++)
-    CS_TRY(cs_sound_find(context, sounds[i].path, sounds[i].tried));
+    CS_TRY(
+        name_sound(context, &sounds[i], cs_sound_find(context, sounds[i].path, sounds[i].tried)));
   return CELSPAN_OK;
 }
 
@@ -329,7 +342,7 @@ static celspan_status measure_all(mix *m, celspan_context *context) {
     part *p = &m->parts[i];
     if (!matters(m, &p->sound))
       continue;
-    CS_TRY(measure(m, context, p));
+    CS_TRY(name_sound(context, &p->sound, measure(m, context, p)));
     set_heard(p);
   }
   return CELSPAN_OK;
