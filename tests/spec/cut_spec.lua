@@ -103,7 +103,8 @@ local function shot(colour)
       centre = { 3 * f.number, 9.3 }, radius = 4 + f:random "r", texture = "#f80c" } } }
   end }
 end
-return cut { shot "#123", cut.iris { softness = 0.3 }(0.1), shot "#642", cut.wipe { angle = 33 }(0.1),
+return cut { shot "#123", cut.iris { softness = 0.3 }(0.1), shot "#642",
+  cut.wipe { angle = 33 }(0.1),
   shot "#123", cut.dissolve(0.1), { film = shot "#9ab", to = 4, speed = 0.5 } }]])
     local code, whole = bench:celspan_inside "render film.lua --hash --workers 2 --progress none"
     assert.are.equal(0, code, whole)

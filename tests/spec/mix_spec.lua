@@ -22,7 +22,7 @@ local function wav(moments, options)
     parts[i] = is_short and ("<i2"):rep(channels):pack(table.unpack(moment))
       or ("<f"):rep(channels):pack(table.unpack(moment))
   end
-  local data, size = table.concat(parts), is_short and 2 or 4
+  local data, size = table.concat(parts):rep(options.times or 1), is_short and 2 or 4
   return ("<c4I4c4c4I4I2I2I4I4I2I2c4I4"):pack("RIFF", 36 + #data, "WAVE", "fmt ", 16,
     is_short and 1 or 3, channels, rate, rate * channels * size, channels * size, 8 * size, "data",
     #data) .. data
@@ -193,6 +193,18 @@ describe("the mix of a film", function()
         end
       end
     end
+  end)
+
+  it_mixes("is the sum of sounds that are too long to keep", function()
+    local piece, moments = noise(0.25, 1, 3), {}
+    for i = 1, 11.5 * RATE do moments[i] = piece[(i - 1) % #piece + 1] end
+    bench:write("long.wav", wav(piece, { times = 46 }))
+    local left, right = mix([[return film { fps = 24, duration = 0.5, sound = {
+      { "long.wav", from = 11.23, at = 0.05, fade = { 0, 0.1 }, duck = "music" },
+      { "long.wav", at = -10.6, to = 10.9, name = "music" } } }]], "--depth float")
+    local l, r = sum({ { moments = moments, from = 11.23, at = 0.05, fade = { 0, 0.1 } },
+      { moments = moments, at = -10.6, to = 10.9, ducked = { { 0.05, 0.32 } } } }, 0.5)
+    assert.is_true(worst(left, l) <= 1e-6 and worst(right, r) <= 1e-6)
   end)
 
   it_mixes("can be that of another film, in which everything moves", function()

@@ -7,7 +7,11 @@
 
 #include "plugins/sound/sound.h"
 
-enum { PIECE = 4096 /* moments that are mixed at a time */ };
+enum {
+  PIECE = 4096,                    /* moments that are mixed at a time */
+  KEPT_MOMENTS = 10 * CS_MIX_RATE, /* of a sound whose samples are kept, at most, ... */
+  KEPT_ALL = 16 * 1024 * 1024      /* ... and samples of all */
+};
 
 /* One sound while it is mixed. Places are in moments of the film. */
 typedef struct part {
@@ -18,15 +22,21 @@ typedef struct part {
   int64_t heard, silent;   /* it is heard from `heard` to before `silent` */
   cs_sound_stream samples; /* owned; none: it is closed */
   int64_t place;           /* of the next sample that is read */
+  float *kept;             /* all samples of a short sound, which is not opened again; or NULL */
+  size_t capacity;         /* of them; 0: they are another part's */
+  int32_t channels;        /* of them */
+  int64_t moments;
 } part;
 
 typedef struct mix {
   celspan_context *context; /* of the caller that opened it, for memory */
   part *parts;              /* owned */
   size_t count, open;
+  size_t kept;           /* samples of all parts */
   int64_t place, end;    /* of the next moment, and after the last one */
   pthread_mutex_t mutex; /* held while samples are opened or closed, and by `stop` */
   bool stops;            /* protected by the mutex */
+  double gains[PIECE];
   double sum[PIECE * CS_MIX_CHANNELS];
   float samples[PIECE * CS_MIX_CHANNELS];
 } mix;
@@ -66,16 +76,46 @@ static celspan_status open_samples(celspan_context *context, const cs_mix_sound 
                  sound->path);
 }
 
-/* The moments of the sound, `most` at most. */
-static celspan_status count_moments(celspan_context *context, const cs_mix_sound *sound,
-                                    int64_t most, float *scratch, int64_t *out) {
+static void drop_kept(mix *m, part *p) {
+  if (p->capacity > 0)
+    cs_mem_free(m->context->memory, p->kept, p->capacity * sizeof *p->kept);
+  m->kept -= p->capacity;
+  p->kept = NULL;
+  p->capacity = 0;
+}
+
+/* Keeps samples that were read, after those that are kept, as long as there are few. */
+static celspan_status keep_samples(mix *m, celspan_context *context, part *p, size_t count) {
+  size_t used = (size_t)(p->moments * p->channels), before = p->capacity;
+  bool is_first = p->moments == 0;
+  if (count == 0 || (!is_first && !p->kept))
+    return CELSPAN_OK;
+  if (p->moments >= KEPT_MOMENTS || m->kept > KEPT_ALL) {
+    drop_kept(m, p);
+    return CELSPAN_OK;
+  }
+  CS_TRY(CS_RESERVE(context, p->kept, p->capacity, used + count));
+  m->kept += p->capacity - before;
+  memcpy(p->kept + used, m->samples, count * sizeof *p->kept);
+  return CELSPAN_OK;
+}
+
+/* Reads up to `most` moments of the sound, to count them. */
+static celspan_status count_moments(mix *m, celspan_context *context, part *p, int64_t most) {
   cs_sound_stream samples;
-  CS_TRY(open_samples(context, sound, &samples));
+  CS_TRY(open_samples(context, &p->sound, &samples));
   celspan_status status = CELSPAN_OK;
-  size_t got = PIECE;
-  for (*out = 0; status == CELSPAN_OK && got == PIECE && *out < most; *out += (int64_t)got)
-    status = samples.read(samples.user, context, scratch, PIECE, &got);
+  p->channels = samples.channels;
+  for (size_t got = PIECE; status == CELSPAN_OK && got == PIECE && p->moments < most;) {
+    status = samples.read(samples.user, context, m->samples, PIECE, &got);
+    if (status == CELSPAN_OK)
+      status = keep_samples(m, context, p, got * (size_t)samples.channels);
+    p->moments += status == CELSPAN_OK ? (int64_t)got : 0;
+    p->is_whole = got < PIECE;
+  }
   cs_sound_stream_close(&samples);
+  if (!p->is_whole)
+    drop_kept(m, p);
   return status;
 }
 
@@ -87,21 +127,24 @@ static double last_second(const mix *m, const cs_mix_sound *sound) {
   return last;
 }
 
-/* The length of an earlier part with the same samples; -1: there is none that was counted as far.
- */
-static int64_t known_moments(const mix *m, const part *p, int64_t most) {
+/* Takes the length of an earlier part with the same samples; false: none was counted as far. */
+static bool take_known(const mix *m, part *p, int64_t most) {
   for (const part *q = m->parts; q < p; q++) {
-    int64_t moments = moment_of(q->end - q->sound.start);
     bool is_same = q->sound.speed == p->sound.speed && strcmp(q->sound.path, p->sound.path) == 0;
-    if (is_same && (q->is_whole || moments >= most))
-      return moments;
+    if (is_same && (q->is_whole || q->moments >= most)) {
+      p->moments = q->moments;
+      p->is_whole = q->is_whole;
+      p->kept = q->kept;
+      p->channels = q->channels;
+      return true;
+    }
   }
-  return -1;
+  return false;
 }
 
-static celspan_status refuse_from(celspan_context *context, const cs_mix_sound *sound,
-                                  int64_t moments) {
-  double seconds = (double)moments / CS_MIX_RATE * sound->speed;
+static celspan_status refuse_from(celspan_context *context, const part *p) {
+  const cs_mix_sound *sound = &p->sound;
+  double seconds = (double)p->moments / CS_MIX_RATE * sound->speed;
   return cs_fail(context, CELSPAN_INPUT,
                  "field 'from' must be below the length of %s, %.6g seconds, got %.6g", sound->path,
                  seconds, sound->from);
@@ -122,13 +165,11 @@ static celspan_status measure(mix *m, celspan_context *context, part *p) {
   const cs_mix_sound *sound = &p->sound;
   double last = last_second(m, sound) + sound->passages[0].fade_out;
   int64_t most = moment_of(fmax(last, sound->passages[0].begin) - sound->start) + 1;
-  int64_t moments = known_moments(m, p, most);
-  if (moments < 0)
-    CS_TRY(count_moments(context, sound, most, m->samples, &moments));
-  p->end = sound->start + (double)moments / CS_MIX_RATE;
-  p->is_whole = moments < most;
-  if (sound->from > 0 && p->origin + moments <= moment_of(sound->passages[0].begin))
-    return refuse_from(context, sound, moments);
+  if (!take_known(m, p, most))
+    CS_TRY(count_moments(m, context, p, most));
+  p->end = sound->start + (double)p->moments / CS_MIX_RATE;
+  if (sound->from > 0 && p->origin + p->moments <= moment_of(sound->passages[0].begin))
+    return refuse_from(context, p);
   return CELSPAN_OK;
 }
 
@@ -163,17 +204,29 @@ static double passages_at(const part *p, double seconds) {
   return gain;
 }
 
-/* The least gain of those that its duckers ask for. */
-static double duck_at(const mix *m, const part *p, int64_t place) {
-  double far = 1, ramp = CS_MIX_DUCK_SECONDS * CS_MIX_RATE;
-  for (size_t i = 0; i < p->sound.ducker_count; i++) {
-    const part *q = &m->parts[p->sound.duckers[i]];
-    if (q->heard >= q->silent)
-      continue;
-    double before = (double)(q->heard - place), after = (double)(place - q->silent + 1);
-    far = fmin(far, fmax(0, fmax(before, after)) / ramp);
+/* How far the moments from a place on are from those in which q is heard, as a share of the ramp, if
+ * that is less than what is there. */
+static void set_distances(mix *m, const part *q, int64_t place, size_t count) {
+  const double ramp = CS_MIX_DUCK_SECONDS * CS_MIX_RATE;
+  if (q->heard >= q->silent || (double)(q->heard - place) > (double)count + ramp ||
+      (double)(place - q->silent) > ramp)
+    return;
+  for (size_t i = 0; i < count; i++) {
+    int64_t at = place + (int64_t)i;
+    double before = (double)(q->heard - at), after = (double)(at - q->silent + 1);
+    m->gains[i] = fmin(m->gains[i], fmax(0, fmax(before, after)) / ramp);
   }
-  return CS_MIX_DUCKED + (1 - CS_MIX_DUCKED) * far;
+}
+
+/* Sets the gains of a part from a place on. */
+static void set_gains(mix *m, const part *p, int64_t place, size_t count) {
+  for (size_t i = 0; i < count; i++)
+    m->gains[i] = 1;
+  for (size_t i = 0; i < p->sound.ducker_count; i++)
+    set_distances(m, &m->parts[p->sound.duckers[i]], place, count);
+  for (size_t i = 0; i < count; i++)
+    m->gains[i] = passages_at(p, (double)(place + (int64_t)i) / CS_MIX_RATE) *
+                  (CS_MIX_DUCKED + (1 - CS_MIX_DUCKED) * m->gains[i]);
 }
 
 /* ---------------------------------------------------------------- parts */
@@ -224,32 +277,48 @@ static celspan_status skip_to(mix *m, celspan_context *context, part *p, int64_t
   return CELSPAN_OK;
 }
 
-static void add_samples(mix *m, const part *p, int64_t place, size_t count) {
-  int32_t channels = p->samples.channels;
+static void add_samples(mix *m, const part *p, int64_t place, const float *samples,
+                        int32_t channels, size_t count) {
   double *sum = m->sum + (place - m->place) * CS_MIX_CHANNELS;
-  for (size_t i = 0; i < count; i++) {
-    int64_t at = place + (int64_t)i;
-    double gain = passages_at(p, (double)at / CS_MIX_RATE) * duck_at(m, p, at);
+  set_gains(m, p, place, count);
+  for (size_t i = 0; i < count; i++)
     for (int c = 0; c < CS_MIX_CHANNELS; c++)
       sum[i * CS_MIX_CHANNELS + (size_t)c] +=
-          (double)m->samples[i * (size_t)channels + (size_t)(c < channels ? c : 0)] * gain *
+          (double)samples[i * (size_t)channels + (size_t)(c < channels ? c : 0)] * m->gains[i] *
           p->sound.gain[c];
-  }
 }
 
-/* Adds what is heard of the part before `end`. */
-static celspan_status add_part(mix *m, celspan_context *context, part *p, int64_t end) {
-  int64_t from = p->heard > m->place ? p->heard : m->place, to = p->silent < end ? p->silent : end;
+/* Adds the samples from a place up to another one from those that are kept. */
+static void add_kept(mix *m, const part *p, int64_t from, int64_t to) {
+  int64_t end = p->origin + p->moments;
+  if (from < end)
+    add_samples(m, p, from, p->kept + (from - p->origin) * p->channels, p->channels,
+                (size_t)((to < end ? to : end) - from));
+}
+
+/* The same from its decoder. */
+static celspan_status add_read(mix *m, celspan_context *context, part *p, int64_t from,
+                               int64_t to) {
   bool is_there;
   size_t got = 0;
-  if (from >= to)
-    return CELSPAN_OK;
   if (!p->samples.user)
     CS_TRY(open_part(m, context, p));
   CS_TRY(skip_to(m, context, p, from, &is_there));
   if (is_there)
     CS_TRY(read_part(m, context, p, to - from, &got));
-  add_samples(m, p, from, got);
+  add_samples(m, p, from, m->samples, p->samples.channels, got);
+  return CELSPAN_OK;
+}
+
+/* Adds what is heard of the part before `end`. */
+static celspan_status add_part(mix *m, celspan_context *context, part *p, int64_t end) {
+  int64_t from = p->heard > m->place ? p->heard : m->place, to = p->silent < end ? p->silent : end;
+  if (from >= to)
+    return CELSPAN_OK;
+  if (p->kept)
+    add_kept(m, p, from, to);
+  else
+    CS_TRY(add_read(m, context, p, from, to));
   if (p->silent <= end)
     close_part(m, p);
   return CELSPAN_OK;
@@ -301,8 +370,10 @@ static void stop_mix(void *user) {
 static void close_mix(void *user) {
   mix *m = user;
   cs_memory *memory = m->context->memory;
-  for (size_t i = 0; i < m->count; i++)
+  for (size_t i = 0; i < m->count; i++) {
     close_part(m, &m->parts[i]);
+    drop_kept(m, &m->parts[i]);
+  }
   pthread_mutex_destroy(&m->mutex);
   cs_mem_free(memory, m->parts, m->count * sizeof *m->parts);
   cs_mem_free(memory, m, sizeof *m);
