@@ -643,6 +643,19 @@ function frame:on(n) end
 ---@return number
 function frame:random(label, m, n) end
 
+--- A sound of a film, and when it is heard.
+---@class celspan.sound
+---@field [integer] string|celspan.film A file, or a film whose sounds are meant
+---@field at? number Second of the film at which it begins; -1e9 to 1e9; default 0
+---@field from? number Second of the file at which it begins; 0 to 1e9; default 0
+---@field to? number Second of the file at which it ends; more than 0, at most 1e9; default the end of the file
+---@field speed? number 2: twice as fast; the pitch is kept; 0.01 to 100; default 1
+---@field gain? number A factor of the amplitude; 0 to 1000; default 1
+---@field fade? number[] {in, out}; linear in amplitude; default {0, 0}
+---@field pan? number -1: left, 1: right, with constant power; -1 to 1; default 0
+---@field name? string For `duck`
+---@field duck? string The name of sounds that are 12 dB lower while this one sounds
+
 ---@class celspan.film.fields
 ---@field size? integer[] {w, h}; 1 to 1048576; default {1920, 1080}
 ---@field fps? number Frames per second; more than 0, at most 1000000; default 24
@@ -650,8 +663,9 @@ function frame:random(label, m, n) end
 ---@field duration? number Seconds, instead of frames; more than 0
 ---@field first? integer The number of the first frame; -1e9 to 1e9; default 1
 ---@field title? string
----@field sound? string A file: the sound of videos
----@field sound_offset? number Seconds: the time of the film at which the sound begins; a negative value cuts its beginning; -1e9 to 1e9; default 0
+---@field sound? string|celspan.sound|celspan.sound[] A file, a sound, or a list of sounds, which are mixed
+---@field sound_offset? number Seconds by which all sounds begin later; a negative value cuts the beginning; -1e9 to 1e9; default 0
+---@field marks? table<string, integer> Names of frames, { title = 1 }, for --frames
 ---@field frame fun(f: celspan.frame): celspan.exposures A pure function of f
 
 ---@class celspan.film: celspan.film.fields
@@ -679,7 +693,7 @@ function film:with(changes) end
 function film:at(number) end
 
 ---@class celspan.render.options
----@field frames? string|integer "1-10,20-30:2,45"; default all
+---@field frames? string|integer "1-10,20-30:2,45", "2s-4s" or a mark; default all
 ---@field progress? fun(share: number, frame: integer): boolean? The share of the whole job that is done; false stops
 ---@field format? string Default by the ending of the file
 ---@field depth? 8|16|"half"|"float" Bits, or floats

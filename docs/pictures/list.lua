@@ -4,6 +4,7 @@
 --   onion    the number of frames before and after it that are laid over it
 --   grid     a contact sheet with this number of columns and rows, instead of a frame
 --   allow    a folder that the script may read, in addition to its own
+--   before   an example of the page that is run first, a program in plain Lua
 --   parts    frames that are rendered first, to a folder that the script gets as its argument
 return {
   { name = "demo", script = "scripts/demo.lua", frame = 236, size = "960x540" },
@@ -44,6 +45,9 @@ return {
   { name = "valley", page = "docs/guide.md", frame = 32, size = "600x270" },
   { name = "exposure_sheet", script = "scripts/exposure_sheet.lua", frame = 8, size = "640x360" },
   { name = "night", page = "docs/guide-shot.md", frame = 40 },
+  { name = "day", page = "docs/guide-film.md", grid = "4x3" },
+  { name = "page", page = "docs/guide-film.md", frame = 24 },
+  { name = "listener", page = "docs/guide-film.md", frame = 30, before = "sounds" },
   { name = "balloon", page = "docs/guide.md", frame = 24 },
   { name = "hat", script = "scripts/hat.lua", frame = 40, size = "640x360" },
   { name = "evening", script = "scripts/relight.lua", frame = 80, size = "640x360" },

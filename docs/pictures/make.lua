@@ -50,6 +50,9 @@ for _, picture in ipairs(list) do
     render(part.script, part, parts .. "/" .. part.file)
   end
   local script = picture.script or extract(picture.page, picture.name)
+  if picture.before then
+    run(("cd %s/examples && lua5.4"):format(folder), picture.before .. ".lua")
+  end
   local output = folder .. "/" .. picture.name .. ".png"
   if picture.grid then
     run(binary .. " contact", script, "--grid", picture.grid, "-o", output)

@@ -305,6 +305,8 @@ function frame:on(n) end
 ---@return number
 function frame:random(label, m, n) end
 
+---@noun sound
+
 ---@noun film
 
 --- A copy with changes.

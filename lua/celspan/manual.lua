@@ -6,7 +6,8 @@ local core = require "celspan.core"
 local manual = {}
 
 local MODULES = { "ease", "keys", "motion", "multiplane", "shutter", "lips", "sheet", "svg",
-                  "trace", "track", "relight", "layers", "oca", "json", "csv", "captions", "spec" }
+                  "trace", "track", "relight", "layers", "oca", "json", "csv", "captions", "cut",
+                  "sound", "spec" }
 local WIDTH = 100
 
 --- Adds a text in lines of at most WIDTH characters; those after the first begin with `indent`.

@@ -48,7 +48,7 @@ TEXT(text, "a name");
 TEXT(file, "the name of a file");
 TEXT(folder, "the name of a folder");
 TEXT(file_or_folder, "the name of a folder or file");
-TEXT(frames, "a list of frames such as 1-10,20-30:2,45");
+TEXT(frames, "a list of frames such as 1-10,20-30:2,45, 2s-4s or the name of a mark");
 TEXT(format, "the name of a file format such as png");
 TEXT(cel, "the name of a cel");
 TEXT(pattern, "a pattern of names");

@@ -15,10 +15,9 @@
 #include "lua/module/core.h"
 #include "model/scene/inspect.h"
 #include "model/scene/scene.h"
-#include "plugins/sound/sound.h"
 #include "program/service.h"
+#include "program/soundtrack.h"
 #include "program/target.h"
-#include "program/video_target.h"
 #include "program/view.h"
 
 typedef struct film {
@@ -128,12 +127,7 @@ static int refuse_view(lua_State *L) {
 /* film:check_sound() -> the exit code of what is wrong with the sound, which is reported; 0 */
 static int check_sound(lua_State *L) {
   film *f = self(L);
-  const char *path = NULL;
-  const cs_film_info *info = &f->script.film;
-  double heard = (double)info->count / info->frames_second - info->sound_offset;
-  celspan_status status = cs_video_target_sound(&f->script, &path);
-  if (status == CELSPAN_OK && path && f->pictures.is_deep)
-    status = cs_sound_check(f->script.context, path, heard);
+  celspan_status status = cs_soundtrack_check(&f->script, f->pictures.is_deep);
   lua_pushinteger(L, cs_report_failure(f->script.context, status, NULL));
   return 1;
 }
@@ -281,6 +275,18 @@ static int faults(lua_State *L) {
 
 /* ---------------------------------------------------------------- the film */
 
+/* Sets `marks`: a list { { name =, frame = }, ... } in the order of the frames. */
+static void set_marks(lua_State *L, const cs_film_info *info) {
+  lua_createtable(L, (int)info->mark_count, 0);
+  for (size_t i = 0; i < info->mark_count; i++) {
+    lua_createtable(L, 0, 2);
+    cs_put_text(L, "name", info->marks[i].name);
+    cs_put_integer(L, "frame", info->marks[i].frame);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  lua_setfield(L, -2, "marks");
+}
+
 /* Sets what a celspan.film has. */
 static void set_facts(lua_State *L, const cs_film_info *info) {
   cs_put_integer(L, "first", info->first);
@@ -293,6 +299,7 @@ static void set_facts(lua_State *L, const cs_film_info *info) {
   lua_pushinteger(L, info->height);
   lua_rawseti(L, -2, 2);
   lua_setfield(L, -2, "size");
+  set_marks(L, info);
 }
 
 static int describe(lua_State *L) {

@@ -12,6 +12,7 @@
 #include "lua/bind/lua_error.h"
 #include "lua/module/lua_script.h"
 #include "program/confine.h"
+#include "program/hear.h"
 #include "program/settings.h"
 #include "program/view.h"
 
@@ -81,6 +82,7 @@ static int prepare(lua_State *L) {
   if (is_sandboxed)
     cs_sandbox_open_globals(script->sandbox, L);
   luaL_requiref(L, "celspan", luaopen_celspan, 0);
+  cs_hear_give(L);
   return 0;
 }
 

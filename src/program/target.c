@@ -56,7 +56,7 @@ static celspan_status list_frames(const cs_script *script, const cs_request *req
   const char *list = cs_request_text(request, "--frames");
   if (!list)
     return cs_sequence_count(script->context, film->first, film->count, out);
-  celspan_status status = cs_sequence_parse(script->context, list, out);
+  celspan_status status = cs_sequence_parse(script->context, list, film, out);
   if (status == CELSPAN_OK)
     status = cs_sequence_within(script->context, out, film->first, film->count);
   return status;

@@ -7,7 +7,11 @@
 #define OUTPUT(value, help)                                                                        \
   { "-o", value, &cs_argument_file, help }
 #define FRAMES                                                                                     \
-  { "--frames", "LIST", &cs_argument_frames, "the frames, such as 1-10,20-30:2,45; default: all" }
+  {                                                                                                \
+    "--frames", "LIST", &cs_argument_frames,                                                       \
+        "the frames, such as 1-10,20-30:2,45; of a film also 2s-4s, or names of its marks; "       \
+        "default: all"                                                                             \
+  }
 #define FRAME                                                                                      \
   { "--frame", "N", &cs_argument_integer, "the frame number; default: the first" }
 #define SIZE                                                                                       \
@@ -222,6 +226,13 @@ static const cs_option SHEET[] = {
     SCRIPT,
     {0}};
 
+static const cs_option SOUND[] = {
+    OUTPUT("OUT.wav", "48,000 samples a second, stereo"),
+    FRAMES,
+    {"--depth", "DEPTH", &cs_argument_depth, "16 or float; default: 16"},
+    SCRIPT,
+    {0}};
+
 static const cs_option CONTACT[] = {
     OUTPUT("SHEET", "the picture to make; sheet.####.png for several pages"),
     FRAMES,
@@ -381,6 +392,12 @@ const cs_verb cs_verbs[] = {
               "  /m  the placement, fade, viewport or lights changed\n"
               "  /p  drawn by a procedure, so not compared",
      .options = SHEET},
+    {"sound", "SCRIPT -o OUT.wav", 1, 1, .has_script = true,
+     .summary = "Writes the sound of a film, mixed as for a video.",
+     .notes = "Sounds are decoded by ffmpeg, and mixed here. The file is as long as the "
+              "frames. Louder parts than 16 bits hold are cut, which is reported. OUT is "
+              "either complete or absent.",
+     .options = SOUND, .run = cs_verb_sound},
     {"contact", "SCRIPT -o SHEET", 1, 1, .has_script = true,
      .summary = "Makes a contact sheet: frames side by side, each with its number.",
      .notes = "Without --every, as many frames are left out as necessary to fit on one "

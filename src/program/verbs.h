@@ -9,5 +9,6 @@
 extern const cs_verb cs_verbs[];
 
 cs_exit cs_verb_render(celspan_context *context, const cs_request *request);
+cs_exit cs_verb_sound(celspan_context *context, const cs_request *request);
 cs_exit cs_verb_spans(celspan_context *context, const cs_request *request);
 cs_exit cs_verb_tiles(celspan_context *context, const cs_request *request);

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "output/sinks/file.h"
-#include "plugins/sound/sound.h"
+#include "program/soundtrack.h"
 
 enum {
   MOST_SIDE = 16384, /* of H.264, VP9 and WebP alike */
@@ -94,41 +94,16 @@ static cs_exit refuse_rate(const cs_video_desc *video) {
 
 /* ---------------------------------------------------------------- sound */
 
-static bool is_run(const cs_sequence *frames) {
-  for (size_t i = 1; i < frames->count; i++)
-    if (frames->frames[i] != frames->frames[i - 1] + 1)
-      return false;
-  return true;
-}
-
-celspan_status cs_video_target_sound(cs_script *script, const char **path) {
-  CS_TRY(cs_lua_film_push_sound(script->L, CS_SCRIPT_FILM));
-  *path = lua_tostring(script->L, -2);
-  return *path ? cs_sound_find(script->context, *path, lua_tostring(script->L, -1)) : CELSPAN_OK;
-}
-
 /* The film's sound, as it goes with these frames. */
 static cs_exit set_sound(cs_video_desc *video, cs_script *script, const cs_request *request,
                          const cs_sequence *frames) {
-  const cs_film_info *film = &script->film;
-  cs_video_sound *sound = &video->sound;
-  if (!film->sound || !video->format->sound) {
-    if (film->sound)
-      cs_report_note("%s: %s holds no sound: it is left out", video->path, video->format->name);
+  int64_t moments;
+  if (!script->film.has_sound)
     return CS_EXIT_OK;
-  }
-  if (!is_run(frames))
-    return cs_report_usage("--frames %s: the film has a sound, which goes with one run of frames "
-                           "such as 10-20",
-                           cs_request_text(request, "--frames"));
-  const char *path = NULL;
-  celspan_status status = cs_video_target_sound(script, &path);
-  if (status == CELSPAN_OK)
-    status = cs_sound_open(script->context, &(cs_sound_request){.path = path}, &sound->samples);
-  sound->start =
-      film->sound_offset - (double)(frames->frames[0] - film->first) / film->frames_second;
-  sound->length = (double)frames->count / film->frames_second;
-  return cs_report_failure(script->context, status, NULL);
+  if (video->format->sound)
+    return cs_soundtrack_open(script, request, frames, &video->sound, &moments);
+  cs_report_note("%s: %s holds no sound: it is left out", video->path, video->format->name);
+  return CS_EXIT_OK;
 }
 
 /* ---------------------------------------------------------------- opening */

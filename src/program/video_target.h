@@ -13,9 +13,6 @@ bool cs_video_target_is_wanted(const cs_request *request, size_t frame_count);
 /* Refuses options that videos do not have. OK, or reported. frame_count 0: not known yet, and the
  * name of a single picture is not refused. */
 cs_exit cs_video_target_refuse(const cs_request *request, size_t frame_count);
-/* Where the film's sound is; NULL where it has none. *path is left on the Lua stack, where it lives
- * as long as the script. Errors: INPUT, where there is no file that can be read. */
-CELSPAN_CHECKED celspan_status cs_video_target_sound(cs_script *script, const char **path);
 /* Starts the encoder for these frames, with the film's sound. OK, or reported. */
 cs_exit cs_video_target_open(cs_video *out, cs_script *script, const cs_request *request,
                              const celspan_frame_desc *frame, const cs_sequence *frames);

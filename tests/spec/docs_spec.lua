@@ -68,9 +68,11 @@ local function write_example(block)
   return path, error_text
 end
 
---- If celspan was built without the module that an example needs, it is skipped.
+--- If celspan was built without the module that an example needs, or there is no ffmpeg, it is
+--- skipped.
 local function check_module(message)
   local module = message:match "celspan%-%l+%.so, which was not found"
+    or message:match "ffmpeg, which reads sounds, is not in PATH"
   if module then pending(module) end
 end
 
@@ -305,7 +307,7 @@ describe("the Lua reference", function()
   it("names the modules of the library and their contents", function()
     for _, name in ipairs { "ease", "keys", "motion", "multiplane", "shutter", "lips", "sheet",
       "svg", "layers",
-                            "oca", "json", "spec" } do
+                            "oca", "json", "cut", "sound", "spec" } do
       local text = section("Module celspan." .. name)
       local module = require("celspan." .. name)
       for key, value in pairs(module) do

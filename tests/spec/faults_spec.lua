@@ -31,6 +31,15 @@ return celspan.film { size = { 32, 24 }, fps = 4, frames = 2, frame = function(f
 end }
 ]]
 
+-- The mix of a film without sounds is silence: no other process decodes any.
+local SILENCE = [[local celspan = require "celspan"
+local function film(sound)
+  return celspan.film { size = { 8, 8 }, fps = 4, frames = 2, sound = sound,
+    frame = function() return celspan.rostrum {} end }
+end
+return film { film() }
+]]
+
 local bench, random
 
 setup(function() random = prng.new(tonumber(os.getenv "CELSPAN_SEED") or 1) end)
@@ -43,8 +52,9 @@ after_each(function() bench:remove() end)
 local function make(format, plan, options)
   local output = format.is_stream and "- > out/stream" or "out/" .. format.output
   local command = format.joins and "join 'strips/#." .. format.joins .. "'"
-    or ("render film.lua --workers 1 --progress none %s %s")
-    :format(format.options or "", options or "")
+    or format.sounds and "sound film.lua"
+    or ("render film.lua --workers 1 --progress none %s %s"):format(format.options or "",
+      options or "")
   return bench:shell(("cd '%s' && mkdir -p out && %s %s %s -o %s"):format(bench.folder, plan or "",
     workbench.absolute, command, output))
 end
@@ -142,7 +152,7 @@ local function check(format, right, at, lasts, number)
   end
   if format.is_stream then return check_stream(right, code == 0, where) end
   check_frames(right, code == 0, where, may_be_left(lasts, number, call))
-  if format.is_video then return end
+  if format.is_video or format.sounds then return end
   local again, _, message = make(format, nil, "--resume")
   assert.are.equal(0, again, where .. "; then: " .. message)
   check_frames(right, true, where .. "; then")
@@ -160,6 +170,7 @@ local formats = {
   { output = "f.##.ppm", has_module = true, options = "--trust" },
   -- by other processes, which fail too
   { output = "f.##.exr", has_module = true, is_apart = true },
+  { output = "f.wav", sounds = SILENCE },
   { output = "f.mp4", is_video = true }, { output = "f.gif", is_video = true },
   { output = "f.png", joins = "png" }, { output = "f.tga", joins = "tga" },
   { output = "f.span", joins = "span" },
@@ -173,7 +184,7 @@ end
 
 local function sweep(format, lasts)
   if not has_library() then return pending "the library that makes calls fail is not built" end
-  bench:write("film.lua", FILM)
+  bench:write("film.lua", format.sounds or FILM)
   if format.joins then make_strips(format.joins) end
   local code, _, err = make(format, faulty(0, false, 5))
   if code ~= 0 and (format.has_module or format.is_video) then return pending(err) end

@@ -419,7 +419,7 @@ end }]])
     it("is checked at the script's line", function()
       for field, sentence in pairs {
         ["sound = ''"] = "field 'sound' must be the name of a file",
-        ["sound = {}"] = "field 'sound' must be",
+        ["sound = 5"] = "field 'sound' must be the name of a file, { \"voice.wav\", at = 2 } or",
         ["sound_offset = 2e9"] = "sound_offset is 2e09; it must be between -1e09 and 1e09",
         ["sound_offset = 'late'"] = "field 'sound_offset' must be a number",
       } do

@@ -9,6 +9,7 @@
  *   babble   sends bytes that are no samples
  *   shout    writes to standard error without end
  *   wide     sends a form with more channels than there may be
+ *   slow     sends a form with another rate than it was asked for
  *   odd      sends infinite samples and a part of one, and ends well
  *   long     sends samples without end
  *
@@ -102,19 +103,22 @@ static void try_all(void) {
 
 /* ---------------------------------------------------------------- samples */
 
-/* A form with this number of channels, and a second of samples with this value. */
-static void send_samples(int channels, float value) {
+/* A form with this number of channels and samples in a second, and a second of samples with this
+ * value. */
+static void send_form(int channels, int rate, float value) {
   unsigned char head[44] = "RIFF\377\377\377\377WAVEfmt \20\0\0\0\3";
   head[22] = (unsigned char)channels;
-  head[24] = 0x40; /* 8,000 */
-  head[25] = 0x1f;
+  head[24] = (unsigned char)(rate & 0xff);
+  head[25] = (unsigned char)(rate >> 8);
   head[34] = 32;
   memcpy(head + 36, "data\377\377\377\377", 8);
   fwrite(head, 1, sizeof head, stdout);
-  for (int i = 0; i < 8000; i++)
+  for (int i = 0; i < rate; i++)
     fwrite(&value, sizeof value, 1, stdout);
   fflush(stdout);
 }
+
+static void send_samples(int channels, float value) { send_form(channels, 48000, value); }
 
 static _Noreturn void wait_for_ever(void) {
   for (;;)
@@ -153,6 +157,8 @@ static void act(const char *word) {
     puts("nothing that is a sound");
   else if (strcmp(word, "wide") == 0)
     send_samples(65, 0);
+  else if (strcmp(word, "slow") == 0)
+    send_form(1, 8000, 0);
   else if (strcmp(word, "odd") == 0) {
     send_samples(1, INFINITY);
     fputs("\1\2\3", stdout);

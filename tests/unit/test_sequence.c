@@ -7,10 +7,11 @@
 #include "tests/support/check.h"
 
 /* The frames of a list, separated by blanks, or the sentence of the refusal. */
-static const char *read_list(celspan_context *context, const char *list, char text[256]) {
+static const char *read_list(celspan_context *context, const char *list, const cs_film_info *film,
+                             char text[256]) {
   cs_sequence sequence = {0};
   size_t size = 0;
-  if (cs_sequence_parse(context, list, &sequence) != CELSPAN_OK) {
+  if (cs_sequence_parse(context, list, film, &sequence) != CELSPAN_OK) {
     CHECK(sequence.count == 0 && !sequence.frames);
     return celspan_context_error(context);
   }
@@ -27,14 +28,20 @@ static bool is_same(const char *result, const char *wanted) { return strcmp(resu
 static bool contains(const char *result, const char *wanted) { return strstr(result, wanted); }
 
 /* Pairs of a list and the expected frames or sentence. */
-static void check_lists(celspan_context *context, const char *const cases[][2], size_t count,
-                        bool (*agrees)(const char *result, const char *wanted)) {
+static void check_lists_of(celspan_context *context, const cs_film_info *film,
+                           const char *const cases[][2], size_t count,
+                           bool (*agrees)(const char *result, const char *wanted)) {
   char text[256];
   for (size_t i = 0; i < count; i++) {
-    const char *result = read_list(context, cases[i][0], text);
+    const char *result = read_list(context, cases[i][0], film, text);
     if (!CHECK(agrees(result, cases[i][1])))
       fprintf(stderr, "  '%s': '%s', not '%s'\n", cases[i][0], result, cases[i][1]);
   }
+}
+
+static void check_lists(celspan_context *context, const char *const cases[][2], size_t count,
+                        bool (*agrees)(const char *result, const char *wanted)) {
+  check_lists_of(context, NULL, cases, count, agrees);
 }
 
 static void lists_mean_frames(celspan_context *context) {
@@ -80,6 +87,66 @@ static void lists_are_refused_where_they_are_wrong(celspan_context *context) {
       {"1-9999999,-1,-2", "more than 10000000 frames in one list"},
   };
   check_lists(context, cases, sizeof cases / sizeof *cases, contains);
+}
+
+static const cs_film_mark marks[] = {
+    {"title", 11}, {"the same", 11}, {"chase-2", 13}, {"\xc3\xa9nd", 20}};
+
+static void marks_and_times_mean_frames_of_a_film(celspan_context *context) {
+  const cs_film_info film = {
+      .frames_second = 2, .first = 11, .count = 11, .marks = marks, .mark_count = 4};
+  static const char *const cases[][2] = {
+      {"title", "11 12"},
+      {"the same", "11 12"},
+      {" chase-2 :3, title", "13 16 19 11 12"},
+      {"\xc3\xa9nd", "20 21"},
+      {"12,title:2", "12 11"},
+      {"1s-2s", "13 14"},
+      {"0s - 1.5s : 2", "11 13"},
+      {"0.1s-0.6s", "12"},
+      {"1s", "13"},
+      {"1.2s", "13"},
+      {"1.5s,0.49s", "14 11"},
+      {"4.5s-5.5s,12", "20 21 12"},
+  };
+  check_lists_of(context, &film, cases, sizeof cases / sizeof *cases, is_same);
+}
+
+/* The time of frame n is n / fps in floating point, and as users write it in decimals. */
+static void times_are_those_of_frames(celspan_context *context) {
+  static const double rates[] = {24, 24000 / 1001., 25, 30000 / 1001., 60};
+  for (size_t i = 0; i < sizeof rates / sizeof *rates; i++) {
+    const cs_film_info film = {.frames_second = rates[i], .count = 1000000};
+    for (int index = 0; index < 3000; index += 7) {
+      char list[64], text[256], wanted[32];
+      snprintf(list, sizeof list, "%.9fs", index / rates[i] + 1e-6);
+      snprintf(wanted, sizeof wanted, "%d", index);
+      CHECK(is_same(read_list(context, list, &film, text), wanted));
+    }
+  }
+}
+
+static void marks_and_times_are_refused_where_they_are_wrong(celspan_context *context) {
+  const cs_film_info film = {
+      .frames_second = 2, .first = 11, .count = 11, .marks = marks, .mark_count = 4};
+  const cs_film_info bare = {.frames_second = 2, .first = 1, .count = 3};
+  static const char *const cases[][2] = {
+      {"titel", "the film has no mark \"titel\"; its marks are title, the same, chase-2, "},
+      {"title, ", "a whole number is missing at character 8"},
+      {"title:0", "the step is 0"},
+      {"title:-1", "a range that goes up needs a step above 0"},
+      {"title,12", "frame 12 is listed twice"},
+      {"1s-2", "a time such as 4s is missing at character 4"},
+      {"1-2s", "an unexpected character at character 4"},
+      {"2s-1s", "no frame begins between the two times"},
+      {"0.1s-0.2s", "no frame begins between the two times"},
+      {"2sec", "an unexpected character at character 2"},
+      {"99999999999999s", "the time is too late"},
+  };
+  static const char *const of_none[][2] = {
+      {"title", "no mark \"title\"; write numbers like 1-10,20-30:2, or seconds like 2s-4s"}};
+  check_lists_of(context, &film, cases, sizeof cases / sizeof *cases, contains);
+  check_lists_of(context, &bare, of_none, 1, contains);
 }
 
 static void frames_lie_within_a_film(celspan_context *context) {
@@ -180,6 +247,9 @@ int main(void) {
     return check_done();
   lists_mean_frames(context);
   lists_are_refused_where_they_are_wrong(context);
+  marks_and_times_mean_frames_of_a_film(context);
+  times_are_those_of_frames(context);
+  marks_and_times_are_refused_where_they_are_wrong(context);
   frames_lie_within_a_film(context);
   names_have_their_number_in_one_place(context);
   files_are_found_by_their_pattern(context);

@@ -8,13 +8,22 @@
 
 #include "celspan/celspan.h"
 
+/* A name for a frame. */
+typedef struct cs_film_mark {
+  const char *name;
+  int64_t frame;
+} cs_film_mark;
+
 typedef struct cs_film_info {
   int32_t width, height; /* film units, and pixels unless another size is asked for */
   double frames_second;
-  int64_t first, count; /* frames first .. first + count - 1 */
-  const char *title;    /* NULL: none; the film's own, borrowed */
-  const char *sound;    /* NULL: none; as the script wrote it */
-  double sound_offset;  /* seconds */
+  int64_t first, count;      /* frames first .. first + count - 1 */
+  const char *title;         /* NULL: none; the film's own, borrowed */
+  const char *sound;         /* of one file, as the script wrote it; NULL: none, or a list */
+  double sound_offset;       /* seconds */
+  bool has_sound;            /* one file or more */
+  const cs_film_mark *marks; /* in the order of their frames; the film's own, borrowed */
+  size_t mark_count;
 } cs_film_info;
 
 typedef struct cs_film_frame {

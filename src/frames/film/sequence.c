@@ -1,10 +1,13 @@
 #include "frames/film/sequence.h"
 
+#include <ctype.h>
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/context.h"
 #include "base/open.h"
 
 #define MOST_FRAMES 10000000 /* of one list; 80 MB of numbers */
@@ -16,6 +19,7 @@
 typedef struct reader {
   celspan_context *context;
   const char *list, *at;
+  const cs_film_info *film; /* NULL: none */
 } reader;
 
 static celspan_status refuse(const reader *r, const char *what) {
@@ -68,16 +72,11 @@ static celspan_status append(reader *r, cs_sequence *out, int64_t from, int64_t 
   return CELSPAN_OK;
 }
 
-static celspan_status read_element(reader *r, cs_sequence *out) {
-  int64_t from, to, step = 1;
-  celspan_status status = read_number(r, &from);
-  if (status != CELSPAN_OK)
-    return status;
-  to = from;
-  if (skip(r, '-') && (status = read_number(r, &to)) != CELSPAN_OK)
-    return status;
-  if (skip(r, ':') && (status = read_number(r, &step)) != CELSPAN_OK)
-    return status;
+/* Reads ":step", if there is one, and appends the range. */
+static celspan_status append_steps(reader *r, cs_sequence *out, int64_t from, int64_t to) {
+  int64_t step = 1;
+  if (skip(r, ':'))
+    CS_TRY(read_number(r, &step));
   if (step == 0)
     return refuse(r, "the step is 0");
   if (to != from && (to < from) != (step < 0))
@@ -85,6 +84,119 @@ static celspan_status read_element(reader *r, cs_sequence *out) {
                                : "a range that goes up needs a step above 0");
   return append(r, out, from, to, step);
 }
+
+static celspan_status read_numbers(reader *r, cs_sequence *out) {
+  int64_t from, to;
+  CS_TRY(read_number(r, &from));
+  to = from;
+  if (skip(r, '-'))
+    CS_TRY(read_number(r, &to));
+  return append_steps(r, out, from, to);
+}
+
+/* ---------------------------------------------------------------- times */
+
+/* The length of "2s" or "2.5s"; 0: there is no time. */
+static size_t match_time(const char *text) {
+  static const char digits[] = "0123456789";
+  size_t length = strspn(text, digits);
+  if (length > 0 && text[length] == '.')
+    length += 1 + strspn(text + length + 1, digits);
+  return length > 0 && text[length] == 's' && !isalnum((unsigned char)text[length + 1]) ? length + 1
+                                                                                        : 0;
+}
+
+/* The digits are read here and not by strtod, which depends on the host's language. */
+static celspan_status read_time(reader *r, double *out) {
+  double seconds = 0, place = 1;
+  skip_spaces(r);
+  if (match_time(r->at) == 0)
+    return refuse(r, "a time such as 4s is missing");
+  for (; *r->at != '.' && *r->at != 's'; r->at++)
+    seconds = seconds * 10 + (*r->at - '0');
+  for (r->at += *r->at == '.'; *r->at != 's'; r->at++)
+    seconds += (*r->at - '0') * (place /= 10);
+  r->at++;
+  *out = seconds;
+  return seconds * r->film->frames_second <= (double)MOST_NUMBER
+             ? CELSPAN_OK
+             : refuse(r, "the time is too late");
+}
+
+/* The index of the first frame that begins at this time or later; times are those that the frame
+ * function gets. */
+static int64_t find_index(const cs_film_info *film, double seconds) {
+  int64_t index = (int64_t)ceil(seconds * film->frames_second);
+  while (index > 0 && (double)(index - 1) / film->frames_second >= seconds)
+    index--;
+  while ((double)index / film->frames_second < seconds)
+    index++;
+  return index;
+}
+
+static celspan_status read_times(reader *r, cs_sequence *out) {
+  double from, to;
+  CS_TRY(read_time(r, &from));
+  int64_t first = find_index(r->film, from), last = first;
+  if (skip(r, '-')) {
+    CS_TRY(read_time(r, &to));
+    last = find_index(r->film, to) - 1;
+    if (last < first)
+      return refuse(r, "no frame begins between the two times");
+  } else if ((double)first / r->film->frames_second > from) {
+    first = --last;
+  }
+  return append_steps(r, out, r->film->first + first, r->film->first + last);
+}
+
+/* ---------------------------------------------------------------- marks */
+
+static celspan_status refuse_mark(const reader *r, size_t length) {
+  char names[200];
+  size_t used = 0;
+  names[0] = '\0';
+  for (size_t i = 0; i < r->film->mark_count && used < sizeof names; i++)
+    used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "",
+                             r->film->marks[i].name);
+  return celspan_context_fail(
+      r->context, CELSPAN_BAD_ARGUMENT, "frames \"%.200s\": the film has no mark \"%.*s\"%s%s%s",
+      r->list, (int)(length < 100 ? length : 100), r->at,
+      names[0] ? "; its marks are " : "; write numbers like 1-10,20-30:2, or seconds like 2s-4s",
+      names, used < sizeof names ? "" : " ...");
+}
+
+/* The frame before the next mark that is at a later frame, or the last one. */
+static int64_t find_end(const cs_film_info *film, size_t mark) {
+  for (size_t i = mark + 1; i < film->mark_count; i++)
+    if (film->marks[i].frame > film->marks[mark].frame)
+      return film->marks[i].frame - 1;
+  return film->first + film->count - 1;
+}
+
+static celspan_status read_mark(reader *r, cs_sequence *out) {
+  size_t length = strcspn(r->at, ",:");
+  while (length > 0 && strchr(" \t", r->at[length - 1]))
+    length--;
+  for (size_t i = 0; i < r->film->mark_count; i++) {
+    const cs_film_mark *mark = &r->film->marks[i];
+    if (strlen(mark->name) != length || memcmp(mark->name, r->at, length) != 0)
+      continue;
+    r->at += length;
+    return append_steps(r, out, mark->frame, find_end(r->film, i));
+  }
+  return refuse_mark(r, length);
+}
+
+static celspan_status read_element(reader *r, cs_sequence *out) {
+  skip_spaces(r);
+  if (r->film && match_time(r->at) > 0)
+    return read_times(r, out);
+  if (r->film && *r->at && !strchr("-,:0123456789", *r->at))
+    return read_mark(r, out);
+  return read_numbers(r, out);
+}
+
+/* ---------------------------------------------------------------- whole lists */
 
 static int compare(const void *a, const void *b) {
   int64_t x = *(const int64_t *)a, y = *(const int64_t *)b;
@@ -107,8 +219,9 @@ static celspan_status check_overlaps(const reader *r, const cs_sequence *sequenc
   return status;
 }
 
-celspan_status cs_sequence_parse(celspan_context *context, const char *list, cs_sequence *out) {
-  reader r = {context, list, list};
+celspan_status cs_sequence_parse(celspan_context *context, const char *list,
+                                 const cs_film_info *film, cs_sequence *out) {
+  reader r = {context, list, list, film};
   cs_sequence sequence = {0};
   celspan_status status;
   do
@@ -127,7 +240,7 @@ celspan_status cs_sequence_parse(celspan_context *context, const char *list, cs_
 
 celspan_status cs_sequence_count(celspan_context *context, int64_t first, int64_t count,
                                  cs_sequence *out) {
-  reader r = {context, "all", "all"};
+  reader r = {context, "all", "all", NULL};
   cs_sequence sequence = {0};
   celspan_status status = append(&r, &sequence, first, first + count - 1, 1);
   if (status == CELSPAN_OK)
@@ -243,7 +356,7 @@ celspan_status cs_sequence_list(celspan_context *context, const char *pattern, c
   DIR *folder = length < PATH_SIZE ? opendir(length ? path : ".") : NULL;
   if (!folder)
     return fail_folder(context, pattern, length < PATH_SIZE ? errno : ENAMETOOLONG);
-  reader r = {context, pattern, pattern};
+  reader r = {context, pattern, pattern, NULL};
   cs_sequence sequence = {0};
   celspan_status status = CELSPAN_OK;
   for (struct dirent *entry; status == CELSPAN_OK && (entry = cs_open_entry(folder));)

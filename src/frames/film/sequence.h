@@ -3,6 +3,9 @@
  *   list     element {"," element}        spaces are allowed around elements
  *   element  n | a-b | a-b:step           inclusive; numbers may be negative; step not 0, and
  *                                         below 0 for ranges that go down
+ *            2.5s | 2s-4s | 2s-4s:step    of a film: the frame that is seen then; those that begin
+ *                                         at 2 seconds or later, and before 4
+ *            name                         of a film: from this mark to the frame before the next
  *   pattern  shot.####.png or shot.%04d.png: the last run of # in the name, or one %d; padded with
  *            zeros, growing past its width when the number needs it
  *
@@ -10,16 +13,17 @@
  */
 #pragma once
 
-#include "celspan/celspan.h"
+#include "frames/film/film.h"
 
 typedef struct cs_sequence {
   int64_t *frames; /* owned */
   size_t count;
 } cs_sequence;
 
-/* out: new, for cs_sequence_finish. Errors: BAD_ARGUMENT, LIMIT, NO_MEMORY. */
+/* film: whose times and marks the list may name; NULL: of none, and a list of numbers alone. out:
+ * new, for cs_sequence_finish. Errors: BAD_ARGUMENT, LIMIT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_sequence_parse(celspan_context *context, const char *list,
-                                                 cs_sequence *out);
+                                                 const cs_film_info *film, cs_sequence *out);
 /* The frames first, first + 1, ... of a whole film. Otherwise as above. */
 CELSPAN_CHECKED celspan_status cs_sequence_count(celspan_context *context, int64_t first,
                                                  int64_t count, cs_sequence *out);

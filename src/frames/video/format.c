@@ -305,42 +305,27 @@ static void add_samples(cs_video_command *command, const cs_sound_stream *sample
   add_text(command, "%d", (int)samples->rate);
   add(command, "-ac");
   add_text(command, "%d", (int)samples->channels);
-  if (samples->places) {
-    add(command, "-channel_layout");
-    add_text(command, "0x%x", (unsigned)samples->places);
-  }
   add_pipe(command, CS_CHILD_SAMPLES);
 }
 
-/* Shifts the samples, because some players ignore time stamps: silence is added before the sound,
- * or its beginning cut; then silence is added up to the last frame, or the sound cut there. */
-static void add_sound(cs_video_command *command, const cs_video_format *format,
-                      const cs_video_sound *sound) {
-  add(command, "-filter_complex");
-  if (sound->start >= 0)
-    add_text(command, "[1:a:0]asetpts=N/SR/TB,adelay=delays=%.6f:all=1,apad,atrim=end=%.9f[s]",
-             sound->start * 1000, sound->length);
-  else
-    add_text(command,
-             "[1:a:0]asetpts=N/SR/TB,apad,atrim=start=%.9f:end=%.9f,asetpts=PTS-STARTPTS[s]",
-             -sound->start, sound->length - sound->start);
+static void add_sound(cs_video_command *command, const cs_video_format *format) {
   add(command, "-map");
   add(command, "0:v");
   add(command, "-map");
-  add(command, "[s]");
+  add(command, "1:a");
   add_all(command, format->sound);
 }
 
 void cs_video_command_encode(cs_video_command *command, const cs_video_format *format,
                              const cs_video_options *options, const cs_video_frames *frames,
-                             const cs_video_sound *sound, const char *file) {
+                             const cs_sound_stream *sound, const char *file) {
   begin(command);
   add_frames(command, format, options, frames);
-  if (sound->samples.user)
-    add_samples(command, &sound->samples);
+  if (sound->user)
+    add_samples(command, sound);
   add_pictures(command, format, options);
-  if (sound->samples.user)
-    add_sound(command, format, sound);
+  if (sound->user)
+    add_sound(command, format);
   if (format->flags) {
     add(command, "-movflags");
     add(command, format->flags);

@@ -1,7 +1,7 @@
 /* The video formats: the encoder and the pixels for each file ending, and the command of ffmpeg.
  *
  *   planes of Y'CbCr, or RGBA --standard input--> [matrix and range of BT.709] --> encoder --> file
- *   sound --second pipe--> shifted and cut to the frames ---------------> encoder ---^
+ *   sound of as many seconds --second pipe--> encoder -------------------------------^
  *
  *   ending  encoder      pixels                               alpha      sound
  *   mp4     H.264        4:2:0, 8 bits (10 under --depth 16)  none       AAC
@@ -61,12 +61,6 @@ typedef struct cs_video_frames {
   double frames_second;
 } cs_video_frames;
 
-typedef struct cs_video_sound {
-  cs_sound_stream samples; /* none: there is no sound */
-  double start;  /* seconds from the first frame to its beginning; below 0: its beginning is cut */
-  double length; /* seconds of all frames */
-} cs_video_sound;
-
 enum { CS_VIDEO_ARGUMENTS = 72, CS_VIDEO_TEXT = 16384 };
 
 /* Arguments of ffmpeg, its name first. */
@@ -86,7 +80,8 @@ cs_video_layout cs_video_layout_of(const cs_video_format *format, const cs_video
 /* The coding of the frames for the encoder; over black where there is no alpha. */
 celspan_coding cs_video_coding(const cs_video_format *format, const cs_video_options *options);
 
-/* The command that makes a video of raw frames, as above. file: the name of the output. */
+/* The command that makes a video of raw frames, as above. sound: as long as the frames, or none.
+ * file: the name of the output. */
 void cs_video_command_encode(cs_video_command *command, const cs_video_format *format,
                              const cs_video_options *options, const cs_video_frames *frames,
-                             const cs_video_sound *sound, const char *file);
+                             const cs_sound_stream *sound, const char *file);

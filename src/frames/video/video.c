@@ -147,7 +147,7 @@ celspan_status cs_video_open(cs_video *out, celspan_context *context, const cs_v
                     .has_digests = desc->has_digests,
                     .keeps_nothing = desc->keeps_nothing};
   out->stride = (size_t)frames->width * celspan_coding_pixel_size(&out->coding);
-  cs_sound_stream samples = desc->sound.samples;
+  cs_sound_stream samples = desc->sound;
   celspan_status status = open_file(out, &name);
   if (status == CELSPAN_OK) {
     cs_video_command_encode(&command, desc->format, &desc->options, frames, &desc->sound, name);

@@ -47,8 +47,8 @@ typedef struct celspan_film {
   double frames_second;
   int64_t first, count; /* the frames are first .. first + count - 1; count 0: not a film */
   const char *title;    /* NULL: none. Texts live as long as the film's value in Lua */
-  const char *sound;    /* NULL: none; as the script wrote it */
-  double sound_offset;  /* the film's time in seconds at which the sound begins */
+  const char *sound;    /* the one file of it, as the script wrote it; NULL: none, or a list */
+  double sound_offset;  /* seconds by which all sounds begin later */
 } celspan_film;
 
 /* The film at index. A rostrum is a film of one frame, 1920 x 1080, 24 a second, as on the command

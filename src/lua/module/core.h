@@ -40,6 +40,13 @@ int cs_folders_frames(lua_State *L);
 /* (pattern, number) -> the name of a file | nil, message */
 int cs_folders_frame_name(lua_State *L);
 
+/* ---------------------------------------------------------------- sounds */
+
+/* A function of a host that can decode sounds: (path, tried | nil) -> seconds, sums | nil, message.
+ * sums: 8-byte floats, as plugins/sound/loudness.h describes them. Scripts of a state without one
+ * cannot read sounds. */
+#define CS_CORE_HEAR "celspan.hear" /* its name in the registry */
+
 /* ---------------------------------------------------------------- layered documents */
 
 /* (path) -> { width =, height =, layers = {...}, notes = {...} } | nil, message

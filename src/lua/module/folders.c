@@ -102,7 +102,7 @@ int cs_folders_frames(lua_State *L) {
   const char *pattern = luaL_checkstring(L, 1), *list = luaL_optstring(L, 2, NULL);
   celspan_context *context = cs_host_context(L);
   cs_sequence *sequence = push_sequence(L);
-  celspan_status status = list ? cs_sequence_parse(context, list, sequence)
+  celspan_status status = list ? cs_sequence_parse(context, list, NULL, sequence)
                                : cs_sequence_list(context, pattern, sequence);
   if (status != CELSPAN_OK)
     return cs_host_fail(L, status);

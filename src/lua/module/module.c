@@ -10,6 +10,7 @@
 #include "lua/bind/host.h"
 #include "lua/bind/suggest.h"
 #include "lua/module/core.h"
+#include "lua/nouns/lua_film.h"
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/random.h"
 
@@ -46,6 +47,18 @@ int cs_core_settings(lua_State *L) {
   return 1;
 }
 
+/* core.hear(path, tried), as core.h describes it. */
+static int hear(lua_State *L) {
+  if (lua_getfield(L, LUA_REGISTRYINDEX, CS_CORE_HEAR) != LUA_TFUNCTION) {
+    lua_pushnil(L);
+    lua_pushliteral(L, "sounds are read by the program celspan alone: run the script with it");
+    return 2;
+  }
+  lua_insert(L, 1);
+  lua_call(L, lua_gettop(L) - 1, 2);
+  return 2;
+}
+
 int luaopen_celspan_core(lua_State *L) {
   static const luaL_Reg functions[] = {{"find", find},
                                        {"nearest", nearest},
@@ -53,6 +66,8 @@ int luaopen_celspan_core(lua_State *L) {
                                        {"source", cs_embedded_source},
                                        {"refuse", refuse},
                                        {"settings", cs_core_settings},
+                                       {"sounds", cs_lua_film_sounds},
+                                       {"hear", hear},
                                        {"difference", cs_difference_of},
                                        {"painting", cs_painting_read},
                                        {"parts", cs_parts_list},

@@ -96,12 +96,12 @@ static celspan_status read_frames(const cs_form *form, job *j) {
   int type = cs_form_get(form, "frames");
   if (type != LUA_TNIL && type != LUA_TSTRING && !lua_isinteger(L, -1))
     cs_form_fail(form,
-                 "field 'frames' must be a list like \"1-10,20-30:2\" or a whole number, "
+                 "field 'frames' must be a list like \"1-10,20-30:2\", a mark or a whole number, "
                  "got %s",
                  cs_userdata_type(L, -1));
   celspan_status status =
       type == LUA_TNIL ? cs_sequence_count(j->context, j->info.first, j->info.count, &j->sequence)
-                       : cs_sequence_parse(j->context, lua_tostring(L, -1), &j->sequence);
+                       : cs_sequence_parse(j->context, lua_tostring(L, -1), &j->info, &j->sequence);
   if (status == CELSPAN_OK)
     status = cs_sequence_within(j->context, &j->sequence, j->info.first, j->info.count);
   if (status == CELSPAN_OK && j->sequence.count > 1 && !cs_sequence_has_number(j->pattern))

@@ -9,16 +9,19 @@
 #include "lua/bind/fields.h"
 #include "lua/bind/files.h"
 #include "lua/bind/host.h"
+#include "lua/bind/list.h"
 #include "lua/bind/lua_error.h"
 #include "lua/bind/put.h"
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/options.h"
 #include "lua/nouns/random.h"
+#include "lua/nouns/sounds.h"
 
 #define MOST_FRAMES 1000000000 /* half a year of film: numbers stay exact, lists stay possible */
 #define MOST_SIDE 1048576
 
-enum { SOUND_FOLDER = 2 }; /* the user value with the folder of the file that named the sound */
+/* User values: the folder of the file that named the sounds, and the marks (sounds.h). */
+enum { SOUND_FOLDER = 2, MARKS = 3 };
 
 /* ---------------------------------------------------------------- the value */
 
@@ -27,13 +30,18 @@ typedef struct film_form {
   int32_t size[2];
   double fps, duration, sound_offset;
   int frames, first;
-  const char *title, *sound;
+  const char *title;
 } film_form;
+
+static int64_t count_frames(const film_form *film) {
+  return film->duration > 0 ? (int64_t)fmax(1, floor(film->duration * film->fps + 0.5))
+                            : film->frames;
+}
 
 static void check_film(const cs_form *form, cs_userdata *value) {
   lua_State *L = form->L;
   int film = lua_gettop(L);
-  film_form read = {.fps = 24, .duration = 1};
+  film_form read = {.fps = 24, .frames = 1, .first = 1};
   (void)value;
   if (cs_caller_push_folder(L))
     lua_setiuservalue(L, film, SOUND_FOLDER);
@@ -41,8 +49,9 @@ static void check_film(const cs_form *form, cs_userdata *value) {
   if (!(read.duration * read.fps <= MOST_FRAMES))
     cs_form_fail(form, "field 'duration' must be at most %d frames, got %s", MOST_FRAMES,
                  cs_form_digits(form->L, read.duration));
-  if (read.sound && !read.sound[0])
-    cs_form_fail(form, "field 'sound' must be the name of a file, got an empty text");
+  cs_sounds_check(form);
+  cs_marks_push(form, read.first, count_frames(&read));
+  lua_setiuservalue(L, film, MARKS);
   if (cs_form_get(form, "frame") != LUA_TFUNCTION)
     cs_form_fail(form, "field 'frame' must be a function(f) that returns a rostrum, got %s",
                  cs_userdata_type(L, -1));
@@ -85,11 +94,13 @@ static const cs_field fields[] = {
     {"first", CS_WHOLE(film_form, first), .least = -MOST_FRAMES, .most = MOST_FRAMES, .preset = "1",
      .about = "The number of the first frame"},
     {"title", CS_TEXT(film_form, title)},
-    {"sound", CS_TEXT(film_form, sound), .about = "A file: the sound of videos"},
+    {"sound", CS_OWN("string|celspan.sound|celspan.sound[]"),
+     .about = "A file, a sound, or a list of sounds, which are mixed"},
     {"sound_offset", CS_NUMBER(film_form, sound_offset), .least = -MOST_FRAMES, .most = MOST_FRAMES,
      .preset = "0",
-     .about = "Seconds: the time of the film at which the sound begins; a negative value cuts its "
-              "beginning"},
+     .about = "Seconds by which all sounds begin later; a negative value cuts the beginning"},
+    {"marks", CS_OWN("table<string, integer>"),
+     .about = "Names of frames, { title = 1 }, for --frames"},
     {"frame", CS_OWN("fun(f: celspan.frame): celspan.exposures"), .is_required = true,
      .about = "A pure function of f"},
     {0}};
@@ -163,7 +174,7 @@ bool cs_lua_film_push(lua_State *L, int index) {
 }
 
 static const luaL_Reg methods[] = {{"with", film_with}, {"at", film_at}, {NULL, NULL}};
-const cs_kind cs_kind_film = {.name = "celspan.film", .methods = methods, .kept = 1};
+const cs_kind cs_kind_film = {.name = "celspan.film", .methods = methods, .kept = 2};
 
 /* ---------------------------------------------------------------- reading */
 
@@ -182,6 +193,7 @@ static const char *read_text(lua_State *L, int table, const char *name) {
 }
 
 void cs_lua_film_read(lua_State *L, int film, cs_film_info *out) {
+  film = lua_absindex(L, film);
   lua_getiuservalue(L, film, 1);
   int table = lua_gettop(L);
   lua_getfield(L, table, "size");
@@ -195,30 +207,20 @@ void cs_lua_film_read(lua_State *L, int film, cs_film_info *out) {
                         .title = read_text(L, table, "title"),
                         .sound = read_text(L, table, "sound"),
                         .sound_offset = read_number(L, table, "sound_offset")};
+  int type = lua_getfield(L, table, "sound");
+  out->has_sound = type == LUA_TSTRING || (type == LUA_TTABLE && cs_list_length(L, -1) > 0);
+  lua_getiuservalue(L, film, MARKS);
+  out->marks = cs_marks_read(L, -1, &out->mark_count);
   lua_settop(L, table - 1);
 }
 
-/* film -> path, tried. Runs protected. */
-static int find_sound(lua_State *L) {
-  const char *tried;
+int cs_lua_film_sounds(lua_State *L) {
+  cs_userdata_self(L, &cs_kind_film, "sounds");
+  lua_settop(L, 1);
   lua_getiuservalue(L, 1, 1);
   lua_getiuservalue(L, 1, SOUND_FOLDER);
-  const char *folder = lua_tostring(L, -1);
-  if (lua_getfield(L, 2, "sound") == LUA_TNIL)
-    lua_pushnil(L);
-  else
-    cs_files_find_from(L, folder, lua_tostring(L, -1), &tried);
-  return 2;
-}
-
-celspan_status cs_lua_film_push_sound(lua_State *L, int film) {
-  film = lua_absindex(L, film);
-  if (!lua_checkstack(L, 4))
-    return celspan_context_fail(cs_host_context(L), CELSPAN_LIMIT, "Lua's stack is full");
-  lua_pushcfunction(L, find_sound);
-  lua_pushvalue(L, film);
-  int outcome = lua_pcall(L, 1, 2, 0);
-  return outcome == LUA_OK ? CELSPAN_OK : cs_lua_error_report(L, outcome);
+  cs_sounds_push(L, 2, lua_tostring(L, 3));
+  return 1;
 }
 
 /* ---------------------------------------------------------------- the `f` of frame functions */

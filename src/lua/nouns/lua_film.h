@@ -14,10 +14,9 @@
 
 /* film: index of a film. The texts live as long as the film. */
 void cs_lua_film_read(lua_State *L, int film, cs_film_info *out);
-/* Pushes where the film's sound is, or nil where it has none, and after it where else it was looked
- * for if it is in neither place, or nil: beside the Lua file of the frame function, then beside the
- * script. Errors: NO_MEMORY; nothing is pushed then. */
-CELSPAN_CHECKED celspan_status cs_lua_film_push_sound(lua_State *L, int film);
+/* (film) -> the list of its sounds (sounds.h), with where their files are: beside the Lua file that
+ * made the film, else beside the script. */
+int cs_lua_film_sounds(lua_State *L);
 /* Calls the frame function. out: new, to be finished; untouched on failure. */
 CELSPAN_CHECKED celspan_status cs_lua_film_build(lua_State *L, int film, int64_t number,
                                                  cs_film_frame *out);

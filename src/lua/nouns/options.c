@@ -159,7 +159,8 @@ static const cs_field frame_fields[] = {
      .fallback = "1/1023"},
     {0}};
 static const cs_field render_fields[] = {
-    {"frames", CS_OWN("string|integer"), .about = "\"1-10,20-30:2,45\"", .fallback = "all"},
+    {"frames", CS_OWN("string|integer"), .about = "\"1-10,20-30:2,45\", \"2s-4s\" or a mark",
+     .fallback = "all"},
     {"progress", CS_OWN("fun(share: number, frame: integer): boolean?"),
      .about = "The share of the whole job that is done; false stops"},
     FORMAT,

@@ -59,6 +59,7 @@ typedef struct cs_message_open {
 /* The form of the samples; 0: that of the file. */
 typedef struct cs_message_sound {
   int32_t rate, channels;
+  double speed; /* 1: as it is */
 } cs_message_sound;
 
 /* cs_colour_request without its bytes. */

@@ -3,12 +3,13 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-enum { SOUND = 3, ARGUMENTS = 40, NUMBER = 16 };
+enum { SOUND = 3, ARGUMENTS = 40, NUMBER = 16, FILTER = 256 };
 
 /* ---------------------------------------------------------------- the program */
 
@@ -63,10 +64,21 @@ static void add_number(const char **arguments, const char *option, int32_t numbe
   }
 }
 
-/* One thread, because sounds are decoded much faster than they are heard. Samples get
- * new times, in the order in which they come, so that ffmpeg adds and drops none because of its
- * time. */
+/* Samples get new times, in the order in which they come, so that ffmpeg adds and drops none
+ * because of its time. One filter halves the tempo at most, and sounds best if it doubles it at
+ * most. */
+static void write_filter(double speed, char out[FILTER]) {
+  int size = snprintf(out, FILTER, "asetpts=N/SR/TB");
+  while (speed > 0 && speed != 1 && size < FILTER) {
+    double step = fmin(2, fmax(0.5, speed));
+    size += snprintf(out + size, FILTER - (size_t)size, ",atempo=%.9f", step);
+    speed = speed / step;
+  }
+}
+
+/* One thread, because sounds are decoded much faster than they are heard. */
 static void start_ffmpeg(const char *path, const cs_message *message) {
+  char rate[NUMBER], channels[NUMBER], filter[FILTER];
   const char *arguments[ARGUMENTS] = {"ffmpeg",
                                       "-nostdin",
                                       "-hide_banner",
@@ -86,14 +98,14 @@ static void start_ffmpeg(const char *path, const cs_message *message) {
                                       "-map",
                                       "0:a:0",
                                       "-af",
-                                      "asetpts=N/SR/TB",
+                                      filter,
                                       "-c:a",
                                       "pcm_f32le",
                                       "-bitexact",
                                       "-f",
                                       "wav"};
-  char rate[NUMBER], channels[NUMBER];
   size_t count = 0;
+  write_filter(message->sound.speed, filter);
   add_number(arguments, "-ar", message->sound.rate, rate);
   add_number(arguments, "-ac", message->sound.channels, channels);
   while (arguments[count])

@@ -200,8 +200,9 @@ static celspan_status start_worker(decoder *d, celspan_context *context,
                                    const cs_decoder_desc *desc) {
   const cs_message_start start = {.memory = d->memory ? d->memory + CS_SOUND_WORKER_LOADED : 0,
                                   .task = CS_WORKER_LISTENS};
-  cs_message message = {.kind = CS_MESSAGE_OPEN,
-                        .sound = {.rate = desc->rate, .channels = desc->channels}};
+  cs_message message = {
+      .kind = CS_MESSAGE_OPEN,
+      .sound = {.rate = desc->rate, .channels = desc->channels, .speed = desc->speed}};
   cs_picture_failure failure;
   int ends[2];
   int error = cs_spawn_pipe(ends);

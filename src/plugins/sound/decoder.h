@@ -12,6 +12,7 @@ typedef struct cs_decoder_desc {
   const char *kind;       /* the name of its format in ffmpeg */
   int descriptor;         /* of the file; borrowed until it is open */
   int32_t rate, channels; /* that are wanted; 0: those of the file */
+  double speed;           /* 1: as it is */
 } cs_decoder_desc;
 
 /* Errors: those of cs_sound_open. */

@@ -1,7 +1,6 @@
 #include "plugins/sound/sound.h"
 
 #include <fcntl.h>
-#include <math.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -71,26 +70,9 @@ celspan_status cs_sound_open(celspan_context *context, const cs_sound_request *r
                                 .kind = kind,
                                 .descriptor = descriptor,
                                 .rate = request->rate,
-                                .channels = request->channels};
+                                .channels = request->channels,
+                                .speed = request->speed > 0 ? request->speed : 1};
   celspan_status status = cs_decoder_open(context, &desc, out);
   close(descriptor);
-  return status;
-}
-
-celspan_status cs_sound_check(celspan_context *context, const char *path, double seconds) {
-  float part[4096];
-  cs_sound_stream samples;
-  celspan_status status = cs_sound_open(context, &(cs_sound_request){.path = path}, &samples);
-  if (status == CELSPAN_OUTPUT)
-    return CELSPAN_OK;
-  if (status != CELSPAN_OK)
-    return status;
-  size_t most = sizeof part / sizeof *part / (size_t)samples.channels, got = most;
-  for (double left = ceil(seconds * samples.rate); left > 0 && got == most; left -= (double)got) {
-    status = samples.read(samples.user, context, part, most, &got);
-    if (status != CELSPAN_OK)
-      break;
-  }
-  cs_sound_stream_close(&samples);
   return status;
 }

@@ -13,6 +13,7 @@
 typedef struct cs_sound_request {
   const char *path;
   int32_t rate, channels; /* that are wanted; 0: those of the file */
+  double speed;           /* 2: twice as fast, with its pitch; 0 and 1: as it is */
 } cs_sound_request;
 
 /* Checks that the file can be opened and has one of the formats. tried: other paths that do not
@@ -23,6 +24,3 @@ CELSPAN_CHECKED celspan_status cs_sound_find(celspan_context *context, const cha
  * ffmpeg; LIMIT; OUTPUT, if there is no ffmpeg; NO_MEMORY; CANCELLED. */
 CELSPAN_CHECKED celspan_status cs_sound_open(celspan_context *context,
                                              const cs_sound_request *request, cs_sound_stream *out);
-/* Decodes at most that many seconds of the sound; OK if there is no ffmpeg. Errors: as above. */
-CELSPAN_CHECKED celspan_status cs_sound_check(celspan_context *context, const char *path,
-                                              double seconds);

@@ -66,6 +66,7 @@ local function describe_film()
   put("frames %d\nfirst %d\nlast %d", film.frames, film.first, film.first + film.frames - 1)
   put("fps %.9g\nseconds %.9g", film.fps, film.frames / film.fps)
   put("size %dx%d", table.unpack(film.size))
+  for _, mark in ipairs(film.marks) do put("mark %d %s", mark.frame, mark.name) end
   put("cels %d\nprimitives %d\npictures %d", table.unpack(total.most))
   put("different%s %d", total.is_least and "_at_least" or "", total.different)
   for _, entry in ipairs(total.names) do

@@ -1,0 +1,121 @@
+--- How loud a sound is at a moment, and when something begins in it, for drawings that follow it.
+--
+--   local voice = assert(sound.read "voice.wav")
+--   local mouth = voice:loudness(f.time)      -- 0..1
+--   local beats = voice:onsets()              -- seconds
+--
+-- Loudness is that of EBU R 128, momentary: of the last 0.4 seconds.
+local core = require "celspan.core"
+local fields = require "celspan.fields"
+
+local sound = {}
+
+-- The sums of src/plugins/sound/loudness.h, one for each step.
+local STEP = 0.01 -- seconds
+local MOMENTS = 480 -- of a step
+local WINDOW = 0.4 -- seconds
+local QUIET = -60 -- LUFS that is 0
+local RISE = 6 -- dB in ONSET_STEPS: something begins
+local LEAST = -50 -- LUFS that it must reach
+local ONSET_STEPS, APART = 3, 10 -- steps that are compared, and that are between two onsets
+
+---@class celspan.sound.loudness
+---@field seconds number How long it is
+local Sound = {}
+
+--- What is not shown: the sums of a sound, 8 bytes each.
+local sums_of = setmetatable({}, { __mode = "k" })
+
+local read_field = fields.reads("a sound", Sound)
+local metatable = {
+  __name = "celspan.sound",
+  __index = read_field,
+  __newindex = function() error("sounds are immutable", 2) end,
+}
+
+local function check(value, method)
+  fields.self("sound", metatable, value, method)
+end
+
+--- The sum of all before step i, from 0; the last one after the end.
+local function sum_at(sums, i)
+  local last = #sums // 8 - 1
+  i = math.max(0, math.min(last, i))
+  return (("<d"):unpack(sums, i * 8 + 1))
+end
+
+--- The sum of all before a time, between two steps in proportion.
+local function sum_before(sums, seconds)
+  local steps = math.max(0, math.min(#sums / 8 - 1, seconds / STEP))
+  local i = math.floor(steps)
+  local before, after = sum_at(sums, i), sum_at(sums, i + 1)
+  return before + (after - before) * (steps - i)
+end
+
+--- LUFS of a mean square.
+local function level(square)
+  return square > 0 and -0.691 + 10 * math.log(square, 10) or -math.huge
+end
+
+--- The loudness of the 0.4 seconds before a time: 0 is -60 LUFS or less, 1 is 0 LUFS or more.
+---@param seconds number Of the sound
+---@return number loudness 0..1
+function Sound:loudness(seconds)
+  check(self, "loudness")
+  if not fields.is_finite(seconds) then
+    error("sound: loudness takes seconds, a finite number, got " .. fields.shown(seconds), 2)
+  end
+  local sums = sums_of[self]
+  local square = sum_before(sums, seconds) - sum_before(sums, seconds - WINDOW)
+  local lufs = level(square / (WINDOW / STEP * MOMENTS))
+  return math.max(0, math.min(1, 1 - lufs / QUIET))
+end
+
+--- The level of the ONSET_STEPS steps before step i.
+local function level_before(sums, i)
+  return level((sum_at(sums, i) - sum_at(sums, i - ONSET_STEPS)) / (ONSET_STEPS * MOMENTS))
+end
+
+--- The step within the last ONSET_STEPS before i that rises most.
+local function steepest(sums, i)
+  local best, most = i - 1, -1
+  for step = i - ONSET_STEPS, i - 1 do
+    local rise = sum_at(sums, step + 1) - 2 * sum_at(sums, step) + sum_at(sums, step - 1)
+    if step >= 0 and rise > most then best, most = step, rise end
+  end
+  return best
+end
+
+--- The times at which the sound becomes louder by 6 dB or more at once, such as beats and
+--- syllables, to a hundredth of a second; at least a tenth of a second apart.
+---@return number[] seconds
+function Sound:onsets()
+  check(self, "onsets")
+  local sums, list, last = sums_of[self], {}, -APART
+  for i = 1, #sums // 8 - 1 do
+    local now, before = level_before(sums, i), level_before(sums, i - ONSET_STEPS)
+    if now >= LEAST and now - before >= RISE then
+      local step = steepest(sums, i)
+      if step - last >= APART then
+        list[#list + 1] = step * STEP
+      end
+      last = math.max(last, step)
+    end
+  end
+  return list
+end
+
+--- Reads a sound: WAV, FLAC, MP3, Ogg, Opus or M4A.
+---@param file string Relative to the caller's file, else to the script
+---@return celspan.sound.loudness? sound
+---@return string? message
+function sound.read(file)
+  if type(file) ~= "string" then error("sound: read takes a file name, got " .. type(file), 2) end
+  local seconds, sums = core.hear(core.find(file))
+  if not seconds then return nil, sums end
+  local value = setmetatable({ seconds = seconds }, metatable)
+  sums_of[value] = sums
+  return value
+end
+
+return fields.seal("sound", sound)

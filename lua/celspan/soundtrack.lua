@@ -1,0 +1,123 @@
+--- The sounds of a film as one flat list, for the mix (src/plugins/sound/mix.h).
+--
+--   film A: voice.wav at 1 s                     voice.wav: start 5 - 2 + 1, heard from 5 to 8
+--   film B: { A, at = 5, from = 2, to = 5 }  --> (the passage of A in B), and in A's own passages
+--
+-- A sound of a film that is a sound of another one is moved, and heard at another speed, with all
+-- that lies around it.
+local core = require "celspan.core"
+
+---@class celspan.soundtrack.sound
+---@field path string
+---@field tried string? Another path that does not exist either
+---@field number integer Of the sound in its own film
+---@field start number Second of the film at which the file begins, if all of it is heard
+---@field speed number
+---@field from number Seconds of the file that are left out
+---@field left number
+---@field right number
+---@field passages number[][] { begin, end, fade in, fade out }
+---@field duckers celspan.soundtrack.sound[]
+
+local soundtrack = {}
+
+local MOST = 100000
+
+--- Constant power: the squares of both add up to 2, and both are 1 in the middle.
+local function pan(value)
+  local angle = (value + 1) * math.pi / 4
+  return math.sqrt(2) * math.cos(angle), math.sqrt(2) * math.sin(angle)
+end
+
+local function gain_of(sound)
+  if sound.pan == 0 then return sound.gain, sound.gain end
+  local left, right = pan(sound.pan)
+  return sound.gain * left, sound.gain * right
+end
+
+--- The one sound of a file.
+local function of_file(sound)
+  local start = sound.at - sound.from / sound.speed
+  local left, right = gain_of(sound)
+  return { {
+    path = sound.path, tried = sound.tried, number = sound.number, start = start,
+    speed = sound.speed, from = sound.from, left = left, right = right, duckers = {},
+    passages = { { sound.at, sound.to and start + sound.to / sound.speed or math.huge,
+      sound.fade_in, sound.fade_out } },
+  } }
+end
+
+--- Whether all passages are open at some time.
+local function is_heard(passages)
+  local first, last = -math.huge, math.huge
+  for _, passage in ipairs(passages) do
+    first, last = math.max(first, passage[1]), math.min(last, passage[2])
+  end
+  return first < last
+end
+
+local flatten
+
+--- The sounds of a film, which is a sound of another one.
+local function of_film(sound)
+  local film, list = sound[1], {}
+  local to = math.min(sound.to or math.huge, film.duration)
+  local function moved(seconds) return sound.at + (seconds - sound.from) / sound.speed end
+  local left, right = gain_of(sound)
+  for _, inner in ipairs(flatten(film)) do
+    for i, passage in ipairs(inner.passages) do
+      inner.passages[i] = { moved(passage[1]), moved(passage[2]), passage[3] / sound.speed,
+        passage[4] / sound.speed }
+    end
+    table.insert(inner.passages, { sound.at, moved(to), sound.fade_in, sound.fade_out })
+    inner.start, inner.speed = moved(inner.start), inner.speed * sound.speed
+    inner.left, inner.right = inner.left * left, inner.right * right
+    if is_heard(inner.passages) then list[#list + 1] = inner end
+  end
+  return list
+end
+
+--- Notes by whom the sounds of each item are made lower.
+local function add_duckers(items)
+  for _, item in ipairs(items) do
+    for _, other in ipairs(item.sound.duck and items or {}) do
+      if other ~= item and other.sound.name == item.sound.duck then
+        for _, one in ipairs(other.list) do
+          table.move(item.list, 1, #item.list, #one.duckers + 1, one.duckers)
+        end
+      end
+    end
+  end
+end
+
+--- New tables at each call.
+function flatten(film)
+  local items, all = {}, {}
+  for i, sound in ipairs(core.sounds(film)) do
+    sound.at = sound.at + film.sound_offset
+    local list = sound.path and of_file(sound) or of_film(sound)
+    items[i] = { sound = sound, list = list }
+    table.move(list, 1, #list, #all + 1, all)
+    if #all > MOST then
+      error(("the film has more than %d sounds, which is the limit"):format(MOST), 0)
+    end
+  end
+  add_duckers(items)
+  return all
+end
+
+--- The sounds of a film, with the places of their duckers in the list.
+---@param film celspan.film
+---@return celspan.soundtrack.sound[]
+function soundtrack.of(film)
+  local list, places = flatten(film), {}
+  for i, sound in ipairs(list) do places[sound] = i end
+  for _, sound in ipairs(list) do
+    local found = {}
+    for _, ducker in ipairs(sound.duckers) do found[#found + 1] = places[ducker] end
+    sound.duckers = found
+  end
+  return list
+end
+
+return require "celspan.fields".seal("soundtrack", soundtrack)

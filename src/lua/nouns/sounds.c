@@ -1,0 +1,228 @@
+#include "lua/nouns/sounds.h"
+
+#include <string.h>
+
+#include "lua/bind/fields.h"
+#include "lua/bind/files.h"
+#include "lua/bind/list.h"
+#include "lua/bind/put.h"
+#include "lua/nouns/nouns.h"
+
+#define MOST_SECONDS 1e9
+#define MOST_SOUNDS 100000 /* of a film */
+
+/* ---------------------------------------------------------------- one sound */
+
+typedef struct sound_form {
+  double at, from, to, speed, gain, fade[2], pan;
+  bool has_to;
+  const char *name, *duck;
+} sound_form;
+
+#define SECONDS(member) CS_NUMBER(sound_form, member), .least = 0, .most = MOST_SECONDS
+static const cs_field fields[] = {
+    {"at", CS_NUMBER(sound_form, at), .least = -MOST_SECONDS, .most = MOST_SECONDS, .preset = "0",
+     .about = "Second of the film at which it begins"},
+    {"from", SECONDS(from), .preset = "0", .about = "Second of the file at which it begins"},
+    {"to", SECONDS(to), CS_HAS(sound_form, has_to), .is_above = true,
+     .about = "Second of the file at which it ends", .fallback = "the end of the file"},
+    {"speed", CS_NUMBER(sound_form, speed), .least = 0.01, .most = 100, .preset = "1",
+     .about = "2: twice as fast; the pitch is kept"},
+    {"gain", CS_NUMBER(sound_form, gain), .least = 0, .most = 1000, .preset = "1",
+     .about = "A factor of the amplitude"},
+    {"fade", CS_NUMBERS(sound_form, fade), .shape = "two times {in, out}, in seconds",
+     .about = "Linear in amplitude", .fallback = "{0, 0}"},
+    {"pan", CS_NUMBER(sound_form, pan), .least = -1, .most = 1, .preset = "0",
+     .about = "-1: left, 1: right, with constant power"},
+    {"name", CS_TEXT(sound_form, name), .about = "For `duck`"},
+    {"duck", CS_TEXT(sound_form, duck),
+     .about = "The name of sounds that are 12 dB lower while this one sounds"},
+    {0}};
+const cs_noun cs_noun_sound = {.name = "film: sound",
+                               .about = "A sound of a film, and when it is heard.",
+                               .table = "celspan.sound",
+                               .list = CS_LIST_TUPLE,
+                               .item = "file",
+                               .item_written = "string|celspan.film",
+                               .item_about = "A file, or a film whose sounds are meant",
+                               .fields = fields};
+
+/* Raises unless the value on top of the stack is a file's name or, in a table, a film. */
+static void check_file(const cs_form *form, bool is_in_table) {
+  lua_State *L = form->L;
+  bool is_text = lua_type(L, -1) == LUA_TSTRING;
+  if (is_text && lua_tostring(L, -1)[0])
+    return;
+  if (is_text)
+    cs_form_fail(form, "the name of the file is an empty text");
+  if (!is_in_table || !cs_userdata_test(L, -1, &cs_kind_film))
+    cs_form_fail(form, "must be the name of a file%s, got %s",
+                 is_in_table ? " or a film, { \"voice.wav\", at = 2 }" : "",
+                 cs_userdata_type(L, -1));
+}
+
+static void read_times(const cs_form *form, sound_form *out) {
+  cs_fields_read(form, out);
+  if (out->has_to && out->to <= out->from)
+    cs_form_fail(form, "field 'to' must be above 'from', %s, got %s",
+                 cs_form_digits(form->L, out->from), cs_form_digits(form->L, out->to));
+  for (int i = 0; i < 2; i++)
+    if (!(out->fade[i] >= 0 && out->fade[i] <= MOST_SECONDS))
+      cs_form_fail(form, "fade[%d] must be 0 or more seconds, got %s", i + 1,
+                   cs_form_digits(form->L, out->fade[i]));
+}
+
+/* Opens the form of a sound that is on top of the stack, a table; its file is pushed. */
+static cs_form open_sound(lua_State *L, const cs_noun *noun, sound_form *out) {
+  *out = (sound_form){.speed = 1, .gain = 1};
+  cs_form form = cs_form_open(L, noun, -1);
+  if (cs_form_length(&form) > 1)
+    cs_form_fail(&form,
+                 "takes one file, { \"voice.wav\", at = 2 }, got %d: write a list "
+                 "{ { \"a.wav\" }, { \"b.wav\" } }",
+                 cs_form_length(&form));
+  read_times(&form, out);
+  lua_rawgeti(L, form.table, 1);
+  return form;
+}
+
+static void check_sound(lua_State *L, const cs_noun *noun) {
+  sound_form read;
+  int top = lua_gettop(L);
+  if (!lua_istable(L, -1)) {
+    check_file(&(cs_form){L, noun, top}, false);
+    return;
+  }
+  cs_form form = open_sound(L, noun, &read);
+  check_file(&form, true);
+  lua_settop(L, top);
+}
+
+/* ---------------------------------------------------------------- lists */
+
+/* Whether the table on top of the stack is a list of sounds, and not one sound. */
+static bool is_list(lua_State *L) {
+  lua_Integer length = cs_list_length(L, -1);
+  int type = lua_rawgeti(L, -1, 1);
+  lua_pop(L, 1);
+  if (type == LUA_TTABLE || (length > 0 && (type == LUA_TNIL || type == LUA_TBOOLEAN)))
+    return true;
+  lua_pushnil(L);
+  bool is_empty = lua_next(L, -2) == 0;
+  if (!is_empty)
+    lua_pop(L, 2);
+  return is_empty;
+}
+
+/* Pushes sound i, from 1, of the value on top of the stack; false, and nothing pushed: after the
+ * last. Places of a list without a sound give nil or false. */
+static bool push_item(lua_State *L, lua_Integer i) {
+  if (lua_istable(L, -1) && is_list(L)) {
+    if (i > cs_list_length(L, -1))
+      return false;
+    lua_rawgeti(L, -1, i);
+    return true;
+  }
+  if (i == 1)
+    lua_pushvalue(L, -1);
+  return i == 1;
+}
+
+/* Raises if the sound on top of the stack ducks a name that no other sound of the list has. */
+static void check_duck(lua_State *L, const cs_noun *noun, int list) {
+  int sound = lua_gettop(L);
+  bool is_found = !lua_istable(L, sound) || lua_getfield(L, sound, "duck") == LUA_TNIL;
+  lua_pushvalue(L, list);
+  for (lua_Integer i = 1; !is_found && push_item(L, i); lua_settop(L, sound + 2), i++)
+    if (lua_istable(L, -1) && !lua_rawequal(L, -1, sound)) {
+      lua_getfield(L, -1, "name");
+      is_found = lua_rawequal(L, -1, sound + 1);
+    }
+  if (!is_found)
+    cs_form_fail(&(cs_form){L, noun, sound},
+                 "field 'duck' must be the name of another sound of the film, got \"%s\", which "
+                 "none has",
+                 lua_tostring(L, sound + 1));
+}
+
+/* Checks sound i, which is on top of the stack. */
+static void check_item(lua_State *L, lua_Integer i, int list) {
+  cs_noun named = cs_noun_sound;
+  named.name = lua_pushfstring(L, "film: sound %I", (LUAI_UACINT)i);
+  lua_insert(L, -2);
+  check_sound(L, &named);
+  check_duck(L, &named, list);
+}
+
+void cs_sounds_check(const cs_form *film) {
+  lua_State *L = film->L;
+  int type = cs_form_get(film, "sound"), list = lua_gettop(L);
+  if (type == LUA_TSTRING && !lua_tostring(L, -1)[0])
+    cs_form_fail(film, "field 'sound' must be the name of a file, got an empty text");
+  if (type != LUA_TSTRING && type != LUA_TTABLE && type != LUA_TNIL)
+    cs_form_fail(film,
+                 "field 'sound' must be the name of a file, { \"voice.wav\", at = 2 } or a list "
+                 "of such tables, got %s",
+                 cs_userdata_type(L, -1));
+  for (lua_Integer i = 1; type == LUA_TTABLE && push_item(L, i); lua_settop(L, list), i++) {
+    if (i > MOST_SOUNDS)
+      cs_form_fail(film, "field 'sound' has more than %d sounds", MOST_SOUNDS);
+    if (lua_toboolean(L, -1))
+      check_item(L, i, list);
+  }
+  lua_settop(L, list - 1);
+}
+
+/* ---------------------------------------------------------------- what is wanted */
+
+/* Sets the file of the sound below, which is a name, in the table on top of the stack. */
+static void put_file(lua_State *L, const char *folder) {
+  const char *tried;
+  lua_pushvalue(L, -2);
+  lua_rawseti(L, -2, 1);
+  if (lua_type(L, -2) != LUA_TSTRING)
+    return;
+  cs_files_find_from(L, folder, lua_tostring(L, -2), &tried);
+  lua_setfield(L, -3, "tried");
+  lua_setfield(L, -2, "path");
+}
+
+/* Replaces the sound on top of the stack by the table that is pushed for it. */
+static void complete(lua_State *L, const char *folder) {
+  sound_form read = {.speed = 1, .gain = 1};
+  int sound = lua_gettop(L);
+  if (lua_istable(L, -1))
+    open_sound(L, &cs_noun_sound, &read);
+  lua_pushvalue(L, -1);
+  lua_createtable(L, 1, 12);
+  put_file(L, folder);
+  cs_put_number(L, "at", read.at);
+  cs_put_number(L, "from", read.from);
+  if (read.has_to)
+    cs_put_number(L, "to", read.to);
+  cs_put_number(L, "speed", read.speed);
+  cs_put_number(L, "gain", read.gain);
+  cs_put_number(L, "fade_in", read.fade[0]);
+  cs_put_number(L, "fade_out", read.fade[1]);
+  cs_put_number(L, "pan", read.pan);
+  cs_put_text(L, "name", read.name);
+  cs_put_text(L, "duck", read.duck);
+  lua_replace(L, sound);
+  lua_settop(L, sound);
+}
+
+void cs_sounds_push(lua_State *L, int film, const char *folder) {
+  film = lua_absindex(L, film);
+  lua_newtable(L);
+  int list = lua_gettop(L);
+  lua_Integer count = 0;
+  luaL_checkstack(L, 40, "sounds");
+  if (lua_getfield(L, film, "sound") != LUA_TNIL)
+    for (lua_Integer i = 1; push_item(L, i); lua_settop(L, list + 1), i++)
+      if (lua_toboolean(L, -1)) {
+        complete(L, folder);
+        cs_put_integer(L, "number", i);
+        lua_rawseti(L, list, ++count);
+      }
+  lua_settop(L, list);
+}

@@ -1,0 +1,115 @@
+#include "plugins/sound/loudness.h"
+
+#include <string.h>
+
+#include "plugins/sound/sound.h"
+
+enum { PIECE = 1024, LOW_FREQUENCY = 1 << 3 /* its bit among the places of WAV files */ };
+#define BEHIND ((uint32_t)0x38730) /* the places beside and behind the listener */
+
+/* A filter of second order: y = b0 x + b1 x' + b2 x'' - a1 y' - a2 y''. */
+typedef struct biquad {
+  double b0, b1, b2, a1, a2;
+} biquad;
+
+/* BS.1770-4, tables 1 and 2, for 48,000 moments in a second. */
+static const biquad shelf = {1.53512485958697, -2.69169618940638, 1.19839281085285,
+                             -1.69065929318241, 0.73248077421585};
+static const biquad high_pass = {1, -2, 1, -1.99004745483398, 0.99007225036621};
+
+/* What a filter keeps of a channel: the direct form II, transposed. */
+typedef struct memory {
+  double a, b;
+} memory;
+
+typedef struct listening {
+  cs_sound_stream samples;
+  memory kept[CS_SOUND_STREAM_CHANNELS][2];
+  double weights[CS_SOUND_STREAM_CHANNELS];
+  float piece[PIECE * CS_SOUND_STREAM_CHANNELS];
+  double sum;
+} listening;
+
+static double pass(const biquad *f, memory *kept, double x) {
+  double y = f->b0 * x + kept->a;
+  kept->a = f->b1 * x - f->a1 * y + kept->b;
+  kept->b = f->b2 * x - f->a2 * y;
+  return y;
+}
+
+/* ---------------------------------------------------------------- channels */
+
+/* The usual places of so many channels in WAV files, for sounds that do not say them. */
+static uint32_t usual_places(int32_t channels) {
+  static const uint32_t usual[] = {0, 0x4, 0x3, 0x7, 0x107, 0x37, 0x3f, 0x13f, 0x63f};
+  return channels < (int32_t)(sizeof usual / sizeof *usual) ? usual[channels] : 0;
+}
+
+/* Channels behind the listener count more, and that of low frequencies does not count. */
+static void set_weights(listening *l) {
+  uint32_t places = l->samples.places ? l->samples.places : usual_places(l->samples.channels);
+  for (int32_t c = 0; c < l->samples.channels; c++) {
+    uint32_t place = places & (~places + 1);
+    places &= places - 1;
+    l->weights[c] = place == LOW_FREQUENCY ? 0 : place & BEHIND ? 1.41 : 1;
+  }
+}
+
+/* ---------------------------------------------------------------- sums */
+
+static celspan_status add_moment(listening *l, celspan_context *context, const float *moment,
+                                 cs_loudness *out) {
+  for (int32_t c = 0; c < l->samples.channels; c++) {
+    double y = pass(&high_pass, &l->kept[c][1], pass(&shelf, &l->kept[c][0], (double)moment[c]));
+    l->sum += l->weights[c] * y * y;
+  }
+  if (++out->moments % CS_LOUDNESS_STEP != 0)
+    return CELSPAN_OK;
+  return CS_APPEND(context, out->sums, out->count, out->capacity, l->sum);
+}
+
+static celspan_status add_all(listening *l, celspan_context *context, const char *path,
+                              cs_loudness *out) {
+  const int64_t most = (int64_t)CS_LOUDNESS_HOURS * 3600 * CS_LOUDNESS_RATE;
+  size_t got = PIECE;
+  while (got == PIECE) {
+    CS_TRY(l->samples.read(l->samples.user, context, l->piece, PIECE, &got));
+    for (size_t i = 0; i < got; i++)
+      CS_TRY(add_moment(l, context, l->piece + i * (size_t)l->samples.channels, out));
+    if (out->moments > most)
+      return cs_fail(context, CELSPAN_LIMIT,
+                     "the sound %s has more than %d hours, which is the "
+                     "limit",
+                     path, CS_LOUDNESS_HOURS);
+  }
+  return CS_APPEND(context, out->sums, out->count, out->capacity, l->sum);
+}
+
+static celspan_status measure(listening *l, celspan_context *context, const char *path,
+                              cs_loudness *out) {
+  const cs_sound_request request = {.path = path, .rate = CS_LOUDNESS_RATE};
+  CS_TRY(CS_APPEND(context, out->sums, out->count, out->capacity, 0));
+  CS_TRY(cs_sound_open(context, &request, &l->samples));
+  set_weights(l);
+  celspan_status status = add_all(l, context, path, out);
+  cs_sound_stream_close(&l->samples);
+  return status;
+}
+
+celspan_status cs_loudness_measure(celspan_context *context, const char *path, const char *tried,
+                                   cs_loudness *out) {
+  listening *l;
+  *out = (cs_loudness){.sums = NULL};
+  CS_TRY(cs_sound_find(context, path, tried));
+  CS_TRY(CS_MAKE(context, l, 1));
+  celspan_status status = measure(l, context, path, out);
+  cs_mem_free(context->memory, l, sizeof *l);
+  if (status != CELSPAN_OK)
+    cs_loudness_finish(out, context);
+  return status;
+}
+
+void cs_loudness_finish(cs_loudness *loudness, celspan_context *context) {
+  cs_mem_free(context->memory, loudness->sums, loudness->capacity * sizeof *loudness->sums);
+  *loudness = (cs_loudness){.sums = NULL};
+}

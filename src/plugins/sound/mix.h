@@ -1,0 +1,54 @@
+/* The sounds of a film, mixed: one stream of 48,000 moments in a second, with two channels.
+ *
+ *   film seconds   0      start       begin                    end
+ *                  |        |---------|========================|----------
+ *                           first     heard: its passages, its fades, its gains; 12 dB lower
+ *                           sample    while a sound is heard that ducks it
+ *
+ *   sounds --measured, when it is opened--> passages in samples --sum in double--> cs_sound_stream
+ *
+ * INVARIANT: all sounds were decoded to their end, or to that of the film, before the first moment
+ * is given, so what cannot be read is refused before the first frame. A sample depends on the
+ * sounds and its time alone, not on where the stream begins. Short sounds are kept, and each file of
+ * them is decoded once; of the others only those are open that are heard now.
+ */
+#pragma once
+
+#include "frames/video/sound_stream.h"
+
+enum {
+  CS_MIX_RATE = 48000,
+  CS_MIX_CHANNELS = 2,
+  CS_MIX_OPEN = 64 /* sounds that may be heard at the same time */
+};
+#define CS_MIX_DUCKED 0.25118864315095801 /* -12 dB */
+#define CS_MIX_DUCK_SECONDS 0.1           /* of the ramps before and after */
+
+/* A part of the film in which a sound is heard, in its seconds, with linear fades at its ends. */
+typedef struct cs_mix_passage {
+  double begin, end; /* end: INFINITY where it is that of the sound */
+  double fade_in, fade_out;
+} cs_mix_passage;
+
+typedef struct cs_mix_sound {
+  const char *path;
+  const char *tried; /* another path that does not exist either, or NULL */
+  double start;      /* second of the film at which the first sample would be heard */
+  double speed;      /* above 0 */
+  double from;       /* seconds of the file that are left out, for messages */
+  int number;        /* in the film's list, for messages */
+  double gain[CS_MIX_CHANNELS];
+  const cs_mix_passage *passages; /* of the sound itself, then those around it: all must be open */
+  size_t passage_count;
+  const uint32_t *duckers; /* sounds of the list that make it lower */
+  size_t ducker_count;
+} cs_mix_sound;
+
+/* Checks that all files are there and have a format that is read. Errors: INPUT. */
+CELSPAN_CHECKED celspan_status cs_mix_find(celspan_context *context, const cs_mix_sound *sounds,
+                                           size_t count);
+/* The mix from second `begin` of the film, `moments` of them. sounds: copied, except their paths,
+ * passages and duckers, which are borrowed until it is closed. Errors: those of cs_sound_open. */
+CELSPAN_CHECKED celspan_status cs_mix_open(celspan_context *context, const cs_mix_sound *sounds,
+                                           size_t count, double begin, int64_t moments,
+                                           cs_sound_stream *out);

@@ -1,0 +1,67 @@
+/* celspan sound SCRIPT -o mix.wav: the mixed sound of a film, or of a run of its frames. */
+#include <math.h>
+#include <strings.h>
+
+#include "output/sinks/file.h"
+#include "plugins/sound/wave_file.h"
+#include "program/soundtrack.h"
+#include "program/target.h"
+#include "program/verbs.h"
+
+static cs_exit refuse_request(const cs_script *script, const cs_request *request, bool *is_float) {
+  const char *output = cs_request_text(request, "-o");
+  celspan_depth depth = CELSPAN_DEPTH_DEFAULT;
+  cs_request_read(request, "--depth", &depth);
+  *is_float = depth == CELSPAN_DEPTH_FLOAT;
+  if (!output)
+    return cs_report_usage("-o is missing: the file to write, such as mix.wav");
+  if (strcasecmp(cs_file_ending(output), "wav") != 0)
+    return cs_report_usage("%s: a sound is written as WAV: give a name such as mix.wav", output);
+  if (depth != CELSPAN_DEPTH_DEFAULT && depth != CELSPAN_DEPTH_16 && !*is_float)
+    return cs_report_usage("%s: a sound takes --depth 16 or float", output);
+  if (!script->film.has_sound)
+    return cs_report_usage("%s: the film has no sound", request->operands[0]);
+  return CS_EXIT_OK;
+}
+
+static void report_peak(const char *output, double peak, bool is_float) {
+  if (peak > 1)
+    cs_report_note("%s: the mix is up to %.1f dB louder than full scale%s: lower the gain of its "
+                   "sounds",
+                   output, 20 * log10(peak), is_float ? "" : ", and cut there");
+}
+
+static cs_exit write_mix(cs_script *script, const cs_request *request, const cs_sequence *frames,
+                         bool is_float) {
+  const char *output = cs_request_text(request, "-o");
+  cs_sound_stream samples;
+  int64_t moments;
+  double peak = 0;
+  CS_TRY_EXIT(cs_soundtrack_open(script, request, frames, &samples, &moments));
+  celspan_status status =
+      cs_wave_file_write(script->context, output, &samples, moments, is_float, &peak);
+  cs_sound_stream_close(&samples);
+  if (status == CELSPAN_OK)
+    report_peak(output, peak, is_float);
+  return cs_report_failure(script->context, status, NULL);
+}
+
+static cs_exit run(cs_script *script, const cs_request *request) {
+  bool is_float;
+  cs_sequence frames = {0};
+  CS_TRY_EXIT(refuse_request(script, request, &is_float));
+  cs_exit outcome = cs_target_frames(script, request, NULL, &frames);
+  if (outcome == CS_EXIT_OK)
+    outcome = write_mix(script, request, &frames, is_float);
+  cs_sequence_finish(&frames);
+  return outcome;
+}
+
+cs_exit cs_verb_sound(celspan_context *context, const cs_request *request) {
+  cs_script script;
+  cs_exit outcome = cs_script_open(context, request, request->operands[0], &script);
+  if (outcome == CS_EXIT_OK)
+    outcome = run(&script, request);
+  cs_script_close(&script);
+  return outcome;
+}

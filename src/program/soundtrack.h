@@ -1,0 +1,23 @@
+/* The sounds of a script's film, mixed for videos and for `celspan sound`.
+ *
+ *   film --lua/celspan/soundtrack.lua--> a flat list, cs_mix_sound --plugins/sound/mix.h--> stream
+ */
+#pragma once
+
+#include "frames/film/sequence.h"
+#include "plugins/sound/mix.h"
+#include "program/script.h"
+
+typedef struct cs_soundtrack {
+  const cs_mix_sound *sounds; /* live as long as the script's Lua state */
+  size_t count;
+} cs_soundtrack;
+
+/* Reads the sounds of the film. Errors: CALLBACK, NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_soundtrack_read(cs_script *script, cs_soundtrack *out);
+/* Finds the files and, if is_deep, decodes them up to the end of the film; OK without ffmpeg.
+ * Errors: those of cs_mix_open. */
+CELSPAN_CHECKED celspan_status cs_soundtrack_check(cs_script *script, bool is_deep);
+/* Mixes the sound of a run of frames; *moments: how many there are. OK, or reported. */
+cs_exit cs_soundtrack_open(cs_script *script, const cs_request *request, const cs_sequence *frames,
+                           cs_sound_stream *out, int64_t *moments);
