@@ -563,7 +563,7 @@ function celspan.clip(art, shape) end
 ---@field back? celspan.light Shines through the whole frame from behind this cel; default none
 ---@field viewport? number[] {x, y, w, h}; the part that fills the frame
 ---@field defocus? number|celspan.defocus A radius, or with a kernel
----@field opacity? number 0 to 1; default 1
+---@field opacity? number Limited to 0..1; default 1
 
 ---@class celspan.cel: celspan.placed, celspan.cel.fields
 ---@field opacity number

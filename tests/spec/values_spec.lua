@@ -272,6 +272,18 @@ describe("a fade", function()
       assert.are.equal(0.25, shown(faded:fade(0.5):with {}))
     end
   end)
+
+  it("and an opacity and a mix are held to 0..1, because curves overshoot", function()
+    local circle = celspan.circle { centre = { 50, 50 }, radius = 9, texture = "#fff" }
+    for _, value in ipairs { circle, celspan.cel { circle } } do
+      assert.are.equal(1, shown(value:fade(1.1)))
+      assert.are.equal(0, shown(value:fade(-0.1)))
+      assert.are.equal(0.5, shown(value:fade(1.1):with {}:fade(0.5):with {}))
+    end
+    assert.are.equal(1, shown(celspan.cel { circle, opacity = 1.02 }))
+    assert.are.equal(0, shown(celspan.cel { circle, opacity = -0.01 }))
+    assert.are.equal(1, celspan.mix("#000", "#fff", 1.02).pigment[1])
+  end)
 end)
 
 describe("a colour as a string", function()
