@@ -95,6 +95,9 @@
       {"--allow", "DIR", &cs_argument_texts,                                                       \
        "let the script also read this folder and the folders in it; may be given "                 \
        "several times"},                                                                           \
+      {"--allow-system-fonts", NULL, NULL,                                                         \
+       "let the script also read the fonts that are installed: /usr/share/fonts, "                 \
+       "/usr/local/share/fonts, ~/.local/share/fonts and ~/.fonts"},                               \
   {                                                                                                \
     "--limit", "NAME=V", &cs_argument_limits,                                                      \
         "limits, several separated by commas; 0: no limit. Of the script: "                        \

@@ -1,0 +1,110 @@
+-- What people write first, by habits from other programs: it works, or the message says what to
+-- write.
+local celspan = require "celspan"
+local present = require "tests.support.present"
+local raised = require "tests.support.raised"
+local workbench = require "tests.support.workbench"
+
+local with_art = present.art() and it or pending
+
+local bench
+
+before_each(function() bench = workbench.new() end)
+after_each(function() bench:remove() end)
+
+local function run(arguments, ...) return bench:celspan_inside(arguments, ...) end
+
+--- Runs a command that must fail with this code and these words.
+local function refused(code, words, arguments, ...)
+  local got, _, message = run(arguments, ...)
+  assert.equal(code, got, message)
+  assert.is_truthy(message:find(words, 1, true), message)
+end
+
+describe("a wrong field of a library function", function()
+  -- The call stands on line 4, and ends the frame function.
+  local function film(call)
+    bench:write("film.lua", [[
+local celspan, library = require "celspan", require "celspan.]] .. call:match "^%w+" .. [["
+local cel = celspan.cel {}
+return celspan.film { size = { 64, 36 }, frame = function(f)
+  return ]] .. call:gsub("^%w+", "library") .. [[
+
+end }]])
+  end
+
+  it("has its line in `return multiplane { ... }` too", function()
+    for call, words in pairs {
+      ["multiplane { film = { 64, 36 }, focl = 800 }"] = "unknown field 'focl'",
+      ["multiplane { film = { 64, 36 }, camera = { rotate = 10 } }"] = "unknown field 'rotate'",
+      ["multiplane { film = { 64, 36 }, cel }"] = "plane 1 must be {cel, z = depth}, got a cel",
+      ["multiplane { film = { 64, 36 }, { cel, z = 'far' } }"] = "field 'z' must be a number",
+      ["multiplane { film = { 64, 36 }, front = { 1 }, { cel } }"] = "front",
+      ["shutter { angel = 180 }"] = "unknown field 'angel'",
+      ["shutter { angle = 720, frame = print }"] = "field 'angle' must be 0..360",
+      ["keys { { 1, 'a' }, { 0, 'b' } }"] = "keys: key 2 is at 0",
+      ["keys { lop = 'repeat', { 0, 1 } }"] = "unknown field 'lop'",
+    } do
+      film(call)
+      local _, _, message = run "check film.lua"
+      assert.is_truthy(message:find("film.lua:4: ", 1, true), message)
+      assert.is_truthy(message:find(words, 1, true), message)
+    end
+  end)
+
+  it("keeps it where the call stands alone", function()
+    local multiplane = require "celspan.multiplane"
+    local message = raised.message(function()
+      local rostrum = multiplane { film = { 64, 36 }, focl = 800 }
+      return rostrum
+    end)
+    assert.is_truthy(message:find "^tests/spec/habits_spec.lua:%d+: multiplane: unknown", message)
+  end)
+end)
+
+describe("a misspelt word", function()
+  it("is answered with the nearest of those that are allowed", function()
+    for given, meant in pairs { center = "centre", middle = "centre", rigth = "right" } do
+      local message = raised.message(function()
+        celspan.text { "A", font = "f.ttf", align = given }
+      end)
+      assert.is_truthy(message:find(('got "%s"; did you mean "%s"?'):format(given, meant), 1, true),
+        message)
+    end
+    local message = raised.message(function()
+      celspan.stroke { points = { { 0, 0 }, { 1, 1 } }, join = "mitre" }
+    end)
+    assert.is_truthy(message:find('did you mean "miter"?', 1, true), message)
+    message = raised.message(function()
+      celspan.stroke { points = { { 0, 0 }, { 1, 1 } }, join = 3 }
+    end)
+    assert.is_falsy(message:find("did you mean", 1, true), message)
+  end)
+end)
+
+describe("a font", function()
+  local SCRIPT = [[
+local celspan = require "celspan"
+return celspan.rostrum { celspan.cel { celspan.text { "A", font = "%s", size = 20 } } }]]
+
+  with_art("that is named and not a file is answered with what a font is", function()
+    bench:write("film.lua", SCRIPT:format "Arial")
+    refused(4, 'a font is given by its file, such as "arial.ttf"', "check film.lua")
+    bench:write("film.lua", SCRIPT:format "arial.ttf")
+    local _, _, message = run "check film.lua"
+    assert.is_falsy(message:find("given by its file", 1, true), message)
+  end)
+
+  with_art("of the system is read with --allow-system-fonts alone", function()
+    local path = bench.folder .. "/home/.fonts/block.ttf"
+    bench:shell(("mkdir -p %s/home/.fonts %s/film; cp scripts/type/block.ttf %s")
+      :format(bench.folder, bench.folder, path))
+    bench:write("film/film.lua", SCRIPT:format(path))
+    refused(3, "--allow-system-fonts", "check film/film.lua")
+    local code, _, message = bench:inside(("HOME=$PWD/home %s check film/film.lua "
+      .. "--allow-system-fonts"):format(workbench.absolute))
+    assert.equal(0, code, message)
+    refused(2, "--allow-system-fonts", "check film/film.lua --trust --allow-system-fonts")
+    refused(2, "--allow-system-fonts", "info home/.fonts/block.ttf --allow-system-fonts")
+  end)
+end)
