@@ -42,9 +42,11 @@
         "straight or premultiplied; default: straight, floats premultiplied"                       \
   }
 #define DITHER                                                                                     \
+  {"--dither", NULL, NULL,                                                                         \
+   "8 bits without banding: rounded up or down by the position of the pixel; the default of "      \
+   "videos"},                                                                                      \
   {                                                                                                \
-    "--dither", NULL, NULL,                                                                        \
-        "8 bits without banding: rounded up or down by the position of the pixel"                  \
+    "--no-dither", NULL, NULL, "8 bits rounded to nearest; the default except of videos"           \
   }
 #define BACKGROUND                                                                                 \
   {                                                                                                \
@@ -124,6 +126,7 @@ static const cs_option RENDER[] = {
     FRAMES,
     SIZE,
     SCALE,
+    {"--draft", NULL, NULL, "half the size and no antialiasing, to look at a film soon"},
     CROP,
     {"--strip", "I/N", &cs_argument_share,
      "only the I-th of N strips of the frame, for 'celspan join'"},

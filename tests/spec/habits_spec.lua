@@ -82,6 +82,25 @@ describe("a misspelt word", function()
   end)
 end)
 
+describe("--draft", function()
+  it("is half the size, even, and without antialiasing", function()
+    bench:write("film.lua", [[
+local celspan = require "celspan"
+return celspan.film { size = { 50, 21 }, frame = function()
+  return celspan.rostrum { celspan.cel { celspan.circle { centre = { 20, 10 }, radius = 8,
+    texture = "#fff" } } }
+end }]])
+    assert.equal(0, (run "render film.lua --draft -o draft.png"))
+    local _, out = run "info draft.png"
+    assert.is_truthy(out:find("size 26x12", 1, true), out)
+    assert.equal(0, (run "render film.lua --size 26x12 --antialias none -o small.png"))
+    assert.equal(0, (run "compare draft.png small.png"))
+    assert.equal(0, (run "render film.lua --draft --scale 2 --antialias area -o large.png"))
+    _, out = run "info large.png"
+    assert.is_truthy(out:find("size 50x22", 1, true), out)
+  end)
+end)
+
 describe("a font", function()
   local SCRIPT = [[
 local celspan = require "celspan"
