@@ -260,6 +260,11 @@ local object = {}
 ---@return celspan.stroke
 function object:stroke(style) end
 
+--- The whole shape in one texture, which is in the units around it, with its fade and its name.
+---@param texture celspan.texture|celspan.paint|string
+---@return celspan.object
+function object:paint(texture) end
+
 ---@class celspan.rect.fields
 ---@field [integer] number x, y, width, height
 ---@field radius? number Of the corners; 0 or more; default 0

@@ -201,4 +201,5 @@ static int contains(lua_State *L) {
     NULL, NULL                                                                                     \
   }
 const luaL_Reg cs_placed_methods[] = {METHODS};
-const luaL_Reg cs_placed_object_methods[] = {{"stroke", cs_stroke_method}, METHODS};
+const luaL_Reg cs_placed_object_methods[] = {
+    {"stroke", cs_stroke_method}, {"paint", cs_painted_method}, METHODS};
