@@ -82,6 +82,55 @@ describe("a misspelt word", function()
   end)
 end)
 
+describe("artwork instead of a script", function()
+  local SVG = '<svg xmlns="http://www.w3.org/2000/svg" width="19.5" height="8">'
+    .. '<rect width="10" height="8" fill="#f00"/><animate/></svg>'
+
+  with_art("is a film of one frame, and what is not shown is printed", function()
+    bench:shell("mkdir " .. bench.folder .. "/art")
+    bench:write("art/hero.svg", SVG)
+    local code, _, message = run "render art/hero.svg -o out.png"
+    assert.equal(0, code, message)
+    assert.is_truthy(message:find("hero.svg: not shown: line 1: animate", 1, true), message)
+    local _, out = run "info out.png"
+    assert.is_truthy(out:find("size 20x8", 1, true), out)
+    local _, red = run "probe art/hero.svg 5 4"
+    assert.equal("1 0 0 1\n", red)
+    bench:write("hero.svg", "<svg")
+    refused(4, "hero.svg", "render hero.svg -o out.png")
+  end)
+
+  with_art("is converted to pictures, of any size", function()
+    bench:write("hero.svg", SVG)
+    local code, _, message = run "convert hero.svg out.png --size 40x16 --crop 0,0,30,16"
+    assert.equal(0, code, message)
+    local _, out = run "info out.png"
+    assert.is_truthy(out:find("size 30x16", 1, true), out)
+  end)
+
+  it("is not a picture, and the message names what reads it", function()
+    if not present.pictures() then return pending "there is no picture module" end
+    bench:write("hero.svg", SVG)
+    bench:write("film.lua", [[local celspan = require "celspan"
+return celspan.rostrum { celspan.cel { celspan.image { file = "hero.svg" } } }]])
+    refused(4, "celspan.svg reads SVG drawings", "check film.lua")
+  end)
+
+  it("may be a layered painting", function()
+    bench:shell("cp scripts/paintings/valley.ora " .. bench.folder)
+    for _, command in ipairs { "render valley.ora --size 120x54 -o out.png",
+      "convert valley.ora out.png --size 120x54" } do
+      local code, _, message = run(command)
+      assert.equal(0, code, message)
+      local _, out = run "info out.png"
+      assert.is_truthy(out:find("size 120x54", 1, true), out)
+      local _, _, _, alpha = celspan.pixels(celspan.rostrum { celspan.cel {
+        celspan.image { file = bench.folder .. "/out.png" } } }, { size = { 120, 54 } }):get(60, 27)
+      assert.is_true(alpha > 0.9)
+    end
+  end)
+end)
+
 describe("--draft", function()
   it("is half the size, even, and without antialiasing", function()
     bench:write("film.lua", [[
