@@ -131,6 +131,50 @@ return celspan.rostrum { celspan.cel { celspan.image { file = "hero.svg" } } }]]
   end)
 end)
 
+describe("art:show", function()
+  local function puppet()
+    local svg = require "celspan.svg"
+    return assert(svg.read(bench:write("face.svg", [[
+<svg xmlns="http://www.w3.org/2000/svg" width="40" height="10">
+<rect id="head" width="40" height="10" fill="#fff"/>
+<rect id="mouth A" width="10" height="10" fill="#f00"/>
+<rect id="mouth-B" x="10" width="10" height="10" fill="#0f0"/>
+<rect id="eyes/open" x="20" width="10" height="10" fill="#00f"/>
+<rect id="eyes/shut" x="30" width="10" height="10" fill="#000"/></svg>]])))
+  end
+
+  --- The greens at the middles of mouth A, mouth B, eyes open, eyes shut.
+  local function greens(art)
+    local found = {}
+    for i = 1, 4 do
+      _, found[i] = celspan.probe(celspan.rostrum { celspan.cel { art.object } }, 10 * i - 5, 5,
+        { film = { 40, 10 } })
+    end
+    return found
+  end
+
+  with_art("shows one part of a set, or none", function()
+    local art = puppet()
+    assert.are.same({ 0, 1, 0, 0 }, greens(art))
+    assert.are.same({ 0, 1, 0, 1 }, greens(art:show { mouth = "A", eyes = "open" }))
+    assert.are.same({ 1, 1, 1, 1 }, greens(art:show { mouth = "B", eyes = false }))
+  end)
+
+  with_art("refuses what the drawing does not have", function()
+    local art = puppet()
+    for words, choices in pairs {
+      ["the parts of 'eyes' are open, shut, and not 'shot'; did you mean 'shut'?"] =
+        { eyes = "shot" },
+      ["no parts named 'nose A'"] = { nose = "A" },
+      ["such as { mouth = \"C\" }, got mouth = number"] = { mouth = 3 },
+    } do
+      local message = raised.message(function() art:show(choices) end)
+      assert.is_truthy(message:find(words, 1, true), message)
+      assert.is_truthy(message:find "^tests/spec/habits_spec.lua:", message)
+    end
+  end)
+end)
+
 describe("--draft", function()
   it("is half the size, even, and without antialiasing", function()
     bench:write("film.lua", [[
