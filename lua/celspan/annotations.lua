@@ -196,6 +196,11 @@ local object = {}
 ---@return celspan.stroke
 function object:stroke(style) end
 
+--- The whole shape in one texture, which is in the units around it, with its fade and its name.
+---@param texture celspan.texture|celspan.paint|string
+---@return celspan.object
+function object:paint(texture) end
+
 ---@noun rect: celspan.object
 
 ---@noun triangle: celspan.object

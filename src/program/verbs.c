@@ -46,9 +46,11 @@
         "straight or premultiplied; default: straight, floats premultiplied"                       \
   }
 #define DITHER                                                                                     \
+  {"--dither", NULL, NULL,                                                                         \
+   "8 bits without banding: rounded up or down by the position of the pixel; the default of "      \
+   "videos"},                                                                                      \
   {                                                                                                \
-    "--dither", NULL, NULL,                                                                        \
-        "8 bits without banding: rounded up or down by the position of the pixel"                  \
+    "--no-dither", NULL, NULL, "8 bits rounded to nearest; the default except of videos"           \
   }
 #define BACKGROUND                                                                                 \
   {                                                                                                \
@@ -99,6 +101,9 @@
       {"--allow", "DIR", &cs_argument_texts,                                                       \
        "let the script also read this folder and the folders in it; may be given "                 \
        "several times"},                                                                           \
+      {"--allow-system-fonts", NULL, NULL,                                                         \
+       "let the script also read the fonts that are installed: /usr/share/fonts, "                 \
+       "/usr/local/share/fonts, ~/.local/share/fonts and ~/.fonts"},                               \
   {                                                                                                \
     "--limit", "NAME=V", &cs_argument_limits,                                                      \
         "limits, several separated by commas; 0: no limit. Of the script: "                        \
@@ -125,6 +130,7 @@ static const cs_option RENDER[] = {
     FRAMES,
     SIZE,
     SCALE,
+    {"--draft", NULL, NULL, "half the size and no antialiasing, to look at a film soon"},
     CROP,
     {"--strip", "I/N", &cs_argument_share,
      "only the I-th of N strips of the frame, for 'celspan join'"},

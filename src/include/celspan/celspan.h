@@ -770,8 +770,8 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_transform(celspan_cont
                                                                     celspan_object *object,
                                                                     const celspan_matrix *matrix,
                                                                     celspan_object **out);
-/* The object's composited paint mixed with clear: k in 0..1; fades multiply. It keeps its shape: a
- * faded operand still cuts. Errors: NO_MEMORY, BAD_ARGUMENT. */
+/* The object's composited paint mixed with clear; k is limited to 0..1, fades multiply. It keeps
+ * its shape: a faded operand still cuts. Errors: NO_MEMORY, BAD_ARGUMENT. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_fade(celspan_context *context,
                                                                celspan_object *object, double k,
                                                                celspan_object **out);
@@ -968,7 +968,7 @@ typedef struct celspan_cel_desc {
   celspan_box viewport;
   double defocus_radius; /* film units on the frame; 0: sharp */
   celspan_defocus_kernel defocus_kernel;
-  double opacity;                                    /* 0..1 */
+  double opacity;                                    /* limited to 0..1 */
   celspan_light_texture front_texture, back_texture; /* instead of front and back */
 } celspan_cel_desc;
 
@@ -983,7 +983,7 @@ static inline celspan_cel_desc celspan_cel_desc_default(void) {
 #define CELSPAN_CEL_DESC (celspan_cel_desc_default())
 
 /* desc: borrowed, except for the objects. Errors: NO_MEMORY; BAD_ARGUMENT for lights below 0, a
- * matte or opacity outside 0..1, a viewport without size. */
+ * matte outside 0..1, a viewport without size. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_cel_create(celspan_context *context,
                                                               const celspan_cel_desc *desc,
                                                               celspan_cel **out);

@@ -27,6 +27,9 @@ extern const luaL_Reg cs_boolean_operators[];
  * of the primitive. */
 int cs_stroke_method(lua_State *L);
 
+/* object:paint(texture): its shape filled with the texture, with its own fade and name. */
+int cs_painted_method(lua_State *L);
+
 /* Functions of the module celspan. */
 int cs_nouns_rgb(lua_State *L);
 int cs_nouns_gel(lua_State *L);

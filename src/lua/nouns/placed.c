@@ -166,7 +166,7 @@ static int fade(lua_State *L) {
   cs_placement placement = cs_userdata_placement(value);
   cs_host_try(L, "fade",
               value->noun->kind->fade(cs_host_context(L), value->handle, k, &copy->handle));
-  placement.fade *= k;
+  placement.fade *= fmin(fmax(k, 0), 1);
   cs_userdata_place(copy, &placement);
   return 1;
 }
@@ -201,4 +201,5 @@ static int contains(lua_State *L) {
     NULL, NULL                                                                                     \
   }
 const luaL_Reg cs_placed_methods[] = {METHODS};
-const luaL_Reg cs_placed_object_methods[] = {{"stroke", cs_stroke_method}, METHODS};
+const luaL_Reg cs_placed_object_methods[] = {
+    {"stroke", cs_stroke_method}, {"paint", cs_painted_method}, METHODS};

@@ -15,7 +15,7 @@ static celspan_status check(celspan_context *context, const celspan_cel_desc *de
   CS_TRY(cs_check_size(context, "cel", "defocus.radius", desc->defocus_radius));
   CS_TRY(cs_check_choice(context, "cel", "defocus.kernel", (unsigned)desc->defocus_kernel,
                          CELSPAN_DEFOCUS_DISC + 1));
-  return cs_check_share(context, "cel", "opacity", desc->opacity);
+  return CELSPAN_OK;
 }
 
 static void hash_objects(cs_hash *hash, const celspan_cel *cel) {
@@ -112,8 +112,8 @@ celspan_status celspan_cel_create(celspan_context *context, const celspan_cel_de
       .has_viewport = desc->has_viewport,
       .defocus_radius = desc->defocus_radius,
       .defocus_kernel = desc->defocus_radius > 0 ? desc->defocus_kernel : CELSPAN_DEFOCUS_GAUSSIAN,
-      .opacity = desc->opacity,
   };
+  CS_TRY(cs_check_share(context, "cel", "opacity", desc->opacity, &fields.opacity));
   if (desc->has_viewport)
     fields.viewport = desc->viewport;
   CS_TRY(make_lights(context, desc, &fields.front, &fields.back));
@@ -137,7 +137,7 @@ celspan_status celspan_cel_transform(celspan_context *context, celspan_cel *cel,
 celspan_status celspan_cel_fade(celspan_context *context, celspan_cel *cel, double k,
                                 celspan_cel **out) {
   CS_TRY(cs_check_given(context, "fade", "the cel", cel));
-  CS_TRY(cs_check_share(context, "fade", "k", k));
+  CS_TRY(cs_check_share(context, "fade", "k", k, &k));
   celspan_cel fields = *cel;
   fields.opacity *= k;
   return create(context, &fields, cel->objects, cel->object_count, cs_mark_keep(cel->mark), out);

@@ -261,7 +261,7 @@ celspan_status celspan_object_transform(celspan_context *context, celspan_object
 celspan_status celspan_object_fade(celspan_context *context, celspan_object *object, double k,
                                    celspan_object **out) {
   CS_TRY(cs_check_given(context, "fade", "the object", object));
-  CS_TRY(cs_check_share(context, "fade", "k", k));
+  CS_TRY(cs_check_share(context, "fade", "k", k, &k));
   return create_object(context, object->data, object->matrix, object->fade * k,
                        cs_mark_keep(object->mark), out);
 }
