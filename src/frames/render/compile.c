@@ -16,13 +16,15 @@
  *                                            programs of the composer: where a tile is dead, the
  *                                            fold of colours has stopped before
  *                                            (of a picture by its header, which is read for it)
- *   group  faded, or lit by a light with a shape
+ *   group  faded, or lit by a light with a shape; sources, mattes and what they are the mattes of
+ *          hide nothing
  *   tree   where its layers are certain to be painted (engine/compose/tree.h)
  */
 
 #define LAYERS_LEAST 8
 #define ROWS_LEAST 20 /* of the frame, for each piece of the outlines, on the average */
 #define DEPTH_LEAST 6 /* halvings of light; a tile dies at CS_THROUGH_OPAQUE */
+#define SOURCES_MOST 64 /* grounds inside each other, each of which the cull would go into */
 
 /* ---------------------------------------------------------------- in the words of the cull */
 
@@ -55,7 +57,8 @@ static void fill(celspan_context *context, hidden *h) {
   }
   for (size_t i = 0; i < stack->group_count; i++) {
     const cs_group *group = &stack->groups[i];
-    h->groups[i] = (cs_cull_group){group->parent, group->first, (double)group->fade};
+    bool hides = group->kind == CS_GROUP_PLAIN || group->kind == CS_GROUP_GROUND;
+    h->groups[i] = (cs_cull_group){group->parent, group->first, hides ? (double)group->fade : 0};
   }
   for (size_t i = 0; i < stack->tree_count; i++)
     h->trees[i] = (cs_cull_tree){stack->trees[i].first, stack->trees[i].end};
@@ -87,6 +90,7 @@ static celspan_status cull(cs_compiler *c, const hidden *h) {
  * where chains are long, and layers so deep that many tiles die. */
 static bool pays(const cs_compiler *c) {
   return c->plan->stack.layer_count >= LAYERS_LEAST &&
+         c->plan->stack.source_count <= SOURCES_MOST &&
          c->census.rows >= ROWS_LEAST * c->census.pieces && c->census.depth >= DEPTH_LEAST;
 }
 
@@ -157,9 +161,14 @@ static celspan_status compile_defocused(cs_compiler *c, const cs_defocus_cel *pl
 
 static celspan_status compile_sharp(cs_compiler *c, const celspan_cel *cel,
                                     const celspan_matrix *matrix) {
-  cs_objects_outside outer;
+  cs_objects_outside outer, around;
+  bool isolates = cs_cel_isolates(cel);
   CS_TRY(cs_objects_begin_group(c, cel->opacity, false, &outer));
+  if (isolates)
+    CS_TRY(cs_objects_begin_isolation(c, cel->blends_inside, false, &around));
   CS_TRY(cs_objects_add(c, cel->objects, cel->object_count, matrix));
+  if (isolates)
+    cs_objects_end_isolation(c, around);
   cs_objects_end_group(c, outer);
   return CELSPAN_OK;
 }
@@ -175,21 +184,39 @@ static celspan_status compile_paint(cs_compiler *c, const celspan_rostrum *rostr
                                             : compile_sharp(c, rostrum->cels[index], matrix);
 }
 
-static celspan_status compile_cel(cs_compiler *c, const celspan_rostrum *rostrum, size_t index,
-                                  const cs_compiler_film *film) {
-  celspan_matrix matrix;
+/* A cel under its front light. */
+static celspan_status compile_lit(cs_compiler *c, const celspan_rostrum *rostrum, size_t index,
+                                  const celspan_matrix *matrix, const cs_compiler_film *film) {
+  const celspan_cel *cel = rostrum->cels[index];
   cs_objects_outside outer;
   cs_lights_front front;
-  CS_TRY(cs_scene_cel_matrix(c->context, rostrum, index, film->width, film->height, &matrix));
-  matrix = celspan_matrix_then(matrix, film->to_pixels);
-  CS_TRY(cs_lights_add_back(c, rostrum, index, &rostrum->cels[index]->back, film));
   CS_TRY(cs_lights_set_front(c, rostrum, index, film, &front));
   CS_TRY(cs_objects_begin_group(c, 1, front.is_shape, &outer));
-  CS_TRY(compile_paint(c, rostrum, index, &matrix, film));
+  if (front.is_shape && cel->blends_inside && !cs_cel_isolates(cel)) {
+    c->isolation.light = &front;
+    c->isolation.film = film;
+  }
+  CS_TRY(compile_paint(c, rostrum, index, matrix, film));
   if (front.is_shape)
     CS_TRY(cs_lights_light_group(c, &front, film));
+  c->isolation.light = NULL;
   cs_objects_end_group(c, outer);
   return CELSPAN_OK;
+}
+
+static celspan_status compile_cel(cs_compiler *c, const celspan_rostrum *rostrum, size_t index,
+                                  const cs_compiler_film *film) {
+  const celspan_cel *cel = rostrum->cels[index];
+  celspan_matrix matrix;
+  cs_objects_outside outer;
+  CS_TRY(cs_scene_cel_matrix(c->context, rostrum, index, film->width, film->height, &matrix));
+  matrix = celspan_matrix_then(matrix, film->to_pixels);
+  CS_TRY(cs_lights_add_back(c, rostrum, index, &cel->back, film));
+  if (cel->blend == CELSPAN_BLEND_NORMAL)
+    return compile_lit(c, rostrum, index, &matrix, film);
+  CS_TRY(cs_objects_begin_source(c, cel->opacity > 0 ? 1 : 0, false, &outer));
+  CS_TRY(compile_lit(c, rostrum, index, &matrix, film));
+  return cs_objects_end_source(c, cel->blend, outer);
 }
 
 /* The cels of a film, from the rear. */
@@ -223,6 +250,8 @@ static celspan_status compile_rostrum(cs_compiler *c, const celspan_rostrum *ros
                                  .to_pixels = celspan_matrix_scaling(c->plan->width / film_width,
                                                                      c->plan->height / film_height),
                                  .shine = {1, 1, 1, 0}};
+  cs_objects_outside unused;
+  CS_TRY(cs_objects_begin_isolation(c, cs_rostrum_blends(rostrum), true, &unused));
   CS_TRY(compile_film(c, rostrum, &film));
   reverse_lights(&c->plan->stack);
   cs_boundary_sort(&c->plan->boundaries);
@@ -239,6 +268,7 @@ static void begin(cs_compiler *c, cs_boundary_builder *boundaries, celspan_conte
                      .first_height = first_row - margin - 1, /* a pixel more, against rounding */
                      .end_height = end_row + margin + 1,
                      .group = CS_STACK_NONE,
+                     .isolation = {CS_STACK_NONE, NULL, NULL},
                      .compile_nested = compile_film};
   cs_boundary_init(&plan->boundaries);
   cs_boundary_builder_init(boundaries, context, &plan->boundaries, &c->frame);
@@ -276,6 +306,8 @@ static celspan_status compile_objects(cs_compiler *c, const cs_defocus_job *job)
   c->front = job->is_through ? cs_v4_all(0) : (cs_v4){1, 1, 1, 0};
   if (job->is_through)
     CS_TRY(cs_lights_add_flat(c, (celspan_light){1, 1, 1, 0}));
+  cs_objects_outside unused;
+  CS_TRY(cs_objects_begin_isolation(c, job->cel->blends_inside, false, &unused));
   CS_TRY(cs_objects_add(c, job->cel->objects, job->cel->object_count, &job->matrix));
   cs_boundary_sort(&c->plan->boundaries);
   return cull_hidden(c);

@@ -15,7 +15,8 @@ static celspan_status check(celspan_context *context, const celspan_cel_desc *de
   CS_TRY(cs_check_size(context, "cel", "defocus.radius", desc->defocus_radius));
   CS_TRY(cs_check_choice(context, "cel", "defocus.kernel", (unsigned)desc->defocus_kernel,
                          CELSPAN_DEFOCUS_DISC + 1));
-  return cs_check_share(context, "cel", "opacity", desc->opacity);
+  CS_TRY(cs_check_share(context, "cel", "opacity", desc->opacity));
+  return cs_check_choice(context, "cel", "blend", (unsigned)desc->blend, CELSPAN_BLEND_ADD + 1);
 }
 
 static void hash_objects(cs_hash *hash, const celspan_cel *cel) {
@@ -34,6 +35,8 @@ static void hash_placement(cs_hash *hash, const celspan_cel *cel) {
   cs_hash_number(hash, cel->defocus_radius);
   cs_hash_word(hash, cel->defocus_kernel);
   cs_hash_number(hash, cel->opacity);
+  if (cel->blend != CELSPAN_BLEND_NORMAL)
+    cs_hash_word(hash, cel->blend);
 }
 
 static cs_hash hash_cel(const celspan_cel *cel) {
@@ -53,6 +56,13 @@ bool celspan_cel_hash(const celspan_cel *cel, uint64_t drawing[2], uint64_t plac
     if (cel->objects[i]->data->has_procedure)
       return false;
   return true;
+}
+
+static bool any_blends(celspan_object *const *objects, size_t count) {
+  for (size_t i = 0; i < count; i++)
+    if (cs_object_blends(objects[i]))
+      return true;
+  return false;
 }
 
 /* A new cel with the fields of `fields`, and with references of its own to lights and objects.
@@ -82,6 +92,7 @@ static celspan_status create(celspan_context *context, const celspan_cel *fields
   cel->front = cs_light_ref(&fields->front);
   cel->back = cs_light_ref(&fields->back);
   cel->object_count = object_count;
+  cel->blends_inside = any_blends(copies, object_count);
   cel->hash = hash_cel(cel);
   *out = cel;
   return CELSPAN_OK;
@@ -113,6 +124,7 @@ celspan_status celspan_cel_create(celspan_context *context, const celspan_cel_de
       .defocus_radius = desc->defocus_radius,
       .defocus_kernel = desc->defocus_radius > 0 ? desc->defocus_kernel : CELSPAN_DEFOCUS_GAUSSIAN,
       .opacity = desc->opacity,
+      .blend = desc->blend,
   };
   if (desc->has_viewport)
     fields.viewport = desc->viewport;
@@ -150,6 +162,8 @@ celspan_status celspan_cel_named(celspan_context *context, celspan_cel *cel, con
   CS_TRY(cs_mark_named(context, cel->mark, name, &mark));
   return create(context, cel, cel->objects, cel->object_count, mark, out);
 }
+
+celspan_blend celspan_cel_mode(const celspan_cel *cel) { return cel->blend; }
 
 const char *celspan_cel_name(const celspan_cel *cel) { return cs_mark_name(cel->mark); }
 
