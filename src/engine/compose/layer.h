@@ -116,6 +116,8 @@ typedef struct cs_group {
   bool is_frame;     /* GROUND: directly in the frame, so that its back lights are behind it, too */
   uint8_t kind;      /* a cs_group_kind */
   uint8_t blend;     /* GROUND: a celspan_blend */
+  bool has_front;    /* a flat front light, since its parts could not be lit one by one */
+  cs_v4 front;       /* has_front: that light; lane 3 is 0 */
   uint32_t light;    /* has_light: the layer of that light, in front of all its others */
   uint32_t around;   /* GROUND: the group around all the grounds inside each other */
   uint32_t innermost; /* GROUND: the innermost of these, which names them all */

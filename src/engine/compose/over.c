@@ -3,6 +3,8 @@
 /* What a group that has been left is for what is around it. */
 static cs_over_pair finish_group(cs_over *over, const cs_group *group, cs_over_level *level) {
   cs_over_pair inner = {over->e, over->t};
+  if (group->has_front)
+    inner.e = cs_over_lit(group->front, 1, inner.e, inner.t).e;
   float weight = group->fade, keep = over->keep;
   if (group->kind == CS_GROUP_GROUND) {
     inner = cs_over_blend((celspan_blend)group->blend, level->head, inner, &keep);

@@ -78,8 +78,9 @@ static inline cs_over_pair cs_over_blend(celspan_blend mode, cs_over_pair source
                                          cs_over_pair back, float *keep) {
   float as = cs_over_alpha(source.t, 1), ab = cs_over_alpha(back.t, *keep);
   if (mode == CELSPAN_BLEND_ADD) {
+    cs_v4 t = cs_v4_max(source.t - (1 - *keep * back.t), cs_v4_all(0));
     *keep = 1;
-    return (cs_over_pair){source.e + back.e, cs_v4_all(as + ab < 1 ? 1 - (as + ab) : 0)};
+    return (cs_over_pair){source.e + back.e, t};
   }
   cs_v4 both = cs_blend_colour(mode, cs_over_colour(back.e, ab), cs_over_colour(source.e, as));
   return (cs_over_pair){(1 - ab) * source.e + (1 - as) * back.e + (as * ab) * both,

@@ -40,6 +40,8 @@ static void meet_light(cs_over_row *over) {
 /* What a group that has been left is for what is around it, but not yet faded. */
 static void finish_group(cs_over_row *over, const cs_group *group, const cs_over_row_level *level,
                          cs_over_row_state *inner) {
+  if (group->has_front)
+    WIDE(over, cs_over_row_light_flat)(inner, over->count, (const float *)&group->front);
   if (group->has_light)
     WIDE(over, cs_over_row_light_group)(inner, over->count, (const float(*)[4])level->front);
   if (group->kind == CS_GROUP_MATTE)

@@ -76,6 +76,13 @@ void CS_WIDE(cs_over_row_light_group)(cs_over_row_state *state, int32_t count,
   }
 }
 
+void CS_WIDE(cs_over_row_light_flat)(cs_over_row_state *state, int32_t count,
+                                     const float front[4]) {
+  cs_wide light = cs_over_wide_all(front);
+  for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
+    cs_wide_store(state->e[i], light * cs_wide_load(state->e[i]));
+}
+
 void CS_WIDE(cs_over_row_add_group)(cs_over_row_state *outer, int32_t count, float fade,
                                     const cs_over_row_state *inner) {
   for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)

@@ -159,20 +159,27 @@ static celspan_status compile_defocused(cs_compiler *c, const cs_defocus_cel *pl
 
 /* ---------------------------------------------------------------- cels */
 
+/* light: falls on the parts of the cel; NULL: none has a shape, or it falls on the whole. */
 static celspan_status compile_sharp(cs_compiler *c, const celspan_cel *cel,
-                                    const celspan_matrix *matrix) {
+                                    const celspan_matrix *matrix, const cs_lights_front *light,
+                                    const cs_compiler_film *film) {
   cs_objects_outside outer, around;
   bool isolates = cs_cel_isolates(cel);
   CS_TRY(cs_objects_begin_group(c, cel->opacity, false, &outer));
   if (isolates)
     CS_TRY(cs_objects_begin_isolation(c, cel->blends_inside, false, &around));
+  if (light)
+    CS_TRY(cs_objects_begin_light(c, light, film));
   CS_TRY(cs_objects_add(c, cel->objects, cel->object_count, matrix));
+  if (light)
+    CS_TRY(cs_objects_end_light(c));
   if (isolates)
     cs_objects_end_isolation(c, around);
   cs_objects_end_group(c, outer);
   return CELSPAN_OK;
 }
 
+/* A cel under its front light, which falls on all of it, or on its parts where modes are inside. */
 static celspan_status compile_paint(cs_compiler *c, const celspan_rostrum *rostrum, size_t index,
                                     const celspan_matrix *matrix, const cs_compiler_film *film) {
   const cs_defocus_cel place = {rostrum,         index,
@@ -180,26 +187,17 @@ static celspan_status compile_paint(cs_compiler *c, const celspan_rostrum *rostr
                                 film->height,    *matrix,
                                 c->frame,        c->plan->width,
                                 c->plan->height, c->plan->antialias != CELSPAN_ANTIALIAS_NONE};
-  return cs_defocus_layer_is_needed(&place) ? compile_defocused(c, &place)
-                                            : compile_sharp(c, rostrum->cels[index], matrix);
-}
-
-/* A cel under its front light. */
-static celspan_status compile_lit(cs_compiler *c, const celspan_rostrum *rostrum, size_t index,
-                                  const celspan_matrix *matrix, const cs_compiler_film *film) {
   const celspan_cel *cel = rostrum->cels[index];
+  bool is_defocused = cs_defocus_layer_is_needed(&place);
   cs_objects_outside outer;
   cs_lights_front front;
   CS_TRY(cs_lights_set_front(c, rostrum, index, film, &front));
+  if (front.is_shape && cel->has_modes && !is_defocused)
+    return compile_sharp(c, cel, matrix, &front, film);
   CS_TRY(cs_objects_begin_group(c, 1, front.is_shape, &outer));
-  if (front.is_shape && cel->blends_inside && !cs_cel_isolates(cel)) {
-    c->isolation.light = &front;
-    c->isolation.film = film;
-  }
-  CS_TRY(compile_paint(c, rostrum, index, matrix, film));
+  CS_TRY(is_defocused ? compile_defocused(c, &place) : compile_sharp(c, cel, matrix, NULL, film));
   if (front.is_shape)
     CS_TRY(cs_lights_light_group(c, &front, film));
-  c->isolation.light = NULL;
   cs_objects_end_group(c, outer);
   return CELSPAN_OK;
 }
@@ -213,25 +211,42 @@ static celspan_status compile_cel(cs_compiler *c, const celspan_rostrum *rostrum
   matrix = celspan_matrix_then(matrix, film->to_pixels);
   CS_TRY(cs_lights_add_back(c, rostrum, index, &cel->back, film));
   if (cel->blend == CELSPAN_BLEND_NORMAL)
-    return compile_lit(c, rostrum, index, &matrix, film);
+    return compile_paint(c, rostrum, index, &matrix, film);
   CS_TRY(cs_objects_begin_source(c, cel->opacity > 0 ? 1 : 0, false, &outer));
-  CS_TRY(compile_lit(c, rostrum, index, &matrix, film));
+  CS_TRY(compile_paint(c, rostrum, index, &matrix, film));
   return cs_objects_end_source(c, cel->blend, outer);
 }
 
-/* The cels of a film, from the rear. */
-static celspan_status compile_film(cs_compiler *c, const celspan_rostrum *rostrum,
-                                   const cs_compiler_film *film) {
-  CS_TRY(cs_lights_add_mattes(c, rostrum, film));
+/* firsts: as of cs_lights_add_mattes. */
+static celspan_status compile_cels(cs_compiler *c, const celspan_rostrum *rostrum,
+                                   const cs_compiler_film *film, uint32_t *firsts) {
+  const cs_stack *stack = &c->plan->stack;
+  cs_objects_outside unused;
+  uint32_t first = (uint32_t)stack->layer_count;
+  CS_TRY(cs_lights_add_mattes(c, rostrum, film, firsts));
+  uint32_t end = (uint32_t)stack->layer_count;
+  CS_TRY(cs_objects_begin_isolation(c, cs_rostrum_blends(rostrum), !film->outline, &unused));
+  c->isolation.mattes_end = first < end ? end : 0;
   CS_TRY(cs_lights_add_back(c, rostrum, 0, &rostrum->back, film));
   for (size_t i = 0; i < rostrum->cel_count; i++) {
     if (!c->is_nested) { /* a nested one is named by the cel that holds it */
       c->cel = i + 1;
       c->mark = rostrum->cels[i]->mark;
     }
+    c->isolation.mattes = firsts[i];
     CS_TRY(compile_cel(c, rostrum, i, film));
   }
   return CELSPAN_OK;
+}
+
+/* The cels of a film, from the rear. */
+static celspan_status compile_film(cs_compiler *c, const celspan_rostrum *rostrum,
+                                   const cs_compiler_film *film) {
+  uint32_t *firsts;
+  CS_TRY(CS_MAKE(c->context, firsts, rostrum->cel_count));
+  celspan_status status = compile_cels(c, rostrum, film, firsts);
+  cs_mem_free(c->context->memory, firsts, rostrum->cel_count * sizeof *firsts);
+  return status;
 }
 
 /* The composer needs lights from the camera backwards. */
@@ -250,8 +265,6 @@ static celspan_status compile_rostrum(cs_compiler *c, const celspan_rostrum *ros
                                  .to_pixels = celspan_matrix_scaling(c->plan->width / film_width,
                                                                      c->plan->height / film_height),
                                  .shine = {1, 1, 1, 0}};
-  cs_objects_outside unused;
-  CS_TRY(cs_objects_begin_isolation(c, cs_rostrum_blends(rostrum), true, &unused));
   CS_TRY(compile_film(c, rostrum, &film));
   reverse_lights(&c->plan->stack);
   cs_boundary_sort(&c->plan->boundaries);
@@ -268,7 +281,7 @@ static void begin(cs_compiler *c, cs_boundary_builder *boundaries, celspan_conte
                      .first_height = first_row - margin - 1, /* a pixel more, against rounding */
                      .end_height = end_row + margin + 1,
                      .group = CS_STACK_NONE,
-                     .isolation = {CS_STACK_NONE, NULL, NULL},
+                     .isolation = {.ground = CS_STACK_NONE},
                      .compile_nested = compile_film};
   cs_boundary_init(&plan->boundaries);
   cs_boundary_builder_init(boundaries, context, &plan->boundaries, &c->frame);

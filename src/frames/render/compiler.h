@@ -38,6 +38,9 @@ typedef struct cs_compiler_isolation {
    * each by itself; NULL: there is none, or the cel has no source. Borrowed */
   const struct cs_lights_front *light;
   const cs_compiler_film *film; /* of that light */
+  /* A film that has mattes of back lights, in layers behind all others (lights.h): where those
+   * begin that are behind the cel being compiled, and those in no ground yet end. Else both 0. */
+  uint32_t mattes, mattes_end;
 } cs_compiler_isolation;
 
 typedef struct cs_compiler cs_compiler;

@@ -35,6 +35,15 @@ CELSPAN_CHECKED celspan_status cs_objects_begin_isolation(cs_compiler *c, bool b
                                                           bool is_frame, cs_objects_outside *outer);
 void cs_objects_end_isolation(cs_compiler *c, cs_objects_outside outer);
 
+/* What is appended from here on is lit by a front light with a shape, whose parts between sources,
+ * and groups that hold sources, are lit each by itself, so that modes act on what is lit. Errors:
+ * NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_objects_begin_light(cs_compiler *c,
+                                                      const struct cs_lights_front *light,
+                                                      const cs_compiler_film *film);
+/* Errors: NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_objects_end_light(cs_compiler *c);
+
 /* Begins a source, which isolates. blends: as above, inside it. Errors: NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_objects_begin_source(cs_compiler *c, double fade, bool blends,
                                                        cs_objects_outside *outer);

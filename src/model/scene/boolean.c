@@ -53,6 +53,7 @@ static celspan_status fill_more(celspan_context *context, cs_primitive_data *dat
   data->primitive_count = from->primitive_count;
   data->has_procedure = from->has_procedure;
   data->blends = from->blends;
+  data->has_modes = from->has_modes;
   data->boolean->operands_hash = from->boolean->operands_hash;
   data->boolean->hashed_count = from->boolean->hashed_count;
   CS_TRY(cs_primitive_data_measure(context, noun, operands, count, data));

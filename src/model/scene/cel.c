@@ -58,11 +58,13 @@ bool celspan_cel_hash(const celspan_cel *cel, uint64_t drawing[2], uint64_t plac
   return true;
 }
 
-static bool any_blends(celspan_object *const *objects, size_t count) {
-  for (size_t i = 0; i < count; i++)
-    if (cs_object_blends(objects[i]))
-      return true;
-  return false;
+static void find_modes(celspan_cel *cel) {
+  cel->blends_inside = false;
+  cel->has_modes = cel->blend != CELSPAN_BLEND_NORMAL;
+  for (size_t i = 0; i < cel->object_count; i++) {
+    cel->blends_inside |= cs_object_blends(cel->objects[i]);
+    cel->has_modes |= cs_object_has_modes(cel->objects[i]);
+  }
 }
 
 /* A new cel with the fields of `fields`, and with references of its own to lights and objects.
@@ -92,7 +94,7 @@ static celspan_status create(celspan_context *context, const celspan_cel *fields
   cel->front = cs_light_ref(&fields->front);
   cel->back = cs_light_ref(&fields->back);
   cel->object_count = object_count;
-  cel->blends_inside = any_blends(copies, object_count);
+  find_modes(cel);
   cel->hash = hash_cel(cel);
   *out = cel;
   return CELSPAN_OK;

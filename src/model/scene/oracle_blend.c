@@ -116,11 +116,11 @@ cs_oracle_sight cs_oracle_before(const cs_oracle_sight *front, const cs_oracle_s
 }
 
 static cs_oracle_sight add(const cs_oracle_sight *source, const cs_oracle_sight *back) {
-  double alpha = fmin(1, cs_oracle_alpha(source) + cs_oracle_alpha(back));
   cs_oracle_sight sum = {.keep = 1};
   for (int i = 0; i < 3; i++) {
     sum.light[i] = source->light[i] + back->light[i];
-    sum.through[i] = 1 - alpha;
+    double alpha = (1 - source->through[i]) + (1 - back->keep * back->through[i]);
+    sum.through[i] = 1 - fmin(1, alpha);
   }
   return sum;
 }

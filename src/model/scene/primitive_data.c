@@ -340,6 +340,7 @@ celspan_status cs_primitive_data_measure(celspan_context *context, const char *n
     data->primitive_count += item->primitive_count; /* both at most the limit: no overflow */
     data->has_procedure |= item->has_procedure;
     data->blends |= cs_object_blends(objects[i]);
+    data->has_modes |= cs_object_has_modes(objects[i]);
     if (data->primitive_count > CS_SCENE_PRIMITIVES)
       return cs_fail(context, CELSPAN_LIMIT, "%s: it holds more than %d primitives", noun,
                      CS_SCENE_PRIMITIVES);

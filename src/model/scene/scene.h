@@ -104,6 +104,7 @@ typedef struct cs_primitive_data {
   bool is_empty;            /* nothing to draw: no contour, or an operator without operands */
   bool has_procedure;       /* below or with this one */
   bool blends;              /* a mode below this one acts on what is behind it */
+  bool has_modes;           /* any mode is below or with this one, except in a rostrum */
   bool is_box;              /* the outline is that of `box`, which has an area */
   int depth;                /* levels of booleans and rostrums below and with this one */
   uint32_t primitive_count; /* below and with this one, each time it occurs */
@@ -163,11 +164,17 @@ struct celspan_cel {
   double opacity;
   celspan_blend blend;
   bool blends_inside; /* any of its objects acts on what is behind that object */
+  bool has_modes;     /* any mode is in it, except in a rostrum, or its own */
 };
 
 /* Whether the cel composites its objects by themselves, and puts them into the picture as one. */
 static inline bool cs_cel_isolates(const celspan_cel *cel) {
   return cel->opacity < 1 || cel->defocus_radius > 0 || cel->blend != CELSPAN_BLEND_NORMAL;
+}
+
+/* Whether the object has a mode, or anything below it that is in no rostrum. */
+static inline bool cs_object_has_modes(const celspan_object *object) {
+  return object->data->has_modes || celspan_object_mode(object) != CELSPAN_BLEND_NORMAL;
 }
 
 /* Whether what the cel looks like depends on what is behind it. */
@@ -197,6 +204,14 @@ struct celspan_rostrum {
 static inline bool cs_rostrum_blends(const celspan_rostrum *rostrum) {
   for (size_t i = 0; i < rostrum->cel_count; i++)
     if (cs_cel_blends(rostrum->cels[i]))
+      return true;
+  return false;
+}
+
+/* Whether any mode is in a rostrum, except in one inside it. */
+static inline bool cs_rostrum_has_modes(const celspan_rostrum *rostrum) {
+  for (size_t i = 0; i < rostrum->cel_count; i++)
+    if (rostrum->cels[i]->has_modes)
       return true;
   return false;
 }
