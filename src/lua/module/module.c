@@ -173,6 +173,7 @@ int luaopen_celspan(lua_State *L) {
                                        {"gel", cs_nouns_gel},
                                        {"mix", cs_nouns_mix},
                                        {"clip", cs_nouns_clip},
+                                       {"matte", cs_nouns_matte},
                                        {"glyphs", cs_nouns_glyphs},
                                        {"random", cs_random_make},
                                        {"render", cs_render_make},
