@@ -17,6 +17,7 @@
 #include "model/scene/scene.h"
 #include "plugins/sound/sound.h"
 #include "program/service.h"
+#include "program/stage.h"
 #include "program/target.h"
 #include "program/video_target.h"
 #include "program/view.h"
@@ -279,6 +280,12 @@ static int faults(lua_State *L) {
   return 0;
 }
 
+/* ---------------------------------------------------------------- watched films */
+
+static int picture(lua_State *L) { return cs_stage_picture(L, &self(L)->script); }
+static int hits(lua_State *L) { return cs_stage_hits(L, &self(L)->script); }
+static int files(lua_State *L) { return cs_stage_files(L, &self(L)->script); }
+
 /* ---------------------------------------------------------------- the film */
 
 /* Sets what a celspan.film has. */
@@ -314,6 +321,9 @@ static void set_methods(lua_State *L) {
                                      {"names", names},
                                      {"parameters", parameters},
                                      {"faults", faults},
+                                     {"files", files},
+                                     {"picture", picture},
+                                     {"hits", hits},
                                      {NULL, NULL}};
   lua_createtable(L, 0, 2);
   lua_pushcfunction(L, describe);
