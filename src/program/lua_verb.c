@@ -147,6 +147,9 @@ static void push_program(lua_State *L) {
   cs_service_add_files(L);
   cs_service_add_pictures(L);
   cs_service_add_processes(L);
+  cs_service_add_renderers(L);
+  cs_service_add_watchers(L);
+  cs_service_add_web(L);
 }
 
 /* Upvalue: the program. Returns the verb's exit code, or nothing. Runs protected. */

@@ -41,20 +41,6 @@ static int descriptor_at(lua_State *L, int index) {
   return fileno(((luaL_Stream *)luaL_checkudata(L, index, LUA_FILEHANDLE))->f);
 }
 
-/* "celspan" and the words of the list at index 1, ended by NULL, as a value on the stack. */
-static const char **push_words(lua_State *L) {
-  luaL_checktype(L, 1, LUA_TTABLE);
-  size_t count = lua_rawlen(L, 1);
-  const char **words = lua_newuserdatauv(L, (count + 2) * sizeof *words, 0);
-  words[0] = "celspan";
-  for (size_t i = 1; i <= count; i++, lua_pop(L, 1)) { /* the list keeps the strings */
-    luaL_argcheck(L, lua_rawgeti(L, 1, (lua_Integer)i) == LUA_TSTRING, 1, "not a list of strings");
-    words[i] = lua_tostring(L, -1);
-  }
-  words[count + 1] = NULL;
-  return words;
-}
-
 /* start(words, printed, other) -> the number of a process | nil, message
  *
  * The process runs this program with the words. Without `other` it has no descriptor 3. At most
@@ -63,7 +49,7 @@ static int start(lua_State *L) {
   bool has_other = !lua_isnoneornil(L, 3);
   int printed = descriptor_at(L, 2);
   const int files[] = {CS_SPAWN_SAME, printed, printed, has_other ? descriptor_at(L, 3) : -1};
-  const char **words = push_words(L);
+  const char **words = cs_service_push_words(L, 1);
   pid_t process;
   cs_interrupt_call(stop_children);
   const cs_spawn_desc desc = {.path = "/proc/self/exe",

@@ -184,6 +184,18 @@ static const cs_option SPANS[] = {
 
 static const cs_option PROBE[] = {FRAME, SCRIPT, {0}};
 
+static const cs_option WATCH[] = {
+    {"--port", "N", &cs_argument_port, "the port of the page; default: one that is free"},
+    {"--open", NULL, NULL, "open the page in the browser"},
+    {"--size", "WxH", &cs_argument_size,
+     "pixels of a whole frame; default: as large as the window of the browser"},
+    WORKERS,
+    SCRIPT,
+    MEMORY,
+    {0}};
+
+static const cs_option STAGE[] = {WORKERS, SCRIPT, MEMORY, {0}};
+
 static const cs_option CONVERT[] = {SIZE, CROP, CODING, WORKERS, PICTURE_RIGHTS, {0}};
 
 static const cs_option COMPARE[] = {
@@ -358,6 +370,18 @@ const cs_verb cs_verbs[] = {
               "sound. Frames with scan-line procedures are built, but not compared. Equal "
               "faults are reported in one line, with all frames that have them.",
      .options = CHECK},
+    {"watch", "SCRIPT", 1, 1, .has_script = true,
+     .summary = "Shows a film in the browser while its script is being written.",
+     .notes = "Prints the address of a page that only this machine can reach and that asks for "
+              "the token in the address. The page plays the film, zooms into it, and shows it "
+              "again whenever the script, or a file that it reads, is saved. After an error the "
+              "last good picture stays, with the error over it. Ctrl-C ends it.",
+     .options = WATCH},
+    {"play", "SCRIPT", 1, 1, .has_script = true,
+     .summary = "Opens a film in the browser and plays it.",
+     .notes = "The same as 'celspan watch --open', with the picture alone in the window; the key "
+              "f fills the screen.",
+     .options = WATCH},
     {"spans", "SCRIPT", 1, 1, .has_script = true, .summary = "Prints the spans of a frame as text.",
      .notes = "One line a span, colours linear and premultiplied, columns half-open, rows from 0:\n"
               "  row x0 x1 single r g b a\n"
@@ -457,5 +481,7 @@ const cs_verb cs_verbs[] = {
               "changes.",
      .options = NONE},
     {"help", "[VERB]", 0, 1, .is_hidden = true, .options = HELP},
+    {"stage", "SCRIPT", 1, 1, .is_hidden = true, .has_script = true, .asks_files = true,
+     .options = STAGE},
     {"spec", "-- FILE [PATTERN]", 0, 0, .is_hidden = true, .has_script = true, .options = NONE},
     {0}};

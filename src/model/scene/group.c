@@ -19,8 +19,7 @@ static celspan_status create(celspan_context *context, const char *noun, const c
   cs_primitive_data *data;
   CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_BOOLEAN, NULL, &data));
   *data->boolean = *look;
-  celspan_status status =
-      cs_operands_create(context, noun, operands, count, &data->boolean->view);
+  celspan_status status = cs_operands_create(context, noun, operands, count, &data->boolean->view);
   if (status == CELSPAN_OK) {
     data->boolean->operands = data->boolean->view.objects;
     data->boolean->operand_count = count;
@@ -42,16 +41,17 @@ static celspan_status create(celspan_context *context, const char *noun, const c
 static celspan_status check_group(celspan_context *context, const celspan_group_desc *desc) {
   CS_TRY(cs_check_given(context, "group", "the description", desc));
   CS_TRY(cs_check_version(context, "group", desc->struct_size, sizeof *desc));
-  CS_TRY(cs_check_share(context, "group", "opacity", desc->opacity));
+  double opacity;
+  CS_TRY(cs_check_share(context, "group", "opacity", desc->opacity, &opacity));
   CS_TRY(cs_check_choice(context, "group", "blend", (unsigned)desc->blend, MODES));
   CS_TRY(cs_check_choice(context, "group", "isolate", (unsigned)desc->isolate,
                          CELSPAN_ISOLATION_OFF + 1));
-  bool must = desc->opacity < 1 || desc->blend != CELSPAN_BLEND_NORMAL;
+  bool must = opacity < 1 || desc->blend != CELSPAN_BLEND_NORMAL;
   if (must && desc->isolate == CELSPAN_ISOLATION_OFF)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "group: isolate is false, but a group with %s always isolates; leave isolate "
                    "out",
-                   desc->opacity < 1 ? "an opacity below 1" : "a blend mode");
+                   opacity < 1 ? "an opacity below 1" : "a blend mode");
   return CELSPAN_OK;
 }
 

@@ -42,6 +42,25 @@ function program.numbers(text)
   return list
 end
 
+--- A value as JSON: tables with a field `list`, or with items, are lists, others are objects. Bytes
+--- that are not UTF-8 become question marks.
+function program.json(value)
+  local function ordered(one)
+    if type(one) == "string" then return utf8.len(one) and one or (one:gsub("[\x80-\xff]", "?")) end
+    if type(one) ~= "table" then return one end
+    local items, names = {}, {}
+    if one.list or one[1] ~= nil then
+      for i, item in ipairs(one.list or one) do items[i] = ordered(item) end
+      return { list = items }
+    end
+    for name in pairs(one) do names[#names + 1] = name end
+    table.sort(names)
+    for i, name in ipairs(names) do items[i] = { name, ordered(one[name]) } end
+    return items
+  end
+  return require "celspan.json".encode(ordered(value))
+end
+
 --- Has a document write itself to a file, or its text to standard output. subject: what it was made
 --- from, for messages.
 function program.put(document, output, subject)

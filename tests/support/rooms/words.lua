@@ -20,7 +20,7 @@ words.list = {
     places = { "frames/render/", "output/png/", "output/join/", "output/sinks/strip",
                "output/sinks/tga", "output/sinks/span", "output/sinks/file_sink",
                "tools/relight/stack", "frames/film/", "base/pipeline", "model/pictures/",
-               "program/farm", "program/join", "program/re", "program/view" } },
+               "program/farm", "program/join", "program/re", "program/stage", "program/view" } },
   { word = "band", means = "node rows of a defocused cel's grid that are kept together",
     places = { "engine/defocus/", "engine/sample/defocused" } },
   { word = "pane", means = "a part of a crowded frame, compiled by itself",
