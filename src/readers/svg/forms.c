@@ -156,13 +156,12 @@ static bool has_form(cs_svg_form form, const char *text, bool is_style) {
 bool cs_svg_value_is_read(cs_svg_name name, const char *value, bool is_style) {
   const cs_svg_name_facts *facts = cs_svg_name_facts_of(name);
   bool is_property = is_style || facts->use == CS_SVG_USE_PRESENTED;
+  bool is_place = is_style && facts->use == CS_SVG_USE_GEOMETRY;
   value = cs_svg_skip_space(value);
-  if (cs_svg_has_variable(value) || cs_svg_is_unfit(value) ||
-      cs_svg_words_have(facts->words, value) ||
-      (is_property && cs_svg_words_have("initial|unset|revert|revert-layer", value)) ||
-      (facts->initial && cs_svg_words_have("inherit", value)))
-    return true;
-  if (is_style && facts->use == CS_SVG_USE_GEOMETRY)
-    return is_geometry(name, value);
-  return has_form(facts->form, value, is_style);
+  /* Most values have the form: words are compared only with the others. */
+  return (is_place ? is_geometry(name, value) : has_form(facts->form, value, is_style)) ||
+         cs_svg_has_variable(value) || cs_svg_is_unfit(value) ||
+         cs_svg_words_have(facts->words, value) ||
+         (is_property && cs_svg_words_have("initial|unset|revert|revert-layer", value)) ||
+         (facts->initial && cs_svg_words_have("inherit", value));
 }
