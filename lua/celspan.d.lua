@@ -260,6 +260,11 @@ local object = {}
 ---@return celspan.stroke
 function object:stroke(style) end
 
+--- The whole shape in one texture, which is in the units around it, with its fade and its name.
+---@param texture celspan.texture|celspan.paint|string
+---@return celspan.object
+function object:paint(texture) end
+
 ---@class celspan.rect.fields
 ---@field [integer] number x, y, width, height
 ---@field radius? number Of the corners; 0 or more; default 0
@@ -563,7 +568,7 @@ function celspan.clip(art, shape) end
 ---@field back? celspan.light Shines through the whole frame from behind this cel; default none
 ---@field viewport? number[] {x, y, w, h}; the part that fills the frame
 ---@field defocus? number|celspan.defocus A radius, or with a kernel
----@field opacity? number 0 to 1; default 1
+---@field opacity? number Limited to 0..1; default 1
 
 ---@class celspan.cel: celspan.placed, celspan.cel.fields
 ---@field opacity number

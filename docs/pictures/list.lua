@@ -6,7 +6,7 @@
 --   allow    a folder that the script may read, in addition to its own
 --   before   an example of the page that is run first, a program in plain Lua
 --   parts    frames that are rendered first, to a folder that the script gets as its argument
-return {
+local list = {
   { name = "demo", script = "scripts/demo.lua", frame = 236, size = "960x540" },
   { name = "little-one", script = "scripts/film.lua", frame = 463, size = "400x225" },
   { name = "moon", page = "README.md", frame = 40 },
@@ -74,3 +74,20 @@ return {
     { script = "scripts/kernels.lua", frame = 2, size = "384x160", file = "kernels.art.png" },
     { script = "scripts/kernels.lua", frame = "all", file = "kernels.#.png" } } },
 }
+
+-- The recipes of the cookbook, each with the frame that is shown.
+for _, recipe in ipairs {
+  { "cast_shadow", 12 }, { "drop_shadow", 10 }, { "neon_glow", 24 }, { "soft_vignette", 1 },
+  { "letter_mask", 20 }, { "clock_wipe", 20 }, { "iris_out", 24 }, { "endless_zoom", 20 },
+  { "lower_third", 30 }, { "karaoke_line", 27 }, { "rolling_credits", 120 },
+  { "three_languages", 12 }, { "text_on_path", 40 }, { "speech_bubble", 20 }, { "bar_race", 90 },
+  { "pie_chart", 44 }, { "line_chart", 50 }, { "rolling_counter", 30 }, { "island_map", 40 },
+  { "paper_texture", 1 }, { "boiling_line", 4 }, { "hatching", 1 }, { "halftone_dots", 1 },
+  { "snowfall", 30 }, { "water_reflection", 10 }, { "squash_stretch", 33 },
+  { "magnifying_lens", 40 }, { "old_film", 12 }, { "sprite_sheet", 1 },
+  { "transparent_video", 30 },
+} do
+  list[#list + 1] = { name = recipe[1], page = "docs/cookbook.md", frame = recipe[2] }
+end
+
+return list

@@ -166,6 +166,13 @@ function placed:quad(from, to) end
 ---@return T
 function placed:fade(k) end
 
+--- With a blend mode: how it is combined with what is behind it. Reading it gives `mode`.
+---@generic T: celspan.placed
+---@param self T
+---@param mode celspan.mode
+---@return T
+function placed:blend(mode) end
+
 --- The smallest axis-aligned rectangle around it; returns nothing if there is nothing to paint.
 ---@return number? x, number? y, number? width, number? height
 function placed:bounds() end
@@ -195,6 +202,11 @@ local object = {}
 ---@param style? celspan.stroke.style
 ---@return celspan.stroke
 function object:stroke(style) end
+
+--- The whole shape in one texture, which is in the units around it, with its fade and its name.
+---@param texture celspan.texture|celspan.paint|string
+---@return celspan.object
+function object:paint(texture) end
 
 ---@noun rect: celspan.object
 
@@ -271,6 +283,20 @@ function celspan.xor(objects) end
 ---@param shape celspan.shape
 ---@return celspan.boolean
 function celspan.clip(art, shape) end
+
+---@noun group: celspan.object
+
+---@noun matte.options
+
+--- An object that is faded by a matte.
+---@class celspan.matte: celspan.boolean, celspan.matte.options
+
+--- The art, present as far as `by` is; `by` is not drawn.
+---@param art celspan.shape
+---@param by celspan.shape
+---@param options? celspan.matte.options
+---@return celspan.matte
+function celspan.matte(art, by, options) end
 
 ---@noun defocus
 

@@ -142,10 +142,7 @@ end
 ---@param seconds number
 ---@return string? text
 function Captions:at(seconds)
-  fields.self("captions", Captions, self, "at")
-  if not fields.is_finite(seconds) then
-    error("captions: at takes seconds, a finite number, got " .. fields.shown(seconds), 2)
-  end
+  fields.check_at("captions", Captions, self, seconds, "seconds")
   local texts = {}
   for i = 1, count_begun(self, seconds) do
     if self[i].to > seconds then texts[#texts + 1] = self[i].text end

@@ -68,19 +68,13 @@ end
 
 -- ---------------------------------------------------------------- tables
 
-local booleans = { ["true"] = true, yes = true, ["1"] = true, ["false"] = false, no = false,
-                   ["0"] = false }
-
 --- An empty field has no value, unless it is text.
 local readers = {
   string = function(text) return text end,
-  number = function(text)
-    local number = tonumber(text)
-    return fields.is_finite(number) and not text:find "[xX]" and number or nil
-  end,
-  boolean = function(text) return booleans[text:lower()] end,
+  number = fields.read_number,
+  boolean = fields.read_boolean,
 }
-local described = { number = "a number", boolean = "true, false, yes, no, 1 or 0" }
+local described = { number = "a number", boolean = fields.booleans }
 
 --- The one of comma, semicolon and tab that comes first in the first line outside of quotes.
 local function find_separator(text)
@@ -88,16 +82,22 @@ local function find_separator(text)
   return line:match "[,;\t]" or ","
 end
 
-local function check_header(header, types)
-  local seen = {}
+--- The places of the columns by their names. Raises { message = } if two have the same name.
+function csv.columns(header)
+  local columns = {}
   for i, name in ipairs(header) do
-    if name ~= "" and seen[name] then
-      fail(1, "columns %d and %d are both named '%s'", seen[name], i, name)
+    if name ~= "" and columns[name] then
+      fail(1, "columns %d and %d are both named '%s'", columns[name], i, name)
     end
-    seen[name] = i
+    columns[name] = i
   end
+  return columns
+end
+
+local function check_types(types, header)
+  local columns = csv.columns(header)
   for name in pairs(types) do
-    if type(name) == "string" and not seen[name] then
+    if type(name) == "string" and not columns[name] then
       fail(1, "there is no column '%s', for which a type is given; there are %s", name,
         table.concat(header, ", "))
     end
@@ -137,9 +137,8 @@ function csv.rows(text, separator)
       if #record > 1 or record[1] ~= "" then
         width = width or #record
         if #record ~= width then
-          fail(first, "the row has %d field%s; the first has %d", #record, #record == 1 and ""
-            or "s",
-            width)
+          fail(first, "the row has %d field%s; the first has %d", #record,
+            #record == 1 and "" or "s", width)
         end
         return record, first
       end
@@ -152,7 +151,7 @@ local function decode(text, options)
   local first, next_row = csv.rows(text, options.separator)
   local types, rows = options.types or {}, {}
   local header = options.header ~= false and first or nil
-  if header then check_header(header, types) end
+  if header then check_types(types, header) end
   if not header and #first > 0 then rows[1] = make_row(first, nil, types, 1) end
   for row, line in next_row do rows[#rows + 1] = make_row(row, header, types, line) end
   return rows

@@ -19,6 +19,21 @@ function fields.is_finite(value)
   return type(value) == "number" and value == value and value ~= math.huge and value ~= -math.huge
 end
 
+--- The finite number that a text is in decimal notation; nil for another text.
+function fields.read_number(text)
+  local number = not text:find "[xX]" and tonumber(text)
+  return fields.is_finite(number) and number or nil
+end
+
+local booleans = { ["true"] = true, yes = true, ["1"] = true, ["false"] = false, no = false,
+                   ["0"] = false }
+
+--- The boolean that a text is, in upper or lower case; nil for another text.
+function fields.read_boolean(text) return booleans[text:lower()] end
+
+--- The texts that fields.read_boolean reads, for messages.
+fields.booleans = "true, false, yes, no, 1 or 0"
+
 --- How a message describes a value: "nil", "a cel".
 function fields.kind(value)
   local noun = type(value) == "userdata" and tostring(value):match "^(%l+)%f[{%z ]"
@@ -40,12 +55,21 @@ local function refuse_name(noun, name, names, level)
     or #names > 0 and "; there are " .. table.concat(names, ", ") or ""), level + 1)
 end
 
---- Raises an error at the line of the caller's caller, unless `self` is a value of this class (its
---- metatable).
-function fields.self(noun, class, self, method)
+--- Raises an error at the line of the caller's caller, or at `level`, unless `self` is a value of
+--- this class (its metatable).
+function fields.self(noun, class, self, method, level)
   if getmetatable(self) ~= class then
     error(("%s: %s: call it as a method, value:%s(...), got %s"):format(noun, method, method,
-      fields.kind(self)), 3)
+      fields.kind(self)), level or 3)
+  end
+end
+
+--- Raises an error at the line of the caller's caller unless `self` is a value of this class, and
+--- `value`, what its method `at` takes, is a finite number. what: "a time".
+function fields.check_at(noun, class, self, value, what)
+  fields.self(noun, class, self, "at", 4)
+  if not fields.is_finite(value) then
+    error(("%s: at takes %s, a finite number, got %s"):format(noun, what, fields.shown(value)), 3)
   end
 end
 

@@ -9,6 +9,7 @@
 -- (loop = "mirror").
 local celspan = require "celspan"
 local ease = require "celspan.ease"
+local core = require "celspan.core"
 local fields = require "celspan.fields"
 
 ---@class celspan.keys.track
@@ -56,7 +57,7 @@ end
 
 -- Paints have no values outside 0..1, so curves that overshoot are limited here.
 function mixers.paint(a, b, u)
-  return celspan.mix(a, b, math.max(0, math.min(1, u)))
+  return celspan.mix(a, b, u)
 end
 
 function mixers.held(a, b, u)
@@ -65,7 +66,7 @@ end
 
 --- Raises an error at the line that made the keys.
 local function complain(i, text, ...)
-  error(("keys: key %d "):format(i) .. text:format(...), 4)
+  error(("keys: key %d "):format(i) .. text:format(...), 5)
 end
 
 --- The fault of a key by itself, or nil.
@@ -125,10 +126,10 @@ end
 local loops = { ["repeat"] = true, mirror = true }
 
 local function new(_, list)
-  fields.check("keys", list, { "keys", loop = "string" })
-  if rawlen(list) == 0 then error("keys: needs at least one key {time, value}", 2) end
+  fields.check("keys", list, { "keys", loop = "string" }, 4)
+  if rawlen(list) == 0 then error("keys: needs at least one key {time, value}", 3) end
   if list.loop ~= nil and not loops[list.loop] then
-    error(('keys: loop must be "repeat" or "mirror", got %s'):format(tostring(list.loop)), 2)
+    error(('keys: loop must be "repeat" or "mirror", got %s'):format(tostring(list.loop)), 3)
   end
   local keys, kind = read_keys(list)
   return setmetatable({ keys = keys, kind = kind, loop = list.loop }, Track)
@@ -159,10 +160,7 @@ end
 ---@param time number
 ---@return any
 function Track:at(time)
-  fields.self("keys", Track, self, "at")
-  if not fields.is_finite(time) then
-    error("keys: at takes a time, a finite number, got " .. fields.shown(time), 2)
-  end
+  fields.check_at("keys", Track, self, time, "a time")
   time = fold(self, time)
   local i = place(self.keys, time)
   local before, after = self.keys[i], self.keys[i + 1]
@@ -180,4 +178,4 @@ end
 
 ---@class celspan.keys
 ---@overload fun(list: table): celspan.keys.track
-return fields.seal("keys", setmetatable({}, { __call = new }))
+return fields.seal("keys", setmetatable({}, { __call = core.entry(new) }))

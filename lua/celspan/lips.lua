@@ -61,10 +61,7 @@ end
 ---@param frame integer
 ---@return any shape
 function Track:at(frame)
-  fields.self("lips", Track, self, "at")
-  if not fields.is_finite(frame) then
-    error("lips: at takes a frame's number, a finite number, got " .. fields.shown(frame), 2)
-  end
+  fields.check_at("lips", Track, self, frame, "a frame's number")
   local n = math.max(1, math.floor(frame))
   if n > self.frames then return self.rest end
   return self.shapes[n]

@@ -67,10 +67,7 @@ end
 ---@param u number
 ---@return number x, number y, number degrees
 function Way:at(u)
-  fields.self("motion", Way, self, "at")
-  if not fields.is_finite(u) then
-    error("motion: at takes a fraction of the length, a finite number, got " .. fields.shown(u), 2)
-  end
+  fields.check_at("motion", Way, self, u, "a fraction of the length")
   local points = self.points
   if #points == 1 then return points[1][1], points[1][2], 0 end
   local length = math.max(0, math.min(1, u)) * self.length
@@ -119,10 +116,7 @@ end
 ---@param time number Seconds
 ---@return number
 function Wiggle:at(time)
-  fields.self("motion", Wiggle, self, "at")
-  if not fields.is_finite(time) then
-    error("motion: at takes a time, a finite number, got " .. fields.shown(time), 2)
-  end
+  fields.check_at("motion", Wiggle, self, time, "a time")
   local at = time * self.frequency
   -- Beyond 2^53 a number has no fraction: the movement starts again from 0; infinity is 0.
   if math.abs(at) >= 2 ^ 53 then at = fields.is_finite(at) and math.fmod(at, 2 ^ 53) or 0 end

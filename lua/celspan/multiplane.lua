@@ -16,6 +16,7 @@
 --
 -- over = {cel, ...}: in front of everything; the camera does not move them.
 local celspan = require "celspan"
+local core = require "celspan.core"
 local fields = require "celspan.fields"
 
 local known = { "planes", film = "table", camera = "table", focal = "number", focus = "number",
@@ -50,39 +51,39 @@ local cel_metatable = getmetatable(celspan.cel {})
 
 local function check(scene)
   if not scene.film then
-    error("multiplane: field 'film' must be {width, height}, the size of the film, got nil", 3)
+    error("multiplane: field 'film' must be {width, height}, the size of the film, got nil", 4)
   end
-  fields.numbers("multiplane", "film[%d]", scene.film, 2, "{width, height}", 3)
+  fields.numbers("multiplane", "film[%d]", scene.film, 2, "{width, height}", 4)
   if scene.aperture and scene.aperture < 0 then
-    error("multiplane: field 'aperture' must be 0 or more, got " .. fields.shown(scene.aperture), 3)
+    error("multiplane: field 'aperture' must be 0 or more, got " .. fields.shown(scene.aperture), 4)
   end
   if scene.focal and scene.focal <= 0 then
-    error("multiplane: field 'focal' must be above 0, got " .. fields.shown(scene.focal), 3)
+    error("multiplane: field 'focal' must be above 0, got " .. fields.shown(scene.focal), 4)
   end
   for i = 1, rawlen(scene) do
     local plane = scene[i]
     local cel = type(plane) == "table" and plane[1] or nil
     if getmetatable(cel) ~= cel_metatable then
       error(("multiplane: plane %d must be {cel, z = depth}, got %s"):format(i,
-        type(plane) == "table" and ("{%s}"):format(fields.kind(cel)) or fields.kind(plane)), 3)
+        type(plane) == "table" and ("{%s}"):format(fields.kind(cel)) or fields.kind(plane)), 4)
     end
-    fields.check("multiplane: plane " .. i, plane, known_plane, 4)
+    fields.check("multiplane: plane " .. i, plane, known_plane, 5)
     if fits(plane, scene) and (plane.z or 0) <= -(scene.focal or 1000) then
       error(("multiplane: plane %d lies at or behind the camera at rest (z = %s, focal = %s); it "
-        .. "cannot fill the film there"):format(i, plane.z, scene.focal or 1000), 3)
+        .. "cannot fill the film there"):format(i, plane.z, scene.focal or 1000), 4)
     end
   end
   for i = 1, #(scene.over or {}) do
     if getmetatable(scene.over[i]) ~= cel_metatable then
-      error(("multiplane: over[%d] must be a cel, got %s"):format(i, fields.kind(scene.over[i])), 3)
+      error(("multiplane: over[%d] must be a cel, got %s"):format(i, fields.kind(scene.over[i])), 4)
     end
   end
 end
 
 local function multiplane(_, scene)
-  fields.check("multiplane", scene, known)
+  fields.check("multiplane", scene, known, 4)
   check(scene)
-  fields.check("multiplane: camera", scene.camera or {}, known_camera)
+  fields.check("multiplane: camera", scene.camera or {}, known_camera, 4)
   local focal = scene.focal or 1000
   local focus, aperture = scene.focus or focal, scene.aperture or 0
   local order = {}
@@ -107,4 +108,4 @@ end
 
 ---@class celspan.multiplane
 ---@overload fun(scene: table): celspan.rostrum
-return fields.seal("multiplane", setmetatable({}, { __call = multiplane }))
+return fields.seal("multiplane", setmetatable({}, { __call = core.entry(multiplane) }))

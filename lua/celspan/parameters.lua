@@ -13,9 +13,6 @@ local json = require "celspan.json"
 
 local parameters = {}
 
-local booleans = { ["true"] = true, yes = true, ["1"] = true, ["false"] = false, no = false,
-                   ["0"] = false }
-
 -- ---------------------------------------------------------------- kinds
 
 local function range_of(one)
@@ -27,6 +24,12 @@ end
 local function is_in_range(one, number)
   return fields.is_finite(number) and number >= (one.min or number)
     and number <= (one.max or number)
+end
+
+--- A value that is not a text has come as it is, from JSON or from the script.
+local function read_with(reader, given)
+  if type(given) == "string" then return reader(given) end
+  return given
 end
 
 --- What the kinds allow; a reader makes a value of a text, and nil of a wrong one.
@@ -41,17 +44,14 @@ local kinds = {
     type = "number",
     allowed = function(one) return "a number" .. range_of(one) end,
     read = function(one, text)
-      local number = type(text) == "number" and text or not text:find "[xX]" and tonumber(text)
+      local number = read_with(fields.read_number, text)
       return number and is_in_range(one, number) and number or nil
     end,
   },
   boolean = {
     type = "boolean",
-    allowed = function() return "true, false, yes, no, 1 or 0" end,
-    read = function(_, text)
-      if type(text) == "boolean" then return text end
-      return booleans[text:lower()]
-    end,
+    allowed = function() return fields.booleans end,
+    read = function(_, text) return read_with(fields.read_boolean, text) end,
   },
   choice = {
     type = "string",
@@ -83,8 +83,7 @@ local function kind_of_table(name, given)
   if type(first) == "string" then return given[2] ~= nil and "choice" or "text", first end
   if type(first) == "number" or type(first) == "boolean" then return type(first), first end
   refuse(name, "must be a string, a number, a boolean, a list of strings, or a table with a "
-    .. "default "
-    .. "as [1], colour or file")
+    .. "default as [1], colour or file")
 end
 
 local known = { number = { 1, min = 1, max = 1, about = 1 }, boolean = { 1, about = 1 },
@@ -114,14 +113,12 @@ local function declare_one(name, given)
     error(("parameters: %s is not a name: letters, digits and _, not beginning with a digit")
       :format(type(name) == "string" and "'" .. name .. "'" or tostring(name)), 0)
   end
-  if type(given) ~= "table" then
-    given = type(given) == "string" and { given } or { given }
-  end
+  if type(given) ~= "table" then given = { given } end
   local kind, default = kind_of_table(name, given)
   check_names(name, kind, given)
+  local choices = kind == "choice" and read_choices(name, given) or nil
   local one = { name = name, kind = kind, default = default, min = given.min, max = given.max,
-                about = given.about, choices = kind == "choice" and read_choices(name, given)
-                  or nil }
+                about = given.about, choices = choices }
   for _, bound in ipairs { "min", "max" } do
     if one[bound] ~= nil and not fields.is_finite(one[bound]) then
       refuse(name, "has a field '%s' that is not a finite number", bound)
@@ -151,29 +148,33 @@ local function refuse_setting(settings, format, ...)
   error(settings.refused, 0)
 end
 
-local function find(settings, declared, how, name)
+--- Where values come from: what messages about them begin with, and whether all of them are texts.
+local from_option = { prefix = "--set: ", has_texts = true }
+local from_row = { prefix = "", has_texts = true }
+
+local function find(settings, declared, source, name)
   local names = {}
   for i, one in ipairs(declared) do
     if one.name == name then return one end
     names[i] = one.name
   end
   local hint = core.nearest(name, names)
-  refuse_setting(settings, "%s: the script has no parameter '%s'%s", how, name,
+  refuse_setting(settings, "%sthe script has no parameter '%s'%s", source.prefix, name,
     hint and ("; did you mean '%s'?"):format(hint)
       or #names > 0 and "; there are " .. table.concat(names, ", ") or "")
 end
 
-local function shown(value) return type(value) == "string" and "'" .. value .. "'"
-  or tostring(value) end
+local function shown(value)
+  return type(value) == "string" and "'" .. value .. "'" or tostring(value)
+end
 
-local function set(settings, declared, values, how, name, value)
-  local one = find(settings, declared, how, name)
+local function set(settings, declared, values, source, name, value)
+  local one = find(settings, declared, source, name)
   local kind = kinds[one.kind]
-  local is_readable = type(value) == "string" and how == "--set" or type(value) == kind.type
   local read
-  if is_readable then read = kind.read(one, value) end
+  if source.has_texts or type(value) == kind.type then read = kind.read(one, value) end
   if read == nil then
-    refuse_setting(settings, "%s: %s is %s; it must be %s", how, name, shown(value),
+    refuse_setting(settings, "%s%s is %s; it must be %s", source.prefix, name, shown(value),
       kind.allowed and kind.allowed(one) or "a text")
   end
   values[name] = read
@@ -181,16 +182,16 @@ end
 
 --- Sets what a JSON object says.
 local function set_from(settings, declared, values, given)
-  local how = "--set-from " .. given.path
+  local source = { prefix = ("--set-from %s: "):format(given.path) }
   local object, problem = json.decode(given.json)
-  if object == nil then refuse_setting(settings, "%s: %s", how, problem) end
+  if object == nil then refuse_setting(settings, "%s%s", source.prefix, problem) end
   if type(object) ~= "table" or object == json.null or #object > 0 then
-    refuse_setting(settings, "%s: it must be a JSON object, { \"name\": value }", how)
+    refuse_setting(settings, '%sit must be a JSON object, { "name": value }', source.prefix)
   end
   local names = {}
   for name in pairs(object) do names[#names + 1] = name end
   table.sort(names)
-  for _, name in ipairs(names) do set(settings, declared, values, how, name, object[name]) end
+  for _, name in ipairs(names) do set(settings, declared, values, source, name, object[name]) end
 end
 
 --- Makes it an error to read an unknown name.
@@ -215,16 +216,17 @@ function parameters.declare(given)
     if one.json then
       set_from(settings, declared, values, one)
     else
-      set(settings, declared, values, "--set", one.name, one.text)
+      set(settings, declared, values, from_option, one.name, one.text)
     end
   end
   return sealed(values)
 end
 
---- Why "NAME=VALUE" cannot be set; "" where it can.
+--- Why "NAME=VALUE", from a row of a table, cannot be set; "" where it can.
 function parameters.fault(setting)
   local settings, name, value = core.settings(), setting:match "^(.-)=(.*)$"
-  local good, message = pcall(set, settings, settings.declared or {}, {}, "--set", name, value)
+  local good, message = pcall(set, settings, settings.declared or {}, {}, from_row, name,
+    value)
   settings.refused = nil
   return good and "" or message
 end
@@ -237,8 +239,9 @@ local formats = { colour = "color", file = "path" }
 
 local function schema_of(one)
   local members = { { "type", types[one.kind] }, { "default", one.default } }
-  local function add(name, value) if value ~= nil then members[#members + 1] = { name,
-    value } end end
+  local function add(name, value)
+    if value ~= nil then members[#members + 1] = { name, value } end
+  end
   add("description", one.about)
   add("enum", one.choices and { list = one.choices })
   add("minimum", one.min)

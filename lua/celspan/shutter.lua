@@ -6,6 +6,7 @@
 -- function is called once for each sample with an f whose time, middle and progress are those of
 -- the middle of the sample's interval; number, index, f:on and f:random are those of the frame. The
 -- samples are exposed with equal weights that add up to 1.
+local core = require "celspan.core"
 local fields = require "celspan.fields"
 
 local known = { angle = "number", samples = "number", frame = "function" }
@@ -37,16 +38,16 @@ local function expose(exposures, result, weight)
 end
 
 local function shutter(_, settings)
-  fields.check("shutter", settings, known)
+  fields.check("shutter", settings, known, 4)
   local angle, samples, frame = settings.angle or 180, settings.samples or 8, settings.frame
   if not (angle >= 0 and angle <= 360) then
-    error(("shutter: field 'angle' must be 0..360 degrees, got %s"):format(fields.shown(angle)), 2)
+    error(("shutter: field 'angle' must be 0..360 degrees, got %s"):format(fields.shown(angle)), 3)
   end
   if samples < 1 or samples > 10000 or samples ~= math.floor(samples) then
     error(("shutter: field 'samples' must be a whole number, 1..10000, got %s"):format(
-      fields.shown(samples)), 2)
+      fields.shown(samples)), 3)
   end
-  if not frame then error("shutter: field 'frame' must be a function, got nil", 2) end
+  if not frame then error("shutter: field 'frame' must be a function, got nil", 3) end
   return function(f)
     local exposures = {}
     for k = 1, samples do
@@ -58,4 +59,4 @@ end
 
 ---@class celspan.shutter
 ---@overload fun(settings: table): fun(f: celspan.frame): table[]
-return fields.seal("shutter", setmetatable({}, { __call = shutter }))
+return fields.seal("shutter", setmetatable({}, { __call = core.entry(shutter) }))

@@ -5,9 +5,11 @@
 --   art.parts.arm                   -- the element with this id, or with this Inkscape label
 --   svg.read("sign.svg", { fonts = { Arial = "arial.ttf", default = "sans.ttf" } })   -- for text
 --   art:with { arm = function(arm) return arm:rotate(20, 140, 90) end }
+--   art:show { mouth = "C", eyes = "open" }     -- of the parts "mouth A", "mouth B", ... only C
 --
 -- A file is read once and kept from frame to frame until it changes, so that frame functions may
 -- read it.
+local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
 
@@ -65,6 +67,59 @@ function Art:with(changes)
     end
   end
   return wrap(self.__drawing:with(changes))
+end
+
+--- The parts of a set, by their names in it: "mouth C", "mouth-C" and "mouth/C" are the C of the
+--- mouth. A sorted list of these names too.
+local function set_of(parts, set)
+  local members, names = {}, {}
+  for name in pairs(parts) do
+    local member = name:sub(1, #set) == set and name:sub(#set + 1):match "^[ %-_/.:]+(.+)$"
+    if member then
+      members[member] = members[member] or {}
+      table.insert(members[member], name)
+      names[#names + 1] = member
+    end
+  end
+  table.sort(names)
+  return members, names
+end
+
+local function check_choice(art, set, choice)
+  if type(set) ~= "string" or type(choice) ~= "string" and choice ~= false then
+    core.refuse(("svg: show takes a table of names by set, such as { mouth = \"C\" }, got %s = %s")
+      :format(tostring(set), type(choice) == "string" and choice or fields.kind(choice)))
+  end
+  local members, names = set_of(art.parts, set)
+  if #names == 0 then
+    core.refuse(("svg: the drawing has no parts named '%s A', '%s B' and so on"):format(set, set))
+  end
+  if choice and not members[choice] then
+    local hint = core.nearest(choice, names)
+    core.refuse(("svg: the parts of '%s' are %s, and not '%s'%s"):format(set,
+      table.concat(names, ", "), choice, hint and ("; did you mean '%s'?"):format(hint) or ""))
+  end
+  return members
+end
+
+local function nothing() return celspan.union {} end
+
+--- The drawing with one part of each set: of "mouth A", "mouth B" and "mouth C" only the C, for
+--- { mouth = "C" }. false: none of them.
+---@param choices table<string, string|false>
+---@return celspan.svg.art
+function Art:show(choices)
+  fields.self("svg", Art, self, "show")
+  if type(choices) ~= "table" then
+    core.refuse("svg: show takes a table of names by set, got " .. fields.kind(choices))
+  end
+  local changes = {}
+  for set, choice in next, choices do
+    for member, names in next, check_choice(self, set, choice) do
+      for _, name in ipairs(member ~= choice and names or {}) do changes[name] = nothing end
+    end
+  end
+  return self:with(changes)
 end
 
 ---@class celspan.svg.options

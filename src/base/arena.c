@@ -1,5 +1,7 @@
 #include "base/arena.h"
 
+#include <string.h>
+
 struct cs_arena_chunk {
   cs_arena_chunk *next;
   size_t size; /* of the bytes behind this header */
@@ -76,4 +78,18 @@ void *cs_arena_take(celspan_context *context, cs_arena *arena, size_t size) {
   void *taken = arena->current->bytes + arena->used;
   arena->used += size;
   return taken;
+}
+
+void *cs_arena_grow(celspan_context *context, cs_arena *arena, void *items, size_t count,
+                    size_t *capacity, size_t size) {
+  if (count < *capacity)
+    return items;
+  size_t wanted = *capacity ? 2 * *capacity : 64;
+  void *grown = cs_arena_take(context, arena, wanted * size);
+  if (!grown)
+    return NULL;
+  if (count > 0)
+    memcpy(grown, items, count * size);
+  *capacity = wanted;
+  return grown;
 }

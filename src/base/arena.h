@@ -20,3 +20,7 @@ void cs_arena_finish(cs_arena *arena, cs_memory *memory);
 void cs_arena_reset(cs_arena *arena);
 /* size bytes, aligned to 16. NULL when there is no memory; the context then has the error. */
 void *cs_arena_take(celspan_context *context, cs_arena *arena, size_t size);
+/* An array with room for one more than `count` items of `size` bytes: `items`, or a copy of it with
+ * twice the capacity, at first 64. NULL when there is no memory; the context then has the error. */
+void *cs_arena_grow(celspan_context *context, cs_arena *arena, void *items, size_t count,
+                    size_t *capacity, size_t size);

@@ -145,6 +145,7 @@ NUMBERS(count, "a whole number", read_integer, 0, INT32_MAX, 0);
 NUMBERS(pixels, "a whole number of pixels, 0 or more", read_integer, 0, INT32_MAX, 0);
 NUMBERS(tile, "a whole number of pixels, 16 to 8192", read_integer, 0, INT32_MAX, 0);
 NUMBERS(workers, "a whole number from 1 to 1024", read_integer, 1, 1024, 0);
+NUMBERS(port, "the number of a port, 1 to 65535", read_integer, 1, 65535, 0);
 NUMBERS(memory, "a whole number of MiB from 0 to 1048576", read_integer, 0, 1048576, 0);
 NUMBERS(quality, "a whole number from 0 to 100", read_integer, 0, 100, 0);
 NUMBERS(size, "width x height in whole pixels, 1 to 1048576, such as 1920x1080", read_pair, 1,

@@ -178,6 +178,7 @@ cs_exit cs_change_refuse(cs_script *script, const cs_frame_change *change,
 
 typedef struct onion {
   int32_t counts[2]; /* before, after */
+  const char *cel;   /* NULL: all */
   const celspan_frame_desc *frame;
 } onion;
 
@@ -203,17 +204,16 @@ static int lay(lua_State *L) {
   lua_pushinteger(L, o->frame->width);
   lua_pushinteger(L, o->frame->height);
   lua_pushcfunction(L, is_same);
-  lua_call(L, 6, 1);
+  lua_pushstring(L, o->cel);
+  lua_call(L, 7, 1);
   return 1;
 }
 
 cs_exit cs_change_lay_onion(cs_script *script, const cs_request *request,
                             const celspan_frame_desc *frame) {
-  onion o = {.frame = frame};
+  onion o = {.frame = frame, .cel = cs_request_text(request, "--cel")};
   if (!cs_request_read(request, "--onion", o.counts))
     return CS_EXIT_OK;
-  if (cs_request_has(request, "--cel"))
-    return cs_report_usage("--onion lays whole frames over one another: leave --cel out");
   lua_State *L = script->L;
   lua_pushcfunction(L, lay);
   lua_pushvalue(L, CS_SCRIPT_FILM);

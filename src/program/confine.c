@@ -75,31 +75,38 @@ void cs_confine_rendering(celspan_context *context, const cs_request *request) {
     context->memory->most_rendering = most_of_memory();
 }
 
+/* The option that gives or takes a right of the sandbox; NULL: none was given. */
+static const char *right_of(const cs_request *request) {
+  static const char *const rights[] = {"--strict", "--allow", "--allow-system-fonts"};
+  for (size_t i = 0; i < sizeof rights / sizeof *rights; i++)
+    if (cs_request_has(request, rights[i]))
+      return rights[i];
+  return NULL;
+}
+
 cs_exit cs_confine_refuse(const cs_request *request) {
   const cs_given_limits given = given_limits(request);
   bool has_limit = false;
   for (size_t i = CS_LIMIT_MEMORY; i < CS_LIMIT_COUNT; i++)
     has_limit |= given.has[i];
-  if (!has_limit && !cs_request_has(request, "--strict") && !cs_request_has(request, "--allow"))
+  if (!has_limit && !right_of(request))
     return CS_EXIT_OK;
-  return cs_report_usage(
-      "--strict, --allow and every --limit except those of pictures are for scripts, and "
-      "%s is not a script: leave them out",
-      request->operands[0]);
+  return cs_report_usage("--strict, --allow, --allow-system-fonts and every --limit except those "
+                         "of pictures are for scripts, and "
+                         "%s is not a script: leave them out",
+                         request->operands[0]);
 }
 
 static cs_exit refuse_both(const cs_request *request) {
-  bool is_strict = cs_request_has(request, "--strict");
-  if (!is_strict && !cs_request_has(request, "--allow"))
-    return CS_EXIT_OK;
-  return cs_report_usage("--trust already allows everything: leave %s out",
-                         is_strict ? "--strict" : "--allow");
+  const char *right = right_of(request);
+  return right ? cs_report_usage("--trust already allows everything: leave %s out", right)
+               : CS_EXIT_OK;
 }
 
 bool cs_confine_is_needed(const cs_request *request) {
   cs_limits limits = limits_of(request);
-  return !is_trusted(request) || cs_request_has(request, "--strict") ||
-         cs_request_has(request, "--allow") || limits.memory || limits.steps || limits.seconds > 0;
+  return !is_trusted(request) || right_of(request) || limits.memory || limits.steps ||
+         limits.seconds > 0;
 }
 
 static bool is_interrupted(void) { return cs_interrupt_signal() != 0; }
@@ -136,6 +143,20 @@ static cs_exit refuse_roots(void) {
   return CS_EXIT_MEMORY;
 }
 
+/* The folders of fonts; those that do not exist are left out. */
+static bool add_fonts(cs_roots *roots) {
+  static const char *const own[] = {"/.local/share/fonts", "/.fonts"};
+  const char *home = getenv("HOME");
+  char folder[PATH_SIZE];
+  bool is_good =
+      cs_roots_add(roots, "/usr/share/fonts") && cs_roots_add(roots, "/usr/local/share/fonts");
+  for (size_t i = 0; home && home[0] && i < sizeof own / sizeof *own && is_good; i++) {
+    snprintf(folder, sizeof folder, "%s%s", home, own[i]);
+    is_good = cs_roots_add(roots, folder);
+  }
+  return is_good;
+}
+
 static cs_exit open_roots(const cs_request *request, const char *script, cs_sandbox *out) {
   char folder[PATH_SIZE];
   cs_given_texts allowed = {.count = 0};
@@ -148,6 +169,8 @@ static cs_exit open_roots(const cs_request *request, const char *script, cs_sand
     CS_TRY_EXIT(refuse_folder(allowed.items[i]));
     is_good = cs_sandbox_allow(out, allowed.items[i]);
   }
+  if (is_good && cs_request_has(request, "--allow-system-fonts"))
+    is_good = add_fonts(&out->roots);
   if (search && is_good)
     is_good = cs_sandbox_allow_search(out, search);
   return is_good ? CS_EXIT_OK : refuse_roots();

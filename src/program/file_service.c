@@ -8,6 +8,7 @@
 #include "frames/process/journal.h"
 #include "frames/still/span_reader.h"
 #include "lua/bind/userdata.h"
+#include "lua/module/artwork.h"
 #include "lua/module/lua_script.h"
 #include "output/join/join.h"
 #include "output/sinks/file.h"
@@ -17,43 +18,21 @@
 
 /* ---------------------------------------------------------------- kinds */
 
-enum { HEAD = 64 };
-
-/* White space and a byte order mark may come before an XML document; no script begins like that. */
-static bool is_markup(const char *head) {
-  const char *start = strncmp(head, "\xEF\xBB\xBF", 3) == 0 ? head + 3 : head;
-  return start[strspn(start, " \t\r\n")] == '<';
-}
-
-/* The start of a regular file, as a text; "" where there is none. Whether it is a folder. */
-static bool read_head(const char *path, char head[HEAD + 1]) {
-  struct stat facts;
-  head[0] = '\0';
-  int descriptor = cs_open_to_read(path);
-  if (descriptor < 0)
-    return false;
-  bool is_known = fstat(descriptor, &facts) == 0;
-  if (is_known && S_ISREG(facts.st_mode)) {
-    ssize_t size = read(descriptor, head, HEAD);
-    head[size > 0 ? size : 0] = '\0';
-  }
-  close(descriptor);
-  return is_known && S_ISDIR(facts.st_mode);
-}
-
 /* kind(path) -> what a file can be, by its first bytes: "folder", "archive", "psd", "svg", "span",
  * "script" or "picture" */
 static int kind(lua_State *L) {
-  char head[HEAD + 1];
+  static const char *const artworks[] = {
+      [CS_ARTWORK_FOLDER] = "folder",
+      [CS_ARTWORK_ARCHIVE] = "archive",
+      [CS_ARTWORK_PSD] = "psd",
+      [CS_ARTWORK_SVG] = "svg",
+  };
   const char *path = luaL_checkstring(L, 1);
-  bool is_folder = read_head(path, head);
-  lua_pushstring(L, is_folder                         ? "folder"
-                    : strncmp(head, "PK\3\4", 4) == 0 ? "archive"
-                    : strncmp(head, "8BPS", 4) == 0   ? "psd"
-                    : is_markup(head)                 ? "svg"
-                    : cs_span_reader_accepts(path)    ? "span"
-                    : cs_lua_script_accepts(path)     ? "script"
-                                                      : "picture");
+  cs_artwork artwork = cs_artwork_of(path);
+  lua_pushstring(L, artwork != CS_ARTWORK_NONE     ? artworks[artwork]
+                    : cs_span_reader_accepts(path) ? "span"
+                    : cs_lua_script_accepts(path)  ? "script"
+                                                   : "picture");
   return 1;
 }
 

@@ -17,6 +17,7 @@
 #include "model/scene/scene.h"
 #include "program/service.h"
 #include "program/soundtrack.h"
+#include "program/stage.h"
 #include "program/target.h"
 #include "program/view.h"
 
@@ -273,6 +274,12 @@ static int faults(lua_State *L) {
   return 0;
 }
 
+/* ---------------------------------------------------------------- watched films */
+
+static int picture(lua_State *L) { return cs_stage_picture(L, &self(L)->script); }
+static int hits(lua_State *L) { return cs_stage_hits(L, &self(L)->script); }
+static int files(lua_State *L) { return cs_stage_files(L, &self(L)->script); }
+
 /* ---------------------------------------------------------------- the film */
 
 /* Sets `marks`: a list { { name =, frame = }, ... } in the order of the frames. */
@@ -321,6 +328,9 @@ static void set_methods(lua_State *L) {
                                      {"names", names},
                                      {"parameters", parameters},
                                      {"faults", faults},
+                                     {"files", files},
+                                     {"picture", picture},
+                                     {"hits", hits},
                                      {NULL, NULL}};
   lua_createtable(L, 0, 2);
   lua_pushcfunction(L, describe);

@@ -1,7 +1,11 @@
 #include "program/lua_verb.h"
 
+#include <limits.h>
 #include <lualib.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "celspan/lua.h"
 #include "lua/bind/host.h"
@@ -12,6 +16,8 @@
 #include "program/service.h"
 #include "program/verb_text.h"
 #include "program/verbs.h"
+
+enum { FOLDER_SIZE = 4096 };
 
 /* ---------------------------------------------------------------- the request */
 
@@ -103,18 +109,47 @@ static void open_libraries(lua_State *L, celspan_context *context) {
   cs_embedded_open(L);
 }
 
+/* Whether the annotations are in this folder. */
+static bool holds_annotations(const char *folder) {
+  char path[FOLDER_SIZE + 32];
+  snprintf(path, sizeof path, "%s/celspan.d.lua", folder);
+  return access(path, R_OK) == 0;
+}
+
+/* The folder of the annotations: as they were installed, else beside the program, in a checkout or
+ * where an installation was moved to. */
+static void put_annotations(lua_State *L) {
+  static const char *const beside[] = {"../share/celspan/annotations", "../lua"};
+  char own[FOLDER_SIZE / 2], folder[FOLDER_SIZE], found[PATH_MAX];
+  ssize_t size = readlink("/proc/self/exe", own, sizeof own - 1);
+  own[size > 0 ? size : 0] = '\0';
+  char *slash = strrchr(own, '/');
+  bool is_there = holds_annotations(CS_ANNOTATIONS);
+  cs_put_text(L, "annotations", CS_ANNOTATIONS);
+  for (size_t i = 0; slash && !is_there && i < sizeof beside / sizeof *beside; i++) {
+    *slash = '\0';
+    snprintf(folder, sizeof folder, "%s/%s", own, beside[i]);
+    is_there = holds_annotations(folder) && realpath(folder, found);
+    if (is_there)
+      cs_put_text(L, "annotations", found);
+  }
+}
+
 /* Pushes the table of services. */
 static void push_program(lua_State *L) {
   static const luaL_Reg services[] = {{"verbs", push_verbs}, {NULL, NULL}};
   lua_newtable(L);
   cs_service_add(L, services);
   cs_put_text(L, "version", celspan_version());
-  cs_put_text(L, "annotations", CS_ANNOTATIONS); /* the folder, as it is installed */
+  put_annotations(L);
   cs_service_add_reports(L);
   cs_service_add_film(L);
   cs_service_add_files(L);
   cs_service_add_pictures(L);
   cs_service_add_processes(L);
+  cs_service_add_renderers(L);
+  cs_service_add_watchers(L);
+  cs_service_add_web(L);
 }
 
 /* Upvalue: the program. Returns the verb's exit code, or nothing. Runs protected. */

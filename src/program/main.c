@@ -96,11 +96,9 @@ static cs_exit parse_and_run(const cs_verb *verb, size_t count, char *const *wor
   return run(&request);
 }
 
-/* word: a verb, or an option of the help; NULL: it lists the verbs. */
+/* word: a verb, a task of the cookbook, or an option of the help; NULL: it lists the verbs. */
 static cs_exit help(const char *word) {
   bool is_list = !word || strcmp(word, "help") == 0;
-  if (!is_list && word[0] != '-' && !find_verb(word))
-    return refuse_verb(word);
   return parse_and_run(find_verb("help"), is_list ? 0 : 1, (char *const *)&word);
 }
 

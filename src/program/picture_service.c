@@ -372,13 +372,13 @@ static int convert(lua_State *L) {
   return 0;
 }
 
-/* write(frame, path, width, height): a frame into a picture under the request. */
+/* write(frame, path, width, height): a frame of a film of this size into a picture under the
+ * request. */
 static int write_frame(lua_State *L) {
   const cs_session *session = cs_service_session(L);
-  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
-  desc.film_width = desc.width = (int32_t)luaL_checkinteger(L, 3);
-  desc.film_height = desc.height = (int32_t)luaL_checkinteger(L, 4);
-  cs_request_read(session->request, "--workers", &desc.workers);
+  celspan_frame_desc desc;
+  cs_service_require(L, cs_view_frame(session->request, (double)luaL_checkinteger(L, 3),
+                                      (double)luaL_checkinteger(L, 4), &desc));
   cs_options_exposures(L, 1, "write", &desc);
   celspan_file_desc file = cs_target_file(session->request);
   cs_service_try(L,

@@ -17,7 +17,7 @@
 #include "frames/process/spawn.h"
 #include "program/service.h"
 
-enum { CHILDREN_MOST = 1024, WORDS_MOST = 1024 };
+enum { CHILDREN_MOST = 1024 };
 
 /* Those that run; 0: a free place. */
 static volatile pid_t children[CHILDREN_MOST];
@@ -43,19 +43,19 @@ static int descriptor_at(lua_State *L, int index) {
 
 /* start(words, printed, other) -> the number of a process | nil, message
  *
- * The process runs this program with the words, at most 1022. At most 1024 processes at a time. */
+ * The process runs this program with the words. Without `other` it has no descriptor 3. At most
+ * 1024 processes at a time. */
 static int start(lua_State *L) {
-  const char *words[WORDS_MOST] = {"celspan"};
-  int printed = descriptor_at(L, 2), other = descriptor_at(L, 3);
-  const int files[] = {CS_SPAWN_SAME, printed, printed, other};
-  for (int i = 1; i < WORDS_MOST - 1 && lua_rawgeti(L, 1, i) == LUA_TSTRING; i++)
-    words[i] = lua_tostring(L, -1);
+  bool has_other = !lua_isnoneornil(L, 3);
+  int printed = descriptor_at(L, 2);
+  const int files[] = {CS_SPAWN_SAME, printed, printed, has_other ? descriptor_at(L, 3) : -1};
+  const char **words = cs_service_push_words(L, 1);
   pid_t process;
   cs_interrupt_call(stop_children);
   const cs_spawn_desc desc = {.path = "/proc/self/exe",
                               .arguments = words,
                               .files = files,
-                              .file_count = sizeof files / sizeof *files};
+                              .file_count = has_other ? 4 : 3};
   int error = cs_spawn(&process, &desc);
   errno = error;
   if (error)

@@ -320,6 +320,8 @@ static cs_exit refuse_output(celspan_context *context, const cs_request *request
 static cs_exit refuse_dither(const cs_request *request) {
   celspan_depth depth = CELSPAN_DEPTH_8;
   cs_request_read(request, "--depth", &depth);
+  if (cs_request_has(request, "--dither") && cs_request_has(request, "--no-dither"))
+    return cs_report_usage("--dither and --no-dither exclude each other: give one of them");
   return cs_request_has(request, "--dither") && depth != CELSPAN_DEPTH_8
              ? cs_report_usage("--dither makes 8 bits: leave --depth out, or give --depth 8")
              : CS_EXIT_OK;

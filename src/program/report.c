@@ -14,6 +14,9 @@ enum {
 
 static void (*clear_line)(void);
 static cs_report_form chosen;
+static char last[SENTENCE];
+
+const char *cs_report_last(void) { return last[0] ? last : NULL; }
 
 void cs_report_choose(cs_report_form form) { chosen = form; }
 
@@ -93,6 +96,8 @@ static void print_event(bool is_error, const int64_t *number, const char *text) 
 }
 
 static void print_text(bool is_error, const int64_t *number, char *text) {
+  if (is_error)
+    snprintf(last, sizeof last, "%s", text);
   if (chosen == CS_REPORT_JSON)
     print_event(is_error, number, text);
   else

@@ -38,6 +38,8 @@ cs_exit cs_report_exit(celspan_status status);
 void cs_report_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* "celspan: ..." */
 void cs_report_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
+/* The error that was reported last, cut if it was long; NULL: none was. */
+const char *cs_report_last(void);
 /* Reports an error and returns CS_EXIT_USAGE. */
 cs_exit cs_report_usage(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* Reports the context's sentence, after "where: " when where is not NULL or empty, and returns the

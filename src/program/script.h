@@ -18,6 +18,7 @@ typedef struct cs_script {
   cs_film_frame frame;      /* that frame; owned */
   cs_hash given;            /* of its arguments and the values of its parameters */
   bool is_trusted;          /* it has the whole of Lua */
+  bool asks_files;          /* the paths that it asks for are remembered */
   cs_sandbox *sandbox;      /* owned; NULL: the whole of Lua without limits */
 } cs_script;
 

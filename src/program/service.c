@@ -31,6 +31,20 @@ void cs_service_add(lua_State *L, const luaL_Reg *functions) {
   luaL_setfuncs(L, functions, 1);
 }
 
+const char **cs_service_push_words(lua_State *L, int index) {
+  luaL_checktype(L, index, LUA_TTABLE);
+  size_t count = lua_rawlen(L, index);
+  const char **words = lua_newuserdatauv(L, (count + 2) * sizeof *words, 0);
+  words[0] = "celspan";
+  for (size_t i = 1; i <= count; i++, lua_pop(L, 1)) {
+    bool is_text = lua_rawgeti(L, index, (lua_Integer)i) == LUA_TSTRING;
+    luaL_argcheck(L, is_text, index, "not a list of strings");
+    words[i] = lua_tostring(L, -1);
+  }
+  words[count + 1] = NULL;
+  return words;
+}
+
 /* ---------------------------------------------------------------- reports */
 
 static int note(lua_State *L) {
@@ -88,6 +102,12 @@ static int check_input(lua_State *L) {
   return cs_service_end(L, is_starved ? CS_EXIT_MEMORY : CS_EXIT_INPUT);
 }
 
+/* reported() -> the error that was reported last | nil */
+static int reported(lua_State *L) {
+  lua_pushstring(L, cs_report_last());
+  return 1;
+}
+
 /* outcome() -> the exit code of a service that failed where the verb caught that */
 static int outcome(lua_State *L) {
   lua_pushinteger(L, cs_service_session(L)->outcome);
@@ -132,6 +152,7 @@ void cs_service_add_reports(lua_State *L) {
                                       {"refuse", refuse},
                                       {"refuse_rights", refuse_rights},
                                       {"outcome", outcome},
+                                      {"reported", reported},
                                       {"is_stopped", is_stopped},
                                       {"text", push_text},
                                       {NULL, NULL}};

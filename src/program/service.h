@@ -20,6 +20,10 @@ typedef struct cs_session {
 /* Adds services to the table on top of the stack. */
 void cs_service_add(lua_State *L, const luaL_Reg *functions);
 
+/* "celspan" and the words of the list of strings at index, ended by NULL, as a value that is
+ * pushed; the list keeps the strings. */
+const char **cs_service_push_words(lua_State *L, int index);
+
 /* For services: the run that they belong to. */
 cs_session *cs_service_session(lua_State *L);
 /* Ends the verb with an exit code, whose reason was reported unless it is OK. Does not return. */
@@ -35,3 +39,6 @@ void cs_service_add_film(lua_State *L);
 void cs_service_add_files(lua_State *L);
 void cs_service_add_pictures(lua_State *L);
 void cs_service_add_processes(lua_State *L);
+void cs_service_add_renderers(lua_State *L);
+void cs_service_add_watchers(lua_State *L);
+void cs_service_add_web(lua_State *L);

@@ -46,9 +46,11 @@
         "straight or premultiplied; default: straight, floats premultiplied"                       \
   }
 #define DITHER                                                                                     \
+  {"--dither", NULL, NULL,                                                                         \
+   "8 bits without banding: rounded up or down by the position of the pixel; the default of "      \
+   "videos"},                                                                                      \
   {                                                                                                \
-    "--dither", NULL, NULL,                                                                        \
-        "8 bits without banding: rounded up or down by the position of the pixel"                  \
+    "--no-dither", NULL, NULL, "8 bits rounded to nearest; the default except of videos"           \
   }
 #define BACKGROUND                                                                                 \
   {                                                                                                \
@@ -99,6 +101,9 @@
       {"--allow", "DIR", &cs_argument_texts,                                                       \
        "let the script also read this folder and the folders in it; may be given "                 \
        "several times"},                                                                           \
+      {"--allow-system-fonts", NULL, NULL,                                                         \
+       "let the script also read the fonts that are installed: /usr/share/fonts, "                 \
+       "/usr/local/share/fonts, ~/.local/share/fonts and ~/.fonts"},                               \
   {                                                                                                \
     "--limit", "NAME=V", &cs_argument_limits,                                                      \
         "limits, several separated by commas; 0: no limit. Of the script: "                        \
@@ -125,6 +130,7 @@ static const cs_option RENDER[] = {
     FRAMES,
     SIZE,
     SCALE,
+    {"--draft", NULL, NULL, "half the size and no antialiasing, to look at a film soon"},
     CROP,
     {"--strip", "I/N", &cs_argument_share,
      "only the I-th of N strips of the frame, for 'celspan join'"},
@@ -177,6 +183,18 @@ static const cs_option SPANS[] = {
     {0}};
 
 static const cs_option PROBE[] = {FRAME, SCRIPT, {0}};
+
+static const cs_option WATCH[] = {
+    {"--port", "N", &cs_argument_port, "the port of the page; default: one that is free"},
+    {"--open", NULL, NULL, "open the page in the browser"},
+    {"--size", "WxH", &cs_argument_size,
+     "pixels of a whole frame; default: as large as the window of the browser"},
+    WORKERS,
+    SCRIPT,
+    MEMORY,
+    {0}};
+
+static const cs_option STAGE[] = {WORKERS, SCRIPT, MEMORY, {0}};
 
 static const cs_option CONVERT[] = {SIZE, CROP, CODING, WORKERS, PICTURE_RIGHTS, {0}};
 
@@ -352,6 +370,18 @@ const cs_verb cs_verbs[] = {
               "sound. Frames with scan-line procedures are built, but not compared. Equal "
               "faults are reported in one line, with all frames that have them.",
      .options = CHECK},
+    {"watch", "SCRIPT", 1, 1, .has_script = true,
+     .summary = "Shows a film in the browser while its script is being written.",
+     .notes = "Prints the address of a page that only this machine can reach and that asks for "
+              "the token in the address. The page plays the film, zooms into it, and shows it "
+              "again whenever the script, or a file that it reads, is saved. After an error the "
+              "last good picture stays, with the error over it. Ctrl-C ends it.",
+     .options = WATCH},
+    {"play", "SCRIPT", 1, 1, .has_script = true,
+     .summary = "Opens a film in the browser and plays it.",
+     .notes = "The same as 'celspan watch --open', with the picture alone in the window; the key "
+              "f fills the screen.",
+     .options = WATCH},
     {"spans", "SCRIPT", 1, 1, .has_script = true, .summary = "Prints the spans of a frame as text.",
      .notes = "One line a span, colours linear and premultiplied, columns half-open, rows from 0:\n"
               "  row x0 x1 single r g b a\n"
@@ -451,5 +481,7 @@ const cs_verb cs_verbs[] = {
               "changes.",
      .options = NONE},
     {"help", "[VERB]", 0, 1, .is_hidden = true, .options = HELP},
+    {"stage", "SCRIPT", 1, 1, .is_hidden = true, .has_script = true, .asks_files = true,
+     .options = STAGE},
     {"spec", "-- FILE [PATTERN]", 0, 0, .is_hidden = true, .has_script = true, .options = NONE},
     {0}};

@@ -10,8 +10,24 @@ enum {
   QUALITY = 75       /* where none is given */
 };
 
+static const cs_video_format *format_of(const cs_request *request) {
+  const char *output = cs_request_text(request, "-o");
+  const char *format = cs_request_text(request, "--format");
+  bool has_file = output && strcmp(output, "-") != 0;
+  return has_file ? cs_video_format_named(format ? format : cs_file_ending(output)) : NULL;
+}
+
+/* Frames of 8 bits are dithered unless that is not wanted; ffmpeg dithers those of few colours. */
+static bool is_dithered(const cs_request *request) {
+  const cs_video_format *format = format_of(request);
+  bool is_default = !cs_request_has(request, "--no-dither") && !(format && format->is_indexed);
+  return cs_request_has(request, "--dither") || is_default;
+}
+
 static cs_video_options options_of(const cs_request *request) {
-  cs_video_options options = {.dithers = cs_request_has(request, "--dither"),
+  bool has_8 = cs_request_has(request, "--dither");
+  cs_video_options options = {.coding.depth = has_8 ? CELSPAN_DEPTH_8 : CELSPAN_DEPTH_DEFAULT,
+                              .dithers = is_dithered(request),
                               .is_opaque = cs_request_has(request, "--background"),
                               .quality = QUALITY};
   cs_request_read(request, "--depth", &options.coding.depth);
@@ -22,13 +38,6 @@ static cs_video_options options_of(const cs_request *request) {
 }
 
 /* ---------------------------------------------------------------- refusals */
-
-static const cs_video_format *format_of(const cs_request *request) {
-  const char *output = cs_request_text(request, "-o");
-  const char *format = cs_request_text(request, "--format");
-  bool has_file = output && strcmp(output, "-") != 0;
-  return has_file ? cs_video_format_named(format ? format : cs_file_ending(output)) : NULL;
-}
 
 bool cs_video_target_is_wanted(const cs_request *request, size_t frame_count) {
   const cs_video_format *format = format_of(request);

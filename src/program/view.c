@@ -11,6 +11,12 @@ static int32_t pixels(double units, double scale) {
   return side < 1 ? 1 : (int32_t)side;
 }
 
+/* Half of a side, as an even number, which videos need. */
+static int32_t draft_side(int32_t side) {
+  int32_t half = side / 2 + side % 2;
+  return half + half % 2;
+}
+
 static cs_exit set_size(const cs_request *request, celspan_frame_desc *out) {
   int32_t size[2];
   double scale = 1;
@@ -19,6 +25,10 @@ static cs_exit set_size(const cs_request *request, celspan_frame_desc *out) {
     return cs_report_usage("--size and --scale say the same thing twice: give one of them");
   out->width = has_size ? size[0] : pixels(out->film_width, scale);
   out->height = has_size ? size[1] : pixels(out->film_height, scale);
+  if (cs_request_has(request, "--draft") && out->width > 0 && out->height > 0) {
+    out->width = draft_side(out->width);
+    out->height = draft_side(out->height);
+  }
   if (out->width > 0 && out->height > 0)
     return CS_EXIT_OK;
   cs_report_error("a film of %g x %g at scale %g is more than %d pixels a side: lower --scale",
@@ -63,6 +73,8 @@ static void set_antialias(const cs_request *request, celspan_frame_desc *out) {
   static const celspan_antialias_mode modes[] = {CELSPAN_ANTIALIAS_AREA, CELSPAN_ANTIALIAS_NONE,
                                                  CELSPAN_ANTIALIAS_FILTER};
   cs_given_antialias given;
+  if (cs_request_has(request, "--draft"))
+    out->antialias = &modes[CELSPAN_ANTIALIAS_NONE];
   if (!cs_request_read(request, "--antialias", &given))
     return;
   out->antialias = &modes[given.mode];

@@ -106,7 +106,8 @@ static celspan_object *make_filled(celspan_context *context, const celspan_objec
   const cs_stroke_view view = {.matrix = celspan_matrix_scaling(side / SIDE, side / SIDE),
                                .frame = {0, side, 0, side},
                                .tolerance = CS_STROKE_TOLERANCE,
-                               .bottom = side};
+                               .bottom = side,
+                               .right = side};
   cs_outline outline;
   celspan_object *object;
   cs_outline_init(&outline);

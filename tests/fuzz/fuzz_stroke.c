@@ -88,7 +88,8 @@ static void draw(celspan_context *context, const cs_stroke *stroke) {
     cs_stroke_view view = {.frame = {0, 100, 0, 100},
                            .tolerance = CS_STROKE_TOLERANCE,
                            .top = i == 2 ? 40 : 0,
-                           .bottom = i == 2 ? 42 : 100};
+                           .bottom = i == 2 ? 42 : 100,
+                           .right = i == 0 ? 100 : 60};
     cs_outline outline;
     view.matrix = celspan_matrix_then(celspan_matrix_translation(-box->x, -box->y),
                                       celspan_matrix_scaling(scale, scale));

@@ -106,8 +106,19 @@ return {
   ["src/model/stroke/follow.c"] = {
     { "if (fabs(angle) > 3)", "`>` to `>=`", "an angle is never exactly 3; half a turn is meant" },
   },
-  ["src/model/stroke/parts.c"] = {
-    { "cs_curve_load_line(&r->stroke->line, piece, 0, 1, &line);", "`1` to `2`",
+  ["src/readers/layered/krita.c"] = {
+    { "place < zip->count && strncmp(zip->members[place].name, start, strlen(start)) == 0;",
+      "`zip->members[place].name, start` to `start, zip->members[place].name`",
+      "are equal in either order" },
+  },
+  ["src/readers/svg/servers.c"] = {
+    { "if (stop.at < 0 && i + 1 < g->stops.count) {", "`0` to `1`",
+      "mixing takes a share below 0 for 0" },
+    { "if (stop.at < 0 && i + 1 < g->stops.count) {", "`1` to `0`",
+      "the last stop is right of the centre" },
+  },
+  ["src/model/stroke/dashes.c"] = {
+    { "cs_curve_load_line(ruler->line, piece, 0, 1, &line);", "`1` to `2`",
       "a part that ends at 1 or beyond is not cut there" },
   },
   ["src/model/stroke/side.c"] = {

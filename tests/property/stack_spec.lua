@@ -59,7 +59,7 @@ describe("relight.stack", function()
     it("equals the whole, in its own lights and in others, under " .. antialias, function()
       local compared, failures = 0, {} -- at a finer tolerance, since both stand for curves by lines
       for case = ONLY or 1, ONLY or COUNT do
-        local script, traits = scenes.script(case, { is_single = true })
+        local script, traits = scenes.script(case, { is_single = true, has_modes = false })
         if ONLY then print(script) end
         local rostrum, random = scenes.load(script):at(1), prng.new(case + 1000)
         local options = { size = traits.size, film = { traits.width, traits.height },

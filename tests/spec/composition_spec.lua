@@ -87,8 +87,7 @@ describe("a rostrum with a size", function()
       function() return celspan.probe(moved, 1, 1) end,
     } do
       assert.matches("must be a rostrum or a list {{rostrum, weight}, ...}, got a rostrum as "
-        .. "an object, "
-        .. "which belongs in a cel", raised(call), 1, true)
+        .. "an object, which belongs in a cel", raised(call), 1, true)
     end
   end)
 

@@ -119,14 +119,11 @@ describe("captions", function()
     for text, message in pairs {
       ["1\n00:01,000 -> 00:02,000\na"] = "line 1: '1' begins a block without times",
       ["WEBVTT\n\n00:61.000 --> 00:62.000\n"] = "line 3: '00:61.000 --> 00:62.000' must be two "
-        .. "times "
-        .. "with an arrow, 00:00:01.000 --> 00:00:02.500",
+        .. "times with an arrow, 00:00:01.000 --> 00:00:02.500",
       ["\n\n1\n00:00:03,000 --> 00:00:02,000"] = "line 4: the caption ends (00:00:02,000) before "
-        .. "it "
-        .. "begins (00:00:03,000), or at the same time",
+        .. "it begins (00:00:03,000), or at the same time",
       ["1\nx\n00:00:03,000 --> 00:00:04,000"] = "line 2: the times of a caption are on its first "
-        .. "or "
-        .. "second line",
+        .. "or second line",
       ["\255"] = "the text is not UTF-8",
     } do
       assert.are.same({ n = 2, nil, message }, table.pack(captions.decode(text)))

@@ -202,6 +202,19 @@ describe("celspan init", function()
     assert.equal(0, rendered)
   end)
 
+  it("takes names with spaces and letters of every script", function()
+    local code, out, err = run "init 'Mein Füchslein 2'"
+    assert.equal(0, code, err)
+    assert.truthy(out:find("cd 'Mein Füchslein 2'", 1, true), out)
+    assert.equal(0, (run "check 'Mein Füchslein 2/film.lua'"))
+  end)
+
+  it("names the folder of the annotations that exists", function()
+    run "init walk"
+    local folder = bench:read(bench.folder .. "/walk/.luarc.json"):match 'library": %["([^"]*)"'
+    assert.truthy(bench:read(folder .. "/celspan.d.lua"), folder)
+  end)
+
   it("lays out a film that loops: the frame after the last equals the first", function()
     run "init walk"
     local more = bench:read(bench.folder .. "/walk/film.lua")
@@ -238,7 +251,7 @@ describe("celspan init", function()
   end)
 
   it("refuses invalid names", function()
-    for _, name in ipairs { "'a b'", "'a\"b'", ".", "..", "''", "walk/", "'@NAME@'",
+    for _, name in ipairs { "' b'", "'b '", "'a\"b'", "'\255'", ".", "..", "''", "walk/", "'@NAME@'",
       ("long"):rep(26) } do
       local code, _, err = run("init " .. name)
       assert.equal(2, code, name)
@@ -373,7 +386,31 @@ describe("render --onion", function()
     for _, wrong in ipairs { "2", "0,0", "-1,2", "2,99" } do
       assert.equal(2, (run("render film.lua --hash --onion=" .. wrong)))
     end
-    assert.equal(2, (run "render film.lua --hash --onion 1,1 --cel ball"))
+  end)
+
+  it("shows what moves before a camera that moves, and no more", function()
+    bench:write("camera.lua", (FILM:gsub("{ ground, ball }",
+      "{ ground, ball, camera = { centre = { 18 + f.index, 10 }, width = 20 } }")))
+    assert.equal(0, (run "render camera.lua --frames 6 --onion 1,0 -o camera.png"))
+    -- the camera sees 13..33 of the film, twice as large; frame 5's ball is at 12..15
+    local r, g = pixel("camera.png", 2, 10)
+    assert.is_true(r > g + 0.1)
+    for _, x in ipairs { 12, 30, 39 } do
+      local red, green, blue = pixel("camera.png", x, 4)
+      assert.is_true(red == green and green == blue, "x = " .. x)
+    end
+  end)
+
+  it("lays one cel over itself with --cel", function()
+    bench:write("two.lua", (FILM:gsub("{ ground, ball }",
+      "{ ground, ball:named 'ball', ball:translate(0, 1) }")))
+    assert.equal(0, (run "render two.lua --frames 6 --onion 1,0 --cel ball -o one.png"))
+    assert.equal(0, (run "render two.lua --frames 6 --cel ball -o alone.png"))
+    local r, g = pixel("one.png", 3 * 4 + 1, 10)
+    assert.is_true(r > g + 0.1)
+    local _, _, _, alpha = pixel("one.png", 39, 10) -- the ground is not there
+    assert.equal(0, alpha)
+    assert.equal(2, (run "render two.lua --frames 6 --onion 1,0 --cel none -o one.png"))
   end)
 end)
 

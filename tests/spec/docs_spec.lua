@@ -395,6 +395,56 @@ describe("the guide", function()
   end)
 end)
 
+describe("the cookbook", function()
+  local LINES, COLUMNS = 30, 146
+  local page = "docs/cookbook.md"
+  local text = markdown.read(page)
+
+  it("has recipes of few lines, each with its picture", function()
+    local count = 0
+    for _, block in ipairs(markdown.blocks(page)) do
+      if block.language == "lua" then
+        count = count + 1
+        local _, lines = block.text:gsub("\n", "")
+        assert.is_true(lines <= LINES, ("%s: %d lines"):format(block.name, lines))
+        for line in block.text:gmatch "[^\n]+" do
+          assert.is_true(utf8.len(line) <= COLUMNS, block.name .. ": " .. line)
+        end
+        assert.is_truthy(text:find(("](pictures/%s.png)"):format(block.name), 1, true), block.name)
+      end
+    end
+    local _, titles = text:gsub("\n### ", "")
+    assert.are.equal(count, titles)
+    assert.is_truthy(text:find("\n" .. count .. " tasks", 1, true), count .. " tasks")
+  end)
+
+  it("is found by its words", function()
+    local recipes = loadfile "src/program/verbs/recipes.lua"(text)
+    for title, words in text:gmatch "\n### ([^\n]+)\n\n%*Words: (.-)%*" do
+      for word in words:gsub("\n", " "):gmatch "%s*([^,]+)" do
+        local titles = {}
+        for _, recipe in ipairs(recipes.find(word)) do titles[recipe.title] = true end
+        assert.is_true(titles[title] or false, word)
+      end
+    end
+  end)
+
+  it("is printed, as one recipe or as the list of those that fit", function()
+    local code, printed = run "celspan help 'Drop Shadow'"
+    assert.are.equal(0, code)
+    assert.is_truthy(printed:find("\n-- drop_shadow.lua", 1, true), printed)
+    assert.is_falsy(printed:find("```", 1, true) or printed:find("](", 1, true), printed)
+    code, printed = run "celspan help cookbook"
+    local _, lines = printed:gsub("\n  %u", "")
+    local _, titles = text:gsub("\n### ", "")
+    assert.are.same({ 0, titles }, { code, lines })
+    local message
+    code, _, message = run "celspan help shadwo"
+    assert.are.equal(2, code)
+    assert.is_truthy(message:find("neither a verb nor a task", 1, true), message)
+  end)
+end)
+
 describe("the pictures", function()
   it("are all shown in a page, and small", function()
     local all, text = 0, ""

@@ -459,7 +459,7 @@ describe("a number that is refused", function()
     { "circle: field 'radius' must be a finite number, got nan",
       function() celspan.circle { centre = { 0, 0 }, radius = 0 / 0 } end },
     { "rgb: pigment[1] is 2; ", function() celspan.rgb(2, 0, 0) end },
-    { "fade: ", function() celspan.union {}:fade(2) end },
+    { "fade: ", function() celspan.union {}:fade(0 / 0) end },
     { "rect: ", function() celspan.rect { math.huge, 0, 1, 1 } end },
     { "translate: dx must be between -1e12 and 1e12, got 2000000000000",
       function() celspan.union {}:translate(2e12, 0) end },

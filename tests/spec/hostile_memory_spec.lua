@@ -5,7 +5,6 @@ local workbench = require "tests.support.workbench"
 
 local PEAK = workbench.build .. "/tests/peak"
 local LIMIT = 64 << 20
-local it_measures = not present.sanitizer() and it or pending
 
 local bench
 
@@ -106,10 +105,10 @@ local function ends(arguments, code, sentence, limit)
   assert.is_true(bytes < 1.5 * limit, where)
 end
 
-describe("the limit of memory", function()
+describe("the limit of memory #plain", function()
   local sentence = "the script needs more than 64 MiB (--limit memory=SIZE allows more)"
   for name, make in pairs(DRAWINGS) do
-    it_measures("counts what a drawing holds while it is read: " .. name, function()
+    it("counts what a drawing holds while it is read: " .. name, function()
       if not present.art() then return pending "there is no art module" end
       bench:write("drawing.svg", make())
       bench:write("film.lua", READ)
@@ -118,7 +117,7 @@ describe("the limit of memory", function()
   end
 
   for _, way in ipairs { "pcall", "xpcall", "resume", "close" } do
-    it_measures("cannot be caught by " .. way, function()
+    it("cannot be caught by " .. way, function()
       if not present.art() then return pending "there is no art module" end
       bench:write("drawing.svg", DRAWINGS.markers())
       bench:write("film.lua", READ)
@@ -127,14 +126,14 @@ describe("the limit of memory", function()
   end
 
   for name, work in pairs(SCRIPTS) do
-    it_measures("ends a script that makes too much: " .. name, function()
+    it("ends a script that makes too much: " .. name, function()
       bench:write("film.lua", "local celspan = require 'celspan'\npcall(function() " .. work
         .. " end)\nprint 'it continues'\n" .. "return celspan.rostrum {}\n")
       ends("check film.lua --limit memory=64M", 6, sentence, LIMIT)
     end)
   end
 
-  it_measures("does not depend on what the caches may hold", function()
+  it("does not depend on what the caches may hold", function()
     if not present.art() then return pending "there is no art module" end
     bench:write("drawing.svg", DRAWINGS.uses())
     bench:write("film.lua", READ)
@@ -145,14 +144,15 @@ describe("the limit of memory", function()
   end)
 end)
 
-describe("the limit of rendering", function()
-  it_measures("ends a frame before the machine is full, and names it", function()
+describe("the limit of rendering #plain", function()
+  it("ends a frame before the machine is full, and names it", function()
     bench:write("film.lua", [[
 local celspan = require "celspan"
 return celspan.film { size = { 64, 64 }, frames = 2, frame = function(f)
   local list = {}
   for i = 1, f.number == 1 and 1 or 0 do
-    list[i] = celspan.stroke { d = "M0 " .. 3 * i .. "H100", dash = { 0.0001, 0.000025 } }
+    local square = celspan.rect { 9, 9, 9, 9 }
+    for k = 1, 500000 do list[k] = square end
   end
   return celspan.rostrum { celspan.cel(list) } end }
 ]])
@@ -163,5 +163,21 @@ return celspan.film { size = { 64, 64 }, frames = 2, frame = function(f)
       watched("render film.lua --hash --progress none --keep-going --limit " .. limit)
     assert.equal(1, code)
     assert.truthy(out:find "2 %x+\n", out)
+  end)
+
+  it_measures("is enough for any number of dashes: a few are in memory at a time", function()
+    bench:write("film.lua", [[
+local celspan = require "celspan"
+local list = {}
+for i = 1, 4 do
+  list[i] = celspan.stroke { d = "M0 " .. 3 * i .. "H64", dash = { 0.0016, 0.0004 } }
+end
+local rostrum = celspan.rostrum { celspan.cel(list) }
+return celspan.film { size = { 64, 16 }, frame = function() return rostrum end }
+]])
+    local code, out, bytes = watched("render film.lua --hash --progress none --workers 1 "
+      .. "--limit memory=8M --limit render-memory=32M")
+    assert.equal(0, code, out)
+    assert.is_true(bytes < 1.5 * (40 << 20), bytes)
   end)
 end)

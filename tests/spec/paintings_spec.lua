@@ -306,7 +306,7 @@ describe("a Photoshop document", function()
     refused(psd({}, { version = 3 }), "an unknown version")
     refused(psd({}, { channels = 2 }), "the number of channels is invalid")
     refused(psd({}, { channels = 57 }), "the number of channels is invalid")
-    refused(psd({}, { w = 0 }), "the document has a size of 0 x 10 pixels")
+    refused(psd({}, { w = 0 }), "/painting%-%d+: the document has a size of 0 x 10 pixels$")
     local function masked(fields)
       fields.value = function() return 0 end
       local bytes = psd { mask = { x = 0, y = 0, w = 1, h = 1, value = fields.value } }
@@ -524,6 +524,18 @@ describe("an OpenRaster file", function()
         tree = read(ora('<stack><layer src="b.png"/></stack>',
           { { name = "b.png", data = paintings.png_of(1, 1, depth, 3, data, palette) } }))
         assert.are.equal("\9\8\7\255", assert(seen(tree)):bytes():sub(1, 4), depth)
+      end
+    end
+  end)
+
+  it_reads_archives("has pictures of several pixels a byte, each row the sum of bytes", function()
+    for depth, each in pairs { [1] = 8, [2] = 4, [4] = 2 } do
+      local white = string.char((1 << depth) - 1 << (8 - depth))
+      local tree = read(ora('<stack><layer src="b.png"/></stack>', { { name = "b.png",
+        data = paintings.png_of(2 * each, 1, depth, 0, "\1" .. white .. "\0") } }))
+      local image = assert(seen(tree))
+      for x = 0, 3 do
+        assert.are.equal(x % each == 0 and 1 or 0, (image:get(x, 0)), depth .. " " .. x)
       end
     end
   end)

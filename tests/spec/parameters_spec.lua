@@ -104,8 +104,7 @@ describe("parameters", function()
       ["speed = { 1, most = 4 }"] = "'speed' is a number, which has no field 'most'",
       ["['a-b'] = 1"] = "'a-b' is not a name: letters, digits and _, not beginning with a digit",
       ["a = {}"] = "'a' must be a string, a number, a boolean, a list of strings, or a table with "
-        .. "a "
-        .. "default as [1], colour or file",
+        .. "a default as [1], colour or file",
     } do
       bench:write("film.lua", "local celspan = require 'celspan'\ncelspan.parameters { "
         .. declared .. " }")
@@ -119,19 +118,14 @@ describe("parameters", function()
   end)
 
   it("decide what --resume renders again", function()
-    local function rendered(options)
-      local _, _, err = bench:celspan("render '%s/film.lua' -o '%s/f.#.png' --progress json "
-        .. "--resume %s",
-        bench.folder, bench.folder, options)
-      local _, kept = err:gsub('"kept"', "")
-      return kept
+    local function picture(options)
+      bench:celspan("render '%s/film.lua' -o '%s/f.#.png' --resume %s", bench.folder, bench.folder,
+        options)
+      return bench:read "f.1.png"
     end
-    rendered ""
-    local before = bench:read "f.1.png"
-    rendered "--set tint=#000"
-    assert.are_not.equal(before, bench:read "f.1.png")
-    rendered "--set title=x"
-    assert.are.equal(before, bench:read "f.1.png")
+    local before = picture ""
+    assert.are_not.equal(before, picture "--set tint=#000")
+    assert.are.equal(before, picture "--set title=x")
   end)
 
   it("are listed by info, as lines and as JSON Schema", function()
@@ -152,8 +146,7 @@ describe("parameters", function()
 
   it("are parameters of a job for Open Job Description", function()
     local code, out, err = bench:celspan("farm '%s/film.lua' -o '%s/f.#.png' --openjd --set "
-      .. "title=A "
-      .. "--set 'title=B {{x}}'", bench.folder, bench.folder)
+      .. "title=A --set 'title=B {{x}}'", bench.folder, bench.folder)
     assert.are.equal(0, code, err)
     local job = assert(json.decode((out:gsub("^Hello[^\n]*\n", ""):gsub("^B[^\n]*\n", ""))))
     local found
@@ -185,25 +178,47 @@ describe("--table", function()
 
   it("is refused before the first frame", function()
     for rows, message in pairs {
-      ["lang,size\nen,1\n"] = "column 'size' is neither a parameter of the script nor {size} in "
-        .. "OUT",
+      ["lang,size\nen,1\n"] =
+        "column 'size' is neither a parameter of the script nor {size} in OUT",
       ["lang,speed\nen,1\nde,9\n"] = "line 3: speed is '9'; it must be a number from 0 to 4",
       ["lang\n../x\n"] = "line 2: column 'lang' is '../x': in the name of a file it must not be "
-        .. "empty "
-        .. "nor have / or .. in it",
+        .. "empty nor have / or .. in it",
       ["lang,on\nen,1\nen,0\n"] = "lines 2 and 3 would both make " .. bench.folder
-        .. "/{lang}.#.png: put a column in OUT, as {NAME}",
+        .. "/en.#.png: put a column in OUT, as {NAME}",
       ["lang\n"] = "it has no rows",
+      ["speed\n1\n"] = "there is no column 'lang' for {lang} in OUT; there are speed",
     } do
       local code, _, err = film_of(rows)
-      message = message:gsub("{lang}", "en")
       assert.are.equal(2, code, err)
       assert.is_truthy(err:find("rows.csv: " .. message .. "\n", 1, true), err)
     end
     local code, _, err = film_of('lang\n"en\n')
     assert.are.equal(4, code)
     assert.is_truthy(err:find("rows.csv: line 2: a quote is not closed\n", 1, true))
+    code, _, err = film_of("lang,speed,speed\nen,1,2\n")
+    assert.are.equal(4, code)
+    assert.is_truthy(err:find("columns 2 and 3 are both named 'speed'\n", 1, true))
+    assert.are.equal("--table writes files: name them by its columns, as -o {NAME}.mp4",
+      (select(3, bench:celspan("render '%s/film.lua' --table '%s/rows.csv'", bench.folder,
+        bench.folder)):match "celspan: error: ([^\n]*)\n"))
     for _, name in ipairs(bench:files()) do assert.is_nil(name:find "png$") end
+  end)
+
+  it("may set more parameters than a line of a shell has words", function()
+    local names, ones = {}, {}
+    for i = 1, 1200 do names[i], ones[i] = "n" .. i, "1" end
+    bench:write("film.lua", ([[
+      local celspan, declared = require "celspan", {}, {}
+      for i = 1, 1200 do declared["n" .. i] = 0 end
+      local sum, p = 0, celspan.parameters(declared)
+      for name in pairs(declared) do sum = sum + p[name] end
+      print('sum', sum)
+    ]]) .. FILM:gsub("local p = .-\nprint%b()", "local p = { tint = '#fff' }")
+      :gsub("^[^\n]*\n", ""))
+    local rows = table.concat(names, ",") .. "\n" .. table.concat(ones, ",") .. "\n"
+    local code, _, err = film_of(rows, "", "f.#.png")
+    assert.are.equal(0, code, err)
+    assert.is_truthy(err:find("sum\t1200", 1, true))
   end)
 
   it("ends at the first row that fails, or continues with --keep-going", function()

@@ -402,8 +402,7 @@ describe("--progress", function()
       bench.folder)
     local lines, last = course(err)
     assert.are.equal("start, frame 1, frame 2, error 3, frame 4, frame 5, error 6, error "
-      .. "7, frame 8, "
-      .. "frame 9, frame 10, frame 11, frame 12, note, error, end", lines)
+      .. "7, frame 8, frame 9, frame 10, frame 11, frame 12, note, error, end", lines)
     assert.are.same({ 1, 1, 3, { 3, 6, 7 }, 9 },
       { code, last.exit, last.failures, last.failed, last.done })
   end)

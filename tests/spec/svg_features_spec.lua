@@ -244,6 +244,7 @@ describe("colours of other spaces", function()
       { styled "fill:light-dark(red, blue)", 'fill "light-dark(red, blue)"' },
       { styled "stroke:device-cmyk(0 0 0 1)", 'stroke "device-cmyk(0 0 0 1)"' },
       { styled "fill:lab(50 20)", 'fill "lab(50 20)"' },
+      { styled "fill:hwb(0 x 0)", 'fill "hwb(0 x 0)"' },
       { box 'color-interpolation="linearRGB"', 'color-interpolation "linearRGB"' },
     }
   end)
@@ -273,7 +274,7 @@ describe("baselines", function()
     }
   end)
 
-  it("are told apart by the lines of the font", function()
+  it("are placed by the lines of the font, and shifted from there", function()
     local seen = {}
     for _, word in ipairs { "alphabetic", "middle", "central", "hanging", "mathematical",
       "text-bottom", "text-top" } do
@@ -282,6 +283,10 @@ describe("baselines", function()
       assert.is_nil(seen[y], word)
       seen[y] = word
       assert.are.equal("", told(art))
+      local placed = ('dominant-baseline="%s"'):format(word)
+      local shifted = read(text('<tspan baseline-shift="5">A</tspan>', placed))
+      local _, higher = shifted.object:bounds()
+      assert.is_true(math.abs(higher - (y - 5)) < 1e-9, word)
     end
   end)
 end)

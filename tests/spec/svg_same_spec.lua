@@ -908,6 +908,13 @@ describe("gradients, too,", function()
       { gradient("radial", 'fx="5" fy=".5"'), gradient("radial", 'fx="9" fy=".5"') },
       { gradient("linear", 'gradientTransform="rotate(90)" transform-origin=".5 .5"'),
         gradient("linear", 'x1="0" y1="0" x2="0" y2="1"') },
+      { [[<linearGradient id="g" gradientUnits="userSpaceOnUse" x1="10" y1="0" x2="90" y2="0"
+          gradientTransform="translate(0 200)"><stop stop-color="red"/><stop offset="1"
+          stop-color="blue"/></linearGradient>
+          <path d="M10 30H90" stroke-width="9" stroke="url(#g)"/>]],
+        [[<linearGradient id="g" gradientUnits="userSpaceOnUse" x1="10" y1="0" x2="90" y2="0">
+          <stop stop-color="red"/><stop offset="1" stop-color="blue"/></linearGradient>
+          <path d="M10 30H90" stroke-width="9" stroke="url(#g)"/>]] },
       { gradient("linear", 'gradientTransform="x"'), gradient "linear",
         note = 'gradientTransform "x"' },
       { gradient("radial", 'fr=".2" r=".4" spreadMethod="pad"'),

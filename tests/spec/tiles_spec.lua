@@ -601,12 +601,7 @@ describe("the page", function()
     assert.is_true(tonumber(opaque) > 3) -- every place is still drawn
   end)
 
-  --- A browser runs the page, of which a sanitizer sees nothing: the plain build has this test.
-  local function it_in_a_browser(name, body)
-    if present.sanitizer() then return end
-    local it_can = present.program("chromium", "python3") and it or pending
-    it_can(name, body)
-  end
+  local it_in_a_browser = present.program("chromium", "python3") and it or pending
 
   --- The drawing of the page at a place, as a PNG file: its canvas, without the buttons over it.
   local function draw_in_browser(port, place, path)
@@ -633,7 +628,7 @@ open("%s", "wb").write(base64.b64decode(data))']]):format(folder, path))
     return port, server
   end
 
-  it_in_a_browser("shows at four depths the same as a render", function()
+  it_in_a_browser("shows at four depths the same as a render #plain", function()
     assert_success("tiles scripts/terapixel.lua --size 100000x100000 --levels 8-10 "
       .. "--places scripts/terapixel/places.txt -o %s/p --progress none", folder)
     -- A browser without a screen runs faster than time, but rarely requests a frame, and its clock

@@ -272,6 +272,61 @@ describe("a fade", function()
       assert.are.equal(0.25, shown(faded:fade(0.5):with {}))
     end
   end)
+
+  it("and an opacity and a mix are held to 0..1, because curves overshoot", function()
+    local circle = celspan.circle { centre = { 50, 50 }, radius = 9, texture = "#fff" }
+    for _, value in ipairs { circle, celspan.cel { circle } } do
+      assert.are.equal(1, shown(value:fade(1.1)))
+      assert.are.equal(0, shown(value:fade(-0.1)))
+      assert.are.equal(0.5, shown(value:fade(1.1):with {}:fade(0.5):with {}))
+    end
+    assert.are.equal(1, shown(celspan.cel { circle, opacity = 1.02 }))
+    assert.are.equal(0, shown(celspan.cel { circle, opacity = -0.01 }))
+    assert.are.equal(1, celspan.mix("#000", "#fff", 1.02).pigment[1])
+  end)
+end)
+
+describe("object:paint", function()
+  local function at(object, x, y)
+    return { assert(celspan.probe(celspan.rostrum { celspan.cel { object } }, x, y,
+      { film = { 40, 40 } })) }
+  end
+
+  local fruit = (celspan.circle { centre = { 20, 20 }, radius = 9, texture = "#0f0" }
+    | celspan.rect { 18, 4, 4, 10, texture = "#00f" }) - celspan.rect { 18, 18, 4, 4 }
+
+  it("is the whole shape in one texture", function()
+    local painted = fruit:paint "#f00"
+    for _, place in ipairs { { 20, 28 }, { 20, 6 } } do
+      assert.are.same({ 1, 0, 0, 1 }, at(painted, place[1], place[2]))
+    end
+    assert.are.same({ 0, 0, 0, 0 }, at(painted, 20, 20))
+    assert.are.same({ 0, 0, 0, 0 }, at(painted, 2, 2))
+    assert.are.same({ fruit:bounds() }, { painted:bounds() })
+  end)
+
+  it("keeps the fade and the name, and may be moved and painted again", function()
+    local painted = fruit:fade(0.5):named("fruit"):paint "#f00"
+    assert.are.equal("fruit", painted.name)
+    assert.are.same({ 0.5, 0, 0, 0.5 }, at(painted, 20, 28))
+    assert.are.same({ 0.5, 0.5, 0.5, 0.5 }, at(painted:paint("#fff"):translate(5, 0), 25, 28))
+  end)
+
+  it("puts the texture into the units around the object", function()
+    local wash = celspan.linear { from = { 0, 0 }, to = { 40, 0 }, { 0, "#000" }, { 1, "#fff" } }
+    local r = at(celspan.rect { 0, 0, 10, 10 }:translate(20, 20):paint(wash), 28, 25)[1]
+    assert.is_true(math.abs(r - 0.7) < 1e-6)
+  end)
+
+  it("is nothing of nothing, and refuses what is no texture", function()
+    assert.are.equal(0, #{ celspan.union {}:paint("#f00"):bounds() })
+    for _, given in ipairs { { "red" }, { 3 }, {} } do
+      assert.is_truthy(raised.message(function() fruit:paint(given[1]) end):find(
+        "paint: field 'texture' must be a paint, a texture or a colour", 1, true))
+    end
+    assert.is_truthy(raised.message(function() fruit:with { texture = "#f00" } end):find(
+      "write object:paint(texture)", 1, true))
+  end)
 end)
 
 describe("a colour as a string", function()

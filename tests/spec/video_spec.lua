@@ -283,8 +283,14 @@ describe("a video", function()
 
     it_reads("prints digests that do not depend on the format", function()
       local _, digests = celspan "-o out.mp4 --hash --background '#fff'"
-      local _, alone = celspan "--hash --alpha premultiplied --background '#fff'"
+      local _, alone = celspan "--hash --dither --alpha premultiplied --background '#fff'"
       assert.equal(alone, digests)
+      _, digests = celspan "-o out.mp4 --hash --no-dither --background '#fff'"
+      _, alone = celspan "--hash --alpha premultiplied --background '#fff'"
+      assert.equal(alone, digests)
+      local code, _, err = celspan "-o out.mp4 --no-dither --dither"
+      assert.equal(2, code)
+      assert.truthy(err:find("exclude each other", 1, true), err)
     end)
 
     it_reads(

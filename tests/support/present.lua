@@ -51,9 +51,6 @@ end
 --- times slower.
 function present.sanitizer() return contains "__(asan|tsan)_init" end
 
---- Whether celspan counts the lines that run.
-function present.coverage() return contains "__gcov" end
-
 --- The folder of pictures and drawings for tests that need some; nil if there is none.
 present.material = os.getenv "CELSPAN_MATERIAL"
 

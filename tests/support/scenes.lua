@@ -406,6 +406,31 @@ function maker:transform()
   return (":rotate(%d)"):format(self.random:pick { 90, 180, 270, 45 })
 end
 
+local modes = { "multiply", "screen", "overlay", "darken", "lighten", "color-dodge", "color-burn",
+                "hard-light", "soft-light", "difference", "exclusion", "hue", "saturation", "color",
+                "luminosity", "add" }
+
+--- A mode; adding may double the light.
+function maker:mode()
+  local mode = self.modes:pick(modes)
+  if mode == "add" then self.brightest = self.brightest * 2 end
+  return mode
+end
+
+--- The object in a group, with a mode or with a matte.
+function maker:compose(object, depth)
+  local kind = self.modes:whole(1, 4)
+  if kind == 1 then return ("%s:blend(%q)"):format(object, self:mode()) end
+  if kind == 2 then
+    return ("celspan.group{ %s, blend = %q, opacity = %s }"):format(object,
+      self.modes:once(2) and "normal" or self:mode(), text_of(self.modes:between(0.2, 1)))
+  end
+  if kind == 3 then return ("celspan.group{ %s, isolate = true }"):format(object) end
+  return ("celspan.matte(%s, %s, { from = %q, invert = %s })"):format(object,
+    self:object(depth > 0 and depth - 1 or 0), self.modes:pick { "alpha", "luma" },
+    self.modes:once(3))
+end
+
 function maker:dress(object)
   if self.random:once(2) then object = object .. self:transform() end
   if self.random:once(8) then object = object .. self:transform() end
@@ -427,6 +452,12 @@ function maker:nested()
 end
 
 function maker:object(depth)
+  local object = self:plain_object(depth)
+  if not self.has_modes or not self.modes:once(4) then return object end
+  return self:dress(self:compose(object, depth))
+end
+
+function maker:plain_object(depth)
   if self.level < 2 and not self.is_plain and self.random:once(12) then
     return self:dress(self:nested())
   end
@@ -458,8 +489,9 @@ end
 function maker:light_shape(places, has_matte)
   local gain = self.random:between(0, 2)
   self.lights = self.lights + math.max(1, gain)
+  local matte = has_matte and gain > 1 and ", matte = " .. text_of(gain - 1) or ""
   return ("{ texture = %s, gain = %s, on = %q%s }"):format(self:texture(), text_of(gain),
-    self.random:pick(places), has_matte and gain > 1 and ", matte = " .. text_of(gain - 1) or "")
+    self.random:pick(places), matte)
 end
 
 local anywhere, on_frame = { "frame", "frame", "cel" }, { "frame" }
@@ -486,6 +518,9 @@ function maker:cel()
       self:number(-10, 10), self:number(-10, 10), self:number(15, 60), self:number(15, 60))
   end
   if self.random:once(5) then fields[#fields + 1] = ("opacity = %s"):format(self:part()) end
+  if self.has_modes and self.modes:once(4) then
+    fields[#fields + 1] = ("blend = %q"):format(self:mode())
+  end
   local transform = self.random:once(5) and self:transform() or ""
   return ("celspan.cel{ %s }%s"):format(table.concat(fields, ", "), transform)
 end
@@ -536,7 +571,8 @@ local function start(seed, options)
     is_straight = random:once(2), is_upright = options.has_rows ~= false and random:once(4),
     is_flat = options.is_flat, is_single = options.is_single, is_plain = options.is_plain,
     has_pictures = options.has_pictures ~= false, has_text = options.has_text, level = 0,
-    lights = 1, brightest = 1,
+    lights = 1, brightest = 1, modes = prng.new(~seed),
+    has_modes = options.has_modes ~= false and seed % 2 == 0,
     most = random:pick { 1, 1, 3 }, depth = random:pick { 0, 1, 2, 4 },
   }, maker)
 end
@@ -544,7 +580,8 @@ end
 --- Half of all scenes have only straight edges; a quarter are upright, with scan-line primitives.
 -- options: is_flat (no gradients or pictures), is_single (one exposure), has_rows = false (no
 -- scan-lines), has_pictures = false, has_text (every second primitive is text), is_plain (no
--- lights with a shape, no compositions inside others).
+-- lights with a shape, no compositions inside others), has_modes = false. Half of the scenes have
+-- modes, groups and mattes.
 function scenes.script(seed, options)
   local self = start(seed, options or {})
   local exposures = self:exposures()

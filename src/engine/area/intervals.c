@@ -53,17 +53,12 @@ static inline cs_extent boundary_extent(const cs_intervals *b, size_t i) {
 }
 
 static celspan_status add_interval(cs_intervals *b, cs_interval interval) {
-  if (b->count == b->capacity) {
-    size_t wanted = b->capacity ? 2 * b->capacity : 64;
-    cs_interval *grown = allocate(b, wanted, sizeof *grown);
-    if (!grown)
-      return CELSPAN_NO_MEMORY;
-    if (b->count > 0)
-      memcpy(grown, b->intervals, b->count * sizeof *grown);
-    b->intervals = grown;
-    b->capacity = wanted;
-  }
-  b->intervals[b->count++] = interval;
+  cs_interval *intervals =
+      cs_arena_grow(b->context, b->arena, b->intervals, b->count, &b->capacity, sizeof interval);
+  if (!intervals)
+    return CELSPAN_NO_MEMORY;
+  intervals[b->count++] = interval;
+  b->intervals = intervals;
   return CELSPAN_OK;
 }
 
@@ -150,25 +145,14 @@ typedef struct group_list {
   size_t count, capacity;
 } group_list;
 
-static celspan_status make_group_room(const cs_intervals *b, group_list *list) {
-  if (list->count < list->capacity)
-    return CELSPAN_OK;
-  size_t wanted = list->capacity ? 2 * list->capacity : 64;
-  inversion_group *grown = allocate(b, wanted, sizeof *grown);
-  if (!grown)
-    return CELSPAN_NO_MEMORY;
-  if (list->count > 0)
-    memcpy(grown, list->groups, list->count * sizeof *grown);
-  list->groups = grown;
-  list->capacity = wanted;
-  return CELSPAN_OK;
-}
-
 /* Puts boundaries i and i + 1 into one group. */
 static celspan_status group_pair(const cs_intervals *b, size_t i, group_list *list) {
   if (list->count > 0 && list->groups[list->count - 1].high >= i + 2)
     return CELSPAN_OK;
-  CS_TRY(make_group_room(b, list));
+  list->groups = cs_arena_grow(b->context, b->arena, list->groups, list->count, &list->capacity,
+                               sizeof *list->groups);
+  if (!list->groups)
+    return CELSPAN_NO_MEMORY;
   inversion_group *k = &list->groups[list->count], other = group_of(b, i + 1);
   *k = group_of(b, i);
   join_groups(k, &other);

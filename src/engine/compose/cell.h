@@ -8,6 +8,7 @@
 #pragma once
 
 #include "engine/compose/set.h"
+#include "engine/compose/stack.h"
 
 /* One layer of a program. */
 typedef struct cs_item {
@@ -35,3 +36,13 @@ typedef struct cs_program {
   const cs_procedure_span *procedure_spans; /* that items of SCANLINE layers name */
   uint32_t length;                          /* 0: nothing shows but back lights */
 } cs_program;
+
+/* Whether colours of a program are no affine function of any one of its paints. */
+static inline bool cs_program_curves(const cs_stack *stack, const cs_program *program) {
+  bool curves = false;
+  for (uint32_t i = 0; stack->has_curves && i < program->length && !curves; i++) {
+    uint32_t group = stack->layers[program->items[i].layer].group;
+    curves = group != CS_STACK_NONE && stack->groups[group].curves;
+  }
+  return curves;
+}

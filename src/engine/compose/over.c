@@ -1,11 +1,33 @@
 #include "engine/compose/over.h"
 
+/* What a group that has been left is for what is around it. */
+static cs_over_pair finish_group(cs_over *over, const cs_group *group, cs_over_level *level) {
+  cs_over_pair inner = {over->e, over->t};
+  if (group->has_front)
+    inner.e = cs_over_lit(group->front, 1, inner.e, inner.t).e;
+  float weight = group->fade, keep = over->keep;
+  if (group->kind == CS_GROUP_GROUND) {
+    inner = cs_over_blend((celspan_blend)group->blend, level->head, inner, &keep);
+    over->keep = level->keep * keep;
+  } else if (group->kind == CS_GROUP_MATTE) {
+    weight *= over->is_bound ? 0 : cs_over_strength(group, level->head);
+  }
+  return (cs_over_pair){weight * inner.e, (1 - weight) + weight * inner.t};
+}
+
 void cs_over_leave_group(cs_over *over) {
   const cs_group *group = &over->stack->groups[over->group];
-  const cs_over_pair *outer = &over->outer[--over->depth];
-  over->e = outer->e + outer->t * (group->fade * over->e);
-  over->t = outer->t * ((1 - group->fade) + group->fade * over->t);
-  over->group = group->parent;
+  cs_over_level *level = &over->levels[--over->depth];
+  while (group->is_frame && over->light < over->stack->light_count)
+    cs_over_meet_light(over); /* nothing else of the frame is behind */
+  cs_over_pair inner = finish_group(over, group, level), outer = level->outer;
+  if (group->kind == CS_GROUP_HEAD) {
+    level[-1].head = inner;
+    inner = cs_over_pair_clear;
+  }
+  over->e = outer.e + outer.t * inner.e;
+  over->t = outer.t * inner.t;
+  over->group = level->group;
 }
 
 void cs_over_meet_light(cs_over *over) {
@@ -14,14 +36,28 @@ void cs_over_meet_light(cs_over *over) {
   over->keep *= light->keep;
 }
 
-void cs_over_enter_group(cs_over *over, uint32_t group) {
-  const cs_group *inner = &over->stack->groups[group];
-  if (inner->parent != over->group)
-    cs_over_enter_group(over, inner->parent); /* at most CS_STACK_GROUPS levels */
-  over->outer[over->depth++] = (cs_over_pair){over->e, over->t};
+static void open_group(cs_over *over, uint32_t group) {
+  over->levels[over->depth++] = (cs_over_level){
+      {over->e, over->t}, cs_over_pair_clear, over->group, over->keep};
   over->e = cs_v4_all(0);
   over->t = cs_v4_all(1);
   over->group = group;
+  if (over->stack->groups[group].kind == CS_GROUP_GROUND)
+    over->keep = 1;
+}
+
+/* At most CS_STACK_GROUPS levels. */
+static void enter(cs_over *over, uint32_t group) {
+  uint32_t parent = cs_stack_around(over->stack, group, over->group);
+  if (parent != over->group)
+    enter(over, parent);
+  open_group(over, group);
+}
+
+void cs_over_enter_group(cs_over *over, uint32_t group) {
+  uint32_t entered = cs_stack_entered(over->stack, group, over->group);
+  if (entered != over->group)
+    enter(over, entered);
 }
 
 cs_v4 cs_over_end(cs_over *over) {

@@ -8,7 +8,8 @@
  *      +-- | ---+          enter a faded group: e and t are put aside,
  *      | layer 8|                 and inside it begins again with 0 and 1
  *      | layer 7|
- *      +-- | ---+          leave: lit and faded as a whole, it is added to what was put aside
+ *      +-- | ---+          leave: lit and faded as a whole, it is added to what was put aside;
+ *          |                      the head of a ground or a matte is kept for that group instead
  *          |
  *      =========           meet a back light: e += t * light;
  *          |                      its matte takes its share of the transparency
@@ -30,6 +31,7 @@
 #pragma once
 
 #include "engine/compose/stack.h"
+#include "model/colour/blend.h"
 
 /* Light of some layers by themselves, and what they let through. Lane 3 of e has no meaning. */
 typedef struct cs_over_pair {
@@ -59,6 +61,49 @@ static inline float cs_over_mean(cs_v4 t) {
   return t[0] + ((t[1] - t[0]) + (t[2] - t[0])) * (1.0f / 3);
 }
 
+/* ---- groups: what several of the folds do alike with one that is left */
+
+/* How much there is of a colour that lets t through, and of the mattes behind it. */
+static inline float cs_over_alpha(cs_v4 t, float keep) { return 1 - keep * cs_over_mean(t); }
+
+/* The colour of premultiplied light, held to 0..1. */
+static inline cs_v4 cs_over_colour(cs_v4 e, float alpha) {
+  return alpha > 0 ? cs_v4_min(cs_v4_max(e * (1 / alpha), cs_v4_all(0)), cs_v4_all(1))
+                   : cs_v4_all(0);
+}
+
+/* A source over its backdrop. keep: what mattes of back lights leave of the backdrop's
+ * transparency; it becomes 1 where the result's t says that, too. */
+static inline cs_over_pair cs_over_blend(celspan_blend mode, cs_over_pair source,
+                                         cs_over_pair back, float *keep) {
+  float as = cs_over_alpha(source.t, 1), ab = cs_over_alpha(back.t, *keep);
+  if (mode == CELSPAN_BLEND_ADD) {
+    cs_v4 t = cs_v4_max(source.t - (1 - *keep * back.t), cs_v4_all(0));
+    *keep = 1;
+    return (cs_over_pair){source.e + back.e, t};
+  }
+  cs_v4 both = cs_blend_colour(mode, cs_over_colour(back.e, ab), cs_over_colour(source.e, as));
+  return (cs_over_pair){(1 - ab) * source.e + (1 - as) * back.e + (as * ab) * both,
+                        source.t * back.t};
+}
+
+/* How much of what it is the matte of is there. head: what the matte is. */
+static inline float cs_over_strength(const cs_group *group, cs_over_pair head) {
+  float luma = 0.2126f * head.e[0] + 0.7152f * head.e[1] + 0.0722f * head.e[2];
+  float m = group->is_luma ? luma : cs_over_alpha(head.t, 1);
+  m = m > 0 ? m : 0;
+  m = m < 1 ? m : 1;
+  return group->inverts ? 1 - m : m;
+}
+
+/* A group that has been entered and not yet left. */
+typedef struct cs_over_level {
+  cs_over_pair outer; /* of the group around it, put aside */
+  cs_over_pair head;  /* GROUND and MATTE; clear until its head has been left */
+  uint32_t group;     /* the one around it that was entered before, or CS_STACK_NONE */
+  float keep;         /* of what is around it */
+} cs_over_level;
+
 /* A fold under way. */
 typedef struct cs_over {
   const cs_stack *stack;
@@ -67,11 +112,15 @@ typedef struct cs_over {
   uint32_t group; /* the innermost that was entered, or CS_STACK_NONE */
   size_t light;   /* the next back light to be met */
   uint32_t depth;
-  cs_over_pair outer[CS_STACK_GROUPS + 1]; /* put aside, of the groups around */
+  bool is_bound;         /* t is the most that may shine through; e has no meaning */
+  cs_over_level *levels; /* borrowed; room for cs_stack_levels of them */
 } cs_over;
 
-static inline void cs_over_begin(cs_over *over, const cs_stack *stack) {
+/* levels: as above; NULL where no layer to come is in a group. */
+static inline void cs_over_begin(cs_over *over, const cs_stack *stack, cs_over_level *levels) {
   over->stack = stack;
+  over->levels = levels;
+  over->is_bound = false;
   over->e = cs_v4_all(0);
   over->t = cs_v4_all(1);
   over->keep = 1;
@@ -82,7 +131,8 @@ static inline void cs_over_begin(cs_over *over, const cs_stack *stack) {
 
 void cs_over_leave_group(cs_over *over);
 void cs_over_meet_light(cs_over *over);
-/* And the groups around it that were not entered yet. */
+/* And the groups around it that were not entered yet. A ground whose head was not met is not
+ * entered: neither then nor as `group` itself. */
 void cs_over_enter_group(cs_over *over, uint32_t group);
 
 /* Leaves the groups that end in front of a layer. */
@@ -114,10 +164,10 @@ static inline bool cs_over_reaches(cs_over *over, uint32_t layer) {
   return !cs_over_is_opaque(over->t);
 }
 
-/* Where the fold continues once nothing shines through: behind the innermost group that is faded,
+/* Where the fold continues once nothing shines through: behind the innermost group that veils,
  * which hides the rest of itself, or nowhere. */
 static inline uint32_t cs_over_hidden_end(const cs_over *over) {
-  uint32_t group = cs_stack_faded(over->stack, over->group);
+  uint32_t group = cs_stack_veil(over->stack, over->group);
   return group == CS_STACK_NONE ? 0 : over->stack->groups[group].first;
 }
 
@@ -145,8 +195,8 @@ static inline cs_over_pair cs_over_layer_pair(const cs_stack *stack, size_t laye
   return (cs_over_pair){stack->layers[layer].s, stack->layers[layer].t};
 }
 
-/* Adds the layers of word i of a set to the light of what is in front of them, one by one from the
- * front, until nothing shines through. */
+/* light: of all layers in front of word i of a set. Adds the layers of the word to it, one by one
+ * from the front, until nothing shines through. */
 cs_over_pair cs_over_word_layers(const cs_stack *stack, cs_over_pair light, size_t i,
                                  uint64_t word);
 

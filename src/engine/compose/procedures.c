@@ -44,18 +44,12 @@ static celspan_scanline_row visible_row(const cs_procedures *procedures,
 
 static celspan_status add_edge(cs_procedures *procedures, cs_procedure_edges *list,
                                cs_procedure_edge edge) {
-  if (list->count == list->capacity) {
-    size_t wanted = list->capacity ? 2 * list->capacity : 64;
-    cs_procedure_edge *grown =
-        cs_arena_take(procedures->composer->context, procedures->arena, wanted * sizeof *grown);
-    if (!grown)
-      return CELSPAN_NO_MEMORY;
-    if (list->count > 0)
-      memcpy(grown, list->edges, list->count * sizeof *grown);
-    list->edges = grown;
-    list->capacity = wanted;
-  }
-  list->edges[list->count++] = edge;
+  cs_procedure_edge *edges = cs_arena_grow(procedures->composer->context, procedures->arena,
+                                           list->edges, list->count, &list->capacity, sizeof edge);
+  if (!edges)
+    return CELSPAN_NO_MEMORY;
+  edges[list->count++] = edge;
+  list->edges = edges;
   return CELSPAN_OK;
 }
 

@@ -23,9 +23,10 @@
 #include "engine/compose/layer.h"
 
 #define CS_STACK_LAYERS ((size_t)10000000)
-/* Groups around a layer, at most: a cel may be lit and faded, which are two, and at each level of
- * nesting there is a faded object around it. */
-#define CS_STACK_GROUPS (3 * CS_SCENE_DEPTH + 2)
+/* Groups around a layer, at most, without the grounds that modes need: a cel may be lit, faded and a
+ * source, which are three, and at each level of nesting there is a faded object, a source, a matte
+ * and what it is the matte of. */
+#define CS_STACK_GROUPS (4 * CS_SCENE_DEPTH + 3)
 
 /* One step of a boolean tree in post-order. */
 typedef enum cs_step_kind {
@@ -64,22 +65,52 @@ typedef struct cs_stack {
   size_t procedure_count, procedure_capacity;
   size_t defocused_count, defocused_capacity;
   size_t group_count, group_capacity;
+  size_t source_count; /* of groups with a mode: as many grounds may be inside each other */
   size_t light_count, light_capacity;
   size_t step_count, step_capacity;
   size_t tree_count, tree_capacity;
   float span_error;     /* that gradient spans may have, of full scale; 0: 1/1023 */
   size_t step_depth;    /* results a tree may need room for at a time */
   bool has_group_light; /* any group has a light with a shape */
+  bool has_curves;      /* any group curves */
 } cs_stack;
 
 void cs_stack_finish(cs_stack *stack, cs_memory *memory);
 
-/* The innermost faded group that is `group` or around it: what is hidden inside hides nothing
+/* The innermost group that is `group` or around it such that what is hidden inside hides nothing
  * behind it. CS_STACK_NONE: there is none. */
-static inline uint32_t cs_stack_faded(const cs_stack *stack, uint32_t group) {
-  while (group != CS_STACK_NONE && stack->groups[group].fade == 1)
+static inline uint32_t cs_stack_veil(const cs_stack *stack, uint32_t group) {
+  while (group != CS_STACK_NONE && stack->groups[group].fade == 1 &&
+         stack->groups[group].kind == CS_GROUP_PLAIN)
     group = stack->groups[group].parent;
   return group;
+}
+
+/* The innermost group that has to be entered for a layer of `group`, or for a group in it that is no
+ * head: `group` itself, unless that is a ground whose head was not met. now: the innermost group
+ * that has been entered, which is around the layer. */
+static inline uint32_t cs_stack_entered(const cs_stack *stack, uint32_t group, uint32_t now) {
+  while (group != CS_STACK_NONE && group != now && stack->groups[group].kind == CS_GROUP_GROUND) {
+    const cs_group *ground = &stack->groups[group];
+    if (now != CS_STACK_NONE && stack->groups[now].kind == CS_GROUP_GROUND &&
+        stack->groups[now].innermost == ground->innermost)
+      return now;
+    group = ground->around;
+  }
+  return group;
+}
+
+/* The same for a group that is about to be entered: of a head, the group that it is the head of. */
+static inline uint32_t cs_stack_around(const cs_stack *stack, uint32_t group, uint32_t now) {
+  uint32_t parent = stack->groups[group].parent;
+  return stack->groups[group].kind == CS_GROUP_HEAD ? parent
+                                                    : cs_stack_entered(stack, parent, now);
+}
+
+/* Groups that may be entered and not yet left at a time. */
+static inline size_t cs_stack_levels(const cs_stack *stack) {
+  size_t most = CS_STACK_GROUPS + 2 * stack->source_count;
+  return stack->group_count < most ? stack->group_count : most;
 }
 
 /* Words of a set of layers, one bit a layer. */

@@ -50,7 +50,7 @@ static bool is_operator_present(celspan_operator op, uint32_t operands, uint32_t
   case CELSPAN_XOR:
     return present % 2 == 1;
   }
-  return false;
+  return first; /* a matte */
 }
 
 /* Clears what the operator does not paint: everything where it is absent; where a clip is present,
@@ -159,7 +159,7 @@ static cs_cull_presence combine(celspan_operator op, const operands *o) {
   case CELSPAN_XOR:
     return (cs_cull_presence){o->known & o->odd, (~o->known | o->odd) & o->any.possible};
   }
-  return (cs_cull_presence){0, 0};
+  return o->first; /* a matte */
 }
 
 /* The layers of one tree. */

@@ -119,6 +119,8 @@ void cs_gradient_table_colours(const cs_gradient_table *table, const cs_batch *b
 static size_t count_varying(const cs_stack *stack, const cs_program *program, uint32_t *first) {
   size_t count = 0;
   bool has_group = false;
+  if (cs_program_curves(stack, program))
+    return 0;
   for (uint32_t i = 0; i < program->length; i++) {
     const cs_layer *layer = &stack->layers[program->items[i].layer];
     has_group |= layer->group != CS_STACK_NONE;
@@ -270,7 +272,7 @@ static celspan_status make_several(cs_gradient_tables *tables, const cs_program 
   cs_over over;
   if (!layers)
     return CELSPAN_NO_MEMORY;
-  cs_over_begin(&over, stack);
+  cs_over_begin(&over, stack, NULL);
   for (uint32_t i = 0; i < program->length; i++) {
     const cs_layer *layer = &stack->layers[program->items[i].layer];
     cs_over_move(&over, program->items[i].layer, CS_STACK_NONE);

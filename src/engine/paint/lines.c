@@ -240,11 +240,13 @@ static int bend_of(const cs_painter *painter, const cs_layer *layer) {
 }
 
 /* One layer that is linear between two cuts gives a line, since light, fades and flat layers act
- * linearly; the product of two such layers gives a curve. */
+ * linearly; the product of two such layers gives a curve, and so do modes and mattes. */
 static line_shape shape_of(const cs_painter *painter, const cs_program *program) {
   int bends = 0;
   for (uint32_t i = 0; i < program->length; i++)
     bends += bend_of(painter, &painter->stack->layers[program->items[i].layer]);
+  if (bends > 0 && cs_program_curves(painter->stack, program))
+    return CURVED;
   return bends == 0 ? STEPPED : bends == 1 ? STRAIGHT : CURVED;
 }
 

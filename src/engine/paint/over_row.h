@@ -35,6 +35,15 @@ typedef struct cs_over_row_state {
   float e[CS_OVER_ROW_BATCH][4], t[CS_OVER_ROW_BATCH][4]; /* light gathered, and transmission */
 } cs_over_row_state;
 
+/* A group that has been entered and not yet left. */
+typedef struct cs_over_row_level {
+  cs_over_row_state *outer; /* of the group around it, put aside */
+  cs_over_row_state *head;  /* GROUND and MATTE: what its head was; NULL: it was not there */
+  float (*front)[4];        /* its front light, where that has a shape */
+  uint32_t group;           /* the one around it that was entered before, or CS_STACK_NONE */
+  float keep;               /* of what is around it */
+} cs_over_row_level;
+
 typedef struct cs_over_row {
   celspan_context *context;
   cs_arena *arena; /* of the states; borrowed */
@@ -42,8 +51,7 @@ typedef struct cs_over_row {
   cs_isa isa;
   int32_t count; /* pixels */
   cs_over_row_state *state;
-  cs_over_row_state *outer[CS_STACK_GROUPS + 1]; /* those of the groups around it, put aside */
-  float (*fronts[CS_STACK_GROUPS + 1])[4]; /* the front lights with a shape of the groups entered */
+  cs_over_row_level *levels; /* room for cs_stack_levels of them */
   uint32_t depth;
   uint32_t group; /* the innermost that has been entered, or CS_STACK_NONE */
   size_t light;   /* the next back light to be met */
@@ -91,11 +99,21 @@ CS_WIDE_DECLARE(void, cs_over_row_add_back,
 /* A front light with a shape: pigments times a gain; then the light of a group times that. */
 CS_WIDE_DECLARE(void, cs_over_row_make_front,
                 (int32_t count, const float gain[4], const float (*s)[4], float (*front)[4]));
+CS_WIDE_DECLARE(void, cs_over_row_light_flat,
+                (cs_over_row_state * state, int32_t count, const float front[4]));
 CS_WIDE_DECLARE(void, cs_over_row_light_group,
                 (cs_over_row_state * state, int32_t count, const float (*front)[4]));
 /* Adds a group that has been left to the state around it. */
 CS_WIDE_DECLARE(void, cs_over_row_add_group,
                 (cs_over_row_state * outer, int32_t count, float fade,
                  const cs_over_row_state *inner));
+/* Puts a source over its backdrop, which becomes both, as cs_over_blend. keep: of the backdrop. */
+CS_WIDE_DECLARE(void, cs_over_row_blend,
+                (const cs_over_row_state *source, int32_t count, celspan_blend mode, float keep,
+                 cs_over_row_state *back));
+/* Fades a group by its matte; head NULL: the matte is clear. */
+CS_WIDE_DECLARE(void, cs_over_row_matte,
+                (const cs_over_row_state *head, int32_t count, const cs_group *group,
+                 cs_over_row_state *art));
 CS_WIDE_DECLARE(void, cs_over_row_to_rgba,
                 (const cs_over_row_state *state, int32_t count, float keep, float (*rgba)[4]));

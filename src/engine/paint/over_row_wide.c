@@ -76,10 +76,41 @@ void CS_WIDE(cs_over_row_light_group)(cs_over_row_state *state, int32_t count,
   }
 }
 
+void CS_WIDE(cs_over_row_light_flat)(cs_over_row_state *state, int32_t count,
+                                     const float front[4]) {
+  cs_wide light = cs_over_wide_all(front);
+  for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
+    cs_wide_store(state->e[i], light * cs_wide_load(state->e[i]));
+}
+
 void CS_WIDE(cs_over_row_add_group)(cs_over_row_state *outer, int32_t count, float fade,
                                     const cs_over_row_state *inner) {
   for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
     add(outer, i, fade * cs_wide_load(inner->e[i]), (1 - fade) + fade * cs_wide_load(inner->t[i]));
+}
+
+static inline cs_over_pair pair_at(const cs_over_row_state *state, int32_t i) {
+  return (cs_over_pair){cs_v4_load(state->e[i]), cs_v4_load(state->t[i])};
+}
+
+void CS_WIDE(cs_over_row_blend)(const cs_over_row_state *source, int32_t count, celspan_blend mode,
+                                float keep, cs_over_row_state *back) {
+  for (int32_t i = 0; i < count; i++) {
+    float kept = keep;
+    cs_over_pair both = cs_over_blend(mode, pair_at(source, i), pair_at(back, i), &kept);
+    cs_v4_store(back->e[i], both.e);
+    cs_v4_store(back->t[i], both.t);
+  }
+}
+
+void CS_WIDE(cs_over_row_matte)(const cs_over_row_state *head, int32_t count, const cs_group *group,
+                                cs_over_row_state *art) {
+  for (int32_t i = 0; i < count; i++) {
+    float m = cs_over_strength(group, head ? pair_at(head, i) : cs_over_pair_clear);
+    cs_over_pair pair = pair_at(art, i);
+    cs_v4_store(art->e[i], m * pair.e);
+    cs_v4_store(art->t[i], (1 - m) + m * pair.t);
+  }
 }
 
 /* Alpha is the mean of the three mattes, as cs_over_mean. */

@@ -41,6 +41,8 @@ typedef struct drawing {
 /* Whether a program has one defocused layer and else flat ones; *item: which. */
 static bool fits_defocused(const cs_stack *stack, const cs_program *program, uint32_t *item) {
   uint32_t found = 0;
+  if (cs_program_curves(stack, program))
+    return false;
   for (uint32_t i = 0; i < program->length; i++) {
     cs_layer_kind kind = stack->layers[program->items[i].layer].kind;
     if (kind == CS_LAYER_FLAT)

@@ -26,6 +26,8 @@ typedef struct cs_plan {
   struct cs_defocus **defocus;
   size_t defocus_count, defocus_capacity;
   bool borrows_defocus;
+  size_t dash_count; /* in view, of strokes that are not defocused */
+  bool is_crowded;   /* there were more than allowed: outlines are missing, so it has no rows */
 } cs_plan;
 
 /* Frees what a plan holds, except for its defocused cels. */

@@ -1,5 +1,7 @@
 #include "engine/span/row.h"
 
+#include <string.h>
+
 #include "base/number.h"
 
 void cs_row_init(cs_row *row) {
@@ -98,6 +100,44 @@ void cs_row_crop(cs_row *row, int32_t x0, int32_t x1) {
     cs_varied_count(&row->varied, span.kind);
   }
   row->count = kept;
+}
+
+/* Appends the part of an array span between two columns. */
+static celspan_status append_copy(celspan_context *context, cs_row *out, const celspan_span *span,
+                                  int32_t x0, int32_t x1) {
+  size_t size = span->codes ? 4 : 4 * sizeof(float), skipped = (size_t)(x0 - span->x0) * size;
+  const char *from = span->codes ? (const char *)span->codes : (const char *)span->array;
+  celspan_span *copy;
+  void *room;
+  CS_TRY(append_array(context, out, x0, x1, size, &room, &copy));
+  memcpy(room, from + skipped, (size_t)(x1 - x0) * size);
+  copy->codes = span->codes ? room : NULL;
+  copy->array = span->codes ? NULL : room;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_row_append(celspan_context *context, cs_row *out, const cs_row *row, int32_t x0,
+                             int32_t x1) {
+  out->made_by.maker = NULL;
+  for (size_t i = 0; i < row->count; i++) {
+    const celspan_span *span = &row->spans[i];
+    int32_t from = span->x0 < x0 ? x0 : span->x0, to = span->x1 > x1 ? x1 : span->x1;
+    if (from >= to)
+      continue;
+    if (span->kind == CELSPAN_SPAN_SINGLE) {
+      CS_TRY(cs_row_single(context, out, from, to, cs_v4_load(span->colour)));
+    } else if (span->kind == CELSPAN_SPAN_ARRAY) {
+      CS_TRY(append_copy(context, out, span, from, to));
+    } else {
+      celspan_span *copy = append_varied(context, out, from, to, span->kind);
+      if (!copy)
+        return CELSPAN_NO_MEMORY;
+      *copy = *span;
+      copy->x0 = from;
+      copy->x1 = to;
+    }
+  }
+  return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- exposures */

@@ -95,6 +95,10 @@ static inline celspan_status cs_row_single(celspan_context *context, cs_row *row
 /* Cuts a row to the columns [x0, x1) and moves it left by x0. The colours do not change. */
 void cs_row_crop(cs_row *row, int32_t x0, int32_t x1);
 
+/* Appends what another row has in the columns [x0, x1), which are right of all in `out`. */
+CELSPAN_CHECKED celspan_status cs_row_append(celspan_context *context, cs_row *out,
+                                             const cs_row *row, int32_t x0, int32_t x1);
+
 /* out = sum of weights[i] * rows[i], alpha at most 1: the exposures of one frame. All rows cover
  * the same columns without gaps. */
 CELSPAN_CHECKED celspan_status cs_row_expose(celspan_context *context, cs_row *out,

@@ -16,13 +16,17 @@
  *                                            programs of the composer: where a tile is dead, the
  *                                            fold of colours has stopped before
  *                                            (of a picture by its header, which is read for it)
- *   group  faded, or lit by a light with a shape
+ *   group  faded, or lit by a light with a shape; sources, mattes and what they are the mattes of
+ *          hide nothing
  *   tree   where its layers are certain to be painted (engine/compose/tree.h)
  */
 
 #define LAYERS_LEAST 8
 #define ROWS_LEAST 20 /* of the frame, for each piece of the outlines, on the average */
+#define BESIDE                                                                                     \
+  0x1p-6 /* pixels beside the columns asked for, for rounding: many dashes may be there */
 #define DEPTH_LEAST 6 /* halvings of light; a tile dies at CS_THROUGH_OPAQUE */
+#define SOURCES_MOST 64 /* grounds inside each other, each of which the cull would go into */
 
 /* ---------------------------------------------------------------- in the words of the cull */
 
@@ -55,7 +59,8 @@ static void fill(celspan_context *context, hidden *h) {
   }
   for (size_t i = 0; i < stack->group_count; i++) {
     const cs_group *group = &stack->groups[i];
-    h->groups[i] = (cs_cull_group){group->parent, group->first, (double)group->fade};
+    bool hides = group->kind == CS_GROUP_PLAIN || group->kind == CS_GROUP_GROUND;
+    h->groups[i] = (cs_cull_group){group->parent, group->first, hides ? (double)group->fade : 0};
   }
   for (size_t i = 0; i < stack->tree_count; i++)
     h->trees[i] = (cs_cull_tree){stack->trees[i].first, stack->trees[i].end};
@@ -87,6 +92,7 @@ static celspan_status cull(cs_compiler *c, const hidden *h) {
  * where chains are long, and layers so deep that many tiles die. */
 static bool pays(const cs_compiler *c) {
   return c->plan->stack.layer_count >= LAYERS_LEAST &&
+         c->plan->stack.source_count <= SOURCES_MOST &&
          c->census.rows >= ROWS_LEAST * c->census.pieces && c->census.depth >= DEPTH_LEAST;
 }
 
@@ -95,7 +101,7 @@ static bool pays(const cs_compiler *c) {
 static CELSPAN_CHECKED celspan_status cull_hidden(cs_compiler *c) {
   const cs_stack *stack = &c->plan->stack;
   cs_memory *memory = c->context->memory;
-  if (!pays(c))
+  if (c->plan->is_crowded || !pays(c))
     return CELSPAN_OK;
   size_t layers = stack->layer_count, groups = stack->group_count, trees = stack->tree_count;
   hidden h = {stack, cs_mem_array(memory, layers, sizeof *h.layers),
@@ -155,15 +161,27 @@ static celspan_status compile_defocused(cs_compiler *c, const cs_defocus_cel *pl
 
 /* ---------------------------------------------------------------- cels */
 
+/* light: falls on the parts of the cel; NULL: none has a shape, or it falls on the whole. */
 static celspan_status compile_sharp(cs_compiler *c, const celspan_cel *cel,
-                                    const celspan_matrix *matrix) {
-  cs_objects_outside outer;
+                                    const celspan_matrix *matrix, const cs_lights_front *light,
+                                    const cs_compiler_film *film) {
+  cs_objects_outside outer, around;
+  bool isolates = cs_cel_isolates(cel);
   CS_TRY(cs_objects_begin_group(c, cel->opacity, false, &outer));
+  if (isolates)
+    CS_TRY(cs_objects_begin_isolation(c, cel->blends_inside, false, &around));
+  if (light)
+    CS_TRY(cs_objects_begin_light(c, light, film));
   CS_TRY(cs_objects_add(c, cel->objects, cel->object_count, matrix));
+  if (light)
+    CS_TRY(cs_objects_end_light(c));
+  if (isolates)
+    cs_objects_end_isolation(c, around);
   cs_objects_end_group(c, outer);
   return CELSPAN_OK;
 }
 
+/* A cel under its front light, which falls on all of it, or on its parts where modes are inside. */
 static celspan_status compile_paint(cs_compiler *c, const celspan_rostrum *rostrum, size_t index,
                                     const celspan_matrix *matrix, const cs_compiler_film *film) {
   const cs_defocus_cel place = {rostrum,         index,
@@ -171,40 +189,66 @@ static celspan_status compile_paint(cs_compiler *c, const celspan_rostrum *rostr
                                 film->height,    *matrix,
                                 c->frame,        c->plan->width,
                                 c->plan->height, c->plan->antialias != CELSPAN_ANTIALIAS_NONE};
-  return cs_defocus_layer_is_needed(&place) ? compile_defocused(c, &place)
-                                            : compile_sharp(c, rostrum->cels[index], matrix);
-}
-
-static celspan_status compile_cel(cs_compiler *c, const celspan_rostrum *rostrum, size_t index,
-                                  const cs_compiler_film *film) {
-  celspan_matrix matrix;
+  const celspan_cel *cel = rostrum->cels[index];
+  bool is_defocused = cs_defocus_layer_is_needed(&place);
   cs_objects_outside outer;
   cs_lights_front front;
-  CS_TRY(cs_scene_cel_matrix(c->context, rostrum, index, film->width, film->height, &matrix));
-  matrix = celspan_matrix_then(matrix, film->to_pixels);
-  CS_TRY(cs_lights_add_back(c, rostrum, index, &rostrum->cels[index]->back, film));
   CS_TRY(cs_lights_set_front(c, rostrum, index, film, &front));
+  if (front.is_shape && cel->has_modes && !is_defocused)
+    return compile_sharp(c, cel, matrix, &front, film);
   CS_TRY(cs_objects_begin_group(c, 1, front.is_shape, &outer));
-  CS_TRY(compile_paint(c, rostrum, index, &matrix, film));
+  CS_TRY(is_defocused ? compile_defocused(c, &place) : compile_sharp(c, cel, matrix, NULL, film));
   if (front.is_shape)
     CS_TRY(cs_lights_light_group(c, &front, film));
   cs_objects_end_group(c, outer);
   return CELSPAN_OK;
 }
 
-/* The cels of a film, from the rear. */
-static celspan_status compile_film(cs_compiler *c, const celspan_rostrum *rostrum,
-                                   const cs_compiler_film *film) {
-  CS_TRY(cs_lights_add_mattes(c, rostrum, film));
+static celspan_status compile_cel(cs_compiler *c, const celspan_rostrum *rostrum, size_t index,
+                                  const cs_compiler_film *film) {
+  const celspan_cel *cel = rostrum->cels[index];
+  celspan_matrix matrix;
+  cs_objects_outside outer;
+  CS_TRY(cs_scene_cel_matrix(c->context, rostrum, index, film->width, film->height, &matrix));
+  matrix = celspan_matrix_then(matrix, film->to_pixels);
+  CS_TRY(cs_lights_add_back(c, rostrum, index, &cel->back, film));
+  if (cel->blend == CELSPAN_BLEND_NORMAL)
+    return compile_paint(c, rostrum, index, &matrix, film);
+  CS_TRY(cs_objects_begin_source(c, cel->opacity > 0 ? 1 : 0, false, &outer));
+  CS_TRY(compile_paint(c, rostrum, index, &matrix, film));
+  return cs_objects_end_source(c, cel->blend, outer);
+}
+
+/* firsts: as of cs_lights_add_mattes. */
+static celspan_status compile_cels(cs_compiler *c, const celspan_rostrum *rostrum,
+                                   const cs_compiler_film *film, uint32_t *firsts) {
+  const cs_stack *stack = &c->plan->stack;
+  cs_objects_outside unused;
+  uint32_t first = (uint32_t)stack->layer_count;
+  CS_TRY(cs_lights_add_mattes(c, rostrum, film, firsts));
+  uint32_t end = (uint32_t)stack->layer_count;
+  CS_TRY(cs_objects_begin_isolation(c, cs_rostrum_blends(rostrum), !film->outline, &unused));
+  c->isolation.mattes_end = first < end ? end : 0;
   CS_TRY(cs_lights_add_back(c, rostrum, 0, &rostrum->back, film));
   for (size_t i = 0; i < rostrum->cel_count; i++) {
     if (!c->is_nested) { /* a nested one is named by the cel that holds it */
       c->cel = i + 1;
       c->mark = rostrum->cels[i]->mark;
     }
+    c->isolation.mattes = firsts[i];
     CS_TRY(compile_cel(c, rostrum, i, film));
   }
   return CELSPAN_OK;
+}
+
+/* The cels of a film, from the rear. */
+static celspan_status compile_film(cs_compiler *c, const celspan_rostrum *rostrum,
+                                   const cs_compiler_film *film) {
+  uint32_t *firsts;
+  CS_TRY(CS_MAKE(c->context, firsts, rostrum->cel_count));
+  celspan_status status = compile_cels(c, rostrum, film, firsts);
+  cs_mem_free(c->context->memory, firsts, rostrum->cel_count * sizeof *firsts);
+  return status;
 }
 
 /* The composer needs lights from the camera backwards. */
@@ -230,15 +274,19 @@ static celspan_status compile_rostrum(cs_compiler *c, const celspan_rostrum *ros
 }
 
 static void begin(cs_compiler *c, cs_boundary_builder *boundaries, celspan_context *context,
-                  cs_plan *plan, int32_t first_row, int32_t end_row) {
+                  cs_plan *plan, const cs_view *view) {
   double margin = plan->margin;
   *c = (cs_compiler){.context = context,
                      .plan = plan,
                      .boundaries = boundaries,
                      .frame = {-margin, plan->width + margin, -margin, plan->height + margin},
-                     .first_height = first_row - margin - 1, /* a pixel more, against rounding */
-                     .end_height = end_row + margin + 1,
+                     .first_height = view->first_row - margin - 1, /* a pixel more, for rounding */
+                     .end_height = view->end_row + margin + 1,
+                     .first_place = view->first_column - margin - BESIDE,
+                     .end_place = view->end_column + margin + BESIDE,
+                     .most_dashes = view->most_dashes,
                      .group = CS_STACK_NONE,
+                     .isolation = {.ground = CS_STACK_NONE},
                      .compile_nested = compile_film};
   cs_boundary_init(&plan->boundaries);
   cs_boundary_builder_init(boundaries, context, &plan->boundaries, &c->frame);
@@ -264,7 +312,7 @@ celspan_status cs_compile(celspan_context *context, const celspan_rostrum *rostr
   }
   cs_compiler c;
   cs_boundary_builder boundaries;
-  begin(&c, &boundaries, context, &plan, view->first_row, view->end_row);
+  begin(&c, &boundaries, context, &plan, view);
   c.workers = workers;
   plan.stack.span_error = view->span_error;
   return finish(&c, compile_rostrum(&c, rostrum, view->film_width, view->film_height), out);
@@ -276,6 +324,8 @@ static celspan_status compile_objects(cs_compiler *c, const cs_defocus_job *job)
   c->front = job->is_through ? cs_v4_all(0) : (cs_v4){1, 1, 1, 0};
   if (job->is_through)
     CS_TRY(cs_lights_add_flat(c, (celspan_light){1, 1, 1, 0}));
+  cs_objects_outside unused;
+  CS_TRY(cs_objects_begin_isolation(c, job->cel->blends_inside, false, &unused));
   CS_TRY(cs_objects_add(c, job->cel->objects, job->cel->object_count, &job->matrix));
   cs_boundary_sort(&c->plan->boundaries);
   return cull_hidden(c);
@@ -290,7 +340,8 @@ static celspan_status compile_alone(void *user, const cs_defocus_job *job, cs_pl
                   .borrows_defocus = job->front != NULL};
   cs_compiler c;
   cs_boundary_builder boundaries;
-  begin(&c, &boundaries, outer->context, &plan, 0, job->height);
+  const cs_view view = {.end_row = job->height, .end_column = job->width, .most_dashes = SIZE_MAX};
+  begin(&c, &boundaries, outer->context, &plan, &view);
   c.front_plan = job->front;
   c.workers = 1;
   c.cel = outer->cel;

@@ -22,14 +22,15 @@
 #include "engine/row/plan.h"
 #include "model/scene/scene.h"
 
-/* The view of a film: its size in units, the frame's size in pixels, and the rows that will be
- * asked for. Outlines wholly above or below those rows are left out, which changes no bit of the
- * rows. */
+/* The view of a film: its size in units, the frame's size in pixels, and the rows and columns that
+ * will be asked for. Outlines wholly above or below those rows are left out, and strokes wholly
+ * left or right of those columns, which changes no bit of what is asked for. */
 typedef struct cs_view {
   double film_width, film_height;
   int32_t width, height;
-  int32_t first_row, end_row;
-  float span_error; /* see engine/compose/stack.h */
+  int32_t first_row, end_row, first_column, end_column;
+  size_t most_dashes; /* in view; with more, the plan is crowded (engine/row/plan.h) */
+  float span_error;   /* see engine/compose/stack.h */
 } cs_view;
 
 /* workers: threads at most. Errors: NO_MEMORY; LIMIT; BAD_ARGUMENT for a singular viewport or

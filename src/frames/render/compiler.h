@@ -29,6 +29,20 @@ typedef struct cs_compiler_census {
   double depth;        /* halvings of light that the layers make behind a point, on the average */
 } cs_compiler_census;
 
+/* What isolates: the frame, a rostrum that is an object, or a group. Where a source with a mode is
+ * inside, its layers are appended to a ground (engine/compose/layer.h), and those in front of a
+ * source to the next one, around it. */
+typedef struct cs_compiler_isolation {
+  uint32_t ground; /* the one being filled; CS_STACK_NONE: no source is inside */
+  /* The front light with a shape of the cel being compiled, which lights its parts between sources
+   * each by itself; NULL: there is none, or the cel has no source. Borrowed */
+  const struct cs_lights_front *light;
+  const cs_compiler_film *film; /* of that light */
+  /* A film that has mattes of back lights, in layers behind all others (lights.h): where those
+   * begin that are behind the cel being compiled, and those in no ground yet end. Else both 0. */
+  uint32_t mattes, mattes_end;
+} cs_compiler_isolation;
+
 typedef struct cs_compiler cs_compiler;
 struct cs_compiler {
   celspan_context *context;
@@ -37,10 +51,13 @@ struct cs_compiler {
   cs_boundary_frame frame;
   cs_boundary_builder *boundaries; /* of the plan, in the frame; shared by copies */
   double first_height, end_height; /* of the rows that will be asked for, with their margin */
+  double first_place, end_place;   /* of the columns */
+  size_t most_dashes;              /* with more in view, the plan is crowded */
   size_t cel;                      /* from 1; it and the mark are for messages */
   cs_mark mark;                    /* of the cel; borrowed */
   cs_v4 front;
   uint32_t group;   /* the group being filled, or CS_STACK_NONE */
+  cs_compiler_isolation isolation;
   bool records;     /* what is compiled is an operand: it leaves one result on the tree's stack */
   bool is_nested;   /* inside a rostrum that is an object, so inside a tree */
   uint32_t results; /* is_nested: those that the trees inside it have left so far */

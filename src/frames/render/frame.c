@@ -105,51 +105,71 @@ static void choose_workers(cs_frame *frame, const celspan_frame_desc *desc) {
                                              : share;
 }
 
-/* antialias: of all exposures, or NULL: each its own. */
-static celspan_status compile_exposure(celspan_context *context, const celspan_frame_desc *desc,
-                                       const cs_antialias *antialias,
-                                       const celspan_exposure *exposure, cs_frame *frame) {
-  if (exposure->weight == 0)
-    return CELSPAN_OK;
-  bool has_film = desc->film_width != 0;
-  cs_view view = {.film_width = has_film ? desc->film_width : desc->width,
-                  .film_height = has_film ? desc->film_height : desc->height,
-                  .width = desc->width,
-                  .height = desc->height,
-                  .first_row = frame->crop_y,
-                  .end_row = frame->crop_y + frame->crop_height,
-                  .span_error = (float)desc->tolerance};
-  CS_TRY(cs_compile(context, exposure->rostrum, &view,
-                    antialias ? antialias : &exposure->rostrum->antialias,
-                    cs_frame_workers(desc->workers), &frame->plans[frame->count]));
-  frame->weights[frame->count++] = (float)exposure->weight;
+/* ---------------------------------------------------------------- compiling */
+
+celspan_status cs_frame_compile(celspan_context *context, const cs_frame *frame,
+                                const cs_view *view, int workers, cs_plan *plans,
+                                bool *is_crowded) {
+  cs_view rest = *view;
+  *is_crowded = false;
+  for (size_t i = 0; i < frame->count && !*is_crowded; i++) {
+    const celspan_rostrum *rostrum = frame->rostrums[i];
+    CS_TRY(cs_compile(context, rostrum, &rest,
+                      frame->has_antialias ? &frame->antialias : &rostrum->antialias, workers,
+                      &plans[i]));
+    rest.most_dashes -= plans[i].dash_count;
+    *is_crowded = plans[i].is_crowded;
+  }
   return CELSPAN_OK;
 }
 
-static celspan_status compile_exposures(celspan_context *context, const celspan_frame_desc *desc,
-                                        cs_frame *frame) {
-  cs_antialias antialias = {0};
-  if (desc->antialias)
-    CS_TRY(cs_antialias_make(context, "frame: antialias", *desc->antialias, &desc->filter,
-                             &antialias));
-  celspan_status status = CELSPAN_OK;
-  for (size_t i = 0; status == CELSPAN_OK && i < desc->exposure_count; i++)
-    status = compile_exposure(context, desc, desc->antialias ? &antialias : NULL,
-                              &desc->exposures[i], frame);
-  cs_antialias_free(&antialias, context->memory);
-  return status;
+void cs_frame_free_plans(const cs_frame *frame, cs_plan *plans, cs_memory *memory) {
+  for (size_t i = 0; plans && i < frame->count; i++) {
+    cs_compile_free(&plans[i], memory);
+    plans[i] = (cs_plan){0};
+  }
+}
+
+static void set_view(cs_frame *frame, const celspan_frame_desc *desc) {
+  bool has_film = desc->film_width != 0;
+  frame->view = (cs_view){.film_width = has_film ? desc->film_width : desc->width,
+                          .film_height = has_film ? desc->film_height : desc->height,
+                          .width = desc->width,
+                          .height = desc->height,
+                          .first_row = frame->crop_y,
+                          .end_row = frame->crop_y + frame->crop_height,
+                          .end_column = desc->width,
+                          .most_dashes = CS_FRAME_DASHES,
+                          .span_error = (float)desc->tolerance};
+}
+
+static celspan_status set_exposures(celspan_context *context, const celspan_frame_desc *desc,
+                                    cs_frame *frame) {
+  size_t count = frame->capacity = desc->exposure_count;
+  frame->plans = cs_mem_array(context->memory, count, sizeof *frame->plans);
+  frame->weights = cs_mem_array(context->memory, count, sizeof *frame->weights);
+  frame->rostrums = cs_mem_array(context->memory, count, sizeof *frame->rostrums);
+  if (count > 0 && (!frame->plans || !frame->weights || !frame->rostrums))
+    return cs_fail_memory(context);
+  for (size_t i = 0; i < count; i++)
+    if (desc->exposures[i].weight != 0) {
+      frame->weights[frame->count] = (float)desc->exposures[i].weight;
+      frame->rostrums[frame->count++] = desc->exposures[i].rostrum;
+    }
+  frame->has_antialias = desc->antialias != NULL;
+  return desc->antialias ? cs_antialias_make(context, "frame: antialias", *desc->antialias,
+                                             &desc->filter, &frame->antialias)
+                         : CELSPAN_OK;
 }
 
 static celspan_status fill_frame(celspan_context *context, const celspan_frame_desc *desc,
                                  cs_frame *frame) {
-  size_t count = desc->exposure_count;
-  frame->plans = cs_mem_array(context->memory, count, sizeof *frame->plans);
-  frame->weights = cs_mem_array(context->memory, count, sizeof *frame->weights);
-  frame->capacity = count;
-  if (count > 0 && (!frame->plans || !frame->weights))
-    return cs_fail_memory(context);
-  CS_TRY(compile_exposures(context, desc, frame));
+  CS_TRY(set_exposures(context, desc, frame));
+  CS_TRY(cs_frame_compile(context, frame, &frame->view, cs_frame_workers(desc->workers),
+                          frame->plans, &frame->is_crowded));
   choose_workers(frame, desc);
+  if (frame->is_crowded)
+    cs_frame_free_plans(frame, frame->plans, context->memory);
   return CELSPAN_OK;
 }
 
@@ -168,6 +188,7 @@ celspan_status cs_frame_create(celspan_context *context, const celspan_frame_des
   CS_TRY(cs_frame_check(context, desc));
   cs_frame frame = {0};
   set_crop(&frame, desc);
+  set_view(&frame, desc);
   celspan_status status = fill_frame(context, desc, &frame);
   if (status == CELSPAN_OK)
     *out = frame;
@@ -177,9 +198,10 @@ celspan_status cs_frame_create(celspan_context *context, const celspan_frame_des
 }
 
 void cs_frame_free(cs_frame *frame, cs_memory *memory) {
-  for (size_t i = 0; i < frame->count; i++)
-    cs_compile_free(&frame->plans[i], memory);
+  cs_frame_free_plans(frame, frame->plans, memory);
+  cs_antialias_free(&frame->antialias, memory);
   cs_mem_free(memory, frame->plans, frame->capacity * sizeof *frame->plans);
   cs_mem_free(memory, frame->weights, frame->capacity * sizeof *frame->weights);
+  cs_mem_free(memory, frame->rostrums, frame->capacity * sizeof *frame->rostrums);
   *frame = (cs_frame){0};
 }

@@ -2,16 +2,26 @@
  *
  *   celspan_frame_desc --check, compile--> cs_frame --row_worker.h, one a thread--> rows of spans
  *
+ * A crowded frame shows more than CS_FRAME_DASHES dashes. It has no plans: each row worker compiles
+ * smaller parts of it, one after the other, so that memory holds only the dashes of such a part.
+ *
  * Invariant: a frame does not change once it is made; the row workers share it.
  */
 #pragma once
 
-#include "engine/row/plan.h"
+#include "frames/render/compile.h"
+
+#define CS_FRAME_DASHES 4096 /* that are compiled together, except where they share a pixel */
 
 typedef struct cs_frame {
-  cs_plan *plans; /* one for each exposure of weight > 0 */
+  cs_plan *plans; /* one for each exposure of weight > 0; empty where the frame is crowded */
   float *weights;
+  const celspan_rostrum **rostrums;
   size_t count, capacity;
+  cs_view view;       /* of the rows asked for, all columns of them */
+  bool has_antialias; /* of all exposures; otherwise each has its own */
+  cs_antialias antialias;
+  bool is_crowded;
   int32_t width, height; /* of the whole frame */
   int32_t crop_x, crop_y, crop_width, crop_height;
   int workers; /* at least 1 */
@@ -27,5 +37,12 @@ CELSPAN_CHECKED celspan_status cs_frame_check(celspan_context *context,
 CELSPAN_CHECKED celspan_status cs_frame_create(celspan_context *context,
                                                const celspan_frame_desc *desc, cs_frame *out);
 void cs_frame_free(cs_frame *frame, cs_memory *memory);
+/* Compiles all exposures for a view, into plans that were empty; view->most_dashes is that of all
+ * of them together. They must be freed, also after an error. *is_crowded: whether one of them is.
+ * Errors: those of cs_compile. */
+CELSPAN_CHECKED celspan_status cs_frame_compile(celspan_context *context, const cs_frame *frame,
+                                                const cs_view *view, int workers, cs_plan *plans,
+                                                bool *is_crowded);
+void cs_frame_free_plans(const cs_frame *frame, cs_plan *plans, cs_memory *memory);
 /* The number of threads for a number that is wanted; 0 or less: one per processor. */
 int cs_frame_workers(int wanted);

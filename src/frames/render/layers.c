@@ -116,9 +116,21 @@ celspan_status cs_layers_add_outline(cs_compiler *c, const cs_outline *outline,
                                      const celspan_box *bounds, const celspan_matrix *matrix,
                                      uint32_t index) {
   celspan_matrix facing = cs_matrix_facing(matrix);
-  return is_asked_for(c, outline->piece_count, bounds, &facing, index)
+  return is_asked_for(c, outline->piece_count, bounds, &facing, index) && !c->plan->is_crowded
              ? cs_boundary_add(c->boundaries, outline, matrix, index)
              : CELSPAN_OK;
+}
+
+/* Counts the dashes of a stroke that are in view. Returns whether the plan may have them, too. */
+static bool takes_dashes(cs_compiler *c, const cs_stroke *stroke, const cs_stroke_view *view) {
+  cs_plan *plan = c->plan;
+  size_t left = c->most_dashes - plan->dash_count;
+  if (plan->is_crowded)
+    return false;
+  size_t count = cs_stroke_count_visible(stroke, view, left);
+  plan->is_crowded = count > left;
+  plan->dash_count += plan->is_crowded ? 0 : count;
+  return !plan->is_crowded;
 }
 
 /* The outline of a stroke is made for what the rows that are asked for show of it. The census
@@ -130,9 +142,11 @@ static celspan_status add_stroke(cs_compiler *c, const cs_primitive_data *data,
                                .frame = c->frame,
                                .tolerance = CS_STROKE_TOLERANCE,
                                .top = c->first_height,
-                               .bottom = c->end_height};
+                               .bottom = c->end_height,
+                               .left = c->first_place,
+                               .right = c->end_place};
   size_t pieces = 2 * (stroke->line.piece_count + stroke->part_count);
-  if (!is_asked_for(c, pieces, &data->bounds, facing, index))
+  if (!is_asked_for(c, pieces, &data->bounds, facing, index) || !takes_dashes(c, stroke, &view))
     return CELSPAN_OK;
   cs_outline outline;
   cs_outline_init(&outline);

@@ -67,13 +67,26 @@ float cs_lights_keep(const celspan_rostrum *rostrum) {
   return keep;
 }
 
+static celspan_status add_flat_matte(cs_compiler *c, float matte, const cs_compiler_film *film) {
+  uint32_t layer;
+  if (matte == 0 || c->fades_out)
+    return CELSPAN_OK;
+  CS_TRY(cs_layers_append(c, 1, CELSPAN_RULE_NONZERO, &layer));
+  cs_layers_fill_flat(&c->plan->stack.layers[layer], CS_PAINT_CLEAR, 1);
+  c->plan->stack.layers[layer].t = grey((double)(1 - matte));
+  return add_film_outline(c, film, layer);
+}
+
 /* Its pigments are not lit, so that only its T counts, which is 1 - matte * beta. */
 static celspan_status add_matte(cs_compiler *c, const celspan_rostrum *rostrum, size_t index,
                                 const cs_light *back, const cs_compiler_film *film) {
   celspan_matrix inverse;
   bool found;
   uint32_t layer;
-  if (!back->texture || back->matte == 0)
+  if (!back->texture)
+    return film->outline && cs_rostrum_blends(rostrum) ? add_flat_matte(c, back->flat.a, film)
+                                                       : CELSPAN_OK;
+  if (back->matte == 0)
     return CELSPAN_OK;
   CS_TRY(find_inverse(c, rostrum, index, back, film, &inverse, &found));
   if (!found)
@@ -83,11 +96,12 @@ static celspan_status add_matte(cs_compiler *c, const celspan_rostrum *rostrum, 
 }
 
 celspan_status cs_lights_add_mattes(cs_compiler *c, const celspan_rostrum *rostrum,
-                                    const cs_compiler_film *film) {
-  CS_TRY(add_matte(c, rostrum, 0, &rostrum->back, film));
-  for (size_t i = 0; i < rostrum->cel_count; i++)
+                                    const cs_compiler_film *film, uint32_t *firsts) {
+  for (size_t i = rostrum->cel_count; i-- > 0;) {
+    firsts[i] = (uint32_t)c->plan->stack.layer_count;
     CS_TRY(add_matte(c, rostrum, i, &rostrum->cels[i]->back, film));
-  return CELSPAN_OK;
+  }
+  return add_matte(c, rostrum, 0, &rostrum->back, film);
 }
 
 /* ---------------------------------------------------------------- back lights */

@@ -18,9 +18,12 @@
 
 /* What the mattes of a rostrum's flat back lights leave of transparency, all together. */
 float cs_lights_keep(const celspan_rostrum *rostrum);
-/* The mattes of its back lights that have a shape. Errors: NO_MEMORY, LIMIT, BAD_ARGUMENT. */
+/* The mattes of its back lights that have a shape, and, in an object whose cels have modes, of the
+ * flat ones. Those of lights in front come first, so that those behind a cel are a range.
+ * firsts: gets where the range of each cel begins; its own light is behind it. Errors: NO_MEMORY,
+ * LIMIT, BAD_ARGUMENT. */
 CELSPAN_CHECKED celspan_status cs_lights_add_mattes(cs_compiler *c, const celspan_rostrum *rostrum,
-                                                    const cs_compiler_film *film);
+                                                    const cs_compiler_film *film, uint32_t *firsts);
 /* A back light that shines on every layer appended from now on. index: of its cel. Errors: as
  * above.
  */

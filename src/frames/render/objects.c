@@ -177,26 +177,194 @@ static celspan_status add_object(cs_compiler *c, const celspan_object *object,
 
 /* ---------------------------------------------------------------- groups */
 
-celspan_status cs_objects_begin_group(cs_compiler *c, double fade, bool is_lit,
-                                      cs_objects_outside *outer) {
+static cs_objects_outside outside_of(const cs_compiler *c) {
+  return (cs_objects_outside){c->group, c->fades_out, c->isolation, CS_STACK_NONE};
+}
+
+/* Begins a group inside the compiler's; the rest of its fields is set here. */
+static celspan_status enter(cs_compiler *c, cs_group group) {
   cs_stack *stack = &c->plan->stack;
-  *outer = (cs_objects_outside){c->group, c->fades_out};
-  c->fades_out |= fade == 0;
-  if ((fade == 1 && !is_lit) || c->fades_out)
-    return CELSPAN_OK;
   CS_TRY(CS_COMPILER_APPEND(c, groups, group_count, group_capacity));
-  bool varies = is_lit || (c->group != CS_STACK_NONE && stack->groups[c->group].varies);
-  stack->groups[stack->group_count] = (cs_group){.parent = c->group,
-                                                 .first = (uint32_t)stack->layer_count,
-                                                 .fade = (float)fade,
-                                                 .varies = varies};
-  c->group = (uint32_t)stack->group_count++;
+  const cs_group *around = c->group == CS_STACK_NONE ? NULL : &stack->groups[c->group];
+  group.parent = c->group;
+  group.first = (uint32_t)stack->layer_count;
+  group.varies |= around && around->varies;
+  group.curves = group.kind == CS_GROUP_HEAD || (around && around->curves);
+  stack->has_curves |= group.curves;
+  c->group = (uint32_t)stack->group_count;
+  stack->groups[stack->group_count++] = group;
   return CELSPAN_OK;
 }
 
+celspan_status cs_objects_begin_group(cs_compiler *c, double fade, bool is_lit,
+                                      cs_objects_outside *outer) {
+  *outer = outside_of(c);
+  c->fades_out |= fade == 0;
+  if ((fade == 1 && !is_lit) || c->fades_out)
+    return CELSPAN_OK;
+  CS_TRY(enter(c, (cs_group){.fade = (float)fade, .varies = is_lit}));
+  outer->begun = c->group;
+  return CELSPAN_OK;
+}
+
+/* Sources inside may have begun another ground since. */
 void cs_objects_end_group(cs_compiler *c, cs_objects_outside outer) {
-  c->group = outer.group;
+  bool was_ground = outer.group == outer.isolation.ground;
   c->fades_out = outer.fades_out;
+  if (outer.begun != CS_STACK_NONE)
+    c->group = was_ground ? c->isolation.ground : outer.group;
+}
+
+/* ---------------------------------------------------------------- sources and their grounds */
+
+/* like: the ground inside it, or one with what all grounds of what isolates have in common. */
+static celspan_status begin_ground(cs_compiler *c, const cs_group *like) {
+  cs_stack *stack = &c->plan->stack;
+  const cs_group common = *like;
+  c->group = common.around;
+  CS_TRY(enter(c, common));
+  cs_group *ground = &stack->groups[c->group];
+  bool is_innermost = common.innermost == CS_STACK_NONE;
+  ground->first = is_innermost ? ground->first : common.first;
+  ground->innermost = is_innermost ? c->group : common.innermost;
+  c->isolation.ground = c->group;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_objects_begin_isolation(cs_compiler *c, bool blends, bool is_frame,
+                                          cs_objects_outside *outer) {
+  *outer = outside_of(c);
+  c->isolation = (cs_compiler_isolation){.ground = CS_STACK_NONE};
+  if (!blends || c->fades_out)
+    return CELSPAN_OK;
+  const cs_group common = {.kind = CS_GROUP_GROUND,
+                           .fade = 1,
+                           .is_frame = is_frame,
+                           .around = c->group,
+                           .innermost = CS_STACK_NONE};
+  return begin_ground(c, &common);
+}
+
+void cs_objects_end_isolation(cs_compiler *c, cs_objects_outside outer) {
+  c->group = outer.group;
+  c->isolation = outer.isolation;
+}
+
+/* ---------------------------------------------------------------- lights with a shape */
+
+/* The group of a part that the light falls on; none inside something faded to nothing. */
+static celspan_status open_light(cs_compiler *c) {
+  bool falls = c->isolation.light && !c->fades_out;
+  return falls ? enter(c, (cs_group){.fade = 1, .varies = true}) : CELSPAN_OK;
+}
+
+static celspan_status close_light(cs_compiler *c) {
+  if (!c->isolation.light || c->fades_out)
+    return CELSPAN_OK;
+  CS_TRY(cs_lights_light_group(c, c->isolation.light, c->isolation.film));
+  c->group = c->plan->stack.groups[c->group].parent;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_objects_begin_light(cs_compiler *c, const struct cs_lights_front *light,
+                                      const cs_compiler_film *film) {
+  c->isolation.light = c->fades_out ? NULL : light;
+  c->isolation.film = film;
+  return open_light(c);
+}
+
+celspan_status cs_objects_end_light(cs_compiler *c) {
+  CS_TRY(close_light(c));
+  c->isolation.light = NULL;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- sources */
+
+/* The mattes of back lights that are behind a source belong to its ground. */
+static void take_mattes(cs_compiler *c) {
+  cs_stack *stack = &c->plan->stack;
+  cs_compiler_isolation *film = &c->isolation;
+  if (film->mattes_end == 0)
+    return;
+  for (uint32_t layer = film->mattes; layer < film->mattes_end; layer++)
+    stack->layers[layer].group = film->ground;
+  stack->groups[film->ground].first = film->mattes;
+  film->mattes_end = film->mattes < film->mattes_end ? film->mattes : film->mattes_end;
+}
+
+celspan_status cs_objects_begin_source(cs_compiler *c, double fade, bool blends,
+                                       cs_objects_outside *outer) {
+  const cs_compiler_isolation around = c->isolation;
+  cs_objects_outside unused;
+  if (!c->fades_out && fade != 0)
+    take_mattes(c);
+  *outer = outside_of(c);
+  c->fades_out |= fade == 0;
+  if (c->fades_out)
+    return CELSPAN_OK;
+  CS_TRY(close_light(c));
+  c->group = around.ground;
+  CS_TRY(enter(c, (cs_group){.kind = CS_GROUP_HEAD, .fade = (float)fade}));
+  outer->begun = c->group;
+  CS_TRY(cs_objects_begin_isolation(c, blends, false, &unused));
+  return around.light ? cs_objects_begin_light(c, around.light, around.film) : CELSPAN_OK;
+}
+
+celspan_status cs_objects_end_source(cs_compiler *c, celspan_blend mode, cs_objects_outside outer) {
+  cs_stack *stack = &c->plan->stack;
+  const cs_compiler_isolation *around = &outer.isolation;
+  if (outer.begun != CS_STACK_NONE)
+    CS_TRY(cs_objects_end_light(c));
+  c->fades_out = outer.fades_out;
+  c->isolation = outer.isolation;
+  if (outer.begun == CS_STACK_NONE)
+    return CELSPAN_OK;
+  stack->source_count++;
+  CS_TRY(begin_ground(c, &stack->groups[around->ground]));
+  stack->groups[around->ground].blend = (uint8_t)mode;
+  stack->groups[around->ground].parent = c->group;
+  return open_light(c);
+}
+
+/* ---------------------------------------------------------------- mattes */
+
+/* light: that of what is around, where it falls on each part; NULL else. */
+static celspan_status add_isolated(cs_compiler *c, const celspan_object *object,
+                                   const celspan_matrix *matrix,
+                                   const cs_compiler_isolation *light) {
+  cs_objects_outside outer;
+  CS_TRY(cs_objects_begin_isolation(c, cs_object_blends(object), false, &outer));
+  if (light)
+    CS_TRY(cs_objects_begin_light(c, light->light, light->film));
+  CS_TRY(add_object(c, object, matrix));
+  CS_TRY(cs_objects_end_light(c));
+  cs_objects_end_isolation(c, outer);
+  return CELSPAN_OK;
+}
+
+/* The head of a matte: under white light, whatever lights the art. */
+static celspan_status add_head(cs_compiler *c, const celspan_object *by,
+                               const celspan_matrix *matrix) {
+  const cs_v4 front = c->front;
+  const uint32_t group = c->group;
+  c->front = (cs_v4){1, 1, 1, 0};
+  CS_TRY(enter(c, (cs_group){.kind = CS_GROUP_HEAD, .fade = 1}));
+  CS_TRY(add_isolated(c, by, matrix, NULL));
+  c->front = front;
+  c->group = group;
+  return CELSPAN_OK;
+}
+
+/* An operand of an operator. */
+static celspan_status add_operand(cs_compiler *c, const cs_boolean *boolean, size_t i,
+                                  const celspan_matrix *matrix) {
+  const celspan_object *operand = boolean->operands[i];
+  if (boolean->op != CS_OPERATOR_MATTE)
+    return add_object(c, operand, matrix);
+  const cs_compiler_isolation around = c->isolation;
+  return i == 0 || c->fades_out ? add_isolated(c, operand, matrix, &around)
+                                : add_head(c, operand, matrix);
 }
 
 /* ---------------------------------------------------------------- trees */
@@ -228,7 +396,7 @@ static celspan_status add_operator(cs_compiler *c, const cs_primitive_data *data
   for (size_t i = 0; i < data->boolean->operand_count; i++) {
     uint32_t layer = (uint32_t)c->plan->stack.layer_count;
     c->records = records && !over_layers;
-    CS_TRY(add_object(c, data->boolean->operands[i], matrix));
+    CS_TRY(add_operand(c, data->boolean, i, matrix));
     if (c->records && is_layer(data->boolean->operands[i]))
       CS_TRY(append_step(c, (cs_step){.kind = CS_STEP_LAYER, .first = layer, .end = layer + 1}));
   }
@@ -242,12 +410,12 @@ static celspan_status add_operator(cs_compiler *c, const cs_primitive_data *data
                                   .operands = (uint32_t)data->boolean->operand_count});
 }
 
-/* Unions of unions need no steps: every layer that is present is painted. A rostrum has a tree of
- * its own. */
+/* Unions of unions need no steps: every layer that is present is painted. Neither do mattes. A
+ * rostrum has a tree of its own. */
 static bool is_plain_union(const cs_primitive_data *data) {
   if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN)
     return true;
-  if (data->boolean->op != CELSPAN_UNION)
+  if (data->boolean->op != CELSPAN_UNION && data->boolean->op != CS_OPERATOR_MATTE)
     return false;
   for (size_t i = 0; i < data->boolean->operand_count; i++)
     if (!is_plain_union(data->boolean->operands[i]->data))
@@ -306,7 +474,8 @@ static celspan_status add_boolean(cs_compiler *c, const cs_primitive_data *data,
 static celspan_status add_frame(cs_compiler *c, const cs_primitive_data *data,
                                 const celspan_matrix *matrix) {
   uint32_t index;
-  float keep = c->fades_out ? 1 : cs_lights_keep(data->rostrum);
+  bool has_layers = cs_rostrum_blends(data->rostrum); /* of mattes, each by itself */
+  float keep = c->fades_out || has_layers ? 1 : cs_lights_keep(data->rostrum);
   CS_TRY(cs_layers_append(c, 1, CELSPAN_RULE_NONZERO, &index));
   cs_layer *layer = &c->plan->stack.layers[index];
   cs_layers_fill_flat(layer, CS_PAINT_CLEAR, 1);
@@ -333,10 +502,17 @@ static celspan_status add_framed(cs_compiler *inner, const cs_primitive_data *da
                                       .operands = inner->results});
 }
 
-/* What changes inside is the compiler's copy, which has the same plan. */
+/* What changes inside is the compiler's copy, which has the same plan. Light multiplies level by
+ * level, except where modes are inside: it falls on what they make. */
 static celspan_status add_rostrum(cs_compiler *c, const cs_primitive_data *data,
                                   const celspan_matrix *matrix) {
+  bool blends = cs_rostrum_has_modes(data->rostrum);
+  cs_objects_outside outer = outside_of(c);
+  if (blends && !c->fades_out)
+    CS_TRY(enter(c, (cs_group){.fade = 1, .has_front = true, .front = c->front}));
   cs_compiler inner = *c;
+  c->group = outer.group;
+  inner.front = blends ? (cs_v4){1, 1, 1, 0} : c->front;
   cs_tree tree = begin_tree(c);
   inner.records = false;
   inner.is_nested = true;
@@ -344,6 +520,61 @@ static celspan_status add_rostrum(cs_compiler *c, const cs_primitive_data *data,
   CS_TRY(add_framed(&inner, data, matrix));
   c->results += !c->records;
   return c->records || c->is_nested ? CELSPAN_OK : end_tree(c, tree);
+}
+
+/* ---------------------------------------------------------------- groups of their own kinds */
+
+/* An object with a mode. */
+static celspan_status add_source(cs_compiler *c, const celspan_object *object,
+                                 const celspan_matrix *matrix) {
+  const cs_primitive_data *data = object->data;
+  cs_objects_outside outer;
+  CS_TRY(cs_objects_begin_source(c, object->fade, data->blends, &outer));
+  CS_TRY(add_boolean(c, data, matrix));
+  return cs_objects_end_source(c, data->boolean->blend, outer);
+}
+
+static celspan_status add_matte(cs_compiler *c, const celspan_object *object,
+                                const celspan_matrix *matrix) {
+  const cs_boolean *boolean = object->data->boolean;
+  CS_TRY(close_light(c));
+  const cs_objects_outside outer = outside_of(c);
+  c->fades_out |= object->fade == 0;
+  if (!c->fades_out)
+    CS_TRY(enter(c, (cs_group){.kind = CS_GROUP_MATTE,
+                               .fade = (float)object->fade,
+                               .is_luma = boolean->is_luma,
+                               .inverts = boolean->inverts}));
+  CS_TRY(add_boolean(c, object->data, matrix));
+  c->group = outer.group;
+  c->fades_out = outer.fades_out;
+  return open_light(c);
+}
+
+/* A union that isolates, or any other object with parts. */
+static celspan_status add_parts(cs_compiler *c, const celspan_object *object,
+                                const celspan_matrix *matrix) {
+  const cs_primitive_data *data = object->data;
+  const cs_compiler_isolation light = c->isolation;
+  cs_objects_outside outer, around;
+  bool isolates = object->fade < 1 ||
+                  (data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->isolates);
+  bool splits = isolates && light.light && data->has_modes;
+  if (splits)
+    CS_TRY(close_light(c));
+  CS_TRY(cs_objects_begin_group(c, object->fade, false, &outer));
+  if (isolates)
+    CS_TRY(cs_objects_begin_isolation(c, data->blends, false, &around));
+  if (splits)
+    CS_TRY(cs_objects_begin_light(c, light.light, light.film));
+  CS_TRY(data->kind == CS_PRIMITIVE_DATA_ROSTRUM ? add_rostrum(c, data, matrix)
+                                                 : add_boolean(c, data, matrix));
+  if (splits)
+    CS_TRY(cs_objects_end_light(c));
+  if (isolates)
+    cs_objects_end_isolation(c, around);
+  cs_objects_end_group(c, outer);
+  return splits ? open_light(c) : CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- lists of objects */
@@ -354,12 +585,11 @@ static celspan_status add_object(cs_compiler *c, const celspan_object *object,
   celspan_matrix matrix = celspan_matrix_then(*object->matrix, *parent);
   if (is_layer(object))
     return cs_layers_add(c, data, object->fade, &matrix);
-  cs_objects_outside outer;
-  CS_TRY(cs_objects_begin_group(c, object->fade, false, &outer));
-  CS_TRY(data->kind == CS_PRIMITIVE_DATA_ROSTRUM ? add_rostrum(c, data, &matrix)
-                                                 : add_boolean(c, data, &matrix));
-  cs_objects_end_group(c, outer);
-  return CELSPAN_OK;
+  if (celspan_object_mode(object) != CELSPAN_BLEND_NORMAL)
+    return add_source(c, object, &matrix);
+  if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->op == CS_OPERATOR_MATTE)
+    return add_matte(c, object, &matrix);
+  return add_parts(c, object, &matrix);
 }
 
 /* Those that are not behind others. */

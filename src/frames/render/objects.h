@@ -5,6 +5,9 @@
  *      union of unions                   layers: all that are present are painted
  *      other booleans                    layers, and the steps of a tree: what of them contributes
  *      faded boolean                     its layers are a group
+ *      with a mode                       a source: its layers are the head of a ground, which holds
+ *                                        all that is behind it in what isolates
+ *      matte                             a group whose head is the matte
  *      rostrum                           the layer of its frame, those of its lights and cels, and
  *                                        a step of a tree that cuts all of them at the frame
  */
@@ -12,10 +15,12 @@
 
 #include "frames/render/compiler.h"
 
-/* The state of the compiler outside of a group. */
+/* The state of the compiler outside of a group, or of what isolates. */
 typedef struct cs_objects_outside {
   uint32_t group;
   bool fades_out;
+  cs_compiler_isolation isolation;
+  uint32_t begun; /* the group that was begun, or CS_STACK_NONE */
 } cs_objects_outside;
 
 /* Begins a group, unless it would do nothing. is_lit: by a front light with a shape. Errors:
@@ -23,6 +28,28 @@ typedef struct cs_objects_outside {
 CELSPAN_CHECKED celspan_status cs_objects_begin_group(cs_compiler *c, double fade, bool is_lit,
                                                       cs_objects_outside *outer);
 void cs_objects_end_group(cs_compiler *c, cs_objects_outside outer);
+
+/* Begins what isolates. blends: a source is inside that acts on what is behind it. is_frame: it is
+ * the frame itself. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_objects_begin_isolation(cs_compiler *c, bool blends,
+                                                          bool is_frame, cs_objects_outside *outer);
+void cs_objects_end_isolation(cs_compiler *c, cs_objects_outside outer);
+
+/* What is appended from here on is lit by a front light with a shape, whose parts between sources,
+ * and groups that hold sources, are lit each by itself, so that modes act on what is lit. Errors:
+ * NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_objects_begin_light(cs_compiler *c,
+                                                      const struct cs_lights_front *light,
+                                                      const cs_compiler_film *film);
+/* Errors: NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_objects_end_light(cs_compiler *c);
+
+/* Begins a source, which isolates. blends: as above, inside it. Errors: NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_objects_begin_source(cs_compiler *c, double fade, bool blends,
+                                                       cs_objects_outside *outer);
+/* Ends it and gives it its mode. Errors: NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_objects_end_source(cs_compiler *c, celspan_blend mode,
+                                                     cs_objects_outside outer);
 /* The objects of a list, rear first. Errors: NO_MEMORY, LIMIT, BAD_ARGUMENT. */
 CELSPAN_CHECKED celspan_status cs_objects_add(cs_compiler *c, celspan_object *const *objects,
                                               size_t count, const celspan_matrix *matrix);

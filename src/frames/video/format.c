@@ -93,6 +93,7 @@ static const cs_video_format FORMATS[] = {
      .muxer = "gif",
      .is_picture = true,
      .is_rgb = true,
+     .is_indexed = true,
      .has_alpha = true,
      .most_frames_second = 100,
      .pixels = "pal8",
@@ -125,7 +126,7 @@ const cs_video_format *cs_video_format_named(const char *name) {
 
 /* Whether the encoder gets frames of 16 bits. */
 static bool is_deep(const cs_video_format *format, const cs_video_options *options) {
-  if (options->coding.depth == CELSPAN_DEPTH_DEFAULT && !options->dithers)
+  if (options->coding.depth == CELSPAN_DEPTH_DEFAULT)
     return format->is_deep;
   return options->coding.depth == CELSPAN_DEPTH_16;
 }
@@ -149,9 +150,9 @@ cs_video_layout cs_video_layout_of(const cs_video_format *format, const cs_video
 
 celspan_coding cs_video_coding(const cs_video_format *format, const cs_video_options *options) {
   celspan_coding coding = options->coding;
-  coding.depth = options->dithers           ? CELSPAN_DEPTH_8_DITHER
-                 : is_deep(format, options) ? CELSPAN_DEPTH_16
-                                            : CELSPAN_DEPTH_8;
+  coding.depth = is_deep(format, options) ? CELSPAN_DEPTH_16
+                 : options->dithers       ? CELSPAN_DEPTH_8_DITHER
+                                          : CELSPAN_DEPTH_8;
   if (coding.transfer == CELSPAN_TRANSFER_DEFAULT)
     coding.transfer = CELSPAN_TRANSFER_SRGB;
   if (!has_alpha(format, options))

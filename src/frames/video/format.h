@@ -25,6 +25,7 @@ typedef struct cs_video_format {
   bool is_picture;   /* one frame is a picture; several are a video */
   bool is_halved;    /* the encoder accepts even sides only */
   bool is_rgb;       /* the encoder accepts RGB; the file has no colour tags */
+  bool is_indexed;   /* few colours for each frame, for which ffmpeg dithers */
   bool is_deep;      /* frames have 16 bits unless options request fewer */
   bool has_alpha;
   double most_frames_second;        /* the resolution of its clock */
@@ -51,9 +52,9 @@ typedef enum cs_video_layout {
 /* The requested properties of a video. */
 typedef struct cs_video_options {
   celspan_coding coding; /* its depth and transfer */
-  bool dithers;
-  bool is_opaque;  /* it has a background */
-  int32_t quality; /* 0 to 100; the same quality looks alike in every format */
+  bool dithers;          /* where it has 8 bits */
+  bool is_opaque;        /* it has a background */
+  int32_t quality;       /* 0 to 100; the same quality looks alike in every format */
 } cs_video_options;
 
 typedef struct cs_video_frames {

@@ -763,6 +763,80 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_boolean(
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_extend_boolean(
     celspan_context *context, celspan_object *boolean, celspan_object *const *operands,
     size_t operand_count, celspan_object **out);
+
+/* How an object or a cel is combined with what is behind it, in its nearest group that isolates,
+ * else in the frame. W3C Compositing and Blending Level 1, except for ADD, which adds premultiplied
+ * colours and holds alpha to 1. Colours are held to 0..1 inside a mode. */
+typedef enum celspan_blend {
+  CELSPAN_BLEND_NORMAL = 0,
+  CELSPAN_BLEND_MULTIPLY,
+  CELSPAN_BLEND_SCREEN,
+  CELSPAN_BLEND_OVERLAY,
+  CELSPAN_BLEND_DARKEN,
+  CELSPAN_BLEND_LIGHTEN,
+  CELSPAN_BLEND_COLOR_DODGE,
+  CELSPAN_BLEND_COLOR_BURN,
+  CELSPAN_BLEND_HARD_LIGHT,
+  CELSPAN_BLEND_SOFT_LIGHT,
+  CELSPAN_BLEND_DIFFERENCE,
+  CELSPAN_BLEND_EXCLUSION,
+  CELSPAN_BLEND_HUE,
+  CELSPAN_BLEND_SATURATION,
+  CELSPAN_BLEND_COLOR,
+  CELSPAN_BLEND_LUMINOSITY,
+  CELSPAN_BLEND_ADD
+} celspan_blend;
+
+/* Whether the modes of what is inside a group act on what is behind the group. */
+typedef enum celspan_isolation {
+  CELSPAN_ISOLATION_AUTO = 0, /* it isolates if it is faded or has a mode */
+  CELSPAN_ISOLATION_ON,
+  CELSPAN_ISOLATION_OFF /* refused for a group that is faded or has a mode */
+} celspan_isolation;
+
+typedef struct celspan_group_desc {
+  size_t struct_size;             /* sizeof(celspan_group_desc) */
+  celspan_object *const *objects; /* kept; later is nearer */
+  size_t object_count;
+  double opacity; /* 0..1 */
+  celspan_blend blend;
+  celspan_isolation isolate;
+} celspan_group_desc;
+
+static inline celspan_group_desc celspan_group_desc_default(void) {
+  celspan_group_desc desc = CELSPAN_ZERO;
+  desc.struct_size = sizeof desc;
+  desc.opacity = 1;
+  return desc;
+}
+#define CELSPAN_GROUP_DESC (celspan_group_desc_default())
+
+/* Objects that are composited by themselves and then put into the picture as one. Errors:
+ * NO_MEMORY, BAD_ARGUMENT, LIMIT. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_group(
+    celspan_context *context, const celspan_group_desc *desc, celspan_object **out);
+/* The object with a mode, instead of the one it may have had. Errors: NO_MEMORY, BAD_ARGUMENT,
+ * LIMIT. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_blend(celspan_context *context,
+                                                                celspan_object *object,
+                                                                celspan_blend mode,
+                                                                celspan_object **out);
+/* Its mode. Shared read. */
+CELSPAN_API celspan_blend celspan_object_mode(const celspan_object *object);
+
+/* What of the matte counts. */
+typedef enum celspan_matte_from {
+  CELSPAN_MATTE_ALPHA = 0, /* 1 - the mean of what it lets through */
+  CELSPAN_MATTE_LUMA       /* 0.2126 r + 0.7152 g + 0.0722 b of its premultiplied colour under white
+                              light, held to 0..1 */
+} celspan_matte_from;
+
+/* The paint of `art` mixed with clear by what `by` is at each point. `by` is not drawn. The shape
+ * of the object is that of `art`. Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
+CELSPAN_API CELSPAN_CHECKED celspan_status
+celspan_object_create_matte(celspan_context *context, celspan_object *art, celspan_object *by,
+                            celspan_matte_from from, bool invert, celspan_object **out);
+
 /* Applied after the existing matrix, about the origin. The object is kept in part, never changed.
  * Errors: NO_MEMORY; BAD_ARGUMENT when a number of the matrix, or of the product, is not
  * finite or beyond 1e12. */
@@ -770,8 +844,8 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_transform(celspan_cont
                                                                     celspan_object *object,
                                                                     const celspan_matrix *matrix,
                                                                     celspan_object **out);
-/* The object's composited paint mixed with clear: k in 0..1; fades multiply. It keeps its shape: a
- * faded operand still cuts. Errors: NO_MEMORY, BAD_ARGUMENT. */
+/* The object's composited paint mixed with clear; k is limited to 0..1, fades multiply. It keeps
+ * its shape: a faded operand still cuts. Errors: NO_MEMORY, BAD_ARGUMENT. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_fade(celspan_context *context,
                                                                celspan_object *object, double k,
                                                                celspan_object **out);
@@ -968,8 +1042,9 @@ typedef struct celspan_cel_desc {
   celspan_box viewport;
   double defocus_radius; /* film units on the frame; 0: sharp */
   celspan_defocus_kernel defocus_kernel;
-  double opacity;                                    /* 0..1 */
+  double opacity;                                    /* limited to 0..1 */
   celspan_light_texture front_texture, back_texture; /* instead of front and back */
+  celspan_blend blend;
 } celspan_cel_desc;
 
 static inline celspan_cel_desc celspan_cel_desc_default(void) {
@@ -983,7 +1058,7 @@ static inline celspan_cel_desc celspan_cel_desc_default(void) {
 #define CELSPAN_CEL_DESC (celspan_cel_desc_default())
 
 /* desc: borrowed, except for the objects. Errors: NO_MEMORY; BAD_ARGUMENT for lights below 0, a
- * matte or opacity outside 0..1, a viewport without size. */
+ * matte outside 0..1, a viewport without size. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_cel_create(celspan_context *context,
                                                               const celspan_cel_desc *desc,
                                                               celspan_cel **out);
@@ -992,6 +1067,8 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_cel_transform(celspan_context
                                                                  celspan_cel *cel,
                                                                  const celspan_matrix *matrix,
                                                                  celspan_cel **out);
+/* Its mode. Shared read. */
+CELSPAN_API celspan_blend celspan_cel_mode(const celspan_cel *cel);
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_cel_fade(celspan_context *context,
                                                             celspan_cel *cel, double k,
                                                             celspan_cel **out);

@@ -41,10 +41,23 @@ bool cs_caller_find(lua_State *L, lua_Debug *out) {
   return false;
 }
 
+static int leave(lua_State *L, int status, lua_KContext context) {
+  (void)status;
+  (void)context;
+  return lua_gettop(L);
+}
+
+int cs_caller_enter(lua_State *L) {
+  lua_pushvalue(L, lua_upvalueindex(1));
+  lua_insert(L, 1);
+  lua_callk(L, lua_gettop(L) - 1, LUA_MULTRET, 0, leave);
+  return leave(L, LUA_OK, 0);
+}
+
 int cs_caller_error(lua_State *L, const char *format, ...) {
   lua_Debug info = {.source = "", .currentline = -1};
   int level = 1;
-  while (get(L, level, &info) && is_own(&info))
+  while (get(L, level, &info) && (is_own(&info) || is_function(L, &info, cs_caller_enter)))
     level++;
   push_position(L, &info);
   va_list arguments;

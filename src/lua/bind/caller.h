@@ -15,6 +15,10 @@
 /* Finds the nearest function that has lines and is not celspan's own, with its source and line;
  * false when there is none. */
 bool cs_caller_find(lua_State *L, lua_Debug *out);
+/* Calls its upvalue, a function of celspan's own modules. Lua forgets a function that ends with
+ * `return multiplane { ... }`, but not one that ends with the call of a C function, so that the
+ * caller's line is known. */
+int cs_caller_enter(lua_State *L);
 /* Raises a message with the formats of lua_pushfstring at the caller's line; without a line where C
  * called. Does not return; the type is that of luaL_error. */
 int cs_caller_error(lua_State *L, const char *format, ...);

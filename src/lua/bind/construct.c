@@ -137,6 +137,18 @@ static void drop_other(lua_State *L, const cs_noun *noun, int changes, int field
   }
 }
 
+/* Gives the value the mode that `from` was given by a method. */
+static void reblend(lua_State *L, const cs_userdata *from, cs_userdata *value) {
+  const cs_kind *kind = value->noun->kind;
+  void *changed = NULL;
+  if (!kind->blend || cs_userdata_has_field(value->noun, "blend"))
+    return;
+  cs_host_try(L, "with",
+              kind->blend(cs_host_context(L), value->handle, kind->mode(from->handle), &changed));
+  kind->unref(value->handle);
+  value->handle = changed;
+}
+
 /* Transforms and fades the value as `from` was after its constructor. */
 static void reapply(lua_State *L, const cs_userdata *from, cs_userdata *value) {
   const cs_kind *kind = value->noun->kind;
@@ -145,6 +157,7 @@ static void reapply(lua_State *L, const cs_userdata *from, cs_userdata *value) {
   void *changed = NULL;
   if (!from->is_placed)
     return;
+  reblend(L, from, value);
   cs_host_try(L, "with", kind->transform(context, value->handle, &placement.matrix, &changed));
   kind->unref(value->handle);
   value->handle = changed;

@@ -6,6 +6,7 @@
 
 #include "lua/bind/host.h"
 #include "lua/bind/numbers.h"
+#include "lua/bind/suggest.h"
 #include "lua/bind/userdata.h"
 #include "model/scene/check.h"
 
@@ -96,13 +97,18 @@ static bool flag_of(const cs_form *form, const cs_field *field) {
 }
 
 static _Noreturn void fail_word(const cs_form *form, const char *name, const char *const *words) {
+  const char *word = lua_type(form->L, -1) == LUA_TSTRING ? lua_tostring(form->L, -1) : NULL;
   const char *given = cs_userdata_shown(form->L, -1);
+  size_t count = 0;
   lua_pushliteral(form->L, "");
-  for (int i = 0; words[i]; i++) {
-    lua_pushfstring(form->L, "%s\"%s\"", i ? words[i + 1] ? ", " : " or " : "", words[i]);
+  for (; words[count]; count++) {
+    const char *between = count == 0 ? "" : words[count + 1] ? ", " : " or ";
+    lua_pushfstring(form->L, "%s\"%s\"", between, words[count]);
     lua_concat(form->L, 2);
   }
-  cs_form_fail(form, "field '%s' must be %s, got %s", name, lua_tostring(form->L, -1), given);
+  const char *nearest = word ? cs_suggest_name(word, words, count) : NULL;
+  cs_form_fail(form, "field '%s' must be %s, got %s%s", name, lua_tostring(form->L, -1), given,
+               nearest ? lua_pushfstring(form->L, "; did you mean \"%s\"?", nearest) : "");
 }
 
 int cs_fields_word(const cs_form *form, const char *name, const char *const *words) {

@@ -9,6 +9,7 @@
 static const char host_key = 0; /* addresses in the registry */
 static const char folder_key = 0;
 static const char globals_key = 0;
+static const char asked_key = 0;
 
 void cs_host_unref(cs_host *host) {
   if (!host || --host->references > 0)
@@ -166,12 +167,41 @@ void cs_host_end(lua_State *L) {
     rules->end(rules->user);
 }
 
+/* A table of paths: a list, and each path as a key. */
+static void remember(lua_State *L, const char *path) {
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &asked_key) == LUA_TTABLE) {
+    lua_pushstring(L, path);
+    lua_pushvalue(L, -1);
+    if (lua_rawget(L, -3) == LUA_TNIL) {
+      lua_pushvalue(L, -2);
+      lua_pushboolean(L, true);
+      lua_rawset(L, -5);
+      lua_pushvalue(L, -2);
+      lua_rawseti(L, -4, (lua_Integer)lua_rawlen(L, -4) + 1);
+    }
+    lua_pop(L, 2);
+  }
+  lua_pop(L, 1);
+}
+
+void cs_host_remember_asked(lua_State *L) {
+  lua_newtable(L);
+  lua_rawsetp(L, LUA_REGISTRYINDEX, &asked_key);
+}
+
+void cs_host_push_asked(lua_State *L) {
+  lua_rawgetp(L, LUA_REGISTRYINDEX, &asked_key);
+  cs_host_remember_asked(L);
+}
+
 bool cs_host_admits(lua_State *L, const char *path) {
+  remember(L, path);
   const cs_host_rules *rules = cs_host_get(L)->rules;
   return !rules || !rules->admits || rules->admits(rules->user, path);
 }
 
 void cs_host_admit(lua_State *L, const char *path) {
+  remember(L, path);
   const cs_host_rules *rules = cs_host_get(L)->rules;
   if (rules && rules->admit)
     rules->admit(rules->user, L, path);

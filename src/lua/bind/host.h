@@ -86,6 +86,11 @@ void cs_host_admit(lua_State *L, const char *path);
 /* Whether the script may write there; else the sentence is in the context. */
 bool cs_host_may_write(lua_State *L, const char *path);
 
+/* From now on the paths are remembered that the script asks to read, whether they exist or not. */
+void cs_host_remember_asked(lua_State *L);
+/* Pushes a list of those that were remembered since the last call. Raises. */
+void cs_host_push_asked(lua_State *L);
+
 /* Makes the table on top of the stack the globals of the script, and pops it. */
 void cs_host_set_globals(lua_State *L);
 /* Pushes them; false, and nothing pushed, where the script has Lua's own. */

@@ -33,6 +33,9 @@ typedef struct cs_kind {
   celspan_status (*bounds)(celspan_context *context, const void *handle, bool *is_there,
                            celspan_box *out);
   bool (*contains)(const void *handle, celspan_point point);
+  celspan_blend (*mode)(const void *handle);
+  /* NULL: the mode of such values is a field. */
+  celspan_status (*blend)(celspan_context *context, void *handle, celspan_blend mode, void **out);
   const luaL_Reg *methods, *operators; /* operators NULL: none */
   size_t own_size; /* bytes that a value has of its own: a paint's numbers, a frame's seed */
   int kept;        /* user values of a value in addition to its fields, which are the first */

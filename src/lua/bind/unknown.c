@@ -180,7 +180,9 @@ _Noreturn void cs_unknown_fail_name(lua_State *L, const char *noun, const char *
   if (nearest)
     cs_caller_error(L, "%s: unknown field '%s'; did you mean '%s'?", noun, name, nearest);
   else if (count == 0)
-    cs_caller_error(L, "%s: unknown field '%s'; there are no named fields", noun, name);
+    cs_caller_error(L, "%s: unknown field '%s'; %s", noun, name,
+                    strcmp(name, "texture") == 0 ? "write object:paint(texture)"
+                                                 : "there are no named fields");
   else
     cs_caller_error(L, "%s: unknown field '%s'; the fields are %s", noun, name,
                     push_names(L, names, count));

@@ -186,7 +186,12 @@ const char *cs_userdata_shown(lua_State *L, int index) {
 
 /* ---------------------------------------------------------------- metamethods */
 
-static bool has_field(const cs_noun *noun, const char *name) {
+const char *const cs_userdata_modes[] = {
+    "normal",     "multiply",   "screen",     "overlay", "darken",     "lighten",
+    "color-dodge", "color-burn", "hard-light", "soft-light", "difference", "exclusion",
+    "hue",        "saturation", "color",      "luminosity", "add", NULL};
+
+bool cs_userdata_has_field(const cs_noun *noun, const char *name) {
   const cs_field *field = noun->fields;
   while (field->name && strcmp(field->name, name) != 0)
     field = cs_field_next(field);
@@ -201,7 +206,7 @@ static int compare(const void *a, const void *b) {
 static int fail_unknown(lua_State *L, const cs_noun *noun, int methods) {
   const char *names[MOST_NAMES];
   size_t count = 0;
-  for (const cs_field *field = noun->fields; field->name && count < MOST_NAMES - 2;
+  for (const cs_field *field = noun->fields; field->name && count < MOST_NAMES - 3;
        field = cs_field_next(field))
     names[count++] = field->name;
   size_t first = count;
@@ -209,6 +214,8 @@ static int fail_unknown(lua_State *L, const cs_noun *noun, int methods) {
     names[count++] = "name";
     names[count++] = "origin";
   }
+  if (noun->kind->mode)
+    names[count++] = "mode";
   for (lua_pushnil(L); count < MOST_NAMES && lua_next(L, methods); lua_pop(L, 1))
     names[count++] = lua_tostring(L, -2); /* the table keeps it alive */
   qsort(names + first, count - first, sizeof *names, compare);
@@ -233,6 +240,15 @@ static bool push_name(lua_State *L, const cs_userdata *value, const char *key) {
   return true;
 }
 
+/* Pushes the mode of a value; false if the key is another one, or values of its kind have none. */
+static bool push_mode(lua_State *L, const cs_userdata *value, const char *key) {
+  const cs_kind *kind = value->noun->kind;
+  if (strcmp(key, "mode") != 0 || !kind->mode || !value->handle)
+    return false;
+  lua_pushstring(L, cs_userdata_modes[kind->mode(value->handle)]);
+  return true;
+}
+
 /* Pushes field 2 of the value, nil when it was left out; false when it has no such field. */
 static bool push_read(lua_State *L, const cs_userdata *value) {
   lua_pushnil(L);
@@ -248,7 +264,7 @@ static bool push_read(lua_State *L, const cs_userdata *value) {
   if (type == LUA_TTABLE)
     cs_userdata_push_copy(L, -1, 0);
   return type != LUA_TNIL || lua_type(L, 2) != LUA_TSTRING ||
-         has_field(value->noun, lua_tostring(L, 2));
+         cs_userdata_has_field(value->noun, lua_tostring(L, 2));
 }
 
 /* A method, else a field; tables come out as copies. */
@@ -259,7 +275,8 @@ static int index_value(lua_State *L) {
   lua_pushvalue(L, 2);
   if (!lua_isnil(L, 2) && lua_rawget(L, lua_upvalueindex(1)) != LUA_TNIL)
     return 1;
-  if (lua_type(L, 2) == LUA_TSTRING && push_name(L, value, lua_tostring(L, 2)))
+  const char *key = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : NULL;
+  if (key && (push_name(L, value, key) || push_mode(L, value, key)))
     return 1;
   if (lua_isnil(L, 2) || push_read(L, value))
     return 1;

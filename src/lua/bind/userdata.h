@@ -32,6 +32,8 @@ typedef struct cs_placement {
   double fade;
 } cs_placement;
 
+extern const char *const cs_userdata_modes[]; /* the words of celspan_blend, ended by NULL */
+
 extern const cs_noun cs_noun_paint, cs_noun_rostrum, cs_noun_rostrum_object, cs_noun_film;
 extern const cs_kind cs_kind_paint, cs_kind_texture, cs_kind_object, cs_kind_cel, cs_kind_rostrum,
     cs_kind_film, cs_kind_frame;
@@ -53,6 +55,8 @@ void *cs_userdata_own(const cs_userdata *value);
 cs_placement cs_userdata_placement(const cs_userdata *value);
 /* Of a value with room for it. */
 void cs_userdata_place(cs_userdata *value, const cs_placement *placement);
+/* Whether values of the noun have a field. */
+bool cs_userdata_has_field(const cs_noun *noun, const char *name);
 /* Pushes a copy of the fields of the value at `index`. */
 void cs_userdata_push_fields(lua_State *L, int index);
 /* Pushes the table of fields of the value at `index`, which must not be changed, or nil. */

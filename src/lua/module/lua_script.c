@@ -15,6 +15,7 @@
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"
 #include "lua/bind/userdata.h"
+#include "lua/module/artwork.h"
 #include "lua/nouns/lua_film.h"
 
 /* ---------------------------------------------------------------- what is a script */
@@ -104,6 +105,13 @@ static int run(lua_State *L) {
   bool is_sandboxed = cs_host_push_globals(L);
   if (!is_sandboxed)
     set_search_path(L, folder); /* a sandbox has its own `require` */
+  cs_artwork artwork = cs_artwork_of(c->path);
+  if (artwork > CS_ARTWORK_FOLDER) {
+    if (!is_sandboxed)
+      lua_pushglobaltable(L);
+    cs_artwork_push_film(L, c->path, artwork, -1);
+    return 1;
+  }
   if (!cs_lua_script_accepts(c->path))
     return luaL_error(L,
                       "%s: is not a Lua script, but a picture or other binary data ('celspan info "

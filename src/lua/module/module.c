@@ -42,6 +42,15 @@ static int nearest(lua_State *L) {
 /* core.refuse(message): raises it at the line of the nearest caller that is not celspan's own. */
 static int refuse(lua_State *L) { return cs_caller_error(L, "%s", luaL_checkstring(L, 1)); }
 
+/* core.entry(function): the same function, which keeps the line of a caller that ends with it. The
+ * caller has level 3 in it. */
+static int entry(lua_State *L) {
+  luaL_checktype(L, 1, LUA_TFUNCTION);
+  lua_settop(L, 1);
+  lua_pushcclosure(L, cs_caller_enter, 1);
+  return 1;
+}
+
 int cs_core_settings(lua_State *L) {
   luaL_getsubtable(L, LUA_REGISTRYINDEX, "celspan.settings");
   return 1;
@@ -65,6 +74,7 @@ int luaopen_celspan_core(lua_State *L) {
                                        {"nouns", cs_nouns_push},
                                        {"source", cs_embedded_source},
                                        {"refuse", refuse},
+                                       {"entry", entry},
                                        {"settings", cs_core_settings},
                                        {"sounds", cs_lua_film_sounds},
                                        {"hear", hear},
@@ -163,6 +173,7 @@ int luaopen_celspan(lua_State *L) {
                                        {"gel", cs_nouns_gel},
                                        {"mix", cs_nouns_mix},
                                        {"clip", cs_nouns_clip},
+                                       {"matte", cs_nouns_matte},
                                        {"glyphs", cs_nouns_glyphs},
                                        {"random", cs_random_make},
                                        {"render", cs_render_make},

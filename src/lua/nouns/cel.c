@@ -53,7 +53,9 @@ static const cs_field fields[] = {
     {"viewport", CS_BOX(DESC, viewport), CS_HAS(DESC, has_viewport),
      .about = "The part that fills the frame"},
     {"defocus", CS_OWN("number|celspan.defocus"), .about = "A radius, or with a kernel"},
-    {"opacity", CS_NUMBER(DESC, opacity), .least = 0, .most = 1, .preset = "1"},
+    {"blend", CS_CHOICE(DESC, blend, cs_userdata_modes), .preset = "normal",
+     .about = "How it is combined with what is behind it"},
+    {"opacity", CS_NUMBER(DESC, opacity), .preset = "1", .about = "Limited to 0..1"},
     {0}};
 const cs_noun cs_noun_cel = {.name = "cel",
                              .about = "A sheet with objects and its own lights.",

@@ -52,6 +52,17 @@ VALUE(rostrum)
 PLACED(object)
 PLACED(cel)
 
+static celspan_blend object_mode(const void *handle) { return celspan_object_mode(handle); }
+static celspan_blend cel_mode(const void *handle) { return celspan_cel_mode(handle); }
+static celspan_status object_blend(celspan_context *context, void *handle, celspan_blend mode,
+                                   void **out) {
+  celspan_object *made = NULL;
+  celspan_status status = celspan_object_blend(context, handle, mode, &made);
+  if (status == CELSPAN_OK)
+    *out = made;
+  return status;
+}
+
 /* ---------------------------------------------------------------- kinds */
 
 #define HAS_VALUE(type)                                                                            \
@@ -73,10 +84,15 @@ const cs_kind cs_kind_texture = {
 const cs_kind cs_kind_object = {.name = "celspan.object",
                                 HAS_VALUE(object),
                                 HAS_PLACE(object),
+                                .mode = object_mode,
+                                .blend = object_blend,
                                 .methods = cs_placed_object_methods,
                                 .operators = cs_boolean_operators};
-const cs_kind cs_kind_cel = {
-    .name = "celspan.cel", HAS_VALUE(cel), HAS_PLACE(cel), .methods = cs_placed_methods};
+const cs_kind cs_kind_cel = {.name = "celspan.cel",
+                             HAS_VALUE(cel),
+                             HAS_PLACE(cel),
+                             .mode = cel_mode,
+                             .methods = cs_placed_methods};
 const cs_kind cs_kind_rostrum = {.name = "celspan.rostrum",
                                  HAS_VALUE(rostrum),
                                  .methods = cs_placed_methods,

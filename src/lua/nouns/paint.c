@@ -1,4 +1,6 @@
 /* Paints: the Beta colour model in Lua. */
+#include <math.h>
+
 #include "lua/bind/caller.h"
 #include "lua/bind/fields.h"
 #include "lua/bind/host.h"
@@ -188,10 +190,7 @@ static celspan_paint mix_argument(lua_State *L, int index) {
 int cs_nouns_mix(lua_State *L) {
   celspan_paint p = mix_argument(L, 1), q = mix_argument(L, 2);
   double u = cs_form_argument(L, 3, "mix", "the share of the second paint");
-  if (!(u >= 0 && u <= 1))
-    return cs_caller_error(L, "mix: the share of the second paint must be 0..1, got %s",
-                           cs_form_digits(L, u));
-  celspan_paint paint = celspan_paint_mix(p, q, (float)u);
+  celspan_paint paint = celspan_paint_mix(p, q, (float)fmin(fmax(u, 0), 1));
   double pigment[3], medium[3];
   for (int i = 0; i < 3; i++) {
     pigment[i] = paint.pigment[i];

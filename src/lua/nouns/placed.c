@@ -1,6 +1,7 @@
 #include "lua/nouns/placed.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "lua/bind/caller.h"
 #include "lua/bind/construct.h"
@@ -159,6 +160,19 @@ static int quad(lua_State *L) {
   return push_transformed(L, "quad", value, matrix);
 }
 
+/* Pushes the words of all modes. */
+static const char *push_modes(lua_State *L) {
+  luaL_Buffer words;
+  luaL_buffinit(L, &words);
+  for (int i = 0; cs_userdata_modes[i]; i++) {
+    lua_pushfstring(L, "%s\"%s\"", i == 0 ? "" : cs_userdata_modes[i + 1] ? ", " : " or ",
+                    cs_userdata_modes[i]);
+    luaL_addvalue(&words);
+  }
+  luaL_pushresult(&words);
+  return lua_tostring(L, -1);
+}
+
 static int fade(lua_State *L) {
   const cs_userdata *value = self(L, "fade");
   double k = cs_form_argument(L, 2, "fade", "k");
@@ -166,8 +180,35 @@ static int fade(lua_State *L) {
   cs_placement placement = cs_userdata_placement(value);
   cs_host_try(L, "fade",
               value->noun->kind->fade(cs_host_context(L), value->handle, k, &copy->handle));
-  placement.fade *= k;
+  placement.fade *= fmin(fmax(k, 0), 1);
   cs_userdata_place(copy, &placement);
+  return 1;
+}
+
+/* Of a value that has its mode as a field. */
+static int blend_field(lua_State *L) {
+  lua_settop(L, 2);
+  lua_createtable(L, 0, 1);
+  lua_insert(L, 2);
+  lua_setfield(L, 2, "blend");
+  return cs_construct_with(L);
+}
+
+static int blend(lua_State *L) {
+  const cs_userdata *value = self(L, "blend");
+  const char *word = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "";
+  int mode = 0;
+  while (cs_userdata_modes[mode] && strcmp(cs_userdata_modes[mode], word) != 0)
+    mode++;
+  if (!cs_userdata_modes[mode])
+    return cs_caller_error(L, "blend: the mode must be one of %s, got %s", push_modes(L),
+                           cs_userdata_shown(L, 2));
+  if (cs_userdata_has_field(value->noun, "blend"))
+    return blend_field(L);
+  cs_userdata *copy = cs_userdata_push_like(L, 1, true);
+  cs_host_try(L, "blend",
+              value->noun->kind->blend(cs_host_context(L), value->handle, (celspan_blend)mode,
+                                       &copy->handle));
   return 1;
 }
 
@@ -196,9 +237,11 @@ static int contains(lua_State *L) {
 
 #define METHODS                                                                                    \
   {"translate", translate}, {"scale", scale}, {"rotate", rotate}, {"skew", skew},                  \
-      {"transform", transform}, {"quad", quad}, {"fade", fade}, {"bounds", bounds},                \
+      {"transform", transform}, {"quad", quad}, {"fade", fade}, {"blend", blend},                  \
+      {"bounds", bounds},                                                                          \
       {"contains", contains}, {"named", cs_named_method}, {"with", cs_construct_with}, {           \
     NULL, NULL                                                                                     \
   }
 const luaL_Reg cs_placed_methods[] = {METHODS};
-const luaL_Reg cs_placed_object_methods[] = {{"stroke", cs_stroke_method}, METHODS};
+const luaL_Reg cs_placed_object_methods[] = {
+    {"stroke", cs_stroke_method}, {"paint", cs_painted_method}, METHODS};

@@ -88,6 +88,15 @@ static bool admits(void *user, const char *path) {
   return cs_roots_hold(&((const cs_sandbox *)user)->roots, path);
 }
 
+static bool is_font(const char *path) {
+  static const char *const endings[] = {".ttf", ".otf", ".ttc", ".otc"};
+  const char *dot = strrchr(path, '.');
+  bool found = false;
+  for (size_t i = 0; dot && i < sizeof endings / sizeof *endings; i++)
+    found |= strcmp(dot, endings[i]) == 0;
+  return found;
+}
+
 static void admit(void *user, lua_State *L, const char *path) {
   const cs_sandbox *sandbox = user;
   errno = 0;
@@ -98,8 +107,9 @@ static void admit(void *user, lua_State *L, const char *path) {
   else
     cs_caller_error(L,
                     "%s: scripts in the sandbox can read only files in %s (--allow DIR adds a "
-                    "folder)",
-                    path, sandbox->roots.count ? sandbox->roots.paths[0] : "their folder");
+                    "folder%s)",
+                    path, sandbox->roots.count ? sandbox->roots.paths[0] : "their folder",
+                    is_font(path) ? ", --allow-system-fonts those of fonts" : "");
 }
 
 static bool may_write(void *user, lua_State *L, const char *path) {

@@ -2,7 +2,7 @@
  *
  * Every stage works on a piece in its canonical order, so that a curve and its reversed copy give
  * the same bits, and makes stretches from top to bottom. The stretches of a piece are then put into
- * the order of the contour.
+ * the order of the contour. One file, because each stage is small and inlined into the one before.
  */
 #include "model/geometry/boundary_build.h"
 

@@ -59,7 +59,7 @@ typedef struct cs_boundary_builder {
   cs_boundary_frame inside;        /* plain curves within it are inside */
   cs_boundary_stretches stretches; /* of the current contour */
   cs_boundary_stretch straight;    /* what the stretches of the current curve begin as */
-  cs_bezier *fronts;               /* the current piece, cut to what is in front of the horizon */
+  cs_bezier *fronts;               /* the parts of the current piece that are before the horizon */
   size_t front_count, front_capacity;
   bool has_pen;
   cs_hpoint first, pen; /* the beginning of the contour, and its current point */

@@ -103,6 +103,8 @@ typedef struct cs_outline_box {
 } cs_outline_box;
 const cs_outline *cs_outline_of_box(const celspan_box *box, cs_outline_box *room);
 
+/* The box around two. */
+celspan_box cs_outline_box_around(celspan_box a, celspan_box b);
 /* The tight box of the outline under a matrix, cut at the horizon; false when there is nothing in
  * front of it. */
 bool cs_outline_bounds(const cs_outline *outline, const celspan_matrix *matrix, celspan_box *out);

@@ -104,3 +104,9 @@ bool cs_outline_bounds(const cs_outline *outline, const celspan_matrix *matrix, 
   *out = (celspan_box){box.least[0], box.least[1], size[0], size[1]};
   return true;
 }
+
+celspan_box cs_outline_box_around(celspan_box a, celspan_box b) {
+  double x = fmin(a.x, b.x), y = fmin(a.y, b.y);
+  return (celspan_box){x, y, fmax(a.x + a.width, b.x + b.width) - x,
+                       fmax(a.y + a.height, b.y + b.height) - y};
+}

@@ -8,6 +8,7 @@ static const char *const nouns[] = {
     [CELSPAN_DIFFERENCE] = "difference",
     [CELSPAN_XOR] = "xor",
     [CELSPAN_CLIP] = "clip",
+    [CS_OPERATOR_MATTE] = "matte",
 };
 
 static void show_operands(cs_primitive_data *data) {
@@ -51,6 +52,8 @@ static celspan_status fill_more(celspan_context *context, cs_primitive_data *dat
   data->depth = from->depth - 1; /* below this one */
   data->primitive_count = from->primitive_count;
   data->has_procedure = from->has_procedure;
+  data->blends = from->blends;
+  data->has_modes = from->has_modes;
   data->boolean->operands_hash = from->boolean->operands_hash;
   data->boolean->hashed_count = from->boolean->hashed_count;
   CS_TRY(cs_primitive_data_measure(context, noun, operands, count, data));
@@ -67,7 +70,8 @@ static bool is_identity(const celspan_matrix *matrix) {
 
 static bool is_extendable(const celspan_object *object) {
   const cs_primitive_data *data = object->data;
-  return data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->op != CELSPAN_CLIP &&
+  return data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->op < CELSPAN_CLIP &&
+         data->boolean->blend == CELSPAN_BLEND_NORMAL && !data->boolean->isolates &&
          is_identity(object->matrix) && object->fade == 1;
 }
 

@@ -13,12 +13,6 @@ typedef struct finder {
   celspan_status status;
 } finder;
 
-static celspan_box around(celspan_box a, celspan_box b) {
-  double x = fmin(a.x, b.x), y = fmin(a.y, b.y);
-  return (celspan_box){x, y, fmax(a.x + a.width, b.x + b.width) - x,
-                       fmax(a.y + a.height, b.y + b.height) - y};
-}
-
 static celspan_box common(celspan_box a, celspan_box b) {
   double x = fmax(a.x, b.x), y = fmax(a.y, b.y);
   return (celspan_box){x, y, fmin(a.x + a.width, b.x + b.width) - x,
@@ -36,7 +30,7 @@ static bool list_around(finder *f, celspan_object *const *objects, size_t count,
   for (size_t i = 0; i < count; i++) {
     if (!object_bounds(f, objects[i], matrix, &box))
       continue;
-    *out = found ? around(*out, box) : box;
+    *out = found ? cs_outline_box_around(*out, box) : box;
     found = true;
   }
   return found;
@@ -59,19 +53,13 @@ static bool list_common(finder *f, celspan_object *const *objects, size_t count,
 static bool stroke_bounds(finder *f, const cs_primitive_data *data, const celspan_matrix *matrix,
                           celspan_box *out) {
   celspan_context own = {.memory = data->memory}, *context = f->context ? f->context : &own;
-  cs_outline outline;
   cs_outline_box room;
-  cs_outline_init(&outline);
-  celspan_status status = cs_stroke_outline_fine(context, data->stroke, &outline);
   bool is_seen;
-  if (status == CELSPAN_OK) {
-    is_seen = cs_outline_bounds(&outline, matrix, out);
-  } else {
-    f->status = status;
-    is_seen = cs_outline_bounds(cs_outline_of_box(&data->stroke->around, &room), matrix, out);
-  }
-  cs_outline_finish(&outline, context->memory);
-  return is_seen;
+  celspan_status status = cs_stroke_bounds(context, data->stroke, matrix, out, &is_seen);
+  if (status == CELSPAN_OK)
+    return is_seen;
+  f->status = status;
+  return cs_outline_bounds(cs_outline_of_box(&data->stroke->around, &room), matrix, out);
 }
 
 static bool data_bounds(finder *f, const cs_primitive_data *data, const celspan_matrix *matrix,

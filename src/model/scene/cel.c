@@ -15,7 +15,7 @@ static celspan_status check(celspan_context *context, const celspan_cel_desc *de
   CS_TRY(cs_check_size(context, "cel", "defocus.radius", desc->defocus_radius));
   CS_TRY(cs_check_choice(context, "cel", "defocus.kernel", (unsigned)desc->defocus_kernel,
                          CELSPAN_DEFOCUS_DISC + 1));
-  return cs_check_share(context, "cel", "opacity", desc->opacity);
+  return cs_check_choice(context, "cel", "blend", (unsigned)desc->blend, CELSPAN_BLEND_ADD + 1);
 }
 
 static void hash_objects(cs_hash *hash, const celspan_cel *cel) {
@@ -34,6 +34,8 @@ static void hash_placement(cs_hash *hash, const celspan_cel *cel) {
   cs_hash_number(hash, cel->defocus_radius);
   cs_hash_word(hash, cel->defocus_kernel);
   cs_hash_number(hash, cel->opacity);
+  if (cel->blend != CELSPAN_BLEND_NORMAL)
+    cs_hash_word(hash, cel->blend);
 }
 
 static cs_hash hash_cel(const celspan_cel *cel) {
@@ -53,6 +55,15 @@ bool celspan_cel_hash(const celspan_cel *cel, uint64_t drawing[2], uint64_t plac
     if (cel->objects[i]->data->has_procedure)
       return false;
   return true;
+}
+
+static void find_modes(celspan_cel *cel) {
+  cel->blends_inside = false;
+  cel->has_modes = cel->blend != CELSPAN_BLEND_NORMAL;
+  for (size_t i = 0; i < cel->object_count; i++) {
+    cel->blends_inside |= cs_object_blends(cel->objects[i]);
+    cel->has_modes |= cs_object_has_modes(cel->objects[i]);
+  }
 }
 
 /* A new cel with the fields of `fields`, and with references of its own to lights and objects.
@@ -82,6 +93,7 @@ static celspan_status create(celspan_context *context, const celspan_cel *fields
   cel->front = cs_light_ref(&fields->front);
   cel->back = cs_light_ref(&fields->back);
   cel->object_count = object_count;
+  find_modes(cel);
   cel->hash = hash_cel(cel);
   *out = cel;
   return CELSPAN_OK;
@@ -112,8 +124,9 @@ celspan_status celspan_cel_create(celspan_context *context, const celspan_cel_de
       .has_viewport = desc->has_viewport,
       .defocus_radius = desc->defocus_radius,
       .defocus_kernel = desc->defocus_radius > 0 ? desc->defocus_kernel : CELSPAN_DEFOCUS_GAUSSIAN,
-      .opacity = desc->opacity,
+      .blend = desc->blend,
   };
+  CS_TRY(cs_check_share(context, "cel", "opacity", desc->opacity, &fields.opacity));
   if (desc->has_viewport)
     fields.viewport = desc->viewport;
   CS_TRY(make_lights(context, desc, &fields.front, &fields.back));
@@ -137,7 +150,7 @@ celspan_status celspan_cel_transform(celspan_context *context, celspan_cel *cel,
 celspan_status celspan_cel_fade(celspan_context *context, celspan_cel *cel, double k,
                                 celspan_cel **out) {
   CS_TRY(cs_check_given(context, "fade", "the cel", cel));
-  CS_TRY(cs_check_share(context, "fade", "k", k));
+  CS_TRY(cs_check_share(context, "fade", "k", k, &k));
   celspan_cel fields = *cel;
   fields.opacity *= k;
   return create(context, &fields, cel->objects, cel->object_count, cs_mark_keep(cel->mark), out);
@@ -150,6 +163,8 @@ celspan_status celspan_cel_named(celspan_context *context, celspan_cel *cel, con
   CS_TRY(cs_mark_named(context, cel->mark, name, &mark));
   return create(context, cel, cel->objects, cel->object_count, mark, out);
 }
+
+celspan_blend celspan_cel_mode(const celspan_cel *cel) { return cel->blend; }
 
 const char *celspan_cel_name(const celspan_cel *cel) { return cs_mark_name(cel->mark); }
 

@@ -62,8 +62,10 @@ celspan_status cs_check_positive(celspan_context *context, const char *noun, con
 }
 
 celspan_status cs_check_share(celspan_context *context, const char *noun, const char *field,
-                              double value) {
-  return cs_check_range(context, noun, field, value, 0, 1);
+                              double value, double *out) {
+  CS_TRY(cs_check_number(context, noun, field, value));
+  *out = value < 0 ? 0 : value > 1 ? 1 : value;
+  return CELSPAN_OK;
 }
 
 celspan_status cs_check_item(celspan_context *context, cs_check_field at, double value, double low,

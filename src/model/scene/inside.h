@@ -50,13 +50,13 @@ static inline bool cs_inside_is_present(celspan_operator op, size_t present, siz
   case CELSPAN_XOR:
     return present % 2 == 1;
   case CELSPAN_CLIP:
-    break;
+    return first && present == 2;
   }
-  return first && present == 2;
+  return first; /* a matte */
 }
 
 /* Whether a boolean object is painted with its operand of this index where that operand is
  * present. */
 static inline bool cs_inside_shows(celspan_operator op, size_t index) {
-  return index == 0 || (op != CELSPAN_DIFFERENCE && op != CELSPAN_CLIP);
+  return index == 0 || (op != CELSPAN_DIFFERENCE && op < CELSPAN_CLIP);
 }

@@ -13,6 +13,7 @@
 
 #include "base/elementary.h"
 #include "model/scene/inside.h"
+#include "model/stroke/dashes.h"
 
 #define PI 3.14159265358979323846
 #define MOST_DEGREE 15
@@ -420,10 +421,12 @@ bool cs_inside_stroke(const cs_stroke *stroke, celspan_point point) {
   if (point.x < box->x || point.x > box->x + box->width || point.y < box->y ||
       point.y > box->y + box->height)
     return false;
+  cs_parts parts;
+  cs_parts_init(&parts, stroke);
   for (size_t i = 0; i < stroke->part_count; i++) {
-    const cs_stroke_part *part = &stroke->parts[i];
-    bool is_dot = part->count == 1 && part->begin == part->end;
-    if (is_dot ? is_in_dot(stroke, part, point) : is_in_part(stroke, part, point))
+    const cs_stroke_part part = cs_parts_get(&parts, i);
+    bool is_dot = part.count == 1 && part.begin == part.end;
+    if (is_dot ? is_in_dot(stroke, &part, point) : is_in_part(stroke, &part, point))
       return true;
   }
   return false;

@@ -32,6 +32,7 @@ static celspan_status measure(celspan_context *context, cs_primitive_data *data)
     const celspan_cel *cel = data->rostrum->cels[i];
     CS_TRY(cs_primitive_data_measure(context, "rostrum", cel->objects, cel->object_count, data));
   }
+  data->blends = data->has_modes = false; /* it isolates */
   return cs_primitive_data_deepen(context, "rostrum", data);
 }
 

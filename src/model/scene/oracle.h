@@ -31,3 +31,23 @@ CELSPAN_CHECKED celspan_status cs_oracle_primitive(celspan_context *context,
                                                    const cs_primitive_data *data,
                                                    celspan_point point, bool *is_there,
                                                    cs_oracle_paint *out);
+
+/* What is seen of a part of the picture: the light that it sends to the camera, and what it lets
+ * through. */
+typedef struct cs_oracle_sight {
+  double light[3], through[3];
+  double keep; /* what the mattes of back lights in it leave of transparency; they dim no light */
+} cs_oracle_sight;
+
+extern const cs_oracle_sight cs_oracle_nothing;
+
+/* How much there is of it. */
+double cs_oracle_alpha(const cs_oracle_sight *sight);
+/* One in front of another. */
+cs_oracle_sight cs_oracle_before(const cs_oracle_sight *front, const cs_oracle_sight *back);
+/* A source with a mode in front of its backdrop, by the formulas of W3C Compositing and Blending
+ * Level 1. */
+cs_oracle_sight cs_oracle_blend(celspan_blend mode, const cs_oracle_sight *source,
+                                const cs_oracle_sight *back);
+/* weight * sight + (1 - weight) * nothing. */
+cs_oracle_sight cs_oracle_fade(const cs_oracle_sight *sight, double weight);

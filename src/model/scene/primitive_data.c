@@ -138,6 +138,9 @@ static cs_hash hash_boolean(cs_boolean *boolean) {
   boolean->operands_hash = hash;
   boolean->hashed_count = boolean->operand_count;
   cs_hash_word(&hash, boolean->operand_count);
+  if (boolean->blend != CELSPAN_BLEND_NORMAL || boolean->isolates)
+    cs_hash_word(&hash, (uint64_t)boolean->blend << 3 | (uint64_t)boolean->isolates << 2 |
+                            (uint64_t)boolean->is_luma << 1 | boolean->inverts);
   return cs_hash_end(hash);
 }
 
@@ -261,7 +264,7 @@ celspan_status celspan_object_transform(celspan_context *context, celspan_object
 celspan_status celspan_object_fade(celspan_context *context, celspan_object *object, double k,
                                    celspan_object **out) {
   CS_TRY(cs_check_given(context, "fade", "the object", object));
-  CS_TRY(cs_check_share(context, "fade", "k", k));
+  CS_TRY(cs_check_share(context, "fade", "k", k, &k));
   return create_object(context, object->data, object->matrix, object->fade * k,
                        cs_mark_keep(object->mark), out);
 }
@@ -273,6 +276,12 @@ bool celspan_object_hash(const celspan_object *object, uint64_t drawing[2], uint
   cs_value_hash_give(object->data->hash, drawing);
   cs_value_hash_give(cs_hash_end(rest), placement);
   return !object->data->has_procedure;
+}
+
+celspan_status cs_primitive_data_replace(celspan_context *context, const celspan_object *object,
+                                         cs_primitive_data *data, celspan_object **out) {
+  return create_object(context, data, object->matrix, object->fade, cs_mark_keep(object->mark),
+                       out);
 }
 
 celspan_status celspan_object_named(celspan_context *context, celspan_object *object,
@@ -330,6 +339,8 @@ celspan_status cs_primitive_data_measure(celspan_context *context, const char *n
     data->depth = item->depth > data->depth ? item->depth : data->depth;
     data->primitive_count += item->primitive_count; /* both at most the limit: no overflow */
     data->has_procedure |= item->has_procedure;
+    data->blends |= cs_object_blends(objects[i]);
+    data->has_modes |= cs_object_has_modes(objects[i]);
     if (data->primitive_count > CS_SCENE_PRIMITIVES)
       return cs_fail(context, CELSPAN_LIMIT, "%s: it holds more than %d primitives", noun,
                      CS_SCENE_PRIMITIVES);

@@ -27,6 +27,13 @@ CELSPAN_CHECKED celspan_status cs_primitive_data_wrap(celspan_context *context,
                                                       cs_primitive_data *data,
                                                       celspan_status status, celspan_object **out);
 
+/* *out: the object with other data, in the same place, and with the same fade and mark. Errors:
+ * NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_primitive_data_replace(celspan_context *context,
+                                                         const celspan_object *object,
+                                                         cs_primitive_data *data,
+                                                         celspan_object **out);
+
 /* A primitive with an outline of its own making, whose arrays are taken over (and freed on
  * failure). Every coordinate of it passes cs_number_is_sane. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_primitive_data_of_outline(celspan_context *context,

@@ -1,21 +1,20 @@
 /* The oracle: the colour of one point of a frame, by direct evaluation of the scene. There is no
  * sweep and there are no spans; arithmetic is in doubles except where the scene stores floats.
  *
- *   rear light                 L = its light
- *       |    back light B      L = L + B
+ *   camera     light 0, through 1
+ *       |
+ *   [ cel 1 ] <-- front F      light += through S F, through *= T     S, T: the paint of the cel at
+ *       |    back light B      light += through B                           the point
  *       v
- *   [ cel 0 ] <-- front F      L = S F + T L         S, T: the paint of the cel at the point
- *       |    back light B      L = L + B
+ *   [ cel 0 ] <-- front F
+ *       |    back light B
  *       v
- *   [ cel 1 ] <-- front F      L = S F + T L
- *       :
- *       v
- *     camera                   the sum of L over the exposures, by their weights
+ *   rear light                 light += through B
  *
  * The paint of a cel is that of its objects over each other; a boolean object is present where its
  * operands say so (inside.h). Where an object is a rostrum, its own film is evaluated in the same
- * way, and L and the matte that arrive at its camera are its paint. A light with a shape is its
- * texture at the point.
+ * way, and what arrives at its camera is its paint. A light with a shape is its texture at the
+ * point. Where a cel or an object has a mode, all that is behind it is seen by itself first.
  */
 #include <math.h>
 
@@ -32,17 +31,17 @@ typedef struct probe_call {
   celspan_point point;
 } probe_call;
 
-/* The light that travels to the camera, and the matte of each channel. */
-typedef struct light_ray {
-  double light[3], matte[3];
-} light_ray;
+/* What a light is at the point. */
+typedef struct light_sample {
+  double rgb[3], matte;
+} light_sample;
+
+static const light_sample white = {{1, 1, 1}, 1};
 
 /* ---------------------------------------------------------------- objects */
 
 static celspan_status present(const probe_call *probe, const celspan_object *object,
                               const celspan_matrix *parent, bool *out);
-static celspan_status paint(const probe_call *probe, const celspan_object *object,
-                            const celspan_matrix *parent, cs_oracle_paint *out);
 
 /* A procedure is present where it has spans. Finding that out also makes its paint, which is not
  * used here. */
@@ -77,82 +76,160 @@ static celspan_status present(const probe_call *probe, const celspan_object *obj
   return CELSPAN_OK;
 }
 
-/* What a rostrum shows at a point of its own film: defined below. */
-static celspan_status shown(const probe_call *probe, const celspan_rostrum *rostrum,
-                            light_ray *out);
+/* ---------------------------------------------------------------- places */
 
-/* The paint of a composition inside another one: the light that it sends, and its matte. */
-static celspan_status paint_rostrum(const probe_call *probe, const celspan_rostrum *rostrum,
-                                    celspan_point own, cs_oracle_paint *out) {
-  const probe_call inner = {probe->context, rostrum->width, rostrum->height, own};
-  light_ray ray;
-  CS_TRY(shown(&inner, rostrum, &ray));
-  out->beta = 1;
+/* A place in what isolates, on the way from the camera to the rear: in a list of objects, or in a
+ * rostrum. What is behind the place continues in the list around it, unless this one isolates.
+ *
+ *     rostrum, rear first   0          1             2       3             4
+ *                           its back   back light    cel 1   back light    cel 2
+ *                           light      of cel 1              of cel 2
+ */
+typedef struct place place;
+struct place {
+  const place *around; /* NULL: nothing that is around can be seen from here */
+  const probe_call *probe;
+  const celspan_rostrum *rostrum;   /* NULL: of a list of objects */
+  celspan_object *const *objects;   /* of a list */
+  size_t left;                      /* objects, or places of a rostrum, not yet met */
+  celspan_matrix matrix;            /* of a list: to film units */
+  light_sample front;               /* of a list: what it is lit by */
+};
+
+/* Adds what is seen from a place on. */
+static celspan_status see(place at, cs_oracle_sight *seen);
+
+static bool is_hidden(const cs_oracle_sight *seen) {
+  return seen->through[0] == 0 && seen->through[1] == 0 && seen->through[2] == 0;
+}
+
+/* Adds a part of the picture, and, where a mode needs it, all that is behind the place. */
+static celspan_status add_part(place *at, celspan_blend mode, const cs_oracle_sight *part,
+                               cs_oracle_sight *seen) {
+  if (mode == CELSPAN_BLEND_NORMAL) {
+    *seen = cs_oracle_before(seen, part);
+    return CELSPAN_OK;
+  }
+  cs_oracle_sight back = cs_oracle_nothing;
+  CS_TRY(see(*at, &back));
+  back = cs_oracle_blend(mode, part, &back);
+  *seen = cs_oracle_before(seen, &back);
+  at->around = NULL;
+  at->left = 0;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- objects seen by themselves */
+
+static celspan_status see_list(const probe_call *probe, celspan_object *const *objects,
+                               size_t count, const celspan_matrix *matrix,
+                               const light_sample *front, cs_oracle_sight *out) {
+  *out = cs_oracle_nothing;
+  return see((place){.probe = probe,
+                     .objects = objects,
+                     .left = count,
+                     .matrix = *matrix,
+                     .front = *front},
+             out);
+}
+
+static celspan_status see_rostrum(const probe_call *probe, const celspan_rostrum *rostrum,
+                                  cs_oracle_sight *out) {
+  *out = cs_oracle_nothing;
+  return see(
+      (place){.probe = probe, .rostrum = rostrum, .left = 2 * rostrum->cel_count + 1}, out);
+}
+
+/* Its strength is that of the second operand, which is not drawn. */
+static celspan_status see_matte(const probe_call *probe, const cs_boolean *boolean,
+                                const celspan_matrix *matrix, const light_sample *front,
+                                cs_oracle_sight *out) {
+  cs_oracle_sight by;
+  CS_TRY(see_list(probe, boolean->operands, 1, matrix, front, out));
+  CS_TRY(see_list(probe, boolean->operands + 1, 1, matrix, &white, &by));
+  double luma = 0.2126 * by.light[0] + 0.7152 * by.light[1] + 0.0722 * by.light[2];
+  double m = cs_number_clamp(boolean->is_luma ? luma : cs_oracle_alpha(&by), 0, 1);
+  *out = cs_oracle_fade(out, boolean->inverts ? 1 - m : m);
+  return CELSPAN_OK;
+}
+
+/* How many operands of a boolean are painted; the others only decide where it is present. */
+static size_t count_shown(const cs_boolean *boolean) {
+  size_t shown = 0;
+  while (shown < boolean->operand_count && cs_inside_shows(boolean->op, shown))
+    shown++;
+  return shown;
+}
+
+static void light_paint(const cs_oracle_paint *paint, const light_sample *front,
+                        cs_oracle_sight *out) {
   for (int c = 0; c < 3; c++) {
-    out->s[c] = ray.light[c];
-    out->t[c] = 1 - ray.matte[c];
-    out->beta = fmin(out->beta, ray.matte[c]);
+    out->light[c] = paint->s[c] * front->rgb[c];
+    out->through[c] = paint->t[c];
+  }
+}
+
+/* A composition inside another one: the light that it sends, and its matte. */
+static celspan_status see_nested(const probe_call *probe, const celspan_rostrum *rostrum,
+                                 celspan_point own, const light_sample *front,
+                                 cs_oracle_sight *out) {
+  const probe_call inner = {probe->context, rostrum->width, rostrum->height, own};
+  cs_oracle_sight seen;
+  CS_TRY(see_rostrum(&inner, rostrum, &seen));
+  for (int c = 0; c < 3; c++) {
+    out->light[c] = seen.light[c] * front->rgb[c];
+    out->through[c] = seen.through[c] * seen.keep;
   }
   return CELSPAN_OK;
 }
 
-/* The objects of a list over each other; later ones are nearer. Hidden ones are not evaluated. */
-static celspan_status paint_list(const probe_call *probe, celspan_object *const *objects,
-                                 size_t count, const celspan_matrix *matrix, cs_oracle_paint *out) {
-  *out = cs_oracle_clear;
-  for (size_t i = count; i-- > 0 && !cs_oracle_hides(out);) {
-    bool is_present;
-    cs_oracle_paint shade;
-    CS_TRY(present(probe, objects[i], matrix, &is_present));
-    if (!is_present)
-      continue;
-    CS_TRY(paint(probe, objects[i], matrix, &shade));
-    *out = cs_oracle_over(out, &shade);
-  }
-  return CELSPAN_OK;
-}
-
-/* The paint of an object that is present at the point. */
-static celspan_status paint(const probe_call *probe, const celspan_object *object,
-                            const celspan_matrix *parent, cs_oracle_paint *out) {
-  const cs_primitive_data *data = object->data;
-  const celspan_matrix whole = celspan_matrix_then(*object->matrix, *parent);
+/* An object that is present at the point, without its fade. whole: its matrix to film units. */
+static celspan_status see_data(const probe_call *probe, const cs_primitive_data *data,
+                               const celspan_matrix *whole, const light_sample *front,
+                               cs_oracle_sight *out) {
   celspan_point own;
   bool is_there;
-  *out = cs_oracle_clear;
-  if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN) {
-    size_t shown = 0;
-    while (shown < data->boolean->operand_count && cs_inside_shows(data->boolean->op, shown))
-      shown++;
-    CS_TRY(paint_list(probe, data->boolean->operands, shown, &whole, out));
-  } else if (!cs_inside_own_point(&whole, probe->point, &own)) {
+  cs_oracle_paint paint = cs_oracle_clear;
+  if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->op == CS_OPERATOR_MATTE)
+    return see_matte(probe, data->boolean, whole, front, out);
+  if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN)
+    return see_list(probe, data->boolean->operands, count_shown(data->boolean), whole, front, out);
+  if (!cs_inside_own_point(whole, probe->point, &own))
     return CELSPAN_OK;
-  } else if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM) {
-    CS_TRY(paint_rostrum(probe, data->rostrum, own, out));
-  } else {
-    CS_TRY(cs_oracle_primitive(probe->context, data, own, &is_there, out));
-  }
-  *out = cs_oracle_mix(&cs_oracle_clear, out, object->fade);
+  if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM)
+    return see_nested(probe, data->rostrum, own, front, out);
+  CS_TRY(cs_oracle_primitive(probe->context, data, own, &is_there, &paint));
+  light_paint(&paint, front, out);
   return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- objects in their place */
+
+/* An object that is present: what it shows, or, if modes inside it act on what is behind it, what
+ * is seen from its operands on. */
+static celspan_status see_object(place *at, const celspan_object *object, cs_oracle_sight *seen) {
+  const cs_primitive_data *data = object->data;
+  const celspan_matrix whole = celspan_matrix_then(*object->matrix, at->matrix);
+  const celspan_blend mode = celspan_object_mode(object);
+  cs_oracle_sight part = cs_oracle_nothing;
+  if (mode == CELSPAN_BLEND_NORMAL && cs_object_blends(object)) {
+    const place around = *at;
+    at->left = 0;
+    at->around = NULL;
+    return see((place){.around = &around,
+                       .probe = at->probe,
+                       .objects = data->boolean->operands,
+                       .left = count_shown(data->boolean),
+                       .matrix = whole,
+                       .front = at->front},
+               seen);
+  }
+  CS_TRY(see_data(at->probe, data, &whole, &at->front, &part));
+  part = cs_oracle_fade(&part, object->fade);
+  return add_part(at, mode, &part, seen);
 }
 
 /* ---------------------------------------------------------------- the stack */
-
-static celspan_status paint_cel(const probe_call *probe, const celspan_rostrum *rostrum,
-                                size_t index, cs_oracle_paint *out) {
-  const celspan_cel *cel = rostrum->cels[index];
-  celspan_matrix matrix;
-  CS_TRY(cs_scene_cel_matrix(probe->context, rostrum, index, probe->film_width, probe->film_height,
-                             &matrix));
-  CS_TRY(paint_list(probe, cel->objects, cel->object_count, &matrix, out));
-  *out = cs_oracle_mix(&cs_oracle_clear, out, cel->opacity);
-  return CELSPAN_OK;
-}
-
-/* What a light is at the point. */
-typedef struct light_sample {
-  double rgb[3], matte;
-} light_sample;
 
 /* A light that is a texture. matrix: its units to film units. Outside a picture it is dark. */
 static celspan_status sample_texture(const probe_call *probe, const cs_light *light,
@@ -189,77 +266,72 @@ static celspan_status sample_light(const probe_call *probe, const celspan_rostru
   return sample_texture(probe, light, &matrix, out);
 }
 
-static celspan_status add_back(const probe_call *probe, const celspan_rostrum *rostrum,
-                               size_t index, const cs_light *light, light_ray *ray) {
+/* index: of the cel that the light belongs to. */
+static celspan_status see_back(const probe_call *probe, const celspan_rostrum *rostrum,
+                               size_t index, const cs_light *light, cs_oracle_sight *seen) {
   const cs_light back = cs_scene_back(rostrum, light);
   light_sample sample;
   CS_TRY(sample_light(probe, rostrum, index, &back, &sample));
-  for (int c = 0; c < 3; c++) {
-    ray->light[c] += sample.rgb[c];
-    ray->matte[c] += sample.matte - ray->matte[c] * sample.matte;
-  }
+  for (int c = 0; c < 3; c++)
+    seen->light[c] += seen->through[c] * sample.rgb[c];
+  seen->keep *= 1 - sample.matte;
   return CELSPAN_OK;
 }
 
-static celspan_status pass_cel(const probe_call *probe, const celspan_rostrum *rostrum,
-                               size_t index, const cs_oracle_paint *shade, light_ray *ray) {
-  const cs_light front = cs_scene_front(rostrum, rostrum->cels[index]);
-  light_sample sample;
-  CS_TRY(sample_light(probe, rostrum, index, &front, &sample));
-  for (int c = 0; c < 3; c++) {
-    ray->light[c] = shade->s[c] * sample.rgb[c] + shade->t[c] * ray->light[c];
-    ray->matte[c] = 1 - shade->t[c] * (1 - ray->matte[c]);
+static celspan_status see_cel(place *at, size_t index, cs_oracle_sight *seen) {
+  const probe_call *probe = at->probe;
+  const celspan_cel *cel = at->rostrum->cels[index];
+  const cs_light front = cs_scene_front(at->rostrum, cel);
+  const place around = *at;
+  place objects = {.probe = probe, .objects = cel->objects, .left = cel->object_count};
+  cs_oracle_sight part = cs_oracle_nothing;
+  CS_TRY(cs_scene_cel_matrix(probe->context, at->rostrum, index, probe->film_width,
+                             probe->film_height, &objects.matrix));
+  CS_TRY(sample_light(probe, at->rostrum, index, &front, &objects.front));
+  if (cs_cel_blends(cel) && cel->blend == CELSPAN_BLEND_NORMAL) {
+    objects.around = &around;
+    at->left = 0;
+    return see(objects, seen);
   }
-  return CELSPAN_OK;
+  CS_TRY(see(objects, &part));
+  part = cs_oracle_fade(&part, cel->opacity);
+  return add_part(at, cel->blend, &part, seen);
 }
 
-/* shades: gets the paints of the cels. *rear: the rearmost cel that is not hidden. */
-static celspan_status paint_cels(const probe_call *probe, const celspan_rostrum *rostrum,
-                                 cs_oracle_paint *shades, size_t *rear) {
-  cs_oracle_paint all = cs_oracle_clear;
-  size_t index = rostrum->cel_count;
-  while (index > 0 && !cs_oracle_hides(&all)) {
-    index--;
-    CS_TRY(paint_cel(probe, rostrum, index, &shades[index]));
-    all = cs_oracle_over(&all, &shades[index]);
+/* The next thing behind the place. */
+static celspan_status see_next(place *at, cs_oracle_sight *seen) {
+  size_t next = --at->left;
+  bool is_present;
+  if (!at->rostrum) {
+    CS_TRY(present(at->probe, at->objects[next], &at->matrix, &is_present));
+    return is_present ? see_object(at, at->objects[next], seen) : CELSPAN_OK;
   }
-  *rear = index;
-  return CELSPAN_OK;
+  if (next == 0)
+    return see_back(at->probe, at->rostrum, 0, &at->rostrum->back, seen);
+  size_t index = (next - 1) / 2;
+  const cs_light *back = &at->rostrum->cels[index]->back;
+  return next % 2 == 1 ? see_back(at->probe, at->rostrum, index, back, seen)
+                       : see_cel(at, index, seen);
 }
 
-static celspan_status light_cels(const probe_call *probe, const celspan_rostrum *rostrum,
-                                 const cs_oracle_paint *shades, size_t rear, light_ray *out) {
-  *out = (light_ray){{0, 0, 0}, {0, 0, 0}};
-  CS_TRY(add_back(probe, rostrum, 0, &rostrum->back, out));
-  for (size_t i = rear; i < rostrum->cel_count; i++) {
-    CS_TRY(add_back(probe, rostrum, i, &rostrum->cels[i]->back, out));
-    CS_TRY(pass_cel(probe, rostrum, i, &shades[i], out));
+/* What is hidden is not looked at. */
+static celspan_status see(place at, cs_oracle_sight *seen) {
+  while ((at.left > 0 || at.around) && !is_hidden(seen)) {
+    if (at.left > 0)
+      CS_TRY(see_next(&at, seen));
+    else
+      at = *at.around;
   }
   return CELSPAN_OK;
-}
-
-static celspan_status shown(const probe_call *probe, const celspan_rostrum *rostrum,
-                            light_ray *out) {
-  cs_memory *memory = probe->context->memory;
-  cs_oracle_paint *shades = cs_mem_array(memory, rostrum->cel_count, sizeof *shades);
-  if (!shades && rostrum->cel_count > 0)
-    return cs_fail_memory(probe->context);
-  size_t rear = 0;
-  celspan_status status = paint_cels(probe, rostrum, shades, &rear);
-  if (status == CELSPAN_OK)
-    status = light_cels(probe, rostrum, shades, rear, out);
-  cs_mem_free(memory, shades, rostrum->cel_count * sizeof *shades);
-  return status;
 }
 
 static celspan_status add_exposure(const probe_call *probe, const celspan_exposure *exposure,
                                    double rgba[4]) {
-  light_ray ray;
-  CS_TRY(shown(probe, exposure->rostrum, &ray));
-  for (int c = 0; c < 3; c++) {
-    rgba[c] += exposure->weight * ray.light[c];
-    rgba[3] += exposure->weight * ray.matte[c] / 3;
-  }
+  cs_oracle_sight seen;
+  CS_TRY(see_rostrum(probe, exposure->rostrum, &seen));
+  for (int c = 0; c < 3; c++)
+    rgba[c] += exposure->weight * seen.light[c];
+  rgba[3] += exposure->weight * cs_oracle_alpha(&seen);
   return CELSPAN_OK;
 }
 

@@ -73,9 +73,17 @@ typedef enum cs_primitive_data_kind {
   CS_PRIMITIVE_DATA_ROSTRUM
 } cs_primitive_data_kind;
 
-/* What only booleans have. */
+/* A matte among the operators: two operands, of which the second is never painted. Its strength at
+ * a point is what the first is faded by. */
+#define CS_OPERATOR_MATTE ((celspan_operator)(CELSPAN_CLIP + 1))
+
+/* What only booleans have. A group is a union, and so is an object with a mode of its own. */
 typedef struct cs_boolean {
   celspan_operator op;
+  celspan_blend blend;
+  bool isolates; /* modes inside do not act on what is behind it */
+  bool is_luma;  /* MATTE: the strength is luma, not alpha */
+  bool inverts;  /* MATTE: 1 less the strength */
   cs_operands view;          /* keeps the operands */
   celspan_object **operands; /* those of the view */
   size_t operand_count;
@@ -95,6 +103,8 @@ typedef struct cs_primitive_data {
   celspan_rule rule;
   bool is_empty;            /* nothing to draw: no contour, or an operator without operands */
   bool has_procedure;       /* below or with this one */
+  bool blends;              /* a mode below this one acts on what is behind it */
+  bool has_modes;           /* any mode is below or with this one, except in a rostrum */
   bool is_box;              /* the outline is that of `box`, which has an area */
   int depth;                /* levels of booleans and rostrums below and with this one */
   uint32_t primitive_count; /* below and with this one, each time it occurs */
@@ -129,6 +139,15 @@ struct celspan_object {
   celspan_matrix own[];         /* one; none where the matrix is shared */
 };
 
+/* Whether what the object looks like depends on what is behind it. */
+static inline bool cs_object_blends(const celspan_object *object) {
+  const cs_primitive_data *data = object->data;
+  if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN)
+    return false;
+  return data->boolean->blend != CELSPAN_BLEND_NORMAL ||
+         (data->blends && object->fade == 1 && !data->boolean->isolates);
+}
+
 struct celspan_cel {
   atomic_size_t references;
   cs_memory *memory;
@@ -143,7 +162,25 @@ struct celspan_cel {
   double defocus_radius;
   celspan_defocus_kernel defocus_kernel;
   double opacity;
+  celspan_blend blend;
+  bool blends_inside; /* any of its objects acts on what is behind that object */
+  bool has_modes;     /* any mode is in it, except in a rostrum, or its own */
 };
+
+/* Whether the cel composites its objects by themselves, and puts them into the picture as one. */
+static inline bool cs_cel_isolates(const celspan_cel *cel) {
+  return cel->opacity < 1 || cel->defocus_radius > 0 || cel->blend != CELSPAN_BLEND_NORMAL;
+}
+
+/* Whether the object has a mode, or anything below it that is in no rostrum. */
+static inline bool cs_object_has_modes(const celspan_object *object) {
+  return object->data->has_modes || celspan_object_mode(object) != CELSPAN_BLEND_NORMAL;
+}
+
+/* Whether what the cel looks like depends on what is behind it. */
+static inline bool cs_cel_blends(const celspan_cel *cel) {
+  return cel->blend != CELSPAN_BLEND_NORMAL || (cel->blends_inside && !cs_cel_isolates(cel));
+}
 
 struct celspan_rostrum {
   atomic_size_t references;
@@ -162,6 +199,22 @@ struct celspan_rostrum {
   double camera_rotation;
   cs_antialias antialias;
 };
+
+/* Whether any cel of a rostrum acts on what is behind it. */
+static inline bool cs_rostrum_blends(const celspan_rostrum *rostrum) {
+  for (size_t i = 0; i < rostrum->cel_count; i++)
+    if (cs_cel_blends(rostrum->cels[i]))
+      return true;
+  return false;
+}
+
+/* Whether any mode is in a rostrum, except in one inside it. */
+static inline bool cs_rostrum_has_modes(const celspan_rostrum *rostrum) {
+  for (size_t i = 0; i < rostrum->cel_count; i++)
+    if (rostrum->cels[i]->has_modes)
+      return true;
+  return false;
+}
 
 /* The matrix from a cel's units (before its own transform) to film units on the frame: transform,
  * then viewport, then camera. Errors: BAD_ARGUMENT, naming the cel, when viewport or camera is

@@ -77,13 +77,10 @@ static celspan_status find_bounds(celspan_context *context, cs_primitive_data *d
       data->texture->variation->has_box)
     return CELSPAN_OK;
   const celspan_matrix identity = celspan_matrix_identity();
-  cs_outline outline;
-  cs_outline_init(&outline);
-  celspan_status status = cs_stroke_outline_fine(context, stroke, &outline);
-  if (status == CELSPAN_OK && !cs_outline_bounds(&outline, &identity, &data->bounds))
-    data->is_empty = true;
-  cs_outline_finish(&outline, context->memory);
-  return status;
+  bool is_seen;
+  CS_TRY(cs_stroke_bounds(context, stroke, &identity, &data->bounds, &is_seen));
+  data->is_empty = !is_seen;
+  return CELSPAN_OK;
 }
 
 static celspan_status fill(celspan_context *context, cs_primitive_data *data,

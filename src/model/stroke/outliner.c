@@ -1,12 +1,15 @@
 #include "model/stroke/outliner.h"
 
+#include <math.h>
+
 #include "model/geometry/matrix.h"
-#include "model/stroke/curve.h"
+#include "model/stroke/dashes.h"
 #include "model/stroke/follow.h"
 #include "model/stroke/side.h"
 
-#define DEPTH 32 /* halvings of a piece that is larger than the frame */
-#define FEW 16   /* parts that are looked at one by one */
+#define DEPTH 32  /* halvings of a piece that is larger than the frame */
+#define FEW 16    /* parts that are looked at one by one */
+#define MANY 4096 /* parts whose outlines are held at a time to find their bounds */
 
 /* A stretch of the line between two parameters of a piece. */
 typedef struct stretch {
@@ -20,11 +23,12 @@ typedef struct stretch {
 typedef struct outliner {
   const cs_stroke *stroke;
   const cs_stroke_view *view;
+  cs_parts parts;
   cs_side side;
   stretch *stretches; /* of one part */
   size_t count, capacity;
   double extent;
-  bool is_all_visible; /* all of the stroke is in the frame, on the rows that are asked for */
+  bool is_all_visible; /* all of the stroke is in the frame, where it is asked for */
   bool is_cut;         /* something was hidden since the last stretch */
 } outliner;
 
@@ -251,44 +255,70 @@ static celspan_status add_part(outliner *o, const cs_stroke_part *part) {
   return o->count > 0 ? add_part_runs(o, part) : CELSPAN_OK;
 }
 
-/* Whether two parts and all those between them are of one piece, no part of which can be seen from
- * the beginning of the one to the end of the other. */
-static bool are_hidden(const outliner *o, const cs_stroke_part *first, const cs_stroke_part *last) {
-  if (first->first != last->first || first->count != 1 || last->count != 1 ||
-      !(first->begin < last->end))
+/* The line from the beginning of part `begin` to the end of part `end` - 1. Returns false where it
+ * is not a stretch of one piece. */
+static bool find_line(cs_parts *parts, size_t begin, size_t end, cs_curve *line) {
+  const cs_stroke_part first = cs_parts_get(parts, begin), last = cs_parts_get(parts, end - 1);
+  if (first.first != last.first || first.count != 1 || last.count != 1 || !(first.begin < last.end))
     return false;
-  cs_curve curve;
-  cs_curve_load(o->stroke, first->first, first->begin, last->end, &curve);
-  celspan_box box = cs_curve_box(&curve, o->extent);
-  return cs_stroke_view_hides(o->view, &box);
+  cs_curve_load(parts->stroke, first.first, first.begin, last.end, line);
+  return true;
+}
+
+/* The box around parts that lie on a stretch of one piece: they have no joins. */
+static celspan_box box_around(const cs_stroke *stroke, const cs_curve *line) {
+  if (stroke->cap != CELSPAN_CAP_BUTT || line->radius_degree > 0 ||
+      !cs_curve_is_straight(&line->line))
+    return cs_curve_box(line, cs_stroke_extent_of_caps(stroke));
+  celspan_box box = cs_curve_box(line, 0); /* they end where the line does */
+  celspan_point along = cs_curve_departure(&line->line);
+  double beside = fabs(along.y) * line->radius[0], above = fabs(along.x) * line->radius[0];
+  return (celspan_box){box.x - beside, box.y - above, box.width + 2 * beside,
+                       box.height + 2 * above};
+}
+
+static bool is_line_hidden(const cs_stroke_view *view, const cs_stroke *stroke,
+                           const cs_curve *line) {
+  celspan_box box = box_around(stroke, line);
+  return cs_stroke_view_hides(view, &box);
+}
+
+static bool are_hidden(outliner *o, size_t begin, size_t end) {
+  cs_curve line;
+  return find_line(&o->parts, begin, end, &line) && is_line_hidden(o->view, o->stroke, &line);
 }
 
 /* Parts [begin, end). Of very many dashes, few may be in the frame: these are found by halving. */
 static celspan_status add_parts(outliner *o, size_t begin, size_t end) {
-  const cs_stroke_part *parts = o->stroke->parts;
   if (end - begin > FEW) {
     size_t middle = begin + (end - begin) / 2;
-    if (!o->is_all_visible && are_hidden(o, &parts[begin], &parts[end - 1]))
+    if (!o->is_all_visible && are_hidden(o, begin, end))
       return CELSPAN_OK;
     CS_TRY(add_parts(o, begin, middle));
     return add_parts(o, middle, end);
   }
-  for (size_t i = begin; i < end; i++)
-    CS_TRY(add_part(o, &parts[i]));
+  for (size_t i = begin; i < end; i++) {
+    cs_stroke_part part = cs_parts_get(&o->parts, i);
+    if (o->is_all_visible || !are_hidden(o, i, i + 1))
+      CS_TRY(add_part(o, &part));
+  }
   return CELSPAN_OK;
 }
 
-/* ---------------------------------------------------------------- public */
+/* ---------------------------------------------------------------- outlines */
 
-celspan_status cs_stroke_outline(celspan_context *context, const cs_stroke *stroke,
-                                 const cs_stroke_view *view, cs_outline *outline) {
+/* Appends the outline of parts [begin, end). */
+static celspan_status outline_parts(celspan_context *context, const cs_stroke *stroke,
+                                    const cs_stroke_view *view, size_t begin, size_t end,
+                                    cs_outline *outline) {
   outliner o = {.stroke = stroke, .view = view, .extent = cs_stroke_extent(stroke)};
   o.is_all_visible = cs_stroke_view_holds(view, &stroke->around);
   if (cs_stroke_view_hides(view, &stroke->around))
     return CELSPAN_OK;
+  cs_parts_init(&o.parts, stroke);
   cs_side_init(&o.side, context, view, outline);
   o.side.may_hide = !o.is_all_visible;
-  celspan_status status = add_parts(&o, 0, stroke->part_count);
+  celspan_status status = add_parts(&o, begin, end);
   if (status == CELSPAN_OK)
     status = cs_side_add_folds(&o.side);
   cs_mem_free(context->memory, o.stretches, o.capacity * sizeof *o.stretches);
@@ -296,13 +326,92 @@ celspan_status cs_stroke_outline(celspan_context *context, const cs_stroke *stro
   return status;
 }
 
-celspan_status cs_stroke_outline_fine(celspan_context *context, const cs_stroke *stroke,
-                                      cs_outline *outline) {
-  const celspan_box *box = &stroke->around;
-  const cs_stroke_view view = {.matrix = celspan_matrix_identity(),
-                               .frame = {box->x, box->x + box->width, box->y, box->y + box->height},
-                               .tolerance = 0x1p-27 * fmax(box->width, box->height),
-                               .top = box->y,
-                               .bottom = box->y + box->height};
-  return cs_stroke_outline(context, stroke, &view, outline);
+celspan_status cs_stroke_outline(celspan_context *context, const cs_stroke *stroke,
+                                 const cs_stroke_view *view, cs_outline *outline) {
+  return outline_parts(context, stroke, view, 0, stroke->part_count, outline);
+}
+
+/* ---------------------------------------------------------------- bounds */
+
+/* A view in which an outline is right within 2^-27 of the stroke's size, wherever it is seen. */
+static cs_stroke_view fine_view(const celspan_box *box) {
+  return (cs_stroke_view){.matrix = celspan_matrix_identity(),
+                          .frame = {box->x, box->x + box->width, box->y, box->y + box->height},
+                          .tolerance = 0x1p-27 * fmax(box->width, box->height),
+                          .top = box->y,
+                          .bottom = box->y + box->height,
+                          .left = box->x,
+                          .right = box->x + box->width};
+}
+
+celspan_status cs_stroke_bounds(celspan_context *context, const cs_stroke *stroke,
+                                const celspan_matrix *matrix, celspan_box *out, bool *is_seen) {
+  const cs_stroke_view view = fine_view(&stroke->around);
+  celspan_status status = CELSPAN_OK;
+  *is_seen = false;
+  for (size_t begin = 0, end; status == CELSPAN_OK && begin < stroke->part_count; begin = end) {
+    celspan_box box;
+    cs_outline outline;
+    cs_outline_init(&outline);
+    end = stroke->part_count - begin > MANY ? begin + MANY : stroke->part_count;
+    status = outline_parts(context, stroke, &view, begin, end, &outline);
+    if (status == CELSPAN_OK && cs_outline_bounds(&outline, matrix, &box)) {
+      *out = *is_seen ? cs_outline_box_around(*out, box) : box;
+      *is_seen = true;
+    }
+    cs_outline_finish(&outline, context->memory);
+  }
+  return status;
+}
+
+/* ---------------------------------------------------------------- counting */
+
+typedef struct counter {
+  cs_parts parts;
+  const cs_stroke_view *view;
+  size_t count, most;
+} counter;
+
+/* Whether nothing can be seen of a part that goes over joints. */
+static bool is_bent_hidden(counter *c, size_t part_index) {
+  const cs_stroke *stroke = c->parts.stroke;
+  const cs_stroke_part part = cs_parts_get(&c->parts, part_index);
+  for (size_t i = 0; i < part.count; i++) {
+    cs_curve curve;
+    cs_curve_load(stroke, cs_stroke_piece(stroke, &part, i), i == 0 ? part.begin : 0,
+                  i + 1 == part.count ? part.end : 1, &curve);
+    celspan_box box = cs_curve_box(&curve, cs_stroke_extent(stroke));
+    if (!cs_stroke_view_hides(c->view, &box))
+      return false;
+  }
+  return true;
+}
+
+static void count_parts(counter *c, size_t begin, size_t end) {
+  cs_curve line;
+  if (c->count > c->most)
+    return;
+  bool is_one = find_line(&c->parts, begin, end, &line);
+  if (is_one && is_line_hidden(c->view, c->parts.stroke, &line))
+    return;
+  celspan_box box = is_one ? cs_curve_box(&line, 0) : (celspan_box){0};
+  if (end - begin == 1 || (is_one && cs_stroke_view_holds(c->view, &box))) {
+    c->count += is_one || !is_bent_hidden(c, begin) ? end - begin : 0;
+    return;
+  }
+  size_t middle = begin + (end - begin) / 2;
+  count_parts(c, begin, middle);
+  count_parts(c, middle, end);
+}
+
+size_t cs_stroke_count_visible(const cs_stroke *stroke, const cs_stroke_view *view, size_t most) {
+  counter c = {.view = view, .most = most};
+  if (stroke->dashes.place_count == 0 || stroke->part_count == 0 ||
+      cs_stroke_view_hides(view, &stroke->around))
+    return 0;
+  if (cs_stroke_view_holds(view, &stroke->around))
+    return stroke->part_count;
+  cs_parts_init(&c.parts, stroke);
+  count_parts(&c, 0, stroke->part_count);
+  return c.count;
 }

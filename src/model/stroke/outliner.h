@@ -23,7 +23,10 @@
 /* Appends the outline, in the stroke's own units. Errors: NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_stroke_outline(celspan_context *context, const cs_stroke *stroke,
                                                  const cs_stroke_view *view, cs_outline *outline);
-/* An outline that is right within 2^-27 of the stroke's size, wherever it is seen. Errors: as
- * above. */
-CELSPAN_CHECKED celspan_status cs_stroke_outline_fine(celspan_context *context,
-                                                      const cs_stroke *stroke, cs_outline *outline);
+/* The box around the stroke under a matrix; only where *is_seen, for some of it is. Errors:
+ * NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_stroke_bounds(celspan_context *context, const cs_stroke *stroke,
+                                                const celspan_matrix *matrix, celspan_box *out,
+                                                bool *is_seen);
+/* How many dashes of a stroke a view shows, or a few more. It does not count on beyond `most`. */
+size_t cs_stroke_count_visible(const cs_stroke *stroke, const cs_stroke_view *view, size_t most);

@@ -15,12 +15,17 @@ size_t cs_stroke_piece(const cs_stroke *stroke, const cs_stroke_part *part, size
   return piece < end ? piece : begin + (piece - end);
 }
 
+double cs_stroke_extent_of_caps(const cs_stroke *stroke) {
+  return stroke->cap == CELSPAN_CAP_SQUARE ? sqrt(2) : 1;
+}
+
 double cs_stroke_extent(const cs_stroke *stroke) {
-  double extent = stroke->cap == CELSPAN_CAP_SQUARE ? sqrt(2) : 1;
+  double extent = cs_stroke_extent_of_caps(stroke);
   return stroke->join == CELSPAN_JOIN_MITER ? fmax(extent, stroke->miter) : extent;
 }
 
 void cs_stroke_finish(cs_stroke *stroke, cs_memory *memory) {
+  size_t pieces = stroke->line.piece_count;
   cs_outline_finish(&stroke->line, memory);
   cs_mem_free(memory, stroke->radii, stroke->radius_capacity * sizeof *stroke->radii);
   cs_mem_free(memory, stroke->radius_starts,
@@ -28,6 +33,33 @@ void cs_stroke_finish(cs_stroke *stroke, cs_memory *memory) {
   cs_mem_free(memory, stroke->radius_degrees,
               stroke->radius_degree_capacity * sizeof *stroke->radius_degrees);
   cs_mem_free(memory, stroke->parts, stroke->part_capacity * sizeof *stroke->parts);
+  const cs_dashes *dashes = &stroke->dashes;
+  cs_mem_free(memory, dashes->places, dashes->place_count * sizeof *dashes->places);
+  cs_mem_free(memory, dashes->ends, pieces * sizeof *dashes->ends);
+  cs_mem_free(memory, dashes->runs, dashes->run_capacity * sizeof *dashes->runs);
+}
+
+static void hash_part(cs_hash *hash, const cs_stroke_part *part) {
+  cs_hash_word(hash, part->first);
+  cs_hash_word(hash, part->count);
+  cs_hash_number(hash, part->begin);
+  cs_hash_number(hash, part->end);
+  cs_hash_word(hash, part->is_closed);
+}
+
+static void hash_dashes(cs_hash *hash, const cs_dashes *dashes) {
+  cs_hash_number(hash, dashes->pattern);
+  for (size_t i = 0; i < dashes->place_count; i++)
+    cs_hash_number(hash, dashes->places[i]);
+  for (size_t i = 0; i < dashes->run_count; i++) {
+    const cs_dashes_run *run = &dashes->runs[i];
+    cs_hash_word(hash, run->contour);
+    cs_hash_word(hash, run->is_closed);
+    cs_hash_word(hash, run->is_joined);
+    cs_hash_number(hash, run->start);
+    cs_hash_number(hash, run->from);
+    cs_hash_number(hash, run->to);
+  }
 }
 
 void cs_stroke_hash(cs_hash *hash, const cs_stroke *stroke) {
@@ -39,14 +71,11 @@ void cs_stroke_hash(cs_hash *hash, const cs_stroke *stroke) {
   for (size_t i = 0; i < stroke->radius_count; i++)
     cs_hash_number(hash, stroke->radii[i]);
   cs_hash_word(hash, stroke->part_count);
-  for (size_t i = 0; i < stroke->part_count; i++) {
-    const cs_stroke_part *part = &stroke->parts[i];
-    cs_hash_word(hash, part->first);
-    cs_hash_word(hash, part->count);
-    cs_hash_number(hash, part->begin);
-    cs_hash_number(hash, part->end);
-    cs_hash_word(hash, part->is_closed);
-  }
+  if (stroke->dashes.place_count > 0)
+    hash_dashes(hash, &stroke->dashes);
+  else
+    for (size_t i = 0; i < stroke->part_count; i++)
+      hash_part(hash, &stroke->parts[i]);
 }
 
 /* ---------------------------------------------------------------- view */
@@ -76,7 +105,8 @@ bool cs_stroke_view_hides(const cs_stroke_view *view, const celspan_box *box) {
   const cs_boundary_frame *frame = &view->frame;
   cs_boundary_frame around;
   if (cs_boundary_around_box(box, &view->matrix, &around))
-    return around.right < frame->left || around.left > frame->right ||
+    return around.right < fmax(frame->left, view->left) ||
+           around.left > fmin(frame->right, view->right) ||
            around.bottom < fmax(frame->top, view->top) ||
            around.top > fmin(frame->bottom, view->bottom);
   for (int corner = 0; corner < 4; corner++) {
@@ -91,8 +121,10 @@ bool cs_stroke_view_hides(const cs_stroke_view *view, const celspan_box *box) {
 bool cs_stroke_view_holds(const cs_stroke_view *view, const celspan_box *box) {
   const cs_boundary_frame *frame = &view->frame;
   cs_boundary_frame around;
-  return cs_boundary_around_box(box, &view->matrix, &around) && around.left >= frame->left &&
-         around.right <= frame->right && around.top >= fmax(frame->top, view->top) &&
+  return cs_boundary_around_box(box, &view->matrix, &around) &&
+         around.left >= fmax(frame->left, view->left) &&
+         around.right <= fmin(frame->right, view->right) &&
+         around.top >= fmax(frame->top, view->top) &&
          around.bottom <= fmin(frame->bottom, view->bottom);
 }
 

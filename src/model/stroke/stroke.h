@@ -14,7 +14,7 @@
  * radius_degrees[i] at the piece's own parameter; radii are 0 or more. Contours are left open
  * unless a part says that it is closed. Parts begin and end inside one contour, count at least one
  * piece, and go over the contour's end only where it is closed. A part that begins where it ends,
- * of one piece, is a dot.
+ * of one piece, is a dot. cs_parts_get reads the parts, whether they are stored or dashes.
  */
 #pragma once
 
@@ -33,14 +33,39 @@ typedef struct cs_stroke_part {
   bool is_closed;    /* its end is its beginning: it has no caps */
 } cs_stroke_part;
 
+/* The dashes of a contour (dashes.h). */
+typedef struct cs_dashes_run {
+  uint32_t contour;
+  bool is_whole;   /* it has no length to divide: one part, as it is */
+  bool is_dot;     /* is_whole: it is a point */
+  bool is_closed;  /* its only part has no caps */
+  bool is_joined;  /* its last dash continues in its first and is no part of its own */
+  double start;    /* the length of the line at which the pattern begins: where the contour does, or
+                      before */
+  double from, to; /* lengths of the line between which it is drawn */
+  size_t first;    /* its first dash, counted from `start` */
+  size_t begin;    /* the number of its first part */
+} cs_dashes_run;
+
+typedef struct cs_dashes {
+  double
+      *places; /* lengths from the beginning of the pattern: where dashes begin and end in turn */
+  size_t place_count;
+  double pattern, offset; /* its length, and where in it contours begin */
+  double *ends;           /* for each piece of the line: the length of the line up to its end */
+  cs_dashes_run *runs;    /* no two of one contour, in order */
+  size_t run_count, run_capacity;
+} cs_dashes;
+
 typedef struct cs_stroke {
   cs_outline line;
   double *radii;
   uint32_t *radius_starts;
   uint8_t *radius_degrees;
-  cs_stroke_part *parts;
+  cs_stroke_part *parts; /* without dashes */
+  cs_dashes dashes;      /* place_count 0: there are none */
   size_t radius_count, radius_capacity, radius_start_capacity, radius_degree_capacity;
-  size_t part_count, part_capacity;
+  size_t part_count, part_capacity; /* part_count: dashes too */
   celspan_stroke_cap cap;
   celspan_stroke_join join;
   double miter;       /* as SVG's miter limit */
@@ -61,6 +86,8 @@ void cs_stroke_hash(cs_hash *hash, const cs_stroke *stroke);
 
 /* How far beyond the line a stroke may extent, in radii: spokes, caps and joins. */
 double cs_stroke_extent(const cs_stroke *stroke);
+/* The same without joins. */
+double cs_stroke_extent_of_caps(const cs_stroke *stroke);
 /* The pieces of a contour: [*begin, *end). */
 void cs_stroke_contour(const cs_outline *line, size_t contour, size_t *begin, size_t *end);
 /* Piece `i` of a part, which may go over the end of its contour. */
@@ -74,8 +101,8 @@ size_t cs_stroke_piece(const cs_stroke *stroke, const cs_stroke_part *part, size
  *     |         |<------> *
  *     +---------+
  *
- * Of a frame some rows may be asked for: what lies wholly above or below them is left out, and what
- * does not is the same, to the bit, as without that.
+ * Of a frame some rows and columns may be asked for: what lies wholly beside them is left out, and
+ * what does not is the same, to the bit, as without that.
  */
 
 typedef struct cs_stroke_view {
@@ -83,15 +110,16 @@ typedef struct cs_stroke_view {
   cs_boundary_frame frame;
   double tolerance;   /* pixels */
   double top, bottom; /* of the rows that are asked for, pixels */
+  double left, right; /* of the columns */
 } cs_stroke_view;
 
 /* How far from their place, in pixels, the contents of a box may be drawn. */
 double cs_stroke_view_allowance(const cs_stroke_view *view, const celspan_box *box);
 /* The distance in pixels between two points that ought to be one. 0 behind the horizon. */
 double cs_stroke_view_error(const cs_stroke_view *view, celspan_point is, celspan_point ought);
-/* Whether nothing in the box can be seen on the rows that are asked for. */
+/* Whether nothing in the box can be seen where it is asked for. */
 bool cs_stroke_view_hides(const cs_stroke_view *view, const celspan_box *box);
-/* Whether everything in the box is in the frame, and on the rows that are asked for. */
+/* Whether everything in the box is in the frame, and where it is asked for. */
 bool cs_stroke_view_holds(const cs_stroke_view *view, const celspan_box *box);
 /* Whether the box is much larger than the frame, so that it is worth while to look at parts of
  * it. */

@@ -123,7 +123,10 @@ Sniffed sniff(Source &source) {
     }
   for (const auto &other : refused)
     if (head.starts(other.bytes, other.length))
-      throw Failure(CELSPAN_INPUT, std::string("is ") + other.name + ", which is not read");
+      throw Failure(CELSPAN_INPUT, std::string("is ") + other.name + ", which is not read" +
+                                       (other.bytes[0] == '<' ? " as a picture; celspan.svg reads "
+                                                                "SVG drawings"
+                                                              : ""));
   if (!is_targa(head))
     throw Failure(
         CELSPAN_INPUT,

@@ -207,7 +207,7 @@ static celspan_status start_worker(decoder *d, celspan_context *context,
   int ends[2];
   int error = cs_spawn_pipe(ends);
   if (error)
-    return cs_fail(context, CELSPAN_LIMIT, "the sound %s cannot be read: no pipe: %s", d->path,
+    return cs_fail(context, CELSPAN_NO_MEMORY, "the sound %s cannot be read: no pipe: %s", d->path,
                    strerror(error));
   d->pipe = ends[0];
   celspan_status status = cs_client_start(&start, ends[1], &d->socket, &d->number, &failure);

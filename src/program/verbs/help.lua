@@ -72,6 +72,7 @@ local function put_list(out)
     .. "celspan VERB ...\n"):format(program.version))
   for _, verb in ipairs(verbs) do put_row(out, verb.name, verb.operands, verb.summary) end
   put_row(out, "help", "VERB|lua [NAME]", "Describes a verb, or a name of the Lua interface.")
+  put_row(out, "", "TASK", "Shows how to make a thing, such as shadow, wipe or map, as a script.")
   out:write("\ncelspan --version prints the version, celspan --man the manual page.\n\n"
     .. "Exit codes\n")
   local half = (#exit_codes + 1) // 2 -- two columns, from the top to the bottom of each
@@ -79,6 +80,34 @@ local function put_list(out)
     local left, right = exit_codes[i], exit_codes[i + half]
     out:write(("  %-3s %-33s %-6s %s\n"):format(left[1], left[2], right[1], right[2]))
   end
+end
+
+-- ---------------------------------------------------------------- the cookbook
+
+local function put_recipes(out, list)
+  for _, recipe in ipairs(list) do
+    out:write(("  %-36s %s\n"):format(recipe.title, wrapped(table.concat(recipe.words, ", "), 39)))
+  end
+end
+
+--- The recipe for a task, or the list of those that it may mean.
+local function put_task(out, word)
+  local found, all = load(program.text "recipes.lua", "@celspan/recipes.lua")(program.text "cookbook.md").find(word)
+  if word == "cookbook" then found = all end
+  if #found == 1 then
+    out:write(found[1].title, "\n\n", found[1].text, "\n")
+    return
+  end
+  if #found == 0 then
+    local names = {}
+    for i, verb in ipairs(verbs) do names[i] = verb.name end
+    local nearest = require "celspan.core".nearest(word, names)
+    program.usage("'%s' is neither a verb nor a task%s", word, nearest
+      and (": did you mean '%s'?"):format(nearest)
+      or "; celspan help lists the verbs, and celspan help cookbook the tasks")
+  end
+  out:write "celspan help WORD shows one of these:\n\n"
+  put_recipes(out, found)
 end
 
 -- ---------------------------------------------------------------- the manual page
@@ -162,9 +191,11 @@ end
 if request.man then
   put_manual(io.stdout)
 elseif request[1] then
+  local found
   for _, verb in ipairs(verbs) do
-    if verb.name == request[1] then put_verb(io.stdout, verb) end
+    if verb.name == request[1] then found = verb end
   end
+  if found then put_verb(io.stdout, found) else put_task(io.stdout, request[1]) end
 else
   put_list(request.stderr and io.stderr or io.stdout)
 end

@@ -2,7 +2,7 @@
 --- a line. The content of the file decides which of them it is.
 local program, request = ...
 
-local DIFFERENT_MOST = 1 << 19 -- scenes that are told apart, in some 40 MB
+local DIFFERENT_MOST = 1 << 19 -- different scenes that are counted, in some 40 MB
 local NAMES_MOST = 1000
 
 local path = request[1]

@@ -17,9 +17,15 @@ local texts = { -- by the names of the files
 local folder = request[1]
 local name = folder:match "[^/]*$" -- it goes into Lua and Markdown as it is
 
-if #name > NAME_MOST or not name:find "^[%w_-][%w_.-]*$" then
-  program.usage("'%s' cannot be the name of a film: use at most %d letters, digits, '_', '-' and "
-    .. "'.', and do not begin with '.'", folder, NAME_MOST)
+--- Letters are those of every script, and spaces lie between others.
+local function is_name(text)
+  return #text <= NAME_MOST and utf8.len(text) and text:find "^[%w_\x80-\xff-][%w_. \x80-\xff-]*$"
+    and not text:find " $"
+end
+
+if not is_name(name) then
+  program.usage("'%s' cannot be the name of a film: use at most %d bytes of letters, digits, "
+    .. "spaces, '_', '-' and '.', and begin with none of ' ' and '.'", folder, NAME_MOST)
 elseif #folder > PATH_MOST then
   program.usage("'%.60s...' is too long a path: use at most %d bytes", folder, PATH_MOST)
 end
@@ -40,5 +46,6 @@ for path, text in pairs(texts) do
 end
 local film = program.film(folder .. "/film.lua")
 program.write(film:at(film.first), folder .. "/spec/frame1.png", table.unpack(film.size))
+local shown = folder:find "[^%w_./-]" and ("'%s'"):format(folder) or folder -- for a shell
 print(("%s: a film of two seconds, its sheet and its spec\n  cd %s\n  celspan test\n"
-  .. "  celspan render film.lua -o out/film.mp4"):format(folder, folder))
+  .. "  celspan render film.lua -o out/film.mp4"):format(folder, shown))

@@ -7,34 +7,48 @@
 -- background stays clear. It is made at the size of the output, and tinted twice: its colours under
 -- a light of the tint, and half over them its outline filled with the tint, so that black lines
 -- show too.
-local film, before, after, width, height, same = ...
+--
+-- Neighbours are seen by the camera of the frame, so that its movement shows nothing. With the name
+-- of a cel, all others are left out of every frame.
+local film, before, after, width, height, same, name = ...
 local celspan = require "celspan"
 
 local RED, GREEN = { 1, 0.18, 0.12 }, { 0.1, 0.75, 0.2 }
 
 local rostrum_metatable = getmetatable(celspan.rostrum {})
 
+--- A rostrum with other cels, under a camera, without light from behind.
+local function remade(rostrum, cels, camera)
+  cels.front, cels.brightness, cels.size = rostrum.front, rostrum.brightness, rostrum.size
+  cels.antialias, cels.camera = rostrum.antialias, camera
+  return celspan.rostrum(cels)
+end
+
+--- The rostrum with the cels of that name alone, if there is one.
+local function chosen(rostrum)
+  if not name then return rostrum end
+  local cels = {}
+  for i = 1, #rostrum do
+    if rostrum[i].name == name then cels[#cels + 1] = rostrum[i] end
+  end
+  return remade(rostrum, cels, rostrum.camera)
+end
+
 --- The exposures of a frame, each {rostrum, weight}.
 local function exposures_of(number)
   local made = film:at(number)
-  if getmetatable(made) == rostrum_metatable then return { { made, 1 } } end
+  if getmetatable(made) == rostrum_metatable then return { { chosen(made), 1 } } end
   local list = {}
   for i, exposure in ipairs(made) do
     local is_bare = getmetatable(exposure) == rostrum_metatable
-    list[i] = is_bare and { exposure, 1 } or { exposure[1], exposure[2] or 1 }
+    list[i] = is_bare and { chosen(exposure), 1 } or { chosen(exposure[1]), exposure[2] or 1 }
   end
   return list
 end
 
---- Whether a rostrum under the same camera holds the cel.
-local function holds(exposures, camera, cel)
+local function holds(exposures, cel)
   for _, exposure in ipairs(exposures) do
-    local other = exposure[1].camera
-    local is_same_camera = not camera and not other
-      or camera and other and camera.width == other.width and camera.rotate == other.rotate
-        and (not camera.centre or camera.centre[1] == other.centre[1]
-          and camera.centre[2] == other.centre[2])
-    for i = 1, is_same_camera and #exposure[1] or 0 do
+    for i = 1, #exposure[1] do
       if same(exposure[1][i], cel) then return true end
     end
   end
@@ -43,18 +57,16 @@ end
 
 --- What a neighbour holds that the frame does not, without light from behind; nil: nothing.
 local function rest_of(exposures, current)
-  local list, has_any = {}, false
+  local list, has_any, camera = {}, false, current[1] and current[1][1].camera
   for i, exposure in ipairs(exposures) do
     local rostrum, cels = exposure[1], {}
     for j = 1, #rostrum do
-      if not holds(current, rostrum.camera, rostrum[j]) then
+      if not holds(current, rostrum[j]) then
         cels[#cels + 1] = rostrum[j]:with { back = { 0, 0, 0, 0 } }
       end
     end
     has_any = has_any or #cels > 0
-    cels[1] = cels[1] or celspan.cel {}
-    cels.back = { 0, 0, 0, 0 }
-    list[i] = { rostrum:with(cels), exposure[2] }
+    list[i] = { remade(rostrum, cels, camera), exposure[2] }
   end
   return has_any and list or nil
 end
@@ -64,6 +76,9 @@ local function image_of(bytes)
                          w = film.size[1], h = film.size[2] }
 end
 
+--- A cel with the name that is asked for, if there is one: all others are left out later.
+local function called(cel) return name and cel:named(name) or cel end
+
 --- A neighbour as a cel that lies over the frame; nil: it holds nothing else than the frame does.
 local function skin(number, current, tint, opacity)
   local rest = rest_of(exposures_of(number), current)
@@ -72,9 +87,9 @@ local function skin(number, current, tint, opacity)
   if not pixels then error(message, 0) end
   local bytes = pixels:bytes { depth = 8, colour = "srgb", alpha = "straight" }
   local filled = bytes:gsub("...(.)", "\255\255\255%1")
-  return celspan.cel { opacity = opacity, front = { 1, 1, 1 }, celspan.rostrum { size = film.size,
-    celspan.cel { image_of(bytes), front = tint },
-    celspan.cel { image_of(filled), front = tint, opacity = 0.5 } } }
+  return called(celspan.cel { opacity = opacity, front = { 1, 1, 1 },
+    celspan.rostrum { size = film.size, celspan.cel { image_of(bytes), front = tint },
+      celspan.cel { image_of(filled), front = tint, opacity = 0.5 } } })
 end
 
 --- Skins, the farthest first; those after the frame lie over those before it.
@@ -96,7 +111,7 @@ end
 local function covered(rostrum, skins)
   local cels = {}
   if rostrum.camera then
-    cels[1] = celspan.cel { rostrum:with { size = film.size }, front = { 1, 1, 1 } }
+    cels[1] = called(celspan.cel { rostrum:with { size = film.size }, front = { 1, 1, 1 } })
   else
     for i = 1, #rostrum do cels[i] = rostrum[i] end
   end

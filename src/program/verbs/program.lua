@@ -42,6 +42,25 @@ function program.numbers(text)
   return list
 end
 
+--- A value as JSON: tables with a field `list`, or with items, are lists, others are objects. Bytes
+--- that are not UTF-8 become question marks.
+function program.json(value)
+  local function ordered(one)
+    if type(one) == "string" then return utf8.len(one) and one or (one:gsub("[\x80-\xff]", "?")) end
+    if type(one) ~= "table" then return one end
+    local items, names = {}, {}
+    if one.list or one[1] ~= nil then
+      for i, item in ipairs(one.list or one) do items[i] = ordered(item) end
+      return { list = items }
+    end
+    for name in pairs(one) do names[#names + 1] = name end
+    table.sort(names)
+    for i, name in ipairs(names) do items[i] = { name, ordered(one[name]) } end
+    return items
+  end
+  return require "celspan.json".encode(ordered(value))
+end
+
 --- Has a document write itself to a file, or its text to standard output. subject: what it was made
 --- from, for messages.
 function program.put(document, output, subject)
@@ -56,7 +75,7 @@ function program.put(document, output, subject)
 end
 
 --- Runs processes, as many at a time as `workers`. next_item() returns the next item, or nil after
---- the last; start(item) returns its process, or nil where it could not be started, which ends all;
+--- the last. start(item) returns its process, or nil if it could not be started; then no more are.
 --- finish(item, code, signal, name) is called in the order of the items, and returns false to start
 --- no more. Returns how many were finished, and whether all could be started.
 function program.run_all(next_item, workers, start, finish)
@@ -67,12 +86,13 @@ function program.run_all(next_item, workers, start, finish)
     if program.is_stopped() or not goes_on then item = nil end
     if item and running < workers then
       local process = start(item)
-      is_well = process ~= nil and process ~= false
-      if is_well then
+      if process then
         started, running = started + 1, running + 1
         items[started], by_process[process] = item, started
+        item = next_item()
+      else
+        item, is_well = nil, false
       end
-      item = is_well and next_item() or nil
     elseif running > 0 then
       local one = table.pack(program.wait())
       local place = by_process[one[1]]
@@ -80,8 +100,8 @@ function program.run_all(next_item, workers, start, finish)
       if place then ended[place], by_process[one[1]], running = one, nil, running - 1 end
       while ended[finished + 1] do
         finished = finished + 1
-        if finish(items[finished], table.unpack(ended[finished], 2,
-          4)) == false then goes_on = false end
+        local answer = finish(items[finished], table.unpack(ended[finished], 2, 4))
+        goes_on = goes_on and answer ~= false
         items[finished], ended[finished] = nil, nil
       end
     end

@@ -6,6 +6,7 @@
 -- Rows are read from the text one by one, twice, so that only the names of the outputs are kept.
 local program, request = ...
 local csv = require "celspan.csv"
+local files = require "celspan.files"
 local json = require "celspan.json"
 
 local OUTPUT_MOST = 4095 -- bytes of a name
@@ -13,15 +14,8 @@ local OUTPUT_MOST = 4095 -- bytes of a name
 -- ---------------------------------------------------------------- the table
 
 local function read_text(path)
-  local file, message = io.open(path, "rb")
-  if not file then program.fail("input", "--table %s", message) end
-  local text, problem = file:read(csv.most_bytes + 1)
-  file:close()
-  if problem then program.fail("input", "--table %s: %s", path, problem) end
-  if text and #text > csv.most_bytes then
-    program.fail("input", "--table %s: it has more than %d bytes", path, csv.most_bytes)
-  end
-  return text or ""
+  local text, message = files.read(path, csv.most_bytes)
+  return text or program.fail("input", "--table %s", message)
 end
 
 --- What a call that reads the table returns.
@@ -32,8 +26,8 @@ local function try(call, ...)
     or one)
 end
 
---- The names of the columns, and a function that returns a row of texts and its line; nil after the
---- last.
+--- The names of the columns, and a function that returns a row of texts and its line, and nil after
+--- the last.
 local function reader(text)
   local header, next_row = try(csv.rows, text)
   return header, function() return try(next_row) end
@@ -44,23 +38,21 @@ end
 --- The output of a row: each {name} in OUT is the text in that column.
 local function output_of(row, line, columns)
   local output = request.output:gsub("{([%w_]+)}", function(name)
-    local text = columns[name] and row[columns[name]]
-    if text and (text == "" or text:find "/" or text:find("..", 1, true) or text:find "%c") then
+    local text = row[columns[name]]
+    if text == "" or text:find "/" or text:find("..", 1, true) or text:find "%c" then
       program.usage("--table %s: line %d: column '%s' is '%s': in the name of a file it must not "
-        .. "be "
-        .. "empty nor have / or .. in it", request.table, line, name, text)
+        .. "be empty nor have / or .. in it", request.table, line, name, text)
     end
     return text
   end)
   if #output > OUTPUT_MOST then
     program.usage("--table %s: line %d: the name of the output has more than %d bytes",
-      request.table,
-      line, OUTPUT_MOST)
+      request.table, line, OUTPUT_MOST)
   end
   return output
 end
 
---- The options that the process of a row has too.
+--- The options that a row's process has values of its own for, or no use.
 local own = { ["-o"] = true, ["--table"] = true, ["--workers"] = true, ["--progress"] = true }
 
 local function words_of(row, output, header, is_parameter, threads)
@@ -95,13 +87,18 @@ end
 
 --- The places of the columns by their names.
 local function check_header(header, is_parameter)
-  local columns = {}
-  for i, name in ipairs(header) do
+  local columns = try(csv.columns, header)
+  for _, name in ipairs(header) do
     if not is_parameter[name] and not request.output:find("{" .. name .. "}", 1, true) then
       program.usage("--table %s: column '%s' is neither a parameter of the script nor {%s} in OUT",
         request.table, name, name)
     end
-    columns[name] = i
+  end
+  for name in request.output:gmatch "{([%w_]+)}" do
+    if not columns[name] then
+      program.usage("--table %s: there is no column '%s' for {%s} in OUT; there are %s",
+        request.table, name, name, table.concat(header, ", "))
+    end
   end
   return columns
 end
@@ -115,15 +112,13 @@ local function check_rows(text, film, columns, is_parameter)
     for i, name in ipairs(header) do
       local fault = is_parameter[name] and film:parameters("fault", name .. "=" .. row[i]) or ""
       if fault ~= "" then
-        program.usage("--table %s: line %d: %s", request.table, line, (fault:gsub("^%-%-set: ",
-          "")))
+        program.usage("--table %s: line %d: %s", request.table, line, fault)
       end
     end
     local output = output_of(row, line, columns)
     if lines[output] then
       program.usage("--table %s: lines %d and %d would both make %s: put a column in OUT, as "
-        .. "{NAME}",
-        request.table, lines[output], line, output)
+        .. "{NAME}", request.table, lines[output], line, output)
     end
     lines[output], count = line, count + 1
   end
@@ -135,16 +130,10 @@ end
 
 --- Starts the process of an item; nil: reported.
 local function start(item)
-  local message, other
+  local process, message
   item.printed, message = io.tmpfile()
-  item.other, other = io.tmpfile()
-  local process
-  if item.printed and item.other then
-    process, message = program.start(item.words, item.printed, item.other)
-  end
-  if not process then
-    program.error("%s: no process for it: %s", item.output, message or other)
-  end
+  if item.printed then process, message = program.start(item.words, item.printed) end
+  if not process then program.error("%s: no process for it: %s", item.output, message) end
   return process
 end
 
@@ -153,7 +142,6 @@ local function show(item)
   item.printed:seek "set"
   io.stderr:write((item.printed:read "a"))
   item.printed:close()
-  item.other:close()
 end
 
 local function run(text, count, columns, is_parameter)
@@ -188,8 +176,9 @@ local function run(text, count, columns, is_parameter)
 end
 
 if request.hash then program.usage("--table renders several films: leave --hash out") end
-if request.output == "-" then program.usage("--table writes files: name them in OUT, as "
-  .. "{NAME}.mp4") end
+if not request.output or request.output == "-" then
+  program.usage("--table writes files: name them by its columns, as -o {NAME}.mp4")
+end
 local text, film = read_text(request.table), program.film()
 local is_parameter, header = parameters_of(film), reader(text)
 local columns = check_header(header, is_parameter)

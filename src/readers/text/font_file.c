@@ -11,13 +11,26 @@
 
 /* ---------------------------------------------------------------- reading */
 
+/* Whether it may be the name of a font that is installed. */
+static bool is_family(const char *file) {
+  const char *slash = strrchr(file, '/');
+  return !strchr(slash ? slash : file, '.');
+}
+
+static celspan_status fail_missing(celspan_context *context, const celspan_font *font, int error) {
+  char text[CS_ERROR_TEXT_SIZE];
+  return cs_fail(context, CELSPAN_INPUT, "%s: %s%s%s%s", font->file, cs_error_text(error, text),
+                 font->tried ? "; also looked for at " : "", font->tried ? font->tried : "",
+                 is_family(font->file) ? "; a font is given by its file, such as \"arial.ttf\" "
+                                         "beside the script, or one of the system's with "
+                                         "--allow-system-fonts"
+                                       : "");
+}
+
 celspan_status cs_font_file_stat(celspan_context *context, const celspan_font *font,
                                  struct stat *out) {
-  if (stat(font->file, out) != 0) {
-    char text[CS_ERROR_TEXT_SIZE];
-    return cs_fail(context, CELSPAN_INPUT, "%s: %s%s%s", font->file, cs_error_text(errno, text),
-                   font->tried ? "; also looked for at " : "", font->tried ? font->tried : "");
-  }
+  if (stat(font->file, out) != 0)
+    return fail_missing(context, font, errno);
   if (!S_ISREG(out->st_mode))
     return cs_fail(context, CELSPAN_INPUT, "%s: is not a file; a font must be one", font->file);
   if (out->st_size > (off_t)CS_FONT_FILE_BYTES)

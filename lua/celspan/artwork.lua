@@ -1,0 +1,43 @@
+--- Artwork as a film of one frame: what `celspan render drawing.svg` shows.
+--
+--   artwork.film "hero.svg"       -- .svg, .ora, .kra, .psd: the whole file at its own size
+local celspan = require "celspan"
+local fields = require "celspan.fields"
+local layers = require "celspan.layers"
+local svg = require "celspan.svg"
+
+local artwork = {}
+
+--- A drawing, its size, and what is left out, as sentences.
+local function drawing(path)
+  local art = assert(svg.read(path))
+  local notes = {}
+  for i, note in ipairs(art.skipped) do notes[i] = ("line %d: %s"):format(note.line, note.what) end
+  return { celspan.cel { art.object } }, art.width, art.height, notes
+end
+
+local function painting(path)
+  local tree = assert(layers.read(path))
+  local notes = {}
+  for i, note in ipairs(tree.skipped) do
+    notes[i] = note.layer == "" and note.what or note.layer .. ": " .. note.what
+  end
+  return tree:cels(), tree.width, tree.height, notes
+end
+
+--- What is not shown of it is passed to `show`.
+---@param path string Beside the script, else relative to the current folder
+---@param is_drawing boolean SVG, and not a painting
+---@param show fun(line: string)
+---@return celspan.film film
+function artwork.film(path, is_drawing, show)
+  local cels, width, height, notes = (is_drawing and drawing or painting)(path)
+  for _, note in ipairs(notes) do show(("%s: not shown: %s"):format(path, note)) end
+  local rostrum = celspan.rostrum(cels)
+  return celspan.film {
+    size = { math.max(1, math.ceil(width)), math.max(1, math.ceil(height)) },
+    title = path:match "[^/]*$", frame = function() return rostrum end,
+  }
+end
+
+return fields.seal("artwork", artwork)

@@ -1,0 +1,45 @@
+/* A row worker: what one thread needs to make the rows of a frame.
+ *
+ *   exposure 0: plan --> row maker --> row --\
+ *   exposure 1: plan --> row maker --> row ---+--> sum, by weight --> crop --> row of the frame
+ *
+ * With a single exposure of weight 1 its row is the row of the frame.
+ *
+ * A crowded frame (frame.h) is divided into panes, which the worker compiles one after the other:
+ * rows are halved until few dashes are left, and a single row into columns.
+ *
+ *   +-------------------+     pane 1: rows with few dashes
+ *   |         1         |     pane 2, 3: columns of one row, each with as many as allowed, whose
+ *   +---------+---------+                spans are joined
+ *   |    2    |    3    |
+ *   +---------+---------+
+ *
+ * Invariant: a row depends on the frame and the number of the row alone, so it does not matter
+ * which worker makes it.
+ */
+#pragma once
+
+#include "engine/row/row.h"
+#include "frames/render/frame.h"
+
+typedef struct cs_row_worker {
+  celspan_context context; /* a branch of the frame's */
+  const cs_frame *frame;
+  cs_row_maker *makers; /* one for each plan */
+  cs_row *rows;         /* one for each plan */
+  cs_row sum;
+  /* of a crowded frame */
+  cs_plan *plans;       /* of the current pane */
+  cs_view pane;         /* the current pane; without rows where there is none */
+  cs_row joined;        /* the row that was made of several panes */
+  uint64_t evaluations; /* of earlier panes */
+} cs_row_worker;
+
+CELSPAN_CHECKED celspan_status cs_row_worker_init(cs_row_worker *worker, celspan_context *context,
+                                                  const cs_frame *frame);
+void cs_row_worker_finish(cs_row_worker *worker);
+/* Row y of the crop. The row stays valid until the next call. The message of an error is
+ * in the worker's context. */
+CELSPAN_CHECKED celspan_status cs_row_worker_row(cs_row_worker *worker, int32_t y,
+                                                 const cs_row **out);
+uint64_t cs_row_worker_evaluations(const cs_row_worker *worker);

@@ -1,0 +1,55 @@
+#include "lua/module/artwork.h"
+
+#include <stdbool.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/open.h"
+#include "lua/module/core.h"
+
+enum { HEAD = 64 };
+
+/* White space and a byte order mark may come before an XML document; no script begins like that. */
+static bool is_markup(const char *head) {
+  const char *start = strncmp(head, "\xEF\xBB\xBF", 3) == 0 ? head + 3 : head;
+  return start[strspn(start, " \t\r\n")] == '<';
+}
+
+/* The start of a regular file, as a text; "" where there is none. Whether it is a folder. */
+static bool read_head(const char *path, char head[HEAD + 1]) {
+  struct stat facts;
+  head[0] = '\0';
+  int descriptor = cs_open_to_read(path);
+  if (descriptor < 0)
+    return false;
+  bool is_known = fstat(descriptor, &facts) == 0;
+  if (is_known && S_ISREG(facts.st_mode)) {
+    ssize_t size = read(descriptor, head, HEAD);
+    head[size > 0 ? size : 0] = '\0';
+  }
+  close(descriptor);
+  return is_known && S_ISDIR(facts.st_mode);
+}
+
+cs_artwork cs_artwork_of(const char *path) {
+  char head[HEAD + 1];
+  return read_head(path, head)             ? CS_ARTWORK_FOLDER
+         : strncmp(head, "PK\3\4", 4) == 0 ? CS_ARTWORK_ARCHIVE
+         : strncmp(head, "8BPS", 4) == 0   ? CS_ARTWORK_PSD
+         : is_markup(head)                 ? CS_ARTWORK_SVG
+                                           : CS_ARTWORK_NONE;
+}
+
+/* It is looked for in the script's folder, which is its own. */
+void cs_artwork_push_film(lua_State *L, const char *path, cs_artwork kind, int globals) {
+  const char *slash = strrchr(path, '/');
+  globals = lua_absindex(L, globals);
+  cs_embedded_require(L, "celspan.artwork");
+  lua_getfield(L, -1, "film");
+  lua_pushstring(L, slash ? slash + 1 : path);
+  lua_pushboolean(L, kind == CS_ARTWORK_SVG);
+  lua_getfield(L, globals, "print");
+  lua_call(L, 3, 1);
+  lua_remove(L, -2);
+}

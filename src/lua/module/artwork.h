@@ -1,0 +1,21 @@
+/* What a file can be, by its first bytes: artwork, which is shown as a film of one frame, or
+ * something else.
+ *
+ * INVARIANT: nothing here raises, except cs_artwork_push_film.
+ */
+#pragma once
+
+#include <lua.h>
+
+typedef enum cs_artwork {
+  CS_ARTWORK_NONE,    /* also where there is no such file */
+  CS_ARTWORK_FOLDER,  /* layers of a painting, or pictures */
+  CS_ARTWORK_ARCHIVE, /* OpenRaster or Krita */
+  CS_ARTWORK_PSD,
+  CS_ARTWORK_SVG
+} cs_artwork;
+
+cs_artwork cs_artwork_of(const char *path);
+/* Pushes the film of an archive, a PSD or an SVG. What is not shown of it is passed to the function
+ * `print` of the globals at index. Raises. */
+void cs_artwork_push_film(lua_State *L, const char *path, cs_artwork kind, int globals);

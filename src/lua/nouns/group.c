@@ -1,0 +1,110 @@
+/* celspan.group and celspan.matte: objects that are composited by themselves. */
+#include "lua/bind/caller.h"
+#include "lua/bind/construct.h"
+#include "lua/bind/fields.h"
+#include "lua/bind/host.h"
+#include "lua/nouns/nouns.h"
+#include "lua/nouns/placed.h"
+
+/* ---------------------------------------------------------------- groups */
+
+typedef struct group_fields {
+  celspan_group_desc desc;
+  bool has_isolate, isolate;
+} group_fields;
+
+static void create_group(const cs_form *form, cs_userdata *value) {
+  group_fields fields = {.desc = CELSPAN_GROUP_DESC};
+  int count = cs_form_length(form);
+  celspan_object *group = NULL;
+  fields.desc.objects = cs_placed_items(form, count);
+  fields.desc.object_count = (size_t)count;
+  cs_fields_read(form, &fields);
+  if (fields.has_isolate)
+    fields.desc.isolate = fields.isolate ? CELSPAN_ISOLATION_ON : CELSPAN_ISOLATION_OFF;
+  cs_form_try(form, celspan_object_create_group(cs_host_context(form->L), &fields.desc, &group));
+  value->handle = group;
+}
+
+#define FIELDS group_fields
+static const cs_field group_rows[] = {
+    {"opacity", CS_NUMBER(FIELDS, desc.opacity), .least = 0, .most = 1, .preset = "1",
+     .about = "Of the group as a whole"},
+    {"blend", CS_CHOICE(FIELDS, desc.blend, cs_userdata_modes), .preset = "normal",
+     .about = "How it is combined with what is behind it"},
+    {"isolate", CS_FLAG(FIELDS, isolate), CS_HAS(FIELDS, has_isolate),
+     .about = "Whether modes inside act only on what is inside",
+     .fallback = "true if it is faded or has a mode"},
+    {0}};
+const cs_noun cs_noun_group = {.name = "group",
+                               .about = "Objects that are composited by themselves, then put into "
+                                        "the picture as one.",
+                               .kind = &cs_kind_object,
+                               .list = CS_LIST_ITEMS,
+                               .has_gaps = true,
+                               .item = "object",
+                               .item_written = "celspan.shape",
+                               .fields = group_rows,
+                               .create = create_group};
+
+/* ---------------------------------------------------------------- mattes */
+
+typedef struct matte_fields {
+  celspan_matte_from from;
+  bool invert;
+} matte_fields;
+
+static void create_matte(const cs_form *form, cs_userdata *value) {
+  matte_fields fields = {0};
+  celspan_object **both = cs_placed_items(form, 2), *matte = NULL;
+  cs_fields_read(form, &fields);
+  cs_form_try(form, celspan_object_create_matte(cs_host_context(form->L), both[0], both[1],
+                                                fields.from, fields.invert, &matte));
+  value->handle = matte;
+}
+
+static const char *const sources[] = {"alpha", "luma", NULL};
+static const cs_field matte_rows[] = {
+    {"from", CS_CHOICE(matte_fields, from, sources), .preset = "alpha",
+     .about = "What of the matte counts"},
+    {"invert", CS_FLAG(matte_fields, invert), .about = "The art is present where the matte is not",
+     .fallback = "false"},
+    {0}};
+const cs_noun cs_noun_matte = {.name = "matte",
+                               .about = "How a matte is used.",
+                               .table = "celspan.matte.options",
+                               .kind = &cs_kind_object,
+                               .list = CS_LIST_TUPLE,
+                               .item = "object",
+                               .fields = matte_rows,
+                               .create = create_matte};
+
+static void check_objects(lua_State *L) {
+  static const char *const names[] = {"the art", "what it is matted by"};
+  for (int i = 1; i <= 2; i++)
+    if (!cs_placed_at(L, i))
+      cs_caller_error(L, "matte: argument %d, %s, must be an object, got %s", i, names[i - 1],
+                      cs_userdata_type(L, i));
+}
+
+/* The options, with the two objects as the list of the value. */
+int cs_nouns_matte(lua_State *L) {
+  lua_settop(L, 3);
+  check_objects(L);
+  if (!lua_isnil(L, 3) && !lua_istable(L, 3))
+    return cs_caller_error(L, "matte: argument 3 must be a table {from =, invert =}, got %s",
+                           cs_userdata_type(L, 3));
+  lua_createtable(L, 2, 2);
+  for (int i = 1; i <= 2; i++) {
+    lua_pushvalue(L, i);
+    lua_rawseti(L, -2, i);
+  }
+  if (lua_istable(L, 3))
+    for (lua_pushnil(L); lua_next(L, 3); lua_pop(L, 1)) {
+      lua_pushvalue(L, -2);
+      lua_pushvalue(L, -2);
+      lua_rawset(L, 4);
+    }
+  cs_construct_value(L, &cs_noun_matte, 4);
+  return 1;
+}

@@ -1,0 +1,130 @@
+/* Groups, objects with a mode of their own, and mattes: unions, and a matte, that are composited by
+ * themselves.
+ *
+ *     group{ a, b }                 a union
+ *     group{ a, b, isolate = true } a union that isolates
+ *     a:blend(m)                    a union of one object, with a mode; it isolates
+ *     matte(art, by)                two operands, of which only the first is painted; it isolates
+ */
+#include "model/scene/check.h"
+#include "model/scene/operands.h"
+#include "model/scene/primitive_data.h"
+
+#define MODES (CELSPAN_BLEND_ADD + 1)
+
+/* New data with these operands. noun: for messages. look: what the boolean is like. */
+static celspan_status create(celspan_context *context, const char *noun, const cs_boolean *look,
+                             celspan_object *const *operands, size_t count,
+                             cs_primitive_data **out) {
+  cs_primitive_data *data;
+  CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_BOOLEAN, NULL, &data));
+  *data->boolean = *look;
+  celspan_status status = cs_operands_create(context, noun, operands, count, &data->boolean->view);
+  if (status == CELSPAN_OK) {
+    data->boolean->operands = data->boolean->view.objects;
+    data->boolean->operand_count = count;
+    data->is_empty = count == 0;
+    status = cs_primitive_data_measure(context, noun, operands, count, data);
+  }
+  if (status == CELSPAN_OK)
+    status = cs_primitive_data_deepen(context, noun, data);
+  if (status == CELSPAN_OK) {
+    *out = data;
+    return CELSPAN_OK;
+  }
+  cs_primitive_data_unref(data);
+  return status;
+}
+
+/* ---------------------------------------------------------------- groups */
+
+static celspan_status check_group(celspan_context *context, const celspan_group_desc *desc) {
+  CS_TRY(cs_check_given(context, "group", "the description", desc));
+  CS_TRY(cs_check_version(context, "group", desc->struct_size, sizeof *desc));
+  double opacity;
+  CS_TRY(cs_check_share(context, "group", "opacity", desc->opacity, &opacity));
+  CS_TRY(cs_check_choice(context, "group", "blend", (unsigned)desc->blend, MODES));
+  CS_TRY(cs_check_choice(context, "group", "isolate", (unsigned)desc->isolate,
+                         CELSPAN_ISOLATION_OFF + 1));
+  bool must = opacity < 1 || desc->blend != CELSPAN_BLEND_NORMAL;
+  if (must && desc->isolate == CELSPAN_ISOLATION_OFF)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "group: isolate is false, but a group with %s always isolates; leave isolate "
+                   "out",
+                   opacity < 1 ? "an opacity below 1" : "a blend mode");
+  return CELSPAN_OK;
+}
+
+celspan_status celspan_object_create_group(celspan_context *context, const celspan_group_desc *desc,
+                                           celspan_object **out) {
+  CS_TRY(check_group(context, desc));
+  const cs_boolean look = {.op = CELSPAN_UNION,
+                           .blend = desc->blend,
+                           .isolates = desc->isolate == CELSPAN_ISOLATION_ON ||
+                                       desc->blend != CELSPAN_BLEND_NORMAL};
+  cs_primitive_data *data;
+  celspan_object *group;
+  CS_TRY(create(context, "group", &look, desc->objects, desc->object_count, &data));
+  CS_TRY(cs_primitive_data_wrap(context, data, CELSPAN_OK, &group));
+  celspan_status status = celspan_object_fade(context, group, desc->opacity, out);
+  celspan_object_unref(group);
+  return status;
+}
+
+/* ---------------------------------------------------------------- modes */
+
+celspan_blend celspan_object_mode(const celspan_object *object) {
+  const cs_primitive_data *data = object->data;
+  return data->kind == CS_PRIMITIVE_DATA_BOOLEAN ? data->boolean->blend : CELSPAN_BLEND_NORMAL;
+}
+
+/* Another mode for an object that has one: its operands stay. */
+static celspan_status change(celspan_context *context, const celspan_object *object,
+                             celspan_blend mode, celspan_object **out) {
+  const cs_boolean *from = object->data->boolean;
+  const cs_boolean look = {.op = from->op, .blend = mode, .isolates = true};
+  cs_primitive_data *data;
+  celspan_object *plain;
+  CS_TRY(create(context, "blend", &look, from->operands, from->operand_count, &data));
+  CS_TRY(cs_primitive_data_wrap(context, data, CELSPAN_OK, &plain));
+  celspan_status status = cs_primitive_data_replace(context, object, plain->data, out);
+  celspan_object_unref(plain);
+  return status;
+}
+
+celspan_status celspan_object_blend(celspan_context *context, celspan_object *object,
+                                    celspan_blend mode, celspan_object **out) {
+  CS_TRY(cs_check_given(context, "blend", "the object", object));
+  CS_TRY(cs_check_choice(context, "blend", "mode", (unsigned)mode, MODES));
+  if (celspan_object_mode(object) != CELSPAN_BLEND_NORMAL)
+    return change(context, object, mode, out);
+  if (mode == CELSPAN_BLEND_NORMAL) {
+    *out = celspan_object_ref(object);
+    return CELSPAN_OK;
+  }
+  const cs_boolean look = {.op = CELSPAN_UNION, .blend = mode, .isolates = true};
+  cs_primitive_data *data;
+  CS_TRY(create(context, "blend", &look, &object, 1, &data));
+  CS_TRY(cs_primitive_data_wrap(context, data, CELSPAN_OK, out));
+  cs_mark_drop((*out)->mark);
+  (*out)->mark = cs_mark_keep(object->mark);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- mattes */
+
+celspan_status celspan_object_create_matte(celspan_context *context, celspan_object *art,
+                                           celspan_object *by, celspan_matte_from from, bool invert,
+                                           celspan_object **out) {
+  CS_TRY(cs_check_given(context, "matte", "the art", art));
+  CS_TRY(cs_check_given(context, "matte", "the object that it is matted by", by));
+  CS_TRY(cs_check_choice(context, "matte", "from", (unsigned)from, CELSPAN_MATTE_LUMA + 1));
+  celspan_object *const both[] = {art, by};
+  const cs_boolean look = {.op = CS_OPERATOR_MATTE,
+                           .isolates = true,
+                           .is_luma = from == CELSPAN_MATTE_LUMA,
+                           .inverts = invert};
+  cs_primitive_data *data;
+  CS_TRY(create(context, "matte", &look, both, 2, &data));
+  return cs_primitive_data_wrap(context, data, CELSPAN_OK, out);
+}

@@ -1,0 +1,254 @@
+/* Requests: from the callbacks of libmicrohttpd, which come while the daemon runs, to a list that
+ * the program takes them from. A connection whose request is whole is suspended until the answer.
+ */
+#include "plugins/web/web.h"
+
+#include <arpa/inet.h>
+#include <errno.h>
+#include <netinet/in.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+  POOL = 16384, /* bytes that the library reads a request into; beyond them it answers 431 or 414 */
+  SPARE = 32    /* connections that are being closed */
+};
+
+/* ---------------------------------------------------------------- reading */
+
+/* The first callback of a request: what is returned is its `context` in the next ones. */
+static void *begin_request(void *user, const char *target, struct MHD_Connection *library) {
+  cs_web *web = user;
+  size_t size = strlen(target) + 1;
+  const union MHD_ConnectionInfo *info =
+      MHD_get_connection_info(library, MHD_CONNECTION_INFO_SOCKET_CONTEXT);
+  web_request *request = info->socket_context ? calloc(1, sizeof *request + size) : NULL;
+  if (!request)
+    return NULL;
+  memcpy(request->target, target, size);
+  request->library = library;
+  request->connection = info->socket_context;
+  request->next = web->requests;
+  web->requests = request;
+  return request;
+}
+
+/* The bytes of a header line. */
+static enum MHD_Result count_header(void *user, enum MHD_ValueKind kind, const char *name,
+                                    const char *value) {
+  (void)kind;
+  *(size_t *)user += strlen(name) + (value ? strlen(value) : 0) + 4;
+  return MHD_YES;
+}
+
+static bool has_long_head(const web_request *request) {
+  size_t size = strlen(request->target);
+  MHD_get_connection_values(request->library, MHD_HEADER_KIND, count_header, &size);
+  return size > CS_WEB_HEAD;
+}
+
+static const char *header(const web_request *request, const char *name) {
+  return MHD_lookup_connection_value(request->library, MHD_HEADER_KIND, name);
+}
+
+static void complete(cs_web *web, web_request *request, const char *method) {
+  web->counts.requests++;
+  request->whole.id = ++web->last_id;
+  request->whole.method = method;
+  request->whole.target = request->target;
+  request->whole.host = header(request, MHD_HTTP_HEADER_HOST);
+  request->whole.origin = header(request, "Origin");
+  request->whole.cookie = header(request, MHD_HTTP_HEADER_COOKIE);
+  request->whole.site = header(request, "Sec-Fetch-Site");
+  request->whole.body = request->body;
+  web_enter(request->connection, WEB_WAITING);
+  MHD_suspend_connection(request->library);
+}
+
+/* Answers a request that is too long at once, and closes its connection. */
+static enum MHD_Result refuse_long(cs_web *web, struct MHD_Connection *library, unsigned status) {
+  struct MHD_Response *response =
+      MHD_create_response_from_buffer(0, (void *)(size_t) "", MHD_RESPMEM_PERSISTENT);
+  web->counts.oversized++;
+  if (!response)
+    return MHD_NO;
+  MHD_add_response_header(response, MHD_HTTP_HEADER_CONNECTION, "close");
+  enum MHD_Result result = MHD_queue_response(library, status, response);
+  MHD_destroy_response(response);
+  return result;
+}
+
+static void add_body(web_request *request, const char *bytes, size_t size) {
+  cs_web_request *whole = &request->whole;
+  request->is_long |= size > CS_WEB_BODY - whole->body_size;
+  if (request->is_long)
+    return;
+  memcpy(request->body + whole->body_size, bytes, size);
+  whole->body_size += size;
+}
+
+/* Called when the head is read, for each part of a body, and at the end without bytes. */
+static enum MHD_Result handle(void *user, struct MHD_Connection *library, const char *path,
+                              const char *method, const char *http, const char *bytes, size_t *size,
+                              void **context) {
+  web_request *request = *context;
+  (void)path;
+  (void)http;
+  if (!request)
+    return MHD_NO;
+  if (request->is_answered)
+    return MHD_YES;
+  if (!request->has_begun) {
+    request->has_begun = true;
+    return has_long_head(request)
+               ? refuse_long(user, library, MHD_HTTP_REQUEST_HEADER_FIELDS_TOO_LARGE)
+               : MHD_YES;
+  }
+  if (*size == 0 && request->is_long)
+    return refuse_long(user, library, MHD_HTTP_CONTENT_TOO_LARGE);
+  if (*size == 0)
+    complete(user, request, method);
+  else
+    add_body(request, bytes, *size);
+  *size = 0;
+  return MHD_YES;
+}
+
+static void finish_request(void *user, struct MHD_Connection *library, void **context,
+                           enum MHD_RequestTerminationCode code) {
+  cs_web *web = user;
+  web_request *finished = *context;
+  (void)library;
+  (void)code;
+  for (web_request **at = &web->requests; *at && finished; at = &(*at)->next)
+    if (*at == finished) {
+      *at = finished->next;
+      web_enter(finished->connection, WEB_READING);
+      free(finished);
+      break;
+    }
+  *context = NULL;
+}
+
+/* ---------------------------------------------------------------- answering */
+
+/* The oldest that nobody took: the list is newest first. */
+static web_request *find_waiting(const cs_web *web) {
+  web_request *oldest = NULL;
+  for (web_request *one = web->requests; one; one = one->next)
+    if (one->whole.id && !one->is_taken)
+      oldest = one;
+  return oldest;
+}
+
+static const cs_web_request *take(cs_web *web) {
+  web_request *oldest = find_waiting(web);
+  if (!oldest)
+    return NULL;
+  oldest->is_taken = true;
+  return &oldest->whole;
+}
+
+static struct MHD_Response *make_response(const cs_web_answer *answer) {
+  struct MHD_Response *response = MHD_create_response_from_buffer(
+      answer->size, (void *)(size_t)answer->bytes, MHD_RESPMEM_MUST_COPY);
+  bool is_good = response;
+  for (size_t i = 0; i < answer->header_count && is_good; i++)
+    is_good = MHD_add_response_header(response, answer->headers[i].name,
+                                      answer->headers[i].value) == MHD_YES;
+  if (response && !is_good)
+    MHD_destroy_response(response);
+  return is_good ? response : NULL;
+}
+
+static bool answer_request(web_request *request, const cs_web_answer *answer) {
+  struct MHD_Response *response = make_response(answer);
+  bool is_good =
+      response && MHD_queue_response(request->library, answer->status, response) == MHD_YES;
+  if (response)
+    MHD_destroy_response(response);
+  request->is_answered = true;
+  web_enter(request->connection, is_good ? WEB_SENDING : WEB_CLOSING);
+  if (!is_good)
+    shutdown(request->connection->socket, SHUT_RDWR);
+  MHD_resume_connection(request->library);
+  return is_good;
+}
+
+static bool answer(cs_web *web, uint64_t id, const cs_web_answer *answer) {
+  for (web_request *one = web->requests; one; one = one->next)
+    if (one->whole.id == id && !one->is_answered)
+      return answer_request(one, answer);
+  return true; /* its client has gone */
+}
+
+/* ---------------------------------------------------------------- the server */
+
+static struct MHD_Daemon *start(cs_web *web, const struct sockaddr_in *at) {
+  return MHD_start_daemon(
+      MHD_USE_EPOLL | MHD_ALLOW_SUSPEND_RESUME, 0, web_admit, web, handle, web,
+      MHD_OPTION_SOCK_ADDR, at, MHD_OPTION_CONNECTION_LIMIT, (unsigned)(CS_WEB_CONNECTIONS + SPARE),
+      MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)POOL, MHD_OPTION_URI_LOG_CALLBACK, begin_request,
+      web, MHD_OPTION_NOTIFY_COMPLETED, finish_request, web, MHD_OPTION_NOTIFY_CONNECTION,
+      web_notify, web, MHD_OPTION_STRICT_FOR_CLIENT, 1, MHD_OPTION_END);
+}
+
+static int open_web(uint16_t port, cs_web **out) {
+  const struct sockaddr_in at = {
+      .sin_family = AF_INET, .sin_port = htons(port), .sin_addr.s_addr = htonl(INADDR_LOOPBACK)};
+  cs_web *web = calloc(1, sizeof *web);
+  if (!web)
+    return ENOMEM;
+  errno = 0;
+  web->daemon = start(web, &at);
+  int error = errno ? errno : ENOMEM;
+  *out = web->daemon ? web : NULL;
+  if (!web->daemon)
+    free(web);
+  return *out ? 0 : error;
+}
+
+static uint16_t port(const cs_web *web) {
+  return MHD_get_daemon_info(web->daemon, MHD_DAEMON_INFO_BIND_PORT)->port;
+}
+
+static int descriptor(const cs_web *web) {
+  return MHD_get_daemon_info(web->daemon, MHD_DAEMON_INFO_EPOLL_FD)->epoll_fd;
+}
+
+static int run(cs_web *web) {
+  MHD_UNSIGNED_LONG_LONG library;
+  int own = web_sweep(web);
+  MHD_run(web->daemon);
+  if (find_waiting(web))
+    return 0;
+  if (MHD_get_timeout(web->daemon, &library) != MHD_YES)
+    return own;
+  int wish = library < 60000 ? (int)library : 60000;
+  return own < 0 || wish < own ? wish : own;
+}
+
+static cs_web_counts counts(const cs_web *web) { return web->counts; }
+
+/* The library wants no connection to be suspended when it stops. */
+static void close_web(cs_web *web) {
+  if (!web)
+    return;
+  for (web_request *one = web->requests; one; one = one->next)
+    if (one->whole.id && !one->is_answered)
+      answer_request(one, &(cs_web_answer){.status = MHD_HTTP_SERVICE_UNAVAILABLE, .bytes = ""});
+  MHD_run(web->daemon);
+  MHD_stop_daemon(web->daemon);
+  while (web->requests) {
+    web_request *next = web->requests->next;
+    free(web->requests);
+    web->requests = next;
+  }
+  free(web);
+}
+
+const void *celspan_web_module(void) {
+  static const cs_web_module table = {
+      CS_WEB_MODULE_VERSION, open_web, port, descriptor, run, take, answer, counts, close_web};
+  return &table;
+}

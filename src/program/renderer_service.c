@@ -1,0 +1,225 @@
+/* program.renderer(): a run of this program that answers requests, so that a script that hangs or
+ * ends by a limit does not take the verb with it.
+ *
+ *   verb --request--> standard input  | renderer | standard output --answers--> verb
+ *                                                | standard error  --words----> verb
+ *
+ * A message is its size, four bytes with the highest first, and that many bytes.
+ *
+ * INVARIANT: reading never waits. A renderer ends when its verb does, for whatever reason.
+ */
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/context.h"
+#include "frames/process/spawn.h"
+#include "lua/bind/userdata.h"
+#include "program/service.h"
+
+#define MESSAGE_MOST ((size_t)1 << 30)
+
+enum { HEAD = 4, PIECE = 65536 };
+
+typedef struct renderer {
+  celspan_context *context;
+  pid_t id;   /* 0: it has ended */
+  int status; /* of waitpid, then */
+  int requests, answers, words;
+  char *bytes; /* of the answer that is read; owned */
+  size_t size, capacity;
+} renderer;
+
+static void close_descriptor(int *descriptor) {
+  if (*descriptor >= 0)
+    close(*descriptor);
+  *descriptor = -1;
+}
+
+static void reap(renderer *r, int options) {
+  if (r->id && waitpid(r->id, &r->status, options) == r->id)
+    r->id = 0;
+}
+
+/* Ends its process group: the processes that it has started too. */
+static void end_renderer(renderer *r) {
+  if (r->id) {
+    kill(-r->id, SIGKILL);
+    reap(r, 0);
+  }
+  close_descriptor(&r->requests);
+  close_descriptor(&r->answers);
+  close_descriptor(&r->words);
+}
+
+static int close_renderer(lua_State *L) {
+  renderer *r = lua_touserdata(L, 1);
+  end_renderer(r);
+  if (r->bytes)
+    cs_mem_free(r->context->memory, r->bytes, r->capacity);
+  r->bytes = NULL;
+  return 0;
+}
+
+/* The renderer that is argument 1. */
+static renderer *self(lua_State *L) {
+  lua_getfield(L, 1, "open");
+  renderer *r = lua_touserdata(L, -1);
+  lua_pop(L, 1);
+  return r;
+}
+
+/* ---------------------------------------------------------------- messages */
+
+/* renderer:send(text) -> whether it was sent. A renderer has read one request before the next one,
+ * so small ones always find room in the pipe. */
+static int send(lua_State *L) {
+  const renderer *r = self(L);
+  size_t size;
+  const char *text = luaL_checklstring(L, 2, &size);
+  luaL_argcheck(L, size < 32768, 2, "too long");
+  const unsigned char head[HEAD] = {0, 0, (unsigned char)(size >> 8), (unsigned char)size};
+  bool is_sent = r->requests >= 0 && write(r->requests, head, HEAD) == HEAD &&
+                 write(r->requests, text, size) == (ssize_t)size;
+  lua_pushboolean(L, is_sent);
+  return 1;
+}
+
+static size_t size_of(const renderer *r) {
+  const unsigned char *head = (const unsigned char *)r->bytes;
+  return HEAD + ((size_t)head[0] << 24 | (size_t)head[1] << 16 | (size_t)head[2] << 8 | head[3]);
+}
+
+/* The bytes that are missing; MESSAGE_MOST: the message is too long. */
+static size_t missing(const renderer *r) {
+  size_t whole = r->size < HEAD ? HEAD : size_of(r);
+  return whole > MESSAGE_MOST ? MESSAGE_MOST : whole - r->size;
+}
+
+/* Reads the bytes that have arrived. false: the renderer has ended, or its bytes are no answer. */
+static bool read_answer(lua_State *L, renderer *r) {
+  for (size_t wanted; (wanted = missing(r)) > 0;) {
+    if (wanted == MESSAGE_MOST)
+      return false;
+    if (CS_RESERVE(r->context, r->bytes, r->capacity, r->size + wanted) != CELSPAN_OK)
+      luaL_error(L, "not enough memory");
+    ssize_t got = read(r->answers, r->bytes + r->size, wanted);
+    if (got <= 0)
+      return got < 0 && (errno == EAGAIN || errno == EINTR);
+    r->size += (size_t)got;
+  }
+  return true;
+}
+
+/* renderer:take() -> the next answer | nil: it has not arrived | false: no more will arrive */
+static int take(lua_State *L) {
+  renderer *r = self(L);
+  if (r->answers < 0 || !read_answer(L, r)) {
+    lua_pushboolean(L, false);
+    return 1;
+  }
+  if (missing(r) > 0)
+    return 0;
+  lua_pushlstring(L, r->bytes + HEAD, r->size - HEAD);
+  r->size = 0;
+  return 1;
+}
+
+/* renderer:words() -> what it printed since the last call */
+static int words(lua_State *L) {
+  const renderer *r = self(L);
+  char text[PIECE];
+  ssize_t got = r->words >= 0 ? read(r->words, text, sizeof text) : 0;
+  lua_pushlstring(L, text, got > 0 ? (size_t)got : 0);
+  return 1;
+}
+
+/* renderer:descriptors() -> of its answers and of its words */
+static int descriptors(lua_State *L) {
+  const renderer *r = self(L);
+  lua_pushinteger(L, r->answers);
+  lua_pushinteger(L, r->words);
+  return 2;
+}
+
+/* ---------------------------------------------------------------- the process */
+
+/* renderer:finish() -> its exit code, or nil and the name of the signal that ended it. It is ended
+ * if it still runs and has not closed its answers. */
+static int finish(lua_State *L) {
+  renderer *r = self(L);
+  char byte;
+  if (r->answers >= 0 && read(r->answers, &byte, 1) == 0)
+    reap(r, 0);
+  end_renderer(r);
+  if (WIFEXITED(r->status)) {
+    lua_pushinteger(L, WEXITSTATUS(r->status));
+    return 1;
+  }
+  luaL_pushfail(L);
+  lua_pushstring(L, strsignal(WTERMSIG(r->status)));
+  return 2;
+}
+
+/* Of three pipes: [0] the ends of the renderer, [1] those of the verb. */
+static int open_pipes(renderer *r, int files[3]) {
+  int ends[2], error = cs_spawn_pipe(ends);
+  files[0] = ends[0];
+  r->requests = ends[1];
+  int *const mine[] = {&r->answers, &r->words};
+  for (int i = 0; i < 2; i++) {
+    files[i + 1] = -1;
+    if (error)
+      continue;
+    error = cs_spawn_pipe(ends);
+    *mine[i] = ends[0];
+    files[i + 1] = ends[1];
+    if (!error && fcntl(ends[0], F_SETFL, O_NONBLOCK) != 0)
+      error = errno;
+  }
+  return error;
+}
+
+static int spawn(renderer *r, const char *const *arguments) {
+  int files[3];
+  int error = open_pipes(r, files);
+  const cs_spawn_desc desc = {.path = "/proc/self/exe",
+                              .arguments = arguments,
+                              .files = files,
+                              .file_count = 3,
+                              .is_bound = true};
+  if (!error)
+    error = cs_spawn(&r->id, &desc);
+  if (error)
+    r->id = 0;
+  for (int i = 0; i < 3; i++)
+    close_descriptor(&files[i]);
+  return error;
+}
+
+/* renderer(words) -> a renderer | nil, message: this program with the words */
+static int open_renderer(lua_State *L) {
+  static const luaL_Reg methods[] = {{"send", send},     {"take", take},
+                                     {"words", words},   {"descriptors", descriptors},
+                                     {"finish", finish}, {NULL, NULL}};
+  const char **arguments = cs_service_push_words(L, 1);
+  lua_createtable(L, 0, 8);
+  renderer *r = cs_userdata_push_holder(L, "celspan.program.renderer", sizeof *r, close_renderer);
+  *r = (renderer){
+      .context = cs_service_session(L)->context, .requests = -1, .answers = -1, .words = -1};
+  int error = spawn(r, arguments);
+  errno = error;
+  if (error)
+    return luaL_fileresult(L, 0, NULL);
+  lua_setfield(L, -2, "open");
+  cs_service_add(L, methods);
+  return 1;
+}
+
+void cs_service_add_renderers(lua_State *L) {
+  static const luaL_Reg services[] = {{"renderer", open_renderer}, {NULL, NULL}};
+  cs_service_add(L, services);
+}

@@ -1,0 +1,297 @@
+#include "program/stage.h"
+
+#include <string.h>
+
+#include "frames/process/interrupt.h"
+#include "lua/bind/host.h"
+#include "lua/bind/userdata.h"
+#include "model/scene/scene.h"
+#include "output/png/chunk.h"
+#include "output/png/strips.h"
+#include "output/sinks/pixels.h"
+#include "output/sinks/sink.h"
+#include "program/service.h"
+
+#define PIXELS_MOST (1 << 25) /* of a picture in memory */
+
+static const celspan_coding coding = {CELSPAN_DEPTH_8, CELSPAN_TRANSFER_SRGB,
+                                      CELSPAN_ALPHA_STRAIGHT};
+
+/* ---------------------------------------------------------------- bytes */
+
+/* A picture in memory. */
+typedef struct picture {
+  celspan_context *context;
+  unsigned char *bytes; /* owned */
+  size_t size, capacity;
+  cs_png_strips *strips; /* of a PNG that is made */
+} picture;
+
+static int release_picture(lua_State *L) {
+  picture *p = lua_touserdata(L, 1);
+  if (p->context)
+    cs_mem_free(p->context->memory, p->bytes, p->capacity);
+  p->bytes = NULL;
+  return 0;
+}
+
+static celspan_status append(picture *p, const void *bytes, size_t size) {
+  CS_TRY(CS_RESERVE(p->context, p->bytes, p->capacity, p->size + size));
+  memcpy(p->bytes + p->size, bytes, size);
+  p->size += size;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- a PNG in memory */
+
+static celspan_status put_chunk(picture *p, const char *type, const void *bytes, size_t size) {
+  unsigned char head[CS_PNG_CHUNK_HEAD], tail[CS_PNG_CHUNK_TAIL];
+  cs_png_chunk_ends(type, bytes, size, head, tail);
+  CS_TRY(append(p, head, sizeof head));
+  CS_TRY(append(p, bytes, size));
+  return append(p, tail, sizeof tail);
+}
+
+static celspan_status put_data(void *user, celspan_context *context, const void *bytes,
+                               size_t size) {
+  (void)context;
+  return put_chunk(user, "IDAT", bytes, size);
+}
+
+static celspan_status begin_png(void *user, celspan_context *context, int32_t width,
+                                int32_t height) {
+  picture *p = user;
+  const cs_png_picture desc = {.coding = coding, .width = width, .height = height, .workers = 1};
+  unsigned char header[CS_PNG_HEADER] = {0};
+  cs_png_store_32(header, (uint32_t)width);
+  cs_png_store_32(header + 4, (uint32_t)height);
+  header[8] = 8;
+  header[9] = 6; /* RGBA */
+  CS_TRY(append(p, cs_png_signature, sizeof cs_png_signature));
+  CS_TRY(put_chunk(p, "IHDR", header, sizeof header));
+  CS_TRY(put_chunk(p, "sRGB", "", 1));
+  return cs_png_strips_create(context, &desc, put_data, p, &p->strips);
+}
+
+static celspan_status put_png_row(void *user, celspan_context *context, int32_t y,
+                                  const celspan_span *spans, size_t span_count) {
+  const picture *p = user;
+  (void)y;
+  return cs_png_strips_row(p->strips, context, spans, span_count);
+}
+
+static celspan_status end_png(void *user, celspan_context *context, celspan_status outcome) {
+  picture *p = user;
+  if (outcome == CELSPAN_OK)
+    outcome = cs_png_strips_finish(p->strips, context);
+  if (outcome == CELSPAN_OK)
+    outcome = put_chunk(p, "IEND", "", 0);
+  cs_png_strips_destroy(p->strips, context);
+  p->strips = NULL;
+  return outcome;
+}
+
+/* ---------------------------------------------------------------- pictures */
+
+/* The frame that was built last. */
+static celspan_frame_desc frame_of(lua_State *L, const cs_script *script) {
+  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
+  cs_request_read(cs_service_session(L)->request, "--workers", &desc.workers);
+  desc.exposures = script->frame.exposures;
+  desc.exposure_count = script->frame.count;
+  desc.film_width = script->film.width;
+  desc.film_height = script->film.height;
+  desc.progress = cs_interrupt_progress;
+  return desc;
+}
+
+/* Reads the size and the crop from index 2 on: six numbers. */
+static bool read_view(lua_State *L, celspan_frame_desc *desc) {
+  int64_t view[6];
+  for (int i = 0; i < 6; i++) {
+    view[i] = luaL_checkinteger(L, 2 + i);
+    if (view[i] < (i == 2 || i == 3 ? 0 : 1) || view[i] > CS_SIDE_MAX)
+      return false;
+  }
+  desc->width = (int32_t)view[0];
+  desc->height = (int32_t)view[1];
+  desc->crop_x = (int32_t)view[2];
+  desc->crop_y = (int32_t)view[3];
+  desc->crop_width = (int32_t)view[4];
+  desc->crop_height = (int32_t)view[5];
+  return view[2] + view[4] <= view[0] && view[3] + view[5] <= view[1] &&
+         view[4] * view[5] <= PIXELS_MOST;
+}
+
+static celspan_status render(picture *p, const celspan_frame_desc *desc, bool is_png) {
+  celspan_sink sink = {
+      .user = p, .begin = begin_png, .row = put_png_row, .end = end_png, .takes_codes = true};
+  if (!is_png) {
+    size_t stride = 4 * (size_t)desc->crop_width;
+    p->size = stride * (size_t)desc->crop_height;
+    CS_TRY(CS_RESERVE(p->context, p->bytes, p->capacity, p->size));
+    CS_TRY(cs_sink_memory(p->context, &coding, p->bytes, stride, &sink));
+  }
+  return celspan_frame_render(p->context, desc, &sink, NULL);
+}
+
+/* film:picture(width, height, x, y, w, h, is_png) -> the part of the frame that was built last, of
+ * the frame at that size, as RGBA or as a PNG: 8 bits, sRGB, straight alpha | nil, message */
+int cs_stage_picture(lua_State *L, cs_script *script) {
+  celspan_frame_desc desc = frame_of(L, script);
+  if (!read_view(L, &desc)) {
+    luaL_pushfail(L);
+    lua_pushfstring(L, "the crop is not within the frame, or has more than %d pixels", PIXELS_MOST);
+    return 2;
+  }
+  picture *p = cs_userdata_push_holder(L, "celspan.program.stage", sizeof *p, release_picture);
+  p->context = script->context;
+  celspan_status status = render(p, &desc, lua_toboolean(L, 8));
+  if (status != CELSPAN_OK) {
+    luaL_pushfail(L);
+    lua_pushstring(L, celspan_context_error(script->context));
+    return 2;
+  }
+  lua_pushlstring(L, (const char *)p->bytes, p->size);
+  return 1;
+}
+
+/* ---------------------------------------------------------------- the objects at a point */
+
+/* A search from front to back. */
+typedef struct search {
+  lua_State *L; /* the function that is called is argument 4 */
+  celspan_context *context;
+  const cs_script *script;
+  celspan_point point;
+  size_t count; /* of what was found */
+} search;
+
+static celspan_status probe_cel(const search *s, celspan_cel *cel, bool *is_there) {
+  celspan_rostrum *rostrum;
+  double rgba[4];
+  celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
+  desc.cels = &cel;
+  desc.cel_count = 1;
+  CS_TRY(celspan_rostrum_create(s->context, &desc, &rostrum));
+  const celspan_exposure exposure = {rostrum, 1};
+  celspan_status status = celspan_probe(s->context, &exposure, 1, s->script->film.width,
+                                        s->script->film.height, s->point, rgba);
+  *is_there = status == CELSPAN_OK && rgba[3] > 0;
+  celspan_rostrum_unref(rostrum);
+  return status;
+}
+
+/* Whether an object covers the point at which it stands alone. */
+static celspan_status probe_object(const search *s, celspan_object *object,
+                                   const celspan_matrix *matrix, bool *is_there) {
+  celspan_object *placed;
+  celspan_cel *cel = NULL;
+  CS_TRY(celspan_object_transform(s->context, object, matrix, &placed));
+  celspan_cel_desc desc = CELSPAN_CEL_DESC;
+  desc.objects = &placed;
+  desc.object_count = 1;
+  celspan_status status = celspan_cel_create(s->context, &desc, &cel);
+  if (status == CELSPAN_OK)
+    status = probe_cel(s, cel, is_there);
+  celspan_cel_unref(cel);
+  celspan_object_unref(placed);
+  return status;
+}
+
+static void add_hit(search *s, const char *kind, cs_mark mark) {
+  celspan_origin origin = cs_mark_origin(mark);
+  s->count++;
+  lua_pushvalue(s->L, 4);
+  lua_pushstring(s->L, kind);
+  lua_pushstring(s->L, cs_mark_name(mark));
+  lua_pushstring(s->L, origin.line > 0 ? origin.source : NULL);
+  lua_pushinteger(s->L, origin.line);
+  lua_call(s->L, 4, 0);
+}
+
+static celspan_status search_rostrum(search *s, const celspan_rostrum *rostrum,
+                                     const celspan_matrix *matrix);
+
+/* Recursion ends: nesting is at most CS_SCENE_DEPTH. */
+static celspan_status search_objects(search *s, celspan_object *const *objects, size_t count,
+                                     const celspan_matrix *matrix) {
+  for (size_t i = count; i-- > 0;) {
+    const cs_primitive_data *data = objects[i]->data;
+    bool is_there = false;
+    CS_TRY(probe_object(s, objects[i], matrix, &is_there));
+    if (!is_there)
+      continue;
+    celspan_matrix inner = celspan_matrix_then(*objects[i]->matrix, *matrix);
+    if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN)
+      CS_TRY(search_objects(s, data->boolean->operands, data->boolean->operand_count, &inner));
+    if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM)
+      CS_TRY(search_rostrum(s, data->rostrum, &inner));
+    add_hit(s, "object", objects[i]->mark);
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status search_rostrum(search *s, const celspan_rostrum *rostrum,
+                                     const celspan_matrix *matrix) {
+  for (size_t i = rostrum->cel_count; i-- > 0;) {
+    const celspan_cel *cel = rostrum->cels[i];
+    celspan_matrix inner = celspan_matrix_then(cel->matrix, *matrix);
+    size_t before = s->count;
+    CS_TRY(search_objects(s, cel->objects, cel->object_count, &inner));
+    if (s->count > before)
+      add_hit(s, "cel", cel->mark);
+  }
+  return CELSPAN_OK;
+}
+
+/* film:hits(x, y, add) -> nil | message: calls add(kind, name, source or nil, line) for each object
+ * and cel of the frame that was built last that covers the point, from front to back, each after
+ * what it is made of. x, y: film units. */
+int cs_stage_hits(lua_State *L, cs_script *script) {
+  search s = {.L = L,
+              .context = script->context,
+              .script = script,
+              .point = {luaL_checknumber(L, 2), luaL_checknumber(L, 3)}};
+  const celspan_matrix none = celspan_matrix_identity();
+  luaL_checkstack(L, 8, "too many objects");
+  celspan_status status = CELSPAN_OK;
+  if (script->frame.count > 0)
+    status = search_rostrum(&s, script->frame.exposures[0].rostrum, &none);
+  if (status == CELSPAN_OK)
+    return 0;
+  lua_pushstring(L, celspan_context_error(script->context));
+  return 1;
+}
+
+/* ---------------------------------------------------------------- files */
+
+/* Runs protected. -> the names of the files that the script asked for, each ended by a zero */
+static int join_asked(lua_State *L) {
+  luaL_Buffer names;
+  cs_host_push_asked(L);
+  luaL_buffinit(L, &names);
+  for (lua_Integer i = 1; lua_rawgeti(L, 1, i) == LUA_TSTRING; i++) {
+    luaL_addvalue(&names);
+    luaL_addchar(&names, 0);
+  }
+  lua_pop(L, 1);
+  luaL_pushresult(&names);
+  return 1;
+}
+
+/* film:files() -> the paths that the script has asked for since the last call, each ended by a
+ * zero */
+int cs_stage_files(lua_State *L, cs_script *of) {
+  lua_State *script = of->L;
+  lua_pushcfunction(script, join_asked);
+  if (lua_pcall(script, 0, 1, 0) != LUA_OK)
+    lua_pushliteral(L, "");
+  else {
+    size_t size;
+    const char *names = lua_tolstring(script, -1, &size);
+    lua_pushlstring(L, names ? names : "", size);
+  }
+  lua_pop(script, 1);
+  return 1;
+}

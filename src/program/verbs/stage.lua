@@ -1,0 +1,111 @@
+--- celspan stage SCRIPT: a film that answers requests, for celspan watch, which runs several of
+--- them (program/renderer_service.c).
+--
+--   standard input    size, { "want": "frame", "number": 3, ... }
+--   standard output   size, size of the head, { "good": true, ... }, bytes
+--
+-- Sizes have four bytes, the highest first. Every answer has in `files` the paths that the script
+-- has asked for since the one before. What the script prints goes to standard error.
+local program, request = ...
+local json = require "celspan.json"
+
+local CHECK_SECONDS = 0.03 -- of frames that are checked for one request
+local SHEET_MOST = 10000   -- frames of a sheet
+
+local film
+
+local function put(head, bytes)
+  head.files = {}
+  for path in (film and film:files() or ""):gmatch "(%Z+)%z" do
+    head.files[#head.files + 1] = path
+  end
+  local text = program.json(head)
+  bytes = bytes or ""
+  io.stdout:write(string.pack(">I4s4", 4 + #text + #bytes, text), bytes)
+  io.stdout:flush()
+end
+
+local function refuse(message, code) put { good = false, message = message, code = code } end
+
+-- ---------------------------------------------------------------- answers
+
+local answers = {}
+
+function answers.film()
+  put { good = true, film = { frames = film.frames, first = film.first, fps = film.fps,
+                              size = film.size, title = film.title, marks = {} } }
+end
+
+--- Builds a frame. false: refused.
+local function build(number)
+  local good, message, code = film:try(number)
+  if not good then refuse(message, code) end
+  return good
+end
+
+function answers.frame(ask)
+  if not build(ask.number) then return end
+  local began = program.clock()
+  local w, h = table.unpack(ask.size)
+  local bytes, message = film:picture(w, h, ask.crop[1], ask.crop[2], ask.crop[3], ask.crop[4],
+    ask.png)
+  if not bytes then return refuse(("frame %d: %s"):format(ask.number, message)) end
+  put({ good = true, seconds = program.clock() - began }, bytes)
+end
+
+function answers.at(ask)
+  if not build(ask.number) then return end
+  local hits = {}
+  local message = film:hits(ask.x, ask.y, function(kind, name, source, line)
+    hits[#hits + 1] = { kind = kind, name = name, file = source, line = source and line }
+  end)
+  if message then return refuse(message) end
+  put { good = true, hits = hits }
+end
+
+function answers.sheet()
+  local numbers = {}
+  for i = 1, math.min(film.frames, SHEET_MOST) do numbers[i] = film.first + i - 1 end
+  local good, sheet = pcall(require "celspan.sheet".of, film, { frames = numbers })
+  local text, message
+  if good then text, message = sheet:text() end
+  if not text then return refuse(program.reported() or message or tostring(sheet)) end
+  put({ good = true }, text)
+end
+
+--- Checks frames until the time is over, one at least.
+function answers.check(ask)
+  local faults, number, began = {}, ask.number, program.clock()
+  local last = film.first + film.frames - 1
+  repeat
+    local good, message = film:try(number)
+    local function add(where, text)
+      local message_of = where == "" and text or where .. ": " .. text
+      faults[#faults + 1] = { frame = number, message = message_of }
+    end
+    if good then film:faults(add) else add("", message) end
+    number = number + 1
+  until number > last or program.clock() - began > CHECK_SECONDS
+  put { good = true, number = number, faults = faults }
+end
+
+-- ---------------------------------------------------------------- requests
+
+--- The next request; nil: no more will arrive.
+local function take()
+  local head = io.stdin:read(4)
+  local size = head and #head == 4 and (">I4"):unpack(head)
+  local text = size and io.stdin:read(size)
+  return text and #text == size and json.decode(text) or nil
+end
+
+local good, made = pcall(program.film, request[1])
+if good then film = made end
+for ask in take do
+  if not film then
+    refuse(program.reported() or tostring(made), program.outcome())
+  else
+    answers[ask.want](ask)
+  end
+  if program.is_stopped() then break end
+end

@@ -1,0 +1,93 @@
+--- Who may ask the page's server what (celspan watch).
+--
+--   Host      127.0.0.1, localhost or [::1] with our port: other names are a stranger's, which
+--             point here (DNS rebinding)
+--   Origin    where one is sent, ours
+--   token     in the query, for programs; or in a cookie, whose name has the port in it because
+--             cookies of all ports of a machine are shared. A cookie counts for requests of our own
+--             page alone
+--
+-- INVARIANT: a request that passes has a path of plain characters without "..", and its texts are
+-- decoded once.
+local guard = {}
+guard.__index = guard
+
+local TOKEN_BYTES = 16
+
+--- 128 bits that nobody can guess, in hexadecimal digits.
+local function random_token()
+  local file = assert(io.open("/dev/urandom", "rb"))
+  local bytes = assert(file:read(TOKEN_BYTES))
+  file:close()
+  return (bytes:gsub(".", function(byte) return ("%02x"):format(byte:byte()) end))
+end
+
+function guard.new(port)
+  local self = setmetatable({ token = random_token(), hosts = {}, origins = {} }, guard)
+  for _, name in ipairs { "127.0.0.1", "localhost", "[::1]" } do
+    local host = ("%s:%d"):format(name, port)
+    self.hosts[host], self.origins["http://" .. host] = true, true
+  end
+  self.cookie_name = "celspan-" .. port
+  self.cookie = ("%s=%s; Path=/; HttpOnly; SameSite=Strict"):format(self.cookie_name, self.token)
+  return self
+end
+
+--- Whether a text is the token, in a time that does not depend on where they differ.
+function guard:is_token(text)
+  if type(text) ~= "string" or #text ~= #self.token then return false end
+  local differs = 0
+  for i = 1, #text do differs = differs | (text:byte(i) ~ self.token:byte(i)) end
+  return differs == 0
+end
+
+local function decode(text)
+  return (text:gsub("+", " "):gsub("%%(%x%x)", function(digits)
+    return string.char(tonumber(digits, 16))
+  end))
+end
+
+--- The path and the fields of the query; nil for a target that is not plain.
+local function parse(target)
+  local path, query = target:match "^(/[%w/._,%-]*)%??(.*)$"
+  if not path or path:find("..", 1, true) or path:find "//" then return nil end
+  if #path ~= #target and target:sub(#path + 1, #path + 1) ~= "?" then return nil end
+  local fields = {}
+  for pair in query:gmatch "[^&]+" do
+    local name, value = pair:match "^([^=]*)=?(.*)$"
+    fields[decode(name)] = decode(value)
+  end
+  return path, fields
+end
+
+function guard:has_cookie(request)
+  for name, value in (request.cookie or ""):gmatch "([^=;%s]+)=([^;%s]*)" do
+    if name == self.cookie_name and self:is_token(value) then return true end
+  end
+  return false
+end
+
+--- The path and the fields of a request that may be answered; else nil, the status and a sentence.
+function guard:admit(request)
+  if not self.hosts[(request.host or ""):lower()] then
+    return nil, 403, "this server answers to 127.0.0.1 alone"
+  end
+  if request.origin and not self.origins[request.origin:lower()] then
+    return nil, 403, "the request comes from another page"
+  end
+  if request.method ~= "GET" and request.method ~= "POST" then
+    return nil, 405, "only GET and POST are answered"
+  end
+  if request.method == "POST" and not request.origin then
+    return nil, 403, "a POST needs an Origin"
+  end
+  local path, fields = parse(request.target)
+  if not path then return nil, 404, "there is no such address" end
+  local is_ours = not request.site or request.site == "same-origin" or request.site == "none"
+  if self:is_token(fields.token) or is_ours and self:has_cookie(request) then
+    return path, fields
+  end
+  return nil, 403, "the token is missing: use the address that celspan watch has printed"
+end
+
+return guard

@@ -1,0 +1,560 @@
+// The page of celspan watch.
+//
+//   /state.json ---news--> film, errors          keys, wheel, buttons --> view, frame
+//                            \                      /
+//                             what is wanted: frame, size, crop --> /frame/N.rgba --> #stage
+//
+// Pictures are wanted one after the other: while one is on its way, only the newest wish is kept.
+// While the film plays, several are asked for ahead.
+const here = id => document.getElementById(id);
+const stage = here("stage"), desk = here("desk"), pen = stage.getContext("2d");
+const SIDE_MOST = 1048576;   // pixels of a frame
+const KEPT_MOST = 192 << 20; // bytes of pictures that are kept
+const AHEAD = 8, AT_ONCE = 3; // pictures asked for ahead while playing, and at the same time
+const SLOW = 0.25;           // seconds after which a coarse picture comes first
+const STRIDE = 80;           // device pixels that a key moves the picture
+
+const state = { news: 0, build: 0, film: null, errors: [], shown: false };
+// number: of the frame, from 1. scale: device pixels of a unit of the film; x, y: the place of the
+// frame's corner in the window, in device pixels. isFitted: both follow the window.
+const view = { number: 1, scale: 1, x: 0, y: 0, isFitted: true };
+const loop = { from: 1, to: 1 };
+const play = { direction: 0, speed: 1, start: 0, number: 1, painted: [] };
+let painted = null, isMatte = false, mark = null;
+
+// ---------------------------------------------------------------- the view
+
+const ratio = () => window.devicePixelRatio || 1;
+const clamp = (value, least, most) => Math.min(Math.max(value, least), most);
+
+function windowSize() {
+  return [Math.max(1, Math.round(desk.clientWidth * ratio())),
+          Math.max(1, Math.round(desk.clientHeight * ratio()))];
+}
+
+/** The size of the whole frame in device pixels. */
+function frameSize() {
+  return state.film.size.map(side => clamp(Math.round(side * view.scale), 1, SIDE_MOST));
+}
+
+function fit() {
+  if (!state.film) return;
+  const [w, h] = windowSize(), size = state.film.size;
+  const margin = document.body.classList.contains("alone") ? 0 : 16 * ratio();
+  view.isFitted = true;
+  view.scale = Math.min(Math.max(1, w - 2 * margin) / size[0], Math.max(1, h - 2 * margin) / size[1],
+                        SIDE_MOST / Math.max(...size));
+  const whole = frameSize();
+  view.x = Math.floor((w - whole[0]) / 2);
+  view.y = Math.floor((h - whole[1]) / 2);
+}
+
+/** Zooms about a point of the window, in device pixels. */
+function zoom(factor, x, y) {
+  if (!state.film) return;
+  const most = SIDE_MOST / Math.max(...state.film.size), least = 8 / Math.max(...state.film.size);
+  const scale = clamp(view.scale * factor, least, most), change = scale / view.scale;
+  view.isFitted = false;
+  view.scale = scale;
+  view.x = Math.round(x - (x - view.x) * change);
+  view.y = Math.round(y - (y - view.y) * change);
+  look();
+}
+
+function move(dx, dy) {
+  view.isFitted = false;
+  view.x += Math.round(dx);
+  view.y += Math.round(dy);
+  look();
+}
+
+/** The part of the frame that is in the window; null: none is. */
+function visible() {
+  const [w, h] = windowSize(), [fw, fh] = frameSize();
+  const x = clamp(-view.x, 0, fw), y = clamp(-view.y, 0, fh);
+  const right = clamp(w - view.x, 0, fw), bottom = clamp(h - view.y, 0, fh);
+  return right > x && bottom > y ? [x, y, right - x, bottom - y] : null;
+}
+
+// ---------------------------------------------------------------- pictures
+
+const kept = new Map(); // by their address, the oldest first
+let keptBytes = 0;
+
+function keep(address, picture) {
+  kept.set(address, picture);
+  keptBytes += picture.bytes.byteLength;
+  for (const [old, one] of kept) {
+    if (keptBytes <= KEPT_MOST) break;
+    kept.delete(old);
+    keptBytes -= one.bytes.byteLength;
+  }
+}
+
+function forget() {
+  kept.clear();
+  keptBytes = 0;
+}
+
+/** The part of a frame that is visible. coarse: that many pixels are one, in each direction. */
+function wish(number, coarse = 1) {
+  const crop = visible();
+  if (!crop) return null;
+  let size = frameSize(), part = crop;
+  if (coarse > 1) {
+    size = size.map(side => Math.max(1, Math.round(side / coarse)));
+    const x = Math.floor(crop[0] / coarse), y = Math.floor(crop[1] / coarse);
+    part = [Math.min(x, size[0] - 1), Math.min(y, size[1] - 1)];
+    part.push(clamp(Math.ceil(crop[2] / coarse), 1, size[0] - part[0]),
+              clamp(Math.ceil(crop[3] / coarse), 1, size[1] - part[1]));
+  }
+  const name = number - 1 + state.film.first;
+  const address = `/frame/${name}.rgba?size=${size.join("x")}&crop=${part.join()}&build=${state.build}`;
+  return { number, size, crop: part, address };
+}
+
+async function fetchPicture(wanted) {
+  const known = kept.get(wanted.address);
+  if (known) return known;
+  const answer = await fetch(wanted.address);
+  if (!answer.ok) throw Object.assign(new Error(await answer.text()), { status: answer.status });
+  const picture = { ...wanted, bytes: new Uint8ClampedArray(await answer.arrayBuffer()),
+                    seconds: Number(answer.headers.get("Celspan-Seconds")) };
+  if (wanted.address.endsWith("build=" + state.build)) keep(wanted.address, picture);
+  return picture;
+}
+
+/** The coverage alone, as grey. */
+function matteOf(bytes) {
+  const out = new Uint8ClampedArray(bytes.length);
+  for (let i = 0; i < bytes.length; i += 4) {
+    out[i] = out[i + 1] = out[i + 2] = bytes[i + 3];
+    out[i + 3] = 255;
+  }
+  return out;
+}
+
+function paint(picture) {
+  const [x, y, w, h] = picture.crop;
+  if (stage.width !== w || stage.height !== h) {
+    stage.width = w;
+    stage.height = h;
+  }
+  pen.putImageData(new ImageData(isMatte ? matteOf(picture.bytes) : picture.bytes, w, h), 0, 0);
+  painted = picture;
+  stage.dataset.frame = picture.number - 1 + state.film.first;
+  stage.dataset.size = picture.size.join("x");
+  stage.dataset.crop = picture.crop.join();
+  stage.dataset.build = state.build;
+  stage.setAttribute("aria-label", `Frame ${picture.number}`);
+  place();
+}
+
+/** Puts what is painted where the view has it now, stretched if it was made for another one. */
+function place() {
+  if (!painted || !state.film) return;
+  const whole = frameSize(), r = ratio();
+  const sx = whole[0] / painted.size[0] / r, sy = whole[1] / painted.size[1] / r;
+  const [x, y, w, h] = painted.crop;
+  Object.assign(stage.style, { left: `${view.x / r + x * sx}px`, top: `${view.y / r + y * sy}px`,
+                               width: `${w * sx}px`, height: `${h * sy}px` });
+}
+
+// ---------------------------------------------------------------- one picture after the other
+
+let isAsking = false, isWanted = false, slowness = 0;
+
+/** Wants the picture of the view as it is now. */
+function look() {
+  if (view.isFitted) fit();
+  place();
+  showNumbers();
+  isWanted = true;
+  if (!isAsking && state.film && state.shown) ask();
+}
+
+async function ask() {
+  isAsking = true;
+  while (isWanted && state.film && state.shown) {
+    isWanted = false;
+    const coarse = slowness > SLOW && play.direction === 0 ? 4 : 1;
+    const fine = wish(view.number), first = coarse > 1 ? wish(view.number, coarse) : fine;
+    if (!fine) break;
+    try {
+      if (first !== fine && !kept.has(fine.address)) {
+        paint(await fetchPicture(first));
+        await new Promise(requestAnimationFrame);
+        if (isWanted) continue;
+      }
+      const picture = await fetchPicture(fine);
+      slowness = picture.seconds;
+      paint(picture);
+      showFault();
+    } catch (fault) {
+      await failed(fault);
+    }
+  }
+  isAsking = false;
+}
+
+/** A picture that was not made: what the film says of it is among the errors; what was busy is
+ * asked again. */
+async function failed(fault) {
+  if (fault.status === 422) return showFault(fault.message.trim());
+  await new Promise(done => setTimeout(done, 300));
+  if (fault.status === 503) isWanted = true;
+}
+
+// ---------------------------------------------------------------- playing
+
+function go(number) {
+  if (!state.film) return;
+  view.number = clamp(Math.round(number) || 1, 1, state.film.frames);
+  look();
+}
+
+function step(by) {
+  stop();
+  go(view.number + by);
+}
+
+function start(direction) {
+  if (!state.film) return;
+  play.direction = direction;
+  if (view.number < loop.from || view.number > loop.to) view.number = loop.from;
+  play.number = view.number;
+  play.start = performance.now();
+  play.painted = [];
+  here("play").textContent = "❚❚";
+  here("play").setAttribute("aria-label", "Pause");
+  requestAnimationFrame(tick);
+}
+
+function stop() {
+  play.direction = 0;
+  here("play").textContent = "▶";
+  here("play").setAttribute("aria-label", "Play");
+  here("rate").textContent = "";
+}
+
+function toggle() {
+  if (play.direction === 0) return start(1);
+  stop();
+  look();
+}
+
+/** The number `by` frames further on, in the loop. */
+function onward(number, by) {
+  const count = loop.to - loop.from + 1;
+  return loop.from + ((number - loop.from + by) % count + count) % count;
+}
+
+const asked = new Set();
+
+/** Asks for the next pictures. */
+function askAhead(number) {
+  for (let i = 0; i < AHEAD && asked.size < AT_ONCE; i++) {
+    const wanted = wish(onward(number, i * play.direction));
+    if (!wanted || kept.has(wanted.address) || asked.has(wanted.address)) continue;
+    asked.add(wanted.address);
+    fetchPicture(wanted).catch(failed).finally(() => asked.delete(wanted.address));
+  }
+}
+
+function showRate(now) {
+  play.painted = play.painted.filter(time => now - time < 1000);
+  const age = Math.min(now - play.start, 1000) / 1000;
+  here("rate").textContent = age > 0.5 ? `${(play.painted.length / age).toFixed(1)} fps` : "";
+}
+
+function tick(now) {
+  if (play.direction === 0 || !state.film) return;
+  const passed = Math.floor((now - play.start) / 1000 * state.film.fps * play.speed);
+  const number = onward(play.number, Math.max(0, passed) * play.direction);
+  const wanted = state.shown && wish(number), picture = wanted && kept.get(wanted.address);
+  if (picture && picture !== painted) {
+    view.number = number;
+    paint(picture);
+    play.painted.push(now);
+    showNumbers();
+  }
+  if (wanted) askAhead(number);
+  showRate(now);
+  requestAnimationFrame(tick);
+}
+
+/** Plays on from here at another speed. */
+function setSpeed(speed) {
+  play.speed = clamp(speed, 0.25, 4);
+  here("speed").value = String(play.speed);
+  if (play.direction !== 0) start(play.direction);
+}
+
+function setLoop(from, to) {
+  loop.from = clamp(from, 1, state.film.frames);
+  loop.to = clamp(to, loop.from, state.film.frames);
+  showNumbers();
+}
+
+// ---------------------------------------------------------------- what is shown beside the picture
+
+function showNumbers() {
+  if (!state.film) return;
+  here("frame").textContent = view.number;
+  here("frames").textContent = state.film.frames;
+  here("scrub").max = state.film.frames;
+  here("scrub").value = view.number;
+  const percent = view.scale * 100;
+  here("zoom").textContent = `${percent < 10 ? percent.toFixed(1) : Math.round(percent)} %`;
+  const whole = loop.from === 1 && loop.to === state.film.frames;
+  const [w, h] = state.film.size;
+  here("facts").textContent = `${w} × ${h}, ${state.film.fps} fps`
+    + (whole ? "" : `, loop ${loop.from} to ${loop.to}`);
+}
+
+/** The error of the film or of this frame, over the last good picture. */
+function showFault(message) {
+  const name = state.film ? view.number - 1 + state.film.first : 0;
+  const known = message ? state.errors.find(one => one.message === message)
+    : state.shown ? null : state.errors[0];
+  const fault = known || (message ? { message, frame: name } : null);
+  here("fault").hidden = here("error").hidden = !fault;
+  here("error").textContent = fault ? fault.message : "";
+  here("excerpt").replaceChildren(...(fault && fault.lines || []).map(([number, text]) => {
+    const line = document.createElement(number === fault.line ? "b" : "span");
+    line.textContent = `${String(number).padStart(4)}  ${text}\n`;
+    return line;
+  }));
+  stage.classList.toggle("old", Boolean(fault));
+}
+
+function showState() {
+  const film = state.film;
+  document.title = `${film && film.title || state.script} – celspan`;
+  here("title").textContent = film && film.title || state.script;
+  const bad = state.errors.length;
+  here("news").textContent = state.building && state.seconds > 0.5 ? "building …"
+    : bad && state.shown ? `${bad} fault${bad === 1 ? "" : "s"}: ${state.errors[0].message}` : "";
+  if (!state.building) showFault();
+}
+
+// ---------------------------------------------------------------- news
+
+function takeState(news) {
+  const isNew = news.build !== state.build || news.shown !== state.shown;
+  const before = state.film;
+  Object.assign(state, { film: null }, news, { film: news.film || before });
+  document.body.classList.toggle("alone", news.alone);
+  if (state.film && (!before || before.frames !== state.film.frames)) {
+    loop.from = 1;
+    loop.to = state.film.frames;
+    view.number = clamp(view.number, 1, state.film.frames);
+    if (!before && news.alone) start(1);
+  }
+  showState();
+  if (!isNew) return;
+  forget();
+  if (state.shown) look();
+}
+
+async function listen() {
+  for (;;) {
+    try {
+      const answer = await fetch(`/state.json?since=${state.news}`);
+      if (!answer.ok) throw new Error(await answer.text());
+      takeState(await answer.json());
+    } catch {
+      here("news").textContent = "celspan watch has ended; start it again, and open its new address";
+      await new Promise(done => setTimeout(done, 1000));
+    }
+  }
+}
+
+// ---------------------------------------------------------------- the inspector
+
+function setInspecting(isOn) {
+  here("side").hidden = !isOn;
+  here("inspect").setAttribute("aria-pressed", isOn);
+  desk.classList.toggle("inspecting", isOn);
+  look();
+}
+
+function showColour(x, y) {
+  const [r, g, b, a] = pen.getImageData(x, y, 1, 1).data;
+  here("swatch").style.backgroundColor = `rgb(${r} ${g} ${b} / ${a / 255})`;
+  here("codes").textContent = `${r}, ${g}, ${b}   alpha ${(a / 255).toFixed(3)}`;
+}
+
+/** Shows the colour and the objects at a point of the window, in CSS pixels. */
+async function inspect(clientX, clientY) {
+  const box = stage.getBoundingClientRect();
+  const column = Math.floor((clientX - box.left) / box.width * stage.width);
+  const row = Math.floor((clientY - box.top) / box.height * stage.height);
+  if (!painted || column < 0 || row < 0 || column >= stage.width || row >= stage.height) return;
+  const [w, h] = state.film.size, name = view.number - 1 + state.film.first;
+  const x = (painted.crop[0] + column + 0.5) / painted.size[0] * w;
+  const y = (painted.crop[1] + row + 0.5) / painted.size[1] * h;
+  mark = `${name} ${x} ${y}`;
+  here("place").textContent = `x ${x.toFixed(2)}, y ${y.toFixed(2)}`;
+  showColour(column, row);
+  const wanted = mark;
+  const answer = await fetch(`/at/${x.toFixed(6)},${y.toFixed(6)}.json?frame=${name}`);
+  if (!answer.ok || wanted !== mark) return;
+  const hits = await answer.json();
+  here("hint").textContent = hits.length ? "" : "Nothing is there.";
+  here("hits").replaceChildren(...hits.map(hit => {
+    const item = document.createElement("li"), where = document.createElement("small");
+    where.textContent = hit.file ? ` ${hit.file}:${hit.line}` : "";
+    item.append(hit.name ? `${hit.name} (${hit.kind})` : `${hit.kind} without a name`, where);
+    return item;
+  }));
+}
+
+// ---------------------------------------------------------------- hands
+
+function nextGround() {
+  const choice = here("ground");
+  choice.selectedIndex = (choice.selectedIndex + 1) % choice.options.length;
+  stage.dataset.ground = choice.value;
+}
+
+function setMatte(isOn) {
+  isMatte = isOn;
+  here("matte").setAttribute("aria-pressed", isOn);
+  if (painted) paint(painted);
+}
+
+function setTheme(theme) {
+  document.documentElement.dataset.theme = theme;
+}
+
+function swapTheme() {
+  setTheme(document.documentElement.dataset.theme === "light" ? "dark" : "light");
+}
+
+function fullScreen() {
+  if (document.fullscreenElement) document.exitFullscreen();
+  else document.documentElement.requestFullscreen();
+}
+
+function zoomMiddle(factor) {
+  const [w, h] = windowSize();
+  zoom(factor, w / 2, h / 2);
+}
+
+/** One unit of the film as one pixel of the screen. */
+function natural() { zoomMiddle(1 / view.scale); }
+
+function askNumber() {
+  here("number").value = view.number;
+  here("go").showModal();
+  here("number").select();
+}
+
+const keys = {
+  " ": toggle, k: toggle,
+  ArrowLeft: event => event.shiftKey ? move(STRIDE, 0) : step(-1),
+  ArrowRight: event => event.shiftKey ? move(-STRIDE, 0) : step(1),
+  ArrowUp: event => event.shiftKey ? move(0, STRIDE) : step(1),
+  ArrowDown: event => event.shiftKey ? move(0, -STRIDE) : step(-1),
+  PageUp: () => step(-10), PageDown: () => step(10),
+  Home: () => { stop(); go(loop.from); }, End: () => { stop(); go(loop.to); },
+  j: () => start(-1),
+  l: () => play.direction > 0 ? setSpeed(play.speed * 2) : start(1),
+  i: () => setLoop(view.number, loop.to),
+  o: () => setLoop(Math.min(loop.from, view.number), view.number),
+  x: () => setLoop(1, state.film.frames),
+  p: () => setInspecting(here("side").hidden),
+  g: askNumber,
+  "+": () => zoomMiddle(1.5), "=": () => zoomMiddle(1.5), "-": () => zoomMiddle(1 / 1.5),
+  0: () => { fit(); look(); }, 1: natural,
+  b: nextGround, m: () => setMatte(!isMatte), t: swapTheme, f: fullScreen,
+  "?": () => here("keys").showModal(),
+};
+
+/** Whether a key belongs to what has the focus. */
+function isTaken(event) {
+  const target = event.target, isButton = target.matches("button");
+  return event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")
+    || target.matches("select, input[type=text]")
+    || isButton && (event.key === "Enter" || event.key === " ");
+}
+
+document.addEventListener("keydown", event => {
+  const act = keys[event.key];
+  if (!act || !state.film && event.key !== "?" || isTaken(event)) return;
+  event.preventDefault();
+  act(event);
+});
+
+// A button that was clicked does not keep the focus, so that space plays.
+document.addEventListener("pointerup", event => event.target.closest("button, #scrub")?.blur());
+
+const pointers = new Map();
+let travelled = 0;
+
+desk.addEventListener("pointerdown", event => {
+  if (event.target.closest("#fault")) return;
+  desk.setPointerCapture(event.pointerId);
+  pointers.set(event.pointerId, event);
+  travelled = 0;
+});
+
+/** The middle of two pointers, and their distance. */
+function pinch([a, b]) {
+  const box = desk.getBoundingClientRect(), r = ratio();
+  return [((a.clientX + b.clientX) / 2 - box.left) * r, ((a.clientY + b.clientY) / 2 - box.top) * r,
+          Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY)];
+}
+
+desk.addEventListener("pointermove", event => {
+  const before = pointers.get(event.pointerId);
+  if (!before) return;
+  const two = pointers.size === 2 ? pinch([...pointers.values()]) : null;
+  pointers.set(event.pointerId, event);
+  const dx = event.clientX - before.clientX, dy = event.clientY - before.clientY;
+  travelled += Math.abs(dx) + Math.abs(dy);
+  if (two) {
+    const [x, y, distance] = pinch([...pointers.values()]);
+    zoom(distance / Math.max(1, two[2]), x, y);
+  } else if (travelled > 3) {
+    desk.classList.add("moving");
+    move(dx * ratio(), dy * ratio());
+  }
+});
+
+function release(event) {
+  if (!pointers.delete(event.pointerId)) return;
+  desk.classList.remove("moving");
+  const isClick = event.type === "pointerup" && travelled <= 3;
+  if (isClick && !here("side").hidden) inspect(event.clientX, event.clientY);
+}
+desk.addEventListener("pointerup", release);
+desk.addEventListener("pointercancel", release);
+
+desk.addEventListener("wheel", event => {
+  const box = desk.getBoundingClientRect(), r = ratio();
+  event.preventDefault();
+  const lines = event.deltaMode === 1 ? 16 : 1;
+  zoom(Math.exp(-event.deltaY * lines * (event.ctrlKey ? 0.01 : 0.0015)),
+       (event.clientX - box.left) * r, (event.clientY - box.top) * r);
+}, { passive: false });
+
+const clicks = {
+  first: () => { stop(); go(loop.from); }, back: () => step(-1), play: toggle,
+  forward: () => step(1), last: () => { stop(); go(loop.to); }, fit: keys[0],
+  matte: keys.m, inspect: keys.p, theme: swapTheme, help: keys["?"],
+};
+for (const [id, act] of Object.entries(clicks)) here(id).addEventListener("click", act);
+
+here("scrub").addEventListener("input", event => { stop(); go(Number(event.target.value)); });
+here("speed").addEventListener("change", event => setSpeed(Number(event.target.value)));
+here("ground").addEventListener("change", event => { stage.dataset.ground = event.target.value; });
+here("go").addEventListener("close", () => { stop(); go(Number(here("number").value)); });
+new ResizeObserver(look).observe(desk);
+
+// The address keeps no token once the cookie has it.
+history.replaceState(null, "", "/");
+stage.dataset.ground = "checker";
+setTheme(matchMedia("(prefers-color-scheme: light)").matches ? "light" : "dark");
+listen();

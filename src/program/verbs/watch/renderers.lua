@@ -1,0 +1,187 @@
+--- The renderers of a film (celspan watch): processes that answer one request each at a time.
+--
+--   ask --> queue --> an idle renderer --> done(head, bytes) or failed(message, status)
+--              \--nobody is idle for SOON seconds--> one more renderer, RENDERERS_MOST at most
+--               \--nobody for LATE seconds--> failed
+--
+-- So a script that hangs or eats memory costs one renderer, which its limits end, and the others
+-- answer meanwhile.
+--
+-- INVARIANT: each request that was asked is answered by exactly one call of done or failed.
+local program, request = ...
+local json = require "celspan.json"
+
+local RENDERERS_MOST = 4
+local SOON, LATE = 0.25, 1.5 -- seconds
+local TAIL = 2000            -- bytes of the last words that are kept
+
+local renderers = {}
+renderers.__index = renderers
+
+--- The options that are the page's, and not the film's.
+local own = { ["--port"] = true, ["--open"] = true, ["--size"] = true }
+
+local function words_of()
+  local words = { "stage", request[1] }
+  for _, option in ipairs(request.given) do
+    if not own[option.name] then
+      words[#words + 1] = option.name
+      words[#words + 1] = option.value
+    end
+  end
+  if #request.arguments > 0 then words[#words + 1] = "--" end
+  return table.move(request.arguments, 1, #request.arguments, #words + 1, words)
+end
+
+function renderers.new(note_files)
+  return setmetatable({ list = {}, queue = {}, note_files = note_files }, renderers)
+end
+
+--- job: want and what goes with it in `ask`; done, failed; is_patient: no other renderer is started
+--- for it, and it waits for ever.
+function renderers:ask(job)
+  job.since = program.clock()
+  table.insert(self.queue, job)
+end
+
+function renderers:is_idle()
+  if #self.queue > 0 then return false end
+  for _, one in ipairs(self.list) do
+    if not one.job then return true end
+  end
+  return false
+end
+
+-- ---------------------------------------------------------------- one renderer
+
+function renderers:start()
+  local process, message = program.renderer(words_of())
+  if not process then return nil, message end
+  local one = { process = process, tail = "" }
+  table.insert(self.list, one)
+  return one
+end
+
+--- Shows what a renderer printed, and keeps the end of it.
+local function hear(one)
+  local words = one.process:words()
+  if words == "" then return end
+  io.stderr:write(words)
+  one.tail = (one.tail .. words):sub(-TAIL)
+end
+
+--- Why a renderer has ended: what it said last.
+local function last_words(one)
+  local code, signal = one.process:finish()
+  local said = one.tail:match "celspan: error: ([^\n]*)\n*$"
+  if said then return said end
+  if code == 33 or signal == "Killed" then return "there was not enough memory for the film" end
+  return code and ("the renderer ended with exit code %d"):format(code)
+    or ("the renderer was ended by a signal: %s"):format(signal)
+end
+
+local function finish(one, ...)
+  local job = one.job
+  one.job = nil
+  if job then job.failed(...) end
+end
+
+--- What has arrived from a renderer. false: it has ended.
+function renderers:listen(one)
+  hear(one)
+  local message = one.process:take()
+  if message == false then
+    hear(one)
+    finish(one, last_words(one), 500)
+    return false
+  end
+  local job = one.job
+  if not message or not job then return message == nil end
+  one.job = nil
+  local text, at = (">s4"):unpack(message)
+  local head = json.decode(text)
+  if not head then return false end
+  self.note_files(head.files)
+  if head.good then
+    job.done(head, message:sub(at))
+  else
+    job.failed(head.message, 422)
+  end
+  return true
+end
+
+-- ---------------------------------------------------------------- all of them
+
+--- The next job for an idle renderer: those that can wait come last.
+function renderers:next_job()
+  for i, job in ipairs(self.queue) do
+    if not job.is_patient then return table.remove(self.queue, i) end
+  end
+  return table.remove(self.queue, 1)
+end
+
+function renderers:hand_out()
+  for _, one in ipairs(self.list) do
+    if #self.queue == 0 then return end
+    if not one.job then
+      one.job = self:next_job()
+      if not one.process:send(program.json(one.job.ask)) then
+        finish(one, "the renderer has ended", 500)
+      end
+    end
+  end
+end
+
+--- Gives up what has waited too long, and starts a renderer for what waits.
+function renderers:hurry()
+  local now, waits = program.clock(), #self.list == 0 and #self.queue > 0
+  for i = #self.queue, 1, -1 do
+    local job = self.queue[i]
+    if not job.is_patient and now - job.since > LATE and #self.list >= RENDERERS_MOST then
+      table.remove(self.queue, i)
+      job.failed("all renderers are at work: the film is slow, or does not end", 503)
+    elseif not job.is_patient and now - job.since > SOON then
+      waits = true
+    end
+  end
+  if not waits or #self.list >= RENDERERS_MOST then return end
+  local started, message = self:start()
+  if started or #self.list > 0 then return end
+  for _, job in ipairs(self.queue) do job.failed(message, 500) end
+  self.queue = {}
+end
+
+function renderers:step()
+  for i = #self.list, 1, -1 do
+    if not self:listen(self.list[i]) then
+      self.list[i].process:finish()
+      table.remove(self.list, i)
+    end
+  end
+  self:hand_out()
+  self:hurry()
+  self:hand_out()
+end
+
+--- Milliseconds after which `step` has something to do even if nobody says anything; -1: none.
+function renderers:wait() return #self.queue > 0 and 50 or -1 end
+
+function renderers:add_descriptors(list)
+  for _, one in ipairs(self.list) do
+    for _, descriptor in ipairs { one.process:descriptors() } do list[#list + 1] = descriptor end
+  end
+end
+
+--- Ends all of them; what they were asked fails.
+function renderers:close(message, status)
+  local list, queue = self.list, self.queue
+  self.list, self.queue = {}, {}
+  for _, one in ipairs(list) do
+    hear(one)
+    one.process:finish()
+    finish(one, message, status)
+  end
+  for _, job in ipairs(queue) do job.failed(message, status) end
+end
+
+return renderers

@@ -1,0 +1,175 @@
+/* program.web(): a web server for this machine alone, for verbs in Lua; and waiting for what
+ * several sources have to say. The server is in a module of its own (plugins/web/module.h), which
+ * is loaded here.
+ */
+#include <errno.h>
+#include <poll.h>
+#include <string.h>
+
+#include "base/module.h"
+#include "lua/bind/put.h"
+#include "lua/bind/userdata.h"
+#include "plugins/web/module.h"
+#include "program/service.h"
+
+enum { HEADERS_MOST = 32, SOURCES_MOST = 64 };
+
+typedef struct server {
+  const cs_web_module *module;
+  cs_web *web; /* owned */
+} server;
+
+static int close_server(lua_State *L) {
+  server *s = lua_touserdata(L, 1);
+  if (s->web)
+    s->module->close(s->web);
+  s->web = NULL;
+  return 0;
+}
+
+/* The server that is argument 1. */
+static server *self(lua_State *L) {
+  lua_getfield(L, 1, "open");
+  server *s = lua_touserdata(L, -1);
+  lua_pop(L, 1);
+  return s;
+}
+
+/* ---------------------------------------------------------------- requests */
+
+static int run(lua_State *L) {
+  const server *s = self(L);
+  lua_pushinteger(L, s->module->run(s->web));
+  return 1;
+}
+
+static int descriptor(lua_State *L) {
+  const server *s = self(L);
+  lua_pushinteger(L, s->module->descriptor(s->web));
+  return 1;
+}
+
+/* web:take() -> { id =, method =, target =, host =, origin =, cookie =, site =, body = } | nil */
+static int take(lua_State *L) {
+  const server *s = self(L);
+  const cs_web_request *request = s->module->take(s->web);
+  if (!request)
+    return 0;
+  lua_createtable(L, 0, 8);
+  cs_put_integer(L, "id", (lua_Integer)request->id);
+  cs_put_text(L, "method", request->method);
+  cs_put_text(L, "target", request->target);
+  cs_put_text(L, "host", request->host);
+  cs_put_text(L, "origin", request->origin);
+  cs_put_text(L, "cookie", request->cookie);
+  cs_put_text(L, "site", request->site);
+  lua_pushlstring(L, request->body, request->body_size);
+  lua_setfield(L, -2, "body");
+  return 1;
+}
+
+/* The list of names and values at index 4, whose texts stay alive there. */
+static size_t read_headers(lua_State *L, cs_web_header out[HEADERS_MOST]) {
+  size_t count = lua_rawlen(L, 4) / 2;
+  luaL_argcheck(L, count <= HEADERS_MOST, 4, "too many headers");
+  for (size_t i = 0; i < 2 * count; i++, lua_pop(L, 1)) {
+    luaL_argcheck(L, lua_rawgeti(L, 4, (lua_Integer)i + 1) == LUA_TSTRING, 4, "not texts");
+    *(i % 2 ? &out[i / 2].value : &out[i / 2].name) = lua_tostring(L, -1);
+  }
+  return count;
+}
+
+/* web:answer(id, status, { name, value, ... }, bytes): to a client that has gone nothing is sent.
+ */
+static int answer(lua_State *L) {
+  const server *s = self(L);
+  cs_web_header headers[HEADERS_MOST];
+  luaL_checktype(L, 4, LUA_TTABLE);
+  cs_web_answer one = {.status = (unsigned)luaL_checkinteger(L, 3), .headers = headers};
+  one.header_count = read_headers(L, headers);
+  one.bytes = luaL_checklstring(L, 5, &one.size);
+  if (!s->module->answer(s->web, (uint64_t)luaL_checkinteger(L, 2), &one))
+    return luaL_error(L, "not enough memory");
+  return 0;
+}
+
+/* web:counts() -> { requests =, displaced =, refused =, late =, oversized = } */
+static int counts(lua_State *L) {
+  const server *s = self(L);
+  const cs_web_counts all = s->module->counts(s->web);
+  lua_createtable(L, 0, 5);
+  cs_put_integer(L, "requests", (lua_Integer)all.requests);
+  cs_put_integer(L, "displaced", (lua_Integer)all.displaced);
+  cs_put_integer(L, "refused", (lua_Integer)all.refused);
+  cs_put_integer(L, "late", (lua_Integer)all.late);
+  cs_put_integer(L, "oversized", (lua_Integer)all.oversized);
+  return 1;
+}
+
+/* ---------------------------------------------------------------- the server */
+
+static celspan_status load(celspan_context *context, const cs_web_module **out) {
+  static const cs_module_desc desc = {
+      .file = "celspan-web.so",
+      .folder = "plugins/web",
+      .override = "CELSPAN_WEB_MODULE",
+      .symbol = "celspan_web_module",
+      .purpose = "showing a film in a browser",
+#ifdef CELSPAN_WITHOUT_WEB
+      .advice = "this celspan was built without libmicrohttpd; build it with -Dweb=enabled",
+#else
+      .advice = "install libmicrohttpd and the celspan package with the web module",
+#endif
+      .version = CS_WEB_MODULE_VERSION,
+  };
+  const void *table;
+  CS_TRY(cs_module_load(context, &desc, CELSPAN_INPUT, &table));
+  *out = table;
+  return CELSPAN_OK;
+}
+
+static int refuse_port(lua_State *L, int port, int error) {
+  if (error == EADDRINUSE)
+    return cs_service_end(L, cs_report_usage("--port %d: another program uses this port; leave "
+                                             "--port out, and a free one is chosen",
+                                             port));
+  return cs_service_end(
+      L, cs_report_usage("--port %d: no server can be opened there: %s", port, strerror(error)));
+}
+
+/* web(port) -> the server, with its `port`; port 0: one that is free */
+static int open_server(lua_State *L) {
+  static const luaL_Reg methods[] = {{"run", run},       {"descriptor", descriptor}, {"take", take},
+                                     {"answer", answer}, {"counts", counts},         {NULL, NULL}};
+  int port = (int)luaL_checkinteger(L, 1);
+  lua_createtable(L, 0, 8);
+  server *s = cs_userdata_push_holder(L, "celspan.program.web", sizeof *s, close_server);
+  cs_service_try(L, load(cs_service_session(L)->context, &s->module));
+  int error = s->module->open((uint16_t)port, &s->web);
+  if (error)
+    return refuse_port(L, port, error);
+  lua_setfield(L, -2, "open");
+  cs_put_integer(L, "port", s->module->port(s->web));
+  cs_service_add(L, methods);
+  return 1;
+}
+
+/* poll(milliseconds, { descriptor, ... }): waits until one of them has something to read, the time
+ * is over or a signal came. */
+static int poll_sources(lua_State *L) {
+  struct pollfd sources[SOURCES_MOST];
+  luaL_checktype(L, 2, LUA_TTABLE);
+  size_t count = lua_rawlen(L, 2);
+  luaL_argcheck(L, count <= SOURCES_MOST, 2, "too many sources");
+  for (size_t i = 0; i < count; i++, lua_pop(L, 1)) {
+    lua_rawgeti(L, 2, (lua_Integer)i + 1);
+    sources[i] = (struct pollfd){.fd = (int)lua_tointeger(L, -1), .events = POLLIN};
+  }
+  poll(sources, count, (int)luaL_checkinteger(L, 1));
+  return 0;
+}
+
+void cs_service_add_web(lua_State *L) {
+  static const luaL_Reg services[] = {{"web", open_server}, {"poll", poll_sources}, {NULL, NULL}};
+  cs_service_add(L, services);
+}

@@ -1,0 +1,222 @@
+-- What people write first, by habits from other programs: it works, or the message says what to
+-- write.
+local celspan = require "celspan"
+local present = require "tests.support.present"
+local raised = require "tests.support.raised"
+local workbench = require "tests.support.workbench"
+
+local with_art = present.art() and it or pending
+
+local bench
+
+before_each(function() bench = workbench.new() end)
+after_each(function() bench:remove() end)
+
+local function run(arguments, ...) return bench:celspan_inside(arguments, ...) end
+
+--- Runs a command that must fail with this code and these words.
+local function refused(code, words, arguments, ...)
+  local got, _, message = run(arguments, ...)
+  assert.equal(code, got, message)
+  assert.is_truthy(message:find(words, 1, true), message)
+end
+
+describe("a wrong field of a library function", function()
+  -- The call stands on line 4, and ends the frame function.
+  local function film(call)
+    bench:write("film.lua", [[
+local celspan, library = require "celspan", require "celspan.]] .. call:match "^%w+" .. [["
+local cel = celspan.cel {}
+return celspan.film { size = { 64, 36 }, frame = function(f)
+  return ]] .. call:gsub("^%w+", "library") .. [[
+
+end }]])
+  end
+
+  it("has its line in `return multiplane { ... }` too", function()
+    for call, words in pairs {
+      ["multiplane { film = { 64, 36 }, focl = 800 }"] = "unknown field 'focl'",
+      ["multiplane { film = { 64, 36 }, camera = { rotate = 10 } }"] = "unknown field 'rotate'",
+      ["multiplane { film = { 64, 36 }, cel }"] = "plane 1 must be {cel, z = depth}, got a cel",
+      ["multiplane { film = { 64, 36 }, { cel, z = 'far' } }"] = "field 'z' must be a number",
+      ["multiplane { film = { 64, 36 }, front = { 1 }, { cel } }"] = "front",
+      ["shutter { angel = 180 }"] = "unknown field 'angel'",
+      ["shutter { angle = 720, frame = print }"] = "field 'angle' must be 0..360",
+      ["keys { { 1, 'a' }, { 0, 'b' } }"] = "keys: key 2 is at 0",
+      ["keys { lop = 'repeat', { 0, 1 } }"] = "unknown field 'lop'",
+    } do
+      film(call)
+      local _, _, message = run "check film.lua"
+      assert.is_truthy(message:find("film.lua:4: ", 1, true), message)
+      assert.is_truthy(message:find(words, 1, true), message)
+    end
+  end)
+
+  it("keeps it where the call stands alone", function()
+    local multiplane = require "celspan.multiplane"
+    local message = raised.message(function()
+      local rostrum = multiplane { film = { 64, 36 }, focl = 800 }
+      return rostrum
+    end)
+    assert.is_truthy(message:find "^tests/spec/habits_spec.lua:%d+: multiplane: unknown", message)
+  end)
+end)
+
+describe("a misspelt word", function()
+  it("is answered with the nearest of those that are allowed", function()
+    for given, meant in pairs { center = "centre", middle = "centre", rigth = "right" } do
+      local message = raised.message(function()
+        celspan.text { "A", font = "f.ttf", align = given }
+      end)
+      assert.is_truthy(message:find(('got "%s"; did you mean "%s"?'):format(given, meant), 1, true),
+        message)
+    end
+    local message = raised.message(function()
+      celspan.stroke { points = { { 0, 0 }, { 1, 1 } }, join = "mitre" }
+    end)
+    assert.is_truthy(message:find('did you mean "miter"?', 1, true), message)
+    message = raised.message(function()
+      celspan.stroke { points = { { 0, 0 }, { 1, 1 } }, join = 3 }
+    end)
+    assert.is_falsy(message:find("did you mean", 1, true), message)
+  end)
+end)
+
+describe("artwork instead of a script", function()
+  local SVG = '<svg xmlns="http://www.w3.org/2000/svg" width="19.5" height="8">'
+    .. '<rect width="10" height="8" fill="#f00"/><animate/></svg>'
+
+  with_art("is a film of one frame, and what is not shown is printed", function()
+    bench:shell("mkdir " .. bench.folder .. "/art")
+    bench:write("art/hero.svg", SVG)
+    local code, _, message = run "render art/hero.svg -o out.png"
+    assert.equal(0, code, message)
+    assert.is_truthy(message:find("hero.svg: not shown: line 1: animate", 1, true), message)
+    local _, out = run "info out.png"
+    assert.is_truthy(out:find("size 20x8", 1, true), out)
+    local _, red = run "probe art/hero.svg 5 4"
+    assert.equal("1 0 0 1\n", red)
+    bench:write("hero.svg", "<svg")
+    refused(4, "hero.svg", "render hero.svg -o out.png")
+  end)
+
+  with_art("is converted to pictures, of any size", function()
+    bench:write("hero.svg", SVG)
+    local code, _, message = run "convert hero.svg out.png --size 40x16 --crop 0,0,30,16"
+    assert.equal(0, code, message)
+    local _, out = run "info out.png"
+    assert.is_truthy(out:find("size 30x16", 1, true), out)
+  end)
+
+  it("is not a picture, and the message names what reads it", function()
+    if not present.pictures() then return pending "there is no picture module" end
+    bench:write("hero.svg", SVG)
+    bench:write("film.lua", [[local celspan = require "celspan"
+return celspan.rostrum { celspan.cel { celspan.image { file = "hero.svg" } } }]])
+    refused(4, "celspan.svg reads SVG drawings", "check film.lua")
+  end)
+
+  it("may be a layered painting", function()
+    bench:shell("cp scripts/paintings/valley.ora " .. bench.folder)
+    for _, command in ipairs { "render valley.ora --size 120x54 -o out.png",
+      "convert valley.ora out.png --size 120x54" } do
+      local code, _, message = run(command)
+      assert.equal(0, code, message)
+      local _, out = run "info out.png"
+      assert.is_truthy(out:find("size 120x54", 1, true), out)
+      local _, _, _, alpha = celspan.pixels(celspan.rostrum { celspan.cel {
+        celspan.image { file = bench.folder .. "/out.png" } } }, { size = { 120, 54 } }):get(60, 27)
+      assert.is_true(alpha > 0.9)
+    end
+  end)
+end)
+
+describe("art:show", function()
+  local function puppet()
+    local svg = require "celspan.svg"
+    return assert(svg.read(bench:write("face.svg", [[
+<svg xmlns="http://www.w3.org/2000/svg" width="40" height="10">
+<rect id="head" width="40" height="10" fill="#fff"/>
+<rect id="mouth A" width="10" height="10" fill="#f00"/>
+<rect id="mouth-B" x="10" width="10" height="10" fill="#0f0"/>
+<rect id="eyes/open" x="20" width="10" height="10" fill="#00f"/>
+<rect id="eyes/shut" x="30" width="10" height="10" fill="#000"/></svg>]])))
+  end
+
+  --- The greens at the middles of mouth A, mouth B, eyes open, eyes shut.
+  local function greens(art)
+    local found = {}
+    for i = 1, 4 do
+      _, found[i] = celspan.probe(celspan.rostrum { celspan.cel { art.object } }, 10 * i - 5, 5,
+        { film = { 40, 10 } })
+    end
+    return found
+  end
+
+  with_art("shows one part of a set, or none", function()
+    local art = puppet()
+    assert.are.same({ 0, 1, 0, 0 }, greens(art))
+    assert.are.same({ 0, 1, 0, 1 }, greens(art:show { mouth = "A", eyes = "open" }))
+    assert.are.same({ 1, 1, 1, 1 }, greens(art:show { mouth = "B", eyes = false }))
+  end)
+
+  with_art("refuses what the drawing does not have", function()
+    local art = puppet()
+    for words, choices in pairs {
+      ["the parts of 'eyes' are open, shut, and not 'shot'; did you mean 'shut'?"] =
+        { eyes = "shot" },
+      ["no parts named 'nose A'"] = { nose = "A" },
+      ["such as { mouth = \"C\" }, got mouth = number"] = { mouth = 3 },
+    } do
+      local message = raised.message(function() art:show(choices) end)
+      assert.is_truthy(message:find(words, 1, true), message)
+      assert.is_truthy(message:find "^tests/spec/habits_spec.lua:", message)
+    end
+  end)
+end)
+
+describe("--draft", function()
+  it("is half the size, even, and without antialiasing", function()
+    bench:write("film.lua", [[
+local celspan = require "celspan"
+return celspan.film { size = { 50, 21 }, frame = function()
+  return celspan.rostrum { celspan.cel { celspan.circle { centre = { 20, 10 }, radius = 8,
+    texture = "#fff" } } }
+end }]])
+    assert.equal(0, (run "render film.lua --draft -o draft.png"))
+    local _, out = run "info draft.png"
+    assert.is_truthy(out:find("size 26x12", 1, true), out)
+    assert.equal(0, (run "render film.lua --size 26x12 --antialias none -o small.png"))
+    assert.equal(0, (run "compare draft.png small.png"))
+    assert.equal(0, (run "render film.lua --draft --scale 2 --antialias area -o large.png"))
+    _, out = run "info large.png"
+    assert.is_truthy(out:find("size 50x22", 1, true), out)
+  end)
+end)
+
+describe("a font", function()
+  local SCRIPT = [[
+local celspan = require "celspan"
+return celspan.rostrum { celspan.cel { celspan.text { "A", font = "%s", size = 20 } } }]]
+
+  with_art("that is named and not a file is answered with what a font is", function()
+    bench:write("film.lua", SCRIPT:format "Arial")
+    refused(4, 'a font is given by its file, such as "arial.ttf"', "check film.lua")
+    bench:write("film.lua", SCRIPT:format "arial.ttf")
+    local _, _, message = run "check film.lua"
+    assert.is_falsy(message:find("given by its file", 1, true), message)
+  end)
+
+  with_art("of the system is read with --allow-system-fonts alone", function()
+    local path = bench.folder .. "/home/.fonts/block.ttf"
+    bench:shell(("mkdir -p %s/home/.fonts %s/film; cp scripts/type/block.ttf %s")
+      :format(bench.folder, bench.folder, path))
+    bench:write("film/film.lua", SCRIPT:format(path))
+    refused(3, "--allow-system-fonts", "check film/film.lua")
+    local code, _, message = bench:inside(("HOME=$PWD/home %s check film/film.lua "
+      .. "--allow-system-fonts"):format(workbench.absolute))
+    assert.equal(0, code, message)
+    refused(2, "--allow-system-fonts", "check film/film.lua --trust --allow-system-fonts")
+    refused(2, "--allow-system-fonts", "info home/.fonts/block.ttf --allow-system-fonts")
+  end)
+end)
