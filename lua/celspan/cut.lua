@@ -411,7 +411,7 @@ local function sounds_of(shots, own)
   local sounds = {}
   for _, shot in ipairs(shots) do
     local film, fps = shot.film, shot.film.fps
-    if film.sound then
+    if #list_of(film.sound) > 0 then
       sounds[#sounds + 1] = { film, at = shot.start / fps, from = (shot.from - film.first) / fps,
                               to = (shot.to - film.first + 1) / fps, speed = shot.speed,
                               fade = { shot.before / fps, shot.after / fps } }
@@ -500,7 +500,7 @@ end
 
 --- The sound of a film at other times. Where it is held, reversed or eased, it is silent.
 local function retimed_sound(film, track, duration)
-  if not film.sound then return nil end
+  if #list_of(film.sound) == 0 then return nil end
   local list, first, last = {}, track.keys[1].time, track.keys[#track.keys].time
   local turns = track.loop and last > first and math.ceil((duration - first) / (last - first)) or 1
   if turns * #track.keys > MOST_PIECES then

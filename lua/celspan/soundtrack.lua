@@ -21,7 +21,8 @@ local core = require "celspan.core"
 
 local soundtrack = {}
 
-local MOST = 100000
+local MOST = 100000 -- sounds
+local SLOWEST, FASTEST = 0.01, 100 -- of its own speed
 
 --- Constant power: the squares of both add up to 2, and both are 1 in the middle.
 local function pan(value)
@@ -71,6 +72,10 @@ local function of_film(sound)
     end
     table.insert(inner.passages, { sound.at, moved(to), sound.fade_in, sound.fade_out })
     inner.start, inner.speed = moved(inner.start), inner.speed * sound.speed
+    if inner.speed < SLOWEST or inner.speed > FASTEST then
+      error(("film: sound %d: %s: it is heard at %.4g times its speed, in films that are sounds of "
+        .. "films; 0.01 to 100 times is possible"):format(sound.number, inner.path, inner.speed), 0)
+    end
     inner.left, inner.right = inner.left * left, inner.right * right
     if is_heard(inner.passages) then list[#list + 1] = inner end
   end

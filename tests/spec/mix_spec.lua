@@ -374,6 +374,18 @@ describe("a sound that cannot be mixed", function()
     assert.are.equal(0, math.min(table.unpack(left, 1, 20000)))
   end)
 
+  it_mixes("is refused if films in films make it too slow", function()
+    bench:write("click.wav", clicks(0.5, { 0 }, 8000))
+    bench:write("film.lua", FILM .. [[
+local inner = film { duration = 1, sound = "click.wav" }
+for _ = 1, 2 do inner = film { duration = 10, sound = { inner, speed = 0.02 } } end
+return inner]])
+    local code, _, err = run "sound film.lua -o mix.wav"
+    assert.are.equal(3, code)
+    assert.truthy(err:find("film: sound 1: click.wav: it is heard at 0.0004 times its speed", 1,
+      true), err)
+  end)
+
   it("is refused at the script's line if its fields are wrong", function()
     for sound, message in pairs {
       ["{ 'a.wav', gain = -1 }"] = "film: sound 1: gain is %-1; it must be between 0 and 1000",

@@ -204,8 +204,8 @@ static double passages_at(const part *p, double seconds) {
   return gain;
 }
 
-/* How far the moments from a place on are from those in which q is heard, as a share of the ramp, if
- * that is less than what is there. */
+/* Lowers the gains from a place on to the distance from the moments in which q is heard, as a share
+ * of the ramp. */
 static void set_distances(mix *m, const part *q, int64_t place, size_t count) {
   const double ramp = CS_MIX_DUCK_SECONDS * CS_MIX_RATE;
   if (q->heard >= q->silent || (double)(q->heard - place) > (double)count + ramp ||
@@ -218,7 +218,7 @@ static void set_distances(mix *m, const part *q, int64_t place, size_t count) {
   }
 }
 
-/* Sets the gains of a part from a place on. */
+/* Sets the gains of a part from a place on: first, how far its duckers are. */
 static void set_gains(mix *m, const part *p, int64_t place, size_t count) {
   for (size_t i = 0; i < count; i++)
     m->gains[i] = 1;

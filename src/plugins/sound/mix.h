@@ -9,8 +9,8 @@
  *
  * INVARIANT: all sounds were decoded to their end, or to that of the film, before the first moment
  * is given, so what cannot be read is refused before the first frame. A sample depends on the
- * sounds and its time alone, not on where the stream begins. Short sounds are kept, and each file of
- * them is decoded once; of the others only those are open that are heard now.
+ * sounds and its time alone, not on where the stream begins. Short sounds are kept, so that each is
+ * decoded once; of the others only those are open that are heard now.
  */
 #pragma once
 
