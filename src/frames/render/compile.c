@@ -243,9 +243,10 @@ static celspan_status compile_cels(cs_compiler *c, const celspan_rostrum *rostru
 static celspan_status compile_film(cs_compiler *c, const celspan_rostrum *rostrum,
                                    const cs_compiler_film *film) {
   uint32_t *firsts;
-  CS_TRY(CS_MAKE(c->context, firsts, rostrum->cel_count));
+  size_t room = rostrum->cel_count + 1; /* at least one */
+  CS_TRY(CS_MAKE(c->context, firsts, room));
   celspan_status status = compile_cels(c, rostrum, film, firsts);
-  cs_mem_free(c->context->memory, firsts, rostrum->cel_count * sizeof *firsts);
+  cs_mem_free(c->context->memory, firsts, room * sizeof *firsts);
   return status;
 }
 

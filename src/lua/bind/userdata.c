@@ -217,7 +217,8 @@ static int fail_unknown(lua_State *L, const cs_noun *noun, int methods) {
   if (noun->kind->mode)
     names[count++] = "mode";
   for (lua_pushnil(L); count < MOST_NAMES && lua_next(L, methods); lua_pop(L, 1))
-    names[count++] = lua_tostring(L, -2); /* the table keeps it alive */
+    if (!cs_userdata_has_field(noun, lua_tostring(L, -2)))
+      names[count++] = lua_tostring(L, -2); /* the table keeps it alive */
   qsort(names + first, count - first, sizeof *names, compare);
   cs_unknown_fail_name(L, noun->name, lua_tostring(L, 2), names, count);
 }

@@ -30,8 +30,8 @@ static void create_group(const cs_form *form, cs_userdata *value) {
 static const cs_field group_rows[] = {
     {"opacity", CS_NUMBER(FIELDS, desc.opacity), .least = 0, .most = 1, .preset = "1",
      .about = "Of the group as a whole"},
-    {"blend", CS_CHOICE(FIELDS, desc.blend, cs_userdata_modes), .preset = "normal",
-     .about = "How it is combined with what is behind it"},
+    {"blend", CS_CHOICE(FIELDS, desc.blend, cs_userdata_modes), .written = "celspan.mode",
+     .about = "How it is combined with what is behind it", .fallback = "normal"},
     {"isolate", CS_FLAG(FIELDS, isolate), CS_HAS(FIELDS, has_isolate),
      .about = "Whether modes inside act only on what is inside",
      .fallback = "true if it is faded or has a mode"},

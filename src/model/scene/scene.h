@@ -270,7 +270,7 @@ typedef struct cs_lit_alone {
 } cs_lit_alone;
 
 /* index: the place of the cel, from 0; is_back: its back light, else its front light.
- * Errors: NO_MEMORY. */
+ * Errors: NO_MEMORY; BAD_ARGUMENT for a rostrum with modes, whose lights do not add up. */
 CELSPAN_CHECKED celspan_status cs_lit_alone_make(celspan_context *context,
                                                  const celspan_rostrum *rostrum, size_t index,
                                                  bool is_back, cs_lit_alone *out);
