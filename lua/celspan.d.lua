@@ -10,7 +10,7 @@
 ---@alias celspan.shape celspan.object|celspan.rostrum A part of a cel or a boolean: an object, or a rostrum with a size
 ---@alias celspan.point number[] {x, y}
 ---@alias celspan.rule "nonzero"|"evenodd" How self-crossing outlines are filled
----@alias celspan.mode "normal"|"multiply"|"screen"|"overlay"|"darken"|"lighten"|"color-dodge"|"color-burn"|"hard-light"|"soft-light"|"difference"|"exclusion"|"hue"|"saturation"|"color"|"luminosity"|"add" How a source is combined with what is behind it
+---@alias celspan.mode "normal"|"multiply"|"screen"|"overlay"|"darken"|"lighten"|"color-dodge"|"color-burn"|"hard-light"|"soft-light"|"difference"|"exclusion"|"hue"|"saturation"|"color"|"luminosity"|"add" How a source is combined with its backdrop
 ---@alias celspan.antialias "area"|"none"|celspan.filter The exact mean over each pixel, pixel centres, or a kernel
 ---@alias celspan.exposures celspan.rostrum|table[] A rostrum, or {{rostrum, weight}, ...}: light adds
 
@@ -232,7 +232,7 @@ function placed:quad(from, to) end
 ---@return T
 function placed:fade(k) end
 
---- With a blend mode: how it is combined with what is behind it. Reading it gives `mode`.
+--- With a blend mode: how it is combined with its backdrop. `mode` reads it.
 ---@generic T: celspan.placed
 ---@param self T
 ---@param mode celspan.mode
@@ -564,8 +564,8 @@ function celspan.clip(art, shape) end
 ---@class celspan.group.fields
 ---@field [integer] celspan.shape
 ---@field opacity? number Of the group as a whole; 0 to 1; default 1
----@field blend? celspan.mode How it is combined with what is behind it; default normal
----@field isolate? boolean Whether modes inside act only on what is inside; default true if it is faded or has a mode
+---@field blend? celspan.mode How it is combined with its backdrop; default normal
+---@field isolate? boolean Whether modes inside act only inside; default true if it is faded or has a mode
 
 ---@class celspan.group: celspan.object, celspan.group.fields
 ---@field opacity number
@@ -601,7 +601,7 @@ function celspan.matte(art, by, options) end
 ---@field back? celspan.light Shines through the whole frame from behind this cel; default none
 ---@field viewport? number[] {x, y, w, h}; the part that fills the frame
 ---@field defocus? number|celspan.defocus A radius, or with a kernel
----@field blend? celspan.mode How it is combined with what is behind it; default normal
+---@field blend? celspan.mode How it is combined with its backdrop; default normal
 ---@field opacity? number 0 to 1; default 1
 
 ---@class celspan.cel: celspan.placed, celspan.cel.fields

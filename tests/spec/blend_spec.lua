@@ -53,7 +53,7 @@ describe("a blend mode", function()
     end
   end)
 
-  it("multiplies what is behind it, where that is", function()
+  it("multiplies its backdrop, where that is present", function()
     local image = pixels(celspan.union { rect(0, 0, 2, 1, celspan.rgb(0.5, 1, 0.25)),
       rect(1, 0, 2, 1, celspan.rgb(0.5, 0.5, 0.5)):blend("multiply") }, 3, 1, "none")
     near({ 0.5, 1, 0.25, 1 }, image, 0, 0)
@@ -70,7 +70,7 @@ describe("a blend mode", function()
     near({ 0.5, 0.5, 0.5, 1 }, image, 0, 0) -- without a matte nothing is there to blend with
   end)
 
-  it("acts on what is behind as it is lit", function()
+  it("acts on its backdrop as that is lit", function()
     local image = pixels(celspan.rostrum {
       celspan.cel { rect(0, 0, 1, 1, "#fff"), front = { 0.5, 0.5, 0.5 } },
       celspan.cel { rect(0, 0, 1, 1, "#fff"):blend("multiply"), front = { 0.5, 1, 0.25 } } }, 1, 1)
@@ -88,7 +88,7 @@ describe("a blend mode", function()
     end
   end)
 
-  it("adds light that is not held to 1, and alpha that is", function()
+  it("adds light beyond 1, but alpha only up to 1", function()
     local image = pixels(celspan.union { rect(0, 0, 1, 1, celspan.rgb(1, 0.5, 0, 0.75)),
       rect(0, 0, 1, 1, celspan.rgb(1, 1, 1, 0.75)):blend("add") }, 1, 1, "none")
     near({ 1.5, 1.125, 0.75, 1 }, image, 0, 0)
@@ -154,7 +154,7 @@ describe("a group", function()
   local back = rect(0, 0, 4, 1, celspan.rgb(0.5, 0.5, 0.5))
   local source = rect(0, 0, 4, 1, celspan.rgb(0.5, 1, 0.25)):blend("multiply")
 
-  it("lets modes inside act on what is behind it, unless it isolates", function()
+  it("lets modes inside act on its own backdrop, unless it isolates", function()
     near({ 0.25, 0.5, 0.125, 1 }, pixels(celspan.union { back, celspan.group { source } }, 1, 1),
       0, 0)
     near({ 0.5, 1, 0.25, 1 },

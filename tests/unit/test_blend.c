@@ -151,7 +151,8 @@ static cs_over_pair pair_of(const double c[3], double alpha) {
 
 /* ---------------------------------------------------------------- tests */
 
-/* Where colours are near a place at which a formula jumps, rounding may put them on its other side. */
+/* Where colours are near a place at which a formula jumps, rounding may put them on the other side
+ * of it. */
 static bool jumps(celspan_blend mode, const pair *p) {
   bool does = false;
   for (int i = 0; i < 3; i++) {
@@ -227,7 +228,7 @@ static void test_identities(celspan_blend mode) {
   }
 }
 
-/* What is held to 0..1 inside a mode is not held outside of it. */
+/* Colours that are clamped to 0..1 inside a mode are not clamped outside of it. */
 static void test_bright(void) {
   const double bright[3] = {3, 2, 4}, dim[3] = {0.5, 0.5, 0.5};
   cs_oracle_sight source = sight_of(bright, 1), back = sight_of(dim, 0.25);

@@ -22,8 +22,8 @@
  */
 
 #define LAYERS_LEAST 8
-#define ROWS_LEAST 20 /* of the frame, for each piece of the outlines, on the average */
-#define DEPTH_LEAST 6 /* halvings of light; a tile dies at CS_THROUGH_OPAQUE */
+#define ROWS_LEAST 20   /* of the frame, for each piece of the outlines, on the average */
+#define DEPTH_LEAST 6   /* halvings of light; a tile dies at CS_THROUGH_OPAQUE */
 #define SOURCES_MOST 64 /* grounds inside each other, each of which the cull would go into */
 
 /* ---------------------------------------------------------------- in the words of the cull */

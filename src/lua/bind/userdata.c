@@ -187,9 +187,9 @@ const char *cs_userdata_shown(lua_State *L, int index) {
 /* ---------------------------------------------------------------- metamethods */
 
 const char *const cs_userdata_modes[] = {
-    "normal",     "multiply",   "screen",     "overlay", "darken",     "lighten",
+    "normal",      "multiply",   "screen",     "overlay",    "darken",     "lighten",
     "color-dodge", "color-burn", "hard-light", "soft-light", "difference", "exclusion",
-    "hue",        "saturation", "color",      "luminosity", "add", NULL};
+    "hue",         "saturation", "color",      "luminosity", "add",        NULL};
 
 bool cs_userdata_has_field(const cs_noun *noun, const char *name) {
   const cs_field *field = noun->fields;

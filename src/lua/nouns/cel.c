@@ -54,7 +54,7 @@ static const cs_field fields[] = {
      .about = "The part that fills the frame"},
     {"defocus", CS_OWN("number|celspan.defocus"), .about = "A radius, or with a kernel"},
     {"blend", CS_CHOICE(DESC, blend, cs_userdata_modes), .written = "celspan.mode",
-     .about = "How it is combined with what is behind it", .fallback = "normal"},
+     .about = "How it is combined with its backdrop", .fallback = "normal"},
     {"opacity", CS_NUMBER(DESC, opacity), .least = 0, .most = 1, .preset = "1"},
     {0}};
 const cs_noun cs_noun_cel = {.name = "cel",

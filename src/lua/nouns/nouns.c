@@ -3,22 +3,36 @@
 #include "lua/bind/put.h"
 #include "lua/nouns/options.h"
 
-const cs_noun *const cs_nouns_made[] = {
-    &cs_noun_paint,   &cs_noun_gradient,     &cs_noun_linear,     &cs_noun_radial,
-    &cs_noun_picture, &cs_noun_rect,         &cs_noun_triangle,   &cs_noun_circle,
-    &cs_noun_ellipse, &cs_noun_polygon,      &cs_noun_nurbs,      &cs_noun_path,
-    &cs_noun_stroke,  &cs_noun_image,        &cs_noun_text,       &cs_noun_scanline,
-    &cs_noun_union,   &cs_noun_intersection, &cs_noun_difference, &cs_noun_xor,
-    &cs_noun_group,   &cs_noun_cel,          &cs_noun_rostrum,    &cs_noun_film,
-    NULL};
+const cs_noun *const cs_nouns_made[] = {&cs_noun_paint,
+                                        &cs_noun_gradient,
+                                        &cs_noun_linear,
+                                        &cs_noun_radial,
+                                        &cs_noun_picture,
+                                        &cs_noun_rect,
+                                        &cs_noun_triangle,
+                                        &cs_noun_circle,
+                                        &cs_noun_ellipse,
+                                        &cs_noun_polygon,
+                                        &cs_noun_nurbs,
+                                        &cs_noun_path,
+                                        &cs_noun_stroke,
+                                        &cs_noun_image,
+                                        &cs_noun_text,
+                                        &cs_noun_scanline,
+                                        &cs_noun_union,
+                                        &cs_noun_intersection,
+                                        &cs_noun_difference,
+                                        &cs_noun_xor,
+                                        &cs_noun_group,
+                                        &cs_noun_cel,
+                                        &cs_noun_rostrum,
+                                        &cs_noun_film,
+                                        NULL};
 
-const cs_noun *const cs_nouns_tables[] = {&cs_noun_stroke_style, &cs_noun_glyph,
-                                          &cs_noun_matte,        &cs_noun_light,        &cs_noun_defocus,
-                                          &cs_noun_camera,       &cs_noun_filter,
-                                          &cs_noun_frame,        &cs_noun_render,
-                                          &cs_noun_pixels,       &cs_noun_bytes,
-                                          &cs_noun_write,        &cs_noun_spans,
-                                          &cs_noun_probe,        NULL};
+const cs_noun *const cs_nouns_tables[] = {
+    &cs_noun_stroke_style, &cs_noun_glyph,  &cs_noun_matte, &cs_noun_light,  &cs_noun_defocus,
+    &cs_noun_camera,       &cs_noun_filter, &cs_noun_frame, &cs_noun_render, &cs_noun_pixels,
+    &cs_noun_bytes,        &cs_noun_write,  &cs_noun_spans, &cs_noun_probe,  NULL};
 
 /* ---------------------------------------------------------------- descriptions */
 

@@ -19,8 +19,7 @@ static celspan_status create(celspan_context *context, const char *noun, const c
   cs_primitive_data *data;
   CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_BOOLEAN, NULL, &data));
   *data->boolean = *look;
-  celspan_status status =
-      cs_operands_create(context, noun, operands, count, &data->boolean->view);
+  celspan_status status = cs_operands_create(context, noun, operands, count, &data->boolean->view);
   if (status == CELSPAN_OK) {
     data->boolean->operands = data->boolean->view.objects;
     data->boolean->operand_count = count;
@@ -73,10 +72,7 @@ celspan_status celspan_object_create_group(celspan_context *context, const celsp
 
 /* ---------------------------------------------------------------- modes */
 
-celspan_blend celspan_object_mode(const celspan_object *object) {
-  const cs_primitive_data *data = object->data;
-  return data->kind == CS_PRIMITIVE_DATA_BOOLEAN ? data->boolean->blend : CELSPAN_BLEND_NORMAL;
-}
+celspan_blend celspan_object_mode(const celspan_object *object) { return cs_object_mode(object); }
 
 /* Another mode for an object that has one: its operands stay. */
 static celspan_status change(celspan_context *context, const celspan_object *object,
