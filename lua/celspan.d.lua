@@ -10,6 +10,7 @@
 ---@alias celspan.shape celspan.object|celspan.rostrum A part of a cel or a boolean: an object, or a rostrum with a size
 ---@alias celspan.point number[] {x, y}
 ---@alias celspan.rule "nonzero"|"evenodd" How self-crossing outlines are filled
+---@alias celspan.mode "normal"|"multiply"|"screen"|"overlay"|"darken"|"lighten"|"color-dodge"|"color-burn"|"hard-light"|"soft-light"|"difference"|"exclusion"|"hue"|"saturation"|"color"|"luminosity"|"add" How a source is combined with its backdrop
 ---@alias celspan.antialias "area"|"none"|celspan.filter The exact mean over each pixel, pixel centres, or a kernel
 ---@alias celspan.exposures celspan.rostrum|table[] A rostrum, or {{rostrum, weight}, ...}: light adds
 
@@ -169,6 +170,7 @@ function celspan.picture(fields) end
 
 --- The methods of objects and cels. Each method returns a new value.
 ---@class celspan.placed: celspan.nameable
+---@field mode celspan.mode
 local placed = {}
 
 --- Moves it.
@@ -229,6 +231,13 @@ function placed:quad(from, to) end
 ---@param k number 0..1
 ---@return T
 function placed:fade(k) end
+
+--- With a blend mode: how it is combined with its backdrop. `mode` reads it.
+---@generic T: celspan.placed
+---@param self T
+---@param mode celspan.mode
+---@return T
+function placed:blend(mode) end
 
 --- The smallest axis-aligned rectangle around it; returns nothing if there is nothing to paint.
 ---@return number? x, number? y, number? width, number? height
@@ -557,6 +566,35 @@ function celspan.xor(objects) end
 ---@return celspan.boolean
 function celspan.clip(art, shape) end
 
+---@class celspan.group.fields
+---@field [integer] celspan.shape
+---@field opacity? number Of the group as a whole; 0 to 1; default 1
+---@field blend? celspan.mode How it is combined with its backdrop; default normal
+---@field isolate? boolean Whether modes inside act only inside; default true if it is faded or has a mode
+
+---@class celspan.group: celspan.object, celspan.group.fields
+---@field opacity number
+
+--- Objects that are composited by themselves, then put into the picture as one.
+---@param fields celspan.group.fields
+---@return celspan.group
+function celspan.group(fields) end
+
+--- How a matte is used.
+---@class celspan.matte.options
+---@field from? "alpha"|"luma" What of the matte counts; default "alpha"
+---@field invert? boolean The art is present where the matte is not; default false
+
+--- An object that is faded by a matte.
+---@class celspan.matte: celspan.boolean, celspan.matte.options
+
+--- The art, present as far as `by` is; `by` is not drawn.
+---@param art celspan.shape
+---@param by celspan.shape
+---@param options? celspan.matte.options
+---@return celspan.matte
+function celspan.matte(art, by, options) end
+
 --- How far a cel is out of focus.
 ---@class celspan.defocus
 ---@field radius number Film units on the frame; 0 or more
@@ -568,7 +606,6 @@ function celspan.clip(art, shape) end
 ---@field back? celspan.light Shines through the whole frame from behind this cel; default none
 ---@field viewport? number[] {x, y, w, h}; the part that fills the frame
 ---@field defocus? number|celspan.defocus A radius, or with a kernel
----@field opacity? number Limited to 0..1; default 1
 
 ---@class celspan.cel: celspan.placed, celspan.cel.fields
 ---@field opacity number

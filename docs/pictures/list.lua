@@ -19,6 +19,7 @@ local list = {
   { name = "lamplight", page = "docs/guide.md", frame = 18 },
   { name = "postcards", page = "docs/guide.md", frame = 1 },
   { name = "soft", page = "docs/guide.md", frame = 6 },
+  { name = "lagoon", page = "docs/guide.md" },
   { name = "gradients", page = "docs/guide.md" },
   { name = "poster", page = "docs/guide.md" },
   { name = "title", script = "scripts/title.lua", frame = 29, size = "640x360" },

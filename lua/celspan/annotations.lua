@@ -18,6 +18,7 @@ return [==[
 ---@alias celspan.shape celspan.object|celspan.rostrum A part of a cel or a boolean: an object, or a rostrum with a size
 ---@alias celspan.point number[] {x, y}
 ---@alias celspan.rule "nonzero"|"evenodd" How self-crossing outlines are filled
+---@alias celspan.mode "normal"|"multiply"|"screen"|"overlay"|"darken"|"lighten"|"color-dodge"|"color-burn"|"hard-light"|"soft-light"|"difference"|"exclusion"|"hue"|"saturation"|"color"|"luminosity"|"add" How a source is combined with its backdrop
 ---@alias celspan.antialias "area"|"none"|celspan.filter The exact mean over each pixel, pixel centres, or a kernel
 ---@alias celspan.exposures celspan.rostrum|table[] A rostrum, or {{rostrum, weight}, ...}: light adds
 
@@ -105,6 +106,7 @@ function texture:with(changes) end
 
 --- The methods of objects and cels. Each method returns a new value.
 ---@class celspan.placed: celspan.nameable
+---@field mode celspan.mode
 local placed = {}
 
 --- Moves it.
@@ -166,7 +168,7 @@ function placed:quad(from, to) end
 ---@return T
 function placed:fade(k) end
 
---- With a blend mode: how it is combined with what is behind it. Reading it gives `mode`.
+--- With a blend mode: how it is combined with its backdrop. `mode` reads it.
 ---@generic T: celspan.placed
 ---@param self T
 ---@param mode celspan.mode

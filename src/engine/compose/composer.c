@@ -38,7 +38,7 @@ celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
   if (stack->procedure_count > 0)
     CS_TRY(allocate(composer, &composer->procedure_span_of, stack->layer_count, sizeof(uint32_t)));
   CS_TRY(allocate(composer, &composer->results, stack->step_depth, sizeof(cs_tree_result)));
-  CS_TRY(allocate(composer, &composer->levels, cs_stack_levels(stack), sizeof(cs_over_level)));
+  CS_TRY(allocate(composer, &composer->outers, cs_stack_depth(stack), sizeof(cs_over_outer)));
   CS_TRY(make_table(composer));
   return allocate(composer, &composer->memo, MEMO_SIZE, sizeof(cs_memo));
 }
@@ -55,7 +55,7 @@ void cs_composer_finish(cs_composer *composer) {
   cs_mem_free(memory, composer->presences, stack->layer_count * sizeof(cs_presence));
   cs_mem_free(memory, composer->procedure_span_of, stack->layer_count * sizeof(uint32_t));
   cs_mem_free(memory, composer->results, stack->step_depth * sizeof(cs_tree_result));
-  cs_mem_free(memory, composer->levels, cs_stack_levels(stack) * sizeof(cs_over_level));
+  cs_mem_free(memory, composer->outers, cs_stack_depth(stack) * sizeof(cs_over_outer));
   if (composer->table)
     cs_over_table_finish(composer->table);
   cs_mem_free(memory, composer->table, sizeof(cs_over_table));
@@ -114,7 +114,7 @@ static cs_v4 most_through(cs_composer *composer, const cs_layer *layer) {
 }
 
 /* Adds the front lights of a group and of those around it that are not entered yet, outermost
- * first. The fold has left all groups that do not hold this one. At most CS_STACK_GROUPS levels. */
+ * first. The fold has left all groups that do not hold this one. At most CS_STACK_GROUPS. */
 static celspan_status gather_front(cs_composer *composer, cs_over *over, uint32_t group) {
   if (group == over->group)
     return CELSPAN_OK;
@@ -132,8 +132,8 @@ static celspan_status gather_front(cs_composer *composer, cs_over *over, uint32_
 static celspan_status gather_layer(cs_composer *composer, cs_over *over, uint32_t index) {
   const cs_layer *layer = &composer->stack->layers[index];
   if (composer->stack->has_group_light)
-    CS_TRY(gather_front(composer, over,
-                        cs_stack_entered(composer->stack, layer->group, over->group)));
+    CS_TRY(
+        gather_front(composer, over, cs_stack_entered(composer->stack, layer->group, over->group)));
   cs_over_move(over, index, layer->group);
   CS_TRY(gather_item(composer, index));
   over->t *= layer->kind == CS_LAYER_FLAT ? layer->t : most_through(composer, layer);
@@ -144,7 +144,7 @@ static celspan_status gather_layer(cs_composer *composer, cs_over *over, uint32_
  * the layers present: trees only take layers away. */
 static celspan_status gather(cs_composer *composer, const uint64_t *set) {
   cs_over over;
-  cs_over_begin(&over, composer->stack, composer->levels);
+  cs_over_begin(&over, composer->stack, composer->outers);
   over.is_bound = true;
   composer->gathered_count = 0;
   for (uint32_t layer, end = (uint32_t)composer->stack->layer_count;
@@ -163,7 +163,7 @@ static inline bool group_varies(const cs_stack *stack, uint32_t group) {
 /* Folds them in the same way while all are flat; false where one is not. */
 static bool fold_flats(const cs_composer *composer, const uint64_t *set, cs_over *over) {
   const cs_layer *layers = composer->stack->layers;
-  cs_over_begin(over, composer->stack, composer->levels);
+  cs_over_begin(over, composer->stack, composer->outers);
   for (uint32_t layer, end = (uint32_t)composer->stack->layer_count;
        (layer = cs_set_below(set, composer->filled, end)) != CS_STACK_NONE;) {
     if (cs_over_reaches(over, layer)) {
@@ -205,7 +205,7 @@ static celspan_status fold_prepared(cs_composer *composer, const uint64_t *set, 
   cs_over_pair light;
   CS_TRY(composer->tree ? cs_over_tree_light(composer->tree, set, &light)
                         : cs_over_table_light(composer->table, set, composer->filled, &light));
-  cs_over_begin(over, composer->stack, composer->levels);
+  cs_over_begin(over, composer->stack, composer->outers);
   over->e = light.e;
   over->t = light.t;
   return CELSPAN_OK;

@@ -52,9 +52,9 @@ typedef struct cs_composer {
   uint32_t *procedure_span_of; /* a layer's span there; NULL without scan-line layers */
   cs_set_hash hash;            /* of the set */
   cs_tree_result *results;
-  cs_over_level *levels; /* of folds; cs_stack_levels */
-  cs_over_table *table; /* NULL where it does not suit the stack */
-  cs_over_tree *tree;   /* NULL where it does not; then there is no table, either */
+  cs_over_outer *outers; /* of folds; cs_stack_depth */
+  cs_over_table *table;  /* NULL where it does not suit the stack */
+  cs_over_tree *tree;    /* NULL where it does not; then there is no table, either */
   cs_memo *memo;
   cs_item *items; /* of all programs in use */
   size_t item_count, item_capacity;

@@ -90,7 +90,7 @@ typedef struct cs_procedure {
 
 /* What a group does with what it holds, once that has been composited by itself. */
 typedef enum cs_group_kind {
-  CS_GROUP_PLAIN,  /* it is lit, faded, and put over what is behind it */
+  CS_GROUP_PLAIN,  /* it is lit, faded, and put over the layers behind it */
   CS_GROUP_HEAD,   /* the frontmost part of the group around it, which needs it in another way */
   CS_GROUP_GROUND, /* what a source is blended with: its head is the source, the rest of it is all
                       that is behind the source. Without a head it is as if it were not there */
@@ -107,19 +107,19 @@ typedef struct cs_group {
   uint32_t parent; /* or CS_STACK_NONE */
   uint32_t first;  /* its rearmost layer */
   float fade;
-  bool has_light;    /* a front light with a shape */
-  bool varies;       /* it has one, or a group around it has */
-  bool curves;       /* it is a head, or inside one: what the layers around it look like is no
+  bool has_light;  /* a front light with a shape */
+  bool varies;     /* it has one, or a group around it has */
+  bool curves;     /* it is a head, or inside one: what the layers around it look like is no
                         affine function of its paints */
-  bool inverts;      /* MATTE: 1 less its strength */
-  bool is_luma;      /* MATTE: its strength is luma, else alpha */
-  bool is_frame;     /* GROUND: directly in the frame, so that its back lights are behind it, too */
-  uint8_t kind;      /* a cs_group_kind */
-  uint8_t blend;     /* GROUND: a celspan_blend */
-  bool has_front;    /* a flat front light, since its parts could not be lit one by one */
-  cs_v4 front;       /* has_front: that light; lane 3 is 0 */
-  uint32_t light;    /* has_light: the layer of that light, in front of all its others */
-  uint32_t around;   /* GROUND: the group around all the grounds inside each other */
+  bool inverts;    /* MATTE: 1 less its strength */
+  bool is_luma;    /* MATTE: its strength is luma, else alpha */
+  bool is_frame;   /* GROUND: directly in the frame, so that its back lights are behind it, too */
+  uint8_t kind;    /* a cs_group_kind */
+  uint8_t blend;   /* GROUND: a celspan_blend */
+  bool has_front;  /* a flat front light, since its parts could not be lit one by one */
+  cs_v4 front;     /* has_front: that light; lane 3 is 0 */
+  uint32_t light;  /* has_light: the layer of that light, in front of all its others */
+  uint32_t around; /* GROUND: the group around all the grounds inside each other */
   uint32_t innermost; /* GROUND: the innermost of these, which names them all */
 } cs_group;
 

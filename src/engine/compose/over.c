@@ -1,33 +1,33 @@
 #include "engine/compose/over.h"
 
-/* What a group that has been left is for what is around it. */
-static cs_over_pair finish_group(cs_over *over, const cs_group *group, cs_over_level *level) {
+/* What a group that has been left is for the group around it. */
+static cs_over_pair finish_group(cs_over *over, const cs_group *group, cs_over_outer *around) {
   cs_over_pair inner = {over->e, over->t};
   if (group->has_front)
     inner.e = cs_over_lit(group->front, 1, inner.e, inner.t).e;
   float weight = group->fade, keep = over->keep;
   if (group->kind == CS_GROUP_GROUND) {
-    inner = cs_over_blend((celspan_blend)group->blend, level->head, inner, &keep);
-    over->keep = level->keep * keep;
+    inner = cs_over_blend((celspan_blend)group->blend, around->head, inner, &keep);
+    over->keep = around->keep * keep;
   } else if (group->kind == CS_GROUP_MATTE) {
-    weight *= over->is_bound ? 0 : cs_over_strength(group, level->head);
+    weight *= over->is_bound ? 0 : cs_over_strength(group, around->head);
   }
   return (cs_over_pair){weight * inner.e, (1 - weight) + weight * inner.t};
 }
 
 void cs_over_leave_group(cs_over *over) {
   const cs_group *group = &over->stack->groups[over->group];
-  cs_over_level *level = &over->levels[--over->depth];
+  cs_over_outer *around = &over->outers[--over->depth];
   while (group->is_frame && over->light < over->stack->light_count)
     cs_over_meet_light(over); /* nothing else of the frame is behind */
-  cs_over_pair inner = finish_group(over, group, level), outer = level->outer;
+  cs_over_pair inner = finish_group(over, group, around), outer = around->outer;
   if (group->kind == CS_GROUP_HEAD) {
-    level[-1].head = inner;
+    around[-1].head = inner;
     inner = cs_over_pair_clear;
   }
   over->e = outer.e + outer.t * inner.e;
   over->t = outer.t * inner.t;
-  over->group = level->group;
+  over->group = around->group;
 }
 
 void cs_over_meet_light(cs_over *over) {
@@ -37,8 +37,8 @@ void cs_over_meet_light(cs_over *over) {
 }
 
 static void open_group(cs_over *over, uint32_t group) {
-  over->levels[over->depth++] = (cs_over_level){
-      {over->e, over->t}, cs_over_pair_clear, over->group, over->keep};
+  over->outers[over->depth++] =
+      (cs_over_outer){{over->e, over->t}, cs_over_pair_clear, over->group, over->keep};
   over->e = cs_v4_all(0);
   over->t = cs_v4_all(1);
   over->group = group;
@@ -46,7 +46,7 @@ static void open_group(cs_over *over, uint32_t group) {
     over->keep = 1;
 }
 
-/* At most CS_STACK_GROUPS levels. */
+/* The recursion is at most CS_STACK_GROUPS groups deep. */
 static void enter(cs_over *over, uint32_t group) {
   uint32_t parent = cs_stack_around(over->stack, group, over->group);
   if (parent != over->group)

@@ -66,7 +66,7 @@ static inline float cs_over_mean(cs_v4 t) {
 /* How much there is of a colour that lets t through, and of the mattes behind it. */
 static inline float cs_over_alpha(cs_v4 t, float keep) { return 1 - keep * cs_over_mean(t); }
 
-/* The colour of premultiplied light, held to 0..1. */
+/* The colour of premultiplied light, clamped to 0..1. */
 static inline cs_v4 cs_over_colour(cs_v4 e, float alpha) {
   return alpha > 0 ? cs_v4_min(cs_v4_max(e * (1 / alpha), cs_v4_all(0)), cs_v4_all(1))
                    : cs_v4_all(0);
@@ -74,8 +74,8 @@ static inline cs_v4 cs_over_colour(cs_v4 e, float alpha) {
 
 /* A source over its backdrop. keep: what mattes of back lights leave of the backdrop's
  * transparency; it becomes 1 where the result's t says that, too. */
-static inline cs_over_pair cs_over_blend(celspan_blend mode, cs_over_pair source,
-                                         cs_over_pair back, float *keep) {
+static inline cs_over_pair cs_over_blend(celspan_blend mode, cs_over_pair source, cs_over_pair back,
+                                         float *keep) {
   float as = cs_over_alpha(source.t, 1), ab = cs_over_alpha(back.t, *keep);
   if (mode == CELSPAN_BLEND_ADD) {
     cs_v4 t = cs_v4_max(source.t - (1 - *keep * back.t), cs_v4_all(0));
@@ -97,12 +97,12 @@ static inline float cs_over_strength(const cs_group *group, cs_over_pair head) {
 }
 
 /* A group that has been entered and not yet left. */
-typedef struct cs_over_level {
+typedef struct cs_over_outer {
   cs_over_pair outer; /* of the group around it, put aside */
   cs_over_pair head;  /* GROUND and MATTE; clear until its head has been left */
   uint32_t group;     /* the one around it that was entered before, or CS_STACK_NONE */
-  float keep;         /* of what is around it */
-} cs_over_level;
+  float keep;         /* of the group around it */
+} cs_over_outer;
 
 /* A fold under way. */
 typedef struct cs_over {
@@ -113,13 +113,13 @@ typedef struct cs_over {
   size_t light;   /* the next back light to be met */
   uint32_t depth;
   bool is_bound;         /* t is the most that may shine through; e has no meaning */
-  cs_over_level *levels; /* borrowed; room for cs_stack_levels of them */
+  cs_over_outer *outers; /* borrowed; room for cs_stack_depth of them */
 } cs_over;
 
-/* levels: as above; NULL where no layer to come is in a group. */
-static inline void cs_over_begin(cs_over *over, const cs_stack *stack, cs_over_level *levels) {
+/* outers: as above; NULL where no layer to come is in a group. */
+static inline void cs_over_begin(cs_over *over, const cs_stack *stack, cs_over_outer *outers) {
   over->stack = stack;
-  over->levels = levels;
+  over->outers = outers;
   over->is_bound = false;
   over->e = cs_v4_all(0);
   over->t = cs_v4_all(1);

@@ -23,9 +23,9 @@
 #include "engine/compose/layer.h"
 
 #define CS_STACK_LAYERS ((size_t)10000000)
-/* Groups around a layer, at most, without the grounds that modes need: a cel may be lit, faded and a
- * source, which are three, and at each level of nesting there is a faded object, a source, a matte
- * and what it is the matte of. */
+/* Groups around a layer, at most, without the grounds that modes need: a cel may be lit, faded and
+ * a source, which are three, and at each level of nesting there is a faded object, a source, a
+ * matte and the group that it fades. */
 #define CS_STACK_GROUPS (4 * CS_SCENE_DEPTH + 3)
 
 /* One step of a boolean tree in post-order. */
@@ -86,8 +86,8 @@ static inline uint32_t cs_stack_veil(const cs_stack *stack, uint32_t group) {
   return group;
 }
 
-/* The innermost group that has to be entered for a layer of `group`, or for a group in it that is no
- * head: `group` itself, unless that is a ground whose head was not met. now: the innermost group
+/* The innermost group that has to be entered for a layer of `group`, or for a group in it that is
+ * no head: `group` itself, unless that is a ground whose head was not met. now: the innermost group
  * that has been entered, which is around the layer. */
 static inline uint32_t cs_stack_entered(const cs_stack *stack, uint32_t group, uint32_t now) {
   while (group != CS_STACK_NONE && group != now && stack->groups[group].kind == CS_GROUP_GROUND) {
@@ -103,12 +103,11 @@ static inline uint32_t cs_stack_entered(const cs_stack *stack, uint32_t group, u
 /* The same for a group that is about to be entered: of a head, the group that it is the head of. */
 static inline uint32_t cs_stack_around(const cs_stack *stack, uint32_t group, uint32_t now) {
   uint32_t parent = stack->groups[group].parent;
-  return stack->groups[group].kind == CS_GROUP_HEAD ? parent
-                                                    : cs_stack_entered(stack, parent, now);
+  return stack->groups[group].kind == CS_GROUP_HEAD ? parent : cs_stack_entered(stack, parent, now);
 }
 
 /* Groups that may be entered and not yet left at a time. */
-static inline size_t cs_stack_levels(const cs_stack *stack) {
+static inline size_t cs_stack_depth(const cs_stack *stack) {
   size_t most = CS_STACK_GROUPS + 2 * stack->source_count;
   return stack->group_count < most ? stack->group_count : most;
 }

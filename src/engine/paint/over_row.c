@@ -22,10 +22,10 @@ celspan_status cs_over_row_begin(celspan_context *context, cs_arena *arena, cons
   out->group = CS_STACK_NONE;
   out->light = 0;
   out->keep = 1;
-  out->levels = NULL;
+  out->outers = NULL;
   if (stack->group_count > 0) {
-    out->levels = cs_arena_take(context, arena, cs_stack_levels(stack) * sizeof *out->levels);
-    if (!out->levels)
+    out->outers = cs_arena_take(context, arena, cs_stack_depth(stack) * sizeof *out->outers);
+    if (!out->outers)
       return CELSPAN_NO_MEMORY;
   }
   return open_state(out);
@@ -37,30 +37,30 @@ static void meet_light(cs_over_row *over) {
   over->keep *= light->keep;
 }
 
-/* What a group that has been left is for what is around it, but not yet faded. */
-static void finish_group(cs_over_row *over, const cs_group *group, const cs_over_row_level *level,
+/* What a group that has been left is for the group around it, but not yet faded. */
+static void finish_group(cs_over_row *over, const cs_group *group, const cs_over_row_outer *around,
                          cs_over_row_state *inner) {
   if (group->has_front)
     WIDE(over, cs_over_row_light_flat)(inner, over->count, (const float *)&group->front);
   if (group->has_light)
-    WIDE(over, cs_over_row_light_group)(inner, over->count, (const float(*)[4])level->front);
+    WIDE(over, cs_over_row_light_group)(inner, over->count, (const float(*)[4])around->front);
   if (group->kind == CS_GROUP_MATTE)
-    WIDE(over, cs_over_row_matte)(level->head, over->count, group, inner);
+    WIDE(over, cs_over_row_matte)(around->head, over->count, group, inner);
   if (group->kind != CS_GROUP_GROUND)
     return;
   celspan_blend mode = (celspan_blend)group->blend;
-  WIDE(over, cs_over_row_blend)(level->head, over->count, mode, over->keep, inner);
-  over->keep = level->keep * (mode == CELSPAN_BLEND_ADD ? 1 : over->keep);
+  WIDE(over, cs_over_row_blend)(around->head, over->count, mode, over->keep, inner);
+  over->keep = around->keep * (mode == CELSPAN_BLEND_ADD ? 1 : over->keep);
 }
 
 /* Makes a group that has been left the head of the group around it. */
 static void keep_head(cs_over_row *over, const cs_group *group, cs_over_row_state *inner) {
   cs_over_row_state *state = over->state;
-  over->levels[over->depth - 1].head = inner;
+  over->outers[over->depth - 1].head = inner;
   if (group->fade == 1)
     return;
   WIDE(over, cs_over_row_add_group)(state, over->count, group->fade, inner);
-  over->levels[over->depth - 1].head = state;
+  over->outers[over->depth - 1].head = state;
   over->state = inner;
   WIDE(over, cs_over_row_clear)(inner, over->count);
 }
@@ -68,12 +68,12 @@ static void keep_head(cs_over_row *over, const cs_group *group, cs_over_row_stat
 static void leave_group(cs_over_row *over) {
   const cs_group *group = &over->stack->groups[over->group];
   cs_over_row_state *inner = over->state;
-  const cs_over_row_level *level = &over->levels[--over->depth];
+  const cs_over_row_outer *around = &over->outers[--over->depth];
   while (group->is_frame && over->light < over->stack->light_count)
     meet_light(over);
-  finish_group(over, group, level, inner);
-  over->state = level->outer;
-  over->group = level->group;
+  finish_group(over, group, around, inner);
+  over->state = around->outer;
+  over->group = around->group;
   if (group->kind == CS_GROUP_HEAD)
     keep_head(over, group, inner);
   else
@@ -85,8 +85,8 @@ static celspan_status enter(cs_over_row *over, uint32_t group) {
   uint32_t parent = cs_stack_around(over->stack, group, over->group);
   if (parent != over->group)
     CS_TRY(enter(over, parent));
-  over->levels[over->depth++] =
-      (cs_over_row_level){.outer = over->state, .group = over->group, .keep = over->keep};
+  over->outers[over->depth++] =
+      (cs_over_row_outer){.outer = over->state, .group = over->group, .keep = over->keep};
   over->group = group;
   if (over->stack->groups[group].kind == CS_GROUP_GROUND)
     over->keep = 1;
@@ -126,7 +126,7 @@ static celspan_status add_light_shape(cs_over_row *over, const cs_layer *layer,
   if (!front)
     return CELSPAN_NO_MEMORY;
   WIDE(over, cs_over_row_make_front)(over->count, gain, s, front);
-  over->levels[over->depth - 1].front = front;
+  over->outers[over->depth - 1].front = front;
   return CELSPAN_OK;
 }
 

@@ -36,13 +36,13 @@ typedef struct cs_over_row_state {
 } cs_over_row_state;
 
 /* A group that has been entered and not yet left. */
-typedef struct cs_over_row_level {
+typedef struct cs_over_row_outer {
   cs_over_row_state *outer; /* of the group around it, put aside */
   cs_over_row_state *head;  /* GROUND and MATTE: what its head was; NULL: it was not there */
   float (*front)[4];        /* its front light, where that has a shape */
   uint32_t group;           /* the one around it that was entered before, or CS_STACK_NONE */
-  float keep;               /* of what is around it */
-} cs_over_row_level;
+  float keep;               /* of the group around it */
+} cs_over_row_outer;
 
 typedef struct cs_over_row {
   celspan_context *context;
@@ -51,7 +51,7 @@ typedef struct cs_over_row {
   cs_isa isa;
   int32_t count; /* pixels */
   cs_over_row_state *state;
-  cs_over_row_level *levels; /* room for cs_stack_levels of them */
+  cs_over_row_outer *outers; /* room for cs_stack_depth of them */
   uint32_t depth;
   uint32_t group; /* the innermost that has been entered, or CS_STACK_NONE */
   size_t light;   /* the next back light to be met */

@@ -23,9 +23,9 @@
 
 #define LAYERS_LEAST 8
 #define ROWS_LEAST 20 /* of the frame, for each piece of the outlines, on the average */
-#define BESIDE                                                                                     \
-  0x1p-6 /* pixels beside the columns asked for, for rounding: many dashes may be there */
-#define DEPTH_LEAST 6 /* halvings of light; a tile dies at CS_THROUGH_OPAQUE */
+/* Pixels beside the columns asked for, for rounding: many dashes may be there. */
+#define BESIDE 0x1p-6
+#define DEPTH_LEAST 6   /* halvings of light; a tile dies at CS_THROUGH_OPAQUE */
 #define SOURCES_MOST 64 /* grounds inside each other, each of which the cull would go into */
 
 /* ---------------------------------------------------------------- in the words of the cull */
@@ -245,9 +245,10 @@ static celspan_status compile_cels(cs_compiler *c, const celspan_rostrum *rostru
 static celspan_status compile_film(cs_compiler *c, const celspan_rostrum *rostrum,
                                    const cs_compiler_film *film) {
   uint32_t *firsts;
-  CS_TRY(CS_MAKE(c->context, firsts, rostrum->cel_count));
+  size_t room = rostrum->cel_count + 1; /* at least one */
+  CS_TRY(CS_MAKE(c->context, firsts, room));
   celspan_status status = compile_cels(c, rostrum, film, firsts);
-  cs_mem_free(c->context->memory, firsts, rostrum->cel_count * sizeof *firsts);
+  cs_mem_free(c->context->memory, firsts, room * sizeof *firsts);
   return status;
 }
 

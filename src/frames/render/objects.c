@@ -329,7 +329,7 @@ celspan_status cs_objects_end_source(cs_compiler *c, celspan_blend mode, cs_obje
 
 /* ---------------------------------------------------------------- mattes */
 
-/* light: that of what is around, where it falls on each part; NULL else. */
+/* light: of the cel, where it falls on each part; NULL else. */
 static celspan_status add_isolated(cs_compiler *c, const celspan_object *object,
                                    const celspan_matrix *matrix,
                                    const cs_compiler_isolation *light) {
@@ -557,8 +557,8 @@ static celspan_status add_parts(cs_compiler *c, const celspan_object *object,
   const cs_primitive_data *data = object->data;
   const cs_compiler_isolation light = c->isolation;
   cs_objects_outside outer, around;
-  bool isolates = object->fade < 1 ||
-                  (data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->isolates);
+  bool isolates =
+      object->fade < 1 || (data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->isolates);
   bool splits = isolates && light.light && data->has_modes;
   if (splits)
     CS_TRY(close_light(c));
@@ -585,7 +585,7 @@ static celspan_status add_object(cs_compiler *c, const celspan_object *object,
   celspan_matrix matrix = celspan_matrix_then(*object->matrix, *parent);
   if (is_layer(object))
     return cs_layers_add(c, data, object->fade, &matrix);
-  if (celspan_object_mode(object) != CELSPAN_BLEND_NORMAL)
+  if (cs_object_mode(object) != CELSPAN_BLEND_NORMAL)
     return add_source(c, object, &matrix);
   if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->op == CS_OPERATOR_MATTE)
     return add_matte(c, object, &matrix);

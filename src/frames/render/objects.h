@@ -29,8 +29,8 @@ CELSPAN_CHECKED celspan_status cs_objects_begin_group(cs_compiler *c, double fad
                                                       cs_objects_outside *outer);
 void cs_objects_end_group(cs_compiler *c, cs_objects_outside outer);
 
-/* Begins what isolates. blends: a source is inside that acts on what is behind it. is_frame: it is
- * the frame itself. Errors: NO_MEMORY. */
+/* Begins what isolates. blends: a source is inside that acts on its backdrop. is_frame: it is the
+ * frame itself. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_objects_begin_isolation(cs_compiler *c, bool blends,
                                                           bool is_frame, cs_objects_outside *outer);
 void cs_objects_end_isolation(cs_compiler *c, cs_objects_outside outer);

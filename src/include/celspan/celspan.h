@@ -764,9 +764,9 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_extend_boolean(
     celspan_context *context, celspan_object *boolean, celspan_object *const *operands,
     size_t operand_count, celspan_object **out);
 
-/* How an object or a cel is combined with what is behind it, in its nearest group that isolates,
- * else in the frame. W3C Compositing and Blending Level 1, except for ADD, which adds premultiplied
- * colours and holds alpha to 1. Colours are held to 0..1 inside a mode. */
+/* How an object or a cel is combined with its backdrop: all that is behind it in its nearest group
+ * that isolates, else in the frame. W3C Compositing and Blending Level 1, except for ADD, which
+ * adds premultiplied colours and clamps alpha to 1. Colours are clamped to 0..1 inside a mode. */
 typedef enum celspan_blend {
   CELSPAN_BLEND_NORMAL = 0,
   CELSPAN_BLEND_MULTIPLY,
@@ -787,7 +787,7 @@ typedef enum celspan_blend {
   CELSPAN_BLEND_ADD
 } celspan_blend;
 
-/* Whether the modes of what is inside a group act on what is behind the group. */
+/* Whether modes inside a group act on the backdrop of the group. */
 typedef enum celspan_isolation {
   CELSPAN_ISOLATION_AUTO = 0, /* it isolates if it is faded or has a mode */
   CELSPAN_ISOLATION_ON,
@@ -828,7 +828,7 @@ CELSPAN_API celspan_blend celspan_object_mode(const celspan_object *object);
 typedef enum celspan_matte_from {
   CELSPAN_MATTE_ALPHA = 0, /* 1 - the mean of what it lets through */
   CELSPAN_MATTE_LUMA       /* 0.2126 r + 0.7152 g + 0.0722 b of its premultiplied colour under white
-                              light, held to 0..1 */
+                              light, clamped to 0..1 */
 } celspan_matte_from;
 
 /* The paint of `art` mixed with clear by what `by` is at each point. `by` is not drawn. The shape

@@ -187,9 +187,9 @@ const char *cs_userdata_shown(lua_State *L, int index) {
 /* ---------------------------------------------------------------- metamethods */
 
 const char *const cs_userdata_modes[] = {
-    "normal",     "multiply",   "screen",     "overlay", "darken",     "lighten",
+    "normal",      "multiply",   "screen",     "overlay",    "darken",     "lighten",
     "color-dodge", "color-burn", "hard-light", "soft-light", "difference", "exclusion",
-    "hue",        "saturation", "color",      "luminosity", "add", NULL};
+    "hue",         "saturation", "color",      "luminosity", "add",        NULL};
 
 bool cs_userdata_has_field(const cs_noun *noun, const char *name) {
   const cs_field *field = noun->fields;
@@ -217,7 +217,8 @@ static int fail_unknown(lua_State *L, const cs_noun *noun, int methods) {
   if (noun->kind->mode)
     names[count++] = "mode";
   for (lua_pushnil(L); count < MOST_NAMES && lua_next(L, methods); lua_pop(L, 1))
-    names[count++] = lua_tostring(L, -2); /* the table keeps it alive */
+    if (!cs_userdata_has_field(noun, lua_tostring(L, -2)))
+      names[count++] = lua_tostring(L, -2); /* the table keeps it alive */
   qsort(names + first, count - first, sizeof *names, compare);
   cs_unknown_fail_name(L, noun->name, lua_tostring(L, 2), names, count);
 }

@@ -53,8 +53,8 @@ static const cs_field fields[] = {
     {"viewport", CS_BOX(DESC, viewport), CS_HAS(DESC, has_viewport),
      .about = "The part that fills the frame"},
     {"defocus", CS_OWN("number|celspan.defocus"), .about = "A radius, or with a kernel"},
-    {"blend", CS_CHOICE(DESC, blend, cs_userdata_modes), .preset = "normal",
-     .about = "How it is combined with what is behind it"},
+    {"blend", CS_CHOICE(DESC, blend, cs_userdata_modes), .written = "celspan.mode",
+     .about = "How it is combined with its backdrop", .fallback = "normal"},
     {"opacity", CS_NUMBER(DESC, opacity), .preset = "1", .about = "Limited to 0..1"},
     {0}};
 const cs_noun cs_noun_cel = {.name = "cel",

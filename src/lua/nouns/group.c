@@ -28,12 +28,12 @@ static void create_group(const cs_form *form, cs_userdata *value) {
 
 #define FIELDS group_fields
 static const cs_field group_rows[] = {
-    {"opacity", CS_NUMBER(FIELDS, desc.opacity), .least = 0, .most = 1, .preset = "1",
-     .about = "Of the group as a whole"},
-    {"blend", CS_CHOICE(FIELDS, desc.blend, cs_userdata_modes), .preset = "normal",
-     .about = "How it is combined with what is behind it"},
+    {"opacity", CS_NUMBER(FIELDS, desc.opacity), .preset = "1",
+     .about = "Of the group as a whole; limited to 0..1"},
+    {"blend", CS_CHOICE(FIELDS, desc.blend, cs_userdata_modes), .written = "celspan.mode",
+     .about = "How it is combined with its backdrop", .fallback = "normal"},
     {"isolate", CS_FLAG(FIELDS, isolate), CS_HAS(FIELDS, has_isolate),
-     .about = "Whether modes inside act only on what is inside",
+     .about = "Whether modes inside act only inside",
      .fallback = "true if it is faded or has a mode"},
     {0}};
 const cs_noun cs_noun_group = {.name = "group",
@@ -64,12 +64,12 @@ static void create_matte(const cs_form *form, cs_userdata *value) {
 }
 
 static const char *const sources[] = {"alpha", "luma", NULL};
-static const cs_field matte_rows[] = {
-    {"from", CS_CHOICE(matte_fields, from, sources), .preset = "alpha",
-     .about = "What of the matte counts"},
-    {"invert", CS_FLAG(matte_fields, invert), .about = "The art is present where the matte is not",
-     .fallback = "false"},
-    {0}};
+static const cs_field matte_rows[] = {{"from", CS_CHOICE(matte_fields, from, sources),
+                                       .preset = "alpha", .about = "What of the matte counts"},
+                                      {"invert", CS_FLAG(matte_fields, invert),
+                                       .about = "The art is present where the matte is not",
+                                       .fallback = "false"},
+                                      {0}};
 const cs_noun cs_noun_matte = {.name = "matte",
                                .about = "How a matte is used.",
                                .table = "celspan.matte.options",

@@ -165,7 +165,10 @@ static const char *push_modes(lua_State *L) {
   luaL_Buffer words;
   luaL_buffinit(L, &words);
   for (int i = 0; cs_userdata_modes[i]; i++) {
-    lua_pushfstring(L, "%s\"%s\"", i == 0 ? "" : cs_userdata_modes[i + 1] ? ", " : " or ",
+    lua_pushfstring(L, "%s\"%s\"",
+                    i == 0                     ? ""
+                    : cs_userdata_modes[i + 1] ? ", "
+                                               : " or ",
                     cs_userdata_modes[i]);
     luaL_addvalue(&words);
   }
@@ -238,8 +241,8 @@ static int contains(lua_State *L) {
 #define METHODS                                                                                    \
   {"translate", translate}, {"scale", scale}, {"rotate", rotate}, {"skew", skew},                  \
       {"transform", transform}, {"quad", quad}, {"fade", fade}, {"blend", blend},                  \
-      {"bounds", bounds},                                                                          \
-      {"contains", contains}, {"named", cs_named_method}, {"with", cs_construct_with}, {           \
+      {"bounds", bounds}, {"contains", contains}, {"named", cs_named_method},                      \
+      {"with", cs_construct_with}, {                                                               \
     NULL, NULL                                                                                     \
   }
 const luaL_Reg cs_placed_methods[] = {METHODS};

@@ -33,7 +33,7 @@ static inline float cs_blend_burn(float b, float s) {
   return 1 - b >= s ? 0 : 1 - (1 - b) / s;
 }
 
-static inline float cs_blend_soft(float b, float s) {
+static inline float cs_blend_softlight(float b, float s) {
   if (s <= 0.5f)
     return b - (1 - 2 * s) * b * (1 - b);
   float d = b <= 0.25f ? ((16 * b - 12) * b + 4) * b : sqrtf(b);
@@ -51,7 +51,7 @@ static inline float cs_blend_channel(celspan_blend mode, float b, float s) {
   case CELSPAN_BLEND_HARD_LIGHT:
     return cs_blend_hard(b, s);
   default:
-    return cs_blend_soft(b, s);
+    return cs_blend_softlight(b, s);
   }
 }
 

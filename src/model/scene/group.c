@@ -73,10 +73,7 @@ celspan_status celspan_object_create_group(celspan_context *context, const celsp
 
 /* ---------------------------------------------------------------- modes */
 
-celspan_blend celspan_object_mode(const celspan_object *object) {
-  const cs_primitive_data *data = object->data;
-  return data->kind == CS_PRIMITIVE_DATA_BOOLEAN ? data->boolean->blend : CELSPAN_BLEND_NORMAL;
-}
+celspan_blend celspan_object_mode(const celspan_object *object) { return cs_object_mode(object); }
 
 /* Another mode for an object that has one: its operands stay. */
 static celspan_status change(celspan_context *context, const celspan_object *object,

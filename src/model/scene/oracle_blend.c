@@ -28,7 +28,7 @@ static double color_burn(double b, double s) {
   return s == 0 ? 0 : 1 - fmin(1, (1 - b) / s);
 }
 
-static double soft_light(double b, double s) {
+static double softlight(double b, double s) {
   double d = b <= 0.25 ? ((16 * b - 12) * b + 4) * b : sqrt(b);
   return s <= 0.5 ? b - (1 - 2 * s) * b * (1 - b) : b + (2 * s - 1) * (d - b);
 }
@@ -37,11 +37,11 @@ static double difference(double b, double s) { return fabs(b - s); }
 static double exclusion(double b, double s) { return b + s - 2 * b * s; }
 
 static double (*const separable[])(double b, double s) = {
-    [CELSPAN_BLEND_MULTIPLY] = multiply,       [CELSPAN_BLEND_SCREEN] = screen,
-    [CELSPAN_BLEND_OVERLAY] = overlay,         [CELSPAN_BLEND_DARKEN] = fmin,
-    [CELSPAN_BLEND_LIGHTEN] = fmax,            [CELSPAN_BLEND_COLOR_DODGE] = color_dodge,
-    [CELSPAN_BLEND_COLOR_BURN] = color_burn,   [CELSPAN_BLEND_HARD_LIGHT] = hard_light,
-    [CELSPAN_BLEND_SOFT_LIGHT] = soft_light,   [CELSPAN_BLEND_DIFFERENCE] = difference,
+    [CELSPAN_BLEND_MULTIPLY] = multiply,     [CELSPAN_BLEND_SCREEN] = screen,
+    [CELSPAN_BLEND_OVERLAY] = overlay,       [CELSPAN_BLEND_DARKEN] = fmin,
+    [CELSPAN_BLEND_LIGHTEN] = fmax,          [CELSPAN_BLEND_COLOR_DODGE] = color_dodge,
+    [CELSPAN_BLEND_COLOR_BURN] = color_burn, [CELSPAN_BLEND_HARD_LIGHT] = hard_light,
+    [CELSPAN_BLEND_SOFT_LIGHT] = softlight,  [CELSPAN_BLEND_DIFFERENCE] = difference,
     [CELSPAN_BLEND_EXCLUSION] = exclusion,
 };
 
@@ -135,8 +135,7 @@ cs_oracle_sight cs_oracle_blend(celspan_blend mode, const cs_oracle_sight *sourc
   colour mixed = blend(mode, colour_of(back, ab), colour_of(source, as));
   cs_oracle_sight both = cs_oracle_before(source, back);
   for (int i = 0; i < 3; i++)
-    both.light[i] =
-        source->light[i] * (1 - ab) + back->light[i] * (1 - as) + as * ab * mixed.c[i];
+    both.light[i] = source->light[i] * (1 - ab) + back->light[i] * (1 - as) + as * ab * mixed.c[i];
   return both;
 }
 

@@ -79,7 +79,7 @@ static celspan_status present(const probe_call *probe, const celspan_object *obj
 /* ---------------------------------------------------------------- places */
 
 /* A place in what isolates, on the way from the camera to the rear: in a list of objects, or in a
- * rostrum. What is behind the place continues in the list around it, unless this one isolates.
+ * rostrum. Behind its last item the way continues in the list around it, unless this isolates.
  *
  *     rostrum, rear first   0          1             2       3             4
  *                           its back   back light    cel 1   back light    cel 2
@@ -89,11 +89,11 @@ typedef struct place place;
 struct place {
   const place *around; /* NULL: nothing that is around can be seen from here */
   const probe_call *probe;
-  const celspan_rostrum *rostrum;   /* NULL: of a list of objects */
-  celspan_object *const *objects;   /* of a list */
-  size_t left;                      /* objects, or places of a rostrum, not yet met */
-  celspan_matrix matrix;            /* of a list: to film units */
-  light_sample front;               /* of a list: what it is lit by */
+  const celspan_rostrum *rostrum; /* NULL: of a list of objects */
+  celspan_object *const *objects; /* of a list */
+  size_t left;                    /* objects, or places of a rostrum, not yet met */
+  celspan_matrix matrix;          /* of a list: to film units */
+  light_sample front;             /* of a list: what it is lit by */
 };
 
 /* Adds what is seen from a place on. */
@@ -125,19 +125,16 @@ static celspan_status see_list(const probe_call *probe, celspan_object *const *o
                                size_t count, const celspan_matrix *matrix,
                                const light_sample *front, cs_oracle_sight *out) {
   *out = cs_oracle_nothing;
-  return see((place){.probe = probe,
-                     .objects = objects,
-                     .left = count,
-                     .matrix = *matrix,
-                     .front = *front},
-             out);
+  return see(
+      (place){
+          .probe = probe, .objects = objects, .left = count, .matrix = *matrix, .front = *front},
+      out);
 }
 
 static celspan_status see_rostrum(const probe_call *probe, const celspan_rostrum *rostrum,
                                   cs_oracle_sight *out) {
   *out = cs_oracle_nothing;
-  return see(
-      (place){.probe = probe, .rostrum = rostrum, .left = 2 * rostrum->cel_count + 1}, out);
+  return see((place){.probe = probe, .rostrum = rostrum, .left = 2 * rostrum->cel_count + 1}, out);
 }
 
 /* Its strength is that of the second operand, which is not drawn. */
@@ -205,12 +202,12 @@ static celspan_status see_data(const probe_call *probe, const cs_primitive_data 
 
 /* ---------------------------------------------------------------- objects in their place */
 
-/* An object that is present: what it shows, or, if modes inside it act on what is behind it, what
- * is seen from its operands on. */
+/* An object that is present: its own look, or, if modes inside it act on its backdrop, all that is
+ * seen from its operands on. */
 static celspan_status see_object(place *at, const celspan_object *object, cs_oracle_sight *seen) {
   const cs_primitive_data *data = object->data;
   const celspan_matrix whole = celspan_matrix_then(*object->matrix, at->matrix);
-  const celspan_blend mode = celspan_object_mode(object);
+  const celspan_blend mode = cs_object_mode(object);
   cs_oracle_sight part = cs_oracle_nothing;
   if (mode == CELSPAN_BLEND_NORMAL && cs_object_blends(object)) {
     const place around = *at;

@@ -113,6 +113,10 @@ static cs_light light_of(float x) { return (cs_light){.is_given = true, .flat = 
 celspan_status cs_lit_alone_make(celspan_context *context, const celspan_rostrum *rostrum,
                                  size_t index, bool is_back, cs_lit_alone *out) {
   size_t count = rostrum->cel_count - index;
+  if (cs_rostrum_has_modes(rostrum))
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "rostrum: a cel has a blend mode, so its lights do not add up and cannot be "
+                   "taken apart");
   cs_lit_alone alone = {.rostrum = *rostrum, .count = count};
   alone.cels = cs_mem_array(context->memory, count, sizeof *alone.cels);
   alone.rostrum.cels = cs_mem_array(context->memory, count, sizeof *alone.rostrum.cels);

@@ -81,9 +81,9 @@ typedef enum cs_primitive_data_kind {
 typedef struct cs_boolean {
   celspan_operator op;
   celspan_blend blend;
-  bool isolates; /* modes inside do not act on what is behind it */
-  bool is_luma;  /* MATTE: the strength is luma, not alpha */
-  bool inverts;  /* MATTE: 1 less the strength */
+  bool isolates;             /* modes inside do not act on its backdrop */
+  bool is_luma;              /* MATTE: the strength is luma, not alpha */
+  bool inverts;              /* MATTE: 1 less the strength */
   cs_operands view;          /* keeps the operands */
   celspan_object **operands; /* those of the view */
   size_t operand_count;
@@ -103,7 +103,7 @@ typedef struct cs_primitive_data {
   celspan_rule rule;
   bool is_empty;            /* nothing to draw: no contour, or an operator without operands */
   bool has_procedure;       /* below or with this one */
-  bool blends;              /* a mode below this one acts on what is behind it */
+  bool blends;              /* a mode below this one acts on the backdrop of this one */
   bool has_modes;           /* any mode is below or with this one, except in a rostrum */
   bool is_box;              /* the outline is that of `box`, which has an area */
   int depth;                /* levels of booleans and rostrums below and with this one */
@@ -139,7 +139,12 @@ struct celspan_object {
   celspan_matrix own[];         /* one; none where the matrix is shared */
 };
 
-/* Whether what the object looks like depends on what is behind it. */
+static inline celspan_blend cs_object_mode(const celspan_object *object) {
+  const cs_primitive_data *data = object->data;
+  return data->kind == CS_PRIMITIVE_DATA_BOOLEAN ? data->boolean->blend : CELSPAN_BLEND_NORMAL;
+}
+
+/* Whether the look of the object depends on its backdrop. */
 static inline bool cs_object_blends(const celspan_object *object) {
   const cs_primitive_data *data = object->data;
   if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN)
@@ -163,7 +168,7 @@ struct celspan_cel {
   celspan_defocus_kernel defocus_kernel;
   double opacity;
   celspan_blend blend;
-  bool blends_inside; /* any of its objects acts on what is behind that object */
+  bool blends_inside; /* any of its objects acts on the backdrop of that object */
   bool has_modes;     /* any mode is in it, except in a rostrum, or its own */
 };
 
@@ -174,10 +179,10 @@ static inline bool cs_cel_isolates(const celspan_cel *cel) {
 
 /* Whether the object has a mode, or anything below it that is in no rostrum. */
 static inline bool cs_object_has_modes(const celspan_object *object) {
-  return object->data->has_modes || celspan_object_mode(object) != CELSPAN_BLEND_NORMAL;
+  return object->data->has_modes || cs_object_mode(object) != CELSPAN_BLEND_NORMAL;
 }
 
-/* Whether what the cel looks like depends on what is behind it. */
+/* Whether the look of the cel depends on its backdrop. */
 static inline bool cs_cel_blends(const celspan_cel *cel) {
   return cel->blend != CELSPAN_BLEND_NORMAL || (cel->blends_inside && !cs_cel_isolates(cel));
 }
@@ -200,7 +205,7 @@ struct celspan_rostrum {
   cs_antialias antialias;
 };
 
-/* Whether any cel of a rostrum acts on what is behind it. */
+/* Whether any cel of a rostrum acts on its backdrop. */
 static inline bool cs_rostrum_blends(const celspan_rostrum *rostrum) {
   for (size_t i = 0; i < rostrum->cel_count; i++)
     if (cs_cel_blends(rostrum->cels[i]))
@@ -270,7 +275,7 @@ typedef struct cs_lit_alone {
 } cs_lit_alone;
 
 /* index: the place of the cel, from 0; is_back: its back light, else its front light.
- * Errors: NO_MEMORY. */
+ * Errors: NO_MEMORY; BAD_ARGUMENT for a rostrum with modes, whose lights do not add up. */
 CELSPAN_CHECKED celspan_status cs_lit_alone_make(celspan_context *context,
                                                  const celspan_rostrum *rostrum, size_t index,
                                                  bool is_back, cs_lit_alone *out);
