@@ -5,7 +5,8 @@
 -- Each scene is rendered at 64 x 48 pixels by one worker in a process of its own, which reports its
 -- processor time and its peak memory, including the script's values, Lua and the picture. N is
 -- 62500 by default for squares and polygons, so that 16 N is a million; for the points of a curve
--- it is a tenth of that (100000 at most), for arcs that overlap a fiftieth (20000 at most).
+-- it is a tenth of that (100000 at most), for arcs that overlap and for translucent lines a fiftieth
+-- (20000 at most).
 local celspan = require "celspan"
 local WIDTH, HEIGHT = 64, 48
 local unpack = table.unpack
@@ -51,6 +52,17 @@ function scenes.arcs(count, random)
   return objects
 end
 
+function scenes.lines(count, random)
+  local objects = {}
+  for i = 1, count do
+    local points = {}
+    for k = 1, 4 do points[k] = { WIDTH * random(), HEIGHT * random() } end
+    objects[i] = celspan.stroke { points = points, width = 0.2,
+      texture = celspan.rgb(random(), random(), random(), 0.25) }
+  end
+  return objects
+end
+
 local kind, count = arg[1], tonumber(arg[2])
 if scenes[kind] then
   local rostrum = celspan.rostrum { celspan.cel(scenes[kind](count, numbers())) }
@@ -64,7 +76,7 @@ end
 local least = tonumber(arg[1] or 62500)
 print(("%-10s %9s %10s %8s %12s"):format("", "N", "seconds", "MiB", "bytes each"))
 for _, row in ipairs { { "squares", 1 }, { "polygon", 1 }, { "nurbs", 1 / 10 },
-  { "arcs", 1 / 50 } } do
+  { "arcs", 1 / 50 }, { "lines", 1 / 50 } } do
   local name, share = unpack(row)
   for factor = 0, 2 do
     local n = math.floor(least * share * 4 ^ factor)

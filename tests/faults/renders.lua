@@ -148,6 +148,16 @@ local function dense()
   return celspan.rostrum { celspan.cel { celspan.polygon(points) }, celspan.cel(squares) }
 end
 
+local function crowd()
+  local lines = {}
+  for i = 1, 60 do
+    lines[i] = celspan.stroke { points = { { (i * 7.31) % 24, (i * 3.77) % 18 },
+      { (i * 11.3) % 24, (i * 5.93) % 18 }, { (i * 2.17) % 24, (i * 9.71) % 18 } }, width = 0.3,
+      texture = celspan.rgb(i / 60, 0.5, 0.2, 0.25) }
+  end
+  return celspan.rostrum { back = "#fff", celspan.cel(lines) }
+end
+
 local function procedures()
   return celspan.rostrum { back = "#fff", celspan.cel {
     celspan.scanline { bounds = { 2, 2, 20, 14 }, spans = function(y)
@@ -175,6 +185,7 @@ local makers = {
   { name = "kernels", make = kernels, sinks = { "sink" } },
   { name = "viewports", make = viewports, sinks = { "rows" } },
   { name = "dense", make = dense, sinks = { "tga" } },
+  { name = "crowd", make = crowd, sinks = { "png" } },
   { name = "procedures", make = procedures, sinks = { "sink", "png", "rows", "probe" } },
   { name = "shapes by two", make = shapes, workers = 2, sinks = { "png", "tga", "span" } },
   { name = "files by two", make = function() return files "/tests/faults/pixels.png" end,

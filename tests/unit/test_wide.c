@@ -1,5 +1,6 @@
 /* The sweep's vector code gives the same bits with every instruction set.
  */
+#include "engine/area/crowd.h"
 #include "engine/area/edges.h"
 #include "engine/row/centre.h"
 #include "engine/sweep/advance.h"
@@ -188,6 +189,56 @@ static void check_strays(cs_isa isa, test_random *random) {
   CHECK(strays || odd < first || odd > end);
 }
 
+enum { SAMPLES = 5 * CS_CROWD_SUMS, LINES = 4 };
+
+/* Whether a line passes left of a sample, or through it. */
+static bool is_passed(const cs_crowd_line *line, float x, float y) {
+  return y >= line->top && y < line->foot && line->x + line->slope * (y - line->top) <= x;
+}
+
+static cs_crowd_line random_line(test_random *random) {
+  float top = random_below(random, 2) ? 0 : (float)random_between(random, 0, 0.6);
+  float foot = random_below(random, 2) ? 1 : (float)random_between(random, top, 1);
+  return (cs_crowd_line){(float)random_between(random, -1, 2), (float)random_between(random, -3, 3),
+                         top, foot, random_below(random, 2) ? 1 : -1};
+}
+
+/* What the samples inside a layer let through is the same to the bit; and they are those inside. */
+static void check_crowd(cs_isa isa, test_random *random) {
+  cs_crowd_lattice lattice = {.count = SAMPLES};
+  cs_crowd_line lines[LINES];
+  int32_t inside[SAMPLES], base = random_below(random, 3) - 1,
+                           mask = random_below(random, 2) ? -1 : 1;
+  int32_t low = INT32_MAX, high = INT32_MIN, count = 0, wrong = 0;
+  float through[SAMPLES], expected[SAMPLES];
+  size_t line_count = (size_t)random_below(random, LINES + 1);
+  for (size_t i = 0; i < line_count; i++)
+    lines[i] = random_line(random);
+  for (int32_t k = 0; k < SAMPLES; k++) {
+    lattice.x[k] = (float)random_between(random, 0, 1);
+    lattice.y[k] = ((float)k + 0.5f) / SAMPLES;
+    through[k] = expected[k] = (float)random_between(random, 0, 1);
+  }
+  cs_crowd_cover cover =
+      CS_WIDE_CHOOSE(isa, cs_crowd_find)(&lattice, lines, line_count, base, mask, inside);
+  for (int32_t k = 0; k < SAMPLES; k++) {
+    int32_t winding = base;
+    for (size_t i = 0; i < line_count; i++)
+      winding += is_passed(&lines[i], lattice.x[k], lattice.y[k]) ? lines[i].direction : 0;
+    low = winding < low ? winding : low;
+    high = winding > high ? winding : high;
+    count += (winding & mask) != 0;
+    wrong += inside[k] != ((winding & mask) != 0 ? -1 : 0);
+  }
+  CHECK(wrong == 0 && cover.count == count && cover.low == low && cover.high == high);
+  float sum = CS_WIDE_CHOOSE(isa, cs_crowd_dim)(through, inside, SAMPLES, 0.3f);
+  CHECK(sum == cs_crowd_dim_any(expected, inside, SAMPLES, 0.3f));
+  CHECK(memcmp(through, expected, sizeof through) == 0);
+  for (int32_t k = 0; k < SAMPLES; k++)
+    sum -= inside[k] != 0 ? through[k] / 0.7f : 0;
+  CHECK(fabsf(sum) < 1e-4f);
+}
+
 int main(void) {
   for (int isa = CS_ISA_ANY; isa <= (int)cs_isa_best(); isa++) {
     test_random random = {29};
@@ -198,6 +249,7 @@ int main(void) {
       check_centres((cs_isa)isa, &random);
       check_vertices((cs_isa)isa, &random);
       check_strays((cs_isa)isa, &random);
+      check_crowd((cs_isa)isa, &random);
     }
   }
   return check_done();

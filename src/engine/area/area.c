@@ -122,6 +122,7 @@ void cs_area_init(cs_area *area, const cs_row_tools *tools) {
   *area = (cs_area){.tools = *tools};
   cs_window_init(&area->target.window, tools->painter, tools->arena, tools->width);
   cs_local_sweep_init(&area->sweep, tools->composer, tools->arena, &area->target);
+  cs_crowd_init(&area->crowd);
   area->commit = (cs_commit){tools->active, tools->cells, tools->composer, tools->arena, NULL};
 }
 
@@ -130,6 +131,7 @@ void cs_area_finish(cs_area *area, cs_memory *memory) {
   cs_window_finish(&area->target.window, memory);
   cs_local_sweep_finish(&area->sweep, memory);
   cs_dense_finish(&area->dense, memory);
+  cs_crowd_finish(&area->crowd, memory);
   *area = (cs_area){0};
 }
 
@@ -213,6 +215,37 @@ static celspan_status begin_item(cs_area *area, const cs_cell *left, size_t low,
   return cs_target_begin_item(&area->target, least);
 }
 
+/* Whether an interval must be drawn as a crowd. Edges that are retained must be exact, and slabs
+ * of a row are not pixels. Culled boundaries take effect up to a column late there, so no tile may
+ * be narrower. */
+static bool is_crowd(const row_walk *w, const cs_interval *interval) {
+  const cs_row_tools *tools = &w->area->tools;
+  const cs_deferred_cursor *deferred = &tools->cells->deferred;
+  if (w->is_slab || w->area->target.retained ||
+      (tools->width < CS_CULL_COLUMNS && deferred->first < deferred->end))
+    return false;
+  return cs_crowd_suits(w->intervals, interval, tools->composer, tools->width);
+}
+
+/* The least x of what comes after an interval. */
+static double next_after(const row_walk *w, const cs_interval *interval) {
+  const cs_intervals *intervals = w->intervals;
+  double next = interval->high < intervals->active->count ? intervals->edges->low[interval->high]
+                                                          : w->area->tools.width;
+  return interval + 1 < intervals->intervals + intervals->count ? fmin(next, interval[1].extent.low)
+                                                                : next;
+}
+
+static celspan_status walk_crowd(row_walk *w, const cs_interval *interval) {
+  cs_area *area = w->area;
+  const cs_cell *right = &w->cells[interval->high];
+  CS_TRY(begin_item(area, &w->cells[interval->low], interval->low, interval->extent.low));
+  CS_TRY(cs_crowd_draw(&area->crowd, &area->sweep, w->intervals, interval, next_after(w, interval),
+                       right));
+  cs_window_end_item(&area->target.window, right);
+  return CELSPAN_OK;
+}
+
 /* Replays an interval. */
 static celspan_status walk_interval(row_walk *w, const cs_interval *interval) {
   cs_area *area = w->area;
@@ -221,6 +254,8 @@ static celspan_status walk_interval(row_walk *w, const cs_interval *interval) {
   CS_TRY(cs_intervals_pick_begins(w->intervals, interval, &sweep->begins, &sweep->begin_count));
   sweep->y0 = w->intervals->y0;
   sweep->y1 = w->intervals->y1;
+  if (is_crowd(w, interval))
+    return walk_crowd(w, interval);
   CS_TRY(cs_local_sweep_begin(sweep, high - low));
   for (size_t i = low; i < high; i++) {
     cs_member *member = sweep->members[i - low];

@@ -8,6 +8,7 @@
  */
 #pragma once
 
+#include "engine/area/crowd.h"
 #include "engine/area/dense.h"
 #include "engine/area/edges.h"
 #include "engine/area/local_sweep.h"
@@ -48,6 +49,7 @@ typedef struct cs_area {
   cs_target target;   /* receives the segments of the row */
   cs_local_sweep sweep;
   cs_dense dense;
+  cs_crowd crowd;
   cs_commit commit; /* the order and cells that the row leaves for the next one */
 } cs_area;
 

@@ -1,0 +1,123 @@
+/* Crowds: intervals in which so many translucent edges share pixels that to follow their
+ * intersections would cost far more than to look at samples of each pixel: hatching, hair, rain.
+ *
+ *      p      p+1
+ *      +------/+     pixel by pixel, layer by layer from the camera backwards:
+ *      | .  ./ |       inside   which of the samples lie in the layer
+ *      |   ./. |       area     how much of the pixel it covers, from its edges: exact
+ *      |. ./.  |       weight   area / share of the samples inside
+ *      |  /.  .|       light += paint * weight * (what the samples inside still let through)
+ *      +-/-----+
+ *
+ * So the areas of all edges are exact, and the samples only say how layers overlap. An edge costs
+ * the same however many others share its pixels, and no order of the edges is needed.
+ *
+ * The samples are points of a lattice: no two share a height or a column, and lines in all
+ * directions divide them evenly. How many there are depends on the two strongest layers that have
+ * edges in the pixel. A pixel is then within 1/255 of the exact mean. Layers that wind around
+ * points of one pixel in more than two ways are not weighted.
+ *
+ * Invariants: a pixel depends on the edges that it contains and the layers present in it alone. As
+ * for local sweeps (local_sweep.h), nothing changes left and right of the interval.
+ */
+#pragma once
+
+#include "base/wide.h"
+#include "engine/area/intervals.h"
+
+#define CS_CROWD_LEAST 32     /* boundaries of a crowd, at least */
+#define CS_CROWD_A_PIXEL 6    /* of them in each pixel, on the average, at least */
+#define CS_CROWD_SUMS 16      /* partial sums over samples: as many on all machines */
+#define CS_CROWD_SAMPLES 2048 /* in a pixel, at most */
+
+/* The samples of a pixel, from top to foot. */
+typedef struct cs_crowd_lattice {
+  int32_t count;
+  float x[CS_CROWD_SAMPLES], y[CS_CROWD_SAMPLES]; /* from the pixel's corner */
+} cs_crowd_lattice;
+
+/* A straight piece of a boundary, as a pixel sees it. */
+typedef struct cs_crowd_line {
+  float x, slope, top, foot; /* x at its top */
+  int32_t direction;
+} cs_crowd_line;
+
+/* Which samples of a pixel lie in a layer: -1 in `inside`, else 0. */
+typedef struct cs_crowd_cover {
+  int32_t count;     /* of the samples inside */
+  int32_t low, high; /* how often the layer winds around samples: least and most */
+} cs_crowd_cover;
+
+/* ---- crowd_wide.c */
+
+/* A layer that winds `base` times around the left side of a pixel, whose other edges there are
+ * `lines`. It is inside where (winding & mask) != 0. inside: room for all samples. */
+CS_WIDE_DECLARE(cs_crowd_cover, cs_crowd_find,
+                (const cs_crowd_lattice *lattice, const cs_crowd_line *lines, size_t line_count,
+                 int32_t base, int32_t mask, int32_t *inside));
+/* Takes a share of what the samples inside let through, and returns the sum of what they let
+ * through before. */
+CS_WIDE_DECLARE(float, cs_crowd_dim,
+                (float *through, const int32_t *inside, int32_t count, float share));
+
+/* ---- crowd.c */
+
+typedef struct cs_crowd_piece {
+  double xa, xb;    /* at its top and at its foot, from the left of the frame */
+  double top, foot; /* from the top of the row: 0..1 */
+  double by_twice;  /* 1 / twice its width */
+  float slope;      /* dx/dy */
+} cs_crowd_piece;
+
+/* A boundary in the row; or, where one has begun or ended further left, the step of winding below
+ * that height. */
+typedef struct cs_crowd_member {
+  uint32_t layer;
+  uint32_t piece, piece_count;
+  uint32_t next; /* that enters in the same column; UINT32_MAX: none */
+  int32_t direction;
+  int32_t end; /* the first column that lies right of it */
+  double top, foot;
+  bool is_passed; /* the composer has crossed it */
+} cs_crowd_member;
+
+/* A member that reaches the current column. Those of nearer layers come first. */
+typedef struct cs_crowd_live {
+  uint64_t key; /* of its layer and its number */
+  int32_t end;  /* the member's */
+} cs_crowd_live;
+
+/* What a worker keeps of it. */
+typedef struct cs_crowd_room {
+  cs_crowd_lattice lattices[3];
+  float through[3][CS_CROWD_SAMPLES]; /* by channel; only the first where all are alike */
+  int32_t inside[CS_CROWD_SAMPLES];
+} cs_crowd_room;
+
+typedef struct cs_crowd {
+  cs_isa isa;
+  cs_crowd_room *room; /* NULL: not needed yet */
+  cs_crowd_piece *pieces;
+  cs_crowd_member *members;
+  uint32_t *entering;      /* by column: the first that enters there */
+  cs_crowd_live *live;     /* members in the current column */
+  cs_crowd_live *arriving; /* those that were not in the column before */
+  uint32_t *leaving;       /* those that were in the column before alone */
+  cs_crowd_line *lines;    /* of a layer in a pixel */
+  size_t piece_count, piece_capacity, member_count, member_capacity;
+  size_t arriving_count, arriving_capacity;
+  size_t entering_capacity, live_count, live_capacity, leaving_capacity, line_capacity;
+} cs_crowd;
+
+void cs_crowd_init(cs_crowd *crowd);
+void cs_crowd_finish(cs_crowd *crowd, cs_memory *memory);
+/* Whether an interval of a whole row is crowded. */
+bool cs_crowd_suits(const cs_intervals *intervals, const cs_interval *interval,
+                    const cs_composer *composer, int32_t width);
+/* Draws an interval and what begins in it, which the sweep has been given with its left cell. The
+ * composer is left of them all, and is there again afterwards. next: the least x of what is drawn
+ * after them; right: the cell right of them all. Errors: NO_MEMORY, those of painting. */
+CELSPAN_CHECKED celspan_status cs_crowd_draw(cs_crowd *crowd, cs_local_sweep *sweep,
+                                             const cs_intervals *intervals,
+                                             const cs_interval *interval, double next,
+                                             const cs_cell *right);
