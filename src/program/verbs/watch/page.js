@@ -21,6 +21,7 @@ const view = { number: 1, scale: 1, x: 0, y: 0, isFitted: true };
 const loop = { from: 1, to: 1 };
 const play = { direction: 0, speed: 1, start: 0, number: 1, painted: [] };
 let painted = null, isMatte = false, mark = null;
+let refused = null; // the frame that could not be made: number, build, message
 
 // ---------------------------------------------------------------- the view
 
@@ -189,9 +190,10 @@ async function ask() {
       const picture = await fetchPicture(fine);
       slowness = picture.seconds;
       paint(picture);
+      refused = null;
       showFault();
     } catch (fault) {
-      await failed(fault);
+      await failed(fault, fine.number);
     }
   }
   isAsking = false;
@@ -199,8 +201,11 @@ async function ask() {
 
 /** A picture that was not made: what the film says of it is among the errors; what was busy is
  * asked again. */
-async function failed(fault) {
-  if (fault.status === 422) return showFault(fault.message.trim());
+async function failed(fault, number) {
+  if (fault.status === 422) {
+    refused = { number, build: state.build, message: fault.message.trim() };
+    return showFault();
+  }
   await new Promise(done => setTimeout(done, 300));
   if (fault.status === 503) isWanted = true;
 }
@@ -210,6 +215,7 @@ async function failed(fault) {
 function go(number) {
   if (!state.film) return;
   view.number = clamp(Math.round(number) || 1, 1, state.film.frames);
+  showFault();
   look();
 }
 
@@ -257,7 +263,7 @@ function askAhead(number) {
     const wanted = wish(onward(number, i * play.direction));
     if (!wanted || kept.has(wanted.address) || asked.has(wanted.address)) continue;
     asked.add(wanted.address);
-    fetchPicture(wanted).catch(failed).finally(() => asked.delete(wanted.address));
+    fetchPicture(wanted).catch(fault => failed(fault, wanted.number)).finally(() => asked.delete(wanted.address));
   }
 }
 
@@ -312,12 +318,16 @@ function showNumbers() {
     + (whole ? "" : `, loop ${loop.from} to ${loop.to}`);
 }
 
-/** The error of the film or of this frame, over the last good picture. */
-function showFault(message) {
-  const name = state.film ? view.number - 1 + state.film.first : 0;
-  const known = message ? state.errors.find(one => one.message === message)
-    : state.shown ? null : state.errors[0];
-  const fault = known || (message ? { message, frame: name } : null);
+/** The error of the film, or of the frame that is shown; null: neither. */
+function currentFault() {
+  if (!state.shown) return state.errors[0] || null;
+  if (!refused || refused.number !== view.number || refused.build !== state.build) return null;
+  return state.errors.find(one => one.message === refused.message) || refused;
+}
+
+/** Shows the error over the last good picture. */
+function showFault() {
+  const fault = currentFault();
   here("fault").hidden = here("error").hidden = !fault;
   here("error").textContent = fault ? fault.message : "";
   here("excerpt").replaceChildren(...(fault && fault.lines || []).map(([number, text]) => {
@@ -326,16 +336,22 @@ function showFault(message) {
     return line;
   }));
   stage.classList.toggle("old", Boolean(fault));
+  showNews();
 }
 
 function showState() {
   const film = state.film;
   document.title = `${film && film.title || state.script} – celspan`;
   here("title").textContent = film && film.title || state.script;
+  showNews();
+  if (!state.building) showFault();
+}
+
+/** What the film is doing, and how many faults a check has found. */
+function showNews() {
   const bad = state.errors.length;
   here("news").textContent = state.building && state.seconds > 0.5 ? "building …"
-    : bad && state.shown ? `${bad} fault${bad === 1 ? "" : "s"}: ${state.errors[0].message}` : "";
-  if (!state.building) showFault();
+    : bad && state.shown && !currentFault() ? `${bad} fault${bad === 1 ? "" : "s"}: ${state.errors[0].message}` : "";
 }
 
 // ---------------------------------------------------------------- news

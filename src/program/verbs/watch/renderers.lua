@@ -4,6 +4,8 @@
 --              \--nobody is idle for SOON seconds--> one more renderer, RENDERERS_MOST at most
 --               \--nobody for LATE seconds--> failed
 --
+-- One renderer always stays; others end when they have nothing to do.
+--
 -- So a script that hangs or eats memory costs one renderer, which its limits end, and the others
 -- answer meanwhile.
 --
@@ -13,6 +15,7 @@ local json = require "celspan.json"
 
 local RENDERERS_MOST = 4
 local SOON, LATE = 0.25, 1.5 -- seconds
+local IDLE = 20              -- seconds after which one that is not needed ends
 local TAIL = 2000            -- bytes of the last words that are kept
 
 local renderers = {}
@@ -57,7 +60,7 @@ end
 function renderers:start()
   local process, message = program.renderer(words_of())
   if not process then return nil, message end
-  local one = { process = process, tail = "" }
+  local one = { process = process, tail = "", used = program.clock() }
   table.insert(self.list, one)
   return one
 end
@@ -97,7 +100,7 @@ function renderers:listen(one)
   end
   local job = one.job
   if not message or not job then return message == nil end
-  one.job = nil
+  one.job, one.used = nil, program.clock()
   local text, at = (">s4"):unpack(message)
   local head = json.decode(text)
   if not head then return false end
@@ -151,9 +154,15 @@ function renderers:hurry()
   self.queue = {}
 end
 
+--- Whether a renderer has ended, or has nothing to do any more.
+function renderers:is_over(one)
+  if not self:listen(one) then return true end
+  return #self.list > 1 and not one.job and program.clock() - one.used > IDLE
+end
+
 function renderers:step()
   for i = #self.list, 1, -1 do
-    if not self:listen(self.list[i]) then
+    if self:is_over(self.list[i]) then
       self.list[i].process:finish()
       table.remove(self.list, i)
     end
