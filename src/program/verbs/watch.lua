@@ -98,7 +98,7 @@ local function excerpt(path, line)
   if not opened then return nil end
   local text, number, lines = opened:read(LINES_MOST) or "", 0, {}
   opened:close()
-  for one in (text .. "\n"):gmatch "([^\n]*)\n" do
+  for one in (text:gsub("\n?$", "\n", 1)):gmatch "([^\n]*)\n" do
     number = number + 1
     if number > line + AROUND then break end
     if number >= line - AROUND then lines[#lines + 1] = { number, one:sub(1, 200) } end

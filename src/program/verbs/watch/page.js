@@ -22,6 +22,7 @@ const loop = { from: 1, to: 1 };
 const play = { direction: 0, speed: 1, start: 0, number: 1, painted: [] };
 let painted = null, isMatte = false, mark = null;
 let refused = null; // the frame that could not be made: number, build, message
+let lastFault = null; // the error that is shown
 
 // ---------------------------------------------------------------- the view
 
@@ -111,7 +112,7 @@ function wish(number, coarse = 1) {
   }
   const name = number - 1 + state.film.first;
   const address = `/frame/${name}.rgba?size=${size.join("x")}&crop=${part.join()}&build=${state.build}`;
-  return { number, size, crop: part, address };
+  return { number, size, crop: part, address, build: state.build };
 }
 
 async function fetchPicture(wanted) {
@@ -121,7 +122,7 @@ async function fetchPicture(wanted) {
   if (!answer.ok) throw Object.assign(new Error(await answer.text()), { status: answer.status });
   const picture = { ...wanted, bytes: new Uint8ClampedArray(await answer.arrayBuffer()),
                     seconds: Number(answer.headers.get("Celspan-Seconds")) };
-  if (wanted.address.endsWith("build=" + state.build)) keep(wanted.address, picture);
+  if (wanted.build === state.build) keep(wanted.address, picture);
   return picture;
 }
 
@@ -146,7 +147,7 @@ function paint(picture) {
   stage.dataset.frame = picture.number - 1 + state.film.first;
   stage.dataset.size = picture.size.join("x");
   stage.dataset.crop = picture.crop.join();
-  stage.dataset.build = state.build;
+  stage.dataset.build = picture.build;
   stage.setAttribute("aria-label", `Frame ${picture.number}`);
   place();
 }
@@ -321,13 +322,15 @@ function showNumbers() {
 /** The error of the film, or of the frame that is shown; null: neither. */
 function currentFault() {
   if (!state.shown) return state.errors[0] || null;
-  if (!refused || refused.number !== view.number || refused.build !== state.build) return null;
-  return state.errors.find(one => one.message === refused.message) || refused;
+  if (refused && refused.number === view.number && refused.build === state.build) {
+    return state.errors.find(one => one.message === refused.message) || refused;
+  }
+  return painted && painted.build === state.build ? null : lastFault; // until there is a picture
 }
 
 /** Shows the error over the last good picture. */
 function showFault() {
-  const fault = currentFault();
+  const fault = lastFault = currentFault();
   here("fault").hidden = here("error").hidden = !fault;
   here("error").textContent = fault ? fault.message : "";
   here("excerpt").replaceChildren(...(fault && fault.lines || []).map(([number, text]) => {
