@@ -90,8 +90,8 @@ describe("the server of celspan watch", function()
     bench:celspan_inside "render shot.lua -o made.png --frames 1 --progress none"
     local code, out = bench:celspan_inside "compare seen.png made.png"
     assert.equal(0, code, out)
-    for _, name in ipairs { "Content-Security-Policy: default-src 'self';", "Cache-Control: no-store",
-                            "X-Content-Type-Options: nosniff",
+    for _, name in ipairs { "Content-Security-Policy: default-src 'self';",
+                            "Cache-Control: no-store", "X-Content-Type-Options: nosniff",
                             "Cross-Origin-Resource-Policy: same-origin" } do
       assert.truthy(said["/film.json"][3]:find(name, 1, true), name)
     end
@@ -260,7 +260,8 @@ describe("the server of celspan watch", function()
     local port = watch():match ":(%d+)/"
     local code, _, err = bench:celspan_inside("watch shot.lua --port %s", port)
     assert.equal(2, code)
-    assert.truthy(err:find(("--port %s: another program uses this port"):format(port), 1, true), err)
+    local refusal = ("--port %s: another program uses this port"):format(port)
+    assert.truthy(err:find(refusal, 1, true), err)
     code, _, err = bench:celspan_inside "watch none.lua"
     assert.equal(4, code)
     assert.truthy(err:find("none.lua: No such file or directory", 1, true), err)
@@ -355,7 +356,9 @@ describe("the page of celspan watch", function()
       const box = await page.get(`(() => { const b = document.querySelector("#stage")
         .getBoundingClientRect(); return [b.left, b.top, b.width, b.height]; })()`);
       const x = box[0] + box[2] * 16 / 64, y = box[1] + box[3] / 2;
-      for (let i = 0; i < 60; i++) await page.mouse("mouseWheel", x, y, { deltaX: 0, deltaY: -200 });
+      for (let i = 0; i < 60; i++) {
+        await page.mouse("mouseWheel", x, y, { deltaX: 0, deltaY: -200 });
+      }
       await page.until(`${stage("size")} === "1048576x589824"`);
       await page.press("p");
       await page.until(`${stage("crop")}.split(",")[2] < 1010`);
