@@ -244,6 +244,29 @@ describe("the server of celspan watch", function()
     assert.equal(5, said[1].line)
   end)
 
+  it("opens lines that the film has named in the editor, without a shell", function()
+    bench:write("edit", ('#!/bin/sh\necho "$@" >>%s/opened\n'):format(bench.folder))
+    bench:inside "chmod +x edit"
+    local said = speak(watch("shot.lua --editor './edit -g {file}:{line} $(touch x);'"), [=[
+      const { port, token } = web;
+      const open = (body, headers) => web.get("/open", { method: "POST", body, headers });
+      const own = { Origin: `http://127.0.0.1:${port}` };
+      const line = '{"file": "shot.lua", "line": 4}';
+      const before = (await open(line, own)).status;
+      await web.get("/at/10,18.json?frame=1");
+      const refused = [await open(line), await open('{"file": "/etc/passwd", "line": 4}', own),
+                       await open('{"file": "shot.lua", "line": 7}', own), await open("4", own),
+                       await web.get("/open?file=shot.lua&line=4")];
+      const opened = await open(line, own);
+      await web.pause(0.5);
+      return { before, refused: refused.map(one => one.status), opened: opened.status };]=])
+    assert.equal(404, said.before)
+    assert.same({ 403, 404, 404, 400, 404 }, said.refused)
+    assert.equal(200, said.opened)
+    assert.equal("-g shot.lua:4 $(touch x);\n", bench:read "opened")
+    assert.is_nil(bench:read "x")
+  end)
+
   it("ends its renderers with itself", function()
     local address = watch()
     speak(address, [=[return (await web.get("/frame/1.png")).status;]=])
@@ -374,6 +397,42 @@ describe("the page of celspan watch", function()
     local code, out = bench:celspan_inside "compare seen.png made.png --fail 0.004"
     assert.equal(0, code, out)
     assert.truthy(said.hits:find("ground (cel) shot.lua:4", 1, true), said.hits)
+  end)
+
+  it("has a form for the parameters, which the address and a command line hold", function()
+    bench:write("shot.lua", (FILM:gsub("return celspan.film", [[
+      local p = celspan.parameters { tint = { colour = "#33cc33" }, side = { "left", "right" },
+                                     size = { 6, min = 0, max = 30 }, on = true, name = "it's" }
+      %0]], 1):gsub('"#ffe0b0"', "p.tint"):gsub("radius = 6", "radius = p.size")))
+    local said = see(watch "shot.lua --set size=5", [=[
+      const colour = () => page.get(`[...document.querySelector("#stage").getContext("2d")
+        .getImageData(0, 0, 1, 1).data].join()`);
+      const put = async (kind, value) => {
+        const old = await page.get(stage("build"));
+        await page.get(`(() => { const input = document.querySelector("#form input[type=${kind}]");
+          input.value = "${value}"; input.dispatchEvent(new Event("input")); })()`);
+        await page.until(`${stage("build")} !== "${old}"`);
+      };
+      await page.until(`${stage("frame")} === "1"`);
+      await page.press("v");
+      const first = await page.get(`[...document.querySelectorAll("#form input, #form select")]
+        .map(one => one.type === "checkbox" ? String(one.checked) : one.value).join("|")`);
+      const colours = [await colour()];
+      await put("color", "#3333cc");
+      colours.push(await colour());
+      await put("range", "29.99999");
+      const said = { first, colours,
+                     command: await page.get(`document.querySelector("#command").value`),
+                     address: await page.get("location.hash") };
+      await page.get(`document.querySelector("#defaults").click()`);
+      await page.until(`document.querySelector("#form input[type=range]").value === "5"`);
+      return { ...said, last: await page.get("location.hash") };]=])
+    assert.equal("it's|true|left|5|#33cc33", said.first)
+    assert.same({ "51,204,51,255", "51,51,204,255" }, said.colours)
+    assert.equal("celspan render shot.lua --set size=30 --set tint=#3333cc -o shot.####.png",
+      said.command)
+    assert.equal("#tint=%233333cc&size=30", said.address)
+    assert.equal("", said.last)
   end)
 
   it("plays alone, without bars, with celspan play", function()

@@ -22,9 +22,10 @@ local renderers = {}
 renderers.__index = renderers
 
 --- The options that are the page's, and not the film's.
-local own = { ["--port"] = true, ["--open"] = true, ["--size"] = true }
+local own = { ["--port"] = true, ["--open"] = true, ["--size"] = true, ["--editor"] = true }
 
-local function words_of()
+--- values: of parameters, which count more than those of the command line.
+local function words_of(values)
   local words = { "stage", request[1] }
   for _, option in ipairs(request.given) do
     if not own[option.name] then
@@ -32,12 +33,16 @@ local function words_of()
       words[#words + 1] = option.value
     end
   end
+  for name, value in pairs(values) do
+    words[#words + 1] = "--set"
+    words[#words + 1] = name .. "=" .. value
+  end
   if #request.arguments > 0 then words[#words + 1] = "--" end
   return table.move(request.arguments, 1, #request.arguments, #words + 1, words)
 end
 
 function renderers.new(note_files)
-  return setmetatable({ list = {}, queue = {}, note_files = note_files }, renderers)
+  return setmetatable({ list = {}, queue = {}, values = {}, note_files = note_files }, renderers)
 end
 
 --- job: want and what goes with it in `ask`; done, failed; is_patient: no other renderer is started
@@ -58,7 +63,7 @@ end
 -- ---------------------------------------------------------------- one renderer
 
 function renderers:start()
-  local process, message = program.renderer(words_of())
+  local process, message = program.renderer(words_of(self.values))
   if not process then return nil, message end
   local one = { process = process, tail = "", used = program.clock() }
   table.insert(self.list, one)
