@@ -88,6 +88,28 @@ static int wait_for_one(lua_State *L) {
   return 4;
 }
 
+/* launch(words) -> the number of a process | nil, message: the program of the first word, found
+ * through PATH, without a shell. It outlives this one. */
+static int launch(lua_State *L) {
+  const char **words = cs_service_push_words(L, 1);
+  static const int files[] = {CS_SPAWN_NULL, CS_SPAWN_NULL, CS_SPAWN_SAME};
+  pid_t process;
+  const cs_spawn_desc desc = {.arguments = words + 1, .files = files, .file_count = 3};
+  int error = words[1] ? cs_spawn(&process, &desc) : EINVAL;
+  errno = error;
+  if (error)
+    return luaL_fileresult(L, 0, words[1]);
+  lua_pushinteger(L, process);
+  return 1;
+}
+
+/* has_ended(process) -> whether a launched process has ended; nothing is left of it then */
+static int has_ended(lua_State *L) {
+  pid_t process = (pid_t)luaL_checkinteger(L, 1);
+  lua_pushboolean(L, waitpid(process, NULL, WNOHANG) != 0);
+  return 1;
+}
+
 /* default_signals(): from now on signals end this process, and programs that it starts, at once. */
 static int default_signals(lua_State *L) {
   static const int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ};
@@ -111,8 +133,13 @@ static int clock_now(lua_State *L) {
 }
 
 void cs_service_add_processes(lua_State *L) {
-  static const luaL_Reg services[] = {
-      {"start", start},           {"wait", wait_for_one}, {"default_signals", default_signals},
-      {"processors", processors}, {"clock", clock_now},   {NULL, NULL}};
+  static const luaL_Reg services[] = {{"start", start},
+                                      {"wait", wait_for_one},
+                                      {"default_signals", default_signals},
+                                      {"launch", launch},
+                                      {"has_ended", has_ended},
+                                      {"processors", processors},
+                                      {"clock", clock_now},
+                                      {NULL, NULL}};
   cs_service_add(L, services);
 }

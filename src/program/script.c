@@ -177,8 +177,9 @@ static cs_exit start_script(cs_script *out, const cs_request *request, const cha
 
 cs_exit cs_script_open(celspan_context *context, const cs_request *request, const char *path,
                        cs_script *out) {
-  *out = (cs_script){.context = context, .is_trusted = cs_request_has(request, "--trust"),
-                       .asks_files = request->verb->asks_files};
+  *out = (cs_script){.context = context,
+                     .is_trusted = cs_request_has(request, "--trust"),
+                     .asks_files = request->verb->asks_files};
   CS_TRY_EXIT(start_script(out, request, path));
   celspan_status status = cs_lua_script_run(out->L, path, (int)request->script_argument_count,
                                             (const char *const *)request->script_arguments);

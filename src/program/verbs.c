@@ -187,8 +187,10 @@ static const cs_option PROBE[] = {FRAME, SCRIPT, {0}};
 static const cs_option WATCH[] = {
     {"--port", "N", &cs_argument_port, "the port of the page; default: one that is free"},
     {"--open", NULL, NULL, "open the page in the browser"},
+    {"--editor", "COMMAND", &cs_argument_text,
+     "what a click on a line of the script starts, such as 'code -g {file}:{line}'"},
     {"--size", "WxH", &cs_argument_size,
-     "pixels of a whole frame; default: as large as the window of the browser"},
+     "pixels of a frame for programs that do not give a size; default: the film's"},
     WORKERS,
     SCRIPT,
     MEMORY,

@@ -154,7 +154,14 @@ describe("the commands of", function()
       for line in (block.language == "sh" and block.text or ""):gmatch "[^\n]+" do
         where = line:match "^cd ([%w_]+)$" or where
         local here, laid = where, line:match "^celspan init ([%w_]+)$"
-        if line:find "^celspan " and (has_ffmpeg or not needs_ffmpeg(line)) then
+        if line:find "^celspan watch " or line:find "^celspan play " then
+          it(place(page, block) .. line .. " run until they are ended", function()
+            if not present.web() then return pending "celspan was built without libmicrohttpd" end
+            local code, printed, message = run("export BROWSER=true; timeout 1 " .. line, here)
+            assert.are.equal(124, code, message)
+            assert.is_truthy(printed:find "^watching http://127%.0%.0%.1:%d+/%?token=%x+\n$", message)
+          end)
+        elseif line:find "^celspan " and (has_ffmpeg or not needs_ffmpeg(line)) then
           it(place(page, block) .. line .. " run", function()
             local command = line:find "%$first" and "first=1; last=2; " .. line or line
             if laid then command = ("rm -rf %s; %s"):format(laid, line) end

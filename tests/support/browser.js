@@ -83,6 +83,7 @@ async function open() {
       await page.mouse("mousePressed", x, y, { button: "left", clickCount: 1 });
       await page.mouse("mouseReleased", x, y, { button: "left", clickCount: 1 });
     },
+    write: (path, text) => fs.writeFileSync(path, text),
     /** A picture of the window, into a file. */
     async shot(path) {
       const { data } = await call("Page.captureScreenshot", { format: "png" });
@@ -91,6 +92,7 @@ async function open() {
   };
   await call("Network.enable");
   await call("Page.navigate", { url: address });
+  await page.until("location.protocol === 'http:' && document.readyState === 'complete'");
   return page;
 }
 

@@ -39,6 +39,9 @@ function present.colour()
   return contains "reading colour profiles" and not contains "built without Little CMS"
 end
 
+--- Whether celspan watch can show a page: it was built with libmicrohttpd.
+function present.web() return not contains "built without libmicrohttpd" end
+
 --- Whether all of these programs are installed; a path is a program too.
 function present.program(...)
   for _, name in ipairs { ... } do

@@ -55,8 +55,8 @@ const web = {
 };
 
 async function main() {
-  const act = Object.getPrototypeOf(main).constructor("web", fs.readFileSync(steps, "utf8"));
-  console.log(JSON.stringify(await act(web) ?? null));
+  const act = Object.getPrototypeOf(main).constructor("web", "require", fs.readFileSync(steps, "utf8"));
+  console.log(JSON.stringify(await act(web, require) ?? null));
   process.exit(0);
 }
 

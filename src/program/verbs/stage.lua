@@ -31,9 +31,22 @@ local function refuse(message, code) put { good = false, message = message, code
 
 local answers = {}
 
+--- The parameters of the film, sorted by name: what JSON Schema says of each.
+local function parameters()
+  local list = {}
+  for name, one in pairs(assert(json.decode(film:parameters("schema", ""))).properties) do
+    one.name = name
+    one.enum = one.enum and { list = one.enum }
+    list[#list + 1] = one
+  end
+  table.sort(list, function(a, b) return a.name < b.name end)
+  return { list = list }
+end
+
 function answers.film()
-  put { good = true, film = { frames = film.frames, first = film.first, fps = film.fps,
-                              size = film.size, title = film.title, marks = {} } }
+  local facts = { frames = film.frames, first = film.first, fps = film.fps, size = film.size,
+                  title = film.title, marks = {} }
+  put { good = true, film = facts, parameters = parameters() }
 end
 
 --- Builds a frame. false: refused.

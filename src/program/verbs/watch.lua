@@ -8,6 +8,8 @@
 -- when there is something newer than state N.
 local program, request = ...
 
+local json = require "celspan.json"
+
 local function part(name)
   return assert(load(program.text(name), "=" .. name, "t"))(program, request)
 end
@@ -18,6 +20,7 @@ local QUIET = 0.5          -- seconds without requests before frames are checked
 local CHECKED_MOST = 5000  -- frames that are checked
 local FAULTS_MOST = 200
 local WATCHED_MOST = 10000 -- files
+local PLACES_MOST = 10000  -- lines of the script that an editor may be asked for
 local AROUND = 3           -- lines shown before and after that of an error
 local LINES_MOST = 1 << 20 -- bytes of a script of which lines are shown
 local SIDE_MOST = 1048576  -- pixels
@@ -98,7 +101,7 @@ local function excerpt(path, line)
   if not opened then return nil end
   local text, number, lines = opened:read(LINES_MOST) or "", 0, {}
   opened:close()
-  for one in (text .. "\n"):gmatch "([^\n]*)\n" do
+  for one in (text:gsub("\n?$", "\n", 1)):gmatch "([^\n]*)\n" do
     number = number + 1
     if number > line + AROUND then break end
     if number >= line - AROUND then lines[#lines + 1] = { number, one:sub(1, 200) } end
@@ -106,9 +109,19 @@ local function excerpt(path, line)
   return lines
 end
 
+-- Lines of files that the film has named, as keys such as "shot.lua:12".
+local places, place_count = {}, 0
+
+local function note_place(path, line)
+  local key = path and line and ("%s:%d"):format(path, line)
+  if not key or places[key] or place_count == PLACES_MOST then return end
+  places[key], place_count = true, place_count + 1
+end
+
 --- An error as /errors.json lists it.
 local function describe(message, frame)
   local path, line = message:match "^([^:\n]+):(%d+): "
+  note_place(path, math.tointeger(line))
   frame = frame or math.tointeger(message:match "frame (%-?%d+): ")
   return { message = message, frame = frame, file = path, line = math.tointeger(line),
            lines = path and excerpt(path, math.tointeger(line)) }
@@ -137,6 +150,7 @@ local function build()
     ask = { want = "film" }, is_patient = true,
     done = function(head)
       state.film, state.errors, state.is_building = head.film, {}, false
+      state.parameters = head.parameters
       state.is_shown, state.check = true, { number = head.film.first }
       tell()
     end,
@@ -188,11 +202,31 @@ local function give_json(id, value)
   answer(id, 200, "application/json", program.json(value) .. "\n")
 end
 
+--- The parameters with their values: of the page, else of the command line, else the defaults.
+local function parameters()
+  local values, list = {}, {}
+  local stored = request.set_from and json.read(request.set_from)
+  for name, value in pairs(type(stored) == "table" and stored or {}) do values[name] = value end
+  for _, option in ipairs(request.given) do
+    local name, value = (option.name == "--set" and option.value or ""):match "^(.-)=(.*)$"
+    if name then values[name] = value end
+  end
+  for name, value in pairs(pool.values) do values[name] = value end
+  for i, one in ipairs(state.parameters or {}) do
+    local value = values[one.name]
+    list[i] = { name = one.name, type = one.type, format = one.format, default = one.default,
+                minimum = one.minimum, maximum = one.maximum, description = one.description,
+                enum = one.enum, value = tostring(value == nil and one.default or value) }
+  end
+  return { list = list }
+end
+
 local function describe_state()
   return { news = state.news, build = state.build, building = state.is_building or false,
            seconds = state.is_building and program.clock() - state.began or 0,
            film = state.film, shown = state.is_shown or false, errors = { list = state.errors },
-           script = script, alone = request.is_alone or false }
+           script = script, alone = request.is_alone or false, parameters = parameters(),
+           editor = request.editor ~= nil }
 end
 
 --- Asks the renderers, and answers with what they say.
@@ -259,7 +293,10 @@ local function give_point(id, x, y, fields)
   if not number then return end
   if not x or not y then return refuse(id, 400, "write /at/X,Y.json, in units of the film") end
   pass_on(id, { want = "at", number = number, x = x, y = y },
-    function(head) give_json(id, { list = head.hits }) end)
+    function(head)
+      for _, hit in ipairs(head.hits) do note_place(hit.file, hit.line) end
+      give_json(id, { list = head.hits })
+    end)
 end
 
 local kinds = { html = "text/html; charset=utf-8", css = "text/css; charset=utf-8",
@@ -303,10 +340,52 @@ local function route(id, path, fields)
   refuse(id, 404, "there is no such address")
 end
 
+--- What may be changed, by POST with a JSON object.
+local posts = {}
+
+--- Values of parameters, { name = "text" }, in place of all that the page has given before.
+posts["/parameters"] = function(id, given)
+  local known = {}
+  for _, one in ipairs(state.parameters or {}) do known[one.name] = true end
+  for name, value in pairs(given) do
+    if not known[name] or type(value) ~= "string" or value:find "%z" then
+      return refuse(id, 400, ("the film has no parameter '%s' with such a value"):format(name))
+    end
+  end
+  pool.values = given
+  build()
+  give_json(id, { build = state.build })
+end
+
+local editors = {} -- processes
+
+--- Opens a line that the film has named in the editor, { file =, line = }.
+posts["/open"] = function(id, given)
+  local line = math.tointeger(given.line)
+  local key = type(given.file) == "string" and line and ("%s:%d"):format(given.file, line)
+  if not key or not places[key] then return refuse(id, 404, "the film has not named this line") end
+  if not request.editor then return refuse(id, 409, "give --editor to celspan watch") end
+  local words = {}
+  for word in request.editor:gmatch "%S+" do
+    words[#words + 1] = word:gsub("{(%l+)}", { file = given.file, line = tostring(line) })
+  end
+  local process, message = program.launch(words)
+  if not process then return refuse(id, 500, "--editor: " .. message) end
+  editors[process] = true
+  give_json(id, {})
+end
+
+local function take_post(asked, path)
+  local given = json.decode(asked.body)
+  if not posts[path] then return refuse(asked.id, 405, "nothing is changed by a POST there") end
+  if type(given) ~= "table" then return refuse(asked.id, 400, "the body must be a JSON object") end
+  posts[path](asked.id, given)
+end
+
 local function serve(asked)
   local path, fields, sentence = door:admit(asked)
   if not path then return refuse(asked.id, fields, sentence) end
-  if asked.method == "POST" then return refuse(asked.id, 405, "nothing here is changed by POST") end
+  if asked.method == "POST" then return take_post(asked, path) end
   route(asked.id, path, fields)
 end
 
@@ -342,6 +421,9 @@ local function step()
   pool:step()
   check()
   give_news()
+  for process in pairs(editors) do
+    if program.has_ended(process) then editors[process] = nil end
+  end
   local wait = soonest(web:run(), pool:wait(), state.check and 100 or -1)
   local sources = { web:descriptor(), watcher:descriptor() }
   pool:add_descriptors(sources)

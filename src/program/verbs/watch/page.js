@@ -14,13 +14,16 @@ const AHEAD = 8, AT_ONCE = 3; // pictures asked for ahead while playing, and at 
 const SLOW = 0.25;           // seconds after which a coarse picture comes first
 const STRIDE = 80;           // device pixels that a key moves the picture
 
-const state = { news: 0, build: 0, film: null, errors: [], shown: false };
+const state = { news: 0, build: 0, film: null, errors: [], shown: false,
+                parameters: [] };
 // number: of the frame, from 1. scale: device pixels of a unit of the film; x, y: the place of the
 // frame's corner in the window, in device pixels. isFitted: both follow the window.
 const view = { number: 1, scale: 1, x: 0, y: 0, isFitted: true };
 const loop = { from: 1, to: 1 };
 const play = { direction: 0, speed: 1, start: 0, number: 1, painted: [] };
 let painted = null, isMatte = false, mark = null;
+let refused = null; // the frame that could not be made: number, build, message
+let lastFault = null; // the error that is shown
 
 // ---------------------------------------------------------------- the view
 
@@ -110,7 +113,7 @@ function wish(number, coarse = 1) {
   }
   const name = number - 1 + state.film.first;
   const address = `/frame/${name}.rgba?size=${size.join("x")}&crop=${part.join()}&build=${state.build}`;
-  return { number, size, crop: part, address };
+  return { number, size, crop: part, address, build: state.build };
 }
 
 async function fetchPicture(wanted) {
@@ -120,7 +123,7 @@ async function fetchPicture(wanted) {
   if (!answer.ok) throw Object.assign(new Error(await answer.text()), { status: answer.status });
   const picture = { ...wanted, bytes: new Uint8ClampedArray(await answer.arrayBuffer()),
                     seconds: Number(answer.headers.get("Celspan-Seconds")) };
-  if (wanted.address.endsWith("build=" + state.build)) keep(wanted.address, picture);
+  if (wanted.build === state.build) keep(wanted.address, picture);
   return picture;
 }
 
@@ -145,7 +148,7 @@ function paint(picture) {
   stage.dataset.frame = picture.number - 1 + state.film.first;
   stage.dataset.size = picture.size.join("x");
   stage.dataset.crop = picture.crop.join();
-  stage.dataset.build = state.build;
+  stage.dataset.build = picture.build;
   stage.setAttribute("aria-label", `Frame ${picture.number}`);
   place();
 }
@@ -189,9 +192,10 @@ async function ask() {
       const picture = await fetchPicture(fine);
       slowness = picture.seconds;
       paint(picture);
+      refused = null;
       showFault();
     } catch (fault) {
-      await failed(fault);
+      await failed(fault, fine.number);
     }
   }
   isAsking = false;
@@ -199,8 +203,11 @@ async function ask() {
 
 /** A picture that was not made: what the film says of it is among the errors; what was busy is
  * asked again. */
-async function failed(fault) {
-  if (fault.status === 422) return showFault(fault.message.trim());
+async function failed(fault, number) {
+  if (fault.status === 422) {
+    refused = { number, build: state.build, message: fault.message.trim() };
+    return showFault();
+  }
   await new Promise(done => setTimeout(done, 300));
   if (fault.status === 503) isWanted = true;
 }
@@ -210,6 +217,7 @@ async function failed(fault) {
 function go(number) {
   if (!state.film) return;
   view.number = clamp(Math.round(number) || 1, 1, state.film.frames);
+  showFault();
   look();
 }
 
@@ -257,7 +265,7 @@ function askAhead(number) {
     const wanted = wish(onward(number, i * play.direction));
     if (!wanted || kept.has(wanted.address) || asked.has(wanted.address)) continue;
     asked.add(wanted.address);
-    fetchPicture(wanted).catch(failed).finally(() => asked.delete(wanted.address));
+    fetchPicture(wanted).catch(fault => failed(fault, wanted.number)).finally(() => asked.delete(wanted.address));
   }
 }
 
@@ -312,12 +320,18 @@ function showNumbers() {
     + (whole ? "" : `, loop ${loop.from} to ${loop.to}`);
 }
 
-/** The error of the film or of this frame, over the last good picture. */
-function showFault(message) {
-  const name = state.film ? view.number - 1 + state.film.first : 0;
-  const known = message ? state.errors.find(one => one.message === message)
-    : state.shown ? null : state.errors[0];
-  const fault = known || (message ? { message, frame: name } : null);
+/** The error of the film, or of the frame that is shown; null: neither. */
+function currentFault() {
+  if (!state.shown) return state.errors[0] || null;
+  if (refused && refused.number === view.number && refused.build === state.build) {
+    return state.errors.find(one => one.message === refused.message) || refused;
+  }
+  return painted && painted.build === state.build ? null : lastFault; // until there is a picture
+}
+
+/** Shows the error over the last good picture. */
+function showFault() {
+  const fault = lastFault = currentFault();
   here("fault").hidden = here("error").hidden = !fault;
   here("error").textContent = fault ? fault.message : "";
   here("excerpt").replaceChildren(...(fault && fault.lines || []).map(([number, text]) => {
@@ -326,16 +340,22 @@ function showFault(message) {
     return line;
   }));
   stage.classList.toggle("old", Boolean(fault));
+  showNews();
 }
 
 function showState() {
   const film = state.film;
   document.title = `${film && film.title || state.script} – celspan`;
   here("title").textContent = film && film.title || state.script;
+  showNews();
+  if (!state.building) showFault();
+}
+
+/** What the film is doing, and how many faults a check has found. */
+function showNews() {
   const bad = state.errors.length;
   here("news").textContent = state.building && state.seconds > 0.5 ? "building …"
-    : bad && state.shown ? `${bad} fault${bad === 1 ? "" : "s"}: ${state.errors[0].message}` : "";
-  if (!state.building) showFault();
+    : bad && state.shown && !currentFault() ? `${bad} fault${bad === 1 ? "" : "s"}: ${state.errors[0].message}` : "";
 }
 
 // ---------------------------------------------------------------- news
@@ -345,6 +365,8 @@ function takeState(news) {
   const before = state.film;
   Object.assign(state, { film: null }, news, { film: news.film || before });
   document.body.classList.toggle("alone", news.alone);
+  showForm();
+  if (!before && state.film && given.size) sendValues();
   if (state.film && (!before || before.frames !== state.film.frames)) {
     loop.from = 1;
     loop.to = state.film.frames;
@@ -368,6 +390,99 @@ async function listen() {
       await new Promise(done => setTimeout(done, 1000));
     }
   }
+}
+
+// ---------------------------------------------------------------- values of parameters
+
+const post = (path, value) => fetch(path, { method: "POST", body: JSON.stringify(value) });
+const given = new URLSearchParams(location.hash.slice(1)); // by name, as the address holds them
+let isSending = false, isChanged = false, formOf = "";
+
+/** Sends the values; while they are on their way, only the newest are kept. */
+async function sendValues() {
+  isChanged = true;
+  if (isSending) return;
+  isSending = true;
+  while (isChanged) {
+    isChanged = false;
+    history.replaceState(null, "", given.size ? `/#${given}` : "/");
+    await post("/parameters", Object.fromEntries(given)).catch(() => {});
+  }
+  isSending = false;
+}
+
+function giveValue(one, value) {
+  given.set(one.name, value);
+  one.value = value;
+  showCommand();
+  sendValues();
+}
+
+const quoted = text => /^[\w.,:=/#-]+$/.test(text) ? text
+  : `'${text.replaceAll("'", "'\\''")}'`;
+
+function showCommand() {
+  const changed = state.parameters.filter(one => one.value !== String(one.default));
+  const sets = changed.map(one => ` --set ${quoted(`${one.name}=${one.value}`)}`).join("");
+  here("command").value = `celspan render ${quoted(state.script)}${sets} -o shot.####.png`;
+}
+
+function element(name, properties) { return Object.assign(document.createElement(name), properties); }
+
+/** What a parameter is changed with. */
+function control(one) {
+  if (one.enum) {
+    const choice = element("select", {});
+    choice.append(...one.enum.map(text => element("option", { textContent: text })));
+    choice.value = one.value;
+    return choice;
+  }
+  if (one.type === "boolean") {
+    return element("input", { type: "checkbox", checked: one.value === "true" });
+  }
+  if (one.type === "number" && one.minimum !== undefined && one.maximum !== undefined) {
+    const { minimum: min, maximum: max } = one;
+    return element("input", { type: "range", min, max, step: "any", value: one.value });
+  }
+  const isColour = one.format === "color" && /^#[0-9a-f]{6}$/i.test(one.value);
+  return element("input", { type: isColour ? "color" : "text", value: one.value });
+}
+
+function field(one) {
+  const label = element("label", { title: one.description || "" }), input = control(one);
+  const shown = element("output", { textContent: input.type === "range" ? one.value : "" });
+  const isText = input.type === "text" || input.type === "range";
+  label.className = isText ? "" : "row";
+  label.append(element("span", { textContent: one.name }), input);
+  if (input.type === "range") label.append(shown);
+  input.addEventListener(input.type === "text" ? "change" : "input", () => {
+    const value = input.type === "checkbox" ? String(input.checked)
+      : input.type === "range" ? String(Number(Number(input.value).toPrecision(4))) : input.value;
+    if (input.type === "range") shown.textContent = value;
+    giveValue(one, value);
+  });
+  return label;
+}
+
+/** Makes the form again if the film has other parameters than before. */
+function showForm() {
+  const kinds = JSON.stringify(state.parameters.map(one => ({ ...one, value: null })));
+  here("tune").hidden = state.parameters.length === 0;
+  showCommand();
+  if (kinds === formOf) return;
+  formOf = kinds;
+  here("form").replaceChildren(...state.parameters.map(field));
+}
+
+function setTuning(isOn) {
+  here("values").hidden = !isOn;
+  here("tune").setAttribute("aria-pressed", isOn);
+}
+
+function takeDefaults() {
+  for (const name of [...given.keys()]) given.delete(name);
+  formOf = "";
+  sendValues();
 }
 
 // ---------------------------------------------------------------- the inspector
@@ -403,9 +518,10 @@ async function inspect(clientX, clientY) {
   const hits = await answer.json();
   here("hint").textContent = hits.length ? "" : "Nothing is there.";
   here("hits").replaceChildren(...hits.map(hit => {
-    const item = document.createElement("li"), where = document.createElement("small");
-    where.textContent = hit.file ? ` ${hit.file}:${hit.line}` : "";
-    item.append(hit.name ? `${hit.name} (${hit.kind})` : `${hit.kind} without a name`, where);
+    const item = element("li", {}), place = hit.file ? `${hit.file}:${hit.line}` : "";
+    const where = element(state.editor && place ? "button" : "small", { textContent: place });
+    if (where.matches("button")) where.onclick = () => post("/open", hit);
+    item.append(hit.name ? `${hit.name} (${hit.kind})` : `${hit.kind} without a name`, " ", where);
     return item;
   }));
 }
@@ -465,6 +581,7 @@ const keys = {
   o: () => setLoop(Math.min(loop.from, view.number), view.number),
   x: () => setLoop(1, state.film.frames),
   p: () => setInspecting(here("side").hidden),
+  v: () => setTuning(here("values").hidden),
   g: askNumber,
   "+": () => zoomMiddle(1.5), "=": () => zoomMiddle(1.5), "-": () => zoomMiddle(1 / 1.5),
   0: () => { fit(); look(); }, 1: natural,
@@ -476,7 +593,7 @@ const keys = {
 function isTaken(event) {
   const target = event.target, isButton = target.matches("button");
   return event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")
-    || target.matches("select, input[type=text]")
+    || target.matches("select, textarea, input:not([type=range], [type=checkbox])")
     || isButton && (event.key === "Enter" || event.key === " ");
 }
 
@@ -543,7 +660,7 @@ desk.addEventListener("wheel", event => {
 const clicks = {
   first: () => { stop(); go(loop.from); }, back: () => step(-1), play: toggle,
   forward: () => step(1), last: () => { stop(); go(loop.to); }, fit: keys[0],
-  matte: keys.m, inspect: keys.p, theme: swapTheme, help: keys["?"],
+  matte: keys.m, inspect: keys.p, tune: keys.v, defaults: takeDefaults, theme: swapTheme, help: keys["?"],
 };
 for (const [id, act] of Object.entries(clicks)) here(id).addEventListener("click", act);
 
@@ -554,7 +671,7 @@ here("go").addEventListener("close", () => { stop(); go(Number(here("number").va
 new ResizeObserver(look).observe(desk);
 
 // The address keeps no token once the cookie has it.
-history.replaceState(null, "", "/");
+history.replaceState(null, "", given.size ? `/#${given}` : "/");
 stage.dataset.ground = "checker";
 setTheme(matchMedia("(prefers-color-scheme: light)").matches ? "light" : "dark");
 listen();

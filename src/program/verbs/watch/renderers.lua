@@ -4,6 +4,8 @@
 --              \--nobody is idle for SOON seconds--> one more renderer, RENDERERS_MOST at most
 --               \--nobody for LATE seconds--> failed
 --
+-- One renderer always stays; others end when they have nothing to do.
+--
 -- So a script that hangs or eats memory costs one renderer, which its limits end, and the others
 -- answer meanwhile.
 --
@@ -13,15 +15,17 @@ local json = require "celspan.json"
 
 local RENDERERS_MOST = 4
 local SOON, LATE = 0.25, 1.5 -- seconds
+local IDLE = 20              -- seconds after which one that is not needed ends
 local TAIL = 2000            -- bytes of the last words that are kept
 
 local renderers = {}
 renderers.__index = renderers
 
 --- The options that are the page's, and not the film's.
-local own = { ["--port"] = true, ["--open"] = true, ["--size"] = true }
+local own = { ["--port"] = true, ["--open"] = true, ["--size"] = true, ["--editor"] = true }
 
-local function words_of()
+--- values: of parameters, which count more than those of the command line.
+local function words_of(values)
   local words = { "stage", request[1] }
   for _, option in ipairs(request.given) do
     if not own[option.name] then
@@ -29,12 +33,16 @@ local function words_of()
       words[#words + 1] = option.value
     end
   end
+  for name, value in pairs(values) do
+    words[#words + 1] = "--set"
+    words[#words + 1] = name .. "=" .. value
+  end
   if #request.arguments > 0 then words[#words + 1] = "--" end
   return table.move(request.arguments, 1, #request.arguments, #words + 1, words)
 end
 
 function renderers.new(note_files)
-  return setmetatable({ list = {}, queue = {}, note_files = note_files }, renderers)
+  return setmetatable({ list = {}, queue = {}, values = {}, note_files = note_files }, renderers)
 end
 
 --- job: want and what goes with it in `ask`; done, failed; is_patient: no other renderer is started
@@ -55,9 +63,9 @@ end
 -- ---------------------------------------------------------------- one renderer
 
 function renderers:start()
-  local process, message = program.renderer(words_of())
+  local process, message = program.renderer(words_of(self.values))
   if not process then return nil, message end
-  local one = { process = process, tail = "" }
+  local one = { process = process, tail = "", used = program.clock() }
   table.insert(self.list, one)
   return one
 end
@@ -97,7 +105,7 @@ function renderers:listen(one)
   end
   local job = one.job
   if not message or not job then return message == nil end
-  one.job = nil
+  one.job, one.used = nil, program.clock()
   local text, at = (">s4"):unpack(message)
   local head = json.decode(text)
   if not head then return false end
@@ -151,9 +159,15 @@ function renderers:hurry()
   self.queue = {}
 end
 
+--- Whether a renderer has ended, or has nothing to do any more.
+function renderers:is_over(one)
+  if not self:listen(one) then return true end
+  return #self.list > 1 and not one.job and program.clock() - one.used > IDLE
+end
+
 function renderers:step()
   for i = #self.list, 1, -1 do
-    if not self:listen(self.list[i]) then
+    if self:is_over(self.list[i]) then
       self.list[i].process:finish()
       table.remove(self.list, i)
     end

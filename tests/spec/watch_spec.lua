@@ -1,0 +1,456 @@
+-- celspan watch: its server as programs and strangers meet it, and its page in a browser.
+local json = require "celspan.json"
+local present = require "tests.support.present"
+local system = require "tests.support.system"
+local workbench = require "tests.support.workbench"
+
+if not present.web() then return pending "celspan was built without libmicrohttpd" end
+if not present.program "node" then return pending "there is no node" end
+
+local FILM = [[
+local celspan = require "celspan"
+return celspan.film { title = "Ball", size = { 64, 36 }, fps = 24, frames = 48, frame = function(f)
+  return celspan.rostrum {
+    celspan.cel { celspan.rect { 0, 0, 64, 36, texture = "#ffe0b0" } }:named "ground",
+    celspan.cel { celspan.circle { centre = { 10 + f.index, 18 }, radius = 6, texture = "#c33" } },
+  }
+end }
+]]
+
+local bench, server
+
+before_each(function()
+  bench = workbench.new()
+  bench:write("shot.lua", FILM)
+end)
+
+--- Starts the server in the folder; its address and the number of its process.
+local function watch(arguments)
+  local _, out = bench:inside(("exec '%s' watch %s >said 2>complained & echo $!")
+    :format(workbench.absolute, arguments or "shot.lua"))
+  server = out:match "%d+"
+  for _ = 1, 200 do
+    local address = (bench:read "said" or ""):match "^watching (%g+)\n"
+    if address then return address end
+    os.execute "sleep 0.05"
+  end
+  error("no server: " .. bench:read "complained")
+end
+
+local function stop()
+  if not server then return end
+  os.execute(("kill %s 2>/dev/null; while kill -0 %s 2>/dev/null; do sleep 0.02; done")
+    :format(server, server))
+  server = nil
+end
+
+after_each(function()
+  stop()
+  bench:remove()
+end)
+
+--- What the steps return, in JavaScript: see tests/support/stranger.js and browser.js.
+local function run(command, steps)
+  local path = bench:write("steps.js", steps)
+  local code, out, err = bench:shell(("node tests/support/%s '%s'"):format(command, path))
+  assert.equal(0, code, err)
+  return assert(json.decode(out)), out
+end
+
+local function speak(address, steps) return run(("stranger.js '%s'"):format(address), steps) end
+
+describe("the server of celspan watch", function()
+  it("answers programs that have the token", function()
+    local said = speak(watch(), [=[
+      const all = {};
+      for (const path of ["/film.json", "/errors.json", "/sheet.txt", "/at/10,18.json?frame=1",
+                          "/frame/1.png", "/frame/2.rgba?size=640x360&crop=100,20,30,10"]) {
+        const answer = await web.get(path);
+        all[path] = [answer.status, answer.body, answer.head];
+      }
+      all["/frame/2.rgba"] = all["/frame/2.rgba?size=640x360&crop=100,20,30,10"][1].length;
+      delete all["/frame/2.rgba?size=640x360&crop=100,20,30,10"];
+      all["/frame/1.png"] = Buffer.from(all["/frame/1.png"][1], "latin1").toString("base64");
+      return all;]=])
+    local film = json.decode(said["/film.json"][2])
+    assert.same({ frames = 48, first = 1, fps = 24, size = { 64, 36 }, marks = {}, title = "Ball" },
+      film)
+    assert.equal("[]\n", said["/errors.json"][2])
+    local _, sheet = bench:celspan_inside "sheet shot.lua"
+    assert.equal(sheet, said["/sheet.txt"][2])
+    assert.equal(30 * 10 * 4, said["/frame/2.rgba"])
+    local hits = json.decode(said["/at/10,18.json?frame=1"][2])
+    local lines = {}
+    for i, hit in ipairs(hits) do
+      lines[i] = ("%s %s %s:%d"):format(hit.kind, hit.name, hit.file, hit.line)
+    end
+    assert.same({ "object  shot.lua:5", "cel  shot.lua:5", "object  shot.lua:4",
+                  "cel ground shot.lua:4" }, lines)
+    bench:inside(("echo '%s' | base64 -d >seen.png"):format(said["/frame/1.png"]))
+    bench:celspan_inside "render shot.lua -o made.png --frames 1 --progress none"
+    local code, out = bench:celspan_inside "compare seen.png made.png"
+    assert.equal(0, code, out)
+    for _, name in ipairs { "Content-Security-Policy: default-src 'self';",
+                            "Cache-Control: no-store", "X-Content-Type-Options: nosniff",
+                            "Cross-Origin-Resource-Policy: same-origin" } do
+      assert.truthy(said["/film.json"][3]:find(name, 1, true), name)
+    end
+    assert.falsy(said["/film.json"][3]:find "Access%-Control")
+  end)
+
+  it("refuses strangers, and what they try", function()
+    local said = speak(watch(), [=[
+      const { port, token } = web, own = `http://127.0.0.1:${port}`;
+      const film = "/film.json?token=" + token, long = "y".repeat(9000);
+      const cookie = (name, site) => ({ headers: { Cookie: `${name}=${token}`, ...site } });
+      const refused = await web.statuses([
+        ["/film.json"], ["/"], ["/page.js"], ["/film.json?token=" + token.slice(1)],
+        ["/film.json?token=" + token + "0"],
+        [film, { headers: { Host: "evil.example:" + port } }],
+        [film, { headers: { Host: "127.0.0.1" } }],
+        [film, { headers: { Origin: "http://evil.example" } }],
+        [film, { headers: { Origin: "null" } }],
+        ["/film.json", cookie("celspan-1")],
+        ["/film.json", cookie("celspan-" + port, { "Sec-Fetch-Site": "same-site" })],
+        ["/film.json", cookie("celspan-" + port, { "Sec-Fetch-Site": "cross-site" })],
+        [film, { method: "POST" }]]);
+      const methods = await web.statuses([
+        [film, { method: "POST", headers: { Origin: own } }], [film, { method: "DELETE" }],
+        [film, { method: "OPTIONS" }], [film, { method: "PUT" }]]);
+      const paths = await web.statuses(["/frame/../../etc/passwd", "/%2e%2e/etc/passwd",
+        "/frame/1.png/../x", "//etc/passwd", "/frame/shot.lua", "/shot.lua", "/frame/1.exr",
+        "/frame/49.png", "/frame/0.png"].map(path => [path + "?token=" + token]));
+      const sizes = await web.statuses(["size=0x1", "size=1048577x1", "size=9x", "crop=0,0,65,1",
+        "crop=-1,0,1,1", "size=1048576x1048576"].map(q => [`/frame/1.png?${q}&token=${token}`]));
+      const lengths = await web.statuses([
+        [film, { headers: { X: long } }], [film, { headers: { X: long.repeat(9) } }],
+        [film + "&a=" + long],
+        [film, { method: "POST", headers: { Origin: own }, body: "x".repeat(5000) }]]);
+      const nameless = await web.statuses([[film, { headers: { Host: null } }]]);
+      const admitted = await web.statuses([[film], ["/film.json", cookie("celspan-" + port)],
+        ["/film.json", cookie("celspan-" + port, { "Sec-Fetch-Site": "same-origin" })],
+        [film, { headers: { Host: "localhost:" + port } }],
+        [film, { headers: { Origin: own } }]]);
+      const page = await web.get("/");
+      return { refused, methods, paths, sizes, lengths, nameless, admitted, page: page.head,
+               wide: (await web.get("/frame/1.png?size=1048576x1048576&crop=7,9,2,2")).status,
+               counts: JSON.parse((await web.get("/counts.json")).body) };]=])
+    local function all(status, count, list)
+      assert.equal(count, #list)
+      for i, one in ipairs(list) do assert.equal(status, one, i) end
+    end
+    all(403, 13, said.refused)
+    all(405, 4, said.methods)
+    all(404, 9, said.paths)
+    all(400, 6, said.sizes)
+    all(200, 5, said.admitted)
+    assert.same({ 431, 431, 431, 413 }, said.lengths)
+    assert.same({ 400 }, said.nameless)
+    assert.equal(200, said.wide)
+    assert.is_true(said.counts.oversized >= 3)
+    assert.truthy(said.page:find "Set%-Cookie: celspan%-%d+=%x+; Path=/; HttpOnly; SameSite=Strict")
+  end)
+
+  it("lets nobody keep the user out", function()
+    local said = speak(watch(), [=[
+      const { port, token, get, pause } = web;
+      const slow = [];
+      for (let i = 0; i < 40; i++) {
+        slow.push(web.connect());
+        slow[i].send("GET /film.json HTTP/1.1\r\nHost: 127.0");
+        await pause(0.01);
+      }
+      await pause(0.2);
+      const displaced = slow.map(one => one.isOver);
+      const user = (await get("/film.json")).status;
+      for (const one of slow) one.socket.destroy();
+      await pause(0.3);
+      const { news } = JSON.parse((await get("/state.json")).body);
+      await pause(0.3);
+      const held = [];
+      for (let i = 0; i < 32; i++) {
+        held.push(web.connect());
+        held[i].send(`GET /state.json?since=${news}&token=${token} HTTP/1.1\r\n`
+                     + `Host: 127.0.0.1:${port}\r\n\r\n`);
+      }
+      await pause(0.5);
+      const late = web.connect();
+      const isRefused = await late.over(5);
+      const kept = held.filter(one => !one.isOver).length;
+      return { displaced, user, isRefused, kept };]=])
+    for i = 1, 8 do assert.is_true(said.displaced[i], i) end -- the oldest
+    for i = 9, 40 do assert.is_false(said.displaced[i], i) end
+    assert.equal(200, said.user)
+    assert.is_true(said.isRefused)
+    assert.equal(32, said.kept)
+  end)
+
+  it("answers while a frame never ends or eats memory", function()
+    bench:write("shot.lua", (FILM:gsub("  return celspan.rostrum", [[
+      if f.number == 2 then while true do end end
+      if f.number == 3 then local t = {} for i = 1, 1e12 do t[i] = ("x"):rep(1e5) .. i end end
+      %0]])))
+    local said = speak(watch "shot.lua --limit time=3,memory=64M", [=[
+      const { get } = web, answers = [];
+      const two = get("/frame/2.png"), three = get("/frame/3.png");
+      for (let i = 0; i < 6; i++) answers.push(await get("/frame/1.png"));
+      answers.push(await get("/film.json"), await get("/errors.json"));
+      return { quick: answers.map(one => [one.status, one.seconds < 2]),
+               two: (await two).body, three: (await three).body,
+               errors: JSON.parse((await get("/errors.json")).body) };]=])
+    for _, one in ipairs(said.quick) do assert.same({ 200, true }, one) end
+    assert.truthy(said.two:find("shot.lua:3: frame 2: the script ran for more than 3 sec", 1, true),
+      said.two)
+    assert.truthy(said.three:find("^shot.lua:4: .*%-%-limit"), said.three)
+    local lines = {}
+    for _, one in ipairs(said.errors) do lines[one.frame] = one.line end
+    assert.same({ [2] = 3, [3] = 4 }, lines)
+  end)
+
+  it("says what is wrong with a script, and shows it once it is good", function()
+    bench:write("shot.lua", "local x = = 3")
+    local said = speak(watch(), [=[
+      const fs = require("fs");
+      const until = async test => {
+        for (;;) {
+          const state = JSON.parse((await web.get("/state.json")).body);
+          if (test(state)) return state;
+          await web.pause(0.05);
+        }
+      };
+      const bad = await until(state => state.errors.length);
+      const frame = await web.get("/frame/1.png");
+      fs.writeFileSync("]=] .. bench.folder .. [=[/shot.lua", ]=] .. ("%q"):format(FILM)
+      :gsub("\\\n", "\\n") .. [=[);
+      const good = await until(state => state.shown);
+      return { bad, status: frame.status, body: frame.body, good };]=])
+    assert.same({ file = "shot.lua", line = 1, message = "shot.lua:1: unexpected symbol near '='",
+                  lines = { { 1, "local x = = 3" } } }, said.bad.errors[1])
+    assert.equal(409, said.status)
+    assert.equal("shot.lua:1: unexpected symbol near '='\n", said.body)
+    assert.same({}, said.good.errors)
+  end)
+
+  it("checks the other frames by itself", function()
+    bench:write("shot.lua", (FILM:gsub("radius = 6", "radius = f.number == 40 and -1 or 6")))
+    local said = speak(watch(), [=[
+      for (;;) {
+        const errors = JSON.parse((await web.get("/errors.json")).body);
+        if (errors.length) return errors;
+        await web.pause(0.1);
+      }]=])
+    assert.equal(1, #said)
+    assert.equal(40, said[1].frame)
+    assert.equal(5, said[1].line)
+  end)
+
+  it("opens lines that the film has named in the editor, without a shell", function()
+    bench:write("edit", ('#!/bin/sh\necho "$@" >>%s/opened\n'):format(bench.folder))
+    bench:inside "chmod +x edit"
+    local said = speak(watch("shot.lua --editor './edit -g {file}:{line} $(touch x);'"), [=[
+      const { port, token } = web;
+      const open = (body, headers) => web.get("/open", { method: "POST", body, headers });
+      const own = { Origin: `http://127.0.0.1:${port}` };
+      const line = '{"file": "shot.lua", "line": 4}';
+      const before = (await open(line, own)).status;
+      await web.get("/at/10,18.json?frame=1");
+      const refused = [await open(line), await open('{"file": "/etc/passwd", "line": 4}', own),
+                       await open('{"file": "shot.lua", "line": 7}', own), await open("4", own),
+                       await web.get("/open?file=shot.lua&line=4")];
+      const opened = await open(line, own);
+      await web.pause(0.5);
+      return { before, refused: refused.map(one => one.status), opened: opened.status };]=])
+    assert.equal(404, said.before)
+    assert.same({ 403, 404, 404, 400, 404 }, said.refused)
+    assert.equal(200, said.opened)
+    assert.equal("-g shot.lua:4 $(touch x);\n", bench:read "opened")
+    assert.is_nil(bench:read "x")
+  end)
+
+  it("ends its renderers with itself", function()
+    local address = watch()
+    speak(address, [=[return (await web.get("/frame/1.png")).status;]=])
+    local children = bench:read(("/proc/%s/task/%s/children"):format(server, server))
+    assert.truthy(children:find "%d")
+    stop()
+    for child in children:gmatch "%d+" do
+      assert.is_nil((os.execute(("kill -0 %s 2>/dev/null"):format(child))))
+    end
+    assert.equal("", bench:read "complained")
+  end)
+
+  it("refuses what it cannot do", function()
+    local port = watch():match ":(%d+)/"
+    local code, _, err = bench:celspan_inside("watch shot.lua --port %s", port)
+    assert.equal(2, code)
+    local refusal = ("--port %s: another program uses this port"):format(port)
+    assert.truthy(err:find(refusal, 1, true), err)
+    code, _, err = bench:celspan_inside "watch none.lua"
+    assert.equal(4, code)
+    assert.truthy(err:find("none.lua: No such file or directory", 1, true), err)
+    code, _, err = bench:inside(("CELSPAN_WEB_MODULE=none.so '%s' watch shot.lua")
+      :format(workbench.absolute))
+    assert.equal(4, code)
+    assert.truthy(err:find("showing a film in a browser needs the module celspan-web.so", 1, true),
+      err)
+  end)
+
+  it("is not part of the program", function()
+    local libraries = system.output(("ldd '%s' 2>/dev/null"):format(workbench.absolute))
+    assert.falsy(libraries:find "microhttpd")
+  end)
+end)
+
+describe("the page of celspan watch", function()
+  if not present.program "chromium" then return pending "there is no chromium" end
+
+  local HELP = [[
+    const stage = name => `document.querySelector("#stage").dataset.${name}`;
+    const text = id => page.get(`document.querySelector("#${id}").textContent`);
+  ]]
+
+  local function see(address, steps)
+    return run(("browser.js '%s/chromium' '%s'"):format(bench.folder, address), HELP .. steps)
+  end
+
+  it("shows, steps and plays frames, by keys alone", function()
+    local said = see(watch(), [=[
+      await page.until(`${stage("frame")} === "1"`);
+      const first = await page.get(`[${stage("size")}, ${stage("crop")},
+        document.querySelector("#stage").width, document.querySelector("#stage").height]`);
+      await page.press("ArrowRight"); await page.press("ArrowRight"); await page.press("ArrowLeft");
+      await page.until(`${stage("frame")} === "2"`);
+      const stepped = await text("frame");
+      await page.press(" ");
+      await page.until(`Number(${stage("frame")}) > 12`);
+      await page.press(" ");
+      const stopped = await text("frame");
+      await page.pause(0.3);
+      const still = await text("frame");
+      await page.press("End");
+      await page.until(`${stage("frame")} === "48"`);
+      const foreign = page.requests.filter(url => !url.startsWith("http://127.0.0.1:"));
+      return { first, stepped, stopped, still, foreign, hash: await page.get("location.href") };]=])
+    local w, h = said.first[1]:match "(%d+)x(%d+)"
+    assert.equal(("0,0,%s,%s"):format(w, h), said.first[2])
+    assert.same({ tonumber(w), tonumber(h) }, { said.first[3], said.first[4] })
+    assert.equal("2", said.stepped)
+    assert.equal(said.stopped, said.still)
+    assert.same({}, said.foreign)
+    assert.falsy(said.hash:find "token")
+  end)
+
+  it("shows every save, and an error over the last good picture", function()
+    bench:write("colour.lua", 'return "#3c3"')
+    bench:write("shot.lua", (FILM:gsub('"#ffe0b0"', 'require "colour"')))
+    local said = see(watch(), [=[
+      const folder = "]=] .. bench.folder .. [=[/";
+      const colour = () => page.get(`[...document.querySelector("#stage").getContext("2d")
+        .getImageData(0, 0, 1, 1).data].join()`);
+      await page.until(`${stage("frame")} === "1"`);
+      await page.press("ArrowRight");
+      await page.until(`${stage("frame")} === "2"`);
+      const colours = [await colour()], old = await page.get(stage("build"));
+      page.write(folder + "colour.lua", 'return "#33c"');
+      await page.until(`${stage("build")} !== "${old}"`);
+      colours.push(await colour());
+      page.write(folder + "colour.lua", 'error "no paint"');
+      await page.until(`!document.querySelector("#error").hidden`);
+      const error = await text("error"), seen = await page.get(stage("frame"));
+      colours.push(await colour());
+      page.write(folder + "colour.lua", 'return 7');
+      await page.until(`document.querySelector("#error").textContent.startsWith("shot.lua:4")`);
+      const refused = await text("error");
+      page.write(folder + "colour.lua", 'return "#c3c"');
+      await page.until(`document.querySelector("#error").hidden`);
+      colours.push(await colour());
+      return { colours, error, seen, refused, last: await page.get(stage("frame")) };]=])
+    assert.same({ "51,204,51,255", "51,51,204,255", "51,51,204,255", "204,51,204,255" },
+      said.colours)
+    assert.truthy(said.error:find("colour.lua:1: frame 2: no paint", 1, true), said.error)
+    assert.equal("2", said.seen)
+    assert.truthy(said.refused:find("shot.lua:4: frame 2: ", 1, true), said.refused)
+    assert.equal("2", said.last)
+  end)
+
+  it("zooms to the largest frame, and shows there what a render shows", function()
+    local said = see(watch(), [=[
+      await page.until(`${stage("frame")} === "1"`);
+      const box = await page.get(`(() => { const b = document.querySelector("#stage")
+        .getBoundingClientRect(); return [b.left, b.top, b.width, b.height]; })()`);
+      const x = box[0] + box[2] * 16 / 64, y = box[1] + box[3] / 2;
+      for (let i = 0; i < 60; i++) {
+        await page.mouse("mouseWheel", x, y, { deltaX: 0, deltaY: -200 });
+      }
+      await page.until(`${stage("size")} === "1048576x589824"`);
+      await page.press("p");
+      await page.until(`${stage("crop")}.split(",")[2] < 1010`);
+      await page.click(600, 400);
+      await page.until(`document.querySelectorAll("#hits li").length > 1`);
+      const picture = await page.get(`document.querySelector("#stage").toDataURL()`);
+      return { picture: picture.split(",")[1], crop: await page.get(stage("crop")),
+               hits: await page.get(`document.querySelector("#hits").innerText`) };]=])
+    bench:write("seen.base64", said.picture)
+    bench:inside "base64 -d seen.base64 >seen.png"
+    bench:celspan_inside("render shot.lua -o made.png --frames 1 --size 1048576x589824 --crop %s "
+      .. "--progress none", said.crop)
+    local code, out = bench:celspan_inside "compare seen.png made.png --fail 0.004"
+    assert.equal(0, code, out)
+    assert.truthy(said.hits:find("ground (cel) shot.lua:4", 1, true), said.hits)
+  end)
+
+  it("has a form for the parameters, which the address and a command line hold", function()
+    bench:write("shot.lua", (FILM:gsub("return celspan.film", [[
+      local p = celspan.parameters { tint = { colour = "#33cc33" }, side = { "left", "right" },
+                                     size = { 6, min = 0, max = 30 }, on = true, name = "it's" }
+      %0]], 1):gsub('"#ffe0b0"', "p.tint"):gsub("radius = 6", "radius = p.size")))
+    local said = see(watch "shot.lua --set size=5", [=[
+      const colour = () => page.get(`[...document.querySelector("#stage").getContext("2d")
+        .getImageData(0, 0, 1, 1).data].join()`);
+      const put = async (kind, value) => {
+        const old = await page.get(stage("build"));
+        await page.get(`(() => { const input = document.querySelector("#form input[type=${kind}]");
+          input.value = "${value}"; input.dispatchEvent(new Event("input")); })()`);
+        await page.until(`${stage("build")} !== "${old}"`);
+      };
+      await page.until(`${stage("frame")} === "1"`);
+      await page.press("v");
+      const first = await page.get(`[...document.querySelectorAll("#form input, #form select")]
+        .map(one => one.type === "checkbox" ? String(one.checked) : one.value).join("|")`);
+      const colours = [await colour()];
+      await put("color", "#3333cc");
+      colours.push(await colour());
+      await put("range", "29.99999");
+      const said = { first, colours,
+                     command: await page.get(`document.querySelector("#command").value`),
+                     address: await page.get("location.hash") };
+      await page.get(`document.querySelector("#defaults").click()`);
+      await page.until(`document.querySelector("#form input[type=range]").value === "5"`);
+      return { ...said, last: await page.get("location.hash") };]=])
+    assert.equal("it's|true|left|5|#33cc33", said.first)
+    assert.same({ "51,204,51,255", "51,51,204,255" }, said.colours)
+    assert.equal("celspan render shot.lua --set size=30 --set tint=#3333cc -o shot.####.png",
+      said.command)
+    assert.equal("#tint=%233333cc&size=30", said.address)
+    assert.equal("", said.last)
+  end)
+
+  it("plays alone, without bars, with celspan play", function()
+    bench:shell(("mkdir %s/bin && printf '#!/bin/sh\necho \"$1\" >%s/opened\n' >%s/bin/xdg-open && "
+      .. "chmod +x %s/bin/xdg-open"):format(bench.folder, bench.folder, bench.folder, bench.folder))
+    local _, out = bench:inside(("PATH=%s/bin:$PATH exec '%s' play shot.lua >said 2>complained & "
+      .. "echo $!"):format(bench.folder, workbench.absolute))
+    server = out:match "%d+"
+    local address
+    for _ = 1, 200 do
+      address = (bench:read "opened" or ""):match "^http%g+"
+      if address then break end
+      os.execute "sleep 0.05"
+    end
+    assert.equal("watching " .. address .. "\n", bench:read "said")
+    local said = see(address, [=[
+      await page.until(`Number(${stage("frame")}) > 3`);
+      return page.get(`getComputedStyle(document.querySelector("header")).display`);]=])
+    assert.equal("none", said)
+  end)
+end)
