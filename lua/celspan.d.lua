@@ -568,7 +568,7 @@ function celspan.clip(art, shape) end
 
 ---@class celspan.group.fields
 ---@field [integer] celspan.shape
----@field opacity? number Of the group as a whole; 0 to 1; default 1
+---@field opacity? number Of the group as a whole; limited to 0..1; default 1
 ---@field blend? celspan.mode How it is combined with its backdrop; default normal
 ---@field isolate? boolean Whether modes inside act only inside; default true if it is faded or has a mode
 
@@ -606,6 +606,8 @@ function celspan.matte(art, by, options) end
 ---@field back? celspan.light Shines through the whole frame from behind this cel; default none
 ---@field viewport? number[] {x, y, w, h}; the part that fills the frame
 ---@field defocus? number|celspan.defocus A radius, or with a kernel
+---@field blend? celspan.mode How it is combined with its backdrop; default normal
+---@field opacity? number Limited to 0..1; default 1
 
 ---@class celspan.cel: celspan.placed, celspan.cel.fields
 ---@field opacity number

@@ -165,7 +165,7 @@ return celspan.film { size = { 64, 64 }, frames = 2, frame = function(f)
     assert.truthy(out:find "2 %x+\n", out)
   end)
 
-  it_measures("is enough for any number of dashes: a few are in memory at a time", function()
+  it("is enough for any number of dashes: a few are in memory at a time", function()
     bench:write("film.lua", [[
 local celspan = require "celspan"
 local list = {}
