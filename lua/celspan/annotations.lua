@@ -305,7 +305,7 @@ function frame:on(n) end
 ---@return number
 function frame:random(label, m, n) end
 
----@noun sound
+---@noun film.sound
 
 ---@noun film
 
