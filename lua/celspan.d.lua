@@ -688,7 +688,7 @@ function frame:on(n) end
 function frame:random(label, m, n) end
 
 --- A sound of a film, and when it is heard.
----@class celspan.sound
+---@class celspan.film.sound
 ---@field [integer] string|celspan.film A file, or a film whose sounds are meant
 ---@field at? number Second of the film at which it begins; -1e9 to 1e9; default 0
 ---@field from? number Second of the file at which it begins; 0 to 1e9; default 0
@@ -707,7 +707,7 @@ function frame:random(label, m, n) end
 ---@field duration? number Seconds, instead of frames; more than 0
 ---@field first? integer The number of the first frame; -1e9 to 1e9; default 1
 ---@field title? string
----@field sound? string|celspan.sound|celspan.sound[] A file, a sound, or a list of sounds, which are mixed
+---@field sound? string|celspan.film.sound|celspan.film.sound[] A file, a sound, or a list of sounds, which are mixed
 ---@field sound_offset? number Seconds by which all sounds begin later; a negative value cuts the beginning; -1e9 to 1e9; default 0
 ---@field marks? table<string, integer> Names of frames, { title = 1 }, for --frames
 ---@field frame fun(f: celspan.frame): celspan.exposures A pure function of f

@@ -333,7 +333,7 @@ function frame:on(n) end
 ---@return number
 function frame:random(label, m, n) end
 
----@noun sound
+---@noun film.sound
 
 ---@noun film
 

@@ -587,7 +587,7 @@ end
 ---@class celspan.cut.parts
 ---@field [integer] celspan.film|celspan.cut.part|celspan.cut.transition
 ---@field title? string
----@field sound? string|celspan.sound|celspan.sound[] In addition to the sounds of the films
+---@field sound? string|celspan.film.sound|celspan.film.sound[] In addition to the sounds of the films
 ---@field marks? table<string, integer> In addition to those of the films
 
 ---@class celspan.cut

@@ -21,7 +21,7 @@ local core = require "celspan.core"
 
 local soundtrack = {}
 
-local MOST = 100000 -- sounds
+local MOST = 10000 -- sounds
 local SLOWEST, FASTEST = 0.01, 100 -- of its own speed
 
 --- Constant power: the squares of both add up to 2, and both are 1 in the middle.
@@ -84,9 +84,15 @@ end
 
 --- Notes by whom the sounds of each item are made lower.
 local function add_duckers(items)
+  local by_name = {}
   for _, item in ipairs(items) do
-    for _, other in ipairs(item.sound.duck and items or {}) do
-      if other ~= item and other.sound.name == item.sound.duck then
+    local name = item.sound.name or false
+    by_name[name] = by_name[name] or {}
+    table.insert(by_name[name], item)
+  end
+  for _, item in ipairs(items) do
+    for _, other in ipairs(item.sound.duck and by_name[item.sound.duck] or {}) do
+      if other ~= item then
         for _, one in ipairs(other.list) do
           table.move(item.list, 1, #item.list, #one.duckers + 1, one.duckers)
         end

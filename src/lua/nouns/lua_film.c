@@ -94,7 +94,7 @@ static const cs_field fields[] = {
     {"first", CS_WHOLE(film_form, first), .least = -MOST_FRAMES, .most = MOST_FRAMES, .preset = "1",
      .about = "The number of the first frame"},
     {"title", CS_TEXT(film_form, title)},
-    {"sound", CS_OWN("string|celspan.sound|celspan.sound[]"),
+    {"sound", CS_OWN("string|celspan.film.sound|celspan.film.sound[]"),
      .about = "A file, a sound, or a list of sounds, which are mixed"},
     {"sound_offset", CS_NUMBER(film_form, sound_offset), .least = -MOST_FRAMES, .most = MOST_FRAMES,
      .preset = "0",

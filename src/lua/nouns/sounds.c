@@ -9,7 +9,7 @@
 #include "lua/nouns/nouns.h"
 
 #define MOST_SECONDS 1e9
-#define MOST_SOUNDS 100000 /* of a film */
+#define MOST_SOUNDS 10000 /* of a film */
 
 /* ---------------------------------------------------------------- one sound */
 
@@ -40,7 +40,7 @@ static const cs_field fields[] = {
     {0}};
 const cs_noun cs_noun_sound = {.name = "film: sound",
                                .about = "A sound of a film, and when it is heard.",
-                               .table = "celspan.sound",
+                               .table = "celspan.film.sound",
                                .list = CS_LIST_TUPLE,
                                .item = "file",
                                .item_written = "string|celspan.film",
