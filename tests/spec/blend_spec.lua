@@ -143,7 +143,7 @@ describe("a blend mode", function()
   it("of a thousand shapes over each other takes bounded memory and gives the right colour",
     function()
       local list = { rect(0, 0, 2, 2, "#fff") }
-      for i = 1, 1000 do
+      for _ = 1, 1000 do
         list[#list + 1] = rect(0, 0, 2, 2, celspan.rgb(0.999, 0.998, 1)):blend("multiply")
       end
       near({ 0.999 ^ 1000, 0.998 ^ 1000, 1, 1 }, pixels(celspan.union(list), 2, 2), 1, 1, 1e-4)
