@@ -150,7 +150,7 @@ static inline size_t within(size_t place, size_t least, size_t most) {
   return place < least ? least : place > most ? most : place;
 }
 
-/* Goes through boundaries [first, end), of which the first lies at the walk. */
+/* Goes through a range of boundaries, the first of which lies at the walk. */
 static void go_through(cs_cells *cells, cs_composer *composer, const cs_active *active,
                        cs_cells_gap range, const cs_cells_gap *gaps, size_t gap_count) {
   size_t i = range.low;

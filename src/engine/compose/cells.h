@@ -15,7 +15,8 @@
  *
  * Invariants: cells[0] is left of every boundary, cells[i + 1] right of boundary i; a boundary is
  * visible iff the cells on its two sides differ. Cells belong to places in the order, not to
- * boundaries: where the set of layers at a place is the same as before, its cell is kept; so a swap
+ * boundaries: where the set of layers at a place is the same as before, its cell is kept; cells
+ * inside the gaps of an update are not made, and nothing asks for them before the next. So a swap
  * of two boundaries composes one cell and a row without events none. The walk of the composer
  * is not moved between rows: events elsewhere do not change the set of layers at its place.
  */
