@@ -222,6 +222,15 @@ function crowds.bars(random, texture)
                            { at[1] + 2.3, at[2] + 0.3 }, { at[1] + 0.3, at[2] + 0.3 } }
 end
 
+--- Much smaller than a pixel.
+function crowds.specks(random, texture)
+  local at, fields = point(random), { texture = texture }
+  for i = 1, 3 do
+    fields[i] = { at[1] + random:between(-0.3, 0.3), at[2] + random:between(-0.3, 0.3) }
+  end
+  return celspan.polygon(fields)
+end
+
 --- A cel of shapes of one kind; paint: makes the paint of each.
 local function crowd(kind, count, seed, paint)
   local random, objects = prng.new(seed), {}
@@ -250,6 +259,7 @@ describe("crowds of translucent edges", function()
       end
     end
     compare(celspan.rostrum { back = "#fff", crowd("strokes", 80, 3, gel) }, "gels", 1)
+    compare(celspan.rostrum { back = "#fff", crowd("specks", 3000, 4, faint(0.4)) }, "specks", 1)
   end)
 
   it("show what opaque shapes behind and between them cover", function()
@@ -282,6 +292,7 @@ describe("crowds of translucent edges", function()
       assert.is_true(many[name] < 5 * few[name], ("%s: %g, %g for a quarter of the lines")
         :format(name, many[name], few[name]))
     end
+    assert.is_true(many.colour_evaluations < 1600, many.colour_evaluations .. " colours")
   end)
 end)
 

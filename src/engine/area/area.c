@@ -26,6 +26,7 @@
 #include <math.h>
 
 #include "base/number.h"
+#include "base/self_check.h"
 #include "engine/area/intervals.h"
 #include "engine/area/window.h"
 #include "engine/compose/procedures.h"
@@ -220,9 +221,8 @@ static celspan_status begin_item(cs_area *area, const cs_cell *left, size_t low,
  * be narrower. */
 static bool is_crowd(const row_walk *w, const cs_interval *interval) {
   const cs_row_tools *tools = &w->area->tools;
-  const cs_deferred_cursor *deferred = &tools->cells->deferred;
-  if (w->is_slab || w->area->target.retained ||
-      (tools->width < CS_CULL_COLUMNS && deferred->first < deferred->end))
+  const cs_deferred *end, *deferred = cs_active_deferred(tools->active, &end);
+  if (w->is_slab || w->area->target.retained || (tools->width < CS_CULL_COLUMNS && deferred < end))
     return false;
   return cs_crowd_suits(w->intervals, interval, tools->composer, tools->width);
 }
@@ -254,7 +254,7 @@ static celspan_status walk_interval(row_walk *w, const cs_interval *interval) {
   CS_TRY(cs_intervals_pick_begins(w->intervals, interval, &sweep->begins, &sweep->begin_count));
   sweep->y0 = w->intervals->y0;
   sweep->y1 = w->intervals->y1;
-  if (is_crowd(w, interval))
+  if (interval->is_crowd)
     return walk_crowd(w, interval);
   CS_TRY(cs_local_sweep_begin(sweep, high - low));
   for (size_t i = low; i < high; i++) {
@@ -403,6 +403,15 @@ static int count_slabs(const cs_area *area, int32_t y) {
   return slabs;
 }
 
+static celspan_status update_cells(cs_area *area, cs_change change, const cs_cells_gap *gaps,
+                                   size_t gap_count) {
+  const cs_row_tools *tools = &area->tools;
+  CS_TRY(cs_cells_update(tools->cells, tools->composer, tools->active, change, gaps, gap_count));
+  CS_TRY(tools->composer->failure);
+  CS_SELF_CHECK(cs_cells_are_true(tools->cells, tools->composer, tools->active));
+  return CELSPAN_OK;
+}
+
 /* Copies the cells to room that lasts as long as the row: segments point to them. */
 static celspan_status keep_cells(cs_area *area, const cs_cell **out) {
   size_t size = area->tools.cells->known * sizeof **out;
@@ -418,29 +427,54 @@ static celspan_status next_slab(cs_area *area) {
   cs_change change;
   cs_composer *composer = area->tools.composer;
   CS_TRY(cs_active_settle(composer->context, area->tools.active, &change));
-  if (!cs_change_is_none(change))
-    CS_TRY(cs_cells_update(area->tools.cells, composer, area->tools.active, change));
-  return composer->failure;
+  return update_cells(area, change, NULL, 0);
 }
 
-/* Walks the row between two heights; the boundaries are at the upper. */
-static celspan_status walk_heights(row_walk *w, double y0, double y1) {
+/* Moves the boundaries down from one height to another, and finds what happens between them. The
+ * order remains the one at the upper. */
+static celspan_status find_intervals(row_walk *w, double y0, double y1, cs_intervals *intervals) {
   cs_area *area = w->area;
   celspan_context *context = area->tools.composer->context;
-  cs_cells_list(area->tools.cells);
-  cs_intervals intervals = {.context = context,
-                            .arena = area->tools.arena,
-                            .active = area->tools.active,
-                            .edges = &area->edges,
-                            .y0 = y0,
-                            .y1 = y1};
-  w->intervals = &intervals;
+  *intervals = (cs_intervals){.context = context,
+                              .arena = area->tools.arena,
+                              .active = area->tools.active,
+                              .edges = &area->edges,
+                              .y0 = y0,
+                              .y1 = y1};
+  w->intervals = intervals;
   area->commit.first = NULL;
   CS_TRY(cs_active_advance(context, area->tools.active, y1));
   if (!w->is_slab && cs_procedures_meet(area->tools.procedures, (int32_t)y0))
-    CS_TRY(find_procedures(area, &intervals));
+    CS_TRY(find_procedures(area, intervals));
   CS_TRY(cs_edges_measure(context, &area->edges, area->tools.active, area->tools.width));
-  CS_TRY(cs_intervals_find(&intervals));
+  CS_TRY(cs_intervals_find(intervals));
+  for (size_t k = 0; k < intervals->count; k++)
+    intervals->intervals[k].is_crowd = is_crowd(w, &intervals->intervals[k]);
+  return CELSPAN_OK;
+}
+
+/* Makes the cells of a row that is walked as a whole, except those inside crowds. */
+static celspan_status make_cells(row_walk *w, cs_change change) {
+  cs_area *area = w->area;
+  const cs_intervals *intervals = w->intervals;
+  size_t count = 0;
+  cs_cells_gap *gaps = cs_arena_take(area->tools.composer->context, area->tools.arena,
+                                     (intervals->count + 1) * sizeof *gaps);
+  if (!gaps)
+    return CELSPAN_NO_MEMORY;
+  for (size_t k = 0; k < intervals->count; k++) {
+    const cs_interval *interval = &intervals->intervals[k];
+    gaps[count] = (cs_cells_gap){interval->low, interval->high};
+    count += interval->is_crowd;
+  }
+  CS_TRY(update_cells(area, change, gaps, count));
+  w->cells = area->tools.cells->cells;
+  return CELSPAN_OK;
+}
+
+/* Walks along what has been found. */
+static celspan_status walk_heights(row_walk *w) {
+  cs_cells_list(w->area->tools.cells);
   return walk_row(w);
 }
 
@@ -448,6 +482,7 @@ static celspan_status walk_heights(row_walk *w, double y0, double y1) {
  * exact slabs of that many boundaries, and need no memory for their intersections. */
 static celspan_status walk_slabs(cs_area *area, int32_t y, int slabs, cs_row *out) {
   cs_window *window = &area->target.window;
+  cs_intervals intervals;
   for (int k = 0, end; k < slabs; k = end) {
     row_walk w = {.area = area, .is_slab = true};
     if (k > 0)
@@ -459,29 +494,39 @@ static celspan_status walk_slabs(cs_area *area, int32_t y, int slabs, cs_row *ou
     }
     cs_window_end_item(window, &w.cells[0]);
     end = is_dense(area) ? slabs : k + 1;
-    CS_TRY(walk_heights(&w, y + (double)k / slabs, y + (double)end / slabs));
+    CS_TRY(find_intervals(&w, y + (double)k / slabs, y + (double)end / slabs, &intervals));
+    CS_TRY(walk_heights(&w));
     CS_TRY(apply_commit(&area->commit));
   }
   return cs_window_end_row(window);
 }
 
-celspan_status cs_area_row(cs_area *area, int32_t y, cs_row *out) {
-  row_walk w = {.area = area, .cells = area->tools.cells->cells};
+celspan_status cs_area_row(cs_area *area, int32_t y, cs_change change, cs_row *out) {
+  row_walk w = {.area = area};
+  cs_intervals intervals;
   int slabs = count_slabs(area, y);
   area->target.retained = NULL;
-  if (slabs > 1)
+  if (slabs > 1) {
+    CS_TRY(update_cells(area, change, NULL, 0));
     return walk_slabs(area, y, slabs, out);
+  }
+  CS_TRY(find_intervals(&w, y, y + 1.0, &intervals));
+  CS_TRY(make_cells(&w, change));
   cs_window_begin_row(&area->target.window, y, w.cells, out);
-  CS_TRY(walk_heights(&w, y, y + 1.0));
+  CS_TRY(walk_heights(&w));
   CS_TRY(cs_window_end_row(&area->target.window));
   return apply_commit(&area->commit);
 }
 
-celspan_status cs_area_retain(cs_area *area, int32_t y, cs_retained_row *retained) {
-  row_walk w = {.area = area, .cells = area->tools.cells->cells};
+celspan_status cs_area_retain(cs_area *area, int32_t y, cs_change change,
+                              cs_retained_row *retained) {
+  row_walk w = {.area = area};
+  cs_intervals intervals;
   area->target.retained = retained;
+  CS_TRY(find_intervals(&w, y, y + 1.0, &intervals));
+  CS_TRY(make_cells(&w, change));
   cs_retained_begin(retained, y, w.cells[0].colour);
-  CS_TRY(walk_heights(&w, y, y + 1.0));
+  CS_TRY(walk_heights(&w));
   CS_TRY(cs_retained_seal(retained, area->tools.composer));
   return apply_commit(&area->commit);
 }

@@ -55,10 +55,12 @@ typedef struct cs_area {
 
 void cs_area_init(cs_area *area, const cs_row_tools *tools);
 void cs_area_finish(cs_area *area, cs_memory *memory);
-/* Row y. The boundaries and cells are at its top; they have reached its foot when it returns, and
- * are in the order that they have there as far as that is known. out: is empty, gets [0, width).
+/* Row y. The boundaries are at its top; change: where they differ from those of the last update of
+ * the cells. Boundaries and cells have reached its foot when it returns, and are in the order that
+ * they have there as far as that is known. out: is empty, gets [0, width).
  * Errors: NO_MEMORY, CALLBACK; what composing meets is in composer->failure too. */
-CELSPAN_CHECKED celspan_status cs_area_row(cs_area *area, int32_t y, cs_row *out);
+CELSPAN_CHECKED celspan_status cs_area_row(cs_area *area, int32_t y, cs_change change, cs_row *out);
 /* The same, but the visible edges of the row are kept in `retained`, which is begun and sealed, and
  * no pixels are made. y: may lie beyond the frame. */
-CELSPAN_CHECKED celspan_status cs_area_retain(cs_area *area, int32_t y, cs_retained_row *retained);
+CELSPAN_CHECKED celspan_status cs_area_retain(cs_area *area, int32_t y, cs_change change,
+                                              cs_retained_row *retained);

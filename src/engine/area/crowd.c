@@ -9,6 +9,7 @@
 #define FEW_SHARE 0.063f
 #define MORE_SHARE 0.255f
 #define LATTICES 3
+#define ROOM_SIZE (sizeof(cs_crowd_room) + CS_WIDE_LINE)
 #define NOBODY UINT32_MAX
 #define NEVER INT32_MAX /* steps of winding do not end */
 #define STRONG 0.51f    /* a layer that hides more is strong, */
@@ -23,7 +24,7 @@ static const struct {
 void cs_crowd_init(cs_crowd *crowd) { *crowd = (cs_crowd){.isa = cs_isa_best()}; }
 
 void cs_crowd_finish(cs_crowd *crowd, cs_memory *memory) {
-  cs_mem_free(memory, crowd->room, sizeof *crowd->room);
+  cs_mem_free(memory, crowd->storage, ROOM_SIZE);
   cs_mem_free(memory, crowd->pieces, crowd->piece_capacity * sizeof *crowd->pieces);
   cs_mem_free(memory, crowd->members, crowd->member_capacity * sizeof *crowd->members);
   cs_mem_free(memory, crowd->entering, crowd->entering_capacity * sizeof *crowd->entering);
@@ -560,9 +561,10 @@ static void make_lattice(cs_crowd_lattice *lattice, int32_t count, int32_t gener
 }
 
 static celspan_status make_room(const drawing *d) {
-  cs_crowd_room *room = cs_mem_array(d->context->memory, 1, sizeof *room);
-  if (!room)
+  d->crowd->storage = cs_mem_array(d->context->memory, 1, ROOM_SIZE);
+  if (!d->crowd->storage)
     return cs_fail_memory(d->context);
+  cs_crowd_room *room = cs_wide_align(d->crowd->storage);
   for (size_t k = 0; k < LATTICES; k++)
     make_lattice(&room->lattices[k], lattices[k].count, lattices[k].generator);
   d->crowd->room = room;
@@ -579,7 +581,7 @@ celspan_status cs_crowd_draw(cs_crowd *crowd, cs_local_sweep *sweep, const cs_in
                .next = next,
                .width = width,
                .first = width};
-  if (!crowd->room)
+  if (!crowd->storage)
     CS_TRY(make_room(&d));
   CS_TRY(list_members(&d, intervals, interval));
   celspan_status status = draw_columns(&d, right);

@@ -32,8 +32,9 @@
 
 /* The samples of a pixel, from top to foot. */
 typedef struct cs_crowd_lattice {
+  _Alignas(CS_WIDE_LINE) float x[CS_CROWD_SAMPLES]; /* from the pixel's corner, as y */
+  _Alignas(CS_WIDE_LINE) float y[CS_CROWD_SAMPLES];
   int32_t count;
-  float x[CS_CROWD_SAMPLES], y[CS_CROWD_SAMPLES]; /* from the pixel's corner */
 } cs_crowd_lattice;
 
 /* A straight piece of a boundary, as a pixel sees it. */
@@ -90,13 +91,15 @@ typedef struct cs_crowd_live {
 /* What a worker keeps of it. */
 typedef struct cs_crowd_room {
   cs_crowd_lattice lattices[3];
-  float through[3][CS_CROWD_SAMPLES]; /* by channel; only the first where all are alike */
-  int32_t inside[CS_CROWD_SAMPLES];
+  _Alignas(CS_WIDE_LINE) float through[3][CS_CROWD_SAMPLES]; /* by channel; only the first where all
+                                                                are alike */
+  _Alignas(CS_WIDE_LINE) int32_t inside[CS_CROWD_SAMPLES];
 } cs_crowd_room;
 
 typedef struct cs_crowd {
   cs_isa isa;
-  cs_crowd_room *room; /* NULL: not needed yet */
+  void *storage;       /* of the room; NULL: not needed yet */
+  cs_crowd_room *room; /* on a line of the cache */
   cs_crowd_piece *pieces;
   cs_crowd_member *members;
   uint32_t *entering;      /* by column: the first that enters there */

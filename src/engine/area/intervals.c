@@ -200,8 +200,8 @@ static celspan_status add_groups(cs_intervals *b) {
   CS_TRY(group_bends(b, active->count, &bend, &list));
   for (size_t k = 0; k < list.count; k++) {
     const inversion_group *group = &list.groups[k];
-    CS_TRY(add_interval(
-        b, (cs_interval){group->low, group->high, group->low, cs_extent_nowhere(), group->extent}));
+    CS_TRY(add_interval(b, (cs_interval){group->low, group->high, group->low, cs_extent_nowhere(),
+                                         group->extent, false}));
   }
   b->group_count = list.count;
   return CELSPAN_OK;
@@ -248,7 +248,8 @@ static const cs_interval *find_group(const cs_intervals *b, size_t i) {
 /* What keeps its order through the row: boundary i, or the group it is in. */
 static cs_interval unit_at(const cs_intervals *b, size_t i) {
   const cs_interval *group = find_group(b, i);
-  return group ? *group : (cs_interval){i, i + 1, i, cs_extent_nowhere(), boundary_extent(b, i)};
+  return group ? *group
+               : (cs_interval){i, i + 1, i, cs_extent_nowhere(), boundary_extent(b, i), false};
 }
 
 /* Adds the interval of the boundaries whose extents meet that of some events, or the place between
@@ -267,7 +268,7 @@ static celspan_status add_extent_interval(cs_intervals *b, cs_extent r, cs_inter
     first = u.low < first ? u.low : first;
     extent = cs_extent_join(extent, u.extent);
   }
-  *out = (cs_interval){first, end, first, r, extent};
+  *out = (cs_interval){first, end, first, r, extent, false};
   return add_interval(b, *out);
 }
 
@@ -285,7 +286,7 @@ static celspan_status join_ends(cs_intervals *b, const cs_interval_event *events
     size_t low = begin->low < at.low ? begin->low : at.low;
     size_t high = begin->high > at.high ? begin->high : at.high;
     cs_extent extent = cs_extent_join(begin->extent, at.extent);
-    CS_TRY(add_interval(b, (cs_interval){low, high, low, cs_extent_nowhere(), extent}));
+    CS_TRY(add_interval(b, (cs_interval){low, high, low, cs_extent_nowhere(), extent, false}));
   }
   return CELSPAN_OK;
 }

@@ -32,6 +32,7 @@ typedef struct cs_interval {
   size_t last_low;  /* the greatest `low` of the intervals that were merged into it */
   cs_extent events; /* of what begins or ends in it */
   cs_extent extent; /* of its boundaries, and of what begins, in the row */
+  bool is_crowd;    /* it is drawn without its cells (crowd.h) */
 } cs_interval;
 
 /* A begin or an end inside the row, and the extent in the row of what begins or ends. */

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-void cs_cells_init(cs_cells *cells) { *cells = (cs_cells){0}; }
+void cs_cells_init(cs_cells *cells) { *cells = (cs_cells){.gaps = cs_change_none}; }
 
 void cs_cells_finish(cs_cells *cells, cs_memory *memory) {
   cs_mem_free(memory, cells->cells, cells->cell_capacity * sizeof *cells->cells);
@@ -126,11 +126,53 @@ static inline void cross_next(cs_cells *cells, cs_composer *composer, double x) 
   cs_deferred_forward(&cells->deferred, composer, x);
 }
 
+/* Makes what is right of boundaries [first, end), of which the first lies at the walk. */
+static void make_cells(cs_cells *cells, cs_composer *composer, const cs_active *active,
+                       size_t first, size_t end) {
+  for (size_t i = first; i < end; i++) {
+    cross_next(cells, composer, active->x[i]);
+    make_cell(cells, composer, i + 1);
+    cells->is_visible[i] = !cs_composer_same(composer, &cells->cells[i + 1], &cells->cells[i]);
+  }
+}
+
+/* The same where the cells are left out. */
+static void leave_out(cs_cells *cells, cs_composer *composer, const cs_active *active, size_t first,
+                      size_t end) {
+  for (size_t i = first; i < end; i++) {
+    cross_next(cells, composer, active->x[i]);
+    cells->cells[i + 1] = (cs_cell){.hash = cs_cells_unmade};
+    cells->is_visible[i] = true;
+  }
+}
+
+static inline size_t within(size_t place, size_t least, size_t most) {
+  return place < least ? least : place > most ? most : place;
+}
+
+/* Goes through a range of boundaries, the first of which lies at the walk. */
+static void go_through(cs_cells *cells, cs_composer *composer, const cs_active *active,
+                       cs_cells_gap range, const cs_cells_gap *gaps, size_t gap_count) {
+  size_t i = range.low;
+  for (size_t k = 0; k < gap_count; k++) {
+    size_t low = within(gaps[k].low, i, range.high),
+           last = within(gaps[k].high - 1, low, range.high);
+    make_cells(cells, composer, active, i, low);
+    leave_out(cells, composer, active, low, last);
+    i = last;
+  }
+  make_cells(cells, composer, active, i, range.high);
+}
+
 celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer, const cs_active *active,
-                               cs_change change) {
+                               cs_change change, const cs_cells_gap *gaps, size_t gap_count) {
   CS_TRY(make_room(cells, composer->context, active->count));
-  if (cells->known == 0)
-    change = cs_change_all;
+  change = cells->known == 0 ? cs_change_all : cs_change_join(change, cells->gaps);
+  cells->gaps = cs_change_none;
+  if (cs_change_is_none(change))
+    return CELSPAN_OK;
+  if (gap_count > 0)
+    cells->gaps = (cs_change){gaps[0].low, active->count - gaps[gap_count - 1].high};
   adopt_order(cells, composer, active, change);
   cs_cells_walk_to(cells, composer, change.low, change.low > 0 ? active->x[change.low - 1] : 0);
   if (change.low == 0)
@@ -138,11 +180,8 @@ celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer, const cs_
   if (cells->known == 0)
     cells->known = 1; /* the one just made */
   move_tail(cells, active->count, change.tail);
-  for (size_t i = change.low; i < active->count - change.tail; i++) {
-    cross_next(cells, composer, active->x[i]);
-    make_cell(cells, composer, i + 1);
-    cells->is_visible[i] = !cs_composer_same(composer, &cells->cells[i + 1], &cells->cells[i]);
-  }
+  go_through(cells, composer, active, (cs_cells_gap){change.low, active->count - change.tail}, gaps,
+             gap_count);
   cells->is_listed = false;
   cells->known = active->count + 1;
   return CELSPAN_OK;

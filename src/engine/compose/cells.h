@@ -15,7 +15,8 @@
  *
  * Invariants: cells[0] is left of every boundary, cells[i + 1] right of boundary i; a boundary is
  * visible iff the cells on its two sides differ. Cells belong to places in the order, not to
- * boundaries: where the set of layers at a place is the same as before, its cell is kept; so a swap
+ * boundaries: where the set of layers at a place is the same as before, its cell is kept; cells
+ * inside the gaps of an update are not made, and nothing asks for them before the next. So a swap
  * of two boundaries composes one cell and a row without events none. The walk of the composer
  * is not moved between rows: events elsewhere do not change the set of layers at its place.
  */
@@ -57,13 +58,23 @@ static inline void cs_cells_cross(cs_composer *composer, const cs_crossing *cros
   composer->hash = hash;
 }
 
+/* Boundaries [low, high) between which nobody asks for cells: those right of the first and left of
+ * the last are not made. */
+typedef struct cs_cells_gap {
+  size_t low, high;
+} cs_cells_gap;
+
+/* The hash of a cell that has not been made: no set has it in practice. */
+static const cs_set_hash cs_cells_unmade = {UINT64_MAX, UINT64_MAX};
+
 typedef struct cs_cells {
   cs_cell *cells;   /* count + 1 in use */
   bool *is_visible; /* by boundary; room for whole batches (engine/sweep/advance.h) */
   bool is_listed;
   uint32_t *visible; /* where is_listed: the visible ones */
   size_t visible_count;
-  size_t known; /* how many cells have been made, from the left */
+  size_t known;   /* how many cells there are, from the left */
+  cs_change gaps; /* around the cells that were not made at the last update */
   /* The walk is right of the first `place` of `count` boundaries, in the order of `crossing`, and
    * past the deferred changes before the cursor. */
   size_t place, count;
@@ -75,10 +86,11 @@ typedef struct cs_cells {
 void cs_cells_init(cs_cells *cells);
 void cs_cells_finish(cs_cells *cells, cs_memory *memory);
 /* Brings the cells up to date with the active boundaries. change: where they differ from those of
- * the last update.
+ * the last update. gaps: from left to right; cells between them are made as always.
  * Errors: NO_MEMORY; failures of composing stay in composer->failure. */
 CELSPAN_CHECKED celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer,
-                                               const cs_active *active, cs_change change);
+                                               const cs_active *active, cs_change change,
+                                               const cs_cells_gap *gaps, size_t gap_count);
 /* The boundaries low..low + count - 1 have changed places among themselves. right[k]: the cell now
  * right of boundary low + k, which is copied. The walk is not between them. */
 void cs_cells_commit(cs_cells *cells, const cs_composer *composer, const cs_active *active,

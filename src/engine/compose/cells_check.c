@@ -40,7 +40,8 @@ static bool cells_agree(const cs_cells *cells, const cs_active *active, replay *
   bool agrees = cs_set_hash_same(cells->cells[0].hash, r->hash);
   for (size_t i = 0; agrees && i < active->count; i++) {
     cross(r, active->crossing[i].layer, active->crossing[i].direction);
-    agrees = cs_set_hash_same(cells->cells[i + 1].hash, r->hash);
+    agrees = cs_set_hash_same(cells->cells[i + 1].hash, r->hash) ||
+             cs_set_hash_same(cells->cells[i + 1].hash, cs_cells_unmade);
   }
   return agrees && cs_set_hash_same(r->hash, (cs_set_hash){0, 0});
 }

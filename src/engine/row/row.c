@@ -101,21 +101,14 @@ static celspan_status sweep_to(cs_row_maker *maker, int32_t y, cs_change *change
   return cs_active_start(maker->context, &maker->active, height);
 }
 
-/* Brings boundaries and cells to the row. */
-static celspan_status begin_row(cs_row_maker *maker, int32_t y) {
-  cs_change change;
-  CS_TRY(sweep_to(maker, y, &change));
+/* Brings the boundaries to the row. */
+static celspan_status begin_row(cs_row_maker *maker, int32_t y, cs_change *change) {
+  CS_TRY(sweep_to(maker, y, change));
   if (cs_composer_begin_row(&maker->composer)) {
     cs_cells_forget(&maker->cells);
-    change = cs_change_all;
+    *change = cs_change_all;
   }
-  if (!cs_change_is_none(change)) {
-    cs_centre_note_change(&maker->centre, change);
-    CS_TRY(cs_cells_update(&maker->cells, &maker->composer, &maker->active, change));
-  }
-  CS_TRY(maker->composer.failure);
   CS_SELF_CHECK(cs_active_is_ordered(&maker->active));
-  CS_SELF_CHECK(cs_cells_are_true(&maker->cells, &maker->composer, &maker->active));
   maker->row = y;
   return CELSPAN_OK;
 }
@@ -123,22 +116,34 @@ static celspan_status begin_row(cs_row_maker *maker, int32_t y) {
 /* ---------------------------------------------------------------- rows */
 
 celspan_status cs_row_retain(cs_row_maker *maker, int32_t y, cs_retained_row *retained) {
+  cs_change change;
   cs_arena_reset(&maker->arena);
-  CS_TRY(begin_row(maker, y));
-  CS_TRY(cs_area_retain(&maker->area, y, retained));
+  CS_TRY(begin_row(maker, y, &change));
+  CS_TRY(cs_area_retain(&maker->area, y, change, retained));
   return maker->composer.failure;
 }
 
+/* The cells at the pixels' centres. */
+static celspan_status make_centres(cs_row_maker *maker, int32_t y, cs_row *out) {
+  cs_change change;
+  CS_TRY(begin_row(maker, y, &change));
+  if (!cs_change_is_none(change))
+    cs_centre_note_change(&maker->centre, change);
+  CS_TRY(cs_cells_update(&maker->cells, &maker->composer, &maker->active, change, NULL, 0));
+  CS_TRY(maker->composer.failure);
+  CS_SELF_CHECK(cs_cells_are_true(&maker->cells, &maker->composer, &maker->active));
+  return cs_centre_row(&maker->centre, y, out);
+}
+
 static celspan_status make_row(cs_row_maker *maker, int32_t y, cs_row *out) {
-  if (maker->plan->antialias == CELSPAN_ANTIALIAS_NONE) {
-    CS_TRY(begin_row(maker, y));
-    return cs_centre_row(&maker->centre, y, out);
-  }
+  cs_change change;
+  if (maker->plan->antialias == CELSPAN_ANTIALIAS_NONE)
+    return make_centres(maker, y, out);
   cs_row_clear(out);
   if (maker->plan->kernel) /* it begins each row under the kernel by itself */
     return cs_filter_row(&maker->filter, y, out);
-  CS_TRY(begin_row(maker, y));
-  CS_TRY(cs_area_row(&maker->area, y, out));
+  CS_TRY(begin_row(maker, y, &change));
+  CS_TRY(cs_area_row(&maker->area, y, change, out));
   return maker->composer.failure;
 }
 
