@@ -140,20 +140,32 @@ static bool hold_descriptors(void) {
   return true;
 }
 
-/* A stack that grows to 8 MiB, the usual limit, as far as the process may raise its own. */
-static void widen_stack(void) {
+#define STACK_USUAL ((rlim_t)8 << 20)
+#define STACK_LEAST ((rlim_t)1 << 20) /* scripts and drawings that are nested deeply need some */
+
+/* A stack that grows to the usual limit, as far as the process may raise its own. Returns false,
+ * reported, where that is too little: beyond the limit the process would end with a signal. */
+static bool widen_stack(void) {
   struct rlimit limit;
-  const rlim_t usual = (rlim_t)8 << 20;
-  if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= usual)
-    return;
-  limit.rlim_cur = limit.rlim_max < usual ? limit.rlim_max : usual;
+  if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= STACK_USUAL)
+    return true;
+  limit.rlim_cur = limit.rlim_max < STACK_USUAL ? limit.rlim_max : STACK_USUAL;
   setrlimit(RLIMIT_STACK, &limit);
+  if (limit.rlim_cur >= STACK_LEAST)
+    return true;
+  /* Reports of errors take more stack than there may be. */
+  fprintf(stderr, "celspan: error: the stack is limited to %llu KiB; ",
+          (unsigned long long)limit.rlim_cur >> 10);
+  fprintf(stderr, "at least %llu are needed ('ulimit -s' sets it)\n",
+          (unsigned long long)STACK_LEAST >> 10);
+  return false;
 }
 
 int main(int count, char **arguments) {
   if (!hold_descriptors())
     return CS_EXIT_INTERNAL;
-  widen_stack();
+  if (!widen_stack())
+    return CS_EXIT_MEMORY;
   /* Numbers are read and printed in the C locale by this thread, whatever a script may set. */
   uselocale(newlocale(LC_ALL_MASK, "C", (locale_t)0));
   if (cs_zygote_is_meant(count, arguments))

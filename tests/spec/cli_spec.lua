@@ -26,6 +26,7 @@ end }
 ]]
 
 local it_reads_pictures = present.pictures() and it or pending
+local it_has_a_stack = not present.sanitizer() and it or pending
 
 local function usage_error(arguments, pattern)
   local code, out, err = celspan(arguments)
@@ -45,6 +46,17 @@ describe("the command line", function()
   end)
 
   after_each(function() bench:remove() end)
+
+  it_has_a_stack("says that a limit of the stack is too low", function()
+    for kib, wanted in pairs { [64] = 33, [512] = 33, [1024] = 0 } do
+      local code, _, err = shell(("ulimit -s %d; %s check %s"):format(kib, BINARY, plain))
+      assert.equal(wanted, code, err)
+      if wanted == 33 then
+        assert.equal(("celspan: error: the stack is limited to %d KiB; at least 1024 are needed "
+          .. "('ulimit -s' sets it)\n"):format(kib), err)
+      end
+    end
+  end)
 
   describe("help", function()
     it("prints the version", function()

@@ -244,7 +244,7 @@ describe("colours of other spaces", function()
       { styled "fill:light-dark(red, blue)", 'fill "light-dark(red, blue)"' },
       { styled "stroke:device-cmyk(0 0 0 1)", 'stroke "device-cmyk(0 0 0 1)"' },
       { styled "fill:lab(50 20)", 'fill "lab(50 20)"' },
-      { styled "fill:hwb(0 x 0)", 'fill "hwb(0 x 0)"' },
+      { styled "fill:hwb(0)", 'fill "hwb(0)"' },
       { box 'color-interpolation="linearRGB"', 'color-interpolation "linearRGB"' },
     }
   end)
