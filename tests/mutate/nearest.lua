@@ -95,6 +95,7 @@ return {
   ["scripts/film"] = { "spec/little_one" },
   ["lua/celspan.d.lua"] = { "spec/meta" },
   ["lua/celspan/annotations.lua"] = { "spec/meta" },
+  ["lua/celspan/artwork.lua"] = { "spec/habits" },
   ["lua/celspan/cut.lua"] = { "spec/cut", "spec/mix" },
   ["lua/celspan/sound.lua"] = { "spec/mix" },
   ["lua/celspan/soundtrack.lua"] = { "spec/mix" },

@@ -251,8 +251,8 @@ describe("celspan init", function()
   end)
 
   it("refuses invalid names", function()
-    for _, name in ipairs { "' b'", "'b '", "'a\"b'", "'\255'", ".", "..", "''", "walk/", "'@NAME@'",
-      ("long"):rep(26) } do
+    for _, name in ipairs { "' b'", "'b '", "'a\"b'", "'\255'", ".", "..", "''", "walk/",
+      "'@NAME@'", ("long"):rep(26) } do
       local code, _, err = run("init " .. name)
       assert.equal(2, code, name)
       assert.truthy(err:find("cannot be the name of a film", 1, true), err)

@@ -159,7 +159,8 @@ describe("the commands of", function()
             if not present.web() then return pending "celspan was built without libmicrohttpd" end
             local code, printed, message = run("export BROWSER=true; timeout 1 " .. line, here)
             assert.are.equal(124, code, message)
-            assert.is_truthy(printed:find "^watching http://127%.0%.0%.1:%d+/%?token=%x+\n$", message)
+            local line_printed = "^watching http://127%.0%.0%.1:%d+/%?token=%x+\n$"
+            assert.is_truthy(printed:find(line_printed), message)
           end)
         elseif line:find "^celspan " and (has_ffmpeg or not needs_ffmpeg(line)) then
           it(place(page, block) .. line .. " run", function()

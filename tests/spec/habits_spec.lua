@@ -22,7 +22,7 @@ local function refused(code, words, arguments, ...)
 end
 
 describe("a wrong field of a library function", function()
-  -- The call stands on line 4, and ends the frame function.
+  -- The call is on line 4, and ends the frame function.
   local function film(call)
     bench:write("film.lua", [[
 local celspan, library = require "celspan", require "celspan.]] .. call:match "^%w+" .. [["
@@ -147,6 +147,7 @@ describe("art:show", function()
   local function greens(art)
     local found = {}
     for i = 1, 4 do
+      local _
       _, found[i] = celspan.probe(celspan.rostrum { celspan.cel { art.object } }, 10 * i - 5, 5,
         { film = { 40, 10 } })
     end

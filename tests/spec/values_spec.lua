@@ -273,7 +273,7 @@ describe("a fade", function()
     end
   end)
 
-  it("and an opacity and a mix are held to 0..1, because curves overshoot", function()
+  it("and an opacity and a mix are limited to 0..1, because curves overshoot", function()
     local circle = celspan.circle { centre = { 50, 50 }, radius = 9, texture = "#fff" }
     for _, value in ipairs { circle, celspan.cel { circle } } do
       assert.are.equal(1, shown(value:fade(1.1)))

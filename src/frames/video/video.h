@@ -19,8 +19,8 @@ typedef struct cs_video_desc {
   cs_video_options options; /* which the format supports */
   cs_video_frames frames;
   cs_sound_stream sound; /* as long as the frames; none: there is no sound */
-  bool has_digests;   /* hashes the RGBA pixels of each frame */
-  bool keeps_nothing; /* makes a frame again that equals the previous one */
+  bool has_digests;      /* hashes the RGBA pixels of each frame */
+  bool keeps_nothing;    /* makes a frame again that equals the previous one */
 } cs_video_desc;
 
 typedef struct cs_video {
