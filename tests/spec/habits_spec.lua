@@ -237,6 +237,24 @@ describe("art:show", function()
   end)
 end)
 
+describe("a line that begins later", function()
+  it("has the mouth at rest before it", function()
+    local lips = require "celspan.lips"
+    local path = bench:write("line.tsv", "0.00\tB\n0.50\tD\n1.00\tX\n")
+    local function at(start, ...)
+      local track, list = assert(lips.read(path, { fps = 4, hold = 1, start = start })), {}
+      for i, frame in ipairs { ... } do list[i] = track:at(frame) end
+      return table.concat(list) .. track.frames
+    end
+    assert.equal("BBDDX4", at(nil, 1, 2, 3, 4, 5))
+    assert.equal("XXBBDDX6", at(0.5, 1, 2, 3, 4, 5, 6, 7))
+    assert.equal("BDDX3", at(-0.25, 1, 2, 3, 4))
+    assert.equal("X0", at(-9, 1))
+    assert.is_truthy(raised.message(function() lips.read(path, { start = 1e9 }) end)
+      :find("field 'start' must be within 1000000 frames", 1, true))
+  end)
+end)
+
 describe("--draft", function()
   it("is half the size, even, and without antialiasing", function()
     bench:write("film.lua", [[
