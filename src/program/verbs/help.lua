@@ -93,7 +93,8 @@ end
 
 --- The recipe for a task, or the list of those that it may mean.
 local function put_task(out, word)
-  local found, all = load(program.text "recipes.lua", "@celspan/recipes.lua")(program.text "cookbook.md").find(word)
+  local recipes = load(program.text "recipes.lua", "@celspan/recipes.lua")(program.text "cookbook.md")
+  local found, all = recipes.find(word)
   if word == "cookbook" then found = all end
   if #found == 1 then
     out:write(found[1].title, "\n\n", found[1].text, "\n")
