@@ -76,19 +76,25 @@ local list = {
     { script = "scripts/kernels.lua", frame = "all", file = "kernels.#.png" } } },
 }
 
--- The recipes of the cookbook, each with the frame that is shown.
+-- The recipes of the cookbook, each with the frame that is shown, and its size if it has many
+-- shades.
 for _, recipe in ipairs {
-  { "cast_shadow", 12 }, { "drop_shadow", 10 }, { "neon_glow", 24 }, { "soft_vignette", 1 },
+  { "cast_shadow", 12 }, { "drop_shadow", 10, "360x202" }, { "neon_glow", 24, "360x202" },
+  { "soft_vignette", 1, "360x202" }, { "stained_glass", 20, "360x202" }, { "time_lapse", 79 },
   { "letter_mask", 20 }, { "clock_wipe", 20 }, { "iris_out", 24 }, { "endless_zoom", 20 },
-  { "lower_third", 30 }, { "karaoke_line", 27 }, { "rolling_credits", 120 },
-  { "three_languages", 12 }, { "text_on_path", 40 }, { "speech_bubble", 20 }, { "bar_race", 90 },
-  { "pie_chart", 44 }, { "line_chart", 50 }, { "rolling_counter", 30 }, { "island_map", 40 },
-  { "paper_texture", 1 }, { "boiling_line", 4 }, { "hatching", 1 }, { "halftone_dots", 1 },
-  { "snowfall", 30 }, { "water_reflection", 10 }, { "squash_stretch", 33 },
-  { "magnifying_lens", 40 }, { "old_film", 12 }, { "sprite_sheet", 1 },
+  { "split_screen", 8 }, { "kaleidoscope", 1 }, { "lower_third", 30 }, { "karaoke_line", 27 },
+  { "rolling_credits", 120 }, { "three_languages", 12 }, { "text_on_path", 40 },
+  { "speech_bubble", 20 }, { "falling_letters", 24 }, { "srt_subtitles", 96 },
+  { "handwriting", 52 }, { "bar_race", 90 }, { "pie_chart", 44 }, { "line_chart", 50 },
+  { "rolling_counter", 30 }, { "island_map", 40 }, { "paper_texture", 1, "360x202" },
+  { "boiling_line", 4 }, { "hatching", 1 }, { "halftone_dots", 1, "360x202" },
+  { "snowfall", 30, "360x202" }, { "water_reflection", 10 }, { "squash_stretch", 33 },
+  { "magnifying_lens", 40 }, { "old_film", 12, "360x202" }, { "morph_shapes", 26 },
+  { "confetti_burst", 17 }, { "camera_shake", 40 }, { "sprite_sheet", 1 },
   { "transparent_video", 30 },
 } do
-  list[#list + 1] = { name = recipe[1], page = "docs/cookbook.md", frame = recipe[2] }
+  list[#list + 1] = { name = recipe[1], page = "docs/cookbook.md", frame = recipe[2],
+    size = recipe[3] }
 end
 
 return list

@@ -27,7 +27,10 @@ Track.__name = "celspan.lips"
 --- The replacements for shapes that a set of drawings lacks, as Rhubarb defines them.
 local fallbacks = { G = "A", H = "C", X = "A" }
 
-local known = { fps = "number", hold = "number", map = "table", set = "table" }
+local known = { fps = "number", hold = "number", map = "table", set = "table",
+                start = "number" }
+
+local SHIFT_MOST = 1e6 -- frames before a line
 
 --- Checks ranges; names and types have already been checked.
 local function check_ranges(options)
@@ -39,6 +42,18 @@ local function check_ranges(options)
     error("lips: field 'hold' must be a whole number of frames, 1 or more, got "
       .. fields.shown(hold), 3)
   end
+  if math.abs((options.start or 0) * fps) > SHIFT_MOST then
+    error(("lips: field 'start' must be within %d frames, got %s seconds"):format(SHIFT_MOST,
+      fields.shown(options.start)), 3)
+  end
+end
+
+--- The shapes of a line that begins some frames later, with the mouth at rest before it; a negative
+--- number cuts its beginning.
+local function shifted(shapes, count, rest)
+  local list = {}
+  for n = 1, count do list[n] = rest end
+  return table.move(shapes, 1 + math.max(0, -count), #shapes, #list + 1, list)
 end
 
 --- The name of the drawing of a shape: first the replacements for missing shapes, then the map.
@@ -71,6 +86,7 @@ end
 ---@field fps? number Default 24
 ---@field hold? integer The shortest time of a shape, in frames; default 2
 ---@field map? table<string, any> Names of your own
+---@field start? number When the line begins, in seconds of the film; default 0
 ---@field set? string[] The shapes that are drawn; missing ones are replaced: G by A, H by C, X by A
 
 ---@param path string Relative to the caller's file, else to the script
@@ -98,6 +114,7 @@ function lips.read(path, options)
   local name = namer(options)
   for n, shape in ipairs(shapes) do shapes[n] = name(shape) end
   local rest = name(found.cues and "X" or "rest")
+  shapes = shifted(shapes, math.floor((options.start or 0) * fps + 0.5), rest)
   return setmetatable({ shapes = shapes, frames = #shapes, fps = fps, rest = rest }, Track)
 end
 

@@ -56,8 +56,15 @@ function Art:with(changes)
   local names = {}
   for name in pairs(self.parts) do names[#names + 1] = name end
   table.sort(names)
+  local numbers
   for name, change in next, changes do
-    if type(name) ~= "string" or rawget(self.parts, name) == nil then
+    if not numbers and type(name) == "string" and name:find "^#%d+$" then
+      numbers = {}
+      for _, element in ipairs(self.__drawing:elements()) do numbers[element.name] = true end
+    end
+    local is_known = type(name) == "string"
+      and (rawget(self.parts, name) ~= nil or numbers and numbers[name])
+    if not is_known then
       local hint = type(name) == "string" and core.nearest(name, names)
       error(("svg: the drawing has no part '%s'%s"):format(tostring(name),
         hint and ("; did you mean '%s'?"):format(hint) or ""), 2)
@@ -67,6 +74,53 @@ function Art:with(changes)
     end
   end
   return wrap(self.__drawing:with(changes))
+end
+
+---@class celspan.svg.element
+---@field name string "#7": its number among the elements of the file, for `with`
+---@field tag string "path", "g", ...
+---@field id? string
+---@field label? string
+---@field class? string
+---@field fill? string "#rrggbb" of a shape or a text with one colour
+---@field line integer Of the file
+---@field object celspan.object
+
+local wanted = { tag = "string", class = "string", fill = "string", id = "string", label = "string",
+                 line = "number" }
+
+--- Whether one of the words between blanks is this one.
+local function has_word(text, word)
+  return text and (" " .. text:gsub("%s+", " ") .. " "):find(" " .. word .. " ", 1, true) ~= nil
+end
+
+--- "#F80" as "#ff8800", as elements have it.
+local function long(colour)
+  local short = colour:lower():match "^#(%x%x%x)$"
+  return short and "#" .. short:gsub(".", "%0%0") or colour:lower()
+end
+
+local function goes_with(element, what)
+  for field, value in next, what do
+    local given = element[field]
+    if field == "fill" then value = long(value) end
+    if field == "class" and not has_word(given, value) then return false end
+    if field ~= "class" and given ~= value then return false end
+  end
+  return true
+end
+
+--- The elements that are drawn, with and without names: all, or those of a tag, class, fill, ...
+---@param what? { tag?: string, class?: string, fill?: string, id?: string, label?: string, line?: integer }
+---@return celspan.svg.element[]
+function Art:elements(what)
+  fields.self("svg", Art, self, "elements")
+  fields.check("svg: elements", what or {}, wanted)
+  local found = {}
+  for _, element in ipairs(self.__drawing:elements()) do
+    if goes_with(element, what or {}) then found[#found + 1] = element end
+  end
+  return found
 end
 
 --- The parts of a set, by their names in it: "mouth C", "mouth-C" and "mouth/C" are the C of the

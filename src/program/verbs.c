@@ -157,6 +157,9 @@ static const cs_option RENDER[] = {
 
 static const cs_option INFO[] = {{"--parameters", NULL, NULL, "only the parameters of a script"},
                                  {"--json", NULL, NULL, "with --parameters: as JSON Schema"},
+                                 {"--parts-picture", "FILE", &cs_argument_file,
+                                  "of an SVG drawing: a sheet of its elements with their numbers, "
+                                  "which are also listed"},
                                  SCRIPT,
                                  {0}};
 

@@ -131,6 +131,68 @@ return celspan.rostrum { celspan.cel { celspan.image { file = "hero.svg" } } }]]
   end)
 end)
 
+describe("an element without a name", function()
+  local SVG = [[
+<svg xmlns="http://www.w3.org/2000/svg" width="40" height="10">
+<defs><rect id="r" width="10" height="10" fill="#00f"/></defs>
+<g><rect class="leaf big" width="10" height="10" fill="#f00"/>
+<rect class="leaf" x="10" width="10" height="10" style="fill:lime"/></g>
+<use href="#r" x="20"/><use href="#r" x="30"/></svg>]]
+
+  local function read()
+    return assert(require "celspan.svg".read(bench:write("leaves.svg", SVG)))
+  end
+
+  local function names(art, what)
+    local list = {}
+    for i, element in ipairs(art:elements(what)) do list[i] = element.name .. element.tag end
+    return table.concat(list, " ")
+  end
+
+  local function colour(art, x)
+    local r, g, b = celspan.probe(celspan.rostrum { celspan.cel { art.object } }, x, 5,
+      { film = { 40, 10 } })
+    return ("%g %g %g"):format(r, g, b)
+  end
+
+  with_art("is found by its place, class, fill or line", function()
+    local art = read()
+    assert.equal("#3g #4rect #5rect #6use #7use #2rect", names(art))
+    assert.equal("#4rect #5rect", names(art, { class = "leaf" }))
+    assert.equal("#4rect", names(art, { class = "big", fill = "#F00" }))
+    assert.equal("#5rect", names(art, { fill = "#00ff00" }))
+    assert.equal("#3g #4rect", names(art, { line = 3 }))
+    assert.equal("", names(art, { class = "lea" }))
+    assert.are.same({ 10, 0, 10, 10 }, { art:elements({ fill = "#0f0" })[1].object:bounds() })
+    assert.is_truthy(raised.message(function() art:elements { colour = "#f00" } end)
+      :find("unknown field 'colour'", 1, true))
+  end)
+
+  with_art("is changed by its number, wherever it is shown, and again", function()
+    local art = read():with { ["#4"] = function(leaf) return leaf:paint "#fff" end,
+      ["#2"] = function(box) return box:paint "#000" end }
+    assert.equal("1 1 1", colour(art, 5))
+    assert.equal("0 1 0", colour(art, 15))
+    assert.equal("0 0 0", colour(art, 25))
+    assert.equal("0 0 0", colour(art, 35))
+    art = art:with { ["#3"] = function(group) return group:fade(0) end }
+    assert.equal("0 0 0", colour(art, 5))
+    assert.is_truthy(raised.message(function() art:with { ["#9"] = print } end)
+      :find("the drawing has no part '#9'", 1, true))
+  end)
+
+  with_art("has its number on the sheet of --parts-picture", function()
+    read()
+    local code, out, message = run "info leaves.svg --parts-picture parts.png"
+    assert.equal(0, code, message)
+    assert.is_truthy(out:find("element #5 line 4 rect class leaf fill #00ff00\n", 1, true), out)
+    local _, facts = run "info parts.png"
+    assert.is_truthy(facts:find("size 1044x76", 1, true), facts)
+    bench:write("film.lua", "return require 'celspan'.rostrum {}")
+    refused(2, "--parts-picture is for SVG drawings", "info film.lua --parts-picture parts.png")
+  end)
+end)
+
 describe("art:show", function()
   local function puppet()
     local svg = require "celspan.svg"
@@ -147,9 +209,8 @@ describe("art:show", function()
   local function greens(art)
     local found = {}
     for i = 1, 4 do
-      local _
-      _, found[i] = celspan.probe(celspan.rostrum { celspan.cel { art.object } }, 10 * i - 5, 5,
-        { film = { 40, 10 } })
+      found[i] = select(2, celspan.probe(celspan.rostrum { celspan.cel { art.object } },
+        10 * i - 5, 5, { film = { 40, 10 } }))
     end
     return found
   end
@@ -173,6 +234,24 @@ describe("art:show", function()
       assert.is_truthy(message:find(words, 1, true), message)
       assert.is_truthy(message:find "^tests/spec/habits_spec.lua:", message)
     end
+  end)
+end)
+
+describe("a line that begins later", function()
+  it("has the mouth at rest before it", function()
+    local lips = require "celspan.lips"
+    local path = bench:write("line.tsv", "0.00\tB\n0.50\tD\n1.00\tX\n")
+    local function at(start, ...)
+      local track, list = assert(lips.read(path, { fps = 4, hold = 1, start = start })), {}
+      for i, frame in ipairs { ... } do list[i] = track:at(frame) end
+      return table.concat(list) .. track.frames
+    end
+    assert.equal("BBDDX4", at(nil, 1, 2, 3, 4, 5))
+    assert.equal("XXBBDDX6", at(0.5, 1, 2, 3, 4, 5, 6, 7))
+    assert.equal("BDDX3", at(-0.25, 1, 2, 3, 4))
+    assert.equal("X0", at(-9, 1))
+    assert.is_truthy(raised.message(function() lips.read(path, { start = 1e9 }) end)
+      :find("field 'start' must be within 1000000 frames", 1, true))
   end)
 end)
 

@@ -929,6 +929,23 @@ CELSPAN_API celspan_point celspan_svg_size(const celspan_svg *svg);
 CELSPAN_API size_t celspan_svg_part_count(const celspan_svg *svg);
 CELSPAN_API celspan_object *celspan_svg_part(const celspan_svg *svg, size_t index,
                                              const char **name);
+/* An element that is drawn, with or without a name of its own. Its texts and its object live as
+ * long as the call of the visitor. */
+typedef struct celspan_svg_element {
+  const char *name; /* "#7": its number among the elements of the file, for celspan_svg_with */
+  const char *tag;
+  const char *id, *label, *classes; /* NULL: none */
+  const char *fill;                 /* "#rrggbb" of a shape or a text; NULL: no flat colour */
+  int32_t line;
+  celspan_object *object; /* as that of a part */
+} celspan_svg_element;
+typedef celspan_status (*celspan_svg_visit)(void *user, const celspan_svg_element *element);
+/* Visits the elements in the order in which they are drawn, each once; those that only `use` shows
+ * come last. Errors: NO_MEMORY; those of the visitor. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_svg_elements(celspan_context *context,
+                                                                const celspan_svg *svg,
+                                                                celspan_svg_visit visit,
+                                                                void *user);
 /* What was not drawn, in the order of the file. */
 CELSPAN_API size_t celspan_svg_skipped_count(const celspan_svg *svg);
 CELSPAN_API const char *celspan_svg_skipped(const celspan_svg *svg, size_t index, int32_t *line);
@@ -938,7 +955,7 @@ CELSPAN_API const char *celspan_svg_skipped(const celspan_svg *svg, size_t index
 typedef celspan_status (*celspan_svg_change)(void *user, celspan_context *context,
                                              celspan_object *part, celspan_object **out);
 typedef struct celspan_svg_changed {
-  const char *name; /* of a part */
+  const char *name; /* of a part or an element */
   celspan_svg_change change;
   void *user;
 } celspan_svg_changed;

@@ -101,6 +101,44 @@ static int parts(lua_State *L) {
   return 1;
 }
 
+/* light userdata: an element; the list. Runs protected. */
+static int add_element(lua_State *L) {
+  const celspan_svg_element *element = lua_touserdata(L, 1);
+  lua_createtable(L, 0, 8);
+  cs_put_text(L, "name", element->name);
+  cs_put_text(L, "tag", element->tag);
+  cs_put_text(L, "id", element->id);
+  cs_put_text(L, "label", element->label);
+  cs_put_text(L, "class", element->classes);
+  cs_put_text(L, "fill", element->fill);
+  cs_put_integer(L, "line", element->line);
+  push_object(L, element->object);
+  lua_setfield(L, -2, "object");
+  lua_rawseti(L, 2, (lua_Integer)lua_rawlen(L, 2) + 1);
+  return 0;
+}
+
+static celspan_status visit(void *user, const celspan_svg_element *element) {
+  lua_State *L = user;
+  lua_pushcfunction(L, add_element);
+  lua_pushlightuserdata(L, (void *)(size_t)element);
+  lua_pushvalue(L, 2);
+  if (lua_pcall(L, 2, 0, 0) == LUA_OK)
+    return CELSPAN_OK;
+  lua_pop(L, 1); /* there was no memory */
+  return CELSPAN_NO_MEMORY;
+}
+
+/* elements() -> { { name =, tag =, id =, label =, class =, fill =, line =, object = }, ... } */
+static int elements(lua_State *L) {
+  const celspan_svg *svg = self(L);
+  lua_settop(L, 1);
+  lua_newtable(L);
+  luaL_checkstack(L, 8, "elements");
+  cs_host_try(L, "svg", celspan_svg_elements(cs_host_context(L), svg, visit, L));
+  return 1;
+}
+
 static int skipped(lua_State *L) {
   const celspan_svg *svg = self(L);
   size_t count = celspan_svg_skipped_count(svg);
@@ -240,9 +278,9 @@ static int read(lua_State *L) {
 }
 
 void cs_drawing_open(lua_State *L) {
-  static const luaL_Reg methods[] = {{"key", key},   {"object", object},   {"parts", parts},
-                                     {"size", size}, {"skipped", skipped}, {"with", with},
-                                     {NULL, NULL}};
+  static const luaL_Reg methods[] = {{"key", key},           {"object", object},   {"parts", parts},
+                                     {"size", size},         {"skipped", skipped}, {"with", with},
+                                     {"elements", elements}, {NULL, NULL}};
   /* Also where there is one: without memory it may have been left half made. */
   luaL_newmetatable(L, METATABLE);
   lua_pushcfunction(L, release);

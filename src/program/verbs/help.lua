@@ -53,7 +53,8 @@ local function put_verb(out, verb)
   if verb.notes then out:write("\n", wrapped(verb.notes, 0), "\n") end
   if verb.options[1] then out:write "\nOptions\n" end
   for _, option in ipairs(verb.options) do
-    out:write(("  %-18s %s\n"):format(option.name .. " " .. (option.value or ""),
+    local words = option.name .. " " .. (option.value or "")
+    out:write(("  %-18s%s%s\n"):format(words, #words > 18 and option.value and "  " or " ",
       wrapped(option.help, 21)))
   end
   if verb.has_script then

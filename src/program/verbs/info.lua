@@ -113,13 +113,33 @@ local function describe_painting(format)
   io.write("format ", format, "\n", text)
 end
 
+--- The elements of a drawing with their numbers, one a line, and their sheet.
+local function show_parts(output)
+  local art = program.input(require "celspan.svg".read(path))
+  program.refuse_target(output)
+  for _, element in ipairs(art:elements()) do
+    local words = {}
+    for _, field in ipairs { "id", "class", "fill" } do
+      if element[field] then words[#words + 1] = (" %s %s"):format(field, plain(element[field])) end
+    end
+    put("element %s line %d %s%s", element.name, element.line, plain(element.tag),
+      table.concat(words))
+  end
+  load(program.text "parts.lua", "@celspan/parts.lua")(program, art, output)
+end
+
+local function describe_drawing()
+  io.write((program.input(require "celspan.inform".drawing(path))))
+  if request.parts_picture then show_parts(request.parts_picture) end
+end
+
 local describe = {
   script = describe_film,
   picture = describe_picture,
   span = describe_spans,
   archive = function() describe_painting "painting" end,
   folder = function() describe_painting "folder" end,
-  svg = function() io.write((program.input(require "celspan.inform".drawing(path)))) end,
+  svg = describe_drawing,
   --- A Photoshop document is a picture with subimages for `layer`, and a painting with more in it.
   psd = function()
     describe_picture()
@@ -132,6 +152,9 @@ local kind = program.kind(path)
 if request.json and not request.parameters then program.usage("--json goes with --parameters") end
 if kind ~= "script" and request.parameters then
   program.usage("--parameters is for scripts: %s is not a script", path)
+end
+if request.parts_picture and kind ~= "svg" then
+  program.usage("--parts-picture is for SVG drawings: %s is not one", path)
 end
 if kind ~= "script" then program.refuse_rights() end
 describe[kind]()

@@ -1,5 +1,6 @@
 #include "readers/svg/art.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "base/hash_table.h"
@@ -270,6 +271,63 @@ static celspan_status make_parts(celspan_context *context, celspan_svg *art) {
   cs_mem_free(context->memory, list.is_shared, list.shared_capacity * sizeof *list.is_shared);
   return status;
 }
+
+/* ---------------------------------------------------------------- elements */
+
+typedef struct visiting {
+  celspan_context *context;
+  celspan_svg_visit visit;
+  void *user;
+  cs_hash_table visited; /* the numbers of those that were visited */
+} visiting;
+
+static celspan_status visit_element(visiting *v, const cs_svg_item *item) {
+  const cs_svg_facts *facts = item->facts;
+  celspan_object *object;
+  cs_hash hash = cs_hash_begin(0x656c656du);
+  size_t place;
+  char name[16];
+  cs_hash_word(&hash, facts->number);
+  hash = cs_hash_end(hash);
+  if (cs_hash_table_find(&v->visited, hash, &place))
+    return CELSPAN_OK;
+  CS_TRY(cs_hash_table_add(&v->visited, v->context, hash, facts->number));
+  CS_TRY(at_home(v->context, item, &object));
+  snprintf(name, sizeof name, "#%u", facts->number);
+  celspan_svg_element element = {.name = name,
+                                 .tag = facts->tag,
+                                 .id = item->id,
+                                 .label = item->label,
+                                 .classes = facts->classes,
+                                 .fill = facts->fill[0] ? facts->fill : NULL,
+                                 .line = (int32_t)facts->line,
+                                 .object = object};
+  celspan_status status = v->visit(v->user, &element);
+  celspan_object_unref(object);
+  return status;
+}
+
+/* Recursion: the depth of items. */
+static celspan_status visit_items(visiting *v, const cs_svg_item *item, bool is_moved) {
+  for (; item; item = item->next) {
+    if (item->facts && item->object && item->is_moved == is_moved)
+      CS_TRY(visit_element(v, item));
+    CS_TRY(visit_items(v, item->first, is_moved));
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status celspan_svg_elements(celspan_context *context, const celspan_svg *svg,
+                                    celspan_svg_visit visit, void *user) {
+  visiting v = {.context = context, .visit = visit, .user = user};
+  celspan_status status = visit_items(&v, svg->root, false);
+  if (status == CELSPAN_OK)
+    status = visit_items(&v, svg->root, true);
+  cs_hash_table_finish(&v.visited, context);
+  return status;
+}
+
+/* ---------------------------------------------------------------- the whole */
 
 celspan_status cs_svg_art_complete(celspan_context *context, celspan_svg *art) {
   if (art->root->object)

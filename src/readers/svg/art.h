@@ -20,9 +20,17 @@ typedef struct cs_svg_mask {
   size_t count;
 } cs_svg_mask;
 
+/* What an element of the file is, for those without a name. */
+typedef struct cs_svg_facts {
+  uint32_t number, line;     /* number: among all elements of the file, from 1 */
+  const char *tag, *classes; /* classes: NULL where it has none; in the arena, as the tag */
+  char fill[8];              /* "#rrggbb" of a shape or text; "": none, or no flat colour */
+} cs_svg_facts;
+
 typedef struct cs_svg_item {
   struct cs_svg_item *next, *first, *last; /* first, last: items inside */
   const char *id, *label;                  /* NULL: none; in the arena */
+  const cs_svg_facts *facts;               /* NULL: it is a part of what an element draws */
   celspan_object *own;                     /* NULL for a group, and for nothing */
   bool has_clip;
   celspan_object *clip; /* NULL with has_clip: everything is cut away */

@@ -1,4 +1,5 @@
 /* A drawing with parts changed: a copy of its items in which changed parts are leaves. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "model/scene/check.h"
@@ -7,12 +8,15 @@
 typedef struct changing {
   celspan_context *context;
   const celspan_svg_changed *changes;
-  bool *are_labels; /* whether each change's name is a label, and not an id */
+  bool *are_labels;  /* whether each change's name is a label, and not an id */
+  uint32_t *numbers; /* of the element that each change is of; 0: it has a name */
   size_t change_count;
   celspan_svg *art; /* the copy */
 } changing;
 
 static bool is_meant(const changing *c, size_t change, const cs_svg_item *item) {
+  if (c->numbers[change])
+    return item->facts && item->facts->number == c->numbers[change];
   const char *name = c->are_labels[change] ? item->label : item->id;
   return name && strcmp(name, c->changes[change].name) == 0;
 }
@@ -102,6 +106,7 @@ static celspan_status copy_item(changing *c, const cs_svg_item *from, cs_svg_ite
   bool is_inside_changed = false;
   item->id = from->id;
   item->label = from->label;
+  item->facts = from->facts;
   item->own = kept(from->own);
   item->has_clip = from->has_clip;
   item->clip = kept(from->clip);
@@ -131,6 +136,23 @@ static celspan_status copy_items(changing *c, const cs_svg_item *from, cs_svg_it
 
 /* ---------------------------------------------------------------- the whole */
 
+/* Recursion: the depth of items. */
+static bool has_number(const cs_svg_item *item, uint32_t number) {
+  bool found = false;
+  for (; item && !found; item = item->next)
+    found = (item->facts && item->facts->number == number && item->object) ||
+            has_number(item->first, number);
+  return found;
+}
+
+/* The number in a name such as "#12" where the drawing has that element; 0: it has not. */
+static uint32_t number_of(const celspan_svg *svg, const char *name) {
+  char *end = NULL;
+  unsigned long number = name[0] == '#' ? strtoul(name + 1, &end, 10) : 0;
+  bool is_number = end && !*end && number > 0 && number <= UINT32_MAX;
+  return is_number && has_number(svg->root, (uint32_t)number) ? (uint32_t)number : 0;
+}
+
 static celspan_status find_names(changing *c, const celspan_svg *svg) {
   for (size_t i = 0; i < c->change_count; i++) {
     const celspan_svg_changed *change = &c->changes[i];
@@ -140,10 +162,12 @@ static celspan_status find_names(changing *c, const celspan_svg *svg) {
                      "svg: changes[%zu] has no name or no function", i + 1);
     while (place < svg->part_count && strcmp(svg->parts[place].name, change->name) != 0)
       place++;
-    if (place == svg->part_count)
+    bool is_part = place < svg->part_count;
+    c->are_labels[i] = is_part && svg->parts[place].is_label;
+    c->numbers[i] = is_part ? 0 : number_of(svg, change->name);
+    if (!is_part && c->numbers[i] == 0)
       return cs_fail(c->context, CELSPAN_BAD_ARGUMENT, "svg: there is no part \"%s\"",
                      change->name);
-    c->are_labels[i] = svg->parts[place].is_label;
   }
   return CELSPAN_OK;
 }
@@ -178,7 +202,8 @@ celspan_status celspan_svg_with(celspan_context *context, const celspan_svg *svg
   changing c = {.context = context, .changes = changes, .change_count = change_count};
   CS_TRY(cs_svg_art_create(context, &c.art));
   c.are_labels = cs_arena_take(context, &c.art->arena, change_count * sizeof *c.are_labels);
-  celspan_status status = c.are_labels ? find_names(&c, svg) : CELSPAN_NO_MEMORY;
+  c.numbers = cs_arena_take(context, &c.art->arena, change_count * sizeof *c.numbers);
+  celspan_status status = c.are_labels && c.numbers ? find_names(&c, svg) : CELSPAN_NO_MEMORY;
   if (status == CELSPAN_OK)
     status = copy_art(&c, svg);
   if (status == CELSPAN_OK)

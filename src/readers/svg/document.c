@@ -197,7 +197,9 @@ static celspan_status add_element(reader *r, const char *tag, const char *const 
   cs_svg_node *node = cs_arena_take(r->context, &r->document->arena, sizeof *node);
   if (!node)
     return CELSPAN_NO_MEMORY;
-  *node = (cs_svg_node){.line = (uint32_t)line, .element = cs_svg_element_named(tag)};
+  *node = (cs_svg_node){.line = (uint32_t)line,
+                        .number = (uint32_t)r->document->element_count - 1,
+                        .element = cs_svg_element_named(tag)};
   if (!r->open && node->element != CS_SVG_ELEMENT_SVG)
     return cs_fail(r->context, CELSPAN_INPUT,
                    "%s:%u: the document is \"%.100s\"; a drawing begins with svg", r->name,

@@ -23,9 +23,9 @@ typedef struct cs_svg_attribute {
 
 typedef struct cs_svg_node {
   cs_svg_element element;
-  const char *tag;  /* its name, without a namespace */
-  const char *text; /* of CHARACTERS: UTF-8, as the file has it; else NULL */
-  uint32_t line;
+  const char *tag;       /* its name, without a namespace */
+  const char *text;      /* of CHARACTERS: UTF-8, as the file has it; else NULL */
+  uint32_t line, number; /* number: of elements, from 1 in the order of the file */
   struct cs_svg_node *parent, *first, *last, *next; /* NULL: none; first, last: children */
   const cs_svg_attribute *attributes;
   size_t attribute_count;

@@ -1,5 +1,41 @@
 #include "readers/svg/naming.h"
 
+#include <math.h>
+#include <stdio.h>
+
+#include "readers/svg/shapes.h"
+
+/* Writes the colour of a fill as "#rrggbb"; "" where it has no colour of its own. */
+static void write_fill(const cs_svg_style *style, char out[8]) {
+  const cs_svg_paint *fill = &style->fill;
+  bool is_current = fill->kind == CS_SVG_PAINT_CURRENT;
+  const double *rgb = is_current ? style->colour.rgb : fill->colour.rgb;
+  unsigned codes[3];
+  out[0] = '\0';
+  if (fill->has_server || (!is_current && fill->kind != CS_SVG_PAINT_COLOUR))
+    return;
+  for (int i = 0; i < 3; i++)
+    codes[i] = (unsigned)lround(255 * fmin(fmax(rgb[i], 0), 1)) & 255;
+  snprintf(out, 8, "#%02x%02x%02x", codes[0], codes[1], codes[2]);
+}
+
+static celspan_status note_facts(celspan_context *context, celspan_svg *art,
+                                 const cs_svg_node *node, const cs_svg_style *style,
+                                 cs_svg_item *item) {
+  const char *classes = cs_svg_node_value(node, CS_SVG_CLASS);
+  cs_svg_facts *facts = cs_arena_take(context, &art->arena, sizeof *facts);
+  if (!facts)
+    return CELSPAN_NO_MEMORY;
+  *facts = (cs_svg_facts){.number = node->number, .line = node->line};
+  CS_TRY(cs_svg_text_copy(context, art, node->tag, &facts->tag));
+  if (classes && *classes)
+    CS_TRY(cs_svg_text_copy(context, art, classes, &facts->classes));
+  if (cs_svg_is_shape(node) || node->element == CS_SVG_ELEMENT_TEXT)
+    write_fill(style, facts->fill);
+  item->facts = facts;
+  return CELSPAN_OK;
+}
+
 celspan_status cs_svg_item_name(cs_svg_reading *reading, celspan_svg *art, const cs_svg_node *node,
                                 const cs_svg_place *place, cs_svg_item *item) {
   celspan_context *context = reading->context;
@@ -9,6 +45,8 @@ celspan_status cs_svg_item_name(cs_svg_reading *reading, celspan_svg *art, const
     CS_TRY(cs_svg_text_copy(context, art, id, &item->id));
   if (label && *label)
     CS_TRY(cs_svg_text_copy(context, art, label, &item->label));
+  if (node->parent)
+    CS_TRY(note_facts(context, art, node, &place->style, item));
   item->is_moved = place->is_moved;
   if (item->is_moved) {
     item->moved = place->moved;
