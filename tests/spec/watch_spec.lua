@@ -399,6 +399,46 @@ describe("the page of celspan watch", function()
     assert.truthy(said.hits:find("ground (cel) shot.lua:4", 1, true), said.hits)
   end)
 
+  it("shows the exposure sheet, and goes where it is clicked", function()
+    local said = see(watch(), [=[
+      await page.until(`${stage("frame")} === "1"`);
+      await page.press("s");
+      await page.until(`document.querySelectorAll("#names li").length === 2`);
+      const box = await page.get(`(() => { const b = document.querySelector("#rows")
+        .getBoundingClientRect(); return [b.left, b.top, b.width, b.height]; })()`);
+      await page.click(box[0] + box[2] * 29.5 / 48, box[1] + 30);
+      await page.until(`${stage("frame")} === "30"`);
+      const painted = await page.get(`[8, 28].map(y => document.querySelector("#rows")
+        .getContext("2d").getImageData(4, y * devicePixelRatio, 1, 1).data[3])`);
+      return { painted, head: await page.get(`parseFloat(document.querySelector("#head").style.left)
+        / document.querySelector("#rows").clientWidth * 48`),
+               names: await page.get(`document.querySelector("#names").innerText`) };]=])
+    assert.same({ 255, 255 }, said.painted)
+    assert.is_true(math.abs(said.head - 29.5) < 0.2, said.head)
+    assert.equal("cel 2\nground", said.names)
+  end)
+
+  it("compares a save with the one before, by a wipe or their difference", function()
+    local said = see(watch(), [=[
+      const folder = "]=] .. bench.folder .. [=[/", fs = require("fs");
+      const colours = () => page.get(`[0.1, 0.9].map(x => { const stage =
+        document.querySelector("#stage"); return [...stage.getContext("2d")
+        .getImageData(Math.round(x * stage.width), 2, 1, 1).data].join(); })`);
+      await page.until(`${stage("frame")} === "1"`);
+      const old = await page.get(stage("build"));
+      const script = fs.readFileSync(folder + "shot.lua", "utf8");
+      page.write(folder + "shot.lua", script.replace("#ffe0b0", "#ffd0b0"));
+      await page.until(`${stage("build")} !== "${old}"`);
+      const seen = [];
+      for (const key of ["w", "d", "d"]) {
+        await page.press(key);
+        seen.push(await colours());
+      }
+      return seen;]=])
+    assert.same({ { "255,224,176,255", "255,208,176,255" }, { "0,64,0,255", "0,64,0,255" },
+                  { "255,208,176,255", "255,208,176,255" } }, said)
+  end)
+
   it("has a form for the parameters, which the address and a command line hold", function()
     bench:write("shot.lua", (FILM:gsub("return celspan.film", [[
       local p = celspan.parameters { tint = { colour = "#33cc33" }, side = { "left", "right" },

@@ -138,12 +138,14 @@ function matteOf(bytes) {
 }
 
 function paint(picture) {
-  const [x, y, w, h] = picture.crop;
+  const [, , w, h] = picture.crop;
+  keepOlder(picture);
+  const bytes = mixed(picture);
   if (stage.width !== w || stage.height !== h) {
     stage.width = w;
     stage.height = h;
   }
-  pen.putImageData(new ImageData(isMatte ? matteOf(picture.bytes) : picture.bytes, w, h), 0, 0);
+  pen.putImageData(new ImageData(isMatte ? matteOf(bytes) : bytes, w, h), 0, 0);
   painted = picture;
   stage.dataset.frame = picture.number - 1 + state.film.first;
   stage.dataset.size = picture.size.join("x");
@@ -312,6 +314,7 @@ function showNumbers() {
   here("frames").textContent = state.film.frames;
   here("scrub").max = state.film.frames;
   here("scrub").value = view.number;
+  placeHead();
   const percent = view.scale * 100;
   here("zoom").textContent = `${percent < 10 ? percent.toFixed(1) : Math.round(percent)} %`;
   const whole = loop.from === 1 && loop.to === state.film.frames;
@@ -374,6 +377,7 @@ function takeState(news) {
     if (!before && news.alone) start(1);
   }
   showState();
+  loadSheet();
   if (!isNew) return;
   forget();
   if (state.shown) look();
@@ -485,6 +489,112 @@ function takeDefaults() {
   sendValues();
 }
 
+// ---------------------------------------------------------------- the sheet
+
+const ROW = 20; // CSS pixels
+const sheet = { rows: [], frames: 1, build: 0 };
+
+/** Asks for the sheet if it is open and older than the film. */
+async function loadSheet() {
+  if (here("sheet").hidden || !state.shown || sheet.build === state.build) return;
+  const build = sheet.build = state.build;
+  const answer = await fetch("/sheet.json");
+  if (!answer.ok || build !== state.build) return;
+  Object.assign(sheet, await answer.json());
+  here("names").replaceChildren(...sheet.rows.map(row =>
+    element("li", { textContent: row.name, title: row.name })));
+  drawSheet();
+}
+
+/** A row of the sheet: a box for each drawing as long as it is held, a dot where it only moves. */
+function drawRow(brush, row, y, unit, colours) {
+  row.cells.forEach(([from, name], i) => {
+    const until = i + 1 < row.cells.length ? row.cells[i + 1][0] : sheet.frames + 1;
+    const x = (from - 1) * unit, width = (until - from) * unit;
+    if (!name) return;
+    brush.fillStyle = i % 2 ? colours.odd : colours.even;
+    brush.fillRect(x, y + 2, Math.max(1, width - (width > 3 ? 1 : 0)), ROW - 4);
+    brush.fillStyle = colours.text;
+    if (width > 8 + 7 * name.length) brush.fillText(name, x + 4, y + 14);
+  });
+  brush.fillStyle = colours.dot;
+  for (const frame of row.moved) {
+    brush.fillRect((frame - 0.5) * unit - 1, y + ROW - 5, Math.min(2, Math.max(1, unit)), 2);
+  }
+}
+
+function drawSheet() {
+  const canvas = here("rows"), width = here("cells").clientWidth, r = ratio();
+  const height = Math.max(1, sheet.rows.length) * ROW, brush = canvas.getContext("2d");
+  const style = getComputedStyle(document.documentElement);
+  const colour = name => style.getPropertyValue(name);
+  canvas.width = Math.round(width * r);
+  canvas.height = Math.round(height * r);
+  canvas.style.height = `${height}px`;
+  brush.scale(r, r);
+  brush.font = "11px system-ui, 'DejaVu Sans', sans-serif";
+  const colours = { odd: colour("--line"), even: colour("--press"), text: colour("--text"),
+                    dot: colour("--accent") };
+  sheet.rows.forEach((row, i) => drawRow(brush, row, i * ROW, width / sheet.frames, colours));
+  placeHead();
+}
+
+function placeHead() {
+  const unit = here("cells").clientWidth / sheet.frames;
+  here("head").style.left = `${Math.min(view.number, sheet.frames) * unit - unit / 2 - 1}px`;
+}
+
+function setSheet(isOn) {
+  here("sheet").hidden = !isOn;
+  here("list").setAttribute("aria-pressed", isOn);
+  if (!isOn) return;
+  drawSheet();
+  loadSheet();
+}
+
+function goBySheet(event) {
+  const box = here("rows").getBoundingClientRect();
+  stop();
+  go(Math.floor((event.clientX - box.left) / box.width * sheet.frames) + 1);
+}
+
+// ---------------------------------------------------------------- the save before
+
+let older = null;           // the picture that the save before had here
+let mixing = "";            // "", "wipe" or "differ"
+const DIFFERENCE_GAIN = 4;  // so that small ones are seen
+
+/** Whether two pictures show the same part of the same frame. */
+const isSamePlace = (a, b) => a && b && a.number === b.number
+  && a.size.join() === b.size.join() && a.crop.join() === b.crop.join();
+
+/** Keeps the picture that is painted when one of another save takes its place. */
+function keepOlder(picture) {
+  if (painted && painted.build !== picture.build) older = painted;
+}
+
+/** The bytes to paint of a picture: it, mixed with that of the save before. */
+function mixed(picture) {
+  if (!mixing || !isSamePlace(older, picture)) return picture.bytes;
+  const out = new Uint8ClampedArray(picture.bytes), width = picture.crop[2];
+  for (let i = 0; i < out.length; i += 4) {
+    const isOlder = mixing === "wipe" && i / 4 % width < width / 2;
+    for (let c = i; c < i + 4; c++) {
+      if (isOlder) out[c] = older.bytes[c];
+      if (mixing === "differ") out[c] = DIFFERENCE_GAIN * Math.abs(out[c] - older.bytes[c]);
+    }
+    if (mixing === "differ") out[i + 3] = 255;
+  }
+  return out;
+}
+
+function setMixing(kind) {
+  mixing = mixing === kind ? "" : kind;
+  here("wipe").setAttribute("aria-pressed", mixing === "wipe");
+  here("differ").setAttribute("aria-pressed", mixing === "differ");
+  if (painted) paint(painted);
+}
+
 // ---------------------------------------------------------------- the inspector
 
 function setInspecting(isOn) {
@@ -542,6 +652,7 @@ function setMatte(isOn) {
 
 function setTheme(theme) {
   document.documentElement.dataset.theme = theme;
+  drawSheet();
 }
 
 function swapTheme() {
@@ -581,6 +692,8 @@ const keys = {
   o: () => setLoop(Math.min(loop.from, view.number), view.number),
   x: () => setLoop(1, state.film.frames),
   p: () => setInspecting(here("side").hidden),
+  s: () => setSheet(here("sheet").hidden),
+  w: () => setMixing("wipe"), d: () => setMixing("differ"),
   v: () => setTuning(here("values").hidden),
   g: askNumber,
   "+": () => zoomMiddle(1.5), "=": () => zoomMiddle(1.5), "-": () => zoomMiddle(1 / 1.5),
@@ -660,15 +773,17 @@ desk.addEventListener("wheel", event => {
 const clicks = {
   first: () => { stop(); go(loop.from); }, back: () => step(-1), play: toggle,
   forward: () => step(1), last: () => { stop(); go(loop.to); }, fit: keys[0],
-  matte: keys.m, inspect: keys.p, tune: keys.v, defaults: takeDefaults, theme: swapTheme, help: keys["?"],
+  matte: keys.m, inspect: keys.p, tune: keys.v, list: keys.s, wipe: keys.w, differ: keys.d, defaults: takeDefaults, theme: swapTheme, help: keys["?"],
 };
 for (const [id, act] of Object.entries(clicks)) here(id).addEventListener("click", act);
 
 here("scrub").addEventListener("input", event => { stop(); go(Number(event.target.value)); });
 here("speed").addEventListener("change", event => setSpeed(Number(event.target.value)));
 here("ground").addEventListener("change", event => { stage.dataset.ground = event.target.value; });
+here("cells").addEventListener("click", goBySheet);
 here("go").addEventListener("close", () => { stop(); go(Number(here("number").value)); });
 new ResizeObserver(look).observe(desk);
+new ResizeObserver(drawSheet).observe(here("cells"));
 
 // The address keeps no token once the cookie has it.
 history.replaceState(null, "", given.size ? `/#${given}` : "/");
