@@ -11,6 +11,7 @@ const stage = here("stage"), desk = here("desk"), pen = stage.getContext("2d");
 const SIDE_MOST = 1048576;   // pixels of a frame
 const KEPT_MOST = 192 << 20; // bytes of pictures that are kept
 const AHEAD = 8, AT_ONCE = 3; // pictures asked for ahead while playing, and at the same time
+const BEHIND = 24;           // frames that a picture may be late
 const SLOW = 0.25;           // seconds after which a coarse picture comes first
 const STRIDE = 80;           // device pixels that a key moves the picture
 
@@ -20,7 +21,7 @@ const state = { news: 0, build: 0, film: null, errors: [], shown: false,
 // frame's corner in the window, in device pixels. isFitted: both follow the window.
 const view = { number: 1, scale: 1, x: 0, y: 0, isFitted: true };
 const loop = { from: 1, to: 1 };
-const play = { direction: 0, speed: 1, start: 0, number: 1, painted: [] };
+const play = { direction: 0, speed: 1, start: 0, number: 1, shown: -1, painted: [] };
 let painted = null, isMatte = false, mark = null;
 let refused = null; // the frame that could not be made: number, build, message
 let lastFault = null; // the error that is shown
@@ -235,6 +236,7 @@ function start(direction) {
   play.number = view.number;
   play.start = performance.now();
   play.painted = [];
+  play.shown = -1;
   here("play").textContent = "❚❚";
   here("play").setAttribute("aria-label", "Pause");
   requestAnimationFrame(tick);
@@ -260,15 +262,44 @@ function onward(number, by) {
 }
 
 const asked = new Set();
+// Means of the last ones, in seconds: of one picture from asking to its arrival, and between arrivals.
+const pace = { latency: 0.05, interval: 0.02, last: 0 };
+const mean = (old, value) => old + 0.2 * (value - old);
 
-/** Asks for the next pictures. */
-function askAhead(number) {
+function notePace(began) {
+  const now = performance.now();
+  pace.latency = mean(pace.latency, (now - began) / 1000);
+  if (pace.last > began) pace.interval = mean(pace.interval, (now - pace.last) / 1000);
+  pace.last = now;
+}
+
+/** Asks for the next pictures: for those that can be here in time, and if the film is slower than
+ * its rate, only for one in `stride`, so that others are dropped evenly. passed: frames since the
+ * start. */
+function askAhead(passed) {
+  const rate = state.film.fps * play.speed;
+  const stride = clamp(Math.ceil(pace.interval * rate - 0.2), 1, AHEAD);
+  const lead = Math.ceil(Math.max(0, pace.latency - pace.interval) * rate);
+  const first = Math.ceil((passed + lead) / stride) * stride;
   for (let i = 0; i < AHEAD && asked.size < AT_ONCE; i++) {
-    const wanted = wish(onward(number, i * play.direction));
+    const wanted = wish(onward(play.number, (first + i * stride) * play.direction));
     if (!wanted || kept.has(wanted.address) || asked.has(wanted.address)) continue;
+    const began = performance.now();
     asked.add(wanted.address);
-    fetchPicture(wanted).catch(fault => failed(fault, wanted.number)).finally(() => asked.delete(wanted.address));
+    fetchPicture(wanted).then(() => notePace(began), fault => failed(fault, wanted.number))
+      .finally(() => asked.delete(wanted.address));
   }
+}
+
+/** The picture that is due after that many frames, or the newest before it that has not been shown:
+ * it and its place; null: there is none. */
+function duePicture(passed) {
+  for (let at = passed; at > play.shown && at > passed - BEHIND; at--) {
+    const wanted = wish(onward(play.number, at * play.direction));
+    const picture = wanted && kept.get(wanted.address);
+    if (picture) return { picture, at };
+  }
+  return null;
 }
 
 function showRate(now) {
@@ -280,15 +311,15 @@ function showRate(now) {
 function tick(now) {
   if (play.direction === 0 || !state.film) return;
   const passed = Math.floor((now - play.start) / 1000 * state.film.fps * play.speed);
-  const number = onward(play.number, Math.max(0, passed) * play.direction);
-  const wanted = state.shown && wish(number), picture = wanted && kept.get(wanted.address);
-  if (picture && picture !== painted) {
-    view.number = number;
-    paint(picture);
+  const due = state.shown ? duePicture(Math.max(0, passed)) : null;
+  if (due) {
+    play.shown = due.at;
+    view.number = due.picture.number;
+    paint(due.picture);
     play.painted.push(now);
     showNumbers();
   }
-  if (wanted) askAhead(number);
+  if (state.shown) askAhead(Math.max(0, passed));
   showRate(now);
   requestAnimationFrame(tick);
 }
