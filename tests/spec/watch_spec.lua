@@ -418,6 +418,29 @@ describe("the page of celspan watch", function()
     assert.equal("cel 2\nground", said.names)
   end)
 
+  it("shows the frames before and after, in red and green", function()
+    local said = see(watch(), [=[
+      await page.until(`${stage("frame")} === "1"`);
+      for (let i = 0; i < 4; i++) await page.press("ArrowRight");
+      await page.until(`${stage("frame")} === "5"`);
+      const colour = x => page.get(`(() => { const stage = document.querySelector("#stage");
+        return [...stage.getContext("2d").getImageData(Math.round(${x} / 64 * stage.width),
+          Math.round(stage.height / 2), 1, 1).data]; })()`);
+      const plain = await colour(8.4);
+      await page.press("n");
+      await page.until(`document.querySelector("#onion").textContent === "Onion 1"`);
+      await page.pause(0.7);
+      // The ball is from 8 to 20, and before and after that a unit to the left and to the right.
+      return { plain, before: await colour(7.4), after: await colour(20.5), ground: await colour(40),
+               ball: await colour(14) };]=])
+    assert.same({ 204, 51, 51, 255 }, said.plain)
+    assert.is_true(said.before[1] > said.before[2] + 40, table.concat(said.before, ","))
+    assert.is_true(said.after[2] < 224 and said.after[1] < said.ground[1],
+      table.concat(said.after, ","))
+    assert.same({ 255, 224, 176, 255 }, said.ground)
+    assert.same({ 204, 51, 51, 255 }, said.ball)
+  end)
+
   it("compares a save with the one before, by a wipe or their difference", function()
     local said = see(watch(), [=[
       const folder = "]=] .. bench.folder .. [=[/", fs = require("fs");

@@ -141,7 +141,7 @@ function matteOf(bytes) {
 function paint(picture) {
   const [, , w, h] = picture.crop;
   keepOlder(picture);
-  const bytes = mixed(picture);
+  const bytes = withOnion(picture, mixed(picture));
   if (stage.width !== w || stage.height !== h) {
     stage.width = w;
     stage.height = h;
@@ -162,6 +162,8 @@ function place() {
   const whole = frameSize(), r = ratio();
   const sx = whole[0] / painted.size[0] / r, sy = whole[1] / painted.size[1] / r;
   const [x, y, w, h] = painted.crop;
+  Object.assign(here("safe").style, { left: `${view.x / r}px`, top: `${view.y / r}px`,
+                                      width: `${whole[0] / r}px`, height: `${whole[1] / r}px` });
   Object.assign(stage.style, { left: `${view.x / r + x * sx}px`, top: `${view.y / r + y * sy}px`,
                                width: `${w * sx}px`, height: `${h * sy}px` });
 }
@@ -197,6 +199,7 @@ async function ask() {
       paint(picture);
       refused = null;
       showFault();
+      await addOnion(picture);
     } catch (fault) {
       await failed(fault, fine.number);
     }
@@ -619,6 +622,64 @@ function mixed(picture) {
   return out;
 }
 
+// ---------------------------------------------------------------- onion skin
+
+const ONION_MOST = 3;
+const BEFORE = [230, 40, 40], AFTER = [30, 170, 60];
+let onion = 0; // frames before and after
+
+/** The pictures around one, the farthest first; those that are not here yet are left out. */
+function neighbours(picture) {
+  const list = [];
+  for (let k = onion; k > 0; k--) {
+    for (const [number, tint] of [[picture.number - k, BEFORE], [picture.number + k, AFTER]]) {
+      const one = number >= 1 && number <= state.film.frames && kept.get(wish(number)?.address);
+      const isWith = one && isSamePlace({ ...one, number: picture.number }, picture);
+      if (isWith) list.push([one, tint, 0.5 ** k]);
+    }
+  }
+  return list;
+}
+
+/** Lays the pictures around one over it, tinted, where they differ from it. */
+function withOnion(picture, bytes) {
+  if (onion === 0 || play.direction !== 0) return bytes;
+  const out = new Uint8ClampedArray(bytes);
+  for (const [one, tint, weight] of neighbours(picture)) {
+    const other = new Uint32Array(one.bytes.buffer), own = new Uint32Array(picture.bytes.buffer);
+    for (let p = 0; p < own.length; p++) {
+      if (other[p] === own[p]) continue;
+      const i = 4 * p;
+      const share = weight * Math.max(one.bytes[i + 3], 96) / 255;
+      for (let c = 0; c < 3; c++) {
+        out[i + c] += share * (0.3 * one.bytes[i + c] + 0.7 * tint[c] - out[i + c]);
+      }
+      out[i + 3] = Math.max(out[i + 3], 255 * share);
+    }
+  }
+  return out;
+}
+
+/** Fetches the pictures around one that is painted, and paints it again with them. */
+async function addOnion(picture) {
+  if (onion === 0 || play.direction !== 0) return;
+  for (let k = 1; k <= onion; k++) {
+    for (const number of [picture.number - k, picture.number + k]) {
+      const isThere = number >= 1 && number <= state.film.frames;
+      const wanted = isThere && !isWanted && wish(number);
+      if (wanted) await fetchPicture(wanted).catch(() => {});
+    }
+  }
+  if (painted === picture && !isWanted) paint(picture);
+}
+
+function nextOnion() {
+  onion = (onion + 1) % (ONION_MOST + 1);
+  here("onion").textContent = onion ? `Onion ${onion}` : "Onion";
+  here("onion").setAttribute("aria-pressed", onion > 0);
+  look();
+}
+
 function setMixing(kind) {
   mixing = mixing === kind ? "" : kind;
   here("wipe").setAttribute("aria-pressed", mixing === "wipe");
@@ -681,6 +742,11 @@ function setMatte(isOn) {
   if (painted) paint(painted);
 }
 
+function swapGuides() {
+  here("safe").hidden = !here("safe").hidden;
+  here("guides").setAttribute("aria-pressed", !here("safe").hidden);
+}
+
 function setTheme(theme) {
   document.documentElement.dataset.theme = theme;
   drawSheet();
@@ -725,11 +791,12 @@ const keys = {
   p: () => setInspecting(here("side").hidden),
   s: () => setSheet(here("sheet").hidden),
   w: () => setMixing("wipe"), d: () => setMixing("differ"),
+  n: nextOnion,
   v: () => setTuning(here("values").hidden),
   g: askNumber,
   "+": () => zoomMiddle(1.5), "=": () => zoomMiddle(1.5), "-": () => zoomMiddle(1 / 1.5),
   0: () => { fit(); look(); }, 1: natural,
-  b: nextGround, m: () => setMatte(!isMatte), t: swapTheme, f: fullScreen,
+  a: swapGuides, b: nextGround, m: () => setMatte(!isMatte), t: swapTheme, f: fullScreen,
   "?": () => here("keys").showModal(),
 };
 
@@ -804,7 +871,7 @@ desk.addEventListener("wheel", event => {
 const clicks = {
   first: () => { stop(); go(loop.from); }, back: () => step(-1), play: toggle,
   forward: () => step(1), last: () => { stop(); go(loop.to); }, fit: keys[0],
-  matte: keys.m, inspect: keys.p, tune: keys.v, list: keys.s, wipe: keys.w, differ: keys.d, defaults: takeDefaults, theme: swapTheme, help: keys["?"],
+  matte: keys.m, inspect: keys.p, tune: keys.v, list: keys.s, onion: nextOnion, guides: swapGuides, wipe: keys.w, differ: keys.d, defaults: takeDefaults, theme: swapTheme, help: keys["?"],
 };
 for (const [id, act] of Object.entries(clicks)) here(id).addEventListener("click", act);
 
