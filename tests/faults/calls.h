@@ -57,6 +57,9 @@
   CALL(int, dup2, -1, (int from, int to), (from, to))                                              \
   CALL(int, execv, -1, (const char *path, char *const *arguments), (path, arguments))              \
   CALL(int, execvp, -1, (const char *name, char *const *arguments), (name, arguments))             \
+  CALL(int, inotify_init1, -1, (int flags), (flags))                                               \
+  CALL(int, inotify_add_watch, -1, (int queue, const char *path, uint32_t events),                 \
+       (queue, path, events))                                                                      \
   CALL(int, poll, -1, (struct pollfd * list, nfds_t count, int most), (list, count, most))         \
   CALL(pid_t, fork, -1, (void), ())                                                                \
   CALL(pid_t, waitpid, -1, (pid_t process, int *state, int flags), (process, state, flags))        \

@@ -204,20 +204,15 @@ end
 
 --- Calls of POSIX and Linux that make files, processes and threads. Those for large files end in
 --- 64.
-local KNOWN = [[access faccessat open openat creat close read readv write writev pread preadv pwrite
-  pwritev fsync
-fdatasync sync syncfs rename renameat renameat2 remove link linkat symlink unlink unlinkat mkdir
-  mkdirat rmdir stat
-fstat lstat fstatat statx truncate ftruncate lseek fallocate posix_fallocate copy_file_range
-  sendfile flock lockf
-fcntl fopen fdopen freopen fclose fflush fwrite tmpfile opendir fdopendir readdir scandir realpath
-  readlink
-readlinkat mmap mremap memfd_create mkstemp mkostemp mkdtemp pipe pipe2 dup dup2 dup3 fork vfork
-  posix_spawn
-posix_spawnp execv execvp execve popen system wait waitpid pthread_create thrd_create socket bind
-  listen accept
-accept4 connect eventfd signalfd timerfd_create inotify_init inotify_init1 inotify_add_watch poll
-  epoll_create1]]
+local KNOWN = [[access faccessat open openat creat close read readv write writev pread preadv
+  pwrite pwritev fsync fdatasync sync syncfs rename renameat renameat2 remove link linkat symlink
+  unlink unlinkat mkdir mkdirat rmdir stat fstat lstat fstatat statx truncate ftruncate lseek
+  fallocate posix_fallocate copy_file_range sendfile flock lockf fcntl fopen fdopen freopen
+  fclose fflush fwrite tmpfile opendir fdopendir readdir scandir realpath readlink readlinkat
+  mmap mremap memfd_create mkstemp mkostemp mkdtemp pipe pipe2 dup dup2 dup3 fork vfork
+  posix_spawn posix_spawnp execv execvp execve popen system wait waitpid pthread_create
+  thrd_create socket bind listen accept accept4 connect eventfd signalfd timerfd_create
+  inotify_init inotify_init1 inotify_add_watch poll epoll_create1]]
 
 local function read_file(name)
   local file = assert(io.open(name))

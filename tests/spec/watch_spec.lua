@@ -185,21 +185,39 @@ describe("the server of celspan watch", function()
     assert.equal(32, said.kept)
   end)
 
-  it("answers while a frame never ends or eats memory", function()
+  local function endless()
     bench:write("shot.lua", (FILM:gsub("  return celspan.rostrum", [[
       if f.number == 2 then while true do end end
       if f.number == 3 then local t = {} for i = 1, 1e12 do t[i] = ("x"):rep(1e5) .. i end end
       %0]])))
-    local said = speak(watch "shot.lua --limit time=3,memory=64M", [=[
-      const { get } = web, answers = [];
-      const two = get("/frame/2.png"), three = get("/frame/3.png");
-      for (let i = 0; i < 6; i++) answers.push(await get("/frame/1.png"));
-      answers.push(await get("/film.json"), await get("/errors.json"));
-      return { quick: answers.map(one => [one.status, one.seconds < 2]),
-               two: (await two).body, three: (await three).body,
-               errors: JSON.parse((await get("/errors.json")).body) };]=])
-    for _, one in ipairs(said.quick) do assert.same({ 200, true }, one) end
-    assert.truthy(said.two:find("shot.lua:3: frame 2: the script ran for more than 3 sec", 1, true),
+  end
+
+  it("answers while frames never end", function()
+    endless()
+    local said = speak(watch "shot.lua --limit time=600,steps=0", [=[
+      const { get } = web, answers = [], ended = [];
+      for (let i = 1; i < 3; i++) get(`/frame/2.png?size=${i}x9`).then(() => ended.push(1));
+      for (let i = 0; i < 4; i++) answers.push((await get("/frame/1.png")).status);
+      for (const path of ["/film.json", "/errors.json"]) {
+        answers.push((await get(path)).status);
+      }
+      const endedFirst = ended.length;
+      for (let i = 3; i < 6; i++) get(`/frame/2.png?size=${i}x9`);
+      let busy;
+      do { busy = (await get("/frame/1.png")).status; } while (busy === 200);
+      return { answers, endedFirst, busy };]=])
+    assert.same({ 200, 200, 200, 200, 200, 200 }, said.answers)
+    assert.equal(0, said.endedFirst)
+    assert.equal(503, said.busy) -- four renderers are at work for ever
+  end)
+
+  it("says which limit ended a frame #plain", function()
+    endless()
+    local said = speak(watch "shot.lua --limit time=1,memory=64M", [=[
+      const two = web.get("/frame/2.png"), three = web.get("/frame/3.png");
+      return { two: (await two).body, three: (await three).body,
+               errors: JSON.parse((await web.get("/errors.json")).body) };]=])
+    assert.truthy(said.two:find("shot.lua:3: frame 2: the script ran for more than 1 sec", 1, true),
       said.two)
     assert.truthy(said.three:find("^shot.lua:4: .*%-%-limit"), said.three)
     local lines = {}
@@ -301,7 +319,7 @@ describe("the server of celspan watch", function()
   end)
 end)
 
-describe("the page of celspan watch", function()
+describe("the page of celspan watch #plain", function()
   if not present.program "chromium" then return pending "there is no chromium" end
 
   local HELP = [[
@@ -397,6 +415,69 @@ describe("the page of celspan watch", function()
     local code, out = bench:celspan_inside "compare seen.png made.png --fail 0.004"
     assert.equal(0, code, out)
     assert.truthy(said.hits:find("ground (cel) shot.lua:4", 1, true), said.hits)
+  end)
+
+  it("shows the exposure sheet, and goes where it is clicked", function()
+    local said = see(watch(), [=[
+      await page.until(`${stage("frame")} === "1"`);
+      await page.press("s");
+      await page.until(`document.querySelectorAll("#names li").length === 2`);
+      const box = await page.get(`(() => { const b = document.querySelector("#rows")
+        .getBoundingClientRect(); return [b.left, b.top, b.width, b.height]; })()`);
+      await page.click(box[0] + box[2] * 29.5 / 48, box[1] + 30);
+      await page.until(`${stage("frame")} === "30"`);
+      const painted = await page.get(`[8, 28].map(y => document.querySelector("#rows")
+        .getContext("2d").getImageData(4, y * devicePixelRatio, 1, 1).data[3])`);
+      return { painted, head: await page.get(`parseFloat(document.querySelector("#head").style.left)
+        / document.querySelector("#rows").clientWidth * 48`),
+               names: await page.get(`document.querySelector("#names").innerText`) };]=])
+    assert.same({ 255, 255 }, said.painted)
+    assert.is_true(math.abs(said.head - 29.5) < 0.2, said.head)
+    assert.equal("cel 2\nground", said.names)
+  end)
+
+  it("shows the frames before and after, in red and green", function()
+    local said = see(watch(), [=[
+      await page.until(`${stage("frame")} === "1"`);
+      for (let i = 0; i < 4; i++) await page.press("ArrowRight");
+      await page.until(`${stage("frame")} === "5"`);
+      const colour = x => page.get(`(() => { const stage = document.querySelector("#stage");
+        return [...stage.getContext("2d").getImageData(Math.round(${x} / 64 * stage.width),
+          Math.round(stage.height / 2), 1, 1).data]; })()`);
+      const plain = await colour(8.4);
+      await page.press("n");
+      await page.until(`document.querySelector("#onion").textContent === "Onion 1"`);
+      await page.pause(0.7);
+      // The ball is from 8 to 20, and before and after that a unit to the left and to the right.
+      return { plain, before: await colour(7.4), after: await colour(20.5),
+               ground: await colour(40), ball: await colour(14) };]=])
+    assert.same({ 204, 51, 51, 255 }, said.plain)
+    assert.is_true(said.before[1] > said.before[2] + 40, table.concat(said.before, ","))
+    assert.is_true(said.after[2] < 224 and said.after[1] < said.ground[1],
+      table.concat(said.after, ","))
+    assert.same({ 255, 224, 176, 255 }, said.ground)
+    assert.same({ 204, 51, 51, 255 }, said.ball)
+  end)
+
+  it("compares a save with the one before, by a wipe or their difference", function()
+    local said = see(watch(), [=[
+      const folder = "]=] .. bench.folder .. [=[/", fs = require("fs");
+      const colours = () => page.get(`[0.1, 0.9].map(x => { const stage =
+        document.querySelector("#stage"); return [...stage.getContext("2d")
+        .getImageData(Math.round(x * stage.width), 2, 1, 1).data].join(); })`);
+      await page.until(`${stage("frame")} === "1"`);
+      const old = await page.get(stage("build"));
+      const script = fs.readFileSync(folder + "shot.lua", "utf8");
+      page.write(folder + "shot.lua", script.replace("#ffe0b0", "#ffd0b0"));
+      await page.until(`${stage("build")} !== "${old}"`);
+      const seen = [];
+      for (const key of ["w", "d", "d"]) {
+        await page.press(key);
+        seen.push(await colours());
+      }
+      return seen;]=])
+    assert.same({ { "255,224,176,255", "255,208,176,255" }, { "0,64,0,255", "0,64,0,255" },
+                  { "255,208,176,255", "255,208,176,255" } }, said)
   end)
 
   it("has a form for the parameters, which the address and a command line hold", function()

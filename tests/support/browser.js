@@ -98,8 +98,8 @@ async function open() {
 
 async function main() {
   const page = await open();
-  const act = Object.getPrototypeOf(main).constructor("page", fs.readFileSync(steps, "utf8"));
-  console.log(JSON.stringify(await act(page) ?? null));
+  const act = Object.getPrototypeOf(main).constructor("page", "require", fs.readFileSync(steps, "utf8"));
+  console.log(JSON.stringify(await act(page, require) ?? null));
   end(0);
 }
 

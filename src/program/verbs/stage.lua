@@ -76,14 +76,39 @@ function answers.at(ask)
   put { good = true, hits = hits }
 end
 
-function answers.sheet()
+--- The exposure sheet of the film, of its first SHEET_MOST frames; nil: refused.
+local function sheet_of()
   local numbers = {}
   for i = 1, math.min(film.frames, SHEET_MOST) do numbers[i] = film.first + i - 1 end
-  local good, sheet = pcall(require "celspan.sheet".of, film, { frames = numbers })
-  local text, message
-  if good then text, message = sheet:text() end
-  if not text then return refuse(program.reported() or message or tostring(sheet)) end
+  local good, made = pcall(require "celspan.sheet".of, film, { frames = numbers })
+  if good then return made end
+  refuse(program.reported() or tostring(made))
+end
+
+function answers.sheet()
+  local sheet = sheet_of()
+  if not sheet then return end
+  local text, message = sheet:text()
+  if not text then return refuse(message) end
   put({ good = true }, text)
+end
+
+--- A row for each layer, the nearest first: `cells`, { first frame, drawing } in order, the drawing
+--- "" where there is none; `moved`, the frames on which the placement alone changes.
+function answers.rows()
+  local sheet, rows = sheet_of(), {}
+  if not sheet then return end
+  for i = #sheet.layers, 1, -1 do
+    local row = { name = sheet.layers[i], cells = { list = {} }, moved = { list = {} } }
+    for j, change in ipairs(sheet:changes(i)) do
+      row.cells.list[j] = { change.frame, change.drawing or "" }
+    end
+    for frame = 1, sheet.frames do
+      if sheet:marks(i, frame).moved then table.insert(row.moved.list, frame) end
+    end
+    rows[#rows + 1] = row
+  end
+  put({ good = true }, program.json { rows = { list = rows }, frames = sheet.frames })
 end
 
 --- Checks frames until the time is over, one at least.

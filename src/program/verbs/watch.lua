@@ -320,6 +320,11 @@ local gets = {
     pass_on(id, { want = "sheet" },
       function(_, text) answer(id, 200, "text/plain; charset=utf-8", text) end)
   end,
+  ["/sheet.json"] = function(id)
+    if not state.is_shown then return frame_of(id) end
+    pass_on(id, { want = "rows" },
+      function(_, text) answer(id, 200, "application/json", text) end)
+  end,
   ["/counts.json"] = function(id) give_json(id, web:counts()) end,
   ["/state.json"] = function(id, fields)
     local since = math.tointeger(fields.since) or 0

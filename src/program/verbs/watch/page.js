@@ -11,6 +11,7 @@ const stage = here("stage"), desk = here("desk"), pen = stage.getContext("2d");
 const SIDE_MOST = 1048576;   // pixels of a frame
 const KEPT_MOST = 192 << 20; // bytes of pictures that are kept
 const AHEAD = 8, AT_ONCE = 3; // pictures asked for ahead while playing, and at the same time
+const BEHIND = 24;           // frames that a picture may be late
 const SLOW = 0.25;           // seconds after which a coarse picture comes first
 const STRIDE = 80;           // device pixels that a key moves the picture
 
@@ -20,7 +21,7 @@ const state = { news: 0, build: 0, film: null, errors: [], shown: false,
 // frame's corner in the window, in device pixels. isFitted: both follow the window.
 const view = { number: 1, scale: 1, x: 0, y: 0, isFitted: true };
 const loop = { from: 1, to: 1 };
-const play = { direction: 0, speed: 1, start: 0, number: 1, painted: [] };
+const play = { direction: 0, speed: 1, start: 0, number: 1, shown: -1, painted: [] };
 let painted = null, isMatte = false, mark = null;
 let refused = null; // the frame that could not be made: number, build, message
 let lastFault = null; // the error that is shown
@@ -138,12 +139,14 @@ function matteOf(bytes) {
 }
 
 function paint(picture) {
-  const [x, y, w, h] = picture.crop;
+  const [, , w, h] = picture.crop;
+  keepOlder(picture);
+  const bytes = withOnion(picture, mixed(picture));
   if (stage.width !== w || stage.height !== h) {
     stage.width = w;
     stage.height = h;
   }
-  pen.putImageData(new ImageData(isMatte ? matteOf(picture.bytes) : picture.bytes, w, h), 0, 0);
+  pen.putImageData(new ImageData(isMatte ? matteOf(bytes) : bytes, w, h), 0, 0);
   painted = picture;
   stage.dataset.frame = picture.number - 1 + state.film.first;
   stage.dataset.size = picture.size.join("x");
@@ -159,6 +162,8 @@ function place() {
   const whole = frameSize(), r = ratio();
   const sx = whole[0] / painted.size[0] / r, sy = whole[1] / painted.size[1] / r;
   const [x, y, w, h] = painted.crop;
+  Object.assign(here("safe").style, { left: `${view.x / r}px`, top: `${view.y / r}px`,
+                                      width: `${whole[0] / r}px`, height: `${whole[1] / r}px` });
   Object.assign(stage.style, { left: `${view.x / r + x * sx}px`, top: `${view.y / r + y * sy}px`,
                                width: `${w * sx}px`, height: `${h * sy}px` });
 }
@@ -194,6 +199,7 @@ async function ask() {
       paint(picture);
       refused = null;
       showFault();
+      await addOnion(picture);
     } catch (fault) {
       await failed(fault, fine.number);
     }
@@ -233,6 +239,7 @@ function start(direction) {
   play.number = view.number;
   play.start = performance.now();
   play.painted = [];
+  play.shown = -1;
   here("play").textContent = "❚❚";
   here("play").setAttribute("aria-label", "Pause");
   requestAnimationFrame(tick);
@@ -258,15 +265,44 @@ function onward(number, by) {
 }
 
 const asked = new Set();
+// Means of the last ones, in seconds: of one picture from asking to its arrival, and between arrivals.
+const pace = { latency: 0.05, interval: 0.02, last: 0 };
+const mean = (old, value) => old + 0.2 * (value - old);
 
-/** Asks for the next pictures. */
-function askAhead(number) {
+function notePace(began) {
+  const now = performance.now();
+  pace.latency = mean(pace.latency, (now - began) / 1000);
+  if (pace.last > began) pace.interval = mean(pace.interval, (now - pace.last) / 1000);
+  pace.last = now;
+}
+
+/** Asks for the next pictures: for those that can be here in time, and if the film is slower than
+ * its rate, only for one in `stride`, so that others are dropped evenly. passed: frames since the
+ * start. */
+function askAhead(passed) {
+  const rate = state.film.fps * play.speed;
+  const stride = clamp(Math.ceil(pace.interval * rate - 0.2), 1, AHEAD);
+  const lead = Math.ceil(Math.max(0, pace.latency - pace.interval) * rate);
+  const first = Math.ceil((passed + lead) / stride) * stride;
   for (let i = 0; i < AHEAD && asked.size < AT_ONCE; i++) {
-    const wanted = wish(onward(number, i * play.direction));
+    const wanted = wish(onward(play.number, (first + i * stride) * play.direction));
     if (!wanted || kept.has(wanted.address) || asked.has(wanted.address)) continue;
+    const began = performance.now();
     asked.add(wanted.address);
-    fetchPicture(wanted).catch(fault => failed(fault, wanted.number)).finally(() => asked.delete(wanted.address));
+    fetchPicture(wanted).then(() => notePace(began), fault => failed(fault, wanted.number))
+      .finally(() => asked.delete(wanted.address));
   }
+}
+
+/** The picture that is due after that many frames, or the newest before it that has not been shown:
+ * it and its place; null: there is none. */
+function duePicture(passed) {
+  for (let at = passed; at > play.shown && at > passed - BEHIND; at--) {
+    const wanted = wish(onward(play.number, at * play.direction));
+    const picture = wanted && kept.get(wanted.address);
+    if (picture) return { picture, at };
+  }
+  return null;
 }
 
 function showRate(now) {
@@ -278,15 +314,15 @@ function showRate(now) {
 function tick(now) {
   if (play.direction === 0 || !state.film) return;
   const passed = Math.floor((now - play.start) / 1000 * state.film.fps * play.speed);
-  const number = onward(play.number, Math.max(0, passed) * play.direction);
-  const wanted = state.shown && wish(number), picture = wanted && kept.get(wanted.address);
-  if (picture && picture !== painted) {
-    view.number = number;
-    paint(picture);
+  const due = state.shown ? duePicture(Math.max(0, passed)) : null;
+  if (due) {
+    play.shown = due.at;
+    view.number = due.picture.number;
+    paint(due.picture);
     play.painted.push(now);
     showNumbers();
   }
-  if (wanted) askAhead(number);
+  if (state.shown) askAhead(Math.max(0, passed));
   showRate(now);
   requestAnimationFrame(tick);
 }
@@ -312,6 +348,7 @@ function showNumbers() {
   here("frames").textContent = state.film.frames;
   here("scrub").max = state.film.frames;
   here("scrub").value = view.number;
+  placeHead();
   const percent = view.scale * 100;
   here("zoom").textContent = `${percent < 10 ? percent.toFixed(1) : Math.round(percent)} %`;
   const whole = loop.from === 1 && loop.to === state.film.frames;
@@ -374,6 +411,7 @@ function takeState(news) {
     if (!before && news.alone) start(1);
   }
   showState();
+  loadSheet();
   if (!isNew) return;
   forget();
   if (state.shown) look();
@@ -485,6 +523,170 @@ function takeDefaults() {
   sendValues();
 }
 
+// ---------------------------------------------------------------- the sheet
+
+const ROW = 20; // CSS pixels
+const sheet = { rows: [], frames: 1, build: 0 };
+
+/** Asks for the sheet if it is open and older than the film. */
+async function loadSheet() {
+  if (here("sheet").hidden || !state.shown || sheet.build === state.build) return;
+  const build = sheet.build = state.build;
+  const answer = await fetch("/sheet.json");
+  if (!answer.ok || build !== state.build) return;
+  Object.assign(sheet, await answer.json());
+  here("names").replaceChildren(...sheet.rows.map(row =>
+    element("li", { textContent: row.name, title: row.name })));
+  drawSheet();
+}
+
+/** A row of the sheet: a box for each drawing as long as it is held, a dot where it only moves. */
+function drawRow(brush, row, y, unit, colours) {
+  row.cells.forEach(([from, name], i) => {
+    const until = i + 1 < row.cells.length ? row.cells[i + 1][0] : sheet.frames + 1;
+    const x = (from - 1) * unit, width = (until - from) * unit;
+    if (!name) return;
+    brush.fillStyle = i % 2 ? colours.odd : colours.even;
+    brush.fillRect(x, y + 2, Math.max(1, width - (width > 3 ? 1 : 0)), ROW - 4);
+    brush.fillStyle = colours.text;
+    if (width > 8 + 7 * name.length) brush.fillText(name, x + 4, y + 14);
+  });
+  brush.fillStyle = colours.dot;
+  for (const frame of row.moved) {
+    brush.fillRect((frame - 0.5) * unit - 1, y + ROW - 5, Math.min(2, Math.max(1, unit)), 2);
+  }
+}
+
+function drawSheet() {
+  const canvas = here("rows"), width = here("cells").clientWidth, r = ratio();
+  const height = Math.max(1, sheet.rows.length) * ROW, brush = canvas.getContext("2d");
+  const style = getComputedStyle(document.documentElement);
+  const colour = name => style.getPropertyValue(name);
+  canvas.width = Math.round(width * r);
+  canvas.height = Math.round(height * r);
+  canvas.style.height = `${height}px`;
+  brush.scale(r, r);
+  brush.font = "11px system-ui, 'DejaVu Sans', sans-serif";
+  const colours = { odd: colour("--line"), even: colour("--press"), text: colour("--text"),
+                    dot: colour("--accent") };
+  sheet.rows.forEach((row, i) => drawRow(brush, row, i * ROW, width / sheet.frames, colours));
+  placeHead();
+}
+
+function placeHead() {
+  const unit = here("cells").clientWidth / sheet.frames;
+  here("head").style.left = `${Math.min(view.number, sheet.frames) * unit - unit / 2 - 1}px`;
+}
+
+function setSheet(isOn) {
+  here("sheet").hidden = !isOn;
+  here("list").setAttribute("aria-pressed", isOn);
+  if (!isOn) return;
+  drawSheet();
+  loadSheet();
+}
+
+function goBySheet(event) {
+  const box = here("rows").getBoundingClientRect();
+  stop();
+  go(Math.floor((event.clientX - box.left) / box.width * sheet.frames) + 1);
+}
+
+// ---------------------------------------------------------------- the save before
+
+let older = null;           // the picture that the save before had here
+let mixing = "";            // "", "wipe" or "differ"
+const DIFFERENCE_GAIN = 4;  // so that small ones are seen
+
+/** Whether two pictures show the same part of the same frame. */
+const isSamePlace = (a, b) => a && b && a.number === b.number
+  && a.size.join() === b.size.join() && a.crop.join() === b.crop.join();
+
+/** Keeps the picture that is painted when one of another save takes its place. */
+function keepOlder(picture) {
+  if (painted && painted.build !== picture.build) older = painted;
+}
+
+/** The bytes to paint of a picture: it, mixed with that of the save before. */
+function mixed(picture) {
+  if (!mixing || !isSamePlace(older, picture)) return picture.bytes;
+  const out = new Uint8ClampedArray(picture.bytes), width = picture.crop[2];
+  for (let i = 0; i < out.length; i += 4) {
+    const isOlder = mixing === "wipe" && i / 4 % width < width / 2;
+    for (let c = i; c < i + 4; c++) {
+      if (isOlder) out[c] = older.bytes[c];
+      if (mixing === "differ") out[c] = DIFFERENCE_GAIN * Math.abs(out[c] - older.bytes[c]);
+    }
+    if (mixing === "differ") out[i + 3] = 255;
+  }
+  return out;
+}
+
+// ---------------------------------------------------------------- onion skin
+
+const ONION_MOST = 3;
+const BEFORE = [230, 40, 40], AFTER = [30, 170, 60];
+let onion = 0; // frames before and after
+
+/** The pictures around one, the farthest first; those that are not here yet are left out. */
+function neighbours(picture) {
+  const list = [];
+  for (let k = onion; k > 0; k--) {
+    for (const [number, tint] of [[picture.number - k, BEFORE], [picture.number + k, AFTER]]) {
+      const one = number >= 1 && number <= state.film.frames && kept.get(wish(number)?.address);
+      const isWith = one && isSamePlace({ ...one, number: picture.number }, picture);
+      if (isWith) list.push([one, tint, 0.5 ** k]);
+    }
+  }
+  return list;
+}
+
+/** Lays the pictures around one over it, tinted, where they differ from it. */
+function withOnion(picture, bytes) {
+  if (onion === 0 || play.direction !== 0) return bytes;
+  const out = new Uint8ClampedArray(bytes);
+  for (const [one, tint, weight] of neighbours(picture)) {
+    const other = new Uint32Array(one.bytes.buffer), own = new Uint32Array(picture.bytes.buffer);
+    for (let p = 0; p < own.length; p++) {
+      if (other[p] === own[p]) continue;
+      const i = 4 * p;
+      const share = weight * Math.max(one.bytes[i + 3], 96) / 255;
+      for (let c = 0; c < 3; c++) {
+        out[i + c] += share * (0.3 * one.bytes[i + c] + 0.7 * tint[c] - out[i + c]);
+      }
+      out[i + 3] = Math.max(out[i + 3], 255 * share);
+    }
+  }
+  return out;
+}
+
+/** Fetches the pictures around one that is painted, and paints it again with them. */
+async function addOnion(picture) {
+  if (onion === 0 || play.direction !== 0) return;
+  for (let k = 1; k <= onion; k++) {
+    for (const number of [picture.number - k, picture.number + k]) {
+      const isThere = number >= 1 && number <= state.film.frames;
+      const wanted = isThere && !isWanted && wish(number);
+      if (wanted) await fetchPicture(wanted).catch(() => {});
+    }
+  }
+  if (painted === picture && !isWanted) paint(picture);
+}
+
+function nextOnion() {
+  onion = (onion + 1) % (ONION_MOST + 1);
+  here("onion").textContent = onion ? `Onion ${onion}` : "Onion";
+  here("onion").setAttribute("aria-pressed", onion > 0);
+  look();
+}
+
+function setMixing(kind) {
+  mixing = mixing === kind ? "" : kind;
+  here("wipe").setAttribute("aria-pressed", mixing === "wipe");
+  here("differ").setAttribute("aria-pressed", mixing === "differ");
+  if (painted) paint(painted);
+}
+
 // ---------------------------------------------------------------- the inspector
 
 function setInspecting(isOn) {
@@ -540,8 +742,14 @@ function setMatte(isOn) {
   if (painted) paint(painted);
 }
 
+function swapGuides() {
+  here("safe").hidden = !here("safe").hidden;
+  here("guides").setAttribute("aria-pressed", !here("safe").hidden);
+}
+
 function setTheme(theme) {
   document.documentElement.dataset.theme = theme;
+  drawSheet();
 }
 
 function swapTheme() {
@@ -581,11 +789,14 @@ const keys = {
   o: () => setLoop(Math.min(loop.from, view.number), view.number),
   x: () => setLoop(1, state.film.frames),
   p: () => setInspecting(here("side").hidden),
+  s: () => setSheet(here("sheet").hidden),
+  w: () => setMixing("wipe"), d: () => setMixing("differ"),
+  n: nextOnion,
   v: () => setTuning(here("values").hidden),
   g: askNumber,
   "+": () => zoomMiddle(1.5), "=": () => zoomMiddle(1.5), "-": () => zoomMiddle(1 / 1.5),
   0: () => { fit(); look(); }, 1: natural,
-  b: nextGround, m: () => setMatte(!isMatte), t: swapTheme, f: fullScreen,
+  a: swapGuides, b: nextGround, m: () => setMatte(!isMatte), t: swapTheme, f: fullScreen,
   "?": () => here("keys").showModal(),
 };
 
@@ -660,15 +871,17 @@ desk.addEventListener("wheel", event => {
 const clicks = {
   first: () => { stop(); go(loop.from); }, back: () => step(-1), play: toggle,
   forward: () => step(1), last: () => { stop(); go(loop.to); }, fit: keys[0],
-  matte: keys.m, inspect: keys.p, tune: keys.v, defaults: takeDefaults, theme: swapTheme, help: keys["?"],
+  matte: keys.m, inspect: keys.p, tune: keys.v, list: keys.s, onion: nextOnion, guides: swapGuides, wipe: keys.w, differ: keys.d, defaults: takeDefaults, theme: swapTheme, help: keys["?"],
 };
 for (const [id, act] of Object.entries(clicks)) here(id).addEventListener("click", act);
 
 here("scrub").addEventListener("input", event => { stop(); go(Number(event.target.value)); });
 here("speed").addEventListener("change", event => setSpeed(Number(event.target.value)));
 here("ground").addEventListener("change", event => { stage.dataset.ground = event.target.value; });
+here("cells").addEventListener("click", goBySheet);
 here("go").addEventListener("close", () => { stop(); go(Number(here("number").value)); });
 new ResizeObserver(look).observe(desk);
+new ResizeObserver(drawSheet).observe(here("cells"));
 
 // The address keeps no token once the cookie has it.
 history.replaceState(null, "", given.size ? `/#${given}` : "/");
