@@ -5,8 +5,8 @@
 -- Each scene is rendered at 64 x 48 pixels by one worker in a process of its own, which reports its
 -- processor time and its peak memory, including the script's values, Lua and the picture. N is
 -- 62500 by default for squares and polygons, so that 16 N is a million; for the points of a curve
--- it is a tenth of that (100000 at most), for arcs that overlap and for translucent lines a
--- fiftieth (20000 at most).
+-- it is a tenth of that (100000 at most), for arcs that overlap and translucent lines a fiftieth
+-- (20000 at most).
 local celspan = require "celspan"
 local WIDTH, HEIGHT = 64, 48
 local unpack = table.unpack

@@ -197,11 +197,14 @@ static bool is_passed(const cs_crowd_line *line, float x, float y) {
 }
 
 static cs_crowd_line random_line(test_random *random) {
-  float top = random_below(random, 2) ? 0 : (float)random_between(random, 0, 0.6);
-  float foot = random_below(random, 2) ? 1 : (float)random_between(random, top, 1);
-  float x = (float)random_between(random, -1, 2);
-  float slope = (float)random_between(random, -3, 3);
-  return (cs_crowd_line){x, slope, top, foot, random_below(random, 2) ? 1 : -1};
+  cs_crowd_line line = {.foot = 1, .direction = random_below(random, 2) ? 1 : -1};
+  line.x = (float)random_between(random, -1, 2);
+  line.slope = (float)random_between(random, -3, 3);
+  if (random_below(random, 2))
+    line.top = (float)random_between(random, 0, 0.6);
+  if (random_below(random, 2))
+    line.foot = (float)random_between(random, line.top, 1);
+  return line;
 }
 
 /* What the samples inside a layer let through is the same to the bit; and they are those inside. */
