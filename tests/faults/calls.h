@@ -58,7 +58,7 @@
   CALL(int, execv, -1, (const char *path, char *const *arguments), (path, arguments))              \
   CALL(int, execvp, -1, (const char *name, char *const *arguments), (name, arguments))             \
   CALL(int, inotify_init1, -1, (int flags), (flags))                                               \
-  CALL(int, inotify_add_watch, -1, (int queue, const char *path, uint32_t events),                 \
+  CALL(int, inotify_add_watch, -1, (int queue, const char *path, unsigned events),                 \
        (queue, path, events))                                                                      \
   CALL(int, poll, -1, (struct pollfd * list, nfds_t count, int most), (list, count, most))         \
   CALL(pid_t, fork, -1, (void), ())                                                                \
