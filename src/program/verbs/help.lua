@@ -93,7 +93,8 @@ end
 
 --- The recipe for a task, or the list of those that it may mean.
 local function put_task(out, word)
-  local recipes = load(program.text "recipes.lua", "@celspan/recipes.lua")(program.text "cookbook.md")
+  local module = load(program.text "recipes.lua", "@celspan/recipes.lua")
+  local recipes = module(program.text "cookbook.md")
   local found, all = recipes.find(word)
   if word == "cookbook" then found = all end
   if #found == 1 then
