@@ -14,7 +14,7 @@ return celspan.film { title = "Ball", size = { 64, 36 }, fps = 24, frames = 48, 
     celspan.cel { celspan.rect { 0, 0, 64, 36, texture = "#ffe0b0" } }:named "ground",
     celspan.cel { celspan.circle { centre = { 10 + f.index, 18 }, radius = 6, texture = "#c33" } },
   }
-end }
+end, marks = { half = 24 } }
 ]]
 
 local bench, server
@@ -73,8 +73,8 @@ describe("the server of celspan watch", function()
       all["/frame/1.png"] = Buffer.from(all["/frame/1.png"][1], "latin1").toString("base64");
       return all;]=])
     local film = json.decode(said["/film.json"][2])
-    assert.same({ frames = 48, first = 1, fps = 24, size = { 64, 36 }, marks = {}, title = "Ball" },
-      film)
+    assert.same({ frames = 48, first = 1, fps = 24, size = { 64, 36 }, title = "Ball",
+                  marks = { { frame = 24, name = "half" } } }, film)
     assert.equal("[]\n", said["/errors.json"][2])
     local _, sheet = bench:celspan_inside "sheet shot.lua"
     assert.equal(sheet, said["/sheet.txt"][2])

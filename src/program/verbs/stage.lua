@@ -45,7 +45,7 @@ end
 
 function answers.film()
   local facts = { frames = film.frames, first = film.first, fps = film.fps, size = film.size,
-                  title = film.title, marks = {} }
+                  title = film.title, marks = { list = film.marks } }
   put { good = true, film = facts, parameters = parameters() }
 end
 
