@@ -184,7 +184,8 @@ describe("a picture in memory", function()
       { "size[2] must be a whole number from 1 to 1048576, got 2.5; math.ceil makes a number whole",
         { pixels = "", size = { 1, 2.5 } } },
       { "field 'pixels' must be a string, got table", { pixels = {}, size = { 1, 1 } } },
-      { [[field 'format' must be "rgba8", "rgb8", "grey8", "rgba16" or "rgbaf", got "bgra8"]],
+      { [[field 'format' must be "rgba8", "rgb8", "grey8", "rgba16" or "rgbaf", got "bgra8"; ]]
+          .. [[did you mean "rgba8"?]],
         { pixels = pixels, size = { 10, 10 }, format = "bgra8" } },
       { [[field 'alpha' must be "straight" or "premultiplied", got "none"]],
         { pixels = pixels, size = { 10, 10 }, alpha = "none" } },

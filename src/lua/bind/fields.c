@@ -98,7 +98,7 @@ static bool flag_of(const cs_form *form, const cs_field *field) {
 
 static _Noreturn void fail_word(const cs_form *form, const char *name, const char *const *words) {
   const char *word = lua_type(form->L, -1) == LUA_TSTRING ? lua_tostring(form->L, -1) : NULL;
-  const char *given = cs_userdata_shown(form->L, -1);
+  const char *given = cs_userdata_shown(form->L, -1), *hint = "";
   size_t count = 0;
   lua_pushliteral(form->L, "");
   for (; words[count]; count++) {
@@ -106,9 +106,11 @@ static _Noreturn void fail_word(const cs_form *form, const char *name, const cha
     lua_pushfstring(form->L, "%s\"%s\"", between, words[count]);
     lua_concat(form->L, 2);
   }
+  const char *list = lua_tostring(form->L, -1);
   const char *nearest = word ? cs_suggest_name(word, words, count) : NULL;
-  cs_form_fail(form, "field '%s' must be %s, got %s%s", name, lua_tostring(form->L, -1), given,
-               nearest ? lua_pushfstring(form->L, "; did you mean \"%s\"?", nearest) : "");
+  if (nearest)
+    hint = lua_pushfstring(form->L, "; did you mean \"%s\"?", nearest);
+  cs_form_fail(form, "field '%s' must be %s, got %s%s", name, list, given, hint);
 }
 
 int cs_fields_word(const cs_form *form, const char *name, const char *const *words) {
