@@ -270,7 +270,7 @@ describe("the hooks of tests/faults", function()
   end)
 end)
 
-describe("a folder that cannot be read to its end", function()
+describe("a folder that cannot be read to its end #plain", function()
   -- It has ".", ".." and five files.
   local function list(command, message)
     if not has_library() then return pending "the library that makes calls fail is not built" end
@@ -298,7 +298,7 @@ describe("a folder that cannot be read to its end", function()
   end)
 end)
 
-describe("if calls to the system fail", function()
+describe("if calls to the system fail #plain", function()
   for _, format in ipairs(formats) do
     local name = (format.joins and "joining " or "") .. (format.output or "a stream")
       .. (format.options or "")
