@@ -26,7 +26,6 @@ end }
 ]]
 
 local it_reads_pictures = present.pictures() and it or pending
-local it_has_a_stack = not present.sanitizer() and it or pending
 
 local function usage_error(arguments, pattern)
   local code, out, err = celspan(arguments)
@@ -47,7 +46,7 @@ describe("the command line", function()
 
   after_each(function() bench:remove() end)
 
-  it_has_a_stack("says that a limit of the stack is too low", function()
+  it("says that a limit of the stack is too low #plain", function()
     for kib, wanted in pairs { [64] = 33, [512] = 33, [1024] = 0 } do
       local code, _, err = shell(("ulimit -s %d; %s check %s"):format(kib, BINARY, plain))
       assert.equal(wanted, code, err)
