@@ -8,6 +8,8 @@
 --
 --   shot 1   |==================|               start 0, count 20
 --   shot 2                 |=======...          start 20 - n: n frames of a transition
+--
+-- One file, because a transition is little more than its two halves, and needs the cut around it.
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"

@@ -445,7 +445,7 @@ return celspan.film { size = { 8, 8 }, fps = 4, frames = 12, marks = { title = 1
     assert.truthy(out:find("\nmark 1 title\nmark 5 chase\nmark 11 the end\n", 1, true), out)
   end)
 
-  it("is refused if there is none of its name, or its frame is outside of the film", function()
+  it("is refused if no mark has that name, or if its frame is not in the film", function()
     local code, _, err = bench:celspan_inside "render film.lua --hash --frames titel"
     assert.are.equal(2, code)
     assert.truthy(err:find('frames "titel": the film has no mark "titel"; its marks are title, '

@@ -1,3 +1,4 @@
+/* One file, because its steps share the state of one interval and are inlined into one another. */
 #include "engine/area/crowd.h"
 
 #include "base/number.h"

@@ -1,3 +1,5 @@
+/* One file, because a group, a mode, a matte, a boolean and a composition each hold objects of all
+ * kinds: the functions that add them call each other. */
 #include "frames/render/objects.h"
 
 #include <math.h>
