@@ -74,6 +74,18 @@ function program.put(document, output, subject)
   io.stdout:write(text)
 end
 
+--- Adds to the words of a process of this program what the request gives it: the options that
+--- `own` does not name, --set for each of `settings`, { name, value }, and the script's arguments.
+function program.pass_on(words, request, own, settings)
+  local function add(...) table.move({ ... }, 1, select("#", ...), #words + 1, words) end
+  for _, option in ipairs(request.given) do
+    if not own[option.name] then add(option.name, option.value) end
+  end
+  for _, one in ipairs(settings) do add("--set", one[1] .. "=" .. one[2]) end
+  if #request.arguments > 0 then add("--", table.unpack(request.arguments)) end
+  return words
+end
+
 --- Runs processes, as many at a time as `workers`. next_item() returns the next item, or nil after
 --- the last. start(item) returns its process, or nil if it could not be started; then no more are.
 --- finish(item, code, signal, name) is called in the order of the items, and returns false to start

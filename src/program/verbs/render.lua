@@ -56,22 +56,12 @@ end
 local own = { ["-o"] = true, ["--table"] = true, ["--workers"] = true, ["--progress"] = true }
 
 local function words_of(row, output, header, is_parameter, threads)
-  local words = { "render", request[1], "-o", output, "--workers", tostring(threads),
-                  "--progress", "none" }
-  for _, option in ipairs(request.given) do
-    if not own[option.name] then
-      words[#words + 1] = option.name
-      words[#words + 1] = option.value
-    end
-  end
+  local settings = {}
   for i, name in ipairs(header) do
-    if is_parameter[name] then
-      words[#words + 1] = "--set"
-      words[#words + 1] = name .. "=" .. row[i]
-    end
+    if is_parameter[name] then settings[#settings + 1] = { name, row[i] } end
   end
-  if #request.arguments > 0 then words[#words + 1] = "--" end
-  return table.move(request.arguments, 1, #request.arguments, #words + 1, words)
+  return program.pass_on({ "render", request[1], "-o", output, "--workers", tostring(threads),
+                           "--progress", "none" }, request, own, settings)
 end
 
 -- ---------------------------------------------------------------- checks

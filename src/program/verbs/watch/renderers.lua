@@ -26,19 +26,9 @@ local own = { ["--port"] = true, ["--open"] = true, ["--size"] = true, ["--edito
 
 --- values: of parameters, which count more than those of the command line.
 local function words_of(values)
-  local words = { "stage", request[1] }
-  for _, option in ipairs(request.given) do
-    if not own[option.name] then
-      words[#words + 1] = option.name
-      words[#words + 1] = option.value
-    end
-  end
-  for name, value in pairs(values) do
-    words[#words + 1] = "--set"
-    words[#words + 1] = name .. "=" .. value
-  end
-  if #request.arguments > 0 then words[#words + 1] = "--" end
-  return table.move(request.arguments, 1, #request.arguments, #words + 1, words)
+  local settings = {}
+  for name, value in pairs(values) do settings[#settings + 1] = { name, value } end
+  return program.pass_on({ "stage", request[1] }, request, own, settings)
 end
 
 function renderers.new(note_files)
