@@ -55,7 +55,9 @@ for _, picture in ipairs(list) do
   end
   local output = folder .. "/" .. picture.name .. ".png"
   if picture.grid then
-    run(binary .. " contact", script, "--grid", picture.grid, "-o", output)
+    local sheet = ("%s/%s.sheet.png"):format(parts, picture.name)
+    run(binary .. " contact", script, "--grid", picture.grid, "-o", sheet)
+    run(binary .. " convert", sheet, output, "--size", picture.size)
   else
     render(script, picture, output, picture.parts and absolute)
   end
