@@ -115,6 +115,7 @@ function lips.read(path, options)
   for n, shape in ipairs(shapes) do shapes[n] = name(shape) end
   local rest = name(found.cues and "X" or "rest")
   shapes = shifted(shapes, math.floor((options.start or 0) * fps + 0.5), rest)
+  mouths.keep(path, shapes)
   return setmetatable({ shapes = shapes, frames = #shapes, fps = fps, rest = rest }, Track)
 end
 

@@ -111,4 +111,36 @@ function mouths.hold(shapes, hold)
   return held
 end
 
+-- ---------------------------------------------------------------- what was read
+
+-- The mouths that were read last, by path, for those who look at the film: KEPT_MOST at most.
+local KEPT_MOST = 16
+local kept = {}
+
+--- shapes: of each frame of the film.
+function mouths.keep(path, shapes)
+  for i, one in ipairs(kept) do
+    if one.path == path then
+      table.remove(kept, i)
+      break
+    end
+  end
+  table.insert(kept, { path = path, shapes = shapes })
+  if #kept > KEPT_MOST then table.remove(kept, 1) end
+end
+
+--- Path and shapes of each, both ended by a zero; shapes are lines of the frame at which one begins
+--- and its name.
+function mouths.kept_text()
+  local parts = {}
+  for _, one in ipairs(kept) do
+    local lines = {}
+    for n, shape in ipairs(one.shapes) do
+      if shape ~= one.shapes[n - 1] then lines[#lines + 1] = ("%d %s\n"):format(n, shape) end
+    end
+    parts[#parts + 1] = ("%s\0%s\0"):format(one.path, table.concat(lines))
+  end
+  return table.concat(parts)
+end
+
 return mouths

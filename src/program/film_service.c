@@ -201,25 +201,28 @@ static void add_rostrum(lua_State *L, const celspan_rostrum *rostrum) {
   }
 }
 
-/* Runs protected. The name of a function, its argument -> what it returns */
-static int describe_parameters(lua_State *L) {
-  cs_embedded_require(L, "celspan.parameters");
-  lua_getfield(L, -1, lua_touserdata(L, 1));
-  lua_pushstring(L, lua_touserdata(L, 2));
+/* Runs protected. The names of a module and of a function in it, its argument -> what it returns */
+static int ask_module(lua_State *L) {
+  cs_embedded_require(L, lua_touserdata(L, 1));
+  lua_getfield(L, -1, lua_touserdata(L, 2));
+  lua_pushstring(L, lua_touserdata(L, 3));
   lua_call(L, 1, 1);
   return 1;
 }
 
-/* film:parameters(what, text) -> a text: calls that function of celspan.parameters. */
-static int parameters(lua_State *L) {
+/* film:ask(module, what, text) -> a text: calls that function of one of celspan's modules, as the
+ * script has it. */
+static int ask(lua_State *L) {
   lua_State *script = self(L)->script.L;
-  lua_pushcfunction(script, describe_parameters);
-  lua_pushlightuserdata(script, (void *)luaL_checkstring(L, 2));
-  lua_pushlightuserdata(script, (void *)luaL_checkstring(L, 3));
-  int outcome = lua_pcall(script, 2, 1, 0);
+  lua_pushcfunction(script, ask_module);
+  for (int i = 2; i <= 4; i++)
+    lua_pushlightuserdata(script, (void *)luaL_checkstring(L, i));
+  int outcome = lua_pcall(script, 3, 1, 0);
   if (outcome != LUA_OK)
     cs_service_try(L, cs_lua_error_report(script, outcome));
-  lua_pushstring(L, lua_tostring(script, -1));
+  size_t size;
+  const char *text = lua_tolstring(script, -1, &size);
+  lua_pushlstring(L, text, size);
   lua_pop(script, 1);
   return 1;
 }
@@ -279,6 +282,8 @@ static int faults(lua_State *L) {
 static int picture(lua_State *L) { return cs_stage_picture(L, &self(L)->script); }
 static int hits(lua_State *L) { return cs_stage_hits(L, &self(L)->script); }
 static int files(lua_State *L) { return cs_stage_files(L, &self(L)->script); }
+static int sound(lua_State *L) { return cs_stage_sound(L, &self(L)->script); }
+static int wave(lua_State *L) { return cs_stage_wave(L, &self(L)->script); }
 
 /* ---------------------------------------------------------------- the film */
 
@@ -300,6 +305,7 @@ static void set_facts(lua_State *L, const cs_film_info *info) {
   cs_put_integer(L, "frames", info->count);
   cs_put_number(L, "fps", info->frames_second);
   cs_put_text(L, "title", info->title);
+  cs_put_flag(L, "has_sound", info->has_sound);
   lua_createtable(L, 2, 0);
   lua_pushinteger(L, info->width);
   lua_rawseti(L, -2, 1);
@@ -326,11 +332,13 @@ static void set_methods(lua_State *L) {
                                      {"scene", scene},
                                      {"counts", counts},
                                      {"names", names},
-                                     {"parameters", parameters},
+                                     {"ask", ask},
                                      {"faults", faults},
                                      {"files", files},
                                      {"picture", picture},
                                      {"hits", hits},
+                                     {"sound", sound},
+                                     {"wave", wave},
                                      {NULL, NULL}};
   lua_createtable(L, 0, 2);
   lua_pushcfunction(L, describe);
@@ -347,7 +355,7 @@ static int open_film(lua_State *L) {
   const cs_request *request = session->request;
   const char *path = luaL_optstring(L, 1, request->operands[0]);
   luaL_requiref(L, "celspan", luaopen_celspan, 0);
-  lua_createtable(L, 0, 8);
+  lua_createtable(L, 0, 9);
   film *f = cs_userdata_push_holder(L, "celspan.program.film", sizeof *f, close_film);
   f->pictures.context = session->context;
   f->pictures.progress = cs_interrupt_progress;

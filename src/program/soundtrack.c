@@ -132,18 +132,23 @@ static bool is_run(const cs_sequence *frames) {
   return true;
 }
 
-cs_exit cs_soundtrack_open(cs_script *script, const cs_request *request, const cs_sequence *frames,
-                           cs_sound_stream *out, int64_t *moments) {
+celspan_status cs_soundtrack_mix(cs_script *script, int64_t first, int64_t count,
+                                 cs_sound_stream *out, int64_t *moments) {
   cs_soundtrack track;
   double rate = script->film.frames_second;
+  *moments = moments_of((double)count / rate);
+  CS_TRY(cs_soundtrack_read(script, &track));
+  return cs_mix_open(script->context, track.sounds, track.count,
+                     (double)(first - script->film.first) / rate, *moments, out);
+}
+
+cs_exit cs_soundtrack_open(cs_script *script, const cs_request *request, const cs_sequence *frames,
+                           cs_sound_stream *out, int64_t *moments) {
   if (!is_run(frames))
     return cs_report_usage("--frames %s: the film has a sound, which goes with one run of frames "
                            "such as 10-20",
                            cs_request_text(request, "--frames"));
-  *moments = moments_of((double)frames->count / rate);
-  celspan_status status = cs_soundtrack_read(script, &track);
-  if (status == CELSPAN_OK)
-    status = cs_mix_open(script->context, track.sounds, track.count,
-                         (double)(frames->frames[0] - script->film.first) / rate, *moments, out);
+  celspan_status status =
+      cs_soundtrack_mix(script, frames->frames[0], (int64_t)frames->count, out, moments);
   return cs_report_failure(script->context, status, NULL);
 }

@@ -18,6 +18,10 @@ CELSPAN_CHECKED celspan_status cs_soundtrack_read(cs_script *script, cs_soundtra
 /* Finds the files and, if is_deep, decodes them up to the end of the film; OK without ffmpeg.
  * Errors: those of cs_mix_open. */
 CELSPAN_CHECKED celspan_status cs_soundtrack_check(cs_script *script, bool is_deep);
+/* Mixes the sound of `count` frames from number `first` on; *moments: how many there are. Errors:
+ * those of cs_soundtrack_read and cs_mix_open. */
+CELSPAN_CHECKED celspan_status cs_soundtrack_mix(cs_script *script, int64_t first, int64_t count,
+                                                 cs_sound_stream *out, int64_t *moments);
 /* Mixes the sound of a run of frames; *moments: how many there are. OK, or reported. */
 cs_exit cs_soundtrack_open(cs_script *script, const cs_request *request, const cs_sequence *frames,
                            cs_sound_stream *out, int64_t *moments);

@@ -2,6 +2,7 @@
 local json = require "celspan.json"
 local present = require "tests.support.present"
 local system = require "tests.support.system"
+local watching = require "tests.support.watching"
 local workbench = require "tests.support.workbench"
 
 if not present.web() then return pending "celspan was built without libmicrohttpd" end
@@ -17,47 +18,15 @@ return celspan.film { title = "Ball", size = { 64, 36 }, fps = 24, frames = 48, 
 end, marks = { half = 24 } }
 ]]
 
-local bench, server
+local watch, speak, see, stop = watching.watch, watching.speak, watching.see, watching.stop
+local bench
 
 before_each(function()
-  bench = workbench.new()
-  bench:write("shot.lua", FILM)
+  watching.begin { ["shot.lua"] = FILM }
+  bench = watching.bench
 end)
 
---- Starts the server in the folder; its address and the number of its process.
-local function watch(arguments)
-  local _, out = bench:inside(("exec '%s' watch %s >said 2>complained & echo $!")
-    :format(workbench.absolute, arguments or "shot.lua"))
-  server = out:match "%d+"
-  for _ = 1, 200 do
-    local address = (bench:read "said" or ""):match "^watching (%g+)\n"
-    if address then return address end
-    os.execute "sleep 0.05"
-  end
-  error("no server: " .. bench:read "complained")
-end
-
-local function stop()
-  if not server then return end
-  os.execute(("kill %s 2>/dev/null; while kill -0 %s 2>/dev/null; do sleep 0.02; done")
-    :format(server, server))
-  server = nil
-end
-
-after_each(function()
-  stop()
-  bench:remove()
-end)
-
---- What the steps return, in JavaScript: see tests/support/stranger.js and browser.js.
-local function run(command, steps)
-  local path = bench:write("steps.js", steps)
-  local code, out, err = bench:shell(("node tests/support/%s '%s'"):format(command, path))
-  assert.equal(0, code, err)
-  return assert(json.decode(out)), out
-end
-
-local function speak(address, steps) return run(("stranger.js '%s'"):format(address), steps) end
+after_each(watching.finish)
 
 describe("the server of celspan watch", function()
   it("answers programs that have the token", function()
@@ -73,7 +42,7 @@ describe("the server of celspan watch", function()
       all["/frame/1.png"] = Buffer.from(all["/frame/1.png"][1], "latin1").toString("base64");
       return all;]=])
     local film = json.decode(said["/film.json"][2])
-    assert.same({ frames = 48, first = 1, fps = 24, size = { 64, 36 }, title = "Ball",
+    assert.same({ frames = 48, first = 1, fps = 24, size = { 64, 36 }, title = "Ball", sound = false,
                   marks = { { frame = 24, name = "half" } } }, film)
     assert.equal("[]\n", said["/errors.json"][2])
     local _, sheet = bench:celspan_inside "sheet shot.lua"
@@ -288,7 +257,7 @@ describe("the server of celspan watch", function()
   it("ends its renderers with itself", function()
     local address = watch()
     speak(address, [=[return (await web.get("/frame/1.png")).status;]=])
-    local children = bench:read(("/proc/%s/task/%s/children"):format(server, server))
+    local children = bench:read(("/proc/%s/task/%s/children"):format(watching.server(), watching.server()))
     assert.truthy(children:find "%d")
     stop()
     for child in children:gmatch "%d+" do
@@ -321,15 +290,6 @@ end)
 
 describe("the page of celspan watch #plain", function()
   if not present.program "chromium" then return pending "there is no chromium" end
-
-  local HELP = [[
-    const stage = name => `document.querySelector("#stage").dataset.${name}`;
-    const text = id => page.get(`document.querySelector("#${id}").textContent`);
-  ]]
-
-  local function see(address, steps)
-    return run(("browser.js '%s/chromium' '%s'"):format(bench.folder, address), HELP .. steps)
-  end
 
   it("shows, steps and plays frames, by keys alone", function()
     local said = see(watch(), [=[
@@ -421,7 +381,7 @@ describe("the page of celspan watch #plain", function()
     local said = see(watch(), [=[
       await page.until(`${stage("frame")} === "1"`);
       await page.press("s");
-      await page.until(`document.querySelectorAll("#names li").length === 2`);
+      await page.until(`document.querySelectorAll("#names li").length === 3`);
       const box = await page.get(`(() => { const b = document.querySelector("#rows")
         .getBoundingClientRect(); return [b.left, b.top, b.width, b.height]; })()`);
       await page.click(box[0] + box[2] * 29.5 / 48, box[1] + 30);
@@ -433,7 +393,7 @@ describe("the page of celspan watch #plain", function()
                names: await page.get(`document.querySelector("#names").innerText`) };]=])
     assert.same({ 255, 255 }, said.painted)
     assert.is_true(math.abs(said.head - 29.5) < 0.2, said.head)
-    assert.equal("cel 2\nground", said.names)
+    assert.equal("cel 2\nground\nmarks", said.names)
   end)
 
   it("shows the frames before and after, in red and green", function()
@@ -519,15 +479,10 @@ describe("the page of celspan watch #plain", function()
   it("plays alone, without bars, with celspan play", function()
     bench:shell(("mkdir %s/bin && printf '#!/bin/sh\necho \"$1\" >%s/opened\n' >%s/bin/xdg-open && "
       .. "chmod +x %s/bin/xdg-open"):format(bench.folder, bench.folder, bench.folder, bench.folder))
-    local _, out = bench:inside(("PATH=%s/bin:$PATH exec '%s' play shot.lua >said 2>complained & "
-      .. "echo $!"):format(bench.folder, workbench.absolute))
-    server = out:match "%d+"
-    local address
-    for _ = 1, 200 do
-      address = (bench:read "opened" or ""):match "^http%g+"
-      if address then break end
-      os.execute "sleep 0.05"
-    end
+    local address = watching.start(("PATH=%s/bin:$PATH exec '%s' play shot.lua >said 2>complained")
+      :format(bench.folder, workbench.absolute), function()
+      return (bench:read "opened" or ""):match "^http%g+"
+    end)
     assert.equal("watching " .. address .. "\n", bench:read "said")
     local said = see(address, [=[
       await page.until(`Number(${stage("frame")}) > 3`);

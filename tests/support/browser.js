@@ -48,6 +48,7 @@ browser.stdio[4].on("data", bytes => {
 // ---- the page
 
 const CODES = { " ": "Space", ArrowLeft: "ArrowLeft", ArrowRight: "ArrowRight" };
+const TEXTS = { Enter: "\r" };
 const pause = seconds => new Promise(done => setTimeout(done, seconds * 1000));
 
 async function open() {
@@ -72,7 +73,7 @@ async function open() {
       throw new Error(`never true: ${expression}`);
     },
     async press(key, modifiers = 0) {
-      const params = { key, code: CODES[key], modifiers, text: key.length === 1 ? key : undefined };
+      const params = { key, code: CODES[key], modifiers, text: key.length === 1 ? key : TEXTS[key] };
       await call("Input.dispatchKeyEvent", { type: "keyDown", ...params });
       await call("Input.dispatchKeyEvent", { type: "keyUp", ...params, text: undefined });
     },

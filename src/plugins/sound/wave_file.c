@@ -5,10 +5,10 @@
 
 #include "output/sinks/file.h"
 
-enum { PIECE = 4096, HEAD = 58, FLOAT = 3, WHOLE = 1 };
+enum { PIECE = 4096, HEAD = 58, WHOLE_HEAD = 44, FLOAT = 3, WHOLE = 1 };
 
 typedef struct writing {
-  cs_file *file;
+  const cs_wave_target *target;
   const cs_sound_stream *samples;
   bool is_float;
   double peak;
@@ -63,13 +63,14 @@ static celspan_status write_piece(writing *w, celspan_context *context, size_t m
     w->peak = fmax(w->peak, fabs((double)w->piece[i]));
     at = put_sample(w, at, w->piece[i]);
   }
-  return cs_file_write(w->file, context, w->bytes, (size_t)(at - w->bytes));
+  return w->target->put(w->target->user, context, w->bytes, (size_t)(at - w->bytes));
 }
 
 static celspan_status write_all(writing *w, celspan_context *context, int64_t moments) {
   unsigned char head[HEAD];
   size_t most = PIECE / (size_t)w->samples->channels;
-  CS_TRY(cs_file_write(w->file, context, head, make_head(w, (uint32_t)moments, head)));
+  size_t size = make_head(w, (uint32_t)moments, head);
+  CS_TRY(w->target->put(w->target->user, context, head, size));
   while (moments > 0) {
     size_t got, wanted = moments < (int64_t)most ? (size_t)moments : most;
     CS_TRY(w->samples->read(w->samples->user, context, w->piece, wanted, &got));
@@ -81,30 +82,43 @@ static celspan_status write_all(writing *w, celspan_context *context, int64_t mo
   return CELSPAN_OK;
 }
 
-static celspan_status write_file(writing *w, celspan_context *context, const char *path,
-                                 int64_t moments) {
-  CS_TRY(cs_file_create(context, NULL, path, &w->file));
+int64_t cs_wave_file_size(const cs_sound_stream *samples, int64_t moments, bool is_float) {
+  return (is_float ? HEAD : WHOLE_HEAD) + moments * samples->channels * (is_float ? 4 : 2);
+}
+
+celspan_status cs_wave_file_put(celspan_context *context, const char *name,
+                                const cs_wave_target *target, const cs_sound_stream *samples,
+                                int64_t moments, bool is_float, double *peak) {
+  if (cs_wave_file_size(samples, moments, is_float) > (int64_t)UINT32_MAX)
+    return cs_fail(context, CELSPAN_LIMIT,
+                   "%s: %.0f seconds of sound: a WAV file has at most 4 GiB", name,
+                   (double)moments / samples->rate);
+  writing *w;
+  CS_TRY(CS_MAKE(context, w, 1));
+  w->target = target;
+  w->samples = samples;
+  w->is_float = is_float;
   celspan_status status = write_all(w, context, moments);
-  if (status == CELSPAN_OK)
-    return cs_file_commit(w->file, context);
-  cs_file_discard(w->file, context);
+  *peak = w->peak;
+  cs_mem_free(context->memory, w, sizeof *w);
   return status;
+}
+
+static celspan_status put_in_file(void *user, celspan_context *context, const void *bytes,
+                                  size_t size) {
+  return cs_file_write(user, context, bytes, size);
 }
 
 celspan_status cs_wave_file_write(celspan_context *context, const char *path,
                                   const cs_sound_stream *samples, int64_t moments, bool is_float,
                                   double *peak) {
-  int64_t size = moments * samples->channels * (is_float ? 4 : 2);
-  if (size > (int64_t)UINT32_MAX - HEAD)
-    return cs_fail(context, CELSPAN_LIMIT,
-                   "%s: %.0f seconds of sound: a WAV file has at most 4 GiB", path,
-                   (double)moments / samples->rate);
-  writing *w;
-  CS_TRY(CS_MAKE(context, w, 1));
-  w->samples = samples;
-  w->is_float = is_float;
-  celspan_status status = write_file(w, context, path, moments);
-  *peak = w->peak;
-  cs_mem_free(context->memory, w, sizeof *w);
+  cs_file *file;
+  CS_TRY(cs_file_create(context, NULL, path, &file));
+  const cs_wave_target target = {file, put_in_file};
+  celspan_status status =
+      cs_wave_file_put(context, path, &target, samples, moments, is_float, peak);
+  if (status == CELSPAN_OK)
+    return cs_file_commit(file, context);
+  cs_file_discard(file, context);
   return status;
 }

@@ -7,6 +7,20 @@
 
 #include "frames/video/sound_stream.h"
 
+/* Where the bytes of a WAV file go, in their order. Errors of `put`: its own. */
+typedef struct cs_wave_target {
+  void *user;
+  celspan_status (*put)(void *user, celspan_context *context, const void *bytes, size_t size);
+} cs_wave_target;
+
+/* Bytes of the file of that many moments. */
+int64_t cs_wave_file_size(const cs_sound_stream *samples, int64_t moments, bool is_float);
+/* The bytes of the file. *peak and errors: as below, and those of the target. The name is that of
+ * the file in messages. */
+CELSPAN_CHECKED celspan_status cs_wave_file_put(celspan_context *context, const char *name,
+                                                const cs_wave_target *target,
+                                                const cs_sound_stream *samples, int64_t moments,
+                                                bool is_float, double *peak);
 /* *peak: the greatest magnitude of a sample. Errors: those of the samples; OUTPUT; LIMIT, for more
  * than 4 GiB; NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_wave_file_write(celspan_context *context, const char *path,

@@ -56,10 +56,10 @@ end
 local function describe_film()
   local film = program.film()
   if request.json then
-    io.write((film:parameters("schema", film.title or path:match "[^/]*$")))
+    io.write((film:ask("celspan.parameters", "schema", film.title or path:match "[^/]*$")))
     return
   end
-  io.write((film:parameters("lines", "")))
+  io.write((film:ask("celspan.parameters", "lines", "")))
   if request.parameters then return end
   local total = count_film(film)
   if film.title then put("title %s", film.title) end

@@ -69,7 +69,7 @@ end
 --- The names of the script's parameters, as keys.
 local function parameters_of(film)
   local names = {}
-  for name in pairs(assert(json.decode(film:parameters("schema", ""))).properties) do
+  for name in pairs(assert(json.decode(film:ask("celspan.parameters", "schema", ""))).properties) do
     names[name] = true
   end
   return names
@@ -100,7 +100,8 @@ local function check_rows(text, film, columns, is_parameter)
   local lines, count = {}, 0
   for row, line in next_row do
     for i, name in ipairs(header) do
-      local fault = is_parameter[name] and film:parameters("fault", name .. "=" .. row[i]) or ""
+      local fault = is_parameter[name]
+        and film:ask("celspan.parameters", "fault", name .. "=" .. row[i]) or ""
       if fault ~= "" then
         program.usage("--table %s: line %d: %s", request.table, line, fault)
       end

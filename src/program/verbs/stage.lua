@@ -34,7 +34,8 @@ local answers = {}
 --- The parameters of the film, sorted by name: what JSON Schema says of each.
 local function parameters()
   local list = {}
-  for name, one in pairs(assert(json.decode(film:parameters("schema", ""))).properties) do
+  local schema = assert(json.decode(film:ask("celspan.parameters", "schema", "")))
+  for name, one in pairs(schema.properties) do
     one.name = name
     one.enum = one.enum and { list = one.enum }
     list[#list + 1] = one
@@ -45,7 +46,7 @@ end
 
 function answers.film()
   local facts = { frames = film.frames, first = film.first, fps = film.fps, size = film.size,
-                  title = film.title, marks = { list = film.marks } }
+                  title = film.title, marks = { list = film.marks }, sound = film.has_sound }
   put { good = true, film = facts, parameters = parameters() }
 end
 
@@ -109,6 +110,37 @@ function answers.rows()
     rows[#rows + 1] = row
   end
   put({ good = true }, program.json { rows = { list = rows }, frames = sheet.frames })
+end
+
+--- The first `count` shapes of the mouths that the film has read, as rows.
+local function lips_of(count)
+  local rows = { list = {} }
+  for path, shapes in film:ask("celspan.mouths", "kept_text", ""):gmatch "(%Z*)%z(%Z*)%z" do
+    local row = { name = path:match "[^/]*$", cells = { list = {} } }
+    for frame, shape in shapes:gmatch "(%d+) ([^\n]*)\n" do
+      if math.tointeger(frame) > count then break end
+      table.insert(row.cells.list, { math.tointeger(frame), shape })
+    end
+    table.insert(rows.list, row)
+  end
+  return rows
+end
+
+function answers.sound(ask)
+  local bytes, message = film:sound(ask.first, ask.count)
+  if not bytes then return refuse(message) end
+  put({ good = true }, bytes)
+end
+
+--- How far the sound goes from silence, in columns over the first SHEET_MOST frames; the mouths.
+function answers.wave(ask)
+  local count, columns = math.min(film.frames, SHEET_MOST), {}
+  if film.has_sound then
+    local bytes, message = film:wave(film.first, count, ask.columns)
+    if not bytes then return refuse(message) end
+    for i = 1, #bytes do columns[i] = bytes:byte(i) end
+  end
+  put({ good = true }, program.json { columns = { list = columns }, lips = lips_of(count) })
 end
 
 --- Checks frames until the time is over, one at least.

@@ -25,6 +25,7 @@ local AROUND = 3           -- lines shown before and after that of an error
 local LINES_MOST = 1 << 20 -- bytes of a script of which lines are shown
 local SIDE_MOST = 1048576  -- pixels
 local PIXELS_MOST = 1 << 25 -- of a picture
+local COLUMNS_MOST = 10000  -- of a wave
 
 local script = request[1]
 local file, why = io.open(script, "rb")
@@ -287,6 +288,36 @@ local function give_frame(id, text, ending, fields)
     end)
 end
 
+--- The run of frames of a text such as "1-48"; without one, all of them; nil: refused.
+local function run_of(id, text)
+  local film = state.film
+  local from, to = (text or ""):match "^(%-?%d+)%-(%-?%d+)$"
+  if not text and film then from, to = film.first, film.first + film.frames - 1 end
+  if not from and text then return refuse(id, 400, "write frames=A-B, such as 1-48") end
+  local first = frame_of(id, from)
+  local last = first and frame_of(id, to)
+  if last and last < first then return refuse(id, 400, "frames=A-B: A is greater than B") end
+  return last and first, last
+end
+
+local function give_sound(id, fields)
+  local first, last = run_of(id, fields.frames)
+  if not first then return end
+  if not state.film.sound then return refuse(id, 404, "the film has no sound") end
+  pass_on(id, { want = "sound", first = first, count = last - first + 1 },
+    function(_, bytes) answer(id, 200, "audio/wav", bytes) end)
+end
+
+local function give_wave(id, fields)
+  local columns = math.tointeger(fields.columns or 1000)
+  if not state.is_shown then return frame_of(id) end
+  if not columns or columns < 1 or columns > COLUMNS_MOST then
+    return refuse(id, 400, ("write columns=N, from 1 to %d"):format(COLUMNS_MOST))
+  end
+  pass_on(id, { want = "wave", columns = columns },
+    function(_, text) answer(id, 200, "application/json", text) end)
+end
+
 local function give_point(id, x, y, fields)
   local number = frame_of(id, fields.frame or state.film and state.film.first)
   x, y = tonumber(x), tonumber(y)
@@ -307,7 +338,8 @@ local function give_text(id, name)
   answer(id, 200, kinds[name:match "%w+$"], program.text(name), "Set-Cookie", door.cookie)
 end
 
-local pages = { ["/"] = "page.html", ["/page.css"] = "page.css", ["/page.js"] = "page.js" }
+local pages = { ["/"] = "page.html", ["/page.css"] = "page.css", ["/page.js"] = "page.js",
+                ["/sound.js"] = "sound.js" }
 
 local gets = {
   ["/film.json"] = function(id)
@@ -325,6 +357,8 @@ local gets = {
     pass_on(id, { want = "rows" },
       function(_, text) answer(id, 200, "application/json", text) end)
   end,
+  ["/sound.wav"] = give_sound,
+  ["/wave.json"] = give_wave,
   ["/counts.json"] = function(id) give_json(id, web:counts()) end,
   ["/state.json"] = function(id, fields)
     local since = math.tointeger(fields.since) or 0

@@ -6,6 +6,8 @@
 //
 // Pictures are wanted one after the other: while one is on its way, only the newest wish is kept.
 // While the film plays, several are asked for ahead.
+import * as sound from "/sound.js";
+
 const here = id => document.getElementById(id);
 const stage = here("stage"), desk = here("desk"), pen = stage.getContext("2d");
 const SIDE_MOST = 1048576;   // pixels of a frame
@@ -21,7 +23,9 @@ const state = { news: 0, build: 0, film: null, errors: [], shown: false,
 // frame's corner in the window, in device pixels. isFitted: both follow the window.
 const view = { number: 1, scale: 1, x: 0, y: 0, isFitted: true };
 const loop = { from: 1, to: 1 };
-const play = { direction: 0, speed: 1, start: 0, number: 1, shown: -1, painted: [] };
+// start: on the clock of the sound while it is heard, else on the machine's, in seconds.
+const play = { direction: 0, speed: 1, start: 0, isHeard: false, passed: 0, number: 1, shown: -1,
+               painted: [] };
 let painted = null, isMatte = false, mark = null;
 let refused = null; // the frame that could not be made: number, build, message
 let lastFault = null; // the error that is shown
@@ -224,6 +228,7 @@ function go(number) {
   if (!state.film) return;
   view.number = clamp(Math.round(number) || 1, 1, state.film.frames);
   showFault();
+  if (play.direction === 0) sound.tap(view.number - 1);
   look();
 }
 
@@ -237,8 +242,11 @@ function start(direction) {
   play.direction = direction;
   if (view.number < loop.from || view.number > loop.to) view.number = loop.from;
   play.number = view.number;
-  play.start = performance.now();
+  play.start = performance.now() / 1000;
+  play.isHeard = false;
   play.painted = [];
+  if (direction > 0) sound.begin(view.number - 1, play.speed, loop.from - 1, loop.to - 1);
+  else sound.end();
   play.shown = -1;
   here("play").textContent = "❚❚";
   here("play").setAttribute("aria-label", "Pause");
@@ -247,6 +255,7 @@ function start(direction) {
 
 function stop() {
   play.direction = 0;
+  sound.end();
   here("play").textContent = "▶";
   here("play").setAttribute("aria-label", "Play");
   here("rate").textContent = "";
@@ -305,16 +314,27 @@ function duePicture(passed) {
   return null;
 }
 
+/** Seconds since the start, by the sound's clock as soon as it is heard. */
+function passedSeconds() {
+  const heard = sound.seconds(), now = heard ?? performance.now() / 1000;
+  if (play.isHeard !== (heard !== null)) {
+    play.isHeard = heard !== null;
+    play.start = now - play.passed;
+  }
+  play.passed = Math.max(0, now - play.start);
+  return play.passed;
+}
+
 function showRate(now) {
   play.painted = play.painted.filter(time => now - time < 1000);
-  const age = Math.min(now - play.start, 1000) / 1000;
+  const age = Math.min(play.passed, 1);
   here("rate").textContent = age > 0.5 ? `${(play.painted.length / age).toFixed(1)} fps` : "";
 }
 
 function tick(now) {
   if (play.direction === 0 || !state.film) return;
-  const passed = Math.floor((now - play.start) / 1000 * state.film.fps * play.speed);
-  const due = state.shown ? duePicture(Math.max(0, passed)) : null;
+  const elapsed = passedSeconds() * state.film.fps * play.speed, passed = Math.floor(elapsed);
+  const due = state.shown ? duePicture(passed) : null;
   if (due) {
     play.shown = due.at;
     view.number = due.picture.number;
@@ -322,7 +342,8 @@ function tick(now) {
     play.painted.push(now);
     showNumbers();
   }
-  if (state.shown) askAhead(Math.max(0, passed));
+  if (state.shown) askAhead(passed);
+  if (play.direction > 0) sound.feed(onward(play.number, passed) - 1 + elapsed - passed);
   showRate(now);
   requestAnimationFrame(tick);
 }
@@ -337,6 +358,7 @@ function setSpeed(speed) {
 function setLoop(from, to) {
   loop.from = clamp(from, 1, state.film.frames);
   loop.to = clamp(to, loop.from, state.film.frames);
+  if (play.direction !== 0) start(play.direction);
   showNumbers();
 }
 
@@ -413,6 +435,7 @@ function takeState(news) {
   showState();
   loadSheet();
   if (!isNew) return;
+  takeSound();
   forget();
   if (state.shown) look();
 }
@@ -523,21 +546,68 @@ function takeDefaults() {
   sendValues();
 }
 
+// ---------------------------------------------------------------- the sound
+
+/** Takes the sound of a save; a film that plays continues with the new one. */
+function takeSound() {
+  sound.takeFilm(state.film, state.build);
+  here("mute").hidden = !sound.hasSound();
+  if (play.direction > 0) start(1);
+}
+
+function swapMute() {
+  const isMuted = here("mute").getAttribute("aria-pressed") !== "true";
+  here("mute").setAttribute("aria-pressed", isMuted);
+  sound.mute(isMuted);
+  if (!isMuted && play.direction > 0) start(1);
+}
+
 // ---------------------------------------------------------------- the sheet
 
-const ROW = 20; // CSS pixels
-const sheet = { rows: [], frames: 1, build: 0 };
+const ROW = 20, WAVE = 44; // CSS pixels
+const WAVE_COLUMNS = 2000;
+const sheet = { rows: [], lips: [], columns: [], frames: 1, build: 0 };
 
 /** Asks for the sheet if it is open and older than the film. */
 async function loadSheet() {
   if (here("sheet").hidden || !state.shown || sheet.build === state.build) return;
   const build = sheet.build = state.build;
-  const answer = await fetch("/sheet.json");
-  if (!answer.ok || build !== state.build) return;
-  Object.assign(sheet, await answer.json());
-  here("names").replaceChildren(...sheet.rows.map(row =>
-    element("li", { textContent: row.name, title: row.name })));
+  const answers = await Promise.all([fetch(`/sheet.json?build=${build}`),
+                                     fetch(`/wave.json?columns=${WAVE_COLUMNS}&build=${build}`)]);
+  for (const answer of answers) {
+    const part = answer.ok ? await answer.json() : {};
+    if (build !== state.build) return;
+    Object.assign(sheet, part);
+  }
+  nameRows();
   drawSheet();
+}
+
+/** Whether a row for the sound and the marks is below the others. */
+const hasWave = () => sheet.columns.length > 0 || state.film.marks.length > 0;
+
+function nameRows() {
+  const item = (name, kind) => element("li", { textContent: name, title: name, className: kind });
+  const last = sheet.columns.length > 0 ? "sound" : "marks";
+  here("names").replaceChildren(...sheet.rows.map(row => item(row.name, "cel")),
+    ...sheet.lips.map(row => item(row.name, "lips")), ...hasWave() ? [item(last, "wave")] : []);
+}
+
+/** The sound from y on, as far as it goes from silence, and the marks over it. */
+function drawWave(brush, y, width, colours) {
+  const step = width / Math.max(1, sheet.columns.length), unit = width / sheet.frames;
+  brush.fillStyle = colours.quiet;
+  sheet.columns.forEach((height, i) => {
+    const half = Math.max(0.5, height / 255 * (WAVE / 2 - 2));
+    brush.fillRect(i * step, y + WAVE / 2 - half, Math.max(step, 0.5), 2 * half);
+  });
+  for (const mark of state.film.marks) {
+    const x = (mark.frame - state.film.first) * unit;
+    brush.fillStyle = colours.dot;
+    brush.fillRect(x, y, 1, WAVE);
+    brush.fillStyle = colours.text;
+    brush.fillText(mark.name, x + 4, y + 11);
+  }
 }
 
 /** A row of the sheet: a box for each drawing as long as it is held, a dot where it only moves. */
@@ -552,14 +622,15 @@ function drawRow(brush, row, y, unit, colours) {
     if (width > 8 + 7 * name.length) brush.fillText(name, x + 4, y + 14);
   });
   brush.fillStyle = colours.dot;
-  for (const frame of row.moved) {
+  for (const frame of row.moved || []) {
     brush.fillRect((frame - 0.5) * unit - 1, y + ROW - 5, Math.min(2, Math.max(1, unit)), 2);
   }
 }
 
 function drawSheet() {
   const canvas = here("rows"), width = here("cells").clientWidth, r = ratio();
-  const height = Math.max(1, sheet.rows.length) * ROW, brush = canvas.getContext("2d");
+  const rows = [...sheet.rows, ...sheet.lips], brush = canvas.getContext("2d");
+  const height = Math.max(1, rows.length) * ROW + (state.film && hasWave() ? WAVE : 0);
   const style = getComputedStyle(document.documentElement);
   const colour = name => style.getPropertyValue(name);
   canvas.width = Math.round(width * r);
@@ -568,8 +639,9 @@ function drawSheet() {
   brush.scale(r, r);
   brush.font = "11px system-ui, 'DejaVu Sans', sans-serif";
   const colours = { odd: colour("--line"), even: colour("--press"), text: colour("--text"),
-                    dot: colour("--accent") };
-  sheet.rows.forEach((row, i) => drawRow(brush, row, i * ROW, width / sheet.frames, colours));
+                    dot: colour("--accent"), quiet: colour("--light") };
+  rows.forEach((row, i) => drawRow(brush, row, i * ROW, width / sheet.frames, colours));
+  if (state.film && hasWave()) drawWave(brush, rows.length * ROW, width, colours);
   placeHead();
 }
 
@@ -792,6 +864,7 @@ const keys = {
   s: () => setSheet(here("sheet").hidden),
   w: () => setMixing("wipe"), d: () => setMixing("differ"),
   n: nextOnion,
+  u: swapMute,
   v: () => setTuning(here("values").hidden),
   g: askNumber,
   "+": () => zoomMiddle(1.5), "=": () => zoomMiddle(1.5), "-": () => zoomMiddle(1 / 1.5),
@@ -871,7 +944,9 @@ desk.addEventListener("wheel", event => {
 const clicks = {
   first: () => { stop(); go(loop.from); }, back: () => step(-1), play: toggle,
   forward: () => step(1), last: () => { stop(); go(loop.to); }, fit: keys[0],
-  matte: keys.m, inspect: keys.p, tune: keys.v, list: keys.s, onion: nextOnion, guides: swapGuides, wipe: keys.w, differ: keys.d, defaults: takeDefaults, theme: swapTheme, help: keys["?"],
+  matte: keys.m, inspect: keys.p, tune: keys.v, list: keys.s, onion: nextOnion, mute: swapMute,
+  guides: swapGuides, wipe: keys.w, differ: keys.d, defaults: takeDefaults, theme: swapTheme,
+  help: keys["?"],
 };
 for (const [id, act] of Object.entries(clicks)) here(id).addEventListener("click", act);
 

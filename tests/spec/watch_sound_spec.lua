@@ -1,0 +1,136 @@
+-- celspan watch: the sound of a film, for programs and in its page.
+local json = require "celspan.json"
+local present = require "tests.support.present"
+local watching = require "tests.support.watching"
+
+if not present.web() then return pending "celspan was built without libmicrohttpd" end
+if not present.program "node" then return pending "there is no node" end
+if not present.program "ffmpeg" then return pending "there is no ffmpeg" end
+
+local FILM = [[
+local celspan = require "celspan"
+local lips = require "celspan.lips"
+local mouth = assert(lips.read("line.tsv", { fps = 24 }))
+return celspan.film { title = "Voice", size = { 64, 36 }, fps = 24, frames = 96,
+  sound = { "tone.wav", at = 1 }, marks = { half = 49 }, frame = function(f)
+    local x = mouth:at(f.number) == "A" and 10 or 30
+    return celspan.rostrum { celspan.cel { celspan.rect { x, 10, 8, 8, texture = "#c33" } } }
+  end }
+]]
+
+--- Two seconds of the sample 16,384 in one channel.
+local function tone()
+  local data = ("<i2"):pack(16384):rep(2 * 48000)
+  return ("<c4I4c4c4I4I2I2I4I4I2I2c4I4"):pack("RIFF", 36 + #data, "WAVE", "fmt ", 16, 1, 1, 48000,
+    96000, 2, 16, "data", #data) .. data
+end
+
+before_each(function()
+  watching.begin { ["shot.lua"] = FILM, ["tone.wav"] = tone(),
+                   ["line.tsv"] = "0.00\tX\n1.00\tA\n2.00\tD\n3.00\tX\n" }
+end)
+
+after_each(watching.finish)
+
+describe("the sound of celspan watch", function()
+  it("is what celspan sound writes, whole or of a run of frames", function()
+    local said = watching.speak(watching.watch(), [=[
+      const get = async path => {
+        const answer = await web.get(path);
+        return [answer.status, Buffer.from(answer.body, "latin1").toString("base64")];
+      };
+      return { all: await get("/sound.wav"), part: await get("/sound.wav?frames=13-36"),
+               bad: await web.statuses(["frames=3-1", "frames=0-3", "frames=1-97", "frames=x"]
+                 .map(query => [`/sound.wav?${query}&token=${web.token}`])),
+               wave: (await web.get("/wave.json?columns=8")).body };]=])
+    local bench = watching.bench
+    bench:celspan_inside "sound shot.lua -o all.wav"
+    bench:celspan_inside "sound shot.lua -o part.wav --frames 13-36"
+    for name, answer in pairs { all = said.all, part = said.part } do
+      assert.equal(200, answer[1])
+      bench:write("said.base64", answer[2])
+      bench:inside "base64 -d said.base64 >said.wav"
+      local code = bench:inside(("cmp said.wav %s.wav"):format(name))
+      assert.equal(0, code, name)
+    end
+    assert.same({ 400, 404, 404, 400 }, said.bad)
+    local wave = json.decode(said.wave)
+    assert.same({ 0, 0, 127, 127, 127, 127, 0, 0 }, wave.columns)
+    assert.same({ { name = "line.tsv", cells = { { 1, "X" }, { 25, "A" },
+                                                 { 49, "D" } } } }, wave.lips)
+  end)
+
+  it("is not there where the film has none", function()
+    watching.bench:write("shot.lua", (FILM:gsub('sound = .- }, ', "", 1)))
+    local said = watching.speak(watching.watch(), [=[
+      const { body } = await web.get("/wave.json");
+      return { status: (await web.get("/sound.wav")).status,
+               film: (await web.get("/film.json")).body, columns: JSON.parse(body).columns };]=])
+    assert.equal(404, said.status)
+    assert.is_false(json.decode(said.film).sound)
+    assert.same({}, said.columns)
+  end)
+end)
+
+describe("the page of celspan watch with a sound #plain", function()
+  if not present.program "chromium" then return pending "there is no chromium" end
+
+  it("plays it in step with the picture, one frame of it at a step, and is quiet on demand",
+    function()
+      local said = watching.see(watching.watch(), [=[
+        // What is started, and how loud it begins.
+        await page.get(`(() => {
+          window.heard = [];
+          const start = AudioBufferSourceNode.prototype.start;
+          AudioBufferSourceNode.prototype.start = function(when, offset, duration) {
+            const from = Math.round(offset * 48000);
+            heard.push({ when, offset, duration, level: this.buffer.getChannelData(0)[from] });
+            start.call(this, when, offset, duration);
+          };
+        })()`);
+        await page.until(`${stage("frame")} === "1"`);
+        await page.press("g");
+        await page.get(`document.querySelector("#number").value = "30"`);
+        await page.press("Enter");
+        await page.until(`heard.length === 1`);
+        const tap = await page.get("heard[0]");
+        await page.press("Home");
+        await page.until(`heard.length === 2`);
+        await page.get("heard.length = 0");
+        await page.press(" ");
+        await page.until(`Number(${stage("frame")}) > 20`);
+        const played = await page.get("heard[0]");
+        await page.press("u");
+        const before = await page.get("heard.length");
+        await page.pause(0.7);
+        await page.press(" ");
+        await page.press("ArrowRight");
+        await page.pause(0.3);
+        return { tap, played, more: await page.get("heard.length") - before,
+                 pressed: await page.get(`document.querySelector("#mute").ariaPressed`) };]=])
+      assert.is_true(math.abs(said.tap.offset - 29 / 24) < 1e-6)
+      assert.is_true(math.abs(said.tap.duration - 1 / 24) < 1e-6)
+      assert.equal(0.5, said.tap.level)
+      -- The first that is heard is of the place of the picture, which began before.
+      assert.is_true(said.played.offset < 0.8, said.played.offset)
+      assert.equal(0, said.more)
+      assert.equal("true", said.pressed)
+    end)
+
+  it("draws its wave, the mouths and the marks under the sheet", function()
+    local said = watching.see(watching.watch(), [=[
+      await page.until(`${stage("frame")} === "1"`);
+      await page.press("s");
+      await page.until(`document.querySelectorAll("#names li").length === 3`);
+      // The wave is below a row for the cel and one for the mouths.
+      const drawn = await page.get(`(() => { const rows = document.querySelector("#rows");
+        const brush = rows.getContext("2d"), r = devicePixelRatio;
+        const at = (x, y) => brush.getImageData(Math.round(x * rows.width), y * r, 1, 1).data[3];
+        return [at(0.1, 52), at(0.4, 52), at(0.6, 52), at(0.9, 52), at(0.5, 41) ]; })()`);
+      return { drawn, names: await page.get(`document.querySelector("#names").innerText`) };]=])
+    assert.equal("cel 1\nline.tsv\nsound", said.names)
+    for i, is_drawn in ipairs { false, true, true, false, true } do
+      assert.equal(is_drawn, said.drawn[i] > 0, i)
+    end
+  end)
+end)

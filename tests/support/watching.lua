@@ -1,0 +1,78 @@
+--- celspan watch at work in a folder, for its specs:
+---
+---   local watching = require "tests.support.watching"
+---   before_each(function() watching.begin { ["shot.lua"] = FILM } end)
+---   after_each(watching.finish)
+---   local said = watching.see(watching.watch(), [=[ return page.get("document.title"); ]=])
+local json = require "celspan.json"
+local workbench = require "tests.support.workbench"
+
+local watching = {}
+
+--- Said before the steps in the page.
+local HELP = [[
+  const stage = name => `document.querySelector("#stage").dataset.${name}`;
+  const text = id => page.get(`document.querySelector("#${id}").textContent`);
+]]
+
+local server
+
+--- files: texts by name. Its folder is watching.bench.
+function watching.begin(files)
+  watching.bench = workbench.new()
+  for name, content in pairs(files) do watching.bench:write(name, content) end
+end
+
+--- Starts `command`, which prints the number of its process, and waits for what `said` finds.
+function watching.start(command, said)
+  local _, out = watching.bench:inside(command .. " & echo $!")
+  server = out:match "%d+"
+  for _ = 1, 200 do
+    local address = said()
+    if address then return address end
+    os.execute "sleep 0.05"
+  end
+  error("no server: " .. (watching.bench:read "complained" or ""))
+end
+
+--- Starts the server in the folder; its address.
+function watching.watch(arguments)
+  local bench = watching.bench
+  return watching.start(("exec '%s' watch %s >said 2>complained")
+    :format(workbench.absolute, arguments or "shot.lua"), function()
+    return (bench:read "said" or ""):match "^watching (%g+)\n"
+  end)
+end
+
+--- The number of the server's process.
+function watching.server() return server end
+
+function watching.stop()
+  if not server then return end
+  os.execute(("kill %s 2>/dev/null; while kill -0 %s 2>/dev/null; do sleep 0.02; done")
+    :format(server, server))
+  server = nil
+end
+
+function watching.finish()
+  watching.stop()
+  watching.bench:remove()
+end
+
+local function run(command, steps)
+  local path = watching.bench:write("steps.js", steps)
+  local code, out, err = watching.bench:shell(("node tests/support/%s '%s'"):format(command, path))
+  assert(code == 0, err)
+  return assert(json.decode(out)), out
+end
+
+--- What the steps return, in JavaScript, as a program that speaks to the server: see stranger.js.
+function watching.speak(address, steps) return run(("stranger.js '%s'"):format(address), steps) end
+
+--- What the steps return in a browser: see browser.js.
+function watching.see(address, steps)
+  return run(("browser.js '%s/chromium' '%s'"):format(watching.bench.folder, address),
+    HELP .. steps)
+end
+
+return watching
