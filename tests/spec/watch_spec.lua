@@ -42,8 +42,8 @@ describe("the server of celspan watch", function()
       all["/frame/1.png"] = Buffer.from(all["/frame/1.png"][1], "latin1").toString("base64");
       return all;]=])
     local film = json.decode(said["/film.json"][2])
-    assert.same({ frames = 48, first = 1, fps = 24, size = { 64, 36 }, title = "Ball", sound = false,
-                  marks = { { frame = 24, name = "half" } } }, film)
+    assert.same({ frames = 48, first = 1, fps = 24, size = { 64, 36 }, title = "Ball",
+                  sound = false, marks = { { frame = 24, name = "half" } } }, film)
     assert.equal("[]\n", said["/errors.json"][2])
     local _, sheet = bench:celspan_inside "sheet shot.lua"
     assert.equal(sheet, said["/sheet.txt"][2])
@@ -257,7 +257,8 @@ describe("the server of celspan watch", function()
   it("ends its renderers with itself", function()
     local address = watch()
     speak(address, [=[return (await web.get("/frame/1.png")).status;]=])
-    local children = bench:read(("/proc/%s/task/%s/children"):format(watching.server(), watching.server()))
+    local server = watching.server()
+    local children = bench:read(("/proc/%s/task/%s/children"):format(server, server))
     assert.truthy(children:find "%d")
     stop()
     for child in children:gmatch "%d+" do
