@@ -5,10 +5,18 @@
 --
 --   local shake = motion.wiggle("camera", { frequency = 3, amplitude = 5 })
 --   local dx = shake:at(f.time)                                -- smooth, -5..5
+--
+--   local hair = motion.spring(function(time) return head:at(time) end, { frequency = 2 })
+--   local angle = hair:at(f.time)                              -- follows the head, and swings
+--
+--   local wind = motion.noise "wind"                           -- wind(x, y, z), -1..1
+local core = require "celspan.core"
 local fields = require "celspan.fields"
 local pathdata = require "celspan.pathdata"
 
 local motion = {}
+
+local pi, sin = math.pi, math.sin
 
 ---@class celspan.motion.way
 ---@field length number
@@ -124,6 +132,185 @@ function Wiggle:at(time)
   local t = at - n
   local a, b = value_at(self.seed, n), value_at(self.seed, n + 1)
   return self.amplitude * (a + (b - a) * t * t * t * (t * (6 * t - 15) + 10))
+end
+
+-- ---------------------------------------------------------------- noise
+
+--- A hash of a point of the grid: -1..1.
+local function grid_value(seed, x, y, z)
+  return value_at(seed ~ x * 0x2545f4914f6cdd1d ~ y * 0x27d4eb2f165667c5, z)
+end
+
+local function fade(t) return t * t * t * (t * (6 * t - 15) + 10) end
+
+--- Whole part and faded fraction of a coordinate. Beyond 2^53 a number has no fraction.
+local function cell_of(at)
+  if not fields.is_finite(at) then at = 0 end
+  if math.abs(at) >= 2 ^ 53 then at = math.fmod(at, 2 ^ 53) end
+  local n = math.floor(at)
+  return n, fade(at - n)
+end
+
+local function blend(a, b, t) return a + (b - a) * t end
+
+--- Smooth noise in one to three dimensions: -1..1, without a direction that it prefers in time, the
+--- same for the same seed on every machine. At whole numbers it is random; it changes smoothly
+--- between them.
+---@param seed string|integer
+---@return fun(x: number, y?: number, z?: number): number
+function motion.noise(seed)
+  if type(seed) ~= "string" and not fields.is_finite(seed) then
+    core.refuse("motion: noise takes a seed, a string or a finite number, got "
+      .. fields.shown(seed))
+  end
+  local hash = hash_text(tostring(seed))
+  return function(x, y, z)
+    for i, value in ipairs { x or 0 / 0, y or 0, z or 0 } do
+      if type(value) ~= "number" then
+        core.refuse(("motion: noise: coordinate %d must be a number, got %s"):format(i,
+          fields.kind(value)))
+      end
+    end
+    if x == nil then core.refuse "motion: noise takes one to three numbers, got none" end
+    local i, u = cell_of(x)
+    local j, v = cell_of(y or 0)
+    local k, w = cell_of(z or 0)
+    local function row(dj, dk)
+      return blend(grid_value(hash, i, j + dj, k + dk), grid_value(hash, i + 1, j + dj, k + dk), u)
+    end
+    local near = v == 0 and row(0, 0) or blend(row(0, 0), row(1, 0), v)
+    if w == 0 then return near end
+    return blend(near, blend(row(0, 1), row(1, 1), v), w)
+  end
+end
+
+-- ---------------------------------------------------------------- values that follow others
+
+---@class celspan.motion.follower
+local Follower = {}
+Follower.__index = fields.reads("a motion that follows", Follower)
+Follower.__name = "celspan.motion.follower"
+
+--- A sum of values with weights: numbers, and tables of them, such as poses. What is no number is
+--- that of the first.
+local function weighted(values, weights)
+  local first = values[1]
+  if type(first) == "number" then
+    local sum = 0
+    for i, value in ipairs(values) do
+      sum = sum + (type(value) == "number" and value or first) * weights[i]
+    end
+    return sum
+  end
+  if type(first) ~= "table" then return first end
+  local sum = {}
+  for key in next, first do
+    local inner = {}
+    for i, value in ipairs(values) do
+      local part = type(value) == "table" and value[key]
+      inner[i] = part == nil and first[key] or part
+    end
+    sum[key] = weighted(inner, weights)
+  end
+  return sum
+end
+
+--- The share of its way that a mass on a spring has gone, `time` after its end was moved.
+local function step_response(rate, damping)
+  if damping < 1 then
+    local swing = rate * math.sqrt(1 - damping * damping)
+    return function(time)
+      return 1 - math.exp(-damping * rate * time)
+        * (math.cos(swing * time) + damping * rate / swing * sin(swing * time))
+    end
+  end
+  return function(time) return 1 - math.exp(-rate * time) * (1 + rate * time) end
+end
+
+local FEWEST, PER_SWING = 64, 24 -- samples of the time that is looked back on
+local LEFT = 1e-3  -- of a movement: what is older than that has less influence
+
+--- response: the share of its way that the follower has gone; window: the seconds it looks back;
+--- swings: how many it makes in them.
+local function follow(source, response, window, swings)
+  local weights, total = {}, response(window)
+  local count = math.max(FEWEST, math.ceil(swings * PER_SWING))
+  for i = 1, count do
+    weights[i] = (response(window * i / count) - response(window * (i - 1) / count)) / total
+  end
+  return setmetatable({ source = source, weights = weights, window = window }, Follower)
+end
+
+local function check_source(name, source)
+  if type(source) ~= "function" then
+    core.refuse(("motion: %s takes a function of the time, got %s"):format(name,
+      fields.kind(source)))
+  end
+end
+
+--- A value that follows another like a mass on a spring: it is late, and swings beyond it. It is a
+--- function of the time alone: it looks back over the time in which the swing dies down.
+---@param source fun(time: number): any Numbers, or tables of numbers, such as poses
+---@param settings? {frequency?: number, damping?: number} Swings per second (2); 0.05 to 1, at which nothing swings beyond (0.3)
+---@return celspan.motion.follower
+function motion.spring(source, settings)
+  check_source("spring", source)
+  settings = settings or {}
+  fields.check("motion: spring", settings, { frequency = "number", damping = "number" })
+  local frequency, damping = settings.frequency or 2, settings.damping or 0.3
+  if frequency <= 0 then
+    core.refuse("motion: spring: field 'frequency' must be more than 0, got "
+      .. fields.shown(frequency))
+  end
+  if damping < 0.05 or damping > 1 then
+    core.refuse("motion: spring: field 'damping' must be 0.05 to 1, got " .. fields.shown(damping))
+  end
+  local rate = 2 * pi * frequency
+  local window = -math.log(LEFT) / (rate * damping) * (damping == 1 and 1.4 or 1)
+  return follow(source, step_response(rate, damping), window, window * frequency)
+end
+
+--- A value that follows another and never overtakes it: after `seconds` it has gone 63 % of the way.
+---@param source fun(time: number): any Numbers, or tables of numbers, such as poses
+---@param seconds number More than 0
+---@return celspan.motion.follower
+function motion.lag(source, seconds)
+  check_source("lag", source)
+  if not fields.is_finite(seconds) or seconds <= 0 then
+    core.refuse("motion: lag takes seconds, a number above 0, got " .. fields.shown(seconds))
+  end
+  return follow(source, function(time) return 1 - math.exp(-time / seconds) end,
+                -math.log(LEFT) * seconds, 0)
+end
+
+---@param time number Seconds
+---@return any value As the source returns it
+function Follower:at(time)
+  fields.check_at("motion", Follower, self, time, "a time")
+  local values, count = {}, #self.weights
+  for i = 1, count do values[i] = self.source(time - self.window * (i - 0.5) / count) end
+  return weighted(values, self.weights)
+end
+
+-- ---------------------------------------------------------------- one after another
+
+--- The progress of one of several that begin one after another: 0 before it begins, 1 at its end.
+---@param u number 0..1, the progress of all
+---@param i integer Which one, from 1
+---@param count integer How many there are
+---@param overlap? number 0: each begins when the one before it ends; 1: all at once (0.5)
+---@return number
+function motion.stagger(u, i, count, overlap)
+  for name, value in pairs { u = u, i = i, count = count, overlap = overlap or 0 } do
+    if not fields.is_finite(value) then
+      core.refuse(("motion: stagger: %s must be a finite number, got %s"):format(name,
+        fields.shown(value)))
+    end
+  end
+  overlap = math.max(0, math.min(1, overlap or 0.5))
+  local length = 1 / (1 + (count - 1) * (1 - overlap))
+  local start = (i - 1) * (1 - overlap) * length
+  return math.max(0, math.min(1, (u - start) / length))
 end
 
 return fields.seal("motion", motion)

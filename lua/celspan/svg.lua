@@ -12,6 +12,7 @@
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
+local sets = require "celspan.sets"
 
 local svg = {}
 
@@ -84,6 +85,7 @@ end
 ---@field class? string
 ---@field fill? string "#rrggbb" of a shape or a text with one colour
 ---@field line integer Of the file
+---@field depth integer How many of the elements before it in the list contain it
 ---@field object celspan.object
 
 local wanted = { tag = "string", class = "string", fill = "string", id = "string", label = "string",
@@ -123,39 +125,6 @@ function Art:elements(what)
   return found
 end
 
---- The parts of a set, by their names in it: "mouth C", "mouth-C" and "mouth/C" are the C of the
---- mouth. A sorted list of these names too.
-local function set_of(parts, set)
-  local members, names = {}, {}
-  for name in pairs(parts) do
-    local member = name:sub(1, #set) == set and name:sub(#set + 1):match "^[ %-_/.:]+(.+)$"
-    if member then
-      members[member] = members[member] or {}
-      table.insert(members[member], name)
-      names[#names + 1] = member
-    end
-  end
-  table.sort(names)
-  return members, names
-end
-
-local function check_choice(art, set, choice)
-  if type(set) ~= "string" or type(choice) ~= "string" and choice ~= false then
-    core.refuse(("svg: show takes a table of names by set, such as { mouth = \"C\" }, got %s = %s")
-      :format(tostring(set), type(choice) == "string" and choice or fields.kind(choice)))
-  end
-  local members, names = set_of(art.parts, set)
-  if #names == 0 then
-    core.refuse(("svg: the drawing has no parts named '%s A', '%s B' and so on"):format(set, set))
-  end
-  if choice and not members[choice] then
-    local hint = core.nearest(choice, names)
-    core.refuse(("svg: the parts of '%s' are %s, and not '%s'%s"):format(set,
-      table.concat(names, ", "), choice, hint and ("; did you mean '%s'?"):format(hint) or ""))
-  end
-  return members
-end
-
 local function nothing() return celspan.union {} end
 
 --- The drawing with one part of each set: of "mouth A", "mouth B" and "mouth C" only the C, for
@@ -168,10 +137,8 @@ function Art:show(choices)
     core.refuse("svg: show takes a table of names by set, got " .. fields.kind(choices))
   end
   local changes = {}
-  for set, choice in next, choices do
-    for member, names in next, check_choice(self, set, choice) do
-      for _, name in ipairs(member ~= choice and names or {}) do changes[name] = nothing end
-    end
+  for _, name in ipairs(sets.hidden("svg: show", "the drawing", self.parts, choices)) do
+    changes[name] = nothing
   end
   return self:with(changes)
 end

@@ -937,6 +937,7 @@ typedef struct celspan_svg_element {
   const char *id, *label, *classes; /* NULL: none */
   const char *fill;                 /* "#rrggbb" of a shape or a text; NULL: no flat colour */
   int32_t line;
+  int32_t depth;          /* how many of the elements visited before it contain it */
   celspan_object *object; /* as that of a part */
 } celspan_svg_element;
 typedef celspan_status (*celspan_svg_visit)(void *user, const celspan_svg_element *element);

@@ -104,7 +104,7 @@ static int parts(lua_State *L) {
 /* light userdata: an element; the list. Runs protected. */
 static int add_element(lua_State *L) {
   const celspan_svg_element *element = lua_touserdata(L, 1);
-  lua_createtable(L, 0, 8);
+  lua_createtable(L, 0, 9);
   cs_put_text(L, "name", element->name);
   cs_put_text(L, "tag", element->tag);
   cs_put_text(L, "id", element->id);
@@ -112,6 +112,7 @@ static int add_element(lua_State *L) {
   cs_put_text(L, "class", element->classes);
   cs_put_text(L, "fill", element->fill);
   cs_put_integer(L, "line", element->line);
+  cs_put_integer(L, "depth", element->depth);
   push_object(L, element->object);
   lua_setfield(L, -2, "object");
   lua_rawseti(L, 2, (lua_Integer)lua_rawlen(L, 2) + 1);
@@ -129,7 +130,7 @@ static celspan_status visit(void *user, const celspan_svg_element *element) {
   return CELSPAN_NO_MEMORY;
 }
 
-/* elements() -> { { name =, tag =, id =, label =, class =, fill =, line =, object = }, ... } */
+/* elements() -> { { name =, tag =, id =, label =, class =, fill =, line =, depth =, object = }, ... } */
 static int elements(lua_State *L) {
   const celspan_svg *svg = self(L);
   lua_settop(L, 1);

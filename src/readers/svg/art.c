@@ -281,7 +281,7 @@ typedef struct visiting {
   cs_hash_table visited; /* the numbers of those that were visited */
 } visiting;
 
-static celspan_status visit_element(visiting *v, const cs_svg_item *item) {
+static celspan_status visit_element(visiting *v, const cs_svg_item *item, int32_t depth) {
   const cs_svg_facts *facts = item->facts;
   celspan_object *object;
   cs_hash hash = cs_hash_begin(0x656c656du);
@@ -301,18 +301,21 @@ static celspan_status visit_element(visiting *v, const cs_svg_item *item) {
                                  .classes = facts->classes,
                                  .fill = facts->fill[0] ? facts->fill : NULL,
                                  .line = (int32_t)facts->line,
+                                 .depth = depth,
                                  .object = object};
   celspan_status status = v->visit(v->user, &element);
   celspan_object_unref(object);
   return status;
 }
 
-/* Recursion: the depth of items. */
-static celspan_status visit_items(visiting *v, const cs_svg_item *item, bool is_moved) {
+/* depth: how many visited elements the items are in. Recursion: the depth of items. */
+static celspan_status visit_items(visiting *v, const cs_svg_item *item, bool is_moved,
+                                  int32_t depth) {
   for (; item; item = item->next) {
-    if (item->facts && item->object && item->is_moved == is_moved)
-      CS_TRY(visit_element(v, item));
-    CS_TRY(visit_items(v, item->first, is_moved));
+    bool is_visited = item->facts && item->object && item->is_moved == is_moved;
+    if (is_visited)
+      CS_TRY(visit_element(v, item, depth));
+    CS_TRY(visit_items(v, item->first, is_moved, depth + is_visited));
   }
   return CELSPAN_OK;
 }
@@ -320,9 +323,9 @@ static celspan_status visit_items(visiting *v, const cs_svg_item *item, bool is_
 celspan_status celspan_svg_elements(celspan_context *context, const celspan_svg *svg,
                                     celspan_svg_visit visit, void *user) {
   visiting v = {.context = context, .visit = visit, .user = user};
-  celspan_status status = visit_items(&v, svg->root, false);
+  celspan_status status = visit_items(&v, svg->root, false, 0);
   if (status == CELSPAN_OK)
-    status = visit_items(&v, svg->root, true);
+    status = visit_items(&v, svg->root, true, 0);
   cs_hash_table_finish(&v.visited, context);
   return status;
 }

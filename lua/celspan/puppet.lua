@@ -1,0 +1,371 @@
+--- Puppets: artwork with bones, and poses of it.
+--
+--   local rig = puppet{ art = art, bones = { { "thigh", from = "hip", to = "knee" },
+--                                            { "shin", from = "knee", to = "ankle" } } }
+--   rig:pose{ thigh = 20, reach = { ankle = { 300, 410 } } }     -- an object
+--
+--   hip o                 A bone turns about its first joint, and everything below it turns with
+--        \  thigh         it: its parent is the bone that ends where it begins. The angles of a
+--         \               pose are added to those of the drawing.
+--    knee  o
+--         /  shin         The artwork that moves with a bone are its parts: by default the part
+--        /                that has the bone's name.
+--  ankle o
+--
+-- A pose is a table, and never changed: poses are mixed, mirrored and kept in files as tables.
+local celspan = require "celspan"
+local affine = require "celspan.affine"
+local bones = require "celspan.bones"
+local core = require "celspan.core"
+local fields = require "celspan.fields"
+local poses = require "celspan.poses"
+local puppet_sheet = require "celspan.puppet_sheet"
+local sets = require "celspan.sets"
+local steps = require "celspan.steps"
+
+local refuse, help, names_of, map_of = bones.refuse, bones.help, bones.names_of, bones.map_of
+
+-- ---------------------------------------------------------------- artwork
+
+local function nothing() return celspan.union {} end
+
+local function is_of(class, art)
+  local metatable = type(art) == "table" and getmetatable(art)
+  return metatable and metatable.__name == class
+end
+
+--- Lists the elements that have names of their own: { name =, number =, inside = }; inside: the
+--- elements that contain it, the outermost first.
+local function elements_of(art)
+  local list, open, by_name = {}, {}, {}
+  for _, element in ipairs(art:elements()) do
+    local entry = { key = element.name, inside = table.move(open, 1, element.depth, 1, {}) }
+    open[element.depth + 1] = entry
+    list[#list + 1] = entry
+    for _, name in ipairs { element.id or false, element.label or false } do
+      if name and rawget(art.parts, name) and not by_name[name] then by_name[name] = entry end
+    end
+  end
+  return list, by_name
+end
+
+local JOINT = "^joint[ %-_:]+(.+)$"
+
+--- The joints that are drawn: the centres of the parts named "joint NAME".
+local function drawn_joints(art)
+  local joints, guides = {}, {}
+  for name, object in pairs(art.parts) do
+    local joint = name:match(JOINT)
+    if joint then
+      local x, y, w, h = object:bounds()
+      if not x then refuse("part '%s' is empty: a joint is a shape, such as a circle", name) end
+      joints[joint] = { x + w / 2, y + h / 2 }
+      guides[#guides + 1] = name
+    end
+  end
+  return joints, guides
+end
+
+--- Each part that a bone moves, with the nearest part around it that a bone moves too.
+local function join_parts(rig)
+  local owner = {}
+  for _, bone in ipairs(rig.list) do
+    for _, name in ipairs(bone.parts) do
+      local element = rig.by_name[name]
+      if owner[element] then
+        refuse("part '%s' moves with two bones, '%s' and '%s'", name, owner[element].bone.name,
+          bone.name)
+      end
+      owner[element] = { name = name, key = element.key, bone = bone, element = element }
+    end
+  end
+  for element, part in pairs(owner) do
+    for i = #element.inside, 1, -1 do
+      part.around = part.around or owner[element.inside[i]]
+    end
+    rig.parts[part.name] = part
+  end
+end
+
+-- ---------------------------------------------------------------- the rig
+
+---@class celspan.puppet.rig
+---@field joints table<string, number[]> The joints of the drawing, by name
+---@field mix fun(p: table, q: table, u: number): table The pose between two others, u from 0 to 1
+---@field layer fun(p: table, q: table, share?: number): table A pose with the angles of another added
+---@field mirror fun(p: table): table Left and right exchanged
+local Rig = { __name = "celspan.puppet" }
+local methods = {}
+Rig.__index = fields.reads("a puppet", methods)
+
+local known = { art = "any", joints = "table", bones = "table", switches = "table" }
+
+--- The members of a switch in their order; the first is shown where a pose names none.
+local function read_switches(rig, given)
+  for set, members in next, given or {} do
+    local names = members
+    if type(set) == "number" then set, names = members, nil end
+    local found, sorted = sets.members(rig.by_name, tostring(set))
+    if bones.reserved[set] or rig.bones[set] then
+      refuse("a switch cannot have the name '%s': it is a %s", tostring(set),
+        bones.reserved[set] and "field of poses" or "bone")
+    end
+    if #sorted == 0 then
+      refuse("switch '%s': the artwork has no parts '%s A', '%s B' and so on", tostring(set),
+        tostring(set), tostring(set))
+    end
+    for _, name in ipairs(names or {}) do
+      if not found[name] then
+        refuse("switch '%s': there is no part '%s %s'%s", set, set, tostring(name),
+          help(name, sorted))
+      end
+    end
+    rig.switches[set] = (names or sorted)[1]
+  end
+end
+
+local function new(_, given)
+  fields.check("puppet", given, known, 4)
+  if not is_of("celspan.svg", given.art) and not is_of("celspan.layers.tree", given.art) then
+    refuse("field 'art' must be a drawing of celspan.svg or a painting of celspan.layers, got %s",
+      fields.kind(given.art))
+  end
+  local rig = { art = given.art, bones = {}, list = {}, parts = {}, switches = {} }
+  rig.elements, rig.by_name = elements_of(given.art)
+  rig.joints, rig.guides = drawn_joints(given.art)
+  bones.read(rig, given.joints, given.bones)
+  join_parts(rig)
+  read_switches(rig, given.switches)
+  rig.mix, rig.layer = poses.mix, poses.layer
+  rig.mirror = poses.mirror(rig.list[1].x)
+  return setmetatable(rig, Rig)
+end
+
+-- ---------------------------------------------------------------- poses
+
+--- What a pose asks of each bone, and the chains by their first bones.
+local function read_pose(rig, pose)
+  if type(pose) ~= "table" then refuse("pose takes a table, got %s", fields.kind(pose)) end
+  local turns, chains, used, choices = {}, {}, {}, {}
+  for set, choice in pairs(rig.switches) do choices[set] = choice end
+  for name, value in next, pose do
+    if rig.bones[name] then
+      turns[rig.bones[name]] = bones.read_turn(name, value)
+    elseif rig.switches[name] then
+      choices[name] = value
+    elseif not bones.reserved[name] then
+      local names = names_of(rig.bones)
+      for other in pairs(rig.switches) do names[#names + 1] = other end
+      for other in pairs(bones.reserved) do names[#names + 1] = other end
+      refuse("the pose has '%s', which is no bone, switch or field%s", tostring(name),
+        help(name, names))
+    end
+  end
+  local targets = {}
+  for joint in next, pose.reach or {} do targets[#targets + 1] = joint end
+  table.sort(targets, function(a, b) return tostring(a) < tostring(b) end)
+  for _, joint in ipairs(targets) do
+    local target = bones.read_reach(rig, joint, pose.reach[joint])
+    local chain = bones.chain_of(rig, joint, target.bones or 2)
+    for _, bone in ipairs(chain) do
+      if used[bone] then
+        refuse("bone '%s' is in two chains that reach: '%s' and '%s'", bone.name, used[bone], joint)
+      end
+      used[bone] = joint
+    end
+    chains[chain[1]] = { bones = chain, target = target, joint = joint }
+  end
+  return turns, chains, choices
+end
+
+--- The place of a pose: { x, y }, 0, 0 by default.
+local function place_of(pose)
+  if pose.at == nil then return { 0, 0 } end
+  fields.numbers("puppet", "at[%d]", pose.at, 2, "{x, y}", 5)
+  return pose.at
+end
+
+-- ---------------------------------------------------------------- pictures
+
+--- The map of a part within the part around it, which moves already.
+local function inner_map(part, frames)
+  local map = map_of(frames[part.bone])
+  if not part.around then return map end
+  return affine.compose(affine.inverse(map_of(frames[part.around.bone])), map)
+end
+
+--- The part that a pose orders, by its name or the name of its bone.
+local function ordered_part(rig, name)
+  local part = rig.parts[name]
+  if part then return part end
+  local bone = rig.bones[name]
+  if bone and #bone.parts == 1 then return rig.parts[bone.parts[1]] end
+  refuse("the order of the pose names '%s', which is no part that moves, and no bone with one "
+    .. "part%s", tostring(name), help(name, names_of(rig.parts)))
+end
+
+--- Parts that are drawn elsewhere: lists by the part that they are over or under, and those in
+--- front of and behind everything.
+local function read_order(rig, pose)
+  local order = { over = {}, under = {}, front = {}, back = {}, moved = {} }
+  local function move(list, name)
+    local part = ordered_part(rig, name)
+    if order.moved[part] then refuse("part '%s' is ordered twice", part.name) end
+    order.moved[part] = true
+    list[#list + 1] = part
+  end
+  for _, side in ipairs { "over", "under" } do
+    local names = names_of(pose[side] or {})
+    table.sort(names)
+    for _, name in ipairs(names) do
+      local other = ordered_part(rig, pose[side][name])
+      order[side][other] = order[side][other] or {}
+      move(order[side][other], name)
+    end
+  end
+  for _, side in ipairs { "front", "back" } do
+    for _, name in ipairs(pose[side] or {}) do move(order[side], name) end
+  end
+  return next(order.moved) and order
+end
+
+--- The objects of a list of parts as they were drawn in the pose, seen from inside `around`.
+local function add_moved(objects, parts, drawn, around, frames)
+  for _, part in ipairs(parts or {}) do
+    local object = drawn[part]
+    if object and around then
+      object = object:transform(affine.matrix(affine.inverse(map_of(frames[around.bone]))))
+    end
+    objects[#objects + 1] = object
+  end
+end
+
+--- The functions by part that art:with takes. put(part, moved, outer): what takes the place of a
+--- part, given what it is there in the pose; outer: the matrix of the part around it, or nil.
+local function changes_of(rig, frames, choices, put)
+  local changes = {}
+  for _, part in pairs(rig.parts) do
+    local matrix = affine.matrix(inner_map(part, frames))
+    local outer = part.around and affine.matrix(map_of(frames[part.around.bone]))
+    changes[part.key] = function(object) return put(part, object:transform(matrix), outer) end
+  end
+  for _, name in ipairs(rig.guides) do changes[rig.by_name[name].key] = nothing end
+  for _, name in ipairs(sets.hidden("puppet: pose", "the artwork", rig.by_name, choices)) do
+    changes[rig.by_name[name].key] = nothing
+  end
+  return changes
+end
+
+--- Draws the parts, and lists them as they are in the whole. keep(moved): what stays in its place.
+local function draw_parts(rig, frames, choices, keep)
+  local drawn = {}
+  local art = rig.art:with(changes_of(rig, frames, choices, function(part, moved, outer)
+    drawn[part] = outer and moved:transform(outer) or moved
+    return keep(moved)
+  end))
+  return art.object, drawn
+end
+
+local function same(object) return object end
+
+local function draw(rig, pose, frames, choices)
+  local order = read_order(rig, pose)
+  local object, drawn = draw_parts(rig, frames, choices, same)
+  if not order then return object end
+  local objects = {}
+  add_moved(objects, order.back, drawn)
+  objects[#objects + 1] = rig.art:with(changes_of(rig, frames, choices, function(part, moved)
+    local together = {}
+    add_moved(together, order.under[part], drawn, part.around, frames)
+    if not order.moved[part] then together[#together + 1] = moved end
+    add_moved(together, order.over[part], drawn, part.around, frames)
+    return celspan.union(together)
+  end)).object
+  add_moved(objects, order.front, drawn)
+  return celspan.union(objects)
+end
+
+local function place(rig, pose)
+  local turns, chains, choices = read_pose(rig, pose)
+  local at = place_of(pose)
+  return bones.place(rig, turns, chains, at), at, choices
+end
+
+--- The artwork in a pose.
+---@param pose table Degrees by bone, `at`, `reach`, switches, `over`, `under`, `front`, `back`
+---@return celspan.object
+function methods:pose(pose)
+  fields.self("puppet", Rig, self, "pose")
+  local frames, at, choices = place(self, pose)
+  local object = draw(self, pose, frames, choices)
+  if at[1] == 0 and at[2] == 0 then return object end
+  return object:translate(at[1], at[2])
+end
+
+--- Where a joint is in a pose.
+---@param pose table
+---@param name string
+---@return number x, number y
+function methods:joint(pose, name)
+  fields.self("puppet", Rig, self, "joint")
+  if not self.joints[name] then
+    refuse("there is no joint '%s'%s", tostring(name), help(name, names_of(self.joints)))
+  end
+  local frames, at = place(self, pose)
+  local x, y = bones.joint_in(self, frames, name)
+  return x + at[1], y + at[2]
+end
+
+-- ---------------------------------------------------------------- limbs that come apart
+
+--- Whether the artwork of a bone covers a point.
+local function covers(drawn, bone, x, y)
+  for part, object in pairs(drawn) do
+    if part.bone == bone and object:contains(x, y) then return true end
+  end
+  return false
+end
+
+--- Bones whose artwork does not hold together with that of their parents in a pose: the joint
+--- between them is not covered by both.
+---@param pose? table At rest by default
+---@return { bone: string, parent: string, joint: string, x: number, y: number }[]
+function methods:gaps(pose)
+  fields.self("puppet", Rig, self, "gaps")
+  pose = pose or {}
+  local frames, _, choices = place(self, pose)
+  local gaps = {}
+  local _, drawn = draw_parts(self, frames, choices, nothing) -- each without the parts inside it
+  for _, bone in ipairs(self.list) do
+    local parent = bone.parent
+    if parent and #bone.parts > 0 and #parent.parts > 0 then
+      local x, y = affine.apply(frames[bone].frame, bone.x, bone.y)
+      if not (covers(drawn, bone, x, y) and covers(drawn, parent, x, y)) then
+        gaps[#gaps + 1] = { bone = bone.name, parent = parent.name, joint = bone.from, x = x,
+                            y = y }
+      end
+    end
+  end
+  return gaps
+end
+
+-- ---------------------------------------------------------------- the sheet
+
+--- The puppet with its bones, joints and limits drawn over it, to look at.
+---@param pose? table At rest by default
+---@param options? { size?: number, font?: string } size: of a joint, in units of the artwork (5); font: a file, to write the names
+---@return celspan.object
+function methods:sheet(pose, options)
+  fields.self("puppet", Rig, self, "sheet")
+  options = options or {}
+  fields.check("puppet: sheet", options, { size = "number", font = "string" })
+  pose = pose or {}
+  local frames, at, choices = place(self, pose)
+  local marks = puppet_sheet(self, frames, options)
+  table.insert(marks, 1, draw(self, pose, frames, choices):fade(0.4))
+  return celspan.union(marks):translate(at[1], at[2])
+end
+
+---@class celspan.puppet
+---@overload fun(settings: table): celspan.puppet.rig
+return fields.seal("puppet", setmetatable({ steps = steps }, { __call = core.entry(new) }))

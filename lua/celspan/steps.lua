@@ -1,0 +1,64 @@
+--- Steps: feet that walk without sliding, as functions of time. celspan.puppet has them as `steps`.
+--
+--            swing                 share of the period      what a foot does
+--            .--.                  0 .. share               stays where it is
+--     ______/    \______           share .. 1               swings to its next place
+--      on the ground
+local core = require "celspan.core"
+local fields = require "celspan.fields"
+
+local function refuse(text, ...) core.refuse("puppet: " .. text:format(...)) end
+
+---@class celspan.puppet.steps
+local Steps = { __name = "celspan.puppet.steps" }
+Steps.__index = fields.reads("steps", Steps)
+
+local known_steps = { stride = "number", period = "number", lift = "number", ground = "number",
+                      x = "number", share = "number" }
+
+--- Feet that walk: each stays where it is on the ground while the body passes over it.
+---@param settings { stride: number, period: number, lift?: number, ground: number, x?: number, share?: number } stride: what the body moves in a period, in which each foot makes one step, negative to the left; lift: of a foot (stride / 8); ground: y of the joint on the ground; x: of the joint in the drawing (0); share: of the period that a foot is on the ground (0.6)
+---@return celspan.puppet.steps
+local function steps(settings)
+  fields.check("puppet: steps", settings, known_steps)
+  for _, name in ipairs { "stride", "period", "ground" } do
+    if not settings[name] then refuse("steps needs the field '%s', a number", name) end
+  end
+  local share = settings.share or 0.6
+  if settings.period <= 0 then
+    refuse("steps: field 'period' must be more than 0, got %s", fields.shown(settings.period))
+  end
+  if share <= 0 or share >= 1 then
+    refuse("steps: field 'share' must be between 0 and 1, got %s", fields.shown(share))
+  end
+  return setmetatable({ stride = settings.stride, period = settings.period, share = share,
+    lift = settings.lift or math.abs(settings.stride) / 8, ground = settings.ground,
+    start = settings.x or 0 }, Steps)
+end
+
+--- How far the body has gone.
+---@param time number Seconds
+---@return number x
+function Steps:body(time)
+  fields.self("puppet: steps", Steps, self, "body")
+  return self.stride * time / self.period
+end
+
+--- Where a foot is. On the ground it does not move; in the air it swings to its next place.
+---@param time number Seconds
+---@param phase? number 0..1: the share of the period by which it is ahead; 0.5 for the other foot
+---@return number x, number y
+---@return number swing 0 on the ground, 0..1 in the air
+function Steps:foot(time, phase)
+  fields.self("puppet: steps", Steps, self, "foot")
+  phase = phase or 0
+  local cycle = time / self.period + phase
+  local step = math.floor(cycle)
+  local x = self.start + self.stride * (step + self.share / 2 - phase)
+  local swing = (cycle - step - self.share) / (1 - self.share)
+  if swing <= 0 then return x, self.ground, 0 end
+  local eased = swing * swing * (3 - 2 * swing)
+  return x + self.stride * eased, self.ground - self.lift * math.sin(math.pi * swing), swing
+end
+
+return steps

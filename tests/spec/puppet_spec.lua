@@ -1,0 +1,466 @@
+-- Puppets: bones, poses and targets, and the motion that follows others.
+local celspan = require "celspan"
+local motion = require "celspan.motion"
+local present = require "tests.support.present"
+local prng = require "tests.support.prng"
+local puppet = require "celspan.puppet"
+local raised = require "tests.support.raised"
+local reach = require "celspan.reach"
+local svg = require "celspan.svg"
+local workbench = require "tests.support.workbench"
+
+local bench = workbench.new()
+local with_art = present.art and it or pending
+
+-- ---------------------------------------------------------------- chains
+
+--- The end of a chain, from the definition.
+local function end_of(bones, angles)
+  local x, y, sum = 0, 0, 0
+  for k, bone in ipairs(bones) do
+    sum = sum + angles[k]
+    x = x + math.cos(sum) * bone[1] - math.sin(sum) * bone[2]
+    y = y + math.sin(sum) * bone[1] + math.cos(sum) * bone[2]
+  end
+  return x, y
+end
+
+local function random_bones(random, count, has_limits)
+  local bones = {}
+  for k = 1, count do
+    local low = has_limits and random:between(-3, 1) or -7
+    bones[k] = { random:between(-3, 3), random:between(-3, 3), low,
+                 has_limits and low + random:between(0, 3) or 7, 0 }
+  end
+  return bones
+end
+
+local function random_angles(random, bones)
+  local angles = {}
+  for k, bone in ipairs(bones) do angles[k] = random:between(bone[3], bone[4]) end
+  return angles
+end
+
+local function is_within(bones, angles)
+  for k, bone in ipairs(bones) do
+    if angles[k] < bone[3] or angles[k] > bone[4] then return false end
+  end
+  return true
+end
+
+describe("a chain of bones", function()
+  it("of two reaches every target that it can reach, within 1e-9", function()
+    local random, worst = prng.new(1), 0
+    for i = 1, 10000 do
+      local bones = random_bones(random, 2, i % 2 == 0)
+      local target = { end_of(bones, random_angles(random, bones)) }
+      local angles, distance = reach.solve { bones = bones, target = target }
+      assert.is_true(is_within(bones, angles))
+      local x, y = end_of(bones, angles)
+      assert.is_true(math.abs(math.sqrt((x - target[1]) ^ 2 + (y - target[2]) ^ 2) - distance)
+        < 1e-12)
+      worst = math.max(worst, distance)
+    end
+    assert.is_true(worst < 1e-9, worst)
+  end)
+
+  it("of two is nowhere nearer than its answer, within limits and out of reach", function()
+    local random, steps = prng.new(2), 24
+    for _ = 1, 400 do
+      local bones = random_bones(random, 2, true)
+      local target = { random:between(-8, 8), random:between(-8, 8) }
+      local _, distance = reach.solve { bones = bones, target = target }
+      for i = 0, steps do
+        for j = 0, steps do
+          local x, y = end_of(bones, { bones[1][3] + (bones[1][4] - bones[1][3]) * i / steps,
+                                       bones[2][3] + (bones[2][4] - bones[2][3]) * j / steps })
+          local other = math.sqrt((x - target[1]) ^ 2 + (y - target[2]) ^ 2)
+          assert.is_true(other > distance - 1e-9)
+        end
+      end
+    end
+  end)
+
+  it("of three to eight reaches its targets within 1e-6 and keeps its limits", function()
+    local random, worst = prng.new(3), 0
+    for i = 1, 1500 do
+      local bones = random_bones(random, 3 + i % 6, true)
+      local target = { end_of(bones, random_angles(random, bones)) }
+      local angles, distance = reach.solve { bones = bones, target = target }
+      assert.is_true(is_within(bones, angles))
+      worst = math.max(worst, distance)
+    end
+    assert.is_true(worst < 1e-6, worst)
+  end)
+
+  it("that cannot reach lies straight towards its target", function()
+    for count = 1, 6 do
+      local bones = {}
+      for k = 1, count do bones[k] = { 1, 0.5 * k, -7, 7, 0.3 } end
+      local angles = reach.solve { bones = bones, target = { 300, 400 } }
+      local x, y = end_of(bones, angles)
+      assert.is_true(math.abs(x * 4 - y * 3) < 1e-9 * math.sqrt(x * x + y * y) and x > 0)
+    end
+  end)
+
+  it("bends to the side of the drawing, or of a pole", function()
+    local function cross(chain)
+      local angles = reach.solve(chain)
+      return math.sin(angles[2])
+    end
+    for _, side in ipairs { 1, -1 } do
+      local bones = { { 10, side, -7, 7, 0 }, { 10, side * 3, -7, 7, 0 } }
+      local first = math.atan(1, 10)
+      local bend = cross { bones = { { 10, 0, -7, 7, 0 }, { 10, side, -7, 7, 0 } },
+                           target = { 12, 0 } }
+      assert.is_true(bend * side > 0 and first > 0)
+      bend = cross { bones = bones, target = { 12, 0 }, pole = { 6, 50 } }
+      assert.is_true(bend < 0)
+      bend = cross { bones = bones, target = { 12, 0 }, pole = { 6, -50 } }
+      assert.is_true(bend > 0)
+    end
+  end)
+end)
+
+-- ---------------------------------------------------------------- puppets
+
+local FIGURE = [[
+<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100">
+<rect id="body" x="40" y="0" width="20" height="40" fill="#f00"/>
+<g id="thigh"><rect id="thigh shape" x="45" y="36" width="10" height="28" fill="#0f0"/>
+<rect id="shin" x="46" y="58" width="8" height="26" fill="#00f"/></g>
+<rect id="mouth A" x="44" y="4" width="4" height="4" fill="#fff"/>
+<rect id="mouth B" x="52" y="4" width="4" height="4" fill="#fff"/>
+<circle id="joint hip" cx="50" cy="40" r="2"/><circle id="joint knee" cx="50" cy="60" r="2"/>
+<circle id="joint ankle" cx="50" cy="80" r="2"/></svg>]]
+
+local function figure()
+  return assert(svg.read(bench:write("figure.svg", FIGURE)))
+end
+
+local function rig_of(settings)
+  local given = { art = figure(), bones = { { "thigh", from = "hip", to = "knee" },
+    { "shin", from = "knee", to = "ankle" } }, switches = { "mouth" } }
+  for name, value in pairs(settings or {}) do given[name] = value end
+  return puppet(given)
+end
+
+--- Which of red, green, blue and white is at a point; "none" where nothing is.
+local function colour_at(object, x, y)
+  local r, g, b, alpha = celspan.probe(celspan.rostrum { celspan.cel { object } }, x, y,
+    { film = { 100, 100 } })
+  if alpha < 0.5 then return "none" end
+  return r > 0.5 and b > 0.5 and "white" or r > 0.5 and "red" or g > 0.5 and "green"
+    or b > 0.5 and "blue" or "black"
+end
+
+local function near(x, y, x1, y1, within)
+  assert.is_true(math.abs(x - x1) < (within or 1e-9) and math.abs(y - y1) < (within or 1e-9),
+    ("%.14g, %.14g instead of %.14g, %.14g"):format(x, y, x1, y1))
+end
+
+describe("a puppet", function()
+  with_art("at rest is its drawing, without the joints and with the first of each switch",
+    function()
+      local object = rig_of():pose {}
+      assert.equal("green", colour_at(object, 50, 50))
+      assert.equal("blue", colour_at(object, 50, 80))
+      assert.equal("white", colour_at(object, 46, 6))
+      assert.equal("red", colour_at(object, 54, 6))
+    end)
+
+  with_art("turns a bone with everything below it, also parts inside of others", function()
+    local rig = rig_of()
+    local object = rig:pose { thigh = -90, mouth = "B" }
+    assert.equal("green", colour_at(object, 60, 40))
+    assert.equal("blue", colour_at(object, 80, 40))
+    assert.equal("none", colour_at(object, 50, 62))
+    assert.equal("white", colour_at(object, 54, 6))
+    near(70, 40, rig:joint({ thigh = -90 }, "knee"))
+    object = rig:pose { thigh = -90, shin = 90, at = { 10, 5 } }
+    assert.equal("blue", colour_at(object, 80, 60))
+    local x, y = rig:joint({ thigh = -90, shin = 90, at = { 10, 5 } }, "ankle")
+    near(80, 65, x, y)
+  end)
+
+  with_art("stretches a bone, and moves what hangs on it without changing its shape", function()
+    local rig = rig_of()
+    local object = rig:pose { thigh = { stretch = 1.5 } }
+    near(50, 70, rig:joint({ thigh = { stretch = 1.5 } }, "knee"))
+    near(50, 90, rig:joint({ thigh = { scale = 1.5 } }, "ankle"))
+    assert.equal("none", colour_at(object, 54, 55)) -- narrower: 10 / 1.5 wide
+    assert.equal("green", colour_at(object, 53, 55))
+    assert.equal("blue", colour_at(object, 53.5, 85)) -- the shin is as wide as before
+  end)
+
+  with_art("takes an angle of the drawing instead of one from the parent", function()
+    local x, y = rig_of():joint({ thigh = -37, shin = { absolute = 0 } }, "ankle")
+    local kx, ky = rig_of():joint({ thigh = -37 }, "knee")
+    near(kx, ky + 20, x, y)
+  end)
+
+  with_art("reaches for a point, within its limits, and lengthens itself where that is allowed",
+    function()
+      local rig = rig_of()
+      for _, point in ipairs { { 65, 60 }, { 50, 50 }, { 20, 45 } } do
+        near(point[1], point[2], rig:joint({ reach = { ankle = point } }, "ankle"))
+      end
+      local pose = { at = { 7, 3 }, reach = { ankle = { 60, 70 } } }
+      near(60, 70, rig:joint(pose, "ankle"))
+      near(90, 40, rig:joint({ reach = { ankle = { 150, 40 } } }, "ankle"))
+      near(150, 40, rig:joint({ reach = { ankle = { 150, 40, stretch = true } } }, "ankle"))
+      local stiff = rig_of { bones = { { "thigh", from = "hip", to = "knee", limits = { -30, 30 } },
+        { "shin", from = "knee", to = "ankle", limits = { 0, 90 } } } }
+      local hx = stiff:joint({ reach = { ankle = { 150, 40 } } }, "knee")
+      assert.is_true(math.abs(hx - (50 + 20 * math.sin(math.rad(30)))) < 1e-9)
+    end)
+
+  with_art("draws parts over and under others, in front and behind, where a pose says so", function()
+    local rig = rig_of { bones = { { "body", from = "hip", to = "knee" },
+      { "thigh", from = "hip", to = "knee" },
+      { "shin", from = "knee", to = "ankle", parent = "thigh" } } }
+    assert.equal("green", colour_at(rig:pose {}, 50, 38))
+    assert.equal("red", colour_at(rig:pose { under = { thigh = "body" } }, 50, 38))
+    assert.equal("red", colour_at(rig:pose { over = { body = "thigh" } }, 50, 38))
+    assert.equal("blue", colour_at(rig:pose {}, 50, 60))
+    assert.equal("green", colour_at(rig:pose { back = { "shin" } }, 50, 60))
+    assert.equal("blue", colour_at(rig:pose { back = { "shin" } }, 50, 70))
+    assert.equal("red", colour_at(rig:pose { front = { "body" } }, 46, 6))
+    -- a part inside of one that moves is drawn elsewhere at its own place
+    assert.equal("blue", colour_at(rig:pose { thigh = -90, front = { "shin" } }, 80, 40))
+  end)
+
+  with_art("says where its limbs come apart", function()
+    local rig = rig_of()
+    assert.are.same({}, rig:gaps())
+    assert.are.same({}, rig:gaps { shin = 60 })
+    local torn = rig_of { joints = { knee = { 50, 70 } } }
+    local gaps = torn:gaps()
+    assert.equal(1, #gaps)
+    assert.equal("shin", gaps[1].bone)
+    assert.equal("knee", gaps[1].joint)
+  end)
+
+  with_art("has a sheet of its bones, joints and limits", function()
+    local rig = rig_of { bones = { { "thigh", from = "hip", to = "knee", limits = { -30, 30 } },
+      { "shin", from = "knee", to = "ankle" } } }
+    local sheet = rig:sheet({}, { size = 2 })
+    assert.equal("white", colour_at(sheet, 50, 40)) -- the middle of a joint
+    assert.equal("none", colour_at(sheet, 80, 80))
+  end)
+
+  with_art("refuses what it does not have, with the line and the nearest name", function()
+    local rig = rig_of()
+    for words, call in pairs {
+      ["there is no joint 'kne'; did you mean 'knee'?"] = function()
+        rig_of { bones = { { "thigh", from = "hip", to = "kne" } } }
+      end,
+      ["the artwork has no part 'tigh'; did you mean 'thigh'?"] = function()
+        rig_of { bones = { { "leg", from = "hip", to = "knee", parts = { "tigh" } } } }
+      end,
+      ["there is no bone 'hips'"] = function()
+        rig_of { bones = { { "thigh", from = "hip", to = "knee", parent = "hips" } } }
+      end,
+      ["begins where two bones end, 'a' and 'b': name its parent"] = function()
+        rig_of { bones = { { "a", from = "hip", to = "knee" }, { "b", from = "hip", to = "knee" },
+                           { "shin", from = "knee", to = "ankle" } } }
+      end,
+      ["is its own parent"] = function()
+        rig_of { bones = { { "a", from = "hip", to = "knee", parent = "b" },
+                           { "b", from = "knee", to = "hip", parent = "a" } } }
+      end,
+      ["moves with two bones"] = function()
+        rig_of { bones = { { "a", from = "hip", to = "knee", parts = { "shin" } },
+                           { "b", from = "knee", to = "ankle", parts = { "shin" } } } }
+      end,
+      ["has no length"] = function()
+        rig_of { bones = { { "a", from = "hip", to = "hip" } } }
+      end,
+      ["the first limit, 30 degrees, is more than the second, 10"] = function()
+        rig_of { bones = { { "a", from = "hip", to = "knee", limits = { 30, 10 } } } }
+      end,
+      ["the artwork has no parts 'nose A'"] = function() rig_of { switches = { "nose" } } end,
+      ["cannot be a bone's name"] = function()
+        rig_of { bones = { { "at", from = "hip", to = "knee" } } }
+      end,
+      ["needs at least one bone"] = function() rig_of { bones = {} } end,
+      ["the pose has 'tigh', which is no bone, switch or field; did you mean 'thigh'?"] =
+        function() rig:pose { tigh = 3 } end,
+      ["field 'rotate' must be a finite number, got nan"] = function()
+        rig:pose { thigh = { rotate = 0 / 0 } }
+      end,
+      ["field 'scale' must be more than 0, got 0"] = function()
+        rig:pose { thigh = { scale = 0 } }
+      end,
+      ["there is no joint 'ancle'; did you mean 'ankle'?"] = function()
+        rig:pose { reach = { ancle = { 1, 2 } } }
+      end,
+      ["reach: no bone ends at the joint 'hip'"] = function()
+        rig:pose { reach = { hip = { 1, 2 } } }
+      end,
+      ["is in two chains that reach"] = function()
+        rig:pose { reach = { ankle = { 1, 2 }, knee = { 3, 4 } } }
+      end,
+      ["names 'tail', which is no part that moves"] = function()
+        rig:pose { front = { "tail" } }
+      end,
+      ["the parts of 'mouth' are A, B, and not 'C'"] = function() rig:pose { mouth = "C" } end,
+    } do
+      local message = raised.message(call)
+      assert.is_truthy(message:find(words, 1, true), message)
+      assert.is_truthy(message:find "^tests/spec/puppet_spec.lua:", message)
+    end
+  end)
+end)
+
+describe("poses", function()
+  with_art("are mixed, layered and mirrored as tables", function()
+    local rig = rig_of()
+    local p = { ["arm left"] = 10, head = { rotate = 20, scale = 2 }, at = { 10, 0 }, mouth = "A",
+                reach = { ["foot L"] = { 60, 90, pole = { 70, 80 } } } }
+    local q = { ["arm left"] = { rotate = 30 }, mouth = "B" }
+    assert.are.same({ ["arm left"] = { rotate = 20.0 }, head = { rotate = 10.0, scale = 1.5 },
+                      at = { 5.0, 0.0 }, mouth = "B",
+                      reach = { ["foot L"] = { 60, 90, pole = { 70, 80 } } } }, rig.mix(p, q, 0.5))
+    assert.are.same({ a = 3, b = { rotate = 5, scale = 4 }, mouth = "B" },
+      rig.layer({ a = 1, b = { scale = 2 } }, { a = 2, b = { rotate = 5, scale = 2 },
+                                               mouth = "B" }))
+    assert.are.same({ ["arm right"] = -10, head = { rotate = -20, scale = 2 }, at = { -10, 0 },
+                      mouth = "A", reach = { ["foot R"] = { 40, 90, pole = { 30, 80 } } } },
+      rig.mirror(p))
+    assert.are.same(p, rig.mirror(rig.mirror(p)))
+  end)
+
+  with_art("mixed at 0 and 1 are the poses themselves", function()
+    local rig, random = rig_of(), prng.new(4)
+    for _ = 1, 100 do
+      local p = { thigh = random:between(-90, 90), shin = random:between(-90, 90) }
+      local q = { thigh = { rotate = random:between(-90, 90), stretch = 1.2 }, at = { 3, 4 } }
+      near(select(1, rig:joint(p, "ankle")), select(2, rig:joint(p, "ankle")),
+        rig:joint(rig.mix(p, q, 0), "ankle"))
+      near(select(1, rig:joint(q, "ankle")), select(2, rig:joint(q, "ankle")),
+        rig:joint(rig.mix(p, q, 1), "ankle"))
+    end
+  end)
+end)
+
+describe("steps", function()
+  it("keep a foot on the ground where it is, and swing it on without a jump", function()
+    local walk = puppet.steps { stride = 180, period = 0.8, ground = 400, x = 20 }
+    local slip, jump, before = 0, 0, nil
+    for i = 0, 4000 do
+      local time = i / 1000
+      local x, y, swing = walk:foot(time, 0.5)
+      if before and swing == 0 and before.swing == 0 then
+        slip = math.max(slip, math.abs(x - before.x), math.abs(y - before.y))
+      end
+      if before then jump = math.max(jump, math.abs(x - before.x), math.abs(y - before.y)) end
+      before = { x = x, y = y, swing = swing }
+    end
+    assert.equal(0, slip)
+    assert.is_true(jump < 1.2, jump)
+    assert.equal(900, walk:body(4))
+    local x = walk:foot(0.8 * 0.3) -- the middle of the time on the ground: under the body
+    assert.is_true(math.abs(x - (20 + walk:body(0.8 * 0.3))) < 1e-9)
+  end)
+
+  it("refuse what no walk has", function()
+    for words, settings in pairs {
+      ["needs the field 'period'"] = { stride = 1, ground = 1 },
+      ["'period' must be more than 0"] = { stride = 1, ground = 1, period = 0 },
+      ["'share' must be between 0 and 1"] = { stride = 1, ground = 1, period = 1, share = 1 },
+    } do
+      local message = raised.message(function() puppet.steps(settings) end)
+      assert.is_truthy(message:find(words, 1, true), message)
+    end
+  end)
+end)
+
+-- ---------------------------------------------------------------- motion that follows
+
+describe("a spring", function()
+  it("follows a slow movement as a mass on a spring does", function()
+    for _, damping in ipairs { 0.1, 0.3, 1 } do
+      local spring = motion.spring(math.sin, { frequency = 2, damping = damping })
+      local ratio = 1 / (4 * math.pi)
+      local size = 1 / math.sqrt((1 - ratio ^ 2) ^ 2 + (2 * damping * ratio) ^ 2)
+      local late = math.atan(2 * damping * ratio, 1 - ratio ^ 2)
+      for i = 0, 100 do
+        assert.is_true(math.abs(spring:at(i / 10) - size * math.sin(i / 10 - late)) < 2e-3)
+      end
+    end
+  end)
+
+  it("swings beyond its end, and a lag does not", function()
+    local function jump(time) return time >= 0 and 10 or 0 end
+    local spring, lag = motion.spring(jump), motion.lag(jump, 0.2)
+    local most, furthest = 0, 0
+    for i = -10, 400 do
+      most = math.max(most, spring:at(i / 100))
+      furthest = math.max(furthest, lag:at(i / 100))
+    end
+    assert.is_true(most > 12 and most < 15, most)
+    assert.is_true(furthest <= 10 + 1e-9 and math.abs(lag:at(0.2) - 6.32) < 0.2)
+    assert.equal(0, spring:at(-0.01))
+    assert.is_true(math.abs(spring:at(4) - 10) < 0.05)
+  end)
+
+  it("moves whole poses", function()
+    local hair = motion.spring(function(time) return { tip = { rotate = 90 * time }, mouth = "A" } end)
+    local pose = hair:at(10)
+    assert.equal("A", pose.mouth)
+    assert.is_true(pose.tip.rotate < 900 and pose.tip.rotate > 880)
+  end)
+
+  it("refuses what is no function, and numbers beyond its range", function()
+    for words, call in pairs {
+      ["spring takes a function of the time, got number"] = function() motion.spring(3) end,
+      ["'frequency' must be more than 0"] = function()
+        motion.spring(math.sin, { frequency = 0 })
+      end,
+      ["'damping' must be 0.05 to 1"] = function() motion.spring(math.sin, { damping = 0 }) end,
+      ["lag takes seconds, a number above 0, got 0"] = function() motion.lag(math.sin, 0) end,
+    } do
+      local message = raised.message(call)
+      assert.is_truthy(message:find(words, 1, true), message)
+      assert.is_truthy(message:find "^tests/spec/puppet_spec.lua:", message)
+    end
+  end)
+end)
+
+describe("noise", function()
+  it("is smooth, within -1 and 1, and the same for the same seed", function()
+    local a, b, other = motion.noise "wind", motion.noise "wind", motion.noise "rain"
+    local least, most, step, differs = 1, -1, 0, false
+    for i = 1, 20000 do
+      local x, y, z = i * 0.37, i * 0.11, i * 0.05
+      local value = a(x, y, z)
+      assert.equal(value, b(x, y, z))
+      differs = differs or value ~= other(x, y, z)
+      least, most = math.min(least, value), math.max(most, value)
+      step = math.max(step, math.abs(a(x + 1e-3, y + 1e-3, z + 1e-3) - value))
+    end
+    assert.is_true(differs and least >= -1 and most <= 1 and most - least > 1.5)
+    assert.is_true(step < 0.012, step)
+  end)
+
+  it("has a value for every number of coordinates, and at every number", function()
+    local noise = motion.noise(7)
+    assert.equal(noise(3.5), noise(3.5, 0, 0))
+    for _, x in ipairs { 1e300, -1e300, 2 ^ 60, math.huge, 0 / 0 } do
+      assert.is_true(math.abs(noise(x, x, x)) <= 1)
+    end
+    assert.is_truthy(raised.message(function() noise("x") end):find "coordinate 1 must be a number")
+    assert.is_truthy(raised.message(function() noise() end):find "got none")
+  end)
+end)
+
+it("staggered movements begin one after another and end together with the whole", function()
+  assert.equal(0, motion.stagger(0.3, 3, 3, 0))
+  assert.equal(1, motion.stagger(1 / 3, 1, 3, 0))
+  for i = 1, 5 do
+    assert.equal(0, motion.stagger(0, i, 5))
+    assert.is_true(math.abs(motion.stagger(1, i, 5) - 1) < 1e-12)
+    assert.equal(0.4, motion.stagger(0.4, i, 5, 1))
+  end
+end)
