@@ -87,7 +87,9 @@ local function read_bone(rig, i, given)
     refuse("bone %d must begin with its name, got %s", i, fields.shown(name))
   end
   if rig.bones[name] then refuse("two bones have the name '%s'", name) end
-  if bones.reserved[name] then refuse("'%s' cannot be a bone's name: poses have a field of it", name) end
+  if bones.reserved[name] then
+    refuse("'%s' cannot be a bone's name: poses have a field of it", name)
+  end
   local from, to = check_joint(rig, given, "from"), check_joint(rig, given, "to")
   local dx, dy = to[1] - from[1], to[2] - from[2]
   local length = math.sqrt(dx * dx + dy * dy)
@@ -140,8 +142,8 @@ local function order_bones(rig)
   rig.list = ordered
 end
 
---- Reads the joints and the bones of a rig: rig.joints are those that are drawn, and gets those that
---- the script gives; rig.bones are the bones by name, rig.list has parents first.
+--- Reads the joints and the bones of a rig: rig.joints are those that are drawn, and gets those
+--- that the script gives; rig.bones are the bones by name, rig.list has parents first.
 function bones.read(rig, joints, given)
   read_joints(joints, rig.joints)
   for i = 1, rawlen(given or {}) do read_bone(rig, i, given[i]) end
@@ -219,7 +221,7 @@ function bones.base_of(bone, frames)
   return affine.compose(parent.frame, affine.translation(x - bone.x, y - bone.y)), parent.angle
 end
 
-local TURN = 720 -- degrees: limits beyond these are none
+local TURN = 720 -- degrees: wider limits limit nothing
 
 local function limit(bone, degrees) return math.max(bone.low, math.min(bone.high, degrees)) end
 

@@ -3,14 +3,16 @@
 --   local x = keys{ {0, 10}, {1, 50, "outQuad"}, {2, 20} }
 --   x:at(f.time)
 --
--- A key is {time, value [, ease into it]}. Numbers, arrays of numbers, paints and colours such as
--- "#ff8800" are mixed; other strings and booleans hold until the next key. The first and the last
--- value hold beyond the ends, or the track repeats (loop = "repeat") or alternates its direction
--- (loop = "mirror").
+-- A key is {time, value [, ease into it]}. Numbers, arrays of numbers and of points, paints,
+-- colours such as "#ff8800", path data with the same commands and poses are mixed; other strings
+-- and booleans hold until the next key. The first and the last value hold beyond the ends, or the
+-- track repeats (loop = "repeat") or alternates its direction (loop = "mirror").
 local celspan = require "celspan"
 local ease = require "celspan.ease"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
+local pathdata = require "celspan.pathdata"
+local poses = require "celspan.poses"
 
 ---@class celspan.keys.track
 local Track = {}
@@ -29,18 +31,55 @@ local function paint_of(text)
   return good and paint or nil
 end
 
---- "number", "array", "paint", "colour" (a string), "held"; nil for invalid values.
+--- The commands of a string that is path data, or nil.
+local function path_of(text)
+  return text:find "^%s*[Mm]%s*[%d.+-]" and pathdata.commands(text) or nil
+end
+
+local function is_array(value)
+  for i = 1, rawlen(value) do
+    if not fields.is_finite(value[i]) then return false end
+  end
+  return rawlen(value) > 0
+end
+
+local function is_points(value)
+  for i = 1, rawlen(value) do
+    if type(value[i]) ~= "table" or not is_array(value[i]) then return false end
+  end
+  return rawlen(value) > 0
+end
+
+local function text_kind(text)
+  if paint_of(text) then return "colour" end
+  return path_of(text) and "path" or "held"
+end
+
+--- Whether a table holds numbers, strings, booleans and such tables, at most five deep.
+local function is_pose(value, depth)
+  for _, part in next, value do
+    local type_of = type(part)
+    local is_good = fields.is_finite(part) or type_of == "string" or type_of == "boolean"
+      or type_of == "table" and depth < 5 and is_pose(part, depth + 1)
+    if not is_good then return false end
+  end
+  return next(value) ~= nil
+end
+
+local function table_kind(value)
+  if rawlen(value) == 0 then return is_pose(value, 1) and "pose" or nil end
+  return is_array(value) and "array" or is_points(value) and "points" or nil
+end
+
+--- "number", "array", "points", "pose", "paint", "colour" (a string), "path", "held"; nil for
+--- invalid values.
 local function kind_of(value)
   local type_of = type(value)
   if type_of == "number" then return fields.is_finite(value) and "number" or nil end
-  if type_of == "string" and paint_of(value) then return "colour" end
-  if type_of == "string" or type_of == "boolean" then return "held" end
+  if type_of == "string" then return text_kind(value) end
+  if type_of == "boolean" then return "held" end
   if is_paint(value) then return "paint" end
-  if type_of ~= "table" then return nil end
-  for i = 1, rawlen(value) do
-    if not fields.is_finite(value[i]) then return nil end
-  end
-  return rawlen(value) > 0 and "array" or nil
+  return type_of == "table" and table_kind(value) or nil
 end
 
 local mixers = {}
@@ -53,6 +92,29 @@ function mixers.array(a, b, u)
   local mixed = {}
   for i = 1, #a do mixed[i] = a[i] + (b[i] - a[i]) * u end
   return mixed
+end
+
+function mixers.points(a, b, u)
+  local mixed = {}
+  for i = 1, #a do mixed[i] = mixers.array(a[i], b[i], u) end
+  return mixed
+end
+
+function mixers.pose(a, b, u) return poses.mix(a, b, u) end
+
+--- The path data itself at the keys; between them, its numbers are mixed.
+function mixers.path(a, b, u)
+  if u == 0 then return a.text end
+  if u == 1 then return b.text end
+  local words = {}
+  for i, from in ipairs(a.commands) do
+    local to = b.commands[i]
+    words[#words + 1] = from.command
+    for j = 1, #from do
+      words[#words + 1] = ("%.10g"):format(from[j] + (to[j] - from[j]) * u)
+    end
+  end
+  return table.concat(words, " ")
 end
 
 -- Paints have no values outside 0..1, so curves that overshoot are limited here.
@@ -76,24 +138,63 @@ local function problem_of(key)
     return "must begin with a time, a finite number, got " .. fields.shown(key[1])
   end
   if not kind_of(key[2]) then
-    return "must have a finite number, an array of them, a paint, a string or a boolean as value, "
-      .. "got " .. fields.shown(key[2])
+    return "must have a finite number, an array of numbers or points, a pose, a paint, a string "
+      .. "or a boolean as value, got " .. fields.shown(key[2])
   end
   local good, curve = pcall(ease, key[3] or "linear")
   if not good then return "cannot have this ease: " .. curve:gsub("^ease: ", "") end
 end
 
 local function copy(value)
-  return type(value) == "table" and { table.unpack(value, 1, rawlen(value)) } or value
+  if type(value) ~= "table" then return value end
+  local made = {}
+  for name, part in next, value do made[name] = copy(part) end
+  return made
 end
 
---- How colour strings are read: as paints, unless any key is another string or a boolean; then as
---- words, which hold.
-local function meaning_of_colours(list)
-  for i = 1, rawlen(list) do
-    if kind_of(list[i][2]) == "held" then return "held" end
+--- What at() returns for the value of a key.
+local function shown_value(value)
+  if type(value) == "table" and value.commands then return value.text end
+  return copy(value)
+end
+
+--- What keeps a value from being mixed with the first of its track, or nil.
+local function misfit(kind, value, first)
+  if kind == "array" and #value ~= #first then
+    return ("has %d numbers, the first has %d"):format(#value, #first)
   end
-  return "paint"
+  if kind == "points" and #value ~= #first then
+    return ("has %d points, the first has %d"):format(#value, #first)
+  end
+  for i = 1, kind == "points" and #value or 0 do
+    if #value[i] ~= #first[i] then
+      return ("has %d numbers in point %d, the first has %d"):format(#value[i], i, #first[i])
+    end
+  end
+  for i = 1, kind == "path" and math.max(#value.commands, #first.commands) or 0 do
+    local one, other = value.commands[i], first.commands[i]
+    local is_same = one and other and one.command == other.command
+    if not is_same or one.command:upper() == "A" and (one[4] ~= other[4] or one[5] ~= other[5]) then
+      return ("differs from the first at command %d of its path data: the commands must be the "
+        .. "same, and the flags of arcs"):format(i)
+    end
+  end
+end
+
+--- The value as it is kept, for its kind.
+local function kept_value(kind, value)
+  if kind == "paint" and type(value) == "string" then return paint_of(value) end
+  if kind == "path" then return { text = value, commands = path_of(value) } end
+  return copy(value)
+end
+
+--- How strings are read that could be colours or path data: as these, unless any key is another
+--- string or a boolean; then as words, which hold.
+local function meanings_of(list)
+  for i = 1, rawlen(list) do
+    if kind_of(list[i][2]) == "held" then return { colour = "held", path = "held" } end
+  end
+  return { colour = "paint" }
 end
 
 local function read_keys(list)
@@ -102,19 +203,17 @@ local function read_keys(list)
     local problem = problem_of(list[i])
     if problem then complain(i, "%s", problem) end
   end
-  local colours = meaning_of_colours(list)
+  local meanings = meanings_of(list)
   for i = 1, rawlen(list) do
     local found = kind_of(list[i][2])
-    if found == "colour" then found = colours end
+    found = meanings[found] or found
     kind = kind or found
-    local time, value = list[i][1], copy(list[i][2])
-    if found == "paint" and type(value) == "string" then value = paint_of(value) end
     if found ~= kind then
       complain(i, "is of another kind (%s) than the first (%s)", found, kind)
     end
-    if kind == "array" and i > 1 and rawlen(value) ~= #keys[1].value then
-      complain(i, "has %d numbers, the first has %d", rawlen(value), #keys[1].value)
-    end
+    local time, value = list[i][1], kept_value(found, list[i][2])
+    local problem = i > 1 and misfit(kind, value, keys[1].value)
+    if problem then complain(i, "%s", problem) end
     if i > 1 and time < keys[i - 1].time then
       complain(i, "is at %s, before the key before it", tostring(time))
     end
@@ -164,8 +263,8 @@ function Track:at(time)
   time = fold(self, time)
   local i = place(self.keys, time)
   local before, after = self.keys[i], self.keys[i + 1]
-  if not before then return copy(after.value) end
-  if not after then return copy(before.value) end
+  if not before then return shown_value(after.value) end
+  if not after then return shown_value(before.value) end
   local u = (time - before.time) / (after.time - before.time)
   if after.ease then
     u = after.ease(u)

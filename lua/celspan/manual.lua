@@ -7,7 +7,7 @@ local manual = {}
 
 local MODULES = { "ease", "keys", "motion", "multiplane", "shutter", "lips", "sheet", "svg",
                   "trace", "track", "relight", "layers", "oca", "json", "csv", "captions", "cut",
-                  "sound", "spec" }
+                  "sound", "spec", "puppet", "particles" }
 local WIDTH = 100
 
 --- Adds a text in lines of at most WIDTH characters; those after the first begin with `indent`.

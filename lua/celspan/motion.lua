@@ -10,6 +10,7 @@
 --   local angle = hair:at(f.time)                              -- follows the head, and swings
 --
 --   local wind = motion.noise "wind"                           -- wind(x, y, z), -1..1
+local chance = require "celspan.chance"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
 local pathdata = require "celspan.pathdata"
@@ -91,22 +92,6 @@ local Wiggle = {}
 Wiggle.__index = fields.reads("a wiggle", Wiggle)
 Wiggle.__name = "celspan.motion.wiggle"
 
---- FNV-1a, 64 bits.
-local function hash_text(text)
-  local hash = 0xcbf29ce484222325
-  for i = 1, #text do hash = (hash ~ text:byte(i)) * 0x100000001b3 end
-  return hash
-end
-
---- A value in -1..1 for a whole number: SplitMix64's finaliser.
-local function value_at(seed, n)
-  local x = (seed ~ n) + 0x9e3779b97f4a7c15
-  x = (x ~ x >> 30) * 0xbf58476d1ce4e5b9
-  x = (x ~ x >> 27) * 0x94d049bb133111eb
-  x = x ~ x >> 31
-  return (x >> 11) * 2.0 ^ -52 - 1
-end
-
 --- A smooth random movement: the same for the same seed, on every machine.
 ---@param seed string|integer
 ---@param settings? {frequency?: number, amplitude?: number} Changes per second (1); largest value (1)
@@ -117,7 +102,7 @@ function motion.wiggle(seed, settings)
   end
   settings = settings or {}
   fields.check("motion", settings, { frequency = "number", amplitude = "number" })
-  return setmetatable({ seed = hash_text(tostring(seed)), frequency = settings.frequency or 1,
+  return setmetatable({ seed = chance.seed(seed), frequency = settings.frequency or 1,
                         amplitude = settings.amplitude or 1 }, Wiggle)
 end
 
@@ -130,7 +115,7 @@ function Wiggle:at(time)
   if math.abs(at) >= 2 ^ 53 then at = fields.is_finite(at) and math.fmod(at, 2 ^ 53) or 0 end
   local n = math.floor(at)
   local t = at - n
-  local a, b = value_at(self.seed, n), value_at(self.seed, n + 1)
+  local a, b = chance.between(self.seed, n), chance.between(self.seed, n + 1)
   return self.amplitude * (a + (b - a) * t * t * t * (t * (6 * t - 15) + 10))
 end
 
@@ -138,7 +123,7 @@ end
 
 --- A hash of a point of the grid: -1..1.
 local function grid_value(seed, x, y, z)
-  return value_at(seed ~ x * 0x2545f4914f6cdd1d ~ y * 0x27d4eb2f165667c5, z)
+  return chance.between(seed ~ x * 0x2545f4914f6cdd1d ~ y * 0x27d4eb2f165667c5, z)
 end
 
 local function fade(t) return t * t * t * (t * (6 * t - 15) + 10) end
@@ -163,7 +148,7 @@ function motion.noise(seed)
     core.refuse("motion: noise takes a seed, a string or a finite number, got "
       .. fields.shown(seed))
   end
-  local hash = hash_text(tostring(seed))
+  local hash = chance.seed(seed)
   return function(x, y, z)
     for i, value in ipairs { x or 0 / 0, y or 0, z or 0 } do
       if type(value) ~= "number" then
@@ -270,7 +255,8 @@ function motion.spring(source, settings)
   return follow(source, step_response(rate, damping), window, window * frequency)
 end
 
---- A value that follows another and never overtakes it: after `seconds` it has gone 63 % of the way.
+--- A value that follows another and never overtakes it: after `seconds` it has gone 63 % of the
+--- way.
 ---@param source fun(time: number): any Numbers, or tables of numbers, such as poses
 ---@param seconds number More than 0
 ---@return celspan.motion.follower

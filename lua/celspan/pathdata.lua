@@ -115,6 +115,33 @@ local function make_absolute(pen, command, n)
   end
 end
 
+--- The commands of path data in order, each { command = "l", x, y }, with its letter and its
+--- numbers as they are written; a letter that is left out is filled in. Or nil and a message.
+---@param text string
+---@return table[]? commands
+---@return string? message
+function pathdata.commands(text)
+  local commands, at, letter = {}, 1, nil
+  while true do
+    at = text:find("[^%s,]", at)
+    if not at then return commands end
+    local found = text:match("^[A-Za-z]", at)
+    if found then letter, at = found, at + 1 end
+    local upper = letter and letter:upper()
+    local count = upper and counts[upper]
+    if not count or (count == 0 and not found) or (#commands == 0 and upper ~= "M") then
+      return nil, ("path data has something unknown at byte %d"):format(at)
+    end
+    local n = { command = letter }
+    for i = 1, count do
+      n[i], at = read_number(text, at, upper == "A" and (i == 4 or i == 5))
+      if not n[i] then return nil, ("path data lacks a number after '%s'"):format(letter) end
+    end
+    commands[#commands + 1] = n
+    if upper == "M" then letter = letter == "M" and "L" or "l" end
+  end
+end
+
 --- Walks a pen along path data: pen:move(x, y), pen:line(x, y), pen:curve(x1, y1, x2, y2, x, y) and
 --- pen:arc(point, from, to, x, y), where point(angle) returns a point of the arc and its
 --- derivative. pen.x, pen.y is its position before each call. Returns true, or nil and a message.
@@ -123,28 +150,16 @@ end
 ---@return boolean? done
 ---@return string? message
 function pathdata.walk(text, pen)
+  local commands, message = pathdata.commands(text)
+  if not commands then return nil, message end
   pen.x, pen.y, pen.start_x, pen.start_y, pen.last = 0, 0, 0, 0, "M"
-  local at, letter = 1, nil
-  while true do
-    at = text:find("[^%s,]", at)
-    if not at then return true end
-    local found = text:match("^[A-Za-z]", at)
-    if found then letter, at = found, at + 1 end
-    local command = letter and letter:upper()
-    local count = command and counts[command]
-    if not count or (count == 0 and not found) or (at == 2 and command ~= "M") then
-      return nil, ("path data has something unknown at byte %d"):format(at)
-    end
-    local n = {}
-    for i = 1, count do
-      n[i], at = read_number(text, at, command == "A" and (i == 4 or i == 5))
-      if not n[i] then return nil, ("path data lacks a number after '%s'"):format(letter) end
-    end
-    if letter ~= command then make_absolute(pen, command, n) end
+  for _, n in ipairs(commands) do
+    local command = n.command:upper()
+    if n.command ~= command then make_absolute(pen, command, n) end
     draw[command](pen, table.unpack(n))
     pen.last = command
-    if command == "M" then letter = letter == "M" and "L" or "l" end
   end
+  return true
 end
 
 --- A pen that records points in order.

@@ -9,8 +9,8 @@
 --
 -- chain: bones = { { x, y, low, high, angle }, ... }: the vector of the bone at angle 0, the limits
 -- of its angle and the angle to start from, in radians; target = { x, y } from the base;
--- side: 1 or -1, the sign of the bend that is preferred, or nil: that of the bones; pole = { x, y }:
--- the bend nearest to this point, from the base, is preferred.
+-- side: 1 or -1, the sign of the bend that is preferred, or nil: that of the bones; pole: { x, y }
+-- from the base: the bend nearest to this point is preferred.
 --
 -- INVARIANT: angles lie within their limits. One bone and two bones are solved in closed form: no
 -- other angles come nearer. More bones: the nearest end that damped Gauss-Newton steps find from

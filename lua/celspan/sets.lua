@@ -25,11 +25,11 @@ function sets.members(parts, set)
   return members, names
 end
 
---- Checks that a set has this member; false is none of them. Returns the members of the set.
+--- Checks that a set has this member; false shows no member. Returns the members of the set.
 local function check(noun, whole, parts, set, choice)
   if type(set) ~= "string" or type(choice) ~= "string" and choice ~= false then
-    core.refuse(("%s takes a name for each set, such as { mouth = \"C\" }, got %s = %s"):format(noun,
-      tostring(set), type(choice) == "string" and choice or fields.kind(choice)))
+    core.refuse(("%s takes a name for each set, such as { mouth = \"C\" }, got %s = %s"):format(
+      noun, tostring(set), type(choice) == "string" and choice or fields.kind(choice)))
   end
   local members, names = sets.members(parts, set)
   if #names == 0 then

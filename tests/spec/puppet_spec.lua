@@ -1,6 +1,7 @@
 -- Puppets: bones, poses and targets, and the motion that follows others.
 local celspan = require "celspan"
 local motion = require "celspan.motion"
+local particles = require "celspan.particles"
 local present = require "tests.support.present"
 local prng = require "tests.support.prng"
 local puppet = require "celspan.puppet"
@@ -215,7 +216,7 @@ describe("a puppet", function()
       assert.is_true(math.abs(hx - (50 + 20 * math.sin(math.rad(30)))) < 1e-9)
     end)
 
-  with_art("draws parts over and under others, in front and behind, where a pose says so", function()
+  with_art("draws parts over, under, in front and behind, where a pose says so", function()
     local rig = rig_of { bones = { { "body", from = "hip", to = "knee" },
       { "thigh", from = "hip", to = "knee" },
       { "shin", from = "knee", to = "ankle", parent = "thigh" } } }
@@ -406,7 +407,9 @@ describe("a spring", function()
   end)
 
   it("moves whole poses", function()
-    local hair = motion.spring(function(time) return { tip = { rotate = 90 * time }, mouth = "A" } end)
+    local hair = motion.spring(function(time)
+      return { tip = { rotate = 90 * time }, mouth = "A" }
+    end)
     local pose = hair:at(10)
     assert.equal("A", pose.mouth)
     assert.is_true(pose.tip.rotate < 900 and pose.tip.rotate > 880)
@@ -463,4 +466,92 @@ it("staggered movements begin one after another and end together with the whole"
     assert.is_true(math.abs(motion.stagger(1, i, 5) - 1) < 1e-12)
     assert.equal(0.4, motion.stagger(0.4, i, 5, 1))
   end
+end)
+
+-- ---------------------------------------------------------------- particles
+
+--- By id.
+local function by_id(list)
+  local found = {}
+  for _, p in ipairs(list) do found[p.id] = p end
+  return found
+end
+
+describe("particles", function()
+  it("live as long as they should, and as many as are born", function()
+    local rain = particles { rate = 100, life = 2 }
+    for _, time in ipairs { -3, 0, 1.005, 77.77 } do
+      local list = rain:at(time)
+      assert.equal(200, #list)
+      for i, p in ipairs(list) do
+        assert.is_true(p.age >= 0 and p.age < 1 and p.seconds == time - p.id / 100)
+        assert.is_true(i == 1 or p.id > list[i - 1].id)
+      end
+    end
+    local burst = particles { rate = 10, life = { 1, 0.5 }, from = 0, to = 1 }
+    assert.equal(0, #burst:at(-0.1))
+    assert.equal(0, #burst:at(2.6))
+    assert.equal(6, #burst:at(0.5))
+  end)
+
+  it("move as drag and gravity move them", function()
+    for _, drag in ipairs { 0, 1e-9, 0.7, 30 } do
+      local source = particles { rate = 7, life = 4, at = { 3, 4, 10, 10 },
+        velocity = { 5, -6, 20, 20 }, gravity = { 3, 90 }, drag = drag }
+      local before, after = by_id(source:at(10)), by_id(source:at(10 + 1e-5))
+      local checked = 0
+      for id, p in pairs(before) do
+        local q = after[id]
+        if q then
+          checked = checked + 1
+          local vx, vy = (q.x - p.x) / 1e-5, (q.y - p.y) / 1e-5
+          assert.is_true(math.abs(vx - p.dx) < 0.02 and math.abs(vy - p.dy) < 0.02)
+          local force = (q.dy - p.dy) / 1e-5 - (90 - drag * p.dy)
+          assert.is_true(math.abs(force) < 0.5, force)
+        end
+      end
+      assert.is_true(checked >= 27)
+    end
+  end)
+
+  it("are those of their seed, and go where a field takes them", function()
+    local function sum(seed)
+      local x = 0
+      local source = particles { seed = seed, rate = 50, life = 1, at = { 0, 0, 5, 5 } }
+      for _, p in ipairs(source:at(3)) do
+        assert.is_true(math.abs(p.x) <= 5 and math.abs(p.y) <= 5)
+        x = x + p.x
+      end
+      return x
+    end
+    assert.equal(sum "a", sum "a")
+    assert.is_true(sum "a" ~= sum "b")
+    local list = particles { rate = 5, life = 1,
+      field = function(p, time) return p.id, time end }:at(2)
+    assert.equal(10, list[#list].x)
+    assert.equal(2, list[#list].y)
+  end)
+
+  it("refuse what they cannot be", function()
+    for words, call in pairs {
+      ["'rate' must be particles per second, above 0, got nil"] = function()
+        particles { life = 1 }
+      end,
+      ["'life' must be seconds above 0"] = function() particles { rate = 1, life = { 1, 2 } } end,
+      ["more than 1000000 at one time"] = function() particles { rate = 1e6, life = 2 } end,
+      ["'at' must be {x, y} or {x, y, across, down}, got 3 numbers"] = function()
+        particles { rate = 1, life = 1, at = { 1, 2, 3 } }
+      end,
+      ["field must return x and y, two finite numbers, got nan and nil"] = function()
+        particles { rate = 1, life = 1, field = function() return 0 / 0 end }:at(1)
+      end,
+      ["'drag' must be 0 or more"] = function() particles { rate = 1, life = 1, drag = -1 } end,
+    } do
+      local message = raised.message(call)
+      assert.is_truthy(message:find(words, 1, true), message)
+      assert.is_truthy(message:find "^tests/spec/puppet_spec.lua:", message)
+    end
+    local endless = particles { rate = 1, life = 1 }
+    for _, time in ipairs { 1e300, -1e300 } do assert.are.same({}, endless:at(time)) end
+  end)
 end)

@@ -140,8 +140,8 @@ describe("keys", function()
       { 'keys: key 2 cannot have this ease: there is no curve "outQuat"; did you mean "outquad"?',
         { { 0, 1 }, { 1, 2, "outQuat" } } },
       { "keys: key 1 must begin with a time, a finite number, got inf", { { math.huge, 1 } } },
-      { "keys: key 1 must have a finite number, an array of them, a paint, a string or a boolean "
-        .. "as value, got inf", { { 0, math.huge } } },
+      { "keys: key 1 must have a finite number, an array of numbers or points, a pose, a paint, "
+        .. "a string or a boolean as value, got inf", { { 0, math.huge } } },
     }
     for _, case in ipairs(cases) do
       local message = raised.message(function() keys(case[2]) end)
@@ -154,5 +154,50 @@ describe("keys", function()
     for _, time in ipairs { 0 / 0, math.huge, "1" } do
       raised.message(track.at, track, time)
     end
+  end)
+end)
+
+describe("keys of shapes", function()
+  it("mix points, path data with the same commands, and poses", function()
+    local points = keys { { 0, { { 0, 0 }, { 10, 0 } } }, { 1, { { 0, 10 }, { 20, 0 } } } }
+    assert.are.same({ { 0, 5 }, { 15, 0 } }, points:at(0.5))
+    local path = keys { { 0, "M0 0h10v10z" }, { 2, "M10,0 h20 v30z" } }
+    assert.equal("M 5 0 h 15 v 20 z", path:at(1))
+    assert.equal("M0 0h10v10z", path:at(-1))
+    assert.equal("M0 0h10v10z", path:at(0))
+    assert.equal("M10,0 h20 v30z", path:at(2))
+    assert.equal("M 0 0 A 5 5 0 0 1 12 0",
+      keys { { 0, "M0 0A5 5 0 0110 0" }, { 1, "M0 0A5 5 0 0114 0" } }:at(0.5))
+    assert.are.same({ arm = 15, at = { 5, 0 } },
+      keys { { 0, { arm = 10 } }, { 1, { arm = 20, at = { 10, 0 } } } }:at(0.5))
+  end)
+
+  it("that cannot be mixed are refused, and words stay words", function()
+    for words, list in pairs {
+      ["key 2 differs from the first at command 2"] = { { 0, "M0 0L1 1" }, { 1, "M0 0l1 1" } },
+      ["key 2 differs from the first at command 3"] = { { 0, "M0 0L1 1" }, { 1, "M0 0L1 1Z" } },
+      ["and the flags of arcs"] = { { 0, "M0 0A5 5 0 0110 0" }, { 1, "M0 0A5 5 0 1110 0" } },
+      ["key 2 has 1 points, the first has 2"] =
+        { { 0, { { 0, 0 }, { 1, 1 } } }, { 1, { { 0, 0 } } } },
+      ["key 2 has 3 numbers in point 1, the first has 2"] =
+        { { 0, { { 0, 0 } } }, { 1, { { 0, 0, 0 } } } },
+      ["(array) than the first (pose)"] = { { 0, { arm = 1 } }, { 1, { 1 } } },
+    } do
+      local message = raised.message(function() keys(list) end)
+      assert.is_truthy(message:find(words, 1, true), message)
+    end
+    local endless = {}
+    endless.arm = endless
+    for _, value in ipairs { endless, { arm = 0 / 0 }, { arm = print } } do
+      assert.is_truthy(raised.message(function() keys { { 0, value } } end):find "got table")
+    end
+    assert.equal("M", keys { { 0, "M" }, { 1, "A" } }:at(0.5))
+    assert.equal("M0 0", keys { { 0, "M0 0" }, { 1, "hidden" } }:at(0.5))
+  end)
+
+  it("are new at each call", function()
+    local track = keys { { 0, { arm = { rotate = 1 } } } }
+    track:at(0).arm.rotate = 9
+    assert.equal(1, track:at(0).arm.rotate)
   end)
 end)

@@ -130,7 +130,8 @@ static celspan_status visit(void *user, const celspan_svg_element *element) {
   return CELSPAN_NO_MEMORY;
 }
 
-/* elements() -> { { name =, tag =, id =, label =, class =, fill =, line =, depth =, object = }, ... } */
+/* elements() -> { { name =, tag =, id =, label =, class =, fill =, line =, depth =, object = },
+ * ... } */
 static int elements(lua_State *L) {
   const celspan_svg *svg = self(L);
   lua_settop(L, 1);
