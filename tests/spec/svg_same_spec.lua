@@ -428,7 +428,7 @@ describe("masks", function()
         masked('<rect width="40" height="99" fill="white"/><rect width="80" height="99" '
         .. 'display="none"/><g visibility="hidden"><rect width="80" height="9"/></g>'),
         half },
-      { masked '<use href="#none"/><title/><rect width="40" height="99" fill="white"/>', half },
+      { masked '<title/><rect width="40" height="99" fill="white"/>', half },
       { masked('<rect width="40" height="99" fill="white"/>', "",
         '<g mask="url(#m)"><rect width="80" height="60" fill="lime"/></g>'),
         half },
@@ -453,23 +453,13 @@ describe("masks", function()
     }
   end)
 
-  it("that are not flat, do not exist or refer to themselves are reported", function()
-    local many = ('<rect width="1" height="1" fill="white"/>'):rep(5000)
+  it("that do not exist or refer to themselves are reported", function()
     left_out {
       { masked('', "", "") .. filled "lime" :gsub("/>", ' mask="url(#n)"/>'),
         "mask that is not in the file" },
       { masked('<rect width="9" height="9" fill="white"/>', 'mask="url(#m)"'),
-        "mask that is not flat" },
-      { masked '<rect width="9" height="9" mask="url(#m)"/>', "mask that is not flat" },
-      { masked '<g clip-path="circle(3)"><rect width="9" height="9"/></g>',
-        "mask that is not flat" },
-      {
-        masked('<rect width="50" height="50" fill="white" opacity=".5"/><rect x="20" width="50" '
-        .. 'height="50" fill="white" opacity=".5"/>'),
-        "mask that is not flat" },
-      { masked '<g opacity=".5"><rect width="9" height="9"/><rect width="9" height="9"/></g>',
-        "mask that is not flat" },
-      { masked(many), "mask that is not flat" },
+        "mask that masks itself" },
+      { masked '<rect width="9" height="9" mask="url(#m)"/>', "mask that masks itself" },
     }
   end)
 

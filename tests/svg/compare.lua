@@ -118,10 +118,11 @@ local function compare(svg, png, caption)
 end
 
 --- Whether a drawing belongs to a feature that is left out on purpose.
-local function is_left_out(name)
-  return name:find "^filters/" or name:find "pattern" or name:find "^painting/mix%-blend%-mode/"
-    or name:find "^masking/mask/"
-end
+local function is_left_out(name) return name:find "^filters/" or name:find "pattern" end
+
+--- Features whose drawings are counted by themselves.
+local features = { { "mask", "^masking/mask/" }, { "opacity", "^painting/opacity/" },
+                   { "mix-blend-mode", "^painting/mix%-blend%-mode/" } }
 
 local material = assert(arg[1], "the folder of the sample material is missing")
 local wanted = arg[2] and arg[2] ~= "all" and arg[2] or nil
@@ -138,6 +139,12 @@ local function try(side, name)
   if not is_good and not side.leaves_out(name) then print(("%s: %s"):format(whole, why)) end
   if not is_good and why:find(ALL, 1, true) then
     silent[#silent + 1] = whole
+  end
+  for _, feature in ipairs(features) do
+    if name:find(feature[2]) then
+      feature.count = (feature.count or 0) + 1
+      feature.passed = (feature.passed or 0) + (is_good and 1 or 0)
+    end
   end
   return is_good
 end
@@ -165,6 +172,11 @@ for _, side in ipairs {
   passed, count = passed + side_passed, count + side_count
 end
 
+for _, feature in ipairs(features) do
+  if feature.count then
+    print(("  %s: %d of %d"):format(feature[1], feature.passed, feature.count))
+  end
+end
 local unexplained = 0
 print(("%d drawings are not compared: their pictures show the letters UB"):format(undefined))
 print "drawings that differ and nothing was skipped:"

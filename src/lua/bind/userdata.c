@@ -7,6 +7,7 @@
 #include "lua/bind/caller.h"
 #include "lua/bind/put.h"
 #include "lua/bind/unknown.h"
+#include "model/colour/blend.h"
 
 /* Deep enough for every field there is: a list of points. */
 #define COPY_DEPTH 3
@@ -186,11 +187,6 @@ const char *cs_userdata_shown(lua_State *L, int index) {
 
 /* ---------------------------------------------------------------- metamethods */
 
-const char *const cs_userdata_modes[] = {
-    "normal",      "multiply",   "screen",     "overlay",    "darken",     "lighten",
-    "color-dodge", "color-burn", "hard-light", "soft-light", "difference", "exclusion",
-    "hue",         "saturation", "color",      "luminosity", "add",        NULL};
-
 bool cs_userdata_has_field(const cs_noun *noun, const char *name) {
   const cs_field *field = noun->fields;
   while (field->name && strcmp(field->name, name) != 0)
@@ -246,7 +242,7 @@ static bool push_mode(lua_State *L, const cs_userdata *value, const char *key) {
   const cs_kind *kind = value->noun->kind;
   if (strcmp(key, "mode") != 0 || !kind->mode || !value->handle)
     return false;
-  lua_pushstring(L, cs_userdata_modes[kind->mode(value->handle)]);
+  lua_pushstring(L, cs_blend_words[kind->mode(value->handle)]);
   return true;
 }
 

@@ -32,8 +32,6 @@ typedef struct cs_placement {
   double fade;
 } cs_placement;
 
-extern const char *const cs_userdata_modes[]; /* the words of celspan_blend, ended by NULL */
-
 extern const cs_noun cs_noun_paint, cs_noun_rostrum, cs_noun_rostrum_object, cs_noun_film;
 extern const cs_kind cs_kind_paint, cs_kind_texture, cs_kind_object, cs_kind_cel, cs_kind_rostrum,
     cs_kind_film, cs_kind_frame;

@@ -4,6 +4,7 @@
 #include "lua/nouns/light.h"
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/placed.h"
+#include "model/colour/blend.h"
 
 static const char *const kernels[] = {"gaussian", "box", "disc", NULL};
 #define DESC celspan_cel_desc
@@ -53,7 +54,7 @@ static const cs_field fields[] = {
     {"viewport", CS_BOX(DESC, viewport), CS_HAS(DESC, has_viewport),
      .about = "The part that fills the frame"},
     {"defocus", CS_OWN("number|celspan.defocus"), .about = "A radius, or with a kernel"},
-    {"blend", CS_CHOICE(DESC, blend, cs_userdata_modes), .written = "celspan.mode",
+    {"blend", CS_CHOICE(DESC, blend, cs_blend_words), .written = "celspan.mode",
      .about = "How it is combined with its backdrop", .fallback = "normal"},
     {"opacity", CS_NUMBER(DESC, opacity), .preset = "1", .about = "Limited to 0..1"},
     {0}};

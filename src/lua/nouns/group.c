@@ -5,6 +5,7 @@
 #include "lua/bind/host.h"
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/placed.h"
+#include "model/colour/blend.h"
 
 /* ---------------------------------------------------------------- groups */
 
@@ -30,7 +31,7 @@ static void create_group(const cs_form *form, cs_userdata *value) {
 static const cs_field group_rows[] = {
     {"opacity", CS_NUMBER(FIELDS, desc.opacity), .preset = "1",
      .about = "Of the group as a whole; limited to 0..1"},
-    {"blend", CS_CHOICE(FIELDS, desc.blend, cs_userdata_modes), .written = "celspan.mode",
+    {"blend", CS_CHOICE(FIELDS, desc.blend, cs_blend_words), .written = "celspan.mode",
      .about = "How it is combined with its backdrop", .fallback = "normal"},
     {"isolate", CS_FLAG(FIELDS, isolate), CS_HAS(FIELDS, has_isolate),
      .about = "Whether modes inside act only inside",

@@ -11,6 +11,7 @@
 #include "lua/bind/named.h"
 #include "lua/bind/numbers.h"
 #include "lua/nouns/nouns.h"
+#include "model/colour/blend.h"
 #include "model/geometry/matrix.h"
 
 #define PI 3.14159265358979323846
@@ -164,12 +165,12 @@ static int quad(lua_State *L) {
 static const char *push_modes(lua_State *L) {
   luaL_Buffer words;
   luaL_buffinit(L, &words);
-  for (int i = 0; cs_userdata_modes[i]; i++) {
+  for (int i = 0; cs_blend_words[i]; i++) {
     lua_pushfstring(L, "%s\"%s\"",
-                    i == 0                     ? ""
-                    : cs_userdata_modes[i + 1] ? ", "
-                                               : " or ",
-                    cs_userdata_modes[i]);
+                    i == 0                  ? ""
+                    : cs_blend_words[i + 1] ? ", "
+                                            : " or ",
+                    cs_blend_words[i]);
     luaL_addvalue(&words);
   }
   luaL_pushresult(&words);
@@ -201,9 +202,9 @@ static int blend(lua_State *L) {
   const cs_userdata *value = self(L, "blend");
   const char *word = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "";
   int mode = 0;
-  while (cs_userdata_modes[mode] && strcmp(cs_userdata_modes[mode], word) != 0)
+  while (cs_blend_words[mode] && strcmp(cs_blend_words[mode], word) != 0)
     mode++;
-  if (!cs_userdata_modes[mode])
+  if (!cs_blend_words[mode])
     return cs_caller_error(L, "blend: the mode must be one of %s, got %s", push_modes(L),
                            cs_userdata_shown(L, 2));
   if (cs_userdata_has_field(value->noun, "blend"))

@@ -17,6 +17,9 @@
 #include "base/vector.h"
 #include "celspan/celspan.h"
 
+/* The words of celspan_blend, ended by NULL. */
+extern const char *const cs_blend_words[];
+
 static inline float cs_blend_hard(float b, float s) {
   return s <= 0.5f ? b * (2 * s) : b + (2 * s - 1) - b * (2 * s - 1);
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/hash_table.h"
+#include "model/scene/scene.h"
 #include "model/scene/value.h"
 
 /* ---------------------------------------------------------------- life */
@@ -23,11 +24,6 @@ celspan_svg *celspan_svg_ref(celspan_svg *svg) {
   return svg;
 }
 
-void cs_svg_mask_drop(cs_svg_mask *mask) {
-  for (size_t i = 0; mask && i < mask->count; i++)
-    celspan_object_unref(mask->shapes[i]);
-}
-
 /* Drops what items hold, not the items. Recursion: the depth of items, which that of the document
  * limits. */
 void cs_svg_item_drop(cs_svg_item *item) {
@@ -36,7 +32,7 @@ void cs_svg_item_drop(cs_svg_item *item) {
     celspan_object_unref(item->own);
     celspan_object_unref(item->clip);
     celspan_object_unref(item->object);
-    cs_svg_mask_drop(item->mask);
+    celspan_object_unref(item->mask);
   }
 }
 
@@ -95,7 +91,8 @@ static celspan_status replace(celspan_status status, celspan_object *made,
   return status;
 }
 
-/* The union of the objects of the items inside; NULL for none. */
+/* The union of the objects of the items inside; NULL for none. One object by itself would take the
+ * effects of the item, if it has a mode, as its own. */
 static celspan_status unite(celspan_context *context, const cs_svg_item *item,
                             celspan_object **out) {
   size_t count = 0, most = 0;
@@ -110,7 +107,7 @@ static celspan_status unite(celspan_context *context, const cs_svg_item *item,
     if (inner->object)
       objects[count++] = inner->object;
   celspan_status status = CELSPAN_OK;
-  if (count == 1)
+  if (count == 1 && cs_object_mode(objects[0]) == CELSPAN_BLEND_NORMAL)
     *out = celspan_object_ref(objects[0]);
   else
     status = celspan_object_create_boolean(context, CELSPAN_UNION, objects, count, out);
@@ -135,33 +132,35 @@ static celspan_status fade(celspan_context *context, double share, celspan_objec
   return replace(status, made, object);
 }
 
-/* One piece of what a mask lets through. */
-static celspan_status let_through(celspan_context *context, celspan_object *art,
-                                  celspan_object *shape, double share, celspan_object **out) {
-  *out = celspan_object_ref(art);
-  CS_TRY(clip(context, shape, out));
-  return fade(context, share, out);
-}
-
-static celspan_status mask(celspan_context *context, const cs_svg_mask *by,
+static celspan_status mask(celspan_context *context, const cs_svg_item *item,
                            celspan_object **object) {
   celspan_object *made = NULL;
-  if (by->count == 0)
-    return replace(CELSPAN_OK, NULL, object);
-  celspan_object **pieces;
-  CS_TRY(CS_MAKE(context, pieces, by->count));
   celspan_status status = CELSPAN_OK;
-  size_t count = 0;
-  for (size_t i = 0; i < by->count && status == CELSPAN_OK; i++) {
-    if (by->shapes[i])
-      status = let_through(context, *object, by->shapes[i], by->shares[i], &pieces[count]);
-    count += status == CELSPAN_OK && by->shapes[i];
-  }
-  if (status == CELSPAN_OK && count > 0)
-    status = celspan_object_create_boolean(context, CELSPAN_UNION, pieces, count, &made);
-  for (size_t i = 0; i < count; i++)
-    celspan_object_unref(pieces[i]);
-  cs_mem_free(context->memory, pieces, by->count * sizeof(celspan_object *));
+  if (item->mask)
+    status =
+        celspan_object_create_matte(context, *object, item->mask, item->masks_by, false, &made);
+  return replace(status, made, object);
+}
+
+/* Only where a mode is inside: any other object is the same by itself. */
+static celspan_status isolate(celspan_context *context, celspan_object **object) {
+  const celspan_group_desc desc = {.struct_size = sizeof desc,
+                                   .objects = object,
+                                   .object_count = 1,
+                                   .opacity = 1,
+                                   .isolate = CELSPAN_ISOLATION_ON};
+  celspan_object *made = NULL;
+  if (!cs_object_blends(*object))
+    return CELSPAN_OK;
+  celspan_status status = celspan_object_create_group(context, &desc, &made);
+  return replace(status, made, object);
+}
+
+static celspan_status blend(celspan_context *context, celspan_blend mode, celspan_object **object) {
+  celspan_object *made = NULL;
+  if (mode == CELSPAN_BLEND_NORMAL)
+    return CELSPAN_OK;
+  celspan_status status = celspan_object_blend(context, *object, mode, &made);
   return replace(status, made, object);
 }
 
@@ -183,10 +182,14 @@ celspan_status cs_svg_item_compose(celspan_context *context, cs_svg_item *item) 
     CS_TRY(unite(context, item, &item->object));
   if (item->object && item->has_clip)
     CS_TRY(clip(context, item->clip, &item->object));
-  if (item->object && item->mask)
-    CS_TRY(mask(context, item->mask, &item->object));
+  if (item->object && item->has_mask)
+    CS_TRY(mask(context, item, &item->object));
+  if (item->object && item->isolates)
+    CS_TRY(isolate(context, &item->object));
   if (item->object)
     CS_TRY(fade(context, item->opacity, &item->object));
+  if (item->object)
+    CS_TRY(blend(context, item->blend, &item->object));
   if (item->object && item->id)
     CS_TRY(name(context, item->id, &item->object));
   return CELSPAN_OK;

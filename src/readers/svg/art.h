@@ -2,23 +2,16 @@
  *
  *        item "arm" ---- item (a path)          object of an item =
  *          |    \                                 its own, or the union of its items' objects,
- *          |     item "hand" --- item ...         clipped, masked, faded
- *          clip, opacity
+ *          |     item "hand" --- item ...         clipped, masked, faded, with a blend mode
+ *          clip, mask, opacity, mode
  *
  * Items are what `with` needs to put another object in the place of a part: only the objects above
- * it are made again. Invariant: an item's object follows from its own object or items, clip, mask
- * and opacity; everything is in the drawing's units.
+ * it are made again. Invariant: an item's object follows from its own object or items, clip, mask,
+ * opacity and mode; everything is in the drawing's units.
  */
 #pragma once
 
 #include "base/arena.h"
-
-/* What a flat mask lets through: `count` shapes, no two of which overlap, each with a share. */
-typedef struct cs_svg_mask {
-  celspan_object **shapes; /* owned */
-  double *shares;
-  size_t count;
-} cs_svg_mask;
 
 /* What an element of the file is, for those without a name. */
 typedef struct cs_svg_facts {
@@ -34,8 +27,12 @@ typedef struct cs_svg_item {
   celspan_object *own;                     /* NULL for a group, and for nothing */
   bool has_clip;
   celspan_object *clip; /* NULL with has_clip: everything is cut away */
-  cs_svg_mask *mask;    /* NULL: none */
+  bool has_mask;
+  celspan_object *mask; /* NULL with has_mask: nothing is let through */
+  celspan_matte_from masks_by;
   double opacity;
+  celspan_blend blend;
+  bool isolates;              /* modes inside do not see its background */
   bool is_moved;              /* shown by `use` elsewhere than where it stands in the file: */
   celspan_matrix moved, back; /* from there to here, and the inverse */
   celspan_object *object;     /* NULL: nothing is drawn */
@@ -74,8 +71,6 @@ CELSPAN_CHECKED celspan_status cs_svg_item_append(celspan_context *context, cels
                                                   cs_svg_item *parent, cs_svg_item **out);
 CELSPAN_CHECKED celspan_status cs_svg_text_copy(celspan_context *context, celspan_svg *art,
                                                 const char *text, const char **out);
-/* Releases what a mask holds; NULL is allowed. */
-void cs_svg_mask_drop(cs_svg_mask *mask);
 /* Releases what a list of items holds. */
 void cs_svg_item_drop(cs_svg_item *item);
 /* Makes an item's object of its contents, which are complete. Errors: NO_MEMORY, LIMIT. */

@@ -9,9 +9,9 @@
 #include "readers/svg/geometry.h"
 #include "readers/svg/image.h"
 #include "readers/svg/markers.h"
-#include "readers/svg/masks.h"
 #include "readers/svg/naming.h"
 #include "readers/svg/paint.h"
+#include "readers/svg/regions.h"
 #include "readers/svg/shapes.h"
 #include "readers/svg/shown.h"
 #include "readers/svg/strokes.h"
@@ -254,23 +254,134 @@ static celspan_status add_content(builder *b, const cs_svg_node *node, const cs_
   }
 }
 
-/* ---------------------------------------------------------------- elements */
+/* ---------------------------------------------------------------- effects */
 
 /* What is done to all of the element at once. */
+static celspan_status read_effects(builder *b, const cs_svg_node *node, const cs_svg_place *place,
+                                   cs_svg_item *item);
+
+static bool counts_in_shares(const cs_svg_node *mask) {
+  const char *units = cs_svg_node_value(mask, CS_SVG_MASK_CONTENT_UNITS);
+  return units && cs_svg_is_word(units, "objectBoundingBox");
+}
+
+/* Draws the contents of a mask into `drawn`, in codes, whose luminance counts. place: in its
+ * contents' units. */
+static celspan_status draw_mask(builder *b, const cs_svg_node *mask, const cs_svg_place *place,
+                                cs_svg_item *drawn) {
+  cs_svg_reading *reading = b->reading;
+  const bool is_coded = reading->is_coded;
+  reading->is_coded = true;
+  celspan_status status = add_children(b, mask, place, drawn);
+  if (status == CELSPAN_OK)
+    status = cs_svg_item_compose(reading->context, drawn);
+  reading->is_coded = is_coded;
+  return status;
+}
+
+/* Takes what was drawn, inside the mask's region, as the item's mask. */
+static celspan_status take_mask(builder *b, const cs_svg_region *region, cs_svg_item *drawn,
+                                cs_svg_item *item) {
+  celspan_object *both[2] = {drawn->object, NULL};
+  if (!both[0])
+    return CELSPAN_OK;
+  CS_TRY(cs_svg_rectangle(b->reading->context, &region->box, &region->own, &both[1]));
+  celspan_status status =
+      celspan_object_create_boolean(b->reading->context, CELSPAN_CLIP, both, 2, &item->mask);
+  celspan_object_unref(both[1]);
+  return status;
+}
+
+/* place: of the element that is masked, with the mask's style. region: has a size. */
+static celspan_status make_mask(builder *b, const cs_svg_node *mask, const cs_svg_node *node,
+                                cs_svg_place place, const cs_svg_region *region,
+                                cs_svg_item *item) {
+  cs_svg_item *drawn;
+  CS_TRY(cs_svg_item_append(b->reading->context, b->art, NULL, &drawn));
+  item->masks_by = place.style.uses_alpha ? CELSPAN_MATTE_ALPHA : CELSPAN_MATTE_LUMA;
+  celspan_status status = read_effects(b, node, &place, drawn);
+  drawn->opacity = 1;
+  if (counts_in_shares(mask))
+    place.matrix = region->shares;
+  if (status == CELSPAN_OK)
+    status = draw_mask(b, mask, &place, drawn);
+  if (status == CELSPAN_OK)
+    status = take_mask(b, region, drawn, item);
+  cs_svg_item_drop(drawn);
+  return status;
+}
+
+/* Source: CSS Masking Module Level 1, 7. A mask may be masked and clipped itself. */
+static celspan_status enter_mask(builder *b, const cs_svg_node *mask, const cs_svg_node *node,
+                                 const cs_svg_place *element, cs_svg_item *item) {
+  cs_svg_reading *reading = b->reading;
+  const cs_svg_open open = {mask, element->open};
+  cs_svg_place place = *element;
+  cs_svg_region region;
+  item->has_mask = true;
+  place.open = &open;
+  if (++reading->depth > CS_SVG_DEPTH)
+    return cs_fail(reading->context, CELSPAN_LIMIT,
+                   "line %u: masks refer to one another more than %d deep", mask->line,
+                   CS_SVG_DEPTH);
+  CS_TRY(cs_svg_style_in_file(reading, mask, &place.style));
+  CS_TRY(cs_svg_region_find(reading, mask, CS_SVG_MASK_UNITS, node, element, &region));
+  if (region.is_sized && (region.has_box || !counts_in_shares(mask)))
+    CS_TRY(make_mask(b, mask, node, place, &region, item));
+  reading->depth--;
+  return CELSPAN_OK;
+}
+
+/* The mask that a style refers to; NULL: none. */
+static const cs_svg_node *mask_of(const builder *b, const cs_svg_style *style) {
+  const cs_svg_node *mask = cs_svg_referred(b->reading, style->mask);
+  return mask && mask->element == CS_SVG_ELEMENT_MASK ? mask : NULL;
+}
+
+/* Whether a mask is open, or one of those that mask it in turn. */
+static celspan_status masks_itself(builder *b, const cs_svg_open *open, const cs_svg_node *mask,
+                                   bool *out) {
+  *out = cs_svg_is_open(open, mask);
+  for (int depth = 0; !*out && depth < CS_SVG_DEPTH; depth++) {
+    cs_svg_style style;
+    CS_TRY(cs_svg_style_in_file(b->reading, mask, &style));
+    mask = style.has_mask ? mask_of(b, &style) : NULL;
+    if (!mask)
+      return CELSPAN_OK;
+    *out = cs_svg_is_open(open, mask);
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status add_mask(builder *b, const cs_svg_node *node, const cs_svg_place *place,
+                               cs_svg_item *item) {
+  const cs_svg_node *mask = mask_of(b, &place->style);
+  bool is_circular;
+  if (!mask)
+    return place->style.mask.size > 0
+               ? cs_svg_skip(b->reading, node, "mask that is not in the file")
+               : CELSPAN_OK;
+  CS_TRY(masks_itself(b, place->open, mask, &is_circular));
+  return is_circular ? cs_svg_skip(b->reading, mask, "mask that masks itself")
+                     : enter_mask(b, mask, node, place, item);
+}
+
 static celspan_status read_effects(builder *b, const cs_svg_node *node, const cs_svg_place *place,
                                    cs_svg_item *item) {
   const cs_svg_style *style = &place->style;
   item->opacity = style->opacity;
+  item->blend = style->blend;
+  item->isolates = style->isolates || style->has_clip_path || style->has_mask || style->has_filter;
   if (style->has_clip_path)
     CS_TRY(cs_svg_clip_make(b->reading, node, place, &item->clip, &item->has_clip));
   if (style->has_mask)
-    CS_TRY(cs_svg_mask_make(b->reading, b->art, node, place, &item->mask));
+    CS_TRY(add_mask(b, node, place, item));
   if (style->has_filter)
     CS_TRY(cs_svg_skip(b->reading, node, "filter of %.40s", node->tag));
-  if (style->has_blend)
-    CS_TRY(cs_svg_skip(b->reading, node, "mix-blend-mode of %.40s", node->tag));
   return CELSPAN_OK;
 }
+
+/* ---------------------------------------------------------------- elements */
 
 /* A singular transform draws nothing. */
 static bool is_regular(const celspan_matrix *matrix) {
@@ -352,6 +463,7 @@ celspan_status cs_svg_build(cs_svg_reading *reading, celspan_svg *art) {
   CS_TRY(cs_svg_item_append(reading->context, art, NULL, &art->root));
   CS_TRY(cs_svg_item_name(reading, art, node, &place, art->root));
   CS_TRY(read_effects(&b, node, &place, art->root));
+  art->root->isolates = true; /* as an image does */
   if (place.style.is_displayed && art->width > 0 && art->height > 0)
     CS_TRY(add_children(&b, node, &place, art->root));
   if (reading->document->sheet.omitted)

@@ -25,23 +25,6 @@ static celspan_object *kept(celspan_object *object) {
   return object ? celspan_object_ref(object) : NULL;
 }
 
-static celspan_status copy_mask(changing *c, const cs_svg_mask *from, cs_svg_mask **out) {
-  cs_svg_mask *copy = cs_arena_take(c->context, &c->art->arena, sizeof *copy);
-  if (!copy)
-    return CELSPAN_NO_MEMORY;
-  *copy = (cs_svg_mask){0};
-  copy->shapes = cs_arena_take(c->context, &c->art->arena, from->count * sizeof *copy->shapes);
-  copy->shares = cs_arena_take(c->context, &c->art->arena, from->count * sizeof *copy->shares);
-  if (!copy->shapes || !copy->shares)
-    return CELSPAN_NO_MEMORY;
-  for (; copy->count < from->count; copy->count++) {
-    copy->shapes[copy->count] = kept(from->shapes[copy->count]);
-    copy->shares[copy->count] = from->shares[copy->count];
-  }
-  *out = copy;
-  return CELSPAN_OK;
-}
-
 /* The part as the function made it, put where the item is drawn. */
 static celspan_status make_other(changing *c, const celspan_svg_changed *change,
                                  const cs_svg_item *item, celspan_object **out) {
@@ -79,9 +62,11 @@ static celspan_status change_item(changing *c, const celspan_svg_changed *change
   celspan_object_unref(item->clip);
   item->clip = NULL;
   item->has_clip = false;
-  cs_svg_mask_drop(item->mask);
+  celspan_object_unref(item->mask);
   item->mask = NULL;
+  item->has_mask = item->isolates = false;
   item->opacity = 1;
+  item->blend = CELSPAN_BLEND_NORMAL;
   return CELSPAN_OK;
 }
 
@@ -110,13 +95,16 @@ static celspan_status copy_item(changing *c, const cs_svg_item *from, cs_svg_ite
   item->own = kept(from->own);
   item->has_clip = from->has_clip;
   item->clip = kept(from->clip);
+  item->has_mask = from->has_mask;
+  item->mask = kept(from->mask);
+  item->masks_by = from->masks_by;
   item->opacity = from->opacity;
+  item->blend = from->blend;
+  item->isolates = from->isolates;
   item->is_moved = from->is_moved;
   item->moved = from->moved;
   item->back = from->back;
   item->object = kept(from->object);
-  if (from->mask)
-    CS_TRY(copy_mask(c, from->mask, &item->mask));
   CS_TRY(copy_items(c, from, item, &is_inside_changed));
   if (is_inside_changed)
     CS_TRY(cs_svg_item_compose(c->context, item));

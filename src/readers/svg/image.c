@@ -227,16 +227,15 @@ static celspan_status put(const image *of, const cs_svg_place *place, cs_svg_ite
 
 /* What the element shows, read when it is asked for first. The object is borrowed. */
 static celspan_status show(image *of) {
-  cs_svg_kept_images *kept = &of->reading->images;
   cs_svg_kept_image found = {NULL, 0, 0};
   const char *href = cs_svg_node_value(of->node, CS_SVG_HREF);
   if (!href || !*cs_svg_skip_space(href))
     return CELSPAN_OK;
-  if (!cs_svg_kept_image_find(kept, of->node, &found)) {
+  if (!cs_svg_kept_image_find(of->reading, of->node, &found)) {
     href = cs_svg_skip_space(href);
     CS_TRY(cs_svg_image_is_data(href) ? show_embedded(of, href) : show_linked(of, href));
     found = (cs_svg_kept_image){of->object, of->width, of->height};
-    CS_TRY(cs_svg_kept_image_add(kept, of->reading->context, of->node, found));
+    CS_TRY(cs_svg_kept_image_add(of->reading, of->node, found));
   }
   of->object = found.object;
   of->width = found.width;

@@ -19,6 +19,11 @@ static const char *const elements[] = {CS_SVG_ELEMENT_LIST(ELEMENT)};
   "auto|baseline|alphabetic|middle|central|hanging|mathematical|ideographic|text-top|text-bottom|" \
   "before-edge|after-edge|text-before-edge|text-after-edge"
 
+/* Source: W3C Compositing and Blending Level 1, 5.1, and Level 2 for the last. */
+#define BLEND_MODES                                                                                \
+  "normal|multiply|screen|overlay|darken|lighten|color-dodge|color-burn|hard-light|soft-light|"    \
+  "difference|exclusion|hue|saturation|color|luminosity|plus-lighter|inherit"
+
 static const cs_svg_name_facts names[CS_SVG_NAME_COUNT] = {
     {"alignment-baseline", PRESENTED, FORM(WORD), BASELINES "|top|center|bottom", NULL},
     {"baseline-shift", PRESENTED, FORM(LENGTH), "baseline|sub|super", NULL},
@@ -53,7 +58,7 @@ static const cs_svg_name_facts names[CS_SVG_NAME_COUNT] = {
     {"height", GEOMETRY, FORM(LENGTH), "auto", NULL},
     {"href", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"id", ATTRIBUTE, FORM(ANY), NULL, NULL},
-    {"isolation", PRESENTED, FORM(WORD), "auto|isolate", NULL},
+    {"isolation", STYLED, FORM(WORD), "auto|isolate", NULL},
     {"label", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"lengthAdjust", ATTRIBUTE, FORM(WORD), "spacing|spacingAndGlyphs", NULL},
     {"letter-spacing", PRESENTED, FORM(LENGTH), "normal", "normal"},
@@ -69,7 +74,7 @@ static const cs_svg_name_facts names[CS_SVG_NAME_COUNT] = {
     {"maskContentUnits", ATTRIBUTE, FORM(WORD), "userSpaceOnUse|objectBoundingBox", NULL},
     {"maskUnits", ATTRIBUTE, FORM(WORD), "userSpaceOnUse|objectBoundingBox", NULL},
     {"media", ATTRIBUTE, FORM(ANY), NULL, NULL},
-    {"mix-blend-mode", PRESENTED, FORM(ANY), NULL, NULL},
+    {"mix-blend-mode", STYLED, FORM(WORD), BLEND_MODES, NULL},
     {"offset", ATTRIBUTE, FORM(SHARE), NULL, NULL},
     {"opacity", PRESENTED, FORM(SHARE), "inherit", NULL},
     {"orient", ATTRIBUTE, FORM(ANGLE), "auto|auto-start-reverse", NULL},

@@ -151,26 +151,31 @@ celspan_paint cs_svg_paint_of(const cs_svg_reading *reading, const cs_svg_colour
 
 /* ---------------------------------------------------------------- images */
 
-static cs_hash key_of(const void *element) {
+static cs_hash key_of(const void *element, bool is_coded) {
   cs_hash hash = cs_hash_begin(0x696d67u);
   cs_hash_word(&hash, (uint64_t)(uintptr_t)element);
+  cs_hash_word(&hash, is_coded);
   return cs_hash_end(hash);
 }
 
-bool cs_svg_kept_image_find(const cs_svg_kept_images *list, const void *element,
+bool cs_svg_kept_image_find(const cs_svg_reading *reading, const void *element,
                             cs_svg_kept_image *out) {
+  const cs_svg_kept_images *list = &reading->images;
   size_t place;
-  if (!cs_hash_table_find(&list->places, key_of(element), &place))
+  if (!cs_hash_table_find(&list->places, key_of(element, reading->is_coded), &place))
     return false;
   *out = list->items[place];
   return true;
 }
 
-celspan_status cs_svg_kept_image_add(cs_svg_kept_images *list, celspan_context *context,
-                                     const void *element, cs_svg_kept_image image) {
+celspan_status cs_svg_kept_image_add(cs_svg_reading *reading, const void *element,
+                                     cs_svg_kept_image image) {
+  celspan_context *context = reading->context;
+  cs_svg_kept_images *list = &reading->images;
   celspan_status status = CS_RESERVE(context, list->items, list->capacity, list->count + 1);
   if (status == CELSPAN_OK)
-    status = cs_hash_table_add(&list->places, context, key_of(element), list->count);
+    status =
+        cs_hash_table_add(&list->places, context, key_of(element, reading->is_coded), list->count);
   if (status == CELSPAN_OK)
     list->items[list->count++] = image;
   else

@@ -3,7 +3,7 @@
  *
  *   document --build.c--> items --art.c--> scene values
  *                 |
- *                 +-- shapes.c outlines   servers.c gradients   clips.c clip paths   masks.c masks
+ *                 +-- shapes.c outlines   servers.c gradients   clips.c clip paths
  */
 #pragma once
 
@@ -31,8 +31,8 @@ typedef struct cs_svg_source {
   uint64_t device, number;           /* of the file, by which it is known in itself */
 } cs_svg_source;
 
-/* Images that were read, by their elements: one that `use` shows a thousand times is decoded once.
- */
+/* Images that were read, by their elements and by whether they are coded: one that `use` shows a
+ * thousand times is decoded once. */
 typedef struct cs_svg_kept_image {
   celspan_object *object; /* from (0, 0) to its size, owned; NULL: nothing is shown */
   double width, height;
@@ -40,7 +40,7 @@ typedef struct cs_svg_kept_image {
 
 /* All zero is an empty list. */
 typedef struct cs_svg_kept_images {
-  cs_hash_table places; /* by element */
+  cs_hash_table places;
   cs_svg_kept_image *items;
   size_t count, capacity;
 } cs_svg_kept_images;
@@ -53,7 +53,8 @@ typedef struct cs_svg_reading {
    * INPUT, LIMIT, NO_MEMORY. */
   celspan_status (*read_inner)(struct cs_svg_reading *outer, const cs_svg_source *source,
                                const char *bytes, size_t size, celspan_svg **out);
-  bool is_coded;        /* colours stay as they are coded, for comparisons with other renderers */
+  /* Colours stay as they are coded: in masks, and for comparisons with other renderers. */
+  bool is_coded;
   uint64_t tests;       /* of selectors, that are left */
   uint32_t drawn;       /* elements so far */
   uint32_t depth;       /* elements being built, one inside the other */
@@ -124,10 +125,9 @@ celspan_paint cs_svg_paint_of(const cs_svg_reading *reading, const cs_svg_colour
                               double opacity);
 
 /* False: the element's image was not read yet. out: borrowed from the list. */
-bool cs_svg_kept_image_find(const cs_svg_kept_images *list, const void *element,
+bool cs_svg_kept_image_find(const cs_svg_reading *reading, const void *element,
                             cs_svg_kept_image *out);
 /* Takes the object over, also after a failure. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_svg_kept_image_add(cs_svg_kept_images *list,
-                                                     celspan_context *context, const void *element,
+CELSPAN_CHECKED celspan_status cs_svg_kept_image_add(cs_svg_reading *reading, const void *element,
                                                      cs_svg_kept_image image);
 void cs_svg_kept_images_finish(cs_svg_kept_images *list, celspan_context *context);

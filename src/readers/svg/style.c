@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "model/colour/blend.h"
 #include "readers/svg/cascade.h"
 
 #define MEDIUM 16 /* px, of letters */
@@ -113,7 +114,8 @@ static void inherit(const cs_svg_style *parent, cs_svg_style *out) {
   out->opacity = 1;
   out->clip_path = out->mask = (cs_svg_reference){NULL, 0};
   out->clip_shape = NULL;
-  out->has_clip_path = out->has_mask = out->has_filter = out->has_blend = false;
+  out->has_clip_path = out->has_mask = out->has_filter = out->isolates = false;
+  out->blend = CELSPAN_BLEND_NORMAL;
   out->shows_overflow = out->uses_alpha = out->keeps_width = false;
   out->stop_colour = initial.stop_colour;
   out->transform = out->translate = out->rotate = out->scale = out->transform_origin = NULL;
@@ -183,6 +185,16 @@ static void read_painting(const cs_svg_cascade *from, const cs_svg_style *parent
 
 static bool is_inherited(const char *text) { return text && cs_svg_is_word(text, "inherit"); }
 
+static void read_blend(const char *text, const cs_svg_style *parent, cs_svg_style *out) {
+  if (is_inherited(text))
+    out->blend = parent->blend;
+  else if (text && cs_svg_is_word(text, "plus-lighter"))
+    out->blend = CELSPAN_BLEND_ADD;
+  for (int mode = 0; text && mode < CELSPAN_BLEND_ADD; mode++)
+    if (cs_svg_is_word(text, cs_blend_words[mode]))
+      out->blend = (celspan_blend)mode;
+}
+
 /* What is done to the element as a whole. */
 static void read_effects(const char *const *values, const cs_svg_style *parent, cs_svg_style *out) {
   const char *clip = values[CS_SVG_CLIP_PATH], *filter = values[CS_SVG_FILTER];
@@ -202,8 +214,8 @@ static void read_effects(const char *const *values, const cs_svg_style *parent, 
   }
   out->has_filter =
       is_inherited(filter) ? parent->has_filter : filter && !cs_svg_is_word(filter, "none");
-  out->has_blend =
-      values[CS_SVG_MIX_BLEND_MODE] && !cs_svg_is_word(values[CS_SVG_MIX_BLEND_MODE], "normal");
+  out->isolates = values[CS_SVG_ISOLATION] && cs_svg_is_word(values[CS_SVG_ISOLATION], "isolate");
+  read_blend(values[CS_SVG_MIX_BLEND_MODE], parent, out);
 }
 
 static void read_own(const cs_svg_cascade *from, const cs_svg_style *parent, cs_svg_style *out) {

@@ -32,11 +32,13 @@ typedef struct cs_svg_style {
   cs_svg_reference clip_path, mask;
   const char *clip_shape; /* clip-path where it is no reference; NULL: it is, or none */
   bool has_clip_path, has_mask;
-  bool has_filter, has_blend; /* a filter, a blend mode other than normal */
-  bool keeps_width;           /* the stroke's: transforms do not change it */
-  bool shows_overflow;        /* of svg, symbol and marker elements */
-  bool uses_alpha;            /* of a mask: alpha instead of luminance */
-  cs_svg_colour stop_colour;  /* stop-opacity multiplied in */
+  bool has_filter;
+  celspan_blend blend;
+  bool isolates;             /* blend modes inside do not see its background */
+  bool keeps_width;          /* the stroke's: transforms do not change it */
+  bool shows_overflow;       /* of svg, symbol and marker elements */
+  bool uses_alpha;           /* of a mask: alpha instead of luminance */
+  cs_svg_colour stop_colour; /* stop-opacity multiplied in */
   /* Functions, and the properties done after them; NULL: none. */
   const char *transform, *translate, *rotate, *scale;
   const char *transform_origin; /* NULL: none */

@@ -150,7 +150,7 @@ static celspan_status note_effects(cs_svg_written *w, const cs_svg_node *node,
   } effects[] = {{style->has_clip_path, "clip-path"},
                  {style->has_mask, "mask"},
                  {style->has_filter, "filter"},
-                 {style->has_blend, "mix-blend-mode"}};
+                 {style->blend != CELSPAN_BLEND_NORMAL, "mix-blend-mode"}};
   for (size_t i = 0; i < sizeof effects / sizeof *effects; i++)
     if (effects[i].is_given)
       CS_TRY(cs_svg_skip(w->reading, node, "%s of %.40s", effects[i].name, node->tag));
