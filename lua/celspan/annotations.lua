@@ -41,6 +41,43 @@ function celspan.parameters(parameters) end
 ---@return string? message
 function celspan.read(path) end
 
+--- Objects side by side by their bounds, from 0, 0 to the right. nil and false take no room.
+---@param list { [integer]: celspan.shape, gap?: number, align?: "top"|"centre"|"bottom" }
+---@return celspan.object
+function celspan.row(list) end
+
+--- Objects below one another, from 0, 0 down.
+---@param list { [integer]: celspan.shape, gap?: number, align?: "left"|"centre"|"right" }
+---@return celspan.object
+function celspan.column(list) end
+
+--- Objects in rows of `columns`, each in the middle of its cell, from 0, 0.
+---@param list { [integer]: celspan.shape, columns: integer, gap?: number }
+---@return celspan.object
+function celspan.grid(list) end
+
+--- An object moved so that its bounds lie in a box, in the middle or at a side.
+---@param object celspan.shape
+---@param box number[] {x, y, w, h}
+---@param horizontal? "left"|"centre"|"right" Default "centre"
+---@param vertical? "top"|"centre"|"bottom" Default "centre"
+---@return celspan.object
+function celspan.align(object, box, horizontal, vertical) end
+
+--- The bounds of an object with a margin, as a box {x, y, w, h}.
+---@param object celspan.shape
+---@param margin? number|number[] On all sides, or {across, down}
+---@return number[] box
+function celspan.around(object, margin) end
+
+--- A text whose letters, words or lines a function changes: it returns an object, or nil for
+--- nothing.
+---@param text celspan.text.fields
+---@param change fun(letter: celspan.letter, i: integer, n: integer): celspan.object?
+---@param options? { by?: "letter"|"word"|"line" }
+---@return celspan.object
+function celspan.letters(text, change, options) end
+
 --- A value that can have a name. Transforms, fades and `with` keep the name.
 ---@class celspan.nameable
 ---@field name? string

@@ -7,7 +7,8 @@ local manual = {}
 
 local MODULES = { "ease", "keys", "motion", "multiplane", "shutter", "lips", "sheet", "svg",
                   "trace", "track", "relight", "layers", "oca", "json", "csv", "captions", "cut",
-                  "sound", "spec", "puppet", "particles" }
+                  "sound", "spec", "puppet", "particles",
+                  "colour" }
 local WIDTH = 100
 
 --- Adds a text in lines of at most WIDTH characters; those after the first begin with `indent`.

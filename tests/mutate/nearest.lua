@@ -112,6 +112,8 @@ return {
   ["marks.c"] = { "spec/cut", "spec/values" },
   ["sounds.c"] = { "spec/mix", "spec/video" },
   ["lua/celspan/captions.lua"] = { "unit/fuzz-tables", "spec/data" },
+  ["lua/celspan/colour.lua"] = { "spec/layout" },
+  ["lua/celspan/layout.lua"] = { "spec/layout" },
   ["lua/celspan/columns.lua"] = { "spec/sheet" },
   ["lua/celspan/csv.lua"] = { "unit/fuzz-tables", "spec/data", "spec/sheet" },
   ["lua/celspan/cues.lua"] = { "unit/fuzz-lips", "spec/lips" },

@@ -116,8 +116,11 @@ static int compare(const void *a, const void *b) {
 /* Functions of celspan that are written in Lua; each is loaded when it is first read. */
 static const struct {
   const char *name, *module, *function;
-} written_in_lua[] = {{"read", "celspan.files", "text"},
-                      {"parameters", "celspan.parameters", "declare"}};
+} written_in_lua[] = {
+    {"read", "celspan.files", "text"},      {"parameters", "celspan.parameters", "declare"},
+    {"row", "celspan.layout", "row"},       {"column", "celspan.layout", "column"},
+    {"grid", "celspan.layout", "grid"},     {"align", "celspan.layout", "align"},
+    {"around", "celspan.layout", "around"}, {"letters", "celspan.layout", "letters"}};
 
 #define WRITTEN_IN_LUA (sizeof written_in_lua / sizeof *written_in_lua)
 

@@ -1,0 +1,205 @@
+--- Objects placed by their bounds, and texts letter by letter: celspan.row, column, grid, align,
+--- around and letters.
+--
+--   celspan.row{ icon, title, gap = 12, align = "centre" }     -- from 0, 0 to the right
+--   celspan.align(title, { 0, 0, 1280, 720 }, "centre", "bottom")
+--   celspan.letters({ "Hello", font = "sans.ttf" }, function(letter, i, n) ... end)
+--
+-- What has nothing to paint has no bounds: it takes no room, and no gap.
+local celspan = require "celspan"
+local core = require "celspan.core"
+local fields = require "celspan.fields"
+
+local layout = {}
+
+local function refuse(text, ...) core.refuse(text:format(...)) end
+
+--- The share of the free room that lies before an object.
+local across = { left = 0, centre = 0.5, right = 1 }
+local down = { top = 0, centre = 0.5, bottom = 1 }
+
+--- The share that a word is. noun: of the function, for messages.
+local function share_of(noun, field, word, shares, default)
+  local share = shares[word == nil and default or word]
+  if share then return share end
+  local names = {}
+  for name in pairs(shares) do names[#names + 1] = ("%q"):format(name) end
+  table.sort(names)
+  local hint = type(word) == "string" and core.nearest(word, { "left", "centre", "right", "top",
+                                                               "bottom" })
+  refuse("%s: %s must be %s, got %s%s", noun, field, table.concat(names, ", "),
+    type(word) == "string" and ("%q"):format(word) or fields.kind(word),
+    hint and shares[hint] and ("; did you mean %q?"):format(hint) or "")
+end
+
+--- The objects of a list that have bounds: { object =, x =, y =, w =, h = }. nil and false in the
+--- list draw nothing.
+local function read_items(noun, list)
+  local items, last = {}, 0
+  for key in next, list do
+    if math.type(key) == "integer" and key > last then last = key end
+  end
+  for i = 1, last do
+    local object = list[i]
+    if object then
+      local good, x, y, w, h = pcall(function() return object:bounds() end)
+      if not good then
+        refuse("%s: item %d must be an object, got %s", noun, i, fields.kind(object))
+      end
+      if x then items[#items + 1] = { object = object, x = x, y = y, w = w, h = h } end
+    end
+  end
+  return items
+end
+
+--- The object with its bounds at x, y.
+local function moved(item, x, y) return item.object:translate(x - item.x, y - item.y) end
+
+local function check_gap(noun, gap)
+  if gap ~= nil and not fields.is_finite(gap) then
+    refuse("%s: field 'gap' must be a finite number, got %s", noun, fields.shown(gap))
+  end
+  return gap or 0
+end
+
+local known = { "list", gap = "number", align = "string" }
+
+--- Objects side by side, from 0, 0 to the right.
+---@param list { [integer]: celspan.shape, gap?: number, align?: "top"|"centre"|"bottom" }
+---@return celspan.object
+function layout.row(list)
+  fields.check("row", list, known)
+  local items, share = read_items("row", list), share_of("row", "align", list.align, down, "top")
+  local gap, height, x, objects = check_gap("row", list.gap), 0, 0, {}
+  for _, item in ipairs(items) do height = math.max(height, item.h) end
+  for i, item in ipairs(items) do
+    objects[i] = moved(item, x, (height - item.h) * share)
+    x = x + item.w + gap
+  end
+  return celspan.union(objects)
+end
+
+--- Objects below one another, from 0, 0 down.
+---@param list { [integer]: celspan.shape, gap?: number, align?: "left"|"centre"|"right" }
+---@return celspan.object
+function layout.column(list)
+  fields.check("column", list, known)
+  local items = read_items("column", list)
+  local share = share_of("column", "align", list.align, across, "left")
+  local gap, width, y, objects = check_gap("column", list.gap), 0, 0, {}
+  for _, item in ipairs(items) do width = math.max(width, item.w) end
+  for i, item in ipairs(items) do
+    objects[i] = moved(item, (width - item.w) * share, y)
+    y = y + item.h + gap
+  end
+  return celspan.union(objects)
+end
+
+--- Objects in rows of `columns`, each in the middle of its cell, from 0, 0. A column is as wide as
+--- its widest object, a row as high as its highest.
+---@param list { [integer]: celspan.shape, columns: integer, gap?: number }
+---@return celspan.object
+function layout.grid(list)
+  fields.check("grid", list, { "list", columns = "number", gap = "number" })
+  local columns, gap = list.columns, check_gap("grid", list.gap)
+  if not columns or columns < 1 or columns ~= math.floor(columns) then
+    refuse("grid: field 'columns' must be a whole number of at least 1, got %s",
+      fields.shown(columns))
+  end
+  local items, widths, heights = read_items("grid", list), {}, {}
+  for i, item in ipairs(items) do
+    local column, row = (i - 1) % columns + 1, (i - 1) // columns + 1
+    widths[column] = math.max(widths[column] or 0, item.w)
+    heights[row] = math.max(heights[row] or 0, item.h)
+  end
+  local objects, x, y = {}, 0, 0
+  for i, item in ipairs(items) do
+    local column, row = (i - 1) % columns + 1, (i - 1) // columns + 1
+    if column == 1 and row > 1 then x, y = 0, y + heights[row - 1] + gap end
+    objects[i] = moved(item, x + (widths[column] - item.w) / 2, y + (heights[row] - item.h) / 2)
+    x = x + widths[column] + gap
+  end
+  return celspan.union(objects)
+end
+
+--- Moves an object so that its bounds lie in a box: at its left, right, top or bottom side, or in
+--- its middle.
+---@param object celspan.shape
+---@param box number[] {x, y, w, h}
+---@param horizontal? "left"|"centre"|"right" Default "centre"
+---@param vertical? "top"|"centre"|"bottom" Default "centre"
+---@return celspan.object
+function layout.align(object, box, horizontal, vertical)
+  fields.numbers("align", "box[%d]", box, 4, "{x, y, w, h}", 2)
+  local h = share_of("align", "the third argument", horizontal, across, "centre")
+  local v = share_of("align", "the fourth argument", vertical, down, "centre")
+  local item = read_items("align", { object })[1]
+  if not item then return object end
+  return moved(item, box[1] + (box[3] - item.w) * h, box[2] + (box[4] - item.h) * v)
+end
+
+--- The bounds of an object with a margin, as a box: for a rectangle behind a title.
+---@param object celspan.shape
+---@param margin? number On all sides, or { across, down }; 0
+---@return number[] box {x, y, w, h}; 0, 0, 0, 0 if there is nothing to paint
+function layout.around(object, margin)
+  local item = read_items("around", { object })[1] or { x = 0, y = 0, w = 0, h = 0 }
+  local pair = margin
+  if type(margin) ~= "table" then pair = { margin or 0, margin or 0 } end
+  fields.numbers("around", "margin[%d]", pair, 2, "a number or {across, down}", 2)
+  return { item.x - pair[1], item.y - pair[2], item.w + 2 * pair[1], item.h + 2 * pair[2] }
+end
+
+-- ---------------------------------------------------------------- letters
+
+local BLANK = "^[%s\u{a0}]*$"
+
+--- The letters of a text in groups; each group has the fields of its first letter, its whole text
+--- and its whole advance.
+local function groups_of(letters, by)
+  local groups, open = {}, nil
+  for _, letter in ipairs(letters) do
+    local is_blank = by == "word" and letter.text:find(BLANK) ~= nil
+    local is_new = by == "letter" or not open or open.line ~= letter.line
+      or open.is_blank ~= is_blank
+    if is_new then
+      open = { objects = {}, x = letter.x, y = letter.y, advance = 0, text = "",
+               line = letter.line, is_blank = is_blank }
+      groups[#groups + 1] = open
+    end
+    table.insert(open.objects, letter.object)
+    open.text, open.advance = open.text .. letter.text, open.advance + letter.advance
+  end
+  return groups
+end
+
+--- A text whose letters, words or lines a function changes: it gets each one, its number among them
+--- from 1 and how many there are, and returns an object, or nil for nothing. Spaces are not passed
+--- to it.
+---@param text celspan.text.fields As for celspan.glyphs
+---@param change fun(letter: celspan.letter, i: integer, n: integer): celspan.object?
+---@param options? { by?: "letter"|"word"|"line" }
+---@return celspan.object
+function layout.letters(text, change, options)
+  options = options or {}
+  fields.check("letters", options, { by = "string" })
+  local by = options.by or "letter"
+  if by ~= "letter" and by ~= "word" and by ~= "line" then
+    refuse("letters: field 'by' must be \"letter\", \"word\" or \"line\", got %q", by)
+  end
+  if type(change) ~= "function" then
+    refuse("letters: the second argument must be a function, got %s", fields.kind(change))
+  end
+  local shown, objects = {}, {}
+  for _, group in ipairs(groups_of(celspan.glyphs(text), by)) do
+    if not group.text:find(BLANK) then
+      group.object = #group.objects == 1 and group.objects[1] or celspan.union(group.objects)
+      group.objects, group.is_blank = nil, nil
+      shown[#shown + 1] = group
+    end
+  end
+  for i, group in ipairs(shown) do objects[#objects + 1] = change(group, i, #shown) end
+  return celspan.union(objects)
+end
+
+return fields.seal("layout", layout)

@@ -1,0 +1,174 @@
+-- Objects placed by their bounds, texts letter by letter, and colours by how they look.
+local celspan = require "celspan"
+local colour = require "celspan.colour"
+local present = require "tests.support.present"
+local raised = require "tests.support.raised"
+
+local with_art = present.art and it or pending
+
+local function rect(x, y, w, h) return celspan.rect { x, y, w, h } end
+
+local function bounds(object) return { object:bounds() } end
+
+local function check_messages(cases)
+  for words, call in pairs(cases) do
+    local message = raised.message(call)
+    assert.is_truthy(message:find(words, 1, true), message)
+    assert.is_truthy(message:find "^tests/spec/layout_spec.lua:", message)
+  end
+end
+
+describe("layout", function()
+  it("puts objects side by side and below one another", function()
+    local list = { rect(7, 7, 10, 20), false, nil, celspan.union {}, rect(-5, 0, 30, 6), gap = 2 }
+    local row = celspan.row(list)
+    assert.are.same({ 0, 0, 42, 20 }, bounds(row))
+    assert.is_true(row:contains(5, 19) and row:contains(40, 5) and not row:contains(40, 7))
+    list.align = "bottom"
+    assert.is_true(celspan.row(list):contains(40, 15))
+    list.align = "right"
+    local column = celspan.column(list)
+    assert.are.same({ 0, 0, 30, 28 }, bounds(column))
+    assert.is_true(column:contains(21, 10) and not column:contains(19, 10))
+    assert.is_nil(celspan.row {}:bounds())
+  end)
+
+  it("puts objects into cells as wide as their column and as high as their row", function()
+    local grid = celspan.grid { columns = 2, gap = 1, rect(0, 0, 10, 20), rect(0, 0, 30, 6),
+                                rect(0, 0, 4, 4) }
+    assert.are.same({ 0, 0, 41, 25 }, bounds(grid))
+    assert.is_true(grid:contains(12, 10) and not grid:contains(12, 6)) -- in the middle
+    assert.is_true(grid:contains(5, 23) and not grid:contains(2, 23))
+  end)
+
+  it("aligns in a box, and makes a box around an object", function()
+    local box = { 100, 0, 50, 40 }
+    assert.are.same({ 120, 15, 10, 10 }, bounds(celspan.align(rect(3, 4, 10, 10), box)))
+    assert.are.same({ 140, 0, 10, 10 },
+      bounds(celspan.align(rect(3, 4, 10, 10), box, "right", "top")))
+    assert.are.same({ 1, 2, 14, 14 }, celspan.around(rect(3, 4, 10, 10), 2))
+    assert.are.same({ 0, 3, 16, 12 }, celspan.around(rect(3, 4, 10, 10), { 3, 1 }))
+    assert.are.same({ 0, 0, 0, 0 }, celspan.around(celspan.union {}))
+  end)
+
+  it("refuses what it cannot place", function()
+    check_messages {
+      ["row: item 2 must be an object, got number"] = function()
+        celspan.row { rect(0, 0, 1, 1), 3 }
+      end,
+      ['row: align must be "bottom", "centre", "top", got "center"; did you mean "centre"?'] =
+        function() celspan.row { align = "center" } end,
+      ["column: unknown field 'gpa'; did you mean 'gap'?"] = function()
+        celspan.column { gpa = 2 }
+      end,
+      ["grid: field 'columns' must be a whole number of at least 1, got nil"] = function()
+        celspan.grid {}
+      end,
+      ["align: box[4] must be a number, got nil"] = function()
+        celspan.align(rect(0, 0, 1, 1), { 1, 2, 3 })
+      end,
+      ["around: margin[1] must be a number, got string"] = function()
+        celspan.around(rect(0, 0, 1, 1), "wide")
+      end,
+    }
+  end)
+end)
+
+describe("letters", function()
+  local font = "../../scripts/type/block.ttf" -- beside this file
+
+  with_art("are changed one by one, by words and by lines", function()
+    local function list(by)
+      local texts = {}
+      celspan.letters({ "He is\nin", font = font, size = 100 }, function(letter, i, n)
+        texts[#texts + 1] = ("%d/%d %s %d"):format(i, n, letter.text, letter.line)
+        return letter.object
+      end, by and { by = by })
+      return table.concat(texts, ", ")
+    end
+    assert.equal("1/6 H 1, 2/6 e 1, 3/6 i 1, 4/6 s 1, 5/6 i 2, 6/6 n 2", list())
+    assert.equal("1/3 He 1, 2/3 is 1, 3/3 in 2", list "word")
+    assert.equal("1/2 He is 1, 2/2 in 2", list "line")
+  end)
+
+  with_art("that are not changed are the text, and nil draws nothing", function()
+    local fields = { "He is", font = font, size = 100 }
+    local text = celspan.text(fields)
+    local same = celspan.letters(fields, function(letter) return letter.object end)
+    assert.are.same(bounds(text), bounds(same))
+    assert.is_nil(celspan.letters(fields, function() end):bounds())
+  end)
+
+  with_art("refuse what is no function or no unit", function()
+    local fields = { "He is", font = font }
+    check_messages {
+      ["letters: the second argument must be a function, got nil"] = function()
+        celspan.letters(fields)
+      end,
+      ['letters: field \'by\' must be "letter", "word" or "line", got "words"'] = function()
+        celspan.letters(fields, print, { by = "words" })
+      end,
+    }
+  end)
+end)
+
+describe("colour", function()
+  it("has the values of the paper on Oklab", function()
+    -- XYZ of the paper's table in linear sRGB would be outside it; these are white and red
+    local lightness, chroma = colour.parts "#ffffff"
+    assert.is_true(math.abs(lightness - 1) < 1e-6 and chroma < 1e-6)
+    local l, c, h, alpha = colour.parts "#ff0000"
+    assert.is_true(math.abs(l - 0.627955) < 1e-5 and math.abs(c - 0.257683) < 1e-5
+      and math.abs(h - 29.2339) < 1e-3 and alpha == 1)
+  end)
+
+  it("comes back from its parts, and keeps hue and lightness where sRGB ends", function()
+    for _, text in ipairs { "#f26419", "#1769aa", "#000000", "#123456", "#00ff00" } do
+      local l, c, h = colour.parts(text)
+      local made, given = colour.oklch(l, c, h).pigment, celspan.rgb(text).pigment
+      for i = 1, 3 do assert.is_true(math.abs(made[i] - given[i]) < 1e-6, text) end
+    end
+    local l, c, h = colour.parts(colour.oklch(0.7, 0.9, 50))
+    assert.is_true(math.abs(l - 0.7) < 1e-6 and math.abs(h - 50) < 1e-3 and c > 0.15 and c < 0.2)
+  end)
+
+  it("is lightened, darkened and mixed without turning grey", function()
+    local l, _, h = colour.parts "#f26419"
+    local lighter, _, hue = colour.parts(colour.lighten("#f26419", 0.1))
+    assert.is_true(math.abs(lighter - l - 0.1) < 1e-6 and math.abs(hue - h) < 1e-3)
+    assert.are.same({ 0, 0, 0 }, colour.lighten("#f26419", -2).pigment)
+    local middle = colour.mix("#f26419", celspan.rgb(0, 0, 1, 0.5), 0.5)
+    assert.equal(0.75, middle.beta)
+    local one = colour.mix("#f26419", "#1769aa", 0).pigment
+    assert.is_true(math.abs(one[1] - celspan.rgb "#f26419".pigment[1]) < 1e-6)
+  end)
+
+  it("palettes are exchanged by name, and mixed", function()
+    local palette = colour.palette { day = { sky = "#ffffff", roof = "#b5482f" },
+                                     night = { sky = "#000000", roof = "#3c2430" } }
+    assert.equal("#b5482f", palette:at "day".roof)
+    local lightness = colour.parts(palette:between("day", "night", 0.5).sky)
+    assert.is_true(math.abs(lightness - 0.5) < 1e-6)
+  end)
+
+  it("refuses what is no colour", function()
+    check_messages {
+      ["mix takes colours, such as \"#f26419\", got nil"] = function()
+        colour.mix("#fff", nil, 0)
+      end,
+      ['lighten: "#12" is not a colour'] = function() colour.lighten("#12", 0) end,
+      ["oklch takes a hue, a finite number, got nan"] = function()
+        colour.oklch(0.5, 0.1, 0 / 0)
+      end,
+      ["palette 'night' has no colour 'sky'"] = function()
+        colour.palette { day = { sky = "#fff" }, night = {} }
+      end,
+      ["only palette 'night' has a colour 'sea'"] = function()
+        colour.palette { day = { sky = "#fff" }, night = { sky = "#000", sea = "#00f" } }
+      end,
+      ["there is no palette 'nigth'; did you mean 'night'?"] = function()
+        colour.palette { day = { sky = "#fff" }, night = { sky = "#000" } }:at "nigth"
+      end,
+    }
+  end)
+end)
