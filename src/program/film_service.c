@@ -283,6 +283,9 @@ static int picture(lua_State *L) { return cs_stage_picture(L, &self(L)->script);
 static int hits(lua_State *L) { return cs_stage_hits(L, &self(L)->script); }
 static int files(lua_State *L) { return cs_stage_files(L, &self(L)->script); }
 static int sound(lua_State *L) { return cs_stage_sound(L, &self(L)->script); }
+static int alter(lua_State *L) { return cs_stage_alter(L, &self(L)->script); }
+static int keep_line(lua_State *L) { return cs_stage_keep_line(L, &self(L)->script); }
+static int costs(lua_State *L) { return cs_stage_costs(L, &self(L)->script); }
 static int wave(lua_State *L) { return cs_stage_wave(L, &self(L)->script); }
 
 /* ---------------------------------------------------------------- the film */
@@ -337,6 +340,9 @@ static void set_methods(lua_State *L) {
                                      {"files", files},
                                      {"picture", picture},
                                      {"hits", hits},
+                                     {"alter", alter},
+                                     {"keep_line", keep_line},
+                                     {"costs", costs},
                                      {"sound", sound},
                                      {"wave", wave},
                                      {NULL, NULL}};

@@ -14,6 +14,8 @@
 
 #define PIXELS_MOST (1 << 25) /* of a picture in memory */
 
+enum { CODES, PNG, KINDS }; /* what a picture shows */
+
 static const celspan_coding coding = {CELSPAN_DEPTH_8, CELSPAN_TRANSFER_SRGB,
                                       CELSPAN_ALPHA_STRAIGHT};
 
@@ -24,6 +26,7 @@ typedef struct picture {
   celspan_context *context;
   unsigned char *bytes; /* owned */
   size_t size, capacity;
+  size_t stride;         /* bytes of a row; 0 of a PNG */
   cs_png_strips *strips; /* of a PNG that is made */
 } picture;
 
@@ -123,30 +126,63 @@ static bool read_view(lua_State *L, celspan_frame_desc *desc) {
          view[4] * view[5] <= PIXELS_MOST;
 }
 
-static celspan_status render(picture *p, const celspan_frame_desc *desc, bool is_png) {
+bool cs_stage_frame(lua_State *L, const cs_script *script, celspan_frame_desc *out) {
+  *out = frame_of(L, script);
+  if (read_view(L, out))
+    return true;
+  luaL_pushfail(L);
+  lua_pushfstring(L, "the crop is not within the frame, or has more than %d pixels", PIXELS_MOST);
+  return false;
+}
+
+/* The kinds of spans as colours, the first pixel of each span brighter. */
+static celspan_status put_kinds_row(void *user, celspan_context *context, int32_t y,
+                                    const celspan_span *spans, size_t span_count) {
+  static const unsigned char colours[][4] = {[CELSPAN_SPAN_SINGLE] = {60, 130, 255, 110},
+                                             [CELSPAN_SPAN_GRADIENT] = {40, 200, 90, 130},
+                                             [CELSPAN_SPAN_ARRAY] = {255, 70, 60, 150}};
+  const picture *p = user;
+  (void)context;
+  unsigned char *row = p->bytes + p->stride * (size_t)y;
+  for (size_t i = 0; i < span_count; i++) {
+    for (int32_t x = spans[i].x0; x < spans[i].x1; x++)
+      memcpy(row + 4 * (size_t)x, colours[spans[i].kind], 4);
+    row[4 * (size_t)spans[i].x0 + 3] = 255;
+  }
+  return CELSPAN_OK;
+}
+
+/* The bytes of a crop. */
+static celspan_status reserve_rows(picture *p, const celspan_frame_desc *desc) {
+  p->stride = 4 * (size_t)desc->crop_width;
+  p->size = p->stride * (size_t)desc->crop_height;
+  return CS_RESERVE(p->context, p->bytes, p->capacity, p->size);
+}
+
+static celspan_status render(picture *p, const celspan_frame_desc *desc, int kind) {
   celspan_sink sink = {
       .user = p, .begin = begin_png, .row = put_png_row, .end = end_png, .takes_codes = true};
-  if (!is_png) {
-    size_t stride = 4 * (size_t)desc->crop_width;
-    p->size = stride * (size_t)desc->crop_height;
-    CS_TRY(CS_RESERVE(p->context, p->bytes, p->capacity, p->size));
-    CS_TRY(cs_sink_memory(p->context, &coding, p->bytes, stride, &sink));
-  }
+  if (kind != PNG)
+    CS_TRY(reserve_rows(p, desc));
+  if (kind == KINDS)
+    sink = (celspan_sink){.user = p, .row = put_kinds_row};
+  if (kind == CODES)
+    CS_TRY(cs_sink_memory(p->context, &coding, p->bytes, p->stride, &sink));
   return celspan_frame_render(p->context, desc, &sink, NULL);
 }
 
-/* film:picture(width, height, x, y, w, h, is_png) -> the part of the frame that was built last, of
- * the frame at that size, as RGBA or as a PNG: 8 bits, sRGB, straight alpha | nil, message */
+/* film:picture(width, height, x, y, w, h, what) -> the part of the frame that was built last, of
+ * the frame at that size, 8 bits, sRGB, straight alpha, as "rgba" or as a "png"; "spans": as RGBA,
+ * the kinds of its spans | nil, message */
 int cs_stage_picture(lua_State *L, cs_script *script) {
-  celspan_frame_desc desc = frame_of(L, script);
-  if (!read_view(L, &desc)) {
-    luaL_pushfail(L);
-    lua_pushfstring(L, "the crop is not within the frame, or has more than %d pixels", PIXELS_MOST);
+  static const char *const kinds[] = {"rgba", "png", "spans", NULL};
+  celspan_frame_desc desc;
+  int kind = luaL_checkoption(L, 8, NULL, kinds);
+  if (!cs_stage_frame(L, script, &desc))
     return 2;
-  }
   picture *p = cs_userdata_push_holder(L, "celspan.program.stage", sizeof *p, release_picture);
   p->context = script->context;
-  celspan_status status = render(p, &desc, lua_toboolean(L, 8));
+  celspan_status status = render(p, &desc, kind);
   if (status != CELSPAN_OK) {
     luaL_pushfail(L);
     lua_pushstring(L, celspan_context_error(script->context));
@@ -210,7 +246,12 @@ static void add_hit(search *s, const char *kind, cs_mark mark) {
   lua_call(s->L, 4, 0);
 }
 
-static celspan_status search_rostrum(search *s, const celspan_rostrum *rostrum,
+/* How large the film is in a rostrum: a nested one has a size of its own. */
+typedef struct extent {
+  double width, height;
+} extent;
+
+static celspan_status search_rostrum(search *s, const celspan_rostrum *rostrum, extent film,
                                      const celspan_matrix *matrix);
 
 /* Recursion ends: nesting is at most CS_SCENE_DEPTH. */
@@ -226,17 +267,20 @@ static celspan_status search_objects(search *s, celspan_object *const *objects, 
     if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN)
       CS_TRY(search_objects(s, data->boolean->operands, data->boolean->operand_count, &inner));
     if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM)
-      CS_TRY(search_rostrum(s, data->rostrum, &inner));
+      CS_TRY(search_rostrum(s, data->rostrum, (extent){data->rostrum->width, data->rostrum->height},
+                            &inner));
     add_hit(s, "object", objects[i]->mark);
   }
   return CELSPAN_OK;
 }
 
-static celspan_status search_rostrum(search *s, const celspan_rostrum *rostrum,
+static celspan_status search_rostrum(search *s, const celspan_rostrum *rostrum, extent film,
                                      const celspan_matrix *matrix) {
   for (size_t i = rostrum->cel_count; i-- > 0;) {
     const celspan_cel *cel = rostrum->cels[i];
-    celspan_matrix inner = celspan_matrix_then(cel->matrix, *matrix);
+    celspan_matrix placed;
+    CS_TRY(cs_scene_cel_matrix(s->context, rostrum, i, film.width, film.height, &placed));
+    celspan_matrix inner = celspan_matrix_then(placed, *matrix);
     size_t before = s->count;
     CS_TRY(search_objects(s, cel->objects, cel->object_count, &inner));
     if (s->count > before)
@@ -257,7 +301,8 @@ int cs_stage_hits(lua_State *L, cs_script *script) {
   luaL_checkstack(L, 8, "too many objects");
   celspan_status status = CELSPAN_OK;
   if (script->frame.count > 0)
-    status = search_rostrum(&s, script->frame.exposures[0].rostrum, &none);
+    status = search_rostrum(&s, script->frame.exposures[0].rostrum,
+                            (extent){script->film.width, script->film.height}, &none);
   if (status == CELSPAN_OK)
     return 0;
   lua_pushstring(L, celspan_context_error(script->context));

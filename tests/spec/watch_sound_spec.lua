@@ -127,7 +127,8 @@ describe("the page of celspan watch with a sound #plain", function()
         const brush = rows.getContext("2d"), r = devicePixelRatio;
         const at = (x, y) => brush.getImageData(Math.round(x * rows.width), y * r, 1, 1).data[3];
         return [at(0.1, 52), at(0.4, 52), at(0.6, 52), at(0.9, 52), at(0.5, 41) ]; })()`);
-      return { drawn, names: await page.get(`document.querySelector("#names").innerText`) };]=])
+      return { drawn, names: await page.get(`[...document.querySelectorAll("#names li")]
+                 .map(one => one.title).join("\\n")`) };]=])
     assert.equal("cel 1\nline.tsv\nsound", said.names)
     for i, is_drawn in ipairs { false, true, true, false, true } do
       assert.equal(is_drawn, said.drawn[i] > 0, i)

@@ -391,7 +391,8 @@ describe("the page of celspan watch #plain", function()
         .getContext("2d").getImageData(4, y * devicePixelRatio, 1, 1).data[3])`);
       return { painted, head: await page.get(`parseFloat(document.querySelector("#head").style.left)
         / document.querySelector("#rows").clientWidth * 48`),
-               names: await page.get(`document.querySelector("#names").innerText`) };]=])
+               names: await page.get(`[...document.querySelectorAll("#names li")]
+                 .map(one => one.title).join("\\n")`) };]=])
     assert.same({ 255, 255 }, said.painted)
     assert.is_true(math.abs(said.head - 29.5) < 0.2, said.head)
     assert.equal("cel 2\nground\nmarks", said.names)

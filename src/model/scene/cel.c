@@ -164,6 +164,20 @@ celspan_status celspan_cel_named(celspan_context *context, celspan_cel *cel, con
   return create(context, cel, cel->objects, cel->object_count, mark, out);
 }
 
+celspan_status cs_cel_bare(celspan_context *context, const celspan_cel *cel, cs_cel_without without,
+                           celspan_cel **out) {
+  celspan_cel fields = *cel;
+  if (without.lights) {
+    fields.front = (cs_light){.is_given = true, .flat = {1, 1, 1, 1}};
+    fields.back = (cs_light){.is_given = true};
+  }
+  if (without.defocus) {
+    fields.defocus_radius = 0;
+    fields.defocus_kernel = CELSPAN_DEFOCUS_GAUSSIAN;
+  }
+  return create(context, &fields, cel->objects, cel->object_count, cs_mark_keep(cel->mark), out);
+}
+
 celspan_blend celspan_cel_mode(const celspan_cel *cel) { return cel->blend; }
 
 const char *celspan_cel_name(const celspan_cel *cel) { return cs_mark_name(cel->mark); }

@@ -161,11 +161,16 @@ static celspan_status copy(celspan_context *context, const celspan_rostrum *from
   return CELSPAN_OK;
 }
 
+celspan_status cs_rostrum_with(celspan_context *context, const celspan_rostrum *from,
+                               celspan_cel *const *cels, size_t cel_count, celspan_rostrum **out) {
+  return copy(context, from, cels, cel_count, cs_mark_keep(from->mark), out);
+}
+
 celspan_status cs_rostrum_change(celspan_context *context, const celspan_rostrum *from,
                                  celspan_cel *const *cels, size_t cel_count, celspan_light back,
                                  celspan_rostrum **out) {
   celspan_rostrum *changed;
-  CS_TRY(copy(context, from, cels, cel_count, cs_mark_keep(from->mark), &changed));
+  CS_TRY(cs_rostrum_with(context, from, cels, cel_count, &changed));
   cs_light_unref(&changed->back);
   changed->back = (cs_light){.is_given = from->back.is_given, .flat = back};
   changed->hash = hash_rostrum(changed);

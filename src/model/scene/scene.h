@@ -238,9 +238,21 @@ celspan_matrix cs_scene_camera(const celspan_rostrum *rostrum, double film_width
 cs_light cs_scene_front(const celspan_rostrum *rostrum, const celspan_cel *cel);
 /* A back light times the rostrum's brightness; the matte does not change. */
 cs_light cs_scene_back(const celspan_rostrum *rostrum, const cs_light *back);
-/* *out: new; like `from`, name and line included, with these cels, which are kept, and this back
- * light, both right already: for tools that show a part of a frame, or show it before another
- * ground. Errors: NO_MEMORY. */
+/* *out: new; like `cel`, name and line included, without what is named: its lights, so that white
+ * light shines on it and none through it, and its defocus. For tools that show a part of the work.
+ * Errors: NO_MEMORY. */
+typedef struct cs_cel_without {
+  bool lights, defocus;
+} cs_cel_without;
+CELSPAN_CHECKED celspan_status cs_cel_bare(celspan_context *context, const celspan_cel *cel,
+                                           cs_cel_without without, celspan_cel **out);
+/* *out: new; like `from`, name and line included, with these cels, which are kept, and of
+ * cs_rostrum_change with this back light. They are right already: for tools that show a part of a
+ * frame, or show it before another ground. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_rostrum_with(celspan_context *context,
+                                               const celspan_rostrum *from,
+                                               celspan_cel *const *cels, size_t cel_count,
+                                               celspan_rostrum **out);
 CELSPAN_CHECKED celspan_status cs_rostrum_change(celspan_context *context,
                                                  const celspan_rostrum *from,
                                                  celspan_cel *const *cels, size_t cel_count,

@@ -8,6 +8,7 @@
 -- has asked for since the one before. What the script prints goes to standard error.
 local program, request = ...
 local json = require "celspan.json"
+local core = require "celspan.core"
 
 local CHECK_SECONDS = 0.03 -- of frames that are checked for one request
 local SHEET_MOST = 10000   -- frames of a sheet
@@ -50,25 +51,58 @@ function answers.film()
   put { good = true, film = facts, parameters = parameters() }
 end
 
---- Builds a frame. false: refused.
-local function build(number)
-  local good, message, code = film:try(number)
+--- Builds a frame, with its cels as ask.cels has them. false: refused.
+local function build(ask)
+  local good, message, code = film:try(ask.number)
+  if good and ask.cels then good, message = film:alter(ask.cels) end
   if not good then refuse(message, code) end
   return good
 end
 
-function answers.frame(ask)
-  if not build(ask.number) then return end
-  local began = program.clock()
+--- Calls a method of the film with the size and the crop that were asked for.
+local function of_view(ask, method, ...)
   local w, h = table.unpack(ask.size)
-  local bytes, message = film:picture(w, h, ask.crop[1], ask.crop[2], ask.crop[3], ask.crop[4],
-    ask.png)
+  local x, y, width, height = table.unpack(ask.crop)
+  return film[method](film, w, h, x, y, width, height, ...)
+end
+
+--- ask.made: { file, line } of what alone is shown.
+function answers.frame(ask)
+  local began = program.clock()
+  if not build(ask) then return end
+  if ask.made then film:keep_line(ask.made[1], ask.made[2]) end
+  local bytes, message = of_view(ask, "picture", ask.what)
   if not bytes then return refuse(("frame %d: %s"):format(ask.number, message)) end
   put({ good = true, seconds = program.clock() - began }, bytes)
 end
 
+--- What the frame costs, the first of `costs`, and each of its cels alone.
+function answers.costs(ask)
+  if not build(ask) then return end
+  local costs = { list = {} }
+  local good, message = of_view(ask, "costs", function(one) table.insert(costs.list, one) end)
+  if not good then return refuse(("frame %d: %s"):format(ask.number, message)) end
+  put { good = true, costs = costs }
+end
+
+--- The frames in which a line made something, of the first SHEET_MOST: `runs`, { first, last }.
+function answers.made(ask)
+  local runs = { list = {} }
+  for i = 1, math.min(film.frames, SHEET_MOST) do
+    local number, last = film.first + i - 1, runs.list[#runs.list]
+    if film:try(number) and film:keep_line(ask.file, ask.line) then
+      if last and last[2] == number - 1 then
+        last[2] = number
+      else
+        table.insert(runs.list, { number, number })
+      end
+    end
+  end
+  put { good = true, runs = runs }
+end
+
 function answers.at(ask)
-  if not build(ask.number) then return end
+  if not build(ask) then return end
   local hits = {}
   local message = film:hits(ask.x, ask.y, function(kind, name, source, line)
     hits[#hits + 1] = { kind = kind, name = name, file = source, line = source and line }
@@ -94,8 +128,22 @@ function answers.sheet()
   put({ good = true }, text)
 end
 
+--- Whether a layer of the sheet is a cel, as its first drawing has it.
+local function is_cel(name, cells)
+  for _, cell in ipairs(cells.list) do
+    if cell[2] ~= "" then
+      for _, part in ipairs(core.parts(film:at(film.first + cell[1] - 1))) do
+        if part.kind == "cel" and part.name == name then return true end
+      end
+      return false
+    end
+  end
+  return false
+end
+
 --- A row for each layer, the nearest first: `cells`, { first frame, drawing } in order, the drawing
---- "" where there is none; `moved`, the frames on which the placement alone changes.
+--- "" where there is none; `moved`, the frames on which the placement alone changes; `cel`, whether
+--- it is a cel.
 function answers.rows()
   local sheet, rows = sheet_of(), {}
   if not sheet then return end
@@ -107,6 +155,7 @@ function answers.rows()
     for frame = 1, sheet.frames do
       if sheet:marks(i, frame).moved then table.insert(row.moved.list, frame) end
     end
+    row.cel = is_cel(row.name, row.cells)
     rows[#rows + 1] = row
   end
   put({ good = true }, program.json { rows = { list = rows }, frames = sheet.frames })

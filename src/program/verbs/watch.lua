@@ -227,7 +227,7 @@ local function describe_state()
            seconds = state.is_building and program.clock() - state.began or 0,
            film = state.film, shown = state.is_shown or false, errors = { list = state.errors },
            script = script, alone = request.is_alone or false, parameters = parameters(),
-           editor = request.editor ~= nil }
+           editor = request.editor ~= nil, here = state.here }
 end
 
 --- Asks the renderers, and answers with what they say.
@@ -272,20 +272,64 @@ local function is_view(size, crop)
     and w > 0 and h > 0 and x + w <= size[1] and y + h <= size[2] and w * h <= PIXELS_MOST
 end
 
-local function give_frame(id, text, ending, fields)
+--- What a request shows, in the words of the renderers: number, size, crop, cels; nil: refused.
+local function view_of(id, text, fields)
   local number = frame_of(id, text)
-  if not number then return end
+  if not number then return nil end
   local size = numbers(fields.size or request.size, 2) or not fields.size and state.film.size
   local crop = size and (not fields.crop and { 0, 0, size[1], size[2] } or numbers(fields.crop, 4))
   if not crop or not is_view(size, crop) then
     return refuse(id, 400, "write size=WxH and crop=X,Y,W,H: at most 1048576 pixels a side, and "
       .. "33554432 in a crop that is within the frame")
   end
+  local cels = fields.cels and json.decode(fields.cels)
+  if fields.cels and type(cels) ~= "table" then
+    return refuse(id, 400, "cels= must be a JSON object, such as {\"ground\": \"h\"}")
+  end
+  return { number = number, size = size, crop = crop, cels = cels }
+end
+
+--- What is shown instead of the frame's colours: "spans", or what a line made.
+local function add_show(id, ask, fields)
+  if fields.show == "made" then
+    ask.made = { list = { fields.file or "", math.tointeger(fields.line) or 0 } }
+  elseif fields.show == "spans" then
+    ask.what = "spans"
+  elseif fields.show then
+    return refuse(id, 400, "show= is spans or made")
+  end
+  return true
+end
+
+local function give_frame(id, text, ending, fields)
+  local ask = view_of(id, text, fields)
+  if not ask then return end
+  ask.want, ask.what = "frame", ending
+  if not add_show(id, ask, fields) then return end
+  if fields.show and ending ~= "rgba" then return refuse(id, 400, "show= needs /frame/N.rgba") end
   local kind = ending == "png" and "image/png" or "application/octet-stream"
-  pass_on(id, { want = "frame", number = number, size = size, crop = crop, png = ending == "png" },
+  pass_on(id, ask,
     function(head, bytes)
       answer(id, 200, kind, bytes, "Celspan-Seconds", ("%.4f"):format(head.seconds))
     end)
+end
+
+local function give_costs(id, fields)
+  local ask = view_of(id, fields.frame or state.film and state.film.first, fields)
+  if not ask then return end
+  ask.want = "costs"
+  pass_on(id, ask, function(head)
+    for _, one in ipairs(head.costs) do note_place(one.file, one.line) end
+    give_json(id, { list = head.costs })
+  end)
+end
+
+--- The frames with what the line made that an editor has named last.
+local function give_made(id)
+  if not state.is_shown then return frame_of(id) end
+  if not state.here then return give_json(id, { list = {} }) end
+  pass_on(id, { want = "made", file = state.here.file, line = state.here.line },
+    function(head) give_json(id, { list = head.runs }) end)
 end
 
 --- The run of frames of a text such as "1-48"; without one, all of them; nil: refused.
@@ -339,7 +383,7 @@ local function give_text(id, name)
 end
 
 local pages = { ["/"] = "page.html", ["/page.css"] = "page.css", ["/page.js"] = "page.js",
-                ["/sound.js"] = "sound.js" }
+                ["/sound.js"] = "sound.js", ["/cost.js"] = "cost.js" }
 
 local gets = {
   ["/film.json"] = function(id)
@@ -359,6 +403,8 @@ local gets = {
   end,
   ["/sound.wav"] = give_sound,
   ["/wave.json"] = give_wave,
+  ["/costs.json"] = give_costs,
+  ["/made.json"] = give_made,
   ["/counts.json"] = function(id) give_json(id, web:counts()) end,
   ["/state.json"] = function(id, fields)
     local since = math.tointeger(fields.since) or 0
@@ -394,6 +440,27 @@ posts["/parameters"] = function(id, given)
   pool.values = given
   build()
   give_json(id, { build = state.build })
+end
+
+--- The path of a file as the film has it, for one that an editor may name from the root; nil: the
+--- film does not read it.
+local function path_of(name)
+  for folder, list in pairs(files) do
+    for own in pairs(list) do
+      local path = folder .. own
+      if name == path or name:sub(-#path - 1) == "/" .. path then return path end
+    end
+  end
+  return nil
+end
+
+--- What this line made is outlined in the page, { file =, line = }.
+posts["/here"] = function(id, given)
+  local path, line = path_of(tostring(given.file)), math.tointeger(given.line)
+  if not path or not line then return refuse(id, 404, "the film does not read this file") end
+  state.here = { file = path, line = line, count = (state.here and state.here.count or 0) + 1 }
+  tell()
+  give_json(id, state.here)
 end
 
 local editors = {} -- processes

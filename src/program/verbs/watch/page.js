@@ -6,10 +6,12 @@
 //
 // Pictures are wanted one after the other: while one is on its way, only the newest wish is kept.
 // While the film plays, several are asked for ahead.
+import * as cost from "/cost.js";
 import * as sound from "/sound.js";
 
 const here = id => document.getElementById(id);
 const stage = here("stage"), desk = here("desk"), pen = stage.getContext("2d");
+const overlay = here("overlay");
 const SIDE_MOST = 1048576;   // pixels of a frame
 const KEPT_MOST = 192 << 20; // bytes of pictures that are kept
 const AHEAD = 8, AT_ONCE = 3; // pictures asked for ahead while playing, and at the same time
@@ -117,7 +119,8 @@ function wish(number, coarse = 1) {
               clamp(Math.ceil(crop[3] / coarse), 1, size[1] - part[1]));
   }
   const name = number - 1 + state.film.first;
-  const address = `/frame/${name}.rgba?size=${size.join("x")}&crop=${part.join()}&build=${state.build}`;
+  const address = `/frame/${name}.rgba?size=${size.join("x")}&crop=${part.join()}&build=${state.build}`
+    + cels.query;
   return { number, size, crop: part, address, build: state.build };
 }
 
@@ -128,6 +131,7 @@ async function fetchPicture(wanted) {
   if (!answer.ok) throw Object.assign(new Error(await answer.text()), { status: answer.status });
   const picture = { ...wanted, bytes: new Uint8ClampedArray(await answer.arrayBuffer()),
                     seconds: Number(answer.headers.get("Celspan-Seconds")) };
+  if (!wanted.isOver) cost.noteTime(picture.number, picture.seconds, picture.build);
   if (wanted.build === state.build) keep(wanted.address, picture);
   return picture;
 }
@@ -157,6 +161,7 @@ function paint(picture) {
   stage.dataset.crop = picture.crop.join();
   stage.dataset.build = picture.build;
   stage.setAttribute("aria-label", `Frame ${picture.number}`);
+  overlay.hidden = overlay.dataset.over !== picture.address + overlays() || play.direction !== 0;
   place();
 }
 
@@ -168,8 +173,10 @@ function place() {
   const [x, y, w, h] = painted.crop;
   Object.assign(here("safe").style, { left: `${view.x / r}px`, top: `${view.y / r}px`,
                                       width: `${whole[0] / r}px`, height: `${whole[1] / r}px` });
-  Object.assign(stage.style, { left: `${view.x / r + x * sx}px`, top: `${view.y / r + y * sy}px`,
-                               width: `${w * sx}px`, height: `${h * sy}px` });
+  for (const canvas of [stage, overlay]) {
+    Object.assign(canvas.style, { left: `${view.x / r + x * sx}px`, top: `${view.y / r + y * sy}px`,
+                                  width: `${w * sx}px`, height: `${h * sy}px` });
+  }
 }
 
 // ---------------------------------------------------------------- one picture after the other
@@ -204,6 +211,8 @@ async function ask() {
       refused = null;
       showFault();
       await addOnion(picture);
+      await layOver(picture);
+      await loadCosts(picture);
     } catch (fault) {
       await failed(fault, fine.number);
     }
@@ -432,11 +441,13 @@ function takeState(news) {
     view.number = clamp(view.number, 1, state.film.frames);
     if (!before && news.alone) start(1);
   }
+  if (state.here && state.here.count !== outlined.count) outline(state.here);
   showState();
   loadSheet();
   if (!isNew) return;
   takeSound();
   forget();
+  if (outlined.place) outline(outlined.place);
   if (state.shown) look();
 }
 
@@ -564,7 +575,7 @@ function swapMute() {
 
 // ---------------------------------------------------------------- the sheet
 
-const ROW = 20, WAVE = 44; // CSS pixels
+const ROW = 20, WAVE = 44, STRIP = 32; // CSS pixels
 const WAVE_COLUMNS = 2000;
 const sheet = { rows: [], lips: [], columns: [], frames: 1, build: 0 };
 
@@ -587,10 +598,53 @@ async function loadSheet() {
 const hasWave = () => sheet.columns.length > 0 || state.film.marks.length > 0;
 
 function nameRows() {
-  const item = (name, kind) => element("li", { textContent: name, title: name, className: kind });
+  const item = (name, className) => {
+    const one = element("li", { title: name, className });
+    one.append(element("span", { textContent: name }));
+    return one;
+  };
   const last = sheet.columns.length > 0 ? "sound" : "marks";
-  here("names").replaceChildren(...sheet.rows.map(row => item(row.name, "cel")),
-    ...sheet.lips.map(row => item(row.name, "lips")), ...hasWave() ? [item(last, "wave")] : []);
+  here("names").replaceChildren(...sheet.rows.map(row => {
+    const one = item(row.name, "");
+    if (row.cel) one.append(...Object.entries(SWITCHES).map(([letter, what]) =>
+      celSwitch(row.name, letter, what)));
+    return one;
+  }), ...sheet.lips.map(row => item(row.name, "lips")), ...hasWave() ? [item(last, "wave")] : [],
+  ...here("costs").hidden ? [] : [item("milliseconds", "strip")]);
+}
+
+// ---------------------------------------------------------------- cels in another way
+
+// Letters as /frame/N has them, and s: the others are hidden.
+const SWITCHES = { s: "solo", h: "hidden", l: "light off", f: "focus off" };
+const cels = { letters: {}, query: "" }; // letters: by the names of cels
+
+/** A button that changes how one cel is shown. */
+function celSwitch(name, letter, what) {
+  const isOn = (cels.letters[name] || "").includes(letter);
+  const button = element("button", { textContent: letter.toUpperCase(), title: `${name}: ${what}`,
+                                     ariaLabel: `${name}: ${what}`, ariaPressed: isOn });
+  button.onclick = () => {
+    const old = cels.letters[name] || "", has = old.includes(letter);
+    cels.letters[name] = has ? old.replace(letter, "") : old + letter;
+    button.ariaPressed = !has;
+    queryCels();
+    look();
+  };
+  return button;
+}
+
+/** The part of the address that says how cels are shown. */
+function queryCels() {
+  const hasSolo = Object.values(cels.letters).some(letters => letters.includes("s"));
+  const shown = {};
+  for (const row of sheet.rows.filter(one => one.cel)) {
+    const letters = cels.letters[row.name] || "";
+    const all = letters.replace("s", "") + (hasSolo && !letters.includes("s") ? "h" : "");
+    if (all) shown[row.name] = all;
+  }
+  const isPlain = Object.keys(shown).length === 0;
+  cels.query = isPlain ? "" : `&cels=${encodeURIComponent(JSON.stringify(shown))}`;
 }
 
 /** The sound from y on, as far as it goes from silence, and the marks over it. */
@@ -630,7 +684,8 @@ function drawRow(brush, row, y, unit, colours) {
 function drawSheet() {
   const canvas = here("rows"), width = here("cells").clientWidth, r = ratio();
   const rows = [...sheet.rows, ...sheet.lips], brush = canvas.getContext("2d");
-  const height = Math.max(1, rows.length) * ROW + (state.film && hasWave() ? WAVE : 0);
+  const wave = state.film && hasWave() ? WAVE : 0, strip = here("costs").hidden ? 0 : STRIP;
+  const height = Math.max(1, rows.length) * ROW + wave + strip, unit = width / sheet.frames;
   const style = getComputedStyle(document.documentElement);
   const colour = name => style.getPropertyValue(name);
   canvas.width = Math.round(width * r);
@@ -639,9 +694,15 @@ function drawSheet() {
   brush.scale(r, r);
   brush.font = "11px system-ui, 'DejaVu Sans', sans-serif";
   const colours = { odd: colour("--line"), even: colour("--press"), text: colour("--text"),
-                    dot: colour("--accent"), quiet: colour("--light") };
-  rows.forEach((row, i) => drawRow(brush, row, i * ROW, width / sheet.frames, colours));
-  if (state.film && hasWave()) drawWave(brush, rows.length * ROW, width, colours);
+                    dot: colour("--accent"), quiet: colour("--light"), slow: colour("--slow") };
+  rows.forEach((row, i) => drawRow(brush, row, i * ROW, unit, colours));
+  if (wave) drawWave(brush, rows.length * ROW, width, colours);
+  if (strip) cost.drawStrip(brush, height - STRIP, STRIP, unit, 1 / state.film.fps, colours);
+  brush.fillStyle = colours.dot;
+  for (const [from, to] of outlined.runs) {
+    const x = (from - state.film.first) * unit;
+    brush.fillRect(x, 0, Math.max(2, (to - from + 1) * unit), 3);
+  }
   placeHead();
 }
 
@@ -759,6 +820,110 @@ function setMixing(kind) {
   if (painted) paint(painted);
 }
 
+// ---------------------------------------------------------------- over the picture
+
+let isShowingSpans = false;
+// The line whose work is outlined, { file, line }, and the runs of frames that have some of it.
+// count: of what editors have asked for.
+const outlined = { place: null, runs: [], count: 0 };
+const OUTLINE = [255, 150, 30, 255];
+
+/** Marks in `out` the pixels at the border of what a picture covers. */
+function drawBorder(picture, out) {
+  const [, , w, h] = picture.crop, bytes = picture.bytes;
+  const isIn = (x, y) => x >= 0 && y >= 0 && x < w && y < h && bytes[4 * (y * w + x) + 3] > 127;
+  for (let y = 0; y < h; y++) {
+    for (let x = 0; x < w; x++) {
+      const own = isIn(x, y);
+      const isBorder = own !== isIn(x + 1, y) || own !== isIn(x, y + 1) || own !== isIn(x - 1, y)
+        || own !== isIn(x, y - 1);
+      if (isBorder) out.set(OUTLINE, 4 * (y * w + x));
+    }
+  }
+}
+
+/** What is to lie over a picture, as parts of an address. */
+function overlays() {
+  const place = outlined.place;
+  const line = place && `&show=made&file=${encodeURIComponent(place.file)}&line=${place.line}`;
+  return [...isShowingSpans ? ["&show=spans"] : [], ...line ? [line] : []];
+}
+
+/** Lays the spans, and the outline of what a line made, over a picture that is painted. */
+async function layOver(picture) {
+  const wanted = overlays();
+  if (wanted.length === 0 || play.direction !== 0) {
+    overlay.hidden = true;
+    return;
+  }
+  const [, , w, h] = picture.crop, out = new Uint8ClampedArray(4 * w * h);
+  for (const part of wanted) {
+    const address = picture.address + part;
+    const layer = await fetchPicture({ ...picture, address, isOver: true }).catch(() => null);
+    if (!layer || isWanted || painted !== picture) return;
+    if (part === "&show=spans") out.set(layer.bytes);
+    else drawBorder(layer, out);
+  }
+  overlay.width = w;
+  overlay.height = h;
+  overlay.getContext("2d").putImageData(new ImageData(out, w, h), 0, 0);
+  overlay.dataset.over = picture.address + wanted;
+  overlay.hidden = false;
+}
+
+function setSpans(isOn) {
+  isShowingSpans = isOn;
+  here("spans").setAttribute("aria-pressed", isOn);
+  look();
+}
+
+/** Outlines what a line of the script made; null: nothing. */
+async function outline(place) {
+  Object.assign(outlined, { place, runs: [], count: place ? place.count : outlined.count });
+  look();
+  drawSheet();
+  const answer = place && state.shown ? await fetch(`/made.json?build=${state.build}`).catch(() => null) : null;
+  if (!answer || !answer.ok || outlined.place !== place) return;
+  outlined.runs = await answer.json();
+  drawSheet();
+}
+
+// ---------------------------------------------------------------- costs
+
+/** Fills the table with what a painted picture costs, if it is open. */
+async function loadCosts(picture) {
+  if (here("costs").hidden || play.direction !== 0) return;
+  const address = picture.address.replace(/^\/frame\/(-?\d+)\.rgba\?/, "/costs.json?frame=$1&");
+  const answer = await fetch(address).catch(() => null);
+  if (!answer || !answer.ok || painted !== picture) return;
+  const list = await answer.json();
+  here("cost-rows").replaceChildren(...list.map((one, i) => {
+    const row = element("tr", { title: one.file ? `${one.file}:${one.line}` : "" });
+    row.append(...cost.cellsOf(one, i === 0).map((textContent, column) =>
+      element(column === 0 ? "th" : "td", { textContent, scope: column === 0 ? "row" : "" })));
+    return row;
+  }));
+  showSlowest();
+}
+
+function showSlowest() {
+  here("slowest").replaceChildren(...cost.slowest().map(({ number, seconds }) => {
+    const item = element("li", {}), textContent = `frame ${number}`;
+    item.append(element("button", { textContent, onclick: () => { stop(); go(number); } }),
+                ` ${(seconds * 1000).toFixed(1)} ms`);
+    return item;
+  }));
+  drawSheet();
+}
+
+function setCosting(isOn) {
+  here("costs").hidden = !isOn;
+  here("cost").setAttribute("aria-pressed", isOn);
+  nameRows();
+  drawSheet();
+  look();
+}
+
 // ---------------------------------------------------------------- the inspector
 
 function setInspecting(isOn) {
@@ -865,6 +1030,9 @@ const keys = {
   w: () => setMixing("wipe"), d: () => setMixing("differ"),
   n: nextOnion,
   u: swapMute,
+  e: () => setSpans(!isShowingSpans),
+  c: () => setCosting(here("costs").hidden),
+  Escape: () => outline(null),
   v: () => setTuning(here("values").hidden),
   g: askNumber,
   "+": () => zoomMiddle(1.5), "=": () => zoomMiddle(1.5), "-": () => zoomMiddle(1 / 1.5),
@@ -945,7 +1113,7 @@ const clicks = {
   first: () => { stop(); go(loop.from); }, back: () => step(-1), play: toggle,
   forward: () => step(1), last: () => { stop(); go(loop.to); }, fit: keys[0],
   matte: keys.m, inspect: keys.p, tune: keys.v, list: keys.s, onion: nextOnion, mute: swapMute,
-  guides: swapGuides, wipe: keys.w, differ: keys.d, defaults: takeDefaults, theme: swapTheme,
+  spans: keys.e, cost: keys.c, guides: swapGuides, wipe: keys.w, differ: keys.d, defaults: takeDefaults, theme: swapTheme,
   help: keys["?"],
 };
 for (const [id, act] of Object.entries(clicks)) here(id).addEventListener("click", act);

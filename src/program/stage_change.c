@@ -1,0 +1,275 @@
+/* A frame that is watched in another way: without some cels, without lights or defocus, or with
+ * nothing but what one line of the script made; and what each cel of it costs.
+ *
+ * INVARIANT: the frame that was built last is changed, and the next one that is built is whole.
+ */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "lua/bind/put.h"
+#include "model/scene/scene.h"
+#include "program/stage.h"
+
+enum { LABEL = 32, CELS_MOST = 256 };
+
+static int fail(lua_State *L, const cs_script *script) {
+  luaL_pushfail(L);
+  lua_pushstring(L, celspan_context_error(script->context));
+  return 2;
+}
+
+/* The name of a cel, or its place from the rear, as sheets have it: "cel 2". */
+static const char *label_of(const celspan_rostrum *rostrum, size_t i, char label[LABEL]) {
+  const char *name = cs_mark_name(rostrum->cels[i]->mark);
+  if (name[0])
+    return name;
+  snprintf(label, LABEL, "cel %zu", i + 1);
+  return label;
+}
+
+/* ---------------------------------------------------------------- cels */
+
+/* Makes the cel that a rostrum gets in place of one of its own. */
+typedef celspan_status (*maker)(void *user, const celspan_rostrum *from, size_t i,
+                                celspan_cel **out);
+
+static void drop_cels(celspan_context *context, celspan_cel **cels, size_t count, size_t most) {
+  for (size_t i = 0; i < count; i++)
+    celspan_cel_unref(cels[i]);
+  cs_mem_free(context->memory, cels, most * sizeof(celspan_cel *));
+}
+
+/* *out: new; the rostrum with what `make` makes of each of its cels; NULL of a cel: none. */
+static celspan_status remake(celspan_context *context, const celspan_rostrum *from, maker make,
+                             void *user, celspan_rostrum **out) {
+  celspan_cel **cels;
+  size_t count = 0, most = from->cel_count + 1;
+  celspan_status status = CELSPAN_OK;
+  CS_TRY(CS_MAKE(context, cels, most));
+  for (size_t i = 0; i < from->cel_count && status == CELSPAN_OK; i++) {
+    status = make(user, from, i, &cels[count]);
+    count += status == CELSPAN_OK && cels[count];
+  }
+  if (status == CELSPAN_OK)
+    status = cs_rostrum_with(context, from, cels, count, out);
+  drop_cels(context, cels, count, most);
+  return status;
+}
+
+/* Changes all exposures of the frame. */
+static celspan_status change_frame(cs_script *script, maker make, void *user) {
+  for (size_t i = 0; i < script->frame.count; i++) {
+    celspan_exposure *exposure = &script->frame.exposures[i];
+    celspan_rostrum *changed;
+    CS_TRY(remake(script->context, exposure->rostrum, make, user, &changed));
+    celspan_rostrum_unref(exposure->rostrum);
+    exposure->rostrum = changed;
+  }
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- cels in another way */
+
+typedef struct alteration {
+  lua_State *L; /* argument 2: letters by the labels of cels */
+  celspan_context *context;
+} alteration;
+
+static celspan_status alter_cel(void *user, const celspan_rostrum *from, size_t i,
+                                celspan_cel **out) {
+  const alteration *a = user;
+  char label[LABEL];
+  *out = NULL;
+  lua_getfield(a->L, 2, label_of(from, i, label));
+  const char *letters = lua_isstring(a->L, -1) ? lua_tostring(a->L, -1) : "";
+  const cs_cel_without without = {strchr(letters, 'l'), strchr(letters, 'f')};
+  bool is_hidden = strchr(letters, 'h');
+  lua_pop(a->L, 1);
+  return is_hidden ? CELSPAN_OK : cs_cel_bare(a->context, from->cels[i], without, out);
+}
+
+/* film:alter(letters) -> true | nil, message: of the cel "ground", letters.ground may contain h: it
+ * is hidden; l: its lights are out, and white light is on it; f: it is in focus */
+int cs_stage_alter(lua_State *L, cs_script *script) {
+  alteration a = {L, script->context};
+  luaL_checktype(L, 2, LUA_TTABLE);
+  luaL_checkstack(L, 4, "too many values");
+  if (change_frame(script, alter_cel, &a) != CELSPAN_OK)
+    return fail(L, script);
+  lua_pushboolean(L, true);
+  return 1;
+}
+
+/* ---------------------------------------------------------------- what a line made */
+
+/* The objects that a line of the script made, as they lie in the cel that is searched. */
+typedef struct made {
+  celspan_context *context;
+  const char *source;
+  int32_t line;
+  celspan_object **objects; /* owned, with references */
+  size_t count, capacity;
+  bool is_any; /* there was one in the frame */
+} made;
+
+static bool is_made(const made *m, cs_mark mark) {
+  return mark.line == m->line && mark.source && strcmp(mark.source, m->source) == 0;
+}
+
+static celspan_status add_made(made *m, celspan_object *object, const celspan_matrix *matrix) {
+  CS_TRY(CS_RESERVE(m->context, m->objects, m->capacity, m->count + 1));
+  CS_TRY(celspan_object_transform(m->context, object, matrix, &m->objects[m->count]));
+  m->count++;
+  m->is_any = true;
+  return CELSPAN_OK;
+}
+
+static celspan_status find_in_rostrum(made *m, const celspan_rostrum *rostrum,
+                                      const celspan_matrix *matrix);
+
+/* is_all: they belong to something that the line made. Recursion ends: nesting is at most
+ * CS_SCENE_DEPTH. */
+static celspan_status find_made(made *m, celspan_object *const *objects, size_t count, bool is_all,
+                                const celspan_matrix *matrix) {
+  for (size_t i = 0; i < count; i++) {
+    const cs_primitive_data *data = objects[i]->data;
+    celspan_matrix inner = celspan_matrix_then(*objects[i]->matrix, *matrix);
+    if (is_all || is_made(m, objects[i]->mark))
+      CS_TRY(add_made(m, objects[i], matrix));
+    else if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN)
+      CS_TRY(find_made(m, data->boolean->operands, data->boolean->operand_count, false, &inner));
+    else if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM)
+      CS_TRY(find_in_rostrum(m, data->rostrum, &inner));
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status find_in_rostrum(made *m, const celspan_rostrum *rostrum,
+                                      const celspan_matrix *matrix) {
+  for (size_t i = 0; i < rostrum->cel_count; i++) {
+    const celspan_cel *cel = rostrum->cels[i];
+    celspan_matrix placed;
+    CS_TRY(cs_scene_cel_matrix(m->context, rostrum, i, rostrum->width, rostrum->height, &placed));
+    placed = celspan_matrix_then(placed, *matrix);
+    CS_TRY(find_made(m, cel->objects, cel->object_count, is_made(m, cel->mark), &placed));
+  }
+  return CELSPAN_OK;
+}
+
+static void drop_objects(made *m) {
+  while (m->count > 0)
+    celspan_object_unref(m->objects[--m->count]);
+}
+
+/* A cel at the same place with what the line made in it; none: it made nothing there. */
+static celspan_status keep_made(void *user, const celspan_rostrum *from, size_t i,
+                                celspan_cel **out) {
+  made *m = user;
+  const celspan_cel *cel = from->cels[i];
+  const celspan_matrix none = celspan_matrix_identity();
+  celspan_cel_desc desc = CELSPAN_CEL_DESC;
+  celspan_cel *plain = NULL;
+  *out = NULL;
+  celspan_status status =
+      find_made(m, cel->objects, cel->object_count, is_made(m, cel->mark), &none);
+  desc.objects = m->objects;
+  desc.object_count = m->count;
+  desc.has_viewport = cel->has_viewport;
+  desc.viewport = cel->viewport;
+  if (status == CELSPAN_OK && m->count > 0)
+    status = celspan_cel_create(m->context, &desc, &plain);
+  if (status == CELSPAN_OK && plain)
+    status = celspan_cel_transform(m->context, plain, &cel->matrix, out);
+  celspan_cel_unref(plain);
+  drop_objects(m);
+  return status;
+}
+
+/* film:keep_line(source, line) -> whether the line made anything in the frame that was built last,
+ * which then shows only that, in white light | nil, message */
+int cs_stage_keep_line(lua_State *L, cs_script *script) {
+  made m = {.context = script->context,
+            .source = luaL_checkstring(L, 2),
+            .line = (int32_t)luaL_checkinteger(L, 3)};
+  celspan_status status = change_frame(script, keep_made, &m);
+  cs_mem_free(m.context->memory, m.objects, m.capacity * sizeof *m.objects);
+  if (status != CELSPAN_OK)
+    return fail(L, script);
+  lua_pushboolean(L, m.is_any);
+  return 1;
+}
+
+/* ---------------------------------------------------------------- costs */
+
+typedef struct cost {
+  double seconds;
+  celspan_statistics of;
+} cost;
+
+static celspan_status measure(celspan_context *context, const celspan_frame_desc *desc, cost *out) {
+  const celspan_sink nowhere = {.row = NULL};
+  memset(&out->of, 0, sizeof out->of);
+  double began = cs_clock_seconds();
+  CS_TRY(celspan_frame_render(context, desc, &nowhere, &out->of));
+  out->seconds = cs_clock_seconds() - began;
+  return CELSPAN_OK;
+}
+
+static celspan_status keep_one(void *user, const celspan_rostrum *from, size_t i,
+                               celspan_cel **out) {
+  const size_t *wanted = user;
+  *out = i == *wanted ? celspan_cel_ref(from->cels[i]) : NULL;
+  return CELSPAN_OK;
+}
+
+static celspan_status measure_cel(celspan_context *context, const celspan_frame_desc *whole,
+                                  size_t i, cost *out) {
+  celspan_exposure alone = whole->exposures[0];
+  celspan_frame_desc desc = *whole;
+  CS_TRY(remake(context, whole->exposures[0].rostrum, keep_one, &i, &alone.rostrum));
+  desc.exposures = &alone;
+  desc.exposure_count = 1;
+  celspan_status status = measure(context, &desc, out);
+  celspan_rostrum_unref(alone.rostrum);
+  return status;
+}
+
+/* Calls the function that is argument 8 with a table of what it costs. */
+static void give_cost(lua_State *L, const char *name, cs_mark mark, const cost *c) {
+  celspan_origin origin = cs_mark_origin(mark);
+  lua_pushvalue(L, 8);
+  lua_createtable(L, 0, 10);
+  cs_put_text(L, "name", name);
+  cs_put_text(L, "file", origin.line > 0 ? origin.source : NULL);
+  cs_put_integer(L, "line", origin.line);
+  cs_put_number(L, "seconds", c->seconds);
+  cs_put_integer(L, "bytes", (lua_Integer)c->of.peak_bytes);
+  cs_put_integer(L, "single", (lua_Integer)c->of.single);
+  cs_put_integer(L, "gradient", (lua_Integer)c->of.gradient);
+  cs_put_integer(L, "array", (lua_Integer)c->of.array);
+  cs_put_integer(L, "evaluations", (lua_Integer)c->of.colour_evaluations);
+  lua_call(L, 1, 0);
+}
+
+/* film:costs(width, height, x, y, w, h, add) -> true | nil, message: calls add with what that part
+ * of the frame costs as a whole, then each cel of its first exposure alone, CELS_MOST at most. */
+int cs_stage_costs(lua_State *L, cs_script *script) {
+  celspan_frame_desc desc;
+  cost c;
+  if (!cs_stage_frame(L, script, &desc))
+    return 2;
+  luaL_checktype(L, 8, LUA_TFUNCTION);
+  if (measure(script->context, &desc, &c) != CELSPAN_OK)
+    return fail(L, script);
+  give_cost(L, "", (cs_mark){NULL, NULL, 0}, &c);
+  const celspan_rostrum *rostrum = desc.exposure_count > 0 ? desc.exposures[0].rostrum : NULL;
+  for (size_t i = 0; rostrum && i < rostrum->cel_count && i < CELS_MOST; i++) {
+    char label[LABEL];
+    if (measure_cel(script->context, &desc, i, &c) != CELSPAN_OK)
+      return fail(L, script);
+    give_cost(L, label_of(rostrum, i, label), rostrum->cels[i]->mark, &c);
+  }
+  lua_pushboolean(L, true);
+  return 1;
+}

@@ -1,0 +1,42 @@
+// What the frames of a film cost, for the page of celspan watch.
+//
+//   each picture that arrives --seconds--> times --> the strip under the sheet, the slowest frames
+//   /costs.json?frame=N --> the table: the frame, and each of its cels alone
+const SLOWEST = 5; // frames that are listed
+const SLOW_SHARE = 1; // of the time of a frame, above which a bar is in the colour of slow ones
+
+const times = new Map(); // seconds, by the number of the frame
+let build = 0;
+
+/** Notes how long a frame of a save took. */
+export function noteTime(number, seconds, ofBuild) {
+  if (ofBuild !== build) times.clear();
+  build = ofBuild;
+  if (seconds > 0) times.set(number, seconds);
+}
+
+/** The frames that took longest, { number, seconds }. */
+export function slowest() {
+  return [...times].map(([number, seconds]) => ({ number, seconds }))
+    .sort((a, b) => b.seconds - a.seconds).slice(0, SLOWEST);
+}
+
+/** A bar for each frame whose time is known, from y on; `due`: the seconds that a frame may take. */
+export function drawStrip(brush, y, height, unit, due, colours) {
+  const most = Math.max(due, ...times.values());
+  for (const [number, seconds] of times) {
+    const bar = Math.max(1, seconds / most * (height - 4));
+    brush.fillStyle = seconds > SLOW_SHARE * due ? colours.slow : colours.quiet;
+    brush.fillRect((number - 1) * unit, y + height - 2 - bar, Math.max(1, unit - 1), bar);
+  }
+}
+
+const number = (value, digits) => value.toLocaleString("en", { maximumFractionDigits: digits,
+                                                               minimumFractionDigits: digits });
+
+/** The cells of a row of the table: name, milliseconds, MiB, spans by kind. */
+export function cellsOf(one, isWhole) {
+  return [isWhole ? "the frame" : one.name, number(one.seconds * 1000, 1),
+          number(one.bytes / 1048576, 1), number(one.single, 0), number(one.gradient, 0),
+          number(one.array, 0)];
+}

@@ -1,0 +1,189 @@
+-- celspan watch: what lies under the picture, and other ways to look at it.
+local json = require "celspan.json"
+local present = require "tests.support.present"
+local watching = require "tests.support.watching"
+
+if not present.web() then return pending "celspan was built without libmicrohttpd" end
+if not present.program "node" then return pending "there is no node" end
+
+local FILM = [[
+local celspan = require "celspan"
+local function ball(at) return celspan.circle { centre = at, radius = 6, texture = "#c33" } end
+return celspan.film { size = { 64, 36 }, fps = 24, frames = 48, frame = function(f)
+  return celspan.rostrum { camera = { centre = { 32, 18 }, width = 32 },
+    celspan.cel { celspan.rect { 0, 0, 64, 36, texture = "#ffe0b0" } }:named "ground",
+    f.number > 2 and celspan.cel { ball { 32, 18 }, front = { 0, 0.5, 0 }, defocus = 2 }:named "ball"
+      or celspan.cel { celspan.rect { 20, 20, 2, 2, texture = "#00f" } },
+  }
+end }
+]]
+
+before_each(function() watching.begin { ["shot.lua"] = FILM } end)
+after_each(watching.finish)
+
+describe("a frame in another way", function()
+  it("is without cels, lights or defocus, and shows spans or what a line made", function()
+    local said = watching.speak(watching.watch(), [=[
+      const frame = "/frame/3.rgba?size=64x36";
+      const colour = async (query, x, y) => {
+        const { status, body } = await web.get(frame + query), at = 4 * (64 * y + x);
+        if (status !== 200) return [status];
+        return [0, 1, 2, 3].map(i => body.charCodeAt(at + i));
+      };
+      const cels = letters => "&cels=" + encodeURIComponent(JSON.stringify(letters));
+      const made = line => `&show=made&file=shot.lua&line=${line}`;
+      return { lit: await colour("", 32, 18), unlit: await colour(cels({ ball: "lf" }), 32, 18),
+               hidden: await colour(cels({ ball: "h" }), 32, 18),
+               none: await colour(cels({ ball: "h", ground: "h" }), 32, 18),
+               soft: await colour("", 32, 7), sharp: await colour(cels({ ball: "f" }), 32, 7),
+               spans: await colour("&show=spans", 2, 2), end: await colour("&show=spans", 0, 2),
+               circle: await colour(made(2), 32, 18), beside: await colour(made(2), 4, 4),
+               ground: await colour(made(5), 4, 4), nothing: await colour(made(1), 32, 18),
+               bad: await web.statuses(["cels=4", "show=x"].map(query =>
+                 [`${frame}&${query}&token=${web.token}`])) };]=])
+    assert.same({ 0, 35, 0, 255 }, said.lit)
+    assert.same({ 204, 51, 51, 255 }, said.unlit)
+    assert.same({ 255, 224, 176, 255 }, said.hidden)
+    assert.same({ 0, 0, 0, 0 }, said.none)
+    assert.are_not.same(said.soft, said.sharp)
+    assert.same({ 60, 130, 255, 110 }, said.spans)
+    assert.same({ 60, 130, 255, 255 }, said["end"])
+    assert.equal(255, said.circle[4])
+    assert.equal(0, said.beside[4])
+    assert.equal(255, said.ground[4])
+    assert.equal(0, said.nothing[4])
+    assert.same({ 400, 400 }, said.bad)
+  end)
+
+  it("has objects at its points where the camera shows them", function()
+    local said = watching.speak(watching.watch(), [=[
+      return (await web.get("/at/42,18.json?frame=3")).body;]=])
+    -- Twice as large: the ball is from 20 to 44.
+    assert.equal("ball", json.decode(said)[2].name)
+  end)
+
+  it("has costs, as a whole and of each cel", function()
+    local said = watching.speak(watching.watch(), [=[
+      return JSON.parse((await web.get("/costs.json?frame=3&size=640x360")).body);]=])
+    local names = {}
+    for i, one in ipairs(said) do
+      names[i] = ("%s %s:%s"):format(one.name, one.file, one.line)
+      assert.is_true(one.seconds > 0 and one.bytes > 0)
+    end
+    assert.same({ " nil:0", "ground shot.lua:5", "ball shot.lua:6" }, names)
+    assert.is_true(said[2].single > 0 and said[2].gradient == 0)
+    assert.is_true(said[3].gradient > 0) -- it is defocused
+  end)
+end)
+
+describe("a line that an editor sends", function()
+  it("is known by its file and line, with the frames that it made something in", function()
+    local said = watching.speak(watching.watch(), [=[
+      const here = (body, headers) => web.get("/here",
+        { method: "POST", body: JSON.stringify(body), headers });
+      await web.get("/frame/1.png");
+      const none = (await web.get("/made.json")).body;
+      const stranger = { Origin: "http://evil.example" };
+      const refused = [await here({ file: "/etc/passwd", line: 2 }),
+                       await here({ file: "shot.lua" }),
+                       await here({ file: "shot.lua", line: 2 }, stranger)];
+      const taken = await here({ file: "]=] .. watching.bench.folder .. [=[/shot.lua", line: 2 });
+      const runs = (await web.get("/made.json")).body;
+      const bare = await web.statuses([["/here", { method: "POST", body: "{}" }]]);
+      return { none, refused: refused.map(one => one.status), taken: taken.body, runs, bare };]=])
+    assert.equal("[]\n", said.none)
+    assert.same({ 404, 404, 403 }, said.refused)
+    assert.same({ file = "shot.lua", line = 2, count = 1 }, json.decode(said.taken))
+    assert.same({ { 3, 48 } }, json.decode(said.runs))
+    assert.same({ 403 }, said.bare)
+  end)
+end)
+
+describe("the page of celspan watch over its picture #plain", function()
+  if not present.program "chromium" then return pending "there is no chromium" end
+
+  local COLOUR = [[
+    const colour = (id, x, y) => page.get(`(() => { const canvas = document.querySelector("#${id}");
+      return canvas.hidden ? [] : [...canvas.getContext("2d").getImageData(
+        Math.floor(${x} * canvas.width), Math.floor(${y} * canvas.height), 1, 1).data]; })()`);
+    const click = what => page.get(`document.querySelector('${what}').click()`);
+    await page.until(`${stage("frame")} === "1"`);
+    await page.press("ArrowRight"); await page.press("ArrowRight");
+    await page.until(`${stage("frame")} === "3"`);
+  ]]
+
+  it("has spans, and an outline of what a line made, which is also a strip over the sheet",
+    function()
+      local address = watching.watch()
+      local said = watching.see(address, COLOUR .. [=[
+        await page.press("s");
+        await page.until(`document.querySelectorAll("#names li").length > 1`);
+        await page.press("e");
+        await page.until(`!document.querySelector("#overlay").hidden`);
+        const spans = await colour("overlay", 0.1, 0.1);
+        await page.press("e");
+        await page.until(`document.querySelector("#overlay").hidden`);
+        const server = new URL("]=] .. address .. [=[");
+        server.pathname = "/here";
+        await fetch(server,
+          { method: "POST", body: JSON.stringify({ file: "shot.lua", line: 2 }) });
+        await page.until(`!document.querySelector("#overlay").hidden`);
+        // The ball is from 20 to 44 of 64.
+        const border = await page.get(`(() => { const canvas = document.querySelector("#overlay");
+          const row = canvas.getContext("2d").getImageData(0, canvas.height >> 1, canvas.width, 1);
+          const list = [];
+          for (let x = 0; x < canvas.width; x++) {
+            if (row.data[4 * x + 3]) list.push(Math.round(x / canvas.width * 64));
+          }
+          return [...new Set(list)]; })()`);
+        await page.until(`document.querySelector("#rows").getContext("2d")
+          .getImageData(document.querySelector("#rows").width >> 1, 1, 1, 1).data[2] < 100`);
+        const strip = await colour("rows", 0.01, 0.01);
+        await page.press("Escape");
+        await page.until(`document.querySelector("#overlay").hidden`);
+        return { spans, border, strip };]=])
+      assert.same({ 60, 130, 255, 110 }, said.spans)
+      assert.same({ 20, 44 }, said.border)
+      assert.equal(0, said.strip[4])
+    end)
+
+  it("shows cels alone, hidden, without light and in focus", function()
+    local said = watching.see(watching.watch(), COLOUR .. [=[
+      const wait = async old => page.until(`[...document.querySelector("#stage").getContext("2d")
+        .getImageData(document.querySelector("#stage").width >> 1,
+          document.querySelector("#stage").height >> 1, 1, 1).data].join() !== "${old}"`);
+      await page.press("s");
+      await page.until(`document.querySelectorAll("#names button").length === 12`);
+      const seen = [];
+      const press = async what => {
+        const old = (await colour("stage", 0.5, 0.5)).join();
+        await click(`#names [aria-label="${what}"]`);
+        await wait(old);
+        seen.push((await colour("stage", 0.5, 0.5)).join());
+      };
+      await press("ball: light off");
+      await press("ball: hidden");
+      await press("ball: hidden");
+      await press("ground: solo");
+      await press("ball: solo");
+      return { seen, pressed: await page.get(`document.querySelector(
+        '[aria-label="ball: light off"]').ariaPressed`) };]=])
+    assert.same({ "204,51,51,255", "255,224,176,255", "204,51,51,255", "255,224,176,255",
+                  "204,51,51,255" }, said.seen)
+    assert.equal("true", said.pressed)
+  end)
+
+  it("lists what cels and frames cost", function()
+    local said = watching.see(watching.watch(), COLOUR .. [=[
+      await page.press("c");
+      await page.until(`document.querySelectorAll("#cost-rows tr").length === 3`);
+      await page.until(`document.querySelectorAll("#slowest li").length === 3`);
+      const names = await page.get(`[...document.querySelectorAll("#cost-rows th")]
+        .map(one => one.textContent)`);
+      const slowest = await page.get(`document.querySelector("#slowest button").textContent`);
+      await click("#slowest button");
+      await page.until(`"frame " + ${stage("frame")} === "${slowest}"`);
+      return names;]=])
+    assert.same({ "the frame", "ground", "ball" }, said)
+  end)
+end)
