@@ -12,7 +12,8 @@ local function ball(at) return celspan.circle { centre = at, radius = 6, texture
 return celspan.film { size = { 64, 36 }, fps = 24, frames = 48, frame = function(f)
   return celspan.rostrum { camera = { centre = { 32, 18 }, width = 32 },
     celspan.cel { celspan.rect { 0, 0, 64, 36, texture = "#ffe0b0" } }:named "ground",
-    f.number > 2 and celspan.cel { ball { 32, 18 }, front = { 0, 0.5, 0 }, defocus = 2 }:named "ball"
+    f.number > 2 and celspan.cel { ball { 32, 18 }, front = { 0, 0.5, 0 }, defocus = 2 }
+        :named "ball"
       or celspan.cel { celspan.rect { 20, 20, 2, 2, texture = "#00f" } },
   }
 end }
