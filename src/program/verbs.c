@@ -168,6 +168,7 @@ static const cs_option CHECK[] = {
     {"--deep", NULL, NULL,
      "read every picture completely, not only its header, and have ffmpeg read the "
      "sound"},
+    {"--json", NULL, NULL, "print the faults as a JSON list on standard output"},
     SCRIPT,
     {0}};
 

@@ -1,6 +1,7 @@
 -- The command line: its output and exit codes. One file, because all verbs share options, codes and
 -- messages; verbs with more than that have files of their own.
 
+local json = require "celspan.json"
 local PLAIN = require "tests.support.plain_film"
 local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
@@ -637,6 +638,22 @@ describe("the command line", function()
       assert.equal(0, code, err)
       assert.equal("", out)
       assert.truthy(err:find("12 frames checked: no faults", 1, true), err)
+    end)
+
+    it("prints faults as JSON", function()
+      local script = write("faulty.lua", (PLAIN:gsub("return celspan%.rostrum",
+        "if f.number > 9 then error 'no' end\n  %0")))
+      local code, out, err = celspan("check --json " .. script)
+      assert.equal(3, code, err)
+      local list = json.decode(out)
+      assert.equal(1, #list)
+      assert.truthy(list[1].message:find(":%d+: no$"), out)
+      assert.same({ 10, "10-12", script }, { list[1].frame, list[1].frames, list[1].file })
+      local none = { celspan("check --json " .. plain) }
+      assert.same({ 0, "[]\n" }, { none[1], none[2] })
+      code, out = celspan("check --json " .. write("torn.lua", "local x = = 3"))
+      assert.equal(3, code)
+      assert.equal(1, json.decode(out)[1].line)
     end)
 
     it("finds frame functions that are not pure", function()

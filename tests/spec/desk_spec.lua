@@ -1,4 +1,5 @@
 -- The animator's desk: test, init, contact, onion skin and pictures of differences.
+local json = require "celspan.json"
 local celspan = require "celspan"
 local workbench = require "tests.support.workbench"
 
@@ -186,7 +187,8 @@ describe("celspan init", function()
     assert.truthy(out:find("cd walk", 1, true))
     for _, name in ipairs { "film.lua", "walk.txt", "spec/film_spec.lua", "spec/frame1.png",
       "README.md",
-                            ".luarc.json", ".luacheckrc", ".busted" } do
+                            ".luarc.json", ".luacheckrc", ".busted",
+                            ".vscode/tasks.json", ".vscode/extensions.json" } do
       assert.truthy(bench:read(bench.folder .. "/walk/" .. name), name)
     end
     assert.truthy(bench:read(bench.folder .. "/walk/README.md"):find("^# walk\n"))
@@ -207,6 +209,24 @@ describe("celspan init", function()
     assert.equal(0, code, err)
     assert.truthy(out:find("cd 'Mein Füchslein 2'", 1, true), out)
     assert.equal(0, (run "check 'Mein Füchslein 2/film.lua'"))
+  end)
+
+  it("lays out tasks whose pattern finds the lines of faults", function()
+    run "init walk"
+    local tasks = json.decode(bench:read(bench.folder .. "/walk/.vscode/tasks.json")).tasks
+    local pattern
+    for _, task in ipairs(tasks) do
+      if task.label == "celspan: check" then pattern = task.problemMatcher.pattern.regexp end
+    end
+    local steps = bench:write("match.js", ([[
+      const pattern = new RegExp(process.argv[2]);
+      const found = ["film.lua:3: unexpected symbol", "frames 3-17, 20: film.lua:7: no",
+        "frame 2: cel 2 'a' (walk.lua:12), primitive 3: n.png: cannot be opened", "other"]
+        .map(text => ("celspan: error: " + text).match(pattern));
+      console.log(JSON.stringify(found.map(one => one ? one.slice(1) : [])));]]))
+    local _, out = bench:shell(("node '%s' '%s'"):format(steps, pattern))
+    assert.same({ { "film.lua", "3", "unexpected symbol" }, { "film.lua", "7", "no" },
+                  { "walk.lua", "12", "n.png: cannot be opened" }, {} }, json.decode(out))
   end)
 
   it("names the folder of the annotations that exists", function()

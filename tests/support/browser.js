@@ -8,7 +8,7 @@ const { spawn } = require("child_process");
 const fs = require("fs");
 
 const [folder, address, steps] = process.argv.slice(2);
-const SECONDS = 60; // for everything
+const SECONDS = Number(process.env.CELSPAN_BROWSER_SECONDS ?? 60); // for everything
 
 const browser = spawn("chromium", ["--headless=new", "--no-sandbox", "--disable-gpu", "--mute-audio",
   "--no-first-run", "--disable-extensions", "--disable-background-networking",

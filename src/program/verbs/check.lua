@@ -14,6 +14,8 @@
 --   frames 3-17, 20: cel 2, primitive 5: night.png: cannot be opened: No such file or directory
 --   frames 1, 3, 5, 7, 9, 11, 13, 15 and 4992 more up to 9999: shot.lua:7: ...
 --
+-- With --json they are a list on standard output instead.
+--
 -- Memory depends on the number of different sentences, not of frames: at most FAULTS_MOST sentences
 -- are kept, each with at most RUNS_MOST runs of frames; the rest is counted.
 local program, request = ...
@@ -172,12 +174,34 @@ local function frames_of(fault)
   return (is_one and "frame " or "frames ") .. table.concat(words, ", ") .. more
 end
 
+--- The sentence of a fault without its frames.
+local function sentence_of(fault)
+  return ("%s%s%s%s"):format(fault.where, fault.is_everywhere and ", and elsewhere" or "",
+    fault.where == "" and "" or ": ", fault.text)
+end
+
+--- A fault for other programs, as /errors.json of `celspan watch` has it.
+local function describe(sentence, frame, frames)
+  local file, line = program.place_of(sentence)
+  return { message = sentence, frame = frame, frames = frames, file = file, line = line }
+end
+
+--- All faults as JSON, on standard output. more: sentences that are about no frame.
+local function print_json(more)
+  local list = {}
+  for _, sentence in ipairs(more) do list[#list + 1] = describe(sentence) end
+  for _, fault in ipairs(faults) do
+    local frames = frames_of(fault):match "%d.*"
+    list[#list + 1] = describe(sentence_of(fault), fault.runs[1].first, frames)
+  end
+  print(program.json { list = list })
+end
+
 local function plural(count) return count == 1 and "" or "s" end
 
 local function report(done, count, sound)
-  for _, fault in ipairs(faults) do
-    program.error("%s: %s%s%s%s", frames_of(fault), fault.where,
-      fault.is_everywhere and ", and elsewhere" or "", fault.where == "" and "" or ": ", fault.text)
+  for _, fault in ipairs(request.json and {} or faults) do
+    program.error("%s: %s", frames_of(fault), sentence_of(fault))
   end
   if faults.beyond > 0 then
     program.error("%d more faults with other sentences are not listed: check fewer frames at a "
@@ -194,10 +218,25 @@ local function report(done, count, sound)
   end
 end
 
-local film = program.film()
+--- The film of the script. Where there is none, that is the one fault.
+local function open()
+  local good, film = pcall(program.film)
+  if good then return film end
+  print_json { program.reported() or tostring(film) }
+  return nil, program.outcome()
+end
+
+local film, failed
+if request.json then
+  film, failed = open()
+  if not film then return failed end
+else
+  film = program.film()
+end
 local listed = request.frames and film:numbers()
 local count = listed and #listed or film.frames
 local sound = film:check_sound()
 local done, ended = check_parts(film, listed, count)
+if request.json then print_json { sound ~= 0 and program.reported() or nil } end
 report(done, count, sound)
 return faults.code or ended or sound

@@ -12,6 +12,7 @@ local texts = { -- by the names of the files
   ["film.lua"] = "film.lua", ["walk.txt"] = "walk.txt", ["spec/film_spec.lua"] = "film_spec.lua",
   ["README.md"] = "README.md", [".luarc.json"] = "luarc.json", [".luacheckrc"] = "luacheckrc",
   [".busted"] = "busted", [".gitignore"] = "gitignore",
+  [".vscode/tasks.json"] = "tasks.json", [".vscode/extensions.json"] = "extensions.json",
 }
 
 local folder = request[1]

@@ -42,6 +42,13 @@ function program.numbers(text)
   return list
 end
 
+--- The file and the line that a sentence about a script names; nil: none.
+function program.place_of(sentence)
+  local path, line = sentence:match "^([^:\n]+):(%d+): "
+  if not path then path, line = sentence:match "%(([^():\n]+):(%d+)%)" end
+  return path, math.tointeger(line)
+end
+
 --- A value as JSON: tables with a field `list`, or with items, are lists, others are objects. Bytes
 --- that are not UTF-8 become question marks.
 function program.json(value)

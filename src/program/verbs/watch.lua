@@ -121,11 +121,11 @@ end
 
 --- An error as /errors.json lists it.
 local function describe(message, frame)
-  local path, line = message:match "^([^:\n]+):(%d+): "
-  note_place(path, math.tointeger(line))
+  local path, line = program.place_of(message)
+  note_place(path, line)
   frame = frame or math.tointeger(message:match "frame (%-?%d+): ")
-  return { message = message, frame = frame, file = path, line = math.tointeger(line),
-           lines = path and excerpt(path, math.tointeger(line)) }
+  return { message = message, frame = frame, file = path, line = line,
+           lines = path and excerpt(path, line) }
 end
 
 local function add_error(message, frame)

@@ -1,0 +1,127 @@
+// Measures the page of celspan watch, as steps of tests/support/browser.js (./run bench watch): what
+// an animator waits for, in milliseconds; and what a picture costs in processor time, by the way in
+// which it travels. The film is the demo with a parameter, in the folder of SHOT.
+const { readFileSync, readdirSync, writeFileSync, appendFileSync } = require("fs");
+const SHOT = process.env.CELSPAN_SHOT, SERVER = process.env.CELSPAN_SERVER;
+const TICK = 10; // milliseconds of the kernel's clock for processes
+
+await page.call("Emulation.setDeviceMetricsOverride",
+  { width: 1312, height: 900, deviceScaleFactor: 1, mobile: false });
+await page.call("Performance.enable");
+await page.until(`document.querySelector("#stage").dataset.size === "1280x720"`);
+
+const middle = list => [...list].sort((a, b) => a - b)[list.length >> 1];
+
+/** Milliseconds from an act in the page until an attribute of the picture changes. */
+const timed = (act, name) => page.get(`new Promise(done => {
+  const stage = document.querySelector("#stage"), old = stage.dataset.${name};
+  const began = performance.now();
+  new MutationObserver((_, watcher) => {
+    if (stage.dataset.${name} === old) return;
+    watcher.disconnect();
+    requestAnimationFrame(() => done(performance.now() - began));
+  }).observe(stage, { attributes: true });
+  ${act};
+})`);
+
+async function several(count, act, name) {
+  const list = [];
+  for (let i = 0; i < count; i++) {
+    list.push(await timed(act(i), name));
+    await page.pause(0.1);
+  }
+  return Math.round(middle(list) * 10) / 10;
+}
+
+/** Milliseconds from writing the script until the new picture is painted. */
+async function save(i) {
+  const old = await page.get(`document.querySelector("#stage").dataset.build`);
+  const painted = page.get(`new Promise(done => {
+    const stage = document.querySelector("#stage");
+    new MutationObserver((_, watcher) => {
+      if (stage.dataset.build === "${old}") return;
+      watcher.disconnect();
+      requestAnimationFrame(() => done(Date.now()));
+    }).observe(stage, { attributes: true });
+  })`);
+  const began = Date.now();
+  appendFileSync(SHOT, `-- ${i}\n`);
+  return await painted - began;
+}
+
+/** The time of the processors that the server and its renderers have used, in milliseconds. */
+function serverTime() {
+  let all = 0;
+  for (const id of readdirSync("/proc").filter(name => /^\d+$/.test(name))) {
+    try {
+      const fields = readFileSync(`/proc/${id}/stat`, "utf8").replace(/^.*\) /, "").split(" ");
+      const isOurs = id === SERVER || fields[1] === SERVER;
+      if (isOurs) all += (Number(fields[11]) + Number(fields[12])) * TICK;
+    } catch { /* it has ended */ }
+  }
+  return all;
+}
+
+async function pageTime() {
+  const { metrics } = await page.call("Performance.getMetrics");
+  return metrics.find(one => one.name === "TaskDuration").value * 1000;
+}
+
+/** What `count` frames cost that come as PNG or as rows of RGBA, each painted. */
+async function travel(ending, count) {
+  const server = serverTime(), own = await pageTime(), began = Date.now();
+  const bytes = await page.get(`(async () => {
+    const canvas = document.createElement("canvas"), pen = canvas.getContext("2d");
+    let all = 0;
+    canvas.width = 1280;
+    canvas.height = 720;
+    for (let i = 1; i <= ${count}; i++) {
+      const answer = await fetch("/frame/" + i + ".${ending}?size=1280x720");
+      const bytes = await answer.arrayBuffer();
+      all += bytes.byteLength;
+      if ("${ending}" === "png") pen.drawImage(await createImageBitmap(new Blob([bytes])), 0, 0);
+      else pen.putImageData(new ImageData(new Uint8ClampedArray(bytes), 1280, 720), 0, 0);
+    }
+    pen.getImageData(0, 0, 1, 1);
+    return all;
+  })()`);
+  const each = value => Math.round(value / count * 10) / 10;
+  return { server_cpu_ms: each(serverTime() - server), page_cpu_ms: each(await pageTime() - own),
+           wall_ms: each(Date.now() - began), kib: Math.round(bytes / count / 1024) };
+}
+
+const said = { load: readFileSync("/proc/loadavg", "utf8").split(" ")[0] };
+const saves = [];
+for (let i = 0; i < 15; i++) {
+  saves.push(await save(i));
+  await page.pause(0.3);
+}
+said.save_ms = middle(saves);
+said.scrub_ms = await several(25, i => `(() => { const scrub = document.querySelector("#scrub");
+  scrub.value = ${1 + (i * 37) % 200}; scrub.dispatchEvent(new Event("input")); })()`, "frame");
+await page.press("v");
+said.parameter_ms = await several(15, i => `(() => {
+  const input = document.querySelector("#form input[type=range]");
+  input.value = ${(i % 9 + 1) / 10}; input.dispatchEvent(new Event("input")); })()`, "build");
+await page.press("v");
+await page.press("0");
+await page.pause(0.5);
+said.zoom_ms = await several(100, () => `document.querySelector("#desk").dispatchEvent(
+  new WheelEvent("wheel", { deltaY: -40, clientX: 700, clientY: 400 }))`, "size");
+await page.press("0");
+await page.until(`document.querySelector("#stage").dataset.size === "1280x720"`);
+said.png = await travel("png", 48);
+said.rgba = await travel("rgba", 48);
+await page.get(`document.querySelector("#scrub").value = 1`);
+await page.press("Home");
+const server = serverTime(), own = await pageTime();
+await page.get(`(() => { window.seen = new Set();
+  new MutationObserver(() => seen.add(document.querySelector("#stage").dataset.frame))
+    .observe(document.querySelector("#stage"), { attributes: true }); })()`);
+await page.press(" ");
+await page.pause(5);
+await page.press(" ");
+const frames = await page.get("seen.size");
+said.play = { frames_a_second: frames / 5, server_cpu_ms: Math.round((serverTime() - server) / frames),
+              page_cpu_ms: Math.round((await pageTime() - own) / frames) };
+return said;
