@@ -9,10 +9,10 @@
 #include "engine/row/row.h"
 #include "engine/sample/defocused.h"
 
-/* ---------------------------------------------------------------- bands of flat art */
+/* ---------------------------------------------------------------- bands made row by row */
 
-/* Bands of flat art, from its boundaries alone: row after row, through the kernel of the plans or
- * line by line (lines.h).
+/* Bands that are made row after row: of flat art, from its boundaries alone, through the kernel of
+ * the plans or line by line (lines.h); and from the cel's own grid (regrid.h).
  *
  *  plan of S --boundaries--> a row of nodes --\                 /--> polyline, where a row of nodes
  *                                              >--> even groups     is a row of pixels,
@@ -21,12 +21,6 @@
  * Only one row of nodes is held at a time, and groups of one colour are neither written nor looked
  * at node by node.
  */
-
-typedef struct flat_art {
-  const cs_defocused *grid;
-  const cs_plan *plans;          /* one a plane */
-  const cs_defocus_edges *edges; /* NULL: the plans have kernels */
-} flat_art;
 
 #define GROUP CS_DEFOCUSED_GROUP
 
@@ -40,27 +34,31 @@ typedef struct node_plane {
 } node_plane;
 
 typedef struct filling {
-  const flat_art *flat;
+  const cs_defocus *defocus;
+  const cs_defocused *grid;
   celspan_context *context;
   node_plane planes[2];
+  cs_regrid_rows own; /* where the cel has a grid of its own */
   int32_t groups;
 } filling;
 
 /* ---------------------------------------------------------------- life */
 
 static celspan_status init_plane(filling *f, int k) {
-  const flat_art *flat = f->flat;
+  const cs_defocus *defocus = f->defocus;
   cs_memory *memory = f->context->memory;
   node_plane *p = &f->planes[k];
-  int32_t columns = flat->grid->columns;
+  int32_t columns = f->grid->columns;
   cs_row_init(&p->row);
-  CS_TRY(cs_row_maker_init(&p->maker, f->context, &flat->plans[k]));
+  if (defocus->way != CS_DEFOCUS_OWN)
+    CS_TRY(cs_row_maker_init(&p->maker, f->context, &defocus->plans[k]));
   p->nodes = cs_mem_array(memory, (size_t)columns, sizeof *p->nodes);
   p->even = cs_mem_array(memory, (size_t)f->groups, sizeof *p->even);
   if (!p->nodes || !p->even)
     return cs_fail_memory(f->context);
-  return flat->edges ? cs_defocus_lines_create(flat->edges, &p->maker, columns, &p->lines)
-                     : CELSPAN_OK;
+  return defocus->way == CS_DEFOCUS_EDGES
+             ? cs_defocus_lines_create(&defocus->edges, &p->maker, columns, &p->lines)
+             : CELSPAN_OK;
 }
 
 static void finish_plane(filling *f, int k) {
@@ -68,15 +66,16 @@ static void finish_plane(filling *f, int k) {
   node_plane *p = &f->planes[k];
   cs_defocus_lines_free(p->lines);
   cs_row_finish(&p->row, memory);
-  cs_mem_free(memory, p->nodes, (size_t)f->flat->grid->columns * sizeof *p->nodes);
+  cs_mem_free(memory, p->nodes, (size_t)f->grid->columns * sizeof *p->nodes);
   cs_mem_free(memory, p->even, (size_t)f->groups * sizeof *p->even);
-  cs_row_maker_finish(&p->maker);
+  if (f->defocus->way != CS_DEFOCUS_OWN)
+    cs_row_maker_finish(&p->maker);
 }
 
 /* ---------------------------------------------------------------- a row of nodes */
 
 static inline int32_t group_end(const filling *f, int32_t i) {
-  return i + 1 < f->groups ? (i + 1) * GROUP : f->flat->grid->columns;
+  return i + 1 < f->groups ? (i + 1) * GROUP : f->grid->columns;
 }
 
 /* Writes a stretch of one colour; of the groups that lie in it, no more than their ends. */
@@ -121,26 +120,33 @@ static void agree(const filling *f, node_plane *a, node_plane *b) {
       write_group(f, a->even[i] ? a : b, i);
 }
 
+static celspan_status make_plane(filling *f, int k, int32_t y) {
+  node_plane *p = &f->planes[k];
+  return f->defocus->way == CS_DEFOCUS_OWN ? cs_regrid_row(&f->own, k, y, p->nodes, p->even)
+         : p->lines                        ? cs_defocus_lines_row(p->lines, y, p->nodes, p->even)
+                                           : filter_row(f, p, y);
+}
+
 static celspan_status make_nodes(filling *f, int32_t y) {
-  int planes = f->flat->grid->planes;
-  for (int k = 0; k < planes; k++) {
-    node_plane *p = &f->planes[k];
-    CS_TRY(p->lines ? cs_defocus_lines_row(p->lines, y, p->nodes, p->even) : filter_row(f, p, y));
-  }
+  int planes = f->grid->planes;
+  for (int k = 0; k < planes; k++)
+    CS_TRY(make_plane(f, k, y));
   if (planes == 2)
     agree(f, &f->planes[0], &f->planes[1]);
   return CELSPAN_OK;
 }
 
-/* ---------------------------------------------------------------- a band of flat art */
+/* ---------------------------------------------------------------- a band */
 
 /* Whether only the ends of straight runs of nodes are kept: nothing is interpolated between the
  * rows. */
-static bool is_thin(const flat_art *flat) { return flat->grid->pitch_y == 1; }
+static bool is_thin(const cs_defocus *defocus) {
+  return defocus->grid.pitch_y == 1 && !defocus->is_own;
+}
 
 /* Keeps all nodes of a row, as row k of the band. */
 static void keep_nodes(filling *f, int32_t k, cs_defocus_band *band) {
-  const cs_defocused *grid = f->flat->grid;
+  const cs_defocused *grid = f->grid;
   size_t columns = (size_t)grid->columns, size = (size_t)grid->band_rows * columns;
   for (int i = 0; i < grid->planes; i++) {
     node_plane *p = &f->planes[i];
@@ -156,35 +162,42 @@ static celspan_status keep_vertices(filling *f, cs_defocus_band *band) {
   const node_plane *p = f->planes;
   cs_defocused_nodes nodes = {{(const float(*)[4])p[0].nodes, (const float(*)[4])p[1].nodes},
                               p[0].even};
-  return cs_defocus_band_add(f->flat->grid, f->context, &nodes, band);
+  return cs_defocus_band_add(f->grid, f->context, &nodes, band);
 }
 
 static celspan_status fill_rows(filling *f, int32_t first, int32_t end, cs_defocus_band *band) {
-  const flat_art *flat = f->flat;
-  CS_TRY(is_thin(flat) ? cs_defocus_band_begin(f->context, end - first, band)
-                       : cs_defocus_band_room(flat->grid, f->context, band));
-  for (int k = 0; k < flat->grid->planes; k++)
+  const cs_defocus *defocus = f->defocus;
+  CS_TRY(is_thin(defocus) ? cs_defocus_band_begin(f->context, end - first, band)
+                          : cs_defocus_band_room(f->grid, f->context, band));
+  if (defocus->way == CS_DEFOCUS_OWN)
+    CS_TRY(cs_regrid_begin(&defocus->regrid, f->grid, f->context, &f->own));
+  for (int k = 0; k < f->grid->planes; k++)
     CS_TRY(init_plane(f, k));
   for (int32_t y = first; y < end; y++) {
     CS_TRY(make_nodes(f, y));
-    if (is_thin(flat))
+    if (is_thin(defocus))
       CS_TRY(keep_vertices(f, band));
     else
       keep_nodes(f, y - first, band);
   }
-  if (is_thin(flat))
-    cs_defocus_band_end(flat->grid, f->context->memory, band);
+  if (is_thin(defocus))
+    cs_defocus_band_end(f->grid, f->context->memory, band);
   return CELSPAN_OK;
 }
 
 /* Fills an empty band with the rows [first, end) of nodes. Errors: NO_MEMORY and those of the rows
  * of the plans. */
-static CELSPAN_CHECKED celspan_status fill_flat(const flat_art *flat, celspan_context *context,
+static CELSPAN_CHECKED celspan_status fill_band(const cs_defocus *defocus, celspan_context *context,
                                                 int32_t first, int32_t end, cs_defocus_band *band) {
-  filling f = {.flat = flat, .context = context, .groups = cs_defocused_groups(flat->grid)};
+  filling f = {.defocus = defocus,
+               .grid = &defocus->grid,
+               .context = context,
+               .groups = cs_defocused_groups(&defocus->grid)};
   celspan_status status = fill_rows(&f, first, end, band);
-  for (int k = 0; k < flat->grid->planes; k++)
+  for (int k = 0; k < f.grid->planes; k++)
     finish_plane(&f, k);
+  if (f.own.map)
+    cs_regrid_finish(&f.own);
   return status;
 }
 
@@ -202,22 +215,26 @@ static CELSPAN_CHECKED celspan_status fill_flat(const flat_art *flat, celspan_co
 #define EDGES_BOX 40
 #define BAND_BYTES (16 << 20)
 #define BAND_ROWS 128
+#define BAND_ROWS_OWN 64 /* bands of a grid of its own begin and end at any height of the frame */
 #define BAND_ROWS_LEAST 8
 
 /* ---------------------------------------------------------------- the grid */
 
-/* The extent of a box along an axis; the radius of a Gaussian or a disc. */
-static double radius_along(const cs_blur *blur, int axis) {
+double cs_defocus_radius(const cs_blur *blur, int axis) {
   return blur->kind != CELSPAN_DEFOCUS_BOX
              ? (axis == 0 ? blur->radius_x : blur->radius_y)
              : fabs(blur->edges[0][axis]) + fabs(blur->edges[1][axis]);
+}
+
+double cs_defocus_reach(const cs_blur *blur, int axis) {
+  return (blur->kind == CELSPAN_DEFOCUS_GAUSSIAN ? 2 : 1) * cs_defocus_radius(blur, axis);
 }
 
 static double choose_pitch(const cs_blur *blur, int axis) {
   double fine = blur->kind == CELSPAN_DEFOCUS_GAUSSIAN ? FINE_GAUSSIAN
                 : blur->kind == CELSPAN_DEFOCUS_DISC   ? FINE_DISC
                                                        : FINE_BOX;
-  return fmax(1, radius_along(blur, axis) / fine);
+  return fmax(1, cs_defocus_radius(blur, axis) / fine);
 }
 
 static void scale_blur(cs_blur *blur, double pitch_x, double pitch_y) {
@@ -241,11 +258,39 @@ static cs_defocus_way choose_way(const cs_blur *blur, bool varies) {
   bool is_gaussian = blur->kind == CELSPAN_DEFOCUS_GAUSSIAN;
   if (varies)
     return is_gaussian ? CS_DEFOCUS_SUMS : CS_DEFOCUS_SLICES;
-  double least = fmin(radius_along(blur, 0), radius_along(blur, 1));
+  double least = fmin(cs_defocus_radius(blur, 0), cs_defocus_radius(blur, 1));
   bool has_lines = is_gaussian ? least >= EDGES_GAUSSIAN
                                : blur->kind == CELSPAN_DEFOCUS_BOX && cs_blur_is_upright(blur) &&
                                      least >= EDGES_BOX;
   return has_lines ? CS_DEFOCUS_EDGES : CS_DEFOCUS_KERNEL;
+}
+
+static void init_grid(cs_defocused *grid, int32_t width, int32_t height, int32_t most_rows) {
+  grid->columns = cs_number_ceil(width / grid->pitch_x) + 2;
+  grid->rows = cs_number_ceil(height / grid->pitch_y) + 2;
+  grid->acquire = acquire;
+  grid->release = release;
+  int64_t rows = BAND_BYTES / ((int64_t)grid->columns * 4 * (int64_t)sizeof(float));
+  grid->band_rows = (int32_t)cs_number_clamp((double)rows, BAND_ROWS_LEAST, most_rows);
+}
+
+/* Finds the way, and makes what it needs. */
+static celspan_status init_way(celspan_context *context, cs_defocus *defocus, bool varies,
+                               double samples) {
+  const cs_blur *s = &defocus->blur;
+  defocus->way = choose_way(s, varies);
+  switch (defocus->way) {
+  case CS_DEFOCUS_EDGES:
+    return cs_defocus_edges_init(context, s, &defocus->edges);
+  case CS_DEFOCUS_SUMS:
+    return cs_defocus_sums_init(context, s->radius_x, s->radius_y, samples, &defocus->sums);
+  case CS_DEFOCUS_SLICES:
+    return cs_defocus_slices_init(context, s, &defocus->slices);
+  case CS_DEFOCUS_KERNEL:
+  case CS_DEFOCUS_OWN:
+    break;
+  }
+  return CELSPAN_OK;
 }
 
 celspan_status cs_defocus_create(celspan_context *context, const cs_blur *blur, bool varies,
@@ -256,28 +301,41 @@ celspan_status cs_defocus_create(celspan_context *context, const cs_blur *blur, 
   cs_defocused *grid = &defocus->grid;
   grid->pitch_x = choose_pitch(blur, 0);
   grid->pitch_y = choose_pitch(blur, 1);
-  grid->columns = cs_number_ceil(width / grid->pitch_x) + 2;
-  grid->rows = cs_number_ceil(height / grid->pitch_y) + 2;
-  grid->acquire = acquire;
-  grid->release = release;
-  int64_t rows = BAND_BYTES / ((int64_t)grid->columns * 4 * (int64_t)sizeof(float));
-  grid->band_rows = (int32_t)cs_number_clamp((double)rows, BAND_ROWS_LEAST, BAND_ROWS);
+  init_grid(grid, width, height, BAND_ROWS);
   defocus->blur = *blur;
-  cs_blur *s = &defocus->blur;
-  scale_blur(s, grid->pitch_x, grid->pitch_y);
-  defocus->way = choose_way(s, varies);
-  celspan_status status = CELSPAN_OK;
-  if (defocus->way == CS_DEFOCUS_EDGES)
-    status = cs_defocus_edges_init(context, s, &defocus->edges);
-  else if (defocus->way == CS_DEFOCUS_SUMS)
-    status = cs_defocus_sums_init(context, s->radius_x, s->radius_y, &defocus->sums);
-  else if (defocus->way == CS_DEFOCUS_SLICES)
-    status = cs_defocus_slices_init(context, s, &defocus->slices);
+  scale_blur(&defocus->blur, grid->pitch_x, grid->pitch_y);
+  defocus->is_fine = grid->pitch_x > 1 && grid->pitch_y > 1;
+  celspan_status status = init_way(context, defocus, varies, CS_DEFOCUS_SAMPLES);
   if (status == CELSPAN_OK)
     *out = defocus;
   else
     cs_defocus_free(defocus, context->memory);
   return status;
+}
+
+celspan_status cs_defocus_create_own(celspan_context *context, const cs_blur *blur, bool varies,
+                                     const int32_t size[2], double samples, cs_defocus **out) {
+  cs_defocus *own;
+  CS_TRY(CS_MAKE(context, own, 1));
+  own->grid.pitch_x = own->grid.pitch_y = 1;
+  init_grid(&own->grid, size[0], size[1], BAND_ROWS_OWN);
+  own->blur = *blur;
+  own->is_own = true;
+  own->is_fine = samples > CS_DEFOCUS_SAMPLES;
+  celspan_status status = init_way(context, own, varies, samples);
+  if (status == CELSPAN_OK)
+    *out = own;
+  else
+    cs_defocus_free(own, context->memory);
+  return status;
+}
+
+void cs_defocus_use_own(cs_defocus *defocus, cs_defocus *own, const double scale[2],
+                        const double offset[2]) {
+  defocus->own = own;
+  defocus->way = CS_DEFOCUS_OWN;
+  defocus->grid.planes = own->grid.planes;
+  defocus->regrid = (cs_regrid){&own->grid, {{scale[0], offset[0]}, {scale[1], offset[1]}}};
 }
 
 /* Returns how many pixels of the plans a node is wide. *x, *y: how many pixels the plans have
@@ -310,9 +368,8 @@ static celspan_status sample_kernel(celspan_context *context, const cs_defocus *
   int32_t extent_x, extent_y, factor = find_extent(defocus, &extent_x, &extent_y);
   double blur = defocus->blur.blur * factor;
   double x = fmax(1, blur / defocus->grid.pitch_x), y = fmax(1, blur / defocus->grid.pitch_y);
-  bool is_fine = defocus->grid.pitch_x > 1 && defocus->grid.pitch_y > 1;
   const cs_blur square = {CELSPAN_DEFOCUS_BOX, 0.5 * x, 0.5 * y, {{0.5 * x, 0}, {0, 0.5 * y}}, 1};
-  if (is_fine || (defocus->way == CS_DEFOCUS_SLICES && blur == 0))
+  if (defocus->is_fine || (defocus->way == CS_DEFOCUS_SLICES && blur == 0))
     return CELSPAN_OK;
   return cs_kernel_create_defocus(context, &square, out);
 }
@@ -322,6 +379,7 @@ celspan_status cs_defocus_kernel(celspan_context *context, const cs_defocus *def
   *out = NULL;
   switch (defocus->way) {
   case CS_DEFOCUS_EDGES:
+  case CS_DEFOCUS_OWN:
     return CELSPAN_OK;
   case CS_DEFOCUS_SUMS:
   case CS_DEFOCUS_SLICES:
@@ -384,11 +442,9 @@ static celspan_status make_band(const void *layer, celspan_context *context, int
   const cs_defocused *grid = &defocus->grid;
   int32_t first = number * grid->band_rows;
   int32_t end = grid->rows - first < grid->band_rows ? grid->rows : first + grid->band_rows;
-  bool is_flat = defocus->way == CS_DEFOCUS_EDGES || defocus->way == CS_DEFOCUS_KERNEL;
-  const flat_art flat = {grid, defocus->plans,
-                         defocus->way == CS_DEFOCUS_EDGES ? &defocus->edges : NULL};
-  return is_flat ? fill_flat(&flat, context, first, end, band)
-                 : sum_planes(defocus, context, first, end, band);
+  bool is_summed = defocus->way == CS_DEFOCUS_SUMS || defocus->way == CS_DEFOCUS_SLICES;
+  return is_summed ? sum_planes(defocus, context, first, end, band)
+                   : fill_band(defocus, context, first, end, band);
 }
 
 static celspan_status acquire(const cs_defocused *grid, celspan_context *context, int32_t number,

@@ -11,6 +11,8 @@
  *   cel --two plans: lit from the front (S), lit from behind (T)--> rows of spans on the grid
  *       --one of four ways--> bands of nodes
  *
+ *   or: the same on the cel's own grid (own_grid.h) --mixed (regrid.h)--> bands of nodes
+ *
  * Between the nodes the blurred cel is linear (engine/sample/defocused.h reads it). The pitch grows
  * with the radius, from one pixel up, so the work falls as the radius grows.
  *
@@ -22,6 +24,7 @@
 
 #include "engine/defocus/bands.h"
 #include "engine/defocus/edges.h"
+#include "engine/defocus/regrid.h"
 #include "engine/defocus/slices.h"
 #include "engine/defocus/sums.h"
 #include "engine/row/row.h"
@@ -30,30 +33,55 @@ typedef enum cs_defocus_way {
   CS_DEFOCUS_KERNEL, /* the rows of the plans are blurred by their kernel */
   CS_DEFOCUS_EDGES,
   CS_DEFOCUS_SUMS,
-  CS_DEFOCUS_SLICES
+  CS_DEFOCUS_SLICES,
+  CS_DEFOCUS_OWN /* the nodes are mixed from those of the cel's own grid */
 } cs_defocus_way;
 
-typedef struct cs_defocus {
+/* Samples in the radius of a Gaussian, at least. */
+#define CS_DEFOCUS_SAMPLES 4
+
+typedef struct cs_defocus cs_defocus;
+struct cs_defocus {
   cs_defocused grid; /* what composing reads */
   cs_blur blur;      /* in nodes' widths */
   cs_defocus_way way;
   cs_defocus_edges edges;
   cs_defocus_sums sums;
   cs_defocus_slices slices;
+  bool is_fine;     /* samples are so many that each may be the mean over its area */
+  bool is_own;      /* the grid of a cel's own, whose bands are nodes */
+  cs_defocus *own;  /* that grid, where the cel has one, and how the nodes are mixed from it; */
+  cs_regrid regrid; /* then this has no plans */
   cs_plan plans[2]; /* one a plane; made by engine/defocus/layer.c */
   cs_hash key;
-} cs_defocus;
+};
 
+/* The radius of a Gaussian or a disc along an axis, or the extent of a box; how far they reach. */
+double cs_defocus_radius(const cs_blur *blur, int axis);
+double cs_defocus_reach(const cs_blur *blur, int axis);
 /* The grid for a blur in pixels over a frame: everything except planes, plans and key. varies: the
  * cel has layers that vary between their boundaries. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_defocus_create(celspan_context *context, const cs_blur *blur,
                                                  bool varies, int32_t width, int32_t height,
                                                  cs_defocus **out);
+/* The grid of a cel's own (own_grid.h), of one node for each pixel of its part. samples: in the
+ * radius of a Gaussian, at least. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_defocus_create_own(celspan_context *context, const cs_blur *blur,
+                                                     bool varies, const int32_t size[2],
+                                                     double samples, cs_defocus **out);
+/* The nodes of a frame's grid are from now on mixed from the cel's own grid, which has its planes
+ * and belongs to it. scale, offset: from pixels of the frame, by axis. */
+void cs_defocus_use_own(cs_defocus *defocus, cs_defocus *own, const double scale[2],
+                        const double offset[2]);
 /* The size of the plans, and the matrix from pixels of the frame to theirs. */
 void cs_defocus_raster(const cs_defocus *defocus, int32_t *width, int32_t *height);
 celspan_matrix cs_defocus_matrix(const cs_defocus *defocus);
 /* The kernel of the plans; NULL: the mean over each pixel. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_defocus_kernel(celspan_context *context,
                                                  const cs_defocus *defocus, cs_kernel **out);
-/* Frees everything except the plans. */
+/* Frees everything except the plans and the cel's own grid. */
 void cs_defocus_free(cs_defocus *defocus, cs_memory *memory);
+/* The plan of S, from which all nodes are made. */
+static inline const cs_plan *cs_defocus_plan(const cs_defocus *defocus) {
+  return defocus->own ? &defocus->own->plans[0] : &defocus->plans[0];
+}

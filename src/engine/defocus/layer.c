@@ -1,6 +1,7 @@
 #include "engine/defocus/layer.h"
 
 #include "base/number.h"
+#include "engine/defocus/own_grid.h"
 #include "model/scene/texture.h"
 
 #include <math.h>
@@ -55,14 +56,6 @@ bool cs_defocus_layer_is_needed(const cs_defocus_cel *place) {
   return fmax(blur.radius_x, blur.radius_y) >= LEAST_RADIUS;
 }
 
-/* Its extent along an axis, pixels. */
-static double extent(const cs_blur *blur, int axis) {
-  if (blur->kind == CELSPAN_DEFOCUS_BOX)
-    return fabs(blur->edges[0][axis]) + fabs(blur->edges[1][axis]);
-  double radius = axis == 0 ? blur->radius_x : blur->radius_y;
-  return blur->kind == CELSPAN_DEFOCUS_GAUSSIAN ? 2 * radius : radius;
-}
-
 /* ---------------------------------------------------------------- where it is visible */
 
 /* The box of the art on the frame, pixels. */
@@ -85,8 +78,8 @@ static bool find_box(const cs_defocus_cel *place, const cs_blur *blur, const cs_
   cs_boundary_frame art;
   if (!find_art(place, &art))
     return false;
-  double grow_x = extent(blur, 0) + 2 * grid->pitch_x + 1;
-  double grow_y = extent(blur, 1) + 2 * grid->pitch_y + 1;
+  double grow_x = cs_defocus_reach(blur, 0) + 2 * grid->pitch_x + 1;
+  double grow_y = cs_defocus_reach(blur, 1) + 2 * grid->pitch_y + 1;
   out->left = fmax(floor(art.left - grow_x), place->frame.left);
   out->right = fmin(ceil(art.right + grow_x), place->frame.right);
   out->top = fmax(floor(art.top - grow_y), place->frame.top);
@@ -162,6 +155,7 @@ static celspan_status compile_plane(celspan_context *context, const cs_defocus_c
   return compiler->compile(compiler->user, &job, &defocus->plans[plane]);
 }
 
+/* defocus: gets the number of its planes. */
 static celspan_status compile_planes(celspan_context *context, const cs_defocus_cel *place,
                                      const cs_defocus_compiler *compiler, cs_defocus *defocus) {
   CS_TRY(compile_plane(context, place, compiler, 0, defocus));
@@ -176,7 +170,7 @@ static celspan_status compile_planes(celspan_context *context, const cs_defocus_
 /* ---------------------------------------------------------------- the key */
 
 /* Everything that the nodes depend on. */
-static cs_hash find_key(const cs_defocus_cel *place, const cs_blur *blur) {
+static cs_hash find_key(const cs_defocus_cel *place, const cs_blur *blur, double samples) {
   const celspan_cel *cel = cel_of(place);
   cs_hash hash = cs_hash_begin(0x736f6674u);
   cs_hash_word(&hash, cel->object_count);
@@ -192,7 +186,40 @@ static cs_hash find_key(const cs_defocus_cel *place, const cs_blur *blur) {
   for (int k = 0; k < 4; k++)
     cs_hash_number(&hash, blur->edges[k / 2][k % 2]);
   cs_hash_number(&hash, blur->blur);
+  cs_hash_number(&hash, samples);
   return cs_hash_end(hash);
+}
+
+/* ---------------------------------------------------------------- the cel's own grid */
+
+/* Gives the layer the cel's own grid to mix its nodes from. */
+static celspan_status use_own(celspan_context *context, const cs_defocus_cel *place, bool varies,
+                              const cs_own_grid *grid, const cs_defocus_compiler *compiler,
+                              cs_defocus *defocus) {
+  cs_defocus_cel on_grid = *place;
+  cs_defocus *own;
+  on_grid.matrix = grid->matrix;
+  on_grid.width = grid->size[0];
+  on_grid.height = grid->size[1];
+  CS_TRY(cs_defocus_create_own(context, &grid->blur, varies, grid->size, grid->samples, &own));
+  own->key = find_key(&on_grid, &grid->blur, grid->samples);
+  celspan_status status = compile_planes(context, &on_grid, compiler, own);
+  if (status == CELSPAN_OK)
+    cs_defocus_use_own(defocus, own, grid->scale, grid->offset);
+  else
+    cs_defocus_layer_free(own, context->memory);
+  return status;
+}
+
+static celspan_status make(celspan_context *context, const cs_defocus_cel *place,
+                           const cs_blur *blur, const cs_defocus_compiler *compiler,
+                           cs_defocus *defocus) {
+  bool varies = cel_varies(cel_of(place)), is_own;
+  cs_own_grid grid;
+  defocus->key = find_key(place, blur, CS_DEFOCUS_SAMPLES);
+  CS_TRY(cs_own_grid_find(context, place, blur, varies, &is_own, &grid));
+  return is_own ? use_own(context, place, varies, &grid, compiler, defocus)
+                : compile_planes(context, place, compiler, defocus);
 }
 
 /* ---------------------------------------------------------------- life */
@@ -218,8 +245,7 @@ celspan_status cs_defocus_layer_create(celspan_context *context, const cs_defocu
     *out = is_seen ? made : NULL;
     return is_seen ? add_box(context, &visible, box) : CELSPAN_OK;
   }
-  defocus->key = find_key(place, &blur);
-  celspan_status status = compile_planes(context, place, compiler, defocus);
+  celspan_status status = make(context, place, &blur, compiler, defocus);
   if (status == CELSPAN_OK)
     status = add_box(context, &visible, box);
   if (status == CELSPAN_OK)
@@ -238,5 +264,7 @@ void cs_defocus_layer_free_plan(cs_plan *plan, cs_memory *memory) {
 void cs_defocus_layer_free(cs_defocus *defocus, cs_memory *memory) {
   cs_defocus_layer_free_plan(&defocus->plans[0], memory);
   cs_defocus_layer_free_plan(&defocus->plans[1], memory);
+  if (defocus->own)
+    cs_defocus_layer_free(defocus->own, memory);
   cs_defocus_free(defocus, memory);
 }

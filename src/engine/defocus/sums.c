@@ -6,10 +6,9 @@
 
 #include <math.h>
 
-#define SAMPLES 4 /* in the lesser radius, where the factor allows it */
-#define FACTOR 9  /* at most */
-#define STEPS 64  /* of the integral over one sample */
-#define TILE 64   /* nodes of a row that are summed together */
+#define FACTOR 9 /* at most */
+#define STEPS 64 /* of the integral over one sample */
+#define TILE 64  /* nodes of a row that are summed together */
 
 /* ---------------------------------------------------------------- weights */
 
@@ -47,9 +46,9 @@ static celspan_status fill_weights(celspan_context *context, double radius, int3
 }
 
 /* The least odd factor that gives the radius enough samples. */
-static int32_t choose_factor(double radius) {
+static int32_t choose_factor(double radius, double samples) {
   int32_t factor = 1;
-  while (factor < FACTOR && factor * radius < SAMPLES)
+  while (factor < FACTOR && factor * radius < samples)
     factor += 2;
   return factor;
 }
@@ -77,8 +76,8 @@ static celspan_status find_pairs(celspan_context *context, cs_defocus_sums *sums
 }
 
 celspan_status cs_defocus_sums_init(celspan_context *context, double radius_x, double radius_y,
-                                    cs_defocus_sums *out) {
-  *out = (cs_defocus_sums){.factor = choose_factor(fmin(radius_x, radius_y))};
+                                    double samples, cs_defocus_sums *out) {
+  *out = (cs_defocus_sums){.factor = choose_factor(fmin(radius_x, radius_y), samples)};
   CS_TRY(fill_weights(context, out->factor * radius_x, &out->extent_x, &out->weights[0]));
   CS_TRY(fill_weights(context, out->factor * radius_y, &out->extent_y, &out->weights[1]));
   return find_pairs(context, out);

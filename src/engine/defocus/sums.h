@@ -32,9 +32,11 @@ typedef struct cs_defocus_sums {
   cs_defocus_pair *down;      /* extent_y of them */
 } cs_defocus_sums;
 
-/* radius_x, radius_y: two standard deviations, in nodes' widths. Errors: NO_MEMORY. */
+/* radius_x, radius_y: two standard deviations, in nodes' widths. samples: in the lesser radius, at
+ * least. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_defocus_sums_init(celspan_context *context, double radius_x,
-                                                    double radius_y, cs_defocus_sums *out);
+                                                    double radius_y, double samples,
+                                                    cs_defocus_sums *out);
 void cs_defocus_sums_finish(cs_defocus_sums *sums, cs_memory *memory);
 /* Fills the rows [first, end) of `columns` nodes each. maker: of the samples. Errors: those of its
  * rows. */

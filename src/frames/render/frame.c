@@ -78,7 +78,7 @@ static bool stays_on_thread(const cs_plan *plan) {
       return true;
   }
   for (size_t k = 0; k < plan->defocus_count; k++)
-    if (stays_on_thread(&plan->defocus[k]->plans[0]))
+    if (stays_on_thread(cs_defocus_plan(plan->defocus[k])))
       return true;
   return false;
 }

@@ -123,6 +123,16 @@ celspan_status cs_bounds_cel(celspan_context *context, const celspan_cel *cel, b
   return f.status;
 }
 
+celspan_status cs_bounds_drawing(celspan_context *context, const celspan_cel *cel,
+                                 const celspan_matrix *matrix, bool *is_there, celspan_box *out) {
+  finder f = {.context = context, .status = CELSPAN_OK};
+  celspan_box box;
+  *is_there = list_around(&f, cel->objects, cel->object_count, matrix, &box);
+  if (*is_there)
+    *out = box;
+  return f.status;
+}
+
 bool celspan_object_bounds(const celspan_object *object, celspan_box *out) {
   return find_object(&(finder){.context = NULL}, object, out);
 }

@@ -1,0 +1,40 @@
+/* The grid of a cel's own: where a defocused cel is blurred once for all the frames in which it is
+ * only moved or enlarged.
+ *
+ *        the cel's units                 the cel's own grid               a frame
+ *      +-----------------+  matrix     o  o  o  o  o  o  o   a map    +-----------+
+ *      |  0,0            |  =======>   o  o  o +-----------+ =======> |           |
+ *      |                 |             o  o  o |o  o  o  o | by axis  |           |
+ *      +-----------------+             o  o  o +-----------+          +-----------+
+ *                                      |<-- the part that is made -->|
+ *
+ * The rows of nodes lie along the frame's axes, as the cel is turned there, and the unit 0, 0 of
+ * the cel lies at a whole place. How far the nodes are apart follows from the radius in the cel's
+ * units; where samples of pictures are to be as fine as pixels, from the class of the scale too.
+ * Scales from the fourth root of 2 above the one below it are one class, so nodes are at most 1.19
+ * times too dense. What is made is rounded outward to whole numbers of many nodes, so that a pan
+ * seldom leaves it.
+ *
+ * Invariant: the grid is a function of the cel's artwork, its placement and blur, and the size of
+ * the frame; of the placement and the size only the class, the direction of the axes and the part
+ * matter. Nothing depends on crops, on workers, on memory, or on other frames.
+ */
+#pragma once
+
+#include "engine/defocus/layer.h"
+
+typedef struct cs_own_grid {
+  celspan_matrix matrix;      /* the cel's units to pixels of the part; a node is one pixel */
+  int32_t size[2];            /* of the part */
+  cs_blur blur;               /* in pixels of the part */
+  double samples;             /* that the radius needs at least, where samples are summed */
+  double scale[2], offset[2]; /* by axis, pixels of the frame to pixels of the part */
+} cs_own_grid;
+
+/* varies: the cel has layers that vary between their boundaries. blur: in pixels of the frame.
+ * *is_there: false where the cel is to be blurred for the frame alone: in perspective, where the
+ * radius is small, where even kernels are not smooth on any grid as coarse as pixels, and very far
+ * from the cel's origin. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_own_grid_find(celspan_context *context,
+                                                const cs_defocus_cel *place, const cs_blur *blur,
+                                                bool varies, bool *is_there, cs_own_grid *out);

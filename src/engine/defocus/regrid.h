@@ -1,0 +1,61 @@
+/* From the grid of a cel's own to the grid of a frame: each node of the frame is a cubic through
+ * the four rows and the four columns of nodes that are nearest to it.
+ *
+ *     o    o    o    o     o  nodes of the cel's own grid
+ *     o    o    o    o     x  a node of the frame's grid: first every column is mixed from four
+ *     o    o  x o    o        rows, then the node from four columns
+ *     o    o    o    o
+ *
+ * Differences from the nearest node before it are mixed, so that equal nodes keep their bits: where
+ * the artwork is clear or of one colour, so is the frame. Beyond the nodes the last ones hold.
+ */
+#pragma once
+
+#include "base/wide.h"
+#include "engine/sample/defocused.h"
+
+/* One axis of a mapping: pixels of the frame to pixels of the cel's own grid. */
+typedef struct cs_regrid_axis {
+  double scale, offset;
+} cs_regrid_axis;
+
+typedef struct cs_regrid {
+  const cs_defocused *from; /* the cel's own grid; its bands are nodes */
+  cs_regrid_axis axes[2];
+} cs_regrid;
+
+/* A column of the frame's grid: the first of its four columns, clamped, and the weights of the
+ * first, the third and the fourth. */
+typedef struct cs_regrid_column {
+  int32_t at[4];
+  float weights[3];
+} cs_regrid_column;
+
+/* The rows of nodes of a frame, from the top down. */
+typedef struct cs_regrid_rows {
+  const cs_regrid *map;
+  const cs_defocused *to;
+  celspan_context *context;
+  cs_isa isa;
+  cs_defocus_band *bands[2]; /* acquired, one of an even and one of an odd number; NULL: none */
+  int32_t numbers[2];
+  cs_regrid_column *columns;
+  float (*mixed)[4];  /* a row of the cel's own nodes, at the height of the row being made */
+  int32_t first, end; /* the columns of the frame's grid that lie between nodes; the groups of
+                         others are even */
+} cs_regrid_rows;
+
+/* Must be finished after a failure too. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_regrid_begin(const cs_regrid *map, const cs_defocused *to,
+                                               celspan_context *context, cs_regrid_rows *out);
+void cs_regrid_finish(cs_regrid_rows *rows);
+/* Row y of one plane of the frame's nodes, with what defocused.h says of even groups. Errors: those
+ * of the bands of the cel's own grid. */
+CELSPAN_CHECKED celspan_status cs_regrid_row(cs_regrid_rows *rows, int plane, int32_t y,
+                                             float (*nodes)[4], bool *even);
+
+/* ---- regrid_wide.c */
+
+/* Mixes `count` floats of four rows; at least 16. */
+CS_WIDE_DECLARE(void, cs_regrid_mix,
+                (const float *rows[4], const float weights[3], size_t count, float *out));
