@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "engine/defocus/bands.h"
 #include "program/script.h"
 #include "program/verbs.h"
 
@@ -44,12 +45,14 @@ static celspan_status print_row(void *user, celspan_context *context, int32_t y,
   return celspan_context_fail(context, CELSPAN_OUTPUT, "standard output: %s", strerror(errno));
 }
 
-static void print_statistics(const celspan_statistics *s, double seconds) {
+static void print_statistics(const celspan_statistics *s, cs_cache_counts kept, double seconds) {
   printf("rows %" PRIu64 " spans %" PRIu64 " single %" PRIu64 " gradient %" PRIu64 " array %" PRIu64
          " pixels_in_arrays %" PRIu64 " colour_evaluations %" PRIu64 " allocations %" PRIu64
-         " peak_bytes %" PRIu64 " seconds %.6f\n",
+         " peak_bytes %" PRIu64 " bands_made %" PRIu64 " bands_found %" PRIu64
+         " bands_bytes %zu seconds %.6f\n",
          s->rows, s->spans, s->single, s->gradient, s->array, s->pixels_in_arrays,
-         s->colour_evaluations, s->allocations, s->peak_bytes, seconds);
+         s->colour_evaluations, s->allocations, s->peak_bytes, kept.made, kept.found, kept.bytes,
+         seconds);
 }
 
 static celspan_status measure(celspan_context *context, const cs_request *request,
@@ -63,7 +66,7 @@ static celspan_status measure(celspan_context *context, const cs_request *reques
                               ? celspan_frame_pixels(context, frame, &coding, NULL, 0, &statistics)
                               : celspan_frame_render(context, frame, &nowhere, &statistics);
   if (status == CELSPAN_OK)
-    print_statistics(&statistics, cs_clock_seconds() - started);
+    print_statistics(&statistics, cs_defocus_bands_count(context), cs_clock_seconds() - started);
   return status;
 }
 

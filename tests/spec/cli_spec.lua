@@ -591,7 +591,7 @@ describe("the command line", function()
 
     local STATISTICS = "^rows (%d+) spans (%d+) single (%d+) gradient (%d+) array (%d+) "
       .. "pixels_in_arrays (%d+) colour_evaluations (%d+) allocations (%d+) peak_bytes (%d+) "
-      .. "seconds (%d+%.%d+)\n$"
+      .. "bands_made (%d+) bands_found (%d+) bands_bytes (%d+) seconds (%d+%.%d+)\n$"
 
     it("counts spans by kind", function()
       local code, out, err = celspan("spans " .. plain .. " --stats")
@@ -599,6 +599,19 @@ describe("the command line", function()
       local rows, spans, single, gradient, array, pixels = out:match(STATISTICS)
       assert.same({ "4", "8", "8", "0", "0", "0" },
         { rows, spans, single, gradient, array, pixels }, out)
+    end)
+
+    it("counts the bands of defocused cels that it keeps", function()
+      local script = write("soft.lua", [[
+        local celspan = require "celspan"
+        local disc = celspan.circle{ centre = {32, 32}, radius = 16, texture = "#fff" }
+        return celspan.film{ size = {64, 64}, frames = 1, frame = function()
+          return celspan.rostrum{ celspan.cel{ disc, defocus = 5 } } end }]])
+      local _, soft = celspan("spans " .. script .. " --stats")
+      local _, sharp = celspan("spans " .. plain .. " --stats")
+      local made, _, bytes = select(10, soft:match(STATISTICS))
+      assert.is_true(tonumber(made) >= 2 and tonumber(bytes) > 64 * 16, soft)
+      assert.truthy(sharp:find("bands_made 0 bands_found 0 bands_bytes 0 ", 1, true), sharp)
     end)
 
     it("counts the same if rows are made as pixels", function()

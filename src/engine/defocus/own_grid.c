@@ -5,13 +5,13 @@
 
 #include <math.h>
 
-/* Nodes in a radius: of a Gaussian between cubics (regrid.h), so that these are within 1/1200 of
- * its edges; of the others as on the grids of frames (defocus.c). */
-#define NODES_GAUSSIAN (16.0 / 3)
+/* Nodes in a radius: of a Gaussian, so many that the cubics between them (regrid.h) are within 3/4
+ * of an 8-bit code of it; of the others as on the grids of frames (defocus.c). */
+#define NODES_GAUSSIAN 6
 #define NODES_DISC 28
 #define NODES_BOX 64
 /* Samples of pictures in the radius of a Gaussian: no more than these, no fewer than those. */
-#define SAMPLES_FINE 16
+#define SAMPLES_FINE 18
 #define SAMPLES_LEAST 4
 #define LEAST_RADIUS 3     /* pixels: of smaller ones the nodes would be many to a pixel */
 #define BEYOND 4           /* nodes that the part has beyond what the frame shows */
