@@ -365,7 +365,7 @@ static double code_of(float light) {
   return 255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * pow(v, 1 / 2.4) - 0.055);
 }
 
-/* Wherever a cel stands between pixels and between classes of scale, each frame is near the same cel
+/* Wherever a cel lies between pixels and between classes of scale, each frame is near the same cel
  * blurred for this frame: within 1.5 8-bit codes before they are rounded. Both are within 3/4. */
 static void check_grids(void) {
   static const double radii[] = {1.3, 3, 8};

@@ -226,7 +226,7 @@ double cs_defocus_radius(const cs_blur *blur, int axis) {
              : fabs(blur->edges[0][axis]) + fabs(blur->edges[1][axis]);
 }
 
-double cs_defocus_reach(const cs_blur *blur, int axis) {
+double cs_defocus_extent(const cs_blur *blur, int axis) {
   return (blur->kind == CELSPAN_DEFOCUS_GAUSSIAN ? 2 : 1) * cs_defocus_radius(blur, axis);
 }
 

@@ -56,9 +56,9 @@ struct cs_defocus {
   cs_hash key;
 };
 
-/* The radius of a Gaussian or a disc along an axis, or the extent of a box; how far they reach. */
+/* The radius of a Gaussian or a disc along an axis, or the extent of a box; how far they extend. */
 double cs_defocus_radius(const cs_blur *blur, int axis);
-double cs_defocus_reach(const cs_blur *blur, int axis);
+double cs_defocus_extent(const cs_blur *blur, int axis);
 /* The grid for a blur in pixels over a frame: everything except planes, plans and key. varies: the
  * cel has layers that vary between their boundaries. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_defocus_create(celspan_context *context, const cs_blur *blur,

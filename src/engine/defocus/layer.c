@@ -1,7 +1,6 @@
 #include "engine/defocus/layer.h"
 
 #include "base/number.h"
-#include "engine/defocus/own_grid.h"
 #include "model/scene/texture.h"
 
 #include <math.h>
@@ -78,8 +77,8 @@ static bool find_box(const cs_defocus_cel *place, const cs_blur *blur, const cs_
   cs_boundary_frame art;
   if (!find_art(place, &art))
     return false;
-  double grow_x = cs_defocus_reach(blur, 0) + 2 * grid->pitch_x + 1;
-  double grow_y = cs_defocus_reach(blur, 1) + 2 * grid->pitch_y + 1;
+  double grow_x = cs_defocus_extent(blur, 0) + 2 * grid->pitch_x + 1;
+  double grow_y = cs_defocus_extent(blur, 1) + 2 * grid->pitch_y + 1;
   out->left = fmax(floor(art.left - grow_x), place->frame.left);
   out->right = fmin(ceil(art.right + grow_x), place->frame.right);
   out->top = fmax(floor(art.top - grow_y), place->frame.top);

@@ -23,19 +23,7 @@
  */
 #pragma once
 
-#include "engine/defocus/defocus.h"
-
-/* A cel of a frame. */
-typedef struct cs_defocus_cel {
-  const celspan_rostrum *rostrum;
-  size_t index;             /* of the cel in its rostrum */
-  celspan_matrix to_pixels; /* film units to pixels */
-  double film_width, film_height;
-  celspan_matrix matrix;   /* the cel's units to pixels */
-  cs_boundary_frame frame; /* the part of the plane that can be seen, its margin included */
-  int32_t width, height;   /* of the frame, pixels */
-  bool is_antialiased;
-} cs_defocus_cel;
+#include "engine/defocus/own_grid.h"
 
 /* A job for the compiler: one cel alone, without its opacity, onto a raster of its own. It is lit
  * by white light, from the front only or (is_through) from behind only. */

@@ -101,7 +101,7 @@ static double step_of(double nodes) {
 /* The part of an axis: what the frame shows of the blurred artwork, [low, high) in nodes of the
  * whole grid. size: of the frame, pixels. */
 static bool find_part(cs_own_grid *grid, int k, int32_t size, double low, double high) {
-  double far = cs_defocus_reach(&grid->blur, k) + BEYOND, nodes = size * grid->scale[k];
+  double far = cs_defocus_extent(&grid->blur, k) + BEYOND, nodes = size * grid->scale[k];
   double step = step_of(k == 0 ? nodes / PARTS : nodes); /* rows are made when they are needed */
   double margin = BEYOND + far; /* the nodes of the frame's own grid lie outside the frame */
   double first = step * floor((grid->offset[k] - margin) / step);

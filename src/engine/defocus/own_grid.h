@@ -10,10 +10,10 @@
  *
  * The rows of nodes lie along the frame's axes, as the cel is turned there, and the unit 0, 0 of
  * the cel lies at a whole place. How far the nodes are apart follows from the radius in the cel's
- * units; where samples of pictures are to be as fine as pixels, from the class of the scale too.
+ * units; where samples of pictures must be as fine as pixels, from the class of the scale too.
  * Scales from the fourth root of 2 above the one below it are one class, so nodes are at most 1.19
  * times too dense. What is made is rounded outward to whole numbers of many nodes, so that a pan
- * seldom leaves it.
+ * rarely leaves it.
  *
  * Invariant: the grid is a function of the cel's artwork, its placement and blur, and the size of
  * the frame; of the placement and the size only the class, the direction of the axes and the part
@@ -21,7 +21,19 @@
  */
 #pragma once
 
-#include "engine/defocus/layer.h"
+#include "engine/defocus/defocus.h"
+
+/* A cel of a frame. */
+typedef struct cs_defocus_cel {
+  const celspan_rostrum *rostrum;
+  size_t index;             /* of the cel in its rostrum */
+  celspan_matrix to_pixels; /* film units to pixels */
+  double film_width, film_height;
+  celspan_matrix matrix;   /* the cel's units to pixels */
+  cs_boundary_frame frame; /* the part of the plane that can be seen, its margin included */
+  int32_t width, height;   /* of the frame, pixels */
+  bool is_antialiased;
+} cs_defocus_cel;
 
 typedef struct cs_own_grid {
   celspan_matrix matrix;      /* the cel's units to pixels of the part; a node is one pixel */
@@ -32,7 +44,7 @@ typedef struct cs_own_grid {
 } cs_own_grid;
 
 /* varies: the cel has layers that vary between their boundaries. blur: in pixels of the frame.
- * *is_there: false where the cel is to be blurred for the frame alone: in perspective, where the
+ * *is_there: false where the cel must be blurred for the frame alone: in perspective, where the
  * radius is small, where even kernels are not smooth on any grid as coarse as pixels, and very far
  * from the cel's origin. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_own_grid_find(celspan_context *context,
