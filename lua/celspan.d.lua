@@ -190,6 +190,7 @@ function celspan.radial(fields) end
 ---@field subimage? integer From 0; default 0
 ---@field layer? string The name of a subimage
 ---@field source? integer[] {x, y, w, h}; a part of the picture, in its pixels
+---@field smooth? boolean Alpha of 8 bits without steps, for painted glows
 ---@field pixels? string Pixels in memory, rows from top to bottom without gaps
 ---@field size? integer[] {w, h}; of the pixels; 1 to 1048576
 ---@field format? "rgba8"|"rgb8"|"grey8"|"rgba16"|"rgbaf" Of the pixels, in the machine's byte order; default "rgba8"
@@ -470,6 +471,7 @@ function celspan.stroke(fields) end
 ---@field subimage? integer From 0; default 0
 ---@field layer? string The name of a subimage
 ---@field source? integer[] {x, y, w, h}; a part of the picture, in its pixels
+---@field smooth? boolean Alpha of 8 bits without steps, for painted glows
 ---@field pixels? string Pixels in memory, rows from top to bottom without gaps
 ---@field size? integer[] {w, h}; of the pixels; 1 to 1048576
 ---@field format? "rgba8"|"rgb8"|"grey8"|"rgba16"|"rgbaf" Of the pixels, in the machine's byte order; default "rgba8"

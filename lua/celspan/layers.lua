@@ -64,10 +64,11 @@ end
 local function name_of(text, kind) return text ~= "" and text or kind end
 
 --- given: name, x, y, opacity, visible, blend; and children, or picture (the fields of an image,
---- with x and y), or neither for an empty layer.
-local function make_entry(given)
+--- with x and y), or neither for an empty layer. smooth: the picture's field of this name.
+local function make_entry(given, smooth)
   local source = { name = name_of(given.name, given.children and "group" or "layer"),
                    picture = given.picture }
+  if given.picture then given.picture.smooth = smooth end
   function source.image(use)
     local image = { as = use }
     for name, value in pairs(given.picture) do image[name] = value end
@@ -156,16 +157,16 @@ local function paths_of(flat)
   return paths
 end
 
-local function from_painting(path)
+local function from_painting(path, smooth)
   local painting, message = core.painting(path)
   if not painting then return nil, message end
   local flat, children, list = painting.layers, {}, {}
   for i, layer in ipairs(flat) do
     local picture = layer.pixels and { pixels = layer.pixels, colour = layer.colour, x = layer.x,
                                        y = layer.y, w = layer.width, h = layer.height }
-    local entry = make_entry { name = layer.name, x = layer.x, y = layer.y, picture = picture,
+    local entry = make_entry({ name = layer.name, x = layer.x, y = layer.y, picture = picture,
       opacity = layer.opacity, visible = layer.visible, blend = layer.blend,
-      children = layer.group and (children[i] or {}) or nil }
+      children = layer.group and (children[i] or {}) or nil }, smooth)
     local siblings = list
     if layer.parent then
       siblings = children[layer.parent] or {}
@@ -212,7 +213,7 @@ local function caught(make)
   return nil, (tostring(value):gsub("^[^\n]-:%d+: ", "", 1))
 end
 
-local function from_folder(path, names)
+local function from_folder(path, names, smooth)
   local list, skipped = {}, {}
   sort_naturally(names)
   for _, name in ipairs(names) do
@@ -224,8 +225,8 @@ local function from_folder(path, names)
       return nil, ("%s: %s lies outside the folder"):format(path, name)
     else
       local entry, message = caught(function()
-        return make_entry { name = base, x = 0, y = 0, opacity = 1, visible = true,
-          blend = "normal", picture = { file = file, x = 0, y = 0 } }
+        return make_entry({ name = base, x = 0, y = 0, opacity = 1, visible = true,
+          blend = "normal", picture = { file = file, x = 0, y = 0 } }, smooth)
       end)
       if not entry then return nil, message end
       list[#list + 1] = entry
@@ -246,14 +247,14 @@ local function find_document(names)
   end
 end
 
-local function from_oca(folder, document)
+local function from_oca(folder, document, smooth)
   local read, message = oca.read(folder, document)
   if not read then return nil, message end
   local function build(list)
     local entries = {}
     for i, layer in ipairs(list) do
       if layer.children then layer.children = build(layer.children) end
-      entries[i] = make_entry(layer)
+      entries[i] = make_entry(layer, smooth)
     end
     return entries
   end
@@ -271,30 +272,34 @@ local function is_there(path)
   return file ~= nil
 end
 
-local function read_any(path)
+local function read_any(path, smooth)
   local names, message = core.folder(path)
   if names then
     local document = find_document(names)
-    if document then return from_oca(path, document) end
-    return from_folder(path, names)
+    if document then return from_oca(path, document, smooth) end
+    return from_folder(path, names, smooth)
   end
   if message:find "limit" then return nil, message end
   if path:match "%.oca$" then
     local folder, document = path:match "^(.*)/([^/]*)$"
-    return from_oca(folder or ".", document or path)
+    return from_oca(folder or ".", document or path, smooth)
   end
-  return from_painting(path)
+  return from_painting(path, smooth)
 end
 
+--- `smooth`: alpha of 8 bits has no steps, so painted glows show no rings.
 ---@param path string Relative to the caller's file, else to the script
+---@param options? { smooth?: boolean }
 ---@return celspan.layers.tree? tree
 ---@return string? message
-function layers.read(path)
+function layers.read(path, options)
   if type(path) ~= "string" then
     error("layers: read takes the name of a file or folder, got " .. fields.kind(path), 2)
   end
+  options = options or {}
+  fields.check("layers: read", options, { smooth = "boolean" })
   local found_at, tried = core.find(path)
-  local tree, message = read_any(found_at)
+  local tree, message = read_any(found_at, options.smooth)
   if not tree and tried and not is_there(found_at) then
     message = ("%s; also looked for at %s"):format(message, tried)
   end
@@ -338,7 +343,7 @@ local function light_cel(entry, source, options)
   local picture = source.picture
   local x, y, w, h = entry.object:bounds()
   local texture = celspan.picture { file = picture.file, pixels = picture.pixels,
-    colour = picture.colour, box = { x, y, w, h } }
+    colour = picture.colour, box = { x, y, w, h }, smooth = picture.smooth }
   return celspan.cel { back = { texture = texture, gain = entry.opacity * (options.opacity or 1),
     on = "cel", matte = 0 }, viewport = options.viewport }:named(source.name)
 end

@@ -69,7 +69,7 @@ return {
   text = { "unit/text", "spec/text", "golden/golden" },
   trace = { "unit/stretches", "property/trace", "spec/trace" },
   track = { "spec/track" },
-  pictures = { "unit/picture", "spec/formats" },
+  pictures = { "unit/picture", "unit/smooth", "spec/formats" },
   layered = { "unit/painting", "unit/fuzz-zip", "unit/fuzz-ora", "unit/fuzz-psd", "unit/fuzz-kra",
     "unit/fuzz-profile", "spec/paintings", "spec/layers" },
   icc = { "unit/profile", "unit/fuzz-profile" },

@@ -61,6 +61,38 @@ local it_reads_archives = present.art() and it or pending
 
 teardown(function() bench:remove() end)
 
+-- ---------------------------------------------------------------- glows
+
+describe("a painted glow", function()
+  --- Light that falls from the left to the right, in a few of the 256 steps of alpha.
+  local glow = psd({ blend = "lddg", x = 0, y = 0, w = 240, h = 40,
+    pixel = function(x) return 255, 200, 120, 12 - x // 20 end }, { w = 240, h = 40 })
+
+  --- The greatest difference of neighbours in the middle row, in codes of 8 bits.
+  local function ring(options)
+    local tree = assert(layers.read(write(glow), options))
+    local ground = celspan.cel { celspan.rect { 0, 0, 240, 40, texture = "#101018" } }
+    local image = assert(celspan.pixels(celspan.rostrum { ground, tree:cels()[1] },
+      { size = { 240, 40 } }))
+    local row, most = image:bytes({ depth = 16 }):sub(20 * 240 * 8 + 1, 21 * 240 * 8), 0
+    for x = 1, 238 do
+      local before, after = ("<I2"):unpack(row, 8 * x - 7), ("<I2"):unpack(row, 8 * x + 1)
+      most = math.max(most, math.abs(after - before) / 257)
+    end
+    return most
+  end
+
+  it("has rings in the dark, and none where it is read smooth", function()
+    local rough, smooth = ring(), ring { smooth = true }
+    assert.is_true(rough > 3 and smooth < 0.6, rough .. " " .. smooth)
+  end)
+
+  it("is read smooth by a field alone that is known", function()
+    assert.has_error(function() layers.read("x.psd", { smoth = true }) end,
+      "layers: read: unknown field 'smoth'; did you mean 'smooth'?")
+  end)
+end)
+
 -- ---------------------------------------------------------------- Photoshop
 
 describe("a Photoshop document", function()

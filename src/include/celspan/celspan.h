@@ -260,6 +260,9 @@ typedef struct celspan_picture_desc {
    * header is read at once. */
   bool has_source;
   celspan_box source;
+  /* Where alpha has 8 bits, the mean of the alphas around it, within half a step of its own: a glow
+   * that fades slowly shows no rings. Alpha of more bits, and 0 and 1, stay as they are. */
+  bool smooth;
 } celspan_picture_desc;
 
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_paint(celspan_context *context,

@@ -171,6 +171,8 @@ const cs_field cs_texture_picture_fields[] = {
     {"layer", CS_TEXT(READ, image.picture.layer), .about = "The name of a subimage"},
     {"source", CS_BOX(READ, image.picture.source), CS_HAS(READ, image.picture.has_source),
      .written = "integer[]", .about = "A part of the picture, in its pixels"},
+    {"smooth", CS_FLAG(READ, image.picture.smooth),
+     .about = "Alpha of 8 bits without steps, for painted glows"},
     {"pixels", CS_OWN("string"), .about = "Pixels in memory, rows from top to bottom without gaps"},
     {"size", CS_PIXELS(READ, pixels.size), CS_HAS(READ, pixels.has_size), .least = 1,
      .most = CS_PIXEL_STRING_SIDE, .shape = "a size {w, h}", .about = "Of the pixels"},

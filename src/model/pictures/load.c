@@ -22,6 +22,7 @@
 #include <string.h>
 
 #include "model/colour/srgb8_lanes.h"
+#include "model/pictures/smooth.h"
 #include "model/pictures/surface.h"
 
 #define BATCH_BYTES ((size_t)4 << 20)
@@ -187,34 +188,66 @@ static celspan_status read_coded(const file_pass *pass, int32_t y, int32_t rows)
   return status == CELSPAN_OK ? status : cs_fail(pass->context, status, "%s", failure.text);
 }
 
-/* Copies what a block of the whole holds of the rows [y, y + rows) of a part, all in the pixels of
- * the whole, the rectangle's left edge being x0. */
-static void copy_from_block(const file_pass *pass, const cs_picture_block *block, int32_t y,
-                            int32_t rows) {
-  const cs_picture *part = pass->entry->part;
-  int32_t x0 = part->x + pass->x0, x1 = part->x + pass->x1, width = x1 - x0;
+/* Where the texels of a rectangle of the whole go: to the batch, or their alphas alone. */
+typedef struct copying {
+  celspan_rectangle area;
+  float *batch; /* NULL: to the alphas */
+  const cs_smooth_alphas *alphas;
+} copying;
+
+/* Copies what a block of the whole holds of the rectangle. */
+static void copy_from_block(const copying *to, const cs_picture_block *block) {
+  int32_t x0 = to->area.x, y0 = to->area.y;
   int32_t left = block->column * CS_PICTURE_BLOCK, top = block->row * CS_PICTURE_BLOCK;
-  int32_t from = left > x0 ? left : x0, end = least(left + CS_PICTURE_BLOCK, x1);
-  int32_t first = top > y ? top : y, last = least(top + CS_PICTURE_BLOCK, (int64_t)y + rows);
-  for (int32_t row = first; row < last; row++)
-    memcpy(pass->batch + 4 * ((size_t)(row - y) * (size_t)width + (size_t)(from - x0)),
-           block->texels + 4 * ((size_t)(row - top) * CS_PICTURE_BLOCK + (size_t)(from - left)),
-           4 * sizeof(float) * (size_t)(end - from));
+  int32_t from = left > x0 ? left : x0, first = top > y0 ? top : y0;
+  int32_t end = least(left + CS_PICTURE_BLOCK, (int64_t)x0 + to->area.width);
+  int32_t last = least(top + CS_PICTURE_BLOCK, (int64_t)y0 + to->area.height);
+  for (int32_t row = first; row < last; row++) {
+    const float *texels =
+        block->texels + 4 * ((size_t)(row - top) * CS_PICTURE_BLOCK + (size_t)(from - left));
+    size_t place = (size_t)(row - y0) * (size_t)to->area.width + (size_t)(from - x0);
+    if (to->batch)
+      memcpy(to->batch + 4 * place, texels, 4 * sizeof(float) * (size_t)(end - from));
+    else
+      cs_smooth_set(to->alphas, from, row, texels, end - from);
+  }
 }
 
-/* A part is made of the blocks of the whole, whose texels are light already. */
-static celspan_status read_part(const file_pass *pass, int32_t y, int32_t rows) {
-  const cs_picture *part = pass->entry->part;
-  int32_t top = part->y + y, left = part->x + pass->x0;
-  for (int32_t row = top / CS_PICTURE_BLOCK; row * CS_PICTURE_BLOCK < top + rows; row++)
-    for (int32_t column = left / CS_PICTURE_BLOCK; column * CS_PICTURE_BLOCK < part->x + pass->x1;
-         column++) {
+/* A rectangle of the whole is copied from its blocks, whose texels are light already. */
+static celspan_status copy_from_whole(const file_pass *pass, const copying *to) {
+  const celspan_rectangle *area = &to->area;
+  int32_t right = area->x + area->width, bottom = area->y + area->height;
+  for (int32_t row = area->y / CS_PICTURE_BLOCK; row * CS_PICTURE_BLOCK < bottom; row++)
+    for (int32_t column = area->x / CS_PICTURE_BLOCK; column * CS_PICTURE_BLOCK < right; column++) {
       cs_picture_block *block;
-      CS_TRY(cs_load_block(pass->context, part->whole, 0, column, row, &block));
-      copy_from_block(pass, block, top, rows);
+      CS_TRY(cs_load_block(pass->context, pass->entry->part->whole, 0, column, row, &block));
+      copy_from_block(to, block);
       cs_store_release(block);
     }
   return CELSPAN_OK;
+}
+
+static celspan_status smooth_batch(const file_pass *pass, const celspan_rectangle *rectangle) {
+  const celspan_picture_info *info = &pass->entry->header.info;
+  cs_memory *memory = pass->context->memory;
+  cs_smooth_alphas alphas = cs_smooth_around(rectangle, info->width, info->height);
+  size_t rows = (size_t)alphas.area.height + 1, row = (size_t)alphas.area.width * sizeof(uint32_t);
+  alphas.sums = cs_mem_array(memory, rows, row);
+  if (!alphas.sums)
+    return cs_fail_memory(pass->context);
+  alphas.steps = alphas.sums + alphas.area.width;
+  celspan_status status = copy_from_whole(pass, &(copying){.area = alphas.area, .alphas = &alphas});
+  if (status == CELSPAN_OK)
+    cs_smooth_rectangle(&alphas, rectangle, pass->batch);
+  cs_mem_free(memory, alphas.sums, rows * row);
+  return status;
+}
+
+static celspan_status read_part(const file_pass *pass, int32_t y, int32_t rows) {
+  const cs_picture *part = pass->entry->part;
+  const celspan_rectangle area = {part->x + pass->x0, part->y + y, pass->x1 - pass->x0, rows};
+  CS_TRY(copy_from_whole(pass, &(copying){.area = area, .batch = pass->batch}));
+  return part->is_smooth ? smooth_batch(pass, &area) : CELSPAN_OK;
 }
 
 /* Blocks are made when there are rows for them: a damaged file that claims to be large takes no

@@ -103,22 +103,23 @@ static celspan_status create(celspan_context *context, const celspan_picture_des
   return CELSPAN_OK;
 }
 
-/* Makes *picture, which is the whole, a part of it. On failure it is dropped. */
+/* Makes *picture, which is the whole, a part of it: the whole of it where the source has no width.
+ * On failure it is dropped. */
 static celspan_status cut(celspan_context *context, const celspan_picture_desc *desc,
-                          cs_picture **picture) {
+                          const celspan_box *source, bool is_smooth, cs_picture **picture) {
   cs_picture *whole = *picture, *part;
   celspan_status status = create(context, desc, &part);
   if (status != CELSPAN_OK) {
     cs_picture_unref(whole);
     return status;
   }
-  const celspan_box *source = &desc->source;
   part->whole = whole;
   part->x = (int32_t)source->x;
   part->y = (int32_t)source->y;
   part->width = (int32_t)source->width;
   part->height = (int32_t)source->height;
-  cs_hash hash = cs_hash_begin(0x70617274u);
+  part->is_smooth = is_smooth;
+  cs_hash hash = cs_hash_begin(is_smooth ? 0x736d7468u : 0x70617274u);
   cs_hash_hash(&hash, whole->hash);
   cs_hash_word(&hash, (uint64_t)part->x << 32 | (uint64_t)part->y);
   cs_hash_word(&hash, (uint64_t)part->width << 32 | (uint64_t)part->height);
@@ -132,8 +133,10 @@ celspan_status cs_picture_create(celspan_context *context, const celspan_picture
   CS_TRY(check(context, desc));
   cs_picture *picture;
   CS_TRY(create(context, desc, &picture));
+  if (desc->smooth)
+    CS_TRY(cut(context, desc, &(celspan_box){0, 0, 0, 0}, true, &picture));
   if (desc->has_source)
-    CS_TRY(cut(context, desc, &picture));
+    CS_TRY(cut(context, desc, &desc->source, false, &picture));
   *out = picture;
   return CELSPAN_OK;
 }

@@ -3,7 +3,7 @@
  * A cs_picture is an immutable value like the rest of the scene. The decoded picture is kept in the
  * context's store (model/pictures/store.h), found by the picture's hash and shared by all workers.
  * A part is a picture of its own there, with edges and levels of its own, made of the blocks of the
- * whole.
+ * whole. So is a picture whose alpha is made smooth (model/pictures/smooth.h).
  */
 #pragma once
 
@@ -20,7 +20,8 @@ typedef struct cs_picture {
   char *tried;              /* where it was looked for before; may be NULL; not hashed */
   int subimage;
   struct cs_picture *whole;    /* what this is a part of, a reference; NULL: it is no part */
-  int32_t x, y, width, height; /* of a part, in pixels of the whole */
+  int32_t x, y, width, height; /* of a part, in pixels of the whole; a width of 0: all of it */
+  bool is_smooth;              /* its alpha is made smooth */
 } cs_picture;
 
 /* desc's box, sampling, use and wrap are not part of a picture. Errors: NO_MEMORY, BAD_ARGUMENT. */

@@ -187,11 +187,12 @@ static size_t blocks_across(int32_t size, int level) {
 }
 
 /* A row of a frame reads along a row of blocks. If the budget were less than that, every row of the
- * frame would read the file again. A quarter more leaves room for the next row of blocks. The
- * caller has locked `lock`. */
-static void plan_entry(cs_picture_store *store, cs_picture_entry *entry) {
+ * frame would read the file again. A quarter more leaves room for the next row of blocks. A row of
+ * blocks that are smooth is made of three others. The caller has locked `lock`. */
+static void plan_entry(cs_picture_store *store, bool is_smooth, cs_picture_entry *entry) {
   const celspan_picture_info *info = &entry->header.info;
-  size_t least = blocks_across(info->width, 0) * BLOCK_BYTES * 5 / 4;
+  size_t rows = is_smooth ? 4 : 1;
+  size_t least = blocks_across(info->width, 0) * BLOCK_BYTES * (4 * rows + 1) / 4;
   entry->share = cs_cache_raise_budget(&store->blocks, least) / 2 / BLOCK_BYTES;
   entry->level_count = cs_mip_levels_count(info->width, info->height);
   while (entry->base < entry->level_count - 1 &&
@@ -253,6 +254,9 @@ static celspan_status open_part(celspan_context *context, const cs_picture *part
   *header = whole->header;
   cs_store_leave(whole);
   celspan_picture_info *info = &header->info;
+  header->is_turned = header->is_whole = header->is_sequential = false;
+  if (part->width == 0)
+    return CELSPAN_OK;
   if (part->x + part->width > info->width || part->y + part->height > info->height)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "%s: source {%d, %d, %d, %d} is not inside the picture, which is %d x %d pixels",
@@ -260,7 +264,6 @@ static celspan_status open_part(celspan_context *context, const cs_picture *part
                    info->height);
   info->width = part->width;
   info->height = part->height;
-  header->is_turned = header->is_whole = header->is_sequential = false;
   return CELSPAN_OK;
 }
 
@@ -336,10 +339,11 @@ static void count_entry(cs_picture_store *store, const cs_picture_entry *entry) 
 }
 
 /* The caller has locked `lock`. */
-static bool keep_entry(cs_picture_store *store, const char *colour, cs_picture_entry *entry) {
-  if (!set_decoder(store, colour, entry))
+static bool keep_entry(cs_picture_store *store, const cs_picture *picture,
+                       cs_picture_entry *entry) {
+  if (!set_decoder(store, picture->colour, entry))
     return false;
-  plan_entry(store, entry);
+  plan_entry(store, picture->is_smooth, entry);
   count_entry(store, entry);
   entry->next = store->entries[entry->hash.a & 255];
   store->entries[entry->hash.a & 255] = entry;
@@ -352,7 +356,7 @@ static celspan_status add_entry(celspan_context *context, cs_picture_store *stor
   CS_TRY(open_entry(context, store, picture, &entry));
   pthread_mutex_lock(&store->lock);
   cs_picture_entry *known = find_entry(store, picture->hash);
-  bool is_kept = !known && keep_entry(store, picture->colour, entry);
+  bool is_kept = !known && keep_entry(store, picture, entry);
   pthread_mutex_unlock(&store->lock);
   if (!is_kept)
     destroy_entry(store, entry);
