@@ -4,6 +4,7 @@
 --   local text = captions:at(f.time)          -- nil between captions
 --
 -- Both formats are blocks between empty lines: an optional name or number, the times, the text.
+local core = require "celspan.core"
 local fields = require "celspan.fields"
 local files = require "celspan.files"
 
@@ -155,7 +156,9 @@ end
 ---@return celspan.captions? captions
 ---@return string? message
 function captions.decode(text)
-  if type(text) ~= "string" then error("captions: decode takes a string, got " .. type(text), 2) end
+  if type(text) ~= "string" then
+    core.refuse("captions: decode takes a string, got " .. type(text))
+  end
   if not utf8.len(text) then return nil, "the text is not UTF-8" end
   local good, list = pcall(decode, text)
   if not good and type(list) ~= "table" then error(list, 0) end
@@ -168,8 +171,9 @@ end
 ---@return celspan.captions? captions
 ---@return string? message
 function captions.read(path)
-  if type(path) ~= "string" then error("captions: read takes a file name, got " .. type(path),
-    2) end
+  if type(path) ~= "string" then
+    core.refuse("captions: read takes a file name, got " .. type(path))
+  end
   local text, message = files.read_found(path, MOST_BYTES)
   if not text then return nil, message end
   local list, problem = captions.decode(text)
@@ -177,4 +181,4 @@ function captions.read(path)
   return list
 end
 
-return fields.seal("captions", captions)
+return fields.publish("captions", captions, Captions)

@@ -5,6 +5,7 @@
 --
 -- Fields may be in quotes, where "" is a quote and a line may end. Lines end with CR LF or LF;
 -- empty lines are skipped. Every row has as many fields as the first.
+local core = require "celspan.core"
 local fields = require "celspan.fields"
 local files = require "celspan.files"
 
@@ -159,16 +160,16 @@ end
 
 local known = { header = "boolean", separator = "string", types = "table" }
 
-local function check_options(options, level)
-  fields.check("csv", options, known, level + 1)
+local function check_options(options)
+  fields.check("csv", options, known)
   local separator = options.separator
   if separator and (#separator ~= 1 or separator:find '["\r\n]') then
-    error("csv: field 'separator' must be one character, and no quote or end of a line", level)
+    core.refuse("csv: field 'separator' must be one character, and no quote or end of a line")
   end
   for column, kind in pairs(options.types or {}) do
     if not readers[kind] then
-      error(("csv: the type of column '%s' must be \"number\", \"boolean\" or \"string\"")
-        :format(tostring(column)), level)
+      core.refuse(("csv: the type of column '%s' must be \"number\", \"boolean\" or \"string\"")
+        :format(tostring(column)))
     end
   end
 end
@@ -184,9 +185,9 @@ end
 ---@return table[]? rows rows[i][j], and rows[i].name with a header
 ---@return string? message
 function csv.decode(text, options)
-  if type(text) ~= "string" then error("csv: decode takes a string, got " .. type(text), 2) end
+  if type(text) ~= "string" then core.refuse("csv: decode takes a string, got " .. type(text)) end
   options = options or {}
-  check_options(options, 3)
+  check_options(options)
   if #text > csv.most_bytes then
     return nil, ("the text has %d bytes; at most %d are read"):format(#text, csv.most_bytes)
   end
@@ -202,9 +203,9 @@ end
 ---@return table[]? rows rows[i][j], and rows[i].name with a header
 ---@return string? message
 function csv.read(path, options)
-  if type(path) ~= "string" then error("csv: read takes a file name, got " .. type(path), 2) end
+  if type(path) ~= "string" then core.refuse("csv: read takes a file name, got " .. type(path)) end
   options = options or {}
-  check_options(options, 3)
+  check_options(options)
   local text, message = files.read_found(path, csv.most_bytes)
   if not text then return nil, message end
   local rows, problem = csv.decode(text, options)
@@ -212,4 +213,4 @@ function csv.read(path, options)
   return rows
 end
 
-return fields.seal("csv", csv)
+return fields.publish("csv", csv)

@@ -63,8 +63,8 @@ Transition.__name = "celspan.cut.transition"
 --- a, first(a, u, size), and of b, second(b, u, size).
 local function transition(noun, seconds, parts)
   if not fields.is_finite(seconds) or seconds <= 0 then
-    error(("cut: %s takes seconds, a number above 0, got %s"):format(noun, fields.shown(seconds)),
-      3)
+    core.refuse(("cut: %s takes seconds, a number above 0, got %s"):format(noun,
+      fields.shown(seconds)))
   end
   local value = { seconds = seconds, noun = noun }
   for name, part in pairs(parts) do value[name] = part end
@@ -95,7 +95,7 @@ function cut.fade(seconds, colour)
   local texture = colour == nil and "#000" or colour
   local good, message = pcall(celspan.rect, { 0, 0, 1, 1, texture = texture })
   if not good then
-    error("cut: fade: the colour: " .. tostring(message):gsub("^.-rect: ", ""), 2)
+    core.refuse("cut: fade: the colour: " .. tostring(message):gsub("^.-rect: ", ""))
   end
   local function ground(size)
     return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, size[1], size[2],
@@ -117,12 +117,12 @@ end
 
 --- Checks the settings of a transition: named fields and their ranges { least, most }.
 local function settings_of(noun, settings, known, ranges)
-  fields.check("cut: " .. noun, settings, known, 4)
+  fields.check("cut: " .. noun, settings, known)
   for name, range in pairs(ranges) do
     local value = settings[name]
     if value and (value < range[1] or value > range[2]) then
-      error(("cut: %s: field '%s' must be %s..%s, got %s"):format(noun, name,
-        fields.shown(range[1]), fields.shown(range[2]), fields.shown(value)), 3)
+      core.refuse(("cut: %s: field '%s' must be %s..%s, got %s"):format(noun, name,
+        fields.shown(range[1]), fields.shown(range[2]), fields.shown(value)))
     end
   end
 end
@@ -240,8 +240,8 @@ function cut.push(settings)
   local from = settings.from or "right"
   local side = SIDES[from]
   if not side then
-    error(('cut: push: field \'from\' must be "right", "left", "top" or "bottom", got "%s"')
-      :format(from), 2)
+    core.refuse(('cut: push: field \'from\' must be "right", "left", "top" or "bottom", got "%s"')
+      :format(from))
   end
   local function moved(shot, share, size)
     return { { show(shot, shot:translate(side[1] * share * size[1], side[2] * share * size[2])),
@@ -260,7 +260,7 @@ end
 ---@return fun(seconds: number): celspan.cut.transition
 function cut.with(make)
   if type(make) ~= "function" then
-    error("cut: with takes a function(a, b, u), got " .. fields.kind(make), 2)
+    core.refuse("cut: with takes a function(a, b, u), got " .. fields.kind(make))
   end
   return function(seconds) return transition("with", seconds, { pair = make }) end
 end
@@ -315,7 +315,7 @@ local function read_shot(i, part, like)
   if type(part) ~= "table" then
     complain(i, "must be a film, { film = ... } or a transition, got %s", fields.kind(part))
   end
-  fields.check(("cut: part %d"):format(i), part, part_fields, 5)
+  fields.check(("cut: part %d"):format(i), part, part_fields)
   local film = part.film
   if not is_film(film) then
     complain(i, "field 'film' must be a film, got %s", fields.kind(film))
@@ -554,16 +554,16 @@ end
 ---@param duration? number Seconds; default: the time of the last key
 ---@return celspan.film
 function cut.retime(film, list, duration)
-  if not is_film(film) then error("cut: retime takes a film, got " .. fields.kind(film), 2) end
+  if not is_film(film) then core.refuse("cut: retime takes a film, got " .. fields.kind(film)) end
   local is_track = type(list) == "table" and type(rawget(list, "keys")) == "table"
   local track = is_track and list or keys(list)
   check_keys(film, track)
   if duration == nil and track.loop then
-    error("cut: retime: keys with a loop need a duration, cut.retime(film, keys, 10)", 2)
+    core.refuse("cut: retime: keys with a loop need a duration, cut.retime(film, keys, 10)")
   end
   duration = duration == nil and track.keys[#track.keys].time or duration
   if not fields.is_finite(duration) or duration <= 0 then
-    error("cut: retime: the duration must be above 0 seconds, got " .. fields.shown(duration), 2)
+    core.refuse("cut: retime: the duration must be above 0 seconds, got " .. fields.shown(duration))
   end
   local last = film.first + film.frames - 1
   local function number_at(index)
@@ -594,4 +594,4 @@ end
 
 ---@class celspan.cut
 ---@overload fun(parts: celspan.cut.parts): celspan.film
-return fields.seal("cut", setmetatable(cut, { __call = new }))
+return fields.publish("cut", setmetatable(cut, { __call = core.entry(new) }))

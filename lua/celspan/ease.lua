@@ -4,10 +4,13 @@
 --   ease "quadinout" (u)      flux's names
 --   ease "in-out-quad" (u)    hump.timer's names
 --   ease "easeInOutQuad" (u)  Penner's names
---   ease "ease-in-out" (u)    CSS's names: ease, ease-in, ease-out, ease-in-out
---   ease "linear", ease "hold", ease "steps:4", ease "bezier:.4,0,.2,1", ease(function)
+--   ease "ease-in-out" (u)    CSS's names: ease, ease-in, ease-out, ease-in-out, step-start,
+--                             step-end, steps(4), cubic-bezier(.4, 0, .2, 1)
+--   ease "linear", ease "hold", ease "spring", ease "steps:4", ease "bezier:.4,0,.2,1",
+--   ease(function)
 --
--- A curve starts at 0 for u <= 0 and ends at 1 for u >= 1; back and elastic overshoot between.
+-- A curve starts at 0 for u <= 0 and ends at 1 for u >= 1; back, elastic and spring overshoot
+-- between.
 local core = require "celspan.core"
 local fields = require "celspan.fields"
 
@@ -70,8 +73,20 @@ local function held(f)
   end
 end
 
-local names = { "linear", "hold" }
-local curves = { linear = held(function(u) return u end), hold = held(function() return 0 end) }
+local DAMPING, SWINGS = 6, 2
+
+--- Of a weight on a spring that is let go: it starts at rest and swings around 1. What is left of
+--- the swing at the end is taken out of the curve evenly.
+local function spring(u)
+  local angle = 2 * pi * SWINGS
+  local swing = math.cos(angle * u) + DAMPING / angle * sin(angle * u)
+  return 1 - math.exp(-DAMPING * u) * swing + u * math.exp(-DAMPING)
+end
+
+local curves = { linear = held(function(u) return u end), hold = held(function() return 0 end),
+                 stepstart = held(function() return 1 end), spring = held(spring) }
+curves.stepend = curves.hold
+local names = { "linear", "hold", "stepstart", "stepend", "spring" }
 
 for _, family in ipairs { "quad", "cubic", "quart", "quint", "sine", "expo", "circ", "back",
                           "bounce", "elastic" } do
@@ -91,7 +106,7 @@ end
 local function steps(text)
   local count = tonumber(text)
   if not count or count < 1 or count ~= math.floor(count) then
-    error(("ease: steps takes a whole number of at least 1, got %q"):format(text), 3)
+    core.refuse(("ease: steps takes a whole number of at least 1, got %q"):format(text))
   end
   return held(function(u) return math.floor(u * count) / count end)
 end
@@ -128,34 +143,34 @@ local function bezier(text)
   local x1, y1, x2, y2 = table.unpack(n)
   local good = #n == 4 and x1 >= 0 and x1 <= 1 and x2 >= 0 and x2 <= 1 and y1 == y1 and y2 == y2
   if not good then
-    error(("ease: bezier takes x1,y1,x2,y2 with x1 and x2 in 0..1, got %q"):format(text), 3)
+    core.refuse(("ease: bezier takes x1,y1,x2,y2 with x1 and x2 in 0..1, got %q"):format(text))
   end
   return bezier_curve(x1, y1, x2, y2)
 end
 
-local function find(name)
+local function find(_, name)
   if type(name) == "function" then return name end
   if type(name) ~= "string" then
-    error("ease: takes a curve's name or a function, got " .. type(name), 3)
+    core.refuse("ease: takes a curve's name or a function, got " .. type(name))
   end
-  local kind, text = name:match "^(%a+):(.*)$"
+  local kind, text = name:match "^([%a-]+)[:(](.-)%)?$"
   if kind == "steps" then return steps(text) end
-  if kind == "bezier" then return bezier(text) end
+  if kind == "bezier" or kind == "cubic-bezier" then return bezier(text) end
   local plain = name:lower():gsub("[-_ ]", "")
   local curve = curves[plain] or curves[plain:match "^ease(.*)$"]
   if curve then return curve end
   local hint = core.nearest(plain, names)
-  error(("ease: there is no curve %q%s"):format(name,
+  core.refuse(("ease: there is no curve %q%s"):format(name,
     hint and ("; did you mean %q?"):format(hint)
-      or "; celspan help lua ease describes the names"), 3)
+      or "; celspan help lua ease describes the names"))
 end
 
 ---@class celspan.ease
 ---@field names string[]
 ---@overload fun(curve: string|fun(u: number): number): fun(u: number): number
-return fields.seal("ease", setmetatable({
+return fields.publish("ease", setmetatable({
   --- Every name in its plain form: "inquad", "quadin", ...
   names = names,
 }, {
-  __call = function(_, name) return (find(name)) end,
+  __call = core.entry(find),
 }))

@@ -47,29 +47,30 @@ function fields.shown(value)
 end
 
 --- Raises an error: `noun` has no field or method of this name. The message suggests the nearest of
---- `names`. level: that of the line that reads the name, as for error.
-local function refuse_name(noun, name, names, level)
+--- `names`.
+local function refuse_name(noun, name, names)
   table.sort(names)
   local hint = core.nearest(name, names)
-  error(("%s has no '%s'%s"):format(noun, name, hint and ("; did you mean '%s'?"):format(hint)
-    or #names > 0 and "; there are " .. table.concat(names, ", ") or ""), level + 1)
+  core.refuse(("%s has no '%s'%s"):format(noun, name, hint and ("; did you mean '%s'?"):format(hint)
+    or #names > 0 and "; there are " .. table.concat(names, ", ") or ""))
 end
 
---- Raises an error at the line of the caller's caller, or at `level`, unless `self` is a value of
---- this class (its metatable).
-function fields.self(noun, class, self, method, level)
+--- Raises an error unless `self` is a value of this class (its metatable). These errors, like all
+--- of the library, are at the line of the nearest caller outside it.
+function fields.self(noun, class, self, method)
   if getmetatable(self) ~= class then
-    error(("%s: %s: call it as a method, value:%s(...), got %s"):format(noun, method, method,
-      fields.kind(self)), level or 3)
+    core.refuse(("%s: %s: call it as a method, value:%s(...), got %s"):format(noun, method, method,
+      fields.kind(self)))
   end
 end
 
---- Raises an error at the line of the caller's caller unless `self` is a value of this class, and
---- `value`, what its method `at` takes, is a finite number. what: "a time".
+--- Raises an error unless `self` is a value of this class, and `value`, what its method `at` takes,
+--- is a finite number. what: "a time".
 function fields.check_at(noun, class, self, value, what)
-  fields.self(noun, class, self, "at", 4)
+  fields.self(noun, class, self, "at")
   if not fields.is_finite(value) then
-    error(("%s: at takes %s, a finite number, got %s"):format(noun, what, fields.shown(value)), 3)
+    core.refuse(("%s: at takes %s, a finite number, got %s"):format(noun, what,
+      fields.shown(value)))
   end
 end
 
@@ -85,7 +86,7 @@ function fields.reads(noun, methods, optional)
         if type(known) == "string" and not known:find "^__" then names[#names + 1] = known end
       end
     end
-    refuse_name(noun, name, names, 2)
+    refuse_name(noun, name, names)
   end
 end
 
@@ -96,29 +97,43 @@ function fields.seal(noun, module)
   return setmetatable(module, metatable)
 end
 
---- Raises an error unless `value` is a list of `count` finite numbers. subject: its name in the
---- message, with the number's index: "film[%d]"; shape: a description of valid values.
-function fields.numbers(noun, subject, value, count, shape, level)
-  level = (level or 3) + 1
-  if type(value) ~= "table" then
-    error(("%s: %s must be %s, got %s"):format(noun, subject:match "^[^%[:]*", shape,
-      fields.kind(value)), level)
-  end
-  for i = 1, count do
-    local number = value[i]
-    if not fields.is_finite(number) then
-      error(("%s: %s must be a %snumber, got %s"):format(noun, subject:format(i),
-        type(number) == "number" and "finite " or "", fields.shown(number)), level)
+--- Makes the functions of a table, except those for operators, keep the line of a caller that ends
+--- with them: `return layers.read(7)`.
+local function keep_callers(methods)
+  for name, method in next, methods do
+    if type(method) == "function" and name:sub(1, 2) ~= "__" then
+      methods[name] = core.entry(method)
     end
   end
 end
 
---- Checks the fields of a table; raises errors at the line of the caller's caller, or at `level`.
+--- fields.seal for a module that scripts use. More arguments: the methods of its classes.
+function fields.publish(noun, module, ...)
+  for _, methods in ipairs { module, ... } do keep_callers(methods) end
+  return fields.seal(noun, module)
+end
+
+--- Raises an error unless `value` is a list of `count` finite numbers. subject: its name in the
+--- message, with the number's index: "film[%d]"; shape: a description of valid values.
+function fields.numbers(noun, subject, value, count, shape)
+  if type(value) ~= "table" then
+    core.refuse(("%s: %s must be %s, got %s"):format(noun, subject:match "^[^%[:]*", shape,
+      fields.kind(value)))
+  end
+  for i = 1, count do
+    local number = value[i]
+    if not fields.is_finite(number) then
+      core.refuse(("%s: %s must be a %snumber, got %s"):format(noun, subject:format(i),
+        type(number) == "number" and "finite " or "", fields.shown(number)))
+    end
+  end
+end
+
+--- Checks the fields of a table.
 --- known: name -> the required type(), or "any"; known[1] is not nil if the table may hold a list.
-function fields.check(noun, given, known, level)
-  level = level or 3
+function fields.check(noun, given, known)
   if type(given) ~= "table" then
-    error(("%s: takes a table, got %s"):format(noun, fields.kind(given)), level)
+    core.refuse(("%s: takes a table, got %s"):format(noun, fields.kind(given)))
   end
   local names = {}
   for name in pairs(known) do
@@ -128,23 +143,23 @@ function fields.check(noun, given, known, level)
   local unknown = unknown_in(given, known)
   if unknown then
     local hint = core.nearest(unknown, names)
-    error(("%s: unknown field '%s'%s"):format(noun, unknown,
+    core.refuse(("%s: unknown field '%s'%s"):format(noun, unknown,
       hint and ("; did you mean '%s'?"):format(hint)
-        or "; the fields are " .. table.concat(names, ", ")), level)
+        or "; the fields are " .. table.concat(names, ", ")))
   end
   if known[1] == nil and rawlen(given) > 0 then
-    error(("%s: takes named fields only, but was given a list"):format(noun), level)
+    core.refuse(("%s: takes named fields only, but was given a list"):format(noun))
   end
   for _, name in ipairs(names) do
     local value = given[name]
     local wanted = known[name]
     if value ~= nil and wanted ~= "any" and type(value) ~= wanted then
-      error(("%s: field '%s' must be a %s, got %s"):format(noun, name, wanted,
-        fields.kind(value)), level)
+      core.refuse(("%s: field '%s' must be a %s, got %s"):format(noun, name, wanted,
+        fields.kind(value)))
     end
     if wanted == "number" and value ~= nil and not fields.is_finite(value) then
-      error(("%s: field '%s' must be a finite number, got %s"):format(noun, name,
-        fields.shown(value)), level)
+      core.refuse(("%s: field '%s' must be a finite number, got %s"):format(noun, name,
+        fields.shown(value)))
     end
   end
 end

@@ -50,7 +50,7 @@ end
 --- celspan.read: the text of a file named in a script.
 function files.text(path)
   if type(path) ~= "string" then
-    error("celspan: read takes a file name, got " .. type(path), 2)
+    core.refuse("celspan: read takes a file name, got " .. type(path))
   end
   return files.read_found(path, MOST_BYTES)
 end
@@ -74,4 +74,4 @@ function files.write(path, text)
   return good, problem
 end
 
-return require "celspan.fields".seal("files", files)
+return require "celspan.fields".publish("files", files)

@@ -128,7 +128,7 @@ end
 
 --- Raises an error at the line that made the keys.
 local function complain(i, text, ...)
-  error(("keys: key %d "):format(i) .. text:format(...), 5)
+  core.refuse(("keys: key %d "):format(i) .. text:format(...))
 end
 
 --- The fault of a key by itself, or nil.
@@ -225,10 +225,10 @@ end
 local loops = { ["repeat"] = true, mirror = true }
 
 local function new(_, list)
-  fields.check("keys", list, { "keys", loop = "string" }, 4)
-  if rawlen(list) == 0 then error("keys: needs at least one key {time, value}", 3) end
+  fields.check("keys", list, { "keys", loop = "string" })
+  if rawlen(list) == 0 then core.refuse("keys: needs at least one key {time, value}") end
   if list.loop ~= nil and not loops[list.loop] then
-    error(('keys: loop must be "repeat" or "mirror", got %s'):format(tostring(list.loop)), 3)
+    core.refuse(('keys: loop must be "repeat" or "mirror", got %s'):format(tostring(list.loop)))
   end
   local keys, kind = read_keys(list)
   return setmetatable({ keys = keys, kind = kind, loop = list.loop }, Track)
@@ -269,7 +269,7 @@ function Track:at(time)
   if after.ease then
     u = after.ease(u)
     if not fields.is_finite(u) then
-      error("keys: an ease must return a finite number, got " .. fields.shown(u), 2)
+      core.refuse("keys: an ease must return a finite number, got " .. fields.shown(u))
     end
   end
   return mixers[self.kind](before.value, after.value, u)
@@ -277,4 +277,4 @@ end
 
 ---@class celspan.keys
 ---@overload fun(list: table): celspan.keys.track
-return fields.seal("keys", setmetatable({}, { __call = core.entry(new) }))
+return fields.publish("keys", setmetatable({}, { __call = core.entry(new) }), Track)

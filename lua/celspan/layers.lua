@@ -294,7 +294,7 @@ end
 ---@return string? message
 function layers.read(path, options)
   if type(path) ~= "string" then
-    error("layers: read takes the name of a file or folder, got " .. fields.kind(path), 2)
+    core.refuse("layers: read takes the name of a file or folder, got " .. fields.kind(path))
   end
   options = options or {}
   fields.check("layers: read", options, { smooth = "boolean" })
@@ -328,7 +328,7 @@ end
 function methods:find(path)
   fields.self("layers", Tree, self, "find")
   if type(path) ~= "string" then
-    error("layers: find takes a path like \"group/layer\", got " .. fields.kind(path), 2)
+    core.refuse("layers: find takes a path like \"group/layer\", got " .. fields.kind(path))
   end
   return find(self, path)
 end
@@ -384,8 +384,8 @@ local function choose(tree, only)
   for i, path in ipairs(only) do
     local entry = type(path) == "string" and find(tree, path) or nil
     if not entry then
-      error(("layers: only[%d] must be the path of a layer, got %s"):format(i,
-        type(path) == "string" and ("%q"):format(path) or fields.kind(path)), 3)
+      core.refuse(("layers: only[%d] must be the path of a layer, got %s"):format(i,
+        type(path) == "string" and ("%q"):format(path) or fields.kind(path)))
     end
     chosen[entry] = true
   end
@@ -405,4 +405,4 @@ function methods:cels(options)
   return cels
 end
 
-return fields.seal("layers", layers)
+return fields.publish("layers", layers, methods)

@@ -7,6 +7,7 @@
 -- shape stays for at least `hold` frames, so that mouths do not flicker. Closed mouths (A, MBP, X,
 -- rest) are never dropped: viewers notice when they are missing. After the last cue the mouth is at
 -- rest: X in Rhubarb's files, where a last X only marks the end, and rest in the others.
+local core = require "celspan.core"
 local cues = require "celspan.cues"
 local fields = require "celspan.fields"
 local files = require "celspan.files"
@@ -36,15 +37,15 @@ local SHIFT_MOST = 1e6 -- frames before a line
 local function check_ranges(options)
   local fps, hold = options.fps or 24, options.hold or 2
   if not (fps > 0 and fps <= 1000) then
-    error("lips: field 'fps' must be above 0 and at most 1000, got " .. fields.shown(fps), 3)
+    core.refuse("lips: field 'fps' must be above 0 and at most 1000, got " .. fields.shown(fps))
   end
   if hold < 1 or hold ~= math.floor(hold) then
-    error("lips: field 'hold' must be a whole number of frames, 1 or more, got "
-      .. fields.shown(hold), 3)
+    core.refuse("lips: field 'hold' must be a whole number of frames, 1 or more, got "
+      .. fields.shown(hold))
   end
   if math.abs((options.start or 0) * fps) > SHIFT_MOST then
-    error(("lips: field 'start' must be within %d frames, got %s seconds"):format(SHIFT_MOST,
-      fields.shown(options.start)), 3)
+    core.refuse(("lips: field 'start' must be within %d frames, got %s seconds"):format(SHIFT_MOST,
+      fields.shown(options.start)))
   end
 end
 
@@ -94,7 +95,7 @@ end
 ---@return celspan.lips.track? track
 ---@return string? message
 function lips.read(path, options)
-  if type(path) ~= "string" then error("lips: read takes a file name, got " .. type(path), 2) end
+  if type(path) ~= "string" then core.refuse("lips: read takes a file name, got " .. type(path)) end
   options = options or {}
   fields.check("lips", options, known)
   check_ranges(options)
@@ -119,4 +120,4 @@ function lips.read(path, options)
   return setmetatable({ shapes = shapes, frames = #shapes, fps = fps, rest = rest }, Track)
 end
 
-return fields.seal("lips", lips)
+return fields.publish("lips", lips, Track)

@@ -28,16 +28,16 @@ Way.__name = "celspan.motion.way"
 local function points_of(outline)
   if type(outline) == "string" then
     local points, message = pathdata.points(outline)
-    if not points then error("motion: " .. message, 3) end
+    if not points then core.refuse("motion: " .. message) end
     return points
   end
   if type(outline) ~= "table" then
-    error("motion: along takes path data or a list of points {x, y}, got "
-      .. fields.kind(outline), 3)
+    core.refuse("motion: along takes path data or a list of points {x, y}, got "
+      .. fields.kind(outline))
   end
   local points = {}
   for i = 1, rawlen(outline) do
-    fields.numbers("motion", ("point %d: its value %%d"):format(i), outline[i], 2, "{x, y}", 3)
+    fields.numbers("motion", ("point %d: its value %%d"):format(i), outline[i], 2, "{x, y}")
     points[i] = outline[i]
   end
   return points
@@ -48,7 +48,7 @@ end
 ---@return celspan.motion.way
 function motion.along(outline)
   local points = points_of(outline)
-  if #points == 0 then error("motion: along needs at least one point", 2) end
+  if #points == 0 then core.refuse("motion: along needs at least one point") end
   local way = { { points[1][1], points[1][2], 0 } }
   local length = 0
   for i = 2, #points do
@@ -98,7 +98,8 @@ Wiggle.__name = "celspan.motion.wiggle"
 ---@return celspan.motion.wiggle
 function motion.wiggle(seed, settings)
   if type(seed) ~= "string" and not fields.is_finite(seed) then
-    error("motion: wiggle takes a seed, a string or a finite number, got " .. fields.shown(seed), 2)
+    core.refuse("motion: wiggle takes a seed, a string or a finite number, got "
+      .. fields.shown(seed))
   end
   settings = settings or {}
   fields.check("motion", settings, { frequency = "number", amplitude = "number" })
@@ -299,4 +300,4 @@ function motion.stagger(u, i, count, overlap)
   return math.max(0, math.min(1, (u - start) / length))
 end
 
-return fields.seal("motion", motion)
+return fields.publish("motion", motion, Way, Wiggle, Follower)

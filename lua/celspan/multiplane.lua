@@ -51,39 +51,41 @@ local cel_metatable = getmetatable(celspan.cel {})
 
 local function check(scene)
   if not scene.film then
-    error("multiplane: field 'film' must be {width, height}, the size of the film, got nil", 4)
+    core.refuse("multiplane: field 'film' must be {width, height}, the size of the film, got nil")
   end
-  fields.numbers("multiplane", "film[%d]", scene.film, 2, "{width, height}", 4)
+  fields.numbers("multiplane", "film[%d]", scene.film, 2, "{width, height}")
   if scene.aperture and scene.aperture < 0 then
-    error("multiplane: field 'aperture' must be 0 or more, got " .. fields.shown(scene.aperture), 4)
+    core.refuse("multiplane: field 'aperture' must be 0 or more, got "
+      .. fields.shown(scene.aperture))
   end
   if scene.focal and scene.focal <= 0 then
-    error("multiplane: field 'focal' must be above 0, got " .. fields.shown(scene.focal), 4)
+    core.refuse("multiplane: field 'focal' must be above 0, got " .. fields.shown(scene.focal))
   end
   for i = 1, rawlen(scene) do
     local plane = scene[i]
     local cel = type(plane) == "table" and plane[1] or nil
     if getmetatable(cel) ~= cel_metatable then
-      error(("multiplane: plane %d must be {cel, z = depth}, got %s"):format(i,
-        type(plane) == "table" and ("{%s}"):format(fields.kind(cel)) or fields.kind(plane)), 4)
+      core.refuse(("multiplane: plane %d must be {cel, z = depth}, got %s"):format(i,
+        type(plane) == "table" and ("{%s}"):format(fields.kind(cel)) or fields.kind(plane)))
     end
-    fields.check("multiplane: plane " .. i, plane, known_plane, 5)
+    fields.check("multiplane: plane " .. i, plane, known_plane)
     if fits(plane, scene) and (plane.z or 0) <= -(scene.focal or 1000) then
-      error(("multiplane: plane %d lies at or behind the camera at rest (z = %s, focal = %s); it "
-        .. "cannot fill the film there"):format(i, plane.z, scene.focal or 1000), 4)
+      core.refuse(("multiplane: plane %d lies at or behind the camera at rest (z = %s, focal = %s);"
+        .. " it cannot fill the film there"):format(i, plane.z, scene.focal or 1000))
     end
   end
   for i = 1, #(scene.over or {}) do
     if getmetatable(scene.over[i]) ~= cel_metatable then
-      error(("multiplane: over[%d] must be a cel, got %s"):format(i, fields.kind(scene.over[i])), 4)
+      core.refuse(("multiplane: over[%d] must be a cel, got %s")
+        :format(i, fields.kind(scene.over[i])))
     end
   end
 end
 
 local function multiplane(_, scene)
-  fields.check("multiplane", scene, known, 4)
+  fields.check("multiplane", scene, known)
   check(scene)
-  fields.check("multiplane: camera", scene.camera or {}, known_camera, 4)
+  fields.check("multiplane: camera", scene.camera or {}, known_camera)
   local focal = scene.focal or 1000
   local focus, aperture = scene.focus or focal, scene.aperture or 0
   local order = {}
@@ -108,4 +110,4 @@ end
 
 ---@class celspan.multiplane
 ---@overload fun(scene: table): celspan.rostrum
-return fields.seal("multiplane", setmetatable({}, { __call = core.entry(multiplane) }))
+return fields.publish("multiplane", setmetatable({}, { __call = core.entry(multiplane) }))

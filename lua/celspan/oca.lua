@@ -224,4 +224,4 @@ function oca.read(folder, document)
   return nil, ("%s: %s"):format(path, read.message)
 end
 
-return fields.seal("oca", oca)
+return fields.publish("oca", oca)

@@ -204,11 +204,11 @@ end
 function parameters.declare(given)
   local settings = core.settings()
   if type(given) ~= "table" then
-    error("parameters: takes a table of names and defaults, got " .. fields.kind(given), 2)
+    core.refuse("parameters: takes a table of names and defaults, got " .. fields.kind(given))
   end
-  if settings.declared then error("parameters: a script declares its parameters once", 2) end
+  if settings.declared then core.refuse("parameters: a script declares its parameters once") end
   local good, declared = pcall(declare_all, given)
-  if not good then error(declared, 2) end
+  if not good then core.refuse(declared) end
   settings.declared = declared
   local values = {}
   for _, one in ipairs(declared) do values[one.name] = one.default end

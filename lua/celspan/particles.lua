@@ -48,13 +48,13 @@ local function read_spread(name, value, default)
   if count ~= 2 and count ~= 4 then
     refuse("field '%s' must be {x, y} or {x, y, across, down}, got %d numbers", name, count)
   end
-  fields.numbers("particles", ("%s[%%d]"):format(name), value, count, "a list of numbers", 5)
+  fields.numbers("particles", ("%s[%%d]"):format(name), value, count, "a list of numbers")
   return { value[1], value[2], value[3] or 0, value[4] or 0 }
 end
 
 local function read_life(life)
   if type(life) == "table" then
-    fields.numbers("particles", "life[%d]", life, 2, "{seconds, variation}", 5)
+    fields.numbers("particles", "life[%d]", life, 2, "{seconds, variation}")
     life = { life[1], life[2] }
   else
     life = { life, 0 }
@@ -67,7 +67,7 @@ local function read_life(life)
 end
 
 local function new(_, given)
-  fields.check("particles", given, known, 4)
+  fields.check("particles", given, known)
   local rate = given.rate
   if not rate or rate <= 0 then
     refuse("field 'rate' must be particles per second, above 0, got %s", fields.shown(rate))
@@ -145,4 +145,4 @@ end
 
 ---@class celspan.particles
 ---@overload fun(settings: { seed?: string|number, rate: number, life: number|number[], at?: number[], velocity?: number[], gravity?: number[], drag?: number, field?: (fun(p: celspan.particle, time: number): number, number), from?: number, to?: number }): celspan.particles.source
-return fields.seal("particles", setmetatable({}, { __call = core.entry(new) }))
+return fields.publish("particles", setmetatable({}, { __call = core.entry(new) }), Source)

@@ -125,7 +125,7 @@ local function read_switches(rig, given)
 end
 
 local function new(_, given)
-  fields.check("puppet", given, known, 4)
+  fields.check("puppet", given, known)
   if not is_of("celspan.svg", given.art) and not is_of("celspan.layers.tree", given.art) then
     refuse("field 'art' must be a drawing of celspan.svg or a painting of celspan.layers, got %s",
       fields.kind(given.art))
@@ -181,7 +181,7 @@ end
 --- The place of a pose: { x, y }, 0, 0 by default.
 local function place_of(pose)
   if pose.at == nil then return { 0, 0 } end
-  fields.numbers("puppet", "at[%d]", pose.at, 2, "{x, y}", 5)
+  fields.numbers("puppet", "at[%d]", pose.at, 2, "{x, y}")
   return pose.at
 end
 
@@ -368,4 +368,5 @@ end
 
 ---@class celspan.puppet
 ---@overload fun(settings: table): celspan.puppet.rig
-return fields.seal("puppet", setmetatable({ steps = steps }, { __call = core.entry(new) }))
+return fields.publish("puppet", setmetatable({ steps = steps }, { __call = core.entry(new) }),
+  methods)

@@ -101,7 +101,7 @@ local function from_picture(options)
     refuse "a picture needs its light or an estimate of it, but not both"
   end
   if type(estimate) == "table" then
-    fields.check("relight: estimate", estimate, { at = "any", colour = "any" }, 4)
+    fields.check("relight: estimate", estimate, { at = "any", colour = "any" })
   elseif estimate ~= nil and estimate ~= "grey" then
     refuse('estimate must be "grey" or { at = {x, y, w, h}, colour = ... }, got %s',
       type(estimate) == "string" and ("%q"):format(estimate) or fields.kind(estimate))
@@ -119,8 +119,8 @@ local function from_exposures(options)
   if front == nil or back == nil then
     refuse "two exposures are front = { picture =, light = } and back = { picture =, light = }"
   end
-  fields.check("relight: front", front, known, 4)
-  fields.check("relight: back", back, known, 4)
+  fields.check("relight: front", front, known)
+  fields.check("relight: back", back, known)
   local light = colour_of("front.light", front.light)
   local texture, message = core.relight_exposures(picture_of("front.picture", front.picture), light,
     picture_of("back.picture", back.picture), colour_of("back.light", back.light))
@@ -141,7 +141,7 @@ local function from_grounds(options)
   local given = {}
   for i, shot in ipairs(over) do
     local name = ("over[%d]"):format(i)
-    fields.check("relight: " .. name, shot, { picture = "any", ground = "any" }, 4)
+    fields.check("relight: " .. name, shot, { picture = "any", ground = "any" })
     given[2 * i - 1] = picture_of(name .. ".picture", shot.picture)
     given[2 * i] = ground_of(name .. ".ground", shot.ground)
   end
@@ -183,8 +183,7 @@ function relight.from(options)
           refuse("'%s' cannot be combined with '%s'", name, way[1])
         end
       end
-      local texture, light = way[2](options) -- no tail call: checks count the levels above them
-      return texture, light
+      return way[2](options)
     end
   end
   refuse "it takes a picture, or front and back, or over"
@@ -324,4 +323,4 @@ function methods:light(changes)
   return core.stack_light(self_behind.stack, lights)
 end
 
-return fields.seal("relight", relight)
+return fields.publish("relight", relight, methods)

@@ -240,7 +240,7 @@ end
 function sheet.new(given)
   fields.check("sheet", given, known_fields)
   local made, message = caught(make, given)
-  return made or error("sheet: " .. message, 2)
+  return made or core.refuse("sheet: " .. message)
 end
 
 -- ---------------------------------------------------------------- reading
@@ -283,7 +283,7 @@ end
 ---@return string? message
 function sheet.read(path, options)
   if type(path) ~= "string" then
-    error("sheet: read takes the name of a file or folder, got " .. fields.kind(path), 2)
+    core.refuse("sheet: read takes the name of a file or folder, got " .. fields.kind(path))
   end
   options = options or {}
   fields.check("sheet: read", options, { table = "any" })
@@ -300,28 +300,28 @@ end
 
 -- ---------------------------------------------------------------- asking
 
---- level: that of the function that users call, as for error.
-local function place_of(self, layer, method, level)
+local function place_of(self, layer, method)
   if math.type(layer) == "integer" and self.layers[layer] then return layer end
   for i, name in ipairs(self.layers) do
     if name == layer then return i end
   end
   local hint = type(layer) == "string"
     and core.nearest(layer, { table.unpack(self.layers, 1, 100) })
-  error(("sheet: %s: there is no layer %s%s"):format(method,
+  core.refuse(("sheet: %s: there is no layer %s%s"):format(method,
     type(layer) == "string" and ("%q"):format(layer) or fields.shown(layer),
-    hint and ("; did you mean %q?"):format(hint) or ""), level + 1)
+    hint and ("; did you mean %q?"):format(hint) or ""))
 end
 
 local function column_of(self, layer, method)
-  local store = stores[self] or error("sheet: " .. method .. ": call it as a method of a sheet", 3)
-  return store[place_of(self, layer, method, 3)]
+  local store = stores[self] or core.refuse("sheet: " .. method
+    .. ": call it as a method of a sheet")
+  return store[place_of(self, layer, method)]
 end
 
 local function check_frame(frame, method)
   if not fields.is_finite(frame) then
-    error(("sheet: %s takes a frame's number, a finite number, got %s"):format(method,
-      fields.shown(frame)), 3)
+    core.refuse(("sheet: %s takes a frame's number, a finite number, got %s"):format(method,
+      fields.shown(frame)))
   end
   return math.floor(frame)
 end
@@ -380,48 +380,48 @@ end
 -- ---------------------------------------------------------------- drawings
 
 --- Checks that a name can be part of a file name; raises an error if it leads to another folder.
-local function safe_name(name, level)
+local function safe_name(name)
   local path = name:gsub("\\", "/")
   if path:find "^/" or path:find "^%a:" or path:find "%c"
     or ("/" .. path .. "/"):find("/../", 1, true) then
-    error(("sheet: drawing: %q cannot be part of a file's name"):format(name), level + 1)
+    core.refuse(("sheet: drawing: %q cannot be part of a file's name"):format(name))
   end
   return path
 end
 
 --- "A7b" of layer "A" with "hand_####.png": hand_0007b.png.
-local function by_pattern(name, layer, pattern, level)
+local function by_pattern(name, layer, pattern)
   local before, star, after = pattern:match "^(.*)(%*)([^*]*)$"
-  if star then return before .. safe_name(name, level + 1) .. after end
+  if star then return before .. safe_name(name) .. after end
   local first = pattern:find "#+[^#]*$"
   if not first then
-    error(("sheet: drawing: the pattern %q has neither # nor *"):format(pattern), level + 1)
+    core.refuse(("sheet: drawing: the pattern %q has neither # nor *"):format(pattern))
   end
   local last = pattern:find("[^#]", first) or #pattern + 1
   local start, digits, letter = name:match "^(.-)(%d+)(%a?)$"
   if not digits or start ~= "" and start:gsub("[ _.-]$", "") ~= layer then
-    error(("sheet: drawing: %q has no number, for %q; a * takes the name unchanged")
-      :format(name, pattern), level + 1)
+    core.refuse(("sheet: drawing: %q has no number, for %q; a * takes the name unchanged")
+      :format(name, pattern))
   end
   digits = digits:gsub("^0+(%d)", "%1")
   return pattern:sub(1, first - 1) .. ("0"):rep(last - first - #digits) .. digits .. letter
     .. pattern:sub(last)
 end
 
-local function missing(name, layer, frame, where, level)
-  error(("sheet: drawing: layer %q shows %q at frame %d, which is missing from %s")
-    :format(layer, name, frame, where), level + 1)
+local function missing(name, layer, frame, where)
+  core.refuse(("sheet: drawing: layer %q shows %q at frame %d, which is missing from %s")
+    :format(layer, name, frame, where))
 end
 
-local function from_tree(tree, name, layer, frame, level)
+local function from_tree(tree, name, layer, frame)
   local entry = tree:find(layer .. "/" .. name) or tree:find(name) or tree:find(layer)
-  return entry and entry.object or missing(name, layer, frame, "the layers", level + 1)
+  return entry and entry.object or missing(name, layer, frame, "the layers")
 end
 
-local function from_table(list, name, layer, frame, level)
+local function from_table(list, name, layer, frame)
   local found = rawget(list, name)
   if found == nil then found = rawget(list, math.tointeger(tonumber(name)) or name) end
-  if found == nil then missing(name, layer, frame, "the table", level + 1) end
+  if found == nil then missing(name, layer, frame, "the table") end
   return found
 end
 
@@ -435,7 +435,7 @@ local function frame_at(self, time) return math.floor(time * self.fps + 1e-6) + 
 ---@return celspan.object? object
 function methods:drawing(layer, f, drawings)
   fields.self("sheet", Sheet, self, "drawing")
-  local place = place_of(self, layer, "drawing", 2)
+  local place = place_of(self, layer, "drawing")
   local name_of_layer = self.layers[place]
   local frame = f
   if type(f) == "userdata" then frame = frame_at(self, f.time) end
@@ -445,14 +445,14 @@ function methods:drawing(layer, f, drawings)
   local kind = type(drawings)
   if kind == "function" then return drawings(name) end
   if kind == "string" then
-    return celspan.image { file = by_pattern(name, name_of_layer, drawings, 2) }
+    return celspan.image { file = by_pattern(name, name_of_layer, drawings) }
   end
   if kind ~= "table" then
-    error("sheet: drawing: drawings must be a table, a pattern, layers or a function, got "
-      .. fields.kind(drawings), 2)
+    core.refuse("sheet: drawing: drawings must be a table, a pattern, layers or a function, got "
+      .. fields.kind(drawings))
   end
   if (getmetatable(drawings) or {}).__name == "celspan.layers.tree" then
-    return (from_tree(drawings, name, name_of_layer, frame, 2)) -- no tail calls: levels count
+    return (from_tree(drawings, name, name_of_layer, frame))
   end
   return (from_table(drawings, name, name_of_layer, frame, 2))
 end
@@ -483,7 +483,7 @@ local writers = { xdts = xdts.encode, csv = sheet_csv.encode, txt = sheet_text.e
 function methods:write(path)
   fields.self("sheet", Sheet, self, "write")
   if type(path) ~= "string" then
-    error("sheet: write takes the name of a file, got " .. fields.kind(path), 2)
+    core.refuse("sheet: write takes the name of a file, got " .. fields.kind(path))
   end
   local encode = writers[(path:match "%.(%w+)$" or ""):lower()]
   if not encode then
@@ -572,7 +572,7 @@ end
 ---@return celspan.sheet
 function sheet.of(film, options)
   if not tostring(film):find "^film" then
-    error("sheet: of takes a film, got " .. fields.kind(film), 2)
+    core.refuse("sheet: of takes a film, got " .. fields.kind(film))
   end
   options = options or {}
   fields.check("sheet: of", options, { frames = "table" })
@@ -583,7 +583,7 @@ function sheet.of(film, options)
   end
   local made, message = caught(finish, { name = film.title, fps = film.fps, frames = count,
     layers = state.layers, notes = {}, width = film.size[1], height = film.size[2] })
-  return made or error("sheet: " .. message, 2)
+  return made or core.refuse("sheet: " .. message)
 end
 
-return fields.seal("sheet", sheet)
+return fields.publish("sheet", sheet, methods)

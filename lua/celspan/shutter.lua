@@ -22,7 +22,7 @@ local function moved(f, share)
   }
   return setmetatable(g, {
     __index = function(_, name) return f[name] end,
-    __newindex = function() error("frames are immutable", 2) end,
+    __newindex = function() core.refuse("frames are immutable") end,
   })
 end
 
@@ -38,16 +38,17 @@ local function expose(exposures, result, weight)
 end
 
 local function shutter(_, settings)
-  fields.check("shutter", settings, known, 4)
+  fields.check("shutter", settings, known)
   local angle, samples, frame = settings.angle or 180, settings.samples or 8, settings.frame
   if not (angle >= 0 and angle <= 360) then
-    error(("shutter: field 'angle' must be 0..360 degrees, got %s"):format(fields.shown(angle)), 3)
+    core.refuse(("shutter: field 'angle' must be 0..360 degrees, got %s")
+      :format(fields.shown(angle)))
   end
   if samples < 1 or samples > 10000 or samples ~= math.floor(samples) then
-    error(("shutter: field 'samples' must be a whole number, 1..10000, got %s"):format(
-      fields.shown(samples)), 3)
+    core.refuse(("shutter: field 'samples' must be a whole number, 1..10000, got %s"):format(
+      fields.shown(samples)))
   end
-  if not frame then error("shutter: field 'frame' must be a function, got nil", 3) end
+  if not frame then core.refuse("shutter: field 'frame' must be a function, got nil") end
   return function(f)
     local exposures = {}
     for k = 1, samples do
@@ -59,4 +60,4 @@ end
 
 ---@class celspan.shutter
 ---@overload fun(settings: table): fun(f: celspan.frame): table[]
-return fields.seal("shutter", setmetatable({}, { __call = core.entry(shutter) }))
+return fields.publish("shutter", setmetatable({}, { __call = core.entry(shutter) }))

@@ -30,7 +30,7 @@ local read_field = fields.reads("a sound", Sound)
 local metatable = {
   __name = "celspan.sound",
   __index = read_field,
-  __newindex = function() error("sounds are immutable", 2) end,
+  __newindex = function() core.refuse("sounds are immutable") end,
 }
 
 local function check(value, method)
@@ -63,7 +63,7 @@ end
 function Sound:loudness(seconds)
   check(self, "loudness")
   if not fields.is_finite(seconds) then
-    error("sound: loudness takes seconds, a finite number, got " .. fields.shown(seconds), 2)
+    core.refuse("sound: loudness takes seconds, a finite number, got " .. fields.shown(seconds))
   end
   local sums = sums_of[self]
   local square = sum_before(sums, seconds) - sum_before(sums, seconds - WINDOW)
@@ -110,7 +110,9 @@ end
 ---@return celspan.sound.loudness? sound
 ---@return string? message
 function sound.read(file)
-  if type(file) ~= "string" then error("sound: read takes a file name, got " .. type(file), 2) end
+  if type(file) ~= "string" then
+    core.refuse("sound: read takes a file name, got " .. type(file))
+  end
   local seconds, sums = core.hear(core.find(file))
   if not seconds then return nil, sums end
   local value = setmetatable({ seconds = seconds }, metatable)
@@ -118,4 +120,4 @@ function sound.read(file)
   return value
 end
 
-return fields.seal("sound", sound)
+return fields.publish("sound", sound, Sound)

@@ -69,6 +69,12 @@ local function refuse(message)
   error(message, (spec_level()))
 end
 
+--- fields.check, with errors at the line of the spec.
+local function check(...)
+  local good, message = pcall(fields.check, ...)
+  if not good then refuse(message) end
+end
+
 --- A difference of one 8-bit step, with room for rounding.
 local ONE_CODE = 1 / 255 + 1e-9
 
@@ -317,7 +323,7 @@ function claims.looks_like(subject, arguments)
   if type(name) ~= "string" then
     refuse("looks_like takes the name of a picture, got " .. fields.shown(name))
   end
-  fields.check("looks_like", options, { tolerance = "number" }, spec_level() + 1)
+  check("looks_like", options, { tolerance = "number" })
   local tolerance = tolerance_of("looks_like", options.tolerance)
   local path, image = file_beside_spec(name), frame_pixels(subject)
   if not exists(path) then
@@ -448,8 +454,7 @@ local span_kinds = { "single", "gradient", "array" }
 
 function claims.holds(subject, arguments)
   local wanted = arguments[1]
-  fields.check("holds", wanted, { single = "number", gradient = "number", array = "number" },
-    spec_level() + 1)
+  check("holds", wanted, { single = "number", gradient = "number", array = "number" })
   if next(wanted) == nil then
     refuse("holds takes counts of spans: single =, gradient =, array =")
   end

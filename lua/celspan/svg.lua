@@ -52,7 +52,7 @@ end
 function Art:with(changes)
   fields.self("svg", Art, self, "with")
   if type(changes) ~= "table" then
-    error("svg: with takes a table of functions by part, got " .. fields.kind(changes), 2)
+    core.refuse("svg: with takes a table of functions by part, got " .. fields.kind(changes))
   end
   local names = {}
   for name in pairs(self.parts) do names[#names + 1] = name end
@@ -67,11 +67,11 @@ function Art:with(changes)
       and (rawget(self.parts, name) ~= nil or numbers and numbers[name])
     if not is_known then
       local hint = type(name) == "string" and core.nearest(name, names)
-      error(("svg: the drawing has no part '%s'%s"):format(tostring(name),
-        hint and ("; did you mean '%s'?"):format(hint) or ""), 2)
+      core.refuse(("svg: the drawing has no part '%s'%s"):format(tostring(name),
+        hint and ("; did you mean '%s'?"):format(hint) or ""))
     end
     if type(change) ~= "function" then
-      error(("svg: part '%s' must have a function, got %s"):format(name, fields.kind(change)), 2)
+      core.refuse(("svg: part '%s' must have a function, got %s"):format(name, fields.kind(change)))
     end
   end
   return wrap(self.__drawing:with(changes))
@@ -180,16 +180,16 @@ end
 ---@return celspan.svg.art? art
 ---@return string? message
 function svg.read(path, options)
-  if type(path) ~= "string" then error("svg: read takes a file name, got " .. type(path), 2) end
+  if type(path) ~= "string" then core.refuse("svg: read takes a file name, got " .. type(path)) end
   options = options == nil and {} or options
   local wrong = check_options(options)
-  if wrong then error(wrong, 2) end
+  if wrong then core.refuse(wrong) end
   local found_at, tried = core.find(path)
   local fonts, refused = list_fonts(options, core.find)
-  if not fonts then error(refused, 2) end
+  if not fonts then core.refuse(refused) end
   local drawing, message = core.read_svg(found_at, false, fonts)
   if drawing then return wrap(drawing) end
   return nil, tried and ("%s; also looked for at %s"):format(message, tried) or message
 end
 
-return fields.seal("svg", svg)
+return fields.publish("svg", svg, Art)

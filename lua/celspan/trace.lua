@@ -111,16 +111,16 @@ end
 ---@return string? message
 function trace.picture(path, options)
   if type(path) ~= "string" then
-    error("trace: picture takes a file name, got " .. fields.kind(path), 2)
+    core.refuse("trace: picture takes a file name, got " .. fields.kind(path))
   end
   options = options == nil and {} or options
   fields.check("trace: picture", options, known)
   local checked, refused = check(options)
-  if not checked then error(refused, 2) end
+  if not checked then core.refuse(refused) end
   local found_at, tried = core.find(path)
   local found, message = core.trace(found_at, checked)
   if found then return wrap(found) end
   return nil, tried and ("%s; also looked for at %s"):format(message, tried) or message
 end
 
-return fields.seal("trace", trace)
+return fields.publish("trace", trace)

@@ -56,7 +56,7 @@ local function number_of(method, f)
   local number = f
   if type(f) == "userdata" and tostring(f):find "^frame" then number = f.number end
   if not fields.is_finite(number) then
-    error(("track: %s takes a frame or its number, got %s"):format(method, fields.shown(f)), 3)
+    core.refuse(("track: %s takes a frame or its number, got %s"):format(method, fields.shown(f)))
   end
   return number
 end
@@ -90,7 +90,7 @@ end
 local function check_object(method, object)
   local noun = tostring(object)
   if type(object) ~= "userdata" or noun:find "^frame" or noun:find "^paint" then
-    error(("track: %s takes an object or a cel, got %s"):format(method, fields.kind(object)), 3)
+    core.refuse(("track: %s takes an object or a cel, got %s"):format(method, fields.kind(object)))
   end
 end
 
@@ -123,23 +123,23 @@ end
 local known = { from = "number", at = "any", frames = "string", model = "string" }
 
 local function check_options(options)
-  fields.check("track", options, known, 4)
+  fields.check("track", options, known)
   local model = options.model or "similarity"
   local place
   for i, name in ipairs(models) do place = name == model and i - 1 or place end
   if not place then
-    error(("track: field 'model' must be \"%s\", got \"%s\""):format(
-      table.concat(models, '", "'), model), 3)
+    core.refuse(("track: field 'model' must be \"%s\", got \"%s\""):format(
+      table.concat(models, '", "'), model))
   end
   if not options.from or math.type(math.tointeger(options.from)) ~= "integer" then
-    error("track: field 'from' must be the number of a frame, got "
-      .. fields.shown(options.from), 3)
+    core.refuse("track: field 'from' must be the number of a frame, got "
+      .. fields.shown(options.from))
   end
   local at = options.at
   if type(at) == "table" then
-    fields.numbers("track", "at[%d]", at, 4, "{x, y, w, h} or an object", 3)
+    fields.numbers("track", "at[%d]", at, 4, "{x, y, w, h} or an object")
   elseif type(at) ~= "userdata" or not pcall(celspan.cel, { at }) then -- a cel takes only objects
-    error("track: field 'at' must be {x, y, w, h} or an object, got " .. fields.kind(at), 3)
+    core.refuse("track: field 'at' must be {x, y, w, h} or an object, got " .. fields.kind(at))
   end
   return place
 end
@@ -237,7 +237,7 @@ end
 ---@return string? message
 function track.follow(pattern, options)
   if type(pattern) ~= "string" then
-    error("track: follow takes the pattern of files, got " .. fields.kind(pattern), 2)
+    core.refuse("track: follow takes the pattern of files, got " .. fields.kind(pattern))
   end
   local model = check_options(options)
   local from = math.tointeger(options.from)
@@ -298,7 +298,7 @@ end
 function methods:write(path)
   fields.self("track", Track, self, "write")
   if type(path) ~= "string" then
-    error("track: write takes the name of a file, got " .. fields.kind(path), 2)
+    core.refuse("track: write takes the name of a file, got " .. fields.kind(path))
   end
   return files.write(path, self:text())
 end
@@ -357,7 +357,9 @@ end
 ---@return celspan.track? track
 ---@return string? message
 function track.read(path)
-  if type(path) ~= "string" then error("track: read takes a file name, got " .. type(path), 2) end
+  if type(path) ~= "string" then
+    core.refuse("track: read takes a file name, got " .. type(path))
+  end
   local text, message = files.read_found(path, MOST_BYTES)
   if not text then return nil, message end
   local value, problem = json.decode(text)
@@ -368,4 +370,4 @@ function track.read(path)
   return nil, ("%s: %s"):format(path, result.message)
 end
 
-return fields.seal("track", track)
+return fields.publish("track", track, methods)

@@ -76,6 +76,25 @@ return celspan.film { frame = function() return celspan.rect { 0, 0, -1, 1 } end
     assert.is_nil(text:find("called from", 1, true), text)
   end)
 
+  it("has the line of a frame function that ends with the call", function()
+    for call, said in pairs {
+      ["ease"] = [[require "celspan.ease" "inotquad"]], ["svg"] = [[require "celspan.svg".read(7)]],
+      ["sheet"] = [[require "celspan.sheet".new { fsp = 1 }]],
+      ["layers"] = [[require "celspan.layers".read("a.ora", { smoth = true })]],
+      ["lips"] = [[require "celspan.lips".read("a.tsv", { fsp = 1 })]],
+      ["cut"] = [[require "celspan.cut" { dissolv = 1 }]],
+      ["motion"] = [[require "celspan.motion".along "M0 0Z3"]],
+      ["captions"] = [[require "celspan.captions".read(7)]],
+      ["celspan"] = [[celspan.read(7)]],
+      ["keys"] = [[require "celspan.keys" { { 1, 2 } }:at "x"]],
+    } do
+      bench:write("shot.lua", 'local celspan = require "celspan"\nreturn celspan.film { size = '
+        .. "{ 8, 8 }, frame = function()\n  return " .. said .. "\nend }")
+      local _, _, text = bench:celspan("check '%s/shot.lua'", bench.folder)
+      assert.is_truthy(text:find("shot.lua:3: " .. call .. ": ", 1, true), text)
+    end
+  end)
+
   it("lists them once if a film is made from another film's frames", function()
     local shots = celspan.film { size = { 4, 4 }, frame = function()
       local function draw() error "torn" end

@@ -20,7 +20,26 @@ describe("ease", function()
                                 ["ease-out"] = "0,0,.58,1", ["ease-in-out"] = ".42,0,.58,1" } do
       assert.are.equal(ease("bezier:" .. points)(0.3), ease(name)(0.3))
     end
+    assert.are.equal(ease "bezier:.4,0,.2,1" (0.3), ease "cubic-bezier(.4, 0, .2, 1)" (0.3))
+    assert.are.equal(ease "steps:4" (0.3), ease "steps(4)" (0.3))
     assert.are.same({ 0, 0, 1 }, { ease "hold" (0), ease "hold" (0.999), ease "hold" (1) })
+    assert.are.same({ 0, 0, 1 },
+      { ease "step-end" (0), ease "step-end" (0.999), ease "step-end" (1) })
+    assert.are.same({ 0, 1, 1 }, { ease "step-start" (0), ease "step-start" (0.001),
+      ease "step-start" (1) })
+  end)
+
+  it("swings around 1 as a spring, from rest, less and less", function()
+    local spring, most, crossed = ease "spring", 0, 0
+    assert.is_true(math.abs(spring(1e-4)) < 1e-5)
+    for i = 1, 1000 do
+      local before, now = spring((i - 1) / 1000), spring(i / 1000)
+      most = math.max(most, now)
+      if (before - 1) * (now - 1) < 0 then crossed = crossed + 1 end
+      if i > 500 then assert.is_true(math.abs(now - 1) < 0.06) end
+    end
+    assert.is_true(most > 1.1 and most < 1.25, tostring(most))
+    assert.are.equal(4, crossed)
   end)
 
   it("starts at 0 and ends at 1, and is constant outside", function()

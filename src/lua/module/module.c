@@ -42,8 +42,7 @@ static int nearest(lua_State *L) {
 /* core.refuse(message): raises it at the line of the nearest caller that is not celspan's own. */
 static int refuse(lua_State *L) { return cs_caller_error(L, "%s", luaL_checkstring(L, 1)); }
 
-/* core.entry(function): the same function, which keeps the line of a caller that ends with it. The
- * caller has level 3 in it. */
+/* core.entry(function): the same function, which keeps the line of a caller that ends with it. */
 static int entry(lua_State *L) {
   luaL_checktype(L, 1, LUA_TFUNCTION);
   lua_settop(L, 1);
