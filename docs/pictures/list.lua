@@ -92,7 +92,7 @@ for _, recipe in ipairs {
   { "snowfall", 30, "360x202" }, { "water_reflection", 10 }, { "squash_stretch", 33 },
   { "magnifying_lens", 40 }, { "old_film", 12, "360x202" }, { "morph_shapes", 26 },
   { "confetti_burst", 17 }, { "camera_shake", 40 }, { "sprite_sheet", 1 },
-  { "transparent_video", 30 },
+  { "transparent_video", 30 }, { "crossfade", 32 }, { "rotoscope", 7 }, { "mixed_sound", 64 },
 } do
   list[#list + 1] = { name = recipe[1], page = "docs/cookbook.md", frame = recipe[2],
     size = recipe[3] }

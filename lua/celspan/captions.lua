@@ -119,7 +119,7 @@ local function in_order(a, b)
 end
 
 local function decode(text)
-  text = text:gsub("^\239\187\191", ""):gsub("\r\n?", "\n")
+  text = text:gsub("^\239\187\191", ""):gsub("\r\n?", "\n"):gsub("\0", "\u{FFFD}")
   local is_vtt, list = text:find "^WEBVTT%f[%s\0]" ~= nil, {}
   for i, block in ipairs(read_blocks(text)) do
     if not (is_vtt and i == 1 and not block.has_arrow) then read_block(block, is_vtt, list) end

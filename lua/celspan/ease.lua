@@ -159,7 +159,7 @@ local function find(_, name)
   local plain = name:lower():gsub("[-_ ]", "")
   local curve = curves[plain] or curves[plain:match "^ease(.*)$"]
   if curve then return curve end
-  local hint = core.nearest(plain, names)
+  local hint = directions[plain] and plain .. "sine" or core.nearest(plain, names)
   core.refuse(("ease: there is no curve %q%s"):format(name,
     hint and ("; did you mean %q?"):format(hint)
       or "; celspan help lua ease describes the names"))

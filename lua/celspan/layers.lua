@@ -306,6 +306,15 @@ function layers.read(path, options)
   return tree, message
 end
 
+--- layers.read, where a painting that cannot be read is an error.
+---@param path string Relative to the caller's file, else to the script
+---@param options? { smooth?: boolean }
+---@return celspan.layers.tree tree
+function layers.load(path, options)
+  local tree, message = layers.read(path, options)
+  return tree or core.refuse("layers: " .. message)
+end
+
 -- ---------------------------------------------------------------- finding
 
 local function find(list, path)
@@ -331,6 +340,28 @@ function methods:find(path)
     core.refuse("layers: find takes a path like \"group/layer\", got " .. fields.kind(path))
   end
   return find(self, path)
+end
+
+--- Adds the paths of all layers and groups of a list.
+local function add_paths(list, path, paths)
+  for _, entry in ipairs(list) do
+    paths[#paths + 1] = path .. entry.name
+    if entry.children then add_paths(entry.children, path .. entry.name .. "/", paths) end
+  end
+  return paths
+end
+
+--- The same, where one that is not there is an error.
+---@param path string
+---@return celspan.layers.entry entry
+function methods:get(path)
+  local entry = self:find(path)
+  if entry then return entry end
+  local paths = add_paths(self, "", {})
+  local hint = core.nearest(path, paths)
+  core.refuse(("layers: there is no layer %q%s"):format(path,
+    hint and ("; did you mean %q?"):format(hint) or #paths > 0 and "; there are "
+      .. table.concat(paths, ", ", 1, math.min(12, #paths)) or ""))
 end
 
 -- ---------------------------------------------------------------- cels

@@ -192,4 +192,13 @@ function svg.read(path, options)
   return nil, tried and ("%s; also looked for at %s"):format(message, tried) or message
 end
 
+--- svg.read, where a drawing that cannot be read is an error.
+---@param path string Relative to the caller's file, else to the script
+---@param options? celspan.svg.options
+---@return celspan.svg.art art
+function svg.load(path, options)
+  local art, message = svg.read(path, options)
+  return art or core.refuse("svg: " .. message)
+end
+
 return fields.publish("svg", svg, Art)

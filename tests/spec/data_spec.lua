@@ -95,6 +95,39 @@ describe("captions", function()
     assert.are.same({ 2, 360003, "<end> éé", 2 }, { list[2].from, list[2].to, list[2].text, #list })
   end)
 
+  -- WebVTT, W3C: the syntax of files, cues, timestamps and cue text
+  it("reads the forms that W3C's text allows, and no others", function()
+    local CUE = "00:01.000 --> 00:02.000\n"
+    for text, expected in pairs {
+      ["WEBVTT"] = "", ["WEBVTT\n"] = "", ["WEBVTT\tsome words\n\n" .. CUE .. "x"] = "1-2 x",
+      ["WEBVTT\nKind: x\nLanguage: en\n\n" .. CUE .. "x\n"] = "1-2 x",
+      ["\239\187\191WEBVTT\n\n" .. CUE .. "x"] = "1-2 x",
+      ["WEBVTT\r\r00:01.000 --> 00:02.000\rx\ry\r"] = "1-2 x\ny",
+      ["WEBVTT\n\n100:00:01.000 --> 100:00:02.000\nx"] = "360001-360002 x",
+      ["WEBVTT\n\n00:01.000-->00:02.000 align:start line:0 position:10%\nx"] = "1-2 x",
+      ["WEBVTT\n\nintro\n" .. CUE .. "x"] = "1-2 x",
+      ["WEBVTT\n\nNOTE a\nb\n\nREGION\nid:fred\n\nSTYLE\n::cue{}\n\n" .. CUE .. "x"] = "1-2 x",
+      ["WEBVTT\n\n" .. CUE .. "<v Mary>Hi <c.loud>you</c> <00:01.500><i>there</i></v>"]
+        = "1-2 Hi you there",
+      ["WEBVTT\n\n" .. CUE .. "<ruby>a<rt>b</rt></ruby>"] = "1-2 ab",
+      ["WEBVTT\n\n" .. CUE .. "&amp;&lt;&gt;&nbsp;&foo; & x"] = "1-2 &<>\u{a0}&foo; & x",
+      ["WEBVTT\n\n" .. CUE .. "a\0b"] = "1-2 a\u{FFFD}b",
+      ["WEBVTT\n\n" .. CUE .. "\n00:02.000 --> 00:03.000\ny"] = "1-2 |2-3 y",
+      ["WEBVTT\n\n00:03.000 --> 00:04.000\nx\n\n" .. CUE .. "y"] = "1-2 y|3-4 x",
+      ["WEBVTTX\n\n" .. CUE .. "x"] = false, ["WEBVTT\n\n60:01.000 --> 60:02.000\nx"] = false,
+      ["WEBVTT\n\n00:01.00 --> 00:02.000\nx"] = false, ["WEBVTT\n\n" .. CUE .. "a --> b"] = false,
+      ["WEBVTT\n\n00:02.000 --> 00:02.000\nx"] = false,
+    } do
+      local list, message = captions.decode(text)
+      local found = {}
+      for i, one in ipairs(list or {}) do
+        found[i] = ("%g-%g %s"):format(one.from, one.to, one.text)
+      end
+      assert.are.equal(expected, list ~= nil and table.concat(found, "|"),
+        ("%q: %s"):format(text, message))
+    end
+  end)
+
   it("shows a caption from its first moment until just before its last", function()
     local list = assert(captions.decode(vtt))
     assert.are.same({ n = 5, nil, "Hello & you\ntwo lines", "Hello & you\ntwo lines\n<end> éé",

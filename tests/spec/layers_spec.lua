@@ -164,6 +164,7 @@ describe("a tree of layers", function()
     assert.is_nil(tree[1].children)
     assert.matches("layers: find takes a path like \"group/layer\", got number",
       (raised.sentence(function() tree:find(3) end)))
+    assert.matches("layers: none.ora: No such file", raised.message(layers.load, "none.ora"))
     assert.matches("layers: read takes the name of a file or folder, got nil",
       (raised.sentence(function() layers.read() end)))
     assert.matches("layers: cels: unknown field 'fron'; did you mean 'front'%?",
