@@ -164,7 +164,11 @@ describe("a tree of layers", function()
     assert.is_nil(tree[1].children)
     assert.matches("layers: find takes a path like \"group/layer\", got number",
       (raised.sentence(function() tree:find(3) end)))
-    assert.matches("layers: none.ora: No such file", raised.message(layers.load, "none.ora"))
+    assert.matches("none.ora: cannot be opened: No such file",
+      raised.message(layers.load, "none.ora"))
+    assert.are.equal(tree:find "far/trees/oak", tree:get "far/trees/oak")
+    assert.matches('layers: there is no layer "far/trees/oka"; did you mean "far/trees/oak"%?',
+      raised.message(tree.get, tree, "far/trees/oka"))
     assert.matches("layers: read takes the name of a file or folder, got nil",
       (raised.sentence(function() layers.read() end)))
     assert.matches("layers: cels: unknown field 'fron'; did you mean 'front'%?",
