@@ -165,6 +165,51 @@ static void test_panes(studio *s) {
   }
 }
 
+/* Two lines of so many dashes that hundreds of their edges cross in a pixel: the means are not
+ * exact, and every row is divided into columns. */
+static celspan_rostrum *dense(studio *s) {
+  celspan_object *objects[] = {
+      dashed(s, "M99.3 2.5L113.1 3.5", 14, CELSPAN_CAP_BUTT, 0.0013, 0.0018),
+      dashed(s, "M99.3 3.5L113.1 2.5", 14, CELSPAN_CAP_BUTT, 0.0011, 0.002)};
+  celspan_cel *cel = studio_cel(s, CELSPAN_CEL_DESC, objects, 2);
+  return studio_rostrum(s, CELSPAN_ROSTRUM_DESC, &cel, 1);
+}
+
+/* How much a crop differs from that part of a frame. */
+static double difference_of_crop(sheet whole, sheet part, const celspan_frame_desc *desc) {
+  double most = 0;
+  for (int i = 0; i < desc->crop_width * desc->crop_height * 4; i++) {
+    int y = i / (desc->crop_width * 4), x = i / 4 % desc->crop_width;
+    const float *wanted = whole[desc->crop_y + y][desc->crop_x + x];
+    most = fmax(most, fabs((double)part[y][x][i % 4] - (double)wanted[i % 4]));
+  }
+  return most;
+}
+
+/* A crop equals that part of the frame also where the mean of a pixel depends on the edges beside
+ * it: a row is divided into columns in the same way by every crop. */
+static void test_crops(studio *s) {
+  const celspan_exposure exposure = {dense(s), 1};
+  static const int32_t crops[][4] = {{0, 1, 800, 1}, {103, 2, 600, 2}};
+  static sheet whole, part;
+  for (int k = 0; k < 3; k++) {
+    celspan_antialias_mode mode = (celspan_antialias_mode)k;
+    celspan_frame_desc desc = frame_of(&exposure, 1);
+    desc.antialias = &mode;
+    (void)render(s, &desc, whole, sizeof whole[0]);
+    for (size_t i = 0; i < sizeof crops / sizeof crops[0]; i++) {
+      desc.crop_x = crops[i][0];
+      desc.crop_y = crops[i][1];
+      desc.crop_width = crops[i][2];
+      desc.crop_height = crops[i][3];
+      (void)render(s, &desc, part, sizeof part[0]);
+      double most = difference_of_crop(whole, part, &desc);
+      if (!CHECK(mode == CELSPAN_ANTIALIAS_NONE ? most == 0 : most <= 1.0 / 65535))
+        fprintf(stderr, "  mode %d, crop %zu: %g\n", k, i, most);
+    }
+  }
+}
+
 /* ---------------------------------------------------------------- without memory */
 
 /* Where an allocation fails the row fails, and the next call makes it. */
@@ -199,6 +244,7 @@ int main(void) {
   test_out_of_sight(&s);
   test_in_sight(&s);
   test_panes(&s);
+  test_crops(&s);
   test_memory(&s, &watch);
   studio_finish(&s);
   celspan_context_destroy(s.context);

@@ -15,7 +15,8 @@
  *   +---------+---------+
  *
  * Invariant: a row depends on the frame and the number of the row alone, so it does not matter
- * which worker makes it.
+ * which worker makes it. Whether a row is divided, and at which columns, depends on its own dashes
+ * in the whole width of the frame: every crop has the same panes in it.
  */
 #pragma once
 
