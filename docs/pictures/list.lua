@@ -13,6 +13,7 @@ local list = {
   { name = "moon", page = "README.md", frame = 40 },
   { name = "beta", page = "docs/guide.md" },
   { name = "blending", page = "docs/guide.md" },
+  { name = "walking", script = "scripts/walking.lua", frame = 10, size = "640x396" },
   { name = "waving", script = "scripts/waving.lua", frame = 14, size = "640x400" },
   { name = "shapes", page = "docs/guide.md", size = "640x360" },
   { name = "gel", page = "docs/guide.md" },
