@@ -91,13 +91,8 @@ static celspan_status sample_defocused(cs_painter *painter, const cs_layer *laye
   const cs_defocused *defocused = painter->stack->defocused[layer->index];
   cs_defocused_view *view = &painter->defocused[layer->index];
   CS_TRY(cs_defocused_move(defocused, painter->context, view, batch->y));
-  size_t line = 0;
-  for (int32_t k = 0; k < batch->count; k++) {
-    cs_v4 s, t;
-    cs_defocused_paint(defocused, view, cs_batch_centre(batch, k), &line, &s, &t);
-    cs_v4_store(out->s[k], s);
-    cs_v4_store(out->t[k], t);
-  }
+  const cs_defocused_places places = {batch->columns, batch->x0, batch->count};
+  cs_defocused_paints(defocused, view, &places, out->s, out->t);
   return CELSPAN_OK;
 }
 

@@ -403,21 +403,41 @@ cs_v4 cs_defocused_through(const cs_defocused *defocused, const cs_defocused_vie
   return most;
 }
 
-void cs_defocused_paint(const cs_defocused *defocused, const cs_defocused_view *view, double x,
-                        size_t *line, cs_v4 *s, cs_v4 *t) {
-  double at = cs_defocused_at(defocused, x);
-  size_t k = *line = cs_defocused_find(view, at, *line), planes = (size_t)defocused->planes;
-  float share = (float)((at - view->at[k]) / (view->at[k + 1] - view->at[k]));
-  const float(*a)[4] = view->values + k * planes, (*b)[4] = a + planes;
-  cs_v4 left = cs_v4_load(a[0]), value = left + share * (cs_v4_load(b[0]) - left);
-  *s = value;
-  (*s)[3] = 0;
-  *t = cs_v4_all(1 - value[3]);
-  if (planes == 2) {
-    left = cs_v4_load(a[1]);
-    *t = left + share * (cs_v4_load(b[1]) - left);
+/* A line of a row: its ends, and the values from its first vertex to its second. */
+typedef struct row_line {
+  double from, to;
+  cs_v4 left[2], step[2]; /* by plane */
+} row_line;
+
+static inline row_line line_at(const cs_defocused *defocused, const cs_defocused_view *view,
+                               size_t k) {
+  row_line out = {.from = view->at[k], .to = view->at[k + 1]};
+  for (int plane = 0; plane < defocused->planes; plane++) {
+    out.left[plane] = cs_defocused_value(defocused, view, k, plane);
+    out.step[plane] = cs_defocused_value(defocused, view, k + 1, plane) - out.left[plane];
   }
-  (*t)[3] = 0;
+  return out;
+}
+
+void cs_defocused_paints(const cs_defocused *defocused, const cs_defocused_view *view,
+                         const cs_defocused_places *places, float (*s)[4], float (*t)[4]) {
+  const cs_v4 colours = {1, 1, 1, 0};
+  size_t k = 0;
+  row_line line = {.from = INFINITY};
+  for (int32_t i = 0; i < places->count; i++) {
+    double x = (places->columns ? places->columns[i] : places->x0 + i) + 0.5;
+    double at = cs_defocused_at(defocused, x);
+    if (!(at >= line.from && at < line.to)) {
+      k = cs_defocused_find(view, at, k);
+      line = line_at(defocused, view, k);
+    }
+    float share = (float)((at - line.from) / (line.to - line.from));
+    cs_v4 value = line.left[0] + share * line.step[0];
+    cs_v4 through =
+        defocused->planes == 2 ? line.left[1] + share * line.step[1] : cs_v4_all(1 - value[3]);
+    cs_v4_store(s[i], value * colours);
+    cs_v4_store(t[i], through * colours);
+  }
 }
 
 size_t cs_defocused_break_limit(const cs_defocused *defocused) {

@@ -125,9 +125,14 @@ static inline cs_v4 cs_defocused_value(const cs_defocused *defocused, const cs_d
 }
 /* The line that a place among the nodes is on: its first vertex. hint: where to search first. */
 size_t cs_defocused_find(const cs_defocused_view *view, double at, size_t hint);
-/* The paint at x, at the height of the view. *line: a hint, and the line that x is on. */
-void cs_defocused_paint(const cs_defocused *defocused, const cs_defocused_view *view, double x,
-                        size_t *line, cs_v4 *s, cs_v4 *t);
+/* Columns of a frame: as many from x0 on, or the ones that are listed. */
+typedef struct cs_defocused_places {
+  const int32_t *columns; /* NULL: x0 .. */
+  int32_t x0, count;
+} cs_defocused_places;
+/* The paints at the centres of columns; lane 3 is 0. */
+void cs_defocused_paints(const cs_defocused *defocused, const cs_defocused_view *view,
+                         const cs_defocused_places *places, float (*s)[4], float (*t)[4]);
 /* The most that each channel lets through anywhere in a run, at the height of the view. */
 cs_v4 cs_defocused_through(const cs_defocused *defocused, const cs_defocused_view *view,
                            cs_run run);
