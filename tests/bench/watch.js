@@ -10,6 +10,9 @@ await page.call("Emulation.setDeviceMetricsOverride",
 await page.call("Performance.enable");
 await page.until(`document.querySelector("#stage").dataset.size === "1280x720"`);
 
+/** Says on standard error what is measured next. */
+const begin = what => console.error(`measuring ${what}`);
+
 const middle = list => [...list].sort((a, b) => a - b)[list.length >> 1];
 
 /** Milliseconds from an act in the page until an attribute of the picture changes. */
@@ -91,14 +94,17 @@ async function travel(ending, count) {
 }
 
 const said = { load: readFileSync("/proc/loadavg", "utf8").split(" ")[0] };
+begin("saving");
 const saves = [];
 for (let i = 0; i < 15; i++) {
   saves.push(await save(i));
   await page.pause(0.3);
 }
 said.save_ms = middle(saves);
+begin("scrubbing");
 said.scrub_ms = await several(25, i => `(() => { const scrub = document.querySelector("#scrub");
-  scrub.value = ${1 + (i * 37) % 200}; scrub.dispatchEvent(new Event("input")); })()`, "frame");
+  scrub.value = ${2 + (i * 37) % 200}; scrub.dispatchEvent(new Event("input")); })()`, "frame");
+begin("a parameter");
 await page.press("v");
 said.parameter_ms = await several(15, i => `(() => {
   const input = document.querySelector("#form input[type=range]");
@@ -106,14 +112,17 @@ said.parameter_ms = await several(15, i => `(() => {
 await page.press("v");
 await page.press("0");
 await page.pause(0.5);
+begin("zooming");
 said.zoom_ms = await several(100, () => `document.querySelector("#desk").dispatchEvent(
   new WheelEvent("wheel", { deltaY: -40, clientX: 700, clientY: 400 }))`, "size");
 await page.press("0");
 await page.until(`document.querySelector("#stage").dataset.size === "1280x720"`);
+begin("pictures that travel");
 said.png = await travel("png", 48);
 said.rgba = await travel("rgba", 48);
 await page.get(`document.querySelector("#scrub").value = 1`);
 await page.press("Home");
+begin("playing");
 const server = serverTime(), own = await pageTime();
 await page.get(`(() => { window.seen = new Set();
   new MutationObserver(() => seen.add(document.querySelector("#stage").dataset.frame))

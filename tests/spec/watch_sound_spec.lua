@@ -18,15 +18,15 @@ return celspan.film { title = "Voice", size = { 64, 36 }, fps = 24, frames = 96,
   end }
 ]]
 
---- Two seconds of the sample 16,384 in one channel.
-local function tone()
-  local data = ("<i2"):pack(16384):rep(2 * 48000)
+--- Seconds of the sample 16,384 in one channel.
+local function tone(seconds)
+  local data = ("<i2"):pack(16384):rep(seconds * 48000)
   return ("<c4I4c4c4I4I2I2I4I4I2I2c4I4"):pack("RIFF", 36 + #data, "WAVE", "fmt ", 16, 1, 1, 48000,
     96000, 2, 16, "data", #data) .. data
 end
 
 before_each(function()
-  watching.begin { ["shot.lua"] = FILM, ["tone.wav"] = tone(),
+  watching.begin { ["shot.lua"] = FILM, ["tone.wav"] = tone(2),
                    ["line.tsv"] = "0.00\tX\n1.00\tA\n2.00\tD\n3.00\tX\n" }
 end)
 
@@ -58,6 +58,24 @@ describe("the sound of celspan watch", function()
     assert.same({ 0, 0, 127, 127, 127, 127, 0, 0 }, wave.columns)
     assert.same({ { name = "line.tsv", cells = { { 1, "X" }, { 25, "A" },
                                                  { 49, "D" } } } }, wave.lips)
+  end)
+
+  it("is read again when its file is saved", function()
+    watching.bench:write("short.wav", tone(1))
+    local said = watching.speak(watching.watch(), [=[
+      const state = async () => JSON.parse((await web.get("/state.json")).body);
+      await web.get("/sound.wav");
+      const before = (await state()).build;
+      const folder = "]=] .. watching.bench.folder .. [=[";
+      require("fs").copyFileSync(folder + "/short.wav", folder + "/tone.wav");
+      for (;;) {
+        const now = await state();
+        if (now.build > before && now.shown) break;
+        await web.pause(0.05);
+      }
+      const { columns } = JSON.parse((await web.get("/wave.json?columns=8")).body);
+      return columns;]=])
+    assert.same({ 0, 0, 127, 127, 0, 0, 0, 0 }, said)
   end)
 
   it("is not there where the film has none", function()

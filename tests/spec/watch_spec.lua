@@ -212,10 +212,36 @@ describe("the server of celspan watch", function()
       const good = await until(state => state.shown);
       return { bad, status: frame.status, body: frame.body, good };]=])
     assert.same({ file = "shot.lua", line = 1, message = "shot.lua:1: unexpected symbol near '='",
-                  lines = { { 1, "local x = = 3" } } }, said.bad.errors[1])
+                  callers = {}, lines = { { 1, "local x = = 3" } } }, said.bad.errors[1])
     assert.equal(409, said.status)
     assert.equal("shot.lua:1: unexpected symbol near '='\n", said.body)
     assert.same({}, said.good.errors)
+  end)
+
+  it("sees saves of a script and of its modules, whatever names their folder has", function()
+    bench:shell(("mkdir %s/parts"):format(bench.folder))
+    bench:write("parts/one.lua", "return 1")
+    bench:write("shot.lua", ('local one = require "parts.one"\n'
+      .. 'require "celspan".read "./none.txt"\n' .. FILM):gsub(", marks = .-}", ""))
+    local said = speak(watch(), [=[
+      const fs = require("fs"), state = async () =>
+        JSON.parse((await web.get("/state.json")).body);
+      const seen = [];
+      for (const file of ["", "shot.lua", "parts/one.lua", "shot.lua", "none.txt"]) {
+        const before = seen.length ? (await state()).build : 0;
+        if (file) fs.appendFileSync("]=] .. bench.folder .. [=[/" + file, "\n");
+        for (let i = 0; i < 200; i++) {
+          const now = await state();
+          if (now.build > before && now.shown && !now.building) {
+            seen.push(file);
+            break;
+          }
+          await web.pause(0.05);
+        }
+      }
+      return { seen, hasMarks: Array.isArray((await state()).film.marks) };]=])
+    assert.same({ "", "shot.lua", "parts/one.lua", "shot.lua", "none.txt" }, said.seen)
+    assert.is_true(said.hasMarks)
   end)
 
   it("checks the other frames by itself", function()

@@ -47,13 +47,16 @@ local function tell() state.news = state.news + 1 end
 
 -- ---------------------------------------------------------------- files
 
--- files[folder][name]: watched; folders[number of the watcher] = folder; missing[folder]: it cannot
--- be watched, because it is not there.
+-- files[folder][name]: watched; folders[number of the watcher]: the names that the film has for
+-- that folder, such as "" and "./"; missing[folder]: it cannot be watched, as it does not exist.
 local files, folders, missing, watched = {}, {}, {}, 0
 
 local function watch_folder(folder)
   local number = watcher:add(folder == "" and "." or folder)
-  if number then folders[number] = folder end
+  if number then
+    folders[number] = folders[number] or {}
+    folders[number][folder] = true
+  end
   missing[folder] = not number or nil
   return number
 end
@@ -78,17 +81,21 @@ local function concerns(folder, name)
     or request.trust and name:match "%.lua$" and folder == (script:match "^.*/" or "")
 end
 
+--- Whether an event is about a file that the film has asked for. name "": the folder is gone.
+local function is_change(number, name)
+  local is_changed = number == -1
+  for folder in pairs(folders[number] or {}) do
+    if name == "" then missing[folder] = true end
+    is_changed = is_changed or name == "" or concerns(folder, name)
+  end
+  if name == "" then folders[number] = nil end
+  return is_changed
+end
+
 --- Whether a file that the film has asked for was changed since the last call.
 local function has_changes()
   local events, is_changed = watcher:take(), false
-  for i = 1, #events, 2 do
-    local folder, name = folders[events[i]], events[i + 1]
-    if events[i] == -1 or folder and name ~= "" and concerns(folder, name) then
-      is_changed = true
-    elseif folder and name == "" then
-      folders[events[i]], missing[folder], is_changed = nil, true, true
-    end
-  end
+  for i = 1, #events, 2 do is_changed = is_change(events[i], events[i + 1]) or is_changed end
   for folder in pairs(missing) do is_changed = watch_folder(folder) ~= nil or is_changed end
   return is_changed
 end
@@ -119,12 +126,23 @@ local function note_place(path, line)
   places[key], place_count = true, place_count + 1
 end
 
+--- The places in a text such as "from shot.lua:40, hand.lua:7", which are noted: { file, line }.
+local function note_places(text)
+  local list = {}
+  for path, line in text:gmatch "([^%s:(),]+):(%d+)" do
+    list[#list + 1] = { file = path, line = math.tointeger(line) }
+    note_place(path, math.tointeger(line))
+  end
+  return { list = list }
+end
+
 --- An error as /errors.json lists it.
 local function describe(message, frame)
   local path, line = program.place_of(message)
   note_place(path, line)
   frame = frame or math.tointeger(message:match "frame (%-?%d+): ")
-  return { message = message, frame = frame, file = path, line = line,
+  local callers = note_places(message:match " %(called from ([^()]*)%)" or "")
+  return { message = message, frame = frame, file = path, line = line, callers = callers,
            lines = path and excerpt(path, line) }
 end
 
@@ -151,6 +169,7 @@ local function build()
     ask = { want = "film" }, is_patient = true,
     done = function(head)
       state.film, state.errors, state.is_building = head.film, {}, false
+      state.film.marks = { list = state.film.marks }
       state.parameters = head.parameters
       state.is_shown, state.check = true, { number = head.film.first }
       tell()

@@ -402,6 +402,10 @@ function showFault() {
   const fault = lastFault = currentFault();
   here("fault").hidden = here("error").hidden = !fault;
   here("error").textContent = fault ? fault.message : "";
+  const called = fault && fault.callers || [];
+  const all = fault && fault.file ? [{ file: fault.file, line: fault.line }, ...called] : called;
+  const names = all.map(({ file, line }) => `${file}:${line}`).join(" ← ");
+  here("lines").replaceChildren(...state.editor ? placesOf(names, all) : []);
   here("excerpt").replaceChildren(...(fault && fault.lines || []).map(([number, text]) => {
     const line = document.createElement(number === fault.line ? "b" : "span");
     line.textContent = `${String(number).padStart(4)}  ${text}\n`;
@@ -937,6 +941,19 @@ function showColour(x, y) {
   const [r, g, b, a] = pen.getImageData(x, y, 1, 1).data;
   here("swatch").style.backgroundColor = `rgb(${r} ${g} ${b} / ${a / 255})`;
   here("codes").textContent = `${r}, ${g}, ${b}   alpha ${(a / 255).toFixed(3)}`;
+}
+
+/** A text with the places in it as buttons, if there is an editor that opens them. */
+function placesOf(text, places) {
+  if (!state.editor) return [element("small", { textContent: text })];
+  const parts = [];
+  for (const place of places) {
+    const name = `${place.file}:${place.line}`, at = text.indexOf(name);
+    const button = element("button", { textContent: name, onclick: () => post("/open", place) });
+    parts.push(element("small", { textContent: text.slice(0, at) }), button);
+    text = text.slice(at + name.length);
+  }
+  return [...parts, element("small", { textContent: text })];
 }
 
 /** Shows the colour and the objects at a point of the window, in CSS pixels. */
