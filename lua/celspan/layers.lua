@@ -28,6 +28,7 @@ Entry.__index = fields.reads("a layer", {}, { children = true })
 ---@class celspan.layers.tree
 ---@field width? number
 ---@field height? number
+---@field object celspan.object All visible layers, composited by themselves
 ---@field skipped { layer: string, what: string }[]
 local Tree = { __name = "celspan.layers.tree" }
 local methods = {}
@@ -36,49 +37,85 @@ Tree.__index = fields.reads("a tree of layers", methods, { width = true, height 
 --- The data of layers that are not in their entries: used to make cels, and hidden from scripts.
 local sources = setmetatable({}, { __mode = "k" })
 
---- Blend modes that need no note; "pass-through" is for groups.
-local plain = { normal = true, ["pass-through"] = true }
-local shown = { normal = true, multiply = true, add = true }
+--- Blend modes that are shown; "pass-through" is for groups.
+local shown = {}
+for mode in ("normal multiply screen overlay darken lighten color-dodge color-burn hard-light "
+  .. "soft-light difference exclusion hue saturation color luminosity add"):gmatch "%S+" do
+  shown[mode] = true
+end
 
 -- ---------------------------------------------------------------- entries
 
---- The object of a layer as it is painted with others on one cel.
-local function painted(entry)
-  local object = entry.object
-  local source = sources[entry]
-  if entry.blend == "multiply" and source.picture then
-    object = celspan.image(source.image("gel")):named(source.name)
-  end
+local function mode_of(entry) return shown[entry.blend] and entry.blend or "normal" end
+
+--- The object of a layer with its opacity, before its blend mode.
+local function faded(entry, object)
   return entry.opacity < 1 and object:fade(entry.opacity) or object
 end
 
-local function visible_objects(children)
-  local list = {}
-  for _, child in ipairs(children) do
-    if child.visible then list[#list + 1] = painted(child) end
+--- The object of a layer with the layers clipped to it, before its opacity and blend mode.
+local function whole(entry, clipped)
+  local object = entry.object
+  if #clipped > 0 then
+    local list = { object }
+    for i, other in ipairs(clipped) do
+      list[i + 1] = core.blend_within(faded(other, other.object), mode_of(other))
+    end
+    list.isolate = true
+    object = celspan.group(list)
   end
-  return list
+  return object
+end
+
+local function painted(entry, clipped)
+  local object, mode = faded(entry, whole(entry, clipped)), mode_of(entry)
+  if sources[entry].within then return core.blend_within(object, mode) end
+  return mode == "normal" and object or object:blend(mode)
+end
+
+--- The visible layers that are clipped to the one at `place` of a list, and the place after them.
+local function clipped_to(list, place)
+  local clipped, next_place = {}, place + 1
+  while list[next_place] and sources[list[next_place]].clipped do
+    if list[next_place].visible then clipped[#clipped + 1] = list[next_place] end
+    next_place = next_place + 1
+  end
+  return clipped, next_place
+end
+
+--- The objects of a list of layers; those that are clipped to a hidden layer are hidden, too.
+local function visible_objects(list)
+  local objects, place = {}, 1
+  while list[place] do
+    local clipped, next_place = clipped_to(list, place)
+    if list[place].visible then objects[#objects + 1] = painted(list[place], clipped) end
+    place = next_place
+  end
+  return objects
+end
+
+--- The object of a group. A group that is not passed through isolates, if anything in it can tell.
+local function composed(given)
+  local objects = visible_objects(given.children)
+  objects.isolate = given.blend ~= "pass-through" or nil
+  return celspan.group(objects)
 end
 
 --- A valid name for a value: not empty.
 local function name_of(text, kind) return text ~= "" and text or kind end
 
 --- given: name, x, y, opacity, visible, blend; and children, or picture (the fields of an image,
---- with x and y), or neither for an empty layer. smooth: the picture's field of this name.
+--- with x and y), or neither for an empty layer; clipped, within: how it is cut by those below.
+--- smooth: the picture's field of this name.
 local function make_entry(given, smooth)
   local source = { name = name_of(given.name, given.children and "group" or "layer"),
-                   picture = given.picture }
+                   clipped = given.clipped, within = given.within }
   if given.picture then given.picture.smooth = smooth end
-  function source.image(use)
-    local image = { as = use }
-    for name, value in pairs(given.picture) do image[name] = value end
-    return image
-  end
   local object
   if given.children then
-    object = celspan.union(visible_objects(given.children))
+    object = composed(given)
   elseif given.picture then
-    object = celspan.image(source.image("paint"))
+    object = celspan.image(given.picture)
   else
     object = given.object or celspan.union {}
   end
@@ -91,57 +128,34 @@ end
 
 -- ---------------------------------------------------------------- what is skipped
 
---- Adds notes on blend modes that are shown as normal, for the layers of a list. path: of the
---- group; is_faded: they are in a group that is shown as one picture.
-local function note_blends(list, path, is_faded, skipped)
+--- Whether a layer of a list has a mode, which a group may pass through.
+local function blends(list)
   for _, entry in ipairs(list) do
-    local here = path .. entry.name
-    local blend = entry.blend
-    local known = entry.children and plain or shown
-    local what
-    if not known[blend] then
+    local is_passed = entry.blend == "pass-through" and blends(entry.children)
+    if mode_of(entry) ~= "normal" or sources[entry].within or is_passed then return true end
+  end
+  return false
+end
+
+--- Adds notes on what is shown differently, for the layers of a list. path: of the group.
+local function note_blends(list, path, skipped)
+  for _, entry in ipairs(list) do
+    local here, blend, what = path .. entry.name, entry.blend, nil
+    if not shown[blend] and not (entry.children and blend == "pass-through") then
       what = ('blend mode "%s": it is shown as normal'):format(blend)
-    elseif is_faded and blend == "multiply" then
-      what = 'blend mode "multiply" in a group with opacity: correct only where the group covers '
-        .. "its background"
-    elseif is_faded and blend == "add" then
-      what = 'blend mode "add" in a group with opacity: it is shown as normal'
+    elseif blend == "pass-through" and entry.opacity < 1 and blends(entry.children) then
+      what = "a group that passes modes through, with an opacity: it isolates them"
     end
     if what then skipped[#skipped + 1] = { layer = here, what = what } end
-    if entry.children then
-      note_blends(entry.children, here .. "/", is_faded or entry.opacity < 1, skipped)
-    end
-  end
-end
-
---- The rearmost visible picture of a list, and its path; nil where a group with opacity comes
---- first.
-local function rearmost(list, path)
-  for _, entry in ipairs(list) do
-    if entry.visible and entry.children then
-      if entry.opacity < 1 then return nil end
-      local found, where = rearmost(entry.children, path .. entry.name .. "/")
-      if found then return found, where end
-    elseif entry.visible then
-      return entry, path .. entry.name
-    end
-  end
-end
-
---- Light over nothing has no alpha, where painting programs show it as paint.
-local function note_light(list, skipped)
-  local entry, path = rearmost(list, "")
-  if entry and entry.blend == "add" then
-    skipped[#skipped + 1] = { layer = path,
-      what = 'blend mode "add" with no layer behind it: it is light without alpha' }
+    if entry.children then note_blends(entry.children, here .. "/", skipped) end
   end
 end
 
 local function make_tree(list, width, height, skipped)
   local tree = { width = width, height = height, skipped = skipped }
   for i, entry in ipairs(list) do tree[i] = entry end
-  note_blends(list, "", false, skipped)
-  note_light(list, skipped)
+  tree.object = composed { children = list }
+  note_blends(list, "", skipped)
   return setmetatable(tree, Tree)
 end
 
@@ -164,15 +178,15 @@ local function from_painting(path, smooth)
   for i, layer in ipairs(flat) do
     local picture = layer.pixels and { pixels = layer.pixels, colour = layer.colour, x = layer.x,
                                        y = layer.y, w = layer.width, h = layer.height }
-    local entry = make_entry({ name = layer.name, x = layer.x, y = layer.y, picture = picture,
-      opacity = layer.opacity, visible = layer.visible, blend = layer.blend,
-      children = layer.group and (children[i] or {}) or nil }, smooth)
     local siblings = list
     if layer.parent then
       siblings = children[layer.parent] or {}
       children[layer.parent] = siblings
     end
-    siblings[#siblings + 1] = entry
+    siblings[#siblings + 1] = make_entry({ name = layer.name, x = layer.x, y = layer.y,
+      picture = picture, opacity = layer.opacity, visible = layer.visible, blend = layer.blend,
+      children = layer.group and (children[i] or {}) or nil, clipped = layer.clipped,
+      within = layer.within }, smooth)
   end
   local skipped, paths = {}, paths_of(flat)
   for i, note in ipairs(painting.notes) do
@@ -369,43 +383,35 @@ end
 local known = { only = "table", front = "any", back = "any", viewport = "table", defocus = "any",
                 opacity = "number" }
 
---- A cel that adds the light of a picture to the cels behind it and leaves their alpha unchanged.
-local function light_cel(entry, source, options)
-  local picture = source.picture
-  local x, y, w, h = entry.object:bounds()
-  local texture = celspan.picture { file = picture.file, pixels = picture.pixels,
-    colour = picture.colour, box = { x, y, w, h }, smooth = picture.smooth }
-  return celspan.cel { back = { texture = texture, gain = entry.opacity * (options.opacity or 1),
-    on = "cel", matte = 0 }, viewport = options.viewport }:named(source.name)
+--- The cel of an entry with the layers clipped to it.
+local function cel_of(entry, clipped, options)
+  return celspan.cel { whole(entry, clipped), front = options.front, back = options.back,
+    viewport = options.viewport, defocus = options.defocus, blend = mode_of(entry),
+    opacity = entry.opacity * (options.opacity or 1) }:named(sources[entry].name)
 end
 
-local function cel_of(entry, options)
-  local source = sources[entry]
-  if entry.blend == "add" and source.picture then return light_cel(entry, source, options) end
-  local object = entry.object
-  if entry.blend == "multiply" and source.picture then
-    object = celspan.image(source.image("gel")):named(source.name)
-  end
-  return celspan.cel { object, front = options.front, back = options.back,
-    viewport = options.viewport, defocus = options.defocus,
-    opacity = entry.opacity * (options.opacity or 1) }:named(source.name)
+--- Whether each layer of a group may become a separate cel: the group is not composited by itself.
+local function is_open(entry)
+  if not entry.children or entry.opacity < 1 then return false end
+  return entry.blend == "pass-through" or mode_of(entry) == "normal" and not blends(entry.children)
 end
-
---- Whether each layer of a group becomes a separate cel.
-local function is_open(entry) return entry.children and entry.opacity == 1 end
 
 --- chosen: the entries to make cels of, as keys; nil: all visible ones.
 local function add_cels(list, chosen, options, cels)
-  for _, entry in ipairs(list) do
-    local is_chosen = chosen and chosen[entry]
-    local is_wanted = is_chosen or not chosen and entry.visible
-    if is_wanted and is_open(entry) then
+  local place = 1
+  while list[place] do
+    local entry = list[place]
+    local clipped, next_place = {}, place + 1
+    if not chosen then clipped, next_place = clipped_to(list, place) end
+    local is_wanted = chosen and chosen[entry] or not chosen and entry.visible
+    if is_wanted and is_open(entry) and #clipped == 0 then
       add_cels(entry.children, nil, options, cels)
     elseif is_wanted then
-      cels[#cels + 1] = cel_of(entry, options)
+      cels[#cels + 1] = cel_of(entry, clipped, options)
     elseif chosen and entry.children then
       add_cels(entry.children, chosen, options, cels)
     end
+    place = next_place
   end
 end
 

@@ -205,6 +205,33 @@ static void test_engine(celspan_blend mode) {
     fprintf(stderr, "  mode %d: the engine is off by %g\n", (int)mode, worst);
 }
 
+/* A source within its backdrop is shown in the share of it that is there. */
+static void test_within(celspan_blend mode) {
+  const celspan_blend within = (celspan_blend)((unsigned)mode | CS_BLEND_WITHIN);
+  test_random r = {(uint64_t)mode + 301};
+  double worst = 0;
+  for (int k = 0; k < PAIRS; k++) {
+    pair p = random_pair(&r);
+    double right[4], ab = p.ab;
+    float keep = 1;
+    if (jumps(mode, &p) || mode == CELSPAN_BLEND_ADD)
+      continue;
+    p.ab = 1;
+    expect(mode, &p, right);
+    p.ab = ab;
+    cs_oracle_sight source = sight_of(p.s, p.as), back = sight_of(p.b, p.ab);
+    cs_oracle_sight both = cs_oracle_blend(within, &source, &back);
+    cs_over_pair floats = cs_over_blend(within, pair_of(p.s, p.as), pair_of(p.b, ab), &keep);
+    for (int i = 0; i < 3; i++) {
+      worst = fmax(worst, fabs(both.light[i] - ab * right[i]));
+      worst = fmax(worst, fabs((double)floats.e[i] - both.light[i]));
+    }
+    worst = fmax(worst, fabs(cs_oracle_alpha(&both) - ab));
+    worst = fmax(worst, fabs((double)cs_over_alpha(floats.t, keep) - ab));
+  }
+  CHECK(worst <= 1e-5);
+}
+
 /* A source that is not there leaves its backdrop as it is, to the bit, and a backdrop that is not
  * there leaves the source: also where the channels are let through differently. */
 static void test_identities(celspan_blend mode) {
@@ -247,6 +274,7 @@ int main(void) {
     test_oracle((celspan_blend)mode);
     test_engine((celspan_blend)mode);
     test_identities((celspan_blend)mode);
+    test_within((celspan_blend)mode);
   }
   test_bright();
   return check_done();

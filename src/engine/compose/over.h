@@ -82,7 +82,10 @@ static inline cs_over_pair cs_over_blend(celspan_blend mode, cs_over_pair source
     *keep = 1;
     return (cs_over_pair){source.e + back.e, t};
   }
-  cs_v4 both = cs_blend_colour(mode, cs_over_colour(back.e, ab), cs_over_colour(source.e, as));
+  cs_v4 both = cs_blend_colour(CS_BLEND_MODE(mode), cs_over_colour(back.e, ab),
+                               cs_over_colour(source.e, as));
+  if ((unsigned)mode & CS_BLEND_WITHIN)
+    return (cs_over_pair){(1 - as) * back.e + (as * ab) * both, back.t};
   return (cs_over_pair){(1 - ab) * source.e + (1 - as) * back.e + (as * ab) * both,
                         source.t * back.t};
 }

@@ -12,6 +12,7 @@
 #include "lua/module/core.h"
 #include "lua/nouns/lua_film.h"
 #include "lua/nouns/nouns.h"
+#include "lua/nouns/placed.h"
 #include "lua/nouns/random.h"
 
 #define MOST_NAMES 512
@@ -67,43 +68,45 @@ static int hear(lua_State *L) {
   return 2;
 }
 
+static const luaL_Reg core_functions[] = {{"find", find},
+                                          {"nearest", nearest},
+                                          {"nouns", cs_nouns_push},
+                                          {"source", cs_embedded_source},
+                                          {"refuse", refuse},
+                                          {"entry", entry},
+                                          {"settings", cs_core_settings},
+                                          {"sounds", cs_lua_film_sounds},
+                                          {"hear", hear},
+                                          {"difference", cs_difference_of},
+                                          {"painting", cs_painting_read},
+                                          {"blend_within", cs_placed_blend_within},
+                                          {"parts", cs_parts_list},
+                                          {"folder", cs_folders_names},
+                                          {"within", cs_folders_within},
+                                          {"trace", cs_tracing_make},
+                                          {"trace_write", cs_tracing_write},
+                                          {"tracker", cs_track_tracker},
+                                          {"follow", cs_track_follow},
+                                          {"rewind", cs_track_rewind},
+                                          {"inverse", cs_track_inverse},
+                                          {"frames", cs_folders_frames},
+                                          {"frame_name", cs_folders_frame_name},
+                                          {"picture_size", cs_relight_size},
+                                          {"light_estimate", cs_relight_estimate},
+                                          {"light_shape", cs_relight_shape},
+                                          {"relight_picture", cs_relight_picture},
+                                          {"relight_exposures", cs_relight_exposures},
+                                          {"relight_grounds", cs_relight_grounds},
+                                          {"stack", cs_stack_make},
+                                          {"stack_lights", cs_stack_lights},
+                                          {"stack_light", cs_stack_light},
+                                          {"relight_write", cs_relight_write},
+                                          {"relight_read", cs_relight_read},
+                                          {NULL, NULL}};
+
 int luaopen_celspan_core(lua_State *L) {
-  static const luaL_Reg functions[] = {{"find", find},
-                                       {"nearest", nearest},
-                                       {"nouns", cs_nouns_push},
-                                       {"source", cs_embedded_source},
-                                       {"refuse", refuse},
-                                       {"entry", entry},
-                                       {"settings", cs_core_settings},
-                                       {"sounds", cs_lua_film_sounds},
-                                       {"hear", hear},
-                                       {"difference", cs_difference_of},
-                                       {"painting", cs_painting_read},
-                                       {"parts", cs_parts_list},
-                                       {"folder", cs_folders_names},
-                                       {"within", cs_folders_within},
-                                       {"trace", cs_tracing_make},
-                                       {"trace_write", cs_tracing_write},
-                                       {"tracker", cs_track_tracker},
-                                       {"follow", cs_track_follow},
-                                       {"rewind", cs_track_rewind},
-                                       {"inverse", cs_track_inverse},
-                                       {"frames", cs_folders_frames},
-                                       {"frame_name", cs_folders_frame_name},
-                                       {"picture_size", cs_relight_size},
-                                       {"light_estimate", cs_relight_estimate},
-                                       {"light_shape", cs_relight_shape},
-                                       {"relight_picture", cs_relight_picture},
-                                       {"relight_exposures", cs_relight_exposures},
-                                       {"relight_grounds", cs_relight_grounds},
-                                       {"stack", cs_stack_make},
-                                       {"stack_lights", cs_stack_lights},
-                                       {"stack_light", cs_stack_light},
-                                       {"relight_write", cs_relight_write},
-                                       {"relight_read", cs_relight_read},
-                                       {NULL, NULL}};
   cs_host_open(L, NULL);
-  luaL_newlib(L, functions);
+  luaL_newlib(L, core_functions);
   cs_drawing_open(L);
   return 1;
 }

@@ -4,6 +4,7 @@
 #include "lua/bind/userdata.h"
 #include "lua/module/core.h"
 #include "lua/nouns/pixel_string.h"
+#include "readers/layered/contents.h"
 
 static int release(lua_State *L) {
   celspan_painting **painting = lua_touserdata(L, 1);
@@ -18,7 +19,7 @@ static celspan_painting **push_holder(lua_State *L) {
 }
 
 static void push_layer(lua_State *L, const celspan_painting_layer *layer, size_t count) {
-  lua_createtable(L, 0, 13);
+  lua_createtable(L, 0, 15);
   cs_put_text(L, "name", layer->name);
   cs_put_text(L, "blend", layer->blend);
   cs_put_text(L, "colour", layer->colour);
@@ -43,6 +44,8 @@ static void push_layers(lua_State *L, const celspan_painting *painting) {
   lua_createtable(L, (int)count, 0);
   for (size_t i = 0; celspan_painting_layer_at(painting, i, &layer); i++) {
     push_layer(L, &layer, count);
+    cs_put_flag(L, "clipped", painting->layers[i].is_clipped);
+    cs_put_flag(L, "within", painting->layers[i].is_within);
     lua_rawseti(L, -2, (lua_Integer)i + 1);
   }
 }
@@ -52,11 +55,13 @@ static void push_notes(lua_State *L, const celspan_painting *painting) {
   const char *text;
   lua_newtable(L);
   for (size_t i = 0; (text = celspan_painting_note_at(painting, i, &layer)); i++) {
+    if (painting->notes[i].is_own)
+      continue; /* it is drawn by what composes the layers */
     lua_createtable(L, 0, 2);
     cs_put_text(L, "what", text);
     if (layer < count)
       cs_put_integer(L, "layer", (lua_Integer)layer + 1);
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
+    lua_rawseti(L, -2, (lua_Integer)lua_rawlen(L, -2) + 1);
   }
 }
 

@@ -13,6 +13,7 @@
 #include "lua/nouns/nouns.h"
 #include "model/colour/blend.h"
 #include "model/geometry/matrix.h"
+#include "model/scene/primitive_data.h"
 
 #define PI 3.14159265358979323846
 
@@ -198,12 +199,29 @@ static int blend_field(lua_State *L) {
   return cs_construct_with(L);
 }
 
-static int blend(lua_State *L) {
-  const cs_userdata *value = self(L, "blend");
-  const char *word = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "";
+/* The mode of a word at index; past all of them for any other. */
+static celspan_blend mode_at(lua_State *L, int index) {
+  const char *word = lua_type(L, index) == LUA_TSTRING ? lua_tostring(L, index) : "";
   int mode = 0;
   while (cs_blend_words[mode] && strcmp(cs_blend_words[mode], word) != 0)
     mode++;
+  return (celspan_blend)mode;
+}
+
+int cs_placed_blend_within(lua_State *L) {
+  const cs_userdata *value = self(L, "blend_within");
+  const celspan_blend mode = mode_at(L, 2);
+  celspan_object *made;
+  cs_userdata *copy = cs_userdata_push_like(L, 1, true);
+  cs_host_try(L, "blend_within",
+              cs_object_blend_within(cs_host_context(L), value->handle, mode, &made));
+  copy->handle = made;
+  return 1;
+}
+
+static int blend(lua_State *L) {
+  const cs_userdata *value = self(L, "blend");
+  const celspan_blend mode = mode_at(L, 2);
   if (!cs_blend_words[mode])
     return cs_caller_error(L, "blend: the mode must be one of %s, got %s", push_modes(L),
                            cs_userdata_shown(L, 2));
@@ -211,8 +229,7 @@ static int blend(lua_State *L) {
     return blend_field(L);
   cs_userdata *copy = cs_userdata_push_like(L, 1, true);
   cs_host_try(L, "blend",
-              value->noun->kind->blend(cs_host_context(L), value->handle, (celspan_blend)mode,
-                                       &copy->handle));
+              value->noun->kind->blend(cs_host_context(L), value->handle, mode, &copy->handle));
   return 1;
 }
 

@@ -18,5 +18,8 @@ cs_userdata *cs_placed_at(lua_State *L, int index);
  * are left on the stack. */
 celspan_object **cs_placed_items(const cs_form *form, int count);
 
+/* object, mode -> the object with it, shown within its backdrop alone. Raises for other modes. */
+int cs_placed_blend_within(lua_State *L);
+
 /* Degrees to radians, without whole turns. */
 double cs_placed_radians(double degrees);

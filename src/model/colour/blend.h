@@ -17,6 +17,11 @@
 #include "base/vector.h"
 #include "celspan/celspan.h"
 
+/* Added to a mode: the source shows only as far as its backdrop is there, whose alpha it leaves; so
+ * a mode of this kind is never CELSPAN_BLEND_NORMAL. What "add" gives is then clamped to 1. */
+#define CS_BLEND_WITHIN 32
+#define CS_BLEND_MODE(blend) ((celspan_blend)((unsigned)(blend) & (CS_BLEND_WITHIN - 1)))
+
 /* The words of celspan_blend, ended by NULL. */
 extern const char *const cs_blend_words[];
 
@@ -109,11 +114,13 @@ static inline cs_v4 cs_blend_whole(celspan_blend mode, cs_v4 b, cs_v4 s) {
 
 /* ---------------------------------------------------------------- any mode */
 
-/* b: of the backdrop; s: of the source. mode: any but ADD. */
+/* b: of the backdrop; s: of the source. ADD is that of sources within their backdrops. */
 static inline cs_v4 cs_blend_colour(celspan_blend mode, cs_v4 b, cs_v4 s) {
   switch (mode) {
   case CELSPAN_BLEND_NORMAL:
     return s;
+  case CELSPAN_BLEND_ADD:
+    return cs_v4_min(b + s, cs_v4_all(1));
   case CELSPAN_BLEND_MULTIPLY:
     return b * s;
   case CELSPAN_BLEND_SCREEN:

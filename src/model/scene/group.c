@@ -6,6 +6,7 @@
  *     a:blend(m)                    a union of one object, with a mode; it isolates
  *     matte(art, by)                two operands, of which only the first is painted; it isolates
  */
+#include "model/colour/blend.h"
 #include "model/scene/check.h"
 #include "model/scene/operands.h"
 #include "model/scene/primitive_data.h"
@@ -73,7 +74,9 @@ celspan_status celspan_object_create_group(celspan_context *context, const celsp
 
 /* ---------------------------------------------------------------- modes */
 
-celspan_blend celspan_object_mode(const celspan_object *object) { return cs_object_mode(object); }
+celspan_blend celspan_object_mode(const celspan_object *object) {
+  return CS_BLEND_MODE(cs_object_mode(object));
+}
 
 /* Another mode for an object that has one: its operands stay. */
 static celspan_status change(celspan_context *context, const celspan_object *object,
@@ -89,11 +92,9 @@ static celspan_status change(celspan_context *context, const celspan_object *obj
   return status;
 }
 
-celspan_status celspan_object_blend(celspan_context *context, celspan_object *object,
-                                    celspan_blend mode, celspan_object **out) {
-  CS_TRY(cs_check_given(context, "blend", "the object", object));
-  CS_TRY(cs_check_choice(context, "blend", "mode", (unsigned)mode, MODES));
-  if (celspan_object_mode(object) != CELSPAN_BLEND_NORMAL)
+static celspan_status set_mode(celspan_context *context, celspan_object *object, celspan_blend mode,
+                               celspan_object **out) {
+  if (cs_object_mode(object) != CELSPAN_BLEND_NORMAL)
     return change(context, object, mode, out);
   if (mode == CELSPAN_BLEND_NORMAL) {
     *out = celspan_object_ref(object);
@@ -106,6 +107,20 @@ celspan_status celspan_object_blend(celspan_context *context, celspan_object *ob
   cs_mark_drop((*out)->mark);
   (*out)->mark = cs_mark_keep(object->mark);
   return CELSPAN_OK;
+}
+
+celspan_status celspan_object_blend(celspan_context *context, celspan_object *object,
+                                    celspan_blend mode, celspan_object **out) {
+  CS_TRY(cs_check_given(context, "blend", "the object", object));
+  CS_TRY(cs_check_choice(context, "blend", "mode", (unsigned)mode, MODES));
+  return set_mode(context, object, mode, out);
+}
+
+celspan_status cs_object_blend_within(celspan_context *context, celspan_object *object,
+                                      celspan_blend mode, celspan_object **out) {
+  CS_TRY(cs_check_given(context, "blend_within", "the object", object));
+  CS_TRY(cs_check_choice(context, "blend_within", "mode", (unsigned)mode, MODES));
+  return set_mode(context, object, (celspan_blend)((unsigned)mode | CS_BLEND_WITHIN), out);
 }
 
 /* ---------------------------------------------------------------- mattes */

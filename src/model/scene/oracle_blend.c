@@ -1,8 +1,9 @@
 /* Blend modes in doubles, written from the text of W3C Compositing and Blending Level 1, without a
- * look at model/colour/blend.h, which the tests compare with this. */
+ * look at the formulas of model/colour/blend.h, which the tests compare with this. */
 #include <math.h>
 
 #include "base/number.h"
+#include "model/colour/blend.h"
 #include "model/scene/oracle.h"
 
 const cs_oracle_sight cs_oracle_nothing = {{0, 0, 0}, {1, 1, 1}, 1};
@@ -86,10 +87,12 @@ static colour blend_whole(celspan_blend mode, colour b, colour s) {
 }
 
 static colour blend(celspan_blend mode, colour b, colour s) {
-  if (mode >= CELSPAN_BLEND_HUE)
+  if (mode >= CELSPAN_BLEND_HUE && mode <= CELSPAN_BLEND_LUMINOSITY)
     return blend_whole(mode, b, s);
   for (int i = 0; i < 3; i++)
-    s.c[i] = mode == CELSPAN_BLEND_NORMAL ? s.c[i] : separable[mode](b.c[i], s.c[i]);
+    s.c[i] = mode == CELSPAN_BLEND_NORMAL ? s.c[i]
+             : mode == CELSPAN_BLEND_ADD  ? fmin(1, b.c[i] + s.c[i])
+                                          : separable[mode](b.c[i], s.c[i]);
   return s;
 }
 
@@ -132,10 +135,12 @@ cs_oracle_sight cs_oracle_blend(celspan_blend mode, const cs_oracle_sight *sourc
   if (mode == CELSPAN_BLEND_ADD)
     return add(source, back);
   double as = cs_oracle_alpha(source), ab = cs_oracle_alpha(back);
-  colour mixed = blend(mode, colour_of(back, ab), colour_of(source, as));
-  cs_oracle_sight both = cs_oracle_before(source, back);
+  bool is_within = (unsigned)mode & CS_BLEND_WITHIN;
+  colour mixed = blend(CS_BLEND_MODE(mode), colour_of(back, ab), colour_of(source, as));
+  cs_oracle_sight both = is_within ? *back : cs_oracle_before(source, back);
+  double beyond = is_within ? 0 : 1 - ab;
   for (int i = 0; i < 3; i++)
-    both.light[i] = source->light[i] * (1 - ab) + back->light[i] * (1 - as) + as * ab * mixed.c[i];
+    both.light[i] = source->light[i] * beyond + back->light[i] * (1 - as) + as * ab * mixed.c[i];
   return both;
 }
 

@@ -64,6 +64,11 @@ CELSPAN_CHECKED celspan_status cs_primitive_data_set_box(celspan_context *contex
                                                          cs_primitive_data *data,
                                                          const celspan_box *box);
 
+/* As celspan_object_blend, but the object shows only as far as its backdrop is there, in the
+ * nearest group that isolates, whose alpha it does not change (CS_BLEND_WITHIN). */
+CELSPAN_CHECKED celspan_status cs_object_blend_within(celspan_context *context,
+                                                      celspan_object *object, celspan_blend mode,
+                                                      celspan_object **out);
 /* BAD_ARGUMENT when the data contain a procedure whose rows would not be parallel to the
  * frame's. */
 CELSPAN_CHECKED celspan_status cs_primitive_data_check_placement(celspan_context *context,

@@ -78,11 +78,18 @@ celspan_status cs_contents_note(celspan_context *context, celspan_painting *pain
                                 const char *format, ...) {
   CS_TRY(CS_RESERVE(context, painting->notes, painting->note_capacity, painting->note_count + 1));
   cs_contents_remark *note = &painting->notes[painting->note_count++];
-  note->layer = layer;
+  *note = (cs_contents_remark){.layer = layer};
   va_list arguments;
   va_start(arguments, format);
   vsnprintf(note->text, sizeof note->text, format, arguments);
   va_end(arguments);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_contents_note_own(celspan_context *context, celspan_painting *painting,
+                                    const char *sentence) {
+  CS_TRY(cs_contents_note(context, painting, cs_contents_last(painting), "%s", sentence));
+  painting->notes[painting->note_count - 1].is_own = true;
   return CELSPAN_OK;
 }
 

@@ -29,8 +29,10 @@ typedef struct cs_contents_layer {
   char blend[32];
   size_t parent; /* CS_CONTENTS_NONE: of no group */
   bool is_group, is_visible;
-  int depth;      /* groups it lies in; set when the painting is complete */
-  double opacity; /* 0..1 */
+  bool is_clipped; /* it shows only where the nearest layer below that is not clipped does */
+  bool is_within;  /* it shows only where the layers below it, in its group, do */
+  int depth;       /* groups it lies in; set when the painting is complete */
+  double opacity;  /* 0..1 */
   int32_t x, y, width, height;
   const char *colour;             /* static: how its codes are taken, as in celspan_picture_desc */
   cs_rows_source *source;         /* owned; NULL: no pixels */
@@ -40,6 +42,7 @@ typedef struct cs_contents_layer {
 
 typedef struct cs_contents_remark {
   size_t layer; /* CS_CONTENTS_NONE: the whole painting */
+  bool is_own;  /* it is about the pixels of the layer alone: whoever composes layers may draw it */
   char text[CS_CONTENTS_TEXT];
 } cs_contents_remark;
 
@@ -73,6 +76,10 @@ CELSPAN_CHECKED celspan_status cs_contents_note(celspan_context *context,
                                                 celspan_painting *painting, size_t layer,
                                                 const char *format, ...)
     __attribute__((format(printf, 4, 5)));
+/* A note on the layer added last, which is not for those who draw layers with all their flags. */
+CELSPAN_CHECKED celspan_status cs_contents_note_own(celspan_context *context,
+                                                    celspan_painting *painting,
+                                                    const char *sentence);
 /* Errors: LIMIT for groups that are nested too deeply, and for too many pixels in all; INPUT for
  * layers in a layer that is not a group. */
 CELSPAN_CHECKED celspan_status cs_contents_check_whole(celspan_context *context,

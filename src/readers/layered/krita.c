@@ -31,13 +31,16 @@ static celspan_status read_common(cs_document *document, cs_contents_layer *laye
 }
 
 /* The channels that a layer changes, alpha last: "1110" leaves the alpha of the layers below. */
-static celspan_status note_channels(cs_document *document) {
+static celspan_status read_channels(cs_document *document) {
   const char *flags = cs_document_text(document, "channelflags");
-  if (!flags || !strchr(flags, '0'))
+  const char *off = flags ? strchr(flags, '0') : NULL;
+  if (!off)
     return CELSPAN_OK;
-  return note(document, flags[strlen(flags) - 1] == '0'
-                            ? "alpha is inherited from the layers below: it is shown whole"
-                            : "some channels are switched off: it is shown whole");
+  if (off[1])
+    return note(document, "some channels are switched off: it is shown whole");
+  document->painting->layers[cs_contents_last(document->painting)].is_within = true;
+  return cs_contents_note_own(document->context, document->painting,
+                              "alpha is inherited from the layers below: it is shown whole");
 }
 
 /* Layers lie in "folder/layers/": the folder has the image's name, or else whatever name it has. */
@@ -168,7 +171,7 @@ static celspan_status start_layer(cs_document *document) {
   CS_TRY(read_common(document, layer));
   if (is_group) {
     layer->x = layer->y = 0;
-    return note_channels(document);
+    return read_channels(document);
   }
   if (type && !is(type, "paintlayer"))
     return cs_contents_note(document->context, document->painting,
@@ -177,7 +180,7 @@ static celspan_status start_layer(cs_document *document) {
   CS_TRY(read_pixels(document, layer));
   if (cs_document_text(document, "keyframes"))
     CS_TRY(note(document, "animation: its first drawing is shown"));
-  return note_channels(document);
+  return read_channels(document);
 }
 
 static celspan_status start_mask(cs_document *document) {

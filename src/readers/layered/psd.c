@@ -204,7 +204,6 @@ static celspan_status note_what_is_left(const document *d, const cs_psd_record *
   } notes[] = {
       {record->adjustment[0] != 0, "an adjustment: it changes nothing here"},
       {record->fill_content[0] != 0 && !has_pixels, "a fill without pixels: it is empty"},
-      {record->is_clipped, "clipped to the layer below it: it is shown whole"},
       {record->has_effects, "layer effects: they are not drawn"},
       {record->has_conditions, "blended by lightness ranges: it is shown whole"},
       {record->has_vector_mask && !record->has_mask && !record->fill_content[0],
@@ -250,6 +249,7 @@ static celspan_status add_layer(document *d, cs_cursor *cursor, const cs_psd_rec
       cs_contents_add(d->context, d->input, d->painting, record->name, record->name_size, &layer));
   cs_profile_apply(&d->profile, layer);
   layer->is_visible = !record->is_hidden;
+  layer->is_clipped = record->is_clipped;
   layer->opacity = record->opacity * (double)record->fill / (255.0 * 255.0);
   layer->is_group = record->role == CS_PSD_GROUP;
   cs_psd_record_blend(layer->is_group && record->group_blend[0] ? record->group_blend
@@ -263,6 +263,9 @@ static celspan_status add_layer(document *d, cs_cursor *cursor, const cs_psd_rec
   }
   if (layer->is_group && source.channels[CS_PSD_MASK].is_there)
     CS_TRY(note(d, "the mask of a group: it is shown whole"));
+  if (layer->is_clipped)
+    CS_TRY(cs_contents_note_own(d->context, d->painting,
+                                "clipped to the layer below it: it is shown whole"));
   CS_TRY(note_what_is_left(d, record, has_pixels));
   return record->role == CS_PSD_GROUP ? close_group(d) : CELSPAN_OK;
 }

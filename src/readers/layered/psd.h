@@ -7,7 +7,7 @@
  *
  * RGB and grey of 8 and 16 bits per channel are read. Layers of 16 bits are in a tagged block after
  * the place of those of 8 bits. What Photoshop computes when it paints (adjustments, fills,
- * effects, clipping, conditional blending) is noted, not drawn.
+ * effects, conditional blending) is noted, not drawn.
  */
 #pragma once
 
