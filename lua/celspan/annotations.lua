@@ -212,6 +212,20 @@ function placed:fade(k) end
 ---@return T
 function placed:blend(mode) end
 
+--- With a soft shadow behind it, or inside.
+---@generic T: celspan.placed
+---@param self T
+---@param options? celspan.shadow.options
+---@return T
+function placed:shadow(options) end
+
+--- With its shape, blurred, added as light behind it.
+---@generic T: celspan.placed
+---@param self T
+---@param options celspan.glow.options
+---@return T
+function placed:glow(options) end
+
 --- The smallest axis-aligned rectangle around it; returns nothing if there is nothing to paint.
 ---@return number? x, number? y, number? width, number? height
 function placed:bounds() end
@@ -241,6 +255,12 @@ local object = {}
 ---@param style? celspan.stroke.style
 ---@return celspan.stroke
 function object:stroke(style) end
+
+--- Out of focus. The radius is in its units and follows its transforms.
+---@param radius number
+---@param options? celspan.blur.options
+---@return celspan.object
+function object:blur(radius, options) end
 
 --- The whole shape in one texture, which is in the units around it, with its fade and its name.
 ---@param texture celspan.texture|celspan.paint|string
@@ -324,6 +344,12 @@ function celspan.xor(objects) end
 function celspan.clip(art, shape) end
 
 ---@noun group: celspan.object
+
+---@noun blur.options
+
+---@noun shadow.options
+
+---@noun glow.options
 
 ---@noun matte.options
 

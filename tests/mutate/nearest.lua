@@ -22,7 +22,7 @@ return {
   defocus = { "unit/light", "unit/through", "unit/long_rows", "golden/golden", "unit/defocus" },
   stroke = { "unit/taper", "unit/dashes", "unit/fuzz-stroke", "golden/golden", "unit/stroke" },
   geometry = { "unit/scanline", "unit/probe", "unit/stroke", "property/oracle", "golden/golden" },
-  scene = { "spec/values", "spec/camera", "spec/layers", "golden/golden" },
+  scene = { "spec/effects", "spec/values", "spec/camera", "spec/layers", "golden/golden" },
   sample = { "unit/sampler", "unit/picture_rows", "property/pictures", "golden/golden" },
   colour = { "unit/pixels", "spec/span", "golden/golden" },
   span = { "unit/over_row", "unit/span_sink", "spec/span", "golden/golden" },

@@ -840,6 +840,81 @@ CELSPAN_API CELSPAN_CHECKED celspan_status
 celspan_object_create_matte(celspan_context *context, celspan_object *art, celspan_object *by,
                             celspan_matte_from from, bool invert, celspan_object **out);
 
+typedef enum celspan_defocus_kernel {
+  CELSPAN_DEFOCUS_GAUSSIAN = 0,
+  CELSPAN_DEFOCUS_BOX,
+  CELSPAN_DEFOCUS_DISC
+} celspan_defocus_kernel;
+
+#define CELSPAN_BLUR_MOST 1e6 /* units: the greatest radius of an effect */
+
+typedef struct celspan_blur_desc {
+  size_t struct_size; /* sizeof(celspan_blur_desc) */
+  double radius;      /* as that of a cel's defocus, but in the object's units, 0..1e6 */
+  celspan_defocus_kernel kernel;
+} celspan_blur_desc;
+
+static inline celspan_blur_desc celspan_blur_desc_default(void) {
+  celspan_blur_desc desc = CELSPAN_ZERO;
+  desc.struct_size = sizeof desc;
+  return desc;
+}
+#define CELSPAN_BLUR_DESC (celspan_blur_desc_default())
+
+/* The object out of focus. Its shape is the rectangle that the blur reaches. A mode stays
+ * outermost. Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_blur(celspan_context *context,
+                                                               celspan_object *object,
+                                                               const celspan_blur_desc *desc,
+                                                               celspan_object **out);
+
+typedef struct celspan_shadow_desc {
+  size_t struct_size; /* sizeof(celspan_shadow_desc) */
+  celspan_point offset;
+  double blur;             /* a radius, 0..1e6 */
+  celspan_texture *colour; /* NULL: black */
+  double opacity;          /* limited to 0..1 */
+  bool is_inside;          /* within the object and over it, else behind it */
+  bool is_alone;           /* without the object */
+} celspan_shadow_desc;
+
+static inline celspan_shadow_desc celspan_shadow_desc_default(void) {
+  celspan_shadow_desc desc = CELSPAN_ZERO;
+  desc.struct_size = sizeof desc;
+  desc.opacity = 1;
+  return desc;
+}
+#define CELSPAN_SHADOW_DESC (celspan_shadow_desc_default())
+
+/* The object with its shape in a colour, moved and blurred, behind it. A mode stays outermost.
+ * Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_shadow(celspan_context *context,
+                                                                 celspan_object *object,
+                                                                 const celspan_shadow_desc *desc,
+                                                                 celspan_object **out);
+
+typedef struct celspan_glow_desc {
+  size_t struct_size;      /* sizeof(celspan_glow_desc) */
+  double radius;           /* 0..1e6 */
+  celspan_texture *colour; /* NULL: black */
+  double gain;             /* >= 0; multiplies the light */
+} celspan_glow_desc;
+
+static inline celspan_glow_desc celspan_glow_desc_default(void) {
+  celspan_glow_desc desc = CELSPAN_ZERO;
+  desc.struct_size = sizeof desc;
+  desc.gain = 1;
+  return desc;
+}
+#define CELSPAN_GLOW_DESC (celspan_glow_desc_default())
+
+/* The object with its shape in a colour, blurred, behind it in the mode ADD. A mode of the object
+ * stays outermost. Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_glow(celspan_context *context,
+                                                               celspan_object *object,
+                                                               const celspan_glow_desc *desc,
+                                                               celspan_object **out);
+
 /* Applied after the existing matrix, about the origin. The object is kept in part, never changed.
  * Errors: NO_MEMORY; BAD_ARGUMENT when a number of the matrix, or of the product, is not
  * finite or beyond 1e12. */
@@ -1045,12 +1120,6 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_trace_write(celspan_context *
 
 typedef struct celspan_cel celspan_cel;
 typedef struct celspan_rostrum celspan_rostrum;
-
-typedef enum celspan_defocus_kernel {
-  CELSPAN_DEFOCUS_GAUSSIAN = 0,
-  CELSPAN_DEFOCUS_BOX,
-  CELSPAN_DEFOCUS_DISC
-} celspan_defocus_kernel;
 
 typedef struct celspan_cel_desc {
   size_t struct_size;

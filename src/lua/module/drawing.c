@@ -19,7 +19,7 @@
 #include "lua/bind/named.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
-#include "lua/nouns/placed.h"
+#include "lua/nouns/shape.h"
 #include "readers/svg/read.h"
 
 #define METATABLE "celspan.drawing"
@@ -176,7 +176,7 @@ static int call_function(lua_State *L) {
   lua_getfield(L, 2, c->changer->name);
   push_object(L, c->part);
   lua_call(L, 1, 1);
-  const cs_userdata *made = cs_placed_at(L, -1);
+  const cs_userdata *made = cs_shape_at(L, -1);
   if (!made)
     return luaL_error(L, "svg: the function of part '%s' must return an object, got %s",
                       c->changer->name, cs_userdata_type(L, -1));

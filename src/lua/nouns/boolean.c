@@ -6,11 +6,11 @@
 #include "lua/bind/host.h"
 #include "lua/bind/named.h"
 #include "lua/nouns/nouns.h"
-#include "lua/nouns/placed.h"
+#include "lua/nouns/shape.h"
 
 static void create(const cs_form *form, cs_userdata *value, celspan_operator op) {
   int count = cs_form_length(form);
-  celspan_object **operands = cs_placed_items(form, count);
+  celspan_object **operands = cs_shape_items(form, count);
   celspan_object *object = NULL;
   cs_form_try(form, celspan_object_create_boolean(cs_host_context(form->L), op, operands,
                                                   (size_t)count, &object));
@@ -46,7 +46,7 @@ static const cs_noun noun_clip = {BOOLEAN(clip), .list = CS_LIST_TUPLE};
 int cs_nouns_clip(lua_State *L) {
   static const char *const names[] = {"the art", "the shape"};
   for (int i = 1; i <= 2; i++)
-    if (!cs_placed_at(L, i))
+    if (!cs_shape_at(L, i))
       return cs_caller_error(L, "clip: argument %d, %s, must be an object, got %s", i, names[i - 1],
                              cs_userdata_type(L, i));
   lua_createtable(L, 2, 0);
@@ -61,7 +61,7 @@ int cs_nouns_clip(lua_State *L) {
 /* ---------------------------------------------------------------- operators */
 
 static cs_userdata *operand(lua_State *L, int index, const char *sign) {
-  cs_userdata *value = cs_placed_at(L, index);
+  cs_userdata *value = cs_shape_at(L, index);
   if (!value)
     cs_caller_error(L, "operator %s: both sides must be objects, the %s one is %s", sign,
                     index == 1 ? "left" : "right", cs_userdata_type(L, index));

@@ -3,15 +3,14 @@
 #include "lua/bind/host.h"
 #include "lua/nouns/light.h"
 #include "lua/nouns/nouns.h"
-#include "lua/nouns/placed.h"
+#include "lua/nouns/shape.h"
 #include "model/colour/blend.h"
 
-static const char *const kernels[] = {"gaussian", "box", "disc", NULL};
 #define DESC celspan_cel_desc
 static const cs_field defocus_fields[] = {
     {"radius", CS_NUMBER(DESC, defocus_radius), CS_FROM(0), .is_required = true,
      .about = "Film units on the frame"},
-    {"kernel", CS_CHOICE(DESC, defocus_kernel, kernels), .preset = "gaussian"},
+    {"kernel", CS_CHOICE(DESC, defocus_kernel, cs_nouns_kernels), .preset = "gaussian"},
     {0}};
 const cs_noun cs_noun_defocus = {.name = "cel: defocus",
                                  .about = "How far a cel is out of focus.",
@@ -36,7 +35,7 @@ static void create(const cs_form *form, cs_userdata *value) {
   lua_State *L = form->L;
   celspan_cel_desc desc = CELSPAN_CEL_DESC;
   int count = cs_form_length(form);
-  desc.objects = cs_placed_items(form, count);
+  desc.objects = cs_shape_items(form, count);
   desc.object_count = (size_t)count;
   desc.has_front = cs_light_read(form, "front", &desc.front, &desc.front_texture);
   cs_light_read(form, "back", &desc.back, &desc.back_texture);

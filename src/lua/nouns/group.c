@@ -4,7 +4,7 @@
 #include "lua/bind/fields.h"
 #include "lua/bind/host.h"
 #include "lua/nouns/nouns.h"
-#include "lua/nouns/placed.h"
+#include "lua/nouns/shape.h"
 #include "model/colour/blend.h"
 
 /* ---------------------------------------------------------------- groups */
@@ -18,7 +18,7 @@ static void create_group(const cs_form *form, cs_userdata *value) {
   group_fields fields = {.desc = CELSPAN_GROUP_DESC};
   int count = cs_form_length(form);
   celspan_object *group = NULL;
-  fields.desc.objects = cs_placed_items(form, count);
+  fields.desc.objects = cs_shape_items(form, count);
   fields.desc.object_count = (size_t)count;
   cs_fields_read(form, &fields);
   if (fields.has_isolate)
@@ -57,7 +57,7 @@ typedef struct matte_fields {
 
 static void create_matte(const cs_form *form, cs_userdata *value) {
   matte_fields fields = {0};
-  celspan_object **both = cs_placed_items(form, 2), *matte = NULL;
+  celspan_object **both = cs_shape_items(form, 2), *matte = NULL;
   cs_fields_read(form, &fields);
   cs_form_try(form, celspan_object_create_matte(cs_host_context(form->L), both[0], both[1],
                                                 fields.from, fields.invert, &matte));
@@ -83,7 +83,7 @@ const cs_noun cs_noun_matte = {.name = "matte",
 static void check_objects(lua_State *L) {
   static const char *const names[] = {"the art", "what it is matted by"};
   for (int i = 1; i <= 2; i++)
-    if (!cs_placed_at(L, i))
+    if (!cs_shape_at(L, i))
       cs_caller_error(L, "matte: argument %d, %s, must be an object, got %s", i, names[i - 1],
                       cs_userdata_type(L, i));
 }

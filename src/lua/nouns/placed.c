@@ -11,55 +11,19 @@
 #include "lua/bind/named.h"
 #include "lua/bind/numbers.h"
 #include "lua/nouns/nouns.h"
+#include "lua/nouns/shape.h"
 #include "model/colour/blend.h"
 #include "model/geometry/matrix.h"
 #include "model/scene/primitive_data.h"
 
 #define PI 3.14159265358979323846
 
-/* ---------------------------------------------------------------- shapes */
-
-cs_userdata *cs_placed_at(lua_State *L, int index) {
-  cs_userdata *value = cs_userdata_test(L, index, &cs_kind_object);
-  if (value)
-    return value;
-  const cs_userdata *rostrum = cs_userdata_test(L, index, &cs_kind_rostrum);
-  if (!rostrum)
-    return NULL;
-  int place = lua_absindex(L, index);
-  celspan_object *object = NULL;
-  value = cs_userdata_push(L, &cs_noun_rostrum_object);
-  cs_host_try(L, "rostrum",
-              celspan_object_create_rostrum(cs_host_context(L), rostrum->handle, &object));
-  value->handle = object;
-  lua_getiuservalue(L, place, 1); /* never changed, so it can be shared */
-  lua_setiuservalue(L, -2, 1);
-  lua_replace(L, place);
-  return value;
-}
-
-celspan_object **cs_placed_items(const cs_form *form, int count) {
-  lua_State *L = form->L;
-  celspan_object **objects = cs_form_scratch(L, (size_t)count, sizeof *objects);
-  lua_createtable(L, count, 0); /* holds them: a finaliser may take them out of the list */
-  int kept = lua_gettop(L);
-  for (int i = 0; i < count; i++) {
-    lua_rawgeti(L, form->table, i + 1);
-    const cs_userdata *value = cs_placed_at(L, -1);
-    if (!value)
-      cs_form_fail(form, "item %d must be an object, got %s", i + 1, cs_userdata_type(L, -1));
-    objects[i] = value->handle;
-    lua_rawseti(L, kept, i + 1);
-  }
-  return objects;
-}
-
 /* ---------------------------------------------------------------- methods */
 
 double cs_placed_radians(double degrees) { return fmod(degrees, 360) * (PI / 180); }
 
 static cs_userdata *self(lua_State *L, const char *method) {
-  cs_userdata *value = cs_placed_at(L, 1);
+  cs_userdata *value = cs_shape_at(L, 1);
   return value ? value : cs_userdata_self(L, &cs_kind_cel, method);
 }
 
@@ -259,10 +223,10 @@ static int contains(lua_State *L) {
 #define METHODS                                                                                    \
   {"translate", translate}, {"scale", scale}, {"rotate", rotate}, {"skew", skew},                  \
       {"transform", transform}, {"quad", quad}, {"fade", fade}, {"blend", blend},                  \
-      {"bounds", bounds}, {"contains", contains}, {"named", cs_named_method},                      \
-      {"with", cs_construct_with}, {                                                               \
+      {"shadow", cs_nouns_shadow}, {"glow", cs_nouns_glow}, {"bounds", bounds},                    \
+      {"contains", contains}, {"named", cs_named_method}, {"with", cs_construct_with}, {           \
     NULL, NULL                                                                                     \
   }
 const luaL_Reg cs_placed_methods[] = {METHODS};
 const luaL_Reg cs_placed_object_methods[] = {
-    {"stroke", cs_stroke_method}, {"paint", cs_painted_method}, METHODS};
+    {"blur", cs_nouns_blur}, {"stroke", cs_stroke_method}, {"paint", cs_painted_method}, METHODS};

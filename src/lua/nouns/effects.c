@@ -1,0 +1,140 @@
+/* object:blur, object:shadow and object:glow; the last two also of cels. What they make is a value
+ * with the object as its list and the options as its fields. */
+#include "lua/bind/caller.h"
+#include "lua/bind/construct.h"
+#include "lua/bind/fields.h"
+#include "lua/bind/host.h"
+#include "lua/nouns/nouns.h"
+#include "lua/nouns/shape.h"
+
+const char *const cs_nouns_kernels[] = {"gaussian", "box", "disc", NULL};
+
+/* ---------------------------------------------------------------- nouns */
+
+#define CREATE(effect, FIELDS)                                                                     \
+  static void create_##effect(const cs_form *form, cs_userdata *value) {                           \
+    celspan_##effect##_desc desc = FIELDS;                                                         \
+    celspan_object **object = cs_shape_items(form, 1), *made = NULL;                               \
+    cs_fields_read(form, &desc);                                                                   \
+    cs_form_try(form, celspan_object_##effect(cs_host_context(form->L), object[0], &desc, &made)); \
+    value->handle = made;                                                                          \
+  }
+CREATE(blur, CELSPAN_BLUR_DESC)
+CREATE(shadow, CELSPAN_SHADOW_DESC)
+CREATE(glow, CELSPAN_GLOW_DESC)
+
+#define RADIUS .least = 0, .most = CELSPAN_BLUR_MOST
+
+static const cs_field blur_rows[] = {
+    {"radius", CS_NUMBER(celspan_blur_desc, radius), RADIUS, .is_required = true,
+     .about = "As of defocus, in the object's units"},
+    {"kernel", CS_CHOICE(celspan_blur_desc, kernel, cs_nouns_kernels), .preset = "gaussian"},
+    {0}};
+const cs_noun cs_noun_blur = {.name = "blur",
+                              .about = "How an object is blurred.",
+                              .table = "celspan.blur.options",
+                              .kind = &cs_kind_object,
+                              .list = CS_LIST_TUPLE,
+                              .item = "object",
+                              .fields = blur_rows,
+                              .create = create_blur};
+
+static const cs_field shadow_rows[] = {
+    {"offset", CS_POINT(celspan_shadow_desc, offset), .about = "How far the shadow is moved",
+     .fallback = "{0, 0}"},
+    {"blur", CS_NUMBER(celspan_shadow_desc, blur), RADIUS, .preset = "0",
+     .about = "The radius that it is blurred by"},
+    {"colour", CS_SURFACE(celspan_shadow_desc, colour), .preset = "#000000"},
+    {"opacity", CS_NUMBER(celspan_shadow_desc, opacity), .preset = "1", .about = "Limited to 0..1"},
+    {"inside", CS_FLAG(celspan_shadow_desc, is_inside),
+     .about = "Whether it lies within the object, over it", .fallback = "false"},
+    {"only", CS_FLAG(celspan_shadow_desc, is_alone),
+     .about = "Whether the object itself is left out", .fallback = "false"},
+    {0}};
+const cs_noun cs_noun_shadow = {.name = "shadow",
+                                .about = "What shadow an object has.",
+                                .table = "celspan.shadow.options",
+                                .kind = &cs_kind_object,
+                                .list = CS_LIST_TUPLE,
+                                .item = "object",
+                                .fields = shadow_rows,
+                                .create = create_shadow};
+
+static const cs_field glow_rows[] = {
+    {"radius", CS_NUMBER(celspan_glow_desc, radius), RADIUS, .is_required = true,
+     .about = "As of a blur"},
+    {"colour", CS_SURFACE(celspan_glow_desc, colour), .is_required = true},
+    {"gain", CS_NUMBER(celspan_glow_desc, gain), CS_FROM(0), .preset = "1",
+     .about = "What its light is multiplied by"},
+    {0}};
+const cs_noun cs_noun_glow = {.name = "glow",
+                              .about = "How an object glows.",
+                              .table = "celspan.glow.options",
+                              .kind = &cs_kind_object,
+                              .list = CS_LIST_TUPLE,
+                              .item = "object",
+                              .fields = glow_rows,
+                              .create = create_glow};
+
+/* ---------------------------------------------------------------- methods */
+
+/* Pushes a copy of the options at `options`, with the object at `object` as its list. */
+static void push_options(lua_State *L, const cs_noun *noun, int options, int object) {
+  if (lua_isnoneornil(L, options))
+    lua_createtable(L, 1, 1);
+  else if (lua_istable(L, options))
+    cs_userdata_push_copy(L, options, 2);
+  else
+    cs_caller_error(L, "%s: its options must be a table, got %s", noun->name,
+                    cs_userdata_type(L, options));
+  lua_pushvalue(L, object);
+  lua_rawseti(L, -2, 1);
+}
+
+static void check_object(lua_State *L, const cs_noun *noun) {
+  if (!cs_shape_at(L, 1))
+    cs_userdata_self(L, &cs_kind_object, noun->name);
+}
+
+int cs_nouns_blur(lua_State *L) {
+  lua_settop(L, 3);
+  check_object(L, &cs_noun_blur);
+  push_options(L, &cs_noun_blur, 3, 1);
+  lua_pushnumber(L, cs_form_argument(L, 2, "blur", "the radius"));
+  lua_setfield(L, 4, "radius");
+  cs_construct_value(L, &cs_noun_blur, 4);
+  return 1;
+}
+
+/* The cel at index 1 with all its objects as one, which has the effect. */
+static int change_cel(lua_State *L, const cs_noun *noun) {
+  cs_userdata_push_fields(L, 1);
+  lua_newtable(L);
+  int count = (int)lua_rawlen(L, 3);
+  for (int i = 1; i <= count; i++) {
+    lua_rawgeti(L, 3, i);
+    lua_rawseti(L, 4, i);
+  }
+  cs_construct_value(L, &cs_noun_group, 4);
+  push_options(L, noun, 2, lua_gettop(L));
+  cs_construct_value(L, noun, lua_gettop(L));
+  lua_createtable(L, 1, 0);
+  lua_insert(L, 2);
+  lua_rawseti(L, 2, 1);
+  lua_settop(L, 2);
+  return cs_construct_with(L);
+}
+
+static int apply(lua_State *L, const cs_noun *noun) {
+  lua_settop(L, 2);
+  if (cs_userdata_test(L, 1, &cs_kind_cel))
+    return change_cel(L, noun);
+  check_object(L, noun);
+  push_options(L, noun, 2, 1);
+  cs_construct_value(L, noun, 3);
+  return 1;
+}
+
+int cs_nouns_shadow(lua_State *L) { return apply(L, &cs_noun_shadow); }
+
+int cs_nouns_glow(lua_State *L) { return apply(L, &cs_noun_glow); }

@@ -1,0 +1,297 @@
+/* Effects: blurred objects, soft shadows and glows, made of mattes, groups and compositions.
+ *
+ *     blur      a composition that holds the object as a defocused cel; its frame ends where
+ *               the blur does, so that the blur follows all transforms of the object
+ *     shadow    group{ blur(silhouette), object }
+ *     glow      group{ blur(silhouette) in mode "add", object }
+ *
+ * A silhouette is the object's bounds in one colour, with the object as their matte: as soft as the
+ * object is. A mode stays outermost: it is taken off the object, and given to the whole.
+ */
+#include <math.h>
+
+#include "model/scene/bounds.h"
+#include "model/scene/check.h"
+#include "model/scene/primitive_data.h"
+
+#define EXTENT_GAUSSIAN 3 /* radii; beyond this nothing of the blur can be seen */
+#define EXTENT 2
+
+/* ---------------------------------------------------------------- steps */
+
+/* Puts what was made in the place of *object, unless making it has failed. */
+static celspan_status replace(celspan_object **object, celspan_status status,
+                              celspan_object *made) {
+  if (status != CELSPAN_OK)
+    return status;
+  celspan_object_unref(*object);
+  *object = made;
+  return CELSPAN_OK;
+}
+
+static celspan_status move(celspan_context *context, celspan_object **object, double x, double y) {
+  celspan_object *made = NULL;
+  const celspan_matrix matrix = celspan_matrix_translation(x, y);
+  celspan_status status = celspan_object_transform(context, *object, &matrix, &made);
+  return replace(object, status, made);
+}
+
+static celspan_status fade(celspan_context *context, celspan_object **object, double k) {
+  celspan_object *made = NULL;
+  celspan_status status = celspan_object_fade(context, *object, k, &made);
+  return replace(object, status, made);
+}
+
+static celspan_status give_mode(celspan_context *context, celspan_object **object,
+                                celspan_blend mode) {
+  celspan_object *made = NULL;
+  celspan_status status = celspan_object_blend(context, *object, mode, &made);
+  return replace(object, status, made);
+}
+
+/* *object present as far as `by` is, or is not. */
+static celspan_status mask(celspan_context *context, celspan_object **object, celspan_object *by,
+                           bool inverts) {
+  celspan_object *made = NULL;
+  celspan_status status =
+      celspan_object_create_matte(context, *object, by, CELSPAN_MATTE_ALPHA, inverts, &made);
+  return replace(object, status, made);
+}
+
+/* What an effect made of an object without its mode, unless making it has failed: it gets the
+ * object's mode, name and line. */
+static celspan_status finish(celspan_context *context, const celspan_object *object,
+                             celspan_status status, celspan_object *made, celspan_object **out) {
+  if (status == CELSPAN_OK)
+    status = give_mode(context, &made, celspan_object_mode(object));
+  if (status != CELSPAN_OK) {
+    celspan_object_unref(made);
+    return status;
+  }
+  cs_mark_drop(made->mark);
+  made->mark = cs_mark_keep(object->mark);
+  *out = made;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- blur */
+
+/* frame: of the composition, in the object's units. */
+static celspan_status make_cel(celspan_context *context, celspan_object *object,
+                               const celspan_blur_desc *desc, const celspan_box *frame,
+                               celspan_cel **out) {
+  celspan_cel_desc fields = CELSPAN_CEL_DESC;
+  celspan_cel *still;
+  fields.objects = &object;
+  fields.object_count = 1;
+  fields.defocus_radius = desc->radius;
+  fields.defocus_kernel = desc->kernel;
+  CS_TRY(celspan_cel_create(context, &fields, &still));
+  const celspan_matrix matrix = celspan_matrix_translation(-frame->x, -frame->y);
+  celspan_status status = celspan_cel_transform(context, still, &matrix, out);
+  celspan_cel_unref(still);
+  return status;
+}
+
+static celspan_status make_rostrum(celspan_context *context, celspan_cel *cel,
+                                   const celspan_box *frame, double brightness,
+                                   celspan_rostrum **out) {
+  celspan_rostrum_desc fields = CELSPAN_ROSTRUM_DESC;
+  fields.cels = &cel;
+  fields.cel_count = 1;
+  fields.has_size = true;
+  fields.width = frame->width;
+  fields.height = frame->height;
+  fields.brightness = brightness;
+  return celspan_rostrum_create(context, &fields, out);
+}
+
+static celspan_status compose(celspan_context *context, celspan_object *object,
+                              const celspan_blur_desc *desc, const celspan_box *frame,
+                              double brightness, celspan_object **out) {
+  celspan_cel *cel;
+  celspan_rostrum *rostrum = NULL;
+  CS_TRY(make_cel(context, object, desc, frame, &cel));
+  celspan_status status = make_rostrum(context, cel, frame, brightness, &rostrum);
+  celspan_cel_unref(cel);
+  if (status == CELSPAN_OK)
+    status = celspan_object_create_rostrum(context, rostrum, out);
+  celspan_rostrum_unref(rostrum);
+  return status;
+}
+
+/* Of an object without a mode. brightness: what its light is multiplied by. */
+static celspan_status blur(celspan_context *context, celspan_object *object,
+                           const celspan_blur_desc *desc, double brightness, celspan_object **out) {
+  celspan_box box = {0};
+  bool is_there;
+  CS_TRY(cs_bounds_object(context, object, &is_there, &box));
+  double extent =
+      desc->radius * (desc->kernel == CELSPAN_DEFOCUS_GAUSSIAN ? EXTENT_GAUSSIAN : EXTENT);
+  const celspan_box frame = {box.x - extent, box.y - extent, box.width + 2 * extent,
+                             box.height + 2 * extent};
+  if (!is_there || !(frame.width > 0 && frame.height > 0)) {
+    *out = celspan_object_ref(object);
+    return CELSPAN_OK;
+  }
+  celspan_object *made = NULL;
+  celspan_status status = compose(context, object, desc, &frame, brightness, &made);
+  if (status == CELSPAN_OK)
+    status = move(context, &made, frame.x, frame.y);
+  if (status == CELSPAN_OK)
+    *out = made;
+  else
+    celspan_object_unref(made);
+  return status;
+}
+
+static celspan_status check_blur(celspan_context *context, const char *noun, const char *field,
+                                 double radius) {
+  return cs_check_range(context, noun, field, radius, 0, CELSPAN_BLUR_MOST);
+}
+
+celspan_status celspan_object_blur(celspan_context *context, celspan_object *object,
+                                   const celspan_blur_desc *desc, celspan_object **out) {
+  CS_TRY(cs_check_given(context, "blur", "the object", object));
+  CS_TRY(cs_check_given(context, "blur", "the description", desc));
+  CS_TRY(cs_check_version(context, "blur", desc->struct_size, sizeof *desc));
+  CS_TRY(check_blur(context, "blur", "radius", desc->radius));
+  CS_TRY(
+      cs_check_choice(context, "blur", "kernel", (unsigned)desc->kernel, CELSPAN_DEFOCUS_DISC + 1));
+  celspan_object *plain, *made = NULL;
+  CS_TRY(celspan_object_blend(context, object, CELSPAN_BLEND_NORMAL, &plain));
+  celspan_status status = blur(context, plain, desc, 1, &made);
+  celspan_object_unref(plain);
+  return finish(context, object, status, made, out);
+}
+
+/* ---------------------------------------------------------------- silhouettes */
+
+/* A rectangle of the texture: the bounds, larger by `grow` on each side. */
+static celspan_status make_ground(celspan_context *context, const celspan_box *box, double grow,
+                                  celspan_texture *texture, celspan_object **out) {
+  const celspan_rect_desc desc = {
+      box->x - grow, box->y - grow, box->width + 2 * grow, box->height + 2 * grow, 0, texture};
+  return celspan_object_create_rect(context, &desc, out);
+}
+
+/* The colour where the object is, or (inverts) where it is not, up to `grow` beyond its bounds;
+ * then moved and blurred. */
+typedef struct silhouette {
+  celspan_texture *colour;
+  bool inverts;
+  double grow;
+  celspan_point offset;
+  double radius;
+  double gain;
+} silhouette;
+
+static celspan_status blur_silhouette(celspan_context *context, celspan_object **object,
+                                      const silhouette *look) {
+  celspan_blur_desc desc = CELSPAN_BLUR_DESC;
+  celspan_object *made = NULL;
+  desc.radius = look->radius;
+  CS_TRY(move(context, object, look->offset.x, look->offset.y));
+  if (look->radius == 0 && look->gain == 1)
+    return CELSPAN_OK;
+  celspan_status status = blur(context, *object, &desc, look->gain, &made);
+  return replace(object, status, made);
+}
+
+static celspan_status make_silhouette(celspan_context *context, celspan_object *object,
+                                      const silhouette *look, celspan_object **out) {
+  celspan_box box = {0};
+  bool is_there;
+  celspan_object *made = NULL;
+  CS_TRY(cs_bounds_object(context, object, &is_there, &box));
+  CS_TRY(make_ground(context, &box, look->grow, look->colour, &made));
+  celspan_status status = mask(context, &made, object, look->inverts);
+  if (status == CELSPAN_OK)
+    status = blur_silhouette(context, &made, look);
+  if (status == CELSPAN_OK)
+    *out = made;
+  else
+    celspan_object_unref(made);
+  return status;
+}
+
+/* *effect and the object, in front of it or behind. */
+static celspan_status join(celspan_context *context, celspan_object **effect,
+                           celspan_object *object, bool is_in_front) {
+  celspan_object *made = NULL;
+  celspan_object *const both[] = {is_in_front ? object : *effect, is_in_front ? *effect : object};
+  celspan_group_desc desc = CELSPAN_GROUP_DESC;
+  desc.objects = both;
+  desc.object_count = 2;
+  celspan_status status = celspan_object_create_group(context, &desc, &made);
+  return replace(effect, status, made);
+}
+
+/* ---------------------------------------------------------------- shadows */
+
+static celspan_status check_shadow(celspan_context *context, const celspan_object *object,
+                                   const celspan_shadow_desc *desc) {
+  double opacity;
+  CS_TRY(cs_check_given(context, "shadow", "the object", object));
+  CS_TRY(cs_check_given(context, "shadow", "the description", desc));
+  CS_TRY(cs_check_version(context, "shadow", desc->struct_size, sizeof *desc));
+  CS_TRY(cs_check_point(context, "shadow", "offset", 0, desc->offset));
+  CS_TRY(check_blur(context, "shadow", "blur", desc->blur));
+  return cs_check_share(context, "shadow", "opacity", desc->opacity, &opacity);
+}
+
+/* object: without a mode. */
+static celspan_status add_shadow(celspan_context *context, celspan_object *object,
+                                 const celspan_shadow_desc *desc, celspan_object **shadow) {
+  double extent = EXTENT_GAUSSIAN * desc->blur + fabs(desc->offset.x) + fabs(desc->offset.y);
+  const silhouette look = {.colour = desc->colour,
+                           .inverts = desc->is_inside,
+                           .grow = desc->is_inside ? extent : 0,
+                           .offset = desc->offset,
+                           .radius = desc->blur,
+                           .gain = 1};
+  CS_TRY(make_silhouette(context, object, &look, shadow));
+  if (desc->is_inside)
+    CS_TRY(mask(context, shadow, object, false));
+  CS_TRY(fade(context, shadow, desc->opacity));
+  return desc->is_alone ? CELSPAN_OK : join(context, shadow, object, desc->is_inside);
+}
+
+celspan_status celspan_object_shadow(celspan_context *context, celspan_object *object,
+                                     const celspan_shadow_desc *desc, celspan_object **out) {
+  CS_TRY(check_shadow(context, object, desc));
+  celspan_object *plain, *made = NULL;
+  CS_TRY(celspan_object_blend(context, object, CELSPAN_BLEND_NORMAL, &plain));
+  celspan_status status = add_shadow(context, plain, desc, &made);
+  celspan_object_unref(plain);
+  return finish(context, object, status, made, out);
+}
+
+/* ---------------------------------------------------------------- glows */
+
+static celspan_status check_glow(celspan_context *context, const celspan_object *object,
+                                 const celspan_glow_desc *desc) {
+  CS_TRY(cs_check_given(context, "glow", "the object", object));
+  CS_TRY(cs_check_given(context, "glow", "the description", desc));
+  CS_TRY(cs_check_version(context, "glow", desc->struct_size, sizeof *desc));
+  CS_TRY(check_blur(context, "glow", "radius", desc->radius));
+  return cs_check_size(context, "glow", "gain", desc->gain);
+}
+
+static celspan_status add_glow(celspan_context *context, celspan_object *object,
+                               const celspan_glow_desc *desc, celspan_object **glow) {
+  const silhouette look = {.colour = desc->colour, .radius = desc->radius, .gain = desc->gain};
+  CS_TRY(make_silhouette(context, object, &look, glow));
+  CS_TRY(give_mode(context, glow, CELSPAN_BLEND_ADD));
+  return join(context, glow, object, false);
+}
+
+celspan_status celspan_object_glow(celspan_context *context, celspan_object *object,
+                                   const celspan_glow_desc *desc, celspan_object **out) {
+  CS_TRY(check_glow(context, object, desc));
+  celspan_object *plain, *made = NULL;
+  CS_TRY(celspan_object_blend(context, object, CELSPAN_BLEND_NORMAL, &plain));
+  celspan_status status = add_glow(context, plain, desc, &made);
+  celspan_object_unref(plain);
+  return finish(context, object, status, made, out);
+}

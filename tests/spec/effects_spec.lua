@@ -1,0 +1,224 @@
+-- Blurred objects, shadows and glows: against formulas, and against the same made by hand.
+local celspan = require "celspan"
+
+local function rect(x, y, w, h, texture) return celspan.rect { x, y, w, h, texture = texture } end
+
+local function pixels(objects, w, h, options)
+  local rostrum = celspan.rostrum { celspan.cel(objects) }
+  options = options or {}
+  options.size, options.film = options.size or { w, h }, { w, h }
+  return assert(celspan.pixels(rostrum, options))
+end
+
+--- The greatest difference between two images of this size.
+local function difference(a, b)
+  assert.same({ a.width, a.height }, { b.width, b.height })
+  local most = 0
+  for y = 0, a.height - 1 do
+    for x = 0, a.width - 1 do
+      local p, q = { a:get(x, y) }, { b:get(x, y) }
+      for c = 1, 4 do most = math.max(most, math.abs(p[c] - q[c])) end
+    end
+  end
+  return most
+end
+
+local function assert_alike(tolerance, a, b)
+  local most = difference(a, b)
+  assert.is_true(most <= tolerance, ("they differ by %.6f"):format(most))
+end
+
+--- The share of a Gaussian that lies below x, by Simpson's rule.
+local function below(x)
+  local steps, low = 200, -6
+  if x <= low then return 0 end
+  local h, sum = (x - low) / steps, 0
+  for i = 0, steps do
+    local weight = (i == 0 or i == steps) and 1 or i % 2 == 1 and 4 or 2
+    sum = sum + weight * math.exp(-(low + i * h) ^ 2 / 2)
+  end
+  return sum * h / 3 / math.sqrt(2 * math.pi)
+end
+
+local function raised(f, ...)
+  local ok, message = pcall(f, ...)
+  assert.is_false(ok)
+  return message
+end
+
+describe("a blurred object", function()
+  it("is the convolution of its picture with a Gaussian of half the radius", function()
+    local image, sigma = pixels({ rect(20, 18, 24, 20, "#fff"):blur(8) }, 64, 56), 4
+    for y = 0, 55 do
+      local v = below((38 - y - 0.5) / sigma) - below((18 - y - 0.5) / sigma)
+      for x = 0, 63 do
+        local u = below((44 - x - 0.5) / sigma) - below((20 - x - 0.5) / sigma)
+        local _, _, _, a = image:get(x, y)
+        assert.is_true(math.abs(a - u * v) < 3e-3,
+          ("pixel %d, %d: %.5f instead of %.5f"):format(x, y, a, u * v))
+      end
+    end
+  end)
+
+  it("is blurred in its own units, and follows its transforms", function()
+    local shape = rect(10, 12, 20, 14, "#38a"):blur(3)
+    assert_alike(2e-3, pixels({ shape:scale(2) }, 80, 80),
+      pixels({ rect(20, 24, 40, 28, "#38a"):blur(6) }, 80, 80))
+    assert_alike(1e-6, pixels({ shape:rotate(90, 20, 20) }, 40, 40),
+      pixels({ rect(10, 12, 20, 14, "#38a"):rotate(90, 20, 20):blur(3) }, 40, 40))
+  end)
+
+  it("has the same bits in a crop and on several workers", function()
+    local random, list = celspan.random(7), {}
+    for i = 1, 12 do
+      list[i] = celspan.circle { centre = { random("x" .. i) * 96, random("y" .. i) * 64 },
+        radius = 4 + 12 * random("r" .. i), texture = i % 2 == 0 and "#e24a33a0" or "#348abd" }
+        :blur(1 + 9 * random("b" .. i))
+    end
+    local whole = pixels(list, 96, 64)
+    assert_alike(0, whole, pixels(list, 96, 64, { workers = 3 }))
+    local part = pixels(list, 96, 64, { crop = { 20, 10, 50, 40 } })
+    for y = 0, 39 do
+      for x = 0, 49 do
+        local p, q = { part:get(x, y) }, { whole:get(x + 20, y + 10) }
+        for c = 1, 4 do assert.is_true(math.abs(p[c] - q[c]) <= 1 / 65535) end
+      end
+    end
+  end)
+
+  it("keeps its mode outermost, and its name", function()
+    local ground = rect(0, 0, 40, 40, "#c80")
+    local shape = celspan.circle { centre = { 20, 20 }, radius = 9, texture = "#88f" }:named "sun"
+    local first, last = shape:blend("multiply"):blur(4), shape:blur(4):blend("multiply")
+    assert.equal("multiply", first.mode)
+    assert.equal("sun", first.name)
+    assert_alike(0, pixels({ ground, first }, 40, 40), pixels({ ground, last }, 40, 40))
+  end)
+
+  it("has fields, and can be changed", function()
+    local shape = rect(0, 0, 10, 10, "#fff"):blur(4, { kernel = "disc" })
+    assert.same({ 4, "disc" }, { shape.radius, shape.kernel })
+    assert_alike(0, pixels({ shape:with { radius = 2 } }, 20, 20),
+      pixels({ rect(0, 0, 10, 10, "#fff"):blur(2, { kernel = "disc" }) }, 20, 20))
+  end)
+
+  it("is drawn sharp with a radius of 0, and empty where there is nothing", function()
+    local disc = celspan.circle { centre = { 10, 10 }, radius = 7, texture = "#fff" }
+    assert_alike(1e-6, pixels({ disc }, 20, 20), pixels({ disc:blur(0) }, 20, 20))
+    assert_alike(0, pixels({}, 20, 20), pixels({ celspan.union {}:blur(5) }, 20, 20))
+  end)
+
+  it("is not seen by the oracle", function()
+    local rostrum = celspan.rostrum { celspan.cel { rect(5, 5, 10, 10, "#fff"):blur(6) } }
+    assert.same({ 1, 1, 1, 1 }, { celspan.probe(rostrum, 5.5, 5.5, { film = { 20, 20 } }) })
+    assert.same({ 0, 0, 0, 0 }, { celspan.probe(rostrum, 4.5, 4.5, { film = { 20, 20 } }) })
+  end)
+end)
+
+describe("a shadow", function()
+  local disc = celspan.circle { centre = { 30, 28 }, radius = 14, texture = "#e24a33" }
+
+  it("is the object's shape in a colour on a defocused cel behind it", function()
+    local by_hand = celspan.rostrum {
+      celspan.cel { disc:paint("#204080"):translate(5, 6), opacity = 0.6, defocus = 7 },
+      celspan.cel { disc } }
+    local shadowed = disc:shadow { offset = { 5, 6 }, blur = 7, colour = "#204080", opacity = 0.6 }
+    assert_alike(1e-3, pixels({ shadowed }, 64, 64),
+      assert(celspan.pixels(by_hand, { size = { 64, 64 }, film = { 64, 64 } })))
+  end)
+
+  it("is as soft as the object is", function()
+    local soft = rect(10, 10, 30, 30, celspan.linear { from = { 10, 0 }, to = { 40, 0 },
+      { 0, "#fff0" }, { 1, "#fff" } })
+    local image = pixels({ soft:shadow { colour = "#f00", only = true } }, 50, 50)
+    for x = 10, 39 do
+      local r, g, _, a = image:get(x, 25)
+      assert.is_true(math.abs(a - (x - 9.5) / 30) < 2e-3)
+      assert.is_true(math.abs(r - a) < 1e-6 and g == 0)
+    end
+  end)
+
+  it("stays within the object with `inside`, and is alone with `only`", function()
+    local inside = pixels({ disc:shadow { offset = { 3, 4 }, blur = 6, inside = true } }, 64, 64)
+    local plain = pixels({ disc }, 64, 64)
+    for y = 0, 63 do
+      for x = 0, 63 do
+        local _, _, _, a = inside:get(x, y)
+        local _, _, _, b = plain:get(x, y)
+        assert.is_true(math.abs(a - b) < 1e-6)
+      end
+    end
+    local top, middle = inside:get(30, 15), inside:get(30, 30)
+    assert.is_true(top < 0.7 * middle)
+    local only = pixels({ disc:shadow { offset = { 40, 0 }, only = true } }, 64, 64)
+    assert.same({ 0, 0, 0, 0 }, { only:get(18, 28) })
+  end)
+
+  it("of a cel is that of all its objects, and keeps its lights and its place", function()
+    local other = rect(40, 20, 10, 10, "#348abd")
+    local options = { offset = { 2, 3 }, blur = 4 }
+    local cel = celspan.cel { disc, other, front = { 1, 0.5, 0.25 } }:translate(1, 2)
+    local by_hand = celspan.cel { celspan.group { disc, other }:shadow(options),
+      front = { 1, 0.5, 0.25 } }:translate(1, 2)
+    local function shown(c)
+      return assert(celspan.pixels(celspan.rostrum { c }, { size = { 64, 64 }, film = { 64, 64 } }))
+    end
+    assert_alike(0, shown(by_hand), shown(cel:shadow(options)))
+  end)
+end)
+
+describe("a glow", function()
+  it("is the object's shape, brighter and blurred, added behind it", function()
+    local ground = rect(0, 0, 64, 64, "#402030")
+    local bar = rect(20, 28, 24, 8, "#fff")
+    local by_hand = rect(20, 28, 24, 8, "#f46"):blur(9)
+    local image = pixels({ ground, bar:glow { radius = 9, colour = "#f46", gain = 3 } }, 64, 64)
+    local light, back = pixels({ by_hand }, 64, 64), pixels({ ground }, 64, 64)
+    for y = 0, 27 do
+      for x = 0, 63 do
+        local got, glow, behind = { image:get(x, y) }, { light:get(x, y) }, { back:get(x, y) }
+        for c = 1, 3 do
+          assert.is_true(math.abs(got[c] - behind[c] - 3 * glow[c]) < 2e-3)
+        end
+      end
+    end
+    assert.same({ 1, 1, 1, 1 }, { image:get(30, 31) })
+  end)
+end)
+
+describe("a wrong effect", function()
+  local disc = celspan.circle { centre = { 5, 5 }, radius = 3 }
+
+  it("is refused with its field, what was given and what is allowed", function()
+    assert.matches("effects_spec.lua:%d+: blur: .*radius.* 1e%+09.* 1e%+06",
+      raised(function() return disc:blur(1e9) end))
+    assert.matches("blur: .*radius.* nan", raised(function() return disc:blur(0 / 0) end))
+    assert.matches("blur: .*radius.* %-1", raised(function() return disc:blur(-1) end))
+    assert.matches("blur: .*radius.* a number", raised(function() return disc:blur("wide") end))
+    assert.matches("blur: its options must be a table, got string",
+      raised(function() return disc:blur(1, "disc") end))
+    assert.matches("blur: .*kernel.*disk", raised(function()
+      return disc:blur(1, { kernel = "disk" })
+    end))
+    assert.matches("shadow: unknown field 'color'.*colour", raised(function()
+      return disc:shadow { color = "#fff" }
+    end))
+    assert.matches("shadow: .*blur.* 1e%+09", raised(function()
+      return disc:shadow { blur = 1e9 }
+    end))
+    assert.matches("glow: .*colour", raised(function() return disc:glow { radius = 4 } end))
+    assert.matches("glow: .*gain.* %-1", raised(function()
+      return disc:glow { radius = 4, colour = "#fff", gain = -1 }
+    end))
+  end)
+
+  it("is refused when it nests too deep, and drawn when it is very wide", function()
+    local nested = disc
+    local message = raised(function()
+      for _ = 1, 200 do nested = nested:blur(0.01) end
+    end)
+    assert.matches("128", message)
+    assert.is_true(pixels({ disc:blur(1e6) }, 8, 8):get(4, 4) < 1e-6)
+    assert.is_true(pixels({ nested }, 8, 8):get(4, 4) ~= nil)
+  end)
+end)
