@@ -665,6 +665,28 @@ static celspan_status name_everything(celspan_context *context, const everything
   return CELSPAN_OK;
 }
 
+/* Every effect of an object with a mode. */
+static celspan_status try_effects(celspan_context *context, celspan_object *object) {
+  celspan_object *source, *blurred = NULL, *shadow = NULL, *glow = NULL;
+  celspan_blur_desc blur = CELSPAN_BLUR_DESC;
+  celspan_shadow_desc inside = CELSPAN_SHADOW_DESC;
+  celspan_glow_desc light = CELSPAN_GLOW_DESC;
+  blur.radius = inside.blur = light.radius = 2;
+  inside.is_inside = true;
+  CS_TRY(celspan_object_blend(context, object, CELSPAN_BLEND_SCREEN, &source));
+  celspan_status status = celspan_object_blur(context, source, &blur, &blurred);
+  if (status == CELSPAN_OK)
+    status = celspan_object_shadow(context, source, &inside, &shadow);
+  if (status == CELSPAN_OK)
+    status = celspan_object_glow(context, source, &light, &glow);
+  CHECK(status != CELSPAN_OK || celspan_object_mode(glow) == CELSPAN_BLEND_SCREEN);
+  celspan_object_unref(source);
+  celspan_object_unref(blurred);
+  celspan_object_unref(shadow);
+  celspan_object_unref(glow);
+  return status;
+}
+
 static celspan_status build_film(celspan_context *context, everything *all) {
   const celspan_matrix half = celspan_matrix_scaling(0.5, 0.5);
   CS_TRY(celspan_object_create_boolean(context, CELSPAN_XOR, all->objects, 7, &all->operands[0]));
@@ -695,6 +717,7 @@ static celspan_status build_film(celspan_context *context, everything *all) {
   desc.antialias = CELSPAN_ANTIALIAS_FILTER;
   CS_TRY(celspan_rostrum_create(context, &desc, &all->rostrum));
   CS_TRY(name_everything(context, all));
+  CS_TRY(try_effects(context, all->objects[0]));
   celspan_exposure exposure = {all->rostrum, 1};
   double rgba[4];
   return celspan_probe(context, &exposure, 1, 20, 20, (celspan_point){3, 2}, rgba);
