@@ -64,7 +64,7 @@ describe("a blurred object", function()
     local shape = rect(10, 12, 20, 14, "#38a"):blur(3)
     assert_alike(2e-3, pixels({ shape:scale(2) }, 80, 80),
       pixels({ rect(20, 24, 40, 28, "#38a"):blur(6) }, 80, 80))
-    assert_alike(1e-6, pixels({ shape:rotate(90, 20, 20) }, 40, 40),
+    assert_alike(1e-3, pixels({ shape:rotate(90, 20, 20) }, 40, 40),
       pixels({ rect(10, 12, 20, 14, "#38a"):rotate(90, 20, 20):blur(3) }, 40, 40))
   end)
 
@@ -123,7 +123,7 @@ describe("a shadow", function()
       celspan.cel { disc:paint("#204080"):translate(5, 6), opacity = 0.6, defocus = 7 },
       celspan.cel { disc } }
     local shadowed = disc:shadow { offset = { 5, 6 }, blur = 7, colour = "#204080", opacity = 0.6 }
-    assert_alike(1e-3, pixels({ shadowed }, 64, 64),
+    assert_alike(2e-3, pixels({ shadowed }, 64, 64),
       assert(celspan.pixels(by_hand, { size = { 64, 64 }, film = { 64, 64 } })))
   end)
 
@@ -218,7 +218,7 @@ describe("a wrong effect", function()
       for _ = 1, 200 do nested = nested:blur(0.01) end
     end)
     assert.matches("128", message)
-    assert.is_true(pixels({ disc:blur(1e6) }, 8, 8):get(4, 4) < 1e-6)
-    assert.is_true(pixels({ nested }, 8, 8):get(4, 4) ~= nil)
+    assert.is_true(select(4, pixels({ disc:blur(1e6) }, 8, 8):get(4, 4)) < 1e-6)
+    assert.is_true(select(4, pixels({ nested }, 8, 8):get(4, 4)) > 0.99)
   end)
 end)

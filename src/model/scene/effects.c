@@ -68,8 +68,10 @@ static celspan_status finish(celspan_context *context, const celspan_object *obj
     celspan_object_unref(made);
     return status;
   }
-  cs_mark_drop(made->mark);
-  made->mark = cs_mark_keep(object->mark);
+  if (made != object) { /* which it is where there is nothing to blur */
+    cs_mark_drop(made->mark);
+    made->mark = cs_mark_keep(object->mark);
+  }
   *out = made;
   return CELSPAN_OK;
 }
