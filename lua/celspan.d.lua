@@ -277,6 +277,20 @@ function placed:fade(k) end
 ---@return T
 function placed:blend(mode) end
 
+--- With a soft shadow behind it, or inside.
+---@generic T: celspan.placed
+---@param self T
+---@param options? celspan.shadow.options
+---@return T
+function placed:shadow(options) end
+
+--- With its shape, blurred, added as light behind it.
+---@generic T: celspan.placed
+---@param self T
+---@param options celspan.glow.options
+---@return T
+function placed:glow(options) end
+
 --- The smallest axis-aligned rectangle around it; returns nothing if there is nothing to paint.
 ---@return number? x, number? y, number? width, number? height
 function placed:bounds() end
@@ -306,6 +320,12 @@ local object = {}
 ---@param style? celspan.stroke.style
 ---@return celspan.stroke
 function object:stroke(style) end
+
+--- Out of focus. The radius is in its units and follows its transforms.
+---@param radius number
+---@param options? celspan.blur.options
+---@return celspan.object
+function object:blur(radius, options) end
 
 --- The whole shape in one texture, which is in the units around it, with its fade and its name.
 ---@param texture celspan.texture|celspan.paint|string
@@ -618,6 +638,26 @@ function celspan.clip(art, shape) end
 ---@param fields celspan.group.fields
 ---@return celspan.group
 function celspan.group(fields) end
+
+--- How an object is blurred.
+---@class celspan.blur.options
+---@field radius number As of defocus, in the object's units; 0 to 1000000
+---@field kernel? "gaussian"|"box"|"disc" Default "gaussian"
+
+--- What shadow an object has.
+---@class celspan.shadow.options
+---@field offset? celspan.point How far the shadow is moved; default {0, 0}
+---@field blur? number The radius that it is blurred by; 0 to 1000000; default 0
+---@field colour? celspan.surface Default "#000000"
+---@field opacity? number Limited to 0..1; default 1
+---@field inside? boolean Whether it lies within the object, over it; default false
+---@field only? boolean Whether the object itself is left out; default false
+
+--- How an object glows.
+---@class celspan.glow.options
+---@field radius number As of a blur; 0 to 1000000
+---@field colour celspan.surface
+---@field gain? number What its light is multiplied by; 0 or more; default 1
 
 --- How a matte is used.
 ---@class celspan.matte.options

@@ -190,7 +190,7 @@ describe("a wrong effect", function()
   local disc = celspan.circle { centre = { 5, 5 }, radius = 3 }
 
   it("is refused with its field, what was given and what is allowed", function()
-    assert.matches("effects_spec.lua:%d+: blur: .*radius.* 1e%+09.* 1e%+06",
+    assert.matches("effects_spec.lua:%d+: blur: .*radius.* 1e09.* 1000000",
       raised(function() return disc:blur(1e9) end))
     assert.matches("blur: .*radius.* nan", raised(function() return disc:blur(0 / 0) end))
     assert.matches("blur: .*radius.* %-1", raised(function() return disc:blur(-1) end))
@@ -203,7 +203,7 @@ describe("a wrong effect", function()
     assert.matches("shadow: unknown field 'color'.*colour", raised(function()
       return disc:shadow { color = "#fff" }
     end))
-    assert.matches("shadow: .*blur.* 1e%+09", raised(function()
+    assert.matches("shadow: .*blur.* 1e09", raised(function()
       return disc:shadow { blur = 1e9 }
     end))
     assert.matches("glow: .*colour", raised(function() return disc:glow { radius = 4 } end))
