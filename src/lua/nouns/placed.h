@@ -1,5 +1,5 @@
-/* Objects, cels and rostrums: values with a place. Their methods each return a new value. Angles are
- * degrees; multiples of 90 give exact matrices.
+/* Objects, cels and rostrums: values with a place. Their methods each return a new value. Angles
+ * are degrees; multiples of 90 give exact matrices.
  */
 #pragma once
 

@@ -1,7 +1,7 @@
 /* Shapes: parts of a cel or of a boolean object, which are objects and rostrums with a size.
  *
- * A rostrum stays a rostrum until it is transformed, faded, or made an item of a cel or of a boolean
- * object; the object that it becomes then has the same fields.
+ * A rostrum stays a rostrum until it is transformed, faded, or made an item of a cel or of a
+ * boolean object; the object that it becomes then has the same fields.
  */
 #pragma once
 
