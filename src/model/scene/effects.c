@@ -49,6 +49,17 @@ static celspan_status give_mode(celspan_context *context, celspan_object **objec
   return replace(object, status, made);
 }
 
+/* Gives *object the mode of another, which may be kept within its backdrop. */
+static celspan_status give_mode_of(celspan_context *context, celspan_object **object,
+                                   const celspan_object *like) {
+  const celspan_blend mode = celspan_object_mode(like);
+  celspan_object *made = NULL;
+  if (cs_object_mode(like) == mode)
+    return give_mode(context, object, mode);
+  celspan_status status = cs_object_blend_within(context, *object, mode, &made);
+  return replace(object, status, made);
+}
+
 /* *object present as far as `by` is, or is not. */
 static celspan_status mask(celspan_context *context, celspan_object **object, celspan_object *by,
                            bool inverts) {
@@ -63,7 +74,7 @@ static celspan_status mask(celspan_context *context, celspan_object **object, ce
 static celspan_status finish(celspan_context *context, const celspan_object *object,
                              celspan_status status, celspan_object *made, celspan_object **out) {
   if (status == CELSPAN_OK)
-    status = give_mode(context, &made, celspan_object_mode(object));
+    status = give_mode_of(context, &made, object);
   if (status != CELSPAN_OK) {
     celspan_object_unref(made);
     return status;
