@@ -28,9 +28,9 @@ static void show(const window *w) {
 
 /* Draws a frame into the window. Premultiplied pixels are the picture over black. */
 static celspan_status draw(lua_State *L, int64_t number, const window *w) {
-  const celspan_coding coding = {CELSPAN_DEPTH_8, CELSPAN_TRANSFER_SRGB,
-                                 CELSPAN_ALPHA_PREMULTIPLIED};
+  celspan_coding coding = CELSPAN_ZERO;
   celspan_frame_desc frame;
+  coding.alpha = CELSPAN_ALPHA_PREMULTIPLIED;
   celspan_status status = celspan_lua_frame(L, -1, number, &frame);
   if (status != CELSPAN_OK)
     return status;

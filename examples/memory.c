@@ -74,7 +74,8 @@ static void drop_scene(scene *s) {
 static celspan_status render(celspan_context *context, const scene *s,
                              unsigned char pixels[HEIGHT][WIDTH][4]) {
   const celspan_exposure exposure = {s->rostrum, 1};
-  const celspan_coding coding = {CELSPAN_DEPTH_8, CELSPAN_TRANSFER_SRGB, CELSPAN_ALPHA_STRAIGHT};
+  const celspan_coding coding = {
+      .depth = CELSPAN_DEPTH_8, .transfer = CELSPAN_TRANSFER_SRGB, .alpha = CELSPAN_ALPHA_STRAIGHT};
   celspan_frame_desc frame = CELSPAN_FRAME_DESC;
   frame.exposures = &exposure;
   frame.exposure_count = 1;

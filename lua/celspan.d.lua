@@ -629,7 +629,8 @@ function celspan.clip(art, shape) end
 ---@field [integer] celspan.shape
 ---@field opacity? number Of the group as a whole; limited to 0..1; default 1
 ---@field blend? celspan.mode How it is combined with its backdrop; default normal
----@field isolate? boolean Whether modes inside act only inside; default true if it is faded or has a mode
+---@field space? "linear"|"srgb" The numbers that are mixed in it: linear light, or sRGB codes; default that of what it is in
+---@field isolate? boolean Whether modes inside act only inside; default true if it is faded, has a mode, or another space than what it is in
 
 ---@class celspan.group: celspan.object, celspan.group.fields
 ---@field opacity number
@@ -711,6 +712,7 @@ function celspan.cel(fields) end
 ---@field camera? celspan.camera
 ---@field antialias? celspan.antialias Default "area"
 ---@field size? number[] {w, h}; film units: the size of its own film; required for use as an object
+---@field space? "linear"|"srgb" The numbers that are mixed in it: linear light, or sRGB codes; default that of the film, or of what it is an object of
 
 ---@class celspan.rostrum: celspan.placed, celspan.rostrum.fields
 ---@field brightness number
@@ -786,6 +788,7 @@ function frame:random(label, m, n) end
 ---@field duration? number Seconds, instead of frames; more than 0
 ---@field first? integer The number of the first frame; -1e9 to 1e9; default 1
 ---@field title? string
+---@field space? "linear"|"srgb" The numbers that are mixed in it: linear light, or sRGB codes; default linear
 ---@field sound? string|celspan.film.sound|celspan.film.sound[] A file, a sound, or a list of sounds, which are mixed
 ---@field sound_offset? number Seconds by which all sounds begin later; a negative value cuts the beginning; -1e9 to 1e9; default 0
 ---@field marks? table<string, integer> Names of frames, { title = 1 }, for --frames

@@ -214,8 +214,8 @@ static void compare_columns(comparison *c, int32_t y, const celspan_span *a, con
 
 /* The row of the picture of differences before anything is marked. */
 static void begin_row(const comparison *c, const celspan_span *spans, size_t count) {
-  static const celspan_coding coding = {CELSPAN_DEPTH_8, CELSPAN_TRANSFER_SRGB,
-                                        CELSPAN_ALPHA_STRAIGHT};
+  static const celspan_coding coding = {
+      .depth = CELSPAN_DEPTH_8, .transfer = CELSPAN_TRANSFER_SRGB, .alpha = CELSPAN_ALPHA_STRAIGHT};
   cs_pixels_row(&coding, spans, count, c->picture);
   cs_difference_pale(c->picture, (size_t)c->width);
 }
@@ -347,9 +347,10 @@ static int compare(lua_State *L) {
   }
   for (int i = 0; i < 2; i++)
     cs_service_require(L, cs_view_still(session->request, &stills[i], &frames[i]));
-  const celspan_coding coding = {a->is_float || b->is_float ? CELSPAN_DEPTH_FLOAT
-                                                            : CELSPAN_DEPTH_16,
-                                 CELSPAN_TRANSFER_SRGB, CELSPAN_ALPHA_STRAIGHT};
+  const celspan_coding coding = {.depth = a->is_float || b->is_float ? CELSPAN_DEPTH_FLOAT
+                                                                     : CELSPAN_DEPTH_16,
+                                 .transfer = CELSPAN_TRANSFER_SRGB,
+                                 .alpha = CELSPAN_ALPHA_STRAIGHT};
   comparison c = {.coding = coding, .width = a->width, .height = a->height};
   cs_request_read(session->request, "--fail", &c.tolerance);
   cs_service_try(L, compare_into(session->context, &c, output, &stills[0], &frames[0], &stills[1],

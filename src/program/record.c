@@ -37,6 +37,7 @@ static cs_hash hash_options(const cs_script *script, const cs_request *request,
     cs_hash_word(&hash, (uint64_t)numbers[i]);
   cs_hash_number(&hash, frame->film_width);
   cs_hash_number(&hash, frame->film_height);
+  cs_hash_word(&hash, frame->space);
   cs_hash_word(&hash, frame->antialias ? 1 + (uint64_t)*frame->antialias : 0);
   cs_hash_word(&hash, (uint64_t)frame->filter.kernel);
   cs_hash_number(&hash, frame->filter.radius);

@@ -94,7 +94,8 @@ static celspan_status put_raw(void *user, const celspan_frame_desc *frame, cs_sh
   const render_job *job = user;
   (void)unused;
   raw_rows raw;
-  const celspan_coding coding = cs_target_coding(job->request);
+  celspan_coding coding = cs_target_coding(job->request);
+  coding.space = frame->space;
   celspan_sink sink = raw_sink(&raw, &coding, frame);
   return celspan_frame_render(job->script->context, frame, &sink, NULL);
 }
@@ -388,6 +389,7 @@ static cs_exit run(cs_script *script, const cs_request *request) {
                     .keeps_going = cs_request_has(request, "--keep-going"),
                     .change = cs_change_read(request)};
   cs_exit outcome = cs_view_frame(request, script->film.width, script->film.height, &job.frame);
+  job.frame.space = script->film.space;
   if (outcome == CS_EXIT_OK)
     outcome = cs_change_lay_onion(script, request, &job.frame);
   if (outcome == CS_EXIT_OK)

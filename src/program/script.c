@@ -225,6 +225,7 @@ cs_exit cs_script_frame(cs_script *script, const cs_request *request, celspan_fr
   cs_exit outcome = cs_view_frame(request, script->film.width, script->film.height, out);
   if (outcome == CS_EXIT_OK)
     outcome = cs_script_build(script, number);
+  out->space = script->film.space;
   out->exposures = script->frame.exposures;
   out->exposure_count = script->frame.count;
   return outcome;

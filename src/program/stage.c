@@ -16,13 +16,14 @@
 
 enum { CODES, PNG, KINDS }; /* what a picture shows */
 
-static const celspan_coding coding = {CELSPAN_DEPTH_8, CELSPAN_TRANSFER_SRGB,
-                                      CELSPAN_ALPHA_STRAIGHT};
+static const celspan_coding coding = {
+    .depth = CELSPAN_DEPTH_8, .transfer = CELSPAN_TRANSFER_SRGB, .alpha = CELSPAN_ALPHA_STRAIGHT};
 
 /* ---------------------------------------------------------------- bytes */
 
 /* A picture in memory. */
 typedef struct picture {
+  celspan_coding coding;
   celspan_context *context;
   unsigned char *bytes; /* owned */
   size_t size, capacity;
@@ -64,7 +65,7 @@ static celspan_status put_data(void *user, celspan_context *context, const void 
 static celspan_status begin_png(void *user, celspan_context *context, int32_t width,
                                 int32_t height) {
   picture *p = user;
-  const cs_png_picture desc = {.coding = coding, .width = width, .height = height, .workers = 1};
+  const cs_png_picture desc = {.coding = p->coding, .width = width, .height = height, .workers = 1};
   unsigned char header[CS_PNG_HEADER] = {0};
   cs_png_store_32(header, (uint32_t)width);
   cs_png_store_32(header + 4, (uint32_t)height);
@@ -104,6 +105,7 @@ static celspan_frame_desc frame_of(lua_State *L, const cs_script *script) {
   desc.exposure_count = script->frame.count;
   desc.film_width = script->film.width;
   desc.film_height = script->film.height;
+  desc.space = script->film.space;
   desc.progress = cs_interrupt_progress;
   return desc;
 }
@@ -160,6 +162,8 @@ static celspan_status reserve_rows(picture *p, const celspan_frame_desc *desc) {
 }
 
 static celspan_status render(picture *p, const celspan_frame_desc *desc, int kind) {
+  p->coding = coding;
+  p->coding.space = desc->space;
   celspan_sink sink = {
       .user = p, .begin = begin_png, .row = put_png_row, .end = end_png, .takes_codes = true};
   if (kind != PNG)
@@ -167,7 +171,7 @@ static celspan_status render(picture *p, const celspan_frame_desc *desc, int kin
   if (kind == KINDS)
     sink = (celspan_sink){.user = p, .row = put_kinds_row};
   if (kind == CODES)
-    CS_TRY(cs_sink_memory(p->context, &coding, p->bytes, p->stride, &sink));
+    CS_TRY(cs_sink_memory(p->context, &p->coding, p->bytes, p->stride, &sink));
   return celspan_frame_render(p->context, desc, &sink, NULL);
 }
 
@@ -211,8 +215,14 @@ static celspan_status probe_cel(const search *s, celspan_cel *cel, bool *is_ther
   desc.cel_count = 1;
   CS_TRY(celspan_rostrum_create(s->context, &desc, &rostrum));
   const celspan_exposure exposure = {rostrum, 1};
-  celspan_status status = celspan_probe(s->context, &exposure, 1, s->script->film.width,
-                                        s->script->film.height, s->point, rgba);
+  const cs_film_info *film = &s->script->film;
+  celspan_frame_desc frame = CELSPAN_FRAME_DESC;
+  frame.exposures = &exposure;
+  frame.exposure_count = 1;
+  frame.film_width = film->width;
+  frame.film_height = film->height;
+  frame.space = film->space;
+  celspan_status status = celspan_probe(s->context, &frame, s->point, rgba);
   *is_there = status == CELSPAN_OK && rgba[3] > 0;
   celspan_rostrum_unref(rostrum);
   return status;

@@ -84,18 +84,35 @@ static void close_subject(tiles_job *job) {
     cs_still_close(&job->still);
 }
 
-/* The background, linear and premultiplied; transparent for a picture. */
+/* The back light of a rostrum, premultiplied, in the space of the film. */
+static void find_back(const celspan_rostrum *rostrum, celspan_space film, float out[4]) {
+  celspan_space space = cs_space_inside(rostrum->space, film);
+  const cs_light scaled = cs_scene_back(rostrum, &rostrum->back);
+  celspan_light back = cs_light_in(&scaled, space);
+  const float light[4] = {back.r, back.g, back.b, back.a};
+  memcpy(out, light, sizeof light);
+  for (int c = 0; c < 3 && space != film; c++)
+    out[c] = cs_space_channel(film, out[c], out[3]);
+}
+
+/* The background, premultiplied, in the space of the film; transparent for a picture. */
 static void set_background(const tiles_job *job, float out[4]) {
+  celspan_space film = cs_space_inside(job->frame.space, CELSPAN_SPACE_LINEAR);
+  size_t count = job->is_script ? job->frame.exposure_count : 0;
+  bool is_plain = count == 1 && job->frame.exposures[0].weight == 1;
   memset(out, 0, 4 * sizeof *out);
-  for (size_t i = 0; job->is_script && i < job->frame.exposure_count; i++) {
-    const celspan_exposure *exposure = &job->frame.exposures[i];
-    celspan_light back = cs_scene_back(exposure->rostrum, &exposure->rostrum->back).flat;
-    const float light[4] = {back.r, back.g, back.b, back.a};
+  for (size_t i = 0; i < count; i++) {
+    float back[4];
+    find_back(job->frame.exposures[i].rostrum, film, back);
+    if (!is_plain)
+      cs_space_decode(film, back);
     for (int c = 0; c < 4; c++)
-      out[c] += (float)exposure->weight * light[c];
+      out[c] += (float)job->frame.exposures[i].weight * back[c];
   }
   if (out[3] > 1)
     out[3] = 1;
+  if (!is_plain)
+    cs_space_encode(film, out);
 }
 
 static celspan_status draw(void *user, const celspan_frame_desc *frame, const celspan_sink *sink) {
@@ -223,7 +240,10 @@ static cs_exit open_log(tiles_job *job) {
 
 static void code_background(const tiles_job *job, char out[8]) {
   unsigned char pixel[4];
-  const celspan_coding coding = {CELSPAN_DEPTH_8, CELSPAN_TRANSFER_SRGB, CELSPAN_ALPHA_STRAIGHT};
+  const celspan_coding coding = {.depth = CELSPAN_DEPTH_8,
+                                 .transfer = CELSPAN_TRANSFER_SRGB,
+                                 .alpha = CELSPAN_ALPHA_STRAIGHT,
+                                 .space = job->frame.space};
   cs_pixels_code(&coding, job->render.background, pixel);
   if (job->render.background[3] <= 0)
     snprintf(out, 8, "#14151a");

@@ -7,9 +7,10 @@
 #include "measure.h"
 #include "scene.h"
 
-const celspan_coding bench_coded = {CELSPAN_DEPTH_8, CELSPAN_TRANSFER_SRGB, CELSPAN_ALPHA_STRAIGHT};
-const celspan_coding bench_uncoded = {CELSPAN_DEPTH_8, CELSPAN_TRANSFER_LINEAR,
-                                      CELSPAN_ALPHA_STRAIGHT};
+const celspan_coding bench_coded = {
+    .depth = CELSPAN_DEPTH_8, .transfer = CELSPAN_TRANSFER_SRGB, .alpha = CELSPAN_ALPHA_STRAIGHT};
+const celspan_coding bench_uncoded = {
+    .depth = CELSPAN_DEPTH_8, .transfer = CELSPAN_TRANSFER_LINEAR, .alpha = CELSPAN_ALPHA_STRAIGHT};
 
 static void choose_antialias(bench_frame_job *job, const char *antialias) {
   static const char *const kernels[] = {"box", "gaussian", "mitchell", "lanczos"};

@@ -24,8 +24,8 @@ typedef struct frame_runs {
 } frame_runs;
 
 static uint32_t code(const celspan_span *span) {
-  static const celspan_coding coded = {CELSPAN_DEPTH_8, CELSPAN_TRANSFER_SRGB,
-                                       CELSPAN_ALPHA_STRAIGHT};
+  static const celspan_coding coded = {
+      .depth = CELSPAN_DEPTH_8, .transfer = CELSPAN_TRANSFER_SRGB, .alpha = CELSPAN_ALPHA_STRAIGHT};
   celspan_span one = *span;
   uint32_t pixel;
   one.x0 = 0;

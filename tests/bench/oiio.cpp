@@ -109,8 +109,8 @@ void flush(Writer &writer) {
 
 celspan_status put_row(void *user, celspan_context *, int32_t, const celspan_span *spans,
                        size_t span_count) {
-  static const celspan_coding coded = {CELSPAN_DEPTH_8, CELSPAN_TRANSFER_SRGB,
-                                       CELSPAN_ALPHA_STRAIGHT};
+  celspan_coding coded = CELSPAN_ZERO;
+  coded.depth = CELSPAN_DEPTH_8;
   auto *writer = static_cast<Writer *>(user);
   celspan_spans_code(&coded, spans, span_count, writer->row.data());
   uint8_t *out = writer->pixels.data() + size_t(3) * writer->side * writer->filled;

@@ -273,8 +273,7 @@ static celspan_status to_probes(stage *s, const celspan_frame_desc *frame, stage
     double rgba[4];
     celspan_point at = {frame->film_width * (1 + i % 3) / 4,
                         frame->film_height * (1 + i / 3.0) / 4};
-    status = celspan_probe(s->context, frame->exposures, frame->exposure_count, frame->film_width,
-                           frame->film_height, at, rgba);
+    status = celspan_probe(s->context, frame, at, rgba);
     if (status == CELSPAN_OK)
       add_bytes(out, rgba, sizeof rgba);
   }

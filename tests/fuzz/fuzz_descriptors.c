@@ -538,8 +538,7 @@ static void render(program *p) {
   if (status == CELSPAN_OK)
     compare_rows(p, &f.desc, made);
   (void)celspan_frame_is_opaque(&f.desc);
-  status =
-      celspan_probe(p->context, f.exposures, f.desc.exposure_count, SIDE, SIDE, point(p), rgba);
+  status = celspan_probe(p->context, &f.desc, point(p), rgba);
   demand(is_outcome(status), "a probe fails in another way");
 }
 
@@ -552,7 +551,7 @@ static void misuse_sink(program *p) {
   celspan_file_desc file = CELSPAN_FILE_DESC;
   file.workers = 1;
   file.coding = (celspan_coding){(celspan_depth)word(p, 6), (celspan_transfer)word(p, 5),
-                                 (celspan_alpha)word(p, 3)};
+                                 (celspan_alpha)word(p, 3), (celspan_space)word(p, 3)};
   if (celspan_file_sink_create(p->context, paths[take(p, 4)], take(p, 4) ? &file : NULL, &sink) !=
       CELSPAN_OK)
     return;

@@ -55,8 +55,9 @@ typedef float sheet[HEIGHT][WIDTH][4];
 
 static celspan_statistics render(studio *s, const celspan_frame_desc *desc, void *out,
                                  size_t stride) {
-  const celspan_coding coding = {CELSPAN_DEPTH_FLOAT, CELSPAN_TRANSFER_LINEAR,
-                                 CELSPAN_ALPHA_PREMULTIPLIED};
+  const celspan_coding coding = {.depth = CELSPAN_DEPTH_FLOAT,
+                                 .transfer = CELSPAN_TRANSFER_LINEAR,
+                                 .alpha = CELSPAN_ALPHA_PREMULTIPLIED};
   celspan_statistics statistics = {0};
   studio_check(s, celspan_frame_pixels(s->context, desc, &coding, out, stride, &statistics));
   return statistics;

@@ -5,6 +5,7 @@
 #include "engine/defocus/bands.h"
 #include "tests/support/frame_rows.h"
 #include "tests/support/memory.h"
+#include "tests/support/probe.h"
 
 #define SIDE 48
 #define CELLS 84 /* probe samples across a kernel */
@@ -142,7 +143,7 @@ static void convolve(studio *s, const stage *set, celspan_defocus_kernel kernel,
         continue;
       celspan_point point = {at.x + (u * c - v * d) * set->camera_scale,
                              at.y + (u * d + v * c) * set->camera_scale};
-      studio_check(s, celspan_probe(s->context, &exposure, 1, SIDE, SIDE, point, rgba));
+      studio_check(s, probe_film(s->context, &exposure, 1, SIDE, SIDE, point, rgba));
       total += weight;
       for (int k = 0; k < 4; k++)
         out[k] += weight * rgba[k];

@@ -3,6 +3,7 @@
  * colour that the probe finds at its centre. A row that is requested again is the same.
  */
 #include "tests/support/frame_rows.h"
+#include "tests/support/probe.h"
 #include "tests/support/random.h"
 
 #define WIDTH 90
@@ -27,7 +28,7 @@ static double error_of(studio *s, const celspan_exposure *exposure, const cs_row
       double probed[4];
       float rgba[4];
       celspan_span_colour(&row->spans[i], x, rgba);
-      studio_check(s, celspan_probe(s->context, exposure, 1, WIDTH, HEIGHT, at, probed));
+      studio_check(s, probe_film(s->context, exposure, 1, WIDTH, HEIGHT, at, probed));
       for (int c = 0; c < 4; c++)
         worst = fmax(worst, fabs(probed[c] - (double)rgba[c]));
     }

@@ -7,6 +7,7 @@
 
 #include "tests/support/check.h"
 #include "tests/support/memory.h"
+#include "tests/support/probe.h"
 
 static celspan_context *context;
 static const size_t counts[] = {10000001, SIZE_MAX / 8, SIZE_MAX / 2, SIZE_MAX};
@@ -188,8 +189,8 @@ static void check_frames(void) {
   REFUSED(celspan_frame_digest(context, &frame, NULL, NULL));
   REFUSED(celspan_frame_write(context, &frame, NULL, NULL, NULL));
   for (size_t i = 0; i < COUNTS; i++) {
-    REFUSED(celspan_probe(context, &exposure, counts[i], 8, 8, (celspan_point){1, 1}, rgba));
-    REFUSED(celspan_probe(context, NULL, counts[i], 8, 8, (celspan_point){1, 1}, rgba));
+    REFUSED(probe_film(context, &exposure, counts[i], 8, 8, (celspan_point){1, 1}, rgba));
+    REFUSED(probe_film(context, NULL, counts[i], 8, 8, (celspan_point){1, 1}, rgba));
   }
   CHECK(celspan_rows_create(context, &frame, &rows) == CELSPAN_OK);
   REFUSED(celspan_rows_get(rows, -1, &spans, &count));

@@ -76,7 +76,8 @@ static celspan_status shoot_with(celspan_context *context, celspan_surface *surf
   celspan_rostrum *rostrum = NULL;
   studio_check(&s, celspan_rostrum_create(context, &rostrum_desc, &rostrum));
   const celspan_exposure exposure = {rostrum, 1};
-  const celspan_coding coding = {CELSPAN_DEPTH_8, CELSPAN_TRANSFER_SRGB, CELSPAN_ALPHA_STRAIGHT};
+  const celspan_coding coding = {
+      .depth = CELSPAN_DEPTH_8, .transfer = CELSPAN_TRANSFER_SRGB, .alpha = CELSPAN_ALPHA_STRAIGHT};
   celspan_frame_desc frame = CELSPAN_FRAME_DESC;
   frame.exposures = &exposure;
   frame.exposure_count = 1;

@@ -18,8 +18,9 @@ static float half_value(uint16_t half) {
 }
 
 static uint16_t code_half(float x) {
-  celspan_coding coding = {CELSPAN_DEPTH_HALF, CELSPAN_TRANSFER_LINEAR,
-                           CELSPAN_ALPHA_PREMULTIPLIED};
+  celspan_coding coding = {.depth = CELSPAN_DEPTH_HALF,
+                           .transfer = CELSPAN_TRANSFER_LINEAR,
+                           .alpha = CELSPAN_ALPHA_PREMULTIPLIED};
   float rgba[4] = {x, 0, 0, 1};
   uint16_t pixel[4];
   cs_pixels_code(&coding, rgba, pixel);
@@ -54,9 +55,10 @@ static void check_defaults(void) {
   made = cs_pixels_resolve(&(celspan_coding){0}, CELSPAN_DEPTH_HALF);
   CHECK(made.depth == CELSPAN_DEPTH_HALF && made.transfer == CELSPAN_TRANSFER_LINEAR &&
         made.alpha == CELSPAN_ALPHA_PREMULTIPLIED);
-  made = cs_pixels_resolve(
-      &(celspan_coding){CELSPAN_DEPTH_16, CELSPAN_TRANSFER_CINEON, CELSPAN_ALPHA_PREMULTIPLIED},
-      CELSPAN_DEPTH_8);
+  made = cs_pixels_resolve(&(celspan_coding){.depth = CELSPAN_DEPTH_16,
+                                             .transfer = CELSPAN_TRANSFER_CINEON,
+                                             .alpha = CELSPAN_ALPHA_PREMULTIPLIED},
+                           CELSPAN_DEPTH_8);
   CHECK(made.depth == CELSPAN_DEPTH_16 && made.transfer == CELSPAN_TRANSFER_CINEON &&
         made.alpha == CELSPAN_ALPHA_PREMULTIPLIED);
   static const size_t sizes[] = {4, 4, 8, 8, 16};
@@ -79,7 +81,9 @@ static void check_straight(void) {
   coding.alpha = CELSPAN_ALPHA_PREMULTIPLIED;
   cs_pixels_code(&coding, half_covered, pixel);
   CHECK(pixel[0] == 137 && pixel[1] == 188 && pixel[2] == 0 && pixel[3] == 128);
-  coding = (celspan_coding){CELSPAN_DEPTH_FLOAT, CELSPAN_TRANSFER_LINEAR, CELSPAN_ALPHA_STRAIGHT};
+  coding = (celspan_coding){.depth = CELSPAN_DEPTH_FLOAT,
+                            .transfer = CELSPAN_TRANSFER_LINEAR,
+                            .alpha = CELSPAN_ALPHA_STRAIGHT};
   float floats[4];
   cs_pixels_code(&coding, half_covered, floats);
   CHECK(floats[0] == 0.5f && floats[1] == 1 && floats[2] == 0 && floats[3] == 0.5f);
@@ -109,7 +113,9 @@ static void check_premultiplied(void) {
 }
 
 static void check_16(void) {
-  celspan_coding coding = {CELSPAN_DEPTH_16, CELSPAN_TRANSFER_LINEAR, CELSPAN_ALPHA_STRAIGHT};
+  celspan_coding coding = {.depth = CELSPAN_DEPTH_16,
+                           .transfer = CELSPAN_TRANSFER_LINEAR,
+                           .alpha = CELSPAN_ALPHA_STRAIGHT};
   int wrong = 0;
   for (int code = 0; code < 65536; code++) {
     float x = (float)((code + 0.49) / 65535), rgba[4] = {x, (float)(code / 65535.0), 0, 1};
@@ -194,9 +200,10 @@ static void check_rows(void) {
   for (int depth = CELSPAN_DEPTH_8; depth <= CELSPAN_DEPTH_FLOAT; depth++)
     for (int transfer = CELSPAN_TRANSFER_LINEAR; transfer <= CELSPAN_TRANSFER_CINEON; transfer++)
       for (int alpha = CELSPAN_ALPHA_STRAIGHT; alpha <= CELSPAN_ALPHA_PREMULTIPLIED; alpha++)
-        check_row((celspan_coding){(celspan_depth)depth, (celspan_transfer)transfer,
-                                   (celspan_alpha)alpha},
-                  spans, count);
+        for (int space = CELSPAN_SPACE_LINEAR; space <= CELSPAN_SPACE_SRGB; space++)
+          check_row((celspan_coding){(celspan_depth)depth, (celspan_transfer)transfer,
+                                     (celspan_alpha)alpha, (celspan_space)space},
+                    spans, count);
 }
 
 /* ---------------------------------------------------------------- the usual coding */
@@ -321,11 +328,15 @@ int main(void) {
   check_premultiplied();
   check_16();
   check_rows();
-  check_lengths((celspan_coding){CELSPAN_DEPTH_8, CELSPAN_TRANSFER_SRGB, CELSPAN_ALPHA_STRAIGHT});
-  check_lengths(
-      (celspan_coding){CELSPAN_DEPTH_16, CELSPAN_TRANSFER_LINEAR, CELSPAN_ALPHA_STRAIGHT});
-  check_lengths(
-      (celspan_coding){CELSPAN_DEPTH_FLOAT, CELSPAN_TRANSFER_LINEAR, CELSPAN_ALPHA_PREMULTIPLIED});
+  check_lengths((celspan_coding){.depth = CELSPAN_DEPTH_8,
+                                 .transfer = CELSPAN_TRANSFER_SRGB,
+                                 .alpha = CELSPAN_ALPHA_STRAIGHT});
+  check_lengths((celspan_coding){.depth = CELSPAN_DEPTH_16,
+                                 .transfer = CELSPAN_TRANSFER_LINEAR,
+                                 .alpha = CELSPAN_ALPHA_STRAIGHT});
+  check_lengths((celspan_coding){.depth = CELSPAN_DEPTH_FLOAT,
+                                 .transfer = CELSPAN_TRANSFER_LINEAR,
+                                 .alpha = CELSPAN_ALPHA_PREMULTIPLIED});
   for (cs_isa isa = CS_ISA_ANY; isa <= cs_isa_best(); isa++)
     check_usual_rows(isa);
   check_memory_sink(context, same);

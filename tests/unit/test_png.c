@@ -242,11 +242,12 @@ static void check_no_room(celspan_context *context) {
 
 static void try_frame(celspan_context *context, int32_t width, int32_t height, int style,
                       int coding, const char *title) {
-  static const celspan_coding codings[] = {
-      {0},
-      {.depth = CELSPAN_DEPTH_16},
-      {.transfer = CELSPAN_TRANSFER_LINEAR},
-      {CELSPAN_DEPTH_16, CELSPAN_TRANSFER_REC709, CELSPAN_ALPHA_STRAIGHT}};
+  static const celspan_coding codings[] = {{0},
+                                           {.depth = CELSPAN_DEPTH_16},
+                                           {.transfer = CELSPAN_TRANSFER_LINEAR},
+                                           {.depth = CELSPAN_DEPTH_16,
+                                            .transfer = CELSPAN_TRANSFER_REC709,
+                                            .alpha = CELSPAN_ALPHA_STRAIGHT}};
   static int number;
   bool is_large = (int64_t)width * height > 1 << 20;
   if (check_is_drawn(number++) && !(is_large && check_is_for_threads()))

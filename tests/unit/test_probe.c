@@ -1,6 +1,7 @@
 /* The oracle against values worked out by hand. The film is 100 x 50 units. One list of independent
  * cases. */
 #include "tests/support/memory.h"
+#include "tests/support/probe.h"
 #include "tests/support/scene.h"
 
 #define TINY 1e-6
@@ -13,7 +14,7 @@ static void probe(studio *s, celspan_rostrum *rostrum, double x, double y, doubl
   celspan_exposure exposure = {rostrum, 1};
   for (int c = 0; c < 4; c++)
     rgba[c] = -1;
-  studio_check(s, celspan_probe(s->context, &exposure, 1, 100, 50, (celspan_point){x, y}, rgba));
+  studio_check(s, probe_film(s->context, &exposure, 1, 100, 50, (celspan_point){x, y}, rgba));
 }
 
 #define EXPECT(s, rostrum, x, y, r, g, b, a)                                                       \
@@ -259,11 +260,11 @@ static void test_exposures(studio *s) {
       {studio_show(s, studio_rect(s, 0, 0, 50, 50, studio_paint(s, red))), 0.75},
       {studio_show(s, studio_rect(s, 25, 0, 50, 50, studio_paint(s, green))), 0.5}};
   double rgba[4];
-  studio_check(s, celspan_probe(s->context, exposures, 2, 100, 50, (celspan_point){30, 5}, rgba));
+  studio_check(s, probe_film(s->context, exposures, 2, 100, 50, (celspan_point){30, 5}, rgba));
   CHECK_NEAR(rgba[0], 0.75, TINY);
   CHECK_NEAR(rgba[1], 0.5, TINY);
   CHECK_NEAR(rgba[3], 1, 0);
-  studio_check(s, celspan_probe(s->context, exposures, 2, 100, 50, (celspan_point){60, 5}, rgba));
+  studio_check(s, probe_film(s->context, exposures, 2, 100, 50, (celspan_point){60, 5}, rgba));
   CHECK_NEAR(rgba[3], 0.5, TINY);
 }
 
@@ -415,7 +416,7 @@ static void expect_callback_error(studio *s, celspan_scanline_spans spans, const
   celspan_scanline_desc desc = {.bounds = {0, 0, 10, 5}, .spans = spans};
   celspan_exposure exposure = {studio_show(s, studio_scanline(s, &desc)), 1};
   double rgba[4] = {7, 7, 7, 7};
-  CHECK(celspan_probe(s->context, &exposure, 1, 100, 50, (celspan_point){1, 1.5}, rgba) ==
+  CHECK(probe_film(s->context, &exposure, 1, 100, 50, (celspan_point){1, 1.5}, rgba) ==
         CELSPAN_CALLBACK);
   CHECK_TEXT(celspan_context_error(s->context), message);
   CHECK(rgba[0] == 7);
@@ -510,7 +511,7 @@ static void test_hidden_picture_is_not_read(studio *s) {
   EXPECT(s, r, 5, 5, 1, 0, 0, 1);
   double rgba[4];
   celspan_exposure exposure = {r, 1};
-  CHECK(celspan_probe(s->context, &exposure, 1, 100, 50, (celspan_point){30, 5}, rgba) ==
+  CHECK(probe_film(s->context, &exposure, 1, 100, 50, (celspan_point){30, 5}, rgba) ==
         CELSPAN_INPUT);
   CHECK(celspan_rostrum_check(s->context, r) == CELSPAN_INPUT);
 }

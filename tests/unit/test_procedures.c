@@ -4,6 +4,7 @@
  */
 #include "tests/support/frame_rows.h"
 #include "tests/support/memory.h"
+#include "tests/support/probe.h"
 #include "tests/support/random.h"
 
 #define WIDTH 40
@@ -76,7 +77,7 @@ static void check_rows(studio *s, celspan_rostrum *rostrum, celspan_antialias_mo
       celspan_span_colour(&row->spans[i], x, rgba);
       for (int k = 0; k < parts; k++) {
         celspan_point at = {x + (k + 0.5) / parts, 1.5};
-        studio_check(s, celspan_probe(s->context, &exposure, 1, WIDTH, HEIGHT, at, probed));
+        studio_check(s, probe_film(s->context, &exposure, 1, WIDTH, HEIGHT, at, probed));
         for (int c = 0; c < 4; c++)
           sum[c] += probed[c] / parts;
       }

@@ -10,8 +10,9 @@
 #define HEIGHT 71
 #define PIXEL_COUNT (WIDTH * HEIGHT)
 
-static const celspan_coding float_coding = {CELSPAN_DEPTH_FLOAT, CELSPAN_TRANSFER_LINEAR,
-                                            CELSPAN_ALPHA_PREMULTIPLIED};
+static const celspan_coding float_coding = {.depth = CELSPAN_DEPTH_FLOAT,
+                                            .transfer = CELSPAN_TRANSFER_LINEAR,
+                                            .alpha = CELSPAN_ALPHA_PREMULTIPLIED};
 
 /* ---------------------------------------------------------------- a scene */
 

@@ -65,7 +65,7 @@ static void test_exposing(void) {
   CHECK(cs_row_gradient(context, &rows[1], 0, 8, (cs_v4){0.125f, 0, 0, 0},
                         (cs_v4){0.0625f, 0, 0, 0.125f}) == CELSPAN_OK);
   CHECK(cs_row_single(context, &rows[1], 8, 10, grey(3, 0.75f)) == CELSPAN_OK);
-  CHECK(cs_row_expose(context, &sum, rows, weights, 2) == CELSPAN_OK);
+  CHECK(cs_row_expose(context, &sum, CELSPAN_SPACE_LINEAR, rows, weights, 2) == CELSPAN_OK);
   CHECK(sum.spans[0].x0 == 0 && sum.spans[sum.count - 1].x1 == 10);
   for (size_t i = 0; i < sum.count; i++) {
     CHECK(sum.spans[i].kind != CELSPAN_SPAN_ARRAY);

@@ -5,6 +5,7 @@
 
 #include "base/context.h"
 #include "tests/support/memory.h"
+#include "tests/support/probe.h"
 #include "tests/support/scene.h"
 
 #define TINY 1e-9
@@ -212,10 +213,10 @@ static void test_probe_door(studio *s) {
   celspan_exposure exposure = {studio_show(s, studio_rect(s, 0, 0, 1, 1, NULL)), -1};
   const celspan_point origin = {0, 0};
   double rgba[4];
-  REFUSED(s, celspan_probe(s->context, &exposure, 1, 9, 9, origin, rgba),
+  REFUSED(s, probe_film(s->context, &exposure, 1, 9, 9, origin, rgba),
           "probe: exposures[1].weight is -1; it must be 0 or more");
   exposure.weight = 1;
-  REFUSED(s, celspan_probe(s->context, &exposure, 1, 9, 0, origin, rgba),
+  REFUSED(s, probe_film(s->context, &exposure, 1, 9, 0, origin, rgba),
           "probe: film height is 0; it must be more than 0");
 }
 
@@ -720,7 +721,7 @@ static celspan_status build_film(celspan_context *context, everything *all) {
   CS_TRY(try_effects(context, all->objects[0]));
   celspan_exposure exposure = {all->rostrum, 1};
   double rgba[4];
-  return celspan_probe(context, &exposure, 1, 20, 20, (celspan_point){3, 2}, rgba);
+  return probe_film(context, &exposure, 1, 20, 20, (celspan_point){3, 2}, rgba);
 }
 
 static void release(everything *all) {

@@ -166,8 +166,9 @@ static void test_codings(celspan_context *context) {
   CHECK(strstr(celspan_context_error(context), "a.span: span files hold depth 8"));
   file.coding = (celspan_coding){.transfer = CELSPAN_TRANSFER_LINEAR};
   CHECK(celspan_file_sink_create(context, "a.span", &file, &sink) == CELSPAN_BAD_ARGUMENT);
-  file.coding =
-      (celspan_coding){CELSPAN_DEPTH_HALF, CELSPAN_TRANSFER_DEFAULT, CELSPAN_ALPHA_STRAIGHT};
+  file.coding = (celspan_coding){.depth = CELSPAN_DEPTH_HALF,
+                                 .transfer = CELSPAN_TRANSFER_DEFAULT,
+                                 .alpha = CELSPAN_ALPHA_STRAIGHT};
   CHECK(celspan_file_sink_create(context, "a.span", &file, &sink) == CELSPAN_BAD_ARGUMENT);
 }
 

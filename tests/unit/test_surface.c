@@ -6,6 +6,7 @@
 #include "model/pictures/surface.h"
 #include "tests/support/memory.h"
 #include "tests/support/picture.h"
+#include "tests/support/probe.h"
 #include "tests/support/scene.h"
 
 #define WIDTH 261
@@ -421,7 +422,8 @@ static void test_map(void) {
   celspan_exposure exposure = {studio_show(&s, object), 1};
   celspan_frame_desc frame = frame_of(&exposure, 1);
   unsigned char pixels[160][200][4];
-  const celspan_coding coding = {CELSPAN_DEPTH_8, CELSPAN_TRANSFER_SRGB, CELSPAN_ALPHA_STRAIGHT};
+  const celspan_coding coding = {
+      .depth = CELSPAN_DEPTH_8, .transfer = CELSPAN_TRANSFER_SRGB, .alpha = CELSPAN_ALPHA_STRAIGHT};
   studio_check(&s,
                celspan_frame_pixels(s.context, &frame, &coding, pixels, sizeof pixels[0], NULL));
   int wrong = 0;
@@ -460,7 +462,7 @@ static void test_failures(void) {
                 "surface: fill failed for the rectangle of 261 x 64 pixels at 0, 64: "
                 "the camera is unplugged");
   celspan_exposure exposure = {studio_show(&s, object), 1};
-  CHECK(celspan_probe(s.context, &exposure, 1, 200, 160, (celspan_point){9.5, 80.5}, rgba) ==
+  CHECK(probe_film(s.context, &exposure, 1, 200, 160, (celspan_point){9.5, 80.5}, rgba) ==
         CELSPAN_CALLBACK);
   h.fail_row = -1;
   h.missing = 3;
@@ -479,7 +481,8 @@ static void test_failures(void) {
  * writes. */
 static void test_wide_failure(void) {
   enum { WIDE = 16384, HIGH = 4 };
-  const celspan_coding coding = {CELSPAN_DEPTH_8, CELSPAN_TRANSFER_SRGB, CELSPAN_ALPHA_STRAIGHT};
+  const celspan_coding coding = {
+      .depth = CELSPAN_DEPTH_8, .transfer = CELSPAN_TRANSFER_SRGB, .alpha = CELSPAN_ALPHA_STRAIGHT};
   unsigned char *pixels = malloc((size_t)WIDE * HIGH * 4);
   host h;
   studio s = {0};

@@ -94,10 +94,11 @@ static void mean(const float *base, int32_t width, int32_t height, const double 
     out[c] = (float)(sum[c] / area);
 }
 
-static const celspan_coding LIGHT = {CELSPAN_DEPTH_FLOAT, CELSPAN_TRANSFER_LINEAR,
-                                     CELSPAN_ALPHA_PREMULTIPLIED};
-static const celspan_coding CODES = {CELSPAN_DEPTH_8, CELSPAN_TRANSFER_SRGB,
-                                     CELSPAN_ALPHA_STRAIGHT};
+static const celspan_coding LIGHT = {.depth = CELSPAN_DEPTH_FLOAT,
+                                     .transfer = CELSPAN_TRANSFER_LINEAR,
+                                     .alpha = CELSPAN_ALPHA_PREMULTIPLIED};
+static const celspan_coding CODES = {
+    .depth = CELSPAN_DEPTH_8, .transfer = CELSPAN_TRANSFER_SRGB, .alpha = CELSPAN_ALPHA_STRAIGHT};
 
 /* The small levels, from the largest level within MEAN_BASE pixels. */
 static void set_means(subject *s, int32_t base_level) {

@@ -74,6 +74,7 @@ typedef struct cs_image_layer {
   celspan_matrix inverse;         /* frame pixels to own units */
   celspan_box box;                /* what the picture fills, own units */
   celspan_wrap wrap;
+  celspan_space space; /* in which its samples are mixed with others */
 } cs_image_layer;
 
 /* Whether nothing shines through the layer wherever it is present if its picture has no alpha. */
@@ -86,6 +87,7 @@ typedef struct cs_procedure {
   const celspan_scanline_desc *desc; /* borrowed from the scene */
   uint32_t layer;
   double scale_x, shift_x, scale_y, shift_y; /* own units to frame pixels */
+  celspan_space space;                       /* in which its paints are mixed with others */
 } cs_procedure;
 
 /* What a group does with what it holds, once that has been composited by itself. */
@@ -107,19 +109,21 @@ typedef struct cs_group {
   uint32_t parent; /* or CS_STACK_NONE */
   uint32_t first;  /* its rearmost layer */
   float fade;
-  bool has_light;  /* a front light with a shape */
-  bool varies;     /* it has one, or a group around it has */
-  bool curves;     /* it is a head, or inside one: what the layers around it look like is no
-                        affine function of its paints */
-  bool inverts;    /* MATTE: 1 less its strength */
-  bool is_luma;    /* MATTE: its strength is luma, else alpha */
-  bool is_frame;   /* GROUND: directly in the frame, so that its back lights are behind it, too */
-  uint8_t kind;    /* a cs_group_kind */
-  uint8_t blend;   /* GROUND: a celspan_blend */
-  bool has_front;  /* a flat front light, since its parts could not be lit one by one */
-  cs_v4 front;     /* has_front: that light; lane 3 is 0 */
-  uint32_t light;  /* has_light: the layer of that light, in front of all its others */
-  uint32_t around; /* GROUND: the group around all the grounds inside each other */
+  bool has_light; /* a front light with a shape */
+  bool varies;    /* it has one, or a group around it has */
+  bool curves;    /* it is a head, or is converted to another space, or is inside such a group: what
+                        the layers around it look like is no affine function of its paints */
+  bool inverts;   /* MATTE: 1 less its strength */
+  bool is_luma;   /* MATTE: its strength is luma, else alpha */
+  bool is_frame;  /* directly in the frame, or the whole of it: its back lights are behind what
+                        else is in it, too */
+  uint8_t kind;   /* a cs_group_kind */
+  uint8_t converts;   /* PLAIN: its result, to this celspan_space; AROUND: not at all */
+  uint8_t blend;      /* GROUND: a celspan_blend */
+  bool has_front;     /* a flat front light, since its parts could not be lit one by one */
+  cs_v4 front;        /* has_front: that light; lane 3 is 0 */
+  uint32_t light;     /* has_light: the layer of that light, in front of all its others */
+  uint32_t around;    /* GROUND: the group around all the grounds inside each other */
   uint32_t innermost; /* GROUND: the innermost of these, which names them all */
 } cs_group;
 

@@ -3,8 +3,8 @@
 /* What a group that has been left is for the group around it. */
 static cs_over_pair finish_group(cs_over *over, const cs_group *group, cs_over_outer *around) {
   cs_over_pair inner = {over->e, over->t};
-  if (group->has_front)
-    inner.e = cs_over_lit(group->front, 1, inner.e, inner.t).e;
+  if (!over->is_bound)
+    inner = cs_over_develop(group, inner, over->keep);
   float weight = group->fade, keep = over->keep;
   if (group->kind == CS_GROUP_GROUND) {
     inner = cs_over_blend((celspan_blend)group->blend, around->head, inner, &keep);

@@ -32,6 +32,7 @@
 
 #include "engine/compose/stack.h"
 #include "model/colour/blend.h"
+#include "model/colour/space.h"
 
 /* Light of some layers by themselves, and what they let through. Lane 3 of e has no meaning. */
 typedef struct cs_over_pair {
@@ -90,6 +91,17 @@ static inline cs_over_pair cs_over_blend(celspan_blend mode, cs_over_pair source
                         source.t * back.t};
 }
 
+/* What becomes of a group as a whole: it is converted to the space around it, then lit. keep: what
+ * mattes of back lights leave of the transparency of a frame. */
+static inline cs_over_pair cs_over_develop(const cs_group *group, cs_over_pair pair, float keep) {
+  if (group->converts != CELSPAN_SPACE_AROUND)
+    pair.e =
+        cs_space_leave((celspan_space)group->converts, pair.e, pair.t, group->is_frame ? keep : 1);
+  if (group->has_front)
+    pair.e = cs_over_lit(group->front, 1, pair.e, pair.t).e;
+  return pair;
+}
+
 /* How much of what it is the matte of is there. head: what the matte is. */
 static inline float cs_over_strength(const cs_group *group, cs_over_pair head) {
   float luma = 0.2126f * head.e[0] + 0.7152f * head.e[1] + 0.0722f * head.e[2];
@@ -119,6 +131,10 @@ typedef struct cs_over {
   cs_over_outer *outers; /* borrowed; room for cs_stack_depth of them */
 } cs_over;
 
+/* Enters a group and those around it that were not entered yet. A ground whose head was not met is
+ * not entered: neither then nor as `group` itself. */
+void cs_over_enter_group(cs_over *over, uint32_t group);
+
 /* outers: as above; NULL where no layer to come is in a group. */
 static inline void cs_over_begin(cs_over *over, const cs_stack *stack, cs_over_outer *outers) {
   over->stack = stack;
@@ -130,13 +146,12 @@ static inline void cs_over_begin(cs_over *over, const cs_stack *stack, cs_over_o
   over->group = CS_STACK_NONE;
   over->light = 0;
   over->depth = 0;
+  if (stack->has_root)
+    cs_over_enter_group(over, 0);
 }
 
 void cs_over_leave_group(cs_over *over);
 void cs_over_meet_light(cs_over *over);
-/* And the groups around it that were not entered yet. A ground whose head was not met is not
- * entered: neither then nor as `group` itself. */
-void cs_over_enter_group(cs_over *over, uint32_t group);
 
 /* Leaves the groups that end in front of a layer. */
 static inline void cs_over_leave(cs_over *over, uint32_t layer) {

@@ -2,6 +2,7 @@
 
 #include "base/number.h"
 #include "base/sort.h"
+#include "model/colour/space.h"
 
 void cs_procedures_init(cs_procedures *procedures, cs_composer *composer, cs_arena *arena,
                         int32_t width, int32_t margin) {
@@ -83,6 +84,8 @@ static celspan_status add_spans(cs_procedures *procedures, const cs_procedure *p
     return CELSPAN_NO_MEMORY;
   if (output->paint_count > 0)
     memcpy(paints, output->paints, output->paint_count * sizeof *paints);
+  for (size_t i = 0; i < output->paint_count && procedure->space == CELSPAN_SPACE_SRGB; i++)
+    paints[i] = cs_space_paint(procedure->space, paints[i]);
   for (size_t i = 0; i < output->span_count; i++)
     CS_TRY(add_span(procedures, procedure, &output->spans[i], paints + output->spans[i].first_paint,
                     edges));

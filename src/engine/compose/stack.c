@@ -11,5 +11,8 @@ void cs_stack_finish(cs_stack *stack, cs_memory *memory) {
   cs_mem_free(memory, stack->lights, stack->light_capacity * sizeof *stack->lights);
   cs_mem_free(memory, stack->steps, stack->step_capacity * sizeof *stack->steps);
   cs_mem_free(memory, stack->trees, stack->tree_capacity * sizeof *stack->trees);
+  for (size_t i = 0; i < stack->coded_count; i++)
+    celspan_texture_unref(stack->coded[i]);
+  cs_mem_free(memory, stack->coded, stack->coded_capacity * sizeof *stack->coded);
   *stack = (cs_stack){0};
 }

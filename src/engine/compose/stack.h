@@ -24,9 +24,9 @@
 
 #define CS_STACK_LAYERS ((size_t)10000000)
 /* Groups around a layer, at most, without the grounds that modes need: a cel may be lit, faded and
- * a source, which are three, and at each level of nesting there is a faded object, a source, a
- * matte and the group that it fades. */
-#define CS_STACK_GROUPS (4 * CS_SCENE_DEPTH + 3)
+ * a source, which are three, the frame may be one, and at each level of nesting there is a faded
+ * object, a source, what leaves for another space, a matte and the group that it fades. */
+#define CS_STACK_GROUPS (5 * CS_SCENE_DEPTH + 4)
 
 /* One step of a boolean tree in post-order. */
 typedef enum cs_step_kind {
@@ -69,6 +69,10 @@ typedef struct cs_stack {
   size_t light_count, light_capacity;
   size_t step_count, step_capacity;
   size_t tree_count, tree_capacity;
+  celspan_texture **coded; /* textures of its shades whose pigments are codes; owned */
+  size_t coded_count, coded_capacity;
+  celspan_space space;  /* of the numbers in rows */
+  bool has_root;        /* group 0 is the whole frame: it is entered in every cell */
   float span_error;     /* that gradient spans may have, of full scale; 0: 1/1023 */
   size_t step_depth;    /* results a tree may need room for at a time */
   bool has_group_light; /* any group has a light with a shape */

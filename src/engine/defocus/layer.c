@@ -186,6 +186,7 @@ static cs_hash find_key(const cs_defocus_cel *place, const cs_blur *blur, double
     cs_hash_number(&hash, blur->edges[k / 2][k % 2]);
   cs_hash_number(&hash, blur->blur);
   cs_hash_number(&hash, samples);
+  cs_hash_word(&hash, place->space);
   return cs_hash_end(hash);
 }
 

@@ -33,6 +33,7 @@ typedef struct cs_defocus_cel {
   cs_boundary_frame frame; /* the part of the plane that can be seen, its margin included */
   int32_t width, height;   /* of the frame, pixels */
   bool is_antialiased;
+  celspan_space space; /* in which it is blurred */
 } cs_defocus_cel;
 
 typedef struct cs_own_grid {

@@ -52,11 +52,20 @@ static celspan_status sample(cs_painter *painter, const cs_sampler *sampler, con
   return cs_sampler_run(painter->blocks, sampler, run, rgba);
 }
 
+/* Samples of a picture used as paint, as numbers of the layer's space. */
+static void code_samples(const cs_image_layer *image, int32_t count, float (*rgba)[4]) {
+  bool is_paint = image->texture->variation->use == CELSPAN_PICTURE_PAINT;
+  for (int32_t k = 0; k < count && is_paint && image->space == CELSPAN_SPACE_SRGB; k++)
+    cs_space_encode(image->space, rgba[k]);
+}
+
 static celspan_status sample_picture(cs_painter *painter, const cs_layer *layer,
                                      const cs_batch *batch, float (*rgba)[4]) {
   const cs_image_view *view;
   CS_TRY(cs_painter_image(painter, layer->index, &view));
-  return sample(painter, &view->sampler, batch, rgba);
+  CS_TRY(sample(painter, &view->sampler, batch, rgba));
+  code_samples(&painter->stack->images[layer->index], batch->count, rgba);
+  return CELSPAN_OK;
 }
 
 /* The same of a picture with a medium of its own: its paints. */
@@ -66,6 +75,7 @@ static celspan_status sample_media(cs_painter *painter, const cs_layer *layer,
   CS_TRY(cs_painter_image(painter, layer->index, &view));
   CS_TRY(sample(painter, &view->sampler, batch, out->s));
   CS_TRY(sample(painter, &view->medium, batch, out->rgba));
+  code_samples(&painter->stack->images[layer->index], batch->count, out->s);
   for (int32_t k = 0; k < batch->count; k++) {
     cs_paint paint = cs_paint_from_picture(out->rgba[k], CELSPAN_PICTURE_GEL);
     out->s[k][3] = 0;
@@ -157,6 +167,7 @@ static bool is_all_bare(const cs_painter *painter, const cs_program *program) {
   for (uint32_t i = 0; i < program->length && bare; i++) {
     const cs_layer *layer = &stack->layers[program->items[i].layer];
     bare = cs_painter_is_bare(painter, program->items[i]) &&
+           stack->images[layer->index].space != CELSPAN_SPACE_SRGB &&
            stack->images[layer->index].texture->variation->use == CELSPAN_PICTURE_PAINT;
   }
   return bare;

@@ -236,11 +236,14 @@ static int bend_of(const cs_painter *painter, const cs_layer *layer) {
   if (layer->kind != CS_LAYER_PICTURE ||
       painter->stack->images[layer->index].texture->variation->use == CELSPAN_PICTURE_GEL)
     return 2;
-  return painter->images[layer->index].sampler.kernel == CS_SAMPLER_NEAREST ? 0 : 1;
+  if (painter->images[layer->index].sampler.kernel == CS_SAMPLER_NEAREST)
+    return 0;
+  return painter->stack->images[layer->index].space == CELSPAN_SPACE_SRGB ? 2 : 1;
 }
 
 /* One layer that is linear between two cuts gives a line, since light, fades and flat layers act
- * linearly; the product of two such layers gives a curve, and so do modes and mattes. */
+ * linearly; the product of two such layers gives a curve, and so do modes, mattes, and pictures of
+ * light where codes are mixed. */
 static line_shape shape_of(const cs_painter *painter, const cs_program *program) {
   int bends = 0;
   for (uint32_t i = 0; i < program->length; i++)

@@ -11,26 +11,6 @@ static celspan_status open_state(cs_over_row *over) {
   return CELSPAN_OK;
 }
 
-celspan_status cs_over_row_begin(celspan_context *context, cs_arena *arena, const cs_stack *stack,
-                                 cs_isa isa, int32_t count, cs_over_row *out) {
-  out->context = context;
-  out->arena = arena;
-  out->stack = stack;
-  out->isa = isa;
-  out->count = count;
-  out->depth = 0;
-  out->group = CS_STACK_NONE;
-  out->light = 0;
-  out->keep = 1;
-  out->outers = NULL;
-  if (stack->group_count > 0) {
-    out->outers = cs_arena_take(context, arena, cs_stack_depth(stack) * sizeof *out->outers);
-    if (!out->outers)
-      return CELSPAN_NO_MEMORY;
-  }
-  return open_state(out);
-}
-
 static void meet_light(cs_over_row *over) {
   const cs_back_light *light = &over->stack->lights[over->light++];
   WIDE(over, cs_over_row_add_light)(over->state, over->count, (const float *)&light->light);
@@ -40,8 +20,8 @@ static void meet_light(cs_over_row *over) {
 /* What a group that has been left is for the group around it, but not yet faded. */
 static void finish_group(cs_over_row *over, const cs_group *group, const cs_over_row_outer *around,
                          cs_over_row_state *inner) {
-  if (group->has_front)
-    WIDE(over, cs_over_row_light_flat)(inner, over->count, (const float *)&group->front);
+  if (group->converts != CELSPAN_SPACE_AROUND || group->has_front)
+    WIDE(over, cs_over_row_develop)(inner, over->count, group, over->keep);
   if (group->has_light)
     WIDE(over, cs_over_row_light_group)(inner, over->count, (const float(*)[4])around->front);
   if (group->kind == CS_GROUP_MATTE)
@@ -91,6 +71,27 @@ static celspan_status enter(cs_over_row *over, uint32_t group) {
   if (over->stack->groups[group].kind == CS_GROUP_GROUND)
     over->keep = 1;
   return open_state(over);
+}
+
+celspan_status cs_over_row_begin(celspan_context *context, cs_arena *arena, const cs_stack *stack,
+                                 cs_isa isa, int32_t count, cs_over_row *out) {
+  out->context = context;
+  out->arena = arena;
+  out->stack = stack;
+  out->isa = isa;
+  out->count = count;
+  out->depth = 0;
+  out->group = CS_STACK_NONE;
+  out->light = 0;
+  out->keep = 1;
+  out->outers = NULL;
+  if (stack->group_count > 0) {
+    out->outers = cs_arena_take(context, arena, cs_stack_depth(stack) * sizeof *out->outers);
+    if (!out->outers)
+      return CELSPAN_NO_MEMORY;
+  }
+  CS_TRY(open_state(out));
+  return stack->has_root ? enter(out, 0) : CELSPAN_OK;
 }
 
 static celspan_status enter_group(cs_over_row *over, uint32_t group) {

@@ -76,13 +76,6 @@ void CS_WIDE(cs_over_row_light_group)(cs_over_row_state *state, int32_t count,
   }
 }
 
-void CS_WIDE(cs_over_row_light_flat)(cs_over_row_state *state, int32_t count,
-                                     const float front[4]) {
-  cs_wide light = cs_over_wide_all(front);
-  for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
-    cs_wide_store(state->e[i], light * cs_wide_load(state->e[i]));
-}
-
 void CS_WIDE(cs_over_row_add_group)(cs_over_row_state *outer, int32_t count, float fade,
                                     const cs_over_row_state *inner) {
   for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
@@ -91,6 +84,12 @@ void CS_WIDE(cs_over_row_add_group)(cs_over_row_state *outer, int32_t count, flo
 
 static inline cs_over_pair pair_at(const cs_over_row_state *state, int32_t i) {
   return (cs_over_pair){cs_v4_load(state->e[i]), cs_v4_load(state->t[i])};
+}
+
+void CS_WIDE(cs_over_row_develop)(cs_over_row_state *state, int32_t count, const cs_group *group,
+                                  float keep) {
+  for (int32_t i = 0; i < count; i++)
+    cs_v4_store(state->e[i], cs_over_develop(group, pair_at(state, i), keep).e);
 }
 
 void CS_WIDE(cs_over_row_blend)(const cs_over_row_state *source, int32_t count, celspan_blend mode,

@@ -247,8 +247,9 @@ static celspan_status run_shown(cs_painter *painter, const cs_program *shown, bo
   CS_TRY(needs_array(painter, shown, &is_array));
   if (!is_array)
     return cs_lines_run(painter, shown, run, row);
-  return row->takes_codes ? run_codes(painter, shown, run, row)
-                          : run_array(painter, shown, run, row);
+  return row->takes_codes && painter->stack->space != CELSPAN_SPACE_SRGB
+             ? run_codes(painter, shown, run, row)
+             : run_array(painter, shown, run, row);
 }
 
 /* ---------------------------------------------------------------- columns that show the same */

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "model/colour/space.h"
 
 void cs_row_init(cs_row *row) {
   *row = (cs_row){0};
@@ -185,49 +186,87 @@ static celspan_status expose_gradient(celspan_context *context, cs_row *out, int
   return cs_row_gradient(context, out, bend, x1, rest, rest_slope);
 }
 
-/* The sum of one span of each row, all of which cover [x0, x1). */
-static celspan_status expose_array(celspan_context *context, cs_row *out,
-                                   const celspan_span *const *spans, const float *weights,
-                                   size_t count, int32_t x0, int32_t x1) {
+/* One span of each row, all of which cover [x0, x1), and their weights. */
+typedef struct exposed {
+  const celspan_span **spans;
+  const float *weights;
+  size_t count;
+  celspan_space space;
+} exposed;
+
+static cs_v4 light_of(cs_v4 codes) {
+  float rgba[4];
+  cs_v4_store(rgba, codes);
+  cs_space_decode(CELSPAN_SPACE_SRGB, rgba);
+  return cs_v4_load(rgba);
+}
+
+/* The sum of the light in a column. */
+static cs_v4 sum_at(const exposed *e, int32_t x) {
+  cs_v4 sum = cs_v4_all(0);
+  for (size_t i = 0; i < e->count; i++) {
+    cs_v4 colour = colour_at(e->spans[i], x);
+    sum += e->weights[i] * (e->space == CELSPAN_SPACE_SRGB ? light_of(colour) : colour);
+  }
+  sum[3] = sum[3] > 1 ? 1 : sum[3];
+  return sum;
+}
+
+static void put_sum(const exposed *e, int32_t x, float out[4]) {
+  cs_v4_store(out, sum_at(e, x));
+  cs_space_encode(e->space, out);
+}
+
+static celspan_status expose_array(celspan_context *context, cs_row *out, const exposed *e,
+                                   int32_t x0, int32_t x1) {
   float *colours;
   CS_TRY(cs_row_array(context, out, x0, x1, &colours));
-  for (int32_t x = x0; x < x1; x++, colours += 4) {
-    cs_v4 sum = cs_v4_all(0);
-    for (size_t i = 0; i < count; i++)
-      sum += weights[i] * colour_at(spans[i], x);
-    sum[3] = sum[3] > 1 ? 1 : sum[3];
-    cs_v4_store(colours, sum);
-  }
+  for (int32_t x = x0; x < x1; x++, colours += 4)
+    put_sum(e, x, colours);
   return CELSPAN_OK;
 }
 
-static celspan_status expose_interval(celspan_context *context, cs_row *out,
-                                      const celspan_span *const *spans, const float *weights,
-                                      size_t count, int32_t x0, int32_t x1) {
+/* Light does not change linearly along a gradient of codes. */
+static bool needs_array(const exposed *e) {
+  for (size_t i = 0; i < e->count; i++)
+    if (e->spans[i]->kind == CELSPAN_SPAN_ARRAY ||
+        (e->spans[i]->kind == CELSPAN_SPAN_GRADIENT && e->space == CELSPAN_SPACE_SRGB))
+      return true;
+  return false;
+}
+
+static celspan_status expose_interval(celspan_context *context, cs_row *out, const exposed *e,
+                                      int32_t x0, int32_t x1) {
   cs_v4 first = cs_v4_all(0), slope = cs_v4_all(0);
-  for (size_t i = 0; i < count; i++) {
-    if (spans[i]->kind == CELSPAN_SPAN_ARRAY)
-      return expose_array(context, out, spans, weights, count, x0, x1);
-    first += weights[i] * colour_at(spans[i], x0);
-    if (spans[i]->kind == CELSPAN_SPAN_GRADIENT)
-      slope += weights[i] * cs_v4_load(spans[i]->slope);
+  if (needs_array(e))
+    return expose_array(context, out, e, x0, x1);
+  if (e->space == CELSPAN_SPACE_SRGB) {
+    float sum[4];
+    put_sum(e, x0, sum);
+    return cs_row_single(context, out, x0, x1, cs_v4_load(sum));
+  }
+  for (size_t i = 0; i < e->count; i++) {
+    first += e->weights[i] * colour_at(e->spans[i], x0);
+    if (e->spans[i]->kind == CELSPAN_SPAN_GRADIENT)
+      slope += e->weights[i] * cs_v4_load(e->spans[i]->slope);
   }
   return expose_gradient(context, out, x0, x1, first, slope);
 }
 
-celspan_status cs_row_expose(celspan_context *context, cs_row *out, const cs_row *rows,
-                             const float *weights, size_t count) {
+celspan_status cs_row_expose(celspan_context *context, cs_row *out, celspan_space space,
+                             const cs_row *rows, const float *weights, size_t count) {
   const celspan_span **at = cs_arena_take(context, &out->colours, count * sizeof *at);
   if (!at)
     return CELSPAN_NO_MEMORY;
   for (size_t i = 0; i < count; i++)
     at[i] = rows[i].spans;
+  const exposed e = {at, weights, count, space};
   const celspan_span *end = rows[0].spans + rows[0].count;
   for (int32_t x0 = 0; at[0] < end;) {
     int32_t x1 = INT32_MAX;
     for (size_t i = 0; i < count; i++)
       x1 = at[i]->x1 < x1 ? at[i]->x1 : x1;
-    CS_TRY(expose_interval(context, out, at, weights, count, x0, x1));
+    CS_TRY(expose_interval(context, out, &e, x0, x1));
     for (size_t i = 0; i < count; i++)
       at[i] += at[i]->x1 == x1;
     x0 = x1;

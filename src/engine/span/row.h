@@ -100,10 +100,10 @@ CELSPAN_CHECKED celspan_status cs_row_append(celspan_context *context, cs_row *o
                                              const cs_row *row, int32_t x0, int32_t x1);
 
 /* out = sum of weights[i] * rows[i], alpha at most 1: the exposures of one frame. All rows cover
- * the same columns without gaps. */
+ * the same columns without gaps. space: of all colours; it is light that is added in any. */
 CELSPAN_CHECKED celspan_status cs_row_expose(celspan_context *context, cs_row *out,
-                                             const cs_row *rows, const float *weights,
-                                             size_t count);
+                                             celspan_space space, const cs_row *rows,
+                                             const float *weights, size_t count);
 
 /* Self-check: whether the spans cover the columns [0, width) without gap or overlap, none empty, no
  * two neighbouring singles have the same colour, and `varied` counts the other spans. */

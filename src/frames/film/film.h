@@ -16,6 +16,7 @@ typedef struct cs_film_mark {
 
 typedef struct cs_film_info {
   int32_t width, height; /* film units, and pixels unless another size is asked for */
+  celspan_space space;
   double frames_second;
   int64_t first, count;      /* frames first .. first + count - 1 */
   const char *title;         /* NULL: none; the film's own, borrowed */

@@ -122,6 +122,7 @@ static celspan_status make_both(celspan_context *context, const celspan_frame_de
   cs_tee tee;
   celspan_file_desc placed = *file;
   celspan_coding coding = cs_pixels_resolve(&file->coding, CELSPAN_DEPTH_8);
+  coding.space = placed.coding.space = frame->space;
   placed.place_x = frame->crop_x;
   placed.place_y = frame->crop_y;
   CS_TRY(cs_sink_file(context, path, &placed, &tee.sinks[0]));

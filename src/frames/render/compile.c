@@ -169,7 +169,7 @@ static celspan_status compile_sharp(cs_compiler *c, const celspan_cel *cel,
   bool isolates = cs_cel_isolates(cel);
   CS_TRY(cs_objects_begin_group(c, cel->opacity, false, &outer));
   if (isolates)
-    CS_TRY(cs_objects_begin_isolation(c, cel->blends_inside, false, &around));
+    CS_TRY(cs_objects_begin_isolation(c, cel->blends_inside[c->space], false, &around));
   if (light)
     CS_TRY(cs_objects_begin_light(c, light, film));
   CS_TRY(cs_objects_add(c, cel->objects, cel->object_count, matrix));
@@ -188,7 +188,8 @@ static celspan_status compile_paint(cs_compiler *c, const celspan_rostrum *rostr
                                 film->to_pixels, film->width,
                                 film->height,    *matrix,
                                 c->frame,        c->plan->width,
-                                c->plan->height, c->plan->antialias != CELSPAN_ANTIALIAS_NONE};
+                                c->plan->height, c->plan->antialias != CELSPAN_ANTIALIAS_NONE,
+                                c->space};
   const celspan_cel *cel = rostrum->cels[index];
   bool is_defocused = cs_defocus_layer_is_needed(&place);
   cs_objects_outside outer;
@@ -227,7 +228,8 @@ static celspan_status compile_cels(cs_compiler *c, const celspan_rostrum *rostru
   uint32_t first = (uint32_t)stack->layer_count;
   CS_TRY(cs_lights_add_mattes(c, rostrum, film, firsts));
   uint32_t end = (uint32_t)stack->layer_count;
-  CS_TRY(cs_objects_begin_isolation(c, cs_rostrum_blends(rostrum), !film->outline, &unused));
+  CS_TRY(
+      cs_objects_begin_isolation(c, cs_rostrum_blends(rostrum, c->space), !film->outline, &unused));
   c->isolation.mattes_end = first < end ? end : 0;
   CS_TRY(cs_lights_add_back(c, rostrum, 0, &rostrum->back, film));
   for (size_t i = 0; i < rostrum->cel_count; i++) {
@@ -268,6 +270,7 @@ static celspan_status compile_rostrum(cs_compiler *c, const celspan_rostrum *ros
                                  .to_pixels = celspan_matrix_scaling(c->plan->width / film_width,
                                                                      c->plan->height / film_height),
                                  .shine = {1, 1, 1, 0}};
+  CS_TRY(cs_objects_begin_frame(c, cs_space_inside(rostrum->space, c->space)));
   CS_TRY(compile_film(c, rostrum, &film));
   reverse_lights(&c->plan->stack);
   cs_boundary_sort(&c->plan->boundaries);
@@ -286,6 +289,7 @@ static void begin(cs_compiler *c, cs_boundary_builder *boundaries, celspan_conte
                      .first_place = view->first_column - margin - BESIDE,
                      .end_place = view->end_column + margin + BESIDE,
                      .most_dashes = view->most_dashes,
+                     .space = view->space,
                      .group = CS_STACK_NONE,
                      .isolation = {.ground = CS_STACK_NONE},
                      .compile_nested = compile_film};
@@ -316,6 +320,7 @@ celspan_status cs_compile(celspan_context *context, const celspan_rostrum *rostr
   begin(&c, &boundaries, context, &plan, view);
   c.workers = workers;
   plan.stack.span_error = view->span_error;
+  plan.stack.space = view->space;
   return finish(&c, compile_rostrum(&c, rostrum, view->film_width, view->film_height), out);
 }
 
@@ -326,7 +331,7 @@ static celspan_status compile_objects(cs_compiler *c, const cs_defocus_job *job)
   if (job->is_through)
     CS_TRY(cs_lights_add_flat(c, (celspan_light){1, 1, 1, 0}));
   cs_objects_outside unused;
-  CS_TRY(cs_objects_begin_isolation(c, job->cel->blends_inside, false, &unused));
+  CS_TRY(cs_objects_begin_isolation(c, job->cel->blends_inside[c->space], false, &unused));
   CS_TRY(cs_objects_add(c, job->cel->objects, job->cel->object_count, &job->matrix));
   cs_boundary_sort(&c->plan->boundaries);
   return cull_hidden(c);
@@ -341,7 +346,10 @@ static celspan_status compile_alone(void *user, const cs_defocus_job *job, cs_pl
                   .borrows_defocus = job->front != NULL};
   cs_compiler c;
   cs_boundary_builder boundaries;
-  const cs_view view = {.end_row = job->height, .end_column = job->width, .most_dashes = SIZE_MAX};
+  const cs_view view = {.end_row = job->height,
+                        .end_column = job->width,
+                        .most_dashes = SIZE_MAX,
+                        .space = outer->space};
   begin(&c, &boundaries, outer->context, &plan, &view);
   c.front_plan = job->front;
   c.workers = 1;

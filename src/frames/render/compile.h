@@ -31,6 +31,7 @@ typedef struct cs_view {
   int32_t first_row, end_row, first_column, end_column;
   size_t most_dashes; /* in view; with more, the plan is crowded (engine/row/plan.h) */
   float span_error;   /* see engine/compose/stack.h */
+  celspan_space space;
 } cs_view;
 
 /* workers: threads at most. Errors: NO_MEMORY; LIMIT; BAD_ARGUMENT for a singular viewport or

@@ -56,7 +56,8 @@ struct cs_compiler {
   size_t cel;                      /* from 1; it and the mark are for messages */
   cs_mark mark;                    /* of the cel; borrowed */
   cs_v4 front;
-  uint32_t group; /* the group being filled, or CS_STACK_NONE */
+  celspan_space space; /* of what is being compiled */
+  uint32_t group;      /* the group being filled, or CS_STACK_NONE */
   cs_compiler_isolation isolation;
   bool records;     /* what is compiled is an operand: it leaves one result on the tree's stack */
   bool is_nested;   /* inside a rostrum that is an object, so inside a tree */

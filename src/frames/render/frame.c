@@ -140,7 +140,8 @@ static void set_view(cs_frame *frame, const celspan_frame_desc *desc) {
                           .end_row = frame->crop_y + frame->crop_height,
                           .end_column = desc->width,
                           .most_dashes = CS_FRAME_DASHES,
-                          .span_error = (float)desc->tolerance};
+                          .span_error = (float)desc->tolerance,
+                          .space = cs_space_inside(desc->space, CELSPAN_SPACE_LINEAR)};
 }
 
 static celspan_status set_exposures(celspan_context *context, const celspan_frame_desc *desc,
@@ -180,6 +181,7 @@ celspan_status cs_frame_check(celspan_context *context, const celspan_frame_desc
   if (desc->tolerance != 0)
     CS_TRY(cs_check_item(context, (cs_check_field){"frame", "tolerance", 0, ""}, desc->tolerance,
                          1.0 / 1048576, 1));
+  CS_TRY(cs_check_choice(context, "frame", "space", (unsigned)desc->space, CELSPAN_SPACE_SRGB + 1));
   return check_exposures(context, desc);
 }
 

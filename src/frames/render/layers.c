@@ -24,11 +24,24 @@ static cs_v4 faded_through(float fade, cs_v4 t) {
   return faded;
 }
 
+/* Replaces a texture by one whose pigments are codes, which belongs to the stack. */
+static celspan_status code_texture(cs_compiler *c, const celspan_texture **texture) {
+  cs_stack *stack = &c->plan->stack;
+  CS_TRY(CS_COMPILER_APPEND(c, coded, coded_count, coded_capacity));
+  celspan_texture *coded;
+  CS_TRY(cs_texture_create_coded(c->context, *texture, &coded));
+  stack->coded[stack->coded_count++] = coded;
+  *texture = coded;
+  return CELSPAN_OK;
+}
+
 static celspan_status fill_shaded(cs_compiler *c, cs_layer *layer, const cs_layers_texture *place) {
   cs_stack *stack = &c->plan->stack;
   CS_TRY(CS_COMPILER_APPEND(c, shades, shade_count, shade_capacity));
   cs_shade *shade = &stack->shades[stack->shade_count];
   *shade = (cs_shade){.texture = place->texture, .inverse = place->inverse};
+  if (c->space == CELSPAN_SPACE_SRGB)
+    CS_TRY(code_texture(c, &shade->texture));
   if (place->texture->variation->has_matrix)
     shade->inverse = celspan_matrix_then(place->inverse, place->texture->variation->inverse);
   cs_shade_prepare(shade);
@@ -52,8 +65,9 @@ static celspan_status fill_picture(cs_compiler *c, cs_layer *layer,
   CS_TRY(CS_COMPILER_APPEND(c, images, image_count, image_capacity));
   bool is_own = place->ends_at_bounds && !texture->variation->has_box &&
                 texture->variation->wrap == CELSPAN_WRAP_CLEAR;
-  stack->images[stack->image_count] = (cs_image_layer){
-      texture, place->inverse, *box, is_own ? CELSPAN_WRAP_CLAMP : texture->variation->wrap};
+  celspan_wrap wrap = is_own ? CELSPAN_WRAP_CLAMP : texture->variation->wrap;
+  stack->images[stack->image_count] =
+      (cs_image_layer){texture, place->inverse, *box, wrap, c->space};
   layer->kind = CS_LAYER_PICTURE;
   layer->index = (uint32_t)stack->image_count++;
   layer->t = faded_through(1, cs_v4_all(1));
@@ -64,7 +78,7 @@ celspan_status cs_layers_fill(cs_compiler *c, cs_layer *layer, const cs_layers_t
   if (layer->fade == 0)
     cs_layers_fill_flat(layer, CS_PAINT_CLEAR, 1);
   else if (place->texture->kind == CS_TEXTURE_FLAT)
-    cs_layers_fill_flat(layer, place->texture->flat, layer->fade);
+    cs_layers_fill_flat(layer, cs_space_paint(c->space, place->texture->flat), layer->fade);
   else
     return place->texture->kind == CS_TEXTURE_PICTURE ? fill_picture(c, layer, place)
                                                       : fill_shaded(c, layer, place);
@@ -194,8 +208,8 @@ static celspan_status add_scanline(cs_compiler *c, const cs_primitive_data *data
   if (m[0] == 0 || m[4] == 0)
     return CELSPAN_OK;
   CS_TRY(CS_COMPILER_APPEND(c, procedures, procedure_count, procedure_capacity));
-  stack->procedures[stack->procedure_count] =
-      (cs_procedure){data->scanline, index, m[0] / m[8], m[2] / m[8], m[4] / m[8], m[5] / m[8]};
+  stack->procedures[stack->procedure_count] = (cs_procedure){
+      data->scanline, index, m[0] / m[8], m[2] / m[8], m[4] / m[8], m[5] / m[8], c->space};
   stack->layers[index].kind = CS_LAYER_SCANLINE;
   stack->layers[index].index = (uint32_t)stack->procedure_count++;
   return CELSPAN_OK;

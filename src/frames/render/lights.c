@@ -84,8 +84,9 @@ static celspan_status add_matte(cs_compiler *c, const celspan_rostrum *rostrum, 
   bool found;
   uint32_t layer;
   if (!back->texture)
-    return film->outline && cs_rostrum_blends(rostrum) ? add_flat_matte(c, back->flat.a, film)
-                                                       : CELSPAN_OK;
+    return film->outline && cs_rostrum_blends(rostrum, c->space)
+               ? add_flat_matte(c, back->flat.a, film)
+               : CELSPAN_OK;
   if (back->matte == 0)
     return CELSPAN_OK;
   CS_TRY(find_inverse(c, rostrum, index, back, film, &inverse, &found));
@@ -132,7 +133,7 @@ static celspan_status append_flat(cs_compiler *c, celspan_light light,
 celspan_status cs_lights_add_back(cs_compiler *c, const celspan_rostrum *rostrum, size_t index,
                                   const cs_light *back, const cs_compiler_film *film) {
   const cs_light light = cs_scene_back(rostrum, back);
-  const celspan_light flat = light.flat;
+  const celspan_light flat = cs_light_in(&light, c->space);
   celspan_matrix inverse;
   bool found;
   uint32_t layer;
@@ -159,7 +160,7 @@ celspan_status cs_lights_set_front(cs_compiler *c, const celspan_rostrum *rostru
                                    const cs_compiler_film *film, cs_lights_front *out) {
   bool found;
   *out = (cs_lights_front){.light = cs_scene_front(rostrum, rostrum->cels[index])};
-  c->front = under_shine(film, colour_of(out->light.flat));
+  c->front = under_shine(film, colour_of(cs_light_in(&out->light, c->space)));
   if (!out->light.texture)
     return CELSPAN_OK;
   CS_TRY(find_inverse(c, rostrum, index, &out->light, film, &out->inverse, &found));

@@ -191,10 +191,30 @@ static celspan_status enter(cs_compiler *c, cs_group group) {
   group.parent = c->group;
   group.first = (uint32_t)stack->layer_count;
   group.varies |= around && around->varies;
-  group.curves = group.kind == CS_GROUP_HEAD || (around && around->curves);
+  group.curves = group.kind == CS_GROUP_HEAD || group.converts != CELSPAN_SPACE_AROUND ||
+                 (around && around->curves);
   stack->has_curves |= group.curves;
   c->group = (uint32_t)stack->group_count;
   stack->groups[stack->group_count++] = group;
+  return CELSPAN_OK;
+}
+
+/* Begins a group that is converted from a space to the compiler's, and lit as a whole. */
+static celspan_status enter_whole(cs_compiler *c, celspan_space space) {
+  celspan_space to = space == c->space ? CELSPAN_SPACE_AROUND : c->space;
+  if (c->fades_out)
+    return CELSPAN_OK;
+  return enter(
+      c, (cs_group){.fade = 1, .has_front = true, .front = c->front, .converts = (uint8_t)to});
+}
+
+celspan_status cs_objects_begin_frame(cs_compiler *c, celspan_space space) {
+  cs_stack *stack = &c->plan->stack;
+  if (space == c->space)
+    return CELSPAN_OK;
+  CS_TRY(enter(c, (cs_group){.fade = 1, .is_frame = true, .converts = (uint8_t)c->space}));
+  stack->has_root = true;
+  c->space = space;
   return CELSPAN_OK;
 }
 
@@ -336,7 +356,7 @@ static celspan_status add_isolated(cs_compiler *c, const celspan_object *object,
                                    const celspan_matrix *matrix,
                                    const cs_compiler_isolation *light) {
   cs_objects_outside outer;
-  CS_TRY(cs_objects_begin_isolation(c, cs_object_blends(object), false, &outer));
+  CS_TRY(cs_objects_begin_isolation(c, cs_object_blends(object, c->space), false, &outer));
   if (light)
     CS_TRY(cs_objects_begin_light(c, light->light, light->film));
   CS_TRY(add_object(c, object, matrix));
@@ -476,7 +496,7 @@ static celspan_status add_boolean(cs_compiler *c, const cs_primitive_data *data,
 static celspan_status add_frame(cs_compiler *c, const cs_primitive_data *data,
                                 const celspan_matrix *matrix) {
   uint32_t index;
-  bool has_layers = cs_rostrum_blends(data->rostrum); /* of mattes, each by itself */
+  bool has_layers = cs_rostrum_blends(data->rostrum, c->space); /* of mattes, each by itself */
   float keep = c->fades_out || has_layers ? 1 : cs_lights_keep(data->rostrum);
   CS_TRY(cs_layers_append(c, 1, CELSPAN_RULE_NONZERO, &index));
   cs_layer *layer = &c->plan->stack.layers[index];
@@ -505,16 +525,18 @@ static celspan_status add_framed(cs_compiler *inner, const cs_primitive_data *da
 }
 
 /* What changes inside is the compiler's copy, which has the same plan. Light multiplies level by
- * level, except where modes are inside: it falls on what they make. */
+ * level, except where modes are inside, or codes instead of light: it falls on what they make. */
 static celspan_status add_rostrum(cs_compiler *c, const cs_primitive_data *data,
                                   const celspan_matrix *matrix) {
-  bool blends = cs_rostrum_has_modes(data->rostrum);
+  celspan_space space = cs_space_inside(data->rostrum->space, c->space);
+  bool is_lit_whole = space != c->space || cs_rostrum_has_modes(data->rostrum);
   cs_objects_outside outer = outside_of(c);
-  if (blends && !c->fades_out)
-    CS_TRY(enter(c, (cs_group){.fade = 1, .has_front = true, .front = c->front}));
+  if (is_lit_whole)
+    CS_TRY(enter_whole(c, space));
   cs_compiler inner = *c;
   c->group = outer.group;
-  inner.front = blends ? (cs_v4){1, 1, 1, 0} : c->front;
+  inner.space = space;
+  inner.front = is_lit_whole ? (cs_v4){1, 1, 1, 0} : c->front;
   cs_tree tree = begin_tree(c);
   inner.records = false;
   inner.is_nested = true;
@@ -526,13 +548,44 @@ static celspan_status add_rostrum(cs_compiler *c, const cs_primitive_data *data,
 
 /* ---------------------------------------------------------------- groups of their own kinds */
 
+static bool has_own_space(const cs_primitive_data *data, celspan_space around) {
+  return data->kind == CS_PRIMITIVE_DATA_BOOLEAN &&
+         cs_boolean_space(data->boolean, around) != around;
+}
+
+/* Whether a mode inside the data acts on the backdrop in the group that they begin. */
+static bool blends_around(const cs_primitive_data *data, celspan_space space) {
+  return data->blends[space] && !has_own_space(data, space);
+}
+
+/* The operands of a boolean; in a space of its own they are a group, which is lit as a whole. */
+static celspan_status add_inside(cs_compiler *c, const cs_primitive_data *data,
+                                 const celspan_matrix *matrix) {
+  if (!has_own_space(data, c->space))
+    return add_boolean(c, data, matrix);
+  const cs_v4 front = c->front;
+  const celspan_space around = c->space;
+  const uint32_t group = c->group;
+  cs_objects_outside outer;
+  CS_TRY(enter_whole(c, cs_boolean_space(data->boolean, around)));
+  c->space = cs_boolean_space(data->boolean, around);
+  c->front = (cs_v4){1, 1, 1, 0};
+  CS_TRY(cs_objects_begin_isolation(c, data->blends[around], false, &outer));
+  CS_TRY(add_boolean(c, data, matrix));
+  cs_objects_end_isolation(c, outer);
+  c->front = front;
+  c->space = around;
+  c->group = group;
+  return CELSPAN_OK;
+}
+
 /* An object with a mode. */
 static celspan_status add_source(cs_compiler *c, const celspan_object *object,
                                  const celspan_matrix *matrix) {
   const cs_primitive_data *data = object->data;
   cs_objects_outside outer;
-  CS_TRY(cs_objects_begin_source(c, object->fade, data->blends, &outer));
-  CS_TRY(add_boolean(c, data, matrix));
+  CS_TRY(cs_objects_begin_source(c, object->fade, blends_around(data, c->space), &outer));
+  CS_TRY(add_inside(c, data, matrix));
   return cs_objects_end_source(c, data->boolean->blend, outer);
 }
 
@@ -566,11 +619,11 @@ static celspan_status add_parts(cs_compiler *c, const celspan_object *object,
     CS_TRY(close_light(c));
   CS_TRY(cs_objects_begin_group(c, object->fade, false, &outer));
   if (isolates)
-    CS_TRY(cs_objects_begin_isolation(c, data->blends, false, &around));
+    CS_TRY(cs_objects_begin_isolation(c, blends_around(data, c->space), false, &around));
   if (splits)
     CS_TRY(cs_objects_begin_light(c, light.light, light.film));
   CS_TRY(data->kind == CS_PRIMITIVE_DATA_ROSTRUM ? add_rostrum(c, data, matrix)
-                                                 : add_boolean(c, data, matrix));
+                                                 : add_inside(c, data, matrix));
   if (splits)
     CS_TRY(cs_objects_end_light(c));
   if (isolates)

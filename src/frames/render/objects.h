@@ -29,6 +29,10 @@ CELSPAN_CHECKED celspan_status cs_objects_begin_group(cs_compiler *c, double fad
                                                       cs_objects_outside *outer);
 void cs_objects_end_group(cs_compiler *c, cs_objects_outside outer);
 
+/* Begins the whole frame, before all else, in a space: a group where that is not the frame's.
+ * Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_objects_begin_frame(cs_compiler *c, celspan_space space);
+
 /* Begins what isolates. blends: a source is inside that acts on its backdrop. is_frame: it is the
  * frame itself. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_objects_begin_isolation(cs_compiler *c, bool blends,

@@ -117,6 +117,7 @@ celspan_status celspan_frame_pixels(celspan_context *context, const celspan_fram
   celspan_coding resolved = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
   CS_TRY(cs_frame_check(context, desc));
   CS_TRY(cs_pixels_check(context, coding));
+  resolved.space = desc->space;
   CS_TRY(cs_sink_memory(context, &resolved, pixels, stride, &sink));
   CS_TRY(cs_dither_sink(context, coding, &resolved, desc->crop_x, desc->crop_y, &sink));
   return render_own(context, desc, &sink, statistics);
@@ -150,6 +151,7 @@ celspan_status celspan_frame_write(celspan_context *context, const celspan_frame
   celspan_file_desc known = file ? *file : CELSPAN_FILE_DESC;
   known.is_opaque = known.is_opaque || celspan_frame_is_opaque(desc);
   known.workers = known.workers ? known.workers : desc->workers;
+  known.coding.space = desc->space;
   known.place_x += desc->crop_x;
   known.place_y += desc->crop_y;
   CS_TRY(cs_sink_file(context, path, &known, &sink));
@@ -162,6 +164,7 @@ celspan_status celspan_frame_digest(celspan_context *context, const celspan_fram
   celspan_coding resolved = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
   CS_TRY(cs_frame_check(context, desc));
   CS_TRY(cs_pixels_check(context, coding));
+  resolved.space = desc->space;
   CS_TRY(cs_check_given(context, "frame", "the digest", digest));
   CS_TRY(cs_sink_digest(context, &resolved, digest, &sink));
   CS_TRY(cs_dither_sink(context, coding, &resolved, desc->crop_x, desc->crop_y, &sink));

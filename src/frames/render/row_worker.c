@@ -68,7 +68,8 @@ static celspan_status expose(cs_row_worker *worker, cs_row **out) {
   cs_row_clear(&worker->sum);
   if (frame->count == 0)
     return cs_row_single(&worker->context, &worker->sum, 0, frame->width, cs_v4_all(0));
-  return cs_row_expose(&worker->context, &worker->sum, worker->rows, frame->weights, frame->count);
+  return cs_row_expose(&worker->context, &worker->sum, frame->view.space, worker->rows,
+                       frame->weights, frame->count);
 }
 
 /* Row y of the frame, by the current makers. */

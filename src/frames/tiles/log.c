@@ -82,6 +82,7 @@ static cs_hash digest_of(const cs_tile_inputs *inputs, const cs_pyramid *pyramid
   add_shape(&hash, pyramid);
   cs_hash_number(&hash, frame->film_width);
   cs_hash_number(&hash, frame->film_height);
+  cs_hash_word(&hash, frame->space);
   cs_hash_word(&hash, frame->antialias ? 1 + (uint64_t)*frame->antialias : 0);
   cs_hash_word(&hash, (uint64_t)frame->filter.kernel);
   cs_hash_word(&hash, (uint64_t)frame->filter.rows);

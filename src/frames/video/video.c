@@ -164,6 +164,13 @@ static bool is_repeated(const cs_video *video, const cs_shoot_frame *frame) {
          frame->scene.a == video->last.a && frame->scene.b == video->last.b;
 }
 
+/* The coding of the frame's spans, without dithering. */
+static celspan_coding plain_coding(const cs_video *video, const celspan_frame_desc *desc) {
+  celspan_coding plain = cs_pixels_resolve(&video->coding, CELSPAN_DEPTH_8);
+  plain.space = desc->space;
+  return plain;
+}
+
 /* A sink for the pixels in the layout of the encoder. planes: must live as long as the sink. */
 static celspan_status open_sink(const cs_video *video, const celspan_frame_desc *desc,
                                 unsigned char *pixels, yuv_planes *planes, celspan_sink *out) {
@@ -171,7 +178,7 @@ static celspan_status open_sink(const cs_video *video, const celspan_frame_desc 
     *out = planes_sink(planes, &video->coding, desc, video->layout == CS_VIDEO_420, pixels);
     return CELSPAN_OK;
   }
-  celspan_coding plain = cs_pixels_resolve(&video->coding, CELSPAN_DEPTH_8);
+  celspan_coding plain = plain_coding(video, desc);
   CS_TRY(cs_sink_memory(video->context, &plain, pixels, video->stride, out));
   return cs_dither_sink(video->context, &video->coding, &plain, desc->crop_x, desc->crop_y, out);
 }
@@ -179,7 +186,7 @@ static celspan_status open_sink(const cs_video *video, const celspan_frame_desc 
 /* A sink that hashes RGBA pixels. */
 static celspan_status open_digest(cs_video *video, const celspan_frame_desc *desc,
                                   celspan_sink *out) {
-  celspan_coding plain = cs_pixels_resolve(&video->coding, CELSPAN_DEPTH_8);
+  celspan_coding plain = plain_coding(video, desc);
   CS_TRY(cs_sink_digest(video->context, &plain, video->digest, out));
   return cs_dither_sink(video->context, &video->coding, &plain, desc->crop_x, desc->crop_y, out);
 }

@@ -9,7 +9,8 @@
  * Conventions
  *   Coordinates  origin top left, x right, y down, in film units. Pixel i covers [i, i+1).
  *   Order        later is nearer the camera, in every list.
- *   Colour       linear light, float. What comes out is premultiplied RGBA.
+ *   Colour       linear light, float, wherever it is given. What comes out is premultiplied RGBA in
+ *                the frame's working space, which is linear light unless the frame says otherwise.
  *   Angles       radians, clockwise on screen.
  *   Matrices     row-major 3x3, column vectors: x' = (a x + b y + c)/(g x + h y + i).
  *   Intervals    [x0, x1) is half-open everywhere.
@@ -189,6 +190,17 @@ typedef enum celspan_alpha {
   CELSPAN_ALPHA_STRAIGHT,
   CELSPAN_ALPHA_PREMULTIPLIED
 } celspan_alpha;
+
+/* Working spaces: what the numbers are that are mixed, lit, faded, blended and blurred, in a frame,
+ * in a rostrum or in a group. In SRGB they are sRGB codes: pigments are converted to codes; media,
+ * beta, mattes and brightness are not. What leaves a group or a rostrum for another space is
+ * converted, channel by channel: S is divided by the greater of 1 - T and min(S, 1), taken along
+ * the curve of sRGB (odd about 0, extended above 1), and multiplied back. So white stays 1. */
+typedef enum celspan_space {
+  CELSPAN_SPACE_AROUND = 0, /* that of what it is in; of a frame: LINEAR */
+  CELSPAN_SPACE_LINEAR,
+  CELSPAN_SPACE_SRGB
+} celspan_space;
 
 /* r, g, b >= 0 without upper limit; a in 0..1 is the matte of a back light (unused in front). */
 typedef struct celspan_light {
@@ -792,9 +804,10 @@ typedef enum celspan_blend {
 
 /* Whether modes inside a group act on the backdrop of the group. */
 typedef enum celspan_isolation {
-  CELSPAN_ISOLATION_AUTO = 0, /* it isolates if it is faded or has a mode */
+  CELSPAN_ISOLATION_AUTO = 0, /* it isolates if it is faded, has a mode, or another space than what
+                                 it is in */
   CELSPAN_ISOLATION_ON,
-  CELSPAN_ISOLATION_OFF /* refused for a group that is faded or has a mode */
+  CELSPAN_ISOLATION_OFF /* refused for a group that is faded or has a mode or a space */
 } celspan_isolation;
 
 typedef struct celspan_group_desc {
@@ -804,6 +817,7 @@ typedef struct celspan_group_desc {
   double opacity; /* 0..1 */
   celspan_blend blend;
   celspan_isolation isolate;
+  celspan_space space; /* its result is converted, then lit and faded */
 } celspan_group_desc;
 
 static inline celspan_group_desc celspan_group_desc_default(void) {
@@ -1135,6 +1149,9 @@ typedef struct celspan_cel_desc {
   double opacity;                                    /* limited to 0..1 */
   celspan_light_texture front_texture, back_texture; /* instead of front and back */
   celspan_blend blend;
+  /* The numbers of the light are a colour, which is converted to codes where those are mixed; else
+   * they are factors, which multiply codes as they are. Likewise of a rostrum. */
+  bool front_is_colour, back_is_colour;
 } celspan_cel_desc;
 
 static inline celspan_cel_desc celspan_cel_desc_default(void) {
@@ -1228,6 +1245,8 @@ typedef struct celspan_rostrum_desc {
                                                         frame only */
   bool has_size; /* its own size in film units: needed for celspan_object_create_rostrum */
   double width, height;
+  bool front_is_colour, back_is_colour; /* as in celspan_cel_desc */
+  celspan_space space;
 } celspan_rostrum_desc;
 
 static inline celspan_rostrum_desc celspan_rostrum_desc_default(void) {
@@ -1312,18 +1331,10 @@ static inline celspan_inspect_desc celspan_inspect_desc_default(void) {
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_rostrum_inspect(
     celspan_context *context, const celspan_rostrum *rostrum, const celspan_inspect_desc *desc);
 
-/* One point by direct evaluation of the tree: no sweep, no spans, no antialiasing, no defocus.
- * x, y: film units. rgba: linear, premultiplied. Errors: INPUT, LIMIT, NO_MEMORY, CALLBACK. */
 typedef struct celspan_exposure {
   celspan_rostrum *rostrum; /* borrowed */
   double weight;            /* >= 0 */
 } celspan_exposure;
-
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_probe(celspan_context *context,
-                                                         const celspan_exposure *exposures,
-                                                         size_t exposure_count, double film_width,
-                                                         double film_height, celspan_point point,
-                                                         double rgba[4]);
 
 /* ---------------------------------------------------------------- frames, rows and sinks */
 
@@ -1337,7 +1348,7 @@ typedef struct celspan_span {
   int32_t x0, x1; /* columns of the frame */
   celspan_span_kind kind;
   int32_t origin;     /* gradient: the column of `colour`; cutting a span leaves it alone */
-  float colour[4];    /* linear, premultiplied RGBA */
+  float colour[4];    /* premultiplied RGBA, in the space of the frame */
   float slope[4];     /* gradient: a column */
   const float *array; /* array: 4 floats a pixel, from x0 on */
   /* An array for a sink that takes codes may have these instead, and NULL for `array`: the pixels
@@ -1372,6 +1383,9 @@ typedef struct celspan_frame_desc {
   /* How far gradient spans may be from the colours that they stand for, as a share of full scale:
    * 2^-20 .. 1; 0: 1/1023. Finer ones are more spans. */
   double tolerance;
+  celspan_space
+      space; /* in which pixels are antialiased, and of the numbers in spans; exposures add
+                          light in any space */
 } celspan_frame_desc;
 
 static inline celspan_frame_desc celspan_frame_desc_default(void) {
@@ -1380,6 +1394,13 @@ static inline celspan_frame_desc celspan_frame_desc_default(void) {
   return desc;
 }
 #define CELSPAN_FRAME_DESC (celspan_frame_desc_default())
+
+/* One point by direct evaluation of the tree: no sweep, no spans, no antialiasing, no defocus.
+ * desc: borrowed; its exposures, its film and its space count. x, y: film units. rgba: linear,
+ * premultiplied. Errors: INPUT, LIMIT, NO_MEMORY, CALLBACK, BAD_ARGUMENT for the description. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_probe(celspan_context *context,
+                                                         const celspan_frame_desc *desc,
+                                                         celspan_point point, double rgba[4]);
 
 typedef struct celspan_statistics {
   uint64_t rows, spans, single, gradient, array;
@@ -1445,12 +1466,14 @@ typedef enum celspan_transfer {
   CELSPAN_TRANSFER_CINEON
 } celspan_transfer;
 
-/* How colours are coded. Straight: un-premultiplied in linear light, then coded, then rounded to
- * nearest. */
+/* How colours are coded. Straight: un-premultiplied in the space of the spans, then coded, then
+ * rounded to nearest. */
 typedef struct celspan_coding {
   celspan_depth depth;
   celspan_transfer transfer;
   celspan_alpha alpha;
+  celspan_space space; /* of the spans. SRGB: codes of sRGB are their numbers, others are made of
+                          the light that these stand for. What renders a frame sets it */
 } celspan_coding;
 
 /* Bytes of one RGBA pixel: 4, 8, 8 or 16. */

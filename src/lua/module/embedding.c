@@ -122,6 +122,7 @@ static celspan_status build(lua_State *L, const cs_film_info *film, int64_t numb
   out->exposure_count = frame.count;
   out->film_width = out->width = film->width;
   out->film_height = out->height = film->height;
+  out->space = film->space;
   return CELSPAN_OK;
 }
 

@@ -186,8 +186,9 @@ int cs_pixels_make(lua_State *L) {
     return cs_host_fail(L, status);
   float *out = push_image(&options.form, desc);
   int32_t width = desc->crop_width ? desc->crop_width : desc->width;
-  celspan_coding coding = {CELSPAN_DEPTH_FLOAT, CELSPAN_TRANSFER_LINEAR,
-                           CELSPAN_ALPHA_PREMULTIPLIED};
+  celspan_coding coding = {.depth = CELSPAN_DEPTH_FLOAT,
+                           .transfer = CELSPAN_TRANSFER_LINEAR,
+                           .alpha = CELSPAN_ALPHA_PREMULTIPLIED};
   lua_State *before = cs_host_enter(L);
   status = celspan_frame_pixels(cs_host_context(L), desc, &coding, out,
                                 (size_t)width * 4 * sizeof(float), NULL);

@@ -129,10 +129,8 @@ int cs_spans_probe(lua_State *L) {
   celspan_status status = cs_subject_read(L, &cs_noun_probe, &options);
   if (status != CELSPAN_OK)
     return cs_host_fail(L, status);
-  const celspan_frame_desc *desc = &options.desc;
   lua_State *before = cs_host_enter(L);
-  status = celspan_probe(cs_host_context(L), desc->exposures, desc->exposure_count,
-                         desc->film_width, desc->film_height, point, rgba);
+  status = celspan_probe(cs_host_context(L), &options.desc, point, rgba);
   cs_host_leave(L, before);
   if (status != CELSPAN_OK)
     return cs_host_fail(L, status);

@@ -37,8 +37,9 @@ static void create(const cs_form *form, cs_userdata *value) {
   int count = cs_form_length(form);
   desc.objects = cs_shape_items(form, count);
   desc.object_count = (size_t)count;
-  desc.has_front = cs_light_read(form, "front", &desc.front, &desc.front_texture);
-  cs_light_read(form, "back", &desc.back, &desc.back_texture);
+  desc.has_front =
+      cs_light_read(form, "front", &desc.front, &desc.front_is_colour, &desc.front_texture);
+  cs_light_read(form, "back", &desc.back, &desc.back_is_colour, &desc.back_texture);
   read_defocus(form, &desc);
   cs_fields_read(form, &desc);
   celspan_cel *cel = NULL;

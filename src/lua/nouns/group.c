@@ -5,6 +5,7 @@
 #include "lua/bind/host.h"
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/shape.h"
+#include "lua/nouns/space.h"
 #include "model/colour/blend.h"
 
 /* ---------------------------------------------------------------- groups */
@@ -12,6 +13,7 @@
 typedef struct group_fields {
   celspan_group_desc desc;
   bool has_isolate, isolate;
+  cs_own_space space;
 } group_fields;
 
 static void create_group(const cs_form *form, cs_userdata *value) {
@@ -23,6 +25,7 @@ static void create_group(const cs_form *form, cs_userdata *value) {
   cs_fields_read(form, &fields);
   if (fields.has_isolate)
     fields.desc.isolate = fields.isolate ? CELSPAN_ISOLATION_ON : CELSPAN_ISOLATION_OFF;
+  fields.desc.space = cs_own_space_of(&fields.space);
   cs_form_try(form, celspan_object_create_group(cs_host_context(form->L), &fields.desc, &group));
   value->handle = group;
 }
@@ -33,9 +36,10 @@ static const cs_field group_rows[] = {
      .about = "Of the group as a whole; limited to 0..1"},
     {"blend", CS_CHOICE(FIELDS, desc.blend, cs_blend_words), .written = "celspan.mode",
      .about = "How it is combined with its backdrop", .fallback = "normal"},
+    CS_OWN_SPACE(FIELDS, space, "that of what it is in"),
     {"isolate", CS_FLAG(FIELDS, isolate), CS_HAS(FIELDS, has_isolate),
      .about = "Whether modes inside act only inside",
-     .fallback = "true if it is faded or has a mode"},
+     .fallback = "true if it is faded, has a mode, or another space than what it is in"},
     {0}};
 const cs_noun cs_noun_group = {.name = "group",
                                .about = "Objects that are composited by themselves, then put into "

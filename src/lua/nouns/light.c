@@ -70,10 +70,11 @@ static celspan_light read_colour(const cs_form *form, const char *name) {
   return (celspan_light){(float)n[0], (float)n[1], (float)n[2], (float)n[3]};
 }
 
-bool cs_light_read(const cs_form *form, const char *name, celspan_light *flat,
+bool cs_light_read(const cs_form *form, const char *name, celspan_light *flat, bool *is_colour,
                    celspan_light_texture *shape) {
   lua_State *L = form->L;
   int type = cs_form_get(form, name);
+  *is_colour = type == LUA_TSTRING;
   if (cs_userdata_test(L, -1, &cs_kind_texture) || cs_userdata_test(L, -1, &cs_kind_paint)) {
     shape->texture = cs_form_texture(form, name);
     return true;

@@ -16,6 +16,7 @@
 #include "lua/nouns/options.h"
 #include "lua/nouns/random.h"
 #include "lua/nouns/sounds.h"
+#include "lua/nouns/space.h"
 
 #define MOST_FRAMES 1000000000 /* half a year of film: numbers stay exact, lists stay possible */
 #define MOST_SIDE 1048576
@@ -31,6 +32,7 @@ typedef struct film_form {
   double fps, duration, sound_offset;
   int frames, first;
   const char *title;
+  cs_own_space space;
 } film_form;
 
 static int64_t count_frames(const film_form *film) {
@@ -94,6 +96,7 @@ static const cs_field fields[] = {
     {"first", CS_WHOLE(film_form, first), .least = -MOST_FRAMES, .most = MOST_FRAMES, .preset = "1",
      .about = "The number of the first frame"},
     {"title", CS_TEXT(film_form, title)},
+    CS_OWN_SPACE(film_form, space, "linear"),
     {"sound", CS_OWN("string|celspan.film.sound|celspan.film.sound[]"),
      .about = "A file, a sound, or a list of sounds, which are mixed"},
     {"sound_offset", CS_NUMBER(film_form, sound_offset), .least = -MOST_FRAMES, .most = MOST_FRAMES,
@@ -155,6 +158,8 @@ void cs_lua_film_push_still(lua_State *L, int rostrum, int32_t width, int32_t he
     lua_rawseti(L, -2, 2);
   }
   lua_setfield(L, form, "size");
+  lua_getfield(L, rostrum, "space");
+  lua_setfield(L, form, "space");
   lua_settop(L, form);
   lua_pushvalue(L, rostrum);
   lua_pushcclosure(L, constant_frame, 1);
@@ -192,6 +197,11 @@ static const char *read_text(lua_State *L, int table, const char *name) {
   return text;
 }
 
+static celspan_space read_space(lua_State *L, int table) {
+  const char *word = read_text(L, table, "space");
+  return word && strcmp(word, cs_space_words[1]) == 0 ? CELSPAN_SPACE_SRGB : CELSPAN_SPACE_LINEAR;
+}
+
 void cs_lua_film_read(lua_State *L, int film, cs_film_info *out) {
   film = lua_absindex(L, film);
   lua_getiuservalue(L, film, 1);
@@ -204,6 +214,7 @@ void cs_lua_film_read(lua_State *L, int film, cs_film_info *out) {
                         .frames_second = read_number(L, table, "fps"),
                         .first = (int64_t)read_number(L, table, "first"),
                         .count = (int64_t)read_number(L, table, "frames"),
+                        .space = read_space(L, table),
                         .title = read_text(L, table, "title"),
                         .sound = read_text(L, table, "sound"),
                         .sound_offset = read_number(L, table, "sound_offset")};

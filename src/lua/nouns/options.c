@@ -7,7 +7,7 @@
 #include "lua/bind/list.h"
 #include "lua/bind/numbers.h"
 #include "lua/bind/userdata.h"
-#include "model/scene/antialias.h"
+#include "model/scene/scene.h"
 
 /* ---------------------------------------------------------------- antialiasing */
 
@@ -232,6 +232,7 @@ void cs_options_use_film(cs_options *options, const cs_film_info *film) {
     desc->film_width = film->width;
     desc->film_height = film->height;
   }
+  desc->space = film->space;
 }
 
 /* ---------------------------------------------------------------- exposures */
@@ -270,6 +271,8 @@ void cs_options_exposures(lua_State *L, int index, const char *name, celspan_fra
   int anchors = lua_gettop(L);
   if (rostrum)
     exposures[0] = (celspan_exposure){rostrum->handle, 1};
+  if (rostrum)
+    desc->space = exposures[0].rostrum->space;
   else
     for (size_t i = 0; i < count; i++)
       exposures[i] = read_exposure(L, index, anchors, (int)i + 1, name);

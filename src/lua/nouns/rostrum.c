@@ -6,6 +6,7 @@
 #include "lua/nouns/options.h"
 #include "lua/nouns/placed.h"
 #include "lua/nouns/shape.h"
+#include "lua/nouns/space.h"
 
 #define DESC celspan_rostrum_desc
 static const cs_field camera_fields[] = {
@@ -49,6 +50,7 @@ static celspan_cel **read_cels(const cs_form *form, int count) {
 typedef struct rostrum_form {
   celspan_rostrum_desc desc;
   double size[2];
+  cs_own_space space;
 } rostrum_form;
 
 static celspan_rostrum *create_rostrum(const cs_form *form) {
@@ -57,9 +59,11 @@ static celspan_rostrum *create_rostrum(const cs_form *form) {
   celspan_rostrum_desc *desc = &read.desc;
   desc->cels = read_cels(form, count);
   desc->cel_count = (size_t)count;
-  desc->has_front = cs_light_read(form, "front", &desc->front, &desc->front_texture);
-  cs_light_read(form, "back", &desc->back, &desc->back_texture);
+  desc->has_front =
+      cs_light_read(form, "front", &desc->front, &desc->front_is_colour, &desc->front_texture);
+  cs_light_read(form, "back", &desc->back, &desc->back_is_colour, &desc->back_texture);
   cs_fields_read(form, &read);
+  desc->space = cs_own_space_of(&read.space);
   desc->width = read.size[0];
   desc->height = read.size[1];
   read_camera(form, desc);
@@ -93,6 +97,7 @@ static const cs_field fields[] = {
     {"antialias", CS_OWN("celspan.antialias"), .preset = "area"},
     {"size", CS_SIZE(rostrum_form, size), CS_HAS(rostrum_form, desc.has_size),
      .about = "Film units: the size of its own film; required for use as an object"},
+    CS_OWN_SPACE(rostrum_form, space, "that of the film, or of what it is an object of"),
     {0}};
 const cs_noun cs_noun_rostrum = {.name = "rostrum",
                                  .about = "Cels under one camera. With a size it is also an "

@@ -1,4 +1,6 @@
 /* Cels: checked, hashed, and made again with a transform, a fade or a name. */
+#include <string.h>
+
 #include "base/number.h"
 #include "model/scene/check.h"
 #include "model/scene/primitive_data.h"
@@ -58,10 +60,11 @@ bool celspan_cel_hash(const celspan_cel *cel, uint64_t drawing[2], uint64_t plac
 }
 
 static void find_modes(celspan_cel *cel) {
-  cel->blends_inside = false;
+  memset(cel->blends_inside, 0, sizeof cel->blends_inside);
   cel->has_modes = cel->blend != CELSPAN_BLEND_NORMAL;
   for (size_t i = 0; i < cel->object_count; i++) {
-    cel->blends_inside |= cs_object_blends(cel->objects[i]);
+    for (int space = CELSPAN_SPACE_LINEAR; space < CS_SPACES; space++)
+      cel->blends_inside[space] |= cs_object_blends(cel->objects[i], (celspan_space)space);
     cel->has_modes |= cs_object_has_modes(cel->objects[i]);
   }
 }
@@ -105,11 +108,13 @@ static celspan_status make_lights(celspan_context *context, const celspan_cel_de
   cs_light_desc given = {.noun = "cel",
                          .field = "front",
                          .is_given = desc->has_front,
-                         .texture = &desc->front_texture};
+                         .texture = &desc->front_texture,
+                         .is_colour = desc->front_is_colour};
   if (desc->has_front)
     given.flat = (celspan_light){desc->front.r, desc->front.g, desc->front.b, 1};
   CS_TRY(cs_light_make(context, &given, front));
-  given = (cs_light_desc){"cel", "back", true, desc->back, &desc->back_texture};
+  given =
+      (cs_light_desc){"cel", "back", true, desc->back, &desc->back_texture, desc->back_is_colour};
   celspan_status status = cs_light_make(context, &given, back);
   if (status != CELSPAN_OK)
     cs_light_unref(front);

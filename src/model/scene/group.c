@@ -3,6 +3,8 @@
  *
  *     group{ a, b }                 a union
  *     group{ a, b, isolate = true } a union that isolates
+ *     group{ a, b, space = s }      a union in a space of its own; it isolates where that is not
+ *                                   the space around it
  *     a:blend(m)                    a union of one object, with a mode; it isolates
  *     matte(art, by)                two operands, of which only the first is painted; it isolates
  */
@@ -47,12 +49,16 @@ static celspan_status check_group(celspan_context *context, const celspan_group_
   CS_TRY(cs_check_choice(context, "group", "blend", (unsigned)desc->blend, MODES));
   CS_TRY(cs_check_choice(context, "group", "isolate", (unsigned)desc->isolate,
                          CELSPAN_ISOLATION_OFF + 1));
-  bool must = opacity < 1 || desc->blend != CELSPAN_BLEND_NORMAL;
+  CS_TRY(cs_check_choice(context, "group", "space", (unsigned)desc->space, CELSPAN_SPACE_SRGB + 1));
+  const char *must = opacity < 1                           ? "an opacity below 1"
+                     : desc->blend != CELSPAN_BLEND_NORMAL ? "a blend mode"
+                     : desc->space != CELSPAN_SPACE_AROUND ? "a space of its own"
+                                                           : NULL;
   if (must && desc->isolate == CELSPAN_ISOLATION_OFF)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "group: isolate is false, but a group with %s always isolates; leave isolate "
                    "out",
-                   opacity < 1 ? "an opacity below 1" : "a blend mode");
+                   must);
   return CELSPAN_OK;
 }
 
@@ -61,6 +67,7 @@ celspan_status celspan_object_create_group(celspan_context *context, const celsp
   CS_TRY(check_group(context, desc));
   const cs_boolean look = {.op = CELSPAN_UNION,
                            .blend = desc->blend,
+                           .space = desc->space,
                            .isolates = desc->isolate == CELSPAN_ISOLATION_ON ||
                                        desc->blend != CELSPAN_BLEND_NORMAL};
   cs_primitive_data *data;
@@ -82,7 +89,7 @@ celspan_blend celspan_object_mode(const celspan_object *object) {
 static celspan_status change(celspan_context *context, const celspan_object *object,
                              celspan_blend mode, celspan_object **out) {
   const cs_boolean *from = object->data->boolean;
-  const cs_boolean look = {.op = from->op, .blend = mode, .isolates = true};
+  const cs_boolean look = {.op = from->op, .blend = mode, .space = from->space, .isolates = true};
   cs_primitive_data *data;
   celspan_object *plain;
   CS_TRY(create(context, "blend", &look, from->operands, from->operand_count, &data));

@@ -11,6 +11,8 @@
  *
  * Values are immutable, so no rostrum can contain itself.
  */
+#include <string.h>
+
 #include "model/scene/check.h"
 #include "model/scene/primitive_data.h"
 
@@ -32,7 +34,8 @@ static celspan_status measure(celspan_context *context, cs_primitive_data *data)
     const celspan_cel *cel = data->rostrum->cels[i];
     CS_TRY(cs_primitive_data_measure(context, "rostrum", cel->objects, cel->object_count, data));
   }
-  data->blends = data->has_modes = false; /* it isolates */
+  memset(data->blends, 0, sizeof data->blends); /* it isolates */
+  data->has_modes = false;
   return cs_primitive_data_deepen(context, "rostrum", data);
 }
 

@@ -33,10 +33,14 @@ bool cs_oracle_hides(const cs_oracle_paint *shade) {
   return shade->t[0] == 0 && shade->t[1] == 0 && shade->t[2] == 0;
 }
 
-static cs_oracle_paint widen(const cs_paint *paint) {
-  return (cs_oracle_paint){{(double)paint->s[0], (double)paint->s[1], (double)paint->s[2]},
-                           {(double)paint->t[0], (double)paint->t[1], (double)paint->t[2]},
-                           (double)paint->beta};
+/* The paint with its pigment as a number of a space. */
+static cs_oracle_paint widen(const cs_paint *paint, celspan_space space) {
+  cs_oracle_paint wide = {{(double)paint->s[0], (double)paint->s[1], (double)paint->s[2]},
+                          {(double)paint->t[0], (double)paint->t[1], (double)paint->t[2]},
+                          (double)paint->beta};
+  for (int c = 0; c < 3 && space == CELSPAN_SPACE_SRGB; c++)
+    wide.s[c] = cs_oracle_convert(space, wide.s[c], wide.beta);
+  return wide;
 }
 
 /* ---------------------------------------------------------------- gradients */
@@ -45,13 +49,16 @@ static double cross(celspan_point origin, celspan_point a, celspan_point b) {
   return (a.x - origin.x) * (b.y - origin.y) - (b.x - origin.x) * (a.y - origin.y);
 }
 
-static double blend(const double weights[3], float a, float b, float c) {
-  return weights[0] * (double)a + weights[1] * (double)b + weights[2] * (double)c;
+static double blend(const double weights[3], double a, double b, double c) {
+  return weights[0] * a + weights[1] * b + weights[2] * c;
 }
 
-static cs_oracle_paint shade_triangle(const celspan_texture *texture, celspan_point at) {
+static cs_oracle_paint shade_triangle(const celspan_texture *texture, celspan_point at,
+                                      celspan_space space) {
   const celspan_point *p = texture->variation->points;
-  const cs_paint *q = texture->variation->corners;
+  const cs_paint *corners = texture->variation->corners;
+  const cs_oracle_paint q[3] = {widen(&corners[0], space), widen(&corners[1], space),
+                                widen(&corners[2], space)};
   double area = cross(p[0], p[1], p[2]);
   double weights[3] = {cross(p[1], p[2], at) / area, cross(p[2], p[0], at) / area,
                        cross(p[0], p[1], at) / area};
@@ -66,17 +73,17 @@ static cs_oracle_paint shade_triangle(const celspan_texture *texture, celspan_po
   return shade;
 }
 
-static cs_oracle_paint shade_stops(const celspan_texture *texture, double at) {
+static cs_oracle_paint shade_stops(const celspan_texture *texture, double at, celspan_space space) {
   const cs_stop *stops = texture->variation->stops;
   size_t next = 0;
   while (next < texture->variation->stop_count && stops[next].at <= at)
     next++;
   if (next == 0)
-    return widen(&stops[0].paint);
-  cs_oracle_paint before = widen(&stops[next - 1].paint);
+    return widen(&stops[0].paint, space);
+  cs_oracle_paint before = widen(&stops[next - 1].paint, space);
   if (next == texture->variation->stop_count)
     return before;
-  cs_oracle_paint after = widen(&stops[next].paint);
+  cs_oracle_paint after = widen(&stops[next].paint, space);
   return cs_oracle_mix(&before, &after,
                        (at - stops[next - 1].at) / (stops[next].at - stops[next - 1].at));
 }
@@ -143,7 +150,7 @@ static celspan_status read_bilinear(celspan_context *context, const cs_picture *
 /* A primitive lies in its own box, so a picture ends inside it only where a box was given. */
 static celspan_status shade_picture(celspan_context *context, const celspan_texture *texture,
                                     const celspan_box *bounds, celspan_point at,
-                                    cs_oracle_paint *out) {
+                                    celspan_space space, cs_oracle_paint *out) {
   const cs_texture_variation *variation = texture->variation;
   const celspan_box *box = variation->has_box ? &variation->box : bounds;
   double u = (at.x - box->x) / box->width, v = (at.y - box->y) / box->height;
@@ -159,24 +166,27 @@ static celspan_status shade_picture(celspan_context *context, const celspan_text
     const cs_paint medium = cs_paint_from_picture(sample, CELSPAN_PICTURE_GEL);
     memcpy(paint.t, medium.t, sizeof paint.t);
   }
-  *out = widen(&paint);
+  *out = widen(&paint, space);
   return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- procedures */
 
-static cs_oracle_paint shade_span(const cs_scanline_span *span, const cs_paint *paints, double x) {
+static cs_oracle_paint shade_span(const cs_scanline_span *span, const cs_paint *paints, double x,
+                                  celspan_space space) {
   const cs_paint *own = paints + span->first_paint;
   size_t last = span->paint_count - 1;
   double along = (x - span->paint_x0) / (span->paint_x1 - span->paint_x0) * (double)last;
   double before = cs_number_clamp(floor(along), 0, last > 0 ? (double)last - 1 : 0);
   size_t index = (size_t)before;
-  cs_oracle_paint p = widen(&own[index]), q = widen(&own[index < last ? index + 1 : last]);
+  cs_oracle_paint p = widen(&own[index], space);
+  cs_oracle_paint q = widen(&own[index < last ? index + 1 : last], space);
   return cs_oracle_mix(&p, &q, along - before);
 }
 
 static celspan_status shade_procedure(celspan_context *context, const cs_primitive_data *data,
-                                      celspan_point at, bool *is_there, cs_oracle_paint *out) {
+                                      celspan_point at, celspan_space space, bool *is_there,
+                                      cs_oracle_paint *out) {
   const celspan_box *bounds = &data->scanline->bounds;
   celspan_scanline_row row = {bounds->x, bounds->x + bounds->width, 1};
   celspan_scanline_output output;
@@ -188,7 +198,7 @@ static celspan_status shade_procedure(celspan_context *context, const cs_primiti
     if (!(at.x >= span->x0 && at.x < span->x1))
       continue;
     *is_there = true;
-    *out = shade_span(span, output.paints, at.x);
+    *out = shade_span(span, output.paints, at.x, space);
   }
   cs_scanline_finish(&output, context->memory);
   return status;
@@ -205,7 +215,8 @@ static double fold(celspan_spread spread, double at) {
 
 /* A gradient in its own units, as it was given: not as it was unrolled. Behind the horizon of its
  * matrix it is clear. */
-static cs_oracle_paint shade_gradient(const celspan_texture *texture, celspan_point point) {
+static cs_oracle_paint shade_gradient(const celspan_texture *texture, celspan_point point,
+                                      celspan_space space) {
   const celspan_texture *given = texture->variation->origin ? texture->variation->origin : texture;
   if (given->variation->has_matrix) {
     const double *m = given->variation->inverse.m;
@@ -217,33 +228,34 @@ static cs_oracle_paint shade_gradient(const celspan_texture *texture, celspan_po
   }
   double at = given->kind == CS_TEXTURE_LINEAR ? linear_parameter(given, point)
                                                : radial_parameter(given, point);
-  return shade_stops(given, fold(given->variation->spread, at));
+  return shade_stops(given, fold(given->variation->spread, at), space);
 }
 
 celspan_status cs_oracle_texture(celspan_context *context, const celspan_texture *texture,
                                  const celspan_box *bounds, celspan_point point,
-                                 cs_oracle_paint *out) {
+                                 celspan_space space, cs_oracle_paint *out) {
   switch (texture->kind) {
   case CS_TEXTURE_FLAT:
-    *out = widen(&texture->flat);
+    *out = widen(&texture->flat, space);
     return CELSPAN_OK;
   case CS_TEXTURE_TRIANGLE:
-    *out = shade_triangle(texture, point);
+    *out = shade_triangle(texture, point, space);
     return CELSPAN_OK;
   case CS_TEXTURE_LINEAR:
   case CS_TEXTURE_RADIAL:
-    *out = shade_gradient(texture, point);
+    *out = shade_gradient(texture, point, space);
     return CELSPAN_OK;
   case CS_TEXTURE_PICTURE:
     break;
   }
-  return shade_picture(context, texture, bounds, point, out);
+  return shade_picture(context, texture, bounds, point, space, out);
 }
 
 celspan_status cs_oracle_primitive(celspan_context *context, const cs_primitive_data *data,
-                                   celspan_point point, bool *is_there, cs_oracle_paint *out) {
+                                   celspan_point point, celspan_space space, bool *is_there,
+                                   cs_oracle_paint *out) {
   *is_there = true;
   if (data->kind == CS_PRIMITIVE_DATA_SCANLINE)
-    return shade_procedure(context, data, point, is_there, out);
-  return cs_oracle_texture(context, data->texture, &data->bounds, point, out);
+    return shade_procedure(context, data, point, space, is_there, out);
+  return cs_oracle_texture(context, data->texture, &data->bounds, point, space, out);
 }

@@ -18,19 +18,22 @@ cs_oracle_paint cs_oracle_mix(const cs_oracle_paint *p, const cs_oracle_paint *q
 /* Whether the paint lets no light through, so that nothing behind it is visible. */
 bool cs_oracle_hides(const cs_oracle_paint *shade);
 
-/* A texture at a point of its own units. Pictures are bilinear at full resolution; bounds: where
- * one without a box lies. Errors: INPUT, LIMIT, NO_MEMORY. */
+/* A texture at a point of its own units, its pigments as numbers of a space. Pictures are bilinear
+ * at full resolution; bounds: where one without a box lies. Errors: INPUT, LIMIT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_oracle_texture(celspan_context *context,
                                                  const celspan_texture *texture,
                                                  const celspan_box *bounds, celspan_point point,
-                                                 cs_oracle_paint *out);
+                                                 celspan_space space, cs_oracle_paint *out);
 /* The paint of a primitive at a point of its own units that is inside it. Procedures are asked for
  * their row, and *is_there is whether a span of it covers the point (true for all others). Errors:
  * INPUT, LIMIT, NO_MEMORY, CALLBACK. */
 CELSPAN_CHECKED celspan_status cs_oracle_primitive(celspan_context *context,
                                                    const cs_primitive_data *data,
-                                                   celspan_point point, bool *is_there,
-                                                   cs_oracle_paint *out);
+                                                   celspan_point point, celspan_space space,
+                                                   bool *is_there, cs_oracle_paint *out);
+
+/* One channel of what is `share` there, taken to a space from the other one. */
+double cs_oracle_convert(celspan_space to, double s, double share);
 
 /* What is seen of a part of the picture: the light that it sends to the camera, and what it lets
  * through. */
@@ -49,5 +52,7 @@ cs_oracle_sight cs_oracle_before(const cs_oracle_sight *front, const cs_oracle_s
  * Level 1. */
 cs_oracle_sight cs_oracle_blend(celspan_blend mode, const cs_oracle_sight *source,
                                 const cs_oracle_sight *back);
+/* What leaves for a space from the other one: converted channel by channel. */
+cs_oracle_sight cs_oracle_leave(celspan_space to, const cs_oracle_sight *sight);
 /* weight * sight + (1 - weight) * nothing. */
 cs_oracle_sight cs_oracle_fade(const cs_oracle_sight *sight, double weight);

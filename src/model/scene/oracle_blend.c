@@ -1,7 +1,9 @@
-/* Blend modes in doubles, written from the text of W3C Compositing and Blending Level 1, without a
- * look at the formulas of model/colour/blend.h, which the tests compare with this. */
+/* Blend modes in doubles, written from the text of W3C Compositing and Blending Level 1, and
+ * spaces, from IEC 61966-2-1, without a look at the formulas of model/colour/blend.h,
+ * space.h and transfer.c, which the tests compare with these. */
 #include <math.h>
 
+#include "base/elementary.h"
 #include "base/number.h"
 #include "model/colour/blend.h"
 #include "model/scene/oracle.h"
@@ -151,4 +153,29 @@ cs_oracle_sight cs_oracle_fade(const cs_oracle_sight *sight, double weight) {
     faded.through[i] = 1 - weight + weight * sight->through[i];
   }
   return faded;
+}
+
+/* ---------------------------------------------------------------- spaces */
+
+static double encode(double light) {
+  return light <= 0.0031308 ? 12.92 * light : 1.055 * cs_elementary_pow(light, 1 / 2.4) - 0.055;
+}
+
+static double decode(double code) {
+  return code <= 0.04045 ? code / 12.92 : cs_elementary_pow((code + 0.055) / 1.055, 2.4);
+}
+
+double cs_oracle_convert(celspan_space to, double s, double share) {
+  double there = fmax(share, fmin(fabs(s), 1));
+  if (there <= 0)
+    return s;
+  double value = fabs(s) / there;
+  return copysign(there * (to == CELSPAN_SPACE_SRGB ? encode(value) : decode(value)), s);
+}
+
+cs_oracle_sight cs_oracle_leave(celspan_space to, const cs_oracle_sight *sight) {
+  cs_oracle_sight left = *sight;
+  for (int c = 0; c < 3; c++)
+    left.light[c] = cs_oracle_convert(to, sight->light[c], 1 - sight->keep * sight->through[c]);
+  return left;
 }

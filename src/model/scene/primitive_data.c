@@ -138,9 +138,11 @@ static cs_hash hash_boolean(cs_boolean *boolean) {
   boolean->operands_hash = hash;
   boolean->hashed_count = boolean->operand_count;
   cs_hash_word(&hash, boolean->operand_count);
-  if (boolean->blend != CELSPAN_BLEND_NORMAL || boolean->isolates)
-    cs_hash_word(&hash, (uint64_t)boolean->blend << 3 | (uint64_t)boolean->isolates << 2 |
-                            (uint64_t)boolean->is_luma << 1 | boolean->inverts);
+  if (boolean->blend != CELSPAN_BLEND_NORMAL || boolean->isolates ||
+      boolean->space != CELSPAN_SPACE_AROUND)
+    cs_hash_word(&hash, (uint64_t)boolean->space << 16 | (uint64_t)boolean->blend << 3 |
+                            (uint64_t)boolean->isolates << 2 | (uint64_t)boolean->is_luma << 1 |
+                            boolean->inverts);
   return cs_hash_end(hash);
 }
 
@@ -331,6 +333,17 @@ celspan_status cs_primitive_data_list_copy(celspan_context *context, const char 
   return CELSPAN_OK;
 }
 
+/* What an operand, or an object of a cel, does to the backdrop of what it is in. */
+static void add_modes(const celspan_object *object, cs_primitive_data *data) {
+  for (int around = CELSPAN_SPACE_LINEAR; around < CS_SPACES; around++) {
+    celspan_space space = data->kind == CS_PRIMITIVE_DATA_BOOLEAN
+                              ? cs_boolean_space(data->boolean, (celspan_space)around)
+                              : (celspan_space)around;
+    data->blends[around] |= cs_object_blends(object, space);
+  }
+  data->has_modes |= cs_object_has_modes(object);
+}
+
 celspan_status cs_primitive_data_measure(celspan_context *context, const char *noun,
                                          celspan_object *const *objects, size_t count,
                                          cs_primitive_data *data) {
@@ -339,8 +352,7 @@ celspan_status cs_primitive_data_measure(celspan_context *context, const char *n
     data->depth = item->depth > data->depth ? item->depth : data->depth;
     data->primitive_count += item->primitive_count; /* both at most the limit: no overflow */
     data->has_procedure |= item->has_procedure;
-    data->blends |= cs_object_blends(objects[i]);
-    data->has_modes |= cs_object_has_modes(objects[i]);
+    add_modes(objects[i], data);
     if (data->primitive_count > CS_SCENE_PRIMITIVES)
       return cs_fail(context, CELSPAN_LIMIT, "%s: it holds more than %d primitives", noun,
                      CS_SCENE_PRIMITIVES);

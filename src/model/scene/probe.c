@@ -29,6 +29,7 @@ typedef struct probe_call {
   celspan_context *context;
   double film_width, film_height;
   celspan_point point;
+  celspan_space space; /* of all numbers */
 } probe_call;
 
 /* What a light is at the point. */
@@ -51,7 +52,7 @@ static celspan_status primitive_present(const probe_call *probe, const cs_primit
   cs_oracle_paint unused;
   *out = cs_inside_own_point(matrix, probe->point, &own) && cs_inside_primitive(data, own);
   return *out && data->kind == CS_PRIMITIVE_DATA_SCANLINE
-             ? cs_oracle_primitive(probe->context, data, own, out, &unused)
+             ? cs_oracle_primitive(probe->context, data, own, probe->space, out, &unused)
              : CELSPAN_OK;
 }
 
@@ -166,17 +167,37 @@ static void light_paint(const cs_oracle_paint *paint, const light_sample *front,
   }
 }
 
+/* What was seen in a space, as a whole: converted to that of the probe, and lit. */
+static void light_whole(const probe_call *probe, celspan_space space, const light_sample *front,
+                        cs_oracle_sight *sight) {
+  if (space != probe->space)
+    *sight = cs_oracle_leave(probe->space, sight);
+  for (int c = 0; c < 3; c++)
+    sight->light[c] *= front->rgb[c];
+}
+
+/* A union in a space of its own. */
+static celspan_status see_converted(const probe_call *probe, const cs_boolean *boolean,
+                                    const celspan_matrix *whole, const light_sample *front,
+                                    cs_oracle_sight *out) {
+  probe_call inner = *probe;
+  inner.space = cs_boolean_space(boolean, probe->space);
+  CS_TRY(see_list(&inner, boolean->operands, count_shown(boolean), whole, &white, out));
+  light_whole(probe, inner.space, front, out);
+  return CELSPAN_OK;
+}
+
 /* A composition inside another one: the light that it sends, and its matte. */
 static celspan_status see_nested(const probe_call *probe, const celspan_rostrum *rostrum,
                                  celspan_point own, const light_sample *front,
                                  cs_oracle_sight *out) {
-  const probe_call inner = {probe->context, rostrum->width, rostrum->height, own};
-  cs_oracle_sight seen;
-  CS_TRY(see_rostrum(&inner, rostrum, &seen));
-  for (int c = 0; c < 3; c++) {
-    out->light[c] = seen.light[c] * front->rgb[c];
-    out->through[c] = seen.through[c] * seen.keep;
-  }
+  const probe_call inner = {probe->context, rostrum->width, rostrum->height, own,
+                            cs_space_inside(rostrum->space, probe->space)};
+  CS_TRY(see_rostrum(&inner, rostrum, out));
+  for (int c = 0; c < 3; c++)
+    out->through[c] *= out->keep;
+  out->keep = 1;
+  light_whole(probe, inner.space, front, out);
   return CELSPAN_OK;
 }
 
@@ -189,13 +210,16 @@ static celspan_status see_data(const probe_call *probe, const cs_primitive_data 
   cs_oracle_paint paint = cs_oracle_clear;
   if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->op == CS_OPERATOR_MATTE)
     return see_matte(probe, data->boolean, whole, front, out);
+  if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN &&
+      cs_boolean_space(data->boolean, probe->space) != probe->space)
+    return see_converted(probe, data->boolean, whole, front, out);
   if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN)
     return see_list(probe, data->boolean->operands, count_shown(data->boolean), whole, front, out);
   if (!cs_inside_own_point(whole, probe->point, &own))
     return CELSPAN_OK;
   if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM)
     return see_nested(probe, data->rostrum, own, front, out);
-  CS_TRY(cs_oracle_primitive(probe->context, data, own, &is_there, &paint));
+  CS_TRY(cs_oracle_primitive(probe->context, data, own, probe->space, &is_there, &paint));
   light_paint(&paint, front, out);
   return CELSPAN_OK;
 }
@@ -209,7 +233,7 @@ static celspan_status see_object(place *at, const celspan_object *object, cs_ora
   const celspan_matrix whole = celspan_matrix_then(*object->matrix, at->matrix);
   const celspan_blend mode = cs_object_mode(object);
   cs_oracle_sight part = cs_oracle_nothing;
-  if (mode == CELSPAN_BLEND_NORMAL && cs_object_blends(object)) {
+  if (mode == CELSPAN_BLEND_NORMAL && cs_object_blends(object, at->probe->space)) {
     const place around = *at;
     at->left = 0;
     at->around = NULL;
@@ -242,7 +266,7 @@ static celspan_status sample_texture(const probe_call *probe, const cs_light *li
       texture->variation->wrap == CELSPAN_WRAP_CLEAR &&
       !(own.x >= 0 && own.x < film.width && own.y >= 0 && own.y < film.height))
     return CELSPAN_OK;
-  CS_TRY(cs_oracle_texture(probe->context, texture, &film, own, &shade));
+  CS_TRY(cs_oracle_texture(probe->context, texture, &film, own, probe->space, &shade));
   out->matte = light->matte * shade.beta;
   for (int c = 0; c < 3; c++)
     out->rgb[c] = light->gain * shade.s[c];
@@ -252,8 +276,8 @@ static celspan_status sample_texture(const probe_call *probe, const cs_light *li
 /* index: of the cel that the light belongs to. */
 static celspan_status sample_light(const probe_call *probe, const celspan_rostrum *rostrum,
                                    size_t index, const cs_light *light, light_sample *out) {
-  const celspan_light *flat = &light->flat;
-  *out = (light_sample){{(double)flat->r, (double)flat->g, (double)flat->b}, (double)flat->a};
+  const celspan_light flat = cs_light_in(light, probe->space);
+  *out = (light_sample){{(double)flat.r, (double)flat.g, (double)flat.b}, (double)flat.a};
   if (!light->texture)
     return CELSPAN_OK;
   celspan_matrix matrix = cs_scene_camera(rostrum, probe->film_width, probe->film_height);
@@ -285,7 +309,7 @@ static celspan_status see_cel(place *at, size_t index, cs_oracle_sight *seen) {
   CS_TRY(cs_scene_cel_matrix(probe->context, at->rostrum, index, probe->film_width,
                              probe->film_height, &objects.matrix));
   CS_TRY(sample_light(probe, at->rostrum, index, &front, &objects.front));
-  if (cs_cel_blends(cel) && cel->blend == CELSPAN_BLEND_NORMAL) {
+  if (cs_cel_blends(cel, probe->space) && cel->blend == CELSPAN_BLEND_NORMAL) {
     objects.around = &around;
     at->left = 0;
     return see(objects, seen);
@@ -322,42 +346,53 @@ static celspan_status see(place at, cs_oracle_sight *seen) {
   return CELSPAN_OK;
 }
 
+/* Adds the light of an exposure. probe: of the film. */
 static celspan_status add_exposure(const probe_call *probe, const celspan_exposure *exposure,
                                    double rgba[4]) {
   cs_oracle_sight seen;
-  CS_TRY(see_rostrum(probe, exposure->rostrum, &seen));
+  probe_call inner = *probe;
+  inner.space = cs_space_inside(exposure->rostrum->space, probe->space);
+  CS_TRY(see_rostrum(&inner, exposure->rostrum, &seen));
+  light_whole(probe, inner.space, &white, &seen);
+  double alpha = cs_oracle_alpha(&seen);
   for (int c = 0; c < 3; c++)
-    rgba[c] += exposure->weight * seen.light[c];
-  rgba[3] += exposure->weight * cs_oracle_alpha(&seen);
+    rgba[c] +=
+        exposure->weight * (probe->space == CELSPAN_SPACE_SRGB
+                                ? cs_oracle_convert(CELSPAN_SPACE_LINEAR, seen.light[c], alpha)
+                                : seen.light[c]);
+  rgba[3] += exposure->weight * alpha;
   return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- checking */
 
-static celspan_status check(celspan_context *context, const celspan_exposure *exposures,
-                            size_t exposure_count, double film_width, double film_height,
+static celspan_status check(celspan_context *context, const celspan_frame_desc *desc,
                             celspan_point point) {
-  CS_TRY(cs_check_list(context, "probe", "exposures", exposures, exposure_count, CS_CHECK_ITEMS));
-  for (size_t i = 0; i < exposure_count; i++) {
+  CS_TRY(cs_check_given(context, "probe", "the description", desc));
+  CS_TRY(cs_check_version(context, "probe", desc->struct_size, sizeof *desc));
+  CS_TRY(cs_check_list(context, "probe", "exposures", desc->exposures, desc->exposure_count,
+                       CS_CHECK_ITEMS));
+  for (size_t i = 0; i < desc->exposure_count; i++) {
     CS_TRY(cs_check_item(context, (cs_check_field){"probe", "exposures", i + 1, "weight"},
-                         exposures[i].weight, 0, CS_NUMBER_LIMIT));
-    if (!exposures[i].rostrum)
+                         desc->exposures[i].weight, 0, CS_NUMBER_LIMIT));
+    if (!desc->exposures[i].rostrum)
       return cs_fail(context, CELSPAN_BAD_ARGUMENT, "probe: exposures[%zu].rostrum is missing",
                      i + 1);
   }
-  CS_TRY(cs_check_positive(context, "probe", "film width", film_width));
-  CS_TRY(cs_check_positive(context, "probe", "film height", film_height));
+  CS_TRY(cs_check_positive(context, "probe", "film width", desc->film_width));
+  CS_TRY(cs_check_positive(context, "probe", "film height", desc->film_height));
+  CS_TRY(cs_check_choice(context, "probe", "space", (unsigned)desc->space, CELSPAN_SPACE_SRGB + 1));
   return cs_check_point(context, "probe", "point", 0, point);
 }
 
-celspan_status celspan_probe(celspan_context *context, const celspan_exposure *exposures,
-                             size_t exposure_count, double film_width, double film_height,
+celspan_status celspan_probe(celspan_context *context, const celspan_frame_desc *desc,
                              celspan_point point, double rgba[4]) {
-  CS_TRY(check(context, exposures, exposure_count, film_width, film_height, point));
-  const probe_call probe = {context, film_width, film_height, point};
+  CS_TRY(check(context, desc, point));
+  const probe_call probe = {context, desc->film_width, desc->film_height, point,
+                            cs_space_inside(desc->space, CELSPAN_SPACE_LINEAR)};
   double sum[4] = {0, 0, 0, 0};
-  for (size_t i = 0; i < exposure_count; i++)
-    CS_TRY(add_exposure(&probe, &exposures[i], sum));
+  for (size_t i = 0; i < desc->exposure_count; i++)
+    CS_TRY(add_exposure(&probe, &desc->exposures[i], sum));
   for (int c = 0; c < 4; c++)
     rgba[c] = c < 3 ? sum[c] : fmin(sum[c], 1);
   return CELSPAN_OK;

@@ -30,6 +30,8 @@ static celspan_status check(celspan_context *context, const celspan_rostrum_desc
     CS_TRY(cs_check_positive(context, "rostrum", "size.height", desc->height));
   }
   CS_TRY(cs_check_size(context, "rostrum", "brightness", desc->brightness));
+  CS_TRY(
+      cs_check_choice(context, "rostrum", "space", (unsigned)desc->space, CELSPAN_SPACE_SRGB + 1));
   if (desc->has_camera_centre)
     CS_TRY(cs_check_point(context, "rostrum", "camera.centre", 0, desc->camera_centre));
   if (desc->has_camera_width)
@@ -54,6 +56,8 @@ static cs_hash hash_rostrum(const celspan_rostrum *rostrum) {
   cs_antialias_hash(&hash, &rostrum->antialias);
   if (rostrum->has_size)
     cs_value_hash_point(&hash, (celspan_point){rostrum->width, rostrum->height});
+  if (rostrum->space != CELSPAN_SPACE_AROUND)
+    cs_hash_word(&hash, rostrum->space);
   return cs_hash_end(hash);
 }
 
@@ -72,6 +76,7 @@ static void fill(celspan_rostrum *rostrum, const celspan_rostrum_desc *desc) {
   if (desc->has_camera_width)
     rostrum->camera_width = desc->camera_width;
   rostrum->camera_rotation = desc->camera_rotation;
+  rostrum->space = desc->space;
 }
 
 /* What is kept: the caller frees it, whatever the status. */
@@ -80,8 +85,10 @@ static celspan_status make_parts(celspan_context *context, const celspan_rostrum
   cs_light_desc front = {.noun = "rostrum",
                          .field = "front",
                          .is_given = desc->has_front,
-                         .texture = &desc->front_texture};
-  const cs_light_desc back = {"rostrum", "back", true, desc->back, &desc->back_texture};
+                         .texture = &desc->front_texture,
+                         .is_colour = desc->front_is_colour};
+  const cs_light_desc back = {"rostrum",           "back", true, desc->back, &desc->back_texture,
+                              desc->back_is_colour};
   if (desc->has_front)
     front.flat = (celspan_light){desc->front.r, desc->front.g, desc->front.b, 1};
   celspan_status status = cs_light_make(context, &front, &parts->front);
@@ -172,7 +179,7 @@ celspan_status cs_rostrum_change(celspan_context *context, const celspan_rostrum
   celspan_rostrum *changed;
   CS_TRY(cs_rostrum_with(context, from, cels, cel_count, &changed));
   cs_light_unref(&changed->back);
-  changed->back = (cs_light){.is_given = from->back.is_given, .flat = back};
+  changed->back = (cs_light){.is_given = from->back.is_given, .flat = back, .coded = back};
   changed->hash = hash_rostrum(changed);
   *out = changed;
   return CELSPAN_OK;
@@ -273,7 +280,7 @@ celspan_status cs_scene_cel_matrix(celspan_context *context, const celspan_rostr
 }
 
 cs_light cs_scene_front(const celspan_rostrum *rostrum, const celspan_cel *cel) {
-  const cs_light white = {.is_given = true, .flat = {1, 1, 1, 1}};
+  const cs_light white = {.is_given = true, .flat = {1, 1, 1, 1}, .coded = {1, 1, 1, 1}};
   const cs_light *front = cel->front.is_given       ? &cel->front
                           : rostrum->front.is_given ? &rostrum->front
                                                     : &white;

@@ -45,19 +45,22 @@ static celspan_status check(celspan_context *context, const cs_light_desc *desc)
                        CELSPAN_LIGHT_ON_CEL);
 }
 
-/* What a texture of one paint shines with. */
-static celspan_light flat_of(const celspan_texture *texture, const celspan_light_texture *shape) {
-  const cs_paint *paint = &texture->flat;
+/* What a texture of one paint shines with in a space. */
+static celspan_light flat_of(const celspan_texture *texture, const celspan_light_texture *shape,
+                             celspan_space space) {
+  const cs_paint paint = cs_space_paint(space, texture->flat);
   return (celspan_light){
-      (float)(shape->gain * (double)paint->s[0]), (float)(shape->gain * (double)paint->s[1]),
-      (float)(shape->gain * (double)paint->s[2]), (float)(shape->matte * (double)paint->beta)};
+      (float)(shape->gain * (double)paint.s[0]), (float)(shape->gain * (double)paint.s[1]),
+      (float)(shape->gain * (double)paint.s[2]), (float)(shape->matte * (double)paint.beta)};
 }
 
 celspan_status cs_light_make(celspan_context *context, const cs_light_desc *desc, cs_light *out) {
   CS_TRY(check(context, desc));
   const celspan_light_texture *shape = desc->texture;
   if (!shape->texture) {
-    *out = (cs_light){.is_given = desc->is_given, .flat = desc->flat};
+    celspan_space space = desc->is_colour ? CELSPAN_SPACE_SRGB : CELSPAN_SPACE_LINEAR;
+    *out = (cs_light){
+        .is_given = desc->is_given, .flat = desc->flat, .coded = cs_space_light(space, desc->flat)};
     return CELSPAN_OK;
   }
   celspan_texture *texture;
@@ -74,7 +77,9 @@ celspan_status cs_light_make(celspan_context *context, const cs_light_desc *desc
                     .matte = shape->matte};
   if (texture->kind != CS_TEXTURE_FLAT)
     return CELSPAN_OK;
-  *out = (cs_light){.is_given = true, .flat = flat_of(texture, shape)};
+  *out = (cs_light){.is_given = true,
+                    .flat = flat_of(texture, shape, CELSPAN_SPACE_LINEAR),
+                    .coded = flat_of(texture, shape, CELSPAN_SPACE_SRGB)};
   celspan_texture_unref(texture);
   return CELSPAN_OK;
 }
@@ -89,6 +94,7 @@ void cs_light_unref(const cs_light *light) { celspan_texture_unref(light->textur
 
 void cs_light_hash(cs_hash *hash, const cs_light *light) {
   cs_value_hash_light(hash, &light->flat);
+  cs_value_hash_light(hash, &light->coded);
   if (!light->texture)
     return;
   cs_hash_hash(hash, light->texture->hash);
@@ -97,18 +103,23 @@ void cs_light_hash(cs_hash *hash, const cs_light *light) {
   cs_hash_number(hash, light->matte);
 }
 
+static celspan_light scale(celspan_light light, float by) {
+  return (celspan_light){light.r * by, light.g * by, light.b * by, light.a};
+}
+
 cs_light cs_light_scale(const cs_light *light, double brightness) {
-  float scale = (float)brightness;
   cs_light scaled = *light;
-  scaled.flat = (celspan_light){light->flat.r * scale, light->flat.g * scale, light->flat.b * scale,
-                                light->flat.a};
+  scaled.flat = scale(light->flat, (float)brightness);
+  scaled.coded = scale(light->coded, (float)brightness);
   scaled.gain = light->gain * brightness;
   return scaled;
 }
 
 /* ---------------------------------------------------------------- one light alone */
 
-static cs_light light_of(float x) { return (cs_light){.is_given = true, .flat = {x, x, x, 0}}; }
+static cs_light light_of(float x) {
+  return (cs_light){.is_given = true, .flat = {x, x, x, 0}, .coded = {x, x, x, 0}};
+}
 
 celspan_status cs_lit_alone_make(celspan_context *context, const celspan_rostrum *rostrum,
                                  size_t index, bool is_back, cs_lit_alone *out) {

@@ -16,6 +16,7 @@
 #include "base/hash.h"
 #include "base/mark.h"
 #include "celspan/celspan.h"
+#include "model/colour/space.h"
 #include "model/geometry/outline.h"
 #include "model/scene/antialias.h"
 #include "model/scene/operands.h"
@@ -39,6 +40,7 @@
 typedef struct cs_light {
   bool is_given;            /* front lights: false for a cel that takes its rostrum's */
   celspan_light flat;       /* where there is no texture; else 0 */
+  celspan_light coded;      /* the same where codes are mixed: converted if it is a colour */
   celspan_texture *texture; /* NULL: flat */
   double gain;              /* of the texture; else 0 */
   celspan_light_place on;   /* likewise */
@@ -51,6 +53,7 @@ typedef struct cs_light_desc {
   bool is_given; /* the plain light is */
   celspan_light flat;
   const celspan_light_texture *texture;
+  bool is_colour; /* the plain light is converted to codes where those are mixed */
 } cs_light_desc;
 
 /* *out: owns a reference to its texture. Errors: NO_MEMORY, BAD_ARGUMENT. */
@@ -60,9 +63,14 @@ CELSPAN_CHECKED celspan_status cs_light_make(celspan_context *context, const cs_
 cs_light cs_light_ref(const cs_light *light);
 void cs_light_unref(const cs_light *light);
 void cs_light_hash(cs_hash *hash, const cs_light *light);
+/* What it is in a space, where it is flat. */
+static inline celspan_light cs_light_in(const cs_light *light, celspan_space space) {
+  return space == CELSPAN_SPACE_SRGB ? light->coded : light->flat;
+}
 /* The light times a brightness; the matte does not change. Borrows the texture. */
 cs_light cs_light_scale(const cs_light *light, double brightness);
 
+#define CS_SPACES (CELSPAN_SPACE_SRGB + 1) /* items of arrays that are indexed by a space */
 #define CS_SCENE_DEPTH 128
 #define CS_SCENE_PRIMITIVES 16777216 /* in one object, every level counted */
 
@@ -81,6 +89,7 @@ typedef enum cs_primitive_data_kind {
 typedef struct cs_boolean {
   celspan_operator op;
   celspan_blend blend;
+  celspan_space space;       /* in which its operands are composited */
   bool isolates;             /* modes inside do not act on its backdrop */
   bool is_luma;              /* MATTE: the strength is luma, not alpha */
   bool inverts;              /* MATTE: 1 less the strength */
@@ -103,7 +112,7 @@ typedef struct cs_primitive_data {
   celspan_rule rule;
   bool is_empty;            /* nothing to draw: no contour, or an operator without operands */
   bool has_procedure;       /* below or with this one */
-  bool blends;              /* a mode below this one acts on the backdrop of this one */
+  bool blends[CS_SPACES];   /* in that space, a mode below this one acts on its backdrop */
   bool has_modes;           /* any mode is below or with this one, except in a rostrum */
   bool is_box;              /* the outline is that of `box`, which has an area */
   int depth;                /* levels of booleans and rostrums below and with this one */
@@ -144,13 +153,19 @@ static inline celspan_blend cs_object_mode(const celspan_object *object) {
   return data->kind == CS_PRIMITIVE_DATA_BOOLEAN ? data->boolean->blend : CELSPAN_BLEND_NORMAL;
 }
 
-/* Whether the look of the object depends on its backdrop. */
-static inline bool cs_object_blends(const celspan_object *object) {
+/* The space in which the operands of a boolean are composited, inside a space. */
+static inline celspan_space cs_boolean_space(const cs_boolean *boolean, celspan_space around) {
+  return cs_space_inside(boolean->space, around);
+}
+
+/* Whether the look of the object depends on its backdrop, in a space. */
+static inline bool cs_object_blends(const celspan_object *object, celspan_space space) {
   const cs_primitive_data *data = object->data;
   if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN)
     return false;
   return data->boolean->blend != CELSPAN_BLEND_NORMAL ||
-         (data->blends && object->fade == 1 && !data->boolean->isolates);
+         (data->blends[space] && object->fade == 1 && !data->boolean->isolates &&
+          cs_boolean_space(data->boolean, space) == space);
 }
 
 struct celspan_cel {
@@ -168,8 +183,8 @@ struct celspan_cel {
   celspan_defocus_kernel defocus_kernel;
   double opacity;
   celspan_blend blend;
-  bool blends_inside; /* any of its objects acts on the backdrop of that object */
-  bool has_modes;     /* any mode is in it, except in a rostrum, or its own */
+  bool blends_inside[CS_SPACES]; /* in that space, any of its objects acts on its backdrop */
+  bool has_modes;                /* any mode is in it, except in a rostrum, or its own */
 };
 
 /* Whether the cel composites its objects by themselves, and puts them into the picture as one. */
@@ -182,9 +197,9 @@ static inline bool cs_object_has_modes(const celspan_object *object) {
   return object->data->has_modes || cs_object_mode(object) != CELSPAN_BLEND_NORMAL;
 }
 
-/* Whether the look of the cel depends on its backdrop. */
-static inline bool cs_cel_blends(const celspan_cel *cel) {
-  return cel->blend != CELSPAN_BLEND_NORMAL || (cel->blends_inside && !cs_cel_isolates(cel));
+/* Whether the look of the cel depends on its backdrop, in a space. */
+static inline bool cs_cel_blends(const celspan_cel *cel, celspan_space space) {
+  return cel->blend != CELSPAN_BLEND_NORMAL || (cel->blends_inside[space] && !cs_cel_isolates(cel));
 }
 
 struct celspan_rostrum {
@@ -203,12 +218,13 @@ struct celspan_rostrum {
   double camera_width;
   double camera_rotation;
   cs_antialias antialias;
+  celspan_space space;
 };
 
-/* Whether any cel of a rostrum acts on its backdrop. */
-static inline bool cs_rostrum_blends(const celspan_rostrum *rostrum) {
+/* Whether any cel of a rostrum acts on its backdrop, in a space. */
+static inline bool cs_rostrum_blends(const celspan_rostrum *rostrum, celspan_space space) {
   for (size_t i = 0; i < rostrum->cel_count; i++)
-    if (cs_cel_blends(rostrum->cels[i]))
+    if (cs_cel_blends(rostrum->cels[i], space))
       return true;
   return false;
 }

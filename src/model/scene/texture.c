@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/self_check.h"
+#include "model/colour/space.h"
 #include "model/pictures/store.h"
 #include "model/scene/check.h"
 #include "model/scene/value.h"
@@ -369,6 +370,21 @@ celspan_status cs_texture_create_light(celspan_context *context, celspan_texture
     return CELSPAN_NO_MEMORY;
   }
   return finish(light, out);
+}
+
+/* ---------------------------------------------------------------- codes */
+
+celspan_status cs_texture_create_coded(celspan_context *context, const celspan_texture *texture,
+                                       celspan_texture **out) {
+  celspan_texture *coded;
+  CS_TRY(cs_texture_copy(context, texture, texture->variation->stop_count,
+                         cs_mark_keep(texture->mark), &coded));
+  cs_texture_variation *variation = cs_texture_own(coded);
+  for (int i = 0; i < 3; i++)
+    variation->corners[i] = cs_space_paint(CELSPAN_SPACE_SRGB, variation->corners[i]);
+  for (size_t i = 0; i < variation->stop_count; i++)
+    variation->stops[i].paint = cs_space_paint(CELSPAN_SPACE_SRGB, variation->stops[i].paint);
+  return finish(coded, out);
 }
 
 /* ---------------------------------------------------------------- questions */

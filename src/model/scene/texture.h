@@ -69,6 +69,11 @@ CELSPAN_CHECKED celspan_status cs_texture_create_light(celspan_context *context,
                                                        celspan_texture *texture,
                                                        celspan_texture **out);
 
+/* The texture, no picture, with its pigments as codes. *out: new. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_texture_create_coded(celspan_context *context,
+                                                       const celspan_texture *texture,
+                                                       celspan_texture **out);
+
 /* The variation of a texture that is being made and is not FLAT, to be filled. */
 cs_texture_variation *cs_texture_own(celspan_texture *texture);
 /* A copy with its own mark, which is taken over, and room for so many stops, of which those that

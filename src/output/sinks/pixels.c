@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/vector.h"
+#include "model/colour/space.h"
 #include "model/colour/srgb8_lanes.h"
 #include "model/colour/transfer.h"
 #include "output/sinks/pixels8.h"
@@ -33,11 +34,12 @@ size_t celspan_coding_pixel_size(const celspan_coding *coding) {
 celspan_status cs_pixels_check(celspan_context *context, const celspan_coding *coding) {
   if (!coding || ((unsigned)coding->depth <= CELSPAN_DEPTH_8_DITHER &&
                   (unsigned)coding->transfer <= CELSPAN_TRANSFER_CINEON &&
-                  (unsigned)coding->alpha <= CELSPAN_ALPHA_PREMULTIPLIED))
+                  (unsigned)coding->alpha <= CELSPAN_ALPHA_PREMULTIPLIED &&
+                  (unsigned)coding->space <= CELSPAN_SPACE_SRGB))
     return CELSPAN_OK;
   return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                 "coding: there is none of depth %d, transfer %d and alpha %d", (int)coding->depth,
-                 (int)coding->transfer, (int)coding->alpha);
+                 "coding: there is none of depth %d, transfer %d, alpha %d and space %d",
+                 (int)coding->depth, (int)coding->transfer, (int)coding->alpha, (int)coding->space);
 }
 
 celspan_coding cs_pixels_resolve(const celspan_coding *coding, celspan_depth default_depth) {
@@ -101,14 +103,22 @@ static uint16_t to_half(float x) {
   return (uint16_t)(sign | ((size - 0x38000000 + 0xfff + even) >> 13));
 }
 
+/* Whether the numbers of spans are those of the coding already. */
+static bool is_in_codes(const celspan_coding *coding) {
+  return coding->space == CELSPAN_SPACE_SRGB && coding->transfer == CELSPAN_TRANSFER_SRGB;
+}
+
 /* The colour the transfer curve is applied to. */
 void cs_pixels_encode(const celspan_coding *coding, const float rgba[4], float coded[4]) {
   bool divide = coding->alpha == CELSPAN_ALPHA_STRAIGHT && rgba[3] != 1;
+  bool is_coded = is_in_codes(coding);
+  memcpy(coded, rgba, 4 * sizeof *coded);
+  if (!is_coded)
+    cs_space_decode(coding->space, coded);
   for (int c = 0; c < 3; c++) {
-    float light = !divide ? rgba[c] : rgba[3] > 0 ? rgba[c] / rgba[3] : 0;
-    coded[c] = cs_transfer_encode(coding->transfer, light);
+    float value = !divide ? coded[c] : rgba[3] > 0 ? coded[c] / rgba[3] : 0;
+    coded[c] = is_coded ? value : cs_transfer_encode(coding->transfer, value);
   }
-  coded[3] = rgba[3];
 }
 
 /* ---------------------------------------------------------------- runs */
@@ -191,7 +201,7 @@ static coder choose_coder(const celspan_coding *coding) {
   case CELSPAN_DEPTH_FLOAT:
     return code_float;
   default:
-    return coding->transfer != CELSPAN_TRANSFER_SRGB ? code_8
+    return coding->transfer != CELSPAN_TRANSFER_SRGB || coding->space == CELSPAN_SPACE_SRGB ? code_8
            : coding->alpha == CELSPAN_ALPHA_STRAIGHT ? code_8_srgb_straight
                                                      : code_8_srgb_premultiplied;
   }
@@ -271,7 +281,7 @@ void cs_pixels_row(const celspan_coding *coding, const celspan_span *spans, size
                    void *row) {
   if (span_count == 0)
     return;
-  if (cs_pixels_takes_codes(coding))
+  if (cs_pixels_takes_codes(coding) && coding->space != CELSPAN_SPACE_SRGB)
     CS_WIDE_CHOOSE(cs_isa_best(), cs_pixels8_row)(spans, span_count, row);
   else
     code_spans(coding, spans, span_count, row);

@@ -150,7 +150,8 @@ static celspan_status isolate(celspan_context *context, celspan_object **object)
                                    .opacity = 1,
                                    .isolate = CELSPAN_ISOLATION_ON};
   celspan_object *made = NULL;
-  if (!cs_object_blends(*object))
+  if (!cs_object_blends(*object, CELSPAN_SPACE_LINEAR) &&
+      !cs_object_blends(*object, CELSPAN_SPACE_SRGB))
     return CELSPAN_OK;
   celspan_status status = celspan_object_create_group(context, &desc, &made);
   return replace(status, made, object);

@@ -1,0 +1,43 @@
+/* Working spaces: the numbers that are mixed are light, or codes of sRGB.
+ *
+ *     pigment, linear --encode--> pigment, codes        S = beta * pigment; beta and T stay
+ *
+ *     group in one space                                the space around it
+ *     S, T  -- S / d --> colour --curve--> colour * d --> S, T      d: how much of it is there
+ *
+ * Invariant: 0 and 1 stay as they are, to the bit, and so does T; a colour that goes there and back
+ * is the same within rounding.
+ */
+#pragma once
+
+#include "base/vector.h"
+#include "model/colour/paint.h"
+
+extern const char *const cs_space_words[]; /* of celspan_space, from LINEAR on, ended by NULL */
+
+/* The space that `own` means within `around`; outermost, LINEAR. */
+static inline celspan_space cs_space_inside(celspan_space own, celspan_space around) {
+  return own != CELSPAN_SPACE_AROUND      ? own
+         : around == CELSPAN_SPACE_AROUND ? CELSPAN_SPACE_LINEAR
+                                          : around;
+}
+
+/* One channel of what is `share` there, taken to a space from the other one: as above, with the
+ * greater of `share` and min(s, 1) as d. */
+float cs_space_channel(celspan_space to, float s, float share);
+
+/* The same of three channels; t: what each lets through, of which only `keep` counts. */
+static inline cs_v4 cs_space_leave(celspan_space to, cs_v4 e, cs_v4 t, float keep) {
+  return (cs_v4){cs_space_channel(to, e[0], 1 - keep * t[0]),
+                 cs_space_channel(to, e[1], 1 - keep * t[1]),
+                 cs_space_channel(to, e[2], 1 - keep * t[2]), 0};
+}
+
+/* A colour, premultiplied, linear light, as premultiplied numbers of a space, or back. */
+void cs_space_encode(celspan_space to, float rgba[4]);
+void cs_space_decode(celspan_space from, float rgba[4]);
+
+/* A paint of linear light in a space: its pigment is converted. */
+cs_paint cs_space_paint(celspan_space space, cs_paint paint);
+/* The same of a flat light. */
+celspan_light cs_space_light(celspan_space space, celspan_light light);
