@@ -29,8 +29,8 @@ static void show(const window *w) {
 /* Draws a frame into the window. Premultiplied pixels are the picture over black. */
 static celspan_status draw(lua_State *L, int64_t number, const window *w) {
   celspan_coding coding = CELSPAN_ZERO;
-  celspan_frame_desc frame;
   coding.alpha = CELSPAN_ALPHA_PREMULTIPLIED;
+  celspan_frame_desc frame;
   celspan_status status = celspan_lua_frame(L, -1, number, &frame);
   if (status != CELSPAN_OK)
     return status;
