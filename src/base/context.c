@@ -262,7 +262,9 @@ celspan_status celspan_context_create(const celspan_context_desc *desc, celspan_
   context->memory = memory;
   context->root = context;
   context->picture_bytes = desc->picture_bytes ? desc->picture_bytes : (size_t)512 << 20;
-  context->defocus_bytes = desc->defocus_bytes ? desc->defocus_bytes : (size_t)256 << 20;
+  size_t kept = desc->defocus_bytes ? desc->defocus_bytes : (size_t)256 << 20;
+  context->map_bytes = kept / 4;
+  context->defocus_bytes = kept - context->map_bytes;
   *out = context;
   return CELSPAN_OK;
 }
@@ -321,7 +323,8 @@ void cs_context_branch(celspan_context *branch, celspan_context *from) {
   *branch = (celspan_context){.memory = from->memory,
                               .root = from->root,
                               .picture_bytes = from->picture_bytes,
-                              .defocus_bytes = from->defocus_bytes};
+                              .defocus_bytes = from->defocus_bytes,
+                              .map_bytes = from->map_bytes};
 }
 
 /* ---------------------------------------------------------------- services */

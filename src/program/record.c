@@ -49,6 +49,7 @@ static cs_hash hash_options(const cs_script *script, const cs_request *request,
     cs_hash_text(&hash, "strip");
   cs_hash_text(&hash, script->film.title);
   cs_hash_number(&hash, script->film.frames_second);
+  cs_hash_word(&hash, script->film.count > 1);
   return cs_hash_end(hash);
 }
 

@@ -228,6 +228,7 @@ cs_exit cs_script_frame(cs_script *script, const cs_request *request, celspan_fr
   out->space = script->film.space;
   out->exposures = script->frame.exposures;
   out->exposure_count = script->frame.count;
+  out->repeats = script->frame.repeats;
   return outcome;
 }
 

@@ -103,6 +103,7 @@ static celspan_frame_desc frame_of(lua_State *L, const cs_script *script) {
   cs_request_read(cs_service_session(L)->request, "--workers", &desc.workers);
   desc.exposures = script->frame.exposures;
   desc.exposure_count = script->frame.count;
+  desc.repeats = script->frame.repeats;
   desc.film_width = script->film.width;
   desc.film_height = script->film.height;
   desc.space = script->film.space;

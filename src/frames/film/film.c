@@ -26,7 +26,7 @@ celspan_status cs_film_frame_init(cs_film_frame *out, celspan_context *context,
     k->exposures[i] = exposures[i];
     celspan_rostrum_ref(exposures[i].rostrum);
   }
-  *out = (cs_film_frame){k->exposures, count};
+  *out = (cs_film_frame){.exposures = k->exposures, .count = count};
   return CELSPAN_OK;
 }
 

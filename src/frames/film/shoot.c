@@ -205,6 +205,7 @@ static celspan_status make(void *user, celspan_context *context, void *carried, 
   celspan_frame_desc desc = j->shoot->frame;
   desc.exposures = task->built.exposures;
   desc.exposure_count = task->built.count;
+  desc.repeats = task->built.repeats;
   desc.workers = workers;
   desc.progress = cs_frame_pipeline_progress;
   desc.progress_user = turn;

@@ -337,8 +337,8 @@ static celspan_status compile_objects(cs_compiler *c, const cs_defocus_job *job)
   return cull_hidden(c);
 }
 
-static celspan_status compile_alone(void *user, const cs_defocus_job *job, cs_plan *out) {
-  const cs_compiler *outer = user;
+static celspan_status compile_raster(const cs_compiler *outer, const cs_defocus_job *job,
+                                     size_t most_dashes, cs_plan *out) {
   cs_plan plan = {.width = job->width,
                   .height = job->height,
                   .margin = job->kernel ? cs_kernel_extent(job->kernel) : 0,
@@ -348,13 +348,27 @@ static celspan_status compile_alone(void *user, const cs_defocus_job *job, cs_pl
   cs_boundary_builder boundaries;
   const cs_view view = {.end_row = job->height,
                         .end_column = job->width,
-                        .most_dashes = SIZE_MAX,
+                        .most_dashes = most_dashes,
                         .space = outer->space};
   begin(&c, &boundaries, outer->context, &plan, &view);
   c.front_plan = job->front;
   c.workers = 1;
   c.cel = outer->cel;
+  c.mark = outer->mark;
   return finish(&c, compile_objects(&c, job), out);
+}
+
+static celspan_status compile_alone(void *user, const cs_defocus_job *job, cs_plan *out) {
+  return compile_raster(user, job, SIZE_MAX, out);
+}
+
+celspan_status cs_compile_drawing(celspan_context *context, const celspan_cel *cel, size_t number,
+                                  const celspan_matrix *matrix, const cs_view *view, cs_plan *out) {
+  const cs_compiler outer = {
+      .context = context, .cel = number, .mark = cel->mark, .space = view->space};
+  const cs_defocus_job job = {
+      .cel = cel, .matrix = *matrix, .width = view->width, .height = view->height};
+  return compile_raster(&outer, &job, view->most_dashes, out);
 }
 
 void cs_compile_free(cs_plan *plan, cs_memory *memory) { cs_defocus_layer_free_plan(plan, memory); }

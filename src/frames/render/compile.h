@@ -22,6 +22,8 @@
 #include "engine/row/plan.h"
 #include "model/scene/scene.h"
 
+#define CS_COMPILE_DASHES 4096 /* that are compiled together, except where they share a pixel */
+
 /* The view of a film: its size in units, the frame's size in pixels, and the rows and columns that
  * will be asked for. Outlines wholly above or below those rows are left out, and strokes wholly
  * left or right of those columns, which changes no bit of what is asked for. */
@@ -39,4 +41,10 @@ typedef struct cs_view {
 CELSPAN_CHECKED celspan_status cs_compile(celspan_context *context, const celspan_rostrum *rostrum,
                                           const cs_view *view, const cs_antialias *antialias,
                                           int workers, cs_plan *out);
+/* The drawing of a cel alone, without its transform, its opacity, and its blur, in white light,
+ * onto a raster, of which `view` has the size in pixels and the most dashes. number: of the cel,
+ * for messages. Errors: as above. */
+CELSPAN_CHECKED celspan_status cs_compile_drawing(celspan_context *context, const celspan_cel *cel,
+                                                  size_t number, const celspan_matrix *matrix,
+                                                  const cs_view *view, cs_plan *out);
 void cs_compile_free(cs_plan *plan, cs_memory *memory);

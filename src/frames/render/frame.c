@@ -3,6 +3,7 @@
 #include "base/number.h"
 #include "engine/defocus/defocus.h"
 #include "frames/render/compile.h"
+#include "frames/render/drawings.h"
 #include "model/pictures/surface.h"
 #include "model/scene/check.h"
 
@@ -96,9 +97,13 @@ int cs_frame_workers(int wanted) {
   return (int)cs_number_clamp(count, 1, WORKER_LIMIT);
 }
 
+/* Strips of whole swaths, which are not made twice then, where a crop begins with one. */
 static void choose_workers(cs_frame *frame, const celspan_frame_desc *desc) {
   frame->workers = needs_one_thread(frame) ? 1 : cs_frame_workers(desc->workers);
   int32_t share = frame->crop_height / (frame->workers * 8);
+  for (size_t i = 0; i < frame->count; i++)
+    if (cs_drawings_are_used(&frame->maps[i]) && share % CS_MAP_ROWS > 0)
+      share += CS_MAP_ROWS - share % CS_MAP_ROWS;
   frame->strip_height = desc->strip_rows > 0 ? desc->strip_rows
                         : share < 4          ? 4
                         : share > 64         ? 64
@@ -107,6 +112,18 @@ static void choose_workers(cs_frame *frame, const celspan_frame_desc *desc) {
 
 /* ---------------------------------------------------------------- compiling */
 
+static const cs_antialias *antialias_of(const cs_frame *frame, size_t index) {
+  return frame->has_antialias ? &frame->antialias : &frame->rostrums[index]->antialias;
+}
+
+/* Draws the exposures from maps that suit. */
+static celspan_status find_drawings(celspan_context *context, const cs_frame *frame) {
+  for (size_t i = 0; frame->repeats && i < frame->count; i++)
+    CS_TRY(cs_drawings_create(context, frame->rostrums[i], &frame->view, antialias_of(frame, i),
+                              &frame->maps[i]));
+  return CELSPAN_OK;
+}
+
 celspan_status cs_frame_compile(celspan_context *context, const cs_frame *frame,
                                 const cs_view *view, int workers, cs_plan *plans,
                                 bool *is_crowded) {
@@ -114,9 +131,9 @@ celspan_status cs_frame_compile(celspan_context *context, const cs_frame *frame,
   *is_crowded = false;
   for (size_t i = 0; i < frame->count && !*is_crowded; i++) {
     const celspan_rostrum *rostrum = frame->rostrums[i];
-    CS_TRY(cs_compile(context, rostrum, &rest,
-                      frame->has_antialias ? &frame->antialias : &rostrum->antialias, workers,
-                      &plans[i]));
+    if (cs_drawings_are_used(&frame->maps[i]))
+      continue;
+    CS_TRY(cs_compile(context, rostrum, &rest, antialias_of(frame, i), workers, &plans[i]));
     rest.most_dashes -= plans[i].dash_count;
     *is_crowded = plans[i].is_crowded;
   }
@@ -139,7 +156,7 @@ static void set_view(cs_frame *frame, const celspan_frame_desc *desc) {
                           .first_row = frame->crop_y,
                           .end_row = frame->crop_y + frame->crop_height,
                           .end_column = desc->width,
-                          .most_dashes = CS_FRAME_DASHES,
+                          .most_dashes = CS_COMPILE_DASHES,
                           .span_error = (float)desc->tolerance,
                           .space = cs_space_inside(desc->space, CELSPAN_SPACE_LINEAR)};
 }
@@ -148,15 +165,17 @@ static celspan_status set_exposures(celspan_context *context, const celspan_fram
                                     cs_frame *frame) {
   size_t count = frame->capacity = desc->exposure_count;
   frame->plans = cs_mem_array(context->memory, count, sizeof *frame->plans);
+  frame->maps = cs_mem_array(context->memory, count, sizeof *frame->maps);
   frame->weights = cs_mem_array(context->memory, count, sizeof *frame->weights);
   frame->rostrums = cs_mem_array(context->memory, count, sizeof *frame->rostrums);
-  if (count > 0 && (!frame->plans || !frame->weights || !frame->rostrums))
+  if (count > 0 && (!frame->plans || !frame->maps || !frame->weights || !frame->rostrums))
     return cs_fail_memory(context);
   for (size_t i = 0; i < count; i++)
     if (desc->exposures[i].weight != 0) {
       frame->weights[frame->count] = (float)desc->exposures[i].weight;
       frame->rostrums[frame->count++] = desc->exposures[i].rostrum;
     }
+  frame->repeats = desc->repeats;
   frame->has_antialias = desc->antialias != NULL;
   return desc->antialias ? cs_antialias_make(context, "frame: antialias", *desc->antialias,
                                              &desc->filter, &frame->antialias)
@@ -166,6 +185,7 @@ static celspan_status set_exposures(celspan_context *context, const celspan_fram
 static celspan_status fill_frame(celspan_context *context, const celspan_frame_desc *desc,
                                  cs_frame *frame) {
   CS_TRY(set_exposures(context, desc, frame));
+  CS_TRY(find_drawings(context, frame));
   CS_TRY(cs_frame_compile(context, frame, &frame->view, cs_frame_workers(desc->workers),
                           frame->plans, &frame->is_crowded));
   choose_workers(frame, desc);
@@ -201,6 +221,9 @@ celspan_status cs_frame_create(celspan_context *context, const celspan_frame_des
 
 void cs_frame_free(cs_frame *frame, cs_memory *memory) {
   cs_frame_free_plans(frame, frame->plans, memory);
+  for (size_t i = 0; frame->maps && i < frame->count; i++)
+    cs_drawings_finish(&frame->maps[i], memory);
+  cs_mem_free(memory, frame->maps, frame->capacity * sizeof *frame->maps);
   cs_antialias_free(&frame->antialias, memory);
   cs_mem_free(memory, frame->plans, frame->capacity * sizeof *frame->plans);
   cs_mem_free(memory, frame->weights, frame->capacity * sizeof *frame->weights);

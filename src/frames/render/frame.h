@@ -2,23 +2,26 @@
  *
  *   celspan_frame_desc --check, compile--> cs_frame --row_worker.h, one a thread--> rows of spans
  *
- * A crowded frame shows more than CS_FRAME_DASHES dashes. It has no plans: each row worker compiles
- * smaller parts of it, one after the other, so that memory holds only the dashes of such a part.
+ * A crowded frame shows more than CS_COMPILE_DASHES dashes. It has no plans: each row worker
+ * compiles smaller parts of it, one after the other, so that memory holds only the dashes of such
+ * a part.
  *
  * Invariant: a frame does not change once it is made; the row workers share it.
  */
 #pragma once
 
+#include "engine/map/sheets.h"
 #include "frames/render/compile.h"
 
-#define CS_FRAME_DASHES 4096 /* that are compiled together, except where they share a pixel */
-
 typedef struct cs_frame {
-  cs_plan *plans; /* one for each exposure of weight > 0; empty where the frame is crowded */
+  cs_plan *plans; /* one for each exposure of weight > 0; empty where the frame is crowded, or the
+                     exposure is drawn from maps */
+  cs_map_frame *maps; /* one for each; empty where the exposure has a plan */
   float *weights;
   const celspan_rostrum **rostrums;
   size_t count, capacity;
   cs_view view;       /* of the rows asked for, all columns of them */
+  bool repeats;       /* see celspan_frame_desc */
   bool has_antialias; /* of all exposures; otherwise each has its own */
   cs_antialias antialias;
   bool is_crowded;

@@ -52,6 +52,13 @@ static celspan_status feed_sink(celspan_context *context, const cs_frame *frame,
   return status;
 }
 
+static void count_maps(const cs_frame *frame, celspan_statistics *statistics) {
+  for (size_t i = 0; i < frame->count; i++) {
+    statistics->maps += frame->maps[i].count;
+    statistics->maps_made += frame->maps[i].made;
+  }
+}
+
 static celspan_status render(celspan_context *context, const celspan_frame_desc *desc,
                              const celspan_sink *sink, celspan_statistics *statistics,
                              bool *ended) {
@@ -64,6 +71,7 @@ static celspan_status render(celspan_context *context, const celspan_frame_desc 
   celspan_status status = cs_frame_create(context, desc, &frame);
   if (status == CELSPAN_OK) {
     frame.takes_codes = sink->takes_codes;
+    count_maps(&frame, &counted);
     status = feed_sink(context, &frame, desc, sink, &counted, ended);
     cs_frame_free(&frame, context->memory);
   }

@@ -1,10 +1,21 @@
 #include "frames/render/row_worker.h"
 
+#include "frames/render/drawings.h"
+
 /* ---------------------------------------------------------------- life */
 
 static celspan_status begin_makers(cs_row_worker *worker, const cs_plan *plans) {
   for (size_t i = 0; i < worker->frame->count; i++)
-    CS_TRY(cs_row_maker_init(&worker->makers[i], &worker->context, &plans[i]));
+    if (!cs_drawings_are_used(&worker->frame->maps[i]))
+      CS_TRY(cs_row_maker_init(&worker->makers[i], &worker->context, &plans[i]));
+  return CELSPAN_OK;
+}
+
+static celspan_status begin_map_makers(cs_row_worker *worker) {
+  const cs_map_frame *maps = worker->frame->maps;
+  for (size_t i = 0; i < worker->frame->count; i++)
+    if (cs_drawings_are_used(&maps[i]))
+      CS_TRY(cs_map_maker_init(&worker->map_makers[i], &worker->context, &maps[i]));
   return CELSPAN_OK;
 }
 
@@ -28,11 +39,12 @@ celspan_status cs_row_worker_init(cs_row_worker *worker, celspan_context *contex
   cs_row_init(&worker->sum);
   cs_row_init(&worker->joined);
   worker->makers = cs_mem_array(context->memory, frame->count, sizeof *worker->makers);
+  worker->map_makers = cs_mem_array(context->memory, frame->count, sizeof *worker->map_makers);
   worker->rows = cs_mem_array(context->memory, frame->count, sizeof *worker->rows);
   if (frame->is_crowded)
     worker->plans = cs_mem_array(context->memory, frame->count, sizeof *worker->plans);
-  if (frame->count > 0 &&
-      (!worker->makers || !worker->rows || (frame->is_crowded && !worker->plans)))
+  if (frame->count > 0 && (!worker->makers || !worker->map_makers || !worker->rows ||
+                           (frame->is_crowded && !worker->plans)))
     return cs_fail_memory(&worker->context);
   bool takes_codes = frame->takes_codes && frame->count == 1 && frame->weights[0] == 1;
   worker->joined.takes_codes = takes_codes;
@@ -40,6 +52,7 @@ celspan_status cs_row_worker_init(cs_row_worker *worker, celspan_context *contex
     cs_row_init(&worker->rows[i]);
     worker->rows[i].takes_codes = takes_codes;
   }
+  CS_TRY(begin_map_makers(worker));
   return frame->is_crowded ? CELSPAN_OK : begin_makers(worker, frame->plans);
 }
 
@@ -50,11 +63,14 @@ void cs_row_worker_finish(cs_row_worker *worker) {
   size_t count = worker->frame->count;
   finish_makers(worker);
   cs_frame_free_plans(worker->frame, worker->plans, memory);
+  for (size_t i = 0; worker->map_makers && i < count; i++)
+    cs_map_maker_finish(&worker->map_makers[i]);
   for (size_t i = 0; worker->rows && i < count; i++)
     cs_row_finish(&worker->rows[i], memory);
   cs_row_finish(&worker->sum, memory);
   cs_row_finish(&worker->joined, memory);
   cs_mem_free(memory, worker->makers, count * sizeof *worker->makers);
+  cs_mem_free(memory, worker->map_makers, count * sizeof *worker->map_makers);
   cs_mem_free(memory, worker->rows, count * sizeof *worker->rows);
   cs_mem_free(memory, worker->plans, count * sizeof *worker->plans);
   *worker = (cs_row_worker){0};
@@ -76,7 +92,9 @@ static celspan_status expose(cs_row_worker *worker, cs_row **out) {
 static celspan_status make_row(cs_row_worker *worker, int32_t y, cs_row **out) {
   const cs_frame *frame = worker->frame;
   for (size_t i = 0; i < frame->count; i++)
-    CS_TRY(cs_row_make(&worker->makers[i], y, &worker->rows[i]));
+    CS_TRY(cs_drawings_are_used(&frame->maps[i])
+               ? cs_map_maker_row(&worker->map_makers[i], y, &worker->rows[i])
+               : cs_row_make(&worker->makers[i], y, &worker->rows[i]));
   *out = worker->rows;
   return frame->count != 1 || frame->weights[0] != 1 ? expose(worker, out) : CELSPAN_OK;
 }
@@ -113,7 +131,7 @@ static celspan_status join_columns(cs_row_worker *worker, int32_t y, int32_t x0,
   pane.end_row = y + 1;
   pane.first_column = x0;
   pane.end_column = x1;
-  pane.most_dashes = x1 - x0 > 1 ? CS_FRAME_DASHES : SIZE_MAX;
+  pane.most_dashes = x1 - x0 > 1 ? CS_COMPILE_DASHES : SIZE_MAX;
   CS_TRY(begin_pane(worker, &pane, &is_crowded));
   if (is_crowded) {
     int32_t middle = x0 + (x1 - x0) / 2;

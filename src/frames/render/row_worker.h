@@ -20,14 +20,16 @@
  */
 #pragma once
 
+#include "engine/map/frame_rows.h"
 #include "engine/row/row.h"
 #include "frames/render/frame.h"
 
 typedef struct cs_row_worker {
   celspan_context context; /* a branch of the frame's */
   const cs_frame *frame;
-  cs_row_maker *makers; /* one for each plan */
-  cs_row *rows;         /* one for each plan */
+  cs_row_maker *makers;     /* one for each exposure, of those that have a plan */
+  cs_map_maker *map_makers; /* one for each exposure, of those that are drawn from maps */
+  cs_row *rows;             /* one for each exposure */
   cs_row sum;
   /* of a crowded frame */
   cs_plan *plans;       /* of the current pane */

@@ -94,7 +94,8 @@ typedef struct celspan_context_desc {
   celspan_resize resize; /* NULL: the C library's */
   void *resize_user;
   size_t picture_bytes; /* decoded picture tiles kept in memory; 0: 512 MiB */
-  size_t defocus_bytes; /* defocused cels kept from frame to frame; 0: 256 MiB */
+  size_t defocus_bytes; /* defocused cels, and maps of drawings (a quarter of it), kept from frame
+                           to frame; 0: 256 MiB */
 } celspan_context_desc;
 
 /* A description with every field at its default, here and below; set what differs. */
@@ -1386,6 +1387,10 @@ typedef struct celspan_frame_desc {
   celspan_space
       space; /* in which pixels are antialiased, and of the numbers in spans; exposures add
                           light in any space */
+  /* Whether its drawings are likely to return in other frames, as those of a film do. Each is then
+   * reduced once to a map of what can be seen of it, which is kept in the context and drawn in the
+   * frames that suit (docs/how-it-works.md). The first frame takes longer. */
+  bool repeats;
 } celspan_frame_desc;
 
 static inline celspan_frame_desc celspan_frame_desc_default(void) {
@@ -1408,6 +1413,8 @@ typedef struct celspan_statistics {
   uint64_t colour_evaluations; /* times a colour was composed from layers */
   uint64_t allocations;        /* from the built scene to the last row */
   uint64_t peak_bytes;         /* above what was held before the frame began */
+  uint64_t maps;               /* cels drawn from maps, in all exposures (frame: repeats) */
+  uint64_t maps_made;          /* how many of these maps were not kept from another frame */
 } celspan_statistics;
 
 /* Where rows go. Called by one thread, rows from top to bottom; spans are borrowed, sorted,

@@ -120,6 +120,7 @@ static celspan_status build(lua_State *L, const cs_film_info *film, int64_t numb
   *out = CELSPAN_FRAME_DESC;
   out->exposures = frame.exposures;
   out->exposure_count = frame.count;
+  out->repeats = frame.repeats;
   out->film_width = out->width = film->width;
   out->film_height = out->height = film->height;
   out->space = film->space;
@@ -135,7 +136,8 @@ celspan_status celspan_lua_frame(lua_State *L, int index, int64_t number, celspa
 }
 
 void celspan_lua_frame_drop(celspan_frame_desc *frame) {
-  cs_film_frame built = {(celspan_exposure *)frame->exposures, frame->exposure_count};
+  cs_film_frame built = {.exposures = (celspan_exposure *)frame->exposures,
+                         .count = frame->exposure_count};
   cs_film_frame_finish(&built);
   frame->exposures = NULL;
   frame->exposure_count = 0;

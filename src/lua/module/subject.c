@@ -41,6 +41,7 @@ static celspan_status read_film(lua_State *L, cs_options *options) {
   CS_TRY(cs_lua_film_build(L, 1, number, frame));
   desc->exposures = frame->exposures;
   desc->exposure_count = frame->count;
+  desc->repeats = frame->repeats;
   return CELSPAN_OK;
 }
 

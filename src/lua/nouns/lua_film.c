@@ -377,6 +377,9 @@ static int build_frame(lua_State *L) {
   cs_options_exposures(L, -1, "the frame function's result", &desc);
   r->status =
       cs_film_frame_init(&r->frame, cs_host_context(L), desc.exposures, desc.exposure_count);
+  cs_film_info film;
+  cs_lua_film_read(L, 1, &film);
+  r->frame.repeats = film.count > 1;
   return 0;
 }
 

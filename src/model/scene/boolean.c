@@ -53,6 +53,7 @@ static celspan_status fill_more(celspan_context *context, cs_primitive_data *dat
   data->primitive_count = from->primitive_count;
   data->has_procedure = from->has_procedure;
   memcpy(data->blends, from->blends, sizeof data->blends);
+  data->has_uneven = from->has_uneven;
   data->has_modes = from->has_modes;
   data->boolean->operands_hash = from->boolean->operands_hash;
   data->boolean->hashed_count = from->boolean->hashed_count;

@@ -11,6 +11,7 @@
 typedef struct finder {
   celspan_context *context; /* NULL: the stroke's memory is used, and errors have no text */
   celspan_status status;
+  bool is_outer; /* the outer box of strokes is wanted, for which no outline is made */
 } finder;
 
 static celspan_box common(celspan_box a, celspan_box b) {
@@ -49,17 +50,24 @@ static bool list_common(finder *f, celspan_object *const *objects, size_t count,
   return count > 0;
 }
 
-/* Without memory for its outline, the box that holds it, which is larger. */
+static bool outer_bounds(const cs_primitive_data *data, const celspan_matrix *matrix,
+                         celspan_box *out) {
+  cs_outline_box room;
+  return cs_outline_bounds(cs_outline_of_box(&data->stroke->around, &room), matrix, out);
+}
+
+/* Without memory for its outline, the outer box. */
 static bool stroke_bounds(finder *f, const cs_primitive_data *data, const celspan_matrix *matrix,
                           celspan_box *out) {
   celspan_context own = {.memory = data->memory}, *context = f->context ? f->context : &own;
-  cs_outline_box room;
   bool is_seen;
+  if (f->is_outer)
+    return outer_bounds(data, matrix, out);
   celspan_status status = cs_stroke_bounds(context, data->stroke, matrix, out, &is_seen);
   if (status == CELSPAN_OK)
     return is_seen;
   f->status = status;
-  return cs_outline_bounds(cs_outline_of_box(&data->stroke->around, &room), matrix, out);
+  return outer_bounds(data, matrix, out);
 }
 
 static bool data_bounds(finder *f, const cs_primitive_data *data, const celspan_matrix *matrix,
@@ -131,6 +139,10 @@ celspan_status cs_bounds_drawing(celspan_context *context, const celspan_cel *ce
   if (*is_there)
     *out = box;
   return f.status;
+}
+
+bool cs_bounds_around(const celspan_cel *cel, celspan_box *out) {
+  return find_cel(&(finder){.is_outer = true}, cel, out);
 }
 
 bool celspan_object_bounds(const celspan_object *object, celspan_box *out) {

@@ -27,6 +27,7 @@ celspan_status cs_primitive_data_create(celspan_context *context, cs_primitive_d
   data->memory = cs_memory_ref(context->memory);
   data->kind = kind;
   data->has_procedure = kind == CS_PRIMITIVE_DATA_SCANLINE;
+  data->has_uneven = kind == CS_PRIMITIVE_DATA_SCANLINE || kind == CS_PRIMITIVE_DATA_ROSTRUM;
   celspan_status status = kind == CS_PRIMITIVE_DATA_OUTLINE
                               ? cs_texture_or_black(context, texture, &data->texture)
                               : create_part(context, data);
@@ -34,6 +35,8 @@ celspan_status cs_primitive_data_create(celspan_context *context, cs_primitive_d
     cs_primitive_data_unref(data);
     return status;
   }
+  if (data->texture)
+    data->has_uneven = data->texture->kind != CS_TEXTURE_FLAT || !cs_texture_is_grey(data->texture);
   *out = data;
   return CELSPAN_OK;
 }
@@ -347,12 +350,15 @@ static void add_modes(const celspan_object *object, cs_primitive_data *data) {
 celspan_status cs_primitive_data_measure(celspan_context *context, const char *noun,
                                          celspan_object *const *objects, size_t count,
                                          cs_primitive_data *data) {
+  data->has_uneven |=
+      data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->space == CELSPAN_SPACE_SRGB;
   for (size_t i = 0; i < count; i++) {
     const cs_primitive_data *item = objects[i]->data;
     data->depth = item->depth > data->depth ? item->depth : data->depth;
     data->primitive_count += item->primitive_count; /* both at most the limit: no overflow */
     data->has_procedure |= item->has_procedure;
     add_modes(objects[i], data);
+    data->has_uneven |= item->has_uneven;
     if (data->primitive_count > CS_SCENE_PRIMITIVES)
       return cs_fail(context, CELSPAN_LIMIT, "%s: it holds more than %d primitives", noun,
                      CS_SCENE_PRIMITIVES);

@@ -113,6 +113,9 @@ typedef struct cs_primitive_data {
   bool is_empty;            /* nothing to draw: no contour, or an operator without operands */
   bool has_procedure;       /* below or with this one */
   bool blends[CS_SPACES];   /* in that space, a mode below this one acts on its backdrop */
+  bool has_uneven;          /* below or with this one: a paint that is not one colour, or does not
+                               dim the three channels alike; a procedure; a rostrum; codes that are
+                               mixed */
   bool has_modes;           /* any mode is below or with this one, except in a rostrum */
   bool is_box;              /* the outline is that of `box`, which has an area */
   int depth;                /* levels of booleans and rostrums below and with this one */

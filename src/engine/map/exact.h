@@ -1,0 +1,49 @@
+/* The exact mean of a pixel in which several drawings are broken.
+ *
+ *     y0  +---------\----/--+
+ *         |          \  /   |     heights at which a line begins or ends, or lines of two drawings
+ *         |- - - - - -\/- - |     cross: between two of them the lines keep their order, so that
+ *         |           /\    |     what lies between two lines is a trapezoid, of one colour
+ *     y1  +----------/--\---+
+ *
+ * Invariant: the mean is exact except for rounding, unless more than CS_MAP_EXACT_LINES lines meet:
+ * then it is that of as many heights, spaced evenly.
+ */
+#pragma once
+
+#include "engine/map/sheets.h"
+
+#define CS_MAP_EXACT_LINES 48
+
+/* A piece of a border in the pixel: x and y from its upper left corner. */
+typedef struct cs_map_line {
+  double xa, ya, xb, yb;
+  cs_v4 step;     /* right less left */
+  uint32_t sheet; /* of the list */
+} cs_map_line;
+
+typedef struct cs_map_exact {
+  cs_map_line *lines;
+  double *heights;
+  cs_map_line **order;
+  size_t line_count, line_capacity, height_count, height_capacity, order_capacity;
+} cs_map_exact;
+
+/* One of the drawings that can be shown in the pixel. */
+typedef struct cs_map_shown {
+  const cs_map_sheet *sheet;
+  cs_v4 colour; /* at the pixel's left edge */
+} cs_map_shown;
+
+void cs_map_exact_finish(cs_map_exact *exact, cs_memory *memory);
+/* Adds the lines of a broken drawing to those of the pixel (column, row). index: of the drawing
+ * among those shown; from: the column from which on it is broken. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_map_exact_add(celspan_context *context, cs_map_exact *exact,
+                                                const cs_map_rows *rows, uint32_t index,
+                                                int32_t from, int32_t column, int32_t row);
+/* The mean, of what is shown from the camera, with the lines that have been added, which are
+ * removed. opaque: nothing shines through the last one. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_map_exact_mean(celspan_context *context, cs_map_exact *exact,
+                                                 const cs_map_frame *frame,
+                                                 const cs_map_shown *shown, size_t count,
+                                                 cs_v4 *out);

@@ -1,0 +1,22 @@
+/* The cache of maps, kept from frame to frame.
+ *
+ *   frame 1 --acquire (drawing, scale)--> made ---\
+ *   frame 2 --acquire (drawing, scale)--> found ---+--> one map of the cache
+ *
+ * A context has one such cache, which all its threads and frames share. The key of a map contains
+ * a hash of everything that it depends on. The invariants are those of base/cache.h.
+ */
+#pragma once
+
+#include "base/cache.h"
+#include "engine/map/map.h"
+
+/* Fills an empty map. */
+typedef celspan_status (*cs_map_keep_maker)(void *user, celspan_context *context, cs_map *map);
+
+/* Finds a map, or makes it by calling make(user, ...). *out: a reference. Any thread. Errors:
+ * NO_MEMORY and those of `make`. */
+CELSPAN_CHECKED celspan_status cs_map_keep_acquire(celspan_context *context, cs_cache_key key,
+                                                   cs_map_keep_maker make, void *user,
+                                                   cs_map **out);
+cs_cache_counts cs_map_keep_count(celspan_context *context);

@@ -1,0 +1,365 @@
+/* Making a map: the rows of a plan are swept, and their visible edges are joined to borders.
+ *
+ *   row y        \        edge: from row to row, or from event to event
+ *   row y + 1     \
+ *   row y + 2      |      the ends of the borders so far are found by place and cells: which of
+ *                         two borders that end in one place is continued makes no difference
+ *
+ * A point is dropped where the border is straight: where the edge from the point before it to the
+ * next one passes within TOLERANCE of all that was dropped. It is so small that two drawings with a
+ * common boundary, which may have their points at different places of it, differ by less than
+ * anyone can see.
+ */
+#include <math.h>
+
+#include "base/sort.h"
+#include "base/splitmix.h"
+#include "engine/map/map.h"
+#include "engine/row/row.h"
+
+#define TOLERANCE 4 /* units of a map */
+#define NONE UINT32_MAX
+
+/* A point of a border that is being made. */
+typedef struct link {
+  cs_map_point point;
+  uint32_t previous; /* NONE: it is the first */
+} link;
+
+typedef struct growing {
+  uint32_t left, right;
+  uint32_t last, count; /* links */
+  int64_t row;          /* in which it was extended last */
+  double low, high;     /* slopes from the link before the last one that pass what was dropped */
+} growing;
+
+/* An entry of the table of ends. Those of earlier rows are free. */
+typedef struct end {
+  uint32_t border; /* NONE: it has been continued */
+  uint32_t row;
+} end;
+
+typedef struct maker {
+  celspan_context *context;
+  cs_map *map;
+  link *links;
+  growing *borders;
+  uint32_t *open;  /* the borders that end in the current row */
+  end *ends;       /* a power of two */
+  uint32_t *cells; /* a table: the number of a cell plus 1; 0: free. A power of two */
+  size_t link_count, link_capacity, border_count, border_capacity, open_count, open_capacity;
+  size_t end_capacity, cell_capacity;
+  uint32_t row; /* the current one plus 1 */
+} maker;
+
+/* ---------------------------------------------------------------- life */
+
+celspan_status cs_map_create(celspan_context *context, cs_map **out) {
+  CS_TRY(CS_MAKE(context, *out, 1));
+  atomic_init(&(*out)->references, 1);
+  (*out)->memory = cs_memory_ref(context->memory);
+  return CELSPAN_OK;
+}
+
+void cs_map_ref(cs_map *map) {
+  atomic_fetch_add_explicit(&map->references, 1, memory_order_relaxed);
+}
+
+void cs_map_unref(cs_map *map) {
+  if (!map || atomic_fetch_sub_explicit(&map->references, 1, memory_order_acq_rel) > 1)
+    return;
+  cs_memory *memory = map->memory;
+  cs_mem_free(memory, map->borders, map->border_capacity * sizeof *map->borders);
+  cs_mem_free(memory, map->points, map->point_capacity * sizeof *map->points);
+  cs_mem_free(memory, map->cells, map->cell_capacity * sizeof *map->cells);
+  cs_mem_free(memory, map->keys, map->key_capacity * sizeof *map->keys);
+  cs_mem_free(memory, map, sizeof *map);
+  cs_memory_unref(memory);
+}
+
+size_t cs_map_bytes(const cs_map *map) {
+  return sizeof *map + map->border_capacity * sizeof *map->borders +
+         map->point_capacity * sizeof *map->points + map->cell_capacity * sizeof *map->cells +
+         map->key_capacity * sizeof *map->keys;
+}
+
+static void finish(maker *m) {
+  cs_memory *memory = m->context->memory;
+  cs_mem_free(memory, m->links, m->link_capacity * sizeof *m->links);
+  cs_mem_free(memory, m->borders, m->border_capacity * sizeof *m->borders);
+  cs_mem_free(memory, m->open, m->open_capacity * sizeof *m->open);
+  cs_mem_free(memory, m->ends, m->end_capacity * sizeof *m->ends);
+  cs_mem_free(memory, m->cells, m->cell_capacity * sizeof *m->cells);
+}
+
+bool cs_map_suits(const cs_plan *plan) {
+  const cs_stack *stack = &plan->stack;
+  bool suits = !plan->is_crowded && stack->light_count == 0 && stack->procedure_count == 0;
+  for (size_t i = 0; suits && i < stack->layer_count; i++) {
+    const cs_layer *layer = &stack->layers[i];
+    suits =
+        layer->kind == CS_LAYER_FLAT && layer->t[0] == layer->t[1] && layer->t[1] == layer->t[2];
+  }
+  return suits;
+}
+
+/* ---------------------------------------------------------------- cells */
+
+static uint64_t mix(uint64_t word) { return cs_splitmix_next(&word); }
+
+static size_t colour_place(const maker *m, cs_v4 colour) {
+  uint64_t words[2];
+  memcpy(words, &colour, sizeof words);
+  return mix(words[0] ^ mix(words[1])) & (m->cell_capacity - 1);
+}
+
+/* Puts a cell into the table, which has room. */
+static void place_cell(maker *m, uint32_t cell) {
+  size_t at = colour_place(m, m->map->cells[cell]);
+  while (m->cells[at])
+    at = (at + 1) & (m->cell_capacity - 1);
+  m->cells[at] = cell + 1;
+}
+
+static celspan_status widen_cells(maker *m) {
+  cs_memory *memory = m->context->memory;
+  cs_mem_free(memory, m->cells, m->cell_capacity * sizeof *m->cells);
+  size_t capacity = m->cell_capacity > 0 ? 2 * m->cell_capacity : 256;
+  m->cell_capacity = 0;
+  CS_TRY(CS_MAKE(m->context, m->cells, capacity));
+  m->cell_capacity = capacity;
+  for (size_t i = 0; i < m->map->cell_count; i++)
+    place_cell(m, (uint32_t)i);
+  return CELSPAN_OK;
+}
+
+/* The number of the cell of a colour. Where there are too many the map is not whole. */
+static celspan_status find_cell(maker *m, cs_v4 colour, uint32_t *out) {
+  cs_map *map = m->map;
+  if (2 * map->cell_count >= m->cell_capacity)
+    CS_TRY(widen_cells(m));
+  size_t at = colour_place(m, colour);
+  for (; m->cells[at]; at = (at + 1) & (m->cell_capacity - 1))
+    if (memcmp(&map->cells[m->cells[at] - 1], &colour, sizeof colour) == 0) {
+      *out = m->cells[at] - 1;
+      return CELSPAN_OK;
+    }
+  *out = (uint32_t)map->cell_count;
+  map->is_whole = map->cell_count < CS_MAP_CELLS;
+  CS_TRY(CS_RESERVE(m->context, map->keys, map->key_capacity, map->cell_count + 1));
+  map->keys[map->cell_count] = (mix(*out) << 18 | *out) & CS_MAP_KEY;
+  CS_TRY(CS_APPEND(m->context, map->cells, map->cell_count, map->cell_capacity, colour));
+  m->cells[at] = *out + 1;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- ends */
+
+static size_t end_place(const maker *m, cs_map_point at, uint32_t left, uint32_t right) {
+  uint64_t place = (uint64_t)(uint32_t)at.x << 32 | (uint32_t)at.y;
+  return mix(place ^ mix((uint64_t)left << 32 | right)) & (m->end_capacity - 1);
+}
+
+static void place_end(maker *m, uint32_t index) {
+  const growing *f = &m->borders[index];
+  size_t at = end_place(m, m->links[f->last].point, f->left, f->right);
+  while (m->ends[at].row == m->row)
+    at = (at + 1) & (m->end_capacity - 1);
+  m->ends[at] = (end){index, m->row};
+}
+
+/* Takes a border out of the table that ends at a point; NONE: there is none. */
+static uint32_t take_end(maker *m, cs_map_point point, uint32_t left, uint32_t right) {
+  size_t at = end_place(m, point, left, right);
+  for (; m->ends[at].row == m->row; at = (at + 1) & (m->end_capacity - 1)) {
+    uint32_t index = m->ends[at].border;
+    if (index == NONE)
+      continue;
+    const growing *f = &m->borders[index];
+    const cs_map_point *last = &m->links[f->last].point;
+    if (last->x == point.x && last->y == point.y && f->left == left && f->right == right) {
+      m->ends[at].border = NONE;
+      return index;
+    }
+  }
+  return NONE;
+}
+
+/* Begins a row with this number of edges: the table has the borders that end at its top. */
+static celspan_status begin_row(maker *m, int64_t y, size_t edges) {
+  size_t wanted = 256;
+  while (wanted < 2 * (m->open_count + edges))
+    wanted *= 2;
+  m->row = (uint32_t)y + 1;
+  if (wanted > m->end_capacity) {
+    cs_mem_free(m->context->memory, m->ends, m->end_capacity * sizeof *m->ends);
+    m->end_capacity = 0;
+    CS_TRY(CS_MAKE(m->context, m->ends, wanted));
+    m->end_capacity = wanted;
+  }
+  CS_TRY(CS_RESERVE(m->context, m->open, m->open_capacity, m->open_count + edges));
+  for (size_t i = 0; i < m->open_count; i++)
+    if (m->links[m->borders[m->open[i]].last].point.y == y * CS_MAP_UNIT)
+      place_end(m, m->open[i]);
+  m->open_count = 0;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- borders */
+
+static celspan_status add_link(maker *m, growing *f, cs_map_point point) {
+  CS_TRY(CS_APPEND(m->context, m->links, m->link_count, m->link_capacity, (link){point, f->last}));
+  f->last = (uint32_t)m->link_count - 1;
+  f->count++;
+  f->low = -INFINITY;
+  f->high = INFINITY;
+  return CELSPAN_OK;
+}
+
+/* Narrows the slopes to those that pass a point below the link before the last one. */
+static void narrow(growing *f, cs_map_point above, cs_map_point point) {
+  double dx = (double)point.x - above.x, dy = (double)point.y - above.y;
+  f->low = fmax(f->low, (dx - TOLERANCE) / dy);
+  f->high = fmin(f->high, (dx + TOLERANCE) / dy);
+}
+
+/* Continues a border down to a point. */
+static celspan_status extend(maker *m, growing *f, cs_map_point point) {
+  if (f->count > 1) {
+    link *last = &m->links[f->last];
+    cs_map_point above = m->links[last->previous].point;
+    double slope = ((double)point.x - above.x) / ((double)point.y - above.y);
+    if (slope >= f->low && slope <= f->high) {
+      last->point = point;
+      narrow(f, above, point);
+      return CELSPAN_OK;
+    }
+  }
+  cs_map_point above = m->links[f->last].point;
+  CS_TRY(add_link(m, f, point));
+  narrow(f, above, point);
+  return CELSPAN_OK;
+}
+
+static celspan_status begin_border(maker *m, cs_map_point point, uint32_t left, uint32_t right,
+                                   uint32_t *out) {
+  CS_TRY(CS_APPEND(m->context, m->borders, m->border_count, m->border_capacity,
+                   (growing){.left = left, .right = right, .last = NONE, .row = -1}));
+  *out = (uint32_t)m->border_count - 1;
+  return add_link(m, &m->borders[*out], point);
+}
+
+static int32_t round_to_unit(double place) { return (int32_t)floor(place * CS_MAP_UNIT + 0.5); }
+
+static celspan_status add_edge(maker *m, const cs_retained_edge *edge) {
+  cs_map_point above = {round_to_unit(edge->xa), round_to_unit(edge->ya)};
+  cs_map_point below = {round_to_unit(edge->xb), round_to_unit(edge->yb)};
+  uint32_t left, right, index;
+  CS_TRY(find_cell(m, edge->left.colour, &left));
+  CS_TRY(find_cell(m, edge->right.colour, &right));
+  if (left == right || above.y >= below.y)
+    return CELSPAN_OK;
+  index = take_end(m, above, left, right);
+  if (index == NONE)
+    CS_TRY(begin_border(m, above, left, right, &index));
+  growing *f = &m->borders[index];
+  CS_TRY(extend(m, f, below));
+  if (f->row != m->row)
+    m->open[m->open_count++] = index;
+  f->row = m->row;
+  place_end(m, index);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- the map */
+
+/* Copies the points of a border, which are linked from the last one up. */
+static void finish_border(const maker *m, const growing *f) {
+  cs_map *map = m->map;
+  const link *last = &m->links[f->last];
+  cs_map_border *out = &map->borders[map->border_count++];
+  *out = (cs_map_border){.left = f->left,
+                         .right = f->right,
+                         .first = (uint32_t)map->point_count,
+                         .count = f->count,
+                         .low = INT32_MAX,
+                         .high = INT32_MIN,
+                         .foot = last->point.y};
+  map->point_count += f->count;
+  for (uint32_t at = f->last, k = f->count; k-- > 0; at = m->links[at].previous) {
+    cs_map_point point = m->links[at].point;
+    map->points[out->first + k] = point;
+    out->low = point.x < out->low ? point.x : out->low;
+    out->high = point.x > out->high ? point.x : out->high;
+  }
+}
+
+typedef struct placed {
+  uint32_t index;
+  int32_t top;
+} placed;
+
+static inline bool is_before(const placed *a, const placed *b) {
+  return a->top != b->top ? a->top < b->top : a->index < b->index;
+}
+
+CS_SORT_DEFINE(sort_placed, placed, is_before)
+
+static int32_t top_of(const maker *m, const growing *f) {
+  uint32_t at = f->last;
+  while (m->links[at].previous != NONE)
+    at = m->links[at].previous;
+  return m->links[at].point.y;
+}
+
+static celspan_status finish_borders(const maker *m) {
+  cs_map *map = m->map;
+  placed *order;
+  if (m->border_count == 0)
+    return CELSPAN_OK;
+  CS_TRY(CS_RESERVE(m->context, map->borders, map->border_capacity, m->border_count));
+  CS_TRY(CS_RESERVE(m->context, map->points, map->point_capacity, m->link_count));
+  CS_TRY(CS_MAKE(m->context, order, m->border_count));
+  for (size_t i = 0; i < m->border_count; i++)
+    order[i] = (placed){(uint32_t)i, top_of(m, &m->borders[i])};
+  sort_placed(order, m->border_count);
+  for (size_t i = 0; i < m->border_count; i++)
+    finish_border(m, &m->borders[order[i].index]);
+  cs_mem_free(m->context->memory, order, m->border_count * sizeof *order);
+  return CELSPAN_OK;
+}
+
+static celspan_status add_row(maker *m, cs_row_maker *rows, int32_t y, cs_retained_row *retained) {
+  CS_TRY(cs_row_retain(rows, y, retained));
+  CS_TRY(begin_row(m, y, retained->edge_count));
+  for (size_t i = 0; i < retained->edge_count; i++)
+    CS_TRY(add_edge(m, &retained->edges[i]));
+  return CELSPAN_OK;
+}
+
+static celspan_status add_rows(maker *m, const cs_plan *plan) {
+  cs_retained_row retained = {0};
+  cs_row_maker rows;
+  uint32_t clear;
+  celspan_status status = cs_row_maker_init(&rows, m->context, plan);
+  if (status == CELSPAN_OK)
+    status = find_cell(m, cs_v4_all(0), &clear);
+  for (int32_t y = 0; status == CELSPAN_OK && m->map->is_whole && y < plan->height; y++)
+    status = add_row(m, &rows, y, &retained);
+  cs_row_maker_finish(&rows);
+  cs_retained_finish(&retained, m->context->memory);
+  return status;
+}
+
+celspan_status cs_map_make(celspan_context *context, const cs_plan *plan, int64_t left, int64_t top,
+                           cs_map *map) {
+  maker m = {.context = context, .map = map};
+  map->is_whole = true;
+  map->left = left;
+  map->top = top;
+  celspan_status status = add_rows(&m, plan);
+  if (status == CELSPAN_OK && map->is_whole)
+    status = finish_borders(&m);
+  finish(&m);
+  return status;
+}

@@ -1,0 +1,67 @@
+/* Maps: the drawing of a cel, reduced to what can be seen of it.
+ *
+ *       a --------.
+ *       |  red   /            border: a piece of a visible boundary, with the cell on its left and
+ *       |   .---/---.                 the cell on its right
+ *       |  /   / blue|        cell:   a colour; cell 0 is clear, around the whole drawing
+ *       b-+---c      |
+ *          `--------'         borders of red: a to b, clear | red; a to c, red | clear, and from
+ *                             where blue begins on, red | blue
+ *
+ * No order is kept: each border says by how much the colour changes from its left to its right,
+ * so what is right of any set of borders is a sum (sums.h). A map has no flat boundaries, since
+ * these change no sum.
+ *
+ * Units: a raster of the drawing at a scale of its own, in 2^-16 of its pixels. The raster begins
+ * at a whole pixel, so that equal boundaries of two drawings at one scale have equal points.
+ *
+ * Invariant: at any height, the borders that cross it lead from cell 0 to cell 0, each beginning
+ * with the cell with which the one before it has ended.
+ */
+#pragma once
+
+#include <stdatomic.h>
+
+#include "engine/row/plan.h"
+
+#define CS_MAP_UNIT 65536   /* of a pixel of the raster */
+#define CS_MAP_SIDE 16384   /* pixels of a raster's side, at most */
+#define CS_MAP_CELLS 262144 /* at most */
+/* The key of a cell: its number in 18 bits, and 30 bits of a hash. */
+#define CS_MAP_KEY UINT64_C(0xffffffffffff)
+
+typedef struct cs_map_point {
+  int32_t x, y;
+} cs_map_point;
+
+typedef struct cs_map_border {
+  uint32_t left, right;    /* cells, which differ */
+  uint32_t first, count;   /* points, at least two, downwards */
+  int32_t low, high, foot; /* its least and its greatest x, and its last y */
+} cs_map_border;
+
+typedef struct cs_map {
+  atomic_size_t references;
+  cs_memory *memory;
+  bool is_whole;          /* false: the drawing cannot be a map, and there is nothing else */
+  int64_t left, top;      /* where the raster begins, in its pixels from the drawing's origin */
+  cs_map_border *borders; /* by the y of their first points */
+  cs_map_point *points;
+  cs_v4 *cells;   /* premultiplied colours, under white light */
+  uint64_t *keys; /* names of the cells, for sums of areas: see sums.h */
+  size_t border_count, border_capacity;
+  size_t point_count, point_capacity;
+  size_t cell_count, cell_capacity, key_capacity;
+} cs_map;
+
+/* An empty map that is not whole. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_map_create(celspan_context *context, cs_map **out);
+void cs_map_ref(cs_map *map);
+void cs_map_unref(cs_map *map); /* NULL is ignored; any thread */
+size_t cs_map_bytes(const cs_map *map);
+/* Whether a plan of a drawing alone can be a map: flat paints that dim all channels alike. */
+bool cs_map_suits(const cs_plan *plan);
+/* Fills a map with a plan that suits, whose raster begins at the pixel (left, top). The map is not
+ * whole where there are too many cells. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_map_make(celspan_context *context, const cs_plan *plan,
+                                           int64_t left, int64_t top, cs_map *map);

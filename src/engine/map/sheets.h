@@ -1,0 +1,54 @@
+/* A frame of drawings, one over the other.
+ *
+ *     camera
+ *       |   drawing n - 1  -----------    colours and alpha, and behind each drawing a back light
+ *       |   ...            -----------
+ *       v   drawing 0      -----------
+ *
+ * A pixel in which at most one drawing is broken is a fold of means: it is exact, because a fold is
+ * linear in each of its layers. One in which several are broken is solved (exact.h).
+ *
+ * Invariant: a frame does not change once it is made, and threads share it. A row is a function of
+ * the frame and its number.
+ */
+#pragma once
+
+#include "engine/map/sums.h"
+#include "engine/span/row.h"
+
+#define CS_MAP_DRAWINGS 64 /* in a frame, at most */
+
+typedef struct cs_map_sheet {
+  cs_map_drawing drawing;
+  cs_v4 back; /* the light behind it; lane 3 is 0 */
+  float keep; /* what the matte of that light leaves of transparency */
+} cs_map_sheet;
+
+typedef struct cs_map_frame {
+  cs_map_sheet *sheets;         /* from the camera */
+  size_t count, capacity, made; /* made: for this frame, since no other had kept the map */
+  cs_v4 back;                   /* of the frame, as above */
+  float keep;
+  int32_t width, height;
+} cs_map_frame;
+
+/* What light has come through so far, from the camera: lane 3 of e is coverage. */
+typedef struct cs_map_fold {
+  cs_v4 e;
+  float t, keep;
+} cs_map_fold;
+
+static const cs_map_fold cs_map_fold_begin = {{0, 0, 0, 0}, 1, 1};
+
+static inline void cs_map_fold_add(cs_map_fold *fold, const cs_map_sheet *sheet, cs_v4 colour) {
+  fold->e += fold->t * colour;
+  fold->t *= 1 - colour[3];
+  fold->e += fold->t * sheet->back;
+  fold->keep *= sheet->keep;
+}
+
+static inline cs_v4 cs_map_fold_end(cs_map_fold fold, const cs_map_frame *frame) {
+  cs_v4 colour = fold.e + fold.t * frame->back;
+  colour[3] = 1 - fold.keep * frame->keep * fold.t;
+  return colour;
+}

@@ -1,0 +1,106 @@
+/* Rows of one map: sums of what its borders change.
+ *
+ *      border             pixel p           p + 1
+ *                   +-----------/-----+-----------------+     right of a border the colour changes
+ *                   |          /######|#################|     by right - left, in the area that is
+ *                   |   left  / right |                 |     marked: pixel p gets that times its
+ *                   |        /########|#################|     area, pixel p + 1 the rest of the
+ *                   +-------/---------+-----------------+     border's height
+ *
+ * So the colour of a pixel is the sum of all pixels up to it. The rows of a swath are summed
+ * together, and a pixel to which nothing was added has the colour of the one before it.
+ *
+ * The keys of cells are summed, too, in integers and with the same areas. Where such a sum is the
+ * key of a cell times a whole pixel, nothing else is in the pixel: its colour is then
+ * that of the cell to the bit, and nothing of the sum so far is carried on. A pixel in which there
+ * is more than one cell is broken.
+ *
+ * Invariant: the rows are a function of the drawing and their numbers: borders are added in the
+ * order that the map has, whichever rows were made before.
+ */
+#pragma once
+
+#include "engine/map/map.h"
+
+#define CS_MAP_ROWS 8       /* of a swath: its first row is a multiple of it */
+#define CS_MAP_HEIGHT 65536 /* of a row of the frame: heights and areas are multiples of 1 / it */
+#define CS_MAP_BROKEN UINT32_MAX
+
+/* A map in its place in a frame. */
+typedef struct cs_map_drawing {
+  cs_map *map; /* a reference */
+  /* Units of the map, from the drawing's origin, to pixels; both scales are above 0. */
+  double scale_x, shift_x, scale_y, shift_y;
+  cs_v4 *colours; /* of its cells, in the frame's light; owned */
+} cs_map_drawing;
+
+/* Neighbouring pixels of one colour, from the end of the span before. */
+typedef struct cs_map_span {
+  cs_v4 colour;
+  int32_t end;
+  uint32_t cell; /* BROKEN: several */
+} cs_map_span;
+
+/* A border that crosses the swath, and its last point that is not below the swath's top. */
+typedef struct cs_map_live {
+  uint32_t border, at;
+} cs_map_live;
+
+/* The rows of a drawing in the current swath. */
+typedef struct cs_map_rows {
+  const cs_map_drawing *drawing; /* borrowed */
+  int32_t row;                   /* the first; -1: none has been made */
+  uint32_t next;                 /* borders before it have been visited */
+  cs_map_live *lives;            /* in the order of the map */
+  cs_map_span *spans;
+  size_t first[CS_MAP_ROWS + 1]; /* spans of each row, and the end of those of the last */
+  size_t live_count, live_capacity, span_count, span_capacity;
+} cs_map_rows;
+
+/* What is added to a pixel. */
+typedef struct cs_map_sum {
+  cs_v4d colour; /* times HEIGHT */
+  uint64_t key;  /* times HEIGHT, modulo 2^64 */
+} cs_map_sum;
+
+/* Room for the sums of a swath, cleared between uses: all drawings of a worker share it. */
+typedef struct cs_map_sums {
+  int32_t width; /* pixels of a row */
+  size_t words;  /* of a row's bits */
+  cs_map_sum *sums;
+  uint64_t *bits; /* the pixels to which something was added */
+} cs_map_sums;
+
+CELSPAN_CHECKED celspan_status cs_map_sums_init(celspan_context *context, int32_t width,
+                                                cs_map_sums *out);
+void cs_map_sums_finish(cs_map_sums *sums, cs_memory *memory);
+
+void cs_map_rows_finish(cs_map_rows *rows, cs_memory *memory);
+/* Makes the rows of the swath that begins with `row`. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_map_rows_make(celspan_context *context, cs_map_sums *sums,
+                                                cs_map_rows *rows, int32_t row);
+
+/* The last point of a border that is not below the top of a row, or else its first one. */
+uint32_t cs_map_find_point(const cs_map_drawing *drawing, const cs_map_border *border, int32_t row);
+
+/* A point of a map on the frame. */
+typedef struct cs_map_place {
+  double x;  /* pixels */
+  int64_t y; /* HEIGHTths of a pixel */
+} cs_map_place;
+
+static inline double cs_map_place_y(const cs_map_drawing *drawing, int32_t y) {
+  double whole = (double)(drawing->map->top * CS_MAP_UNIT + y);
+  return whole * drawing->scale_y + drawing->shift_y;
+}
+
+static inline double cs_map_place_x(const cs_map_drawing *drawing, int32_t x) {
+  double whole = (double)(drawing->map->left * CS_MAP_UNIT + x);
+  return whole * drawing->scale_x + drawing->shift_x;
+}
+
+static inline cs_map_place cs_map_place_of(const cs_map_drawing *drawing, cs_map_point point) {
+  double y = cs_map_place_y(drawing, point.y) * CS_MAP_HEIGHT + 0.5;
+  int64_t whole = (int64_t)y;
+  return (cs_map_place){cs_map_place_x(drawing, point.x), whole - ((double)whole > y)};
+}

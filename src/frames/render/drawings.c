@@ -1,0 +1,237 @@
+#include "frames/render/drawings.h"
+
+#include <math.h>
+
+#include "engine/map/keep.h"
+#include "model/geometry/matrix.h"
+#include "model/scene/bounds.h"
+
+/* ---------------------------------------------------------------- which exposures */
+
+static bool is_even(const celspan_cel *cel) {
+  bool is_even = !cel->has_modes && cel->blend == CELSPAN_BLEND_NORMAL;
+  is_even = is_even && cel->defocus_radius == 0 && !cel->front.texture && !cel->back.texture;
+  for (size_t i = 0; is_even && i < cel->object_count; i++)
+    is_even = !cel->objects[i]->data->has_uneven;
+  return is_even;
+}
+
+static bool suits(const celspan_rostrum *rostrum, const cs_view *view,
+                  const cs_antialias *antialias) {
+  bool suits = antialias->mode == CELSPAN_ANTIALIAS_AREA && view->space == CELSPAN_SPACE_LINEAR &&
+               rostrum->space != CELSPAN_SPACE_SRGB && view->width <= CS_DRAWINGS_SIDE &&
+               view->height <= CS_DRAWINGS_SIDE && rostrum->cel_count <= CS_MAP_DRAWINGS &&
+               !rostrum->front.texture && !rostrum->back.texture;
+  for (size_t i = 0; suits && i < rostrum->cel_count; i++)
+    suits = is_even(rostrum->cels[i]);
+  return suits;
+}
+
+/* ---------------------------------------------------------------- maps */
+
+/* A cel in its place. The transform and the fade of an only object are those of the place, too, so
+ * that it has the same map wherever it is moved. */
+typedef struct placed_cel {
+  const celspan_cel *cel;
+  size_t number;
+  celspan_matrix matrix; /* the drawing's units to pixels */
+  double opacity;
+  double scale_x, scale_y; /* the drawing's units to pixels of the raster: a power of two, which is
+                              negative where the drawing is mirrored */
+  bool is_made;            /* the map was made just now */
+} placed_cel;
+
+/* The least power of two that is not less than a number. */
+static double power_above(double number) {
+  int exponent;
+  double fraction = frexp(number, &exponent);
+  return ldexp(1, fraction == 0.5 ? exponent - 1 : exponent);
+}
+
+/* Finds the scale of the cel's map; false where the cel does not suit. */
+static bool find_scale(placed_cel *d) {
+  const double *m = d->matrix.m;
+  if (!cs_matrix_is_upright(&d->matrix) || m[0] == 0 || m[4] == 0 || m[8] != 1)
+    return false;
+  double scale = power_above(fmax(fabs(m[0]), fabs(m[4])));
+  d->scale_x = m[0] < 0 ? -scale : scale;
+  d->scale_y = m[4] < 0 ? -scale : scale;
+  return true;
+}
+
+/* Finds a raster with a pixel more on each side than a drawing has, and moves the drawing there;
+ * false where it is too large. */
+static bool find_raster(celspan_cel *drawing, int64_t corner[2], cs_view *out) {
+  celspan_box box = {0, 0, 0, 0};
+  (void)cs_bounds_around(drawing, &box); /* nothing is a drawing, too */
+  double left = floor(box.x) - 1, width = ceil(box.x + box.width) + 1 - left;
+  double top = floor(box.y) - 1, height = ceil(box.y + box.height) + 1 - top;
+  if (!(width <= CS_MAP_SIDE && height <= CS_MAP_SIDE && fabs(left) < 0x1p30 && fabs(top) < 0x1p30))
+    return false;
+  drawing->matrix.m[2] = -left;
+  drawing->matrix.m[5] = -top;
+  corner[0] = (int64_t)left;
+  corner[1] = (int64_t)top;
+  *out = (cs_view){.width = (int32_t)width,
+                   .height = (int32_t)height,
+                   .most_dashes = CS_COMPILE_DASHES,
+                   .space = CELSPAN_SPACE_LINEAR};
+  return true;
+}
+
+static celspan_status make_alone(celspan_context *context, celspan_cel *drawing, size_t number,
+                                 cs_map *map) {
+  cs_view raster;
+  cs_plan plan;
+  int64_t corner[2];
+  if (!find_raster(drawing, corner, &raster))
+    return CELSPAN_OK;
+  CS_TRY(cs_compile_drawing(context, drawing, number, &drawing->matrix, &raster, &plan));
+  celspan_status status =
+      cs_map_suits(&plan) ? cs_map_make(context, &plan, corner[0], corner[1], map) : CELSPAN_OK;
+  cs_compile_free(&plan, context->memory);
+  return status;
+}
+
+/* Makes the map of a drawing. */
+static celspan_status make(void *user, celspan_context *context, cs_map *map) {
+  placed_cel *d = user;
+  d->is_made = true;
+  const celspan_matrix identity = celspan_matrix_identity();
+  celspan_cel drawing = *d->cel;
+  celspan_object only = {.matrix = &identity, .fade = 1}, *objects[] = {&only};
+  if (drawing.object_count == 1) {
+    only.hash = drawing.objects[0]->hash;
+    only.mark = drawing.objects[0]->mark;
+    only.data = drawing.objects[0]->data;
+    drawing.objects = objects;
+  }
+  drawing.matrix = (celspan_matrix){{d->scale_x, 0, 0, 0, d->scale_y, 0, 0, 0, 1}};
+  return make_alone(context, &drawing, d->number, map);
+}
+
+static cs_cache_key key_of(const placed_cel *d) {
+  celspan_object *const *objects = d->cel->objects;
+  size_t count = d->cel->object_count;
+  cs_hash hash = cs_hash_begin(0x6d6170u);
+  cs_hash_word(&hash, count);
+  for (size_t i = 0; i < count; i++)
+    cs_hash_hash(&hash, count == 1 ? objects[i]->data->hash : objects[i]->hash);
+  cs_hash_number(&hash, d->scale_x);
+  cs_hash_number(&hash, d->scale_y);
+  hash = cs_hash_end(hash);
+  return (cs_cache_key){hash.a, hash.b, 0};
+}
+
+/* ---------------------------------------------------------------- sheets */
+
+static cs_v4 colour_of(celspan_light light) { return (cs_v4){light.r, light.g, light.b, 0}; }
+
+/* The colours of the map's cells in the light of the cel. */
+static celspan_status light_cells(celspan_context *context, cs_map_drawing *drawing, cs_v4 light) {
+  const cs_map *map = drawing->map;
+  CS_TRY(CS_MAKE(context, drawing->colours, map->cell_count));
+  for (size_t i = 0; i < map->cell_count; i++)
+    drawing->colours[i] = light * map->cells[i];
+  return CELSPAN_OK;
+}
+
+static void set_place(const placed_cel *d, cs_map_drawing *out) {
+  const double *m = d->matrix.m;
+  out->scale_x = m[0] / d->scale_x / CS_MAP_UNIT;
+  out->scale_y = m[4] / d->scale_y / CS_MAP_UNIT;
+  out->shift_x = m[2];
+  out->shift_y = m[5];
+}
+
+static celspan_status make_sheet(celspan_context *context, const celspan_rostrum *rostrum,
+                                 placed_cel *d, cs_map_sheet *out) {
+  const cs_light back = cs_scene_back(rostrum, &d->cel->back);
+  const cs_light front = cs_scene_front(rostrum, d->cel);
+  float opacity = (float)d->opacity;
+  cs_v4 light = opacity * colour_of(front.flat);
+  light[3] = opacity;
+  out->back = colour_of(back.flat);
+  out->keep = 1 - back.flat.a;
+  CS_TRY(cs_map_keep_acquire(context, key_of(d), make, d, &out->drawing.map));
+  set_place(d, &out->drawing);
+  return out->drawing.map->is_whole ? light_cells(context, &out->drawing, light) : CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- a frame */
+
+static void place_object(placed_cel *d, const celspan_object *object) {
+  d->matrix = celspan_matrix_then(*object->matrix, d->matrix);
+  d->opacity *= object->fade;
+}
+
+/* The drawings of all cels, from the camera; *suit: whether each of them may be a map. */
+static celspan_status place_cels(celspan_context *context, const celspan_rostrum *rostrum,
+                                 const cs_view *view, placed_cel *drawings, bool *suit) {
+  const celspan_matrix to_pixels =
+      celspan_matrix_scaling(view->width / view->film_width, view->height / view->film_height);
+  *suit = true;
+  for (size_t i = 0; i < rostrum->cel_count && *suit; i++) {
+    placed_cel *d = &drawings[i];
+    size_t index = rostrum->cel_count - 1 - i;
+    d->cel = rostrum->cels[index];
+    d->number = index + 1;
+    d->is_made = false;
+    CS_TRY(cs_scene_cel_matrix(context, rostrum, index, view->film_width, view->film_height,
+                               &d->matrix));
+    d->matrix = celspan_matrix_then(d->matrix, to_pixels);
+    d->opacity = d->cel->opacity;
+    if (d->cel->object_count == 1)
+      place_object(d, d->cel->objects[0]);
+    *suit = find_scale(d);
+  }
+  return CELSPAN_OK;
+}
+
+/* Makes the sheets until one of their drawings cannot be a map. */
+static celspan_status make_sheets(celspan_context *context, const celspan_rostrum *rostrum,
+                                  placed_cel *drawings, cs_map_frame *out, bool *suit) {
+  out->capacity = rostrum->cel_count;
+  if (out->capacity > 0)
+    CS_TRY(CS_MAKE(context, out->sheets, out->capacity));
+  while (out->count < out->capacity && *suit) {
+    cs_map_sheet *sheet = &out->sheets[out->count];
+    placed_cel *d = &drawings[out->count++];
+    CS_TRY(make_sheet(context, rostrum, d, sheet));
+    out->made += d->is_made;
+    *suit = sheet->drawing.map->is_whole;
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_drawings_create(celspan_context *context, const celspan_rostrum *rostrum,
+                                  const cs_view *view, const cs_antialias *antialias,
+                                  cs_map_frame *out) {
+  placed_cel drawings[CS_MAP_DRAWINGS];
+  bool suit = suits(rostrum, view, antialias);
+  if (suit)
+    CS_TRY(place_cels(context, rostrum, view, drawings, &suit));
+  if (suit)
+    CS_TRY(make_sheets(context, rostrum, drawings, out, &suit));
+  if (!suit) {
+    cs_drawings_finish(out, context->memory);
+    return CELSPAN_OK;
+  }
+  const cs_light back = cs_scene_back(rostrum, &rostrum->back);
+  out->back = colour_of(back.flat);
+  out->keep = 1 - back.flat.a;
+  out->width = view->width;
+  out->height = view->height;
+  return CELSPAN_OK;
+}
+
+void cs_drawings_finish(cs_map_frame *frame, cs_memory *memory) {
+  for (size_t i = 0; i < frame->count; i++) {
+    cs_map_drawing *drawing = &frame->sheets[i].drawing;
+    if (drawing->colours)
+      cs_mem_free(memory, drawing->colours, drawing->map->cell_count * sizeof *drawing->colours);
+    cs_map_unref(drawing->map);
+  }
+  cs_mem_free(memory, frame->sheets, frame->capacity * sizeof *frame->sheets);
+  *frame = (cs_map_frame){0};
+}

@@ -1,0 +1,229 @@
+/* Frames that are drawn from maps: as the sweep draws them, to the bit the same whatever was kept
+ * and in whatever order rows are made, and without leaks between cels that abut.
+ */
+#include "engine/map/keep.h"
+#include "tests/support/frame_rows.h"
+#include "tests/support/memory.h"
+#include "tests/support/random.h"
+
+#define WIDTH 90
+#define HEIGHT 60
+#define SCENES 40
+
+static celspan_texture *random_paint(studio *s, test_random *random) {
+  float red = random_unit(random), green = random_unit(random), blue = random_unit(random);
+  float alpha = random_below(random, 2) ? 1 : random_unit(random);
+  return studio_paint(s, celspan_paint_rgb(red, green, blue, alpha));
+}
+
+static celspan_object *random_object(studio *s, test_random *random, bool is_round) {
+  celspan_texture *texture = random_paint(s, random);
+  celspan_point corners[3];
+  for (int k = 0; k < 3; k++)
+    corners[k] = random_point(random, -10, WIDTH + 10, -10, HEIGHT + 10);
+  if (is_round)
+    return studio_circle(s, corners[0].x, corners[0].y, random_between(random, 3, 30), texture);
+  if (random_below(random, 3) == 0) {
+    double width = random_between(random, 1, 50), height = random_between(random, 1, 50);
+    return studio_rect(s, corners[0].x, corners[0].y, width, height, texture);
+  }
+  return studio_polygon(s, corners, 3, CELSPAN_RULE_NONZERO, texture);
+}
+
+/* A cel of a few shapes, in the light of its own, moved, stretched and mirrored. */
+static celspan_cel *random_cel(studio *s, test_random *random, bool is_round) {
+  celspan_object *objects[5];
+  celspan_cel_desc desc = CELSPAN_CEL_DESC;
+  size_t count = 1 + (size_t)random_below(random, 5);
+  for (size_t i = 0; i < count; i++)
+    objects[i] = random_object(s, random, is_round);
+  desc.opacity = random_below(random, 3) ? 1 : random_unit(random);
+  desc.has_front = random_below(random, 2);
+  desc.front = (celspan_light){random_unit(random), 1, 0.5f, 1};
+  desc.back = random_below(random, 3) ? desc.back : (celspan_light){0.25f, 0.5f, 0, 0.5f};
+  double x = random_between(random, 0.4, 1.7), y = random_between(random, 0.4, 1.7);
+  celspan_matrix matrix = celspan_matrix_scaling(random_below(random, 4) ? x : -x, y);
+  matrix.m[2] = random_between(random, 0, WIDTH / 2.0);
+  matrix.m[5] = random_between(random, -HEIGHT / 2.0, HEIGHT / 2.0);
+  celspan_cel *cel = studio_cel(s, desc, objects, count), *moved = NULL;
+  studio_check(s, celspan_cel_transform(s->context, cel, &matrix, &moved));
+  return s->cels[s->cel_count++] = moved;
+}
+
+static celspan_rostrum *random_rostrum(studio *s, uint64_t seed, bool is_round) {
+  test_random random = {seed};
+  celspan_cel *cels[4];
+  celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
+  size_t count = 1 + (size_t)random_below(&random, 4);
+  for (size_t i = 0; i < count; i++)
+    cels[i] = random_cel(s, &random, is_round);
+  if (random_below(&random, 2))
+    desc.back = (celspan_light){1, 0.75f, 0.5f, 1};
+  return studio_rostrum(s, desc, cels, count);
+}
+
+static celspan_frame_desc frame_of(const celspan_exposure *exposure, bool repeats) {
+  celspan_frame_desc desc = studio_frame(exposure, 1, WIDTH, HEIGHT, NULL);
+  desc.repeats = repeats;
+  return desc;
+}
+
+static celspan_statistics count(studio *s, const celspan_frame_desc *desc) {
+  celspan_statistics statistics = {0};
+  const celspan_sink nowhere = {0};
+  studio_check(s, celspan_frame_render(s->context, desc, &nowhere, &statistics));
+  return statistics;
+}
+
+static float difference(const image *a, const image *b) {
+  float most = 0;
+  for (int i = 0; i < 4 * a->width * a->height; i++)
+    most = fmaxf(most, fabsf(a->rgba[i / 4][i % 4] - b->rgba[i / 4][i % 4]));
+  return most;
+}
+
+/* ---------------------------------------------------------------- the same picture */
+
+/* Straight shapes are the same except for rounding; round ones have other chords. */
+static void check_pictures(studio *s) {
+  for (uint64_t seed = 0; seed < SCENES; seed++) {
+    bool is_round = seed % 4 == 3;
+    celspan_exposure exposure = {random_rostrum(s, seed, is_round), 1};
+    celspan_frame_desc swept = frame_of(&exposure, false), drawn = frame_of(&exposure, true);
+    CHECK(count(s, &swept).maps == 0 && count(s, &drawn).maps > 0);
+    image a = make_image(s, &swept, 1), b = make_image(s, &drawn, 1);
+    float most = difference(&a, &b);
+    if (!CHECK(most < (is_round ? 0.02f : 0.0002f)))
+      fprintf(stderr, "  scene %d: %g\n", (int)seed, (double)most);
+    free(a.rgba);
+    free(b.rgba);
+    studio_finish(s);
+  }
+}
+
+/* ---------------------------------------------------------------- the same bits */
+
+/* Rows in another order, parts of the frame, and maps that are made again. */
+static void check_bits(studio *s, studio *small) {
+  for (uint64_t seed = 100; seed < 110; seed++) {
+    celspan_exposure exposure = {random_rostrum(s, seed, seed % 2), 1};
+    celspan_exposure again = {random_rostrum(small, seed, seed % 2), 1};
+    celspan_frame_desc desc = frame_of(&exposure, true), other = frame_of(&again, true);
+    image a = make_image(s, &desc, 1), b = make_image(s, &desc, 7),
+          c = make_image(small, &other, 1);
+    CHECK(memcmp(a.rgba, b.rgba, WIDTH * HEIGHT * sizeof *a.rgba) == 0);
+    CHECK(memcmp(a.rgba, c.rgba, WIDTH * HEIGHT * sizeof *a.rgba) == 0);
+    desc.crop_x = 17;
+    desc.crop_y = 21;
+    desc.crop_width = 40;
+    desc.crop_height = 30;
+    image part = make_image(s, &desc, 1);
+    for (int y = 0; y < 30; y++)
+      CHECK(memcmp(part.rgba[40 * y], a.rgba[WIDTH * (y + 21) + 17], 40 * sizeof *a.rgba) == 0);
+    free(a.rgba);
+    free(b.rgba);
+    free(c.rgba);
+    free(part.rgba);
+    studio_finish(s);
+    studio_finish(small);
+  }
+}
+
+/* ---------------------------------------------------------------- what is kept */
+
+static celspan_rostrum *moved_disc(studio *s, double x, double angle) {
+  celspan_object *disc = studio_circle(s, 20, 20, 15, NULL);
+  celspan_matrix matrix = celspan_matrix_rotation(angle, (celspan_point){0, 0});
+  matrix.m[2] += x;
+  return studio_show(s, studio_transform(s, disc, matrix));
+}
+
+/* A drawing that only moves has one map, and one that is rotated none. */
+static void check_kept(studio *s, studio *small) {
+  studio *both[2] = {s, small};
+  for (int k = 0; k < 2; k++) {
+    celspan_exposure first = {moved_disc(both[k], 0, 0), 1};
+    celspan_exposure second = {moved_disc(both[k], 7.3, 0), 1};
+    celspan_exposure turned = {moved_disc(both[k], 0, 0.3), 1};
+    celspan_frame_desc a = frame_of(&first, true), b = frame_of(&second, true);
+    celspan_frame_desc c = frame_of(&turned, true);
+    CHECK(count(both[k], &a).maps_made == 1);
+    celspan_statistics statistics = count(both[k], &b);
+    CHECK(statistics.maps == 1 && statistics.maps_made == (uint64_t)k);
+    CHECK(count(both[k], &c).maps == 0);
+    studio_finish(both[k]);
+  }
+  CHECK(cs_map_keep_count(s->context).bytes > 0 && cs_map_keep_count(small->context).bytes == 0);
+}
+
+/* ---------------------------------------------------------------- no leaks */
+
+/* Two black cels that share a curved boundary, before white: nowhere along it is it lighter. */
+static void check_leaks(studio *s) {
+  celspan_texture *black = studio_paint(s, celspan_paint_rgb(0, 0, 0, 1));
+  celspan_object *left = studio_path(s, "M 2 2 L 40 2 C 70 20 10 40 44 58 L 2 58 Z", black);
+  celspan_object *right = studio_path(s, "M 88 2 L 40 2 C 70 20 10 40 44 58 L 88 58 Z", black);
+  celspan_cel *cels[] = {studio_cel(s, CELSPAN_CEL_DESC, &left, 1),
+                         studio_cel(s, CELSPAN_CEL_DESC, &right, 1)};
+  celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
+  desc.back = (celspan_light){1, 1, 1, 1};
+  float most = 0;
+  for (int k = 0; k < 60; k++) {
+    desc.has_camera_width = desc.has_camera_centre = true;
+    desc.camera_width = WIDTH / (1 + 0.037 * k);
+    desc.camera_centre = (celspan_point){WIDTH / 2.0 + 0.013 * k, HEIGHT / 2.0 - 0.017 * k};
+    celspan_exposure exposure = {studio_rostrum(s, desc, cels, 2), 1};
+    celspan_frame_desc frame = frame_of(&exposure, true);
+    CHECK(count(s, &frame).maps == 2);
+    image picture = make_image(s, &frame, 1);
+    for (int y = 5; y < HEIGHT - 5; y++)
+      for (int x = 5; x < WIDTH - 5; x++)
+        most = fmaxf(most, picture.rgba[WIDTH * y + x][0]);
+    free(picture.rgba);
+  }
+  if (!CHECK(most < 0.0001f))
+    fprintf(stderr, "  a leak of %g\n", (double)most);
+  studio_finish(s);
+}
+
+/* ---------------------------------------------------------------- failures */
+
+/* Every allocation fails once: in the end there is the frame or the reason, and the frame can be
+ * made again. */
+static void check_failures_of_memory(studio *s, memory_watch *watch) {
+  celspan_exposure exposure = {random_rostrum(s, 3, true), 1};
+  celspan_frame_desc desc = frame_of(&exposure, true);
+  desc.workers = 1;
+  uint64_t wanted[2], digest[2];
+  studio_check(s, celspan_frame_digest(s->context, &desc, NULL, wanted));
+  bool has_failed = true;
+  for (size_t n = 1; has_failed; n++) {
+    cs_context_trim(s->context);
+    watch->fail_at = watch->allocations + n;
+    has_failed = celspan_frame_digest(s->context, &desc, NULL, digest) != CELSPAN_OK;
+    watch->fail_at = 0;
+    studio_check(s, celspan_frame_digest(s->context, &desc, NULL, digest));
+    CHECK(memcmp(wanted, digest, sizeof wanted) == 0);
+  }
+  studio_finish(s);
+}
+
+int main(void) {
+  memory_watch watch = {0};
+  celspan_context_desc desc = CELSPAN_CONTEXT_DESC;
+  desc.resize = memory_watch_resize;
+  desc.resize_user = &watch;
+  studio s = {0}, small = {0};
+  CHECK(celspan_context_create(&desc, &s.context) == CELSPAN_OK);
+  desc.defocus_bytes = 1;
+  CHECK(celspan_context_create(&desc, &small.context) == CELSPAN_OK);
+  check_pictures(&s);
+  check_bits(&s, &small);
+  check_kept(&s, &small);
+  check_leaks(&s);
+  check_failures_of_memory(&s, &watch);
+  celspan_context_destroy(s.context);
+  celspan_context_destroy(small.context);
+  CHECK(watch.blocks == 0 && watch.size_errors == 0);
+  return check_done();
+}
