@@ -301,6 +301,7 @@ static const char *find_source(cs_memory *memory, const char *name, size_t lengt
 void celspan_context_set_origin(celspan_context *context, const char *source, int32_t line) {
   cs_mark *at = &context->origin;
   at->line = source && line > 0 ? line : 0;
+  at->callers = 0;
   if (at->line == 0 || (at->source && strcmp(at->source, source) == 0))
     return;
   size_t length = strlen(source);

@@ -66,6 +66,7 @@ typedef struct cs_mark { /* see base/mark.h */
   struct cs_text *name;  /* NULL: none */
   const char *source;    /* NULL: not known; else the memory's */
   int32_t line;          /* of the source, from 1; 0: not known */
+  uint32_t callers;      /* of that line: a number of lua/bind/named.h; 0: not known */
 } cs_mark;
 
 struct celspan_context {

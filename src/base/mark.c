@@ -37,7 +37,7 @@ void cs_mark_drop_text(cs_text *text) {
 
 cs_mark cs_mark_now(const celspan_context *context) {
   const cs_mark *at = &context->origin;
-  return at->line > 0 ? *at : (cs_mark){NULL, NULL, 0};
+  return at->line > 0 ? *at : (cs_mark){NULL, NULL, 0, 0};
 }
 
 const char *cs_mark_name(cs_mark mark) { return mark.name ? mark.name->bytes : ""; }
@@ -105,6 +105,6 @@ celspan_status cs_mark_named(celspan_context *context, cs_mark mark, const char 
   cs_text *text = create_text(context->memory, name, strlen(name));
   if (!text)
     return cs_fail_memory(context);
-  *out = (cs_mark){text, mark.source, mark.line};
+  *out = (cs_mark){text, mark.source, mark.line, mark.callers};
   return CELSPAN_OK;
 }

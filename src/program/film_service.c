@@ -10,6 +10,7 @@
 #include "frames/process/interrupt.h"
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"
+#include "lua/bind/named.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/core.h"
@@ -286,6 +287,13 @@ static int sound(lua_State *L) { return cs_stage_sound(L, &self(L)->script); }
 static int alter(lua_State *L) { return cs_stage_alter(L, &self(L)->script); }
 static int keep_line(lua_State *L) { return cs_stage_keep_line(L, &self(L)->script); }
 static int costs(lua_State *L) { return cs_stage_costs(L, &self(L)->script); }
+
+/* film:keep_callers(is_kept): see lua/bind/named.h */
+static int keep_callers(lua_State *L) {
+  cs_named_keep_callers(self(L)->script.L, lua_toboolean(L, 2));
+  return 0;
+}
+
 static int wave(lua_State *L) { return cs_stage_wave(L, &self(L)->script); }
 
 /* ---------------------------------------------------------------- the film */
@@ -342,6 +350,7 @@ static void set_methods(lua_State *L) {
                                      {"hits", hits},
                                      {"alter", alter},
                                      {"keep_line", keep_line},
+                                     {"keep_callers", keep_callers},
                                      {"costs", costs},
                                      {"sound", sound},
                                      {"wave", wave},

@@ -10,6 +10,7 @@
 #include "frames/process/interrupt.h"
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"
+#include "lua/bind/named.h"
 #include "lua/module/lua_script.h"
 #include "program/confine.h"
 #include "program/hear.h"
@@ -77,8 +78,10 @@ static int prepare(lua_State *L) {
   else
     open_libraries(L, script);
   cs_host_open(L, script->context);
-  if (script->asks_files)
+  if (script->asks_files) {
     cs_host_remember_asked(L);
+    cs_named_keep_callers(L, true);
+  }
   if (script->sandbox)
     cs_sandbox_attach(script->sandbox, L, script->is_trusted);
   if (is_sandboxed)

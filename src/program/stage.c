@@ -4,6 +4,7 @@
 
 #include "frames/process/interrupt.h"
 #include "lua/bind/host.h"
+#include "lua/bind/named.h"
 #include "lua/bind/userdata.h"
 #include "model/scene/scene.h"
 #include "output/png/chunk.h"
@@ -246,6 +247,14 @@ static celspan_status probe_object(const search *s, celspan_object *object,
   return status;
 }
 
+/* Pushes who called the line where a value was made, or "". */
+static void push_callers(const search *s, cs_mark mark) {
+  lua_State *script = s->script->L;
+  cs_named_push_callers(script, mark.callers);
+  lua_pushstring(s->L, lua_tostring(script, -1));
+  lua_pop(script, 1);
+}
+
 static void add_hit(search *s, const char *kind, cs_mark mark) {
   celspan_origin origin = cs_mark_origin(mark);
   s->count++;
@@ -254,7 +263,8 @@ static void add_hit(search *s, const char *kind, cs_mark mark) {
   lua_pushstring(s->L, cs_mark_name(mark));
   lua_pushstring(s->L, origin.line > 0 ? origin.source : NULL);
   lua_pushinteger(s->L, origin.line);
-  lua_call(s->L, 4, 0);
+  push_callers(s, mark);
+  lua_call(s->L, 5, 0);
 }
 
 /* How large the film is in a rostrum: a nested one has a size of its own. */
@@ -300,9 +310,9 @@ static celspan_status search_rostrum(search *s, const celspan_rostrum *rostrum, 
   return CELSPAN_OK;
 }
 
-/* film:hits(x, y, add) -> nil | message: calls add(kind, name, source or nil, line) for each object
- * and cel of the frame that was built last that covers the point, from front to back, each after
- * what it is made of. x, y: film units. */
+/* film:hits(x, y, add) -> nil | message: calls add(kind, name, source or nil, line, callers) for
+ * each object and cel of the frame that was built last that covers the point, from front to back,
+ * each after what it is made of. x, y: film units. */
 int cs_stage_hits(lua_State *L, cs_script *script) {
   search s = {.L = L,
               .context = script->context,

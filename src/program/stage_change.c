@@ -262,7 +262,7 @@ int cs_stage_costs(lua_State *L, cs_script *script) {
   luaL_checktype(L, 8, LUA_TFUNCTION);
   if (measure(script->context, &desc, &c) != CELSPAN_OK)
     return fail(L, script);
-  give_cost(L, "", (cs_mark){NULL, NULL, 0}, &c);
+  give_cost(L, "", (cs_mark){NULL, NULL, 0, 0}, &c);
   const celspan_rostrum *rostrum = desc.exposure_count > 0 ? desc.exposures[0].rostrum : NULL;
   for (size_t i = 0; rostrum && i < rostrum->cel_count && i < CELS_MOST; i++) {
     char label[LABEL];

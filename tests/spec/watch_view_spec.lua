@@ -63,6 +63,33 @@ describe("a frame in another way", function()
     assert.equal("ball", json.decode(said)[2].name)
   end)
 
+  it("says through which lines an object was made", function()
+    watching.bench:write("shot.lua", [[
+local celspan = require "celspan"
+local function ball(x) return celspan.circle { centre = { x, 18 }, radius = 6 } end
+local function pair(x) local one = ball(x) return one end
+local still = ball(50)
+return celspan.film { size = { 64, 36 }, frames = 1, frame = function()
+  local left = pair(10)
+  return celspan.rostrum { celspan.cel { left, still } }
+end }
+]])
+    local said = watching.speak(watching.watch "shot.lua --editor true", [=[
+      const at = async x => JSON.parse((await web.get(`/at/${x},18.json?frame=1`)).body)[0];
+      const left = await at(10), still = await at(50);
+      const headers = { Origin: `http://127.0.0.1:${web.port}` };
+      const post = (file, line) => web.get("/open",
+        { method: "POST", headers, body: JSON.stringify({ file, line }) });
+      return { left, still, open: [(await post("shot.lua", 3)).status,
+                                   (await post("shot.lua", 1)).status] };]=])
+    assert.equal(2, said.left.line)
+    assert.equal("in ball, from shot.lua:3, shot.lua:6", said.left.via)
+    assert.same({ { file = "shot.lua", line = 3 }, { file = "shot.lua", line = 6 } },
+      said.left.callers)
+    assert.equal("in ball, from shot.lua:4", said.still.via)
+    assert.same({ 200, 404 }, said.open)
+  end)
+
   it("has costs, as a whole and of each cel", function()
     local said = watching.speak(watching.watch(), [=[
       return JSON.parse((await web.get("/costs.json?frame=3&size=640x360")).body);]=])

@@ -166,6 +166,28 @@ void cs_caller_push_chain(lua_State *L, const char *position, lua_CFunction last
     append(L, ")", "");
 }
 
+void cs_caller_push_callers(lua_State *L) {
+  lua_Debug info;
+  int level = 1, count = 0;
+  while (get(L, level, &info) && (info.currentline <= 0 || is_own(&info)))
+    level++;
+  luaL_checkstack(L, 6, "too many callers");
+  lua_pushliteral(L, "");
+  if (!lua_getstack(L, level, &info))
+    return;
+  lua_getinfo(L, "nSl", &info);
+  place before = place_of(&info);
+  if (info.name)
+    append(L, "in ", info.name);
+  while (++level <= MOST_CALLS && count < MOST_CALLERS && get(L, level, &info)) {
+    place p = place_of(&info);
+    if (!is_file(&info) || strcmp(p.text, before.text) == 0)
+      continue;
+    before = p;
+    append(L, ++count > 1 ? ", " : lua_rawlen(L, -1) > 0 ? ", from " : "from ", p.text);
+  }
+}
+
 /* ---------------------------------------------------------------- functions */
 
 void cs_caller_push_function(lua_State *L, int index) {

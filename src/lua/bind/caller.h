@@ -35,6 +35,9 @@ bool cs_caller_push_folder(lua_State *L);
 /* Pushes the folder of a path; "" when it has none. */
 const char *cs_caller_push_folder_of(lua_State *L, const char *path);
 
+/* Pushes "in walk, from shot.lua:88, shot.lua:90" for the caller: the function that it is, if that
+ * has a name, and its own callers, the nearest first; "" where neither is known. */
+void cs_caller_push_callers(lua_State *L);
 /* Pushes " (called from shot.lua:40, shot.lua:55)": the callers of the function at `position`, up
  * to the C function `last`; "" when there are none. For message handlers, while the stack of the
  * failed call still exists. */

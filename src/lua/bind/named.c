@@ -1,5 +1,6 @@
 #include "lua/bind/named.h"
 
+#include <lauxlib.h>
 #include <string.h>
 
 #include "lua/bind/caller.h"
@@ -7,12 +8,71 @@
 
 /* ---------------------------------------------------------------- lines */
 
+/* Its address is a key of the registry: a list of texts, in which each text has its number too, and
+ * [0] is whether more are kept. */
+static const char callers_key = 0;
+
+void cs_named_keep_callers(lua_State *L, bool is_kept) {
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &callers_key) != LUA_TTABLE) {
+    lua_newtable(L);
+    lua_pushvalue(L, -1);
+    lua_rawsetp(L, LUA_REGISTRYINDEX, &callers_key);
+    lua_remove(L, -2);
+  }
+  lua_pushboolean(L, is_kept);
+  lua_rawseti(L, -2, 0);
+  lua_pop(L, 1);
+}
+
+void cs_named_push_callers(lua_State *L, uint32_t number) {
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &callers_key) == LUA_TTABLE && number > 0)
+    lua_rawgeti(L, -1, number);
+  else
+    lua_pushliteral(L, "");
+  lua_remove(L, -2);
+}
+
+/* The number of the callers' text in the list on top of the stack. */
+static uint32_t number_of_callers(lua_State *L) {
+  cs_caller_push_callers(L);
+  lua_pushvalue(L, -1);
+  if (lua_rawget(L, -3) != LUA_TNUMBER) {
+    lua_Integer number = (lua_Integer)lua_rawlen(L, -3) + 1;
+    lua_pushvalue(L, -2);
+    lua_rawseti(L, -4, number);
+    lua_pushvalue(L, -2);
+    lua_pushinteger(L, number);
+    lua_rawset(L, -5);
+    lua_pop(L, 1);
+    lua_pushinteger(L, number);
+  }
+  uint32_t number = (uint32_t)lua_tointeger(L, -1);
+  lua_pop(L, 2);
+  return number;
+}
+
+/* 0: they are not kept. */
+static uint32_t find_callers(lua_State *L) {
+  uint32_t number = 0;
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &callers_key) == LUA_TTABLE) {
+    lua_rawgeti(L, -1, 0);
+    bool is_kept = lua_toboolean(L, -1);
+    lua_pop(L, 1);
+    number = is_kept ? number_of_callers(L) : 0;
+  }
+  lua_pop(L, 1);
+  return number;
+}
+
 void cs_named_begin(lua_State *L, celspan_context *context) {
   lua_Debug at;
-  if (cs_caller_find(L, &at))
-    celspan_context_set_origin(context, at.short_src, at.currentline);
-  else
+  luaL_checkstack(L, 6, "too many callers");
+  if (!cs_caller_find(L, &at)) {
     cs_named_end(context);
+    return;
+  }
+  celspan_context_set_origin(context, at.short_src, at.currentline);
+  context->origin.callers = find_callers(L);
 }
 
 void cs_named_begin_as(celspan_context *context, const cs_userdata *value) {

@@ -14,6 +14,12 @@ void cs_named_begin(lua_State *L, celspan_context *context);
 void cs_named_begin_as(celspan_context *context, const cs_userdata *value);
 void cs_named_end(celspan_context *context);
 
+/* Whether the callers of that line are kept from now on, so that cs_named_push_callers knows them:
+ * every value then takes a walk over the stack. At first they are not. */
+void cs_named_keep_callers(lua_State *L, bool is_kept);
+/* Pushes what cs_caller_push_callers said when a value with this number in its mark was made. */
+void cs_named_push_callers(lua_State *L, uint32_t number);
+
 /* Gives `value`, new and not shared yet, the name of `from`, if it has one. */
 void cs_named_copy(lua_State *L, const cs_userdata *from, cs_userdata *value);
 /* v:named("hand") */

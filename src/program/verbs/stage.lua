@@ -102,10 +102,14 @@ function answers.made(ask)
 end
 
 function answers.at(ask)
-  if not build(ask) then return end
+  film:keep_callers(true)
+  local is_built = build(ask)
+  film:keep_callers(false)
+  if not is_built then return end
   local hits = {}
-  local message = film:hits(ask.x, ask.y, function(kind, name, source, line)
-    hits[#hits + 1] = { kind = kind, name = name, file = source, line = source and line }
+  local message = film:hits(ask.x, ask.y, function(kind, name, source, line, callers)
+    hits[#hits + 1] = { kind = kind, name = name, file = source, line = source and line,
+                        callers = callers }
   end)
   if message then return refuse(message) end
   put { good = true, hits = hits }
@@ -219,7 +223,10 @@ local function take()
 end
 
 local good, made = pcall(program.film, request[1])
-if good then film = made end
+if good then
+  film = made
+  film:keep_callers(false)
+end
 for ask in take do
   if not film then
     refuse(program.reported() or tostring(made), program.outcome())

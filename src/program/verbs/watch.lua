@@ -388,7 +388,10 @@ local function give_point(id, x, y, fields)
   if not x or not y then return refuse(id, 400, "write /at/X,Y.json, in units of the film") end
   pass_on(id, { want = "at", number = number, x = x, y = y },
     function(head)
-      for _, hit in ipairs(head.hits) do note_place(hit.file, hit.line) end
+      for _, hit in ipairs(head.hits) do
+        note_place(hit.file, hit.line)
+        hit.via, hit.callers = hit.callers, note_places(hit.callers)
+      end
       give_json(id, { list = head.hits })
     end)
 end

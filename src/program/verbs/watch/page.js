@@ -978,6 +978,7 @@ async function inspect(clientX, clientY) {
     const where = element(state.editor && place ? "button" : "small", { textContent: place });
     if (where.matches("button")) where.onclick = () => post("/open", hit);
     item.append(hit.name ? `${hit.name} (${hit.kind})` : `${hit.kind} without a name`, " ", where);
+    if (hit.via) item.append(" ", ...placesOf(hit.via, hit.callers));
     return item;
   }));
 }
