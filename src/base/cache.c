@@ -220,6 +220,30 @@ celspan_status cs_cache_acquire(cs_cache *cache, celspan_context *context, cs_ca
 
 /* ---------------------------------------------------------------- the cache */
 
+celspan_status cs_cache_service_create(celspan_context *context, size_t entry_size,
+                                       void (*clear)(cs_cache_entry *entry, cs_memory *memory),
+                                       size_t budget, cs_service **out) {
+  cs_cache_service *made;
+  CS_TRY(CS_MAKE(context, made, 1));
+  made->cache = (cs_cache){.memory = context->memory,
+                           .entry_size = entry_size,
+                           .clear = clear,
+                           .shrinks_on_unpin = true,
+                           .budget = budget};
+  cs_cache_init(&made->cache);
+  *out = &made->service;
+  return CELSPAN_OK;
+}
+
+void cs_cache_service_destroy(cs_service *service) {
+  cs_cache *cache = cs_cache_of(service);
+  cs_memory *memory = cache->memory;
+  cs_cache_finish(cache);
+  cs_mem_free(memory, service, sizeof(cs_cache_service));
+}
+
+void cs_cache_service_trim(cs_service *service) { cs_cache_trim(cs_cache_of(service)); }
+
 size_t cs_cache_raise_budget(cs_cache *cache, size_t least) {
   pthread_mutex_lock(&cache->lock);
   cache->budget = cache->budget < least ? least : cache->budget;

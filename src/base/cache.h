@@ -63,6 +63,21 @@ void cs_cache_init(cs_cache *cache);
 /* No entry is pinned any more. */
 void cs_cache_finish(cs_cache *cache);
 
+/* A service that is one cache. Its kind has a function that creates it, and the two below. */
+typedef struct cs_cache_service {
+  cs_service service;
+  cs_cache cache;
+} cs_cache_service;
+CELSPAN_CHECKED celspan_status cs_cache_service_create(celspan_context *context, size_t entry_size,
+                                                       void (*clear)(cs_cache_entry *entry,
+                                                                     cs_memory *memory),
+                                                       size_t budget, cs_service **out);
+void cs_cache_service_destroy(cs_service *service);
+void cs_cache_service_trim(cs_service *service);
+static inline cs_cache *cs_cache_of(cs_service *service) {
+  return &((cs_cache_service *)service)->cache;
+}
+
 /* All functions below: any thread. */
 
 /* The budget from now on is at least `least`; returns it. */

@@ -7,11 +7,6 @@ typedef struct entry {
   cs_defocus_band band;
 } entry;
 
-typedef struct bands {
-  cs_service service;
-  cs_cache cache;
-} bands;
-
 /* ---------------------------------------------------------------- life */
 
 static void clear_entry(cs_cache_entry *cached, cs_memory *memory) {
@@ -19,28 +14,11 @@ static void clear_entry(cs_cache_entry *cached, cs_memory *memory) {
 }
 
 static celspan_status create(celspan_context *context, cs_service **out) {
-  bands *b;
-  CS_TRY(CS_MAKE(context, b, 1));
-  b->cache = (cs_cache){.memory = context->memory,
-                        .entry_size = sizeof(entry),
-                        .clear = clear_entry,
-                        .shrinks_on_unpin = true,
-                        .budget = context->root->defocus_bytes};
-  cs_cache_init(&b->cache);
-  *out = &b->service;
-  return CELSPAN_OK;
+  return cs_cache_service_create(context, sizeof(entry), clear_entry, context->root->defocus_bytes,
+                                 out);
 }
 
-static void destroy(cs_service *service) {
-  bands *b = (bands *)service;
-  cs_memory *memory = b->cache.memory;
-  cs_cache_finish(&b->cache);
-  cs_mem_free(memory, b, sizeof *b);
-}
-
-static void trim(cs_service *service) { cs_cache_trim(&((bands *)service)->cache); }
-
-static const cs_service_kind kind = {create, destroy, trim};
+static const cs_service_kind kind = {create, cs_cache_service_destroy, cs_cache_service_trim};
 
 celspan_status cs_defocus_bands_ready(celspan_context *context) {
   cs_service *service;
@@ -48,8 +26,8 @@ celspan_status cs_defocus_bands_ready(celspan_context *context) {
 }
 
 static cs_cache *cache_of(const celspan_context *context) {
-  bands *b = (bands *)cs_context_find_service(context, &kind);
-  return b ? &b->cache : NULL;
+  cs_service *service = cs_context_find_service(context, &kind);
+  return service ? cs_cache_of(service) : NULL;
 }
 
 cs_cache_counts cs_defocus_bands_count(celspan_context *context) {

@@ -158,6 +158,25 @@ static celspan_status blur(celspan_context *context, celspan_object *object,
   return status;
 }
 
+/* What an effect makes of an object without a mode. */
+typedef celspan_status (*effect)(celspan_context *context, celspan_object *object, const void *desc,
+                                 celspan_object **made);
+
+/* The effect on an object, whose mode becomes that of the whole. */
+static celspan_status make(celspan_context *context, celspan_object *object, effect effect,
+                           const void *desc, celspan_object **out) {
+  celspan_object *plain, *made = NULL;
+  CS_TRY(celspan_object_blend(context, object, CELSPAN_BLEND_NORMAL, &plain));
+  celspan_status status = effect(context, plain, desc, &made);
+  celspan_object_unref(plain);
+  return finish(context, object, status, made, out);
+}
+
+static celspan_status add_blur(celspan_context *context, celspan_object *object, const void *desc,
+                               celspan_object **out) {
+  return blur(context, object, desc, 1, out);
+}
+
 static celspan_status check_blur(celspan_context *context, const char *noun, const char *field,
                                  double radius) {
   return cs_check_range(context, noun, field, radius, 0, CELSPAN_BLUR_MOST);
@@ -171,11 +190,7 @@ celspan_status celspan_object_blur(celspan_context *context, celspan_object *obj
   CS_TRY(check_blur(context, "blur", "radius", desc->radius));
   CS_TRY(
       cs_check_choice(context, "blur", "kernel", (unsigned)desc->kernel, CELSPAN_DEFOCUS_DISC + 1));
-  celspan_object *plain, *made = NULL;
-  CS_TRY(celspan_object_blend(context, object, CELSPAN_BLEND_NORMAL, &plain));
-  celspan_status status = blur(context, plain, desc, 1, &made);
-  celspan_object_unref(plain);
-  return finish(context, object, status, made, out);
+  return make(context, object, add_blur, desc, out);
 }
 
 /* ---------------------------------------------------------------- silhouettes */
@@ -253,9 +268,9 @@ static celspan_status check_shadow(celspan_context *context, const celspan_objec
   return cs_check_share(context, "shadow", "opacity", desc->opacity, &opacity);
 }
 
-/* object: without a mode. */
-static celspan_status add_shadow(celspan_context *context, celspan_object *object,
-                                 const celspan_shadow_desc *desc, celspan_object **shadow) {
+static celspan_status add_shadow(celspan_context *context, celspan_object *object, const void *user,
+                                 celspan_object **shadow) {
+  const celspan_shadow_desc *desc = user;
   double extent = EXTENT_GAUSSIAN * desc->blur + fabs(desc->offset.x) + fabs(desc->offset.y);
   const silhouette look = {.colour = desc->colour,
                            .inverts = desc->is_inside,
@@ -273,11 +288,7 @@ static celspan_status add_shadow(celspan_context *context, celspan_object *objec
 celspan_status celspan_object_shadow(celspan_context *context, celspan_object *object,
                                      const celspan_shadow_desc *desc, celspan_object **out) {
   CS_TRY(check_shadow(context, object, desc));
-  celspan_object *plain, *made = NULL;
-  CS_TRY(celspan_object_blend(context, object, CELSPAN_BLEND_NORMAL, &plain));
-  celspan_status status = add_shadow(context, plain, desc, &made);
-  celspan_object_unref(plain);
-  return finish(context, object, status, made, out);
+  return make(context, object, add_shadow, desc, out);
 }
 
 /* ---------------------------------------------------------------- glows */
@@ -291,8 +302,9 @@ static celspan_status check_glow(celspan_context *context, const celspan_object 
   return cs_check_size(context, "glow", "gain", desc->gain);
 }
 
-static celspan_status add_glow(celspan_context *context, celspan_object *object,
-                               const celspan_glow_desc *desc, celspan_object **glow) {
+static celspan_status add_glow(celspan_context *context, celspan_object *object, const void *user,
+                               celspan_object **glow) {
+  const celspan_glow_desc *desc = user;
   const silhouette look = {.colour = desc->colour, .radius = desc->radius, .gain = desc->gain};
   CS_TRY(make_silhouette(context, object, &look, glow));
   CS_TRY(give_mode(context, glow, CELSPAN_BLEND_ADD));
@@ -302,9 +314,5 @@ static celspan_status add_glow(celspan_context *context, celspan_object *object,
 celspan_status celspan_object_glow(celspan_context *context, celspan_object *object,
                                    const celspan_glow_desc *desc, celspan_object **out) {
   CS_TRY(check_glow(context, object, desc));
-  celspan_object *plain, *made = NULL;
-  CS_TRY(celspan_object_blend(context, object, CELSPAN_BLEND_NORMAL, &plain));
-  celspan_status status = add_glow(context, plain, desc, &made);
-  celspan_object_unref(plain);
-  return finish(context, object, status, made, out);
+  return make(context, object, add_glow, desc, out);
 }

@@ -15,11 +15,6 @@
 
 /* ---------------------------------------------------------------- the store */
 
-typedef struct font_store {
-  cs_service service;
-  cs_cache fonts;
-} font_store;
-
 static void drop_outlines(cs_font *font, cs_memory *memory) {
   for (size_t i = 0; font->glyphs && i < font->info.glyphs; i++)
     if (font->glyphs[i]) {
@@ -42,28 +37,11 @@ static void clear_font(cs_cache_entry *entry, cs_memory *memory) {
 }
 
 static celspan_status create_store(celspan_context *context, cs_service **out) {
-  font_store *store;
-  CS_TRY(CS_MAKE(context, store, 1));
-  store->fonts = (cs_cache){.memory = context->memory,
-                            .entry_size = sizeof(cs_font),
-                            .clear = clear_font,
-                            .shrinks_on_unpin = true,
-                            .budget = BUDGET};
-  cs_cache_init(&store->fonts);
-  *out = &store->service;
-  return CELSPAN_OK;
+  return cs_cache_service_create(context, sizeof(cs_font), clear_font, BUDGET, out);
 }
 
-static void destroy_store(cs_service *service) {
-  font_store *store = (font_store *)service;
-  cs_memory *memory = store->fonts.memory;
-  cs_cache_finish(&store->fonts);
-  cs_mem_free(memory, store, sizeof *store);
-}
-
-static void trim_store(cs_service *service) { cs_cache_trim(&((font_store *)service)->fonts); }
-
-static const cs_service_kind store_kind = {create_store, destroy_store, trim_store};
+static const cs_service_kind store_kind = {create_store, cs_cache_service_destroy,
+                                           cs_cache_service_trim};
 
 /* ---------------------------------------------------------------- a font */
 
@@ -125,16 +103,16 @@ celspan_status cs_font_acquire(celspan_context *context, const celspan_text_desc
   cs_service *service;
   CS_TRY(cs_context_service(context, &store_kind, &service));
   cs_cache_entry *entry;
-  CS_TRY(cs_cache_acquire(&((font_store *)service)->fonts, context, key_of(&wanted, &found),
-                          make_font, &wanted, &entry));
+  CS_TRY(cs_cache_acquire(cs_cache_of(service), context, key_of(&wanted, &found), make_font,
+                          &wanted, &entry));
   *out = (cs_font *)entry;
   return CELSPAN_OK;
 }
 
 void cs_font_release(celspan_context *context, cs_font *font) {
-  font_store *store = (font_store *)cs_context_find_service(context, &store_kind);
+  cs_service *store = cs_context_find_service(context, &store_kind);
   if (font)
-    cs_cache_unpin(&store->fonts, &font->entry);
+    cs_cache_unpin(cs_cache_of(store), &font->entry);
 }
 
 /* ---------------------------------------------------------------- outlines */
