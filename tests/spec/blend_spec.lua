@@ -1,6 +1,7 @@
 -- Groups, blend modes and mattes: what films show of them. The formulas themselves are tested by
 -- unit/blend, random scenes by property/oracle.
 local celspan = require "celspan"
+local near = require("tests.support.images").near
 local prng = require "tests.support.prng"
 
 local modes = { "normal", "multiply", "screen", "overlay", "darken", "lighten", "color-dodge",
@@ -17,16 +18,6 @@ local function pixels(what, w, h, antialias)
   return assert(celspan.pixels(what, { size = { w, h }, film = { w, h } }))
 end
 
-local function colour(image, x, y) return { image:get(x, y) } end
-
-local function near(expected, image, x, y, tolerance)
-  local got = colour(image, x, y)
-  for c = 1, 4 do
-    assert.is_true(math.abs(got[c] - expected[c]) <= (tolerance or 1e-6),
-      ("pixel %d, %d: %.7f %.7f %.7f %.7f instead of %.7f %.7f %.7f %.7f"):format(x, y, got[1],
-        got[2], got[3], got[4], table.unpack(expected)))
-  end
-end
 
 --- A film that fills one pixel, seen by its probe and in the rendered floats.
 local function check_rendered(list, count)

@@ -1,5 +1,6 @@
 -- Lights with a shape, and compositions inside others: values, messages, defocus.
 local celspan = require "celspan"
+local images = require "tests.support.images"
 local raised = require("tests.support.raised").sentence
 local workbench = require "tests.support.workbench"
 
@@ -16,18 +17,6 @@ local function pixels(rostrum, options)
     { size = options.size or { 80, 60 }, film = options.film or { 80, 60 },
                                           antialias = options.antialias,
                                           workers = options.workers or 1 }))
-end
-
---- The greatest difference of two images of one size, in any channel.
-local function difference(a, b)
-  local most = 0
-  for y = 0, a.height - 1 do
-    for x = 0, a.width - 1 do
-      local p, q = { a:get(x, y) }, { b:get(x, y) }
-      for c = 1, 4 do most = math.max(most, math.abs(p[c] - q[c])) end
-    end
-  end
-  return most
 end
 
 describe("a rostrum with a size", function()
@@ -107,7 +96,7 @@ describe("a rostrum with a size", function()
     local outer = celspan.cel { value }
     local r = celspan.probe(celspan.rostrum { outer }, 20, 20, { film = { 80, 60 } })
     assert.near(celspan.probe(small(), 20, 20, { film = { 80, 60 } }), r, 1e-6)
-    assert.equal(0, difference(pixels(small()), pixels(celspan.rostrum { outer })))
+    assert.equal(0, images.difference(pixels(small()), pixels(celspan.rostrum { outer })))
     assert.matches("rostrum: nested 129 levels deep; the limit is 128", raised(function()
       return celspan.cel { celspan.rostrum { size = { 80, 60 }, outer } }
     end), 1, true)
@@ -154,16 +143,16 @@ describe("defocus and compositions", function()
   it("blurs inside one as it does outside", function()
     local flat = celspan.rostrum { blurred }
     local nested = celspan.rostrum { celspan.cel { flat:with { size = { 80, 60 } } } }
-    assert.is_true(difference(pixels(flat), pixels(nested)) < 1e-4)
+    assert.is_true(images.difference(pixels(flat), pixels(nested)) < 1e-4)
     -- Twice the film at half the size: half the radius.
     local big = celspan.rostrum { size = { 160, 120 }, blurred:with { defocus = 8 }:scale(2) }
-    assert.is_true(difference(pixels(flat),
+    assert.is_true(images.difference(pixels(flat),
       pixels(celspan.rostrum { celspan.cel { big:scale(0.5) } })) < 1e-3)
   end)
 
   it("blurs one like its contents", function()
     local nested = celspan.rostrum { celspan.cel { small(), defocus = 4 } }
-    assert.is_true(difference(pixels(celspan.rostrum { blurred }), pixels(nested)) < 2 / 255)
+    assert.is_true(images.difference(pixels(celspan.rostrum { blurred }), pixels(nested)) < 2 / 255)
   end)
 
   it("blurs one that is blurred inside: the light is kept, with any number of threads", function()
@@ -178,7 +167,7 @@ describe("defocus and compositions", function()
     end
     local image = pixels(twice)
     assert.near(light(pixels(celspan.rostrum { celspan.cel { art() } })), light(image), 1)
-    assert.equal(0, difference(image, pixels(twice, { workers = 3 })))
+    assert.equal(0, images.difference(image, pixels(twice, { workers = 3 })))
   end)
 
   it("blurs a gel that is blurred inside: its channels stay apart", function()
@@ -284,7 +273,7 @@ describe("a light with a shape", function()
 
   it("of one paint is that colour everywhere", function()
     for _, light in ipairs { celspan.mix("#804020", "#804020", 0), { texture = "#804020" } } do
-      assert.equal(0, difference(pixels(lit "#804020"), pixels(lit(light))))
+      assert.equal(0, images.difference(pixels(lit "#804020"), pixels(lit(light))))
     end
     assert.near(1.5, (pixels(lit { texture = celspan.rgb(1, 1, 1, 0.5), gain = 3 }):get(1, 1)),
       1e-6)

@@ -1,5 +1,6 @@
 -- Blurred objects, shadows and glows: against formulas, and against the same made by hand.
 local celspan = require "celspan"
+local images = require "tests.support.images"
 
 local function rect(x, y, w, h, texture) return celspan.rect { x, y, w, h, texture = texture } end
 
@@ -10,21 +11,8 @@ local function pixels(objects, w, h, options)
   return assert(celspan.pixels(rostrum, options))
 end
 
---- The greatest difference between two images of this size.
-local function difference(a, b)
-  assert.same({ a.width, a.height }, { b.width, b.height })
-  local most = 0
-  for y = 0, a.height - 1 do
-    for x = 0, a.width - 1 do
-      local p, q = { a:get(x, y) }, { b:get(x, y) }
-      for c = 1, 4 do most = math.max(most, math.abs(p[c] - q[c])) end
-    end
-  end
-  return most
-end
-
 local function assert_alike(tolerance, a, b)
-  local most = difference(a, b)
+  local most = images.difference(a, b)
   assert.is_true(most <= tolerance, ("they differ by %.6f"):format(most))
 end
 

@@ -1,6 +1,7 @@
 -- Working spaces: films, rostrums and groups in which sRGB codes are mixed instead of light. The
 -- formulas themselves are tested by unit/space, random scenes by property/oracle.
 local celspan = require "celspan"
+local near = require("tests.support.images").near
 local prng = require "tests.support.prng"
 
 local function rect(x, y, w, h, texture) return celspan.rect { x, y, w, h, texture = texture } end
@@ -14,15 +15,6 @@ local function film(space, rostrum, w, h)
 end
 
 local function pixels(what, options) return assert(celspan.pixels(what, options)) end
-
-local function near(expected, image, x, y, tolerance)
-  local got = { image:get(x, y) }
-  for c = 1, 4 do
-    assert.is_true(math.abs(got[c] - expected[c]) <= (tolerance or 1e-6),
-      ("pixel %d, %d: %.7f %.7f %.7f %.7f instead of %.7f %.7f %.7f %.7f"):format(x, y, got[1],
-        got[2], got[3], got[4], table.unpack(expected)))
-  end
-end
 
 --- The 8-bit codes of the first row.
 local function codes(what, options) return { pixels(what, options):bytes { depth = 8 }:byte(1,

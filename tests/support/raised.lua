@@ -3,6 +3,7 @@
 --   local raised = require "tests.support.raised"
 --   raised.message(film.at, film, 7)                          the whole message
 --   raised.sentence(function() celspan.circle { r = 3 } end)  without "x_spec.lua:12: ", and 12
+--   raised.each { ["unknown field"] = function() celspan.circle { r = 3 } end }
 local assert = require "luassert"
 
 local raised = {}
@@ -22,6 +23,17 @@ function raised.sentence(call)
   local line, rest = tostring(message):match(file:gsub("%p", "%%%0") .. ":(%d+): (.*)$")
   if not line then error("the message has no line of " .. file .. ": " .. tostring(message), 2) end
   return rest, tonumber(line)
+end
+
+--- Calls that must raise errors: each message contains its words, and begins with a line of the
+--- file that contains the function.
+function raised.each(cases)
+  for words, call in pairs(cases) do
+    local file = debug.getinfo(call, "S").short_src
+    local message = raised.message(call)
+    assert.is_truthy(message:find(words, 1, true), message)
+    assert.is_truthy(message:find("^" .. file:gsub("%p", "%%%0") .. ":%d+: "), message)
+  end
 end
 
 return raised
