@@ -159,15 +159,15 @@ static celspan_status blur(celspan_context *context, celspan_object *object,
 }
 
 /* What an effect makes of an object without a mode. */
-typedef celspan_status (*effect)(celspan_context *context, celspan_object *object, const void *desc,
-                                 celspan_object **made);
+typedef celspan_status (*effect_maker)(celspan_context *context, celspan_object *object,
+                                       const void *desc, celspan_object **made);
 
 /* The effect on an object, whose mode becomes that of the whole. */
-static celspan_status make(celspan_context *context, celspan_object *object, effect effect,
+static celspan_status make(celspan_context *context, celspan_object *object, effect_maker add,
                            const void *desc, celspan_object **out) {
   celspan_object *plain, *made = NULL;
   CS_TRY(celspan_object_blend(context, object, CELSPAN_BLEND_NORMAL, &plain));
-  celspan_status status = effect(context, plain, desc, &made);
+  celspan_status status = add(context, plain, desc, &made);
   celspan_object_unref(plain);
   return finish(context, object, status, made, out);
 }
