@@ -10,6 +10,7 @@ local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
 local oca = require "celspan.oca"
+local sets = require "celspan.sets"
 
 local layers = {}
 
@@ -151,12 +152,17 @@ local function note_blends(list, path, skipped)
   end
 end
 
-local function make_tree(list, width, height, skipped)
+--- The tree of a list of layers, with notes that are complete.
+local function complete_tree(list, width, height, skipped)
   local tree = { width = width, height = height, skipped = skipped }
   for i, entry in ipairs(list) do tree[i] = entry end
   tree.object = composed { children = list }
-  note_blends(list, "", skipped)
   return setmetatable(tree, Tree)
+end
+
+local function make_tree(list, width, height, skipped)
+  note_blends(list, "", skipped)
+  return complete_tree(list, width, height, skipped)
 end
 
 -- ---------------------------------------------------------------- paintings
@@ -376,6 +382,80 @@ function methods:get(path)
   core.refuse(("layers: there is no layer %q%s"):format(path,
     hint and ("; did you mean %q?"):format(hint) or #paths > 0 and "; there are "
       .. table.concat(paths, ", ", 1, math.min(12, #paths)) or ""))
+end
+
+-- ---------------------------------------------------------------- changes
+
+--- A copy of an entry with other contents: children, or an object.
+local function remade(entry, children, object)
+  local source = sources[entry]
+  return make_entry { name = entry.name, x = entry.x, y = entry.y, opacity = entry.opacity,
+    visible = entry.visible, blend = entry.blend, children = children, object = object,
+    clipped = source.clipped, within = source.within }
+end
+
+--- A list in which the layers that have a function are changed, inner ones first; nil if none has.
+--- done: the paths that were met; of several layers with one path only the rearmost is changed.
+local function changed_list(list, path, changes, done)
+  local copy, is_changed = {}, false
+  for i, entry in ipairs(list) do
+    local here = path .. entry.name
+    local change = not done[here] and changes[here]
+    done[here] = true
+    local children = entry.children and changed_list(entry.children, here .. "/", changes, done)
+    if children then entry = remade(entry, children) end
+    if change then
+      local object = change(entry.object)
+      if not object or not pcall(celspan.union, { object }) then
+        core.refuse(("layers: the function of layer '%s' must return an object, got %s"):format(
+          here, fields.kind(object)))
+      end
+      entry = remade(entry, nil, object)
+    end
+    copy[i] = entry
+    is_changed = is_changed or children ~= nil or change ~= nil and change ~= false
+  end
+  return is_changed and copy or nil
+end
+
+--- The painting with layers replaced, inner ones first: each function gets the object of the layer
+--- of its path, without its opacity and blend mode, and returns another one. Opacities, modes,
+--- clipping and the order of the layers are kept.
+---@param changes table<string, fun(object: celspan.object): celspan.object>
+---@return celspan.layers.tree
+function methods:with(changes)
+  fields.self("layers", Tree, self, "with")
+  if type(changes) ~= "table" then
+    core.refuse("layers: with takes a table of functions by path, got " .. fields.kind(changes))
+  end
+  for path, change in next, changes do
+    self:get(path)
+    if type(change) ~= "function" then
+      core.refuse(("layers: layer '%s' must have a function, got %s"):format(path,
+        fields.kind(change)))
+    end
+  end
+  local list = changed_list(self, "", changes, {})
+  return list and complete_tree(list, self.width, self.height, self.skipped) or self
+end
+
+local function nothing() return celspan.union {} end
+
+--- The painting with one layer of each set: of "mouth A", "mouth B" and "mouth C" only the C, for
+--- { mouth = "C" }. false: none of them.
+---@param choices table<string, string|false>
+---@return celspan.layers.tree
+function methods:show(choices)
+  fields.self("layers", Tree, self, "show")
+  if type(choices) ~= "table" then
+    core.refuse("layers: show takes a table of names by set, got " .. fields.kind(choices))
+  end
+  local paths, changes = {}, {}
+  for _, path in ipairs(add_paths(self, "", {})) do paths[path] = true end
+  for _, path in ipairs(sets.hidden("layers: show", "the painting", paths, choices)) do
+    changes[path] = nothing
+  end
+  return self:with(changes)
 end
 
 -- ---------------------------------------------------------------- cels

@@ -34,30 +34,55 @@ local function is_of(class, art)
   return metatable and metatable.__name == class
 end
 
---- Lists the elements that have names of their own: { name =, number =, inside = }; inside: the
---- elements that contain it, the outermost first.
-local function elements_of(art)
-  local list, open, by_name = {}, {}, {}
+--- The parts of a drawing by name: { key =, object =, inside = }; key: its name for art:with;
+--- inside: the elements that contain it, the outermost first.
+local function drawn_parts(art)
+  local open, by_name = {}, {}
   for _, element in ipairs(art:elements()) do
     local entry = { key = element.name, inside = table.move(open, 1, element.depth, 1, {}) }
     open[element.depth + 1] = entry
-    list[#list + 1] = entry
     for _, name in ipairs { element.id or false, element.label or false } do
-      if name and rawget(art.parts, name) and not by_name[name] then by_name[name] = entry end
+      local object = name and rawget(art.parts, name)
+      if object and not by_name[name] then by_name[name], entry.object = entry, object end
     end
   end
-  return list, by_name
+  return by_name
+end
+
+--- The same of a painting, whose layers have their paths as names, and their own names where only
+--- one layer has it.
+local function painted_parts(art)
+  local by_name, by_own, shared = {}, {}, {}
+  local function add(list, path, inside)
+    for _, layer in ipairs(list) do
+      local key = path .. layer.name
+      local part = { key = key, object = layer.object, inside = inside }
+      by_name[key] = by_name[key] or part
+      shared[layer.name] = by_own[layer.name] ~= nil
+      by_own[layer.name] = by_own[layer.name] or part
+      if layer.children then
+        local outer = table.move(inside, 1, #inside, 1, {})
+        outer[#outer + 1] = part
+        add(layer.children, key .. "/", outer)
+      end
+    end
+  end
+  add(art, "", {})
+  for name, part in pairs(by_own) do
+    if not shared[name] then by_name[name] = by_name[name] or part end
+  end
+  return by_name
 end
 
 local JOINT = "^joint[ %-_:]+(.+)$"
 
 --- The joints that are drawn: the centres of the parts named "joint NAME".
-local function drawn_joints(art)
+local function drawn_joints(by_name)
   local joints, guides = {}, {}
-  for name, object in pairs(art.parts) do
+  for name, part in pairs(by_name) do
     local joint = name:match(JOINT)
     if joint then
-      local x, y, w, h = object:bounds()
+      local x, y, w, h = part.object:bounds()
       if not x then refuse("part '%s' is empty: a joint is a shape, such as a circle", name) end
       joints[joint] = { x + w / 2, y + h / 2 }
       guides[#guides + 1] = name
@@ -131,8 +156,9 @@ local function new(_, given)
       fields.kind(given.art))
   end
   local rig = { art = given.art, bones = {}, list = {}, parts = {}, switches = {} }
-  rig.elements, rig.by_name = elements_of(given.art)
-  rig.joints, rig.guides = drawn_joints(given.art)
+  local is_drawing = is_of("celspan.svg", given.art)
+  rig.by_name = (is_drawing and drawn_parts or painted_parts)(given.art)
+  rig.joints, rig.guides = drawn_joints(rig.by_name)
   bones.read(rig, given.joints, given.bones)
   join_parts(rig)
   read_switches(rig, given.switches)

@@ -1,6 +1,8 @@
 -- Puppets: bones, poses and targets, and the motion that follows others.
 local celspan = require "celspan"
+local layers = require "celspan.layers"
 local motion = require "celspan.motion"
+local paintings = require "tests.support.paintings"
 local particles = require "celspan.particles"
 local present = require "tests.support.present"
 local prng = require "tests.support.prng"
@@ -306,6 +308,63 @@ describe("a puppet", function()
         rig:pose { front = { "tail" } }
       end,
       ["the parts of 'mouth' are A, B, and not 'C'"] = function() rig:pose { mouth = "C" } end,
+    }
+  end)
+end)
+
+describe("a painted puppet", function()
+  local function layer(name, x, y, w, h, r, g, b)
+    return { name = name, x = x, y = y, w = w, h = h, pixel = function() return r, g, b, 255 end }
+  end
+
+  local function painting()
+    local bytes = paintings.openraster { w = 100, h = 100, layers = {
+      layer("body", 40, 0, 20, 40, 255, 0, 0),
+      { name = "leg", layers = { layer("thigh", 45, 36, 10, 28, 0, 255, 0),
+                                 layer("shin", 46, 58, 8, 26, 0, 0, 255) } },
+      layer("mouth A", 44, 4, 4, 4, 255, 255, 255), layer("mouth B", 52, 4, 4, 4, 255, 255, 255),
+      { name = "guides", layers = { layer("joint hip", 48, 38, 4, 4, 0, 0, 0),
+                                    layer("joint knee", 48, 58, 4, 4, 0, 0, 0),
+                                    layer("joint ankle", 48, 78, 4, 4, 0, 0, 0) } },
+    } }
+    return assert(layers.read(bench:write("figure.ora", bytes)))
+  end
+
+  it("moves its layers, by name and inside of groups", function()
+    local rig = puppet { art = painting(), switches = { "mouth" },
+      bones = { { "leg", from = "hip", to = "knee" }, { "shin", from = "knee", to = "ankle" } } }
+    assert.equal("white", colour_at(rig:pose {}, 46, 6))
+    assert.equal("red", colour_at(rig:pose {}, 54, 6))
+    assert.equal("blue", colour_at(rig:pose {}, 50, 80)) -- the joint is not drawn
+    local object = rig:pose { leg = -90, mouth = "B" }
+    assert.equal("green", colour_at(object, 55, 42))
+    assert.equal("blue", colour_at(object, 80, 40))
+    assert.equal("white", colour_at(object, 54, 6))
+    object = rig:pose { leg = -90, shin = 90 }
+    assert.equal("blue", colour_at(object, 70, 58))
+    near(65, 60, rig:joint({ reach = { ankle = { 65, 60 } } }, "ankle"))
+  end)
+
+  it("keeps what is not changed, and refuses what is not there", function()
+    local tree = painting()
+    local moved = tree:with { ["leg/shin"] = function(shin) return shin:translate(30, 0) end }
+    assert.equal("blue", colour_at(moved.object, 80, 80))
+    assert.equal("green", colour_at(moved.object, 46.5, 62))
+    assert.equal("blue", colour_at(tree.object, 50, 70))
+    assert.equal("red", colour_at(tree:show { mouth = "B" }.object, 46, 6))
+    raised.each {
+      ['layers: there is no layer "leg/chin"; did you mean "leg/shin"?'] = function()
+        tree:with { ["leg/chin"] = print }
+      end,
+      ["layers: layer 'body' must have a function, got number"] = function()
+        tree:with { body = 3 }
+      end,
+      ["layers: the function of layer 'body' must return an object, got nil"] = function()
+        tree:with { body = function() end }
+      end,
+      ["layers: show: the parts of 'mouth' are A, B, and not 'C'"] = function()
+        tree:show { mouth = "C" }
+      end,
     }
   end)
 end)
