@@ -18,7 +18,6 @@ local function pixels(what, w, h, antialias)
   return assert(celspan.pixels(what, { size = { w, h }, film = { w, h } }))
 end
 
-
 --- A film that fills one pixel, seen by its probe and in the rendered floats.
 local function check_rendered(list, count)
   local rostrum = celspan.rostrum { celspan.cel(list), antialias = "none" }

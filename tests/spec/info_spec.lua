@@ -82,13 +82,13 @@ describe("the verb info", function()
         local path = write("a.ora", paintings.openraster { w = 20, h = 10, layers = {
           { name = "ground", x = 0, y = 0, w = 3, h = 2, pixel = dot },
           { name = "far\tgroup", opacity = 0.5, visible = false, layers = {
-            { name = "haze", x = 4, y = 5, w = 2, h = 2, blend = "svg:screen",
+            { name = "haze", x = 4, y = 5, w = 2, h = 2, blend = "svg:glow",
               pixel = dot } } } } })
         assert.same({ 0, "format painting\ncanvas 20x10\nlayers 2\ngroups 1\n"
           .. "layer size 3x2 at 0,0 blend normal opacity 1 visible yes name ground\n"
-          .. "layer size 2x2 at 4,5 blend screen opacity 1 visible yes name far group/haze\n"
+          .. "layer size 2x2 at 4,5 blend glow opacity 1 visible yes name far group/haze\n"
           .. "group blend normal opacity 0.5 visible no name far group\n"
-          .. "skipped far group/haze: blend mode \"screen\": it is shown as normal\n", "" },
+          .. "skipped far group/haze: blend mode \"glow\": it is shown as normal\n", "" },
           { celspan("info " .. path) })
       end)
 
