@@ -5,6 +5,7 @@
 #include "engine/map/keep.h"
 #include "model/geometry/matrix.h"
 #include "model/scene/bounds.h"
+#include "model/scene/value.h"
 
 /* ---------------------------------------------------------------- which exposures */
 
@@ -98,7 +99,8 @@ static celspan_status make(void *user, celspan_context *context, cs_map *map) {
   placed_cel *d = user;
   d->is_made = true;
   const celspan_matrix identity = celspan_matrix_identity();
-  celspan_cel drawing = *d->cel;
+  celspan_cel drawing;
+  cs_value_copy(&drawing, d->cel, sizeof drawing);
   celspan_object only = {.matrix = &identity, .fade = 1}, *objects[] = {&only};
   if (drawing.object_count == 1) {
     only.hash = drawing.objects[0]->hash;

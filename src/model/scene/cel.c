@@ -88,10 +88,9 @@ static celspan_status create(celspan_context *context, const celspan_cel *fields
     cs_mark_drop(mark);
     return status;
   }
-  *cel = *fields;
+  cs_value_copy(cel, fields, sizeof *cel);
   cel->mark = mark;
   cel->objects = copies;
-  atomic_init(&cel->references, 1);
   cel->memory = cs_memory_ref(context->memory);
   cel->front = cs_light_ref(&fields->front);
   cel->back = cs_light_ref(&fields->back);
@@ -145,7 +144,8 @@ celspan_status celspan_cel_create(celspan_context *context, const celspan_cel_de
 celspan_status celspan_cel_transform(celspan_context *context, celspan_cel *cel,
                                      const celspan_matrix *matrix, celspan_cel **out) {
   CS_TRY(cs_check_given(context, "transform", "the cel", cel));
-  celspan_cel fields = *cel;
+  celspan_cel fields;
+  cs_value_copy(&fields, cel, sizeof fields);
   CS_TRY(cs_check_transform(context, &cel->matrix, matrix, &fields.matrix));
   for (size_t i = 0; i < cel->object_count; i++)
     CS_TRY(cs_primitive_data_check_placement(context, cel->objects[i]->data, &fields.matrix));
@@ -156,7 +156,8 @@ celspan_status celspan_cel_fade(celspan_context *context, celspan_cel *cel, doub
                                 celspan_cel **out) {
   CS_TRY(cs_check_given(context, "fade", "the cel", cel));
   CS_TRY(cs_check_share(context, "fade", "k", k, &k));
-  celspan_cel fields = *cel;
+  celspan_cel fields;
+  cs_value_copy(&fields, cel, sizeof fields);
   fields.opacity *= k;
   return create(context, &fields, cel->objects, cel->object_count, cs_mark_keep(cel->mark), out);
 }
@@ -171,7 +172,8 @@ celspan_status celspan_cel_named(celspan_context *context, celspan_cel *cel, con
 
 celspan_status cs_cel_bare(celspan_context *context, const celspan_cel *cel, cs_cel_without without,
                            celspan_cel **out) {
-  celspan_cel fields = *cel;
+  celspan_cel fields;
+  cs_value_copy(&fields, cel, sizeof fields);
   if (without.lights) {
     fields.front = (cs_light){.is_given = true, .flat = {1, 1, 1, 1}};
     fields.back = (cs_light){.is_given = true};

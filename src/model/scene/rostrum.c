@@ -153,8 +153,7 @@ static celspan_status copy(celspan_context *context, const celspan_rostrum *from
     cs_mark_drop(mark);
     return status;
   }
-  *rostrum = *from;
-  atomic_init(&rostrum->references, 1);
+  cs_value_copy(rostrum, from, sizeof *rostrum);
   rostrum->memory = cs_memory_ref(memory);
   rostrum->mark = mark;
   rostrum->cels = own;

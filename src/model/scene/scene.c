@@ -128,7 +128,8 @@ celspan_status cs_lit_alone_make(celspan_context *context, const celspan_rostrum
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "rostrum: a cel has a blend mode, so its lights do not add up and cannot be "
                    "taken apart");
-  cs_lit_alone alone = {.rostrum = *rostrum, .count = count};
+  cs_lit_alone alone = {.count = count};
+  cs_value_copy(&alone.rostrum, rostrum, sizeof *rostrum);
   alone.cels = cs_mem_array(context->memory, count, sizeof *alone.cels);
   alone.rostrum.cels = cs_mem_array(context->memory, count, sizeof *alone.rostrum.cels);
   if (count > 0 && (!alone.cels || !alone.rostrum.cels)) {
@@ -136,7 +137,7 @@ celspan_status cs_lit_alone_make(celspan_context *context, const celspan_rostrum
     return cs_fail_memory(context);
   }
   for (size_t i = 0; i < count; i++) {
-    alone.cels[i] = *rostrum->cels[index + i];
+    cs_value_copy(&alone.cels[i], rostrum->cels[index + i], sizeof *alone.cels);
     alone.cels[i].front = light_of(i == 0 && !is_back ? 1 : 0);
     alone.cels[i].back = light_of(0);
     alone.rostrum.cels[i] = &alone.cels[i];

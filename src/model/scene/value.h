@@ -5,6 +5,8 @@
  */
 #pragma once
 
+#include <string.h>
+
 #include "base/context.h"
 #include "base/hash.h"
 #include "model/colour/paint.h"
@@ -26,6 +28,14 @@ static inline void cs_value_keep(atomic_size_t *references) {
 /* Returns whether this was the last reference. */
 static inline bool cs_value_drop(atomic_size_t *references) {
   return atomic_fetch_sub_explicit(references, 1, memory_order_acq_rel) == 1;
+}
+
+/* Copies a value, whose first field is its count, but not that count, which other threads may be
+ * changing: that of the copy is 1. What the value refers to is not counted once more. */
+static inline void cs_value_copy(void *to, const void *from, size_t size) {
+  atomic_init((atomic_size_t *)to, 1);
+  const size_t count = sizeof(atomic_size_t);
+  memcpy((char *)to + count, (const char *)from + count, size - count);
 }
 
 void cs_value_hash_point(cs_hash *hash, celspan_point point);

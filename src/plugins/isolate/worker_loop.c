@@ -28,6 +28,13 @@ typedef struct worker_loop {
   cs_picture_writer *writer;
 } worker_loop;
 
+/* Sanitizers report faults themselves, reserve terabytes of memory, and write reports. */
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define IS_SANITIZED true
+#else
+#define IS_SANITIZED false
+#endif
+
 /* ---------------------------------------------------------------- faults */
 
 /* A failed allocation sets errno, which is still set where a library continued without memory until
@@ -61,7 +68,8 @@ bool cs_worker_loop_is_starved(int ending) {
 void cs_worker_loop_watch_faults(void) {
   if (atexit(end_by_library) != 0)
     _exit(CS_WORKER_NO_MEMORY);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  if (IS_SANITIZED)
+    return;
   static char stack[FAULT_STACK];
   static const int faults[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGALRM};
   const stack_t apart = {.ss_sp = stack, .ss_size = sizeof stack};
@@ -72,7 +80,6 @@ void cs_worker_loop_watch_faults(void) {
   sigaltstack(&apart, NULL);
   for (size_t i = 0; i < sizeof faults / sizeof *faults; i++)
     sigaction(faults[i], &action, NULL);
-#endif
 }
 
 /* ---------------------------------------------------------------- confinement */
@@ -94,15 +101,12 @@ static uint64_t data_bytes(void) {
   return (uint64_t)pages * (uint64_t)sysconf(_SC_PAGESIZE);
 }
 
-/* Sanitizers reserve terabytes of memory, and write reports. */
 static void limit_memory_and_files(uint64_t memory) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  (void)memory, (void)data_bytes;
-#else
+  if (IS_SANITIZED)
+    return;
   if (memory)
     limit(RLIMIT_DATA, (rlim_t)(data_bytes() + memory));
   limit(RLIMIT_FSIZE, 0);
-#endif
 }
 
 void cs_worker_loop_confine(const cs_worker_desc *desc, const cs_strict_rights *rights) {
