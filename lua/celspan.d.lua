@@ -630,7 +630,8 @@ function celspan.clip(art, shape) end
 ---@field opacity? number Of the group as a whole; limited to 0..1; default 1
 ---@field blend? celspan.mode How it is combined with its backdrop; default normal
 ---@field space? "linear"|"srgb" The numbers that are mixed in it: linear light, or sRGB codes; default that of what it is in
----@field isolate? boolean Whether modes inside act only inside; default true if it is faded, has a mode, or another space than what it is in
+---@field grade? celspan.grade How its colours are changed
+---@field isolate? boolean Whether modes inside act only inside; default true if it is faded, has a mode, a grade, or another space than what it is in
 
 ---@class celspan.group: celspan.object, celspan.group.fields
 ---@field opacity number
@@ -680,6 +681,20 @@ function celspan.matte(art, by, options) end
 ---@field radius number Film units on the frame; 0 or more
 ---@field kernel? "gaussian"|"box"|"disc" Default "gaussian"
 
+--- Steps that change colours, in this order.
+---@class celspan.grade
+---@field exposure? number Stops: times 2 to the power of this; -64 to 64; default 0
+---@field contrast? number 0 or more; default 1
+---@field pivot? number What contrast leaves as it is; default 0.18, and 0.46 in "srgb"
+---@field saturation? number 0 or more; default 1
+---@field hue? number Degrees; default 0
+---@field temperature? number From blue to orange; -1 to 1; default 0
+---@field tint? number From green to magenta; -1 to 1; default 0
+---@field gamma? number 0.0009765625 to 1024; default 1
+---@field matrix? number[][] 3 rows of 4: red, green, blue by those, and 1
+---@field curve? celspan.point[]|celspan.point[][] {in, out}, ..., for all channels or three times: a monotone cubic
+---@field lut? string The name of a .cube file
+
 ---@class celspan.cel.fields
 ---@field [integer] celspan.shape
 ---@field front? celspan.light Default that of the rostrum, else white
@@ -687,6 +702,7 @@ function celspan.matte(art, by, options) end
 ---@field viewport? number[] {x, y, w, h}; the part that fills the frame
 ---@field defocus? number|celspan.defocus A radius, or with a kernel
 ---@field blend? celspan.mode How it is combined with its backdrop; default normal
+---@field grade? celspan.grade How its colours are changed
 ---@field opacity? number Limited to 0..1; default 1
 
 ---@class celspan.cel: celspan.placed, celspan.cel.fields
@@ -712,6 +728,7 @@ function celspan.cel(fields) end
 ---@field camera? celspan.camera
 ---@field antialias? celspan.antialias Default "area"
 ---@field size? number[] {w, h}; film units: the size of its own film; required for use as an object
+---@field grade? celspan.grade How its colours are changed
 ---@field space? "linear"|"srgb" The numbers that are mixed in it: linear light, or sRGB codes; default that of the film, or of what it is an object of
 
 ---@class celspan.rostrum: celspan.placed, celspan.rostrum.fields

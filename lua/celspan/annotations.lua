@@ -365,6 +365,8 @@ function celspan.matte(art, by, options) end
 
 ---@noun defocus
 
+---@noun grade
+
 ---@noun cel: celspan.placed
 
 ---@noun light_shape

@@ -417,8 +417,44 @@ function maker:mode()
   return mode
 end
 
+local steps = {
+  function(r) return "exposure = " .. text_of(r:between(-1, 1)) end,
+  function(r) return "contrast = " .. text_of(r:between(0.3, 1.5)) end,
+  function(r) return "saturation = " .. text_of(r:between(0, 1.5)) end,
+  function(r) return "hue = " .. text_of(r:between(-180, 180)) end,
+  function(r) return "temperature = " .. text_of(r:between(-1, 1)) end,
+  function(r) return "gamma = " .. text_of(r:between(0.6, 1)) end,
+  function(r)
+    return ("matrix = { { 0, %s, 0, 0 }, { 0.5, 0.5, 0, 0.1 }, { 0, 0, 1, 0 } }")
+      :format(text_of(r:between(0, 1)))
+  end,
+  function(r)
+    return ("curve = { {0, 0.1}, {%s, 0.5}, {1, 1} }"):format(text_of(r:between(0.2, 0.8)))
+  end,
+}
+
+--- One or two steps of a grade, which may make light four times as bright.
+function maker:grade()
+  local from, to = self.modes:whole(1, #steps), self.modes:whole(1, #steps)
+  self.brightest = self.brightest * 4
+  local first = steps[from](self.modes)
+  return ("grade = { %s }"):format(from == to and first or first .. ", " .. steps[to](self.modes))
+end
+
+--- Adds a space, and a grade, to the fields of a value, now and then.
+function maker:develop(fields, has_space)
+  if not self.has_spaces then return end
+  if has_space and self.modes:once(3) then
+    fields[#fields + 1] = ("space = %q"):format(self.modes:pick { "linear", "srgb", "srgb" })
+  end
+  if self.modes:once(6) then fields[#fields + 1] = self:grade() end
+end
+
 --- The object in a group, with a mode or with a matte.
 function maker:compose(object, depth)
+  local fields = { object }
+  self:develop(fields, true)
+  if #fields > 1 then return ("celspan.group{ %s }"):format(table.concat(fields, ", ")) end
   local kind = self.modes:whole(1, 4)
   if kind == 1 then return ("%s:blend(%q)"):format(object, self:mode()) end
   if kind == 2 then
@@ -521,6 +557,7 @@ function maker:cel()
   if self.has_modes and self.modes:once(4) then
     fields[#fields + 1] = ("blend = %q"):format(self:mode())
   end
+  self:develop(fields, false)
   local transform = self.random:once(5) and self:transform() or ""
   return ("celspan.cel{ %s }%s"):format(table.concat(fields, ", "), transform)
 end
@@ -541,6 +578,7 @@ function maker:rostrum(size)
     fields[#fields + 1] = ("camera = { centre = %s, width = %s, rotate = %s }"):format(
       self:point_text(), self:number(15, 70), rotate)
   end
+  self:develop(fields, size or self.is_exposed)
   self.lights = self.lights * self.brightest
   return ("celspan.rostrum{ %s }"):format(table.concat(fields, ", "))
 end
@@ -552,6 +590,7 @@ function maker:exposures()
     return rostrum
   end
   local list = {}
+  self.is_exposed = true
   for i = 1, self.random:whole(1, 3) do
     local weight = self.random:between(0, 1.2)
     list[i] = ("{ %s, %s }"):format(self:rostrum(), text_of(weight))
@@ -573,6 +612,7 @@ local function start(seed, options)
     has_pictures = options.has_pictures ~= false, has_text = options.has_text, level = 0,
     lights = 1, brightest = 1, modes = prng.new(~seed),
     has_modes = options.has_modes ~= false and seed % 2 == 0,
+    has_spaces = options.has_modes ~= false and seed % 4 == 0,
     most = random:pick { 1, 1, 3 }, depth = random:pick { 0, 1, 2, 4 },
   }, maker)
 end
@@ -581,7 +621,8 @@ end
 -- options: is_flat (no gradients or pictures), is_single (one exposure), has_rows = false (no
 -- scan-lines), has_pictures = false, has_text (every second primitive is text), is_plain (no
 -- lights with a shape, no compositions inside others), has_modes = false. Half of the scenes have
--- modes, groups and mattes.
+-- modes, groups and mattes; half of these have spaces and grades, too. The outermost space is that
+-- of light.
 function scenes.script(seed, options)
   local self = start(seed, options or {})
   local exposures = self:exposures()

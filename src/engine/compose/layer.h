@@ -11,6 +11,7 @@
 #include <assert.h>
 
 #include "base/vector.h"
+#include "model/colour/grade.h"
 #include "model/colour/paint.h"
 #include "model/scene/scene.h"
 #include "model/scene/texture.h"
@@ -111,20 +112,22 @@ typedef struct cs_group {
   float fade;
   bool has_light; /* a front light with a shape */
   bool varies;    /* it has one, or a group around it has */
-  bool curves;    /* it is a head, or is converted to another space, or is inside such a group: what
+  bool curves;    /* it is a head, graded, converted to another space, or inside such a group: what
                         the layers around it look like is no affine function of its paints */
   bool inverts;   /* MATTE: 1 less its strength */
   bool is_luma;   /* MATTE: its strength is luma, else alpha */
   bool is_frame;  /* directly in the frame, or the whole of it: its back lights are behind what
                         else is in it, too */
   uint8_t kind;   /* a cs_group_kind */
-  uint8_t converts;   /* PLAIN: its result, to this celspan_space; AROUND: not at all */
-  uint8_t blend;      /* GROUND: a celspan_blend */
-  bool has_front;     /* a flat front light, since its parts could not be lit one by one */
-  cs_v4 front;        /* has_front: that light; lane 3 is 0 */
-  uint32_t light;     /* has_light: the layer of that light, in front of all its others */
-  uint32_t around;    /* GROUND: the group around all the grounds inside each other */
-  uint32_t innermost; /* GROUND: the innermost of these, which names them all */
+  const cs_grade *grade; /* PLAIN: NULL: none. Borrowed from the scene */
+  uint8_t space;         /* grade: that of its contents */
+  uint8_t converts;      /* PLAIN: its result, to this celspan_space; AROUND: not at all */
+  uint8_t blend;         /* GROUND: a celspan_blend */
+  bool has_front;        /* a flat front light, since its parts could not be lit one by one */
+  cs_v4 front;           /* has_front: that light; lane 3 is 0 */
+  uint32_t light;        /* has_light: the layer of that light, in front of all its others */
+  uint32_t around;       /* GROUND: the group around all the grounds inside each other */
+  uint32_t innermost;    /* GROUND: the innermost of these, which names them all */
 } cs_group;
 
 /* A back light, met on the way from the camera before every layer below `below`. */

@@ -91,12 +91,21 @@ static inline cs_over_pair cs_over_blend(celspan_blend mode, cs_over_pair source
                         source.t * back.t};
 }
 
-/* What becomes of a group as a whole: it is converted to the space around it, then lit. keep: what
- * mattes of back lights leave of the transparency of a frame. */
+static inline cs_v4 cs_over_grade(const cs_group *group, cs_over_pair pair, float keep) {
+  float light[4];
+  cs_v4_store(light, pair.e);
+  cs_grade_light(group->grade, (celspan_space)group->space, cs_over_alpha(pair.t, keep), light);
+  return cs_v4_load(light);
+}
+
+/* What becomes of a group as a whole: it is graded, converted to the space around it, then lit.
+ * keep: what mattes of back lights leave of the transparency of a frame. */
 static inline cs_over_pair cs_over_develop(const cs_group *group, cs_over_pair pair, float keep) {
+  keep = group->is_frame ? keep : 1;
+  if (group->grade)
+    pair.e = cs_over_grade(group, pair, keep);
   if (group->converts != CELSPAN_SPACE_AROUND)
-    pair.e =
-        cs_space_leave((celspan_space)group->converts, pair.e, pair.t, group->is_frame ? keep : 1);
+    pair.e = cs_space_leave((celspan_space)group->converts, pair.e, pair.t, keep);
   if (group->has_front)
     pair.e = cs_over_lit(group->front, 1, pair.e, pair.t).e;
   return pair;

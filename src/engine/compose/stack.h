@@ -23,10 +23,11 @@
 #include "engine/compose/layer.h"
 
 #define CS_STACK_LAYERS ((size_t)10000000)
-/* Groups around a layer, at most, without the grounds that modes need: a cel may be lit, faded and
- * a source, which are three, the frame may be one, and at each level of nesting there is a faded
- * object, a source, what leaves for another space, a matte and the group that it fades. */
-#define CS_STACK_GROUPS (5 * CS_SCENE_DEPTH + 4)
+/* Groups around a layer, at most, without the grounds that modes need: a cel may be lit, faded,
+ * graded and a source, which are four, the frame may be one, and at each level of nesting there is
+ * a faded object, a source, what leaves for another space, a matte and the group that it fades, or
+ * a faded composition as a whole and a cel. */
+#define CS_STACK_GROUPS (6 * CS_SCENE_DEPTH + 5)
 
 /* One step of a boolean tree in post-order. */
 typedef enum cs_step_kind {

@@ -20,7 +20,7 @@ static void meet_light(cs_over_row *over) {
 /* What a group that has been left is for the group around it, but not yet faded. */
 static void finish_group(cs_over_row *over, const cs_group *group, const cs_over_row_outer *around,
                          cs_over_row_state *inner) {
-  if (group->converts != CELSPAN_SPACE_AROUND || group->has_front)
+  if (group->grade || group->converts != CELSPAN_SPACE_AROUND || group->has_front)
     WIDE(over, cs_over_row_develop)(inner, over->count, group, over->keep);
   if (group->has_light)
     WIDE(over, cs_over_row_light_group)(inner, over->count, (const float(*)[4])around->front);

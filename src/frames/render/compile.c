@@ -205,6 +205,16 @@ static celspan_status compile_paint(cs_compiler *c, const celspan_rostrum *rostr
   return CELSPAN_OK;
 }
 
+/* The same, graded as it is lit. */
+static celspan_status compile_graded(cs_compiler *c, const celspan_rostrum *rostrum, size_t index,
+                                     const celspan_matrix *matrix, const cs_compiler_film *film) {
+  cs_objects_outside outer;
+  CS_TRY(cs_objects_begin_grade(c, rostrum->cels[index]->grade, &outer));
+  CS_TRY(compile_paint(c, rostrum, index, matrix, film));
+  cs_objects_end_group(c, outer);
+  return CELSPAN_OK;
+}
+
 static celspan_status compile_cel(cs_compiler *c, const celspan_rostrum *rostrum, size_t index,
                                   const cs_compiler_film *film) {
   const celspan_cel *cel = rostrum->cels[index];
@@ -214,9 +224,9 @@ static celspan_status compile_cel(cs_compiler *c, const celspan_rostrum *rostrum
   matrix = celspan_matrix_then(matrix, film->to_pixels);
   CS_TRY(cs_lights_add_back(c, rostrum, index, &cel->back, film));
   if (cel->blend == CELSPAN_BLEND_NORMAL)
-    return compile_paint(c, rostrum, index, &matrix, film);
+    return compile_graded(c, rostrum, index, &matrix, film);
   CS_TRY(cs_objects_begin_source(c, cel->opacity > 0 ? 1 : 0, false, &outer));
-  CS_TRY(compile_paint(c, rostrum, index, &matrix, film));
+  CS_TRY(compile_graded(c, rostrum, index, &matrix, film));
   return cs_objects_end_source(c, cel->blend, outer);
 }
 
@@ -270,7 +280,7 @@ static celspan_status compile_rostrum(cs_compiler *c, const celspan_rostrum *ros
                                  .to_pixels = celspan_matrix_scaling(c->plan->width / film_width,
                                                                      c->plan->height / film_height),
                                  .shine = {1, 1, 1, 0}};
-  CS_TRY(cs_objects_begin_frame(c, cs_space_inside(rostrum->space, c->space)));
+  CS_TRY(cs_objects_begin_frame(c, cs_space_inside(rostrum->space, c->space), rostrum->grade));
   CS_TRY(compile_film(c, rostrum, &film));
   reverse_lights(&c->plan->stack);
   cs_boundary_sort(&c->plan->boundaries);

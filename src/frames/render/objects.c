@@ -191,29 +191,37 @@ static celspan_status enter(cs_compiler *c, cs_group group) {
   group.parent = c->group;
   group.first = (uint32_t)stack->layer_count;
   group.varies |= around && around->varies;
-  group.curves = group.kind == CS_GROUP_HEAD || group.converts != CELSPAN_SPACE_AROUND ||
-                 (around && around->curves);
+  group.curves = group.kind == CS_GROUP_HEAD || group.grade ||
+                 group.converts != CELSPAN_SPACE_AROUND || (around && around->curves);
   stack->has_curves |= group.curves;
   c->group = (uint32_t)stack->group_count;
   stack->groups[stack->group_count++] = group;
   return CELSPAN_OK;
 }
 
-/* Begins a group that is converted from a space to the compiler's, and lit as a whole. */
-static celspan_status enter_whole(cs_compiler *c, celspan_space space) {
+/* A group that is graded in a space, and then converted from it to the compiler's. */
+static cs_group developed(const cs_compiler *c, celspan_space space, const celspan_grade *grade) {
   celspan_space to = space == c->space ? CELSPAN_SPACE_AROUND : c->space;
-  if (c->fades_out)
-    return CELSPAN_OK;
-  return enter(
-      c, (cs_group){.fade = 1, .has_front = true, .front = c->front, .converts = (uint8_t)to});
+  return (cs_group){
+      .fade = 1, .grade = cs_grade_steps(grade), .space = (uint8_t)space, .converts = (uint8_t)to};
 }
 
-celspan_status cs_objects_begin_frame(cs_compiler *c, celspan_space space) {
-  cs_stack *stack = &c->plan->stack;
-  if (space == c->space)
+/* Begins one that is lit as a whole. */
+static celspan_status enter_whole(cs_compiler *c, celspan_space space, const celspan_grade *grade) {
+  cs_group group = developed(c, space, grade);
+  group.has_front = true;
+  group.front = c->front;
+  return c->fades_out ? CELSPAN_OK : enter(c, group);
+}
+
+celspan_status cs_objects_begin_frame(cs_compiler *c, celspan_space space,
+                                      const celspan_grade *grade) {
+  cs_group group = developed(c, space, grade);
+  group.is_frame = true;
+  if (space == c->space && !grade)
     return CELSPAN_OK;
-  CS_TRY(enter(c, (cs_group){.fade = 1, .is_frame = true, .converts = (uint8_t)c->space}));
-  stack->has_root = true;
+  CS_TRY(enter(c, group));
+  c->plan->stack.has_root = true;
   c->space = space;
   return CELSPAN_OK;
 }
@@ -225,6 +233,16 @@ celspan_status cs_objects_begin_group(cs_compiler *c, double fade, bool is_lit,
   if ((fade == 1 && !is_lit) || c->fades_out)
     return CELSPAN_OK;
   CS_TRY(enter(c, (cs_group){.fade = (float)fade, .varies = is_lit}));
+  outer->begun = c->group;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_objects_begin_grade(cs_compiler *c, const celspan_grade *grade,
+                                      cs_objects_outside *outer) {
+  *outer = outside_of(c);
+  if (!grade || c->fades_out)
+    return CELSPAN_OK;
+  CS_TRY(enter(c, developed(c, c->space, grade)));
   outer->begun = c->group;
   return CELSPAN_OK;
 }
@@ -525,14 +543,16 @@ static celspan_status add_framed(cs_compiler *inner, const cs_primitive_data *da
 }
 
 /* What changes inside is the compiler's copy, which has the same plan. Light multiplies level by
- * level, except where modes are inside, or codes instead of light: it falls on what they make. */
+ * level, except where modes or grades are inside, or codes instead of light: it falls on what they
+ * make. */
 static celspan_status add_rostrum(cs_compiler *c, const cs_primitive_data *data,
                                   const celspan_matrix *matrix) {
   celspan_space space = cs_space_inside(data->rostrum->space, c->space);
-  bool is_lit_whole = space != c->space || cs_rostrum_has_modes(data->rostrum);
+  const celspan_grade *grade = data->rostrum->grade;
+  bool is_lit_whole = grade || space != c->space || cs_rostrum_has_modes(data->rostrum);
   cs_objects_outside outer = outside_of(c);
   if (is_lit_whole)
-    CS_TRY(enter_whole(c, space));
+    CS_TRY(enter_whole(c, space, grade));
   cs_compiler inner = *c;
   c->group = outer.group;
   inner.space = space;
@@ -548,26 +568,26 @@ static celspan_status add_rostrum(cs_compiler *c, const cs_primitive_data *data,
 
 /* ---------------------------------------------------------------- groups of their own kinds */
 
-static bool has_own_space(const cs_primitive_data *data, celspan_space around) {
-  return data->kind == CS_PRIMITIVE_DATA_BOOLEAN &&
-         cs_boolean_space(data->boolean, around) != around;
+static bool develops(const cs_primitive_data *data, celspan_space around) {
+  return data->kind == CS_PRIMITIVE_DATA_BOOLEAN && cs_boolean_develops(data->boolean, around);
 }
 
 /* Whether a mode inside the data acts on the backdrop in the group that they begin. */
 static bool blends_around(const cs_primitive_data *data, celspan_space space) {
-  return data->blends[space] && !has_own_space(data, space);
+  return data->blends[space] && !develops(data, space);
 }
 
-/* The operands of a boolean; in a space of its own they are a group, which is lit as a whole. */
+/* The operands of a boolean; with a grade, or in a space of its own, they are a group, which is lit
+ * as a whole. */
 static celspan_status add_inside(cs_compiler *c, const cs_primitive_data *data,
                                  const celspan_matrix *matrix) {
-  if (!has_own_space(data, c->space))
+  if (!develops(data, c->space))
     return add_boolean(c, data, matrix);
   const cs_v4 front = c->front;
   const celspan_space around = c->space;
   const uint32_t group = c->group;
   cs_objects_outside outer;
-  CS_TRY(enter_whole(c, cs_boolean_space(data->boolean, around)));
+  CS_TRY(enter_whole(c, cs_boolean_space(data->boolean, around), data->boolean->grade));
   c->space = cs_boolean_space(data->boolean, around);
   c->front = (cs_v4){1, 1, 1, 0};
   CS_TRY(cs_objects_begin_isolation(c, data->blends[around], false, &outer));

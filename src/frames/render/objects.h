@@ -29,9 +29,14 @@ CELSPAN_CHECKED celspan_status cs_objects_begin_group(cs_compiler *c, double fad
                                                       cs_objects_outside *outer);
 void cs_objects_end_group(cs_compiler *c, cs_objects_outside outer);
 
-/* Begins the whole frame, before all else, in a space: a group where that is not the frame's.
- * Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_objects_begin_frame(cs_compiler *c, celspan_space space);
+/* Begins a group for a grade (NULL: none), which ends like those above. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_objects_begin_grade(cs_compiler *c, const celspan_grade *grade,
+                                                      cs_objects_outside *outer);
+
+/* Begins the whole frame, before all else, in a space: a group where that is not the frame's, or
+ * where it has a grade. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_objects_begin_frame(cs_compiler *c, celspan_space space,
+                                                      const celspan_grade *grade);
 
 /* Begins what isolates. blends: a source is inside that acts on its backdrop. is_frame: it is the
  * frame itself. Errors: NO_MEMORY. */

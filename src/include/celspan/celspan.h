@@ -803,12 +803,60 @@ typedef enum celspan_blend {
   CELSPAN_BLEND_ADD
 } celspan_blend;
 
+/* ---------------------------------------------------------------- grades */
+
+/* What becomes of the colours of a group, a cel or a rostrum, after they have been composited:
+ * divided by alpha, they go through these steps in this order, in the numbers of the working space,
+ * and are multiplied by alpha again. What is let through does not change. */
+typedef struct celspan_grade celspan_grade;
+
+#define CELSPAN_GRADE_STOPS 64   /* exposures are within this and its negative */
+#define CELSPAN_GRADE_GAMMA 1024 /* gammas are within 1 through this, and this */
+
+typedef struct celspan_grade_desc {
+  size_t struct_size; /* sizeof(celspan_grade_desc) */
+  double exposure;    /* times 2 to the power of this */
+  double contrast;    /* (c - pivot) * contrast + pivot; 0 or more */
+  bool has_pivot;     /* else 0.18, and 0.46 in SRGB */
+  double pivot;
+  double saturation,
+      hue; /* the matrices of SVG's and CSS's filters, with 0.2126, 0.7152 and 0.0722;
+                             hue: radians */
+  double temperature, tint; /* -1..1: red times 2^(t/2), green 2^(-tint/2), blue 2^(-t/2), divided
+                               by what that makes of white's luma */
+  double gamma;             /* sign(c) |c|^(1/gamma) */
+  bool has_matrix;
+  double matrix[3][4];           /* red, green, blue by those, and 1 */
+  const celspan_point *curve[3]; /* of each channel, x becomes y: monotone cubics, straight beyond
+                                    their ends; x ascends. Copied */
+  size_t curve_count[3];         /* 0: none, else 2..1024 */
+  const char *lut;               /* the name of a .cube file, or NULL: colours are clamped to its
+                                    domain, and interpolated trilinearly */
+  const char *lut_tried;         /* where else it was looked for, for messages; or NULL */
+} celspan_grade_desc;
+
+static inline celspan_grade_desc celspan_grade_desc_default(void) {
+  celspan_grade_desc desc = CELSPAN_ZERO;
+  desc.struct_size = sizeof desc;
+  desc.contrast = desc.saturation = desc.gamma = 1;
+  return desc;
+}
+#define CELSPAN_GRADE_DESC (celspan_grade_desc_default())
+
+/* desc: borrowed. Errors: NO_MEMORY, BAD_ARGUMENT; INPUT, with the line, for a file that cannot be
+ * read or is damaged; LIMIT. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_grade_create(celspan_context *context,
+                                                                const celspan_grade_desc *desc,
+                                                                celspan_grade **out);
+CELSPAN_API celspan_grade *celspan_grade_ref(celspan_grade *grade);
+CELSPAN_API void celspan_grade_unref(celspan_grade *grade);
+
 /* Whether modes inside a group act on the backdrop of the group. */
 typedef enum celspan_isolation {
-  CELSPAN_ISOLATION_AUTO = 0, /* it isolates if it is faded, has a mode, or another space than what
-                                 it is in */
+  CELSPAN_ISOLATION_AUTO = 0, /* it isolates if it is faded, has a mode, a grade, or another space
+                                 than what it is in */
   CELSPAN_ISOLATION_ON,
-  CELSPAN_ISOLATION_OFF /* refused for a group that is faded or has a mode or a space */
+  CELSPAN_ISOLATION_OFF /* refused for a group that is faded or has a mode, a space or a grade */
 } celspan_isolation;
 
 typedef struct celspan_group_desc {
@@ -818,7 +866,8 @@ typedef struct celspan_group_desc {
   double opacity; /* 0..1 */
   celspan_blend blend;
   celspan_isolation isolate;
-  celspan_space space; /* its result is converted, then lit and faded */
+  celspan_space space;  /* its result is graded, converted, then lit and faded */
+  celspan_grade *grade; /* kept; NULL: none */
 } celspan_group_desc;
 
 static inline celspan_group_desc celspan_group_desc_default(void) {
@@ -1153,6 +1202,7 @@ typedef struct celspan_cel_desc {
   /* The numbers of the light are a colour, which is converted to codes where those are mixed; else
    * they are factors, which multiply codes as they are. Likewise of a rostrum. */
   bool front_is_colour, back_is_colour;
+  celspan_grade *grade; /* of the cel as it is lit, before it is faded; kept; NULL: none */
 } celspan_cel_desc;
 
 static inline celspan_cel_desc celspan_cel_desc_default(void) {
@@ -1248,6 +1298,7 @@ typedef struct celspan_rostrum_desc {
   double width, height;
   bool front_is_colour, back_is_colour; /* as in celspan_cel_desc */
   celspan_space space;
+  celspan_grade *grade; /* of the whole; kept; NULL: none */
 } celspan_rostrum_desc;
 
 static inline celspan_rostrum_desc celspan_rostrum_desc_default(void) {

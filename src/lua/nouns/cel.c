@@ -1,6 +1,7 @@
 /* celspan.cel: a list of objects with its own lights and defocus. */
 #include "lua/bind/fields.h"
 #include "lua/bind/host.h"
+#include "lua/nouns/grade.h"
 #include "lua/nouns/light.h"
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/shape.h"
@@ -42,8 +43,11 @@ static void create(const cs_form *form, cs_userdata *value) {
   cs_light_read(form, "back", &desc.back, &desc.back_is_colour, &desc.back_texture);
   read_defocus(form, &desc);
   cs_fields_read(form, &desc);
+  desc.grade = cs_grade_of(form);
   celspan_cel *cel = NULL;
-  cs_form_try(form, celspan_cel_create(cs_host_context(L), &desc, &cel));
+  celspan_status status = celspan_cel_create(cs_host_context(L), &desc, &cel);
+  celspan_grade_unref(desc.grade);
+  cs_form_try(form, status);
   value->handle = cel;
 }
 
@@ -56,6 +60,7 @@ static const cs_field fields[] = {
     {"defocus", CS_OWN("number|celspan.defocus"), .about = "A radius, or with a kernel"},
     {"blend", CS_CHOICE(DESC, blend, cs_blend_words), .written = "celspan.mode",
      .about = "How it is combined with its backdrop", .fallback = "normal"},
+    CS_GRADE_FIELD,
     {"opacity", CS_NUMBER(DESC, opacity), .preset = "1", .about = "Limited to 0..1"},
     {0}};
 const cs_noun cs_noun_cel = {.name = "cel",

@@ -3,6 +3,7 @@
 #include "lua/bind/construct.h"
 #include "lua/bind/fields.h"
 #include "lua/bind/host.h"
+#include "lua/nouns/grade.h"
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/shape.h"
 #include "lua/nouns/space.h"
@@ -26,7 +27,11 @@ static void create_group(const cs_form *form, cs_userdata *value) {
   if (fields.has_isolate)
     fields.desc.isolate = fields.isolate ? CELSPAN_ISOLATION_ON : CELSPAN_ISOLATION_OFF;
   fields.desc.space = cs_own_space_of(&fields.space);
-  cs_form_try(form, celspan_object_create_group(cs_host_context(form->L), &fields.desc, &group));
+  fields.desc.grade = cs_grade_of(form);
+  celspan_status status =
+      celspan_object_create_group(cs_host_context(form->L), &fields.desc, &group);
+  celspan_grade_unref(fields.desc.grade);
+  cs_form_try(form, status);
   value->handle = group;
 }
 
@@ -37,9 +42,11 @@ static const cs_field group_rows[] = {
     {"blend", CS_CHOICE(FIELDS, desc.blend, cs_blend_words), .written = "celspan.mode",
      .about = "How it is combined with its backdrop", .fallback = "normal"},
     CS_OWN_SPACE(FIELDS, space, "that of what it is in"),
+    CS_GRADE_FIELD,
     {"isolate", CS_FLAG(FIELDS, isolate), CS_HAS(FIELDS, has_isolate),
      .about = "Whether modes inside act only inside",
-     .fallback = "true if it is faded, has a mode, or another space than what it is in"},
+     .fallback = "true if it is faded, has a mode, a grade, or another space than what it "
+                 "is in"},
     {0}};
 const cs_noun cs_noun_group = {.name = "group",
                                .about = "Objects that are composited by themselves, then put into "

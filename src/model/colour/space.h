@@ -13,6 +13,8 @@
 #include "base/vector.h"
 #include "model/colour/paint.h"
 
+#define CS_SPACES (CELSPAN_SPACE_SRGB + 1) /* items of arrays that are indexed by a space */
+
 extern const char *const cs_space_words[]; /* of celspan_space, from LINEAR on, ended by NULL */
 
 /* The space that `own` means within `around`; outermost, LINEAR. */

@@ -38,6 +38,7 @@ static void hash_placement(cs_hash *hash, const celspan_cel *cel) {
   cs_hash_number(hash, cel->opacity);
   if (cel->blend != CELSPAN_BLEND_NORMAL)
     cs_hash_word(hash, cel->blend);
+  cs_grade_hash(hash, cel->grade);
 }
 
 static cs_hash hash_cel(const celspan_cel *cel) {
@@ -61,7 +62,7 @@ bool celspan_cel_hash(const celspan_cel *cel, uint64_t drawing[2], uint64_t plac
 
 static void find_modes(celspan_cel *cel) {
   memset(cel->blends_inside, 0, sizeof cel->blends_inside);
-  cel->has_modes = cel->blend != CELSPAN_BLEND_NORMAL;
+  cel->has_modes = cel->grade || cel->blend != CELSPAN_BLEND_NORMAL;
   for (size_t i = 0; i < cel->object_count; i++) {
     for (int space = CELSPAN_SPACE_LINEAR; space < CS_SPACES; space++)
       cel->blends_inside[space] |= cs_object_blends(cel->objects[i], (celspan_space)space);
@@ -94,6 +95,7 @@ static celspan_status create(celspan_context *context, const celspan_cel *fields
   cel->memory = cs_memory_ref(context->memory);
   cel->front = cs_light_ref(&fields->front);
   cel->back = cs_light_ref(&fields->back);
+  cel->grade = celspan_grade_ref(fields->grade);
   cel->object_count = object_count;
   find_modes(cel);
   cel->hash = hash_cel(cel);
@@ -129,6 +131,7 @@ celspan_status celspan_cel_create(celspan_context *context, const celspan_cel_de
       .defocus_radius = desc->defocus_radius,
       .defocus_kernel = desc->defocus_radius > 0 ? desc->defocus_kernel : CELSPAN_DEFOCUS_GAUSSIAN,
       .blend = desc->blend,
+      .grade = desc->grade,
   };
   CS_TRY(cs_check_share(context, "cel", "opacity", desc->opacity, &fields.opacity));
   if (desc->has_viewport)
@@ -175,7 +178,7 @@ celspan_status cs_cel_bare(celspan_context *context, const celspan_cel *cel, cs_
   celspan_cel fields;
   cs_value_copy(&fields, cel, sizeof fields);
   if (without.lights) {
-    fields.front = (cs_light){.is_given = true, .flat = {1, 1, 1, 1}};
+    fields.front = (cs_light){.is_given = true, .flat = {1, 1, 1, 1}, .coded = {1, 1, 1, 1}};
     fields.back = (cs_light){.is_given = true};
   }
   if (without.defocus) {
@@ -203,6 +206,7 @@ void celspan_cel_unref(celspan_cel *cel) {
   cs_primitive_data_list_free(memory, cel->objects, cel->object_count);
   cs_light_unref(&cel->front);
   cs_light_unref(&cel->back);
+  celspan_grade_unref(cel->grade);
   cs_mark_drop(cel->mark);
   cs_mem_free(memory, cel, sizeof *cel);
   cs_memory_unref(memory);

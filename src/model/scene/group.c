@@ -5,6 +5,7 @@
  *     group{ a, b, isolate = true } a union that isolates
  *     group{ a, b, space = s }      a union in a space of its own; it isolates where that is not
  *                                   the space around it
+ *     group{ a, b, grade = g }      a union that is graded; it isolates
  *     a:blend(m)                    a union of one object, with a mode; it isolates
  *     matte(art, by)                two operands, of which only the first is painted; it isolates
  */
@@ -22,6 +23,7 @@ static celspan_status create(celspan_context *context, const char *noun, const c
   cs_primitive_data *data;
   CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_BOOLEAN, NULL, &data));
   *data->boolean = *look;
+  celspan_grade_ref(look->grade);
   celspan_status status = cs_operands_create(context, noun, operands, count, &data->boolean->view);
   if (status == CELSPAN_OK) {
     data->boolean->operands = data->boolean->view.objects;
@@ -53,6 +55,7 @@ static celspan_status check_group(celspan_context *context, const celspan_group_
   const char *must = opacity < 1                           ? "an opacity below 1"
                      : desc->blend != CELSPAN_BLEND_NORMAL ? "a blend mode"
                      : desc->space != CELSPAN_SPACE_AROUND ? "a space of its own"
+                     : desc->grade                         ? "a grade"
                                                            : NULL;
   if (must && desc->isolate == CELSPAN_ISOLATION_OFF)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
@@ -68,7 +71,8 @@ celspan_status celspan_object_create_group(celspan_context *context, const celsp
   const cs_boolean look = {.op = CELSPAN_UNION,
                            .blend = desc->blend,
                            .space = desc->space,
-                           .isolates = desc->isolate == CELSPAN_ISOLATION_ON ||
+                           .grade = desc->grade,
+                           .isolates = desc->isolate == CELSPAN_ISOLATION_ON || desc->grade ||
                                        desc->blend != CELSPAN_BLEND_NORMAL};
   cs_primitive_data *data;
   celspan_object *group;
@@ -89,7 +93,8 @@ celspan_blend celspan_object_mode(const celspan_object *object) {
 static celspan_status change(celspan_context *context, const celspan_object *object,
                              celspan_blend mode, celspan_object **out) {
   const cs_boolean *from = object->data->boolean;
-  const cs_boolean look = {.op = from->op, .blend = mode, .space = from->space, .isolates = true};
+  const cs_boolean look = {
+      .op = from->op, .blend = mode, .space = from->space, .grade = from->grade, .isolates = true};
   cs_primitive_data *data;
   celspan_object *plain;
   CS_TRY(create(context, "blend", &look, from->operands, from->operand_count, &data));

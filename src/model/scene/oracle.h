@@ -54,5 +54,7 @@ cs_oracle_sight cs_oracle_blend(celspan_blend mode, const cs_oracle_sight *sourc
                                 const cs_oracle_sight *back);
 /* What leaves for a space from the other one: converted channel by channel. */
 cs_oracle_sight cs_oracle_leave(celspan_space to, const cs_oracle_sight *sight);
+/* A whole, graded in a space. */
+void cs_oracle_grade(const celspan_grade *grade, celspan_space space, cs_oracle_sight *sight);
 /* weight * sight + (1 - weight) * nothing. */
 cs_oracle_sight cs_oracle_fade(const cs_oracle_sight *sight, double weight);

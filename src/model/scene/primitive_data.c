@@ -48,8 +48,10 @@ static void free_scanline(celspan_scanline_desc *scanline, cs_memory *memory) {
 }
 
 static void free_boolean(cs_boolean *boolean, cs_memory *memory) {
-  if (boolean)
+  if (boolean) {
     cs_operands_finish(&boolean->view);
+    celspan_grade_unref(boolean->grade);
+  }
   cs_mem_free(memory, boolean, sizeof *boolean);
 }
 
@@ -146,6 +148,7 @@ static cs_hash hash_boolean(cs_boolean *boolean) {
     cs_hash_word(&hash, (uint64_t)boolean->space << 16 | (uint64_t)boolean->blend << 3 |
                             (uint64_t)boolean->isolates << 2 | (uint64_t)boolean->is_luma << 1 |
                             boolean->inverts);
+  cs_grade_hash(&hash, boolean->grade);
   return cs_hash_end(hash);
 }
 

@@ -167,23 +167,25 @@ static void light_paint(const cs_oracle_paint *paint, const light_sample *front,
   }
 }
 
-/* What was seen in a space, as a whole: converted to that of the probe, and lit. */
-static void light_whole(const probe_call *probe, celspan_space space, const light_sample *front,
-                        cs_oracle_sight *sight) {
+/* What was seen in a space, as a whole: graded, converted to that of the probe, and lit. */
+static void light_whole(const probe_call *probe, celspan_space space, const celspan_grade *grade,
+                        const light_sample *front, cs_oracle_sight *sight) {
+  if (grade)
+    cs_oracle_grade(grade, space, sight);
   if (space != probe->space)
     *sight = cs_oracle_leave(probe->space, sight);
   for (int c = 0; c < 3; c++)
     sight->light[c] *= front->rgb[c];
 }
 
-/* A union in a space of its own. */
-static celspan_status see_converted(const probe_call *probe, const cs_boolean *boolean,
+/* A union with a grade, or in a space of its own. */
+static celspan_status see_developed(const probe_call *probe, const cs_boolean *boolean,
                                     const celspan_matrix *whole, const light_sample *front,
                                     cs_oracle_sight *out) {
   probe_call inner = *probe;
   inner.space = cs_boolean_space(boolean, probe->space);
   CS_TRY(see_list(&inner, boolean->operands, count_shown(boolean), whole, &white, out));
-  light_whole(probe, inner.space, front, out);
+  light_whole(probe, inner.space, boolean->grade, front, out);
   return CELSPAN_OK;
 }
 
@@ -197,7 +199,7 @@ static celspan_status see_nested(const probe_call *probe, const celspan_rostrum 
   for (int c = 0; c < 3; c++)
     out->through[c] *= out->keep;
   out->keep = 1;
-  light_whole(probe, inner.space, front, out);
+  light_whole(probe, inner.space, rostrum->grade, front, out);
   return CELSPAN_OK;
 }
 
@@ -210,9 +212,8 @@ static celspan_status see_data(const probe_call *probe, const cs_primitive_data 
   cs_oracle_paint paint = cs_oracle_clear;
   if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->op == CS_OPERATOR_MATTE)
     return see_matte(probe, data->boolean, whole, front, out);
-  if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN &&
-      cs_boolean_space(data->boolean, probe->space) != probe->space)
-    return see_converted(probe, data->boolean, whole, front, out);
+  if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN && cs_boolean_develops(data->boolean, probe->space))
+    return see_developed(probe, data->boolean, whole, front, out);
   if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN)
     return see_list(probe, data->boolean->operands, count_shown(data->boolean), whole, front, out);
   if (!cs_inside_own_point(whole, probe->point, &own))
@@ -315,6 +316,8 @@ static celspan_status see_cel(place *at, size_t index, cs_oracle_sight *seen) {
     return see(objects, seen);
   }
   CS_TRY(see(objects, &part));
+  if (cel->grade)
+    cs_oracle_grade(cel->grade, probe->space, &part);
   part = cs_oracle_fade(&part, cel->opacity);
   return add_part(at, cel->blend, &part, seen);
 }
@@ -353,7 +356,7 @@ static celspan_status add_exposure(const probe_call *probe, const celspan_exposu
   probe_call inner = *probe;
   inner.space = cs_space_inside(exposure->rostrum->space, probe->space);
   CS_TRY(see_rostrum(&inner, exposure->rostrum, &seen));
-  light_whole(probe, inner.space, &white, &seen);
+  light_whole(probe, inner.space, exposure->rostrum->grade, &white, &seen);
   double alpha = cs_oracle_alpha(&seen);
   for (int c = 0; c < 3; c++)
     rgba[c] +=

@@ -58,6 +58,7 @@ static cs_hash hash_rostrum(const celspan_rostrum *rostrum) {
     cs_value_hash_point(&hash, (celspan_point){rostrum->width, rostrum->height});
   if (rostrum->space != CELSPAN_SPACE_AROUND)
     cs_hash_word(&hash, rostrum->space);
+  cs_grade_hash(&hash, rostrum->grade);
   return cs_hash_end(hash);
 }
 
@@ -77,6 +78,7 @@ static void fill(celspan_rostrum *rostrum, const celspan_rostrum_desc *desc) {
     rostrum->camera_width = desc->camera_width;
   rostrum->camera_rotation = desc->camera_rotation;
   rostrum->space = desc->space;
+  rostrum->grade = celspan_grade_ref(desc->grade);
 }
 
 /* What is kept: the caller frees it, whatever the status. */
@@ -112,6 +114,7 @@ static void free_parts(celspan_rostrum *rostrum, cs_memory *memory) {
   cs_mem_free(memory, rostrum->cels, rostrum->cel_count * sizeof *rostrum->cels);
   cs_light_unref(&rostrum->front);
   cs_light_unref(&rostrum->back);
+  celspan_grade_unref(rostrum->grade);
   cs_antialias_free(&rostrum->antialias, memory);
 }
 
@@ -162,6 +165,7 @@ static celspan_status copy(celspan_context *context, const celspan_rostrum *from
     own[i] = celspan_cel_ref(cels[i]);
   rostrum->front = cs_light_ref(&from->front);
   rostrum->back = cs_light_ref(&from->back);
+  rostrum->grade = celspan_grade_ref(from->grade);
   rostrum->antialias = antialias;
   *out = rostrum;
   return CELSPAN_OK;

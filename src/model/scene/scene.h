@@ -19,6 +19,7 @@
 #include "model/colour/space.h"
 #include "model/geometry/outline.h"
 #include "model/scene/antialias.h"
+#include "model/scene/grade.h"
 #include "model/scene/operands.h"
 #include "model/scene/texture.h"
 #include "model/stroke/stroke.h"
@@ -70,7 +71,6 @@ static inline celspan_light cs_light_in(const cs_light *light, celspan_space spa
 /* The light times a brightness; the matte does not change. Borrows the texture. */
 cs_light cs_light_scale(const cs_light *light, double brightness);
 
-#define CS_SPACES (CELSPAN_SPACE_SRGB + 1) /* items of arrays that are indexed by a space */
 #define CS_SCENE_DEPTH 128
 #define CS_SCENE_PRIMITIVES 16777216 /* in one object, every level counted */
 
@@ -90,6 +90,7 @@ typedef struct cs_boolean {
   celspan_operator op;
   celspan_blend blend;
   celspan_space space;       /* in which its operands are composited */
+  celspan_grade *grade;      /* of what that makes; NULL: none. A reference */
   bool isolates;             /* modes inside do not act on its backdrop */
   bool is_luma;              /* MATTE: the strength is luma, not alpha */
   bool inverts;              /* MATTE: 1 less the strength */
@@ -161,6 +162,11 @@ static inline celspan_space cs_boolean_space(const cs_boolean *boolean, celspan_
   return cs_space_inside(boolean->space, around);
 }
 
+/* Whether what a boolean makes inside a space is changed as a whole: graded, or converted. */
+static inline bool cs_boolean_develops(const cs_boolean *boolean, celspan_space around) {
+  return boolean->grade || cs_boolean_space(boolean, around) != around;
+}
+
 /* Whether the look of the object depends on its backdrop, in a space. */
 static inline bool cs_object_blends(const celspan_object *object, celspan_space space) {
   const cs_primitive_data *data = object->data;
@@ -186,13 +192,15 @@ struct celspan_cel {
   celspan_defocus_kernel defocus_kernel;
   double opacity;
   celspan_blend blend;
+  celspan_grade *grade;          /* NULL: none. A reference */
   bool blends_inside[CS_SPACES]; /* in that space, any of its objects acts on its backdrop */
-  bool has_modes;                /* any mode is in it, except in a rostrum, or its own */
+  bool has_modes; /* any mode is in it, except in a rostrum, or its own; or a grade */
 };
 
 /* Whether the cel composites its objects by themselves, and puts them into the picture as one. */
 static inline bool cs_cel_isolates(const celspan_cel *cel) {
-  return cel->opacity < 1 || cel->defocus_radius > 0 || cel->blend != CELSPAN_BLEND_NORMAL;
+  return cel->opacity < 1 || cel->defocus_radius > 0 || cel->grade ||
+         cel->blend != CELSPAN_BLEND_NORMAL;
 }
 
 /* Whether the object has a mode, or anything below it that is in no rostrum. */
@@ -222,6 +230,7 @@ struct celspan_rostrum {
   double camera_rotation;
   cs_antialias antialias;
   celspan_space space;
+  celspan_grade *grade; /* of the whole; NULL: none. A reference */
 };
 
 /* Whether any cel of a rostrum acts on its backdrop, in a space. */
@@ -232,7 +241,7 @@ static inline bool cs_rostrum_blends(const celspan_rostrum *rostrum, celspan_spa
   return false;
 }
 
-/* Whether any mode is in a rostrum, except in one inside it. */
+/* Whether any mode is in a rostrum, except in one inside it, or a cel has a grade. */
 static inline bool cs_rostrum_has_modes(const celspan_rostrum *rostrum) {
   for (size_t i = 0; i < rostrum->cel_count; i++)
     if (rostrum->cels[i]->has_modes)
@@ -306,7 +315,8 @@ typedef struct cs_lit_alone {
 } cs_lit_alone;
 
 /* index: the place of the cel, from 0; is_back: its back light, else its front light.
- * Errors: NO_MEMORY; BAD_ARGUMENT for a rostrum with modes, whose lights do not add up. */
+ * Errors: NO_MEMORY; BAD_ARGUMENT for a rostrum with modes or grades, whose lights do not add
+ * up. */
 CELSPAN_CHECKED celspan_status cs_lit_alone_make(celspan_context *context,
                                                  const celspan_rostrum *rostrum, size_t index,
                                                  bool is_back, cs_lit_alone *out);

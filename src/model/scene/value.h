@@ -18,7 +18,8 @@ typedef enum cs_value_kind {
   CS_VALUE_DATA,
   CS_VALUE_OBJECT,
   CS_VALUE_CEL,
-  CS_VALUE_ROSTRUM
+  CS_VALUE_ROSTRUM,
+  CS_VALUE_GRADE
 } cs_value_kind;
 
 static inline void cs_value_keep(atomic_size_t *references) {

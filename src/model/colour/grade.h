@@ -1,0 +1,47 @@
+/* Grades: what becomes of a colour, step by step, in the numbers of a space.
+ *
+ *   exposure   contrast   saturation   hue   temperature, tint     gamma    matrix   curves   table
+ *   '------------------- one affine map a space -------------'    |c|^1/g   affine
+ *
+ * Invariant: steps that would do nothing are left out, so that a colour stays as it is, to the bit,
+ * where all of them do nothing; the result is finite.
+ */
+#pragma once
+
+#include "model/colour/cube.h"
+#include "model/colour/space.h"
+
+#define CS_GRADE_POINTS 1024 /* of a curve, at most */
+#define CS_GRADE_MOST 1e12   /* between two steps, colours are clamped to this and its negative */
+
+/* A map of colours: each row gives a channel by those of the colour, and 1. */
+typedef struct cs_grade_map {
+  bool is_given;
+  double rows[3][4];
+} cs_grade_map;
+
+/* A monotone cubic through points, straight beyond the first and the last. */
+typedef struct cs_grade_curve {
+  celspan_point *points; /* x: in, ascending; y: out. None: no curve. Owned */
+  double *slopes;        /* at the points; owned */
+  size_t count;
+} cs_grade_curve;
+
+typedef struct cs_grade {
+  cs_grade_map balance[CS_SPACES]; /* from exposure to tint */
+  double exponent;                 /* 1 / gamma */
+  cs_grade_map matrix;
+  cs_grade_curve curves[3];
+  cs_cube *cube; /* NULL: none. A reference */
+} cs_grade;
+
+/* desc: checked. Fills all but the cube. Errors: NO_MEMORY; *out is then to be finished, too. */
+CELSPAN_CHECKED celspan_status cs_grade_make(celspan_context *context,
+                                             const celspan_grade_desc *desc, cs_grade *out);
+void cs_grade_finish(cs_grade *grade, cs_memory *memory);
+
+/* Replaces a colour, which was divided by its alpha. */
+void cs_grade_colour(const cs_grade *grade, celspan_space space, double colour[3]);
+/* The same of light that is premultiplied. alpha: how much of it is there; light without any is
+ * graded as if it were there as far as it shines. */
+void cs_grade_light(const cs_grade *grade, celspan_space space, float alpha, float light[3]);

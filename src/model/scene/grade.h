@@ -1,0 +1,26 @@
+/* A grade as a value of the scene: counted, checked, with a hash of what it does. */
+#pragma once
+
+#include "base/hash.h"
+#include "model/colour/grade.h"
+
+struct celspan_grade {
+  atomic_size_t references;
+  cs_memory *memory;
+  cs_hash hash; /* of a table of colours its contents count, not its name */
+  cs_grade steps;
+  celspan_grade_desc
+      desc; /* what it was made of, for the oracle; curves are those of the steps, and
+                              there are no names of files */
+};
+
+/* What the compiler and the oracle need of one; NULL: there is none. */
+static inline const cs_grade *cs_grade_steps(const celspan_grade *grade) {
+  return grade ? &grade->steps : NULL;
+}
+
+/* grade: NULL counts nothing, so that values without one have the hashes that they had. */
+static inline void cs_grade_hash(cs_hash *hash, const celspan_grade *grade) {
+  if (grade)
+    cs_hash_hash(hash, grade->hash);
+}
