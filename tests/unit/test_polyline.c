@@ -8,7 +8,8 @@
  *      |    ##`.|        to the next
  *      +--------+
  *
- * Random cases are numbered by their seed.
+ * And outlines pressed flat, whose vertices must stay between the ends of their chains. Random
+ * cases are numbered by their seed.
  */
 #include <stdlib.h>
 
@@ -176,12 +177,48 @@ static void judge(int seed, judgement *all) {
   cs_outline_finish(&outline, context->memory);
 }
 
+/* ---------------------------------------------------------------- flat ones */
+
+/* Where every segment of a chain ends must lie between the ends of the chain. */
+static void check_heights(const cs_boundary_set *set, uint32_t chain, int seed) {
+  double y0 = set->chains[chain].y0, y1 = set->chains[chain].y1;
+  cs_boundary_walk walk;
+  cs_boundary_start(set, chain, y0, &walk);
+  do {
+    if (!CHECK(walk.y1 >= y0 && walk.y1 <= y1))
+      fprintf(stderr, "  case %d: a chain from %.17g to %.17g has a vertex at %.17g\n", seed, y0,
+              y1, walk.y1);
+  } while (cs_boundary_next(set, &walk));
+}
+
+/* An outline pressed to a line, so that rounding alone gives it a height. */
+static void press(int seed) {
+  test_random random = {(uint64_t)seed};
+  cs_outline outline;
+  cs_boundary_set set;
+  cs_boundary_builder builder;
+  const cs_boundary_frame frame = {0, SIDE, 0, SIDE};
+  double shear = random_between(&random, -1, 1), y = random_between(&random, 0, SIDE);
+  const celspan_matrix pressed = {{1, shear, 0, 0x1p-54 * shear, 0x1p-53, y, 0, 0, 1}};
+  random_outline(&random, SIDE, &outline);
+  cs_boundary_init(&set);
+  cs_boundary_builder_init(&builder, context, &set, &frame);
+  MUST(cs_boundary_add(&builder, &outline, &pressed, 0));
+  for (uint32_t i = 0; i < set.chain_count; i++)
+    check_heights(&set, i, seed);
+  cs_boundary_builder_finish(&builder);
+  cs_boundary_finish(&set, context->memory);
+  cs_outline_finish(&outline, context->memory);
+}
+
 int main(void) {
   judgement all = {0};
   MUST(celspan_context_create(NULL, &context));
   const char *only = getenv("CASE");
-  for (int seed = only ? atoi(only) : 1; seed <= (only ? atoi(only) : CASES); seed++)
+  for (int seed = only ? atoi(only) : 1; seed <= (only ? atoi(only) : CASES); seed++) {
     judge(seed, &all);
+    press(seed);
+  }
   double rms = sqrt(all.square / (double)all.pixels);
   CHECK(rms <= RMS);
   if (getenv("CELSPAN_VERBOSE"))

@@ -198,11 +198,14 @@ typedef struct ways {
 } ways;
 
 /* A seat at a whole height was found by one step of Newton's method, so the curve is not quite at
- * the height there; the vertex is moved along the tangent by the rest. p: at the seats. */
-static inline ways find_ways(const spots *p, masks whole, lanes height) {
+ * the height there; the vertex is moved along the tangent by the rest. Rounding may place the curve
+ * beyond an end of a piece of hardly any height, where no vertex may lie. p: at the seats. */
+static inline ways find_ways(const cs_boundary_piece *piece, const spots *p, masks whole,
+                             lanes height) {
   lanes run = where(whole, p->slope_x / p->slope_y);
-  return (ways){p->x + (height - p->y) * run, either(whole, height, p->y),
-                p->bend_y * run - p->bend_x, where(~whole, -p->bend_y)};
+  lanes y = clamp(either(whole, height, p->y), piece->y0, piece->y1);
+  return (ways){p->x + (height - p->y) * run, y, p->bend_y * run - p->bend_x,
+                where(~whole, -p->bend_y)};
 }
 
 static inline void displace(const cs_boundary_piece *piece, const ways *from, lanes share,
@@ -219,7 +222,7 @@ static inline void place(const cs_boundary_piece *piece, const limits *most, con
   lanes before = t - load(seats->t + k), after = load(seats->t + 2 + k) - t;
   masks whole;
   memcpy(&whole, seats->whole + k, sizeof whole);
-  ways from = find_ways(p, whole, load(seats->y + k));
+  ways from = find_ways(piece, p, whole, load(seats->y + k));
   lanes shares = find_shares(piece, most, number, before, after);
   store(out->on_x + k, from.x);
   store(out->on_y + k, from.y);
