@@ -29,11 +29,10 @@ typedef struct samples {
 } samples;
 
 static void sample_shade(const cs_shade *shade, const cs_batch *batch, samples *out) {
-  for (int32_t k = 0; k < batch->count; k++) {
-    cs_shade_lanes paint = cs_shade_paint(shade, cs_batch_centre(batch, k), batch->y);
-    cs_v4_store(out->s[k], paint.s);
-    cs_v4_store(out->t[k], paint.t);
-  }
+  double x[CS_OVER_ROW_BATCH];
+  for (int32_t k = 0; k < batch->count; k++)
+    x[k] = cs_batch_centre(batch, k);
+  cs_shade_paints(shade, x, batch->count, batch->y, out->s, out->t);
 }
 
 static void sample_procedure(const cs_procedure_span *span, const cs_batch *batch, samples *out) {

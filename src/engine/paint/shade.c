@@ -50,16 +50,37 @@ static cs_paint triangle_paint(const cs_shade *shade, double u, double v) {
 
 /* ---------------------------------------------------------------- stops */
 
-static cs_shade_lanes stop_paint(const celspan_texture *texture, double at) {
+/* What a gradient shows from one stop to the next, or before the first or after the last one. */
+typedef struct stretch {
+  double from, to;            /* [from, to) along the stops */
+  double length;              /* 0: the paint is the same everywhere */
+  cs_shade_lanes paint, step; /* at its beginning, and from there to its end */
+} stretch;
+
+static stretch stretch_at(const celspan_texture *texture, double at) {
   const cs_stop *stops = texture->variation->stops;
   size_t count = texture->variation->stop_count, next = 0;
   while (next < count && stops[next].at <= at)
     next++;
-  if (next == 0 || next == count)
-    return lanes_of(&stops[next == 0 ? 0 : count - 1].paint);
-  cs_shade_lanes p = lanes_of(&stops[next - 1].paint), q = lanes_of(&stops[next].paint);
-  float u = (float)((at - stops[next - 1].at) / (stops[next].at - stops[next - 1].at));
-  return (cs_shade_lanes){p.s + u * (q.s - p.s), p.t + u * (q.t - p.t)};
+  stretch out = {-INFINITY, INFINITY, 0, lanes_of(&stops[next == 0 ? 0 : next - 1].paint), {{0}}};
+  if (next > 0)
+    out.from = stops[next - 1].at;
+  if (next < count)
+    out.to = stops[next].at;
+  if (next > 0 && next < count) {
+    cs_shade_lanes end = lanes_of(&stops[next].paint);
+    out.length = out.to - out.from;
+    out.step = (cs_shade_lanes){end.s - out.paint.s, end.t - out.paint.t};
+  }
+  return out;
+}
+
+static inline cs_shade_lanes stretch_paint(const stretch *stretch, double at) {
+  if (stretch->length == 0)
+    return stretch->paint;
+  float u = (float)((at - stretch->from) / stretch->length);
+  return (cs_shade_lanes){stretch->paint.s + u * stretch->step.s,
+                          stretch->paint.t + u * stretch->step.t};
 }
 
 /* The plane over frame pixels of the function a u + b v + c w in own units. */
@@ -130,7 +151,24 @@ cs_shade_lanes cs_shade_paint(const cs_shade *shade, double x, double y) {
   if (shade->texture->kind == CS_TEXTURE_TRIANGLE)
     return triangle_at(shade, x, y);
   double at = cs_shade_at(shade, x, y);
-  return at == at ? stop_paint(shade->texture, at) : lanes_of(&clear);
+  if (at != at)
+    return lanes_of(&clear);
+  const stretch found = stretch_at(shade->texture, at);
+  return stretch_paint(&found, at);
+}
+
+void cs_shade_paints(const cs_shade *shade, const double *x, int32_t count, double y, float (*s)[4],
+                     float (*t)[4]) {
+  bool has_stops = shade->texture->kind != CS_TEXTURE_TRIANGLE;
+  stretch last = {.from = INFINITY, .to = -INFINITY};
+  for (int32_t k = 0; k < count; k++) {
+    double at = has_stops ? cs_shade_at(shade, x[k], y) : NAN;
+    if (at == at && !(at >= last.from && at < last.to))
+      last = stretch_at(shade->texture, at);
+    cs_shade_lanes paint = at == at ? stretch_paint(&last, at) : cs_shade_paint(shade, x[k], y);
+    cs_v4_store(s[k], paint.s);
+    cs_v4_store(t[k], paint.t);
+  }
 }
 
 /* ---------------------------------------------------------------- where a row bends

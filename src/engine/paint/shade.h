@@ -50,6 +50,9 @@ typedef struct cs_shade_lanes {
 
 /* The paint at a point of the frame, pixels; clear behind the horizon. */
 cs_shade_lanes cs_shade_paint(const cs_shade *shade, double x, double y);
+/* The same at several places of a row, quickest where neighbours are near each other. */
+void cs_shade_paints(const cs_shade *shade, const double *x, int32_t count, double y, float (*s)[4],
+                     float (*t)[4]);
 /* The places x inside a run at which the formula bends, in no order; at most as many as the limit
  * says. Returns how many. */
 size_t cs_shade_breaks(const cs_shade *shade, cs_run run, double *breaks);
