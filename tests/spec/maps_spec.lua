@@ -3,10 +3,16 @@ local workbench = require "tests.support.workbench"
 
 local SCRIPT = [[
 local celspan = require "celspan"
-local frames = math.tointeger(tonumber(...))
+local frames, shapes = ...
+frames = math.tointeger(tonumber(frames))
 local disc = celspan.circle { centre = { 0, 0 }, radius = 20, texture = "#c03020a0" }
 local star = celspan.polygon { { 0, 0 }, { 40, 10 }, { 5, 33 }, texture = "#2040c0" }
-local hill = celspan.rect { 0, 40, 128, 40, texture = "#308040" }
+local parts = { celspan.rect { 0, 40, 128, 40, texture = "#308040" } }
+-- Too small to be seen: cels of few shapes have no maps.
+for i = 2, tonumber(shapes or 766) do
+  parts[i] = celspan.rect { 20, 50, 1e-6, 1e-6, texture = "#fff" }
+end
+local hill = celspan.union(parts)
 return celspan.film { size = { 128, 80 }, frames = frames, frame = function(f)
   return celspan.rostrum {
     celspan.cel { hill }:named "hill",
@@ -33,8 +39,9 @@ describe("a film of flat cels", function()
   end
 
   --- What --stats counts for a frame.
-  local function counted(name, frames, options)
-    local code, out, err = bench:celspan("spans %s --stats %s -- %d", script, options or "", frames)
+  local function counted(name, frames, options, shapes)
+    local code, out, err = bench:celspan("spans %s --stats %s -- %d %s", script, options or "",
+      frames, shapes or "")
     assert.are.equal(0, code, err)
     return tonumber(out:match(" " .. name .. " (%d+)"))
   end
@@ -43,6 +50,7 @@ describe("a film of flat cels", function()
     assert.are.equal(3, counted("maps", 4))
     assert.are.equal(3, counted("maps_made", 4))
     assert.are.equal(0, counted("maps", 1))
+    assert.are.equal(0, counted("maps", 4, "", 765))
     assert.are.equal(0, counted("maps", 4, "--antialias none"))
     assert.are.equal(0, counted("maps", 4, "--size 8200x80"))
   end)

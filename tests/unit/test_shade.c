@@ -147,6 +147,20 @@ static void check_paint(const formula *f, double x, double y) {
   }
 }
 
+/* A row has the same paints to the bit, in whatever order its places are. */
+static void check_paints(const formula *f, test_random *random, double y) {
+  double x[50];
+  float paints_s[50][4], paints_t[50][4];
+  for (int k = 0; k < 50; k++)
+    x[k] = k < 40 ? 5 * k + 0.5 : random_between(random, -WIDTH, 2 * WIDTH);
+  cs_shade_paints(&f->shade, x, 50, y, paints_s, paints_t);
+  for (int k = 0; k < 50; k++) {
+    cs_shade_lanes want = cs_shade_paint(&f->shade, x[k], y);
+    CHECK(cs_v4_same(cs_v4_load(paints_s[k]), want.s));
+    CHECK(cs_v4_same(cs_v4_load(paints_t[k]), want.t));
+  }
+}
+
 /* ---------------------------------------------------------------- bends */
 
 /* Which of its formulas applies to a texture at a point of the frame. */
@@ -224,6 +238,7 @@ static void check_shape(celspan_context *context, test_random *random, shape kin
     make(context, random, kind, perspective, &f);
     for (double y = 0.5; y < 40; y += 8) {
       found += check_row(&f, y);
+      check_paints(&f, random, y);
       for (double x = 0.5; x < WIDTH; x += 13)
         check_paint(&f, x, y);
     }

@@ -3,6 +3,8 @@
 #include "base/number.h"
 #include "model/geometry/matrix.h"
 
+#define PLACES 64 /* found at a time */
+
 static cs_shade_lanes lanes_of(const cs_paint *paint) {
   return (cs_shade_lanes){{paint->s[0], paint->s[1], paint->s[2], 0},
                           {paint->t[0], paint->t[1], paint->t[2], 0}};
@@ -62,7 +64,8 @@ static stretch stretch_at(const celspan_texture *texture, double at) {
   size_t count = texture->variation->stop_count, next = 0;
   while (next < count && stops[next].at <= at)
     next++;
-  stretch out = {-INFINITY, INFINITY, 0, lanes_of(&stops[next == 0 ? 0 : next - 1].paint), {{0}}};
+  stretch out = {
+      -INFINITY, INFINITY, 0, lanes_of(&stops[next == 0 ? 0 : next - 1].paint), {{0}, {0}}};
   if (next > 0)
     out.from = stops[next - 1].at;
   if (next < count)
@@ -75,12 +78,11 @@ static stretch stretch_at(const celspan_texture *texture, double at) {
   return out;
 }
 
-static inline cs_shade_lanes stretch_paint(const stretch *stretch, double at) {
-  if (stretch->length == 0)
-    return stretch->paint;
-  float u = (float)((at - stretch->from) / stretch->length);
-  return (cs_shade_lanes){stretch->paint.s + u * stretch->step.s,
-                          stretch->paint.t + u * stretch->step.t};
+static inline cs_shade_lanes stretch_paint(const stretch *part, double at) {
+  if (part->length == 0)
+    return part->paint;
+  float u = (float)((at - part->from) / part->length);
+  return (cs_shade_lanes){part->paint.s + u * part->step.s, part->paint.t + u * part->step.t};
 }
 
 /* The plane over frame pixels of the function a u + b v + c w in own units. */
@@ -157,17 +159,40 @@ cs_shade_lanes cs_shade_paint(const cs_shade *shade, double x, double y) {
   return stretch_paint(&found, at);
 }
 
-void cs_shade_paints(const cs_shade *shade, const double *x, int32_t count, double y, float (*s)[4],
-                     float (*t)[4]) {
-  bool has_stops = shade->texture->kind != CS_TEXTURE_TRIANGLE;
+/* Where places of a row lie along the stops. */
+static void find_places(const cs_shade *restrict shade, const double *restrict x, int32_t count,
+                        double y, double *restrict at) {
+  for (int32_t k = 0; k < count; k++)
+    at[k] = cs_shade_at(shade, x[k], y);
+}
+
+/* At most PLACES of them. */
+static void stop_paints(const cs_shade *shade, const double *x, int32_t count, double y,
+                        float (*s)[4], float (*t)[4]) {
+  double at[PLACES];
   stretch last = {.from = INFINITY, .to = -INFINITY};
+  find_places(shade, x, count, y, at);
   for (int32_t k = 0; k < count; k++) {
-    double at = has_stops ? cs_shade_at(shade, x[k], y) : NAN;
-    if (at == at && !(at >= last.from && at < last.to))
-      last = stretch_at(shade->texture, at);
-    cs_shade_lanes paint = at == at ? stretch_paint(&last, at) : cs_shade_paint(shade, x[k], y);
+    if (at[k] == at[k] && !(at[k] >= last.from && at[k] < last.to))
+      last = stretch_at(shade->texture, at[k]);
+    cs_shade_lanes paint =
+        at[k] == at[k] ? stretch_paint(&last, at[k]) : cs_shade_paint(shade, x[k], y);
     cs_v4_store(s[k], paint.s);
     cs_v4_store(t[k], paint.t);
+  }
+}
+
+void cs_shade_paints(const cs_shade *shade, const double *x, int32_t count, double y, float (*s)[4],
+                     float (*t)[4]) {
+  int32_t done = 0;
+  if (shade->texture->kind != CS_TEXTURE_TRIANGLE)
+    for (; done < count; done += PLACES)
+      stop_paints(shade, x + done, count - done < PLACES ? count - done : PLACES, y, s + done,
+                  t + done);
+  for (; done < count; done++) {
+    cs_shade_lanes paint = triangle_at(shade, x[done], y);
+    cs_v4_store(s[done], paint.s);
+    cs_v4_store(t[done], paint.t);
   }
 }
 

@@ -17,12 +17,21 @@ static bool is_even(const celspan_cel *cel) {
   return is_even;
 }
 
+/* Whether the cels have enough shapes that maps save time. */
+static bool is_rich(const celspan_rostrum *rostrum) {
+  size_t shapes = 0;
+  for (size_t i = 0; i < rostrum->cel_count; i++)
+    for (size_t k = 0; k < rostrum->cels[i]->object_count; k++)
+      shapes += rostrum->cels[i]->objects[k]->data->primitive_count;
+  return shapes >= CS_DRAWINGS_SHAPES * rostrum->cel_count;
+}
+
 static bool suits(const celspan_rostrum *rostrum, const cs_view *view,
                   const cs_antialias *antialias) {
   bool suits = antialias->mode == CELSPAN_ANTIALIAS_AREA && view->space == CELSPAN_SPACE_LINEAR &&
                rostrum->space != CELSPAN_SPACE_SRGB && view->width <= CS_DRAWINGS_SIDE &&
                view->height <= CS_DRAWINGS_SIDE && rostrum->cel_count <= CS_MAP_DRAWINGS &&
-               !rostrum->front.texture && !rostrum->back.texture;
+               !rostrum->front.texture && !rostrum->back.texture && is_rich(rostrum);
   for (size_t i = 0; suits && i < rostrum->cel_count; i++)
     suits = is_even(rostrum->cels[i]);
   return suits;

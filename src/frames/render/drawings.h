@@ -10,7 +10,10 @@
  *   - is neither defocused nor blended, and has no light with a shape,
  *   - is neither rotated, skewed nor put in perspective by its own transform, its viewport, and the
  *     camera together,
- *   - is small enough to be a map (engine/map/map.h), and does not have too many dashes.
+ *   - is small enough to be a map (engine/map/map.h), and does not have too many dashes,
+ * and if they have at least CS_DRAWINGS_SHAPES primitives each, on average. Of fewer shapes most
+ * can be seen: to sweep them takes less time than to draw their maps, the more so the more cels
+ * there are.
  *
  * Invariant: this depends on the exposure and the size of the whole frame alone; not on the crop,
  * on the workers, or on which maps are kept.
@@ -21,6 +24,7 @@
 #include "frames/render/compile.h"
 
 #define CS_DRAWINGS_SIDE 8192
+#define CS_DRAWINGS_SHAPES 256
 
 /* *out: is zero, and stays so where the exposure is not drawn from maps; to be finished after an
  * error, too. Errors: as of cs_compile. */
