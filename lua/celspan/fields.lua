@@ -46,6 +46,14 @@ function fields.shown(value)
   return type(value) == "number" and ("%.14g"):format(value) or fields.kind(value)
 end
 
+--- What is wrong with the space of an option; nil: nothing, or it is not given.
+function fields.space(noun, space)
+  if space ~= nil and space ~= "linear" and space ~= "srgb" then
+    return ("%s: space must be \"linear\" or \"srgb\", got %s"):format(noun,
+      type(space) == "string" and ("%q"):format(space) or fields.shown(space))
+  end
+end
+
 --- Raises an error: `noun` has no field or method of this name. The message suggests the nearest of
 --- `names`.
 local function refuse_name(noun, name, names)

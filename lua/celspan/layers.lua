@@ -62,7 +62,7 @@ local function whole(entry, clipped)
     for i, other in ipairs(clipped) do
       list[i + 1] = core.blend_within(faded(other, other.object), mode_of(other))
     end
-    list.isolate = true
+    list.isolate, list.space = true, sources[entry].space
     object = celspan.group(list)
   end
   return object
@@ -96,9 +96,9 @@ local function visible_objects(list)
 end
 
 --- The object of a group. A group that is not passed through isolates, if anything in it can tell.
-local function composed(given)
+local function composed(given, space)
   local objects = visible_objects(given.children)
-  objects.isolate = given.blend ~= "pass-through" or nil
+  objects.isolate, objects.space = given.blend ~= "pass-through" or nil, space
   return celspan.group(objects)
 end
 
@@ -107,14 +107,14 @@ local function name_of(text, kind) return text ~= "" and text or kind end
 
 --- given: name, x, y, opacity, visible, blend; and children, or picture (the fields of an image,
 --- with x and y), or neither for an empty layer; clipped, within: how it is cut by those below.
---- smooth: the picture's field of this name.
-local function make_entry(given, smooth)
+--- options: those of `read`.
+local function make_entry(given, options)
   local source = { name = name_of(given.name, given.children and "group" or "layer"),
-                   clipped = given.clipped, within = given.within }
-  if given.picture then given.picture.smooth = smooth end
+                   clipped = given.clipped, within = given.within, space = options.space }
+  if given.picture then given.picture.smooth = options.smooth end
   local object
   if given.children then
-    object = composed(given)
+    object = composed(given, options.space)
   elseif given.picture then
     object = celspan.image(given.picture)
   else
@@ -152,17 +152,21 @@ local function note_blends(list, path, skipped)
   end
 end
 
+--- The space of each tree, which is hidden from scripts.
+local spaces = setmetatable({}, { __mode = "k" })
+
 --- The tree of a list of layers, with notes that are complete.
-local function complete_tree(list, width, height, skipped)
+local function complete_tree(list, width, height, skipped, space)
   local tree = { width = width, height = height, skipped = skipped }
   for i, entry in ipairs(list) do tree[i] = entry end
-  tree.object = composed { children = list }
+  tree.object = composed({ children = list }, space)
+  spaces[tree] = space
   return setmetatable(tree, Tree)
 end
 
-local function make_tree(list, width, height, skipped)
+local function make_tree(list, width, height, skipped, options)
   note_blends(list, "", skipped)
-  return complete_tree(list, width, height, skipped)
+  return complete_tree(list, width, height, skipped, options.space)
 end
 
 -- ---------------------------------------------------------------- paintings
@@ -177,7 +181,7 @@ local function paths_of(flat)
   return paths
 end
 
-local function from_painting(path, smooth)
+local function from_painting(path, options)
   local painting, message = core.painting(path)
   if not painting then return nil, message end
   local flat, children, list = painting.layers, {}, {}
@@ -192,13 +196,13 @@ local function from_painting(path, smooth)
     siblings[#siblings + 1] = make_entry({ name = layer.name, x = layer.x, y = layer.y,
       picture = picture, opacity = layer.opacity, visible = layer.visible, blend = layer.blend,
       children = layer.group and (children[i] or {}) or nil, clipped = layer.clipped,
-      within = layer.within }, smooth)
+      within = layer.within }, options)
   end
   local skipped, paths = {}, paths_of(flat)
   for i, note in ipairs(painting.notes) do
     skipped[i] = { layer = note.layer and paths[note.layer] or "", what = note.what }
   end
-  return make_tree(list, painting.width, painting.height, skipped)
+  return make_tree(list, painting.width, painting.height, skipped, options)
 end
 
 -- ---------------------------------------------------------------- folders
@@ -233,7 +237,7 @@ local function caught(make)
   return nil, (tostring(value):gsub("^[^\n]-:%d+: ", "", 1))
 end
 
-local function from_folder(path, names, smooth)
+local function from_folder(path, names, options)
   local list, skipped = {}, {}
   sort_naturally(names)
   for _, name in ipairs(names) do
@@ -246,14 +250,14 @@ local function from_folder(path, names, smooth)
     else
       local entry, message = caught(function()
         return make_entry({ name = base, x = 0, y = 0, opacity = 1, visible = true,
-          blend = "normal", picture = { file = file, x = 0, y = 0 } }, smooth)
+          blend = "normal", picture = { file = file, x = 0, y = 0 } }, options)
       end)
       if not entry then return nil, message end
       list[#list + 1] = entry
     end
   end
   if #list == 0 then return nil, path .. ": the folder holds no pictures" end
-  return make_tree(list, nil, nil, skipped)
+  return make_tree(list, nil, nil, skipped, options)
 end
 
 --- The document among the files of an OCA folder.
@@ -267,21 +271,21 @@ local function find_document(names)
   end
 end
 
-local function from_oca(folder, document, smooth)
+local function from_oca(folder, document, options)
   local read, message = oca.read(folder, document)
   if not read then return nil, message end
   local function build(list)
     local entries = {}
     for i, layer in ipairs(list) do
       if layer.children then layer.children = build(layer.children) end
-      entries[i] = make_entry(layer, smooth)
+      entries[i] = make_entry(layer, options)
     end
     return entries
   end
   local entries
   entries, message = caught(function() return build(read.layers) end)
   if not entries then return nil, message end
-  return make_tree(entries, read.width, read.height, read.skipped)
+  return make_tree(entries, read.width, read.height, read.skipped, options)
 end
 
 -- ---------------------------------------------------------------- the module
@@ -292,24 +296,25 @@ local function is_there(path)
   return file ~= nil
 end
 
-local function read_any(path, smooth)
+local function read_any(path, options)
   local names, message = core.folder(path)
   if names then
     local document = find_document(names)
-    if document then return from_oca(path, document, smooth) end
-    return from_folder(path, names, smooth)
+    if document then return from_oca(path, document, options) end
+    return from_folder(path, names, options)
   end
   if message:find "limit" then return nil, message end
   if path:match "%.oca$" then
     local folder, document = path:match "^(.*)/([^/]*)$"
-    return from_oca(folder or ".", document or path, smooth)
+    return from_oca(folder or ".", document or path, options)
   end
-  return from_painting(path, smooth)
+  return from_painting(path, options)
 end
 
---- `smooth`: alpha of 8 bits has no steps, so painted glows show no rings.
+--- `smooth`: alpha of 8 bits has no steps, so painted glows show no rings. `space`: colours mix in
+--- it: "srgb", as in painting programs, unless another is given.
 ---@param path string Relative to the caller's file, else to the script
----@param options? { smooth?: boolean }
+---@param options? { smooth?: boolean, space?: "srgb"|"linear" }
 ---@return celspan.layers.tree? tree
 ---@return string? message
 function layers.read(path, options)
@@ -317,9 +322,12 @@ function layers.read(path, options)
     core.refuse("layers: read takes the name of a file or folder, got " .. fields.kind(path))
   end
   options = options or {}
-  fields.check("layers: read", options, { smooth = "boolean" })
+  fields.check("layers: read", options, { smooth = "boolean", space = "any" })
+  local wrong = fields.space("layers", options.space)
+  if wrong then core.refuse(wrong) end
   local found_at, tried = core.find(path)
-  local tree, message = read_any(found_at, options.smooth)
+  local tree, message = read_any(found_at, { smooth = options.smooth,
+                                             space = options.space or "srgb" })
   if not tree and tried and not is_there(found_at) then
     message = ("%s; also looked for at %s"):format(message, tried)
   end
@@ -328,7 +336,7 @@ end
 
 --- layers.read, where a painting that cannot be read is an error.
 ---@param path string Relative to the caller's file, else to the script
----@param options? { smooth?: boolean }
+---@param options? { smooth?: boolean, space?: "srgb"|"linear" }
 ---@return celspan.layers.tree tree
 function layers.load(path, options)
   local tree, message = layers.read(path, options)
@@ -389,9 +397,9 @@ end
 --- A copy of an entry with other contents: children, or an object.
 local function remade(entry, children, object)
   local source = sources[entry]
-  return make_entry { name = entry.name, x = entry.x, y = entry.y, opacity = entry.opacity,
+  return make_entry({ name = entry.name, x = entry.x, y = entry.y, opacity = entry.opacity,
     visible = entry.visible, blend = entry.blend, children = children, object = object,
-    clipped = source.clipped, within = source.within }
+    clipped = source.clipped, within = source.within }, { space = source.space })
 end
 
 --- A list in which the layers that have a function are changed, inner ones first; nil if none has.
@@ -436,7 +444,8 @@ function methods:with(changes)
     end
   end
   local list = changed_list(self, "", changes, {})
-  return list and complete_tree(list, self.width, self.height, self.skipped) or self
+  return list and complete_tree(list, self.width, self.height, self.skipped, spaces[self])
+    or self
 end
 
 local function nothing() return celspan.union {} end

@@ -4,6 +4,7 @@
 --   art.object                      -- the whole, from (0, 0) to art.width, art.height
 --   art.parts.arm                   -- the element with this id, or with this Inkscape label
 --   svg.read("sign.svg", { fonts = { Arial = "arial.ttf", default = "sans.ttf" } })   -- for text
+--   svg.read("glass.svg", { space = "linear" })   -- what is translucent mixes as light
 --   art:with { arm = function(arm) return arm:rotate(20, 140, 90) end }
 --   art:show { mouth = "C", eyes = "open" }     -- of the parts "mouth A", "mouth B", ... only C
 --
@@ -145,6 +146,7 @@ end
 
 ---@class celspan.svg.options
 ---@field fonts? table<string, string> Font files by family as in `font-family`, for instance "Arial" and "Arial Bold"; `default` for all others
+---@field space? "srgb"|"linear" In which colours are mixed: "srgb", as other programs do, unless another is given
 
 --- The fonts as a list, sorted by family.
 local function list_fonts(options, find)
@@ -166,10 +168,12 @@ local function check_options(options)
     return "svg: read's options are a table, got " .. fields.kind(options)
   end
   for name in next, options do
-    if name ~= "fonts" then
-      return ("svg: read has no option '%s'; it has fonts"):format(tostring(name))
+    if name ~= "fonts" and name ~= "space" then
+      return ("svg: read has no option '%s'; it has fonts and space"):format(tostring(name))
     end
   end
+  local wrong = fields.space("svg", options.space)
+  if wrong then return wrong end
   if options.fonts ~= nil and type(options.fonts) ~= "table" then
     return "svg: fonts is a table of files by family, got " .. fields.kind(options.fonts)
   end
@@ -187,7 +191,7 @@ function svg.read(path, options)
   local found_at, tried = core.find(path)
   local fonts, refused = list_fonts(options, core.find)
   if not fonts then core.refuse(refused) end
-  local drawing, message = core.read_svg(found_at, false, fonts)
+  local drawing, message = core.read_svg(found_at, false, fonts, options.space or "srgb")
   if drawing then return wrap(drawing) end
   return nil, tried and ("%s; also looked for at %s"):format(message, tried) or message
 end

@@ -352,8 +352,9 @@ local function linear(code)
   return c <= 0.04045 and c / 12.92 or ((c + 0.055) / 1.055) ^ 2.4
 end
 
-local function probe(cels, x, y)
-  return celspan.probe(celspan.rostrum(cels), x, y, { film = { 40, 30 } })
+local function probe(cels, x, y, space)
+  local rostrum = celspan.rostrum(cels):with { space = space }
+  return celspan.probe(rostrum, x, y, { film = { 40, 30 } })
 end
 
 local function near(want, ...)
@@ -430,7 +431,7 @@ describe("the cels of a tree", function()
   --- Light and alpha of the whole tree, as an object and as cels.
   local function look(tree, x, y)
     local whole = { probe({ celspan.cel { tree.object } }, x, y) }
-    near(whole, probe(tree:cels(), x, y))
+    near(whole, probe(tree:cels(), x, y, "srgb"))
     return table.unpack(whole)
   end
 
@@ -451,12 +452,12 @@ describe("the cels of a tree", function()
       assert.are.same({}, tree.skipped)
       assert.are.equal(mode, tree[2].blend)
       local want = celspan.cel { paint(200, 100, 50, 1), paint(64, 180, 220, 0.8):blend(mode) }
-      near({ probe({ want }, 20, 15) }, look(tree, 20, 15))
+      near({ probe({ want }, 20, 15, "srgb") }, look(tree, 20, 15))
     end
   end)
 
   it("in a group blend with that group alone, unless it is passed through", function()
-    for isolation, want in pairs { isolate = linear(128), auto = linear(200) * linear(128) } do
+    for isolation, want in pairs { isolate = linear(128), auto = linear(200 * 128 / 255) } do
       local tree = ground_and { name = "g", isolation = isolation, layers = {
         { name = "top", x = 0, y = 0, w = 40, h = 30, blend = "svg:multiply",
           pixel = flat(128, 128, 128) } } }
@@ -478,7 +479,8 @@ describe("the cels of a tree", function()
   it("clipped to another show where that does", function()
     local tree, a = clipping(), 128 / 255
     assert.are.same({}, tree.skipped)
-    near({ 1 - a + a * 0.8, 1 - a + a * 0.2, 1 - a, 1 }, look(tree, 10, 15))
+    near({ linear(255 * (1 - a + a * 0.8)), linear(255 * (1 - a + a * 0.2)),
+      linear(255 * (1 - a)), 1 }, look(tree, 10, 15))
     near({ 1, 1, 1, 1 }, look(tree, 30, 15))
     near({ 1, 1, 1, 1 }, look(clipping { visible = false }, 10, 15))
   end)
@@ -490,7 +492,8 @@ describe("the cels of a tree", function()
         attributes = ' channelflags="1110"' } } })))
     assert.are.same({}, tree.skipped)
     local a = 128 / 255
-    near({ a * 0.8, a * 0.2, 0, a }, probe({ celspan.cel { tree.object } }, 10, 15))
+    near({ a * linear(0.8 * 255), a * linear(0.2 * 255), 0, a },
+      probe({ celspan.cel { tree.object } }, 10, 15))
     near({ 0, 0, 0, 0 }, probe({ celspan.cel { tree.object } }, 30, 15))
   end)
 
@@ -499,9 +502,10 @@ describe("the cels of a tree", function()
       { name = "a", x = 0, y = 0, w = 40, h = 30, pixel = flat(255, 0, 0) },
       { name = "b", x = 0, y = 0, w = 40, h = 30, opacity = 0.25, pixel = flat(0, 0, 255) } } }
     local tree = ground_and(group)
-    near({ 0.5 * linear(200) + 0.5 * 0.75, 0.5 * linear(100), 0.5 * linear(50) + 0.5 * 0.25, 1 },
+    local red, blue = linear(0.75 * 255), linear(0.25 * 255)
+    near({ 0.5 * linear(200) + 0.5 * red, 0.5 * linear(100), 0.5 * linear(50) + 0.5 * blue, 1 },
       probe(tree:cels(), 20, 15))
-    near({ 0.75, 0, 0.25, 1 }, probe({ celspan.cel { tree:find("both").object } }, 20, 15))
+    near({ red, 0, blue, 1 }, probe({ celspan.cel { tree:find("both").object } }, 20, 15))
   end)
 
   it("accept lights, viewport, defocus and opacity", function()

@@ -66,6 +66,63 @@ describe("a film of flat cels", function()
       assert.are.equal(whole, raw(4, "--workers 3 --memory 1"))
     end)
 
+  it("may have groups, spaces, mattes, grades, and modes that act inside a cel", function()
+    local parts = bench:write("parts.lua", [[
+local celspan = require "celspan"
+local frames, space = math.tointeger(tonumber((...))), select(2, ...)
+local function disc(x, colour)
+  return celspan.circle { centre = { x, 30 }, radius = 20, texture = colour }
+end
+local grains = {}
+for i = 1, 256 do
+  grains[i] = celspan.rect { 2 * (i % 16), 50 + i // 16, 1, 0.5, texture = "#20304050" }
+end
+grains = celspan.union(grains)
+local both = celspan.group { disc(30, "#c03020a0"), disc(50, "#2040c0a0"), space = "srgb" }
+local graded = celspan.group { disc(40, "#808080a0"), grade = { exposure = 1, gamma = 2 } }
+local inside = celspan.group { disc(40, "#60a080"), disc(52, "#d0c0a0"):blend "multiply",
+  isolate = true }
+local matte = celspan.matte(disc(60, "#904020"), disc(70, "#fff8"))
+return celspan.film { size = { 128, 80 }, frames = frames, space = space, frame = function(f)
+  return celspan.rostrum {
+    celspan.cel { (grains | both):translate(3.7 * f.number, 20) },
+    celspan.cel { (grains | graded):translate(60, 2 * f.number), front = { 1, 0.9, 0.5 } },
+    celspan.cel { (grains | inside):translate(-2.5 * f.number, 10) },
+    celspan.cel { (grains | matte):translate(1.5 * f.number, 0), opacity = 0.8,
+      grade = { saturation = 0.5 } },
+    back = "#fffbe0" }
+end }
+]])
+    for _, space in ipairs { "linear", "srgb" } do
+      local _, out = bench:celspan("spans %s --stats -- 4 %s", parts, space)
+      assert.are.equal(4, tonumber(out:match " maps (%d+)"))
+      local _, drawn = bench:celspan("render %s -o - --frames 1 -- 4 %s", parts, space)
+      local _, swept = bench:celspan("render %s -o - -- 1 %s", parts, space)
+      local most = 0
+      for i = 1, #swept do most = math.max(most, math.abs(swept:byte(i) - drawn:byte(i))) end
+      assert.is_true(most <= 1, most .. " of 255")
+    end
+  end)
+
+  it("is swept where a mode acts on another cel, or on what is lit", function()
+    local modes = bench:write("modes.lua", [[
+local celspan = require "celspan"
+local square = celspan.rect { 10, 10, 20, 20, texture = "#408060" }
+local is_lit = (...) == "lit"
+local grains = {}
+for i = 1, 256 do grains[i] = celspan.rect { i % 16, i // 16, 1, 1, texture = "#203040" } end
+local mode = celspan.group { celspan.union(grains), square, square:blend "screen",
+  isolate = is_lit or nil }
+return celspan.film { size = { 128, 80 }, frames = 4, frame = function()
+  return celspan.rostrum { celspan.cel { mode, front = is_lit and { 0.5, 1, 1 } or nil } }
+end }
+]])
+    for _, kind in ipairs { "lit", "open" } do
+      local _, out = bench:celspan("spans %s --stats -- %s", modes, kind)
+      assert.are.equal(0, tonumber(out:match " maps (%d+)"))
+    end
+  end)
+
   it("looks as if it were swept", function()
     local swept, drawn = raw(1), raw(4, "--frames 1")
     local most = 0

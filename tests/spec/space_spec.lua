@@ -267,3 +267,95 @@ describe("a space", function()
       "isolate is false, but a group with a space of its own always isolates")
   end)
 end)
+
+describe("a drawing", function()
+  local function drawn(text, options)
+    local name = os.tmpname()
+    local file = assert(io.open(name, "w"))
+    file:write('<svg xmlns="http://www.w3.org/2000/svg" width="4" height="1">' .. text .. "</svg>")
+    file:close()
+    local art, message = require "celspan.svg".read(name, options)
+    os.remove(name)
+    return assert(art, message)
+  end
+  local function shown(object) return codes(celspan.rostrum { celspan.cel { object } },
+    { size = { 4, 1 } }) end
+  local white = '<rect width="4" height="1" fill="#fff"/>'
+  local shaded = '<g id="shade">' .. white .. '<rect width="4" height="1" fill-opacity="0.3"/></g>'
+
+  it("mixes codes as browsers do, and so does each of its parts", function()
+    local art = drawn(white .. shaded)
+    assert.equal(178, shown(art.object)[1])
+    assert.equal(178, shown(art.parts.shade)[1])
+    assert.equal(178, shown(art:elements({ id = "shade" })[1].object)[1])
+    assert.equal(178, shown(art:with { shade = function(part) return part end }.object)[1])
+  end)
+
+  it("mixes light where the script says so", function()
+    local art = drawn(shaded, { space = "linear" })
+    assert.equal(218, shown(art.object)[1])
+    assert.equal(218, shown(art.parts.shade)[1])
+    assert.error_matches(function() drawn(shaded, { space = "lab" }) end,
+      'svg: space must be "linear" or "srgb", got "lab"')
+  end)
+
+  it("has gradients between codes, by their own stops", function()
+    local ramp = '<linearGradient id="g"><stop/><stop offset="1" stop-color="#fff"/>' ..
+      '</linearGradient><rect width="4" height="1" fill="url(#g)"/>'
+    local image = shown(drawn(ramp).object)
+    for x = 0, 3 do assert.is_true(math.abs(image[4 * x + 1] - 255 * (x + 0.5) / 4) <= 1) end
+  end)
+
+  it("has masks by the luminance of codes, in both spaces", function()
+    local mask = '<mask id="m"><rect width="4" height="1" fill="#808080"/></mask>' ..
+      '<rect width="4" height="1" fill="#fff" mask="url(#m)"/>'
+    assert.equal(128, shown(drawn(mask).object)[4])
+    assert.equal(128, shown(drawn(mask, { space = "linear" }).object)[4])
+  end)
+
+  it("is the same in both spaces where nothing in it mixes", function()
+    local flat = white .. '<circle id="c" cx="2" cy="0.5" r="0.4" fill="#a05020"/>'
+    local both = {}
+    for i, space in ipairs { "srgb", "linear" } do
+      local rostrum = celspan.rostrum { celspan.cel { drawn(flat, { space = space }).object } }
+      both[i] = pixels(rostrum, { size = { 64, 16 } }):bytes { depth = "float" }
+    end
+    assert.equal(both[1], both[2])
+  end)
+
+  it("keeps the modes of its parts outermost", function()
+    local part = drawn('<g id="a" style="mix-blend-mode:multiply">' ..
+      '<rect width="4" height="1" fill="#808080" fill-opacity="0.5"/>' ..
+      '<rect width="4" height="1" fill="#404040" fill-opacity="0.5"/></g>').parts.a
+    assert.equal("multiply", part.mode)
+    local red = shown(celspan.group { rect(0, 0, 4, 1, "#f00"), part })
+    assert.same({ 0, 0, 255 }, { red[2], red[3], red[4] })
+  end)
+end)
+
+describe("a layered painting", function()
+  local paintings = require "tests.support.paintings"
+
+  it("mixes codes as painting programs do, unless the script says otherwise", function()
+    local function layer(name, grey, alpha)
+      return { name = name, x = 0, y = 0, w = 4, h = 1,
+        pixel = function() return grey, grey, grey, alpha end }
+    end
+    local name = os.tmpname()
+    local file = assert(io.open(name, "wb"))
+    file:write(paintings.openraster { w = 4, h = 1, layers = { { name = "both", layers = {
+      layer("white", 255, 255), layer("shade", 0, 77) } } } })
+    file:close()
+    local function shown(options, path)
+      local tree = assert(require "celspan.layers".read(name, options))
+      local object = path and tree:get(path).object or tree.object
+      return codes(celspan.rostrum { celspan.cel { object } }, { size = { 4, 1 } })[1]
+    end
+    assert.equal(178, shown())
+    assert.equal(178, shown(nil, "both"))
+    assert.equal(218, shown { space = "linear" })
+    assert.equal(218, shown({ space = "linear" }, "both"))
+    assert.error_matches(function() shown { space = 1 } end, "layers: space must be")
+    os.remove(name)
+  end)
+end)

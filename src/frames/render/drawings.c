@@ -9,9 +9,14 @@
 
 /* ---------------------------------------------------------------- which exposures */
 
-static bool is_even(const celspan_cel *cel) {
-  bool is_even = !cel->has_modes && cel->blend == CELSPAN_BLEND_NORMAL;
-  is_even = is_even && cel->defocus_radius == 0 && !cel->front.texture && !cel->back.texture;
+static bool is_white(celspan_light light) { return light.r == 1 && light.g == 1 && light.b == 1; }
+
+/* Modes act on what is lit, so that those inside a cel are in its map only under white light. */
+static bool is_even(const celspan_rostrum *rostrum, const celspan_cel *cel, celspan_space space) {
+  const cs_light front = cs_scene_front(rostrum, cel);
+  bool is_even = !cs_cel_blends(cel, space) && cel->defocus_radius == 0 && !front.texture;
+  is_even =
+      is_even && !cel->back.texture && (!cel->has_modes || is_white(cs_light_in(&front, space)));
   for (size_t i = 0; is_even && i < cel->object_count; i++)
     is_even = !cel->objects[i]->data->has_uneven;
   return is_even;
@@ -28,12 +33,12 @@ static bool is_rich(const celspan_rostrum *rostrum) {
 
 static bool suits(const celspan_rostrum *rostrum, const cs_view *view,
                   const cs_antialias *antialias) {
-  bool suits = antialias->mode == CELSPAN_ANTIALIAS_AREA && view->space == CELSPAN_SPACE_LINEAR &&
-               rostrum->space != CELSPAN_SPACE_SRGB && view->width <= CS_DRAWINGS_SIDE &&
-               view->height <= CS_DRAWINGS_SIDE && rostrum->cel_count <= CS_MAP_DRAWINGS &&
-               !rostrum->front.texture && !rostrum->back.texture && is_rich(rostrum);
+  bool suits = antialias->mode == CELSPAN_ANTIALIAS_AREA && !rostrum->grade &&
+               cs_space_inside(rostrum->space, view->space) == view->space &&
+               view->width <= CS_DRAWINGS_SIDE && view->height <= CS_DRAWINGS_SIDE &&
+               rostrum->cel_count <= CS_MAP_DRAWINGS && !rostrum->back.texture && is_rich(rostrum);
   for (size_t i = 0; suits && i < rostrum->cel_count; i++)
-    suits = is_even(rostrum->cels[i]);
+    suits = is_even(rostrum, rostrum->cels[i], view->space);
   return suits;
 }
 
@@ -46,6 +51,7 @@ typedef struct placed_cel {
   size_t number;
   celspan_matrix matrix; /* the drawing's units to pixels */
   double opacity;
+  celspan_space space;     /* of the frame */
   double scale_x, scale_y; /* the drawing's units to pixels of the raster: a power of two, which is
                               negative where the drawing is mirrored */
   bool is_made;            /* the map was made just now */
@@ -71,7 +77,8 @@ static bool find_scale(placed_cel *d) {
 
 /* Finds a raster with a pixel more on each side than a drawing has, and moves the drawing there;
  * false where it is too large. */
-static bool find_raster(celspan_cel *drawing, int64_t corner[2], cs_view *out) {
+static bool find_raster(celspan_cel *drawing, celspan_space space, int64_t corner[2],
+                        cs_view *out) {
   celspan_box box = {0, 0, 0, 0};
   (void)cs_bounds_around(drawing, &box); /* nothing is a drawing, too */
   double left = floor(box.x) - 1, width = ceil(box.x + box.width) + 1 - left;
@@ -85,18 +92,18 @@ static bool find_raster(celspan_cel *drawing, int64_t corner[2], cs_view *out) {
   *out = (cs_view){.width = (int32_t)width,
                    .height = (int32_t)height,
                    .most_dashes = CS_COMPILE_DASHES,
-                   .space = CELSPAN_SPACE_LINEAR};
+                   .space = space};
   return true;
 }
 
-static celspan_status make_alone(celspan_context *context, celspan_cel *drawing, size_t number,
-                                 cs_map *map) {
+static celspan_status make_alone(celspan_context *context, const placed_cel *d,
+                                 celspan_cel *drawing, cs_map *map) {
   cs_view raster;
   cs_plan plan;
   int64_t corner[2];
-  if (!find_raster(drawing, corner, &raster))
+  if (!find_raster(drawing, d->space, corner, &raster))
     return CELSPAN_OK;
-  CS_TRY(cs_compile_drawing(context, drawing, number, &drawing->matrix, &raster, &plan));
+  CS_TRY(cs_compile_drawing(context, drawing, d->number, &drawing->matrix, &raster, &plan));
   celspan_status status =
       cs_map_suits(&plan) ? cs_map_make(context, &plan, corner[0], corner[1], map) : CELSPAN_OK;
   cs_compile_free(&plan, context->memory);
@@ -116,9 +123,10 @@ static celspan_status make(void *user, celspan_context *context, cs_map *map) {
     only.mark = drawing.objects[0]->mark;
     only.data = drawing.objects[0]->data;
     drawing.objects = objects;
+    drawing.blends_inside[d->space] = cs_object_blends(&only, d->space);
   }
   drawing.matrix = (celspan_matrix){{d->scale_x, 0, 0, 0, d->scale_y, 0, 0, 0, 1}};
-  return make_alone(context, &drawing, d->number, map);
+  return make_alone(context, d, &drawing, map);
 }
 
 static cs_cache_key key_of(const placed_cel *d) {
@@ -126,6 +134,7 @@ static cs_cache_key key_of(const placed_cel *d) {
   size_t count = d->cel->object_count;
   cs_hash hash = cs_hash_begin(0x6d6170u);
   cs_hash_word(&hash, count);
+  cs_hash_word(&hash, d->space);
   for (size_t i = 0; i < count; i++)
     cs_hash_hash(&hash, count == 1 ? objects[i]->data->hash : objects[i]->hash);
   cs_hash_number(&hash, d->scale_x);
@@ -138,12 +147,23 @@ static cs_cache_key key_of(const placed_cel *d) {
 
 static cs_v4 colour_of(celspan_light light) { return (cs_v4){light.r, light.g, light.b, 0}; }
 
-/* The colours of the map's cells in the light of the cel. */
-static celspan_status light_cells(celspan_context *context, cs_map_drawing *drawing, cs_v4 light) {
+/* A colour with the cel's grade, if it has one. */
+static cs_v4 graded(const placed_cel *d, cs_v4 colour) {
+  float rgba[4];
+  if (!d->cel->grade)
+    return colour;
+  cs_v4_store(rgba, colour);
+  cs_grade_light(&d->cel->grade->steps, d->space, rgba[3], rgba);
+  return cs_v4_load(rgba);
+}
+
+/* The colours of the map's cells in the light of the cel, which includes its opacity. */
+static celspan_status light_cells(celspan_context *context, const placed_cel *d, cs_v4 light,
+                                  cs_map_drawing *drawing) {
   const cs_map *map = drawing->map;
   CS_TRY(CS_MAKE(context, drawing->colours, map->cell_count));
   for (size_t i = 0; i < map->cell_count; i++)
-    drawing->colours[i] = light * map->cells[i];
+    drawing->colours[i] = graded(d, light * map->cells[i]);
   return CELSPAN_OK;
 }
 
@@ -160,13 +180,13 @@ static celspan_status make_sheet(celspan_context *context, const celspan_rostrum
   const cs_light back = cs_scene_back(rostrum, &d->cel->back);
   const cs_light front = cs_scene_front(rostrum, d->cel);
   float opacity = (float)d->opacity;
-  cs_v4 light = opacity * colour_of(front.flat);
+  cs_v4 light = opacity * colour_of(cs_light_in(&front, d->space));
   light[3] = opacity;
-  out->back = colour_of(back.flat);
+  out->back = colour_of(cs_light_in(&back, d->space));
   out->keep = 1 - back.flat.a;
   CS_TRY(cs_map_keep_acquire(context, key_of(d), make, d, &out->drawing.map));
   set_place(d, &out->drawing);
-  return out->drawing.map->is_whole ? light_cells(context, &out->drawing, light) : CELSPAN_OK;
+  return out->drawing.map->is_whole ? light_cells(context, d, light, &out->drawing) : CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- a frame */
@@ -188,6 +208,7 @@ static celspan_status place_cels(celspan_context *context, const celspan_rostrum
     d->cel = rostrum->cels[index];
     d->number = index + 1;
     d->is_made = false;
+    d->space = view->space;
     CS_TRY(cs_scene_cel_matrix(context, rostrum, index, view->film_width, view->film_height,
                                &d->matrix));
     d->matrix = celspan_matrix_then(d->matrix, to_pixels);
@@ -229,7 +250,7 @@ celspan_status cs_drawings_create(celspan_context *context, const celspan_rostru
     return CELSPAN_OK;
   }
   const cs_light back = cs_scene_back(rostrum, &rostrum->back);
-  out->back = colour_of(back.flat);
+  out->back = colour_of(cs_light_in(&back, view->space));
   out->keep = 1 - back.flat.a;
   out->width = view->width;
   out->height = view->height;

@@ -1043,11 +1043,14 @@ typedef struct celspan_svg_desc {
   const char *name;              /* for messages, of bytes; NULL: "the drawing" */
   const celspan_svg_font *fonts; /* no others are used: texts without one of these are not drawn */
   size_t font_count;             /* at most 64 */
+  celspan_space space; /* of the drawing, and of each of its parts, which are groups; LINEAR: the
+                          colours of translucent shapes and of gradients are mixed as light */
 } celspan_svg_desc;
 
 static inline celspan_svg_desc celspan_svg_desc_default(void) {
   celspan_svg_desc desc = CELSPAN_ZERO;
   desc.struct_size = sizeof desc;
+  desc.space = CELSPAN_SPACE_SRGB;
   return desc;
 }
 #define CELSPAN_SVG_DESC (celspan_svg_desc_default())

@@ -1,6 +1,6 @@
 /* Drawings read from SVG: what lua/celspan/svg.lua is made of.
  *
- *   core.read_svg(path, is_coded, fonts) -> drawing | nil, message
+ *   core.read_svg(path, is_coded, fonts, space) -> drawing | nil, message
  *   fonts: nil, or a list of { family, file, where it was looked for in vain }
  *   drawing:object(), :size(), :parts(), :skipped(), :key(), :with(functions by name)
  *
@@ -20,6 +20,7 @@
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "lua/nouns/shape.h"
+#include "model/colour/space.h"
 #include "readers/svg/read.h"
 
 #define METATABLE "celspan.drawing"
@@ -269,7 +270,10 @@ static const celspan_svg_font *read_fonts(lua_State *L, size_t *count) {
 static int read(lua_State *L) {
   const char *path = luaL_checkstring(L, 1);
   cs_svg_options options = {.is_coded = lua_toboolean(L, 2)};
-  lua_settop(L, 3);
+  lua_settop(L, 4);
+  if (!lua_isnil(L, 4))
+    options.space =
+        (celspan_space)(CELSPAN_SPACE_LINEAR + luaL_checkoption(L, 4, NULL, cs_space_words));
   options.fonts = read_fonts(L, &options.font_count);
   celspan_context *context = cs_host_context(L);
   drawing *made = push_drawing(L);

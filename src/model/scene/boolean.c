@@ -55,6 +55,7 @@ static celspan_status fill_more(celspan_context *context, cs_primitive_data *dat
   memcpy(data->blends, from->blends, sizeof data->blends);
   data->has_uneven = from->has_uneven;
   data->has_modes = from->has_modes;
+  data->mixing = from->mixing;
   data->boolean->operands_hash = from->boolean->operands_hash;
   data->boolean->hashed_count = from->boolean->hashed_count;
   CS_TRY(cs_primitive_data_measure(context, noun, operands, count, data));
@@ -73,7 +74,8 @@ static bool is_extendable(const celspan_object *object) {
   const cs_primitive_data *data = object->data;
   return data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->op < CELSPAN_CLIP &&
          data->boolean->blend == CELSPAN_BLEND_NORMAL && !data->boolean->isolates &&
-         is_identity(object->matrix) && object->fade == 1;
+         data->boolean->space == CELSPAN_SPACE_AROUND && is_identity(object->matrix) &&
+         object->fade == 1;
 }
 
 celspan_status celspan_object_extend_boolean(celspan_context *context, celspan_object *boolean,

@@ -89,25 +89,42 @@ celspan_blend celspan_object_mode(const celspan_object *object) {
   return CS_BLEND_MODE(cs_object_mode(object));
 }
 
-/* Another mode for an object that has one: its operands stay. */
-static celspan_status change(celspan_context *context, const celspan_object *object,
-                             celspan_blend mode, celspan_object **out) {
+/* A union like that of an object, with another look: its operands stay. noun: for messages. */
+static celspan_status change(celspan_context *context, const char *noun,
+                             const celspan_object *object, const cs_boolean *look,
+                             celspan_object **out) {
   const cs_boolean *from = object->data->boolean;
-  const cs_boolean look = {
-      .op = from->op, .blend = mode, .space = from->space, .grade = from->grade, .isolates = true};
   cs_primitive_data *data;
   celspan_object *plain;
-  CS_TRY(create(context, "blend", &look, from->operands, from->operand_count, &data));
+  CS_TRY(create(context, noun, look, from->operands, from->operand_count, &data));
   CS_TRY(cs_primitive_data_wrap(context, data, CELSPAN_OK, &plain));
   celspan_status status = cs_primitive_data_replace(context, object, plain->data, out);
   celspan_object_unref(plain);
   return status;
 }
 
+/* What makes a group of a boolean. */
+static cs_boolean traits_of(const cs_boolean *from) {
+  return (cs_boolean){.op = from->op,
+                      .blend = from->blend,
+                      .space = from->space,
+                      .grade = from->grade,
+                      .isolates = from->isolates};
+}
+
+/* Another mode for an object that has one. */
+static celspan_status change_mode(celspan_context *context, const celspan_object *object,
+                                  celspan_blend mode, celspan_object **out) {
+  cs_boolean look = traits_of(object->data->boolean);
+  look.blend = mode;
+  look.isolates = true;
+  return change(context, "blend", object, &look, out);
+}
+
 static celspan_status set_mode(celspan_context *context, celspan_object *object, celspan_blend mode,
                                celspan_object **out) {
   if (cs_object_mode(object) != CELSPAN_BLEND_NORMAL)
-    return change(context, object, mode, out);
+    return change_mode(context, object, mode, out);
   if (mode == CELSPAN_BLEND_NORMAL) {
     *out = celspan_object_ref(object);
     return CELSPAN_OK;
@@ -133,6 +150,34 @@ celspan_status cs_object_blend_within(celspan_context *context, celspan_object *
   CS_TRY(cs_check_given(context, "blend_within", "the object", object));
   CS_TRY(cs_check_choice(context, "blend_within", "mode", (unsigned)mode, MODES));
   return set_mode(context, object, (celspan_blend)((unsigned)mode | CS_BLEND_WITHIN), out);
+}
+
+/* ---------------------------------------------------------------- spaces */
+
+/* Any other object is put into a group. */
+static bool is_union(const celspan_object *object) {
+  const cs_primitive_data *data = object->data;
+  return data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->op == CELSPAN_UNION;
+}
+
+celspan_status cs_object_in_space(celspan_context *context, celspan_object *object,
+                                  celspan_space space, celspan_object **out) {
+  const cs_boolean alone = {.op = CELSPAN_UNION, .space = space};
+  cs_primitive_data *data;
+  if (space == CELSPAN_SPACE_AROUND || object->data->mixing < CS_MIXING_MIXED) {
+    *out = celspan_object_ref(object);
+    return CELSPAN_OK;
+  }
+  if (is_union(object)) {
+    cs_boolean look = traits_of(object->data->boolean);
+    look.space = space;
+    return change(context, "group", object, &look, out);
+  }
+  CS_TRY(create(context, "group", &alone, &object, 1, &data));
+  CS_TRY(cs_primitive_data_wrap(context, data, CELSPAN_OK, out));
+  cs_mark_drop((*out)->mark);
+  (*out)->mark = cs_mark_keep(object->mark);
+  return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- mattes */

@@ -157,8 +157,9 @@ cs_oracle_sight cs_oracle_fade(const cs_oracle_sight *sight, double weight) {
 
 /* ---------------------------------------------------------------- spaces */
 
+/* Written so that 1 is exactly 1. */
 static double encode(double light) {
-  return light <= 0.0031308 ? 12.92 * light : 1.055 * cs_elementary_pow(light, 1 / 2.4) - 0.055;
+  return light <= 0.0031308 ? 12.92 * light : 1 + 1.055 * (cs_elementary_pow(light, 1 / 2.4) - 1);
 }
 
 static double decode(double code) {

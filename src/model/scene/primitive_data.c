@@ -6,6 +6,56 @@
 #include "model/scene/texture_unroll.h"
 #include "model/scene/value.h"
 
+/* ---------------------------------------------------------------- mixing */
+
+/* Of a texture of paints. Where the medium dims what the pigment leaves, both are mixed. */
+static cs_mixing mixing_of_paint(const cs_paint *paint) {
+  bool is_opaque = true, is_single = true;
+  for (int c = 0; c < 3; c++) {
+    is_opaque = is_opaque && paint->t[c] == 0;
+    is_single = is_single && (paint->s[c] == 0 || paint->t[c] == 1 - paint->beta);
+  }
+  return !is_single ? CS_MIXING_MIXED : is_opaque ? CS_MIXING_OPAQUE : CS_MIXING_SINGLE;
+}
+
+static cs_mixing mixing_of_texture(const celspan_texture *texture) {
+  if (texture->kind == CS_TEXTURE_FLAT)
+    return mixing_of_paint(&texture->flat);
+  bool is_plain = texture->kind == CS_TEXTURE_PICTURE && !texture->variation->medium;
+  return is_plain ? CS_MIXING_SINGLE : CS_MIXING_MIXED;
+}
+
+/* Adds an operand to what is known of a boolean. is_only: no other one is painted. */
+static void add_mixing(const celspan_object *object, bool is_only, cs_primitive_data *data) {
+  uint8_t mixing = object->data->mixing;
+  if (mixing == CS_MIXING_OPAQUE && object->fade < 1)
+    mixing = CS_MIXING_SINGLE;
+  if (mixing == CS_MIXING_SINGLE && !is_only)
+    mixing = CS_MIXING_MIXED;
+  data->mixing = mixing > data->mixing ? mixing : data->mixing;
+}
+
+/* Whether a boolean mixes its operands, or changes their colours, in addition to painting them. */
+static bool has_formula(const cs_boolean *boolean) {
+  return boolean->op == CS_OPERATOR_MATTE || boolean->grade ||
+         boolean->blend != CELSPAN_BLEND_NORMAL;
+}
+
+/* Of operands that come after others. */
+static void measure_mixing(celspan_object *const *objects, size_t count, cs_primitive_data *data) {
+  const cs_boolean *boolean = data->boolean;
+  bool is_first = boolean->op == CELSPAN_DIFFERENCE || boolean->op == CELSPAN_CLIP;
+  bool is_only = is_first || boolean->operand_count == 1;
+  if (!is_only && data->mixing == CS_MIXING_SINGLE)
+    data->mixing = CS_MIXING_MIXED;
+  size_t shown = !is_first ? count : boolean->operand_count == count && count > 0 ? 1 : 0;
+  for (size_t i = 0; i < shown; i++)
+    add_mixing(objects[i], is_only, data);
+  if (has_formula(boolean))
+    data->mixing = CS_MIXING_MIXED;
+  data->boolean->mixes = boolean->space != CELSPAN_SPACE_AROUND && data->mixing == CS_MIXING_MIXED;
+}
+
 /* ---------------------------------------------------------------- data */
 
 /* What only data of this kind have. */
@@ -35,6 +85,10 @@ celspan_status cs_primitive_data_create(celspan_context *context, cs_primitive_d
     cs_primitive_data_unref(data);
     return status;
   }
+  if (data->texture)
+    data->mixing = (uint8_t)mixing_of_texture(data->texture);
+  else if (kind != CS_PRIMITIVE_DATA_BOOLEAN)
+    data->mixing = CS_MIXING_MIXED;
   if (data->texture)
     data->has_uneven = data->texture->kind != CS_TEXTURE_FLAT || !cs_texture_is_grey(data->texture);
   *out = data;
@@ -143,11 +197,10 @@ static cs_hash hash_boolean(cs_boolean *boolean) {
   boolean->operands_hash = hash;
   boolean->hashed_count = boolean->operand_count;
   cs_hash_word(&hash, boolean->operand_count);
-  if (boolean->blend != CELSPAN_BLEND_NORMAL || boolean->isolates ||
-      boolean->space != CELSPAN_SPACE_AROUND)
-    cs_hash_word(&hash, (uint64_t)boolean->space << 16 | (uint64_t)boolean->blend << 3 |
-                            (uint64_t)boolean->isolates << 2 | (uint64_t)boolean->is_luma << 1 |
-                            boolean->inverts);
+  if (boolean->blend != CELSPAN_BLEND_NORMAL || boolean->isolates || boolean->mixes)
+    cs_hash_word(&hash, (uint64_t)(boolean->mixes ? boolean->space : 0) << 16 |
+                            (uint64_t)boolean->blend << 3 | (uint64_t)boolean->isolates << 2 |
+                            (uint64_t)boolean->is_luma << 1 | boolean->inverts);
   cs_grade_hash(&hash, boolean->grade);
   return cs_hash_end(hash);
 }
@@ -353,8 +406,8 @@ static void add_modes(const celspan_object *object, cs_primitive_data *data) {
 celspan_status cs_primitive_data_measure(celspan_context *context, const char *noun,
                                          celspan_object *const *objects, size_t count,
                                          cs_primitive_data *data) {
-  data->has_uneven |=
-      data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->space == CELSPAN_SPACE_SRGB;
+  if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN)
+    measure_mixing(objects, count, data);
   for (size_t i = 0; i < count; i++) {
     const cs_primitive_data *item = objects[i]->data;
     data->depth = item->depth > data->depth ? item->depth : data->depth;

@@ -64,6 +64,11 @@ CELSPAN_CHECKED celspan_status cs_primitive_data_set_box(celspan_context *contex
                                                          cs_primitive_data *data,
                                                          const celspan_box *box);
 
+/* The object as a group in a space, with the same place, mode and mark; the object itself where its
+ * paints are not mixed, and for AROUND. Errors: NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_object_in_space(celspan_context *context, celspan_object *object,
+                                                  celspan_space space, celspan_object **out);
+
 /* As celspan_object_blend, but the object shows only as far as its backdrop is there, in the
  * nearest group that isolates, whose alpha it does not change (CS_BLEND_WITHIN). */
 CELSPAN_CHECKED celspan_status cs_object_blend_within(celspan_context *context,

@@ -90,6 +90,7 @@ typedef struct cs_boolean {
   celspan_operator op;
   celspan_blend blend;
   celspan_space space;       /* in which its operands are composited */
+  bool mixes;                /* that is what they need: CS_MIXING_MIXED, if there is a space */
   celspan_grade *grade;      /* of what that makes; NULL: none. A reference */
   bool isolates;             /* modes inside do not act on its backdrop */
   bool is_luma;              /* MATTE: the strength is luma, not alpha */
@@ -100,6 +101,15 @@ typedef struct cs_boolean {
   cs_hash operands_hash; /* of the first hashed_count operands; more continue it */
   size_t hashed_count;
 } cs_boolean;
+
+/* What a working space means for what is seen of an object by itself. Pixels are averaged in that
+ * of the film, so edges do not count. */
+typedef enum cs_mixing {
+  CS_MIXING_OPAQUE, /* nothing: one opaque paint at each point */
+  CS_MIXING_SINGLE, /* nothing, unless something lies behind it: one paint, or colour of a picture,
+                       at each point */
+  CS_MIXING_MIXED   /* paints may be mixed, as in a gradient */
+} cs_mixing;
 
 /* The data of an object without its transform and fade: shared by all its transformed copies. A
  * scene may have a million of them, nearly all outlines: what other kinds have is behind a
@@ -115,8 +125,8 @@ typedef struct cs_primitive_data {
   bool has_procedure;       /* below or with this one */
   bool blends[CS_SPACES];   /* in that space, a mode below this one acts on its backdrop */
   bool has_uneven;          /* below or with this one: a paint that is not one colour, or does not
-                               dim the three channels alike; a procedure; a rostrum; codes that are
-                               mixed */
+                               dim the three channels alike; a procedure; a rostrum */
+  uint8_t mixing;           /* a cs_mixing */
   bool has_modes;           /* any mode is below or with this one, except in a rostrum */
   bool is_box;              /* the outline is that of `box`, which has an area */
   int depth;                /* levels of booleans and rostrums below and with this one */
@@ -157,9 +167,10 @@ static inline celspan_blend cs_object_mode(const celspan_object *object) {
   return data->kind == CS_PRIMITIVE_DATA_BOOLEAN ? data->boolean->blend : CELSPAN_BLEND_NORMAL;
 }
 
-/* The space in which the operands of a boolean are composited, inside a space. */
+/* The space in which the operands of a boolean are composited, inside a space. Where they are not
+ * mixed it is that one, which looks the same and costs less. */
 static inline celspan_space cs_boolean_space(const cs_boolean *boolean, celspan_space around) {
-  return cs_space_inside(boolean->space, around);
+  return boolean->mixes ? cs_space_inside(boolean->space, around) : around;
 }
 
 /* Whether what a boolean makes inside a space is changed as a whole: graded, or converted. */

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/hash_table.h"
-#include "model/scene/scene.h"
+#include "model/scene/primitive_data.h"
 #include "model/scene/value.h"
 
 /* ---------------------------------------------------------------- life */
@@ -204,6 +204,7 @@ typedef struct listing {
   cs_svg_part *parts;
   bool *is_shared; /* more than one item has this label */
   size_t count, capacity, shared_capacity;
+  celspan_space space;
 } listing;
 
 static cs_hash hash_name(const char *text) {
@@ -212,13 +213,17 @@ static cs_hash hash_name(const char *text) {
   return cs_hash_end(hash);
 }
 
-/* An item's object where it stands in the file. */
-static celspan_status at_home(celspan_context *context, const cs_svg_item *item,
-                              celspan_object **out) {
-  if (item->is_moved)
-    return celspan_object_transform(context, item->object, &item->back, out);
-  *out = celspan_object_ref(item->object);
-  return CELSPAN_OK;
+/* An item's object where it stands in the file, in the space of the drawing. */
+static celspan_status at_home(celspan_context *context, celspan_space space,
+                              const cs_svg_item *item, celspan_object **out) {
+  celspan_object *group;
+  CS_TRY(cs_object_in_space(context, item->object, space, &group));
+  *out = group;
+  if (!item->is_moved)
+    return CELSPAN_OK;
+  celspan_status status = celspan_object_transform(context, group, &item->back, out);
+  celspan_object_unref(group);
+  return status;
 }
 
 static celspan_status list_part(listing *list, const char *text, const cs_svg_item *item,
@@ -233,7 +238,9 @@ static celspan_status list_part(listing *list, const char *text, const cs_svg_it
   CS_TRY(cs_hash_table_add(&list->names, list->context, hash_name(text), list->count));
   list->is_shared[list->count] = false;
   list->parts[list->count] = (cs_svg_part){text, is_label, NULL};
-  return at_home(list->context, item, &list->parts[list->count++].object);
+  CS_TRY(at_home(list->context, list->space, item, &list->parts[list->count].object));
+  list->count++;
+  return CELSPAN_OK;
 }
 
 /* First those that are drawn at their own place, then those that only `use` shows. Recursion: the
@@ -262,7 +269,7 @@ static celspan_status copy_parts(listing *list, celspan_svg *art) {
 }
 
 static celspan_status make_parts(celspan_context *context, celspan_svg *art) {
-  listing list = {.context = context};
+  listing list = {.context = context, .space = art->space};
   celspan_status status = CELSPAN_OK;
   for (int pass = 0; pass < 4 && status == CELSPAN_OK; pass++)
     status = list_parts(&list, art->root, pass >= 2, pass % 2 == 1);
@@ -280,6 +287,7 @@ static celspan_status make_parts(celspan_context *context, celspan_svg *art) {
 
 typedef struct visiting {
   celspan_context *context;
+  celspan_space space;
   celspan_svg_visit visit;
   void *user;
   cs_hash_table visited; /* the numbers of those that were visited */
@@ -296,7 +304,7 @@ static celspan_status visit_element(visiting *v, const cs_svg_item *item, int32_
   if (cs_hash_table_find(&v->visited, hash, &place))
     return CELSPAN_OK;
   CS_TRY(cs_hash_table_add(&v->visited, v->context, hash, facts->number));
-  CS_TRY(at_home(v->context, item, &object));
+  CS_TRY(at_home(v->context, v->space, item, &object));
   snprintf(name, sizeof name, "#%u", facts->number);
   celspan_svg_element element = {.name = name,
                                  .tag = facts->tag,
@@ -326,7 +334,7 @@ static celspan_status visit_items(visiting *v, const cs_svg_item *item, bool is_
 
 celspan_status celspan_svg_elements(celspan_context *context, const celspan_svg *svg,
                                     celspan_svg_visit visit, void *user) {
-  visiting v = {.context = context, .visit = visit, .user = user};
+  visiting v = {.context = context, .space = svg->space, .visit = visit, .user = user};
   celspan_status status = visit_items(&v, svg->root, false, 0);
   if (status == CELSPAN_OK)
     status = visit_items(&v, svg->root, true, 0);
@@ -338,7 +346,7 @@ celspan_status celspan_svg_elements(celspan_context *context, const celspan_svg 
 
 celspan_status cs_svg_art_complete(celspan_context *context, celspan_svg *art) {
   if (art->root->object)
-    art->object = celspan_object_ref(art->root->object);
+    CS_TRY(cs_object_in_space(context, art->root->object, art->space, &art->object));
   else
     CS_TRY(celspan_object_create_boolean(context, CELSPAN_UNION, NULL, 0, &art->object));
   return make_parts(context, art);

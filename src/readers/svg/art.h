@@ -56,6 +56,7 @@ struct celspan_svg {
   celspan_svg *origin; /* what it was made of with changes, whose texts it borrows; NULL: none */
   cs_svg_item *root;
   double width, height;
+  celspan_space space;    /* of the object and of the parts */
   celspan_object *object; /* never NULL */
   cs_svg_part *parts;
   size_t part_count;

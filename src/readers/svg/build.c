@@ -265,13 +265,13 @@ static bool counts_in_shares(const cs_svg_node *mask) {
   return units && cs_svg_is_word(units, "objectBoundingBox");
 }
 
-/* Draws the contents of a mask into `drawn`, in codes, whose luminance counts. place: in its
+/* Draws the contents of a mask into `drawn`: the luminance of codes counts. place: in its
  * contents' units. */
 static celspan_status draw_mask(builder *b, const cs_svg_node *mask, const cs_svg_place *place,
                                 cs_svg_item *drawn) {
   cs_svg_reading *reading = b->reading;
   const bool is_coded = reading->is_coded;
-  reading->is_coded = true;
+  reading->is_coded = is_coded || reading->space != CELSPAN_SPACE_SRGB;
   celspan_status status = add_children(b, mask, place, drawn);
   if (status == CELSPAN_OK)
     status = cs_svg_item_compose(reading->context, drawn);

@@ -140,6 +140,7 @@ static celspan_status fail_in(celspan_context *context, const char *name, celspa
 static celspan_status build(cs_svg_reading *reading, const char *name, celspan_svg **out) {
   celspan_svg *art;
   CS_TRY(cs_svg_art_create(reading->context, &art));
+  art->space = reading->space;
   celspan_status status = cs_svg_build(reading, art);
   if (status != CELSPAN_OK)
     status = fail_in(reading->context, name, status);
@@ -191,11 +192,12 @@ static celspan_status read_inner(cs_svg_reading *outer, const cs_svg_source *sou
 }
 
 static cs_svg_reading begin_reading(celspan_context *context, const cs_svg_source *source,
-                                    bool is_coded) {
+                                    const cs_svg_options *options) {
   return (cs_svg_reading){.context = context,
                           .source = source,
                           .read_inner = read_inner,
-                          .is_coded = is_coded,
+                          .is_coded = options->is_coded,
+                          .space = options->space,
                           .tests = CS_SVG_SELECTOR_TESTS};
 }
 
@@ -250,6 +252,7 @@ static cs_hash key_of(const char *file, const struct stat *about, const cs_svg_o
   cs_hash_text(&hash, file);
   hash_about(&hash, about);
   cs_hash_word(&hash, options->is_coded);
+  cs_hash_word(&hash, options->space);
   for (size_t i = 0; i < options->font_count; i++)
     hash_font(&hash, &options->fonts[i]);
   return cs_hash_end(hash);
@@ -278,7 +281,7 @@ static celspan_status read_or_find(celspan_context *context, const char *file, i
                                 .font_count = options->font_count,
                                 .device = (uint64_t)about.st_dev,
                                 .number = (uint64_t)about.st_ino};
-  cs_svg_reading reading = begin_reading(context, &source, options->is_coded);
+  cs_svg_reading reading = begin_reading(context, &source, options);
   CS_TRY(read_open(&reading, descriptor, (size_t)about.st_size, out));
   if (!reading.has_other_files)
     keep(store, key, *out);
@@ -316,14 +319,15 @@ celspan_status celspan_svg_read(celspan_context *context, const celspan_svg_desc
   CS_TRY(cs_check_version(context, "svg", desc->struct_size, sizeof *desc));
   if (!desc->file == !desc->bytes)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "svg: give a file or bytes, one of them");
-  const cs_svg_options options = {desc->fonts, desc->font_count, false};
+  CS_TRY(cs_check_choice(context, "svg", "space", (unsigned)desc->space, CELSPAN_SPACE_SRGB + 1));
+  const cs_svg_options options = {desc->fonts, desc->font_count, false, desc->space};
   if (desc->file)
     return cs_svg_read_file(context, desc->file, &options, out);
   CS_TRY(check_fonts(context, &options));
   const cs_svg_source source = {.name = desc->name ? desc->name : "the drawing",
                                 .fonts = desc->fonts,
                                 .font_count = desc->font_count};
-  cs_svg_reading reading = begin_reading(context, &source, false);
+  cs_svg_reading reading = begin_reading(context, &source, &options);
   celspan_svg *art;
   CS_TRY(read_bytes(&reading, desc->bytes, desc->size, &art));
   *out = art;

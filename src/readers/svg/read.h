@@ -10,6 +10,7 @@ typedef struct cs_svg_options {
   const celspan_svg_font *fonts;
   size_t font_count;
   bool is_coded;
+  celspan_space space;
 } cs_svg_options;
 
 /* See celspan_svg_read. */

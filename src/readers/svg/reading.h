@@ -53,8 +53,10 @@ typedef struct cs_svg_reading {
    * INPUT, LIMIT, NO_MEMORY. */
   celspan_status (*read_inner)(struct cs_svg_reading *outer, const cs_svg_source *source,
                                const char *bytes, size_t size, celspan_svg **out);
-  /* Colours stay as they are coded: in masks, and for comparisons with other renderers. */
+  /* Colours stay as they are coded: for comparisons with other renderers, and in masks, unless the
+   * drawing is in codes anyway. */
   bool is_coded;
+  celspan_space space;  /* of the drawing and of its parts */
   uint64_t tests;       /* of selectors, that are left */
   uint32_t drawn;       /* elements so far */
   uint32_t depth;       /* elements being built, one inside the other */

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/number.h"
+#include "model/colour/space.h"
 #include "model/colour/transfer.h"
 #include "readers/svg/shapes.h"
 #include "readers/svg/transforms.h"
@@ -55,18 +56,23 @@ static cs_svg_colour mixed(const cs_svg_colour *a, const cs_svg_colour *b, doubl
   return mix;
 }
 
+/* Whether stops will be mixed as codes, as the file means it. */
+static bool mixes_codes(const cs_svg_reading *reading) {
+  return reading->is_coded || reading->space == CELSPAN_SPACE_SRGB;
+}
+
 static double decode(const cs_svg_reading *reading, double coded) {
-  return reading->is_coded ? coded
-                           : (double)cs_transfer_decode(CELSPAN_TRANSFER_SRGB, (float)coded);
+  return mixes_codes(reading) ? coded
+                              : (double)cs_transfer_decode(CELSPAN_TRANSFER_SRGB, (float)coded);
 }
 
 static double encode(const cs_svg_reading *reading, double light) {
-  return reading->is_coded ? light
-                           : (double)cs_transfer_encode(CELSPAN_TRANSFER_SRGB, (float)light);
+  return mixes_codes(reading) ? light
+                              : (double)cs_transfer_encode(CELSPAN_TRANSFER_SRGB, (float)light);
 }
 
-/* Whether the linear mix of two stops, premultiplied light, is near enough to their coded mix at
- * the share u of the way. */
+/* Whether the linear mix of two stops, premultiplied, is near enough to their coded mix at the
+ * share u of the way. */
 static bool is_near(const cs_svg_reading *reading, const cs_svg_colour *a, const cs_svg_colour *b,
                     double u) {
   const cs_svg_colour exact = mixed(a, b, u);
@@ -317,6 +323,22 @@ static celspan_status spread(gradient *g) {
 
 /* ---------------------------------------------------------------- textures */
 
+static celspan_paint converted(celspan_space to, celspan_paint paint) {
+  for (int c = 0; c < 3; c++)
+    paint.pigment[c] = cs_space_channel(to, paint.pigment[c], 1);
+  return paint;
+}
+
+/* Two stops as the gradient will be mixed. */
+static celspan_paint mix_stops(const cs_svg_reading *reading, const celspan_stop *a,
+                               const celspan_stop *b, double u) {
+  if (reading->is_coded || reading->space != CELSPAN_SPACE_SRGB)
+    return celspan_paint_mix(a->paint, b->paint, (float)u);
+  return converted(CELSPAN_SPACE_LINEAR,
+                   celspan_paint_mix(converted(CELSPAN_SPACE_SRGB, a->paint),
+                                     converted(CELSPAN_SPACE_SRGB, b->paint), (float)u));
+}
+
 /* Places counted from the centre instead of from the inner radius; what would lie before the centre
  * is cut off. */
 static void begin_at_centre(gradient *g) {
@@ -329,7 +351,7 @@ static void begin_at_centre(gradient *g) {
       double at = (g->inner + next->at * (g->outer - g->inner)) / g->outer;
       if (at <= 0)
         continue;
-      stop.paint = celspan_paint_mix(stop.paint, next->paint, (float)(-stop.at / (at - stop.at)));
+      stop.paint = mix_stops(g->reading, &stop, next, -stop.at / (at - stop.at));
     }
     stop.at = cs_number_clamp(stop.at, 0, 1);
     g->stops.items[kept++] = stop;
