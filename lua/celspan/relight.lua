@@ -244,14 +244,24 @@ function relight.stack(rostrum, options)
   local self = setmetatable({ width = math.tointeger(facts.width),
     height = math.tointeger(facts.height), bytes = math.tointeger(facts.bytes) }, Stack)
   behind[self] = { stack = stack, cels = facts.cels, brightness = facts.brightness,
-    own = core.stack_lights(stack) }
+    mixes_codes = facts.mixes_codes, own = core.stack_lights(stack) }
   return self
 end
 
---- {r, g, b} or {r, g, b, a}, or a colour.
-local function light_of(name, value)
+--- The codes of "#rrggbb" or "#rgb", 0..1.
+local function codes_of(text)
+  local width, codes = #text > 5 and 2 or 1, {}
+  for digits in text:sub(2, 3 * width + 1):gmatch(("%x"):rep(width)) do
+    codes[#codes + 1] = tonumber(digits, 16) / (width == 2 and 255 or 15)
+  end
+  return codes
+end
+
+--- {r, g, b} or {r, g, b, a}, or a colour, which is converted where codes are mixed.
+local function light_of(self, name, value)
   local alpha = type(value) == "table" and value[4]
   local colour = colour_of(name, value)
+  if self.mixes_codes and type(value) == "string" then colour = codes_of(value) end
   if alpha and not (fields.is_finite(alpha) and alpha >= 0 and alpha <= 1) then
     refuse("%s[4] must be from 0 to 1, got %s", name, fields.shown(alpha))
   end
@@ -260,7 +270,7 @@ end
 
 --- Sets a light of cel i (0 for the rostrum) in the list of numbers.
 local function set_light(self, lights, i, which, name, value)
-  local colour, alpha = light_of(name, value)
+  local colour, alpha = light_of(self, name, value)
   local first = NUMBERS * i + (which == "back" and 4 or 0)
   for c = 1, 3 do lights[first + c] = colour[c] * self.brightness end
   lights[first + 4] = alpha

@@ -362,6 +362,25 @@ describe("relight.stack", function()
       assert(stack:light())) < 1 / 65535) -- it starts from the rostrum's lights each time
   end)
 
+  it("sums codes in a film in srgb, and refuses a rostrum in another space", function()
+    local function coded(lamp, ground)
+      return rostrum_of(lamp, ground):with { space = "srgb" }
+    end
+    local stack = assert(relight.stack(coded({ 1, 1, 1 }, "#ffffff"), options))
+    local image = assert(stack:light { lamp = { front = "#f26419" }, [0] = { back = "#36a" } })
+    local whole = assert(celspan.pixels(coded("#f26419", "#3366aa"), options))
+    assert.is_true(difference(whole, image) < 3 / 65535) -- light is steeper than codes
+    image = assert(stack:light { lamp = { front = { 0.5, 1, 0.2 } } })
+    whole = assert(celspan.pixels(coded({ 0.5, 1, 0.2 }, "#ffffff"), options))
+    assert.is_true(difference(whole, image) < 3 / 65535)
+    local film = celspan.film { size = { 40, 30 }, frame = function()
+      return coded({ 1, 1, 1 }, "#fff")
+    end }
+    local nothing, message = relight.stack(film)
+    assert.is_nil(nothing)
+    assert.is_truthy(message:find("the rostrum is in another space than the film", 1, true))
+  end)
+
   it("gives the rostrum's front light to cels without one of their own", function()
     local function make(front)
       return celspan.rostrum { front = front, celspan.cel { front = { 0.5, 0.5, 0.5 },

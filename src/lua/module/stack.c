@@ -45,10 +45,11 @@ static void push_cel(lua_State *L, const celspan_cel *cel) {
 }
 
 /* What scripts need to know of a stack. */
-static void push_facts(lua_State *L, const celspan_rostrum *rostrum, const celspan_stack *stack) {
+static void push_facts(lua_State *L, const celspan_rostrum *rostrum, celspan_space space,
+                       const celspan_stack *stack) {
   int32_t width, height;
   celspan_stack_size(stack, &width, &height);
-  lua_createtable(L, 0, 5);
+  lua_createtable(L, 0, 6);
   lua_createtable(L, (int)rostrum->cel_count, 0);
   for (size_t i = 0; i < rostrum->cel_count; i++) {
     push_cel(L, rostrum->cels[i]);
@@ -56,6 +57,7 @@ static void push_facts(lua_State *L, const celspan_rostrum *rostrum, const celsp
   }
   lua_setfield(L, -2, "cels");
   cs_put_number(L, "brightness", rostrum->brightness);
+  cs_put_flag(L, "mixes_codes", space == CELSPAN_SPACE_SRGB);
   cs_put_number(L, "width", width);
   cs_put_number(L, "height", height);
   cs_put_number(L, "bytes", (lua_Number)celspan_stack_bytes(stack));
@@ -76,7 +78,7 @@ int cs_stack_make(lua_State *L) {
     return cs_host_fail(L, status);
   held->x = options.desc.crop_x;
   held->y = options.desc.crop_y;
-  push_facts(L, options.desc.exposures[0].rostrum, held->stack);
+  push_facts(L, options.desc.exposures[0].rostrum, options.desc.space, held->stack);
   return 2;
 }
 

@@ -7,9 +7,10 @@
  *   row = base + sum of addend * (light - own light)
  *
  * What a unit of a light adds does not depend on the other lights: composing is linear in all of
- * them, and so is antialiasing. What comes through all cels is 1 - alpha of what the rearmost light
- * shows; where all media are grey, it is what a light behind them adds, so that the frame of a
- * front light gives the addend of the back light as well.
+ * them, and so is antialiasing, in the space of the frame. What is summed are its numbers. What
+ * comes through all cels is 1 - alpha of what the rearmost light shows; where all media are grey,
+ * it is what a light behind them adds, so that the frame of a front light gives the addend of the
+ * back light as well.
  */
 #include <stdatomic.h>
 #include <string.h>
@@ -37,6 +38,7 @@ struct celspan_stack {
   atomic_size_t references;
   cs_memory *memory;
   int32_t width, height;
+  celspan_space space; /* of the frame and of its rostrum */
   size_t light_count;
   celspan_stack_light *own; /* the rostrum's lights */
   cs_addend *fronts, *backs;
@@ -61,16 +63,21 @@ static celspan_status check_flat(celspan_context *context, const cs_light *light
                  cel);
 }
 
+static celspan_light flat_of(cs_light light, celspan_space space) {
+  return cs_light_in(&light, space);
+}
+
 static celspan_status find_lights(celspan_context *context, const celspan_rostrum *rostrum,
-                                  celspan_stack_light *out) {
+                                  celspan_space space, celspan_stack_light *out) {
   CS_TRY(check_flat(context, &rostrum->back, 0, "back"));
-  out[0].back = cs_scene_back(rostrum, &rostrum->back).flat;
+  out[0].back = flat_of(cs_scene_back(rostrum, &rostrum->back), space);
   for (size_t i = 0; i < rostrum->cel_count; i++) {
     const celspan_cel *cel = rostrum->cels[i];
     cs_light front = cs_scene_front(rostrum, cel);
     CS_TRY(check_flat(context, &front, i + 1, "front"));
     CS_TRY(check_flat(context, &cel->back, i + 1, "back"));
-    out[i + 1] = (celspan_stack_light){front.flat, cs_scene_back(rostrum, &cel->back).flat};
+    out[i + 1] = (celspan_stack_light){flat_of(front, space),
+                                       flat_of(cs_scene_back(rostrum, &cel->back), space)};
   }
   return CELSPAN_OK;
 }
@@ -266,6 +273,8 @@ static void sum_strip(void *user, int worker, int32_t strip) {
     CS_WIDE_CHOOSE(s->isa, cs_addend_pixels)
   (planes + (size_t)k * row, s->stride, s->keep, stack->width,
    s->rgba + 4 * width * (size_t)(y + k));
+  for (size_t i = 0; i < (size_t)rows * width && stack->space == CELSPAN_SPACE_SRGB; i++)
+    cs_space_decode(stack->space, s->rgba + 4 * (width * (size_t)y + i));
 }
 
 static celspan_status sum(celspan_context *context, const celspan_stack *stack,
@@ -313,7 +322,7 @@ static celspan_status fill(celspan_context *context, const celspan_frame_desc *d
   CS_TRY(CS_MAKE(context, stack->own, count));
   CS_TRY(CS_MAKE(context, stack->fronts, count));
   CS_TRY(CS_MAKE(context, stack->backs, count));
-  CS_TRY(find_lights(context, desc->exposures[0].rostrum, stack->own));
+  CS_TRY(find_lights(context, desc->exposures[0].rostrum, stack->space, stack->own));
   for (size_t i = 0; i < count; i++) {
     CS_TRY(cs_addend_init(context, stack->width, stack->height, &stack->fronts[i]));
     CS_TRY(cs_addend_init(context, stack->width, stack->height, &stack->backs[i]));
@@ -321,6 +330,10 @@ static celspan_status fill(celspan_context *context, const celspan_frame_desc *d
   CS_TRY(cs_addend_init(context, stack->width, stack->height, &stack->base));
   CS_TRY(cs_addend_init(context, stack->width, stack->height, &stack->through));
   return take_all(context, desc, stack);
+}
+
+static celspan_space space_of(const celspan_frame_desc *desc) {
+  return cs_space_inside(desc->space, CELSPAN_SPACE_LINEAR);
 }
 
 static celspan_status check(celspan_context *context, const celspan_frame_desc *desc) {
@@ -332,6 +345,10 @@ static celspan_status check(celspan_context *context, const celspan_frame_desc *
   if (desc->exposures[0].rostrum->cel_count > MOST_CELS)
     return cs_fail(context, CELSPAN_LIMIT, "stack: %zu cels are more than %d",
                    desc->exposures[0].rostrum->cel_count, MOST_CELS);
+  if (cs_space_inside(desc->exposures[0].rostrum->space, space_of(desc)) != space_of(desc))
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "stack: the rostrum is in another space than the film, so its lights do not add "
+                   "up; give both the same space");
   return CELSPAN_OK;
 }
 
@@ -345,6 +362,7 @@ celspan_status celspan_stack_create(celspan_context *context, const celspan_fram
   stack->width = desc->crop_width > 0 ? desc->crop_width : desc->width;
   stack->height = desc->crop_height > 0 ? desc->crop_height : desc->height;
   stack->light_count = desc->exposures[0].rostrum->cel_count + 1;
+  stack->space = space_of(desc);
   celspan_status status = fill(context, desc, stack);
   if (status == CELSPAN_OK)
     *out = stack;
