@@ -150,4 +150,14 @@ return {
     { "double stride = piece->sag > 0 ? sqrt(fmax(grid->slack / piece->sag - near, 1)) : 1;",
       "`1` to `2`", "chords of a piece without sag, which is straight, may have any length", 2 },
   },
+  ["src/lua/bind/caller.c"] = {
+    { "return info->currentline > 0 && info->source[0] == '@' && !is_own(info);", "`>` to `>=`",
+      "lines count from 1, and a function without lines has line -1" },
+  },
+  ["src/tools/track/plane.c"] = {
+    { "return a->y != b->y ? a->y < b->y : a->x < b->x;", "`<` to `<=`",
+      "the two differ, as the question before it says", 1 },
+    { "return a->y != b->y ? a->y < b->y : a->x < b->x;", "`<` to `<=`",
+      "no two candidates are at one place", 2 },
+  },
 }

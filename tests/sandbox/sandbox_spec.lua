@@ -174,6 +174,18 @@ describe("the sandbox", function()
           removed, u[2] == nil and u[4] == 4, v[1])]])
     end)
 
+    it("is as long as Lua's where it has no holes", function()
+      assert.equal("70", printed [[
+        local good = 0
+        for n = 1, 70 do
+          local t = {}
+          for i = 1, n do t[i] = i end
+          table.insert(t, "new")
+          if t[n + 1] == "new" and table.remove(t) == "new" and t[n] == n then good = good + 1 end
+        end
+        print(good)]])
+    end)
+
     it("gives the same in every run", function()
       local seen, count = {}, 0
       for _ = 1, 20 do

@@ -158,6 +158,19 @@ describe("relight.from two exposures", function()
     end
   end)
 
+  it("takes a few impossible values for glints", function()
+    local function spotted(rows)
+      local function ground(_, y) return y < rows and 9 or 0.4 end
+      return relight.from { front = { picture = card(LAMP, BLACK), light = LAMP },
+        back = { picture = card(BLACK, ground), light = { 0.4, 0.4, 0.4 } } }
+    end
+    -- The card lets light through in 20 of 61 columns of 37 rows: one row is less than 1 % of all.
+    assert.is_truthy(spotted(1))
+    local texture, message = spotted(4)
+    assert.is_nil(texture)
+    assert.is_truthy(message:find("values are impossible in this light", 1, true))
+  end)
+
   it("refuses impossible pictures, with the values found", function()
     local shots = { front = { picture = card(LAMP, BLACK), light = LAMP },
       back = { picture = card(BLACK, { 1, 1, 1 }), light = { 0.4, 0.4, 0.4 } } }

@@ -222,7 +222,7 @@ static celspan_status add_stroke(const liner *l, const line *n) {
   const cs_flat_colour *colour = &l->material->colours->list[n->label];
   cs_shape shape = {.x = (int32_t)n->places[0].v[0],
                     .y = (int32_t)n->places[0].v[1],
-                    .area = floor(area_of(n) + 0.5),
+                    .area = round(area_of(n)),
                     .is_closed = n->is_closed};
   cs_spline spline;
   memcpy(shape.colour, colour->code, sizeof shape.colour);
