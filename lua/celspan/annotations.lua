@@ -256,6 +256,33 @@ local object = {}
 ---@return celspan.stroke
 function object:stroke(style) end
 
+--- How an object is bent: one of map, along, lattice, bones and pins is given.
+---@class celspan.warp.options
+---@field map? fun(x: number, y: number): number, number
+---@field along? string|celspan.path Path data or a path
+---@field start? number With `along`: a share of its length. Default 0
+---@field stretch? boolean With `along`: to the rest of its length
+---@field lattice? { columns?: integer, rows?: integer, points: celspan.point[], smooth?: boolean, box?: number[] }
+---@field bones? celspan.warp.bone[]
+---@field pins? { from: celspan.point, to?: celspan.point }[]
+---@field within? number How far outlines may lie from their place
+---@field pieces? integer The most triangles of a picture. Default 400
+
+---@class celspan.warp.bone
+---@field [1]? string Its name
+---@field from celspan.point
+---@field to celspan.point
+---@field rotate? number Degrees, relative to its parent
+---@field scale? number Along the bone
+---@field at? celspan.point Where `from` comes to lie
+---@field parent? integer|string|false An earlier bone; default: the one before it
+---@field radius? number How far it has influence; default: a quarter of its length
+
+--- Bent by a map of the plane: outlines stay curves, pictures become meshes.
+---@param options celspan.warp.options
+---@return celspan.object
+function object:warp(options) end
+
 --- Out of focus. The radius is in its units and follows its transforms.
 ---@param radius number
 ---@param options? celspan.blur.options

@@ -12,6 +12,7 @@
 #include "lua/bind/lua_error.h"
 #include "lua/bind/named.h"
 #include "lua/bind/put.h"
+#include "lua/bind/require.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/core.h"
 #include "model/scene/inspect.h"
@@ -204,7 +205,7 @@ static void add_rostrum(lua_State *L, const celspan_rostrum *rostrum) {
 
 /* Runs protected. The names of a module and of a function in it, its argument -> what it returns */
 static int ask_module(lua_State *L) {
-  cs_embedded_require(L, lua_touserdata(L, 1));
+  cs_require_module(L, lua_touserdata(L, 1));
   lua_getfield(L, -1, lua_touserdata(L, 2));
   lua_pushstring(L, lua_touserdata(L, 3));
   lua_call(L, 1, 1);

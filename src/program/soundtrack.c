@@ -1,4 +1,5 @@
 #include "program/soundtrack.h"
+#include "lua/bind/require.h"
 
 #include <lauxlib.h>
 #include <math.h>
@@ -77,7 +78,7 @@ static int read_film(lua_State *L) {
   cs_soundtrack *out = lua_touserdata(L, 2);
   lua_settop(L, 1);
   lua_newtable(L);
-  cs_embedded_require(L, "celspan.soundtrack");
+  cs_require_module(L, "celspan.soundtrack");
   lua_getfield(L, -1, "of");
   lua_pushvalue(L, 1);
   lua_call(L, 1, 1);

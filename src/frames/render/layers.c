@@ -35,15 +35,20 @@ static celspan_status code_texture(cs_compiler *c, const celspan_texture **textu
   return CELSPAN_OK;
 }
 
+/* From pixels to the texture's own units. */
+static celspan_matrix texture_inverse(const cs_layers_texture *place) {
+  const cs_texture_variation *variation = place->texture->variation;
+  return variation->has_matrix ? celspan_matrix_then(place->inverse, variation->inverse)
+                               : place->inverse;
+}
+
 static celspan_status fill_shaded(cs_compiler *c, cs_layer *layer, const cs_layers_texture *place) {
   cs_stack *stack = &c->plan->stack;
   CS_TRY(CS_COMPILER_APPEND(c, shades, shade_count, shade_capacity));
   cs_shade *shade = &stack->shades[stack->shade_count];
-  *shade = (cs_shade){.texture = place->texture, .inverse = place->inverse};
+  *shade = (cs_shade){.texture = place->texture, .inverse = texture_inverse(place)};
   if (c->space == CELSPAN_SPACE_SRGB)
     CS_TRY(code_texture(c, &shade->texture));
-  if (place->texture->variation->has_matrix)
-    shade->inverse = celspan_matrix_then(place->inverse, place->texture->variation->inverse);
   cs_shade_prepare(shade);
   layer->kind = CS_LAYER_SHADED;
   layer->index = (uint32_t)stack->shade_count++;
@@ -67,7 +72,7 @@ static celspan_status fill_picture(cs_compiler *c, cs_layer *layer,
                 texture->variation->wrap == CELSPAN_WRAP_CLEAR;
   celspan_wrap wrap = is_own ? CELSPAN_WRAP_CLAMP : texture->variation->wrap;
   stack->images[stack->image_count] =
-      (cs_image_layer){texture, place->inverse, *box, wrap, c->space};
+      (cs_image_layer){texture, texture_inverse(place), *box, wrap, c->space};
   layer->kind = CS_LAYER_PICTURE;
   layer->index = (uint32_t)stack->image_count++;
   layer->t = faded_through(1, cs_v4_all(1));

@@ -315,9 +315,8 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_with_spread(celspan_c
                                                                        celspan_texture *texture,
                                                                        celspan_spread spread,
                                                                        celspan_texture **out);
-/* The linear or radial gradient moved by a matrix, while what it is on stays. A singular matrix
- * makes
- * it clear. out: new      Errors: NO_MEMORY, BAD_ARGUMENT. */
+/* The gradient or picture moved by a matrix, while what it is on stays. A singular matrix makes it
+ * clear. out: new      Errors: NO_MEMORY, BAD_ARGUMENT. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_with_matrix(celspan_context *context,
                                                                        celspan_texture *texture,
                                                                        const celspan_matrix *matrix,
@@ -977,6 +976,37 @@ static inline celspan_glow_desc celspan_glow_desc_default(void) {
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_glow(celspan_context *context,
                                                                celspan_object *object,
                                                                const celspan_glow_desc *desc,
+                                                               celspan_object **out);
+
+/* Where a point goes, both in the units around the object. It must be continuous, and a function of
+ * the point alone. A status other than OK ends the warp with that status. */
+typedef celspan_status (*celspan_warp_map)(void *user, celspan_context *context, celspan_point from,
+                                           celspan_point *to);
+
+typedef struct celspan_warp_desc {
+  size_t struct_size; /* sizeof(celspan_warp_desc) */
+  celspan_warp_map map;
+  void *user;
+  double within; /* units that outlines may lie from their place; 0: 2^-27 of the object's size,
+                  * 1/100 pixel where that is 1,048,576 pixels */
+  size_t pieces; /* triangles, 18..20000, that a picture or a gradient becomes at most; 0: 400 */
+} celspan_warp_desc;
+
+static inline celspan_warp_desc celspan_warp_desc_default(void) {
+  celspan_warp_desc desc = CELSPAN_ZERO;
+  desc.struct_size = sizeof desc;
+  return desc;
+}
+#define CELSPAN_WARP_DESC (celspan_warp_desc_default())
+
+/* The object bent by a map: outlines and strokes stay curves; pictures and gradients become meshes
+ * of triangles that abut exactly. Fades, modes and names stay. The map is called by this thread,
+ * and not after the call.
+ * Errors: NO_MEMORY; LIMIT for a map that is too rough; BAD_ARGUMENT for one that jumps or folds
+ * the object, and for rostrums, effects that blur, and scan-line procedures; those of the map. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_warp(celspan_context *context,
+                                                               celspan_object *object,
+                                                               const celspan_warp_desc *desc,
                                                                celspan_object **out);
 
 /* Applied after the existing matrix, about the origin. The object is kept in part, never changed.

@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "lua/bind/require.h"
+
 #define MOST_CALLERS 6 /* named in a message: the first ones of a chain and the last */
 #define MOST_CALLS 500 /* searched for them: Lua walks to each from the innermost call */
 
@@ -54,10 +56,15 @@ int cs_caller_enter(lua_State *L) {
   return leave(L, LUA_OK, 0);
 }
 
+/* Whether it is a C function through which a script calls one of celspan's own. */
+static bool is_passage(lua_State *L, lua_Debug *info) {
+  return is_function(L, info, cs_caller_enter) || is_function(L, info, cs_require_call);
+}
+
 int cs_caller_error(lua_State *L, const char *format, ...) {
   lua_Debug info = {.source = "", .currentline = -1};
   int level = 1;
-  while (get(L, level, &info) && (is_own(&info) || is_function(L, &info, cs_caller_enter)))
+  while (get(L, level, &info) && (is_own(&info) || is_passage(L, &info)))
     level++;
   push_position(L, &info);
   va_list arguments;

@@ -37,6 +37,7 @@ typedef struct cs_kind {
   /* NULL: the mode of such values is a field. */
   celspan_status (*blend)(celspan_context *context, void *handle, celspan_blend mode, void **out);
   const luaL_Reg *methods, *operators; /* operators NULL: none */
+  const struct cs_written *written;    /* methods in Lua; NULL: none */
   size_t own_size; /* bytes that a value has of its own: a paint's numbers, a frame's seed */
   int kept;        /* user values of a value in addition to its fields, which are the first */
 } cs_kind;

@@ -6,6 +6,7 @@
 
 #include "lua/bind/caller.h"
 #include "lua/bind/put.h"
+#include "lua/bind/require.h"
 #include "lua/bind/unknown.h"
 #include "model/colour/blend.h"
 
@@ -411,6 +412,7 @@ void cs_userdata_register(lua_State *L, const cs_kind *kind) {
     luaL_setfuncs(L, kind->operators, 0);
   lua_newtable(L);
   luaL_setfuncs(L, kind->methods, 0);
+  cs_require_methods(L, kind->written);
   lua_pushlightuserdata(L, (void *)kind);
   lua_pushcclosure(L, index_value, 2);
   lua_setfield(L, -2, "__index");

@@ -1,4 +1,5 @@
 #include "lua/module/artwork.h"
+#include "lua/bind/require.h"
 
 #include <stdbool.h>
 #include <string.h>
@@ -45,7 +46,7 @@ cs_artwork cs_artwork_of(const char *path) {
 void cs_artwork_push_film(lua_State *L, const char *path, cs_artwork kind, int globals) {
   const char *slash = strrchr(path, '/');
   globals = lua_absindex(L, globals);
-  cs_embedded_require(L, "celspan.artwork");
+  cs_require_module(L, "celspan.artwork");
   lua_getfield(L, -1, "film");
   lua_pushstring(L, slash ? slash + 1 : path);
   lua_pushboolean(L, kind == CS_ARTWORK_SVG);

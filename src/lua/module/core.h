@@ -18,8 +18,6 @@ void cs_pixels_open(lua_State *L);
 
 /* Puts them into package.preload. */
 void cs_embedded_open(lua_State *L);
-/* Pushes a module of celspan, which is loaded when it is first asked for. Raises. */
-void cs_embedded_require(lua_State *L, const char *name);
 /* (name) -> the source of a module, for celspan.manual */
 int cs_embedded_source(lua_State *L);
 

@@ -37,22 +37,6 @@ void cs_embedded_open(lua_State *L) {
   lua_pop(L, 1);
 }
 
-void cs_embedded_require(lua_State *L, const char *name) {
-  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
-  if (lua_getfield(L, -1, name) == LUA_TNIL) {
-    lua_pop(L, 1);
-    luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_PRELOAD_TABLE);
-    if (lua_getfield(L, -1, name) == LUA_TNIL)
-      luaL_error(L, "module '%s' not found", name);
-    lua_remove(L, -2);
-    lua_pushstring(L, name);
-    lua_call(L, 1, 1);
-    lua_pushvalue(L, -1);
-    lua_setfield(L, -3, name);
-  }
-  lua_remove(L, -2);
-}
-
 int cs_embedded_source(lua_State *L) {
 #define TEXT(name) {#name, cs_lua_##name},
   static const struct {

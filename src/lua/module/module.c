@@ -8,6 +8,7 @@
 #include "lua/bind/construct.h"
 #include "lua/bind/files.h"
 #include "lua/bind/host.h"
+#include "lua/bind/require.h"
 #include "lua/bind/suggest.h"
 #include "lua/module/core.h"
 #include "lua/nouns/lua_film.h"
@@ -80,6 +81,7 @@ static const luaL_Reg core_functions[] = {{"find", find},
                                           {"difference", cs_difference_of},
                                           {"painting", cs_painting_read},
                                           {"blend_within", cs_placed_blend_within},
+                                          {"warp", cs_derived_warp},
                                           {"parts", cs_parts_list},
                                           {"folder", cs_folders_names},
                                           {"within", cs_folders_within},
@@ -130,7 +132,7 @@ static const struct {
 static bool push_written(lua_State *L, const char *name) {
   for (size_t i = 0; i < WRITTEN_IN_LUA; i++)
     if (strcmp(name, written_in_lua[i].name) == 0) {
-      cs_embedded_require(L, written_in_lua[i].module);
+      cs_require_module(L, written_in_lua[i].module);
       lua_getfield(L, -1, written_in_lua[i].function);
       lua_pushvalue(L, -1);
       lua_setfield(L, 1, name);

@@ -1,6 +1,7 @@
 /* What can be done with values: the functions of the core, by kind. */
 #include "lua/bind/construct.h"
 #include "lua/bind/named.h"
+#include "lua/bind/require.h"
 #include "lua/nouns/nouns.h"
 #include "model/scene/bounds.h"
 
@@ -81,12 +82,14 @@ const cs_kind cs_kind_paint = {.name = "celspan.paint",
                                .own_size = sizeof(celspan_paint)};
 const cs_kind cs_kind_texture = {
     .name = "celspan.texture", HAS_VALUE(texture), .methods = texture_methods};
+static const cs_written object_written[] = {{"warp", "celspan.warp", "apply"}, {0}};
 const cs_kind cs_kind_object = {.name = "celspan.object",
                                 HAS_VALUE(object),
                                 HAS_PLACE(object),
                                 .mode = object_mode,
                                 .blend = object_blend,
                                 .methods = cs_placed_object_methods,
+                                .written = object_written,
                                 .operators = cs_boolean_operators};
 const cs_kind cs_kind_cel = {.name = "celspan.cel",
                              HAS_VALUE(cel),

@@ -29,7 +29,10 @@ extern const luaL_Reg cs_boolean_operators[];
 int cs_stroke_method(lua_State *L);
 
 /* object:paint(texture): its shape filled with the texture, with its own fade and name. */
-int cs_painted_method(lua_State *L);
+int cs_derived_paint(lua_State *L);
+/* What object:warp{...} is made of: (object, function of x and y, the tolerance, the most pieces;
+ * 0 for either: as it is without) -> object. */
+int cs_derived_warp(lua_State *L);
 
 /* object:blur(radius, options); shadow and glow with options, also of cels. */
 int cs_nouns_blur(lua_State *L);

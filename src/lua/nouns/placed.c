@@ -229,4 +229,4 @@ static int contains(lua_State *L) {
   }
 const luaL_Reg cs_placed_methods[] = {METHODS};
 const luaL_Reg cs_placed_object_methods[] = {
-    {"blur", cs_nouns_blur}, {"stroke", cs_stroke_method}, {"paint", cs_painted_method}, METHODS};
+    {"blur", cs_nouns_blur}, {"stroke", cs_stroke_method}, {"paint", cs_derived_paint}, METHODS};

@@ -1,4 +1,5 @@
 /* The require of scripts, and that of celspan's own modules. */
+#include "lua/bind/require.h"
 #include "lua/sandbox/library.h"
 
 #include <lauxlib.h>
@@ -12,7 +13,7 @@
 #define SOURCE_MOST ((off_t)16 << 20)
 
 int cs_library_require_own(lua_State *L) {
-  cs_embedded_require(L, luaL_checkstring(L, 1));
+  cs_require_module(L, luaL_checkstring(L, 1));
   return 1;
 }
 

@@ -103,13 +103,24 @@ static celspan_status change(celspan_context *context, const char *noun,
   return status;
 }
 
-/* What makes a group of a boolean. */
+/* What a boolean is like, whatever its operands. */
 static cs_boolean traits_of(const cs_boolean *from) {
   return (cs_boolean){.op = from->op,
                       .blend = from->blend,
                       .space = from->space,
                       .grade = from->grade,
-                      .isolates = from->isolates};
+                      .isolates = from->isolates,
+                      .is_luma = from->is_luma,
+                      .inverts = from->inverts};
+}
+
+celspan_status cs_boolean_like(celspan_context *context, const cs_boolean *like,
+                               celspan_object *const *operands, size_t count,
+                               celspan_object **out) {
+  const cs_boolean look = traits_of(like);
+  cs_primitive_data *data;
+  CS_TRY(create(context, "boolean", &look, operands, count, &data));
+  return cs_primitive_data_wrap(context, data, CELSPAN_OK, out);
 }
 
 /* Another mode for an object that has one. */

@@ -213,27 +213,33 @@ static double fold(celspan_spread spread, double at) {
   return is_turned ? 1 - rest : rest;
 }
 
-/* A gradient in its own units, as it was given: not as it was unrolled. Behind the horizon of its
- * matrix it is clear. */
-static cs_oracle_paint shade_gradient(const celspan_texture *texture, celspan_point point,
+/* A gradient at a point of its own units, as it was given: not as it was unrolled. */
+static cs_oracle_paint shade_gradient(const celspan_texture *given, celspan_point point,
                                       celspan_space space) {
-  const celspan_texture *given = texture->variation->origin ? texture->variation->origin : texture;
-  if (given->variation->has_matrix) {
-    const double *m = given->variation->inverse.m;
-    double w = m[6] * point.x + m[7] * point.y + m[8];
-    if (!(w > 0))
-      return cs_oracle_clear;
-    point = (celspan_point){(m[0] * point.x + m[1] * point.y + m[2]) / w,
-                            (m[3] * point.x + m[4] * point.y + m[5]) / w};
-  }
   double at = given->kind == CS_TEXTURE_LINEAR ? linear_parameter(given, point)
                                                : radial_parameter(given, point);
   return shade_stops(given, fold(given->variation->spread, at), space);
 }
 
+/* Takes a point to the texture's own units; false behind the horizon of its matrix. */
+static bool is_visible(const celspan_texture *texture, celspan_point *point) {
+  const double *m = texture->variation->inverse.m;
+  if (!texture->variation->has_matrix)
+    return true;
+  double w = m[6] * point->x + m[7] * point->y + m[8];
+  *point = (celspan_point){(m[0] * point->x + m[1] * point->y + m[2]) / w,
+                           (m[3] * point->x + m[4] * point->y + m[5]) / w};
+  return w > 0;
+}
+
 celspan_status cs_oracle_texture(celspan_context *context, const celspan_texture *texture,
                                  const celspan_box *bounds, celspan_point point,
                                  celspan_space space, cs_oracle_paint *out) {
+  if (texture->variation->origin)
+    texture = texture->variation->origin;
+  *out = cs_oracle_clear;
+  if (!is_visible(texture, &point))
+    return CELSPAN_OK;
   switch (texture->kind) {
   case CS_TEXTURE_FLAT:
     *out = widen(&texture->flat, space);

@@ -69,6 +69,12 @@ CELSPAN_CHECKED celspan_status cs_primitive_data_set_box(celspan_context *contex
 CELSPAN_CHECKED celspan_status cs_object_in_space(celspan_context *context, celspan_object *object,
                                                   celspan_space space, celspan_object **out);
 
+/* *out: a boolean of these operands, new, with the operator, mode, space, grade and isolation of
+ * another. Errors: NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_boolean_like(celspan_context *context, const cs_boolean *like,
+                                               celspan_object *const *operands, size_t count,
+                                               celspan_object **out);
+
 /* As celspan_object_blend, but the object shows only as far as its backdrop is there, in the
  * nearest group that isolates, whose alpha it does not change (CS_BLEND_WITHIN). */
 CELSPAN_CHECKED celspan_status cs_object_blend_within(celspan_context *context,

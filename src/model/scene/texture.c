@@ -450,6 +450,22 @@ celspan_status cs_texture_copy(celspan_context *context, const celspan_texture *
   return CELSPAN_OK;
 }
 
+celspan_status cs_texture_boxed(celspan_context *context, celspan_texture *texture,
+                                const celspan_box *box, celspan_texture **out) {
+  if (texture->kind != CS_TEXTURE_PICTURE || texture->variation->has_box) {
+    *out = celspan_texture_ref(texture);
+    return CELSPAN_OK;
+  }
+  celspan_texture *boxed;
+  CS_TRY(cs_texture_copy(context, texture, 0, cs_mark_keep(texture->mark), &boxed));
+  cs_texture_variation *variation = cs_texture_own(boxed);
+  variation->has_box = true;
+  variation->box = *box;
+  if (variation->wrap == CELSPAN_WRAP_CLEAR)
+    variation->wrap = CELSPAN_WRAP_CLAMP;
+  return finish(boxed, out);
+}
+
 celspan_status celspan_texture_named(celspan_context *context, celspan_texture *texture,
                                      const char *name, celspan_texture **out) {
   CS_TRY(cs_check_given(context, "named", "the texture", texture));

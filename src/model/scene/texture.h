@@ -36,8 +36,8 @@ typedef struct cs_texture_variation {
   cs_stop *stops;          /* LINEAR, RADIAL */
   size_t stop_count;
   celspan_spread spread;          /* LINEAR, RADIAL; of what primitives and lights have: HOLD */
-  bool has_matrix;                /* LINEAR, RADIAL; not singular: */
-  celspan_matrix matrix, inverse; /* from the units of points to the primitive's */
+  bool has_matrix;                /* not singular: */
+  celspan_matrix matrix, inverse; /* from the texture's units to the primitive's */
   celspan_texture *origin; /* what was unrolled to this one, a reference; NULL: nothing was */
   cs_picture *picture;     /* PICTURE */
   cs_picture *medium; /* PICTURE, of a paint: its rgb is T; NULL: T is 1 - alpha of `picture` */
@@ -85,6 +85,10 @@ CELSPAN_CHECKED celspan_status cs_texture_copy(celspan_context *context,
 CELSPAN_CHECKED celspan_status cs_texture_copy_medium(celspan_context *context,
                                                       const celspan_texture *texture,
                                                       cs_picture *medium, celspan_texture **out);
+/* *out: new; a picture that had no box in this one, where it ends with what it is on, so that it
+ * continues at its edges; or `texture` with a reference more. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_texture_boxed(celspan_context *context, celspan_texture *texture,
+                                                const celspan_box *box, celspan_texture **out);
 /* To be called when a copy was changed. */
 void cs_texture_rehash(celspan_texture *texture);
 

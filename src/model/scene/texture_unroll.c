@@ -141,12 +141,8 @@ static bool is_gradient(const celspan_texture *texture) {
 }
 
 /* A copy to be changed; a gradient that was made flat stays what it is. */
-static celspan_status begin_copy(celspan_context *context, const char *noun,
-                                 celspan_texture *texture, celspan_texture **out) {
-  CS_TRY(cs_check_given(context, noun, "the texture", texture));
-  if (!is_gradient(texture) && texture->kind != CS_TEXTURE_FLAT)
-    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: only linear and radial gradients have one",
-                   noun);
+static celspan_status copy(celspan_context *context, const celspan_texture *texture,
+                           celspan_texture **out) {
   return cs_texture_copy(context, texture, texture->variation->stop_count,
                          cs_mark_keep(texture->mark), out);
 }
@@ -156,7 +152,11 @@ celspan_status celspan_texture_with_spread(celspan_context *context, celspan_tex
   celspan_texture *made;
   CS_TRY(
       cs_check_choice(context, "spread", "spread", (unsigned)spread, CELSPAN_SPREAD_REFLECT + 1));
-  CS_TRY(begin_copy(context, "spread", texture, &made));
+  CS_TRY(cs_check_given(context, "spread", "the texture", texture));
+  if (!is_gradient(texture) && texture->kind != CS_TEXTURE_FLAT)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "spread: only linear and radial gradients have one");
+  CS_TRY(copy(context, texture, &made));
   if (is_gradient(made))
     cs_texture_own(made)->spread = spread;
   cs_texture_rehash(made);
@@ -171,7 +171,8 @@ celspan_status celspan_texture_with_matrix(celspan_context *context, celspan_tex
   celspan_texture *made;
   celspan_matrix whole, inverse;
   CS_TRY(cs_check_given(context, "matrix", "the matrix", matrix));
-  CS_TRY(begin_copy(context, "matrix", texture, &made));
+  CS_TRY(cs_check_given(context, "matrix", "the texture", texture));
+  CS_TRY(copy(context, texture, &made));
   celspan_status status = cs_check_transform(
       context, made->variation->has_matrix ? &made->variation->matrix : &identity, matrix, &whole);
   bool is_singular = status == CELSPAN_OK && !celspan_matrix_inverse(whole, &inverse);
@@ -179,7 +180,7 @@ celspan_status celspan_texture_with_matrix(celspan_context *context, celspan_tex
     celspan_texture_unref(made);
     return is_singular ? celspan_texture_create_paint(context, &clear, out) : status;
   }
-  if (is_gradient(made)) {
+  if (made->kind != CS_TEXTURE_FLAT) {
     cs_texture_variation *own = cs_texture_own(made);
     own->has_matrix = true;
     own->matrix = whole;

@@ -331,7 +331,7 @@ celspan_status cs_stroke_outline(celspan_context *context, const cs_stroke *stro
   return outline_parts(context, stroke, view, 0, stroke->part_count, outline);
 }
 
-/* ---------------------------------------------------------------- bounds */
+/* ---------------------------------------------------------------- without a frame */
 
 /* A view in which an outline is right within 2^-27 of the stroke's size, wherever it is seen. */
 static cs_stroke_view fine_view(const celspan_box *box) {
@@ -342,6 +342,12 @@ static cs_stroke_view fine_view(const celspan_box *box) {
                           .bottom = box->y + box->height,
                           .left = box->x,
                           .right = box->x + box->width};
+}
+
+celspan_status cs_stroke_outline_finely(celspan_context *context, const cs_stroke *stroke,
+                                        cs_outline *outline) {
+  const cs_stroke_view view = fine_view(&stroke->around);
+  return cs_stroke_outline(context, stroke, &view, outline);
 }
 
 celspan_status cs_stroke_bounds(celspan_context *context, const cs_stroke *stroke,

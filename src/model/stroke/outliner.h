@@ -23,6 +23,10 @@
 /* Appends the outline, in the stroke's own units. Errors: NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_stroke_outline(celspan_context *context, const cs_stroke *stroke,
                                                  const cs_stroke_view *view, cs_outline *outline);
+/* The same for all that wants the shape itself: right within 2^-27 of the stroke's size. */
+CELSPAN_CHECKED celspan_status cs_stroke_outline_finely(celspan_context *context,
+                                                        const cs_stroke *stroke,
+                                                        cs_outline *outline);
 /* The box around the stroke under a matrix; only where *is_seen, for some of it is. Errors:
  * NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_stroke_bounds(celspan_context *context, const cs_stroke *stroke,

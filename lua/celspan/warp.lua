@@ -1,0 +1,267 @@
+--- Objects that are bent: object:warp{ map = | along = | lattice = | bones = | pins = }.
+--
+--   flag:warp{ map = function(x, y) return x, y + 9 * math.sin(x / 40 - 6 * f.time) end }
+--   arm:warp{ bones = { { from = {0, 0}, to = {60, 0} }, { from = {60, 0}, to = {120, 0},
+--                                                          rotate = 70 } } }
+--
+-- Each of the five is a way to write down a map of the plane. The core bends by the map: outlines
+-- as curves, pictures and gradients as a mesh.
+local affine = require "celspan.affine"
+local core = require "celspan.core"
+local curves = require "celspan.curves"
+local fields = require "celspan.fields"
+
+local warp = {}
+
+local function refuse(text, ...) core.refuse("warp: " .. text:format(...)) end
+
+local function read_point(subject, value)
+  fields.numbers("warp", subject .. ": its value %d", value, 2, "{x, y}")
+  return value[1], value[2]
+end
+
+local maps = {}
+
+-- ---------------------------------------------------------------- along a path
+
+--- The line through the middle of the box becomes the path; all else keeps its distance from it.
+function maps.along(path, options, box)
+  local curve = curves.read("warp", path)
+  local start = (options.start or 0) * curve.length
+  local scale = options.stretch and (curve.length - start) / box[3] or 1
+  local left, middle = box[1], box[2] + box[4] / 2
+  return function(x, y)
+    local px, py, dx, dy = curve:at(start + (x - left) * scale)
+    return px - (y - middle) * dy, py + (y - middle) * dx
+  end
+end
+
+-- ---------------------------------------------------------------- lattices
+
+local function read_lattice(lattice)
+  fields.check("warp: lattice", lattice, { columns = "number", rows = "number", points = "table",
+                                           smooth = "boolean", box = "table" })
+  local columns, rows = lattice.columns or 1, lattice.rows or 1
+  for name, count in pairs { columns = columns, rows = rows } do
+    if count ~= math.floor(count) or count < 1 or count > 1000 then
+      refuse("lattice: %s must be a whole number from 1 to 1000, got %s", name,
+        fields.shown(count))
+    end
+  end
+  local points = lattice.points
+  if type(points) ~= "table" or rawlen(points) ~= (columns + 1) * (rows + 1) then
+    refuse("lattice: %d columns and %d rows of cells have %d points, got %s", columns, rows,
+      (columns + 1) * (rows + 1), type(points) == "table" and rawlen(points) or "none")
+  end
+  for i = 1, #points do read_point(("lattice: point %d"):format(i), points[i]) end
+  return columns, rows, points
+end
+
+--- The shares of four neighbouring points, of which two lie around the place: straight between
+--- them, or Catmull and Rom's curve.
+local function shares(u, smooth)
+  if not smooth then return 0, 1 - u, u, 0 end
+  local v = 1 - u
+  return -u * v * v / 2, (2 - 5 * u * u + 3 * u * u * u) / 2, (2 - 5 * v * v + 3 * v * v * v) / 2,
+    -v * u * u / 2
+end
+
+--- The cell of a place among `count`, and the place in it; outside, that of the nearest one.
+local function cell_of(at, count)
+  local cell = math.max(0, math.min(count - 1, math.floor(at)))
+  return cell, at - cell
+end
+
+function maps.lattice(lattice, _, box)
+  local columns, rows, points = read_lattice(lattice)
+  local left, top, width, height = table.unpack(lattice.box or box)
+  --- Beyond the lattice its points continue in equal steps.
+  local function point(i, j, k)
+    if i < 0 then return 2 * point(0, j, k) - point(-i, j, k) end
+    if i > columns then return 2 * point(columns, j, k) - point(2 * columns - i, j, k) end
+    if j < 0 then return 2 * point(i, 0, k) - point(i, -j, k) end
+    if j > rows then return 2 * point(i, rows, k) - point(i, 2 * rows - j, k) end
+    return points[j * (columns + 1) + i + 1][k]
+  end
+  return function(x, y)
+    local column, u = cell_of((x - left) / width * columns, columns)
+    local row, v = cell_of((y - top) / height * rows, rows)
+    local across = { shares(u, lattice.smooth) }
+    local to = { 0, 0 }
+    for j, down in ipairs { shares(v, lattice.smooth) } do
+      for i = 1, 4 do
+        local share = across[i] * down
+        if share ~= 0 then
+          for k = 1, 2 do to[k] = to[k] + share * point(column + i - 2, row + j - 2, k) end
+        end
+      end
+    end
+    return to[1], to[2]
+  end
+end
+
+-- ---------------------------------------------------------------- bones
+
+local SOFT = 0.0025 -- of the square of a radius: how sharply weights change at a joint
+
+local known_bone = { "name", from = "table", to = "table", parent = "any", rotate = "number",
+                     scale = "number", at = "table", radius = "number" }
+
+--- The number of the bone that the bone number i hangs on: the one before it unless it says so.
+local function parent_of(bones, i)
+  local parent = bones[i].parent
+  if parent == nil then return i > 1 and i - 1 or nil end
+  if parent == false then return nil end
+  for j = 1, i - 1 do
+    if j == parent or bones[j][1] == parent then return j end
+  end
+  return refuse("bone %d: its parent must be false, or the number or name of a bone before it, "
+    .. "got %s", i, type(parent) == "string" and ("%q"):format(parent) or fields.shown(parent))
+end
+
+--- How a bone moves its own surroundings: its joint turns, and it grows along itself.
+local function motion_of(bone, fx, fy, tx, ty, length)
+  local map = affine.turn(bone.rotate or 0, fx, fy)
+  if bone.scale then
+    map = affine.compose(map, affine.stretch(bone.scale, 1, (tx - fx) / length,
+      (ty - fy) / length, fx, fy))
+  end
+  if bone.at then
+    local x, y = read_point("bone: at", bone.at)
+    map = affine.compose(affine.translation(x - fx, y - fy), map)
+  end
+  return map
+end
+
+local function read_bone(list, made, i)
+  local bone = list[i]
+  fields.check(("warp: bone %d"):format(i), bone, known_bone)
+  local fx, fy = read_point(("bone %d: from"):format(i), bone.from)
+  local tx, ty = read_point(("bone %d: to"):format(i), bone.to)
+  local length = math.sqrt((tx - fx) ^ 2 + (ty - fy) ^ 2)
+  local radius = bone.radius or length / 4
+  if not (length > 0 and radius > 0) then
+    refuse("bone %d: its %s must be above 0", i, length > 0 and "radius" or "length")
+  end
+  local parent, own = parent_of(list, i), motion_of(bone, fx, fy, tx, ty, length)
+  return { x = fx, y = fy, dx = (tx - fx) / length, dy = (ty - fy) / length, length = length,
+           size = radius * radius,
+           map = parent and affine.compose(made[parent].map, own) or own }
+end
+
+--- Each point follows the bones near it: by the distance from the bone in the bone's radii.
+function maps.bones(list)
+  local bones = {}
+  if type(list) ~= "table" or rawlen(list) == 0 then
+    refuse("bones must be a list of { from = {x, y}, to = {x, y}, rotate = degrees }, got %s",
+      type(list) == "table" and "an empty one" or fields.kind(list))
+  end
+  for i = 1, rawlen(list) do bones[i] = read_bone(list, bones, i) end
+  return function(x, y)
+    local sum, sx, sy = 0, 0, 0
+    for i = 1, #bones do
+      local b = bones[i]
+      local px, py = x - b.x, y - b.y
+      local along = math.max(0, math.min(b.length, px * b.dx + py * b.dy))
+      px, py = px - along * b.dx, py - along * b.dy
+      local q = (px * px + py * py) / b.size + SOFT
+      local weight = 1 / (q * q)
+      local m = b.map
+      sum = sum + weight
+      sx = sx + weight * (m[1] * x + m[2] * y + m[3])
+      sy = sy + weight * (m[4] * x + m[5] * y + m[6])
+    end
+    return sx / sum, sy / sum
+  end
+end
+
+-- ---------------------------------------------------------------- pins
+
+local function read_pins(pins)
+  local read = {}
+  if type(pins) ~= "table" or rawlen(pins) == 0 then
+    refuse("pins must be a list of { from = {x, y}, to = {x, y} }, got %s",
+      type(pins) == "table" and "an empty one" or fields.kind(pins))
+  end
+  for i = 1, rawlen(pins) do
+    fields.check(("warp: pin %d"):format(i), pins[i], { from = "table", to = "table" })
+    local x, y = read_point(("pin %d: from"):format(i), pins[i].from)
+    local u, v = read_point(("pin %d: to"):format(i), pins[i].to or pins[i].from)
+    for j, other in ipairs(read) do
+      if other[1] == x and other[2] == y then refuse("pins %d and %d are at one place", j, i) end
+    end
+    read[i] = { x, y, u, v }
+  end
+  return read
+end
+
+--- The sums of moving least squares about a point: where the pins lie around it, before and
+--- after, and the weighted turn. Schaefer, McPhail and Warren, Image Deformation Using Moving Least
+--- Squares, 2006: the rigid deformation.
+local function fitted(pins, weights, sum)
+  local px, py, qx, qy = 0, 0, 0, 0
+  for i, pin in ipairs(pins) do
+    local w = weights[i] / sum
+    px, py, qx, qy = px + w * pin[1], py + w * pin[2], qx + w * pin[3], qy + w * pin[4]
+  end
+  local along, across = 0, 0
+  for i, pin in ipairs(pins) do
+    local ax, ay, bx, by = pin[1] - px, pin[2] - py, pin[3] - qx, pin[4] - qy
+    along = along + weights[i] * (ax * bx + ay * by)
+    across = across + weights[i] * (ax * by - ay * bx)
+  end
+  local size = math.sqrt(along * along + across * across)
+  if size == 0 then return px, py, qx, qy, 1, 0 end
+  return px, py, qx, qy, along / size, across / size
+end
+
+--- Pins go where they are put, and everything between turns and moves with those near it.
+function maps.pins(list)
+  local pins = read_pins(list)
+  return function(x, y)
+    local weights, sum = {}, 0
+    for i, pin in ipairs(pins) do
+      local d = (pin[1] - x) ^ 2 + (pin[2] - y) ^ 2
+      if d == 0 then return pin[3], pin[4] end
+      weights[i] = 1 / d
+      sum = sum + weights[i]
+    end
+    local px, py, qx, qy, c, s = fitted(pins, weights, sum)
+    return qx + c * (x - px) - s * (y - py), qy + s * (x - px) + c * (y - py)
+  end
+end
+
+-- ---------------------------------------------------------------- the method
+
+function maps.map(map) return map end
+
+local known = { map = "function", along = "any", start = "number", stretch = "boolean",
+                lattice = "table", bones = "any", pins = "any", within = "number",
+                pieces = "number" }
+
+--- The one of the five that is given.
+local function kind_of(options)
+  local found
+  for _, name in ipairs { "along", "bones", "lattice", "map", "pins" } do
+    if options[name] ~= nil then
+      if found then refuse("%s and %s are given; it takes one of them", found, name) end
+      found = name
+    end
+  end
+  return found or refuse "give one of along, bones, lattice, map and pins"
+end
+
+--- object:warp(options)
+function warp.apply(object, options)
+  fields.check("warp", options, known)
+  local kind = kind_of(options)
+  for _, name in ipairs { "start", "stretch" } do
+    if options[name] ~= nil and kind ~= "along" then refuse("%s goes with along alone", name) end
+  end
+  local box = { object:bounds() }
+  if not box[1] then return object end
+  return core.warp(object, maps[kind](options[kind], options, box), options.within or 0,
+    options.pieces or 0)
+end
+
+return fields.seal("warp", warp)

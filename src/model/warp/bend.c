@@ -1,0 +1,190 @@
+#include "model/warp/bend.h"
+
+#include <math.h>
+
+#include "model/geometry/bezier.h"
+#include "model/geometry/matrix.h"
+
+/* Halvings of a piece, after which what is left of it is a jump. */
+#define DEPTH 40
+/* A cubic is first looked at when it is no longer than this share of the object, or after FORCED
+ * halvings: the map may turn twice in what is longer. */
+#define LONG 0.125
+#define FORCED 3
+/* Of the tolerance: what the comparison at three places leaves open. */
+#define SAFE 0.85
+
+typedef struct bender {
+  const cs_warp_map *map;
+  cs_outline *out;
+  cs_bezier piece; /* placed; all weights above 0 */
+  size_t cubics;
+  int forced; /* halvings of this piece in any case */
+} bender;
+
+/* A stretch of the piece, and where its ends go. */
+typedef struct stretch {
+  double from, to; /* parameters */
+  celspan_point a, b;
+} stretch;
+
+static celspan_point projected(cs_hpoint point) {
+  return (celspan_point){point.x / point.w, point.y / point.w};
+}
+
+/* The point of a piece at a parameter, by de Casteljau; equal numbers stay equal. */
+static celspan_point point_at(const cs_bezier *piece, double t) {
+  cs_hpoint p[CS_BEZIER_DEGREE + 1];
+  if (t == 1) /* the beginning of the next piece, to the bit */
+    return projected(piece->points[piece->degree]);
+  for (int i = 0; i <= piece->degree; i++)
+    p[i] = piece->points[i];
+  for (int level = piece->degree; level > 0; level--)
+    for (int i = 0; i < level; i++)
+      p[i] = (cs_hpoint){p[i].x + t * (p[i + 1].x - p[i].x), p[i].y + t * (p[i + 1].y - p[i].y),
+                         p[i].w + t * (p[i + 1].w - p[i].w)};
+  return projected(p[0]);
+}
+
+static celspan_status image(const bender *b, double t, celspan_point *out) {
+  return cs_warp_at(b->map, point_at(&b->piece, t), out);
+}
+
+static double distance(celspan_point p, celspan_point q) {
+  return cs_number_length(p.x - q.x, p.y - q.y);
+}
+
+static celspan_point mixed(celspan_point p, celspan_point q, double u) {
+  return (celspan_point){p.x + u * (q.x - p.x), p.y + u * (q.y - p.y)};
+}
+
+/* ---------------------------------------------------------------- cubics */
+
+/* The cubic through four points at the parameters 0, 1/3, 2/3 and 1. */
+static void fit(const stretch *s, celspan_point q1, celspan_point q2, celspan_point cubic[4]) {
+  cubic[0] = s->a;
+  cubic[1] = (celspan_point){(-5 * s->a.x + 18 * q1.x - 9 * q2.x + 2 * s->b.x) / 6,
+                             (-5 * s->a.y + 18 * q1.y - 9 * q2.y + 2 * s->b.y) / 6};
+  cubic[2] = (celspan_point){(2 * s->a.x - 9 * q1.x + 18 * q2.x - 5 * s->b.x) / 6,
+                             (2 * s->a.y - 9 * q1.y + 18 * q2.y - 5 * s->b.y) / 6};
+  cubic[3] = s->b;
+}
+
+static celspan_point cubic_at(const celspan_point cubic[4], double t) {
+  celspan_point p[4] = {cubic[0], cubic[1], cubic[2], cubic[3]};
+  for (int level = 3; level > 0; level--)
+    for (int i = 0; i < level; i++)
+      p[i] = mixed(p[i], p[i + 1], t);
+  return p[0];
+}
+
+static bool is_line(const stretch *s, celspan_point q1, celspan_point q2, double within) {
+  return distance(q1, mixed(s->a, s->b, 1 / 3.0)) <= within &&
+         distance(q2, mixed(s->a, s->b, 2 / 3.0)) <= within;
+}
+
+static celspan_status check(const bender *b, const stretch *s, const celspan_point cubic[4],
+                            double within, bool *is_right) {
+  static const double places[] = {0.5, 0.1283, 0.8761}; /* in no even steps: waves hide there */
+  *is_right = true;
+  for (int i = 0; i < 3 && *is_right; i++) {
+    celspan_point there;
+    CS_TRY(image(b, s->from + places[i] * (s->to - s->from), &there));
+    *is_right = distance(there, cubic_at(cubic, places[i])) <= within;
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status append(bender *b, const celspan_point cubic[4], bool is_line) {
+  cs_hpoint points[3];
+  if (++b->cubics > CS_WARP_CUBICS)
+    return cs_fail(b->map->context, CELSPAN_LIMIT,
+                   "warp: the map is too rough: an outline would become more than %d curves; make "
+                   "the map smoother, or give a greater tolerance (within)",
+                   CS_WARP_CUBICS);
+  for (int i = 0; i < 3; i++)
+    points[i] = (cs_hpoint){cubic[i + 1].x, cubic[i + 1].y, 1};
+  return is_line ? cs_outline_line(b->map->context, b->out, points[2])
+                 : cs_outline_piece(b->map->context, b->out, 3, points);
+}
+
+/* What is left after all halvings is a kink of the map, or a jump. */
+static celspan_status end_halving(bender *b, const stretch *s) {
+  const celspan_point straight[4] = {s->a, s->a, s->b, s->b};
+  if (distance(s->a, s->b) <= b->map->within)
+    return append(b, straight, true);
+  celspan_point at = point_at(&b->piece, s->from);
+  return cs_fail(b->map->context, CELSPAN_BAD_ARGUMENT,
+                 "warp: the map jumps at the point %g, %g, from %g, %g to %g, %g; it must be "
+                 "continuous on the object",
+                 at.x, at.y, s->a.x, s->a.y, s->b.x, s->b.y);
+}
+
+static celspan_status bend(bender *b, stretch s, int depth) {
+  if (depth >= b->forced) {
+    double within = SAFE * b->map->within;
+    celspan_point q1, q2, cubic[4];
+    bool is_right;
+    CS_TRY(image(b, s.from + (s.to - s.from) / 3, &q1));
+    CS_TRY(image(b, s.from + 2 * (s.to - s.from) / 3, &q2));
+    fit(&s, q1, q2, cubic);
+    CS_TRY(check(b, &s, cubic, within, &is_right));
+    if (is_right)
+      return append(b, cubic, is_line(&s, q1, q2, (b->map->within - within) / 2));
+    if (depth == DEPTH)
+      return end_halving(b, &s);
+  }
+  stretch low = s, high = s;
+  low.to = high.from = 0.5 * (s.from + s.to);
+  CS_TRY(image(b, low.to, &low.b));
+  high.a = low.b;
+  CS_TRY(bend(b, low, depth + 1));
+  return bend(b, high, depth + 1);
+}
+
+/* ---------------------------------------------------------------- outlines */
+
+static celspan_status load(bender *b, const cs_outline *outline, size_t i,
+                           const celspan_matrix *matrix) {
+  cs_bezier_load(outline, i, matrix, &b->piece);
+  double length = 0;
+  for (int k = 0; k <= b->piece.degree; k++) {
+    if (!(b->piece.points[k].w > 0))
+      return cs_fail(b->map->context, CELSPAN_BAD_ARGUMENT,
+                     "warp: the object reaches the horizon of its perspective; bend it before it "
+                     "is put in perspective");
+    if (k > 0)
+      length += distance(projected(b->piece.points[k - 1]), projected(b->piece.points[k]));
+  }
+  b->forced = 0;
+  for (; b->forced < FORCED && length > LONG * b->map->extent; length /= 2)
+    b->forced++;
+  return CELSPAN_OK;
+}
+
+static celspan_status bend_contour(bender *b, const cs_outline *outline, size_t begin, size_t end,
+                                   const celspan_matrix *matrix) {
+  stretch s = {.to = 1};
+  for (size_t i = begin; i < end; i++) {
+    CS_TRY(load(b, outline, i, matrix));
+    if (i == begin) {
+      CS_TRY(image(b, 0, &s.a));
+      CS_TRY(cs_outline_move(b->map->context, b->out, (cs_hpoint){s.a.x, s.a.y, 1}));
+    }
+    CS_TRY(image(b, 1, &s.b));
+    CS_TRY(bend(b, s, 0));
+    s.a = s.b;
+  }
+  return cs_outline_close(b->map->context, b->out);
+}
+
+celspan_status cs_warp_bend(const cs_warp_map *map, const cs_outline *outline,
+                            const celspan_matrix *matrix, cs_outline *out) {
+  const celspan_matrix facing = cs_matrix_facing(matrix);
+  bender b = {.map = map, .out = out};
+  for (size_t i = 0; i < outline->contour_count; i++) {
+    size_t end = i + 1 < outline->contour_count ? outline->contours[i + 1] : outline->piece_count;
+    CS_TRY(bend_contour(&b, outline, outline->contours[i], end, &facing));
+  }
+  return CELSPAN_OK;
+}

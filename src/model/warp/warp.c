@@ -1,0 +1,200 @@
+/* Objects under a map: the tree of an object stays as it is, and every outline in it is bent. What
+ * varies in colour becomes the triangles of a mesh, inside the bent outline.
+ *
+ *     union{ a, b }          union{ a bent, b bent }
+ *     a, of one colour       its outline, bent
+ *     a, of many colours     clip(union{ triangles }, its outline, bent)
+ *
+ * All transforms are multiplied into the points, since the map is one of the units around the whole
+ * object; fades, modes, names and lines stay.
+ */
+#include <math.h>
+
+#include "model/scene/bounds.h"
+#include "model/scene/check.h"
+#include "model/scene/primitive_data.h"
+#include "model/scene/value.h"
+#include "model/stroke/outliner.h"
+#include "model/warp/bend.h"
+#include "model/warp/pieces.h"
+
+#define PIECES 400
+#define PIECES_LEAST 18
+#define PIECES_MOST 20000
+/* Of a shape of one colour, whose mesh only shows folds. */
+#define PIECES_FLAT 200
+/* A hundredth of a pixel of an object that fills a frame of 2^20 pixels a side. */
+#define WITHIN 0x1p-27
+
+/* ---------------------------------------------------------------- primitives */
+
+/* The outline of data, bent; strokes have theirs made as exactly as it is needed. */
+static celspan_status bend_outline(const cs_warp_map *map, const cs_primitive_data *data,
+                                   const celspan_matrix *matrix, cs_outline *out) {
+  cs_outline_box room;
+  if (!data->stroke)
+    return cs_warp_bend(map, cs_primitive_data_outline(data, &room), matrix, out);
+  cs_outline made;
+  cs_outline_init(&made);
+  celspan_status status = cs_stroke_outline_finely(map->context, data->stroke, &made);
+  if (status == CELSPAN_OK)
+    status = cs_warp_bend(map, &made, matrix, out);
+  cs_outline_finish(&made, map->context->memory);
+  return status;
+}
+
+static celspan_status bend_shape(const cs_warp_map *map, const cs_primitive_data *data,
+                                 const celspan_matrix *matrix, celspan_texture *texture,
+                                 celspan_object **out) {
+  cs_outline outline;
+  cs_outline_init(&outline);
+  celspan_status status = bend_outline(map, data, matrix, &outline);
+  if (status != CELSPAN_OK) {
+    cs_outline_finish(&outline, map->context->memory);
+    return status;
+  }
+  celspan_rule rule = data->stroke ? CELSPAN_RULE_NONZERO : data->rule;
+  return cs_primitive_data_of_outline(map->context, &outline, rule, texture, out);
+}
+
+/* The triangles inside the shape. */
+static celspan_status bend_texture(const cs_warp_map *map, const cs_primitive_data *data,
+                                   const celspan_matrix *matrix, const cs_warp_mesh *mesh,
+                                   celspan_object **out) {
+  celspan_object *both[2] = {NULL, NULL};
+  CS_TRY(bend_shape(map, data, matrix, NULL, &both[1]));
+  celspan_status status =
+      cs_warp_pieces(map->context, mesh, data->texture, &data->bounds, matrix, &both[0]);
+  if (status == CELSPAN_OK)
+    status = celspan_object_create_boolean(map->context, CELSPAN_CLIP, both, 2, out);
+  celspan_object_unref(both[0]);
+  celspan_object_unref(both[1]);
+  return status;
+}
+
+/* The box around what is drawn of data, tight, in the units around the object. */
+static celspan_status find_box(const cs_warp_map *map, const cs_primitive_data *data,
+                               const celspan_matrix *matrix, bool *is_there, celspan_box *box) {
+  cs_outline_box room;
+  if (data->stroke)
+    return cs_stroke_bounds(map->context, data->stroke, matrix, box, is_there);
+  *is_there = cs_outline_bounds(cs_primitive_data_outline(data, &room), matrix, box);
+  return CELSPAN_OK;
+}
+
+static celspan_status bend_in_mesh(const cs_warp_map *map, const cs_primitive_data *data,
+                                   const celspan_matrix *matrix, const celspan_box *box,
+                                   celspan_object **out) {
+  bool is_flat = data->texture->kind == CS_TEXTURE_FLAT;
+  cs_warp_map coarse = *map;
+  if (is_flat && coarse.pieces > PIECES_FLAT)
+    coarse.pieces = PIECES_FLAT;
+  cs_warp_mesh mesh;
+  celspan_status status = cs_warp_mesh_make(&coarse, box, &mesh);
+  if (status == CELSPAN_OK)
+    status = cs_warp_mesh_check(map, &mesh, data, matrix);
+  if (status == CELSPAN_OK)
+    status = is_flat ? bend_shape(map, data, matrix, data->texture, out)
+                     : bend_texture(map, data, matrix, &mesh, out);
+  cs_warp_mesh_finish(&mesh, map->context->memory);
+  return status;
+}
+
+static celspan_status bend_primitive(const cs_warp_map *map, const cs_primitive_data *data,
+                                     const celspan_matrix *matrix, celspan_object **out) {
+  bool is_there = false;
+  celspan_box box;
+  if (data->kind != CS_PRIMITIVE_DATA_OUTLINE)
+    return cs_fail(map->context, CELSPAN_BAD_ARGUMENT,
+                   "warp: %s cannot be bent; bend the objects that it is made of",
+                   data->kind == CS_PRIMITIVE_DATA_SCANLINE
+                       ? "a scan-line procedure"
+                       : "a rostrum, or what is blurred, has a soft shadow or a glow,");
+  if (!data->is_empty)
+    CS_TRY(find_box(map, data, matrix, &is_there, &box));
+  if (is_there && box.width > 0 && box.height > 0)
+    return bend_in_mesh(map, data, matrix, &box, out);
+  return celspan_object_create_boolean(map->context, CELSPAN_UNION, NULL, 0, out);
+}
+
+/* ---------------------------------------------------------------- objects */
+
+static celspan_status bend_object(const cs_warp_map *map, const celspan_object *object,
+                                  const celspan_matrix *around, celspan_object **out);
+
+static celspan_status bend_boolean(const cs_warp_map *map, const cs_boolean *boolean,
+                                   const celspan_matrix *matrix, celspan_object **out) {
+  size_t count = boolean->operand_count, made = 0;
+  celspan_object **operands = cs_mem_array(map->context->memory, count, sizeof *operands);
+  if (!operands && count > 0)
+    return cs_fail_memory(map->context);
+  celspan_status status = CELSPAN_OK;
+  for (; status == CELSPAN_OK && made < count; made++)
+    status = bend_object(map, boolean->operands[made], matrix, &operands[made]);
+  if (status == CELSPAN_OK)
+    status = cs_boolean_like(map->context, boolean, operands, count, out);
+  cs_primitive_data_list_free(map->context->memory, operands, count);
+  return status;
+}
+
+/* Gives what was made the fade, the name and the line of the object. */
+static celspan_status finish(const cs_warp_map *map, const celspan_object *object,
+                             celspan_object *made, celspan_object **out) {
+  celspan_object *faded;
+  celspan_status status = celspan_object_fade(map->context, made, object->fade, &faded);
+  celspan_object_unref(made);
+  CS_TRY(status);
+  cs_mark_drop(faded->mark);
+  faded->mark = cs_mark_keep(object->mark);
+  *out = faded;
+  return CELSPAN_OK;
+}
+
+/* Recursion ends: nesting is at most CS_SCENE_DEPTH. */
+static celspan_status bend_object(const cs_warp_map *map, const celspan_object *object,
+                                  const celspan_matrix *around, celspan_object **out) {
+  const cs_primitive_data *data = object->data;
+  const celspan_matrix whole = celspan_matrix_then(*object->matrix, *around);
+  celspan_object *made;
+  if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN)
+    CS_TRY(bend_boolean(map, data->boolean, &whole, &made));
+  else
+    CS_TRY(bend_primitive(map, data, &whole, &made));
+  return finish(map, object, made, out);
+}
+
+/* ---------------------------------------------------------------- the face */
+
+static celspan_status check(celspan_context *context, const celspan_object *object,
+                            const celspan_warp_desc *desc) {
+  CS_TRY(cs_check_given(context, "warp", "the object", object));
+  CS_TRY(cs_check_given(context, "warp", "the description", desc));
+  CS_TRY(cs_check_version(context, "warp", desc->struct_size, sizeof *desc));
+  if (!desc->map)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "warp: map is missing");
+  CS_TRY(cs_check_size(context, "warp", "within", desc->within));
+  if (desc->pieces == 0)
+    return CELSPAN_OK;
+  return cs_check_range(context, "warp", "pieces", (double)desc->pieces, PIECES_LEAST, PIECES_MOST);
+}
+
+celspan_status celspan_object_warp(celspan_context *context, celspan_object *object,
+                                   const celspan_warp_desc *desc, celspan_object **out) {
+  CS_TRY(check(context, object, desc));
+  const celspan_matrix identity = celspan_matrix_identity();
+  celspan_box box = {0};
+  bool is_there;
+  CS_TRY(cs_bounds_object(context, object, &is_there, &box));
+  const double extent = fmax(box.width, box.height);
+  if (!is_there || !(extent > 0)) {
+    *out = celspan_object_ref(object);
+    return CELSPAN_OK;
+  }
+  const cs_warp_map map = {.context = context,
+                           .call = desc->map,
+                           .user = desc->user,
+                           .within = desc->within > 0 ? desc->within : WITHIN * extent,
+                           .extent = extent,
+                           .pieces = desc->pieces > 0 ? desc->pieces : PIECES};
+  return bend_object(&map, object, &identity, out);
+}

@@ -1,0 +1,246 @@
+-- Objects that are bent: outlines as curves, pictures as meshes without seams.
+local celspan = require "celspan"
+local raised = require "tests.support.raised"
+
+local sin = math.sin
+
+local function pixels(object, options)
+  local film = celspan.film { size = { 64, 64 }, frame = function()
+    return celspan.rostrum { celspan.cel { object } }
+  end }
+  return assert(celspan.pixels(film, options))
+end
+
+--- Texels of 64 x 64 colours, none of which is like another.
+local function picture(alpha)
+  local texels = {}
+  for i = 0, 4095 do
+    texels[i + 1] = string.char(i * 37 % 256, i * 91 % 256, i // 16, alpha)
+  end
+  return celspan.image { x = 0, y = 0, w = 64, h = 64, pixels = table.concat(texels),
+                         size = { 64, 64 } }
+end
+
+local white = celspan.image { x = 8, y = 8, w = 48, h = 48, size = { 2, 2 },
+                              pixels = ("\255"):rep(16) }
+
+--- Waves on the right half; the left stays as it is.
+local function half(x, y)
+  local more = math.max(0, x - 32)
+  return x, y + more * more * sin(x / 3) / 200
+end
+
+local function wave(x, y) return x + 3 * sin(y / 6), y + 4 * sin(x / 9) end
+
+local function same(x, y) return x, y end
+
+describe("a warp", function()
+  it("leaves a picture as it is, to the bit, where the map does", function()
+    local art = picture(255)
+    local plain, bent = pixels(art):bytes(), pixels(art:warp { map = half }):bytes()
+    for y = 0, 63 do
+      local from = 4 * 64 * y
+      assert.are.equal(plain:sub(from + 1, from + 4 * 27), bent:sub(from + 1, from + 4 * 27))
+    end
+    assert.are_not.equal(plain, bent)
+    assert.are.equal(plain, pixels(art:warp { map = same }):bytes())
+  end)
+
+  it("makes a mesh of hundreds of pieces that does not leak", function()
+    for _, pieces in ipairs { 20, 400, 2000 } do
+      local bent = white:warp { map = wave, pieces = pieces }
+      local codes = pixels(bent:scale(1.37, 1.21, 32, 32)):bytes { depth = 16 }
+      local function is_inside(x, y)
+        return bent:contains(32 + (x - 32) / 1.37, 32 + (y - 32) / 1.21)
+      end
+      local count = 0
+      for y = 0, 63 do
+        for x = 0, 63 do
+          if is_inside(x, y) and is_inside(x + 1, y) and is_inside(x, y + 1)
+              and is_inside(x + 1, y + 1) then
+            local at = 8 * (64 * y + x)
+            assert.are.equal(("\255"):rep(8), codes:sub(at + 1, at + 8), x .. ", " .. y)
+            count = count + 1
+          end
+        end
+      end
+      assert.is_true(count > 2000)
+    end
+  end)
+
+  it("keeps outlines within a hundredth of a pixel, at 1,024 and at 1,048,576 a side", function()
+    local disc = celspan.circle { centre = { 32, 32 }, radius = 32 }
+    local square = celspan.rect { 0, 0, 64, 64 }
+    local function inside(object, x, y, dx, dy, side)
+      local step = 0.01 * 64 / side
+      return object:contains(x + step * dx, y + step * dy)
+    end
+    for _, side in ipairs { 1024, 1048576 } do
+      local round, straight = disc:warp { map = wave }, square:warp { map = wave }
+      for i = 1, 400 do
+        local angle = i * 0.1
+        local c, s = math.cos(angle), sin(angle)
+        local x, y = wave(32 + 32 * c, 32 + 32 * s)
+        -- across the image of the circle
+        local tx = -s + 3 * math.cos((32 + 32 * s) / 6) * c / 6
+        local ty = c - 4 * math.cos((32 + 32 * c) / 9) * s / 9
+        local length = math.sqrt(tx * tx + ty * ty)
+        assert.is_false(inside(round, x, y, ty / length, -tx / length, side))
+        assert.is_true(inside(round, x, y, -ty / length, tx / length, side))
+        x, y = wave(i * 0.15, 0)
+        assert.is_false(inside(straight, x, y, 0, -1, side))
+        assert.is_true(inside(straight, x, y, 0, 1, side))
+      end
+    end
+  end)
+
+  it("bends strokes, texts, groups and booleans, and keeps fades, modes and names", function()
+    local line = celspan.stroke { points = { { 4, 32 }, { 60, 32 } }, width = 4 }
+    local bent = line:warp { map = wave }
+    for x = 8, 56, 4 do
+      local u, v = wave(x, 32)
+      assert.is_true(bent:contains(u, v))
+      assert.is_false(bent:contains(u, v - 4))
+    end
+    local ring = celspan.circle { centre = { 32, 32 }, radius = 20, texture = "#f00" }:named "ring"
+      - celspan.circle { centre = { 32, 32 }, radius = 10 }:translate(2, 0)
+    local group = celspan.group { ring:fade(0.5), blend = "multiply" }:named "both"
+    local made = group:warp { map = wave }
+    assert.are.equal("multiply", made.mode)
+    assert.are.equal("both", made.name)
+    assert.is_false(made:contains(wave(34, 32)))
+    assert.is_true(made:contains(wave(47, 32)))
+    local _, _, _, a = celspan.probe(celspan.rostrum { celspan.cel { made } }, wave(47, 32))
+    assert.are.equal(0.5, a)
+    local hidden = celspan.matte(ring, ring, { invert = true }):warp { map = wave }
+    assert.are.equal(0, (celspan.probe(celspan.rostrum { celspan.cel { hidden } }, wave(47, 32))))
+    local light = celspan.group { ring, grade = { exposure = -1 } }:warp { map = wave }
+    assert.are.equal(0.5, (celspan.probe(celspan.rostrum { celspan.cel { light } }, wave(47, 32))))
+  end)
+
+  it("takes gradients along", function()
+    local art = celspan.rect { 0, 0, 64, 64, texture = celspan.linear {
+      from = { 0, 0 }, to = { 64, 0 }, { 0, "#000" }, { 1, "#fff" } } }
+    local bent = celspan.rostrum { celspan.cel { art:warp { map = wave, pieces = 2000 } } }
+    for x = 4, 60, 7 do
+      for y = 4, 60, 7 do
+        local u, v = wave(x, y)
+        local red = celspan.probe(bent, u, v)
+        assert.is_near(x / 64, red, 0.01)
+      end
+    end
+  end)
+
+  it("goes along a path, and on straight beyond its end", function()
+    local bar = celspan.rect { 10, 20, 100, 4 }
+    local bent = bar:warp { along = "M 0 50 A 50 50 0 0 1 100 50" }
+    for i = 1, 99 do
+      local angle = math.pi - i / 50
+      assert.is_true(bent:contains(50 + 50 * math.cos(angle), 50 - 50 * sin(angle)))
+      assert.is_false(bent:contains(50 + 47 * math.cos(angle), 50 - 47 * sin(angle)))
+    end
+    local whole = bar:warp { along = celspan.path { d = "M 0 0 H 60 V 0 H 80" }, stretch = true }
+    assert.are.same({ 0, -2, 80, 4 }, { whole:bounds() })
+    local late = bar:warp { along = "M 0 0 H 60", start = 0.5 }
+    assert.are.same({ 30, -2, 100, 4 }, { late:bounds() })
+  end)
+
+  it("follows lattices, straight or smooth", function()
+    local box = celspan.rect { 0, 0, 20, 20 }
+    local function bent(smooth)
+      return box:warp { lattice = { columns = 2, rows = 1, smooth = smooth, points = {
+        { 0, 0 }, { 10, 8 }, { 20, 0 }, { 0, 20 }, { 10, 20 }, { 20, 20 } } } }
+    end
+    assert.is_true(bent(false):contains(5, 4.01) and not bent(false):contains(5, 3.99))
+    assert.is_true(bent(true):contains(10, 8.01) and not bent(true):contains(10, 7.99))
+    assert.is_false(bent(true):contains(5, 4.01))
+    assert.are.same({ 0, 0, 20, 20 }, { box:warp { lattice = { columns = 1, rows = 1, points = {
+      { 0, 0 }, { 20, 0 }, { 0, 20 }, { 20, 20 } } } }:bounds() })
+  end)
+
+  it("follows bones, each hanging on the one before it", function()
+    local arm = celspan.rect { 0, -5, 120, 10 }
+    local function bent(more)
+      local lower = { "lower", from = { 60, 0 }, to = { 120, 0 }, rotate = 90 }
+      for key, value in pairs(more or {}) do lower[key] = value end
+      return arm:warp { bones = { { "upper", from = { 0, 0 }, to = { 60, 0 } }, lower } }
+    end
+    assert.is_true(bent():contains(10, 0) and bent():contains(60, 50))
+    assert.is_false(bent():contains(110, 0))
+    local x, y, w, h = bent({ scale = 2 }):bounds()
+    assert.is_near(0, x, 1)
+    assert.is_near(-5, y, 2)
+    assert.is_true(w < 70 and h > 120)
+    assert.is_true(bent({ parent = false, rotate = 0, at = { 60, 3 } }):contains(115, 7))
+  end)
+
+  it("puts pins where they must be, and turns what hangs on them", function()
+    local cloth = celspan.rect { 0, 0, 40, 40 }
+    local moved = cloth:warp { pins = { { from = { 0, 0 }, to = { 10, 5 } },
+                                        { from = { 40, 0 }, to = { 50, 5 } } } }
+    local x, y, w, h = moved:bounds()
+    for i, number in ipairs { x - 10, y - 5, w - 40, h - 40 } do
+      assert.is_near(0, number, 1e-9, i)
+    end
+    local held = cloth:warp { pins = { { from = { 0, 0 } }, { from = { 40, 0 } },
+                                       { from = { 20, 40 }, to = { 30, 44 } } } }
+    assert.is_true(held:contains(30, 43) and held:contains(0.1, 0.1))
+  end)
+
+  it("refuses maps that jump, fold or give no numbers, with their line", function()
+    local box = celspan.rect { 0, 0, 20, 20 }
+    raised.each {
+      ["warp: the map jumps at the point 10, 0, from 10, 0 to 15, 0"] = function()
+        box:warp { map = function(x, y) return x < 10 and x or x + 5, y end }
+      end,
+      ["warp: the map folds the object near the point"] = function()
+        white:warp { map = function(x, y) return math.abs(x - 30), y end }
+      end,
+      ["two finite numbers, got nan and 0.0"] = function()
+        box:warp { map = function(_, y) return 0 / 0, y end }
+      end,
+      ["two finite numbers, got 0.0 and nil"] = function()
+        box:warp { map = function(x) return x end }
+      end,
+      ["arithmetic on a nil value"] = function()
+        box:warp { map = function(x, y) return x + nil, y end } -- luacheck: ignore
+      end,
+      ["warp: the map is too rough"] = function()
+        box:warp { map = function(x, y) return x, y + 1e-5 * sin(x * 1e6) end }
+      end,
+    }
+  end)
+
+  it("refuses what it cannot bend, and wrong fields", function()
+    local box = celspan.rect { 0, 0, 20, 20 }
+    raised.each {
+      ["or what is blurred, has a soft shadow"] = function() box:blur(3):warp { map = same } end,
+      ["a scan-line procedure cannot be bent"] = function()
+        celspan.scanline { bounds = { 0, 0, 9, 9 }, spans = function() end }:warp { map = same }
+      end,
+      ["give one of along, bones, lattice, map and pins"] = function() box:warp {} end,
+      ["along and map are given"] = function() box:warp { map = same, along = "M0 0" } end,
+      ["did you mean 'lattice'"] = function() box:warp { latice = {} } end,
+      ["pieces is 3"] = function() box:warp { map = same, pieces = 3 } end,
+      ["within is -1"] = function() box:warp { map = same, within = -1 } end,
+      ["have 6 points, got 1"] = function()
+        box:warp { lattice = { columns = 2, rows = 1, points = { { 0, 0 } } } }
+      end,
+      ["bone 1: its length must be above 0"] = function()
+        box:warp { bones = { { from = { 1, 1 }, to = { 1, 1 } } } }
+      end,
+      ["its parent must be false, or the number or name"] = function()
+        box:warp { bones = { { from = { 1, 1 }, to = { 2, 1 }, parent = "x" } } }
+      end,
+      ["pins 1 and 2 are at one place"] = function()
+        box:warp { pins = { { from = { 1, 1 } }, { from = { 1, 1 } } } }
+      end,
+      ["the path has no length"] = function() box:warp { along = "M 3 3" } end,
+      ["reaches the horizon of its perspective"] = function()
+        box:transform { 1, 0, 0, 0, 1, 0, -0.1, 0, 1 }:warp { map = same }
+      end,
+    }
+    local empty = celspan.union {}
+    assert.are.equal(empty, empty:warp { map = same })
+  end)
+end)
