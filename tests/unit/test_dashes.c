@@ -149,6 +149,8 @@ static void test_panes(studio *s) {
   const celspan_exposure exposures[] = {{rostrum, 1}, {rostrum, 0.5}, {moved, 0.5}};
   static sheet whole, panes;
   for (int k = 0; k < 8; k++) {
+    if (!check_is_drawn(k))
+      continue;
     celspan_antialias_mode mode = (celspan_antialias_mode)(k % 3);
     celspan_frame_desc desc = k < 6 ? frame_of(exposures, 1) : frame_of(exposures + 1, 2);
     desc.antialias = &mode;
@@ -194,6 +196,8 @@ static void test_crops(studio *s) {
   static const int32_t crops[][4] = {{0, 1, 800, 1}, {103, 2, 600, 2}};
   static sheet whole, part;
   for (int k = 0; k < 3; k++) {
+    if (!check_is_drawn(k))
+      continue;
     celspan_antialias_mode mode = (celspan_antialias_mode)k;
     celspan_frame_desc desc = frame_of(&exposure, 1);
     desc.antialias = &mode;

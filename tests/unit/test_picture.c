@@ -822,17 +822,19 @@ int main(void) {
   test_arguments();
   test_hash();
   if (picture_module_or_skip(context)) {
+    test_budget_and_threads();
+    test_missing();
+    test_changed();
+  }
+  if (!check_is_for_threads() && picture_module_is_there(context)) {
     test_round_trips();
     test_light_beyond_white();
     test_levels();
-    test_budget_and_threads();
-    test_missing();
     test_truncated();
     test_jpeg_ends();
     test_corrupt();
     test_huge_headers();
     test_rows_of_layers();
-    test_changed();
     test_memory();
     test_parts();
     test_orientation();

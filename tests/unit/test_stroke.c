@@ -243,6 +243,8 @@ static void test_outlines(celspan_context *context) {
   int last = only ? first : count, bad = 0;
   size_t small = 0, large = 0;
   for (int i = first; i <= last; i++) {
+    if (!only && !check_is_drawn(i))
+      continue;
     bad += !try_stroke(context, i, 1024, &small);
     bad += !try_stroke(context, i, 1048576, &large);
   }

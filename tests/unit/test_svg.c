@@ -192,6 +192,8 @@ static celspan_status read_and_change(celspan_context *context, memory_watch *wa
 static void memory_may_fail_anywhere(const char *text, bool is_for_good) {
   bool is_done = false;
   for (size_t fail_at = 1; fail_at < 5000 && !is_done; fail_at++) {
+    if (!check_is_drawn((int)fail_at))
+      continue;
     memory_watch watch = {.is_for_good = is_for_good};
     celspan_context *context = memory_watch_context(&watch);
     celspan_status status = read_and_change(context, &watch, text, fail_at);
