@@ -260,8 +260,8 @@ static void sweep_sink(sweep *w) {
   count_calls(w, OF_MEMORY);
   size_t still_held = count_held(w);
   if (!CHECK(still_held <= held))
-    fprintf(stderr, "  %s to %s: %zu bytes were held before, %zu are after\n", w->name, w->sink, held,
-            still_held);
+    fprintf(stderr, "  %s to %s: %zu bytes were held before, %zu are after\n", w->name, w->sink,
+            held, still_held);
 }
 
 static bool is_skipped(const sweep *w) {
