@@ -206,6 +206,18 @@ function celspan.radial(fields) end
 ---@return celspan.picture
 function celspan.picture(fields) end
 
+---@class celspan.pattern.fields
+---@field art celspan.object What is repeated
+---@field box number[] {x, y, w, h}; the part of the art that is repeated, in its units
+---@field matrix? number[] Nine numbers: moves the pattern alone
+
+---@class celspan.pattern: celspan.texture, celspan.pattern.fields
+
+--- Art that is repeated over the plane, as a texture of primitives.
+---@param fields celspan.pattern.fields
+---@return celspan.pattern
+function celspan.pattern(fields) end
+
 --- The methods of objects and cels. Each method returns a new value.
 ---@class celspan.placed: celspan.nameable
 ---@field mode celspan.mode

@@ -141,6 +141,8 @@ function texture:with(changes) end
 
 ---@noun picture: celspan.texture
 
+---@noun pattern: celspan.texture
+
 --- The methods of objects and cels. Each method returns a new value.
 ---@class celspan.placed: celspan.nameable
 ---@field mode celspan.mode

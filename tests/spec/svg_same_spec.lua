@@ -305,7 +305,9 @@ describe("gradients", function()
     left_out {
       { gradient("radial", 'fr=".1" fx=".6"'), "radius of the focus of radialGradient" },
       { gradient("linear", 'x2="1e-6" spreadMethod="repeat"'), "spreadMethod, repeated too often" },
-      { '<pattern id="p"/>' .. filled "url(#p)", "pattern of rect" },
+      {
+        '<pattern id="p" width=".5" height=".5"><rect width="9" height="9" fill="url(#p)"/>'
+        .. "</pattern>" .. filled "url(#p)", "pattern that is inside what it paints" },
     }
   end)
 end)

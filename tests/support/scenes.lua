@@ -162,6 +162,25 @@ end
 
 -- ---------------------------------------------------------------- primitives
 
+--- What a primitive is filled with: a texture, or a pattern of it. The numbers of patterns are of
+--- their own series, so that those of all else stay what they are without patterns.
+function maker:filling()
+  local texture, own = self:texture(), self.fillings
+  if not self.has_modes or not own:once(16) then return texture end
+  local function number(low, high) return text_of(own:between(low, high)) end
+  local art = {}
+  for i = 1, own:whole(1, 2) do
+    art[i] = ("celspan.rect{ %s, %s, %s, %s, texture = %s }"):format(number(-5, 9), number(-5, 9),
+      number(1, 15), number(1, 15), i == 1 and texture or ("%q"):format("#33aa77c0"))
+  end
+  local turn = own:between(0, 6.28)
+  local c, s = text_of(math.cos(turn)), text_of(math.sin(turn))
+  return ("celspan.pattern{ art = celspan.union{ %s }, box = {%s, %s, %s, %s}, %s }"):format(
+    table.concat(art, ", "), number(-9, 9), number(-9, 9), number(6, 20), number(6, 20),
+    own:once(2) and "" or ("matrix = { %s, -(%s), %s, %s, %s, 1, 0, 0, 1 }"):format(c, s,
+      number(-9, 9), s, c))
+end
+
 function maker:rule() return self.random:once(2) and 'rule = "evenodd", ' or "" end
 
 function maker:rect()
@@ -172,28 +191,28 @@ function maker:rect()
   end
   local x, y = self:point()
   return ("celspan.rect{ %s, %s, %s, %s%s, texture = %s }"):format(
-    x, y, self:number(0, 30), self:number(0, 30), radius, self:texture())
+    x, y, self:number(0, 30), self:number(0, 30), radius, self:filling())
 end
 
 function maker:triangle()
-  return ("celspan.triangle{ %s, texture = %s }"):format(self:points(3), self:texture())
+  return ("celspan.triangle{ %s, texture = %s }"):format(self:points(3), self:filling())
 end
 
 function maker:polygon()
   return ("celspan.polygon{ %s, %stexture = %s }"):format(self:points(self.random:whole(3, 9)),
-                                                         self:rule(), self:texture())
+                                                         self:rule(), self:filling())
 end
 
 function maker:circle()
   self.traits.is_curved = true
   return ("celspan.circle{ centre = %s, radius = %s, texture = %s }"):format(
-    self:point_text(), self:number(0, 20), self:texture())
+    self:point_text(), self:number(0, 20), self:filling())
 end
 
 function maker:ellipse()
   self.traits.is_curved = true
   return ("celspan.ellipse{ centre = %s, radii = {%s, %s}, texture = %s }"):format(
-    self:point_text(), self:number(0, 25), self:number(0, 25), self:texture())
+    self:point_text(), self:number(0, 25), self:number(0, 25), self:filling())
 end
 
 function maker:knots(count)
@@ -611,6 +630,7 @@ local function start(seed, options)
     is_flat = options.is_flat, is_single = options.is_single, is_plain = options.is_plain,
     has_pictures = options.has_pictures ~= false, has_text = options.has_text, level = 0,
     lights = 1, brightest = 1, modes = prng.new(~seed),
+    fillings = prng.new(seed ~ 0x7061747465726e),
     has_modes = options.has_modes ~= false and seed % 2 == 0,
     has_spaces = options.has_modes ~= false and seed % 4 == 0,
     most = random:pick { 1, 1, 3 }, depth = random:pick { 0, 1, 2, 4 },

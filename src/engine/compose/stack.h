@@ -70,7 +70,8 @@ typedef struct cs_stack {
   size_t light_count, light_capacity;
   size_t step_count, step_capacity;
   size_t tree_count, tree_capacity;
-  celspan_texture **coded; /* textures of its shades whose pigments are codes; owned */
+  celspan_texture **coded; /* textures that were made for the frame: of its shades, with codes as
+                              pigments; pictures of patterns; owned */
   size_t coded_count, coded_capacity;
   celspan_space space;  /* of the numbers in rows */
   bool has_root;        /* group 0 is the whole frame: it is entered in every cell */

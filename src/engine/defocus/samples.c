@@ -47,30 +47,13 @@ bool cs_defocus_samples_are_plain(const cs_defocus_samples *samples, cs_v4 *out)
   return are_plain;
 }
 
-/* The columns [x, stop) of a span. */
-static void spread_span(const celspan_span *span, int32_t x, int32_t stop, cs_v4 *out) {
-  cs_v4 colour = cs_v4_load(span->colour);
-  switch (span->kind) {
-  case CELSPAN_SPAN_SINGLE:
-    for (; x < stop; x++)
-      *out++ = colour;
-    return;
-  case CELSPAN_SPAN_GRADIENT:
-    for (cs_v4 slope = cs_v4_load(span->slope); x < stop; x++)
-      *out++ = colour + slope * (float)(x - span->origin);
-    return;
-  case CELSPAN_SPAN_ARRAY:
-    memcpy(out, span->array + 4 * (size_t)(x - span->x0), (size_t)(stop - x) * sizeof *out);
-  }
-}
-
 void cs_defocus_samples_spread(const cs_defocus_samples *samples, int32_t k, cs_v4 *out) {
   const cs_row *row = &samples->rows[k];
   for (size_t i = samples->from[k]; i < row->count && row->spans[i].x0 < samples->high; i++) {
     const celspan_span *span = &row->spans[i];
     int32_t x = span->x0 > samples->low ? span->x0 : samples->low;
     int32_t stop = span->x1 < samples->high ? span->x1 : samples->high;
-    spread_span(span, x, stop, out + (x - samples->low));
+    cs_row_spread_span(span, x, stop, out + (x - samples->low));
   }
 }
 

@@ -80,6 +80,22 @@ celspan_status cs_row_codes(celspan_context *context, cs_row *row, int32_t x0, i
   return CELSPAN_OK;
 }
 
+void cs_row_spread_span(const celspan_span *span, int32_t x, int32_t stop, cs_v4 *out) {
+  cs_v4 colour = cs_v4_load(span->colour);
+  switch (span->kind) {
+  case CELSPAN_SPAN_SINGLE:
+    for (; x < stop; x++)
+      *out++ = colour;
+    return;
+  case CELSPAN_SPAN_GRADIENT:
+    for (cs_v4 slope = cs_v4_load(span->slope); x < stop; x++)
+      *out++ = colour + slope * (float)(x - span->origin);
+    return;
+  case CELSPAN_SPAN_ARRAY:
+    memcpy(out, span->array + 4 * (size_t)(x - span->x0), (size_t)(stop - x) * sizeof *out);
+  }
+}
+
 void cs_row_crop(cs_row *row, int32_t x0, int32_t x1) {
   size_t kept = 0;
   row->varied = (cs_varied){0};

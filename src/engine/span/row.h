@@ -92,6 +92,9 @@ static inline celspan_status cs_row_single(celspan_context *context, cs_row *row
   return CELSPAN_OK;
 }
 
+/* The columns [x, stop) of a span, colour by colour. */
+void cs_row_spread_span(const celspan_span *span, int32_t x, int32_t stop, cs_v4 *out);
+
 /* Cuts a row to the columns [x0, x1) and moves it left by x0. The colours do not change. */
 void cs_row_crop(cs_row *row, int32_t x0, int32_t x1);
 

@@ -6,6 +6,7 @@
 #include "frames/render/layers.h"
 #include "frames/render/lights.h"
 #include "frames/render/objects.h"
+#include "frames/render/patterns.h"
 #include "frames/render/through.h"
 
 /* ---------------------------------------------------------------- what is hidden */
@@ -302,7 +303,9 @@ static void begin(cs_compiler *c, cs_boundary_builder *boundaries, celspan_conte
                      .space = view->space,
                      .group = CS_STACK_NONE,
                      .isolation = {.ground = CS_STACK_NONE},
-                     .compile_nested = compile_film};
+                     .compile_nested = compile_film,
+                     .compile_alone = compile_alone,
+                     .free_alone = cs_defocus_layer_free_plan};
   cs_boundary_init(&plan->boundaries);
   cs_boundary_builder_init(boundaries, context, &plan->boundaries, &c->frame);
 }
@@ -327,11 +330,15 @@ celspan_status cs_compile(celspan_context *context, const celspan_rostrum *rostr
   }
   cs_compiler c;
   cs_boundary_builder boundaries;
+  cs_patterns patterns = {0};
   begin(&c, &boundaries, context, &plan, view);
   c.workers = workers;
+  c.patterns = &patterns;
   plan.stack.span_error = view->span_error;
   plan.stack.space = view->space;
-  return finish(&c, compile_rostrum(&c, rostrum, view->film_width, view->film_height), out);
+  celspan_status status = compile_rostrum(&c, rostrum, view->film_width, view->film_height);
+  cs_patterns_finish(&patterns, context->memory);
+  return finish(&c, status, out);
 }
 
 /* ---------------------------------------------------------------- one cel alone */
@@ -362,6 +369,7 @@ static celspan_status compile_raster(const cs_compiler *outer, const cs_defocus_
                         .space = outer->space};
   begin(&c, &boundaries, outer->context, &plan, &view);
   c.front_plan = job->front;
+  c.patterns = outer->patterns;
   c.workers = 1;
   c.cel = outer->cel;
   c.mark = outer->mark;
@@ -374,11 +382,17 @@ static celspan_status compile_alone(void *user, const cs_defocus_job *job, cs_pl
 
 celspan_status cs_compile_drawing(celspan_context *context, const celspan_cel *cel, size_t number,
                                   const celspan_matrix *matrix, const cs_view *view, cs_plan *out) {
-  const cs_compiler outer = {
-      .context = context, .cel = number, .mark = cel->mark, .space = view->space};
+  cs_patterns patterns = {0};
+  const cs_compiler outer = {.context = context,
+                             .cel = number,
+                             .mark = cel->mark,
+                             .space = view->space,
+                             .patterns = &patterns};
   const cs_defocus_job job = {
       .cel = cel, .matrix = *matrix, .width = view->width, .height = view->height};
-  return compile_raster(&outer, &job, view->most_dashes, out);
+  celspan_status status = compile_raster(&outer, &job, view->most_dashes, out);
+  cs_patterns_finish(&patterns, context->memory);
+  return status;
 }
 
 void cs_compile_free(cs_plan *plan, cs_memory *memory) { cs_defocus_layer_free_plan(plan, memory); }

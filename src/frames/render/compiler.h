@@ -43,6 +43,9 @@ typedef struct cs_compiler_isolation {
   uint32_t mattes, mattes_end;
 } cs_compiler_isolation;
 
+struct cs_defocus_job; /* engine/defocus/layer.h */
+struct cs_patterns;    /* patterns.h */
+
 typedef struct cs_compiler cs_compiler;
 struct cs_compiler {
   celspan_context *context;
@@ -64,7 +67,11 @@ struct cs_compiler {
   uint32_t results; /* is_nested: those that the trees inside it have left so far */
   bool fades_out;   /* inside something faded to nothing: present, but clear */
   cs_compiler_census census;
-  const cs_plan *front_plan; /* the same lit from the front, whose defocused cels are borrowed */
+  const cs_plan *front_plan;    /* the same lit from the front, whose defocused cels are borrowed */
+  struct cs_patterns *patterns; /* of the frame; shared by copies, and by what is compiled alone */
+  /* Compiles one cel alone, as for a defocused one, and frees its plan. user: the compiler. */
+  celspan_status (*compile_alone)(void *user, const struct cs_defocus_job *job, cs_plan *out);
+  void (*free_alone)(cs_plan *plan, cs_memory *memory);
   /* Compiles the cels of a rostrum that is an object. */
   celspan_status (*compile_nested)(cs_compiler *c, const celspan_rostrum *rostrum,
                                    const cs_compiler_film *film);

@@ -7,6 +7,7 @@
 #include "frames/render/compiler.h"
 #include "frames/render/layers.h"
 #include "frames/render/lights.h"
+#include "frames/render/patterns.h"
 #include "model/geometry/matrix.h"
 
 /* ---------------------------------------------------------------- objects that are hidden */
@@ -652,6 +653,18 @@ static celspan_status add_parts(cs_compiler *c, const celspan_object *object,
   return splits ? open_light(c) : CELSPAN_OK;
 }
 
+/* ---------------------------------------------------------------- patterns */
+
+/* What is seen of a pattern, in the place of its plane. */
+static celspan_status add_pattern(cs_compiler *c, const celspan_object *plane,
+                                  const celspan_matrix *matrix) {
+  celspan_object *seen;
+  CS_TRY(cs_patterns_expand(c, plane->data, matrix, &seen));
+  celspan_status status = add_parts(c, seen, matrix);
+  celspan_object_unref(seen);
+  return status;
+}
+
 /* ---------------------------------------------------------------- lists of objects */
 
 static celspan_status add_object(cs_compiler *c, const celspan_object *object,
@@ -664,6 +677,8 @@ static celspan_status add_object(cs_compiler *c, const celspan_object *object,
     return add_source(c, object, &matrix);
   if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->op == CS_OPERATOR_MATTE)
     return add_matte(c, object, &matrix);
+  if (data->repeat)
+    return add_pattern(c, object, &matrix);
   return add_parts(c, object, &matrix);
 }
 

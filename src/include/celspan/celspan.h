@@ -332,6 +332,27 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_picture(
 CELSPAN_API CELSPAN_CHECKED celspan_status
 celspan_texture_with_medium(celspan_context *context, celspan_texture *texture,
                             const celspan_picture_desc *medium, celspan_texture **out);
+typedef struct celspan_pattern_desc {
+  size_t struct_size;
+  struct celspan_object *art; /* kept; lit with what the pattern is on */
+  celspan_box box;            /* the part of the art that is repeated, in its units */
+  bool has_matrix;
+  celspan_matrix matrix; /* the art's units to those of what the pattern is on; affine, regular */
+} celspan_pattern_desc;
+
+static inline celspan_pattern_desc celspan_pattern_desc_default(void) {
+  celspan_pattern_desc desc = CELSPAN_ZERO;
+  desc.struct_size = sizeof desc;
+  return desc;
+}
+#define CELSPAN_PATTERN_DESC (celspan_pattern_desc_default())
+
+/* A pattern: the box of the art repeated over the plane, for primitives. It is sharp at every size,
+ * and what is drawn of it is what is seen. A primitive with a pattern is a level of nesting, like
+ * a boolean. out: new
+ * Errors: NO_MEMORY; BAD_ARGUMENT; LIMIT where it is nested too deep. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_pattern(
+    celspan_context *context, const celspan_pattern_desc *desc, celspan_texture **out);
 /* _ref gives the value back, counted once more; _unref ignores NULL. Here and below: any thread. */
 CELSPAN_API celspan_texture *celspan_texture_ref(celspan_texture *texture);
 CELSPAN_API void celspan_texture_unref(celspan_texture *texture);

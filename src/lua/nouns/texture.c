@@ -1,4 +1,4 @@
-/* Textures: gradients and pictures. */
+/* Textures: gradients, pictures and patterns. */
 #include "lua/nouns/texture.h"
 
 #include <limits.h>
@@ -186,6 +186,30 @@ static const cs_field picture_fields[] = {{"box", CS_BOX(READ, image.picture.box
                                            .fallback = "the bounding rectangle of the primitive"},
                                           {.more = cs_texture_picture_fields}};
 
+/* ---------------------------------------------------------------- patterns */
+
+static void create_pattern(const cs_form *form, cs_userdata *value) {
+  lua_State *L = form->L;
+  celspan_pattern_desc desc = CELSPAN_PATTERN_DESC;
+  cs_fields_read(form, &desc);
+  cs_form_get(form, "art");
+  const cs_userdata *art = cs_userdata_test(L, -1, &cs_kind_object);
+  if (!art)
+    cs_form_fail(form, "field 'art' must be an object, got %s", cs_userdata_type(L, -1));
+  desc.art = art->handle; /* kept alive by the table */
+  celspan_texture *texture = NULL;
+  cs_form_try(form, celspan_texture_create_pattern(cs_host_context(L), &desc, &texture));
+  value->handle = texture;
+}
+
+static const cs_field pattern_fields[] = {
+    {"art", CS_OWN("celspan.object"), .is_required = true, .about = "What is repeated"},
+    {"box", CS_BOX(celspan_pattern_desc, box), .is_required = true,
+     .about = "The part of the art that is repeated, in its units"},
+    {"matrix", CS_NUMBERS(celspan_pattern_desc, matrix), CS_HAS(celspan_pattern_desc, has_matrix),
+     .about = "Nine numbers: moves the pattern alone"},
+    {0}};
+
 const cs_noun cs_noun_gradient = {.name = "gradient",
                                   .about =
                                       "The triangle gradient; it continues outside the triangle.",
@@ -219,3 +243,9 @@ const cs_noun cs_noun_picture = {
     .fields = picture_fields,
     CS_TEXTURE_PICTURE_EITHER,
     .create = create_picture};
+const cs_noun cs_noun_pattern = {
+    .name = "pattern",
+    .about = "Art that is repeated over the plane, as a texture of primitives.",
+    .kind = &cs_kind_texture,
+    .fields = pattern_fields,
+    .create = create_pattern};

@@ -16,10 +16,10 @@
 
 #define MODES (CELSPAN_BLEND_ADD + 1)
 
-/* New data with these operands. noun: for messages. look: what the boolean is like. */
-static celspan_status create(celspan_context *context, const char *noun, const cs_boolean *look,
-                             celspan_object *const *operands, size_t count,
-                             cs_primitive_data **out) {
+celspan_status cs_primitive_data_of_operands(celspan_context *context, const char *noun,
+                                             const cs_boolean *look,
+                                             celspan_object *const *operands, size_t count,
+                                             cs_primitive_data **out) {
   cs_primitive_data *data;
   CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_BOOLEAN, NULL, &data));
   *data->boolean = *look;
@@ -76,7 +76,8 @@ celspan_status celspan_object_create_group(celspan_context *context, const celsp
                                        desc->blend != CELSPAN_BLEND_NORMAL};
   cs_primitive_data *data;
   celspan_object *group;
-  CS_TRY(create(context, "group", &look, desc->objects, desc->object_count, &data));
+  CS_TRY(cs_primitive_data_of_operands(context, "group", &look, desc->objects, desc->object_count,
+                                       &data));
   CS_TRY(cs_primitive_data_wrap(context, data, CELSPAN_OK, &group));
   celspan_status status = celspan_object_fade(context, group, desc->opacity, out);
   celspan_object_unref(group);
@@ -96,7 +97,8 @@ static celspan_status change(celspan_context *context, const char *noun,
   const cs_boolean *from = object->data->boolean;
   cs_primitive_data *data;
   celspan_object *plain;
-  CS_TRY(create(context, noun, look, from->operands, from->operand_count, &data));
+  CS_TRY(cs_primitive_data_of_operands(context, noun, look, from->operands, from->operand_count,
+                                       &data));
   CS_TRY(cs_primitive_data_wrap(context, data, CELSPAN_OK, &plain));
   celspan_status status = cs_primitive_data_replace(context, object, plain->data, out);
   celspan_object_unref(plain);
@@ -111,7 +113,8 @@ static cs_boolean traits_of(const cs_boolean *from) {
                       .grade = from->grade,
                       .isolates = from->isolates,
                       .is_luma = from->is_luma,
-                      .inverts = from->inverts};
+                      .inverts = from->inverts,
+                      .is_filled = from->is_filled};
 }
 
 celspan_status cs_boolean_like(celspan_context *context, const cs_boolean *like,
@@ -119,7 +122,7 @@ celspan_status cs_boolean_like(celspan_context *context, const cs_boolean *like,
                                celspan_object **out) {
   const cs_boolean look = traits_of(like);
   cs_primitive_data *data;
-  CS_TRY(create(context, "boolean", &look, operands, count, &data));
+  CS_TRY(cs_primitive_data_of_operands(context, "boolean", &look, operands, count, &data));
   return cs_primitive_data_wrap(context, data, CELSPAN_OK, out);
 }
 
@@ -142,7 +145,7 @@ static celspan_status set_mode(celspan_context *context, celspan_object *object,
   }
   const cs_boolean look = {.op = CELSPAN_UNION, .blend = mode, .isolates = true};
   cs_primitive_data *data;
-  CS_TRY(create(context, "blend", &look, &object, 1, &data));
+  CS_TRY(cs_primitive_data_of_operands(context, "blend", &look, &object, 1, &data));
   CS_TRY(cs_primitive_data_wrap(context, data, CELSPAN_OK, out));
   cs_mark_drop((*out)->mark);
   (*out)->mark = cs_mark_keep(object->mark);
@@ -184,7 +187,7 @@ celspan_status cs_object_in_space(celspan_context *context, celspan_object *obje
     look.space = space;
     return change(context, "group", object, &look, out);
   }
-  CS_TRY(create(context, "group", &alone, &object, 1, &data));
+  CS_TRY(cs_primitive_data_of_operands(context, "group", &alone, &object, 1, &data));
   CS_TRY(cs_primitive_data_wrap(context, data, CELSPAN_OK, out));
   cs_mark_drop((*out)->mark);
   (*out)->mark = cs_mark_keep(object->mark);
@@ -205,6 +208,6 @@ celspan_status celspan_object_create_matte(celspan_context *context, celspan_obj
                            .is_luma = from == CELSPAN_MATTE_LUMA,
                            .inverts = invert};
   cs_primitive_data *data;
-  CS_TRY(create(context, "matte", &look, both, 2, &data));
+  CS_TRY(cs_primitive_data_of_operands(context, "matte", &look, both, 2, &data));
   return cs_primitive_data_wrap(context, data, CELSPAN_OK, out);
 }

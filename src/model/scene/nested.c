@@ -39,10 +39,10 @@ static celspan_status measure(celspan_context *context, cs_primitive_data *data)
   return cs_primitive_data_deepen(context, "rostrum", data);
 }
 
-static celspan_status fill(celspan_context *context, cs_primitive_data *data,
-                           celspan_rostrum *rostrum) {
+celspan_status cs_primitive_data_fill_rostrum(celspan_context *context, cs_primitive_data *data,
+                                              celspan_rostrum *rostrum, const celspan_box *frame) {
   data->rostrum = celspan_rostrum_ref(rostrum);
-  data->bounds = (celspan_box){0, 0, rostrum->width, rostrum->height};
+  data->bounds = *frame;
   CS_TRY(cs_primitive_data_set_box(context, data, &data->bounds));
   return measure(context, data);
 }
@@ -50,9 +50,11 @@ static celspan_status fill(celspan_context *context, cs_primitive_data *data,
 celspan_status celspan_object_create_rostrum(celspan_context *context, celspan_rostrum *rostrum,
                                              celspan_object **out) {
   CS_TRY(check(context, rostrum));
+  const celspan_box frame = {0, 0, rostrum->width, rostrum->height};
   cs_primitive_data *data;
   CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_ROSTRUM, NULL, &data));
-  CS_TRY(cs_primitive_data_wrap(context, data, fill(context, data, rostrum), out));
+  celspan_status status = cs_primitive_data_fill_rostrum(context, data, rostrum, &frame);
+  CS_TRY(cs_primitive_data_wrap(context, data, status, out));
   (*out)->mark = cs_mark_keep(rostrum->mark); /* which replaces a mark without a name */
   return CELSPAN_OK;
 }

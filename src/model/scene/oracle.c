@@ -252,6 +252,7 @@ celspan_status cs_oracle_texture(celspan_context *context, const celspan_texture
     *out = shade_gradient(texture, point, space);
     return CELSPAN_OK;
   case CS_TEXTURE_PICTURE:
+  case CS_TEXTURE_PATTERN: /* which is on no primitive */
     break;
   }
   return shade_picture(context, texture, bounds, point, space, out);

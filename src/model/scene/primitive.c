@@ -1,7 +1,41 @@
 /* The public constructors of primitives: they check the description and make the primitive data,
  * that is outline, bounds and texture. */
 #include "model/scene/check.h"
+#include "model/scene/pattern.h"
 #include "model/scene/primitive_data.h"
+
+/* ---------------------------------------------------------------- data with an outline */
+
+/* Finds the bounds of data that have an outline. */
+static void measure_outline(cs_primitive_data *data) {
+  const celspan_matrix identity = celspan_matrix_identity();
+  cs_outline_box room;
+  if (!cs_outline_bounds(cs_primitive_data_outline(data, &room), &identity, &data->bounds))
+    data->bounds = (celspan_box){0, 0, 0, 0};
+  data->is_empty = !(data->bounds.width > 0 && data->bounds.height > 0);
+  data->primitive_count = 1;
+}
+
+celspan_status cs_primitive_data_complete(celspan_context *context, cs_primitive_data *data,
+                                          cs_outline *outline, celspan_status status,
+                                          celspan_object **out) {
+  if (status == CELSPAN_OK)
+    status = cs_outline_pack(context, outline, &data->outline);
+  cs_outline_finish(outline, context->memory);
+  if (status == CELSPAN_OK)
+    measure_outline(data);
+  return cs_pattern_wrap(context, data, status, out);
+}
+
+celspan_status cs_primitive_data_complete_box(celspan_context *context, cs_primitive_data *data,
+                                              const celspan_box *box, celspan_object **out) {
+  celspan_status status = cs_primitive_data_set_box(context, data, box);
+  if (status == CELSPAN_OK)
+    measure_outline(data);
+  return cs_pattern_wrap(context, data, status, out);
+}
+
+/* ---------------------------------------------------------------- constructors */
 
 static celspan_status begin(celspan_context *context, const char *noun, celspan_rule rule,
                             celspan_texture *texture, cs_primitive_data **out) {

@@ -119,6 +119,7 @@ static void free_part(cs_primitive_data *data) {
     break;
   case CS_PRIMITIVE_DATA_ROSTRUM:
     celspan_rostrum_unref(data->rostrum);
+    cs_mem_free(data->memory, data->repeat, sizeof *data->repeat);
     break;
   case CS_PRIMITIVE_DATA_OUTLINE:
     break;
@@ -181,6 +182,10 @@ static cs_hash hash_primitive(const cs_primitive_data *data) {
     hash_procedure(&hash, data);
   if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM)
     cs_hash_hash(&hash, data->rostrum->hash);
+  if (data->repeat) {
+    cs_value_hash_box(&hash, &data->repeat->box);
+    cs_value_hash_matrix(&hash, &data->repeat->matrix);
+  }
   return cs_hash_end(hash);
 }
 
@@ -243,37 +248,21 @@ static celspan_status create_object(celspan_context *context, cs_primitive_data 
   return CELSPAN_OK;
 }
 
+celspan_status cs_primitive_data_object(celspan_context *context, cs_primitive_data *data,
+                                        celspan_object **out) {
+  data->hash =
+      data->kind == CS_PRIMITIVE_DATA_BOOLEAN ? hash_boolean(data->boolean) : hash_primitive(data);
+  return create_object(context, data, &identity, 1, cs_mark_now(context), out);
+}
+
 celspan_status cs_primitive_data_wrap(celspan_context *context, cs_primitive_data *data,
                                       celspan_status status, celspan_object **out) {
   if (status == CELSPAN_OK && data->texture)
     status = cs_texture_unroll(context, &data->texture, &data->bounds);
-  if (status == CELSPAN_OK) {
-    data->hash = data->kind == CS_PRIMITIVE_DATA_BOOLEAN ? hash_boolean(data->boolean)
-                                                         : hash_primitive(data);
-    status = create_object(context, data, &identity, 1, cs_mark_now(context), out);
-  }
+  if (status == CELSPAN_OK)
+    status = cs_primitive_data_object(context, data, out);
   cs_primitive_data_unref(data);
   return status;
-}
-
-/* Finds the bounds of data that have an outline. */
-static void measure_outline(cs_primitive_data *data) {
-  cs_outline_box room;
-  if (!cs_outline_bounds(cs_primitive_data_outline(data, &room), &identity, &data->bounds))
-    data->bounds = (celspan_box){0, 0, 0, 0};
-  data->is_empty = !(data->bounds.width > 0 && data->bounds.height > 0);
-  data->primitive_count = 1;
-}
-
-celspan_status cs_primitive_data_complete(celspan_context *context, cs_primitive_data *data,
-                                          cs_outline *outline, celspan_status status,
-                                          celspan_object **out) {
-  if (status == CELSPAN_OK)
-    status = cs_outline_pack(context, outline, &data->outline);
-  cs_outline_finish(outline, context->memory);
-  if (status == CELSPAN_OK)
-    measure_outline(data);
-  return cs_primitive_data_wrap(context, data, status, out);
 }
 
 celspan_status cs_primitive_data_set_box(celspan_context *context, cs_primitive_data *data,
@@ -291,14 +280,6 @@ celspan_status cs_primitive_data_set_box(celspan_context *context, cs_primitive_
     status = cs_outline_pack(context, &outline, &data->outline);
   cs_outline_finish(&outline, context->memory);
   return status;
-}
-
-celspan_status cs_primitive_data_complete_box(celspan_context *context, cs_primitive_data *data,
-                                              const celspan_box *box, celspan_object **out) {
-  celspan_status status = cs_primitive_data_set_box(context, data, box);
-  if (status == CELSPAN_OK)
-    measure_outline(data);
-  return cs_primitive_data_wrap(context, data, status, out);
 }
 
 celspan_status cs_primitive_data_check_placement(celspan_context *context,

@@ -20,6 +20,23 @@ CELSPAN_CHECKED celspan_status cs_primitive_data_create(celspan_context *context
                                                         cs_primitive_data **out);
 void cs_primitive_data_unref(cs_primitive_data *data);
 
+/* *out: a new object of data that have been filled, which it keeps. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_primitive_data_object(celspan_context *context,
+                                                        cs_primitive_data *data,
+                                                        celspan_object **out);
+/* *out: new data of a boolean with these operands, which are kept. look: what it is like. noun: for
+ * messages. Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_primitive_data_of_operands(celspan_context *context,
+                                                             const char *noun,
+                                                             const cs_boolean *look,
+                                                             celspan_object *const *operands,
+                                                             size_t count, cs_primitive_data **out);
+/* Fills data of a rostrum, which is kept. frame: in the data's units. Errors: NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_primitive_data_fill_rostrum(celspan_context *context,
+                                                              cs_primitive_data *data,
+                                                              celspan_rostrum *rostrum,
+                                                              const celspan_box *frame);
+
 /* Hashes data that have been filled and wraps them into a new object, which takes the caller's
  * reference. status: whether filling them has succeeded; if not, or on failure here, the reference
  * is dropped. Errors: `status`, NO_MEMORY. */

@@ -22,6 +22,7 @@
 #include "model/scene/check.h"
 #include "model/scene/inside.h"
 #include "model/scene/oracle.h"
+#include "model/scene/pattern.h"
 
 /* The point that is evaluated, and the film it belongs to: that of the call, or that of a rostrum
  * which is an object. */
@@ -218,6 +219,8 @@ static celspan_status see_data(const probe_call *probe, const cs_primitive_data 
     return see_list(probe, data->boolean->operands, count_shown(data->boolean), whole, front, out);
   if (!cs_inside_own_point(whole, probe->point, &own))
     return CELSPAN_OK;
+  if (data->repeat)
+    own = cs_pattern_fold(data->repeat, own);
   if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM)
     return see_nested(probe, data->rostrum, own, front, out);
   CS_TRY(cs_oracle_primitive(probe->context, data, own, probe->space, &is_there, &paint));

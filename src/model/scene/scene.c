@@ -64,6 +64,11 @@ celspan_status cs_light_make(celspan_context *context, const cs_light_desc *desc
     return CELSPAN_OK;
   }
   celspan_texture *texture;
+  if (shape->texture->kind == CS_TEXTURE_PATTERN)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "%s: %s is a pattern, which is no light; light the art with a picture or a "
+                   "gradient instead",
+                   desc->noun, desc->field);
   CS_TRY(cs_texture_create_light(context, shape->texture, &texture));
   celspan_status status = cs_texture_unroll(context, &texture, NULL);
   if (status != CELSPAN_OK) {

@@ -95,6 +95,7 @@ typedef struct cs_boolean {
   bool isolates;             /* modes inside do not act on its backdrop */
   bool is_luma;              /* MATTE: the strength is luma, not alpha */
   bool inverts;              /* MATTE: 1 less the strength */
+  bool is_filled;            /* CLIP: the plane of a pattern, and the primitive that it fills */
   cs_operands view;          /* keeps the operands */
   celspan_object **operands; /* those of the view */
   size_t operand_count;
@@ -110,6 +111,12 @@ typedef enum cs_mixing {
                        at each point */
   CS_MIXING_MIXED   /* paints may be mixed, as in a gradient */
 } cs_mixing;
+
+/* How a rostrum is repeated over the plane. INVARIANT: `matrix` is affine and not singular. */
+typedef struct cs_repeat {
+  celspan_box box; /* the place of the rostrum's frame that is repeated, in the pattern's units */
+  celspan_matrix matrix, inverse; /* from those units to the data's */
+} cs_repeat;
 
 /* The data of an object without its transform and fade: shared by all its transformed copies. A
  * scene may have a million of them, nearly all outlines: what other kinds have is behind a
@@ -143,6 +150,7 @@ typedef struct cs_primitive_data {
     celspan_scanline_desc *scanline; /* SCANLINE; owned */
     struct celspan_rostrum *rostrum; /* ROSTRUM; a reference */
   };
+  cs_repeat *repeat; /* ROSTRUM, whose frame is then the plane of a pattern; else NULL. Owned */
 } cs_primitive_data;
 
 /* The outline of data that have one, else NULL. room: where that of a box is made. */

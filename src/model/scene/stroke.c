@@ -1,5 +1,6 @@
 /* Strokes: the constructors, which check the description. */
 #include "model/scene/check.h"
+#include "model/scene/pattern.h"
 #include "model/scene/primitive_data.h"
 #include "model/stroke/outliner.h"
 
@@ -54,7 +55,7 @@ static celspan_status check_numbers(celspan_context *context, const celspan_stro
 }
 
 static celspan_status check_outline(celspan_context *context, const celspan_object *object) {
-  const cs_primitive_data *data = object->data;
+  const cs_primitive_data *data = cs_pattern_shape(object->data);
   if (data->kind == CS_PRIMITIVE_DATA_OUTLINE && !data->stroke)
     return CELSPAN_OK;
   const char *what = data->kind == CS_PRIMITIVE_DATA_OUTLINE    ? "a stroke"
@@ -103,9 +104,10 @@ static celspan_status create(celspan_context *context, const celspan_stroke_desc
     CS_TRY(check_points(context, desc));
   CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_OUTLINE, desc->texture, &data));
   cs_outline_box room;
-  const cs_outline *outline = outlined ? cs_primitive_data_outline(outlined->data, &room) : NULL;
+  const cs_outline *outline =
+      outlined ? cs_primitive_data_outline(cs_pattern_shape(outlined->data), &room) : NULL;
   celspan_status status = fill(context, data, desc, outline, NULL);
-  return cs_primitive_data_wrap(context, data, status, out);
+  return cs_pattern_wrap(context, data, status, out);
 }
 
 celspan_status cs_primitive_data_of_line(celspan_context *context, const cs_outline *line,
@@ -115,7 +117,7 @@ celspan_status cs_primitive_data_of_line(celspan_context *context, const cs_outl
   CS_TRY(check_numbers(context, desc));
   CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_OUTLINE, desc->texture, &data));
   celspan_status status = fill(context, data, desc, line, closed);
-  return cs_primitive_data_wrap(context, data, status, out);
+  return cs_pattern_wrap(context, data, status, out);
 }
 
 celspan_status celspan_object_create_stroke(celspan_context *context,

@@ -30,8 +30,8 @@ cs_texture_variation *cs_texture_own(celspan_texture *texture) {
   return &((varying *)texture)->variation;
 }
 
-static celspan_status create(celspan_context *context, cs_texture_kind kind,
-                             celspan_texture **out) {
+celspan_status cs_texture_create_kind(celspan_context *context, cs_texture_kind kind,
+                                      celspan_texture **out) {
   celspan_texture *texture = cs_mem_array(context->memory, 1, size_of(kind));
   if (!texture)
     return cs_fail_memory(context);
@@ -55,6 +55,11 @@ static void hash_picture(cs_hash *hash, const celspan_texture *texture) {
   cs_value_hash_box(hash, &texture->variation->box);
 }
 
+static void hash_pattern(cs_hash *hash, const cs_texture_variation *variation) {
+  cs_hash_hash(hash, variation->tile_hash);
+  cs_value_hash_box(hash, &variation->box);
+}
+
 static cs_hash hash_texture(const celspan_texture *texture) {
   const cs_texture_variation *variation = texture->variation;
   cs_hash hash = cs_hash_begin(CS_VALUE_TEXTURE);
@@ -76,6 +81,8 @@ static cs_hash hash_texture(const celspan_texture *texture) {
     cs_value_hash_matrix(&hash, &variation->matrix);
   if (texture->kind == CS_TEXTURE_PICTURE)
     hash_picture(&hash, texture);
+  if (texture->kind == CS_TEXTURE_PATTERN)
+    hash_pattern(&hash, variation);
   return cs_hash_end(hash);
 }
 
@@ -90,7 +97,7 @@ static celspan_status finish(celspan_texture *texture, celspan_texture **out) {
 static celspan_status create_flat(celspan_context *context, const cs_paint *paint,
                                   celspan_texture **out) {
   celspan_texture *texture;
-  CS_TRY(create(context, CS_TEXTURE_FLAT, &texture));
+  CS_TRY(cs_texture_create_kind(context, CS_TEXTURE_FLAT, &texture));
   texture->flat = *paint;
   return finish(texture, out);
 }
@@ -146,7 +153,7 @@ celspan_status celspan_texture_create_gradient(celspan_context *context,
   if (triangle_is_flat(points))
     return create_flat_straight(context, &paints[2], out);
   celspan_texture *texture;
-  CS_TRY(create(context, CS_TEXTURE_TRIANGLE, &texture));
+  CS_TRY(cs_texture_create_kind(context, CS_TEXTURE_TRIANGLE, &texture));
   for (int i = 0; i < 3; i++) {
     cs_texture_own(texture)->points[i] = points[i];
     cs_texture_own(texture)->corners[i] = cs_paint_from_straight(&paints[i]);
@@ -180,7 +187,7 @@ static celspan_status create_stops(celspan_context *context, cs_texture_kind kin
   if (is_degenerate || count == 1)
     return create_flat_straight(context, &stops[count - 1].paint, out);
   celspan_texture *texture;
-  CS_TRY(create(context, kind, &texture));
+  CS_TRY(cs_texture_create_kind(context, kind, &texture));
   cs_texture_variation *variation = cs_texture_own(texture);
   variation->stops = cs_mem_array(context->memory, count, sizeof *variation->stops);
   if (!variation->stops) {
@@ -271,7 +278,7 @@ celspan_status celspan_texture_create_picture(celspan_context *context,
   bool is_degenerate = desc->has_box && !(desc->box.width > 0 && desc->box.height > 0);
   celspan_texture *texture;
   status = is_degenerate ? create_flat(context, &clear, &texture)
-                         : create(context, CS_TEXTURE_PICTURE, &texture);
+                         : cs_texture_create_kind(context, CS_TEXTURE_PICTURE, &texture);
   if (status != CELSPAN_OK || is_degenerate)
     cs_picture_unref(picture);
   CS_TRY(status);
@@ -362,7 +369,7 @@ celspan_status cs_texture_create_light(celspan_context *context, celspan_texture
     *out = celspan_texture_ref(texture);
     return CELSPAN_OK;
   }
-  CS_TRY(create(context, texture->kind, &light));
+  CS_TRY(cs_texture_create_kind(context, texture->kind, &light));
   light->flat = light_paint(&texture->flat);
   if (light->kind != CS_TEXTURE_FLAT &&
       fill_light(context, texture->variation, cs_texture_own(light)) != CELSPAN_OK) {
@@ -428,14 +435,17 @@ static void copy_variation(const cs_texture_variation *from, cs_stop *stops, siz
     cs_picture_ref(to->medium);
   if (to->origin)
     celspan_texture_ref(to->origin);
+  if (to->calls)
+    (void)to->calls->keep(to->tile);
 }
 
 celspan_status cs_texture_copy(celspan_context *context, const celspan_texture *texture,
                                size_t stop_count, cs_mark mark, celspan_texture **out) {
   celspan_texture *copy = NULL;
   cs_stop *stops = cs_mem_array(context->memory, stop_count, sizeof *stops);
-  celspan_status status =
-      !stops && stop_count > 0 ? cs_fail_memory(context) : create(context, texture->kind, &copy);
+  celspan_status status = !stops && stop_count > 0
+                              ? cs_fail_memory(context)
+                              : cs_texture_create_kind(context, texture->kind, &copy);
   if (status != CELSPAN_OK) {
     cs_mem_free(context->memory, stops, stop_count * sizeof *stops);
     cs_mark_drop(mark);
@@ -500,6 +510,8 @@ void celspan_texture_unref(celspan_texture *texture) {
   if (variation->medium)
     cs_picture_unref(variation->medium);
   celspan_texture_unref(variation->origin);
+  if (variation->calls)
+    variation->calls->release(variation->tile);
   cs_mark_drop(texture->mark);
   cs_mem_free(memory, texture, size_of(texture->kind));
   cs_memory_unref(memory);

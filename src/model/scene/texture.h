@@ -6,6 +6,8 @@
  *
  *   FLAT        [ texture ]                      most textures of most scenes: they are kept small
  *   all others  [ texture | its variation ]      one allocation
+ *
+ * A PATTERN is on no primitive: one that is given it becomes a boolean (pattern.h).
  */
 #pragma once
 
@@ -19,13 +21,20 @@ typedef enum cs_texture_kind {
   CS_TEXTURE_TRIANGLE,
   CS_TEXTURE_LINEAR,
   CS_TEXTURE_RADIAL,
-  CS_TEXTURE_PICTURE
+  CS_TEXTURE_PICTURE,
+  CS_TEXTURE_PATTERN
 } cs_texture_kind;
 
 typedef struct cs_stop {
   double at;
   cs_paint paint;
 } cs_stop;
+
+/* How a tile is kept and released. */
+typedef struct cs_texture_tile_calls {
+  celspan_rostrum *(*keep)(celspan_rostrum *tile);
+  void (*release)(celspan_rostrum *tile);
+} cs_texture_tile_calls;
 
 /* What textures have that vary from point to point. */
 typedef struct cs_texture_variation {
@@ -45,7 +54,10 @@ typedef struct cs_texture_variation {
   celspan_picture_use use;
   celspan_wrap wrap;
   bool has_box;
-  celspan_box box; /* where has_box; else the primitive's tight bounds */
+  celspan_box box; /* where has_box; else the primitive's tight bounds. PATTERN: what is repeated */
+  celspan_rostrum *tile; /* PATTERN: one box of it; a reference */
+  cs_hash tile_hash;
+  const cs_texture_tile_calls *calls; /* of the tile; NULL: there is none */
 } cs_texture_variation;
 
 struct celspan_texture {
@@ -59,6 +71,10 @@ struct celspan_texture {
       *variation; /* its own; FLAT: one of nothing but zeros, which all share */
 };
 
+/* A texture of a kind, of which nothing is known yet: to be filled, and hashed again. *out: new.
+ * Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_texture_create_kind(celspan_context *context,
+                                                      cs_texture_kind kind, celspan_texture **out);
 /* *out: `texture` with a reference more, or new opaque black when it is NULL. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_texture_or_black(celspan_context *context,
                                                    celspan_texture *texture, celspan_texture **out);

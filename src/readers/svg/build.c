@@ -411,6 +411,23 @@ static celspan_status add_element(builder *b, const cs_svg_node *node, cs_svg_pl
   return CELSPAN_OK;
 }
 
+/* ---------------------------------------------------------------- contents that are drawn alone */
+
+static celspan_status draw_inside(cs_svg_reading *reading, const cs_svg_node *node,
+                                  const cs_svg_place *place, celspan_object **out) {
+  builder *b = reading->builder;
+  cs_svg_item *item;
+  *out = NULL;
+  CS_TRY(cs_svg_item_append(reading->context, b->art, NULL, &item));
+  celspan_status status = add_children(b, node, place, item);
+  if (status == CELSPAN_OK)
+    status = cs_svg_item_compose(reading->context, item);
+  if (status == CELSPAN_OK && item->object)
+    *out = celspan_object_ref(item->object);
+  cs_svg_item_drop(item);
+  return status;
+}
+
 /* ---------------------------------------------------------------- the whole */
 
 /* The size of the outermost element; per cents and none are of its view box. */
@@ -454,6 +471,8 @@ celspan_status cs_svg_build(cs_svg_reading *reading, celspan_svg *art) {
   const char *value = cs_svg_node_value(node, CS_SVG_VIEW_BOX);
   cs_svg_place place;
   const cs_svg_open open = {node, NULL};
+  reading->draw_inside = draw_inside;
+  reading->builder = &b;
   CS_TRY(cs_svg_geometry_apply(reading->context, reading->document, &reading->tests));
   if (value)
     (void)cs_svg_parse_view_box(value, &box);

@@ -17,7 +17,7 @@ static celspan_status place_outline(cs_svg_reading *reading, cs_outline *outline
                                     const cs_svg_place *place, const cs_svg_server *server,
                                     celspan_object **out) {
   celspan_matrix matrix = place->matrix, inverse;
-  if (server->kind == CS_SVG_SERVER_GRADIENT) {
+  if (server->kind == CS_SVG_SERVER_TEXTURE) {
     matrix = celspan_matrix_then(server->matrix, place->matrix);
     if (!celspan_matrix_inverse(server->matrix, &inverse) || !cs_svg_outline_map(outline, &inverse))
       return CELSPAN_OK;
@@ -38,8 +38,9 @@ static celspan_status fill(cs_svg_reading *reading, const cs_svg_node *node,
                            const cs_svg_place *place, cs_outline *outline, const celspan_box *box,
                            celspan_object **out) {
   const celspan_matrix identity = celspan_matrix_identity();
-  cs_svg_painted shape = {node,     &place->measure,           {.x = 0},
-                          {.x = 0}, place->style.fill_opacity, &place->matrix};
+  cs_svg_painted shape = {node,       &place->measure,           {.x = 0},
+                          {.x = 0},   place->style.fill_opacity, &place->matrix,
+                          place->open};
   cs_svg_server server;
   if (outline->piece_count == 0 ||
       (place->style.fill.has_server && !cs_outline_bounds(outline, &identity, &shape.box)))

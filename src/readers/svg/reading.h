@@ -4,6 +4,8 @@
  *   document --build.c--> items --art.c--> scene values
  *                 |
  *                 +-- shapes.c outlines   servers.c gradients   clips.c clip paths
+ *                 |
+ *                 +-- patterns.c, whose contents come back to build.c
  */
 #pragma once
 
@@ -45,6 +47,8 @@ typedef struct cs_svg_kept_images {
   size_t count, capacity;
 } cs_svg_kept_images;
 
+struct cs_svg_place; /* below */
+
 typedef struct cs_svg_reading {
   celspan_context *context;
   cs_svg_document *document;
@@ -53,6 +57,11 @@ typedef struct cs_svg_reading {
    * INPUT, LIMIT, NO_MEMORY. */
   celspan_status (*read_inner)(struct cs_svg_reading *outer, const cs_svg_source *source,
                                const char *bytes, size_t size, celspan_svg **out);
+  /* Draws the contents of an element alone. *out: new, in the units that `place` has; NULL: nothing
+   * is drawn. Errors: NO_MEMORY, LIMIT, INPUT. */
+  celspan_status (*draw_inside)(struct cs_svg_reading *reading, const cs_svg_node *node,
+                                const struct cs_svg_place *place, celspan_object **out);
+  void *builder; /* for it */
   /* Colours stay as they are coded: for comparisons with other renderers, and in masks, unless the
    * drawing is in codes anyway. */
   bool is_coded;

@@ -5,6 +5,7 @@
 #include "base/number.h"
 #include "model/colour/space.h"
 #include "model/colour/transfer.h"
+#include "readers/svg/patterns.h"
 #include "readers/svg/shapes.h"
 #include "readers/svg/transforms.h"
 
@@ -383,7 +384,7 @@ static celspan_status make_texture(gradient *g, cs_svg_server *out) {
                                             g->stops.items, g->stops.count, &out->texture)
              : celspan_texture_create_linear(g->reading->context, g->from, g->to, g->stops.items,
                                              g->stops.count, &out->texture));
-  out->kind = CS_SVG_SERVER_GRADIENT;
+  out->kind = CS_SVG_SERVER_TEXTURE;
   return CELSPAN_OK;
 }
 
@@ -456,7 +457,7 @@ static celspan_status find_in_context(cs_svg_reading *reading, const cs_svg_pain
   other.painted = cs_svg_box_mapped(&shape->painted, &there);
   other.matrix = &context->matrix;
   CS_TRY(cs_svg_server_find(reading, &own, style, &other, out));
-  if (out->kind == CS_SVG_SERVER_GRADIENT)
+  if (out->kind == CS_SVG_SERVER_TEXTURE)
     out->matrix = celspan_matrix_then(celspan_matrix_then(out->matrix, context->matrix), to);
   return CELSPAN_OK;
 }
@@ -466,16 +467,16 @@ celspan_status cs_svg_server_find(cs_svg_reading *reading, const cs_svg_paint *p
                                   cs_svg_server *out) {
   *out = (cs_svg_server){.matrix = celspan_matrix_identity()};
   const cs_svg_node *node = paint->has_server ? cs_svg_referred(reading, paint->server) : NULL;
-  if (node && is_gradient(node) && paint->context)
+  bool is_pattern = node && node->element == CS_SVG_ELEMENT_PATTERN;
+  if (node && (is_gradient(node) || is_pattern) && paint->context)
     return find_in_context(reading, paint, style, shape, out);
-  if (node && is_gradient(node)) {
+  if (node && (is_gradient(node) || is_pattern)) {
     bool is_without_box;
-    CS_TRY(make_gradient(reading, node, shape, &is_without_box, out));
+    CS_TRY(is_pattern ? cs_svg_pattern_make(reading, node, shape, &is_without_box, out)
+                      : make_gradient(reading, node, shape, &is_without_box, out));
     return is_without_box && paint->has_fallback
                ? plain_paint(reading, paint, style, shape->opacity, out)
                : CELSPAN_OK;
   }
-  if (node && node->element == CS_SVG_ELEMENT_PATTERN)
-    CS_TRY(cs_svg_skip(reading, shape->node, "pattern of %s", shape->node->tag));
   return plain_paint(reading, paint, style, shape->opacity, out);
 }

@@ -1,4 +1,4 @@
-/* Gradients: from an element of the file to a texture for one shape.
+/* Gradients and patterns: from an element of the file to a texture for one shape.
  *
  *      gradient's own units --gradientTransform--> --objectBoundingBox--> user units of the shape
  *
@@ -9,31 +9,9 @@
  */
 #pragma once
 
-#include "readers/svg/reading.h"
+#include "readers/svg/painted.h"
 
 #define CS_SVG_STOPS 4096 /* of one texture */
-
-typedef enum cs_svg_server_kind {
-  CS_SVG_SERVER_NOTHING, /* nothing is painted */
-  CS_SVG_SERVER_FLAT,    /* one paint; the matrix is the identity */
-  CS_SVG_SERVER_GRADIENT
-} cs_svg_server_kind;
-
-typedef struct cs_svg_server {
-  cs_svg_server_kind kind;
-  celspan_texture *texture; /* new; NULL with NOTHING */
-  celspan_matrix matrix;    /* the texture's units to the shape's; not singular */
-} cs_svg_server;
-
-/* The shape that is painted. */
-typedef struct cs_svg_painted {
-  const cs_svg_node *node;
-  const cs_svg_measure *measure;
-  celspan_box box;     /* of its outline, in its user units */
-  celspan_box painted; /* around all of it that is painted, in the same */
-  double opacity;
-  const celspan_matrix *matrix; /* the same units to the drawing's */
-} cs_svg_painted;
 
 /* What a shape is painted with, by its property fill or stroke. Errors: NO_MEMORY, LIMIT, INPUT. */
 CELSPAN_CHECKED celspan_status cs_svg_server_find(cs_svg_reading *reading,

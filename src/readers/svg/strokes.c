@@ -151,8 +151,9 @@ static celspan_status clip_cover(stroking *p, const cs_svg_server *server, celsp
 static celspan_status paint_by_server(stroking *p, const celspan_box *outline_box,
                                       celspan_object **out) {
   const cs_svg_style *style = &p->place->style;
-  cs_svg_painted shape = {p->node,  &p->place->measure,    *outline_box,
-                          {.x = 0}, style->stroke_opacity, &p->place->matrix};
+  cs_svg_painted shape = {p->node,       &p->place->measure,    *outline_box,
+                          {.x = 0},      style->stroke_opacity, &p->place->matrix,
+                          p->place->open};
   cs_svg_server server;
   celspan_object *stroke;
   celspan_matrix inverse;
@@ -165,7 +166,7 @@ static celspan_status paint_by_server(stroking *p, const celspan_box *outline_bo
     status = cs_svg_server_find(p->reading, &style->stroke, style, &shape, &server);
     if (status == CELSPAN_OK && server.kind == CS_SVG_SERVER_FLAT)
       status = make_stroke(p, server.texture, out);
-    else if (status == CELSPAN_OK && server.kind == CS_SVG_SERVER_GRADIENT)
+    else if (status == CELSPAN_OK && server.kind == CS_SVG_SERVER_TEXTURE)
       status = clip_cover(p, &server, stroke, &box, out);
     celspan_texture_unref(server.texture);
   }
@@ -175,8 +176,9 @@ static celspan_status paint_by_server(stroking *p, const celspan_box *outline_bo
 
 static celspan_status paint_flat(stroking *p, celspan_object **out) {
   const cs_svg_style *style = &p->place->style;
-  const cs_svg_painted shape = {p->node,  &p->place->measure,    {.x = 0},
-                                {.x = 0}, style->stroke_opacity, &p->place->matrix};
+  const cs_svg_painted shape = {p->node,       &p->place->measure,    {.x = 0},
+                                {.x = 0},      style->stroke_opacity, &p->place->matrix,
+                                p->place->open};
   cs_svg_server server;
   CS_TRY(cs_svg_server_find(p->reading, &style->stroke, style, &shape, &server));
   celspan_status status =

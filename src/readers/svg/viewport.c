@@ -2,18 +2,20 @@
 
 #include "readers/svg/shapes.h"
 
-/* Moves *place into a viewport at (0, 0) of this size that shows `node`'s view box; what it shows.
- */
-static celspan_box fit(const cs_svg_node *node, double width, double height, cs_svg_place *place) {
+celspan_box cs_svg_viewport_fit(const char *view_box, const char *aspect, double width,
+                                double height, cs_svg_place *place) {
   cs_svg_view_box box = {.is_given = false};
-  const char *value = cs_svg_node_value(node, CS_SVG_VIEW_BOX);
-  if (value && cs_svg_parse_view_box(value, &box)) {
-    const char *aspect = cs_svg_node_value(node, CS_SVG_PRESERVE_ASPECT_RATIO);
+  if (view_box && cs_svg_parse_view_box(view_box, &box))
     place->matrix = celspan_matrix_then(cs_svg_fit(&box, width, height, aspect), place->matrix);
-  }
   place->measure.width = box.is_given ? box.width : width;
   place->measure.height = box.is_given ? box.height : height;
   return (celspan_box){box.x, box.y, place->measure.width, place->measure.height};
+}
+
+static celspan_box fit(const cs_svg_node *node, double width, double height, cs_svg_place *place) {
+  return cs_svg_viewport_fit(cs_svg_node_value(node, CS_SVG_VIEW_BOX),
+                             cs_svg_node_value(node, CS_SVG_PRESERVE_ASPECT_RATIO), width, height,
+                             place);
 }
 
 static celspan_status read_viewport(celspan_context *context, const cs_svg_node *node,
