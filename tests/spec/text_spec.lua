@@ -433,6 +433,8 @@ describe("bad text is refused:", function()
     { "a lone return", { "a\rb" }, "control character U+000D at byte 2" },
     { "a character that is nowhere", { "Aж" },
       'block.ttf has no glyph for "ж" (U+0436) at byte 2' },
+    { "one that is in none of two fonts", { "Aж", font = { FONT, FONT } },
+      'none of the fonts has a glyph for "ж" (U+0436) at byte 2' },
     { "a million characters", { ("a"):rep(1000000) }, "more than 100000 characters" },
     { "a size below 0", { "a", size = -1 }, "size is -1; it must be 0 or more" },
     { "a size that is no number", { "a", size = 0 / 0 }, "size" },

@@ -89,8 +89,8 @@ static celspan_status fail_missing(const part *p) {
   uint32_t character = layout->characters[at];
   bool is_one = layout->font_count == 1;
   return cs_fail(layout->context, CELSPAN_BAD_ARGUMENT,
-                 "%s: %s has no glyph for \"%s\" (U+%04X) at byte %u%s", layout->noun,
-                 is_one ? layout->desc->fonts[0].file : "none of the fonts",
+                 "%s: %s has %s glyph for \"%s\" (U+%04X) at byte %u%s", layout->noun,
+                 is_one ? layout->desc->fonts[0].file : "none of the fonts", is_one ? "no" : "a",
                  cs_utf8_encode(character).text, character, layout->places[at] + 1,
                  is_one ? "; name another font after it, { file, other }" : "");
 }

@@ -91,6 +91,7 @@ static celspan_status check(celspan_context *context, const char *noun,
 
 static celspan_status acquire_fonts(cs_layout *layout) {
   const celspan_text_desc *desc = layout->desc;
+  bool is_one = desc->font_count == 1;
   uint64_t known = 0;
   for (size_t i = 0; i < desc->font_count; i++) {
     CS_TRY(cs_font_acquire(layout->context, desc, i, &layout->fonts[i]));
@@ -99,10 +100,9 @@ static celspan_status acquire_fonts(cs_layout *layout) {
   }
   for (size_t i = 0; i < desc->variation_count; i++)
     if (!(known >> i & 1))
-      return cs_fail(layout->context, CELSPAN_BAD_ARGUMENT, "%s: %s has no axis \"%s\"",
-                     layout->noun,
-                     desc->font_count == 1 ? desc->fonts[0].file : "none of the fonts",
-                     desc->variations[i].tag);
+      return cs_fail(layout->context, CELSPAN_BAD_ARGUMENT, "%s: %s has %s axis \"%s\"",
+                     layout->noun, is_one ? desc->fonts[0].file : "none of the fonts",
+                     is_one ? "no" : "an", desc->variations[i].tag);
   return CELSPAN_OK;
 }
 
