@@ -50,7 +50,8 @@ end
 
 --- A random object in one colour each, alone, as it is and bent; nil where it cannot be bent.
 local function make(case, there)
-  local text, traits = scenes.object(case, { is_flat = true, is_plain = true, has_rows = false })
+  local text, traits = scenes.object(case, { is_flat = true, is_plain = true, has_rows = false,
+                                             has_patterns = false })
   local object = scenes.value(text)
   local good, bent = pcall(function() return object:warp { map = there } end)
   if not good then

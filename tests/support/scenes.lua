@@ -166,7 +166,7 @@ end
 --- their own series, so that those of all else stay what they are without patterns.
 function maker:filling()
   local texture, own = self:texture(), self.fillings
-  if not self.has_modes or not own:once(16) then return texture end
+  if not self.has_modes or not own:once(16) or not self.has_patterns then return texture end
   local function number(low, high) return text_of(own:between(low, high)) end
   local art = {}
   for i = 1, own:whole(1, 2) do
@@ -466,7 +466,8 @@ function maker:develop(fields, has_space)
   if has_space and self.modes:once(3) then
     fields[#fields + 1] = ("space = %q"):format(self.modes:pick { "linear", "srgb", "srgb" })
   end
-  if self.modes:once(6) then fields[#fields + 1] = self:grade() end
+  local grade = self.modes:once(6) and self:grade()
+  if self.has_grades then fields[#fields + 1] = grade or nil end
 end
 
 --- The object in a group, with a mode or with a matte.
@@ -633,6 +634,7 @@ local function start(seed, options)
     fillings = prng.new(seed ~ 0x7061747465726e),
     has_modes = options.has_modes ~= false and seed % 2 == 0,
     has_spaces = options.has_modes ~= false and seed % 4 == 0,
+    has_grades = options.has_grades ~= false, has_patterns = options.has_patterns ~= false,
     most = random:pick { 1, 1, 3 }, depth = random:pick { 0, 1, 2, 4 },
   }, maker)
 end
@@ -640,9 +642,9 @@ end
 --- Half of all scenes have only straight edges; a quarter are upright, with scan-line primitives.
 -- options: is_flat (no gradients or pictures), is_single (one exposure), has_rows = false (no
 -- scan-lines), has_pictures = false, has_text (every second primitive is text), is_plain (no
--- lights with a shape, no compositions inside others), has_modes = false. Half of the scenes have
--- modes, groups and mattes; half of these have spaces and grades, too. The outermost space is that
--- of light.
+-- lights with a shape, no compositions inside others), has_modes = false, has_grades = false,
+-- has_patterns = false. Half of the scenes have modes, groups and mattes; half of these have spaces
+-- and grades, too. The outermost space is that of light.
 function scenes.script(seed, options)
   local self = start(seed, options or {})
   local exposures = self:exposures()

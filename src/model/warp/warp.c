@@ -109,7 +109,8 @@ static celspan_status bend_primitive(const cs_warp_map *map, const cs_primitive_
                    "warp: %s cannot be bent; bend the objects that it is made of",
                    data->kind == CS_PRIMITIVE_DATA_SCANLINE
                        ? "a scan-line procedure"
-                       : "a rostrum, or what is blurred, has a soft shadow or a glow,");
+                       : "a rostrum, or what is blurred, has a soft shadow or a glow, or is "
+                         "filled with a pattern,");
   if (!data->is_empty)
     CS_TRY(find_box(map, data, matrix, &is_there, &box));
   if (is_there && box.width > 0 && box.height > 0)
