@@ -22,7 +22,11 @@
 
 #define MESSAGE_MOST ((size_t)1 << 30)
 
-enum { HEAD = 4, PIECE = 65536 };
+enum {
+  HEAD = 4,
+  PIECE = 65536,
+  ANSWER = 1 << 20 /* bytes of an answer that a renderer writes without waiting */
+};
 
 typedef struct renderer {
   celspan_context *context;
@@ -176,6 +180,7 @@ static int open_pipes(renderer *r, int files[3]) {
       continue;
     error = cs_spawn_pipe(ends);
     *mine[i] = ends[0];
+    (void)fcntl(ends[0], F_SETPIPE_SZ, ANSWER); /* the usual size serves, too */
     files[i + 1] = ends[1];
     if (!error && fcntl(ends[0], F_SETFL, O_NONBLOCK) != 0)
       error = errno;

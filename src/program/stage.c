@@ -11,11 +11,12 @@
 #include "output/png/strips.h"
 #include "output/sinks/pixels.h"
 #include "output/sinks/sink.h"
+#include "program/runs.h"
 #include "program/service.h"
 
 #define PIXELS_MOST (1 << 25) /* of a picture in memory */
 
-enum { CODES, PNG, KINDS }; /* what a picture shows */
+enum { CODES, PNG, KINDS, RUNS }; /* what a picture shows, and how */
 
 static const celspan_coding coding = {
     .depth = CELSPAN_DEPTH_8, .transfer = CELSPAN_TRANSFER_SRGB, .alpha = CELSPAN_ALPHA_STRAIGHT};
@@ -163,6 +164,19 @@ static celspan_status reserve_rows(picture *p, const celspan_frame_desc *desc) {
   return CS_RESERVE(p->context, p->bytes, p->capacity, p->size);
 }
 
+/* Packs the rows that were rendered. */
+static celspan_status pack(picture *p) {
+  size_t count = p->size / sizeof(uint32_t), capacity = 0;
+  uint32_t *words = NULL;
+  CS_TRY(CS_RESERVE(p->context, words, capacity, cs_runs_words(count)));
+  size_t used = cs_runs_pack((const uint32_t *)p->bytes, count, p->stride / sizeof *words, words);
+  cs_mem_free(p->context->memory, p->bytes, p->capacity);
+  p->bytes = (unsigned char *)words;
+  p->size = used * sizeof *words;
+  p->capacity = capacity * sizeof *words;
+  return CELSPAN_OK;
+}
+
 static celspan_status render(picture *p, const celspan_frame_desc *desc, int kind) {
   p->coding = coding;
   p->coding.space = desc->space;
@@ -172,16 +186,17 @@ static celspan_status render(picture *p, const celspan_frame_desc *desc, int kin
     CS_TRY(reserve_rows(p, desc));
   if (kind == KINDS)
     sink = (celspan_sink){.user = p, .row = put_kinds_row};
-  if (kind == CODES)
+  if (kind == CODES || kind == RUNS)
     CS_TRY(cs_sink_memory(p->context, &p->coding, p->bytes, p->stride, &sink));
-  return celspan_frame_render(p->context, desc, &sink, NULL);
+  CS_TRY(celspan_frame_render(p->context, desc, &sink, NULL));
+  return kind == RUNS ? pack(p) : CELSPAN_OK;
 }
 
 /* film:picture(width, height, x, y, w, h, what) -> the part of the frame that was built last, of
- * the frame at that size, 8 bits, sRGB, straight alpha, as "rgba" or as a "png"; "spans": as RGBA,
- * the kinds of its spans | nil, message */
+ * the frame at that size, 8 bits, sRGB, straight alpha, as "rgba", as a "png", or as "runs"
+ * (runs.h); "spans": as RGBA, the kinds of its spans | nil, message */
 int cs_stage_picture(lua_State *L, cs_script *script) {
-  static const char *const kinds[] = {"rgba", "png", "spans", NULL};
+  static const char *const kinds[] = {"rgba", "png", "spans", "runs", NULL};
   celspan_frame_desc desc;
   int kind = luaL_checkoption(L, 8, NULL, kinds);
   if (!cs_stage_frame(L, script, &desc))

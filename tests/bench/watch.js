@@ -7,7 +7,6 @@ const TICK = 10; // milliseconds of the kernel's clock for processes
 
 await page.call("Emulation.setDeviceMetricsOverride",
   { width: 1312, height: 900, deviceScaleFactor: 1, mobile: false });
-await page.call("Performance.enable");
 await page.until(`document.querySelector("#stage").dataset.size === "1280x720"`);
 
 /** Says on standard error what is measured next. */
@@ -52,29 +51,30 @@ async function save(i) {
   return await painted - began;
 }
 
-/** The time of the processors that the server and its renderers have used, in milliseconds. */
-function serverTime() {
-  let all = 0;
+/** The time of the processors that a process and all that it has started have used, in
+ * milliseconds. */
+function timeOf(root) {
+  const parents = new Map(), times = new Map();
   for (const id of readdirSync("/proc").filter(name => /^\d+$/.test(name))) {
     try {
       const fields = readFileSync(`/proc/${id}/stat`, "utf8").replace(/^.*\) /, "").split(" ");
-      const isOurs = id === SERVER || fields[1] === SERVER;
-      if (isOurs) all += (Number(fields[11]) + Number(fields[12])) * TICK;
+      parents.set(id, fields[1]);
+      times.set(id, (Number(fields[11]) + Number(fields[12])) * TICK);
     } catch { /* it has ended */ }
   }
-  return all;
+  const isUnder = id => id === root || parents.has(id) && isUnder(parents.get(id));
+  return [...times].reduce((all, [id, time]) => all + (isUnder(id) ? time : 0), 0);
 }
 
-async function pageTime() {
-  const { metrics } = await page.call("Performance.getMetrics");
-  return metrics.find(one => one.name === "TaskDuration").value * 1000;
-}
+const serverTime = () => timeOf(SERVER);
+const pageTime = () => timeOf(String(process.pid)); // with the browser and what draws for it
 
-/** What `count` frames cost that come as PNG or as rows of RGBA, each painted. */
+/** What `count` frames cost that come as PNG, as rows of RGBA or as runs, each painted. */
 async function travel(ending, count) {
-  const server = serverTime(), own = await pageTime(), began = Date.now();
+  const server = serverTime(), own = pageTime(), began = Date.now();
   const bytes = await page.get(`(async () => {
     const canvas = document.createElement("canvas"), pen = canvas.getContext("2d");
+    const { unpack } = await import("/runs.js");
     let all = 0;
     canvas.width = 1280;
     canvas.height = 720;
@@ -83,13 +83,14 @@ async function travel(ending, count) {
       const bytes = await answer.arrayBuffer();
       all += bytes.byteLength;
       if ("${ending}" === "png") pen.drawImage(await createImageBitmap(new Blob([bytes])), 0, 0);
-      else pen.putImageData(new ImageData(new Uint8ClampedArray(bytes), 1280, 720), 0, 0);
+      else pen.putImageData(new ImageData("${ending}" === "runs" ? unpack(bytes, 1280, 720)
+        : new Uint8ClampedArray(bytes), 1280, 720), 0, 0);
     }
     pen.getImageData(0, 0, 1, 1);
     return all;
   })()`);
   const each = value => Math.round(value / count * 10) / 10;
-  return { server_cpu_ms: each(serverTime() - server), page_cpu_ms: each(await pageTime() - own),
+  return { server_cpu_ms: each(serverTime() - server), page_cpu_ms: each(pageTime() - own),
            wall_ms: each(Date.now() - began), kib: Math.round(bytes / count / 1024) };
 }
 
@@ -120,10 +121,11 @@ await page.until(`document.querySelector("#stage").dataset.size === "1280x720"`)
 begin("pictures that travel");
 said.png = await travel("png", 48);
 said.rgba = await travel("rgba", 48);
+said.runs = await travel("runs", 48);
 await page.get(`document.querySelector("#scrub").value = 1`);
 await page.press("Home");
 begin("playing");
-const server = serverTime(), own = await pageTime();
+const server = serverTime(), own = pageTime();
 await page.get(`(() => { window.seen = new Set();
   new MutationObserver(() => seen.add(document.querySelector("#stage").dataset.frame))
     .observe(document.querySelector("#stage"), { attributes: true }); })()`);
@@ -132,5 +134,5 @@ await page.pause(5);
 await page.press(" ");
 const frames = await page.get("seen.size");
 said.play = { frames_a_second: frames / 5, server_cpu_ms: Math.round((serverTime() - server) / frames),
-              page_cpu_ms: Math.round((await pageTime() - own) / frames) };
+              page_cpu_ms: Math.round((pageTime() - own) / frames) };
 return said;

@@ -405,7 +405,7 @@ local function give_text(id, name)
 end
 
 local pages = { ["/"] = "page.html", ["/page.css"] = "page.css", ["/page.js"] = "page.js",
-                ["/sound.js"] = "sound.js", ["/cost.js"] = "cost.js" }
+                ["/sound.js"] = "sound.js", ["/runs.js"] = "runs.js", ["/cost.js"] = "cost.js" }
 
 local gets = {
   ["/film.json"] = function(id)
@@ -439,7 +439,7 @@ local function route(id, path, fields)
   if pages[path] then return give_text(id, pages[path]) end
   if gets[path] then return gets[path](id, fields) end
   local number, ending = path:match "^/frame/(%-?%d+)%.(%l+)$"
-  if number and (ending == "png" or ending == "rgba") then
+  if number and (ending == "png" or ending == "rgba" or ending == "runs") then
     return give_frame(id, number, ending, fields)
   end
   local x, y = path:match "^/at/(%-?[%d.]+),(%-?[%d.]+)%.json$"

@@ -2,12 +2,13 @@
 //
 //   /state.json ---news--> film, errors          keys, wheel, buttons --> view, frame
 //                            \                      /
-//                             what is wanted: frame, size, crop --> /frame/N.rgba --> #stage
+//                             what is wanted: frame, size, crop --> /frame/N.runs --> #stage
 //
 // Pictures are wanted one after the other: while one is on its way, only the newest wish is kept.
 // While the film plays, several are asked for ahead.
 import * as cost from "/cost.js";
 import * as sound from "/sound.js";
+import { unpack } from "/runs.js";
 
 const here = id => document.getElementById(id);
 const stage = here("stage"), desk = here("desk"), pen = stage.getContext("2d");
@@ -37,10 +38,9 @@ let lastFault = null; // the error that is shown
 const ratio = () => window.devicePixelRatio || 1;
 const clamp = (value, least, most) => Math.min(Math.max(value, least), most);
 
-function windowSize() {
-  return [Math.max(1, Math.round(desk.clientWidth * ratio())),
-          Math.max(1, Math.round(desk.clientHeight * ratio()))];
-}
+let deskSize = [1, 1]; // in CSS pixels; reading it from the page while a film plays costs layouts
+
+const windowSize = () => deskSize.map(side => Math.max(1, Math.round(side * ratio())));
 
 /** The size of the whole frame in device pixels. */
 function frameSize() {
@@ -119,7 +119,7 @@ function wish(number, coarse = 1) {
               clamp(Math.ceil(crop[3] / coarse), 1, size[1] - part[1]));
   }
   const name = number - 1 + state.film.first;
-  const address = `/frame/${name}.rgba?size=${size.join("x")}&crop=${part.join()}&build=${state.build}`
+  const address = `/frame/${name}.runs?size=${size.join("x")}&crop=${part.join()}&build=${state.build}`
     + cels.query;
   return { number, size, crop: part, address, build: state.build };
 }
@@ -129,7 +129,8 @@ async function fetchPicture(wanted) {
   if (known) return known;
   const answer = await fetch(wanted.address);
   if (!answer.ok) throw Object.assign(new Error(await answer.text()), { status: answer.status });
-  const picture = { ...wanted, bytes: new Uint8ClampedArray(await answer.arrayBuffer()),
+  const buffer = await answer.arrayBuffer(), [, , w, h] = wanted.crop;
+  const picture = { ...wanted, bytes: wanted.isOver ? new Uint8ClampedArray(buffer) : unpack(buffer, w, h),
                     seconds: Number(answer.headers.get("Celspan-Seconds")) };
   if (!wanted.isOver) cost.noteTime(picture.number, picture.seconds, picture.build);
   if (wanted.build === state.build) keep(wanted.address, picture);
@@ -173,8 +174,8 @@ function place() {
   const [x, y, w, h] = painted.crop;
   Object.assign(here("safe").style, { left: `${view.x / r}px`, top: `${view.y / r}px`,
                                       width: `${whole[0] / r}px`, height: `${whole[1] / r}px` });
-  for (const canvas of [stage, overlay]) {
-    Object.assign(canvas.style, { left: `${view.x / r + x * sx}px`, top: `${view.y / r + y * sy}px`,
+  for (const layer of [here("paper"), stage, overlay]) {
+    Object.assign(layer.style, { left: `${view.x / r + x * sx}px`, top: `${view.y / r + y * sy}px`,
                                   width: `${w * sx}px`, height: `${h * sy}px` });
   }
 }
@@ -711,6 +712,7 @@ function drawSheet() {
 }
 
 function placeHead() {
+  if (here("sheet").hidden) return;
   const unit = here("cells").clientWidth / sheet.frames;
   here("head").style.left = `${Math.min(view.number, sheet.frames) * unit - unit / 2 - 1}px`;
 }
@@ -862,7 +864,7 @@ async function layOver(picture) {
   }
   const [, , w, h] = picture.crop, out = new Uint8ClampedArray(4 * w * h);
   for (const part of wanted) {
-    const address = picture.address + part;
+    const address = picture.address.replace(".runs", ".rgba") + part;
     const layer = await fetchPicture({ ...picture, address, isOver: true }).catch(() => null);
     if (!layer || isWanted || painted !== picture) return;
     if (part === "&show=spans") out.set(layer.bytes);
@@ -897,7 +899,7 @@ async function outline(place) {
 /** Fills the table with what a painted picture costs, if it is open. */
 async function loadCosts(picture) {
   if (here("costs").hidden || play.direction !== 0) return;
-  const address = picture.address.replace(/^\/frame\/(-?\d+)\.rgba\?/, "/costs.json?frame=$1&");
+  const address = picture.address.replace(/^\/frame\/(-?\d+)\.runs\?/, "/costs.json?frame=$1&");
   const answer = await fetch(address).catch(() => null);
   if (!answer || !answer.ok || painted !== picture) return;
   const list = await answer.json();
@@ -988,7 +990,7 @@ async function inspect(clientX, clientY) {
 function nextGround() {
   const choice = here("ground");
   choice.selectedIndex = (choice.selectedIndex + 1) % choice.options.length;
-  stage.dataset.ground = choice.value;
+  here("paper").dataset.ground = choice.value;
 }
 
 function setMatte(isOn) {
@@ -1138,14 +1140,17 @@ for (const [id, act] of Object.entries(clicks)) here(id).addEventListener("click
 
 here("scrub").addEventListener("input", event => { stop(); go(Number(event.target.value)); });
 here("speed").addEventListener("change", event => setSpeed(Number(event.target.value)));
-here("ground").addEventListener("change", event => { stage.dataset.ground = event.target.value; });
+here("ground").addEventListener("change", event => { here("paper").dataset.ground = event.target.value; });
 here("cells").addEventListener("click", goBySheet);
 here("go").addEventListener("close", () => { stop(); go(Number(here("number").value)); });
-new ResizeObserver(look).observe(desk);
+new ResizeObserver(() => {
+  deskSize = [desk.clientWidth, desk.clientHeight];
+  look();
+}).observe(desk);
 new ResizeObserver(drawSheet).observe(here("cells"));
 
 // The address keeps no token once the cookie has it.
 history.replaceState(null, "", given.size ? `/#${given}` : "/");
-stage.dataset.ground = "checker";
+here("paper").dataset.ground = "checker";
 setTheme(matchMedia("(prefers-color-scheme: light)").matches ? "light" : "dark");
 listen();
