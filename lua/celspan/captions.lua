@@ -7,6 +7,7 @@
 local core = require "celspan.core"
 local fields = require "celspan.fields"
 local files = require "celspan.files"
+local ordered = require "celspan.ordered"
 
 local captions = {}
 
@@ -129,23 +130,13 @@ local function decode(text)
   return setmetatable(list, Captions)
 end
 
---- How many captions begin at `seconds` or before.
-local function count_begun(list, seconds)
-  local low, high = 0, #list
-  while low < high do
-    local middle = (low + high + 1) // 2
-    if list[middle].from <= seconds then low = middle else high = middle - 1 end
-  end
-  return low
-end
-
 --- The text that is shown at a time, the texts of several captions in lines; nil if there is none.
 ---@param seconds number
 ---@return string? text
 function Captions:at(seconds)
   fields.check_at("captions", Captions, self, seconds, "seconds")
   local texts = {}
-  for i = 1, count_begun(self, seconds) do
+  for i = 1, ordered.last(self, seconds, "from") do
     if self[i].to > seconds then texts[#texts + 1] = self[i].text end
   end
   return texts[1] and table.concat(texts, "\n")

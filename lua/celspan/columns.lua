@@ -5,6 +5,8 @@
 --   column.marks   { [3] = { inbetween = true } }
 --
 -- INVARIANT: neighbours in `names` differ, so each column has only one representation.
+local ordered = require "celspan.ordered"
+
 local columns = {}
 
 --- Larger sheets are refused.
@@ -42,12 +44,7 @@ end
 
 --- The index of the change in force at a frame; 0 before the first.
 function columns.find(column, frame)
-  local low, high = 0, #column.at
-  while low < high do
-    local middle = (low + high + 1) // 2
-    if column.at[middle] <= frame then low = middle else high = middle - 1 end
-  end
-  return low
+  return ordered.last(column.at, frame)
 end
 
 --- Sorts by `frame`; items of one frame keep their order.

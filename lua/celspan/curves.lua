@@ -1,11 +1,11 @@
 --- Curves measured by their length: where a place along path data is, and which way it goes there.
---- celspan.warp and celspan.type use it.
 --
 -- The length of a piece is integrated by Gauss's rule of five points over each of its SHARES parts;
 -- the place at a length is found by Newton's steps from the chord of the part, so that it is a
 -- smooth function of the length, as far as the curve is.
 local core = require "celspan.core"
 local fields = require "celspan.fields"
+local ordered = require "celspan.ordered"
 local pathdata = require "celspan.pathdata"
 
 local curves = {}
@@ -96,21 +96,11 @@ function curves.read(noun, outline)
   return way
 end
 
---- The part in which a length lies: the last one that begins at or before it.
-local function find(curve, length)
-  local low, high = 1, #curve
-  while low < high do
-    local middle = (low + high + 1) // 2
-    if curve[middle].start <= length then low = middle else high = middle - 1 end
-  end
-  return curve[low]
-end
-
 --- The point at a length, and the direction there, a unit vector. Before the beginning and after
 --- the end it continues straight.
 function Curve:at(length)
   local held = math.max(0, math.min(self.length, length))
-  local part = find(self, held)
+  local part = self[ordered.last(self, held, "start")]
   local rest = held - part.start
   local t = part.from + (part.to - part.from) * rest / part.length
   for _ = 1, STEPS do

@@ -14,6 +14,7 @@ local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
 local keys = require "celspan.keys"
+local ordered = require "celspan.ordered"
 
 local cut = {}
 
@@ -460,12 +461,7 @@ end
 
 --- The segment that an index is in.
 local function segment_at(segments, index)
-  local low, high = 1, #segments
-  while low < high do
-    local middle = (low + high + 1) // 2
-    if segments[middle].from <= index then low = middle else high = middle - 1 end
-  end
-  return segments[low]
+  return segments[ordered.last(segments, index, "from")]
 end
 
 local cut_fields = { "parts", title = "string", sound = "any", marks = "any" }

@@ -11,6 +11,7 @@ local celspan = require "celspan"
 local ease = require "celspan.ease"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
+local ordered = require "celspan.ordered"
 local pathdata = require "celspan.pathdata"
 local poses = require "celspan.poses"
 
@@ -245,23 +246,13 @@ local function fold(track, time)
   return first + offset
 end
 
---- The index of the last key at or before a time; 0 if there is none.
-local function place(keys, time)
-  local low, high = 0, #keys
-  while low < high do
-    local middle = (low + high + 1) // 2
-    if keys[middle].time <= time then low = middle else high = middle - 1 end
-  end
-  return low
-end
-
 --- The value at a time. Arrays are new at each call.
 ---@param time number
 ---@return any
 function Track:at(time)
   fields.check_at("keys", Track, self, time, "a time")
   time = fold(self, time)
-  local i = place(self.keys, time)
+  local i = ordered.last(self.keys, time, "time")
   local before, after = self.keys[i], self.keys[i + 1]
   if not before then return shown_value(after.value) end
   if not after then return shown_value(before.value) end

@@ -13,6 +13,7 @@
 local chance = require "celspan.chance"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
+local ordered = require "celspan.ordered"
 local pathdata = require "celspan.pathdata"
 
 local motion = {}
@@ -62,16 +63,6 @@ function motion.along(outline)
   return setmetatable({ points = way, length = length }, Way)
 end
 
---- The last point at or before a given length along the path.
-local function place(points, length)
-  local low, high = 1, #points
-  while low < high do
-    local middle = (low + high + 1) // 2
-    if points[middle][3] <= length then low = middle else high = middle - 1 end
-  end
-  return low
-end
-
 --- The position at u (limited to 0..1), and the direction: degrees, clockwise, 0 to the right.
 ---@param u number
 ---@return number x, number y, number degrees
@@ -80,7 +71,7 @@ function Way:at(u)
   local points = self.points
   if #points == 1 then return points[1][1], points[1][2], 0 end
   local length = math.max(0, math.min(1, u)) * self.length
-  local i = math.min(place(points, length), #points - 1)
+  local i = math.min(ordered.last(points, length, 3), #points - 1)
   local a, b = points[i], points[i + 1]
   local t = (length - a[3]) / (b[3] - a[3])
   local dx, dy = b[1] - a[1], b[2] - a[2]

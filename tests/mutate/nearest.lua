@@ -120,6 +120,7 @@ return {
   ["lua/celspan/colour.lua"] = { "spec/layout" },
   ["lua/celspan/layout.lua"] = { "spec/layout" },
   ["lua/celspan/columns.lua"] = { "spec/sheet" },
+  ["lua/celspan/ordered.lua"] = { "spec/modules", "spec/sheet" },
   ["lua/celspan/csv.lua"] = { "unit/fuzz-tables", "spec/data", "spec/sheet" },
   ["lua/celspan/cues.lua"] = { "unit/fuzz-lips", "spec/lips" },
   ["lua/celspan/ease.lua"] = { "spec/timing", "spec/embedding" },

@@ -38,7 +38,7 @@ celspan_status cs_pixels_check(celspan_context *context, const celspan_coding *c
                   (unsigned)coding->space <= CELSPAN_SPACE_SRGB))
     return CELSPAN_OK;
   return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                 "coding: there is none of depth %d, transfer %d, alpha %d and space %d",
+                 "coding: depth %d, transfer %d, alpha %d or space %d is not a known value",
                  (int)coding->depth, (int)coding->transfer, (int)coding->alpha, (int)coding->space);
 }
 

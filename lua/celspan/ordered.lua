@@ -1,0 +1,16 @@
+--- Lists whose items ascend.
+local ordered = {}
+
+--- The index of the last item that is at or before `most`; 0 if there is none. field: that of an
+--- item by which the list ascends; without it, the items are numbers.
+function ordered.last(list, most, field)
+  local low, high = 0, #list
+  while low < high do
+    local middle = (low + high + 1) // 2
+    local item = list[middle]
+    if (field and item[field] or item) <= most then low = middle else high = middle - 1 end
+  end
+  return low
+end
+
+return ordered
