@@ -403,7 +403,7 @@ static void bad_arguments_are_refused(void) {
     REFUSE((bad.variations = &nameless, bad.variation_count = 1), BAD_ARGUMENT, "such as \"wght\"");
   }
   REFUSE((bad.fonts = fonts, bad.font_count = 2, bad.variations = axis, bad.variation_count = 1),
-         BAD_ARGUMENT, "none of the fonts has no axis");
+         BAD_ARGUMENT, "none of the fonts has an axis");
 #undef REFUSE
 }
 

@@ -150,9 +150,7 @@ static celspan_status load(bender *b, const cs_outline *outline, size_t i,
   double length = 0;
   for (int k = 0; k <= b->piece.degree; k++) {
     if (!(b->piece.points[k].w > 0))
-      return cs_fail(b->map->context, CELSPAN_BAD_ARGUMENT,
-                     "warp: the object reaches the horizon of its perspective; bend it before it "
-                     "is put in perspective");
+      return cs_warp_fail_at_horizon(b->map);
     if (k > 0)
       length += distance(projected(b->piece.points[k - 1]), projected(b->piece.points[k]));
   }

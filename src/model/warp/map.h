@@ -26,3 +26,10 @@ static inline CELSPAN_CHECKED celspan_status cs_warp_at(const cs_warp_map *map, 
                  "warp: the map must give finite numbers, got %g, %g for the point %g, %g", to->x,
                  to->y, from.x, from.y);
 }
+
+/* An object near the horizon of its perspective has points that no map can give finite places. */
+static inline celspan_status cs_warp_fail_at_horizon(const cs_warp_map *map) {
+  return cs_fail(map->context, CELSPAN_BAD_ARGUMENT,
+                 "warp: the object reaches the horizon of its perspective; bend it before it is "
+                 "put in perspective");
+}

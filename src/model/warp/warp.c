@@ -82,6 +82,11 @@ static celspan_status find_box(const cs_warp_map *map, const cs_primitive_data *
   return CELSPAN_OK;
 }
 
+static bool is_box_sane(const celspan_box *box) {
+  return cs_number_is_sane(box->x) && cs_number_is_sane(box->y) &&
+         cs_number_is_sane(box->x + box->width) && cs_number_is_sane(box->y + box->height);
+}
+
 static celspan_status bend_in_mesh(const cs_warp_map *map, const cs_primitive_data *data,
                                    const celspan_matrix *matrix, const celspan_box *box,
                                    celspan_object **out) {
@@ -113,6 +118,8 @@ static celspan_status bend_primitive(const cs_warp_map *map, const cs_primitive_
                          "filled with a pattern,");
   if (!data->is_empty)
     CS_TRY(find_box(map, data, matrix, &is_there, &box));
+  if (is_there && !is_box_sane(&box))
+    return cs_warp_fail_at_horizon(map);
   if (is_there && box.width > 0 && box.height > 0)
     return bend_in_mesh(map, data, matrix, &box, out);
   return celspan_object_create_boolean(map->context, CELSPAN_UNION, NULL, 0, out);
