@@ -375,10 +375,10 @@ static int build_frame(lua_State *L) {
   cs_lua_film_push_frame(L, 1, r->number);
   celspan_frame_desc desc;
   cs_options_exposures(L, -1, "the frame function's result", &desc);
-  r->status =
-      cs_film_frame_init(&r->frame, cs_host_context(L), desc.exposures, desc.exposure_count);
   cs_film_info film;
   cs_lua_film_read(L, 1, &film);
+  r->status = /* last: an error of Lua after it would lose the exposures */
+      cs_film_frame_init(&r->frame, cs_host_context(L), desc.exposures, desc.exposure_count);
   r->frame.repeats = film.count > 1;
   return 0;
 }
