@@ -191,7 +191,7 @@ function svg.read(path, options)
   local found_at, tried = core.find(path)
   local fonts, refused = list_fonts(options, core.find)
   if not fonts then core.refuse(refused) end
-  local drawing, message = core.read_svg(found_at, false, fonts, options.space or "srgb")
+  local drawing, message = core.read_svg(found_at, fonts, options.space or "srgb")
   if drawing then return wrap(drawing) end
   return nil, tried and ("%s; also looked for at %s"):format(message, tried) or message
 end

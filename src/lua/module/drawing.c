@@ -1,6 +1,6 @@
 /* Drawings read from SVG: what lua/celspan/svg.lua is made of.
  *
- *   core.read_svg(path, is_coded, fonts, space) -> drawing | nil, message
+ *   core.read_svg(path, fonts, space) -> drawing | nil, message
  *   fonts: nil, or a list of { family, file, where it was looked for in vain }
  *   drawing:object(), :size(), :parts(), :skipped(), :key(), :with(functions by name)
  *
@@ -254,13 +254,13 @@ static const char *entry_string(lua_State *L, int place) {
   return text;
 }
 
-/* The list at 3. svg.lua has checked that its entries are strings. Scratch memory, left on the
+/* The list at 2. svg.lua has checked that its entries are strings. Scratch memory, left on the
  * stack. */
 static const celspan_svg_font *read_fonts(lua_State *L, size_t *count) {
-  *count = lua_istable(L, 3) ? (size_t)lua_rawlen(L, 3) : 0;
+  *count = lua_istable(L, 2) ? (size_t)lua_rawlen(L, 2) : 0;
   celspan_svg_font *fonts = cs_form_scratch(L, *count + 1, sizeof *fonts);
   for (size_t i = 0; i < *count; i++) {
-    lua_rawgeti(L, 3, (lua_Integer)i + 1);
+    lua_rawgeti(L, 2, (lua_Integer)i + 1);
     fonts[i] = (celspan_svg_font){entry_string(L, 1), {entry_string(L, 2), entry_string(L, 3)}};
     lua_pop(L, 1);
   }
@@ -269,11 +269,11 @@ static const celspan_svg_font *read_fonts(lua_State *L, size_t *count) {
 
 static int read(lua_State *L) {
   const char *path = luaL_checkstring(L, 1);
-  cs_svg_options options = {.is_coded = lua_toboolean(L, 2)};
-  lua_settop(L, 4);
-  if (!lua_isnil(L, 4))
+  cs_svg_options options = {.fonts = NULL};
+  lua_settop(L, 3);
+  if (!lua_isnil(L, 3))
     options.space =
-        (celspan_space)(CELSPAN_SPACE_LINEAR + luaL_checkoption(L, 4, NULL, cs_space_words));
+        (celspan_space)(CELSPAN_SPACE_LINEAR + luaL_checkoption(L, 3, NULL, cs_space_words));
   options.fonts = read_fonts(L, &options.font_count);
   celspan_context *context = cs_host_context(L);
   drawing *made = push_drawing(L);

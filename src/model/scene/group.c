@@ -174,11 +174,17 @@ static bool is_union(const celspan_object *object) {
   return data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->op == CELSPAN_UNION;
 }
 
+/* The look of such an object does not depend on the space around it. */
+static bool has_space(const celspan_object *object) {
+  return is_union(object) && object->data->boolean->space != CELSPAN_SPACE_AROUND;
+}
+
 celspan_status cs_object_in_space(celspan_context *context, celspan_object *object,
                                   celspan_space space, celspan_object **out) {
   const cs_boolean alone = {.op = CELSPAN_UNION, .space = space};
   cs_primitive_data *data;
-  if (space == CELSPAN_SPACE_AROUND || object->data->mixing < CS_MIXING_MIXED) {
+  if (space == CELSPAN_SPACE_AROUND || object->data->mixing < CS_MIXING_MIXED ||
+      has_space(object)) {
     *out = celspan_object_ref(object);
     return CELSPAN_OK;
   }

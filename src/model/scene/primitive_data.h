@@ -82,7 +82,8 @@ CELSPAN_CHECKED celspan_status cs_primitive_data_set_box(celspan_context *contex
                                                          const celspan_box *box);
 
 /* The object as a group in a space, with the same place, mode and mark; the object itself where its
- * paints are not mixed, and for AROUND. Errors: NO_MEMORY, LIMIT. */
+ * paints are not mixed or it is a group that has a space, and for AROUND. Errors: NO_MEMORY,
+ * LIMIT. */
 CELSPAN_CHECKED celspan_status cs_object_in_space(celspan_context *context, celspan_object *object,
                                                   celspan_space space, celspan_object **out);
 

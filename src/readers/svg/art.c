@@ -33,6 +33,7 @@ void cs_svg_item_drop(cs_svg_item *item) {
     celspan_object_unref(item->clip);
     celspan_object_unref(item->object);
     celspan_object_unref(item->mask);
+    cs_svg_recipe_unref(item->filter);
   }
 }
 
@@ -157,6 +158,15 @@ static celspan_status isolate(celspan_context *context, celspan_object **object)
   return replace(status, made, object);
 }
 
+/* Modes inside do not act on the backdrop of the item. A filter may draw something where the item
+ * is empty. */
+static celspan_status filter(celspan_context *context, const cs_svg_recipe *recipe,
+                             celspan_object **object) {
+  if (*object)
+    CS_TRY(isolate(context, object));
+  return cs_svg_recipe_apply(context, recipe, object);
+}
+
 static celspan_status blend(celspan_context *context, celspan_blend mode, celspan_object **object) {
   celspan_object *made = NULL;
   if (mode == CELSPAN_BLEND_NORMAL)
@@ -181,6 +191,8 @@ celspan_status cs_svg_item_compose(celspan_context *context, cs_svg_item *item) 
     item->object = celspan_object_ref(item->own);
   else
     CS_TRY(unite(context, item, &item->object));
+  if (item->filter)
+    CS_TRY(filter(context, item->filter, &item->object));
   if (item->object && item->has_clip)
     CS_TRY(clip(context, item->clip, &item->object));
   if (item->object && item->has_mask)

@@ -2,16 +2,17 @@
  *
  *        item "arm" ---- item (a path)          object of an item =
  *          |    \                                 its own, or the union of its items' objects,
- *          |     item "hand" --- item ...         clipped, masked, faded, with a blend mode
- *          clip, mask, opacity, mode
+ *          |     item "hand" --- item ...         filtered, clipped, masked, faded, with a mode
+ *          filter, clip, mask, opacity, mode
  *
  * Items are what `with` needs to put another object in the place of a part: only the objects above
- * it are made again. Invariant: an item's object follows from its own object or items, clip, mask,
- * opacity and mode; everything is in the drawing's units.
+ * it are made again. Invariant: an item's object follows from its own object or items, filter,
+ * clip, mask, opacity and mode; everything is in the drawing's units.
  */
 #pragma once
 
 #include "base/arena.h"
+#include "readers/svg/recipe.h"
 
 /* What an element of the file is, for those without a name. */
 typedef struct cs_svg_facts {
@@ -25,6 +26,7 @@ typedef struct cs_svg_item {
   const char *id, *label;                  /* NULL: none; in the arena */
   const cs_svg_facts *facts;               /* NULL: it is a part of what an element draws */
   celspan_object *own;                     /* NULL for a group, and for nothing */
+  cs_svg_recipe *filter;                   /* NULL: none. A reference */
   bool has_clip;
   celspan_object *clip; /* NULL with has_clip: everything is cut away */
   bool has_mask;

@@ -6,6 +6,7 @@
 #include "base/number.h"
 #include "readers/svg/boxes.h"
 #include "readers/svg/clips.h"
+#include "readers/svg/filters.h"
 #include "readers/svg/geometry.h"
 #include "readers/svg/image.h"
 #include "readers/svg/markers.h"
@@ -376,9 +377,8 @@ static celspan_status read_effects(builder *b, const cs_svg_node *node, const cs
     CS_TRY(cs_svg_clip_make(b->reading, node, place, &item->clip, &item->has_clip));
   if (style->has_mask)
     CS_TRY(add_mask(b, node, place, item));
-  if (style->has_filter)
-    CS_TRY(cs_svg_skip(b->reading, node, "filter of %.40s", node->tag));
-  return CELSPAN_OK;
+  return style->has_filter ? cs_svg_filter_make(b->reading, node, place, &item->filter)
+                           : CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- elements */
@@ -411,15 +411,16 @@ static celspan_status add_element(builder *b, const cs_svg_node *node, cs_svg_pl
   return CELSPAN_OK;
 }
 
-/* ---------------------------------------------------------------- contents that are drawn alone */
+/* ---------------------------------------------------------------- what is drawn alone */
 
-static celspan_status draw_inside(cs_svg_reading *reading, const cs_svg_node *node,
-                                  const cs_svg_place *place, celspan_object **out) {
+static celspan_status draw(cs_svg_reading *reading, const cs_svg_node *node, bool is_whole,
+                           const cs_svg_place *place, celspan_object **out) {
   builder *b = reading->builder;
   cs_svg_item *item;
   *out = NULL;
   CS_TRY(cs_svg_item_append(reading->context, b->art, NULL, &item));
-  celspan_status status = add_children(b, node, place, item);
+  celspan_status status =
+      is_whole ? add_element(b, node, *place, item) : add_children(b, node, place, item);
   if (status == CELSPAN_OK)
     status = cs_svg_item_compose(reading->context, item);
   if (status == CELSPAN_OK && item->object)
@@ -471,7 +472,7 @@ celspan_status cs_svg_build(cs_svg_reading *reading, celspan_svg *art) {
   const char *value = cs_svg_node_value(node, CS_SVG_VIEW_BOX);
   cs_svg_place place;
   const cs_svg_open open = {node, NULL};
-  reading->draw_inside = draw_inside;
+  reading->draw = draw;
   reading->builder = &b;
   CS_TRY(cs_svg_geometry_apply(reading->context, reading->document, &reading->tests));
   if (value)

@@ -59,6 +59,8 @@ static celspan_status change_item(changing *c, const celspan_svg_changed *change
   item->first = item->last = NULL;
   celspan_object_unref(item->own);
   item->own = kept(other);
+  cs_svg_recipe_unref(item->filter);
+  item->filter = NULL;
   celspan_object_unref(item->clip);
   item->clip = NULL;
   item->has_clip = false;
@@ -93,6 +95,7 @@ static celspan_status copy_item(changing *c, const cs_svg_item *from, cs_svg_ite
   item->label = from->label;
   item->facts = from->facts;
   item->own = kept(from->own);
+  item->filter = cs_svg_recipe_ref(from->filter);
   item->has_clip = from->has_clip;
   item->clip = kept(from->clip);
   item->has_mask = from->has_mask;

@@ -196,33 +196,33 @@ static celspan_status read_box(const image *of, const cs_svg_measure *measure, c
 }
 
 /* Cuts off what sticks out of the element's box. */
-static celspan_status cut(const image *of, const celspan_box *box, const cs_svg_place *place,
-                          cs_svg_item *item) {
-  celspan_object *both[2] = {item->own, NULL};
-  CS_TRY(cs_svg_rectangle(of->reading->context, box, &place->matrix, &both[1]));
-  item->own = NULL;
+static celspan_status cut(const image *of, const celspan_box *box, const celspan_matrix *user,
+                          celspan_object **object) {
+  celspan_object *both[2] = {*object, NULL};
+  CS_TRY(cs_svg_rectangle(of->reading->context, box, user, &both[1]));
+  *object = NULL;
   celspan_status status =
-      celspan_object_create_boolean(of->reading->context, CELSPAN_CLIP, both, 2, &item->own);
+      celspan_object_create_boolean(of->reading->context, CELSPAN_CLIP, both, 2, object);
   celspan_object_unref(both[0]);
   celspan_object_unref(both[1]);
   return status;
 }
 
-static celspan_status put(const image *of, const cs_svg_place *place, cs_svg_item *item) {
+/* Fits what is shown into a box. user: its units to those of *out. */
+static celspan_status put(const image *of, const celspan_box *box, const celspan_matrix *user,
+                          celspan_object **out) {
   const char *aspect = cs_svg_node_value(of->node, CS_SVG_PRESERVE_ASPECT_RATIO);
-  celspan_box box;
   celspan_matrix inverse;
-  CS_TRY(read_box(of, &place->measure, &box));
-  if (!(box.width > 0) || !(box.height > 0))
+  if (!(box->width > 0) || !(box->height > 0))
     return CELSPAN_OK;
   const cs_svg_view_box whole = {true, 0, 0, of->width, of->height};
-  celspan_matrix matrix = cs_svg_fit(&whole, box.width, box.height, aspect);
-  matrix = celspan_matrix_then(matrix, celspan_matrix_translation(box.x, box.y));
-  matrix = celspan_matrix_then(matrix, place->matrix);
+  celspan_matrix matrix = cs_svg_fit(&whole, box->width, box->height, aspect);
+  matrix = celspan_matrix_then(matrix, celspan_matrix_translation(box->x, box->y));
+  matrix = celspan_matrix_then(matrix, *user);
   if (!celspan_matrix_inverse(matrix, &inverse))
     return CELSPAN_OK;
-  CS_TRY(celspan_object_transform(of->reading->context, of->object, &matrix, &item->own));
-  return aspect && strstr(aspect, "slice") ? cut(of, &box, place, item) : CELSPAN_OK;
+  CS_TRY(celspan_object_transform(of->reading->context, of->object, &matrix, out));
+  return aspect && strstr(aspect, "slice") ? cut(of, box, user, out) : CELSPAN_OK;
 }
 
 /* What the element shows, read when it is asked for first. The object is borrowed. */
@@ -246,10 +246,23 @@ static celspan_status show(image *of) {
 celspan_status cs_svg_image_add(cs_svg_reading *reading, const cs_svg_node *node,
                                 const cs_svg_place *place, cs_svg_item *item) {
   image of = {.reading = reading, .node = node};
+  celspan_box box;
   if (!place->style.is_visible)
     return CELSPAN_OK;
   CS_TRY(show(&of));
-  return of.object ? put(&of, place, item) : CELSPAN_OK;
+  if (!of.object)
+    return CELSPAN_OK;
+  CS_TRY(read_box(&of, &place->measure, &box));
+  return put(&of, &box, &place->matrix, &item->own);
+}
+
+celspan_status cs_svg_image_in_box(cs_svg_reading *reading, const cs_svg_node *node,
+                                   const celspan_box *box, celspan_object **out) {
+  const celspan_matrix identity = celspan_matrix_identity();
+  image of = {.reading = reading, .node = node};
+  *out = NULL;
+  CS_TRY(show(&of));
+  return of.object ? put(&of, box, &identity, out) : CELSPAN_OK;
 }
 
 celspan_status cs_svg_image_box(cs_svg_reading *reading, const cs_svg_node *node,

@@ -23,3 +23,7 @@ CELSPAN_CHECKED celspan_status cs_svg_image_add(cs_svg_reading *reading, const c
 CELSPAN_CHECKED celspan_status cs_svg_image_box(cs_svg_reading *reading, const cs_svg_node *node,
                                                 const cs_svg_measure *measure, celspan_box *out,
                                                 bool *is_there);
+/* What the element names, fitted into a box in user units by its preserveAspectRatio. *out: new, in
+ * user units; NULL: nothing is shown. Errors: as above. */
+CELSPAN_CHECKED celspan_status cs_svg_image_in_box(cs_svg_reading *reading, const cs_svg_node *node,
+                                                   const celspan_box *box, celspan_object **out);

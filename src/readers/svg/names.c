@@ -26,12 +26,14 @@ static const char *const elements[] = {CS_SVG_ELEMENT_LIST(ELEMENT)};
 
 static const cs_svg_name_facts names[CS_SVG_NAME_COUNT] = {
     {"alignment-baseline", PRESENTED, FORM(WORD), BASELINES "|top|center|bottom", NULL},
+    {"amplitude", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"baseline-shift", PRESENTED, FORM(LENGTH), "baseline|sub|super", NULL},
     {"class", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"clip-path", PRESENTED, FORM(ANY), NULL, NULL},
     {"clip-rule", PRESENTED, FORM(WORD), "nonzero|evenodd", "nonzero"},
     {"clipPathUnits", ATTRIBUTE, FORM(WORD), "userSpaceOnUse|objectBoundingBox", NULL},
     {"color", PRESENTED, FORM(COLOUR), NULL, "black"},
+    {"color-interpolation-filters", PRESENTED, FORM(WORD), "auto|sRGB|linearRGB", "linearRGB"},
     {"cx", GEOMETRY, FORM(LENGTH), NULL, NULL},
     {"cy", GEOMETRY, FORM(LENGTH), NULL, NULL},
     {"d", GEOMETRY, FORM(ANY), NULL, NULL},
@@ -41,10 +43,15 @@ static const cs_svg_name_facts names[CS_SVG_NAME_COUNT] = {
      "auto"},
     {"dx", ATTRIBUTE, FORM(LENGTHS), NULL, NULL},
     {"dy", ATTRIBUTE, FORM(LENGTHS), NULL, NULL},
+    {"edgeMode", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"exponent", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"fill", PRESENTED, FORM(PAINT), NULL, "black"},
     {"fill-opacity", PRESENTED, FORM(SHARE), NULL, "1"},
     {"fill-rule", PRESENTED, FORM(WORD), "nonzero|evenodd", "nonzero"},
     {"filter", PRESENTED, FORM(ANY), NULL, NULL},
+    {"filterUnits", ATTRIBUTE, FORM(WORD), "userSpaceOnUse|objectBoundingBox", NULL},
+    {"flood-color", PRESENTED, FORM(COLOUR), "inherit", NULL},
+    {"flood-opacity", PRESENTED, FORM(SHARE), NULL, NULL},
     {"font-family", PRESENTED, FORM(ANY), NULL, ""},
     {"font-size", PRESENTED, FORM(SIZE),
      "xx-small|x-small|small|medium|large|x-large|xx-large|xxx-large|smaller|larger", "medium"},
@@ -58,7 +65,14 @@ static const cs_svg_name_facts names[CS_SVG_NAME_COUNT] = {
     {"height", GEOMETRY, FORM(LENGTH), "auto", NULL},
     {"href", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"id", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"in", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"in2", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"intercept", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"isolation", STYLED, FORM(WORD), "auto|isolate", NULL},
+    {"k1", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"k2", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"k3", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"k4", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"label", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"lengthAdjust", ATTRIBUTE, FORM(WORD), "spacing|spacingAndGlyphs", NULL},
     {"letter-spacing", PRESENTED, FORM(LENGTH), "normal", "normal"},
@@ -75,8 +89,10 @@ static const cs_svg_name_facts names[CS_SVG_NAME_COUNT] = {
     {"maskUnits", ATTRIBUTE, FORM(WORD), "userSpaceOnUse|objectBoundingBox", NULL},
     {"media", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"mix-blend-mode", STYLED, FORM(WORD), BLEND_MODES, NULL},
+    {"mode", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"offset", ATTRIBUTE, FORM(SHARE), NULL, NULL},
     {"opacity", PRESENTED, FORM(SHARE), "inherit", NULL},
+    {"operator", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"orient", ATTRIBUTE, FORM(ANGLE), "auto|auto-start-reverse", NULL},
     {"overflow", PRESENTED, FORM(WORD), "visible|hidden|scroll|auto|clip|inherit", NULL},
     {"paint-order", PRESENTED, FORM(ORDER), "normal", "normal"},
@@ -86,19 +102,23 @@ static const cs_svg_name_facts names[CS_SVG_NAME_COUNT] = {
     {"patternUnits", ATTRIBUTE, FORM(WORD), "userSpaceOnUse|objectBoundingBox", NULL},
     {"points", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"preserveAspectRatio", ATTRIBUTE, FORM(ASPECT), NULL, NULL},
+    {"primitiveUnits", ATTRIBUTE, FORM(WORD), "userSpaceOnUse|objectBoundingBox", NULL},
     {"r", GEOMETRY, FORM(LENGTH), NULL, NULL},
     {"refX", ATTRIBUTE, FORM(LENGTH), "left|center|right", NULL},
     {"refY", ATTRIBUTE, FORM(LENGTH), "top|center|bottom", NULL},
     {"requiredExtensions", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"requiredFeatures", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"result", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"rotate", APART, FORM(ROTATION), NULL, NULL},
     {"rx", GEOMETRY, FORM(LENGTH), "auto", NULL},
     {"ry", GEOMETRY, FORM(LENGTH), "auto", NULL},
     {"scale", STYLED, FORM(SCALE), "none", NULL},
     {"side", ATTRIBUTE, FORM(WORD), "left|right", NULL},
+    {"slope", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"space", ATTRIBUTE, FORM(WORD), "default|preserve", NULL},
     {"spreadMethod", ATTRIBUTE, FORM(WORD), "pad|reflect|repeat", NULL},
     {"startOffset", ATTRIBUTE, FORM(LENGTH), NULL, NULL},
+    {"stdDeviation", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"stop-color", PRESENTED, FORM(COLOUR), "inherit", NULL},
     {"stop-opacity", PRESENTED, FORM(SHARE), NULL, NULL},
     {"stroke", PRESENTED, FORM(PAINT), NULL, "none"},
@@ -111,6 +131,7 @@ static const cs_svg_name_facts names[CS_SVG_NAME_COUNT] = {
     {"stroke-width", PRESENTED, FORM(SIZE), NULL, "1"},
     {"style", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"systemLanguage", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"tableValues", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"text-anchor", PRESENTED, FORM(WORD), "start|middle|end", "start"},
     {"text-decoration", PRESENTED, FORM(WORD), "none", NULL},
     {"textLength", ATTRIBUTE, FORM(LENGTH), NULL, NULL},
@@ -118,6 +139,7 @@ static const cs_svg_name_facts names[CS_SVG_NAME_COUNT] = {
     {"transform-origin", PRESENTED, FORM(ANY), NULL, NULL},
     {"translate", STYLED, FORM(TRANSLATE), "none", NULL},
     {"type", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"values", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"vector-effect", PRESENTED, FORM(WORD), "none|non-scaling-stroke", NULL},
     {"viewBox", ATTRIBUTE, FORM(VIEW_BOX), NULL, NULL},
     {"visibility", PRESENTED, FORM(WORD), "visible|hidden|collapse", "visible"},
@@ -153,9 +175,10 @@ cs_svg_element cs_svg_element_named(const char *text) {
 }
 
 bool cs_svg_element_is_drawn(cs_svg_element element) {
+  if (element >= CS_SVG_ELEMENT_FE_BLEND && element <= CS_SVG_ELEMENT_FILTER)
+    return false;
   switch (element) {
   case CS_SVG_ELEMENT_DESC:
-  case CS_SVG_ELEMENT_FILTER:
   case CS_SVG_ELEMENT_FOREIGN_OBJECT:
   case CS_SVG_ELEMENT_METADATA:
   case CS_SVG_ELEMENT_SCRIPT:

@@ -12,8 +12,16 @@
 #define CS_SVG_ELEMENT_LIST(ELEMENT)                                                               \
   ELEMENT(A, "a"), ELEMENT(CIRCLE, "circle"), ELEMENT(CLIP_PATH, "clipPath"),                      \
       ELEMENT(DEFS, "defs"), ELEMENT(DESC, "desc"), ELEMENT(ELLIPSE, "ellipse"),                   \
-      ELEMENT(FILTER, "filter"), ELEMENT(FOREIGN_OBJECT, "foreignObject"), ELEMENT(G, "g"),        \
-      ELEMENT(IMAGE, "image"), ELEMENT(LINE, "line"), ELEMENT(LINEAR_GRADIENT, "linearGradient"),  \
+      ELEMENT(FE_BLEND, "feBlend"), ELEMENT(FE_COLOR_MATRIX, "feColorMatrix"),                     \
+      ELEMENT(FE_COMPONENT_TRANSFER, "feComponentTransfer"), ELEMENT(FE_COMPOSITE, "feComposite"), \
+      ELEMENT(FE_DROP_SHADOW, "feDropShadow"), ELEMENT(FE_FLOOD, "feFlood"),                       \
+      ELEMENT(FE_FUNC_A, "feFuncA"), ELEMENT(FE_FUNC_B, "feFuncB"), ELEMENT(FE_FUNC_G, "feFuncG"), \
+      ELEMENT(FE_FUNC_R, "feFuncR"), ELEMENT(FE_GAUSSIAN_BLUR, "feGaussianBlur"),                  \
+      ELEMENT(FE_IMAGE, "feImage"), ELEMENT(FE_MERGE, "feMerge"),                                  \
+      ELEMENT(FE_MERGE_NODE, "feMergeNode"), ELEMENT(FE_OFFSET, "feOffset"),                       \
+      ELEMENT(FE_TILE, "feTile"), ELEMENT(FILTER, "filter"),                                       \
+      ELEMENT(FOREIGN_OBJECT, "foreignObject"), ELEMENT(G, "g"), ELEMENT(IMAGE, "image"),          \
+      ELEMENT(LINE, "line"), ELEMENT(LINEAR_GRADIENT, "linearGradient"),                           \
       ELEMENT(MARKER, "marker"), ELEMENT(MASK, "mask"), ELEMENT(METADATA, "metadata"),             \
       ELEMENT(PATH, "path"), ELEMENT(PATTERN, "pattern"), ELEMENT(POLYGON, "polygon"),             \
       ELEMENT(POLYLINE, "polyline"), ELEMENT(RADIAL_GRADIENT, "radialGradient"),                   \
@@ -33,12 +41,14 @@ typedef enum cs_svg_element {
 
 typedef enum cs_svg_name {
   CS_SVG_ALIGNMENT_BASELINE,
+  CS_SVG_AMPLITUDE,
   CS_SVG_BASELINE_SHIFT,
   CS_SVG_CLASS,
   CS_SVG_CLIP_PATH,
   CS_SVG_CLIP_RULE,
   CS_SVG_CLIP_PATH_UNITS,
   CS_SVG_COLOR,
+  CS_SVG_COLOR_INTERPOLATION_FILTERS,
   CS_SVG_CX,
   CS_SVG_CY,
   CS_SVG_D,
@@ -47,10 +57,15 @@ typedef enum cs_svg_name {
   CS_SVG_DOMINANT_BASELINE,
   CS_SVG_DX,
   CS_SVG_DY,
+  CS_SVG_EDGE_MODE,
+  CS_SVG_EXPONENT,
   CS_SVG_FILL,
   CS_SVG_FILL_OPACITY,
   CS_SVG_FILL_RULE,
   CS_SVG_FILTER,
+  CS_SVG_FILTER_UNITS,
+  CS_SVG_FLOOD_COLOR,
+  CS_SVG_FLOOD_OPACITY,
   CS_SVG_FONT_FAMILY,
   CS_SVG_FONT_SIZE,
   CS_SVG_FONT_STYLE,
@@ -63,7 +78,14 @@ typedef enum cs_svg_name {
   CS_SVG_HEIGHT,
   CS_SVG_HREF,
   CS_SVG_ID,
+  CS_SVG_IN,
+  CS_SVG_IN2,
+  CS_SVG_INTERCEPT,
   CS_SVG_ISOLATION,
+  CS_SVG_K1,
+  CS_SVG_K2,
+  CS_SVG_K3,
+  CS_SVG_K4,
   CS_SVG_LABEL,
   CS_SVG_LENGTH_ADJUST,
   CS_SVG_LETTER_SPACING,
@@ -80,8 +102,10 @@ typedef enum cs_svg_name {
   CS_SVG_MASK_UNITS,
   CS_SVG_MEDIA,
   CS_SVG_MIX_BLEND_MODE,
+  CS_SVG_MODE,
   CS_SVG_OFFSET,
   CS_SVG_OPACITY,
+  CS_SVG_OPERATOR,
   CS_SVG_ORIENT,
   CS_SVG_OVERFLOW,
   CS_SVG_PAINT_ORDER,
@@ -91,19 +115,23 @@ typedef enum cs_svg_name {
   CS_SVG_PATTERN_UNITS,
   CS_SVG_POINTS,
   CS_SVG_PRESERVE_ASPECT_RATIO,
+  CS_SVG_PRIMITIVE_UNITS,
   CS_SVG_R,
   CS_SVG_REF_X,
   CS_SVG_REF_Y,
   CS_SVG_REQUIRED_EXTENSIONS,
   CS_SVG_REQUIRED_FEATURES,
+  CS_SVG_RESULT,
   CS_SVG_ROTATE,
   CS_SVG_RX,
   CS_SVG_RY,
   CS_SVG_SCALE,
   CS_SVG_SIDE,
+  CS_SVG_SLOPE,
   CS_SVG_SPACE,
   CS_SVG_SPREAD_METHOD,
   CS_SVG_START_OFFSET,
+  CS_SVG_STD_DEVIATION,
   CS_SVG_STOP_COLOR,
   CS_SVG_STOP_OPACITY,
   CS_SVG_STROKE,
@@ -116,6 +144,7 @@ typedef enum cs_svg_name {
   CS_SVG_STROKE_WIDTH,
   CS_SVG_STYLE,
   CS_SVG_SYSTEM_LANGUAGE,
+  CS_SVG_TABLE_VALUES,
   CS_SVG_TEXT_ANCHOR,
   CS_SVG_TEXT_DECORATION,
   CS_SVG_TEXT_LENGTH,
@@ -123,6 +152,7 @@ typedef enum cs_svg_name {
   CS_SVG_TRANSFORM_ORIGIN,
   CS_SVG_TRANSLATE,
   CS_SVG_TYPE,
+  CS_SVG_VALUES,
   CS_SVG_VECTOR_EFFECT,
   CS_SVG_VIEW_BOX,
   CS_SVG_VISIBILITY,

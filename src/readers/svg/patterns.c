@@ -125,7 +125,7 @@ static celspan_status draw(const pattern *p, const cs_svg_node *owner, cs_svg_se
                    "line %u: patterns refer to one another more than %d deep", p->node->line,
                    CS_SVG_DEPTH);
   CS_TRY(find_place(p, owner, &inner, &place));
-  celspan_status status = reading->draw_inside(reading, owner, &place, &art);
+  celspan_status status = reading->draw(reading, owner, false, &place, &art);
   reading->depth--;
   if (status == CELSPAN_OK && art)
     status = make_texture(p, art, out);

@@ -196,7 +196,6 @@ static cs_svg_reading begin_reading(celspan_context *context, const cs_svg_sourc
   return (cs_svg_reading){.context = context,
                           .source = source,
                           .read_inner = read_inner,
-                          .is_coded = options->is_coded,
                           .space = options->space,
                           .tests = CS_SVG_SELECTOR_TESTS};
 }
@@ -251,7 +250,6 @@ static cs_hash key_of(const char *file, const struct stat *about, const cs_svg_o
   cs_hash hash = cs_hash_begin(0x647277u);
   cs_hash_text(&hash, file);
   hash_about(&hash, about);
-  cs_hash_word(&hash, options->is_coded);
   cs_hash_word(&hash, options->space);
   for (size_t i = 0; i < options->font_count; i++)
     hash_font(&hash, &options->fonts[i]);
@@ -320,7 +318,7 @@ celspan_status celspan_svg_read(celspan_context *context, const celspan_svg_desc
   if (!desc->file == !desc->bytes)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "svg: give a file or bytes, one of them");
   CS_TRY(cs_check_choice(context, "svg", "space", (unsigned)desc->space, CELSPAN_SPACE_SRGB + 1));
-  const cs_svg_options options = {desc->fonts, desc->font_count, false, desc->space};
+  const cs_svg_options options = {desc->fonts, desc->font_count, desc->space};
   if (desc->file)
     return cs_svg_read_file(context, desc->file, &options, out);
   CS_TRY(check_fonts(context, &options));

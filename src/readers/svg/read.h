@@ -1,6 +1,4 @@
-/* Reading drawings, with a switch for comparisons: coded drawings keep colours as they are coded,
- * so that what is composed of them as light is what other renderers compose of codes.
- */
+/* Reading drawings from files. */
 #pragma once
 
 #include "readers/svg/reading.h"
@@ -9,7 +7,6 @@
 typedef struct cs_svg_options {
   const celspan_svg_font *fonts;
   size_t font_count;
-  bool is_coded;
   celspan_space space;
 } cs_svg_options;
 

@@ -5,7 +5,7 @@
  *                 |
  *                 +-- shapes.c outlines   servers.c gradients   clips.c clip paths
  *                 |
- *                 +-- patterns.c, whose contents come back to build.c
+ *                 +-- patterns.c, filters.c, whose contents come back to build.c
  */
 #pragma once
 
@@ -57,13 +57,13 @@ typedef struct cs_svg_reading {
    * INPUT, LIMIT, NO_MEMORY. */
   celspan_status (*read_inner)(struct cs_svg_reading *outer, const cs_svg_source *source,
                                const char *bytes, size_t size, celspan_svg **out);
-  /* Draws the contents of an element alone. *out: new, in the units that `place` has; NULL: nothing
-   * is drawn. Errors: NO_MEMORY, LIMIT, INPUT. */
-  celspan_status (*draw_inside)(struct cs_svg_reading *reading, const cs_svg_node *node,
-                                const struct cs_svg_place *place, celspan_object **out);
+  /* Draws an element alone, or only its contents. place: of what it is in; for contents, of the
+   * element. *out: new, in the units that `place` has; NULL: nothing is drawn. Errors: NO_MEMORY,
+   * LIMIT, INPUT. */
+  celspan_status (*draw)(struct cs_svg_reading *reading, const cs_svg_node *node, bool is_whole,
+                         const struct cs_svg_place *place, celspan_object **out);
   void *builder; /* for it */
-  /* Colours stay as they are coded: for comparisons with other renderers, and in masks, unless the
-   * drawing is in codes anyway. */
+  /* Colours stay as they are coded: in masks, unless the drawing is in codes anyway. */
   bool is_coded;
   celspan_space space;  /* of the drawing and of its parts */
   uint64_t tests;       /* of selectors, that are left */

@@ -104,7 +104,8 @@ cs_svg_style cs_svg_style_initial(void) {
       .is_visible = true,
       .is_displayed = true,
       .opacity = 1,
-      .stop_colour = black};
+      .stop_colour = black,
+      .flood_colour = black};
 }
 
 static void inherit(const cs_svg_style *parent, cs_svg_style *out) {
@@ -112,12 +113,13 @@ static void inherit(const cs_svg_style *parent, cs_svg_style *out) {
   *out = *parent;
   out->is_displayed = true;
   out->opacity = 1;
-  out->clip_path = out->mask = (cs_svg_reference){NULL, 0};
+  out->clip_path = out->mask = out->filter = (cs_svg_reference){NULL, 0};
   out->clip_shape = NULL;
   out->has_clip_path = out->has_mask = out->has_filter = out->isolates = false;
   out->blend = CELSPAN_BLEND_NORMAL;
   out->shows_overflow = out->uses_alpha = out->keeps_width = false;
   out->stop_colour = initial.stop_colour;
+  out->flood_colour = initial.flood_colour;
   out->transform = out->translate = out->rotate = out->scale = out->transform_origin = NULL;
 }
 
@@ -179,6 +181,9 @@ static void read_painting(const cs_svg_cascade *from, const cs_svg_style *parent
     if (value && !read_reference(value, &out->markers[i]))
       out->markers[i] = (cs_svg_reference){NULL, 0};
   }
+  const char *numbers = values[CS_SVG_COLOR_INTERPOLATION_FILTERS];
+  if (numbers && !cs_svg_is_word(numbers, "auto"))
+    out->filters_codes = cs_svg_is_word(numbers, "sRGB");
   if (values[CS_SVG_VISIBILITY])
     out->is_visible = cs_svg_is_word(values[CS_SVG_VISIBILITY], "visible");
 }
@@ -212,15 +217,30 @@ static void read_effects(const char *const *values, const cs_svg_style *parent, 
     out->has_mask = parent->has_mask;
     out->mask = parent->mask;
   }
-  out->has_filter =
-      is_inherited(filter) ? parent->has_filter : filter && !cs_svg_is_word(filter, "none");
+  (void)read_reference(filter, &out->filter);
+  out->has_filter = filter && !cs_svg_is_word(filter, "none");
+  if (is_inherited(filter)) {
+    out->has_filter = parent->has_filter;
+    out->filter = parent->filter;
+  }
   out->isolates = values[CS_SVG_ISOLATION] && cs_svg_is_word(values[CS_SVG_ISOLATION], "isolate");
   read_blend(values[CS_SVG_MIX_BLEND_MODE], parent, out);
 }
 
+/* The colour of a stop or a flood, with its opacity. inherited: of the parent. */
+static void read_own_colour(const char *text, const char *opacity, const cs_svg_colour *inherited,
+                            const cs_svg_style *style, cs_svg_colour *out) {
+  double share = 1;
+  if (is_inherited(text))
+    *out = *inherited;
+  else
+    read_colour(text, &style->colour, out);
+  read_share(opacity, 1, &share);
+  out->alpha *= share;
+}
+
 static void read_own(const cs_svg_cascade *from, const cs_svg_style *parent, cs_svg_style *out) {
   const char *const *values = from->values;
-  double stop_opacity = 1;
   out->is_displayed =
       is_inherited(values[CS_SVG_DISPLAY])
           ? parent->is_displayed
@@ -235,12 +255,10 @@ static void read_own(const cs_svg_cascade *from, const cs_svg_style *parent, cs_
   out->keeps_width = values[CS_SVG_VECTOR_EFFECT] &&
                      cs_svg_is_word(values[CS_SVG_VECTOR_EFFECT], "non-scaling-stroke");
   out->uses_alpha = values[CS_SVG_MASK_TYPE] && cs_svg_is_word(values[CS_SVG_MASK_TYPE], "alpha");
-  if (values[CS_SVG_STOP_COLOR] && cs_svg_is_word(values[CS_SVG_STOP_COLOR], "inherit"))
-    out->stop_colour = parent->stop_colour;
-  else
-    read_colour(values[CS_SVG_STOP_COLOR], &out->colour, &out->stop_colour);
-  read_share(values[CS_SVG_STOP_OPACITY], 1, &stop_opacity);
-  out->stop_colour.alpha *= stop_opacity;
+  read_own_colour(values[CS_SVG_STOP_COLOR], values[CS_SVG_STOP_OPACITY], &parent->stop_colour, out,
+                  &out->stop_colour);
+  read_own_colour(values[CS_SVG_FLOOD_COLOR], values[CS_SVG_FLOOD_OPACITY], &parent->flood_colour,
+                  out, &out->flood_colour);
   out->transform =
       is_inherited(values[CS_SVG_TRANSFORM]) ? parent->transform : values[CS_SVG_TRANSFORM];
   out->translate = values[CS_SVG_TRANSLATE];
@@ -252,8 +270,9 @@ static void read_own(const cs_svg_cascade *from, const cs_svg_style *parent, cs_
 static celspan_status check_numbers(celspan_context *context, const cs_svg_cascade *from,
                                     const cs_svg_node *node) {
   static const cs_svg_name numbers[] = {
-      CS_SVG_OPACITY,      CS_SVG_FILL_OPACITY, CS_SVG_FONT_SIZE,         CS_SVG_STROKE_OPACITY,
-      CS_SVG_STOP_OPACITY, CS_SVG_STROKE_WIDTH, CS_SVG_STROKE_DASHOFFSET, CS_SVG_STROKE_MITERLIMIT};
+      CS_SVG_OPACITY,        CS_SVG_FILL_OPACITY,      CS_SVG_FONT_SIZE,
+      CS_SVG_STROKE_OPACITY, CS_SVG_STOP_OPACITY,      CS_SVG_FLOOD_OPACITY,
+      CS_SVG_STROKE_WIDTH,   CS_SVG_STROKE_DASHOFFSET, CS_SVG_STROKE_MITERLIMIT};
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
     const char *value = from->values[numbers[i]];
     if (value && cs_svg_is_unfit(value))

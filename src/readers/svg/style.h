@@ -25,20 +25,21 @@ typedef struct cs_svg_style {
   double font_size;            /* user units */
   cs_svg_text_style text;
   bool is_visible;
+  bool filters_codes;          /* filters mix the codes of colours, not light */
   cs_svg_reference markers[3]; /* start, mid, end */
   /* of the element alone */
   bool is_displayed;
   double opacity;
-  cs_svg_reference clip_path, mask;
+  cs_svg_reference clip_path, mask, filter;
   const char *clip_shape; /* clip-path where it is no reference; NULL: it is, or none */
   bool has_clip_path, has_mask;
   bool has_filter;
   celspan_blend blend;
-  bool isolates;             /* blend modes inside do not see its background */
-  bool keeps_width;          /* the stroke's: transforms do not change it */
-  bool shows_overflow;       /* of svg, symbol and marker elements */
-  bool uses_alpha;           /* of a mask: alpha instead of luminance */
-  cs_svg_colour stop_colour; /* stop-opacity multiplied in */
+  bool isolates;                           /* blend modes inside do not see its background */
+  bool keeps_width;                        /* the stroke's: transforms do not change it */
+  bool shows_overflow;                     /* of svg, symbol and marker elements */
+  bool uses_alpha;                         /* of a mask: alpha instead of luminance */
+  cs_svg_colour stop_colour, flood_colour; /* stop-opacity, flood-opacity multiplied in */
   /* Functions, and the properties done after them; NULL: none. */
   const char *transform, *translate, *rotate, *scale;
   const char *transform_origin; /* NULL: none */

@@ -1,0 +1,258 @@
+#include "readers/svg/filter_colours.h"
+
+#include <math.h>
+
+#include "base/elementary.h"
+#include "base/number.h"
+
+#define DEGREES_TO_RADIANS (3.14159265358979323846 / 180)
+/* Values of a table, at most. */
+#define VALUES 128
+/* Points of a curve: five around each place where a table bends, or those of a power. */
+#define POWER_POINTS 256
+#define POINTS (5 * VALUES + 8)
+/* Half of the width of a bend or a jump. */
+#define NEAR 1e-6
+/* Up to where colours that leave 0..1 are clamped. */
+#define FAR 1e6
+
+/* ---------------------------------------------------------------- numbers */
+
+size_t cs_svg_filter_numbers(const cs_svg_node *node, cs_svg_name name, double *out, size_t most) {
+  const char *text = cs_svg_node_value(node, name);
+  size_t count = 0;
+  for (text = cs_svg_skip_space(text ? text : ""); *text; text = cs_svg_skip_comma(text))
+    if (count == most || !cs_svg_take_number(&text, &out[count++]))
+      return 0;
+  return count;
+}
+
+double cs_svg_filter_number(const cs_svg_node *node, cs_svg_name name, double fallback) {
+  double value;
+  return cs_svg_filter_numbers(node, name, &value, 1) == 1 ? value : fallback;
+}
+
+/* ---------------------------------------------------------------- functions of one channel */
+
+typedef enum function_kind {
+  FUNCTION_IDENTITY,
+  FUNCTION_TABLE,
+  FUNCTION_DISCRETE,
+  FUNCTION_LINEAR,
+  FUNCTION_GAMMA
+} function_kind;
+
+typedef struct function {
+  function_kind kind;
+  double values[VALUES];
+  size_t count;
+  double slope, intercept, amplitude, exponent, offset;
+} function;
+
+/* Source: Filter Effects Module Level 1, 9.7. */
+static double value_at(const function *f, double x) {
+  double at = x * (double)(f->kind == FUNCTION_TABLE ? f->count - 1 : f->count);
+  size_t last = f->count - 1, k = at < (double)last ? (size_t)at : last;
+  switch (f->kind) {
+  case FUNCTION_TABLE:
+    return k == last ? f->values[k]
+                     : f->values[k] + (at - (double)k) * (f->values[k + 1] - f->values[k]);
+  case FUNCTION_DISCRETE:
+    return f->values[k];
+  case FUNCTION_LINEAR:
+    return f->slope * x + f->intercept;
+  case FUNCTION_GAMMA:
+    return f->amplitude * cs_elementary_pow(x, f->exponent) + f->offset;
+  default:
+    return x;
+  }
+}
+
+/* The type as it is written; a table without values is no function. */
+static function_kind kind_of(const cs_svg_node *node, size_t count) {
+  static const char *const words[] = {"identity", "table", "discrete", "linear", "gamma"};
+  const char *type = cs_svg_node_value(node, CS_SVG_TYPE);
+  for (int kind = FUNCTION_TABLE; type && kind <= FUNCTION_GAMMA; kind++)
+    if (cs_svg_is_word(type, words[kind]))
+      return count > 0 || kind > FUNCTION_DISCRETE ? (function_kind)kind : FUNCTION_IDENTITY;
+  return FUNCTION_IDENTITY;
+}
+
+static void read_function(const cs_svg_node *node, function *out) {
+  *out = (function){.slope = cs_svg_filter_number(node, CS_SVG_SLOPE, 1),
+                    .intercept = cs_svg_filter_number(node, CS_SVG_INTERCEPT, 0),
+                    .amplitude = cs_svg_filter_number(node, CS_SVG_AMPLITUDE, 1),
+                    .exponent =
+                        cs_number_clamp(cs_svg_filter_number(node, CS_SVG_EXPONENT, 1), 0, 1e3),
+                    .offset = cs_svg_filter_number(node, CS_SVG_OFFSET, 0)};
+  out->count = cs_svg_filter_numbers(node, CS_SVG_TABLE_VALUES, out->values, VALUES);
+  out->kind = kind_of(node, out->count);
+}
+
+/* ---------------------------------------------------------------- curves */
+
+/* A curve of a grade as it grows. INVARIANT: x ascends. */
+typedef struct curve {
+  celspan_point points[POINTS];
+  size_t count;
+} curve;
+
+static void add_point(curve *c, double x, double y) {
+  if (c->count < POINTS && (c->count == 0 || x > c->points[c->count - 1].x + NEAR / 2))
+    c->points[c->count++] = (celspan_point){x, cs_number_clamp(y, 0, 1)};
+}
+
+/* What lies between two bends stays straight, because its ends have its slope. */
+static void add_bend(curve *c, const function *f, double x) {
+  for (int side = -2; side <= 2; side++)
+    if ((side != 0 || f->kind != FUNCTION_DISCRETE) && x + side * NEAR >= 0 && x + side * NEAR <= 1)
+      add_point(c, x + side * NEAR, value_at(f, x + side * NEAR));
+}
+
+/* Where a line leaves 0..1. */
+static void add_line(curve *c, const function *f) {
+  double low = f->slope != 0 ? (0 - f->intercept) / f->slope : 0;
+  double high = f->slope != 0 ? (1 - f->intercept) / f->slope : 0;
+  add_bend(c, f, fmin(low, high));
+  add_bend(c, f, fmax(low, high));
+}
+
+static const curve *curve_of(const function *f, curve *out) {
+  out->count = 0;
+  add_point(out, 0, value_at(f, 0));
+  if (f->kind == FUNCTION_LINEAR)
+    add_line(out, f);
+  for (size_t k = 1; f->kind == FUNCTION_TABLE && k + 1 < f->count; k++)
+    add_bend(out, f, (double)k / (double)(f->count - 1));
+  for (size_t k = 1; f->kind == FUNCTION_DISCRETE && k < f->count; k++)
+    add_bend(out, f, (double)k / (double)f->count);
+  for (int i = 1; f->kind == FUNCTION_GAMMA && i < POWER_POINTS; i++) {
+    double x = (double)i * i / (POWER_POINTS * POWER_POINTS);
+    add_point(out, x, value_at(f, x));
+  }
+  add_point(out, 1, value_at(f, 1));
+  return out;
+}
+
+/* The line that is clamped to 0..1. */
+static void clamping_curve(curve *out) {
+  const function identity = {.kind = FUNCTION_LINEAR, .slope = 1};
+  out->count = 0;
+  add_point(out, -FAR, 0);
+  add_point(out, -2 * NEAR, 0);
+  add_point(out, -NEAR, 0);
+  add_bend(out, &identity, 0);
+  add_bend(out, &identity, 1);
+  add_point(out, 1 + NEAR, 1);
+  add_point(out, 1 + 2 * NEAR, 1);
+  add_point(out, FAR, 1);
+}
+
+static void give_curve(const curve *from, int channel, celspan_grade_desc *desc) {
+  desc->curve[channel] = from->points;
+  desc->curve_count[channel] = from->count;
+}
+
+/* ---------------------------------------------------------------- feComponentTransfer */
+
+/* Whether a function multiplies alpha by a share. */
+static bool is_share(const function *f, double *share) {
+  *share = value_at(f, 1);
+  bool is_straight = *share >= 0 && *share <= 1;
+  for (int i = 0; i < 16; i++)
+    is_straight = is_straight && fabs(value_at(f, i / 16.0) - *share * (i / 16.0)) < NEAR;
+  return is_straight;
+}
+
+/* Whether there are values that could not be read: more than VALUES, or no numbers. */
+static bool has_other_values(const cs_svg_node *node, const function *f) {
+  const char *text = cs_svg_node_value(node, CS_SVG_TABLE_VALUES);
+  return text && *cs_svg_skip_space(text) && f->count == 0;
+}
+
+/* The functions of the channels of which there are elements. */
+static void read_functions(const cs_svg_node *node, curve curves[3], celspan_grade_desc *desc,
+                           cs_svg_step *step, const char **reason) {
+  static const cs_svg_element channels[] = {CS_SVG_ELEMENT_FE_FUNC_R, CS_SVG_ELEMENT_FE_FUNC_G,
+                                            CS_SVG_ELEMENT_FE_FUNC_B, CS_SVG_ELEMENT_FE_FUNC_A};
+  function f;
+  for (const cs_svg_node *child = node->first; child; child = child->next)
+    for (int channel = 0; channel < 4; channel++) {
+      if (child->element != channels[channel])
+        continue;
+      read_function(child, &f);
+      if (has_other_values(child, &f))
+        *reason = "with such tableValues";
+      else if (channel == 3 && !is_share(&f, &step->opacity))
+        *reason = "with such a feFuncA";
+      else if (channel < 3 && f.kind != FUNCTION_IDENTITY)
+        give_curve(curve_of(&f, &curves[channel]), channel, desc);
+    }
+}
+
+celspan_status cs_svg_transfer_read(cs_svg_reading *reading, const cs_svg_node *node,
+                                    cs_svg_step *step, const char **reason) {
+  celspan_grade_desc desc = CELSPAN_GRADE_DESC;
+  curve *curves;
+  step->kind = CS_SVG_STEP_COLOUR;
+  CS_TRY(CS_MAKE(reading->context, curves, 3));
+  read_functions(node, curves, &desc, step, reason);
+  celspan_status status =
+      *reason ? CELSPAN_OK : celspan_grade_create(reading->context, &desc, &step->grade);
+  cs_mem_free(reading->context->memory, curves, 3 * sizeof *curves);
+  return status;
+}
+
+/* ---------------------------------------------------------------- feColorMatrix */
+
+/* 20 numbers by rows; a matrix of another size changes nothing. */
+static void read_matrix(const cs_svg_node *node, celspan_grade_desc *desc, cs_svg_step *step,
+                        const char **reason) {
+  double values[20];
+  if (cs_svg_filter_numbers(node, CS_SVG_VALUES, values, 20) != 20)
+    return;
+  const double *alpha = &values[15];
+  bool is_share = alpha[0] == 0 && alpha[1] == 0 && alpha[2] == 0 && alpha[4] == 0 &&
+                  alpha[3] >= 0 && alpha[3] <= 1;
+  if (!is_share)
+    *reason = "with such a row for alpha";
+  desc->has_matrix = true;
+  step->opacity = is_share ? alpha[3] : 1;
+  for (int row = 0; row < 3; row++) {
+    if (values[5 * row + 3] != 0)
+      *reason = "with colours that depend on alpha";
+    for (int column = 0; column < 4; column++)
+      desc->matrix[row][column] = values[5 * row + (column < 3 ? column : 4)];
+  }
+}
+
+static bool is_type(const cs_svg_node *node, const char *word) {
+  const char *type = cs_svg_node_value(node, CS_SVG_TYPE);
+  return type && cs_svg_is_word(type, word);
+}
+
+celspan_status cs_svg_colour_matrix_read(cs_svg_reading *reading, const cs_svg_node *node,
+                                         cs_svg_step *step, const char **reason) {
+  celspan_grade_desc desc = CELSPAN_GRADE_DESC;
+  curve *clamp;
+  step->kind = CS_SVG_STEP_COLOUR;
+  if (is_type(node, "luminanceToAlpha")) {
+    step->kind = CS_SVG_STEP_LUMA;
+    return CELSPAN_OK;
+  }
+  if (is_type(node, "saturate"))
+    desc.saturation = fmax(0, cs_svg_filter_number(node, CS_SVG_VALUES, 1));
+  else if (is_type(node, "hueRotate"))
+    desc.hue = DEGREES_TO_RADIANS * cs_svg_filter_number(node, CS_SVG_VALUES, 0);
+  else
+    read_matrix(node, &desc, step, reason);
+  if (*reason)
+    return CELSPAN_OK;
+  CS_TRY(CS_MAKE(reading->context, clamp, 1));
+  clamping_curve(clamp);
+  for (int channel = 0; channel < 3; channel++)
+    give_curve(clamp, channel, &desc);
+  celspan_status status = celspan_grade_create(reading->context, &desc, &step->grade);
+  cs_mem_free(reading->context->memory, clamp, sizeof *clamp);
+  return status;
+}

@@ -1,0 +1,27 @@
+/* What filters do to colours: feColorMatrix and feComponentTransfer, as grades.
+ *
+ *     colour, not premultiplied --> matrix or curves --> clamped to 0..1
+ *     alpha ----------------------> times a share
+ *
+ * A grade does not change what is let through, so alpha may only be multiplied by 0..1; other
+ * functions of alpha, and colours that depend on alpha, are not read.
+ */
+#pragma once
+
+#include "readers/svg/reading.h"
+#include "readers/svg/recipe.h"
+
+/* Fills the step of an element of one of the two kinds. *reason: why it cannot be read, for a note;
+ * NULL: it could. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_svg_colour_matrix_read(cs_svg_reading *reading,
+                                                         const cs_svg_node *node, cs_svg_step *step,
+                                                         const char **reason);
+CELSPAN_CHECKED celspan_status cs_svg_transfer_read(cs_svg_reading *reading,
+                                                    const cs_svg_node *node, cs_svg_step *step,
+                                                    const char **reason);
+
+/* The value of an attribute that is one number; `fallback` for any other. */
+double cs_svg_filter_number(const cs_svg_node *node, cs_svg_name name, double fallback);
+/* The numbers of an attribute, up to `most` of them; returns how many there are, 0 where anything
+ * else is among them. */
+size_t cs_svg_filter_numbers(const cs_svg_node *node, cs_svg_name name, double *out, size_t most);

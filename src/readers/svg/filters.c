@@ -1,0 +1,429 @@
+#include "readers/svg/filters.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "model/colour/blend.h"
+#include "readers/svg/filter_colours.h"
+#include "readers/svg/image.h"
+#include "readers/svg/regions.h"
+#include "readers/svg/shapes.h"
+
+/* A result with a name. */
+typedef struct named_result {
+  const char *name;
+  size_t number; /* as inputs of steps count */
+} named_result;
+
+/* A filter that is being read, and its element of which the next step is made. */
+typedef struct filter {
+  cs_svg_reading *reading;
+  const cs_svg_node *element; /* that is filtered */
+  const cs_svg_place *place;  /* of that */
+  const cs_svg_node *owner;   /* the filter */
+  celspan_box box;            /* of the element, in its user units */
+  bool is_in_shares;          /* numbers are shares of that box */
+  cs_svg_recipe *recipe;
+  named_result *names;
+  size_t name_count, name_capacity;
+  uint32_t *uses; /* of the sources, for each of them and each step */
+  size_t use_count, use_capacity;
+  const cs_svg_node *node;
+  cs_svg_style style;
+  cs_svg_step step;
+  const char *reason; /* why a step cannot be made; NULL: none so far */
+} filter;
+
+/* ---------------------------------------------------------------- inputs */
+
+static celspan_status add_input(filter *f, size_t number) {
+  cs_svg_recipe *recipe = f->recipe;
+  f->step.input_count++;
+  return CS_APPEND(f->reading->context, recipe->inputs, recipe->input_count, recipe->input_capacity,
+                   number);
+}
+
+/* The step before, or the element: what counts where there is no other input. */
+static size_t last_result(const filter *f) {
+  return f->recipe->step_count > 0 ? CS_SVG_SOURCES + f->recipe->step_count - 1 : 0;
+}
+
+static bool find_result(const filter *f, const char *name, size_t *out) {
+  for (size_t i = f->name_count; i-- > 0;)
+    if (strcmp(f->names[i].name, name) == 0) {
+      *out = f->names[i].number;
+      return true;
+    }
+  return false;
+}
+
+/* The input that an attribute of `node` names. */
+static celspan_status take_input(filter *f, const cs_svg_node *node, cs_svg_name attribute) {
+  const char *text = cs_svg_node_value(node, attribute);
+  size_t number = last_result(f);
+  if (text && !find_result(f, text, &number)) {
+    if (cs_svg_is_word(text, "SourceGraphic"))
+      number = 0;
+    else if (cs_svg_is_word(text, "SourceAlpha"))
+      number = 1;
+    else if (cs_svg_words_have("BackgroundImage|BackgroundAlpha|FillPaint|StrokePaint", text))
+      f->reason = "with such an input";
+  }
+  return add_input(f, number);
+}
+
+static celspan_status take_both(filter *f) {
+  CS_TRY(take_input(f, f->node, CS_SVG_IN));
+  return take_input(f, f->node, CS_SVG_IN2);
+}
+
+/* ---------------------------------------------------------------- places */
+
+/* One side of the step's box; what is not given is that of the region. */
+static celspan_status read_side(const filter *f, cs_svg_name name, cs_svg_axis axis,
+                                const cs_svg_measure *measure, double *side) {
+  const char *text = cs_svg_node_value(f->node, name);
+  const bool is_x = axis == CS_SVG_AXIS_X, is_size = name == CS_SVG_WIDTH || name == CS_SVG_HEIGHT;
+  cs_svg_length length;
+  double value;
+  CS_TRY(cs_svg_number_of(f->reading->context, f->node, name, axis, measure, &value));
+  if (!text || !cs_svg_parse_length(text, &length))
+    return CELSPAN_OK;
+  if (f->is_in_shares)
+    value = (is_size ? 0
+             : is_x  ? f->box.x
+                     : f->box.y) +
+            value * (is_x ? f->box.width : f->box.height);
+  *side = value;
+  return CELSPAN_OK;
+}
+
+/* The box of an input: the sources have that of the region. */
+static const celspan_box *box_of(const filter *f, size_t number) {
+  return number < CS_SVG_SOURCES ? &f->recipe->region
+                                 : &f->recipe->steps[number - CS_SVG_SOURCES].box;
+}
+
+/* Around two boxes. */
+static celspan_box both(const celspan_box *a, const celspan_box *b) {
+  double left = fmin(a->x, b->x), right = fmax(a->x + a->width, b->x + b->width);
+  double top = fmin(a->y, b->y), bottom = fmax(a->y + a->height, b->y + b->height);
+  return (celspan_box){left, top, right - left, bottom - top};
+}
+
+/* The box of a step that gives none: around those of its inputs, as browsers have it. */
+static celspan_box usual_box(const filter *f) {
+  const cs_svg_recipe *recipe = f->recipe;
+  const size_t *inputs = recipe->inputs + f->step.first_input;
+  if (f->step.input_count == 0 || f->step.kind == CS_SVG_STEP_TILE)
+    return recipe->region;
+  celspan_box box = *box_of(f, inputs[0]);
+  for (size_t i = 1; i < f->step.input_count; i++)
+    box = both(&box, box_of(f, inputs[i]));
+  return box;
+}
+
+/* Finds the box of the step, whose inputs are known. */
+static celspan_status read_box(filter *f) {
+  cs_svg_measure measure = f->place->measure;
+  celspan_box *box = &f->step.box;
+  *box = usual_box(f);
+  if (f->is_in_shares)
+    measure.width = measure.height = 1;
+  CS_TRY(read_side(f, CS_SVG_X, CS_SVG_AXIS_X, &measure, &box->x));
+  CS_TRY(read_side(f, CS_SVG_Y, CS_SVG_AXIS_Y, &measure, &box->y));
+  CS_TRY(read_side(f, CS_SVG_WIDTH, CS_SVG_AXIS_X, &measure, &box->width));
+  return read_side(f, CS_SVG_HEIGHT, CS_SVG_AXIS_Y, &measure, &box->height);
+}
+
+/* What two boxes share; without a size where that is nothing. */
+static celspan_box common(const celspan_box *a, const celspan_box *b) {
+  double left = fmax(a->x, b->x), right = fmin(a->x + a->width, b->x + b->width);
+  double top = fmax(a->y, b->y), bottom = fmin(a->y + a->height, b->y + b->height);
+  return (celspan_box){left, top, fmax(0, right - left), fmax(0, bottom - top)};
+}
+
+/* A vector in user units. */
+static celspan_point scaled(const filter *f, double x, double y) {
+  return f->is_in_shares ? (celspan_point){x * f->box.width, y * f->box.height}
+                         : (celspan_point){x, y};
+}
+
+/* ---------------------------------------------------------------- steps */
+
+static celspan_status read_offset(filter *f) {
+  f->step.kind = CS_SVG_STEP_OFFSET;
+  f->step.offset = scaled(f, cs_svg_filter_number(f->node, CS_SVG_DX, 0),
+                          cs_svg_filter_number(f->node, CS_SVG_DY, 0));
+  return take_input(f, f->node, CS_SVG_IN);
+}
+
+/* Radii of blurs are twice their deviations; one below 0 means none at all. */
+static void read_deviations(filter *f, double least) {
+  double values[2] = {least, least};
+  size_t count = cs_svg_filter_numbers(f->node, CS_SVG_STD_DEVIATION, values, 2);
+  if (count == 0)
+    values[0] = least;
+  if (count < 2)
+    values[1] = values[0];
+  bool is_blurred = values[0] >= 0 && values[1] >= 0;
+  f->step.radius = is_blurred ? scaled(f, 2 * values[0], 2 * values[1]) : (celspan_point){0, 0};
+}
+
+static celspan_status read_blur(filter *f) {
+  const char *edge = cs_svg_node_value(f->node, CS_SVG_EDGE_MODE);
+  f->step.kind = CS_SVG_STEP_BLUR;
+  read_deviations(f, 0);
+  if (edge && !cs_svg_is_word(edge, "none"))
+    f->reason = "with an edgeMode";
+  return take_input(f, f->node, CS_SVG_IN);
+}
+
+static celspan_status read_flood(filter *f) {
+  f->step.kind = CS_SVG_STEP_FLOOD;
+  f->step.paint = cs_svg_paint_of(f->reading, &f->style.flood_colour, 1);
+  return CELSPAN_OK;
+}
+
+static celspan_status read_shadow(filter *f) {
+  const double dx = cs_svg_filter_number(f->node, CS_SVG_DX, 2);
+  const double dy = cs_svg_filter_number(f->node, CS_SVG_DY, 2);
+  CS_TRY(read_flood(f));
+  f->step.kind = CS_SVG_STEP_SHADOW;
+  f->step.offset = scaled(f, dx, dy);
+  read_deviations(f, 2);
+  return take_input(f, f->node, CS_SVG_IN);
+}
+
+static celspan_status read_merge(filter *f) {
+  f->step.kind = CS_SVG_STEP_MERGE;
+  for (const cs_svg_node *child = f->node->first; child; child = child->next)
+    if (child->element == CS_SVG_ELEMENT_FE_MERGE_NODE)
+      CS_TRY(take_input(f, child, CS_SVG_IN));
+  return CELSPAN_OK;
+}
+
+static celspan_status read_blend(filter *f) {
+  const char *mode = cs_svg_node_value(f->node, CS_SVG_MODE);
+  f->step.kind = CS_SVG_STEP_BLEND;
+  for (int i = 0; mode && i < CELSPAN_BLEND_ADD; i++)
+    if (cs_svg_is_word(mode, cs_blend_words[i]))
+      f->step.blend = (celspan_blend)i;
+  return take_both(f);
+}
+
+/* Products cannot be made, and nothing can be taken off. */
+static void read_sum(filter *f) {
+  double *weights = f->step.weights;
+  f->step.kind = CS_SVG_STEP_SUM;
+  weights[0] = cs_svg_filter_number(f->node, CS_SVG_K2, 0);
+  weights[1] = cs_svg_filter_number(f->node, CS_SVG_K3, 0);
+  weights[2] = fmin(1, cs_svg_filter_number(f->node, CS_SVG_K4, 0));
+  if (cs_svg_filter_number(f->node, CS_SVG_K1, 0) != 0)
+    f->reason = "with such a k1";
+  for (int i = 0; i < 3; i++)
+    if (!(weights[i] >= 0 && weights[i] <= CS_SVG_SUM_MOST))
+      f->reason = "with such numbers";
+}
+
+static celspan_status read_composite(filter *f) {
+  static const struct {
+    const char *word;
+    cs_svg_step_kind kind;
+  } operators[] = {{"in", CS_SVG_STEP_IN},
+                   {"out", CS_SVG_STEP_OUT},
+                   {"atop", CS_SVG_STEP_ATOP},
+                   {"xor", CS_SVG_STEP_XOR}};
+  const char *word = cs_svg_node_value(f->node, CS_SVG_OPERATOR);
+  f->step.kind = CS_SVG_STEP_BLEND; /* in the normal mode: over */
+  for (size_t i = 0; word && i < sizeof operators / sizeof *operators; i++)
+    if (cs_svg_is_word(word, operators[i].word))
+      f->step.kind = operators[i].kind;
+  if (word && cs_svg_is_word(word, "lighter"))
+    f->step.blend = CELSPAN_BLEND_ADD;
+  if (word && cs_svg_is_word(word, "arithmetic"))
+    read_sum(f);
+  return take_both(f);
+}
+
+static celspan_status read_matrix(filter *f) {
+  CS_TRY(take_input(f, f->node, CS_SVG_IN));
+  return cs_svg_colour_matrix_read(f->reading, f->node, &f->step, &f->reason);
+}
+
+static celspan_status read_transfer(filter *f) {
+  CS_TRY(take_input(f, f->node, CS_SVG_IN));
+  return cs_svg_transfer_read(f->reading, f->node, &f->step, &f->reason);
+}
+
+/* What is repeated is the box of the input. */
+static celspan_status read_tile(filter *f) {
+  f->step.kind = CS_SVG_STEP_TILE;
+  CS_TRY(take_input(f, f->node, CS_SVG_IN));
+  f->step.tile = *box_of(f, f->recipe->inputs[f->step.first_input]);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- images */
+
+/* An element of the file, as `use` shows it. */
+static celspan_status draw_element(filter *f, const cs_svg_node *shown) {
+  const cs_svg_open open = {f->owner, f->place->open};
+  cs_svg_place place = {.matrix = celspan_matrix_identity(),
+                        .measure = f->place->measure,
+                        .style = cs_svg_style_initial(),
+                        .open = &open};
+  if (cs_svg_is_open(f->place->open, shown)) {
+    f->reason = "of an element that it is inside of";
+    return CELSPAN_OK;
+  }
+  if (shown->parent)
+    CS_TRY(cs_svg_style_in_file(f->reading, shown->parent, &place.style));
+  if (f->is_in_shares)
+    place.matrix = cs_svg_box_matrix(&f->box);
+  return f->reading->draw(f->reading, shown, true, &place, &f->step.object);
+}
+
+static celspan_status read_image(filter *f) {
+  const cs_svg_node *shown = cs_svg_linked(f->reading, f->node);
+  f->step.kind = CS_SVG_STEP_IMAGE;
+  CS_TRY(read_box(f));
+  return shown ? draw_element(f, shown)
+               : cs_svg_image_in_box(f->reading, f->node, &f->step.box, &f->step.object);
+}
+
+/* ---------------------------------------------------------------- primitives */
+
+typedef celspan_status step_reader(filter *f);
+
+/* NULL: recipes have no such step. */
+static step_reader *reader_of(cs_svg_element element) {
+  static const struct {
+    cs_svg_element element;
+    step_reader *read;
+  } readers[] = {{CS_SVG_ELEMENT_FE_BLEND, read_blend},
+                 {CS_SVG_ELEMENT_FE_COLOR_MATRIX, read_matrix},
+                 {CS_SVG_ELEMENT_FE_COMPONENT_TRANSFER, read_transfer},
+                 {CS_SVG_ELEMENT_FE_COMPOSITE, read_composite},
+                 {CS_SVG_ELEMENT_FE_DROP_SHADOW, read_shadow},
+                 {CS_SVG_ELEMENT_FE_FLOOD, read_flood},
+                 {CS_SVG_ELEMENT_FE_GAUSSIAN_BLUR, read_blur},
+                 {CS_SVG_ELEMENT_FE_IMAGE, read_image},
+                 {CS_SVG_ELEMENT_FE_MERGE, read_merge},
+                 {CS_SVG_ELEMENT_FE_OFFSET, read_offset},
+                 {CS_SVG_ELEMENT_FE_TILE, read_tile}};
+  for (size_t i = 0; i < sizeof readers / sizeof *readers; i++)
+    if (readers[i].element == element)
+      return readers[i].read;
+  return NULL;
+}
+
+/* Counts how often the sources are in what the step makes. */
+static celspan_status count_uses(filter *f) {
+  uint32_t uses = 0;
+  const size_t factor = f->step.kind == CS_SVG_STEP_SUM      ? CS_SVG_SUM_MOST
+                        : f->step.kind == CS_SVG_STEP_SHADOW ? 2
+                                                             : 1;
+  for (size_t i = 0; i < f->step.input_count && uses <= CS_SVG_RECIPE_USES; i++)
+    uses += (uint32_t)factor * f->uses[f->recipe->inputs[f->step.first_input + i]];
+  if (uses > CS_SVG_RECIPE_USES)
+    f->reason = "that repeats its input too often";
+  return CS_APPEND(f->reading->context, f->uses, f->use_count, f->use_capacity, uses);
+}
+
+/* Appends the step; the recipe owns what it has, whatever becomes of it. */
+static celspan_status append_step(filter *f) {
+  cs_svg_recipe *recipe = f->recipe;
+  celspan_status status = CS_APPEND(f->reading->context, recipe->steps, recipe->step_count,
+                                    recipe->step_capacity, f->step);
+  if (status != CELSPAN_OK) {
+    celspan_grade_unref(f->step.grade);
+    celspan_object_unref(f->step.object);
+  }
+  return status;
+}
+
+static celspan_status read_step(filter *f, step_reader *read) {
+  const cs_svg_reading *reading = f->reading;
+  const char *name = cs_svg_node_value(f->node, CS_SVG_RESULT);
+  CS_TRY(cs_svg_style_in_file(f->reading, f->node, &f->style));
+  f->step = (cs_svg_step){.opacity = 1, .first_input = f->recipe->input_count};
+  if (!reading->is_coded)
+    f->step.space = f->style.filters_codes ? CELSPAN_SPACE_SRGB : CELSPAN_SPACE_LINEAR;
+  celspan_status status = read(f);
+  if (status == CELSPAN_OK)
+    status = read_box(f);
+  f->step.box = common(&f->step.box, &f->recipe->region);
+  if (status == CELSPAN_OK)
+    status = count_uses(f);
+  CS_TRY(append_step(f));
+  if (status == CELSPAN_OK && name && *name)
+    status = CS_APPEND(f->reading->context, f->names, f->name_count, f->name_capacity,
+                       (named_result){name, last_result(f)});
+  return status;
+}
+
+/* Reads the steps until one cannot be made. */
+static celspan_status read_steps(filter *f) {
+  for (size_t i = 0; i < CS_SVG_SOURCES; i++)
+    CS_TRY(CS_APPEND(f->reading->context, f->uses, f->use_count, f->use_capacity, 1));
+  for (const cs_svg_node *node = f->owner->first; node && !f->reason; node = node->next) {
+    step_reader *read = reader_of(node->element);
+    f->node = node;
+    if (read)
+      CS_TRY(read_step(f, read));
+    else if (strncmp(node->tag, "fe", 2) == 0)
+      f->reason = "";
+  }
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- the whole */
+
+static celspan_status note(const filter *f) {
+  return cs_svg_skip(f->reading, f->node, "filter of %.40s: %.40s%s%s", f->element->tag,
+                     f->node->tag, *f->reason ? " " : "", f->reason);
+}
+
+/* The region in user units. Where it has no size, nothing is drawn: there are no steps. */
+static celspan_status make_recipe(filter *f) {
+  cs_svg_recipe *recipe = f->recipe;
+  const char *units = cs_svg_node_value(f->owner, CS_SVG_PRIMITIVE_UNITS);
+  cs_svg_region region;
+  CS_TRY(
+      cs_svg_region_find(f->reading, f->owner, CS_SVG_FILTER_UNITS, f->element, f->place, &region));
+  recipe->space = f->reading->is_coded ? CELSPAN_SPACE_AROUND : f->reading->space;
+  recipe->matrix = f->place->matrix;
+  f->is_in_shares = units && cs_svg_is_word(units, "objectBoundingBox");
+  if (!region.is_sized || (f->is_in_shares && !region.has_box) ||
+      !celspan_matrix_inverse(recipe->matrix, &recipe->back))
+    return CELSPAN_OK;
+  const celspan_matrix user = celspan_matrix_then(region.own, recipe->back);
+  recipe->region = cs_svg_box_mapped(&region.box, &user);
+  f->box = region.element;
+  return read_steps(f);
+}
+
+celspan_status cs_svg_filter_make(cs_svg_reading *reading, const cs_svg_node *node,
+                                  const cs_svg_place *place, cs_svg_recipe **out) {
+  filter f = {.reading = reading, .element = node, .place = place};
+  celspan_context *context = reading->context;
+  *out = NULL;
+  f.owner = cs_svg_referred(reading, place->style.filter);
+  if (!f.owner || f.owner->element != CS_SVG_ELEMENT_FILTER)
+    return cs_svg_skip(reading, node, "filter of %.40s", node->tag);
+  if (cs_svg_is_open(place->open, f.owner))
+    return cs_svg_skip(reading, node, "filter that shows what it filters");
+  CS_TRY(cs_svg_recipe_create(context, &f.recipe));
+  celspan_status status = make_recipe(&f);
+  if (status == CELSPAN_OK && f.reason)
+    status = note(&f);
+  cs_mem_free(context->memory, f.names, f.name_capacity * sizeof *f.names);
+  cs_mem_free(context->memory, f.uses, f.use_capacity * sizeof *f.uses);
+  if (status == CELSPAN_OK && !f.reason)
+    *out = f.recipe;
+  else
+    cs_svg_recipe_unref(f.recipe);
+  return status;
+}

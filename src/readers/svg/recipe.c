@@ -1,0 +1,414 @@
+#include "readers/svg/recipe.h"
+
+#include <math.h>
+
+#include "model/scene/bounds.h"
+#include "model/scene/primitive_data.h"
+#include "model/scene/value.h"
+#include "readers/svg/shapes.h"
+
+/* The least share of the greater radius of a blur that the other one may be: less cannot be seen,
+ * and would stretch the object without limit. */
+#define LEAST_RADIUS 1e-3
+/* Terms of a sum. */
+#define TERMS (3 * CS_SVG_SUM_MOST)
+
+/* ---------------------------------------------------------------- life */
+
+celspan_status cs_svg_recipe_create(celspan_context *context, cs_svg_recipe **out) {
+  cs_svg_recipe *recipe;
+  CS_TRY(CS_MAKE(context, recipe, 1));
+  atomic_init(&recipe->references, 1);
+  recipe->memory = cs_memory_ref(context->memory);
+  *out = recipe;
+  return CELSPAN_OK;
+}
+
+cs_svg_recipe *cs_svg_recipe_ref(cs_svg_recipe *recipe) {
+  if (recipe)
+    cs_value_keep(&recipe->references);
+  return recipe;
+}
+
+void cs_svg_recipe_unref(cs_svg_recipe *recipe) {
+  if (!recipe || !cs_value_drop(&recipe->references))
+    return;
+  for (size_t i = 0; i < recipe->step_count; i++) {
+    celspan_grade_unref(recipe->steps[i].grade);
+    celspan_object_unref(recipe->steps[i].object);
+  }
+  cs_memory *memory = recipe->memory;
+  cs_mem_free(memory, recipe->steps, recipe->step_capacity * sizeof *recipe->steps);
+  cs_mem_free(memory, recipe->inputs, recipe->input_capacity * sizeof *recipe->inputs);
+  cs_mem_free(memory, recipe, sizeof *recipe);
+  cs_memory_unref(memory);
+}
+
+/* ---------------------------------------------------------------- objects */
+
+/* A recipe that is being applied, and the step that is made. An object that is NULL is nothing. */
+typedef struct applying {
+  celspan_context *context;
+  const cs_svg_recipe *recipe;
+  const cs_svg_step *step;
+  celspan_object **results; /* of the sources and the steps so far */
+} applying;
+
+static celspan_object *input(const applying *a, size_t index) {
+  return a->results[a->recipe->inputs[a->step->first_input + index]];
+}
+
+static celspan_object *kept(celspan_object *object) {
+  return object ? celspan_object_ref(object) : NULL;
+}
+
+/* Replaces *object, which is given up, by what `status` made of it. */
+static celspan_status replace(celspan_status status, celspan_object *made,
+                              celspan_object **object) {
+  celspan_object_unref(*object);
+  *object = status == CELSPAN_OK ? made : NULL;
+  return status;
+}
+
+static celspan_status transform(const applying *a, const celspan_matrix *matrix,
+                                celspan_object **object) {
+  celspan_object *made = NULL;
+  celspan_status status = celspan_object_transform(a->context, *object, matrix, &made);
+  return replace(status, made, object);
+}
+
+static celspan_status convert(const applying *a, celspan_space space, celspan_object **object) {
+  celspan_object *made = NULL;
+  celspan_status status = cs_object_in_space(a->context, *object, space, &made);
+  return replace(status, made, object);
+}
+
+/* Objects over each other, composited by themselves in the step's space. */
+static celspan_status unite(const applying *a, celspan_object *const *objects, size_t count,
+                            celspan_object **out) {
+  celspan_group_desc desc = CELSPAN_GROUP_DESC;
+  desc.objects = objects;
+  desc.object_count = count;
+  desc.isolate = CELSPAN_ISOLATION_ON;
+  desc.space = a->step->space;
+  *out = count == 1 ? celspan_object_ref(objects[0]) : NULL;
+  return count > 1 ? celspan_object_create_group(a->context, &desc, out) : CELSPAN_OK;
+}
+
+/* `front` in a mode over `back`; either may be nothing. */
+static celspan_status blend(const applying *a, celspan_object *back, celspan_object *front,
+                            celspan_blend mode, celspan_object **out) {
+  celspan_object *both[2] = {back, NULL};
+  if (!back || !front) {
+    *out = kept(back ? back : front);
+    return CELSPAN_OK;
+  }
+  CS_TRY(celspan_object_blend(a->context, front, mode, &both[1]));
+  celspan_status status = unite(a, both, 2, out);
+  celspan_object_unref(both[1]);
+  return status;
+}
+
+/* `art` where `by` is, or is not; either may be nothing. */
+static celspan_status mask(const applying *a, celspan_object *art, celspan_object *by, bool inverts,
+                           celspan_object **out) {
+  *out = !by && inverts ? kept(art) : NULL;
+  return art && by
+             ? celspan_object_create_matte(a->context, art, by, CELSPAN_MATTE_ALPHA, inverts, out)
+             : CELSPAN_OK;
+}
+
+static celspan_status fill(const applying *a, const celspan_box *box, celspan_texture *texture,
+                           celspan_object **out) {
+  const celspan_rect_desc desc = {box->x, box->y, box->width, box->height, 0, texture};
+  return celspan_object_create_rect(a->context, &desc, out);
+}
+
+static celspan_status flood(const applying *a, const celspan_box *box, const celspan_paint *paint,
+                            celspan_object **out) {
+  celspan_texture *texture;
+  CS_TRY(celspan_texture_create_paint(a->context, paint, &texture));
+  celspan_status status = fill(a, box, texture, out);
+  celspan_texture_unref(texture);
+  return status;
+}
+
+/* The shape of an object in one paint. */
+static celspan_status silhouette(const applying *a, celspan_object *object,
+                                 const celspan_paint *paint, celspan_object **out) {
+  celspan_box box;
+  celspan_object *ground;
+  bool is_there = false;
+  *out = NULL;
+  if (object)
+    CS_TRY(cs_bounds_object(a->context, object, &is_there, &box));
+  if (!is_there)
+    return CELSPAN_OK;
+  CS_TRY(flood(a, &box, paint, &ground));
+  celspan_status status = mask(a, ground, object, false, out);
+  celspan_object_unref(ground);
+  return status;
+}
+
+static bool is_within(const celspan_box *inner, const celspan_box *outer) {
+  return inner->x >= outer->x && inner->y >= outer->y &&
+         inner->x + inner->width <= outer->x + outer->width &&
+         inner->y + inner->height <= outer->y + outer->height;
+}
+
+/* Cuts off what lies outside of a box. */
+static celspan_status cut(const applying *a, const celspan_box *box, celspan_object **object) {
+  const celspan_matrix identity = celspan_matrix_identity();
+  celspan_object *both[2] = {*object, NULL}, *made = NULL;
+  celspan_box bounds;
+  bool is_there = false;
+  if (*object)
+    CS_TRY(cs_bounds_object(a->context, *object, &is_there, &bounds));
+  if (!is_there || (is_within(&bounds, box) && box->width > 0 && box->height > 0))
+    return CELSPAN_OK;
+  if (!(box->width > 0) || !(box->height > 0))
+    return replace(CELSPAN_OK, NULL, object);
+  CS_TRY(cs_svg_rectangle(a->context, box, &identity, &both[1]));
+  celspan_status status = celspan_object_create_boolean(a->context, CELSPAN_CLIP, both, 2, &made);
+  celspan_object_unref(both[1]);
+  return replace(status, made, object);
+}
+
+/* ---------------------------------------------------------------- steps of compositing */
+
+static celspan_status make_merge(const applying *a, celspan_object **out) {
+  celspan_object **objects;
+  size_t count = 0, most = a->step->input_count;
+  CS_TRY(CS_MAKE(a->context, objects, most));
+  for (size_t i = 0; i < most; i++)
+    if (input(a, i))
+      objects[count++] = input(a, i);
+  celspan_status status = unite(a, objects, count, out);
+  cs_mem_free(a->context->memory, objects, most * sizeof(celspan_object *));
+  return status;
+}
+
+static celspan_status make_blend(const applying *a, celspan_object **out) {
+  return blend(a, input(a, 1), input(a, 0), a->step->blend, out);
+}
+
+static celspan_status make_in(const applying *a, celspan_object **out) {
+  return mask(a, input(a, 0), input(a, 1), false, out);
+}
+
+static celspan_status make_out(const applying *a, celspan_object **out) {
+  return mask(a, input(a, 0), input(a, 1), true, out);
+}
+
+/* The two parts do not overlap, so they are added. */
+static celspan_status make_both(const applying *a, bool inverts, celspan_object **out) {
+  celspan_object *front, *back = NULL;
+  CS_TRY(mask(a, input(a, 0), input(a, 1), inverts, &front));
+  celspan_status status = mask(a, input(a, 1), input(a, 0), true, &back);
+  if (status == CELSPAN_OK)
+    status = blend(a, back, front, CELSPAN_BLEND_ADD, out);
+  celspan_object_unref(front);
+  celspan_object_unref(back);
+  return status;
+}
+
+static celspan_status make_atop(const applying *a, celspan_object **out) {
+  return make_both(a, false, out);
+}
+
+static celspan_status make_xor(const applying *a, celspan_object **out) {
+  return make_both(a, true, out);
+}
+
+/* Appends an object times a weight: as often as it goes into that, and once more, faded. */
+static celspan_status add_terms(const applying *a, celspan_object *object, double weight,
+                                celspan_object **terms, size_t *count) {
+  for (; object && weight > 0; weight--) {
+    celspan_object *faded, *added = NULL;
+    CS_TRY(celspan_object_fade(a->context, object, fmin(weight, 1), &faded));
+    celspan_status status = celspan_object_blend(
+        a->context, faded, *count > 0 ? CELSPAN_BLEND_ADD : CELSPAN_BLEND_NORMAL, &added);
+    celspan_object_unref(faded);
+    CS_TRY(status);
+    terms[(*count)++] = added;
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status make_sum(const applying *a, celspan_object **out) {
+  const celspan_paint white = celspan_paint_rgb(1, 1, 1, 1);
+  celspan_object *terms[TERMS], *ground;
+  size_t count = 0;
+  CS_TRY(flood(a, &a->step->box, &white, &ground));
+  celspan_object *const parts[3] = {input(a, 0), input(a, 1), ground};
+  celspan_status status = CELSPAN_OK;
+  for (int i = 0; i < 3 && status == CELSPAN_OK; i++)
+    status = add_terms(a, parts[i], a->step->weights[i], terms, &count);
+  if (status == CELSPAN_OK)
+    status = unite(a, terms, count, out);
+  celspan_object_unref(ground);
+  while (count > 0)
+    celspan_object_unref(terms[--count]);
+  return status;
+}
+
+/* ---------------------------------------------------------------- steps of one input */
+
+static celspan_status make_colour(const applying *a, celspan_object **out) {
+  celspan_object *only[1] = {input(a, 0)};
+  celspan_group_desc desc = CELSPAN_GROUP_DESC;
+  desc.objects = only;
+  desc.object_count = 1;
+  desc.space = a->step->space;
+  desc.grade = a->step->grade;
+  desc.opacity = a->step->opacity;
+  return only[0] ? celspan_object_create_group(a->context, &desc, out) : CELSPAN_OK;
+}
+
+static celspan_status make_luma(const applying *a, celspan_object **out) {
+  const celspan_paint black = celspan_paint_rgb(0, 0, 0, 1);
+  celspan_object *by = kept(input(a, 0)), *ground = NULL, *light = NULL;
+  if (!by)
+    return CELSPAN_OK;
+  celspan_status status = convert(a, a->step->space, &by);
+  if (status == CELSPAN_OK)
+    status = silhouette(a, by, &black, &ground);
+  if (status == CELSPAN_OK && ground) {
+    status = celspan_object_create_matte(a->context, ground, by, CELSPAN_MATTE_LUMA, false, &light);
+    celspan_object_unref(ground);
+  }
+  celspan_object_unref(by);
+  *out = light;
+  return status;
+}
+
+static celspan_status move(const applying *a, celspan_object **object) {
+  const celspan_matrix matrix = celspan_matrix_translation(a->step->offset.x, a->step->offset.y);
+  return *object ? transform(a, &matrix, object) : CELSPAN_OK;
+}
+
+static celspan_status make_offset(const applying *a, celspan_object **out) {
+  *out = kept(input(a, 0));
+  return move(a, out);
+}
+
+/* Blurs *object by one radius along both axes, between two stretches along one of them. */
+static celspan_status blur(const applying *a, celspan_object **object) {
+  double most = fmax(a->step->radius.x, a->step->radius.y);
+  double stretch =
+      fmax(a->step->radius.y, LEAST_RADIUS * most) / fmax(a->step->radius.x, LEAST_RADIUS * most);
+  celspan_blur_desc desc = CELSPAN_BLUR_DESC;
+  celspan_object *made = NULL;
+  if (!*object || !(most > 0))
+    return CELSPAN_OK;
+  const celspan_matrix forth = celspan_matrix_scaling(1, 1 / stretch),
+                       back = celspan_matrix_scaling(1, stretch);
+  if (stretch != 1)
+    CS_TRY(transform(a, &forth, object));
+  desc.radius = fmin(fmax(a->step->radius.x, LEAST_RADIUS * most), CELSPAN_BLUR_MOST);
+  celspan_status status = celspan_object_blur(a->context, *object, &desc, &made);
+  CS_TRY(replace(status, made, object));
+  if (stretch != 1)
+    CS_TRY(transform(a, &back, object));
+  return convert(a, a->step->space, object);
+}
+
+static celspan_status make_blur(const applying *a, celspan_object **out) {
+  *out = kept(input(a, 0));
+  return blur(a, out);
+}
+
+static celspan_status make_shadow(const applying *a, celspan_object **out) {
+  celspan_object *shadow = NULL;
+  celspan_status status = silhouette(a, input(a, 0), &a->step->paint, &shadow);
+  if (status == CELSPAN_OK)
+    status = blur(a, &shadow);
+  if (status == CELSPAN_OK)
+    status = move(a, &shadow);
+  if (status == CELSPAN_OK)
+    status = blend(a, shadow, input(a, 0), CELSPAN_BLEND_NORMAL, out);
+  celspan_object_unref(shadow);
+  return status;
+}
+
+static celspan_status make_tile(const applying *a, celspan_object **out) {
+  celspan_pattern_desc desc = CELSPAN_PATTERN_DESC;
+  celspan_texture *texture;
+  desc.art = input(a, 0);
+  desc.box = a->step->tile;
+  if (!desc.art || !(desc.box.width > 0) || !(desc.box.height > 0))
+    return CELSPAN_OK;
+  CS_TRY(celspan_texture_create_pattern(a->context, &desc, &texture));
+  celspan_status status = fill(a, &a->step->box, texture, out);
+  celspan_texture_unref(texture);
+  return status;
+}
+
+/* ---------------------------------------------------------------- steps without inputs */
+
+static celspan_status make_flood(const applying *a, celspan_object **out) {
+  return flood(a, &a->step->box, &a->step->paint, out);
+}
+
+static celspan_status make_image(const applying *a, celspan_object **out) {
+  *out = kept(a->step->object);
+  return *out ? convert(a, a->recipe->space, out) : CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- the whole */
+
+/* *out: NULL before; what was made, also after a failure. */
+typedef celspan_status step_maker(const applying *a, celspan_object **out);
+
+static step_maker *const makers[] = {
+    [CS_SVG_STEP_MERGE] = make_merge, [CS_SVG_STEP_BLEND] = make_blend,
+    [CS_SVG_STEP_IN] = make_in,       [CS_SVG_STEP_OUT] = make_out,
+    [CS_SVG_STEP_ATOP] = make_atop,   [CS_SVG_STEP_XOR] = make_xor,
+    [CS_SVG_STEP_SUM] = make_sum,     [CS_SVG_STEP_COLOUR] = make_colour,
+    [CS_SVG_STEP_LUMA] = make_luma,   [CS_SVG_STEP_OFFSET] = make_offset,
+    [CS_SVG_STEP_BLUR] = make_blur,   [CS_SVG_STEP_SHADOW] = make_shadow,
+    [CS_SVG_STEP_FLOOD] = make_flood, [CS_SVG_STEP_TILE] = make_tile,
+    [CS_SVG_STEP_IMAGE] = make_image};
+
+/* The element as the steps take it, and its silhouette. */
+static celspan_status make_sources(applying *a, celspan_object *object) {
+  const celspan_paint black = celspan_paint_rgb(0, 0, 0, 1);
+  celspan_object **source = &a->results[0];
+  *source = kept(object);
+  if (object)
+    CS_TRY(convert(a, a->recipe->space, source));
+  if (object)
+    CS_TRY(transform(a, &a->recipe->back, source));
+  CS_TRY(cut(a, &a->recipe->region, source));
+  return silhouette(a, *source, &black, &a->results[1]);
+}
+
+static celspan_status make_steps(applying *a, celspan_object *object) {
+  CS_TRY(make_sources(a, object));
+  for (size_t i = 0; i < a->recipe->step_count; i++) {
+    const cs_svg_step *step = &a->recipe->steps[i];
+    celspan_object **result = &a->results[CS_SVG_SOURCES + i];
+    a->step = step;
+    if (step->box.width > 0 && step->box.height > 0)
+      CS_TRY(makers[step->kind](a, result));
+    CS_TRY(cut(a, &step->box, result));
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_svg_recipe_apply(celspan_context *context, const cs_svg_recipe *recipe,
+                                   celspan_object **object) {
+  applying a = {.context = context, .recipe = recipe};
+  const size_t count = CS_SVG_SOURCES + recipe->step_count;
+  celspan_object *made = NULL;
+  CS_TRY(CS_MAKE(context, a.results, count));
+  celspan_status status = make_steps(&a, *object);
+  if (status == CELSPAN_OK && recipe->step_count > 0)
+    made = kept(a.results[count - 1]);
+  if (made)
+    status = transform(&a, &recipe->matrix, &made);
+  for (size_t i = 0; i < count; i++)
+    celspan_object_unref(a.results[i]);
+  cs_mem_free(context->memory, a.results, count * sizeof(celspan_object *));
+  return status == CELSPAN_OK ? replace(status, made, object) : status;
+}

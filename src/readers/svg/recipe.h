@@ -1,0 +1,81 @@
+/* Recipes of filters: steps that make one object of another.
+ *
+ *     0 the element ----+--> 2 blur --> 3 offset --+
+ *     1 its silhouette  |                          +--> 4 merge = the result
+ *                       +--------------------------+
+ *
+ * A recipe is kept with its item, because it acts on whatever `with` puts into the item's place.
+ * Everything in it is in the user units of the element, and what a step makes is cut off at the
+ * step's box.
+ *
+ * INVARIANT: an input of a step is one of the two sources or an earlier step; recipes do not change
+ * once they are complete.
+ */
+#pragma once
+
+#include <stdatomic.h>
+
+#include "base/context.h"
+
+#define CS_SVG_SOURCES 2 /* the element, and its silhouette in black */
+/* How often the sources may be in what a recipe makes, at most. */
+#define CS_SVG_RECIPE_USES 1024
+
+typedef enum cs_svg_step_kind {
+  CS_SVG_STEP_MERGE,  /* the inputs over each other, the first behind */
+  CS_SVG_STEP_BLEND,  /* the first input in a mode over the second */
+  CS_SVG_STEP_IN,     /* the first input where the second is */
+  CS_SVG_STEP_OUT,    /* or is not */
+  CS_SVG_STEP_ATOP,   /* IN, and the second where the first is not */
+  CS_SVG_STEP_XOR,    /* each where the other is not */
+  CS_SVG_STEP_SUM,    /* both inputs and white, by weights */
+  CS_SVG_STEP_COLOUR, /* the input graded and faded */
+  CS_SVG_STEP_LUMA,   /* black, as far as the input is light */
+  CS_SVG_STEP_OFFSET,
+  CS_SVG_STEP_BLUR,
+  CS_SVG_STEP_SHADOW, /* the input over its silhouette, blurred and moved */
+  CS_SVG_STEP_FLOOD,
+  CS_SVG_STEP_TILE, /* a part of the input, repeated */
+  CS_SVG_STEP_IMAGE
+} cs_svg_step_kind;
+
+typedef struct cs_svg_step {
+  cs_svg_step_kind kind;
+  celspan_space space; /* the numbers that are mixed */
+  celspan_box box;     /* nothing is drawn if it has no size */
+  size_t first_input, input_count;
+  celspan_blend blend;    /* BLEND */
+  double weights[3];      /* SUM: 0..CS_SVG_SUM_MOST */
+  celspan_grade *grade;   /* COLOUR; owned; NULL: none */
+  double opacity;         /* COLOUR */
+  celspan_point offset;   /* OFFSET, SHADOW */
+  celspan_point radius;   /* BLUR, SHADOW: along x and y */
+  celspan_paint paint;    /* FLOOD, SHADOW */
+  celspan_box tile;       /* TILE */
+  celspan_object *object; /* IMAGE; owned; NULL: nothing */
+} cs_svg_step;
+
+#define CS_SVG_SUM_MOST 4
+
+typedef struct cs_svg_recipe {
+  atomic_size_t references;
+  cs_memory *memory;
+  celspan_space space;         /* of the drawing: of the element itself, and of images */
+  celspan_box region;          /* that the element is cut off at */
+  celspan_matrix matrix, back; /* user units to the drawing's, and the inverse */
+  cs_svg_step *steps;          /* none: nothing is drawn */
+  size_t step_count, step_capacity;
+  size_t *inputs; /* of all steps: numbers of sources and steps, as in the figure */
+  size_t input_count, input_capacity;
+} cs_svg_recipe;
+
+/* Without steps. *out: new. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_svg_recipe_create(celspan_context *context, cs_svg_recipe **out);
+cs_svg_recipe *cs_svg_recipe_ref(cs_svg_recipe *recipe);
+void cs_svg_recipe_unref(cs_svg_recipe *recipe);
+
+/* Puts what the recipe makes of *object in its place. NULL, before and after: nothing is drawn.
+ * Errors: NO_MEMORY, LIMIT; *object is then untouched. */
+CELSPAN_CHECKED celspan_status cs_svg_recipe_apply(celspan_context *context,
+                                                   const cs_svg_recipe *recipe,
+                                                   celspan_object **object);
