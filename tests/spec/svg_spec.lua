@@ -968,7 +968,7 @@ describe("an unsupported part", function()
 <foreignObject/>]]
     local told = {}
     for i, entry in ipairs(art.skipped) do told[i] = entry.line .. " " .. entry.what end
-    assert.are.same({ "2 filter of rect: feTurbulence",
+    assert.are.same({ "1 filter of rect: feTurbulence",
       "4 text in no family, for which no font is given",
                       "5 foreignObject" }, told)
     assert.are.equal("000000 255", at(art.object, 25, 50))
