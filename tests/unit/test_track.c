@@ -1,11 +1,13 @@
 /* Trackers on sequences whose motion is known: a patterned card in front of a patterned background,
- * rotated, scaled and bent, under changing light, with noise, and partly or wholly covered. */
+ * rotated, scaled and bent, under changing light, in fog, with noise, and partly or wholly covered.
+ */
 #include <stdlib.h>
 
 #include "celspan/celspan.h"
 #include "tests/support/check.h"
 #include "tests/support/memory.h"
 #include "tests/support/random.h"
+#include "tools/track/plane.h"
 
 enum { WIDTH = 320, HEIGHT = 240, COUNT = WIDTH * HEIGHT };
 
@@ -41,6 +43,7 @@ typedef struct sequence {
   double light; /* how much the card's light changes */
   int covered_from, covered_to;
   double covered_share; /* of the card, from its left */
+  double fog;           /* the greatest share of white over the frame */
 } sequence;
 
 /* The position of the card in frame i. */
@@ -83,7 +86,8 @@ static void draw_frame(const sequence *s, int i, float *out) {
   CHECK(celspan_matrix_inverse(pose(s, i), &back));
   for (int y = 0; y < HEIGHT; y++)
     for (int x = 0; x < WIDTH; x++) {
-      double value = value_at(s, i, moved(back, x, y), x, y);
+      double value = value_at(s, i, moved(back, x, y), x, y), fog = s->fog * fabs(sin(i / 4.0));
+      value += fog * (0.95 - value);
       out[y * WIDTH + x] = (float)(value + random_between(&random, -s->noise, s->noise));
     }
 }
@@ -150,16 +154,70 @@ static void known_motion_is_found(celspan_context *context) {
       {"translation", 20, {.model = CELSPAN_MOTION_TRANSLATION}},
       {"turned and scaled", 20, {.model = CELSPAN_MOTION_SIMILARITY}},
       {"in perspective", 20, {.model = CELSPAN_MOTION_PERSPECTIVE}},
-      {"in perspective, noise and light", 100, {CELSPAN_MOTION_PERSPECTIVE, 0.03, 0.3, 0, 0, 0}},
+      {"in perspective, noise and light", 100, {CELSPAN_MOTION_PERSPECTIVE, 0.03, 0.3, 0, 0, 0, 0}},
       {"turned and scaled, noise and light, half covered",
        100,
-       {CELSPAN_MOTION_SIMILARITY, 0.04, 0.3, 20, 60, 0.5}},
-      {"in perspective, a third covered", 20, {CELSPAN_MOTION_PERSPECTIVE, 0.01, 0.1, 5, 15, 0.33}},
-      {"in perspective, wholly covered", 100, {CELSPAN_MOTION_PERSPECTIVE, 0.02, 0.2, 40, 50, 1}},
+       {CELSPAN_MOTION_SIMILARITY, 0.04, 0.3, 20, 60, 0.5, 0}},
+      {"in perspective, a third covered",
+       20,
+       {CELSPAN_MOTION_PERSPECTIVE, 0.01, 0.1, 5, 15, 0.33, 0}},
+      {"in perspective, wholly covered",
+       100,
+       {CELSPAN_MOTION_PERSPECTIVE, 0.02, 0.2, 40, 50, 1, 0}},
+      {"in fog", 20, {.model = CELSPAN_MOTION_SIMILARITY, .fog = 0.7}},
   };
   for (int i = 0; i < (int)(sizeof known / sizeof *known); i++)
     if (check_is_drawn(i))
       follow_sequence(context, known[i].name, known[i].sequence, known[i].frames);
+}
+
+/* A card that leaps twice as far as pixels are searched is found on smaller levels. */
+static void a_leap_is_followed(celspan_context *context) {
+  float *values = malloc(COUNT * sizeof *values);
+  sequence s = {.model = CELSPAN_MOTION_TRANSLATION};
+  celspan_tracker *tracker = start(context, &s, values);
+  celspan_sighting sighting;
+  draw_frame(&s, 15, values); /* 30 pixels to the right, and 17 down */
+  CHECK(celspan_tracker_follow(tracker, &(celspan_luma){WIDTH, HEIGHT, values}, &sighting) ==
+            CELSPAN_OK &&
+        sighting.is_found);
+  CHECK(squares_of(&s, 15, sighting.matrix) < 5 * 0.1 * 0.1);
+  celspan_tracker_destroy(tracker);
+  free(values);
+}
+
+/* The lesser eigenvalue of the slopes around a pixel. */
+static double strength_at(const cs_plane *plane, int x, int y) {
+  double xx = 0, xy = 0, yy = 0;
+  for (int i = 0; i < 49; i++) {
+    const float *at = plane->values + (y + i / 7 - 3) * WIDTH + x + i % 7 - 3;
+    double slope_x = (double)(at[1] - at[-1]) / 2, slope_y = (double)(at[WIDTH] - at[-WIDTH]) / 2;
+    xx += slope_x * slope_x;
+    xy += slope_x * slope_y;
+    yy += slope_y * slope_y;
+  }
+  return (xx + yy) / 2 - sqrt((xx - yy) * (xx - yy) / 4 + xy * xy);
+}
+
+/* A corner is where its neighbours in the region hold on no better, at the rim of it too. */
+static void corners_are_the_strongest_around(celspan_context *context) {
+  float *values = malloc(COUNT * sizeof *values);
+  const cs_plane plane = {WIDTH, 80, values};
+  celspan_point corners[CS_FEATURES_MOST];
+  for (int i = 0; i < 40; i++) {
+    const cs_features_region region = {10, 10, 50 + 3 * i, 60, NULL};
+    size_t count;
+    for (int k = 0; k < WIDTH * 80; k++)
+      values[k] = (float)pattern(k % WIDTH, k / WIDTH, 200 + (uint32_t)i);
+    CHECK(cs_features_find(context, &plane, &region, corners, &count) == CELSPAN_OK && count > 5);
+    for (size_t k = 0; k < count * 9; k++) {
+      int x = (int)corners[k / 9].x, y = (int)corners[k / 9].y;
+      int u = x + (int)(k % 3) - 1, v = y + (int)(k / 3 % 3) - 1;
+      if (u >= region.x0 && u < region.x1 && v >= region.y0 && v < region.y1)
+        CHECK(strength_at(&plane, u, v) <= strength_at(&plane, x, y) * 1.0001);
+    }
+  }
+  free(values);
 }
 
 static void another_scene_is_no_sighting(celspan_context *context) {
@@ -300,6 +358,8 @@ int main(void) {
   if (!CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK))
     return check_done();
   known_motion_is_found(context);
+  a_leap_is_followed(context);
+  corners_are_the_strongest_around(context);
   another_scene_is_no_sighting(context);
   a_mask_leaves_out_what_it_does_not_cover(context);
   a_rewound_tracker_goes_the_other_way(context);
