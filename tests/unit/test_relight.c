@@ -200,6 +200,34 @@ static void fields_are_fitted(celspan_context *context) {
   celspan_texture_unref(sheet);
 }
 
+/* Light of which the mean is known has that mean, however uneven it is. */
+static void a_known_mean_is_kept(celspan_context *context) {
+  enum { STEPS = 64 };
+  celspan_light_field truth = celspan_light_field_flat(0.8, 0.5, 0.3), found;
+  celspan_texture *sheet = NULL;
+  double sum[3] = {0, 0, 0};
+  for (int c = 0; c < 3; c++)
+    truth.terms[c][0] = 2; /* it is darkest where the mean begins, on the left */
+  if (!CHECK(celspan_light_field_texture(context, &truth, WIDTH, HEIGHT, &sheet) == CELSPAN_OK))
+    return;
+  celspan_light_estimate_desc desc = CELSPAN_LIGHT_ESTIMATE_DESC;
+  desc.picture = sheet;
+  desc.is_uneven = true;
+  desc.clue = CELSPAN_LIGHT_CLUE_LIGHT;
+  for (int c = 0; c < 3; c++)
+    desc.colour[c] = 0.25 * (c + 1);
+  CHECK(celspan_light_estimate(context, &desc, &found) == CELSPAN_OK);
+  for (int i = 0; i < STEPS * STEPS; i++) {
+    double rgb[3];
+    celspan_light_field_at(&found, (i % STEPS + 0.5) / STEPS, (i / STEPS + 0.5) / STEPS, rgb);
+    for (int c = 0; c < 3; c++)
+      sum[c] += rgb[c] / (STEPS * STEPS);
+  }
+  for (int c = 0; c < 3; c++)
+    CHECK_NEAR(sum[c] / desc.colour[c], 1, 1e-9);
+  celspan_texture_unref(sheet);
+}
+
 /* ---------------------------------------------------------------- refusals */
 
 static void lights_are_checked(celspan_context *context, celspan_texture *picture) {
@@ -279,6 +307,19 @@ static void fields_that_are_too_uneven_are_refused(celspan_context *context) {
   celspan_texture_unref(halves);
 }
 
+static void grounds_are_checked(celspan_context *context, celspan_texture *picture) {
+  static const char *const said[] = {"grounds[1]", "grounds[2]"};
+  celspan_light_field light = field_of(lamp);
+  celspan_texture *out;
+  for (int i = 0; i < 2; i++) {
+    celspan_relight_ground grounds[2] = {{.picture = picture}, {.picture = picture}};
+    grounds[i].colour[1] = -1;
+    CHECK(celspan_relight_grounds(context, grounds, &light, &out) == CELSPAN_BAD_ARGUMENT);
+    if (!CHECK(strstr(celspan_context_error(context), said[i])))
+      fprintf(stderr, "it says: %s\n", celspan_context_error(context));
+  }
+}
+
 static void refusals(celspan_context *context) {
   celspan_texture *picture;
   light_card(lamp, none, room[0]);
@@ -287,6 +328,7 @@ static void refusals(celspan_context *context) {
   lights_are_checked(context, picture);
   textures_are_checked(context, picture);
   estimates_are_checked(context, picture);
+  grounds_are_checked(context, picture);
   celspan_texture_unref(picture);
 }
 
@@ -474,6 +516,7 @@ int main(void) {
   make_card();
   both_ways_find_the_card(context);
   fields_are_fitted(context);
+  a_known_mean_is_kept(context);
   fields_that_are_too_uneven_are_refused(context);
   refusals(context);
   stacks_take_any_light(context);

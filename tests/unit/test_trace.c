@@ -128,6 +128,33 @@ static void lines_are_sound(celspan_context *context, const drawing *d) {
   celspan_trace_unref(traced);
 }
 
+/* Puts a square of a colour into a drawing. */
+static void put_square(drawing *d, int x0, int y0, int side, unsigned char label) {
+  for (int i = 0; i < side * side; i++) {
+    int at = (y0 + i / side) * d->width + x0 + i % side;
+    d->labels[at] = label;
+    memcpy(d->pixels + 4 * at, codes + 3 * label, 3);
+    d->pixels[4 * at + 3] = 255;
+  }
+}
+
+/* A speckle that borders on other speckles alone goes with them. */
+static void speckles_within_speckles_are_dropped(celspan_context *context) {
+  celspan_trace_desc desc = CELSPAN_TRACE_DESC;
+  drawing d = {.width = 12, .height = 12};
+  celspan_trace *traced;
+  celspan_trace_shape shape;
+  put_square(&d, 0, 0, 12, 0);
+  put_square(&d, 4, 4, 3, 1);
+  put_square(&d, 5, 5, 1, 2);
+  desc.speckle = 8;
+  if (!CHECK(trace(context, &d, desc, &traced) == CELSPAN_OK))
+    return;
+  CHECK(celspan_trace_shape_at(traced, 0, &shape) && memcmp(shape.colour, codes, 3) == 0);
+  CHECK(!celspan_trace_shape_at(traced, 1, &shape));
+  celspan_trace_unref(traced);
+}
+
 static void random_pictures(celspan_context *context) {
   const char *wanted = getenv("CELSPAN_TRACES");
   int count = wanted ? atoi(wanted) : 150;
@@ -202,6 +229,7 @@ int main(void) {
   if (celspan_context_create(NULL, &context) != CELSPAN_OK)
     return 1;
   random_pictures(context);
+  speckles_within_speckles_are_dropped(context);
   descriptions_are_checked(context);
   celspan_context_destroy(context);
   memory_may_fail_anywhere(false);
