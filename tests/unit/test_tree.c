@@ -111,13 +111,28 @@ static void check_layers(celspan_operator op, range tree) {
   }
 }
 
-/* An operator over two unions, which meet at a layer. */
+/* The layers of which a present operator needs one. */
+static range needed_by(celspan_operator op, range tree, uint32_t middle) {
+  switch (op) {
+  case CELSPAN_DIFFERENCE:
+    return (range){tree.first, middle};
+  case CELSPAN_INTERSECTION:
+  case CELSPAN_CLIP:
+    return (range){middle, tree.end};
+  default:
+    return tree;
+  }
+}
+
+/* An operator over two unions, which meet at a layer, with a guard. */
 static void check_unions(celspan_operator op, range tree, uint32_t middle) {
   range operands[2] = {{tree.first, middle}, {middle, tree.end}};
-  cs_step steps[3] = {{CS_STEP_LAYERS, CELSPAN_UNION, tree.first, middle, middle - tree.first},
+  range needed = needed_by(op, tree, middle);
+  cs_step steps[4] = {{CS_STEP_GUARD, CELSPAN_UNION, needed.first, needed.end, 3},
+                      {CS_STEP_LAYERS, CELSPAN_UNION, tree.first, middle, middle - tree.first},
                       {CS_STEP_LAYERS, CELSPAN_UNION, middle, tree.end, tree.end - middle},
                       {CS_STEP_OPERATOR, op, tree.first, tree.end, 2}};
-  cs_tree only = {tree.first, tree.end, 0, 3};
+  cs_tree only = {tree.first, tree.end, 0, 4};
   cs_stack stack = {.steps = steps, .trees = &only, .tree_count = 1, .layer_count = MOST};
   for (int density = 0; density < 5; density++) {
     uint64_t before[WORDS], expected[WORDS];
@@ -148,6 +163,22 @@ static void check_frame(range tree) {
   }
 }
 
+/* Steps after a guard whose layers are absent are not taken: here they would clear layers that are
+ * not of the tree. */
+static void absent_operators_are_skipped(void) {
+  cs_step steps[4] = {{CS_STEP_GUARD, CELSPAN_UNION, 70, 72, 2},
+                      {CS_STEP_LAYERS, CELSPAN_INTERSECTION, 0, 72, 72},
+                      {CS_STEP_OPERATOR, CELSPAN_CLIP, 64, 72, 1},
+                      {CS_STEP_OPERATOR, CELSPAN_UNION, 64, 72, 1}};
+  cs_tree only = {64, 72, 0, 4};
+  cs_stack stack = {.steps = steps, .trees = &only, .tree_count = 1, .layer_count = MOST};
+  uint64_t before[WORDS] = {0}, expected[WORDS] = {0};
+  put(before, 3, true);
+  put(before, 65, true);
+  put(expected, 3, true);
+  check_set(&stack, before, expected, 1);
+}
+
 int main(void) {
   static const uint32_t firsts[] = {0, 1, 63, 64, 65},
                         counts[] = {2, 3, 63, 64, 65, 127, 128, 129, 191, 192, 193};
@@ -162,5 +193,6 @@ int main(void) {
       }
       check_frame(tree);
     }
+  absent_operators_are_skipped();
   return check_done();
 }

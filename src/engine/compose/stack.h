@@ -29,8 +29,10 @@
  * a faded composition as a whole and a cel. */
 #define CS_STACK_GROUPS (6 * CS_SCENE_DEPTH + 5)
 
-/* One step of a boolean tree in post-order. */
+/* One step of a boolean tree in post-order. Before the first step of an operator there may be a
+ * guard: where none of its layers is present, the operator is absent, and its steps are skipped. */
 typedef enum cs_step_kind {
+  CS_STEP_GUARD,
   CS_STEP_LAYER,
   CS_STEP_LAYERS,
   CS_STEP_OPERATOR,
@@ -40,8 +42,8 @@ typedef enum cs_step_kind {
 typedef struct cs_step {
   cs_step_kind kind;
   celspan_operator op; /* LAYERS: of operands that are all layers; OPERATOR: of results */
-  uint32_t first, end; /* the layers below */
-  uint32_t operands;   /* FRAME: the results of the trees inside it */
+  uint32_t first, end; /* the layers below; GUARD: those that the operator needs one of */
+  uint32_t operands;   /* FRAME: the results of the trees inside it; GUARD: the steps guarded */
 } cs_step;
 
 typedef struct cs_tree {

@@ -90,11 +90,28 @@ static cs_tree_result resolve_step(const cs_step *step, uint64_t *set,
   return (cs_tree_result){step->first, step->end, is_present};
 }
 
+/* The steps after a guard to skip: all that it guards, the last of which clears its layers and is
+ * absent; or none. */
+static uint32_t skip_guarded(const cs_step *guard, uint64_t *set, cs_tree_result *result) {
+  if (any_in_range(set, guard->first, guard->end))
+    return 0;
+  const cs_step *last = guard + guard->operands;
+  clear_range(set, last->first, last->end);
+  *result = (cs_tree_result){last->first, last->end, false};
+  return guard->operands;
+}
+
 static void resolve_tree(const cs_stack *stack, const cs_tree *tree, uint64_t *set,
                          cs_tree_result *results) {
   size_t depth = 0;
   for (uint32_t i = 0; i < tree->step_count; i++) {
     const cs_step *step = &stack->steps[tree->step + i];
+    if (step->kind == CS_STEP_GUARD) {
+      uint32_t skipped = skip_guarded(step, set, &results[depth]);
+      depth += skipped > 0;
+      i += skipped;
+      continue;
+    }
     if (step->kind == CS_STEP_LAYER) {
       results[depth++] = (cs_tree_result){step->first, step->end, has_bit(set, step->first)};
       continue;
@@ -207,6 +224,8 @@ void cs_tree_certain(const cs_stack *stack, const cs_tree *tree, const cs_cull_p
     painted[layer - tree->first] = presence_of(&t, layer).certain;
   for (uint32_t i = 0; i < tree->step_count; i++) {
     const cs_step *step = &stack->steps[tree->step + i];
+    if (step->kind == CS_STEP_GUARD)
+      continue;
     if (step->kind == CS_STEP_LAYER) {
       results[depth++] = (cs_tree_certain_result){presence_of(&t, step->first), step->end};
       continue;

@@ -14,6 +14,10 @@
  *     after                                 difference: only its first operand is present
  *          1  0  1        0        0        bits 3 and 4 are cleared, 0 and 2 contribute
  *
+ * Few operands of a large tree are present at a place: a guard before the steps of an operator
+ * names layers that it needs one of (of a clip, those of its shape; of a difference, of its first
+ * operand), so that the steps of what is absent are skipped.
+ *
  * A rostrum that is an object has a layer for its frame, behind all its others: where that one is
  * absent, all are cleared; where it is present, the object is, whatever is painted there.
  */

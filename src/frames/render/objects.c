@@ -429,17 +429,57 @@ static bool operands_are_layers(const cs_primitive_data *data) {
   return true;
 }
 
-/* An operator: the layers of its operands, and the step that combines them. */
+static uint32_t next_layer(const cs_compiler *c) { return (uint32_t)c->plan->stack.layer_count; }
+
+/* Whether an operator is absent where its operand i is; of several such operands the last one. */
+static bool is_needed(const cs_boolean *boolean, size_t i) {
+  switch (boolean->op) {
+  case CELSPAN_UNION:
+  case CELSPAN_XOR:
+    return false;
+  case CELSPAN_INTERSECTION:
+  case CELSPAN_CLIP:
+    return i + 1 == boolean->operand_count; /* of a clip, its shape */
+  case CELSPAN_DIFFERENCE:
+    break;
+  }
+  return i == 0; /* also of a matte */
+}
+
+/* guard: becomes the layers that the operator needs one of. */
+static celspan_status add_operands(cs_compiler *c, const cs_boolean *boolean,
+                                   const celspan_matrix *matrix, cs_step *guard) {
+  bool has_needed = false;
+  guard->first = next_layer(c);
+  for (size_t i = 0; i < boolean->operand_count; i++) {
+    uint32_t layer = next_layer(c);
+    CS_TRY(add_operand(c, boolean, i, matrix));
+    if (c->records && is_layer(boolean->operands[i]))
+      CS_TRY(append_step(c, (cs_step){.kind = CS_STEP_LAYER, .first = layer, .end = layer + 1}));
+    has_needed |= is_needed(boolean, i);
+    if (is_needed(boolean, i))
+      *guard = (cs_step){.kind = CS_STEP_GUARD, .first = layer, .end = next_layer(c)};
+  }
+  if (!has_needed)
+    guard->end = next_layer(c);
+  return CELSPAN_OK;
+}
+
+/* An operator: the layers of its operands, and the step that combines them. One over layers alone
+ * needs neither steps for them nor a guard. */
 static celspan_status add_operator(cs_compiler *c, const cs_primitive_data *data,
                                    const celspan_matrix *matrix) {
-  uint32_t first = (uint32_t)c->plan->stack.layer_count;
+  cs_stack *stack = &c->plan->stack;
   bool records = c->records, over_layers = operands_are_layers(data);
-  for (size_t i = 0; i < data->boolean->operand_count; i++) {
-    uint32_t layer = (uint32_t)c->plan->stack.layer_count;
-    c->records = records && !over_layers;
-    CS_TRY(add_operand(c, data->boolean, i, matrix));
-    if (c->records && is_layer(data->boolean->operands[i]))
-      CS_TRY(append_step(c, (cs_step){.kind = CS_STEP_LAYER, .first = layer, .end = layer + 1}));
+  uint32_t first = next_layer(c), place = (uint32_t)stack->step_count;
+  cs_step guard = {.kind = CS_STEP_GUARD};
+  c->records = records && !over_layers;
+  if (c->records)
+    CS_TRY(append_step(c, guard));
+  CS_TRY(add_operands(c, data->boolean, matrix, &guard));
+  if (c->records) {
+    guard.operands = (uint32_t)stack->step_count - place;
+    stack->steps[place] = guard;
   }
   c->records = records;
   if (!records)
@@ -447,7 +487,7 @@ static celspan_status add_operator(cs_compiler *c, const cs_primitive_data *data
   return append_step(c, (cs_step){.kind = over_layers ? CS_STEP_LAYERS : CS_STEP_OPERATOR,
                                   .op = data->boolean->op,
                                   .first = first,
-                                  .end = (uint32_t)c->plan->stack.layer_count,
+                                  .end = next_layer(c),
                                   .operands = (uint32_t)data->boolean->operand_count});
 }
 
@@ -471,7 +511,7 @@ static size_t measure_depth(const cs_stack *stack, const cs_tree *tree) {
     const cs_step *step = &stack->steps[tree->step + i];
     if (step->kind == CS_STEP_OPERATOR || step->kind == CS_STEP_FRAME)
       depth -= step->operands;
-    depth++;
+    depth += step->kind != CS_STEP_GUARD;
     most = depth > most ? depth : most;
   }
   return most;
@@ -534,12 +574,14 @@ static celspan_status add_framed(cs_compiler *inner, const cs_primitive_data *da
   cs_outline_box room;
   const cs_compiler_film film = {rostrum->width, rostrum->height, *matrix, inner->front,
                                  cs_primitive_data_outline(data, &room)};
-  uint32_t first = (uint32_t)stack->layer_count;
+  uint32_t first = next_layer(inner), guard = (uint32_t)stack->step_count;
+  CS_TRY(append_step(inner, (cs_step){.kind = CS_STEP_GUARD, .first = first, .end = first + 1}));
   CS_TRY(add_frame(inner, data, matrix));
   CS_TRY(inner->compile_nested(inner, rostrum, &film));
+  stack->steps[guard].operands = (uint32_t)stack->step_count - guard;
   return append_step(inner, (cs_step){.kind = CS_STEP_FRAME,
                                       .first = first,
-                                      .end = (uint32_t)stack->layer_count,
+                                      .end = next_layer(inner),
                                       .operands = inner->results});
 }
 
