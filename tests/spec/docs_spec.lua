@@ -481,10 +481,12 @@ describe("the pictures", function()
       :format(root, BINARY, made))
     check_code(code, message)
     for _, picture in ipairs(pictures) do
-      local printed
-      code, printed = run(("celspan compare %s/%s.png %s/docs/pictures/%s.png --fail 0.02")
-        :format(made, picture.name, root, picture.name))
-      assert.are.equal(0, code, picture.name .. ": " .. printed)
+      local now = ("%s/%s.png"):format(made, picture.name)
+      local kept = ("%s/docs/pictures/%s.png"):format(root, picture.name)
+      if markdown.read(now) ~= markdown.read(kept) then
+        local status, printed = run(("celspan compare %s %s --fail 0.02"):format(now, kept))
+        assert.are.equal(0, status, picture.name .. ": " .. printed)
+      end
     end
   end)
 end)

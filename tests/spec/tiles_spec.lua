@@ -628,9 +628,27 @@ open("%s", "wb").write(base64.b64decode(data))']]):format(folder, path))
     return port, server
   end
 
+  -- Something to see at every depth: rings around a place, each a third as wide as the one before.
+  local DEEP = [[
+    local celspan = require "celspan"
+    local rings = { celspan.rect { 0, 0, 1000, 1000, texture = "#20304a" } }
+    for i = 0, 9 do
+      local side = 900 / 3 ^ i
+      for k = 0, 7 do
+        rings[#rings + 1] = celspan.rect { 0.3 * side, -0.1 * side, 0.15 * side, 0.2 * side,
+          texture = celspan.rgb(0.2 + 0.1 * k, 0.9 - 0.1 * k, (i % 3) / 2) }
+          :rotate(45 * k + 10 * i):translate(432.6, 692.9)
+      end
+    end
+    return celspan.film { size = { 1000, 1000 }, frames = 1, frame = function()
+      return celspan.rostrum { celspan.cel(rings) }
+    end }]]
+
   it_in_a_browser("shows at four depths the same as a render #plain", function()
-    assert_success("tiles scripts/terapixel.lua --size 100000x100000 --levels 8-10 "
-      .. "--places scripts/terapixel/places.txt -o %s/p --progress none", folder)
+    write("deep.lua", DEEP)
+    write("deep.txt", "432.1 693.2 9.6 near\n433.2 692.7 2.6 nearer\n441 698 44 beside\n")
+    assert_success("tiles %s/deep.lua --size 100000x100000 --levels 8-10 "
+      .. "--places %s/deep.txt -o %s/p --progress none", folder, folder, folder)
     -- A browser without a screen runs faster than time, but rarely requests a frame, and its clock
     -- does not wait for pictures that are decoded in the background.
     write("p/probe.html", (read(folder .. "/p/index.html"):gsub("<head>", [[%0<script>
@@ -651,8 +669,8 @@ open("%s", "wb").write(base64.b64decode(data))']]):format(folder, path))
       assert.is_true(is_drawn, w)
       local scale = w / v[3]
       local side = math.floor(100000 * scale + 0.5)
-      assert_success("render scripts/terapixel.lua --size %dx%d --crop %d,%d,%d,%d -o %s/x%d.png "
-        .. "--progress none", side, side, math.floor(v[1] * scale - w / 2 + 0.5),
+      assert_success("render %s/deep.lua --size %dx%d --crop %d,%d,%d,%d -o %s/x%d.png "
+        .. "--progress none", folder, side, side, math.floor(v[1] * scale - w / 2 + 0.5),
         math.floor(v[2] * scale - h / 2 + 0.5), w, h, folder, i)
       local _, text = celspan("compare %s/x%d.png %s/shot%d.png --fail 0.15", folder, i, folder, i)
       local differing = tonumber(text:match("pixels_differing (%d+)"))

@@ -1,5 +1,7 @@
 #include "engine/compose/tree.h"
 
+#define TOGETHER 16 /* neighbouring trees that are skipped at once where none is present */
+
 /* The bits of word `word` that lie in [first, end). */
 static uint64_t range_mask(uint32_t word, uint32_t first, uint32_t end) {
   uint32_t base = word * 64;
@@ -125,10 +127,14 @@ static void resolve_tree(const cs_stack *stack, const cs_tree *tree, uint64_t *s
 }
 
 void cs_tree_resolve(const cs_stack *stack, uint64_t *set, cs_tree_result *results) {
-  for (size_t i = 0; i < stack->tree_count; i++) {
-    const cs_tree *tree = &stack->trees[i];
-    if (any_in_range(set, tree->first, tree->end))
-      resolve_tree(stack, tree, set, results);
+  const cs_tree *trees = stack->trees;
+  for (size_t from = 0, end; from < stack->tree_count; from = end) {
+    end = stack->tree_count - from < TOGETHER ? stack->tree_count : from + TOGETHER;
+    if (!any_in_range(set, trees[from].first, trees[end - 1].end))
+      continue;
+    for (size_t i = from; i < end; i++)
+      if (any_in_range(set, trees[i].first, trees[i].end))
+        resolve_tree(stack, &trees[i], set, results);
   }
 }
 

@@ -37,12 +37,15 @@ static inline bool is_unseen(const unseen *list, size_t i) {
   return list->bits && list->bits[i / 64] >> (i % 64) & 1;
 }
 
+#define PARTS 16 /* a union of more operands is compiled as one of as many unions */
+
 #define OBJECTS_LEAST 1024 /* of a list that is searched */
 #define SIDE 256           /* tiles in a row, and rows of tiles, at most */
 #define WORDS (SIDE / 64)
 /* Pixels: how near a rectangle's edge must be to that of a tile, to cover it, against rounding; it
  * is far less than shows. And how far outlines may reach beyond their bounds. */
 #define NEAR 1e-9
+#define PARTS 16 /* a union of more operands is compiled as one of as many unions */
 #define BEYOND (2 * CS_BOUNDARY_TOLERANCE)
 
 typedef struct tiles {
@@ -446,49 +449,92 @@ static bool is_needed(const cs_boolean *boolean, size_t i) {
   return i == 0; /* also of a matte */
 }
 
-/* guard: becomes the layers that the operator needs one of. */
+static celspan_status add_one_operand(cs_compiler *c, const cs_boolean *boolean, size_t i,
+                                      const celspan_matrix *matrix) {
+  uint32_t layer = next_layer(c);
+  CS_TRY(add_operand(c, boolean, i, matrix));
+  return c->records && is_layer(boolean->operands[i])
+             ? append_step(c, (cs_step){.kind = CS_STEP_LAYER, .first = layer, .end = layer + 1})
+             : CELSPAN_OK;
+}
+
+/* Some operands of an operator, and the layers that it needs one of. */
+typedef struct operands {
+  size_t begin, end;
+  cs_step guard;
+} operands;
+
 static celspan_status add_operands(cs_compiler *c, const cs_boolean *boolean,
-                                   const celspan_matrix *matrix, cs_step *guard) {
+                                   const celspan_matrix *matrix, operands *o) {
   bool has_needed = false;
-  guard->first = next_layer(c);
-  for (size_t i = 0; i < boolean->operand_count; i++) {
+  o->guard = (cs_step){.kind = CS_STEP_GUARD, .first = next_layer(c)};
+  for (size_t i = o->begin; i < o->end; i++) {
     uint32_t layer = next_layer(c);
-    CS_TRY(add_operand(c, boolean, i, matrix));
-    if (c->records && is_layer(boolean->operands[i]))
-      CS_TRY(append_step(c, (cs_step){.kind = CS_STEP_LAYER, .first = layer, .end = layer + 1}));
+    CS_TRY(add_one_operand(c, boolean, i, matrix));
     has_needed |= is_needed(boolean, i);
     if (is_needed(boolean, i))
-      *guard = (cs_step){.kind = CS_STEP_GUARD, .first = layer, .end = next_layer(c)};
+      o->guard = (cs_step){.kind = CS_STEP_GUARD, .first = layer, .end = next_layer(c)};
   }
   if (!has_needed)
-    guard->end = next_layer(c);
+    o->guard.end = next_layer(c);
   return CELSPAN_OK;
+}
+
+static celspan_status add_guarded(cs_compiler *c, const cs_boolean *boolean,
+                                  const celspan_matrix *matrix, operands *o);
+
+/* A union of many as one of unions, so that those of which nothing is present are skipped at once.
+ * Recursion ends: each part has a sixteenth of the operands. *count: the parts. */
+static celspan_status add_unions(cs_compiler *c, const cs_boolean *boolean,
+                                 const celspan_matrix *matrix, operands *o, size_t *count) {
+  size_t all = o->end - o->begin, each = (all + PARTS - 1) / PARTS;
+  o->guard = (cs_step){.kind = CS_STEP_GUARD, .first = next_layer(c)};
+  for (*count = 0; *count * each < all; ++*count) {
+    size_t begin = o->begin + *count * each;
+    operands part = {.begin = begin, .end = o->end - begin < each ? o->end : begin + each};
+    CS_TRY(add_guarded(c, boolean, matrix, &part));
+  }
+  o->guard.end = next_layer(c);
+  return CELSPAN_OK;
+}
+
+/* An operator over operands of which some have operands of their own: a guard, their steps, its
+ * step. */
+static celspan_status add_guarded(cs_compiler *c, const cs_boolean *boolean,
+                                  const celspan_matrix *matrix, operands *o) {
+  cs_stack *stack = &c->plan->stack;
+  uint32_t first = next_layer(c), place = (uint32_t)stack->step_count;
+  size_t count = o->end - o->begin;
+  CS_TRY(append_step(c, (cs_step){.kind = CS_STEP_GUARD}));
+  CS_TRY(boolean->op == CELSPAN_UNION && count > PARTS ? add_unions(c, boolean, matrix, o, &count)
+                                                       : add_operands(c, boolean, matrix, o));
+  o->guard.operands = (uint32_t)stack->step_count - place;
+  stack->steps[place] = o->guard;
+  return append_step(c, (cs_step){.kind = CS_STEP_OPERATOR,
+                                  .op = boolean->op,
+                                  .first = first,
+                                  .end = next_layer(c),
+                                  .operands = (uint32_t)count});
 }
 
 /* An operator: the layers of its operands, and the step that combines them. One over layers alone
  * needs neither steps for them nor a guard. */
 static celspan_status add_operator(cs_compiler *c, const cs_primitive_data *data,
                                    const celspan_matrix *matrix) {
-  cs_stack *stack = &c->plan->stack;
-  bool records = c->records, over_layers = operands_are_layers(data);
-  uint32_t first = next_layer(c), place = (uint32_t)stack->step_count;
-  cs_step guard = {.kind = CS_STEP_GUARD};
-  c->records = records && !over_layers;
-  if (c->records)
-    CS_TRY(append_step(c, guard));
-  CS_TRY(add_operands(c, data->boolean, matrix, &guard));
-  if (c->records) {
-    guard.operands = (uint32_t)stack->step_count - place;
-    stack->steps[place] = guard;
-  }
+  operands all = {.end = data->boolean->operand_count};
+  bool records = c->records;
+  uint32_t first = next_layer(c);
+  if (records && !operands_are_layers(data))
+    return add_guarded(c, data->boolean, matrix, &all);
+  c->records = false;
+  CS_TRY(add_operands(c, data->boolean, matrix, &all));
   c->records = records;
-  if (!records)
-    return CELSPAN_OK;
-  return append_step(c, (cs_step){.kind = over_layers ? CS_STEP_LAYERS : CS_STEP_OPERATOR,
-                                  .op = data->boolean->op,
-                                  .first = first,
-                                  .end = next_layer(c),
-                                  .operands = (uint32_t)data->boolean->operand_count});
+  return records ? append_step(c, (cs_step){.kind = CS_STEP_LAYERS,
+                                            .op = data->boolean->op,
+                                            .first = first,
+                                            .end = next_layer(c),
+                                            .operands = (uint32_t)all.end})
+                 : CELSPAN_OK;
 }
 
 /* Unions of unions need no steps: every layer that is present is painted. Neither do mattes. A

@@ -12,7 +12,7 @@
 #include "model/scene/walk.h"
 
 #define COPIES_EACH 4096 /* primitives in the boxes of one plane that are copied, at most */
-#define COPIES_ALL 65536 /* and in those of a frame */
+#define COPIES_ALL 16384 /* and in those of a frame */
 #define FEW_BOXES 64     /* of one plane: they are copied, whatever is in them */
 #define SIDE 4096        /* texels of a picture, at most */
 #define TEXELS 4194304   /* likewise */
