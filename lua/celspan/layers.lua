@@ -99,18 +99,21 @@ end
 local function composed(given, space)
   local objects = visible_objects(given.children)
   objects.isolate, objects.space = given.blend ~= "pass-through" or nil, space
-  return celspan.group(objects)
+  local group = celspan.group(objects)
+  return given.mask and celspan.matte(group, given.mask) or group
 end
 
 --- A valid name for a value: not empty.
 local function name_of(text, kind) return text ~= "" and text or kind end
 
 --- given: name, x, y, opacity, visible, blend; and children, or picture (the fields of an image,
---- with x and y), or neither for an empty layer; clipped, within: how it is cut by those below.
+--- with x and y), or neither for an empty layer; clipped, within: how it is cut by those below;
+--- mask: of a group, an object that it is shown through.
 --- options: those of `read`.
 local function make_entry(given, options)
   local source = { name = name_of(given.name, given.children and "group" or "layer"),
-                   clipped = given.clipped, within = given.within, space = options.space }
+                   clipped = given.clipped, within = given.within, mask = given.mask,
+                   space = options.space }
   if given.picture then given.picture.smooth = options.smooth end
   local object
   if given.children then
@@ -144,8 +147,10 @@ local function note_blends(list, path, skipped)
     local here, blend, what = path .. entry.name, entry.blend, nil
     if not shown[blend] and not (entry.children and blend == "pass-through") then
       what = ('blend mode "%s": it is shown as normal'):format(blend)
-    elseif blend == "pass-through" and entry.opacity < 1 and blends(entry.children) then
-      what = "a group that passes modes through, with an opacity: it isolates them"
+    elseif blend == "pass-through" and blends(entry.children)
+      and (entry.opacity < 1 or sources[entry].mask) then
+      what = ("a group that passes modes through, with %s: it isolates them"):format(
+        sources[entry].mask and "a mask" or "an opacity")
     end
     if what then skipped[#skipped + 1] = { layer = here, what = what } end
     if entry.children then note_blends(entry.children, here .. "/", skipped) end
@@ -181,6 +186,12 @@ local function paths_of(flat)
   return paths
 end
 
+--- The mask of a group of a painting: as large as the painting.
+local function mask_of(layer, painting)
+  return layer.mask and celspan.image { pixels = layer.mask, colour = layer.colour, x = 0, y = 0,
+                                        w = painting.width, h = painting.height }
+end
+
 local function from_painting(path, options)
   local painting, message = core.painting(path)
   if not painting then return nil, message end
@@ -196,7 +207,7 @@ local function from_painting(path, options)
     siblings[#siblings + 1] = make_entry({ name = layer.name, x = layer.x, y = layer.y,
       picture = picture, opacity = layer.opacity, visible = layer.visible, blend = layer.blend,
       children = layer.group and (children[i] or {}) or nil, clipped = layer.clipped,
-      within = layer.within }, options)
+      within = layer.within, mask = mask_of(layer, painting) }, options)
   end
   local skipped, paths = {}, paths_of(flat)
   for i, note in ipairs(painting.notes) do
@@ -399,7 +410,8 @@ local function remade(entry, children, object)
   local source = sources[entry]
   return make_entry({ name = entry.name, x = entry.x, y = entry.y, opacity = entry.opacity,
     visible = entry.visible, blend = entry.blend, children = children, object = object,
-    clipped = source.clipped, within = source.within }, { space = source.space })
+    clipped = source.clipped, within = source.within, mask = source.mask },
+    { space = source.space })
 end
 
 --- A list in which the layers that have a function are changed, inner ones first; nil if none has.
@@ -481,7 +493,7 @@ end
 
 --- Whether each layer of a group may become a separate cel: the group is not composited by itself.
 local function is_open(entry)
-  if not entry.children or entry.opacity < 1 then return false end
+  if not entry.children or entry.opacity < 1 or sources[entry].mask then return false end
   return entry.blend == "pass-through" or mode_of(entry) == "normal" and not blends(entry.children)
 end
 

@@ -328,10 +328,44 @@ describe("a Photoshop document", function()
     for name, shown in pairs(names) do assert.are.equal(shown, named(name)) end
   end)
 
-  it("reports that the mask of a group is not drawn", function()
-    local group = paintings.psd { w = 12, h = 10,
-      layers = { { name = "g", mask = mask {}, layers = { layer_of() } } } }
-    assert.are.same({ "g: the mask of a group: it is shown whole" }, told(read(group)))
+  it("shows groups through their masks", function()
+    local function group(fields, blend)
+      return read(paintings.psd { w = 12, h = 10, layers = {
+        { name = "g", blend = blend, mask = mask(fields), layers = { layer_of {
+          x = 0, y = 0, w = 12, h = 10, pixel = function() return 255, 0, 0, 255 end } } } } })
+    end
+    local function alphas(tree, object)
+      local image = assert(celspan.pixels(celspan.rostrum { celspan.cel { object or tree.object } },
+        { size = { 12, 10 }, film = { 12, 10 } }))
+      local list = {}
+      for _, place in ipairs { { 2, 5 }, { 6, 5 }, { 11, 5 }, { 6, 0 } } do
+        list[#list + 1] = math.floor(select(4, image:get(place[1], place[2])) * 255 + 0.5)
+      end
+      return list
+    end
+    local part = { x = 4, y = 2, w = 4, h = 6, value = function() return 64 end }
+    local tree = group(part)
+    assert.are.same({}, told(tree))
+    assert.are.same({ 0, 64, 0, 0 }, alphas(tree))
+    assert.are.same({ 0, 64, 0, 0 }, alphas(tree, tree:find "g".object))
+    part.beyond = 255
+    assert.are.same({ 255, 64, 255, 255 }, alphas(group(part)))
+    part.beyond, part.off = 0, true
+    assert.are.same({ 255, 255, 255, 255 }, alphas(group(part)))
+    part.off = nil
+    tree = group(part)
+    assert.are.equal(1, #tree:cels())
+    local white = celspan.rect { 0, 0, 12, 10, texture = "#fff" }
+    local changed = tree:with { ["g/ink"] = function() return white end }
+    assert.are.same({ 0, 64, 0, 0 }, alphas(changed))
+    assert.are.same({ 255, 255, 255, 255 }, alphas(tree:with { g = function() return white end }))
+  end)
+
+  it("reports a mask of a group that passes modes through", function()
+    local painting = paintings.psd { w = 12, h = 10, layers = { { name = "g",
+      mask = mask {}, layers = { layer_of { blend = "mul " } } } } }
+    assert.are.same({ "g: a group that passes modes through, with a mask: it isolates them" },
+      told(read(painting)))
   end)
 
   it("is refused if it contradicts itself", function()

@@ -18,8 +18,16 @@ static celspan_painting **push_holder(lua_State *L) {
   return cs_userdata_push_holder(L, "celspan.painting", sizeof(celspan_painting *), release);
 }
 
+/* Puts a surface into the table on top of the stack; NULL: nothing. */
+static void put_surface(lua_State *L, const char *name, celspan_surface *surface) {
+  if (!surface)
+    return;
+  cs_pixel_string_push_surface(L, surface);
+  lua_setfield(L, -2, name);
+}
+
 static void push_layer(lua_State *L, const celspan_painting_layer *layer, size_t count) {
-  lua_createtable(L, 0, 15);
+  lua_createtable(L, 0, 16);
   cs_put_text(L, "name", layer->name);
   cs_put_text(L, "blend", layer->blend);
   cs_put_text(L, "colour", layer->colour);
@@ -32,10 +40,7 @@ static void push_layer(lua_State *L, const celspan_painting_layer *layer, size_t
   cs_put_integer(L, "height", layer->height);
   if (layer->parent < count)
     cs_put_integer(L, "parent", (lua_Integer)layer->parent + 1);
-  if (layer->surface) {
-    cs_pixel_string_push_surface(L, layer->surface);
-    lua_setfield(L, -2, "pixels");
-  }
+  put_surface(L, "pixels", layer->surface);
 }
 
 static void push_layers(lua_State *L, const celspan_painting *painting) {
@@ -44,8 +49,10 @@ static void push_layers(lua_State *L, const celspan_painting *painting) {
   lua_createtable(L, (int)count, 0);
   for (size_t i = 0; celspan_painting_layer_at(painting, i, &layer); i++) {
     push_layer(L, &layer, count);
-    cs_put_flag(L, "clipped", painting->layers[i].is_clipped);
-    cs_put_flag(L, "within", painting->layers[i].is_within);
+    const cs_contents_layer *contents = &painting->layers[i];
+    cs_put_flag(L, "clipped", contents->is_clipped);
+    cs_put_flag(L, "within", contents->is_within);
+    put_surface(L, "mask", layer.is_group ? contents->surface : NULL);
     lua_rawseti(L, -2, (lua_Integer)i + 1);
   }
 }

@@ -35,7 +35,7 @@ typedef struct cs_contents_layer {
   double opacity;  /* 0..1 */
   int32_t x, y, width, height;
   const char *colour;             /* static: how its codes are taken, as in celspan_picture_desc */
-  cs_rows_source *source;         /* owned; NULL: no pixels */
+  cs_rows_source *source;         /* owned; NULL: no pixels; of a group: its mask, in alpha */
   struct cs_profile_table *table; /* the painting's: converts its codes; NULL: they stay */
   celspan_surface *surface;       /* a reference */
 } cs_contents_layer;

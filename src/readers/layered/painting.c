@@ -128,6 +128,7 @@ bool celspan_painting_layer_at(const celspan_painting *painting, size_t index,
   if (index >= painting->count)
     return false;
   const cs_contents_layer *layer = &painting->layers[index];
+  bool has_pixels = layer->surface && !layer->is_group;
   *out = (celspan_painting_layer){
       .name = layer->name,
       .blend = layer->blend,
@@ -135,11 +136,11 @@ bool celspan_painting_layer_at(const celspan_painting *painting, size_t index,
       .is_group = layer->is_group,
       .is_visible = layer->is_visible,
       .opacity = layer->opacity,
-      .x = layer->surface ? layer->x : 0,
-      .y = layer->surface ? layer->y : 0,
-      .width = layer->width,
-      .height = layer->height,
-      .surface = layer->surface,
+      .x = has_pixels ? layer->x : 0,
+      .y = has_pixels ? layer->y : 0,
+      .width = has_pixels ? layer->width : 0,
+      .height = has_pixels ? layer->height : 0,
+      .surface = has_pixels ? layer->surface : NULL,
       .colour = layer->colour,
   };
   return true;

@@ -238,6 +238,22 @@ static celspan_status open_group(document *d) {
   return CELSPAN_OK;
 }
 
+/* The mask of a group: pixels as large as the document, of which alpha counts. */
+static celspan_status set_mask(const document *d, const cs_psd_record *record,
+                               const cs_psd_layer *group, cs_contents_layer *layer) {
+  cs_psd_layer source = {.base = {.width = d->width, .height = d->height, .bits = d->bits},
+                         .is_grey = group->is_grey,
+                         .size_bytes = group->size_bytes,
+                         .mask = group->mask};
+  cs_rows_source *rows;
+  source.channels[CS_PSD_MASK] = group->channels[CS_PSD_MASK];
+  source.mask.x += record->left;
+  source.mask.y += record->top;
+  CS_TRY(cs_psd_rows_create(d->context, &source, &rows));
+  cs_contents_set_pixels(layer, 0, 0, rows);
+  return cs_contents_note_own(d->context, d->painting, "the mask of a group: it is shown whole");
+}
+
 static celspan_status add_layer(document *d, cs_cursor *cursor, const cs_psd_record *record) {
   cs_psd_layer source;
   cs_contents_layer *layer;
@@ -262,7 +278,7 @@ static celspan_status add_layer(document *d, cs_cursor *cursor, const cs_psd_rec
     cs_contents_set_pixels(layer, record->left, record->top, rows);
   }
   if (layer->is_group && source.channels[CS_PSD_MASK].is_there)
-    CS_TRY(note(d, "the mask of a group: it is shown whole"));
+    CS_TRY(set_mask(d, record, &source, layer));
   if (layer->is_clipped)
     CS_TRY(cs_contents_note_own(d->context, d->painting,
                                 "clipped to the layer below it: it is shown whole"));
