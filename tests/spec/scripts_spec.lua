@@ -1,7 +1,6 @@
 -- The scripts that ship: each makes a picture for its first, middle and last frame, with one
 -- worker, and the same last one alone, with two.
 
-
 local shipped = require "tests.support.shipped"
 local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"

@@ -579,9 +579,9 @@ int main(void) {
   check_orders();
   check_kept();
   check_pans();
-  check_brute_force();
   if (check_is_for_threads())
     return check_done();
+  check_brute_force();
   check_memory();
   check_bars((lens){CELSPAN_DEFOCUS_GAUSSIAN, CELSPAN_ANTIALIAS_NONE, 0}, 0.7, 36);
   check_bars((lens){CELSPAN_DEFOCUS_GAUSSIAN, CELSPAN_ANTIALIAS_AREA, 0}, 0.05, 12);

@@ -317,7 +317,10 @@ static void check_allocations(const char *path, bool is_for_good) {
 static void check_rows(const char *path, bool is_for_good) {
   unsigned char *pixels = malloc((size_t)WIDTH * HEIGHT * 4);
   bool is_done = false;
+  int number = 0;
   for (size_t n = 1; n < 3000 && !is_done; n = n < 24 ? n + 1 : n + n / 4) {
+    if (n < 24 && !check_is_drawn(number++))
+      continue;
     memory_watch watch = {0};
     celspan_context *context = memory_watch_context(&watch);
     celspan_painting *painting = NULL;
@@ -349,26 +352,32 @@ static void check_archives(void) {
   celspan_context_destroy(context);
 }
 
-int main(void) {
-  char path[] = "/tmp/celspan-painting-XXXXXX";
-  int descriptor = mkstemp(path);
-  CHECK(descriptor >= 0);
-  close(descriptor);
-  write_document(path, 0);
+/* What the sanitizer of threads has nothing to find in. */
+static void check_alone(const char *path) {
   check_frame(path, 0, 1);
   check_frame(path, 0, 4);
   check_frame(path, 1 << 20, 1);
-  check_frame(path, 1 << 20, 3);
   check_arguments();
   check_facts(path);
   check_lifetimes(path);
-  for (int is_for_good = 0; is_for_good < 2 && !check_is_for_threads(); is_for_good++) {
+  for (int is_for_good = 0; is_for_good < 2; is_for_good++) {
     check_allocations(path, is_for_good);
     check_rows(path, is_for_good);
   }
   check_archives();
   check_failure(path);
   check_claims(path);
+}
+
+int main(void) {
+  char path[] = "/tmp/celspan-painting-XXXXXX";
+  int descriptor = mkstemp(path);
+  CHECK(descriptor >= 0);
+  close(descriptor);
+  write_document(path, 0);
+  check_frame(path, 1 << 20, 3);
+  if (!check_is_for_threads())
+    check_alone(path);
   unlink(path);
   return check_done();
 }
