@@ -242,6 +242,10 @@ describe("centre lines", function()
     local art = assert(trace.picture(draw(ring, 80, 80), { lines = true }))
     assert.equal(1, #art.shapes)
     assert.is_true(art.shapes[1].closed)
+    local x, y, w, h = art.object:bounds()
+    for i, side in ipairs { x - 13, y - 13, x + w - 67, y + h - 67 } do
+      assert.is_true(math.abs(side) < 0.5, ("side %d is off by %g"):format(i, side))
+    end
   end)
 
   it_traces("get wider and narrower with the pressure of the pen", function()

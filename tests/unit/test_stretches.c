@@ -5,6 +5,7 @@
 
 #include "tests/support/check.h"
 #include "tests/support/random.h"
+#include "tools/trace/cubic.h"
 #include "tools/trace/stretches.h"
 
 enum { CASES = 500, POINTS = 24 };
@@ -69,6 +70,46 @@ static void noise_is_measured(void) {
   CHECK_NEAR(sum / CASES * POINTS / (POINTS - 3), NOISE * NOISE / 3, 0.1 * NOISE * NOISE / 3);
 }
 
+/* What Taubin's fit makes least: the squared value of the circle's function at the points, over the
+ * squared length of its gradient. */
+static double ratio_of(const celspan_point *points, celspan_point centre, double radius) {
+  double squares = 0, slopes = 0;
+  for (int i = 0; i < POINTS; i++) {
+    double x = points[i].x - centre.x, y = points[i].y - centre.y, far = x * x + y * y;
+    squares += (far - radius * radius) * (far - radius * radius);
+    slopes += 4 * far;
+  }
+  return squares / slopes;
+}
+
+/* However far the points are from lying on a circle, the error is that of the circle which fits
+ * them best: no other one has less. */
+static void errors_are_those_of_the_best_circle(void) {
+  for (int i = 0; i < CASES; i++) {
+    test_random random = {(uint64_t)i + 1};
+    celspan_point points[POINTS], centre = {0, 0};
+    cs_arc_sums sums = cs_arc_begin((celspan_point){1, 2});
+    for (int k = 0; k < POINTS; k++) {
+      double angle = 6.2831853 * k / POINTS, far = random_between(&random, 2, 10);
+      points[k] = (celspan_point){far * cos(angle), far * sin(angle)};
+      cs_arc_add(&sums, points[k]);
+    }
+    double radius = 6, step = 1, least = ratio_of(points, centre, radius);
+    while (step > 1e-6) {
+      double before = least;
+      for (int k = 0; k < 6; k++) {
+        double by = k % 2 ? step : -step, wide = radius + (k / 2 == 2 ? by : 0);
+        celspan_point at = {centre.x + (k / 2 == 0 ? by : 0), centre.y + (k / 2 == 1 ? by : 0)};
+        double ratio = ratio_of(points, at, wide);
+        if (ratio < least)
+          least = ratio, centre = at, radius = wide;
+      }
+      step = least < before ? step : step / 2;
+    }
+    CHECK_NEAR(cs_arc_error(&sums) / least, 1, 1e-4);
+  }
+}
+
 static void add(celspan_context *context, cs_points *points, test_random *random,
                 celspan_point at) {
   double x = random_between(random, -NOISE, NOISE), y = random_between(random, -NOISE, NOISE);
@@ -110,6 +151,33 @@ static void corners_are_distinguished_from_bends(celspan_context *context) {
   }
 }
 
+/* The curve through gates is the same from either end. */
+static void gates_are_passed_alike_both_ways(void) {
+  int passed = 0;
+  for (int i = 0; i < CASES; i++) {
+    test_random random = {(uint64_t)i + 1};
+    cs_edge_point there[POINTS], back[POINTS];
+    cs_cubic_station stations[POINTS];
+    celspan_point control[2], again[2];
+    const cs_cubic_end ends[2] = {{.point = {0, 0}}, {.point = {POINTS + 1, 0}}};
+    const cs_cubic_end turned[2] = {ends[1], ends[0]};
+    double height = random_between(&random, 2, 9), room = random_between(&random, 0.1, 0.4);
+    for (int k = 0; k < POINTS; k++) {
+      double x = k + 1,
+             y = height * sin(3.14159265 * x / (POINTS + 1)) + random_between(&random, -0.2, 0.2);
+      there[k] = back[POINTS - 1 - k] = (cs_edge_point){{x, y}, {0, room}};
+    }
+    bool is_passed = cs_cubic_thread(there, POINTS, ends, stations, control);
+    CHECK(cs_cubic_thread(back, POINTS, turned, stations, again) == is_passed);
+    for (int k = 0; k < 2; k++) {
+      CHECK_NEAR(control[k].x, again[1 - k].x, 1e-6);
+      CHECK_NEAR(control[k].y, again[1 - k].y, 1e-6);
+    }
+    passed += is_passed;
+  }
+  CHECK(passed > CASES / 4 && passed < CASES);
+}
+
 int main(void) {
   celspan_context *context;
   if (celspan_context_create(NULL, &context) != CELSPAN_OK)
@@ -117,7 +185,9 @@ int main(void) {
   arcs_are_those_of_their_points();
   lines_are_those_of_their_points();
   noise_is_measured();
+  errors_are_those_of_the_best_circle();
   corners_are_distinguished_from_bends(context);
+  gates_are_passed_alike_both_ways();
   celspan_context_destroy(context);
   return check_done();
 }

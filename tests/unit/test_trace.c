@@ -155,6 +155,28 @@ static void speckles_within_speckles_are_dropped(celspan_context *context) {
   celspan_trace_unref(traced);
 }
 
+/* A speckle goes to the colour that it borders on most, also where that is a line beside it. */
+static void speckles_join_their_neighbours(celspan_context *context) {
+  celspan_trace_desc desc = CELSPAN_TRACE_DESC;
+  for (int side = 0; side < 2; side++) {
+    drawing d = {.width = 20, .height = 20};
+    celspan_trace *traced;
+    unsigned char colour[3];
+    put_square(&d, 0, 0, 20, 0);
+    for (int y = 2; y < 18; y++) {
+      put_square(&d, side ? 11 : 9, y, 1, 1);
+      put_square(&d, 10, y, 1, y < 8 || y > 10 ? 1 : 2);
+    }
+    desc.speckle = 8;
+    desc.smooth = 0;
+    if (!CHECK(trace(context, &d, desc, &traced) == CELSPAN_OK))
+      return;
+    CHECK(shapes_at(traced, (celspan_point){10.5, 9.5}, colour) == 1);
+    CHECK(memcmp(colour, codes + 3, 3) == 0);
+    celspan_trace_unref(traced);
+  }
+}
+
 static void random_pictures(celspan_context *context) {
   const char *wanted = getenv("CELSPAN_TRACES");
   int count = wanted ? atoi(wanted) : 150;
@@ -230,6 +252,7 @@ int main(void) {
     return 1;
   random_pictures(context);
   speckles_within_speckles_are_dropped(context);
+  speckles_join_their_neighbours(context);
   descriptions_are_checked(context);
   celspan_context_destroy(context);
   memory_may_fail_anywhere(false);

@@ -186,6 +186,28 @@ static void a_leap_is_followed(celspan_context *context) {
   free(values);
 }
 
+/* A ramp is the same ramp on every level, or what is found on one would be off on the next. */
+static void levels_lie_over_each_other(celspan_context *context) {
+  enum { SIDE = 64, COUNT_OF_LEVELS = 3 };
+  float values[SIDE * SIDE];
+  cs_plane_levels made;
+  for (int i = 0; i < SIDE * SIDE; i++)
+    values[i] = (float)(i % SIDE + 3 * (i / SIDE));
+  if (!CHECK(cs_plane_levels_make(context, values, SIDE, SIDE, CS_PLANE_LEVELS, &made) ==
+             CELSPAN_OK))
+    return;
+  CHECK(made.count == COUNT_OF_LEVELS); /* the last is of 16 pixels */
+  for (int level = 0; level < made.count; level++) {
+    const cs_plane *plane = &made.levels[level];
+    CHECK(plane->width == SIDE >> level && plane->height == SIDE >> level);
+    for (int y = 1; y + 1 < plane->height; y++)
+      for (int x = 1; x + 1 < plane->width; x++)
+        CHECK_NEAR((double)plane->values[y * plane->width + x],
+                   cs_plane_up(x, level) + 3 * cs_plane_up(y, level), level == 2 ? 1e-3 : 1e-5);
+  }
+  cs_plane_levels_finish(&made);
+}
+
 /* The lesser eigenvalue of the slopes around a pixel. */
 static double strength_at(const cs_plane *plane, int x, int y) {
   double xx = 0, xy = 0, yy = 0;
@@ -359,6 +381,7 @@ int main(void) {
     return check_done();
   known_motion_is_found(context);
   a_leap_is_followed(context);
+  levels_lie_over_each_other(context);
   corners_are_the_strongest_around(context);
   another_scene_is_no_sighting(context);
   a_mask_leaves_out_what_it_does_not_cover(context);
