@@ -22,6 +22,9 @@ function hand.count(n)
   local shape = hand.count(n - 1)
   return shape
 end
+function hand.vanish()
+  error("the hand is gone", 0)
+end
 return hand
 ]]
 
@@ -65,6 +68,12 @@ describe("an error in a helper", function()
     assert.is_truthy(message_of("hand.complain(7)"):find(
       "shot.lua:4: frame 1: a hand is not 7 wide (called from shot.lua:8)", 1, true),
       message_of "hand.complain(7)")
+  end)
+
+  it("has the line that raised it, where its message names none", function()
+    assert.is_truthy(message_of("hand.vanish()"):find(
+      "hand.lua:19: frame 1: the hand is gone (called from shot.lua:4, shot.lua:8)", 1, true),
+      message_of "hand.vanish()")
   end)
 
   it("lists no callers if a frame function itself fails", function()
