@@ -219,6 +219,20 @@ describe("a large frame", function()
     assert.are.equal(nil, read(folder .. "/p/plain_files/20/0_0.png"))
   end)
 
+  it("has a page in the colour of the background, whatever the weights of exposures sum to",
+    function()
+    local blurred = write("blurred.lua", [[
+local celspan = require "celspan"
+return celspan.film { size = { 64, 64 }, frame = function()
+  local exposures = {}
+  for i = 1, 10 do exposures[i] = { celspan.rostrum { back = "#c08040" }, 1 / 10 } end
+  return exposures
+end }
+]])
+    assert_success("tiles %s -o %s/p --progress none", blurred, folder)
+    assert.is_truthy(read(folder .. "/p/index.html"):find('"#c08040"', 1, true))
+  end)
+
   it("makes only the tiles that touch a crop", function()
     assert_success("tiles %s -o %s/p --tile 64 --levels 10-10 --crop 100,100,60,60 --progress none",
       script, folder)
