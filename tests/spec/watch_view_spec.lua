@@ -220,6 +220,55 @@ describe("the page of celspan watch over its picture #plain", function()
     assert.equal("true", said.pressed)
   end)
 
+  it("compares any frame with one that is held", function()
+    local said = watching.see(watching.watch(), COLOUR .. [=[
+      await page.press("h");
+      await page.press("d");
+      const same = await colour("stage", 0.5, 0.5);
+      await page.press("ArrowLeft");
+      await page.until(`${stage("frame")} === "2"`);
+      // The ball of frame 3 is green there, and the ground of frame 2 is not.
+      await page.until(`document.querySelector("#stage").getContext("2d").getImageData(
+        document.querySelector("#stage").width >> 1, document.querySelector("#stage").height >> 1,
+        1, 1).data[0] === 255`);
+      const other = await colour("stage", 0.5, 0.5), beside = await colour("stage", 0.05, 0.05);
+      await page.press("w");
+      const left = await colour("stage", 0.45, 0.5), right = await colour("stage", 0.55, 0.5);
+      return { same, other, beside, left, right,
+               text: await page.get(`document.querySelector("#hold").textContent`) };]=])
+    assert.same({ 0, 0, 0, 255 }, said.same)
+    assert.same({ 0, 0, 0, 255 }, said.beside)
+    assert.equal(255, said.other[1])
+    assert.same({ 0, 35, 0, 255 }, said.left)
+    assert.same({ 255, 224, 176, 255 }, said.right)
+    assert.equal("Held 3", said.text)
+  end)
+
+  it("shows the frame under the pointer over the scrubber, and guides over the picture", function()
+    local said = watching.see(watching.watch(), COLOUR .. [=[
+      const shown = id => page.get(`!document.querySelector("#${id}").hidden`);
+      const box = await page.get(`(() => { const box = document.querySelector("#scrub")
+        .getBoundingClientRect(); return [box.left, box.top, box.width, box.height]; })()`);
+      await page.mouse("mouseMoved", box[0] + box[2] - 2, box[1] + box[3] / 2);
+      await page.until(`document.querySelector("#thumb").dataset.frame === "48"`);
+      const size = await page.get(`[document.querySelector("#thumb").width,
+        document.querySelector("#thumb").height]`), middle = await colour("thumb", 0.5, 0.5);
+      await page.mouse("mouseMoved", 200, 200);
+      await page.until(`document.querySelector("#thumb").hidden`);
+      const guides = [];
+      for (let i = 0; i < 3; i++) {
+        await page.press("a");
+        guides.push([await shown("safe"), await shown("fields")].join());
+      }
+      return { size, middle, guides, fields: await page.get(
+        `[...document.querySelectorAll("#fields div")]
+          .map(one => one.textContent).join(" ")`) };]=])
+    assert.same({ 160, 90 }, said.size)
+    assert.same({ 0, 35, 0, 255 }, said.middle)
+    assert.same({ "true,false", "false,true", "false,false" }, said.guides)
+    assert.equal("1 2 3 4 5 6 7 8 9 10 11 12", said.fields)
+  end)
+
   it("lists what cels and frames cost", function()
     local said = watching.see(watching.watch(), COLOUR .. [=[
       await page.press("c");

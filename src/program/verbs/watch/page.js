@@ -19,6 +19,9 @@ const AHEAD = 8, AT_ONCE = 3; // pictures asked for ahead while playing, and at 
 const BEHIND = 24;           // frames that a picture may be late
 const SLOW = 0.25;           // seconds after which a coarse picture comes first
 const STRIDE = 80;           // device pixels that a key moves the picture
+const GUIDES = ["safe", "fields"]; // over the picture, one at a time
+const FIELDS = 12;           // of a field guide: rectangles around its middle
+const THUMB = 160;           // CSS pixels, the longer side of the picture over the scrubber
 
 const state = { news: 0, build: 0, film: null, errors: [], shown: false,
                 parameters: [] };
@@ -172,8 +175,10 @@ function place() {
   const whole = frameSize(), r = ratio();
   const sx = whole[0] / painted.size[0] / r, sy = whole[1] / painted.size[1] / r;
   const [x, y, w, h] = painted.crop;
-  Object.assign(here("safe").style, { left: `${view.x / r}px`, top: `${view.y / r}px`,
-                                      width: `${whole[0] / r}px`, height: `${whole[1] / r}px` });
+  for (const guide of GUIDES) {
+    Object.assign(here(guide).style, { left: `${view.x / r}px`, top: `${view.y / r}px`,
+                                       width: `${whole[0] / r}px`, height: `${whole[1] / r}px` });
+  }
   for (const layer of [here("paper"), stage, overlay]) {
     Object.assign(layer.style, { left: `${view.x / r + x * sx}px`, top: `${view.y / r + y * sy}px`,
                                   width: `${w * sx}px`, height: `${h * sy}px` });
@@ -211,7 +216,7 @@ async function ask() {
       paint(picture);
       refused = null;
       showFault();
-      await addOnion(picture);
+      await addOthers(picture);
       await layOver(picture);
       await loadCosts(picture);
     } catch (fault) {
@@ -731,9 +736,10 @@ function goBySheet(event) {
   go(Math.floor((event.clientX - box.left) / box.width * sheet.frames) + 1);
 }
 
-// ---------------------------------------------------------------- the save before
+// ---------------------------------------------------------------- two pictures
 
 let older = null;           // the picture that the save before had here
+let held = 0;               // the frame that others are compared with; 0: the save before is
 let mixing = "";            // "", "wipe" or "differ"
 const DIFFERENCE_GAIN = 4;  // so that small ones are seen
 
@@ -746,15 +752,23 @@ function keepOlder(picture) {
   if (painted && painted.build !== picture.build) older = painted;
 }
 
-/** The bytes to paint of a picture: it, mixed with that of the save before. */
+/** The picture that another is compared with: of the held frame, else of the save before; null: it
+ * is not here. */
+function counterpart(picture) {
+  const one = held ? kept.get(wish(held)?.address) : older;
+  return one && isSamePlace(held ? { ...one, number: picture.number } : one, picture) ? one : null;
+}
+
+/** The bytes to paint of a picture: it, mixed with its counterpart. */
 function mixed(picture) {
-  if (!mixing || !isSamePlace(older, picture)) return picture.bytes;
+  const other = mixing && counterpart(picture);
+  if (!other) return picture.bytes;
   const out = new Uint8ClampedArray(picture.bytes), width = picture.crop[2];
   for (let i = 0; i < out.length; i += 4) {
-    const isOlder = mixing === "wipe" && i / 4 % width < width / 2;
+    const isOther = mixing === "wipe" && i / 4 % width < width / 2;
     for (let c = i; c < i + 4; c++) {
-      if (isOlder) out[c] = older.bytes[c];
-      if (mixing === "differ") out[c] = DIFFERENCE_GAIN * Math.abs(out[c] - older.bytes[c]);
+      if (isOther) out[c] = other.bytes[c];
+      if (mixing === "differ") out[c] = DIFFERENCE_GAIN * Math.abs(out[c] - other.bytes[c]);
     }
     if (mixing === "differ") out[i + 3] = 255;
   }
@@ -799,15 +813,15 @@ function withOnion(picture, bytes) {
   return out;
 }
 
-/** Fetches the pictures around one that is painted, and paints it again with them. */
-async function addOnion(picture) {
-  if (onion === 0 || play.direction !== 0) return;
-  for (let k = 1; k <= onion; k++) {
-    for (const number of [picture.number - k, picture.number + k]) {
-      const isThere = number >= 1 && number <= state.film.frames;
-      const wanted = isThere && !isWanted && wish(number);
-      if (wanted) await fetchPicture(wanted).catch(() => {});
-    }
+/** Fetches the other pictures that are shown with one that is painted, and paints it again. */
+async function addOthers(picture) {
+  const numbers = held && mixing ? [held] : [];
+  for (let k = 1; k <= onion; k++) numbers.push(picture.number - k, picture.number + k);
+  if (numbers.length === 0 || play.direction !== 0) return;
+  for (const number of numbers) {
+    const isThere = number >= 1 && number <= state.film.frames;
+    const wanted = isThere && !isWanted && wish(number);
+    if (wanted) await fetchPicture(wanted).catch(() => {});
   }
   if (painted === picture && !isWanted) paint(picture);
 }
@@ -823,7 +837,15 @@ function setMixing(kind) {
   mixing = mixing === kind ? "" : kind;
   here("wipe").setAttribute("aria-pressed", mixing === "wipe");
   here("differ").setAttribute("aria-pressed", mixing === "differ");
-  if (painted) paint(painted);
+  look();
+}
+
+/** Holds the frame that is shown, so that others are compared with it; the same again: lets it go. */
+function holdFrame() {
+  held = held === view.number ? 0 : view.number;
+  here("hold").textContent = held ? `Held ${held}` : "Hold";
+  here("hold").setAttribute("aria-pressed", held > 0);
+  look();
 }
 
 // ---------------------------------------------------------------- over the picture
@@ -985,6 +1007,42 @@ async function inspect(clientX, clientY) {
   }));
 }
 
+// ---------------------------------------------------------------- over the scrubber
+
+let thumbed = 0, isThumbing = false; // the frame that is wanted there; 0: none
+
+/** Shows the frame under the pointer small; while one is on its way, only the newest is wanted. */
+async function showThumb(event) {
+  const scrub = here("scrub"), box = scrub.getBoundingClientRect();
+  const share = clamp((event.clientX - box.left) / box.width, 0, 1), thumb = here("thumb");
+  if (!state.film || !state.shown || event.pointerType === "touch") return;
+  thumbed = 1 + Math.round(share * (state.film.frames - 1));
+  thumb.style.left = `${clamp(event.clientX - THUMB / 2, 4, innerWidth - THUMB - 4)}px`;
+  if (isThumbing) return;
+  isThumbing = true;
+  for (let shown = 0; thumbed && shown !== thumbed;) {
+    shown = thumbed;
+    await drawThumb(shown).catch(() => {});
+  }
+  isThumbing = false;
+}
+
+async function drawThumb(number) {
+  const most = THUMB * ratio() / Math.max(...state.film.size);
+  const [w, h] = state.film.size.map(side => Math.max(1, Math.round(side * most)));
+  const name = number - 1 + state.film.first, thumb = here("thumb");
+  const answer = await fetch(`/frame/${name}.runs?size=${w}x${h}&build=${state.build}`);
+  if (!answer.ok || !thumbed) return;
+  Object.assign(thumb, { width: w, height: h, hidden: false });
+  thumb.dataset.frame = name;
+  thumb.getContext("2d").putImageData(new ImageData(unpack(await answer.arrayBuffer(), w, h), w, h), 0, 0);
+}
+
+function hideThumb() {
+  thumbed = 0;
+  here("thumb").hidden = true;
+}
+
 // ---------------------------------------------------------------- hands
 
 function nextGround() {
@@ -999,9 +1057,20 @@ function setMatte(isOn) {
   if (painted) paint(painted);
 }
 
-function swapGuides() {
-  here("safe").hidden = !here("safe").hidden;
-  here("guides").setAttribute("aria-pressed", !here("safe").hidden);
+/** The next guide, and none after the last. */
+function nextGuide() {
+  const next = GUIDES.findIndex(guide => !here(guide).hidden) + 1;
+  GUIDES.forEach((guide, i) => { here(guide).hidden = i !== next; });
+  here("guides").setAttribute("aria-pressed", next < GUIDES.length);
+}
+
+/** The rectangles of the field guide, each with its number. */
+function makeFields() {
+  for (let k = 1; k <= FIELDS; k++) {
+    const field = element("div", { textContent: k });
+    field.style.inset = `${50 - 50 * k / FIELDS}%`;
+    here("fields").append(field);
+  }
 }
 
 function setTheme(theme) {
@@ -1048,7 +1117,7 @@ const keys = {
   p: () => setInspecting(here("side").hidden),
   s: () => setSheet(here("sheet").hidden),
   w: () => setMixing("wipe"), d: () => setMixing("differ"),
-  n: nextOnion,
+  h: holdFrame, n: nextOnion,
   u: swapMute,
   e: () => setSpans(!isShowingSpans),
   c: () => setCosting(here("costs").hidden),
@@ -1057,7 +1126,7 @@ const keys = {
   g: askNumber,
   "+": () => zoomMiddle(1.5), "=": () => zoomMiddle(1.5), "-": () => zoomMiddle(1 / 1.5),
   0: () => { fit(); look(); }, 1: natural,
-  a: swapGuides, b: nextGround, m: () => setMatte(!isMatte), t: swapTheme, f: fullScreen,
+  a: nextGuide, b: nextGround, m: () => setMatte(!isMatte), t: swapTheme, f: fullScreen,
   "?": () => here("keys").showModal(),
 };
 
@@ -1133,12 +1202,15 @@ const clicks = {
   first: () => { stop(); go(loop.from); }, back: () => step(-1), play: toggle,
   forward: () => step(1), last: () => { stop(); go(loop.to); }, fit: keys[0],
   matte: keys.m, inspect: keys.p, tune: keys.v, list: keys.s, onion: nextOnion, mute: swapMute,
-  spans: keys.e, cost: keys.c, guides: swapGuides, wipe: keys.w, differ: keys.d, defaults: takeDefaults, theme: swapTheme,
+  spans: keys.e, cost: keys.c, guides: nextGuide, hold: holdFrame,
+  wipe: keys.w, differ: keys.d, defaults: takeDefaults, theme: swapTheme,
   help: keys["?"],
 };
 for (const [id, act] of Object.entries(clicks)) here(id).addEventListener("click", act);
 
 here("scrub").addEventListener("input", event => { stop(); go(Number(event.target.value)); });
+here("scrub").addEventListener("pointermove", showThumb);
+here("scrub").addEventListener("pointerleave", hideThumb);
 here("speed").addEventListener("change", event => setSpeed(Number(event.target.value)));
 here("ground").addEventListener("change", event => { here("paper").dataset.ground = event.target.value; });
 here("cells").addEventListener("click", goBySheet);
@@ -1152,5 +1224,6 @@ new ResizeObserver(drawSheet).observe(here("cells"));
 // The address keeps no token once the cookie has it.
 history.replaceState(null, "", given.size ? `/#${given}` : "/");
 here("paper").dataset.ground = "checker";
+makeFields();
 setTheme(matchMedia("(prefers-color-scheme: light)").matches ? "light" : "dark");
 listen();
