@@ -146,3 +146,37 @@ describe("PNG and Targa files", function()
     assert.is_nil(io.open(bench.folder .. "/f.tga"))
   end)
 end)
+
+describe("what the numbers of a file mean", function()
+  setup(function()
+    bench = workbench.new()
+    bench:write("codes.lua", [[
+local celspan = require "celspan"
+local rostrum = celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 4, 8, texture = "#40c080" },
+  celspan.rect { 4, 0, 4, 8, texture = "#ff8000" } } }
+return celspan.film { size = { 8, 8 }, frames = 1, space = "srgb", frame = function()
+  return rostrum
+end }]])
+  end)
+
+  teardown(function() bench:remove() end)
+
+  it_reads_pictures("is in EXR and PNG files, and celspan reads it there", function()
+    local function write(name, options)
+      assert.are.same({ 0, "", "" },
+        { celspan(("render codes.lua -o %s --progress none %s"):format(name, options)) })
+    end
+    write("plain.exr", "--depth float")
+    for _, colour in ipairs { "srgb", "linear", "rec709" } do
+      write(colour .. ".exr", "--depth float --colour " .. colour)
+      local _, out = shell(("oiiotool --info -v %s.exr"):format(colour))
+      assert.truthy(out:find(('celspan:colour: "%s"'):format(colour), 1, true), out)
+      local code, told, err = celspan(("compare plain.exr %s.exr --fail 1e-4"):format(colour))
+      assert.are.equal(0, code, colour .. " " .. told .. err)
+    end
+    write("light.png", "--depth 16 --colour linear")
+    write("codes.png", "--depth 16")
+    local code, told, err = celspan "compare light.png codes.png --fail 1e-3"
+    assert.are.equal(0, code, told .. err)
+  end)
+end)

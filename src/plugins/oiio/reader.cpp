@@ -216,7 +216,23 @@ const char *film_colour(const ImageSpec &spec) {
   return is_log || spec.get_int_attribute("oiio:BitsPerSample") == 10 ? "cineon" : "srgb";
 }
 
+/* What the file says itself: EXR files of celspan name it, and a gamma of 1 in PNG files is light.
+ * NULL: nothing. */
+const char *named_colour(const cs_picture_reader &reader) {
+  static const char *const known[] = {"srgb", "linear", "rec709", "cineon"};
+  std::string name = reader.spec.get_string_attribute("celspan:colour").c_str();
+  for (const char *colour : known)
+    if (reader.kind.format == "openexr" && name == colour)
+      return colour;
+  std::string space = reader.spec.get_string_attribute("oiio:ColorSpace").c_str();
+  return reader.kind.format == "png" && (space == "linear" || space == "Linear") ? "linear"
+                                                                                 : nullptr;
+}
+
 const char *default_colour(const cs_picture_reader &reader) {
+  const char *named = named_colour(reader);
+  if (named)
+    return named;
   if (reader.kind.format == "cineon")
     return "cineon";
   if (reader.kind.format == "dpx")

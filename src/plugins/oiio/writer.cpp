@@ -107,6 +107,20 @@ const char *space_of(celspan_transfer transfer) {
   }
 }
 
+/* The name that celspan reads back. */
+const char *colour_of(celspan_transfer transfer) {
+  switch (transfer) {
+  case CELSPAN_TRANSFER_LINEAR:
+    return "linear";
+  case CELSPAN_TRANSFER_REC709:
+    return "rec709";
+  case CELSPAN_TRANSFER_CINEON:
+    return "cineon";
+  default:
+    return "srgb";
+  }
+}
+
 /* The name of a transfer in the header of a film scan. */
 const char *film_transfer(celspan_transfer transfer) {
   switch (transfer) {
@@ -158,6 +172,8 @@ ImageSpec make_spec(const cs_picture_output &output) {
     spec.attribute("oiio:BitsPerSample", output.bits);
   if (output.channels == 4 && output.is_straight)
     spec.attribute("oiio:UnassociatedAlpha", 1);
+  if (format == "openexr")
+    spec.attribute("celspan:colour", colour_of(output.transfer));
   if (format == "openexr" || format == "tiff")
     spec.attribute("compression", "zip");
   if (format == "jpeg") {
