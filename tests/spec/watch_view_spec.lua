@@ -121,6 +121,17 @@ end }
     assert.is_true(said[2].single > 0 and said[2].gradient == 0)
     assert.is_true(said[3].gradient > 0) -- it is defocused
   end)
+
+  it("has costs of cels without a name by their places", function()
+    watching.bench:write("shot.lua", [[
+local celspan = require "celspan"
+local dot = celspan.circle { centre = { 9, 9 }, radius = 6 }
+return celspan.rostrum { celspan.cel { dot }, celspan.cel { dot } }
+]])
+    local said = watching.speak(watching.watch(), [=[
+      return JSON.parse((await web.get("/costs.json?frame=1&size=640x360")).body);]=])
+    assert.same({ "", "cel 1", "cel 2" }, { said[1].name, said[2].name, said[3].name })
+  end)
 end)
 
 describe("a line that an editor sends", function()
