@@ -148,6 +148,18 @@ describe("trace.picture", function()
     assert.same({ 0, 4 }, { curves, lines })
   end)
 
+  it_traces("keeps bends of two pixels round, and dots of four pixels", function()
+    local box = celspan.rect { -21, -21, 42, 42, radius = 2.2, texture = ink }
+    local art = assert(trace.picture(draw(celspan.rect { 0, 0, 100, 100, texture = paper }
+      | box:rotate(12.54):translate(50.3, 49.7), 100, 100)))
+    assert.is_nil(art.shapes[2].d:find "L", art.shapes[2].d)
+    for width, letter in pairs { "L", "C" } do
+      local dot = assert(trace.picture(draw(celspan.rect { 0, 0, 12, 12, texture = paper }
+        | celspan.rect { 4, 4, width, 2, texture = ink }, 12, 12), { speckle = 0 }))
+      assert.equal(letter, dot.shapes[2].d:gsub("[^LC]", ""):sub(1, 1))
+    end
+  end)
+
   it_traces(
     "makes a tilted square of whole pixels into four lines, and restores its pixels", function()
     for _, turn in ipairs { 3, 20, 45 } do
