@@ -478,6 +478,7 @@ function celspan.path(fields) end
 ---@field dash? number[] Lengths drawn and left out in turn
 ---@field dash_offset? number The distance into the dashes at which each subpath begins; default 0
 ---@field taper? number[] {begin, end}: lengths over which the width grows from 0 and falls to 0
+---@field profile? "straight"|"round" Of tapers; round: without a corner where the taper ends; default "straight"
 ---@field from? number Where drawing begins, as a fraction of the whole length; default 0
 ---@field to? number Where drawing ends; default 1
 ---@field texture? celspan.surface Default "#000000"
@@ -495,6 +496,7 @@ function celspan.path(fields) end
 ---@field dash? number[] Lengths drawn and left out in turn
 ---@field dash_offset? number The distance into the dashes at which each subpath begins; default 0
 ---@field taper? number[] {begin, end}: lengths over which the width grows from 0 and falls to 0
+---@field profile? "straight"|"round" Of tapers; round: without a corner where the taper ends; default "straight"
 ---@field from? number Where drawing begins, as a fraction of the whole length; default 0
 ---@field to? number Where drawing ends; default 1
 ---@field texture? celspan.surface Default "#000000"
@@ -506,6 +508,7 @@ function celspan.path(fields) end
 ---@field join "miter"|"round"|"bevel"
 ---@field miter number
 ---@field dash_offset number
+---@field profile "straight"|"round"
 ---@field from number
 ---@field to number
 ---@field texture celspan.surface
@@ -555,6 +558,7 @@ function celspan.image(fields) end
 ---@field size? number The em; 0 or more; default 48
 ---@field at? celspan.point The baseline of the first line; default {0, 0}
 ---@field align? "left"|"centre"|"right" The same in every script; default "left"
+---@field valign? "baseline"|"top"|"cap"|"middle"|"bottom" What of the text lies at at[2]; default "baseline"
 ---@field width? number Lines wrap, and align within at[1] .. at[1] + width; 0 or more
 ---@field leading? number From baseline to baseline, times size; default 1.2
 ---@field tracking? number Thousandths of an em after each letter; default 0
@@ -568,6 +572,7 @@ function celspan.image(fields) end
 ---@class celspan.text: celspan.object, celspan.text.fields
 ---@field size number
 ---@field align "left"|"centre"|"right"
+---@field valign "baseline"|"top"|"cap"|"middle"|"bottom"
 ---@field leading number
 ---@field tracking number
 ---@field face integer
@@ -585,6 +590,7 @@ function celspan.text(fields) end
 ---@field size? number The em; 0 or more; default 48
 ---@field at? celspan.point The baseline of the first line; default {0, 0}
 ---@field align? "left"|"centre"|"right" The same in every script; default "left"
+---@field valign? "baseline"|"top"|"cap"|"middle"|"bottom" What of the text lies at at[2]; default "baseline"
 ---@field width? number Lines wrap, and align within at[1] .. at[1] + width; 0 or more
 ---@field leading? number From baseline to baseline, times size; default 1.2
 ---@field tracking? number Thousandths of an em after each letter; default 0
@@ -598,6 +604,7 @@ function celspan.text(fields) end
 ---@class celspan.glyph: celspan.object, celspan.glyph.fields
 ---@field size number
 ---@field align "left"|"centre"|"right"
+---@field valign "baseline"|"top"|"cap"|"middle"|"bottom"
 ---@field leading number
 ---@field tracking number
 ---@field face integer
@@ -834,8 +841,12 @@ function frame:random(label, m, n) end
 ---@field gain? number A factor of the amplitude; 0 to 1000; default 1
 ---@field fade? number[] {in, out}; linear in amplitude; default {0, 0}
 ---@field pan? number -1: left, 1: right, with constant power; -1 to 1; default 0
----@field name? string For `duck`
----@field duck? string The name of sounds that are 12 dB lower while this one sounds
+---@field name? string For `duck` and `under`
+---@field duck? string The name of sounds that are lower while this one sounds
+---@field under? string The name of sounds under which this one is lower, also of sounds of films
+---@field duck_depth? number By how many decibels `duck` and `under` make it lower; 0 to 200; default 12
+---@field duck_attack? number Seconds in which it becomes lower, before; 0 to 1e9; default 0.1
+---@field duck_release? number Seconds in which it becomes louder again, after; 0 to 1e9; default 0.1
 
 ---@class celspan.film.fields
 ---@field size? integer[] {w, h}; 1 to 1048576; default {1920, 1080}

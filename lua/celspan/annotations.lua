@@ -316,7 +316,20 @@ function object:paint(texture) end
 
 ---@noun image: celspan.object
 
+---@class celspan.text.metrics
+---@field ascent number Of a line of the first font, above the baseline
+---@field descent number Below it
+---@field cap_height number Of capitals
+---@field x_height number Of small letters without ascenders
+---@field width number Of the widest line
+---@field height number From the ascent of the first line to the descent of the last one
+---@field lines integer
+
 ---@noun text: celspan.object
+
+--- The measures of a text in its own units.
+---@return celspan.text.metrics
+function text:metrics() end
 
 ---@noun glyph: celspan.object
 

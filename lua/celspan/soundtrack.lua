@@ -17,7 +17,15 @@ local core = require "celspan.core"
 ---@field left number
 ---@field right number
 ---@field passages number[][] { begin, end, fade in, fade out }
----@field duckers celspan.soundtrack.sound[]
+---@field names table<string, true> Its own, and those of the films that it is in
+---@field duckers celspan.soundtrack.ducker[]
+
+---@class celspan.soundtrack.ducker
+---@field sound celspan.soundtrack.sound
+---@field place? integer Of the sound in the list of all
+---@field gain number
+---@field attack number
+---@field release number
 
 local soundtrack = {}
 
@@ -42,7 +50,7 @@ local function of_file(sound)
   local left, right = gain_of(sound)
   return { {
     path = sound.path, tried = sound.tried, number = sound.number, start = start,
-    speed = sound.speed, from = sound.from, left = left, right = right, duckers = {},
+    speed = sound.speed, from = sound.from, left = left, right = right, duckers = {}, names = {},
     passages = { { sound.at, sound.to and start + sound.to / sound.speed or math.huge,
       sound.fade_in, sound.fade_out } },
   } }
@@ -70,6 +78,9 @@ local function of_film(sound)
       inner.passages[i] = { moved(passage[1]), moved(passage[2]), passage[3] / sound.speed,
         passage[4] / sound.speed }
     end
+    for _, ducker in ipairs(inner.duckers) do
+      ducker.attack, ducker.release = ducker.attack / sound.speed, ducker.release / sound.speed
+    end
     table.insert(inner.passages, { sound.at, moved(to), sound.fade_in, sound.fade_out })
     inner.start, inner.speed = moved(inner.start), inner.speed * sound.speed
     if inner.speed < SLOWEST or inner.speed > FASTEST then
@@ -82,22 +93,33 @@ local function of_film(sound)
   return list
 end
 
---- Notes by whom the sounds of each item are made lower.
-local function add_duckers(items)
-  local by_name = {}
-  for _, item in ipairs(items) do
-    local name = item.sound.name or false
-    by_name[name] = by_name[name] or {}
-    table.insert(by_name[name], item)
-  end
-  for _, item in ipairs(items) do
-    for _, other in ipairs(item.sound.duck and by_name[item.sound.duck] or {}) do
-      if other ~= item then
-        for _, one in ipairs(other.list) do
-          table.move(item.list, 1, #item.list, #one.duckers + 1, one.duckers)
-        end
-      end
+--- Makes the sounds of one list lower while those of another one are heard, as an item says.
+local function add_duckers(lower, higher, item)
+  local sound = item.sound
+  for _, one in ipairs(lower) do
+    for _, other in ipairs(higher) do
+      table.insert(one.duckers, { sound = other, gain = 10 ^ (-sound.duck_depth / 20),
+                                  attack = sound.duck_attack, release = sound.duck_release })
     end
+  end
+end
+
+--- The sounds of the other items that have a name, or are in a film that has it.
+local function named(items, item, name)
+  local found = {}
+  for _, other in ipairs(name and items or {}) do
+    for _, one in ipairs(other ~= item and other.list or {}) do
+      if one.names[name] then found[#found + 1] = one end
+    end
+  end
+  return found
+end
+
+--- Notes by whom the sounds of each item are made lower.
+local function duck_items(items)
+  for _, item in ipairs(items) do
+    add_duckers(named(items, item, item.sound.duck), item.list, item)
+    add_duckers(item.list, named(items, item, item.sound.under), item)
   end
 end
 
@@ -108,12 +130,13 @@ function flatten(film)
     sound.at = sound.at + film.sound_offset
     local list = sound.path and of_file(sound) or of_film(sound)
     items[i] = { sound = sound, list = list }
+    for _, one in ipairs(sound.name and list or {}) do one.names[sound.name] = true end
     table.move(list, 1, #list, #all + 1, all)
     if #all > MOST then
       error(("the film has more than %d sounds, which is the limit"):format(MOST), 0)
     end
   end
-  add_duckers(items)
+  duck_items(items)
   return all
 end
 
@@ -125,7 +148,10 @@ function soundtrack.of(film)
   for i, sound in ipairs(list) do places[sound] = i end
   for _, sound in ipairs(list) do
     local found = {}
-    for _, ducker in ipairs(sound.duckers) do found[#found + 1] = places[ducker] end
+    for _, ducker in ipairs(sound.duckers) do
+      ducker.place = places[ducker.sound]
+      if ducker.place then found[#found + 1] = ducker end
+    end
     sound.duckers = found
   end
   return list

@@ -54,11 +54,13 @@ static void push_texts(lua_State *L, const char *const *texts, size_t count) {
 }
 
 /* request[1], ...: its operands; request.job_name: an option; request.arguments: of the script;
- * request.given: the options in their order, { name = "--job-name", value = "walk" }. */
+ * request.verb: its name; request.given: the options in their order, { name = "--job-name",
+ * value = "walk" }. */
 static void push_request(lua_State *L, const cs_request *request) {
   push_texts(L, request->operands, request->operand_count);
   push_texts(L, (const char *const *)request->script_arguments, request->script_argument_count);
   lua_setfield(L, -2, "arguments");
+  cs_put_text(L, "verb", request->verb->name);
   lua_newtable(L);
   cs_request_each(request, set_option, L);
   lua_setfield(L, -2, "given");
@@ -161,7 +163,8 @@ static int run(lua_State *L) {
   cs_verb_text_load(L, "program.lua");
   lua_pushvalue(L, 1);
   lua_call(L, 1, 0);
-  lua_pushfstring(L, "%s.lua", session->request->verb->name);
+  bool has_table = cs_request_has(session->request, "--table");
+  lua_pushfstring(L, "%s.lua", has_table ? "table" : session->request->verb->name);
   cs_verb_text_load(L, lua_tostring(L, -1));
   lua_insert(L, 1);
   lua_settop(L, 3);

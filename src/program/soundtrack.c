@@ -52,10 +52,11 @@ static void read_passages(lua_State *L, int kept, cs_mix_sound *out) {
 static void read_duckers(lua_State *L, int kept, cs_mix_sound *out) {
   lua_getfield(L, -1, "duckers");
   out->ducker_count = lua_rawlen(L, -1);
-  uint32_t *duckers = keep(L, kept, out->ducker_count, sizeof *duckers);
+  cs_mix_ducker *duckers = keep(L, kept, out->ducker_count, sizeof *duckers);
   for (size_t i = 0; i < out->ducker_count; i++, lua_pop(L, 1)) {
     lua_rawgeti(L, -1, (lua_Integer)i + 1);
-    duckers[i] = (uint32_t)lua_tointeger(L, -1) - 1;
+    duckers[i] = (cs_mix_ducker){(uint32_t)number_of(L, "place") - 1, number_of(L, "gain"),
+                                 number_of(L, "attack"), number_of(L, "release")};
   }
   out->duckers = duckers;
   lua_pop(L, 1);

@@ -30,6 +30,8 @@
         "box, gaussian, mitchell or lanczos; ROWS: the parts into which a row of "                 \
         "pixels is cut, 16; default: each rostrum's own"                                           \
   }
+#define TABLE(help)                                                                                \
+  { "--table", "FILE", &cs_argument_file, help }
 #define WORKERS                                                                                    \
   {                                                                                                \
     "--workers", "N", &cs_argument_workers,                                                        \
@@ -149,8 +151,7 @@ static const cs_option RENDER[] = {
     {"--resume", NULL, NULL, "keep the frames of earlier runs with --resume that would not change"},
     FORCE,
     KEEP_GOING,
-    {"--table", "FILE", &cs_argument_file,
-     "a film for each row of a CSV file, whose columns are parameters, or {NAME} in OUT"},
+    TABLE("a film for each row of a CSV file, whose columns are parameters, or {NAME} in OUT"),
     SCRIPT,
     MEMORY,
     {0}};
@@ -169,6 +170,7 @@ static const cs_option CHECK[] = {
      "read every picture completely, not only its header, and have ffmpeg read the "
      "sound"},
     {"--json", NULL, NULL, "print the faults as a JSON list on standard output"},
+    TABLE("check the film of each row of a CSV file, whose columns are parameters"),
     SCRIPT,
     {0}};
 
@@ -262,6 +264,7 @@ static const cs_option CONTACT[] = {
     FRAMES,
     {"--grid", "CxR", &cs_argument_grid, "columns and rows of a page; default: 6x4"},
     {"--every", "N", &cs_argument_every, "one frame in N; default: as many as fit on one page"},
+    TABLE("a sheet for each row of a CSV file, whose columns are parameters, or {NAME} in SHEET"),
     WORKERS,
     SCRIPT,
     {0}};
@@ -438,7 +441,7 @@ const cs_verb cs_verbs[] = {
      .summary = "Makes a contact sheet: frames side by side, each with its number.",
      .notes = "Without --every, as many frames are left out as necessary to fit on one "
               "page. With --every, SHEET needs a number, as in sheet.####.png, if the "
-              "frames do not fit on one page.",
+              "frames do not fit on one page. The last frame is always shown.",
      .options = CONTACT},
     {"relight", "IN -o OUT", 1, 1,
      .summary = "Removes the light from a picture, and shows the picture in another light.",

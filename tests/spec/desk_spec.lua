@@ -300,10 +300,25 @@ describe("celspan contact", function()
     run "contact film.lua -o three.png --grid 3x4 --every 4"
     run "contact film.lua -o two.png --frames 3-4"
     assert.equal("116x100", size_of "four.png")
-    assert.equal("168x56", size_of "three.png")
+    assert.equal("168x100", size_of "three.png")
     assert.equal("116x56", size_of "two.png")
     assert.is_true(pixel("three.png", 12 + 52 + 13, 20) < 0.01) -- frame 5 is the second
     assert.is_true(pixel("two.png", 12 + 7, 20) < 0.01)
+  end)
+
+  it("always shows the last frame", function()
+    run "contact film.lua -o last.png --frames 12"
+    run "contact film.lua -o five.png --grid 5x1"
+    run "contact film.lua -o every.png --grid 3x1 --every 8"
+    for name, place in pairs { ["five.png"] = 4, ["every.png"] = 2 } do
+      for x = 12, 51 do
+        assert.equal(pixel("last.png", x, 20), pixel(name, x + 52 * place, 20), name .. x)
+      end
+    end
+    run "contact film.lua -o two.png --grid 5x1 --frames 1,3,4,6,8,9"
+    run "contact film.lua -o nine.png --frames 9"
+    assert.equal("220x56", size_of "two.png")
+    for x = 12, 51 do assert.equal(pixel("nine.png", x, 20), pixel("two.png", x + 156, 20)) end
   end)
 
   it("writes a number under each frame", function()

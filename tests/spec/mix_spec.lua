@@ -94,10 +94,13 @@ local function sum(sounds, seconds)
       if fade[2] > 0 then gain = gain * math.max(0, math.min(1, (at + length - time) / fade[2])) end
       local far = 1
       for _, duck in ipairs(s.ducked or {}) do
-        local distance = math.max(0, duck[1] - time, time - duck[2] + 1 / RATE)
-        far = math.min(far, distance / 0.1)
+        local before, after = duck[1] - time, time - duck[2] + 1 / RATE
+        local ramp = before > 0 and (duck.attack or 0.1) or duck.release or 0.1
+        local up = math.min(1, math.max(0, before, after) / ramp)
+        local low = 10 ^ (-(duck.depth or 12) / 20)
+        far = math.min(far, low + (1 - low) * up)
       end
-      gain = gain * (10 ^ (-12 / 20) + (1 - 10 ^ (-12 / 20)) * far)
+      gain = gain * far
       local moment = s.moments[i - math.floor((at - from) * RATE + 0.5) + 1]
       left[i + 1] = left[i + 1] + moment[1] * gain * sides[1]
       right[i + 1] = right[i + 1] + (moment[2] or moment[1]) * gain * sides[2]
@@ -205,6 +208,36 @@ describe("the mix of a film", function()
     local l, r = sum({ { moments = moments, from = 11.23, at = 0.05, fade = { 0, 0.1 } },
       { moments = moments, at = -10.6, to = 10.9, ducked = { { 0.05, 0.32 } } } }, 0.5)
     assert.is_true(worst(left, l) <= 1e-6 and worst(right, r) <= 1e-6)
+  end)
+
+  it_mixes("makes way as deep and as fast as it says, for the strongest of the sounds", function()
+    write_sounds()
+    local left, right = mix([[return film { fps = 24, duration = 0.75, sound = {
+      { "stereo.wav", name = "music" },
+      { "mono.wav", at = 0.2, to = 0.1, duck = "music", duck_depth = 6, duck_attack = 0.15,
+        duck_release = 0.3 },
+      { "mono.wav", at = 0.4, to = 0.05, duck = "music", duck_depth = 20, duck_attack = 0.02,
+        duck_release = 0.01 } } }]], "--depth float")
+    local l, r = sum({ { moments = mono, at = 0.2, to = 0.1 }, { moments = mono, at = 0.4, to = 0.05 },
+      { moments = stereo, ducked = { { 0.2, 0.3, depth = 6, attack = 0.15, release = 0.3 },
+        { 0.4, 0.45, depth = 20, attack = 0.02, release = 0.01 } } } }, 0.75)
+    assert.is_true(worst(left, l) <= 1e-6 and worst(right, r) <= 1e-6)
+  end)
+
+  it_mixes("has music of a cut that makes way for the voices of its shots", function()
+    write_sounds()
+    for under, ducked in pairs { voice = { { 0.35, 0.45 } }, second = { { 0.25, 0.65 } } } do
+      local left, right = mix([[
+local cut = require "celspan.cut"
+local shot = film { fps = 24, frames = 6 }
+local talk = film { fps = 24, frames = 12, sound = { { "mono.wav", to = 0.4, pan = -1 },
+  { "mono.wav", at = 0.1, to = 0.1, name = "voice" } } }
+return cut { shot, { film = talk, name = "second" },
+  sound = { "stereo.wav", under = "]] .. under .. [[" } }]], "--depth float")
+      local l, r = sum({ { moments = mono, at = 0.25, to = 0.4, pan = -1 },
+        { moments = mono, at = 0.35, to = 0.1 }, { moments = stereo, ducked = ducked } }, 0.75)
+      assert.is_true(worst(left, l) <= 1e-6 and worst(right, r) <= 1e-6, under)
+    end
   end)
 
   it_mixes("can be that of another film, in which everything moves", function()
@@ -397,6 +430,9 @@ return inner]])
       ["{ 'a.wav', volume = 1 }"] = "film: sound 1: unknown field 'volume'",
       ["{ { 'a.wav' }, { 'b.wav', duck = 'musik' } }"] = "film: sound 2: field 'duck' must be the "
         .. 'name of another sound of the film, got "musik", which none has',
+      ["{ { 'a.wav' }, { 'b.wav', under = 'voise' } }"] = "film: sound 2: field 'under' must be the",
+      ["{ 'a.wav', duck_depth = -1 }"] = "film: sound 1: duck_depth is %-1; it must be "
+        .. "between 0 and 200",
       ["{ { 'a.wav', name = 'x', duck = 'x' } }"] = "film: sound 1: field 'duck' must be the name",
       ["{ at = 1 }"] = 'film: sound 1: must be the name of a file or a film, { "voice.wav", at = 2 '
         .. "}, got nil",

@@ -176,6 +176,31 @@ describe("--table", function()
       { table.unpack(bench:files(), 1, 4) })
   end)
 
+  it("makes a contact sheet of each row, and checks each row", function()
+    bench:write("rows.csv", "lang,tint\nen,#f00\nde,#0000ff\n")
+    local place = bench.folder
+    local function on(verb, more)
+      return bench:celspan("%s '%s/film.lua' --table '%s/rows.csv' %s", verb, place, place, more or "")
+    end
+    local code, _, err = on("contact", ("-o '%s/{lang}.png'"):format(place))
+    assert.are.equal(0, code, err)
+    bench:celspan("contact '%s/film.lua' -o '%s/alone.png' --set tint=#00f", place, place)
+    assert.are.equal(bench:read "alone.png", bench:read "de.png")
+    assert.are_not.equal(bench:read "en.png", bench:read "de.png")
+    code, _, err = on "check"
+    assert.are.equal(0, code, err)
+    assert.is_truthy(err:find("2/2 line 3\n", 1, true), err)
+    bench:write("film.lua", "local celspan = require 'celspan'\n"
+      .. "local p = celspan.parameters { tint = '#fff' }\nassert(p.tint ~= '#f00', 'red')\n"
+      .. FILM:gsub("local p = .-\nprint%b()", ""):gsub("^[^\n]*\n", ""))
+    code, _, err = on "check"
+    assert.are.equal(3, code, err)
+    assert.is_truthy(err:find("rows.csv: line 2: exit code 3\n", 1, true), err)
+    assert.is_truthy(err:find("2/2 line 3\n", 1, true), err)
+    code, _, err = on("check", "--json")
+    assert.are.equal(2, code, err)
+  end)
+
   it("is refused before the first frame", function()
     for rows, message in pairs {
       ["lang,size\nen,1\n"] =

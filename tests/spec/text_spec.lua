@@ -184,6 +184,26 @@ describe("lines", function()
       { ends("centre", nil, 100)[1] - 50, ends("centre", nil, 100)[2] - 50 })
   end)
 
+  it("lie as `valign` says, by measures that scripts can ask for", function()
+    local m = text { "Hx\nH", size = 50, leading = 2 }:scale(3):metrics()
+    assert.are.equal(2, m.lines)
+    assert.is_near(m.ascent + m.descent + 100, m.height, 1e-9)
+    local function baseline(valign)
+      return glyphs { "Hx\nH", size = 50, leading = 2, valign = valign }[1].y
+    end
+    assert.are.equal(0, baseline())
+    for valign, y in pairs { top = m.ascent, cap = m.cap_height, bottom = -100 - m.descent,
+                             middle = m.ascent - m.height / 2 } do
+      assert.is_near(y, baseline(valign), 1e-9, valign)
+    end
+    assert.is_true(0 < m.x_height and m.x_height < m.cap_height and m.cap_height < m.ascent)
+    local letter = glyphs { "H", size = 50 }[1]
+    assert.is_near(text({ "H", size = 50 }):metrics().width, letter.advance, 1e-9)
+    assert.has_error(function() celspan.circle { radius = 1 }:metrics() end,
+      "metrics: only a text has them, not a circle")
+    assert.truthy(message_of { "H", valign = "center" }:find('"cap", "middle"', 1, true))
+  end)
+
   it("align left to the left in every script", function()
     local letters = glyphs { "שלום", size = 1000, at = { 100, 0 } }
     assert.are.equal(100, letters[4].x)

@@ -313,7 +313,8 @@ function maker:stroke()
     add("dash = {%s, %s}, dash_offset = %s", self:number(3, 12), self:number(1, 8),
       self:number(-9, 9))
   elseif not self.is_straight and self.random:once(3) then
-    add("taper = {%s, %s}", self:number(1, 20), self:number(0, 20))
+    add("taper = {%s, %s}, profile = %q", self:number(1, 20), self:number(0, 20),
+      self.random:pick { "straight", "round" })
   end
   if self.random:once(4) then
     add("from = %s, to = %s", self:number(0, 0.5), self:number(0.4, 1))

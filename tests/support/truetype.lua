@@ -130,7 +130,8 @@ local function os2(font)
   return u16(4) .. i16(font.units // 2) .. u16(400) .. u16(5) .. u16(0) .. ("\0"):rep(20) .. i16(0)
     .. ("\0"):rep(10) .. ("\0"):rep(16) .. "NONE" .. u16(64) .. u16(32) .. u16(0xfffd)
     .. i16(font.ascent) .. i16(font.descent) .. i16(0) .. u16(font.ascent) .. u16(-font.descent)
-    .. ("\0"):rep(8) .. i16(font.units // 2) .. i16(font.ascent) .. u16(0) .. u16(32) .. u16(2)
+    .. ("\0"):rep(8) .. i16(font.x_height or font.units // 2)
+    .. i16(font.cap_height or font.ascent) .. u16(0) .. u16(32) .. u16(2)
 end
 
 local function post() return u32(0x30000) .. ("\0"):rep(28) end

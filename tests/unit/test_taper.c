@@ -44,29 +44,31 @@ static const line lines[] = {
     {"M40 0A40 40 0 0 1 -40 0A40 40 0 0 1 0 -40", 60 * PI, on_circle},
 };
 
-static double half_width(double way, double length, double begin, double end) {
+static double half_width(double way, double length, double begin, double end, bool is_round) {
   double scale = begin + end > length ? length / (begin + end) : 1, share = 1;
   if (begin > 0)
     share = fmin(share, way / (scale * begin));
   if (end > 0)
     share = fmin(share, (length - way) / (scale * end));
-  return 0.5 * WIDTH * share;
+  return 0.5 * WIDTH * (is_round ? share * (2 - share) : share);
 }
 
 /* Slopes are so small that a disc touches the side almost exactly across from its centre. */
-static void check(celspan_context *context, const line *l, double begin, double end) {
+static void check(celspan_context *context, const line *l, double begin, double end,
+                  bool is_round) {
   celspan_stroke_desc desc = CELSPAN_STROKE_DESC;
   celspan_object *object = NULL;
   desc.data = l->data;
   desc.width = WIDTH;
   desc.taper[0] = begin;
   desc.taper[1] = end;
+  desc.profile = is_round ? CELSPAN_PROFILE_ROUND : CELSPAN_PROFILE_STRAIGHT;
   int wrong = 0;
   if (!CHECK(celspan_object_create_stroke(context, &desc, &object) == CELSPAN_OK))
     return;
   for (double way = 0.37; way < l->length; way += 1.3) {
     celspan_point across, at = l->at(way, &across);
-    double half = half_width(way, l->length, begin, end);
+    double half = half_width(way, l->length, begin, end, is_round);
     double shares[] = {-1.04, -0.96, 0.96, 1.04};
     for (int k = 0; k < 4 && (l->at != on_corners || fabs(fmod(way, 40) - 20) < 17); k++) {
       celspan_point p = {at.x + shares[k] * half * across.x, at.y + shares[k] * half * across.y};
@@ -74,7 +76,8 @@ static void check(celspan_context *context, const line *l, double begin, double 
     }
   }
   if (!CHECK(wrong == 0))
-    fprintf(stderr, "  %s, tapers of %g and %g: %d points\n", l->data, begin, end, wrong);
+    fprintf(stderr, "  %s, %s tapers of %g and %g: %d points\n", l->data,
+            is_round ? "round" : "straight", begin, end, wrong);
   celspan_object_unref(object);
 }
 
@@ -85,7 +88,8 @@ int main(void) {
   CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
   for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
     for (size_t k = 0; k < sizeof tapers / sizeof *tapers; k++)
-      check(context, &lines[i], tapers[k][0], tapers[k][1]);
+      for (int round = 0; round < 2; round++)
+        check(context, &lines[i], tapers[k][0], tapers[k][1], round != 0);
   celspan_context_destroy(context);
   return check_done();
 }

@@ -407,6 +407,35 @@ static void bad_arguments_are_refused(void) {
 #undef REFUSE
 }
 
+/* Every choice moves the whole text, by what its measures say. */
+static void valign_moves_by_measures(void) {
+  const celspan_font fonts[] = {{OWN, NULL}};
+  celspan_text_desc desc = text_of("Hx\nHgHHH", fonts, 1);
+  celspan_text_metrics m;
+  desc.size = 60;
+  CHECK(celspan_text_measure(context, &desc, &m) == CELSPAN_OK);
+  CHECK(m.lines == 2 && m.ascent > m.cap_height && m.cap_height > m.x_height && m.x_height > 0);
+  CHECK_NEAR(m.height, m.ascent + 1.2 * 60 + m.descent, 1e-9);
+  const double drops[] = {0, m.ascent, m.cap_height, m.ascent - m.height / 2, m.ascent - m.height};
+  for (int i = 0; i <= CELSPAN_VALIGN_BOTTOM; i++) {
+    celspan_glyphs *glyphs = NULL;
+    celspan_object *text = NULL;
+    celspan_box box = {0, 0, 0, 0};
+    desc.valign = (celspan_valign)i;
+    CHECK(celspan_glyphs_create(context, &desc, &glyphs) == CELSPAN_OK);
+    CHECK(celspan_object_create_text(context, &desc, &text) == CELSPAN_OK);
+    const celspan_glyph *first = celspan_glyphs_get(glyphs, 0);
+    const celspan_glyph *last = celspan_glyphs_get(glyphs, celspan_glyphs_count(glyphs) - 1);
+    CHECK_NEAR(first->y, desc.at.y + drops[i], 1e-9);
+    CHECK_NEAR(last->y, desc.at.y + drops[i] + 72, 1e-9);
+    CHECK_NEAR(last->x + last->advance, desc.at.x + m.width, 1e-9);
+    CHECK(celspan_object_bounds(text, &box));
+    CHECK_NEAR(box.y, first->y - m.cap_height, 1e-6);
+    celspan_object_unref(text);
+    celspan_glyphs_destroy(glyphs);
+  }
+}
+
 /* Letters live as long as somebody keeps them, whatever becomes of the list. */
 static void letters_outlive_their_list(void) {
   const celspan_font fonts[] = {{OWN, NULL}};
@@ -470,6 +499,7 @@ int main(void) {
   fonts_are_kept_and_let_go();
   bad_arguments_are_refused();
   letters_outlive_their_list();
+  valign_moves_by_measures();
   every_allocation_may_fail(false);
   every_allocation_may_fail(true);
   celspan_context_destroy(context);

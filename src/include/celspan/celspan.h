@@ -569,6 +569,12 @@ typedef enum celspan_stroke_join {
   CELSPAN_JOIN_BEVEL
 } celspan_stroke_join;
 
+/* The width at the share u of the length of a taper, by the width without it. */
+typedef enum celspan_stroke_profile {
+  CELSPAN_PROFILE_STRAIGHT = 0, /* u */
+  CELSPAN_PROFILE_ROUND         /* u (2 - u): no corner where the taper ends */
+} celspan_stroke_profile;
+
 /* A line and its width: of points, data and outline, one is given. The sides are the envelope of a
  * disc of that width which is taken along the line, caps and joins have the width there, and a
  * smooth point has no join. The outline is made again for every frame, as fine as that frame needs.
@@ -595,6 +601,7 @@ typedef struct celspan_stroke_desc {
                           * 0, scaled down together when it is shorter; not with dashes; 0 0 */
   double from, to;      /* the part of the whole length that is drawn, clamped to 0..1; 0 and 1 */
   celspan_texture *texture;
+  celspan_stroke_profile profile; /* of tapers */
 } celspan_stroke_desc;
 
 static inline celspan_stroke_desc celspan_stroke_desc_default(void) {
@@ -703,6 +710,14 @@ typedef enum celspan_align {
   CELSPAN_ALIGN_RIGHT
 } celspan_align;
 
+typedef enum celspan_valign { /* what lies at at.y; heights are those of the first font */
+                              CELSPAN_VALIGN_BASELINE = 0, /* of the first line */
+                              CELSPAN_VALIGN_TOP,          /* the ascent of the first line */
+                              CELSPAN_VALIGN_CAP,    /* the top of the capitals of the first line */
+                              CELSPAN_VALIGN_MIDDLE, /* halfway between TOP and BOTTOM */
+                              CELSPAN_VALIGN_BOTTOM  /* the descent of the last line */
+} celspan_valign;
+
 typedef enum celspan_direction {
   CELSPAN_DIRECTION_AUTO = 0, /* of each line that was typed: by its first letter */
   CELSPAN_DIRECTION_LTR,
@@ -719,7 +734,7 @@ typedef struct celspan_text_desc {
   const celspan_font *fonts;
   size_t font_count;   /* 1..16 */
   double size;         /* the em, in film units */
-  celspan_point at;    /* the first line's baseline */
+  celspan_point at;    /* the first line's baseline, or as valign says */
   celspan_align align; /* about at.x; with a width, within at.x .. at.x + width */
   bool has_width;      /* lines wrap */
   double width;        /* >= 0 */
@@ -733,6 +748,7 @@ typedef struct celspan_text_desc {
   celspan_direction direction;
   celspan_texture *texture; /* kept; NULL: opaque black */
   uint32_t face;            /* of fonts that are collections: which of theirs, from 0 */
+  celspan_valign valign;
 } celspan_text_desc;
 
 static inline celspan_text_desc celspan_text_desc_default(void) {
@@ -755,7 +771,22 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_text(celspan_co
                                                                       const celspan_text_desc *desc,
                                                                       celspan_object **out);
 
-/* The same, letter by letter: a letter is a user-perceived character with its marks, or a ligature.
+/* Measures of a text in film units. Heights are those of the first font, 0 or more as a rule, from
+ * the baseline; those that the file does not tell are measured on its letters H and x. */
+typedef struct celspan_text_metrics {
+  double ascent, descent; /* of a line: above the baseline and below it */
+  double cap_height, x_height;
+  double width;  /* of the widest line */
+  double height; /* from the ascent of the first line to the descent of the last one */
+  int32_t lines; /* 1 or more */
+} celspan_text_metrics;
+
+/* desc, Errors: as above. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_text_measure(celspan_context *context,
+                                                                const celspan_text_desc *desc,
+                                                                celspan_text_metrics *out);
+
+/* The same text, letter by letter: a letter is a user-perceived character with its marks, or a ligature.
  * Line ends are not letters; spaces are, and draw nothing. */
 typedef struct celspan_glyph {
   celspan_object *object; /* borrowed; it lies where the text has it, its texture as in the text */

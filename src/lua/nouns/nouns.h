@@ -29,6 +29,9 @@ extern const luaL_Reg cs_boolean_operators[];
  * of the primitive. */
 int cs_stroke_method(lua_State *L);
 
+/* text:metrics(): a table of measures. */
+int cs_text_metrics(lua_State *L);
+
 /* object:paint(texture): its shape filled with the texture, with its own fade and name. */
 int cs_derived_paint(lua_State *L);
 /* What object:warp{...} is made of: (object, function of x and y, the tolerance, the most pieces;

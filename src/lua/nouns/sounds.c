@@ -16,9 +16,12 @@
 typedef struct sound_form {
   double at, from, to, speed, gain, fade[2], pan;
   bool has_to;
-  const char *name, *duck;
+  const char *name, *duck, *under;
+  double duck_depth, duck_attack, duck_release;
 } sound_form;
 
+#define PLAIN                                                                                      \
+  (sound_form) { .speed = 1, .gain = 1, .duck_depth = 12, .duck_attack = 0.1, .duck_release = 0.1 }
 #define SECONDS(member) CS_NUMBER(sound_form, member), .least = 0, .most = MOST_SECONDS
 static const cs_field fields[] = {
     {"at", CS_NUMBER(sound_form, at), .least = -MOST_SECONDS, .most = MOST_SECONDS, .preset = "0",
@@ -34,9 +37,17 @@ static const cs_field fields[] = {
      .about = "Linear in amplitude", .fallback = "{0, 0}"},
     {"pan", CS_NUMBER(sound_form, pan), .least = -1, .most = 1, .preset = "0",
      .about = "-1: left, 1: right, with constant power"},
-    {"name", CS_TEXT(sound_form, name), .about = "For `duck`"},
+    {"name", CS_TEXT(sound_form, name), .about = "For `duck` and `under`"},
     {"duck", CS_TEXT(sound_form, duck),
-     .about = "The name of sounds that are 12 dB lower while this one sounds"},
+     .about = "The name of sounds that are lower while this one sounds"},
+    {"under", CS_TEXT(sound_form, under),
+     .about = "The name of sounds under which this one is lower, also of sounds of films"},
+    {"duck_depth", CS_NUMBER(sound_form, duck_depth), .least = 0, .most = 200, .preset = "12",
+     .about = "By how many decibels `duck` and `under` make it lower"},
+    {"duck_attack", SECONDS(duck_attack), .preset = "0.1",
+     .about = "Seconds in which it becomes lower, before"},
+    {"duck_release", SECONDS(duck_release), .preset = "0.1",
+     .about = "Seconds in which it becomes louder again, after"},
     {0}};
 const cs_noun cs_noun_sound = {.name = "film: sound",
                                .about = "A sound of a film, and when it is heard.",
@@ -74,7 +85,7 @@ static void read_times(const cs_form *form, sound_form *out) {
 
 /* Opens the form of a sound that is on top of the stack, a table; its file is pushed. */
 static cs_form open_sound(lua_State *L, const cs_noun *noun, sound_form *out) {
-  *out = (sound_form){.speed = 1, .gain = 1};
+  *out = PLAIN;
   cs_form form = cs_form_open(L, noun, -1);
   if (cs_form_length(&form) > 1)
     cs_form_fail(&form,
@@ -128,21 +139,39 @@ static bool push_item(lua_State *L, lua_Integer i) {
   return i == 1;
 }
 
-/* Raises if the sound on top of the stack ducks a name that no other sound of the list has. */
-static void check_duck(lua_State *L, const cs_noun *noun, int list) {
-  int sound = lua_gettop(L);
-  bool is_found = !lua_istable(L, sound) || lua_getfield(L, sound, "duck") == LUA_TNIL;
-  lua_pushvalue(L, list);
-  for (lua_Integer i = 1; !is_found && push_item(L, i); lua_settop(L, sound + 2), i++)
-    if (lua_istable(L, -1) && !lua_rawequal(L, -1, sound)) {
-      lua_getfield(L, -1, "name");
-      is_found = lua_rawequal(L, -1, sound + 1);
+/* Whether a sound of the value on top of the stack, or of a film in it, has the name at index
+ * `name`. but: the index of a sound that does not count, or of another value. */
+static bool has_name(lua_State *L, int name, int but) {
+  int top = lua_gettop(L);
+  bool is_found = false;
+  luaL_checkstack(L, 20, "films in films");
+  for (lua_Integer i = 1; !is_found && push_item(L, i); lua_settop(L, top), i++) {
+    if (!lua_istable(L, -1) || lua_rawequal(L, -1, but))
+      continue;
+    lua_getfield(L, -1, "name");
+    lua_rawgeti(L, -2, 1);
+    is_found = lua_rawequal(L, -2, name);
+    if (!is_found && cs_userdata_test(L, -1, &cs_kind_film)) {
+      cs_userdata_push_fields(L, -1);
+      lua_getfield(L, -1, "sound");
+      is_found = !lua_isnil(L, -1) && has_name(L, name, name);
     }
-  if (!is_found)
+  }
+  return is_found;
+}
+
+/* Raises if a field of the sound on top of the stack, `duck` or `under`, is a name that no other
+ * sound has. */
+static void check_name(lua_State *L, const cs_noun *noun, int list, const char *field) {
+  int sound = lua_gettop(L);
+  bool is_given = lua_istable(L, sound) && lua_getfield(L, sound, field) != LUA_TNIL;
+  lua_pushvalue(L, list);
+  if (is_given && !has_name(L, sound + 1, sound))
     cs_form_fail(&(cs_form){L, noun, sound},
-                 "field 'duck' must be the name of another sound of the film, got \"%s\", which "
-                 "none has",
-                 lua_tostring(L, sound + 1));
+                 "field '%s' must be the name of another sound of the film, got \"%s\", which none "
+                 "has",
+                 field, lua_tostring(L, sound + 1));
+  lua_settop(L, sound);
 }
 
 /* Checks sound i, which is on top of the stack. */
@@ -151,7 +180,8 @@ static void check_item(lua_State *L, lua_Integer i, int list) {
   named.name = lua_pushfstring(L, "film: sound %I", (LUAI_UACINT)i);
   lua_insert(L, -2);
   check_sound(L, &named);
-  check_duck(L, &named, list);
+  check_name(L, &named, list, "duck");
+  check_name(L, &named, list, "under");
 }
 
 void cs_sounds_check(const cs_form *film) {
@@ -189,12 +219,12 @@ static void put_file(lua_State *L, const char *folder) {
 
 /* Replaces the sound on top of the stack by the table that is pushed for it. */
 static void complete(lua_State *L, const char *folder) {
-  sound_form read = {.speed = 1, .gain = 1};
+  sound_form read = PLAIN;
   int sound = lua_gettop(L);
   if (lua_istable(L, -1))
     open_sound(L, &cs_noun_sound, &read);
   lua_pushvalue(L, -1);
-  lua_createtable(L, 1, 12);
+  lua_createtable(L, 1, 16);
   put_file(L, folder);
   cs_put_number(L, "at", read.at);
   cs_put_number(L, "from", read.from);
@@ -207,6 +237,10 @@ static void complete(lua_State *L, const char *folder) {
   cs_put_number(L, "pan", read.pan);
   cs_put_text(L, "name", read.name);
   cs_put_text(L, "duck", read.duck);
+  cs_put_text(L, "under", read.under);
+  cs_put_number(L, "duck_depth", read.duck_depth);
+  cs_put_number(L, "duck_attack", read.duck_attack);
+  cs_put_number(L, "duck_release", read.duck_release);
   lua_replace(L, sound);
   lua_settop(L, sound);
 }

@@ -16,7 +16,8 @@ void cs_sounds_check(const cs_form *film);
 /* Pushes the list of the field `sound` of the fields of a film, at index:
  *
  *   { file or film, number =, path =, tried =, at =, from =, to = or nil, speed =, gain =,
- *     fade_in =, fade_out =, pan =, name =, duck = }
+ *     fade_in =, fade_out =, pan =, name =, duck =, under =, duck_depth =,
+ *     duck_attack =, duck_release = }
  *
  * number: its place in the field. folder: where files are looked for first, or NULL. Raises only
  * where a file may not be read and out of memory. */

@@ -69,6 +69,7 @@ static void create(const cs_form *form, cs_userdata *value) {
 }
 
 static const char *const caps[] = {"butt", "round", "square", NULL};
+static const char *const profiles[] = {"straight", "round", NULL};
 static const char *const joins[] = {"miter", "round", "bevel", NULL};
 
 #define DESC celspan_stroke_desc
@@ -84,6 +85,8 @@ static const cs_field style_fields[] = {
      .about = "The distance into the dashes at which each subpath begins"},
     {"taper", CS_NUMBERS(DESC, taper),
      .about = "{begin, end}: lengths over which the width grows from 0 and falls to 0"},
+    {"profile", CS_CHOICE(DESC, profile, profiles), .preset = "straight",
+     .about = "Of tapers; round: without a corner where the taper ends"},
     {"from", CS_NUMBER(DESC, from), .preset = "0",
      .about = "Where drawing begins, as a fraction of the whole length"},
     {"to", CS_NUMBER(DESC, to), .preset = "1", .about = "Where drawing ends"},

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lua/bind/caller.h"
 #include "lua/bind/construct.h"
 #include "lua/bind/fields.h"
 #include "lua/bind/files.h"
@@ -157,6 +158,7 @@ static void create_text(const cs_form *form, cs_userdata *value) {
 }
 
 static const char *const aligns[] = {"left", "centre", "right", NULL};
+static const char *const valigns[] = {"baseline", "top", "cap", "middle", "bottom", NULL};
 static const char *const directions[] = {"auto", "ltr", "rtl", NULL};
 
 static const cs_field text_fields[] = {
@@ -167,6 +169,8 @@ static const cs_field text_fields[] = {
      .fallback = "{0, 0}"},
     {"align", CS_CHOICE(text_form, desc.align, aligns), .preset = "left",
      .about = "The same in every script"},
+    {"valign", CS_CHOICE(text_form, desc.valign, valigns), .preset = "baseline",
+     .about = "What of the text lies at at[2]"},
     {"width", CS_NUMBER(text_form, desc.width), CS_HAS(text_form, desc.has_width), CS_FROM(0),
      .about = "Lines wrap, and align within at[1] .. at[1] + width"},
     {"leading", CS_NUMBER(text_form, desc.leading), .preset = "1.2",
@@ -280,5 +284,30 @@ int cs_nouns_glyphs(lua_State *L) {
   }
   celspan_glyphs_destroy(*holder);
   *holder = NULL;
+  return 1;
+}
+
+/* ---------------------------------------------------------------- metrics */
+
+int cs_text_metrics(lua_State *L) {
+  const cs_userdata *text = cs_userdata_self(L, &cs_kind_object, "metrics");
+  if (text->noun != &cs_noun_text)
+    return cs_caller_error(L, "metrics: only a text has them, not a %s", text->noun->name);
+  cs_userdata_push_fields(L, 1);
+  cs_form form = cs_form_open(L, &cs_noun_text, -1);
+  celspan_context *context = cs_host_context(L);
+  celspan_text_metrics metrics;
+  cs_named_begin(L, context);
+  text_form read = read_text(&form);
+  cs_form_try(&form, celspan_text_measure(context, &read.desc, &metrics));
+  cs_named_end(context);
+  lua_createtable(L, 0, 7);
+  cs_put_number(L, "ascent", metrics.ascent);
+  cs_put_number(L, "descent", metrics.descent);
+  cs_put_number(L, "cap_height", metrics.cap_height);
+  cs_put_number(L, "x_height", metrics.x_height);
+  cs_put_number(L, "width", metrics.width);
+  cs_put_number(L, "height", metrics.height);
+  cs_put_integer(L, "lines", metrics.lines);
   return 1;
 }

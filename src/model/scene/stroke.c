@@ -49,6 +49,8 @@ static celspan_status check_numbers(celspan_context *context, const celspan_stro
   CS_TRY(cs_check_number(context, NOUN, "dash_offset", desc->dash_offset));
   CS_TRY(cs_check_size(context, NOUN, "taper[1]", desc->taper[0]));
   CS_TRY(cs_check_size(context, NOUN, "taper[2]", desc->taper[1]));
+  CS_TRY(cs_check_choice(context, NOUN, "profile", (unsigned)desc->profile,
+                         CELSPAN_PROFILE_ROUND + 1));
   CS_TRY(cs_check_number(context, NOUN, "from", desc->from));
   CS_TRY(cs_check_number(context, NOUN, "to", desc->to));
   return check_dashes(context, desc);

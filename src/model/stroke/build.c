@@ -27,7 +27,7 @@ static celspan_status build(celspan_context *context, cs_stroke *stroke,
     CS_TRY(cs_stroke_append_contour(context, stroke, raw, i));
   CS_TRY(cs_stroke_divide(context, stroke, desc, tapers ? &none : &raw->closed));
   if (tapers)
-    CS_TRY(cs_stroke_taper(context, stroke, desc->taper));
+    CS_TRY(cs_stroke_taper(context, stroke, desc));
   find_around(stroke);
   return CELSPAN_OK;
 }

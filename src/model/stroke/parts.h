@@ -48,4 +48,4 @@ CELSPAN_CHECKED celspan_status cs_stroke_divide(celspan_context *context, cs_str
                                                 const cs_outline_closed *closed);
 /* Makes the line again from the stroke's parts, with tapered radii. Errors: NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_stroke_taper(celspan_context *context, cs_stroke *stroke,
-                                               const double taper[2]);
+                                               const celspan_stroke_desc *desc);

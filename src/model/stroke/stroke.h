@@ -22,7 +22,7 @@
 #include "model/geometry/boundary.h"
 #include "model/geometry/outline.h"
 
-#define CS_STROKE_RADIUS_DEGREE 20 /* of a width, and of the way along a piece (taper.c) */
+#define CS_STROKE_RADIUS_DEGREE 25 /* of a width, and twice the way along a piece (taper.c) */
 #define CS_STROKE_DASHES 1000000   /* the most in one stroke */
 
 typedef struct cs_stroke_part {

@@ -21,6 +21,7 @@ typedef struct tapering {
   cs_stroke *out;
   double length;   /* of the part */
   double taper[2]; /* scaled down, if the part is shorter */
+  bool is_round;   /* the factor is u (2 - u), where u is that of a straight taper */
   double way;      /* so far, from the beginning of the part */
   bool is_first;   /* nothing of the part is appended yet */
 } tapering;
@@ -54,6 +55,23 @@ static void find_way(const cs_bezier *line, double way[WAY_DEGREE + 1]) {
 
 /* ---------------------------------------------------------------- pieces */
 
+/* The curve with a radius that is multiplied by the factor. way: the shares of the taper's length.
+ */
+static void narrow(const tapering *t, const cs_curve *curve, const double way[WAY_DEGREE + 1],
+                   cs_curve *out) {
+  double rest[WAY_DEGREE + 1], once[CS_STROKE_RADIUS_DEGREE + 1];
+  *out = *curve;
+  out->radius_degree += WAY_DEGREE;
+  cs_curve_multiply(curve->radius, curve->radius_degree, way, WAY_DEGREE, out->radius);
+  if (!t->is_round)
+    return;
+  for (int i = 0; i <= WAY_DEGREE; i++)
+    rest[i] = 2 - way[i];
+  memcpy(once, out->radius, sizeof once);
+  cs_curve_multiply(once, out->radius_degree, rest, WAY_DEGREE, out->radius);
+  out->radius_degree += WAY_DEGREE;
+}
+
 /* Appends a curve that lies in one of the three stretches of its part. length: of its line. */
 static celspan_status append(tapering *t, const cs_curve *curve, double length, int depth) {
   double way[WAY_DEGREE + 1], error = WAY_ERROR * t->length;
@@ -78,9 +96,7 @@ static celspan_status append(tapering *t, const cs_curve *curve, double length, 
       double at = t->way + way[i];
       way[i] = fmin(1, fmax(0, side == 0 ? at : t->length - at) / t->taper[side]);
     }
-    low = *curve;
-    low.radius_degree = curve->radius_degree + WAY_DEGREE;
-    cs_curve_multiply(curve->radius, curve->radius_degree, way, WAY_DEGREE, low.radius);
+    narrow(t, curve, way, &low);
     curve = &low;
   }
   t->way += length;
@@ -161,11 +177,13 @@ static celspan_status taper_parts(tapering *t, cs_stroke *stroke, const double t
   return CELSPAN_OK;
 }
 
-celspan_status cs_stroke_taper(celspan_context *context, cs_stroke *stroke, const double taper[2]) {
+celspan_status cs_stroke_taper(celspan_context *context, cs_stroke *stroke,
+                               const celspan_stroke_desc *desc) {
   cs_stroke made = {.cap = stroke->cap, .join = stroke->join, .miter = stroke->miter};
   cs_outline_init(&made.line);
-  tapering t = {.context = context, .out = &made};
-  celspan_status status = taper_parts(&t, stroke, taper);
+  tapering t = {
+      .context = context, .out = &made, .is_round = desc->profile == CELSPAN_PROFILE_ROUND};
+  celspan_status status = taper_parts(&t, stroke, desc->taper);
   if (status == CELSPAN_OK) {
     made.parts = stroke->parts;
     made.part_count = stroke->part_count;

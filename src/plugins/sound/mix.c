@@ -33,6 +33,7 @@ typedef struct mix {
   part *parts;              /* owned */
   size_t count, open;
   size_t kept;           /* samples of all parts */
+  double ramp;           /* seconds: the longest of all duckers */
   int64_t place, end;    /* of the next moment, and after the last one */
   pthread_mutex_t mutex; /* held while samples are opened or closed, and by `stop` */
   bool stops;            /* protected by the mutex */
@@ -154,8 +155,7 @@ static celspan_status refuse_from(celspan_context *context, const part *p) {
 static bool matters(const mix *m, const cs_mix_sound *sound) {
   double first = (double)m->place / CS_MIX_RATE, last = (double)m->end / CS_MIX_RATE;
   for (size_t i = 0; i < sound->passage_count; i++)
-    if (sound->passages[i].begin > last + CS_MIX_DUCK_SECONDS ||
-        sound->passages[i].end < first - CS_MIX_DUCK_SECONDS)
+    if (sound->passages[i].begin > last + m->ramp || sound->passages[i].end < first - m->ramp)
       return false;
   return true;
 }
@@ -204,29 +204,35 @@ static double passages_at(const part *p, double seconds) {
   return gain;
 }
 
-/* Lowers the gains from a place on to the distance from the moments in which q is heard, as a share
- * of the ramp. */
-static void set_distances(mix *m, const part *q, int64_t place, size_t count) {
-  const double ramp = CS_MIX_DUCK_SECONDS * CS_MIX_RATE;
-  if (q->heard >= q->silent || (double)(q->heard - place) > (double)count + ramp ||
-      (double)(place - q->silent) > ramp)
+/* How far a moment is on a ramp: 0 at its lower end and beyond it, 1 at the upper end. */
+static double ramp_at(double distance, double ramp) {
+  return distance <= 0 ? 0 : distance < ramp ? distance / ramp : 1;
+}
+
+/* Lowers the gains from a place on to those that a ducker leaves. */
+static void duck(mix *m, const cs_mix_ducker *ducker, int64_t place, size_t count) {
+  const part *q = &m->parts[ducker->sound];
+  double attack = ducker->attack * CS_MIX_RATE, release = ducker->release * CS_MIX_RATE;
+  if (q->heard >= q->silent || (double)(q->heard - place) > (double)count + attack ||
+      (double)(place - q->silent) > release)
     return;
   for (size_t i = 0; i < count; i++) {
     int64_t at = place + (int64_t)i;
-    double before = (double)(q->heard - at), after = (double)(at - q->silent + 1);
-    m->gains[i] = fmin(m->gains[i], fmax(0, fmax(before, after)) / ramp);
+    double before = ramp_at((double)(q->heard - at), attack);
+    double after = ramp_at((double)(at - q->silent + 1), release);
+    double left = ducker->gain + (1 - ducker->gain) * fmax(before, after);
+    m->gains[i] = fmin(m->gains[i], left);
   }
 }
 
-/* Sets the gains of a part from a place on: first, how far its duckers are. */
+/* Sets the gains of a part from a place on: first, what its duckers leave. */
 static void set_gains(mix *m, const part *p, int64_t place, size_t count) {
   for (size_t i = 0; i < count; i++)
     m->gains[i] = 1;
   for (size_t i = 0; i < p->sound.ducker_count; i++)
-    set_distances(m, &m->parts[p->sound.duckers[i]], place, count);
+    duck(m, &p->sound.duckers[i], place, count);
   for (size_t i = 0; i < count; i++)
-    m->gains[i] = passages_at(p, (double)(place + (int64_t)i) / CS_MIX_RATE) *
-                  (CS_MIX_DUCKED + (1 - CS_MIX_DUCKED) * m->gains[i]);
+    m->gains[i] *= passages_at(p, (double)(place + (int64_t)i) / CS_MIX_RATE);
 }
 
 /* ---------------------------------------------------------------- parts */
@@ -407,8 +413,18 @@ static celspan_status create(celspan_context *context, const cs_mix_sound *sound
   return cs_fail_memory(context);
 }
 
+static void find_ramp(mix *m) {
+  m->ramp = 0;
+  for (size_t i = 0; i < m->count; i++)
+    for (size_t k = 0; k < m->parts[i].sound.ducker_count; k++) {
+      const cs_mix_ducker *ducker = &m->parts[i].sound.duckers[k];
+      m->ramp = fmax(m->ramp, fmax(ducker->attack, ducker->release));
+    }
+}
+
 /* What does not matter is never heard. */
 static celspan_status measure_all(mix *m, celspan_context *context) {
+  find_ramp(m);
   for (size_t i = 0; i < m->count; i++) {
     part *p = &m->parts[i];
     if (!matters(m, &p->sound))

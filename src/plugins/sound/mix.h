@@ -2,7 +2,7 @@
  *
  *   film seconds   0      start       begin                    end
  *                  |        |---------|========================|----------
- *                           first     heard: its passages, its fades, its gains; 12 dB lower
+ *                           first     heard: its passages, its fades, its gains; lower
  *                           sample    while a sound is heard that ducks it
  *
  *   sounds --measured, when it is opened--> passages in samples --sum in double--> cs_sound_stream
@@ -21,8 +21,13 @@ enum {
   CS_MIX_CHANNELS = 2,
   CS_MIX_OPEN = 64 /* sounds that may be heard at the same time */
 };
-#define CS_MIX_DUCKED 0.25118864315095801 /* -12 dB */
-#define CS_MIX_DUCK_SECONDS 0.1           /* of the ramps before and after */
+
+/* A sound that makes another one lower while it is heard. */
+typedef struct cs_mix_ducker {
+  uint32_t sound;         /* of the list */
+  double gain;            /* of the other one, 0..1 */
+  double attack, release; /* seconds of the ramps before and after */
+} cs_mix_ducker;
 
 /* A part of the film in which a sound is heard, in its seconds, with linear fades at its ends. */
 typedef struct cs_mix_passage {
@@ -40,7 +45,7 @@ typedef struct cs_mix_sound {
   double gain[CS_MIX_CHANNELS];
   const cs_mix_passage *passages; /* of the sound itself, then those around it: all must be open */
   size_t passage_count;
-  const uint32_t *duckers; /* sounds of the list that make it lower */
+  const cs_mix_ducker *duckers;
   size_t ducker_count;
 } cs_mix_sound;
 

@@ -142,6 +142,19 @@ static uint64_t find_axes(const cs_type_font *font) {
   return axes;
 }
 
+/* A height that the font tells, or else that of one of its letters, or else `other`. */
+static int32_t find_height(const cs_type_font *font, hb_ot_metrics_tag_t tag, uint32_t letter,
+                           int32_t other) {
+  hb_position_t height;
+  hb_codepoint_t glyph;
+  hb_glyph_extents_t extents;
+  if (hb_ot_metrics_get_position(font->font, tag, &height) && height > 0)
+    return height;
+  bool is_there = hb_font_get_nominal_glyph(font->font, letter, &glyph) &&
+                  hb_font_get_glyph_extents(font->font, glyph, &extents);
+  return is_there ? extents.y_bearing : other;
+}
+
 /* Fonts without a line height have lines of an em. */
 static void read_info(const cs_type_font *font, cs_type_font_info *info) {
   hb_face_t *face = hb_font_get_face(font->font);
@@ -154,6 +167,8 @@ static void read_info(const cs_type_font *font, cs_type_font_info *info) {
                               .descent = is_told ? -extents.descender : 0,
                               .glyphs = hb_face_get_glyph_count(face),
                               .variation = find_axes(font)};
+  info->cap_height = find_height(font, HB_OT_METRICS_TAG_CAP_HEIGHT, 'H', info->ascent);
+  info->x_height = find_height(font, HB_OT_METRICS_TAG_X_HEIGHT, 'x', info->cap_height);
 }
 
 static celspan_status open_font(const void *bytes, size_t size, uint32_t face,

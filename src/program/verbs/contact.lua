@@ -6,7 +6,7 @@
 --    1        5        9
 --
 -- Without --every the frames are thinned until they fit on one page; with it there may be several,
--- numbered by #### in SHEET.
+-- numbered by #### in SHEET. The last frame is always there.
 local program, request = ...
 local celspan = require "celspan"
 local core = require "celspan.core"
@@ -52,11 +52,23 @@ local function panel_size(film, columns)
   return size
 end
 
+--- Every n-th number, and the last one. most: how many there may be; the last one then takes the
+--- place of the one before it.
+local function thinned(numbers, every, most)
+  local list = {}
+  for i = 1, #numbers, every do list[#list + 1] = numbers[i] end
+  if list[#list] ~= numbers[#numbers] then
+    list[#list < (most or math.huge) and #list + 1 or #list] = numbers[#numbers]
+  end
+  return list
+end
+
 local function make_sheet(film, output)
   local grid = program.numbers(request.grid or "6x4")
   local columns, panels, numbers = grid[1], grid[1] * grid[2], film:numbers()
   local every = math.tointeger(request.every) or (#numbers + panels - 1) // panels
-  local shown = (#numbers + every - 1) // every
+  numbers = thinned(numbers, every, not request.every and panels)
+  local shown = #numbers
   if shown > panels and not program.has_number(output) then
     program.usage("%s: %d frames do not fit into a grid of %d x %d: give a larger --grid or "
       .. "--every, or a name with a number, such as sheet.####.png", output, shown, columns,
@@ -66,7 +78,7 @@ local function make_sheet(film, output)
   for page = 1, (shown + panels - 1) // panels do
     local on_page = {}
     for i = (page - 1) * panels, math.min(page * panels, shown) - 1 do
-      on_page[#on_page + 1] = numbers[1 + i * every]
+      on_page[#on_page + 1] = numbers[i + 1]
     end
     local path = program.check(core.frame_name(output, page))
     local rostrum, width, height = page_of(film, on_page, columns, size)

@@ -67,6 +67,7 @@ typedef struct cs_layout {
   cs_text_letter *letters;
   size_t letter_count, letter_capacity;
   int32_t line; /* the next one */
+  double width; /* of the widest line */
 } cs_layout;
 
 /* Lays out what desc says, which was not checked yet: fonts, characters, lines. The layout must be
@@ -74,6 +75,8 @@ typedef struct cs_layout {
 CELSPAN_CHECKED celspan_status cs_typeset_make(cs_layout *layout, celspan_context *context,
                                                const char *noun, const celspan_text_desc *desc);
 void cs_typeset_finish(cs_layout *layout);
+/* The measures of a text that is laid out. */
+celspan_text_metrics cs_typeset_measure(const cs_layout *layout);
 /* Adds the lines of characters begin .. end - 1, which were typed as one line. Errors: NO_MEMORY,
  * LIMIT; BAD_ARGUMENT for a character that no font has. */
 CELSPAN_CHECKED celspan_status cs_lines_add_paragraph(cs_layout *layout, size_t begin, size_t end);

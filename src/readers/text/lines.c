@@ -185,6 +185,11 @@ static celspan_status add_line(cs_layout *layout, size_t begin, size_t end, doub
   return CELSPAN_OK;
 }
 
+static void end_line(cs_layout *layout, double width) {
+  layout->width = fmax(layout->width, width);
+  layout->line++;
+}
+
 /* Adds the next line of a paragraph that wraps; *at: its first character, then that of the next
  * line. What it measures may change where it is cut: letters that were joined are not any more. */
 static celspan_status wrap_line(cs_layout *layout, uint8_t base, size_t *at, size_t end) {
@@ -198,7 +203,7 @@ static celspan_status wrap_line(cs_layout *layout, uint8_t base, size_t *at, siz
     CS_TRY(add_line(layout, *at, last, &width));
     bool is_short = width <= layout->desc->width * (1 + SLACK);
     if (is_short || retry == RETRIES || fitting_end(layout, *at, last, end) >= last) {
-      layout->line++;
+      end_line(layout, width);
       *at = last;
       return CELSPAN_OK;
     }
@@ -235,7 +240,7 @@ celspan_status cs_lines_add_paragraph(cs_layout *layout, size_t begin, size_t en
   double width;
   if (!desc->has_width || begin == end) {
     CS_TRY(add_line(layout, begin, end, &width));
-    layout->line++;
+    end_line(layout, width);
     return CELSPAN_OK;
   }
   measure(layout, begin, end);

@@ -54,6 +54,16 @@ celspan_status celspan_object_create_text(celspan_context *context, const celspa
   return status;
 }
 
+celspan_status celspan_text_measure(celspan_context *context, const celspan_text_desc *desc,
+                                    celspan_text_metrics *out) {
+  cs_layout layout;
+  celspan_status status = cs_typeset_make(&layout, context, "text", desc);
+  if (status == CELSPAN_OK)
+    *out = cs_typeset_measure(&layout);
+  cs_typeset_finish(&layout);
+  return status;
+}
+
 /* ---------------------------------------------------------------- letter by letter */
 
 /* Letters in the order of reading; every letter gets its last character. order[i]: the letter that

@@ -19,6 +19,8 @@ static celspan_status check_numbers(celspan_context *context, const char *noun,
   if (desc->has_width)
     CS_TRY(cs_check_size(context, noun, "width", desc->width));
   CS_TRY(cs_check_choice(context, noun, "align", (unsigned)desc->align, CELSPAN_ALIGN_RIGHT + 1));
+  CS_TRY(
+      cs_check_choice(context, noun, "valign", (unsigned)desc->valign, CELSPAN_VALIGN_BOTTOM + 1));
   return cs_check_choice(context, noun, "direction", (unsigned)desc->direction,
                          CELSPAN_DIRECTION_RTL + 1);
 }
@@ -156,6 +158,47 @@ static celspan_status add_paragraphs(cs_layout *layout) {
   return CELSPAN_OK;
 }
 
+/* ---------------------------------------------------------------- heights */
+
+celspan_text_metrics cs_typeset_measure(const cs_layout *layout) {
+  const cs_type_font_info *info = &layout->fonts[0]->info;
+  double size = layout->desc->size, unit = size / info->units;
+  celspan_text_metrics metrics = {.ascent = unit * info->ascent,
+                                  .descent = unit * info->descent,
+                                  .cap_height = unit * info->cap_height,
+                                  .x_height = unit * info->x_height,
+                                  .width = layout->width,
+                                  .lines = layout->line};
+  metrics.height =
+      metrics.ascent + (layout->line - 1) * layout->desc->leading * size + metrics.descent;
+  return metrics;
+}
+
+/* How far below at.y the first baseline is. */
+static double drop(const cs_layout *layout) {
+  celspan_text_metrics metrics = cs_typeset_measure(layout);
+  switch (layout->desc->valign) {
+  case CELSPAN_VALIGN_TOP:
+    return metrics.ascent;
+  case CELSPAN_VALIGN_CAP:
+    return metrics.cap_height;
+  case CELSPAN_VALIGN_MIDDLE:
+    return metrics.ascent - 0.5 * metrics.height;
+  case CELSPAN_VALIGN_BOTTOM:
+    return metrics.ascent - metrics.height;
+  default:
+    return 0;
+  }
+}
+
+static void align_vertically(cs_layout *layout) {
+  double dy = drop(layout);
+  for (size_t i = 0; i < layout->letter_count; i++)
+    layout->letters[i].y += dy;
+  for (size_t i = 0; i < layout->glyph_count; i++)
+    layout->glyphs[i].y += dy;
+}
+
 /* ---------------------------------------------------------------- the layout */
 
 celspan_status cs_typeset_make(cs_layout *layout, celspan_context *context, const char *noun,
@@ -165,7 +208,9 @@ celspan_status cs_typeset_make(cs_layout *layout, celspan_context *context, cons
   CS_TRY(acquire_fonts(layout));
   layout->type = layout->fonts[0]->type;
   CS_TRY(read_characters(layout));
-  return add_paragraphs(layout);
+  CS_TRY(add_paragraphs(layout));
+  align_vertically(layout);
+  return CELSPAN_OK;
 }
 
 void cs_typeset_finish(cs_layout *layout) {

@@ -30,8 +30,9 @@ typedef struct cs_type_font_info {
   uint32_t units; /* of an em, 16..16384 */
   int32_t ascent; /* how far lines reach above the baseline, and below; together above 0 */
   int32_t descent;
-  uint32_t glyphs;    /* numbers are below this */
-  uint64_t variation; /* bit i: the font has the axis of variations[i] */
+  int32_t cap_height, x_height; /* of capitals, and of small letters without ascenders */
+  uint32_t glyphs;              /* numbers are below this */
+  uint64_t variation;           /* bit i: the font has the axis of variations[i] */
 } cs_type_font_info;
 
 typedef struct cs_type_glyph {

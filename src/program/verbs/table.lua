@@ -1,7 +1,6 @@
---- celspan render SCRIPT -o OUT --table FILE: a film for each row of a table.
+--- celspan render|contact|check SCRIPT --table FILE: the same with each row of a table.
 --
---   table --> every row is checked --> a process a row, `celspan render` with --set, as many as
--- workers
+--   table --> every row is checked --> a process a row, with --set, as many as workers
 --
 -- Rows are read from the text one by one, twice, so that only the names of the outputs are kept.
 local program, request = ...
@@ -9,6 +8,7 @@ local csv = require "celspan.csv"
 local files = require "celspan.files"
 local json = require "celspan.json"
 
+local is_check = request.verb == "check" -- no files are written
 local OUTPUT_MOST = 4095 -- bytes of a name
 
 -- ---------------------------------------------------------------- the table
@@ -35,8 +35,9 @@ end
 
 -- ---------------------------------------------------------------- a row
 
---- The output of a row: each {name} in OUT is the text in that column.
+--- The output of a row: each {name} in OUT is the text in that column. Of `check`: its line.
 local function output_of(row, line, columns)
+  if is_check then return "line " .. line end
   local output = request.output:gsub("{([%w_]+)}", function(name)
     local text = row[columns[name]]
     if text == "" or text:find "/" or text:find("..", 1, true) or text:find "%c" then
@@ -60,8 +61,14 @@ local function words_of(row, output, header, is_parameter, threads)
   for i, name in ipairs(header) do
     if is_parameter[name] then settings[#settings + 1] = { name, row[i] } end
   end
-  return program.pass_on({ "render", request[1], "-o", output, "--workers", tostring(threads),
-                           "--progress", "none" }, request, own, settings)
+  local words = { request.verb, request[1] }
+  local function add(name, value) table.move({ name, value }, 1, 2, #words + 1, words) end
+  if not is_check then
+    add("-o", output)
+    add("--workers", tostring(threads))
+  end
+  if request.verb == "render" then add("--progress", "none") end
+  return program.pass_on(words, request, own, settings)
 end
 
 -- ---------------------------------------------------------------- checks
@@ -78,6 +85,7 @@ end
 --- The places of the columns by their names.
 local function check_header(header, is_parameter)
   local columns = try(csv.columns, header)
+  if is_check then return columns end
   for _, name in ipairs(header) do
     if not is_parameter[name] and not request.output:find("{" .. name .. "}", 1, true) then
       program.usage("--table %s: column '%s' is neither a parameter of the script nor {%s} in OUT",
@@ -157,9 +165,10 @@ local function run(text, count, columns, is_parameter)
     end
     failed = failed + 1
     if outcome == 0 then outcome = code or 128 + signal end
-    program.error("--table %s: line %d (%s): %s", request.table, item.line, item.output,
+    local where = is_check and item.output or ("line %d (%s)"):format(item.line, item.output)
+    program.error("--table %s: %s: %s", request.table, where,
       code and "exit code " .. code or "ended by signal " .. signal .. " (" .. name .. ")")
-    return request.keep_going ~= nil
+    return request.keep_going ~= nil or is_check
   end
   local _, is_well = program.run_all(next_item, math.min(workers, count), start, finish)
   if not is_well then return 33 end
@@ -167,8 +176,10 @@ local function run(text, count, columns, is_parameter)
 end
 
 if request.hash then program.usage("--table renders several films: leave --hash out") end
-if not request.output or request.output == "-" then
-  program.usage("--table writes files: name them by its columns, as -o {NAME}.mp4")
+if request.json then program.usage("--table checks several films: leave --json out") end
+if not is_check and (not request.output or request.output == "-") then
+  program.usage("--table writes files: name them by its columns, as -o {NAME}.%s",
+    request.verb == "render" and "mp4" or "png")
 end
 local text, film = read_text(request.table), program.film()
 local is_parameter, header = parameters_of(film), reader(text)
