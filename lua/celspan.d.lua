@@ -552,6 +552,15 @@ function celspan.stroke(fields) end
 ---@return celspan.image
 function celspan.image(fields) end
 
+---@class celspan.text.metrics
+---@field ascent number Of a line of the first font, above the baseline
+---@field descent number Below it
+---@field cap_height number Of capitals
+---@field x_height number Of small letters without ascenders
+---@field width number Of the widest line
+---@field height number From the ascent of the first line to the descent of the last one
+---@field lines integer
+
 ---@class celspan.text.fields
 ---@field [integer] string The text; \n breaks lines
 ---@field font string|string[] Files; each letter is taken from the first font that has it
@@ -577,11 +586,16 @@ function celspan.image(fields) end
 ---@field tracking number
 ---@field face integer
 ---@field texture celspan.surface
+local text = {}
 
 --- The letters of a text as one primitive.
 ---@param fields celspan.text.fields
 ---@return celspan.text
 function celspan.text(fields) end
+
+--- The measures of a text in its own units.
+---@return celspan.text.metrics
+function text:metrics() end
 
 ---@class celspan.glyph.fields
 ---@field [integer] string The text; \n breaks lines

@@ -416,7 +416,8 @@ local function sounds_of(shots, own)
     local film, fps = shot.film, shot.film.fps
     if #list_of(film.sound) > 0 then
       sounds[#sounds + 1] = { film, at = shot.start / fps, from = (shot.from - film.first) / fps,
-                              to = (shot.to - film.first + 1) / fps, speed = shot.speed, name = shot.name,
+                              to = (shot.to - film.first + 1) / fps, speed = shot.speed,
+                              name = shot.name,
                               fade = { shot.before / fps, shot.after / fps } }
     end
   end

@@ -218,7 +218,8 @@ describe("the mix of a film", function()
         duck_release = 0.3 },
       { "mono.wav", at = 0.4, to = 0.05, duck = "music", duck_depth = 20, duck_attack = 0.02,
         duck_release = 0.01 } } }]], "--depth float")
-    local l, r = sum({ { moments = mono, at = 0.2, to = 0.1 }, { moments = mono, at = 0.4, to = 0.05 },
+    local l, r = sum({ { moments = mono, at = 0.2, to = 0.1 },
+      { moments = mono, at = 0.4, to = 0.05 },
       { moments = stereo, ducked = { { 0.2, 0.3, depth = 6, attack = 0.15, release = 0.3 },
         { 0.4, 0.45, depth = 20, attack = 0.02, release = 0.01 } } } }, 0.75)
     assert.is_true(worst(left, l) <= 1e-6 and worst(right, r) <= 1e-6)
@@ -430,7 +431,7 @@ return inner]])
       ["{ 'a.wav', volume = 1 }"] = "film: sound 1: unknown field 'volume'",
       ["{ { 'a.wav' }, { 'b.wav', duck = 'musik' } }"] = "film: sound 2: field 'duck' must be the "
         .. 'name of another sound of the film, got "musik", which none has',
-      ["{ { 'a.wav' }, { 'b.wav', under = 'voise' } }"] = "film: sound 2: field 'under' must be the",
+      ["{ { 'a.wav' }, { 'b.wav', under = 'c' } }"] = "film: sound 2: field 'under' must be the",
       ["{ 'a.wav', duck_depth = -1 }"] = "film: sound 1: duck_depth is %-1; it must be "
         .. "between 0 and 200",
       ["{ { 'a.wav', name = 'x', duck = 'x' } }"] = "film: sound 1: field 'duck' must be the name",

@@ -180,7 +180,8 @@ describe("--table", function()
     bench:write("rows.csv", "lang,tint\nen,#f00\nde,#0000ff\n")
     local place = bench.folder
     local function on(verb, more)
-      return bench:celspan("%s '%s/film.lua' --table '%s/rows.csv' %s", verb, place, place, more or "")
+      return bench:celspan("%s '%s/film.lua' --table '%s/rows.csv' %s", verb, place, place,
+        more or "")
     end
     local code, _, err = on("contact", ("-o '%s/{lang}.png'"):format(place))
     assert.are.equal(0, code, err)

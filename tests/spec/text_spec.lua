@@ -199,7 +199,7 @@ describe("lines", function()
     assert.is_true(0 < m.x_height and m.x_height < m.cap_height and m.cap_height < m.ascent)
     local letter = glyphs { "H", size = 50 }[1]
     assert.is_near(text({ "H", size = 50 }):metrics().width, letter.advance, 1e-9)
-    assert.has_error(function() celspan.circle { radius = 1 }:metrics() end,
+    assert.has_error(function() celspan.circle { centre = { 0, 0 }, radius = 1 }:metrics() end,
       "metrics: only a text has them, not a circle")
     assert.truthy(message_of { "H", valign = "center" }:find('"cap", "middle"', 1, true))
   end)

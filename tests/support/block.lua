@@ -186,7 +186,8 @@ function block.font()
   table.sort(pairs_of, function(a, b)
     return a[1] < b[1] or a[1] == b[1] and a[2] < b[2]
   end)
-  return { name = "Celspan Block", units = 1000, ascent = 900, descent = -200, cap_height = 700, x_height = 553, glyphs = glyphs,
+  return { name = "Celspan Block", units = 1000, ascent = 900, descent = -200, cap_height = 700,
+    x_height = 553, glyphs = glyphs,
     kerning = pairs_of, ligatures = { { number["-"], number[">"], number["→"] } },
     axis = { tag = "wght", name = "Weight", least = 200, default = 400, most = 900 } }
 end

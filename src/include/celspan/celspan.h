@@ -786,7 +786,7 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_text_measure(celspan_context 
                                                                 const celspan_text_desc *desc,
                                                                 celspan_text_metrics *out);
 
-/* The same text, letter by letter: a letter is a user-perceived character with its marks, or a ligature.
+/* The text letter by letter: a letter is a user-perceived character with its marks, or a ligature.
  * Line ends are not letters; spaces are, and draw nothing. */
 typedef struct celspan_glyph {
   celspan_object *object; /* borrowed; it lies where the text has it, its texture as in the text */

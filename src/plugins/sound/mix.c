@@ -33,7 +33,7 @@ typedef struct mix {
   part *parts;              /* owned */
   size_t count, open;
   size_t kept;           /* samples of all parts */
-  double ramp;           /* seconds: the longest of all duckers */
+  double slope;          /* seconds: the longest of all duckers */
   int64_t place, end;    /* of the next moment, and after the last one */
   pthread_mutex_t mutex; /* held while samples are opened or closed, and by `stop` */
   bool stops;            /* protected by the mutex */
@@ -155,7 +155,7 @@ static celspan_status refuse_from(celspan_context *context, const part *p) {
 static bool matters(const mix *m, const cs_mix_sound *sound) {
   double first = (double)m->place / CS_MIX_RATE, last = (double)m->end / CS_MIX_RATE;
   for (size_t i = 0; i < sound->passage_count; i++)
-    if (sound->passages[i].begin > last + m->ramp || sound->passages[i].end < first - m->ramp)
+    if (sound->passages[i].begin > last + m->slope || sound->passages[i].end < first - m->slope)
       return false;
   return true;
 }
@@ -204,9 +204,9 @@ static double passages_at(const part *p, double seconds) {
   return gain;
 }
 
-/* How far a moment is on a ramp: 0 at its lower end and beyond it, 1 at the upper end. */
-static double ramp_at(double distance, double ramp) {
-  return distance <= 0 ? 0 : distance < ramp ? distance / ramp : 1;
+/* How far a moment is on a slope: 0 at its lower end and beyond it, 1 at the upper end. */
+static double slope_at(double distance, double length) {
+  return distance <= 0 ? 0 : distance < length ? distance / length : 1;
 }
 
 /* Lowers the gains from a place on to those that a ducker leaves. */
@@ -218,8 +218,8 @@ static void duck(mix *m, const cs_mix_ducker *ducker, int64_t place, size_t coun
     return;
   for (size_t i = 0; i < count; i++) {
     int64_t at = place + (int64_t)i;
-    double before = ramp_at((double)(q->heard - at), attack);
-    double after = ramp_at((double)(at - q->silent + 1), release);
+    double before = slope_at((double)(q->heard - at), attack);
+    double after = slope_at((double)(at - q->silent + 1), release);
     double left = ducker->gain + (1 - ducker->gain) * fmax(before, after);
     m->gains[i] = fmin(m->gains[i], left);
   }
@@ -413,18 +413,18 @@ static celspan_status create(celspan_context *context, const cs_mix_sound *sound
   return cs_fail_memory(context);
 }
 
-static void find_ramp(mix *m) {
-  m->ramp = 0;
+static void find_slope(mix *m) {
+  m->slope = 0;
   for (size_t i = 0; i < m->count; i++)
     for (size_t k = 0; k < m->parts[i].sound.ducker_count; k++) {
       const cs_mix_ducker *ducker = &m->parts[i].sound.duckers[k];
-      m->ramp = fmax(m->ramp, fmax(ducker->attack, ducker->release));
+      m->slope = fmax(m->slope, fmax(ducker->attack, ducker->release));
     }
 }
 
 /* What does not matter is never heard. */
 static celspan_status measure_all(mix *m, celspan_context *context) {
-  find_ramp(m);
+  find_slope(m);
   for (size_t i = 0; i < m->count; i++) {
     part *p = &m->parts[i];
     if (!matters(m, &p->sound))

@@ -142,7 +142,7 @@ static uint64_t find_axes(const cs_type_font *font) {
   return axes;
 }
 
-/* A height that the font tells, or else that of one of its letters, or else `other`. */
+/* A height from the tables of the font, or else that of one of its letters, or else `other`. */
 static int32_t find_height(const cs_type_font *font, hb_ot_metrics_tag_t tag, uint32_t letter,
                            int32_t other) {
   hb_position_t height;
