@@ -440,6 +440,7 @@ describe("the cookbook", function()
   it("is printed, as one recipe or as the list of those that fit", function()
     local code, printed = run "celspan help 'Drop Shadow'"
     assert.are.equal(0, code)
+    assert.are.equal(printed, select(2, run "celspan help drop-shadow"))
     assert.is_truthy(printed:find("\n-- drop_shadow.lua", 1, true), printed)
     assert.is_falsy(printed:find("```", 1, true) or printed:find("](", 1, true), printed)
     code, printed = run "celspan help cookbook"

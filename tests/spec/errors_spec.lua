@@ -19,6 +19,12 @@ describe("a mistyped name", function()
     end))
   end)
 
+  it("is reported with the field that has such values", function()
+    assert.are.equal("path: unknown field 'fill'; write rule = \"evenodd\"", sentence(function()
+      celspan.path { d = "M0 0 L1 1 L2 0", fill = "evenodd" }
+    end))
+  end)
+
   it("is reported before wrong types", function()
     assert.are.equal("circle: unknown field 'raduis'; did you mean 'radius'?", sentence(function()
       celspan.circle { centre = "here", raduis = "big" }

@@ -161,6 +161,23 @@ static void fail_list(lua_State *L, const cs_noun *noun, int table, const char *
                     noun->name, name, noun->item, noun->name, noun->name, name);
 }
 
+static bool is_word(const char *const *words, const char *word) {
+  while (words && *words && strcmp(*words, word) != 0)
+    words++;
+  return words && *words;
+}
+
+/* The value is a word of a field with another name: fill = "evenodd". */
+static void fail_choice(lua_State *L, const cs_noun *noun, int table, const char *name) {
+  lua_getfield(L, table, name);
+  const char *word = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
+  for (const cs_field *field = noun->fields; word && field->name; field = cs_field_next(field))
+    if (field->type == CS_TYPE_CHOICE && is_word(field->choices, word))
+      cs_caller_error(L, "%s: unknown field '%s'; write %s = \"%s\"", noun->name, name, field->name,
+                      word);
+  lua_pop(L, 1);
+}
+
 /* ---------------------------------------------------------------- raising */
 
 static const char *push_names(lua_State *L, const char *const *names, size_t count) {
@@ -198,5 +215,6 @@ _Noreturn void cs_unknown_fail(lua_State *L, const cs_noun *noun, int table, con
     names[count++] = field->name;
   fail_list(L, noun, table, name);
   fail_parts(L, noun, table, name);
+  fail_choice(L, noun, table, name);
   cs_unknown_fail_name(L, noun->name, name, names, count);
 }

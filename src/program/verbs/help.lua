@@ -94,7 +94,7 @@ end
 --- The recipe for a task, or the list of those that it may mean.
 local function put_task(out, word)
   local recipes = load(program.text "recipes.lua", "@celspan/recipes.lua")
-  local found, all = recipes(program.text "cookbook.md").find(word)
+  local found, all = recipes(program.text "cookbook.md").find((word:gsub("[-_]", " ")))
   if word == "cookbook" then found = all end
   if #found == 1 then
     out:write(found[1].title, "\n\n", found[1].text, "\n")
