@@ -176,7 +176,7 @@ static void check_without_memory(int style, int workers, int32_t height) {
   CHECK(celspan_context_create(&desc, &context) == CELSPAN_OK);
   celspan_status status = CELSPAN_NO_MEMORY;
   const int step = check_is_for_threads() ? 5 : 1;
-  for (int n = 1; n < 200 && status != CELSPAN_OK; n += step) {
+  for (int n = 1; n < 1000 && status != CELSPAN_OK; n += step) {
     if (!check_is_drawn(n / step))
       continue;
     size_t before, after, peak;

@@ -115,9 +115,9 @@ static celspan_box both(const celspan_box *a, const celspan_box *b) {
 /* The box of a step that gives none: around those of its inputs, as browsers have it. */
 static celspan_box usual_box(const filter *f) {
   const cs_svg_recipe *recipe = f->recipe;
-  const size_t *inputs = recipe->inputs + f->step.first_input;
   if (f->step.input_count == 0 || f->step.kind == CS_SVG_STEP_TILE)
     return recipe->region;
+  const size_t *inputs = recipe->inputs + f->step.first_input;
   celspan_box box = *box_of(f, inputs[0]);
   for (size_t i = 1; i < f->step.input_count; i++)
     box = both(&box, box_of(f, inputs[i]));
