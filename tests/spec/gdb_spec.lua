@@ -14,7 +14,7 @@ local function printed(expression)
     :format(expression, PROGRAM)))
 end
 
-describe("in gdb", function()
+describe("in gdb #plain", function()
   it("a row is a list of spans", function()
     local text = printed "row"
     if not text then return pending "gdb is missing" end

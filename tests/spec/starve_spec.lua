@@ -276,7 +276,7 @@ local function both(name, work)
   end
 end
 
-describe("without memory", function()
+describe("without memory #plain", function()
   both("strips are joined, or the failure is reported", sweep_join)
   both("a drawing is described, or the failure is reported", sweep_info)
   for scene in pairs(art) do
