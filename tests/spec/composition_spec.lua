@@ -355,3 +355,41 @@ describe("a light with a shape", function()
     end), 1, true)
   end)
 end)
+
+describe("a union of many", function()
+  --- Clips of drawings, in rows of 20, which overlap their neighbours.
+  local function many()
+    local list = {}
+    for i = 0, 299 do
+      local x, y = 4 * (i % 20), 4 * (i // 20)
+      local drawing = celspan.union { celspan.rect { x, y, 4, 3, texture = "#c33c" },
+        celspan.circle { centre = { x + 3, y + 2 }, radius = 3, texture = "#36c8" } }
+      list[i + 1] = celspan.clip(drawing, celspan.rect { x, y + 0.3, 5, 4, radius = 1 })
+    end
+    return list
+  end
+
+  it("is the same as its operands in a list", function()
+    local list = many()
+    for _, mode in ipairs { "none", "area" } do
+      local options = { antialias = mode }
+      images.alike(0, images.of(list, 80, 60, options),
+        images.of({ celspan.union(list) }, 80, 60, options))
+    end
+  end)
+
+  it("is in other booleans what the oracle sees", function()
+    local union = celspan.union(many())
+    local disc = celspan.circle { centre = { 40, 30 }, radius = 25, texture = "#fc0" }
+    for _, object in ipairs { disc - union, union - disc, union ~ disc, union & disc,
+                              celspan.clip(union, disc) } do
+      local image = images.of({ object }, 80, 60, { antialias = "none" })
+      local rostrum = celspan.rostrum { celspan.cel { object } }
+      for i = 0, 799 do
+        local x, y = i * 7 % 80, i * 11 % 60
+        images.near({ celspan.probe(rostrum, x + 0.5, y + 0.5, { film = { 80, 60 } }) }, image, x,
+          y, 1e-5)
+      end
+    end
+  end)
+end)

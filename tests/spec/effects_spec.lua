@@ -1,20 +1,11 @@
 -- Blurred objects, shadows and glows: against formulas, and against the same made by hand.
 local celspan = require "celspan"
 local images = require "tests.support.images"
+local raised = require("tests.support.raised").message
+
+local pixels, assert_alike = images.of, images.alike
 
 local function rect(x, y, w, h, texture) return celspan.rect { x, y, w, h, texture = texture } end
-
-local function pixels(objects, w, h, options)
-  local rostrum = celspan.rostrum { celspan.cel(objects) }
-  options = options or {}
-  options.size, options.film = options.size or { w, h }, { w, h }
-  return assert(celspan.pixels(rostrum, options))
-end
-
-local function assert_alike(tolerance, a, b)
-  local most = images.difference(a, b)
-  assert.is_true(most <= tolerance, ("they differ by %.6f"):format(most))
-end
 
 --- The share of a Gaussian that lies below x, by Simpson's rule.
 local function below(x)
@@ -26,12 +17,6 @@ local function below(x)
     sum = sum + weight * math.exp(-(low + i * h) ^ 2 / 2)
   end
   return sum * h / 3 / math.sqrt(2 * math.pi)
-end
-
-local function raised(f, ...)
-  local ok, message = pcall(f, ...)
-  assert.is_false(ok)
-  return message
 end
 
 describe("a blurred object", function()

@@ -3,19 +3,9 @@ local celspan = require "celspan"
 local images = require "tests.support.images"
 local workbench = require "tests.support.workbench"
 
+local pixels, assert_alike = images.of, images.alike
+
 local function rect(x, y, w, h, texture) return celspan.rect { x, y, w, h, texture = texture } end
-
-local function pixels(objects, w, h, options)
-  local rostrum = celspan.rostrum { celspan.cel(objects) }
-  options = options or {}
-  options.size, options.film = options.size or { w, h }, { w, h }
-  return assert(celspan.pixels(rostrum, options))
-end
-
-local function assert_alike(tolerance, a, b)
-  local most = images.difference(a, b)
-  assert.is_true(most <= tolerance, ("they differ by %.6f"):format(most))
-end
 
 --- Art that reaches beyond the box { 2, 1, 10, 8 }.
 local art = celspan.union { rect(0, 0, 20, 3, "#246"),

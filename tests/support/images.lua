@@ -1,7 +1,16 @@
 -- Images compared: celspan.pixels returns them.
 local assert = require "luassert"
+local celspan = require "celspan"
 
 local images = {}
+
+--- Objects in one cel, in a film of w by h units and as many pixels. options: those of
+--- celspan.pixels.
+function images.of(objects, w, h, options)
+  local all = { size = { w, h }, film = { w, h } }
+  for name, value in pairs(options or {}) do all[name] = value end
+  return assert(celspan.pixels(celspan.rostrum { celspan.cel(objects) }, all))
+end
 
 --- The greatest difference of two images of one size, in any channel.
 function images.difference(a, b)
@@ -14,6 +23,12 @@ function images.difference(a, b)
     end
   end
   return most
+end
+
+--- Two images differ by no more than a tolerance.
+function images.alike(tolerance, a, b)
+  local most = images.difference(a, b)
+  assert.is_true(most <= tolerance, ("they differ by %.6f"):format(most))
 end
 
 --- A pixel is these four numbers, within a tolerance (1e-6).
