@@ -24,7 +24,8 @@
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
-/* Growth of resident memory: pages between allocations, which cannot be returned. Sanitizers keep
+/* Growth of resident memory: pages between allocations, which cannot be returned. They come and go
+ * with the largest films, so the least of the second half of the time counts. Sanitizers keep
  * freed memory, and records of accesses: with them resident memory is printed but not checked. */
 #define BYTES_MORE ((long)16 << 20)
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -190,6 +191,7 @@ static void make_frames(soak *k) {
 
 static void run(soak *k, double minutes) {
   double start = seconds(), end = start + 60 * minutes, next = start;
+  long least = LONG_MAX;
   figures first = {0}, last = {0};
   while (seconds() < end || k->films < 2 * WARM) {
     take_film(k);
@@ -197,19 +199,31 @@ static void run(soak *k, double minutes) {
       make_frames(k);
     if (seconds() >= next) {
       print(k, (seconds() - start) / 60, last = measure(k));
+      if (seconds() - start > 30 * minutes && last.resident < least)
+        least = last.resident;
       next += 60 * (minutes < 10 ? minutes / 10 : 1);
     }
     if (first.resident == 0 && k->films >= WARM && seconds() - start > 6 * minutes)
       first = measure(k);
   }
   print(k, (seconds() - start) / 60, last = measure(k));
-  CHECK(first.resident > 0 && last.resident - first.resident <= BYTES_MORE_RESIDENT);
+  least = last.resident < least ? last.resident : least;
+  CHECK(first.resident > 0 && least - first.resident <= BYTES_MORE_RESIDENT);
   CHECK(last.allocated <= first.allocated + BYTES_MORE / 8);
   CHECK(last.held <= first.held + BYTES_MORE / 16);
   CHECK(last.descriptors <= first.descriptors + PICTURES && last.threads <= first.threads);
 }
 
+/* One heap for all threads: malloc_trim returns the free end of the first alone, and those of the
+ * others keep up to 64 MB. Which thread begins one is a matter of time. */
+static void share_heap(void) {
+#ifdef __GLIBC__
+  mallopt(M_ARENA_MAX, 1);
+#endif
+}
+
 int main(int count, char **arguments) {
+  share_heap();
   char folder[] = "/tmp/celspan-soak-XXXXXX";
   if (count < 4 || !mkdtemp(folder))
     return 1;
