@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "output/sinks/file_copy.h"
+#include "output/sinks/temporary.h"
 #include "tests/support/check.h"
 
 /* ---------------------------------------------------------------- a system that fails */
@@ -62,6 +63,10 @@ static void note(char call) {
     notes[length] = call;
 }
 
+static int open_plainly(const char *path, int flags, mode_t mode) {
+  return open(path, flags, mode);
+}
+
 static int noting_open(const char *path, int flags, mode_t mode) {
   int descriptor = open(path, flags, mode);
   if (flags & O_DIRECTORY)
@@ -92,6 +97,17 @@ static int noting_unlink(const char *path) {
 
 static const cs_file_system noting = {noting_open,  noting_pwrite, fstat,         noting_fsync,
                                       noting_close, noting_rename, noting_unlink, mkdir};
+
+/* Removes what was left behind in the folder of the file at the moment at which it is renamed. */
+static bool any_name(const char *pattern, const char *name) { return pattern && name; }
+
+static int swept_rename(const char *from, const char *to) {
+  cs_temporary_sweep(to, any_name);
+  return rename(from, to);
+}
+
+static const cs_file_system swept = {open_plainly, pwrite,       fstat,  fsync,
+                                     close,        swept_rename, unlink, mkdir};
 
 /* ---------------------------------------------------------------- helpers */
 
@@ -318,6 +334,14 @@ static void check_copies(celspan_context *context) {
   CHECK(!is_copied(context, from, &stamp));
 }
 
+/* A file is its writer's until it has its name, also after the last of its bytes. */
+static void check_swept(celspan_context *context) {
+  char path[256];
+  in_root(path, "swept");
+  CHECK(write_content(context, &swept, path) == CELSPAN_OK && state_of(path) == 2);
+  unlink(path);
+}
+
 int main(void) {
   celspan_context *context;
   if (celspan_context_create(NULL, &context) != CELSPAN_OK || !mkdtemp(root))
@@ -336,6 +360,7 @@ int main(void) {
   check_refusals(context);
   check_long_name(context);
   check_discard_and_places(context);
+  check_swept(context);
   check_contents(context);
   check_copies(context);
   celspan_context_memory(context, &after, &peak, &allocations);

@@ -258,6 +258,19 @@ static celspan_status check_size(cs_file *file, celspan_context *context) {
                  file->path, (long long)there.st_size, (unsigned long long)file->flushed);
 }
 
+static celspan_status close_and_rename(cs_file *file, celspan_context *context) {
+  int descriptor = file->descriptor;
+  file->descriptor = -1;
+  if (close_descriptor(file->system, descriptor) != 0)
+    return fail(file, context, "cannot close");
+  if (file->system->rename(file->temporary, file->path) != 0)
+    return fail(file, context, "cannot rename");
+  return CELSPAN_OK;
+}
+
+/* Some systems say only at `close` that bytes are lost, so the file is closed before it gets its
+ * name; a second descriptor keeps its lock till then, without which another process would remove
+ * it as one that was left behind. */
 static celspan_status finish(cs_file *file, celspan_context *context) {
   CS_TRY(check_usable(file, context));
   CS_TRY(flush(file, context));
@@ -266,12 +279,12 @@ static celspan_status finish(cs_file *file, celspan_context *context) {
     return fail(file, context, "cannot sync");
   if (context->contents && !cs_file_contents_read(file->descriptor, context->contents))
     return fail(file, context, "cannot read it back");
-  int descriptor = file->descriptor;
-  file->descriptor = -1;
-  if (close_descriptor(file->system, descriptor) != 0)
+  int locked = fcntl(file->descriptor, F_DUPFD_CLOEXEC, 0);
+  if (locked < 0)
     return fail(file, context, "cannot close");
-  if (file->system->rename(file->temporary, file->path) != 0)
-    return fail(file, context, "cannot rename");
+  celspan_status status = close_and_rename(file, context);
+  close(locked);
+  CS_TRY(status);
   file->temporary[0] = '\0';
   return sync_folder(file) == 0 ? CELSPAN_OK : fail(file, context, "cannot sync its folder");
 }
