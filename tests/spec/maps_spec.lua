@@ -1,4 +1,4 @@
--- Films of flat cels, which are drawn from maps: the same bytes however a frame is asked for.
+-- Films that are drawn from maps: the same bytes however a frame is asked for.
 local workbench = require "tests.support.workbench"
 
 local SCRIPT = [[
@@ -22,7 +22,15 @@ return celspan.film { size = { 128, 80 }, frames = frames, frame = function(f)
 end }
 ]]
 
-describe("a film of flat cels", function()
+--- The largest difference of two pictures' bytes.
+local function difference(a, b)
+  local most = 0
+  assert.are.equal(#a, #b)
+  for i = 1, #a do most = math.max(most, math.abs(a:byte(i) - b:byte(i))) end
+  return most
+end
+
+describe("a film that is drawn from maps", function()
   local bench, script
 
   setup(function()
@@ -46,7 +54,20 @@ describe("a film of flat cels", function()
     return tonumber(out:match(" " .. name .. " (%d+)"))
   end
 
-  it("is drawn from maps where it has several frames", function()
+  it("has no map of a bent gradient, whose hundreds of triangles are one shape", function()
+    local bent = bench:write("bent.lua", [[
+local celspan = require "celspan"
+local box = celspan.rect { 10, 10, 80, 40, texture = celspan.linear { from = { 0, 0 },
+  to = { 100, 0 }, { 0, "#a33" }, { 1, "#33a" } } }
+return celspan.film { size = { 128, 80 }, frames = 2, frame = function(f)
+  return celspan.rostrum { celspan.cel { box:warp { pieces = 2000, map = function(x, y)
+    return x + 9 * math.sin(y / 20 + f.number), y + 9 * math.sin(x / 20) end } } }
+end }]])
+    local _, out = bench:celspan("spans %s --stats", bent)
+    assert.are.equal("0", out:match " maps (%d+)")
+  end)
+
+  it("has several frames, and cels of many shapes", function()
     assert.are.equal(3, counted("maps", 4))
     assert.are.equal(3, counted("maps_made", 4))
     assert.are.equal(0, counted("maps", 1))
@@ -98,9 +119,7 @@ end }
       assert.are.equal(4, tonumber(out:match " maps (%d+)"))
       local _, drawn = bench:celspan("render %s -o - --frames 1 -- 4 %s", parts, space)
       local _, swept = bench:celspan("render %s -o - -- 1 %s", parts, space)
-      local most = 0
-      for i = 1, #swept do most = math.max(most, math.abs(swept:byte(i) - drawn:byte(i))) end
-      assert.is_true(most <= 1, most .. " of 255")
+      assert.is_true(difference(swept, drawn) <= 1)
     end
   end)
 
@@ -124,9 +143,61 @@ end }
   end)
 
   it("looks as if it were swept", function()
-    local swept, drawn = raw(1), raw(4, "--frames 1")
-    local most = 0
-    for i = 1, #swept do most = math.max(most, math.abs(swept:byte(i) - drawn:byte(i))) end
-    assert.is_true(most <= 1, most .. " of 255")
+    assert.is_true(difference(raw(1), raw(4, "--frames 1")) <= 1)
+  end)
+
+  it("may have gradients and pictures", function()
+    local dots = bench:write("dots.lua", [[
+local celspan = require "celspan"
+local dots = {}
+for i = 0, 499 do
+  dots[i + 1] = celspan.rect { 2 * (i % 25), 2 * (i // 25), 2, 2,
+    texture = celspan.rgb(i * 7 % 25 / 25, i * 3 % 20 / 20, i % 5 / 5) }
+end
+return celspan.film { size = { 50, 40 }, frames = 1, frame = function()
+  return celspan.rostrum { celspan.cel(dots) }
+end }
+]])
+    assert.are.equal(0, (bench:celspan("render %s -o %s/dots.png", dots, bench.folder)))
+    local varied = bench:write("varied.lua", [[
+local celspan = require "celspan"
+local frames, space = math.tointeger(tonumber((...))), select(2, ...)
+local linear, radial = celspan.linear, celspan.radial
+local hill = {
+  celspan.rect { 0, 0, 128, 80, texture = linear { from = { 0, 0 }, to = { 128, 80 },
+    { 0, "#204080" }, { 0.4, "#f0e0a0" }, { 1, "#c03020" } } },
+  celspan.polygon { { 10, 70 }, { 64, 30.3 }, { 120, 75 }, texture = linear { from = { 10, 30 },
+    to = { 120, 75 }, { 0, "#604020" }, { 1, "#e0d0c0" } } },
+  celspan.rect { 60, 5, 50, 40, texture = celspan.picture { file = "dots.png" } },
+  celspan.circle { centre = { 85, 25 }, radius = 12, texture = "#00000060" } }
+for _ = 1, 766 do hill[#hill + 1] = celspan.rect { 20, 50, 1e-6, 1e-6, texture = "#fff" } end
+hill = celspan.union(hill)
+local star = celspan.polygon { { 0, 0 }, { 40, 10 }, { 5, 33 }, texture = linear { from = { 0, 0 },
+  to = { 40, 20 }, { 0, "#2040c0" }, { 1, "#20f0c0" } } }
+local glow = celspan.circle { centre = { 0, 0 }, radius = 20, texture = radial {
+  centre = { 0, 0 }, radius = 20, { 0, "#ffffff" }, { 1, "#ff800000" } } }
+return celspan.film { size = { 128, 80 }, frames = frames, space = space, frame = function(f)
+  return celspan.rostrum {
+    celspan.cel { hill },
+    celspan.cel { star:translate(3.7 * f.number, 20), opacity = 0.7, grade = { exposure = 0.5 } },
+    celspan.cel { glow:translate(100 - 5.3 * f.number, 45), front = { 1, 0.9, 0.5 } },
+    back = "#fffbe0", camera = { width = 128 - 3 * f.number } }
+end }
+]])
+    for _, space in ipairs { "linear", "srgb" } do
+      local _, out = bench:celspan("spans %s --stats --trust -- 4 %s", varied, space)
+      assert.are.equal(3, tonumber(out:match " maps (%d+)"))
+      assert.is_true(tonumber(out:match " colour_evaluations (%d+)") > 1000)
+      local function made(frames, options)
+        local code, text, err = bench:celspan("render %s -o - --trust %s -- %d %s", varied, options,
+          frames, space)
+        assert.are.equal(0, code, err)
+        return text
+      end
+      local drawn = made(4, "--frames 1")
+      assert.is_true(difference(made(1, ""), drawn) <= 2)
+      assert.are.equal(drawn, made(4, "--frames 1 --workers 3"))
+      assert.are.equal(drawn, made(4, ""):sub(1, #drawn))
+    end
   end)
 end)

@@ -16,3 +16,12 @@ void cs_stack_finish(cs_stack *stack, cs_memory *memory) {
   cs_mem_free(memory, stack->coded, stack->coded_capacity * sizeof *stack->coded);
   *stack = (cs_stack){0};
 }
+
+size_t cs_stack_bytes(const cs_stack *stack) {
+  return stack->layer_capacity * sizeof *stack->layers +
+         stack->rule_capacity * sizeof *stack->rules +
+         stack->shade_capacity * sizeof *stack->shades +
+         stack->image_capacity * sizeof *stack->images +
+         stack->group_capacity * sizeof *stack->groups +
+         stack->step_capacity * sizeof *stack->steps + stack->tree_capacity * sizeof *stack->trees;
+}

@@ -84,6 +84,8 @@ typedef struct cs_stack {
 } cs_stack;
 
 void cs_stack_finish(cs_stack *stack, cs_memory *memory);
+/* What it holds. */
+size_t cs_stack_bytes(const cs_stack *stack);
 
 /* The innermost group that is `group` or around it such that what is hidden inside hides nothing
  * behind it. CS_STACK_NONE: there is none. */

@@ -53,6 +53,7 @@ struct cs_defocus {
   cs_defocus *own;  /* that grid, where the cel has one, and how the nodes are mixed from it; */
   cs_regrid regrid; /* then this has no plans */
   cs_plan plans[2]; /* one a plane; made by engine/defocus/layer.c */
+  celspan_object *extended; /* what the plans show beyond the frame, too; NULL: the cel as it is */
   cs_hash key;
 };
 

@@ -1,7 +1,9 @@
 #include "engine/defocus/layer.h"
 
 #include "base/number.h"
+#include "model/scene/extend.h"
 #include "model/scene/texture.h"
+#include "model/scene/value.h"
 
 #include <math.h>
 
@@ -10,10 +12,7 @@
  * pixels or more is smooth at the scale of pixels, and its value at their centres is shown. */
 #define SHARP 0.5
 #define SMOOTH 2.0
-
-static const celspan_cel *cel_of(const cs_defocus_cel *place) {
-  return place->rostrum->cels[place->index];
-}
+#define EXTENT 4 /* radii: farther than any kernel, and what its grid adds */
 
 /* ---------------------------------------------------------------- the kernel */
 
@@ -37,8 +36,8 @@ static cs_blur find_blur(const cs_defocus_cel *place) {
   celspan_matrix whole = celspan_matrix_then(camera, place->to_pixels);
   celspan_matrix map = touching(&whole, middle);
   const double *m = map.m;
-  double radius = cel_of(place)->defocus_radius;
-  cs_blur blur = {.kind = cel_of(place)->defocus_kernel,
+  double radius = place->cel->defocus_radius;
+  cs_blur blur = {.kind = place->cel->defocus_kernel,
                   .radius_x = radius * sqrt(m[0] * m[0] + m[1] * m[1]),
                   .radius_y = radius * sqrt(m[3] * m[3] + m[4] * m[4]),
                   .edges = {{radius * m[0], radius * m[3]}, {radius * m[1], radius * m[4]}}};
@@ -49,7 +48,7 @@ static cs_blur find_blur(const cs_defocus_cel *place) {
 }
 
 bool cs_defocus_layer_is_needed(const cs_defocus_cel *place) {
-  if (!(cel_of(place)->defocus_radius > 0))
+  if (!(place->cel->defocus_radius > 0))
     return false;
   cs_blur blur = find_blur(place);
   return fmax(blur.radius_x, blur.radius_y) >= LEAST_RADIUS;
@@ -59,7 +58,7 @@ bool cs_defocus_layer_is_needed(const cs_defocus_cel *place) {
 
 /* The box of the art on the frame, pixels. */
 static bool find_art(const cs_defocus_cel *place, cs_boundary_frame *out) {
-  const celspan_cel *cel = cel_of(place);
+  const celspan_cel *cel = place->cel;
   celspan_box box;
   if (!celspan_cel_bounds(cel, &box))
     return false;
@@ -145,7 +144,7 @@ static bool cel_varies(const celspan_cel *cel) {
 static celspan_status compile_plane(celspan_context *context, const cs_defocus_cel *place,
                                     const cs_defocus_compiler *compiler, int plane,
                                     cs_defocus *defocus) {
-  cs_defocus_job job = {.cel = cel_of(place),
+  cs_defocus_job job = {.cel = place->cel,
                         .matrix = celspan_matrix_then(place->matrix, cs_defocus_matrix(defocus)),
                         .is_through = plane == 1,
                         .front = plane == 1 ? &defocus->plans[0] : NULL};
@@ -170,7 +169,7 @@ static celspan_status compile_planes(celspan_context *context, const cs_defocus_
 
 /* Everything that the nodes depend on. */
 static cs_hash find_key(const cs_defocus_cel *place, const cs_blur *blur, double samples) {
-  const celspan_cel *cel = cel_of(place);
+  const celspan_cel *cel = place->cel;
   cs_hash hash = cs_hash_begin(0x736f6674u);
   cs_hash_word(&hash, cel->object_count);
   for (size_t i = 0; i < cel->object_count; i++)
@@ -214,7 +213,7 @@ static celspan_status use_own(celspan_context *context, const cs_defocus_cel *pl
 static celspan_status make(celspan_context *context, const cs_defocus_cel *place,
                            const cs_blur *blur, const cs_defocus_compiler *compiler,
                            cs_defocus *defocus) {
-  bool varies = cel_varies(cel_of(place)), is_own;
+  bool varies = cel_varies(place->cel), is_own;
   cs_own_grid grid;
   defocus->key = find_key(place, blur, CS_DEFOCUS_SAMPLES);
   CS_TRY(cs_own_grid_find(context, place, blur, varies, &is_own, &grid));
@@ -230,14 +229,31 @@ static celspan_status add_box(celspan_context *context, const cs_boundary_frame 
                          visible->bottom - visible->top, 0);
 }
 
-celspan_status cs_defocus_layer_create(celspan_context *context, const cs_defocus_cel *place,
-                                       const cs_defocus_compiler *compiler, cs_defocus *made,
-                                       cs_outline *box, cs_defocus **out) {
+/* The cel's objects with what lies on the border of the film continuing outside it, as far as the
+ * blur reaches. */
+static celspan_status extend(celspan_context *context, const cs_defocus_cel *place,
+                             const cs_blur *blur, celspan_object **out) {
+  const celspan_point middle = {place->film_width / 2, place->film_height / 2};
+  const celspan_box border = {0, 0, place->film_width, place->film_height};
+  celspan_matrix pixels = touching(&place->to_pixels, middle), back;
+  if (!celspan_matrix_inverse(place->to_pixels, &back))
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "defocus: the film has no area on the frame");
+  const double *m = pixels.m;
+  double scale = sqrt(fmin(m[0] * m[0] + m[3] * m[3], m[1] * m[1] + m[4] * m[4]));
+  double reach = EXTENT * fmax(blur->radius_x, blur->radius_y) / scale;
+  const celspan_matrix placed = celspan_matrix_then(place->matrix, back);
+  return cs_extend(context, place->cel->objects, place->cel->object_count, &placed, &border, reach,
+                   out);
+}
+
+static celspan_status create(celspan_context *context, const cs_defocus_cel *place,
+                             const cs_defocus_compiler *compiler, cs_defocus *made, cs_outline *box,
+                             cs_defocus **out) {
   cs_blur blur = find_blur(place);
   cs_boundary_frame visible;
   cs_defocus *defocus;
   *out = NULL;
-  CS_TRY(cs_defocus_create(context, &blur, cel_varies(cel_of(place)), place->width, place->height,
+  CS_TRY(cs_defocus_create(context, &blur, cel_varies(place->cel), place->width, place->height,
                            &defocus));
   bool is_seen = find_box(place, &blur, &defocus->grid, &visible);
   if (!is_seen || made) {
@@ -255,6 +271,27 @@ celspan_status cs_defocus_layer_create(celspan_context *context, const cs_defocu
   return status;
 }
 
+celspan_status cs_defocus_layer_create(celspan_context *context, const cs_defocus_cel *place,
+                                       const cs_defocus_compiler *compiler, cs_defocus *made,
+                                       cs_outline *box, cs_defocus **out) {
+  const cs_blur blur = find_blur(place);
+  cs_defocus_cel wider = *place;
+  celspan_object *extended;
+  celspan_cel cel;
+  if (place->cel->defocus_edge == CELSPAN_BLUR_CLEAR)
+    return create(context, place, compiler, made, box, out);
+  CS_TRY(extend(context, place, &blur, &extended));
+  cs_value_copy(&cel, place->cel, sizeof cel);
+  cel.objects = &extended;
+  cel.object_count = 1;
+  wider.cel = &cel;
+  celspan_status status = create(context, &wider, compiler, made, box, out);
+  if (status == CELSPAN_OK && *out && !(*out)->extended)
+    (*out)->extended = celspan_object_ref(extended);
+  celspan_object_unref(extended);
+  return status;
+}
+
 void cs_defocus_layer_free_plan(cs_plan *plan, cs_memory *memory) {
   for (size_t i = 0; i < plan->defocus_count && !plan->borrows_defocus; i++)
     cs_defocus_layer_free(plan->defocus[i], memory);
@@ -264,6 +301,7 @@ void cs_defocus_layer_free_plan(cs_plan *plan, cs_memory *memory) {
 void cs_defocus_layer_free(cs_defocus *defocus, cs_memory *memory) {
   cs_defocus_layer_free_plan(&defocus->plans[0], memory);
   cs_defocus_layer_free_plan(&defocus->plans[1], memory);
+  celspan_object_unref(defocus->extended);
   if (defocus->own)
     cs_defocus_layer_free(defocus->own, memory);
   cs_defocus_free(defocus, memory);

@@ -143,8 +143,7 @@ celspan_status cs_own_grid_find(celspan_context *context, const cs_defocus_cel *
   choose_density(blur, varies, axes, &out->samples);
   out->blur = blur_on(blur, axes);
   find_matrix(&facing, axes, out);
-  CS_TRY(
-      cs_bounds_drawing(context, place->rostrum->cels[place->index], &out->matrix, is_there, &art));
+  CS_TRY(cs_bounds_drawing(context, place->cel, &out->matrix, is_there, &art));
   *is_there = *is_there && find_part(out, 0, place->width, art.x, art.x + art.width) &&
               find_part(out, 1, place->height, art.y, art.y + art.height);
   return CELSPAN_OK;

@@ -26,7 +26,7 @@
 /* A cel of a frame. */
 typedef struct cs_defocus_cel {
   const celspan_rostrum *rostrum;
-  size_t index;             /* of the cel in its rostrum */
+  const celspan_cel *cel;   /* of the rostrum, or extended (layer.c) */
   celspan_matrix to_pixels; /* film units to pixels */
   double film_width, film_height;
   celspan_matrix matrix;   /* the cel's units to pixels */

@@ -67,14 +67,18 @@ static celspan_status add_part(celspan_context *context, cs_map_exact *exact, cs
 }
 
 static celspan_status add_border(celspan_context *context, cs_map_exact *exact,
-                                 const cs_map_drawing *drawing, const cs_map_border *f,
-                                 cs_map_line line, const int32_t pixel[3]) {
+                                 const cs_map_rows *rows, const cs_map_border *f, cs_map_line line,
+                                 const int32_t pixel[3]) {
+  const cs_map_drawing *drawing = rows->drawing;
+  cs_v4 left, right;
   const cs_map_point *points = drawing->map->points + f->first;
   const double unit = 1.0 / CS_MAP_HEIGHT;
   int64_t top = (int64_t)pixel[2] * CS_MAP_HEIGHT, foot = top + CS_MAP_HEIGHT;
   uint32_t at = cs_map_find_point(drawing, f, pixel[2]);
   cs_map_place above = cs_map_place_of(drawing, points[at]);
-  line.step = drawing->colours[f->right] - drawing->colours[f->left];
+  CS_TRY(cs_map_brush_colour(rows->brush, drawing, f->left, pixel[1], pixel[2], &left));
+  CS_TRY(cs_map_brush_colour(rows->brush, drawing, f->right, pixel[1], pixel[2], &right));
+  line.step = right - left;
   for (uint32_t k = at + 1; k < f->count && above.y < foot; k++) {
     cs_map_place below = cs_map_place_of(drawing, points[k]);
     line.xa = above.x;
@@ -99,7 +103,7 @@ celspan_status cs_map_exact_add(celspan_context *context, cs_map_exact *exact,
         (from == 0 || cs_map_place_x(drawing, f->high) >= from) &&
         cs_map_place_y(drawing, drawing->map->points[f->first].y) <= row + 1 &&
         cs_map_place_y(drawing, f->foot) >= row)
-      CS_TRY(add_border(context, exact, drawing, f, (cs_map_line){.sheet = index}, pixel));
+      CS_TRY(add_border(context, exact, rows, f, (cs_map_line){.sheet = index}, pixel));
   }
   return CELSPAN_OK;
 }

@@ -11,6 +11,7 @@
  */
 #pragma once
 
+#include "engine/map/brush.h"
 #include "engine/map/sheets.h"
 
 #define CS_MAP_EXACT_LINES 48
@@ -37,7 +38,8 @@ typedef struct cs_map_shown {
 
 void cs_map_exact_finish(cs_map_exact *exact, cs_memory *memory);
 /* Adds the lines of a broken drawing to those of the pixel (column, row). index: of the drawing
- * among those shown; from: the column from which on it is broken. Errors: NO_MEMORY. */
+ * among those shown; from: the column from which on it is broken. Errors: NO_MEMORY, and those of
+ * painting. */
 CELSPAN_CHECKED celspan_status cs_map_exact_add(celspan_context *context, cs_map_exact *exact,
                                                 const cs_map_rows *rows, uint32_t index,
                                                 int32_t from, int32_t column, int32_t row);

@@ -1,6 +1,8 @@
 #include "engine/map/frame_rows.h"
 
 #include "base/self_check.h"
+#include "engine/paint/over_row.h"
+#include "engine/paint/run.h"
 
 /* ---------------------------------------------------------------- life */
 
@@ -11,8 +13,13 @@ celspan_status cs_map_maker_init(cs_map_maker *maker, celspan_context *context,
   if (frame->count == 0)
     return CELSPAN_OK;
   CS_TRY(CS_MAKE(context, maker->rows, frame->count));
-  for (size_t i = 0; i < frame->count; i++)
-    maker->rows[i] = (cs_map_rows){.drawing = &frame->sheets[i].drawing, .row = -1};
+  CS_TRY(CS_MAKE(context, maker->brushes, frame->count));
+  for (size_t i = 0; i < frame->count; i++) {
+    const cs_map_drawing *drawing = &frame->sheets[i].drawing;
+    maker->rows[i] = (cs_map_rows){.drawing = drawing, .brush = &maker->brushes[i], .row = -1};
+    CS_TRY(cs_map_brush_init(&maker->brushes[i], context, drawing));
+    maker->varies |= drawing->stack.layer_count > 0;
+  }
   return CELSPAN_OK;
 }
 
@@ -22,10 +29,20 @@ void cs_map_maker_finish(cs_map_maker *maker) {
   cs_memory *memory = maker->context->memory;
   for (size_t i = 0; maker->rows && i < maker->frame->count; i++)
     cs_map_rows_finish(&maker->rows[i], memory);
+  for (size_t i = 0; maker->brushes && i < maker->frame->count; i++)
+    cs_map_brush_finish(&maker->brushes[i]);
   cs_mem_free(memory, maker->rows, maker->frame->count * sizeof *maker->rows);
+  cs_mem_free(memory, maker->brushes, maker->frame->count * sizeof *maker->brushes);
   cs_map_sums_finish(&maker->sums, memory);
   cs_map_exact_finish(&maker->exact, memory);
   *maker = (cs_map_maker){0};
+}
+
+uint64_t cs_map_maker_evaluations(const cs_map_maker *maker) {
+  uint64_t evaluations = 0;
+  for (size_t i = 0; maker->brushes && i < maker->frame->count; i++)
+    evaluations += maker->brushes[i].painter.evaluations;
+  return evaluations;
 }
 
 /* ---------------------------------------------------------------- a row */
@@ -36,58 +53,151 @@ typedef struct folding {
   int32_t y;
   const cs_map_span *at[CS_MAP_DRAWINGS]; /* the span of each sheet */
   cs_map_shown shown[CS_MAP_DRAWINGS];    /* what can be shown at x, from the camera */
-  size_t shown_count, broken_count;
+  size_t shown_count, broken_count, varied_count;
 } folding;
 
+/* Whether nothing shines through a span, which varies. */
+static bool hides(const cs_map_sheet *sheet, const cs_map_span *span) {
+  return span->cell != CS_MAP_BROKEN && sheet->drawing.map->cells[span->cell].hides &&
+         sheet->drawing.light[3] == 1;
+}
+
 /* Folds the sheets at a column up to the first one that nothing shines through. *end: gets the end
- * of the columns where they are the same. */
-static cs_map_fold fold_sheets(folding *f, int32_t x, int32_t *end) {
+ * of the columns where they are the same. What varies is left out of the fold. varies: whether
+ * anything does, a constant of each caller. */
+static inline cs_map_fold fold_sheets(folding *f, int32_t x, int32_t *end, bool varies) {
   const cs_map_frame *frame = f->maker->frame;
   cs_map_fold fold = cs_map_fold_begin;
-  f->broken_count = 0;
+  f->broken_count = f->varied_count = 0;
   size_t i = 0;
-  for (; i < frame->count && fold.t > 0; i++) {
+  for (bool is_hidden = false; i < frame->count && fold.t > 0 && !is_hidden; i++) {
     while (f->at[i]->end <= x)
       f->at[i]++;
     const cs_map_span *span = f->at[i];
     *end = span->end < *end ? span->end : *end;
     f->shown[i] = (cs_map_shown){&frame->sheets[i], span->colour};
     f->broken_count += span->cell == CS_MAP_BROKEN;
-    cs_map_fold_add(&fold, &frame->sheets[i], span->colour);
+    f->varied_count += varies && span->share_count > 0;
+    if (varies && span->share_count > 0)
+      is_hidden = hides(&frame->sheets[i], span);
+    else
+      cs_map_fold_add(&fold, &frame->sheets[i], span->colour);
   }
   f->shown_count = i;
   return fold;
+}
+
+/* The colours of a sheet from x to end, which are in one of its spans. */
+static celspan_status find_colours(folding *f, size_t i, int32_t x, int32_t end, cs_v4 *out) {
+  const cs_map_rows *rows = &f->maker->rows[i];
+  const cs_map_span *span = f->at[i];
+  cs_v4 colours[CS_OVER_ROW_BATCH];
+  for (int32_t k = 0; k < end - x; k++)
+    out[k] = span->colour;
+  for (uint32_t n = 0; n < span->share_count; n++) {
+    const cs_map_share *share = &rows->shares[span->share + n];
+    CS_TRY(cs_map_brush_colours(rows->brush, share->cell, f->y, x, end, colours));
+    for (int32_t k = 0; k < end - x; k++)
+      out[k] += share->share * colours[k];
+  }
+  return CELSPAN_OK;
+}
+
+/* The colour of a sheet left of what is broken, at x: its span and the column where that ends. */
+static celspan_status find_base(folding *f, size_t i, int32_t x, int32_t *from) {
+  cs_map_maker *maker = f->maker;
+  const cs_map_rows *rows = &maker->rows[i];
+  const cs_map_span *first = rows->spans + rows->first[f->y - maker->row], *span = f->at[i];
+  while (span > first && span[-1].cell == CS_MAP_BROKEN)
+    span--;
+  *from = span > first ? span[-1].end : 0;
+  return cs_map_brush_colour(rows->brush, rows->drawing, span > first ? span[-1].cell : 0, x, f->y,
+                             &f->shown[i].colour);
 }
 
 /* Solves the pixel at x, where several sheets that can be shown are broken. */
 static celspan_status solve(folding *f, int32_t x, cs_v4 *out) {
   cs_map_maker *maker = f->maker;
   for (size_t i = 0; i < f->shown_count; i++) {
-    const cs_map_rows *rows = &maker->rows[i];
-    const cs_map_span *first = rows->spans + rows->first[f->y - maker->row], *span = f->at[i];
-    if (span->cell != CS_MAP_BROKEN)
+    if (f->at[i]->cell != CS_MAP_BROKEN) {
+      CS_TRY(find_colours(f, i, x, x + 1, &f->shown[i].colour));
       continue;
-    while (span > first && span[-1].cell == CS_MAP_BROKEN)
-      span--;
-    int32_t from = span > first ? span[-1].end : 0;
-    f->shown[i].colour = span > first ? span[-1].colour : rows->drawing->colours[0];
-    CS_TRY(cs_map_exact_add(maker->context, &maker->exact, rows, (uint32_t)i, from, x, f->y));
+    }
+    int32_t from;
+    CS_TRY(find_base(f, i, x, &from));
+    CS_TRY(cs_map_exact_add(maker->context, &maker->exact, &maker->rows[i], (uint32_t)i, from, x,
+                            f->y));
   }
   return cs_map_exact_mean(maker->context, &maker->exact, maker->frame, f->shown, f->shown_count,
                            out);
 }
 
+/* Whether only one cell can be seen, as it is. */
+static bool is_bare(const folding *f, const cs_map_fold *fold) {
+  const cs_map_span *last = f->at[f->shown_count - 1];
+  const cs_map_sheet *sheet = f->shown[f->shown_count - 1].sheet;
+  return f->varied_count == 1 && last->share_count > 0 && hides(sheet, last) &&
+         cs_map_brush_is_bare(&sheet->drawing) && fold->t == 1 && cs_v4_same(fold->e, cs_v4_all(0));
+}
+
+/* Paints the only cell that can be seen as a run. */
+static celspan_status paint_bare(folding *f, int32_t x, int32_t end, cs_row *out) {
+  size_t i = f->shown_count - 1;
+  cs_map_brush *brush = f->maker->rows[i].brush;
+  cs_program program = cs_map_brush_program(brush->drawing, f->at[i]->cell);
+  return cs_painter_run_program(&brush->painter, &program, (cs_run){x, end, f->y + 0.5}, out);
+}
+
+/* Folds the sheets pixel by pixel. */
+static celspan_status fold_batch(folding *f, int32_t x, int32_t end, float *out) {
+  cs_map_fold folds[CS_OVER_ROW_BATCH];
+  cs_v4 colours[CS_OVER_ROW_BATCH];
+  for (int32_t k = 0; k < end - x; k++)
+    folds[k] = cs_map_fold_begin;
+  for (size_t i = 0; i < f->shown_count; i++) {
+    CS_TRY(find_colours(f, i, x, end, colours));
+    for (int32_t k = 0; k < end - x; k++)
+      cs_map_fold_add(&folds[k], f->shown[i].sheet, colours[k]);
+  }
+  for (int32_t k = 0; k < end - x; k++)
+    cs_v4_store(out + (size_t)4 * (size_t)k, cs_map_fold_end(folds[k], f->maker->frame));
+  return CELSPAN_OK;
+}
+
+/* The columns [x, end), in which something varies. */
+static celspan_status paint_varied(folding *f, const cs_map_fold *fold, int32_t x, int32_t end,
+                                   cs_row *out) {
+  float *colours, one[4];
+  if (is_bare(f, fold))
+    return paint_bare(f, x, end, out);
+  if (end == x + 1) {
+    CS_TRY(fold_batch(f, x, end, one));
+    return cs_row_single(f->maker->context, out, x, end, cs_v4_load(one));
+  }
+  CS_TRY(cs_row_array(f->maker->context, out, x, end, &colours));
+  for (int32_t next; x < end; colours += (size_t)4 * (size_t)(next - x), x = next) {
+    next = end - x < CS_OVER_ROW_BATCH ? end : x + CS_OVER_ROW_BATCH;
+    CS_TRY(fold_batch(f, x, next, colours));
+  }
+  return CELSPAN_OK;
+}
+
 static celspan_status make_row(folding *f, cs_row *out) {
   const cs_map_maker *maker = f->maker;
   int32_t width = maker->frame->width;
+  const bool varies = maker->varies;
   for (size_t i = 0; i < maker->frame->count; i++)
     f->at[i] = maker->rows[i].spans + maker->rows[i].first[f->y - maker->row];
   for (int32_t x = 0, end; x < width; x = end) {
     end = width;
-    cs_v4 colour = cs_map_fold_end(fold_sheets(f, x, &end), maker->frame);
+    cs_map_fold fold = varies ? fold_sheets(f, x, &end, true) : fold_sheets(f, x, &end, false);
+    cs_v4 colour = cs_map_fold_end(fold, maker->frame);
     if (f->broken_count > 1) {
       end = x + 1;
       CS_TRY(solve(f, x, &colour));
+    } else if (f->varied_count > 0) {
+      CS_TRY(paint_varied(f, &fold, x, end, out));
+      continue;
     }
     CS_TRY(cs_row_single(maker->context, out, x, end, colour));
   }

@@ -7,14 +7,19 @@ typedef struct cs_map_maker {
   celspan_context *context;  /* borrowed: the worker's branch */
   const cs_map_frame *frame; /* borrowed */
   cs_map_sums sums;
-  cs_map_rows *rows; /* one for each sheet */
-  int32_t row;       /* the first of the swath that `rows` has; -1: they have none */
+  cs_map_rows *rows;     /* one for each sheet */
+  cs_map_brush *brushes; /* one for each sheet */
+  int32_t row;           /* the first of the swath that `rows` has; -1: they have none */
   cs_map_exact exact;
+  bool varies; /* something in the frame's drawings does */
 } cs_map_maker;
 
 /* Errors: NO_MEMORY; cs_map_maker_finish must be called then, too. */
 CELSPAN_CHECKED celspan_status cs_map_maker_init(cs_map_maker *maker, celspan_context *context,
                                                  const cs_map_frame *frame);
 void cs_map_maker_finish(cs_map_maker *maker);
-/* The spans of row y, 0 <= y < height. The contents of `out` are replaced. Errors: NO_MEMORY. */
+/* Pixels whose colour has been computed, since they vary. */
+uint64_t cs_map_maker_evaluations(const cs_map_maker *maker);
+/* The spans of row y, 0 <= y < height. The contents of `out` are replaced. Errors: NO_MEMORY,
+ * and those of reading pictures. */
 CELSPAN_CHECKED celspan_status cs_map_maker_row(cs_map_maker *maker, int32_t y, cs_row *out);

@@ -14,6 +14,7 @@
 
 #include "base/sort.h"
 #include "base/splitmix.h"
+#include "engine/compose/over.h"
 #include "engine/map/map.h"
 #include "engine/row/row.h"
 
@@ -65,6 +66,21 @@ void cs_map_ref(cs_map *map) {
   atomic_fetch_add_explicit(&map->references, 1, memory_order_relaxed);
 }
 
+static void keep_texture(celspan_texture *texture) { (void)celspan_texture_ref(texture); }
+
+/* The textures of what varies, of which the map has references. */
+static void change_references(const cs_stack *stack, void (*change)(celspan_texture *texture)) {
+  for (size_t i = 0; i < stack->shade_count; i++)
+    change((celspan_texture *)stack->shades[i].texture);
+  for (size_t i = 0; i < stack->image_count; i++)
+    change((celspan_texture *)stack->images[i].texture);
+}
+
+static void free_stack(cs_stack *stack, cs_memory *memory) {
+  change_references(stack, celspan_texture_unref);
+  cs_stack_finish(stack, memory);
+}
+
 void cs_map_unref(cs_map *map) {
   if (!map || atomic_fetch_sub_explicit(&map->references, 1, memory_order_acq_rel) > 1)
     return;
@@ -72,7 +88,8 @@ void cs_map_unref(cs_map *map) {
   cs_mem_free(memory, map->borders, map->border_capacity * sizeof *map->borders);
   cs_mem_free(memory, map->points, map->point_capacity * sizeof *map->points);
   cs_mem_free(memory, map->cells, map->cell_capacity * sizeof *map->cells);
-  cs_mem_free(memory, map->keys, map->key_capacity * sizeof *map->keys);
+  cs_mem_free(memory, map->items, map->item_capacity * sizeof *map->items);
+  free_stack(&map->stack, memory);
   cs_mem_free(memory, map, sizeof *map);
   cs_memory_unref(memory);
 }
@@ -80,7 +97,7 @@ void cs_map_unref(cs_map *map) {
 size_t cs_map_bytes(const cs_map *map) {
   return sizeof *map + map->border_capacity * sizeof *map->borders +
          map->point_capacity * sizeof *map->points + map->cell_capacity * sizeof *map->cells +
-         map->key_capacity * sizeof *map->keys;
+         map->item_capacity * sizeof *map->items + cs_stack_bytes(&map->stack);
 }
 
 static void finish(maker *m) {
@@ -97,8 +114,8 @@ bool cs_map_suits(const cs_plan *plan) {
   bool suits = !plan->is_crowded && stack->light_count == 0 && stack->procedure_count == 0;
   for (size_t i = 0; suits && i < stack->layer_count; i++) {
     const cs_layer *layer = &stack->layers[i];
-    suits =
-        layer->kind == CS_LAYER_FLAT && layer->t[0] == layer->t[1] && layer->t[1] == layer->t[2];
+    suits = layer->role == CS_LAYER_PAINT && layer->kind != CS_LAYER_DEFOCUSED &&
+            layer->t[0] == layer->t[1] && layer->t[1] == layer->t[2];
   }
   return suits;
 }
@@ -107,15 +124,41 @@ bool cs_map_suits(const cs_plan *plan) {
 
 static uint64_t mix(uint64_t word) { return cs_splitmix_next(&word); }
 
-static size_t colour_place(const maker *m, cs_v4 colour) {
-  uint64_t words[2];
-  memcpy(words, &colour, sizeof words);
-  return mix(words[0] ^ mix(words[1])) & (m->cell_capacity - 1);
+/* What shows in a cell: a colour where length is 0. */
+typedef struct content {
+  cs_v4 colour;
+  const cs_item *items;
+  uint32_t length;
+} content;
+
+static content content_of(const cs_map *map, uint32_t cell) {
+  const cs_map_cell *of = &map->cells[cell];
+  return (content){of->colour, of->length > 0 ? map->items + of->item : NULL, of->length};
+}
+
+static content content_at(const cs_retained_row *retained, const cs_retained_side *side) {
+  if (side->program < 0)
+    return (content){.colour = side->colour};
+  const cs_program *program = &retained->programs[side->program].program;
+  return (content){cs_v4_all(0), program->items, program->length};
+}
+
+static bool is_content(content a, content b) {
+  return a.length == b.length && memcmp(&a.colour, &b.colour, sizeof a.colour) == 0 &&
+         (a.length == 0 || memcmp(a.items, b.items, a.length * sizeof *a.items) == 0);
+}
+
+static size_t content_place(const maker *m, content what) {
+  uint64_t words[2], name = what.length;
+  memcpy(words, &what.colour, sizeof words);
+  for (uint32_t i = 0; i < what.length; i++)
+    name = mix(name ^ what.items[i].layer);
+  return mix(words[0] ^ mix(words[1] ^ name)) & (m->cell_capacity - 1);
 }
 
 /* Puts a cell into the table, which has room. */
 static void place_cell(maker *m, uint32_t cell) {
-  size_t at = colour_place(m, m->map->cells[cell]);
+  size_t at = content_place(m, content_of(m->map, cell));
   while (m->cells[at])
     at = (at + 1) & (m->cell_capacity - 1);
   m->cells[at] = cell + 1;
@@ -133,22 +176,33 @@ static celspan_status widen_cells(maker *m) {
   return CELSPAN_OK;
 }
 
-/* The number of the cell of a colour. Where there are too many the map is not whole. */
-static celspan_status find_cell(maker *m, cs_v4 colour, uint32_t *out) {
+/* Appends a cell and its program. Where there are too many the map is not whole. */
+static celspan_status add_cell(maker *m, content what, uint32_t *out) {
   cs_map *map = m->map;
-  if (2 * map->cell_count >= m->cell_capacity)
+  *out = (uint32_t)map->cell_count;
+  map->is_whole = map->cell_count < CS_MAP_CELLS && map->item_count + what.length < NONE;
+  CS_TRY(CS_RESERVE(m->context, map->items, map->item_capacity, map->item_count + what.length));
+  if (what.length > 0)
+    memcpy(map->items + map->item_count, what.items, what.length * sizeof *what.items);
+  const cs_map_cell cell = {.colour = what.colour,
+                            .key = (mix(*out) << 18 | *out) & CS_MAP_KEY,
+                            .item = (uint32_t)map->item_count,
+                            .length = what.length};
+  map->item_count += what.length;
+  return CS_APPEND(m->context, map->cells, map->cell_count, map->cell_capacity, cell);
+}
+
+/* The number of the cell of what shows there. */
+static celspan_status find_cell(maker *m, content what, uint32_t *out) {
+  if (2 * m->map->cell_count >= m->cell_capacity)
     CS_TRY(widen_cells(m));
-  size_t at = colour_place(m, colour);
+  size_t at = content_place(m, what);
   for (; m->cells[at]; at = (at + 1) & (m->cell_capacity - 1))
-    if (memcmp(&map->cells[m->cells[at] - 1], &colour, sizeof colour) == 0) {
+    if (is_content(content_of(m->map, m->cells[at] - 1), what)) {
       *out = m->cells[at] - 1;
       return CELSPAN_OK;
     }
-  *out = (uint32_t)map->cell_count;
-  map->is_whole = map->cell_count < CS_MAP_CELLS;
-  CS_TRY(CS_RESERVE(m->context, map->keys, map->key_capacity, map->cell_count + 1));
-  map->keys[map->cell_count] = (mix(*out) << 18 | *out) & CS_MAP_KEY;
-  CS_TRY(CS_APPEND(m->context, map->cells, map->cell_count, map->cell_capacity, colour));
+  CS_TRY(add_cell(m, what, out));
   m->cells[at] = *out + 1;
   return CELSPAN_OK;
 }
@@ -251,12 +305,13 @@ static celspan_status begin_border(maker *m, cs_map_point point, uint32_t left, 
 
 static int32_t round_to_unit(double place) { return (int32_t)floor(place * CS_MAP_UNIT + 0.5); }
 
-static celspan_status add_edge(maker *m, const cs_retained_edge *edge) {
+static celspan_status add_edge(maker *m, const cs_retained_row *retained,
+                               const cs_retained_edge *edge) {
   cs_map_point above = {round_to_unit(edge->xa), round_to_unit(edge->ya)};
   cs_map_point below = {round_to_unit(edge->xb), round_to_unit(edge->yb)};
   uint32_t left, right, index;
-  CS_TRY(find_cell(m, edge->left.colour, &left));
-  CS_TRY(find_cell(m, edge->right.colour, &right));
+  CS_TRY(find_cell(m, content_at(retained, &edge->left), &left));
+  CS_TRY(find_cell(m, content_at(retained, &edge->right), &right));
   if (left == right || above.y >= below.y)
     return CELSPAN_OK;
   index = take_end(m, above, left, right);
@@ -333,7 +388,7 @@ static celspan_status add_row(maker *m, cs_row_maker *rows, int32_t y, cs_retain
   CS_TRY(cs_row_retain(rows, y, retained));
   CS_TRY(begin_row(m, y, retained->edge_count));
   for (size_t i = 0; i < retained->edge_count; i++)
-    CS_TRY(add_edge(m, &retained->edges[i]));
+    CS_TRY(add_edge(m, retained, &retained->edges[i]));
   return CELSPAN_OK;
 }
 
@@ -343,7 +398,7 @@ static celspan_status add_rows(maker *m, const cs_plan *plan) {
   uint32_t clear;
   celspan_status status = cs_row_maker_init(&rows, m->context, plan);
   if (status == CELSPAN_OK)
-    status = find_cell(m, cs_v4_all(0), &clear);
+    status = find_cell(m, (content){.colour = cs_v4_all(0)}, &clear);
   for (int32_t y = 0; status == CELSPAN_OK && m->map->is_whole && y < plan->height; y++)
     status = add_row(m, &rows, y, &retained);
   cs_row_maker_finish(&rows);
@@ -351,7 +406,26 @@ static celspan_status add_rows(maker *m, const cs_plan *plan) {
   return status;
 }
 
-celspan_status cs_map_make(celspan_context *context, const cs_plan *plan, int64_t left, int64_t top,
+/* Whether nothing shines through some layer of a program, which is in no group. */
+static bool hides(const cs_map *map, const cs_map_cell *cell, const cs_stack *stack) {
+  bool hides = false;
+  for (uint32_t i = 0; i < cell->length && !hides; i++) {
+    const cs_layer *layer = &stack->layers[map->items[cell->item + i].layer];
+    hides = layer->group == CS_STACK_NONE && cs_over_is_opaque(layer->t);
+  }
+  return hides;
+}
+
+/* Takes over what the programs name. */
+static void take_stack(cs_map *map, cs_stack *stack) {
+  for (size_t i = 0; i < map->cell_count; i++)
+    map->cells[i].hides = hides(map, &map->cells[i], stack);
+  map->stack = *stack;
+  *stack = (cs_stack){0};
+  change_references(&map->stack, keep_texture);
+}
+
+celspan_status cs_map_make(celspan_context *context, cs_plan *plan, int64_t left, int64_t top,
                            cs_map *map) {
   maker m = {.context = context, .map = map};
   map->is_whole = true;
@@ -360,6 +434,8 @@ celspan_status cs_map_make(celspan_context *context, const cs_plan *plan, int64_
   celspan_status status = add_rows(&m, plan);
   if (status == CELSPAN_OK && map->is_whole)
     status = finish_borders(&m);
+  if (status == CELSPAN_OK && map->item_count > 0)
+    take_stack(map, &plan->stack);
   finish(&m);
   return status;
 }

@@ -3,14 +3,16 @@
  *       a --------.
  *       |  red   /            border: a piece of a visible boundary, with the cell on its left and
  *       |   .---/---.                 the cell on its right
- *       |  /   / blue|        cell:   a colour; cell 0 is clear, around the whole drawing
- *       b-+---c      |
+ *       |  /   / blue|        cell:   a colour, or a program; cell 0 is clear, around the whole
+ *       b-+---c      |                drawing
  *          `--------'         borders of red: a to b, clear | red; a to c, red | clear, and from
  *                             where blue begins on, red | blue
  *
  * No order is kept: each border says by how much the colour changes from its left to its right,
  * so what is right of any set of borders is a sum (sums.h). A map has no flat boundaries, since
- * these change no sum.
+ * these change no sum. The programs of gradients and pictures name layers of a stack that the map
+ * keeps: its formulas and pictures lie on the raster, and are put into their place in each frame
+ * (brush.h).
  *
  * Units: a raster of the drawing at a scale of its own, in 2^-16 of its pixels. The raster begins
  * at a whole pixel, so that equal boundaries of two drawings at one scale have equal points.
@@ -22,6 +24,7 @@
 
 #include <stdatomic.h>
 
+#include "engine/compose/cell.h"
 #include "engine/row/plan.h"
 
 #define CS_MAP_UNIT 65536   /* of a pixel of the raster */
@@ -29,6 +32,14 @@
 #define CS_MAP_CELLS 262144 /* at most */
 /* The key of a cell: its number in 18 bits, and 30 bits of a hash. */
 #define CS_MAP_KEY UINT64_C(0xffffffffffff)
+
+typedef struct cs_map_cell {
+  cs_v4 colour;         /* premultiplied, under white light; 0 where it varies */
+  uint64_t key;         /* its name, for sums of areas: see sums.h */
+  uint32_t item;        /* of the map: the first one of its program */
+  uint32_t length : 31; /* items; 0: one colour everywhere */
+  uint32_t hides : 1;   /* nothing shines through its program */
+} cs_map_cell;
 
 typedef struct cs_map_point {
   int32_t x, y;
@@ -47,11 +58,13 @@ typedef struct cs_map {
   int64_t left, top;      /* where the raster begins, in its pixels from the drawing's origin */
   cs_map_border *borders; /* by the y of their first points */
   cs_map_point *points;
-  cs_v4 *cells;   /* premultiplied colours, under white light */
-  uint64_t *keys; /* names of the cells, for sums of areas: see sums.h */
+  cs_map_cell *cells;
+  cs_item *items; /* of the programs */
+  cs_stack stack; /* that they name; none where all cells are flat */
   size_t border_count, border_capacity;
   size_t point_count, point_capacity;
-  size_t cell_count, cell_capacity, key_capacity;
+  size_t cell_count, cell_capacity;
+  size_t item_count, item_capacity;
 } cs_map;
 
 /* An empty map that is not whole. Errors: NO_MEMORY. */
@@ -59,9 +72,11 @@ CELSPAN_CHECKED celspan_status cs_map_create(celspan_context *context, cs_map **
 void cs_map_ref(cs_map *map);
 void cs_map_unref(cs_map *map); /* NULL is ignored; any thread */
 size_t cs_map_bytes(const cs_map *map);
-/* Whether a plan of a drawing alone can be a map: flat paints that dim all channels alike. */
+/* Whether a plan of a drawing alone can be a map: paints that dim all channels alike, and no
+ * procedures. Those of its textures that vary must do so, too. */
 bool cs_map_suits(const cs_plan *plan);
 /* Fills a map with a plan that suits, whose raster begins at the pixel (left, top). The map is not
- * whole where there are too many cells. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_map_make(celspan_context *context, const cs_plan *plan,
-                                           int64_t left, int64_t top, cs_map *map);
+ * whole where there are too many cells. Where cells vary it takes over the plan's stack. Errors:
+ * NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_map_make(celspan_context *context, cs_plan *plan, int64_t left,
+                                           int64_t top, cs_map *map);

@@ -83,7 +83,7 @@ static inline void put_rgba(group v, int32_t count, float (*rgba)[4]) {
 
 static inline void put_codes(group v, int32_t count, unsigned char *out) {
   const __m512i order = _mm512_setr_epi32(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15);
-  __m512i pixels = _mm512_permutexvar_epi32(order, (__m512i)cs_srgb8_code_planes(&v));
+  __m512i pixels = _mm512_permutexvar_epi32(order, (__m512i)cs_srgb8_code_planes(&v, false));
   __mmask16 those = count < GROUP ? (__mmask16)((1 << count) - 1) : 0xffff;
   _mm512_mask_storeu_epi32(out, those, pixels);
 }

@@ -12,12 +12,12 @@ static celspan_status allocate(cs_painter *painter, void *field, size_t count, s
   return CELSPAN_OK;
 }
 
-celspan_status cs_painter_init(cs_painter *painter, celspan_context *context,
+celspan_status cs_painter_init(cs_painter *painter, celspan_context *context, const cs_stack *stack,
                                const cs_composer *composer) {
-  const cs_stack *stack = composer->stack;
   *painter =
       (cs_painter){.context = context, .composer = composer, .stack = stack, .isa = cs_isa_best()};
   cs_arena_init(&painter->scratch);
+  CS_TRY(allocate(painter, &painter->outers, cs_stack_depth(stack), sizeof(cs_over_outer)));
   CS_TRY(allocate(painter, &painter->images, stack->image_count, sizeof(cs_image_view)));
   CS_TRY(allocate(painter, &painter->blocks, stack->image_count > 0, sizeof(cs_block_cache)));
   if (painter->blocks)
@@ -34,6 +34,7 @@ void cs_painter_finish(cs_painter *painter) {
     return;
   cs_memory *memory = painter->context->memory;
   const cs_stack *stack = painter->stack;
+  cs_mem_free(memory, painter->outers, cs_stack_depth(stack) * sizeof(cs_over_outer));
   cs_mem_free(memory, painter->images, stack->image_count * sizeof(cs_image_view));
   if (painter->blocks)
     cs_block_cache_finish(painter->blocks);

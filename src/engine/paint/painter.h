@@ -42,9 +42,10 @@ typedef struct cs_shown {
 
 typedef struct cs_painter {
   celspan_context *context;    /* the worker's branch */
-  const cs_composer *composer; /* borrowed: its cells are painted */
+  const cs_composer *composer; /* borrowed: its cells are painted; NULL: only programs are */
   const cs_stack *stack;
-  cs_isa isa; /* the instructions that loops over pixels are made with */
+  cs_over_outer *outers; /* scratch, of folds; cs_stack_depth */
+  cs_isa isa;            /* the instructions that loops over pixels are made with */
   cs_image_view *images;
   cs_block_cache *blocks; /* of its pictures; NULL without pictures */
   cs_defocused_view *defocused;
@@ -54,10 +55,11 @@ typedef struct cs_painter {
   uint64_t evaluations; /* pixels whose colour has been computed */
 } cs_painter;
 
-/* composer: initialized, borrowed. The painter must not be moved.
+/* stack: that of the programs, borrowed; composer: initialized, borrowed; NULL: no cells will be
+ * painted. The painter must not be moved.
  * Errors: NO_MEMORY; cs_painter_finish must be called then, too. */
 CELSPAN_CHECKED celspan_status cs_painter_init(cs_painter *painter, celspan_context *context,
-                                               const cs_composer *composer);
+                                               const cs_stack *stack, const cs_composer *composer);
 void cs_painter_finish(cs_painter *painter);
 
 /* The question that the composer of the same worker asks the painter. The composer

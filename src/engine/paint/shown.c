@@ -107,7 +107,7 @@ celspan_status cs_shown_find(cs_painter *painter, const cs_program *program, cs_
   CS_TRY(CS_RESERVE(painter->context, out->items, out->capacity, program->length));
   out->length = 0;
   out->is_sure = true;
-  cs_over_begin(&over, stack, painter->composer->outers);
+  cs_over_begin(&over, stack, painter->outers);
   over.is_bound = true;
   for (uint32_t i = 0; i < program->length && end > 0; i++) {
     cs_item item = program->items[i];

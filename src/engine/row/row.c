@@ -44,7 +44,7 @@ celspan_status cs_row_maker_init(cs_row_maker *maker, celspan_context *context,
                      plan->margin);
   CS_TRY(cs_composer_init(&maker->composer, context, &plan->stack,
                           cs_painter_opacity(&maker->painter)));
-  CS_TRY(cs_painter_init(&maker->painter, context, &maker->composer));
+  CS_TRY(cs_painter_init(&maker->painter, context, &plan->stack, &maker->composer));
   cs_row_tools tools = {&maker->composer,   &maker->painter, &maker->active, &maker->cells,
                         &maker->procedures, &maker->arena,   plan->width};
   cs_centre_init(&maker->centre, &tools);

@@ -127,7 +127,7 @@ static celspan_status append_defocused(cs_compiler *c, const cs_defocus_cel *pla
                                        const cs_outline *box, uint32_t detail) {
   cs_stack *stack = &c->plan->stack;
   celspan_matrix identity = celspan_matrix_identity();
-  double opacity = place->rostrum->cels[place->index]->opacity;
+  double opacity = place->cel->opacity;
   uint32_t index;
   CS_TRY(cs_layers_append(c, opacity, CELSPAN_RULE_NONZERO, &index));
   stack->layers[index].kind = CS_LAYER_DEFOCUSED;
@@ -185,13 +185,13 @@ static celspan_status compile_sharp(cs_compiler *c, const celspan_cel *cel,
 /* A cel under its front light, which falls on all of it, or on its parts where modes are inside. */
 static celspan_status compile_paint(cs_compiler *c, const celspan_rostrum *rostrum, size_t index,
                                     const celspan_matrix *matrix, const cs_compiler_film *film) {
-  const cs_defocus_cel place = {rostrum,         index,
+  const celspan_cel *cel = rostrum->cels[index];
+  const cs_defocus_cel place = {rostrum,         cel,
                                 film->to_pixels, film->width,
                                 film->height,    *matrix,
                                 c->frame,        c->plan->width,
                                 c->plan->height, c->plan->antialias != CELSPAN_ANTIALIAS_NONE,
                                 c->space};
-  const celspan_cel *cel = rostrum->cels[index];
   bool is_defocused = cs_defocus_layer_is_needed(&place);
   cs_objects_outside outer;
   cs_lights_front front;

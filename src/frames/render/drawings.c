@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "engine/map/brush.h"
 #include "engine/map/keep.h"
 #include "model/geometry/matrix.h"
 #include "model/scene/bounds.h"
@@ -27,7 +28,7 @@ static bool is_rich(const celspan_rostrum *rostrum) {
   size_t shapes = 0;
   for (size_t i = 0; i < rostrum->cel_count; i++)
     for (size_t k = 0; k < rostrum->cels[i]->object_count; k++)
-      shapes += rostrum->cels[i]->objects[k]->data->primitive_count;
+      shapes += rostrum->cels[i]->objects[k]->data->shape_count;
   return shapes >= CS_DRAWINGS_SHAPES * rostrum->cel_count;
 }
 
@@ -147,24 +148,14 @@ static cs_cache_key key_of(const placed_cel *d) {
 
 static cs_v4 colour_of(celspan_light light) { return (cs_v4){light.r, light.g, light.b, 0}; }
 
-/* A colour with the cel's grade, if it has one. */
-static cs_v4 graded(const placed_cel *d, cs_v4 colour) {
-  float rgba[4];
-  if (!d->cel->grade)
-    return colour;
-  cs_v4_store(rgba, colour);
-  cs_grade_light(&d->cel->grade->steps, d->space, rgba[3], rgba);
-  return cs_v4_load(rgba);
-}
-
 /* The colours of the map's cells in the light of the cel, which includes its opacity. */
-static celspan_status light_cells(celspan_context *context, const placed_cel *d, cs_v4 light,
-                                  cs_map_drawing *drawing) {
+static celspan_status light_cells(celspan_context *context, cs_map_drawing *drawing) {
   const cs_map *map = drawing->map;
   CS_TRY(CS_MAKE(context, drawing->colours, map->cell_count));
   for (size_t i = 0; i < map->cell_count; i++)
-    drawing->colours[i] = graded(d, light * map->cells[i]);
-  return CELSPAN_OK;
+    if (map->cells[i].length == 0)
+      drawing->colours[i] = cs_map_brush_light(drawing, map->cells[i].colour);
+  return cs_map_brush_place(context, drawing);
 }
 
 static void set_place(const placed_cel *d, cs_map_drawing *out) {
@@ -180,13 +171,16 @@ static celspan_status make_sheet(celspan_context *context, const celspan_rostrum
   const cs_light back = cs_scene_back(rostrum, &d->cel->back);
   const cs_light front = cs_scene_front(rostrum, d->cel);
   float opacity = (float)d->opacity;
-  cs_v4 light = opacity * colour_of(cs_light_in(&front, d->space));
-  light[3] = opacity;
+  cs_map_drawing *drawing = &out->drawing;
+  drawing->light = opacity * colour_of(cs_light_in(&front, d->space));
+  drawing->light[3] = opacity;
+  drawing->grade = d->cel->grade ? &d->cel->grade->steps : NULL;
+  drawing->space = d->space;
   out->back = colour_of(cs_light_in(&back, d->space));
   out->keep = 1 - back.flat.a;
-  CS_TRY(cs_map_keep_acquire(context, key_of(d), make, d, &out->drawing.map));
-  set_place(d, &out->drawing);
-  return out->drawing.map->is_whole ? light_cells(context, d, light, &out->drawing) : CELSPAN_OK;
+  CS_TRY(cs_map_keep_acquire(context, key_of(d), make, d, &drawing->map));
+  set_place(d, drawing);
+  return drawing->map->is_whole ? light_cells(context, drawing) : CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- a frame */
@@ -262,6 +256,7 @@ void cs_drawings_finish(cs_map_frame *frame, cs_memory *memory) {
     cs_map_drawing *drawing = &frame->sheets[i].drawing;
     if (drawing->colours)
       cs_mem_free(memory, drawing->colours, drawing->map->cell_count * sizeof *drawing->colours);
+    cs_map_brush_displace(drawing, memory);
     cs_map_unref(drawing->map);
   }
   cs_mem_free(memory, frame->sheets, frame->capacity * sizeof *frame->sheets);

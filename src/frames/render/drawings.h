@@ -6,14 +6,15 @@
  * The rule. An exposure of a frame that repeats is drawn from maps where its antialiasing is
  * "area", no side of the frame is above CS_DRAWINGS_SIDE pixels, it has at most CS_MAP_DRAWINGS
  * cels, and each of these
- *   - has flat paints that dim all channels alike, and neither modes, procedures nor rostrums,
+ *   - has paints that dim all channels alike, pictures that may be read on any thread, and
+ *     neither modes, procedures nor rostrums,
  *   - is neither defocused nor blended, and has no light with a shape,
  *   - is neither rotated, skewed nor put in perspective by its own transform, its viewport, and the
  *     camera together,
  *   - is small enough to be a map (engine/map/map.h), and does not have too many dashes,
- * and if they have at least CS_DRAWINGS_SHAPES primitives each, on average. Of fewer shapes most
- * can be seen: to sweep them takes less time than to draw their maps, the more so the more cels
- * there are.
+ * and if they have at least CS_DRAWINGS_SHAPES shapes each, on average, where the mesh of a bent
+ * picture or gradient is one, because it is another mesh in each frame. Of fewer shapes most can be
+ * seen: to sweep them takes less time than to draw their maps, the more so the more cels there are.
  *
  * Invariant: this depends on the exposure and the size of the whole frame alone; not on the crop,
  * on the workers, or on which maps are kept.

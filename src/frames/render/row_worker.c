@@ -23,6 +23,8 @@ static uint64_t count_evaluations(const cs_row_worker *worker) {
   uint64_t evaluations = 0;
   for (size_t i = 0; worker->makers && i < worker->frame->count; i++)
     evaluations += worker->makers[i].composer.evaluations + worker->makers[i].painter.evaluations;
+  for (size_t i = 0; worker->map_makers && i < worker->frame->count; i++)
+    evaluations += cs_map_maker_evaluations(&worker->map_makers[i]);
   return evaluations;
 }
 
