@@ -6,7 +6,8 @@ local prng = require "tests.support.prng"
 
 local modes = { "normal", "multiply", "screen", "overlay", "darken", "lighten", "color-dodge",
                 "color-burn", "hard-light", "soft-light", "difference", "exclusion", "hue",
-                "saturation", "color", "luminosity", "add" }
+                "saturation", "color", "luminosity", "add", "linear-dodge",
+                "soft-light-photoshop" }
 
 local function rect(x, y, w, h, texture) return celspan.rect { x, y, w, h, texture = texture } end
 
@@ -116,7 +117,7 @@ describe("a blend mode", function()
   it("that does not exist is refused at its line, with all that do", function()
     local shape = celspan.circle { centre = { 5, 5 }, radius = 2 }
     assert.error_matches(function() shape:blend("plus") end,
-      'blend: the mode must be one of "normal", .* or "add", got "plus"')
+      'blend: the mode must be one of "normal", .* or "soft%-light%-photoshop", got "plus"')
     assert.error_matches(function() celspan.group { shape, blend = 3 } end,
       "group: field 'blend' must be .*, got number")
     assert.error_matches(function() celspan.cel { shape, blend = "Multiply" } end,

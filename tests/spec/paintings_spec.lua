@@ -142,8 +142,8 @@ describe("a Photoshop document", function()
   end)
 
   it("has the names of all blend modes, and keeps unknown ones", function()
-    local words = { norm = "normal", ["mul "] = "multiply", lddg = "add", scrn = "screen",
-      over = "overlay", ["lum "] = "luminosity",
+    local words = { norm = "normal", ["mul "] = "multiply", lddg = "linear-dodge", scrn = "screen",
+      over = "overlay", ["lum "] = "luminosity", sLit = "soft-light-photoshop",
       fdiv = "divide", ["zz 9"] = "zz9", ["\1\200x\127"] = "x" }
     for key, word in pairs(words) do assert.are.equal(word, read(psd { blend = key })[1].blend) end
     local group = paintings.psd { w = 4, h = 4,
@@ -635,6 +635,18 @@ describe("a Krita document", function()
       if tree then message = select(2, seen(tree)) end
       assert.is_string(message, case[1])
       assert.matches(case[2], message)
+    end
+  end)
+
+  it_reads_archives("has the names of all blend modes, as Krita writes them", function()
+    local words = { normal = "normal", multiply = "multiply", dodge = "color-dodge",
+      burn = "color-burn", hard_light = "hard-light", soft_light = "soft-light-photoshop",
+      soft_light_svg = "soft-light", diff = "difference", luminize = "luminosity",
+      add = "linear-dodge", linear_dodge = "linear-dodge", hard_mix = "hard-mix" }
+    for word, name in pairs(words) do
+      local tree = read(paintings.krita { w = 12, h = 10, layers = { layer_of { blend = word } } })
+      assert.are.equal(name, tree[1].blend)
+      assert.are.equal(word == "hard_mix" and 1 or 0, #tree.skipped)
     end
   end)
 

@@ -296,11 +296,34 @@ describe("a filtered part", function()
   end)
 end)
 
+describe("a shape that is dilated", function()
+  it("has an outline of the radii", function()
+    local WIDE = 'x="-1" y="-1" width="3" height="3"'
+    local art = filtered('<feMorphology in="SourceAlpha" operator="dilate" radius="5 10"/>', WIDE)
+    assert.are.equal("", told(art))
+    for _, place in ipairs { { 16, 40, 255 }, { 63, 40, 255 }, { 13, 40, 0 }, { 66, 40, 0 },
+                             { 40, 12, 255 }, { 40, 67, 255 }, { 40, 8, 0 }, { 40, 71, 0 } } do
+      local found = at(art, place[1], place[2])
+      assert_near({ 0, 0, 0, place[3] }, found, 1, place[1] .. " " .. place[2])
+    end
+    -- an outline in a colour, as sticker lettering has it
+    art = filtered('<feMorphology in="SourceAlpha" operator="dilate" radius="5" result="wide"/>'
+      .. '<feFlood flood-color="#fff"/><feComposite in2="wide" operator="in"/>'
+      .. '<feMerge><feMergeNode/><feMergeNode in="SourceGraphic"/></feMerge>', WIDE)
+    assert_near({ 255, 255, 255, 255 }, at(art, 17, 40), 1)
+    assert_near({ 64, 192, 128, 255 }, at(art, 40, 40), 1)
+    assert.are.equal(0, at(filtered('<feMorphology in="SourceAlpha" operator="dilate" '
+      .. 'radius="-1"/>', WIDE), 17, 40)[4])
+  end)
+end)
+
 describe("what a filter cannot do", function()
   it("is named at its line, and the element is drawn as it is", function()
     for primitive, what in pairs {
       ["<feTurbulence/>"] = "feTurbulence",
-      ["<feMorphology radius='2'/>"] = "feMorphology",
+      ["<feMorphology radius='2'/>"] = "feMorphology that erodes",
+      ["<feMorphology radius='2' operator='dilate'/>"] =
+        "feMorphology of another input than SourceAlpha",
       ['<feGaussianBlur stdDeviation="1" edgeMode="wrap"/>'] = "feGaussianBlur with an edgeMode",
       ['<feOffset in="BackgroundImage"/>'] = "feOffset with such an input",
       ['<feComposite operator="arithmetic" k1="1"/>'] = "feComposite with such a k1",

@@ -423,7 +423,7 @@ local function psd_layer(layer, painting, records, data)
     channels[#channels + 1] = channel
   end
   local w, h = layer.w or 0, layer.h or 0
-  if layer.pixel then
+  if layer.pixel or painting.are_groups_full then
     add(-1, layer.alpha or psd_channel(layer, w, h, painting, function(x, y)
       return (select(4, layer.pixel(x, y)))
     end))
@@ -474,7 +474,8 @@ local function psd_resources(painting)
     .. ("\0"):rep(#profile % 2)
 end
 
---- mode: 3 RGB; merged: what follows the layers; large: a PSB, whose sizes have more bytes. Of a
+--- mode: 3 RGB; merged: what follows the layers; large: a PSB, whose sizes have more bytes;
+--- are_groups_full: groups have channels, too, without pixels, as Photoshop writes them. Of a
 --- layer: tags: blocks behind its record; ranges: the bytes of its blending ranges. Of a mask:
 --- flags, and more: what follows them.
 function paintings.psd(painting)

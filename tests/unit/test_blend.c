@@ -8,7 +8,7 @@
 #include "tests/support/random.h"
 
 #define PAIRS 10000
-#define MODES (CELSPAN_BLEND_ADD + 1)
+#define MODES (CELSPAN_BLEND_SOFT_LIGHT_PHOTOSHOP + 1)
 
 /* ---------------------------------------------------------------- formulas */
 
@@ -20,6 +20,10 @@ static double dodge(double b, double s) { return b <= 0 ? 0 : s >= 1 ? 1 : unit(
 static double soft(double b, double s) {
   double root = b > 0.25 ? sqrt(b) : 16 * b * b * b - 12 * b * b + 4 * b;
   return b + (2 * s - 1) * (s > 0.5 ? root - b : b - b * b);
+}
+
+static double soft_photoshop(double b, double s) {
+  return b + (2 * s - 1) * (s > 0.5 ? sqrt(b) - b : b - b * b);
 }
 
 static double hard(double b, double s) { return s > 0.5 ? 2 * (b + s - b * s) - 1 : 2 * b * s; }
@@ -48,6 +52,10 @@ static double channel(celspan_blend mode, double b, double s) {
     return b > s ? b - s : s - b;
   case CELSPAN_BLEND_EXCLUSION:
     return b * (1 - s) + s * (1 - b);
+  case CELSPAN_BLEND_LINEAR_DODGE:
+    return unit(b + s);
+  case CELSPAN_BLEND_SOFT_LIGHT_PHOTOSHOP:
+    return soft_photoshop(b, s);
   default:
     return s;
   }

@@ -4,7 +4,8 @@
  *     not separable      hue, saturation, color, luminosity: of the colour as a whole
  *
  * W3C Compositing and Blending Level 1, chapter 10. CELSPAN_BLEND_ADD has no such colour: it adds
- * what is premultiplied (engine/compose/over.h).
+ * what is premultiplied (engine/compose/over.h). The two modes after it are those of painting
+ * programs, and separable.
  *
  * Colours are not premultiplied, and in 0..1. Lane 3 has no meaning. Every operation is exact IEEE
  * arithmetic, so the bits do not depend on the instruction set.
@@ -16,6 +17,8 @@
 
 #include "base/vector.h"
 #include "celspan/celspan.h"
+
+#define CS_BLEND_COUNT (CELSPAN_BLEND_SOFT_LIGHT_PHOTOSHOP + 1)
 
 /* Added to a mode: the source shows only as far as its backdrop is there, whose alpha it leaves; so
  * a mode of this kind is never CELSPAN_BLEND_NORMAL. What "add" gives is then clamped to 1. */
@@ -48,6 +51,10 @@ static inline float cs_blend_softlight(float b, float s) {
   return b + (2 * s - 1) * (d - b);
 }
 
+static inline float cs_blend_softlight_photoshop(float b, float s) {
+  return s <= 0.5f ? cs_blend_softlight(b, s) : b + (2 * s - 1) * (sqrtf(b) - b);
+}
+
 static inline float cs_blend_channel(celspan_blend mode, float b, float s) {
   switch (mode) {
   case CELSPAN_BLEND_OVERLAY:
@@ -58,6 +65,8 @@ static inline float cs_blend_channel(celspan_blend mode, float b, float s) {
     return cs_blend_burn(b, s);
   case CELSPAN_BLEND_HARD_LIGHT:
     return cs_blend_hard(b, s);
+  case CELSPAN_BLEND_SOFT_LIGHT_PHOTOSHOP:
+    return cs_blend_softlight_photoshop(b, s);
   default:
     return cs_blend_softlight(b, s);
   }
@@ -120,6 +129,7 @@ static inline cs_v4 cs_blend_colour(celspan_blend mode, cs_v4 b, cs_v4 s) {
   case CELSPAN_BLEND_NORMAL:
     return s;
   case CELSPAN_BLEND_ADD:
+  case CELSPAN_BLEND_LINEAR_DODGE:
     return cs_v4_min(b + s, cs_v4_all(1));
   case CELSPAN_BLEND_MULTIPLY:
     return b * s;

@@ -7,8 +7,18 @@
 
 #include "model/colour/transfer.h"
 
-/* One premultiplied linear colour as a pixel, red in the lowest byte. */
-static inline uint32_t cs_srgb8_pixel(const float rgba[4]) {
+/* A number from 0 to 1 as one of 0 to 255, rounded half up: the product is exact. NaN becomes 0. */
+static inline uint32_t cs_srgb8_byte(float x) {
+  return !(x > 0) ? 0 : x >= 1 ? 255 : (uint32_t)((double)x * 255 + 0.5);
+}
+
+static inline uint32_t cs_srgb8_channel(float x, bool is_coded) {
+  return is_coded ? cs_srgb8_byte(x) : cs_transfer_srgb8(x);
+}
+
+/* One premultiplied colour as a pixel, red in the lowest byte. is_coded: its numbers are codes, and
+ * linear otherwise. */
+static inline uint32_t cs_srgb8_pixel_of(const float rgba[4], bool is_coded) {
   float r = rgba[0], g = rgba[1], b = rgba[2], alpha = rgba[3];
   if (!(alpha > 0))
     return 0;
@@ -17,10 +27,12 @@ static inline uint32_t cs_srgb8_pixel(const float rgba[4]) {
     g /= alpha;
     b /= alpha;
   }
-  /* Round half up; the product is exact. */
-  uint32_t a = alpha >= 1 ? 255 : (uint32_t)((double)alpha * 255 + 0.5);
-  return cs_transfer_srgb8(r) | (uint32_t)cs_transfer_srgb8(g) << 8 |
-         (uint32_t)cs_transfer_srgb8(b) << 16 | a << 24;
+  return cs_srgb8_channel(r, is_coded) | cs_srgb8_channel(g, is_coded) << 8 |
+         cs_srgb8_channel(b, is_coded) << 16 | cs_srgb8_byte(alpha) << 24;
+}
+
+static inline uint32_t cs_srgb8_pixel(const float rgba[4]) {
+  return cs_srgb8_pixel_of(rgba, false);
 }
 
 /* The light of every code. */

@@ -1,7 +1,8 @@
 /* 8-bit sRGB of as many pixels as a register holds, each as red, green, blue and alpha: for kernels
  * (base/wide.h), which write them to their places.
  *
- * Invariant: a pixel is cs_srgb8_pixel of its colour, whichever instructions made it.
+ * Invariant: a pixel is cs_srgb8_pixel_of its colour, whichever instructions made it. is_coded is a
+ * constant of each loop: numbers that are codes take the straight part of the curve alone.
  */
 #pragma once
 
@@ -156,34 +157,41 @@ static inline void cs_srgb8_store(unsigned char *out, cs_wide_int numbers) {
 }
 
 /* Codes again, exactly, the pixels that have an unsure lane (a set bit). */
-static inline void cs_srgb8_settle(cs_wide rgba, unsigned unsure, unsigned char *out) {
+static inline void cs_srgb8_settle(cs_wide rgba, bool is_coded, unsigned unsure,
+                                   unsigned char *out) {
   float colours[CS_WIDE_LANES];
   cs_wide_store(colours, rgba);
   for (int k = 0; k < CS_SRGB8_PIXELS; k++, unsure >>= 4) {
-    uint32_t pixel = cs_srgb8_pixel(colours + 4 * k);
+    uint32_t pixel = cs_srgb8_pixel_of(colours + 4 * k, is_coded);
     if (unsure & 15)
       memcpy(out + 4 * k, &pixel, sizeof pixel);
   }
 }
 
-/* CS_SRGB8_PIXELS premultiplied linear colours as pixels. */
-static inline void cs_srgb8_lanes(cs_wide rgba, unsigned char *out) {
+/* 255 times the codes of colours between 0 and 1. */
+static inline cs_wide cs_srgb8_numbers(cs_wide straight, bool is_coded) {
   const cs_wide slope = CS_WIDE_PIXEL(255 * 12.92f, 255 * 12.92f, 255 * 12.92f, 255);
   const cs_wide knee = CS_WIDE_PIXEL(0.0031308f, 0.0031308f, 0.0031308f, 2);
+  return is_coded ? straight * 255 : cs_srgb8_coded(straight, slope, knee);
+}
+
+/* CS_SRGB8_PIXELS premultiplied colours as pixels. */
+static inline void cs_srgb8_lanes(cs_wide rgba, bool is_coded, unsigned char *out) {
   const cs_wide_int none = {0};
   cs_wide_int doubt = {0};
-  cs_srgb8_store(out, cs_srgb8_round(cs_srgb8_coded(cs_srgb8_straight(rgba), slope, knee), &doubt));
+  cs_wide numbers = cs_srgb8_numbers(cs_srgb8_straight(rgba), is_coded);
+  cs_srgb8_store(out, cs_srgb8_round(numbers, &doubt));
   unsigned unsure = cs_srgb8_differ(doubt, none);
   if (__builtin_expect(unsure != 0, 0))
-    cs_srgb8_settle(rgba, unsure, out);
+    cs_srgb8_settle(rgba, is_coded, unsure, out);
 }
 
 #else
 
-static inline void cs_srgb8_lanes(cs_wide rgba, unsigned char *out) {
+static inline void cs_srgb8_lanes(cs_wide rgba, bool is_coded, unsigned char *out) {
   float colour[4];
   cs_wide_store(colour, rgba);
-  uint32_t pixel = cs_srgb8_pixel(colour);
+  uint32_t pixel = cs_srgb8_pixel_of(colour, is_coded);
   memcpy(out, &pixel, sizeof pixel);
 }
 
@@ -203,19 +211,19 @@ typedef struct cs_srgb8_planes {
 } cs_srgb8_planes;
 
 /* Codes again, exactly, the pixels that have an unsure lane (a set bit). */
-static inline cs_wide_int cs_srgb8_settle_planes(const cs_srgb8_planes *colours, unsigned unsure,
-                                                 cs_wide_int pixels) {
+static inline cs_wide_int cs_srgb8_settle_planes(const cs_srgb8_planes *colours, bool is_coded,
+                                                 unsigned unsure, cs_wide_int pixels) {
   for (int k = 0; k < CS_WIDE_LANES; k++, unsure >>= 1) {
     const float rgba[4] = {colours->channels[0][k], colours->channels[1][k],
                            colours->channels[2][k], colours->channels[3][k]};
     if (unsure & 1)
-      pixels[k] = (int32_t)cs_srgb8_pixel(rgba);
+      pixels[k] = (int32_t)cs_srgb8_pixel_of(rgba, is_coded);
   }
   return pixels;
 }
 
 /* One pixel a lane. If all alpha is 1, the usual case, there is no division. */
-static inline cs_wide_int cs_srgb8_code_planes(const cs_srgb8_planes *colours) {
+static inline cs_wide_int cs_srgb8_code_planes(const cs_srgb8_planes *colours, bool is_coded) {
   const cs_wide one = cs_wide_all(1), slope = cs_wide_all(255 * 12.92f);
   const cs_wide knee = cs_wide_all(0.0031308f);
   const cs_wide_int none = {0};
@@ -230,11 +238,13 @@ static inline cs_wide_int cs_srgb8_code_planes(const cs_srgb8_planes *colours) {
     cs_wide v = colours->channels[c];
     if (divides)
       v = cs_wide_choose(is_seen, v / alpha, (cs_wide){0});
-    pixels = pixels << 8 | cs_srgb8_round(cs_srgb8_coded(cs_srgb8_clamped(v), slope, knee), &doubt);
+    v = cs_srgb8_clamped(v);
+    v = is_coded ? v * 255 : cs_srgb8_coded(v, slope, knee);
+    pixels = pixels << 8 | cs_srgb8_round(v, &doubt);
   }
   unsigned unsure = cs_srgb8_differ(doubt, none);
   if (__builtin_expect(unsure != 0, 0))
-    pixels = cs_srgb8_settle_planes(colours, unsure, pixels);
+    pixels = cs_srgb8_settle_planes(colours, is_coded, unsure, pixels);
   return pixels;
 }
 
@@ -243,8 +253,14 @@ static inline cs_wide_int cs_srgb8_code_planes(const cs_srgb8_planes *colours) {
 /* ---------------------------------------------------------------- arrays, for any code */
 
 CS_WIDE_DECLARE(void, cs_srgb8_code, (const float *rgba, size_t count, unsigned char *out));
+CS_WIDE_DECLARE(void, cs_srgb8_codes, (const float *rgba, size_t count, unsigned char *out));
 
-/* Codes `count` colours as pixels. */
+/* `count` colours as pixels. */
 typedef void (*cs_srgb8)(const float *rgba, size_t count, unsigned char *out);
 
+/* Of linear colours. */
 static inline cs_srgb8 cs_srgb8_choose(cs_isa isa) { return CS_WIDE_CHOOSE(isa, cs_srgb8_code); }
+/* Of colours whose numbers are codes. */
+static inline cs_srgb8 cs_srgb8_choose_codes(cs_isa isa) {
+  return CS_WIDE_CHOOSE(isa, cs_srgb8_codes);
+}

@@ -122,6 +122,9 @@ static celspan_status choose_coding(celspan_context *context, const char *path,
   if (format->is_multiplied)
     coding.alpha = CELSPAN_ALPHA_PREMULTIPLIED;
   sink->coding = cs_pixels_resolve(&coding, format->depth);
+  if (format->channels == 4 && sink->coding.alpha == CELSPAN_ALPHA_PREMULTIPLIED &&
+      sink->coding.transfer != CELSPAN_TRANSFER_LINEAR)
+    sink->coding.alpha = CS_ALPHA_CODED;
   sink->depth = sink->coding.depth;
   /* Ten bits are rounded here, directly from the floats that the curve gives. */
   sink->bits = format->is_film && !asked->depth ? 10 : 0;

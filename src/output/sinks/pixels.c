@@ -110,7 +110,8 @@ static bool is_in_codes(const celspan_coding *coding) {
 
 /* The colour the transfer curve is applied to. */
 void cs_pixels_encode(const celspan_coding *coding, const float rgba[4], float coded[4]) {
-  bool divide = coding->alpha == CELSPAN_ALPHA_STRAIGHT && rgba[3] != 1;
+  bool is_divided_first = coding->alpha == CS_ALPHA_CODED && rgba[3] > 0;
+  bool divide = (coding->alpha == CELSPAN_ALPHA_STRAIGHT || is_divided_first) && rgba[3] != 1;
   bool is_coded = is_in_codes(coding);
   memcpy(coded, rgba, 4 * sizeof *coded);
   if (!is_coded)
@@ -119,6 +120,8 @@ void cs_pixels_encode(const celspan_coding *coding, const float rgba[4], float c
     float value = !divide ? coded[c] : rgba[3] > 0 ? coded[c] / rgba[3] : 0;
     coded[c] = is_coded ? value : cs_transfer_encode(coding->transfer, value);
   }
+  for (int c = 0; is_divided_first && c < 3; c++)
+    coded[c] *= rgba[3];
 }
 
 /* ---------------------------------------------------------------- runs */
@@ -130,6 +133,12 @@ static void code_8_srgb_straight(const celspan_coding *coding, const float *rgba
                                  unsigned char *out) {
   (void)coding;
   cs_srgb8_choose(cs_isa_best())(rgba, count, out);
+}
+
+static void code_8_codes_straight(const celspan_coding *coding, const float *rgba, size_t count,
+                                  unsigned char *out) {
+  (void)coding;
+  cs_srgb8_choose_codes(cs_isa_best())(rgba, count, out);
 }
 
 /* Light that is not divided by alpha is coded as if it were opaque. */
@@ -192,6 +201,15 @@ static void code_float(const celspan_coding *coding, const float *rgba, size_t c
   }
 }
 
+static coder choose_coder_8(const celspan_coding *coding) {
+  if (cs_pixels_takes_codes(coding))
+    return is_in_codes(coding) ? code_8_codes_straight : code_8_srgb_straight;
+  bool is_usual = coding->transfer == CELSPAN_TRANSFER_SRGB &&
+                  coding->space != CELSPAN_SPACE_SRGB &&
+                  coding->alpha == CELSPAN_ALPHA_PREMULTIPLIED;
+  return is_usual ? code_8_srgb_premultiplied : code_8;
+}
+
 static coder choose_coder(const celspan_coding *coding) {
   switch (coding->depth) {
   case CELSPAN_DEPTH_16:
@@ -201,9 +219,7 @@ static coder choose_coder(const celspan_coding *coding) {
   case CELSPAN_DEPTH_FLOAT:
     return code_float;
   default:
-    return coding->transfer != CELSPAN_TRANSFER_SRGB || coding->space == CELSPAN_SPACE_SRGB ? code_8
-           : coding->alpha == CELSPAN_ALPHA_STRAIGHT ? code_8_srgb_straight
-                                                     : code_8_srgb_premultiplied;
+    return choose_coder_8(coding);
   }
 }
 
@@ -281,10 +297,12 @@ void cs_pixels_row(const celspan_coding *coding, const celspan_span *spans, size
                    void *row) {
   if (span_count == 0)
     return;
-  if (cs_pixels_takes_codes(coding) && coding->space != CELSPAN_SPACE_SRGB)
-    CS_WIDE_CHOOSE(cs_isa_best(), cs_pixels8_row)(spans, span_count, row);
-  else
+  if (!cs_pixels_takes_codes(coding))
     code_spans(coding, spans, span_count, row);
+  else if (is_in_codes(coding))
+    CS_WIDE_CHOOSE(cs_isa_best(), cs_pixels8_codes)(spans, span_count, row);
+  else
+    CS_WIDE_CHOOSE(cs_isa_best(), cs_pixels8_row)(spans, span_count, row);
 }
 
 /* ---------------------------------------------------------------- single colours */

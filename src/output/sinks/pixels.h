@@ -20,6 +20,11 @@
  * coding. Errors: BAD_ARGUMENT. */
 CELSPAN_CHECKED celspan_status cs_pixels_check(celspan_context *context,
                                                const celspan_coding *coding);
+/* An alpha of codings inside: the colour of the light, divided by alpha, is coded, and the code is
+ * multiplied by alpha. Readers of files that hold alpha take it so. Where alpha is 0 the light is
+ * coded as if it were opaque. */
+#define CS_ALPHA_CODED ((celspan_alpha)(CELSPAN_ALPHA_PREMULTIPLIED + 1))
+
 /* The coding with every default filled in, for integers and floats alike. 8_DITHER becomes 8: the
  * rest is done by output/sinks/dither.h. */
 celspan_coding cs_pixels_resolve(const celspan_coding *coding, celspan_depth default_depth);

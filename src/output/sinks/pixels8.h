@@ -6,8 +6,11 @@
 #include "base/wide.h"
 #include "celspan/celspan.h"
 
-/* The spans, one at least, cover [0, width) without gap. */
+/* The spans, one at least, cover [0, width) without gap. Their numbers are linear. */
 CS_WIDE_DECLARE(void, cs_pixels8_row,
+                (const celspan_span *spans, size_t count, unsigned char *row));
+/* The same where the numbers of spans are codes. */
+CS_WIDE_DECLARE(void, cs_pixels8_codes,
                 (const celspan_span *spans, size_t count, unsigned char *row));
 
 /* Runs of one pixel, filled in chunks of 64 bytes: for kernels (base/wide.h).

@@ -59,12 +59,13 @@ static inline cs_wide load_colours(const celspan_span *const spans[CS_SRGB8_PIXE
 }
 
 /* codes: of a portion. Entries of spans that are not single have no meaning. */
-static inline void code_colours(const celspan_span *spans, size_t count, uint32_t *codes) {
+static inline void code_colours(const celspan_span *spans, size_t count, bool is_coded,
+                                uint32_t *codes) {
   for (size_t k = 0; k < count; k += CS_SRGB8_PIXELS) {
     const celspan_span *together[CS_SRGB8_PIXELS];
     for (size_t i = 0; i < CS_SRGB8_PIXELS; i++)
       together[i] = &spans[k + i < count ? k + i : k];
-    cs_srgb8_lanes(load_colours(together), (unsigned char *)(codes + k));
+    cs_srgb8_lanes(load_colours(together), is_coded, (unsigned char *)(codes + k));
   }
 }
 
@@ -184,13 +185,14 @@ static inline cs_wide pixel_numbers(void) {
 }
 
 /* room: bytes up to the end of the row, which may be written. */
-static inline void put_short_gradient(const celspan_span *span, unsigned char *out, size_t room) {
+static inline void put_short_gradient(const celspan_span *span, bool is_coded, unsigned char *out,
+                                      size_t room) {
   const cs_wide colour = repeat_pixel(span->colour), slope = repeat_pixel(span->slope);
   const cs_wide numbers = pixel_numbers();
   unsigned char last[CS_WIDE_LANES];
   for (int32_t x = span->x0; x < span->x1; x += CS_SRGB8_PIXELS) {
     cs_wide rgba = colour + slope * (numbers + (float)(x - span->origin));
-    cs_srgb8_lanes(rgba, room >= sizeof last ? out : last);
+    cs_srgb8_lanes(rgba, is_coded, room >= sizeof last ? out : last);
     if (room < sizeof last) {
       memcpy(out, last, room);
       return;
@@ -203,10 +205,11 @@ static inline void put_short_gradient(const celspan_span *span, unsigned char *o
 #ifdef __AVX512F__
 
 /* Sixteen pixels at once, channel by channel. */
-static inline void put_gradient(const celspan_span *span, unsigned char *out, size_t room) {
+static inline void put_gradient(const celspan_span *span, bool is_coded, unsigned char *out,
+                                size_t room) {
   const __m512 numbers = _mm512_setr_ps(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   if (span->x1 - span->x0 <= CS_WIDE_LANES / 2) {
-    put_short_gradient(span, out, room);
+    put_short_gradient(span, is_coded, out, room);
     return;
   }
   for (int32_t x = span->x0; x < span->x1; x += CS_WIDE_LANES, out += 4 * CS_WIDE_LANES) {
@@ -215,63 +218,75 @@ static inline void put_gradient(const celspan_span *span, unsigned char *out, si
     for (int c = 0; c < 4; c++)
       colours.channels[c] = span->colour[c] + span->slope[c] * at;
     __mmask16 inside = (__mmask16)(0xffff >> (span->x1 - x < 16 ? 16 - (span->x1 - x) : 0));
-    _mm512_mask_storeu_epi32(out, inside, (__m512i)cs_srgb8_code_planes(&colours));
+    _mm512_mask_storeu_epi32(out, inside, (__m512i)cs_srgb8_code_planes(&colours, is_coded));
   }
 }
 
 #else
 
-static inline void put_gradient(const celspan_span *span, unsigned char *out, size_t room) {
-  put_short_gradient(span, out, room);
+static inline void put_gradient(const celspan_span *span, bool is_coded, unsigned char *out,
+                                size_t room) {
+  put_short_gradient(span, is_coded, out, room);
 }
 
 #endif
 
-static void put_varied(const target *row, const celspan_span *span) {
+static inline void put_varied(const target *row, bool is_coded, const celspan_span *span) {
   size_t at = 4 * (size_t)span->x0, count = (size_t)(span->x1 - span->x0);
   if (span->kind == CELSPAN_SPAN_GRADIENT)
-    put_gradient(span, row->pixels + at, row->size - at);
+    put_gradient(span, is_coded, row->pixels + at, row->size - at);
   else if (span->codes)
     memcpy(row->pixels + at, span->codes, 4 * count);
+  else if (is_coded)
+    CS_WIDE(cs_srgb8_codes)(span->array, count, row->pixels + at);
   else
     CS_WIDE(cs_srgb8_code)(span->array, count, row->pixels + at);
 }
 
 /* ---------------------------------------------------------------- rows */
 
-static inline void put_heads(const target *row, const celspan_span *spans, size_t count,
-                             const uint32_t *codes) {
+static inline void put_heads(const target *row, bool is_coded, const celspan_span *spans,
+                             size_t count, const uint32_t *codes) {
   for (size_t k = 0; k < count; k++)
     if (spans[k].kind == CELSPAN_SPAN_SINGLE)
       cs_fill_store(row->pixels + 4 * (size_t)spans[k].x0, all_of(codes[k]));
     else
-      put_varied(row, &spans[k]);
+      put_varied(row, is_coded, &spans[k]);
 }
 
 /* Spans so near the end of the row that nothing may be written beyond them. */
-static inline void put_last(const target *row, const celspan_span *spans, size_t count,
-                            const uint32_t *codes) {
+static inline void put_last(const target *row, bool is_coded, const celspan_span *spans,
+                            size_t count, const uint32_t *codes) {
   for (size_t k = 0; k < count; k++)
     if (spans[k].kind == CELSPAN_SPAN_SINGLE)
       cs_fill_exactly(row->pixels + 4 * (size_t)spans[k].x0, row->pixels + 4 * (size_t)spans[k].x1,
                       all_of(codes[k]), row->phase);
     else
-      put_varied(row, &spans[k]);
+      put_varied(row, is_coded, &spans[k]);
 }
 
-void CS_WIDE(cs_pixels8_row)(const celspan_span *spans, size_t count, unsigned char *pixels) {
+static inline void put_row(const celspan_span *spans, size_t count, bool is_coded,
+                           unsigned char *pixels) {
   const target row = {pixels, 4 * (size_t)spans[count - 1].x1, (uintptr_t)pixels % 4};
   uint32_t codes[PORTION];
   for (size_t portion; count > 0; count -= portion, spans += portion) {
     portion = count < PORTION ? count : PORTION;
-    code_colours(spans, portion, codes);
+    code_colours(spans, portion, is_coded, codes);
     size_t inner = portion;
     while (inner > 0 && 4 * (size_t)spans[inner - 1].x1 + CS_FILL_CHUNK > row.size)
       inner--;
     fill_lines(&row, spans, inner, codes);
-    put_heads(&row, spans, inner, codes);
-    put_last(&row, spans + inner, portion - inner, codes + inner);
+    put_heads(&row, is_coded, spans, inner, codes);
+    put_last(&row, is_coded, spans + inner, portion - inner, codes + inner);
   }
+}
+
+void CS_WIDE(cs_pixels8_row)(const celspan_span *spans, size_t count, unsigned char *row) {
+  put_row(spans, count, false, row);
+}
+
+void CS_WIDE(cs_pixels8_codes)(const celspan_span *spans, size_t count, unsigned char *row) {
+  put_row(spans, count, true, row);
 }
 
 void CS_WIDE(cs_fill_run)(unsigned char *out, size_t size, const unsigned char *pixel,

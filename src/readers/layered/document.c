@@ -63,15 +63,17 @@ celspan_status cs_document_size(cs_document *document, const char *width, const 
 }
 
 void cs_document_blend(const char *file, char out[32]) {
-  static const char *const words[][2] = {{"src-over", "normal"},
-                                         {"plus", "add"},
-                                         {"linear_dodge", "add"},
-                                         {"dodge", "color-dodge"},
-                                         {"burn", "color-burn"}};
+  /* "plus" is OpenRaster's, which adds what is premultiplied; the others are Krita's. */
+  static const char *const words[][2] = {
+      {"src-over", "normal"},          {"plus", "add"},
+      {"add", "linear-dodge"},         {"dodge", "color-dodge"},
+      {"burn", "color-burn"},          {"diff", "difference"},
+      {"luminize", "luminosity"},      {"soft_light", "soft-light-photoshop"},
+      {"soft_light_svg", "soft-light"}};
   const char *colon = strchr(file, ':');
-  const char *word = colon ? colon + 1 : file;
+  const char *given = colon ? colon + 1 : file, *word = given;
   for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-    if (strcmp(words[i][0], word) == 0)
+    if (strcmp(words[i][0], given) == 0)
       word = words[i][1];
   snprintf(out, 32, "%s", word);
   for (char *at = out; *at; at++)

@@ -213,15 +213,15 @@ void cs_psd_record_read(cs_cursor *cursor, bool is_large, cs_psd_record *out) {
 
 void cs_psd_record_blend(const char key[5], char out[32]) {
   static const char *const words[][2] = {
-      {"norm", "normal"},      {"pass", "pass-through"},  {"mul ", "multiply"},
-      {"lddg", "add"},         {"scrn", "screen"},        {"over", "overlay"},
-      {"dark", "darken"},      {"lite", "lighten"},       {"diss", "dissolve"},
-      {"idiv", "color-burn"},  {"lbrn", "linear-burn"},   {"dkCl", "darker-color"},
-      {"div ", "color-dodge"}, {"lgCl", "lighter-color"}, {"sLit", "soft-light"},
-      {"hLit", "hard-light"},  {"vLit", "vivid-light"},   {"lLit", "linear-light"},
-      {"pLit", "pin-light"},   {"hMix", "hard-mix"},      {"diff", "difference"},
-      {"smud", "exclusion"},   {"fsub", "subtract"},      {"fdiv", "divide"},
-      {"hue ", "hue"},         {"sat ", "saturation"},    {"colr", "color"},
+      {"norm", "normal"},       {"pass", "pass-through"},  {"mul ", "multiply"},
+      {"lddg", "linear-dodge"}, {"scrn", "screen"},        {"over", "overlay"},
+      {"dark", "darken"},       {"lite", "lighten"},       {"diss", "dissolve"},
+      {"idiv", "color-burn"},   {"lbrn", "linear-burn"},   {"dkCl", "darker-color"},
+      {"div ", "color-dodge"},  {"lgCl", "lighter-color"}, {"sLit", "soft-light-photoshop"},
+      {"hLit", "hard-light"},   {"vLit", "vivid-light"},   {"lLit", "linear-light"},
+      {"pLit", "pin-light"},    {"hMix", "hard-mix"},      {"diff", "difference"},
+      {"smud", "exclusion"},    {"fsub", "subtract"},      {"fdiv", "divide"},
+      {"hue ", "hue"},          {"sat ", "saturation"},    {"colr", "color"},
       {"lum ", "luminosity"}};
   for (size_t i = 0; i < sizeof words / sizeof *words; i++)
     if (memcmp(words[i][0], key, 4) == 0) {

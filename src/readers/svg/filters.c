@@ -180,6 +180,24 @@ static celspan_status read_blur(filter *f) {
   return take_input(f, f->node, CS_SVG_IN);
 }
 
+/* The greatest of the pixels around is an outline where all are of one colour, with round corners
+ * instead of those of the rectangle of pixels. */
+static celspan_status read_morphology(filter *f) {
+  const char *word = cs_svg_node_value(f->node, CS_SVG_OPERATOR);
+  double values[2] = {0, 0};
+  size_t count = cs_svg_filter_numbers(f->node, CS_SVG_RADIUS, values, 2);
+  if (count == 1)
+    values[1] = values[0];
+  f->step.kind = CS_SVG_STEP_GROW;
+  f->step.radius = scaled(f, fmax(0, values[0]), fmax(0, values[1]));
+  CS_TRY(take_input(f, f->node, CS_SVG_IN));
+  if (!word || !cs_svg_is_word(word, "dilate"))
+    f->reason = "that erodes";
+  else if (f->recipe->inputs[f->step.first_input] != 1)
+    f->reason = "of another input than SourceAlpha";
+  return CELSPAN_OK;
+}
+
 static celspan_status read_flood(filter *f) {
   f->step.kind = CS_SVG_STEP_FLOOD;
   f->step.paint = cs_svg_paint_of(f->reading, &f->style.flood_colour, 1);
@@ -311,6 +329,7 @@ static step_reader *reader_of(cs_svg_element element) {
                  {CS_SVG_ELEMENT_FE_GAUSSIAN_BLUR, read_blur},
                  {CS_SVG_ELEMENT_FE_IMAGE, read_image},
                  {CS_SVG_ELEMENT_FE_MERGE, read_merge},
+                 {CS_SVG_ELEMENT_FE_MORPHOLOGY, read_morphology},
                  {CS_SVG_ELEMENT_FE_OFFSET, read_offset},
                  {CS_SVG_ELEMENT_FE_TILE, read_tile}};
   for (size_t i = 0; i < sizeof readers / sizeof *readers; i++)

@@ -104,6 +104,7 @@ static const cs_svg_name_facts names[CS_SVG_NAME_COUNT] = {
     {"preserveAspectRatio", ATTRIBUTE, FORM(ASPECT), NULL, NULL},
     {"primitiveUnits", ATTRIBUTE, FORM(WORD), "userSpaceOnUse|objectBoundingBox", NULL},
     {"r", GEOMETRY, FORM(LENGTH), NULL, NULL},
+    {"radius", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"refX", ATTRIBUTE, FORM(LENGTH), "left|center|right", NULL},
     {"refY", ATTRIBUTE, FORM(LENGTH), "top|center|bottom", NULL},
     {"requiredExtensions", ATTRIBUTE, FORM(ANY), NULL, NULL},

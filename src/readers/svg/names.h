@@ -18,8 +18,8 @@
       ELEMENT(FE_FUNC_A, "feFuncA"), ELEMENT(FE_FUNC_B, "feFuncB"), ELEMENT(FE_FUNC_G, "feFuncG"), \
       ELEMENT(FE_FUNC_R, "feFuncR"), ELEMENT(FE_GAUSSIAN_BLUR, "feGaussianBlur"),                  \
       ELEMENT(FE_IMAGE, "feImage"), ELEMENT(FE_MERGE, "feMerge"),                                  \
-      ELEMENT(FE_MERGE_NODE, "feMergeNode"), ELEMENT(FE_OFFSET, "feOffset"),                       \
-      ELEMENT(FE_TILE, "feTile"), ELEMENT(FILTER, "filter"),                                       \
+      ELEMENT(FE_MERGE_NODE, "feMergeNode"), ELEMENT(FE_MORPHOLOGY, "feMorphology"),               \
+      ELEMENT(FE_OFFSET, "feOffset"), ELEMENT(FE_TILE, "feTile"), ELEMENT(FILTER, "filter"),       \
       ELEMENT(FOREIGN_OBJECT, "foreignObject"), ELEMENT(G, "g"), ELEMENT(IMAGE, "image"),          \
       ELEMENT(LINE, "line"), ELEMENT(LINEAR_GRADIENT, "linearGradient"),                           \
       ELEMENT(MARKER, "marker"), ELEMENT(MASK, "mask"), ELEMENT(METADATA, "metadata"),             \
@@ -117,6 +117,7 @@ typedef enum cs_svg_name {
   CS_SVG_PRESERVE_ASPECT_RATIO,
   CS_SVG_PRIMITIVE_UNITS,
   CS_SVG_R,
+  CS_SVG_RADIUS,
   CS_SVG_REF_X,
   CS_SVG_REF_Y,
   CS_SVG_REQUIRED_EXTENSIONS,

@@ -292,12 +292,15 @@ static celspan_status make_offset(const applying *a, celspan_object **out) {
   return move(a, out);
 }
 
-/* Blurs *object by one radius along both axes, between two stretches along one of them. */
-static celspan_status blur(const applying *a, celspan_object **object) {
+/* What is made of an object by one radius, where another is wanted along each axis: between two
+ * stretches along y. */
+typedef celspan_status round_effect(const applying *a, double radius, celspan_object *object,
+                                    celspan_object **out);
+
+static celspan_status spread(const applying *a, round_effect *effect, celspan_object **object) {
   double most = fmax(a->step->radius.x, a->step->radius.y);
-  double stretch =
-      fmax(a->step->radius.y, LEAST_RADIUS * most) / fmax(a->step->radius.x, LEAST_RADIUS * most);
-  celspan_blur_desc desc = CELSPAN_BLUR_DESC;
+  double x = fmax(a->step->radius.x, LEAST_RADIUS * most);
+  double stretch = fmax(a->step->radius.y, LEAST_RADIUS * most) / x;
   celspan_object *made = NULL;
   if (!*object || !(most > 0))
     return CELSPAN_OK;
@@ -305,12 +308,34 @@ static celspan_status blur(const applying *a, celspan_object **object) {
                        back = celspan_matrix_scaling(1, stretch);
   if (stretch != 1)
     CS_TRY(transform(a, &forth, object));
-  desc.radius = fmin(fmax(a->step->radius.x, LEAST_RADIUS * most), CELSPAN_BLUR_MOST);
-  celspan_status status = celspan_object_blur(a->context, *object, &desc, &made);
+  celspan_status status = effect(a, fmin(x, CELSPAN_BLUR_MOST), *object, &made);
   CS_TRY(replace(status, made, object));
   if (stretch != 1)
     CS_TRY(transform(a, &back, object));
   return convert(a, a->step->space, object);
+}
+
+static celspan_status blur_round(const applying *a, double radius, celspan_object *object,
+                                 celspan_object **out) {
+  celspan_blur_desc desc = CELSPAN_BLUR_DESC;
+  desc.radius = radius;
+  return celspan_object_blur(a->context, object, &desc, out);
+}
+
+static celspan_status grow_round(const applying *a, double radius, celspan_object *object,
+                                 celspan_object **out) {
+  celspan_outline_desc desc = CELSPAN_OUTLINE_DESC;
+  desc.width = radius;
+  return celspan_object_outline(a->context, object, &desc, out);
+}
+
+static celspan_status blur(const applying *a, celspan_object **object) {
+  return spread(a, blur_round, object);
+}
+
+static celspan_status make_grow(const applying *a, celspan_object **out) {
+  *out = kept(input(a, 0));
+  return spread(a, grow_round, out);
 }
 
 static celspan_status make_blur(const applying *a, celspan_object **out) {
@@ -368,7 +393,7 @@ static step_maker *const makers[] = {
     [CS_SVG_STEP_LUMA] = make_luma,   [CS_SVG_STEP_OFFSET] = make_offset,
     [CS_SVG_STEP_BLUR] = make_blur,   [CS_SVG_STEP_SHADOW] = make_shadow,
     [CS_SVG_STEP_FLOOD] = make_flood, [CS_SVG_STEP_TILE] = make_tile,
-    [CS_SVG_STEP_IMAGE] = make_image};
+    [CS_SVG_STEP_IMAGE] = make_image, [CS_SVG_STEP_GROW] = make_grow};
 
 /* The element as the steps take it, and its silhouette. */
 static celspan_status make_sources(applying *a, celspan_object *object) {

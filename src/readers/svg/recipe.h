@@ -33,6 +33,7 @@ typedef enum cs_svg_step_kind {
   CS_SVG_STEP_LUMA,   /* black, as far as the input is light */
   CS_SVG_STEP_OFFSET,
   CS_SVG_STEP_BLUR,
+  CS_SVG_STEP_GROW,   /* the input, which is black, with an outline */
   CS_SVG_STEP_SHADOW, /* the input over its silhouette, blurred and moved */
   CS_SVG_STEP_FLOOD,
   CS_SVG_STEP_TILE, /* a part of the input, repeated */
@@ -49,7 +50,7 @@ typedef struct cs_svg_step {
   celspan_grade *grade;   /* COLOUR; owned; NULL: none */
   double opacity;         /* COLOUR */
   celspan_point offset;   /* OFFSET, SHADOW */
-  celspan_point radius;   /* BLUR, SHADOW: along x and y */
+  celspan_point radius;   /* BLUR, SHADOW, GROW: along x and y */
   celspan_paint paint;    /* FLOOD, SHADOW */
   celspan_box tile;       /* TILE */
   celspan_object *object; /* IMAGE; owned; NULL: nothing */
