@@ -10,7 +10,7 @@
 ---@alias celspan.shape celspan.object|celspan.rostrum A part of a cel or a boolean: an object, or a rostrum with a size
 ---@alias celspan.point number[] {x, y}
 ---@alias celspan.rule "nonzero"|"evenodd" How self-crossing outlines are filled
----@alias celspan.mode "normal"|"multiply"|"screen"|"overlay"|"darken"|"lighten"|"color-dodge"|"color-burn"|"hard-light"|"soft-light"|"difference"|"exclusion"|"hue"|"saturation"|"color"|"luminosity"|"add" How a source is combined with its backdrop
+---@alias celspan.mode "normal"|"multiply"|"screen"|"overlay"|"darken"|"lighten"|"color-dodge"|"color-burn"|"hard-light"|"soft-light"|"difference"|"exclusion"|"hue"|"saturation"|"color"|"luminosity"|"add"|"linear-dodge"|"soft-light-photoshop" How a source is combined with its backdrop
 ---@alias celspan.antialias "area"|"none"|celspan.filter The exact mean over each pixel, pixel centres, or a kernel
 ---@alias celspan.exposures celspan.rostrum|table[] A rostrum, or {{rostrum, weight}, ...}: light adds
 
@@ -56,6 +56,36 @@ function celspan.grid(list) end
 ---@return celspan.object
 function celspan.align(object, box, horizontal, vertical) end
 
+--- Scales an object until its bounds just lie in a box, and aligns it there.
+---@param object celspan.shape
+---@param box number[] {x, y, w, h}
+---@param horizontal? "left"|"centre"|"right" Default "centre"
+---@param vertical? "top"|"centre"|"bottom" Default "centre"
+---@param most? number The greatest factor; 1 only makes smaller. Default: none
+---@return celspan.object
+function celspan.fit(object, box, horizontal, vertical, most) end
+
+--- The object between two others. Outlines are matched by length and turning, parts by name and in
+--- order; at 0 and 1 it is the one and the other.
+---@param a celspan.object
+---@param b celspan.object
+---@param u number Limited to 0..1
+---@param options? { pairs?: table[] } Two places {{x, y}, {x, y}} or two names of parts each
+---@return celspan.object
+function celspan.morph(a, b, u, options) end
+
+--- A line with a texture along it and a width that changes: x of the texture goes from 0 to 1 along
+--- the line, y from -0.5 to 0.5 across it.
+---@param options { d: string|celspan.path, width?: number, profile?: "round"|"even"|"ink"|"chisel"|fun(t: number): number, nib?: number, texture?: celspan.surface, from?: number, to?: number, within?: number, pieces?: integer }
+---@return celspan.object
+function celspan.brush(options) end
+
+--- A number as it is written in a language: "48,250", "48.250", "48 250".
+---@param value number
+---@param options? { language?: string, decimals?: integer, group?: boolean } Default "en", 0, true
+---@return string
+function celspan.count(value, options) end
+
 --- The bounds of an object with a margin, as a box {x, y, w, h}.
 ---@param object celspan.shape
 ---@param margin? number|number[] On all sides, or {across, down}
@@ -63,10 +93,10 @@ function celspan.align(object, box, horizontal, vertical) end
 function celspan.around(object, margin) end
 
 --- A text whose letters, words or lines a function changes: it returns an object, or nil for
---- nothing.
+--- nothing. With `along`, path data or a path, the text runs along it; a letter then has `degrees`.
 ---@param text celspan.text.fields
----@param change fun(letter: celspan.letter, i: integer, n: integer): celspan.object?
----@param options? { by?: "letter"|"word"|"line" }
+---@param change? fun(letter: celspan.letter, i: integer, n: integer): celspan.object?
+---@param options? { by?: "letter"|"word"|"line", along?: string|celspan.shape, start?: number }
 ---@return celspan.object
 function celspan.letters(text, change, options) end
 
@@ -303,6 +333,13 @@ function placed:shadow(options) end
 ---@return T
 function placed:glow(options) end
 
+--- With its shape, grown by a width, behind it.
+---@generic T: celspan.placed
+---@param self T
+---@param options celspan.outline.options
+---@return T
+function placed:outline(options) end
+
 --- The smallest axis-aligned rectangle around it; returns nothing if there is nothing to paint.
 ---@return number? x, number? y, number? width, number? height
 function placed:bounds() end
@@ -359,6 +396,11 @@ function object:stroke(style) end
 ---@param options celspan.warp.options
 ---@return celspan.object
 function object:warp(options) end
+
+--- Lines that wobble, as if each drawing were traced again; what touches stays together.
+---@param options { amount: number, frame: integer, every?: integer, seed?: integer|string, grain?: number, within?: number, pieces?: integer }
+---@return celspan.object
+function object:boil(options) end
 
 --- Out of focus. The radius is in its units and follows its transforms.
 ---@param radius number
@@ -705,6 +747,7 @@ function celspan.group(fields) end
 ---@class celspan.blur.options
 ---@field radius number As of defocus, in the object's units; 0 to 1000000
 ---@field kernel? "gaussian"|"box"|"disc" Default "gaussian"
+---@field edge? "clear"|"extend" Beyond its bounds: nothing, or what lies on their edge; default "clear"
 
 --- What shadow an object has.
 ---@class celspan.shadow.options
@@ -720,6 +763,15 @@ function celspan.group(fields) end
 ---@field radius number As of a blur; 0 to 1000000
 ---@field colour celspan.surface
 ---@field gain? number What its light is multiplied by; 0 or more; default 1
+
+--- What outline an object has.
+---@class celspan.outline.options
+---@field width number How far it reaches beyond the shape; 0 to 1000000
+---@field texture? celspan.surface Default "#000000"
+---@field join? "miter"|"round"|"bevel" At the corners of shapes; default "round"
+---@field blur? number The radius that it is blurred by; 0 to 1000000; default 0
+---@field opacity? number Limited to 0..1; default 1
+---@field only? boolean Whether the object itself is left out; default false
 
 --- How a matte is used.
 ---@class celspan.matte.options
@@ -740,6 +792,7 @@ function celspan.matte(art, by, options) end
 ---@class celspan.defocus
 ---@field radius number Film units on the frame; 0 or more
 ---@field kernel? "gaussian"|"box"|"disc" Default "gaussian"
+---@field edge? "clear"|"extend" Beyond the frame: the art, or what lies on its edge; default "clear"
 
 --- Steps that change colours, in this order.
 ---@class celspan.grade

@@ -26,7 +26,7 @@ local child = puppet { art = assert(svg.read "drawings/child.svg"), bones = bone
 local walk = puppet.steps { stride = 128, period = 1, lift = 16, ground = 316, x = 146,
   share = 0.58 }
 
-local function bob(time) return 5 - 4 * math.cos(4 * math.pi * time) end
+local function bob(time) return 8 + 4 * math.cos(4 * math.pi * time - 0.6) end
 local tail = motion.spring(function(time) return -3 * bob(time) end, { frequency = 1.6,
   damping = 0.25 })
 local fringe = motion.spring(function(time) return tail:at(time) * 2 end, { frequency = 2.2,

@@ -44,7 +44,7 @@ local function read_joints(given, joints)
 end
 
 local known_bone = { "name", from = "string", to = "string", parent = "string", parts = "table",
-                     limits = "table" }
+                     limits = "table", apart = "boolean" }
 --- Fields of poses; no bone has one of these names.
 bones.reserved = { at = true, reach = true, over = true, under = true, front = true, back = true }
 
@@ -97,7 +97,9 @@ local function read_bone(rig, i, given)
   local low, high = read_limits(name, given.limits)
   local bone = { name = name, from = given.from, to = given.to, parent = given.parent,
     x = from[1], y = from[2], end_x = to[1], end_y = to[2], ux = dx / length, uy = dy / length,
-    length = length, low = low, high = high, parts = read_parts(rig, name, given.parts) }
+    length = length, low = low, high = high,
+    apart = given.apart, parts = read_parts(rig, name, given.parts),
+    is_bare = given.parts == nil and not rig.by_name[name] }
   rig.bones[name], rig.list[i] = bone, bone
 end
 
@@ -125,6 +127,26 @@ local function join_bones(rig)
   end
 end
 
+--- Refuses bones without a part whose name is misspelled, and those that move nothing.
+local function check_parts(rig)
+  local is_parent, names = {}, {}
+  for _, bone in ipairs(rig.list) do is_parent[bone.parent or false] = true end
+  for name in pairs(rig.by_name) do
+    if not rig.bones[name] then names[#names + 1] = name end
+  end
+  for _, bone in ipairs(rig.list) do
+    local hint = bone.is_bare and core.nearest(bone.name, names)
+    if hint then
+      refuse("bone '%s': the artwork has no part of this name; did you mean '%s'? Else give it "
+        .. "parts = {}", bone.name, hint)
+    end
+    if bone.is_bare and not is_parent[bone] then
+      refuse("bone '%s' moves nothing: the artwork has no part of this name, and no bone begins "
+        .. "at its end. parts = {} says that this is meant%s", bone.name, help(bone.name, names))
+    end
+  end
+end
+
 --- Orders the bones so that parents come first.
 local function order_bones(rig)
   local ordered, state = {}, {}
@@ -149,6 +171,7 @@ function bones.read(rig, joints, given)
   for i = 1, rawlen(given or {}) do read_bone(rig, i, given[i]) end
   if #rig.list == 0 then refuse "needs at least one bone { name, from = joint, to = joint }" end
   join_bones(rig)
+  check_parts(rig)
   order_bones(rig)
 end
 
@@ -175,7 +198,8 @@ function bones.read_turn(name, value)
   return value
 end
 
-local known_reach = { "x, y", bones = "number", pole = "table", stretch = "boolean" }
+local known_reach = { "x, y", bones = "number", pole = "table", stretch = "boolean",
+                      loose = "boolean" }
 
 --- A target of a pose.
 function bones.read_reach(rig, joint, given)

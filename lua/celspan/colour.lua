@@ -84,7 +84,7 @@ end
 
 local function check(noun, name, value)
   if not fields.is_finite(value) then
-    refuse("%s takes a %s, a finite number, got %s", noun, name, fields.shown(value))
+    refuse("%s: its %s must be a finite number, got %s", noun, name, fields.shown(value))
   end
   return value
 end

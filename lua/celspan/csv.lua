@@ -105,21 +105,37 @@ local function check_types(types, header)
   end
 end
 
-local function typed(text, kind, column, line)
+local function typed(text, kind, column, line, decimal)
   if kind == "string" then return text end
   if text:find "^%s*$" then return nil end
-  local value = readers[kind](trim(text))
+  local plain = trim(text)
+  if kind == "number" and decimal == "," then plain = plain:gsub("%.", "x"):gsub(",", ".", 1) end
+  local value = readers[kind](plain)
   if value == nil then
     fail(line, "column '%s' is '%s'; it must be %s", column, text, described[kind])
   end
   return value
 end
 
-local function make_row(record, header, types, line)
+--- The metatable of rows: a name that is not in the header is an error.
+local function row_class(header)
+  local names, is_named = {}, {}
+  for _, name in ipairs(header) do
+    if name ~= "" then names[#names + 1], is_named[name] = name, true end
+  end
+  return { __index = function(_, name)
+    if type(name) ~= "string" or is_named[name] then return nil end
+    local hint = core.nearest(name, names)
+    core.refuse(("csv: there is no column '%s'; %s"):format(name, hint
+      and ("did you mean '%s'?"):format(hint) or "there are " .. table.concat(names, ", ")))
+  end }
+end
+
+local function make_row(record, header, types, line, decimal)
   local row = {}
   for i, text in ipairs(record) do
     local name = header and header[i]
-    local value = typed(text, types[name] or types[i] or "string", name or i, line)
+    local value = typed(text, types[name] or types[i] or "string", name or i, line, decimal)
     row[i] = value
     if name and name ~= "" then row[name] = value end
   end
@@ -152,19 +168,26 @@ local function decode(text, options)
   local first, next_row = csv.rows(text, options.separator)
   local types, rows = options.types or {}, {}
   local header = options.header ~= false and first or nil
+  local class = header and row_class(header)
   if header then check_types(types, header) end
-  if not header and #first > 0 then rows[1] = make_row(first, nil, types, 1) end
-  for row, line in next_row do rows[#rows + 1] = make_row(row, header, types, line) end
+  if not header and #first > 0 then rows[1] = make_row(first, nil, types, 1, options.decimal) end
+  for row, line in next_row do
+    rows[#rows + 1] = setmetatable(make_row(row, header, types, line, options.decimal), class)
+  end
   return rows
 end
 
-local known = { header = "boolean", separator = "string", types = "table" }
+local known = { header = "boolean", separator = "string", types = "table", decimal = "string" }
 
 local function check_options(options)
   fields.check("csv", options, known)
   local separator = options.separator
   if separator and (#separator ~= 1 or separator:find '["\r\n]') then
     core.refuse("csv: field 'separator' must be one character, and no quote or end of a line")
+  end
+  local decimal = options.decimal
+  if decimal and decimal ~= "." and decimal ~= "," then
+    core.refuse(("csv: field 'decimal' must be \".\" or \",\", got %q"):format(decimal))
   end
   for column, kind in pairs(options.types or {}) do
     if not readers[kind] then
@@ -177,6 +200,7 @@ end
 ---@class celspan.csv.options
 ---@field header? boolean Whether the first row has the names of the columns; default true
 ---@field separator? string One character; default the first comma, semicolon or tab of the first line
+---@field decimal? "."|"," The decimal sign of numbers; default a point
 ---@field types? table<string|integer, "number"|"boolean"|"string"> By column; without a type a value is its text
 
 --- Reads a table from a text. An empty field with the type "number" or "boolean" is nil.

@@ -10,7 +10,7 @@ local pathdata = require "celspan.pathdata"
 
 local curves = {}
 
-local SHARES = 16
+local SHARES = 16 -- of a curve; a straight line is one
 local STEPS = 6 -- of Newton; each doubles the digits
 local nodes = { { 0, 128 / 225 }, { 0.5384693101056831, 0.47862867049936647 },
                 { -0.5384693101056831, 0.47862867049936647 },
@@ -31,9 +31,9 @@ local function length_between(at, from, to)
 end
 
 --- Appends a piece: a function of 0..1 that gives a point and its derivative.
-local function append(curve, at)
-  for i = 1, SHARES do
-    local from, to = (i - 1) / SHARES, i / SHARES
+local function append(curve, at, shares)
+  for i = 1, shares or SHARES do
+    local from, to = (i - 1) / (shares or SHARES), i / (shares or SHARES)
     local length = length_between(at, from, to)
     if length > 0 then
       curve[#curve + 1] = { at = at, from = from, to = to, start = curve.length, length = length }
@@ -46,13 +46,17 @@ end
 local Pen = {}
 Pen.__index = Pen
 
-function Pen.move() end
-
-function Pen:line(x, y)
-  local x0, y0 = self.x, self.y
-  local dx, dy = x - x0, y - y0
-  append(self.way, function(t) return x0 + t * dx, y0 + t * dy, dx, dy end)
+function Pen:move(x, y)
+  local way = self.way
+  if not way.x then way.x, way.y = x, y end
 end
+
+local function append_line(way, x0, y0, x, y)
+  local dx, dy = x - x0, y - y0
+  append(way, function(t) return x0 + t * dx, y0 + t * dy, dx, dy end, 1)
+end
+
+function Pen:line(x, y) append_line(self.way, self.x, self.y, x, y) end
 
 function Pen:curve(x1, y1, x2, y2, x3, y3)
   local x0, y0 = self.x, self.y
@@ -80,25 +84,43 @@ local function data_of(outline)
   return good and type(data) == "string" and data or nil
 end
 
---- The curve of path data or of a path (without its transforms). noun: for messages.
-function curves.read(noun, outline)
-  local data = data_of(outline)
-  if not data then
-    core.refuse(("%s: along must be path data or a path, got %s"):format(noun,
-      fields.kind(outline)))
+--- The curve of points that lines connect; x, y: the first.
+function curves.of_points(points)
+  local way = setmetatable({ length = 0, x = points[1][1], y = points[1][2] }, Curve)
+  for i = 2, #points do
+    append_line(way, points[i - 1][1], points[i - 1][2], points[i][1], points[i][2])
   end
+  return way
+end
+
+--- The curve of path data; nil and a message where that is damaged.
+function curves.of_data(data)
   local way = setmetatable({ length = 0 }, Curve)
-  local pen = setmetatable({ way = way }, Pen)
-  local done, message = pathdata.walk(data, pen)
-  if not done then core.refuse(("%s: along: %s"):format(noun, message)) end
-  if #way == 0 then core.refuse(noun .. ": along: the path has no length") end
+  local done, message = pathdata.walk(data, setmetatable({ way = way }, Pen))
+  if not done then return nil, message end
   way.is_closed = data:find "[zZ]%s*$" ~= nil
   return way
 end
 
+--- The curve of path data or of a path (without its transforms), which has a length. noun: for
+--- messages.
+function curves.read(noun, outline, field)
+  field = field or "along"
+  local data = data_of(outline)
+  if not data then
+    core.refuse(("%s: %s must be path data or a path, got %s"):format(noun, field,
+      fields.kind(outline)))
+  end
+  local way, message = curves.of_data(data)
+  if not way then core.refuse(("%s: %s: %s"):format(noun, field, message)) end
+  if #way == 0 then core.refuse(("%s: %s: the path has no length"):format(noun, field)) end
+  return way
+end
+
 --- The point at a length, and the direction there, a unit vector. Before the beginning and after
---- the end it continues straight.
+--- the end it continues straight. A curve without a length is one point.
 function Curve:at(length)
+  if #self == 0 then return self.x, self.y, 1, 0 end
   local held = math.max(0, math.min(self.length, length))
   local part = self[ordered.last(self, held, "start")]
   local rest = held - part.start

@@ -12,6 +12,7 @@
 -- One file, because a transition is little more than its two halves, and needs the cut around it.
 local celspan = require "celspan"
 local core = require "celspan.core"
+local ease = require "celspan.ease"
 local fields = require "celspan.fields"
 local keys = require "celspan.keys"
 local ordered = require "celspan.ordered"
@@ -45,75 +46,80 @@ local function expose(list, result, weight)
   end
 end
 
-local function total_of(exposures)
-  local total = 0
-  for _, exposure in ipairs(exposures) do total = total + exposure[2] end
-  return total
-end
-
 -- ---------------------------------------------------------------- transitions
 
 ---@class celspan.cut.transition
 ---@field seconds number
 local Transition = {}
 Transition.__index = fields.reads("a transition", Transition,
-  { pair = true, first = true, second = true, is_fade = true })
+  { parts = true, ease = true })
 Transition.__name = "celspan.cut.transition"
 
---- A transition has `pair(a, b, u)`, or two halves that add up, because light does: what is seen of
---- a, first(a, u, size), and of b, second(b, u, size).
-local function transition(noun, seconds, parts)
+--- A transition has `parts(a, b, u, size)`, the exposures of two rostrums, of which one may be nil
+--- at an end of the film; `step` is by how much u grows from frame to frame.
+local function transition(noun, seconds, curve, parts)
   if not fields.is_finite(seconds) or seconds <= 0 then
     core.refuse(("cut: %s takes seconds, a number above 0, got %s"):format(noun,
       fields.shown(seconds)))
   end
-  local value = { seconds = seconds, noun = noun }
-  for name, part in pairs(parts) do value[name] = part end
-  return setmetatable(value, Transition)
+  local good, eased = pcall(ease, curve or "linear")
+  if not good then core.refuse(("cut: %s: %s"):format(noun, eased)) end
+  return setmetatable({ seconds = seconds, noun = noun, ease = eased, parts = parts }, Transition)
 end
 
---- A rostrum of one cel, antialiased like the shot that it shows.
-local function show(shot, object, front)
-  return celspan.rostrum { antialias = shot.antialias, celspan.cel { object, front = front } }
+--- Exposures of two shots with their shares; a shot may be nil.
+local function shared(first, first_share, second, second_share)
+  local list = {}
+  if first then list[1] = { first, first_share } end
+  if second then list[#list + 1] = { second, second_share } end
+  return list
+end
+
+--- One exposure of what is seen of the shots, of which one may be nil: their light adds up. Shots
+--- of different antialiasing have one each.
+local function together(a, b, seen_of_a, seen_of_b)
+  local function show(shot, art)
+    return { celspan.rostrum { antialias = shot.antialias, celspan.cel { art } }, 1 }
+  end
+  if not (a and b) then return { show(a or b, seen_of_a or seen_of_b) } end
+  if a.antialias ~= b.antialias then return { show(a, seen_of_a), show(b, seen_of_b) } end
+  return { show(a, celspan.group { seen_of_a, seen_of_b:blend "add", isolate = true }) }
 end
 
 --- One shot becomes the other.
 ---@param seconds number
+---@param curve? celspan.ease
 ---@return celspan.cut.transition
-function cut.dissolve(seconds)
-  return transition("dissolve", seconds, {
-    first = function(a, u) return { { a, 1 - u } } end,
-    second = function(b, u) return { { b, u } } end,
-  })
+function cut.dissolve(seconds, curve)
+  return transition("dissolve", seconds, curve, function(a, b, u)
+    return shared(a, 1 - u, b, u)
+  end)
 end
+
+--- How much light of a shot is left where its codes are this share of what they were.
+local function light_of(share) return math.max(0, share) ^ 2.2 end
 
 --- The first shot becomes a colour, and the colour the second. At the beginning or end of a film
 --- only the half with a shot is seen.
 ---@param seconds number
 ---@param colour? celspan.surface Default black
+---@param curve? celspan.ease
 ---@return celspan.cut.transition
-function cut.fade(seconds, colour)
+function cut.fade(seconds, colour, curve)
   local texture = colour == nil and "#000" or colour
   local good, message = pcall(celspan.rect, { 0, 0, 1, 1, texture = texture })
   if not good then
     core.refuse("cut: fade: the colour: " .. tostring(message):gsub("^.-rect: ", ""))
   end
-  local function ground(size)
-    return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, size[1], size[2],
-      texture = texture } } }
-  end
-  local function half(shot, share, size)
-    if share <= 0 then return {} end
-    return { { shot, share }, { ground(size), 1 - share } }
-  end
-  return transition("fade", seconds, {
-    is_fade = true,
-    first = function(a, u, size) return half(a, 1 - 2 * u, size) end,
-    second = function(b, u, size)
-      if u == 0.5 then return { { ground(size), 1 } } end
-      return half(b, 2 * u - 1, size)
-    end,
-  })
+  return transition("fade", seconds, curve, function(a, b, u, size, step)
+    if not a then u = 0.5 + u / 2 elseif not b then u = u / 2 end
+    if not (a and b) then step = step / 2 end
+    local shot, share = a, light_of(1 - 2 * u - step)
+    if u >= 0.5 then shot, share = b, light_of(2 * u - 1 - step) end
+    local ground = celspan.rostrum { celspan.cel {
+      celspan.rect { 0, 0, size[1], size[2], texture = texture } } }
+    return shared(share > 0 and shot, share, ground, 1 - share)
+  end)
 end
 
 --- Checks the settings of a transition: named fields and their ranges { least, most }.
@@ -128,7 +134,14 @@ local function settings_of(noun, settings, known, ranges)
   end
 end
 
-local function grey(value) return celspan.rgb(value, value, value) end
+--- White of this alpha: how much of a shot is seen there.
+local function seen(share) return celspan.rgb("#fff", share) end
+
+--- What is seen of a shot where a texture says so: over the whole frame, so that both shots have
+--- the same edges, and add up to one.
+local function softly(shot, size, shade)
+  return celspan.matte(shot, celspan.rect { 0, 0, size[1], size[2], texture = shade })
+end
 
 --- The area of the plane on one side of a line: where x cos + y sin is at most `place`, or at least
 --- if the sign is -1. reach: longer than the frame's diagonal.
@@ -154,7 +167,7 @@ end
 --- An edge moves over the first shot, and behind it is the second. angle: its direction in degrees,
 --- 0 from left to right, clockwise; softness: the width of the edge, as a share of its way.
 ---@param settings? { angle?: number, softness?: number }
----@return fun(seconds: number): celspan.cut.transition
+---@return fun(seconds: number, curve?: celspan.ease): celspan.cut.transition
 function cut.wipe(settings)
   settings = settings or {}
   settings_of("wipe", settings, { angle = "number", softness = "number" },
@@ -163,18 +176,18 @@ function cut.wipe(settings)
   local cos, sin = math.cos(angle), math.sin(angle)
   local function side(shot, u, size, is_second)
     local low, high = wipe_edge(cos, sin, softness, u, size)
-    local reach = 4 * (size[1] + size[2])
-    local shape = half_plane(cos, sin, is_second and high or low, is_second and 1 or -1, reach)
-    local front = high > low and celspan.linear { from = { cos * low, sin * low },
-      to = { cos * high, sin * high }, { 0, grey(is_second and 1 or 0) },
-      { 1, grey(is_second and 0 or 1) } } or nil
-    return { { show(shot, celspan.clip(shot, shape), front), 1 } }
+    if high <= low then
+      local reach = 4 * (size[1] + size[2])
+      return celspan.clip(shot, half_plane(cos, sin, low, is_second and 1 or -1, reach))
+    end
+    return softly(shot, size, celspan.linear {
+      from = { cos * low, sin * low }, to = { cos * high, sin * high },
+      { 0, seen(is_second and 1 or 0) }, { 1, seen(is_second and 0 or 1) } })
   end
-  return function(seconds)
-    return transition("wipe", seconds, {
-      first = function(a, u, size) return side(a, u, size, false) end,
-      second = function(b, u, size) return side(b, u, size, true) end,
-    })
+  return function(seconds, curve)
+    return transition("wipe", seconds, curve, function(a, b, u, size)
+      return together(a, b, a and side(a, u, size, false), b and side(b, u, size, true))
+    end)
   end
 end
 
@@ -190,18 +203,18 @@ local function iris_edge(centre, softness, u, size)
   return high - soft, high
 end
 
---- The light of one of the shots around a soft circle.
-local function iris_light(centre, low, high, is_second)
+--- How much of one of the shots is seen around a soft circle.
+local function iris_shade(centre, low, high, is_second)
   local inner = math.min(1, high / (high - low))
-  local function light(share) return grey(is_second and share or 1 - share) end
-  return celspan.radial { centre = centre, radius = high, { 0, light(inner) },
-    { math.max(0, low) / high, light(inner) }, { 1, light(0) } }
+  local function shade(share) return seen(is_second and share or 1 - share) end
+  return celspan.radial { centre = centre, radius = high, { 0, shade(inner) },
+    { math.max(0, low) / high, shade(inner) }, { 1, shade(0) } }
 end
 
 --- The second shot is seen in a circle that grows. centre: default the middle of the film;
 --- softness: the width of the edge, as a share of the greatest radius.
 ---@param settings? { centre?: celspan.point, softness?: number }
----@return fun(seconds: number): celspan.cut.transition
+---@return fun(seconds: number, curve?: celspan.ease): celspan.cut.transition
 function cut.iris(settings)
   settings = settings or {}
   settings_of("iris", settings, { centre = "table", softness = "number" },
@@ -214,19 +227,16 @@ function cut.iris(settings)
   local function side(shot, u, size, is_second)
     local centre = given or { size[1] / 2, size[2] / 2 }
     local low, high = iris_edge(centre, softness, u, size)
-    local art = celspan.clip(shot, celspan.circle { centre = centre, radius = high })
-    if not is_second then
-      art = low > 0 and celspan.difference { shot,
-        celspan.circle { centre = centre, radius = low } } or shot
+    local disc = celspan.circle { centre = centre, radius = high }
+    if softness > 0 then
+      return softly(shot, size, iris_shade(centre, low, high, is_second))
     end
-    local front = softness > 0 and iris_light(centre, low, high, is_second) or nil
-    return { { show(shot, art, front), 1 } }
+    return is_second and celspan.clip(shot, disc) or celspan.difference { shot, disc }
   end
-  return function(seconds)
-    return transition("iris", seconds, {
-      first = function(a, u, size) return side(a, u, size, false) end,
-      second = function(b, u, size) return side(b, u, size, true) end,
-    })
+  return function(seconds, curve)
+    return transition("iris", seconds, curve, function(a, b, u, size)
+      return together(a, b, a and side(a, u, size, false), b and side(b, u, size, true))
+    end)
   end
 end
 
@@ -234,7 +244,7 @@ local SIDES = { right = { 1, 0 }, left = { -1, 0 }, top = { 0, -1 }, bottom = { 
 
 --- The second shot pushes the first one out of the frame.
 ---@param settings? { from?: "right"|"left"|"top"|"bottom" }
----@return fun(seconds: number): celspan.cut.transition
+---@return fun(seconds: number, curve?: celspan.ease): celspan.cut.transition
 function cut.push(settings)
   settings = settings or {}
   settings_of("push", settings, { from = "string" }, {})
@@ -245,51 +255,47 @@ function cut.push(settings)
       :format(from))
   end
   local function moved(shot, share, size)
-    return { { show(shot, shot:translate(side[1] * share * size[1], side[2] * share * size[2])),
-      1 } }
+    return shot and shot:translate(side[1] * share * size[1], side[2] * share * size[2])
   end
-  return function(seconds)
-    return transition("push", seconds, {
-      first = function(a, u, size) return moved(a, -u, size) end,
-      second = function(b, u, size) return moved(b, 1 - u, size) end,
-    })
+  return function(seconds, curve)
+    return transition("push", seconds, curve, function(a, b, u, size)
+      return together(a, b, moved(a, -u, size), moved(b, 1 - u, size))
+    end)
   end
 end
 
 --- A transition of one's own.
 ---@param make fun(a: celspan.rostrum, b: celspan.rostrum, u: number): celspan.exposures
----@return fun(seconds: number): celspan.cut.transition
+---@return fun(seconds: number, curve?: celspan.ease): celspan.cut.transition
 function cut.with(make)
   if type(make) ~= "function" then
     core.refuse("cut: with takes a function(a, b, u), got " .. fields.kind(make))
   end
-  return function(seconds) return transition("with", seconds, { pair = make }) end
+  return function(seconds, curve)
+    return transition("with", seconds, curve, function(a, b, u, size)
+      local nothing = celspan.rostrum { size = size }
+      return make(a or nothing, b or nothing, u)
+    end)
+  end
 end
 
 --- The exposures of a frame of a transition. a, b: results of frame functions, nil at an end of the
 --- film.
-local function join(between, a, b, u, size)
-  local nothing = { { celspan.rostrum { size = size }, 1 } }
+local function join(between, a, b, u, step, size)
+  local nothing = { { nil, 1 } }
   local first, second = a and exposures_of(a) or nothing, b and exposures_of(b) or nothing
   local list = {}
+  u = math.max(0, math.min(1, between.ease(u)))
   for _, side in ipairs { first, second } do
-    for _, exposure in ipairs(side) do exposure[1] = exposure[1]:with { size = size } end
-  end
-  if between.is_fade and not (a and b) then u = a and u / 2 or 0.5 + u / 2 end
-  if between.pair then
-    for _, one in ipairs(first) do
-      for _, other in ipairs(second) do
-        expose(list, between.pair(one[1], other[1], u), one[2] * other[2])
-      end
+    for _, exposure in ipairs(side) do
+      exposure[1] = exposure[1] and exposure[1]:with { size = size }
     end
-    return list
   end
-  local first_total, second_total = total_of(first), total_of(second)
   for _, one in ipairs(first) do
-    expose(list, between.first(one[1], u, size), one[2] * second_total)
-  end
-  for _, other in ipairs(second) do
-    expose(list, between.second(other[1], u, size), other[2] * first_total)
+    for _, other in ipairs(second) do
+      expose(list, between.parts(one[1], other[1], u, size, step),
+        one[2] * other[2])
+    end
   end
   return list
 end
@@ -316,6 +322,9 @@ local function read_shot(i, part, like)
   if type(part) ~= "table" then
     complain(i, "must be a film, { film = ... } or a transition, got %s", fields.kind(part))
   end
+  if is_film(part[1]) then
+    complain(i, "its film is the field 'film': { film = ..., from = ... }")
+  end
   fields.check(("cut: part %d"):format(i), part, part_fields)
   local film = part.film
   if not is_film(film) then
@@ -338,6 +347,11 @@ local function read_shot(i, part, like)
   if film.size[1] ~= like.size[1] or film.size[2] ~= like.size[2] then
     complain(i, "its size is %dx%d, and that of the first film %dx%d", film.size[1], film.size[2],
       like.size[1], like.size[2])
+  end
+  if film.space ~= like.space then
+    local own, wanted = film.space or "linear", like.space or "linear"
+    complain(i, "its space is %q, and that of the first film %q: film:with { space = %q }", own,
+      wanted, wanted)
   end
   local count = math.max(1, math.ceil((to - from + 1) / speed - SMALL))
   return { place = i, film = film, from = from, to = to, speed = speed, name = part.name,
@@ -427,12 +441,24 @@ local function sounds_of(shots, own)
   return #sounds > 0 and sounds or nil
 end
 
+--- The first frame of a mark, and its last one, if it has one.
+local function range_of(mark)
+  if type(mark) == "table" then return mark[1], mark[2] end
+  return mark
+end
+
 --- Adds the marks of a shot, where it shows their frames.
 local function add_marks(shot, marks)
-  for name, frame in pairs(shot.film.marks or {}) do
-    local place = shot.start + math.ceil((frame - shot.from) / shot.speed - SMALL) + 1
-    if frame >= shot.from and frame <= shot.to and place <= shot.start + shot.count then
-      marks[name] = math.min(marks[name] or place, place)
+  local function place_of(frame)
+    return shot.start + math.ceil((frame - shot.from) / shot.speed - SMALL) + 1
+  end
+  for name, mark in pairs(shot.film.marks or {}) do
+    local frame, last = range_of(mark)
+    local place, known = place_of(frame), range_of(marks[name])
+    if frame >= shot.from and frame <= shot.to and place <= shot.start + shot.count
+      and not (known and known <= place) then
+      marks[name] = last and { place, math.max(place,
+        math.min(place_of(last + 1) - 1, shot.start + shot.count)) } or place
     end
   end
 end
@@ -445,7 +471,9 @@ local function marks_of(shots, own)
     if shot.name and names[shot.name] then
       complain(shot.place, "has the name of part %d, %q", names[shot.name], shot.name)
     end
-    if shot.name then marks[shot.name], names[shot.name] = shot.start + 1, shot.place end
+    if shot.name then
+      marks[shot.name], names[shot.name] = { shot.start + 1, shot.start + shot.count }, shot.place
+    end
   end
   if own ~= nil and type(own) ~= "table" then return own end
   for name, frame in pairs(own or {}) do marks[name] = frame end
@@ -465,24 +493,49 @@ local function segment_at(segments, index)
   return segments[ordered.last(segments, index, "from")]
 end
 
-local cut_fields = { "parts", title = "string", sound = "any", marks = "any" }
+--- The exposures with cels over them: one, or a list of them.
+local function lay_over(exposures, cels, f, size)
+  local list, total = {}, 0
+  if type(cels) ~= "table" then cels = { cels } end
+  for i, exposure in ipairs(exposures_of(exposures)) do
+    local shot = exposure[1]
+    total = total + exposure[2]
+    list[i] = { celspan.rostrum { antialias = shot.antialias,
+      celspan.cel { shot:with { size = size } }, table.unpack(cels) }, exposure[2] }
+  end
+  if #cels > 0 and math.abs(total - 1) > 1e-6 then
+    core.refuse(("cut: over: frame %d is exposed with a weight of %g in all; it must be 1 (shots "
+      .. "of different antialiasing are exposed each in a wipe, iris or push)"):format(f.number,
+      total))
+  end
+  return list
+end
+
+--- The frame function of the cut without what is over it.
+local function frames_of(segments, size)
+  return function(f)
+    local segment = segment_at(segments, f.index)
+    if not segment.between then return frame_at(segment.a, f.index) end
+    local u = (f.index - segment.from + 0.5) / segment.count
+    return join(segment.between, segment.a and frame_at(segment.a, f.index),
+      segment.b and frame_at(segment.b, f.index), u, 1 / segment.count, size)
+  end
+end
+
+local cut_fields = { "parts", title = "string", sound = "any", marks = "any", over = "function" }
 
 local function new(_, parts)
   fields.check("cut", parts, cut_fields)
   local given = {}
   for i = 1, rawlen(parts) do given[#given + 1] = parts[i] or nil end
   local shots, segments, count = lay_out(given)
-  local size = shots[1].film.size
+  local size, over = shots[1].film.size, parts.over
+  local show = frames_of(segments, size)
   return celspan.film {
     size = size, fps = shots[1].film.fps, frames = count, title = parts.title,
-    sound = sounds_of(shots, parts.sound), marks = marks_of(shots, parts.marks),
-    frame = function(f)
-      local segment = segment_at(segments, f.index)
-      if not segment.between then return frame_at(segment.a, f.index) end
-      local u = (f.index - segment.from + 0.5) / segment.count
-      return join(segment.between, segment.a and frame_at(segment.a, f.index),
-        segment.b and frame_at(segment.b, f.index), u, size)
-    end,
+    space = shots[1].film.space, sound = sounds_of(shots, parts.sound),
+    marks = marks_of(shots, parts.marks),
+    frame = over and function(f) return lay_over(show(f), over(f), f, size) end or show,
   }
 end
 
@@ -518,8 +571,8 @@ end
 --- The marks of a film, where their frames are reached first.
 local function retimed_marks(film, count, number_at)
   local marks = {}
-  for name, frame in pairs(film.marks or {}) do
-    local before = number_at(0)
+  for name, mark in pairs(film.marks or {}) do
+    local before, frame = number_at(0), range_of(mark)
     for index = 0, count - 1 do
       local number = number_at(index)
       if math.min(before, number) <= frame and frame <= math.max(before, number) then
@@ -569,7 +622,7 @@ function cut.retime(film, list, duration)
   end
   local count = math.max(1, math.floor(duration * film.fps + 0.5))
   return celspan.film {
-    size = film.size, fps = film.fps, frames = count, title = film.title,
+    size = film.size, fps = film.fps, frames = count, title = film.title, space = film.space,
     sound = retimed_sound(film, track, duration),
     marks = retimed_marks(film, count, number_at),
     frame = function(f) return film:at(number_at(f.index)) end,
@@ -581,13 +634,14 @@ end
 ---@field from? integer The number of its first frame
 ---@field to? integer The number of its last frame
 ---@field speed? number 0.01 to 100; default 1
----@field name? string A mark at the first frame that shows it
+---@field name? string A mark of the frames that show it
 
 ---@class celspan.cut.parts
 ---@field [integer] celspan.film|celspan.cut.part|celspan.cut.transition
 ---@field title? string
 ---@field sound? string|celspan.film.sound|celspan.film.sound[] In addition to the sounds of the films
----@field marks? table<string, integer> In addition to those of the films
+---@field marks? table<string, integer|integer[]> In addition to those of the films
+---@field over? fun(f: celspan.film.frame): celspan.cel|celspan.cel[]|nil What is over all shots
 
 ---@class celspan.cut
 ---@overload fun(parts: celspan.cut.parts): celspan.film

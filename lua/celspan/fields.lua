@@ -40,7 +40,12 @@ function fields.kind(value)
   return noun and "a " .. noun or type(value)
 end
 
---- The same, with the value of a number.
+--- Whether a value is an object or a cel: what has bounds.
+function fields.is_object(value)
+  return type(value) == "userdata" and pcall(function() return value.bounds end)
+end
+
+--- The same as `kind`, with the value of a number.
 function fields.shown(value)
   if value ~= value then return "nan" end -- its sign means nothing
   return type(value) == "number" and ("%.14g"):format(value) or fields.kind(value)

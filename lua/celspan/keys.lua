@@ -142,6 +142,11 @@ local function problem_of(key)
     return "must have a finite number, an array of numbers or points, a pose, a paint, a string "
       .. "or a boolean as value, got " .. fields.shown(key[2])
   end
+  for name in next, key do
+    if name ~= 1 and name ~= 2 and name ~= 3 then
+      return ("has an unknown field %s: a key is {time, value [, ease]}"):format(tostring(name))
+    end
+  end
   local good, curve = pcall(ease, key[3] or "linear")
   if not good then return "cannot have this ease: " .. curve:gsub("^ease: ", "") end
 end

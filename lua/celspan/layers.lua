@@ -21,7 +21,7 @@ local layers = {}
 ---@field y number Of its top edge
 ---@field opacity number 0..1
 ---@field visible boolean
----@field blend string "normal", "multiply", "add", "screen", ...; of a group also "pass-through"
+---@field blend string "normal", "multiply", "linear-dodge", "screen", ...; of a group also "pass-through"
 ---@field children? celspan.layers.entry[] Of a group: rearmost first
 local Entry = { __name = "celspan.layers.entry" }
 Entry.__index = fields.reads("a layer", {}, { children = true })
@@ -41,7 +41,8 @@ local sources = setmetatable({}, { __mode = "k" })
 --- Blend modes that are shown; "pass-through" is for groups.
 local shown = {}
 for mode in ("normal multiply screen overlay darken lighten color-dodge color-burn hard-light "
-  .. "soft-light difference exclusion hue saturation color luminosity add"):gmatch "%S+" do
+  .. "soft-light difference exclusion hue saturation color luminosity add linear-dodge "
+  .. "soft-light-photoshop"):gmatch "%S+" do
   shown[mode] = true
 end
 

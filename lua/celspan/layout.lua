@@ -1,5 +1,5 @@
 --- Objects placed by their bounds, and texts letter by letter: celspan.row, column, grid, align,
---- around and letters.
+--- fit, around and letters.
 --
 --   celspan.row{ icon, title, gap = 12, align = "centre" }     -- from 0, 0 to the right
 --   celspan.align(title, { 0, 0, 1280, 720 }, "centre", "bottom")
@@ -8,6 +8,7 @@
 -- What has nothing to paint has no bounds: it takes no room, and no gap.
 local celspan = require "celspan"
 local core = require "celspan.core"
+local curves = require "celspan.curves"
 local fields = require "celspan.fields"
 
 local layout = {}
@@ -54,6 +55,17 @@ end
 
 --- The object with its bounds at x, y.
 local function moved(item, x, y) return item.object:translate(x - item.x, y - item.y) end
+
+--- The object with its bounds at these shares of the free room in a box.
+local function placed(item, box, h, v)
+  return moved(item, box[1] + (box[3] - item.w) * h, box[2] + (box[4] - item.h) * v)
+end
+
+--- The shares that the third and fourth arguments are.
+local function shares_of(noun, horizontal, vertical)
+  return share_of(noun, "the third argument", horizontal, across, "centre"),
+    share_of(noun, "the fourth argument", vertical, down, "centre")
+end
 
 local function check_gap(noun, gap)
   if gap ~= nil and not fields.is_finite(gap) then
@@ -131,11 +143,36 @@ end
 ---@return celspan.object
 function layout.align(object, box, horizontal, vertical)
   fields.numbers("align", "box[%d]", box, 4, "{x, y, w, h}", 2)
-  local h = share_of("align", "the third argument", horizontal, across, "centre")
-  local v = share_of("align", "the fourth argument", vertical, down, "centre")
+  local h, v = shares_of("align", horizontal, vertical)
   local item = read_items("align", { object })[1]
+  return item and placed(item, box, h, v) or object
+end
+
+--- Scales an object until its bounds just lie in a box, and aligns it there. Both axes are scaled
+--- alike.
+---@param object celspan.shape
+---@param box number[] {x, y, w, h}
+---@param horizontal? "left"|"centre"|"right" Default "centre"
+---@param vertical? "top"|"centre"|"bottom" Default "centre"
+---@param most? number The greatest factor; 1 only makes smaller. Default: none
+---@return celspan.object
+function layout.fit(object, box, horizontal, vertical, most)
+  fields.numbers("fit", "box[%d]", box, 4, "{x, y, w, h}", 2)
+  if box[3] <= 0 or box[4] <= 0 then
+    refuse("fit: the box must have a width and a height above 0, got %s by %s",
+      fields.shown(box[3]), fields.shown(box[4]))
+  end
+  if most ~= nil and not (fields.is_finite(most) and most > 0) then
+    refuse("fit: the fifth argument, the greatest factor, must be a number above 0, got %s",
+      fields.shown(most))
+  end
+  local h, v = shares_of("fit", horizontal, vertical)
+  local item = read_items("fit", { object })[1]
   if not item then return object end
-  return moved(item, box[1] + (box[3] - item.w) * h, box[2] + (box[4] - item.h) * v)
+  local factor = math.min(item.w > 0 and box[3] / item.w or math.huge,
+    item.h > 0 and box[4] / item.h or math.huge, most or math.huge)
+  if factor == math.huge then factor = 1 end
+  return placed(read_items("fit", { object:scale(factor) })[1], box, h, v)
 end
 
 --- The bounds of an object with a margin, as a box: for a rectangle behind a title.
@@ -173,32 +210,53 @@ local function groups_of(letters, by)
   return groups
 end
 
+--- Puts a group on a curve: the middle of its advance on the line, with y as the distance from it.
+--- left: what of the text lies at the start. false: the group lies beyond the ends.
+local function ride(group, curve, start, left)
+  local middle = group.x + group.advance / 2
+  local length = start * curve.length + middle - left
+  if curve.is_closed then length = length % curve.length end
+  if length < 0 or length > curve.length then return false end
+  local x, y, dx, dy = curve:at(length)
+  local degrees = math.deg(math.atan(dy, dx))
+  group.object = group.object:translate(-middle, 0):rotate(degrees):translate(x, y)
+  group.x, group.y, group.degrees = x, y, degrees
+  return true
+end
+
+local function as_it_is(letter) return letter.object end
+
 --- A text whose letters, words or lines a function changes: it gets each one, its number among them
 --- from 1 and how many there are, and returns an object, or nil for nothing. Spaces are not passed
---- to it.
+--- to it. With `along` the text runs along a path.
 ---@param text celspan.text.fields As for celspan.glyphs
----@param change fun(letter: celspan.letter, i: integer, n: integer): celspan.object?
----@param options? { by?: "letter"|"word"|"line" }
+---@param change? fun(letter: celspan.letter, i: integer, n: integer): celspan.object?
+---@param options? { by?: "letter"|"word"|"line", along?: string|celspan.shape, start?: number }
 ---@return celspan.object
 function layout.letters(text, change, options)
   options = options or {}
-  fields.check("letters", options, { by = "string" })
-  local by = options.by or "letter"
+  fields.check("letters", options, { by = "string", along = "any", start = "number" })
+  local by, start = options.by or "letter", options.start or 0
   if by ~= "letter" and by ~= "word" and by ~= "line" then
     refuse("letters: field 'by' must be \"letter\", \"word\" or \"line\", got %q", by)
   end
-  if type(change) ~= "function" then
+  if change ~= nil and type(change) ~= "function" then
     refuse("letters: the second argument must be a function, got %s", fields.kind(change))
   end
-  local shown, objects = {}, {}
-  for _, group in ipairs(groups_of(celspan.glyphs(text), by)) do
+  local groups, shown, objects = groups_of(celspan.glyphs(text), by), {}, {}
+  local curve = options.along and curves.read("letters", options.along)
+  for _, group in ipairs(groups) do
     if not group.text:find(BLANK) then
       group.object = #group.objects == 1 and group.objects[1] or celspan.union(group.objects)
       group.objects, group.is_blank = nil, nil
-      shown[#shown + 1] = group
+      if not curve or ride(group, curve, start, text.at and text.at[1] or 0) then
+        shown[#shown + 1] = group
+      end
     end
   end
-  for i, group in ipairs(shown) do objects[#objects + 1] = change(group, i, #shown) end
+  for i, group in ipairs(shown) do
+    objects[#objects + 1] = (change or as_it_is)(group, i, #shown)
+  end
   return celspan.union(objects)
 end
 

@@ -12,9 +12,8 @@
 --   local wind = motion.noise "wind"                           -- wind(x, y, z), -1..1
 local chance = require "celspan.chance"
 local core = require "celspan.core"
+local curves = require "celspan.curves"
 local fields = require "celspan.fields"
-local ordered = require "celspan.ordered"
-local pathdata = require "celspan.pathdata"
 
 local motion = {}
 
@@ -26,41 +25,28 @@ local Way = {}
 Way.__index = fields.reads("a way", Way)
 Way.__name = "celspan.motion.way"
 
-local function points_of(outline)
+local function curve_of(outline)
   if type(outline) == "string" then
-    local points, message = pathdata.points(outline)
-    if not points then core.refuse("motion: " .. message) end
-    return points
+    local curve, message = curves.of_data(outline)
+    return curve or core.refuse("motion: " .. message)
   end
   if type(outline) ~= "table" then
     core.refuse("motion: along takes path data or a list of points {x, y}, got "
       .. fields.kind(outline))
   end
-  local points = {}
   for i = 1, rawlen(outline) do
     fields.numbers("motion", ("point %d: its value %%d"):format(i), outline[i], 2, "{x, y}")
-    points[i] = outline[i]
   end
-  return points
+  if rawlen(outline) == 0 then core.refuse("motion: along needs at least one point") end
+  return curves.of_points(table.move(outline, 1, rawlen(outline), 1, {}))
 end
 
 --- A path along path data or points, measured by arc length.
 ---@param outline string|number[][]
 ---@return celspan.motion.way
 function motion.along(outline)
-  local points = points_of(outline)
-  if #points == 0 then core.refuse("motion: along needs at least one point") end
-  local way = { { points[1][1], points[1][2], 0 } }
-  local length = 0
-  for i = 2, #points do
-    local dx, dy = points[i][1] - points[i - 1][1], points[i][2] - points[i - 1][2]
-    local step = math.sqrt(dx * dx + dy * dy)
-    if step > 0 then
-      length = length + step
-      way[#way + 1] = { points[i][1], points[i][2], length }
-    end
-  end
-  return setmetatable({ points = way, length = length }, Way)
+  local curve = curve_of(outline)
+  return setmetatable({ curve = curve, length = curve.length }, Way)
 end
 
 --- The position at u (limited to 0..1), and the direction: degrees, clockwise, 0 to the right.
@@ -68,14 +54,8 @@ end
 ---@return number x, number y, number degrees
 function Way:at(u)
   fields.check_at("motion", Way, self, u, "a fraction of the length")
-  local points = self.points
-  if #points == 1 then return points[1][1], points[1][2], 0 end
-  local length = math.max(0, math.min(1, u)) * self.length
-  local i = math.min(ordered.last(points, length, 3), #points - 1)
-  local a, b = points[i], points[i + 1]
-  local t = (length - a[3]) / (b[3] - a[3])
-  local dx, dy = b[1] - a[1], b[2] - a[2]
-  return a[1] + t * dx, a[2] + t * dy, math.deg(math.atan(dy, dx))
+  local x, y, dx, dy = self.curve:at(math.max(0, math.min(1, u)) * self.length)
+  return x, y, math.deg(math.atan(dy, dx))
 end
 
 ---@class celspan.motion.wiggle

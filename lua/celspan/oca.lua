@@ -69,7 +69,11 @@ local function file_of(state, what, name)
   return found
 end
 
-local blends = { passthrough = "pass-through", linear_dodge = "add", plus = "add" }
+-- Krita's words for modes that are not ours with "_" as "-"; those of its files are in
+-- src/readers/layered/document.c.
+local blends = { passthrough = "pass-through", add = "linear-dodge", plus = "add",
+  dodge = "color-dodge", burn = "color-burn", diff = "difference", luminize = "luminosity",
+  soft_light = "soft-light-photoshop", soft_light_svg = "soft-light" }
 
 local function blend_of(layer, what)
   local word = value_of(layer, what, "blendingMode", "normal"):lower()

@@ -1,8 +1,5 @@
---- SVG path data: a walk along its pieces, or its points in order, where each curve becomes
---- `pieces` chords. motion.lua moves along these points.
+--- SVG path data: its commands, and a walk along its pieces.
 local pathdata = {}
-
-local pieces = 64
 
 --- The number of arguments of each command.
 local counts = { M = 2, L = 2, H = 1, V = 1, C = 6, S = 4, Q = 4, T = 2, A = 7, Z = 0 }
@@ -160,42 +157,6 @@ function pathdata.walk(text, pen)
     pen.last = command
   end
   return true
-end
-
---- A pen that records points in order.
-local Chords = {}
-Chords.__index = Chords
-
-function Chords:line(x, y) self.points[#self.points + 1] = { x, y } end
-Chords.move = Chords.line
-
-function Chords:curve(x1, y1, x2, y2, x, y)
-  local x0, y0 = self.x, self.y
-  for i = 1, pieces do
-    local t = i / pieces
-    local s = 1 - t
-    local a, b, c, d = s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t
-    self:line(a * x0 + b * x1 + c * x2 + d * x, a * y0 + b * y1 + c * y2 + d * y)
-  end
-end
-
-function Chords:arc(point, from, to, x, y)
-  for i = 1, pieces - 1 do
-    local px, py = point(from + (to - from) * i / pieces)
-    self:line(px, py)
-  end
-  self:line(x, y)
-end
-
---- The points of path data in order, or nil and a message.
----@param text string
----@return number[][]? points
----@return string? message
-function pathdata.points(text)
-  local pen = setmetatable({ points = {} }, Chords)
-  local done, message = pathdata.walk(text, pen)
-  if not done then return nil, message end
-  return pen.points
 end
 
 return pathdata

@@ -152,7 +152,7 @@ end
 local function new(_, given)
   fields.check("puppet", given, known)
   if not is_of("celspan.svg", given.art) and not is_of("celspan.layers.tree", given.art) then
-    refuse("field 'art' must be a drawing of celspan.svg or a painting of celspan.layers, got %s",
+    refuse("field 'art' must be what svg.read or layers.read returns, with its parts, got %s",
       fields.kind(given.art))
   end
   local rig = { art = given.art, bones = {}, list = {}, parts = {}, switches = {} }
@@ -317,12 +317,81 @@ local function place(rig, pose)
   return bones.place(rig, turns, chains, at), at, choices
 end
 
+-- ---------------------------------------------------------------- limbs that come apart
+
+--- Whether the artwork of a bone covers a point.
+local function covers(drawn, bone, x, y)
+  for part, object in pairs(drawn) do
+    if part.bone == bone and object:contains(x, y) then return true end
+  end
+  return false
+end
+
+--- Bones with artwork, whose parents have some as well.
+local function is_jointed(bone)
+  return bone.parent and not bone.apart and #bone.parts > 0 and #bone.parent.parts > 0
+end
+
+local function gaps_in(rig, frames, at, choices)
+  local gaps = {}
+  local _, drawn = draw_parts(rig, frames, choices, nothing) -- each without the parts inside it
+  for _, bone in ipairs(rig.list) do
+    if is_jointed(bone) then
+      local x, y = affine.apply(frames[bone].frame, bone.x, bone.y)
+      if not (covers(drawn, bone, x, y) and covers(drawn, bone.parent, x, y)) then
+        gaps[#gaps + 1] = { bone = bone.name, parent = bone.parent.name, joint = bone.from,
+                            x = x + at[1], y = y + at[2] }
+      end
+    end
+  end
+  return gaps
+end
+
+--- Bones whose artwork does not hold together with that of their parents in a pose: the joint
+--- between them is not covered by both.
+---@param pose? table At rest by default
+---@return { bone: string, parent: string, joint: string, x: number, y: number }[]
+function methods:gaps(pose)
+  fields.self("puppet", Rig, self, "gaps")
+  return gaps_in(self, place(self, pose or {}))
+end
+
+local MISSED = 0.5 -- units: a joint that is nearer to its target has reached it
+
+--- Joints that do not reach their targets, in their order.
+local function missed_in(rig, pose, frames, at)
+  local missed = {}
+  for joint, target in pairs(pose.reach or {}) do
+    local x, y = bones.joint_in(rig, frames, joint)
+    x, y = x + at[1] - target[1], y + at[2] - target[2]
+    if not target.loose and x * x + y * y > MISSED * MISSED then missed[#missed + 1] = joint end
+  end
+  table.sort(missed)
+  return missed
+end
+
+--- For `celspan check`.
+local function warn(rig, pose, frames, at, choices)
+  for _, joint in ipairs(missed_in(rig, pose, frames, at)) do
+    core.warn(("puppet: the joint '%s' does not reach its target: its bones are too short for it, "
+      .. "or have limits; move the whole with `at`, or give the target loose = true")
+      :format(joint))
+  end
+  for _, gap in ipairs(gaps_in(rig, frames, at, choices)) do
+    core.warn(("puppet: '%s' and '%s' come apart at the joint '%s': let the drawings of both cover "
+      .. "it, or give the bone apart = true"):format(gap.bone, gap.parent, gap.joint))
+  end
+end
+
+-- ---------------------------------------------------------------- poses as objects
+
 --- The artwork in a pose.
 ---@param pose table Degrees by bone, `at`, `reach`, switches, `over`, `under`, `front`, `back`
 ---@return celspan.object
 function methods:pose(pose)
   fields.self("puppet", Rig, self, "pose")
   local frames, at, choices = place(self, pose)
+  if core.warns() then warn(self, pose, frames, at, choices) end
   local object = draw(self, pose, frames, choices)
   if at[1] == 0 and at[2] == 0 then return object end
   return object:translate(at[1], at[2])
@@ -340,39 +409,6 @@ function methods:joint(pose, name)
   local frames, at = place(self, pose)
   local x, y = bones.joint_in(self, frames, name)
   return x + at[1], y + at[2]
-end
-
--- ---------------------------------------------------------------- limbs that come apart
-
---- Whether the artwork of a bone covers a point.
-local function covers(drawn, bone, x, y)
-  for part, object in pairs(drawn) do
-    if part.bone == bone and object:contains(x, y) then return true end
-  end
-  return false
-end
-
---- Bones whose artwork does not hold together with that of their parents in a pose: the joint
---- between them is not covered by both.
----@param pose? table At rest by default
----@return { bone: string, parent: string, joint: string, x: number, y: number }[]
-function methods:gaps(pose)
-  fields.self("puppet", Rig, self, "gaps")
-  pose = pose or {}
-  local frames, _, choices = place(self, pose)
-  local gaps = {}
-  local _, drawn = draw_parts(self, frames, choices, nothing) -- each without the parts inside it
-  for _, bone in ipairs(self.list) do
-    local parent = bone.parent
-    if parent and #bone.parts > 0 and #parent.parts > 0 then
-      local x, y = affine.apply(frames[bone].frame, bone.x, bone.y)
-      if not (covers(drawn, bone, x, y) and covers(drawn, parent, x, y)) then
-        gaps[#gaps + 1] = { bone = bone.name, parent = parent.name, joint = bone.from, x = x,
-                            y = y }
-      end
-    end
-  end
-  return gaps
 end
 
 -- ---------------------------------------------------------------- the sheet

@@ -1,4 +1,5 @@
---- Objects that are bent: object:warp{ map = | along = | lattice = | bones = | pins = }.
+--- Objects that are bent: object:warp{ map = | along = | lattice = | bones = | pins = }, and
+--- object:boil{ amount = }.
 --
 --   flag:warp{ map = function(x, y) return x, y + 9 * math.sin(x / 40 - 6 * f.time) end }
 --   arm:warp{ bones = { { from = {0, 0}, to = {60, 0} }, { from = {60, 0}, to = {120, 0},
@@ -6,10 +7,12 @@
 --
 -- Each of the five is a way to write down a map of the plane. The core bends by the map: outlines
 -- as curves, pictures and gradients as a mesh.
+local celspan = require "celspan"
 local affine = require "celspan.affine"
 local core = require "celspan.core"
 local curves = require "celspan.curves"
 local fields = require "celspan.fields"
+local motion = require "celspan.motion"
 
 local warp = {}
 
@@ -59,7 +62,7 @@ end
 
 --- The shares of four neighbouring points, of which two lie around the place: straight between
 --- them, or Catmull and Rom's curve.
-local function shares(u, smooth)
+local function spread(u, smooth)
   if not smooth then return 0, 1 - u, u, 0 end
   local v = 1 - u
   return -u * v * v / 2, (2 - 5 * u * u + 3 * u * u * u) / 2, (2 - 5 * v * v + 3 * v * v * v) / 2,
@@ -86,9 +89,9 @@ function maps.lattice(lattice, _, box)
   return function(x, y)
     local column, u = cell_of((x - left) / width * columns, columns)
     local row, v = cell_of((y - top) / height * rows, rows)
-    local across = { shares(u, lattice.smooth) }
+    local across = { spread(u, lattice.smooth) }
     local to = { 0, 0 }
-    for j, down in ipairs { shares(v, lattice.smooth) } do
+    for j, down in ipairs { spread(v, lattice.smooth) } do
       for i = 1, 4 do
         local share = across[i] * down
         if share ~= 0 then
@@ -105,7 +108,57 @@ end
 local SOFT = 0.0025 -- of the square of a radius: how sharply weights change at a joint
 
 local known_bone = { "name", from = "table", to = "table", parent = "any", rotate = "number",
-                     scale = "number", at = "table", radius = "number" }
+                     scale = "number", at = "table", radius = "number", weight = "any" }
+
+local CELLS = 64 -- of a painted weight along its longer side: finer paint is smoothed
+
+--- Alpha of an object in cells over its bounds: alpha(i, j), 0 outside; and the side of a cell.
+local function read_cells(object, x, y, w, h)
+  local side = math.max(w, h) / CELLS
+  local columns, rows = math.ceil(w / side), math.ceil(h / side)
+  local image = assert(celspan.pixels(celspan.rostrum { celspan.cel { object:translate(-x, -y) } },
+    { size = { columns, rows }, film = { columns * side, rows * side } }))
+  local cells = {}
+  for i = 0, columns * rows - 1 do cells[i] = select(4, image:get(i % columns, i // columns)) end
+  return function(i, j)
+    return i >= 0 and i < columns and j >= 0 and j < rows and cells[j * columns + i] or 0
+  end, side
+end
+
+--- The shares of three neighbouring cells, u from the middle of the middle one, -0.5 to 0.5: the
+--- quadratic B-spline, which has no kinks and is nowhere below 0.
+local function blend_three(u) return (0.5 - u) ^ 2 / 2, 0.75 - u * u, (0.5 + u) ^ 2 / 2 end
+
+--- The paint's weight as a function of the place.
+local function read_paint(object)
+  local left, top, w, h = object:bounds()
+  if not left or w == 0 or h == 0 then return function() return 0 end end
+  local cell, side = read_cells(object, left, top, w, h)
+  return function(x, y)
+    x, y = (x - left) / side, (y - top) / side
+    local i, j = math.floor(x), math.floor(y)
+    local a, b, c = blend_three(x - i - 0.5)
+    local sum, shares = 0, { blend_three(y - j - 0.5) }
+    for k = -1, 1 do
+      sum = sum + shares[k + 2]
+        * (a * cell(i - 1, j + k) + b * cell(i, j + k) + c * cell(i + 1, j + k))
+    end
+    return sum
+  end
+end
+
+--- Painted weights by their objects, as long as those are used.
+local painted = setmetatable({}, { __mode = "k" })
+
+local function read_weight(i, weight)
+  if weight == nil or type(weight) == "function" then return weight end
+  if not fields.is_object(weight) then
+    refuse("bone %d: its weight must be an object or a function(x, y), got %s", i,
+      fields.kind(weight))
+  end
+  painted[weight] = painted[weight] or read_paint(weight)
+  return painted[weight]
+end
 
 --- The number of the bone that the bone number i hangs on: the one before it unless it says so.
 local function parent_of(bones, i)
@@ -145,33 +198,79 @@ local function read_bone(list, made, i)
   end
   local parent, own = parent_of(list, i), motion_of(bone, fx, fy, tx, ty, length)
   return { x = fx, y = fy, dx = (tx - fx) / length, dy = (ty - fy) / length, length = length,
-           size = radius * radius,
+           size = radius * radius, weight = read_weight(i, bone.weight),
            map = parent and affine.compose(made[parent].map, own) or own }
 end
 
---- Each point follows the bones near it: by the distance from the bone in the bone's radii.
-function maps.bones(list)
+--- How much a point near a bone follows it: by the distance from it in the bone's radii.
+local function nearness(bone, x, y)
+  local px, py = x - bone.x, y - bone.y
+  local along = math.max(0, math.min(bone.length, px * bone.dx + py * bone.dy))
+  px, py = px - along * bone.dx, py - along * bone.dy
+  local q = (px * px + py * py) / bone.size + SOFT
+  return 1 / (q * q)
+end
+
+--- Sets the shares of the bones that have a weight of their own; returns their sum.
+local function share_given(bones, shares, x, y)
+  local sum = 0
+  for i = 1, #bones do
+    local weight = bones[i].weight and bones[i].weight(x, y) or 0
+    if not (fields.is_finite(weight) and weight >= 0) then
+      refuse("bone %d: its weight must be 0 or more everywhere, got %s at {%.6g, %.6g}", i,
+        fields.shown(weight), x, y)
+    end
+    shares[i], sum = weight, sum + weight
+  end
+  return sum
+end
+
+--- Divides `rest` among the bones of `list`, numbers of bones, by their nearness.
+local function share_rest(bones, list, shares, rest, x, y)
+  local total = 0
+  for i = 1, #list do
+    local bone = bones[list[i]]
+    bone.near = nearness(bone, x, y)
+    total = total + bone.near
+  end
+  for i = 1, #list do shares[list[i]] = shares[list[i]] + rest * bones[list[i]].near / total end
+end
+
+--- The numbers of the bones without a weight of their own; all where each has one.
+local function numbers_without_weight(bones)
+  local some, all = {}, {}
+  for i, bone in ipairs(bones) do
+    all[i] = i
+    if not bone.weight then some[#some + 1] = i end
+  end
+  return some[1] and some or all
+end
+
+local function read_bones(list)
   local bones = {}
   if type(list) ~= "table" or rawlen(list) == 0 then
     refuse("bones must be a list of { from = {x, y}, to = {x, y}, rotate = degrees }, got %s",
       type(list) == "table" and "an empty one" or fields.kind(list))
   end
   for i = 1, rawlen(list) do bones[i] = read_bone(list, bones, i) end
+  return bones
+end
+
+--- Each point follows the bones by their weights there, and where those add up to less than one
+--- also the bones that are near.
+function maps.bones(list)
+  local bones, shares = read_bones(list), {}
+  local others = numbers_without_weight(bones)
   return function(x, y)
-    local sum, sx, sy = 0, 0, 0
+    local sum = share_given(bones, shares, x, y)
+    if sum < 1 then share_rest(bones, others, shares, 1 - sum, x, y) end
+    local sx, sy, whole = 0, 0, math.max(sum, 1)
     for i = 1, #bones do
-      local b = bones[i]
-      local px, py = x - b.x, y - b.y
-      local along = math.max(0, math.min(b.length, px * b.dx + py * b.dy))
-      px, py = px - along * b.dx, py - along * b.dy
-      local q = (px * px + py * py) / b.size + SOFT
-      local weight = 1 / (q * q)
-      local m = b.map
-      sum = sum + weight
-      sx = sx + weight * (m[1] * x + m[2] * y + m[3])
-      sy = sy + weight * (m[4] * x + m[5] * y + m[6])
+      local m, share = bones[i].map, shares[i] / whole
+      sx = sx + share * (m[1] * x + m[2] * y + m[3])
+      sy = sy + share * (m[4] * x + m[5] * y + m[6])
     end
-    return sx / sum, sy / sum
+    return sx, sy
   end
 end
 
@@ -262,6 +361,74 @@ function warp.apply(object, options)
   if not box[1] then return object end
   return core.warp(object, maps[kind](options[kind], options, box), options.within or 0,
     options.pieces or 0)
+end
+
+-- ---------------------------------------------------------------- boiling lines
+
+local GRAIN = 12 -- of the amount: the length of the waves, unless it is given
+local LEAST = 4  -- of the amount: shorter waves would fold
+
+local boiled = { amount = "number", every = "number", seed = "any", frame = "number",
+                 grain = "number", within = "number", pieces = "number" }
+
+local function refuse_boil(text, ...) core.refuse("boil: " .. text:format(...)) end
+
+local function check_boil(options)
+  fields.check("boil", options, boiled)
+  local amount, every = options.amount, options.every or 2
+  for _, name in ipairs { "amount", "frame" } do
+    if not fields.is_finite(options[name]) then
+      refuse_boil("needs the field '%s', a number", name)
+    end
+  end
+  local grain = options.grain or GRAIN * amount
+  if amount < 0 then
+    refuse_boil("field 'amount' must be 0 or more, got %s", fields.shown(amount))
+  end
+  if every ~= every or every < 1 then
+    refuse_boil("field 'every' must be 1 or more, got %s", fields.shown(every))
+  end
+  if not (grain >= LEAST * amount and grain < math.huge) then
+    refuse_boil("field 'grain' must be at least %d times the amount, %.14g, or lines would fold, "
+      .. "got %s", LEAST, LEAST * amount, fields.shown(grain))
+  end
+  return amount, every, grain
+end
+
+--- How far the points of a grid are moved: at(i, j) returns two numbers.
+local function grid(seed, step, amount)
+  local across = motion.noise(("%s across"):format(seed))
+  local down = motion.noise(("%s down"):format(seed))
+  local xs, ys = {}, {}
+  return function(i, j)
+    local name = i * 0x40000000 + j
+    local x = xs[name]
+    if not x then
+      x = amount * across(i, j, step)
+      xs[name], ys[name] = x, amount * down(i, j, step)
+    end
+    return x, ys[name]
+  end
+end
+
+local function eased(t) return t * t * t * (t * (6 * t - 15) + 10) end
+
+--- object:boil(options): the lines wobble, as if each drawing were traced again. A point is moved
+--- by where it lies, so that what touches stays together.
+function warp.boil(object, options)
+  local amount, every, grain = check_boil(options)
+  if amount == 0 then return object end
+  local at = grid(options.seed or 0, options.frame // every, amount)
+  return warp.apply(object, { within = options.within, pieces = options.pieces, map = function(x, y)
+    local i, j = x // grain, y // grain
+    local u, v = eased(x / grain - i), eased(y / grain - j)
+    local ax, ay = at(i, j)
+    local bx, by = at(i + 1, j)
+    local cx, cy = at(i, j + 1)
+    local dx, dy = at(i + 1, j + 1)
+    local top, left = ax + (bx - ax) * u, ay + (by - ay) * u
+    return x + top + (cx + (dx - cx) * u - top) * v, y + left + (cy + (dy - cy) * u - left) * v
+  end })
 end
 
 return fields.seal("warp", warp)

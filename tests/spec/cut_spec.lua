@@ -55,7 +55,7 @@ local function bytes(film, number) return pixels(film, number):bytes() end
 local function fails(message, ...)
   local good, found = pcall(...)
   assert.is_false(good)
-  assert.truthy(found:find(message, 1, true), found)
+  assert.truthy(tostring(found):find(message, 1, true), found)
 end
 
 local red, green = { 1, 0, 0, 1 }, { 0, 1, 0, 1 }
@@ -152,7 +152,12 @@ return cut { shot "#123", cut.iris { softness = 0.3 }(0.1), shot "#642",
     local film = cut { marks = { own = 2, late = 1 }, { film = a, to = 6, name = "one" },
       cut.wipe {}(0.5), { film = b, from = 12, speed = 2, name = "two" } }
     -- the second part shows 12, 14, 16, 18 of its film from frame 5 on, and never 19
-    assert.are.same({ one = 1, two = 5, wave = 3, own = 2, late = 1 }, film.marks)
+    assert.are.same({ one = { 1, 6 }, two = { 5, 8 }, wave = 3, own = 2, late = 1 }, film.marks)
+    local outer = cut { { film = film, from = 3, to = 6 }, film }
+    assert.are.same({ two = { 3, 4 }, wave = 1, one = { 5, 10 }, own = 6, late = 5 }, outer.marks)
+    local slow = cut { { film = film, speed = 0.5 } }
+    assert.are.same({ 9, 16 }, slow.marks.two)
+    assert.equal(8, cut.retime(film, { { 0, 8 }, { 2, 1 } }).frames)
   end)
 
   it("is refused where its parts do not fit", function()
@@ -186,6 +191,8 @@ return cut { shot "#123", cut.iris { softness = 0.3 }(0.1), shot "#642",
     fails("iris: centre[2] must be a number, got nil", cut.iris, { centre = { 1 } })
     fails("fade: the colour: ", cut.fade, 1, "blue")
     fails("with takes a function(a, b, u), got nil", cut.with)
+    fails("cut: part 1: its film is the field 'film': { film = ..., from = ... }", cut,
+      { { a, from = 2 } })
     fails("celspan.cut has no 'disolve'; did you mean 'dissolve'?", function()
       return cut.disolve(1)
     end)
@@ -233,23 +240,37 @@ describe("a transition", function()
     end
   end)
 
-  it("fades to a colour and from it", function()
-    local film = cut { a, cut.fade(1, "#0000ff"), b }
-    is_near({ 0.75, 0, 0.25, 1 }, colour(film, 5))
-    is_near({ 0.25, 0, 0.75, 1 }, colour(film, 6))
-    is_near({ 0, 0.25, 0.75, 1 }, colour(film, 7))
-    is_near({ 0, 0.75, 0.25, 1 }, colour(film, 8))
-    is_near({ 0, 0, 1, 1 }, colour(cut { a, cut.fade(0.75, "#0000ff"), b }, 7))
-    is_near({ 0.25, 0, 0, 1 }, colour(cut { a, cut.fade(1), b }, 6))
+  it("fades to a colour and from it, evenly to the eye, and shows it alone", function()
+    local film, half = cut { a, cut.fade(1, "#0000ff"), b }, 0.5 ^ 2.2
+    is_near({ half, 0, 1 - half, 1 }, colour(film, 5))
+    is_near({ 0, 0, 1, 1 }, colour(film, 6))
+    is_near({ 0, 0, 1, 1 }, colour(film, 7))
+    is_near({ 0, half, 1 - half, 1 }, colour(film, 8))
+    local odd, third = cut { a, cut.fade(0.75, "#0000ff"), b }, (1 / 3) ^ 2.2
+    is_near({ third, 0, 1 - third, 1 }, colour(odd, 6))
+    is_near({ 0, 0, 1, 1 }, colour(odd, 7))
+    is_near({ 0, 0, 0, 1 }, colour(cut { a, cut.fade(1), b }, 6))
   end)
 
   it("fades in and out at the ends", function()
-    local film = cut { cut.fade(1), a, cut.fade(1, "#fff") }
+    local film, share = cut { cut.fade(1), a, cut.fade(1, "#fff") }, 0.75 ^ 2.2
     assert.are.equal(8, film.frames)
-    is_near({ 0.125, 0, 0, 1 }, colour(film, 1))
-    is_near({ 0.875, 0, 0, 1 }, colour(film, 4))
-    is_near({ 1, 0.125, 0.125, 1 }, colour(film, 5))
+    is_near({ 0, 0, 0, 1 }, colour(film, 1))
+    is_near({ share, 0, 0, 1 }, colour(film, 4))
+    is_near({ 1, 1 - share, 1 - share, 1 }, colour(film, 5))
+    is_near({ 1, 1, 1, 1 }, colour(film, 8))
     is_near({ 0, 0, 0, 0.125 }, { 0, 0, 0, colour(cut { cut.dissolve(1), a }, 1)[4] })
+  end)
+
+  it("has an ease", function()
+    is_near({ 1 - 0.375 ^ 2, 0.375 ^ 2, 0, 1 }, colour(between(function(seconds)
+      return cut.dissolve(seconds, "inQuad")
+    end), 6))
+    is_near(red, colour(between(function(seconds) return cut.wipe {}(seconds, "hold") end), 8, 0))
+    is_near({ 0, 1, 0, 1 }, colour(between(function(seconds)
+      return cut.wipe {}(seconds, function() return 2 end)
+    end), 5))
+    fails('cut: dissolve: ease: there is no curve "inQaud"', cut.dissolve, 1, "inQaud")
   end)
 
   it("wipes with an edge that moves in any direction", function()
@@ -320,6 +341,12 @@ describe("a transition", function()
     for _, transition in ipairs { cut.dissolve, cut.wipe { angle = 45 }, cut.iris {} } do
       is_near({ 1, 1, 1, 1 }, colour(cut { hole, transition(1), hole }, 6, 2))
     end
+    local empty = shot(function() return celspan.union {} end, 8)
+    for _, transition in ipairs { cut.wipe { softness = 0.5 }, cut.iris { softness = 0.5 } } do
+      local r, _, _, alpha = pixels(cut { a, transition(1), empty }, 6):get(4, 4)
+      assert.is_true(alpha > 0.01 and alpha < 0.99)
+      assert.near(alpha, r, 1e-6)
+    end
   end)
 
   it("keeps the antialiasing of each shot", function()
@@ -340,6 +367,62 @@ describe("a transition", function()
       soft = soft + (value > 0.01 and value < 0.99 and 1 or 0)
     end
     assert.is_true(soft > 0)
+  end)
+
+  it("has the space of its shots", function()
+    local veil = function() return celspan.rect { 0, 0, W, H, texture = "#00000080" } end
+    local one = shot(veil, 8, { space = "srgb" })
+    for _, film in ipairs { cut { one }, cut.retime(one, { { 0, 1 }, { 2, 8 } }) } do
+      assert.are.equal("srgb", film.space)
+      assert.are.equal(bytes(one, 1), bytes(film, 1))
+    end
+    fails('cut: part 2: its space is "linear", and that of the first film "srgb": '
+      .. 'film:with { space = "srgb" }', cut, { one, a })
+  end)
+
+  it("has one exposure for a background to lie behind", function()
+    local bench = workbench.new()
+    local script = bench:write("wipes.lua", [[
+local celspan, cut = require "celspan", require "celspan.cut"
+local function shot(colour)
+  return celspan.film { size = { 16, 8 }, fps = 4, frames = 8, frame = function()
+    return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 16, 8, texture = colour } } }
+  end }
+end
+local a, b = shot "#880000", shot "#008800"
+return cut { a, cut.wipe { softness = 0.4 }(1), b, cut.iris {}(1), a, cut.push {}(1), b }
+]])
+    for _, options in ipairs { "", "--background '#fff'" } do
+      assert.are.same({ 0, "", "" }, { bench:celspan("render %s -o %s/%s.#.png --progress none %s",
+        script, bench.folder, options == "" and "plain" or "ground", options) })
+    end
+    for number = 1, 20 do
+      local code, out = bench:celspan("compare %s/plain.%d.png %s/ground.%d.png", bench.folder,
+        number, bench.folder, number)
+      assert.are.equal(0, code, out)
+      assert.truthy(out:find "pixels_differing 0", out)
+    end
+    bench:remove()
+  end)
+
+  it("has cels over it, in every frame alike", function()
+    local plate = celspan.cel { celspan.rect { 4, 2, 8, 4, texture = "#0000ff80" } }
+    local film = cut { a, cut.wipe { softness = 0.4 }(1), b, cut.dissolve(1), a, cut.fade(1), b,
+      over = function(f) return f.number ~= 2 and { plate } or nil end }
+    is_near(red, colour(film, 2))
+    for number = 1, film.frames do
+      local _, _, blue, alpha = table.unpack(colour(film, number))
+      if number ~= 2 then is_near({ 0.50196 }, { blue }, "frame " .. number) end
+      is_near({ 1 }, { alpha })
+    end
+    local one = cut { a, over = function() return plate end }
+    is_near({ 0.498, 0, 0.502, 1 }, colour(one, 1))
+    fails("cut: field 'over' must be a function", cut, { a, over = plate })
+    local twice = celspan.film { size = { W, H }, fps = 4, frames = 8, frame = function()
+      return { { celspan.rostrum {}, 1 }, { celspan.rostrum {}, 1 } }
+    end }
+    fails("cut: over: frame 1 is exposed with a weight of 2 in all; it must be 1", pixels,
+      cut { twice, over = function() return plate end }, 1)
   end)
 
   it("may be one's own", function()

@@ -73,6 +73,18 @@ describe("csv", function()
   it("refuses wrong options at the caller's line", function()
     assert.are.equal("csv: unknown field 'headers'; did you mean 'header'?",
       raised.sentence(function() csv.decode("", { headers = true }) end))
+    assert.are.equal('csv: field \'decimal\' must be "." or ",", got ";"',
+      raised.sentence(function() csv.decode("", { decimal = ";" }) end))
+    local rows = assert(csv.decode("town;share\nBern;1,5\nChur;-2", { decimal = ",",
+      types = { share = "number" } }))
+    assert.are.same({ 1.5, -2 }, { rows[1].share, rows[2].share })
+    assert.are.equal("line 2: column 'share' is '1.5'; it must be a number",
+      select(2, csv.decode("share\n1.5", { decimal = ",", types = { share = "number" } })))
+    assert.are.equal("csv: there is no column 'shares'; did you mean 'share'?",
+      raised.sentence(function() return rows[1].shares end))
+    assert.are.equal("csv: there is no column 'votes'; there are town, share",
+      raised.sentence(function() return rows[1].votes end))
+    assert.is_nil(rows[1][3])
     assert.are.equal("csv: field 'separator' must be one character, and no quote or end of a line",
       raised.sentence(function() csv.decode("", { separator = "::" }) end))
     assert.are.equal("csv: the type of column 'a' must be \"number\", \"boolean\" or \"string\"",

@@ -1,4 +1,5 @@
--- Blurred objects, shadows and glows: against formulas, and against the same made by hand.
+-- Blurred objects, shadows, glows and outlines, against formulas and against the same made by
+-- hand.
 local celspan = require "celspan"
 local images = require "tests.support.images"
 local raised = require("tests.support.raised").message
@@ -55,6 +56,52 @@ describe("a blurred object", function()
       for x = 0, 49 do
         local p, q = { part:get(x, y) }, { whole:get(x + 20, y + 10) }
         for c = 1, 4 do assert.is_true(math.abs(p[c] - q[c]) <= 1 / 65535) end
+      end
+    end
+  end)
+
+  --- Stripes. wider: what lies on the sides continues.
+  local function stripes(wider)
+    local list, more = {}, wider and 60 or 0
+    for i = 0, 7 do
+      local left = i == 0 and -more or 8 * i
+      list[i + 1] = rect(left, -more, 8 * i + 8 - left + (i == 7 and more or 0), 48 + 2 * more,
+        i % 3 == 0 and "#e4572e" or i % 3 == 1 and "#2a7f83" or "#f6ead2")
+    end
+    return celspan.group(list)
+  end
+
+  for _, kernel in ipairs { "gaussian", "box", "disc" } do
+    it("continues beyond its bounds as it is there, with a kernel of " .. kernel, function()
+      local wanted = pixels({ stripes(true):blur(9, { kernel = kernel }) }, 64, 48)
+      assert_alike(1e-3, wanted,
+        pixels({ stripes():blur(9, { kernel = kernel, edge = "extend" }) }, 64, 48))
+      local x, y, w, h = stripes():blur(9, { edge = "extend" }):bounds()
+      assert.same({ 0, 0, 64, 48 }, { x, y, w, h })
+    end)
+  end
+
+  it("continues beyond the frame, wherever the cel and the camera are", function()
+    local function film(art, edge, fields)
+      local rostrum = { camera = fields.camera, celspan.cel { art, viewport = fields.viewport,
+        defocus = { radius = fields.radius or 7, edge = edge } } }
+      return assert(celspan.pixels(celspan.rostrum(rostrum), { size = { 64, 48 },
+        film = { 64, 48 }, crop = fields.crop }))
+    end
+    local disc = celspan.circle { centre = { 32, 24 }, radius = 500, texture = "#3388aa" }
+    for _, fields in ipairs { {}, { camera = { centre = { 30, 20 }, width = 40 } },
+      { camera = { centre = { 30, 20 }, width = 50, rotate = 20 } },
+      { viewport = { -8, -4, 80, 60 } }, { radius = 30 } } do
+      local _, _, _, corner = film(rect(-200, -200, 500, 500, "#fff"), "extend", fields):get(0, 0)
+      assert.is_true(corner > 1 - 1e-3)
+      assert_alike(2e-3, film(disc, "clear", fields), film(disc, "extend", fields))
+    end
+    local art = stripes()
+    assert_alike(1e-3, film(stripes(true), "clear", {}), film(art, "extend", {}))
+    local whole, part = film(art, "extend", {}), film(art, "extend", { crop = { 5, 7, 20, 11 } })
+    for y = 0, 10 do
+      for x = 0, 19 do
+        assert.same({ whole:get(x + 5, y + 7) }, { part:get(x, y) })
       end
     end
   end)
@@ -159,6 +206,132 @@ describe("a glow", function()
   end)
 end)
 
+describe("an outline", function()
+  local random = celspan.random(28)
+  local disc = celspan.circle { centre = { 30, 30 }, radius = 14, texture = "#e24a33" }
+  local bar = rect(34, 22, 28, 12, "#348abd")
+  local alone = { width = 5, texture = "#fff", only = true }
+
+  --- The least distance from a point to those points of a fine grid that a shape contains.
+  local function distance(shape, x, y, reach)
+    local least = math.huge
+    for v = y - reach, y + reach, 0.5 do
+      for u = x - reach, x + reach, 0.5 do
+        local d = math.sqrt((u - x) ^ 2 + (v - y) ^ 2)
+        if d < least and shape:contains(u, v) then least = d end
+      end
+    end
+    return least
+  end
+
+  --- Asserts that probe shows the outline of a shape where, and only where, it is within the width.
+  local function assert_within(shape, options, most)
+    local grown = shape:outline(options)
+    local rostrum, seen = celspan.rostrum { celspan.cel { grown } }, {}
+    for i = 1, most do
+      local x, y = 72 * random(i .. "x"), 60 * random(i .. "y")
+      local d = distance(shape, x, y, options.width + 1)
+      local _, _, _, a = celspan.probe(rostrum, x, y, { film = { 72, 60 } })
+      if math.abs(d - options.width) > 0.6 then
+        assert.equal(d < options.width and 1 or 0, a, ("at %g, %g: %g away"):format(x, y, d))
+        seen[a] = true
+      end
+    end
+    assert.same({ [0] = true, [1] = true }, seen)
+  end
+
+  it("reaches as far as its width from shapes of every kind, and no further", function()
+    local hole = celspan.path { d = "M10 10 H50 V50 H10 Z M22 22 H38 V38 H22 Z", rule = "evenodd" }
+    local line = celspan.stroke { points = { { 12, 40, 2 }, { 30, 12, 9 }, { 58, 40, 3 } },
+      cap = "round", join = "round" }
+    local both = celspan.group { disc, bar }
+    for _, shape in ipairs { disc, bar, hole, line, disc | bar, disc ~ bar, both,
+      (disc | bar):rotate(30, 30, 30):scale(1.2, 0.7), hole - rect(24, 0, 10, 16),
+      rect(10, 14, 40, 30, celspan.pattern { art = disc, box = { 0, 0, 8, 8 } }),
+      (disc ~ bar) | rect(10, 50, 40, 6) } do
+      assert_within(shape, alone, 60)
+    end
+  end)
+
+  it("has corners where the sides of an intersection or a difference meet", function()
+    local function alpha(shape, x, y)
+      local grown = shape:outline { width = 4, texture = "#fff", only = true }
+      return select(4, celspan.probe(celspan.rostrum { celspan.cel { grown } }, x, y,
+        { film = { 60, 60 } }))
+    end
+    local square = rect(10, 10, 30, 60) & rect(-10, 10, 90, 30)
+    assert.same({ 1, 0, 0 },
+      { alpha(square, 43.5, 42), alpha(square, 44.5, 20), alpha(square, 20, 44.5) })
+    local notch = rect(10, 10, 40, 40) - rect(25, 0, 10, 30)
+    assert.same({ 1, 0, 1, 1 }, { alpha(notch, 28.5, 20), alpha(notch, 30, 20),
+      alpha(notch, 31.5, 20), alpha(notch, 30, 26.5) })
+  end)
+
+  it("is as wide in the object's units, and follows its transforms", function()
+    local outlined = (disc | bar):outline { width = 3, texture = "#fd0" }
+    local large = disc:scale(2) | bar:scale(2)
+    assert_alike(1e-6, pixels({ outlined:scale(2) }, 140, 120),
+      pixels({ large:outline { width = 6, texture = "#fd0" } }, 140, 120))
+  end)
+
+  it("is behind the object, in a texture, faded, with the joins that are asked for", function()
+    local square = rect(20, 20, 20, 20, "#f00")
+    local by_hand = celspan.group { rect(16, 16, 28, 28, "#00f"):fade(0.5), square }
+    assert_alike(1e-6, pixels({ by_hand }, 60, 60), pixels({ square:outline { width = 4,
+      texture = "#00f", join = "miter", opacity = 0.5 } }, 60, 60))
+    local round = rect(16, 16, 28, 28):with { radius = 4, texture = "#00f" }
+    assert_alike(4e-3, pixels({ celspan.group { round, square } }, 60, 60),
+      pixels({ square:outline { width = 4, texture = "#00f" } }, 60, 60))
+  end)
+
+  it("is soft with a blur", function()
+    local only = disc:outline { width = 4, texture = "#0f0", blur = 5, only = true }
+    local wide = celspan.circle { centre = { 30, 30 }, radius = 18, texture = "#0f0" }
+    assert_alike(2e-3, pixels({ wide:blur(5) }, 60, 60), pixels({ only }, 60, 60))
+  end)
+
+  it("spreads the alpha of pictures, compositions and mattes", function()
+    local ramp = rect(10, 10, 40, 40, celspan.linear { from = { 30, 0 }, to = { 30.01, 0 },
+      { 0, "#fff" }, { 1, "#fff0" } })
+    local cut = celspan.matte(rect(10, 10, 40, 40, "#f00"), ramp)
+    local image = pixels({ cut:outline { width = 8, texture = "#00f" } }, 60, 60)
+    local function blue(x) return (select(3, image:get(x, 30))) end
+    assert.same({ 0, 0 }, { blue(1), blue(39) })
+    for x = 31, 35 do assert.is_true(blue(x) > 0.999, "pixel " .. x) end
+    assert.is_true(blue(37) > 0 and blue(37) < 1)
+    local nested = celspan.rostrum { size = { 20, 20 }, celspan.cel {
+      celspan.circle { centre = { 10, 10 }, radius = 6, texture = "#fff" } } }
+    image = pixels({ nested:translate(20, 20):outline { width = 4, texture = "#00f" } }, 60, 60)
+    local _, _, _, side = image:get(30, 38)
+    local _, _, _, corner = image:get(22, 22)
+    assert.same({ 1, 0 }, { side, corner })
+  end)
+
+  it("of a cel is that of all its objects", function()
+    local cel = celspan.cel { disc, bar, front = { 1, 0.5, 0.25 } }
+    local by_hand = celspan.cel { celspan.group { disc, bar }:outline(alone),
+      front = { 1, 0.5, 0.25 } }
+    local function shown(c)
+      return assert(celspan.pixels(celspan.rostrum { c }, { size = { 64, 64 }, film = { 64, 64 } }))
+    end
+    assert_alike(0, shown(by_hand), shown(cel:outline(alone)))
+  end)
+
+  it("of a width of 0 is the shape, and of nothing is nothing", function()
+    assert_alike(1e-6, pixels({ disc:paint("#fff") }, 60, 60),
+      pixels({ disc:outline { width = 0, texture = "#fff", only = true } }, 60, 60))
+    assert_alike(0, pixels({}, 20, 20),
+      pixels({ celspan.union {}:outline(alone), rect(3, 3, 0, 9):outline(alone) }, 20, 20))
+  end)
+
+  it("keeps a mode outermost, and nests xors in bounded time", function()
+    assert.equal("multiply", disc:blend("multiply"):outline(alone).mode)
+    local nested = disc
+    for i = 1, 10 do nested = celspan.group { nested ~ rect(i, i, 40, 40) } end
+    assert_within(nested, { width = 3, texture = "#fff", only = true }, 20)
+  end)
+end)
+
 describe("a wrong effect", function()
   local disc = celspan.circle { centre = { 5, 5 }, radius = 3 }
 
@@ -183,6 +356,21 @@ describe("a wrong effect", function()
     assert.matches("glow: .*gain.* %-1", raised(function()
       return disc:glow { radius = 4, colour = "#fff", gain = -1 }
     end))
+  end)
+
+  it("is refused for an outline, too", function()
+    assert.matches("outline: .*width", raised(function() return disc:outline {} end))
+    assert.matches("outline: .*width.* 1e09.* 1000000",
+      raised(function() return disc:outline { width = 1e9 } end))
+    assert.matches("outline: .*join.*rond", raised(function()
+      return disc:outline { width = 1, join = "rond" }
+    end))
+    local leaning = disc:transform { 1, 0, 0, 0, 1, 0, -0.2, 0, 1 }
+    assert.matches("outline: the object reaches the horizon of its perspective; give it its",
+      raised(function() return leaning:outline { width = 1 } end))
+    local deep = disc
+    for _ = 1, 60 do deep = celspan.group { deep ~ rect(0, 0, 9, 9) } end
+    assert.matches("outline: .*16777216", raised(function() return deep:outline { width = 1 } end))
   end)
 
   it("is refused when it nests too deep, and drawn when it is very wide", function()

@@ -150,6 +150,8 @@ describe("a wrong type", function()
     { "circle: field 'centre' must be a point {x, y}, got 3 values",
       function() celspan.circle { centre = { 0, 0, 0 }, radius = 1 } end },
     { "circle: takes a table, circle{ ... }, got number", function() celspan.circle(3) end },
+    { "cel: item 1 must be an object, got a list; table.unpack(list) gives its objects",
+      function() celspan.cel { { celspan.union {} } } end },
     { "rect: value 3 (width) must be a number, got string",
       function() celspan.rect { 0, 0, "1", 1 } end },
     { "rect: takes four numbers: x, y, width, height, got 5 values",
@@ -315,6 +317,8 @@ describe("reading an unknown field", function()
   local cases = {
     { "celspan has no 'circl'; did you mean 'circle'?", function() return celspan.circl end },
     { "celspan has no 'nothing_like_it'", function() return celspan.nothing_like_it end },
+    { "celspan has no 'keys'; it is a module: require \"celspan.keys\"",
+      function() return celspan.keys end },
     { "circle: unknown field 'raduis'; did you mean 'radius'?",
       function() return circle.raduis end },
     { "circle: unknown field 'transalte'; did you mean 'translate'?",

@@ -179,4 +179,29 @@ end }]])
     local code, told, err = celspan "compare light.png codes.png --fail 1e-3"
     assert.are.equal(0, code, told .. err)
   end)
+
+  it_reads_pictures("has translucent colours read back, premultiplied, in every coding", function()
+    for _, space in ipairs { "linear", "srgb" } do
+      bench:write("veil.lua", ([[
+local celspan = require "celspan"
+local veil = celspan.linear { from = { 0, 0 }, to = { 8, 0 },
+  { 0, "#ff800020" }, { 1, "#40c080e0" } }
+return celspan.film { size = { 8, 8 }, frames = 1, space = %q, frame = function()
+  return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 7, 8, texture = veil } } }
+end }]]):format(space))
+      local function write(name, options)
+        assert.are.same({ 0, "", "" },
+          { celspan(("render veil.lua -o %s --progress none %s"):format(name, options)) })
+      end
+      write("veil.exr", "--depth float")
+      for name, options in pairs { ["srgb.exr"] = "--depth float --colour srgb",
+        ["rec709.exr"] = "--depth float --colour rec709", ["half.exr"] = "--colour srgb",
+        ["veil.tif"] = "--depth 16 --alpha premultiplied" } do
+        write(name, options)
+        local least = options:find "float" and "1e-6" or options:find "16" and "1e-4" or "1e-3"
+        local code, told, err = celspan(("compare veil.exr %s --fail %s"):format(name, least))
+        assert.are.equal(0, code, ("%s %s: %s%s"):format(space, name, told, err))
+      end
+    end
+  end)
 end)

@@ -890,7 +890,7 @@ describe("an OCA folder", function()
   it_reads_pictures("is a tree in which a layer of several drawings is a group", function()
     local tree = assert(layers.read(oca_folder(document)))
     assert.are.equal("background 0,0 1.00 normal; still 8,10 0.12 multiply; "
-      .. "group 0,0 1.00 pass-through hidden [moves 0,0 1.00 add [m1 8,10 1.00 normal; "
+      .. "group 0,0 1.00 pass-through hidden [moves 0,0 1.00 linear-dodge [m1 8,10 1.00 normal; "
       .. "m2 8,10 1.00 normal hidden]]; guide 0,0 1.00 normal hidden", shape_of(tree))
     assert.are.equal("40 50 60 255", codes_of(tree:find("group/moves/m2").object, 40, 30)(8, 10))
     assert.are.equal("255 0 0 255", codes_of(tree[1].object, 40, 30)(39, 29))
@@ -1011,8 +1011,10 @@ describe("an OCA folder", function()
 
   it_reads_pictures("names blend modes as Krita does, and reports those that are not shown",
     function()
-    local known = { normal = "normal", multiply = "multiply", add = "add", linear_dodge = "add",
-      plus = "add", Multiply = "multiply", screen = "screen", soft_light = "soft-light" }
+    local known = { normal = "normal", multiply = "multiply", add = "linear-dodge",
+      linear_dodge = "linear-dodge", plus = "add", Multiply = "multiply", screen = "screen",
+      soft_light = "soft-light-photoshop", soft_light_svg = "soft-light", dodge = "color-dodge",
+      burn = "color-burn", diff = "difference", luminize = "luminosity" }
     for word, blend in pairs(known) do
       local tree = assert(with_layer(('"blendingMode": "%s", '):format(word), one .. place,
         '"backgroundColor": [1, 1, 1, 1], '))

@@ -56,11 +56,64 @@ describe("layout", function()
       ["grid: field 'columns' must be a whole number of at least 1, got nil"] = function()
         celspan.grid {}
       end,
+      ['fit: the third argument must be "centre", "left", "right", got "center"; did you mean '
+        .. '"centre"?'] = function()
+        celspan.fit(celspan.rect { 0, 0, 1, 1 }, { 0, 0, 9, 9 }, "center")
+      end,
       ["align: box[4] must be a number, got nil"] = function()
         celspan.align(rect(0, 0, 1, 1), { 1, 2, 3 })
       end,
       ["around: margin[1] must be a number, got string"] = function()
         celspan.around(rect(0, 0, 1, 1), "wide")
+      end,
+    }
+  end)
+end)
+
+describe("fit", function()
+  with_art("makes an object as large as the box allows", function()
+    local fitted = celspan.fit(rect(5, 5, 20, 10), { 0, 0, 100, 100 })
+    assert.are.same({ 0, 25, 100, 50 }, bounds(fitted))
+    fitted = celspan.fit(rect(5, 5, 20, 10), { 0, 0, 100, 100 }, "right", "top", 1)
+    assert.are.same({ 80, 0, 20, 10 }, bounds(fitted))
+    fitted = celspan.fit(rect(0, 0, 400, 10), { 0, 0, 100, 100 }, "left", "bottom", 1)
+    assert.are.same({ 0, 97.5, 100, 2.5 }, bounds(fitted))
+    assert.is_nil(celspan.fit(celspan.union {}, { 0, 0, 9, 9 }):bounds())
+    raised.each {
+      ["fit: the box must have a width and a height above 0, got 0 by 5"] = function()
+        celspan.fit(rect(0, 0, 1, 1), { 0, 0, 0, 5 })
+      end,
+      ["fit: the fifth argument, the greatest factor, must be a number above 0, got -1"] =
+        function() celspan.fit(rect(0, 0, 1, 1), { 0, 0, 5, 5 }, "left", "top", -1) end,
+    }
+  end)
+end)
+
+describe("count", function()
+  it("writes numbers as languages do", function()
+    for _, case in ipairs {
+      { "48,250", 48250 }, { "0", 0 }, { "0", -0.2 }, { "\u{2212}1,000", -999.6 }, { "999", 999 },
+      { "48.250,5", 48250.5, "de", 1 }, { "12,34,567.9", 1234567.891, "hi", 1 },
+      { "1234", 1234, "es" }, { "12.345", 12345, "es" }, { "1\u{202f}234", 1234, "fr" },
+      { "1\u{a0}234,00", 1234, "fi", 2 }, { "1’234", 1234, "de-CH" }, { "1.234", 1234, "pt-BR" },
+      { "1,000,000", 1e6, "en-GB" },
+    } do
+      local written = celspan.count(case[2], { language = case[3], decimals = case[4] })
+      assert.equal(case[1], written)
+    end
+    assert.equal("2026.5", celspan.count(2026.5, { decimals = 1, group = false }))
+  end)
+
+  it("refuses what it does not know", function()
+    raised.each {
+      ['count: there is no language "xx"; there are ar, '] = function()
+        celspan.count(1, { language = "xx" })
+      end,
+      ["count: the first argument must be a finite number, got nil"] = function()
+        celspan.count()
+      end,
+      ["count: decimals must be a whole number from 0 to 15, got 1.5"] = function()
+        celspan.count(1, { decimals = 1.5 })
       end,
     }
   end)
@@ -91,11 +144,53 @@ describe("letters", function()
     assert.is_nil(celspan.letters(fields, function() end):bounds())
   end)
 
+  --- The middle of each letter along a path: { x, y, degrees }.
+  local function places(text, options)
+    local found = {}
+    celspan.letters(text, function(letter)
+      found[#found + 1] = { letter.x, letter.y, letter.degrees }
+      return letter.object
+    end, options)
+    return found
+  end
+
+  with_art("run along a path, each with its middle on the line", function()
+    local text = { "HH", font = font, size = 100, at = { 40, 7 } }
+    local glyphs = celspan.glyphs(text)
+    local straight = places(text, { along = "M10 20 H1010", start = 0.5 })
+    for i, glyph in ipairs(glyphs) do
+      local middle = glyph.x - 40 + glyph.advance / 2
+      assert.near(510 + middle, straight[i][1], 1e-9)
+      assert.near(20, straight[i][2], 1e-9)
+    end
+    local x, y, w, h = celspan.letters(text, nil, { along = "M10 20 H1010", start = 0.5 }):bounds()
+    local tx, ty, tw, th = celspan.text(text):bounds()
+    assert.are.same({ 0, 0, 0, 0 }, { -- the same letters, moved
+      math.floor(1e6 * (x - tx - 470) + 0.5), math.floor(1e6 * (y - ty - 20) + 0.5),
+      math.floor(1e6 * (w - tw) + 0.5), math.floor(1e6 * (h - th) + 0.5) })
+    assert.near(90, places(text, { along = "M10 20 V1020" })[1][3], 1e-9)
+  end)
+
+  with_art("leave an open path at its ends, and go round a closed one", function()
+    local text = { "HHHH", font = font, size = 100 }
+    local circle = "M0 0 A50 50 0 0 1 100 0 A50 50 0 0 1 0 0"
+    assert.equal(0, #places(text, { along = "M0 0 H10" }))
+    assert.is_true(#places(text, { along = circle, start = 0.5 }) < 4)
+    local round = places(text, { along = circle .. " Z", start = 0.75 })
+    assert.equal(4, #round)
+    for _, place in ipairs(round) do
+      assert.near(50, math.sqrt((place[1] - 50) ^ 2 + place[2] ^ 2), 1e-6)
+    end
+  end)
+
   with_art("refuse what is no function or no unit", function()
     local fields = { "He is", font = font }
     raised.each {
-      ["letters: the second argument must be a function, got nil"] = function()
-        celspan.letters(fields)
+      ["letters: the second argument must be a function, got string"] = function()
+        celspan.letters(fields, "word")
+      end,
+      ["letters: along must be path data or a path, got boolean"] = function()
+        celspan.letters(fields, nil, { along = true })
       end,
       ['letters: field \'by\' must be "letter", "word" or "line", got "words"'] = function()
         celspan.letters(fields, print, { by = "words" })
@@ -149,7 +244,7 @@ describe("colour", function()
         colour.mix("#fff", nil, 0)
       end,
       ['lighten: "#12" is not a colour'] = function() colour.lighten("#12", 0) end,
-      ["oklch takes a hue, a finite number, got nan"] = function()
+      ["oklch: its hue must be a finite number, got nan"] = function()
         colour.oklch(0.5, 0.1, 0 / 0)
       end,
       ["palette 'night' has no colour 'sky'"] = function()

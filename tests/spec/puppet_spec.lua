@@ -244,6 +244,46 @@ describe("a puppet", function()
     assert.equal("knee", gaps[1].joint)
   end)
 
+  with_art("has limbs that come apart reported by check, unless they may", function()
+    figure()
+    local function check(apart)
+      bench:write("apart.lua", ([[local celspan = require "celspan"
+local rig = require "celspan.puppet" { art = assert(require "celspan.svg".read "figure.svg"),
+  joints = { knee = { 50, 70 } }, bones = { { "thigh", from = "hip", to = "knee" },
+    { "shin", from = "knee", to = "ankle", apart = %s } } }
+return celspan.film { size = { 100, 100 }, frames = 3, frame = function(f)
+  return celspan.rostrum { celspan.cel { rig:pose { at = { 0, 5 * f.index } } } } end }]])
+        :format(apart))
+      local code, _, err = bench:celspan_inside "check apart.lua"
+      return code, err
+    end
+    local code, err = check(false)
+    assert.equal(3, code)
+    assert.equal("celspan: error: frames 1-3: apart.lua:6: puppet: 'shin' and 'thigh' come apart "
+      .. "at the joint 'knee': let the drawings of both cover it, or give the bone apart = true\n"
+      .. "celspan: 1 fault, found 3 times in 3 frames\n", err)
+    assert.equal(0, (check(true)))
+  end)
+
+  with_art("has targets that are out of reach reported by check, unless they may be", function()
+    figure()
+    local function check(target)
+      bench:write("far.lua", ([[local celspan = require "celspan"
+local rig = require "celspan.puppet" { art = assert(require "celspan.svg".read "figure.svg"),
+  bones = { { "thigh", from = "hip", to = "knee" }, { "shin", from = "knee", to = "ankle" } } }
+return celspan.film { size = { 100, 100 }, frames = 1, frame = function()
+  return celspan.rostrum { celspan.cel { rig:pose { reach = { ankle = %s } } } } end }]])
+        :format(target))
+      return (select(3, bench:celspan_inside "check far.lua"))
+    end
+    assert.truthy(check("{ 50, 81 }"):find("frame 1: far.lua:5: puppet: the joint 'ankle' does not "
+      .. "reach its target", 1, true))
+    for _, target in ipairs { "{ 50, 79 }", "{ 50, 80.3 }", "{ 50, 99, loose = true }",
+                              "{ 50, 99, stretch = true }" } do
+      assert.truthy(check(target):find("no faults", 1, true), target)
+    end
+  end)
+
   with_art("has a sheet of its bones, joints and limits", function()
     local rig = rig_of { bones = { { "thigh", from = "hip", to = "knee", limits = { -30, 30 } },
       { "shin", from = "knee", to = "ankle" } } }
@@ -260,6 +300,14 @@ describe("a puppet", function()
       end,
       ["the artwork has no part 'tigh'; did you mean 'thigh'?"] = function()
         rig_of { bones = { { "leg", from = "hip", to = "knee", parts = { "tigh" } } } }
+      end,
+      ["bone 'tigh': the artwork has no part of this name; did you mean 'thigh'? Else give it "
+        .. "parts = {}"] = function()
+        rig_of { bones = { { "tigh", from = "hip", to = "knee" } } }
+      end,
+      ["bone 'tail' moves nothing: the artwork has no part of this name, and no bone begins at its "
+        .. "end. parts = {} says that this is meant"] = function()
+        rig_of { bones = { { "tail", from = "hip", to = "knee" } } }
       end,
       ["there is no bone 'hips'"] = function()
         rig_of { bones = { { "thigh", from = "hip", to = "knee", parent = "hips" } } }

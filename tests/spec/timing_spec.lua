@@ -150,6 +150,8 @@ describe("keys", function()
 
   it("report errors at the line that made them", function()
     local cases = {
+      { 'keys: key 1 has an unknown field ease: a key is {time, value [, ease]}',
+        { { 0, 1, ease = "hold" } } },
       { "keys: key 2 must be {time, value}, got number", { { 0, 1 }, 3 } },
       { "keys: key 2 is of another kind (held) than the first (number)", { { 0, 1 }, { 1, "x" } } },
       { "keys: key 2 is at 1, before the key before it", { { 2, 1 }, { 1, 2 } } },

@@ -174,6 +174,35 @@ describe("a warp", function()
     assert.is_true(bent({ parent = false, rotate = 0, at = { 60, 3 } }):contains(115, 7))
   end)
 
+  it("follows bones by weights that are painted, and by distance where they are missing", function()
+    local sheet = celspan.rect { 0, 0, 100, 100 }
+    local function moved(weight, other)
+      return sheet:warp { bones = {
+        { from = { 0, 0 }, to = { 0, 10 }, parent = false, weight = other },
+        { from = { 100, 0 }, to = { 100, 10 }, parent = false, at = { 100, 40 },
+          weight = weight } } }
+    end
+    local function clear() return 0 end
+    -- the paint grows from the top to the bottom, where all follows the second bone
+    local paint = celspan.rect { 0, -50, 100, 200, texture = celspan.linear { from = { 0, 0 },
+      to = { 0, 100 }, { 0, "#fff0" }, { 1, "#fff" } } }
+    local x, y, w, h = moved(paint):bounds()
+    assert.is_near(0, math.max(math.abs(x), math.abs(y), math.abs(w - 100)), 0.2)
+    assert.is_near(140, h, 0.5) -- the end of the paint is smoothed
+    -- half of the weight is painted; the other half belongs to the bone without a weight
+    h = select(4, moved(function() return 0.5 end):bounds())
+    assert.is_near(100, h, 1e-6)
+    assert.is_near(20, select(2, moved(function() return 0.5 end):bounds()), 1e-6)
+    -- weights above one are shares of their sum
+    local three, one = function() return 3 end, function() return 1 end
+    assert.is_near(30, select(2, moved(three, one):bounds()), 1e-6)
+    -- where nothing is painted the nearest bone has the point
+    assert.is_true(moved(clear, clear):contains(99, 41) and moved(clear, clear):contains(1, 1))
+    assert.is_false(moved(clear, clear):contains(99, 30))
+    -- an object without paint has no weight
+    assert.are.same({ moved(celspan.union {}):bounds() }, { 0, 0, 100, 100 })
+  end)
+
   it("puts pins where they must be, and turns what hangs on them", function()
     local cloth = celspan.rect { 0, 0, 40, 40 }
     local moved = cloth:warp { pins = { { from = { 0, 0 }, to = { 10, 5 } },
@@ -229,6 +258,13 @@ describe("a warp", function()
       ["bone 1: its length must be above 0"] = function()
         box:warp { bones = { { from = { 1, 1 }, to = { 1, 1 } } } }
       end,
+      ["bone 1: its weight must be an object or a function(x, y), got number"] = function()
+        box:warp { bones = { { from = { 1, 1 }, to = { 2, 1 }, weight = 1 } } }
+      end,
+      ["bone 1: its weight must be 0 or more everywhere, got -1 at"] = function()
+        local function less() return -1 end
+        box:warp { bones = { { from = { 1, 1 }, to = { 2, 1 }, weight = less } } }
+      end,
       ["its parent must be false, or the number or name"] = function()
         box:warp { bones = { { from = { 1, 1 }, to = { 2, 1 }, parent = "x" } } }
       end,
@@ -242,5 +278,142 @@ describe("a warp", function()
     }
     local empty = celspan.union {}
     assert.are.equal(empty, empty:warp { map = same })
+  end)
+end)
+
+describe("a boil", function()
+  local square = celspan.rect { 12, 12, 40, 40, texture = "#000000" }
+
+  local function boiled(frame, fields)
+    local options = { amount = 2, frame = frame, grain = 16 }
+    for name, value in pairs(fields or {}) do options[name] = value end
+    return pixels(square:boil(options)):bytes()
+  end
+
+  it("holds each drawing, and gives the same for the same seed", function()
+    assert.equal(boiled(0), boiled(1))
+    assert.equal(boiled(0), boiled(1.9))
+    assert.not_equal(boiled(0), boiled(2))
+    assert.equal(boiled(2), boiled(5, { every = 3 }))
+    assert.not_equal(boiled(0), boiled(0, { seed = "other" }))
+    assert.equal(boiled(4, { every = 4 }), boiled(7, { every = 4 }))
+    assert.equal(pixels(square):bytes(), boiled(3, { amount = 0 }))
+  end)
+
+  it("moves no point by more than the amount", function()
+    for frame = 0, 18, 2 do
+      local x, y, w, h = square:boil { amount = 2, frame = frame }:bounds()
+      assert.is_true(x >= 10 and y >= 10 and x + w <= 54 and y + h <= 54)
+    end
+  end)
+
+  it("keeps together what touches", function()
+    local left = celspan.rect { 8, 8, 24, 48, texture = "#000000" }
+    local upper = celspan.rect { 32, 8, 24, 24, texture = "#000000" }
+    local lower = celspan.rect { 32, 32, 24, 24, texture = "#000000" }
+    for frame = 0, 6, 2 do
+      local function boil(object) return object:boil { amount = 2, frame = frame, grain = 20 } end
+      local image = pixels(celspan.union { boil(left), boil(upper), boil(lower) })
+      for y = 12, 52 do
+        for x = 12, 52 do
+          local _, _, _, alpha = image:get(x, y)
+          assert.is_true(alpha > 1 - 1 / 255) -- the same curve may have other chords
+        end
+      end
+    end
+  end)
+
+  it("refuses what would fold, and what is missing", function()
+    raised.each {
+      ["boil: needs the field 'amount', a number"] = function() square:boil { frame = 1 } end,
+      ["boil: needs the field 'frame', a number"] = function() square:boil { amount = 1 } end,
+      ["boil: field 'grain' must be at least 4 times the amount, 8, or lines would fold, got 7"] =
+        function() square:boil { amount = 2, frame = 1, grain = 7 } end,
+      ["boil: field 'amount' must be 0 or more, got -1"] = function()
+        square:boil { amount = -1, frame = 1 }
+      end,
+      ["boil: field 'every' must be 1 or more, got 0"] = function()
+        square:boil { amount = 1, frame = 1, every = 0 }
+      end,
+      ["boil: unknown field 'amout'; did you mean 'amount'?"] = function()
+        square:boil { amout = 1, frame = 1 }
+      end,
+    }
+  end)
+end)
+
+describe("a brush", function()
+  local function alpha(object, x, y)
+    local _, _, _, a = pixels(object):get(x, y)
+    return a
+  end
+
+  it("is as wide as its profile says", function()
+    local function line(profile)
+      return celspan.brush { d = "M8 32 H56", width = 16, profile = profile }
+    end
+    local x, y, w, h = line("even"):bounds()
+    assert.near(8, x, 1e-6)
+    assert.near(24, y, 1e-6)
+    assert.near(48, w, 1e-6)
+    assert.near(16, h, 1e-6)
+    assert.equal(0, alpha(line "round", 8, 25)) -- beside the round end
+    assert.equal(1, alpha(line "round", 9, 32))
+    assert.equal(1, alpha(line "round", 17, 25))
+    assert.equal(0, alpha(line "ink", 9, 28))
+    assert.equal(1, alpha(line "ink", 32, 25))
+    assert.equal(0, alpha(line(function(t) return t < 0.5 and 1 or 0.25 end), 50, 26))
+    local flat = celspan.brush { d = "M8 32 H56", width = 16, profile = "chisel", nib = 0 }
+    local _, _, _, thin = flat:bounds()
+    assert.near(16 * 0.15, thin, 1e-6)
+  end)
+
+  it("has its texture along the line, wherever that goes", function()
+    local along = celspan.linear { from = { 0, 0 }, to = { 1, 0 }, { 0, celspan.rgb(0, 0, 0) },
+      { 1, celspan.rgb(1, 1, 1) } }
+    local image = pixels(celspan.brush { d = "M8 16 H56 V60", width = 8, profile = "even",
+      texture = along, to = 0.4 })
+    for _, x in ipairs { 12, 24, 36 } do
+      local r = image:get(x, 16)
+      assert.near((x + 0.5 - 8) / 92, r, 2e-2)
+    end
+    local _, _, _, after = image:get(50, 16)
+    assert.equal(0, after)
+  end)
+
+  it("has a picture along the line, of which it shows a part", function()
+    local texels = ("\255\0\0\255"):rep(2) .. ("\0\255\0\255"):rep(2)
+    local stripes = celspan.picture { pixels = texels, size = { 4, 1 }, box = { 0, -0.5, 1, 1 },
+      sampling = "nearest" }
+    local image = pixels(celspan.brush { d = "M8 32 H56", width = 16, profile = "even",
+      texture = stripes, from = 0.25 })
+    local _, _, _, before = image:get(14, 32)
+    local red, green = image:get(24, 32)
+    assert.same({ 0, 1, 0 }, { before, red, green })
+    red, green = image:get(44, 32)
+    assert.same({ 0, 1 }, { red, green })
+  end)
+
+  it("refuses what it cannot draw", function()
+    raised.each {
+      ["brush: needs the field 'd', the path of the line"] = function() celspan.brush {} end,
+      ["brush: d must be path data or a path, got number"] = function()
+        celspan.brush { d = 7 }
+      end,
+      ["brush: field 'width' must be above 0, got 0"] = function()
+        celspan.brush { d = "M0 0H9", width = 0 }
+      end,
+      ["or \"round\", got \"inc\"; did you mean \"ink\"?"] = function()
+        celspan.brush { d = "M0 0H9", profile = "inc" }
+      end,
+      ["brush: the profile must return a number of 0 or more, got -1 at 0"] = function()
+        celspan.brush { d = "M0 0H9", profile = function() return -1 end }
+      end,
+      ["brush: field 'to' must be from 0 to 1, got 2"] = function()
+        celspan.brush { d = "M0 0H9", to = 2 }
+      end,
+    }
+    local nothing = celspan.brush { d = "M0 0H9", from = 0.5, to = 0.5 }
+    assert.is_nil((nothing:bounds()))
   end)
 end)

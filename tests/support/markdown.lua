@@ -8,7 +8,8 @@ function markdown.read(path) return assert(system.read(path)) end
 --- { { language, text, line, name, file }, ... }: line is that of the fence; a block whose first
 --- line is the comment `-- name.lua` or `-- name.lua: what it shows` has a name; file: the name to
 --- save it under, which is that name with ".lua", or the one in backquotes before a colon right
---- above the block.
+--- above the block. options: of `celspan render`, if that first line is a command with
+--- --allow-system-fonts.
 function markdown.blocks(path)
   local blocks, open, number, above = {}, nil, 0, ""
   for line in markdown.read(path):gmatch "([^\n]*)\n" do
@@ -16,6 +17,7 @@ function markdown.blocks(path)
     if open and line == "```" then
       open.text = table.concat(open, "\n") .. "\n"
       open.name = open.text:match "^%-%- (%w[%w_]*)%.lua[:\n]"
+      open.options = open.text:match "^%-%- [^\n]*(%-%-allow%-system%-fonts)" or ""
       open.file = open.name and open.name .. ".lua" or above:match "`([%w_.-]+)`:$"
       blocks[#blocks + 1] = open
       open, above = nil, ""

@@ -428,7 +428,7 @@ end
 
 local modes = { "multiply", "screen", "overlay", "darken", "lighten", "color-dodge", "color-burn",
                 "hard-light", "soft-light", "difference", "exclusion", "hue", "saturation", "color",
-                "luminosity", "add" }
+                "luminosity", "add", "linear-dodge", "soft-light-photoshop" }
 
 --- A mode; adding may double the light.
 function maker:mode()
@@ -508,8 +508,24 @@ function maker:nested()
   return text
 end
 
+--- What an outline cannot be drawn around to the bit: what it spreads the alpha of, which `probe`
+--- does not see, and what may reach the horizon.
+local without_outline = { "image", "picture", "matte", "rostrum", "scanline", ":quad",
+                          ":transform" }
+
+--- The object with an outline, now and then, if all in it is vector art.
+function maker:outlined(object)
+  if not self.has_modes or not self.outlines:once(12) then return object end
+  for _, word in ipairs(without_outline) do
+    if object:find(word, 1, true) then return object end
+  end
+  return ("%s:outline{ width = %s, texture = %q, join = %q, opacity = %s }"):format(object,
+    text_of(self.outlines:between(0, 6)), "#e8c070",
+    self.outlines:pick { "round", "miter", "bevel" }, text_of(self.outlines:between(0.3, 1)))
+end
+
 function maker:object(depth)
-  local object = self:plain_object(depth)
+  local object = self:outlined(self:plain_object(depth))
   if not self.has_modes or not self.modes:once(4) then return object end
   return self:dress(self:compose(object, depth))
 end
@@ -632,7 +648,7 @@ local function start(seed, options)
     is_flat = options.is_flat, is_single = options.is_single, is_plain = options.is_plain,
     has_pictures = options.has_pictures ~= false, has_text = options.has_text, level = 0,
     lights = 1, brightest = 1, modes = prng.new(~seed),
-    fillings = prng.new(seed ~ 0x7061747465726e),
+    fillings = prng.new(seed ~ 0x7061747465726e), outlines = prng.new(seed ~ 0x6f75746c696e65),
     has_modes = options.has_modes ~= false and seed % 2 == 0,
     has_spaces = options.has_modes ~= false and seed % 4 == 0,
     has_grades = options.has_grades ~= false, has_patterns = options.has_patterns ~= false,
@@ -644,8 +660,8 @@ end
 -- options: is_flat (no gradients or pictures), is_single (one exposure), has_rows = false (no
 -- scan-lines), has_pictures = false, has_text (every second primitive is text), is_plain (no
 -- lights with a shape, no compositions inside others), has_modes = false, has_grades = false,
--- has_patterns = false. Half of the scenes have modes, groups and mattes; half of these have spaces
--- and grades, too. The outermost space is that of light.
+-- has_patterns = false. Half of the scenes have modes, groups, mattes and outlines; half of these
+-- have spaces and grades, too. The outermost space is that of light.
 function scenes.script(seed, options)
   local self = start(seed, options or {})
   local exposures = self:exposures()

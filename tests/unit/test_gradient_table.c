@@ -156,7 +156,7 @@ static void test_programs(celspan_context *context, bool is_grouped, double pers
   cs_item items[LEAVES];
   make_layers(is_grouped, perspective);
   CHECK(cs_composer_init(&composer, context, &stack, cs_painter_opacity(&painter)) == CELSPAN_OK);
-  CHECK(cs_painter_init(&painter, context, &composer) == CELSPAN_OK);
+  CHECK(cs_painter_init(&painter, context, composer.stack, &composer) == CELSPAN_OK);
   for (unsigned varying = 1; varying < 1u << LEAVES; varying++) {
     /* A layer's kind never changes, so layers alone identify a table. */
     cs_gradient_tables_destroy(painter.gradients, context->memory);
@@ -229,7 +229,7 @@ static void test_forgotten(celspan_context *context) {
   cs_painter painter;
   cs_shade_prepare(&shade);
   CHECK(cs_composer_init(&composer, context, &full, cs_painter_opacity(&painter)) == CELSPAN_OK);
-  CHECK(cs_painter_init(&painter, context, &composer) == CELSPAN_OK);
+  CHECK(cs_painter_init(&painter, context, composer.stack, &composer) == CELSPAN_OK);
   for (unsigned subset = 0; subset < PROGRAMS; subset++)
     find_colours(&painter, subset, colours[subset]);
   int wrong = 0;

@@ -666,6 +666,22 @@ static celspan_status name_everything(celspan_context *context, const everything
   return CELSPAN_OK;
 }
 
+/* Outlines of a vector shape, in an xor, and of an object with an alpha of its own. */
+static celspan_status try_outlines(celspan_context *context, celspan_object *shape,
+                                   celspan_object *soft) {
+  celspan_outline_desc desc = CELSPAN_OUTLINE_DESC;
+  celspan_object *both[] = {shape, shape}, *mixed, *made;
+  desc.width = desc.blur = 2;
+  CS_TRY(celspan_object_create_boolean(context, CELSPAN_XOR, both, 2, &mixed));
+  celspan_status status = celspan_object_outline(context, mixed, &desc, &made);
+  celspan_object_unref(mixed);
+  CS_TRY(status);
+  celspan_object_unref(made);
+  CS_TRY(celspan_object_outline(context, soft, &desc, &made));
+  celspan_object_unref(made);
+  return CELSPAN_OK;
+}
+
 /* Every effect of an object with a mode. */
 static celspan_status try_effects(celspan_context *context, celspan_object *object) {
   celspan_object *source, *blurred = NULL, *shadow = NULL, *glow = NULL;
@@ -680,6 +696,8 @@ static celspan_status try_effects(celspan_context *context, celspan_object *obje
     status = celspan_object_shadow(context, source, &inside, &shadow);
   if (status == CELSPAN_OK)
     status = celspan_object_glow(context, source, &light, &glow);
+  if (status == CELSPAN_OK)
+    status = try_outlines(context, source, glow);
   CHECK(status != CELSPAN_OK || celspan_object_mode(glow) == CELSPAN_BLEND_SCREEN);
   celspan_object_unref(source);
   celspan_object_unref(blurred);

@@ -89,18 +89,22 @@ static void lists_are_refused_where_they_are_wrong(celspan_context *context) {
   check_lists(context, cases, sizeof cases / sizeof *cases, contains);
 }
 
-static const cs_film_mark marks[] = {
-    {"title", 11}, {"the same", 11}, {"chase-2", 13}, {"\xc3\xa9nd", 20}};
+static const cs_film_mark marks[] = {{.name = "title", .frame = 11},
+                                     {.name = "the same", .frame = 11},
+                                     {.name = "chase-2", .frame = 13},
+                                     {.name = "part", .frame = 13, .last = 15, .has_last = true},
+                                     {.name = "\xc3\xa9nd", .frame = 20}};
 
 static void marks_and_times_mean_frames_of_a_film(celspan_context *context) {
   const cs_film_info film = {
-      .frames_second = 2, .first = 11, .count = 11, .marks = marks, .mark_count = 4};
+      .frames_second = 2, .first = 11, .count = 11, .marks = marks, .mark_count = 5};
   static const char *const cases[][2] = {
       {"title", "11 12"},
       {"the same", "11 12"},
       {" chase-2 :3, title", "13 16 19 11 12"},
       {"\xc3\xa9nd", "20 21"},
       {"12,title:2", "12 11"},
+      {"part", "13 14 15"},
       {"1s-2s", "13 14"},
       {"0s - 1.5s : 2", "11 13"},
       {"0.1s-0.6s", "12"},
@@ -128,7 +132,7 @@ static void times_are_those_of_frames(celspan_context *context) {
 
 static void marks_and_times_are_refused_where_they_are_wrong(celspan_context *context) {
   const cs_film_info film = {
-      .frames_second = 2, .first = 11, .count = 11, .marks = marks, .mark_count = 4};
+      .frames_second = 2, .first = 11, .count = 11, .marks = marks, .mark_count = 5};
   const cs_film_info bare = {.frames_second = 2, .first = 1, .count = 3};
   static const char *const cases[][2] = {
       {"titel", "the film has no mark \"titel\"; its marks are title, the same, chase-2, "},

@@ -97,6 +97,7 @@ static void random_sketch(test_random *random, sketch *s) {
   if (random_below(random, 3) == 0) {
     s->desc.taper[0] = random_between(random, 0, 60);
     s->desc.taper[1] = random_below(random, 2) == 0 ? 0 : random_between(random, 0, 60);
+    s->desc.profile = s->desc.taper[0] < 30 ? CELSPAN_PROFILE_STRAIGHT : CELSPAN_PROFILE_ROUND;
   }
   if (random_below(random, 3) == 0) {
     s->desc.from = random_between(random, -0.2, 0.6);
@@ -177,10 +178,11 @@ static int try_points(const trial *t, test_random *random, int points) {
 
 static void print_sketch(const sketch *s) {
   const celspan_stroke_desc *d = &s->desc;
-  fprintf(stderr,
-          "  cap %d join %d miter %g width %g degree %d closed %d from %g to %g taper %g %g",
-          d->cap, d->join, d->miter, d->width, d->degree, d->closed, d->from, d->to, d->taper[0],
-          d->taper[1]);
+  fprintf(
+      stderr,
+      "  cap %d join %d miter %g width %g degree %d closed %d from %g to %g taper %g %g profile %d",
+      d->cap, d->join, d->miter, d->width, d->degree, d->closed, d->from, d->to, d->taper[0],
+      d->taper[1], d->profile);
   for (size_t i = 0; i < d->dash_count; i++)
     fprintf(stderr, " dash %g", d->dashes[i]);
   fprintf(stderr, " offset %g\n  %s\n", d->dash_offset, d->data ? d->data : "");

@@ -311,7 +311,7 @@ static uint32_t program_length(celspan_rostrum *rostrum) {
   studio_check(&s, cs_frame_create(s.context, &desc, &frame));
   const cs_stack *stack = &frame.plans[0].stack;
   CHECK(cs_composer_init(&composer, s.context, stack, cs_painter_opacity(&painter)) == CELSPAN_OK);
-  CHECK(cs_painter_init(&painter, s.context, &composer) == CELSPAN_OK);
+  CHECK(cs_painter_init(&painter, s.context, composer.stack, &composer) == CELSPAN_OK);
   for (uint32_t layer = 0; layer < stack->layer_count; layer++)
     cs_composer_cross(&composer, layer, 1);
   cs_composer_cell(&composer, &cell);

@@ -8,10 +8,11 @@
 
 #include "celspan/celspan.h"
 
-/* A name for a frame. */
+/* A name for a frame, and for those up to another one. */
 typedef struct cs_film_mark {
   const char *name;
-  int64_t frame;
+  int64_t frame, last;
+  bool has_last; /* false: up to the one before the next mark */
 } cs_film_mark;
 
 typedef struct cs_film_info {

@@ -165,8 +165,10 @@ static celspan_status refuse_mark(const reader *r, size_t length) {
       names, used < sizeof names ? "" : " ...");
 }
 
-/* The frame before the next mark that is at a later frame, or the last one. */
+/* Its own last frame; else the frame before the next mark that is at a later frame, or the last. */
 static int64_t find_end(const cs_film_info *film, size_t mark) {
+  if (film->marks[mark].has_last)
+    return film->marks[mark].last;
   for (size_t i = mark + 1; i < film->mark_count; i++)
     if (film->marks[i].frame > film->marks[mark].frame)
       return film->marks[i].frame - 1;

@@ -27,6 +27,9 @@ static void (*volatile on_request)(void);
 #define PATIENCE_NANOSECONDS 700000000
 #endif
 
+static const int requests[] = {SIGINT, SIGTERM, SIGHUP};
+enum { REQUESTS = sizeof requests / sizeof *requests };
+
 static struct timespec requested_at;
 static timer_t deadline;
 static bool has_deadline;
@@ -113,9 +116,8 @@ void cs_interrupt_install(void) {
   make_deadline();
   signal(SIGPIPE, SIG_IGN);
   signal(SIGXFSZ, SIG_IGN);
-  handle(SIGINT);
-  handle(SIGTERM);
-  handle(SIGHUP);
+  for (size_t i = 0; i < REQUESTS; i++)
+    handle(requests[i]);
 }
 
 /* A caller that gets a signal starts a clean stop. */
@@ -125,6 +127,21 @@ int cs_interrupt_signal(void) {
     set_deadline();
   }
   return requested_by;
+}
+
+/* Between the question whether there was a signal and the wait no signal may come in, or the wait
+ * would not end by it: ppoll opens the door and waits in one step. */
+void cs_interrupt_wait(struct pollfd *sources, size_t count, int milliseconds) {
+  const struct timespec time = {.tv_sec = milliseconds / 1000,
+                                .tv_nsec = milliseconds % 1000 * 1000000L};
+  sigset_t stops, before;
+  sigemptyset(&stops);
+  for (size_t i = 0; i < REQUESTS; i++)
+    sigaddset(&stops, requests[i]);
+  pthread_sigmask(SIG_BLOCK, &stops, &before);
+  if (cs_interrupt_signal() == 0)
+    ppoll(sources, count, milliseconds < 0 ? NULL : &time, &before);
+  pthread_sigmask(SIG_SETMASK, &before, NULL);
 }
 
 void cs_interrupt_call(void (*function)(void)) { on_request = function; }

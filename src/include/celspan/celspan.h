@@ -833,7 +833,9 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_extend_boolean(
 
 /* How an object or a cel is combined with its backdrop: all that is behind it in its nearest group
  * that isolates, else in the frame. W3C Compositing and Blending Level 1, except for ADD, which
- * adds premultiplied colours and clamps alpha to 1. Colours are clamped to 0..1 inside a mode. */
+ * adds premultiplied colours and clamps alpha to 1, and for those after it, which are of painting
+ * programs: LINEAR_DODGE mixes in the sum, which ends at 1, and SOFT_LIGHT_PHOTOSHOP brightens dark
+ * backdrops by the square root, too. Colours are clamped to 0..1 inside a mode. */
 typedef enum celspan_blend {
   CELSPAN_BLEND_NORMAL = 0,
   CELSPAN_BLEND_MULTIPLY,
@@ -851,7 +853,9 @@ typedef enum celspan_blend {
   CELSPAN_BLEND_SATURATION,
   CELSPAN_BLEND_COLOR,
   CELSPAN_BLEND_LUMINOSITY,
-  CELSPAN_BLEND_ADD
+  CELSPAN_BLEND_ADD,
+  CELSPAN_BLEND_LINEAR_DODGE,
+  CELSPAN_BLEND_SOFT_LIGHT_PHOTOSHOP
 } celspan_blend;
 
 /* ---------------------------------------------------------------- grades */
@@ -961,12 +965,20 @@ typedef enum celspan_defocus_kernel {
   CELSPAN_DEFOCUS_DISC
 } celspan_defocus_kernel;
 
+/* What a blur takes from beyond the edges: those of the frame for a cel, of its bounds for an
+ * object. */
+typedef enum celspan_blur_edge {
+  CELSPAN_BLUR_CLEAR = 0, /* the art itself, of which an object has none */
+  CELSPAN_BLUR_EXTEND     /* what lies on the edge, continued; an object ends at its bounds */
+} celspan_blur_edge;
+
 #define CELSPAN_BLUR_MOST 1e6 /* units: the greatest radius of an effect */
 
 typedef struct celspan_blur_desc {
   size_t struct_size; /* sizeof(celspan_blur_desc) */
   double radius;      /* as that of a cel's defocus, but in the object's units, 0..1e6 */
   celspan_defocus_kernel kernel;
+  celspan_blur_edge edge;
 } celspan_blur_desc;
 
 static inline celspan_blur_desc celspan_blur_desc_default(void) {
@@ -976,8 +988,8 @@ static inline celspan_blur_desc celspan_blur_desc_default(void) {
 }
 #define CELSPAN_BLUR_DESC (celspan_blur_desc_default())
 
-/* The object out of focus. Its shape is the rectangle that the blur reaches. A mode stays
- * outermost. Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
+/* The object out of focus. Its shape is the rectangle that the blur reaches; with EXTEND, its
+ * bounds. A mode stays outermost. Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_blur(celspan_context *context,
                                                                celspan_object *object,
                                                                const celspan_blur_desc *desc,
@@ -1029,6 +1041,34 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_glow(celspan_context *
                                                                celspan_object *object,
                                                                const celspan_glow_desc *desc,
                                                                celspan_object **out);
+
+typedef struct celspan_outline_desc {
+  size_t struct_size;       /* sizeof(celspan_outline_desc) */
+  double width;             /* how far it reaches beyond the shape, 0..1e6 */
+  celspan_texture *texture; /* NULL: black */
+  celspan_stroke_join join; /* at the corners of shapes; ROUND */
+  double blur;              /* a radius, 0..1e6 */
+  double opacity;           /* limited to 0..1 */
+  bool is_alone;            /* without the object */
+} celspan_outline_desc;
+
+static inline celspan_outline_desc celspan_outline_desc_default(void) {
+  celspan_outline_desc desc = CELSPAN_ZERO;
+  desc.struct_size = sizeof desc;
+  desc.join = CELSPAN_JOIN_ROUND;
+  desc.opacity = 1;
+  return desc;
+}
+#define CELSPAN_OUTLINE_DESC (celspan_outline_desc_default())
+
+/* The object with its shape, grown by a width, behind it: exactly, or, where there are pictures,
+ * mattes, compositions or procedures in it, with its alpha spread by the width. A mode stays
+ * outermost. Errors: NO_MEMORY, LIMIT; BAD_ARGUMENT, also where a shape reaches the horizon of its
+ * perspective. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_outline(celspan_context *context,
+                                                                  celspan_object *object,
+                                                                  const celspan_outline_desc *desc,
+                                                                  celspan_object **out);
 
 /* Where a point goes, both in the units around the object. It must be continuous, and a function of
  * the point alone. A status other than OK ends the warp with that status. */
@@ -1288,6 +1328,7 @@ typedef struct celspan_cel_desc {
    * they are factors, which multiply codes as they are. Likewise of a rostrum. */
   bool front_is_colour, back_is_colour;
   celspan_grade *grade; /* of the cel as it is lit, before it is faded; kept; NULL: none */
+  celspan_blur_edge defocus_edge;
 } celspan_cel_desc;
 
 static inline celspan_cel_desc celspan_cel_desc_default(void) {

@@ -61,10 +61,22 @@ static bool is_passage(lua_State *L, lua_Debug *info) {
   return is_function(L, info, cs_caller_enter) || is_function(L, info, cs_require_call);
 }
 
+/* Whether it is a C function, such as that of a warp, that one of celspan's own modules called: its
+ * callbacks have the script's line too. A module that calls pcall writes its own sentence, with the
+ * line, about what it catches. */
+static bool is_called_by_own(lua_State *L, int level, lua_Debug *info) {
+  lua_Debug caller;
+  if (strcmp(info->short_src, "[C]") != 0 || !get(L, level + 1, &caller) || !is_own(&caller))
+    return false;
+  lua_getinfo(L, "n", info);
+  return !info->name || strcmp(info->name, "pcall") != 0;
+}
+
 int cs_caller_error(lua_State *L, const char *format, ...) {
   lua_Debug info = {.source = "", .currentline = -1};
   int level = 1;
-  while (get(L, level, &info) && (is_own(&info) || is_passage(L, &info)))
+  while (get(L, level, &info) &&
+         (is_own(&info) || is_passage(L, &info) || is_called_by_own(L, level, &info)))
     level++;
   push_position(L, &info);
   va_list arguments;

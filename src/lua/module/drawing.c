@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lua/bind/bare.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/form.h"
 #include "lua/bind/host.h"
@@ -31,24 +32,15 @@ typedef struct drawing {
 
 /* ---------------------------------------------------------------- objects of drawings */
 
-static void refuse_change(const cs_form *form, cs_userdata *value) {
-  (void)value;
-  cs_form_fail(form, "it was read from a file and has no fields to change");
-}
-
-static const cs_field no_fields[] = {{0}};
 static const cs_noun object_noun = {.name = "drawing",
                                     .kind = &cs_kind_object,
                                     .list = CS_LIST_NONE,
-                                    .fields = no_fields,
-                                    .create = refuse_change};
+                                    .fields = cs_bare_fields,
+                                    .create = cs_bare_refuse};
 
 /* Pushes a value that keeps the object. */
 static void push_object(lua_State *L, celspan_object *object) {
-  cs_userdata *value = cs_userdata_push(L, &object_noun);
-  lua_newtable(L);
-  lua_setiuservalue(L, -2, 1);
-  value->handle = celspan_object_ref(object);
+  cs_bare_push(L, &object_noun)->handle = celspan_object_ref(object);
 }
 
 /* ---------------------------------------------------------------- drawings */

@@ -10,6 +10,7 @@
 #include "lua/bind/host.h"
 #include "lua/bind/require.h"
 #include "lua/bind/suggest.h"
+#include "lua/bind/warnings.h"
 #include "lua/module/core.h"
 #include "lua/nouns/lua_film.h"
 #include "lua/nouns/nouns.h"
@@ -74,6 +75,8 @@ static const luaL_Reg core_functions[] = {{"find", find},
                                           {"nouns", cs_nouns_push},
                                           {"source", cs_embedded_source},
                                           {"refuse", refuse},
+                                          {"warns", cs_warnings_kept},
+                                          {"warn", cs_warnings_add},
                                           {"entry", entry},
                                           {"settings", cs_core_settings},
                                           {"sounds", cs_lua_film_sounds},
@@ -82,6 +85,9 @@ static const luaL_Reg core_functions[] = {{"find", find},
                                           {"painting", cs_painting_read},
                                           {"blend_within", cs_placed_blend_within},
                                           {"warp", cs_derived_warp},
+                                          {"anatomy", cs_anatomy_of},
+                                          {"rebuild", cs_anatomy_rebuild},
+                                          {"move_texture", cs_anatomy_move},
                                           {"parts", cs_parts_list},
                                           {"folder", cs_folders_names},
                                           {"within", cs_folders_within},
@@ -124,7 +130,9 @@ static const struct {
     {"read", "celspan.files", "text"},      {"parameters", "celspan.parameters", "declare"},
     {"row", "celspan.layout", "row"},       {"column", "celspan.layout", "column"},
     {"grid", "celspan.layout", "grid"},     {"align", "celspan.layout", "align"},
-    {"around", "celspan.layout", "around"}, {"letters", "celspan.layout", "letters"}};
+    {"around", "celspan.layout", "around"}, {"letters", "celspan.layout", "letters"},
+    {"fit", "celspan.layout", "fit"},       {"count", "celspan.count", "written"},
+    {"morph", "celspan.morph", "between"},  {"brush", "celspan.brush", "line"}};
 
 #define WRITTEN_IN_LUA (sizeof written_in_lua / sizeof *written_in_lua)
 
@@ -154,6 +162,15 @@ static size_t list_names(lua_State *L, const char **names) {
   return count;
 }
 
+/* Whether there is a module of this name: require "celspan.NAME". */
+static bool is_module(lua_State *L, const char *name) {
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_PRELOAD_TABLE);
+  lua_pushfstring(L, "celspan.%s", name);
+  bool is_known = lua_rawget(L, -2) != LUA_TNIL;
+  lua_pop(L, 2);
+  return is_known;
+}
+
 /* celspan.circl: reading a name that the module's table does not have. */
 static int read_missing(lua_State *L) {
   if (lua_type(L, 2) != LUA_TSTRING)
@@ -161,6 +178,9 @@ static int read_missing(lua_State *L) {
   const char *names[MOST_NAMES], *name = lua_tostring(L, 2);
   if (push_written(L, name))
     return 1;
+  if (is_module(L, name))
+    return cs_caller_error(L, "celspan has no '%s'; it is a module: require \"celspan.%s\"", name,
+                           name);
   size_t count = list_names(L, names);
   const char *nearest = cs_suggest_name(name, names, count);
   if (nearest)

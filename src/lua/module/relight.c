@@ -1,6 +1,7 @@
 /* Light taken off pictures, for celspan.relight. */
 #include <lauxlib.h>
 
+#include "lua/bind/bare.h"
 #include "lua/bind/files.h"
 #include "lua/bind/form.h"
 #include "lua/bind/host.h"
@@ -13,22 +14,13 @@
 /* ---------------------------------------------------------------- values */
 
 /* What was taken off its light cannot be made again from fields. */
-static void refuse_with(const cs_form *form, cs_userdata *value) {
-  (void)value;
-  cs_form_fail(form, "has no fields that could be changed");
-}
-
-static const cs_field no_fields[] = {{0}};
 static const cs_noun noun = {
-    .name = "relit", .kind = &cs_kind_texture, .fields = no_fields, .create = refuse_with};
+    .name = "relit", .kind = &cs_kind_texture, .fields = cs_bare_fields, .create = cs_bare_refuse};
 
 /* Pushes a closed value, before the core makes the texture that it will hold. */
 static cs_userdata *push_value(lua_State *L, celspan_context *context) {
   cs_named_begin(L, context);
-  cs_userdata *value = cs_userdata_push(L, &noun);
-  lua_newtable(L);
-  lua_setiuservalue(L, -2, 1);
-  return value;
+  return cs_bare_push(L, &noun);
 }
 
 /* Fills the value on top of the stack, or answers the failure. */

@@ -12,13 +12,15 @@ static const cs_field defocus_fields[] = {
     {"radius", CS_NUMBER(DESC, defocus_radius), CS_FROM(0), .is_required = true,
      .about = "Film units on the frame"},
     {"kernel", CS_CHOICE(DESC, defocus_kernel, cs_nouns_kernels), .preset = "gaussian"},
+    {"edge", CS_CHOICE(DESC, defocus_edge, cs_nouns_edges), .preset = "clear",
+     .about = "Beyond the frame: the art, or what lies on its edge"},
     {0}};
 const cs_noun cs_noun_defocus = {.name = "cel: defocus",
                                  .about = "How far a cel is out of focus.",
                                  .table = "celspan.defocus",
                                  .fields = defocus_fields};
 
-/* The field `defocus` is a number or { radius =, kernel = }. */
+/* The field `defocus` is a number or { radius =, kernel =, edge = }. */
 static void read_defocus(const cs_form *form, celspan_cel_desc *desc) {
   lua_State *L = form->L;
   int type = cs_form_get(form, "defocus");
@@ -28,7 +30,7 @@ static void read_defocus(const cs_form *form, celspan_cel_desc *desc) {
     cs_form inner = cs_form_open(L, &cs_noun_defocus, -1);
     cs_fields_read(&inner, desc);
   } else if (type != LUA_TNIL)
-    cs_form_fail(form, "field 'defocus' must be a radius or {radius =, kernel =}, got %s",
+    cs_form_fail(form, "field 'defocus' must be a radius or {radius =, kernel =, edge =}, got %s",
                  cs_userdata_type(L, -1));
 }
 

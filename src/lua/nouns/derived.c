@@ -4,6 +4,7 @@
 
 #include "base/context.h"
 #include "base/number.h"
+#include "lua/bind/bare.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/form.h"
 #include "lua/bind/host.h"
@@ -11,30 +12,17 @@
 #include "lua/nouns/nouns.h"
 #include "model/scene/scene.h"
 
-static void refuse_change(const cs_form *form, cs_userdata *value) {
-  (void)value;
-  cs_form_fail(form, "it was made of another object and has no fields to change");
-}
-
-static const cs_field no_fields[] = {{0}};
 static const cs_noun noun_painted = {.name = "painted",
                                      .kind = &cs_kind_object,
                                      .list = CS_LIST_NONE,
-                                     .fields = no_fields,
-                                     .create = refuse_change};
+                                     .fields = cs_bare_fields,
+                                     .create = cs_bare_refuse};
 static const cs_noun noun_warped = {.name = "warped",
                                     .kind = &cs_kind_object,
                                     .list = CS_LIST_NONE,
-                                    .fields = no_fields,
-                                    .create = refuse_change};
-static const cs_noun argument = {.name = "paint", .fields = no_fields};
-
-static cs_userdata *push(lua_State *L, const cs_noun *noun) {
-  cs_userdata *value = cs_userdata_push(L, noun);
-  lua_newtable(L);
-  lua_setiuservalue(L, -2, 1);
-  return value;
-}
+                                    .fields = cs_bare_fields,
+                                    .create = cs_bare_refuse};
+static const cs_noun argument = {.name = "paint", .fields = cs_bare_fields};
 
 /* ---------------------------------------------------------------- paint */
 
@@ -76,7 +64,7 @@ int cs_derived_paint(lua_State *L) {
   }
   lua_getfield(L, 1, "name");
   const char *name = lua_tostring(L, -1);
-  cs_userdata *value = push(L, &noun_painted);
+  cs_userdata *value = cs_bare_push(L, &noun_painted);
   celspan_object *object = NULL;
   cs_host_try(L, "paint", fill(context, shape->handle, &box, texture, &object));
   celspan_status status =
@@ -152,7 +140,7 @@ int cs_derived_warp(lua_State *L) {
   desc.pieces = (size_t)fmin(fmax(luaL_checknumber(L, 4), 0), 1e9);
   lua_settop(L, 2);
   luaL_checkstack(L, 20, "warp");
-  cs_userdata *value = push(L, &noun_warped);
+  cs_userdata *value = cs_bare_push(L, &noun_warped);
   celspan_status status = celspan_object_warp(cs_host_context(L), object->handle, &desc, &bent);
   if (m.outcome != LUA_OK)
     return lua_error(L);

@@ -1,5 +1,5 @@
-/* object:blur, object:shadow and object:glow; the last two also of cels. What they make is a value
- * with the object as its list and the options as its fields. */
+/* object:blur, object:shadow, object:glow and object:outline; all but the first also of cels. What
+ * they make is a value with the object as its list and the options as its fields. */
 #include "lua/bind/caller.h"
 #include "lua/bind/construct.h"
 #include "lua/bind/fields.h"
@@ -8,6 +8,7 @@
 #include "lua/nouns/shape.h"
 
 const char *const cs_nouns_kernels[] = {"gaussian", "box", "disc", NULL};
+const char *const cs_nouns_edges[] = {"clear", "extend", NULL};
 
 /* ---------------------------------------------------------------- nouns */
 
@@ -22,6 +23,7 @@ const char *const cs_nouns_kernels[] = {"gaussian", "box", "disc", NULL};
 CREATE(blur, CELSPAN_BLUR_DESC)
 CREATE(shadow, CELSPAN_SHADOW_DESC)
 CREATE(glow, CELSPAN_GLOW_DESC)
+CREATE(outline, CELSPAN_OUTLINE_DESC)
 
 #define RADIUS .least = 0, .most = CELSPAN_BLUR_MOST
 
@@ -29,6 +31,8 @@ static const cs_field blur_rows[] = {
     {"radius", CS_NUMBER(celspan_blur_desc, radius), RADIUS, .is_required = true,
      .about = "As of defocus, in the object's units"},
     {"kernel", CS_CHOICE(celspan_blur_desc, kernel, cs_nouns_kernels), .preset = "gaussian"},
+    {"edge", CS_CHOICE(celspan_blur_desc, edge, cs_nouns_edges), .preset = "clear",
+     .about = "Beyond its bounds: nothing, or what lies on their edge"},
     {0}};
 const cs_noun cs_noun_blur = {.name = "blur",
                               .about = "How an object is blurred.",
@@ -75,6 +79,28 @@ const cs_noun cs_noun_glow = {.name = "glow",
                               .item = "object",
                               .fields = glow_rows,
                               .create = create_glow};
+
+static const cs_field outline_rows[] = {
+    {"width", CS_NUMBER(celspan_outline_desc, width), RADIUS, .is_required = true,
+     .about = "How far it reaches beyond the shape"},
+    {"texture", CS_SURFACE(celspan_outline_desc, texture), .preset = "#000000"},
+    {"join", CS_CHOICE(celspan_outline_desc, join, cs_nouns_joins), .preset = "round",
+     .about = "At the corners of shapes"},
+    {"blur", CS_NUMBER(celspan_outline_desc, blur), RADIUS, .preset = "0",
+     .about = "The radius that it is blurred by"},
+    {"opacity", CS_NUMBER(celspan_outline_desc, opacity), .preset = "1",
+     .about = "Limited to 0..1"},
+    {"only", CS_FLAG(celspan_outline_desc, is_alone),
+     .about = "Whether the object itself is left out", .fallback = "false"},
+    {0}};
+const cs_noun cs_noun_outline = {.name = "outline",
+                                 .about = "What outline an object has.",
+                                 .table = "celspan.outline.options",
+                                 .kind = &cs_kind_object,
+                                 .list = CS_LIST_TUPLE,
+                                 .item = "object",
+                                 .fields = outline_rows,
+                                 .create = create_outline};
 
 /* ---------------------------------------------------------------- methods */
 
@@ -138,3 +164,5 @@ static int apply(lua_State *L, const cs_noun *noun) {
 int cs_nouns_shadow(lua_State *L) { return apply(L, &cs_noun_shadow); }
 
 int cs_nouns_glow(lua_State *L) { return apply(L, &cs_noun_glow); }
+
+int cs_nouns_outline(lua_State *L) { return apply(L, &cs_noun_outline); }

@@ -82,7 +82,8 @@ const cs_kind cs_kind_paint = {.name = "celspan.paint",
                                .own_size = sizeof(celspan_paint)};
 const cs_kind cs_kind_texture = {
     .name = "celspan.texture", HAS_VALUE(texture), .methods = texture_methods};
-static const cs_written object_written[] = {{"warp", "celspan.warp", "apply"}, {0}};
+static const cs_written object_written[] = {
+    {"warp", "celspan.warp", "apply"}, {"boil", "celspan.warp", "boil"}, {0}};
 const cs_kind cs_kind_object = {.name = "celspan.object",
                                 HAS_VALUE(object),
                                 HAS_PLACE(object),

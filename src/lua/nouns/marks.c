@@ -17,10 +17,32 @@ static bool is_name(const char *name, size_t length) {
   return !strchr("-0123456789 ", name[0]) && name[length - 1] != ' ';
 }
 
-/* Raises unless the key and value on top of the stack are a name and a frame. */
+/* Whether the value on top of the stack is a frame of the film. */
+static bool read_frame(lua_State *L, int64_t first, int64_t count, int64_t *out) {
+  int is_whole;
+  *out = lua_tointegerx(L, -1, &is_whole);
+  return is_whole && lua_type(L, -1) == LUA_TNUMBER && *out >= first && *out <= first + count - 1;
+}
+
+/* Reads the frame, or the first and the last one, on top of the stack. */
+static bool read_frames(lua_State *L, int64_t first, int64_t count, cs_film_mark *out) {
+  out->has_last = lua_istable(L, -1);
+  if (!out->has_last)
+    return read_frame(L, first, count, &out->frame);
+  lua_rawgeti(L, -1, 1);
+  bool is_good = read_frame(L, first, count, &out->frame);
+  lua_pop(L, 1);
+  lua_rawgeti(L, -1, 2);
+  is_good = is_good && read_frame(L, first, count, &out->last) && out->last >= out->frame;
+  lua_pop(L, 1);
+  return is_good;
+}
+
+/* Raises unless the key and value on top of the stack are a name and a frame, or two. */
 static void check_mark(const cs_form *film, int64_t first, int64_t count) {
   lua_State *L = film->L;
   size_t length = 0;
+  cs_film_mark mark;
   const char *name = lua_type(L, -2) == LUA_TSTRING ? lua_tolstring(L, -2, &length) : NULL;
   if (!name)
     cs_form_fail(film, "marks must be { title = 1, chase = 49 }, got %s as a name",
@@ -30,13 +52,15 @@ static void check_mark(const cs_form *film, int64_t first, int64_t count) {
                  "mark %s: a name has 1 to 255 bytes, begins with a letter, and has no "
                  "comma and no colon",
                  cs_userdata_shown(L, -2));
-  int is_whole;
-  lua_Integer frame = lua_tointegerx(L, -1, &is_whole);
-  if (!is_whole || lua_type(L, -1) != LUA_TNUMBER || frame < first || frame > first + count - 1)
-    cs_form_fail(film, "mark \"%s\" must be a frame of the film, %I to %I, got %s", name,
-                 (LUAI_UACINT)first, (LUAI_UACINT)(first + count - 1),
-                 lua_type(L, -1) == LUA_TNUMBER ? cs_form_digits(L, lua_tonumber(L, -1))
-                                                : cs_userdata_type(L, -1));
+  if (read_frames(L, first, count, &mark))
+    return;
+  if (lua_istable(L, -1))
+    cs_form_fail(film, "mark \"%s\" must be {first, last}, frames of the film, %I to %I", name,
+                 (LUAI_UACINT)first, (LUAI_UACINT)(first + count - 1));
+  cs_form_fail(film, "mark \"%s\" must be a frame of the film, %I to %I, got %s", name,
+               (LUAI_UACINT)first, (LUAI_UACINT)(first + count - 1),
+               lua_type(L, -1) == LUA_TNUMBER ? cs_form_digits(L, lua_tonumber(L, -1))
+                                              : cs_userdata_type(L, -1));
 }
 
 static int compare(const void *a, const void *b) {
@@ -53,7 +77,7 @@ typedef struct store {
 } store;
 
 /* Fills the store on top of the stack from the table below it. */
-static void fill(lua_State *L, store *out) {
+static void fill(lua_State *L, int64_t first, int64_t count, store *out) {
   int table = lua_gettop(L) - 1;
   char *names = (char *)(out->marks + out->count);
   cs_film_mark *mark = out->marks;
@@ -61,7 +85,8 @@ static void fill(lua_State *L, store *out) {
     size_t length;
     const char *name = lua_tolstring(L, -2, &length);
     memcpy(names, name, length + 1);
-    *mark++ = (cs_film_mark){names, lua_tointeger(L, -1)};
+    mark->name = names;
+    (void)read_frames(L, first, count, mark++);
     names += length + 1;
   }
   qsort(out->marks, out->count, sizeof *out->marks, compare);
@@ -84,7 +109,7 @@ void cs_marks_push(const cs_form *film, int64_t first, int64_t count) {
     cs_form_fail(film, "field 'marks' has more than %d marks", MOST_MARKS);
   store *out = lua_newuserdatauv(L, sizeof *out + marks * sizeof *out->marks + bytes, 0);
   out->count = marks;
-  fill(L, out);
+  fill(L, first, count, out);
   lua_remove(L, -2);
 }
 

@@ -12,8 +12,8 @@ extern const cs_noun cs_noun_gradient, cs_noun_linear, cs_noun_radial, cs_noun_p
     cs_noun_polygon, cs_noun_nurbs, cs_noun_path, cs_noun_image, cs_noun_stroke,
     cs_noun_stroke_style, cs_noun_text, cs_noun_glyph, cs_noun_scanline, cs_noun_union,
     cs_noun_intersection, cs_noun_difference, cs_noun_xor, cs_noun_group, cs_noun_matte,
-    cs_noun_blur, cs_noun_shadow, cs_noun_glow, cs_noun_light, cs_noun_defocus, cs_noun_grade,
-    cs_noun_cel, cs_noun_camera, cs_noun_frame, cs_noun_sound;
+    cs_noun_blur, cs_noun_shadow, cs_noun_glow, cs_noun_outline, cs_noun_light, cs_noun_defocus,
+    cs_noun_grade, cs_noun_cel, cs_noun_camera, cs_noun_frame, cs_noun_sound;
 
 /* Those with a constructor, celspan.circle, and tables: of values without one, of options, and in
  * fields of others. Ended by NULL. */
@@ -38,11 +38,22 @@ int cs_derived_paint(lua_State *L);
  * 0 for either: as it is without) -> object. */
 int cs_derived_warp(lua_State *L);
 
-/* object:blur(radius, options); shadow and glow with options, also of cels. */
+/* What celspan.morph is made of (anatomy.c): (object, whether strokes are shapes) -> its tree as
+ * tables; (object, { operands }) -> a boolean like it; (texture, { 9 numbers }) -> the texture,
+ * moved. */
+int cs_anatomy_of(lua_State *L);
+int cs_anatomy_rebuild(lua_State *L);
+int cs_anatomy_move(lua_State *L);
+
+/* object:blur(radius, options); shadow, glow and outline with options, also of cels. */
 int cs_nouns_blur(lua_State *L);
 int cs_nouns_shadow(lua_State *L);
 int cs_nouns_glow(lua_State *L);
+int cs_nouns_outline(lua_State *L);
 extern const char *const cs_nouns_kernels[]; /* of a blur, ended by NULL */
+extern const char *const cs_nouns_edges[];
+extern const char *const cs_nouns_caps[];  /* of a stroke, likewise */
+extern const char *const cs_nouns_joins[]; /* and those at its corners */
 
 /* Functions of the module celspan. */
 int cs_nouns_rgb(lua_State *L);

@@ -223,8 +223,9 @@ static int contains(lua_State *L) {
 #define METHODS                                                                                    \
   {"translate", translate}, {"scale", scale}, {"rotate", rotate}, {"skew", skew},                  \
       {"transform", transform}, {"quad", quad}, {"fade", fade}, {"blend", blend},                  \
-      {"shadow", cs_nouns_shadow}, {"glow", cs_nouns_glow}, {"bounds", bounds},                    \
-      {"contains", contains}, {"named", cs_named_method}, {"with", cs_construct_with}, {           \
+      {"shadow", cs_nouns_shadow}, {"glow", cs_nouns_glow}, {"outline", cs_nouns_outline},         \
+      {"bounds", bounds}, {"contains", contains}, {"named", cs_named_method},                      \
+      {"with", cs_construct_with}, {                                                               \
     NULL, NULL                                                                                     \
   }
 const luaL_Reg cs_placed_methods[] = {METHODS};

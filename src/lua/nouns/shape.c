@@ -30,6 +30,10 @@ celspan_object **cs_shape_items(const cs_form *form, int count) {
   for (int i = 0; i < count; i++) {
     lua_rawgeti(L, form->table, i + 1);
     const cs_userdata *value = cs_shape_at(L, -1);
+    if (!value && lua_istable(L, -1) && lua_rawlen(L, -1) > 0)
+      cs_form_fail(form,
+                   "item %d must be an object, got a list; table.unpack(list) gives its objects",
+                   i + 1);
     if (!value)
       cs_form_fail(form, "item %d must be an object, got %s", i + 1, cs_userdata_type(L, -1));
     objects[i] = value->handle;

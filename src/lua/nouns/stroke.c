@@ -68,16 +68,16 @@ static void create(const cs_form *form, cs_userdata *value) {
   value->handle = object;
 }
 
-static const char *const caps[] = {"butt", "round", "square", NULL};
+const char *const cs_nouns_caps[] = {"butt", "round", "square", NULL};
 static const char *const profiles[] = {"straight", "round", NULL};
-static const char *const joins[] = {"miter", "round", "bevel", NULL};
+const char *const cs_nouns_joins[] = {"miter", "round", "bevel", NULL};
 
 #define DESC celspan_stroke_desc
 static const cs_field style_fields[] = {
     {"width", CS_NUMBER(DESC, width), CS_FROM(0), .preset = "1",
      .about = "For points without their own"},
-    {"cap", CS_CHOICE(DESC, cap, caps), .preset = "butt"},
-    {"join", CS_CHOICE(DESC, join, joins), .preset = "miter"},
+    {"cap", CS_CHOICE(DESC, cap, cs_nouns_caps), .preset = "butt"},
+    {"join", CS_CHOICE(DESC, join, cs_nouns_joins), .preset = "miter"},
     {"miter", CS_NUMBER(DESC, miter), .least = 1, .most = 1e6, .preset = "4",
      .about = "The longest miter, in widths"},
     {"dash", CS_OWN("number[]"), .about = "Lengths drawn and left out in turn"},

@@ -2,7 +2,7 @@
 #include "model/scene/check.h"
 #include "model/scene/primitive_data.h"
 
-static const char *const nouns[] = {
+const char *const cs_boolean_words[] = {
     [CELSPAN_UNION] = "union",
     [CELSPAN_INTERSECTION] = "intersection",
     [CELSPAN_DIFFERENCE] = "difference",
@@ -30,7 +30,7 @@ celspan_status celspan_object_create_boolean(celspan_context *context, celspan_o
                                              celspan_object *const *operands, size_t operand_count,
                                              celspan_object **out) {
   CS_TRY(cs_check_choice(context, "boolean", "op", (unsigned)op, CELSPAN_CLIP + 1));
-  const char *noun = nouns[op];
+  const char *noun = cs_boolean_words[op];
   if (op == CELSPAN_CLIP && operand_count != 2)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "clip: %zu operands were given; it takes two",
                    operand_count);
@@ -45,12 +45,13 @@ celspan_status celspan_object_create_boolean(celspan_context *context, celspan_o
 static celspan_status fill_more(celspan_context *context, cs_primitive_data *data,
                                 const cs_primitive_data *from, celspan_object *const *operands,
                                 size_t count) {
-  const char *noun = nouns[from->boolean->op];
+  const char *noun = cs_boolean_words[from->boolean->op];
   CS_TRY(cs_operands_extend(context, noun, &from->boolean->view, operands, count,
                             &data->boolean->view));
   show_operands(data);
-  data->depth = from->depth - 1; /* below this one */
+  data->depth = (int16_t)(from->depth - 1); /* below this one */
   data->primitive_count = from->primitive_count;
+  data->shape_count = from->shape_count;
   data->has_procedure = from->has_procedure;
   memcpy(data->blends, from->blends, sizeof data->blends);
   data->has_uneven = from->has_uneven;

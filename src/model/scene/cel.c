@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "model/colour/blend.h"
 #include "model/scene/check.h"
 #include "model/scene/primitive_data.h"
 #include "model/scene/value.h"
@@ -15,9 +16,11 @@ static celspan_status check(celspan_context *context, const celspan_cel_desc *de
     CS_TRY(cs_check_positive(context, "cel", "viewport.height", desc->viewport.height));
   }
   CS_TRY(cs_check_size(context, "cel", "defocus.radius", desc->defocus_radius));
+  CS_TRY(cs_check_choice(context, "cel", "defocus.edge", (unsigned)desc->defocus_edge,
+                         CELSPAN_BLUR_EXTEND + 1));
   CS_TRY(cs_check_choice(context, "cel", "defocus.kernel", (unsigned)desc->defocus_kernel,
                          CELSPAN_DEFOCUS_DISC + 1));
-  return cs_check_choice(context, "cel", "blend", (unsigned)desc->blend, CELSPAN_BLEND_ADD + 1);
+  return cs_check_choice(context, "cel", "blend", (unsigned)desc->blend, CS_BLEND_COUNT);
 }
 
 static void hash_objects(cs_hash *hash, const celspan_cel *cel) {
@@ -35,6 +38,8 @@ static void hash_placement(cs_hash *hash, const celspan_cel *cel) {
   cs_value_hash_box(hash, &cel->viewport);
   cs_hash_number(hash, cel->defocus_radius);
   cs_hash_word(hash, cel->defocus_kernel);
+  if (cel->defocus_edge != CELSPAN_BLUR_CLEAR)
+    cs_hash_word(hash, cel->defocus_edge);
   cs_hash_number(hash, cel->opacity);
   if (cel->blend != CELSPAN_BLEND_NORMAL)
     cs_hash_word(hash, cel->blend);
@@ -130,6 +135,7 @@ celspan_status celspan_cel_create(celspan_context *context, const celspan_cel_de
       .has_viewport = desc->has_viewport,
       .defocus_radius = desc->defocus_radius,
       .defocus_kernel = desc->defocus_radius > 0 ? desc->defocus_kernel : CELSPAN_DEFOCUS_GAUSSIAN,
+      .defocus_edge = desc->defocus_radius > 0 ? desc->defocus_edge : CELSPAN_BLUR_CLEAR,
       .blend = desc->blend,
       .grade = desc->grade,
   };
@@ -184,6 +190,7 @@ celspan_status cs_cel_bare(celspan_context *context, const celspan_cel *cel, cs_
   if (without.defocus) {
     fields.defocus_radius = 0;
     fields.defocus_kernel = CELSPAN_DEFOCUS_GAUSSIAN;
+    fields.defocus_edge = CELSPAN_BLUR_CLEAR;
   }
   return create(context, &fields, cel->objects, cel->object_count, cs_mark_keep(cel->mark), out);
 }

@@ -14,8 +14,6 @@
 #include "model/scene/operands.h"
 #include "model/scene/primitive_data.h"
 
-#define MODES (CELSPAN_BLEND_ADD + 1)
-
 celspan_status cs_primitive_data_of_operands(celspan_context *context, const char *noun,
                                              const cs_boolean *look,
                                              celspan_object *const *operands, size_t count,
@@ -48,7 +46,7 @@ static celspan_status check_group(celspan_context *context, const celspan_group_
   CS_TRY(cs_check_version(context, "group", desc->struct_size, sizeof *desc));
   double opacity;
   CS_TRY(cs_check_share(context, "group", "opacity", desc->opacity, &opacity));
-  CS_TRY(cs_check_choice(context, "group", "blend", (unsigned)desc->blend, MODES));
+  CS_TRY(cs_check_choice(context, "group", "blend", (unsigned)desc->blend, CS_BLEND_COUNT));
   CS_TRY(cs_check_choice(context, "group", "isolate", (unsigned)desc->isolate,
                          CELSPAN_ISOLATION_OFF + 1));
   CS_TRY(cs_check_choice(context, "group", "space", (unsigned)desc->space, CELSPAN_SPACE_SRGB + 1));
@@ -155,14 +153,14 @@ static celspan_status set_mode(celspan_context *context, celspan_object *object,
 celspan_status celspan_object_blend(celspan_context *context, celspan_object *object,
                                     celspan_blend mode, celspan_object **out) {
   CS_TRY(cs_check_given(context, "blend", "the object", object));
-  CS_TRY(cs_check_choice(context, "blend", "mode", (unsigned)mode, MODES));
+  CS_TRY(cs_check_choice(context, "blend", "mode", (unsigned)mode, CS_BLEND_COUNT));
   return set_mode(context, object, mode, out);
 }
 
 celspan_status cs_object_blend_within(celspan_context *context, celspan_object *object,
                                       celspan_blend mode, celspan_object **out) {
   CS_TRY(cs_check_given(context, "blend_within", "the object", object));
-  CS_TRY(cs_check_choice(context, "blend_within", "mode", (unsigned)mode, MODES));
+  CS_TRY(cs_check_choice(context, "blend_within", "mode", (unsigned)mode, CS_BLEND_COUNT));
   return set_mode(context, object, (celspan_blend)((unsigned)mode | CS_BLEND_WITHIN), out);
 }
 

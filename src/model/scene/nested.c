@@ -29,7 +29,7 @@ static celspan_status check(celspan_context *context, const celspan_rostrum *ros
 
 /* What the objects of all cels come to. */
 static celspan_status measure(celspan_context *context, cs_primitive_data *data) {
-  data->primitive_count = 1; /* the frame */
+  data->primitive_count = data->shape_count = 1; /* the frame */
   for (size_t i = 0; i < data->rostrum->cel_count; i++) {
     const celspan_cel *cel = data->rostrum->cels[i];
     CS_TRY(cs_primitive_data_measure(context, "rostrum", cel->objects, cel->object_count, data));

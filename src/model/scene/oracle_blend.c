@@ -36,16 +36,29 @@ static double softlight(double b, double s) {
   return s <= 0.5 ? b - (1 - 2 * s) * b * (1 - b) : b + (2 * s - 1) * (d - b);
 }
 
+/* Photoshop's, which has no polynomial for dark backdrops. */
+static double softlight_photoshop(double b, double s) {
+  return s <= 0.5 ? 2 * b * s + b * b * (1 - 2 * s) : 2 * b * (1 - s) + sqrt(b) * (2 * s - 1);
+}
+
+static double linear_dodge(double b, double s) { return fmin(1, b + s); }
 static double difference(double b, double s) { return fabs(b - s); }
 static double exclusion(double b, double s) { return b + s - 2 * b * s; }
 
 static double (*const separable[])(double b, double s) = {
-    [CELSPAN_BLEND_MULTIPLY] = multiply,     [CELSPAN_BLEND_SCREEN] = screen,
-    [CELSPAN_BLEND_OVERLAY] = overlay,       [CELSPAN_BLEND_DARKEN] = fmin,
-    [CELSPAN_BLEND_LIGHTEN] = fmax,          [CELSPAN_BLEND_COLOR_DODGE] = color_dodge,
-    [CELSPAN_BLEND_COLOR_BURN] = color_burn, [CELSPAN_BLEND_HARD_LIGHT] = hard_light,
-    [CELSPAN_BLEND_SOFT_LIGHT] = softlight,  [CELSPAN_BLEND_DIFFERENCE] = difference,
+    [CELSPAN_BLEND_MULTIPLY] = multiply,
+    [CELSPAN_BLEND_SCREEN] = screen,
+    [CELSPAN_BLEND_OVERLAY] = overlay,
+    [CELSPAN_BLEND_DARKEN] = fmin,
+    [CELSPAN_BLEND_LIGHTEN] = fmax,
+    [CELSPAN_BLEND_COLOR_DODGE] = color_dodge,
+    [CELSPAN_BLEND_COLOR_BURN] = color_burn,
+    [CELSPAN_BLEND_HARD_LIGHT] = hard_light,
+    [CELSPAN_BLEND_SOFT_LIGHT] = softlight,
+    [CELSPAN_BLEND_DIFFERENCE] = difference,
     [CELSPAN_BLEND_EXCLUSION] = exclusion,
+    [CELSPAN_BLEND_LINEAR_DODGE] = linear_dodge,
+    [CELSPAN_BLEND_SOFT_LIGHT_PHOTOSHOP] = softlight_photoshop,
 };
 
 /* ---------------------------------------------------------------- the others */

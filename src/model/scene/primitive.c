@@ -13,7 +13,7 @@ static void measure_outline(cs_primitive_data *data) {
   if (!cs_outline_bounds(cs_primitive_data_outline(data, &room), &identity, &data->bounds))
     data->bounds = (celspan_box){0, 0, 0, 0};
   data->is_empty = !(data->bounds.width > 0 && data->bounds.height > 0);
-  data->primitive_count = 1;
+  data->primitive_count = data->shape_count = 1;
 }
 
 celspan_status cs_primitive_data_complete(celspan_context *context, cs_primitive_data *data,

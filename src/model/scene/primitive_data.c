@@ -90,7 +90,8 @@ celspan_status cs_primitive_data_create(celspan_context *context, cs_primitive_d
   else if (kind != CS_PRIMITIVE_DATA_BOOLEAN)
     data->mixing = CS_MIXING_MIXED;
   if (data->texture)
-    data->has_uneven = data->texture->kind != CS_TEXTURE_FLAT || !cs_texture_is_grey(data->texture);
+    data->has_uneven =
+        !cs_texture_is_grey(data->texture) || cs_texture_stays_on_thread(data->texture);
   *out = data;
   return CELSPAN_OK;
 }
@@ -393,6 +394,8 @@ celspan_status cs_primitive_data_measure(celspan_context *context, const char *n
     const cs_primitive_data *item = objects[i]->data;
     data->depth = item->depth > data->depth ? item->depth : data->depth;
     data->primitive_count += item->primitive_count; /* both at most the limit: no overflow */
+    const uint32_t shapes = (uint32_t)data->shape_count + item->shape_count;
+    data->shape_count = (uint16_t)(shapes < UINT16_MAX ? shapes : UINT16_MAX);
     data->has_procedure |= item->has_procedure;
     add_modes(objects[i], data);
     data->has_uneven |= item->has_uneven;

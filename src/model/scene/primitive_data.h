@@ -87,6 +87,9 @@ CELSPAN_CHECKED celspan_status cs_primitive_data_set_box(celspan_context *contex
 CELSPAN_CHECKED celspan_status cs_object_in_space(celspan_context *context, celspan_object *object,
                                                   celspan_space space, celspan_object **out);
 
+/* What operators are called, in their order, with that of mattes. */
+extern const char *const cs_boolean_words[];
+
 /* *out: a boolean of these operands, new, with the operator, mode, space, grade and isolation of
  * another. Errors: NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_boolean_like(celspan_context *context, const cs_boolean *like,

@@ -188,6 +188,20 @@ celspan_status cs_rostrum_change(celspan_context *context, const celspan_rostrum
   return CELSPAN_OK;
 }
 
+celspan_status cs_rostrum_by_camera(celspan_context *context, const celspan_rostrum *from,
+                                    const celspan_rostrum *by, celspan_rostrum **out) {
+  celspan_rostrum *changed;
+  CS_TRY(cs_rostrum_with(context, from, from->cels, from->cel_count, &changed));
+  changed->has_camera_centre = by->has_camera_centre;
+  changed->has_camera_width = by->has_camera_width;
+  changed->camera_centre = by->camera_centre;
+  changed->camera_width = by->camera_width;
+  changed->camera_rotation = by->camera_rotation;
+  changed->hash = hash_rostrum(changed);
+  *out = changed;
+  return CELSPAN_OK;
+}
+
 celspan_status celspan_rostrum_named(celspan_context *context, celspan_rostrum *rostrum,
                                      const char *name, celspan_rostrum **out) {
   CS_TRY(cs_check_given(context, "named", "the rostrum", rostrum));

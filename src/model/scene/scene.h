@@ -131,12 +131,13 @@ typedef struct cs_primitive_data {
   bool is_empty;            /* nothing to draw: no contour, or an operator without operands */
   bool has_procedure;       /* below or with this one */
   bool blends[CS_SPACES];   /* in that space, a mode below this one acts on its backdrop */
-  bool has_uneven;          /* below or with this one: a paint that is not one colour, or does not
-                               dim the three channels alike; a procedure; a rostrum */
+  bool has_uneven;          /* below or with this one: a paint that does not dim the three
+                               channels alike, or stays on its thread; a procedure; a rostrum */
   uint8_t mixing;           /* a cs_mixing */
   bool has_modes;           /* any mode is below or with this one, except in a rostrum */
   bool is_box;              /* the outline is that of `box`, which has an area */
-  int depth;                /* levels of booleans and rostrums below and with this one */
+  int16_t depth;            /* levels of booleans and rostrums below and with this one */
+  uint16_t shape_count;     /* as primitive_count, a mesh being one shape; 65535 at most */
   uint32_t primitive_count; /* below and with this one, each time it occurs */
   celspan_texture *texture; /* OUTLINE; never NULL */
   celspan_box bounds; /* all but BOOLEAN: own units; tight, but of a stroke only where that shows */
@@ -209,6 +210,7 @@ struct celspan_cel {
   celspan_box viewport;
   double defocus_radius;
   celspan_defocus_kernel defocus_kernel;
+  celspan_blur_edge defocus_edge;
   double opacity;
   celspan_blend blend;
   celspan_grade *grade;          /* NULL: none. A reference */
@@ -304,6 +306,12 @@ CELSPAN_CHECKED celspan_status cs_rostrum_change(celspan_context *context,
                                                  const celspan_rostrum *from,
                                                  celspan_cel *const *cels, size_t cel_count,
                                                  celspan_light back, celspan_rostrum **out);
+/* *out: new; like `from`, name and line included, as the camera of `by` sees it. Errors:
+ * NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_rostrum_by_camera(celspan_context *context,
+                                                    const celspan_rostrum *from,
+                                                    const celspan_rostrum *by,
+                                                    celspan_rostrum **out);
 /* A hash of what exposures show, independent of the frame's size. Exposures with equal hashes show
  * the same, provided that they contain no procedure and the files of their pictures do not
  * change. */

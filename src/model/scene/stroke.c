@@ -65,7 +65,9 @@ static celspan_status check_outline(celspan_context *context, const celspan_obje
                      : data->kind == CS_PRIMITIVE_DATA_ROSTRUM  ? "a rostrum"
                                                                 : "a boolean object";
   return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                 "stroke: the outline must be that of a primitive; %s has none", what);
+                 "stroke: the outline must be that of a primitive; %s has none, but the effect "
+                 "'outline' goes around any object",
+                 what);
 }
 
 /* ---------------------------------------------------------------- construction */
@@ -89,7 +91,7 @@ static celspan_status find_bounds(celspan_context *context, cs_primitive_data *d
 static celspan_status fill(celspan_context *context, cs_primitive_data *data,
                            const celspan_stroke_desc *desc, const cs_outline *outline,
                            const cs_outline_closed *closed) {
-  data->primitive_count = 1;
+  data->primitive_count = data->shape_count = 1;
   CS_TRY(CS_MAKE(context, data->stroke, 1));
   cs_outline_init(&data->stroke->line);
   CS_TRY(cs_stroke_init(context, data->stroke, desc, outline, closed));

@@ -6,6 +6,7 @@
 #include "base/self_check.h"
 #include "model/colour/space.h"
 #include "model/pictures/store.h"
+#include "model/pictures/surface.h"
 #include "model/scene/check.h"
 #include "model/scene/value.h"
 
@@ -416,6 +417,12 @@ bool cs_texture_is_grey(const celspan_texture *texture) {
   return texture->kind == CS_TEXTURE_PICTURE
              ? texture->variation->use == CELSPAN_PICTURE_PAINT && !texture->variation->medium
              : all_paints_are_grey(texture);
+}
+
+bool cs_texture_stays_on_thread(const celspan_texture *texture) {
+  const cs_picture *picture =
+      texture->kind == CS_TEXTURE_PICTURE ? texture->variation->picture : NULL;
+  return picture && picture->surface && cs_surface_stays_on_thread(picture->surface);
 }
 
 /* ---------------------------------------------------------------- copies */

@@ -111,3 +111,5 @@ void cs_texture_rehash(celspan_texture *texture);
 /* Whether every colour of the texture lets the three channels through alike. A picture is grey
  * unless it is a gel or has a medium. */
 bool cs_texture_is_grey(const celspan_texture *texture);
+/* Whether its picture is a surface that is drawn on the rendering thread alone. */
+bool cs_texture_stays_on_thread(const celspan_texture *texture);

@@ -87,12 +87,17 @@ static celspan_status place(celspan_context *context, celspan_texture *texture,
   return status;
 }
 
+/* A mesh is one shape for those who ask whether a drawing is worth being kept. */
+static void count_as_one(const celspan_object *mesh) { mesh->data->shape_count = 1; }
+
 celspan_status cs_warp_pieces(celspan_context *context, const cs_warp_mesh *mesh,
                               celspan_texture *texture, const celspan_box *box,
                               const celspan_matrix *matrix, celspan_object **out) {
   cutter c = {.context = context, .mesh = mesh};
   CS_TRY(place(context, texture, box, matrix, &c.texture));
   celspan_status status = cut(&c, out);
+  if (status == CELSPAN_OK)
+    count_as_one(*out);
   celspan_texture_unref(c.texture);
   return status;
 }

@@ -1,0 +1,124 @@
+--- Lines of a brush: celspan.brush{ d = , width = , profile = , texture = }.
+--
+--      y                        The line is drawn straight first: x goes from 0 to 1 along it, y
+--      |   .----------.         from -1/2 to 1/2 across its greatest width. There lie its texture
+--      +--<------------>--- x   and its outline, by the profile. Then it is scaled to the length
+--          `----------'         and the width, and bent along the path.
+local core = require "celspan.core"
+local celspan = require "celspan"
+local curves = require "celspan.curves"
+local fields = require "celspan.fields"
+local warp = require "celspan.warp"
+
+local brush = {}
+
+local SAMPLES = 48
+local CHISEL = 0.15 -- of the width: the nib's thickness
+
+local function refuse(text, ...) core.refuse("brush: " .. text:format(...)) end
+
+--- The share of the width at a share of the drawn part. line: { curve, width, from, length }, in
+--- units; length: of the drawn part.
+local profiles = {}
+
+function profiles.even() return 1 end
+
+function profiles.round(t, line)
+  local near = math.min(t, 1 - t) * line.length / (line.width / 2)
+  return near >= 1 and 1 or math.sqrt(math.max(0, near * (2 - near)))
+end
+
+function profiles.ink(t) return math.max(0, math.sin(math.pi * t)) ^ 0.7 end
+
+function profiles.chisel(t, line)
+  local _, _, dx, dy = line.curve:at(line.from + t * line.length)
+  local angle = math.rad(line.nib)
+  return CHISEL + (1 - CHISEL) * math.abs(dx * math.sin(angle) + dy * math.cos(angle))
+end
+
+local known = { d = "any", width = "number", profile = "any", nib = "number", texture = "any",
+                from = "number", to = "number", within = "number", pieces = "number" }
+
+local function check_share(name, value)
+  if not (value >= 0 and value <= 1) then
+    refuse("field '%s' must be from 0 to 1, got %s", name, fields.shown(value))
+  end
+end
+
+--- The profile as a function of the share.
+local function profile_of(given, line)
+  if type(given) == "function" then
+    return function(t)
+      local share = given(t)
+      if not fields.is_finite(share) or share < 0 then
+        refuse("the profile must return a number of 0 or more, got %s at %.4g",
+          fields.shown(share), t)
+      end
+      return share
+    end
+  end
+  local found = profiles[given]
+  if found then return function(t) return found(t, line) end end
+  local names = { "chisel", "even", "ink", "round" }
+  local hint = type(given) == "string" and core.nearest(given, names)
+  refuse("field 'profile' must be a function or \"chisel\", \"even\", \"ink\" or \"round\", got "
+    .. "%s%s", type(given) == "string" and ("%q"):format(given) or fields.kind(given),
+    hint and ("; did you mean %q?"):format(hint) or "")
+end
+
+--- Places along the line, dense at its ends, and half the share of the width there.
+local function samples_of(profile, from, to)
+  local xs, halves = {}, {}
+  for i = 0, SAMPLES do
+    local t = (1 - math.cos(math.pi * i / SAMPLES)) / 2
+    xs[i], halves[i] = from + (to - from) * t, profile(t) / 2
+  end
+  return xs, halves
+end
+
+--- A side as curves from its first sample to its last, or back.
+local function add_side(text, xs, ys, first, last, step)
+  local function slope(i)
+    local a, b = math.max(0, i - 1), math.min(SAMPLES, i + 1)
+    return (ys[b] - ys[a]) / (xs[b] - xs[a])
+  end
+  for i = first, last - step, step do
+    local j, third = i + step, (xs[i + step] - xs[i]) / 3
+    text[#text + 1] = ("C%.17g %.17g %.17g %.17g %.17g %.17g"):format(xs[i] + third,
+      ys[i] + slope(i) * third, xs[j] - third, ys[j] - slope(j) * third, xs[j], ys[j])
+  end
+end
+
+--- The outline of the straight line, above and below the x axis alike.
+local function outline_of(profile, from, to)
+  local xs, above = samples_of(profile, from, to)
+  local below = {}
+  for i = 0, SAMPLES do below[i] = -above[i] end
+  local text = { ("M%.17g %.17g"):format(xs[0], below[0]) }
+  add_side(text, xs, below, 0, SAMPLES, 1)
+  text[#text + 1] = ("L%.17g %.17g"):format(xs[SAMPLES], above[SAMPLES])
+  add_side(text, xs, above, SAMPLES, 0, -1)
+  return table.concat(text) .. "Z"
+end
+
+--- celspan.brush(options)
+function brush.line(options)
+  fields.check("brush", options, known)
+  local width, from, to = options.width or 1, options.from or 0, options.to or 1
+  if options.d == nil then refuse "needs the field 'd', the path of the line" end
+  if not (width > 0 and width < math.huge) then
+    refuse("field 'width' must be above 0, got %s", fields.shown(width))
+  end
+  check_share("from", from)
+  check_share("to", to)
+  local curve = curves.read("brush", options.d, "d")
+  if not (from < to and curve.length > 0) then return celspan.union {} end
+  local line = { curve = curve, width = width, nib = options.nib or 45,
+                 from = from * curve.length, length = (to - from) * curve.length }
+  local profile = profile_of(options.profile or "round", line)
+  local straight = celspan.path { d = outline_of(profile, from, to), texture = options.texture }
+  return warp.apply(straight:scale(curve.length, width), { along = options.d, start = from,
+    within = options.within, pieces = options.pieces })
+end
+
+return fields.seal("brush", brush)

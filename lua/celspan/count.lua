@@ -1,0 +1,77 @@
+--- Numbers as they are written in a language: celspan.count.
+--
+--   celspan.count(48250)                                      --> 48,250
+--   celspan.count(1234567.891, { language = "hi", decimals = 1 })   --> 12,34,567.9
+--
+-- Separators and sizes of groups are those of Unicode's locale data (CLDR).
+local core = require "celspan.core"
+local fields = require "celspan.fields"
+
+local count = {}
+
+local THIN, WIDE = "\u{202f}", "\u{a0}" -- spaces at which no line breaks
+local MOST_DECIMALS = 15
+
+--- { between groups, before decimals, the digits of the groups after the first, the digits that a
+--- number needs before the first separator to be grouped at all }
+local comma, point, space = { ",", "." }, { ".", "," }, { WIDE, "," }
+local known = {
+  en = comma, ja = comma, ko = comma, zh = comma, th = comma, he = comma, ar = comma, ga = comma,
+  hi = { ",", ".", 2 }, bn = { ",", ".", 2 }, ta = { ",", ".", 2 }, ["en-IN"] = { ",", ".", 2 },
+  de = point, it = point, nl = point, da = point, el = point, id = point, tr = point,
+  ro = point, hr = point, sl = point, sr = point, vi = point, is = point, ca = point,
+  es = { ".", ",", 3, 2 }, pt = point, ["pt-PT"] = { WIDE, ",", 3, 2 }, ["es-MX"] = comma,
+  fr = { THIN, "," }, ["de-CH"] = { "’", "." }, ["de-AT"] = { WIDE, "," },
+  sv = space, nb = space, fi = space, cs = space, sk = space, hu = space, ru = space, uk = space,
+  et = { WIDE, ",", 3, 2 }, pl = { WIDE, ",", 3, 2 }, bg = { WIDE, ",", 3, 2 }, lt = space,
+  lv = { WIDE, ",", 3, 2 },
+}
+
+local function refuse(text, ...) core.refuse("count: " .. text:format(...)) end
+
+--- The style of "pt-BR" is that of "pt", if it has none of its own.
+local function style_of(language)
+  local style = known[language] or known[language:match "^%a+" or ""]
+  if style then return style end
+  local names = {}
+  for name in pairs(known) do names[#names + 1] = name end
+  table.sort(names)
+  refuse("there is no language %q; there are %s", language, table.concat(names, ", "))
+end
+
+--- The digits with a separator before the last three, and before each group in front of them.
+local function grouped(digits, style)
+  local size, least = style[3] or 3, style[4] or 1
+  if #digits < 3 + least then return digits end
+  local groups, rest = { digits:sub(-3) }, digits:sub(1, -4)
+  while rest ~= "" do
+    table.insert(groups, 1, rest:sub(-size))
+    rest = rest:sub(1, -size - 1)
+  end
+  return table.concat(groups, style[1])
+end
+
+--- The number, rounded to `decimals`, with the separators of the language.
+---@param value number
+---@param options? { language?: string, decimals?: integer, group?: boolean } Default "en", 0, true
+---@return string
+function count.written(value, options)
+  options = options or {}
+  fields.check("count", options, { language = "string", decimals = "number", group = "boolean" })
+  local decimals = options.decimals or 0
+  if not fields.is_finite(value) then
+    refuse("the first argument must be a finite number, got %s", fields.shown(value))
+  end
+  if decimals < 0 or decimals > MOST_DECIMALS or decimals ~= math.floor(decimals) then
+    refuse("decimals must be a whole number from 0 to %d, got %s", MOST_DECIMALS,
+      fields.shown(decimals))
+  end
+  local style = style_of(options.language or "en")
+  local text = ("%%.%df"):format(decimals // 1):format(math.abs(value))
+  local whole, rest = text:match "^(%d+)%.?(%d*)$"
+  local sign = value < 0 and text:find "[1-9]" and "\u{2212}" or ""
+  if options.group ~= false then whole = grouped(whole, style) end
+  return sign .. whole .. (rest ~= "" and style[2] .. rest or "")
+end
+
+return fields.seal("count", count)

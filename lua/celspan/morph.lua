@@ -1,0 +1,270 @@
+--- Objects between two others: celspan.morph(a, b, u).
+--
+--      a            u = 0.5          b       The parts of both are matched by their names, and the
+--    +----+          ----            __      others in order; the outlines of two parts by where
+--    |    |   ->    (    )   ->     (  )     they lie and how large they are; and the points of
+--    +----+          ----            --      two outlines by length and turning (outlines.lua).
+--
+-- What has no partner grows from its middle, or shrinks to it. The match is made once for two
+-- objects, and kept as long as they are.
+local celspan = require "celspan"
+local core = require "celspan.core"
+local fields = require "celspan.fields"
+local outlines = require "celspan.outlines"
+
+local morph = {}
+
+local function refuse(text, ...) core.refuse("morph: " .. text:format(...)) end
+
+local function between(x, y, u) return x + (y - x) * u end
+
+--- An object with what both nodes have in common. The first one gives the name.
+local function finish(object, p, q, u)
+  local fade, name = between(p.fade, q.fade, u), p.name ~= "" and p.name or q.name
+  if fade ~= 1 then object = object:fade(fade) end
+  return name ~= "" and object:named(name) or object
+end
+
+--- One object that becomes another while nothing of it moves: the sum of shares of both.
+local function dissolved(first, second, u)
+  return celspan.group { first:fade(1 - u), second:fade(u):blend "add", isolate = true }
+end
+
+-- ---------------------------------------------------------------- paints
+
+--- The matrix that takes one box to another; a side that is 0 is only moved.
+local function fitting(from, to)
+  local sx = from[3] > 0 and to[3] / from[3] or 1
+  local sy = from[4] > 0 and to[4] / from[4] or 1
+  return { sx, 0, to[1] - sx * from[1], 0, sy, to[2] - sy * from[2], 0, 0, 1 }
+end
+
+--- The texture of a node on an object with other bounds.
+local function texture_of(node, box)
+  if node.paint then return celspan.paint(node.paint) end
+  local own = { node.object:bounds() }
+  return own[1] and box[1] and core.move_texture(node.texture, fitting(own, box)) or node.texture
+end
+
+--- make: a function of a texture.
+local function painted(p, q, u, make)
+  if p.paint and q.paint then
+    return make(celspan.mix(celspan.paint(p.paint), celspan.paint(q.paint), u))
+  end
+  local box = { make("#000"):bounds() }
+  return dissolved(make(texture_of(p, box)), make(texture_of(q, box)), u)
+end
+
+-- ---------------------------------------------------------------- parts
+
+--- The plan for what has no partner: a function of how much of it is there.
+local function lone(node)
+  local x, y, w, h = node.object:bounds()
+  if not x then return function() return node.object end end
+  return function(share) return node.object:scale(share, share, x + w / 2, y + h / 2) end
+end
+
+local function plan_outlines(p, q, steering)
+  if (p.line == nil) ~= (q.line == nil) then -- a line and a shape: both as shapes
+    local one, other = core.anatomy(p.object, true), core.anatomy(q.object, true)
+    one.name, other.name = p.name, q.name
+    p, q = one, other
+  end
+  local match = outlines.match(p.contours, q.contours, steering, refuse)
+  return function(u)
+    local d, style = outlines.data(match, u), u < 0.5 and p or q
+    return finish(painted(p, q, u, function(texture)
+      if not p.line then return celspan.path { d = d, rule = style.rule, texture = texture } end
+      return celspan.stroke { d = d, width = between(p.line.width, q.line.width, u),
+                              cap = style.line.cap, join = style.line.join,
+                              miter = between(p.line.miter, q.line.miter, u), texture = texture }
+    end), p, q, u)
+  end
+end
+
+--- The operands of a union with their partners, in order: those of the second that have none come
+--- after the partner of the one before them. names: pairs of names that are given.
+local function partners(p, q, names)
+  local wanted, by_name, taken, list = {}, {}, {}, {}
+  for _, pair in ipairs(names) do wanted[pair[1]] = pair[2] end
+  local rest = {}
+  for _, node in ipairs(q) do
+    if node.name ~= "" then by_name[node.name] = by_name[node.name] or node end
+  end
+  for _, node in ipairs(p) do
+    local partner = by_name[wanted[node.name] or node.name]
+    if partner and not taken[partner] then taken[partner], taken[node] = node, partner end
+  end
+  for _, node in ipairs(q) do
+    if not taken[node] and node.name == "" then rest[#rest + 1] = node end
+  end
+  for _, node in ipairs(p) do
+    local partner = node.name == "" and table.remove(rest, 1)
+    if partner then taken[partner], taken[node] = node, partner end
+    list[#list + 1] = { node, taken[node] }
+  end
+  local at = 1
+  for _, node in ipairs(q) do
+    if taken[node] then
+      for i, entry in ipairs(list) do at = entry[2] == node and i + 1 or at end
+    else
+      table.insert(list, at, { nil, node })
+      at = at + 1
+    end
+  end
+  return list
+end
+
+local plan -- of two nodes: a function of u
+
+local function plan_union(p, q, steering)
+  local plans = {}
+  for i, pair in ipairs(partners(p, q, steering.names)) do
+    local first, second = pair[1], pair[2]
+    if first and second then
+      plans[i] = plan(first, second, steering)
+    else
+      local alone = lone(first or second)
+      plans[i] = function(u) return alone(first and 1 - u or u) end
+    end
+  end
+  return plans
+end
+
+--- Whether two nodes can be one boolean between them.
+local function is_alike(p, q)
+  return p.kind == "boolean" and q.kind == "boolean" and p.op == q.op
+    and (p.op == "union" or #p == #q)
+end
+
+function plan(p, q, steering)
+  if p.kind == "outline" and q.kind == "outline" then return plan_outlines(p, q, steering) end
+  local function is_union(node) return node.kind == "boolean" and node.op == "union" end
+  --- An outline beside a union is a union of one.
+  local function widened(node)
+    return { kind = "boolean", op = "union", name = "", fade = 1, object = celspan.union {}, node }
+  end
+  if is_union(p) and q.kind == "outline" then q = widened(q) end
+  if is_union(q) and p.kind == "outline" then p = widened(p) end
+  if not is_alike(p, q) then
+    return function(u) return dissolved(p.object, q.object, u) end
+  end
+  local plans = {}
+  if is_union(p) then
+    plans = plan_union(p, q, steering)
+  else
+    for i = 1, #p do plans[i] = plan(p[i], q[i], steering) end
+  end
+  return function(u)
+    local operands = {}
+    for i, make in ipairs(plans) do operands[i] = make(u) end
+    return finish(core.rebuild((u < 0.5 and p or q).object, operands), p, q, u)
+  end
+end
+
+-- ---------------------------------------------------------------- pairs
+
+--- The pairs of names, and the pairs of places; `key` is the same for the same pairs.
+local function read_pairs(list)
+  local steering, key = { names = {}, places = {} }, {}
+  for i = 1, rawlen(list or {}) do
+    local pair = list[i]
+    local first, second = table.unpack(type(pair) == "table" and pair or {})
+    if type(first) == "string" and type(second) == "string" then
+      steering.names[#steering.names + 1] = pair
+      key[#key + 1] = ("%q %q"):format(first, second)
+    elseif type(first) == "table" and type(second) == "table" then
+      for _, point in ipairs(pair) do
+        fields.numbers("morph", ("pair %d: its value %%d"):format(i), point, 2, "{x, y}")
+      end
+      local place = { first[1], first[2], second[1], second[2] }
+      steering.places[#steering.places + 1] = place
+      key[#key + 1] = ("%a %a %a %a"):format(table.unpack(place))
+    else
+      refuse("pair %d must be two places {{x, y}, {x, y}} or two names of parts, got %s", i,
+        fields.kind(pair))
+    end
+  end
+  return steering, table.concat(key, ";")
+end
+
+--- Whether a node or one in it has this name.
+local function has_name(node, name)
+  if node.name == name then return true end
+  for _, child in ipairs(node) do
+    if has_name(child, name) then return true end
+  end
+  return false
+end
+
+local function check_names(p, q, names)
+  for _, pair in ipairs(names) do
+    for k, node in ipairs { p, q } do
+      if not has_name(node, pair[k]) then
+        refuse("there is no part %q in the %s object", pair[k], k == 1 and "first" or "second")
+      end
+    end
+  end
+end
+
+--- Gives each pair of places to the outline of `a` that is nearest to it.
+local function assign(node, steering)
+  local function nearest(at, place, best)
+    for _, contour in ipairs(at.contours or {}) do
+      local distance = outlines.distance(contour, place[1], place[2])
+      if distance < best.distance then best.distance, best.contours = distance, at.contours end
+    end
+    for _, child in ipairs(at) do nearest(child, place, best) end
+  end
+  for _, place in ipairs(steering.places) do
+    local best = { distance = math.huge }
+    nearest(node, place, best)
+    place.contours = best.contours
+  end
+end
+
+-- ---------------------------------------------------------------- the face
+
+local kept = setmetatable({}, { __mode = "k" })
+
+--- The plan for two objects, which is made when it is first asked for.
+local function plan_of(a, b, list)
+  local steering, key = read_pairs(list)
+  kept[a] = kept[a] or setmetatable({}, { __mode = "k" })
+  kept[a][b] = kept[a][b] or {}
+  local plans = kept[a][b]
+  if not plans[key] then
+    local p, q = core.anatomy(a), core.anatomy(b)
+    check_names(p, q, steering.names)
+    assign(p, steering)
+    plans[key] = plan(p, q, steering)
+  end
+  return plans[key]
+end
+
+--- The object between two others; at 0 and 1 it is the one and the other.
+---@param a celspan.shape
+---@param b celspan.shape
+---@param u number
+---@param options? { pairs?: table[] }
+---@return celspan.object
+function morph.between(a, b, u, options)
+  fields.check("morph", options or {}, { pairs = "table" })
+  if not fields.is_finite(u) then
+    refuse("takes a share from 0 to 1 as its third argument, got %s", fields.shown(u))
+  end
+  local given = { a, b }
+  for i = 1, 2 do
+    if not fields.is_object(given[i]) then
+      refuse("argument %d must be an object, got %s", i, fields.kind(given[i]))
+    end
+  end
+  local list = options and options.pairs
+  if u <= 0 or u >= 1 then
+    read_pairs(list) -- to refuse what is wrong in it; nothing has to be matched
+    return u <= 0 and a or b
+  end
+  return plan_of(a, b, list)(u)
+end
+
+return fields.seal("morph", morph)

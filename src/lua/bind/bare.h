@@ -1,0 +1,18 @@
+/* Values without fields: what a method, a file or a picture has made, of which nothing can be
+ * changed with `with`.
+ *
+ *   static const cs_noun warped = {.name = "warped", .fields = cs_bare_fields,
+ *                                  .create = cs_bare_refuse, ...};
+ *   cs_bare_push(L, &warped)->handle = object;
+ */
+#pragma once
+
+#include "lua/bind/form.h"
+#include "lua/bind/userdata.h"
+
+extern const cs_field cs_bare_fields[];
+
+/* For the `create` of a noun: raises an error. */
+void cs_bare_refuse(const cs_form *form, cs_userdata *value);
+/* Pushes a closed value, with its table of fields, which is empty. */
+cs_userdata *cs_bare_push(lua_State *L, const cs_noun *noun);

@@ -1,0 +1,20 @@
+/* Sentences about a scene that can be rendered but is probably not what its author wants.
+ *
+ *   core.warn(text)  -->  the list in the state  -->  cs_warnings_push  -->  celspan check
+ *
+ * INVARIANT: nothing is kept, and nothing need be found out, in a state that nobody asks.
+ */
+#pragma once
+
+#include <lua.h>
+#include <stdbool.h>
+
+/* From now on warnings are kept in this state. */
+void cs_warnings_keep(lua_State *L);
+/* Pushes a list of the warnings since the last call; an empty one where none are kept. */
+void cs_warnings_push(lua_State *L);
+
+/* core.warns() -> whether warnings are kept */
+int cs_warnings_kept(lua_State *L);
+/* core.warn(text): keeps it with the caller's line before it */
+int cs_warnings_add(lua_State *L);

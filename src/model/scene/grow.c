@@ -1,0 +1,225 @@
+#include "model/scene/grow.h"
+
+#include "base/number.h"
+#include "model/geometry/matrix.h"
+#include "model/scene/pattern.h"
+#include "model/scene/primitive_data.h"
+#include "model/stroke/outliner.h"
+
+/* ---------------------------------------------------------------- what is grown how */
+
+bool cs_grow_is_vector(const celspan_object *object) {
+  const cs_primitive_data *data = cs_pattern_shape(object->data);
+  if (data->kind == CS_PRIMITIVE_DATA_OUTLINE)
+    return data->texture->kind != CS_TEXTURE_PICTURE;
+  if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN || data->boolean->op == CS_OPERATOR_MATTE)
+    return false;
+  for (size_t i = 0; i < data->boolean->operand_count; i++)
+    if (!cs_grow_is_vector(data->boolean->operands[i]))
+      return false;
+  return true;
+}
+
+typedef struct grower {
+  celspan_context *context;
+  const cs_grow *how;
+} grower;
+
+/* What an object grows to, and what it shrinks to. Both are made at once, since an xor needs both
+ * of its operands: nested ones would be made again at every level. */
+typedef struct sizes {
+  celspan_object *grown, *shrunk;
+} sizes;
+
+static void drop(sizes *both) {
+  celspan_object_unref(both->grown);
+  celspan_object_unref(both->shrunk);
+  *both = (sizes){NULL, NULL};
+}
+
+static celspan_status combine(const grower *g, celspan_operator op, celspan_object *first,
+                              celspan_object *second, celspan_object **out) {
+  celspan_object *const both[] = {first, second};
+  return celspan_object_create_boolean(g->context, op, both, 2, out);
+}
+
+/* The shape with a rim around its outline, and without. */
+static celspan_status add_rim(const grower *g, celspan_object *shape, celspan_object *rim,
+                              sizes *out) {
+  CS_TRY(combine(g, CELSPAN_UNION, shape, rim, &out->grown));
+  return combine(g, CELSPAN_DIFFERENCE, shape, rim, &out->shrunk);
+}
+
+/* ---------------------------------------------------------------- primitives */
+
+static celspan_status place_point(const grower *g, const celspan_matrix *matrix, cs_hpoint from,
+                                  cs_hpoint *to) {
+  *to = cs_matrix_apply(matrix, from);
+  if (to->w > 0 && cs_number_is_sane(to->x / to->w) && cs_number_is_sane(to->y / to->w))
+    return CELSPAN_OK;
+  return cs_fail(g->context, CELSPAN_BAD_ARGUMENT,
+                 "outline: the object reaches the horizon of its perspective; give it its outline "
+                 "before it is put in perspective");
+}
+
+static celspan_status place_piece(const grower *g, const celspan_matrix *matrix,
+                                  const cs_outline *from, size_t piece, cs_outline *to) {
+  cs_hpoint points[UINT8_MAX];
+  const cs_hpoint *own = from->points + from->starts[piece] + 1;
+  for (size_t i = 0; i < from->degrees[piece]; i++)
+    CS_TRY(place_point(g, matrix, own[i], &points[i]));
+  return cs_outline_piece(g->context, to, from->degrees[piece], points);
+}
+
+/* Appends the outline under a matrix. */
+static celspan_status place_outline(const grower *g, const celspan_matrix *matrix,
+                                    const cs_outline *from, cs_outline *to) {
+  for (size_t c = 0; c < from->contour_count; c++) {
+    size_t piece = from->contours[c];
+    size_t end = c + 1 < from->contour_count ? from->contours[c + 1] : from->piece_count;
+    cs_hpoint start;
+    CS_TRY(place_point(g, matrix, from->points[from->starts[piece]], &start));
+    CS_TRY(cs_outline_move(g->context, to, start));
+    for (; piece < end; piece++)
+      CS_TRY(place_piece(g, matrix, from, piece, to));
+  }
+  return cs_outline_close(g->context, to);
+}
+
+/* The outline of data in the units around the whole. */
+static celspan_status find_outline(const grower *g, const celspan_matrix *matrix,
+                                   const cs_primitive_data *data, cs_outline *out) {
+  cs_outline_box room;
+  cs_outline made;
+  if (!data->stroke)
+    return place_outline(g, matrix, cs_primitive_data_outline(data, &room), out);
+  cs_outline_init(&made);
+  celspan_status status = cs_stroke_outline_finely(g->context, data->stroke, &made);
+  if (status == CELSPAN_OK)
+    status = place_outline(g, matrix, &made, out);
+  cs_outline_finish(&made, g->context->memory);
+  return status;
+}
+
+/* All points within the width of the outline. */
+static celspan_status make_rim(const grower *g, const cs_primitive_data *data,
+                               const celspan_matrix *matrix, celspan_object **out) {
+  const celspan_matrix facing = cs_matrix_facing(matrix);
+  celspan_stroke_desc desc = CELSPAN_STROKE_DESC;
+  cs_outline outline;
+  desc.width = 2 * g->how->width;
+  desc.join = g->how->join;
+  cs_outline_init(&outline);
+  celspan_status status = find_outline(g, &facing, data, &outline);
+  if (status == CELSPAN_OK)
+    status = cs_primitive_data_of_line(g->context, &outline, NULL, &desc, out);
+  cs_outline_finish(&outline, g->context->memory);
+  return status;
+}
+
+/* data: of the object, or of the shape in it. around: from the units around the object to those
+ * around the whole. */
+static celspan_status grow_primitive(const grower *g, celspan_object *object,
+                                     const cs_primitive_data *data, const celspan_matrix *around,
+                                     sizes *out) {
+  const celspan_matrix whole = celspan_matrix_then(*object->matrix, *around);
+  celspan_object *shape, *rim = NULL;
+  CS_TRY(celspan_object_transform(g->context, object, around, &shape));
+  if (data->is_empty) {
+    *out = (sizes){shape, celspan_object_ref(shape)};
+    return CELSPAN_OK;
+  }
+  celspan_status status = make_rim(g, data, &whole, &rim);
+  if (status == CELSPAN_OK)
+    status = add_rim(g, shape, rim, out);
+  celspan_object_unref(shape);
+  celspan_object_unref(rim);
+  return status;
+}
+
+/* ---------------------------------------------------------------- booleans */
+
+static celspan_status grow_any(const grower *g, celspan_object *object,
+                               const celspan_matrix *around, sizes *out);
+
+/* The operands of a boolean, grown, and after them the same ones shrunk. */
+static celspan_status grow_operands(const grower *g, const cs_boolean *boolean,
+                                    const celspan_matrix *around, celspan_object **list) {
+  const size_t count = boolean->operand_count;
+  for (size_t i = 0; i < count; i++) {
+    sizes both = {NULL, NULL};
+    celspan_status status = grow_any(g, boolean->operands[i], around, &both);
+    const bool is_taken_off = boolean->op == CELSPAN_DIFFERENCE && i > 0;
+    list[i] = is_taken_off ? both.shrunk : both.grown;
+    list[count + i] = is_taken_off ? both.grown : both.shrunk;
+    CS_TRY(status);
+  }
+  return CELSPAN_OK;
+}
+
+/* An xor has all outlines of its operands. */
+static celspan_status grow_xor(const grower *g, celspan_object *object,
+                               const celspan_matrix *around, celspan_object **list, sizes *out) {
+  const size_t count = object->data->boolean->operand_count;
+  celspan_object *shape = NULL, *rim = NULL;
+  for (size_t i = 0; i < count; i++) {
+    celspan_object *border;
+    CS_TRY(combine(g, CELSPAN_DIFFERENCE, list[i], list[count + i], &border));
+    celspan_object_unref(list[i]);
+    list[i] = border;
+  }
+  CS_TRY(celspan_object_create_boolean(g->context, CELSPAN_UNION, list, count, &rim));
+  celspan_status status = celspan_object_transform(g->context, object, around, &shape);
+  if (status == CELSPAN_OK)
+    status = add_rim(g, shape, rim, out);
+  celspan_object_unref(shape);
+  celspan_object_unref(rim);
+  return status;
+}
+
+static celspan_status join_operands(const grower *g, const cs_boolean *boolean,
+                                    celspan_object **list, sizes *out) {
+  const size_t count = boolean->operand_count;
+  const celspan_operator op = boolean->op == CELSPAN_CLIP ? CELSPAN_INTERSECTION : boolean->op;
+  CS_TRY(celspan_object_create_boolean(g->context, op, list, count, &out->grown));
+  return celspan_object_create_boolean(g->context, op, list + count, count, &out->shrunk);
+}
+
+static celspan_status grow_boolean(const grower *g, celspan_object *object,
+                                   const celspan_matrix *around, sizes *out) {
+  const cs_boolean *boolean = object->data->boolean;
+  const celspan_matrix whole = celspan_matrix_then(*object->matrix, *around);
+  const size_t count = 2 * boolean->operand_count;
+  celspan_object **list = cs_mem_array(g->context->memory, count, sizeof *list);
+  if (!list && count > 0)
+    return cs_fail_memory(g->context);
+  celspan_status status = grow_operands(g, boolean, &whole, list);
+  if (status == CELSPAN_OK)
+    status = boolean->op == CELSPAN_XOR ? grow_xor(g, object, around, list, out)
+                                        : join_operands(g, boolean, list, out);
+  cs_primitive_data_list_free(g->context->memory, list, count);
+  return status;
+}
+
+/* Recursion ends: nesting is at most CS_SCENE_DEPTH. After an error *out is empty. */
+static celspan_status grow_any(const grower *g, celspan_object *object,
+                               const celspan_matrix *around, sizes *out) {
+  const cs_primitive_data *data = cs_pattern_shape(object->data);
+  celspan_status status = data->kind == CS_PRIMITIVE_DATA_BOOLEAN
+                              ? grow_boolean(g, object, around, out)
+                              : grow_primitive(g, object, data, around, out);
+  if (status != CELSPAN_OK)
+    drop(out);
+  return status;
+}
+
+celspan_status cs_grow_object(celspan_context *context, celspan_object *object, const cs_grow *grow,
+                              celspan_object **out) {
+  const grower g = {context, grow};
+  const celspan_matrix identity = celspan_matrix_identity();
+  sizes both = {NULL, NULL};
+  CS_TRY(grow_any(&g, object, &identity, &both));
+  *out = celspan_object_ref(both.grown);
+  drop(&both);
+  return CELSPAN_OK;
+}

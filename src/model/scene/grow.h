@@ -1,0 +1,30 @@
+/* Shapes grown by a width: what lies in a shape or within that distance of it. Paints do not count.
+ *
+ *     a primitive     the shape and a stroke along its outline        .-----------.
+ *     a union         the union of what its operands grow to          |  .-----.  |
+ *     an xor          the xor, and a stroke along all outlines        |  |     |  |
+ *     intersections   of what the operands grow to                    |  '-----'  |
+ *     a difference    what the first grows to, without what the       '-----------'
+ *                     others shrink to
+ *
+ * INVARIANT: what is made is a tree of vector shapes, exact at every size. Where the outlines of
+ * the operands of an intersection or a difference cross, it has the corner in which the grown
+ * outlines meet, and joins of strokes everywhere else.
+ */
+#pragma once
+
+#include "model/scene/scene.h"
+
+typedef struct cs_grow {
+  double width; /* in the units around the object, above 0 */
+  celspan_stroke_join join;
+} cs_grow;
+
+/* Whether the shape of an object says all about where it is: it has no pictures, mattes,
+ * compositions (effects that blur are such) and procedures. */
+bool cs_grow_is_vector(const celspan_object *object);
+
+/* *out: a new object that is present where the grown shape is, whatever its paint. Errors:
+ * NO_MEMORY, LIMIT; BAD_ARGUMENT where an outline reaches the horizon of its perspective. */
+CELSPAN_CHECKED celspan_status cs_grow_object(celspan_context *context, celspan_object *object,
+                                              const cs_grow *grow, celspan_object **out);
