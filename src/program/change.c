@@ -15,6 +15,7 @@
 
 #define MOST_NAMES 200 /* that are remembered for the message */
 #define SHOWN_NAMES 12
+#define SAME_WEIGHT 1e-6
 #define MOST_FRAMES 10000 /* of the rest of the film that are searched for a name */
 
 cs_frame_change cs_change_read(const cs_request *request) {
@@ -82,13 +83,55 @@ static celspan_status change_one(celspan_context *context, const cs_frame_change
   return CELSPAN_OK;
 }
 
+/* Adds an exposure of the background alone, of this weight. */
+static celspan_status add_ground(celspan_context *context, const cs_frame_change *change,
+                                 double weight, cs_film_frame *frame) {
+  const float *ground = change->background;
+  size_t count = frame->count + 1;
+  celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
+  celspan_exposure *exposures;
+  celspan_rostrum *rostrum;
+  cs_film_frame changed;
+  desc.back = (celspan_light){ground[0], ground[1], ground[2], 1};
+  CS_TRY(celspan_rostrum_create(context, &desc, &rostrum));
+  celspan_status status = CS_MAKE(context, exposures, count);
+  if (status == CELSPAN_OK) {
+    for (size_t i = 0; i < frame->count; i++)
+      exposures[i] = frame->exposures[i];
+    exposures[frame->count] = (celspan_exposure){rostrum, weight};
+    status = cs_film_frame_init(&changed, context, exposures, count);
+    cs_mem_free(context->memory, exposures, count * sizeof *exposures);
+  }
+  celspan_rostrum_unref(rostrum);
+  if (status != CELSPAN_OK)
+    return status;
+  changed.repeats = frame->repeats;
+  cs_film_frame_finish(frame);
+  *frame = changed;
+  return CELSPAN_OK;
+}
+
+/* The background is light behind each exposure, so that the weights must add up to one. */
+static celspan_status fill_ground(celspan_context *context, const cs_frame_change *change,
+                                  cs_film_frame *frame) {
+  double total = 0;
+  for (size_t i = 0; i < frame->count; i++)
+    total += frame->exposures[i].weight;
+  if (total > 1 + SAME_WEIGHT)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "--background: the weights of the frame's exposures add up to %g; a background "
+                   "can lie behind 1 at most",
+                   total);
+  return total < 1 - SAME_WEIGHT ? add_ground(context, change, 1 - total, frame) : CELSPAN_OK;
+}
+
 celspan_status cs_change_frame(celspan_context *context, const cs_frame_change *change,
                                cs_film_frame *frame) {
   if (!change->cel && !change->has_background)
     return CELSPAN_OK;
   for (size_t i = 0; i < frame->count; i++)
     CS_TRY(change_one(context, change, &frame->exposures[i]));
-  return CELSPAN_OK;
+  return change->has_background ? fill_ground(context, change, frame) : CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- unknown names */

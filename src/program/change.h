@@ -5,7 +5,8 @@
  *                  one
  *   --background   a back light of matte 1 behind everything. If the rostrum has a flat back light
  *                  of its own, with matte a, the background shines through 1 - a of it; a back
- *                  light with a shape is added to the background
+ *                  light with a shape is added to the background. Where the weights of exposures
+ *                  add up to less than 1 it has the rest
  *   --onion B,A    the film of the script is replaced by one that shows each frame with tinted
  *                  copies of those before and after it (verbs/onion.lua)
  *

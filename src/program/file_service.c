@@ -1,10 +1,12 @@
 /* Files for verbs in Lua: what they are, folders, and what is written. */
 #include <errno.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/open.h"
+#include "base/resolve.h"
 #include "frames/process/journal.h"
 #include "frames/still/span_reader.h"
 #include "lua/bind/userdata.h"
@@ -85,6 +87,16 @@ static int entries(lua_State *L) {
   return errno ? fail_system(L, "cut") : 1;
 }
 
+/* resolve(path) -> where it leads (base/resolve.h) | nil, message */
+static int resolve(lua_State *L) {
+  char *resolved = cs_resolve_path(luaL_checkstring(L, 1));
+  if (!resolved)
+    return luaL_fileresult(L, 0, NULL);
+  lua_pushstring(L, resolved);
+  free(resolved);
+  return 1;
+}
+
 /* working_folder() -> its path */
 static int working_folder(lua_State *L) {
   char folder[4096];
@@ -158,6 +170,7 @@ void cs_service_add_files(lua_State *L) {
   static const luaL_Reg services[] = {{"kind", kind},
                                       {"make_folders", make_folders},
                                       {"entries", entries},
+                                      {"resolve", resolve},
                                       {"working_folder", working_folder},
                                       {"has_number", has_number},
                                       {"is_video", is_video},

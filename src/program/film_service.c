@@ -14,6 +14,7 @@
 #include "lua/bind/put.h"
 #include "lua/bind/require.h"
 #include "lua/bind/userdata.h"
+#include "lua/bind/warnings.h"
 #include "lua/module/core.h"
 #include "model/scene/inspect.h"
 #include "model/scene/scene.h"
@@ -26,10 +27,13 @@
 typedef struct film {
   cs_script script;
   cs_inspection pictures; /* those that were looked at */
+  celspan_rostrum *held;  /* of whose camera others are seen; NULL: none. A reference */
 } film;
 
 static int close_film(lua_State *L) {
   film *f = lua_touserdata(L, 1);
+  celspan_rostrum_unref(f->held);
+  f->held = NULL;
   cs_script_close(&f->script);
   cs_inspection_finish(&f->pictures);
   return 0;
@@ -264,8 +268,49 @@ static bool add_fault(void *user, const celspan_fault *found) {
   return is_added && cs_interrupt_signal() == 0;
 }
 
+/* Runs protected: pushes the warnings since the last time as texts, and their number. */
+static int take_warnings(lua_State *L) {
+  cs_warnings_push(L);
+  const int count = (int)lua_rawlen(L, 1);
+  luaL_checkstack(L, count + 1, "too many warnings");
+  for (int i = 1; i <= count; i++)
+    lua_rawgeti(L, 1, i);
+  return count;
+}
+
+/* Pushes the warnings of the script on its own stack. */
+static void push_warnings(lua_State *L, lua_State *script) {
+  lua_pushcfunction(script, take_warnings);
+  int outcome = lua_pcall(script, 0, LUA_MULTRET, 0);
+  if (outcome != LUA_OK)
+    cs_service_try(L, cs_lua_error_report(script, outcome));
+}
+
+/* Calls the function at index 2 as for a fault, with each warning of the script. */
+static void add_warnings(lua_State *L, lua_State *script) {
+  const int before = lua_gettop(script);
+  push_warnings(L, script);
+  for (int i = before + 1; i <= lua_gettop(script); i++) {
+    lua_pushvalue(L, 2);
+    lua_pushliteral(L, "");
+    lua_pushstring(L, lua_tostring(script, i));
+    lua_pushinteger(L, CS_EXIT_SCRIPT);
+    lua_call(L, 3, 0);
+  }
+  lua_settop(script, before);
+}
+
+/* film:drop_warnings(): those of frames that were built before are not asked for. */
+static int drop_warnings(lua_State *L) {
+  lua_State *script = self(L)->script.L;
+  const int before = lua_gettop(script);
+  push_warnings(L, script);
+  lua_settop(script, before);
+  return 0;
+}
+
 /* film:faults(add): looks at the pictures and calls add(where, message, exit code) for each that
- * cannot be read. */
+ * cannot be read, and for what the script was warned of. */
 static int faults(lua_State *L) {
   film *f = self(L);
   const cs_film_frame *frame = &f->script.frame;
@@ -276,6 +321,7 @@ static int faults(lua_State *L) {
     if (status == CELSPAN_NO_MEMORY)
       cs_service_try(L, status);
   }
+  add_warnings(L, f->script.L);
   return 0;
 }
 
@@ -287,7 +333,20 @@ static int files(lua_State *L) { return cs_stage_files(L, &self(L)->script); }
 static int sound(lua_State *L) { return cs_stage_sound(L, &self(L)->script); }
 static int alter(lua_State *L) { return cs_stage_alter(L, &self(L)->script); }
 static int keep_line(lua_State *L) { return cs_stage_keep_line(L, &self(L)->script); }
+static int camera(lua_State *L) { return cs_stage_camera(L, &self(L)->script); }
+static int use_camera(lua_State *L) {
+  return cs_stage_use_camera(L, &self(L)->script, self(L)->held);
+}
 static int costs(lua_State *L) { return cs_stage_costs(L, &self(L)->script); }
+
+/* film:hold_camera(): that of the frame that was built last, for use_camera. */
+static int hold_camera(lua_State *L) {
+  film *f = self(L);
+  const cs_film_frame *frame = &f->script.frame;
+  celspan_rostrum_unref(f->held);
+  f->held = frame->count ? celspan_rostrum_ref(frame->exposures[0].rostrum) : NULL;
+  return 0;
+}
 
 /* film:keep_callers(is_kept): see lua/bind/named.h */
 static int keep_callers(lua_State *L) {
@@ -346,6 +405,7 @@ static void set_methods(lua_State *L) {
                                      {"names", names},
                                      {"ask", ask},
                                      {"faults", faults},
+                                     {"drop_warnings", drop_warnings},
                                      {"files", files},
                                      {"picture", picture},
                                      {"hits", hits},
@@ -353,6 +413,9 @@ static void set_methods(lua_State *L) {
                                      {"keep_line", keep_line},
                                      {"keep_callers", keep_callers},
                                      {"costs", costs},
+                                     {"camera", camera},
+                                     {"hold_camera", hold_camera},
+                                     {"use_camera", use_camera},
                                      {"sound", sound},
                                      {"wave", wave},
                                      {NULL, NULL}};
@@ -365,18 +428,21 @@ static void set_methods(lua_State *L) {
   lua_setmetatable(L, -2);
 }
 
-/* film(path or nil) -> the film of that script, or of the request's */
+/* film(path or nil, is_silent) -> the film of that script, or of the request's; is_silent: it has
+ * been run before, and prints nothing now */
 static int open_film(lua_State *L) {
   const cs_session *session = cs_service_session(L);
   const cs_request *request = session->request;
   const char *path = luaL_optstring(L, 1, request->operands[0]);
+  const bool is_silent = lua_toboolean(L, 2);
   luaL_requiref(L, "celspan", luaopen_celspan, 0);
   lua_createtable(L, 0, 9);
   film *f = cs_userdata_push_holder(L, "celspan.program.film", sizeof *f, close_film);
   f->pictures.context = session->context;
   f->pictures.progress = cs_interrupt_progress;
   f->pictures.is_deep = cs_request_has(request, "--deep");
-  cs_service_require(L, cs_script_open(session->context, request, path, &f->script));
+  cs_service_require(L, (is_silent ? cs_script_open_again
+                                   : cs_script_open)(session->context, request, path, &f->script));
   lua_setfield(L, -2, "open");
   set_facts(L, &f->script.film);
   set_methods(L);

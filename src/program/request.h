@@ -28,6 +28,7 @@ typedef struct cs_verb {
   bool has_script;          /* it runs one, which gets what follows "--" */
   bool makes_folder;        /* its -o names one */
   bool asks_files;          /* it asks which files its script has read */
+  bool asks_warnings;       /* it asks what is probably not what the author wants */
   const char *summary;      /* one line */
   const char *notes;        /* more help, whole lines, or NULL */
   const cs_option *options; /* the last one has no name */

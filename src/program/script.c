@@ -11,6 +11,7 @@
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"
 #include "lua/bind/named.h"
+#include "lua/bind/warnings.h"
 #include "lua/module/lua_script.h"
 #include "program/confine.h"
 #include "program/hear.h"
@@ -69,6 +70,11 @@ static void open_libraries(lua_State *L, const cs_script *script) {
   lua_pop(L, 1);
 }
 
+static int print_nothing(lua_State *L) {
+  (void)L;
+  return 0;
+}
+
 /* light userdata: the script. Runs protected. */
 static int prepare(lua_State *L) {
   const cs_script *script = lua_touserdata(L, 1);
@@ -82,12 +88,20 @@ static int prepare(lua_State *L) {
     cs_host_remember_asked(L);
     cs_named_keep_callers(L, true);
   }
+  if (script->asks_warnings)
+    cs_warnings_keep(L);
   if (script->sandbox)
     cs_sandbox_attach(script->sandbox, L, script->is_trusted);
   if (is_sandboxed)
     cs_sandbox_open_globals(script->sandbox, L);
   luaL_requiref(L, "celspan", luaopen_celspan, 0);
   cs_hear_give(L);
+  if (script->is_silent) {
+    if (!cs_host_push_globals(L))
+      lua_pushglobaltable(L);
+    lua_pushcfunction(L, print_nothing);
+    lua_setfield(L, -2, "print");
+  }
   return 0;
 }
 
@@ -178,11 +192,13 @@ static cs_exit start_script(cs_script *out, const cs_request *request, const cha
   return outcome;
 }
 
-cs_exit cs_script_open(celspan_context *context, const cs_request *request, const char *path,
-                       cs_script *out) {
+static cs_exit open_script(celspan_context *context, const cs_request *request, const char *path,
+                           bool is_silent, cs_script *out) {
   *out = (cs_script){.context = context,
                      .is_trusted = cs_request_has(request, "--trust"),
-                     .asks_files = request->verb->asks_files};
+                     .asks_files = request->verb->asks_files,
+                     .asks_warnings = request->verb->asks_warnings && !is_silent,
+                     .is_silent = is_silent};
   CS_TRY_EXIT(start_script(out, request, path));
   celspan_status status = cs_lua_script_run(out->L, path, (int)request->script_argument_count,
                                             (const char *const *)request->script_arguments);
@@ -195,6 +211,16 @@ cs_exit cs_script_open(celspan_context *context, const cs_request *request, cons
   int raised = lua_pcall(out->L, 2, 0, 0);
   return raised == LUA_OK ? CS_EXIT_OK
                           : cs_report_failure(context, cs_lua_error_report(out->L, raised), NULL);
+}
+
+cs_exit cs_script_open(celspan_context *context, const cs_request *request, const char *path,
+                       cs_script *out) {
+  return open_script(context, request, path, false, out);
+}
+
+cs_exit cs_script_open_again(celspan_context *context, const cs_request *request, const char *path,
+                             cs_script *out) {
+  return open_script(context, request, path, true, out);
 }
 
 void cs_script_close(cs_script *script) {

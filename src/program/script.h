@@ -19,6 +19,8 @@ typedef struct cs_script {
   cs_hash given;            /* of its arguments and the values of its parameters */
   bool is_trusted;          /* it has the whole of Lua */
   bool asks_files;          /* the paths that it asks for are remembered */
+  bool asks_warnings;       /* warnings are kept */
+  bool is_silent;           /* what it prints is not shown */
   cs_sandbox *sandbox;      /* owned; NULL: the whole of Lua without limits */
 } cs_script;
 
@@ -33,6 +35,9 @@ cs_exit cs_script_report_start(lua_State *L);
 /* Runs the script under the request. OK, or reported; either way *out may be closed. */
 cs_exit cs_script_open(celspan_context *context, const cs_request *request, const char *path,
                        cs_script *out);
+/* The same, once more: it prints nothing. */
+cs_exit cs_script_open_again(celspan_context *context, const cs_request *request, const char *path,
+                             cs_script *out);
 void cs_script_close(cs_script *script);
 
 /* Builds a frame of the film and frees the one before. On failure the sentence, which names the

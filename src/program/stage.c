@@ -1,6 +1,8 @@
 #include "program/stage.h"
 
+#include <poll.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "frames/process/interrupt.h"
 #include "lua/bind/host.h"
@@ -99,6 +101,13 @@ static celspan_status end_png(void *user, celspan_context *context, celspan_stat
 
 /* ---------------------------------------------------------------- pictures */
 
+/* A picture is wanted until the program that asked for it, which waits for the answer, says more
+ * or has ended. */
+static bool is_wanted(void *user, int32_t rows_done, int32_t rows_total) {
+  struct pollfd requests = {.fd = STDIN_FILENO, .events = POLLIN};
+  return cs_interrupt_progress(user, rows_done, rows_total) && poll(&requests, 1, 0) == 0;
+}
+
 /* The frame that was built last. */
 static celspan_frame_desc frame_of(lua_State *L, const cs_script *script) {
   celspan_frame_desc desc = CELSPAN_FRAME_DESC;
@@ -109,7 +118,7 @@ static celspan_frame_desc frame_of(lua_State *L, const cs_script *script) {
   desc.film_width = script->film.width;
   desc.film_height = script->film.height;
   desc.space = script->film.space;
-  desc.progress = cs_interrupt_progress;
+  desc.progress = is_wanted;
   return desc;
 }
 

@@ -21,3 +21,6 @@ int cs_stage_wave(lua_State *L, cs_script *script);
 int cs_stage_alter(lua_State *L, cs_script *script);
 int cs_stage_keep_line(lua_State *L, cs_script *script);
 int cs_stage_costs(lua_State *L, cs_script *script);
+int cs_stage_camera(lua_State *L, cs_script *script);
+/* by: whose camera it is. */
+int cs_stage_use_camera(lua_State *L, cs_script *script, const celspan_rostrum *by);

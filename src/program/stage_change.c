@@ -1,5 +1,6 @@
-/* A frame that is watched in another way: without some cels, without lights or defocus, or with
- * nothing but what one line of the script made; and what each cel of it costs.
+/* A frame that is watched in another way: by the camera of another, without some cels, without
+ * lights or defocus, or with nothing but what one line of the script made; and what each cel of it
+ * costs.
  *
  * INVARIANT: the frame that was built last is changed, and the next one that is built is whole.
  */
@@ -97,6 +98,36 @@ int cs_stage_alter(lua_State *L, cs_script *script) {
   luaL_checkstack(L, 4, "too many values");
   if (change_frame(script, alter_cel, &a) != CELSPAN_OK)
     return fail(L, script);
+  lua_pushboolean(L, true);
+  return 1;
+}
+
+/* ---------------------------------------------------------------- cameras */
+
+/* film:camera() -> the camera of the frame that was built last, as a text that is the same for the
+ * same camera; "none" without one */
+int cs_stage_camera(lua_State *L, cs_script *script) {
+  char text[128] = "none";
+  const celspan_rostrum *r = script->frame.count ? script->frame.exposures[0].rostrum : NULL;
+  if (r && (r->has_camera_centre || r->has_camera_width || r->camera_rotation != 0))
+    snprintf(text, sizeof text, "%d,%d,%.17g,%.17g,%.17g,%.17g", r->has_camera_centre,
+             r->has_camera_width, r->camera_centre.x, r->camera_centre.y, r->camera_width,
+             r->camera_rotation);
+  lua_pushstring(L, text);
+  return 1;
+}
+
+/* film:use_camera() -> true | nil, message: shows the frame that was built last as the camera of
+ * the one that was held sees it. */
+int cs_stage_use_camera(lua_State *L, cs_script *script, const celspan_rostrum *by) {
+  for (size_t i = 0; i < script->frame.count && by; i++) {
+    celspan_exposure *exposure = &script->frame.exposures[i];
+    celspan_rostrum *changed;
+    if (cs_rostrum_by_camera(script->context, exposure->rostrum, by, &changed) != CELSPAN_OK)
+      return fail(L, script);
+    celspan_rostrum_unref(exposure->rostrum);
+    exposure->rostrum = changed;
+  }
   lua_pushboolean(L, true);
   return 1;
 }

@@ -371,7 +371,7 @@ const cs_verb cs_verbs[] = {
               "alpha, depth, colour, subimages and layers. A span file is read to its end, "
               "and every checksum is verified.",
      .options = INFO},
-    {"check", "SCRIPT", 1, 1, .has_script = true,
+    {"check", "SCRIPT", 1, 1, .has_script = true, .asks_warnings = true,
      .summary = "Builds every frame without rendering it, and reports all faults.",
      .notes = "Each frame is built twice, the second time in another order in a fresh film: "
               "a frame function that then returns another scene is not a pure function of "
@@ -379,7 +379,7 @@ const cs_verb cs_verbs[] = {
               "sound. Frames with scan-line procedures are built, but not compared. Equal "
               "faults are reported in one line, with all frames that have them.",
      .options = CHECK},
-    {"watch", "SCRIPT", 1, 1, .has_script = true,
+    {"watch", "SCRIPT [SCRIPT]", 1, 2, .has_script = true,
      .summary = "Shows a film in the browser while its script is being written.",
      .notes = "Prints the address of a page that only this machine can reach and that asks for "
               "the token in the address. The page plays the film, zooms into it, and shows it "
@@ -491,6 +491,6 @@ const cs_verb cs_verbs[] = {
      .options = NONE},
     {"help", "[VERB]", 0, 1, .is_hidden = true, .options = HELP},
     {"stage", "SCRIPT", 1, 1, .is_hidden = true, .has_script = true, .asks_files = true,
-     .options = STAGE},
+     .asks_warnings = true, .options = STAGE},
     {"spec", "-- FILE [PATTERN]", 0, 0, .is_hidden = true, .has_script = true, .options = NONE},
     {0}};

@@ -3,10 +3,10 @@
  * is loaded here.
  */
 #include <errno.h>
-#include <poll.h>
 #include <string.h>
 
 #include "base/module.h"
+#include "frames/process/interrupt.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "plugins/web/module.h"
@@ -155,7 +155,7 @@ static int open_server(lua_State *L) {
 }
 
 /* poll(milliseconds, { descriptor, ... }): waits until one of them has something to read, the time
- * is over or a signal came. */
+ * is over or a signal asks to stop. */
 static int poll_sources(lua_State *L) {
   struct pollfd sources[SOURCES_MOST];
   luaL_checktype(L, 2, LUA_TTABLE);
@@ -165,7 +165,7 @@ static int poll_sources(lua_State *L) {
     lua_rawgeti(L, 2, (lua_Integer)i + 1);
     sources[i] = (struct pollfd){.fd = (int)lua_tointeger(L, -1), .events = POLLIN};
   }
-  poll(sources, count, (int)luaL_checkinteger(L, 1));
+  cs_interrupt_wait(sources, count, (int)luaL_checkinteger(L, 1));
   return 0;
 }
 

@@ -97,6 +97,24 @@ end }]])
     code, out = bench:celspan("render %s --background '#0000ff' --colour linear -o -", window)
     assert.are.equal(0, code)
     assert.are.same({ 191, 0, 255, 255, 64, 0, 255, 255 }, { out:byte(1, 8) })
+    local exposed = bench:write("exposed.lua", [[
+local celspan = require "celspan"
+local function shot(x, colour)
+  return celspan.rostrum { celspan.cel { celspan.rect { x, 0, 1, 1, texture = colour } } }
+end
+local second = ...
+return celspan.film { size = { 3, 1 }, frame = function()
+  return { { shot(0, "#ff0000"), 0.25 }, { shot(1, "#00ff00"), tonumber(second) } }
+end }]])
+    code, out = bench:celspan("render %s --background '#0000ff' --colour linear -o - -- 0.25",
+      exposed)
+    assert.are.equal(0, code)
+    assert.are.same({ 64, 0, 191, 255, 0, 64, 191, 255, 0, 0, 255, 255 }, { out:byte(1, 12) })
+    local _, err
+    code, _, err = bench:celspan("render %s --background '#0000ff' -o - -- 1", exposed)
+    assert.are.equal(3, code)
+    assert.truthy(err:find("--background: the weights of the frame's exposures add up to 1.25; a "
+      .. "background can lie behind 1 at most", 1, true), err)
     local said
     code, said = render("--background '#0000ff80' -o " .. path("x.####.png"))
     assert.are.equal(2, code, said)

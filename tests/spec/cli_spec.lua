@@ -654,6 +654,22 @@ describe("the command line", function()
       assert.truthy(err:find("12 frames checked: no faults", 1, true), err)
     end)
 
+    it("shows once what the script prints", function()
+      local path = write("talks.lua", [[
+local celspan = require "celspan"
+print "begin"
+return celspan.film { size = { 4, 4 }, frames = 2, frame = function(f)
+  print(f.number)
+  return celspan.rostrum {}
+end }]])
+      for _, options in ipairs { "", "--trust " } do
+        local code, _, err = celspan("check " .. options .. path)
+        assert.are.equal(0, code)
+        assert.are.equal("begin\n1\n2\n", err:match "^begin.-2\n")
+        assert.is_nil(err:find("begin", 2, true))
+      end
+    end)
+
     it("prints faults as JSON", function()
       local script = write("faulty.lua", (PLAIN:gsub("return celspan%.rostrum",
         "if f.number > 9 then error 'no' end\n  %0")))

@@ -19,6 +19,18 @@ return celspan.film { size = { 64, 36 }, fps = 24, frames = 48, frame = function
 end }
 ]]
 
+-- A camera that moves, turns and widens over a square that does not, and a ball that does.
+local PAN = [[
+local celspan = require "celspan"
+return celspan.film { size = { 64, 36 }, frames = 9, frame = function(f)
+  return celspan.rostrum {
+    camera = { centre = { 20 + 4 * f.number, 18 }, width = 60 + f.number, rotate = f.number },
+    celspan.cel { celspan.rect { -99, -99, 299, 299, texture = "#ccc" } },
+    celspan.cel { celspan.rect { 20, 10, 16, 16, texture = "#036" } },
+    f.number > 4 and celspan.cel { celspan.rect { 4 * f.number, 2, 4, 4, texture = "#f00" } } }
+end }
+]]
+
 before_each(function() watching.begin { ["shot.lua"] = FILM } end)
 after_each(watching.finish)
 
@@ -73,6 +85,23 @@ describe("a frame in another way", function()
     assert.same({ true, true, true }, said.same)
     assert.is_true(said.shares[1] < 0.5, said.shares[1])
     for i = 2, 3 do assert.is_true(said.shares[i] < 1.1) end
+  end)
+
+  it("is seen by the camera of another frame", function()
+    watching.bench:write("shot.lua", PAN)
+    local said = watching.speak(watching.watch(), [=[
+      const get = async query => (await web.get(`/frame/${query}`)).body;
+      const camera = async number => /Celspan-Camera: (.*)\r/
+        .exec((await web.get(`/frame/${number}.rgba?size=64x36`)).head)[1];
+      return { same: await get("2.rgba?camera=3") === await get("3.rgba"),
+               other: await get("2.rgba") === await get("3.rgba"),
+               again: await get("2.rgba?camera=2") === await get("2.rgba"),
+               cameras: [await camera(2), await camera(2), await camera(3)],
+               none: (await web.get("/frame/2.png?camera=10")).status };]=])
+    assert.is_true(said.same and said.again and not said.other)
+    assert.equal(said.cameras[1], said.cameras[2])
+    assert.are_not.equal(said.cameras[1], said.cameras[3])
+    assert.equal(404, said.none)
   end)
 
   it("has objects at its points where the camera shows them", function()
@@ -229,6 +258,31 @@ describe("the page of celspan watch over its picture #plain", function()
     assert.same({ "204,51,51,255", "255,224,176,255", "204,51,51,255", "255,224,176,255",
                   "204,51,51,255" }, said.seen)
     assert.equal("true", said.pressed)
+  end)
+
+  it("shows the frames around one as its camera sees them", function()
+    watching.bench:write("shot.lua", PAN)
+    local said = watching.see(watching.watch(), COLOUR .. [=[
+      const pixels = () => page.get(`(() => { const canvas = document.querySelector("#stage");
+        return [...canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data]
+          .join(); })()`);
+      await page.until(`${stage("size")}.split("x")[0] > 1000`);
+      const plain = await pixels();
+      await page.press("n");
+      await page.pause(0.7);
+      const still = await pixels() === plain;
+      await page.press("ArrowRight");
+      await page.until(`${stage("frame")} === "4"`);
+      await page.pause(0.7);
+      // The ball of frame 5, in green, as large as the camera of frame 4 shows it.
+      const changed = await page.get(`(() => { const canvas = document.querySelector("#stage");
+        const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+        let count = 0;
+        for (let i = 0; i < data.length; i += 4) count += data[i + 1] - data[i + 2] > 20;
+        return count / canvas.width / canvas.height * 64 * 36; })()`);
+      return { still, changed };]=])
+    assert.is_true(said.still)
+    assert.is_true(math.abs(said.changed - 16) < 3, said.changed)
   end)
 
   it("compares any frame with one that is held", function()

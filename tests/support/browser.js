@@ -1,9 +1,10 @@
-// Drives the page of celspan watch in Debian's chromium, through a pipe of its own:
+// Drives a page in Debian's chromium, such as that of celspan watch, through a pipe of its own:
 //
 //   node browser.js FOLDER ADDRESS STEPS
 //
-// FOLDER is the browser's own, ADDRESS the page that is opened. STEPS is a file with the body of an
-// asynchronous function of `page`; what it returns is printed as JSON. It is not part of the page.
+// FOLDER is the browser's own, ADDRESS the page that is opened, or about:blank. STEPS is a file with
+// the body of an asynchronous function of `page`; what it returns is printed as JSON. It is not part
+// of the page.
 const { spawn } = require("child_process");
 const fs = require("fs");
 
@@ -13,8 +14,9 @@ const SECONDS = Number(process.env.CELSPAN_BROWSER_SECONDS ?? 60); // for everyt
 const browser = spawn("chromium", ["--headless=new", "--no-sandbox", "--disable-gpu", "--mute-audio",
   "--no-first-run", "--disable-extensions", "--disable-background-networking",
   "--remote-debugging-pipe", "--window-size=1280,800", `--user-data-dir=${folder}`],
-  { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
-const end = code => { browser.kill("SIGKILL"); process.exit(code); };
+  { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"], detached: true });
+// All its processes: one that lives on would write to a folder that the caller removes.
+const end = code => { process.kill(-browser.pid, "SIGKILL"); process.exit(code); };
 const fail = fault => { console.error(fault); end(1); };
 setTimeout(() => fail(`no end after ${SECONDS} seconds`), SECONDS * 1000);
 
@@ -91,6 +93,7 @@ async function open() {
       fs.writeFileSync(path, Buffer.from(data, "base64"));
     },
   };
+  if (address === "about:blank") return page;
   await call("Network.enable");
   await call("Page.navigate", { url: address });
   await page.until("location.protocol === 'http:' && document.readyState === 'complete'");

@@ -59,9 +59,10 @@ function watching.finish()
   watching.bench:remove()
 end
 
-local function run(command, steps)
+local function run(command, steps, variable)
   local path = watching.bench:write("steps.js", steps)
-  local code, out, err = watching.bench:shell(("node tests/support/%s '%s'"):format(command, path))
+  local code, out, err = watching.bench:shell(("%s node tests/support/%s '%s'"):format(
+    variable or "", command, path))
   assert(code == 0, err)
   return assert(json.decode(out)), out
 end
@@ -69,10 +70,10 @@ end
 --- What the steps return, in JavaScript, as a program that speaks to the server: see stranger.js.
 function watching.speak(address, steps) return run(("stranger.js '%s'"):format(address), steps) end
 
---- What the steps return in a browser: see browser.js.
-function watching.see(address, steps)
+--- What the steps return in a browser: see browser.js. seconds: for all of them, or nil.
+function watching.see(address, steps, seconds)
   return run(("browser.js '%s/chromium' '%s'"):format(watching.bench.folder, address),
-    HELP .. steps)
+    HELP .. steps, seconds and "CELSPAN_BROWSER_SECONDS=" .. seconds)
 end
 
 return watching

@@ -24,9 +24,6 @@ local PART = 4096 -- frames of a part
 local FAULTS_MOST, RUNS_MOST = 1000, 8
 local SCRIPT = 3 -- the exit code
 local STATES, SAMPLE = 3, 24 -- fresh films in all; frames that the further ones build
-local IMPURE = "the frame function is not pure: called again in another order, or in another Lua "
-  .. "state, it returned another scene; let it depend only on its argument, and not on the "
-  .. "length (#) of a table with holes"
 
 -- ---------------------------------------------------------------- faults
 
@@ -103,7 +100,7 @@ local function pass_again(film, numbers, scenes, step)
   for i = #numbers, 1, -step do
     if program.is_stopped() then return end
     if scenes[i] and not (film:try(numbers[i]) and film:scene() == scenes[i]) then
-      add_fault(numbers[i], "", IMPURE, SCRIPT)
+      add_fault(numbers[i], "", program.impure, SCRIPT)
       scenes[i] = nil -- reported
     end
   end
@@ -111,12 +108,10 @@ end
 
 --- The film of the script, run once more; nil and an exit code, reported.
 local function fresh_film(film)
-  local good, fresh = pcall(program.film)
+  local good, fresh = pcall(program.film, nil, true)
   if not good then return nil, program.outcome() end
   if fresh.first == film.first and fresh.frames == film.frames then return fresh end
-  program.error("the script returned a film with other frames when it was run again: %d from "
-    .. "number %d, not %d from number %d; let it return the same film each time", fresh.frames,
-    fresh.first, film.frames, film.first)
+  program.error("%s", program.other_frames(fresh, film))
   return nil, SCRIPT
 end
 

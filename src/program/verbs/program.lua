@@ -68,6 +68,18 @@ function program.json(value)
   return require "celspan.json".encode(ordered(value))
 end
 
+--- What is said of a frame function that returns another scene when it is called again.
+program.impure = "the frame function is not pure: called again in another order, or in another Lua "
+  .. "state, it returned another scene; let it depend only on its argument, and not on the "
+  .. "length (#) of a table with holes"
+
+--- What is said of a script that is run again and returns another film.
+function program.other_frames(fresh, film)
+  return ("the script returned a film with other frames when it was run again: %d from number %d, "
+    .. "not %d from number %d; let it return the same film each time"):format(fresh.frames,
+    fresh.first, film.frames, film.first)
+end
+
 --- Has a document write itself to a file, or its text to standard output. subject: what it was made
 --- from, for messages.
 function program.put(document, output, subject)

@@ -51,9 +51,22 @@ function answers.film()
   put { good = true, film = facts, parameters = parameters() }
 end
 
+--- The request before this one was not wanted any more: it has an answer by now.
+function answers.abandon() end
+
+--- Builds a frame. by: a frame by whose camera it is seen, or nil.
+local function build_seen(number, by)
+  if not by then return film:try(number) end
+  local good, message, code = film:try(by)
+  if good then film:hold_camera() end
+  if good then good, message, code = film:try(number) end
+  if good then return film:use_camera() end
+  return good, message, code
+end
+
 --- Builds a frame, with its cels as ask.cels has them. false: refused.
 local function build(ask)
-  local good, message, code = film:try(ask.number)
+  local good, message, code = build_seen(ask.number, ask.camera)
   if good and ask.cels then good, message = film:alter(ask.cels) end
   if not good then refuse(message, code) end
   return good
@@ -70,10 +83,11 @@ end
 function answers.frame(ask)
   local began = program.clock()
   if not build(ask) then return end
+  local camera = film:camera()
   if ask.made then film:keep_line(ask.made[1], ask.made[2]) end
   local bytes, message = of_view(ask, "picture", ask.what)
   if not bytes then return refuse(("frame %d: %s"):format(ask.number, message)) end
-  put({ good = true, seconds = program.clock() - began }, bytes)
+  put({ good = true, seconds = program.clock() - began, camera = camera }, bytes)
 end
 
 --- What the frame costs, the first of `costs`, and each of its cels alone.
@@ -196,10 +210,14 @@ function answers.wave(ask)
   put({ good = true }, program.json { columns = { list = columns }, lips = lips_of(count) })
 end
 
---- Checks frames until the time is over, one at least.
+--- Checks frames, and the sound with the first one, until the time is over: one frame at least.
 function answers.check(ask)
   local faults, number, began = {}, ask.number, program.clock()
   local last = film.first + film.frames - 1
+  if number == film.first and film:check_sound() ~= 0 then
+    faults[1] = { message = program.reported() }
+  end
+  film:drop_warnings()
   repeat
     local good, message = film:try(number)
     local function add(where, text)
@@ -209,6 +227,44 @@ function answers.check(ask)
     if good then film:faults(add) else add("", message) end
     number = number + 1
   until number > last or program.clock() - began > CHECK_SECONDS
+  put { good = true, number = number, faults = faults }
+end
+
+local again -- the film of the script, run once more
+
+--- Why there is no such film; nil: there is one.
+local function open_again()
+  local is_open, fresh
+  if again then return nil end
+  is_open, fresh = pcall(program.film, nil, true)
+  if not is_open then return program.reported() or tostring(fresh) end
+  again = fresh
+  again:keep_callers(false)
+  if fresh.first ~= film.first or fresh.frames ~= film.frames then
+    return program.other_frames(fresh, film)
+  end
+end
+
+--- Whether a frame is the same in both films, or cannot be compared.
+local function is_pure(number)
+  local scene = film:try(number) and film:scene()
+  return not scene or again:try(number) and again:scene() == scene
+end
+
+--- Builds frames in the other order in another film, until the time is over: one at least.
+function answers.again(ask)
+  local faults, number, began = {}, ask.number, program.clock()
+  local message = open_again()
+  if message then
+    return put { good = true, number = film.first - 1, faults = { { message = message } } }
+  end
+  repeat
+    if not is_pure(number) then
+      faults[#faults + 1] = { frame = number,
+                              message = ("frame %d: %s"):format(number, program.impure) }
+    end
+    number = number - 1
+  until number < film.first or program.clock() - began > CHECK_SECONDS
   put { good = true, number = number, faults = faults }
 end
 

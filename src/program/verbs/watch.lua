@@ -1,4 +1,4 @@
---- celspan watch SCRIPT: a page that shows a film while it is being written.
+--- celspan watch SCRIPT [SCRIPT]: a page that shows a film, or two, while it is being written.
 --
 --   browser <--http--> this verb <--requests, pictures--> renderers (watch/renderers.lua)
 --                        ^  |
@@ -10,197 +10,48 @@ local program, request = ...
 
 local json = require "celspan.json"
 
-local function part(name)
-  return assert(load(program.text(name), "=" .. name, "t"))(program, request)
+local part
+function part(name)
+  return assert(load(program.text(name), "=" .. name, "t"))(program, request, part)
 end
-local guard, renderers = part "guard.lua", part "renderers.lua"
+local guard, watched, choices = part "guard.lua", part "watched.lua", part "choices.lua"
 
 local HELD = 20            -- seconds that a request for news is held
-local QUIET = 0.5          -- seconds without requests before frames are checked
-local CHECKED_MOST = 5000  -- frames that are checked
-local FAULTS_MOST = 200
-local WATCHED_MOST = 10000 -- files
-local PLACES_MOST = 10000  -- lines of the script that an editor may be asked for
-local AROUND = 3           -- lines shown before and after that of an error
-local LINES_MOST = 1 << 20 -- bytes of a script of which lines are shown
 local SIDE_MOST = 1048576  -- pixels
 local PIXELS_MOST = 1 << 25 -- of a picture
 local COLUMNS_MOST = 10000  -- of a wave
 
-local script = request[1]
-local file, why = io.open(script, "rb")
-if not file then program.fail("input", "%s", why) end
-file:close()
+for _, script in ipairs(request) do
+  local file, why = io.open(script, "rb")
+  if not file then program.fail("input", "%s", why) end
+  file:close()
+end
 
 local web = program.web(math.tointeger(request.port) or 0)
-local watcher = program.watcher()
 local door = guard.new(web.port)
+local files = part "files.lua".new()
+local places = part "places.lua".new(files)
 
--- ---------------------------------------------------------------- the state
+-- ---------------------------------------------------------------- the films
 
--- news: counts what pages are to know. build: counts what was saved.
-local state = { news = 1, build = 0, errors = {}, check = nil, began = 0 }
+-- news: counts what pages are to know. here: the line that an editor has named.
+local state = { news = 1 }
 local held = {} -- requests for news: id, since, until
-local heard = 0 -- when a request came last
 
 local function tell() state.news = state.news + 1 end
 
--- ---------------------------------------------------------------- files
+-- The film, and the one beside it, which a request means by side=2: of the second script, or of the
+-- same one with other values. films: those that are shown.
+local first = watched.new(request[1], files, places, tell)
+local second = watched.new(request[2] or request[1], files, places, tell)
+local films = { first }
 
--- files[folder][name]: watched; folders[number of the watcher]: the names that the film has for
--- that folder, such as "" and "./"; missing[folder]: it cannot be watched, as it does not exist.
-local files, folders, missing, watched = {}, {}, {}, 0
-
-local function watch_folder(folder)
-  local number = watcher:add(folder == "" and "." or folder)
-  if number then
-    folders[number] = folders[number] or {}
-    folders[number][folder] = true
-  end
-  missing[folder] = not number or nil
-  return number
-end
-
-local function watch(path)
-  local folder, name = path:match "^(.-)([^/]+)$"
-  if not folder or files[folder] and files[folder][name] or watched == WATCHED_MOST then return end
-  if not files[folder] then
-    files[folder] = {}
-    watch_folder(folder)
-  end
-  files[folder][name], watched = true, watched + 1
-end
-
-local function note_files(paths)
-  for _, path in ipairs(paths) do watch(path) end
-end
-
---- A trusted script may read modules without asking: those beside it count too.
-local function concerns(folder, name)
-  return files[folder] and files[folder][name]
-    or request.trust and name:match "%.lua$" and folder == (script:match "^.*/" or "")
-end
-
---- Whether an event is about a file that the film has asked for. name "": the folder is gone.
-local function is_change(number, name)
-  local is_changed = number == -1
-  for folder in pairs(folders[number] or {}) do
-    if name == "" then missing[folder] = true end
-    is_changed = is_changed or name == "" or concerns(folder, name)
-  end
-  if name == "" then folders[number] = nil end
-  return is_changed
-end
-
---- Whether a file that the film has asked for was changed since the last call.
-local function has_changes()
-  local events, is_changed = watcher:take(), false
-  for i = 1, #events, 2 do is_changed = is_change(events[i], events[i + 1]) or is_changed end
-  for folder in pairs(missing) do is_changed = watch_folder(folder) ~= nil or is_changed end
-  return is_changed
-end
-
--- ---------------------------------------------------------------- errors
-
---- The lines around one of a file that the film has asked for; nil: they cannot be read.
-local function excerpt(path, line)
-  local folder, name = path:match "^(.-)([^/]+)$"
-  local opened = folder and concerns(folder, name) and io.open(path, "rb")
-  if not opened then return nil end
-  local text, number, lines = opened:read(LINES_MOST) or "", 0, {}
-  opened:close()
-  for one in (text:gsub("\n?$", "\n", 1)):gmatch "([^\n]*)\n" do
-    number = number + 1
-    if number > line + AROUND then break end
-    if number >= line - AROUND then lines[#lines + 1] = { number, one:sub(1, 200) } end
-  end
-  return lines
-end
-
--- Lines of files that the film has named, as keys such as "shot.lua:12".
-local places, place_count = {}, 0
-
-local function note_place(path, line)
-  local key = path and line and ("%s:%d"):format(path, line)
-  if not key or places[key] or place_count == PLACES_MOST then return end
-  places[key], place_count = true, place_count + 1
-end
-
---- The places in a text such as "from shot.lua:40, hand.lua:7", which are noted: { file, line }.
-local function note_places(text)
-  local list = {}
-  for path, line in text:gmatch "([^%s:(),]+):(%d+)" do
-    list[#list + 1] = { file = path, line = math.tointeger(line) }
-    note_place(path, math.tointeger(line))
-  end
-  return { list = list }
-end
-
---- An error as /errors.json lists it.
-local function describe(message, frame)
-  local path, line = program.place_of(message)
-  note_place(path, line)
-  frame = frame or math.tointeger(message:match "frame (%-?%d+): ")
-  local callers = note_places(message:match " %(called from ([^()]*)%)" or "")
-  return { message = message, frame = frame, file = path, line = line, callers = callers,
-           lines = path and excerpt(path, line) }
-end
-
-local function add_error(message, frame)
-  for _, known in ipairs(state.errors) do
-    if known.message == message then return end
-  end
-  if #state.errors == FAULTS_MOST then return end
-  table.insert(state.errors, describe(message, frame))
+--- Shows or hides the second film.
+local function set_comparing(is_on)
+  if is_on == (films[2] ~= nil) then return end
+  films[2] = is_on and second or nil
+  if is_on then second:build() else second:close "the second film is not shown any more" end
   tell()
-end
-
--- ---------------------------------------------------------------- building
-
-local pool = renderers.new(note_files)
-
---- Begins with the script as it is now.
-local function build()
-  pool:close("the film was saved again", 503)
-  state.build, state.began, state.is_building = state.build + 1, program.clock(), true
-  local number = state.build
-  tell()
-  pool:ask {
-    ask = { want = "film" }, is_patient = true,
-    done = function(head)
-      state.film, state.errors, state.is_building = head.film, {}, false
-      state.film.marks = { list = state.film.marks }
-      state.parameters = head.parameters
-      state.is_shown, state.check = true, { number = head.film.first }
-      tell()
-    end,
-    failed = function(message)
-      if number ~= state.build then return end
-      state.errors, state.is_building, state.check = { describe(message) }, false, nil
-      state.is_shown = false
-      tell()
-    end,
-  }
-end
-
---- Has some frames checked when nobody asks for pictures.
-local function check()
-  local at, film = state.check, state.film
-  if not at or at.is_asked or program.clock() - heard < QUIET or not pool:is_idle() then return end
-  at.is_asked = true
-  pool:ask {
-    ask = { want = "check", number = at.number }, is_patient = true,
-    done = function(head)
-      at.number, at.is_asked = head.number, false
-      for _, fault in ipairs(head.faults) do add_error(fault.message, fault.frame) end
-      local last = math.min(film.first + film.frames, film.first + CHECKED_MOST)
-      if head.number >= last and state.check == at then state.check = nil end
-    end,
-    failed = function(message)
-      if state.check == at then state.check = nil end
-      if at.number and state.is_shown then add_error(message, at.number) end
-    end,
-  }
 end
 
 -- ---------------------------------------------------------------- answers
@@ -222,44 +73,17 @@ local function give_json(id, value)
   answer(id, 200, "application/json", program.json(value) .. "\n")
 end
 
---- The parameters with their values: of the page, else of the command line, else the defaults.
-local function parameters()
-  local values, list = {}, {}
-  local stored = request.set_from and json.read(request.set_from)
-  for name, value in pairs(type(stored) == "table" and stored or {}) do values[name] = value end
-  for _, option in ipairs(request.given) do
-    local name, value = (option.name == "--set" and option.value or ""):match "^(.-)=(.*)$"
-    if name then values[name] = value end
-  end
-  for name, value in pairs(pool.values) do values[name] = value end
-  for i, one in ipairs(state.parameters or {}) do
-    local value = values[one.name]
-    list[i] = { name = one.name, type = one.type, format = one.format, default = one.default,
-                minimum = one.minimum, maximum = one.maximum, description = one.description,
-                enum = one.enum, value = tostring(value == nil and one.default or value) }
-  end
-  return { list = list }
-end
-
 local function describe_state()
-  return { news = state.news, build = state.build, building = state.is_building or false,
-           seconds = state.is_building and program.clock() - state.began or 0,
-           film = state.film, shown = state.is_shown or false, errors = { list = state.errors },
-           script = script, alone = request.is_alone or false, parameters = parameters(),
-           editor = request.editor ~= nil, here = state.here }
+  local said = first:describe()
+  said.news, said.here, said.editor = state.news, state.here, request.editor ~= nil
+  said.alone, said.second = request.is_alone or false, films[2] and second:describe()
+  said.has_two = #request == 2
+  return said
 end
 
 --- Asks the renderers, and answers with what they say.
-local function pass_on(id, ask, give)
-  heard = program.clock()
-  pool:ask {
-    ask = ask,
-    done = give,
-    failed = function(message, status)
-      if ask.number and status == 422 then add_error(message, ask.number) end
-      refuse(id, status, message)
-    end,
-  }
+local function pass_on(id, film, ask, give, wish)
+  film:ask(ask, give, function(status, message) refuse(id, status, message) end, wish)
 end
 
 --- The numbers of a text such as "1,2,3" or "1280x720"; nil: it is no such text.
@@ -271,14 +95,19 @@ local function numbers(text, count)
   return #all == count and all or nil
 end
 
+--- Whether a film can be asked; else the request is refused.
+local function is_ready(id, film)
+  if film.is_shown then return true end
+  refuse(id, 409, film.errors[1] and film.errors[1].message or "the film is not ready yet")
+end
+
 --- The frame that a request is about; nil: refused.
-local function frame_of(id, text)
-  local number, film = math.tointeger(text), state.film
-  if not state.is_shown then
-    refuse(id, 409, state.errors[1] and state.errors[1].message or "the film is not ready yet")
-  elseif not number or number < film.first or number >= film.first + film.frames then
-    local last = film.first + film.frames - 1
-    refuse(id, 404, ("the film has frames %d to %d"):format(film.first, last))
+local function frame_of(id, film, text)
+  local number, facts = math.tointeger(text), film.facts
+  if not is_ready(id, film) then return nil end
+  if not number or number < facts.first or number >= facts.first + facts.frames then
+    local last = facts.first + facts.frames - 1
+    refuse(id, 404, ("the film has frames %d to %d"):format(facts.first, last))
   else
     return number
   end
@@ -292,10 +121,10 @@ local function is_view(size, crop)
 end
 
 --- What a request shows, in the words of the renderers: number, size, crop, cels; nil: refused.
-local function view_of(id, text, fields)
-  local number = frame_of(id, text)
+local function view_of(id, film, text, fields)
+  local number = frame_of(id, film, text)
   if not number then return nil end
-  local size = numbers(fields.size or request.size, 2) or not fields.size and state.film.size
+  local size = numbers(fields.size or request.size, 2) or not fields.size and film.facts.size
   local crop = size and (not fields.crop and { 0, 0, size[1], size[2] } or numbers(fields.crop, 4))
   if not crop or not is_view(size, crop) then
     return refuse(id, 400, "write size=WxH and crop=X,Y,W,H: at most 1048576 pixels a side, and "
@@ -305,7 +134,9 @@ local function view_of(id, text, fields)
   if fields.cels and type(cels) ~= "table" then
     return refuse(id, 400, "cels= must be a JSON object, such as {\"ground\": \"h\"}")
   end
-  return { number = number, size = size, crop = crop, cels = cels }
+  local camera = fields.camera and frame_of(id, film, fields.camera)
+  if fields.camera and not camera then return nil end
+  return { number = number, size = size, crop = crop, cels = cels, camera = camera }
 end
 
 --- What is shown instead of the frame's colours: "spans", or what a line made.
@@ -320,77 +151,78 @@ local function add_show(id, ask, fields)
   return true
 end
 
-local function give_frame(id, text, ending, fields)
-  local ask = view_of(id, text, fields)
+local function give_frame(id, film, text, fields, ending)
+  local ask = view_of(id, film, text, fields)
   if not ask then return end
   ask.want, ask.what = "frame", ending
   if not add_show(id, ask, fields) then return end
   if fields.show and ending ~= "rgba" then return refuse(id, 400, "show= needs /frame/N.rgba") end
   local kind = ending == "png" and "image/png" or "application/octet-stream"
-  pass_on(id, ask,
+  pass_on(id, film, ask,
     function(head, bytes)
-      answer(id, 200, kind, bytes, "Celspan-Seconds", ("%.4f"):format(head.seconds))
-    end)
+      answer(id, 200, kind, bytes, "Celspan-Seconds", ("%.4f"):format(head.seconds),
+        "Celspan-Camera", head.camera)
+    end, fields.wish)
 end
 
-local function give_costs(id, fields)
-  local ask = view_of(id, fields.frame or state.film and state.film.first, fields)
+local function give_costs(id, film, fields)
+  local ask = view_of(id, film, fields.frame or film.facts and film.facts.first, fields)
   if not ask then return end
   ask.want = "costs"
-  pass_on(id, ask, function(head)
-    for _, one in ipairs(head.costs) do note_place(one.file, one.line) end
+  pass_on(id, film, ask, function(head)
+    for _, one in ipairs(head.costs) do places:note(one.file, one.line) end
     give_json(id, { list = head.costs })
   end)
 end
 
 --- The frames with what the line made that an editor has named last.
-local function give_made(id)
-  if not state.is_shown then return frame_of(id) end
+local function give_made(id, film)
+  if not is_ready(id, film) then return end
   if not state.here then return give_json(id, { list = {} }) end
-  pass_on(id, { want = "made", file = state.here.file, line = state.here.line },
+  pass_on(id, film, { want = "made", file = state.here.file, line = state.here.line },
     function(head) give_json(id, { list = head.runs }) end)
 end
 
 --- The run of frames of a text such as "1-48"; without one, all of them; nil: refused.
-local function run_of(id, text)
-  local film = state.film
+local function run_of(id, film, text)
+  local facts = film.facts
   local from, to = (text or ""):match "^(%-?%d+)%-(%-?%d+)$"
-  if not text and film then from, to = film.first, film.first + film.frames - 1 end
+  if not text and facts then from, to = facts.first, facts.first + facts.frames - 1 end
   if not from and text then return refuse(id, 400, "write frames=A-B, such as 1-48") end
-  local first = frame_of(id, from)
-  local last = first and frame_of(id, to)
-  if last and last < first then return refuse(id, 400, "frames=A-B: A is greater than B") end
-  return last and first, last
+  local begin = frame_of(id, film, from)
+  local last = begin and frame_of(id, film, to)
+  if last and last < begin then return refuse(id, 400, "frames=A-B: A is greater than B") end
+  return last and begin, last
 end
 
-local function give_sound(id, fields)
-  local first, last = run_of(id, fields.frames)
-  if not first then return end
-  if not state.film.sound then return refuse(id, 404, "the film has no sound") end
-  pass_on(id, { want = "sound", first = first, count = last - first + 1 },
+local function give_sound(id, film, fields)
+  local begin, last = run_of(id, film, fields.frames)
+  if not begin then return end
+  if not film.facts.sound then return refuse(id, 404, "the film has no sound") end
+  pass_on(id, film, { want = "sound", first = begin, count = last - begin + 1 },
     function(_, bytes) answer(id, 200, "audio/wav", bytes) end)
 end
 
-local function give_wave(id, fields)
+local function give_wave(id, film, fields)
   local columns = math.tointeger(fields.columns or 1000)
-  if not state.is_shown then return frame_of(id) end
+  if not is_ready(id, film) then return end
   if not columns or columns < 1 or columns > COLUMNS_MOST then
     return refuse(id, 400, ("write columns=N, from 1 to %d"):format(COLUMNS_MOST))
   end
-  pass_on(id, { want = "wave", columns = columns },
+  pass_on(id, film, { want = "wave", columns = columns },
     function(_, text) answer(id, 200, "application/json", text) end)
 end
 
-local function give_point(id, x, y, fields)
-  local number = frame_of(id, fields.frame or state.film and state.film.first)
+local function give_point(id, film, x, y, fields)
+  local number = frame_of(id, film, fields.frame or film.facts and film.facts.first)
   x, y = tonumber(x), tonumber(y)
   if not number then return end
   if not x or not y then return refuse(id, 400, "write /at/X,Y.json, in units of the film") end
-  pass_on(id, { want = "at", number = number, x = x, y = y },
+  pass_on(id, film, { want = "at", number = number, x = x, y = y },
     function(head)
       for _, hit in ipairs(head.hits) do
-        note_place(hit.file, hit.line)
-        hit.via, hit.callers = hit.callers, note_places(hit.callers)
+        places:note(hit.file, hit.line)
+        hit.via, hit.callers = hit.callers, places:of_text(hit.callers)
       end
       give_json(id, { list = head.hits })
     end)
@@ -407,43 +239,61 @@ end
 local pages = { ["/"] = "page.html", ["/page.css"] = "page.css", ["/page.js"] = "page.js",
                 ["/sound.js"] = "sound.js", ["/runs.js"] = "runs.js", ["/cost.js"] = "cost.js" }
 
+--- The files that a parameter may name, parameter=NAME.
+local function give_files(id, film, fields)
+  for _, one in ipairs(film.parameters or {}) do
+    if one.name == fields.parameter and one.format == "path" then
+      return give_json(id, { list = choices.like(film.script, one.default) })
+    end
+  end
+  refuse(id, 404, "the film has no parameter of this name that is a file")
+end
+
+--- What a film says of itself as bytes of some kind, for an address.
+local function giving(want, kind)
+  return function(id, film)
+    if not is_ready(id, film) then return end
+    pass_on(id, film, { want = want }, function(_, text) answer(id, 200, kind, text) end)
+  end
+end
+
 local gets = {
-  ["/film.json"] = function(id)
-    if not state.is_shown then return frame_of(id) end
-    give_json(id, state.film)
+  ["/film.json"] = function(id, film)
+    if is_ready(id, film) then give_json(id, film.facts) end
   end,
-  ["/errors.json"] = function(id) give_json(id, { list = state.errors }) end,
-  ["/sheet.txt"] = function(id)
-    if not state.is_shown then return frame_of(id) end
-    pass_on(id, { want = "sheet" },
-      function(_, text) answer(id, 200, "text/plain; charset=utf-8", text) end)
-  end,
-  ["/sheet.json"] = function(id)
-    if not state.is_shown then return frame_of(id) end
-    pass_on(id, { want = "rows" },
-      function(_, text) answer(id, 200, "application/json", text) end)
-  end,
+  ["/errors.json"] = function(id, film) give_json(id, { list = film.errors }) end,
+  ["/sheet.txt"] = giving("sheet", "text/plain; charset=utf-8"),
+  ["/sheet.json"] = giving("rows", "application/json"),
   ["/sound.wav"] = give_sound,
   ["/wave.json"] = give_wave,
   ["/costs.json"] = give_costs,
+  ["/files.json"] = give_files,
   ["/made.json"] = give_made,
   ["/counts.json"] = function(id) give_json(id, web:counts()) end,
-  ["/state.json"] = function(id, fields)
+  ["/state.json"] = function(id, _, fields)
     local since = math.tointeger(fields.since) or 0
     if since ~= state.news then return give_json(id, describe_state()) end
     held[#held + 1] = { id = id, over = program.clock() + HELD }
   end,
 }
 
+--- The film that a request means: the second with side=2; nil: refused.
+local function side_of(id, fields)
+  local film = films[math.tointeger(fields.side or 1) or 0]
+  return film or refuse(id, 404, "there is no such film beside the first")
+end
+
 local function route(id, path, fields)
   if pages[path] then return give_text(id, pages[path]) end
-  if gets[path] then return gets[path](id, fields) end
+  local film = side_of(id, fields)
+  if not film then return end
+  if gets[path] then return gets[path](id, film, fields) end
   local number, ending = path:match "^/frame/(%-?%d+)%.(%l+)$"
   if number and (ending == "png" or ending == "rgba" or ending == "runs") then
-    return give_frame(id, number, ending, fields)
+    return give_frame(id, film, number, fields, ending)
   end
   local x, y = path:match "^/at/(%-?[%d.]+),(%-?[%d.]+)%.json$"
-  if x then return give_point(id, x, y, fields) end
+  if x then return give_point(id, film, x, y, fields) end
   refuse(id, 404, "there is no such address")
 end
 
@@ -451,34 +301,34 @@ end
 local posts = {}
 
 --- Values of parameters, { name = "text" }, in place of all that the page has given before.
-posts["/parameters"] = function(id, given)
+posts["/parameters"] = function(id, given, film)
   local known = {}
-  for _, one in ipairs(state.parameters or {}) do known[one.name] = true end
+  for _, one in ipairs(film.parameters or {}) do known[one.name] = true end
   for name, value in pairs(given) do
     if not known[name] or type(value) ~= "string" or value:find "%z" then
       return refuse(id, 400, ("the film has no parameter '%s' with such a value"):format(name))
     end
   end
-  pool.values = given
-  build()
-  give_json(id, { build = state.build })
+  film:give_values(given)
+  give_json(id, { build = film.build_number })
 end
 
---- The path of a file as the film has it, for one that an editor may name from the root; nil: the
---- film does not read it.
-local function path_of(name)
-  for folder, list in pairs(files) do
-    for own in pairs(list) do
-      local path = folder .. own
-      if name == path or name:sub(-#path - 1) == "/" .. path then return path end
-    end
-  end
-  return nil
+--- The picture that was asked for with this `wish` is not wanted any more, { wish = }.
+posts["/abandon"] = function(id, given, film)
+  if type(given.wish) ~= "string" then return refuse(id, 400, "write { \"wish\": ... }") end
+  film.pool:abandon(given.wish)
+  give_json(id, {})
+end
+
+--- Whether the second film is shown beside the first, { on = }.
+posts["/compare"] = function(id, given)
+  set_comparing(given.on == true)
+  give_json(id, { on = given.on == true })
 end
 
 --- What this line made is outlined in the page, { file =, line = }.
 posts["/here"] = function(id, given)
-  local path, line = path_of(tostring(given.file)), math.tointeger(given.line)
+  local path, line = files:path_of(tostring(given.file), first), math.tointeger(given.line)
   if not path or not line then return refuse(id, 404, "the film does not read this file") end
   state.here = { file = path, line = line, count = (state.here and state.here.count or 0) + 1 }
   tell()
@@ -490,8 +340,9 @@ local editors = {} -- processes
 --- Opens a line that the film has named in the editor, { file =, line = }.
 posts["/open"] = function(id, given)
   local line = math.tointeger(given.line)
-  local key = type(given.file) == "string" and line and ("%s:%d"):format(given.file, line)
-  if not key or not places[key] then return refuse(id, 404, "the film has not named this line") end
+  if type(given.file) ~= "string" or not line or not places:has(given.file, line) then
+    return refuse(id, 404, "the film has not named this line")
+  end
   if not request.editor then return refuse(id, 409, "give --editor to celspan watch") end
   local words = {}
   for word in request.editor:gmatch "%S+" do
@@ -503,17 +354,18 @@ posts["/open"] = function(id, given)
   give_json(id, {})
 end
 
-local function take_post(asked, path)
+local function take_post(asked, path, fields)
   local given = json.decode(asked.body)
   if not posts[path] then return refuse(asked.id, 405, "nothing is changed by a POST there") end
   if type(given) ~= "table" then return refuse(asked.id, 400, "the body must be a JSON object") end
-  posts[path](asked.id, given)
+  local film = side_of(asked.id, fields)
+  if film then posts[path](asked.id, given, film) end
 end
 
 local function serve(asked)
   local path, fields, sentence = door:admit(asked)
   if not path then return refuse(asked.id, fields, sentence) end
-  if asked.method == "POST" then return take_post(asked, path) end
+  if asked.method == "POST" then return take_post(asked, path, fields) end
   route(asked.id, path, fields)
 end
 
@@ -542,20 +394,29 @@ local function soonest(...)
   return least
 end
 
+--- What every film has to do; milliseconds until there is more.
+local function step_films()
+  local changed, wait = files:take(films), -1
+  for _, film in ipairs(films) do
+    if changed[film] then film:build() end
+    film.pool:step()
+    film:check()
+    wait = soonest(wait, film.pool:wait(), film.check_state and 100 or -1)
+  end
+  return wait
+end
+
 local function step()
   web:run()
   for asked in web.take, web do serve(asked) end
-  if has_changes() then build() end
-  pool:step()
-  check()
+  local wait = step_films()
   give_news()
   for process in pairs(editors) do
     if program.has_ended(process) then editors[process] = nil end
   end
-  local wait = soonest(web:run(), pool:wait(), state.check and 100 or -1)
-  local sources = { web:descriptor(), watcher:descriptor() }
-  pool:add_descriptors(sources)
-  program.poll(wait, sources)
+  local sources = { web:descriptor(), files:descriptor() }
+  for _, film in ipairs(films) do film.pool:add_descriptors(sources) end
+  program.poll(soonest(web:run(), wait), sources)
 end
 
 local function open_browser(address)
@@ -566,11 +427,11 @@ local function open_browser(address)
   end
 end
 
-watch(script)
-build()
+first:build()
+set_comparing(#request == 2)
 local address = ("http://127.0.0.1:%d/?token=%s"):format(web.port, door.token)
 print("watching " .. address)
 io.stdout:flush()
 if request.open then open_browser(address) end
 while not program.is_stopped() do step() end
-pool:close("celspan has ended", 503)
+for _, film in ipairs(films) do film:close "celspan has ended" end

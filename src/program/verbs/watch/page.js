@@ -11,20 +11,22 @@ import * as sound from "/sound.js";
 import { unpack } from "/runs.js";
 
 const here = id => document.getElementById(id);
-const stage = here("stage"), desk = here("desk"), pen = stage.getContext("2d");
+const stage = here("stage"), desk = here("desk");
 const overlay = here("overlay");
 const SIDE_MOST = 1048576;   // pixels of a frame
 const KEPT_MOST = 192 << 20; // bytes of pictures that are kept
 const AHEAD = 8, AT_ONCE = 3; // pictures asked for ahead while playing, and at the same time
 const BEHIND = 24;           // frames that a picture may be late
-const SLOW = 0.25;           // seconds after which a coarse picture comes first
+const SLOW = 0.15;           // seconds after which a picture is slow: a coarse one comes first
+const VERY_SLOW = 1;         // seconds from which that is coarser still
 const STRIDE = 80;           // device pixels that a key moves the picture
 const GUIDES = ["safe", "fields"]; // over the picture, one at a time
 const FIELDS = 12;           // of a field guide: rectangles around its middle
+const FAULT_FRAMES = 6;      // frames of one fault that are listed
 const THUMB = 160;           // CSS pixels, the longer side of the picture over the scrubber
 
-const state = { news: 0, build: 0, film: null, errors: [], shown: false,
-                parameters: [] };
+const state = { news: 0, build: 0, film: null, errors: [], shown: false, parameters: [],
+                second: null };
 // number: of the frame, from 1. scale: device pixels of a unit of the film; x, y: the place of the
 // frame's corner in the window, in device pixels. isFitted: both follow the window.
 const view = { number: 1, scale: 1, x: 0, y: 0, isFitted: true };
@@ -32,9 +34,25 @@ const loop = { from: 1, to: 1 };
 // start: on the clock of the sound while it is heard, else on the machine's, in seconds.
 const play = { direction: 0, speed: 1, start: 0, isHeard: false, passed: 0, number: 1, shown: -1,
                painted: [] };
-let painted = null, isMatte = false, mark = null;
-let refused = null; // the frame that could not be made: number, build, message
-let lastFault = null; // the error that is shown
+let isMatte = false, mark = null;
+
+/** What is known of one of the films and its canvas. refused: the frame that could not be made,
+ * { number, build, message }. lastFault: the error that is shown. painted: the picture. slowness:
+ * the seconds that it took. fetching: the picture that is on its way, { wanted, since }. given: values of parameters, as the address holds them. */
+const lane = (side, canvas, box) => ({
+  side, canvas, box, pen: canvas.getContext("2d"), painted: null, refused: null, lastFault: null,
+  isAsking: false, isWanted: false, slowness: 0, fetching: null, given: new URLSearchParams(), isGiven: false,
+  isSending: false, isChanged: false, formOf: "",
+});
+const main = lane(1, stage, desk), beside = lane(2, here("stage2"), here("desk2"));
+
+/** What the server has said of a lane's film; null: it is not shown. */
+const stateOf = one => one === main ? state : state.second;
+const isComparing = () => Boolean(state.second);
+const lanes = () => isComparing() ? [main, beside] : [main];
+
+/** An element of a lane: those of the second have a 2 after their names. */
+const part = (one, id) => here(one === main ? id : `${id}2`);
 
 // ---------------------------------------------------------------- the view
 
@@ -45,9 +63,10 @@ let deskSize = [1, 1]; // in CSS pixels; reading it from the page while a film p
 
 const windowSize = () => deskSize.map(side => Math.max(1, Math.round(side * ratio())));
 
-/** The size of the whole frame in device pixels. */
-function frameSize() {
-  return state.film.size.map(side => clamp(Math.round(side * view.scale), 1, SIDE_MOST));
+/** The size of the whole frame in device pixels. The second film is as wide as the first. */
+function frameSize(one = main) {
+  const size = stateOf(one).film.size, scale = view.scale * state.film.size[0] / size[0];
+  return size.map(side => clamp(Math.round(side * scale), 1, SIDE_MOST));
 }
 
 function fit() {
@@ -82,8 +101,8 @@ function move(dx, dy) {
 }
 
 /** The part of the frame that is in the window; null: none is. */
-function visible() {
-  const [w, h] = windowSize(), [fw, fh] = frameSize();
+function visible(one = main) {
+  const [w, h] = windowSize(), [fw, fh] = frameSize(one);
   const x = clamp(-view.x, 0, fw), y = clamp(-view.y, 0, fh);
   const right = clamp(w - view.x, 0, fw), bottom = clamp(h - view.y, 0, fh);
   return right > x && bottom > y ? [x, y, right - x, bottom - y] : null;
@@ -92,6 +111,7 @@ function visible() {
 // ---------------------------------------------------------------- pictures
 
 const kept = new Map(); // by their address, the oldest first
+const cameras = new Map(); // texts that are the same for the same camera, by numbers of frames
 let keptBytes = 0;
 
 function keep(address, picture) {
@@ -104,16 +124,29 @@ function keep(address, picture) {
   }
 }
 
-function forget() {
-  kept.clear();
-  keptBytes = 0;
+/** Forgets the pictures of a film. */
+function forget(one) {
+  if (one === main) cameras.clear();
+  for (const [address, picture] of kept) {
+    if (picture.lane !== one) continue;
+    kept.delete(address);
+    keptBytes -= picture.bytes.byteLength;
+  }
+}
+
+/** The number in its film of the frame that a lane shows with a frame of the first: of the same
+ * time, or the last. */
+function nameOf(one, number) {
+  const film = stateOf(one).film;
+  const index = one === main ? number - 1 : Math.floor((number - 1) / state.film.fps * film.fps + 1e-6);
+  return film.first + Math.min(index, film.frames - 1);
 }
 
 /** The part of a frame that is visible. coarse: that many pixels are one, in each direction. */
-function wish(number, coarse = 1) {
-  const crop = visible();
+function wish(number, coarse = 1, one = main) {
+  const crop = visible(one), build = stateOf(one).build;
   if (!crop) return null;
-  let size = frameSize(), part = crop;
+  let size = frameSize(one), part = crop;
   if (coarse > 1) {
     size = size.map(side => Math.max(1, Math.round(side / coarse)));
     const x = Math.floor(crop[0] / coarse), y = Math.floor(crop[1] / coarse);
@@ -121,22 +154,30 @@ function wish(number, coarse = 1) {
     part.push(clamp(Math.ceil(crop[2] / coarse), 1, size[0] - part[0]),
               clamp(Math.ceil(crop[3] / coarse), 1, size[1] - part[1]));
   }
-  const name = number - 1 + state.film.first;
-  const address = `/frame/${name}.runs?size=${size.join("x")}&crop=${part.join()}&build=${state.build}`
-    + cels.query;
-  return { number, size, crop: part, address, build: state.build };
+  const address = `/frame/${nameOf(one, number)}.runs?size=${size.join("x")}&crop=${part.join()}`
+    + `&build=${build}${one === main ? cels.query : "&side=2"}`;
+  return { number, size, crop: part, address, build, lane: one };
 }
+
+const pageName = Math.random().toString(36).slice(2);
+let wishes = 0;
 
 async function fetchPicture(wanted) {
   const known = kept.get(wanted.address);
   if (known) return known;
-  const answer = await fetch(wanted.address);
+  wanted.name = `${pageName}-${++wishes}`;
+  const answer = await fetch(`${wanted.address}&wish=${wanted.name}`);
+  wanted.isHere = true;
   if (!answer.ok) throw Object.assign(new Error(await answer.text()), { status: answer.status });
   const buffer = await answer.arrayBuffer(), [, , w, h] = wanted.crop;
   const picture = { ...wanted, bytes: wanted.isOver ? new Uint8ClampedArray(buffer) : unpack(buffer, w, h),
-                    seconds: Number(answer.headers.get("Celspan-Seconds")) };
-  if (!wanted.isOver) cost.noteTime(picture.number, picture.seconds, picture.build);
-  if (wanted.build === state.build) keep(wanted.address, picture);
+                    seconds: Number(answer.headers.get("Celspan-Seconds")),
+                    camera: answer.headers.get("Celspan-Camera") };
+  if (!wanted.isOver && wanted.lane === main && wanted.build === state.build) {
+    cost.noteTime(picture.number, picture.seconds, picture.build);
+    if (!wanted.isSeen) cameras.set(picture.number, picture.camera);
+  }
+  if (wanted.build === stateOf(wanted.lane)?.build) keep(wanted.address, picture);
   return picture;
 }
 
@@ -150,36 +191,53 @@ function matteOf(bytes) {
   return out;
 }
 
-function paint(picture) {
-  const [, , w, h] = picture.crop;
-  keepOlder(picture);
-  const bytes = withOnion(picture, mixed(picture));
-  if (stage.width !== w || stage.height !== h) {
-    stage.width = w;
-    stage.height = h;
+/** Puts a picture on the canvas of its lane; bytes: its own, or others in their place. */
+function put(picture, bytes) {
+  const one = picture.lane, [, , w, h] = picture.crop, canvas = one.canvas;
+  if (canvas.width !== w || canvas.height !== h) {
+    canvas.width = w;
+    canvas.height = h;
   }
-  pen.putImageData(new ImageData(isMatte ? matteOf(bytes) : bytes, w, h), 0, 0);
-  painted = picture;
-  stage.dataset.frame = picture.number - 1 + state.film.first;
-  stage.dataset.size = picture.size.join("x");
-  stage.dataset.crop = picture.crop.join();
-  stage.dataset.build = picture.build;
-  stage.setAttribute("aria-label", `Frame ${picture.number}`);
+  one.pen.putImageData(new ImageData(isMatte ? matteOf(bytes) : bytes, w, h), 0, 0);
+  one.painted = picture;
+  canvas.dataset.frame = nameOf(one, picture.number);
+  canvas.dataset.size = picture.size.join("x");
+  canvas.dataset.crop = picture.crop.join();
+  canvas.dataset.build = picture.build;
+  canvas.setAttribute("aria-label", `Frame ${picture.number}`);
+}
+
+function paint(picture) {
+  if (picture.lane === beside) {
+    if (!isReady(beside)) return null;
+    put(picture, picture.bytes);
+    if (mixing && !held && main.painted) paint(main.painted);
+    return place();
+  }
+  keepOlder(picture);
+  put(picture, withOnion(picture, mixed(picture)));
   overlay.hidden = overlay.dataset.over !== picture.address + overlays() || play.direction !== 0;
   place();
 }
 
 /** Puts what is painted where the view has it now, stretched if it was made for another one. */
 function place() {
-  if (!painted || !state.film) return;
-  const whole = frameSize(), r = ratio();
+  if (!state.film) return;
+  for (const one of lanes()) placeLane(one, one === main ? [here("paper"), stage, overlay]
+    : [here("paper2"), one.canvas]);
+}
+
+function placeLane(one, layers) {
+  const painted = one.painted, r = ratio();
+  if (!painted) return;
+  const whole = frameSize(one);
   const sx = whole[0] / painted.size[0] / r, sy = whole[1] / painted.size[1] / r;
   const [x, y, w, h] = painted.crop;
   for (const guide of GUIDES) {
-    Object.assign(here(guide).style, { left: `${view.x / r}px`, top: `${view.y / r}px`,
-                                       width: `${whole[0] / r}px`, height: `${whole[1] / r}px` });
+    Object.assign(part(one, guide).style, { left: `${view.x / r}px`, top: `${view.y / r}px`,
+                                            width: `${whole[0] / r}px`, height: `${whole[1] / r}px` });
   }
-  for (const layer of [here("paper"), stage, overlay]) {
+  for (const layer of layers) {
     Object.assign(layer.style, { left: `${view.x / r + x * sx}px`, top: `${view.y / r + y * sy}px`,
                                   width: `${w * sx}px`, height: `${h * sy}px` });
   }
@@ -187,54 +245,108 @@ function place() {
 
 // ---------------------------------------------------------------- one picture after the other
 
-let isAsking = false, isWanted = false, slowness = 0;
-
 /** Wants the picture of the view as it is now. */
 function look() {
   if (view.isFitted) fit();
   place();
   showNumbers();
-  isWanted = true;
-  if (!isAsking && state.film && state.shown) ask();
+  for (const one of lanes()) {
+    one.isWanted = true;
+    if (!one.isAsking && isReady(one)) ask(one);
+    else abandonOld(one);
+  }
 }
 
-async function ask() {
-  isAsking = true;
-  while (isWanted && state.film && state.shown) {
-    isWanted = false;
-    const coarse = slowness > SLOW && play.direction === 0 ? 4 : 1;
-    const fine = wish(view.number), first = coarse > 1 ? wish(view.number, coarse) : fine;
+const isReady = one => Boolean(stateOf(one)?.film && stateOf(one).shown);
+const pause = seconds => new Promise(done => setTimeout(done, seconds * 1000));
+
+async function ask(one) {
+  one.isAsking = true;
+  while (one.isWanted && isReady(one)) {
+    one.isWanted = false;
+    const fine = wish(view.number, 1, one);
     if (!fine) break;
     try {
-      if (first !== fine && !kept.has(fine.address)) {
-        paint(await fetchPicture(first));
-        await new Promise(requestAnimationFrame);
-        if (isWanted) continue;
-      }
-      const picture = await fetchPicture(fine);
-      slowness = picture.seconds;
-      paint(picture);
-      refused = null;
-      showFault();
-      await addOthers(picture);
-      await layOver(picture);
-      await loadCosts(picture);
+      const picture = await fetchBest(fine);
+      if (picture) await takeBest(picture);
     } catch (fault) {
-      await failed(fault, fine.number);
+      await failed(fault, fine);
     }
+    one.fetching = null;
   }
-  isAsking = false;
+  one.isAsking = false;
+}
+
+/** Fetches a picture, and before it a coarse one if it is slow, or was at last; null: another one is
+ * wanted by then. */
+async function fetchBest(fine) {
+  const one = fine.lane, isSlow = one.slowness > SLOW && play.direction === 0;
+  if (isSlow && !kept.has(fine.address)) {
+    paint(await fetchPicture(wish(fine.number, one.slowness > VERY_SLOW ? 8 : 4, one)));
+    await new Promise(requestAnimationFrame);
+    if (one.isWanted) return null;
+  }
+  one.fetching = { wanted: fine, since: performance.now() / 1000 };
+  const arrival = fetchPicture(fine);
+  if (!isSlow) paintMeanwhile(fine, arrival);
+  return arrival;
+}
+
+/** Paints a coarse picture if a fine one does not arrive soon. */
+async function paintMeanwhile(fine, arrival) {
+  const one = fine.lane, coarse = wish(fine.number, 4, one), isOver = () => one.fetching?.wanted !== fine;
+  const has = arrival.then(() => true, () => true);
+  if (await Promise.race([has, pause(SLOW)]) || isOver() || play.direction !== 0 || !coarse) return;
+  has.then(() => abandon(coarse));
+  const picture = await fetchPicture(coarse).catch(() => null);
+  if (picture && !isOver() && fine.build === stateOf(one)?.build) paint(picture);
+}
+
+async function takeBest(picture) {
+  const one = picture.lane;
+  one.slowness = picture.seconds;
+  one.fetching = null;
+  paint(picture);
+  one.refused = null;
+  showFault(one);
+  if (one === main) await addTo(picture);
+}
+
+/** Has the server give up a picture that it has not answered. */
+function abandon(wanted) {
+  if (!wanted.name || wanted.isHere) return;
+  post(`/abandon?side=${wanted.lane.side}`, { wish: wanted.name }).catch(() => {});
+}
+
+/** Gives up the picture that is on its way if it is slow, and not the one that is wanted now. */
+async function abandonOld(one) {
+  const old = one.fetching;
+  if (!old || old.isLeft) return;
+  old.isLeft = true;
+  await pause(old.since + SLOW - performance.now() / 1000);
+  old.isLeft = false;
+  if (one.fetching !== old || wish(view.number, 1, one)?.address === old.wanted.address) return;
+  old.isLeft = true;
+  abandon(old.wanted);
+}
+
+/** What is shown with a picture of the first film. */
+async function addTo(picture) {
+  await addOthers(picture);
+  await layOver(picture);
+  await loadCosts(picture);
 }
 
 /** A picture that was not made: what the film says of it is among the errors; what was busy is
  * asked again. */
-async function failed(fault, number) {
+async function failed(fault, wanted) {
+  const one = wanted.lane;
   if (fault.status === 422) {
-    refused = { number, build: state.build, message: fault.message.trim() };
-    return showFault();
+    one.refused = { number: wanted.number, build: wanted.build, message: fault.message.trim() };
+    return showFault(one);
   }
-  await new Promise(done => setTimeout(done, 300));
-  if (fault.status === 503) isWanted = true;
+  if (!one.isWanted) await pause(0.3);
+  if (fault.status === 503) one.isWanted = true;
 }
 
 // ---------------------------------------------------------------- playing
@@ -242,7 +354,7 @@ async function failed(fault, number) {
 function go(number) {
   if (!state.film) return;
   view.number = clamp(Math.round(number) || 1, 1, state.film.frames);
-  showFault();
+  lanes().forEach(showFault);
   if (play.direction === 0) sound.tap(view.number - 1);
   look();
 }
@@ -270,6 +382,7 @@ function start(direction) {
 
 function stop() {
   play.direction = 0;
+  for (const wanted of [...asked.values()].flat()) abandon(wanted);
   sound.end();
   here("play").textContent = "▶";
   here("play").setAttribute("aria-label", "Play");
@@ -288,7 +401,7 @@ function onward(number, by) {
   return loop.from + ((number - loop.from + by) % count + count) % count;
 }
 
-const asked = new Set();
+const asked = new Map(); // what was asked for ahead, by the number of the frame
 // Means of the last ones, in seconds: of one picture from asking to its arrival, and between arrivals.
 const pace = { latency: 0.05, interval: 0.02, last: 0 };
 const mean = (old, value) => old + 0.2 * (value - old);
@@ -309,22 +422,32 @@ function askAhead(passed) {
   const lead = Math.ceil(Math.max(0, pace.latency - pace.interval) * rate);
   const first = Math.ceil((passed + lead) / stride) * stride;
   for (let i = 0; i < AHEAD && asked.size < AT_ONCE; i++) {
-    const wanted = wish(onward(play.number, (first + i * stride) * play.direction));
-    if (!wanted || kept.has(wanted.address) || asked.has(wanted.address)) continue;
-    const began = performance.now();
-    asked.add(wanted.address);
-    fetchPicture(wanted).then(() => notePace(began), fault => failed(fault, wanted.number))
-      .finally(() => asked.delete(wanted.address));
+    askBoth(onward(play.number, (first + i * stride) * play.direction));
   }
 }
 
-/** The picture that is due after that many frames, or the newest before it that has not been shown:
- * it and its place; null: there is none. */
-function duePicture(passed) {
+/** The lanes that play: with one whose film cannot be shown the other plays alone. */
+const playing = () => lanes().filter(isReady);
+
+/** Asks for a frame of all films that play, if it is not here and not on its way. */
+function askBoth(number) {
+  const all = playing().map(one => wish(number, 1, one)).filter(Boolean);
+  const missing = all.filter(wanted => !kept.has(wanted.address));
+  if (missing.length === 0 || asked.has(number)) return;
+  const began = performance.now();
+  asked.set(number, missing);
+  Promise.all(missing.map(wanted => fetchPicture(wanted).catch(fault => failed(fault, wanted))))
+    .then(() => notePace(began)).finally(() => asked.delete(number));
+}
+
+/** The pictures that are due after that many frames, or the newest before them that have not been
+ * shown: they, the frame and its place; null: there are none. */
+function duePictures(passed) {
   for (let at = passed; at > play.shown && at > passed - BEHIND; at--) {
-    const wanted = wish(onward(play.number, at * play.direction));
-    const picture = wanted && kept.get(wanted.address);
-    if (picture) return { picture, at };
+    const number = onward(play.number, at * play.direction);
+    const wanted = playing().map(one => wish(number, 1, one)).filter(Boolean);
+    const pictures = wanted.map(one => kept.get(one.address));
+    if (pictures.length > 0 && pictures.every(Boolean)) return { pictures, number, at };
   }
   return null;
 }
@@ -349,15 +472,15 @@ function showRate(now) {
 function tick(now) {
   if (play.direction === 0 || !state.film) return;
   const elapsed = passedSeconds() * state.film.fps * play.speed, passed = Math.floor(elapsed);
-  const due = state.shown ? duePicture(passed) : null;
+  const due = duePictures(passed);
   if (due) {
     play.shown = due.at;
-    view.number = due.picture.number;
-    paint(due.picture);
+    view.number = due.number;
+    due.pictures.forEach(paint);
     play.painted.push(now);
     showNumbers();
   }
-  if (state.shown) askAhead(passed);
+  askAhead(passed);
   if (play.direction > 0) sound.feed(onward(play.number, passed) - 1 + elapsed - passed);
   showRate(now);
   requestAnimationFrame(tick);
@@ -394,31 +517,41 @@ function showNumbers() {
     + (whole ? "" : `, loop ${loop.from} to ${loop.to}`);
 }
 
-/** The error of the film, or of the frame that is shown; null: neither. */
-function currentFault() {
-  if (!state.shown) return state.errors[0] || null;
-  if (refused && refused.number === view.number && refused.build === state.build) {
-    return state.errors.find(one => one.message === refused.message) || refused;
+/** The error of a film, or of the frame that is shown; null: neither. */
+function currentFault(one = main) {
+  const { shown, errors, build } = stateOf(one), refused = one.refused;
+  if (!shown) return errors[0] || null;
+  if (refused && refused.number === view.number && refused.build === build) {
+    return errors.find(known => known.message === refused.message) || refused;
   }
-  return painted && painted.build === state.build ? null : lastFault; // until there is a picture
+  return one.painted && one.painted.build === build ? null : one.lastFault; // until there is one
 }
 
 /** Shows the error over the last good picture. */
-function showFault() {
-  const fault = lastFault = currentFault();
-  here("fault").hidden = here("error").hidden = !fault;
-  here("error").textContent = fault ? fault.message : "";
+function showFault(one = main) {
+  if (!stateOf(one)) return; // it is not shown any more
+  const fault = one.lastFault = currentFault(one);
+  part(one, "fault").hidden = part(one, "error").hidden = !fault;
+  part(one, "error").textContent = fault ? fault.message : "";
   const called = fault && fault.callers || [];
   const all = fault && fault.file ? [{ file: fault.file, line: fault.line }, ...called] : called;
   const names = all.map(({ file, line }) => `${file}:${line}`).join(" ← ");
-  here("lines").replaceChildren(...state.editor ? placesOf(names, all) : []);
-  here("excerpt").replaceChildren(...(fault && fault.lines || []).map(([number, text]) => {
+  part(one, "lines").replaceChildren(...state.editor ? placesOf(names, all) : []);
+  part(one, "excerpt").replaceChildren(...(fault && fault.lines || []).map(([number, text]) => {
     const line = document.createElement(number === fault.line ? "b" : "span");
     line.textContent = `${String(number).padStart(4)}  ${text}\n`;
     return line;
   }));
-  stage.classList.toggle("old", Boolean(fault));
+  one.canvas.classList.toggle("old", Boolean(fault));
   showNews();
+}
+
+/** Shows or hides one of the panels beside the picture; button: the name of that which does it. */
+function showPanel(id, button, isOn) {
+  const panel = here(id), wasOn = !panel.hidden;
+  panel.hidden = !isOn;
+  here(button).setAttribute("aria-pressed", isOn);
+  if (isOn && !wasOn) panel.scrollIntoView({ block: "nearest" });
 }
 
 function showState() {
@@ -426,37 +559,107 @@ function showState() {
   document.title = `${film && film.title || state.script} – celspan`;
   here("title").textContent = film && film.title || state.script;
   showNews();
-  if (!state.building) showFault();
+  for (const one of lanes()) {
+    if (!stateOf(one).building) showFault(one);
+  }
 }
 
 /** What the film is doing, and how many faults a check has found. */
 function showNews() {
-  const bad = state.errors.length;
+  const bad = groupFaults().length;
   here("news").textContent = state.building && state.seconds > 0.5 ? "building …"
     : bad && state.shown && !currentFault() ? `${bad} fault${bad === 1 ? "" : "s"}: ${state.errors[0].message}` : "";
 }
 
+// ---------------------------------------------------------------- faults of all frames
+
+/** The errors of the film, those of one text together: { text, frames, all }. */
+function groupFaults() {
+  const groups = new Map();
+  for (const fault of state.errors) {
+    const text = fault.message.replace(`frame ${fault.frame}: `, "");
+    if (!groups.has(text)) groups.set(text, { text, frames: [], fault });
+    if (fault.frame !== undefined) groups.get(text).frames.push(fault.frame);
+  }
+  return [...groups.values()];
+}
+
+/** One of those as an item of the list, with ways to its frames and its line. */
+function faultItem({ text, frames, fault }) {
+  const item = element("li", { textContent: text }), ways = element("p", {});
+  if (fault.file && state.editor) {
+    const textContent = `${fault.file}:${fault.line}`;
+    ways.append(element("button", { textContent, onclick: () => post("/open", fault) }));
+  }
+  const sorted = frames.sort((a, b) => a - b);
+  ways.append(...sorted.slice(0, FAULT_FRAMES).map(name => {
+    const onclick = () => { stop(); go(name - state.film.first + 1); };
+    return element("button", { textContent: `frame ${name}`, onclick });
+  }));
+  const more = frames.length - FAULT_FRAMES;
+  if (more > 0) ways.append(element("small", { textContent: `and ${more} more up to ${sorted.at(-1)}` }));
+  if (ways.hasChildNodes()) item.append(ways);
+  return item;
+}
+
+/** How far the check is. */
+function checkedText(count) {
+  const { film, checked, checking, shown } = state;
+  if (!shown) return "";
+  const frames = `${checked} frame${checked === 1 ? "" : "s"} checked`;
+  return checking ? `${checked} of ${film.frames} frames checked` : `${frames}${count ? "" : ": no faults"}`;
+}
+
+let listed = ""; // the faults of the list: a list that did not change keeps the focus in it
+
+function showFaults() {
+  const groups = groupFaults(), kinds = JSON.stringify([state.errors, state.editor]);
+  here("check").textContent = groups.length ? `Faults ${groups.length}` : "Faults";
+  here("check").classList.toggle("bad", groups.length > 0);
+  here("checked").textContent = checkedText(groups.length);
+  if (kinds === listed) return;
+  listed = kinds;
+  here("fault-list").replaceChildren(...groups.map(faultItem));
+}
+
+function setChecking(isOn) {
+  showPanel("faults", "check", isOn);
+}
+
 // ---------------------------------------------------------------- news
 
+/** Whether a film was saved, or failed, since the old news of it. */
+const isNewFilm = (old, news) => news && (!old || old.build !== news.build || old.shown !== news.shown);
+
 function takeState(news) {
-  const isNew = news.build !== state.build || news.shown !== state.shown;
-  const before = state.film;
-  Object.assign(state, { film: null }, news, { film: news.film || before });
+  const old = { ...state }, { film } = old;
+  Object.assign(state, { film: null }, news, { film: news.film || film, second: news.second || null });
   document.body.classList.toggle("alone", news.alone);
-  showForm();
-  if (!before && state.film && given.size) sendValues();
-  if (state.film && (!before || before.frames !== state.film.frames)) {
-    loop.from = 1;
-    loop.to = state.film.frames;
-    view.number = clamp(view.number, 1, state.film.frames);
-    if (!before && news.alone) start(1);
-  }
+  showComparing();
+  lanes().forEach(showForm);
+  sendGiven();
+  if (state.film && (!film || film.frames !== state.film.frames)) takeFrames(!film);
   if (state.here && state.here.count !== outlined.count) outline(state.here);
   showState();
+  showFaults();
   loadSheet();
-  if (!isNew) return;
+  if (isNewFilm(old.second, state.second)) forget(beside);
+  if (isNewFilm(old, state)) takeFilm();
+  else if (isNewFilm(old.second, state.second)) look();
+}
+
+/** The film has another number of frames than before. */
+function takeFrames(isFirst) {
+  loop.from = 1;
+  loop.to = state.film.frames;
+  view.number = clamp(view.number, 1, state.film.frames);
+  if (isFirst && state.alone) start(1);
+}
+
+/** The film was saved, or has failed. */
+function takeFilm() {
   takeSound();
-  forget();
+  forget(main);
   if (outlined.place) outline(outlined.place);
   if (state.shown) look();
 }
@@ -477,39 +680,85 @@ async function listen() {
 // ---------------------------------------------------------------- values of parameters
 
 const post = (path, value) => fetch(path, { method: "POST", body: JSON.stringify(value) });
-const given = new URLSearchParams(location.hash.slice(1)); // by name, as the address holds them
-let isSending = false, isChanged = false, formOf = "";
+// The address holds the values by name; before those of the second film is a mark, which alone says
+// that it is shown.
+const MARK = "2:";
 
-/** Sends the values; while they are on their way, only the newest are kept. */
-async function sendValues() {
-  isChanged = true;
-  if (isSending) return;
-  isSending = true;
-  while (isChanged) {
-    isChanged = false;
-    history.replaceState(null, "", given.size ? `/#${given}` : "/");
-    await post("/parameters", Object.fromEntries(given)).catch(() => {});
+function readAddress() {
+  for (const [name, value] of new URLSearchParams(location.hash.slice(1))) {
+    const one = name.startsWith(MARK) ? beside : main;
+    if (name !== MARK) one.given.set(one === beside ? name.slice(MARK.length) : name, value);
+    else post("/compare", { on: true }).catch(() => {});
   }
-  isSending = false;
 }
 
-function giveValue(one, value) {
-  given.set(one.name, value);
-  one.value = value;
+function writeAddress() {
+  const all = new URLSearchParams(main.given);
+  if (isComparing() && !state.has_two) all.set(MARK, "");
+  if (isComparing()) for (const [name, value] of beside.given) all.set(MARK + name, value);
+  history.replaceState(null, "", all.size ? `/#${all}` : "/");
+}
+
+/** Sends the values; while they are on their way, only the newest are kept. */
+async function sendValues(one) {
+  one.isChanged = true;
+  if (one.isSending) return;
+  one.isSending = true;
+  while (one.isChanged) {
+    one.isChanged = false;
+    writeAddress();
+    const path = one === main ? "/parameters" : "/parameters?side=2";
+    await post(path, Object.fromEntries(one.given)).catch(() => {});
+  }
+  one.isSending = false;
+}
+
+/** Sends the values of the address as soon as a film can take them. */
+function sendGiven() {
+  for (const one of lanes()) {
+    if (one.isGiven || !isReady(one)) continue;
+    one.isGiven = true;
+    if (one.given.size) sendValues(one);
+  }
+}
+
+function giveValue(one, parameter, value) {
+  one.given.set(parameter.name, value);
+  parameter.value = value;
   showCommand();
-  sendValues();
+  nameLanes();
+  sendValues(one);
 }
 
 const quoted = text => /^[\w.,:=/#-]+$/.test(text) ? text
   : `'${text.replaceAll("'", "'\\''")}'`;
 
+const commandOf = (one, output) => {
+  const { parameters, script } = stateOf(one);
+  const changed = parameters.filter(known => known.value !== String(known.default));
+  const sets = changed.map(known => ` --set ${quoted(`${known.name}=${known.value}`)}`).join("");
+  return `celspan render ${quoted(script)}${sets} -o ${output}.####.png`;
+};
+
 function showCommand() {
-  const changed = state.parameters.filter(one => one.value !== String(one.default));
-  const sets = changed.map(one => ` --set ${quoted(`${one.name}=${one.value}`)}`).join("");
-  here("command").value = `celspan render ${quoted(state.script)}${sets} -o shot.####.png`;
+  here("command").value = commandOf(main, "shot")
+    + (isComparing() ? `\n${commandOf(beside, "other")}` : "");
 }
 
 function element(name, properties) { return Object.assign(document.createElement(name), properties); }
+
+/** Puts the files that a parameter may name into its list. The film's folder may have new ones. */
+async function listFiles(choice, one, parameter) {
+  const query = new URLSearchParams({ parameter: parameter.name, side: one.side });
+  const answer = await fetch(`/files.json?${query}`).catch(() => null);
+  if (!answer || !answer.ok) return;
+  const names = [...new Set([choice.value, ...await answer.json()])].sort();
+  const old = [...choice.options].map(option => option.value);
+  if (old.join("\n") === names.join("\n")) return;
+  const { value } = choice;
+  choice.replaceChildren(...names.map(textContent => element("option", { textContent })));
+  choice.value = value;
+}
 
 /** What a parameter is changed with. */
 function control(one) {
@@ -517,6 +766,11 @@ function control(one) {
     const choice = element("select", {});
     choice.append(...one.enum.map(text => element("option", { textContent: text })));
     choice.value = one.value;
+    return choice;
+  }
+  if (one.format === "path") {
+    const choice = element("select", {});
+    choice.append(element("option", { textContent: one.value }));
     return choice;
   }
   if (one.type === "boolean") {
@@ -530,41 +784,95 @@ function control(one) {
   return element("input", { type: isColour ? "color" : "text", value: one.value });
 }
 
-function field(one) {
-  const label = element("label", { title: one.description || "" }), input = control(one);
-  const shown = element("output", { textContent: input.type === "range" ? one.value : "" });
+function field(one, parameter) {
+  const label = element("label", { title: parameter.description || "" });
+  const input = control({ ...parameter, value: one.given.get(parameter.name) ?? parameter.value });
+  const shown = element("output", { textContent: input.type === "range" ? parameter.value : "" });
   const isText = input.type === "text" || input.type === "range";
-  label.className = isText ? "" : "row";
-  label.append(element("span", { textContent: one.name }), input);
+  label.className = input.type === "range" ? "range" : isText ? "" : "row";
+  label.append(element("span", { textContent: parameter.name }), input);
   if (input.type === "range") label.append(shown);
+  if (parameter.format === "path") {
+    const list = () => listFiles(input, one, parameter);
+    list();
+    for (const event of ["focus", "pointerenter"]) input.addEventListener(event, list);
+  }
   input.addEventListener(input.type === "text" ? "change" : "input", () => {
     const value = input.type === "checkbox" ? String(input.checked)
       : input.type === "range" ? String(Number(Number(input.value).toPrecision(4))) : input.value;
     if (input.type === "range") shown.textContent = value;
-    giveValue(one, value);
+    // The news since then may have made another list.
+    giveValue(one, stateOf(one).parameters.find(known => known.name === parameter.name) || parameter,
+              value);
   });
   return label;
 }
 
-/** Makes the form again if the film has other parameters than before. */
-function showForm() {
-  const kinds = JSON.stringify(state.parameters.map(one => ({ ...one, value: null })));
-  here("tune").hidden = state.parameters.length === 0;
+/** Makes the form of a film again if it has other parameters than before. */
+function showForm(one) {
+  const { parameters } = stateOf(one);
+  const kinds = JSON.stringify(parameters.map(known => ({ ...known, value: null })));
+  here("tune").hidden = lanes().every(any => stateOf(any).parameters.length === 0);
   showCommand();
-  if (kinds === formOf) return;
-  formOf = kinds;
-  here("form").replaceChildren(...state.parameters.map(field));
+  if (kinds === one.formOf) return;
+  one.formOf = kinds;
+  part(one, "form").replaceChildren(...parameters.map(known => field(one, known)));
 }
 
 function setTuning(isOn) {
-  here("values").hidden = !isOn;
-  here("tune").setAttribute("aria-pressed", isOn);
+  showPanel("values", "tune", isOn);
 }
 
 function takeDefaults() {
-  for (const name of [...given.keys()]) given.delete(name);
-  formOf = "";
-  sendValues();
+  for (const one of lanes()) {
+    for (const name of [...one.given.keys()]) one.given.delete(name);
+    one.formOf = "";
+    sendValues(one);
+  }
+}
+
+// ---------------------------------------------------------------- two films
+
+// isOn: what was asked for last, null once it is so. sent: when the server has heard of all.
+const comparing = { isOn: null, sent: Promise.resolve() };
+
+/** The second film beside the first: that of the second script, or the same with other values, which
+ * are those of the first to begin with. */
+function swapComparing() {
+  const isOn = comparing.isOn = !(comparing.isOn ?? isComparing());
+  if (isOn && beside.given.size === 0 && !state.has_two) {
+    for (const [name, value] of main.given) beside.given.set(name, value);
+  }
+  if (isOn && !state.has_two) setTuning(true);
+  comparing.sent = comparing.sent.then(() => post("/compare", { on: isOn })).catch(() => {});
+}
+
+/** What the pictures are called: their scripts, or the values in which they differ. */
+function nameLanes() {
+  const names = one => {
+    const other = stateOf(one === main ? beside : main).parameters;
+    const own = stateOf(one).parameters.filter((known, i) => known.value !== other[i]?.value);
+    return own.map(known => `${known.name} ${known.value}`).join(", ") || "the same values";
+  };
+  for (const one of isComparing() ? lanes() : []) {
+    part(one, "caption").textContent = state.has_two ? stateOf(one).script : names(one);
+  }
+}
+
+function showComparing() {
+  const isOn = isComparing(), wasOn = !beside.box.hidden;
+  if (comparing.isOn === isOn) comparing.isOn = null;
+  const canCompare = state.has_two || state.parameters.length > 0;
+  for (const id of ["desk2", "caption", "caption2", "beside"]) here(id).hidden = !isOn;
+  here("compare").hidden = !canCompare;
+  here("compare").setAttribute("aria-pressed", isOn);
+  here("beside-title").textContent = state.has_two ? `Values of ${state.second?.script}`
+    : "Compare with these values";
+  nameLanes();
+  if (isOn === wasOn) return;
+  Object.assign(beside, { painted: null, isGiven: false, formOf: "" });
+  forget(beside);
+  writeAddress();
 }
 
 // ---------------------------------------------------------------- the sound
@@ -749,13 +1057,13 @@ const isSamePlace = (a, b) => a && b && a.number === b.number
 
 /** Keeps the picture that is painted when one of another save takes its place. */
 function keepOlder(picture) {
-  if (painted && painted.build !== picture.build) older = painted;
+  if (main.painted && main.painted.build !== picture.build) older = main.painted;
 }
 
-/** The picture that another is compared with: of the held frame, else of the save before; null: it
- * is not here. */
+/** The picture that another is compared with: of the held frame, else of the second film, else of
+ * the save before; null: it is not here. */
 function counterpart(picture) {
-  const one = held ? kept.get(wish(held)?.address) : older;
+  const one = held ? kept.get(wish(held)?.address) : isComparing() ? beside.painted : older;
   return one && isSamePlace(held ? { ...one, number: picture.number } : one, picture) ? one : null;
 }
 
@@ -781,12 +1089,21 @@ const ONION_MOST = 3;
 const BEFORE = [230, 40, 40], AFTER = [30, 170, 60];
 let onion = 0; // frames before and after
 
+/** A frame as the camera of a picture sees it, so that its movement shows nothing. */
+function wishSeen(number, picture) {
+  const wanted = wish(number), camera = cameras.get(number);
+  if (!wanted || camera === undefined || camera === picture.camera) return wanted;
+  const address = `${wanted.address}&camera=${nameOf(main, picture.number)}`;
+  return { ...wanted, address, isSeen: true };
+}
+
 /** The pictures around one, the farthest first; those that are not here yet are left out. */
 function neighbours(picture) {
   const list = [];
   for (let k = onion; k > 0; k--) {
     for (const [number, tint] of [[picture.number - k, BEFORE], [picture.number + k, AFTER]]) {
-      const one = number >= 1 && number <= state.film.frames && kept.get(wish(number)?.address);
+      const isThere = number >= 1 && number <= state.film.frames;
+      const one = isThere && kept.get(wishSeen(number, picture)?.address);
       const isWith = one && isSamePlace({ ...one, number: picture.number }, picture);
       if (isWith) list.push([one, tint, 0.5 ** k]);
     }
@@ -813,17 +1130,22 @@ function withOnion(picture, bytes) {
   return out;
 }
 
+async function fetchOther(wishOther) {
+  const wanted = main.isWanted ? null : wishOther();
+  if (wanted) await fetchPicture(wanted).catch(() => {});
+}
+
 /** Fetches the other pictures that are shown with one that is painted, and paints it again. */
 async function addOthers(picture) {
-  const numbers = held && mixing ? [held] : [];
+  const numbers = [];
   for (let k = 1; k <= onion; k++) numbers.push(picture.number - k, picture.number + k);
-  if (numbers.length === 0 || play.direction !== 0) return;
-  for (const number of numbers) {
-    const isThere = number >= 1 && number <= state.film.frames;
-    const wanted = isThere && !isWanted && wish(number);
-    if (wanted) await fetchPicture(wanted).catch(() => {});
+  if (numbers.length === 0 && !(held && mixing) || play.direction !== 0) return;
+  if (held && mixing) await fetchOther(() => wish(held));
+  for (const number of numbers.filter(one => one >= 1 && one <= state.film.frames)) {
+    await fetchOther(() => wishSeen(number, picture));
+    await fetchOther(() => wishSeen(number, picture)); // its camera is known by now
   }
-  if (painted === picture && !isWanted) paint(picture);
+  if (main.painted === picture && !main.isWanted) paint(picture);
 }
 
 function nextOnion() {
@@ -888,7 +1210,7 @@ async function layOver(picture) {
   for (const part of wanted) {
     const address = picture.address.replace(".runs", ".rgba") + part;
     const layer = await fetchPicture({ ...picture, address, isOver: true }).catch(() => null);
-    if (!layer || isWanted || painted !== picture) return;
+    if (!layer || main.isWanted || main.painted !== picture) return;
     if (part === "&show=spans") out.set(layer.bytes);
     else drawBorder(layer, out);
   }
@@ -923,12 +1245,12 @@ async function loadCosts(picture) {
   if (here("costs").hidden || play.direction !== 0) return;
   const address = picture.address.replace(/^\/frame\/(-?\d+)\.runs\?/, "/costs.json?frame=$1&");
   const answer = await fetch(address).catch(() => null);
-  if (!answer || !answer.ok || painted !== picture) return;
+  if (!answer || !answer.ok || main.painted !== picture) return;
   const list = await answer.json();
   here("cost-rows").replaceChildren(...list.map((one, i) => {
     const row = element("tr", { title: one.file ? `${one.file}:${one.line}` : "" });
     row.append(...cost.cellsOf(one, i === 0).map((textContent, column) =>
-      element(column === 0 ? "th" : "td", { textContent, scope: column === 0 ? "row" : "" })));
+      column === 0 ? element("th", { textContent, scope: "row" }) : element("td", { textContent })));
     return row;
   }));
   showSlowest();
@@ -945,8 +1267,7 @@ function showSlowest() {
 }
 
 function setCosting(isOn) {
-  here("costs").hidden = !isOn;
-  here("cost").setAttribute("aria-pressed", isOn);
+  showPanel("costs", "cost", isOn);
   nameRows();
   drawSheet();
   look();
@@ -955,14 +1276,13 @@ function setCosting(isOn) {
 // ---------------------------------------------------------------- the inspector
 
 function setInspecting(isOn) {
-  here("side").hidden = !isOn;
-  here("inspect").setAttribute("aria-pressed", isOn);
-  desk.classList.toggle("inspecting", isOn);
+  showPanel("side", "inspect", isOn);
+  for (const one of [main, beside]) one.box.classList.toggle("inspecting", isOn);
   look();
 }
 
-function showColour(x, y) {
-  const [r, g, b, a] = pen.getImageData(x, y, 1, 1).data;
+function showColour(one, x, y) {
+  const [r, g, b, a] = one.pen.getImageData(x, y, 1, 1).data;
   here("swatch").style.backgroundColor = `rgb(${r} ${g} ${b} / ${a / 255})`;
   here("codes").textContent = `${r}, ${g}, ${b}   alpha ${(a / 255).toFixed(3)}`;
 }
@@ -981,19 +1301,19 @@ function placesOf(text, places) {
 }
 
 /** Shows the colour and the objects at a point of the window, in CSS pixels. */
-async function inspect(clientX, clientY) {
-  const box = stage.getBoundingClientRect();
-  const column = Math.floor((clientX - box.left) / box.width * stage.width);
-  const row = Math.floor((clientY - box.top) / box.height * stage.height);
-  if (!painted || column < 0 || row < 0 || column >= stage.width || row >= stage.height) return;
-  const [w, h] = state.film.size, name = view.number - 1 + state.film.first;
+async function inspect(one, clientX, clientY) {
+  const { canvas, painted } = one, box = canvas.getBoundingClientRect();
+  const column = Math.floor((clientX - box.left) / box.width * canvas.width);
+  const row = Math.floor((clientY - box.top) / box.height * canvas.height);
+  if (!painted || column < 0 || row < 0 || column >= canvas.width || row >= canvas.height) return;
+  const [w, h] = stateOf(one).film.size, name = nameOf(one, view.number);
   const x = (painted.crop[0] + column + 0.5) / painted.size[0] * w;
   const y = (painted.crop[1] + row + 0.5) / painted.size[1] * h;
-  mark = `${name} ${x} ${y}`;
+  mark = `${one.side} ${name} ${x} ${y}`;
   here("place").textContent = `x ${x.toFixed(2)}, y ${y.toFixed(2)}`;
-  showColour(column, row);
+  showColour(one, column, row);
   const wanted = mark;
-  const answer = await fetch(`/at/${x.toFixed(6)},${y.toFixed(6)}.json?frame=${name}`);
+  const answer = await fetch(`/at/${x.toFixed(6)},${y.toFixed(6)}.json?frame=${name}&side=${one.side}`);
   if (!answer.ok || wanted !== mark) return;
   const hits = await answer.json();
   here("hint").textContent = hits.length ? "" : "Nothing is there.";
@@ -1045,31 +1365,39 @@ function hideThumb() {
 
 // ---------------------------------------------------------------- hands
 
+function setGround(ground) {
+  here("ground").value = ground;
+  for (const id of ["paper", "paper2"]) here(id).dataset.ground = ground;
+}
+
 function nextGround() {
-  const choice = here("ground");
-  choice.selectedIndex = (choice.selectedIndex + 1) % choice.options.length;
-  here("paper").dataset.ground = choice.value;
+  const { options, selectedIndex } = here("ground");
+  setGround(options[(selectedIndex + 1) % options.length].value);
 }
 
 function setMatte(isOn) {
   isMatte = isOn;
   here("matte").setAttribute("aria-pressed", isOn);
-  if (painted) paint(painted);
+  for (const one of lanes()) if (one.painted) paint(one.painted);
 }
 
 /** The next guide, and none after the last. */
 function nextGuide() {
   const next = GUIDES.findIndex(guide => !here(guide).hidden) + 1;
-  GUIDES.forEach((guide, i) => { here(guide).hidden = i !== next; });
+  for (const one of [main, beside]) {
+    GUIDES.forEach((guide, i) => { part(one, guide).hidden = i !== next; });
+  }
   here("guides").setAttribute("aria-pressed", next < GUIDES.length);
 }
 
 /** The rectangles of the field guide, each with its number. */
 function makeFields() {
   for (let k = 1; k <= FIELDS; k++) {
-    const field = element("div", { textContent: k });
-    field.style.inset = `${50 - 50 * k / FIELDS}%`;
-    here("fields").append(field);
+    for (const id of ["fields", "fields2"]) {
+      const field = element("div", { textContent: k });
+      field.style.inset = `${50 - 50 * k / FIELDS}%`;
+      here(id).append(field);
+    }
   }
 }
 
@@ -1123,6 +1451,8 @@ const keys = {
   c: () => setCosting(here("costs").hidden),
   Escape: () => outline(null),
   v: () => setTuning(here("values").hidden),
+  r: () => setChecking(here("faults").hidden),
+  y: () => { if (!here("compare").hidden) swapComparing(); },
   g: askNumber,
   "+": () => zoomMiddle(1.5), "=": () => zoomMiddle(1.5), "-": () => zoomMiddle(1 / 1.5),
   0: () => { fit(); look(); }, 1: natural,
@@ -1151,59 +1481,66 @@ document.addEventListener("pointerup", event => event.target.closest("button, #s
 const pointers = new Map();
 let travelled = 0;
 
-desk.addEventListener("pointerdown", event => {
-  if (event.target.closest("#fault")) return;
-  desk.setPointerCapture(event.pointerId);
+function press(one, event) {
+  if (event.target.closest(".fault")) return;
+  one.box.setPointerCapture(event.pointerId);
   pointers.set(event.pointerId, event);
   travelled = 0;
-});
+}
 
 /** The middle of two pointers, and their distance. */
-function pinch([a, b]) {
-  const box = desk.getBoundingClientRect(), r = ratio();
+function pinch(one, [a, b]) {
+  const box = one.box.getBoundingClientRect(), r = ratio();
   return [((a.clientX + b.clientX) / 2 - box.left) * r, ((a.clientY + b.clientY) / 2 - box.top) * r,
           Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY)];
 }
 
-desk.addEventListener("pointermove", event => {
+function drag(one, event) {
   const before = pointers.get(event.pointerId);
   if (!before) return;
-  const two = pointers.size === 2 ? pinch([...pointers.values()]) : null;
+  const two = pointers.size === 2 ? pinch(one, [...pointers.values()]) : null;
   pointers.set(event.pointerId, event);
   const dx = event.clientX - before.clientX, dy = event.clientY - before.clientY;
   travelled += Math.abs(dx) + Math.abs(dy);
   if (two) {
-    const [x, y, distance] = pinch([...pointers.values()]);
+    const [x, y, distance] = pinch(one, [...pointers.values()]);
     zoom(distance / Math.max(1, two[2]), x, y);
   } else if (travelled > 3) {
-    desk.classList.add("moving");
+    one.box.classList.add("moving");
     move(dx * ratio(), dy * ratio());
   }
-});
-
-function release(event) {
-  if (!pointers.delete(event.pointerId)) return;
-  desk.classList.remove("moving");
-  const isClick = event.type === "pointerup" && travelled <= 3;
-  if (isClick && !here("side").hidden) inspect(event.clientX, event.clientY);
 }
-desk.addEventListener("pointerup", release);
-desk.addEventListener("pointercancel", release);
 
-desk.addEventListener("wheel", event => {
-  const box = desk.getBoundingClientRect(), r = ratio();
+function release(one, event) {
+  if (!pointers.delete(event.pointerId)) return;
+  one.box.classList.remove("moving");
+  const isClick = event.type === "pointerup" && travelled <= 3;
+  if (isClick && !here("side").hidden) inspect(one, event.clientX, event.clientY);
+}
+function turn(one, event) {
+  const box = one.box.getBoundingClientRect(), r = ratio();
   event.preventDefault();
   const lines = event.deltaMode === 1 ? 16 : 1;
   zoom(Math.exp(-event.deltaY * lines * (event.ctrlKey ? 0.01 : 0.0015)),
        (event.clientX - box.left) * r, (event.clientY - box.top) * r);
-}, { passive: false });
+}
+
+for (const one of [main, beside]) {
+  const hear = (name, act) => one.box.addEventListener(name, event => act(one, event), { passive: false });
+  hear("pointerdown", press);
+  hear("pointermove", drag);
+  hear("pointerup", release);
+  hear("pointercancel", release);
+  hear("wheel", turn);
+}
+
 
 const clicks = {
   first: () => { stop(); go(loop.from); }, back: () => step(-1), play: toggle,
   forward: () => step(1), last: () => { stop(); go(loop.to); }, fit: keys[0],
   matte: keys.m, inspect: keys.p, tune: keys.v, list: keys.s, onion: nextOnion, mute: swapMute,
   spans: keys.e, cost: keys.c, guides: nextGuide, hold: holdFrame,
-  wipe: keys.w, differ: keys.d, defaults: takeDefaults, theme: swapTheme,
+  wipe: keys.w, differ: keys.d, compare: keys.y, check: keys.r, defaults: takeDefaults, theme: swapTheme,
   help: keys["?"],
 };
 for (const [id, act] of Object.entries(clicks)) here(id).addEventListener("click", act);
@@ -1212,7 +1549,7 @@ here("scrub").addEventListener("input", event => { stop(); go(Number(event.targe
 here("scrub").addEventListener("pointermove", showThumb);
 here("scrub").addEventListener("pointerleave", hideThumb);
 here("speed").addEventListener("change", event => setSpeed(Number(event.target.value)));
-here("ground").addEventListener("change", event => { here("paper").dataset.ground = event.target.value; });
+here("ground").addEventListener("change", event => setGround(event.target.value));
 here("cells").addEventListener("click", goBySheet);
 here("go").addEventListener("close", () => { stop(); go(Number(here("number").value)); });
 new ResizeObserver(() => {
@@ -1222,8 +1559,9 @@ new ResizeObserver(() => {
 new ResizeObserver(drawSheet).observe(here("cells"));
 
 // The address keeps no token once the cookie has it.
-history.replaceState(null, "", given.size ? `/#${given}` : "/");
-here("paper").dataset.ground = "checker";
+history.replaceState(null, "", location.hash.length > 1 ? `/${location.hash}` : "/");
+readAddress();
+setGround("checker");
 makeFields();
 setTheme(matchMedia("(prefers-color-scheme: light)").matches ? "light" : "dark");
 listen();

@@ -25,21 +25,40 @@ renderers.__index = renderers
 local own = { ["--port"] = true, ["--open"] = true, ["--size"] = true, ["--editor"] = true }
 
 --- values: of parameters, which count more than those of the command line.
-local function words_of(values)
+local function words_of(script, values)
   local settings = {}
   for name, value in pairs(values) do settings[#settings + 1] = { name, value } end
-  return program.pass_on({ "stage", request[1] }, request, own, settings)
+  return program.pass_on({ "stage", script }, request, own, settings)
 end
 
-function renderers.new(note_files)
-  return setmetatable({ list = {}, queue = {}, values = {}, note_files = note_files }, renderers)
+function renderers.new(script, note_files)
+  return setmetatable({ script = script, list = {}, queue = {}, values = {},
+                        note_files = note_files }, renderers)
 end
 
 --- job: want and what goes with it in `ask`; done, failed; is_patient: no other renderer is started
---- for it, and it waits for ever.
+--- for it, and it waits for ever; wish: what it is abandoned by, or nil.
 function renderers:ask(job)
   job.since = program.clock()
   table.insert(self.queue, job)
+end
+
+local NOT_WANTED = "it is not wanted any more"
+
+--- Gives up a job. A renderer that is at work on it stops within some rows.
+function renderers:abandon(wish)
+  for i, job in ipairs(self.queue) do
+    if job.wish == wish then
+      table.remove(self.queue, i)
+      return job.failed(NOT_WANTED, 503)
+    end
+  end
+  for _, one in ipairs(self.list) do
+    if one.job and one.job.wish == wish and not one.job.is_abandoned then
+      one.job.is_abandoned = true
+      one.process:send(program.json { want = "abandon" })
+    end
+  end
 end
 
 function renderers:is_idle()
@@ -53,7 +72,7 @@ end
 -- ---------------------------------------------------------------- one renderer
 
 function renderers:start()
-  local process, message = program.renderer(words_of(self.values))
+  local process, message = program.renderer(words_of(self.script, self.values))
   if not process then return nil, message end
   local one = { process = process, tail = "", used = program.clock() }
   table.insert(self.list, one)
@@ -102,6 +121,8 @@ function renderers:listen(one)
   self.note_files(head.files)
   if head.good then
     job.done(head, message:sub(at))
+  elseif job.is_abandoned then
+    job.failed(NOT_WANTED, 503)
   else
     job.failed(head.message, 422)
   end

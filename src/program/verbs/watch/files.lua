@@ -1,0 +1,109 @@
+--- The files that films have asked for, and which of them were saved (celspan watch).
+--
+--   renderers --paths--> add --> inotify --> take --> the films that have asked for what changed
+local program, request = ...
+
+local WATCHED_MOST = 10000 -- files
+
+local files = {}
+files.__index = files
+
+-- owners[folder][name]: the films that have asked for it. folders[number of the watcher]: the names
+-- that films have for that folder, such as "" and "./". missing[folder]: it cannot be watched, as
+-- it does not exist.
+function files.new()
+  return setmetatable({ watcher = program.watcher(), owners = {}, folders = {}, missing = {},
+                        count = 0 }, files)
+end
+
+local function split(path) return path:match "^(.-)([^/]+)$" end
+
+function files:watch_folder(folder)
+  local number = self.watcher:add(folder == "" and "." or folder)
+  if number then
+    self.folders[number] = self.folders[number] or {}
+    self.folders[number][folder] = true
+  end
+  self.missing[folder] = not number or nil
+  return number
+end
+
+--- Watches a file for a film, { script = }.
+function files:add(path, film)
+  local folder, name = split(path)
+  local known = folder and self.owners[folder] and self.owners[folder][name]
+  if not folder or known and known[film] or not known and self.count == WATCHED_MOST then return end
+  if not self.owners[folder] then
+    self.owners[folder] = {}
+    self:watch_folder(folder)
+  end
+  if not known then
+    known, self.count = {}, self.count + 1
+    self.owners[folder][name] = known
+  end
+  known[film] = true
+end
+
+--- Whether a film has asked for a file. A trusted script may read modules without asking: those
+--- beside it count too.
+function files:has(path, film)
+  local folder, name = split(path)
+  local known = folder and self.owners[folder] and self.owners[folder][name]
+  return known and known[film]
+    or folder and request.trust and name:match "%.lua$"
+      and folder == (film.script:match "^.*/" or "")
+end
+
+--- Whether an event is about a film. name "": the folder is gone; number -1: events were lost.
+function files:concerns(number, name, film)
+  local is_changed = number == -1
+  for folder in pairs(self.folders[number] or {}) do
+    is_changed = is_changed or name == "" or self:has(folder .. name, film)
+  end
+  return is_changed
+end
+
+--- Folders that are there again: which films ask for something in them is not looked at.
+function files:find_missing()
+  local is_found = false
+  for folder in pairs(self.missing) do is_found = self:watch_folder(folder) ~= nil or is_found end
+  return is_found
+end
+
+--- A folder is gone.
+function files:lose(number)
+  for folder in pairs(self.folders[number] or {}) do self.missing[folder] = true end
+  self.folders[number] = nil
+end
+
+--- Those of the films that have asked for a file that was changed since the last call.
+function files:take(films)
+  local events, changed = self.watcher:take(), {}
+  for i = 1, #events, 2 do
+    local number, name = events[i], events[i + 1]
+    for _, film in ipairs(films) do
+      changed[film] = changed[film] or self:concerns(number, name, film) or nil
+    end
+    if name == "" then self:lose(number) end
+  end
+  if self:find_missing() then
+    for _, film in ipairs(films) do changed[film] = true end
+  end
+  return changed
+end
+
+--- The path of a file as a film has it, for one that an editor may name from the root; nil: the
+--- film does not read it.
+function files:path_of(name, film)
+  for folder, list in pairs(self.owners) do
+    for own, films in pairs(list) do
+      local path = folder .. own
+      if films[film] and (name == path or name:sub(-#path - 1) == "/" .. path) then return path end
+    end
+  end
+  return nil
+end
+
+function files:descriptor() return self.watcher:descriptor() end
+
+return files

@@ -1,0 +1,178 @@
+--- A film that is watched (celspan watch): what is known of it, and the renderers that know it.
+--
+--   saved, or other values --> build --> renderers --> facts, parameters | an error
+--                                            \--nobody asks for pictures--> its frames are checked
+local program, request, part = ...
+local json = require "celspan.json"
+local renderers = part "renderers.lua"
+
+local QUIET = 0.5          -- seconds without requests before frames are checked
+local CHECKED_MOST = 5000  -- frames that are checked
+local ANNOUNCED = 1        -- seconds between two reports of how many were
+local FAULTS_MOST = 200
+
+local film = {}
+film.__index = film
+
+--- script: its path. files, places: of files.lua and places.lua. tell(): pages are to know more.
+--- build: counts what was saved. heard: when a request came last.
+function film.new(script, files, places, tell)
+  local self = setmetatable({ script = script, files = files, places = places, tell = tell,
+                              build_number = 0, errors = {}, began = 0, heard = 0 }, film)
+  self.pool = renderers.new(script, function(paths)
+    for _, path in ipairs(paths) do files:add(path, self) end
+  end)
+  files:add(script, self)
+  return self
+end
+
+function film:add_error(message, frame)
+  for _, known in ipairs(self.errors) do
+    if known.message == message then return end
+  end
+  if #self.errors == FAULTS_MOST then return end
+  table.insert(self.errors, self.places:describe(message, frame, self))
+  self.tell()
+end
+
+-- ---------------------------------------------------------------- building
+
+--- The frames to check of a film that was built.
+local function checks_of(facts)
+  local last = facts.first + math.min(facts.frames, CHECKED_MOST) - 1
+  return { want = "check", number = facts.first, first = facts.first, last = last, done = 0,
+           announced = program.clock() }
+end
+
+--- What the script has said of itself.
+function film:take(head)
+  self.facts, self.errors, self.is_building = head.film, {}, false
+  self.facts.marks = { list = self.facts.marks }
+  self.parameters = head.parameters
+  self.is_shown, self.checked, self.check_state = true, 0, checks_of(head.film)
+  self.tell()
+end
+
+--- Begins with the script as it is now.
+function film:build()
+  self.pool:close("the film was saved again", 503)
+  self.build_number, self.began = self.build_number + 1, program.clock()
+  self.is_building = true
+  local number = self.build_number
+  self.tell()
+  self.pool:ask {
+    ask = { want = "film" }, is_patient = true,
+    done = function(head) self:take(head) end,
+    failed = function(message)
+      if number ~= self.build_number then return end
+      self.errors, self.is_building = { self.places:describe(message, nil, self) }, false
+      self.is_shown, self.check_state = false, nil
+      self.tell()
+    end,
+  }
+end
+
+--- Gives values to parameters, { name = "text" }, in place of all that were given before.
+function film:give_values(values)
+  self.pool.values = values
+  self:build()
+end
+
+--- Ends its processes. It can be built again.
+function film:close(message)
+  self.build_number = self.build_number + 1
+  self.is_building, self.is_shown, self.check_state = false, false, nil
+  self.pool:close(message, 503)
+end
+
+-- ---------------------------------------------------------------- checking
+
+--- What the next request is about: first all frames in order, then all in the other order.
+local function advance(at, number)
+  at.done, at.number = at.done + math.abs(number - at.number), number
+  if at.want == "check" and number > at.last then
+    at.want, at.number = "again", at.last
+  end
+  return at.want == "check" or number >= at.first
+end
+
+function film:take_checked(at, head)
+  at.is_asked = false
+  for _, fault in ipairs(head.faults) do self:add_error(fault.message, fault.frame) end
+  if self.check_state ~= at then return end
+  local is_over = not advance(at, head.number)
+  if is_over then self.check_state = nil end
+  self.checked = math.min(at.done // 2, at.last - at.first + 1)
+  if is_over or program.clock() - at.announced > ANNOUNCED then
+    at.announced = program.clock()
+    self.tell()
+  end
+end
+
+--- Has some frames checked when nobody asks for pictures.
+function film:check()
+  local at = self.check_state
+  if not at or at.is_asked or program.clock() - self.heard < QUIET or not self.pool:is_idle() then
+    return
+  end
+  at.is_asked = true
+  self.pool:ask {
+    ask = { want = at.want, number = at.number }, is_patient = true,
+    done = function(head) self:take_checked(at, head) end,
+    failed = function(message)
+      if self.check_state ~= at then return end
+      self.check_state = nil
+      if self.is_shown then self:add_error(message, at.number) end
+    end,
+  }
+end
+
+-- ---------------------------------------------------------------- what is known
+
+--- The values of parameters, by name: of the page, else of the command line.
+function film:values()
+  local values = {}
+  local stored = request.set_from and json.read(request.set_from)
+  for name, value in pairs(type(stored) == "table" and stored or {}) do values[name] = value end
+  for _, option in ipairs(request.given) do
+    local name, value = (option.name == "--set" and option.value or ""):match "^(.-)=(.*)$"
+    if name then values[name] = value end
+  end
+  for name, value in pairs(self.pool.values) do values[name] = value end
+  return values
+end
+
+--- The parameters with their values, else the defaults.
+function film:describe_parameters()
+  local values, list = self:values(), {}
+  for i, one in ipairs(self.parameters or {}) do
+    local value = values[one.name]
+    list[i] = { name = one.name, type = one.type, format = one.format, default = one.default,
+                minimum = one.minimum, maximum = one.maximum, description = one.description,
+                enum = one.enum, value = tostring(value == nil and one.default or value) }
+  end
+  return { list = list }
+end
+
+function film:describe()
+  return { build = self.build_number, building = self.is_building or false,
+           seconds = self.is_building and program.clock() - self.began or 0,
+           checked = self.checked, checking = self.check_state ~= nil,
+           film = self.facts, shown = self.is_shown or false, errors = { list = self.errors },
+           script = self.script, parameters = self:describe_parameters() }
+end
+
+--- Asks the renderers. give(head, bytes); refuse(status, sentence); wish: what it is abandoned by.
+function film:ask(ask, give, refuse, wish)
+  self.heard = program.clock()
+  self.pool:ask {
+    ask = ask, wish = wish,
+    done = give,
+    failed = function(message, status)
+      if ask.number and status == 422 then self:add_error(message, ask.number) end
+      refuse(status, message)
+    end,
+  }
+end
+
+return film

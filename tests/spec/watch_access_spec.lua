@@ -1,0 +1,70 @@
+-- celspan watch: whether everybody can use its page, as axe-core finds, which `./run` fetches.
+local present = require "tests.support.present"
+local watching = require "tests.support.watching"
+
+local AXE = "out/npm/node_modules/axe-core/axe.min.js"
+
+if not present.web() then return pending "celspan was built without libmicrohttpd" end
+if not present.program("node", "chromium") then return pending "there is no node or chromium" end
+if not io.open(AXE) then return pending "axe-core was not fetched" end
+
+local FILM = [[
+local celspan = require "celspan"
+local p = celspan.parameters { level = { 0.5, min = 0, max = 1 }, tint = { colour = "#cc0000" },
+  side = { "left", "right" }, title = "Hello", round = true }
+return celspan.film { size = { 64, 36 }, fps = 24, frames = 48, marks = { half = 24 },
+  frame = function(f)
+    return celspan.rostrum {
+      celspan.cel { celspan.rect { 0, 0, 64, 36, texture = p.tint } }:named "ground",
+      celspan.cel { celspan.circle { centre = { f.index, 18 }, radius = 30 * p.level } } }
+  end }
+]]
+
+before_each(function() watching.begin { ["shot.lua"] = FILM } end)
+after_each(watching.finish)
+
+describe("the page of celspan watch #plain", function()
+  it("has no fault that axe-core finds, dark and light, with panels, dialogs and errors", function()
+    local said = watching.see(watching.watch "shot.lua --editor true", [=[
+      const found = [];
+      const look = async where => {
+        const one = await page.get(`axe.run().then(all => ({ passed: all.passes.length,
+          bad: all.violations.map(({ id, nodes }) => id + " at " + nodes.length + " places: "
+            + nodes[0].target + ": " + nodes[0].failureSummary) }))`);
+        found.push(...one.bad.map(bad => where + ": " + bad));
+        if (one.passed < 10) found.push(where + ": only " + one.passed + " rules passed");
+      };
+      await page.until(`${stage("frame")} === "1"`);
+      await page.get(require("fs").readFileSync("]=] .. AXE .. [=[", "utf8") + "; 0");
+      await page.get(`document.querySelector(".stage").style.transition = "none"`);
+      const themes = {};
+      for (const theme of ["one", "other"]) {
+        await look(theme);
+        for (const key of "vyscprn") await page.press(key);
+        await page.until(`document.querySelectorAll("#cost-rows tr").length === 3`);
+        await page.until(`document.querySelectorAll("#names li").length > 2`);
+        await page.until(`document.querySelector("#stage2").dataset.frame === "1"
+          && document.querySelector("#form2 input")`);
+        const box = await page.get(`(() => { const box = document.querySelector("#stage")
+          .getBoundingClientRect(); return [box.left + 9, box.top + 9]; })()`);
+        await page.click(...box);
+        await page.until(`document.querySelectorAll("#hits li").length > 1`);
+        await look(theme + " with panels");
+        await page.press("?");
+        await look(theme + " with keys");
+        await page.get(`document.querySelector("#keys button").click()`);
+        await page.until(`!document.querySelector("dialog[open]")`);
+        page.write("]=] .. watching.bench.folder .. [=[/shot.lua", "return nil +");
+        await page.until(`!document.querySelector("#error").hidden`);
+        await look(theme + " with an error");
+        page.write("]=] .. watching.bench.folder .. [=[/shot.lua", ]=] .. ("%q"):format(FILM)
+        :gsub("\\\n", "\\n") .. [=[);
+        await page.until(`document.querySelector("#error").hidden`);
+        themes[await page.get("document.documentElement.dataset.theme")] = true;
+        for (const key of "vyscprt") await page.press(key);
+      }
+      return { found, themes };]=])
+    assert.same({ dark = true, light = true }, said.themes)
+    assert.same("", table.concat(said.found, "\n"))
+  end)
+end)

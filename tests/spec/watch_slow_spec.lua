@@ -1,0 +1,88 @@
+-- celspan watch: frames that are slow.
+local present = require "tests.support.present"
+local watching = require "tests.support.watching"
+
+if not present.web() then return pending "celspan was built without libmicrohttpd" end
+if not present.program "node" then return pending "there is no node" end
+
+--- A film whose frames take as long as they have rows: `steps` for each, 16 times in a pixel.
+local function film(steps)
+  return ([[
+local celspan = require "celspan"
+local function slow()
+  local sum = 0
+  for i = 1, %d do sum = sum + i end
+  return { { 0, 640, "#00ff00" } }
+end
+return celspan.film { size = { 640, 360 }, frames = 99, frame = function(f)
+  return celspan.rostrum {
+    celspan.cel { celspan.scanline { bounds = { 0, 0, 640, 360 }, spans = slow } } }
+end }
+]]):format(steps)
+end
+
+after_each(watching.finish)
+
+describe("a slow frame", function()
+  it("is given up when it is not wanted any more #plain", function()
+    watching.begin { ["shot.lua"] = film(50000) }
+    local said = watching.speak(watching.watch(), [=[
+      const headers = { Origin: `http://127.0.0.1:${web.port}` };
+      const abandon = async (body, more = headers) => (await web.get("/abandon",
+        { method: "POST", headers: more, body: JSON.stringify(body) })).status;
+      const pause = seconds => new Promise(done => setTimeout(done, 1000 * seconds));
+      await web.get("/frame/1.png?size=8x8");
+      const began = Date.now();
+      const wanted = ["a", "b", "c"].map(wish =>
+        web.get(`/frame/1.rgba?size=1280x720&wish=${wish}`));
+      await pause(0.3);
+      const posts = [await abandon({ wish: "a" }), await abandon({ wish: "b" }),
+                     await abandon({ wish: "c" }), await abandon({}),
+                     await abandon({ wish: "none" }), await abandon({ wish: "a" }, {})];
+      const answers = (await Promise.all(wanted)).map(one => one.status);
+      return { posts, answers, seconds: (Date.now() - began) / 1000,
+               next: (await web.get("/frame/2.png?size=8x8")).status,
+               errors: (await web.get("/errors.json")).body };]=])
+    assert.same({ 200, 200, 200, 400, 200, 403 }, said.posts)
+    assert.same({ 503, 503, 503 }, said.answers)
+    assert.is_true(said.seconds < 5, said.seconds) -- of more than ten for each
+    assert.equal(200, said.next)
+    assert.equal("[]\n", said.errors)
+  end)
+
+  it("is shown coarse first, then sharp, and gives way to the next one #plain", function()
+    if not present.program "chromium" then return pending "there is no chromium" end
+    watching.begin { ["shot.lua"] = film(4000) }
+    local said = watching.see(watching.watch(), [=[
+      await page.get(`(() => {
+        window.seen = [];
+        const { dataset } = document.querySelector("#stage");
+        new MutationObserver(() => {
+          const now = dataset.frame + " " + dataset.size;
+          if (window.seen.at(-1) !== now) window.seen.push(now);
+        }).observe(document.querySelector("#stage"), { attributes: true });
+      })()`);
+      const sharp = frame => page.until(`${stage("frame")} === "${frame}"
+        && ${stage("size")}.split("x")[0] > 1000`);
+      await sharp(1);
+      await page.press("ArrowRight");
+      await sharp(2);
+      const first = await page.get("window.seen");
+      await page.press("ArrowRight");
+      await page.until(`${stage("frame")} === "3"`);
+      await page.press("ArrowRight");
+      await page.pause(0.2);
+      await page.press("ArrowRight");
+      await sharp(5);
+      return { first, seen: await page.get("window.seen"), fault: await text("error") };]=])
+    local sizes = {}
+    for _, one in ipairs(said.seen) do
+      local frame, width = one:match "^(%d+) (%d+)x"
+      sizes[frame] = (sizes[frame] or "") .. (tonumber(width) > 1000 and "S" or "c")
+    end
+    assert.equal("cS", sizes["2"])
+    assert.equal("c", sizes["3"])
+    assert.equal("cS", sizes["5"])
+    assert.equal("", said.fault)
+  end)
+end)
