@@ -259,6 +259,31 @@ local function film_frame(run, lines)
     times)
 end
 
+-- ---------------------------------------------------------------- compositing
+
+--- Of the best times: frames of a few milliseconds vary with what else the machine does.
+local function composited(run, lines)
+  local function best(scene, side, renderer)
+    local row = run:one { part = "compositing", scene = scene, side = side or 1920,
+                          renderer = renderer or "celspan" }
+    return row and row.best_wall
+  end
+  for _, limit in ipairs { { "group", "an isolated group at half opacity", "flat", 1.2 },
+      { "multiply", "a blend mode", "flat", 1.5 },
+      { "matte circle", "a matte, a soft circle", "under circle", 1.6 },
+      { "matte gradient", "a matte, a gradient", "under gradient", 1.6 },
+      { "srgb", 'a film in `"srgb"`', "flat", 1.1 } } do
+    at_most(lines, ("%s: at most %g times the same drawing, `%s`"):format(limit[2], limit[4],
+      limit[3]), over(best(limit[1]), best(limit[3])), limit[4], times)
+  end
+  at_most(lines, "a frame with a soft shadow of radius 16 at 1920 x 1080: under 15 ms",
+    best "shadow", 0.015, time)
+  for _, side in ipairs { 1920, 3840 } do
+    at_least(lines, ("60 groups with modes and blurs, %d pixels wide: ahead of Skia"):format(side),
+      over(best("groups", side, "skia"), best("groups", side)), 1, times)
+  end
+end
+
 -- ---------------------------------------------------------------- sequences
 
 --- Frames per second of a row of the film.
@@ -293,7 +318,7 @@ end
 function asked.lines(run)
   local lines = {}
   local parts = { artwork, film_sizes, accuracy, spans, pixels, pictures, softness, span_files,
-                  png_files, film_frame, sequences }
+                  png_files, film_frame, composited, sequences }
   for _, part in ipairs(parts) do part(run, lines) end
   return lines
 end

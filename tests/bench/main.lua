@@ -8,6 +8,7 @@ local scenes = require "tests.bench.scenes"
 local machine = require "tests.bench.machine"
 
 local accuracy = require "tests.bench.parts_accuracy"
+local compositing = require "tests.bench.parts_compositing"
 local files = require "tests.bench.parts_files"
 local film = require "tests.bench.parts_film"
 local pictures = require "tests.bench.parts_pictures"
@@ -31,6 +32,7 @@ local parts = {
   { "multiplane", "a frame of twelve painted planes", pictures.multiplane },
   { "defocus", "defocus of 100 shapes", pictures.defocus },
   { "figure11", "the paper's figure 11", pictures.figure11 },
+  { "compositing", "groups, modes, mattes and effects", compositing.compositing },
   { "start", "from exec to the first row", film.start },
   { "film_png", "a frame of the demo film to PNG", film.film_png },
   { "film", "the demo film", film.film },

@@ -179,6 +179,13 @@ the pixels of the sharp frame, blurred by OpenCV and libvips with the same Gauss
 the radius).]], { title = "spans", of = spans_of })
   page:plot("defocus", "defocus")
 end
+plain_table("compositing", "Groups, modes, mattes and effects", [[
+200 shapes in front of 60 at 1920 x 1080: flat, in an isolated group at half opacity, with the mode
+"multiply", in a film in "srgb", and in soft mattes, or under what is the matte; a disc with a soft
+shadow of radius 16. Then 60 groups of twelve shapes, each with its opacity and one of the 16 modes,
+a third of them blurred, in "srgb": Skia gets a canvas and a clip of the size of each group. Wall
+time of one frame without the script, in both columns; the targets use the best. The flat drawing
+becomes a map, which is made within this time; the drawing with a mode does not.]])
 plain_table("start", "From exec to the first row", [[
 Wall-clock time from the fork to the first byte of raw pixels on a pipe, frame 1 at 1920 x 1080.]])
 plain_table("film", "The demo film", [[
