@@ -16,25 +16,27 @@ end
 
 local is_saved = {}
 
---- Saves the example `name` of a page as a file, beside the others of that page.
+--- Saves the example `name` of a page as a file, beside the others of that page: its path and the
+--- options that its command has.
 local function extract(page, name)
   if not is_saved[page] then
     markdown.save(page, folder .. "/examples", function() return true end)
   end
   is_saved[page] = true
   for _, block in ipairs(markdown.blocks(page)) do
-    if block.name == name then return folder .. "/examples/" .. name .. ".lua" end
+    if block.name == name then return folder .. "/examples/" .. name .. ".lua", block.options end
   end
   error(("%s has no example %s.lua"):format(page, name))
 end
 
-local function render(script, picture, output, argument)
+local function render(script, picture, output, argument, options)
   local arguments = { script, "--progress", "none", "-o", output }
   local function add(...) table.move({ ... }, 1, select("#", ...), #arguments + 1, arguments) end
   if picture.frame ~= "all" then add("--frames", tostring(picture.frame or 1)) end
   if picture.size then add("--size", picture.size) end
   if picture.onion then add("--onion", picture.onion) end
   if picture.allow then add("--allow", picture.allow) end
+  if options and options ~= "" then add(options) end
   if argument then add("--allow", argument, "--", argument) end
   run(binary .. " render", table.unpack(arguments))
 end
@@ -49,7 +51,8 @@ for _, picture in ipairs(list) do
   for _, part in ipairs(picture.parts or {}) do
     render(part.script, part, parts .. "/" .. part.file)
   end
-  local script = picture.script or extract(picture.page, picture.name)
+  local script, options = picture.script, nil
+  if not script then script, options = extract(picture.page, picture.name) end
   if picture.before then
     run(("cd %s/examples && lua5.4"):format(folder), picture.before .. ".lua")
   end
@@ -59,6 +62,6 @@ for _, picture in ipairs(list) do
     run(binary .. " contact", script, "--grid", picture.grid, "-o", sheet)
     run(binary .. " convert", sheet, output, "--size", picture.size)
   else
-    render(script, picture, output, picture.parts and absolute)
+    render(script, picture, output, picture.parts and absolute, options)
   end
 end

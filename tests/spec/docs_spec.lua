@@ -81,9 +81,9 @@ local function check_code(code, message, printed)
   assert.are.equal(0, code, (printed or "") .. message)
 end
 
-local function render_small(path)
-  return run(("celspan render %s -o pictures_made/%s.####.png --scale 0.1 --progress none")
-    :format(path, path))
+local function render_small(path, options)
+  return run(("celspan render %s -o pictures_made/%s.####.png --scale 0.1 --progress none %s")
+    :format(path, path, options or ""))
 end
 
 --- The lines that a program prints according to its comments -->.
@@ -110,7 +110,7 @@ describe("the examples of", function()
       elseif block.language == "lua" and returns then
         it(place(page, block) .. " render", function()
           local path, error_text = write_example(block)
-          local code, _, message = render_small(path)
+          local code, _, message = render_small(path, block.options)
           if error_text then
             check_module(message)
             assert.is_true(code == 3 or code == 4, message)

@@ -1,5 +1,5 @@
 -- The scripts that ship: each makes a picture for its first, middle and last frame, with one
--- worker, and the same last one alone, with two.
+-- worker, and the same last one alone, with two; and all of its frames are checked.
 
 local shipped = require "tests.support.shipped"
 local system = require "tests.support.system"
@@ -22,6 +22,14 @@ local function render(script, frames, workers)
     :format(quoted(script), frames, WIDTH, HEIGHT, workers))
 end
 
+local counts = {}
+
+local function frames_of(path)
+  counts[path] = counts[path]
+    or tonumber(assert(run("info " .. quoted(path))):match("frames%s+(%d+)"))
+  return counts[path]
+end
+
 local function colours(frame)
   local seen, count = {}, 0
   for i = 1, #frame, 4 do
@@ -40,7 +48,7 @@ describe("the scripts that ship", function()
     local test = shipped.lacks_module(path) and pending or it
 
     test(path .. " makes pictures, the same whenever it is asked", function()
-      local count = tonumber(assert(run("info " .. quoted(path))):match("frames%s+(%d+)"))
+      local count = frames_of(path)
       local size = WIDTH * HEIGHT * 4
       local asked = count < 3 and ("1-%d"):format(count)
         or ("1,%d,%d"):format((count + 1) // 2, count)
