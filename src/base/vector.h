@@ -3,8 +3,8 @@
 #pragma once
 
 #include <string.h>
-#ifdef __SSE__
-#include <immintrin.h>
+#ifdef __SSE2__
+#include <emmintrin.h> /* not immintrin.h, whose 60,000 lines most files would read */
 #endif
 
 typedef float cs_v4 __attribute__((vector_size(16)));
@@ -71,7 +71,7 @@ static inline void cs_v4_store(float *to, cs_v4 v) { memcpy(to, &v, sizeof v); }
 
 /* Lane by lane the greater, the lesser; b where a is not a number. */
 static inline cs_v4 cs_v4_max(cs_v4 a, cs_v4 b) {
-#ifdef __SSE__
+#ifdef __SSE2__
   return _mm_max_ps(a, b); /* one instruction: compilers do not always see it in a choice */
 #else
   typedef int lanes __attribute__((vector_size(16)));
@@ -81,7 +81,7 @@ static inline cs_v4 cs_v4_max(cs_v4 a, cs_v4 b) {
 }
 
 static inline cs_v4 cs_v4_min(cs_v4 a, cs_v4 b) {
-#ifdef __SSE__
+#ifdef __SSE2__
   return _mm_min_ps(a, b);
 #else
   typedef int lanes __attribute__((vector_size(16)));
@@ -107,7 +107,7 @@ static inline cs_v4 cs_v4_choose(int condition, cs_v4 one, cs_v4 other) {
 
 /* Whether every lane lies between the same lanes of two others. */
 static inline int cs_v4_is_between(cs_v4 value, cs_v4 least, cs_v4 most) {
-#ifdef __SSE__
+#ifdef __SSE2__
   return _mm_movemask_ps(_mm_and_ps(_mm_cmpge_ps(value, least), _mm_cmple_ps(value, most))) == 15;
 #else
   typedef long long words __attribute__((vector_size(16)));
@@ -125,7 +125,7 @@ static inline int cs_v4_any_above(cs_v4 a, cs_v4 b) {
 
 /* Whether all 128 bits agree: minus zero differs from zero. */
 static inline int cs_v4_same(cs_v4 a, cs_v4 b) {
-#ifdef __SSE__
+#ifdef __SSE2__
   return _mm_movemask_epi8(_mm_cmpeq_epi32((__m128i)a, (__m128i)b)) == 0xffff;
 #else
   typedef long long words __attribute__((vector_size(16)));
