@@ -14,6 +14,9 @@ local COUNT, ONLY = 2000, cases.only
 local POINTS = 240 -- of a scene
 local EDGE = 1e-6 -- pixels: closer to a straight edge either side is right
 local CURVED_EDGE = 0.03 -- the polyline of the sweep is within 0.02 of the curve
+-- Where edges of two frames coincide, each may decide in its own way, and the colour is that of
+-- neither side. Of 20,000 scenes one has such pixels.
+local MOST_TOGETHER = 2 -- scenes
 
 local offsets = {}
 for angle = 0, 7 do
@@ -38,11 +41,21 @@ local function has_edge(probe, x, y, colour, radius, tolerance)
   return false
 end
 
+--- Whether edges pass through (x, y) itself: opposite points differ.
+local function is_on_edge(probe, x, y, tolerance)
+  for k = 1, 4 do
+    local dx, dy = EDGE * offsets[k][1], EDGE * offsets[k][2]
+    if not is_near(probe(x + dx, y + dy), probe(x - dx, y - dy), tolerance) then return true end
+  end
+  return false
+end
+
 local function text_of(colour)
   return ("%.5f %.5f %.5f %.5f"):format(table.unpack(colour))
 end
 
---- The first wrong pixel as a sentence, or nil; points tried; points excused.
+--- The first wrong pixel as a sentence, or nil; points tried; points excused; of these on edges
+--- that coincide.
 local function compare(exposures, traits, case)
   local size, film = traits.size, { traits.width, traits.height }
   local list = assert(celspan.spans(exposures, { size = size, film = film, antialias = "none",
@@ -52,7 +65,7 @@ local function compare(exposures, traits, case)
     return { celspan.probe(exposures, x * film[1] / size[1], y * film[2] / size[2], options) }
   end
   local tolerance = (1 / 1023 + 2 ^ -16) * math.max(1, traits.light) + 1e-6
-  local random, excused = prng.new(-case), 0
+  local random, excused, together = prng.new(-case), 0, 0
   for _ = 1, POINTS do
     local x, y = random:whole(0, size[1] - 1), random:whole(0, size[2] - 1)
     local colour, kind = rows.colour(list[y], x)
@@ -60,26 +73,32 @@ local function compare(exposures, traits, case)
     if not is_near(truth, colour, tolerance) then
       local radius = traits.is_curved and CURVED_EDGE or EDGE
       if not has_edge(probe, x + 0.5, y + 0.5, colour, radius, tolerance) then
-        return ("pixel %d, %d is %s (%s), the oracle says %s"):format(
-          x, y, text_of(colour), kind, text_of(truth)), POINTS, excused
+        if not is_on_edge(probe, x + 0.5, y + 0.5, tolerance) then
+          return ("pixel %d, %d is %s (%s), the oracle says %s"):format(
+            x, y, text_of(colour), kind, text_of(truth)), POINTS, excused, together
+        end
+        together = together + 1
       end
       excused = excused + 1
     end
   end
-  return nil, POINTS, excused
+  return nil, POINTS, excused, together
 end
 
 --- Tries all cases with these options: failures as text, points tried, points excused by whether
 --- edges are curved.
 local function try(count, options)
-  local failures, tried, excused = {}, 0, { [true] = 0, [false] = 0 }
+  local failures, tried, excused, together = {}, 0, { [true] = 0, [false] = 0 }, 0
   for _, case in cases.of(count) do
     local script, traits = scenes.script(case, options)
     if ONLY then print(script) end
-    local failure, points, near = compare(scenes.load(script):at(1), traits, case)
-    tried = tried + points
+    local failure, points, near, there = compare(scenes.load(script):at(1), traits, case)
+    tried, together = tried + points, together + (there > 0 and 1 or 0)
     excused[traits.is_curved] = excused[traits.is_curved] + near
     if failure then failures[#failures + 1] = ("CASE=%d: %s"):format(case, failure) end
+  end
+  if together > MOST_TOGETHER then
+    failures[#failures + 1] = ("%d scenes have pixels on edges with the colour of neither side"):format(together)
   end
   return table.concat(failures, "\n"), tried, excused
 end
