@@ -98,7 +98,7 @@ local function try(count, options)
     if failure then failures[#failures + 1] = ("CASE=%d: %s"):format(case, failure) end
   end
   if together > MOST_TOGETHER then
-    failures[#failures + 1] = ("%d scenes have pixels on edges with the colour of neither side"):format(together)
+    failures[#failures + 1] = ("%d scenes have colours of neither side on edges"):format(together)
   end
   return table.concat(failures, "\n"), tried, excused
 end

@@ -123,6 +123,42 @@ end }
     end
   end)
 
+  it("may turn, shear and lie in perspective, with one map for all angles", function()
+    local turning = bench:write("turning.lua", [[
+local celspan = require "celspan"
+local frames = math.tointeger(tonumber((...)))
+local grains = {}
+for i = 1, 600 do
+  grains[i] = celspan.rect { 5 * (i % 25), 4 * (i // 25), 5, 4,
+    texture = celspan.rgb(i % 7 / 7, i % 5 / 5, i % 3 / 3) }
+end
+local field = celspan.union(grains)
+local fading = celspan.linear { from = { -20, 0 }, to = { 20, 0 }, { 0, "#c03020" },
+  { 1, "#2040c080" } }
+local disc = celspan.union { field:scale(0.1),
+  celspan.circle { centre = { 0, 0 }, radius = 20, texture = fading } }
+return celspan.film { size = { 128, 100 }, frames = frames, frame = function(f)
+  local turn = 11 * f.number
+  return celspan.rostrum {
+    celspan.cel { field:quad({ { 0, 0 }, { 127, 0 }, { 127, 100 }, { 0, 100 } },
+      { { 30, 10 }, { 98, 10 }, { 120, 90 }, { 8, 90 } }) },
+    celspan.cel { disc:rotate(turn):skew(10, 0):translate(40, 40), opacity = 0.8 },
+    celspan.cel { disc:rotate(-turn):scale(-1, 1):translate(90, 60) },
+    back = "#fffbe0" }
+end }
+]])
+    local _, out = bench:celspan("spans %s --stats -- 4", turning)
+    assert.are.equal(3, tonumber(out:match " maps (%d+)"))
+    local function made(options, frames)
+      local code, text, err = bench:celspan("render %s -o - %s -- %d", turning, options, frames)
+      assert.are.equal(0, code, err)
+      return text
+    end
+    local drawn = made("", 4)
+    assert.is_true(difference(made("", 1), made("--frames 1", 4)) <= 2)
+    assert.are.equal(drawn:sub(-128 * 100 * 4), made("--frames 4 --workers 3 --memory 1", 4))
+  end)
+
   it("is swept where a mode acts on another cel, or on what is lit", function()
     local modes = bench:write("modes.lua", [[
 local celspan = require "celspan"

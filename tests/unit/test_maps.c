@@ -2,13 +2,14 @@
  * and in whatever order rows are made, and without leaks between cels that abut.
  */
 #include "engine/map/keep.h"
+#include "model/geometry/matrix.h"
 #include "tests/support/frame_rows.h"
 #include "tests/support/memory.h"
 #include "tests/support/random.h"
 
 #define WIDTH 90
 #define HEIGHT 60
-#define SCENES 40
+#define SCENES 80
 #define SHAPES 256 /* of each cel, at least: of fewer there are no maps */
 
 /* What a scene has. */
@@ -62,7 +63,26 @@ static celspan_object *with_shapes(studio *s, celspan_object *object) {
   return studio_pair(s, CELSPAN_UNION, object, studio_boolean(s, CELSPAN_UNION, objects, SHAPES));
 }
 
-/* A cel of a few shapes, in the light of its own, moved, stretched and mirrored. */
+/* Moved, stretched, mirrored, and one in three turned, sheared and tilted, by quarter turns too. */
+static celspan_matrix random_place(test_random *random) {
+  double x = random_between(random, 0.4, 1.7), y = random_between(random, 0.4, 1.7);
+  celspan_matrix matrix = celspan_matrix_scaling(random_below(random, 4) ? x : -x, y);
+  const celspan_point centre = {WIDTH / 2.0, HEIGHT / 2.0};
+  if (random_below(random, 3) == 0) {
+    double angle = random_between(random, -180, 180);
+    angle = random_below(random, 2) ? angle : 90 * floor(angle / 90);
+    matrix = celspan_matrix_then(matrix, cs_matrix_turn(angle, centre));
+    matrix.m[1] += random_below(random, 2) ? 0 : random_between(random, -1, 1);
+    double tilt = random_between(random, 0.001, 0.004);
+    if (random_below(random, 3) == 0)
+      matrix.m[6 + random_below(random, 2)] = tilt;
+  }
+  matrix.m[2] += random_between(random, 0, WIDTH / 2.0);
+  matrix.m[5] += random_between(random, -HEIGHT / 2.0, HEIGHT / 2.0);
+  return matrix;
+}
+
+/* A cel of a few shapes, in the light of its own. */
 static celspan_cel *random_cel(studio *s, test_random *random, scene_kind kind) {
   celspan_object *objects[5];
   celspan_cel_desc desc = CELSPAN_CEL_DESC;
@@ -74,10 +94,7 @@ static celspan_cel *random_cel(studio *s, test_random *random, scene_kind kind) 
   desc.has_front = random_below(random, 2);
   desc.front = (celspan_light){random_unit(random), 1, 0.5f, 1};
   desc.back = random_below(random, 3) ? desc.back : (celspan_light){0.25f, 0.5f, 0, 0.5f};
-  double x = random_between(random, 0.4, 1.7), y = random_between(random, 0.4, 1.7);
-  celspan_matrix matrix = celspan_matrix_scaling(random_below(random, 4) ? x : -x, y);
-  matrix.m[2] = random_between(random, 0, WIDTH / 2.0);
-  matrix.m[5] = random_between(random, -HEIGHT / 2.0, HEIGHT / 2.0);
+  const celspan_matrix matrix = random_place(random);
   celspan_cel *cel = studio_cel(s, desc, objects, count), *moved = NULL;
   studio_check(s, celspan_cel_transform(s->context, cel, &matrix, &moved));
   return s->cels[s->cel_count++] = moved;
@@ -165,28 +182,36 @@ static void check_bits(studio *s, studio *small) {
 
 /* ---------------------------------------------------------------- what is kept */
 
-static celspan_rostrum *moved_disc(studio *s, double x, double angle) {
+static celspan_exposure moved_disc(studio *s, celspan_matrix matrix) {
   celspan_object *disc = with_shapes(s, studio_circle(s, 20, 20, 15, NULL));
-  celspan_matrix matrix = celspan_matrix_rotation(angle, (celspan_point){0, 0});
-  matrix.m[2] += x;
-  return studio_show(s, studio_transform(s, disc, matrix));
+  return (celspan_exposure){studio_show(s, studio_transform(s, disc, matrix)), 1};
 }
 
-/* A drawing that only moves has one map; one that is rotated, or has few shapes, has none. */
+/* Maps of a frame that has been made, and how many of them were new. */
+static void check_maps(studio *s, celspan_exposure exposure, uint64_t maps, uint64_t made) {
+  celspan_frame_desc desc = frame_of(&exposure, true);
+  celspan_statistics statistics = count(s, &desc);
+  CHECK(statistics.maps == maps && statistics.maps_made == made);
+}
+
+/* A drawing that only moves has one map; one that turns has another one, whatever the angle and the
+ * perspective. One that reaches the horizon, and one of few shapes, have none. */
 static void check_kept(studio *s, studio *small) {
+  const celspan_point origin = {0, 0};
+  const celspan_matrix tilted = {{1, 0, 0, 0, 1, 0, 5e-3, 0, 1.1}};
+  const celspan_matrix behind = {{1, 0, 0, 0, 1, 0, -0.04, 0, 1}};
   studio *both[2] = {s, small};
-  for (int k = 0; k < 2; k++) {
-    celspan_exposure first = {moved_disc(both[k], 0, 0), 1};
-    celspan_exposure second = {moved_disc(both[k], 7.3, 0), 1};
-    celspan_exposure turned = {moved_disc(both[k], 0, 0.3), 1};
-    celspan_exposure plain = {studio_show(both[k], studio_circle(both[k], 20, 20, 15, NULL)), 1};
-    celspan_frame_desc a = frame_of(&first, true), b = frame_of(&second, true);
-    celspan_frame_desc c = frame_of(&turned, true), d = frame_of(&plain, true);
-    CHECK(count(both[k], &a).maps_made == 1);
-    celspan_statistics statistics = count(both[k], &b);
-    CHECK(statistics.maps == 1 && statistics.maps_made == (uint64_t)k);
-    CHECK(count(both[k], &c).maps == 0 && count(both[k], &d).maps == 0);
-    studio_finish(both[k]);
+  for (uint64_t k = 0; k < 2; k++) {
+    studio *each = both[k];
+    check_maps(each, moved_disc(each, celspan_matrix_identity()), 1, 1);
+    check_maps(each, moved_disc(each, celspan_matrix_translation(7.3, 0)), 1, k);
+    check_maps(each, moved_disc(each, celspan_matrix_rotation(0.3, origin)), 1, 1);
+    check_maps(each, moved_disc(each, celspan_matrix_rotation(-77, origin)), 1, k);
+    check_maps(each, moved_disc(each, tilted), 1, k);
+    check_maps(each, moved_disc(each, behind), 0, 0);
+    celspan_object *plain = studio_circle(each, 20, 20, 15, NULL);
+    check_maps(each, (celspan_exposure){studio_show(each, plain), 1}, 0, 0);
+    studio_finish(each);
   }
   CHECK(cs_map_keep_count(s->context).bytes > 0 && cs_map_keep_count(small->context).bytes == 0);
 }
@@ -194,8 +219,8 @@ static void check_kept(studio *s, studio *small) {
 /* ---------------------------------------------------------------- no leaks */
 
 /* Two black cels that share a curved boundary, before white: nowhere along it is it lighter. The
- * black of one is a gradient. */
-static void check_leaks(studio *s) {
+ * black of one is a gradient. They are moved and enlarged, and turned by an angle in each frame. */
+static void check_leaks(studio *s, double angle) {
   celspan_texture *black = studio_paint(s, celspan_paint_rgb(0, 0, 0, 1));
   const celspan_stop stops[] = {{0, celspan_paint_rgb(0, 0, 0, 1)},
                                 {1, celspan_paint_rgb(0, 0, 0, 1)}};
@@ -205,8 +230,6 @@ static void check_leaks(studio *s) {
   celspan_object *right = studio_path(s, "M 88 2 L 40 2 C 70 20 10 40 44 58 L 88 58 Z", black);
   left = with_shapes(s, left);
   right = with_shapes(s, right);
-  celspan_cel *cels[] = {studio_cel(s, CELSPAN_CEL_DESC, &left, 1),
-                         studio_cel(s, CELSPAN_CEL_DESC, &right, 1)};
   celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
   desc.back = (celspan_light){1, 1, 1, 1};
   float most = 0;
@@ -214,12 +237,19 @@ static void check_leaks(studio *s) {
     desc.has_camera_width = desc.has_camera_centre = true;
     desc.camera_width = WIDTH / (1 + 0.037 * k);
     desc.camera_centre = (celspan_point){WIDTH / 2.0 + 0.013 * k, HEIGHT / 2.0 - 0.017 * k};
+    const celspan_matrix turn =
+        celspan_matrix_rotation(k * angle, (celspan_point){WIDTH / 2.0, HEIGHT / 2.0});
+    celspan_object *one = studio_transform(s, left, turn),
+                   *other = studio_transform(s, right, turn);
+    celspan_cel *cels[] = {studio_cel(s, CELSPAN_CEL_DESC, &one, 1),
+                           studio_cel(s, CELSPAN_CEL_DESC, &other, 1)};
     celspan_exposure exposure = {studio_rostrum(s, desc, cels, 2), 1};
     celspan_frame_desc frame = frame_of(&exposure, true);
     CHECK(count(s, &frame).maps == 2);
     image picture = make_image(s, &frame, 1);
-    for (int y = 5; y < HEIGHT - 5; y++)
-      for (int x = 5; x < WIDTH - 5; x++)
+    int margin = angle == 0 ? 5 : 20, edge = angle == 0 ? 5 : 35;
+    for (int y = margin; y < HEIGHT - margin; y++)
+      for (int x = edge; x < WIDTH - edge; x++)
         most = fmaxf(most, picture.rgba[WIDTH * y + x][0]);
     free(picture.rgba);
   }
@@ -262,7 +292,8 @@ int main(void) {
   check_pictures(&s);
   check_bits(&s, &small);
   check_kept(&s, &small);
-  check_leaks(&s);
+  check_leaks(&s, 0);
+  check_leaks(&s, 0.1);
   check_failures_of_memory(&s, &watch);
   celspan_context_destroy(s.context);
   celspan_context_destroy(small.context);

@@ -7,13 +7,6 @@
 
 /* ---------------------------------------------------------------- the place */
 
-/* From pixels of the frame to those of the raster. */
-static celspan_matrix frame_to_raster(const cs_map_drawing *d) {
-  double across = 1 / (d->scale_x * CS_MAP_UNIT), down = 1 / (d->scale_y * CS_MAP_UNIT);
-  return (celspan_matrix){{across, 0, -d->shift_x * across - (double)d->map->left, 0, down,
-                           -d->shift_y * down - (double)d->map->top, 0, 0, 1}};
-}
-
 celspan_status cs_map_brush_place(celspan_context *context, cs_map_drawing *drawing) {
   const cs_stack *from = &drawing->map->stack;
   cs_stack *to = &drawing->stack;
@@ -25,15 +18,14 @@ celspan_status cs_map_brush_place(celspan_context *context, cs_map_drawing *draw
     CS_TRY(CS_MAKE(context, to->shades, from->shade_count));
   if (from->image_count > 0)
     CS_TRY(CS_MAKE(context, to->images, from->image_count));
-  const celspan_matrix place = frame_to_raster(drawing);
   for (size_t i = 0; i < from->shade_count; i++) {
     to->shades[i] = from->shades[i];
-    to->shades[i].inverse = celspan_matrix_then(place, from->shades[i].inverse);
+    to->shades[i].inverse = celspan_matrix_then(drawing->to_raster, from->shades[i].inverse);
     cs_shade_prepare(&to->shades[i]);
   }
   for (size_t i = 0; i < from->image_count; i++) {
     to->images[i] = from->images[i];
-    to->images[i].inverse = celspan_matrix_then(place, from->images[i].inverse);
+    to->images[i].inverse = celspan_matrix_then(drawing->to_raster, from->images[i].inverse);
   }
   return CELSPAN_OK;
 }

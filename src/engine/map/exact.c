@@ -71,7 +71,7 @@ static celspan_status add_border(celspan_context *context, cs_map_exact *exact,
                                  const int32_t pixel[3]) {
   const cs_map_drawing *drawing = rows->drawing;
   cs_v4 left, right;
-  const cs_map_point *points = drawing->map->points + f->first;
+  const cs_map_point *points = drawing->lines->points + f->first;
   const double unit = 1.0 / CS_MAP_HEIGHT;
   int64_t top = (int64_t)pixel[2] * CS_MAP_HEIGHT, foot = top + CS_MAP_HEIGHT;
   uint32_t at = cs_map_find_point(drawing, f, pixel[2]);
@@ -98,10 +98,10 @@ celspan_status cs_map_exact_add(celspan_context *context, cs_map_exact *exact,
   const cs_map_drawing *drawing = rows->drawing;
   const int32_t pixel[3] = {from, column, row};
   for (size_t i = 0; i < rows->live_count; i++) {
-    const cs_map_border *f = &drawing->map->borders[rows->lives[i].border];
+    const cs_map_border *f = &drawing->lines->borders[rows->lives[i].border];
     if (cs_map_place_x(drawing, f->low) < column + 1 &&
         (from == 0 || cs_map_place_x(drawing, f->high) >= from) &&
-        cs_map_place_y(drawing, drawing->map->points[f->first].y) <= row + 1 &&
+        cs_map_place_y(drawing, drawing->lines->points[f->first].y) <= row + 1 &&
         cs_map_place_y(drawing, f->foot) >= row)
       CS_TRY(add_border(context, exact, rows, f, (cs_map_line){.sheet = index}, pixel));
   }

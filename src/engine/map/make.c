@@ -12,7 +12,6 @@
  */
 #include <math.h>
 
-#include "base/sort.h"
 #include "base/splitmix.h"
 #include "engine/compose/over.h"
 #include "engine/map/map.h"
@@ -85,8 +84,8 @@ void cs_map_unref(cs_map *map) {
   if (!map || atomic_fetch_sub_explicit(&map->references, 1, memory_order_acq_rel) > 1)
     return;
   cs_memory *memory = map->memory;
-  cs_mem_free(memory, map->borders, map->border_capacity * sizeof *map->borders);
-  cs_mem_free(memory, map->points, map->point_capacity * sizeof *map->points);
+  cs_map_lines_finish(&map->lines, memory);
+  cs_mem_free(memory, map->flats, map->flat_capacity * sizeof *map->flats);
   cs_mem_free(memory, map->cells, map->cell_capacity * sizeof *map->cells);
   cs_mem_free(memory, map->items, map->item_capacity * sizeof *map->items);
   free_stack(&map->stack, memory);
@@ -95,8 +94,9 @@ void cs_map_unref(cs_map *map) {
 }
 
 size_t cs_map_bytes(const cs_map *map) {
-  return sizeof *map + map->border_capacity * sizeof *map->borders +
-         map->point_capacity * sizeof *map->points + map->cell_capacity * sizeof *map->cells +
+  return sizeof *map + map->lines.border_capacity * sizeof *map->lines.borders +
+         map->lines.point_capacity * sizeof *map->lines.points +
+         map->flat_capacity * sizeof *map->flats + map->cell_capacity * sizeof *map->cells +
          map->item_capacity * sizeof *map->items + cs_stack_bytes(&map->stack);
 }
 
@@ -328,60 +328,34 @@ static celspan_status add_edge(maker *m, const cs_retained_row *retained,
 
 /* ---------------------------------------------------------------- the map */
 
-/* Copies the points of a border, which are linked from the last one up. */
+/* Copies the points of a border, which are linked from the last one up. There is room. */
 static void finish_border(const maker *m, const growing *f) {
-  cs_map *map = m->map;
+  cs_map_lines *lines = &m->map->lines;
   const link *last = &m->links[f->last];
-  cs_map_border *out = &map->borders[map->border_count++];
+  cs_map_border *out = &lines->borders[lines->border_count++];
   *out = (cs_map_border){.left = f->left,
                          .right = f->right,
-                         .first = (uint32_t)map->point_count,
+                         .first = (uint32_t)lines->point_count,
                          .count = f->count,
                          .low = INT32_MAX,
                          .high = INT32_MIN,
                          .foot = last->point.y};
-  map->point_count += f->count;
+  lines->point_count += f->count;
   for (uint32_t at = f->last, k = f->count; k-- > 0; at = m->links[at].previous) {
     cs_map_point point = m->links[at].point;
-    map->points[out->first + k] = point;
+    lines->points[out->first + k] = point;
     out->low = point.x < out->low ? point.x : out->low;
     out->high = point.x > out->high ? point.x : out->high;
   }
 }
 
-typedef struct placed {
-  uint32_t index;
-  int32_t top;
-} placed;
-
-static inline bool is_before(const placed *a, const placed *b) {
-  return a->top != b->top ? a->top < b->top : a->index < b->index;
-}
-
-CS_SORT_DEFINE(sort_placed, placed, is_before)
-
-static int32_t top_of(const maker *m, const growing *f) {
-  uint32_t at = f->last;
-  while (m->links[at].previous != NONE)
-    at = m->links[at].previous;
-  return m->links[at].point.y;
-}
-
 static celspan_status finish_borders(const maker *m) {
-  cs_map *map = m->map;
-  placed *order;
-  if (m->border_count == 0)
-    return CELSPAN_OK;
-  CS_TRY(CS_RESERVE(m->context, map->borders, map->border_capacity, m->border_count));
-  CS_TRY(CS_RESERVE(m->context, map->points, map->point_capacity, m->link_count));
-  CS_TRY(CS_MAKE(m->context, order, m->border_count));
+  cs_map_lines *lines = &m->map->lines;
+  CS_TRY(CS_RESERVE(m->context, lines->borders, lines->border_capacity, m->border_count));
+  CS_TRY(CS_RESERVE(m->context, lines->points, lines->point_capacity, m->link_count));
   for (size_t i = 0; i < m->border_count; i++)
-    order[i] = (placed){(uint32_t)i, top_of(m, &m->borders[i])};
-  sort_placed(order, m->border_count);
-  for (size_t i = 0; i < m->border_count; i++)
-    finish_border(m, &m->borders[order[i].index]);
-  cs_mem_free(m->context->memory, order, m->border_count * sizeof *order);
-  return CELSPAN_OK;
+    finish_border(m, &m->borders[i]);
+  return cs_map_lines_sort(m->context, lines);
 }
 
 static celspan_status add_row(maker *m, cs_row_maker *rows, int32_t y, cs_retained_row *retained) {
@@ -425,12 +399,9 @@ static void take_stack(cs_map *map, cs_stack *stack) {
   change_references(&map->stack, keep_texture);
 }
 
-celspan_status cs_map_make(celspan_context *context, cs_plan *plan, int64_t left, int64_t top,
-                           cs_map *map) {
+celspan_status cs_map_make(celspan_context *context, cs_plan *plan, cs_map *map) {
   maker m = {.context = context, .map = map};
   map->is_whole = true;
-  map->left = left;
-  map->top = top;
   celspan_status status = add_rows(&m, plan);
   if (status == CELSPAN_OK && map->is_whole)
     status = finish_borders(&m);

@@ -9,10 +9,10 @@
  *                             where blue begins on, red | blue
  *
  * No order is kept: each border says by how much the colour changes from its left to its right,
- * so what is right of any set of borders is a sum (sums.h). A map has no flat boundaries, since
- * these change no sum. The programs of gradients and pictures name layers of a stack that the map
- * keeps: its formulas and pictures lie on the raster, and are put into their place in each frame
- * (brush.h).
+ * so what is right of any set of borders is a sum (sums.h). Flat boundaries change no sum: only a
+ * map that is turned has them (flats.h, turn.h). The programs of gradients and pictures name
+ * layers of a stack that the map keeps: its formulas and pictures lie on the raster, and are put
+ * into their place in each frame (brush.h).
  *
  * Units: a raster of the drawing at a scale of its own, in 2^-16 of its pixels. The raster begins
  * at a whole pixel, so that equal boundaries of two drawings at one scale have equal points.
@@ -51,21 +51,37 @@ typedef struct cs_map_border {
   int32_t low, high, foot; /* its least and its greatest x, and its last y */
 } cs_map_border;
 
+typedef struct cs_map_lines {
+  cs_map_border *borders; /* by the y of their first points */
+  cs_map_point *points;
+  size_t border_count, border_capacity;
+  size_t point_count, point_capacity;
+} cs_map_lines;
+
+/* A flat boundary, from `from` to `to` on the right of it. */
+typedef struct cs_map_flat {
+  uint32_t above, below; /* cells, which differ */
+  int32_t y, from, to;
+} cs_map_flat;
+
 typedef struct cs_map {
   atomic_size_t references;
   cs_memory *memory;
-  bool is_whole;          /* false: the drawing cannot be a map, and there is nothing else */
-  int64_t left, top;      /* where the raster begins, in its pixels from the drawing's origin */
-  cs_map_border *borders; /* by the y of their first points */
-  cs_map_point *points;
+  bool is_whole;     /* false: the drawing cannot be a map, and there is nothing else */
+  int64_t left, top; /* where the raster begins, in its pixels from the drawing's origin */
+  cs_map_lines lines;
+  cs_map_flat *flats; /* only of a map that is turned */
   cs_map_cell *cells;
   cs_item *items; /* of the programs */
   cs_stack stack; /* that they name; none where all cells are flat */
-  size_t border_count, border_capacity;
-  size_t point_count, point_capacity;
+  size_t flat_count, flat_capacity;
   size_t cell_count, cell_capacity;
   size_t item_count, item_capacity;
 } cs_map;
+
+void cs_map_lines_finish(cs_map_lines *lines, cs_memory *memory);
+/* Brings the borders into their order. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_map_lines_sort(celspan_context *context, cs_map_lines *lines);
 
 /* An empty map that is not whole. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_map_create(celspan_context *context, cs_map **out);
@@ -75,8 +91,7 @@ size_t cs_map_bytes(const cs_map *map);
 /* Whether a plan of a drawing alone can be a map: paints that dim all channels alike, and no
  * procedures. Those of its textures that vary must do so, too. */
 bool cs_map_suits(const cs_plan *plan);
-/* Fills a map with a plan that suits, whose raster begins at the pixel (left, top). The map is not
- * whole where there are too many cells. Where cells vary it takes over the plan's stack. Errors:
- * NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_map_make(celspan_context *context, cs_plan *plan, int64_t left,
-                                           int64_t top, cs_map *map);
+/* Fills a map with a plan that suits, whose raster begins at the pixel (map->left, map->top). The
+ * map is not whole where there are too many cells. Where cells vary it takes over the plan's stack.
+ * Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_map_make(celspan_context *context, cs_plan *plan, cs_map *map);

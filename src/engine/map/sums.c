@@ -152,7 +152,7 @@ static void add_rows(const swath *s, adding *a, cs_map_place above, cs_map_place
 
 uint32_t cs_map_find_point(const cs_map_drawing *drawing, const cs_map_border *border,
                            int32_t row) {
-  const cs_map_point *points = drawing->map->points + border->first;
+  const cs_map_point *points = drawing->lines->points + border->first;
   uint32_t low = 0, high = border->count;
   while (high - low > 1) {
     uint32_t middle = low + (high - low) / 2;
@@ -167,8 +167,8 @@ uint32_t cs_map_find_point(const cs_map_drawing *drawing, const cs_map_border *b
 /* Adds what a border has in the swath; live->at becomes the point where the next one begins. */
 static void add_border(celspan_context *context, const swath *s, cs_map_live *live) {
   const cs_map *map = s->drawing->map;
-  const cs_map_border *f = &map->borders[live->border];
-  const cs_map_point *points = map->points + f->first;
+  const cs_map_border *f = &s->drawing->lines->borders[live->border];
+  const cs_map_point *points = s->drawing->lines->points + f->first;
   const cs_v4 *colours = s->drawing->colours;
   const cs_map_cell *left = &map->cells[f->left], *right = &map->cells[f->right];
   adding a = {.width = s->sums->width,
@@ -197,10 +197,10 @@ static void add_border(celspan_context *context, const swath *s, cs_map_live *li
 
 /* Drops the borders that end above the swath. */
 static void drop_lives(const swath *s, cs_map_rows *rows) {
-  const cs_map *map = s->drawing->map;
+  const cs_map_lines *lines = s->drawing->lines;
   size_t kept = 0;
   for (size_t i = 0; i < rows->live_count; i++) {
-    const cs_map_border *f = &map->borders[rows->lives[i].border];
+    const cs_map_border *f = &lines->borders[rows->lives[i].border];
     if (cs_map_place_y(s->drawing, f->foot) > s->row)
       rows->lives[kept++] = rows->lives[i];
   }
@@ -209,11 +209,11 @@ static void drop_lives(const swath *s, cs_map_rows *rows) {
 
 /* Adds the borders that begin above the foot of the swath. */
 static celspan_status add_lives(celspan_context *context, const swath *s, cs_map_rows *rows) {
-  const cs_map *map = s->drawing->map;
+  const cs_map_lines *lines = s->drawing->lines;
   int32_t end = s->row + CS_MAP_ROWS;
-  for (; rows->next < map->border_count; rows->next++) {
-    const cs_map_border *f = &map->borders[rows->next];
-    if (cs_map_place_y(s->drawing, map->points[f->first].y) >= end)
+  for (; rows->next < lines->border_count; rows->next++) {
+    const cs_map_border *f = &lines->borders[rows->next];
+    if (cs_map_place_y(s->drawing, lines->points[f->first].y) >= end)
       return CELSPAN_OK;
     if (cs_map_place_y(s->drawing, f->foot) > s->row &&
         cs_map_place_x(s->drawing, f->low) < s->sums->width)
@@ -354,7 +354,7 @@ static void go_to(cs_map_rows *rows, int32_t row) {
     rows->live_count = 0;
   for (size_t i = 0; i < rows->live_count && row != rows->row + CS_MAP_ROWS; i++) {
     cs_map_live *live = &rows->lives[i];
-    live->at = cs_map_find_point(drawing, &drawing->map->borders[live->border], row);
+    live->at = cs_map_find_point(drawing, &drawing->lines->borders[live->border], row);
   }
   rows->row = -1;
 }

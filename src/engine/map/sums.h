@@ -32,11 +32,16 @@
 
 /* A map in its place in a frame. */
 typedef struct cs_map_drawing {
-  cs_map *map; /* a reference */
-  /* Units of the map, from the drawing's origin, to pixels; both scales are above 0. */
+  cs_map *map;               /* a reference */
+  const cs_map_lines *lines; /* those of the map, or turned ones */
+  cs_map_lines turned;       /* owned; empty where the frame shows the map upright */
+  /* Units of the lines to pixels: those of the map from the drawing's origin, which is at -left,
+   * -top. Both scales are above 0. */
   double scale_x, shift_x, scale_y, shift_y;
-  cs_v4 light;           /* that falls on it; lane 3: how opaque it is */
-  const cs_grade *grade; /* NULL: none. Borrowed from the scene */
+  int64_t left, top;
+  celspan_matrix to_raster; /* from pixels to those of the map's raster */
+  cs_v4 light;              /* that falls on it; lane 3: how opaque it is */
+  const cs_grade *grade;    /* NULL: none. Borrowed from the scene */
   celspan_space space;
   cs_v4 *colours; /* of its cells, in the frame's light; 0 where they vary; owned */
   cs_stack stack; /* that of the map, on the pixels of the frame: shades and images are owned, the
@@ -126,12 +131,12 @@ typedef struct cs_map_place {
 } cs_map_place;
 
 static inline double cs_map_place_y(const cs_map_drawing *drawing, int32_t y) {
-  double whole = (double)(drawing->map->top * CS_MAP_UNIT + y);
+  double whole = (double)(drawing->top * CS_MAP_UNIT + y);
   return whole * drawing->scale_y + drawing->shift_y;
 }
 
 static inline double cs_map_place_x(const cs_map_drawing *drawing, int32_t x) {
-  double whole = (double)(drawing->map->left * CS_MAP_UNIT + x);
+  double whole = (double)(drawing->left * CS_MAP_UNIT + x);
   return whole * drawing->scale_x + drawing->shift_x;
 }
 

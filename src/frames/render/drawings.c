@@ -3,7 +3,9 @@
 #include <math.h>
 
 #include "engine/map/brush.h"
+#include "engine/map/flats.h"
 #include "engine/map/keep.h"
+#include "engine/map/turn.h"
 #include "model/geometry/matrix.h"
 #include "model/scene/bounds.h"
 #include "model/scene/value.h"
@@ -54,9 +56,29 @@ typedef struct placed_cel {
   double opacity;
   celspan_space space;     /* of the frame */
   double scale_x, scale_y; /* the drawing's units to pixels of the raster: a power of two, which is
-                              negative where the drawing is mirrored */
+                              negative where an upright drawing is mirrored */
+  int32_t size[2];         /* of the frame */
+  bool is_turned;          /* or sheared */
   bool is_made;            /* the map was made just now */
 } placed_cel;
+
+static const celspan_matrix identity = {{1, 0, 0, 0, 1, 0, 0, 0, 1}};
+
+/* The drawing of a cel, without its place. only, objects: room for it. */
+static celspan_cel drawing_of(const placed_cel *d, celspan_object *only, celspan_object **objects) {
+  celspan_cel drawing;
+  cs_value_copy(&drawing, d->cel, sizeof drawing);
+  drawing.matrix = identity;
+  if (drawing.object_count == 1) {
+    const celspan_object *from = drawing.objects[0];
+    *only = (celspan_object){
+        .hash = from->hash, .mark = from->mark, .data = from->data, .matrix = &identity, .fade = 1};
+    objects[0] = only;
+    drawing.objects = objects;
+    drawing.blends_inside[d->space] = cs_object_blends(only, d->space);
+  }
+  return drawing;
+}
 
 /* The least power of two that is not less than a number. */
 static double power_above(double number) {
@@ -65,21 +87,40 @@ static double power_above(double number) {
   return ldexp(1, fraction == 0.5 ? exponent - 1 : exponent);
 }
 
+/* Rounding does not double the scale of what is turned without being stretched. */
+#define STRETCH_ROUNDING 1e-9
+
+/* The scale of a cel that is turned, sheared or in perspective: that of its largest corner. */
+static bool find_turned_scale(placed_cel *d) {
+  celspan_box box = {0, 0, 0, 0};
+  double stretch = 0;
+  if (!cs_matrix_is_affine(&d->matrix)) {
+    celspan_object only, *objects[1];
+    celspan_cel drawing = drawing_of(d, &only, objects);
+    (void)cs_bounds_around(&drawing, &box);
+  }
+  for (int corner = 0; corner < 4; corner++)
+    stretch = fmax(stretch, cs_matrix_stretch(&d->matrix, box.x + (corner & 1 ? box.width : 0),
+                                              box.y + (corner & 2 ? box.height : 0)));
+  d->scale_x = d->scale_y = power_above(stretch * (1 - STRETCH_ROUNDING));
+  return stretch > 0 && isfinite(d->scale_x);
+}
+
 /* Finds the scale of the cel's map; false where the cel does not suit. */
 static bool find_scale(placed_cel *d) {
   const double *m = d->matrix.m;
-  if (!cs_matrix_is_upright(&d->matrix) || m[0] == 0 || m[4] == 0 || m[8] != 1)
-    return false;
+  d->is_turned = !cs_matrix_is_upright(&d->matrix) || m[8] != 1;
+  if (d->is_turned)
+    return find_turned_scale(d);
   double scale = power_above(fmax(fabs(m[0]), fabs(m[4])));
   d->scale_x = m[0] < 0 ? -scale : scale;
   d->scale_y = m[4] < 0 ? -scale : scale;
-  return true;
+  return m[0] != 0 && m[4] != 0;
 }
 
 /* Finds a raster with a pixel more on each side than a drawing has, and moves the drawing there;
  * false where it is too large. */
-static bool find_raster(celspan_cel *drawing, celspan_space space, int64_t corner[2],
-                        cs_view *out) {
+static bool find_raster(celspan_cel *drawing, celspan_space space, cs_map *map, cs_view *out) {
   celspan_box box = {0, 0, 0, 0};
   (void)cs_bounds_around(drawing, &box); /* nothing is a drawing, too */
   double left = floor(box.x) - 1, width = ceil(box.x + box.width) + 1 - left;
@@ -88,8 +129,8 @@ static bool find_raster(celspan_cel *drawing, celspan_space space, int64_t corne
     return false;
   drawing->matrix.m[2] = -left;
   drawing->matrix.m[5] = -top;
-  corner[0] = (int64_t)left;
-  corner[1] = (int64_t)top;
+  map->left = (int64_t)left;
+  map->top = (int64_t)top;
   *out = (cs_view){.width = (int32_t)width,
                    .height = (int32_t)height,
                    .most_dashes = CS_COMPILE_DASHES,
@@ -101,12 +142,12 @@ static celspan_status make_alone(celspan_context *context, const placed_cel *d,
                                  celspan_cel *drawing, cs_map *map) {
   cs_view raster;
   cs_plan plan;
-  int64_t corner[2];
-  if (!find_raster(drawing, d->space, corner, &raster))
+  if (!find_raster(drawing, d->space, map, &raster))
     return CELSPAN_OK;
   CS_TRY(cs_compile_drawing(context, drawing, d->number, &drawing->matrix, &raster, &plan));
-  celspan_status status =
-      cs_map_suits(&plan) ? cs_map_make(context, &plan, corner[0], corner[1], map) : CELSPAN_OK;
+  celspan_status status = cs_map_suits(&plan) ? cs_map_make(context, &plan, map) : CELSPAN_OK;
+  if (status == CELSPAN_OK && d->is_turned && map->is_whole)
+    status = cs_map_find_flats(context, map);
   cs_compile_free(&plan, context->memory);
   return status;
 }
@@ -115,17 +156,8 @@ static celspan_status make_alone(celspan_context *context, const placed_cel *d,
 static celspan_status make(void *user, celspan_context *context, cs_map *map) {
   placed_cel *d = user;
   d->is_made = true;
-  const celspan_matrix identity = celspan_matrix_identity();
-  celspan_cel drawing;
-  cs_value_copy(&drawing, d->cel, sizeof drawing);
-  celspan_object only = {.matrix = &identity, .fade = 1}, *objects[] = {&only};
-  if (drawing.object_count == 1) {
-    only.hash = drawing.objects[0]->hash;
-    only.mark = drawing.objects[0]->mark;
-    only.data = drawing.objects[0]->data;
-    drawing.objects = objects;
-    drawing.blends_inside[d->space] = cs_object_blends(&only, d->space);
-  }
+  celspan_object only, *objects[1];
+  celspan_cel drawing = drawing_of(d, &only, objects);
   drawing.matrix = (celspan_matrix){{d->scale_x, 0, 0, 0, d->scale_y, 0, 0, 0, 1}};
   return make_alone(context, d, &drawing, map);
 }
@@ -136,6 +168,7 @@ static cs_cache_key key_of(const placed_cel *d) {
   cs_hash hash = cs_hash_begin(0x6d6170u);
   cs_hash_word(&hash, count);
   cs_hash_word(&hash, d->space);
+  cs_hash_word(&hash, d->is_turned);
   for (size_t i = 0; i < count; i++)
     cs_hash_hash(&hash, count == 1 ? objects[i]->data->hash : objects[i]->hash);
   cs_hash_number(&hash, d->scale_x);
@@ -158,16 +191,37 @@ static celspan_status light_cells(celspan_context *context, cs_map_drawing *draw
   return cs_map_brush_place(context, drawing);
 }
 
-static void set_place(const placed_cel *d, cs_map_drawing *out) {
+static void place_upright(const placed_cel *d, cs_map_drawing *out) {
   const double *m = d->matrix.m;
+  out->lines = &out->map->lines;
+  out->left = out->map->left;
+  out->top = out->map->top;
   out->scale_x = m[0] / d->scale_x / CS_MAP_UNIT;
   out->scale_y = m[4] / d->scale_y / CS_MAP_UNIT;
   out->shift_x = m[2];
   out->shift_y = m[5];
+  double across = 1 / (out->scale_x * CS_MAP_UNIT), down = 1 / (out->scale_y * CS_MAP_UNIT);
+  out->to_raster = (celspan_matrix){{across, 0, -out->shift_x * across - (double)out->left, 0, down,
+                                     -out->shift_y * down - (double)out->top, 0, 0, 1}};
 }
 
+/* *suits: whether its lines can be turned. */
+static celspan_status place_turned(celspan_context *context, const placed_cel *d,
+                                   cs_map_drawing *out, bool *suits) {
+  const cs_map *map = out->map;
+  const celspan_matrix to_units =
+      celspan_matrix_then(celspan_matrix_translation((double)map->left, (double)map->top),
+                          celspan_matrix_scaling(1 / d->scale_x, 1 / d->scale_y));
+  const celspan_matrix matrix = celspan_matrix_then(to_units, d->matrix);
+  out->lines = &out->turned;
+  out->scale_x = out->scale_y = 1.0 / CS_MAP_UNIT;
+  *suits = celspan_matrix_inverse(matrix, &out->to_raster);
+  return *suits ? cs_map_turn(context, map, &matrix, d->size, suits, &out->turned) : CELSPAN_OK;
+}
+
+/* *suits: whether the cel can be a map in its place. */
 static celspan_status make_sheet(celspan_context *context, const celspan_rostrum *rostrum,
-                                 placed_cel *d, cs_map_sheet *out) {
+                                 placed_cel *d, cs_map_sheet *out, bool *suits) {
   const cs_light back = cs_scene_back(rostrum, &d->cel->back);
   const cs_light front = cs_scene_front(rostrum, d->cel);
   float opacity = (float)d->opacity;
@@ -179,8 +233,12 @@ static celspan_status make_sheet(celspan_context *context, const celspan_rostrum
   out->back = colour_of(cs_light_in(&back, d->space));
   out->keep = 1 - back.flat.a;
   CS_TRY(cs_map_keep_acquire(context, key_of(d), make, d, &drawing->map));
-  set_place(d, drawing);
-  return drawing->map->is_whole ? light_cells(context, drawing) : CELSPAN_OK;
+  *suits = drawing->map->is_whole;
+  if (*suits && d->is_turned)
+    CS_TRY(place_turned(context, d, drawing, suits));
+  else if (*suits)
+    place_upright(d, drawing);
+  return *suits ? light_cells(context, drawing) : CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- a frame */
@@ -203,6 +261,8 @@ static celspan_status place_cels(celspan_context *context, const celspan_rostrum
     d->number = index + 1;
     d->is_made = false;
     d->space = view->space;
+    d->size[0] = view->width;
+    d->size[1] = view->height;
     CS_TRY(cs_scene_cel_matrix(context, rostrum, index, view->film_width, view->film_height,
                                &d->matrix));
     d->matrix = celspan_matrix_then(d->matrix, to_pixels);
@@ -223,9 +283,8 @@ static celspan_status make_sheets(celspan_context *context, const celspan_rostru
   while (out->count < out->capacity && *suit) {
     cs_map_sheet *sheet = &out->sheets[out->count];
     placed_cel *d = &drawings[out->count++];
-    CS_TRY(make_sheet(context, rostrum, d, sheet));
+    CS_TRY(make_sheet(context, rostrum, d, sheet, suit));
     out->made += d->is_made;
-    *suit = sheet->drawing.map->is_whole;
   }
   return CELSPAN_OK;
 }
@@ -257,6 +316,7 @@ void cs_drawings_finish(cs_map_frame *frame, cs_memory *memory) {
     if (drawing->colours)
       cs_mem_free(memory, drawing->colours, drawing->map->cell_count * sizeof *drawing->colours);
     cs_map_brush_displace(drawing, memory);
+    cs_map_lines_finish(&drawing->turned, memory);
     cs_map_unref(drawing->map);
   }
   cs_mem_free(memory, frame->sheets, frame->capacity * sizeof *frame->sheets);

@@ -9,9 +9,9 @@
  *   - has paints that dim all channels alike, pictures that may be read on any thread, and
  *     neither modes, procedures nor rostrums,
  *   - is neither defocused nor blended, and has no light with a shape,
- *   - is neither rotated, skewed nor put in perspective by its own transform, its viewport, and the
- *     camera together,
- *   - is small enough to be a map (engine/map/map.h), and does not have too many dashes,
+ *   - lies before the horizon, as a whole,
+ *   - is small enough to be a map (engine/map/map.h) and, if it is turned, to be turned (turn.h
+ *     there), and does not have too many dashes,
  * and if they have at least CS_DRAWINGS_SHAPES shapes each, on average, where the mesh of a bent
  * picture or gradient is one, because it is another mesh in each frame. Of fewer shapes most can be
  * seen: to sweep them takes less time than to draw their maps, the more so the more cels there are.

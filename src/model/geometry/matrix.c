@@ -25,6 +25,24 @@ static celspan_matrix scaled(const celspan_matrix *matrix, double factor) {
   return out;
 }
 
+bool cs_matrix_mirrors(const celspan_matrix *matrix) {
+  const double *m = matrix->m;
+  return m[0] * (m[4] * m[8] - m[5] * m[7]) + m[1] * (m[5] * m[6] - m[3] * m[8]) +
+             m[2] * (m[3] * m[7] - m[4] * m[6]) <
+         0;
+}
+
+double cs_matrix_stretch(const celspan_matrix *matrix, double x, double y) {
+  const double *m = matrix->m;
+  cs_hpoint at = cs_matrix_apply(matrix, (cs_hpoint){x, y, 1});
+  if (!(at.w > 0))
+    return INFINITY;
+  double u = at.x / at.w, v = at.y / at.w;
+  double a = m[0] - u * m[6], b = m[1] - u * m[7], c = m[3] - v * m[6], d = m[4] - v * m[7];
+  double squares = a * a + b * b + c * c + d * d, area = a * d - b * c;
+  return sqrt(0.5 * (squares + sqrt(fmax(squares * squares - 4 * area * area, 0)))) / at.w;
+}
+
 celspan_matrix cs_matrix_facing(const celspan_matrix *matrix) {
   bool is_behind = cs_matrix_is_affine(matrix) && matrix->m[8] < 0;
   return is_behind ? scaled(matrix, -1) : *matrix;

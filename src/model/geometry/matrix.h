@@ -32,6 +32,11 @@ static inline bool cs_matrix_keeps_weights(const celspan_matrix *matrix) {
 }
 /* Affine without rotation or skew: rows stay rows and columns columns. */
 bool cs_matrix_is_upright(const celspan_matrix *matrix);
+/* Whether what is clockwise becomes counter-clockwise, in front of the horizon. */
+bool cs_matrix_mirrors(const celspan_matrix *matrix);
+/* By how much lengths at a point are stretched in the direction in which that is most: the greater
+ * singular value of the derivative. INFINITY at the horizon and behind it. */
+double cs_matrix_stretch(const celspan_matrix *matrix, double x, double y);
 /* The same map; an affine one with m8 < 0 gets all its signs changed, so that W > 0. */
 celspan_matrix cs_matrix_facing(const celspan_matrix *matrix);
 /* A rotation by degrees, clockwise on screen, about a centre; quarter turns are exact: no rounded

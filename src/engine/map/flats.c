@@ -1,0 +1,91 @@
+#include "engine/map/flats.h"
+
+#include "base/sort.h"
+
+/* The end of a border: right of it, what is `minus` above is `plus` below. */
+typedef struct change {
+  cs_map_point at;
+  uint32_t minus, plus, number;
+} change;
+
+static inline bool is_before(const change *a, const change *b) {
+  return a->at.y != b->at.y   ? a->at.y < b->at.y
+         : a->at.x != b->at.x ? a->at.x < b->at.x
+                              : a->number < b->number;
+}
+
+CS_SORT_DEFINE(sort_changes, change, is_before)
+
+/* The pairs of cells above and below the place that has been reached, from left to right; in a map
+ * without rounding at most one. */
+typedef struct finder {
+  celspan_context *context;
+  cs_map *map;
+  change *pairs;
+  size_t pair_count, pair_capacity;
+} finder;
+
+static void list_changes(const cs_map_lines *lines, change *out) {
+  for (size_t i = 0; i < lines->border_count; i++) {
+    const cs_map_border *f = &lines->borders[i];
+    const cs_map_point *points = lines->points + f->first;
+    uint32_t number = (uint32_t)(2 * i);
+    out[2 * i] = (change){points[0], f->left, f->right, number};
+    out[2 * i + 1] = (change){points[f->count - 1], f->right, f->left, number + 1};
+  }
+}
+
+/* Joins a change to those before it: from A to B and from B to C is from A to C. */
+static celspan_status join(finder *f, change next) {
+  for (size_t i = 0; i < f->pair_count && next.minus != next.plus;) {
+    if (f->pairs[i].plus == next.minus)
+      next.minus = f->pairs[i].minus;
+    else if (f->pairs[i].minus == next.plus)
+      next.plus = f->pairs[i].plus;
+    else {
+      i++;
+      continue;
+    }
+    f->pairs[i] = f->pairs[--f->pair_count];
+    i = 0;
+  }
+  return next.minus == next.plus
+             ? CELSPAN_OK
+             : CS_APPEND(f->context, f->pairs, f->pair_count, f->pair_capacity, next);
+}
+
+/* The boundaries between two places of one height. */
+static celspan_status add_flats(finder *f, cs_map_point from, int32_t to) {
+  cs_map *map = f->map;
+  for (size_t i = 0; i < f->pair_count; i++) {
+    const cs_map_flat flat = {f->pairs[i].minus, f->pairs[i].plus, from.y, from.x, to};
+    CS_TRY(CS_APPEND(f->context, map->flats, map->flat_count, map->flat_capacity, flat));
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status visit(finder *f, const change *changes, size_t count) {
+  for (size_t i = 0; i < count; i++) {
+    if (i > 0 && changes[i].at.y != changes[i - 1].at.y)
+      f->pair_count = 0;
+    else if (i > 0 && changes[i].at.x > changes[i - 1].at.x)
+      CS_TRY(add_flats(f, changes[i - 1].at, changes[i].at.x));
+    CS_TRY(join(f, changes[i]));
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_map_find_flats(celspan_context *context, cs_map *map) {
+  finder f = {.context = context, .map = map};
+  change *changes;
+  size_t count = 2 * map->lines.border_count;
+  if (count == 0)
+    return CELSPAN_OK;
+  CS_TRY(CS_MAKE(context, changes, count));
+  list_changes(&map->lines, changes);
+  sort_changes(changes, count);
+  celspan_status status = visit(&f, changes, count);
+  cs_mem_free(context->memory, f.pairs, f.pair_capacity * sizeof *f.pairs);
+  cs_mem_free(context->memory, changes, count * sizeof *changes);
+  return status;
+}
