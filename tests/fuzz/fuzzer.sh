@@ -16,18 +16,18 @@ export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 export LSAN_OPTIONS="suppressions=$PWD/tests/support/lsan.supp:print_suppressions=0"
 
 # Each folder of the corpus is a target; its program is named like the folder, up to the first "-".
-# The subproject's corpus is elsewhere.
+# The subprojects' are elsewhere.
 program_of() {
-  if [ "$1" = spanfile ]; then
-    echo "$build/subprojects/spanfile/tests/fuzz_reader"
+  if [ -d "subprojects/$1" ]; then
+    echo "$build/subprojects/$1/tests/fuzz_reader"
   else
     echo "$build/tests/fuzz/fuzz_${1%%-*}"
   fi
 }
 
 corpus_of() {
-  if [ "$1" = spanfile ]; then
-    echo subprojects/spanfile/corpus
+  if [ -d "subprojects/$1" ]; then
+    echo "subprojects/$1/corpus"
   else
     echo "tests/fuzz/corpus/$1"
   fi
@@ -108,7 +108,7 @@ targets=("$@")
 if [ "${#targets[@]}" = 0 ]; then
   mapfile -t targets < <(find tests/fuzz/corpus -mindepth 1 -maxdepth 1 -type d -printf '%f\n' |
     sort)
-  targets+=(spanfile)
+  targets+=(spanfile planefile)
 fi
 for target in "${targets[@]}"; do
   [ -x "$(program_of "$target")" ] || {

@@ -94,6 +94,8 @@ return {
     "example/embed", "example/host", "spec/embedding" },
   ["subprojects/spanfile"] = { "unit/spanfile", "unit/spanfile-corpus", "unit/spanfile-decoder",
     "unit/span_sink", "property/spanfile" },
+  ["subprojects/planefile"] = { "unit/planefile", "unit/planefile-corpus",
+    "unit/planefile-decoder" },
   ["scripts"] = { "golden/golden" },
   ["scripts/film.lua"] = { "spec/little_one" },
   ["scripts/film"] = { "spec/little_one" },

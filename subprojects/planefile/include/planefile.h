@@ -1,0 +1,190 @@
+/* planefile - pictures without a resolution, in a file.
+ *
+ * A plane file holds what can be seen of a drawing: the visible pieces of its boundaries, kept as
+ * curves, each with the colour on its left and on its right. It is drawn at any size, whole or any
+ * crop of it, without being composed again. docs/planefile.md specifies it byte by byte.
+ *
+ * A plane file is cut into bands: heights one above the other, each with all that is in it. So any
+ * part of a large plane is found by its heights, and bands are read one at a time.
+ *
+ * Depends on the C library alone. No globals, no printing; every failure is a status. A plane does
+ * not change once it is read, and threads share it; a drawer belongs to one thread.
+ *
+ * Ownership: borrowed - used during the call and forgotten; new - the caller destroys it.
+ */
+#ifndef PLANEFILE_H
+#define PLANEFILE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum planefile_status {
+  PLANEFILE_OK = 0,
+  PLANEFILE_NO_MEMORY,
+  PLANEFILE_BAD_ARGUMENT, /* the caller's mistake */
+  PLANEFILE_BAD_FILE,     /* truncated, altered, or not a plane file */
+  PLANEFILE_READ_FAILED,  /* the read function returned false */
+  PLANEFILE_WRITE_FAILED  /* the write function returned false */
+} planefile_status;
+
+/* One hook for all memory: block NULL allocates, new_size 0 frees and returns NULL, else resizes.
+ */
+typedef void *(*planefile_resize)(void *user, void *block, size_t old_size, size_t new_size);
+
+/* ---------------------------------------------------------------- planes */
+
+#define PLANEFILE_SIDE (1 << 26)   /* of the frame, in units, across and down */
+#define PLANEFILE_FAR (1 << 28)    /* no coordinate is larger, in either direction */
+#define PLANEFILE_WEIGHT (1 << 28) /* of a point of a plain piece */
+#define PLANEFILE_WHITE 65535      /* of a colour, and what is opaque */
+#define PLANEFILE_BRIGHT (1 << 24) /* no channel is larger, in either direction */
+
+/* From the upper left corner of the frame, downwards. */
+typedef struct planefile_point {
+  int32_t x, y;
+  uint32_t w; /* at least PLANEFILE_WEIGHT / 16 */
+} planefile_point;
+
+/* A Bezier curve over degree + 1 points of its own. It ends no higher than it begins, and comes to
+ * each height between them once. */
+typedef struct planefile_piece {
+  uint32_t point; /* its first one */
+  uint8_t degree; /* 1 to 3; of a rational piece 2 or 3 */
+  bool is_rational;
+} planefile_piece;
+
+/* Pieces that follow each other downwards, each beginning with the last point of the one before. */
+typedef struct planefile_chain {
+  uint32_t piece, piece_count;
+} planefile_chain;
+
+/* A visible part of a chain: the heights [top, foot) of it. Those of one chain do not overlap. */
+typedef struct planefile_border {
+  uint32_t chain;
+  int32_t top, foot;
+  uint32_t left, right; /* cells, which differ */
+} planefile_border;
+
+/* Linear light, premultiplied; the last channel is alpha. */
+typedef struct planefile_cell {
+  int32_t colour[4];
+} planefile_cell;
+
+/* At every height the borders lead from cell 0 to cell 0, which lies around the whole frame. */
+typedef struct planefile_band {
+  int32_t top, foot; /* 0 and PLANEFILE_SIDE of a whole plane */
+  const planefile_point *points;
+  const planefile_piece *pieces;
+  const planefile_chain *chains;
+  const planefile_border *borders; /* of one that was read: by their tops */
+  const planefile_cell *cells;
+  uint32_t point_count, piece_count, chain_count, border_count, cell_count;
+} planefile_band;
+
+/* ---------------------------------------------------------------- writing */
+
+typedef struct planefile_writer_desc {
+  double width, height;                                      /* of the frame, finite, above 0 */
+  bool (*write)(void *user, const void *bytes, size_t size); /* the next bytes; false: failed */
+  void *user;
+  planefile_resize resize; /* NULL: the C library's */
+  void *resize_user;
+} planefile_writer_desc;
+
+/* Writes a plane; desc and plane: borrowed. The bytes are a function of the plane alone. Curves of
+ * which nothing can be seen are left out. BAD_ARGUMENT: the plane is not as described above; that
+ * borders lead from cell 0 to cell 0 is not examined. */
+planefile_status planefile_write(const planefile_writer_desc *desc, const planefile_band *plane);
+
+/* ---------------------------------------------------------------- reading */
+
+typedef struct planefile_plane planefile_plane;
+
+/* Where and why a file is refused. */
+typedef struct planefile_fault {
+  uint64_t offset;  /* of the record of the file where it was found */
+  char reason[120]; /* "band 7: the checksum is wrong" */
+} planefile_fault;
+
+typedef struct planefile_source {
+  /* All bytes of [offset, offset + size), which lies within the file; false: failed. */
+  bool (*read)(void *user, uint64_t offset, void *bytes, size_t size);
+  void *user;
+  uint64_t size;           /* of the file */
+  planefile_resize resize; /* NULL: the C library's */
+  void *resize_user;
+} planefile_source;
+
+typedef struct planefile_info {
+  double width, height;
+  uint32_t band_count;
+  bool is_opaque; /* alpha is PLANEFILE_WHITE everywhere */
+} planefile_info;
+
+/* The bytes from the start that planefile_is needs. */
+enum { PLANEFILE_MAGIC_BYTES = 8 };
+/* Whether a file that begins with these bytes claims to be a plane file. */
+bool planefile_is(const void *bytes, size_t size);
+
+/* Reads header and index, and the bands that have a part of the heights [top, foot), in units: 0
+ * and PLANEFILE_SIDE for all. Every byte that is read is verified. source: borrowed. out: new.
+ * fault: set when the status is not OK; may be NULL. Time is linear in the bytes that are read;
+ * memory is less than 600 times as much, and less than 128 KiB more. */
+planefile_status planefile_read(const planefile_source *source, int32_t top, int32_t foot,
+                                planefile_plane **out, planefile_fault *fault);
+/* NULL is ignored. */
+void planefile_plane_destroy(planefile_plane *plane);
+planefile_info planefile_plane_info(const planefile_plane *plane);
+/* A band, from the top; where it has not been read it has heights and nothing else. */
+const planefile_band *planefile_plane_band(const planefile_plane *plane, uint32_t index);
+
+/* ---------------------------------------------------------------- drawing */
+
+#define PLANEFILE_PIXELS_MOST 2147483647 /* of a view's side */
+
+typedef enum planefile_sampling {
+  PLANEFILE_AREA, /* a pixel is the mean of its area */
+  PLANEFILE_NONE  /* a pixel is the colour at its centre */
+} planefile_sampling;
+
+/* The frame, of width x height pixels, and the crop of it that is drawn. */
+typedef struct planefile_view {
+  uint32_t width, height; /* at least 1 */
+  uint32_t x, y, columns, rows;
+  planefile_sampling sampling;
+} planefile_view;
+
+/* Neighbouring pixels of one colour, from the end of the span before. */
+typedef struct planefile_span {
+  uint32_t end; /* a column of the crop */
+  planefile_cell colour;
+} planefile_span;
+
+typedef struct planefile_drawer planefile_drawer;
+
+/* plane: borrowed until the end; it must have been read at the heights of the crop. The pixels of a
+ * crop are those of the whole, to the bit. out: new. Memory: about 1 MiB, or 48 bytes for each
+ * column of a row, and at most 512 bytes for each border of the plane. */
+planefile_status planefile_drawer_create(const planefile_plane *plane, const planefile_view *view,
+                                         planefile_drawer **out);
+/* NULL is ignored. */
+void planefile_drawer_destroy(planefile_drawer *drawer);
+/* The next row, from the top of the crop; valid until the next call. BAD_ARGUMENT: there is none.
+ * After a failure the drawer can only be destroyed. */
+planefile_status planefile_drawer_row(planefile_drawer *drawer, const planefile_span **spans,
+                                      size_t *count);
+
+/* A colour as 8-bit sRGB codes with straight alpha, and spans as such pixels, 4 bytes each. */
+void planefile_srgb8(const planefile_plane *plane, planefile_cell colour, unsigned char out[4]);
+void planefile_span_pixels(const planefile_plane *plane, const planefile_span *spans, size_t count,
+                           unsigned char *out);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,97 @@
+/* The code of a band: what is coded in which order, by which models.
+ *
+ *   cell 0 | chains: start, number of pieces, cells at the top, pieces | changes, in groups
+ *
+ *           |  chain 4: a | b
+ *         --+-- height          a group: at one height, several chains get other cells on their
+ *        |     |                sides, or are hidden from there on: left and right are one cell
+ *     a|d       d|b
+ *
+ * A chain begins with the cells at its top, or at the band's, and ends at its foot. So only what
+ * happens in between has a height of its own. Most changes are crossings of two chains, whose new
+ * cells are those of before in other places, and one new cell between them: a cell is one of six
+ * candidates, or new, or else an older one.
+ *
+ * INVARIANT: encoder and decoder make their candidates by the same functions.
+ */
+#ifndef PF_BAND_H
+#define PF_BAND_H
+
+#include "coder.h"
+
+enum { PF_FRESH, PF_OLDER, PF_CANDIDATES, PF_SYMBOLS = 8, PF_SYMBOL_BITS = 3 };
+/* Forms of pieces: the degree, and this where they are rational. */
+enum { PF_RATIONAL = 4 };
+
+typedef struct pf_models {
+  pf_number start[2], pieces, moves[2][3][3], weight; /* moves: axis, degree, point */
+  pf_number channels[4], older, height, size, first, next;
+  uint16_t forms[8][8];           /* after each */
+  uint16_t cells[14][PF_SYMBOLS]; /* pf_context */
+} pf_models;
+
+static inline void pf_models_begin(pf_models *models) {
+  uint16_t *all = (uint16_t *)models;
+  for (size_t i = 0; i < sizeof *models / sizeof *all; i++)
+    all[i] = PF_EVEN;
+}
+
+/* The cells beside a chain; one twice: it is hidden. */
+typedef struct pf_sides {
+  uint32_t left, right;
+} pf_sides;
+
+/* What the candidates for the sides of a chain are made from. */
+typedef struct pf_near {
+  pf_sides own;    /* what it had before */
+  pf_sides other;  /* what another one had before */
+  pf_sides latest; /* what the one before it has got */
+} pf_near;
+
+/* left: of the chain, already known where is_right. */
+static inline uint32_t pf_candidate(const pf_near *near, bool is_right, uint32_t left,
+                                    uint32_t symbol) {
+  const uint32_t candidates[PF_SYMBOLS] = {0,
+                                           0,
+                                           is_right ? left : near->own.left,
+                                           near->own.right,
+                                           near->other.left,
+                                           near->other.right,
+                                           near->latest.left,
+                                           near->latest.right};
+  return candidates[symbol];
+}
+
+/* Of chains at their tops. */
+#define PF_AT_TOP 0
+/* Of member `index` of a group of `size`; right: the next one. */
+static inline unsigned pf_context(uint32_t size, uint32_t index) {
+  uint32_t kind = size < 3 ? size - 1 : 2;
+  return 2 + 4 * kind + 2 * (index > 0);
+}
+
+/* The chain whose old cells are candidates for member `index` of a group. */
+static inline uint32_t pf_other(uint32_t size, uint32_t index) {
+  return index > 0 ? index - 1 : size > 1 ? 1 : 0;
+}
+
+/* A band as it was read, all of it owned. */
+typedef struct pf_band {
+  planefile_band band;
+  size_t point_capacity, piece_capacity, chain_capacity, border_capacity, cell_capacity;
+} pf_band;
+
+/* Decodes the payload of a band. out: empty; must be freed whatever happens. reason: set where the
+ * status is not OK. */
+planefile_status pf_band_decode(const pf_memory *memory, const unsigned char *payload, size_t size,
+                                pf_band *out, const char **reason);
+void pf_band_free(const pf_memory *memory, pf_band *band);
+
+/* Encodes the parts of `plane` that lie in the heights [top, foot). borders: all that have a part
+ * there, of which no two of one chain overlap. The payload is in the encoder's bytes, after
+ * PF_BAND_BYTES that are counted, too. */
+planefile_status pf_band_encode(const pf_memory *memory, const planefile_band *plane,
+                                const planefile_border *borders, size_t count, int32_t top,
+                                int32_t foot, pf_encoder *out);
+
+#endif

@@ -1,0 +1,56 @@
+/* Chords of a piece at the size at which it is drawn.
+ *
+ *      o  vertices lie beside the curve, at even steps of its parameter, displaced outwards so that
+ *     /.  the area left of the chords is that left of the curve. The ends of a piece lie on it, and
+ *    o .  the chords there are shorter by a square root of 2: then the displacement of their other
+ *     \.  ends makes up for all of the area.
+ *      o
+ *
+ * INVARIANT: a vertex is a function of the piece, the size of the frame and its own number, so
+ * that it does not matter which of them are made.
+ */
+#ifndef PF_CHORDS_H
+#define PF_CHORDS_H
+
+#include "layout.h"
+
+#define PF_HEIGHT 65536 /* of a row: heights are multiples of 1 / it */
+
+/* A piece in pixels of the frame. */
+typedef struct pf_curve {
+  double x[4], y[4], w[4]; /* coefficients of powers; homogeneous where it is rational */
+  double x0, x1;           /* at its ends */
+  int64_t y0, y1;          /* in HEIGHTths of a row */
+  double low, high;        /* no point of it is outside, in x */
+  double step;             /* of the parameter */
+  uint32_t chords;
+  bool is_rational;
+} pf_curve;
+
+typedef struct pf_vertex {
+  double x;
+  int64_t y; /* HEIGHTths of a row */
+} pf_vertex;
+
+/* Units of a plane to pixels. */
+typedef struct pf_scale {
+  double x, y;
+} pf_scale;
+
+/* points: degree + 1. */
+void pf_curve_make(const planefile_point *points, const planefile_piece *piece, pf_scale scale,
+                   pf_curve *out);
+/* Makes one chord of a curve. */
+static inline void pf_curve_straighten(pf_curve *curve) { curve->chords = 1; }
+/* Vertex 0 to `chords`. */
+pf_vertex pf_curve_vertex(const pf_curve *curve, uint32_t vertex);
+/* The chord that begins at a height or above it, and ends below. */
+uint32_t pf_curve_find(const pf_curve *curve, int64_t y);
+
+static inline int64_t pf_height(double units, double scale) {
+  double y = units * scale * PF_HEIGHT + 0.5;
+  int64_t whole = (int64_t)y;
+  return whole - ((double)whole > y);
+}
+
+#endif

@@ -1,0 +1,386 @@
+/* Rows of a plane: sums of what its borders change.
+ *
+ *      border             pixel p           p + 1
+ *                   +-----------/-----+-----------------+    right of a border the colour changes
+ *                   |          /######|#################|    by right - left, in the area that is
+ *                   |   left  / right |                 |    marked: pixel p gets that times its
+ *                   |        /########|#################|    area, and pixel p + 1 what is left of
+ *                   +-------/---------+-----------------+    the border's height
+ *
+ * The colour of a pixel is the sum of all pixels up to it. Several rows are summed together; a
+ * pixel to which nothing was added has the colour of the one before it.
+ *
+ * INVARIANT: sums are integers modulo 2^64, so that they do not depend on any order, and areas are
+ * functions of the chord, the row and the column alone: a crop has the pixels of the whole.
+ */
+#include <math.h>
+
+#include "chords.h"
+#include "plane.h"
+
+enum { ROWS_MOST = 16, ROOM = 1 << 20 /* bytes of sums, about */ };
+
+typedef struct sum {
+  uint64_t channels[4]; /* times HEIGHT */
+} sum;
+
+/* A border that crosses the rows being made, and where it is. */
+typedef struct live {
+  const planefile_band *band;
+  uint32_t border, piece, chord; /* chord: the vertex that ends the current one */
+  int64_t foot;                  /* of the border */
+  pf_vertex from, to;            /* the current chord */
+  int64_t y;                     /* all above is done */
+  pf_curve curve;
+} live;
+
+struct planefile_drawer {
+  const planefile_plane *plane;
+  planefile_view view;
+  pf_scale scale;
+  uint32_t band, border; /* those before have begun */
+  live *lives;
+  size_t live_count, live_capacity;
+  sum *sums; /* of `group` rows, each of columns + 1 pixels */
+  uint64_t *bits;
+  size_t words;               /* of a row's bits */
+  uint32_t group, made, next; /* rows: of a group, begun so far, given so far */
+  planefile_span *spans;
+};
+
+/* ---------------------------------------------------------------- sums */
+
+/* Adds to pixel `column` of the crop a share of the change from one cell to another. */
+static inline void add(planefile_drawer *d, uint32_t row, uint32_t column, const int32_t change[4],
+                       int64_t area) {
+  size_t at = (size_t)row * (d->view.columns + 1) + column;
+  for (int c = 0; c < 4; c++)
+    d->sums[at].channels[c] += (uint64_t)(change[c] * area);
+  d->bits[row * d->words + column / 64] |= UINT64_C(1) << column % 64;
+}
+
+/* The integral of how much of the interval [0, 1] is below u. */
+static inline double integral(double u) { return u <= 0 ? 0 : u >= 1 ? u - 0.5 : 0.5 * u * u; }
+
+/* What share of a line from x = low to high is left of `edge`, and how far: 0 to 1. */
+static inline double share_left(double low, double high, double edge) {
+  if (high - low < 1e-6) {
+    double u = edge - 0.5 * (low + high);
+    return u < 0 ? 0 : u > 1 ? 1 : u;
+  }
+  return (integral(edge - low) - integral(edge - high)) / (high - low);
+}
+
+/* A line within a row. */
+static void add_line(planefile_drawer *d, uint32_t row, double a, double b, int64_t height,
+                     const int32_t change[4]) {
+  double low = a < b ? a : b, high = a < b ? b : a;
+  double left = d->view.x, right = left + d->view.columns;
+  if (low >= right)
+    return;
+  uint32_t column = low > left ? (uint32_t)(floor(low) - left) : 0;
+  int64_t before = 0;
+  for (; column < d->view.columns && left + column < high; column++) {
+    int64_t area = (int64_t)((double)height * share_left(low, high, left + column + 1) + 0.5);
+    add(d, row, column, change, area - before);
+    before = area;
+  }
+  if (column < d->view.columns)
+    add(d, row, column, change, height - before);
+}
+
+/* A line that crosses the height of a row's centres changes all pixels whose centre is right of
+ * it. */
+static void add_centre(planefile_drawer *d, uint32_t row, double x, const int32_t change[4]) {
+  double column = ceil(x - 0.5) - d->view.x;
+  if (column < d->view.columns)
+    add(d, row, column > 0 ? (uint32_t)column : 0, change, PF_HEIGHT);
+}
+
+/* ---------------------------------------------------------------- borders */
+
+static double x_at(const live *l, int64_t y) {
+  if (y == l->to.y)
+    return l->to.x;
+  double slope = (l->to.x - l->from.x) / (double)(l->to.y - l->from.y);
+  return l->from.x + slope * (double)(y - l->from.y);
+}
+
+static void find_change(const live *l, int32_t change[4]) {
+  const planefile_border *border = &l->band->borders[l->border];
+  const planefile_cell *left = &l->band->cells[border->left];
+  const planefile_cell *right = &l->band->cells[border->right];
+  for (int c = 0; c < 4; c++)
+    change[c] = right->colour[c] - left->colour[c];
+}
+
+/* Draws the current chord down to a height that it reaches. top: of the rows being made. */
+static void draw_chord(planefile_drawer *d, live *l, int64_t top, int64_t foot,
+                       const int32_t change[4]) {
+  while (l->y < foot) {
+    int64_t row = (l->y - top) / PF_HEIGHT, end = top + (row + 1) * PF_HEIGHT;
+    int64_t centre = end - PF_HEIGHT / 2;
+    end = end < foot ? end : foot;
+    if (d->view.sampling == PLANEFILE_AREA)
+      add_line(d, (uint32_t)row, x_at(l, l->y), x_at(l, end), end - l->y, change);
+    else if (l->y <= centre && centre < end)
+      add_centre(d, (uint32_t)row, x_at(l, centre), change);
+    l->y = end;
+  }
+}
+
+/* Goes to a piece. One that is all outside the crop needs no more than its ends. */
+static void enter_piece(const planefile_drawer *d, live *l, uint32_t piece) {
+  const planefile_piece *of = &l->band->pieces[piece];
+  pf_curve_make(&l->band->points[of->point], of, d->scale, &l->curve);
+  if (l->curve.high < d->view.x - 1.0 || l->curve.low > (double)d->view.x + d->view.columns + 1)
+    pf_curve_straighten(&l->curve);
+  l->piece = piece;
+  l->chord = 1;
+  l->from = pf_curve_vertex(&l->curve, 0);
+  l->to = pf_curve_vertex(&l->curve, 1);
+}
+
+/* Goes to the next chord; false at the chain's end. */
+static bool next_chord(const planefile_drawer *d, live *l) {
+  const planefile_chain *chain = &l->band->chains[l->band->borders[l->border].chain];
+  if (l->chord == l->curve.chords) {
+    if (l->piece + 1 == chain->piece + chain->piece_count)
+      return false;
+    enter_piece(d, l, l->piece + 1);
+    return true;
+  }
+  l->from = l->to;
+  l->to = pf_curve_vertex(&l->curve, ++l->chord);
+  l->to.y = l->to.y > l->from.y ? l->to.y : l->from.y; /* whatever is rounded */
+  return true;
+}
+
+static int64_t piece_foot(const planefile_drawer *d, const planefile_band *band, uint32_t piece) {
+  const planefile_piece *of = &band->pieces[piece];
+  return pf_height(band->points[of->point + of->degree].y, d->scale.y);
+}
+
+/* Goes to the chord at the height l->y, which is above the chain's foot. */
+static void seek(const planefile_drawer *d, live *l) {
+  const planefile_chain *chain = &l->band->chains[l->band->borders[l->border].chain];
+  uint32_t low = chain->piece, high = low + chain->piece_count - 1;
+  while (low < high) {
+    uint32_t middle = low + (high - low) / 2;
+    if (piece_foot(d, l->band, middle) > l->y)
+      high = middle;
+    else
+      low = middle + 1;
+  }
+  enter_piece(d, l, low);
+  l->chord = pf_curve_find(&l->curve, l->y) + 1;
+  l->from = pf_curve_vertex(&l->curve, l->chord - 1);
+  l->to = pf_curve_vertex(&l->curve, l->chord);
+  l->to.y = l->to.y > l->from.y ? l->to.y : l->from.y;
+}
+
+/* Draws a border in the rows [top, foot). */
+static void draw_border(planefile_drawer *d, live *l, int64_t top, int64_t foot) {
+  int32_t change[4];
+  find_change(l, change);
+  foot = l->foot < foot ? l->foot : foot;
+  while (l->y < foot) {
+    draw_chord(d, l, top, l->to.y < foot ? l->to.y : foot, change);
+    if (l->y < foot && !next_chord(d, l))
+      return;
+  }
+}
+
+/* ---------------------------------------------------------------- rows */
+
+/* Adds a border to those that live, unless it ends above. top: of the rows being made. */
+static planefile_status begin_border(planefile_drawer *d, const planefile_band *band,
+                                     uint32_t index, int64_t top) {
+  const planefile_border *border = &band->borders[index];
+  int64_t y = pf_height(border->top, d->scale.y), foot = pf_height(border->foot, d->scale.y);
+  y = y > top ? y : top;
+  if (foot <= y)
+    return PLANEFILE_OK;
+  live *lives =
+      pf_grow(&d->plane->memory, d->lives, sizeof *lives, &d->live_capacity, d->live_count + 1);
+  if (!lives)
+    return PLANEFILE_NO_MEMORY;
+  d->lives = lives;
+  live *l = &d->lives[d->live_count++];
+  *l = (live){.band = band, .border = index, .foot = foot, .y = y};
+  seek(d, l);
+  return PLANEFILE_OK;
+}
+
+/* Begins all borders whose tops are above a height. */
+static planefile_status begin_borders(planefile_drawer *d, int64_t top, int64_t foot) {
+  planefile_status status = PLANEFILE_OK;
+  for (; d->band < d->plane->info.band_count; d->band++, d->border = 0) {
+    const planefile_band *band = &d->plane->bands[d->band].band;
+    if (pf_height(band->foot, d->scale.y) <= top)
+      continue;
+    for (; d->border < band->border_count; d->border++) {
+      if (pf_height(band->borders[d->border].top, d->scale.y) >= foot)
+        return status;
+      status = begin_border(d, band, d->border, top);
+      if (status != PLANEFILE_OK)
+        return status;
+    }
+    if (pf_height(band->foot, d->scale.y) > foot)
+      return status;
+  }
+  return status;
+}
+
+/* The sums of the next rows. */
+static planefile_status make_rows(planefile_drawer *d) {
+  int64_t top = ((int64_t)d->view.y + d->made) * PF_HEIGHT;
+  uint32_t rows = d->view.rows - d->made;
+  rows = rows < d->group ? rows : d->group;
+  int64_t foot = top + (int64_t)rows * PF_HEIGHT;
+  planefile_status status = begin_borders(d, top, foot);
+  if (status != PLANEFILE_OK)
+    return status;
+  size_t kept = 0;
+  for (size_t i = 0; i < d->live_count; i++) {
+    draw_border(d, &d->lives[i], top, foot);
+    if (d->lives[i].foot > foot && kept++ < i)
+      d->lives[kept - 1] = d->lives[i];
+  }
+  d->live_count = kept;
+  d->made += rows;
+  return PLANEFILE_OK;
+}
+
+static inline uint32_t lowest_bit(uint64_t bits) {
+#if defined(__GNUC__)
+  return (uint32_t)__builtin_ctzll(bits);
+#else
+  uint32_t at = 0;
+  for (; !(bits & 1); bits >>= 1)
+    at++;
+  return at;
+#endif
+}
+
+/* Adds to the sum what was added to a pixel, which is cleared. */
+static planefile_cell take(sum *total, sum *at) {
+  planefile_cell out;
+  for (int c = 0; c < 4; c++) {
+    total->channels[c] += at->channels[c];
+    at->channels[c] = 0;
+    int64_t rounded = (int64_t)(total->channels[c] + PF_HEIGHT / 2);
+    out.colour[c] = (int32_t)(rounded >> 16);
+  }
+  return out;
+}
+
+static bool is_same(const planefile_cell *a, const planefile_cell *b) {
+  return memcmp(a, b, sizeof *a) == 0;
+}
+
+/* Reads the sums of a row of the group; returns the number of spans. */
+static size_t read_row(planefile_drawer *d, uint32_t row) {
+  planefile_cell base = d->plane->base;
+  sum total, *sums = &d->sums[(size_t)row * (d->view.columns + 1)];
+  planefile_span span = {0, base};
+  size_t count = 0;
+  for (int c = 0; c < 4; c++)
+    total.channels[c] = (uint64_t)(base.colour[c] * (int64_t)PF_HEIGHT);
+  for (size_t word = 0; word < d->words; word++) {
+    uint64_t bits = d->bits[row * d->words + word];
+    d->bits[row * d->words + word] = 0;
+    for (; bits; bits &= bits - 1) {
+      uint32_t column = (uint32_t)word * 64 + lowest_bit(bits);
+      planefile_cell colour = take(&total, &sums[column]);
+      if (is_same(&colour, &span.colour))
+        continue;
+      span.end = column;
+      if (column > 0)
+        d->spans[count++] = span;
+      span.colour = colour;
+    }
+  }
+  span.end = d->view.columns;
+  d->spans[count++] = span;
+  return count;
+}
+
+planefile_status planefile_drawer_row(planefile_drawer *d, const planefile_span **spans,
+                                      size_t *count) {
+  if (d->next == d->view.rows)
+    return PLANEFILE_BAD_ARGUMENT;
+  if (d->next == d->made) {
+    planefile_status status = make_rows(d);
+    if (status != PLANEFILE_OK)
+      return status;
+  }
+  *count = read_row(d, d->next++ % d->group);
+  *spans = d->spans;
+  return PLANEFILE_OK;
+}
+
+/* ---------------------------------------------------------------- life */
+
+static bool is_view(const planefile_view *v) {
+  return v->width > 0 && v->height > 0 && v->width <= PLANEFILE_PIXELS_MOST &&
+         v->height <= PLANEFILE_PIXELS_MOST && v->columns > 0 && v->rows > 0 && v->x < v->width &&
+         v->columns <= v->width - v->x && v->y < v->height && v->rows <= v->height - v->y &&
+         v->sampling <= PLANEFILE_NONE;
+}
+
+/* Whether the bands at the heights of a view have been read. */
+static bool has_bands(const planefile_plane *plane, const planefile_view *v, pf_scale scale) {
+  int64_t top = (int64_t)v->y * PF_HEIGHT, foot = ((int64_t)v->y + v->rows) * PF_HEIGHT;
+  for (uint32_t i = 0; i < plane->info.band_count; i++) {
+    const planefile_band *band = &plane->bands[i].band;
+    if (pf_height(band->top, scale.y) < foot && pf_height(band->foot, scale.y) > top &&
+        band->cell_count == 0)
+      return false;
+  }
+  return true;
+}
+
+static bool make_sums(planefile_drawer *d) {
+  size_t width = (size_t)d->view.columns + 1, rows = ROOM / (width * sizeof *d->sums);
+  d->group = rows < 1 ? 1 : rows > ROWS_MOST ? ROWS_MOST : (uint32_t)rows;
+  d->words = width / 64 + 1;
+  d->sums = pf_make(&d->plane->memory, sizeof *d->sums, width * d->group);
+  d->bits = pf_make(&d->plane->memory, sizeof *d->bits, d->words * d->group);
+  d->spans = pf_make(&d->plane->memory, sizeof *d->spans, width);
+  return d->sums && d->bits && d->spans;
+}
+
+planefile_status planefile_drawer_create(const planefile_plane *plane, const planefile_view *view,
+                                         planefile_drawer **out) {
+  *out = NULL;
+  if (!is_view(view))
+    return PLANEFILE_BAD_ARGUMENT;
+  pf_scale scale = {(double)view->width / PLANEFILE_SIDE, (double)view->height / PLANEFILE_SIDE};
+  if (!has_bands(plane, view, scale))
+    return PLANEFILE_BAD_ARGUMENT;
+  planefile_drawer *d = pf_make(&plane->memory, sizeof *d, 1);
+  if (!d)
+    return PLANEFILE_NO_MEMORY;
+  d->plane = plane;
+  d->view = *view;
+  d->scale = scale;
+  if (!make_sums(d)) {
+    planefile_drawer_destroy(d);
+    return PLANEFILE_NO_MEMORY;
+  }
+  *out = d;
+  return PLANEFILE_OK;
+}
+
+void planefile_drawer_destroy(planefile_drawer *d) {
+  if (!d)
+    return;
+  const pf_memory *memory = &d->plane->memory;
+  size_t width = (size_t)d->view.columns + 1;
+  pf_free(memory, d->lives, sizeof *d->lives, d->live_capacity);
+  pf_free(memory, d->sums, sizeof *d->sums, width * d->group);
+  pf_free(memory, d->bits, sizeof *d->bits, d->words * d->group);
+  pf_free(memory, d->spans, sizeof *d->spans, width);
+  pf_free(memory, d, sizeof *d, 1);
+}

@@ -1,0 +1,87 @@
+/* The bytes of a plane file, as docs/planefile.md specifies them, and the memory of its readers and
+ * writers.
+ *
+ *   file       header (40) | records of bands ... | record of the index | trailer (32)
+ *   a record   kind (1) | size of the payload (4) | payload | checksum (4)
+ *
+ *   payload of 'B'   top, foot, numbers of chains, pieces, cells, changes, borders (4 each) | code
+ *   payload of 'I'   entries: top (4) | offset (8)
+ *
+ * INVARIANT: all numbers are little endian, whatever the machine.
+ */
+#ifndef PF_LAYOUT_H
+#define PF_LAYOUT_H
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "planefile.h"
+
+enum {
+  PF_HEADER_BYTES = 40,
+  PF_TRAILER_BYTES = 32,
+  PF_HEAD_BYTES = 5, /* of a record */
+  PF_CHECK_BYTES = 4,
+  PF_BAND_BYTES = 28, /* before the code */
+  PF_ENTRY_BYTES = 12,
+  PF_VERSION = 1,
+  PF_OPAQUE = 1, /* a flag of the header */
+  PF_PAID = 4,   /* things of a kind that a byte of code pays for */
+  PF_GROUP = 8,  /* changes in a group, at most */
+  PF_BAND = 'B',
+  PF_INDEX = 'I'
+};
+
+static const unsigned char pf_magic[8] = {'c', 'e', 'l', 'p', 'l', 'a', 'n', 'e'};
+static const unsigned char pf_end_magic[8] = {'p', 'l', 'a', 'n', 'e', 'e', 'n', 'd'};
+
+static inline void pf_store_32(unsigned char *at, uint32_t number) {
+  for (int i = 0; i < 4; i++)
+    at[i] = (unsigned char)(number >> 8 * i);
+}
+static inline void pf_store_64(unsigned char *at, uint64_t number) {
+  pf_store_32(at, (uint32_t)number);
+  pf_store_32(at + 4, (uint32_t)(number >> 32));
+}
+static inline uint32_t pf_load_32(const unsigned char *at) {
+  return at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
+}
+static inline uint64_t pf_load_64(const unsigned char *at) {
+  return pf_load_32(at) | (uint64_t)pf_load_32(at + 4) << 32;
+}
+static inline void pf_store_double(unsigned char *at, double number) {
+  uint64_t bits;
+  memcpy(&bits, &number, sizeof bits);
+  pf_store_64(at, bits);
+}
+static inline double pf_load_double(const unsigned char *at) {
+  uint64_t bits = pf_load_64(at);
+  double number;
+  memcpy(&number, &bits, sizeof number);
+  return number;
+}
+
+/* CRC-32C, continued from `sum`, which is 0 at the beginning. */
+uint32_t pf_crc32c(uint32_t sum, const void *bytes, size_t size);
+/* Of a record with its head: that of the record's offset, too, so that it is refused elsewhere. */
+uint32_t pf_crc32c_record(uint64_t offset, const void *bytes, size_t size);
+
+/* ---------------------------------------------------------------- memory */
+
+typedef struct pf_memory {
+  planefile_resize resize; /* never NULL */
+  void *user;
+} pf_memory;
+
+pf_memory pf_memory_of(planefile_resize resize, void *user);
+/* Returns the block with room for at least `count` things of a size, or NULL: no memory, and the
+ * block is as it was. *capacity: in things. */
+void *pf_grow(const pf_memory *memory, void *block, size_t size, size_t *capacity, size_t count);
+/* New things, all 0; at least one. NULL: no memory. */
+void *pf_make(const pf_memory *memory, size_t size, size_t count);
+static inline void pf_free(const pf_memory *memory, void *block, size_t size, size_t count) {
+  if (block)
+    memory->resize(memory->user, block, size * (count > 0 ? count : 1), 0);
+}
+
+#endif

@@ -1,0 +1,379 @@
+/* A band to its code.
+ *
+ *   borders --by chain--> chains of the band --by x--> numbered --> code of curves
+ *                                      \--their changes, by height, in groups--> code of changes
+ *
+ * Pieces of a chain of which nothing can be seen are left out, or one line where they are between
+ * others.
+ */
+#include "band.h"
+
+/* A chain of the band: its borders are neighbours in the list of all. */
+typedef struct shown {
+  const planefile_border *borders;
+  uint32_t count;
+  uint32_t piece, end; /* the first of its pieces that is needed, and after the last one */
+  int64_t place;       /* twice its mean x */
+  pf_sides sides;
+  int32_t top, foot; /* of what is kept of it */
+} shown;
+
+/* From a height on a chain has other cells. */
+typedef struct change {
+  int32_t height;
+  uint32_t chain; /* of the band */
+  pf_sides sides; /* of the plane */
+} change;
+
+typedef struct packer {
+  const pf_memory *memory;
+  const planefile_band *plane;
+  int32_t top, foot;
+  planefile_border *borders;
+  shown *chains;
+  change *changes;
+  uint32_t *cells; /* of each cell of the plane: its number in the band plus 1; 0: none yet */
+  size_t border_count, chain_count, change_count, change_capacity;
+  uint32_t piece_count, cell_count;
+  uint32_t form;
+  planefile_cell colour; /* of the latest cell */
+  pf_models models;
+  pf_encoder *out;
+} packer;
+
+/* ---------------------------------------------------------------- order */
+
+static int order_of(int64_t a, int64_t b) { return (a > b) - (a < b); }
+
+static int compare_borders(const void *first, const void *second) {
+  const planefile_border *a = first, *b = second;
+  int by_chain = order_of(a->chain, b->chain);
+  return by_chain ? by_chain : order_of(a->top, b->top);
+}
+
+static int compare_chains(const void *first, const void *second) {
+  const shown *a = first, *b = second;
+  int by_place = order_of(a->place, b->place);
+  return by_place ? by_place : order_of(a->borders->chain, b->borders->chain);
+}
+
+static int compare_changes(const void *first, const void *second) {
+  const change *a = first, *b = second;
+  int by_height = order_of(a->height, b->height);
+  return by_height ? by_height : order_of(a->chain, b->chain);
+}
+
+/* ---------------------------------------------------------------- chains */
+
+static const planefile_point *first_of(const packer *p, uint32_t piece) {
+  return &p->plane->points[p->plane->pieces[piece].point];
+}
+static const planefile_point *last_of(const packer *p, uint32_t piece) {
+  const planefile_piece *of = &p->plane->pieces[piece];
+  return &p->plane->points[of->point + of->degree];
+}
+
+/* Whether a piece has a part of the heights of one of a chain's borders; *from: that border, or one
+ * before it. */
+static bool is_needed(const packer *p, const shown *c, uint32_t piece, uint32_t *from) {
+  int32_t top = first_of(p, piece)->y, foot = last_of(p, piece)->y;
+  while (*from < c->count && c->borders[*from].foot <= top)
+    ++*from;
+  return *from < c->count && c->borders[*from].top < foot && top < foot;
+}
+
+static void trim(const packer *p, shown *c) {
+  const planefile_chain *chain = &p->plane->chains[c->borders->chain];
+  uint32_t end = chain->piece + chain->piece_count, border = 0;
+  c->piece = c->end = end;
+  for (uint32_t i = chain->piece; i < end; i++)
+    if (is_needed(p, c, i, &border)) {
+      c->piece = c->piece < i ? c->piece : i;
+      c->end = i + 1;
+    }
+  const planefile_point *first = first_of(p, c->piece), *last = last_of(p, c->end - 1);
+  c->top = first->y > p->top ? first->y : p->top;
+  c->foot = last->y < p->foot ? last->y : p->foot;
+  c->place = (int64_t)first->x + last->x;
+}
+
+/* Clips the borders to the band and finds its chains. */
+static bool find_chains(packer *p, const planefile_border *borders, size_t count) {
+  p->borders = pf_make(p->memory, sizeof *p->borders, count);
+  p->chains = pf_make(p->memory, sizeof *p->chains, count);
+  p->border_count = count;
+  if (!p->borders || !p->chains)
+    return false;
+  for (size_t i = 0; i < count; i++) {
+    planefile_border *b = &p->borders[i];
+    *b = borders[i];
+    b->top = b->top > p->top ? b->top : p->top;
+    b->foot = b->foot < p->foot ? b->foot : p->foot;
+  }
+  qsort(p->borders, count, sizeof *p->borders, compare_borders);
+  for (size_t i = 0; i < count; i++) {
+    if (i == 0 || p->borders[i].chain != p->borders[i - 1].chain)
+      p->chains[p->chain_count++] = (shown){.borders = &p->borders[i]};
+    p->chains[p->chain_count - 1].count++;
+  }
+  for (size_t i = 0; i < p->chain_count; i++)
+    trim(p, &p->chains[i]);
+  qsort(p->chains, p->chain_count, sizeof *p->chains, compare_chains);
+  return true;
+}
+
+/* ---------------------------------------------------------------- changes */
+
+static bool add_change(packer *p, int32_t height, size_t chain, pf_sides sides) {
+  change *changes =
+      pf_grow(p->memory, p->changes, sizeof *changes, &p->change_capacity, p->change_count + 1);
+  if (!changes)
+    return false;
+  p->changes = changes;
+  p->changes[p->change_count++] = (change){height, (uint32_t)chain, sides};
+  return true;
+}
+
+/* Finds what a chain begins with, and all that happens to it. */
+static bool find_changes(packer *p, size_t index) {
+  shown *c = &p->chains[index];
+  int32_t height = c->top;
+  c->sides = (pf_sides){0, 0};
+  for (uint32_t i = 0; i < c->count; i++) {
+    const planefile_border *b = &c->borders[i];
+    pf_sides sides = {b->left, b->right};
+    if (b->top > height && i > 0 &&
+        !add_change(p, height, index, (pf_sides){c->borders[i - 1].left, c->borders[i - 1].left}))
+      return false;
+    if (b->top == c->top)
+      c->sides = sides;
+    else if (!add_change(p, b->top, index, sides))
+      return false;
+    height = b->foot;
+  }
+  const planefile_border *last = &c->borders[c->count - 1];
+  return height >= c->foot || add_change(p, height, index, (pf_sides){last->left, last->left});
+}
+
+/* ---------------------------------------------------------------- code of cells */
+
+static void put_fresh(packer *p, uint32_t cell) {
+  const planefile_cell *of = &p->plane->cells[cell];
+  p->cells[cell] = ++p->cell_count;
+  for (int c = 0; c < 4; c++)
+    pf_put_signed(p->out, &p->models.channels[c], (int64_t)of->colour[c] - p->colour.colour[c]);
+  p->colour = *of;
+}
+
+/* Cells are numbers of the plane here, in candidates, too. */
+static void put_cell(packer *p, const pf_near *near, unsigned context, uint32_t left,
+                     uint32_t cell) {
+  uint16_t *tree = p->models.cells[context];
+  uint32_t symbol = PF_CANDIDATES, number = p->cells[cell];
+  while (symbol < PF_SYMBOLS && pf_candidate(near, context & 1, left, symbol) != cell)
+    symbol++;
+  if (number == 0)
+    symbol = PF_FRESH;
+  else if (symbol == PF_SYMBOLS)
+    symbol = PF_OLDER;
+  pf_put_symbol(p->out, tree, PF_SYMBOL_BITS, symbol);
+  if (symbol == PF_FRESH)
+    put_fresh(p, cell);
+  else if (symbol == PF_OLDER)
+    pf_put_number(p->out, &p->models.older, p->cell_count - number);
+}
+
+static void put_sides(packer *p, const pf_near *near, unsigned context, pf_sides sides) {
+  put_cell(p, near, context, 0, sides.left);
+  put_cell(p, near, context + 1, sides.left, sides.right);
+}
+
+/* ---------------------------------------------------------------- code of curves */
+
+static void put_weight(packer *p, uint32_t weight) {
+  pf_put_signed(p->out, &p->models.weight, (int64_t)weight - PLANEFILE_WEIGHT);
+}
+
+static void put_move(packer *p, int degree, int point, planefile_point from, planefile_point to) {
+  pf_put_signed(p->out, &p->models.moves[0][degree - 1][point], (int64_t)to.x - from.x);
+  pf_put_signed(p->out, &p->models.moves[1][degree - 1][point], (int64_t)to.y - from.y);
+}
+
+static void put_form(packer *p, uint32_t form) {
+  pf_put_symbol(p->out, p->models.forms[p->form], 3, form);
+  p->form = form;
+}
+
+static void put_piece(packer *p, uint32_t piece) {
+  const planefile_piece *of = &p->plane->pieces[piece];
+  const planefile_point *points = &p->plane->points[of->point];
+  put_form(p, of->degree | (of->is_rational ? PF_RATIONAL : 0));
+  if (of->is_rational)
+    put_weight(p, points[0].w);
+  for (int i = 0; i < of->degree; i++) {
+    put_move(p, of->degree, i, points[i], points[i + 1]);
+    if (of->is_rational)
+      put_weight(p, points[i + 1].w);
+  }
+}
+
+/* The pieces of a chain, or, with put false, how many there are. */
+static uint32_t walk_pieces(packer *p, const shown *c, bool put) {
+  uint32_t count = 0, border = 0;
+  for (uint32_t i = c->piece; i < c->end; count++) {
+    const planefile_point *from = first_of(p, i), *to = NULL;
+    for (; !is_needed(p, c, i, &border); i++)
+      to = last_of(p, i);
+    if (put && to) {
+      put_form(p, 1);
+      put_move(p, 1, 0, *from, *to);
+    } else if (put) {
+      put_piece(p, i);
+    }
+    i += to == NULL;
+  }
+  return count;
+}
+
+static void put_chain(packer *p, size_t index, const planefile_point *from) {
+  const shown *c = &p->chains[index];
+  const planefile_point *start = first_of(p, c->piece);
+  const pf_near near = {{0, 0},
+                        index > 1 ? c[-2].sides : (pf_sides){0, 0},
+                        index > 0 ? c[-1].sides : (pf_sides){0, 0}};
+  uint32_t pieces = walk_pieces(p, c, false);
+  pf_put_signed(p->out, &p->models.start[0], (int64_t)start->x - from->x);
+  pf_put_signed(p->out, &p->models.start[1], (int64_t)start->y - from->y);
+  pf_put_number(p->out, &p->models.pieces, pieces - 1);
+  put_sides(p, &near, PF_AT_TOP, c->sides);
+  walk_pieces(p, c, true);
+  p->piece_count += pieces;
+}
+
+static void put_chains(packer *p) {
+  planefile_point from = {0, 0, PLANEFILE_WEIGHT};
+  for (size_t i = 0; i < p->chain_count; i++) {
+    put_chain(p, i, &from);
+    from = *first_of(p, p->chains[i].piece);
+  }
+}
+
+/* ---------------------------------------------------------------- code of changes */
+
+/* The changes of a group, which are neighbours in the list. */
+static size_t group_size(const packer *p, size_t first) {
+  size_t end = first + 1;
+  while (end < p->change_count && end - first < PF_GROUP &&
+         p->changes[end].height == p->changes[first].height)
+    end++;
+  return end - first;
+}
+
+/* Puts two changes in the order in which they were from left to right. */
+static void order_pair(packer *p, change *pair) {
+  pf_sides a = p->chains[pair[0].chain].sides, b = p->chains[pair[1].chain].sides;
+  if (a.right == b.left || b.right != a.left)
+    return;
+  change first = pair[0];
+  pair[0] = pair[1];
+  pair[1] = first;
+}
+
+static void put_group(packer *p, const change *changes, uint32_t size, uint32_t first,
+                      pf_sides *latest) {
+  pf_sides before[PF_GROUP];
+  for (uint32_t i = 0; i < size; i++) {
+    pf_number *model = i == 0 ? &p->models.first : &p->models.next;
+    uint32_t from = i == 0 ? first : changes[i - 1].chain;
+    pf_put_signed(p->out, model, (int64_t)changes[i].chain - from);
+    before[i] = p->chains[changes[i].chain].sides;
+  }
+  for (uint32_t i = 0; i < size; i++) {
+    const pf_near near = {before[i], before[pf_other(size, i)], *latest};
+    put_sides(p, &near, pf_context(size, i), changes[i].sides);
+    *latest = p->chains[changes[i].chain].sides = changes[i].sides;
+  }
+}
+
+static void put_changes(packer *p) {
+  int32_t height = p->top;
+  uint32_t first = 0;
+  pf_sides latest = {0, 0};
+  for (size_t i = 0; i < p->change_count;) {
+    change *changes = &p->changes[i];
+    size_t size = group_size(p, i);
+    if (size == 2)
+      order_pair(p, changes);
+    pf_put_number(p->out, &p->models.height, (uint32_t)(changes->height - height));
+    pf_put_number(p->out, &p->models.size, (uint32_t)size - 1);
+    put_group(p, changes, (uint32_t)size, first, &latest);
+    height = changes->height;
+    first = changes->chain;
+    i += size;
+  }
+}
+
+/* ---------------------------------------------------------------- the band */
+
+static void store_counts(const packer *p, unsigned char *at) {
+  pf_store_32(at, (uint32_t)p->top);
+  pf_store_32(at + 4, (uint32_t)p->foot);
+  pf_store_32(at + 8, (uint32_t)p->chain_count);
+  pf_store_32(at + 12, p->piece_count);
+  pf_store_32(at + 16, p->cell_count);
+  pf_store_32(at + 20, (uint32_t)p->change_count);
+  pf_store_32(at + 24, (uint32_t)p->border_count);
+}
+
+/* Zeros after the code, so that its bytes pay for all that it claims. */
+static bool pay(const packer *p) {
+  size_t most = p->piece_count > p->cell_count ? p->piece_count : p->cell_count;
+  most = most > p->change_count ? most : p->change_count;
+  most = most > p->border_count ? most : p->border_count;
+  size_t wanted = PF_BAND_BYTES + (most + PF_PAID - 1) / PF_PAID;
+  pf_encoder *out = p->out;
+  unsigned char *bytes = pf_grow(p->memory, out->bytes, 1, &out->capacity, wanted);
+  if (!bytes)
+    return false;
+  out->bytes = bytes;
+  for (; out->count < wanted; out->count++)
+    bytes[out->count] = 0;
+  return true;
+}
+
+static bool pack(packer *p, const planefile_border *borders, size_t count) {
+  p->cells = pf_make(p->memory, sizeof *p->cells, p->plane->cell_count);
+  if (!p->cells || !find_chains(p, borders, count))
+    return false;
+  for (size_t i = 0; i < p->chain_count; i++)
+    if (!find_changes(p, i))
+      return false;
+  if (p->change_count > 0)
+    qsort(p->changes, p->change_count, sizeof *p->changes, compare_changes);
+  pf_models_begin(&p->models);
+  put_fresh(p, 0);
+  put_chains(p);
+  put_changes(p);
+  pf_encoder_end(p->out);
+  if (p->out->failed || !pay(p))
+    return false;
+  store_counts(p, p->out->bytes);
+  return true;
+}
+
+planefile_status pf_band_encode(const pf_memory *memory, const planefile_band *plane,
+                                const planefile_border *borders, size_t count, int32_t top,
+                                int32_t foot, pf_encoder *out) {
+  packer *p = pf_make(memory, sizeof *p, 1);
+  pf_encoder_begin(out, memory, PF_BAND_BYTES);
+  if (!p)
+    return PLANEFILE_NO_MEMORY;
+  *p = (packer){.memory = memory, .plane = plane, .top = top, .foot = foot, .out = out};
+  bool is_done = pack(p, borders, count);
+  pf_free(memory, p->borders, sizeof *p->borders, count);
+  pf_free(memory, p->chains, sizeof *p->chains, count);
+  pf_free(memory, p->changes, sizeof *p->changes, p->change_capacity);
+  pf_free(memory, p->cells, sizeof *p->cells, plane->cell_count);
+  pf_free(memory, p, sizeof *p, 1);
+  return is_done ? PLANEFILE_OK : PLANEFILE_NO_MEMORY;
+}

@@ -1,0 +1,18 @@
+/* A plane in memory. */
+#ifndef PF_PLANE_H
+#define PF_PLANE_H
+
+#include "band.h"
+
+struct planefile_plane {
+  pf_memory memory;
+  planefile_info info;
+  pf_band *bands;      /* info.band_count; those that were not read have no cells */
+  planefile_cell base; /* cell 0 of all bands */
+  bool has_base;
+  unsigned char codes[PLANEFILE_WHITE + 1]; /* of linear light: in sRGB, 8 bits */
+};
+
+void pf_codes_make(unsigned char codes[PLANEFILE_WHITE + 1]);
+
+#endif

@@ -1,0 +1,261 @@
+/* Bytes of a file to a plane in memory.
+ *
+ *   trailer --> index --> bands at the heights that are wanted --> plane
+ *
+ * INVARIANT: nothing in the file is trusted. Every number is checked before it is used, and memory
+ * is allocated only for bytes that the file has.
+ */
+#include <inttypes.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "plane.h"
+
+typedef struct reader {
+  const planefile_source *source;
+  planefile_fault *fault; /* may be NULL */
+  planefile_plane *plane;
+  uint64_t end;         /* offset of the trailer */
+  unsigned char *bytes; /* of the latest record */
+  size_t capacity;
+} reader;
+
+__attribute__((format(printf, 4, 5))) static planefile_status
+fail(reader *r, planefile_status status, uint64_t offset, const char *format, ...) {
+  if (r->fault) {
+    va_list arguments;
+    r->fault->offset = offset;
+    va_start(arguments, format);
+    vsnprintf(r->fault->reason, sizeof r->fault->reason, format, arguments);
+    va_end(arguments);
+  }
+  return status;
+}
+
+#define TRY(call)                                                                                  \
+  do {                                                                                             \
+    planefile_status try_status = (call);                                                          \
+    if (try_status != PLANEFILE_OK)                                                                \
+      return try_status;                                                                           \
+  } while (0)
+
+static planefile_status fail_memory(reader *r, uint64_t offset) {
+  return fail(r, PLANEFILE_NO_MEMORY, offset, "no memory");
+}
+
+static planefile_status load(reader *r, uint64_t offset, void *bytes, size_t size) {
+  if (r->source->read(r->source->user, offset, bytes, size))
+    return PLANEFILE_OK;
+  return fail(r, PLANEFILE_READ_FAILED, offset, "cannot read");
+}
+
+/* ---------------------------------------------------------------- the ends of the file */
+
+bool planefile_is(const void *bytes, size_t size) {
+  return size >= sizeof pf_magic && memcmp(bytes, pf_magic, sizeof pf_magic) == 0;
+}
+
+static planefile_status load_header(reader *r) {
+  unsigned char header[PF_HEADER_BYTES];
+  planefile_info *info = &r->plane->info;
+  if (r->source->size < PF_HEADER_BYTES + PF_TRAILER_BYTES)
+    return fail(r, PLANEFILE_BAD_FILE, 0, "the file is too short for a plane file");
+  TRY(load(r, 0, header, sizeof header));
+  if (!planefile_is(header, sizeof header))
+    return fail(r, PLANEFILE_BAD_FILE, 0, "this is not a plane file");
+  if (pf_load_32(header + 36) != pf_crc32c(0, header, 36))
+    return fail(r, PLANEFILE_BAD_FILE, 0, "the checksum of the header is wrong");
+  if (pf_load_32(header + 8) != PF_VERSION)
+    return fail(r, PLANEFILE_BAD_FILE, 8, "the plane file has version %" PRIu32 ", which is newer",
+                pf_load_32(header + 8));
+  uint32_t flags = pf_load_32(header + 12);
+  info->is_opaque = flags & PF_OPAQUE;
+  info->width = pf_load_double(header + 16);
+  info->height = pf_load_double(header + 24);
+  if (!(info->width > 0 && info->height > 0 && isfinite(info->width) && isfinite(info->height)) ||
+      flags > PF_OPAQUE || pf_load_32(header + 32) != 0)
+    return fail(r, PLANEFILE_BAD_FILE, 12, "the header has a value that is not allowed");
+  return PLANEFILE_OK;
+}
+
+static planefile_status load_trailer(reader *r, uint64_t *index) {
+  unsigned char trailer[PF_TRAILER_BYTES];
+  r->end = r->source->size - PF_TRAILER_BYTES;
+  TRY(load(r, r->end, trailer, sizeof trailer));
+  if (memcmp(trailer, pf_end_magic, sizeof pf_end_magic) != 0 ||
+      pf_load_64(trailer + 16) != r->source->size)
+    return fail(r, PLANEFILE_BAD_FILE, r->end, "the file does not end where it should");
+  if (pf_load_32(trailer + 28) != pf_crc32c(0, trailer, 28) || pf_load_32(trailer + 24) != 0)
+    return fail(r, PLANEFILE_BAD_FILE, r->end, "the checksum of the trailer is wrong");
+  *index = pf_load_64(trailer + 8);
+  return PLANEFILE_OK;
+}
+
+/* ---------------------------------------------------------------- records */
+
+/* The subject of a message. */
+typedef struct subject_text {
+  char text[24];
+} subject_text;
+static subject_text subject(unsigned char kind, uint32_t band) {
+  subject_text out = {"the index"};
+  if (kind == PF_BAND)
+    snprintf(out.text, sizeof out.text, "band %" PRIu32, band);
+  return out;
+}
+
+/* The payload of the record of a kind in the bytes [offset, end), all of them; *size: its own.
+ * Valid until the next call. */
+static planefile_status load_record(reader *r, unsigned char kind, uint32_t band, uint64_t offset,
+                                    uint64_t end, size_t *size) {
+  unsigned char head[PF_HEAD_BYTES];
+  subject_text name = subject(kind, band);
+  if (offset < PF_HEADER_BYTES || end > r->end || offset > end ||
+      end - offset < PF_HEAD_BYTES + PF_CHECK_BYTES)
+    return fail(r, PLANEFILE_BAD_FILE, r->end, "%s: its record is outside the file", name.text);
+  TRY(load(r, offset, head, sizeof head));
+  uint64_t payload = pf_load_32(head + 1);
+  if (head[0] != kind)
+    return fail(r, PLANEFILE_BAD_FILE, offset, "%s: there is another record", name.text);
+  if (payload != end - offset - PF_HEAD_BYTES - PF_CHECK_BYTES || payload > SIZE_MAX / 4)
+    return fail(r, PLANEFILE_BAD_FILE, offset, "%s: its record has another length", name.text);
+  size_t whole = PF_HEAD_BYTES + (size_t)payload + PF_CHECK_BYTES;
+  unsigned char *bytes = pf_grow(&r->plane->memory, r->bytes, 1, &r->capacity, whole);
+  if (!bytes)
+    return fail_memory(r, offset);
+  r->bytes = bytes;
+  TRY(load(r, offset, bytes, whole));
+  if (pf_load_32(bytes + whole - PF_CHECK_BYTES) !=
+      pf_crc32c_record(offset, bytes, whole - PF_CHECK_BYTES))
+    return fail(r, PLANEFILE_BAD_FILE, offset, "%s: the checksum is wrong", name.text);
+  *size = (size_t)payload;
+  return PLANEFILE_OK;
+}
+
+/* ---------------------------------------------------------------- bands */
+
+/* offsets: of the bands, and after them that of the index; new. */
+static planefile_status load_index(reader *r, uint64_t offset, uint64_t **offsets) {
+  size_t size;
+  TRY(load_record(r, PF_INDEX, 0, offset, r->end, &size));
+  planefile_plane *plane = r->plane;
+  uint32_t count = (uint32_t)(size / PF_ENTRY_BYTES);
+  if (count == 0 || size % PF_ENTRY_BYTES != 0)
+    return fail(r, PLANEFILE_BAD_FILE, offset, "the index: it has no whole number of entries");
+  plane->bands = pf_make(&plane->memory, sizeof *plane->bands, count);
+  *offsets = pf_make(&plane->memory, sizeof **offsets, (size_t)count + 1);
+  plane->info.band_count = count;
+  if (!plane->bands || !*offsets)
+    return fail_memory(r, offset);
+  const unsigned char *entry = r->bytes + PF_HEAD_BYTES;
+  for (uint32_t i = 0; i < count; i++, entry += PF_ENTRY_BYTES) {
+    planefile_band *band = &plane->bands[i].band;
+    uint32_t top = pf_load_32(entry), foot = PLANEFILE_SIDE;
+    if (i + 1 < count)
+      foot = pf_load_32(entry + PF_ENTRY_BYTES);
+    if ((i == 0 && top != 0) || top >= foot || foot > PLANEFILE_SIDE)
+      return fail(r, PLANEFILE_BAD_FILE, offset, "the index: the heights do not follow each other");
+    band->top = (int32_t)top;
+    band->foot = (int32_t)foot;
+    (*offsets)[i] = pf_load_64(entry + 4);
+  }
+  (*offsets)[count] = offset;
+  return PLANEFILE_OK;
+}
+
+static bool has_alpha(const planefile_band *band) {
+  for (uint32_t i = 0; i < band->cell_count; i++)
+    if (band->cells[i].colour[3] != PLANEFILE_WHITE)
+      return true;
+  return false;
+}
+
+/* Whether cell 0 is that of the bands before, if there are any. */
+static bool has_base(planefile_plane *plane, const planefile_band *band) {
+  if (!plane->has_base)
+    plane->base = band->cells[0];
+  plane->has_base = true;
+  return memcmp(&plane->base, &band->cells[0], sizeof plane->base) == 0;
+}
+
+static planefile_status load_band(reader *r, uint32_t index, uint64_t offset, uint64_t end) {
+  size_t size;
+  const char *reason;
+  pf_band *out = &r->plane->bands[index];
+  int32_t top = out->band.top, foot = out->band.foot;
+  TRY(load_record(r, PF_BAND, index, offset, end, &size));
+  planefile_status status =
+      pf_band_decode(&r->plane->memory, r->bytes + PF_HEAD_BYTES, size, out, &reason);
+  if (status != PLANEFILE_OK)
+    return fail(r, status, offset, "band %" PRIu32 ": %s", index, reason);
+  if (out->band.top != top || out->band.foot != foot)
+    return fail(r, PLANEFILE_BAD_FILE, offset, "band %" PRIu32 ": it has other heights", index);
+  if (r->plane->info.is_opaque && has_alpha(&out->band))
+    return fail(r, PLANEFILE_BAD_FILE, offset, "band %" PRIu32 ": it is not opaque", index);
+  if (!has_base(r->plane, &out->band))
+    return fail(r, PLANEFILE_BAD_FILE, offset, "band %" PRIu32 ": it has another cell 0", index);
+  return PLANEFILE_OK;
+}
+
+/* Each band ends where the next one begins, so that no byte is read twice. */
+static planefile_status load_bands(reader *r, const uint64_t *offsets, int32_t top, int32_t foot) {
+  for (uint32_t i = 0; i < r->plane->info.band_count; i++) {
+    const planefile_band *band = &r->plane->bands[i].band;
+    if (band->top < foot && band->foot > top)
+      TRY(load_band(r, i, offsets[i], offsets[i + 1]));
+  }
+  return PLANEFILE_OK;
+}
+
+static planefile_status load_plane(reader *r, int32_t top, int32_t foot) {
+  uint64_t index = 0;
+  uint64_t *offsets = NULL;
+  TRY(load_header(r));
+  TRY(load_trailer(r, &index));
+  planefile_status status = load_index(r, index, &offsets);
+  if (status == PLANEFILE_OK)
+    status = load_bands(r, offsets, top, foot);
+  pf_free(&r->plane->memory, offsets, sizeof *offsets, (size_t)r->plane->info.band_count + 1);
+  return status;
+}
+
+/* ---------------------------------------------------------------- the plane */
+
+planefile_status planefile_read(const planefile_source *source, int32_t top, int32_t foot,
+                                planefile_plane **out, planefile_fault *fault) {
+  pf_memory memory = pf_memory_of(source->resize, source->resize_user);
+  reader r = {.source = source, .fault = fault};
+  *out = NULL;
+  if (top < 0 || top >= foot || foot > PLANEFILE_SIDE)
+    return fail(&r, PLANEFILE_BAD_ARGUMENT, 0, "there are no such heights");
+  r.plane = pf_make(&memory, sizeof *r.plane, 1);
+  if (!r.plane)
+    return fail_memory(&r, 0);
+  r.plane->memory = memory;
+  planefile_status status = load_plane(&r, top, foot);
+  pf_free(&memory, r.bytes, 1, r.capacity);
+  if (status != PLANEFILE_OK) {
+    planefile_plane_destroy(r.plane);
+    return status;
+  }
+  pf_codes_make(r.plane->codes);
+  *out = r.plane;
+  return PLANEFILE_OK;
+}
+
+void planefile_plane_destroy(planefile_plane *plane) {
+  if (!plane)
+    return;
+  pf_memory memory = plane->memory;
+  for (uint32_t i = 0; plane->bands && i < plane->info.band_count; i++)
+    pf_band_free(&memory, &plane->bands[i]);
+  pf_free(&memory, plane->bands, sizeof *plane->bands, plane->info.band_count);
+  pf_free(&memory, plane, sizeof *plane, 1);
+}
+
+planefile_info planefile_plane_info(const planefile_plane *plane) { return plane->info; }
+
+const planefile_band *planefile_plane_band(const planefile_plane *plane, uint32_t index) {
+  return &plane->bands[index].band;
+}

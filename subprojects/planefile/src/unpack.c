@@ -1,0 +1,346 @@
+/* A band from its code.
+ *
+ * INVARIANT: nothing in the code is trusted. Memory is allocated only for what its bytes pay for,
+ * and every number is checked before it is used.
+ */
+#include "band.h"
+
+/* What is happening to a chain. */
+typedef struct state {
+  pf_sides sides;
+  int32_t since; /* the height from which on it has them */
+} state;
+
+typedef struct unpacker {
+  const pf_memory *memory;
+  pf_decoder decoder;
+  pf_models models;
+  pf_band *out;
+  planefile_point *points;
+  planefile_piece *pieces;
+  planefile_chain *chains;
+  planefile_border *borders;
+  planefile_cell *cells;
+  state *states;                                               /* of the chains */
+  uint32_t chain_count, piece_count, cell_count, border_count; /* that there must be in the end */
+  uint32_t change_count;
+  uint32_t form; /* of the latest piece */
+  planefile_point start;
+  const char *reason; /* NULL: nothing is wrong */
+} unpacker;
+
+static bool refuse(unpacker *u, const char *reason) {
+  u->reason = u->reason ? u->reason : reason;
+  return false;
+}
+
+void pf_band_free(const pf_memory *memory, pf_band *band) {
+  planefile_band *b = &band->band;
+  pf_free(memory, (void *)b->points, sizeof *b->points, band->point_capacity);
+  pf_free(memory, (void *)b->pieces, sizeof *b->pieces, band->piece_capacity);
+  pf_free(memory, (void *)b->chains, sizeof *b->chains, band->chain_capacity);
+  pf_free(memory, (void *)b->borders, sizeof *b->borders, band->border_capacity);
+  pf_free(memory, (void *)b->cells, sizeof *b->cells, band->cell_capacity);
+}
+
+/* ---------------------------------------------------------------- room */
+
+static bool load_counts(unpacker *u, const unsigned char *payload, size_t size) {
+  planefile_band *band = &u->out->band;
+  size_t paid = PF_PAID * (size - PF_BAND_BYTES);
+  band->top = (int32_t)pf_load_32(payload);
+  band->foot = (int32_t)pf_load_32(payload + 4);
+  u->chain_count = pf_load_32(payload + 8);
+  u->piece_count = pf_load_32(payload + 12);
+  u->cell_count = pf_load_32(payload + 16);
+  u->change_count = pf_load_32(payload + 20);
+  u->border_count = pf_load_32(payload + 24);
+  if (band->top < 0 || band->top >= band->foot || band->foot > PLANEFILE_SIDE)
+    return refuse(u, "its heights are not in the frame");
+  if (u->chain_count > paid || u->piece_count > paid || u->cell_count > paid ||
+      u->change_count > paid || u->border_count > paid)
+    return refuse(u, "it claims more than its bytes can hold");
+  if (u->cell_count == 0)
+    return refuse(u, "it has no cell");
+  return true;
+}
+
+/* Room for all that is claimed. */
+static bool make_room(unpacker *u) {
+  pf_band *out = u->out;
+  out->point_capacity = (size_t)4 * u->piece_count;
+  out->piece_capacity = u->piece_count;
+  out->chain_capacity = u->chain_count;
+  out->border_capacity = u->border_count;
+  out->cell_capacity = u->cell_count;
+  out->band.points = u->points = pf_make(u->memory, sizeof *u->points, out->point_capacity);
+  out->band.pieces = u->pieces = pf_make(u->memory, sizeof *u->pieces, out->piece_capacity);
+  out->band.chains = u->chains = pf_make(u->memory, sizeof *u->chains, out->chain_capacity);
+  out->band.borders = u->borders = pf_make(u->memory, sizeof *u->borders, out->border_capacity);
+  out->band.cells = u->cells = pf_make(u->memory, sizeof *u->cells, out->cell_capacity);
+  u->states = pf_make(u->memory, sizeof *u->states, u->chain_count);
+  return u->points && u->pieces && u->chains && u->borders && u->cells && u->states;
+}
+
+/* ---------------------------------------------------------------- cells */
+
+/* The next cell: its channels differ from those of the one before. */
+static bool get_fresh(unpacker *u, uint32_t *out) {
+  planefile_band *band = &u->out->band;
+  *out = band->cell_count;
+  if (band->cell_count == u->cell_count)
+    return refuse(u, "it has more cells than it claims");
+  planefile_cell *cell = &u->cells[band->cell_count++];
+  for (int c = 0; c < 4; c++) {
+    int64_t channel = pf_get_signed(&u->decoder, &u->models.channels[c]);
+    channel += *out > 0 ? cell[-1].colour[c] : 0;
+    if (channel < -PLANEFILE_BRIGHT || channel > PLANEFILE_BRIGHT)
+      return refuse(u, "a colour is too bright");
+    cell->colour[c] = (int32_t)channel;
+  }
+  return true;
+}
+
+static bool get_cell(unpacker *u, const pf_near *near, unsigned context, uint32_t left,
+                     uint32_t *out) {
+  uint32_t symbol = pf_get_symbol(&u->decoder, u->models.cells[context], PF_SYMBOL_BITS);
+  if (symbol == PF_FRESH)
+    return get_fresh(u, out);
+  *out = pf_candidate(near, context & 1, left, symbol);
+  if (symbol == PF_OLDER) {
+    uint32_t back = pf_get_number(&u->decoder, &u->models.older);
+    if (back >= u->out->band.cell_count)
+      return refuse(u, "there is no such cell");
+    *out = u->out->band.cell_count - 1 - back;
+  }
+  return true;
+}
+
+static bool get_sides(unpacker *u, const pf_near *near, unsigned context, pf_sides *out) {
+  return get_cell(u, near, context, 0, &out->left) &&
+         get_cell(u, near, context + 1, out->left, &out->right);
+}
+
+/* ---------------------------------------------------------------- curves */
+
+static bool get_coordinate(unpacker *u, pf_number *model, int32_t *at) {
+  int64_t to = *at + pf_get_signed(&u->decoder, model);
+  if (to < -PLANEFILE_FAR || to > PLANEFILE_FAR)
+    return refuse(u, "a point is too far away");
+  *at = (int32_t)to;
+  return true;
+}
+
+static bool get_weight(unpacker *u, uint32_t *out) {
+  int64_t weight = PLANEFILE_WEIGHT + pf_get_signed(&u->decoder, &u->models.weight);
+  if (weight < PLANEFILE_WEIGHT / 16 || weight > UINT32_MAX)
+    return refuse(u, "a weight is not allowed");
+  *out = (uint32_t)weight;
+  return true;
+}
+
+/* A piece that begins at `at`, which becomes its end. */
+static bool get_piece(unpacker *u, planefile_point *at) {
+  planefile_band *band = &u->out->band;
+  u->form = pf_get_symbol(&u->decoder, u->models.forms[u->form], 3);
+  uint8_t degree = u->form & 3;
+  bool is_rational = u->form & PF_RATIONAL;
+  int32_t top = at->y;
+  if (degree == 0 || (is_rational && degree == 1))
+    return refuse(u, "there is no such form of a piece");
+  u->pieces[band->piece_count++] = (planefile_piece){band->point_count, degree, is_rational};
+  at->w = PLANEFILE_WEIGHT;
+  if (is_rational && !get_weight(u, &at->w))
+    return false;
+  u->points[band->point_count++] = *at;
+  for (int i = 0; i < degree; i++) {
+    if (!get_coordinate(u, &u->models.moves[0][degree - 1][i], &at->x) ||
+        !get_coordinate(u, &u->models.moves[1][degree - 1][i], &at->y) ||
+        (is_rational && !get_weight(u, &at->w)))
+      return false;
+    u->points[band->point_count++] = *at;
+  }
+  return at->y >= top || refuse(u, "a piece ends above its beginning");
+}
+
+static void add_border(unpacker *u, uint32_t chain, int32_t foot) {
+  planefile_band *band = &u->out->band;
+  const state *s = &u->states[chain];
+  if (s->sides.left == s->sides.right)
+    return;
+  if (band->border_count < u->border_count)
+    u->borders[band->border_count] =
+        (planefile_border){chain, s->since, foot, s->sides.left, s->sides.right};
+  band->border_count++;
+}
+
+/* The lowest height of a chain in the band. */
+static int32_t foot_of(const unpacker *u, uint32_t chain) {
+  const planefile_chain *c = &u->chains[chain];
+  const planefile_piece *last = &u->pieces[c->piece + c->piece_count - 1];
+  int32_t foot = u->points[last->point + last->degree].y;
+  return foot < u->out->band.foot ? foot : u->out->band.foot;
+}
+
+static bool get_chain(unpacker *u, uint32_t index) {
+  planefile_band *band = &u->out->band;
+  planefile_point at = u->start;
+  uint32_t left = u->piece_count - band->piece_count;
+  const pf_near near = {{0, 0},
+                        index > 1 ? u->states[index - 2].sides : (pf_sides){0, 0},
+                        index > 0 ? u->states[index - 1].sides : (pf_sides){0, 0}};
+  if (!get_coordinate(u, &u->models.start[0], &at.x) ||
+      !get_coordinate(u, &u->models.start[1], &at.y))
+    return false;
+  uint32_t pieces = pf_get_number(&u->decoder, &u->models.pieces);
+  if (pieces >= left)
+    return refuse(u, "it has more pieces than it claims");
+  u->chains[band->chain_count++] = (planefile_chain){band->piece_count, pieces + 1};
+  u->start = at;
+  state *s = &u->states[index];
+  s->since = at.y > band->top ? at.y : band->top;
+  if (!get_sides(u, &near, PF_AT_TOP, &s->sides))
+    return false;
+  for (uint32_t i = 0; i <= pieces; i++)
+    if (u->decoder.is_beyond || !get_piece(u, &at))
+      return refuse(u, "its code ends too early");
+  return s->since < foot_of(u, index) || refuse(u, "a chain is not in it");
+}
+
+/* ---------------------------------------------------------------- changes */
+
+/* What happens to chains at one height. */
+typedef struct group {
+  uint32_t size, chains[PF_GROUP];
+  pf_sides before[PF_GROUP];
+} group;
+
+static bool get_members(unpacker *u, int32_t height, uint32_t *first, group *g) {
+  for (uint32_t i = 0; i < g->size; i++) {
+    pf_number *model = i == 0 ? &u->models.first : &u->models.next;
+    int64_t chain = pf_get_signed(&u->decoder, model) + (i == 0 ? *first : g->chains[i - 1]);
+    if (chain < 0 || chain >= u->chain_count)
+      return refuse(u, "there is no such chain");
+    g->chains[i] = (uint32_t)chain;
+    g->before[i] = u->states[chain].sides;
+    if (height <= u->states[chain].since || height >= foot_of(u, g->chains[i]))
+      return refuse(u, "a change is not on its chain");
+  }
+  *first = g->chains[0];
+  return true;
+}
+
+static bool apply(unpacker *u, const group *g, int32_t height, pf_sides *latest) {
+  for (uint32_t i = 0; i < g->size; i++) {
+    const pf_near near = {g->before[i], g->before[pf_other(g->size, i)], *latest};
+    state *s = &u->states[g->chains[i]];
+    if (height <= s->since)
+      return refuse(u, "a chain changes twice");
+    add_border(u, g->chains[i], height);
+    if (!get_sides(u, &near, pf_context(g->size, i), &s->sides))
+      return false;
+    s->since = height;
+    *latest = s->sides;
+  }
+  return true;
+}
+
+static bool get_changes(unpacker *u) {
+  int64_t height = u->out->band.top;
+  uint32_t left = u->change_count, first = 0;
+  pf_sides latest = {0, 0};
+  while (left > 0) {
+    group g = {0};
+    height += pf_get_number(&u->decoder, &u->models.height);
+    g.size = pf_get_number(&u->decoder, &u->models.size) + 1;
+    if (g.size == 0 || g.size > left || g.size > PF_GROUP)
+      return refuse(u, "a group is too large");
+    if (height >= u->out->band.foot || u->decoder.is_beyond)
+      return refuse(u, "a change is below it");
+    if (!get_members(u, (int32_t)height, &first, &g) || !apply(u, &g, (int32_t)height, &latest))
+      return false;
+    left -= g.size;
+  }
+  return true;
+}
+
+/* ---------------------------------------------------------------- order */
+
+enum { DIGIT = 9, DIGITS = 1 << DIGIT };
+
+/* Sorts by one digit of the tops; equal ones keep their order. */
+static void sort_digit(const planefile_border *from, planefile_border *to, uint32_t count,
+                       int shift) {
+  uint32_t places[DIGITS + 1] = {0};
+  for (uint32_t i = 0; i < count; i++)
+    places[((uint32_t)from[i].top >> shift & (DIGITS - 1)) + 1]++;
+  for (int i = 0; i < DIGITS; i++)
+    places[i + 1] += places[i];
+  for (uint32_t i = 0; i < count; i++)
+    to[places[(uint32_t)from[i].top >> shift & (DIGITS - 1)]++] = from[i];
+}
+
+static bool sort_borders(unpacker *u) {
+  uint32_t count = u->border_count;
+  planefile_border *other = pf_make(u->memory, sizeof *other, count);
+  if (!other)
+    return false;
+  sort_digit(u->borders, other, count, 0);
+  sort_digit(other, u->borders, count, DIGIT);
+  sort_digit(u->borders, other, count, 2 * DIGIT);
+  memcpy(u->borders, other, count * sizeof *other);
+  pf_free(u->memory, other, sizeof *other, count);
+  return true;
+}
+
+/* ---------------------------------------------------------------- the band */
+
+static bool get_chains(unpacker *u) {
+  for (uint32_t i = 0; i < u->chain_count; i++)
+    if (!get_chain(u, i))
+      return false;
+  return true;
+}
+
+static bool check_end(unpacker *u) {
+  planefile_band *band = &u->out->band;
+  for (uint32_t i = 0; i < u->chain_count; i++)
+    add_border(u, i, foot_of(u, i));
+  if (!pf_decoder_is_whole(&u->decoder))
+    return refuse(u, "its code does not end where it should");
+  if (band->piece_count != u->piece_count || band->cell_count != u->cell_count ||
+      band->border_count != u->border_count)
+    return refuse(u, "it has less than it claims");
+  return true;
+}
+
+/* False without a reason: no memory. */
+static bool unpack(unpacker *u, const unsigned char *payload, size_t size) {
+  uint32_t base;
+  if (!load_counts(u, payload, size) || !make_room(u))
+    return false;
+  pf_models_begin(&u->models);
+  pf_decoder_begin(&u->decoder, payload + PF_BAND_BYTES, size - PF_BAND_BYTES);
+  return get_fresh(u, &base) && get_chains(u) && get_changes(u) && check_end(u) && sort_borders(u);
+}
+
+planefile_status pf_band_decode(const pf_memory *memory, const unsigned char *payload, size_t size,
+                                pf_band *out, const char **reason) {
+  unpacker *u = pf_make(memory, sizeof *u, 1);
+  *reason = "no memory";
+  if (!u)
+    return PLANEFILE_NO_MEMORY;
+  u->memory = memory;
+  u->out = out;
+  bool is_good = size >= PF_BAND_BYTES ? unpack(u, payload, size) : refuse(u, "it is too short");
+  if (u->reason)
+    *reason = u->reason;
+  planefile_status status = is_good     ? PLANEFILE_OK
+                            : u->reason ? PLANEFILE_BAD_FILE
+                                        : PLANEFILE_NO_MEMORY;
+  if (out->band.border_count > u->border_count) /* it is counted beyond its room */
+    out->band.border_count = u->border_count;
+  pf_free(memory, u->states, sizeof *u->states, u->chain_count);
+  pf_free(memory, u, sizeof *u, 1);
+  return status;
+}

@@ -1,0 +1,271 @@
+/* A plane to a file: checked, cut into bands, and written record by record. */
+#include <math.h>
+
+#include "band.h"
+
+/* A band ends after this many beginnings of borders, or more where many cross its end: each of
+ * those is in the next one, too. */
+enum { BAND_BORDERS = 4096, BORDERS_A_LIVE = 8 };
+
+typedef struct entry {
+  int32_t top;
+  uint64_t offset;
+} entry;
+
+typedef struct writer {
+  const planefile_writer_desc *desc;
+  const planefile_band *plane;
+  pf_memory memory;
+  planefile_border *borders; /* by their tops */
+  planefile_border *shown;   /* those of the current band */
+  entry *entries;
+  size_t shown_count, shown_capacity, entry_count, entry_capacity;
+  uint64_t offset; /* in the file */
+} writer;
+
+/* ---------------------------------------------------------------- checks */
+
+static bool is_far(planefile_point at) {
+  return at.x < -PLANEFILE_FAR || at.x > PLANEFILE_FAR || at.y < -PLANEFILE_FAR ||
+         at.y > PLANEFILE_FAR;
+}
+
+static bool is_piece(const planefile_band *plane, uint32_t index) {
+  const planefile_piece *piece = &plane->pieces[index];
+  if (piece->degree < (piece->is_rational ? 2 : 1) || piece->degree > 3 ||
+      piece->point > plane->point_count || plane->point_count - piece->point <= piece->degree)
+    return false;
+  const planefile_point *points = &plane->points[piece->point];
+  for (int i = 0; i <= piece->degree; i++)
+    if (is_far(points[i]) ||
+        (piece->is_rational &&
+         (points[i].w < PLANEFILE_WEIGHT / 16 || points[i].w / 16 >= (uint32_t)PLANEFILE_WEIGHT)))
+      return false;
+  return points[piece->degree].y >= points[0].y;
+}
+
+static bool is_chain(const planefile_band *plane, const planefile_chain *chain) {
+  if (chain->piece_count == 0 || chain->piece > plane->piece_count ||
+      chain->piece_count > plane->piece_count - chain->piece)
+    return false;
+  for (uint32_t i = chain->piece; i < chain->piece + chain->piece_count; i++) {
+    const planefile_piece *piece = &plane->pieces[i], *before = piece - 1;
+    if (!is_piece(plane, i))
+      return false;
+    if (i > chain->piece) {
+      const planefile_point *end = &plane->points[before->point + before->degree];
+      const planefile_point *start = &plane->points[piece->point];
+      if (end->x != start->x || end->y != start->y)
+        return false;
+    }
+  }
+  return true;
+}
+
+static bool is_border(const planefile_band *plane, const planefile_border *border) {
+  if (border->chain >= plane->chain_count || border->left >= plane->cell_count ||
+      border->right >= plane->cell_count || border->left == border->right)
+    return false;
+  const planefile_chain *chain = &plane->chains[border->chain];
+  const planefile_piece *last = &plane->pieces[chain->piece + chain->piece_count - 1];
+  return border->top >= 0 && border->top < border->foot && border->foot <= PLANEFILE_SIDE &&
+         border->top >= plane->points[plane->pieces[chain->piece].point].y &&
+         border->foot <= plane->points[last->point + last->degree].y;
+}
+
+static bool is_cell(const planefile_cell *cell) {
+  for (int c = 0; c < 4; c++)
+    if (cell->colour[c] < -PLANEFILE_BRIGHT || cell->colour[c] > PLANEFILE_BRIGHT)
+      return false;
+  return true;
+}
+
+static bool is_plane(const planefile_band *plane) {
+  bool is_good = plane->top == 0 && plane->foot == PLANEFILE_SIDE && plane->cell_count > 0;
+  for (uint32_t i = 0; is_good && i < plane->chain_count; i++)
+    is_good = is_chain(plane, &plane->chains[i]);
+  for (uint32_t i = 0; is_good && i < plane->border_count; i++)
+    is_good = is_border(plane, &plane->borders[i]);
+  for (uint32_t i = 0; is_good && i < plane->cell_count; i++)
+    is_good = is_cell(&plane->cells[i]);
+  return is_good;
+}
+
+/* ---------------------------------------------------------------- order */
+
+static int order_of(int64_t a, int64_t b) { return (a > b) - (a < b); }
+
+static int compare_by_chain(const void *first, const void *second) {
+  const planefile_border *a = first, *b = second;
+  int by_chain = order_of(a->chain, b->chain);
+  return by_chain ? by_chain : order_of(a->top, b->top);
+}
+
+static int compare_by_top(const void *first, const void *second) {
+  const planefile_border *a = first, *b = second;
+  int by_top = order_of(a->top, b->top);
+  return by_top ? by_top : order_of(a->chain, b->chain);
+}
+
+static planefile_status sort_borders(writer *w) {
+  size_t count = w->plane->border_count;
+  w->borders = pf_make(&w->memory, sizeof *w->borders, count);
+  if (!w->borders)
+    return PLANEFILE_NO_MEMORY;
+  if (count == 0)
+    return PLANEFILE_OK;
+  memcpy(w->borders, w->plane->borders, count * sizeof *w->borders);
+  qsort(w->borders, count, sizeof *w->borders, compare_by_chain);
+  for (size_t i = 1; i < count; i++)
+    if (w->borders[i].chain == w->borders[i - 1].chain &&
+        w->borders[i].top < w->borders[i - 1].foot)
+      return PLANEFILE_BAD_ARGUMENT;
+  qsort(w->borders, count, sizeof *w->borders, compare_by_top);
+  return PLANEFILE_OK;
+}
+
+/* ---------------------------------------------------------------- bytes */
+
+static planefile_status put(writer *w, const void *bytes, size_t size) {
+  w->offset += size;
+  return w->desc->write(w->desc->user, bytes, size) ? PLANEFILE_OK : PLANEFILE_WRITE_FAILED;
+}
+
+static planefile_status put_record(writer *w, unsigned char kind, const unsigned char *payload,
+                                   size_t size) {
+  unsigned char head[PF_HEAD_BYTES] = {kind}, check[PF_CHECK_BYTES], offset[8];
+  if (size > UINT32_MAX)
+    return PLANEFILE_BAD_ARGUMENT;
+  pf_store_64(offset, w->offset);
+  pf_store_32(head + 1, (uint32_t)size);
+  uint32_t sum = pf_crc32c(pf_crc32c(0, offset, sizeof offset), head, sizeof head);
+  pf_store_32(check, pf_crc32c(sum, payload, size));
+  planefile_status status = put(w, head, sizeof head);
+  if (status == PLANEFILE_OK)
+    status = put(w, payload, size);
+  return status == PLANEFILE_OK ? put(w, check, sizeof check) : status;
+}
+
+static bool is_opaque(const planefile_band *plane) {
+  for (uint32_t i = 0; i < plane->cell_count; i++)
+    if (plane->cells[i].colour[3] != PLANEFILE_WHITE)
+      return false;
+  return true;
+}
+
+static planefile_status put_header(writer *w) {
+  unsigned char header[PF_HEADER_BYTES] = {0};
+  memcpy(header, pf_magic, sizeof pf_magic);
+  pf_store_32(header + 8, PF_VERSION);
+  pf_store_32(header + 12, is_opaque(w->plane) ? PF_OPAQUE : 0);
+  pf_store_double(header + 16, w->desc->width);
+  pf_store_double(header + 24, w->desc->height);
+  pf_store_32(header + 36, pf_crc32c(0, header, 36));
+  return put(w, header, sizeof header);
+}
+
+static planefile_status put_index(writer *w) {
+  size_t size = w->entry_count * PF_ENTRY_BYTES;
+  unsigned char *payload = pf_make(&w->memory, 1, size);
+  if (!payload)
+    return PLANEFILE_NO_MEMORY;
+  for (size_t i = 0; i < w->entry_count; i++) {
+    pf_store_32(payload + i * PF_ENTRY_BYTES, (uint32_t)w->entries[i].top);
+    pf_store_64(payload + i * PF_ENTRY_BYTES + 4, w->entries[i].offset);
+  }
+  planefile_status status = put_record(w, PF_INDEX, payload, size);
+  pf_free(&w->memory, payload, 1, size);
+  return status;
+}
+
+static planefile_status put_trailer(writer *w, uint64_t index) {
+  unsigned char trailer[PF_TRAILER_BYTES] = {0};
+  memcpy(trailer, pf_end_magic, sizeof pf_end_magic);
+  pf_store_64(trailer + 8, index);
+  pf_store_64(trailer + 16, w->offset + PF_TRAILER_BYTES);
+  pf_store_32(trailer + 28, pf_crc32c(0, trailer, 28));
+  return put(w, trailer, sizeof trailer);
+}
+
+/* ---------------------------------------------------------------- bands */
+
+/* Forgets the borders that end above the band that begins now. */
+static void drop_ended(writer *w, int32_t top) {
+  size_t kept = 0;
+  for (size_t i = 0; i < w->shown_count; i++)
+    if (w->shown[i].foot > top)
+      w->shown[kept++] = w->shown[i];
+  w->shown_count = kept;
+}
+
+/* Adds the borders from `next` on that begin in the band from `top` on, until there are enough; all
+ * that begin at one height are in one band. Returns where it stopped. */
+static size_t add_begun(writer *w, int32_t top, size_t next) {
+  size_t count = w->plane->border_count, live = w->shown_count;
+  size_t enough = BORDERS_A_LIVE * live;
+  enough = enough > BAND_BORDERS ? enough : BAND_BORDERS;
+  for (size_t i = next; i < count; i++) {
+    const planefile_border *border = &w->borders[i];
+    if (i - next >= enough && border->top > w->borders[i - 1].top && border->top > top)
+      return i;
+    w->shown[w->shown_count++] = *border;
+  }
+  return count;
+}
+
+static planefile_status put_band(writer *w, int32_t top, int32_t foot) {
+  pf_encoder code;
+  entry *entries =
+      pf_grow(&w->memory, w->entries, sizeof *entries, &w->entry_capacity, w->entry_count + 1);
+  if (!entries)
+    return PLANEFILE_NO_MEMORY;
+  w->entries = entries;
+  w->entries[w->entry_count++] = (entry){top, w->offset};
+  planefile_status status =
+      pf_band_encode(&w->memory, w->plane, w->shown, w->shown_count, top, foot, &code);
+  if (status == PLANEFILE_OK)
+    status = put_record(w, PF_BAND, code.bytes, code.count);
+  pf_encoder_finish(&code);
+  return status;
+}
+
+static planefile_status put_bands(writer *w) {
+  planefile_status status = PLANEFILE_OK;
+  size_t count = w->plane->border_count, next = 0;
+  w->shown_capacity = count;
+  w->shown = pf_make(&w->memory, sizeof *w->shown, count);
+  if (!w->shown)
+    return PLANEFILE_NO_MEMORY;
+  for (int32_t top = 0, foot; top < PLANEFILE_SIDE && status == PLANEFILE_OK; top = foot) {
+    drop_ended(w, top);
+    next = add_begun(w, top, next);
+    foot = next < count ? w->borders[next].top : PLANEFILE_SIDE;
+    status = put_band(w, top, foot);
+  }
+  return status;
+}
+
+static planefile_status put_file(writer *w) {
+  planefile_status status = put_header(w);
+  if (status == PLANEFILE_OK)
+    status = put_bands(w);
+  uint64_t index = w->offset;
+  if (status == PLANEFILE_OK)
+    status = put_index(w);
+  return status == PLANEFILE_OK ? put_trailer(w, index) : status;
+}
+
+planefile_status planefile_write(const planefile_writer_desc *desc, const planefile_band *plane) {
+  writer w = {
+      .desc = desc, .plane = plane, .memory = pf_memory_of(desc->resize, desc->resize_user)};
+  if (!(desc->width > 0 && desc->height > 0 && isfinite(desc->width) && isfinite(desc->height)) ||
+      !is_plane(plane))
+    return PLANEFILE_BAD_ARGUMENT;
+  planefile_status status = sort_borders(&w);
+  if (status == PLANEFILE_OK)
+    status = put_file(&w);
+  pf_free(&w.memory, w.borders, sizeof *w.borders, plane->border_count);
+  pf_free(&w.memory, w.shown, sizeof *w.shown, w.shown_capacity);
+  pf_free(&w.memory, w.entries, sizeof *w.entries, w.entry_capacity);
+  return status;
+}

@@ -1,0 +1,267 @@
+-- A decoder of plane files, written only from docs/planefile.md: all bytes in; all pixels of a size
+-- out, as means of linear light.
+
+local SIDE = 1 << 26
+
+local function crc32c(bytes)
+  local sum = 0xffffffff
+  for i = 1, #bytes do
+    sum = sum ~ bytes:byte(i)
+    for _ = 1, 8 do sum = sum & 1 == 1 and sum >> 1 ~ 0x82f63b78 or sum >> 1 end
+  end
+  return sum ~ 0xffffffff
+end
+
+---------------------------------------------------------------------- numbers
+
+local function new_models() return setmetatable({}, {__index = function() return 2048 end}) end
+
+local function new_coder(bytes)
+  local coder = {range = 0xffffffff, code = (">I4"):unpack(bytes), at = 5}
+  local models = {}
+  local function widen()
+    while coder.range < 1 << 24 do
+      coder.code = coder.code << 8 & 0xffffffff | (bytes:byte(coder.at) or error("too short"))
+      coder.range, coder.at = coder.range << 8, coder.at + 1
+    end
+  end
+  local function bit(tree, node)
+    local model = tree[node]
+    local bound = (coder.range >> 12) * model
+    local is_one = coder.code >= bound
+    if is_one then
+      coder.code, coder.range = coder.code - bound, coder.range - bound
+      tree[node] = model - (model >> 4)
+    else
+      coder.range, tree[node] = bound, model + (4096 - model >> 4)
+    end
+    widen()
+    return is_one and 1 or 0
+  end
+  local function plain(bits)
+    local number = 0
+    for _ = 1, bits do
+      coder.range = coder.range >> 1
+      local is_one = coder.code >= coder.range
+      if is_one then coder.code = coder.code - coder.range end
+      number = number << 1 | (is_one and 1 or 0)
+      widen()
+    end
+    return number
+  end
+  local function tree_of(name)
+    models[name] = models[name] or new_models()
+    return models[name]
+  end
+  function coder.symbol(name, bits)
+    local tree, node = tree_of(name), 1
+    for _ = 1, bits do node = 2 * node + bit(tree, node) end
+    return node - (1 << bits)
+  end
+  function coder.number(name)
+    local class = math.min(coder.symbol(name, 6), 32)
+    if class == 0 then return 0 end
+    local led = math.min(class - 1, 2)
+    local number = 1 << led | coder.symbol(name .. " leading " .. class, led)
+    return number << class - 1 - led | plain(class - 1 - led)
+  end
+  function coder.signed(name)
+    local number = coder.number(name)
+    return number ~= 0 and bit(tree_of(name .. " sign"), 1) == 1 and -number or number
+  end
+  return coder
+end
+
+---------------------------------------------------------------------- a band
+
+local function new_band(payload)
+  local band = {cells = {}, chains = {}, borders = {}, form = 0}
+  band.top, band.foot, band.chain_count, band.piece_count, band.cell_count, band.change_count,
+    band.border_count = ("<I4I4I4I4I4I4I4"):unpack(payload)
+  band.coder = new_coder(payload:sub(29))
+  return band
+end
+
+local function get_fresh(band)
+  local before, cell = band.cells[#band.cells] or {0, 0, 0, 0}, {}
+  for c = 1, 4 do cell[c] = before[c] + band.coder.signed("channel " .. c) end
+  band.cells[#band.cells + 1] = cell
+  return #band.cells - 1
+end
+
+-- own, other, latest: pairs of cells, {left, right}.
+local function get_sides(band, context, own, other, latest)
+  local sides = {}
+  for side = 1, 2 do
+    local symbol = band.coder.symbol("cells " .. context + side - 1, 3)
+    local second = side == 1 and own[1] or sides[1]
+    local known = {0, second, own[2], other[1], other[2], latest[1], latest[2]}
+    sides[side] = symbol == 0 and get_fresh(band)
+      or symbol == 1 and #band.cells - 1 - band.coder.number("older") or known[symbol]
+  end
+  return sides
+end
+
+local function get_piece(band, x, y)
+  local coder = band.coder
+  band.form = coder.symbol("form after " .. band.form, 3)
+  local degree, is_rational = band.form & 3, band.form >= 4
+  local function weight() return is_rational and 1 + coder.signed("weight") / (1 << 28) or 1 end
+  local piece = {{x, y, weight()}}
+  for i = 1, degree do
+    x = x + coder.signed("x " .. degree .. i)
+    y = y + coder.signed("y " .. degree .. i)
+    piece[i + 1] = {x, y, weight()}
+  end
+  return piece, x, y
+end
+
+local function get_chain(band, start, before)
+  local coder, chain, count = band.coder, {}, #band.chains
+  start.x, start.y = start.x + coder.signed("start x"), start.y + coder.signed("start y")
+  local pieces = coder.number("pieces") + 1
+  local latest, other = before[count] or {0, 0}, before[count - 1] or {0, 0}
+  chain.sides = get_sides(band, 0, {0, 0}, other, latest)
+  before[count + 1] = chain.sides
+  local x, y = start.x, start.y
+  for i = 1, pieces do chain[i], x, y = get_piece(band, x, y) end
+  chain.since, chain.foot = math.max(start.y, band.top), math.min(y, band.foot)
+  band.chains[count + 1] = chain
+end
+
+local function add_border(band, chain, foot)
+  local left, right = chain.sides[1], chain.sides[2]
+  if left == right then return end
+  local change = {}
+  for c = 1, 4 do change[c] = band.cells[right + 1][c] - band.cells[left + 1][c] end
+  band.borders[#band.borders + 1] = {chain = chain, top = chain.since, foot = foot, change = change}
+end
+
+local function get_group(band, height, first, latest, done)
+  local size, members, before = band.coder.number("size") + 1, {}, {}
+  for i = 1, size do
+    first = i == 1 and first + band.coder.signed("first") or first
+    members[i] = i == 1 and first or members[i - 1] + band.coder.signed("next")
+    before[i] = band.chains[members[i] + 1].sides
+  end
+  for i, member in ipairs(members) do
+    local chain = band.chains[member + 1]
+    local other = i > 1 and i - 1 or size > 1 and 2 or 1
+    local context = 2 + 4 * (math.min(size, 3) - 1) + (i > 1 and 2 or 0)
+    add_border(band, chain, height)
+    chain.sides = get_sides(band, context, before[i], before[other], latest)
+    chain.since, latest = height, chain.sides
+  end
+  return done + size, first, latest
+end
+
+local function read_band(payload)
+  local band, start, before = new_band(payload), {x = 0, y = 0}, {}
+  get_fresh(band)
+  for _ = 1, band.chain_count do get_chain(band, start, before) end
+  local height, first, latest, done = band.top, 0, {0, 0}, 0
+  while done < band.change_count do
+    height = height + band.coder.number("height")
+    done, first, latest = get_group(band, height, first, latest, done)
+  end
+  for _, chain in ipairs(band.chains) do add_border(band, chain, chain.foot) end
+  assert(#band.borders == band.border_count and #band.cells == band.cell_count)
+  return band
+end
+
+---------------------------------------------------------------------- drawing
+
+local function point_at(piece, t)
+  local level = {}
+  for i, p in ipairs(piece) do level[i] = {p[1] * p[3], p[2] * p[3], p[3]} end
+  for last = #level - 1, 1, -1 do
+    for i = 1, last do
+      for k = 1, 3 do level[i][k] = level[i][k] * (1 - t) + level[i + 1][k] * t end
+    end
+  end
+  return level[1][1] / level[1][3], level[1][2] / level[1][3]
+end
+
+-- What is left of `edge` on a line from x = a to b: 0..1.
+local function share_left(a, b, edge)
+  local low, high = edge - math.max(a, b), edge - math.min(a, b)
+  local function integral(u) return u <= 0 and 0 or u >= 1 and u - 0.5 or u * u / 2 end
+  if high - low < 1e-6 then return math.max(0, math.min(1, low)) end
+  return (integral(high) - integral(low)) / (high - low)
+end
+
+-- A line down from (xa, ya) to (xb, yb), in pixels, adds to the rows that it crosses.
+local function add_line(rows, columns, xa, ya, xb, yb, change)
+  local y = ya
+  while y < yb do
+    local row = math.floor(y)
+    local foot, slope = math.min(row + 1, yb), (xb - xa) / (yb - ya)
+    local a, b, before = xa + (y - ya) * slope, xa + (foot - ya) * slope, 0
+    for x = 0, columns - 1 do
+      local share = share_left(a, b, x + 1) * (foot - y)
+      for c = 1, 4 do rows[row][4 * x + c] = rows[row][4 * x + c] + change[c] * (share - before) end
+      before = share
+    end
+    y = foot
+  end
+end
+
+local function draw_border(rows, size, border)
+  local fit, STEPS = {x = size.columns / SIDE, y = size.rows / SIDE}, 24
+  for _, piece in ipairs(border.chain) do
+    local steps = #piece == 2 and 1 or STEPS
+    local xa, ya = piece[1][1], piece[1][2]
+    for i = 1, steps do
+      local xb, yb = point_at(piece, i / steps)
+      local top, foot = math.max(ya, border.top), math.min(yb, border.foot)
+      if top < foot then
+        local slope = (xb - xa) / (yb - ya)
+        add_line(rows, size.columns, (xa + (top - ya) * slope) * fit.x, top * fit.y,
+          (xa + (foot - ya) * slope) * fit.x, foot * fit.y, border.change)
+      end
+      xa, ya = xb, yb
+    end
+  end
+end
+
+---------------------------------------------------------------------- the file
+
+-- bands: all that the index names, in order.
+local function read_bands(bytes)
+  assert(bytes:sub(1, 8) == "celplane" and crc32c(bytes:sub(1, 36)) == ("<I4"):unpack(bytes, 37))
+  local trailer = bytes:sub(-32)
+  local index, size = ("<I8I8"):unpack(trailer, 9)
+  assert(trailer:sub(1, 8) == "planeend" and size == #bytes)
+  local function payload_at(offset)
+    local length = ("<I4"):unpack(bytes, offset + 2)
+    local record = bytes:sub(offset + 1, offset + 5 + length)
+    assert(crc32c(("<I8"):pack(offset) .. record) == ("<I4"):unpack(bytes, offset + 6 + length))
+    return record:sub(6)
+  end
+  local entries, bands = payload_at(index), {}
+  for at = 1, #entries, 12 do
+    bands[#bands + 1] = read_band(payload_at((("<I8"):unpack(entries, at + 4))))
+  end
+  return bands
+end
+
+-- Returns rows 0 to rows - 1, each an array of four numbers a pixel, with 65535 for white.
+return function(bytes, columns, row_count)
+  local bands, rows, size = read_bands(bytes), {}, {columns = columns, rows = row_count}
+  for y = 0, row_count - 1 do
+    rows[y] = {}
+    for i = 1, 4 * columns do rows[y][i] = 0 end
+  end
+  for _, band in ipairs(bands) do
+    for _, border in ipairs(band.borders) do draw_border(rows, size, border) end
+  end
+  for y = 0, row_count - 1 do
+    local sum = {table.unpack(bands[1].cells[1])}
+    for i = 1, 4 * columns do
+      local c = (i - 1) % 4 + 1
+      sum[c] = sum[c] + rows[y][i]
+      rows[y][i] = sum[c]
+    end
+  end
+  return rows
+end

@@ -1,0 +1,156 @@
+/* Any bytes as a plane file: no fault, memory in proportion to the bytes, valid bands, crops that
+ * are the same as the whole, and the same plane after it is written again.
+ *
+ * The first byte decides whether the rest is read unchanged, or with corrected checksums (1). With
+ * clang's -fsanitize=fuzzer this is a fuzz target; with REPLAY_MAIN its own main runs the files of
+ * a folder.
+ */
+#include "mend.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+typedef struct meter {
+  size_t bytes, peak;
+} meter;
+
+static void *metered(void *user, void *block, size_t old_size, size_t new_size) {
+  meter *m = user;
+  m->bytes += new_size - old_size;
+  m->peak = m->bytes > m->peak ? m->bytes : m->peak;
+  if (new_size > 0)
+    return realloc(block, new_size);
+  free(block);
+  return NULL;
+}
+
+static void demand(bool holds, const char *text) {
+  if (holds)
+    return;
+  fprintf(stderr, "%s\n", text);
+  abort();
+}
+
+static void check_piece(const planefile_band *band, const planefile_piece *piece) {
+  demand(piece->degree >= 1 && piece->degree <= 3, "a piece of another degree");
+  demand((uint64_t)piece->point + piece->degree < band->point_count, "a piece without points");
+  for (int i = 0; i <= piece->degree; i++) {
+    const planefile_point *at = &band->points[piece->point + (uint32_t)i];
+    demand(at->x >= -PLANEFILE_FAR && at->x <= PLANEFILE_FAR, "a point is too far away");
+    demand(at->w >= PLANEFILE_WEIGHT / 16, "a weight is too small");
+  }
+}
+
+static void check_band(const planefile_band *band) {
+  for (uint32_t i = 0; i < band->piece_count; i++)
+    check_piece(band, &band->pieces[i]);
+  for (uint32_t i = 0; i < band->border_count; i++) {
+    const planefile_border *b = &band->borders[i];
+    demand(b->chain < band->chain_count && b->left < band->cell_count &&
+               b->right < band->cell_count && b->left != b->right,
+           "a border without sides");
+    demand(b->top >= band->top && b->top < b->foot && b->foot <= band->foot, "a border outside");
+    demand(i == 0 || band->borders[i - 1].top <= b->top, "borders are not in order");
+  }
+}
+
+/* A crop of the whole is what is drawn of that crop. */
+static void check_crop(const planefile_plane *plane, uint32_t size, planefile_sampling sampling) {
+  planefile_view whole = {size, size, 0, 0, size, size, sampling};
+  planefile_view crop = {size, size, size / 3, size / 4, size / 2, size / 2, sampling};
+  planefile_cell *all = draw_view(plane, whole), *part = draw_view(plane, crop);
+  for (uint32_t y = 0; y < crop.rows; y++)
+    demand(memcmp(part + y * crop.columns, all + (y + crop.y) * size + crop.x,
+                  crop.columns * sizeof *part) == 0,
+           "a crop is not a part of the whole");
+  free(all);
+  free(part);
+}
+
+/* Any crop of a frame far too large to be drawn as a whole. */
+static void draw_deep(const planefile_plane *plane, uint32_t seed) {
+  random_state random = {seed};
+  uint32_t x = random_below(&random, (1 << 24) - 16), y = random_below(&random, (1 << 20) - 16);
+  planefile_view view = {1 << 24, 1 << 20, x, y, 16, 16, PLANEFILE_AREA};
+  free(draw_view(plane, view));
+}
+
+/* What was read can be written, and is then read again as it was. */
+static void write_again(const planefile_plane *plane) {
+  if (planefile_plane_info(plane).band_count > 1)
+    return;
+  const planefile_band *band = planefile_plane_band(plane, 0);
+  memory_file file = write_plane(band);
+  planefile_plane *again = read_plane(&file);
+  const planefile_band *other = planefile_plane_band(again, 0);
+  demand(band->border_count == other->border_count, "another number of borders");
+  for (uint32_t i = 0; i < band->border_count; i++)
+    demand(band->borders[i].top == other->borders[i].top, "another height");
+  planefile_plane_destroy(again);
+  free(file.bytes);
+}
+
+static void use_plane(const planefile_plane *plane, uint32_t seed) {
+  for (uint32_t i = 0; i < planefile_plane_info(plane).band_count; i++)
+    check_band(planefile_plane_band(plane, i));
+  check_crop(plane, 24, PLANEFILE_AREA);
+  check_crop(plane, 33, PLANEFILE_NONE);
+  draw_deep(plane, seed);
+  write_again(plane);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+  if (size == 0)
+    return 0;
+  memory_file file = {malloc(size), size - 1, size};
+  memcpy(file.bytes, data + 1, size - 1);
+  if (data[0] & 1)
+    mend_sums(&file);
+  meter m = {0, 0};
+  planefile_source source = memory_source(&file);
+  source.resize = metered;
+  source.resize_user = &m;
+  planefile_plane *plane = NULL;
+  planefile_fault fault = {0};
+  if (planefile_read(&source, 0, PLANEFILE_SIDE, &plane, &fault) == PLANEFILE_OK) {
+    demand(m.peak <= 128 * 1024 + 600 * file.size, "memory that nothing pays for");
+    use_plane(plane, pf_crc32c(0, data, size));
+    planefile_plane_destroy(plane);
+  } else {
+    demand(fault.offset <= file.size && fault.reason[0] != '\0', "a refusal without a reason");
+    demand(m.peak <= 128 * 1024 + 600 * file.size, "memory that nothing pays for");
+  }
+  demand(m.bytes == 0, "memory is not freed");
+  demand(check_failures == 0, "a call failed");
+  free(file.bytes);
+  return 0;
+}
+
+#ifdef REPLAY_MAIN
+
+#include <dirent.h>
+
+static void replay(const char *path) {
+  static unsigned char bytes[1 << 20];
+  FILE *file = fopen(path, "rb");
+  if (!CHECK(file != NULL))
+    return;
+  size_t size = fread(bytes, 1, sizeof bytes, file);
+  fclose(file);
+  CHECK(LLVMFuzzerTestOneInput(bytes, size) == 0);
+}
+
+int main(int count, char **arguments) {
+  DIR *folder = count == 2 ? opendir(arguments[1]) : NULL;
+  if (!CHECK(folder != NULL))
+    return check_done();
+  for (struct dirent *entry; (entry = readdir(folder));) {
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s", arguments[1], entry->d_name);
+    if (entry->d_name[0] != '.')
+      replay(path);
+  }
+  closedir(folder);
+  return check_done();
+}
+
+#endif

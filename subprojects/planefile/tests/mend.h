@@ -1,0 +1,53 @@
+/* Corrects the checksums of a file whose bytes were changed, so that the checks behind them are
+ * tested.
+ */
+#ifndef PLANEFILE_TESTS_MEND_H
+#define PLANEFILE_TESTS_MEND_H
+
+#include "../src/layout.h"
+#include "support.h"
+
+static inline void mend_header(memory_file *file) {
+  memcpy(file->bytes, pf_magic, sizeof pf_magic);
+  pf_store_32(file->bytes + 8, PF_VERSION);
+  pf_store_32(file->bytes + 36, pf_crc32c(0, file->bytes, 36));
+}
+
+static inline void mend_trailer(memory_file *file) {
+  unsigned char *trailer = file->bytes + file->size - PF_TRAILER_BYTES;
+  memcpy(trailer, pf_end_magic, sizeof pf_end_magic);
+  pf_store_64(trailer + 16, file->size);
+  pf_store_32(trailer + 24, 0);
+  pf_store_32(trailer + 28, pf_crc32c(0, trailer, 28));
+}
+
+/* The record at an offset, whose length may be anything; returns where its payload is, or 0. */
+static inline uint64_t mend_record(memory_file *file, uint64_t offset) {
+  uint64_t end = file->size - PF_TRAILER_BYTES;
+  if (offset > end || end - offset < PF_HEAD_BYTES + PF_CHECK_BYTES)
+    return 0;
+  unsigned char *record = file->bytes + offset;
+  uint64_t size = PF_HEAD_BYTES + (uint64_t)pf_load_32(record + 1);
+  if (size > end - offset - PF_CHECK_BYTES)
+    return 0;
+  pf_store_32(record + size, pf_crc32c_record(offset, record, (size_t)size));
+  return offset + PF_HEAD_BYTES;
+}
+
+/* All records that the index names, header and trailer. */
+static inline void mend_sums(memory_file *file) {
+  if (file->size < PF_HEADER_BYTES + PF_TRAILER_BYTES)
+    return;
+  mend_header(file);
+  mend_trailer(file);
+  uint64_t index = pf_load_64(file->bytes + file->size - PF_TRAILER_BYTES + 8);
+  uint64_t at = mend_record(file, index);
+  if (at == 0)
+    return;
+  uint64_t end = at + pf_load_32(file->bytes + index + 1);
+  for (; end - at >= PF_ENTRY_BYTES; at += PF_ENTRY_BYTES)
+    mend_record(file, pf_load_64(file->bytes + at + 4));
+  mend_record(file, index);
+}
+
+#endif

@@ -1,0 +1,574 @@
+/* Written planes are read back and drawn; truncated, altered and inconsistent files are refused;
+ * memory is limited. One list of cases, long because there are many kinds of damage. */
+#include <math.h>
+
+#include "../src/coder.h"
+#include "mend.h"
+#include "support.h"
+
+/* ---------------------------------------------------------------- numbers */
+
+static uint32_t any_number(random_state *random) {
+  uint32_t bits = random_below(random, 33);
+  return bits == 0 ? 0 : random_next(random) >> (32 - bits);
+}
+
+static void test_numbers(void) {
+  enum { COUNT = 20000 };
+  pf_memory memory = pf_memory_of(NULL, NULL);
+  pf_encoder encoder;
+  pf_decoder decoder;
+  for (int turn = 0; turn < 2; turn++) {
+    static pf_number model;
+    uint16_t *models = (uint16_t *)&model;
+    for (size_t i = 0; i < sizeof model / 2; i++)
+      models[i] = PF_EVEN;
+    random_state random = {3};
+    if (turn == 0)
+      pf_encoder_begin(&encoder, &memory, 0);
+    else
+      pf_decoder_begin(&decoder, encoder.bytes, encoder.count);
+    for (int i = 0; i < COUNT; i++) {
+      uint32_t number = i < 3 ? UINT32_MAX : any_number(&random);
+      int64_t other = (int64_t)(number >> 1) - (i % 2 ? 0 : number);
+      if (turn == 0) {
+        pf_put_number(&encoder, &model, number);
+        pf_put_signed(&encoder, &model, other);
+      } else {
+        CHECK(pf_get_number(&decoder, &model) == number);
+        CHECK(pf_get_signed(&decoder, &model) == other);
+      }
+    }
+    if (turn == 0)
+      pf_encoder_end(&encoder);
+    else
+      CHECK(pf_decoder_is_whole(&decoder) && decoder.at == decoder.end);
+  }
+  pf_decoder_begin(&decoder, encoder.bytes, encoder.count - 1);
+  CHECK(!decoder.is_beyond);
+  pf_encoder_finish(&encoder);
+}
+
+static void test_checksum(void) { CHECK(pf_crc32c(0, "123456789", 9) == 0xe3069283); }
+
+/* ---------------------------------------------------------------- there and back */
+
+static bool is_same_border(const planefile_band *a, const planefile_band *b, uint32_t i) {
+  const planefile_border *p = &a->borders[i], *q = &b->borders[i];
+  return p->top == q->top && p->foot == q->foot &&
+         memcmp(&a->cells[p->left], &b->cells[q->left], sizeof *a->cells) == 0 &&
+         memcmp(&a->cells[p->right], &b->cells[q->right], sizeof *a->cells) == 0;
+}
+
+/* What is read is written as the same bytes, and has as many borders as were written. */
+static void test_round_trips(void) {
+  for (uint64_t seed = 0; seed < 300; seed++) {
+    drawing d = random_drawing(seed, (uint32_t)(seed % 40));
+    memory_file file = write_plane(&d.plane);
+    planefile_plane *plane = read_plane(&file);
+    const planefile_band *band = planefile_plane_band(plane, 0);
+    planefile_info info = planefile_plane_info(plane);
+    CHECK(info.width == 4 && info.height == 3 && info.band_count == 1);
+    CHECK(info.is_opaque == (seed % 3 == 0) || d.plane.cell_count < 3);
+    CHECK(band->border_count == d.plane.border_count);
+    memory_file again = write_plane(band);
+    planefile_plane *other = read_plane(&again);
+    CHECK(again.size == file.size && memcmp(again.bytes, file.bytes, file.size) == 0);
+    for (uint32_t i = 0; i < band->border_count; i++)
+      CHECK(is_same_border(band, planefile_plane_band(other, 0), i));
+    planefile_plane_destroy(other);
+    planefile_plane_destroy(plane);
+    free(again.bytes);
+    free(file.bytes);
+    drawing_free(&d);
+  }
+}
+
+/* ---------------------------------------------------------------- what is drawn */
+
+/* By repeated means of neighbouring points. */
+static double coordinate(const planefile_piece *piece, const planefile_point *points, double t,
+                         bool is_y) {
+  double at[4], w[4];
+  for (int i = 0; i <= piece->degree; i++) {
+    w[i] = piece->is_rational ? points[i].w : 1;
+    at[i] = w[i] * (is_y ? points[i].y : points[i].x);
+  }
+  for (int last = piece->degree; last > 0; last--)
+    for (int i = 0; i < last; i++) {
+      at[i] += t * (at[i + 1] - at[i]);
+      w[i] += t * (w[i + 1] - w[i]);
+    }
+  return at[0] / w[0];
+}
+
+/* x of a chain at a height, by halving. */
+static double exact_x(const planefile_band *plane, uint32_t index, double y) {
+  const planefile_chain *chain = &plane->chains[index];
+  const planefile_piece *piece = &plane->pieces[chain->piece];
+  while (plane->points[piece->point + piece->degree].y <= y &&
+         piece < &plane->pieces[chain->piece + chain->piece_count - 1])
+    piece++;
+  const planefile_point *points = &plane->points[piece->point];
+  double low = 0, high = 1;
+  for (int i = 0; i < 50; i++) {
+    double middle = 0.5 * (low + high);
+    if (coordinate(piece, points, middle, true) > y)
+      high = middle;
+    else
+      low = middle;
+  }
+  return coordinate(piece, points, low, false);
+}
+
+/* The mean of many heights of each row, exact in x; of one height: the colour at the centres. */
+static double *draw_exactly(const planefile_band *plane, uint32_t size, int heights) {
+  double *out = calloc((size_t)size * size * 4, sizeof *out);
+  for (uint32_t k = 0; k < plane->border_count; k++) {
+    const planefile_border *b = &plane->borders[k];
+    for (uint32_t line = 0; line < size * (uint32_t)heights; line++) {
+      double y = (line + 0.5) / heights / size * PLANEFILE_SIDE;
+      if (y < b->top || y >= b->foot)
+        continue;
+      double x = exact_x(plane, b->chain, y) * size / PLANEFILE_SIDE;
+      double *row = out + (size_t)(line / (uint32_t)heights) * size * 4;
+      for (uint32_t column = 0; column < size; column++) {
+        double share = heights == 1 ? column + 0.5 >= x : fmin(fmax(column + 1 - x, 0), 1);
+        for (int c = 0; c < 4; c++)
+          row[4 * column + (uint32_t)c] +=
+              share / heights *
+              (plane->cells[b->right].colour[c] - plane->cells[b->left].colour[c]);
+      }
+    }
+  }
+  return out;
+}
+
+/* The most that a channel is off, in codes of 255. */
+static double find_worst(const planefile_band *plane, const planefile_cell *drawn,
+                         const double *exact, size_t pixels) {
+  double worst = 0;
+  for (size_t i = 0; i < pixels; i++)
+    for (int c = 0; c < 4; c++) {
+      double wanted = exact[4 * i + (size_t)c] + plane->cells[0].colour[c];
+      worst = fmax(worst, fabs(drawn[i].colour[c] - wanted) * 255 / PLANEFILE_WHITE);
+    }
+  return worst;
+}
+
+static void check_drawn(uint64_t seed, uint32_t size, planefile_sampling sampling) {
+  drawing d = random_drawing(seed, 8);
+  memory_file file = write_plane(&d.plane);
+  planefile_plane *plane = read_plane(&file);
+  planefile_view view = {size, size, 0, 0, size, size, sampling};
+  planefile_cell *drawn = draw_view(plane, view);
+  double *exact = draw_exactly(&d.plane, size, sampling == PLANEFILE_NONE ? 1 : 1024);
+  CHECK(find_worst(&d.plane, drawn, exact, (size_t)size * size) <= 0.5);
+  free(exact);
+  free(drawn);
+  planefile_plane_destroy(plane);
+  free(file.bytes);
+  drawing_free(&d);
+}
+
+static void test_drawn(void) {
+  for (uint64_t seed = 0; seed < 8; seed++) {
+    check_drawn(seed, 24 + (uint32_t)(5 * seed), PLANEFILE_AREA);
+    check_drawn(seed, 60, PLANEFILE_NONE);
+  }
+}
+
+static void check_crops(const planefile_plane *plane, random_state *random,
+                        planefile_sampling sampling) {
+  uint32_t size = 1 + random_below(random, 90);
+  planefile_cell *all = draw_view(plane, (planefile_view){size, size, 0, 0, size, size, sampling});
+  for (int i = 0; i < 6; i++) {
+    uint32_t x = random_below(random, size), y = random_below(random, size);
+    uint32_t columns = 1 + random_below(random, size - x);
+    uint32_t rows = 1 + random_below(random, size - y);
+    planefile_view crop = {size, size, x, y, columns, rows, sampling};
+    planefile_cell *part = draw_view(plane, crop);
+    for (uint32_t row = 0; row < rows; row++)
+      CHECK(memcmp(part + row * columns, all + (y + row) * size + x, columns * sizeof *part) == 0);
+    free(part);
+  }
+  free(all);
+}
+
+/* Crops of crops, at sizes of which nobody draws the whole. */
+static void check_deep(const planefile_plane *plane, random_state *random) {
+  uint32_t size = UINT32_C(1) << random_between(random, 12, 30);
+  uint32_t x = random_below(random, size - 64), y = random_below(random, size - 64);
+  planefile_view large = {size, size, x, y, 64, 64, PLANEFILE_AREA};
+  planefile_view small = {size, size, x + 17, y + 29, 31, 23, PLANEFILE_AREA};
+  planefile_cell *all = draw_view(plane, large), *part = draw_view(plane, small);
+  for (uint32_t row = 0; row < 23; row++)
+    CHECK(memcmp(part + row * 31, all + (row + 29) * 64 + 17, 31 * sizeof *part) == 0);
+  free(all);
+  free(part);
+}
+
+static void test_crops(void) {
+  random_state random = {8};
+  for (uint64_t seed = 0; seed < 40; seed++) {
+    drawing d = random_drawing(seed, 30);
+    memory_file file = write_plane(&d.plane);
+    planefile_plane *plane = read_plane(&file);
+    check_crops(plane, &random, PLANEFILE_AREA);
+    check_crops(plane, &random, PLANEFILE_NONE);
+    for (int i = 0; i < 10; i++)
+      check_deep(plane, &random);
+    planefile_plane_destroy(plane);
+    free(file.bytes);
+    drawing_free(&d);
+  }
+}
+
+/* Where nothing is broken a pixel is its cell, to the bit, however many borders lie before it. */
+static void test_cells_are_exact(void) {
+  drawing d = drawing_new(2);
+  random_state random = {1};
+  int32_t heights[2] = {0, PLANEFILE_SIDE};
+  for (int i = 0; i < 3; i++)
+    add_cell(&d, &random, false);
+  uint32_t left = add_chain(&d, &random, heights, 2), right = add_chain(&d, &random, heights, 2);
+  add_border(&d, left, 0, PLANEFILE_SIDE, 0, 1);
+  add_border(&d, right, 0, PLANEFILE_SIDE, 1, 2);
+  memory_file file = write_plane(&d.plane);
+  planefile_plane *plane = read_plane(&file);
+  planefile_view view = {3000, 64, 2999, 0, 1, 64, PLANEFILE_AREA};
+  planefile_cell *drawn = draw_view(plane, view);
+  for (int y = 0; y < 64; y++)
+    CHECK(memcmp(&drawn[y], &d.cells[2], sizeof *drawn) == 0 || d.points[0].x > 60 << 20);
+  free(drawn);
+  planefile_plane_destroy(plane);
+  free(file.bytes);
+  drawing_free(&d);
+}
+
+static void test_codes(void) {
+  drawing d = random_drawing(0, 1);
+  memory_file file = write_plane(&d.plane);
+  planefile_plane *plane = read_plane(&file);
+  for (int code = 0; code < 256; code++) {
+    double s = code / 255.0, linear = s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
+    int32_t grey = (int32_t)(linear * PLANEFILE_WHITE + 0.5);
+    unsigned char out[4];
+    planefile_srgb8(plane, (planefile_cell){{grey, grey, grey, PLANEFILE_WHITE}}, out);
+    CHECK(out[0] == code && out[1] == code && out[2] == code && out[3] == 255);
+    planefile_srgb8(plane, (planefile_cell){{grey / 2, -grey, grey, PLANEFILE_WHITE / 2}}, out);
+    CHECK(abs(out[0] - code) <= (code < 16 ? 1 : 0) && out[1] == 0 && out[3] == 127);
+  }
+  unsigned char out[4] = {1, 1, 1, 1};
+  planefile_srgb8(plane, (planefile_cell){{9, 9, 9, 0}}, out);
+  CHECK(out[0] == 0 && out[3] == 0);
+  planefile_srgb8(plane, (planefile_cell){{1 << 24, 0, 0, 1 << 24}}, out);
+  CHECK(out[0] == 255 && out[3] == 255);
+  planefile_plane_destroy(plane);
+  free(file.bytes);
+  drawing_free(&d);
+}
+
+/* ---------------------------------------------------------------- bands */
+
+static void check_part(memory_file *file, const planefile_cell *all, uint32_t size, uint32_t y,
+                       uint32_t rows) {
+  planefile_plane *plane = NULL;
+  planefile_source source = memory_source(file);
+  int32_t unit = PLANEFILE_SIDE / (int32_t)size;
+  int32_t top = (int32_t)y * unit, foot = (int32_t)(y + rows) * unit;
+  planefile_drawer *drawer;
+  CHECK(planefile_read(&source, top, foot, &plane, NULL) == PLANEFILE_OK);
+  planefile_view view = {size, size, 0, y, size, rows, PLANEFILE_AREA};
+  planefile_cell *part = draw_view(plane, view);
+  CHECK(memcmp(part, all + y * size, (size_t)rows * size * sizeof *part) == 0);
+  planefile_view whole = {size, size, 0, 0, size, size, PLANEFILE_AREA};
+  CHECK(planefile_drawer_create(plane, &whole, &drawer) == PLANEFILE_BAD_ARGUMENT);
+  free(part);
+  planefile_plane_destroy(plane);
+}
+
+/* A plane of many bands is that of one; a part of its heights needs only some of its bytes. */
+static void test_bands(void) {
+  enum { SIZE = 128 };
+  drawing d = random_drawing(5, 6000);
+  memory_file file = write_plane(&d.plane);
+  planefile_plane *plane = read_plane(&file);
+  CHECK(planefile_plane_info(plane).band_count > 3);
+  planefile_view view = {SIZE, SIZE, 0, 0, SIZE, SIZE, PLANEFILE_AREA};
+  planefile_cell *all = draw_view(plane, view);
+  double *exact = draw_exactly(&d.plane, SIZE, 1);
+  view.sampling = PLANEFILE_NONE;
+  planefile_cell *centres = draw_view(plane, view);
+  size_t same = 0;
+  for (size_t i = 0; i < SIZE * SIZE; i++)
+    same += fabs(centres[i].colour[0] - exact[4 * i] - d.cells[0].colour[0]) < 0.5;
+  CHECK(same > SIZE * SIZE * 98 / 100);
+  for (uint32_t y = 0; y + 8 <= SIZE; y += 24)
+    check_part(&file, all, SIZE, y, 8);
+  free(exact);
+  free(centres);
+  free(all);
+  planefile_plane_destroy(plane);
+  free(file.bytes);
+  drawing_free(&d);
+}
+
+/* ---------------------------------------------------------------- damage */
+
+static bool is_refused(memory_file *file, const char *reason) {
+  planefile_plane *plane = NULL;
+  planefile_fault fault = {0};
+  planefile_source source = memory_source(file);
+  planefile_status status = planefile_read(&source, 0, PLANEFILE_SIDE, &plane, &fault);
+  planefile_plane_destroy(plane);
+  return status == PLANEFILE_BAD_FILE && fault.offset <= file->size &&
+         (reason ? strcmp(fault.reason, reason) == 0 : fault.reason[0] != '\0');
+}
+
+static void test_every_byte(void) {
+  drawing d = random_drawing(4, 6);
+  memory_file file = write_plane(&d.plane);
+  size_t size = file.size;
+  for (size_t i = 0; i < size; i++) {
+    file.bytes[i] ^= (unsigned char)(1 + i % 255);
+    CHECK(is_refused(&file, NULL));
+    file.bytes[i] ^= (unsigned char)(1 + i % 255);
+    file.size = i;
+    CHECK(is_refused(&file, NULL));
+    file.size = size;
+  }
+  free(file.bytes);
+  drawing_free(&d);
+}
+
+/* Changes of the numbers before the code of the first band, and why they are refused. */
+static void test_reasons(void) {
+  static const struct {
+    size_t at;
+    uint32_t number;
+    const char *reason;
+  } changes[] = {
+      {0, 1 << 26, "band 0: its heights are not in the frame"},
+      {4, (1 << 26) - 1, "band 0: it has other heights"},
+      {8, UINT32_MAX, "band 0: it claims more than its bytes can hold"},
+      {16, 0, "band 0: it has no cell"},
+      {12, 1, "band 0: it has more pieces than it claims"},
+      {20, 1, "band 0: a group is too large"},
+  };
+  drawing d = random_drawing(4, 6);
+  for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
+    memory_file file = write_plane(&d.plane);
+    pf_store_32(file.bytes + PF_HEADER_BYTES + PF_HEAD_BYTES + changes[i].at, changes[i].number);
+    mend_sums(&file);
+    if (!CHECK(is_refused(&file, changes[i].reason)))
+      fprintf(stderr, "  %s\n", changes[i].reason);
+    free(file.bytes);
+  }
+  drawing_free(&d);
+}
+
+static void test_ends(void) {
+  drawing d = random_drawing(4, 6);
+  memory_file file = write_plane(&d.plane);
+  CHECK(planefile_is(file.bytes, PLANEFILE_MAGIC_BYTES) && !planefile_is(file.bytes, 7));
+  pf_store_32(file.bytes + 8, 2);
+  pf_store_32(file.bytes + 36, pf_crc32c(0, file.bytes, 36));
+  CHECK(is_refused(&file, "the plane file has version 2, which is newer"));
+  mend_sums(&file);
+  CHECK(!is_refused(&file, NULL));
+  pf_store_double(file.bytes + 16, -1);
+  mend_sums(&file);
+  CHECK(is_refused(&file, "the header has a value that is not allowed"));
+  free(file.bytes);
+  drawing_free(&d);
+}
+
+/* Any byte of the code may be any other: then the plane is another one, or it is refused. */
+static void test_altered_code(void) {
+  for (uint64_t seed = 0; seed < 6; seed++) {
+    drawing d = random_drawing(seed, 5);
+    memory_file file = write_plane(&d.plane);
+    for (size_t i = PF_HEADER_BYTES; i + PF_TRAILER_BYTES < file.size; i++) {
+      unsigned char kept = file.bytes[i];
+      planefile_plane *plane = NULL;
+      planefile_source source = memory_source(&file);
+      file.bytes[i] ^= 0x55;
+      mend_sums(&file);
+      if (planefile_read(&source, 0, PLANEFILE_SIDE, &plane, NULL) == PLANEFILE_OK)
+        free(draw_view(plane, (planefile_view){20, 20, 0, 0, 20, 20, PLANEFILE_AREA}));
+      planefile_plane_destroy(plane);
+      file.bytes[i] = kept;
+    }
+    free(file.bytes);
+    drawing_free(&d);
+  }
+}
+
+/* ---------------------------------------------------------------- misuse */
+
+static planefile_status write_status(const planefile_band *plane, double width) {
+  memory_file file = {0};
+  planefile_writer_desc desc = {.width = width, .height = 3, .write = memory_write, .user = &file};
+  planefile_status status = planefile_write(&desc, plane);
+  free(file.bytes);
+  return status;
+}
+
+#define CHECK_REFUSED(change)                                                                      \
+  do {                                                                                             \
+    drawing d = random_drawing(2, 4);                                                              \
+    change;                                                                                        \
+    CHECK(write_status(&d.plane, 4) == PLANEFILE_BAD_ARGUMENT);                                    \
+    drawing_free(&d);                                                                              \
+  } while (0)
+
+static void test_bad_planes(void) {
+  drawing good = random_drawing(2, 4);
+  CHECK(write_status(&good.plane, 4) == PLANEFILE_OK);
+  CHECK(write_status(&good.plane, 0) == PLANEFILE_BAD_ARGUMENT);
+  CHECK(write_status(&good.plane, INFINITY) == PLANEFILE_BAD_ARGUMENT);
+  drawing_free(&good);
+  CHECK_REFUSED(d.plane.foot--);
+  CHECK_REFUSED(d.plane.cell_count = 0);
+  CHECK_REFUSED(d.borders[0].left = d.borders[0].right);
+  CHECK_REFUSED(d.borders[0].chain = d.plane.chain_count);
+  CHECK_REFUSED(d.borders[0].left = d.plane.cell_count);
+  CHECK_REFUSED(d.borders[0].top = -1);
+  CHECK_REFUSED(d.borders[0].foot = d.borders[0].top);
+  CHECK_REFUSED(d.borders[1] = d.borders[0]);
+  CHECK_REFUSED(d.chains[0].piece_count = d.plane.piece_count + 1);
+  CHECK_REFUSED(d.chains[0].piece_count = 0);
+  CHECK_REFUSED(d.pieces[0].degree = 4);
+  CHECK_REFUSED(d.pieces[1].degree = 0);
+  CHECK_REFUSED(d.points[0].x = PLANEFILE_FAR + 1);
+  CHECK_REFUSED(d.points[0].y = 1 << 27);
+  CHECK_REFUSED(d.points[d.pieces[1].point].x++);
+  CHECK_REFUSED(d.cells[0].colour[1] = PLANEFILE_BRIGHT + 1);
+}
+
+static void test_bad_views(void) {
+  drawing d = random_drawing(2, 4);
+  memory_file file = write_plane(&d.plane);
+  planefile_plane *plane = read_plane(&file);
+  const planefile_view views[] = {{0, 1, 0, 0, 1, 1, 0}, {9, 9, 9, 0, 1, 1, 0},
+                                  {9, 9, 0, 0, 0, 1, 0}, {9, 9, 4, 0, 6, 1, 0},
+                                  {9, 9, 0, 4, 1, 6, 0}, {UINT32_MAX, 9, 0, 0, 1, 1, 0}};
+  planefile_drawer *drawer;
+  for (size_t i = 0; i < sizeof views / sizeof *views; i++)
+    CHECK(planefile_drawer_create(plane, &views[i], &drawer) == PLANEFILE_BAD_ARGUMENT && !drawer);
+  planefile_view view = {9, 9, 0, 0, 9, 1, PLANEFILE_AREA};
+  const planefile_span *spans;
+  size_t count;
+  CHECK(planefile_drawer_create(plane, &view, &drawer) == PLANEFILE_OK);
+  CHECK(planefile_drawer_row(drawer, &spans, &count) == PLANEFILE_OK);
+  CHECK(planefile_drawer_row(drawer, &spans, &count) == PLANEFILE_BAD_ARGUMENT);
+  planefile_drawer_destroy(drawer);
+  planefile_plane_destroy(plane);
+  planefile_source source = memory_source(&file);
+  CHECK(planefile_read(&source, 5, 5, &plane, NULL) == PLANEFILE_BAD_ARGUMENT);
+  free(file.bytes);
+  drawing_free(&d);
+}
+
+/* ---------------------------------------------------------------- failures */
+
+/* Fails at one allocation, counted down. */
+static void *failing(void *user, void *block, size_t old_size, size_t new_size) {
+  int *left = user;
+  (void)old_size;
+  if (new_size == 0) {
+    free(block);
+    return NULL;
+  }
+  return --*left == 0 ? NULL : realloc(block, new_size);
+}
+
+static planefile_status draw_all(const planefile_plane *plane) {
+  planefile_drawer *drawer;
+  planefile_view view = {40, 40, 0, 0, 40, 40, PLANEFILE_AREA};
+  planefile_status status = planefile_drawer_create(plane, &view, &drawer);
+  for (int y = 0; y < 40 && status == PLANEFILE_OK; y++) {
+    const planefile_span *spans;
+    size_t count;
+    status = planefile_drawer_row(drawer, &spans, &count);
+  }
+  planefile_drawer_destroy(drawer);
+  return status;
+}
+
+static planefile_status write_and_draw(const planefile_band *from, int *left) {
+  memory_file file = {0};
+  planefile_writer_desc desc = {4, 3, memory_write, &file, failing, left};
+  planefile_plane *plane = NULL;
+  planefile_status status = planefile_write(&desc, from);
+  planefile_source source = memory_source(&file);
+  source.resize = failing;
+  source.resize_user = left;
+  if (status == PLANEFILE_OK)
+    status = planefile_read(&source, 0, PLANEFILE_SIDE, &plane, NULL);
+  if (status == PLANEFILE_OK)
+    status = draw_all(plane);
+  planefile_plane_destroy(plane);
+  free(file.bytes);
+  return status;
+}
+
+static void test_no_memory(void) {
+  drawing d = random_drawing(4, 30);
+  int count = 0;
+  for (int k = 1;; k++, count++) {
+    int left = k;
+    planefile_status status = write_and_draw(&d.plane, &left);
+    if (status == PLANEFILE_OK)
+      break;
+    CHECK(status == PLANEFILE_NO_MEMORY);
+  }
+  CHECK(count > 20);
+  drawing_free(&d);
+}
+
+/* Fails after some bytes. */
+static bool failing_write(void *user, const void *bytes, size_t size) {
+  size_t *left = user;
+  (void)bytes;
+  bool fits = size <= *left;
+  *left -= fits ? size : 0;
+  return fits;
+}
+
+static void test_no_output(void) {
+  drawing d = random_drawing(4, 3);
+  memory_file file = write_plane(&d.plane);
+  for (size_t room = 0; room < file.size; room += 7) {
+    size_t left = room;
+    planefile_writer_desc desc = {.width = 4, .height = 3, .write = failing_write, .user = &left};
+    CHECK(planefile_write(&desc, &d.plane) == PLANEFILE_WRITE_FAILED);
+  }
+  planefile_plane *plane;
+  planefile_source source = memory_source(&file);
+  source.size++; /* than there is */
+  CHECK(planefile_read(&source, 0, PLANEFILE_SIDE, &plane, NULL) == PLANEFILE_READ_FAILED);
+  free(file.bytes);
+  drawing_free(&d);
+}
+
+int main(void) {
+  test_checksum();
+  test_numbers();
+  test_round_trips();
+  test_drawn();
+  test_crops();
+  test_cells_are_exact();
+  test_codes();
+  test_bands();
+  test_every_byte();
+  test_reasons();
+  test_ends();
+  test_altered_code();
+  test_bad_planes();
+  test_bad_views();
+  test_no_memory();
+  test_no_output();
+  return check_done();
+}
