@@ -122,6 +122,25 @@ local function artwork(run, lines)
   end
 end
 
+--- A drawing in the later frames of a film, where it is drawn from its map. The other drawings have
+--- too few shapes for that.
+local function again(run, lines)
+  for _, scene in ipairs { "clipart", "emoji", "twemoji" } do
+    for _, bound in ipairs { { 1024, 2.2, 1.1 }, { 2048, 2.4, 1.05 }, { 4096, 2.6, 1.05 } } do
+      local side, least, of_blend2d = table.unpack(bound)
+      local mine = seconds(shapes(run, scene, side, "row", "again"))
+      local what = "`%s` at %s, in a later frame: %s takes at least %g times as long"
+      at_least(lines, what:format(scene, names[side], "the best of AGG, Qt, Skia and Cairo", least),
+        over(run:best_peer(scene, side), mine), least, times)
+      local blend2d = seconds(shapes(run, scene, side, "row", "area", "blend2d"))
+      if blend2d then
+        at_least(lines, what:format(scene, names[side], "Blend2D", of_blend2d),
+          over(blend2d, mine), of_blend2d, times)
+      end
+    end
+  end
+end
+
 --- The targets for hard scenes, and for 10 to 1000 shapes, at the sizes of films.
 local function film_sizes(run, lines)
   for _, bound in ipairs { { "small", 1024, 0.7 }, { "small", 4096, 0.95 },
@@ -317,8 +336,8 @@ end
 --- { { what, text, is_met }, ... }; is_met is nil if nothing was measured.
 function asked.lines(run)
   local lines = {}
-  local parts = { artwork, film_sizes, accuracy, spans, pixels, pictures, softness, span_files,
-                  png_files, film_frame, composited, sequences }
+  local parts = { artwork, again, film_sizes, accuracy, spans, pixels, pictures, softness,
+                  span_files, png_files, film_frame, composited, sequences }
   for _, part in ipairs(parts) do part(run, lines) end
   return lines
 end

@@ -20,7 +20,8 @@ typedef struct bench_frame_job {
   unsigned char *pixels;
 } bench_frame_job;
 
-/* antialias: area, none, or a kernel of its own radius: box, gaussian, mitchell, lanczos.
+/* antialias: area, none, or a kernel of its own radius: box, gaussian, mitchell, lanczos; again:
+ * area, in a later frame of a film, where drawings of many shapes are drawn from their maps.
  * output: spans, row (8-bit pixels into one row that is reused), whole (an image in memory),
  * file (job->file, by its ending) or digest. The film is 1 x 1; job->rostrum is already set.
  * borrowed */

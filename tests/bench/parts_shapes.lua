@@ -60,6 +60,9 @@ local function renderers(runner, path, scene, side)
   for _, name in ipairs(parts.peers(runner)) do
     entries[#entries + 1] = peer(runner, path, scene, side, "area", name)
   end
+  if side <= 4096 then
+    entries[#entries + 1] = celspan(runner, path, scene, side, "again", "row", 1)
+  end
   return entries
 end
 
