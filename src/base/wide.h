@@ -6,6 +6,7 @@
  */
 #pragma once
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
@@ -110,5 +111,39 @@ static inline cs_wide cs_wide_unit(cs_wide v) {
 #else
   v = cs_wide_choose(v < 0, cs_wide_all(0), v);
   return cs_wide_choose(v > 1, cs_wide_all(1), v);
+#endif
+}
+
+/* Lane by lane the lesser, the greater; b where a is not a number. */
+static inline cs_wide cs_wide_min(cs_wide a, cs_wide b) {
+#ifdef __AVX512F__
+  return (cs_wide)_mm512_min_ps((__m512)a, (__m512)b);
+#elif defined(__AVX2__)
+  return (cs_wide)_mm256_min_ps((__m256)a, (__m256)b);
+#else
+  return cs_wide_choose(a < b, a, b);
+#endif
+}
+
+static inline cs_wide cs_wide_max(cs_wide a, cs_wide b) {
+#ifdef __AVX512F__
+  return (cs_wide)_mm512_max_ps((__m512)a, (__m512)b);
+#elif defined(__AVX2__)
+  return (cs_wide)_mm256_max_ps((__m256)a, (__m256)b);
+#else
+  return cs_wide_choose(a > b, a, b);
+#endif
+}
+
+/* Exact in every lane, as sqrtf. */
+static inline cs_wide cs_wide_sqrt(cs_wide v) {
+#ifdef __AVX512F__
+  return (cs_wide)_mm512_sqrt_ps((__m512)v);
+#elif defined(__AVX2__)
+  return (cs_wide)_mm256_sqrt_ps((__m256)v);
+#else
+  for (int i = 0; i < CS_WIDE_LANES; i++)
+    v[i] = sqrtf(v[i]);
+  return v;
 #endif
 }

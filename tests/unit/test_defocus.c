@@ -41,6 +41,7 @@ static image make(studio *s, celspan_rostrum *rostrum, const view *v, int32_t st
 
 typedef struct stage { /* one cel, sharp and defocused, seen in the same way */
   celspan_rostrum *sharp, *defocused;
+  celspan_rostrum *plain, *blended; /* defocused over a speck in a corner; with a mode */
   double camera_scale, camera_turn;
 } stage;
 
@@ -83,6 +84,19 @@ static celspan_matrix random_placement(int kind) {
   return matrix;
 }
 
+/* A defocused cel over a speck in a corner, which only a mode takes notice of. */
+static celspan_rostrum *over_speck(studio *s, celspan_cel_desc desc, celspan_object **objects,
+                                   celspan_blend mode, celspan_matrix placement) {
+  celspan_object *speck =
+      studio_rect(s, 0, 0, 0.5, 0.5, studio_paint(s, celspan_paint_rgb(1, 1, 1, 1)));
+  celspan_cel *cels[2] = {studio_cel(s, CELSPAN_CEL_DESC, &speck, 1), NULL};
+  desc.blend = mode;
+  celspan_cel *cel = studio_cel(s, desc, objects, 10);
+  studio_check(s, celspan_cel_transform(s->context, cel, &placement, &cels[1]));
+  s->cels[s->cel_count++] = cels[1];
+  return studio_rostrum(s, CELSPAN_ROSTRUM_DESC, cels, 2);
+}
+
 static celspan_rostrum *show(studio *s, celspan_cel *cel, const stage *camera) {
   celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
   desc.back = (celspan_light){0.9f, 0.8f, 1, 0.7f};
@@ -113,6 +127,8 @@ static stage random_stage(studio *s, int kind, double radius, celspan_defocus_ke
   }
   out.sharp = show(s, cels[0], &out);
   out.defocused = show(s, cels[1], &out);
+  out.plain = over_speck(s, desc, objects, CELSPAN_BLEND_NORMAL, placement);
+  out.blended = over_speck(s, desc, objects, CELSPAN_BLEND_DIFFERENCE, placement);
   return out;
 }
 
@@ -273,6 +289,38 @@ static void check_orders(void) {
     for (int way = 0; way < 3; way++)
       free(images[way].rgba);
   }
+}
+
+/* ---------------------------------------------------------------- blended */
+
+/* A source over nothing is what it is without its mode, pixel by pixel as by lines. */
+static void check_blended(void) {
+  static const double radii[] = {3, 6, 14, 24};
+  static studio s;
+  view v = {200, 150, SIDE, SIDE, CELSPAN_ANTIALIAS_AREA};
+  CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
+  for (int k = 0; k < 16; k++) {
+    if (!check_is_drawn(k))
+      continue;
+    double worst = 0;
+    random_state = 77 + (uint64_t)k;
+    v.antialias = k % 2 ? CELSPAN_ANTIALIAS_NONE : CELSPAN_ANTIALIAS_AREA;
+    stage set = random_stage(&s, k % 3 + 4 * (k / 12), radii[k / 4],
+                             k % 5 ? CELSPAN_DEFOCUS_GAUSSIAN : CELSPAN_DEFOCUS_DISC, 0);
+    image plain = make(&s, set.plain, &v, 1), blended = make(&s, set.blended, &v, 1);
+    image skipped = make(&s, set.blended, &v, 37);
+    for (int32_t p = 5 * v.width; p < v.width * v.height; p++)
+      for (int c = 0; c < 4; c++)
+        worst = fmax(worst, fabs((double)plain.rgba[p][c] - (double)blended.rgba[p][c]));
+    check_same(&blended, &skipped);
+    if (!CHECK(worst < 1.5 / 1023))
+      fprintf(stderr, "  case %d: %.2f of 1023\n", k, 1023 * worst);
+    free(plain.rgba);
+    free(blended.rgba);
+    free(skipped.rgba);
+    studio_finish(&s);
+  }
+  celspan_context_destroy(s.context);
 }
 
 static celspan_rostrum *defocused_disc(studio *s, double x, double size, double radius,
@@ -566,6 +614,8 @@ static void check_memory(void) {
     stage set =
         random_stage(&s, k / 9 ? 4 : k % 2, radii[k % 3], (celspan_defocus_kernel)(k / 3 % 3), 0);
     check_failures_of(&s, &watch, set.defocused, NULL);
+    if (k % 6 == 0)
+      check_failures_of(&s, &watch, set.blended, NULL);
     celspan_filter_desc kernel = {.kernel = k / 9 ? CELSPAN_KERNEL_LANCZOS : CELSPAN_KERNEL_BOX};
     if (k % 9 == 0)
       check_failures_of(&s, &watch, set.sharp, &kernel);
@@ -589,6 +639,7 @@ int main(void) {
   check_bars((lens){CELSPAN_DEFOCUS_BOX, CELSPAN_ANTIALIAS_AREA, 0.5}, 0.06, 10);
   check_bars((lens){CELSPAN_DEFOCUS_BOX, CELSPAN_ANTIALIAS_NONE, 0}, 0.7, 18);
   check_grids();
+  check_blended();
   check_light();
   check_tiny();
   check_ramps(4, CELSPAN_ANTIALIAS_AREA);

@@ -179,6 +179,46 @@ static void test_bare(celspan_context *context, cs_arena *arena) {
   }
 }
 
+/* ---------------------------------------------------------------- modes */
+
+static float channel_of(int i) { return i % 5 == 0 ? 0 : i % 7 == 0 ? 1 : random_unit(&numbers); }
+
+/* Colours with their alpha, from 0 to 1, both ends among them. */
+static void random_state_of(cs_over_row_state *state) {
+  for (int i = 0; i < CS_OVER_ROW_BATCH; i++)
+    for (int c = 0; c < 3; c++) {
+      state->t[i][c] = c > 0 && i % 3 ? state->t[i][0] : channel_of(i / 2 + c);
+      state->e[i][c] = (1 - state->t[i][c]) * channel_of(i + c);
+    }
+}
+
+/* Many pixels are blended as one is, to the bit. */
+static void check_blend(cs_isa isa, celspan_blend mode) {
+  static cs_over_row_state source, back, made;
+  const float keep = random_below(&numbers, 2) ? 1 : 0.4f;
+  random_state_of(&source);
+  random_state_of(&back);
+  made = back;
+  CS_WIDE_CHOOSE(isa, cs_over_row_blend)(&source, CS_OVER_ROW_BATCH, mode, keep, &made);
+  for (int i = 0; i < CS_OVER_ROW_BATCH; i++) {
+    float kept = keep;
+    cs_over_pair wanted =
+        cs_over_blend(mode, (cs_over_pair){cs_v4_load(source.e[i]), cs_v4_load(source.t[i])},
+                      (cs_over_pair){cs_v4_load(back.e[i]), cs_v4_load(back.t[i])}, &kept);
+    if (!CHECK(memcmp(&wanted.e, made.e[i], 3 * sizeof(float)) == 0) ||
+        !CHECK(memcmp(&wanted.t, made.t[i], 3 * sizeof(float)) == 0))
+      fprintf(stderr, "  mode %d, pixel %d, isa %d\n", (int)mode, i, (int)isa);
+  }
+}
+
+static void check_modes(cs_isa isa) {
+  for (unsigned mode = 0; mode < CS_BLEND_COUNT; mode++) {
+    check_blend(isa, (celspan_blend)mode);
+    if (mode != CELSPAN_BLEND_NORMAL)
+      check_blend(isa, (celspan_blend)(mode | CS_BLEND_WITHIN));
+  }
+}
+
 int main(void) {
   celspan_context *context;
   cs_arena arena;
@@ -205,6 +245,9 @@ int main(void) {
   test_bare(context, &arena);
   for (cs_isa isa = CS_ISA_ANY; isa <= cs_isa_best(); isa++)
     check_ends(isa);
+  for (cs_isa isa = CS_ISA_ANY; isa <= cs_isa_best(); isa++)
+    for (int round = 0; round < 10; round++)
+      check_modes(isa);
   cs_arena_finish(&arena, context->memory);
   celspan_context_destroy(context);
   return check_done();

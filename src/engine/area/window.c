@@ -16,6 +16,7 @@
 
 #define TILE 256 /* pixels summed at a time */
 #define FEW 2    /* pixels of a window between cells that vary, at most, that become single spans */
+#define BESIDE 2 /* columns of the next window for which a cell is folded together with its own */
 
 /* Clears the sums of the open window. */
 static void clear_change(cs_window *window) {
@@ -32,6 +33,9 @@ void cs_window_init(cs_window *window, cs_painter *painter, cs_arena *arena, int
 void cs_window_finish(cs_window *window, cs_memory *memory) {
   cs_mem_free(memory, window->segments, window->segment_capacity * sizeof *window->segments);
   cs_arena_finish(&window->tiles, memory);
+  for (int i = 0; i < 2; i++)
+    cs_mem_free(memory, window->stretches[i].rgba,
+                window->stretches[i].capacity * sizeof *window->stretches[i].rgba);
 }
 
 void cs_window_begin_row(cs_window *window, int32_t y, const cs_cell *leftmost, cs_row *out) {
@@ -43,6 +47,8 @@ void cs_window_begin_row(cs_window *window, int32_t y, const cs_cell *leftmost, 
   window->base = window->cell = leftmost;
   window->segment_count = 0;
   window->is_open = window->varies = window->is_whole_row = false;
+  for (int i = 0; i < 2; i++)
+    window->stretches[i].end = window->stretches[i].from = 0;
 }
 
 void cs_window_open_row(cs_window *window) {
@@ -53,6 +59,67 @@ void cs_window_open_row(cs_window *window) {
 /* The area right of the segment in the pixel of column p, 0..height. */
 static inline double cover(const cs_window_segment *f, int32_t p) {
   return cs_edges_cover(f->xa, f->xb, f->height, p);
+}
+
+/* ---------------------------------------------------------------- stretches
+ *
+ *      window |    cell    | window        a cell that is blended is folded once for all pixels of
+ *     |   /   |            |  /    |       it, with those of the windows on its sides, because
+ *     |  /    |            | /     |       folding few pixels costs as much as folding many
+ *         |<---- stretch ---->|
+ */
+
+/* The colours of a cell in some columns, if they have been made. */
+static const float (*find_stretch(const cs_window *window, const cs_cell *cell, cs_run run))[4] {
+  for (int i = 1; i >= 0; i--) {
+    const cs_window_stretch *s = &window->stretches[i];
+    if (s->from <= run.x0 && run.x1 <= s->end && s->from < s->end &&
+        cs_composer_same(window->composer, &s->cell, cell))
+      return (const float(*)[4])s->rgba + (run.x0 - s->from);
+  }
+  return NULL;
+}
+
+/* Makes the stretch of the cell right of the open window, up to the next window's first columns,
+ * in place of that of the cell before. next: where that window begins. */
+static celspan_status make_stretch(cs_window *window, int32_t next) {
+  cs_window_stretch made;
+  int32_t end = window->width - next < BESIDE ? window->width : next + BESIDE;
+  cs_run between = {window->end, next, window->centre};
+  if (next <= window->end || !cs_painter_blends(window->painter, window->cell) ||
+      find_stretch(window, window->cell, between))
+    return CELSPAN_OK;
+  CS_TRY(CS_RESERVE(window->composer->context, window->stretches[0].rgba,
+                    window->stretches[0].capacity, (size_t)(end - window->from)));
+  made = window->stretches[0];
+  made.cell = *window->cell;
+  made.from = window->from;
+  made.end = end;
+  window->stretches[0] = window->stretches[1];
+  window->stretches[1] = made;
+  return cs_painter_colours(window->painter, window->cell, (cs_run){made.from, end, window->centre},
+                            made.rgba);
+}
+
+static celspan_status find_colours(cs_window *window, const cs_cell *cell, cs_run run,
+                                   float (*rgba)[4]) {
+  const float(*made)[4] = find_stretch(window, cell, run);
+  if (!made)
+    return cs_painter_colours(window->painter, cell, run, rgba);
+  memcpy(rgba, made, (size_t)(run.x1 - run.x0) * sizeof *rgba);
+  return CELSPAN_OK;
+}
+
+/* Writes the columns up to the next window. */
+static celspan_status draw_cell(cs_window *window, int32_t next) {
+  cs_run run = {window->from, next, window->centre};
+  const float(*made)[4] = run.x0 < run.x1 ? find_stretch(window, window->cell, run) : NULL;
+  float *colours;
+  if (!made)
+    return cs_painter_run(window->painter, window->cell, run, window->out);
+  CS_TRY(cs_row_array(window->composer->context, window->out, run.x0, run.x1, &colours));
+  memcpy(colours, made, (size_t)(run.x1 - run.x0) * sizeof *made);
+  return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- closing */
@@ -250,8 +317,8 @@ static celspan_status add_cell(const mixture *m, const weighted_cell *cell, int3
     first++;
   while (end > first && weight_in(cell, end - 1) == 0)
     end--;
-  CS_TRY(cs_painter_colours(m->window->painter, cell->cell,
-                            (cs_run){p0 + first, p0 + end, m->window->centre}, rgba));
+  CS_TRY(
+      find_colours(m->window, cell->cell, (cs_run){p0 + first, p0 + end, m->window->centre}, rgba));
   for (int32_t k = first; k < end; k++)
     cs_v4_store(sum + 4 * k,
                 cs_v4_load(sum + 4 * k) + cs_v4_load(rgba[k - first]) * (float)weight_in(cell, k));
@@ -302,8 +369,8 @@ static celspan_status close_between(cs_window *window) {
   int32_t p0 = window->from, p1 = window->end;
   float left[CS_WINDOW_NARROW][4], right[CS_WINDOW_NARROW][4], room[4 * FEW], *sum;
   cs_run run = {p0, p1, window->centre};
-  CS_TRY(cs_painter_colours(window->painter, f->left, run, left));
-  CS_TRY(cs_painter_colours(window->painter, f->right, run, right));
+  CS_TRY(find_colours(window, f->left, run, left));
+  CS_TRY(find_colours(window, f->right, run, right));
   CS_TRY(open_pixels(window, p0, p1, room, &sum));
   for (int32_t p = p0; p < p1; p++) {
     double area = p < f->end ? cover(f, p) : 1;
@@ -340,8 +407,10 @@ static celspan_status draw_window(cs_window *window) {
   return window->end - window->from <= CS_WINDOW_NARROW ? close_narrow(window) : close_wide(window);
 }
 
-static celspan_status close_window(cs_window *window) {
+/* next: where the next window begins. */
+static celspan_status close_window(cs_window *window, int32_t next) {
   int32_t from = window->from;
+  CS_TRY(make_stretch(window, next));
   if (window->end > from)
     CS_TRY(draw_window(window));
   window->from = from;
@@ -358,10 +427,8 @@ celspan_status cs_window_begin_item(cs_window *window, double x) {
   int32_t first = cs_edges_floor(x, window->width);
   if (window->is_whole_row || (window->is_open && first < window->end))
     return CELSPAN_OK;
-  if (window->is_open)
-    CS_TRY(close_window(window));
-  CS_TRY(cs_painter_run(window->painter, window->cell,
-                        (cs_run){window->from, first, window->centre}, window->out));
+  CS_TRY(window->is_open ? close_window(window, first) : make_stretch(window, first));
+  CS_TRY(draw_cell(window, first));
   if (first > window->from)
     window->from = first;
   window->end = window->from;
@@ -436,7 +503,7 @@ celspan_status cs_window_edges(cs_window *window, cs_direct_edges *rest) {
   for (; rest->count > 0; rest->boundaries++, rest->count--) {
     size_t i = rest->boundaries[0];
     if (window->is_open && rest->edges->first[i] >= window->end)
-      CS_TRY(close_window(window));
+      CS_TRY(close_window(window, rest->edges->first[i]));
     if (!window->is_open) {
       CS_TRY(cs_row_reserve(window->composer->context, window->out,
                             CS_DIRECT_EACH * rest->count + CS_DIRECT_TOGETHER + 1));
@@ -452,8 +519,7 @@ celspan_status cs_window_edges(cs_window *window, cs_direct_edges *rest) {
 }
 
 celspan_status cs_window_end_row(cs_window *window) {
-  if (window->is_open)
-    CS_TRY(close_window(window));
-  return cs_painter_run(window->painter, window->cell,
-                        (cs_run){window->from, window->width, window->centre}, window->out);
+  CS_TRY(window->is_open ? close_window(window, window->width)
+                         : make_stretch(window, window->width));
+  return draw_cell(window, window->width);
 }

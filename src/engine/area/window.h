@@ -38,6 +38,14 @@ typedef struct cs_window_segment {
   int32_t first, end; /* the columns it crosses; empty when it lies on a pixel's edge */
 } cs_window_segment;
 
+/* The colours of a cell between two columns, made before its windows and what lies between them. */
+typedef struct cs_window_stretch {
+  cs_cell cell;
+  int32_t from, end; /* empty: none */
+  float (*rgba)[4];
+  size_t capacity;
+} cs_window_stretch;
+
 typedef struct cs_window {
   cs_painter *painter;         /* borrowed */
   const cs_composer *composer; /* the painter's */
@@ -55,8 +63,9 @@ typedef struct cs_window {
   /* what segments between flat cells that end near the window's left end add to the sum of colours
    * from column to column */
   cs_sum4 change[CS_WINDOW_NARROW + 3];
-  bool is_whole_row; /* the whole row is one window: items may come in any order */
-  cs_arena tiles;    /* of one tile's weights; the window's own */
+  bool is_whole_row;              /* the whole row is one window: items may come in any order */
+  cs_arena tiles;                 /* of one tile's weights; the window's own */
+  cs_window_stretch stretches[2]; /* of the cells on both sides of the open window */
 } cs_window;
 
 void cs_window_init(cs_window *window, cs_painter *painter, cs_arena *arena, int32_t width);

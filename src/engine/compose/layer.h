@@ -114,6 +114,7 @@ typedef struct cs_group {
   bool varies;    /* it has one, or a group around it has */
   bool curves;    /* it is a head, graded, converted to another space, or inside such a group: what
                         the layers around it look like is no affine function of its paints */
+  bool is_source; /* it is a head, or inside one */
   bool inverts;   /* MATTE: 1 less its strength */
   bool is_luma;   /* MATTE: its strength is luma, else alpha */
   bool is_frame;  /* directly in the frame, or the whole of it: its back lights are behind what

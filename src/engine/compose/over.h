@@ -25,7 +25,8 @@
  *   over_table.h      one cell of a frame that has flat layers only, without groups: most layers
  *                     of neighbouring cells are the same, so their light is looked up;
  *   over_tree.h       the same where very many layers are seen at once;
- *   engine/paint/over_row.h  up to 256 pixels of one program at once, a register at a time.
+ *   engine/paint/over_row.h  up to 256 pixels of one program at once, a register at a time; modes
+ *                            are blended by over_blend_wide.c.
  * Names and arithmetic are the same in all four.
  */
 #pragma once

@@ -265,9 +265,15 @@ static cs_defocus_way choose_way(const cs_blur *blur, bool varies) {
   return has_lines ? CS_DEFOCUS_EDGES : CS_DEFOCUS_KERNEL;
 }
 
+static void place_first(cs_defocused *grid) {
+  grid->left = grid->first_x - 0.5;
+  grid->top = grid->first_y - 0.5;
+}
+
 static void init_grid(cs_defocused *grid, int32_t width, int32_t height, int32_t most_rows) {
   grid->columns = cs_number_ceil(width / grid->pitch_x) + 2;
   grid->rows = cs_number_ceil(height / grid->pitch_y) + 2;
+  place_first(grid);
   grid->acquire = acquire;
   grid->release = release;
   int64_t rows = BAND_BYTES / ((int64_t)grid->columns * 4 * (int64_t)sizeof(float));
@@ -293,8 +299,8 @@ static celspan_status init_way(celspan_context *context, cs_defocus *defocus, bo
   return CELSPAN_OK;
 }
 
-celspan_status cs_defocus_create(celspan_context *context, const cs_blur *blur, bool varies,
-                                 int32_t width, int32_t height, cs_defocus **out) {
+celspan_status cs_defocus_create(celspan_context *context, const cs_blur *blur, int32_t width,
+                                 int32_t height, cs_defocus **out) {
   CS_TRY(cs_defocus_bands_ready(context));
   cs_defocus *defocus;
   CS_TRY(CS_MAKE(context, defocus, 1));
@@ -305,12 +311,12 @@ celspan_status cs_defocus_create(celspan_context *context, const cs_blur *blur, 
   defocus->blur = *blur;
   scale_blur(&defocus->blur, grid->pitch_x, grid->pitch_y);
   defocus->is_fine = grid->pitch_x > 1 && grid->pitch_y > 1;
-  celspan_status status = init_way(context, defocus, varies, CS_DEFOCUS_SAMPLES);
-  if (status == CELSPAN_OK)
-    *out = defocus;
-  else
-    cs_defocus_free(defocus, context->memory);
-  return status;
+  *out = defocus;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_defocus_find_way(celspan_context *context, cs_defocus *defocus, bool varies) {
+  return init_way(context, defocus, varies, CS_DEFOCUS_SAMPLES);
 }
 
 celspan_status cs_defocus_create_own(celspan_context *context, const cs_blur *blur, bool varies,
@@ -330,12 +336,33 @@ celspan_status cs_defocus_create_own(celspan_context *context, const cs_blur *bl
   return status;
 }
 
+static const cs_defocus *defocus_of(const cs_defocused *grid) {
+  return (const cs_defocus *)(const void *)((const char *)grid - offsetof(cs_defocus, grid));
+}
+
 void cs_defocus_use_own(cs_defocus *defocus, cs_defocus *own, const double scale[2],
                         const double offset[2]) {
   defocus->own = own;
   defocus->way = CS_DEFOCUS_OWN;
   defocus->grid.planes = own->grid.planes;
   defocus->regrid = (cs_regrid){&own->grid, {{scale[0], offset[0]}, {scale[1], offset[1]}}};
+}
+
+static celspan_status mix(const cs_defocused *grid, celspan_context *context,
+                          cs_defocused_view *view, double y) {
+  return cs_regrid_pixels(&defocus_of(grid)->regrid, grid, context, view, y);
+}
+
+void cs_defocus_use_pixels(cs_defocus *defocus, const int32_t first[2], const int32_t end[2]) {
+  cs_defocused *grid = &defocus->grid;
+  grid->pitch_x = grid->pitch_y = 1;
+  grid->first_x = first[0] + 1;
+  grid->first_y = first[1] + 1;
+  grid->columns = end[0] - first[0];
+  grid->rows = end[1] - first[1];
+  place_first(grid);
+  grid->mix = mix;
+  grid->forget = cs_regrid_forget;
 }
 
 /* Returns how many pixels of the plans a node is wide. *x, *y: how many pixels the plans have
@@ -449,8 +476,7 @@ static celspan_status make_band(const void *layer, celspan_context *context, int
 
 static celspan_status acquire(const cs_defocused *grid, celspan_context *context, int32_t number,
                               cs_defocus_band **out) {
-  const cs_defocus *defocus =
-      (const cs_defocus *)(const void *)((const char *)grid - offsetof(cs_defocus, grid));
+  const cs_defocus *defocus = defocus_of(grid);
   cs_defocus_bands_key key = {defocus->key, number};
   return cs_defocus_bands_acquire(context, &key, make_band, defocus, out);
 }

@@ -60,11 +60,14 @@ struct cs_defocus {
 /* The radius of a Gaussian or a disc along an axis, or the extent of a box; how far they extend. */
 double cs_defocus_radius(const cs_blur *blur, int axis);
 double cs_defocus_extent(const cs_blur *blur, int axis);
-/* The grid for a blur in pixels over a frame: everything except planes, plans and key. varies: the
- * cel has layers that vary between their boundaries. Errors: NO_MEMORY. */
+/* The grid for a blur in pixels over a frame: everything except the way, planes, plans and key.
+ * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_defocus_create(celspan_context *context, const cs_blur *blur,
-                                                 bool varies, int32_t width, int32_t height,
-                                                 cs_defocus **out);
+                                                 int32_t width, int32_t height, cs_defocus **out);
+/* Finds the way of a frame's grid that is not mixed from another. varies: the cel has layers that
+ * vary between their boundaries. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_defocus_find_way(celspan_context *context, cs_defocus *defocus,
+                                                   bool varies);
 /* The grid of a cel's own (own_grid.h), of one node for each pixel of its part. samples: in the
  * radius of a Gaussian, at least. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_defocus_create_own(celspan_context *context, const cs_blur *blur,
@@ -74,6 +77,8 @@ CELSPAN_CHECKED celspan_status cs_defocus_create_own(celspan_context *context, c
  * and belongs to it. scale, offset: from pixels of the frame, by axis. */
 void cs_defocus_use_own(cs_defocus *defocus, cs_defocus *own, const double scale[2],
                         const double offset[2]);
+/* Every pixel between these places of the frame is from now on a node of such a grid. */
+void cs_defocus_use_pixels(cs_defocus *defocus, const int32_t first[2], const int32_t end[2]);
 /* The size of the plans, and the matrix from pixels of the frame to theirs. */
 void cs_defocus_raster(const cs_defocus *defocus, int32_t *width, int32_t *height);
 celspan_matrix cs_defocus_matrix(const cs_defocus *defocus);

@@ -210,15 +210,28 @@ static celspan_status use_own(celspan_context *context, const cs_defocus_cel *pl
   return status;
 }
 
+/* What is blended is made pixel by pixel, where it can be seen. */
+static void use_pixels(const cs_boundary_frame *visible, cs_defocus *defocus) {
+  const int32_t first[2] = {(int32_t)visible->left, (int32_t)visible->top};
+  const int32_t end[2] = {(int32_t)visible->right, (int32_t)visible->bottom};
+  cs_defocus_use_pixels(defocus, first, end);
+}
+
 static celspan_status make(celspan_context *context, const cs_defocus_cel *place,
                            const cs_blur *blur, const cs_defocus_compiler *compiler,
-                           cs_defocus *defocus) {
+                           const cs_boundary_frame *visible, cs_defocus *defocus) {
   bool varies = cel_varies(place->cel), is_own;
   cs_own_grid grid;
   defocus->key = find_key(place, blur, CS_DEFOCUS_SAMPLES);
   CS_TRY(cs_own_grid_find(context, place, blur, varies, &is_own, &grid));
-  return is_own ? use_own(context, place, varies, &grid, compiler, defocus)
-                : compile_planes(context, place, compiler, defocus);
+  if (is_own) {
+    CS_TRY(use_own(context, place, varies, &grid, compiler, defocus));
+    if (place->is_source)
+      use_pixels(visible, defocus);
+    return CELSPAN_OK;
+  }
+  CS_TRY(cs_defocus_find_way(context, defocus, varies));
+  return compile_planes(context, place, compiler, defocus);
 }
 
 /* ---------------------------------------------------------------- life */
@@ -253,15 +266,14 @@ static celspan_status create(celspan_context *context, const cs_defocus_cel *pla
   cs_boundary_frame visible;
   cs_defocus *defocus;
   *out = NULL;
-  CS_TRY(cs_defocus_create(context, &blur, cel_varies(place->cel), place->width, place->height,
-                           &defocus));
+  CS_TRY(cs_defocus_create(context, &blur, place->width, place->height, &defocus));
   bool is_seen = find_box(place, &blur, &defocus->grid, &visible);
   if (!is_seen || made) {
     cs_defocus_free(defocus, context->memory);
     *out = is_seen ? made : NULL;
     return is_seen ? add_box(context, &visible, box) : CELSPAN_OK;
   }
-  celspan_status status = make(context, place, &blur, compiler, defocus);
+  celspan_status status = make(context, place, &blur, compiler, &visible, defocus);
   if (status == CELSPAN_OK)
     status = add_box(context, &visible, box);
   if (status == CELSPAN_OK)

@@ -34,6 +34,7 @@ typedef struct cs_defocus_cel {
   int32_t width, height;   /* of the frame, pixels */
   bool is_antialiased;
   celspan_space space; /* in which it is blurred */
+  bool is_source;      /* a mode or a matte shows it pixel by pixel */
 } cs_defocus_cel;
 
 typedef struct cs_own_grid {

@@ -7,22 +7,23 @@
 
 /* ---------------------------------------------------------------- places */
 
-/* The four nodes about a place and the weights of the cubic through them, except that of the second
- * node, which is 1 less the others. last: node. */
-static void find_place(double at, int32_t last, int32_t nodes[4], float weights[3]) {
+/* The node before a place, and the weights of the cubic through the four about it, except that of
+ * the node before it, which is 1 less the others. last: node. */
+static int32_t find_place(double at, int32_t last, float weights[3]) {
   at = cs_number_clamp(at, 0, last);
   int32_t before = cs_number_floor(at);
   double t = at - before;
-  for (int k = 0; k < 4; k++)
-    nodes[k] = (int32_t)cs_number_clamp(before - 1 + k, 0, last);
   weights[0] = (float)(-t * (t - 1) * (t - 2) / 6);
   weights[1] = (float)(-t * (t + 1) * (t - 2) / 2);
   weights[2] = (float)(t * (t + 1) * (t - 1) / 6);
+  return before;
 }
 
-/* Where node `k` of the frame's grid lies among the nodes of the cel's own. */
-static double place_of(const cs_regrid_axis *axis, double pitch, int32_t k) {
-  return (k - 0.5) * pitch * axis->scale + axis->offset + 0.5;
+/* Where node `k` of the frame's grid is, pixels, and where that is among the cel's own nodes. */
+static double pixel_of(double pitch, int32_t k) { return (k - 0.5) * pitch; }
+
+static double place_of(const cs_regrid_axis *axis, double pixel) {
+  return pixel * axis->scale + axis->offset + 0.5;
 }
 
 /* ---------------------------------------------------------------- life */
@@ -33,9 +34,9 @@ static void find_columns(cs_regrid_rows *rows) {
   rows->first = to->columns;
   rows->end = 0;
   for (int32_t x = 0; x < to->columns; x++) {
-    double at = place_of(&rows->map->axes[0], to->pitch_x, x);
+    double at = place_of(&rows->map->axes[0], pixel_of(to->pitch_x, to->first_x + x));
     cs_regrid_column *column = &rows->columns[x];
-    find_place(at, last, column->at, column->weights);
+    column->first = find_place(at, last, column->weights);
     if (at > 0 && at < last) {
       rows->first = x < rows->first ? x : rows->first;
       rows->end = x + 1;
@@ -43,12 +44,14 @@ static void find_columns(cs_regrid_rows *rows) {
   }
 }
 
+static size_t mixed_count(const cs_regrid *map) { return (size_t)map->from->columns + 3; }
+
 celspan_status cs_regrid_begin(const cs_regrid *map, const cs_defocused *to,
                                celspan_context *context, cs_regrid_rows *out) {
   cs_memory *memory = context->memory;
   *out = (cs_regrid_rows){.map = map, .to = to, .context = context, .isa = cs_isa_best()};
   out->columns = cs_mem_array(memory, (size_t)to->columns, sizeof *out->columns);
-  out->mixed = cs_mem_array(memory, (size_t)map->from->columns, sizeof *out->mixed);
+  out->mixed = cs_mem_array(memory, mixed_count(map), sizeof *out->mixed);
   if (!out->columns || !out->mixed)
     return cs_fail_memory(context);
   find_columns(out);
@@ -67,7 +70,7 @@ void cs_regrid_finish(cs_regrid_rows *rows) {
   drop_band(rows, 0);
   drop_band(rows, 1);
   cs_mem_free(memory, rows->columns, (size_t)rows->to->columns * sizeof *rows->columns);
-  cs_mem_free(memory, rows->mixed, (size_t)rows->map->from->columns * sizeof *rows->mixed);
+  cs_mem_free(memory, rows->mixed, mixed_count(rows->map) * sizeof *rows->mixed);
 }
 
 /* ---------------------------------------------------------------- a row */
@@ -88,40 +91,106 @@ static celspan_status find_row(cs_regrid_rows *rows, int plane, int32_t row, con
   return CELSPAN_OK;
 }
 
-static celspan_status mix_rows(cs_regrid_rows *rows, int plane, int32_t y) {
+/* y: pixels of the frame. */
+static celspan_status mix_rows(cs_regrid_rows *rows, int plane, double y) {
   const cs_defocused *from = rows->map->from;
   const float *four[4];
-  int32_t at[4];
-  float weights[3];
-  find_place(place_of(&rows->map->axes[1], rows->to->pitch_y, y), from->rows - 1, at, weights);
-  for (int k = 0; k < 4; k++)
-    CS_TRY(find_row(rows, plane, at[k], &four[k]));
-  CS_WIDE_CHOOSE(rows->isa, cs_regrid_mix)
-  (four, weights, 4 * (size_t)from->columns, rows->mixed[0]);
+  float weights[3], (*mixed)[4] = rows->mixed + 1;
+  int32_t last = from->rows - 1, end = from->columns;
+  int32_t before = find_place(place_of(&rows->map->axes[1], y), last, weights);
+  for (int32_t k = 0; k < 4; k++) {
+    int32_t row = before - 1 + k;
+    CS_TRY(find_row(rows, plane, row < 0 ? 0 : row > last ? last : row, &four[k]));
+  }
+  CS_WIDE_CHOOSE(rows->isa, cs_regrid_mix)(four, weights, 4 * (size_t)end, mixed[0]);
+  memcpy(mixed[-1], mixed[0], sizeof *mixed);
+  memcpy(mixed[end], mixed[end - 1], sizeof *mixed);
+  memcpy(mixed[end + 1], mixed[end - 1], sizeof *mixed);
   return CELSPAN_OK;
 }
 
-/* Light and mattes are not negative, and a matte is at most 1; a cubic may pass these bounds. */
-static inline cs_v4 mix_column(const cs_regrid_rows *rows, int32_t x) {
-  const cs_regrid_column *column = &rows->columns[x];
-  const float(*nodes)[4] = (const float(*)[4])rows->mixed;
-  cs_v4 centre = cs_v4_load(nodes[column->at[1]]);
-  cs_v4 sum = column->weights[0] * (cs_v4_load(nodes[column->at[0]]) - centre) +
-              column->weights[1] * (cs_v4_load(nodes[column->at[2]]) - centre) +
-              column->weights[2] * (cs_v4_load(nodes[column->at[3]]) - centre);
-  return cs_v4_min(cs_v4_max(centre + sum, cs_v4_all(0)), (cs_v4){INFINITY, INFINITY, INFINITY, 1});
+static void mix_columns(const cs_regrid_rows *rows, int32_t x, int32_t stop, float (*nodes)[4]) {
+  CS_WIDE_CHOOSE(rows->isa, cs_regrid_across)
+  (rows->columns + x, stop - x, (const float(*)[4])rows->mixed, nodes + x);
 }
 
 celspan_status cs_regrid_row(cs_regrid_rows *rows, int plane, int32_t y, float (*nodes)[4],
                              bool *even) {
   int32_t groups = cs_defocused_groups(rows->to), columns = rows->to->columns;
-  CS_TRY(mix_rows(rows, plane, y));
+  CS_TRY(mix_rows(rows, plane, pixel_of(rows->to->pitch_y, rows->to->first_y + y)));
   for (int32_t g = 0; g < groups; g++) {
     int32_t x = g * CS_DEFOCUSED_GROUP, stop = x + CS_DEFOCUSED_GROUP;
     stop = stop < columns ? stop : columns;
     even[g] = stop <= rows->first || x >= rows->end;
-    for (int32_t step = even[g] && stop - x > 1 ? stop - x - 1 : 1; x < stop; x += step)
-      cs_v4_store(nodes[x], mix_column(rows, x));
+    if (even[g]) {
+      mix_columns(rows, x, x + 1, nodes);
+      mix_columns(rows, stop - 1, stop, nodes);
+    } else {
+      mix_columns(rows, x, stop, nodes);
+    }
   }
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- what a row has */
+
+/* The first column that reads beyond a number of nodes of the mixed row. */
+static int32_t first_beyond(const cs_regrid_rows *rows, int32_t nodes) {
+  int32_t low = 0, high = rows->to->columns;
+  while (low < high) {
+    int32_t middle = low + (high - low) / 2;
+    if (rows->columns[middle].first >= nodes)
+      high = middle;
+    else
+      low = middle + 1;
+  }
+  return low;
+}
+
+static inline bool is_clear(const cs_regrid_rows *rows, int32_t node) {
+  return cs_v4_same(cs_v4_load(rows->mixed[node]), cs_v4_all(0));
+}
+
+/* The plane of S comes first: its matte says what is clear. */
+static celspan_status mix_visible(cs_regrid_rows *rows, int plane, double y, float (*nodes)[4],
+                                  cs_defocused_range *visible) {
+  int32_t first = 0, end = rows->map->from->columns + 3;
+  CS_TRY(mix_rows(rows, plane, y));
+  if (plane == 0) {
+    while (first < end && is_clear(rows, first))
+      first++;
+    while (end > first && is_clear(rows, end - 1))
+      end--;
+    *visible = (cs_defocused_range){first_beyond(rows, first - 3), first_beyond(rows, end)};
+    if (first == end)
+      visible->first = visible->end;
+  }
+  mix_columns(rows, visible->first, visible->end, nodes);
+  return CELSPAN_OK;
+}
+
+void cs_regrid_forget(celspan_context *context, cs_defocused_view *view) {
+  if (view->rows)
+    cs_regrid_finish(view->rows);
+  cs_mem_free(context->memory, view->rows, sizeof *view->rows);
+  view->rows = NULL;
+}
+
+static celspan_status begin_view(const cs_regrid *map, const cs_defocused *to,
+                                 celspan_context *context, cs_defocused_view *view) {
+  CS_TRY(CS_MAKE(context, view->rows, 1));
+  celspan_status status = cs_regrid_begin(map, to, context, view->rows);
+  if (status != CELSPAN_OK)
+    cs_regrid_forget(context, view);
+  return status;
+}
+
+celspan_status cs_regrid_pixels(const cs_regrid *map, const cs_defocused *to,
+                                celspan_context *context, cs_defocused_view *view, double y) {
+  if (!view->rows)
+    CS_TRY(begin_view(map, to, context, view));
+  for (int plane = 0; plane < to->planes; plane++)
+    CS_TRY(mix_visible(view->rows, plane, y, view->mixed + (size_t)plane * (size_t)to->columns,
+                       &view->visible));
   return CELSPAN_OK;
 }

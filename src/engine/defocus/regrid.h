@@ -24,14 +24,14 @@ typedef struct cs_regrid {
   cs_regrid_axis axes[2];
 } cs_regrid;
 
-/* A column of the frame's grid: the first of its four columns, clamped, and the weights of the
- * first, the third and the fourth. */
+/* A column of the frame's grid: the first of its four columns in a mixed row, and the weights of
+ * the first, the third and the fourth. */
 typedef struct cs_regrid_column {
-  int32_t at[4];
+  int32_t first;
   float weights[3];
 } cs_regrid_column;
 
-/* The rows of nodes of a frame, from the top down. */
+/* The rows of nodes of a frame. */
 typedef struct cs_regrid_rows {
   const cs_regrid *map;
   const cs_defocused *to;
@@ -40,7 +40,8 @@ typedef struct cs_regrid_rows {
   cs_defocus_band *bands[2]; /* acquired, one of an even and one of an odd number; NULL: none */
   int32_t numbers[2];
   cs_regrid_column *columns;
-  float (*mixed)[4];  /* a row of the cel's own nodes, at the height of the row being made */
+  float (*mixed)[4];  /* a row of the cel's own nodes, at the height of the row being made; its
+                         first node is there twice, its last one three times */
   int32_t first, end; /* the columns of the frame's grid that lie between nodes; the groups of
                          others are even */
 } cs_regrid_rows;
@@ -53,9 +54,20 @@ void cs_regrid_finish(cs_regrid_rows *rows);
  * of the bands of the cel's own grid. */
 CELSPAN_CHECKED celspan_status cs_regrid_row(cs_regrid_rows *rows, int plane, int32_t y,
                                              float (*nodes)[4], bool *even);
+/* As `mix` and `forget` of cs_defocused: a row of pixels, as far as there is anything in it. Nodes
+ * that are not visible are not written. */
+CELSPAN_CHECKED celspan_status cs_regrid_pixels(const cs_regrid *map, const cs_defocused *to,
+                                                celspan_context *context, cs_defocused_view *view,
+                                                double y);
+void cs_regrid_forget(celspan_context *context, cs_defocused_view *view);
 
 /* ---- regrid_wide.c */
 
 /* Mixes `count` floats of four rows; at least 16. */
 CS_WIDE_DECLARE(void, cs_regrid_mix,
                 (const float *rows[4], const float weights[3], size_t count, float *out));
+/* Mixes `count` nodes from the columns of a mixed row. Light and mattes are not negative, and a
+ * matte is at most 1; a cubic may pass these bounds. */
+CS_WIDE_DECLARE(void, cs_regrid_across,
+                (const cs_regrid_column *columns, int32_t count, const float (*mixed)[4],
+                 float (*out)[4]));

@@ -1,6 +1,7 @@
 #include "engine/paint/colours.h"
 
 #include "base/number.h"
+#include "engine/paint/few.h"
 #include "engine/paint/gradient_table.h"
 #include "engine/paint/over_bare.h"
 #include "engine/paint/over_row.h"
@@ -95,17 +96,21 @@ static celspan_status sample_bare(cs_painter *painter, const cs_layer *layer, co
   return sample_picture(painter, layer, batch, out->rgba);
 }
 
-static celspan_status sample_defocused(cs_painter *painter, const cs_layer *layer,
-                                       const cs_batch *batch, samples *out) {
+/* ---------------------------------------------------------------- one over the other */
+
+static celspan_status add_defocused(cs_painter *painter, cs_over_row *over, const cs_layer *layer,
+                                    const cs_batch *batch, samples *room) {
   const cs_defocused *defocused = painter->stack->defocused[layer->index];
   cs_defocused_view *view = &painter->defocused[layer->index];
   CS_TRY(cs_defocused_move(defocused, painter->context, view, batch->y));
+  const float(*rgba)[4] =
+      batch->columns ? NULL : cs_defocused_samples(defocused, view, batch->x0, batch->count);
+  if (rgba && layer->role == CS_LAYER_PAINT)
+    return cs_over_row_add_samples(over, layer, CELSPAN_PICTURE_PAINT, rgba);
   const cs_defocused_places places = {batch->columns, batch->x0, batch->count};
-  cs_defocused_paints(defocused, view, &places, out->s, out->t);
-  return CELSPAN_OK;
+  cs_defocused_paints(defocused, view, &places, room->s, room->t);
+  return cs_over_row_add_paint(over, layer, (const float(*)[4])room->s, (const float(*)[4])room->t);
 }
-
-/* ---------------------------------------------------------------- one over the other */
 
 static celspan_status add_item(cs_painter *painter, cs_over_row *over,
                                const cs_procedure_span *procedure_spans, cs_item item,
@@ -122,8 +127,8 @@ static celspan_status add_item(cs_painter *painter, cs_over_row *over,
                                    (const float(*)[4])room->rgba);
   }
   if (layer->kind == CS_LAYER_DEFOCUSED)
-    CS_TRY(sample_defocused(painter, layer, batch, room));
-  else if (layer->kind == CS_LAYER_PICTURE)
+    return add_defocused(painter, over, layer, batch, room);
+  if (layer->kind == CS_LAYER_PICTURE)
     CS_TRY(sample_media(painter, layer, batch, room));
   else if (layer->kind == CS_LAYER_SHADED)
     sample_shade(&stack->shades[layer->index], batch, room);
@@ -238,6 +243,8 @@ celspan_status cs_painter_shown_colours(cs_painter *painter, const cs_program *p
 
 celspan_status cs_painter_program_colours(cs_painter *painter, const cs_program *program,
                                           cs_run run, float (*rgba)[4]) {
+  if (run.x1 - run.x0 <= CS_FEW_PIXELS && cs_few_fits(painter->stack, program))
+    return cs_few_colours(painter, program, run, rgba);
   if (!cs_shown_varies(painter->stack, program))
     return cs_painter_shown_colours(painter, program, run, rgba);
   int32_t stride = cs_shown_stride(painter, program);

@@ -108,13 +108,16 @@ CS_WIDE_DECLARE(void, cs_over_row_light_group,
 CS_WIDE_DECLARE(void, cs_over_row_add_group,
                 (cs_over_row_state * outer, int32_t count, float fade,
                  const cs_over_row_state *inner));
-/* Puts a source over its backdrop, which becomes both, as cs_over_blend. keep: of the backdrop. */
-CS_WIDE_DECLARE(void, cs_over_row_blend,
-                (const cs_over_row_state *source, int32_t count, celspan_blend mode, float keep,
-                 cs_over_row_state *back));
 /* Fades a group by its matte; head NULL: the matte is clear. */
 CS_WIDE_DECLARE(void, cs_over_row_matte,
                 (const cs_over_row_state *head, int32_t count, const cs_group *group,
                  cs_over_row_state *art));
 CS_WIDE_DECLARE(void, cs_over_row_to_rgba,
                 (const cs_over_row_state *state, int32_t count, float keep, float (*rgba)[4]));
+
+/* ---- over_blend_wide.c */
+
+/* Puts a source over its backdrop, which becomes both, as cs_over_blend. keep: of the backdrop. */
+CS_WIDE_DECLARE(void, cs_over_row_blend,
+                (const cs_over_row_state *source, int32_t count, celspan_blend mode, float keep,
+                 cs_over_row_state *back));

@@ -92,16 +92,6 @@ void CS_WIDE(cs_over_row_develop)(cs_over_row_state *state, int32_t count, const
     cs_v4_store(state->e[i], cs_over_develop(group, pair_at(state, i), keep).e);
 }
 
-void CS_WIDE(cs_over_row_blend)(const cs_over_row_state *source, int32_t count, celspan_blend mode,
-                                float keep, cs_over_row_state *back) {
-  for (int32_t i = 0; i < count; i++) {
-    float kept = keep;
-    cs_over_pair both = cs_over_blend(mode, pair_at(source, i), pair_at(back, i), &kept);
-    cs_v4_store(back->e[i], both.e);
-    cs_v4_store(back->t[i], both.t);
-  }
-}
-
 void CS_WIDE(cs_over_row_matte)(const cs_over_row_state *head, int32_t count, const cs_group *group,
                                 cs_over_row_state *art) {
   for (int32_t i = 0; i < count; i++) {
@@ -112,12 +102,10 @@ void CS_WIDE(cs_over_row_matte)(const cs_over_row_state *head, int32_t count, co
   }
 }
 
-/* Alpha is the mean of the three mattes, as cs_over_mean. */
+/* Alpha is the mean of the three mattes. */
 static inline cs_wide to_rgba(cs_wide e, cs_wide t, float keep) {
   const cs_wide_int colours = CS_WIDE_PIXEL(-1, -1, -1, 0);
-  cs_wide first = CS_WIDE_SPREAD(t, 0), second = CS_WIDE_SPREAD(t, 1), third = CS_WIDE_SPREAD(t, 2);
-  cs_wide mean = first + ((second - first) + (third - first)) * (1.0f / 3);
-  return cs_wide_choose(colours, e, 1 - keep * mean);
+  return cs_wide_choose(colours, e, 1 - keep * cs_over_wide_mean(t));
 }
 
 void CS_WIDE(cs_over_row_to_rgba)(const cs_over_row_state *state, int32_t count, float keep,

@@ -15,6 +15,12 @@ static inline cs_wide cs_over_wide_all(const float v[4]) {
   return wide;
 }
 
+/* The mean of the three channels of each pixel, in all its lanes, as cs_over_mean. */
+static inline cs_wide cs_over_wide_mean(cs_wide t) {
+  cs_wide first = CS_WIDE_SPREAD(t, 0), second = CS_WIDE_SPREAD(t, 1), third = CS_WIDE_SPREAD(t, 2);
+  return first + ((second - first) + (third - first)) * (1.0f / 3);
+}
+
 /* Stores the pixels of a register from pixel i on, of which `count` are in the row. */
 static inline void cs_over_wide_put(cs_wide colour, int32_t i, int32_t count, float (*rgba)[4]) {
   if (i + CS_OVER_WIDE_PIXELS <= count)

@@ -134,7 +134,7 @@ static cs_v4 constant_colour(const drawing *w, size_t k) {
 
 /* The column after those up to vertex k, at most x1. */
 static int32_t column_after(const drawing *w, size_t k, int32_t x1) {
-  double x = (w->view->at[k] - 0.5) * w->defocused->pitch_x - 0.5;
+  double x = (w->view->at[k] + w->defocused->left) * w->defocused->pitch_x - 0.5;
   int32_t column = x < 0 ? 0 : (int32_t)x + 1;
   return k + 1 >= w->view->count || column > x1 ? x1 : column;
 }
@@ -183,9 +183,21 @@ static CELSPAN_CHECKED celspan_status defocused_run(cs_painter *painter, const c
 
 /* ---------------------------------------------------------------- programs without hidden items */
 
-/* Whether a picture of the program shows pixel by pixel. */
+/* Whether the program has defocused layers, and modes or mattes: a line of the row would need more
+ * colours than it has pixels. */
+static bool is_blended(const cs_stack *stack, const cs_program *program) {
+  bool is_defocused = false, is_blended = false;
+  for (uint32_t i = 0; stack->defocused_count > 0 && i < program->length; i++) {
+    const cs_layer *layer = &stack->layers[program->items[i].layer];
+    is_defocused |= layer->kind == CS_LAYER_DEFOCUSED;
+    is_blended |= layer->group != CS_STACK_NONE && stack->groups[layer->group].is_source;
+  }
+  return is_defocused && is_blended;
+}
+
+/* Whether the program shows pixel by pixel, as pictures do. */
 static celspan_status needs_array(cs_painter *painter, const cs_program *program, bool *out) {
-  *out = false;
+  *out = is_blended(painter->stack, program);
   for (uint32_t i = 0; i < program->length && !*out; i++) {
     const cs_layer *layer = &painter->stack->layers[program->items[i].layer];
     const cs_image_view *view;
@@ -316,4 +328,11 @@ celspan_status cs_painter_run(cs_painter *painter, const cs_cell *cell, cs_run r
     return cs_row_single(painter->context, row, run.x0, run.x1, cell->colour);
   cs_program program = cs_composer_program(painter->composer, cell);
   return cs_painter_run_program(painter, &program, run, row);
+}
+
+bool cs_painter_blends(const cs_painter *painter, const cs_cell *cell) {
+  if (cell->length == 0 || painter->stack->defocused_count == 0)
+    return false;
+  cs_program program = cs_composer_program(painter->composer, cell);
+  return is_blended(painter->stack, &program);
 }

@@ -44,6 +44,24 @@ static celspan_status bound_defocused(cs_painter *painter, const cs_layer *layer
   return CELSPAN_OK;
 }
 
+/* Whether a layer is a defocused cel whose rows are known to be clear outside some columns. */
+static bool is_pixels(const cs_stack *stack, const cs_layer *layer) {
+  return layer->kind == CS_LAYER_DEFOCUSED && stack->defocused[layer->index]->mix;
+}
+
+/* Asks a layer of pixels what is clear. */
+static celspan_status bound_pixels(cs_painter *painter, const cs_layer *layer, cs_run run,
+                                   bound *out) {
+  const cs_defocused *defocused = painter->stack->defocused[layer->index];
+  cs_defocused_view *view = &painter->defocused[layer->index];
+  CS_TRY(cs_defocused_move(defocused, painter->context, view, run.y));
+  cs_defocused_range visible = cs_defocused_visible(defocused, view);
+  out->is_clear = run.x1 <= visible.first || run.x0 >= visible.end;
+  out->is_sure =
+      out->is_clear || (visible.first < run.x0 + STRIDE && visible.end > run.x1 - STRIDE);
+  return CELSPAN_OK;
+}
+
 /* is_last: nothing that would have to be read or made is behind the item. */
 static celspan_status find_bound(cs_painter *painter, const cs_layer *layer, bool is_last,
                                  cs_run run, bound *out) {
@@ -52,6 +70,8 @@ static celspan_status find_bound(cs_painter *painter, const cs_layer *layer, boo
     return CELSPAN_OK;
   if (layer->kind == CS_LAYER_PICTURE)
     return bound_picture(painter, layer, run, out);
+  if (is_pixels(painter->stack, layer))
+    return bound_pixels(painter, layer, run, out);
   return layer->kind == CS_LAYER_DEFOCUSED && !is_last ? bound_defocused(painter, layer, run, out)
                                                        : CELSPAN_OK;
 }
@@ -73,11 +93,12 @@ static uint32_t count_dear(const cs_stack *stack, const cs_program *program) {
 
 bool cs_shown_varies(const cs_stack *stack, const cs_program *program) {
   uint32_t defocused = 0;
-  if (stack->image_count == 0 && stack->defocused_count < 2)
+  if (stack->image_count == 0 && stack->defocused_count == 0)
     return false;
   for (uint32_t i = 0; i < program->length; i++) {
-    cs_layer_kind kind = kind_of(stack, program, i);
-    if (kind == CS_LAYER_PICTURE || (kind == CS_LAYER_DEFOCUSED && ++defocused == 2))
+    const cs_layer *layer = &stack->layers[program->items[i].layer];
+    if (layer->kind == CS_LAYER_PICTURE || is_pixels(stack, layer) ||
+        (layer->kind == CS_LAYER_DEFOCUSED && ++defocused == 2))
       return true;
   }
   return false;
@@ -89,7 +110,8 @@ int32_t cs_shown_stride(cs_painter *painter, const cs_program *program) {
   for (uint32_t i = 0; i < dear; i++) {
     const cs_layer *layer = &painter->stack->layers[program->items[i].layer];
     const cs_image_view *view;
-    if (layer->kind == CS_LAYER_DEFOCUSED && i + 1 < dear && columns > STRIDE)
+    if ((is_pixels(painter->stack, layer) || (layer->kind == CS_LAYER_DEFOCUSED && i + 1 < dear)) &&
+        columns > STRIDE)
       columns = STRIDE;
     if (layer->kind == CS_LAYER_PICTURE &&
         cs_painter_image(painter, layer->index, &view) == CELSPAN_OK && !view->is_opaque &&
@@ -97,6 +119,32 @@ int32_t cs_shown_stride(cs_painter *painter, const cs_program *program) {
       columns = view->sampler.opacity_columns;
   }
   return columns;
+}
+
+/* Whether nothing can be hidden by what is only known in some columns. */
+static bool hides_nothing(const cs_stack *stack, const cs_program *program) {
+  bool hides = false;
+  for (uint32_t i = 0; i < program->length && !hides; i++) {
+    const cs_layer *layer = &stack->layers[program->items[i].layer];
+    hides = layer->kind == CS_LAYER_PICTURE ||
+            (layer->kind == CS_LAYER_DEFOCUSED && !stack->defocused[layer->index]->mix);
+  }
+  return !hides;
+}
+
+/* All but the layers of pixels that are clear. */
+static celspan_status find_pixels(cs_painter *painter, const cs_program *program, cs_run run,
+                                  cs_shown *out) {
+  for (uint32_t i = 0; i < program->length; i++) {
+    const cs_layer *layer = &painter->stack->layers[program->items[i].layer];
+    bound known = {.is_sure = true};
+    if (is_pixels(painter->stack, layer))
+      CS_TRY(bound_pixels(painter, layer, run, &known));
+    if (!known.is_clear)
+      out->items[out->length++] = program->items[i];
+    out->is_sure &= known.is_sure;
+  }
+  return CELSPAN_OK;
 }
 
 celspan_status cs_shown_find(cs_painter *painter, const cs_program *program, cs_run run,
@@ -107,6 +155,9 @@ celspan_status cs_shown_find(cs_painter *painter, const cs_program *program, cs_
   CS_TRY(CS_RESERVE(painter->context, out->items, out->capacity, program->length));
   out->length = 0;
   out->is_sure = true;
+  out->ends_opaque = false;
+  if (hides_nothing(stack, program))
+    return find_pixels(painter, program, run, out);
   cs_over_begin(&over, stack, painter->outers);
   over.is_bound = true;
   for (uint32_t i = 0; i < program->length && end > 0; i++) {

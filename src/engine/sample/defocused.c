@@ -1,6 +1,7 @@
 #include "engine/sample/defocused.h"
 
 #include "base/number.h"
+#include "base/wide.h"
 
 #include <math.h>
 
@@ -284,13 +285,19 @@ static void drop_band(const cs_defocused *defocused, celspan_context *context,
   view->bands[i] = NULL;
 }
 
+/* Loops over samples may read a register beyond them. */
+static size_t mixed_count(const cs_defocused *defocused) {
+  return (size_t)defocused->columns * (size_t)defocused->planes + CS_WIDE_LINE / sizeof(cs_v4);
+}
+
 void cs_defocused_release(const cs_defocused *defocused, celspan_context *context,
                           cs_defocused_view *view) {
   drop_band(defocused, context, view, 0);
   drop_band(defocused, context, view, 1);
   free_polyline(&view->own, context->memory);
-  cs_mem_free(context->memory, view->mixed,
-              (size_t)defocused->columns * (size_t)defocused->planes * sizeof *view->mixed);
+  if (defocused->mix)
+    defocused->forget(context, view);
+  cs_mem_free(context->memory, view->mixed, mixed_count(defocused) * sizeof *view->mixed);
   *view = (cs_defocused_view){0};
 }
 
@@ -308,12 +315,18 @@ static celspan_status pin_band(const cs_defocused *defocused, celspan_context *c
   return CELSPAN_OK;
 }
 
+static celspan_status make_mixed(const cs_defocused *defocused, celspan_context *context,
+                                 cs_defocused_view *view) {
+  if (!view->mixed)
+    view->mixed = cs_mem_array(context->memory, mixed_count(defocused), sizeof *view->mixed);
+  return view->mixed ? CELSPAN_OK : cs_fail_memory(context);
+}
+
 static celspan_status mix_rows(const cs_defocused *defocused, celspan_context *context,
                                cs_defocused_view *view, node_row *upper, const node_row *lower,
                                float share) {
-  size_t columns = (size_t)defocused->columns, size = columns * (size_t)defocused->planes;
-  if (!view->mixed && !(view->mixed = cs_mem_array(context->memory, size, sizeof *view->mixed)))
-    return cs_fail_memory(context);
+  size_t columns = (size_t)defocused->columns;
+  CS_TRY(make_mixed(defocused, context, view));
   for (int plane = 0; plane < defocused->planes; plane++) {
     const float(*a)[4] = upper->planes[plane], (*b)[4] = lower->planes[plane];
     float(*out)[4] = view->mixed + (size_t)plane * columns;
@@ -344,24 +357,43 @@ static celspan_status make_vertices(const cs_defocused *defocused, celspan_conte
   return CELSPAN_OK;
 }
 
+/* Moves to a row of vertices. */
+static celspan_status move_to_lines(const cs_defocused *defocused, celspan_context *context,
+                                    cs_defocused_view *view, int32_t row, float share) {
+  const cs_defocus_band *band;
+  CS_TRY(pin_band(defocused, context, view, row / defocused->band_rows, &band));
+  if (band->nodes)
+    return make_vertices(defocused, context, view, band, row, share);
+  size_t first = band->rows[row % defocused->band_rows];
+  view->at = band->polyline.at + first;
+  view->values = (const float(*)[4])band->polyline.values + first * (size_t)defocused->planes;
+  view->count = band->rows[row % defocused->band_rows + 1] - first;
+  return CELSPAN_OK;
+}
+
+/* Moves to a row of pixels. */
+static celspan_status move_to_pixels(const cs_defocused *defocused, celspan_context *context,
+                                     cs_defocused_view *view, double y) {
+  CS_TRY(make_mixed(defocused, context, view));
+  CS_TRY(defocused->mix(defocused, context, view, y));
+  size_t columns = (size_t)defocused->columns;
+  size_t first = (size_t)view->visible.first, end = (size_t)view->visible.end;
+  memset(view->mixed, 0, first * sizeof *view->mixed);
+  memset(view->mixed + end, 0, (columns - end) * sizeof *view->mixed);
+  return CELSPAN_OK;
+}
+
 celspan_status cs_defocused_move(const cs_defocused *defocused, celspan_context *context,
                                  cs_defocused_view *view, double y) {
   if (view->is_placed && view->y == y)
     return CELSPAN_OK;
-  double at = cs_number_clamp(y / defocused->pitch_y + 0.5, 0, defocused->rows - 1);
+  double at = y / defocused->pitch_y - defocused->top;
+  at = cs_number_clamp(at, 0, defocused->rows - 1);
   int32_t row = cs_number_floor(at);
   row = row > defocused->rows - 2 ? defocused->rows - 2 : row;
-  const cs_defocus_band *band;
   view->is_placed = false;
-  CS_TRY(pin_band(defocused, context, view, row / defocused->band_rows, &band));
-  if (band->nodes) {
-    CS_TRY(make_vertices(defocused, context, view, band, row, (float)(at - row)));
-  } else {
-    size_t first = band->rows[row % defocused->band_rows];
-    view->at = band->polyline.at + first;
-    view->values = (const float(*)[4])band->polyline.values + first * (size_t)defocused->planes;
-    view->count = band->rows[row % defocused->band_rows + 1] - first;
-  }
+  CS_TRY(defocused->mix ? move_to_pixels(defocused, context, view, y)
+                        : move_to_lines(defocused, context, view, row, (float)(at - row)));
   view->is_placed = true;
   view->y = y;
   return CELSPAN_OK;
@@ -419,9 +451,28 @@ static inline row_line line_at(const cs_defocused *defocused, const cs_defocused
   return out;
 }
 
-void cs_defocused_paints(const cs_defocused *defocused, const cs_defocused_view *view,
+static const cs_v4 colours = {1, 1, 1, 0};
+
+/* The paints where nodes are pixels. */
+static void pixel_paints(const cs_defocused *defocused, const cs_defocused_view *view,
                          const cs_defocused_places *places, float (*s)[4], float (*t)[4]) {
-  const cs_v4 colours = {1, 1, 1, 0};
+  size_t through = (size_t)(defocused->planes - 1) * (size_t)defocused->columns;
+  for (int32_t i = 0; i < places->count; i++) {
+    double x = (places->columns ? places->columns[i] : places->x0 + i) + 0.5;
+    int32_t node = (int32_t)cs_defocused_at(defocused, x);
+    bool is_visible = node >= view->visible.first && node < view->visible.end;
+    cs_v4 value = is_visible ? cs_v4_load(view->mixed[node]) : cs_v4_all(0);
+    cs_v4 clear = cs_v4_all(1 - value[3]);
+    if (is_visible && through > 0)
+      clear = cs_v4_load(view->mixed[through + (size_t)node]);
+    cs_v4_store(s[i], value * colours);
+    cs_v4_store(t[i], clear * colours);
+  }
+}
+
+/* The same between vertices. */
+static void line_paints(const cs_defocused *defocused, const cs_defocused_view *view,
+                        const cs_defocused_places *places, float (*s)[4], float (*t)[4]) {
   size_t k = 0;
   row_line line = {.from = INFINITY};
   for (int32_t i = 0; i < places->count; i++) {
@@ -440,6 +491,22 @@ void cs_defocused_paints(const cs_defocused *defocused, const cs_defocused_view 
   }
 }
 
+void cs_defocused_paints(const cs_defocused *defocused, const cs_defocused_view *view,
+                         const cs_defocused_places *places, float (*s)[4], float (*t)[4]) {
+  if (defocused->mix)
+    pixel_paints(defocused, view, places, s, t);
+  else
+    line_paints(defocused, view, places, s, t);
+}
+
+const float (*cs_defocused_samples(const cs_defocused *defocused, const cs_defocused_view *view,
+                                   int32_t x0, int32_t count))[4] {
+  int32_t first = x0 - (defocused->first_x - 1);
+  if (!defocused->mix || defocused->planes > 1 || first < 0 || first + count > defocused->columns)
+    return NULL;
+  return (const float(*)[4])view->mixed + first;
+}
+
 size_t cs_defocused_break_limit(const cs_defocused *defocused) {
   return (size_t)defocused->columns;
 }
@@ -448,7 +515,7 @@ size_t cs_defocused_breaks(const cs_defocused *defocused, const cs_defocused_vie
                            double *breaks) {
   size_t count = 0, first = cs_defocused_find(view, cs_defocused_at(defocused, run.x0), 0);
   for (size_t k = first; k < view->count; k++) {
-    double x = (view->at[k] - 0.5) * defocused->pitch_x;
+    double x = (view->at[k] + defocused->left) * defocused->pitch_x;
     if (x >= run.x1)
       break;
     if (x > run.x0)

@@ -1,6 +1,7 @@
 /* Defocused cels as values at the nodes of a grid over the frame.
  *
- *     node (i, j) is at ((i - 1/2) pitch_x, (j - 1/2) pitch_y) pixels
+ *     node (i, j) is at ((i - 1/2) pitch_x, (j - 1/2) pitch_y) pixels; i and j are counted from the
+ *     first column and the first row of the part that is there
  *
  *         o - - - - o - - - - o - - - - o       j      o  nodes; the first column and row of them
  *         :    |    :         :         :              lie outside the frame
@@ -19,11 +20,16 @@
  *
  *   bands (defocus/ makes them) --a row, or two mixed--> vertices --along the line--> paint at x
  *
+ * Where modes and mattes show a cel pixel by pixel, its nodes are pixels: a row of them is mixed
+ * from the cel's own grid (defocus/) when it is asked for, and kept by the view alone, as far as
+ * there is anything in it.
+ *
  * A plane holds four values a node: the paint's S and its matte (1 - the mean of T); where T
  * differs from channel to channel a second plane holds T.
  *
  * Invariant: the values of a node are a function of the cel, its placement and the frame's size;
- * lines from vertex to vertex are within a quarter of 1/1023 of the nodes between them.
+ * lines from vertex to vertex are within a quarter of 1/1023 of the nodes between them; where nodes
+ * are pixels, those beyond the visible columns of a row are clear.
  */
 #pragma once
 
@@ -57,10 +63,18 @@ typedef struct cs_defocus_band {
   size_t row_count, row_capacity;
 } cs_defocus_band;
 
+/* Columns [first, end) of a row of nodes. */
+typedef struct cs_defocused_range {
+  int32_t first, end;
+} cs_defocused_range;
+
 typedef struct cs_defocused cs_defocused;
+struct cs_defocused_view;
 struct cs_defocused {
-  double pitch_x, pitch_y; /* pixels */
-  int32_t columns, rows;   /* nodes, at least 2 */
+  double pitch_x, pitch_y;  /* pixels */
+  int32_t first_x, first_y; /* the numbers of the first node, and where it lies, in pitches */
+  double left, top;
+  int32_t columns, rows; /* nodes, at least 2 */
   int32_t band_rows;
   int planes;
   /* Bands are shared; one that was acquired is kept until it is released. Threads: any.
@@ -68,6 +82,12 @@ struct cs_defocused {
   celspan_status (*acquire)(const cs_defocused *defocused, celspan_context *context, int32_t band,
                             cs_defocus_band **out);
   void (*release)(const cs_defocused *defocused, celspan_context *context, cs_defocus_band *band);
+  /* Where nodes are pixels; NULL: there are bands. Fills `mixed` of a view, which has its room, and
+   * `visible` at a height in pixels; gives up what the view keeps for that.
+   * Errors: NO_MEMORY, and those of the rows of the cel. */
+  celspan_status (*mix)(const cs_defocused *defocused, celspan_context *context,
+                        struct cs_defocused_view *view, double y);
+  void (*forget)(celspan_context *context, struct cs_defocused_view *view);
 };
 
 /* A defocused cel as one worker sees it, along one row. */
@@ -80,7 +100,9 @@ typedef struct cs_defocused_view {
   const float (*values)[4];
   size_t count;
   cs_defocused_polyline own;
-  float (*mixed)[4]; /* a row of nodes, plane after plane */
+  float (*mixed)[4];           /* a row of nodes, plane after plane */
+  struct cs_regrid_rows *rows; /* where nodes are pixels; then there are no vertices, and */
+  cs_defocused_range visible;  /* the columns of `mixed` that may not be clear */
 } cs_defocused_view;
 
 /* ---- bands */
@@ -116,7 +138,7 @@ CELSPAN_CHECKED celspan_status cs_defocused_move(const cs_defocused *defocused,
                                                  double y);
 /* Where x lies among the nodes of a row. */
 static inline double cs_defocused_at(const cs_defocused *defocused, double x) {
-  double at = x / defocused->pitch_x + 0.5, last = defocused->columns - 1;
+  double at = x / defocused->pitch_x - defocused->left, last = defocused->columns - 1;
   return at < 0 ? 0 : at > last ? last : at;
 }
 static inline cs_v4 cs_defocused_value(const cs_defocused *defocused, const cs_defocused_view *view,
@@ -133,6 +155,16 @@ typedef struct cs_defocused_places {
 /* The paints at the centres of columns; lane 3 is 0. */
 void cs_defocused_paints(const cs_defocused *defocused, const cs_defocused_view *view,
                          const cs_defocused_places *places, float (*s)[4], float (*t)[4]);
+/* Where nodes are pixels: the columns of a frame that may not be clear at a view's height. */
+static inline cs_defocused_range cs_defocused_visible(const cs_defocused *defocused,
+                                                      const cs_defocused_view *view) {
+  int32_t left = defocused->first_x - 1; /* the column of the first node */
+  return (cs_defocused_range){left + view->visible.first, left + view->visible.end};
+}
+/* The samples of `count` columns from x0 on, where nodes are pixels, of one plane, and there for
+ * all these columns; else NULL. */
+const float (*cs_defocused_samples(const cs_defocused *defocused, const cs_defocused_view *view,
+                                   int32_t x0, int32_t count))[4];
 /* The most that each channel lets through anywhere in a run, at the height of the view. */
 cs_v4 cs_defocused_through(const cs_defocused *defocused, const cs_defocused_view *view,
                            cs_run run);

@@ -182,6 +182,10 @@ static celspan_status compile_sharp(cs_compiler *c, const celspan_cel *cel,
   return CELSPAN_OK;
 }
 
+static bool is_source(const cs_compiler *c) {
+  return c->group != CS_STACK_NONE && c->plan->stack.groups[c->group].is_source;
+}
+
 /* A cel under its front light, which falls on all of it, or on its parts where modes are inside. */
 static celspan_status compile_paint(cs_compiler *c, const celspan_rostrum *rostrum, size_t index,
                                     const celspan_matrix *matrix, const cs_compiler_film *film) {
@@ -191,7 +195,7 @@ static celspan_status compile_paint(cs_compiler *c, const celspan_rostrum *rostr
                                 film->height,    *matrix,
                                 c->frame,        c->plan->width,
                                 c->plan->height, c->plan->antialias != CELSPAN_ANTIALIAS_NONE,
-                                c->space};
+                                c->space,        is_source(c)};
   bool is_defocused = cs_defocus_layer_is_needed(&place);
   cs_objects_outside outer;
   cs_lights_front front;

@@ -197,6 +197,7 @@ static celspan_status enter(cs_compiler *c, cs_group group) {
   group.varies |= around && around->varies;
   group.curves = group.kind == CS_GROUP_HEAD || group.grade ||
                  group.converts != CELSPAN_SPACE_AROUND || (around && around->curves);
+  group.is_source = group.kind == CS_GROUP_HEAD || (around && around->is_source);
   stack->has_curves |= group.curves;
   c->group = (uint32_t)stack->group_count;
   stack->groups[stack->group_count++] = group;
