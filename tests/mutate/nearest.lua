@@ -21,6 +21,8 @@ return {
     "property/kernels", "golden/golden", "unit/defocus" },
   warp = { "unit/warp", "spec/warp", "property/warp" },
   map = { "unit/maps", "spec/maps", "property/determinism" },
+  record = { "unit/plane" },
+  plane = { "unit/plane" },
   defocus = { "unit/light", "unit/through", "unit/long_rows", "golden/golden", "unit/defocus" },
   stroke = { "unit/taper", "unit/dashes", "unit/fuzz-stroke", "golden/golden", "unit/stroke" },
   geometry = { "unit/scanline", "unit/probe", "unit/stroke", "property/oracle", "golden/golden" },

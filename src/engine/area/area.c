@@ -164,9 +164,10 @@ static celspan_status add_boundaries(row_walk *w, const uint32_t *boundaries, si
     size_t i = boundaries[k];
     const cs_cell *left = &w->cells[i];
     const cs_bend *bend = area->edges.is_bent[i] ? cs_active_bend(area->tools.active, i) : NULL;
+    uint32_t chain = cs_active_number(area->tools.active, i) + 1;
     cs_window_end_item(&area->target.window, left + 1);
     for (cs_pieces p = cs_pieces_of(area->tools.active, i, bend); cs_pieces_next(&p);) {
-      const cs_segment segment = {p.above.x, p.above.y, p.below.x, p.below.y};
+      const cs_segment segment = {p.above.x, p.above.y, p.below.x, p.below.y, chain};
       CS_TRY(cs_target_add(&area->target, &segment, left, left + 1));
     }
   }

@@ -189,7 +189,7 @@ static celspan_status add_sub_rows(const drawing *d, int first, int end, int all
 
 static celspan_status add_segment(const drawing *d, int32_t column, const cs_cell *left,
                                   const cs_cell *right) {
-  const cs_segment segment = {column, d->sweep->y0, column, d->sweep->y1};
+  const cs_segment segment = {column, d->sweep->y0, column, d->sweep->y1, 0};
   if (cs_composer_same(d->sweep->composer, left, right))
     return CELSPAN_OK;
   return cs_target_add(d->sweep->target, &segment, left, right);

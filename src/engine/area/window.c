@@ -493,7 +493,7 @@ static celspan_status add_boundary(cs_window *window, const cs_direct_edges *edg
   CS_TRY(cs_window_begin_item(window, edges->edges->low[i]));
   cs_window_end_item(window, left + 1);
   for (cs_pieces p = cs_pieces_of(edges->active, i, bend); cs_pieces_next(&p);) {
-    const cs_segment segment = {p.above.x, p.above.y, p.below.x, p.below.y};
+    const cs_segment segment = {p.above.x, p.above.y, p.below.x, p.below.y, 0};
     CS_TRY(cs_window_add(window, &segment, left, left + 1));
   }
   return CELSPAN_OK;

@@ -66,6 +66,7 @@ celspan_status cs_retained_add(cs_retained_row *retained, const cs_composer *com
   edge->ya = segment->ya;
   edge->xb = segment->xb;
   edge->yb = segment->yb;
+  edge->chain = segment->chain;
   CS_TRY(copy_side(retained, composer, left, &edge->left));
   return copy_side(retained, composer, right, &edge->right);
 }

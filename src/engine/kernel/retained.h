@@ -26,6 +26,7 @@ typedef struct cs_retained_side {
 
 typedef struct cs_retained_edge {
   double xa, ya, xb, yb; /* pixels, ya < yb */
+  uint32_t chain;        /* as in cs_segment */
   cs_retained_side left, right;
 } cs_retained_edge;
 

@@ -149,8 +149,12 @@ static inline const cs_deferred *cs_active_deferred(const cs_active *active,
   return cull->deferred_list + cull->deferred_starts[active->tile_row];
 }
 
+static inline uint32_t cs_active_number(const cs_active *active, size_t i) {
+  return active->walks[active->slot[i]].chain;
+}
+
 static inline const cs_boundary_chain *cs_active_chain(const cs_active *active, size_t i) {
-  return &active->set->chains[active->walks[active->slot[i]].chain];
+  return &active->set->chains[cs_active_number(active, i)];
 }
 
 /* The bend of boundary i, or NULL. */

@@ -34,6 +34,7 @@ typedef struct cs_view {
   size_t most_dashes; /* in view; with more, the plan is crowded (engine/row/plan.h) */
   float span_error;   /* see engine/compose/stack.h */
   celspan_space space;
+  bool keeps_curves; /* see model/geometry/boundary.h */
 } cs_view;
 
 /* workers: threads at most. Errors: NO_MEMORY; LIMIT; BAD_ARGUMENT for a singular viewport or

@@ -1737,6 +1737,67 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_digest(celspan_context 
                                                                 const celspan_coding *coding,
                                                                 uint64_t digest[2]);
 
+/* ---------------------------------------------------------------- planes */
+
+/* A plane is a frame without a resolution: what can be seen of it, as curves with a colour on each
+ * side. It is made once, and drawn at any size, whole or any crop of it, without its rostrum. It is
+ * kept in plane files (docs/planefile.md).
+ *
+ * It is as exact as a frame of 4,093 pixels a side: curves are the rostrum's own, but where two of
+ * them cross may be off by 1/50 of such a pixel. Colours are multiples of 1/65,535, and pixels are
+ * means of linear light. Immutable; shared read. */
+typedef struct celspan_plane celspan_plane;
+
+/* width, height: film units      rostrum: borrowed; its antialiasing does not count      out: new
+ * Errors: those of rendering; BAD_ARGUMENT for what a plane cannot keep: visible gradients and
+ * pictures, scan-line procedures, blurred objects. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_create(celspan_context *context,
+                                                                const celspan_rostrum *rostrum,
+                                                                double width, double height,
+                                                                celspan_plane **out);
+/* A plane file. out: new      Errors: NO_MEMORY; INPUT; LIMIT for more than 1 GiB. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_read(celspan_context *context,
+                                                              const char *path,
+                                                              celspan_plane **out);
+CELSPAN_API celspan_plane *celspan_plane_ref(celspan_plane *plane);
+CELSPAN_API void celspan_plane_unref(celspan_plane *plane);
+/* In film units. */
+CELSPAN_API void celspan_plane_size(const celspan_plane *plane, double *width, double *height);
+/* Of its file. */
+CELSPAN_API size_t celspan_plane_bytes(const celspan_plane *plane);
+/* The file appears under its name whole or not at all. Errors: NO_MEMORY; OUTPUT. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_write(celspan_context *context,
+                                                               const celspan_plane *plane,
+                                                               const char *path);
+
+typedef struct celspan_plane_view {
+  size_t struct_size;
+  int32_t width, height; /* pixels of the whole frame, 1..2,147,483,647 */
+  int32_t crop_x, crop_y;
+  int32_t crop_width, crop_height;  /* 0 0: the whole frame */
+  celspan_antialias_mode antialias; /* AREA or NONE */
+} celspan_plane_view;
+
+static inline celspan_plane_view celspan_plane_view_default(void) {
+  celspan_plane_view view = CELSPAN_ZERO;
+  view.struct_size = sizeof view;
+  return view;
+}
+#define CELSPAN_PLANE_VIEW (celspan_plane_view_default())
+
+/* Draws a view into a sink, as celspan_frame_render does. The pixels of a crop are those of the
+ * whole, to the bit. Errors: NO_MEMORY; LIMIT, BAD_ARGUMENT for the view; those of the sink. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_render(celspan_context *context,
+                                                                const celspan_plane *plane,
+                                                                const celspan_plane_view *view,
+                                                                const celspan_sink *sink);
+/* Into memory, as celspan_frame_pixels does. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_pixels(celspan_context *context,
+                                                                const celspan_plane *plane,
+                                                                const celspan_plane_view *view,
+                                                                const celspan_coding *coding,
+                                                                void *pixels, size_t stride);
+
 /* ---------------------------------------------------------------- relighting */
 
 /* The light in which a picture was taken: one colour, or a field that changes slowly over the

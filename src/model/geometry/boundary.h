@@ -35,12 +35,13 @@ typedef struct cs_boundary_piece {
   double left, right;  /* no vertex lies outside them */
   double sag;          /* the most that a chord of mean length is away from the curve */
   double step;         /* of the parameter, from vertex to vertex */
-  uint32_t point;      /* its degree + 1 points; none where there is but one chord */
+  uint32_t point;      /* its degree + 1 points; none where there is but one chord,
+                          unless curves are kept */
   uint32_t chords;     /* a multiple of group */
   uint8_t group, half; /* in chords: a group, and its upper half (which may be all of it) */
   uint8_t leap;        /* groups that one arc is tried for, beginning at a multiple of it; or 1 */
-  uint8_t degree;
-  bool is_power; /* points are coefficients of the powers of t, without w; else homogeneous */
+  uint8_t degree;      /* 1: it has no points */
+  bool is_power;       /* points are coefficients of the powers of t, without w; else homogeneous */
 } cs_boundary_piece;
 
 typedef struct cs_boundary_chain {
@@ -52,6 +53,7 @@ typedef struct cs_boundary_chain {
 } cs_boundary_chain;
 
 typedef struct cs_boundary_set {
+  bool keeps_curves; /* pieces have their points even where they are one chord */
   cs_hpoint *points;
   cs_boundary_piece *pieces;
   cs_boundary_chain *chains;

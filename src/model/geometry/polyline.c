@@ -343,7 +343,8 @@ static inline bool choose_chords(double bend, double length, cs_boundary_piece *
 
 static inline void fit_plain(cs_boundary_set *set, const cs_pair *points, int degree,
                              cs_boundary_piece *piece) {
-  if (!choose_chords(polynomial_bend(points, degree), length_of(points, degree), piece))
+  if (!choose_chords(polynomial_bend(points, degree), length_of(points, degree), piece) &&
+      !set->keeps_curves)
     return;
   piece->is_power = true;
   to_powers(points, degree, append_points(set, degree, piece));
@@ -364,7 +365,7 @@ celspan_status cs_polyline_fit(celspan_context *context, cs_boundary_set *set,
   for (int i = 0; i <= degree; i++)
     p[i] = cs_pair_load(&curve->points[i]) / curve->points[i].w;
   double bend = is_polynomial ? polynomial_bend(p, degree) : rational_bend(curve);
-  if (!choose_chords(bend, length_of(p, degree), piece))
+  if (!choose_chords(bend, length_of(p, degree), piece) && !set->keeps_curves)
     return CELSPAN_OK;
   CS_TRY(cs_polyline_reserve(context, set, (size_t)degree + 1));
   cs_hpoint *points = append_points(set, degree, piece);

@@ -1,0 +1,297 @@
+#include "engine/record/record.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "base/splitmix.h"
+#include "engine/row/row.h"
+
+#define UNITS ((double)PLANEFILE_SIDE / CS_RECORD_SIDE) /* of a plane, in a pixel of the plan */
+#define COUNT_MOST (UINT32_MAX / 4)                     /* of anything */
+
+/* A chain of the plan. */
+typedef struct known {
+  uint32_t chain;  /* of the record, plus 1; 0: none of its edges has been seen */
+  uint32_t border; /* its latest, plus 1; 0: none */
+  double foot;     /* of that border, in pixels */
+} known;
+
+typedef struct recorder {
+  celspan_context *context;
+  const cs_plan *plan;
+  cs_recording *out;
+  known *chains;
+  uint32_t *cells; /* a table: the number of a cell plus 1; 0: free. A power of two */
+  size_t cell_capacity;
+} recorder;
+
+void cs_record_finish(cs_recording *record, cs_memory *memory) {
+  cs_mem_free(memory, record->points, record->point_capacity * sizeof *record->points);
+  cs_mem_free(memory, record->pieces, record->piece_capacity * sizeof *record->pieces);
+  cs_mem_free(memory, record->chains, record->chain_capacity * sizeof *record->chains);
+  cs_mem_free(memory, record->borders, record->border_capacity * sizeof *record->borders);
+  cs_mem_free(memory, record->cells, record->cell_capacity * sizeof *record->cells);
+  *record = (cs_recording){0};
+}
+
+planefile_band cs_record_plane(const cs_recording *record) {
+  return (planefile_band){.foot = PLANEFILE_SIDE,
+                          .points = record->points,
+                          .pieces = record->pieces,
+                          .chains = record->chains,
+                          .borders = record->borders,
+                          .cells = record->cells,
+                          .point_count = (uint32_t)record->point_count,
+                          .piece_count = (uint32_t)record->piece_count,
+                          .chain_count = (uint32_t)record->chain_count,
+                          .border_count = (uint32_t)record->border_count,
+                          .cell_count = (uint32_t)record->cell_count};
+}
+
+/* ---------------------------------------------------------------- cells */
+
+static planefile_cell cell_of(cs_v4 colour) {
+  planefile_cell out;
+  for (int c = 0; c < 4; c++) {
+    double channel = floor((double)colour[c] * PLANEFILE_WHITE + 0.5);
+    out.colour[c] = (int32_t)cs_number_clamp(channel, -PLANEFILE_BRIGHT, PLANEFILE_BRIGHT);
+  }
+  return out;
+}
+
+static size_t place_of(const recorder *r, const planefile_cell *cell) {
+  uint64_t words[2];
+  memcpy(words, cell, sizeof words);
+  uint64_t state = words[1];
+  state = words[0] ^ cs_splitmix_next(&state);
+  return cs_splitmix_next(&state) & (r->cell_capacity - 1);
+}
+
+static celspan_status widen_cells(recorder *r) {
+  size_t capacity = r->cell_capacity > 0 ? 2 * r->cell_capacity : 256;
+  cs_mem_free(r->context->memory, r->cells, r->cell_capacity * sizeof *r->cells);
+  r->cell_capacity = 0;
+  CS_TRY(CS_MAKE(r->context, r->cells, capacity));
+  r->cell_capacity = capacity;
+  for (size_t i = 0; i < r->out->cell_count; i++) {
+    size_t at = place_of(r, &r->out->cells[i]);
+    while (r->cells[at])
+      at = (at + 1) & (capacity - 1);
+    r->cells[at] = (uint32_t)i + 1;
+  }
+  return CELSPAN_OK;
+}
+
+/* The number of the cell of a colour. */
+static celspan_status find_cell(recorder *r, cs_v4 colour, uint32_t *out) {
+  const planefile_cell cell = cell_of(colour);
+  cs_recording *record = r->out;
+  if (2 * record->cell_count >= r->cell_capacity)
+    CS_TRY(widen_cells(r));
+  size_t at = place_of(r, &cell);
+  for (; r->cells[at]; at = (at + 1) & (r->cell_capacity - 1))
+    if (memcmp(&record->cells[r->cells[at] - 1], &cell, sizeof cell) == 0) {
+      *out = r->cells[at] - 1;
+      return CELSPAN_OK;
+    }
+  CS_TRY(CS_APPEND(r->context, record->cells, record->cell_count, record->cell_capacity, cell));
+  r->cells[at] = (uint32_t)record->cell_count;
+  *out = r->cells[at] - 1;
+  return CELSPAN_OK;
+}
+
+static celspan_status find_side(recorder *r, const cs_retained_side *side, uint32_t *out) {
+  if (side->program >= 0)
+    return cs_fail(r->context, CELSPAN_BAD_ARGUMENT,
+                   "plane: a gradient, a picture or a procedure is visible; a plane keeps flat "
+                   "colours only");
+  return find_cell(r, side->colour, out);
+}
+
+/* ---------------------------------------------------------------- curves */
+
+static int32_t to_units(double pixels) {
+  double units = floor(pixels * UNITS + 0.5);
+  return (int32_t)cs_number_clamp(units, -PLANEFILE_FAR, PLANEFILE_FAR);
+}
+
+static planefile_point point_at(double x, double y) {
+  return (planefile_point){to_units(x), to_units(y), PLANEFILE_WEIGHT};
+}
+
+/* The control points of a piece in powers, from its coefficients; its ends are known. */
+static void from_powers(const cs_hpoint *c, int degree, planefile_point *out) {
+  for (int i = 1; i < degree; i++) {
+    double second = degree == 3 && i == 2 ? 1.0 / 3 : 0, first = (double)i / degree;
+    out[i] = point_at(c[0].x + first * c[1].x + second * c[2].x,
+                      c[0].y + first * c[1].y + second * c[2].y);
+  }
+}
+
+static void from_rational(const cs_hpoint *p, int degree, planefile_point *out) {
+  for (int i = 0; i <= degree; i++) {
+    if (i > 0 && i < degree)
+      out[i] = point_at(p[i].x / p[i].w, p[i].y / p[i].w);
+    out[i].w = (uint32_t)floor(p[i].w / p[0].w * PLANEFILE_WEIGHT + 0.5);
+  }
+}
+
+/* Adds a piece of a chain, for which there is room. */
+static void add_piece(recorder *r, const cs_boundary_piece *piece) {
+  cs_recording *out = r->out;
+  const cs_hpoint *points = r->plan->boundaries.points + piece->point;
+  planefile_point *to = &out->points[out->point_count];
+  bool is_line = piece->degree < 2;
+  out->pieces[out->piece_count++] =
+      (planefile_piece){(uint32_t)out->point_count, piece->degree, !is_line && !piece->is_power};
+  to[0] = point_at(piece->x0, piece->y0);
+  to[piece->degree] = point_at(piece->x1, piece->y1);
+  if (!is_line && piece->is_power)
+    from_powers(points, piece->degree, to);
+  else if (!is_line)
+    from_rational(points, piece->degree, to);
+  out->point_count += piece->degree + (size_t)1;
+}
+
+/* Whether all pieces of a chain can be in a plane. */
+static bool has_curves(const recorder *r, const cs_boundary_chain *chain) {
+  const cs_boundary_piece *pieces = &r->plan->boundaries.pieces[chain->piece];
+  for (uint32_t i = 0; i < chain->piece_count; i++)
+    if (pieces[i].degree > 3)
+      return false;
+  return true;
+}
+
+static celspan_status reserve(recorder *r, size_t pieces) {
+  cs_recording *out = r->out;
+  if (out->point_count > COUNT_MOST || out->border_count > COUNT_MOST ||
+      out->cell_count > COUNT_MOST)
+    return cs_fail(r->context, CELSPAN_LIMIT, "plane: there is too much in it");
+  CS_TRY(CS_RESERVE(r->context, out->points, out->point_capacity, out->point_count + 4 * pieces));
+  CS_TRY(CS_RESERVE(r->context, out->pieces, out->piece_capacity, out->piece_count + pieces));
+  return CS_RESERVE(r->context, out->chains, out->chain_capacity, out->chain_count + 1);
+}
+
+static celspan_status add_chain(recorder *r, const cs_boundary_chain *chain, uint32_t *out) {
+  cs_recording *record = r->out;
+  CS_TRY(reserve(r, chain->piece_count));
+  *out = (uint32_t)record->chain_count;
+  record->chains[record->chain_count++] =
+      (planefile_chain){(uint32_t)record->piece_count, chain->piece_count};
+  for (uint32_t i = 0; i < chain->piece_count; i++)
+    add_piece(r, &r->plan->boundaries.pieces[chain->piece + i]);
+  return CELSPAN_OK;
+}
+
+/* A chain that is one line. */
+static celspan_status add_line(recorder *r, const cs_retained_edge *edge, uint32_t *out) {
+  cs_recording *record = r->out;
+  CS_TRY(reserve(r, 1));
+  *out = (uint32_t)record->chain_count;
+  record->chains[record->chain_count++] = (planefile_chain){(uint32_t)record->piece_count, 1};
+  record->pieces[record->piece_count++] =
+      (planefile_piece){(uint32_t)record->point_count, 1, false};
+  record->points[record->point_count++] = point_at(edge->xa, edge->ya);
+  record->points[record->point_count++] = point_at(edge->xb, edge->yb);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- borders */
+
+/* Adds a border with the heights of an edge; *out: its number plus 1, 0 where it has no height. */
+static celspan_status add_border(recorder *r, const cs_retained_edge *edge, planefile_border border,
+                                 uint32_t *out) {
+  cs_recording *record = r->out;
+  const planefile_chain *chain = &record->chains[border.chain];
+  const planefile_piece *first = &record->pieces[chain->piece];
+  const planefile_piece *last = first + chain->piece_count - 1;
+  int32_t top = record->points[first->point].y, foot = record->points[last->point + last->degree].y;
+  int32_t least = top > 0 ? top : 0, most = foot < PLANEFILE_SIDE ? foot : PLANEFILE_SIDE;
+  border.top = (int32_t)cs_number_clamp(to_units(edge->ya), least, most);
+  border.foot = (int32_t)cs_number_clamp(to_units(edge->yb), least, most);
+  *out = 0;
+  if (border.top >= border.foot)
+    return CELSPAN_OK;
+  CS_TRY(CS_APPEND(r->context, record->borders, record->border_count, record->border_capacity,
+                   border));
+  *out = (uint32_t)record->border_count;
+  return CELSPAN_OK;
+}
+
+/* Continues the latest border of a chain, if the edge does; *out: whether it does. */
+static bool extend(recorder *r, known *k, const cs_retained_edge *edge, uint32_t left,
+                   uint32_t right) {
+  planefile_border *border = k->border > 0 ? &r->out->borders[k->border - 1] : NULL;
+  if (!border || k->foot != edge->ya || border->left != left || border->right != right)
+    return false;
+  const planefile_chain *chain = &r->out->chains[border->chain];
+  const planefile_piece *last = &r->out->pieces[chain->piece + chain->piece_count - 1];
+  int32_t most = r->out->points[last->point + last->degree].y, foot = to_units(edge->yb);
+  most = most < PLANEFILE_SIDE ? most : PLANEFILE_SIDE;
+  border->foot = foot < most ? foot : most;
+  k->foot = edge->yb;
+  return true;
+}
+
+/* An edge of a chain that can be in a plane. */
+static celspan_status add_to_chain(recorder *r, const cs_retained_edge *edge, uint32_t left,
+                                   uint32_t right) {
+  uint32_t number = edge->chain - 1;
+  known *k = &r->chains[number];
+  if (extend(r, k, edge, left, right))
+    return CELSPAN_OK;
+  if (k->chain == 0) {
+    CS_TRY(add_chain(r, &r->plan->boundaries.chains[number], &k->chain));
+    k->chain++;
+  }
+  k->foot = edge->yb;
+  return add_border(
+      r, edge, (planefile_border){.chain = k->chain - 1, .left = left, .right = right}, &k->border);
+}
+
+static celspan_status add_edge(recorder *r, const cs_retained_edge *edge) {
+  uint32_t left, right, border, chain;
+  CS_TRY(find_side(r, &edge->left, &left));
+  CS_TRY(find_side(r, &edge->right, &right));
+  if (left == right || !(edge->ya < edge->yb))
+    return CELSPAN_OK;
+  if (edge->chain > 0 && has_curves(r, &r->plan->boundaries.chains[edge->chain - 1]))
+    return add_to_chain(r, edge, left, right);
+  CS_TRY(add_line(r, edge, &chain));
+  return add_border(r, edge, (planefile_border){.chain = chain, .left = left, .right = right},
+                    &border);
+}
+
+/* ---------------------------------------------------------------- the record */
+
+static celspan_status add_row(recorder *r, cs_row_maker *rows, int32_t y,
+                              cs_retained_row *retained) {
+  uint32_t base;
+  CS_TRY(cs_row_retain(rows, y, retained));
+  CS_TRY(find_cell(r, retained->base, &base));
+  for (size_t i = 0; i < retained->edge_count; i++)
+    CS_TRY(add_edge(r, &retained->edges[i]));
+  return CELSPAN_OK;
+}
+
+static celspan_status add_rows(recorder *r) {
+  cs_retained_row retained = {0};
+  cs_row_maker rows;
+  celspan_status status = cs_row_maker_init(&rows, r->context, r->plan);
+  for (int32_t y = 0; status == CELSPAN_OK && y < r->plan->height; y++)
+    status = add_row(r, &rows, y, &retained);
+  cs_row_maker_finish(&rows);
+  cs_retained_finish(&retained, r->context->memory);
+  return status;
+}
+
+celspan_status cs_record_make(celspan_context *context, const cs_plan *plan, cs_recording *out) {
+  recorder r = {.context = context, .plan = plan, .out = out};
+  size_t count = plan->boundaries.chain_count > 0 ? plan->boundaries.chain_count : 1;
+  CS_TRY(CS_MAKE(context, r.chains, count));
+  celspan_status status = add_rows(&r);
+  cs_mem_free(context->memory, r.chains, count * sizeof *r.chains);
+  cs_mem_free(context->memory, r.cells, r.cell_capacity * sizeof *r.cells);
+  return status;
+}

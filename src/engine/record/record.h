@@ -1,0 +1,41 @@
+/* Recording a plane: the rows of a plan are swept, and its visible edges become borders of a plane
+ * file (subprojects/planefile), which have curves and no size.
+ *
+ *   row y       \     edge of chain c, between two cells     \
+ *   row y + 1    \    the same chain, the same cells          |  one border of chain c
+ *   row y + 2     |                                          /
+ *
+ * A border continues where an edge of its chain begins at the height where it ends, between the
+ * same cells. Its curve is the chain's, from the control points. What its edges say is where it
+ * begins and ends: where something begins, ends, or crosses it. An edge that belongs to no chain,
+ * or to one with a curve that a plane cannot have, is a line by itself.
+ *
+ * Invariant: at any height, borders lead from cell 0 to cell 0, as edges do.
+ */
+#pragma once
+
+#include <planefile.h>
+
+#include "engine/row/plan.h"
+
+#define CS_RECORD_SIDE 4093 /* pixels of the plan's width and height */
+
+typedef struct cs_recording {
+  planefile_point *points;
+  planefile_piece *pieces;
+  planefile_chain *chains;
+  planefile_border *borders;
+  planefile_cell *cells;
+  size_t point_count, point_capacity;
+  size_t piece_count, piece_capacity;
+  size_t chain_count, chain_capacity;
+  size_t border_count, border_capacity;
+  size_t cell_count, cell_capacity;
+} cs_recording;
+
+/* Records a plan of SIDE x SIDE pixels that keeps its curves. out: empty; must be finished whatever
+ * happens. Errors: NO_MEMORY; BAD_ARGUMENT where a colour varies; LIMIT. */
+CELSPAN_CHECKED celspan_status cs_record_make(celspan_context *context, const cs_plan *plan,
+                                              cs_recording *out);
+void cs_record_finish(cs_recording *record, cs_memory *memory);
+planefile_band cs_record_plane(const cs_recording *record);

@@ -1,0 +1,348 @@
+/* celspan_plane of the public header.
+ *
+ *   rostrum --compile, record--> borders --> bytes of a plane file --> plane --drawer--> rows
+ *
+ * A plane in memory is the bytes of its file and what a reader makes of them, so a plane that was
+ * made and one that was read draw the same pixels.
+ */
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdatomic.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/open.h"
+#include "engine/record/record.h"
+#include "engine/span/row.h"
+#include "frames/render/compile.h"
+#include "model/scene/check.h"
+#include "output/sinks/file.h"
+#include "output/sinks/pixels.h"
+#include "output/sinks/sink.h"
+
+#define BYTES_MOST ((uint64_t)1 << 30) /* of a file */
+
+struct celspan_plane {
+  atomic_size_t references;
+  cs_memory *memory;
+  unsigned char *bytes; /* of the file */
+  size_t size, capacity;
+  planefile_plane *plane;
+};
+
+static void *resize(void *user, void *block, size_t old_size, size_t new_size) {
+  return cs_mem_resize(user, block, old_size, new_size);
+}
+
+static celspan_status report(celspan_context *context, planefile_status status) {
+  if (status == PLANEFILE_OK)
+    return CELSPAN_OK;
+  if (status == PLANEFILE_BAD_ARGUMENT)
+    return cs_fail(context, CELSPAN_INTERNAL, "plane: its borders are not in order");
+  return cs_fail_memory(context);
+}
+
+/* ---------------------------------------------------------------- life */
+
+static celspan_status create(celspan_context *context, celspan_plane **out) {
+  celspan_plane *plane;
+  CS_TRY(CS_MAKE(context, plane, 1));
+  atomic_init(&plane->references, 1);
+  plane->memory = cs_memory_ref(context->memory);
+  *out = plane;
+  return CELSPAN_OK;
+}
+
+celspan_plane *celspan_plane_ref(celspan_plane *plane) {
+  if (plane)
+    atomic_fetch_add_explicit(&plane->references, 1, memory_order_relaxed);
+  return plane;
+}
+
+void celspan_plane_unref(celspan_plane *plane) {
+  if (!plane || atomic_fetch_sub_explicit(&plane->references, 1, memory_order_acq_rel) > 1)
+    return;
+  cs_memory *memory = plane->memory;
+  planefile_plane_destroy(plane->plane);
+  cs_mem_free(memory, plane->bytes, plane->capacity);
+  cs_mem_free(memory, plane, sizeof *plane);
+  cs_memory_unref(memory);
+}
+
+void celspan_plane_size(const celspan_plane *plane, double *width, double *height) {
+  planefile_info info = planefile_plane_info(plane->plane);
+  *width = info.width;
+  *height = info.height;
+}
+
+size_t celspan_plane_bytes(const celspan_plane *plane) { return plane->size; }
+
+/* ---------------------------------------------------------------- bytes */
+
+static bool read_bytes(void *user, uint64_t offset, void *bytes, size_t size) {
+  const celspan_plane *plane = user;
+  memcpy(bytes, plane->bytes + offset, size);
+  return true;
+}
+
+/* What the bytes say. */
+static planefile_status load(celspan_plane *plane, planefile_fault *fault) {
+  planefile_source source = {.read = read_bytes,
+                             .user = plane,
+                             .size = plane->size,
+                             .resize = resize,
+                             .resize_user = plane->memory};
+  return planefile_read(&source, 0, PLANEFILE_SIDE, &plane->plane, fault);
+}
+
+/* ---------------------------------------------------------------- making */
+
+/* Where a plane's bytes are appended. */
+typedef struct appending {
+  celspan_context *context;
+  celspan_plane *plane;
+} appending;
+
+static bool append(void *user, const void *bytes, size_t size) {
+  const appending *a = user;
+  celspan_plane *plane = a->plane;
+  if (CS_RESERVE(a->context, plane->bytes, plane->capacity, plane->size + size) != CELSPAN_OK)
+    return false;
+  memcpy(plane->bytes + plane->size, bytes, size);
+  plane->size += size;
+  return true;
+}
+
+/* What has a place of its own on the raster, and so no plane. */
+static celspan_status check_plan(celspan_context *context, const cs_plan *plan) {
+  if (plan->is_crowded)
+    return cs_fail(context, CELSPAN_LIMIT, "plane: more than %d dashes of strokes are in view",
+                   CS_COMPILE_DASHES);
+  if (plan->stack.procedure_count > 0)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "plane: a scan-line procedure is in view; it cannot be drawn without a size");
+  if (plan->defocus_count > 0)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "plane: a blurred object is in view; a plane keeps sharp edges only");
+  return CELSPAN_OK;
+}
+
+static celspan_status record(celspan_context *context, const celspan_rostrum *rostrum,
+                             const cs_view *view, cs_recording *out) {
+  const cs_antialias antialias = {.mode = CELSPAN_ANTIALIAS_AREA};
+  cs_plan plan = {0};
+  CS_TRY(cs_compile(context, rostrum, view, &antialias, 1, &plan));
+  celspan_status status = check_plan(context, &plan);
+  if (status == CELSPAN_OK)
+    status = cs_record_make(context, &plan, out);
+  cs_compile_free(&plan, context->memory);
+  return status;
+}
+
+static celspan_status write_record(celspan_context *context, const cs_recording *made,
+                                   const cs_view *view, celspan_plane *plane) {
+  appending a = {context, plane};
+  const planefile_writer_desc desc = {.width = view->film_width,
+                                      .height = view->film_height,
+                                      .write = append,
+                                      .user = &a,
+                                      .resize = resize,
+                                      .resize_user = context->memory};
+  planefile_band band = cs_record_plane(made);
+  CS_TRY(report(context, planefile_write(&desc, &band)));
+  return report(context, load(plane, NULL));
+}
+
+celspan_status celspan_plane_create(celspan_context *context, const celspan_rostrum *rostrum,
+                                    double width, double height, celspan_plane **out) {
+  *out = NULL;
+  CS_TRY(cs_check_given(context, "plane", "the rostrum", rostrum));
+  CS_TRY(cs_check_positive(context, "plane", "width", width));
+  CS_TRY(cs_check_positive(context, "plane", "height", height));
+  const cs_view view = {.film_width = width,
+                        .film_height = height,
+                        .width = CS_RECORD_SIDE,
+                        .height = CS_RECORD_SIDE,
+                        .end_row = CS_RECORD_SIDE,
+                        .end_column = CS_RECORD_SIDE,
+                        .most_dashes = CS_COMPILE_DASHES,
+                        .space = CELSPAN_SPACE_LINEAR,
+                        .keeps_curves = true};
+  cs_recording made = {0};
+  celspan_plane *plane;
+  CS_TRY(create(context, &plane));
+  celspan_status status = record(context, rostrum, &view, &made);
+  if (status == CELSPAN_OK)
+    status = write_record(context, &made, &view, plane);
+  cs_record_finish(&made, context->memory);
+  if (status == CELSPAN_OK)
+    *out = plane;
+  else
+    celspan_plane_unref(plane);
+  return status;
+}
+
+/* ---------------------------------------------------------------- files */
+
+celspan_status celspan_plane_write(celspan_context *context, const celspan_plane *plane,
+                                   const char *path) {
+  cs_file *file;
+  CS_TRY(cs_check_given(context, "plane", "the path", path));
+  CS_TRY(cs_file_create(context, NULL, path, &file));
+  celspan_status status = cs_file_write(file, context, plane->bytes, plane->size);
+  if (status == CELSPAN_OK)
+    return cs_file_commit(file, context);
+  cs_file_discard(file, context);
+  return status;
+}
+
+static celspan_status load_bytes(celspan_context *context, const char *path, int descriptor,
+                                 celspan_plane *plane) {
+  struct stat there;
+  if (descriptor < 0 || fstat(descriptor, &there) != 0)
+    return cs_fail(context, CELSPAN_INPUT, "%s: %s", path, strerror(errno));
+  if (!S_ISREG(there.st_mode))
+    return cs_fail(context, CELSPAN_INPUT, "%s: this is not a plane file", path);
+  if ((uint64_t)there.st_size > BYTES_MOST)
+    return cs_fail(context, CELSPAN_LIMIT, "%s: has more than %" PRIu64 " bytes", path, BYTES_MOST);
+  size_t size = (size_t)there.st_size;
+  CS_TRY(CS_RESERVE(context, plane->bytes, plane->capacity, size));
+  errno = EIO; /* where the file has become shorter */
+  if (cs_open_read_at(descriptor, plane->bytes, size, 0) != (ssize_t)size)
+    return cs_fail(context, CELSPAN_INPUT, "%s: %s", path, strerror(errno));
+  plane->size = size;
+  return CELSPAN_OK;
+}
+
+static celspan_status load_file(celspan_context *context, const char *path, celspan_plane *plane) {
+  planefile_fault fault;
+  int descriptor = cs_open_to_read(path);
+  celspan_status status = load_bytes(context, path, descriptor, plane);
+  if (descriptor >= 0)
+    close(descriptor);
+  CS_TRY(status);
+  planefile_status loaded = load(plane, &fault);
+  if (loaded == PLANEFILE_BAD_FILE)
+    return cs_fail(context, CELSPAN_INPUT, "%s: byte %" PRIu64 ": %s", path, fault.offset,
+                   fault.reason);
+  return report(context, loaded);
+}
+
+celspan_status celspan_plane_read(celspan_context *context, const char *path, celspan_plane **out) {
+  celspan_plane *plane;
+  *out = NULL;
+  CS_TRY(cs_check_given(context, "plane", "the path", path));
+  CS_TRY(create(context, &plane));
+  celspan_status status = load_file(context, path, plane);
+  if (status == CELSPAN_OK)
+    *out = plane;
+  else
+    celspan_plane_unref(plane);
+  return status;
+}
+
+/* ---------------------------------------------------------------- rows */
+
+static celspan_status check_view(celspan_context *context, const celspan_plane_view *view,
+                                 planefile_view *out) {
+  CS_TRY(cs_check_given(context, "plane", "the view", view));
+  CS_TRY(cs_check_version(context, "plane", view->struct_size, sizeof *view));
+  if (view->width < 1 || view->height < 1)
+    return cs_fail(context, CELSPAN_LIMIT,
+                   "plane: size is %d x %d; each side must be 1 to 2147483647 pixels",
+                   (int)view->width, (int)view->height);
+  bool is_whole = view->crop_width == 0 && view->crop_height == 0;
+  int64_t width = is_whole ? view->width : view->crop_width;
+  int64_t height = is_whole ? view->height : view->crop_height;
+  if (view->crop_x < 0 || view->crop_y < 0 || width < 1 || height < 1 ||
+      view->crop_x + width > view->width || view->crop_y + height > view->height)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "plane: crop %d,%d,%d,%d does not lie inside the frame of %d x %d pixels",
+                   (int)view->crop_x, (int)view->crop_y, (int)width, (int)height, (int)view->width,
+                   (int)view->height);
+  if (view->antialias != CELSPAN_ANTIALIAS_AREA && view->antialias != CELSPAN_ANTIALIAS_NONE)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "plane: it is drawn with area antialiasing, or with none");
+  *out =
+      (planefile_view){(uint32_t)view->width,
+                       (uint32_t)view->height,
+                       (uint32_t)view->crop_x,
+                       (uint32_t)view->crop_y,
+                       (uint32_t)width,
+                       (uint32_t)height,
+                       view->antialias == CELSPAN_ANTIALIAS_NONE ? PLANEFILE_NONE : PLANEFILE_AREA};
+  return CELSPAN_OK;
+}
+
+static celspan_status copy_row(celspan_context *context, const planefile_span *spans, size_t count,
+                               cs_row *out) {
+  int32_t x = 0;
+  out->count = 0;
+  for (size_t i = 0; i < count; x = (int32_t)spans[i++].end) {
+    cs_v4 colour;
+    for (int c = 0; c < 4; c++)
+      colour[c] = (float)spans[i].colour.colour[c] / PLANEFILE_WHITE;
+    CS_TRY(cs_row_single(context, out, x, (int32_t)spans[i].end, colour));
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status send_row(celspan_context *context, planefile_drawer *drawer, int32_t y,
+                               const celspan_sink *sink, cs_row *row) {
+  const planefile_span *spans;
+  size_t count;
+  CS_TRY(report(context, planefile_drawer_row(drawer, &spans, &count)));
+  CS_TRY(copy_row(context, spans, count, row));
+  return sink->row ? sink->row(sink->user, context, y, row->spans, row->count) : CELSPAN_OK;
+}
+
+static celspan_status send_rows(celspan_context *context, const celspan_plane *plane,
+                                const planefile_view *view, const celspan_sink *sink) {
+  planefile_drawer *drawer;
+  cs_row row = {0};
+  celspan_status status = report(context, planefile_drawer_create(plane->plane, view, &drawer));
+  for (uint32_t y = 0; y < view->rows && status == CELSPAN_OK; y++)
+    status = send_row(context, drawer, (int32_t)y, sink, &row);
+  planefile_drawer_destroy(drawer);
+  cs_row_finish(&row, context->memory);
+  return status;
+}
+
+/* *ended: the sink's end was called. */
+static celspan_status feed(celspan_context *context, const celspan_plane *plane,
+                           const planefile_view *view, const celspan_sink *sink, bool *ended) {
+  if (sink->begin)
+    CS_TRY(sink->begin(sink->user, context, (int32_t)view->columns, (int32_t)view->rows));
+  celspan_status status = send_rows(context, plane, view, sink);
+  *ended = sink->end != NULL;
+  celspan_status last = sink->end ? sink->end(sink->user, context, status) : CELSPAN_OK;
+  return status == CELSPAN_OK ? last : status;
+}
+
+celspan_status celspan_plane_render(celspan_context *context, const celspan_plane *plane,
+                                    const celspan_plane_view *view, const celspan_sink *sink) {
+  planefile_view drawn;
+  bool ended;
+  CS_TRY(check_view(context, view, &drawn));
+  CS_TRY(cs_check_given(context, "plane", "the sink", sink));
+  return feed(context, plane, &drawn, sink, &ended);
+}
+
+celspan_status celspan_plane_pixels(celspan_context *context, const celspan_plane *plane,
+                                    const celspan_plane_view *view, const celspan_coding *coding,
+                                    void *pixels, size_t stride) {
+  planefile_view drawn;
+  celspan_sink sink;
+  bool ended = false;
+  celspan_coding resolved = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
+  CS_TRY(check_view(context, view, &drawn));
+  CS_TRY(cs_pixels_check(context, coding));
+  resolved.space = CELSPAN_SPACE_LINEAR;
+  CS_TRY(cs_sink_memory(context, &resolved, pixels, stride, &sink));
+  celspan_status status = feed(context, plane, &drawn, &sink, &ended);
+  if (!ended)
+    cs_sink_discard(context, &sink);
+  return status;
+}

@@ -1,0 +1,294 @@
+/* Planes: drawn at any size as the frame of that size is rendered, as a point is probed, and as
+ * what is read of their files; what they cannot keep is refused.
+ */
+#include <math.h>
+
+#include "tests/support/frame_rows.h"
+#include "tests/support/memory.h"
+#include "tests/support/random.h"
+
+#define WIDTH 90
+#define HEIGHT 60
+
+/* ---------------------------------------------------------------- scenes */
+
+static celspan_paint random_paint(test_random *random) {
+  float red = random_unit(random), green = random_unit(random), blue = random_unit(random);
+  float alpha = random_below(random, 2) ? 1 : random_unit(random);
+  return celspan_paint_rgb(red, green, blue, alpha);
+}
+
+static celspan_object *random_object(studio *s, test_random *random) {
+  celspan_texture *texture = studio_paint(s, random_paint(random));
+  celspan_point corners[3];
+  for (int k = 0; k < 3; k++)
+    corners[k] = random_point(random, -10, WIDTH + 10, -10, HEIGHT + 10);
+  double width = random_between(random, 1, 50), height = random_between(random, 1, 50);
+  int kind = (int)random_below(random, 4);
+  if (kind < 2)
+    return studio_circle(s, corners[0].x, corners[0].y, width, texture);
+  if (kind == 2)
+    return studio_rect(s, corners[0].x, corners[0].y, width, height, texture);
+  return studio_polygon(s, corners, 3, CELSPAN_RULE_NONZERO, texture);
+}
+
+/* A cel of a few shapes, one of which is cut out of others. */
+static celspan_cel *random_cel(studio *s, test_random *random) {
+  celspan_object *objects[5];
+  celspan_cel_desc desc = CELSPAN_CEL_DESC;
+  size_t count = 1 + (size_t)random_below(random, 5);
+  for (size_t i = 0; i < count; i++)
+    objects[i] = random_object(s, random);
+  celspan_object *other = random_object(s, random);
+  objects[0] = studio_pair(s, CELSPAN_DIFFERENCE, objects[0], other);
+  desc.opacity = random_below(random, 3) ? 1 : random_unit(random);
+  desc.back = random_below(random, 3) ? desc.back : (celspan_light){0.25f, 0.5f, 0, 0.5f};
+  return studio_cel(s, desc, objects, count);
+}
+
+static celspan_rostrum *random_rostrum(studio *s, uint64_t seed) {
+  test_random random = {seed};
+  celspan_cel *cels[3];
+  celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
+  size_t count = 1 + (size_t)random_below(&random, 3);
+  for (size_t i = 0; i < count; i++)
+    cels[i] = random_cel(s, &random);
+  if (random_below(&random, 2))
+    desc.back = (celspan_light){1, 0.75f, 0.5f, 1};
+  return studio_rostrum(s, desc, cels, count);
+}
+
+static celspan_plane *make_plane(studio *s, const celspan_rostrum *rostrum) {
+  celspan_plane *plane = NULL;
+  studio_check(s, celspan_plane_create(s->context, rostrum, WIDTH, HEIGHT, &plane));
+  return plane;
+}
+
+/* The floats of a view; the caller frees them. */
+static float (*draw(studio *s, const celspan_plane *plane, celspan_plane_view view))[4] {
+  const celspan_coding coding = {.depth = CELSPAN_DEPTH_FLOAT,
+                                 .transfer = CELSPAN_TRANSFER_LINEAR,
+                                 .alpha = CELSPAN_ALPHA_PREMULTIPLIED};
+  int32_t width = view.crop_width ? view.crop_width : view.width;
+  int32_t height = view.crop_height ? view.crop_height : view.height;
+  float(*out)[4] = calloc((size_t)width * (size_t)height, sizeof *out);
+  studio_check(
+      s, celspan_plane_pixels(s->context, plane, &view, &coding, out, (size_t)width * sizeof *out));
+  return out;
+}
+
+static celspan_plane_view view_of(int32_t width, int32_t height) {
+  celspan_plane_view view = CELSPAN_PLANE_VIEW;
+  view.width = width;
+  view.height = height;
+  return view;
+}
+
+/* ---------------------------------------------------------------- as frames are */
+
+/* The most that a channel differs, and in how many of them by more than a code in 255. */
+typedef struct comparison {
+  float most;
+  size_t off, all;
+} comparison;
+
+static comparison compare(float (*a)[4], float (*b)[4], size_t pixels) {
+  comparison out = {0, 0, 4 * pixels};
+  for (size_t i = 0; i < pixels; i++)
+    for (int c = 0; c < 4; c++) {
+      float difference = fabsf(a[i][c] - b[i][c]);
+      out.most = fmaxf(out.most, difference);
+      out.off += difference > 1 / 255.0f;
+    }
+  return out;
+}
+
+static void check_size(studio *s, const celspan_plane *plane, const celspan_exposure *exposure,
+                       int32_t scale) {
+  celspan_frame_desc desc = studio_frame(exposure, 1, scale * WIDTH, scale * HEIGHT, NULL);
+  celspan_plane_view view = view_of(scale * WIDTH, scale * HEIGHT);
+  desc.film_width = WIDTH;
+  desc.film_height = HEIGHT;
+  if (scale > 4) { /* too many pixels: a part of them */
+    desc.crop_x = view.crop_x = 17 * scale;
+    desc.crop_y = view.crop_y = 11 * scale;
+    desc.crop_width = view.crop_width = 200;
+    desc.crop_height = view.crop_height = 150;
+  }
+  image rendered = make_image(s, &desc, 1);
+  float(*drawn)[4] = draw(s, plane, view);
+  comparison c = compare(drawn, rendered.rgba, (size_t)rendered.width * (size_t)rendered.height);
+  if (!CHECK(c.most <= 4 / 255.0f && c.off * 500 <= c.all))
+    fprintf(stderr, "  at %d: %g, %zu of %zu\n", (int)scale, (double)c.most, c.off, c.all);
+  free(rendered.rgba);
+  free(drawn);
+}
+
+static void check_frames(studio *s) {
+  for (uint64_t seed = 0; seed < 12; seed++) {
+    celspan_exposure exposure = {random_rostrum(s, seed), 1};
+    celspan_plane *plane = make_plane(s, exposure.rostrum);
+    for (int32_t scale = 1; scale <= 40; scale *= 3)
+      check_size(s, plane, &exposure, scale);
+    celspan_plane_unref(plane);
+    studio_finish(s);
+  }
+}
+
+/* ---------------------------------------------------------------- as points are */
+
+/* Pixels at their centres, of frames that nobody renders. An edge may lie between the two. */
+static void check_probes(studio *s) {
+  enum { SIDE = 1 << 20, PROBES = 400 };
+  size_t off = 0;
+  for (uint64_t seed = 20; seed < 26; seed++) {
+    celspan_exposure exposure = {random_rostrum(s, seed), 1};
+    celspan_plane *plane = make_plane(s, exposure.rostrum);
+    celspan_frame_desc desc = studio_frame(&exposure, 1, WIDTH, HEIGHT, NULL);
+    desc.film_width = WIDTH;
+    desc.film_height = HEIGHT;
+    test_random random = {seed};
+    for (int i = 0; i < PROBES; i++) {
+      celspan_plane_view view = view_of(SIDE, SIDE);
+      view.antialias = CELSPAN_ANTIALIAS_NONE;
+      view.crop_x = (int32_t)random_below(&random, SIDE);
+      view.crop_y = (int32_t)random_below(&random, SIDE);
+      view.crop_width = view.crop_height = 1;
+      float(*drawn)[4] = draw(s, plane, view);
+      double rgba[4];
+      celspan_point at = {(view.crop_x + 0.5) / SIDE * WIDTH, (view.crop_y + 0.5) / SIDE * HEIGHT};
+      studio_check(s, celspan_probe(s->context, &desc, at, rgba));
+      for (int c = 0; c < 4; c++)
+        off += fabs((double)drawn[0][c] - rgba[c]) > 0.0001;
+      free(drawn);
+    }
+    celspan_plane_unref(plane);
+    studio_finish(s);
+  }
+  CHECK(off <= 4);
+}
+
+/* ---------------------------------------------------------------- files */
+
+/* A plane that is read again is written as the same bytes and draws the same pixels. */
+static void check_files(studio *s) {
+  const char *path = "plane/test.plane";
+  for (uint64_t seed = 40; seed < 44; seed++) {
+    celspan_plane *plane = make_plane(s, random_rostrum(s, seed)), *again = NULL;
+    double width, height;
+    studio_check(s, celspan_plane_write(s->context, plane, path));
+    studio_check(s, celspan_plane_read(s->context, path, &again));
+    celspan_plane_size(again, &width, &height);
+    CHECK(width == WIDTH && height == HEIGHT);
+    CHECK(celspan_plane_bytes(again) == celspan_plane_bytes(plane));
+    float(*a)[4] = draw(s, plane, view_of(WIDTH, HEIGHT));
+    float(*b)[4] = draw(s, again, view_of(WIDTH, HEIGHT));
+    CHECK(memcmp(a, b, WIDTH * HEIGHT * sizeof *a) == 0);
+    free(a);
+    free(b);
+    celspan_plane_unref(again);
+    celspan_plane_unref(celspan_plane_ref(plane));
+    celspan_plane_unref(plane);
+    studio_finish(s);
+  }
+  celspan_plane *none;
+  CHECK(celspan_plane_read(s->context, "plane/none.plane", &none) == CELSPAN_INPUT && !none);
+  CHECK(celspan_plane_read(s->context, "plane", &none) == CELSPAN_INPUT && !none);
+  FILE *file = fopen(path, "r+b");
+  fputc('x', file);
+  fclose(file);
+  CHECK(celspan_plane_read(s->context, path, &none) == CELSPAN_INPUT && !none);
+  CHECK(strstr(celspan_context_error(s->context), "this is not a plane file") != NULL);
+  remove(path);
+  remove("plane");
+}
+
+/* ---------------------------------------------------------------- what is refused */
+
+static void check_refused(studio *s, const celspan_rostrum *rostrum, const char *reason) {
+  celspan_plane *plane;
+  celspan_status status = celspan_plane_create(s->context, rostrum, WIDTH, HEIGHT, &plane);
+  CHECK(status == CELSPAN_BAD_ARGUMENT && !plane);
+  if (!CHECK(strstr(celspan_context_error(s->context), reason) != NULL))
+    fprintf(stderr, "  %s\n", celspan_context_error(s->context));
+}
+
+static void check_scenes_refused(studio *s) {
+  const celspan_stop stops[] = {{0, celspan_paint_rgb(1, 0, 0, 1)},
+                                {1, celspan_paint_rgb(0, 0, 1, 1)}};
+  celspan_texture *gradient =
+      studio_linear(s, (celspan_point){0, 0}, (celspan_point){WIDTH, 0}, stops, 2);
+  check_refused(s, studio_show(s, studio_rect(s, 10, 10, 40, 30, gradient)), "gradient");
+  celspan_cel_desc blurred = CELSPAN_CEL_DESC;
+  blurred.defocus_radius = 3;
+  celspan_object *disc = studio_circle(s, 30, 30, 20, NULL);
+  celspan_cel *cel = studio_cel(s, blurred, &disc, 1);
+  check_refused(s, studio_rostrum(s, CELSPAN_ROSTRUM_DESC, &cel, 1), "blurred");
+  celspan_plane *plane;
+  CHECK(celspan_plane_create(s->context, studio_show(s, disc), 0, HEIGHT, &plane) ==
+        CELSPAN_BAD_ARGUMENT);
+  studio_finish(s);
+}
+
+static void check_views_refused(studio *s) {
+  celspan_plane *plane = make_plane(s, random_rostrum(s, 1));
+  celspan_plane_view view = view_of(0, 5);
+  const celspan_sink nowhere = {0};
+  CHECK(celspan_plane_render(s->context, plane, &view, &nowhere) == CELSPAN_LIMIT);
+  view = view_of(9, 5);
+  view.crop_x = 5;
+  view.crop_width = view.crop_height = 5;
+  CHECK(celspan_plane_render(s->context, plane, &view, &nowhere) == CELSPAN_BAD_ARGUMENT);
+  view = view_of(9, 5);
+  view.antialias = CELSPAN_ANTIALIAS_FILTER;
+  CHECK(celspan_plane_render(s->context, plane, &view, &nowhere) == CELSPAN_BAD_ARGUMENT);
+  view.antialias = CELSPAN_ANTIALIAS_NONE;
+  CHECK(celspan_plane_render(s->context, plane, &view, &nowhere) == CELSPAN_OK);
+  celspan_plane_unref(plane);
+  studio_finish(s);
+}
+
+/* ---------------------------------------------------------------- memory */
+
+static celspan_status make_and_draw(studio *s, const celspan_rostrum *rostrum) {
+  celspan_plane *plane;
+  celspan_plane_view view = view_of(12, 8);
+  unsigned char pixels[12 * 8 * 4];
+  celspan_status status = celspan_plane_create(s->context, rostrum, WIDTH, HEIGHT, &plane);
+  if (status == CELSPAN_OK)
+    status = celspan_plane_pixels(s->context, plane, &view, NULL, pixels, (size_t)12 * 4);
+  celspan_plane_unref(plane);
+  return status;
+}
+
+/* Every allocation fails once. */
+static void check_failures_of_memory(studio *s, memory_watch *watch) {
+  const celspan_rostrum *rostrum = random_rostrum(s, 3);
+  bool has_failed = true;
+  for (size_t n = 1; has_failed; n++) {
+    watch->fail_at = watch->allocations + n;
+    celspan_status status = make_and_draw(s, rostrum);
+    watch->fail_at = 0;
+    has_failed = status != CELSPAN_OK;
+    CHECK(status == CELSPAN_OK || status == CELSPAN_NO_MEMORY);
+  }
+  studio_finish(s);
+}
+
+int main(void) {
+  memory_watch watch = {0};
+  celspan_context_desc desc = CELSPAN_CONTEXT_DESC;
+  desc.resize = memory_watch_resize;
+  desc.resize_user = &watch;
+  studio s = {0};
+  CHECK(celspan_context_create(&desc, &s.context) == CELSPAN_OK);
+  check_frames(&s);
+  check_probes(&s);
+  check_files(&s);
+  check_scenes_refused(&s);
+  check_views_refused(&s);
+  check_failures_of_memory(&s, &watch);
+  celspan_context_destroy(s.context);
+  CHECK(watch.blocks == 0 && watch.size_errors == 0);
+  return check_done();
+}
