@@ -126,6 +126,12 @@ static void line_at(const cs_bezier *line, double t, celspan_point *point, celsp
   }
   cs_hpoint at = between(a, b, t);
   double rise = degree * (b.w - a.w);
+  if (at.w == 1 && rise == 0 && bend.w == 0) { /* as below, without six divisions by 1 */
+    *point = (celspan_point){at.x, at.y};
+    *velocity = (celspan_point){degree * (b.x - a.x), degree * (b.y - a.y)};
+    *acceleration = (celspan_point){bend.x, bend.y};
+    return;
+  }
   point->x = at.x / at.w;
   point->y = at.y / at.w;
   velocity->x = degree * ((b.x - a.x) - point->x * (b.w - a.w)) / at.w;
@@ -217,32 +223,61 @@ bool cs_curve_is_straight(const cs_bezier *line) {
 /* Of the polygon, for every halving alike; not below what coordinates round off. */
 #define LENGTH_ERROR 1e-11
 
-static double speed(const cs_bezier *line, double t) {
-  celspan_point point, velocity;
-  cs_curve_line_at(line, t, &point, &velocity);
+/* The speed of a line at many places: a polynomial of the second degree, unless the line has
+ * weights or a higher degree than the third. */
+typedef struct ruler {
+  const cs_bezier *line;
+  bool is_plain;
+  celspan_point powers[3]; /* of the velocity, where it is plain */
+} ruler;
+
+static ruler ruler_of(const cs_bezier *line) {
+  int degree = line->degree;
+  ruler out = {.line = line, .is_plain = degree <= 3};
+  celspan_point d[3] = {{0, 0}};
+  for (int i = 0; out.is_plain && i < degree; i++) {
+    const cs_hpoint *p = &line->points[i];
+    out.is_plain = p[0].w == 1 && p[1].w == 1;
+    d[i] = (celspan_point){degree * (p[1].x - p[0].x), degree * (p[1].y - p[0].y)};
+  }
+  out.powers[0] = d[0];
+  if (degree > 1)
+    out.powers[1] =
+        (celspan_point){(degree - 1) * (d[1].x - d[0].x), (degree - 1) * (d[1].y - d[0].y)};
+  if (degree > 2)
+    out.powers[2] = (celspan_point){(d[2].x - d[1].x) - (d[1].x - d[0].x),
+                                    (d[2].y - d[1].y) - (d[1].y - d[0].y)};
+  return out;
+}
+
+static double speed(const ruler *r, double t) {
+  const celspan_point *p = r->powers;
+  celspan_point point,
+      velocity = {p[0].x + t * (p[1].x + t * p[2].x), p[0].y + t * (p[1].y + t * p[2].y)};
+  if (!r->is_plain)
+    cs_curve_line_at(r->line, t, &point, &velocity);
   return sqrt(velocity.x * velocity.x + velocity.y * velocity.y);
 }
 
 /* Gauss and Legendre's rule with five places. */
-static double gauss(const cs_bezier *line, double begin, double end) {
+static double gauss(const ruler *r, double begin, double end) {
   static const double places[] = {0.53846931010568309, 0.90617984593866399};
   static const double weights[] = {0.47862867049936647, 0.23692688505618909};
   double centre = 0.5 * (begin + end), half = 0.5 * (end - begin);
-  double sum = 0.56888888888888889 * speed(line, centre);
+  double sum = 0.56888888888888889 * speed(r, centre);
   for (int i = 0; i < 2; i++)
-    sum += weights[i] *
-           (speed(line, centre - half * places[i]) + speed(line, centre + half * places[i]));
+    sum += weights[i] * (speed(r, centre - half * places[i]) + speed(r, centre + half * places[i]));
   return half * sum;
 }
 
-static double measure(const cs_bezier *line, double begin, double end, double whole, double error,
+static double measure(const ruler *r, double begin, double end, double whole, double error,
                       int depth) {
   double centre = 0.5 * (begin + end);
-  double low = gauss(line, begin, centre), high = gauss(line, centre, end);
+  double low = gauss(r, begin, centre), high = gauss(r, centre, end);
   if (depth == LENGTH_DEPTH || fabs(low + high - whole) <= error)
     return low + high;
-  return measure(line, begin, centre, low, error, depth + 1) +
-         measure(line, centre, end, high, error, depth + 1);
+  return measure(r, begin, centre, low, error, depth + 1) +
+         measure(r, centre, end, high, error, depth + 1);
 }
 
 double cs_curve_length(const cs_bezier *line, double begin, double end) {
@@ -257,8 +292,8 @@ double cs_curve_length(const cs_bezier *line, double begin, double end) {
   if (cs_curve_is_straight(line))
     return (end - begin) * polygon;
   double rounding = line->degree * DBL_EPSILON * farthest;
-  return measure(line, begin, end, gauss(line, begin, end), fmax(LENGTH_ERROR * polygon, rounding),
-                 0);
+  const ruler r = ruler_of(line);
+  return measure(&r, begin, end, gauss(&r, begin, end), fmax(LENGTH_ERROR * polygon, rounding), 0);
 }
 
 /* Newton's steps inside a bracket that they make smaller, and halvings where they leave it. */
@@ -266,12 +301,13 @@ static double find_parameter(const cs_bezier *line, double whole, double length,
                              double high, const double at_ends[2]) {
   double t = low + (length - at_ends[0]) / (at_ends[1] - at_ends[0]) * (high - low);
   double at = at_ends[0] + cs_curve_length(line, low, t);
+  const ruler r = ruler_of(line);
   for (int i = 0; i < 60 && fabs(at - length) > LENGTH_ERROR * whole; i++) {
     if (at < length)
       low = t;
     else
       high = t;
-    double pace = speed(line, t), next = pace > 0 ? t + (length - at) / pace : low;
+    double pace = speed(&r, t), next = pace > 0 ? t + (length - at) / pace : low;
     next = next > low && next < high ? next : 0.5 * (low + high);
     at += next > t ? cs_curve_length(line, t, next) : -cs_curve_length(line, next, t);
     t = next;
