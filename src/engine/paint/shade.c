@@ -159,26 +159,32 @@ cs_shade_lanes cs_shade_paint(const cs_shade *shade, double x, double y) {
   return stretch_paint(&found, at);
 }
 
-/* Where places of a row lie along the stops. */
-static void find_places(const cs_shade *restrict shade, const double *restrict x, int32_t count,
-                        double y, double *restrict at) {
-  for (int32_t k = 0; k < count; k++)
-    at[k] = cs_shade_at(shade, x[k], y);
+/* What a stretch shows at places that are in it, at most PLACES. */
+static void fill_paints(const stretch *part, const double *at, int32_t count, float (*s)[4],
+                        float (*t)[4]) {
+  float shares[PLACES];
+  if (part->length != 0)
+    CS_WIDE_CHOOSE(cs_isa_best(), cs_shade_shares)(at, count, part->from, part->length, shares);
+  for (int32_t k = 0; k < count; k++) {
+    float u = part->length != 0 ? shares[k] : 0;
+    cs_v4_store(s[k], part->paint.s + u * part->step.s);
+    cs_v4_store(t[k], part->paint.t + u * part->step.t);
+  }
 }
 
 /* At most PLACES of them. */
 static void stop_paints(const cs_shade *shade, const double *x, int32_t count, double y,
                         float (*s)[4], float (*t)[4]) {
+  const cs_paint clear = CS_PAINT_CLEAR;
   double at[PLACES];
-  stretch last = {.from = INFINITY, .to = -INFINITY};
-  find_places(shade, x, count, y, at);
-  for (int32_t k = 0; k < count; k++) {
-    if (at[k] == at[k] && !(at[k] >= last.from && at[k] < last.to))
-      last = stretch_at(shade->texture, at[k]);
-    cs_shade_lanes paint =
-        at[k] == at[k] ? stretch_paint(&last, at[k]) : cs_shade_paint(shade, x[k], y);
-    cs_v4_store(s[k], paint.s);
-    cs_v4_store(t[k], paint.t);
+  CS_WIDE_CHOOSE(cs_isa_best(), cs_shade_places)(shade, x, count, y, at);
+  for (int32_t k = 0, end; k < count; k = end) {
+    stretch part = {.from = INFINITY, .paint = lanes_of(&clear)}; /* behind the horizon */
+    if (at[k] == at[k])
+      part = stretch_at(shade->texture, at[k]);
+    for (end = k + 1; end < count && at[end] >= part.from && at[end] < part.to; end++) {
+    }
+    fill_paints(&part, at + k, end - k, s + k, t + k);
   }
 }
 

@@ -21,6 +21,7 @@
  */
 #pragma once
 
+#include "base/wide.h"
 #include "engine/compose/layer.h"
 #include "engine/span/run.h"
 
@@ -29,19 +30,32 @@
 /* Fills the planes, from texture and inverse. */
 void cs_shade_prepare(cs_shade *shade);
 /* Where a point of the frame lies along the stops of a linear or radial texture. Not a number
- * behind the horizon. */
-static inline double cs_shade_at(const cs_shade *shade, double x, double y) {
+ * behind the horizon. is_radial, is_affine: of the shade; loops know them. */
+static inline double cs_shade_at_known(const cs_shade *shade, double x, double y, bool is_radial,
+                                       bool is_affine) {
   const double *p = shade->plane[0], *q = shade->plane[1], *m = shade->inverse.m;
   double at = p[0] * x + (p[1] * y + p[2]);
-  if (shade->texture->kind == CS_TEXTURE_RADIAL) {
+  if (is_radial) {
     double v = q[0] * x + (q[1] * y + q[2]);
     at = sqrt(at * at + v * v) - shade->eccentricity * at;
   }
-  if (shade->is_affine)
+  if (is_affine)
     return at;
   double w = m[6] * x + (m[7] * y + m[8]);
   return w > 0 ? at / w : NAN;
 }
+
+static inline double cs_shade_at(const cs_shade *shade, double x, double y) {
+  return cs_shade_at_known(shade, x, y, shade->texture->kind == CS_TEXTURE_RADIAL,
+                           shade->is_affine);
+}
+
+/* The same of places of a row; and how far places lie from one stop, `from`, to the next. In vector
+ * code: shade_wide.c. */
+CS_WIDE_DECLARE(void, cs_shade_places,
+                (const cs_shade *shade, const double *x, int32_t count, double y, double *at));
+CS_WIDE_DECLARE(void, cs_shade_shares,
+                (const double *at, int32_t count, double from, double length, float *shares));
 
 /* A paint in the form in which it is folded; lane 3 has no meaning. */
 typedef struct cs_shade_lanes {
