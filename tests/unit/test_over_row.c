@@ -196,15 +196,18 @@ static void random_state_of(cs_over_row_state *state) {
 static void check_blend(cs_isa isa, celspan_blend mode) {
   static cs_over_row_state source, back, made;
   const float keep = random_below(&numbers, 2) ? 1 : 0.4f;
+  const float fade = random_below(&numbers, 2) ? 1 : 0.7f;
   random_state_of(&source);
   random_state_of(&back);
   made = back;
-  CS_WIDE_CHOOSE(isa, cs_over_row_blend)(&source, CS_OVER_ROW_BATCH, mode, keep, &made);
+  CS_WIDE_CHOOSE(isa, cs_over_row_blend)
+  (&source, CS_OVER_ROW_BATCH, fade, mode, keep, &made);
   for (int i = 0; i < CS_OVER_ROW_BATCH; i++) {
     float kept = keep;
-    cs_over_pair wanted =
-        cs_over_blend(mode, (cs_over_pair){cs_v4_load(source.e[i]), cs_v4_load(source.t[i])},
-                      (cs_over_pair){cs_v4_load(back.e[i]), cs_v4_load(back.t[i])}, &kept);
+    cs_over_pair above = {fade * cs_v4_load(source.e[i]),
+                          (1 - fade) + fade * cs_v4_load(source.t[i])};
+    cs_over_pair behind = {cs_v4_load(back.e[i]), cs_v4_load(back.t[i])};
+    cs_over_pair wanted = cs_over_blend(mode, above, behind, &kept);
     if (!CHECK(memcmp(&wanted.e, made.e[i], 3 * sizeof(float)) == 0) ||
         !CHECK(memcmp(&wanted.t, made.t[i], 3 * sizeof(float)) == 0))
       fprintf(stderr, "  mode %d, pixel %d, isa %d\n", (int)mode, i, (int)isa);

@@ -26,8 +26,12 @@ static void clear_change(cs_window *window) {
 }
 
 void cs_window_init(cs_window *window, cs_painter *painter, cs_arena *arena, int32_t width) {
-  *window = (cs_window){
-      .painter = painter, .composer = painter->composer, .arena = arena, .width = width};
+  const cs_stack *stack = painter->stack;
+  *window = (cs_window){.painter = painter,
+                        .composer = painter->composer,
+                        .arena = arena,
+                        .width = width,
+                        .has_stretches = stack->has_sources && stack->defocused_count > 0};
 }
 
 void cs_window_finish(cs_window *window, cs_memory *memory) {
@@ -86,7 +90,8 @@ static celspan_status make_stretch(cs_window *window, int32_t next) {
   cs_window_stretch made;
   int32_t end = window->width - next < BESIDE ? window->width : next + BESIDE;
   cs_run between = {window->end, next, window->centre};
-  if (next <= window->end || !cs_painter_blends(window->painter, window->cell) ||
+  if (!window->has_stretches || next <= window->end ||
+      !cs_painter_blends(window->painter, window->cell) ||
       find_stretch(window, window->cell, between))
     return CELSPAN_OK;
   CS_TRY(CS_RESERVE(window->composer->context, window->stretches[0].rgba,
@@ -103,7 +108,7 @@ static celspan_status make_stretch(cs_window *window, int32_t next) {
 
 static celspan_status find_colours(cs_window *window, const cs_cell *cell, cs_run run,
                                    float (*rgba)[4]) {
-  const float(*made)[4] = find_stretch(window, cell, run);
+  const float(*made)[4] = window->has_stretches ? find_stretch(window, cell, run) : NULL;
   if (!made)
     return cs_painter_colours(window->painter, cell, run, rgba);
   memcpy(rgba, made, (size_t)(run.x1 - run.x0) * sizeof *rgba);
@@ -113,7 +118,8 @@ static celspan_status find_colours(cs_window *window, const cs_cell *cell, cs_ru
 /* Writes the columns up to the next window. */
 static celspan_status draw_cell(cs_window *window, int32_t next) {
   cs_run run = {window->from, next, window->centre};
-  const float(*made)[4] = run.x0 < run.x1 ? find_stretch(window, window->cell, run) : NULL;
+  const float(*made)[4] =
+      window->has_stretches && run.x0 < run.x1 ? find_stretch(window, window->cell, run) : NULL;
   float *colours;
   if (!made)
     return cs_painter_run(window->painter, window->cell, run, window->out);

@@ -65,6 +65,7 @@ typedef struct cs_window {
   cs_sum4 change[CS_WINDOW_NARROW + 3];
   bool is_whole_row;              /* the whole row is one window: items may come in any order */
   cs_arena tiles;                 /* of one tile's weights; the window's own */
+  bool has_stretches;             /* there may be some */
   cs_window_stretch stretches[2]; /* of the cells on both sides of the open window */
 } cs_window;
 

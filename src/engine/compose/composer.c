@@ -1,6 +1,8 @@
 #include "engine/compose/composer.h"
 
-#define MEMO_SIZE 4096               /* cells remembered, two of one place; a power of two */
+/* Cells remembered, two of one place: a power of two, at most; of a layer, at least. */
+#define MEMO_MOST 4096
+#define MEMO_EACH 64
 #define ITEM_LIMIT ((size_t)1 << 15) /* program items kept from row to row */
 
 /* ---------------------------------------------------------------- life */
@@ -25,6 +27,14 @@ static celspan_status make_table(cs_composer *composer) {
   return has_table ? cs_over_table_init(composer->table, composer->context, stack) : CELSPAN_OK;
 }
 
+/* A few layers have a few sets, and clearing the room for many takes longer than a band of rows. */
+static size_t memo_size(const cs_stack *stack) {
+  size_t size = MEMO_EACH;
+  while (size < MEMO_MOST && size / MEMO_EACH < stack->layer_count)
+    size *= 2;
+  return size;
+}
+
 celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
                                 const cs_stack *stack, cs_image_opacity opacity) {
   *composer = (cs_composer){.context = context, .stack = stack, .opacity = opacity};
@@ -40,7 +50,8 @@ celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
   CS_TRY(allocate(composer, &composer->results, stack->step_depth, sizeof(cs_tree_result)));
   CS_TRY(allocate(composer, &composer->outers, cs_stack_depth(stack), sizeof(cs_over_outer)));
   CS_TRY(make_table(composer));
-  return allocate(composer, &composer->memo, MEMO_SIZE, sizeof(cs_memo));
+  composer->memo_size = memo_size(stack);
+  return allocate(composer, &composer->memo, composer->memo_size, sizeof(cs_memo));
 }
 
 void cs_composer_finish(cs_composer *composer) {
@@ -62,7 +73,7 @@ void cs_composer_finish(cs_composer *composer) {
   if (composer->tree)
     cs_over_tree_finish(composer->tree);
   cs_mem_free(memory, composer->tree, sizeof(cs_over_tree));
-  cs_mem_free(memory, composer->memo, MEMO_SIZE * sizeof(cs_memo));
+  cs_mem_free(memory, composer->memo, composer->memo_size * sizeof(cs_memo));
   cs_mem_free(memory, composer->items, composer->item_capacity * sizeof(cs_item));
   cs_mem_free(memory, composer->gathered, composer->gathered_capacity * sizeof(cs_item));
   cs_mem_free(memory, composer->procedure_spans,
@@ -76,7 +87,7 @@ bool cs_composer_begin_row(cs_composer *composer) {
   if (composer->item_count <= ITEM_LIMIT)
     return false;
   composer->item_count = 0;
-  memset(composer->memo, 0, MEMO_SIZE * sizeof(cs_memo));
+  memset(composer->memo, 0, composer->memo_size * sizeof(cs_memo));
   return true;
 }
 
@@ -255,7 +266,7 @@ void cs_composer_cell(cs_composer *composer, cs_cell *out) {
     compose_here(composer, out);
     return;
   }
-  cs_memo *pair = &composer->memo[composer->hash.a & (MEMO_SIZE - 2)];
+  cs_memo *pair = &composer->memo[composer->hash.a & (composer->memo_size - 2)];
   for (int i = 0; i < 2; i++)
     if (pair[i].is_used && cs_set_hash_same(pair[i].cell.hash, composer->hash)) {
       *out = pair[i].cell;

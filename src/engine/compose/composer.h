@@ -56,6 +56,7 @@ typedef struct cs_composer {
   cs_over_table *table;  /* NULL where it does not suit the stack */
   cs_over_tree *tree;    /* NULL where it does not; then there is no table, either */
   cs_memo *memo;
+  size_t memo_size;
   cs_item *items; /* of all programs in use */
   size_t item_count, item_capacity;
   cs_item *gathered; /* scratch: the items of the cell being composed */

@@ -81,6 +81,8 @@ typedef struct cs_stack {
   size_t step_depth;    /* results a tree may need room for at a time */
   bool has_group_light; /* any group has a light with a shape */
   bool has_curves;      /* any group curves */
+  bool has_sources;     /* any group is a source */
+  bool has_pixels;      /* any defocused layer is made pixel by pixel: engine/sample/defocused.h */
 } cs_stack;
 
 void cs_stack_finish(cs_stack *stack, cs_memory *memory);

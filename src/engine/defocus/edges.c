@@ -15,35 +15,42 @@ static size_t share_count(const cs_defocus_edges *edges) {
   return (size_t)(PHASES + 1) * (size_t)(2 * edges->extent_x + 2);
 }
 
-/* The integral of a kernel along x, for increasing x. */
-typedef struct profile {
-  bool is_box;
-  double radius; /* BOX */
-  double sigma;
-  double x, sum, whole; /* GAUSSIAN: the integral up to x, by the midpoint rule */
-} profile;
+static int32_t stride_of(const cs_defocus_edges *edges) { return 2 * edges->extent_x + 2; }
 
-/* The share of the kernel left of x; x must not decrease from call to call. */
-static double share_left(profile *p, double x) {
-  if (p->is_box)
-    return cs_number_clamp(0.5 + 0.5 * x / p->radius, 0, 1);
+/* The integral of a Gaussian by the midpoint rule, up to every phase of every column from the left
+ * end of the kernel on. */
+static void integrate(double sigma, int32_t extent, int32_t count, double *sums) {
   const double step = 1.0 / (PHASES * FINE);
-  for (; p->x + 0.5 * step < x; p->x += step) {
-    double u = (p->x + 0.5 * step) / p->sigma;
-    p->sum += fabs(u) < SIGMAS ? cs_elementary_exp(-0.5 * u * u) : 0;
+  double at = -extent - 1, sum = 0;
+  for (int32_t i = 0; i <= count; i++) {
+    for (double x = (double)i / PHASES - extent - 1; at + 0.5 * step < x; at += step) {
+      double u = (at + 0.5 * step) / sigma;
+      sum += fabs(u) < SIGMAS ? cs_elementary_exp(-0.5 * u * u) : 0;
+    }
+    sums[i] = sum;
   }
-  return p->sum / p->whole;
+}
+
+/* The share of the kernel left of every such place. */
+static void find_shares(const cs_blur *blur, int32_t extent, int32_t count, double *shares) {
+  const double(*e)[2] = blur->edges;
+  double radius = fabs(e[0][0]) + fabs(e[1][0]);
+  if (blur->kind != CELSPAN_DEFOCUS_BOX)
+    integrate(0.5 * blur->radius_x, extent, count, shares);
+  for (int32_t i = 0; i <= count; i++)
+    shares[i] = blur->kind != CELSPAN_DEFOCUS_BOX
+                    ? shares[i] / shares[count]
+                    : cs_number_clamp(0.5 + 0.5 * ((double)i / PHASES - extent - 1) / radius, 0, 1);
 }
 
 /* shares[phase][k]: of the kernel around column k - extent_x, the share right of an edge that lies
  * phase/PHASES right of the centre of column 0. The kernel is even, so this is the share left of
  * the mirrored edge. */
-static void fill_shares(cs_defocus_edges *edges, profile p) {
-  int32_t stride = 2 * edges->extent_x + 2, count = PHASES * stride;
-  p.x = -edges->extent_x - 1;
+static void order_shares(cs_defocus_edges *edges, int32_t count, const double *shares) {
+  int32_t stride = stride_of(edges);
   for (int32_t i = 0; i <= count; i++) {
     int32_t phase = (PHASES - i % PHASES) % PHASES, k = (i + PHASES - 1) / PHASES - 1;
-    float share = (float)share_left(&p, (double)i / PHASES - edges->extent_x - 1);
+    float share = (float)shares[i];
     if (k >= 0 && k < stride)
       edges->shares[phase * stride + k] = share;
     if (phase == 0 && k + 1 < stride)
@@ -51,16 +58,15 @@ static void fill_shares(cs_defocus_edges *edges, profile p) {
   }
 }
 
-static profile find_profile(const cs_blur *blur, const cs_defocus_edges *edges) {
-  const double(*e)[2] = blur->edges;
-  profile p = {.is_box = blur->kind == CELSPAN_DEFOCUS_BOX,
-               .radius = fabs(e[0][0]) + fabs(e[1][0]),
-               .sigma = 0.5 * blur->radius_x,
-               .x = -edges->extent_x - 1,
-               .whole = 1};
-  p.whole = share_left(&p, edges->extent_x + 1);
-  p.sum = 0;
-  return p;
+static celspan_status fill_shares(celspan_context *context, const cs_blur *blur,
+                                  cs_defocus_edges *edges) {
+  int32_t count = PHASES * stride_of(edges);
+  double *shares;
+  CS_TRY(CS_MAKE(context, shares, (size_t)count + 1));
+  find_shares(blur, edges->extent_x, count, shares);
+  order_shares(edges, count, shares);
+  cs_mem_free(context->memory, shares, ((size_t)count + 1) * sizeof *shares);
+  return CELSPAN_OK;
 }
 
 /* The weight of a line k + 1/2 rows away. The tents already spread edges by a variance of 1/6,
@@ -91,7 +97,7 @@ celspan_status cs_defocus_edges_init(celspan_context *context, const cs_blur *bl
                             .extent_y = cs_number_ceil(extent_y)};
   CS_TRY(CS_MAKE(context, out->shares, share_count(out)));
   CS_TRY(CS_MAKE(context, out->weights, (size_t)out->extent_y));
-  fill_shares(out, find_profile(blur, out));
+  CS_TRY(fill_shares(context, blur, out));
   fill_weights(out, blur);
   return CELSPAN_OK;
 }

@@ -119,22 +119,35 @@ static inline cs_wide colour_of(cs_wide e, cs_wide alpha) {
   return cs_wide_choose(alpha > 0, colour, cs_wide_all(0));
 }
 
-static void add_all(const cs_over_row_state *source, int32_t count, float keep,
-                    cs_over_row_state *back) {
-  for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS) {
-    cs_wide rest = cs_wide_load(source->t[i]) - (1 - keep * cs_wide_load(back->t[i]));
-    cs_wide_store(back->e[i], cs_wide_load(source->e[i]) + cs_wide_load(back->e[i]));
+/* A row of sources, and what they are put over. */
+typedef struct blending {
+  const cs_over_row_state *source;
+  float fade, keep; /* of the sources; of their backdrop */
+  int32_t count;
+} blending;
+
+static inline cs_wide source_e(const blending *b, int32_t i) {
+  return b->fade * cs_wide_load(b->source->e[i]);
+}
+
+static inline cs_wide source_t(const blending *b, int32_t i) {
+  return (1 - b->fade) + b->fade * cs_wide_load(b->source->t[i]);
+}
+
+static void add_all(const blending *b, cs_over_row_state *back) {
+  for (int32_t i = 0; i < b->count; i += CS_OVER_WIDE_PIXELS) {
+    cs_wide rest = source_t(b, i) - (1 - b->keep * cs_wide_load(back->t[i]));
+    cs_wide_store(back->e[i], source_e(b, i) + cs_wide_load(back->e[i]));
     cs_wide_store(back->t[i], cs_wide_max(rest, cs_wide_all(0)));
   }
 }
 
-static void blend_all(const cs_over_row_state *source, int32_t count, celspan_blend mode,
-                      float keep, cs_over_row_state *back) {
+static void blend_all(const blending *b, celspan_blend mode, cs_over_row_state *back) {
   bool is_within = (unsigned)mode & CS_BLEND_WITHIN;
-  for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS) {
-    cs_wide se = cs_wide_load(source->e[i]), st = cs_wide_load(source->t[i]);
+  for (int32_t i = 0; i < b->count; i += CS_OVER_WIDE_PIXELS) {
+    cs_wide se = source_e(b, i), st = source_t(b, i);
     cs_wide be = cs_wide_load(back->e[i]), bt = cs_wide_load(back->t[i]);
-    cs_wide as = alpha_of(st, 1), ab = alpha_of(bt, keep);
+    cs_wide as = alpha_of(st, 1), ab = alpha_of(bt, b->keep);
     cs_wide both = blend(CS_BLEND_MODE(mode), colour_of(be, ab), colour_of(se, as));
     cs_wide e = (1 - as) * be;
     cs_wide_store(back->e[i], (is_within ? e : (1 - ab) * se + e) + (as * ab) * both);
@@ -142,10 +155,11 @@ static void blend_all(const cs_over_row_state *source, int32_t count, celspan_bl
   }
 }
 
-void CS_WIDE(cs_over_row_blend)(const cs_over_row_state *source, int32_t count, celspan_blend mode,
-                                float keep, cs_over_row_state *back) {
+void CS_WIDE(cs_over_row_blend)(const cs_over_row_state *source, int32_t count, float fade,
+                                celspan_blend mode, float keep, cs_over_row_state *back) {
+  const blending b = {source, fade, keep, count};
   if (mode == CELSPAN_BLEND_ADD)
-    add_all(source, count, keep, back);
+    add_all(&b, back);
   else
-    blend_all(source, count, mode, keep, back);
+    blend_all(&b, mode, back);
 }

@@ -6,14 +6,26 @@ static celspan_status open_state(cs_over_row *over) {
   cs_over_row_state *state = cs_arena_take(over->context, over->arena, sizeof *state);
   if (!state)
     return CELSPAN_NO_MEMORY;
-  WIDE(over, cs_over_row_clear)(state, over->count);
   over->state = state;
+  over->is_clear = true;
   return CELSPAN_OK;
+}
+
+static void clear_state(cs_over_row *over) {
+  WIDE(over, cs_over_row_clear)(over->state, over->count);
+  over->is_clear = false;
+}
+
+/* The state, to be added to or read. */
+static inline cs_over_row_state *state_of(cs_over_row *over) {
+  if (over->is_clear)
+    clear_state(over);
+  return over->state;
 }
 
 static void meet_light(cs_over_row *over) {
   const cs_back_light *light = &over->stack->lights[over->light++];
-  WIDE(over, cs_over_row_add_light)(over->state, over->count, (const float *)&light->light);
+  WIDE(over, cs_over_row_add_light)(state_of(over), over->count, (const float *)&light->light);
   over->keep *= light->keep;
 }
 
@@ -25,39 +37,39 @@ static void finish_group(cs_over_row *over, const cs_group *group, const cs_over
   if (group->has_light)
     WIDE(over, cs_over_row_light_group)(inner, over->count, (const float(*)[4])around->front);
   if (group->kind == CS_GROUP_MATTE)
-    WIDE(over, cs_over_row_matte)(around->head, over->count, group, inner);
+    WIDE(over, cs_over_row_matte)(around->head, over->count, group, around->head_fade, inner);
   if (group->kind != CS_GROUP_GROUND)
     return;
   celspan_blend mode = (celspan_blend)group->blend;
-  WIDE(over, cs_over_row_blend)(around->head, over->count, mode, over->keep, inner);
+  WIDE(over, cs_over_row_blend)
+  (around->head, over->count, around->head_fade, mode, over->keep, inner);
   over->keep = around->keep * (mode == CELSPAN_BLEND_ADD ? 1 : over->keep);
 }
 
-/* Makes a group that has been left the head of the group around it. */
-static void keep_head(cs_over_row *over, const cs_group *group, cs_over_row_state *inner) {
-  cs_over_row_state *state = over->state;
-  over->outers[over->depth - 1].head = inner;
-  if (group->fade == 1)
-    return;
-  WIDE(over, cs_over_row_add_group)(state, over->count, group->fade, inner);
-  over->outers[over->depth - 1].head = state;
-  over->state = inner;
-  WIDE(over, cs_over_row_clear)(inner, over->count);
+/* Adds a group that has been left to the one around it, or keeps it for that as its head. */
+static void add_left(cs_over_row *over, const cs_group *group, cs_over_row_state *inner) {
+  if (group->kind == CS_GROUP_HEAD) {
+    over->outers[over->depth - 1].head = inner;
+    over->outers[over->depth - 1].head_fade = group->fade;
+  } else if (over->is_clear && group->fade == 1) {
+    over->state = inner;
+    over->is_clear = false;
+  } else {
+    WIDE(over, cs_over_row_add_group)(state_of(over), over->count, group->fade, inner);
+  }
 }
 
 static void leave_group(cs_over_row *over) {
   const cs_group *group = &over->stack->groups[over->group];
-  cs_over_row_state *inner = over->state;
   const cs_over_row_outer *around = &over->outers[--over->depth];
   while (group->is_frame && over->light < over->stack->light_count)
     meet_light(over);
+  cs_over_row_state *inner = state_of(over);
   finish_group(over, group, around, inner);
   over->state = around->outer;
+  over->is_clear = around->is_clear;
   over->group = around->group;
-  if (group->kind == CS_GROUP_HEAD)
-    keep_head(over, group, inner);
-  else
-    WIDE(over, cs_over_row_add_group)(over->state, over->count, group->fade, inner);
+  add_left(over, group, inner);
 }
 
 /* At most CS_STACK_GROUPS states. */
@@ -65,8 +77,8 @@ static celspan_status enter(cs_over_row *over, uint32_t group) {
   uint32_t parent = cs_stack_around(over->stack, group, over->group);
   if (parent != over->group)
     CS_TRY(enter(over, parent));
-  over->outers[over->depth++] =
-      (cs_over_row_outer){.outer = over->state, .group = over->group, .keep = over->keep};
+  over->outers[over->depth++] = (cs_over_row_outer){
+      .outer = over->state, .is_clear = over->is_clear, .group = over->group, .keep = over->keep};
   over->group = group;
   if (over->stack->groups[group].kind == CS_GROUP_GROUND)
     over->keep = 1;
@@ -91,6 +103,8 @@ celspan_status cs_over_row_begin(celspan_context *context, cs_arena *arena, cons
       return CELSPAN_NO_MEMORY;
   }
   CS_TRY(open_state(out));
+  if (!stack->has_sources)
+    clear_state(out);
   return stack->has_root ? enter(out, 0) : CELSPAN_OK;
 }
 
@@ -112,7 +126,7 @@ celspan_status cs_over_row_move(cs_over_row *over, uint32_t layer) {
 
 void cs_over_row_add_layer(cs_over_row *over, const cs_layer *layer) {
   WIDE(over, cs_over_row_add_flat)
-  (over->state, over->count, (const float *)&layer->s, (const float *)&layer->t);
+  (state_of(over), over->count, (const float *)&layer->s, (const float *)&layer->t);
 }
 
 /* A light with a shape: lane 3 of its pigments is not read. */
@@ -120,7 +134,7 @@ static celspan_status add_light_shape(cs_over_row *over, const cs_layer *layer,
                                       const float (*s)[4]) {
   const float *gain = (const float *)&layer->front;
   if (layer->role == CS_LAYER_BACK) {
-    WIDE(over, cs_over_row_add_back)(over->state, over->count, gain, s);
+    WIDE(over, cs_over_row_add_back)(state_of(over), over->count, gain, s);
     return CELSPAN_OK;
   }
   float(*front)[4] = cs_arena_take(over->context, over->arena, CS_OVER_ROW_BATCH * sizeof *front);
@@ -136,8 +150,8 @@ celspan_status cs_over_row_add_samples(cs_over_row *over, const cs_layer *layer,
   if (layer->role != CS_LAYER_PAINT)
     return add_light_shape(over, layer, rgba);
   WIDE(over, cs_over_row_add_picture)
-  (over->state, over->count, (const float *)&layer->front, layer->fade, use == CELSPAN_PICTURE_GEL,
-   rgba);
+  (state_of(over), over->count, (const float *)&layer->front, layer->fade,
+   use == CELSPAN_PICTURE_GEL, rgba);
   return CELSPAN_OK;
 }
 
@@ -146,7 +160,7 @@ celspan_status cs_over_row_add_paint(cs_over_row *over, const cs_layer *layer, c
   if (layer->role != CS_LAYER_PAINT)
     return add_light_shape(over, layer, s);
   WIDE(over, cs_over_row_add_paints)
-  (over->state, over->count, (const float *)&layer->front, layer->fade, s, t);
+  (state_of(over), over->count, (const float *)&layer->front, layer->fade, s, t);
   return CELSPAN_OK;
 }
 
@@ -165,5 +179,5 @@ void cs_over_row_end(cs_over_row *over, float (*rgba)[4]) {
     leave_group(over);
   while (over->light < over->stack->light_count)
     meet_light(over);
-  WIDE(over, cs_over_row_to_rgba)(over->state, over->count, over->keep, rgba);
+  WIDE(over, cs_over_row_to_rgba)(state_of(over), over->count, over->keep, rgba);
 }

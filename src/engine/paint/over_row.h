@@ -38,10 +38,13 @@ typedef struct cs_over_row_state {
 /* A group that has been entered and not yet left. */
 typedef struct cs_over_row_outer {
   cs_over_row_state *outer; /* of the group around it, put aside */
-  cs_over_row_state *head;  /* GROUND and MATTE: what its head was; NULL: it was not there */
-  float (*front)[4];        /* its front light, where that has a shape */
-  uint32_t group;           /* the one around it that was entered before, or CS_STACK_NONE */
-  float keep;               /* of the group around it */
+  bool is_clear;            /* nothing has been added to that yet */
+  cs_over_row_state
+      *head;         /* GROUND and MATTE: what its head was, not yet faded; NULL: it was not */
+  float head_fade;   /* there */
+  float (*front)[4]; /* its front light, where that has a shape */
+  uint32_t group;    /* the one around it that was entered before, or CS_STACK_NONE */
+  float keep;        /* of the group around it */
 } cs_over_row_outer;
 
 typedef struct cs_over_row {
@@ -51,6 +54,7 @@ typedef struct cs_over_row {
   cs_isa isa;
   int32_t count; /* pixels */
   cs_over_row_state *state;
+  bool is_clear;             /* nothing has been added to the state yet: it has no contents */
   cs_over_row_outer *outers; /* room for cs_stack_depth of them */
   uint32_t depth;
   uint32_t group; /* the innermost that has been entered, or CS_STACK_NONE */
@@ -108,16 +112,17 @@ CS_WIDE_DECLARE(void, cs_over_row_light_group,
 CS_WIDE_DECLARE(void, cs_over_row_add_group,
                 (cs_over_row_state * outer, int32_t count, float fade,
                  const cs_over_row_state *inner));
-/* Fades a group by its matte; head NULL: the matte is clear. */
+/* Fades a group by its matte, which is faded first; head NULL: the matte is clear. */
 CS_WIDE_DECLARE(void, cs_over_row_matte,
-                (const cs_over_row_state *head, int32_t count, const cs_group *group,
+                (const cs_over_row_state *head, int32_t count, const cs_group *group, float fade,
                  cs_over_row_state *art));
 CS_WIDE_DECLARE(void, cs_over_row_to_rgba,
                 (const cs_over_row_state *state, int32_t count, float keep, float (*rgba)[4]));
 
 /* ---- over_blend_wide.c */
 
-/* Puts a source over its backdrop, which becomes both, as cs_over_blend. keep: of the backdrop. */
+/* Fades a source and puts it over its backdrop, which becomes both, as cs_over_blend. keep: of the
+ * backdrop. */
 CS_WIDE_DECLARE(void, cs_over_row_blend,
-                (const cs_over_row_state *source, int32_t count, celspan_blend mode, float keep,
-                 cs_over_row_state *back));
+                (const cs_over_row_state *source, int32_t count, float fade, celspan_blend mode,
+                 float keep, cs_over_row_state *back));

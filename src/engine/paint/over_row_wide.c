@@ -92,10 +92,14 @@ void CS_WIDE(cs_over_row_develop)(cs_over_row_state *state, int32_t count, const
     cs_v4_store(state->e[i], cs_over_develop(group, pair_at(state, i), keep).e);
 }
 
+static inline cs_over_pair faded(float fade, cs_over_pair pair) {
+  return (cs_over_pair){fade * pair.e, (1 - fade) + fade * pair.t};
+}
+
 void CS_WIDE(cs_over_row_matte)(const cs_over_row_state *head, int32_t count, const cs_group *group,
-                                cs_over_row_state *art) {
+                                float fade, cs_over_row_state *art) {
   for (int32_t i = 0; i < count; i++) {
-    float m = cs_over_strength(group, head ? pair_at(head, i) : cs_over_pair_clear);
+    float m = cs_over_strength(group, head ? faded(fade, pair_at(head, i)) : cs_over_pair_clear);
     cs_over_pair pair = pair_at(art, i);
     cs_v4_store(art->e[i], m * pair.e);
     cs_v4_store(art->t[i], (1 - m) + m * pair.t);

@@ -187,7 +187,8 @@ static CELSPAN_CHECKED celspan_status defocused_run(cs_painter *painter, const c
  * colours than it has pixels. */
 static bool is_blended(const cs_stack *stack, const cs_program *program) {
   bool is_defocused = false, is_blended = false;
-  for (uint32_t i = 0; stack->defocused_count > 0 && i < program->length; i++) {
+  bool may_be = stack->has_sources && stack->defocused_count > 0;
+  for (uint32_t i = 0; may_be && i < program->length; i++) {
     const cs_layer *layer = &stack->layers[program->items[i].layer];
     is_defocused |= layer->kind == CS_LAYER_DEFOCUSED;
     is_blended |= layer->group != CS_STACK_NONE && stack->groups[layer->group].is_source;
@@ -331,7 +332,7 @@ celspan_status cs_painter_run(cs_painter *painter, const cs_cell *cell, cs_run r
 }
 
 bool cs_painter_blends(const cs_painter *painter, const cs_cell *cell) {
-  if (cell->length == 0 || painter->stack->defocused_count == 0)
+  if (cell->length == 0)
     return false;
   cs_program program = cs_composer_program(painter->composer, cell);
   return is_blended(painter->stack, &program);

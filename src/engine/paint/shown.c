@@ -45,8 +45,9 @@ static celspan_status bound_defocused(cs_painter *painter, const cs_layer *layer
 }
 
 /* Whether a layer is a defocused cel whose rows are known to be clear outside some columns. */
-static bool is_pixels(const cs_stack *stack, const cs_layer *layer) {
-  return layer->kind == CS_LAYER_DEFOCUSED && stack->defocused[layer->index]->mix;
+static inline bool is_pixels(const cs_stack *stack, const cs_layer *layer) {
+  return stack->has_pixels && layer->kind == CS_LAYER_DEFOCUSED &&
+         stack->defocused[layer->index]->mix;
 }
 
 /* Asks a layer of pixels what is clear. */
@@ -97,8 +98,8 @@ bool cs_shown_varies(const cs_stack *stack, const cs_program *program) {
     return false;
   for (uint32_t i = 0; i < program->length; i++) {
     const cs_layer *layer = &stack->layers[program->items[i].layer];
-    if (layer->kind == CS_LAYER_PICTURE || is_pixels(stack, layer) ||
-        (layer->kind == CS_LAYER_DEFOCUSED && ++defocused == 2))
+    if (layer->kind == CS_LAYER_PICTURE ||
+        (layer->kind == CS_LAYER_DEFOCUSED && (++defocused == 2 || stack->has_pixels)))
       return true;
   }
   return false;
@@ -110,7 +111,7 @@ int32_t cs_shown_stride(cs_painter *painter, const cs_program *program) {
   for (uint32_t i = 0; i < dear; i++) {
     const cs_layer *layer = &painter->stack->layers[program->items[i].layer];
     const cs_image_view *view;
-    if ((is_pixels(painter->stack, layer) || (layer->kind == CS_LAYER_DEFOCUSED && i + 1 < dear)) &&
+    if (layer->kind == CS_LAYER_DEFOCUSED && (i + 1 < dear || painter->stack->has_pixels) &&
         columns > STRIDE)
       columns = STRIDE;
     if (layer->kind == CS_LAYER_PICTURE &&
@@ -150,14 +151,14 @@ static celspan_status find_pixels(cs_painter *painter, const cs_program *program
 celspan_status cs_shown_find(cs_painter *painter, const cs_program *program, cs_run run,
                              cs_shown *out) {
   const cs_stack *stack = painter->stack;
-  uint32_t dear = count_dear(stack, program), end = UINT32_MAX;
   cs_over over;
   CS_TRY(CS_RESERVE(painter->context, out->items, out->capacity, program->length));
   out->length = 0;
   out->is_sure = true;
   out->ends_opaque = false;
-  if (hides_nothing(stack, program))
+  if (stack->has_pixels && hides_nothing(stack, program))
     return find_pixels(painter, program, run, out);
+  uint32_t dear = count_dear(stack, program), end = UINT32_MAX;
   cs_over_begin(&over, stack, painter->outers);
   over.is_bound = true;
   for (uint32_t i = 0; i < program->length && end > 0; i++) {

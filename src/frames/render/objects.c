@@ -199,6 +199,7 @@ static celspan_status enter(cs_compiler *c, cs_group group) {
                  group.converts != CELSPAN_SPACE_AROUND || (around && around->curves);
   group.is_source = group.kind == CS_GROUP_HEAD || (around && around->is_source);
   stack->has_curves |= group.curves;
+  stack->has_sources |= group.is_source;
   c->group = (uint32_t)stack->group_count;
   stack->groups[stack->group_count++] = group;
   return CELSPAN_OK;
