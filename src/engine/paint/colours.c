@@ -241,6 +241,21 @@ celspan_status cs_painter_shown_colours(cs_painter *painter, const cs_program *p
   return CELSPAN_OK;
 }
 
+/* What shows in the strides from that of column x on: in all that a run meets, if the same is known
+ * of each of them, else in one. *end: where they end. */
+static celspan_status find_shown(cs_painter *painter, const cs_program *program, int32_t stride,
+                                 cs_run run, int32_t *end) {
+  int32_t left = run.x0 / stride * stride;
+  if (painter->stack->has_pixels && run.x1 - left > stride) {
+    *end = (run.x1 + stride - 1) / stride * stride;
+    CS_TRY(cs_shown_find(painter, program, cs_run_between(run, left, *end), &painter->shown[0]));
+    if (painter->shown[0].is_sure)
+      return CELSPAN_OK;
+  }
+  *end = left + stride;
+  return cs_shown_find(painter, program, cs_run_between(run, left, *end), &painter->shown[0]);
+}
+
 celspan_status cs_painter_program_colours(cs_painter *painter, const cs_program *program,
                                           cs_run run, float (*rgba)[4]) {
   if (run.x1 - run.x0 <= CS_FEW_PIXELS && cs_few_fits(painter->stack, program))
@@ -248,12 +263,10 @@ celspan_status cs_painter_program_colours(cs_painter *painter, const cs_program 
   if (!cs_shown_varies(painter->stack, program))
     return cs_painter_shown_colours(painter, program, run, rgba);
   int32_t stride = cs_shown_stride(painter, program);
-  cs_shown *shown = &painter->shown[0];
+  const cs_shown *shown = &painter->shown[0];
   for (int32_t x = run.x0, end; x < run.x1; rgba += end - x, x = end) {
-    int32_t left = x / stride * stride;
-    cs_run known = cs_run_between(run, left, left + stride);
-    CS_TRY(cs_shown_find(painter, program, known, shown));
-    end = known.x1 < run.x1 ? known.x1 : run.x1;
+    CS_TRY(find_shown(painter, program, stride, cs_run_between(run, x, run.x1), &end));
+    end = end < run.x1 ? end : run.x1;
     const cs_program visible = {shown->items, program->procedure_spans, shown->length};
     CS_TRY(cs_painter_shown_colours(painter, &visible, cs_run_between(run, x, end), rgba));
   }

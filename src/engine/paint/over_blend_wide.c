@@ -113,10 +113,12 @@ static inline cs_wide blend(celspan_blend mode, cs_wide b, cs_wide s) {
 
 static inline cs_wide alpha_of(cs_wide t, float keep) { return 1 - keep * cs_over_wide_mean(t); }
 
-/* The colour of premultiplied light, as cs_over_colour. */
+/* The colour of premultiplied light, as cs_over_colour. Most backdrops are opaque: light divided by
+ * 1 is the same to the bit. */
 static inline cs_wide colour_of(cs_wide e, cs_wide alpha) {
-  cs_wide colour = cs_wide_min(cs_wide_max(e * (1 / alpha), cs_wide_all(0)), cs_wide_all(1));
-  return cs_wide_choose(alpha > 0, colour, cs_wide_all(0));
+  if (cs_wide_any(alpha != 1))
+    e = cs_wide_choose(alpha > 0, e * (1 / alpha), cs_wide_all(0));
+  return cs_wide_min(cs_wide_max(e, cs_wide_all(0)), cs_wide_all(1));
 }
 
 /* A row of sources, and what they are put over. */
