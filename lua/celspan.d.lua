@@ -604,7 +604,7 @@ function celspan.image(fields) end
 ---@field lines integer
 
 ---@class celspan.text.fields
----@field [integer] string The text; \n breaks lines
+---@field [integer] string|number The text; \n breaks lines
 ---@field font string|string[] Files; each letter is taken from the first font that has it
 ---@field size? number The em; 0 or more; default 48
 ---@field at? celspan.point The baseline of the first line; default {0, 0}
@@ -640,7 +640,7 @@ function celspan.text(fields) end
 function text:metrics() end
 
 ---@class celspan.glyph.fields
----@field [integer] string The text; \n breaks lines
+---@field [integer] string|number The text; \n breaks lines
 ---@field index integer From 1
 ---@field font string|string[] Files; each letter is taken from the first font that has it
 ---@field size? number The em; 0 or more; default 48

@@ -177,6 +177,15 @@ local function decode(text, options)
   return rows
 end
 
+--- Where a text is not UTF-8, as a sentence; nil where it is.
+local function fault_of_coding(text)
+  local length, at = utf8.len(text)
+  if length then return nil end
+  local _, lines = text:sub(1, at - 1):gsub("\n", "")
+  return ("line %d is not UTF-8 (byte %d): export the table as UTF-8"):format(lines + 1,
+    text:byte(at))
+end
+
 local known = { header = "boolean", separator = "string", types = "table", decimal = "string" }
 
 local function check_options(options)
@@ -215,6 +224,8 @@ function csv.decode(text, options)
   if #text > csv.most_bytes then
     return nil, ("the text has %d bytes; at most %d are read"):format(#text, csv.most_bytes)
   end
+  local fault = fault_of_coding(text)
+  if fault then return nil, fault end
   local good, rows = pcall(decode, text, options)
   if not good and type(rows) ~= "table" then error(rows, 0) end
   if not good then return nil, rows.message end

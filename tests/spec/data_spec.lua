@@ -59,6 +59,7 @@ describe("csv", function()
       ["a,b\n1\n"] = "line 2: the row has 1 field; the first has 2",
       ['"a\nb",c\n1,2,3\n'] = "line 3: the row has 3 fields; the first has 2",
       ["a,b,a\n"] = "line 1: columns 1 and 3 are both named 'a'",
+      ["name\nJos\xe9\n"] = "line 2 is not UTF-8 (byte 233): export the table as UTF-8",
     } do
       assert.are.same({ n = 2, nil, message }, table.pack(csv.decode(text)))
     end

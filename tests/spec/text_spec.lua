@@ -199,6 +199,7 @@ describe("lines", function()
     assert.is_true(0 < m.x_height and m.x_height < m.cap_height and m.cap_height < m.ascent)
     local letter = glyphs { "H", size = 50 }[1]
     assert.is_near(text({ "H", size = 50 }):metrics().width, letter.advance, 1e-9)
+    assert.are.same(text({ "2020", size = 50 }):metrics(), text({ 2020, size = 50 }):metrics())
     assert.has_error(function() celspan.circle { centre = { 0, 0 }, radius = 1 }:metrics() end,
       "metrics: only a text has them, not a circle")
     assert.truthy(message_of { "H", valign = "center" }:find('"cap", "middle"', 1, true))
@@ -441,7 +442,7 @@ describe("bad text is refused:", function()
   local cases = {
     { "no text", {}, "takes one string, the text, got 0 values" },
     { "two texts", { "a", "b" }, "got 2 values" },
-    { "a number", { 5 }, "value 1 must be a string, the text, got number" },
+    { "a boolean", { true }, "value 1 must be a string, the text, got boolean" },
     { "a cut character", { "ab\xe2\x82" }, "the text is not UTF-8 at byte 3 (0xe2)" },
     { "a byte that begins none", { "\xff" }, "the text is not UTF-8 at byte 1 (0xff)" },
     { "an overlong one", { "a\xc0\x80" }, "not UTF-8 at byte 2 (0xc0)" },

@@ -29,9 +29,9 @@ static void read_string(const cs_form *form, celspan_text_desc *desc) {
   int length = cs_form_length(form);
   if (length != 1)
     cs_form_fail(form, "takes one string, the text, got %d values", length);
-  cs_form_item(form, 1, LUA_TSTRING, "value", "a string, the text");
-  desc->text = lua_tolstring(L, -1, &desc->text_size); /* the table keeps it alive */
-  lua_pop(L, 1);
+  if (lua_rawgeti(L, form->table, 1) != LUA_TSTRING && lua_type(L, -1) != LUA_TNUMBER)
+    cs_form_fail(form, "value 1 must be a string, the text, got %s", cs_userdata_type(L, -1));
+  desc->text = lua_tolstring(L, -1, &desc->text_size); /* of a number: a string of its own */
 }
 
 /* The font on top of the stack; what finding it pushes is left above it. */
@@ -193,7 +193,7 @@ static const cs_field glyph_fields[] = {
     {.more = text_fields}};
 
 #define STRING                                                                                     \
-  .list = CS_LIST_TUPLE, .item = "string", .item_written = "string",                               \
+  .list = CS_LIST_TUPLE, .item = "string|number", .item_written = "string|number",                 \
   .item_about = "The text; \\n breaks lines"
 const cs_noun cs_noun_text = {.name = "text",
                               .about = "The letters of a text as one primitive.",
