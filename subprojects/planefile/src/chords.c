@@ -60,7 +60,6 @@ static double find_bend(const pf_curve *curve) {
 
 static void choose_chords(pf_curve *curve) {
   double sag = find_bend(curve) / 8;
-  curve->chords = 1;
   if (!(sag > ONE_CHORD))
     return;
   curve->chords = (uint32_t)fmin(ceil(sqrt(sag / SAG) + 2 * LEAD), CHORDS_MOST);
@@ -70,28 +69,35 @@ static void choose_chords(pf_curve *curve) {
 
 void pf_curve_make(const planefile_point *points, const planefile_piece *piece, pf_scale scale,
                    pf_curve *out) {
+  const planefile_point *last = &points[piece->degree];
+  int32_t low = points[0].x, high = low;
+  for (int i = 1; i <= piece->degree; i++) {
+    low = points[i].x < low ? points[i].x : low;
+    high = points[i].x > high ? points[i].x : high;
+  }
+  out->low = low * scale.x;
+  out->high = high * scale.x;
+  out->x0 = points[0].x * scale.x;
+  out->x1 = last->x * scale.x;
+  out->y0 = pf_height(points[0].y, scale.y);
+  out->y1 = pf_height(last->y, scale.y);
+  out->chords = 1;
+}
+
+void pf_curve_bend(const planefile_point *points, const planefile_piece *piece, pf_scale scale,
+                   pf_curve *curve) {
   double x[4], y[4], w[4] = {1, 1, 1, 1};
   int degree = piece->degree;
-  *out = (pf_curve){.is_rational = piece->is_rational, .low = INFINITY, .high = -INFINITY};
+  curve->is_rational = piece->is_rational;
   for (int i = 0; i <= degree; i++) {
-    x[i] = points[i].x * scale.x;
-    y[i] = points[i].y * scale.y;
-    out->low = fmin(out->low, x[i]);
-    out->high = fmax(out->high, x[i]);
+    w[i] = piece->is_rational ? (double)points[i].w / PLANEFILE_WEIGHT : 1;
+    x[i] = points[i].x * scale.x * w[i];
+    y[i] = points[i].y * scale.y * w[i];
   }
-  out->x0 = x[0];
-  out->x1 = x[degree];
-  out->y0 = pf_height(points[0].y, scale.y);
-  out->y1 = pf_height(points[degree].y, scale.y);
-  for (int i = 0; i <= degree && out->is_rational; i++) {
-    w[i] = (double)points[i].w / PLANEFILE_WEIGHT;
-    x[i] *= w[i];
-    y[i] *= w[i];
-  }
-  to_powers(x, degree, out->x);
-  to_powers(y, degree, out->y);
-  to_powers(w, degree, out->w);
-  choose_chords(out);
+  to_powers(x, degree, curve->x);
+  to_powers(y, degree, curve->y);
+  to_powers(w, degree, curve->w);
+  choose_chords(curve);
 }
 
 pf_vertex pf_curve_vertex(const pf_curve *curve, uint32_t vertex) {

@@ -37,11 +37,12 @@ typedef struct pf_scale {
   double x, y;
 } pf_scale;
 
-/* points: degree + 1. */
+/* Its ends and limits, and one chord. points: degree + 1. */
 void pf_curve_make(const planefile_point *points, const planefile_piece *piece, pf_scale scale,
                    pf_curve *out);
-/* Makes one chord of a curve. */
-static inline void pf_curve_straighten(pf_curve *curve) { curve->chords = 1; }
+/* Its coefficients, and as many chords as it needs; it has been made. */
+void pf_curve_bend(const planefile_point *points, const planefile_piece *piece, pf_scale scale,
+                   pf_curve *curve);
 /* Vertex 0 to `chords`. */
 pf_vertex pf_curve_vertex(const pf_curve *curve, uint32_t vertex);
 /* The chord that begins at a height or above it, and ends below. */

@@ -30,6 +30,7 @@ typedef struct live {
   uint32_t border, piece, chord; /* chord: the vertex that ends the current one */
   int64_t foot;                  /* of the border */
   pf_vertex from, to;            /* the current chord */
+  double slope;                  /* of it: dx / dy */
   int64_t y;                     /* all above is done */
   pf_curve curve;
 } live;
@@ -41,7 +42,9 @@ struct planefile_drawer {
   uint32_t band, border; /* those before have begun */
   live *lives;
   size_t live_count, live_capacity;
-  sum *sums; /* of `group` rows, each of columns + 1 pixels */
+  sum *sums;                /* of `group` rows, each of columns + 1 pixels */
+  sum steps[ROWS_MOST + 1]; /* of rows: by what all pixels differ from those of the row before */
+  sum step;                 /* of the rows given so far */
   uint64_t *bits;
   size_t words;               /* of a row's bits */
   uint32_t group, made, next; /* rows: of a group, begun so far, given so far */
@@ -59,29 +62,46 @@ static inline void add(planefile_drawer *d, uint32_t row, uint32_t column, const
   d->bits[row * d->words + column / 64] |= UINT64_C(1) << column % 64;
 }
 
-/* The integral of how much of the interval [0, 1] is below u. */
-static inline double integral(double u) { return u <= 0 ? 0 : u >= 1 ? u - 0.5 : 0.5 * u * u; }
+/* The share of a line from x = low to high, within [edge - 1, edge] or beyond it, that is left of
+ * `edge`, each place of it by how much of the pixel it leaves on its right. by_width: 1 / (high -
+ * low); only where the line crosses a pixel's edge. */
+static inline double share_left(double low, double high, double by_width, double edge) {
+  double above = edge - low, over = high - (edge - 1);
+  if (high > edge)
+    return above < 1 ? 0.5 * above * above * by_width : (above - 0.5) * by_width;
+  return above > 1 ? 1 - 0.5 * over * over * by_width : edge - 0.5 * (low + high);
+}
 
-/* What share of a line from x = low to high is left of `edge`, and how far: 0 to 1. */
-static inline double share_left(double low, double high, double edge) {
-  if (high - low < 1e-6) {
-    double u = edge - 0.5 * (low + high);
-    return u < 0 ? 0 : u > 1 ? 1 : u;
+/* A line left of the crop, from height y to foot of the rows being made. In the rows that it goes
+ * through it changes all pixels alike. */
+static void add_left(planefile_drawer *d, int64_t y, int64_t foot, const int32_t change[4]) {
+  uint32_t first = (uint32_t)(y / PF_HEIGHT), last = (uint32_t)(foot / PF_HEIGHT);
+  if (first == last) {
+    add(d, first, 0, change, foot - y);
+    return;
   }
-  return (integral(edge - low) - integral(edge - high)) / (high - low);
+  add(d, first, 0, change, (first + INT64_C(1)) * PF_HEIGHT - y);
+  for (int c = 0; c < 4; c++) {
+    d->steps[first + 1].channels[c] += (uint64_t)(change[c] * INT64_C(65536));
+    d->steps[last].channels[c] -= (uint64_t)(change[c] * INT64_C(65536));
+  }
+  if (foot % PF_HEIGHT > 0)
+    add(d, last, 0, change, foot % PF_HEIGHT);
 }
 
 /* A line within a row. */
-static void add_line(planefile_drawer *d, uint32_t row, double a, double b, int64_t height,
-                     const int32_t change[4]) {
+static inline void add_line(planefile_drawer *d, uint32_t row, double a, double b, int64_t height,
+                            const int32_t change[4]) {
   double low = a < b ? a : b, high = a < b ? b : a;
   double left = d->view.x, right = left + d->view.columns;
   if (low >= right)
     return;
-  uint32_t column = low > left ? (uint32_t)(floor(low) - left) : 0;
+  uint32_t column = low > left ? (uint32_t)(low - left) : 0;
+  double by_width = high - low > 1e-9 ? 1 / (high - low) : 0;
   int64_t before = 0;
   for (; column < d->view.columns && left + column < high; column++) {
-    int64_t area = (int64_t)((double)height * share_left(low, high, left + column + 1) + 0.5);
+    double share = share_left(low, high, by_width, left + column + 1);
+    int64_t area = (int64_t)((double)height * share + 0.5);
     add(d, row, column, change, area - before);
     before = area;
   }
@@ -102,8 +122,7 @@ static void add_centre(planefile_drawer *d, uint32_t row, double x, const int32_
 static double x_at(const live *l, int64_t y) {
   if (y == l->to.y)
     return l->to.x;
-  double slope = (l->to.x - l->from.x) / (double)(l->to.y - l->from.y);
-  return l->from.x + slope * (double)(y - l->from.y);
+  return l->from.x + l->slope * (double)(y - l->from.y);
 }
 
 static void find_change(const live *l, int32_t change[4]) {
@@ -114,9 +133,25 @@ static void find_change(const live *l, int32_t change[4]) {
     change[c] = right->colour[c] - left->colour[c];
 }
 
+/* Draws the part beside the crop of the current chord, if all of it is there. */
+static bool draw_beside(planefile_drawer *d, live *l, int64_t top, int64_t foot,
+                        const int32_t change[4]) {
+  double low = l->from.x < l->to.x ? l->from.x : l->to.x;
+  double high = l->from.x < l->to.x ? l->to.x : l->from.x;
+  bool is_left = high <= d->view.x, is_right = low >= (double)d->view.x + d->view.columns;
+  if (d->view.sampling != PLANEFILE_AREA || !(is_left || is_right))
+    return false;
+  if (is_left && l->y < foot)
+    add_left(d, l->y - top, foot - top, change);
+  l->y = foot;
+  return true;
+}
+
 /* Draws the current chord down to a height that it reaches. top: of the rows being made. */
 static void draw_chord(planefile_drawer *d, live *l, int64_t top, int64_t foot,
                        const int32_t change[4]) {
+  if (l->y >= foot || draw_beside(d, l, top, foot, change))
+    return;
   while (l->y < foot) {
     int64_t row = (l->y - top) / PF_HEIGHT, end = top + (row + 1) * PF_HEIGHT;
     int64_t centre = end - PF_HEIGHT / 2;
@@ -129,16 +164,24 @@ static void draw_chord(planefile_drawer *d, live *l, int64_t top, int64_t foot,
   }
 }
 
+/* The current chord, whatever is rounded in its heights. */
+static void set_chord(live *l, pf_vertex from, pf_vertex to) {
+  l->from = from;
+  l->to = to;
+  l->to.y = to.y > from.y ? to.y : from.y;
+  l->slope = to.y > from.y ? (to.x - from.x) / (double)(to.y - from.y) : 0;
+}
+
 /* Goes to a piece. One that is all outside the crop needs no more than its ends. */
 static void enter_piece(const planefile_drawer *d, live *l, uint32_t piece) {
   const planefile_piece *of = &l->band->pieces[piece];
   pf_curve_make(&l->band->points[of->point], of, d->scale, &l->curve);
-  if (l->curve.high < d->view.x - 1.0 || l->curve.low > (double)d->view.x + d->view.columns + 1)
-    pf_curve_straighten(&l->curve);
+  if (of->degree > 1 && l->curve.high >= d->view.x - 1.0 &&
+      l->curve.low <= (double)d->view.x + d->view.columns + 1)
+    pf_curve_bend(&l->band->points[of->point], of, d->scale, &l->curve);
   l->piece = piece;
   l->chord = 1;
-  l->from = pf_curve_vertex(&l->curve, 0);
-  l->to = pf_curve_vertex(&l->curve, 1);
+  set_chord(l, pf_curve_vertex(&l->curve, 0), pf_curve_vertex(&l->curve, 1));
 }
 
 /* Goes to the next chord; false at the chain's end. */
@@ -150,9 +193,7 @@ static bool next_chord(const planefile_drawer *d, live *l) {
     enter_piece(d, l, l->piece + 1);
     return true;
   }
-  l->from = l->to;
-  l->to = pf_curve_vertex(&l->curve, ++l->chord);
-  l->to.y = l->to.y > l->from.y ? l->to.y : l->from.y; /* whatever is rounded */
+  set_chord(l, l->to, pf_curve_vertex(&l->curve, ++l->chord));
   return true;
 }
 
@@ -174,9 +215,7 @@ static void seek(const planefile_drawer *d, live *l) {
   }
   enter_piece(d, l, low);
   l->chord = pf_curve_find(&l->curve, l->y) + 1;
-  l->from = pf_curve_vertex(&l->curve, l->chord - 1);
-  l->to = pf_curve_vertex(&l->curve, l->chord);
-  l->to.y = l->to.y > l->from.y ? l->to.y : l->from.y;
+  set_chord(l, pf_curve_vertex(&l->curve, l->chord - 1), pf_curve_vertex(&l->curve, l->chord));
 }
 
 /* Draws a border in the rows [top, foot). */
@@ -212,6 +251,15 @@ static planefile_status begin_border(planefile_drawer *d, const planefile_band *
   return PLANEFILE_OK;
 }
 
+/* The first border from `index` on that may end below a height. */
+static uint32_t skip_ended(const planefile_drawer *d, const planefile_band *band, uint32_t index,
+                           int64_t top) {
+  double units = (double)top / PF_HEIGHT / d->scale.y - 1;
+  while (index < band->border_count && band->borders[index].foot < units)
+    index++;
+  return index;
+}
+
 /* Begins all borders whose tops are above a height. */
 static planefile_status begin_borders(planefile_drawer *d, int64_t top, int64_t foot) {
   planefile_status status = PLANEFILE_OK;
@@ -219,7 +267,7 @@ static planefile_status begin_borders(planefile_drawer *d, int64_t top, int64_t 
     const planefile_band *band = &d->plane->bands[d->band].band;
     if (pf_height(band->foot, d->scale.y) <= top)
       continue;
-    for (; d->border < band->border_count; d->border++) {
+    for (; (d->border = skip_ended(d, band, d->border, top)) < band->border_count; d->border++) {
       if (pf_height(band->borders[d->border].top, d->scale.y) >= foot)
         return status;
       status = begin_border(d, band, d->border, top);
@@ -238,6 +286,9 @@ static planefile_status make_rows(planefile_drawer *d) {
   uint32_t rows = d->view.rows - d->made;
   rows = rows < d->group ? rows : d->group;
   int64_t foot = top + (int64_t)rows * PF_HEIGHT;
+  memset(d->steps, 0, sizeof d->steps);
+  for (int c = 0; c < 4; c++)
+    d->step.channels[c] = (uint64_t)(d->plane->base.colour[c] * (int64_t)PF_HEIGHT);
   planefile_status status = begin_borders(d, top, foot);
   if (status != PLANEFILE_OK)
     return status;
@@ -263,7 +314,7 @@ static inline uint32_t lowest_bit(uint64_t bits) {
 #endif
 }
 
-/* Adds to the sum what was added to a pixel, which is cleared. */
+/* Adds to the sum what was added to something, which is cleared; returns the colour. */
 static planefile_cell take(sum *total, sum *at) {
   planefile_cell out;
   for (int c = 0; c < 4; c++) {
@@ -281,12 +332,10 @@ static bool is_same(const planefile_cell *a, const planefile_cell *b) {
 
 /* Reads the sums of a row of the group; returns the number of spans. */
 static size_t read_row(planefile_drawer *d, uint32_t row) {
-  planefile_cell base = d->plane->base;
   sum total, *sums = &d->sums[(size_t)row * (d->view.columns + 1)];
-  planefile_span span = {0, base};
   size_t count = 0;
-  for (int c = 0; c < 4; c++)
-    total.channels[c] = (uint64_t)(base.colour[c] * (int64_t)PF_HEIGHT);
+  planefile_span span = {0, take(&d->step, &d->steps[row])};
+  total = d->step;
   for (size_t word = 0; word < d->words; word++) {
     uint64_t bits = d->bits[row * d->words + word];
     d->bits[row * d->words + word] = 0;
