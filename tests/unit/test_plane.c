@@ -18,13 +18,26 @@ static celspan_paint random_paint(test_random *random) {
   return celspan_paint_rgb(red, green, blue, alpha);
 }
 
+/* Of the second and the third degree. */
+static celspan_object *curved_path(studio *s, const celspan_point points[5],
+                                   celspan_texture *texture) {
+  char data[300];
+  const celspan_point *p = points;
+  snprintf(data, sizeof data, "M%.3f %.3fC%.3f %.3f %.3f %.3f %.3f %.3fQ%.3f %.3f %.3f %.3fZ",
+           p[0].x, p[0].y, p[1].x, p[1].y, p[2].x, p[2].y, p[3].x, p[3].y, p[4].x, p[4].y, p[0].x,
+           p[0].y);
+  return studio_path(s, data, texture);
+}
+
 static celspan_object *random_object(studio *s, test_random *random) {
   celspan_texture *texture = studio_paint(s, random_paint(random));
-  celspan_point corners[3];
-  for (int k = 0; k < 3; k++)
+  celspan_point corners[5];
+  for (int k = 0; k < 5; k++)
     corners[k] = random_point(random, -10, WIDTH + 10, -10, HEIGHT + 10);
   double width = random_between(random, 1, 50), height = random_between(random, 1, 50);
-  int kind = (int)random_below(random, 4);
+  int kind = (int)random_below(random, 6);
+  if (kind > 3)
+    return curved_path(s, corners, texture);
   if (kind < 2)
     return studio_circle(s, corners[0].x, corners[0].y, width, texture);
   if (kind == 2)
@@ -133,6 +146,33 @@ static void check_frames(studio *s) {
     celspan_plane_unref(plane);
     studio_finish(s);
   }
+}
+
+/* Discs so small that a plan may take each of their pieces for a line. */
+static void check_small(studio *s) {
+  enum { SCALE = 11000 };
+  celspan_exposure exposure = {
+      studio_show(
+          s, studio_circle(s, 40, 30, 0.00006, studio_paint(s, celspan_paint_rgb(1, 1, 1, 1)))),
+      1};
+  celspan_plane *plane = make_plane(s, exposure.rostrum);
+  celspan_frame_desc desc = studio_frame(&exposure, 1, SCALE * WIDTH, SCALE * HEIGHT, NULL);
+  celspan_plane_view view = view_of(SCALE * WIDTH, SCALE * HEIGHT);
+  desc.film_width = WIDTH;
+  desc.film_height = HEIGHT;
+  desc.crop_x = view.crop_x = 40 * SCALE - 60;
+  desc.crop_y = view.crop_y = 30 * SCALE - 60;
+  desc.crop_width = view.crop_width = desc.crop_height = view.crop_height = 120;
+  image rendered = make_image(s, &desc, 1);
+  float(*drawn)[4] = draw(s, plane, view);
+  comparison c = compare(drawn, rendered.rgba, (size_t)120 * 120);
+  CHECK(rendered.rgba[60 * 120 + 60][3] > 0);
+  if (!CHECK(c.most <= 4 / 255.0f))
+    fprintf(stderr, "  small: %g, %zu of %zu\n", (double)c.most, c.off, c.all);
+  free(rendered.rgba);
+  free(drawn);
+  celspan_plane_unref(plane);
+  studio_finish(s);
 }
 
 /* ---------------------------------------------------------------- as points are */
@@ -283,6 +323,7 @@ int main(void) {
   studio s = {0};
   CHECK(celspan_context_create(&desc, &s.context) == CELSPAN_OK);
   check_frames(&s);
+  check_small(&s);
   check_probes(&s);
   check_files(&s);
   check_scenes_refused(&s);
