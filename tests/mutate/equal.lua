@@ -61,17 +61,22 @@ return {
       "leaves a bit of alpha in the fourth lane, which is multiplied by 0 or not read" },
   },
   ["src/engine/paint/shown.c"] = {
-    { "if (layer->kind == CS_LAYER_DEFOCUSED && i + 1 < dear && columns > STRIDE)",
-      "`layer->kind == CS_LAYER_DEFOCUSED && i + 1 < dear && columns > STRIDE` to "
-        .. "`!(layer->kind == CS_LAYER_DEFOCUSED && i + 1 < dear && columns > STRIDE)`",
+    { "if (layer->kind == CS_LAYER_DEFOCUSED && (i + 1 < dear || painter->stack->has_pixels) &&",
+      "`layer->kind == CS_LAYER_DEFOCUSED && (i + 1 < dear || painter->stack->has_pixels) && "
+        .. "columns > STRIDE` to `!(layer->kind == CS_LAYER_DEFOCUSED && (i + 1 < dear || "
+        .. "painter->stack->has_pixels) && columns > STRIDE)`",
       "asks about a stride at a time what is hidden, where more columns would do" },
-    { "if (layer->kind == CS_LAYER_DEFOCUSED && i + 1 < dear && columns > STRIDE)", "`&&` to `||`",
+    { "if (layer->kind == CS_LAYER_DEFOCUSED && (i + 1 < dear || painter->stack->has_pixels) &&",
+      "`&&` to `||`",
       "asks about a stride at a time what is hidden, where more columns would do", 1 },
-    { "if (layer->kind == CS_LAYER_DEFOCUSED && i + 1 < dear && columns > STRIDE)", "`&&` to `||`",
+    { "if (layer->kind == CS_LAYER_DEFOCUSED && (i + 1 < dear || painter->stack->has_pixels) &&",
+      "`&&` to `||`",
       "asks about a stride at a time what is hidden, where more columns would do", 2 },
-    { "if (layer->kind == CS_LAYER_DEFOCUSED && i + 1 < dear && columns > STRIDE)", "`<` to `<=`",
+    { "if (layer->kind == CS_LAYER_DEFOCUSED && (i + 1 < dear || painter->stack->has_pixels) &&",
+      "`<` to `<=`",
       "asks about fewer columns at a time what is hidden, where one cel is defocused" },
-    { "if (layer->kind == CS_LAYER_DEFOCUSED && i + 1 < dear && columns > STRIDE)", "`1` to `0`",
+    { "if (layer->kind == CS_LAYER_DEFOCUSED && (i + 1 < dear || painter->stack->has_pixels) &&",
+      "`1` to `0`",
       "asks about fewer columns at a time what is hidden, where one cel is defocused" },
   },
   ["src/frames/render/objects.c"] = {

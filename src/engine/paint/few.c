@@ -1,16 +1,19 @@
 #include "engine/paint/few.h"
 
 bool cs_few_fits(const cs_stack *stack, const cs_program *program) {
-  uint32_t defocused = 0;
+  uint32_t defocused = 0, made = 0; /* made: each of them would be, even where it is hidden */
   if (stack->defocused_count == 0)
     return false;
   for (uint32_t i = 0; i < program->length; i++) {
     const cs_layer *layer = &stack->layers[program->items[i].layer];
     if (layer->kind != CS_LAYER_FLAT && layer->kind != CS_LAYER_DEFOCUSED)
       return false;
-    defocused += layer->kind == CS_LAYER_DEFOCUSED;
+    if (layer->kind == CS_LAYER_DEFOCUSED) {
+      defocused++;
+      made += !stack->defocused[layer->index]->mix;
+    }
   }
-  return defocused > 0;
+  return defocused == 1 || (defocused > 0 && made == 0);
 }
 
 static celspan_status move_views(cs_painter *painter, const cs_program *program, double y) {

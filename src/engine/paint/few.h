@@ -14,7 +14,8 @@
 
 #define CS_FEW_PIXELS 4
 
-/* Whether a program has defocused layers, and else flat ones. */
+/* Whether a program has defocused layers, of which none hides another that would be made, and else
+ * flat ones. */
 bool cs_few_fits(const cs_stack *stack, const cs_program *program);
 /* Premultiplied RGBA of such a program at the middles of a run's pixels, at most CS_FEW_PIXELS.
  * Errors: NO_MEMORY, and those of making defocused cels. */

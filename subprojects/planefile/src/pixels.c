@@ -1,17 +1,27 @@
 /* Colours in linear light to 8-bit sRGB codes. */
-#include <math.h>
-
 #include "plane.h"
 
-/* Code k begins with the linear light of k - 1/2. */
+static double power(double x, int exponent) {
+  double out = 1;
+  for (int i = 0; i < exponent; i++)
+    out *= x;
+  return out;
+}
+
+/* Whether linear light is at or above that of code k - 1/2: of x >= b^2.4 both sides are raised to
+ * the fifth power, so that products decide, which are the same everywhere. */
+static bool is_reached(double linear, int k) {
+  double code = (k - 0.5) / 255;
+  return code <= 0.04045 ? linear >= code / 12.92
+                         : power(linear, 5) >= power((code + 0.055) / 1.055, 12);
+}
+
 void pf_codes_make(unsigned char codes[PLANEFILE_WHITE + 1]) {
-  uint32_t at = 0;
-  for (int k = 1; k <= 256; k++) {
-    double code = (k - 0.5) / 255;
-    double linear = code <= 0.04045 ? code / 12.92 : pow((code + 0.055) / 1.055, 2.4);
-    uint32_t end = k == 256 ? PLANEFILE_WHITE + 1 : (uint32_t)ceil(linear * PLANEFILE_WHITE);
-    while (at < end)
-      codes[at++] = (unsigned char)(k - 1);
+  int code = 0;
+  for (int at = 0; at <= PLANEFILE_WHITE; at++) {
+    while (code < 255 && is_reached((double)at / PLANEFILE_WHITE, code + 1))
+      code++;
+    codes[at] = (unsigned char)code;
   }
 }
 
