@@ -1,10 +1,9 @@
 #include "engine/record/record.h"
 
 #include <math.h>
-#include <string.h>
 
+#include "base/hash_table.h"
 #include "base/number.h"
-#include "base/splitmix.h"
 #include "engine/row/row.h"
 
 #define UNITS ((double)PLANEFILE_SIDE / CS_RECORD_SIDE) /* of a plane, in a pixel of the plan */
@@ -22,8 +21,7 @@ typedef struct recorder {
   const cs_plan *plan;
   cs_recording *out;
   known *chains;
-  uint32_t *cells; /* a table: the number of a cell plus 1; 0: free. A power of two */
-  size_t cell_capacity;
+  cs_hash_table cells; /* by their colours */
 } recorder;
 
 void cs_record_finish(cs_recording *record, cs_memory *memory) {
@@ -60,44 +58,20 @@ static planefile_cell cell_of(cs_v4 colour) {
   return out;
 }
 
-static size_t place_of(const recorder *r, const planefile_cell *cell) {
-  uint64_t words[2];
-  memcpy(words, cell, sizeof words);
-  uint64_t state = words[1];
-  state = words[0] ^ cs_splitmix_next(&state);
-  return cs_splitmix_next(&state) & (r->cell_capacity - 1);
-}
-
-static celspan_status widen_cells(recorder *r) {
-  size_t capacity = r->cell_capacity > 0 ? 2 * r->cell_capacity : 256;
-  cs_mem_free(r->context->memory, r->cells, r->cell_capacity * sizeof *r->cells);
-  r->cell_capacity = 0;
-  CS_TRY(CS_MAKE(r->context, r->cells, capacity));
-  r->cell_capacity = capacity;
-  for (size_t i = 0; i < r->out->cell_count; i++) {
-    size_t at = place_of(r, &r->out->cells[i]);
-    while (r->cells[at])
-      at = (at + 1) & (capacity - 1);
-    r->cells[at] = (uint32_t)i + 1;
-  }
-  return CELSPAN_OK;
-}
-
 /* The number of the cell of a colour. */
 static celspan_status find_cell(recorder *r, cs_v4 colour, uint32_t *out) {
   const planefile_cell cell = cell_of(colour);
   cs_recording *record = r->out;
-  if (2 * record->cell_count >= r->cell_capacity)
-    CS_TRY(widen_cells(r));
-  size_t at = place_of(r, &cell);
-  for (; r->cells[at]; at = (at + 1) & (r->cell_capacity - 1))
-    if (memcmp(&record->cells[r->cells[at] - 1], &cell, sizeof cell) == 0) {
-      *out = r->cells[at] - 1;
-      return CELSPAN_OK;
-    }
-  CS_TRY(CS_APPEND(r->context, record->cells, record->cell_count, record->cell_capacity, cell));
-  r->cells[at] = (uint32_t)record->cell_count;
-  *out = r->cells[at] - 1;
+  cs_hash key = cs_hash_begin(0x63656c6cu);
+  for (int c = 0; c < 4; c++)
+    cs_hash_word(&key, (uint64_t)cell.colour[c]);
+  key = cs_hash_end(key);
+  size_t number = record->cell_count;
+  if (!cs_hash_table_find(&r->cells, key, &number)) {
+    CS_TRY(CS_APPEND(r->context, record->cells, record->cell_count, record->cell_capacity, cell));
+    CS_TRY(cs_hash_table_add(&r->cells, r->context, key, number));
+  }
+  *out = (uint32_t)number;
   return CELSPAN_OK;
 }
 
@@ -292,6 +266,6 @@ celspan_status cs_record_make(celspan_context *context, const cs_plan *plan, cs_
   CS_TRY(CS_MAKE(context, r.chains, count));
   celspan_status status = add_rows(&r);
   cs_mem_free(context->memory, r.chains, count * sizeof *r.chains);
-  cs_mem_free(context->memory, r.cells, r.cell_capacity * sizeof *r.cells);
+  cs_hash_table_finish(&r.cells, context);
   return status;
 }

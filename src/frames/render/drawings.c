@@ -51,13 +51,12 @@ static bool suits(const celspan_rostrum *rostrum, const cs_view *view,
  * that it has the same map wherever it is moved. */
 typedef struct placed_cel {
   const celspan_cel *cel;
+  const cs_view *view; /* of the frame */
   size_t number;
   celspan_matrix matrix; /* the drawing's units to pixels */
   double opacity;
-  celspan_space space;     /* of the frame */
   double scale_x, scale_y; /* the drawing's units to pixels of the raster: a power of two, which is
                               negative where an upright drawing is mirrored */
-  int32_t size[2];         /* of the frame */
   bool is_turned;          /* or sheared */
   bool is_made;            /* the map was made just now */
 } placed_cel;
@@ -75,7 +74,7 @@ static celspan_cel drawing_of(const placed_cel *d, celspan_object *only, celspan
         .hash = from->hash, .mark = from->mark, .data = from->data, .matrix = &identity, .fade = 1};
     objects[0] = only;
     drawing.objects = objects;
-    drawing.blends_inside[d->space] = cs_object_blends(only, d->space);
+    drawing.blends_inside[d->view->space] = cs_object_blends(only, d->view->space);
   }
   return drawing;
 }
@@ -142,7 +141,7 @@ static celspan_status make_alone(celspan_context *context, const placed_cel *d,
                                  celspan_cel *drawing, cs_map *map) {
   cs_view raster;
   cs_plan plan;
-  if (!find_raster(drawing, d->space, map, &raster))
+  if (!find_raster(drawing, d->view->space, map, &raster))
     return CELSPAN_OK;
   CS_TRY(cs_compile_drawing(context, drawing, d->number, &drawing->matrix, &raster, &plan));
   celspan_status status = cs_map_suits(&plan) ? cs_map_make(context, &plan, map) : CELSPAN_OK;
@@ -167,7 +166,7 @@ static cs_cache_key key_of(const placed_cel *d) {
   size_t count = d->cel->object_count;
   cs_hash hash = cs_hash_begin(0x6d6170u);
   cs_hash_word(&hash, count);
-  cs_hash_word(&hash, d->space);
+  cs_hash_word(&hash, d->view->space);
   cs_hash_word(&hash, d->is_turned);
   for (size_t i = 0; i < count; i++)
     cs_hash_hash(&hash, count == 1 ? objects[i]->data->hash : objects[i]->hash);
@@ -216,7 +215,8 @@ static celspan_status place_turned(celspan_context *context, const placed_cel *d
   out->lines = &out->turned;
   out->scale_x = out->scale_y = 1.0 / CS_MAP_UNIT;
   *suits = celspan_matrix_inverse(matrix, &out->to_raster);
-  return *suits ? cs_map_turn(context, map, &matrix, d->size, suits, &out->turned) : CELSPAN_OK;
+  const int32_t size[2] = {d->view->width, d->view->height};
+  return *suits ? cs_map_turn(context, map, &matrix, size, suits, &out->turned) : CELSPAN_OK;
 }
 
 /* *suits: whether the cel can be a map in its place. */
@@ -226,11 +226,11 @@ static celspan_status make_sheet(celspan_context *context, const celspan_rostrum
   const cs_light front = cs_scene_front(rostrum, d->cel);
   float opacity = (float)d->opacity;
   cs_map_drawing *drawing = &out->drawing;
-  drawing->light = opacity * colour_of(cs_light_in(&front, d->space));
+  drawing->light = opacity * colour_of(cs_light_in(&front, d->view->space));
   drawing->light[3] = opacity;
   drawing->grade = d->cel->grade ? &d->cel->grade->steps : NULL;
-  drawing->space = d->space;
-  out->back = colour_of(cs_light_in(&back, d->space));
+  drawing->space = d->view->space;
+  out->back = colour_of(cs_light_in(&back, d->view->space));
   out->keep = 1 - back.flat.a;
   CS_TRY(cs_map_keep_acquire(context, key_of(d), make, d, &drawing->map));
   *suits = drawing->map->is_whole;
@@ -260,9 +260,7 @@ static celspan_status place_cels(celspan_context *context, const celspan_rostrum
     d->cel = rostrum->cels[index];
     d->number = index + 1;
     d->is_made = false;
-    d->space = view->space;
-    d->size[0] = view->width;
-    d->size[1] = view->height;
+    d->view = view;
     CS_TRY(cs_scene_cel_matrix(context, rostrum, index, view->film_width, view->film_height,
                                &d->matrix));
     d->matrix = celspan_matrix_then(d->matrix, to_pixels);
