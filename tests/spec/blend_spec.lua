@@ -3,6 +3,7 @@
 local celspan = require "celspan"
 local near = require("tests.support.images").near
 local prng = require "tests.support.prng"
+local workbench = require "tests.support.workbench"
 
 local modes = { "normal", "multiply", "screen", "overlay", "darken", "lighten", "color-dodge",
                 "color-burn", "hard-light", "soft-light", "difference", "exclusion", "hue",
@@ -233,6 +234,26 @@ describe("a matte", function()
       m = (x + 1) % 2
       near({ m, 0.5 * m, 0.25 * m, m }, dotted, x, 0, 1e-6)
     end
+  end)
+
+  it("of alpha by one gradient is as straight as the gradient", function()
+    local bench = workbench.new()
+    finally(function() bench:remove() end)
+    --- How many colours are evaluated for a row of 400 pixels.
+    local function evaluations(from)
+      local path = bench:write("film.lua", ([[
+        local celspan = require "celspan"
+        local ramp = celspan.linear { from = { 0, 0 }, to = { 400, 0 }, { 0, "#fff0" },
+                                      { 1, "#fff" } }
+        local by = celspan.rect { 0, 0, 400, 1, texture = ramp }
+        return celspan.film { size = { 400, 1 }, frames = 1, frame = function()
+          return celspan.rostrum { celspan.cel { celspan.matte(celspan.rect { 0, 0, 400, 1,
+            texture = "#248" }, by, { from = "%s" }) }, back = "#321" } end }]]):format(from))
+      local _, out = bench:celspan("spans --stats --workers 1 %s", path)
+      return tonumber(out:match "colour_evaluations (%d+)")
+    end
+    -- Luma is compared with a line at the quarters.
+    assert.equal(evaluations "luma" - 3, evaluations "alpha")
   end)
 
   it("is under white light whatever lights the art", function()

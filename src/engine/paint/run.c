@@ -22,8 +22,8 @@
  *     spans    | 1 |     2     |    3   |         becomes a span: 1 and 3 gradients, 2 a single
  */
 
-/* Light through flat layers is affine in what the defocused one scatters (s) and lets through (t).
- */
+/* Light through flat layers is affine in what the defocused one scatters (s) and lets through (t),
+ * channel by channel, unless it is a source. */
 typedef struct light {
   cs_v4 base, s, t;
   cs_v4 clear;    /* where the defocused layer is clear */
@@ -38,10 +38,23 @@ typedef struct drawing {
   light light;
 } drawing;
 
+/* Whether the program has defocused layers, and modes or mattes: a line of the row would need more
+ * colours than it has pixels. */
+static bool is_blended(const cs_stack *stack, const cs_program *program) {
+  bool is_defocused = false, is_blended = false;
+  bool may_be = stack->has_sources && stack->defocused_count > 0;
+  for (uint32_t i = 0; may_be && i < program->length; i++) {
+    const cs_layer *layer = &stack->layers[program->items[i].layer];
+    is_defocused |= layer->kind == CS_LAYER_DEFOCUSED;
+    is_blended |= layer->group != CS_STACK_NONE && stack->groups[layer->group].is_source;
+  }
+  return is_defocused && is_blended;
+}
+
 /* Whether a program has one defocused layer and else flat ones; *item: which. */
 static bool fits_defocused(const cs_stack *stack, const cs_program *program, uint32_t *item) {
   uint32_t found = 0;
-  if (cs_program_curves(stack, program))
+  if (cs_program_curves(stack, program) || is_blended(stack, program))
     return false;
   for (uint32_t i = 0; i < program->length; i++) {
     cs_layer_kind kind = stack->layers[program->items[i].layer].kind;
@@ -182,19 +195,6 @@ static CELSPAN_CHECKED celspan_status defocused_run(cs_painter *painter, const c
 }
 
 /* ---------------------------------------------------------------- programs without hidden items */
-
-/* Whether the program has defocused layers, and modes or mattes: a line of the row would need more
- * colours than it has pixels. */
-static bool is_blended(const cs_stack *stack, const cs_program *program) {
-  bool is_defocused = false, is_blended = false;
-  bool may_be = stack->has_sources && stack->defocused_count > 0;
-  for (uint32_t i = 0; may_be && i < program->length; i++) {
-    const cs_layer *layer = &stack->layers[program->items[i].layer];
-    is_defocused |= layer->kind == CS_LAYER_DEFOCUSED;
-    is_blended |= layer->group != CS_STACK_NONE && stack->groups[layer->group].is_source;
-  }
-  return is_defocused && is_blended;
-}
 
 /* Whether the program shows pixel by pixel, as pictures do. */
 static celspan_status needs_array(cs_painter *painter, const cs_program *program, bool *out) {

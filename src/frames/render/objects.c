@@ -187,6 +187,14 @@ static cs_objects_outside outside_of(const cs_compiler *c) {
   return (cs_objects_outside){c->group, c->fades_out, c->isolation, CS_STACK_NONE};
 }
 
+/* Whether the surroundings of a group look like no affine function of its contents. The strength of
+ * a matte of alpha is one, since alpha is, and lies between 0 and 1 by itself. */
+static bool curves_by_itself(const cs_group *group, const cs_group *around) {
+  if (group->kind == CS_GROUP_HEAD)
+    return around->kind != CS_GROUP_MATTE || around->is_luma;
+  return group->grade || group->converts != CELSPAN_SPACE_AROUND;
+}
+
 /* Begins a group inside the compiler's; the rest of its fields is set here. */
 static celspan_status enter(cs_compiler *c, cs_group group) {
   cs_stack *stack = &c->plan->stack;
@@ -195,8 +203,7 @@ static celspan_status enter(cs_compiler *c, cs_group group) {
   group.parent = c->group;
   group.first = (uint32_t)stack->layer_count;
   group.varies |= around && around->varies;
-  group.curves = group.kind == CS_GROUP_HEAD || group.grade ||
-                 group.converts != CELSPAN_SPACE_AROUND || (around && around->curves);
+  group.curves = curves_by_itself(&group, around) || (around && around->curves);
   group.is_source = group.kind == CS_GROUP_HEAD || (around && around->is_source);
   stack->has_curves |= group.curves;
   stack->has_sources |= group.is_source;
