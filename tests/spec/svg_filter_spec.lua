@@ -317,6 +317,142 @@ describe("a shape that is dilated", function()
   end)
 end)
 
+describe("a function", function()
+  local WIDE = 'x="-2" y="-2" width="5" height="5" '
+
+  --- A drawing of the usual rectangle in a group with this value of the property.
+  local function with(value, style)
+    return read(('<g color="#00f" font-size="4" %s><rect x="20" y="20" width="40" height="40" '
+      .. 'fill="#40c080"/></g>'):format((style and 'style="filter:%s"' or 'filter="%s"')
+        :format(value)))
+  end
+
+  --- It does what these elements of a filter do in codes.
+  local function equals(value, primitives)
+    local found = with(value, true)
+    assert.are.equal("", told(found))
+    local by_hand = filtered(primitives, WIDE .. CODES)
+    assert.are.equal("", told(by_hand))
+    assert.is_true(images.difference(pixels(found.object), pixels(by_hand.object)) < 2e-4, value)
+  end
+
+  local function each(channel)
+    return ("<feComponentTransfer><feFuncR %s/><feFuncG %s/><feFuncB %s/></feComponentTransfer>")
+      :format(channel, channel, channel)
+  end
+
+  it("of colours is a primitive", function()
+    equals("brightness(1.5)", each 'type="linear" slope="1.5"')
+    equals("brightness(40%)", each 'type="linear" slope="0.4"')
+    equals("contrast(2)", each 'type="linear" slope="2" intercept="-0.5"')
+    equals("contrast(0)", each 'type="linear" slope="0" intercept="0.5"')
+    equals("invert(0.25)", each 'type="table" tableValues="0.25 0.75"')
+    equals("INVERT( )", each 'type="table" tableValues="1 0"')
+    equals("invert(900%)", each 'type="table" tableValues="1 0"')
+    equals("grayscale(0.75)", '<feColorMatrix type="saturate" values="0.25"/>')
+    equals("grayscale()", '<feColorMatrix type="saturate" values="0"/>')
+    equals("saturate(3)", '<feColorMatrix type="saturate" values="3"/>')
+    equals("hue-rotate(0.25turn)", '<feColorMatrix type="hueRotate" values="90"/>')
+    equals("hue-rotate(-100grad)", '<feColorMatrix type="hueRotate" values="-90"/>')
+    equals("sepia(1)", '<feColorMatrix values="0.393 0.769 0.189 0 0 0.349 0.686 0.168 0 0 '
+      .. '0.272 0.534 0.131 0 0 0 0 0 1 0"/>')
+    equals("sepia(0.5)", '<feColorMatrix values="0.6965 0.3845 0.0945 0 0 0.1745 0.843 0.084 0 0 '
+      .. '0.136 0.267 0.5655 0 0 0 0 0 1 0"/>')
+    equals("opacity(0.3)", '<feComponentTransfer><feFuncA type="table" tableValues="0 0.3"/>'
+      .. "</feComponentTransfer>")
+  end)
+
+  it("of places is a primitive, and nothing is cut off", function()
+    equals("blur(4px)", '<feGaussianBlur stdDeviation="4"/>')
+    equals("blur(1em)", '<feGaussianBlur stdDeviation="4"/>')
+    equals("drop-shadow(10px 5px 3px #f00)",
+      '<feDropShadow dx="10" dy="5" stdDeviation="3" flood-color="#f00"/>')
+    equals("drop-shadow(rgb(255 0 0 / 50%) 0 -1em)",
+      '<feDropShadow dx="0" dy="-4" stdDeviation="0" flood-color="#f00" flood-opacity="0.5"/>')
+    for _, value in ipairs { "10px 10px", "currentColor 10px 10px", "10px 10px 0 currentColor" } do
+      equals(("drop-shadow(%s)"):format(value),
+        '<feDropShadow dx="10" dy="10" stdDeviation="0" flood-color="#00f"/>')
+    end
+  end)
+
+  it("acts on what the one before made", function()
+    equals("invert(1) brightness(0.5)blur(2px)  drop-shadow(8px 8px)",
+      each 'type="table" tableValues="0.5 0"' .. '<feGaussianBlur stdDeviation="2"/>'
+      .. '<feDropShadow dx="8" dy="8" stdDeviation="0" flood-color="#00f"/>')
+    local art = read('<filter id="f"><feOffset dx="4"/></filter><filter id="g"/>'
+      .. '<rect width="10" height="10" fill="#40c080" filter="invert(1) url(#f) url(#f)"/>'
+      .. '<rect y="20" width="10" height="10" filter="url(#g) drop-shadow(1px 1px)"/>')
+    assert.are.equal("", told(art))
+    assert_near({ 0, 0, 0, 0 }, at(art, 3, 5))
+    assert_near({ 191, 63, 127, 255 }, at(art, 10, 5))
+    assert_near({ 0, 0, 0, 0 }, at(art, 11, 5)) -- cut off at the region of the references
+    assert_near({ 0, 0, 0, 0 }, at(art, 5, 25))
+  end)
+
+  it("counts in the units of its element, in masks, and for changed parts", function()
+    local art = read('<g transform="scale(2)"><rect width="9" height="9" '
+      .. 'filter="drop-shadow(10px 0 red)"/></g><mask id="m"><rect width="50" height="100" '
+      .. 'fill="#000" filter="invert(50%)"/></mask><rect y="50" width="90" height="9" '
+      .. 'mask="url(#m)"/>')
+    assert_near({ 255, 0, 0, 255 }, at(art, 37, 9))
+    assert_near({ 0, 0, 0, 0 }, at(art, 38, 9))
+    assert_near({ 0, 0, 0, 128 }, at(art, 40, 55))
+    assert_near({ 0, 0, 0, 0 }, at(art, 60, 55))
+    art = read '<g style="filter:invert(1)"><rect id="a" width="9" height="9"/></g>'
+    local red = celspan.rect { 0, 0, 9, 9, texture = "#f00" }
+    local other = art:with { a = function() return red end }
+    assert_near({ 255, 255, 255, 255 }, at(art, 4, 4))
+    assert_near({ 0, 255, 255, 255 }, at(other, 4, 4))
+  end)
+
+  it("that is invalid makes the whole value count as not given, and is listed", function()
+    for _, value in ipairs { "blur(-1px)", "blur(2%)", "blur(2px", "blur 2px", "blur(2px 2px)",
+                             "blur (2px)", "brightness(-1)", "brightness(1e99)", "glow(2px)",
+                             "hue-rotate(90)", "drop-shadow()", "drop-shadow(2px)",
+                             "drop-shadow(2px 2px -1px)", "drop-shadow(red 2px 2px red)",
+                             "drop-shadow(1px 1px 1px 1px)", "invert(1), invert(1)",
+                             "invert(1) none", "invert(calc(1 + 1))", "invert(1) url(#a", "(",
+                             "," } do
+      for style = 1, 2 do
+        local art = with(value, style == 2)
+        assert.are.equal(('1 filter "%s"'):format(value), told(art))
+        assert_near({ 64, 192, 128, 255 }, at(art, 40, 40), 0, value)
+      end
+    end
+    local art = read '<rect width="9" height="9" style="filter:invert(1);filter:blur(-1px)"/>'
+    assert_near({ 255, 255, 255, 255 }, at(art, 4, 4))
+  end)
+
+  it("needs units of lengths in styles alone", function()
+    assert.are.equal("", told(with "drop-shadow(10 10)"))
+    assert_near({ 0, 0, 255, 255 }, at(with "drop-shadow(10 10)", 65, 65))
+    assert.are.equal('1 filter "blur(2)"', told(with("blur(2)", true)))
+    assert.are.equal("", told(with("blur(0)", true)))
+  end)
+
+  it("is not there where the value says so, and may be inherited and a variable", function()
+    for _, value in ipairs { "none", "initial", "unset" } do
+      local art = with(value, true)
+      assert.are.equal("", told(art))
+      assert_near({ 64, 192, 128, 255 }, at(art, 40, 40))
+    end
+    local art = read('<g style="--f:invert(1);filter:invert(1)"><rect width="9" height="9" '
+      .. 'style="filter:inherit"/><rect x="20" width="9" height="9" style="filter:var(--f)"/></g>')
+    assert_near({ 0, 0, 0, 255 }, at(art, 4, 4))
+    assert_near({ 0, 0, 0, 255 }, at(art, 24, 4))
+  end)
+
+  it("does not take long, however many and however large they are", function()
+    local art = with(("drop-shadow(1px 1px)"):rep(11, " "))
+    assert.are.equal("1 filter of g: drop-shadow that repeats its input too often", told(art))
+    assert.are.equal("", told(with(("drop-shadow(1px 1px)"):rep(4, " "))))
+    assert.are.equal("", told(with "blur(1e12px) drop-shadow(-1e12px 1e12em 1e12px)"))
+    assert_near({ 255, 255, 255, 255 }, at(with "brightness(1e12) contrast(1e12)", 40, 40))
+    assert_near({ 64, 192, 128, 255 }, at(with "hue-rotate(36e10deg) saturate(1)", 40, 40))
+    pixels(with("blur(1e12px) drop-shadow(-1e12px 1e12em 1e12px)").object)
+  end)
+end)
+
 describe("what a filter cannot do", function()
   it("is named at its line, and the element is drawn as it is", function()
     for primitive, what in pairs {
@@ -341,8 +477,8 @@ describe("what a filter cannot do", function()
     end
   end)
 
-  it("is named for references that lead nowhere and for functions", function()
-    for _, value in ipairs { "url(#none)", "blur(2px)" } do
+  it("is named for references that lead nowhere, alone or in a list", function()
+    for _, value in ipairs { "url(#none)", "invert() url(#none) blur(1px)", "url(other.svg#f)" } do
       local art = read(('<rect width="9" height="9" filter="%s"/>'):format(value))
       assert.are.equal("1 filter of rect", told(art))
       assert_near({ 0, 0, 0, 255 }, at(art, 4, 4))

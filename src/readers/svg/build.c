@@ -372,13 +372,12 @@ static celspan_status read_effects(builder *b, const cs_svg_node *node, const cs
   const cs_svg_style *style = &place->style;
   item->opacity = style->opacity;
   item->blend = style->blend;
-  item->isolates = style->isolates || style->has_clip_path || style->has_mask || style->has_filter;
+  item->isolates = style->isolates || style->has_clip_path || style->has_mask || style->filter;
   if (style->has_clip_path)
     CS_TRY(cs_svg_clip_make(b->reading, node, place, &item->clip, &item->has_clip));
   if (style->has_mask)
     CS_TRY(add_mask(b, node, place, item));
-  return style->has_filter ? cs_svg_filter_make(b->reading, node, place, &item->filter)
-                           : CELSPAN_OK;
+  return style->filter ? cs_svg_filter_make(b->reading, node, place, &item->filter) : CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- elements */

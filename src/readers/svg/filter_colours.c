@@ -231,10 +231,25 @@ static bool is_type(const cs_svg_node *node, const char *word) {
   return type && cs_svg_is_word(type, word);
 }
 
+void cs_svg_hue_set(celspan_grade_desc *desc, double degrees) {
+  desc->hue = DEGREES_TO_RADIANS * fmod(degrees, 360);
+}
+
+celspan_status cs_svg_clamped_grade(const cs_svg_reading *reading, celspan_grade_desc *desc,
+                                    celspan_grade **out) {
+  curve *clamp;
+  CS_TRY(CS_MAKE(reading->context, clamp, 1));
+  clamping_curve(clamp);
+  for (int channel = 0; channel < 3; channel++)
+    give_curve(clamp, channel, desc);
+  celspan_status status = celspan_grade_create(reading->context, desc, out);
+  cs_mem_free(reading->context->memory, clamp, sizeof *clamp);
+  return status;
+}
+
 celspan_status cs_svg_colour_matrix_read(cs_svg_reading *reading, const cs_svg_node *node,
                                          cs_svg_step *step, const char **reason) {
   celspan_grade_desc desc = CELSPAN_GRADE_DESC;
-  curve *clamp;
   step->kind = CS_SVG_STEP_COLOUR;
   if (is_type(node, "luminanceToAlpha")) {
     step->kind = CS_SVG_STEP_LUMA;
@@ -243,16 +258,8 @@ celspan_status cs_svg_colour_matrix_read(cs_svg_reading *reading, const cs_svg_n
   if (is_type(node, "saturate"))
     desc.saturation = fmax(0, cs_svg_filter_number(node, CS_SVG_VALUES, 1));
   else if (is_type(node, "hueRotate"))
-    desc.hue = DEGREES_TO_RADIANS * cs_svg_filter_number(node, CS_SVG_VALUES, 0);
+    cs_svg_hue_set(&desc, cs_svg_filter_number(node, CS_SVG_VALUES, 0));
   else
     read_matrix(node, &desc, step, reason);
-  if (*reason)
-    return CELSPAN_OK;
-  CS_TRY(CS_MAKE(reading->context, clamp, 1));
-  clamping_curve(clamp);
-  for (int channel = 0; channel < 3; channel++)
-    give_curve(clamp, channel, &desc);
-  celspan_status status = celspan_grade_create(reading->context, &desc, &step->grade);
-  cs_mem_free(reading->context->memory, clamp, sizeof *clamp);
-  return status;
+  return *reason ? CELSPAN_OK : cs_svg_clamped_grade(reading, &desc, &step->grade);
 }

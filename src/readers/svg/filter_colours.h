@@ -20,6 +20,12 @@ CELSPAN_CHECKED celspan_status cs_svg_transfer_read(cs_svg_reading *reading,
                                                     const cs_svg_node *node, cs_svg_step *step,
                                                     const char **reason);
 
+/* Fills in a turn of all hues. */
+void cs_svg_hue_set(celspan_grade_desc *desc, double degrees);
+/* The grade of a matrix, clamped to 0..1. *out: new. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_svg_clamped_grade(const cs_svg_reading *reading,
+                                                    celspan_grade_desc *desc, celspan_grade **out);
+
 /* The value of an attribute that is one number; `fallback` for any other. */
 double cs_svg_filter_number(const cs_svg_node *node, cs_svg_name name, double fallback);
 /* The numbers of an attribute, up to `most` of them; returns how many there are, 0 where anything

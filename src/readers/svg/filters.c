@@ -6,9 +6,12 @@
 #include "base/number.h"
 #include "model/colour/blend.h"
 #include "readers/svg/filter_colours.h"
+#include "readers/svg/filter_functions.h"
 #include "readers/svg/image.h"
 #include "readers/svg/regions.h"
 #include "readers/svg/shapes.h"
+
+#define REPEATS "that repeats its input too often"
 
 /* A result with a name. */
 typedef struct named_result {
@@ -21,7 +24,7 @@ typedef struct filter {
   cs_svg_reading *reading;
   const cs_svg_node *element; /* that is filtered */
   const cs_svg_place *place;  /* of that */
-  const cs_svg_node *owner;   /* the filter */
+  const cs_svg_node *owner;   /* the filter; NULL: a function */
   celspan_box box;            /* of the element, in its user units */
   bool is_in_shares;          /* numbers are shares of that box */
   cs_svg_recipe *recipe;
@@ -29,6 +32,7 @@ typedef struct filter {
   size_t name_count, name_capacity;
   uint32_t *uses; /* of the sources, for each of them and each step */
   size_t use_count, use_capacity;
+  uint32_t weight; /* how often the element is in the last result; before: in the source */
   const cs_svg_node *node;
   cs_svg_style style;
   cs_svg_step step;
@@ -105,13 +109,6 @@ static const celspan_box *box_of(const filter *f, size_t number) {
                                  : &f->recipe->steps[number - CS_SVG_SOURCES].box;
 }
 
-/* Around two boxes. */
-static celspan_box both(const celspan_box *a, const celspan_box *b) {
-  double left = fmin(a->x, b->x), right = fmax(a->x + a->width, b->x + b->width);
-  double top = fmin(a->y, b->y), bottom = fmax(a->y + a->height, b->y + b->height);
-  return (celspan_box){left, top, right - left, bottom - top};
-}
-
 /* The box of a step that gives none: around those of its inputs, as browsers have it. */
 static celspan_box usual_box(const filter *f) {
   const cs_svg_recipe *recipe = f->recipe;
@@ -120,7 +117,7 @@ static celspan_box usual_box(const filter *f) {
   const size_t *inputs = recipe->inputs + f->step.first_input;
   celspan_box box = *box_of(f, inputs[0]);
   for (size_t i = 1; i < f->step.input_count; i++)
-    box = both(&box, box_of(f, inputs[i]));
+    box = cs_outline_box_around(box, *box_of(f, inputs[i]));
   return box;
 }
 
@@ -338,6 +335,13 @@ static step_reader *reader_of(cs_svg_element element) {
   return NULL;
 }
 
+/* The element is in both sources as often as filters before this one have put it there. */
+static celspan_status start_uses(filter *f) {
+  for (size_t i = 0; i < CS_SVG_SOURCES; i++)
+    CS_TRY(CS_APPEND(f->reading->context, f->uses, f->use_count, f->use_capacity, f->weight));
+  return CELSPAN_OK;
+}
+
 /* Counts how often the sources are in what the step makes. */
 static celspan_status count_uses(filter *f) {
   uint32_t uses = 0;
@@ -347,20 +351,9 @@ static celspan_status count_uses(filter *f) {
   for (size_t i = 0; i < f->step.input_count && uses <= CS_SVG_RECIPE_USES; i++)
     uses += (uint32_t)factor * f->uses[f->recipe->inputs[f->step.first_input + i]];
   if (uses > CS_SVG_RECIPE_USES)
-    f->reason = "that repeats its input too often";
+    f->reason = REPEATS;
+  f->weight = uses;
   return CS_APPEND(f->reading->context, f->uses, f->use_count, f->use_capacity, uses);
-}
-
-/* Appends the step; the recipe owns what it has, whatever becomes of it. */
-static celspan_status append_step(filter *f) {
-  cs_svg_recipe *recipe = f->recipe;
-  celspan_status status = CS_APPEND(f->reading->context, recipe->steps, recipe->step_count,
-                                    recipe->step_capacity, f->step);
-  if (status != CELSPAN_OK) {
-    celspan_grade_unref(f->step.grade);
-    celspan_object_unref(f->step.object);
-  }
-  return status;
 }
 
 static celspan_status read_step(filter *f, step_reader *read) {
@@ -376,7 +369,7 @@ static celspan_status read_step(filter *f, step_reader *read) {
   f->step.box = common(&f->step.box, &f->recipe->region);
   if (status == CELSPAN_OK)
     status = count_uses(f);
-  CS_TRY(append_step(f));
+  CS_TRY(cs_svg_recipe_append(f->reading->context, f->recipe, &f->step));
   if (status == CELSPAN_OK && name && *name)
     status = CS_APPEND(f->reading->context, f->names, f->name_count, f->name_capacity,
                        (named_result){name, last_result(f)});
@@ -385,8 +378,7 @@ static celspan_status read_step(filter *f, step_reader *read) {
 
 /* Reads the steps until one cannot be made. */
 static celspan_status read_steps(filter *f) {
-  for (size_t i = 0; i < CS_SVG_SOURCES; i++)
-    CS_TRY(CS_APPEND(f->reading->context, f->uses, f->use_count, f->use_capacity, 1));
+  CS_TRY(start_uses(f));
   for (const cs_svg_node *node = f->owner->first; node && !f->reason; node = node->next) {
     step_reader *read = reader_of(node->element);
     f->node = node;
@@ -398,25 +390,34 @@ static celspan_status read_steps(filter *f) {
   return CELSPAN_OK;
 }
 
+/* ---------------------------------------------------------------- functions */
+
+static celspan_status make_function(filter *f, const cs_svg_filter_call *call) {
+  f->weight *= call->kind == CS_SVG_FILTER_SHADOW ? 2 : 1;
+  if (f->weight > CS_SVG_RECIPE_USES)
+    f->reason = REPEATS;
+  return cs_svg_filter_function_make(f->reading, call, f->place, f->recipe);
+}
+
 /* ---------------------------------------------------------------- the whole */
 
-static celspan_status note(const filter *f) {
-  return cs_svg_skip(f->reading, f->node, "filter of %.40s: %.40s%s%s", f->element->tag,
-                     f->node->tag, *f->reason ? " " : "", f->reason);
+/* Names the step that cannot be made, at its line. */
+static celspan_status note(const filter *f, const cs_svg_filter_call *call) {
+  bool is_function = call->kind != CS_SVG_FILTER_REFERENCE;
+  const char *name = is_function ? cs_svg_filter_name(call->kind) : f->node->tag;
+  return cs_svg_skip(f->reading, is_function ? f->element : f->node, "filter of %.40s: %.40s%s%s",
+                     f->element->tag, name, *f->reason ? " " : "", f->reason);
 }
 
 /* The region in user units. Where it has no size, nothing is drawn: there are no steps. */
-static celspan_status make_recipe(filter *f) {
+static celspan_status make_steps(filter *f) {
   cs_svg_recipe *recipe = f->recipe;
   const char *units = cs_svg_node_value(f->owner, CS_SVG_PRIMITIVE_UNITS);
   cs_svg_region region;
   CS_TRY(
       cs_svg_region_find(f->reading, f->owner, CS_SVG_FILTER_UNITS, f->element, f->place, &region));
-  recipe->space = f->reading->is_coded ? CELSPAN_SPACE_AROUND : f->reading->space;
-  recipe->matrix = f->place->matrix;
   f->is_in_shares = units && cs_svg_is_word(units, "objectBoundingBox");
-  if (!region.is_sized || (f->is_in_shares && !region.has_box) ||
-      !celspan_matrix_inverse(recipe->matrix, &recipe->back))
+  if (!region.is_sized || (f->is_in_shares && !region.has_box))
     return CELSPAN_OK;
   const celspan_matrix user = celspan_matrix_then(region.own, recipe->back);
   recipe->region = cs_svg_box_mapped(&region.box, &user);
@@ -424,25 +425,70 @@ static celspan_status make_recipe(filter *f) {
   return read_steps(f);
 }
 
-celspan_status cs_svg_filter_make(cs_svg_reading *reading, const cs_svg_node *node,
-                                  const cs_svg_place *place, cs_svg_recipe **out) {
-  filter f = {.reading = reading, .element = node, .place = place};
-  celspan_context *context = reading->context;
-  *out = NULL;
-  f.owner = cs_svg_referred(reading, place->style.filter);
-  if (!f.owner || f.owner->element != CS_SVG_ELEMENT_FILTER)
-    return cs_svg_skip(reading, node, "filter of %.40s", node->tag);
-  if (cs_svg_is_open(place->open, f.owner))
-    return cs_svg_skip(reading, node, "filter that shows what it filters");
-  CS_TRY(cs_svg_recipe_create(context, &f.recipe));
-  celspan_status status = make_recipe(&f);
-  if (status == CELSPAN_OK && f.reason)
-    status = note(&f);
-  cs_mem_free(context->memory, f.names, f.name_capacity * sizeof *f.names);
-  cs_mem_free(context->memory, f.uses, f.use_capacity * sizeof *f.uses);
+static celspan_status make_recipe(filter *f, const cs_svg_filter_call *call) {
+  cs_memory *memory = f->reading->context->memory;
+  cs_svg_recipe *recipe = f->recipe;
+  recipe->space = f->reading->is_coded ? CELSPAN_SPACE_AROUND : f->reading->space;
+  recipe->matrix = f->place->matrix;
+  if (!celspan_matrix_inverse(recipe->matrix, &recipe->back))
+    return CELSPAN_OK;
+  celspan_status status = f->owner ? make_steps(f) : make_function(f, call);
+  if (status == CELSPAN_OK && f->reason)
+    status = note(f, call);
+  cs_mem_free(memory, f->names, f->name_capacity * sizeof *f->names);
+  cs_mem_free(memory, f->uses, f->use_capacity * sizeof *f->uses);
+  return status;
+}
+
+/* The filter that is referred to; *is_there: false: it is missing or circular, which is noted. */
+static celspan_status find_owner(filter *f, cs_svg_reference reference, bool *is_there) {
+  f->owner = cs_svg_referred(f->reading, reference);
+  *is_there = f->owner && f->owner->element == CS_SVG_ELEMENT_FILTER;
+  if (!*is_there)
+    return cs_svg_skip(f->reading, f->element, "filter of %.40s", f->element->tag);
+  *is_there = !cs_svg_is_open(f->place->open, f->owner);
+  return *is_there ? CELSPAN_OK
+                   : cs_svg_skip(f->reading, f->element, "filter that shows what it filters");
+}
+
+/* The recipe of a call. weight: how often the element is in what is filtered; updated. *out: new;
+ * NULL: it cannot be made. */
+static celspan_status add_recipe(filter f, const cs_svg_filter_call *call, uint32_t *weight,
+                                 cs_svg_recipe **out) {
+  bool is_there = true;
+  f.weight = *weight;
+  if (call->kind == CS_SVG_FILTER_REFERENCE)
+    CS_TRY(find_owner(&f, call->reference, &is_there));
+  if (!is_there)
+    return CELSPAN_OK;
+  CS_TRY(cs_svg_recipe_create(f.reading->context, &f.recipe));
+  celspan_status status = make_recipe(&f, call);
+  *weight = f.weight;
   if (status == CELSPAN_OK && !f.reason)
     *out = f.recipe;
   else
     cs_svg_recipe_unref(f.recipe);
+  return status;
+}
+
+celspan_status cs_svg_filter_make(cs_svg_reading *reading, const cs_svg_node *node,
+                                  const cs_svg_place *place, cs_svg_recipe **out) {
+  const filter whole = {.reading = reading, .element = node, .place = place};
+  const char *text = place->style.filter;
+  celspan_status status = CELSPAN_OK;
+  cs_svg_filter_call call;
+  cs_svg_recipe **last = out;
+  uint32_t weight = 1;
+  bool is_complete = true;
+  *out = NULL;
+  while (status == CELSPAN_OK && is_complete && cs_svg_take_filter(&text, &call)) {
+    status = add_recipe(whole, &call, &weight, last);
+    is_complete = *last;
+    last = is_complete ? &(*last)->next : last;
+  }
+  if (is_complete && status == CELSPAN_OK)
+    return CELSPAN_OK;
+  cs_svg_recipe_unref(*out);
+  *out = NULL;
   return status;
 }

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "readers/svg/filter_list.h"
 #include "readers/svg/paints.h"
 #include "readers/svg/transforms.h"
 
@@ -150,6 +151,8 @@ static bool has_form(cs_svg_form form, const char *text, bool is_style) {
   celspan_matrix matrix;
   if (form == CS_SVG_FORM_ROTATION && is_style)
     return cs_svg_parse_rotate(text, &matrix);
+  if (form == CS_SVG_FORM_FILTERS)
+    return cs_svg_is_filter_list(text, is_style);
   return tests[form] ? tests[form](text) : form == CS_SVG_FORM_ANY;
 }
 

@@ -48,7 +48,7 @@ static const cs_svg_name_facts names[CS_SVG_NAME_COUNT] = {
     {"fill", PRESENTED, FORM(PAINT), NULL, "black"},
     {"fill-opacity", PRESENTED, FORM(SHARE), NULL, "1"},
     {"fill-rule", PRESENTED, FORM(WORD), "nonzero|evenodd", "nonzero"},
-    {"filter", PRESENTED, FORM(ANY), NULL, NULL},
+    {"filter", PRESENTED, FORM(FILTERS), "none|inherit", NULL},
     {"filterUnits", ATTRIBUTE, FORM(WORD), "userSpaceOnUse|objectBoundingBox", NULL},
     {"flood-color", PRESENTED, FORM(COLOUR), "inherit", NULL},
     {"flood-opacity", PRESENTED, FORM(SHARE), NULL, NULL},

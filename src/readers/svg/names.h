@@ -198,7 +198,8 @@ typedef enum cs_svg_form {
   CS_SVG_FORM_SLANT,
   CS_SVG_FORM_ORDER, /* of fill, stroke and markers */
   CS_SVG_FORM_VIEW_BOX,
-  CS_SVG_FORM_ASPECT
+  CS_SVG_FORM_ASPECT,
+  CS_SVG_FORM_FILTERS
 } cs_svg_form;
 
 typedef struct cs_svg_name_facts {

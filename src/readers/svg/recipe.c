@@ -24,24 +24,42 @@ celspan_status cs_svg_recipe_create(celspan_context *context, cs_svg_recipe **ou
   return CELSPAN_OK;
 }
 
+static void finish_step(const cs_svg_step *step) {
+  celspan_grade_unref(step->grade);
+  celspan_object_unref(step->object);
+}
+
+celspan_status cs_svg_recipe_append(celspan_context *context, cs_svg_recipe *recipe,
+                                    const cs_svg_step *step) {
+  celspan_status status =
+      CS_APPEND(context, recipe->steps, recipe->step_count, recipe->step_capacity, *step);
+  if (status != CELSPAN_OK)
+    finish_step(step);
+  return status;
+}
+
 cs_svg_recipe *cs_svg_recipe_ref(cs_svg_recipe *recipe) {
   if (recipe)
     cs_value_keep(&recipe->references);
   return recipe;
 }
 
-void cs_svg_recipe_unref(cs_svg_recipe *recipe) {
-  if (!recipe || !cs_value_drop(&recipe->references))
-    return;
-  for (size_t i = 0; i < recipe->step_count; i++) {
-    celspan_grade_unref(recipe->steps[i].grade);
-    celspan_object_unref(recipe->steps[i].object);
-  }
+static void drop(cs_svg_recipe *recipe) {
+  for (size_t i = 0; i < recipe->step_count; i++)
+    finish_step(&recipe->steps[i]);
   cs_memory *memory = recipe->memory;
   cs_mem_free(memory, recipe->steps, recipe->step_capacity * sizeof *recipe->steps);
   cs_mem_free(memory, recipe->inputs, recipe->input_capacity * sizeof *recipe->inputs);
   cs_mem_free(memory, recipe, sizeof *recipe);
   cs_memory_unref(memory);
+}
+
+void cs_svg_recipe_unref(cs_svg_recipe *recipe) {
+  while (recipe && cs_value_drop(&recipe->references)) {
+    cs_svg_recipe *next = recipe->next;
+    drop(recipe);
+    recipe = next;
+  }
 }
 
 /* ---------------------------------------------------------------- objects */
@@ -421,8 +439,8 @@ static celspan_status make_steps(applying *a, celspan_object *object) {
   return CELSPAN_OK;
 }
 
-celspan_status cs_svg_recipe_apply(celspan_context *context, const cs_svg_recipe *recipe,
-                                   celspan_object **object) {
+static celspan_status apply_one(celspan_context *context, const cs_svg_recipe *recipe,
+                                celspan_object **object) {
   applying a = {.context = context, .recipe = recipe};
   const size_t count = CS_SVG_SOURCES + recipe->step_count;
   celspan_object *made = NULL;
@@ -436,4 +454,11 @@ celspan_status cs_svg_recipe_apply(celspan_context *context, const cs_svg_recipe
     celspan_object_unref(a.results[i]);
   cs_mem_free(context->memory, a.results, count * sizeof(celspan_object *));
   return status == CELSPAN_OK ? replace(status, made, object) : status;
+}
+
+celspan_status cs_svg_recipe_apply(celspan_context *context, const cs_svg_recipe *recipe,
+                                   celspan_object **object) {
+  for (; recipe; recipe = recipe->next)
+    CS_TRY(apply_one(context, recipe, object));
+  return CELSPAN_OK;
 }

@@ -4,7 +4,8 @@
  *     1 its silhouette  |                          +--> 4 merge = the result
  *                       +--------------------------+
  *
- * A recipe is kept with its item, because it acts on whatever `with` puts into the item's place.
+ * Several filters of one element are a list of recipes: each acts on what the one before made. They
+ * are kept with their item, because they act on whatever `with` puts into the item's place.
  * Everything in it is in the user units of the element, and what a step makes is cut off at the
  * step's box.
  *
@@ -60,6 +61,7 @@ typedef struct cs_svg_step {
 
 typedef struct cs_svg_recipe {
   atomic_size_t references;
+  struct cs_svg_recipe *next; /* owned; NULL: it is the last one */
   cs_memory *memory;
   celspan_space space;         /* of the drawing: of the element itself, and of images */
   celspan_box region;          /* that the element is cut off at */
@@ -72,11 +74,15 @@ typedef struct cs_svg_recipe {
 
 /* Without steps. *out: new. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_svg_recipe_create(celspan_context *context, cs_svg_recipe **out);
+/* Appends a step, and takes over what it owns, also after a failure. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_svg_recipe_append(celspan_context *context, cs_svg_recipe *recipe,
+                                                    const cs_svg_step *step);
 cs_svg_recipe *cs_svg_recipe_ref(cs_svg_recipe *recipe);
+/* Drops the recipes after it, too. */
 void cs_svg_recipe_unref(cs_svg_recipe *recipe);
 
-/* Puts what the recipe makes of *object in its place. NULL, before and after: nothing is drawn.
- * Errors: NO_MEMORY, LIMIT; *object is then untouched. */
+/* Puts what the recipe and those after it make of *object in its place. NULL, before and after:
+ * nothing is drawn. Errors: NO_MEMORY, LIMIT; *object is then what was made so far. */
 CELSPAN_CHECKED celspan_status cs_svg_recipe_apply(celspan_context *context,
                                                    const cs_svg_recipe *recipe,
                                                    celspan_object **object);

@@ -5,6 +5,7 @@
 #include "base/number.h"
 #include "model/colour/blend.h"
 #include "readers/svg/cascade.h"
+#include "readers/svg/filter_list.h"
 
 #define MEDIUM 16 /* px, of letters */
 
@@ -113,9 +114,9 @@ static void inherit(const cs_svg_style *parent, cs_svg_style *out) {
   *out = *parent;
   out->is_displayed = true;
   out->opacity = 1;
-  out->clip_path = out->mask = out->filter = (cs_svg_reference){NULL, 0};
-  out->clip_shape = NULL;
-  out->has_clip_path = out->has_mask = out->has_filter = out->isolates = false;
+  out->clip_path = out->mask = (cs_svg_reference){NULL, 0};
+  out->clip_shape = out->filter = NULL;
+  out->has_clip_path = out->has_mask = out->isolates = false;
   out->blend = CELSPAN_BLEND_NORMAL;
   out->shows_overflow = out->uses_alpha = out->keeps_width = false;
   out->stop_colour = initial.stop_colour;
@@ -217,12 +218,10 @@ static void read_effects(const char *const *values, const cs_svg_style *parent, 
     out->has_mask = parent->has_mask;
     out->mask = parent->mask;
   }
-  (void)read_reference(filter, &out->filter);
-  out->has_filter = filter && !cs_svg_is_word(filter, "none");
-  if (is_inherited(filter)) {
-    out->has_filter = parent->has_filter;
+  if (is_inherited(filter))
     out->filter = parent->filter;
-  }
+  else if (filter && cs_svg_is_filter_list(filter, false))
+    out->filter = filter;
   out->isolates = values[CS_SVG_ISOLATION] && cs_svg_is_word(values[CS_SVG_ISOLATION], "isolate");
   read_blend(values[CS_SVG_MIX_BLEND_MODE], parent, out);
 }

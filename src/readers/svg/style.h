@@ -30,10 +30,10 @@ typedef struct cs_svg_style {
   /* of the element alone */
   bool is_displayed;
   double opacity;
-  cs_svg_reference clip_path, mask, filter;
+  cs_svg_reference clip_path, mask;
+  const char *filter;     /* a list of filters; NULL: none */
   const char *clip_shape; /* clip-path where it is no reference; NULL: it is, or none */
   bool has_clip_path, has_mask;
-  bool has_filter;
   celspan_blend blend;
   bool isolates;                           /* blend modes inside do not see its background */
   bool keeps_width;                        /* the stroke's: transforms do not change it */

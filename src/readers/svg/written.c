@@ -149,7 +149,7 @@ static celspan_status note_effects(cs_svg_written *w, const cs_svg_node *node,
     const char *name;
   } effects[] = {{style->has_clip_path, "clip-path"},
                  {style->has_mask, "mask"},
-                 {style->has_filter, "filter"},
+                 {style->filter, "filter"},
                  {style->blend != CELSPAN_BLEND_NORMAL, "mix-blend-mode"}};
   for (size_t i = 0; i < sizeof effects / sizeof *effects; i++)
     if (effects[i].is_given)
