@@ -236,4 +236,37 @@ end }
       assert.are.equal(drawn, made(4, ""):sub(1, #drawn))
     end
   end)
+
+  it("has spans of a gradient that is before and behind flat drawings, and no arrays", function()
+    local layers = bench:write("layers.lua", [[
+local celspan = require "celspan"
+local function grains(alpha)
+  local list = {}
+  for i = 0, 255 do
+    list[i + 1] = celspan.rect { 5 * (i % 16), 5 * (i // 16), 4, 4,
+                                 texture = celspan.rgb(i % 5 / 4, i % 7 / 6, i % 3 / 2, alpha) }
+  end
+  return celspan.union(list)
+end
+local fog = celspan.rect { 0, 0, 80, 80, texture = celspan.linear { from = { 0, 0 }, to = { 80, 9 },
+  { 0, "#f0f0ff20" }, { 0.3, "#80a0ffc0" }, { 1, "#ff804000" } } }
+local behind, before = grains(1), grains(0.4)
+return celspan.film { size = { 80, 80 }, frames = math.tointeger(tonumber((...))),
+  frame = function(f)
+    return celspan.rostrum { celspan.cel { behind },
+      celspan.cel { fog, grains(0):translate(100, 0), opacity = 0.9,
+                    front = { 1, 0.8, 0.6 } },
+      celspan.cel { before:translate(f.number, 2) }, back = "#203040" }
+  end }
+]])
+    local _, out = bench:celspan("spans %s --stats -- 4", layers)
+    local arrays, maps = out:match " array (%d+).* maps (%d+)"
+    assert.are.equal("0 3", arrays .. " " .. maps)
+    local function made(frames)
+      local code, text, err = bench:celspan("render %s -o - --frames 1 -- %d", layers, frames)
+      assert.are.equal(0, code, err)
+      return text
+    end
+    assert.is_true(difference(made(1), made(4)) <= 1)
+  end)
 end)

@@ -33,6 +33,7 @@ void cs_map_maker_finish(cs_map_maker *maker) {
     cs_map_brush_finish(&maker->brushes[i]);
   cs_mem_free(memory, maker->rows, maker->frame->count * sizeof *maker->rows);
   cs_mem_free(memory, maker->brushes, maker->frame->count * sizeof *maker->brushes);
+  cs_row_finish(&maker->painted, memory);
   cs_map_sums_finish(&maker->sums, memory);
   cs_map_exact_finish(&maker->exact, memory);
   *maker = (cs_map_maker){0};
@@ -140,13 +141,98 @@ static bool is_bare(const folding *f, const cs_map_fold *fold) {
          cs_map_brush_is_bare(&sheet->drawing) && fold->t == 1 && cs_v4_same(fold->e, cs_v4_all(0));
 }
 
-/* Paints the only cell that can be seen as a run. */
-static celspan_status paint_bare(folding *f, int32_t x, int32_t end, cs_row *out) {
-  size_t i = f->shown_count - 1;
+/* Paints a cell of a sheet as a run. */
+static celspan_status paint_run(folding *f, size_t i, int32_t x, int32_t end, cs_row *out) {
   cs_map_brush *brush = f->maker->rows[i].brush;
   cs_program program = cs_map_brush_program(brush->drawing, f->at[i]->cell);
   return cs_painter_run_program(&brush->painter, &program, (cs_run){x, end, f->y + 0.5}, out);
 }
+
+/* ---------------------------------------------------------------- one that varies among flats */
+
+/* What a pixel shows is then an affine function of the colour c of the sheet that varies:
+ * base + scale * c + cover * the alpha of c. */
+typedef struct affine {
+  cs_v4 base, scale, cover;
+} affine;
+
+/* What shows where the sheet that varies has this colour. */
+static cs_v4 fold_with(const folding *f, size_t varied, cs_v4 colour) {
+  cs_map_fold fold = cs_map_fold_begin;
+  for (size_t i = 0; i < f->shown_count; i++)
+    cs_map_fold_add(&fold, f->shown[i].sheet, i == varied ? colour : f->shown[i].colour);
+  return cs_map_fold_end(fold, f->maker->frame);
+}
+
+/* How much is seen of the light of a sheet. */
+static float transmission_before(const folding *f, size_t sheet) {
+  float t = 1;
+  for (size_t i = 0; i < sheet; i++)
+    t *= 1 - f->shown[i].colour[3];
+  return t;
+}
+
+static affine find_affine(const folding *f, size_t varied) {
+  cs_v4 light = f->shown[varied].sheet->drawing.light;
+  cs_v4 base = fold_with(f, varied, cs_v4_all(0));
+  cs_v4 covered = fold_with(f, varied, (cs_v4){0, 0, 0, light[3]});
+  cs_v4 scale = transmission_before(f, varied) * light;
+  scale[3] = 0;
+  return (affine){base, scale, covered - base};
+}
+
+static cs_v4 slope_through(const affine *p, cs_v4 slope) {
+  return p->scale * slope + p->cover * slope[3];
+}
+
+static celspan_status put_array(const cs_map_maker *maker, const affine *p,
+                                const celspan_span *span, cs_row *out) {
+  float *colours;
+  CS_TRY(cs_row_array(maker->context, out, span->x0, span->x1, &colours));
+  for (size_t k = 0; k < (size_t)(span->x1 - span->x0); k++)
+    cs_v4_store(colours + 4 * k, p->base + slope_through(p, cs_v4_load(span->array + 4 * k)));
+  return CELSPAN_OK;
+}
+
+/* Appends a span through the sheets before it, and over those behind it. */
+static celspan_status put_through(const cs_map_maker *maker, const affine *p,
+                                  const celspan_span *span, cs_row *out) {
+  if (span->kind == CELSPAN_SPAN_ARRAY)
+    return put_array(maker, p, span, out);
+  cs_v4 colour = p->base + slope_through(p, cs_v4_load(span->colour));
+  if (span->kind == CELSPAN_SPAN_SINGLE)
+    return cs_row_single(maker->context, out, span->x0, span->x1, colour);
+  return cs_row_gradient(maker->context, out, span->x0, span->x1, colour,
+                         slope_through(p, cs_v4_load(span->slope)));
+}
+
+/* Which sheet varies, where it is the only one and flat ones alone are before and behind it; the
+ * number of sheets: none. */
+static size_t only_varied(const folding *f) {
+  size_t i = 0;
+  while (f->at[i]->share_count == 0)
+    i++;
+  bool is_one = f->varied_count == 1 && f->at[i]->cell != CS_MAP_BROKEN;
+  return is_one && !f->shown[i].sheet->drawing.grade ? i : f->shown_count;
+}
+
+/* Whether spans seen among flat ones are no farther from their curve than twice what they are by
+ * themselves: they were made with half the error that they may have. */
+static bool keeps_error(const affine *p) {
+  return !cs_v4_any_above(p->scale, cs_v4_all(1)) && !cs_v4_any_above(p->base, cs_v4_all(1));
+}
+
+static celspan_status paint_affine(folding *f, const affine *p, size_t varied, int32_t x,
+                                   int32_t end, cs_row *out) {
+  cs_row *painted = &f->maker->painted;
+  cs_row_clear(painted);
+  CS_TRY(paint_run(f, varied, x, end, painted));
+  for (size_t i = 0; i < painted->count; i++)
+    CS_TRY(put_through(f->maker, p, &painted->spans[i], out));
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- all that vary */
 
 /* Folds the sheets pixel by pixel. */
 static celspan_status fold_batch(folding *f, int32_t x, int32_t end, float *out) {
@@ -169,10 +255,16 @@ static celspan_status paint_varied(folding *f, const cs_map_fold *fold, int32_t 
                                    cs_row *out) {
   float *colours, one[4];
   if (is_bare(f, fold))
-    return paint_bare(f, x, end, out);
+    return paint_run(f, f->shown_count - 1, x, end, out);
   if (end == x + 1) {
     CS_TRY(fold_batch(f, x, end, one));
     return cs_row_single(f->maker->context, out, x, end, cs_v4_load(one));
+  }
+  size_t varied = only_varied(f);
+  if (varied < f->shown_count) {
+    const affine p = find_affine(f, varied);
+    if (keeps_error(&p))
+      return paint_affine(f, &p, varied, x, end, out);
   }
   CS_TRY(cs_row_array(f->maker->context, out, x, end, &colours));
   for (int32_t next; x < end; colours += (size_t)4 * (size_t)(next - x), x = next) {

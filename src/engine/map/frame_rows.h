@@ -11,7 +11,8 @@ typedef struct cs_map_maker {
   cs_map_brush *brushes; /* one for each sheet */
   int32_t row;           /* the first of the swath that `rows` has; -1: they have none */
   cs_map_exact exact;
-  bool varies; /* something in the frame's drawings does */
+  cs_row painted; /* a run of the only sheet that varies */
+  bool varies;    /* something in the frame's drawings does */
 } cs_map_maker;
 
 /* Errors: NO_MEMORY; cs_map_maker_finish must be called then, too. */
