@@ -317,6 +317,71 @@ describe("a shape that is dilated", function()
   end)
 end)
 
+describe("shapes of one colour", function()
+  local WIDE = 'x="-1" y="-1" width="3" height="3"'
+
+  --- The sides of what a filter leaves along the middle: left, right, top, bottom.
+  local function sides(art)
+    local list, codes = {}, pixels(art.object):bytes { depth = 8 }
+    local function is_there(x, y) return codes:byte(4 * (y * SIDE + x) + 4) > 100 end
+    for i = 0, SIDE - 1 do
+      if is_there(i, 25) then list[1], list[2] = list[1] or i, i + 1 end
+      if is_there(25, i) then list[3], list[4] = list[3] or i, i + 1 end
+    end
+    return table.concat(list, " ")
+  end
+
+  it("grow and shrink by the rectangle of the radii", function()
+    local function becomes(expected, attributes)
+      local art = filtered(("<feMorphology %s/>"):format(attributes), WIDE)
+      assert.are.equal("", told(art))
+      assert.are.equal(expected, sides(art), attributes)
+    end
+    becomes("20 60 20 60", "")
+    becomes("20 60 20 60", 'radius="0"')
+    becomes("20 60 20 60", 'radius="-1" operator="dilate"')
+    becomes("24 56 24 56", 'radius="4"')
+    becomes("16 64 16 64", 'radius="4" operator="dilate"')
+    becomes("22 58 24 56", 'radius="2 4" operator="erode"')
+    becomes("20 60 23 57", 'radius="0 3" operator="erode"')
+    becomes("", 'radius="21"')
+    becomes("", 'radius="1e9"')
+  end)
+
+  it("keep their colour and their alpha, and the corners of the rectangle", function()
+    for operator, inside in pairs { erode = 24, dilate = 16 } do
+      local art = read(('<filter id="f" %s><feMorphology operator="%s" radius="4"/></filter><rect '
+        .. 'x="20" y="20" width="40" height="40" fill="#40c080" fill-opacity="0.4" '
+        .. 'filter="url(#f)"/>'):format(WIDE, operator))
+      assert.are.equal("", told(art))
+      assert_near({ 64, 192, 128, 102 }, at(art, 40, 40), 1)
+      assert_near({ 64, 192, 128, 102 }, at(art, inside + 1, inside + 1), 1)
+      assert_near({ 0, 0, 0, 0 }, at(art, inside - 1, 40))
+    end
+  end)
+
+  it("are lines, texts, and what was made of them before", function()
+    local art = read(('<filter id="f" %s><feMorphology radius="4"/><feOffset dx="10"/>'
+      .. '<feMorphology operator="dilate" radius="4"/></filter><g color="red"><path '
+      .. 'd="M10 30h60" stroke="currentColor" stroke-width="20" fill="none" filter="url(#f)"/></g>')
+      :format('filterUnits="userSpaceOnUse" x="0" y="0" width="100" height="100"'))
+    assert.are.equal("", told(art))
+    assert_near({ 255, 0, 0, 255 }, at(art, 21, 21), 1)
+    assert_near({ 0, 0, 0, 0 }, at(art, 18, 30))
+    assert_near({ 0, 0, 0, 0 }, at(art, 30, 18))
+    local several = '<filter id="f"><feMorphology radius="1"/></filter>%s'
+    for _, content in ipairs {
+      '<rect width="9" height="9" stroke="red" filter="url(#f)"/>',
+      '<g filter="url(#f)"><rect width="9" height="9"/></g>',
+      '<linearGradient id="a"><stop/></linearGradient><rect width="9" height="9" fill="url(#a)" '
+        .. 'filter="url(#f)"/>',
+    } do
+      assert.is_truthy(told(read(several:format(content)))
+        :find("feMorphology of several colours", 1, true), content)
+    end
+  end)
+end)
+
 describe("a function", function()
   local WIDE = 'x="-2" y="-2" width="5" height="5" '
 
@@ -457,10 +522,7 @@ describe("what a filter cannot do", function()
   it("is named at its line, and the element is drawn as it is", function()
     for primitive, what in pairs {
       ["<feTurbulence/>"] = "feTurbulence",
-      ["<feMorphology radius='2'/>"] = "feMorphology that erodes",
-      ["<feMorphology radius='2' operator='dilate'/>"] =
-        "feMorphology of another input than SourceAlpha",
-      ['<feGaussianBlur stdDeviation="1" edgeMode="wrap"/>'] = "feGaussianBlur with an edgeMode",
+      ["<feBlend/><feMorphology radius='2'/>"] = "feMorphology of several colours",
       ['<feOffset in="BackgroundImage"/>'] = "feOffset with such an input",
       ['<feComposite operator="arithmetic" k1="1"/>'] = "feComposite with such a k1",
       ['<feComposite operator="arithmetic" k2="-1"/>'] = "feComposite with such numbers",
@@ -483,6 +545,14 @@ describe("what a filter cannot do", function()
       assert.are.equal("1 filter of rect", told(art))
       assert_near({ 0, 0, 0, 255 }, at(art, 4, 4))
     end
+  end)
+
+  it("is named where browsers draw something else", function()
+    local blur = '<feGaussianBlur stdDeviation="4" %s/>'
+    local art, plain = filtered(blur:format 'edgeMode="duplicate"'), filtered(blur:format "")
+    assert.are.equal('1 edgeMode "duplicate"', told(art))
+    assert.are.equal(0, images.difference(pixels(art.object), pixels(plain.object)))
+    assert.are.equal("", told(filtered(blur:format 'edgeMode="none"')))
   end)
 
   it("is named where it would show itself or grow without end", function()

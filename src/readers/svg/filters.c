@@ -7,6 +7,7 @@
 #include "model/colour/blend.h"
 #include "readers/svg/filter_colours.h"
 #include "readers/svg/filter_functions.h"
+#include "readers/svg/filter_shapes.h"
 #include "readers/svg/image.h"
 #include "readers/svg/regions.h"
 #include "readers/svg/shapes.h"
@@ -172,26 +173,25 @@ static celspan_status read_blur(filter *f) {
   const char *edge = cs_svg_node_value(f->node, CS_SVG_EDGE_MODE);
   f->step.kind = CS_SVG_STEP_BLUR;
   read_deviations(f, 0);
-  if (edge && !cs_svg_is_word(edge, "none"))
-    f->reason = "with an edgeMode";
+  if (edge && cs_svg_words_have("duplicate|wrap", edge)) /* as browsers draw it: as `none` */
+    CS_TRY(cs_svg_skip(f->reading, f->node, "edgeMode \"%.10s\"", cs_svg_skip_space(edge)));
   return take_input(f, f->node, CS_SVG_IN);
 }
 
-/* The greatest of the pixels around is an outline where all are of one colour, with round corners
- * instead of those of the rectangle of pixels. */
+/* The greatest and the least of the pixels around are shapes where all are of one colour. */
 static celspan_status read_morphology(filter *f) {
   const char *word = cs_svg_node_value(f->node, CS_SVG_OPERATOR);
   double values[2] = {0, 0};
   size_t count = cs_svg_filter_numbers(f->node, CS_SVG_RADIUS, values, 2);
   if (count == 1)
     values[1] = values[0];
-  f->step.kind = CS_SVG_STEP_GROW;
+  f->step.kind = word && cs_svg_is_word(word, "dilate") ? CS_SVG_STEP_GROW : CS_SVG_STEP_SHRINK;
   f->step.radius = scaled(f, fmax(0, values[0]), fmax(0, values[1]));
   CS_TRY(take_input(f, f->node, CS_SVG_IN));
-  if (!word || !cs_svg_is_word(word, "dilate"))
-    f->reason = "that erodes";
-  else if (f->recipe->inputs[f->step.first_input] != 1)
-    f->reason = "of another input than SourceAlpha";
+  if (fmax(f->step.radius.x, f->step.radius.y) > 0 &&
+      !cs_svg_filter_one_paint(f->reading, f->element, f->place, f->recipe,
+                               f->recipe->inputs[f->step.first_input], &f->step.paint))
+    f->reason = "of several colours";
   return CELSPAN_OK;
 }
 

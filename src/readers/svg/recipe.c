@@ -5,11 +5,10 @@
 #include "model/scene/bounds.h"
 #include "model/scene/primitive_data.h"
 #include "model/scene/value.h"
+#include "readers/svg/morphology.h"
+#include "readers/svg/objects.h"
 #include "readers/svg/shapes.h"
 
-/* The least share of the greater radius of a blur that the other one may be: less cannot be seen,
- * and would stretch the object without limit. */
-#define LEAST_RADIUS 1e-3
 /* Terms of a sum. */
 #define TERMS (3 * CS_SVG_SUM_MOST)
 
@@ -80,25 +79,10 @@ static celspan_object *kept(celspan_object *object) {
   return object ? celspan_object_ref(object) : NULL;
 }
 
-/* Replaces *object, which is given up, by what `status` made of it. */
-static celspan_status replace(celspan_status status, celspan_object *made,
-                              celspan_object **object) {
-  celspan_object_unref(*object);
-  *object = status == CELSPAN_OK ? made : NULL;
-  return status;
-}
-
-static celspan_status transform(const applying *a, const celspan_matrix *matrix,
-                                celspan_object **object) {
-  celspan_object *made = NULL;
-  celspan_status status = celspan_object_transform(a->context, *object, matrix, &made);
-  return replace(status, made, object);
-}
-
 static celspan_status convert(const applying *a, celspan_space space, celspan_object **object) {
   celspan_object *made = NULL;
   celspan_status status = cs_object_in_space(a->context, *object, space, &made);
-  return replace(status, made, object);
+  return cs_svg_object_replace(status, made, object);
 }
 
 /* Objects over each other, composited by themselves in the step's space. */
@@ -127,47 +111,6 @@ static celspan_status blend(const applying *a, celspan_object *back, celspan_obj
   return status;
 }
 
-/* `art` where `by` is, or is not; either may be nothing. */
-static celspan_status mask(const applying *a, celspan_object *art, celspan_object *by, bool inverts,
-                           celspan_object **out) {
-  *out = !by && inverts ? kept(art) : NULL;
-  return art && by
-             ? celspan_object_create_matte(a->context, art, by, CELSPAN_MATTE_ALPHA, inverts, out)
-             : CELSPAN_OK;
-}
-
-static celspan_status fill(const applying *a, const celspan_box *box, celspan_texture *texture,
-                           celspan_object **out) {
-  const celspan_rect_desc desc = {box->x, box->y, box->width, box->height, 0, texture};
-  return celspan_object_create_rect(a->context, &desc, out);
-}
-
-static celspan_status flood(const applying *a, const celspan_box *box, const celspan_paint *paint,
-                            celspan_object **out) {
-  celspan_texture *texture;
-  CS_TRY(celspan_texture_create_paint(a->context, paint, &texture));
-  celspan_status status = fill(a, box, texture, out);
-  celspan_texture_unref(texture);
-  return status;
-}
-
-/* The shape of an object in one paint. */
-static celspan_status silhouette(const applying *a, celspan_object *object,
-                                 const celspan_paint *paint, celspan_object **out) {
-  celspan_box box;
-  celspan_object *ground;
-  bool is_there = false;
-  *out = NULL;
-  if (object)
-    CS_TRY(cs_bounds_object(a->context, object, &is_there, &box));
-  if (!is_there)
-    return CELSPAN_OK;
-  CS_TRY(flood(a, &box, paint, &ground));
-  celspan_status status = mask(a, ground, object, false, out);
-  celspan_object_unref(ground);
-  return status;
-}
-
 static bool is_within(const celspan_box *inner, const celspan_box *outer) {
   return inner->x >= outer->x && inner->y >= outer->y &&
          inner->x + inner->width <= outer->x + outer->width &&
@@ -185,11 +128,11 @@ static celspan_status cut(const applying *a, const celspan_box *box, celspan_obj
   if (!is_there || (is_within(&bounds, box) && box->width > 0 && box->height > 0))
     return CELSPAN_OK;
   if (!(box->width > 0) || !(box->height > 0))
-    return replace(CELSPAN_OK, NULL, object);
+    return cs_svg_object_replace(CELSPAN_OK, NULL, object);
   CS_TRY(cs_svg_rectangle(a->context, box, &identity, &both[1]));
   celspan_status status = celspan_object_create_boolean(a->context, CELSPAN_CLIP, both, 2, &made);
   celspan_object_unref(both[1]);
-  return replace(status, made, object);
+  return cs_svg_object_replace(status, made, object);
 }
 
 /* ---------------------------------------------------------------- steps of compositing */
@@ -211,18 +154,18 @@ static celspan_status make_blend(const applying *a, celspan_object **out) {
 }
 
 static celspan_status make_in(const applying *a, celspan_object **out) {
-  return mask(a, input(a, 0), input(a, 1), false, out);
+  return cs_svg_object_mask(a->context, input(a, 0), input(a, 1), false, out);
 }
 
 static celspan_status make_out(const applying *a, celspan_object **out) {
-  return mask(a, input(a, 0), input(a, 1), true, out);
+  return cs_svg_object_mask(a->context, input(a, 0), input(a, 1), true, out);
 }
 
 /* The two parts do not overlap, so they are added. */
 static celspan_status make_both(const applying *a, bool inverts, celspan_object **out) {
   celspan_object *front, *back = NULL;
-  CS_TRY(mask(a, input(a, 0), input(a, 1), inverts, &front));
-  celspan_status status = mask(a, input(a, 1), input(a, 0), true, &back);
+  CS_TRY(cs_svg_object_mask(a->context, input(a, 0), input(a, 1), inverts, &front));
+  celspan_status status = cs_svg_object_mask(a->context, input(a, 1), input(a, 0), true, &back);
   if (status == CELSPAN_OK)
     status = blend(a, back, front, CELSPAN_BLEND_ADD, out);
   celspan_object_unref(front);
@@ -257,7 +200,7 @@ static celspan_status make_sum(const applying *a, celspan_object **out) {
   const celspan_paint white = celspan_paint_rgb(1, 1, 1, 1);
   celspan_object *terms[TERMS], *ground;
   size_t count = 0;
-  CS_TRY(flood(a, &a->step->box, &white, &ground));
+  CS_TRY(cs_svg_object_flood(a->context, &a->step->box, &white, &ground));
   celspan_object *const parts[3] = {input(a, 0), input(a, 1), ground};
   celspan_status status = CELSPAN_OK;
   for (int i = 0; i < 3 && status == CELSPAN_OK; i++)
@@ -290,7 +233,7 @@ static celspan_status make_luma(const applying *a, celspan_object **out) {
     return CELSPAN_OK;
   celspan_status status = convert(a, a->step->space, &by);
   if (status == CELSPAN_OK)
-    status = silhouette(a, by, &black, &ground);
+    status = cs_svg_object_silhouette(a->context, by, &black, &ground);
   if (status == CELSPAN_OK && ground) {
     status = celspan_object_create_matte(a->context, ground, by, CELSPAN_MATTE_LUMA, false, &light);
     celspan_object_unref(ground);
@@ -302,7 +245,7 @@ static celspan_status make_luma(const applying *a, celspan_object **out) {
 
 static celspan_status move(const applying *a, celspan_object **object) {
   const celspan_matrix matrix = celspan_matrix_translation(a->step->offset.x, a->step->offset.y);
-  return *object ? transform(a, &matrix, object) : CELSPAN_OK;
+  return *object ? cs_svg_object_move(a->context, &matrix, object) : CELSPAN_OK;
 }
 
 static celspan_status make_offset(const applying *a, celspan_object **out) {
@@ -310,50 +253,18 @@ static celspan_status make_offset(const applying *a, celspan_object **out) {
   return move(a, out);
 }
 
-/* What is made of an object by one radius, where another is wanted along each axis: between two
- * stretches along y. */
-typedef celspan_status round_effect(const applying *a, double radius, celspan_object *object,
-                                    celspan_object **out);
-
-static celspan_status spread(const applying *a, round_effect *effect, celspan_object **object) {
-  double most = fmax(a->step->radius.x, a->step->radius.y);
-  double x = fmax(a->step->radius.x, LEAST_RADIUS * most);
-  double stretch = fmax(a->step->radius.y, LEAST_RADIUS * most) / x;
-  celspan_object *made = NULL;
-  if (!*object || !(most > 0))
+static celspan_status blur(const applying *a, celspan_object **object) {
+  const celspan_point *radius = &a->step->radius;
+  if (!*object || !(fmax(radius->x, radius->y) > 0))
     return CELSPAN_OK;
-  const celspan_matrix forth = celspan_matrix_scaling(1, 1 / stretch),
-                       back = celspan_matrix_scaling(1, stretch);
-  if (stretch != 1)
-    CS_TRY(transform(a, &forth, object));
-  celspan_status status = effect(a, fmin(x, CELSPAN_BLUR_MOST), *object, &made);
-  CS_TRY(replace(status, made, object));
-  if (stretch != 1)
-    CS_TRY(transform(a, &back, object));
+  CS_TRY(cs_svg_object_blur(a->context, radius, CELSPAN_DEFOCUS_GAUSSIAN, object));
   return convert(a, a->step->space, object);
 }
 
-static celspan_status blur_round(const applying *a, double radius, celspan_object *object,
-                                 celspan_object **out) {
-  celspan_blur_desc desc = CELSPAN_BLUR_DESC;
-  desc.radius = radius;
-  return celspan_object_blur(a->context, object, &desc, out);
-}
-
-static celspan_status grow_round(const applying *a, double radius, celspan_object *object,
-                                 celspan_object **out) {
-  celspan_outline_desc desc = CELSPAN_OUTLINE_DESC;
-  desc.width = radius;
-  return celspan_object_outline(a->context, object, &desc, out);
-}
-
-static celspan_status blur(const applying *a, celspan_object **object) {
-  return spread(a, blur_round, object);
-}
-
-static celspan_status make_grow(const applying *a, celspan_object **out) {
-  *out = kept(input(a, 0));
-  return spread(a, grow_round, out);
+static celspan_status make_morphology(const applying *a, celspan_object **out) {
+  const cs_svg_step *step = a->step;
+  const cs_svg_morphology look = {step->kind == CS_SVG_STEP_SHRINK, step->radius, step->paint};
+  return cs_svg_morphology_make(a->context, input(a, 0), &look, out);
 }
 
 static celspan_status make_blur(const applying *a, celspan_object **out) {
@@ -363,7 +274,8 @@ static celspan_status make_blur(const applying *a, celspan_object **out) {
 
 static celspan_status make_shadow(const applying *a, celspan_object **out) {
   celspan_object *shadow = NULL;
-  celspan_status status = silhouette(a, input(a, 0), &a->step->paint, &shadow);
+  celspan_status status =
+      cs_svg_object_silhouette(a->context, input(a, 0), &a->step->paint, &shadow);
   if (status == CELSPAN_OK)
     status = blur(a, &shadow);
   if (status == CELSPAN_OK)
@@ -382,7 +294,7 @@ static celspan_status make_tile(const applying *a, celspan_object **out) {
   if (!desc.art || !(desc.box.width > 0) || !(desc.box.height > 0))
     return CELSPAN_OK;
   CS_TRY(celspan_texture_create_pattern(a->context, &desc, &texture));
-  celspan_status status = fill(a, &a->step->box, texture, out);
+  celspan_status status = cs_svg_object_fill(a->context, &a->step->box, texture, out);
   celspan_texture_unref(texture);
   return status;
 }
@@ -390,7 +302,7 @@ static celspan_status make_tile(const applying *a, celspan_object **out) {
 /* ---------------------------------------------------------------- steps without inputs */
 
 static celspan_status make_flood(const applying *a, celspan_object **out) {
-  return flood(a, &a->step->box, &a->step->paint, out);
+  return cs_svg_object_flood(a->context, &a->step->box, &a->step->paint, out);
 }
 
 static celspan_status make_image(const applying *a, celspan_object **out) {
@@ -403,15 +315,23 @@ static celspan_status make_image(const applying *a, celspan_object **out) {
 /* *out: NULL before; what was made, also after a failure. */
 typedef celspan_status step_maker(const applying *a, celspan_object **out);
 
-static step_maker *const makers[] = {
-    [CS_SVG_STEP_MERGE] = make_merge, [CS_SVG_STEP_BLEND] = make_blend,
-    [CS_SVG_STEP_IN] = make_in,       [CS_SVG_STEP_OUT] = make_out,
-    [CS_SVG_STEP_ATOP] = make_atop,   [CS_SVG_STEP_XOR] = make_xor,
-    [CS_SVG_STEP_SUM] = make_sum,     [CS_SVG_STEP_COLOUR] = make_colour,
-    [CS_SVG_STEP_LUMA] = make_luma,   [CS_SVG_STEP_OFFSET] = make_offset,
-    [CS_SVG_STEP_BLUR] = make_blur,   [CS_SVG_STEP_SHADOW] = make_shadow,
-    [CS_SVG_STEP_FLOOD] = make_flood, [CS_SVG_STEP_TILE] = make_tile,
-    [CS_SVG_STEP_IMAGE] = make_image, [CS_SVG_STEP_GROW] = make_grow};
+static step_maker *const makers[] = {[CS_SVG_STEP_MERGE] = make_merge,
+                                     [CS_SVG_STEP_BLEND] = make_blend,
+                                     [CS_SVG_STEP_IN] = make_in,
+                                     [CS_SVG_STEP_OUT] = make_out,
+                                     [CS_SVG_STEP_ATOP] = make_atop,
+                                     [CS_SVG_STEP_XOR] = make_xor,
+                                     [CS_SVG_STEP_SUM] = make_sum,
+                                     [CS_SVG_STEP_COLOUR] = make_colour,
+                                     [CS_SVG_STEP_LUMA] = make_luma,
+                                     [CS_SVG_STEP_OFFSET] = make_offset,
+                                     [CS_SVG_STEP_BLUR] = make_blur,
+                                     [CS_SVG_STEP_SHADOW] = make_shadow,
+                                     [CS_SVG_STEP_FLOOD] = make_flood,
+                                     [CS_SVG_STEP_TILE] = make_tile,
+                                     [CS_SVG_STEP_IMAGE] = make_image,
+                                     [CS_SVG_STEP_GROW] = make_morphology,
+                                     [CS_SVG_STEP_SHRINK] = make_morphology};
 
 /* The element as the steps take it, and its silhouette. */
 static celspan_status make_sources(applying *a, celspan_object *object) {
@@ -421,9 +341,9 @@ static celspan_status make_sources(applying *a, celspan_object *object) {
   if (object)
     CS_TRY(convert(a, a->recipe->space, source));
   if (object)
-    CS_TRY(transform(a, &a->recipe->back, source));
+    CS_TRY(cs_svg_object_move(a->context, &a->recipe->back, source));
   CS_TRY(cut(a, &a->recipe->region, source));
-  return silhouette(a, *source, &black, &a->results[1]);
+  return cs_svg_object_silhouette(a->context, *source, &black, &a->results[1]);
 }
 
 static celspan_status make_steps(applying *a, celspan_object *object) {
@@ -449,11 +369,11 @@ static celspan_status apply_one(celspan_context *context, const cs_svg_recipe *r
   if (status == CELSPAN_OK && recipe->step_count > 0)
     made = kept(a.results[count - 1]);
   if (made)
-    status = transform(&a, &recipe->matrix, &made);
+    status = cs_svg_object_move(context, &recipe->matrix, &made);
   for (size_t i = 0; i < count; i++)
     celspan_object_unref(a.results[i]);
   cs_mem_free(context->memory, a.results, count * sizeof(celspan_object *));
-  return status == CELSPAN_OK ? replace(status, made, object) : status;
+  return status == CELSPAN_OK ? cs_svg_object_replace(status, made, object) : status;
 }
 
 celspan_status cs_svg_recipe_apply(celspan_context *context, const cs_svg_recipe *recipe,

@@ -34,7 +34,8 @@ typedef enum cs_svg_step_kind {
   CS_SVG_STEP_LUMA,   /* black, as far as the input is light */
   CS_SVG_STEP_OFFSET,
   CS_SVG_STEP_BLUR,
-  CS_SVG_STEP_GROW,   /* the input, which is black, with an outline */
+  CS_SVG_STEP_GROW,   /* the paint where the rectangle around a point has any of the input in it */
+  CS_SVG_STEP_SHRINK, /* or nothing but that */
   CS_SVG_STEP_SHADOW, /* the input over its silhouette, blurred and moved */
   CS_SVG_STEP_FLOOD,
   CS_SVG_STEP_TILE, /* a part of the input, repeated */
@@ -51,8 +52,8 @@ typedef struct cs_svg_step {
   celspan_grade *grade;   /* COLOUR; owned; NULL: none */
   double opacity;         /* COLOUR */
   celspan_point offset;   /* OFFSET, SHADOW */
-  celspan_point radius;   /* BLUR, SHADOW, GROW: along x and y */
-  celspan_paint paint;    /* FLOOD, SHADOW */
+  celspan_point radius;   /* BLUR, SHADOW, GROW, SHRINK: along x and y */
+  celspan_paint paint;    /* FLOOD, SHADOW, GROW, SHRINK */
   celspan_box tile;       /* TILE */
   celspan_object *object; /* IMAGE; owned; NULL: nothing */
 } cs_svg_step;

@@ -1,0 +1,35 @@
+/* Objects that the steps of filters are made of. An object that is NULL is nothing.
+ */
+#pragma once
+
+#include "base/context.h"
+
+/* Replaces *object, which is given up, by what `status` made of it. */
+celspan_status cs_svg_object_replace(celspan_status status, celspan_object *made,
+                                     celspan_object **object);
+/* Each of the two gives *object up; NULL after a failure. Errors: NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_svg_object_move(celspan_context *context,
+                                                  const celspan_matrix *matrix,
+                                                  celspan_object **object);
+/* radius: along x and y, one of them above 0. */
+CELSPAN_CHECKED celspan_status cs_svg_object_blur(celspan_context *context,
+                                                  const celspan_point *radius,
+                                                  celspan_defocus_kernel kernel,
+                                                  celspan_object **object);
+
+/* *out: new; NULL: nothing. Errors: NO_MEMORY, LIMIT. */
+
+/* `art` where `by` is, or is not. */
+CELSPAN_CHECKED celspan_status cs_svg_object_mask(celspan_context *context, celspan_object *art,
+                                                  celspan_object *by, bool inverts,
+                                                  celspan_object **out);
+CELSPAN_CHECKED celspan_status cs_svg_object_fill(celspan_context *context, const celspan_box *box,
+                                                  celspan_texture *texture, celspan_object **out);
+CELSPAN_CHECKED celspan_status cs_svg_object_flood(celspan_context *context, const celspan_box *box,
+                                                   const celspan_paint *paint,
+                                                   celspan_object **out);
+/* The shape of an object in one paint. */
+CELSPAN_CHECKED celspan_status cs_svg_object_silhouette(celspan_context *context,
+                                                        celspan_object *object,
+                                                        const celspan_paint *paint,
+                                                        celspan_object **out);
