@@ -32,6 +32,7 @@ typedef struct live {
   pf_vertex from, to;            /* the current chord */
   double slope;                  /* of it: dx / dy */
   int64_t y;                     /* all above is done */
+  int32_t change[4];             /* of the colour, from left to right */
   pf_curve curve;
 } live;
 
@@ -45,6 +46,7 @@ struct planefile_drawer {
   sum *sums;                /* of `group` rows, each of columns + 1 pixels */
   sum steps[ROWS_MOST + 1]; /* of rows: by what all pixels differ from those of the row before */
   sum step;                 /* of the rows given so far */
+  sum start;                /* of every row: cell 0, and borders that are left of all rows */
   uint64_t *bits;
   size_t words;               /* of a row's bits */
   uint32_t group, made, next; /* rows: of a group, begun so far, given so far */
@@ -125,41 +127,38 @@ static double x_at(const live *l, int64_t y) {
   return l->from.x + l->slope * (double)(y - l->from.y);
 }
 
-static void find_change(const live *l, int32_t change[4]) {
-  const planefile_border *border = &l->band->borders[l->border];
-  const planefile_cell *left = &l->band->cells[border->left];
-  const planefile_cell *right = &l->band->cells[border->right];
+static void find_change(const planefile_band *band, const planefile_border *border,
+                        int32_t change[4]) {
+  const planefile_cell *left = &band->cells[border->left], *right = &band->cells[border->right];
   for (int c = 0; c < 4; c++)
     change[c] = right->colour[c] - left->colour[c];
 }
 
 /* Draws the part beside the crop of the current chord, if all of it is there. */
-static bool draw_beside(planefile_drawer *d, live *l, int64_t top, int64_t foot,
-                        const int32_t change[4]) {
+static bool draw_beside(planefile_drawer *d, live *l, int64_t top, int64_t foot) {
   double low = l->from.x < l->to.x ? l->from.x : l->to.x;
   double high = l->from.x < l->to.x ? l->to.x : l->from.x;
-  bool is_left = high <= d->view.x, is_right = low >= (double)d->view.x + d->view.columns;
-  if (d->view.sampling != PLANEFILE_AREA || !(is_left || is_right))
+  bool is_left = high <= d->view.x, is_beyond = low >= (double)d->view.x + d->view.columns;
+  if (d->view.sampling != PLANEFILE_AREA || !(is_left || is_beyond))
     return false;
   if (is_left && l->y < foot)
-    add_left(d, l->y - top, foot - top, change);
+    add_left(d, l->y - top, foot - top, l->change);
   l->y = foot;
   return true;
 }
 
 /* Draws the current chord down to a height that it reaches. top: of the rows being made. */
-static void draw_chord(planefile_drawer *d, live *l, int64_t top, int64_t foot,
-                       const int32_t change[4]) {
-  if (l->y >= foot || draw_beside(d, l, top, foot, change))
+static void draw_chord(planefile_drawer *d, live *l, int64_t top, int64_t foot) {
+  if (l->y >= foot || draw_beside(d, l, top, foot))
     return;
   while (l->y < foot) {
     int64_t row = (l->y - top) / PF_HEIGHT, end = top + (row + 1) * PF_HEIGHT;
     int64_t centre = end - PF_HEIGHT / 2;
     end = end < foot ? end : foot;
     if (d->view.sampling == PLANEFILE_AREA)
-      add_line(d, (uint32_t)row, x_at(l, l->y), x_at(l, end), end - l->y, change);
+      add_line(d, (uint32_t)row, x_at(l, l->y), x_at(l, end), end - l->y, l->change);
     else if (l->y <= centre && centre < end)
-      add_centre(d, (uint32_t)row, x_at(l, centre), change);
+      add_centre(d, (uint32_t)row, x_at(l, centre), l->change);
     l->y = end;
   }
 }
@@ -202,29 +201,56 @@ static int64_t piece_foot(const planefile_drawer *d, const planefile_band *band,
   return pf_height(band->points[of->point + of->degree].y, d->scale.y);
 }
 
-/* Goes to the chord at the height l->y, which is above the chain's foot. */
-static void seek(const planefile_drawer *d, live *l) {
-  const planefile_chain *chain = &l->band->chains[l->band->borders[l->border].chain];
-  uint32_t low = chain->piece, high = low + chain->piece_count - 1;
+/* The piece of a chain at a height, which is above the chain's foot. */
+static uint32_t find_piece(const planefile_drawer *d, const planefile_band *band, uint32_t chain,
+                           int64_t y) {
+  uint32_t low = band->chains[chain].piece, high = low + band->chains[chain].piece_count - 1;
   while (low < high) {
     uint32_t middle = low + (high - low) / 2;
-    if (piece_foot(d, l->band, middle) > l->y)
+    if (piece_foot(d, band, middle) > y)
       high = middle;
     else
       low = middle + 1;
   }
-  enter_piece(d, l, low);
+  return low;
+}
+
+/* Where the part of a border is that is in the rows of the crop, as far as one piece has all of it:
+ * -1: left of the crop; 1: right of it; 0: it may be in it. */
+static int side_of(const planefile_drawer *d, const planefile_band *band, uint32_t piece,
+                   int64_t foot) {
+  const planefile_piece *of = &band->pieces[piece];
+  int64_t end = ((int64_t)d->view.y + d->view.rows) * PF_HEIGHT;
+  double left = (d->view.x - 1.0) / d->scale.x;
+  double right = ((double)d->view.x + d->view.columns + 1) / d->scale.x;
+  bool is_left = true, is_right = true;
+  if (piece_foot(d, band, piece) < (foot < end ? foot : end))
+    return 0;
+  for (int i = 0; i <= of->degree; i++) {
+    is_left &= band->points[of->point + i].x < left;
+    is_right &= band->points[of->point + i].x > right;
+  }
+  return is_right - is_left;
+}
+
+/* Whether a border is in all rows of the crop, from a height to another one. */
+static bool is_long(const planefile_drawer *d, int64_t y, int64_t foot) {
+  int64_t top = (int64_t)d->view.y * PF_HEIGHT;
+  return y == top && foot >= top + (int64_t)d->view.rows * PF_HEIGHT;
+}
+
+/* Goes to the chord of a piece at the height l->y. */
+static void seek(const planefile_drawer *d, live *l, uint32_t piece) {
+  enter_piece(d, l, piece);
   l->chord = pf_curve_find(&l->curve, l->y) + 1;
   set_chord(l, pf_curve_vertex(&l->curve, l->chord - 1), pf_curve_vertex(&l->curve, l->chord));
 }
 
 /* Draws a border in the rows [top, foot). */
 static void draw_border(planefile_drawer *d, live *l, int64_t top, int64_t foot) {
-  int32_t change[4];
-  find_change(l, change);
   foot = l->foot < foot ? l->foot : foot;
   while (l->y < foot) {
-    draw_chord(d, l, top, l->to.y < foot ? l->to.y : foot, change);
+    draw_chord(d, l, top, l->to.y < foot ? l->to.y : foot);
     if (l->y < foot && !next_chord(d, l))
       return;
   }
@@ -232,22 +258,49 @@ static void draw_border(planefile_drawer *d, live *l, int64_t top, int64_t foot)
 
 /* ---------------------------------------------------------------- rows */
 
-/* Adds a border to those that live, unless it ends above. top: of the rows being made. */
-static planefile_status begin_border(planefile_drawer *d, const planefile_band *band,
-                                     uint32_t index, int64_t top) {
+/* What every row begins with. */
+static void add_start(planefile_drawer *d, const int32_t colour[4]) {
+  for (int c = 0; c < 4; c++)
+    d->start.channels[c] += (uint64_t)(colour[c] * (int64_t)PF_HEIGHT);
+}
+
+/* Adds to the borders that live one from a height on. */
+static planefile_status add_live(planefile_drawer *d, const planefile_band *band, uint32_t index,
+                                 uint32_t piece, int64_t y) {
   const planefile_border *border = &band->borders[index];
-  int64_t y = pf_height(border->top, d->scale.y), foot = pf_height(border->foot, d->scale.y);
-  y = y > top ? y : top;
-  if (foot <= y)
-    return PLANEFILE_OK;
   live *lives =
       pf_grow(&d->plane->memory, d->lives, sizeof *lives, &d->live_capacity, d->live_count + 1);
   if (!lives)
     return PLANEFILE_NO_MEMORY;
   d->lives = lives;
   live *l = &d->lives[d->live_count++];
-  *l = (live){.band = band, .border = index, .foot = foot, .y = y};
-  seek(d, l);
+  l->band = band;
+  l->border = index;
+  l->foot = pf_height(border->foot, d->scale.y);
+  l->y = y;
+  find_change(band, border, l->change);
+  seek(d, l, piece);
+  return PLANEFILE_OK;
+}
+
+/* Begins a border, unless it ends above or changes nothing in the crop. top: of the rows being
+ * made. */
+static planefile_status begin_border(planefile_drawer *d, const planefile_band *band,
+                                     uint32_t index, int64_t top) {
+  const planefile_border *border = &band->borders[index];
+  int64_t y = pf_height(border->top, d->scale.y), foot = pf_height(border->foot, d->scale.y);
+  int32_t change[4];
+  y = y > top ? y : top;
+  if (foot <= y)
+    return PLANEFILE_OK;
+  uint32_t piece = find_piece(d, band, border->chain, y);
+  int side = side_of(d, band, piece, foot);
+  if (side == 0 || (side < 0 && !is_long(d, y, foot)))
+    return add_live(d, band, index, piece, y);
+  if (side < 0) {
+    find_change(band, border, change);
+    add_start(d, change);
+  }
   return PLANEFILE_OK;
 }
 
@@ -287,11 +340,10 @@ static planefile_status make_rows(planefile_drawer *d) {
   rows = rows < d->group ? rows : d->group;
   int64_t foot = top + (int64_t)rows * PF_HEIGHT;
   memset(d->steps, 0, sizeof d->steps);
-  for (int c = 0; c < 4; c++)
-    d->step.channels[c] = (uint64_t)(d->plane->base.colour[c] * (int64_t)PF_HEIGHT);
   planefile_status status = begin_borders(d, top, foot);
   if (status != PLANEFILE_OK)
     return status;
+  d->step = d->start;
   size_t kept = 0;
   for (size_t i = 0; i < d->live_count; i++) {
     draw_border(d, &d->lives[i], top, foot);
@@ -414,6 +466,7 @@ planefile_status planefile_drawer_create(const planefile_plane *plane, const pla
   d->plane = plane;
   d->view = *view;
   d->scale = scale;
+  add_start(d, plane->base.colour);
   if (!make_sums(d)) {
     planefile_drawer_destroy(d);
     return PLANEFILE_NO_MEMORY;
