@@ -211,6 +211,16 @@ describe("two results are composited", function()
       return 0.25 * a + 1.2 * b + 0.1
     end)
     composited('operator="arithmetic"', function() return 0 end)
+    composited('operator="arithmetic" k1="1"', function(a, b) return a * b end)
+    composited('operator="arithmetic" k1="1.5" k2="0.2" k3="0.1" k4="0.05"', function(a, b)
+      return 1.5 * a * b + 0.2 * a + 0.1 * b + 0.05
+    end)
+    for _, inputs in ipairs { 'in2="SourceGraphic"', 'in="SourceGraphic" in2="a"' } do
+      local art = filtered('<feFlood flood-color="#80ff40" flood-opacity="0.5" result="a"/>'
+        .. '<feComposite operator="arithmetic" k1="1" ' .. inputs .. '/>')
+      assert_near({ encode(decode(64) * decode(128)), 192, encode(decode(128) * decode(64)), 128 },
+        at(art, 40, 40))
+    end
   end)
 end)
 
@@ -525,6 +535,7 @@ describe("what a filter cannot do", function()
       ["<feBlend/><feMorphology radius='2'/>"] = "feMorphology of several colours",
       ['<feOffset in="BackgroundImage"/>'] = "feOffset with such an input",
       ['<feComposite operator="arithmetic" k1="1"/>'] = "feComposite with such a k1",
+      ['<feComposite operator="arithmetic" k1="5"/>'] = "feComposite with such numbers",
       ['<feComposite operator="arithmetic" k2="-1"/>'] = "feComposite with such numbers",
       ['<feColorMatrix values="1 0 0 1 0 0 1 0 0 0 0 0 1 0 0 0 0 0 1 0"/>'] =
         "feColorMatrix with colours that depend on alpha",

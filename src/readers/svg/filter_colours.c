@@ -4,6 +4,7 @@
 
 #include "base/elementary.h"
 #include "base/number.h"
+#include "model/colour/transfer.h"
 
 #define DEGREES_TO_RADIANS (3.14159265358979323846 / 180)
 /* Values of a table, at most. */
@@ -225,6 +226,34 @@ static void read_matrix(const cs_svg_node *node, celspan_grade_desc *desc, cs_sv
       desc->matrix[row][column] = values[5 * row + (column < 3 ? column : 4)];
   }
 }
+
+/* ---------------------------------------------------------------- products */
+
+static bool is_flood(const cs_svg_recipe *recipe, size_t number) {
+  return number >= CS_SVG_SOURCES &&
+         recipe->steps[number - CS_SVG_SOURCES].kind == CS_SVG_STEP_FLOOD;
+}
+
+/* What is multiplied by a flood has the product of the colours where the flood is. */
+celspan_status cs_svg_product_read(const cs_svg_reading *reading, const cs_svg_recipe *recipe,
+                                   cs_svg_step *step, const char **reason) {
+  const size_t *inputs = recipe->inputs + step->first_input;
+  celspan_grade_desc desc = CELSPAN_GRADE_DESC;
+  step->flood = is_flood(recipe, inputs[1]);
+  if (!is_flood(recipe, inputs[step->flood])) {
+    *reason = "with such a k1";
+    return CELSPAN_OK;
+  }
+  const celspan_paint *paint = &recipe->steps[inputs[step->flood] - CS_SVG_SOURCES].paint;
+  desc.has_matrix = true;
+  for (int c = 0; c < 3; c++)
+    desc.matrix[c][c] = step->space == CELSPAN_SPACE_SRGB
+                            ? cs_transfer_encode(CELSPAN_TRANSFER_SRGB, paint->pigment[c])
+                            : paint->pigment[c];
+  return celspan_grade_create(reading->context, &desc, &step->grade);
+}
+
+/* ---------------------------------------------------------------- types of matrices */
 
 static bool is_type(const cs_svg_node *node, const char *word) {
   const char *type = cs_svg_node_value(node, CS_SVG_TYPE);

@@ -20,6 +20,11 @@ CELSPAN_CHECKED celspan_status cs_svg_transfer_read(cs_svg_reading *reading,
                                                     const cs_svg_node *node, cs_svg_step *step,
                                                     const char **reason);
 
+/* Fills in the product of two inputs of a step, of which one is a flood. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_svg_product_read(const cs_svg_reading *reading,
+                                                   const cs_svg_recipe *recipe, cs_svg_step *step,
+                                                   const char **reason);
+
 /* Fills in a turn of all hues. */
 void cs_svg_hue_set(celspan_grade_desc *desc, double degrees);
 /* The grade of a matrix, clamped to 0..1. *out: new. Errors: NO_MEMORY. */

@@ -228,18 +228,20 @@ static celspan_status read_blend(filter *f) {
   return take_both(f);
 }
 
-/* Products cannot be made, and nothing can be taken off. */
-static void read_sum(filter *f) {
+/* Nothing can be taken off, and of products one factor is a flood. */
+static celspan_status read_sum(filter *f) {
   double *weights = f->step.weights;
   f->step.kind = CS_SVG_STEP_SUM;
   weights[0] = cs_svg_filter_number(f->node, CS_SVG_K2, 0);
   weights[1] = cs_svg_filter_number(f->node, CS_SVG_K3, 0);
   weights[2] = fmin(1, cs_svg_filter_number(f->node, CS_SVG_K4, 0));
-  if (cs_svg_filter_number(f->node, CS_SVG_K1, 0) != 0)
-    f->reason = "with such a k1";
-  for (int i = 0; i < 3; i++)
+  weights[3] = cs_svg_filter_number(f->node, CS_SVG_K1, 0);
+  for (int i = 0; i < 4; i++)
     if (!(weights[i] >= 0 && weights[i] <= CS_SVG_SUM_MOST))
       f->reason = "with such numbers";
+  return weights[3] > 0 && !f->reason
+             ? cs_svg_product_read(f->reading, f->recipe, &f->step, &f->reason)
+             : CELSPAN_OK;
 }
 
 static celspan_status read_composite(filter *f) {
@@ -257,9 +259,8 @@ static celspan_status read_composite(filter *f) {
       f->step.kind = operators[i].kind;
   if (word && cs_svg_is_word(word, "lighter"))
     f->step.blend = CELSPAN_BLEND_ADD;
-  if (word && cs_svg_is_word(word, "arithmetic"))
-    read_sum(f);
-  return take_both(f);
+  CS_TRY(take_both(f));
+  return word && cs_svg_is_word(word, "arithmetic") ? read_sum(f) : CELSPAN_OK;
 }
 
 static celspan_status read_matrix(filter *f) {
@@ -345,7 +346,7 @@ static celspan_status start_uses(filter *f) {
 /* Counts how often the sources are in what the step makes. */
 static celspan_status count_uses(filter *f) {
   uint32_t uses = 0;
-  const size_t factor = f->step.kind == CS_SVG_STEP_SUM      ? CS_SVG_SUM_MOST
+  const size_t factor = f->step.kind == CS_SVG_STEP_SUM      ? 2 * CS_SVG_SUM_MOST
                         : f->step.kind == CS_SVG_STEP_SHADOW ? 2
                                                              : 1;
   for (size_t i = 0; i < f->step.input_count && uses <= CS_SVG_RECIPE_USES; i++)

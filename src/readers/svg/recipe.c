@@ -10,7 +10,7 @@
 #include "readers/svg/shapes.h"
 
 /* Terms of a sum. */
-#define TERMS (3 * CS_SVG_SUM_MOST)
+#define TERMS (4 * CS_SVG_SUM_MOST)
 
 /* ---------------------------------------------------------------- life */
 
@@ -196,18 +196,42 @@ static celspan_status add_terms(const applying *a, celspan_object *object, doubl
   return CELSPAN_OK;
 }
 
+/* An object in the colours of the step's grade, faded by its opacity. */
+static celspan_status grade(const applying *a, celspan_object *object, celspan_object **out) {
+  celspan_group_desc desc = CELSPAN_GROUP_DESC;
+  desc.objects = &object;
+  desc.object_count = 1;
+  desc.space = a->step->space;
+  desc.grade = a->step->grade;
+  desc.opacity = a->step->opacity;
+  return object ? celspan_object_create_group(a->context, &desc, out) : CELSPAN_OK;
+}
+
+/* The product of the inputs, of which one is a flood. */
+static celspan_status multiply(const applying *a, celspan_object **out) {
+  celspan_object *other = NULL;
+  if (!(a->step->weights[3] > 0))
+    return CELSPAN_OK;
+  CS_TRY(grade(a, input(a, !a->step->flood), &other));
+  celspan_status status =
+      cs_svg_object_mask(a->context, other, input(a, (size_t)a->step->flood), false, out);
+  celspan_object_unref(other);
+  return status;
+}
+
 static celspan_status make_sum(const applying *a, celspan_object **out) {
   const celspan_paint white = celspan_paint_rgb(1, 1, 1, 1);
-  celspan_object *terms[TERMS], *ground;
+  celspan_object *terms[TERMS], *ground, *product = NULL;
   size_t count = 0;
   CS_TRY(cs_svg_object_flood(a->context, &a->step->box, &white, &ground));
-  celspan_object *const parts[3] = {input(a, 0), input(a, 1), ground};
-  celspan_status status = CELSPAN_OK;
-  for (int i = 0; i < 3 && status == CELSPAN_OK; i++)
+  celspan_status status = multiply(a, &product);
+  celspan_object *const parts[4] = {input(a, 0), input(a, 1), ground, product};
+  for (int i = 0; i < 4 && status == CELSPAN_OK; i++)
     status = add_terms(a, parts[i], a->step->weights[i], terms, &count);
   if (status == CELSPAN_OK)
     status = unite(a, terms, count, out);
   celspan_object_unref(ground);
+  celspan_object_unref(product);
   while (count > 0)
     celspan_object_unref(terms[--count]);
   return status;
@@ -216,14 +240,7 @@ static celspan_status make_sum(const applying *a, celspan_object **out) {
 /* ---------------------------------------------------------------- steps of one input */
 
 static celspan_status make_colour(const applying *a, celspan_object **out) {
-  celspan_object *only[1] = {input(a, 0)};
-  celspan_group_desc desc = CELSPAN_GROUP_DESC;
-  desc.objects = only;
-  desc.object_count = 1;
-  desc.space = a->step->space;
-  desc.grade = a->step->grade;
-  desc.opacity = a->step->opacity;
-  return only[0] ? celspan_object_create_group(a->context, &desc, out) : CELSPAN_OK;
+  return grade(a, input(a, 0), out);
 }
 
 static celspan_status make_luma(const applying *a, celspan_object **out) {

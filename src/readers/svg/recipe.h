@@ -29,7 +29,7 @@ typedef enum cs_svg_step_kind {
   CS_SVG_STEP_OUT,    /* or is not */
   CS_SVG_STEP_ATOP,   /* IN, and the second where the first is not */
   CS_SVG_STEP_XOR,    /* each where the other is not */
-  CS_SVG_STEP_SUM,    /* both inputs and white, by weights */
+  CS_SVG_STEP_SUM,    /* both inputs, white and a product, by weights */
   CS_SVG_STEP_COLOUR, /* the input graded and faded */
   CS_SVG_STEP_LUMA,   /* black, as far as the input is light */
   CS_SVG_STEP_OFFSET,
@@ -48,8 +48,9 @@ typedef struct cs_svg_step {
   celspan_box box;     /* nothing is drawn if it has no size */
   size_t first_input, input_count;
   celspan_blend blend;    /* BLEND */
-  double weights[3];      /* SUM: 0..CS_SVG_SUM_MOST */
-  celspan_grade *grade;   /* COLOUR; owned; NULL: none */
+  double weights[4];      /* SUM: of the inputs, white and the product: 0..CS_SVG_SUM_MOST */
+  int flood;              /* SUM: the input that is one, if there is a product */
+  celspan_grade *grade;   /* COLOUR, and SUM: of the other factor; owned; NULL: none */
   double opacity;         /* COLOUR */
   celspan_point offset;   /* OFFSET, SHADOW */
   celspan_point radius;   /* BLUR, SHADOW, GROW, SHRINK: along x and y */
