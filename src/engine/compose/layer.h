@@ -112,9 +112,9 @@ typedef struct cs_group {
   float fade;
   bool has_light; /* a front light with a shape */
   bool varies;    /* it has one, or a group around it has */
-  bool curves; /* it is a head, unless of a matte of alpha, graded, converted to another space, or
-                        inside such a group: what the layers around it look like is no affine
-                        function of its paints */
+  bool curves;    /* it is a head (but not of a matte of alpha), graded, converted to another
+                        space, or inside such a group: what the layers around it look like is no
+                        affine function of its paints */
   bool is_source; /* it is a head, or inside one */
   bool inverts;   /* MATTE: 1 less its strength */
   bool is_luma;   /* MATTE: its strength is luma, else alpha */

@@ -372,14 +372,9 @@ static celspan_status outline_vector(celspan_context *context, celspan_object *o
 /* *object as a group whose light is SPREAD_STOPS brighter. */
 static celspan_status brighten(celspan_context *context, celspan_object **object) {
   celspan_grade_desc fields = CELSPAN_GRADE_DESC;
-  celspan_group_desc desc = CELSPAN_GROUP_DESC;
   celspan_object *made = NULL;
   fields.exposure = SPREAD_STOPS;
-  CS_TRY(celspan_grade_create(context, &fields, &desc.grade));
-  desc.objects = object;
-  desc.object_count = 1;
-  celspan_status status = celspan_object_create_group(context, &desc, &made);
-  celspan_grade_unref(desc.grade);
+  celspan_status status = cs_object_graded(context, *object, &fields, &made);
   return replace(object, status, made);
 }
 

@@ -198,6 +198,17 @@ celspan_status cs_object_in_space(celspan_context *context, celspan_object *obje
   return CELSPAN_OK;
 }
 
+celspan_status cs_object_graded(celspan_context *context, celspan_object *object,
+                                const celspan_grade_desc *fields, celspan_object **out) {
+  celspan_group_desc desc = CELSPAN_GROUP_DESC;
+  CS_TRY(celspan_grade_create(context, fields, &desc.grade));
+  desc.objects = &object;
+  desc.object_count = 1;
+  celspan_status status = celspan_object_create_group(context, &desc, out);
+  celspan_grade_unref(desc.grade);
+  return status;
+}
+
 /* ---------------------------------------------------------------- mattes */
 
 celspan_status celspan_object_create_matte(celspan_context *context, celspan_object *art,

@@ -87,6 +87,11 @@ CELSPAN_CHECKED celspan_status cs_primitive_data_set_box(celspan_context *contex
 CELSPAN_CHECKED celspan_status cs_object_in_space(celspan_context *context, celspan_object *object,
                                                   celspan_space space, celspan_object **out);
 
+/* The object alone in a group with a grade of these fields. *out: new. Errors: NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_object_graded(celspan_context *context, celspan_object *object,
+                                                const celspan_grade_desc *fields,
+                                                celspan_object **out);
+
 /* What operators are called, in their order, with that of mattes. */
 extern const char *const cs_boolean_words[];
 

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "model/scene/bounds.h"
+#include "model/scene/primitive_data.h"
 #include "readers/svg/objects.h"
 
 /* How many times brighter a mean is made. */
@@ -11,16 +12,11 @@
 /* *object as a group with `factor` times its light. */
 static celspan_status brighten(celspan_context *context, double factor, celspan_object **object) {
   celspan_grade_desc fields = CELSPAN_GRADE_DESC;
-  celspan_group_desc desc = CELSPAN_GROUP_DESC;
   celspan_object *made = NULL;
   fields.has_matrix = true;
   for (int c = 0; c < 3; c++)
     fields.matrix[c][c] = factor;
-  CS_TRY(celspan_grade_create(context, &fields, &desc.grade));
-  desc.objects = object;
-  desc.object_count = 1;
-  celspan_status status = celspan_object_create_group(context, &desc, &made);
-  celspan_grade_unref(desc.grade);
+  celspan_status status = cs_object_graded(context, *object, &fields, &made);
   return cs_svg_object_replace(status, made, object);
 }
 
