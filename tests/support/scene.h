@@ -58,6 +58,13 @@ static inline celspan_texture *studio_radial(studio *s, celspan_point centre, do
               celspan_texture_create_radial(s->context, centre, radius, stops, count, &made));
 }
 
+static inline celspan_texture *studio_focal(studio *s, celspan_point centre, double radius,
+                                            celspan_point focus, const celspan_stop *stops,
+                                            size_t count) {
+  STUDIO_TAKE(s, textures, texture_count, celspan_texture,
+              celspan_texture_create_focal(s->context, centre, radius, focus, stops, count, &made));
+}
+
 static inline celspan_texture *studio_gradient(studio *s, const celspan_point points[3],
                                                const celspan_paint paints[3]) {
   STUDIO_TAKE(s, textures, texture_count, celspan_texture,
@@ -112,6 +119,11 @@ static inline celspan_object *studio_transform(studio *s, celspan_object *object
                                                celspan_matrix matrix) {
   STUDIO_TAKE(s, objects, object_count, celspan_object,
               celspan_object_transform(s->context, object, &matrix, &made));
+}
+
+static inline celspan_object *studio_group(studio *s, const celspan_group_desc *desc) {
+  STUDIO_TAKE(s, objects, object_count, celspan_object,
+              celspan_object_create_group(s->context, desc, &made));
 }
 
 static inline celspan_object *studio_fade(studio *s, celspan_object *object, double k) {

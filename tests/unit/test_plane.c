@@ -18,6 +18,30 @@ static celspan_paint random_paint(test_random *random) {
   return celspan_paint_rgb(red, green, blue, alpha);
 }
 
+/* Whether scenes have gradients. */
+typedef enum variety { FLAT, VARIED } variety;
+
+static celspan_texture *random_gradient(studio *s, test_random *random) {
+  celspan_stop stops[4];
+  celspan_point from = random_point(random, -20, WIDTH + 20, -20, HEIGHT + 20);
+  celspan_point to = random_point(random, -20, WIDTH + 20, -20, HEIGHT + 20);
+  size_t count = 2 + (size_t)random_below(random, 3);
+  for (size_t i = 0; i < count; i++) {
+    celspan_paint paint = random_paint(random);
+    stops[i] = (celspan_stop){(double)i / (double)(count - 1), paint};
+  }
+  if (random_below(random, 3) == 0) {
+    const celspan_paint corners[3] = {stops[0].paint, stops[1].paint, random_paint(random)};
+    const celspan_point points[3] = {from, to, random_point(random, 0, WIDTH, 0, HEIGHT)};
+    return studio_gradient(s, points, corners);
+  }
+  if (random_below(random, 2))
+    return studio_linear(s, from, to, stops, count);
+  celspan_point focus = {from.x + 5, from.y - 8};
+  double radius = random_between(random, 30, 80);
+  return studio_focal(s, from, radius, focus, stops, count);
+}
+
 /* Of the second and the third degree. */
 static celspan_object *curved_path(studio *s, const celspan_point points[5],
                                    celspan_texture *texture) {
@@ -29,43 +53,62 @@ static celspan_object *curved_path(studio *s, const celspan_point points[5],
   return studio_path(s, data, texture);
 }
 
-static celspan_object *random_object(studio *s, test_random *random) {
-  celspan_texture *texture = studio_paint(s, random_paint(random));
+static celspan_object *random_object(studio *s, test_random *random, variety kind) {
+  celspan_texture *texture = kind == VARIED && random_below(random, 2)
+                                 ? random_gradient(s, random)
+                                 : studio_paint(s, random_paint(random));
   celspan_point corners[5];
   for (int k = 0; k < 5; k++)
     corners[k] = random_point(random, -10, WIDTH + 10, -10, HEIGHT + 10);
   double width = random_between(random, 1, 50), height = random_between(random, 1, 50);
-  int kind = (int)random_below(random, 6);
-  if (kind > 3)
+  int shape = (int)random_below(random, 6);
+  if (shape > 3)
     return curved_path(s, corners, texture);
-  if (kind < 2)
+  if (shape < 2)
     return studio_circle(s, corners[0].x, corners[0].y, width, texture);
-  if (kind == 2)
+  if (shape == 2)
     return studio_rect(s, corners[0].x, corners[0].y, width, height, texture);
   return studio_polygon(s, corners, 3, CELSPAN_RULE_NONZERO, texture);
 }
 
+/* The objects as one that may be faded, and be composited in sRGB. */
+static celspan_object *random_group(studio *s, test_random *random, celspan_object **objects,
+                                    size_t count) {
+  celspan_group_desc desc = CELSPAN_GROUP_DESC;
+  desc.objects = objects;
+  desc.object_count = count;
+  desc.opacity = random_below(random, 2) ? 1 : random_unit(random);
+  desc.space = random_below(random, 2) ? CELSPAN_SPACE_SRGB : CELSPAN_SPACE_AROUND;
+  return studio_group(s, &desc);
+}
+
 /* A cel of a few shapes, one of which is cut out of others. */
-static celspan_cel *random_cel(studio *s, test_random *random) {
+static celspan_cel *random_cel(studio *s, test_random *random, variety kind) {
   celspan_object *objects[5];
   celspan_cel_desc desc = CELSPAN_CEL_DESC;
   size_t count = 1 + (size_t)random_below(random, 5);
   for (size_t i = 0; i < count; i++)
-    objects[i] = random_object(s, random);
-  celspan_object *other = random_object(s, random);
+    objects[i] = random_object(s, random, kind);
+  celspan_object *other = random_object(s, random, kind);
   objects[0] = studio_pair(s, CELSPAN_DIFFERENCE, objects[0], other);
   desc.opacity = random_below(random, 3) ? 1 : random_unit(random);
   desc.back = random_below(random, 3) ? desc.back : (celspan_light){0.25f, 0.5f, 0, 0.5f};
+  if (kind == VARIED && random_below(random, 2)) {
+    desc.has_front = true;
+    desc.front = (celspan_light){1.5f, 0.75f, 0.5f, 1};
+    objects[0] = random_group(s, random, objects, count);
+    count = 1;
+  }
   return studio_cel(s, desc, objects, count);
 }
 
-static celspan_rostrum *random_rostrum(studio *s, uint64_t seed) {
+static celspan_rostrum *random_rostrum(studio *s, uint64_t seed, variety kind) {
   test_random random = {seed};
   celspan_cel *cels[3];
   celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
   size_t count = 1 + (size_t)random_below(&random, 3);
   for (size_t i = 0; i < count; i++)
-    cels[i] = random_cel(s, &random);
+    cels[i] = random_cel(s, &random, kind);
   if (random_below(&random, 2))
     desc.back = (celspan_light){1, 0.75f, 0.5f, 1};
   return studio_rostrum(s, desc, cels, count);
@@ -137,9 +180,9 @@ static void check_size(studio *s, const celspan_plane *plane, const celspan_expo
   free(drawn);
 }
 
-static void check_frames(studio *s) {
+static void check_frames(studio *s, variety kind) {
   for (uint64_t seed = 0; seed < 12; seed++) {
-    celspan_exposure exposure = {random_rostrum(s, seed), 1};
+    celspan_exposure exposure = {random_rostrum(s, seed, kind), 1};
     celspan_plane *plane = make_plane(s, exposure.rostrum);
     for (int32_t scale = 1; scale <= 40; scale *= 3)
       check_size(s, plane, &exposure, scale);
@@ -178,11 +221,11 @@ static void check_small(studio *s) {
 /* ---------------------------------------------------------------- as points are */
 
 /* Pixels at their centres, of frames that nobody renders. An edge may lie between the two. */
-static void check_probes(studio *s) {
+static void check_probes(studio *s, variety kind) {
   enum { SIDE = 1 << 20, PROBES = 400 };
   size_t off = 0;
   for (uint64_t seed = 20; seed < 26; seed++) {
-    celspan_exposure exposure = {random_rostrum(s, seed), 1};
+    celspan_exposure exposure = {random_rostrum(s, seed, kind), 1};
     celspan_plane *plane = make_plane(s, exposure.rostrum);
     celspan_frame_desc desc = studio_frame(&exposure, 1, WIDTH, HEIGHT, NULL);
     desc.film_width = WIDTH;
@@ -214,7 +257,7 @@ static void check_probes(studio *s) {
 static void check_files(studio *s) {
   const char *path = "plane/test.plane";
   for (uint64_t seed = 40; seed < 44; seed++) {
-    celspan_plane *plane = make_plane(s, random_rostrum(s, seed)), *again = NULL;
+    celspan_plane *plane = make_plane(s, random_rostrum(s, seed, VARIED)), *again = NULL;
     double width, height;
     studio_check(s, celspan_plane_write(s->context, plane, path));
     studio_check(s, celspan_plane_read(s->context, path, &again));
@@ -253,12 +296,44 @@ static void check_refused(studio *s, const celspan_rostrum *rostrum, const char 
     fprintf(stderr, "  %s\n", celspan_context_error(s->context));
 }
 
-static void check_scenes_refused(studio *s) {
-  const celspan_stop stops[] = {{0, celspan_paint_rgb(1, 0, 0, 1)},
+static celspan_texture *rainbow(studio *s, double x, double y) {
+  const celspan_stop stops[] = {{0, celspan_paint_rgb(1, 0, 0, 0.5f)},
                                 {1, celspan_paint_rgb(0, 0, 1, 1)}};
-  celspan_texture *gradient =
-      studio_linear(s, (celspan_point){0, 0}, (celspan_point){WIDTH, 0}, stops, 2);
-  check_refused(s, studio_show(s, studio_rect(s, 10, 10, 40, 30, gradient)), "gradient");
+  return studio_linear(s, (celspan_point){0, 0}, (celspan_point){x, y}, stops, 2);
+}
+
+/* A rectangle under another one, which multiplies it. */
+static celspan_rostrum *multiplied(studio *s, celspan_texture *back, celspan_texture *front) {
+  celspan_object *objects[2] = {studio_rect(s, 5, 5, 50, 40, back),
+                                studio_rect(s, 20, 10, 60, 45, front)};
+  celspan_group_desc desc = CELSPAN_GROUP_DESC;
+  desc.objects = &objects[1];
+  desc.object_count = 1;
+  desc.blend = CELSPAN_BLEND_MULTIPLY;
+  objects[1] = studio_group(s, &desc);
+  desc.objects = objects;
+  desc.object_count = 2;
+  desc.blend = CELSPAN_BLEND_NORMAL;
+  desc.isolate = CELSPAN_ISOLATION_ON;
+  return studio_show(s, studio_group(s, &desc));
+}
+
+/* One gradient under a mode is tabulated. */
+static void check_tabulated(studio *s) {
+  celspan_texture *grey = studio_paint(s, celspan_paint_rgb(0.5f, 0.25f, 0.75f, 1));
+  celspan_rostrum *rostrums[2] = {multiplied(s, grey, rainbow(s, WIDTH, 9)),
+                                  multiplied(s, rainbow(s, 0, HEIGHT), grey)};
+  for (int i = 0; i < 2; i++) {
+    celspan_exposure exposure = {rostrums[i], 1};
+    celspan_plane *plane = make_plane(s, rostrums[i]);
+    check_size(s, plane, &exposure, 3);
+    celspan_plane_unref(plane);
+  }
+  studio_finish(s);
+}
+
+static void check_scenes_refused(studio *s) {
+  check_refused(s, multiplied(s, rainbow(s, WIDTH, 9), rainbow(s, 0, HEIGHT)), "gradients");
   celspan_cel_desc blurred = CELSPAN_CEL_DESC;
   blurred.defocus_radius = 3;
   celspan_object *disc = studio_circle(s, 30, 30, 20, NULL);
@@ -271,7 +346,7 @@ static void check_scenes_refused(studio *s) {
 }
 
 static void check_views_refused(studio *s) {
-  celspan_plane *plane = make_plane(s, random_rostrum(s, 1));
+  celspan_plane *plane = make_plane(s, random_rostrum(s, 1, FLAT));
   celspan_plane_view view = view_of(0, 5);
   const celspan_sink nowhere = {0};
   CHECK(celspan_plane_render(s->context, plane, &view, &nowhere) == CELSPAN_LIMIT);
@@ -303,7 +378,7 @@ static celspan_status make_and_draw(studio *s, const celspan_rostrum *rostrum) {
 
 /* Every allocation fails once. */
 static void check_failures_of_memory(studio *s, memory_watch *watch) {
-  const celspan_rostrum *rostrum = random_rostrum(s, 3);
+  const celspan_rostrum *rostrum = random_rostrum(s, 3, VARIED);
   bool has_failed = true;
   for (size_t n = 1; has_failed; n++) {
     watch->fail_at = watch->allocations + n;
@@ -322,10 +397,13 @@ int main(void) {
   desc.resize_user = &watch;
   studio s = {0};
   CHECK(celspan_context_create(&desc, &s.context) == CELSPAN_OK);
-  check_frames(&s);
+  check_frames(&s, FLAT);
+  check_frames(&s, VARIED);
   check_small(&s);
-  check_probes(&s);
+  check_probes(&s, FLAT);
+  check_probes(&s, VARIED);
   check_files(&s);
+  check_tabulated(&s);
   check_scenes_refused(&s);
   check_views_refused(&s);
   check_failures_of_memory(&s, &watch);

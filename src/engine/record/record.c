@@ -4,6 +4,7 @@
 
 #include "base/hash_table.h"
 #include "base/number.h"
+#include "engine/record/programs.h"
 #include "engine/row/row.h"
 
 #define UNITS ((double)PLANEFILE_SIDE / CS_RECORD_SIDE) /* of a plane, in a pixel of the plan */
@@ -21,7 +22,8 @@ typedef struct recorder {
   const cs_plan *plan;
   cs_recording *out;
   known *chains;
-  cs_hash_table cells; /* by their colours */
+  cs_hash_table cells; /* by their colours or layers */
+  cs_record_source source;
 } recorder;
 
 void cs_record_finish(cs_recording *record, cs_memory *memory) {
@@ -30,6 +32,10 @@ void cs_record_finish(cs_recording *record, cs_memory *memory) {
   cs_mem_free(memory, record->chains, record->chain_capacity * sizeof *record->chains);
   cs_mem_free(memory, record->borders, record->border_capacity * sizeof *record->borders);
   cs_mem_free(memory, record->cells, record->cell_capacity * sizeof *record->cells);
+  cs_mem_free(memory, record->programs, record->program_capacity * sizeof *record->programs);
+  cs_mem_free(memory, record->steps, record->step_capacity * sizeof *record->steps);
+  cs_mem_free(memory, record->axes, record->axis_capacity * sizeof *record->axes);
+  cs_mem_free(memory, record->stops, record->stop_capacity * sizeof *record->stops);
   *record = (cs_recording){0};
 }
 
@@ -40,11 +46,18 @@ planefile_band cs_record_plane(const cs_recording *record) {
                           .chains = record->chains,
                           .borders = record->borders,
                           .cells = record->cells,
+                          .programs = record->programs,
+                          .steps = record->steps,
+                          .axes = record->axes,
+                          .stops = record->stops,
                           .point_count = (uint32_t)record->point_count,
                           .piece_count = (uint32_t)record->piece_count,
                           .chain_count = (uint32_t)record->chain_count,
                           .border_count = (uint32_t)record->border_count,
-                          .cell_count = (uint32_t)record->cell_count};
+                          .cell_count = (uint32_t)record->cell_count,
+                          .step_count = (uint32_t)record->step_count,
+                          .axis_count = (uint32_t)record->axis_count,
+                          .stop_count = (uint32_t)record->stop_count};
 }
 
 /* ---------------------------------------------------------------- cells */
@@ -58,29 +71,55 @@ static planefile_cell cell_of(cs_v4 colour) {
   return out;
 }
 
+/* Adds a cell under a key. */
+static celspan_status add_cell(recorder *r, cs_hash key, planefile_cell cell,
+                               planefile_program program, uint32_t *out) {
+  cs_recording *record = r->out;
+  *out = (uint32_t)record->cell_count;
+  CS_TRY(CS_APPEND(r->context, record->programs, record->program_count, record->program_capacity,
+                   program));
+  CS_TRY(CS_APPEND(r->context, record->cells, record->cell_count, record->cell_capacity, cell));
+  return cs_hash_table_add(&r->cells, r->context, key, *out);
+}
+
+/* Whether the cell of a key is known; *out: its number. */
+static bool is_known(const recorder *r, cs_hash key, uint32_t *out) {
+  size_t number = 0;
+  bool found = cs_hash_table_find(&r->cells, key, &number);
+  *out = (uint32_t)number;
+  return found;
+}
+
 /* The number of the cell of a colour. */
 static celspan_status find_cell(recorder *r, cs_v4 colour, uint32_t *out) {
   const planefile_cell cell = cell_of(colour);
-  cs_recording *record = r->out;
   cs_hash key = cs_hash_begin(0x63656c6cu);
   for (int c = 0; c < 4; c++)
     cs_hash_word(&key, (uint64_t)cell.colour[c]);
   key = cs_hash_end(key);
-  size_t number = record->cell_count;
-  if (!cs_hash_table_find(&r->cells, key, &number)) {
-    CS_TRY(CS_APPEND(r->context, record->cells, record->cell_count, record->cell_capacity, cell));
-    CS_TRY(cs_hash_table_add(&r->cells, r->context, key, number));
-  }
-  *out = (uint32_t)number;
-  return CELSPAN_OK;
+  if (is_known(r, key, out))
+    return CELSPAN_OK;
+  return add_cell(r, key, cell, (planefile_program){0, 0}, out);
 }
 
-static celspan_status find_side(recorder *r, const cs_retained_side *side, uint32_t *out) {
-  if (side->program >= 0)
-    return cs_fail(r->context, CELSPAN_BAD_ARGUMENT,
-                   "plane: a gradient, a picture or a procedure is visible; a plane keeps flat "
-                   "colours only");
-  return find_cell(r, side->colour, out);
+/* The number of the cell of a program. */
+static celspan_status find_varied(recorder *r, const cs_program *program, uint32_t *out) {
+  planefile_program made;
+  cs_hash key = cs_hash_begin(0x76617279u);
+  for (uint32_t i = 0; i < program->length; i++)
+    cs_hash_word(&key, program->items[i].layer);
+  key = cs_hash_end(key);
+  if (is_known(r, key, out))
+    return CELSPAN_OK;
+  CS_TRY(cs_record_program(&r->source, program, r->out, &made));
+  return add_cell(r, key, (planefile_cell){{0}}, made, out);
+}
+
+static celspan_status find_side(recorder *r, const cs_retained_row *row,
+                                const cs_retained_side *side, uint32_t *out) {
+  if (side->program < 0)
+    return find_cell(r, side->colour, out);
+  return find_varied(r, &row->programs[side->program].program, out);
 }
 
 /* ---------------------------------------------------------------- curves */
@@ -140,7 +179,7 @@ static bool has_curves(const recorder *r, const cs_boundary_chain *chain) {
 static celspan_status reserve(recorder *r, size_t pieces) {
   cs_recording *out = r->out;
   if (out->point_count > COUNT_MOST || out->border_count > COUNT_MOST ||
-      out->cell_count > COUNT_MOST)
+      out->cell_count > COUNT_MOST || out->step_count > COUNT_MOST || out->stop_count > COUNT_MOST)
     return cs_fail(r->context, CELSPAN_LIMIT, "plane: there is too much in it");
   CS_TRY(CS_RESERVE(r->context, out->points, out->point_capacity, out->point_count + 4 * pieces));
   CS_TRY(CS_RESERVE(r->context, out->pieces, out->piece_capacity, out->piece_count + pieces));
@@ -224,10 +263,11 @@ static celspan_status add_to_chain(recorder *r, const cs_retained_edge *edge, ui
       r, edge, (planefile_border){.chain = k->chain - 1, .left = left, .right = right}, &k->border);
 }
 
-static celspan_status add_edge(recorder *r, const cs_retained_edge *edge) {
+static celspan_status add_edge(recorder *r, const cs_retained_row *row,
+                               const cs_retained_edge *edge) {
   uint32_t left, right, border, chain;
-  CS_TRY(find_side(r, &edge->left, &left));
-  CS_TRY(find_side(r, &edge->right, &right));
+  CS_TRY(find_side(r, row, &edge->left, &left));
+  CS_TRY(find_side(r, row, &edge->right, &right));
   if (left == right || !(edge->ya < edge->yb))
     return CELSPAN_OK;
   if (edge->chain > 0 && has_curves(r, &r->plan->boundaries.chains[edge->chain - 1]))
@@ -245,7 +285,7 @@ static celspan_status add_row(recorder *r, cs_row_maker *rows, int32_t y,
   CS_TRY(cs_row_retain(rows, y, retained));
   CS_TRY(find_cell(r, retained->base, &base));
   for (size_t i = 0; i < retained->edge_count; i++)
-    CS_TRY(add_edge(r, &retained->edges[i]));
+    CS_TRY(add_edge(r, retained, &retained->edges[i]));
   return CELSPAN_OK;
 }
 
@@ -261,10 +301,14 @@ static celspan_status add_rows(recorder *r) {
 }
 
 celspan_status cs_record_make(celspan_context *context, const cs_plan *plan, cs_recording *out) {
-  recorder r = {.context = context, .plan = plan, .out = out};
+  recorder r = {.context = context, .plan = plan, .out = out, .source = {context, &plan->stack}};
   size_t count = plan->boundaries.chain_count > 0 ? plan->boundaries.chain_count : 1;
+  size_t shades = plan->stack.shade_count + 1;
   CS_TRY(CS_MAKE(context, r.chains, count));
-  celspan_status status = add_rows(&r);
+  celspan_status status = CS_MAKE(context, r.source.axes, shades);
+  if (status == CELSPAN_OK)
+    status = add_rows(&r);
+  cs_mem_free(context->memory, r.source.axes, shades * sizeof *r.source.axes);
   cs_mem_free(context->memory, r.chains, count * sizeof *r.chains);
   cs_hash_table_finish(&r.cells, context);
   return status;

@@ -14,27 +14,12 @@
  */
 #pragma once
 
-#include <planefile.h>
-
+#include "engine/record/recording.h"
 #include "engine/row/plan.h"
 
-#define CS_RECORD_SIDE 4093 /* pixels of the plan's width and height */
-
-typedef struct cs_recording {
-  planefile_point *points;
-  planefile_piece *pieces;
-  planefile_chain *chains;
-  planefile_border *borders;
-  planefile_cell *cells;
-  size_t point_count, point_capacity;
-  size_t piece_count, piece_capacity;
-  size_t chain_count, chain_capacity;
-  size_t border_count, border_capacity;
-  size_t cell_count, cell_capacity;
-} cs_recording;
-
 /* Records a plan of SIDE x SIDE pixels that keeps its curves. out: empty; must be finished whatever
- * happens. Errors: NO_MEMORY; BAD_ARGUMENT where a colour varies; LIMIT. */
+ * happens. Errors: NO_MEMORY; BAD_ARGUMENT for what a plane cannot keep (programs.h);
+ * LIMIT. */
 CELSPAN_CHECKED celspan_status cs_record_make(celspan_context *context, const cs_plan *plan,
                                               cs_recording *out);
 void cs_record_finish(cs_recording *record, cs_memory *memory);

@@ -1,8 +1,9 @@
 /* planefile - pictures without a resolution, in a file.
  *
  * A plane file holds what can be seen of a drawing: the visible pieces of its boundaries, kept as
- * curves, each with the colour on its left and on its right. It is drawn at any size, whole or any
- * crop of it, without being composed again. docs/planefile.md specifies it byte by byte.
+ * curves, each with a colour or gradients on its left and on its right. It is drawn at any size,
+ * whole or any crop of it, without being composed again. docs/planefile.md specifies it byte by
+ * byte.
  *
  * A plane file is cut into bands: heights one above the other, each with all that is in it. So any
  * part of a large plane is found by its heights, and bands are read one at a time.
@@ -75,7 +76,54 @@ typedef struct planefile_cell {
   int32_t colour[4];
 } planefile_cell;
 
-/* At every height the borders lead from cell 0 to cell 0, which lies around the whole frame. */
+/* ---- cells that vary
+ *
+ * Such a cell has a program: layers from the front to the rear, some of them in groups, which are
+ * composed for each pixel. A ramp is a layer whose colour depends on where the pixel lies along an
+ * axis. */
+
+#define PLANEFILE_DEPTH 16 /* of groups in each other, at most */
+
+typedef enum planefile_axis_kind {
+  PLANEFILE_LINEAR,  /* p */
+  PLANEFILE_RADIAL,  /* sqrt(p p + q q) - focus p */
+  PLANEFILE_TRIANGLE /* the shares p and q of two corners of three */
+} planefile_axis_kind;
+
+/* p, q and w at (x, y), which are 0 to 1 in the frame, are a x + b y + c; p and q are divided by w.
+ * Where w is not above 0, there is nothing. */
+typedef struct planefile_axis {
+  double p[3], q[3], w[3], focus; /* finite */
+  uint8_t kind;                   /* a planefile_axis_kind */
+} planefile_axis;
+
+/* Before the first stop and after the last one there are their colours. Those of a triangle are its
+ * three corners, wherever they are; between 0 and alpha, and alpha between 0 and 1. */
+typedef struct planefile_stop {
+  double at; /* finite; not before the stop before it */
+  planefile_cell colour;
+} planefile_stop;
+
+typedef enum planefile_step_kind {
+  PLANEFILE_FLAT,  /* a layer of one colour */
+  PLANEFILE_RAMP,  /* a layer of some stops along an axis */
+  PLANEFILE_ENTER, /* a group begins */
+  PLANEFILE_LEAVE  /* it ends; its channels are multiplied, and it is a layer */
+} planefile_step_kind;
+
+typedef struct planefile_step {
+  uint8_t kind;                    /* a planefile_step_kind */
+  bool converts;                   /* LEAVE: its numbers are sRGB codes; they become light first */
+  planefile_cell colour;           /* FLAT; LEAVE: the factors; PLANEFILE_WHITE is 1 */
+  uint32_t axis, stop, stop_count; /* RAMP: at least one stop; a triangle's has three */
+} planefile_step;
+
+typedef struct planefile_program {
+  uint32_t step, step_count; /* 0: the cell is flat */
+} planefile_program;
+
+/* At every height the borders lead from cell 0 to cell 0, which lies around the whole frame and is
+ * flat. The colour of a cell that varies is 0. */
 typedef struct planefile_band {
   int32_t top, foot; /* 0 and PLANEFILE_SIDE of a whole plane */
   const planefile_point *points;
@@ -83,7 +131,12 @@ typedef struct planefile_band {
   const planefile_chain *chains;
   const planefile_border *borders; /* of one that was read: by their tops */
   const planefile_cell *cells;
+  const planefile_program *programs; /* of the cells; NULL: all are flat */
+  const planefile_step *steps;
+  const planefile_axis *axes;
+  const planefile_stop *stops;
   uint32_t point_count, piece_count, chain_count, border_count, cell_count;
+  uint32_t step_count, axis_count, stop_count;
 } planefile_band;
 
 /* ---------------------------------------------------------------- writing */
@@ -124,6 +177,7 @@ typedef struct planefile_info {
   double width, height;
   uint32_t band_count;
   bool is_opaque; /* alpha is PLANEFILE_WHITE everywhere */
+  bool varies;    /* there may be cells with programs */
 } planefile_info;
 
 /* The bytes from the start that planefile_is needs. */
@@ -168,8 +222,8 @@ typedef struct planefile_span {
 typedef struct planefile_drawer planefile_drawer;
 
 /* plane: borrowed until the end; it must have been read at the heights of the crop. The pixels of a
- * crop are those of the whole, to the bit. out: new. Memory: about 1 MiB, or 48 bytes for each
- * column of a row, and at most 512 bytes for each border of the plane. */
+ * crop are those of the whole, to the bit. out: new. Memory: about 1 MiB, or 64 bytes for each
+ * column of a row, at most 512 bytes for each border of the plane, and 12 for each of its cells. */
 planefile_status planefile_drawer_create(const planefile_plane *plane, const planefile_view *view,
                                          planefile_drawer **out);
 /* NULL is ignored. */

@@ -17,7 +17,7 @@
 #ifndef PF_BAND_H
 #define PF_BAND_H
 
-#include "coder.h"
+#include "program.h"
 
 enum { PF_FRESH, PF_OLDER, PF_CANDIDATES, PF_SYMBOLS = 8, PF_SYMBOL_BITS = 3 };
 /* Forms of pieces: the degree, and this where they are rational. */
@@ -30,9 +30,10 @@ typedef struct pf_models {
   uint16_t cells[14][PF_SYMBOLS]; /* pf_context */
 } pf_models;
 
-static inline void pf_models_begin(pf_models *models) {
-  uint16_t *all = (uint16_t *)models;
-  for (size_t i = 0; i < sizeof *models / sizeof *all; i++)
+/* models: a struct of nothing else. */
+static inline void pf_models_begin(void *models, size_t size) {
+  uint16_t *all = models;
+  for (size_t i = 0; i < size / sizeof *all; i++)
     all[i] = PF_EVEN;
 }
 
@@ -79,17 +80,32 @@ static inline uint32_t pf_other(uint32_t size, uint32_t index) {
 typedef struct pf_band {
   planefile_band band;
   size_t point_capacity, piece_capacity, chain_capacity, border_capacity, cell_capacity;
+  size_t program_capacity, step_capacity, axis_capacity, stop_capacity;
 } pf_band;
+
+/* Whether alpha is 1 in all cells. */
+static inline bool pf_band_is_opaque(const planefile_band *band) {
+  bool is_opaque = true;
+  for (uint32_t i = 0; is_opaque && i < band->cell_count; i++)
+    is_opaque = band->programs && band->programs[i].step_count > 0
+                    ? pf_program_hides(band, band->programs[i])
+                    : band->cells[i].colour[3] == PLANEFILE_WHITE;
+  return is_opaque;
+}
+
+/* Of a payload, before the code. */
+static inline size_t pf_band_head(bool varies) {
+  return PF_BAND_BYTES + (varies ? PF_VARIED_BYTES : 0);
+}
 
 /* Decodes the payload of a band. out: empty; must be freed whatever happens. reason: set where the
  * status is not OK. */
 planefile_status pf_band_decode(const pf_memory *memory, const unsigned char *payload, size_t size,
-                                pf_band *out, const char **reason);
+                                bool varies, pf_band *out, const char **reason);
 void pf_band_free(const pf_memory *memory, pf_band *band);
 
 /* Encodes the parts of `plane` that lie in the heights [top, foot). borders: all that have a part
- * there, of which no two of one chain overlap. The payload is in the encoder's bytes, after
- * PF_BAND_BYTES that are counted, too. */
+ * there, of which no two of one chain overlap. The payload is in the encoder's bytes. */
 planefile_status pf_band_encode(const pf_memory *memory, const planefile_band *plane,
                                 const planefile_border *borders, size_t count, int32_t top,
                                 int32_t foot, pf_encoder *out);

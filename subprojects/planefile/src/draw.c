@@ -16,13 +16,20 @@
 #include <math.h>
 
 #include "chords.h"
-#include "plane.h"
+#include "varied.h"
 
-enum { ROWS_MOST = 16, ROOM = 1 << 20 /* bytes of sums, about */ };
+enum { ROOM = 1 << 20 /* bytes of sums, about */ };
 
 typedef struct sum {
   uint64_t channels[4]; /* times HEIGHT */
 } sum;
+
+/* From the left of a border to its right. cells: of all bands; where neither varies NONE. */
+typedef struct step {
+  int32_t colour[4];
+  uint32_t left, right;
+} step;
+#define NONE UINT32_MAX
 
 /* A border that crosses the rows being made, and where it is. */
 typedef struct live {
@@ -32,7 +39,7 @@ typedef struct live {
   pf_vertex from, to;            /* the current chord */
   double slope;                  /* of it: dx / dy */
   int64_t y;                     /* all above is done */
-  int32_t change[4];             /* of the colour, from left to right */
+  step change;
   pf_curve curve;
 } live;
 
@@ -43,25 +50,30 @@ struct planefile_drawer {
   uint32_t band, border; /* those before have begun */
   live *lives;
   size_t live_count, live_capacity;
-  sum *sums;                /* of `group` rows, each of columns + 1 pixels */
-  sum steps[ROWS_MOST + 1]; /* of rows: by what all pixels differ from those of the row before */
-  sum step;                 /* of the rows given so far */
-  sum start;                /* of every row: cell 0, and borders that are left of all rows */
+  sum *sums;              /* of `group` rows, each of columns + 1 pixels */
+  sum steps[PF_ROWS + 1]; /* of rows: by what all pixels differ from those of the row before */
+  sum step;               /* of the rows given so far */
+  sum start;              /* of every row: cell 0, and borders that are left of all rows */
   uint64_t *bits;
   size_t words;               /* of a row's bits */
   uint32_t group, made, next; /* rows: of a group, begun so far, given so far */
   planefile_span *spans;
+  pf_varied varied; /* where the plane varies */
 };
 
 /* ---------------------------------------------------------------- sums */
 
 /* Adds to pixel `column` of the crop a share of the change from one cell to another. */
-static inline void add(planefile_drawer *d, uint32_t row, uint32_t column, const int32_t change[4],
+static inline void add(planefile_drawer *d, uint32_t row, uint32_t column, const step *change,
                        int64_t area) {
   size_t at = (size_t)row * (d->view.columns + 1) + column;
   for (int c = 0; c < 4; c++)
-    d->sums[at].channels[c] += (uint64_t)(change[c] * area);
+    d->sums[at].channels[c] += (uint64_t)(change->colour[c] * area);
   d->bits[row * d->words + column / 64] |= UINT64_C(1) << column % 64;
+  if (change->left != change->right) {
+    pf_varied_add(&d->varied, row, column, change->left, -area);
+    pf_varied_add(&d->varied, row, column, change->right, area);
+  }
 }
 
 /* The share of a line from x = low to high, within [edge - 1, edge] or beyond it, that is left of
@@ -76,16 +88,19 @@ static inline double share_left(double low, double high, double by_width, double
 
 /* A line left of the crop, from height y to foot of the rows being made. In the rows that it goes
  * through it changes all pixels alike. */
-static void add_left(planefile_drawer *d, int64_t y, int64_t foot, const int32_t change[4]) {
+static void add_left(planefile_drawer *d, int64_t y, int64_t foot, const step *change) {
   uint32_t first = (uint32_t)(y / PF_HEIGHT), last = (uint32_t)(foot / PF_HEIGHT);
   if (first == last) {
     add(d, first, 0, change, foot - y);
     return;
   }
   add(d, first, 0, change, (first + INT64_C(1)) * PF_HEIGHT - y);
-  for (int c = 0; c < 4; c++) {
-    d->steps[first + 1].channels[c] += (uint64_t)(change[c] * INT64_C(65536));
-    d->steps[last].channels[c] -= (uint64_t)(change[c] * INT64_C(65536));
+  bool varies = change->left != change->right;
+  for (uint32_t row = first + 1; varies && row < last; row++)
+    add(d, row, 0, change, PF_HEIGHT);
+  for (int c = 0; !varies && c < 4; c++) {
+    d->steps[first + 1].channels[c] += (uint64_t)(change->colour[c] * INT64_C(65536));
+    d->steps[last].channels[c] -= (uint64_t)(change->colour[c] * INT64_C(65536));
   }
   if (foot % PF_HEIGHT > 0)
     add(d, last, 0, change, foot % PF_HEIGHT);
@@ -93,7 +108,7 @@ static void add_left(planefile_drawer *d, int64_t y, int64_t foot, const int32_t
 
 /* A line within a row. */
 static inline void add_line(planefile_drawer *d, uint32_t row, double a, double b, int64_t height,
-                            const int32_t change[4]) {
+                            const step *change) {
   double low = a < b ? a : b, high = a < b ? b : a;
   double left = d->view.x, right = left + d->view.columns;
   if (low >= right)
@@ -113,7 +128,7 @@ static inline void add_line(planefile_drawer *d, uint32_t row, double a, double 
 
 /* A line that crosses the height of a row's centres changes all pixels whose centre is right of
  * it. */
-static void add_centre(planefile_drawer *d, uint32_t row, double x, const int32_t change[4]) {
+static void add_centre(planefile_drawer *d, uint32_t row, double x, const step *change) {
   double column = ceil(x - 0.5) - d->view.x;
   if (column < d->view.columns)
     add(d, row, column > 0 ? (uint32_t)column : 0, change, PF_HEIGHT);
@@ -127,11 +142,24 @@ static double x_at(const live *l, int64_t y) {
   return l->from.x + l->slope * (double)(y - l->from.y);
 }
 
-static void find_change(const planefile_band *band, const planefile_border *border,
-                        int32_t change[4]) {
+/* The number of a cell of the current band among those of all. */
+static uint32_t number_of(const planefile_drawer *d, const planefile_band *band, uint32_t cell) {
+  const pf_band *of = (const pf_band *)band; /* its first member */
+  return d->varied.first[of - d->plane->bands] + cell;
+}
+
+static step find_change(const planefile_drawer *d, const planefile_band *band,
+                        const planefile_border *border) {
   const planefile_cell *left = &band->cells[border->left], *right = &band->cells[border->right];
+  step out = {.left = NONE, .right = NONE};
   for (int c = 0; c < 4; c++)
-    change[c] = right->colour[c] - left->colour[c];
+    out.colour[c] = right->colour[c] - left->colour[c];
+  if (band->programs && (band->programs[border->left].step_count > 0 ||
+                         band->programs[border->right].step_count > 0)) {
+    out.left = number_of(d, band, border->left);
+    out.right = number_of(d, band, border->right);
+  }
+  return out;
 }
 
 /* Draws the part beside the crop of the current chord, if all of it is there. */
@@ -142,7 +170,7 @@ static bool draw_beside(planefile_drawer *d, live *l, int64_t top, int64_t foot)
   if (d->view.sampling != PLANEFILE_AREA || !(is_left || is_beyond))
     return false;
   if (is_left && l->y < foot)
-    add_left(d, l->y - top, foot - top, l->change);
+    add_left(d, l->y - top, foot - top, &l->change);
   l->y = foot;
   return true;
 }
@@ -156,9 +184,9 @@ static void draw_chord(planefile_drawer *d, live *l, int64_t top, int64_t foot) 
     int64_t centre = end - PF_HEIGHT / 2;
     end = end < foot ? end : foot;
     if (d->view.sampling == PLANEFILE_AREA)
-      add_line(d, (uint32_t)row, x_at(l, l->y), x_at(l, end), end - l->y, l->change);
+      add_line(d, (uint32_t)row, x_at(l, l->y), x_at(l, end), end - l->y, &l->change);
     else if (l->y <= centre && centre < end)
-      add_centre(d, (uint32_t)row, x_at(l, centre), l->change);
+      add_centre(d, (uint32_t)row, x_at(l, centre), &l->change);
     l->y = end;
   }
 }
@@ -258,10 +286,14 @@ static void draw_border(planefile_drawer *d, live *l, int64_t top, int64_t foot)
 
 /* ---------------------------------------------------------------- rows */
 
-/* What every row begins with. */
-static void add_start(planefile_drawer *d, const int32_t colour[4]) {
+/* Adds to what every row begins with. */
+static void add_start(planefile_drawer *d, const step *change) {
   for (int c = 0; c < 4; c++)
-    d->start.channels[c] += (uint64_t)(colour[c] * (int64_t)PF_HEIGHT);
+    d->start.channels[c] += (uint64_t)(change->colour[c] * (int64_t)PF_HEIGHT);
+  if (change->left != change->right) {
+    pf_varied_add_start(&d->varied, change->left, -PF_HEIGHT);
+    pf_varied_add_start(&d->varied, change->right, PF_HEIGHT);
+  }
 }
 
 /* Adds to the borders that live one from a height on. */
@@ -278,7 +310,7 @@ static planefile_status add_live(planefile_drawer *d, const planefile_band *band
   l->border = index;
   l->foot = pf_height(border->foot, d->scale.y);
   l->y = y;
-  find_change(band, border, l->change);
+  l->change = find_change(d, band, border);
   seek(d, l, piece);
   return PLANEFILE_OK;
 }
@@ -289,7 +321,6 @@ static planefile_status begin_border(planefile_drawer *d, const planefile_band *
                                      uint32_t index, int64_t top) {
   const planefile_border *border = &band->borders[index];
   int64_t y = pf_height(border->top, d->scale.y), foot = pf_height(border->foot, d->scale.y);
-  int32_t change[4];
   y = y > top ? y : top;
   if (foot <= y)
     return PLANEFILE_OK;
@@ -298,8 +329,8 @@ static planefile_status begin_border(planefile_drawer *d, const planefile_band *
   if (side == 0 || (side < 0 && !is_long(d, y, foot)))
     return add_live(d, band, index, piece, y);
   if (side < 0) {
-    find_change(band, border, change);
-    add_start(d, change);
+    const step change = find_change(d, band, border);
+    add_start(d, &change);
   }
   return PLANEFILE_OK;
 }
@@ -340,6 +371,7 @@ static planefile_status make_rows(planefile_drawer *d) {
   rows = rows < d->group ? rows : d->group;
   int64_t foot = top + (int64_t)rows * PF_HEIGHT;
   memset(d->steps, 0, sizeof d->steps);
+  pf_varied_begin(&d->varied);
   planefile_status status = begin_borders(d, top, foot);
   if (status != PLANEFILE_OK)
     return status;
@@ -352,7 +384,7 @@ static planefile_status make_rows(planefile_drawer *d) {
   }
   d->live_count = kept;
   d->made += rows;
-  return PLANEFILE_OK;
+  return d->varied.failed ? PLANEFILE_NO_MEMORY : PLANEFILE_OK;
 }
 
 static inline uint32_t lowest_bit(uint64_t bits) {
@@ -407,6 +439,75 @@ static size_t read_row(planefile_drawer *d, uint32_t row) {
   return count;
 }
 
+/* ---------------------------------------------------------------- rows that vary */
+
+static int32_t round_channel(double channel) {
+  double whole = floor(channel + 0.5);
+  return whole > -PLANEFILE_BRIGHT && whole < PLANEFILE_BRIGHT ? (int32_t)whole
+         : whole > 0                                           ? PLANEFILE_BRIGHT
+         : whole < 0                                           ? -PLANEFILE_BRIGHT
+                                                               : 0; /* not a number */
+}
+
+/* Appends the pixels of a row from a column to another one, each a span. */
+static size_t paint_pixels(planefile_drawer *d, uint32_t row, uint32_t from, uint32_t to,
+                           const sum *flat, size_t count) {
+  pf_colours colours;
+  for (uint32_t x = from; x < to; x += PF_BATCH) {
+    pf_pixels pixels = {d->view.width, d->view.height, d->view.x + x, d->view.y + row,
+                        to - x < PF_BATCH ? to - x : PF_BATCH};
+    pf_varied_colours(&d->varied, &pixels, &colours);
+    for (uint32_t k = 0; k < pixels.count; k++, count++) {
+      planefile_span *span = &d->spans[count];
+      span->end = x + k + 1;
+      for (int c = 0; c < 4; c++)
+        span->colour.colour[c] = round_channel((double)(int64_t)flat->channels[c] / PF_HEIGHT +
+                                               PLANEFILE_WHITE * colours.at[k][c]);
+      if (d->plane->info.is_opaque)
+        span->colour.colour[3] = PLANEFILE_WHITE;
+    }
+  }
+  return count;
+}
+
+/* Appends a part of a row in which no sum changes. */
+static size_t put_part(planefile_drawer *d, uint32_t row, uint32_t from, uint32_t to,
+                       const sum *total, size_t count) {
+  sum none = {{0}}, flat = *total;
+  if (from == to)
+    return count;
+  if (d->varied.active_count > 0)
+    return paint_pixels(d, row, from, to, total, count);
+  d->spans[count] = (planefile_span){to, take(&flat, &none)};
+  if (count == 0 || !is_same(&d->spans[count].colour, &d->spans[count - 1].colour))
+    return count + 1;
+  d->spans[count - 1].end = to;
+  return count;
+}
+
+/* As read_row, where cells may vary. row: of the view; it is `row % group` of those that were
+ * made. */
+static size_t read_varied_row(planefile_drawer *d, uint32_t row) {
+  uint32_t made = row % d->group, from = 0;
+  sum total, *sums = &d->sums[(size_t)made * (d->view.columns + 1)];
+  size_t count = 0;
+  take(&d->step, &d->steps[made]);
+  total = d->step;
+  pf_varied_begin_row(&d->varied);
+  for (size_t word = 0; word < d->words; word++) {
+    uint64_t bits = d->bits[made * d->words + word];
+    d->bits[made * d->words + word] = 0;
+    for (; bits; bits &= bits - 1) {
+      uint32_t column = (uint32_t)word * 64 + lowest_bit(bits);
+      count = put_part(d, row, from, column, &total, count);
+      take(&total, &sums[column]);
+      pf_varied_take(&d->varied, made, column);
+      from = column;
+    }
+  }
+  return put_part(d, row, from, d->view.columns, &total, count);
+}
+
 planefile_status planefile_drawer_row(planefile_drawer *d, const planefile_span **spans,
                                       size_t *count) {
   if (d->next == d->view.rows)
@@ -416,7 +517,8 @@ planefile_status planefile_drawer_row(planefile_drawer *d, const planefile_span 
     if (status != PLANEFILE_OK)
       return status;
   }
-  *count = read_row(d, d->next++ % d->group);
+  uint32_t row = d->next++;
+  *count = d->plane->info.varies ? read_varied_row(d, row) : read_row(d, row % d->group);
   *spans = d->spans;
   return PLANEFILE_OK;
 }
@@ -444,12 +546,14 @@ static bool has_bands(const planefile_plane *plane, const planefile_view *v, pf_
 
 static bool make_sums(planefile_drawer *d) {
   size_t width = (size_t)d->view.columns + 1, rows = ROOM / (width * sizeof *d->sums);
-  d->group = rows < 1 ? 1 : rows > ROWS_MOST ? ROWS_MOST : (uint32_t)rows;
+  d->group = rows < 1 ? 1 : rows > PF_ROWS ? PF_ROWS : (uint32_t)rows;
   d->words = width / 64 + 1;
   d->sums = pf_make(&d->plane->memory, sizeof *d->sums, width * d->group);
   d->bits = pf_make(&d->plane->memory, sizeof *d->bits, d->words * d->group);
   d->spans = pf_make(&d->plane->memory, sizeof *d->spans, width);
-  return d->sums && d->bits && d->spans;
+  return d->sums && d->bits && d->spans &&
+         (!d->plane->info.varies ||
+          pf_varied_init(&d->varied, d->plane, d->view.columns, d->group));
 }
 
 planefile_status planefile_drawer_create(const planefile_plane *plane, const planefile_view *view,
@@ -466,7 +570,9 @@ planefile_status planefile_drawer_create(const planefile_plane *plane, const pla
   d->plane = plane;
   d->view = *view;
   d->scale = scale;
-  add_start(d, plane->base.colour);
+  step base = {.left = NONE, .right = NONE};
+  memcpy(base.colour, plane->base.colour, sizeof base.colour);
+  add_start(d, &base);
   if (!make_sums(d)) {
     planefile_drawer_destroy(d);
     return PLANEFILE_NO_MEMORY;
@@ -484,5 +590,6 @@ void planefile_drawer_destroy(planefile_drawer *d) {
   pf_free(memory, d->sums, sizeof *d->sums, width * d->group);
   pf_free(memory, d->bits, sizeof *d->bits, d->words * d->group);
   pf_free(memory, d->spans, sizeof *d->spans, width);
+  pf_varied_finish(&d->varied);
   pf_free(memory, d, sizeof *d, 1);
 }

@@ -4,7 +4,8 @@
  *   file       header (40) | records of bands ... | record of the index | trailer (32)
  *   a record   kind (1) | size of the payload (4) | payload | checksum (4)
  *
- *   payload of 'B'   top, foot, numbers of chains, pieces, cells, changes, borders (4 each) | code
+ *   payload of 'B'   top, foot, numbers of chains, pieces, cells, changes, borders (4 each) |
+ *                    where cells vary: numbers of steps, axes, stops | code
  *   payload of 'I'   entries: top (4) | offset (8)
  *
  * INVARIANT: all numbers are little endian, whatever the machine.
@@ -22,12 +23,15 @@ enum {
   PF_TRAILER_BYTES = 32,
   PF_HEAD_BYTES = 5, /* of a record */
   PF_CHECK_BYTES = 4,
-  PF_BAND_BYTES = 28, /* before the code */
+  PF_BAND_BYTES = 28,   /* before the code */
+  PF_VARIED_BYTES = 12, /* after them, where cells vary */
   PF_ENTRY_BYTES = 12,
   PF_VERSION = 1,
-  PF_OPAQUE = 1, /* a flag of the header */
-  PF_PAID = 4,   /* things of a kind that a byte of code pays for */
-  PF_GROUP = 8,  /* changes in a group, at most */
+  PF_OPAQUE = 1,      /* flags of the header: alpha is 1 everywhere; */
+  PF_VARIES = 2,      /* cells may have programs */
+  PF_PAID = 4,        /* things of a kind that a byte of code pays for */
+  PF_VARIED_PAID = 4, /* bytes of code that pay for a step, an axis or a stop */
+  PF_GROUP = 8,       /* changes in a group, at most */
   PF_BAND = 'B',
   PF_INDEX = 'I'
 };

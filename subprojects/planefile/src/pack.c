@@ -38,6 +38,7 @@ typedef struct packer {
   uint32_t form;
   planefile_cell colour; /* of the latest cell */
   pf_models models;
+  pf_program_coding *programs; /* NULL: nothing varies */
   pf_encoder *out;
 } packer;
 
@@ -160,6 +161,14 @@ static bool find_changes(packer *p, size_t index) {
 static void put_fresh(packer *p, uint32_t cell) {
   const planefile_cell *of = &p->plane->cells[cell];
   p->cells[cell] = ++p->cell_count;
+  if (p->programs) {
+    bool varies = p->plane->programs[cell].step_count > 0;
+    pf_put_symbol(p->out, p->programs->models.varies, 1, varies);
+    if (varies) {
+      pf_put_program(p->out, p->programs, p->plane, p->plane->programs[cell]);
+      return;
+    }
+  }
   for (int c = 0; c < 4; c++)
     pf_put_signed(p->out, &p->models.channels[c], (int64_t)of->colour[c] - p->colour.colour[c]);
   p->colour = *of;
@@ -323,14 +332,31 @@ static void store_counts(const packer *p, unsigned char *at) {
   pf_store_32(at + 16, p->cell_count);
   pf_store_32(at + 20, (uint32_t)p->change_count);
   pf_store_32(at + 24, (uint32_t)p->border_count);
+  if (p->programs) {
+    pf_store_32(at + PF_BAND_BYTES, p->programs->step_count);
+    pf_store_32(at + PF_BAND_BYTES + 4, p->programs->axis_count);
+    pf_store_32(at + PF_BAND_BYTES + 8, p->programs->stop_count);
+  }
+}
+
+static uint32_t larger(uint32_t a, uint32_t b) { return a > b ? a : b; }
+
+/* The bytes of code that pay for all that the band claims. */
+static size_t find_price(const packer *p) {
+  uint32_t most = larger(larger(p->piece_count, p->cell_count),
+                         larger((uint32_t)p->change_count, (uint32_t)p->border_count));
+  size_t price = ((size_t)most + PF_PAID - 1) / PF_PAID;
+  if (p->programs) {
+    uint32_t varied = larger(p->programs->step_count, p->programs->stop_count);
+    size_t other = PF_VARIED_PAID * (size_t)larger(varied, p->programs->axis_count);
+    price = other > price ? other : price;
+  }
+  return price;
 }
 
 /* Zeros after the code, so that its bytes pay for all that it claims. */
 static bool pay(const packer *p) {
-  size_t most = p->piece_count > p->cell_count ? p->piece_count : p->cell_count;
-  most = most > p->change_count ? most : p->change_count;
-  most = most > p->border_count ? most : p->border_count;
-  size_t wanted = PF_BAND_BYTES + (most + PF_PAID - 1) / PF_PAID;
+  size_t wanted = pf_band_head(p->programs != NULL) + find_price(p);
   pf_encoder *out = p->out;
   unsigned char *bytes = pf_grow(p->memory, out->bytes, 1, &out->capacity, wanted);
   if (!bytes)
@@ -341,16 +367,31 @@ static bool pay(const packer *p) {
   return true;
 }
 
+static bool make_programs(packer *p) {
+  p->programs = pf_make(p->memory, sizeof *p->programs, 1);
+  if (!p->programs)
+    return false;
+  pf_models_begin(&p->programs->models, sizeof p->programs->models);
+  p->programs->axes = pf_make(p->memory, sizeof *p->programs->axes, p->plane->axis_count);
+  return p->programs->axes != NULL;
+}
+
+static void free_programs(packer *p) {
+  if (p->programs)
+    pf_free(p->memory, p->programs->axes, sizeof *p->programs->axes, p->plane->axis_count);
+  pf_free(p->memory, p->programs, sizeof *p->programs, 1);
+}
+
 static bool pack(packer *p, const planefile_border *borders, size_t count) {
   p->cells = pf_make(p->memory, sizeof *p->cells, p->plane->cell_count);
-  if (!p->cells || !find_chains(p, borders, count))
+  if (!p->cells || !find_chains(p, borders, count) || (p->plane->programs && !make_programs(p)))
     return false;
   for (size_t i = 0; i < p->chain_count; i++)
     if (!find_changes(p, i))
       return false;
   if (p->change_count > 0)
     qsort(p->changes, p->change_count, sizeof *p->changes, compare_changes);
-  pf_models_begin(&p->models);
+  pf_models_begin(&p->models, sizeof p->models);
   put_fresh(p, 0);
   put_chains(p);
   put_changes(p);
@@ -365,11 +406,12 @@ planefile_status pf_band_encode(const pf_memory *memory, const planefile_band *p
                                 const planefile_border *borders, size_t count, int32_t top,
                                 int32_t foot, pf_encoder *out) {
   packer *p = pf_make(memory, sizeof *p, 1);
-  pf_encoder_begin(out, memory, PF_BAND_BYTES);
+  pf_encoder_begin(out, memory, pf_band_head(plane->programs != NULL));
   if (!p)
     return PLANEFILE_NO_MEMORY;
   *p = (packer){.memory = memory, .plane = plane, .top = top, .foot = foot, .out = out};
   bool is_done = pack(p, borders, count);
+  free_programs(p);
   pf_free(memory, p->borders, sizeof *p->borders, count);
   pf_free(memory, p->chains, sizeof *p->chains, count);
   pf_free(memory, p->changes, sizeof *p->changes, p->change_capacity);

@@ -11,6 +11,7 @@ struct planefile_plane {
   planefile_cell base; /* cell 0 of all bands */
   bool has_base;
   unsigned char codes[PLANEFILE_WHITE + 1]; /* of linear light: in sRGB, 8 bits */
+  pf_light_curve curve;                     /* where info.varies */
 };
 
 void pf_codes_make(unsigned char codes[PLANEFILE_WHITE + 1]);

@@ -71,10 +71,11 @@ static planefile_status load_header(reader *r) {
                 pf_load_32(header + 8));
   uint32_t flags = pf_load_32(header + 12);
   info->is_opaque = flags & PF_OPAQUE;
+  info->varies = flags & PF_VARIES;
   info->width = pf_load_double(header + 16);
   info->height = pf_load_double(header + 24);
   if (!(info->width > 0 && info->height > 0 && isfinite(info->width) && isfinite(info->height)) ||
-      flags > PF_OPAQUE || pf_load_32(header + 32) != 0)
+      flags > (PF_OPAQUE | PF_VARIES) || pf_load_32(header + 32) != 0)
     return fail(r, PLANEFILE_BAD_FILE, 12, "the header has a value that is not allowed");
   return PLANEFILE_OK;
 }
@@ -164,13 +165,6 @@ static planefile_status load_index(reader *r, uint64_t offset, uint64_t **offset
   return PLANEFILE_OK;
 }
 
-static bool has_alpha(const planefile_band *band) {
-  for (uint32_t i = 0; i < band->cell_count; i++)
-    if (band->cells[i].colour[3] != PLANEFILE_WHITE)
-      return true;
-  return false;
-}
-
 /* Whether cell 0 is that of the bands before, if there are any. */
 static bool has_base(planefile_plane *plane, const planefile_band *band) {
   if (!plane->has_base)
@@ -185,13 +179,13 @@ static planefile_status load_band(reader *r, uint32_t index, uint64_t offset, ui
   pf_band *out = &r->plane->bands[index];
   int32_t top = out->band.top, foot = out->band.foot;
   TRY(load_record(r, PF_BAND, index, offset, end, &size));
-  planefile_status status =
-      pf_band_decode(&r->plane->memory, r->bytes + PF_HEAD_BYTES, size, out, &reason);
+  planefile_status status = pf_band_decode(&r->plane->memory, r->bytes + PF_HEAD_BYTES, size,
+                                           r->plane->info.varies, out, &reason);
   if (status != PLANEFILE_OK)
     return fail(r, status, offset, "band %" PRIu32 ": %s", index, reason);
   if (out->band.top != top || out->band.foot != foot)
     return fail(r, PLANEFILE_BAD_FILE, offset, "band %" PRIu32 ": it has other heights", index);
-  if (r->plane->info.is_opaque && has_alpha(&out->band))
+  if (r->plane->info.is_opaque && !pf_band_is_opaque(&out->band))
     return fail(r, PLANEFILE_BAD_FILE, offset, "band %" PRIu32 ": it is not opaque", index);
   if (!has_base(r->plane, &out->band))
     return fail(r, PLANEFILE_BAD_FILE, offset, "band %" PRIu32 ": it has another cell 0", index);
@@ -240,6 +234,8 @@ planefile_status planefile_read(const planefile_source *source, int32_t top, int
     return status;
   }
   pf_codes_make(r.plane->codes);
+  if (r.plane->info.varies)
+    pf_light_curve_make(&r.plane->curve);
   *out = r.plane;
   return PLANEFILE_OK;
 }

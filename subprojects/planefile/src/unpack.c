@@ -21,10 +21,14 @@ typedef struct unpacker {
   planefile_chain *chains;
   planefile_border *borders;
   planefile_cell *cells;
-  state *states;                                               /* of the chains */
+  planefile_program *programs;
+  pf_program_room room;
+  pf_program_coding *coding; /* of programs; NULL: nothing varies */
+  state *states;             /* of the chains */
   uint32_t chain_count, piece_count, cell_count, border_count; /* that there must be in the end */
   uint32_t change_count;
-  uint32_t form; /* of the latest piece */
+  uint32_t form;       /* of the latest piece */
+  planefile_cell flat; /* the latest one that does not vary */
   planefile_point start;
   const char *reason; /* NULL: nothing is wrong */
 } unpacker;
@@ -41,13 +45,17 @@ void pf_band_free(const pf_memory *memory, pf_band *band) {
   pf_free(memory, (void *)b->chains, sizeof *b->chains, band->chain_capacity);
   pf_free(memory, (void *)b->borders, sizeof *b->borders, band->border_capacity);
   pf_free(memory, (void *)b->cells, sizeof *b->cells, band->cell_capacity);
+  pf_free(memory, (void *)b->programs, sizeof *b->programs, band->program_capacity);
+  pf_free(memory, (void *)b->steps, sizeof *b->steps, band->step_capacity);
+  pf_free(memory, (void *)b->axes, sizeof *b->axes, band->axis_capacity);
+  pf_free(memory, (void *)b->stops, sizeof *b->stops, band->stop_capacity);
 }
 
 /* ---------------------------------------------------------------- room */
 
-static bool load_counts(unpacker *u, const unsigned char *payload, size_t size) {
+static bool load_counts(unpacker *u, const unsigned char *payload, size_t code) {
   planefile_band *band = &u->out->band;
-  size_t paid = PF_PAID * (size - PF_BAND_BYTES);
+  size_t paid = PF_PAID * code;
   band->top = (int32_t)pf_load_32(payload);
   band->foot = (int32_t)pf_load_32(payload + 4);
   u->chain_count = pf_load_32(payload + 8);
@@ -65,7 +73,34 @@ static bool load_counts(unpacker *u, const unsigned char *payload, size_t size) 
   return true;
 }
 
-/* Room for all that is claimed. */
+static bool load_varied_counts(unpacker *u, const unsigned char *payload, size_t code) {
+  size_t paid = code / PF_VARIED_PAID;
+  u->room.step_count = pf_load_32(payload + PF_BAND_BYTES);
+  u->room.axis_count = pf_load_32(payload + PF_BAND_BYTES + 4);
+  u->room.stop_count = pf_load_32(payload + PF_BAND_BYTES + 8);
+  return (u->room.step_count <= paid && u->room.axis_count <= paid && u->room.stop_count <= paid) ||
+         refuse(u, "it claims more than its bytes can hold");
+}
+
+/* Room for all programs. */
+static bool make_varied_room(unpacker *u) {
+  pf_band *out = u->out;
+  pf_program_room *room = &u->room;
+  out->program_capacity = u->cell_count;
+  out->step_capacity = room->step_count;
+  out->axis_capacity = room->axis_count;
+  out->stop_capacity = room->stop_count;
+  out->band.programs = u->programs = pf_make(u->memory, sizeof *u->programs, u->cell_count);
+  out->band.steps = room->steps = pf_make(u->memory, sizeof *room->steps, room->step_count);
+  out->band.axes = room->axes = pf_make(u->memory, sizeof *room->axes, room->axis_count);
+  out->band.stops = room->stops = pf_make(u->memory, sizeof *room->stops, room->stop_count);
+  u->coding = pf_make(u->memory, sizeof *u->coding, 1);
+  if (u->coding)
+    pf_models_begin(&u->coding->models, sizeof u->coding->models);
+  return u->programs && room->steps && room->axes && room->stops && u->coding;
+}
+
+/* Room for all else that is claimed. */
 static bool make_room(unpacker *u) {
   pf_band *out = u->out;
   out->point_capacity = (size_t)4 * u->piece_count;
@@ -84,20 +119,31 @@ static bool make_room(unpacker *u) {
 
 /* ---------------------------------------------------------------- cells */
 
-/* The next cell: its channels differ from those of the one before. */
+static bool get_program(unpacker *u, uint32_t cell) {
+  const char *reason = pf_get_program(&u->decoder, u->coding, &u->room, &u->programs[cell]);
+  planefile_band *band = &u->out->band;
+  band->step_count = u->coding->step_count;
+  band->axis_count = u->coding->axis_count;
+  band->stop_count = u->coding->stop_count;
+  return cell == 0 ? refuse(u, "cell 0 varies") : !reason || refuse(u, reason);
+}
+
+/* The next cell: its channels differ from those of the flat one before. */
 static bool get_fresh(unpacker *u, uint32_t *out) {
   planefile_band *band = &u->out->band;
   *out = band->cell_count;
   if (band->cell_count == u->cell_count)
     return refuse(u, "it has more cells than it claims");
   planefile_cell *cell = &u->cells[band->cell_count++];
+  if (u->coding && pf_get_symbol(&u->decoder, u->coding->models.varies, 1))
+    return get_program(u, *out);
   for (int c = 0; c < 4; c++) {
-    int64_t channel = pf_get_signed(&u->decoder, &u->models.channels[c]);
-    channel += *out > 0 ? cell[-1].colour[c] : 0;
+    int64_t channel = u->flat.colour[c] + pf_get_signed(&u->decoder, &u->models.channels[c]);
     if (channel < -PLANEFILE_BRIGHT || channel > PLANEFILE_BRIGHT)
       return refuse(u, "a colour is too bright");
     cell->colour[c] = (int32_t)channel;
   }
+  u->flat = *cell;
   return true;
 }
 
@@ -309,30 +355,36 @@ static bool check_end(unpacker *u) {
   if (!pf_decoder_is_whole(&u->decoder))
     return refuse(u, "its code does not end where it should");
   if (band->piece_count != u->piece_count || band->cell_count != u->cell_count ||
-      band->border_count != u->border_count)
+      band->border_count != u->border_count || band->step_count != u->room.step_count ||
+      band->axis_count != u->room.axis_count || band->stop_count != u->room.stop_count)
     return refuse(u, "it has less than it claims");
   return true;
 }
 
 /* False without a reason: no memory. */
-static bool unpack(unpacker *u, const unsigned char *payload, size_t size) {
+static bool unpack(unpacker *u, const unsigned char *payload, size_t size, bool varies) {
   uint32_t base;
-  if (!load_counts(u, payload, size) || !make_room(u))
+  size_t head = pf_band_head(varies);
+  if (size < head)
+    return refuse(u, "it is too short");
+  if (!load_counts(u, payload, size - head) ||
+      (varies && !load_varied_counts(u, payload, size - head)) || !make_room(u) ||
+      (varies && !make_varied_room(u)))
     return false;
-  pf_models_begin(&u->models);
-  pf_decoder_begin(&u->decoder, payload + PF_BAND_BYTES, size - PF_BAND_BYTES);
+  pf_models_begin(&u->models, sizeof u->models);
+  pf_decoder_begin(&u->decoder, payload + head, size - head);
   return get_fresh(u, &base) && get_chains(u) && get_changes(u) && check_end(u) && sort_borders(u);
 }
 
 planefile_status pf_band_decode(const pf_memory *memory, const unsigned char *payload, size_t size,
-                                pf_band *out, const char **reason) {
+                                bool varies, pf_band *out, const char **reason) {
   unpacker *u = pf_make(memory, sizeof *u, 1);
   *reason = "no memory";
   if (!u)
     return PLANEFILE_NO_MEMORY;
   u->memory = memory;
   u->out = out;
-  bool is_good = size >= PF_BAND_BYTES ? unpack(u, payload, size) : refuse(u, "it is too short");
+  bool is_good = unpack(u, payload, size, varies);
   if (u->reason)
     *reason = u->reason;
   planefile_status status = is_good     ? PLANEFILE_OK
@@ -340,6 +392,7 @@ planefile_status pf_band_decode(const pf_memory *memory, const unsigned char *pa
                                         : PLANEFILE_NO_MEMORY;
   if (out->band.border_count > u->border_count) /* it is counted beyond its room */
     out->band.border_count = u->border_count;
+  pf_free(memory, u->coding, sizeof *u->coding, 1);
   pf_free(memory, u->states, sizeof *u->states, u->chain_count);
   pf_free(memory, u, sizeof *u, 1);
   return status;

@@ -80,6 +80,15 @@ static bool is_cell(const planefile_cell *cell) {
   return true;
 }
 
+/* A cell that varies has no colour of its own, and cell 0 does not vary. */
+static bool is_program(const planefile_band *plane, uint32_t cell) {
+  static const planefile_cell none;
+  const planefile_program *program = &plane->programs[cell];
+  return program->step_count == 0 ||
+         (cell > 0 && memcmp(&plane->cells[cell], &none, sizeof none) == 0 &&
+          pf_program_is_good(plane, *program));
+}
+
 static bool is_plane(const planefile_band *plane) {
   bool is_good = plane->top == 0 && plane->foot == PLANEFILE_SIDE && plane->cell_count > 0;
   for (uint32_t i = 0; is_good && i < plane->chain_count; i++)
@@ -87,7 +96,7 @@ static bool is_plane(const planefile_band *plane) {
   for (uint32_t i = 0; is_good && i < plane->border_count; i++)
     is_good = is_border(plane, &plane->borders[i]);
   for (uint32_t i = 0; is_good && i < plane->cell_count; i++)
-    is_good = is_cell(&plane->cells[i]);
+    is_good = is_cell(&plane->cells[i]) && (!plane->programs || is_program(plane, i));
   return is_good;
 }
 
@@ -146,18 +155,12 @@ static planefile_status put_record(writer *w, unsigned char kind, const unsigned
   return status == PLANEFILE_OK ? put(w, check, sizeof check) : status;
 }
 
-static bool is_opaque(const planefile_band *plane) {
-  for (uint32_t i = 0; i < plane->cell_count; i++)
-    if (plane->cells[i].colour[3] != PLANEFILE_WHITE)
-      return false;
-  return true;
-}
-
 static planefile_status put_header(writer *w) {
   unsigned char header[PF_HEADER_BYTES] = {0};
   memcpy(header, pf_magic, sizeof pf_magic);
   pf_store_32(header + 8, PF_VERSION);
-  pf_store_32(header + 12, is_opaque(w->plane) ? PF_OPAQUE : 0);
+  pf_store_32(header + 12,
+              (pf_band_is_opaque(w->plane) ? PF_OPAQUE : 0) | (w->plane->programs ? PF_VARIES : 0));
   pf_store_double(header + 16, w->desc->width);
   pf_store_double(header + 24, w->desc->height);
   pf_store_32(header + 36, pf_crc32c(0, header, 36));
@@ -255,9 +258,19 @@ static planefile_status put_file(writer *w) {
   return status == PLANEFILE_OK ? put_trailer(w, index) : status;
 }
 
-planefile_status planefile_write(const planefile_writer_desc *desc, const planefile_band *plane) {
+/* Whether any cell has a program. */
+static bool varies(const planefile_band *plane) {
+  for (uint32_t i = 0; plane->programs && i < plane->cell_count; i++)
+    if (plane->programs[i].step_count > 0)
+      return true;
+  return false;
+}
+
+planefile_status planefile_write(const planefile_writer_desc *desc, const planefile_band *given) {
+  planefile_band flat = *given, *plane = &flat;
   writer w = {
       .desc = desc, .plane = plane, .memory = pf_memory_of(desc->resize, desc->resize_user)};
+  flat.programs = varies(given) ? given->programs : NULL;
   if (!(desc->width > 0 && desc->height > 0 && isfinite(desc->width) && isfinite(desc->height)) ||
       !is_plane(plane))
     return PLANEFILE_BAD_ARGUMENT;

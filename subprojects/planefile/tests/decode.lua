@@ -74,17 +74,74 @@ end
 
 ---------------------------------------------------------------------- a band
 
-local function new_band(payload)
-  local band = {cells = {}, chains = {}, borders = {}, form = 0}
+local function new_band(payload, varies)
+  local band = {cells = {}, chains = {}, borders = {}, form = 0, varies = varies, axes = {},
+    flat = {0, 0, 0, 0}, stop = {0, 0, 0, 0}}
   band.top, band.foot, band.chain_count, band.piece_count, band.cell_count, band.change_count,
     band.border_count = ("<I4I4I4I4I4I4I4"):unpack(payload)
-  band.coder = new_coder(payload:sub(29))
+  band.coder = new_coder(payload:sub(varies and 41 or 29))
   return band
 end
 
+local function get_channels(band, name, from)
+  local channels = {}
+  for c = 1, 4 do channels[c] = from[c] + band.coder.signed(name .. c) end
+  return channels
+end
+
+local function get_double(band, name)
+  local bytes = {}
+  for i = 1, 8 do bytes[i] = string.char(band.coder.symbol(name .. " byte " .. i, 8)) end
+  return (("<d"):unpack(table.concat(bytes)))
+end
+
+local function get_plane(band)
+  return {get_double(band, "axis"), get_double(band, "axis"), get_double(band, "axis")}
+end
+
+local function get_axis(band)
+  local axis = {kind = band.coder.symbol("axis kind", 2)}
+  local is_wide = band.coder.symbol("is wide", 1) == 1
+  axis.p = get_plane(band)
+  axis.q = axis.kind > 0 and get_plane(band) or {0, 0, 0}
+  axis.w = is_wide and get_plane(band) or {0, 0, 1}
+  axis.focus = axis.kind == 1 and get_double(band, "axis") or 0
+  return axis
+end
+
+local function get_ramp(band, step)
+  local back = band.coder.number("axis")
+  if back == 0 then band.axes[#band.axes + 1] = get_axis(band) end
+  step.axis = band.axes[#band.axes + (back == 0 and 0 or 1 - back)]
+  for i = 1, band.coder.number("stops") + 1 do
+    local at = get_double(band, "stop")
+    band.stop = get_channels(band, "stop ", band.stop)
+    step[i] = {at = at, colour = band.stop}
+  end
+end
+
+local function get_step(band)
+  local step = {kind = band.coder.symbol("kind", 2)}
+  if step.kind == 0 then
+    step.colour = get_channels(band, "flat ", {0, 0, 0, 0})
+  elseif step.kind == 1 then
+    get_ramp(band, step)
+  elseif step.kind == 3 then
+    step.converts = band.coder.symbol("converts", 1) == 1
+    step.factors = get_channels(band, "factor ", {65535, 65535, 65535, 65535})
+  end
+  return step
+end
+
 local function get_fresh(band)
-  local before, cell = band.cells[#band.cells] or {0, 0, 0, 0}, {}
-  for c = 1, 4 do cell[c] = before[c] + band.coder.signed("channel " .. c) end
+  local cell = {0, 0, 0, 0}
+  if band.varies and band.coder.symbol("varies", 1) == 1 then
+    cell.program = {}
+    for i = 1, band.coder.number("steps") + 1 do cell.program[i] = get_step(band) end
+  else
+    cell = get_channels(band, "channel ", band.flat)
+    band.flat = cell
+  end
   band.cells[#band.cells + 1] = cell
   return #band.cells - 1
 end
@@ -134,7 +191,8 @@ local function add_border(band, chain, foot)
   if left == right then return end
   local change = {}
   for c = 1, 4 do change[c] = band.cells[right + 1][c] - band.cells[left + 1][c] end
-  band.borders[#band.borders + 1] = {chain = chain, top = chain.since, foot = foot, change = change}
+  band.borders[#band.borders + 1] = {chain = chain, top = chain.since, foot = foot, change = change,
+    left = band.cells[left + 1], right = band.cells[right + 1]}
 end
 
 local function get_group(band, height, first, latest, done)
@@ -155,8 +213,8 @@ local function get_group(band, height, first, latest, done)
   return done + size, first, latest
 end
 
-local function read_band(payload)
-  local band, start, before = new_band(payload), {x = 0, y = 0}, {}
+local function read_band(payload, varies)
+  local band, start, before = new_band(payload, varies), {x = 0, y = 0}, {}
   get_fresh(band)
   for _ = 1, band.chain_count do get_chain(band, start, before) end
   local height, first, latest, done = band.top, 0, {0, 0}, 0
@@ -167,6 +225,72 @@ local function read_band(payload)
   for _, chain in ipairs(band.chains) do add_border(band, chain, chain.foot) end
   assert(#band.borders == band.border_count and #band.cells == band.cell_count)
   return band
+end
+
+---------------------------------------------------------------------- programs
+
+local function find_place(axis, x, y)
+  local function value(plane) return plane[1] * x + plane[2] * y + plane[3] end
+  local w = value(axis.w)
+  local p, q = value(axis.p) / w, value(axis.q) / w
+  if axis.kind == 1 then p = math.sqrt(p * p + q * q) - p * axis.focus end
+  return w > 0 and p == p and q == q, p, q
+end
+
+local function find_colour(step, x, y)
+  local exists, p, q = find_place(step.axis, x, y)
+  if not exists then return {0, 0, 0, 0} end
+  local out, count = {}, #step
+  if step.axis.kind == 2 then
+    for c = 4, 1, -1 do
+      local s = step[1].colour[c]
+      local value = s + p * (step[2].colour[c] - s) + q * (step[3].colour[c] - s)
+      out[c] = math.max(0, math.min(c == 4 and 65535 or out[4], value))
+    end
+    return out
+  end
+  if p < step[1].at then return step[1].colour end
+  for i = 1, count - 1 do
+    local from, to = step[i], step[i + 1]
+    if p >= from.at and p < to.at then
+      local share = (p - from.at) / (to.at - from.at)
+      for c = 1, 4 do out[c] = from.colour[c] + share * (to.colour[c] - from.colour[c]) end
+      return out
+    end
+  end
+  return step[count].colour
+end
+
+local function decode(code)
+  if code < 0 then return -decode(-code) end
+  return code <= 0.04045 and code / 12.92 or ((code + 0.055) / 1.055) ^ 2.4
+end
+
+local function leave(step, layer)
+  for c = 1, 3 do
+    local s = math.max(layer[4], math.min(65535, math.abs(layer[c])))
+    if step.converts and s > 0 then layer[c] = s * decode(layer[c] / s) end
+  end
+  for c = 1, 4 do layer[c] = layer[c] * step.factors[c] / 65535 end
+end
+
+local function show(program, x, y)
+  local groups = {{0, 0, 0, 0}}
+  for _, step in ipairs(program) do
+    local layer
+    if step.kind == 2 then
+      groups[#groups + 1] = {0, 0, 0, 0}
+    elseif step.kind == 3 then
+      layer = table.remove(groups)
+      leave(step, layer)
+    else
+      layer = step.kind == 0 and step.colour or find_colour(step, x, y)
+    end
+    local front = groups[#groups]
+    local through = 1 - front[4] / 65535
+    for c = 1, layer and 4 or 0 do front[c] = front[c] + through * layer[c] end
+  end
+  return groups[1]
 end
 
 ---------------------------------------------------------------------- drawing
@@ -190,8 +314,18 @@ local function share_left(a, b, edge)
   return (integral(high) - integral(low)) / (high - low)
 end
 
+-- The area of a pixel right of a border changes the shares of cells.
+local function add_shares(shares, border, x, area)
+  for sign, cell in pairs {[-1] = border.left, [1] = border.right} do
+    if cell.program then
+      shares[cell] = shares[cell] or {}
+      shares[cell][x] = (shares[cell][x] or 0) + sign * area
+    end
+  end
+end
+
 -- A line down from (xa, ya) to (xb, yb), in pixels, adds to the rows that it crosses.
-local function add_line(rows, columns, xa, ya, xb, yb, change)
+local function add_line(rows, columns, xa, ya, xb, yb, border)
   local y = ya
   while y < yb do
     local row = math.floor(y)
@@ -199,7 +333,10 @@ local function add_line(rows, columns, xa, ya, xb, yb, change)
     local a, b, before = xa + (y - ya) * slope, xa + (foot - ya) * slope, 0
     for x = 0, columns - 1 do
       local share = share_left(a, b, x + 1) * (foot - y)
-      for c = 1, 4 do rows[row][4 * x + c] = rows[row][4 * x + c] + change[c] * (share - before) end
+      for c = 1, 4 do
+        rows[row][4 * x + c] = rows[row][4 * x + c] + border.change[c] * (share - before)
+      end
+      add_shares(rows[row].shares, border, x, share - before)
       before = share
     end
     y = foot
@@ -217,7 +354,7 @@ local function draw_border(rows, size, border)
       if top < foot then
         local slope = (xb - xa) / (yb - ya)
         add_line(rows, size.columns, (xa + (top - ya) * slope) * fit.x, top * fit.y,
-          (xa + (foot - ya) * slope) * fit.x, foot * fit.y, border.change)
+          (xa + (foot - ya) * slope) * fit.x, foot * fit.y, border)
       end
       xa, ya = xb, yb
     end
@@ -229,7 +366,7 @@ end
 -- bands: all that the index names, in order.
 local function read_bands(bytes)
   assert(bytes:sub(1, 8) == "celplane" and crc32c(bytes:sub(1, 36)) == ("<I4"):unpack(bytes, 37))
-  local trailer = bytes:sub(-32)
+  local trailer, flags = bytes:sub(-32), ("<I4"):unpack(bytes, 13)
   local index, size = ("<I8I8"):unpack(trailer, 9)
   assert(trailer:sub(1, 8) == "planeend" and size == #bytes)
   local function payload_at(offset)
@@ -240,16 +377,30 @@ local function read_bands(bytes)
   end
   local entries, bands = payload_at(index), {}
   for at = 1, #entries, 12 do
-    bands[#bands + 1] = read_band(payload_at((("<I8"):unpack(entries, at + 4))))
+    bands[#bands + 1] = read_band(payload_at((("<I8"):unpack(entries, at + 4))), flags & 2 > 0)
   end
-  return bands
+  return bands, flags & 1 > 0
+end
+
+local function add_programs(row, y, size, is_opaque)
+  for cell, changes in pairs(row.shares) do
+    local share = 0
+    for x = 0, size.columns - 1 do
+      share = share + (changes[x] or 0)
+      if math.abs(share) > 1e-9 then
+        local colour = show(cell.program, (x + 0.5) / size.columns, (y + 0.5) / size.rows)
+        for c = 1, 4 do row[4 * x + c] = row[4 * x + c] + share * colour[c] end
+        row[4 * x + 4] = is_opaque and 65535 or row[4 * x + 4]
+      end
+    end
+  end
 end
 
 -- Returns rows 0 to rows - 1, each an array of four numbers a pixel, with 65535 for white.
 return function(bytes, columns, row_count)
-  local bands, rows, size = read_bands(bytes), {}, {columns = columns, rows = row_count}
+  local rows, size, bands, is_opaque = {}, {columns = columns, rows = row_count}, read_bands(bytes)
   for y = 0, row_count - 1 do
-    rows[y] = {}
+    rows[y] = {shares = {}}
     for i = 1, 4 * columns do rows[y][i] = 0 end
   end
   for _, band in ipairs(bands) do
@@ -262,6 +413,7 @@ return function(bytes, columns, row_count)
       sum[c] = sum[c] + rows[y][i]
       rows[y][i] = sum[c]
     end
+    add_programs(rows[y], y, size, is_opaque)
   end
   return rows
 end

@@ -31,7 +31,7 @@ int main(int count, char **arguments) {
     return 2;
   bool is_corpus = count == 3;
   for (int i = 0; i < atoi(arguments[2]); i++) {
-    drawing d = random_drawing((uint64_t)i, (uint32_t)(i % 12));
+    drawing d = random_drawing((uint64_t)i, (uint32_t)(i % 12), i % 2 ? VARIED : FLAT);
     memory_file file = write_plane(&d.plane);
     put_file(arguments[1], i, is_corpus ? "" : ".plane", is_corpus ? i % 4 : -1, file.bytes,
              file.size);

@@ -85,8 +85,16 @@ typedef struct drawing {
   planefile_chain *chains;
   planefile_border *borders;
   planefile_cell *cells;
+  planefile_program *programs;
+  planefile_step *steps;
+  planefile_axis *axes;
+  planefile_stop *stops;
   planefile_band plane;
 } drawing;
+
+/* Whether a drawing has cells with programs. */
+typedef enum variety { FLAT, VARIED } variety;
+enum { STEPS_A_CELL = 12 };
 
 static inline drawing drawing_new(uint32_t shapes) {
   size_t pieces = 8 * (size_t)shapes + 1;
@@ -94,13 +102,21 @@ static inline drawing drawing_new(uint32_t shapes) {
                .pieces = calloc(pieces, sizeof *d.pieces),
                .chains = calloc(pieces, sizeof *d.chains),
                .borders = calloc(4 * pieces, sizeof *d.borders),
-               .cells = calloc(4 * pieces, sizeof *d.cells)};
+               .cells = calloc(4 * pieces, sizeof *d.cells),
+               .programs = calloc(4 * pieces, sizeof *d.programs),
+               .steps = calloc(4 * STEPS_A_CELL * pieces, sizeof *d.steps),
+               .axes = calloc(4 * STEPS_A_CELL * pieces, sizeof *d.axes),
+               .stops = calloc(16 * STEPS_A_CELL * pieces, sizeof *d.stops)};
   d.plane = (planefile_band){.foot = PLANEFILE_SIDE,
                              .points = d.points,
                              .pieces = d.pieces,
                              .chains = d.chains,
                              .borders = d.borders,
-                             .cells = d.cells};
+                             .cells = d.cells,
+                             .programs = d.programs,
+                             .steps = d.steps,
+                             .axes = d.axes,
+                             .stops = d.stops};
   return d;
 }
 
@@ -110,14 +126,84 @@ static inline void drawing_free(drawing *d) {
   free(d->chains);
   free(d->borders);
   free(d->cells);
+  free(d->programs);
+  free(d->steps);
+  free(d->axes);
+  free(d->stops);
+}
+
+static inline planefile_cell random_colour(random_state *random, bool is_opaque) {
+  planefile_cell out;
+  for (int c = 0; c < 3; c++)
+    out.colour[c] = random_between(random, 0, PLANEFILE_WHITE);
+  out.colour[3] = is_opaque ? PLANEFILE_WHITE : random_between(random, 0, PLANEFILE_WHITE);
+  return out;
 }
 
 static inline uint32_t add_cell(drawing *d, random_state *random, bool is_opaque) {
-  planefile_cell *cell = &d->cells[d->plane.cell_count];
-  for (int c = 0; c < 3; c++)
-    cell->colour[c] = random_between(random, 0, PLANEFILE_WHITE);
-  cell->colour[3] = is_opaque ? PLANEFILE_WHITE : random_between(random, 0, PLANEFILE_WHITE);
+  d->cells[d->plane.cell_count] = random_colour(random, is_opaque);
   return d->plane.cell_count++;
+}
+
+static inline double random_double(random_state *random, double low, double high) {
+  return low + (high - low) * random_next(random) / UINT32_MAX;
+}
+
+/* A slope that a gradient may have, and now and then a frame in perspective. */
+static inline planefile_axis random_axis(random_state *random) {
+  planefile_axis axis = {.kind = (uint8_t)random_below(random, 3), .w = {0, 0, 1}};
+  bool is_wide = random_below(random, 4) == 0;
+  for (int i = 0; i < 3; i++) {
+    axis.p[i] = random_double(random, -1.5, 1.5);
+    axis.q[i] = axis.kind == PLANEFILE_LINEAR ? 0 : random_double(random, -1.5, 1.5);
+    axis.w[i] += is_wide ? random_double(random, -0.2, 0.2) : 0;
+  }
+  axis.focus = axis.kind == PLANEFILE_RADIAL ? random_double(random, 0, 0.8) : 0;
+  return axis;
+}
+
+static inline planefile_step random_ramp(drawing *d, random_state *random) {
+  planefile_band *plane = &d->plane;
+  bool is_old = plane->axis_count > 0 && random_below(random, 3) > 0;
+  uint32_t axis = is_old ? random_below(random, plane->axis_count) : plane->axis_count;
+  if (!is_old)
+    d->axes[plane->axis_count++] = random_axis(random);
+  planefile_step step = {.kind = PLANEFILE_RAMP, .axis = axis, .stop = plane->stop_count};
+  step.stop_count = d->axes[axis].kind == PLANEFILE_TRIANGLE ? 3 : 1 + random_below(random, 4);
+  double at = random_double(random, -0.5, 0.5);
+  for (uint32_t i = 0; i < step.stop_count; i++) {
+    d->stops[plane->stop_count++] = (planefile_stop){at, random_colour(random, false)};
+    at += random_double(random, 0.1, 0.6);
+  }
+  return step;
+}
+
+static inline planefile_step random_leave(random_state *random) {
+  planefile_step step = {.kind = PLANEFILE_LEAVE, .converts = random_below(random, 2)};
+  step.colour = random_colour(random, false);
+  return step;
+}
+
+/* Some layers, of which a few in the middle may be a group. */
+static inline uint32_t add_varied(drawing *d, random_state *random, bool is_opaque) {
+  planefile_band *plane = &d->plane;
+  planefile_program *program = &d->programs[plane->cell_count];
+  uint32_t layers = random_between(random, 1, 4), group = random_below(random, 2 * layers);
+  program->step = plane->step_count;
+  for (uint32_t i = 0; i < layers; i++) {
+    if (i == group)
+      d->steps[plane->step_count++] = (planefile_step){.kind = PLANEFILE_ENTER};
+    planefile_step flat = {.kind = PLANEFILE_FLAT, .colour = random_colour(random, false)};
+    bool is_ramp = random_below(random, 3) > 0;
+    d->steps[plane->step_count++] = is_ramp ? random_ramp(d, random) : flat;
+  }
+  if (group < layers)
+    d->steps[plane->step_count++] = random_leave(random);
+  if (is_opaque)
+    d->steps[plane->step_count++] =
+        (planefile_step){.kind = PLANEFILE_FLAT, .colour = random_colour(random, true)};
+  program->step_count = plane->step_count - program->step;
+  return plane->cell_count++;
 }
 
 /* A piece from one point to another, whose heights between them only fall where it is plain. */
@@ -160,7 +246,7 @@ static inline void add_border(drawing *d, uint32_t chain, int32_t top, int32_t f
 
 /* Two chains from top to foot, between which there is another cell from each cut to the next; now
  * and then they are hidden. Sums do not ask whether other shapes lie there, too. */
-static inline void add_shape(drawing *d, random_state *random, bool is_opaque) {
+static inline void add_shape(drawing *d, random_state *random, bool is_opaque, variety kind) {
   int32_t top = random_between(random, -(1 << 24), 4 << 24);
   int32_t height = random_between(random, 1 << 4, 1 << random_between(random, 10, 25));
   int32_t heights[4] = {top, top + height / 4, top + height / 2, top + height};
@@ -173,21 +259,23 @@ static inline void add_shape(drawing *d, random_state *random, bool is_opaque) {
     int32_t to = cuts[i + 1] < PLANEFILE_SIDE ? cuts[i + 1] : PLANEFILE_SIDE;
     if (from >= to || random_below(random, 6) == 0)
       continue;
-    uint32_t cell = random_below(random, 4) > 0 || d->plane.cell_count < 2
-                        ? add_cell(d, random, is_opaque)
-                        : 1 + random_below(random, d->plane.cell_count - 1);
+    bool is_new = random_below(random, 4) > 0 || d->plane.cell_count < 2;
+    bool varies = kind == VARIED && random_below(random, 2);
+    uint32_t cell = !is_new  ? 1 + random_below(random, d->plane.cell_count - 1)
+                    : varies ? add_varied(d, random, is_opaque)
+                             : add_cell(d, random, is_opaque);
     add_border(d, chains[0], from, to, 0, cell);
     add_border(d, chains[1], from, to, cell, 0);
   }
 }
 
-static inline drawing random_drawing(uint64_t seed, uint32_t shapes) {
+static inline drawing random_drawing(uint64_t seed, uint32_t shapes, variety kind) {
   random_state random = {seed};
   drawing d = drawing_new(shapes);
   bool is_opaque = seed % 3 == 0;
   add_cell(&d, &random, is_opaque);
   for (uint32_t i = 0; i < shapes; i++)
-    add_shape(&d, &random, is_opaque);
+    add_shape(&d, &random, is_opaque, kind);
   return d;
 }
 

@@ -63,7 +63,7 @@ static bool is_same_border(const planefile_band *a, const planefile_band *b, uin
 /* What is read is written as the same bytes, and has as many borders as were written. */
 static void test_round_trips(void) {
   for (uint64_t seed = 0; seed < 300; seed++) {
-    drawing d = random_drawing(seed, (uint32_t)(seed % 40));
+    drawing d = random_drawing(seed, (uint32_t)(seed % 40), seed / 40 % 2 ? VARIED : FLAT);
     memory_file file = write_plane(&d.plane);
     planefile_plane *plane = read_plane(&file);
     const planefile_band *band = planefile_plane_band(plane, 0);
@@ -157,7 +157,7 @@ static double find_worst(const planefile_band *plane, const planefile_cell *draw
 }
 
 static void check_drawn(uint64_t seed, uint32_t size, planefile_sampling sampling) {
-  drawing d = random_drawing(seed, 8);
+  drawing d = random_drawing(seed, 8, FLAT);
   memory_file file = write_plane(&d.plane);
   planefile_plane *plane = read_plane(&file);
   planefile_view view = {size, size, 0, 0, size, size, sampling};
@@ -211,7 +211,7 @@ static void check_deep(const planefile_plane *plane, random_state *random) {
 static void test_crops(void) {
   random_state random = {8};
   for (uint64_t seed = 0; seed < 40; seed++) {
-    drawing d = random_drawing(seed, 30);
+    drawing d = random_drawing(seed, 30, seed % 2 ? VARIED : FLAT);
     memory_file file = write_plane(&d.plane);
     planefile_plane *plane = read_plane(&file);
     check_crops(plane, &random, PLANEFILE_AREA);
@@ -247,7 +247,7 @@ static void test_cells_are_exact(void) {
 }
 
 static void test_codes(void) {
-  drawing d = random_drawing(0, 1);
+  drawing d = random_drawing(0, 1, FLAT);
   memory_file file = write_plane(&d.plane);
   planefile_plane *plane = read_plane(&file);
   for (int code = 0; code < 256; code++) {
@@ -291,7 +291,7 @@ static void check_part(memory_file *file, const planefile_cell *all, uint32_t si
 /* A plane of many bands is that of one; a part of its heights needs only some of its bytes. */
 static void test_bands(void) {
   enum { SIZE = 128 };
-  drawing d = random_drawing(5, 6000);
+  drawing d = random_drawing(5, 6000, FLAT);
   memory_file file = write_plane(&d.plane);
   planefile_plane *plane = read_plane(&file);
   CHECK(planefile_plane_info(plane).band_count > 3);
@@ -314,6 +314,23 @@ static void test_bands(void) {
   drawing_free(&d);
 }
 
+/* The same where cells vary. */
+static void test_varied_bands(void) {
+  enum { SIZE = 128 };
+  drawing d = random_drawing(6, 6000, VARIED);
+  memory_file file = write_plane(&d.plane);
+  planefile_plane *plane = read_plane(&file);
+  CHECK(planefile_plane_info(plane).band_count > 3 && planefile_plane_info(plane).varies);
+  planefile_view view = {SIZE, SIZE, 0, 0, SIZE, SIZE, PLANEFILE_AREA};
+  planefile_cell *all = draw_view(plane, view);
+  for (uint32_t y = 0; y + 8 <= SIZE; y += 24)
+    check_part(&file, all, SIZE, y, 8);
+  free(all);
+  planefile_plane_destroy(plane);
+  free(file.bytes);
+  drawing_free(&d);
+}
+
 /* ---------------------------------------------------------------- damage */
 
 static bool is_refused(memory_file *file, const char *reason) {
@@ -326,8 +343,8 @@ static bool is_refused(memory_file *file, const char *reason) {
          (reason ? strcmp(fault.reason, reason) == 0 : fault.reason[0] != '\0');
 }
 
-static void test_every_byte(void) {
-  drawing d = random_drawing(4, 6);
+static void check_every_byte(variety kind) {
+  drawing d = random_drawing(4, 6, kind);
   memory_file file = write_plane(&d.plane);
   size_t size = file.size;
   for (size_t i = 0; i < size; i++) {
@@ -356,7 +373,7 @@ static void test_reasons(void) {
       {12, 1, "band 0: it has more pieces than it claims"},
       {20, 1, "band 0: a group is too large"},
   };
-  drawing d = random_drawing(4, 6);
+  drawing d = random_drawing(4, 6, FLAT);
   for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
     memory_file file = write_plane(&d.plane);
     pf_store_32(file.bytes + PF_HEADER_BYTES + PF_HEAD_BYTES + changes[i].at, changes[i].number);
@@ -369,7 +386,7 @@ static void test_reasons(void) {
 }
 
 static void test_ends(void) {
-  drawing d = random_drawing(4, 6);
+  drawing d = random_drawing(4, 6, FLAT);
   memory_file file = write_plane(&d.plane);
   CHECK(planefile_is(file.bytes, PLANEFILE_MAGIC_BYTES) && !planefile_is(file.bytes, 7));
   pf_store_32(file.bytes + 8, 2);
@@ -387,7 +404,7 @@ static void test_ends(void) {
 /* Any byte of the code may be any other: then the plane is another one, or it is refused. */
 static void test_altered_code(void) {
   for (uint64_t seed = 0; seed < 6; seed++) {
-    drawing d = random_drawing(seed, 5);
+    drawing d = random_drawing(seed, 5, seed % 2 ? VARIED : FLAT);
     memory_file file = write_plane(&d.plane);
     for (size_t i = PF_HEADER_BYTES; i + PF_TRAILER_BYTES < file.size; i++) {
       unsigned char kept = file.bytes[i];
@@ -417,14 +434,14 @@ static planefile_status write_status(const planefile_band *plane, double width) 
 
 #define CHECK_REFUSED(change)                                                                      \
   do {                                                                                             \
-    drawing d = random_drawing(2, 4);                                                              \
+    drawing d = random_drawing(2, 4, FLAT);                                                        \
     change;                                                                                        \
     CHECK(write_status(&d.plane, 4) == PLANEFILE_BAD_ARGUMENT);                                    \
     drawing_free(&d);                                                                              \
   } while (0)
 
 static void test_bad_planes(void) {
-  drawing good = random_drawing(2, 4);
+  drawing good = random_drawing(2, 4, FLAT);
   CHECK(write_status(&good.plane, 4) == PLANEFILE_OK);
   CHECK(write_status(&good.plane, 0) == PLANEFILE_BAD_ARGUMENT);
   CHECK(write_status(&good.plane, INFINITY) == PLANEFILE_BAD_ARGUMENT);
@@ -447,8 +464,64 @@ static void test_bad_planes(void) {
   CHECK_REFUSED(d.cells[0].colour[1] = PLANEFILE_BRIGHT + 1);
 }
 
+/* A plane of one program with a linear ramp in a group. */
+#define CHECK_PROGRAM_REFUSED(change)                                                              \
+  do {                                                                                             \
+    drawing d = random_drawing(2, 4, FLAT);                                                        \
+    planefile_program *program = &d.programs[1];                                                   \
+    planefile_step *steps = d.steps;                                                               \
+    *program = (planefile_program){0, 3};                                                          \
+    steps[0].kind = PLANEFILE_ENTER;                                                               \
+    steps[1] = (planefile_step){.kind = PLANEFILE_RAMP, .stop_count = 2};                          \
+    steps[2].kind = PLANEFILE_LEAVE;                                                               \
+    d.plane.step_count = 3;                                                                        \
+    d.plane.axis_count = 1;                                                                        \
+    d.plane.stop_count = 2;                                                                        \
+    d.cells[1] = (planefile_cell){{0}};                                                            \
+    CHECK(write_status(&d.plane, 4) == PLANEFILE_OK);                                              \
+    change;                                                                                        \
+    CHECK(write_status(&d.plane, 4) == PLANEFILE_BAD_ARGUMENT);                                    \
+    drawing_free(&d);                                                                              \
+  } while (0)
+
+static void test_bad_programs(void) {
+  CHECK_PROGRAM_REFUSED(d.cells[1].colour[0] = 1);
+  CHECK_PROGRAM_REFUSED(d.programs[0] = *program);
+  CHECK_PROGRAM_REFUSED(program->step_count = 4);
+  CHECK_PROGRAM_REFUSED(program->step = 1);
+  CHECK_PROGRAM_REFUSED(steps[2].kind = PLANEFILE_ENTER);
+  CHECK_PROGRAM_REFUSED(steps[0].kind = PLANEFILE_LEAVE);
+  CHECK_PROGRAM_REFUSED(steps[1].kind = 4);
+  CHECK_PROGRAM_REFUSED(steps[1].axis = 1);
+  CHECK_PROGRAM_REFUSED(steps[1].stop_count = 3);
+  CHECK_PROGRAM_REFUSED(steps[1].stop_count = 0);
+  CHECK_PROGRAM_REFUSED(steps[2].colour.colour[3] = -1);
+  CHECK_PROGRAM_REFUSED(d.stops[1].at = -1);
+  CHECK_PROGRAM_REFUSED(d.stops[1].at = NAN);
+  CHECK_PROGRAM_REFUSED(d.stops[1].colour.colour[2] = PLANEFILE_BRIGHT + 1);
+  CHECK_PROGRAM_REFUSED(d.axes[0].kind = 3);
+  CHECK_PROGRAM_REFUSED(d.axes[0].kind = PLANEFILE_TRIANGLE);
+  CHECK_PROGRAM_REFUSED(d.axes[0].w[1] = INFINITY);
+}
+
+/* Groups are as deep as they may be, and one deeper. */
+static void test_depth(void) {
+  for (uint32_t depth = PLANEFILE_DEPTH; depth <= PLANEFILE_DEPTH + 1; depth++) {
+    drawing d = random_drawing(2, 4, FLAT);
+    d.programs[1] = (planefile_program){0, 2 * depth};
+    d.plane.step_count = 2 * depth;
+    d.cells[1] = (planefile_cell){{0}};
+    for (uint32_t i = 0; i < depth; i++) {
+      d.steps[i].kind = PLANEFILE_ENTER;
+      d.steps[depth + i].kind = PLANEFILE_LEAVE;
+    }
+    CHECK((write_status(&d.plane, 4) == PLANEFILE_OK) == (depth == PLANEFILE_DEPTH));
+    drawing_free(&d);
+  }
+}
+
 static void test_bad_views(void) {
-  drawing d = random_drawing(2, 4);
+  drawing d = random_drawing(2, 4, FLAT);
   memory_file file = write_plane(&d.plane);
   planefile_plane *plane = read_plane(&file);
   const planefile_view views[] = {{0, 1, 0, 0, 1, 1, 0}, {9, 9, 9, 0, 1, 1, 0},
@@ -515,7 +588,7 @@ static planefile_status write_and_draw(const planefile_band *from, int *left) {
 }
 
 static void test_no_memory(void) {
-  drawing d = random_drawing(4, 30);
+  drawing d = random_drawing(4, 30, VARIED);
   int count = 0;
   for (int k = 1;; k++, count++) {
     int left = k;
@@ -538,7 +611,7 @@ static bool failing_write(void *user, const void *bytes, size_t size) {
 }
 
 static void test_no_output(void) {
-  drawing d = random_drawing(4, 3);
+  drawing d = random_drawing(4, 3, FLAT);
   memory_file file = write_plane(&d.plane);
   for (size_t room = 0; room < file.size; room += 7) {
     size_t left = room;
@@ -562,11 +635,15 @@ int main(void) {
   test_cells_are_exact();
   test_codes();
   test_bands();
-  test_every_byte();
+  test_varied_bands();
+  check_every_byte(FLAT);
+  check_every_byte(VARIED);
   test_reasons();
   test_ends();
   test_altered_code();
   test_bad_planes();
+  test_bad_programs();
+  test_depth();
   test_bad_views();
   test_no_memory();
   test_no_output();

@@ -1,0 +1,28 @@
+/* Programs of a plane: what the composer's programs show, layer by layer, as a plane file keeps it.
+ *
+ *     items of a program      gradient   flat  | gradient  flat |   flat     a faded group
+ *     steps of the plane      ramp       flat  enter ramp  flat  leave  flat
+ *
+ * Gradients are ramps along axes, which lie on the frame whatever its size. What is no layer over
+ * another, a mode, a matte, a grade, a coloured medium, can be kept where only one gradient is in
+ * the program: then all that shows is a function of the place along it, and is tabulated.
+ *
+ * Invariant: a program of the plane shows what that of the composer does, within 1/16384.
+ */
+#pragma once
+
+#include "engine/compose/cell.h"
+#include "engine/record/recording.h"
+
+/* What a program is made from. */
+typedef struct cs_record_source {
+  celspan_context *context;
+  const cs_stack *stack;
+  uint32_t *axes; /* of each shade its number in the record plus 1; 0: it has none yet */
+} cs_record_source;
+
+/* Appends the program's steps and what they need to a record. Errors: NO_MEMORY; BAD_ARGUMENT: a
+ * plane cannot keep it. */
+CELSPAN_CHECKED celspan_status cs_record_program(const cs_record_source *source,
+                                                 const cs_program *program, cs_recording *record,
+                                                 planefile_program *out);

@@ -1,0 +1,33 @@
+/* A plane that is being recorded: the arrays of a plane file, which grow.
+ *
+ *     record.h     chains, borders, cells
+ *     programs.h   what cells show that vary
+ *
+ * Invariant: every cell has a program, which is empty where the cell is flat.
+ */
+#pragma once
+
+#include <planefile.h>
+#include <stddef.h>
+
+#define CS_RECORD_SIDE 4093 /* pixels of the plan's width and height */
+
+typedef struct cs_recording {
+  planefile_point *points;
+  planefile_piece *pieces;
+  planefile_chain *chains;
+  planefile_border *borders;
+  planefile_cell *cells;
+  planefile_program *programs; /* of the cells */
+  planefile_step *steps;
+  planefile_axis *axes;
+  planefile_stop *stops;
+  size_t point_count, point_capacity;
+  size_t piece_count, piece_capacity;
+  size_t chain_count, chain_capacity;
+  size_t border_count, border_capacity;
+  size_t cell_count, cell_capacity, program_count, program_capacity;
+  size_t step_count, step_capacity;
+  size_t axis_count, axis_capacity;
+  size_t stop_count, stop_capacity;
+} cs_recording;

@@ -1,0 +1,79 @@
+/* Programs of cells that vary: their code, and the colours that they give.
+ *
+ *     steps, from the front        flat   enter   ramp   flat   leave   ramp
+ *                                            \_____________________/
+ *     what is composed             layer          one layer             layer
+ *
+ * A pixel is composed from the front: each layer adds its colour times what shines through those
+ * before it.
+ *
+ * INVARIANT: a colour is a function of the program and the place of the pixel in the frame, whose
+ * operations are all defined to the bit.
+ */
+#ifndef PF_PROGRAM_H
+#define PF_PROGRAM_H
+
+#include "coder.h"
+
+enum { PF_BATCH = 32, PF_CURVE = 4096 };
+
+typedef struct pf_program_models {
+  uint16_t varies[2], kinds[4], converts[2], axis_kinds[4], is_wide[2]; /* trees */
+  uint16_t axis_bytes[8][256], stop_bytes[8][256];                      /* trees */
+  pf_number steps, axes, stops, flat[4], stop[4], factor[4];
+} pf_program_models;
+
+/* What the code of the programs of a band depends on. */
+typedef struct pf_program_coding {
+  pf_program_models models;
+  planefile_cell colour; /* of the latest stop */
+  uint32_t *axes;        /* encoding: of each axis of the plane its number plus 1; 0: none yet */
+  uint32_t step_count, axis_count, stop_count; /* so far */
+} pf_program_coding;
+
+void pf_put_program(pf_encoder *encoder, pf_program_coding *coding, const planefile_band *plane,
+                    planefile_program program);
+
+/* Where a decoded program goes. */
+typedef struct pf_program_room {
+  planefile_step *steps;
+  planefile_axis *axes;
+  planefile_stop *stops;
+  uint32_t step_count, axis_count, stop_count; /* that there is room for */
+} pf_program_room;
+
+/* Returns why it is refused, or NULL. What was decoded is checked. */
+const char *pf_get_program(pf_decoder *decoder, pf_program_coding *coding,
+                           const pf_program_room *room, planefile_program *out);
+
+/* Whether a program is as planefile.h says; and whether nothing shines through it anywhere. */
+bool pf_program_is_good(const planefile_band *band, planefile_program program);
+bool pf_program_hides(const planefile_band *band, planefile_program program);
+
+/* ---------------------------------------------------------------- colours */
+
+/* Light of sRGB codes, at even steps from 0 to 1. */
+typedef struct pf_light_curve {
+  double light[PF_CURVE + 1];
+} pf_light_curve;
+
+void pf_light_curve_make(pf_light_curve *out);
+
+/* Neighbouring pixels of one row. */
+typedef struct pf_pixels {
+  uint32_t width, height; /* of the frame */
+  uint32_t x, y, count;   /* at most BATCH */
+} pf_pixels;
+
+/* Colours, WHITE is 1. */
+typedef struct pf_colours {
+  double at[PF_BATCH][4];
+} pf_colours;
+
+/* room: one for each group that may be inside another one, and one more. The colours are in the
+ * first one. */
+void pf_program_colours(const planefile_band *band, planefile_program program,
+                        const pf_light_curve *curve, const pf_pixels *pixels,
+                        pf_colours room[PLANEFILE_DEPTH + 1]);
+
+#endif
