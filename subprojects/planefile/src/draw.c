@@ -24,10 +24,10 @@ typedef struct sum {
   uint64_t channels[4]; /* times HEIGHT */
 } sum;
 
-/* From the left of a border to its right. cells: of all bands; where neither varies NONE. */
+/* From the left of a border to its right. */
 typedef struct step {
   int32_t colour[4];
-  uint32_t left, right;
+  uint32_t left, right; /* cells that vary, by their numbers in all bands, or NONE */
 } step;
 #define NONE UINT32_MAX
 
@@ -70,10 +70,10 @@ static inline void add(planefile_drawer *d, uint32_t row, uint32_t column, const
   for (int c = 0; c < 4; c++)
     d->sums[at].channels[c] += (uint64_t)(change->colour[c] * area);
   d->bits[row * d->words + column / 64] |= UINT64_C(1) << column % 64;
-  if (change->left != change->right) {
+  if (change->left != NONE)
     pf_varied_add(&d->varied, row, column, change->left, -area);
+  if (change->right != NONE)
     pf_varied_add(&d->varied, row, column, change->right, area);
-  }
 }
 
 /* The share of a line from x = low to high, within [edge - 1, edge] or beyond it, that is left of
@@ -95,7 +95,7 @@ static void add_left(planefile_drawer *d, int64_t y, int64_t foot, const step *c
     return;
   }
   add(d, first, 0, change, (first + INT64_C(1)) * PF_HEIGHT - y);
-  bool varies = change->left != change->right;
+  bool varies = change->left != NONE || change->right != NONE;
   for (uint32_t row = first + 1; varies && row < last; row++)
     add(d, row, 0, change, PF_HEIGHT);
   for (int c = 0; !varies && c < 4; c++) {
@@ -142,23 +142,20 @@ static double x_at(const live *l, int64_t y) {
   return l->from.x + l->slope * (double)(y - l->from.y);
 }
 
-/* The number of a cell of the current band among those of all. */
+/* The number of a cell among those of all bands; NONE: it is flat. */
 static uint32_t number_of(const planefile_drawer *d, const planefile_band *band, uint32_t cell) {
   const pf_band *of = (const pf_band *)band; /* its first member */
+  if (!band->programs || band->programs[cell].step_count == 0)
+    return NONE;
   return d->varied.first[of - d->plane->bands] + cell;
 }
 
 static step find_change(const planefile_drawer *d, const planefile_band *band,
                         const planefile_border *border) {
   const planefile_cell *left = &band->cells[border->left], *right = &band->cells[border->right];
-  step out = {.left = NONE, .right = NONE};
+  step out = {.left = number_of(d, band, border->left), .right = number_of(d, band, border->right)};
   for (int c = 0; c < 4; c++)
     out.colour[c] = right->colour[c] - left->colour[c];
-  if (band->programs && (band->programs[border->left].step_count > 0 ||
-                         band->programs[border->right].step_count > 0)) {
-    out.left = number_of(d, band, border->left);
-    out.right = number_of(d, band, border->right);
-  }
   return out;
 }
 
@@ -290,10 +287,10 @@ static void draw_border(planefile_drawer *d, live *l, int64_t top, int64_t foot)
 static void add_start(planefile_drawer *d, const step *change) {
   for (int c = 0; c < 4; c++)
     d->start.channels[c] += (uint64_t)(change->colour[c] * (int64_t)PF_HEIGHT);
-  if (change->left != change->right) {
+  if (change->left != NONE)
     pf_varied_add_start(&d->varied, change->left, -PF_HEIGHT);
+  if (change->right != NONE)
     pf_varied_add_start(&d->varied, change->right, PF_HEIGHT);
-  }
 }
 
 /* Adds to the borders that live one from a height on. */
@@ -441,30 +438,18 @@ static size_t read_row(planefile_drawer *d, uint32_t row) {
 
 /* ---------------------------------------------------------------- rows that vary */
 
-static int32_t round_channel(double channel) {
-  double whole = floor(channel + 0.5);
-  return whole > -PLANEFILE_BRIGHT && whole < PLANEFILE_BRIGHT ? (int32_t)whole
-         : whole > 0                                           ? PLANEFILE_BRIGHT
-         : whole < 0                                           ? -PLANEFILE_BRIGHT
-                                                               : 0; /* not a number */
-}
-
 /* Appends the pixels of a row from a column to another one, each a span. */
 static size_t paint_pixels(planefile_drawer *d, uint32_t row, uint32_t from, uint32_t to,
                            const sum *flat, size_t count) {
-  pf_colours colours;
-  for (uint32_t x = from; x < to; x += PF_BATCH) {
-    pf_pixels pixels = {d->view.width, d->view.height, d->view.x + x, d->view.y + row,
-                        to - x < PF_BATCH ? to - x : PF_BATCH};
-    pf_varied_colours(&d->varied, &pixels, &colours);
-    for (uint32_t k = 0; k < pixels.count; k++, count++) {
-      planefile_span *span = &d->spans[count];
-      span->end = x + k + 1;
-      for (int c = 0; c < 4; c++)
-        span->colour.colour[c] = round_channel((double)(int64_t)flat->channels[c] / PF_HEIGHT +
-                                               PLANEFILE_WHITE * colours.at[k][c]);
+  for (uint32_t x = from, size; x < to; x += size, count += size) {
+    size = to - x < PF_BATCH ? to - x : PF_BATCH;
+    pf_pixels pixels = {d->view.width, d->view.height, d->view.x + x, d->view.y + row, size};
+    planefile_span *spans = &d->spans[count];
+    pf_varied_paint(&d->varied, &pixels, flat->channels, spans);
+    for (uint32_t k = 0; k < size; k++) {
+      spans[k].end = x + k + 1;
       if (d->plane->info.is_opaque)
-        span->colour.colour[3] = PLANEFILE_WHITE;
+        spans[k].colour.colour[3] = PLANEFILE_WHITE;
     }
   }
   return count;

@@ -16,12 +16,24 @@ static bool is_reached(double linear, int k) {
                          : power(linear, 5) >= power((code + 0.055) / 1.055, 12);
 }
 
+/* The least light that has a code, or a greater one, in units. */
+static int find_least(int code) {
+  int low = 0, high = PLANEFILE_WHITE;
+  while (low < high) {
+    int middle = (low + high) / 2;
+    if (is_reached((double)middle / PLANEFILE_WHITE, code))
+      high = middle;
+    else
+      low = middle + 1;
+  }
+  return low;
+}
+
 void pf_codes_make(unsigned char codes[PLANEFILE_WHITE + 1]) {
-  int code = 0;
-  for (int at = 0; at <= PLANEFILE_WHITE; at++) {
-    while (code < 255 && is_reached((double)at / PLANEFILE_WHITE, code + 1))
-      code++;
-    codes[at] = (unsigned char)code;
+  for (int code = 0, at = 0; code < 256; code++) {
+    int end = code < 255 ? find_least(code + 1) : PLANEFILE_WHITE + 1;
+    memset(codes + at, code, (size_t)(end - at));
+    at = end;
   }
 }
 

@@ -3,12 +3,12 @@
 
 #include "program.h"
 
-#define UNIT (1.0 / PLANEFILE_WHITE)
+#define UNIT (1.0f / PLANEFILE_WHITE)
 
 /* ---------------------------------------------------------------- light of codes */
 
-/* The light of a code above 0, exactly: the fifth root is found from above, where each step of
- * Newton's comes nearer. */
+/* The light of a code above 0: the fifth root is found from above, where each step of Newton's
+ * comes nearer. */
 static double light_of(double code) {
   if (code <= 0.04045)
     return code / 12.92;
@@ -23,151 +23,251 @@ static double light_of(double code) {
 }
 
 void pf_light_curve_make(pf_light_curve *out) {
-  for (int i = 0; i <= PF_CURVE; i++)
-    out->light[i] = light_of((double)i / PF_CURVE);
+  for (int i = 0; i <= PF_CURVE + 1; i++)
+    out->light[i] = (float)light_of((double)i / PF_CURVE);
 }
 
-static double find_light(const pf_light_curve *curve, double code) {
-  double size = code < 0 ? -code : code, light;
-  if (size < 1) {
-    int at = (int)(size * PF_CURVE);
-    double from = curve->light[at];
-    light = from + (size * PF_CURVE - at) * (curve->light[at + 1] - from);
-  } else {
-    light = light_of(size);
-  }
+/* Of a code from 0 to 1. */
+static inline float find_usual_light(const pf_light_curve *curve, float code) {
+  int at = (int)(code * PF_CURVE);
+  float from = curve->light[at];
+  return from + (code * PF_CURVE - (float)at) * (curve->light[at + 1] - from);
+}
+
+static float find_light(const pf_light_curve *curve, float code) {
+  float size = code < 0 ? -code : code;
+  float light = size <= 1 ? find_usual_light(curve, size) : (float)light_of(size);
   return code < 0 ? -light : light;
 }
 
-/* A colour of codes, premultiplied. A channel brighter than alpha is taken as if alpha were the
- * channel, up to 1. */
-static void convert(const pf_light_curve *curve, double colour[4]) {
-  for (int c = 0; c < 3; c++) {
-    double size = colour[c] < 0 ? -colour[c] : colour[c], share = size < 1 ? size : 1;
-    share = colour[3] > share ? colour[3] : share;
-    if (share > 0)
-      colour[c] = share * find_light(curve, colour[c] / share);
+/* A channel of premultiplied codes. One brighter than alpha is taken as if alpha were the channel,
+ * up to 1. */
+static float convert(const pf_light_curve *curve, float channel, float alpha) {
+  float size = channel < 0 ? -channel : channel, share = size < 1 ? size : 1;
+  share = alpha > share ? alpha : share;
+  return share > 0 ? share * find_light(curve, channel / share) : channel;
+}
+
+/* Whether colours are opaque, and none is brighter than white. */
+static bool are_usual(const pf_colours *colours, uint32_t count) {
+  bool usual = true;
+  for (uint32_t k = 0; k < count; k++)
+    usual &= colours->channels[3][k] == 1;
+  for (int c = 0; c < 3; c++)
+    for (uint32_t k = 0; k < count; k++)
+      usual &= colours->channels[c][k] >= 0 && colours->channels[c][k] <= 1;
+  return usual;
+}
+
+static void convert_all(const pf_light_curve *curve, uint32_t count, pf_colours *colours) {
+  float(*channels)[PF_BATCH] = colours->channels;
+  bool usual = are_usual(colours, count);
+  for (int c = 0; usual && c < 3; c++)
+    for (uint32_t k = 0; k < count; k++)
+      channels[c][k] = find_usual_light(curve, channels[c][k]);
+  for (int c = 0; !usual && c < 3; c++)
+    for (uint32_t k = 0; k < count; k++)
+      channels[c][k] = convert(curve, channels[c][k], channels[3][k]);
+}
+
+/* ---------------------------------------------------------------- places */
+
+/* The values of an axis at pixels; p is not a number where there is nothing. */
+typedef struct places {
+  double p[PF_BATCH], q[PF_BATCH];
+} places;
+
+static void find_plane(const double plane[3], const pf_pixels *pixels, double *out) {
+  double step = plane[0] / pixels->width, first = pixels->x + 0.5;
+  double rest = plane[1] * ((pixels->y + 0.5) / pixels->height) + plane[2];
+  for (uint32_t k = 0; k < pixels->count; k++)
+    out[k] = step * (first + k) + rest;
+}
+
+static void divide_by_w(const planefile_axis *axis, const pf_pixels *pixels, places *at) {
+  double w[PF_BATCH];
+  find_plane(axis->w, pixels, w);
+  for (uint32_t k = 0; k < pixels->count; k++) {
+    at->p[k] = w[k] > 0 ? at->p[k] / w[k] : NAN;
+    at->q[k] = axis->kind != PLANEFILE_LINEAR ? at->q[k] / w[k] : 0;
   }
+}
+
+static void find_places(const planefile_axis *axis, const pf_pixels *pixels, places *at) {
+  find_plane(axis->p, pixels, at->p);
+  if (axis->kind != PLANEFILE_LINEAR)
+    find_plane(axis->q, pixels, at->q);
+  if (!pf_axis_is_affine(axis))
+    divide_by_w(axis, pixels, at);
+  for (uint32_t k = 0; axis->kind == PLANEFILE_RADIAL && k < pixels->count; k++)
+    at->p[k] = sqrt(at->p[k] * at->p[k] + at->q[k] * at->q[k]) - axis->focus * at->p[k];
 }
 
 /* ---------------------------------------------------------------- ramps */
 
-/* The values of an axis at a pixel; false: there is nothing. */
-typedef struct place {
-  double p, q;
-} place;
+/* What a gradient shows from one stop to the next, before the first stop, or from the last one
+ * on. */
+typedef struct stretch {
+  double from, to, scale; /* 1 / its length, or 0 */
+  float colour[4], step[4];
+} stretch;
 
-static inline double on_plane(const double plane[3], double x, double y) {
-  return plane[0] * x + (plane[1] * y + plane[2]);
-}
-
-static bool find_place(const planefile_axis *axis, double x, double y, place *out) {
-  double w = on_plane(axis->w, x, y);
-  out->p = on_plane(axis->p, x, y) / w;
-  out->q = on_plane(axis->q, x, y) / w;
-  if (axis->kind == PLANEFILE_RADIAL)
-    out->p = sqrt(out->p * out->p + out->q * out->q) - axis->focus * out->p;
-  return w > 0 && out->p == out->p && out->q == out->q;
-}
-
-static void mix(const planefile_cell *from, const planefile_cell *to, double share, double out[4]) {
+static void put_unit(const planefile_cell *colour, float out[4]) {
   for (int c = 0; c < 4; c++)
-    out[c] = UNIT * (from->colour[c] + share * ((double)to->colour[c] - from->colour[c]));
+    out[c] = UNIT * (float)colour->colour[c];
 }
 
-/* *next: the stop after the place, where it was for the pixel before; the number of stops: none. */
-static void mix_stops(const planefile_stop *stops, uint32_t count, double at, uint32_t *next,
-                      double out[4]) {
-  while (*next < count && stops[*next].at <= at)
-    ++*next;
-  while (*next > 0 && stops[*next - 1].at > at)
-    --*next;
-  if (*next == 0 || *next == count) {
-    const planefile_cell *end = &stops[*next == 0 ? 0 : count - 1].colour;
-    mix(end, end, 0, out);
-    return;
+static stretch find_stretch(const planefile_stop *stops, uint32_t count, double at) {
+  uint32_t next = 0;
+  while (next < count && stops[next].at <= at)
+    next++;
+  const planefile_stop *from = &stops[next > 0 ? next - 1 : 0];
+  stretch out = {.from = next > 0 ? from->at : -INFINITY, .to = INFINITY};
+  put_unit(&from->colour, out.colour);
+  if (next < count)
+    out.to = stops[next].at;
+  if (next > 0 && next < count) {
+    float end[4];
+    put_unit(&stops[next].colour, end);
+    out.scale = 1 / (out.to - out.from);
+    for (int c = 0; c < 4; c++)
+      out.step[c] = end[c] - out.colour[c];
   }
-  const planefile_stop *from = &stops[*next - 1], *to = from + 1;
-  mix(&from->colour, &to->colour, (at - from->at) / (to->at - from->at), out);
+  return out;
 }
 
-static double limit(double number, double most) {
+/* Pixels [k, end), which are all in it. */
+static void fill(const stretch *of, const places *at, uint32_t k, uint32_t end, pf_colours *out) {
+  float shares[PF_BATCH];
+  for (uint32_t i = k; i < end; i++)
+    shares[i] = of->scale > 0 ? (float)((at->p[i] - of->from) * of->scale) : 0;
+  for (int c = 0; c < 4; c++)
+    for (uint32_t i = k; i < end; i++)
+      out->channels[c][i] = of->colour[c] + shares[i] * of->step[c];
+}
+
+static void mix_stops(const planefile_stop *stops, uint32_t stop_count, const places *at,
+                      uint32_t count, pf_colours *out) {
+  static const stretch none = {.from = INFINITY};
+  for (uint32_t k = 0, end; k < count; k = end) {
+    bool is_there = at->p[k] == at->p[k];
+    stretch of = is_there ? find_stretch(stops, stop_count, at->p[k]) : none;
+    for (end = k + 1; end < count && at->p[end] >= of.from && at->p[end] < of.to; end++) {
+    }
+    fill(&of, at, k, end, out);
+  }
+}
+
+static float limit(float number, float most) {
   return number > most ? most : number > 0 ? number : 0;
 }
 
-static void mix_corners(const planefile_stop *stops, place at, double out[4]) {
-  for (int c = 3; c >= 0; c--) {
-    double first = stops[0].colour.colour[c];
-    double second = stops[1].colour.colour[c] - first, third = stops[2].colour.colour[c] - first;
-    out[c] = limit(UNIT * (first + (at.p * second + at.q * third)), c == 3 ? 1 : out[3]);
-  }
+static void mix_corners(const planefile_stop *stops, const places *at, uint32_t count,
+                        pf_colours *out) {
+  float first[4], second[4], third[4];
+  put_unit(&stops[0].colour, first);
+  put_unit(&stops[1].colour, second);
+  put_unit(&stops[2].colour, third);
+  for (uint32_t k = 0; k < count; k++)
+    for (int c = 3; c >= 0; c--) {
+      double mixed = first[c] + (at->p[k] * (double)(second[c] - first[c]) +
+                                 at->q[k] * (double)(third[c] - first[c]));
+      out->channels[c][k] = limit((float)mixed, c == 3 ? 1 : out->channels[3][k]);
+    }
 }
 
 /* ---------------------------------------------------------------- layers */
 
-static inline void put_over(double front[4], const double layer[4]) {
-  double through = 1 - front[3];
-  for (int c = 0; c < 4; c++)
-    front[c] += through * layer[c];
-}
+/* What has been composed so far, of the pixels of a group. */
+typedef struct front {
+  pf_colours *colours;
+  bool is_clear; /* and its colours have no contents yet */
+} front;
 
-static void add_flat(const planefile_cell *colour, uint32_t count, pf_colours *out) {
-  double layer[4];
-  mix(colour, colour, 0, layer);
+static void put_over(uint32_t count, front *to, const pf_colours *restrict layer) {
+  float through[PF_BATCH];
   for (uint32_t k = 0; k < count; k++)
-    put_over(out->at[k], layer);
+    through[k] = 1 - to->colours->channels[3][k];
+  for (int c = 0; c < 4; c++)
+    for (uint32_t k = 0; k < count; k++)
+      to->colours->channels[c][k] += through[k] * layer->channels[c][k];
 }
 
-static void add_ramp(const planefile_band *band, const planefile_step *step,
-                     const pf_pixels *pixels, pf_colours *out) {
+/* Where a layer is made: in the group itself, if it is its first one. */
+static pf_colours *begin_layer(const front *to, pf_colours *room) {
+  return to->is_clear ? to->colours : room;
+}
+
+static void end_layer(uint32_t count, front *to, const pf_colours *layer) {
+  if (!to->is_clear)
+    put_over(count, to, layer);
+  to->is_clear = false;
+}
+
+static void fill_flat(const planefile_cell *colour, uint32_t count, pf_colours *out) {
+  float flat[4];
+  put_unit(colour, flat);
+  for (int c = 0; c < 4; c++)
+    for (uint32_t k = 0; k < count; k++)
+      out->channels[c][k] = flat[c];
+}
+
+static void fill_ramp(const planefile_band *band, const planefile_step *step,
+                      const pf_pixels *pixels, pf_colours *out) {
   const planefile_axis *axis = &band->axes[step->axis];
   const planefile_stop *stops = &band->stops[step->stop];
-  double y = (pixels->y + 0.5) / pixels->height;
-  uint32_t next = 0;
-  for (uint32_t k = 0; k < pixels->count; k++) {
-    place at;
-    double layer[4];
-    if (!find_place(axis, (pixels->x + (k + 0.5)) / pixels->width, y, &at))
-      continue;
-    if (axis->kind == PLANEFILE_TRIANGLE)
-      mix_corners(stops, at, layer);
-    else
-      mix_stops(stops, step->stop_count, at.p, &next, layer);
-    put_over(out->at[k], layer);
-  }
+  places at;
+  find_places(axis, pixels, &at);
+  if (axis->kind == PLANEFILE_TRIANGLE)
+    mix_corners(stops, &at, pixels->count, out);
+  else
+    mix_stops(stops, step->stop_count, &at, pixels->count, out);
+}
+
+static void add_layer(const planefile_band *band, const planefile_step *step,
+                      const pf_pixels *pixels, front *to) {
+  pf_colours room, *layer = begin_layer(to, &room);
+  if (step->kind == PLANEFILE_FLAT)
+    fill_flat(&step->colour, pixels->count, layer);
+  else
+    fill_ramp(band, step, pixels, layer);
+  end_layer(pixels->count, to, layer);
 }
 
 /* A group becomes a layer of the group around it. */
 static void leave(const planefile_step *step, const pf_light_curve *curve, uint32_t count,
-                  pf_colours *group, pf_colours *around) {
-  double factors[4];
-  mix(&step->colour, &step->colour, 0, factors);
-  for (uint32_t k = 0; k < count; k++) {
-    if (step->converts)
-      convert(curve, group->at[k]);
-    for (int c = 0; c < 4; c++)
-      group->at[k][c] *= factors[c];
-    put_over(around->at[k], group->at[k]);
-  }
+                  const front *group, front *around) {
+  float factors[4], (*channels)[PF_BATCH] = group->colours->channels;
+  if (group->is_clear)
+    return;
+  put_unit(&step->colour, factors);
+  if (step->converts)
+    convert_all(curve, count, group->colours);
+  for (int c = 0; c < 4; c++)
+    for (uint32_t k = 0; k < count; k++)
+      channels[c][k] *= factors[c];
+  if (around->is_clear)
+    *around->colours = *group->colours;
+  end_layer(count, around, group->colours);
 }
 
 void pf_program_colours(const planefile_band *band, planefile_program program,
                         const pf_light_curve *curve, const pf_pixels *pixels,
                         pf_colours room[PLANEFILE_DEPTH + 1]) {
-  pf_colours *now = room;
-  size_t size = pixels->count * sizeof *now->at;
-  memset(now, 0, size);
+  front fronts[PLANEFILE_DEPTH + 1], *now = fronts;
+  *now = (front){room, true};
   for (uint32_t i = 0; i < program.step_count; i++) {
     const planefile_step *step = &band->steps[program.step + i];
     if (step->kind == PLANEFILE_ENTER) {
-      memset(++now, 0, size);
+      now++;
+      *now = (front){room + (now - fronts), true};
     } else if (step->kind == PLANEFILE_LEAVE) {
       leave(step, curve, pixels->count, now, now - 1);
       now--;
-    } else if (step->kind == PLANEFILE_RAMP) {
-      add_ramp(band, step, pixels, now);
     } else {
-      add_flat(&step->colour, pixels->count, now);
+      add_layer(band, step, pixels, now);
     }
   }
+  if (now->is_clear)
+    memset(room, 0, sizeof *room);
 }

@@ -15,7 +15,7 @@
 
 #include "coder.h"
 
-enum { PF_BATCH = 32, PF_CURVE = 4096 };
+enum { PF_BATCH = 64, PF_CURVE = 4096 };
 
 typedef struct pf_program_models {
   uint16_t varies[2], kinds[4], converts[2], axis_kinds[4], is_wide[2]; /* trees */
@@ -50,11 +50,16 @@ const char *pf_get_program(pf_decoder *decoder, pf_program_coding *coding,
 bool pf_program_is_good(const planefile_band *band, planefile_program program);
 bool pf_program_hides(const planefile_band *band, planefile_program program);
 
+/* Whether it lies flat: its w is 1 everywhere. */
+static inline bool pf_axis_is_affine(const planefile_axis *axis) {
+  return axis->w[0] == 0 && axis->w[1] == 0 && axis->w[2] == 1;
+}
+
 /* ---------------------------------------------------------------- colours */
 
-/* Light of sRGB codes, at even steps from 0 to 1. */
+/* Light of sRGB codes, at even steps from 0 to 1, and one more. */
 typedef struct pf_light_curve {
-  double light[PF_CURVE + 1];
+  float light[PF_CURVE + 2];
 } pf_light_curve;
 
 void pf_light_curve_make(pf_light_curve *out);
@@ -67,7 +72,7 @@ typedef struct pf_pixels {
 
 /* Colours, WHITE is 1. */
 typedef struct pf_colours {
-  double at[PF_BATCH][4];
+  float channels[4][PF_BATCH];
 } pf_colours;
 
 /* room: one for each group that may be inside another one, and one more. The colours are in the

@@ -55,17 +55,13 @@ static planefile_cell begin_colour(uint8_t kind) {
 
 /* ---------------------------------------------------------------- axes */
 
-static bool is_affine(const planefile_axis *axis) {
-  return axis->w[0] == 0 && axis->w[1] == 0 && axis->w[2] == 1;
-}
-
 static void put_axis(pf_encoder *encoder, pf_program_models *models, const planefile_axis *axis) {
   pf_put_symbol(encoder, models->axis_kinds, 2, axis->kind);
-  pf_put_symbol(encoder, models->is_wide, 1, !is_affine(axis));
+  pf_put_symbol(encoder, models->is_wide, 1, !pf_axis_is_affine(axis));
   put_plane(encoder, models, axis->p);
   if (axis->kind != PLANEFILE_LINEAR)
     put_plane(encoder, models, axis->q);
-  if (!is_affine(axis))
+  if (!pf_axis_is_affine(axis))
     put_plane(encoder, models, axis->w);
   if (axis->kind == PLANEFILE_RADIAL)
     put_double(encoder, models->axis_bytes, axis->focus);
@@ -258,7 +254,7 @@ static bool is_opaque(const planefile_cell *colour) { return colour->colour[3] =
 static bool hides(const planefile_band *band, const planefile_step *step) {
   if (step->kind == PLANEFILE_FLAT)
     return is_opaque(&step->colour);
-  bool is_solid = step->kind == PLANEFILE_RAMP && is_affine(&band->axes[step->axis]);
+  bool is_solid = step->kind == PLANEFILE_RAMP && pf_axis_is_affine(&band->axes[step->axis]);
   for (uint32_t i = 0; is_solid && i < step->stop_count; i++)
     is_solid = is_opaque(&band->stops[step->stop + i].colour);
   return is_solid;

@@ -1,5 +1,7 @@
 #include "varied.h"
 
+#include <assert.h>
+
 #include "chords.h"
 
 /* ---------------------------------------------------------------- life */
@@ -120,16 +122,67 @@ static uint32_t find_band(const pf_varied *v, uint32_t cell) {
   return low;
 }
 
-void pf_varied_colours(pf_varied *v, const pf_pixels *pixels, pf_colours *out) {
-  memset(out->at, 0, pixels->count * sizeof *out->at);
-  for (uint32_t i = 0; i < v->active_count; i++) {
-    uint32_t cell = v->active[i], index = find_band(v, cell);
-    const planefile_band *band = &v->plane->bands[index].band;
-    double share = (double)v->shares[cell] / PF_HEIGHT;
-    pf_program_colours(band, band->programs[cell - v->first[index]], &v->plane->curve, pixels,
-                       v->room);
+#define FINE 64 /* parts of a unit */
+static_assert(PF_HEIGHT * FINE == 1 << 22, "as rounded");
+
+/* What cells that vary add to pixels: parts times PF_HEIGHT, modulo 2^64. */
+typedef struct added {
+  uint64_t channels[4][PF_BATCH];
+} added;
+
+/* A channel in parts, the nearest towards 0; also of what is not a number. */
+static inline int32_t to_fine(float channel) {
+  const float most = (float)PLANEFILE_BRIGHT * FINE;
+  float fine = channel * (PLANEFILE_WHITE * (float)FINE);
+  fine = fine > -most ? fine : -most;
+  fine = fine < most ? fine : most;
+  return (int32_t)fine;
+}
+
+/* The colours of an active cell. */
+static const pf_colours *find_colours(pf_varied *v, uint32_t cell, const pf_pixels *pixels) {
+  uint32_t index = find_band(v, cell);
+  const planefile_band *band = &v->plane->bands[index].band;
+  pf_program_colours(band, band->programs[cell - v->first[index]], &v->plane->curve, pixels,
+                     v->room);
+  return v->room;
+}
+
+static void add_cell(pf_varied *v, uint32_t cell, const pf_pixels *pixels, added *out) {
+  const pf_colours *colours = find_colours(v, cell, pixels);
+  uint64_t share = (uint64_t)v->shares[cell];
+  for (int c = 0; c < 4; c++)
     for (uint32_t k = 0; k < pixels->count; k++)
-      for (int c = 0; c < 4; c++)
-        out->at[k][c] += share * v->room->at[k][c];
-  }
+      out->channels[c][k] += share * (uint64_t)(int64_t)to_fine(colours->channels[c][k]);
+}
+
+/* Pixels that several cells have a share of, or flat ones. */
+static void paint_shares(pf_varied *v, const pf_pixels *pixels, const uint64_t flat[4],
+                         planefile_span *out) {
+  added sums;
+  for (int c = 0; c < 4; c++)
+    for (uint32_t k = 0; k < pixels->count; k++)
+      sums.channels[c][k] = flat[c] * FINE + (uint64_t)PF_HEIGHT * FINE / 2;
+  for (uint32_t i = 0; i < v->active_count; i++)
+    add_cell(v, v->active[i], pixels, &sums);
+  for (int c = 0; c < 4; c++)
+    for (uint32_t k = 0; k < pixels->count; k++)
+      out[k].colour.colour[c] = (int32_t)((int64_t)sums.channels[c][k] >> 22);
+}
+
+/* Pixels that one cell covers: the same arithmetic, without the share. */
+static void paint_whole(pf_varied *v, const pf_pixels *pixels, planefile_span *out) {
+  const pf_colours *colours = find_colours(v, v->active[0], pixels);
+  for (uint32_t k = 0; k < pixels->count; k++)
+    for (int c = 0; c < 4; c++)
+      out[k].colour.colour[c] = (to_fine(colours->channels[c][k]) + FINE / 2) >> 6;
+}
+
+void pf_varied_paint(pf_varied *v, const pf_pixels *pixels, const uint64_t flat[4],
+                     planefile_span *out) {
+  if (v->active_count == 1 && v->shares[v->active[0]] == PF_HEIGHT &&
+      (flat[0] | flat[1] | flat[2] | flat[3]) == 0)
+    paint_whole(v, pixels, out);
+  else
+    paint_shares(v, pixels, flat, out);
 }

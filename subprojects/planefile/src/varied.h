@@ -52,10 +52,11 @@ void pf_varied_begin(pf_varied *varied);
 void pf_varied_add(pf_varied *varied, uint32_t row, uint32_t column, uint32_t cell, int64_t share);
 void pf_varied_add_start(pf_varied *varied, uint32_t cell, int64_t share);
 
-/* Reading a row: begins it; takes the entries of a column, from the left; and the colours from a
- * column on, WHITE is 1, that cells which vary add there. */
+/* Reading a row: begins it; takes the entries of a column, from the left; and appends the pixels
+ * from a column on, each a span. flat: the sums of colours there. */
 void pf_varied_begin_row(pf_varied *varied);
 void pf_varied_take(pf_varied *varied, uint32_t row, uint32_t column);
-void pf_varied_colours(pf_varied *varied, const pf_pixels *pixels, pf_colours *out);
+void pf_varied_paint(pf_varied *varied, const pf_pixels *pixels, const uint64_t flat[4],
+                     planefile_span *out);
 
 #endif
