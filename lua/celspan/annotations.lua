@@ -545,6 +545,42 @@ function raster:write(path, options) end
 ---@return string? message
 function celspan.pixels(what, options) end
 
+--- A frame without a size: what can be seen of it, as curves.
+---@class celspan.plane
+---@field width number In film units
+---@field height number
+---@field bytes integer Of its file
+local plane = {}
+
+---@noun plane.view
+
+--- Draws it at any size.
+---@param options? celspan.plane.view
+---@return celspan.pixels.image? image
+---@return string? message
+function plane:pixels(options) end
+
+--- Writes a plane file.
+---@param path string
+---@return true? done
+---@return string? message
+function plane:write(path) end
+
+---@noun plane.options
+
+--- Reduces one frame to a plane.
+---@param what celspan.film|celspan.exposures
+---@param options? celspan.plane.options
+---@return celspan.plane? plane
+---@return string? message
+function celspan.plane(what, options) end
+
+--- Reads a plane file.
+---@param path string Relative to the script
+---@return celspan.plane? plane
+---@return string? message
+function celspan.plane_read(path) end
+
 --- One RGBA (single), those of the first and last pixel (gradient), or one per pixel (array).
 ---@class celspan.span
 ---@field x0 integer

@@ -7,6 +7,7 @@
 
 #include "base/open.h"
 #include "base/resolve.h"
+#include "frames/plane/plane.h"
 #include "frames/process/journal.h"
 #include "frames/still/span_reader.h"
 #include "lua/bind/userdata.h"
@@ -21,7 +22,7 @@
 /* ---------------------------------------------------------------- kinds */
 
 /* kind(path) -> what a file can be, by its first bytes: "folder", "archive", "psd", "svg", "span",
- * "script" or "picture" */
+ * "plane", "script" or "picture" */
 static int kind(lua_State *L) {
   static const char *const artworks[] = {
       [CS_ARTWORK_FOLDER] = "folder",
@@ -33,6 +34,7 @@ static int kind(lua_State *L) {
   cs_artwork artwork = cs_artwork_of(path);
   lua_pushstring(L, artwork != CS_ARTWORK_NONE     ? artworks[artwork]
                     : cs_span_reader_accepts(path) ? "span"
+                    : cs_plane_accepts(path)       ? "plane"
                     : cs_lua_script_accepts(path)  ? "script"
                                                    : "picture");
   return 1;

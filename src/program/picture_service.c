@@ -133,6 +133,36 @@ static int read_spans(lua_State *L) {
   return 1;
 }
 
+static int close_plane(lua_State *L) {
+  celspan_plane **plane = lua_touserdata(L, 1);
+  celspan_plane_unref(*plane);
+  *plane = NULL;
+  return 0;
+}
+
+/* plane(path) -> what the whole file consists of */
+static int read_plane(lua_State *L) {
+  celspan_context *context = cs_service_session(L)->context;
+  celspan_plane **plane =
+      cs_userdata_push_holder(L, "celspan.program.plane", sizeof(celspan_plane *), close_plane);
+  cs_service_try(L, celspan_plane_read(context, luaL_checkstring(L, 1), plane));
+  cs_plane_facts facts = cs_plane_count(*plane);
+  double width, height;
+  celspan_plane_size(*plane, &width, &height);
+  lua_createtable(L, 0, 9);
+  cs_put_number(L, "width", width);
+  cs_put_number(L, "height", height);
+  cs_put_integer(L, "bytes", (int64_t)celspan_plane_bytes(*plane));
+  cs_put_integer(L, "bands", (int64_t)facts.parts);
+  cs_put_integer(L, "borders", (int64_t)facts.borders);
+  cs_put_integer(L, "curves", (int64_t)facts.curves);
+  cs_put_integer(L, "colours", (int64_t)facts.colours);
+  cs_put_integer(L, "gradients", (int64_t)facts.gradients);
+  lua_pushboolean(L, celspan_plane_is_opaque(*plane));
+  lua_setfield(L, -2, "opaque");
+  return 1;
+}
+
 /* ---------------------------------------------------------------- two pictures, row by row */
 
 typedef struct comparison {
@@ -265,7 +295,7 @@ static celspan_status compare_stills(celspan_context *context, comparison *c,
                                      const celspan_sink *sink, const cs_still *still_a,
                                      const celspan_frame_desc *frame_a, const cs_still *still_b,
                                      const celspan_frame_desc *frame_b) {
-  cs_still_rows a = {NULL, NULL}, b = a;
+  cs_still_rows a = {NULL, NULL, NULL}, b = a;
   celspan_status status = cs_still_rows_create(context, still_a, frame_a, &a);
   if (status == CELSPAN_OK)
     status = cs_still_rows_create(context, still_b, frame_b, &b);
@@ -330,6 +360,15 @@ static int close_stills(lua_State *L) {
   return 0;
 }
 
+/* A plane has any size: that of the picture which it is compared with. */
+static void fit_plane(cs_still stills[2]) {
+  for (int i = 0; i < 2; i++)
+    if (stills[i].plane && !stills[1 - i].plane) {
+      stills[i].info.width = stills[1 - i].info.width;
+      stills[i].info.height = stills[1 - i].info.height;
+    }
+}
+
 /* compare(a, b, difference or nil) -> { largest =, x =, y =, channel =, differing =, pixels = }, or
  * { sizes = { w, h, w, h } } where they differ */
 static int compare(lua_State *L) {
@@ -340,6 +379,7 @@ static int compare(lua_State *L) {
   celspan_frame_desc frames[2];
   for (int i = 0; i < 2; i++)
     cs_service_try(L, cs_still_open(session->context, luaL_checkstring(L, i + 1), &stills[i]));
+  fit_plane(stills);
   const celspan_picture_info *a = &stills[0].info, *b = &stills[1].info;
   if (a->width != b->width || a->height != b->height) {
     push_sizes(L, stills);
@@ -366,6 +406,10 @@ static int convert(lua_State *L) {
       cs_userdata_push_holder(L, "celspan.program.stills", 2 * sizeof *stills, close_stills);
   celspan_file_desc file = cs_target_file(session->request);
   celspan_frame_desc frame;
+  if (cs_plane_is_wanted(luaL_checkstring(L, 2), file.format))
+    cs_service_require(L, cs_report_usage("%s: a plane is made of a script or a drawing, not of a "
+                                          "picture",
+                                          lua_tostring(L, 2)));
   cs_service_try(L, cs_still_open(session->context, luaL_checkstring(L, 1), stills));
   cs_service_require(L, cs_view_still(session->request, stills, &frame));
   cs_service_try(L,
@@ -382,14 +426,16 @@ static int write_frame(lua_State *L) {
                                       (double)luaL_checkinteger(L, 4), &desc));
   cs_options_exposures(L, 1, "write", &desc);
   celspan_file_desc file = cs_target_file(session->request);
-  cs_service_try(L,
-                 celspan_frame_write(session->context, &desc, luaL_checkstring(L, 2), &file, NULL));
+  const char *path = luaL_checkstring(L, 2);
+  cs_service_try(L, cs_plane_is_wanted(path, file.format)
+                        ? cs_plane_write_frame(session->context, &desc, path)
+                        : celspan_frame_write(session->context, &desc, path, &file, NULL));
   return 0;
 }
 
 void cs_service_add_pictures(lua_State *L) {
-  static const luaL_Reg services[] = {{"picture", read_facts}, {"spans", read_spans},
-                                      {"compare", compare},    {"convert", convert},
-                                      {"write", write_frame},  {NULL, NULL}};
+  static const luaL_Reg services[] = {
+      {"picture", read_facts}, {"spans", read_spans},  {"plane", read_plane}, {"compare", compare},
+      {"convert", convert},    {"write", write_frame}, {NULL, NULL}};
   cs_service_add(L, services);
 }

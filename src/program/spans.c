@@ -1,4 +1,4 @@
-/* celspan spans SCRIPT: the spans of one frame as text, or with --stats their counts. */
+/* celspan spans SCRIPT|FILE: the spans of one frame as text, or with --stats their counts. */
 #include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -8,6 +8,7 @@
 #include "engine/defocus/bands.h"
 #include "program/script.h"
 #include "program/verbs.h"
+#include "program/view.h"
 
 static void print_colour(const celspan_span *span, int32_t x) {
   float rgba[4];
@@ -100,9 +101,31 @@ static cs_exit run(cs_script *script, const cs_request *request) {
   return cs_script_failure(script, status);
 }
 
+static cs_exit print_still(celspan_context *context, const cs_request *request,
+                           const cs_still *still) {
+  celspan_frame_desc frame;
+  CS_TRY_EXIT(cs_view_still(request, still, &frame));
+  CS_TRY_EXIT(set_rows(request, &frame));
+  celspan_sink sink = {.user = &frame.crop_y, .row = print_row};
+  return cs_report_failure(context, cs_still_render(context, still, &frame, &sink), NULL);
+}
+
+static cs_exit run_plane(celspan_context *context, const cs_request *request, const char *path) {
+  cs_still still = {0};
+  if (cs_request_has(request, "--stats"))
+    return cs_report_usage("--stats: %s is a plane, of which 'celspan info' gives figures", path);
+  cs_exit outcome = cs_view_open_still(context, path, &still);
+  if (outcome == CS_EXIT_OK)
+    outcome = print_still(context, request, &still);
+  cs_still_close(&still);
+  return outcome;
+}
+
 cs_exit cs_verb_spans(celspan_context *context, const cs_request *request) {
   if (cs_request_has(request, "--pixels") && !cs_request_has(request, "--stats"))
     return cs_report_usage("--pixels needs --stats");
+  if (cs_plane_accepts(request->operands[0]))
+    return run_plane(context, request, request->operands[0]);
   cs_script script;
   cs_exit outcome = cs_script_open(context, request, request->operands[0], &script);
   if (outcome == CS_EXIT_OK)

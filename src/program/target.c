@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "frames/plane/plane.h"
 #include "output/sinks/file.h"
 #include "output/sinks/sink.h"
 #include "program/video_target.h"
@@ -38,8 +39,23 @@ static cs_exit refuse_file(celspan_context *context, const char *path, const cs_
   return cs_report_failure(context, status, NULL);
 }
 
+/* A plane has no pixels. */
+static cs_exit refuse_plane(const char *path, const cs_request *request) {
+  static const char *const options[] = {
+      "--size",   "--scale", "--crop",  "--strip",     "--depth",     "--colour", "--alpha",
+      "--dither", "--hash",  "--draft", "--antialias", "--no-dither", "--quality"};
+  for (size_t i = 0; i < sizeof options / sizeof *options; i++)
+    if (cs_request_has(request, options[i]))
+      return cs_report_usage("%s: a plane has no pixels: give %s where it is drawn, such as "
+                             "'celspan convert x.plane x.png'",
+                             path, options[i]);
+  return CS_EXIT_OK;
+}
+
 cs_exit cs_target_refuse(celspan_context *context, const char *path, const cs_request *request) {
   const char *format = cs_request_text(request, "--format");
+  if (cs_plane_is_wanted(path, format))
+    return refuse_plane(path, request);
   const cs_video_format *video = cs_video_format_named(format ? format : cs_file_ending(path));
   if (video && !video->is_picture)
     return cs_report_usage("%s: %s is a video, which 'celspan render' makes of a film; write a "

@@ -365,11 +365,11 @@ const cs_verb cs_verbs[] = {
               "alpha.",
      .options = RENDER, .run = cs_verb_render},
     {"info", "SCRIPT|FILE", 1, 1, .has_script = true,
-     .summary = "Prints figures about a film, picture, painting, drawing or span file.",
+     .summary = "Prints figures about a film, picture, painting, drawing, span or plane file.",
      .notes = "The type of the file is detected from its content. Every frame of a film is "
               "built. Only the headers of a picture are read: format, size, channels, "
-              "alpha, depth, colour, subimages and layers. A span file is read to its end, "
-              "and every checksum is verified.",
+              "alpha, depth, colour, subimages and layers. A span or plane file is read to "
+              "its end, and every checksum is verified.",
      .options = INFO},
     {"check", "SCRIPT", 1, 1, .has_script = true, .asks_warnings = true,
      .summary = "Builds every frame without rendering it, and reports all faults.",
@@ -391,7 +391,8 @@ const cs_verb cs_verbs[] = {
      .notes = "The same as 'celspan watch --open', with the picture alone in the window; the key "
               "f fills the screen.",
      .options = WATCH},
-    {"spans", "SCRIPT", 1, 1, .has_script = true, .summary = "Prints the spans of a frame as text.",
+    {"spans", "SCRIPT|FILE", 1, 1, .has_script = true,
+     .summary = "Prints the spans of a frame or a plane file as text.",
      .notes = "One line a span, colours linear and premultiplied, columns half-open, rows from 0:\n"
               "  row x0 x1 single r g b a\n"
               "  row x0 x1 gradient r g b a r g b a     colours of the first and the last pixel\n"
@@ -403,7 +404,8 @@ const cs_verb cs_verbs[] = {
               "without antialiasing or defocus.",
      .options = PROBE},
     {"convert", "IN OUT", 2, 2,
-     .summary = "Converts a picture or span file to another format or size.", .options = CONVERT},
+     .summary = "Converts a picture, span or plane file to another format or size.",
+     .options = CONVERT},
     {"compare", "A B", 2, 2,
      .summary = "Compares two pictures or films: the exit code is 0 if they show the same, "
                 "else 1.",

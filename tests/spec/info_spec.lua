@@ -216,7 +216,7 @@ describe("the verb info", function()
         local code, out, err = celspan(verb:format(path))
         assert.same({ 3, "" }, { code, out }, verb)
         assert.equal(("celspan: error: %s: is not a Lua script, but a picture or other binary data "
-          .. "('celspan info %s' describes pictures)\n"):format(path, path), err)
+          .. "('celspan info %s' describes it)\n"):format(path, path), err)
       end
     end)
 

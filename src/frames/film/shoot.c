@@ -4,6 +4,7 @@
 
 #include "base/hash_table.h"
 #include "frames/film/frame_pipeline.h"
+#include "frames/plane/plane.h"
 #include "model/scene/scene.h"
 #include "model/scene/walk.h"
 #include "output/sinks/dither.h"
@@ -159,6 +160,8 @@ static celspan_status make_frame(const job *j, celspan_context *context,
     return shoot->put(shoot->user, desc, frame);
   if (!shoot->pattern)
     return celspan_frame_digest(context, desc, &shoot->file.coding, frame->digest);
+  if (cs_plane_is_wanted(frame->path, shoot->file.format))
+    return cs_plane_write_frame(context, desc, frame->path);
   celspan_file_desc file = describe_file(j, frame->number, desc);
   return shoot->has_digests ? make_both(context, desc, frame->path, &file, frame->digest)
                             : celspan_frame_write(context, desc, frame->path, &file, NULL);

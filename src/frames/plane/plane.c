@@ -1,6 +1,6 @@
 /* celspan_plane of the public header.
  *
- *   rostrum --compile, record--> borders --> bytes of a plane file --> plane --drawer--> rows
+ *   rostrum --compile, record--> borders --> bytes of a plane file --> plane --rows.c--> rows
  *
  * A plane in memory is the bytes of its file and what a reader makes of them, so a plane that was
  * made and one that was read draw the same pixels.
@@ -8,35 +8,26 @@
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
-#include <stdatomic.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/open.h"
 #include "engine/record/record.h"
-#include "engine/span/row.h"
+#include "frames/plane/plane.h"
+#include "frames/plane/plane_data.h"
 #include "frames/render/compile.h"
 #include "model/scene/check.h"
 #include "output/sinks/file.h"
-#include "output/sinks/pixels.h"
-#include "output/sinks/sink.h"
 
 #define BYTES_MOST ((uint64_t)1 << 30) /* of a file */
-
-struct celspan_plane {
-  atomic_size_t references;
-  cs_memory *memory;
-  unsigned char *bytes; /* of the file */
-  size_t size, capacity;
-  planefile_plane *plane;
-};
 
 static void *resize(void *user, void *block, size_t old_size, size_t new_size) {
   return cs_mem_resize(user, block, old_size, new_size);
 }
 
-static celspan_status report(celspan_context *context, planefile_status status) {
+celspan_status cs_plane_report(celspan_context *context, planefile_status status) {
   if (status == PLANEFILE_OK)
     return CELSPAN_OK;
   if (status == PLANEFILE_BAD_ARGUMENT)
@@ -75,6 +66,10 @@ void celspan_plane_size(const celspan_plane *plane, double *width, double *heigh
   planefile_info info = planefile_plane_info(plane->plane);
   *width = info.width;
   *height = info.height;
+}
+
+bool celspan_plane_is_opaque(const celspan_plane *plane) {
+  return planefile_plane_info(plane->plane).is_opaque;
 }
 
 size_t celspan_plane_bytes(const celspan_plane *plane) { return plane->size; }
@@ -151,8 +146,8 @@ static celspan_status write_record(celspan_context *context, const cs_recording 
                                       .resize = resize,
                                       .resize_user = context->memory};
   planefile_band band = cs_record_plane(made);
-  CS_TRY(report(context, planefile_write(&desc, &band)));
-  return report(context, load(plane, NULL));
+  CS_TRY(cs_plane_report(context, planefile_write(&desc, &band)));
+  return cs_plane_report(context, load(plane, NULL));
 }
 
 celspan_status celspan_plane_create(celspan_context *context, const celspan_rostrum *rostrum,
@@ -227,7 +222,7 @@ static celspan_status load_file(celspan_context *context, const char *path, cels
   if (loaded == PLANEFILE_BAD_FILE)
     return cs_fail(context, CELSPAN_INPUT, "%s: byte %" PRIu64 ": %s", path, fault.offset,
                    fault.reason);
-  return report(context, loaded);
+  return cs_plane_report(context, loaded);
 }
 
 celspan_status celspan_plane_read(celspan_context *context, const char *path, celspan_plane **out) {
@@ -243,106 +238,49 @@ celspan_status celspan_plane_read(celspan_context *context, const char *path, ce
   return status;
 }
 
-/* ---------------------------------------------------------------- rows */
-
-static celspan_status check_view(celspan_context *context, const celspan_plane_view *view,
-                                 planefile_view *out) {
-  CS_TRY(cs_check_given(context, "plane", "the view", view));
-  CS_TRY(cs_check_version(context, "plane", view->struct_size, sizeof *view));
-  if (view->width < 1 || view->height < 1)
-    return cs_fail(context, CELSPAN_LIMIT,
-                   "plane: size is %d x %d; each side must be 1 to 2147483647 pixels",
-                   (int)view->width, (int)view->height);
-  bool is_whole = view->crop_width == 0 && view->crop_height == 0;
-  int64_t width = is_whole ? view->width : view->crop_width;
-  int64_t height = is_whole ? view->height : view->crop_height;
-  if (view->crop_x < 0 || view->crop_y < 0 || width < 1 || height < 1 ||
-      view->crop_x + width > view->width || view->crop_y + height > view->height)
-    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "plane: crop %d,%d,%d,%d does not lie inside the frame of %d x %d pixels",
-                   (int)view->crop_x, (int)view->crop_y, (int)width, (int)height, (int)view->width,
-                   (int)view->height);
-  if (view->antialias != CELSPAN_ANTIALIAS_AREA && view->antialias != CELSPAN_ANTIALIAS_NONE)
-    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "plane: it is drawn with area antialiasing, or with none");
-  *out =
-      (planefile_view){(uint32_t)view->width,
-                       (uint32_t)view->height,
-                       (uint32_t)view->crop_x,
-                       (uint32_t)view->crop_y,
-                       (uint32_t)width,
-                       (uint32_t)height,
-                       view->antialias == CELSPAN_ANTIALIAS_NONE ? PLANEFILE_NONE : PLANEFILE_AREA};
-  return CELSPAN_OK;
+bool cs_plane_accepts(const char *path) {
+  unsigned char start[PLANEFILE_MAGIC_BYTES];
+  int descriptor = cs_open_to_read(path);
+  bool accepts = descriptor >= 0 &&
+                 cs_open_read_at(descriptor, start, sizeof start, 0) == (ssize_t)sizeof start &&
+                 planefile_is(start, sizeof start);
+  if (descriptor >= 0)
+    close(descriptor);
+  return accepts;
 }
 
-static celspan_status copy_row(celspan_context *context, const planefile_span *spans, size_t count,
-                               cs_row *out) {
-  int32_t x = 0;
-  out->count = 0;
-  for (size_t i = 0; i < count; x = (int32_t)spans[i++].end) {
-    cs_v4 colour;
-    for (int c = 0; c < 4; c++)
-      colour[c] = (float)spans[i].colour.colour[c] / PLANEFILE_WHITE;
-    CS_TRY(cs_row_single(context, out, x, (int32_t)spans[i].end, colour));
+cs_plane_facts cs_plane_count(const celspan_plane *plane) {
+  planefile_info info = planefile_plane_info(plane->plane);
+  cs_plane_facts facts = {.parts = info.band_count};
+  for (uint32_t i = 0; i < info.band_count; i++) {
+    const planefile_band *band = planefile_plane_band(plane->plane, i);
+    size_t gradients = 0;
+    for (uint32_t k = 0; band->programs && k < band->cell_count; k++)
+      gradients += band->programs[k].step_count > 0;
+    facts.borders += band->border_count;
+    facts.curves += band->piece_count;
+    facts.colours += band->cell_count - gradients;
+    facts.gradients += gradients;
   }
-  return CELSPAN_OK;
+  return facts;
 }
 
-static celspan_status send_row(celspan_context *context, planefile_drawer *drawer, int32_t y,
-                               const celspan_sink *sink, cs_row *row) {
-  const planefile_span *spans;
-  size_t count;
-  CS_TRY(report(context, planefile_drawer_row(drawer, &spans, &count)));
-  CS_TRY(copy_row(context, spans, count, row));
-  return sink->row ? sink->row(sink->user, context, y, row->spans, row->count) : CELSPAN_OK;
+/* ---------------------------------------------------------------- frames */
+
+bool cs_plane_is_wanted(const char *path, const char *format) {
+  return strcasecmp(format ? format : cs_file_ending(path), "plane") == 0;
 }
 
-static celspan_status send_rows(celspan_context *context, const celspan_plane *plane,
-                                const planefile_view *view, const celspan_sink *sink) {
-  planefile_drawer *drawer;
-  cs_row row = {0};
-  celspan_status status = report(context, planefile_drawer_create(plane->plane, view, &drawer));
-  for (uint32_t y = 0; y < view->rows && status == CELSPAN_OK; y++)
-    status = send_row(context, drawer, (int32_t)y, sink, &row);
-  planefile_drawer_destroy(drawer);
-  cs_row_finish(&row, context->memory);
-  return status;
-}
-
-/* *ended: the sink's end was called. */
-static celspan_status feed(celspan_context *context, const celspan_plane *plane,
-                           const planefile_view *view, const celspan_sink *sink, bool *ended) {
-  if (sink->begin)
-    CS_TRY(sink->begin(sink->user, context, (int32_t)view->columns, (int32_t)view->rows));
-  celspan_status status = send_rows(context, plane, view, sink);
-  *ended = sink->end != NULL;
-  celspan_status last = sink->end ? sink->end(sink->user, context, status) : CELSPAN_OK;
-  return status == CELSPAN_OK ? last : status;
-}
-
-celspan_status celspan_plane_render(celspan_context *context, const celspan_plane *plane,
-                                    const celspan_plane_view *view, const celspan_sink *sink) {
-  planefile_view drawn;
-  bool ended;
-  CS_TRY(check_view(context, view, &drawn));
-  CS_TRY(cs_check_given(context, "plane", "the sink", sink));
-  return feed(context, plane, &drawn, sink, &ended);
-}
-
-celspan_status celspan_plane_pixels(celspan_context *context, const celspan_plane *plane,
-                                    const celspan_plane_view *view, const celspan_coding *coding,
-                                    void *pixels, size_t stride) {
-  planefile_view drawn;
-  celspan_sink sink;
-  bool ended = false;
-  celspan_coding resolved = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
-  CS_TRY(check_view(context, view, &drawn));
-  CS_TRY(cs_pixels_check(context, coding));
-  resolved.space = CELSPAN_SPACE_LINEAR;
-  CS_TRY(cs_sink_memory(context, &resolved, pixels, stride, &sink));
-  celspan_status status = feed(context, plane, &drawn, &sink, &ended);
-  if (!ended)
-    cs_sink_discard(context, &sink);
+celspan_status cs_plane_write_frame(celspan_context *context, const celspan_frame_desc *frame,
+                                    const char *path) {
+  celspan_plane *plane;
+  if (frame->exposure_count != 1 || frame->exposures->weight != 1)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "plane: the frame has several exposures; a plane has one");
+  double width = frame->film_width > 0 ? frame->film_width : frame->width;
+  double height = frame->film_height > 0 ? frame->film_height : frame->height;
+  CS_TRY(celspan_plane_create(context, frame->exposures->rostrum, width, height, &plane));
+  celspan_status status = celspan_plane_write(context, plane, path);
+  celspan_plane_unref(plane);
   return status;
 }

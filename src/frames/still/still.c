@@ -54,6 +54,28 @@ static celspan_status open_spans(celspan_context *context, const char *path, cs_
   return CELSPAN_OK;
 }
 
+/* A side in pixels, one for each unit. */
+static int32_t pixels(double units) {
+  double side = units + 0.5;
+  return side < 1 ? 1 : side < INT32_MAX ? (int32_t)side : INT32_MAX;
+}
+
+static celspan_status open_plane(celspan_context *context, const char *path, cs_still *still) {
+  double width, height;
+  celspan_status status = celspan_plane_read(context, path, &still->plane);
+  if (status != CELSPAN_OK)
+    return status;
+  celspan_plane_size(still->plane, &width, &height);
+  still->info = (celspan_picture_info){.width = pixels(width),
+                                       .height = pixels(height),
+                                       .channels = 4,
+                                       .has_alpha = !celspan_plane_is_opaque(still->plane),
+                                       .is_float = true,
+                                       .format = "plane",
+                                       .colour = "linear"};
+  return CELSPAN_OK;
+}
+
 static celspan_status open_picture(celspan_context *context, const char *path, cs_still *still) {
   celspan_picture_desc picture;
   memset(&picture, 0, sizeof picture);
@@ -67,6 +89,7 @@ static celspan_status open_picture(celspan_context *context, const char *path, c
 celspan_status cs_still_open(celspan_context *context, const char *path, cs_still *out) {
   cs_still still = {.exposure.weight = 1};
   celspan_status status = cs_span_reader_accepts(path) ? open_spans(context, path, &still)
+                          : cs_plane_accepts(path)     ? open_plane(context, path, &still)
                                                        : open_picture(context, path, &still);
   if (status == CELSPAN_OK)
     *out = still;
@@ -78,21 +101,37 @@ void cs_still_close(cs_still *still) {
   still->exposure.rostrum = NULL;
   cs_span_reader_close(still->spans);
   still->spans = NULL;
+  celspan_plane_unref(still->plane);
+  still->plane = NULL;
 }
 
 void cs_still_expose(const cs_still *still, celspan_frame_desc *frame) {
   frame->exposures = &still->exposure;
-  frame->exposure_count = still->spans ? 0 : 1;
+  frame->exposure_count = still->exposure.rostrum ? 1 : 0;
 }
 
 /* ---------------------------------------------------------------- rows */
 
+static celspan_status create_drawn(celspan_context *context, const cs_still *still,
+                                   const celspan_frame_desc *frame, cs_plane_rows **out) {
+  celspan_plane_view view = CELSPAN_PLANE_VIEW;
+  view.width = frame->width;
+  view.height = frame->height;
+  view.crop_x = frame->crop_x;
+  view.crop_y = frame->crop_y;
+  view.crop_width = frame->crop_width;
+  view.crop_height = frame->crop_height;
+  view.antialias = frame->antialias ? *frame->antialias : CELSPAN_ANTIALIAS_AREA;
+  return cs_plane_rows_create(context, still->plane, &view, out);
+}
+
 celspan_status cs_still_rows_create(celspan_context *context, const cs_still *still,
                                     const celspan_frame_desc *frame, cs_still_rows *out) {
-  cs_still_rows rows = {NULL, NULL};
+  cs_still_rows rows = {NULL, NULL, NULL};
   celspan_status status = still->spans
                               ? cs_span_view_create(context, still->spans, frame, &rows.view)
-                              : celspan_rows_create(context, frame, &rows.rendered);
+                          : still->plane ? create_drawn(context, still, frame, &rows.drawn)
+                                         : celspan_rows_create(context, frame, &rows.rendered);
   if (status == CELSPAN_OK)
     *out = rows;
   return status;
@@ -101,11 +140,14 @@ celspan_status cs_still_rows_create(celspan_context *context, const cs_still *st
 void cs_still_rows_destroy(cs_still_rows *rows) {
   celspan_rows_destroy(rows->rendered);
   cs_span_view_destroy(rows->view);
-  *rows = (cs_still_rows){NULL, NULL};
+  cs_plane_rows_destroy(rows->drawn);
+  *rows = (cs_still_rows){NULL, NULL, NULL};
 }
 
 celspan_status cs_still_rows_get(cs_still_rows *rows, int32_t y, const celspan_span **spans,
                                  size_t *span_count) {
+  if (rows->drawn)
+    return cs_plane_rows_get(rows->drawn, y, spans, span_count);
   return rows->view ? cs_span_view_row(rows->view, y, spans, span_count)
                     : celspan_rows_get(rows->rendered, y, spans, span_count);
 }
@@ -115,13 +157,13 @@ celspan_status cs_still_rows_get(cs_still_rows *rows, int32_t y, const celspan_s
 /* Rows between two progress calls. */
 enum { PROGRESS_ROWS = 64 };
 
-static celspan_status put_rows(celspan_context *context, cs_span_view *view,
+static celspan_status put_rows(celspan_context *context, cs_still_rows *rows,
                                const celspan_frame_desc *frame, const celspan_sink *sink) {
   int32_t height = frame->crop_height ? frame->crop_height : frame->height;
   for (int32_t y = 0; y < height; y++) {
     const celspan_span *spans;
     size_t count;
-    celspan_status status = cs_span_view_row(view, y, &spans, &count);
+    celspan_status status = cs_still_rows_get(rows, y, &spans, &count);
     if (status == CELSPAN_OK)
       status = sink->row(sink->user, context, y, spans, count);
     if (status != CELSPAN_OK)
@@ -137,31 +179,31 @@ static celspan_status put_rows(celspan_context *context, cs_span_view *view,
 static celspan_status put_view(celspan_context *context, const cs_still *still,
                                const celspan_frame_desc *frame, const celspan_sink *sink,
                                bool *is_begun) {
-  cs_span_view *view = NULL;
-  celspan_status status = cs_span_view_create(context, still->spans, frame, &view);
+  cs_still_rows rows = {NULL, NULL, NULL};
+  celspan_status status = cs_still_rows_create(context, still, frame, &rows);
   if (status == CELSPAN_OK && sink->begin)
     status = sink->begin(sink->user, context, frame->crop_width ? frame->crop_width : frame->width,
                          frame->crop_height ? frame->crop_height : frame->height);
   *is_begun = status == CELSPAN_OK;
   if (status == CELSPAN_OK)
-    status = put_rows(context, view, frame, sink);
+    status = put_rows(context, &rows, frame, sink);
   if (*is_begun && sink->end)
     status = sink->end(sink->user, context, status);
-  cs_span_view_destroy(view);
+  cs_still_rows_destroy(&rows);
   return status;
 }
 
 celspan_status cs_still_render(celspan_context *context, const cs_still *still,
                                const celspan_frame_desc *frame, const celspan_sink *sink) {
   bool is_begun;
-  return still->spans ? put_view(context, still, frame, sink, &is_begun)
-                      : celspan_frame_render(context, frame, sink, NULL);
+  return still->exposure.rostrum ? celspan_frame_render(context, frame, sink, NULL)
+                                 : put_view(context, still, frame, sink, &is_begun);
 }
 
 celspan_status cs_still_write(celspan_context *context, const cs_still *still,
                               const celspan_frame_desc *frame, const char *path,
                               const celspan_file_desc *file) {
-  if (!still->spans)
+  if (still->exposure.rostrum)
     return celspan_frame_write(context, frame, path, file, NULL);
   celspan_sink sink;
   bool is_begun = false;

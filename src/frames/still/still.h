@@ -1,15 +1,17 @@
-/* A picture as rows of a frame. The rows of a span file are its own spans. Any other picture
- * becomes a scene: one image rectangle of the picture's size, lit white and sampled at pixel
- * centres, so that every pixel keeps its value.
+/* A picture as rows of a frame. The rows of a span file are its own spans; those of a plane are
+ * drawn. Any other picture becomes a scene: one image rectangle of the picture's size, lit white
+ * and sampled at pixel centres, so that every pixel keeps its value.
  */
 #pragma once
 
+#include "frames/plane/plane.h"
 #include "frames/still/span_view.h"
 
 typedef struct cs_still {
   celspan_picture_info info;
-  celspan_exposure exposure; /* its rostrum is owned; NULL for a span file */
+  celspan_exposure exposure; /* its rostrum is owned; NULL for a span file or a plane */
   cs_span_reader *spans;     /* owned; NULL for any other picture */
+  celspan_plane *plane;      /* likewise; its info has the size in film units, rounded */
 } cs_still;
 
 /* out: new. Errors: those of reading a picture. */
@@ -30,10 +32,11 @@ CELSPAN_CHECKED celspan_status cs_still_render(celspan_context *context, const c
                                                const celspan_frame_desc *frame,
                                                const celspan_sink *sink);
 
-/* The rows of the frame; one of the two fields is NULL. */
+/* The rows of the frame; one of the fields is not NULL. */
 typedef struct cs_still_rows {
   celspan_rows *rendered;
   cs_span_view *view;
+  cs_plane_rows *drawn;
 } cs_still_rows;
 /* still: must live as long as the rows. out: new. */
 CELSPAN_CHECKED celspan_status cs_still_rows_create(celspan_context *context, const cs_still *still,

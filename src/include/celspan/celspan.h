@@ -1764,6 +1764,8 @@ CELSPAN_API celspan_plane *celspan_plane_ref(celspan_plane *plane);
 CELSPAN_API void celspan_plane_unref(celspan_plane *plane);
 /* In film units. */
 CELSPAN_API void celspan_plane_size(const celspan_plane *plane, double *width, double *height);
+/* Whether its alpha is certain to be 1 everywhere. */
+CELSPAN_API bool celspan_plane_is_opaque(const celspan_plane *plane);
 /* Of its file. */
 CELSPAN_API size_t celspan_plane_bytes(const celspan_plane *plane);
 /* The file appears under its name whole or not at all. Errors: NO_MEMORY; OUTPUT. */

@@ -12,6 +12,7 @@ int cs_pixels_make(lua_State *L); /* (what [, options]) */
 int cs_spans_make(lua_State *L);  /* (what [, options]) */
 int cs_spans_probe(lua_State *L); /* (what, x, y [, options]) */
 /* Makes the metatable of the images of celspan.pixels. */
+void cs_plane_open(lua_State *L);
 void cs_pixels_open(lua_State *L);
 
 /* ---------------------------------------------------------------- built-in Lua modules */
@@ -58,6 +59,13 @@ int cs_painting_read(lua_State *L);
 
 /* Adds read_svg to the table on top of the stack, for lua/celspan/svg.lua. */
 void cs_drawing_open(lua_State *L);
+
+/* ---------------------------------------------------------------- planes */
+
+/* celspan.plane(film or rostrum [, options]) -> plane | nil, message */
+int cs_plane_make(lua_State *L);
+/* celspan.plane_read(path) -> plane | nil, message */
+int cs_plane_open_file(lua_State *L);
 
 /* ---------------------------------------------------------------- tracing */
 

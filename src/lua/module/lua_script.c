@@ -115,7 +115,7 @@ static int run(lua_State *L) {
   if (!cs_lua_script_accepts(c->path))
     return luaL_error(L,
                       "%s: is not a Lua script, but a picture or other binary data ('celspan info "
-                      "%s' describes pictures)",
+                      "%s' describes it)",
                       c->path, c->path);
   int outcome = luaL_loadfilex(L, c->path, "t");
   if (outcome == LUA_ERRFILE && strstr(lua_tostring(L, -1), strerror(ENOMEM)))

@@ -196,11 +196,20 @@ static void set_reading(lua_State *L) {
 }
 
 int luaopen_celspan(lua_State *L) {
-  static const luaL_Reg functions[] = {
-      {"rgb", cs_nouns_rgb},      {"gel", cs_nouns_gel},      {"mix", cs_nouns_mix},
-      {"clip", cs_nouns_clip},    {"matte", cs_nouns_matte},  {"glyphs", cs_nouns_glyphs},
-      {"random", cs_random_make}, {"render", cs_render_make}, {"pixels", cs_pixels_make},
-      {"spans", cs_spans_make},   {"probe", cs_spans_probe},  {NULL, NULL}};
+  static const luaL_Reg functions[] = {{"rgb", cs_nouns_rgb},
+                                       {"gel", cs_nouns_gel},
+                                       {"mix", cs_nouns_mix},
+                                       {"clip", cs_nouns_clip},
+                                       {"matte", cs_nouns_matte},
+                                       {"glyphs", cs_nouns_glyphs},
+                                       {"random", cs_random_make},
+                                       {"render", cs_render_make},
+                                       {"pixels", cs_pixels_make},
+                                       {"spans", cs_spans_make},
+                                       {"probe", cs_spans_probe},
+                                       {"plane", cs_plane_make},
+                                       {"plane_read", cs_plane_open_file},
+                                       {NULL, NULL}};
   luaL_checkversion(L);
   cs_host_open(L, NULL);
   lua_createtable(L, 0, 40);
@@ -216,6 +225,7 @@ int luaopen_celspan(lua_State *L) {
   cs_nouns_push_clear(L);
   lua_setfield(L, -2, "clear");
   cs_pixels_open(L);
+  cs_plane_open(L);
   cs_embedded_open(L);
   set_reading(L);
   return 1;

@@ -177,6 +177,13 @@ static const cs_field probe_fields[] = {
     FRAME,
     {0}};
 
+static const cs_field view_fields[] = {
+    {"size", CS_PIXELS(cs_options, size), CS_HAS(cs_options, has_size), .shape = "a size {w, h}",
+     .about = "In pixels", .fallback = "that of the plane, a pixel for each unit"},
+    {"crop", CS_PIXELS(cs_options, crop), .shape = "a box {x, y, w, h}", .about = "In pixels"},
+    {"antialias", CS_OWN("\"area\"|\"none\""), .fallback = "\"area\""},
+    {0}};
+
 const cs_noun cs_noun_render = {
     .name = "render", .table = "celspan.render.options", .fields = render_fields};
 const cs_noun cs_noun_pixels = {
@@ -190,6 +197,10 @@ const cs_noun cs_noun_spans = {
     .name = "spans", .table = "celspan.spans.options", .fields = spans_fields};
 const cs_noun cs_noun_probe = {
     .name = "probe", .table = "celspan.probe.options", .fields = probe_fields};
+const cs_noun cs_noun_plane = {
+    .name = "plane", .table = "celspan.plane.options", .fields = probe_fields};
+const cs_noun cs_noun_plane_view = {
+    .name = "plane view", .table = "celspan.plane.view", .fields = view_fields};
 
 static void set_sizes(cs_options *out) {
   celspan_frame_desc *desc = &out->desc;

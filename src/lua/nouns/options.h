@@ -19,7 +19,7 @@ typedef struct cs_options {
 } cs_options;
 
 extern const cs_noun cs_noun_filter, cs_noun_render, cs_noun_pixels, cs_noun_stack, cs_noun_bytes,
-    cs_noun_write, cs_noun_spans, cs_noun_probe;
+    cs_noun_write, cs_noun_spans, cs_noun_probe, cs_noun_plane, cs_noun_plane_view;
 
 /* Reads the table at index, or a new empty one, as options of the noun. It stays on the stack. The
  * default size is 1920 x 1080. */

@@ -1,5 +1,5 @@
---- celspan info SCRIPT|FILE: a film, a picture, artwork or a span file in figures, one "name value"
---- a line. The content of the file decides which of them it is.
+--- celspan info SCRIPT|FILE: a film, a picture, artwork, a span file or a plane in figures, one
+--- "name value" a line. The content of the file decides which of them it is.
 local program, request = ...
 
 local DIFFERENT_MOST = 1 << 19 -- different scenes that are counted, in some 40 MB
@@ -108,6 +108,15 @@ local function describe_spans()
   for _, name in ipairs(counts) do put("%s %d", name, spans[name]) end
 end
 
+local function describe_plane()
+  local plane = program.plane(path)
+  put("format plane\nsize %.9gx%.9g\nalpha %s\nbytes %d", plane.width, plane.height,
+    plane.opaque and "none" or "premultiplied", plane.bytes)
+  for _, name in ipairs { "bands", "borders", "curves", "colours", "gradients" } do
+    put("%s %d", name, plane[name])
+  end
+end
+
 local function describe_painting(format)
   local text = program.input(require "celspan.inform".painting(path))
   io.write("format ", format, "\n", text)
@@ -137,6 +146,7 @@ local describe = {
   script = describe_film,
   picture = describe_picture,
   span = describe_spans,
+  plane = describe_plane,
   archive = function() describe_painting "painting" end,
   folder = function() describe_painting "folder" end,
   svg = describe_drawing,

@@ -1,0 +1,39 @@
+/* Planes for the other rooms: rows of one, one after the other, and frames as plane files. */
+#pragma once
+
+#include "base/context.h"
+#include "celspan/celspan.h"
+
+/* Whether a file begins as plane files do. */
+bool cs_plane_accepts(const char *path);
+/* Whether a file of this name is written as a plane. format: NULL: the ending of the name says
+ * it. */
+bool cs_plane_is_wanted(const char *path, const char *format);
+/* Writes a frame of one exposure as a plane file: its film, of which size, crop and antialiasing
+ * say nothing. Errors: those of making and of writing a plane. */
+CELSPAN_CHECKED celspan_status cs_plane_write_frame(celspan_context *context,
+                                                    const celspan_frame_desc *frame,
+                                                    const char *path);
+
+/* What a plane consists of. Of what crosses several bands each part counts. */
+typedef struct cs_plane_facts {
+  size_t parts; /* bands of the file */
+  size_t borders, curves;
+  size_t colours, gradients; /* cells of one colour, and others */
+} cs_plane_facts;
+cs_plane_facts cs_plane_count(const celspan_plane *plane);
+
+/* The rows of a view. */
+typedef struct cs_plane_rows cs_plane_rows;
+/* plane: must live as long as the rows. out: new. Errors: those of celspan_plane_render. */
+CELSPAN_CHECKED celspan_status cs_plane_rows_create(celspan_context *context,
+                                                    const celspan_plane *plane,
+                                                    const celspan_plane_view *view,
+                                                    cs_plane_rows **out);
+void cs_plane_rows_destroy(cs_plane_rows *rows); /* NULL is ignored */
+/* y: a row of the crop, from 0; those of a run are quickest from the top. Valid until the next
+ * call. */
+CELSPAN_CHECKED celspan_status cs_plane_rows_get(cs_plane_rows *rows, int32_t y,
+                                                 const celspan_span **spans, size_t *count);
+/* Columns and rows of the view. */
+void cs_plane_rows_size(const cs_plane_rows *rows, int32_t *columns, int32_t *row_count);
