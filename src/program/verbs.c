@@ -206,6 +206,11 @@ static const cs_option STAGE[] = {WORKERS, SCRIPT, MEMORY, {0}};
 
 static const cs_option CONVERT[] = {SIZE, CROP, CODING, WORKERS, PICTURE_RIGHTS, {0}};
 
+static const cs_option PLANE[] = {
+    OUTPUT("PAGE", "the page to write, an HTML file"),
+    {"--title", "TEXT", &cs_argument_text, "the title of the page; default: the name of the file"},
+    {0}};
+
 static const cs_option COMPARE[] = {
     OUTPUT("DIFFERENCE", "a picture of the differences: A in pale grey, what differs in red"),
     {"--fail", "D", &cs_argument_tolerance,
@@ -406,6 +411,11 @@ const cs_verb cs_verbs[] = {
     {"convert", "IN OUT", 2, 2,
      .summary = "Converts a picture, span or plane file to another format or size.",
      .options = CONVERT},
+    {"plane", "FILE -o PAGE", 1, 1, .summary = "Makes a page that shows a plane file at any size.",
+     .notes = "The plane and its decoder, as WebAssembly, are in the page, which needs nothing "
+              "else. It moves and zooms with mouse, touch and keyboard, and draws the visible part "
+              "at the size at which it is shown.",
+     .options = PLANE},
     {"compare", "A B", 2, 2,
      .summary = "Compares two pictures or films: the exit code is 0 if they show the same, "
                 "else 1.",

@@ -41,7 +41,7 @@ class Image {
       if (lost.some(part => name.includes(part))) return this.onerror();
       if (!fs.existsSync(file)) { missing++; return this.onerror(); }
       const bytes = fs.readFileSync(file);
-      Object.assign(this, { file, naturalWidth: bytes.readUInt32BE(16), naturalHeight: bytes.readUInt32BE(20) });
+      Object.assign(this, { file, width: bytes.readUInt32BE(16), height: bytes.readUInt32BE(20) });
       this.onload();
     });
   }
@@ -123,7 +123,7 @@ const canvas = elements.view;
 console.log(`local celspan = require "celspan"\nlocal drawn = {`);
 for (const { image, box: [sx, sy, sw, sh, dx, dy, dw, dh], is_smooth } of draws) {
   const across = dw / sw, down = dh / sh;
-  const box = [dx - sx * across, dy - sy * down, image.naturalWidth * across, image.naturalHeight * down];
+  const box = [dx - sx * across, dy - sy * down, image.width * across, image.height * down];
   console.log(`  celspan.rect { ${dx}, ${dy}, ${dw}, ${dh}, texture = celspan.picture { file = ` +
     `"${image.file}", box = { ${box} }, wrap = "clamp", sampling = "${is_smooth ? "auto" : "nearest"}" } },`);
 }

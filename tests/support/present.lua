@@ -42,6 +42,9 @@ end
 --- Whether celspan watch can show a page: it was built with libmicrohttpd.
 function present.web() return not contains "built without libmicrohttpd" end
 
+--- Whether celspan plane can make pages: it was built with clang and lld.
+function present.pages() return contains "AGFzbQEAAAA" end -- how a module begins, in base64
+
 --- Whether all of these programs are installed; a path is a program too.
 function present.program(...)
   for _, name in ipairs { ... } do

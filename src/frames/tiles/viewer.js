@@ -1,6 +1,6 @@
 // Shows a pyramid of tiles on a canvas, with mouse, touch and keyboard, without a library.
 //
-//   const viewer = show_tiles(canvas, pyramid, { url, is_made, settled, moved })
+//   const viewer = show_tiles(canvas, pyramid, { load, is_made, settled, moved })
 //   viewer.go(x, y, width)      flies to a centre and a width, both in pixels of the frame
 //
 // Three kinds of pixels are used:
@@ -43,7 +43,8 @@ function show_tiles(canvas, pyramid, hooks) {
     const key = `${level}/${column}/${row}`;
     let tile = tiles.get(key);
     if (!tile) {
-      tile = { key, level, column, row, image: null, is_ready: false, is_lost: false, used: 0 };
+      tile = { key, level, column, row, image: null, used: 0,
+               is_coming: false, is_ready: false, is_lost: false };
       tiles.set(key, tile);
     }
     tile.used = clock;
@@ -59,21 +60,19 @@ function show_tiles(canvas, pyramid, hooks) {
     return null;
   }
 
+  // hooks.load calls its last argument once: with an image or a canvas, or null if there is none.
   function load(tile) {
-    const image = new Image();
-    tile.image = image;
+    tile.is_coming = true;
     coming++;
-    const done = is_ready => {
+    hooks.load(tile.level, tile.column, tile.row, image => {
       coming--;
-      tile.is_ready = is_ready;
-      tile.is_lost = !is_ready;
+      tile.image = image;
+      tile.is_coming = false;
+      tile.is_ready = image !== null;
+      tile.is_lost = image === null;
       fetch_more();
       ask();
-    };
-    const finish = () => done(true);
-    image.onload = () => (image.decode ? image.decode().then(finish, finish) : finish());
-    image.onerror = () => done(false);
-    image.src = hooks.url(tile.level, tile.column, tile.row);
+    });
   }
 
   // Coarser tiles first, because they cover more; then tiles near the centre.
@@ -87,14 +86,14 @@ function show_tiles(canvas, pyramid, hooks) {
   }
 
   function want(tile, rank) {
-    if (tile.image || tile.is_lost) return;
+    if (tile.is_coming || tile.is_ready || tile.is_lost) return;
     tile.rank = rank;
     queue.set(tile.key, tile);
   }
 
   function forget_old() {
     if (tiles.size <= KEPT) return;
-    const is_old = tile => tile.used < clock && (tile.is_ready || !tile.image);
+    const is_old = tile => tile.used < clock && !tile.is_coming;
     const old = [...tiles.values()].filter(is_old);
     old.sort((a, b) => a.used - b.used);
     for (const tile of old.slice(0, tiles.size - KEPT)) tiles.delete(tile.key);
@@ -126,9 +125,8 @@ function show_tiles(canvas, pyramid, hooks) {
     const y0 = row * side, y1 = Math.min(y0 + side, pyramid.height);
     const left = tile.column * pyramid.tile - (tile.column ? pyramid.overlap : 0);
     const upper = tile.row * pyramid.tile - (tile.row ? pyramid.overlap : 0);
-    const { naturalWidth, naturalHeight } = tile.image;
-    const from_x = x0 / own - left, to_x = Math.min(x1 / own - left, naturalWidth);
-    const from_y = y0 / own - upper, to_y = Math.min(y1 / own - upper, naturalHeight);
+    const from_x = x0 / own - left, to_x = Math.min(x1 / own - left, tile.image.width);
+    const from_y = y0 / own - upper, to_y = Math.min(y1 / own - upper, tile.image.height);
     const at_x = on_x(x0), at_y = on_y(y0);
     if (to_x <= from_x || to_y <= from_y) return;
     pencil.drawImage(tile.image, from_x, from_y, to_x - from_x, to_y - from_y, at_x, at_y,

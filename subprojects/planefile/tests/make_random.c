@@ -1,6 +1,7 @@
 /* Writes random planes: `make_random FOLDER COUNT COLUMNS ROWS` makes 0.plane, 0.pixels, ... there,
- * to compare decoders with: the channels of the pixels as 32-bit integers. Without a size the
- * plane files alone, beginning with a byte of 0 to 3, like the fuzzer's inputs. */
+ * to compare decoders with: the channels of the pixels as 32-bit integers; and 0.codes, ..., the
+ * same as 8-bit codes. Without a size the plane files alone, beginning with a byte of 0 to 3, like
+ * the fuzzer's inputs. */
 #include "support.h"
 
 static void put_file(const char *folder, int number, const char *ending, int first,
@@ -16,12 +17,18 @@ static void put_file(const char *folder, int number, const char *ending, int fir
   CHECK(fclose(file) == 0);
 }
 
-static void put_pixels(const char *folder, int number, memory_file *file, uint32_t columns,
-                       uint32_t rows) {
+static void put_drawn(const char *folder, int number, memory_file *file, uint32_t columns,
+                      uint32_t rows) {
   planefile_plane *plane = read_plane(file);
   planefile_view view = {.width = columns, .height = rows, .columns = columns, .rows = rows};
   planefile_cell *pixels = draw_view(plane, view);
-  put_file(folder, number, ".pixels", -1, pixels, (size_t)columns * rows * sizeof *pixels);
+  size_t count = (size_t)columns * rows;
+  unsigned char *codes = malloc(4 * count);
+  put_file(folder, number, ".pixels", -1, pixels, count * sizeof *pixels);
+  for (size_t i = 0; CHECK(codes != NULL) && i < count; i++)
+    planefile_srgb8(plane, pixels[i], codes + 4 * i);
+  put_file(folder, number, ".codes", -1, codes, 4 * count);
+  free(codes);
   free(pixels);
   planefile_plane_destroy(plane);
 }
@@ -36,8 +43,7 @@ int main(int count, char **arguments) {
     put_file(arguments[1], i, is_corpus ? "" : ".plane", is_corpus ? i % 4 : -1, file.bytes,
              file.size);
     if (!is_corpus)
-      put_pixels(arguments[1], i, &file, (uint32_t)atoi(arguments[3]),
-                 (uint32_t)atoi(arguments[4]));
+      put_drawn(arguments[1], i, &file, (uint32_t)atoi(arguments[3]), (uint32_t)atoi(arguments[4]));
     free(file.bytes);
     drawing_free(&d);
   }

@@ -1,0 +1,61 @@
+--- celspan plane FILE -o PAGE: a page that shows a plane at any size. The plane and its decoder, as
+--- WebAssembly, are in the page.
+local program, request = ...
+
+local DIGITS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"
+local GROUPS = 1 << 16 -- of three bytes, that are coded at a time
+
+--- All 4096 pairs of digits, by 12 bits.
+local function make_pairs()
+  local pairs_of = {}
+  for i = 0, 4095 do
+    local high, low = i >> 6, i & 63
+    pairs_of[i] = DIGITS:sub(high + 1, high + 1) .. DIGITS:sub(low + 1, low + 1)
+  end
+  return pairs_of
+end
+
+local function base64(bytes)
+  local pairs_of, parts, digits = make_pairs(), {}, {}
+  local rest = #bytes % 3
+  for start = 1, #bytes - rest, 3 * GROUPS do
+    local stop = math.min(start + 3 * GROUPS - 1, #bytes - rest)
+    for i = start, stop, 3 do
+      local a, b, c = bytes:byte(i, i + 2)
+      local bits = a << 16 | b << 8 | c
+      digits[(i - start) // 3 + 1] = pairs_of[bits >> 12] .. pairs_of[bits & 4095]
+    end
+    parts[#parts + 1] = table.concat(digits, "", 1, (stop - start + 1) // 3)
+  end
+  if rest > 0 then
+    local a, b = bytes:byte(-rest, -1)
+    if rest == 1 then a, b = bytes:byte(-1), 0 end
+    local bits = a << 16 | b << 8
+    parts[#parts + 1] = (pairs_of[bits >> 12] .. pairs_of[bits & 4095]):sub(1, rest + 1)
+      .. ("="):rep(3 - rest)
+  end
+  return table.concat(parts)
+end
+
+local ENTITIES = { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;", ['"'] = "&quot;" }
+local function quoted(text) return (text:gsub('[&<>"]', ENTITIES)) end
+
+local function bytes_of(path)
+  local file, message = io.open(path, "rb")
+  local bytes = file and file:read "a"
+  if file then file:close() end
+  return bytes or program.fail("input", "%s", message or path)
+end
+
+local path, module = request[1], program.text "plane.module"
+if not request.output then program.usage "-o is missing: give -o page.html" end
+if module == "none" then
+  program.fail("input", "this celspan was built without clang and lld, which make the decoder of "
+    .. "pages: install them, for example the Debian packages clang and lld, and build it again")
+end
+program.plane(path) -- refuses what is not a plane
+local fields = {
+  TITLE = quoted(request.title or path:match "[^/]*$"),
+  VIEWER = program.text "viewer.js", MODULE = module, PLANE = base64(bytes_of(path)),
+}
+program.save(request.output, (program.text "plane.html":gsub("@(%u+)@", fields)))

@@ -1,0 +1,4 @@
+/* For modules: see ../libc.c. */
+#pragma once
+#include <stdint.h>
+#define PRIu32 "u"

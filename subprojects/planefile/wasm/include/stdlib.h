@@ -1,0 +1,5 @@
+/* For modules: see ../libc.c. */
+#pragma once
+#include <stddef.h>
+void *realloc(void *block, size_t size);
+void free(void *block);

@@ -1,0 +1,79 @@
+/* The decoder as a module of WebAssembly: for a page that has the bytes of one plane file.
+ *
+ *   reserve --> the page copies the file there --> open --> draw, as often as the page likes
+ *
+ * Addresses are those of the module's memory, of which the page makes its views again after each
+ * call, because memory may have grown.
+ */
+#include "planefile.h"
+
+#define EXPORT(name) __attribute__((export_name(name)))
+
+static unsigned char *bytes; /* of the file */
+static size_t byte_count;
+static planefile_plane *plane;
+static planefile_fault fault;
+static unsigned char *pixels; /* of the latest view */
+static size_t pixel_bytes;
+
+void *cs_wasm_resize(void *user, void *block, size_t old_size, size_t new_size);
+
+/* Where the page writes the bytes of the file; 0: no memory. */
+EXPORT("reserve") unsigned char *reserve(size_t size) {
+  bytes = cs_wasm_resize(NULL, bytes, byte_count, size);
+  byte_count = bytes ? size : 0;
+  return bytes;
+}
+
+static bool read_bytes(void *user, uint64_t offset, void *out, size_t size) {
+  (void)user;
+  __builtin_memcpy(out, bytes + offset, size);
+  return true;
+}
+
+/* Reads the file. NULL: it is read; otherwise the reason, which ends with a zero. */
+EXPORT("open") const char *open(void) {
+  const planefile_source source = {
+      .read = read_bytes, .size = byte_count, .resize = cs_wasm_resize};
+  planefile_plane_destroy(plane);
+  plane = NULL;
+  planefile_status status = planefile_read(&source, 0, PLANEFILE_SIDE, &plane, &fault);
+  return status == PLANEFILE_OK ? NULL : fault.reason;
+}
+
+EXPORT("width") double width(void) { return planefile_plane_info(plane).width; }
+EXPORT("height") double height(void) { return planefile_plane_info(plane).height; }
+
+static bool make_room(const planefile_view *view) {
+  size_t size = (size_t)4 * view->columns * view->rows;
+  if (size <= pixel_bytes)
+    return true;
+  pixels = cs_wasm_resize(NULL, pixels, pixel_bytes, size);
+  pixel_bytes = pixels ? size : 0;
+  return pixels != NULL;
+}
+
+static bool draw_rows(planefile_drawer *drawer, const planefile_view *view) {
+  const planefile_span *spans;
+  size_t count;
+  for (uint32_t y = 0; y < view->rows; y++) {
+    if (planefile_drawer_row(drawer, &spans, &count) != PLANEFILE_OK)
+      return false;
+    planefile_span_pixels(plane, spans, count, pixels + (size_t)4 * view->columns * y);
+  }
+  return true;
+}
+
+/* The pixels of a crop of the frame at a size, 4 bytes each; NULL: no memory, or there is no such
+ * view. */
+EXPORT("draw")
+const unsigned char *draw(uint32_t across, uint32_t down, uint32_t x, uint32_t y, uint32_t columns,
+                          uint32_t rows) {
+  const planefile_view view = {across, down, x, y, columns, rows, PLANEFILE_AREA};
+  planefile_drawer *drawer;
+  if (!make_room(&view) || planefile_drawer_create(plane, &view, &drawer) != PLANEFILE_OK)
+    return NULL;
+  bool is_drawn = draw_rows(drawer, &view);
+  planefile_drawer_destroy(drawer);
+  return is_drawn ? pixels : NULL;
+}

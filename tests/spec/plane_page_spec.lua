@@ -1,0 +1,154 @@
+-- celspan plane: the page, what its decoder draws, and what is refused.
+local json = require "celspan.json"
+local present = require "tests.support.present"
+local workbench = require "tests.support.workbench"
+
+if not present.pages() then return pending "celspan was built without clang and lld" end
+
+local FILM = [[
+local celspan = require "celspan"
+return celspan.film { size = { 160, 90 }, frames = 1, frame = function()
+  return celspan.rostrum { back = "#204060", celspan.cel {
+    celspan.circle { centre = { 80, 45 }, radius = 30, texture = "#f26419" },
+    celspan.rect { 78, 43, 0.01, 4, texture = "#ffffff" } } }
+end }
+]]
+
+-- Loads the decoder and a plane from a page, as the page does.
+local DECODER = [[
+  async function decoder_of(path) {
+    const html = require("fs").readFileSync(path, "utf8");
+    const part = id => Buffer.from(
+      new RegExp(`<script id="${id}"[^>]*>([^<]*)<`).exec(html)[1], "base64");
+    const { instance: { exports } } = await WebAssembly.instantiate(part("module"));
+    const plane = part("plane"), address = exports.reserve(plane.length);
+    new Uint8Array(exports.memory.buffer, address).set(plane);
+    const bytes = (address, count) =>
+      Buffer.from(new Uint8Array(exports.memory.buffer, address, count));
+    const reason = exports.open();
+    const said = reason && bytes(reason, 120).toString().replace(/\0[^]*/, "");
+    return { exports, bytes, said };
+  }
+]]
+
+local bench
+
+before_each(function()
+  bench = workbench.new()
+  bench:write("film.lua", FILM)
+end)
+after_each(function() bench:remove() end)
+
+local function done(command, ...)
+  local code, out, err = bench:inside(command:format(...))
+  assert.equal(0, code, err)
+  return out
+end
+
+local function celspan(arguments, ...)
+  return done("'%s' " .. arguments, workbench.absolute, ...)
+end
+
+--- What the body of an asynchronous function returns under node.
+local function node(steps)
+  bench:write("steps.js", DECODER .. ";(async () => {" .. steps
+    .. "})().then(said => console.log(JSON.stringify(said)))")
+  return assert(json.decode(done "node steps.js"))
+end
+
+--- What the steps return in a browser: see browser.js.
+local function see(steps)
+  local path = bench:write("steps.js", steps)
+  local code, out, err = bench:shell(
+    ("node tests/support/browser.js '%s/chromium' about:blank '%s'"):format(bench.folder, path))
+  assert(code == 0, err)
+  return assert(json.decode(out))
+end
+
+local it_decodes = present.program "node" and it or pending
+local it_shows = present.program("node", "chromium") and it or pending
+
+describe("the page of a plane", function()
+  it_decodes("draws the pixels of the library, to the bit #plain", function()
+    local make_random = workbench.build .. "/subprojects/planefile/tests/make_random"
+    done("'%s' . 24 57 43", make_random)
+    for i = 0, 23 do celspan("plane %d.plane -o %d.html", i, i) end
+    local said = node [[
+      const fs = require("fs"), wrong = [];
+      for (let i = 0; i < 24; i++) {
+        const { exports, bytes, said } = await decoder_of(`${i}.html`);
+        const drawn = said || bytes(exports.draw(57, 43, 0, 0, 57, 43), 4 * 57 * 43);
+        const crop = said || bytes(exports.draw(57, 43, 20, 10, 1, 1), 4), at = 4 * (57 * 10 + 20);
+        const codes = fs.readFileSync(`${i}.codes`);
+        if (said || drawn.compare(codes) || crop.compare(codes.subarray(at, at + 4))) wrong.push(i);
+      }
+      return { wrong };]]
+    assert.same({}, said.wrong)
+  end)
+
+  it_decodes("says what is wrong with a plane that was altered", function()
+    celspan "render film.lua -o a.plane"
+    celspan "plane a.plane -o a.html"
+    local said = node [[
+      const fs = require("fs"), html = fs.readFileSync("a.html", "utf8");
+      const start = html.indexOf('<script id="plane"'), middle = html.indexOf(">", start) + 100;
+      const other = html[middle] === "A" ? "B" : "A";
+      fs.writeFileSync("b.html", html.slice(0, middle) + other + html.slice(middle + 1));
+      const { exports, said } = await decoder_of("b.html");
+      return { said, size: [exports.draw(1 << 31, 0, 0, 0, 1, 1)] };]]
+    assert.matches("the checksum is wrong", said.said, 1, true)
+  end)
+
+  it_decodes("has a decoder of at most 40 KB, and loads nothing", function()
+    celspan "render film.lua -o a.plane"
+    celspan 'plane a.plane -o a.html --title "a <b> & \\"c\\""'
+    local page = bench:read "a.html"
+    local module = page:match '<script id="module" type="text/plain">([^<]*)<'
+    assert.is_true(#module * 3 / 4 < 40 * 1000, #module)
+    assert.matches("<title>a &lt;b&gt; &amp; &quot;c&quot;</title>", page, 1, true)
+    assert.is_nil(page:match "https?:")
+  end)
+
+  it_shows("shows the plane, sharp at a depth of ten thousand #plain", function()
+    celspan "render film.lua -o a.plane"
+    celspan "plane a.plane -o a.html"
+    local said = see(([=[
+      await page.call("Page.navigate", { url: "file://%s/a.html" });
+      const pixel = (x, y) => `[...document.querySelector("canvas")?.getContext("2d")
+        .getImageData(${x}, ${y}, 1, 1).data ?? []]`;
+      const at = (x, y) => page.get(pixel(x, y));
+      const is_at = (x, y, colour) => page.until(`${pixel(x, y)}.join() === "${colour}"`);
+      await is_at(600, 400, "242,100,25,255");
+      const whole = { corner: await at(100, 100), text: await page.get("here('where').textContent"),
+                      fault: await page.get("here('fault').textContent") };
+      await page.get("location.hash = '78.005,45,0.016'");
+      await page.until("here('where').textContent.endsWith('10,000')");
+      await is_at(230, 400, "242,100,25,255");
+      await is_at(640, 400, "255,255,255,255");
+      const deep = { left: await at(230, 400), middle: await at(640, 400),
+                     right: await at(1050, 400),
+                     text: await page.get("here('where').textContent") };
+      await page.press("0");
+      await is_at(640, 50, "32,64,96,255");
+      return { whole, deep };]=]):format(bench.folder))
+    assert.same({ 32, 64, 96, 255 }, said.whole.corner)
+    assert.equal("", said.whole.fault)
+    assert.matches("^80, 45 ", said.whole.text)
+    assert.same({ { 242, 100, 25, 255 }, { 255, 255, 255, 255 }, { 242, 100, 25, 255 } },
+      { said.deep.left, said.deep.middle, said.deep.right })
+    assert.matches("^78%.005, 45 .*10,000$", said.deep.text)
+  end)
+
+  it("is made of plane files only, and needs a name", function()
+    for _, one in ipairs {
+      { 2, "-o is missing: give -o page.html", "plane a.plane" },
+      { 4, "this is not a plane file", "plane film.lua -o a.html" },
+      { 4, "No such file", "plane none.plane -o a.html" },
+    } do
+      local code, _, err = bench:celspan_inside(one[3])
+      assert.equal(one[1], code, err)
+      assert.matches(one[2], err, 1, true)
+    end
+    assert.is_nil(bench:read "a.html")
+  end)
+end)
