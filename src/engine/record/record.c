@@ -301,9 +301,11 @@ static celspan_status add_rows(recorder *r) {
 }
 
 celspan_status cs_record_make(celspan_context *context, const cs_plan *plan, cs_recording *out) {
-  recorder r = {.context = context, .plan = plan, .out = out, .source = {context, &plan->stack}};
+  recorder r = {.context = context, .plan = plan, .out = out};
   size_t count = plan->boundaries.chain_count > 0 ? plan->boundaries.chain_count : 1;
   size_t shades = plan->stack.shade_count + 1;
+  r.source.context = context;
+  r.source.stack = &plan->stack;
   CS_TRY(CS_MAKE(context, r.chains, count));
   celspan_status status = CS_MAKE(context, r.source.axes, shades);
   if (status == CELSPAN_OK)
