@@ -1033,6 +1033,8 @@ function celspan.pixels(what, options) end
 ---@field width number In film units
 ---@field height number
 ---@field bytes integer Of its file
+---@field frames integer Of its file
+---@field fps number Of a film; 0 of a single plane
 local plane = {}
 
 ---@class celspan.plane.view
@@ -1045,6 +1047,12 @@ local plane = {}
 ---@return celspan.pixels.image? image
 ---@return string? message
 function plane:pixels(options) end
+
+--- Another frame of the file.
+---@param number integer 1 to plane.frames
+---@return celspan.plane? plane
+---@return string? message
+function plane:frame(number) end
 
 --- Writes a plane file.
 ---@param path string

@@ -550,6 +550,8 @@ function celspan.pixels(what, options) end
 ---@field width number In film units
 ---@field height number
 ---@field bytes integer Of its file
+---@field frames integer Of its file
+---@field fps number Of a film; 0 of a single plane
 local plane = {}
 
 ---@noun plane.view
@@ -559,6 +561,12 @@ local plane = {}
 ---@return celspan.pixels.image? image
 ---@return string? message
 function plane:pixels(options) end
+
+--- Another frame of the file.
+---@param number integer 1 to plane.frames
+---@return celspan.plane? plane
+---@return string? message
+function plane:frame(number) end
 
 --- Writes a plane file.
 ---@param path string

@@ -147,9 +147,11 @@ static int read_plane(lua_State *L) {
       cs_userdata_push_holder(L, "celspan.program.plane", sizeof(celspan_plane *), close_plane);
   cs_service_try(L, celspan_plane_read(context, luaL_checkstring(L, 1), plane));
   cs_plane_facts facts = cs_plane_count(*plane);
-  double width, height;
+  double width, height, rate;
   celspan_plane_size(*plane, &width, &height);
-  lua_createtable(L, 0, 9);
+  lua_createtable(L, 0, 11);
+  cs_put_integer(L, "frames", celspan_plane_frames(*plane, &rate));
+  cs_put_number(L, "fps", rate);
   cs_put_number(L, "width", width);
   cs_put_number(L, "height", height);
   cs_put_integer(L, "bytes", (int64_t)celspan_plane_bytes(*plane));
@@ -378,7 +380,7 @@ static int compare(lua_State *L) {
       cs_userdata_push_holder(L, "celspan.program.stills", 2 * sizeof *stills, close_stills);
   celspan_frame_desc frames[2];
   for (int i = 0; i < 2; i++)
-    cs_service_try(L, cs_still_open(session->context, luaL_checkstring(L, i + 1), &stills[i]));
+    cs_service_try(L, cs_still_open(session->context, luaL_checkstring(L, i + 1), 0, &stills[i]));
   fit_plane(stills);
   const celspan_picture_info *a = &stills[0].info, *b = &stills[1].info;
   if (a->width != b->width || a->height != b->height) {
@@ -410,7 +412,8 @@ static int convert(lua_State *L) {
     cs_service_require(L, cs_report_usage("%s: a plane is made of a script or a drawing, not of a "
                                           "picture",
                                           lua_tostring(L, 2)));
-  cs_service_try(L, cs_still_open(session->context, luaL_checkstring(L, 1), stills));
+  cs_service_require(
+      L, cs_view_open_still(session->context, session->request, luaL_checkstring(L, 1), stills));
   cs_service_require(L, cs_view_still(session->request, stills, &frame));
   cs_service_try(L,
                  cs_still_write(session->context, stills, &frame, luaL_checkstring(L, 2), &file));

@@ -12,6 +12,7 @@
 
 #include "base/context.h"
 #include "frames/film/shoot.h"
+#include "frames/plane/plane.h"
 #include "frames/video/video.h"
 #include "output/sinks/pixels.h"
 #include "program/change.h"
@@ -33,8 +34,9 @@ typedef struct render_job {
   cs_progress progress;
   cs_record record;
   bool is_video;
-  cs_video video;  /* where it is one */
-  int64_t *failed; /* frames; owned */
+  cs_video video;       /* where it is one */
+  cs_plane_film *plane; /* where the film is one plane file */
+  int64_t *failed;      /* frames; owned */
   size_t failed_count, failed_capacity;
   cs_exit outcome; /* of what was reported */
 } render_job;
@@ -105,6 +107,14 @@ static celspan_status put_video(void *user, const celspan_frame_desc *desc, cs_s
   return cs_video_put(&job->video, desc, frame);
 }
 
+static celspan_status put_plane(void *user, const celspan_frame_desc *desc, cs_shoot_frame *frame) {
+  const render_job *job = user;
+  return cs_plane_film_put(job->plane, desc, frame->is_named ? &frame->scene : NULL);
+}
+
+/* Whether all frames go into one file. */
+static bool is_whole(const render_job *job) { return job->is_video || job->plane; }
+
 static bool keep(void *user, cs_shoot_frame *frame) {
   render_job *job = user;
   return cs_record_has(&job->record, frame);
@@ -139,7 +149,7 @@ static const char *destination_of(const render_job *job, const cs_shoot_frame *f
   const char *output = job->output;
   return !output                       ? "hashed"
          : cs_target_is_stream(output) ? "standard output"
-         : job->is_video               ? output
+         : is_whole(job)               ? output
                                        : frame->path;
 }
 
@@ -193,7 +203,7 @@ static void list_failed(const render_job *job, char *out, size_t size) {
 static cs_exit sum_up(const render_job *job, cs_exit outcome) {
   char list[1024];
   size_t done = job->progress.frames_done, count = job->frames.count;
-  if (done < count && count > 1 && job->is_video)
+  if (done < count && count > 1 && is_whole(job))
     cs_report_note("%s was not made: the run ended after %zu of %zu frames", job->output, done,
                    count);
   else if (done < count && count > 1)
@@ -230,7 +240,7 @@ static cs_exit shoot(render_job *job) {
   const cs_shoot shoot = {.context = job->script->context,
                           .film = job->script->film,
                           .frames = &job->frames,
-                          .pattern = is_stream || job->is_video ? NULL : job->output,
+                          .pattern = is_stream || is_whole(job) ? NULL : job->output,
                           .frame = job->frame,
                           .file = describe_file(job),
                           .has_digests = job->has_digests,
@@ -238,6 +248,7 @@ static cs_exit shoot(render_job *job) {
                           .keeps_nothing = memory == 0,
                           .user = job,
                           .put = job->is_video ? put_video
+                                 : job->plane  ? put_plane
                                  : is_stream   ? put_raw
                                                : NULL,
                           .keep = job->resumes ? keep : NULL,
@@ -258,11 +269,21 @@ static cs_exit shoot_video(render_job *job) {
   return outcome;
 }
 
+static cs_exit shoot_plane(render_job *job) {
+  cs_exit outcome = shoot(job);
+  if (outcome == CS_EXIT_OK)
+    return cs_report_failure(job->script->context, cs_plane_film_commit(job->plane), NULL);
+  cs_plane_film_discard(job->plane);
+  return outcome;
+}
+
 static cs_exit render_all(render_job *job) {
   cs_progress_style style = CS_PROGRESS_AUTO;
   cs_request_read(job->request, "--progress", &style);
   cs_progress_start(&job->progress, style, job->frames.count);
-  return report_end(job, job->is_video ? shoot_video(job) : shoot(job));
+  return report_end(job, job->is_video ? shoot_video(job)
+                         : job->plane  ? shoot_plane(job)
+                                       : shoot(job));
 }
 
 static cs_exit resume_all(render_job *job) {
@@ -298,6 +319,11 @@ static cs_exit refuse_resume(const cs_request *request, const char *output) {
   bool resumes = cs_request_has(request, "--resume");
   if (cs_request_has(request, "--force") && !resumes)
     return cs_report_usage("--force needs --resume");
+  bool leaves_out = resumes || cs_request_has(request, "--keep-going");
+  if (leaves_out && cs_target_is_plane_film(request))
+    return cs_report_usage("%s: a plane file is made whole: leave %s out, or render "
+                           "shot.####.plane",
+                           output, resumes ? "--resume" : "--keep-going");
   if (resumes && (!output || cs_target_is_stream(output)))
     return cs_report_usage("--resume looks for the frames of an earlier run: give -o "
                            "shot.####.png");
@@ -341,6 +367,9 @@ static cs_exit refuse_division(const cs_request *request, const char *output) {
     return cs_report_usage("%s: a video is made of all its frames in one run; render frames, and "
                            "make the video of them",
                            option);
+  if (cs_target_is_plane_film(request))
+    return cs_report_usage("%s: a film of planes is made in one run; render shot.####.plane",
+                           option);
   return CS_EXIT_OK;
 }
 
@@ -357,9 +386,21 @@ static cs_exit refuse_early(celspan_context *context, const cs_request *request)
   return refuse_output(context, request, 0);
 }
 
-/* Whether one picture or a video is asked for is known here, where the frames are. */
-static cs_exit open_video(render_job *job) {
+static cs_exit open_plane(render_job *job) {
+  const cs_film_info *film = &job->script->film;
+  const cs_plane_film_desc desc = {
+      .width = film->width, .height = film->height, .frames_second = film->frames_second};
+  celspan_context *context = job->script->context;
+  return cs_report_failure(context, cs_plane_film_create(context, job->output, &desc, &job->plane),
+                           NULL);
+}
+
+/* Whether one picture, a film of planes or a video is asked for is known here, where the frames
+ * are. */
+static cs_exit open_film(render_job *job) {
   const cs_request *request = job->request;
+  if (cs_target_is_plane_film(request) && job->frames.count > 1)
+    return open_plane(job);
   job->is_video = cs_video_target_is_wanted(request, job->frames.count);
   if (job->is_video)
     return cs_video_target_open(&job->video, job->script, request, &job->frame, &job->frames);
@@ -376,7 +417,7 @@ static cs_exit make_frames(render_job *job) {
     return CS_EXIT_OK;
   }
   CS_TRY_EXIT(cs_change_refuse(job->script, &job->change, &job->frames));
-  CS_TRY_EXIT(open_video(job));
+  CS_TRY_EXIT(open_film(job));
   return resume_all(job);
 }
 

@@ -114,7 +114,7 @@ static cs_exit run_plane(celspan_context *context, const cs_request *request, co
   cs_still still = {0};
   if (cs_request_has(request, "--stats"))
     return cs_report_usage("--stats: %s is a plane, of which 'celspan info' gives figures", path);
-  cs_exit outcome = cs_view_open_still(context, path, &still);
+  cs_exit outcome = cs_view_open_still(context, request, path, &still);
   if (outcome == CS_EXIT_OK)
     outcome = print_still(context, request, &still);
   cs_still_close(&still);

@@ -64,6 +64,12 @@ cs_exit cs_target_refuse(celspan_context *context, const char *path, const cs_re
   return refuse_file(context, path, request);
 }
 
+bool cs_target_is_plane_film(const cs_request *request) {
+  const char *output = cs_request_text(request, "-o");
+  return output && !cs_target_is_stream(output) && !cs_sequence_has_number(output) &&
+         cs_plane_is_wanted(output, cs_request_text(request, "--format"));
+}
+
 bool cs_target_is_stream(const char *path) { return strcmp(path, "-") == 0; }
 
 static celspan_status list_frames(const cs_script *script, const cs_request *request,
@@ -97,7 +103,7 @@ cs_exit cs_target_frames(const cs_script *script, const cs_request *request, con
   if (status != CELSPAN_OK)
     return cs_report_failure(script->context, status, NULL);
   bool is_one_file = output && !cs_target_is_stream(output) && !cs_sequence_has_number(output) &&
-                     !cs_video_target_is_wanted(request, 0);
+                     !cs_video_target_is_wanted(request, 0) && !cs_target_is_plane_film(request);
   if (is_one_file && out->count > 1)
     return cs_report_usage("%s: several frames (%zu) need a number in the name, such as "
                            "shot.####.png",

@@ -17,5 +17,7 @@ celspan_file_desc cs_target_file(const cs_request *request);
  * reported. */
 cs_exit cs_target_frames(const cs_script *script, const cs_request *request, const char *output,
                          cs_sequence *out);
+/* Whether OUT is one plane file, for one frame or all of them. */
+bool cs_target_is_plane_film(const cs_request *request);
 /* Standard output, for raw frames. */
 bool cs_target_is_stream(const char *path);

@@ -56,7 +56,8 @@ static void set_name(const char *path, char name[NAME_SIZE]) {
 
 static cs_exit open_still(tiles_job *job) {
   CS_TRY_EXIT(cs_confine_refuse(job->request));
-  CS_TRY_EXIT(cs_view_open_still(job->context, job->request->operands[0], &job->still));
+  CS_TRY_EXIT(
+      cs_view_open_still(job->context, job->request, job->request->operands[0], &job->still));
   return cs_view_still(job->request, &job->still, &job->frame);
 }
 

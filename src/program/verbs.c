@@ -204,7 +204,7 @@ static const cs_option WATCH[] = {
 
 static const cs_option STAGE[] = {WORKERS, SCRIPT, MEMORY, {0}};
 
-static const cs_option CONVERT[] = {SIZE, CROP, CODING, WORKERS, PICTURE_RIGHTS, {0}};
+static const cs_option CONVERT[] = {FRAME, SIZE, CROP, CODING, WORKERS, PICTURE_RIGHTS, {0}};
 
 static const cs_option PLANE[] = {
     OUTPUT("PAGE", "the page to write, an HTML file"),

@@ -25,7 +25,7 @@ local DECODER = [[
     new Uint8Array(exports.memory.buffer, address).set(plane);
     const bytes = (address, count) =>
       Buffer.from(new Uint8Array(exports.memory.buffer, address, count));
-    const reason = exports.open();
+    const reason = exports.open(0);
     const said = reason && bytes(reason, 120).toString().replace(/\0[^]*/, "");
     return { exports, bytes, said };
   }
@@ -137,6 +137,40 @@ describe("the page of a plane", function()
     assert.same({ { 242, 100, 25, 255 }, { 255, 255, 255, 255 }, { 242, 100, 25, 255 } },
       { said.deep.left, said.deep.middle, said.deep.right })
     assert.matches("^78%.005, 45 .*10,000$", said.deep.text)
+  end)
+
+  it_shows("plays a film, and shows any frame of it #plain", function()
+    bench:write("film.lua", (FILM:gsub("frames = 1", "fps = 8, frames = 12")
+      :gsub("function%(%)", "function(f)"):gsub("{ 80, 45 }", "{ 20 * f.number, 45 }")))
+    celspan "render film.lua -o a.plane"
+    celspan "plane a.plane -o a.html"
+    local said = see(([=[
+      await page.call("Page.navigate", { url: "file://%s/a.html" });
+      await page.until("typeof viewer !== 'undefined' && viewer && !here('film').hidden");
+      const at = x => page.get(`[...document.querySelector("canvas").getContext("2d")
+        .getImageData(${x}, 400, 1, 1).data]`);
+      const text = () => page.get("here('number').textContent");
+      await page.until("pyramid");
+      await page.pause(0.3);
+      const first = [await text(), await at(160), await at(640)];
+      for (let i = 0; i < 3; i++) await page.press(".");
+      await page.pause(0.3);
+      const fourth = [await text(), await at(160), await at(640)];
+      await page.press(" ");
+      await page.until("shown === 7");
+      await page.press(",");
+      await page.pause(0.5);
+      const stopped = await page.get("started === null");
+      await page.get("here('frame').value = 12; here('frame').oninput()");
+      const last = await text();
+      await page.press(".");
+      return { first, fourth, stopped, last, again: await text(),
+               fault: await page.get("here('fault').textContent") };]=]):format(bench.folder))
+    local orange, blue = { 242, 100, 25, 255 }, { 32, 64, 96, 255 }
+    assert.same({ "1 / 12", orange, blue }, said.first)
+    assert.same({ "4 / 12", blue, orange }, said.fourth)
+    assert.is_true(said.stopped)
+    assert.same({ "12 / 12", "1 / 12", "" }, { said.last, said.again, said.fault })
   end)
 
   it("is made of plane files only, and needs a name", function()

@@ -5,11 +5,7 @@ local workbench = require "tests.support.workbench"
 
 local it_compares = present.pictures() and it or pending -- pictures are read to compare them
 
-local bench
-
-before_each(function()
-  bench = workbench.new()
-  bench:write("film.lua", [[
+local FILM = [[
 local celspan = require "celspan"
 local sky = celspan.linear { from = { 0, 0 }, to = { 0, 90 }, { 0, "#204060" }, { 1, "#f0d0a0" } }
 return celspan.film { size = { 160, 90 }, frames = 3, frame = function(f)
@@ -17,7 +13,13 @@ return celspan.film { size = { 160, 90 }, frames = 3, frame = function(f)
     celspan.rect { 0, 0, 160, 60, texture = sky },
     celspan.circle { centre = { 40 + 20 * f.number, 50 }, radius = 30, texture = "#f26419c0" } } }
 end }
-]])
+]]
+
+local bench
+
+before_each(function()
+  bench = workbench.new()
+  bench:write("film.lua", FILM)
   bench:write("blurred.lua", [[
 local celspan = require "celspan"
 local disc = celspan.circle { centre = { 80, 45 }, radius = 30 }
@@ -90,6 +92,25 @@ describe("a plane in Lua", function()
     assert.equal(tostring(plane), tostring(again))
     assert.equal(plane:pixels():bytes(), again:pixels():bytes())
     assert.equal(#bench:read "disc.plane", plane.bytes)
+    assert.same({ 1, 0 }, { again.frames, again.fps })
+  end)
+
+  it("is any frame of a file with a film", function()
+    done("render film.lua -o film.plane")
+    local function read_third()
+      local first = assert(celspan.plane_read(bench.folder .. "/film.plane"))
+      assert.same({ 3, 24 }, { first.frames, first.fps })
+      return assert(assert(first:frame(2)):frame(3))
+    end
+    local third = read_third()
+    collectgarbage() -- the first one is gone, whose bytes are those of all
+    done("render film.lua --frames 3 -o one.plane")
+    local one = assert(celspan.plane_read(bench.folder .. "/one.plane"))
+    assert.equal(one:pixels():bytes(), third:pixels():bytes())
+    assert.error_matches(function() third:frame(4) end, "must be a number from 1 to 3, got 4")
+    assert.error_matches(function() third:frame "a" end, "must be a number from 1 to 3, got string")
+    assert.is_true(third:write(bench.folder .. "/again.plane"))
+    assert.equal(bench:read "film.plane", bench:read "again.plane")
   end)
 
   it("is not made of what it cannot keep, nor read from other files", function()
@@ -127,7 +148,45 @@ describe("a plane on the command line", function()
     assert.equal("celplane", bench:read "a.02.plane":sub(1, 8))
     assert.matches("size 160x90\nalpha none\nbytes %d+\nbands 1\n", done "info a.02.plane")
     assert.matches("gradients %d+\n$", done "info a.02.plane")
-    refused(2, "several frames (3) need a number", "render film.lua -o a.plane")
+  end)
+
+  it("is a film of all frames, each of which is the plane that it would be alone", function()
+    done("render film.lua -o film.plane")
+    assert.matches("\nframes 3\nfps 24\nseconds 0.125\n", done "info film.plane", 1, true)
+    for frame = 1, 3 do
+      done("render film.lua --frames %d -o one.plane", frame)
+      done("convert one.plane one.span --size 320x180")
+      done("convert film.plane frame.span --frame %d --size 320x180", frame)
+      assert.equal(bench:read "one.span", bench:read "frame.span")
+    end
+    assert.equal(done("spans film.plane --rows 40-40"),
+      done("spans film.plane --rows 40-40 --frame 1"))
+    assert.not_equal(done("spans film.plane --rows 40-40"),
+      done("spans film.plane --rows 40-40 --frame 3"))
+    refused(2, "film.plane: there is no frame 4: it has frames 1 to 3",
+      "convert film.plane a.png --frame 4")
+    refused(2, "--frame 0: frames of a plane file are numbered from 1",
+      "spans film.plane --frame 0")
+    refused(2, "one.plane: there is no frame 2: it has only frame 1",
+      "convert one.plane a.png --frame 2")
+  end)
+
+  it("is a film in which a frame that is held is there once", function()
+    bench:write("held.lua", (FILM:gsub("frames = 3", "frames = 40")
+      :gsub("f%.number", "(f.number // 20)")))
+    done("render held.lua -o held.plane")
+    done("render held.lua --frames 1 -o one.plane")
+    assert.is_true(#bench:read "held.plane" < 3 * #bench:read "one.plane" + 40 * 8 + 200)
+  end)
+
+  it("is made whole, in one run", function()
+    for _, option in ipairs { "--resume", "--keep-going", "--task 1/2" } do
+      refused(2, "shot.####.plane", "render film.lua -o a.plane " .. option)
+    end
+    bench:write("last.lua", (FILM:gsub("return celspan.rostrum",
+      'if f.number == 3 then error "no" end return celspan.rostrum')))
+    refused(3, "no", "render last.lua -o a.plane")
+    assert.is_nil(bench:read "a.plane")
   end)
 
   it_compares("is converted to what the film's frame shows", function()

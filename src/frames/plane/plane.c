@@ -23,7 +23,7 @@
 
 #define BYTES_MOST ((uint64_t)1 << 30) /* of a file */
 
-static void *resize(void *user, void *block, size_t old_size, size_t new_size) {
+void *cs_plane_resize(void *user, void *block, size_t old_size, size_t new_size) {
   return cs_mem_resize(user, block, old_size, new_size);
 }
 
@@ -57,7 +57,9 @@ void celspan_plane_unref(celspan_plane *plane) {
     return;
   cs_memory *memory = plane->memory;
   planefile_plane_destroy(plane->plane);
-  cs_mem_free(memory, plane->bytes, plane->capacity);
+  if (!plane->whole)
+    cs_mem_free(memory, plane->bytes, plane->capacity);
+  celspan_plane_unref(plane->whole);
   cs_mem_free(memory, plane, sizeof *plane);
   cs_memory_unref(memory);
 }
@@ -82,14 +84,14 @@ static bool read_bytes(void *user, uint64_t offset, void *bytes, size_t size) {
   return true;
 }
 
-/* What the bytes say. */
-static planefile_status load(celspan_plane *plane, planefile_fault *fault) {
+/* What the bytes say of a frame. */
+static planefile_status load(celspan_plane *plane, uint32_t frame, planefile_fault *fault) {
   planefile_source source = {.read = read_bytes,
                              .user = plane,
                              .size = plane->size,
-                             .resize = resize,
+                             .resize = cs_plane_resize,
                              .resize_user = plane->memory};
-  return planefile_read(&source, 0, PLANEFILE_SIDE, &plane->plane, fault);
+  return planefile_read_frame(&source, frame, 0, PLANEFILE_SIDE, &plane->plane, fault);
 }
 
 /* ---------------------------------------------------------------- making */
@@ -136,23 +138,9 @@ static celspan_status record(celspan_context *context, const celspan_rostrum *ro
   return status;
 }
 
-static celspan_status write_record(celspan_context *context, const cs_recording *made,
-                                   const cs_view *view, celspan_plane *plane) {
-  appending a = {context, plane};
-  const planefile_writer_desc desc = {.width = view->film_width,
-                                      .height = view->film_height,
-                                      .write = append,
-                                      .user = &a,
-                                      .resize = resize,
-                                      .resize_user = context->memory};
-  planefile_band band = cs_record_plane(made);
-  CS_TRY(cs_plane_report(context, planefile_write(&desc, &band)));
-  return cs_plane_report(context, load(plane, NULL));
-}
-
-celspan_status celspan_plane_create(celspan_context *context, const celspan_rostrum *rostrum,
-                                    double width, double height, celspan_plane **out) {
-  *out = NULL;
+celspan_status cs_plane_record(celspan_context *context, const celspan_rostrum *rostrum,
+                               double width, double height, cs_recording *out) {
+  *out = (cs_recording){0};
   CS_TRY(cs_check_given(context, "plane", "the rostrum", rostrum));
   CS_TRY(cs_check_positive(context, "plane", "width", width));
   CS_TRY(cs_check_positive(context, "plane", "height", height));
@@ -165,12 +153,32 @@ celspan_status celspan_plane_create(celspan_context *context, const celspan_rost
                         .most_dashes = CS_COMPILE_DASHES,
                         .space = CELSPAN_SPACE_LINEAR,
                         .keeps_curves = true};
-  cs_recording made = {0};
+  return record(context, rostrum, &view, out);
+}
+
+static celspan_status write_record(celspan_context *context, const cs_recording *made, double width,
+                                   double height, celspan_plane *plane) {
+  appending a = {context, plane};
+  const planefile_writer_desc desc = {.width = width,
+                                      .height = height,
+                                      .write = append,
+                                      .user = &a,
+                                      .resize = cs_plane_resize,
+                                      .resize_user = context->memory};
+  planefile_band band = cs_record_plane(made);
+  CS_TRY(cs_plane_report(context, planefile_write(&desc, &band)));
+  return cs_plane_report(context, load(plane, 0, NULL));
+}
+
+celspan_status celspan_plane_create(celspan_context *context, const celspan_rostrum *rostrum,
+                                    double width, double height, celspan_plane **out) {
+  cs_recording made;
   celspan_plane *plane;
+  *out = NULL;
   CS_TRY(create(context, &plane));
-  celspan_status status = record(context, rostrum, &view, &made);
+  celspan_status status = cs_plane_record(context, rostrum, width, height, &made);
   if (status == CELSPAN_OK)
-    status = write_record(context, &made, &view, plane);
+    status = write_record(context, &made, width, height, plane);
   cs_record_finish(&made, context->memory);
   if (status == CELSPAN_OK)
     *out = plane;
@@ -218,7 +226,7 @@ static celspan_status load_file(celspan_context *context, const char *path, cels
   if (descriptor >= 0)
     close(descriptor);
   CS_TRY(status);
-  planefile_status loaded = load(plane, &fault);
+  planefile_status loaded = load(plane, 0, &fault);
   if (loaded == PLANEFILE_BAD_FILE)
     return cs_fail(context, CELSPAN_INPUT, "%s: byte %" PRIu64 ": %s", path, fault.offset,
                    fault.reason);
@@ -235,6 +243,41 @@ celspan_status celspan_plane_read(celspan_context *context, const char *path, ce
     *out = plane;
   else
     celspan_plane_unref(plane);
+  return status;
+}
+
+int32_t celspan_plane_frames(const celspan_plane *plane, double *frames_second) {
+  planefile_info info = planefile_plane_info(plane->plane);
+  *frames_second = info.frames_second;
+  return info.frame_count < INT32_MAX ? (int32_t)info.frame_count : INT32_MAX;
+}
+
+static celspan_status load_frame(celspan_context *context, celspan_plane *plane, int32_t frame) {
+  planefile_fault fault;
+  planefile_status status = load(plane, (uint32_t)frame, &fault);
+  if (status == PLANEFILE_BAD_FILE)
+    return cs_fail(context, CELSPAN_INPUT, "plane: frame %d: byte %" PRIu64 ": %s", (int)frame,
+                   fault.offset, fault.reason);
+  return cs_plane_report(context, status);
+}
+
+celspan_status celspan_plane_frame(celspan_context *context, const celspan_plane *plane,
+                                   int32_t frame, celspan_plane **out) {
+  double rate;
+  celspan_plane *other;
+  *out = NULL;
+  if (frame < 0 || frame >= celspan_plane_frames(plane, &rate))
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "plane: frame %d: there are %d frames, from 0",
+                   (int)frame, (int)celspan_plane_frames(plane, &rate));
+  CS_TRY(create(context, &other));
+  other->whole = celspan_plane_ref(plane->whole ? plane->whole : (celspan_plane *)plane);
+  other->bytes = plane->bytes;
+  other->size = plane->size;
+  celspan_status status = load_frame(context, other, frame);
+  if (status == CELSPAN_OK)
+    *out = other;
+  else
+    celspan_plane_unref(other);
   return status;
 }
 
@@ -265,22 +308,6 @@ cs_plane_facts cs_plane_count(const celspan_plane *plane) {
   return facts;
 }
 
-/* ---------------------------------------------------------------- frames */
-
 bool cs_plane_is_wanted(const char *path, const char *format) {
   return strcasecmp(format ? format : cs_file_ending(path), "plane") == 0;
-}
-
-celspan_status cs_plane_write_frame(celspan_context *context, const celspan_frame_desc *frame,
-                                    const char *path) {
-  celspan_plane *plane;
-  if (frame->exposure_count != 1 || frame->exposures->weight != 1)
-    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "plane: the frame has several exposures; a plane has one");
-  double width = frame->film_width > 0 ? frame->film_width : frame->width;
-  double height = frame->film_height > 0 ? frame->film_height : frame->height;
-  CS_TRY(celspan_plane_create(context, frame->exposures->rostrum, width, height, &plane));
-  celspan_status status = celspan_plane_write(context, plane, path);
-  celspan_plane_unref(plane);
-  return status;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/context.h"
+#include "base/hash.h"
 #include "celspan/celspan.h"
 
 /* Whether a file begins as plane files do. */
@@ -14,6 +15,25 @@ bool cs_plane_is_wanted(const char *path, const char *format);
 CELSPAN_CHECKED celspan_status cs_plane_write_frame(celspan_context *context,
                                                     const celspan_frame_desc *frame,
                                                     const char *path);
+
+/* A film of planes as one file, which appears under its name when it is committed, not before. */
+typedef struct cs_plane_film cs_plane_film;
+typedef struct cs_plane_film_desc {
+  double width, height; /* film units, above 0 */
+  double frames_second; /* 0: a single plane */
+} cs_plane_film_desc;
+/* out: new; to be committed or discarded. Errors: NO_MEMORY; OUTPUT; LIMIT. */
+CELSPAN_CHECKED celspan_status cs_plane_film_create(celspan_context *context, const char *path,
+                                                    const cs_plane_film_desc *desc,
+                                                    cs_plane_film **out);
+/* The next frame. scene: its hash, so that it is not made if it equals the latest one; NULL: it is
+ * made. Errors: those of making and of writing a plane; then the film can only be discarded. */
+CELSPAN_CHECKED celspan_status cs_plane_film_put(cs_plane_film *film,
+                                                 const celspan_frame_desc *frame,
+                                                 const cs_hash *scene);
+/* Both end the film, whatever they return. */
+CELSPAN_CHECKED celspan_status cs_plane_film_commit(cs_plane_film *film);
+void cs_plane_film_discard(cs_plane_film *film); /* NULL is ignored */
 
 /* What a plane consists of. Of what crosses several bands each part counts. */
 typedef struct cs_plane_facts {

@@ -8,10 +8,12 @@
 #include <stdatomic.h>
 
 #include "base/context.h"
+#include "engine/record/recording.h"
 
 struct celspan_plane {
   atomic_size_t references;
   cs_memory *memory;
+  celspan_plane *whole; /* owned: that which has the bytes, of another frame of a film; or NULL */
   unsigned char *bytes; /* of the file */
   size_t size, capacity;
   planefile_plane *plane;
@@ -19,3 +21,11 @@ struct celspan_plane {
 
 /* The failure of a call of the subproject. */
 CELSPAN_CHECKED celspan_status cs_plane_report(celspan_context *context, planefile_status status);
+
+/* What can be seen of a rostrum. out: must be finished, whatever happens. Errors: those of
+ * celspan_plane_create. */
+CELSPAN_CHECKED celspan_status cs_plane_record(celspan_context *context,
+                                               const celspan_rostrum *rostrum, double width,
+                                               double height, cs_recording *out);
+/* The memory of a context for the subproject. user: a cs_memory. */
+void *cs_plane_resize(void *user, void *block, size_t old_size, size_t new_size);

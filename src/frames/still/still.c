@@ -86,13 +86,36 @@ static celspan_status open_picture(celspan_context *context, const char *path, c
   return status;
 }
 
-celspan_status cs_still_open(celspan_context *context, const char *path, cs_still *out) {
+/* Leaves the frame of that number, if the file has it. */
+static celspan_status choose(celspan_context *context, const char *path, int32_t frame,
+                             cs_still *still) {
+  double rate;
+  int32_t count = still->plane ? celspan_plane_frames(still->plane, &rate) : 1;
+  celspan_plane *chosen;
+  if (frame < 1 || frame > count)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: there is no frame %d: it has %s %d", path,
+                   (int)frame, count > 1 ? "frames 1 to" : "only frame", (int)count);
+  if (!still->plane)
+    return CELSPAN_OK;
+  CS_TRY(celspan_plane_frame(context, still->plane, (int32_t)(frame - 1), &chosen));
+  celspan_plane_unref(still->plane);
+  still->plane = chosen;
+  still->info.has_alpha = !celspan_plane_is_opaque(chosen);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_still_open(celspan_context *context, const char *path, int32_t frame,
+                             cs_still *out) {
   cs_still still = {.exposure.weight = 1};
   celspan_status status = cs_span_reader_accepts(path) ? open_spans(context, path, &still)
                           : cs_plane_accepts(path)     ? open_plane(context, path, &still)
                                                        : open_picture(context, path, &still);
+  if (status == CELSPAN_OK && frame != 0)
+    status = choose(context, path, frame, &still);
   if (status == CELSPAN_OK)
     *out = still;
+  else
+    cs_still_close(&still);
   return status;
 }
 

@@ -14,9 +14,10 @@ typedef struct cs_still {
   celspan_plane *plane;      /* likewise; its info has the size in film units, rounded */
 } cs_still;
 
-/* out: new. Errors: those of reading a picture. */
+/* frame: of a film of planes, from 1; 0: the first one, or the picture. out: new. Errors: those of
+ * reading a picture; BAD_ARGUMENT: there is no such frame. */
 CELSPAN_CHECKED celspan_status cs_still_open(celspan_context *context, const char *path,
-                                             cs_still *out);
+                                             int32_t frame, cs_still *out);
 /* still: may be all zero. */
 void cs_still_close(cs_still *still);
 /* Sets the exposures of a frame, whose film has the size of the picture. */

@@ -2,6 +2,10 @@
 //
 //   const viewer = show_tiles(canvas, pyramid, { load, is_made, settled, moved })
 //   viewer.go(x, y, width)      flies to a centre and a width, both in pixels of the frame
+//   viewer.ask()                draws again, soon
+//
+// A page whose picture changes has `paint` instead of tiles: paint(pencil, x, y, scale) draws the
+// frame, of which (0, 0) lies at (x, y) of the canvas, at `scale` pixels of the canvas for each of its own.
 //
 // Three kinds of pixels are used:
 //
@@ -144,6 +148,11 @@ function show_tiles(canvas, pyramid, hooks) {
   }
 
   function draw_all() {
+    if (hooks.paint) hooks.paint(pencil, on_x(0), on_y(0), ratio / view.scale);
+    else draw_tiles();
+  }
+
+  function draw_tiles() {
     const level = wanted_level(), side = pyramid.tile * factor(level);
     const half_x = width / 2 * view.scale, half_y = height / 2 * view.scale;
     const first = v => Math.max(0, Math.floor(v / side));
@@ -384,5 +393,5 @@ function show_tiles(canvas, pyramid, hooks) {
   everything(true);
   new ResizeObserver(() => { goal = held(goal); ask(); }).observe(canvas);
   addEventListener("resize", ask); // the ratio changes with the browser's zoom
-  return { go, zoom, everything, tell };
+  return { go, zoom, everything, tell, ask };
 }

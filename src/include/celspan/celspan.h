@@ -1756,7 +1756,8 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_create(celspan_context 
                                                                 const celspan_rostrum *rostrum,
                                                                 double width, double height,
                                                                 celspan_plane **out);
-/* A plane file. out: new      Errors: NO_MEMORY; INPUT; LIMIT for more than 1 GiB. */
+/* A plane file; of a film its first frame. out: new      Errors: NO_MEMORY; INPUT; LIMIT for more
+ * than 1 GiB. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_read(celspan_context *context,
                                                               const char *path,
                                                               celspan_plane **out);
@@ -1766,9 +1767,17 @@ CELSPAN_API void celspan_plane_unref(celspan_plane *plane);
 CELSPAN_API void celspan_plane_size(const celspan_plane *plane, double *width, double *height);
 /* Whether its alpha is certain to be 1 everywhere. */
 CELSPAN_API bool celspan_plane_is_opaque(const celspan_plane *plane);
+/* The frames of its file, 1 of a single plane, and their rate, 0 of a single plane. */
+CELSPAN_API int32_t celspan_plane_frames(const celspan_plane *plane, double *frames_second);
+/* Another frame of the file, from 0. out: new      Errors: NO_MEMORY; INPUT; BAD_ARGUMENT: there is
+ * no such frame. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_frame(celspan_context *context,
+                                                               const celspan_plane *plane,
+                                                               int32_t frame, celspan_plane **out);
 /* Of its file. */
 CELSPAN_API size_t celspan_plane_bytes(const celspan_plane *plane);
-/* The file appears under its name whole or not at all. Errors: NO_MEMORY; OUTPUT. */
+/* The file appears under its name whole or not at all; of a frame of a film, with the whole film.
+ * Errors: NO_MEMORY; OUTPUT. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_write(celspan_context *context,
                                                                const celspan_plane *plane,
                                                                const char *path);

@@ -132,31 +132,55 @@ static int pixels(lua_State *L) {
                                         (size_t)width * 4 * sizeof(float)));
 }
 
+/* plane:frame(number) -> plane | nil, message */
+static int choose_frame(lua_State *L) {
+  const celspan_plane *plane = self(L, "frame");
+  double rate;
+  int is_whole, count = celspan_plane_frames(plane, &rate);
+  lua_Integer number = lua_tointegerx(L, 2, &is_whole);
+  if (!is_whole || number < 1 || number > count)
+    return cs_caller_error(L, "frame: argument 1 must be a number from 1 to %d, got %s", count,
+                           is_whole ? lua_tostring(L, 2) : cs_userdata_type(L, 2));
+  return finish(
+      L, celspan_plane_frame(cs_host_context(L), plane, (int32_t)(number - 1), push_plane(L)));
+}
+
 /* ---------------------------------------------------------------- the value */
 
-static void push_number(lua_State *L, const celspan_plane *plane, const char *name) {
-  double width, height;
+/* Pushes the field of that name, if it is a number. */
+static bool push_number(lua_State *L, const celspan_plane *plane, const char *name) {
+  double width, height, rate;
+  int32_t count = celspan_plane_frames(plane, &rate);
   celspan_plane_size(plane, &width, &height);
   if (strcmp(name, "bytes") == 0)
     lua_pushinteger(L, (lua_Integer)celspan_plane_bytes(plane));
+  else if (strcmp(name, "frames") == 0)
+    lua_pushinteger(L, count);
+  else if (strcmp(name, "fps") == 0)
+    lua_pushnumber(L, rate);
+  else if (strcmp(name, "width") == 0 || strcmp(name, "height") == 0)
+    lua_pushnumber(L, name[0] == 'w' ? width : height);
   else
-    lua_pushnumber(L, strcmp(name, "width") == 0 ? width : height);
+    return false;
+  return true;
 }
 
 static int index_plane(lua_State *L) {
-  static const char *const names[] = {"width", "height", "bytes", "pixels", "write"};
+  static const luaL_Reg methods[] = {
+      {"pixels", pixels}, {"write", write_plane}, {"frame", choose_frame}};
+  static const char *const names[] = {"width", "height", "bytes", "frames",
+                                      "fps",   "pixels", "write", "frame"};
   celspan_plane *const *plane = luaL_checkudata(L, 1, PLANE);
   if (lua_type(L, 2) != LUA_TSTRING)
     return 0;
   const char *name = lua_tostring(L, 2);
-  if (strcmp(name, "pixels") == 0)
-    lua_pushcfunction(L, pixels);
-  else if (strcmp(name, "write") == 0)
-    lua_pushcfunction(L, write_plane);
-  else if (strcmp(name, "width") == 0 || strcmp(name, "height") == 0 || strcmp(name, "bytes") == 0)
-    push_number(L, *plane, name);
-  else
-    cs_unknown_fail_name(L, "plane", name, names, 5);
+  for (size_t i = 0; i < sizeof methods / sizeof *methods; i++)
+    if (strcmp(name, methods[i].name) == 0) {
+      lua_pushcfunction(L, methods[i].func);
+      return 1;
+    }
+  if (!push_number(L, *plane, name))
+    cs_unknown_fail_name(L, "plane", name, names, sizeof names / sizeof *names);
   return 1;
 }
 

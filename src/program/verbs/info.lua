@@ -112,6 +112,9 @@ local function describe_plane()
   local plane = program.plane(path)
   put("format plane\nsize %.9gx%.9g\nalpha %s\nbytes %d", plane.width, plane.height,
     plane.opaque and "none" or "premultiplied", plane.bytes)
+  if plane.fps > 0 then
+    put("frames %d\nfps %.9g\nseconds %.9g", plane.frames, plane.fps, plane.frames / plane.fps)
+  end
   for _, name in ipairs { "bands", "borders", "curves", "colours", "gradients" } do
     put("%s %d", name, plane[name])
   end

@@ -6,7 +6,8 @@
  * byte.
  *
  * A plane file is cut into bands: heights one above the other, each with all that is in it. So any
- * part of a large plane is found by its heights, and bands are read one at a time.
+ * part of a large plane is found by its heights, and bands are read one at a time. A file may hold
+ * the frames of a film, each of which is a plane; what several of them have is in it once.
  *
  * Depends on the C library alone. No globals, no printing; every failure is a status. A plane does
  * not change once it is read, and threads share it; a drawer belongs to one thread.
@@ -147,12 +148,29 @@ typedef struct planefile_writer_desc {
   void *user;
   planefile_resize resize; /* NULL: the C library's */
   void *resize_user;
+  double frames_second; /* of a film; 0: a single plane */
 } planefile_writer_desc;
 
 /* Writes a plane; desc and plane: borrowed. The bytes are a function of the plane alone. Curves of
  * which nothing can be seen are left out. BAD_ARGUMENT: the plane is not as described above; that
  * borders lead from cell 0 to cell 0 is not examined. */
 planefile_status planefile_write(const planefile_writer_desc *desc, const planefile_band *plane);
+
+/* ---- films */
+
+typedef struct planefile_writer planefile_writer;
+
+/* desc: borrowed until the end. out: new. BAD_ARGUMENT: a size or a rate is not allowed. */
+planefile_status planefile_writer_create(const planefile_writer_desc *desc, planefile_writer **out);
+/* The next frame, from 0; plane: borrowed, as of planefile_write. BAD_ARGUMENT also for a second
+ * frame of a single plane. After a failure the writer can only be destroyed. */
+planefile_status planefile_writer_frame(planefile_writer *writer, const planefile_band *plane);
+/* The next frame is the latest one again. BAD_ARGUMENT: there is none, or it is a single plane. */
+planefile_status planefile_writer_repeat(planefile_writer *writer);
+/* The end of the file. BAD_ARGUMENT: it has no frame. */
+planefile_status planefile_writer_end(planefile_writer *writer);
+/* NULL is ignored. */
+void planefile_writer_destroy(planefile_writer *writer);
 
 /* ---------------------------------------------------------------- reading */
 
@@ -175,6 +193,8 @@ typedef struct planefile_source {
 
 typedef struct planefile_info {
   double width, height;
+  double frames_second; /* 0: a single plane */
+  uint32_t frame_count; /* of the file */
   uint32_t band_count;
   bool is_opaque; /* alpha is PLANEFILE_WHITE everywhere */
   bool varies;    /* there may be cells with programs */
@@ -185,12 +205,16 @@ enum { PLANEFILE_MAGIC_BYTES = 8 };
 /* Whether a file that begins with these bytes claims to be a plane file. */
 bool planefile_is(const void *bytes, size_t size);
 
-/* Reads header and index, and the bands that have a part of the heights [top, foot), in units: 0
- * and PLANEFILE_SIDE for all. Every byte that is read is verified. source: borrowed. out: new.
+/* Of frame 0: reads header and index, and the bands that have a part of the heights [top, foot), in
+ * units: 0 and PLANEFILE_SIDE for all. Every byte that is read is verified. source: borrowed. out: new.
  * fault: set when the status is not OK; may be NULL. Time is linear in the bytes that are read;
  * memory is less than 600 times as much, and less than 128 KiB more. */
 planefile_status planefile_read(const planefile_source *source, int32_t top, int32_t foot,
                                 planefile_plane **out, planefile_fault *fault);
+/* A frame of a film, from 0; of a single plane there is frame 0. BAD_ARGUMENT: there is none of
+ * this number. The list of all frames is read, too, 8 bytes each. */
+planefile_status planefile_read_frame(const planefile_source *source, uint32_t frame, int32_t top,
+                                      int32_t foot, planefile_plane **out, planefile_fault *fault);
 /* NULL is ignored. */
 void planefile_plane_destroy(planefile_plane *plane);
 planefile_info planefile_plane_info(const planefile_plane *plane);

@@ -2,11 +2,14 @@
  * writers.
  *
  *   file       header (40) | records of bands ... | record of the index | trailer (32)
+ *   of films   header | records of bands and of the indices of frames ... | record of the film |
+ *              trailer
  *   a record   kind (1) | size of the payload (4) | payload | checksum (4)
  *
  *   payload of 'B'   top, foot, numbers of chains, pieces, cells, changes, borders (4 each) |
  *                    where cells vary: numbers of steps, axes, stops | code
- *   payload of 'I'   entries: top (4) | offset (8)
+ *   payload of 'I'   of films: flags (4) | entries: top (4) | offset (8)
+ *   payload of 'F'   frames a second (8) | of each frame, the offset of its index (8)
  *
  * INVARIANT: all numbers are little endian, whatever the machine.
  */
@@ -26,14 +29,19 @@ enum {
   PF_BAND_BYTES = 28,   /* before the code */
   PF_VARIED_BYTES = 12, /* after them, where cells vary */
   PF_ENTRY_BYTES = 12,
+  PF_FLAG_BYTES = 4, /* of the index of a frame of a film */
+  PF_RATE_BYTES = 8,
+  PF_FRAME_BYTES = 8,
   PF_VERSION = 1,
   PF_OPAQUE = 1,      /* flags of the header: alpha is 1 everywhere; */
-  PF_VARIES = 2,      /* cells may have programs */
+  PF_VARIES = 2,      /* cells may have programs; */
+  PF_FILM = 4,        /* it is a film, and the other flags are those of each frame */
   PF_PAID = 4,        /* things of a kind that a byte of code pays for */
   PF_VARIED_PAID = 4, /* bytes of code that pay for a step, an axis or a stop */
   PF_GROUP = 8,       /* changes in a group, at most */
   PF_BAND = 'B',
-  PF_INDEX = 'I'
+  PF_INDEX = 'I',
+  PF_FRAMES = 'F'
 };
 
 static const unsigned char pf_magic[8] = {'c', 'e', 'l', 'p', 'l', 'a', 'n', 'e'};

@@ -37,26 +37,48 @@ void pf_codes_make(unsigned char codes[PLANEFILE_WHITE + 1]) {
   }
 }
 
-void planefile_srgb8(const planefile_plane *plane, planefile_cell colour, unsigned char out[4]) {
-  int64_t alpha = colour.colour[3] < PLANEFILE_WHITE ? colour.colour[3] : PLANEFILE_WHITE;
-  memset(out, 0, 4);
-  if (alpha <= 0)
-    return;
+/* A colour of alpha 1, and of more. */
+static void put_opaque(const planefile_plane *plane, const int32_t colour[4],
+                       unsigned char out[4]) {
   for (int c = 0; c < 3; c++) {
-    int64_t straight = (colour.colour[c] * INT64_C(65535) + alpha / 2) / alpha;
+    int32_t light = colour[c] < 0 ? 0 : colour[c];
+    out[c] = plane->codes[light > PLANEFILE_WHITE ? PLANEFILE_WHITE : light];
+  }
+  out[3] = 255;
+}
+
+static void put_clear(const planefile_plane *plane, const int32_t colour[4], unsigned char out[4]) {
+  int64_t alpha = colour[3];
+  for (int c = 0; c < 3; c++) {
+    int64_t straight = (colour[c] * INT64_C(65535) + alpha / 2) / alpha;
     straight = straight < 0 ? 0 : straight > PLANEFILE_WHITE ? PLANEFILE_WHITE : straight;
     out[c] = plane->codes[straight];
   }
   out[3] = (unsigned char)((alpha * 255 + PLANEFILE_WHITE / 2) / PLANEFILE_WHITE);
 }
 
+static inline void put_pixel(const planefile_plane *plane, const planefile_cell *colour,
+                             unsigned char out[4]) {
+  if (colour->colour[3] >= PLANEFILE_WHITE)
+    put_opaque(plane, colour->colour, out);
+  else if (colour->colour[3] > 0)
+    put_clear(plane, colour->colour, out);
+  else
+    memset(out, 0, 4);
+}
+
+void planefile_srgb8(const planefile_plane *plane, planefile_cell colour, unsigned char out[4]) {
+  put_pixel(plane, &colour, out);
+}
+
 void planefile_span_pixels(const planefile_plane *plane, const planefile_span *spans, size_t count,
                            unsigned char *out) {
   uint32_t start = 0;
   for (size_t i = 0; i < count; start = spans[i++].end) {
-    unsigned char pixel[4];
-    planefile_srgb8(plane, spans[i].colour, pixel);
-    for (uint32_t x = start; x < spans[i].end; x++, out += 4)
-      memcpy(out, pixel, sizeof pixel);
+    const unsigned char *first = out;
+    put_pixel(plane, &spans[i].colour, out); /* in its place: most are alone where colours vary */
+    out += 4;
+    for (uint32_t x = start + 1; x < spans[i].end; x++, out += 4)
+      memcpy(out, first, 4);
   }
 }

@@ -1,6 +1,7 @@
 /* Bytes of a file to a plane in memory.
  *
  *   trailer --> index --> bands at the heights that are wanted --> plane
+ *        \--> frames --^
  *
  * INVARIANT: nothing in the file is trusted. Every number is checked before it is used, and memory
  * is allocated only for bytes that the file has.
@@ -16,7 +17,9 @@ typedef struct reader {
   const planefile_source *source;
   planefile_fault *fault; /* may be NULL */
   planefile_plane *plane;
-  uint64_t end;         /* offset of the trailer */
+  uint64_t end;  /* offset of the trailer */
+  uint64_t left; /* bytes that the records that are still to be read may have */
+  bool is_film;
   unsigned char *bytes; /* of the latest record */
   size_t capacity;
 } reader;
@@ -72,15 +75,17 @@ static planefile_status load_header(reader *r) {
   uint32_t flags = pf_load_32(header + 12);
   info->is_opaque = flags & PF_OPAQUE;
   info->varies = flags & PF_VARIES;
+  r->is_film = flags & PF_FILM;
   info->width = pf_load_double(header + 16);
   info->height = pf_load_double(header + 24);
   if (!(info->width > 0 && info->height > 0 && isfinite(info->width) && isfinite(info->height)) ||
-      flags > (PF_OPAQUE | PF_VARIES) || pf_load_32(header + 32) != 0)
+      flags > PF_FILM || pf_load_32(header + 32) != 0)
     return fail(r, PLANEFILE_BAD_FILE, 12, "the header has a value that is not allowed");
   return PLANEFILE_OK;
 }
 
-static planefile_status load_trailer(reader *r, uint64_t *index) {
+/* *last: the offset of the last record, which is the index, or the frames of a film. */
+static planefile_status load_trailer(reader *r, uint64_t *last) {
   unsigned char trailer[PF_TRAILER_BYTES];
   r->end = r->source->size - PF_TRAILER_BYTES;
   TRY(load(r, r->end, trailer, sizeof trailer));
@@ -89,7 +94,8 @@ static planefile_status load_trailer(reader *r, uint64_t *index) {
     return fail(r, PLANEFILE_BAD_FILE, r->end, "the file does not end where it should");
   if (pf_load_32(trailer + 28) != pf_crc32c(0, trailer, 28) || pf_load_32(trailer + 24) != 0)
     return fail(r, PLANEFILE_BAD_FILE, r->end, "the checksum of the trailer is wrong");
-  *index = pf_load_64(trailer + 8);
+  *last = pf_load_64(trailer + 8);
+  r->left = r->end;
   return PLANEFILE_OK;
 }
 
@@ -103,62 +109,107 @@ static subject_text subject(unsigned char kind, uint32_t band) {
   subject_text out = {"the index"};
   if (kind == PF_BAND)
     snprintf(out.text, sizeof out.text, "band %" PRIu32, band);
+  else if (kind == PF_FRAMES)
+    snprintf(out.text, sizeof out.text, "the list of frames");
   return out;
 }
 
-/* The payload of the record of a kind in the bytes [offset, end), all of them; *size: its own.
- * Valid until the next call. */
+/* The payload of the record of a kind at an offset; *size: its own. end: where the record ends; 0:
+ * wherever it says. Valid until the next call. No byte of a file is worth two of what is read: a
+ * file whose records are in each other would take longer to read than it is long. */
 static planefile_status load_record(reader *r, unsigned char kind, uint32_t band, uint64_t offset,
                                     uint64_t end, size_t *size) {
   unsigned char head[PF_HEAD_BYTES];
   subject_text name = subject(kind, band);
-  if (offset < PF_HEADER_BYTES || end > r->end || offset > end ||
-      end - offset < PF_HEAD_BYTES + PF_CHECK_BYTES)
+  if (offset < PF_HEADER_BYTES || offset > r->end ||
+      r->end - offset < PF_HEAD_BYTES + PF_CHECK_BYTES)
     return fail(r, PLANEFILE_BAD_FILE, r->end, "%s: its record is outside the file", name.text);
   TRY(load(r, offset, head, sizeof head));
-  uint64_t payload = pf_load_32(head + 1);
+  uint64_t whole = PF_HEAD_BYTES + (uint64_t)pf_load_32(head + 1) + PF_CHECK_BYTES;
   if (head[0] != kind)
     return fail(r, PLANEFILE_BAD_FILE, offset, "%s: there is another record", name.text);
-  if (payload != end - offset - PF_HEAD_BYTES - PF_CHECK_BYTES || payload > SIZE_MAX / 4)
+  if ((end > 0 && whole != end - offset) || whole > r->end - offset || whole > SIZE_MAX / 4)
     return fail(r, PLANEFILE_BAD_FILE, offset, "%s: its record has another length", name.text);
-  size_t whole = PF_HEAD_BYTES + (size_t)payload + PF_CHECK_BYTES;
-  unsigned char *bytes = pf_grow(&r->plane->memory, r->bytes, 1, &r->capacity, whole);
+  if (whole > r->left)
+    return fail(r, PLANEFILE_BAD_FILE, offset, "%s: its record is a part of another", name.text);
+  r->left -= whole;
+  unsigned char *bytes = pf_grow(&r->plane->memory, r->bytes, 1, &r->capacity, (size_t)whole);
   if (!bytes)
     return fail_memory(r, offset);
   r->bytes = bytes;
-  TRY(load(r, offset, bytes, whole));
+  TRY(load(r, offset, bytes, (size_t)whole));
   if (pf_load_32(bytes + whole - PF_CHECK_BYTES) !=
-      pf_crc32c_record(offset, bytes, whole - PF_CHECK_BYTES))
+      pf_crc32c_record(offset, bytes, (size_t)whole - PF_CHECK_BYTES))
     return fail(r, PLANEFILE_BAD_FILE, offset, "%s: the checksum is wrong", name.text);
-  *size = (size_t)payload;
+  *size = (size_t)whole - PF_HEAD_BYTES - PF_CHECK_BYTES;
+  return PLANEFILE_OK;
+}
+
+/* ---------------------------------------------------------------- films */
+
+/* *index: the offset of that of a frame. */
+static planefile_status load_frames(reader *r, uint32_t frame, uint64_t offset, uint64_t *index) {
+  size_t size;
+  planefile_info *info = &r->plane->info;
+  TRY(load_record(r, PF_FRAMES, 0, offset, r->end, &size));
+  const unsigned char *payload = r->bytes + PF_HEAD_BYTES;
+  if (size < PF_RATE_BYTES + PF_FRAME_BYTES || (size - PF_RATE_BYTES) % PF_FRAME_BYTES != 0)
+    return fail(r, PLANEFILE_BAD_FILE, offset,
+                "the list of frames: it has no whole number of them");
+  info->frame_count = (uint32_t)((size - PF_RATE_BYTES) / PF_FRAME_BYTES);
+  info->frames_second = pf_load_double(payload);
+  if (!(info->frames_second > 0 && isfinite(info->frames_second)))
+    return fail(r, PLANEFILE_BAD_FILE, offset, "the list of frames: there is no such rate");
+  if (frame < info->frame_count)
+    *index = pf_load_64(payload + PF_RATE_BYTES + PF_FRAME_BYTES * (size_t)frame);
+  return PLANEFILE_OK;
+}
+
+/* The flags of a frame of a film, before its entries. */
+static planefile_status load_flags(reader *r, uint64_t offset, size_t size) {
+  planefile_info *info = &r->plane->info;
+  uint32_t flags = size < PF_FLAG_BYTES ? UINT32_MAX : pf_load_32(r->bytes + PF_HEAD_BYTES);
+  if (flags > (PF_OPAQUE | PF_VARIES))
+    return fail(r, PLANEFILE_BAD_FILE, offset, "the index: it has a value that is not allowed");
+  info->is_opaque = flags & PF_OPAQUE;
+  info->varies = flags & PF_VARIES;
   return PLANEFILE_OK;
 }
 
 /* ---------------------------------------------------------------- bands */
 
-/* offsets: of the bands, and after them that of the index; new. */
+/* The place of a band in the frame, from entry i of the index on. */
+static planefile_status load_entry(reader *r, uint64_t offset, const unsigned char *entry,
+                                   uint32_t i) {
+  planefile_band *band = &r->plane->bands[i].band;
+  uint32_t top = pf_load_32(entry), foot = PLANEFILE_SIDE;
+  if (i + 1 < r->plane->info.band_count)
+    foot = pf_load_32(entry + PF_ENTRY_BYTES);
+  if ((i == 0 && top != 0) || top >= foot || foot > PLANEFILE_SIDE)
+    return fail(r, PLANEFILE_BAD_FILE, offset, "the index: the heights do not follow each other");
+  band->top = (int32_t)top;
+  band->foot = (int32_t)foot;
+  return PLANEFILE_OK;
+}
+
+/* offsets: of the bands, and after them where the last one ends; new. */
 static planefile_status load_index(reader *r, uint64_t offset, uint64_t **offsets) {
-  size_t size;
-  TRY(load_record(r, PF_INDEX, 0, offset, r->end, &size));
+  size_t size, flags = r->is_film ? PF_FLAG_BYTES : 0;
+  TRY(load_record(r, PF_INDEX, 0, offset, r->is_film ? 0 : r->end, &size));
+  if (r->is_film)
+    TRY(load_flags(r, offset, size));
   planefile_plane *plane = r->plane;
-  uint32_t count = (uint32_t)(size / PF_ENTRY_BYTES);
-  if (count == 0 || size % PF_ENTRY_BYTES != 0)
+  uint32_t count = (uint32_t)((size - flags) / PF_ENTRY_BYTES);
+  if (count == 0 || (size - flags) % PF_ENTRY_BYTES != 0)
     return fail(r, PLANEFILE_BAD_FILE, offset, "the index: it has no whole number of entries");
   plane->bands = pf_make(&plane->memory, sizeof *plane->bands, count);
   *offsets = pf_make(&plane->memory, sizeof **offsets, (size_t)count + 1);
   plane->info.band_count = count;
   if (!plane->bands || !*offsets)
     return fail_memory(r, offset);
-  const unsigned char *entry = r->bytes + PF_HEAD_BYTES;
+  const unsigned char *entry = r->bytes + PF_HEAD_BYTES + flags;
   for (uint32_t i = 0; i < count; i++, entry += PF_ENTRY_BYTES) {
-    planefile_band *band = &plane->bands[i].band;
-    uint32_t top = pf_load_32(entry), foot = PLANEFILE_SIDE;
-    if (i + 1 < count)
-      foot = pf_load_32(entry + PF_ENTRY_BYTES);
-    if ((i == 0 && top != 0) || top >= foot || foot > PLANEFILE_SIDE)
-      return fail(r, PLANEFILE_BAD_FILE, offset, "the index: the heights do not follow each other");
-    band->top = (int32_t)top;
-    band->foot = (int32_t)foot;
+    TRY(load_entry(r, offset, entry, i));
     (*offsets)[i] = pf_load_64(entry + 4);
   }
   (*offsets)[count] = offset;
@@ -192,21 +243,27 @@ static planefile_status load_band(reader *r, uint32_t index, uint64_t offset, ui
   return PLANEFILE_OK;
 }
 
-/* Each band ends where the next one begins, so that no byte is read twice. */
+/* Each band of a single plane ends where the next one begins. */
 static planefile_status load_bands(reader *r, const uint64_t *offsets, int32_t top, int32_t foot) {
   for (uint32_t i = 0; i < r->plane->info.band_count; i++) {
     const planefile_band *band = &r->plane->bands[i].band;
     if (band->top < foot && band->foot > top)
-      TRY(load_band(r, i, offsets[i], offsets[i + 1]));
+      TRY(load_band(r, i, offsets[i], r->is_film ? 0 : offsets[i + 1]));
   }
   return PLANEFILE_OK;
 }
 
-static planefile_status load_plane(reader *r, int32_t top, int32_t foot) {
-  uint64_t index = 0;
+static planefile_status load_plane(reader *r, uint32_t frame, int32_t top, int32_t foot) {
+  uint64_t last = 0;
   uint64_t *offsets = NULL;
+  r->plane->info.frame_count = 1;
   TRY(load_header(r));
-  TRY(load_trailer(r, &index));
+  TRY(load_trailer(r, &last));
+  uint64_t index = last;
+  if (r->is_film)
+    TRY(load_frames(r, frame, last, &index));
+  if (frame >= r->plane->info.frame_count)
+    return fail(r, PLANEFILE_BAD_ARGUMENT, last, "it has no frame %" PRIu32, frame);
   planefile_status status = load_index(r, index, &offsets);
   if (status == PLANEFILE_OK)
     status = load_bands(r, offsets, top, foot);
@@ -216,8 +273,8 @@ static planefile_status load_plane(reader *r, int32_t top, int32_t foot) {
 
 /* ---------------------------------------------------------------- the plane */
 
-planefile_status planefile_read(const planefile_source *source, int32_t top, int32_t foot,
-                                planefile_plane **out, planefile_fault *fault) {
+planefile_status planefile_read_frame(const planefile_source *source, uint32_t frame, int32_t top,
+                                      int32_t foot, planefile_plane **out, planefile_fault *fault) {
   pf_memory memory = pf_memory_of(source->resize, source->resize_user);
   reader r = {.source = source, .fault = fault};
   *out = NULL;
@@ -227,7 +284,7 @@ planefile_status planefile_read(const planefile_source *source, int32_t top, int
   if (!r.plane)
     return fail_memory(&r, 0);
   r.plane->memory = memory;
-  planefile_status status = load_plane(&r, top, foot);
+  planefile_status status = load_plane(&r, frame, top, foot);
   pf_free(&memory, r.bytes, 1, r.capacity);
   if (status != PLANEFILE_OK) {
     planefile_plane_destroy(r.plane);
@@ -238,6 +295,11 @@ planefile_status planefile_read(const planefile_source *source, int32_t top, int
     pf_light_curve_make(&r.plane->curve);
   *out = r.plane;
   return PLANEFILE_OK;
+}
+
+planefile_status planefile_read(const planefile_source *source, int32_t top, int32_t foot,
+                                planefile_plane **out, planefile_fault *fault) {
+  return planefile_read_frame(source, 0, top, foot, out, fault);
 }
 
 void planefile_plane_destroy(planefile_plane *plane) {

@@ -1,7 +1,11 @@
-/* A plane to a file: checked, cut into bands, and written record by record. */
+/* Planes to a file: checked, cut into bands, and written record by record. A record of a film that
+ * is there already, of an earlier frame, is not written again: frames that are equal have one
+ * index, and bands that are equal are one.
+ */
 #include <math.h>
 
 #include "band.h"
+#include "written.h"
 
 /* A band ends after this many beginnings of borders, or more where many cross its end: each of
  * those is in the next one, too. */
@@ -12,16 +16,26 @@ typedef struct entry {
   uint64_t offset;
 } entry;
 
-typedef struct writer {
-  const planefile_writer_desc *desc;
-  const planefile_band *plane;
+struct planefile_writer {
+  planefile_writer_desc desc;
   pf_memory memory;
+  uint64_t offset;   /* in the file */
+  pf_written *known; /* the records of a film; NULL: a single plane */
+  uint64_t *frames;  /* the offsets of their indices */
+  size_t frame_count, frame_capacity;
+  uint64_t index; /* the offset of the latest index */
+
+  /* of the current frame */
+  const planefile_band *plane;
+  uint32_t flags;
   planefile_border *borders; /* by their tops */
   planefile_border *shown;   /* those of the current band */
   entry *entries;
   size_t shown_count, shown_capacity, entry_count, entry_capacity;
-  uint64_t offset; /* in the file */
-} writer;
+};
+typedef planefile_writer writer;
+
+static bool is_film(const writer *w) { return w->desc.frames_second > 0; }
 
 /* ---------------------------------------------------------------- checks */
 
@@ -137,7 +151,7 @@ static planefile_status sort_borders(writer *w) {
 
 static planefile_status put(writer *w, const void *bytes, size_t size) {
   w->offset += size;
-  return w->desc->write(w->desc->user, bytes, size) ? PLANEFILE_OK : PLANEFILE_WRITE_FAILED;
+  return w->desc.write(w->desc.user, bytes, size) ? PLANEFILE_OK : PLANEFILE_WRITE_FAILED;
 }
 
 static planefile_status put_record(writer *w, unsigned char kind, const unsigned char *payload,
@@ -155,36 +169,69 @@ static planefile_status put_record(writer *w, unsigned char kind, const unsigned
   return status == PLANEFILE_OK ? put(w, check, sizeof check) : status;
 }
 
+/* A record that a film has once. *offset: where it is. */
+static planefile_status put_once(writer *w, unsigned char kind, const unsigned char *payload,
+                                 size_t size, uint64_t *offset) {
+  pf_print print = pf_print_of(payload, size, kind | w->flags << 8);
+  *offset = w->offset;
+  if (!w->known)
+    return put_record(w, kind, payload, size);
+  uint64_t *known = pf_written_find(w->known, print);
+  if (!known)
+    return PLANEFILE_NO_MEMORY;
+  if (*known == 0) {
+    *known = w->offset;
+    return put_record(w, kind, payload, size);
+  }
+  *offset = *known;
+  return PLANEFILE_OK;
+}
+
 static planefile_status put_header(writer *w) {
   unsigned char header[PF_HEADER_BYTES] = {0};
   memcpy(header, pf_magic, sizeof pf_magic);
   pf_store_32(header + 8, PF_VERSION);
-  pf_store_32(header + 12,
-              (pf_band_is_opaque(w->plane) ? PF_OPAQUE : 0) | (w->plane->programs ? PF_VARIES : 0));
-  pf_store_double(header + 16, w->desc->width);
-  pf_store_double(header + 24, w->desc->height);
+  pf_store_32(header + 12, is_film(w) ? PF_FILM : w->flags);
+  pf_store_double(header + 16, w->desc.width);
+  pf_store_double(header + 24, w->desc.height);
   pf_store_32(header + 36, pf_crc32c(0, header, 36));
   return put(w, header, sizeof header);
 }
 
 static planefile_status put_index(writer *w) {
-  size_t size = w->entry_count * PF_ENTRY_BYTES;
-  unsigned char *payload = pf_make(&w->memory, 1, size);
+  size_t flags = is_film(w) ? PF_FLAG_BYTES : 0;
+  size_t size = flags + w->entry_count * PF_ENTRY_BYTES;
+  unsigned char *payload = pf_make(&w->memory, 1, size), *at = payload + flags;
   if (!payload)
     return PLANEFILE_NO_MEMORY;
-  for (size_t i = 0; i < w->entry_count; i++) {
-    pf_store_32(payload + i * PF_ENTRY_BYTES, (uint32_t)w->entries[i].top);
-    pf_store_64(payload + i * PF_ENTRY_BYTES + 4, w->entries[i].offset);
+  if (flags)
+    pf_store_32(payload, w->flags);
+  for (size_t i = 0; i < w->entry_count; i++, at += PF_ENTRY_BYTES) {
+    pf_store_32(at, (uint32_t)w->entries[i].top);
+    pf_store_64(at + 4, w->entries[i].offset);
   }
-  planefile_status status = put_record(w, PF_INDEX, payload, size);
+  planefile_status status = put_once(w, PF_INDEX, payload, size, &w->index);
   pf_free(&w->memory, payload, 1, size);
   return status;
 }
 
-static planefile_status put_trailer(writer *w, uint64_t index) {
+static planefile_status put_frames(writer *w) {
+  size_t size = PF_RATE_BYTES + w->frame_count * PF_FRAME_BYTES;
+  unsigned char *payload = pf_make(&w->memory, 1, size);
+  if (!payload)
+    return PLANEFILE_NO_MEMORY;
+  pf_store_double(payload, w->desc.frames_second);
+  for (size_t i = 0; i < w->frame_count; i++)
+    pf_store_64(payload + PF_RATE_BYTES + i * PF_FRAME_BYTES, w->frames[i]);
+  planefile_status status = put_record(w, PF_FRAMES, payload, size);
+  pf_free(&w->memory, payload, 1, size);
+  return status;
+}
+
+static planefile_status put_trailer(writer *w, uint64_t last) {
   unsigned char trailer[PF_TRAILER_BYTES] = {0};
   memcpy(trailer, pf_end_magic, sizeof pf_end_magic);
-  pf_store_64(trailer + 8, index);
+  pf_store_64(trailer + 8, last);
   pf_store_64(trailer + 16, w->offset + PF_TRAILER_BYTES);
   pf_store_32(trailer + 28, pf_crc32c(0, trailer, 28));
   return put(w, trailer, sizeof trailer);
@@ -223,11 +270,12 @@ static planefile_status put_band(writer *w, int32_t top, int32_t foot) {
   if (!entries)
     return PLANEFILE_NO_MEMORY;
   w->entries = entries;
-  w->entries[w->entry_count++] = (entry){top, w->offset};
+  uint64_t *offset = &w->entries[w->entry_count].offset;
+  w->entries[w->entry_count++].top = top;
   planefile_status status =
       pf_band_encode(&w->memory, w->plane, w->shown, w->shown_count, top, foot, &code);
   if (status == PLANEFILE_OK)
-    status = put_record(w, PF_BAND, code.bytes, code.count);
+    status = put_once(w, PF_BAND, code.bytes, code.count, offset);
   pf_encoder_finish(&code);
   return status;
 }
@@ -248,15 +296,7 @@ static planefile_status put_bands(writer *w) {
   return status;
 }
 
-static planefile_status put_file(writer *w) {
-  planefile_status status = put_header(w);
-  if (status == PLANEFILE_OK)
-    status = put_bands(w);
-  uint64_t index = w->offset;
-  if (status == PLANEFILE_OK)
-    status = put_index(w);
-  return status == PLANEFILE_OK ? put_trailer(w, index) : status;
-}
+/* ---------------------------------------------------------------- frames */
 
 /* Whether any cell has a program. */
 static bool varies(const planefile_band *plane) {
@@ -266,19 +306,101 @@ static bool varies(const planefile_band *plane) {
   return false;
 }
 
-planefile_status planefile_write(const planefile_writer_desc *desc, const planefile_band *given) {
-  planefile_band flat = *given, *plane = &flat;
-  writer w = {
-      .desc = desc, .plane = plane, .memory = pf_memory_of(desc->resize, desc->resize_user)};
-  flat.programs = varies(given) ? given->programs : NULL;
-  if (!(desc->width > 0 && desc->height > 0 && isfinite(desc->width) && isfinite(desc->height)) ||
-      !is_plane(plane))
-    return PLANEFILE_BAD_ARGUMENT;
-  planefile_status status = sort_borders(&w);
+static planefile_status put_plane(writer *w) {
+  planefile_status status = sort_borders(w);
+  if (status == PLANEFILE_OK && w->offset == 0)
+    status = put_header(w);
   if (status == PLANEFILE_OK)
-    status = put_file(&w);
-  pf_free(&w.memory, w.borders, sizeof *w.borders, plane->border_count);
-  pf_free(&w.memory, w.shown, sizeof *w.shown, w.shown_capacity);
-  pf_free(&w.memory, w.entries, sizeof *w.entries, w.entry_capacity);
+    status = put_bands(w);
+  return status == PLANEFILE_OK ? put_index(w) : status;
+}
+
+static void forget_frame(writer *w) {
+  pf_free(&w->memory, w->borders, sizeof *w->borders, w->plane->border_count);
+  pf_free(&w->memory, w->shown, sizeof *w->shown, w->shown_capacity);
+  w->plane = NULL;
+  w->borders = w->shown = NULL;
+  w->shown_count = w->entry_count = 0;
+}
+
+/* The latest index is that of the next frame. */
+static planefile_status add_frame(writer *w) {
+  uint64_t *frames =
+      pf_grow(&w->memory, w->frames, sizeof *frames, &w->frame_capacity, w->frame_count + 1);
+  if (!frames)
+    return PLANEFILE_NO_MEMORY;
+  w->frames = frames;
+  w->frames[w->frame_count++] = w->index;
+  return PLANEFILE_OK;
+}
+
+planefile_status planefile_writer_repeat(planefile_writer *w) {
+  return is_film(w) && w->frame_count > 0 ? add_frame(w) : PLANEFILE_BAD_ARGUMENT;
+}
+
+planefile_status planefile_writer_frame(planefile_writer *w, const planefile_band *given) {
+  planefile_band flat = *given;
+  flat.programs = varies(given) ? given->programs : NULL;
+  if ((!is_film(w) && w->frame_count > 0) || !is_plane(&flat))
+    return PLANEFILE_BAD_ARGUMENT;
+  w->plane = &flat;
+  w->flags = (pf_band_is_opaque(&flat) ? PF_OPAQUE : 0) | (flat.programs ? PF_VARIES : 0);
+  planefile_status status = put_plane(w);
+  forget_frame(w);
+  return status == PLANEFILE_OK ? add_frame(w) : status;
+}
+
+/* ---------------------------------------------------------------- files */
+
+static bool is_file(const planefile_writer_desc *desc) {
+  return desc->width > 0 && desc->height > 0 && isfinite(desc->width) && isfinite(desc->height) &&
+         desc->frames_second >= 0 && isfinite(desc->frames_second);
+}
+
+planefile_status planefile_writer_create(const planefile_writer_desc *desc,
+                                         planefile_writer **out) {
+  pf_memory memory = pf_memory_of(desc->resize, desc->resize_user);
+  *out = NULL;
+  if (!is_file(desc))
+    return PLANEFILE_BAD_ARGUMENT;
+  writer *w = pf_make(&memory, sizeof *w, 1);
+  if (!w)
+    return PLANEFILE_NO_MEMORY;
+  w->desc = *desc;
+  w->memory = memory;
+  if (is_film(w) && !(w->known = pf_written_create(&memory))) {
+    planefile_writer_destroy(w);
+    return PLANEFILE_NO_MEMORY;
+  }
+  *out = w;
+  return PLANEFILE_OK;
+}
+
+planefile_status planefile_writer_end(planefile_writer *w) {
+  if (w->frame_count == 0)
+    return PLANEFILE_BAD_ARGUMENT;
+  uint64_t last = is_film(w) ? w->offset : w->index;
+  planefile_status status = is_film(w) ? put_frames(w) : PLANEFILE_OK;
+  return status == PLANEFILE_OK ? put_trailer(w, last) : status;
+}
+
+void planefile_writer_destroy(planefile_writer *w) {
+  if (!w)
+    return;
+  pf_memory memory = w->memory;
+  pf_written_destroy(w->known);
+  pf_free(&memory, w->frames, sizeof *w->frames, w->frame_capacity);
+  pf_free(&memory, w->entries, sizeof *w->entries, w->entry_capacity);
+  pf_free(&memory, w, sizeof *w, 1);
+}
+
+planefile_status planefile_write(const planefile_writer_desc *desc, const planefile_band *plane) {
+  writer *w;
+  planefile_status status = planefile_writer_create(desc, &w);
+  if (status == PLANEFILE_OK)
+    status = planefile_writer_frame(w, plane);
+  if (status == PLANEFILE_OK)
+    status = planefile_writer_end(w);
+  planefile_writer_destroy(w);
   return status;
 }

@@ -1,5 +1,5 @@
 -- A decoder of plane files, written only from docs/planefile.md: all bytes in; all pixels of a size
--- out, as means of linear light.
+-- and a frame out, as means of linear light.
 
 local SIDE = 1 << 26
 
@@ -363,21 +363,31 @@ end
 
 ---------------------------------------------------------------------- the file
 
--- bands: all that the index names, in order.
-local function read_bands(bytes)
+local function payload_at(bytes, offset)
+  local length = ("<I4"):unpack(bytes, offset + 2)
+  local record = bytes:sub(offset + 1, offset + 5 + length)
+  assert(crc32c(("<I8"):pack(offset) .. record) == ("<I4"):unpack(bytes, offset + 6 + length))
+  return record:sub(6)
+end
+
+-- The entries of the index of a frame, and its flags.
+local function read_index(bytes, frame)
   assert(bytes:sub(1, 8) == "celplane" and crc32c(bytes:sub(1, 36)) == ("<I4"):unpack(bytes, 37))
   local trailer, flags = bytes:sub(-32), ("<I4"):unpack(bytes, 13)
-  local index, size = ("<I8I8"):unpack(trailer, 9)
+  local last, size = ("<I8I8"):unpack(trailer, 9)
   assert(trailer:sub(1, 8) == "planeend" and size == #bytes)
-  local function payload_at(offset)
-    local length = ("<I4"):unpack(bytes, offset + 2)
-    local record = bytes:sub(offset + 1, offset + 5 + length)
-    assert(crc32c(("<I8"):pack(offset) .. record) == ("<I4"):unpack(bytes, offset + 6 + length))
-    return record:sub(6)
-  end
-  local entries, bands = payload_at(index), {}
+  if flags ~= 4 then return payload_at(bytes, last), flags end
+  local index = payload_at(bytes, (("<I8"):unpack(payload_at(bytes, last), 9 + 8 * frame)))
+  return index:sub(5), (("<I4"):unpack(index))
+end
+
+-- bands: all that the index names, in order.
+local function read_bands(bytes, frame)
+  local entries, flags = read_index(bytes, frame)
+  local bands = {}
   for at = 1, #entries, 12 do
-    bands[#bands + 1] = read_band(payload_at((("<I8"):unpack(entries, at + 4))), flags & 2 > 0)
+    local payload = payload_at(bytes, (("<I8"):unpack(entries, at + 4)))
+    bands[#bands + 1] = read_band(payload, flags & 2 > 0)
   end
   return bands, flags & 1 > 0
 end
@@ -396,9 +406,11 @@ local function add_programs(row, y, size, is_opaque)
   end
 end
 
--- Returns rows 0 to rows - 1, each an array of four numbers a pixel, with 65535 for white.
-return function(bytes, columns, row_count)
-  local rows, size, bands, is_opaque = {}, {columns = columns, rows = row_count}, read_bands(bytes)
+-- Returns rows 0 to rows - 1 of a frame, from 0, each an array of four numbers a pixel, with 65535
+-- for white.
+return function(bytes, columns, row_count, frame)
+  local rows, size = {}, {columns = columns, rows = row_count}
+  local bands, is_opaque = read_bands(bytes, frame or 0)
   for y = 0, row_count - 1 do
     rows[y] = {shares = {}}
     for i = 1, 4 * columns do rows[y][i] = 0 end

@@ -1,7 +1,8 @@
 /* Any bytes as a plane file: no fault, memory in proportion to the bytes, valid bands, crops that
  * are the same as the whole, and the same plane after it is written again.
  *
- * The first byte decides whether the rest is read unchanged, or with corrected checksums (1). With
+ * The first byte decides whether the rest is read unchanged, or with corrected checksums (1), and
+ * which frame is read (its upper bits). With
  * clang's -fsanitize=fuzzer this is a fuzz target; with REPLAY_MAIN its own main runs the files of
  * a folder.
  */
@@ -111,7 +112,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   source.resize_user = &m;
   planefile_plane *plane = NULL;
   planefile_fault fault = {0};
-  if (planefile_read(&source, 0, PLANEFILE_SIDE, &plane, &fault) == PLANEFILE_OK) {
+  if (planefile_read_frame(&source, data[0] >> 2, 0, PLANEFILE_SIDE, &plane, &fault) ==
+      PLANEFILE_OK) {
     demand(m.peak <= 128 * 1024 + 600 * file.size, "memory that nothing pays for");
     use_plane(plane, pf_crc32c(0, data, size));
     planefile_plane_destroy(plane);

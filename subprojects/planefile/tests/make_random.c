@@ -1,13 +1,13 @@
 /* Writes random planes: `make_random FOLDER COUNT COLUMNS ROWS` makes 0.plane, 0.pixels, ... there,
- * to compare decoders with: the channels of the pixels as 32-bit integers; and 0.codes, ..., the
- * same as 8-bit codes. Without a size the plane files alone, beginning with a byte of 0 to 3, like
- * the fuzzer's inputs. */
+ * to compare decoders with: the channels of the pixels as 32-bit integers; 0.codes, ..., the same
+ * as 8-bit codes; and film.plane, whose frames are all of these planes. Without a size the plane
+ * files alone, and some films, beginning with a byte of 0 to 3, like the fuzzer's inputs. */
 #include "support.h"
 
-static void put_file(const char *folder, int number, const char *ending, int first,
-                     const void *bytes, size_t size) {
+static void put_named(const char *folder, const char *name, int first, const void *bytes,
+                      size_t size) {
   char path[4096];
-  snprintf(path, sizeof path, "%s/%d%s", folder, number, ending);
+  snprintf(path, sizeof path, "%s/%s", folder, name);
   FILE *file = fopen(path, "wb");
   if (!CHECK(file != NULL))
     return;
@@ -15,6 +15,13 @@ static void put_file(const char *folder, int number, const char *ending, int fir
     fputc(first, file);
   CHECK(fwrite(bytes, 1, size, file) == size);
   CHECK(fclose(file) == 0);
+}
+
+static void put_file(const char *folder, int number, const char *ending, int first,
+                     const void *bytes, size_t size) {
+  char name[64];
+  snprintf(name, sizeof name, "%d%s", number, ending);
+  put_named(folder, name, first, bytes, size);
 }
 
 static void put_drawn(const char *folder, int number, memory_file *file, uint32_t columns,
@@ -33,19 +40,58 @@ static void put_drawn(const char *folder, int number, memory_file *file, uint32_
   planefile_plane_destroy(plane);
 }
 
+/* The drawing of a number. */
+static drawing make(int number) {
+  return random_drawing((uint64_t)number, (uint32_t)(number % 12), number % 2 ? VARIED : FLAT);
+}
+
+static memory_file make_film(int from, int end) {
+  memory_file file = {0};
+  planefile_writer_desc desc = {
+      .width = 4, .height = 3, .write = memory_write, .user = &file, .frames_second = 12};
+  planefile_writer *writer = NULL;
+  CHECK(planefile_writer_create(&desc, &writer) == PLANEFILE_OK);
+  for (int i = from; i < end; i++) {
+    drawing d = make(i);
+    CHECK(planefile_writer_frame(writer, &d.plane) == PLANEFILE_OK);
+    drawing_free(&d);
+  }
+  CHECK(planefile_writer_end(writer) == PLANEFILE_OK);
+  planefile_writer_destroy(writer);
+  return file;
+}
+
+/* One in five inputs is a film. */
+static void put_input(const char *folder, int number) {
+  drawing d = make(number);
+  memory_file file = number % 5 == 4 ? make_film(number - 3, number) : write_plane(&d.plane);
+  put_file(folder, number, "", number % 4, file.bytes, file.size);
+  free(file.bytes);
+  drawing_free(&d);
+}
+
+static void put_plane(const char *folder, int number, uint32_t columns, uint32_t rows) {
+  drawing d = make(number);
+  memory_file file = write_plane(&d.plane);
+  put_file(folder, number, ".plane", -1, file.bytes, file.size);
+  put_drawn(folder, number, &file, columns, rows);
+  free(file.bytes);
+  drawing_free(&d);
+}
+
 int main(int count, char **arguments) {
   if (count != 3 && count != 5)
     return 2;
-  bool is_corpus = count == 3;
-  for (int i = 0; i < atoi(arguments[2]); i++) {
-    drawing d = random_drawing((uint64_t)i, (uint32_t)(i % 12), i % 2 ? VARIED : FLAT);
-    memory_file file = write_plane(&d.plane);
-    put_file(arguments[1], i, is_corpus ? "" : ".plane", is_corpus ? i % 4 : -1, file.bytes,
-             file.size);
-    if (!is_corpus)
-      put_drawn(arguments[1], i, &file, (uint32_t)atoi(arguments[3]), (uint32_t)atoi(arguments[4]));
-    free(file.bytes);
-    drawing_free(&d);
+  int planes = atoi(arguments[2]);
+  for (int i = 0; i < planes; i++)
+    if (count == 3)
+      put_input(arguments[1], i);
+    else
+      put_plane(arguments[1], i, (uint32_t)atoi(arguments[3]), (uint32_t)atoi(arguments[4]));
+  if (count == 5) {
+    memory_file film = make_film(0, planes);
+    put_named(arguments[1], "film.plane", -1, film.bytes, film.size);
+    free(film.bytes);
   }
   return check_done();
 }

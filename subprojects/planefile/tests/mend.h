@@ -34,20 +34,38 @@ static inline uint64_t mend_record(memory_file *file, uint64_t offset) {
   return offset + PF_HEAD_BYTES;
 }
 
-/* All records that the index names, header and trailer. */
+/* An index whose entries begin after some bytes, and the bands that it names. */
+static inline void mend_index(memory_file *file, uint64_t index, uint64_t before) {
+  uint64_t at = mend_record(file, index);
+  if (at == 0)
+    return;
+  uint64_t end = at + pf_load_32(file->bytes + index + 1);
+  for (at += before; at <= end && end - at >= PF_ENTRY_BYTES; at += PF_ENTRY_BYTES)
+    mend_record(file, pf_load_64(file->bytes + at + 4));
+  mend_record(file, index);
+}
+
+static inline void mend_film(memory_file *file, uint64_t film) {
+  uint64_t at = mend_record(file, film);
+  if (at == 0)
+    return;
+  uint64_t end = at + pf_load_32(file->bytes + film + 1);
+  for (at += PF_RATE_BYTES; at <= end && end - at >= PF_FRAME_BYTES; at += PF_FRAME_BYTES)
+    mend_index(file, pf_load_64(file->bytes + at), PF_FLAG_BYTES);
+  mend_record(file, film);
+}
+
+/* All records that are named, header and trailer. */
 static inline void mend_sums(memory_file *file) {
   if (file->size < PF_HEADER_BYTES + PF_TRAILER_BYTES)
     return;
   mend_header(file);
   mend_trailer(file);
-  uint64_t index = pf_load_64(file->bytes + file->size - PF_TRAILER_BYTES + 8);
-  uint64_t at = mend_record(file, index);
-  if (at == 0)
-    return;
-  uint64_t end = at + pf_load_32(file->bytes + index + 1);
-  for (; end - at >= PF_ENTRY_BYTES; at += PF_ENTRY_BYTES)
-    mend_record(file, pf_load_64(file->bytes + at + 4));
-  mend_record(file, index);
+  uint64_t last = pf_load_64(file->bytes + file->size - PF_TRAILER_BYTES + 8);
+  if (pf_load_32(file->bytes + 12) & PF_FILM)
+    mend_film(file, last);
+  else
+    mend_index(file, last, 0);
 }
 
 #endif

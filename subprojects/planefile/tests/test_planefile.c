@@ -544,6 +544,144 @@ static void test_bad_views(void) {
   drawing_free(&d);
 }
 
+/* ---------------------------------------------------------------- films */
+
+enum { FRAMES = 24 };
+
+/* Frames of random drawings, some of them again and again. Returns how many differ. */
+static uint32_t write_film(memory_file *file, drawing drawings[FRAMES]) {
+  planefile_writer_desc desc = {
+      .width = 4, .height = 3, .write = memory_write, .user = file, .frames_second = 12.5};
+  planefile_writer *writer;
+  uint32_t count = 0;
+  CHECK(planefile_writer_create(&desc, &writer) == PLANEFILE_OK);
+  for (uint32_t i = 0; i < FRAMES; i++) {
+    count = i % 4 ? count : i / 4 + 1; /* on fours */
+    drawings[i] = random_drawing(count, count % 3 ? 9 : 0, count % 2 ? FLAT : VARIED);
+    if (i % 4 == 2)
+      CHECK(planefile_writer_repeat(writer) == PLANEFILE_OK);
+    else
+      CHECK(planefile_writer_frame(writer, &drawings[i].plane) == PLANEFILE_OK);
+  }
+  CHECK(planefile_writer_end(writer) == PLANEFILE_OK);
+  planefile_writer_destroy(writer);
+  return count;
+}
+
+static planefile_plane *read_frame(memory_file *file, uint32_t frame) {
+  planefile_plane *plane = NULL;
+  planefile_fault fault = {0};
+  planefile_source source = memory_source(file);
+  if (!CHECK(planefile_read_frame(&source, frame, 0, PLANEFILE_SIDE, &plane, &fault) ==
+             PLANEFILE_OK))
+    fprintf(stderr, "  at %llu: %s\n", (unsigned long long)fault.offset, fault.reason);
+  return plane;
+}
+
+/* A frame of a film is the plane that it would be alone. */
+static void check_frame(memory_file *film, uint32_t frame, const drawing *d) {
+  planefile_view view = {31, 23, 0, 0, 31, 23, PLANEFILE_AREA};
+  memory_file file = write_plane(&d->plane);
+  planefile_plane *alone = read_plane(&file), *plane = read_frame(film, frame);
+  planefile_info info = planefile_plane_info(plane), other = planefile_plane_info(alone);
+  CHECK(info.frame_count == FRAMES && info.frames_second == 12.5);
+  CHECK(other.frame_count == 1 && other.frames_second == 0);
+  CHECK(info.is_opaque == other.is_opaque && info.varies == other.varies && info.width == 4);
+  planefile_cell *a = draw_view(plane, view), *b = draw_view(alone, view);
+  CHECK(memcmp(a, b, (size_t)view.columns * view.rows * sizeof *a) == 0);
+  free(a);
+  free(b);
+  free(file.bytes);
+  planefile_plane_destroy(alone);
+  planefile_plane_destroy(plane);
+}
+
+static void test_films(void) {
+  memory_file film = {0};
+  drawing drawings[FRAMES];
+  size_t alone = 0;
+  uint32_t different = write_film(&film, drawings);
+  for (uint32_t i = FRAMES; i-- > 0;) /* at random, as it were */
+    check_frame(&film, i, &drawings[i]);
+  for (uint32_t i = 0; i < FRAMES; i += 4) {
+    memory_file file = write_plane(&drawings[i].plane);
+    alone += file.size;
+    free(file.bytes);
+  }
+  CHECK(different == FRAMES / 4 && film.size < alone + 1024); /* each is there once */
+  for (uint32_t i = 0; i < FRAMES; i++)
+    drawing_free(&drawings[i]);
+  free(film.bytes);
+}
+
+/* A film with any byte altered is refused, or its frames can be drawn. */
+static void test_altered_films(memory_file *film) {
+  random_state random = {7};
+  for (int i = 0; i < 400; i++) {
+    memory_file other = {malloc(film->size), film->size, film->size};
+    memcpy(other.bytes, film->bytes, film->size);
+    other.bytes[random_below(&random, (uint32_t)film->size)] ^= (unsigned char)(1 << i % 8);
+    mend_sums(&other);
+    planefile_source source = memory_source(&other);
+    planefile_plane *plane = NULL;
+    uint32_t frame = random_below(&random, FRAMES);
+    planefile_view view = {9, 7, 0, 0, 9, 7, PLANEFILE_AREA};
+    if (planefile_read_frame(&source, frame, 0, PLANEFILE_SIDE, &plane, NULL) == PLANEFILE_OK)
+      free(draw_view(plane, view));
+    planefile_plane_destroy(plane);
+    free(other.bytes);
+  }
+}
+
+static void check_film_fault(memory_file *film, uint32_t frame, planefile_status status,
+                             const char *reason) {
+  planefile_plane *plane;
+  planefile_fault fault = {0};
+  planefile_source source = memory_source(film);
+  CHECK(planefile_read_frame(&source, frame, 0, PLANEFILE_SIDE, &plane, &fault) == status);
+  if (!CHECK(strstr(fault.reason, reason) != NULL))
+    fprintf(stderr, "  %s\n", fault.reason);
+}
+
+static void test_bad_films(void) {
+  memory_file film = {0}, one;
+  drawing drawings[FRAMES];
+  write_film(&film, drawings);
+  check_film_fault(&film, FRAMES, PLANEFILE_BAD_ARGUMENT, "it has no frame 24");
+  uint64_t last = pf_load_64(film.bytes + film.size - PF_TRAILER_BYTES + 8);
+  unsigned char *frames = film.bytes + last + PF_HEAD_BYTES + PF_RATE_BYTES, kept[8];
+  memcpy(kept, frames, 8);
+  pf_store_64(frames, PF_HEADER_BYTES); /* a band */
+  mend_sums(&film);
+  check_film_fault(&film, 0, PLANEFILE_BAD_FILE, "the index: there is another record");
+  pf_store_64(frames, film.size);
+  mend_sums(&film);
+  check_film_fault(&film, 0, PLANEFILE_BAD_FILE, "the index: its record is outside the file");
+  memcpy(frames, kept, 8);
+  pf_store_double(frames - 8, -1);
+  mend_sums(&film);
+  check_film_fault(&film, 0, PLANEFILE_BAD_FILE, "there is no such rate");
+  pf_store_double(frames - 8, 12.5);
+  test_altered_films(&film);
+  one = write_plane(&drawings[0].plane);
+  check_film_fault(&one, 1, PLANEFILE_BAD_ARGUMENT, "it has no frame 1");
+  planefile_writer_desc desc = {.width = 4, .height = 3, .write = memory_write, .user = &one};
+  planefile_writer *writer;
+  CHECK(planefile_writer_create(&desc, &writer) == PLANEFILE_OK);
+  CHECK(planefile_writer_end(writer) == PLANEFILE_BAD_ARGUMENT);
+  CHECK(planefile_writer_repeat(writer) == PLANEFILE_BAD_ARGUMENT);
+  CHECK(planefile_writer_frame(writer, &drawings[0].plane) == PLANEFILE_OK);
+  CHECK(planefile_writer_frame(writer, &drawings[0].plane) == PLANEFILE_BAD_ARGUMENT);
+  CHECK(planefile_writer_repeat(writer) == PLANEFILE_BAD_ARGUMENT);
+  planefile_writer_destroy(writer);
+  desc.frames_second = -1;
+  CHECK(planefile_writer_create(&desc, &writer) == PLANEFILE_BAD_ARGUMENT);
+  for (uint32_t i = 0; i < FRAMES; i++)
+    drawing_free(&drawings[i]);
+  free(one.bytes);
+  free(film.bytes);
+}
+
 /* ---------------------------------------------------------------- failures */
 
 /* Fails at one allocation, counted down. */
@@ -570,11 +708,24 @@ static planefile_status draw_all(const planefile_plane *plane) {
   return status;
 }
 
-static planefile_status write_and_draw(const planefile_band *from, int *left) {
+static planefile_status write_frames(const planefile_writer_desc *desc, const planefile_band *plane,
+                                     int count) {
+  planefile_writer *writer;
+  planefile_status status = planefile_writer_create(desc, &writer);
+  for (int i = 0; i < count && status == PLANEFILE_OK; i++)
+    status = planefile_writer_frame(writer, plane);
+  if (status == PLANEFILE_OK)
+    status = planefile_writer_end(writer);
+  planefile_writer_destroy(writer);
+  return status;
+}
+
+static planefile_status write_and_draw(const planefile_band *from, double frames_second,
+                                       int *left) {
   memory_file file = {0};
-  planefile_writer_desc desc = {4, 3, memory_write, &file, failing, left};
+  planefile_writer_desc desc = {4, 3, memory_write, &file, failing, left, frames_second};
   planefile_plane *plane = NULL;
-  planefile_status status = planefile_write(&desc, from);
+  planefile_status status = write_frames(&desc, from, frames_second > 0 ? 3 : 1);
   planefile_source source = memory_source(&file);
   source.resize = failing;
   source.resize_user = left;
@@ -587,12 +738,12 @@ static planefile_status write_and_draw(const planefile_band *from, int *left) {
   return status;
 }
 
-static void test_no_memory(void) {
+static void check_no_memory(double frames_second) {
   drawing d = random_drawing(4, 30, VARIED);
   int count = 0;
   for (int k = 1;; k++, count++) {
     int left = k;
-    planefile_status status = write_and_draw(&d.plane, &left);
+    planefile_status status = write_and_draw(&d.plane, frames_second, &left);
     if (status == PLANEFILE_OK)
       break;
     CHECK(status == PLANEFILE_NO_MEMORY);
@@ -645,7 +796,10 @@ int main(void) {
   test_bad_programs();
   test_depth();
   test_bad_views();
-  test_no_memory();
+  check_no_memory(0);
+  check_no_memory(24);
+  test_films();
+  test_bad_films();
   test_no_output();
   return check_done();
 }

@@ -1,6 +1,6 @@
 /* The decoder as a module of WebAssembly: for a page that has the bytes of one plane file.
  *
- *   reserve --> the page copies the file there --> open --> draw, as often as the page likes
+ *   reserve --> the page copies the file there --> open a frame --> draw, as often as it likes
  *
  * Addresses are those of the module's memory, of which the page makes its views again after each
  * call, because memory may have grown.
@@ -31,18 +31,21 @@ static bool read_bytes(void *user, uint64_t offset, void *out, size_t size) {
   return true;
 }
 
-/* Reads the file. NULL: it is read; otherwise the reason, which ends with a zero. */
-EXPORT("open") const char *open(void) {
+/* Reads a frame, from 0. NULL: it is read; otherwise the reason, which ends with a zero. */
+EXPORT("open") const char *open(uint32_t frame) {
   const planefile_source source = {
       .read = read_bytes, .size = byte_count, .resize = cs_wasm_resize};
   planefile_plane_destroy(plane);
   plane = NULL;
-  planefile_status status = planefile_read(&source, 0, PLANEFILE_SIDE, &plane, &fault);
+  planefile_status status = planefile_read_frame(&source, frame, 0, PLANEFILE_SIDE, &plane, &fault);
   return status == PLANEFILE_OK ? NULL : fault.reason;
 }
 
 EXPORT("width") double width(void) { return planefile_plane_info(plane).width; }
 EXPORT("height") double height(void) { return planefile_plane_info(plane).height; }
+
+EXPORT("frames") uint32_t frames(void) { return planefile_plane_info(plane).frame_count; }
+EXPORT("rate") double rate(void) { return planefile_plane_info(plane).frames_second; }
 
 static bool make_room(const planefile_view *view) {
   size_t size = (size_t)4 * view->columns * view->rows;
