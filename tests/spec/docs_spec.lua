@@ -175,6 +175,15 @@ describe("the commands of", function()
             end
             check_code(code, message)
           end)
+        elseif line:find "^oiiotool " then
+          it(place(page, block) .. line .. " run #plain", function()
+            if not (present.pictures() and present.program "oiiotool") then
+              return pending "there is no oiiotool, or celspan was built without OpenImageIO"
+            end
+            local plugins = workbench.build .. "/src/plugins/oiio/plugin"
+            local code, printed, message = run(("OIIO_LIBRARY_PATH='%s' %s"):format(plugins, line))
+            assert.are.equal(0, code, printed .. message)
+          end)
         elseif line:find "^%./run " then
           it(place(page, block) .. line .. " exist", function()
             local verb, option = line:match "^%./run (%l+)%s*(%-*%l*)"

@@ -1,4 +1,4 @@
--- Span files at the command line, and in programs built on OpenImageIO.
+-- Span files at the command line.
 
 local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
@@ -18,13 +18,6 @@ end
 
 -- Pictures that are not PNG or span files need the picture module.
 local it_reads_pictures = present.pictures() and it or pending
-
-local it_opens = present.pictures() and present.program "oiiotool" and it or pending
-
-local function oiiotool(arguments)
-  return shell(("OIIO_LIBRARY_PATH='%s' oiiotool %s")
-    :format(workbench.build .. "/src/plugins/oiio/plugin", arguments))
-end
 
 local SCENE = [[
 local celspan = require "celspan"
@@ -190,51 +183,5 @@ end }]])
       done("render opaque.lua -o long.span --progress none --size " .. size)
       assert.truthy(done("info long.span"):find("size " .. size, 1, true))
     end
-  end)
-end)
-
-describe("the plug-in for OpenImageIO #plain", function()
-  it_opens("shows the pixels of the file", function()
-    done("render opaque.lua -o opaque.span --progress none")
-    done("render opaque.lua -o opaque.tif --progress none")
-    done("render scene.lua -o scene.exr --progress none")
-    for _, pair in ipairs { "opaque.span opaque.tif", "half.span scene.exr" } do
-      local code, out, err = oiiotool(pair .. " --diff")
-      assert.equal(0, code, out .. err)
-    end
-    local code, out, err = oiiotool("--iconfig oiio:UnassociatedAlpha 1 scene.span "
-      .. "--iconfig oiio:UnassociatedAlpha 1 scene.png --diff")
-    assert.equal(0, code, out .. err)
-  end)
-
-  it_opens("describes the file", function()
-    local code, out, err = oiiotool("--info -v scene.span half.span")
-    assert.equal(0, code, err)
-    assert.truthy(out:find("300 x  200, 4 channel, uint8 span", 1, true), out)
-    assert.truthy(out:find("300 x  200, 4 channel, half span", 1, true), out)
-    assert.truthy(out:find('oiio:ColorSpace: "sRGB"', 1, true), out)
-  end)
-
-  it_opens("reads rows in any order", function()
-    local code, out, err =
-      oiiotool("half.span --cut 300x1+0+150 -o row.exr half.span --flip --flop "
-      .. "-o turned.exr row.exr half.span --cut 300x1+0+150 --diff")
-    assert.equal(0, code, out .. err)
-  end)
-
-  it_opens("reads only a part of a file that is too large for memory", function()
-    done("render opaque.lua -o large.span --size 1000000x1000000 --progress none")
-    done("convert large.span part.span --crop 166700,499900,300,200")
-    local code, out, err = oiiotool("large.span --cut 300x200+166700+499900 -o part.tif")
-    assert.equal(0, code, out .. err)
-    done("compare part.span part.tif")
-  end)
-
-  it_opens("refuses a truncated or altered file", function()
-    local whole = read "scene.span"
-    write("cut.span", whole:sub(1, -2))
-    local code, out, err = oiiotool("cut.span -o never.png")
-    assert.not_equal(0, code)
-    assert.truthy((out .. err):find("cut: there is no trailer at the end", 1, true), out .. err)
   end)
 end)
