@@ -174,6 +174,21 @@ describe("a plane file in OpenImageIO #plain", function()
     opened "--info 'scene.plane?plane:width=11000000&plane:height=11000000'"
   end)
 
+  it_opens("has frames, of which one is chosen", function()
+    bench:write("film.lua", (OPAQUE:gsub("frames = 1", "frames = 3")
+      :gsub("40.3", "10 * f.number")))
+    done("render film.lua -o film.plane --progress none")
+    for frame = 1, 3 do
+      done(("convert film.plane frame.exr --size 120x90 --depth float --frame %d"):format(frame))
+      opened(("'film.plane?plane:frame=%d' frame.exr --fail 0 --diff"):format(frame))
+    end
+    opened("film.plane 'film.plane?plane:frame=1' --fail 0 --diff")
+    for _, frame in ipairs { "0", "-1", "4", "2147483647" } do
+      refused("plane:frame must be the number of a frame in the file",
+        ("--iconfig plane:frame %s film.plane"):format(frame))
+    end
+  end)
+
   it_opens("is refused if it is truncated or altered, with the byte and the reason", function()
     local whole = bench:read "scene.plane"
     for at = 1, #whole, #whole // 12 do

@@ -1,8 +1,9 @@
 /* Plane files for every program built on OpenImageIO: a reader plug-in, plane.imageio.so.
  *
  * A plane has no pixels. It is drawn at the size of the hints "plane:width" and "plane:height"; one
- * of them keeps the frame's shape, and without any a unit is a pixel. Programs that give no hints
- * can have them in the name: x.plane?plane:width=4096. Linear light, premultiplied.
+ * of them keeps the frame's shape, and without any a unit is a pixel. "plane:frame" is the frame of
+ * a film, from 1. Programs that give no hints can have them in the name: x.plane?plane:width=4096.
+ * Linear light, premultiplied.
  *
  * The file is read and verified as a whole when it is opened. Rows are drawn downwards; any other
  * part begins a drawer of its own, which costs what borders the part has.
@@ -37,7 +38,7 @@ protected:
   bool read_part(const Part &part, void *data, size_t stride) override;
 
 private:
-  bool create_plane();
+  bool create_plane(const ImageSpec &hints);
   bool choose_size(const ImageSpec &hints);
   bool begin(const Part &part);
   bool read_row(float *out);
@@ -58,8 +59,8 @@ void take_hints(std::string &name, ImageSpec &hints) {
   name = file;
 }
 
-/* 0: there is no such hint; below 0: it is not a side. */
-int side_hint(const ImageSpec &hints, const char *name) {
+/* 0: there is no such hint; below 0: it is no number from 1. */
+int count_hint(const ImageSpec &hints, const char *name) {
   const OIIO::ParamValue *hint = hints.find_attribute(name);
   int side = hint ? hint->get_int(0) : 0;
   return side > 0 || !hint ? side : -1;
@@ -69,7 +70,7 @@ bool PlaneInput::choose_size(const ImageSpec &hints) {
   const planefile_info info = planefile_plane_info(plane_);
   const char *const names[] = {"plane:width", "plane:height"};
   const double units[] = {info.width, info.height};
-  const int hinted[] = {side_hint(hints, names[0]), side_hint(hints, names[1])};
+  const int hinted[] = {count_hint(hints, names[0]), count_hint(hints, names[1])};
   uint32_t sides[2];
   for (int i = 0; i < 2; i++) {
     int other = hinted[1 - i];
@@ -84,11 +85,16 @@ bool PlaneInput::choose_size(const ImageSpec &hints) {
   return describe(sides[0], sides[1], OIIO::TypeDesc::FLOAT, "Linear");
 }
 
-bool PlaneInput::create_plane() {
+bool PlaneInput::create_plane(const ImageSpec &hints) {
+  int number = count_hint(hints, "plane:frame");
+  uint32_t frame = number > 0 ? uint32_t(number) - 1 : number < 0 ? UINT32_MAX : 0;
   planefile_source bytes = source<planefile_source>();
   planefile_fault fault;
-  return planefile_read(&bytes, 0, PLANEFILE_SIDE, &plane_, &fault) == PLANEFILE_OK ||
-         refuse(fault);
+  planefile_status status = planefile_read_frame(&bytes, frame, 0, PLANEFILE_SIDE, &plane_, &fault);
+  if (status != PLANEFILE_BAD_ARGUMENT)
+    return status == PLANEFILE_OK || refuse(fault);
+  errorf("plane:frame must be the number of a frame in the file, from 1");
+  return false;
 }
 
 bool PlaneInput::open(const std::string &name, ImageSpec &spec, const ImageSpec &config) {
@@ -98,7 +104,7 @@ bool PlaneInput::open(const std::string &name, ImageSpec &spec, const ImageSpec 
   take_hints(file, hints);
   if (!open_bytes(file, hints))
     return false;
-  if (!create_plane() || !choose_size(hints)) {
+  if (!create_plane(hints) || !choose_size(hints)) {
     close();
     return false;
   }
