@@ -206,9 +206,9 @@ enum { PLANEFILE_MAGIC_BYTES = 8 };
 bool planefile_is(const void *bytes, size_t size);
 
 /* Of frame 0: reads header and index, and the bands that have a part of the heights [top, foot), in
- * units: 0 and PLANEFILE_SIDE for all. Every byte that is read is verified. source: borrowed. out: new.
- * fault: set when the status is not OK; may be NULL. Time is linear in the bytes that are read;
- * memory is less than 600 times as much, and less than 128 KiB more. */
+ * units: 0 and PLANEFILE_SIDE for all. Every byte that is read is verified. source: borrowed. out:
+ * new. fault: set when the status is not OK; may be NULL. Time is linear in the bytes that are
+ * read; memory is less than 600 times as much, and less than 128 KiB more. */
 planefile_status planefile_read(const planefile_source *source, int32_t top, int32_t foot,
                                 planefile_plane **out, planefile_fault *fault);
 /* A frame of a film, from 0; of a single plane there is frame 0. BAD_ARGUMENT: there is none of
