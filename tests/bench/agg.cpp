@@ -35,14 +35,17 @@ agg::rgba8 colour(bench_colour c) {
 
 struct Frame {
   const bench_drawing *drawing;
-  agg::path_storage paths; // of all shapes, flattened at full size
-  std::vector<unsigned> starts;
+  agg::path_storage curves; // of all shapes, at full size
+  agg::path_storage paths;  // the same, flattened
+  std::vector<unsigned> starts, curve_starts;
   std::map<size_t, Colours> tables; // of the shapes that have gradients
   int side;
   bool is_antialiased;
 };
 
-void trace(const bench_shape &shape, double side, agg::path_storage &path) {
+// Returns where the new path begins.
+unsigned trace(const bench_shape &shape, double side, agg::path_storage &path) {
+  const unsigned start = path.start_new_path();
   for (size_t i = 0; i < shape.segment_count; i++) {
     const bench_point *p = shape.segments[i].p;
     switch (shape.segments[i].verb) {
@@ -61,6 +64,7 @@ void trace(const bench_shape &shape, double side, agg::path_storage &path) {
       break;
     }
   }
+  return start;
 }
 
 Colours table(const bench_shape &s) {
@@ -71,31 +75,54 @@ Colours table(const bench_shape &s) {
 }
 
 void *begin(const bench_drawing *drawing, int side, bool is_antialiased) {
-  auto *frame = new Frame{drawing, {}, {}, {}, side, is_antialiased};
-  agg::path_storage path;
+  auto *frame = new Frame{drawing, {}, {}, {}, {}, {}, side, is_antialiased};
   for (size_t i = 0; i < drawing->shape_count; i++) {
-    path.remove_all();
-    trace(drawing->shapes[i], side, path);
-    agg::conv_curve<agg::path_storage> curve(path);
+    frame->curve_starts.push_back(trace(drawing->shapes[i], side, frame->curves));
+    agg::conv_curve<agg::path_storage> curve(frame->curves);
     frame->starts.push_back(frame->paths.start_new_path());
-    frame->paths.concat_path(curve);
+    frame->paths.concat_path(curve, frame->curve_starts.back());
     if (drawing->shapes[i].is_gradient)
       frame->tables[i] = table(drawing->shapes[i]);
   }
   return frame;
 }
 
-// Columns count in 16ths of a pixel.
-void fill_gradient(const bench_shape &s, const Colours &colours, double side,
+// Columns count in 16ths of a pixel. `left` and `size`: where the unit square lies.
+void fill_gradient(const bench_shape &s, const Colours &colours, double left, double size,
                    Rasterizer &rasterizer, agg::scanline_p8 &scanline, Base &base) {
   using Interpolator = agg::span_interpolator_linear<>;
   using Span = agg::span_gradient<agg::rgba8, Interpolator, agg::gradient_x, const Colours>;
   agg::trans_affine as_it_is;
   Interpolator interpolator(as_it_is);
   agg::gradient_x along;
-  Span span(interpolator, along, colours, side * s.x0, side * s.x1);
+  Span span(interpolator, along, colours, left + size * s.x0, left + size * s.x1);
   agg::span_allocator<agg::rgba8> spans;
   agg::render_scanlines_aa(rasterizer, scanline, base, spans, span);
+}
+
+// Fills the shapes that meet a picture of this height, whose unit square lies at these places. Path
+// is a source of vertices with a path at each of `starts`.
+template <class Path>
+void draw(const Frame &frame, Base &base, Path &path, const std::vector<unsigned> &starts,
+          double left, double top, double size) {
+  Rasterizer rasterizer;
+  agg::scanline_p8 scanline;
+  const int rows = int(base.height());
+  rasterizer.clip_box(0, 0, base.width(), rows);
+  if (!frame.is_antialiased)
+    rasterizer.gamma(agg::gamma_threshold(0.5));
+  for (size_t i = 0; i < starts.size(); i++) {
+    const bench_shape &s = frame.drawing->shapes[i];
+    if (!bench_shape_meets(&s, size, -top, rows))
+      continue;
+    rasterizer.reset();
+    rasterizer.filling_rule(s.is_evenodd ? agg::fill_even_odd : agg::fill_non_zero);
+    rasterizer.add_path(path, starts[i]);
+    if (s.is_gradient)
+      fill_gradient(s, frame.tables.at(i), left, size, rasterizer, scanline, base);
+    else
+      agg::render_scanlines_aa_solid(rasterizer, scanline, base, colour(s.colour));
+  }
 }
 
 void band(void *user, uint8_t *pixels, int width, int rows, int first_row) {
@@ -104,25 +131,23 @@ void band(void *user, uint8_t *pixels, int width, int rows, int first_row) {
   Format format(buffer);
   Base base(format);
   base.clear(agg::rgba8(255, 255, 255, 255));
-  Rasterizer rasterizer;
-  agg::scanline_p8 scanline;
-  rasterizer.clip_box(0, 0, width, rows);
-  if (!frame->is_antialiased)
-    rasterizer.gamma(agg::gamma_threshold(0.5));
   agg::trans_affine down = agg::trans_affine_translation(0, -first_row);
   agg::conv_transform<agg::path_storage> placed(frame->paths, down);
-  for (size_t i = 0; i < frame->starts.size(); i++) {
-    const bench_shape &s = frame->drawing->shapes[i];
-    if (!bench_shape_meets(&s, frame->side, first_row, rows))
-      continue;
-    rasterizer.reset();
-    rasterizer.filling_rule(s.is_evenodd ? agg::fill_even_odd : agg::fill_non_zero);
-    rasterizer.add_path(placed, frame->starts[i]);
-    if (s.is_gradient)
-      fill_gradient(s, frame->tables.at(i), frame->side, rasterizer, scanline, base);
-    else
-      agg::render_scanlines_aa_solid(rasterizer, scanline, base, colour(s.colour));
-  }
+  draw(*frame, base, placed, frame->starts, 0, -first_row, frame->side);
+}
+
+// Curves are placed and then flattened, as each zoom needs it.
+void place(void *user, uint8_t *pixels, int side, bench_place place) {
+  auto *frame = static_cast<Frame *>(user);
+  agg::rendering_buffer buffer(pixels, side, side, 4 * side);
+  Format format(buffer);
+  Base base(format);
+  agg::trans_affine matrix = agg::trans_affine_scaling(place.scale) *
+                             agg::trans_affine_translation(place.x * side, place.y * side);
+  agg::conv_transform<agg::path_storage> placed(frame->curves, matrix);
+  agg::conv_curve<agg::conv_transform<agg::path_storage>> flattened(placed);
+  draw(*frame, base, flattened, frame->curve_starts, place.x * side, place.y * side,
+       place.scale * side);
 }
 
 void end(void *user) { delete static_cast<Frame *>(user); }
@@ -181,4 +206,4 @@ void picture(const bench_job *job, uint8_t *pixels) {
 
 } // namespace
 
-extern "C" const bench_peer bench_peer_here = {true, begin, band, end, picture, true};
+extern "C" const bench_peer bench_peer_here = {true, begin, band, place, end, picture, true};

@@ -59,6 +59,16 @@ void fill(BLContext &context, const BLPath &path, const bench_shape &shape, doub
   context.fill_path(path, gradient);
 }
 
+// The shapes that meet these rows of the drawing at this side.
+void draw(const Frame &frame, BLContext &context, double side, double first_row, int rows) {
+  for (size_t i = 0; i < frame.paths.size(); i++) {
+    const bench_shape &shape = frame.drawing->shapes[i];
+    if (bench_shape_meets(&shape, side, first_row, rows))
+      fill(context, frame.paths[i], shape, frame.side);
+  }
+  context.end();
+}
+
 void band(void *user, uint8_t *pixels, int width, int rows, int first_row) {
   const auto *frame = static_cast<const Frame *>(user);
   BLImage image;
@@ -66,16 +76,20 @@ void band(void *user, uint8_t *pixels, int width, int rows, int first_row) {
   BLContext context(image);
   context.fill_all(BLRgba32(0xFFFFFFFFu));
   context.translate(0, -first_row);
-  for (size_t i = 0; i < frame->paths.size(); i++) {
-    const bench_shape &shape = frame->drawing->shapes[i];
-    if (bench_shape_meets(&shape, frame->side, first_row, rows))
-      fill(context, frame->paths[i], shape, frame->side);
-  }
-  context.end();
+  draw(*frame, context, frame->side, first_row, rows);
+}
+
+void place(void *user, uint8_t *pixels, int side, bench_place place) {
+  BLImage image;
+  image.create_from_data(side, side, BL_FORMAT_PRGB32, pixels, intptr_t(4) * side);
+  BLContext context(image);
+  context.translate(place.x * side, place.y * side);
+  context.scale(place.scale, place.scale);
+  draw(*static_cast<const Frame *>(user), context, place.scale * side, -place.y * side, side);
 }
 
 void end(void *user) { delete static_cast<Frame *>(user); }
 
 } // namespace
 
-extern "C" const bench_peer bench_peer_here = {true, begin, band, end, nullptr, false};
+extern "C" const bench_peer bench_peer_here = {true, begin, band, place, end, nullptr, false};

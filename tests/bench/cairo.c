@@ -76,21 +76,38 @@ static void draw(cairo_t *cairo, const cairo_frame *frame, size_t index) {
   cairo_fill(cairo);
 }
 
-static void band(void *user, uint8_t *pixels, int width, int rows, int first_row) {
-  const cairo_frame *frame = user;
+static cairo_t *open_pixels(const cairo_frame *frame, uint8_t *pixels, int width, int rows) {
   cairo_surface_t *surface =
       cairo_image_surface_create_for_data(pixels, CAIRO_FORMAT_ARGB32, width, rows, 4 * width);
   cairo_t *cairo = cairo_create(surface);
-  cairo_set_source_rgb(cairo, 1, 1, 1);
-  cairo_paint(cairo);
+  cairo_surface_destroy(surface);
   cairo_set_antialias(cairo,
                       frame->is_antialiased ? CAIRO_ANTIALIAS_DEFAULT : CAIRO_ANTIALIAS_NONE);
+  return cairo;
+}
+
+static void band(void *user, uint8_t *pixels, int width, int rows, int first_row) {
+  const cairo_frame *frame = user;
+  cairo_t *cairo = open_pixels(frame, pixels, width, rows);
+  cairo_set_source_rgb(cairo, 1, 1, 1);
+  cairo_paint(cairo);
   cairo_translate(cairo, 0, -first_row);
   for (size_t i = 0; i < frame->drawing->shape_count; i++)
     if (bench_shape_meets(&frame->drawing->shapes[i], frame->side, first_row, rows))
       draw(cairo, frame, i);
   cairo_destroy(cairo);
-  cairo_surface_destroy(surface);
+}
+
+static void place(void *user, uint8_t *pixels, int side, bench_place place) {
+  const cairo_frame *frame = user;
+  cairo_t *cairo = open_pixels(frame, pixels, side, side);
+  double size = place.scale * side, top = place.y * side;
+  cairo_translate(cairo, place.x * side, top);
+  cairo_scale(cairo, place.scale, place.scale);
+  for (size_t i = 0; i < frame->drawing->shape_count; i++)
+    if (bench_shape_meets(&frame->drawing->shapes[i], size, -top, side))
+      draw(cairo, frame, i);
+  cairo_destroy(cairo);
 }
 
 static void end(void *user) {
@@ -121,4 +138,4 @@ static void picture(const bench_job *job, uint8_t *pixels) {
 }
 
 const bench_peer bench_peer_here = {
-    .is_bgra = true, .begin = begin, .band = band, .end = end, .picture = picture};
+    .is_bgra = true, .begin = begin, .band = band, .place = place, .end = end, .picture = picture};

@@ -6,11 +6,13 @@
  *                                           of the spans
  *   celspan soft DRAWING SIDE RADIUS KERNEL OUTPUT       RADIUS in pixels
  *   celspan picture|backed|planes ...       see picture_jobs.c
+ *   celspan film ...                        see film_jobs.h
  */
 #include <stdlib.h>
 #include <string.h>
 
 #include "drawing.h"
+#include "film_jobs.h"
 #include "frames.h"
 #include "measure.h"
 #include "picture_jobs.h"
@@ -79,7 +81,7 @@ static const struct {
     {"shapes", measure_shapes}, {"look", look},
     {"digest", tell_digest},    {"soft", measure_soft},
     {"picture", bench_picture}, {"backed", bench_backed},
-    {"planes", bench_planes},
+    {"planes", bench_planes},   {"film", bench_film},
 };
 
 int main(int argc, char **argv) {
@@ -88,7 +90,7 @@ int main(int argc, char **argv) {
   while (argc > 1 && verb < count && strcmp(argv[1], verbs[verb].name) != 0)
     verb++;
   if (argc < 2 || verb == count)
-    bench_stop("usage: %s shapes|look|digest|soft|picture|backed|planes ...", argv[0]);
+    bench_stop("usage: %s shapes|look|digest|soft|picture|backed|planes|film ...", argv[0]);
   celspan_context_desc desc = {.struct_size = sizeof desc};
   if (verbs[verb].run == measure_soft)
     desc.defocus_bytes = 1; /* nothing is cached between runs */

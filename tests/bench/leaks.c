@@ -108,7 +108,7 @@ static void judge_cover(leak *job, celspan_object **shapes, int count) {
   celspan_cel_desc cel = CELSPAN_CEL_DESC;
   cel.objects = shapes;
   cel.object_count = (size_t)count;
-  celspan_rostrum *rostrum = bench_rostrum(job->context, &cel, true);
+  celspan_rostrum *rostrum = bench_rostrum_of(job->context, &cel, true);
   judge_frame(job, rostrum, side_least + random_below(&job->random, side_most - side_least));
   celspan_rostrum_unref(rostrum);
   for (int i = 0; i < count; i++)

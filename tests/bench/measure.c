@@ -80,6 +80,22 @@ static void tell_instructions(double *counts, int runs, double scale, double fix
   bench_tell("instructions", counts[runs / 2]);
 }
 
+/* What some runs cost, by one list a kind. */
+typedef struct figures {
+  double *wall, *processor, *instructions;
+} figures;
+
+static void tell_figures(figures of, int runs, bench_part part) {
+  tell_times("wall", of.wall, runs, part.scale, part.fixed.wall);
+  tell_times("processor", of.processor, runs, part.scale, part.fixed.processor);
+  tell_instructions(of.instructions, runs, part.scale, part.fixed.instructions);
+  printf("runs %d peak_kib %ld ", runs, peak_kib());
+}
+
+void bench_tell_cost(bench_cost cost, bench_part part) {
+  tell_figures((figures){&cost.wall, &cost.processor, &cost.instructions}, 1, part);
+}
+
 /* The first run warms caches; it counts only if it alone uses up all the time available. */
 void bench_measure_part(void (*job)(void *user), void *user, bench_part part) {
   static double wall[RUNS_LIMIT], processor[RUNS_LIMIT], instructions[RUNS_LIMIT];
@@ -98,10 +114,7 @@ void bench_measure_part(void (*job)(void *user), void *user, bench_part part) {
     instructions[runs++] = cost.instructions;
     spent += cost.wall;
   }
-  tell_times("wall", wall, runs, part.scale, part.fixed.wall);
-  tell_times("processor", processor, runs, part.scale, part.fixed.processor);
-  tell_instructions(instructions, runs, part.scale, part.fixed.instructions);
-  printf("runs %d peak_kib %ld ", runs, peak_kib());
+  tell_figures((figures){wall, processor, instructions}, runs, part);
 }
 
 void bench_measure(void (*job)(void *user), void *user) {

@@ -40,6 +40,8 @@ typedef struct bench_part {
   double scale;
   bench_cost fixed;
 } bench_part;
+/* Prints the same for a cost that was measured once, scaled likewise. */
+void bench_tell_cost(bench_cost cost, bench_part part);
 void bench_measure_part(void (*job)(void *user), void *user, bench_part part);
 
 /* Adds a pair to the line. */

@@ -4,6 +4,7 @@
  *                                                     every STRIDEth band; times are scaled up
  *   PEER picture affine|perspective|shift
  *   PEER look DRAWING SIDE                            the picture's cells, for agreement
+ *   PEER film SHEET MIDDLE FRONT SIDE STEP            a frame of film.h, the mean of every STEPth
  */
 #include "peer.h"
 
@@ -118,6 +119,59 @@ static void measure_picture(const char *name) {
   bench_job_free(&job.job);
 }
 
+/* ---------------------------------------------------------------- films */
+
+typedef struct film_job {
+  bench_drawing drawings[BENCH_FILM_CELS];
+  void *cels[BENCH_FILM_CELS]; /* their paths */
+  uint8_t *frame;
+  int side, step;
+} film_job;
+
+static void draw_frame(const film_job *job, int number) {
+  memset(job->frame, 0xff, 4 * (size_t)job->side * (size_t)job->side); /* white */
+  for (int i = 0; i < BENCH_FILM_CELS; i++)
+    bench_peer_here.place(job->cels[i], job->frame, job->side, bench_film_place(number, i));
+}
+
+static void draw_film(void *user) {
+  const film_job *job = user;
+  for (int number = 0; number < BENCH_FILM_FRAMES; number += job->step)
+    draw_frame(job, number);
+}
+
+/* The job stays where it is: the cels refer to its drawings. */
+static void open_film(film_job *job, char **words) {
+  *job = (film_job){.side = atoi(words[3]), .step = atoi(words[4])};
+  job->frame = malloc(4 * (size_t)job->side * (size_t)job->side);
+  if (!job->frame || job->step < 1)
+    bench_stop("no such film");
+  for (int i = 0; i < BENCH_FILM_CELS; i++) {
+    job->drawings[i] = bench_drawing_read(words[i]);
+    job->cels[i] = bench_peer_here.begin(&job->drawings[i], job->side, true);
+  }
+}
+
+static void close_film(film_job *job) {
+  for (int i = 0; i < BENCH_FILM_CELS; i++) {
+    bench_peer_here.end(job->cels[i]);
+    bench_drawing_free(&job->drawings[i]);
+  }
+  free(job->frame);
+}
+
+static void measure_film(char **words) {
+  film_job job;
+  open_film(&job, words);
+  int count = (BENCH_FILM_FRAMES + job.step - 1) / job.step;
+  draw_frame(&job, 0); /* what is done once in a process */
+  bench_measure_part(draw_film, &job, (bench_part){.scale = 1.0 / count});
+  draw_frame(&job, BENCH_FILM_FRAMES / 2);
+  tell_frame(job.frame, job.side, job.side);
+  bench_line_end();
+  close_film(&job);
+}
+
 int main(int argc, char **argv) {
   if (argc == 7 && strcmp(argv[1], "shapes") == 0)
     measure_shapes(argv + 2);
@@ -125,7 +179,9 @@ int main(int argc, char **argv) {
     look(argv + 2);
   else if (argc == 3 && strcmp(argv[1], "picture") == 0)
     measure_picture(argv[2]);
+  else if (argc == 7 && strcmp(argv[1], "film") == 0)
+    measure_film(argv + 2);
   else
-    bench_stop("usage: %s shapes|look|picture ...", argv[0]);
+    bench_stop("usage: %s shapes|look|picture|film ...", argv[0]);
   return 0;
 }

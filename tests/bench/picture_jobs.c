@@ -34,7 +34,7 @@ static celspan_rostrum *mount(celspan_context *context, celspan_object **objects
   celspan_cel_desc cel = CELSPAN_CEL_DESC;
   cel.objects = objects;
   cel.object_count = count;
-  celspan_rostrum *rostrum = bench_rostrum(context, &cel, is_backed);
+  celspan_rostrum *rostrum = bench_rostrum_of(context, &cel, is_backed);
   for (size_t i = 0; i < count; i++)
     celspan_object_unref(objects[i]);
   return rostrum;

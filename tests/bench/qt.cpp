@@ -62,19 +62,32 @@ QBrush brush(const bench_shape &shape, double side) {
   return gradient;
 }
 
+// The shapes that meet these rows of the drawing at this side.
+void draw(const Frame &frame, QPainter &painter, double side, double first_row, int rows) {
+  painter.setRenderHint(QPainter::Antialiasing, frame.is_antialiased);
+  painter.setPen(Qt::NoPen);
+  for (size_t i = 0; i < frame.paths.size(); i++) {
+    const bench_shape &s = frame.drawing->shapes[i];
+    if (bench_shape_meets(&s, side, first_row, rows))
+      painter.fillPath(frame.paths[i], brush(s, frame.side));
+  }
+}
+
 void band(void *user, uint8_t *pixels, int width, int rows, int first_row) {
   const auto *frame = static_cast<const Frame *>(user);
   QImage image(pixels, width, rows, 4 * width, QImage::Format_ARGB32_Premultiplied);
   image.fill(Qt::white);
   QPainter painter(&image);
-  painter.setRenderHint(QPainter::Antialiasing, frame->is_antialiased);
-  painter.setPen(Qt::NoPen);
   painter.translate(0, -first_row);
-  for (size_t i = 0; i < frame->paths.size(); i++) {
-    const bench_shape &s = frame->drawing->shapes[i];
-    if (bench_shape_meets(&s, frame->side, first_row, rows))
-      painter.fillPath(frame->paths[i], brush(s, frame->side));
-  }
+  draw(*frame, painter, frame->side, first_row, rows);
+}
+
+void place(void *user, uint8_t *pixels, int side, bench_place place) {
+  QImage image(pixels, side, side, 4 * side, QImage::Format_ARGB32_Premultiplied);
+  QPainter painter(&image);
+  painter.translate(place.x * side, place.y * side);
+  painter.scale(place.scale, place.scale);
+  draw(*static_cast<const Frame *>(user), painter, place.scale * side, -place.y * side, side);
 }
 
 void end(void *user) { delete static_cast<Frame *>(user); }
@@ -94,4 +107,4 @@ void picture(const bench_job *job, uint8_t *pixels) {
 
 } // namespace
 
-extern "C" const bench_peer bench_peer_here = {true, begin, band, end, picture, true};
+extern "C" const bench_peer bench_peer_here = {true, begin, band, place, end, picture, true};

@@ -47,17 +47,23 @@ static celspan_object *make_shape(celspan_context *context, const bench_shape *s
   return object;
 }
 
-celspan_rostrum *bench_rostrum(celspan_context *context, const celspan_cel_desc *cel_desc,
+celspan_rostrum *bench_rostrum(celspan_context *context, celspan_cel *const *cels, size_t count,
                                bool is_backed) {
-  celspan_cel *cel;
   celspan_rostrum *rostrum;
-  bench_check(context, celspan_cel_create(context, cel_desc, &cel));
   celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
-  desc.cels = &cel;
-  desc.cel_count = 1;
+  desc.cels = cels;
+  desc.cel_count = count;
   if (is_backed)
     desc.back = (celspan_light){1, 1, 1, 1};
   bench_check(context, celspan_rostrum_create(context, &desc, &rostrum));
+  return rostrum;
+}
+
+celspan_rostrum *bench_rostrum_of(celspan_context *context, const celspan_cel_desc *desc,
+                                  bool is_backed) {
+  celspan_cel *cel;
+  bench_check(context, celspan_cel_create(context, desc, &cel));
+  celspan_rostrum *rostrum = bench_rostrum(context, &cel, 1, is_backed);
   celspan_cel_unref(cel);
   return rostrum;
 }
@@ -84,14 +90,23 @@ celspan_object *bench_union(celspan_context *context, const bench_drawing *drawi
   return whole;
 }
 
-celspan_rostrum *bench_scene(celspan_context *context, const bench_drawing *drawing,
-                             const celspan_cel_desc *cel) {
+celspan_cel *bench_cel(celspan_context *context, const bench_drawing *drawing,
+                       const celspan_cel_desc *desc) {
   celspan_object **objects = make_shapes(context, drawing);
-  celspan_cel_desc desc = cel ? *cel : CELSPAN_CEL_DESC;
-  desc.objects = objects;
-  desc.object_count = drawing->shape_count;
-  celspan_rostrum *rostrum = bench_rostrum(context, &desc, true);
+  celspan_cel_desc whole = desc ? *desc : CELSPAN_CEL_DESC;
+  celspan_cel *cel;
+  whole.objects = objects;
+  whole.object_count = drawing->shape_count;
+  bench_check(context, celspan_cel_create(context, &whole, &cel));
   free_shapes(objects, drawing->shape_count);
+  return cel;
+}
+
+celspan_rostrum *bench_scene(celspan_context *context, const bench_drawing *drawing,
+                             const celspan_cel_desc *desc) {
+  celspan_cel *cel = bench_cel(context, drawing, desc);
+  celspan_rostrum *rostrum = bench_rostrum(context, &cel, 1, true);
+  celspan_cel_unref(cel);
   return rostrum;
 }
 

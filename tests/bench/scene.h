@@ -12,12 +12,19 @@ extern "C" {
 void bench_check(celspan_context *context, celspan_status status);
 
 /* One cel over white, which fills a film of 1 x 1. new
- * cel  the cel's properties except its objects; may be NULL */
+ * desc  the cel's properties except its objects; may be NULL */
 celspan_rostrum *bench_scene(celspan_context *context, const bench_drawing *drawing,
-                             const celspan_cel_desc *cel);
-/* One cel as described; is_backed: over white. new */
-celspan_rostrum *bench_rostrum(celspan_context *context, const celspan_cel_desc *cel_desc,
+                             const celspan_cel_desc *desc);
+/* A drawing as a cel. new
+ * desc  the cel's properties except its objects; may be NULL */
+celspan_cel *bench_cel(celspan_context *context, const bench_drawing *drawing,
+                       const celspan_cel_desc *desc);
+/* A rostrum of these cels, the nearest last; is_backed: over white. new */
+celspan_rostrum *bench_rostrum(celspan_context *context, celspan_cel *const *cels, size_t count,
                                bool is_backed);
+/* The same of one cel, as described. new */
+celspan_rostrum *bench_rostrum_of(celspan_context *context, const celspan_cel_desc *desc,
+                                  bool is_backed);
 /* All of a drawing as one object. new */
 celspan_object *bench_union(celspan_context *context, const bench_drawing *drawing);
 
