@@ -60,20 +60,21 @@ static void read_cels(film_job *film, char **words) {
 }
 
 void bench_film(bench_frame_job *job, int count, char **words) {
-  if (count != 6 || atoi(words[4]) < 1)
-    bench_stop("film SHEET MIDDLE FRONT SIDE STEP first|again");
+  if (count != 7 || atoi(words[4]) < 1)
+    bench_stop("film SHEET MIDDLE FRONT SIDE STEP first|again OUTPUT");
   film_job film = {.job = job, .step = atoi(words[4])};
   int side = atoi(words[3]), frames = (BENCH_FILM_FRAMES + film.step - 1) / film.step;
   bench_part one_frame = {.scale = 1.0 / frames};
   read_cels(&film, words);
-  bench_job_open(job, side, side, "again", "whole", 1);
+  bench_job_open(job, side, side, "again", words[6], 1);
   bench_cost begun = bench_spent();
   draw_film(&film);
   if (strcmp(words[5], "first") == 0)
     bench_tell_cost(bench_since(begun), one_frame);
   else
     bench_measure_part(draw_film, &film, one_frame);
-  look(&film);
+  if (job->pixels)
+    look(&film);
   for (int i = 0; i < BENCH_FILM_CELS; i++)
     celspan_cel_unref(film.cels[i]);
 }

@@ -3,6 +3,7 @@
 //   node skia.js MODULES shapes DRAWING SIDE area BAND STRIDE
 //   node skia.js MODULES look DRAWING SIDE
 //   node skia.js MODULES picture affine|shift FOLDER
+//   node skia.js MODULES film SHEET MIDDLE FRONT SIDE STEP
 "use strict";
 const fs = require("fs");
 const path = require("path");
@@ -178,8 +179,54 @@ function picture(name, folder) {
   }, 1, 0) + " picture " + cells(canvas));
 }
 
+// ---------------------------------------------------------------- films
+
+const frames = 48;
+
+// The places of film.h.
+function placeOf(number, cel) {
+  const t = number / frames;
+  return [[1 + 0.25 * t, -0.2 * t, -0.1 * t], [0.4, 0.55 - 0.3 * t, 0.1 + 0.013 * t],
+          [0.45, 0.1 + 0.4 * t, 0.45 - 0.017 * t]][cel];
+}
+
+function drawCel(context, cel, side, [scale, x, y]) {
+  context.setTransform(scale, 0, 0, scale, x * side, y * side);
+  cel.shapes.forEach((shape, i) => {
+    if (shape.bottom * scale + y < -1 / side || shape.top * scale + y > 1 + 1 / side) return;
+    context.fillStyle = styleOf(context, shape.paint, side);
+    context.fill(cel.paths[i], shape.rule);
+  });
+}
+
+function drawFilmFrame(context, cels, side, number) {
+  context.setTransform(1, 0, 0, 1, 0, 0);
+  context.fillStyle = "#fff";
+  context.fillRect(0, 0, side, side);
+  cels.forEach((cel, i) => drawCel(context, cel, side, placeOf(number, i)));
+  context.getImageData(0, 0, 1, 1);
+}
+
+// The paths are built once.
+function film(files, side, step) {
+  const cels = files.map((file) => {
+    const shapes = readDrawing(file);
+    return { shapes, paths: shapes.map((shape) => new Path2D(scaled(shape.data, side))) };
+  });
+  const canvas = createCanvas(side, side), context = canvas.getContext("2d");
+  drawFilmFrame(context, cels, side, 0); // what is done once in a process
+  const times = measure(() => {
+    for (let number = 0; number < frames; number += step)
+      drawFilmFrame(context, cels, side, number);
+  }, 1 / Math.ceil(frames / step), 0);
+  drawFilmFrame(context, cels, side, frames / 2);
+  console.log(`${times} picture ${cells(canvas)}`);
+}
+
 if (verb === "picture") {
   picture(words[0], words[1]);
+} else if (verb === "film") {
+  film(words.slice(0, 3), Number(words[3]), Number(words[4]));
 } else {
   const shapes = readDrawing(words[0]), side = Number(words[1]);
   const data = shapes.map((shape) => scaled(shape.data, side));
