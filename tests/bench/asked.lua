@@ -122,10 +122,30 @@ local function artwork(run, lines)
   end
 end
 
+--- A film's frame, and nine painted layers; least times, as films are compared.
+local function films(run, lines)
+  for _, bound in ipairs { { 1024, 1.1 }, { 2048, 1 }, { 4096, 1 } } do
+    local side, of_blend2d = table.unpack(bound)
+    local mine = run:film_seconds("clipart", side, "celspan", "again")
+    local what = "a frame of the film `clipart` at %s: %s takes at least %g times as long"
+    at_least(lines, what:format(names[side], "AGG", 1.8),
+      over(run:film_seconds("clipart", side, "agg", "area"), mine), 1.8, times)
+    local blend2d = run:film_seconds("clipart", side, "blend2d", "area")
+    if blend2d then
+      at_least(lines, what:format(names[side], "Blend2D", of_blend2d), over(blend2d, mine),
+        of_blend2d, times)
+    end
+  end
+  local mine = run:one { part = "raw", scene = "painted", renderer = "celspan" }
+  local other = run:one { part = "raw", scene = "painted", renderer = "opencv" }
+  at_least(lines, "nine painted layers under a pan: not slower than OpenCV",
+    over(other and other.best_processor, mine and mine.best_processor), 1, times)
+end
+
 --- A drawing in the later frames of a film, where it is drawn from its map. The other drawings have
 --- too few shapes for that.
 local function again(run, lines)
-  for _, scene in ipairs { "clipart", "emoji", "twemoji" } do
+  for _, scene in ipairs(scenes.sheets) do
     for _, bound in ipairs { { 1024, 2.2, 1.1 }, { 2048, 2.4, 1.05 }, { 4096, 2.6, 1.05 } } do
       local side, least, of_blend2d = table.unpack(bound)
       local mine = seconds(shapes(run, scene, side, "row", "again"))
@@ -307,7 +327,7 @@ end
 
 --- Frames per second of a row of the film.
 local function rate(run, renderer, workers)
-  local row = run:one { part = "film", renderer = renderer, workers = workers }
+  local row = run:one { part = "demo", renderer = renderer, workers = workers }
   return row and tonumber(row.scene:match "%d+") / row.wall
 end
 
@@ -336,7 +356,7 @@ end
 --- { { what, text, is_met }, ... }; is_met is nil if nothing was measured.
 function asked.lines(run)
   local lines = {}
-  local parts = { artwork, again, film_sizes, accuracy, spans, pixels, pictures, softness,
+  local parts = { films, artwork, again, film_sizes, accuracy, spans, pixels, pictures, softness,
                   span_files, png_files, film_frame, composited, sequences }
   for _, part in ipairs(parts) do part(run, lines) end
   return lines

@@ -6,11 +6,14 @@ package.path = "./?.lua;./lua/?.lua;" .. package.path
 local Runner = require "tests.bench.runner"
 local scenes = require "tests.bench.scenes"
 local machine = require "tests.bench.machine"
+local Page = require "tests.bench.page"
+local films = require "tests.bench.report_film"
 
 local accuracy = require "tests.bench.parts_accuracy"
 local compositing = require "tests.bench.parts_compositing"
 local files = require "tests.bench.parts_files"
 local film = require "tests.bench.parts_film"
+local frames = require "tests.bench.parts_frames"
 local pictures = require "tests.bench.parts_pictures"
 local shapes = require "tests.bench.parts_shapes"
 
@@ -35,7 +38,8 @@ local parts = {
   { "compositing", "groups, modes, mattes and effects", compositing.compositing },
   { "start", "from exec to the first row", film.start },
   { "film_png", "a frame of the demo film to PNG", film.film_png },
-  { "film", "the demo film", film.film },
+  { "demo", "the demo film to PNG", film.demo },
+  { "film", "films, frame by frame", frames.film },
 }
 
 local function read_arguments(words)
@@ -78,6 +82,9 @@ if not runner:has_counter() then
 end
 local csv = options.folder .. "/bench.csv"
 runner:write(csv)
+local page = Page.new(options.folder)
+films.tables(page)
+print(table.concat(page.out, "\n"))
 machine.write(options.folder .. "/machine.txt", { began = began, ended = os.time(),
   notes = runner.notes, has_material = runner.has_material,
   is_quick = options.is_quick })

@@ -1,4 +1,4 @@
---- Sequences: the demo film to PNG, compared with ffmpeg over the same layers; and the time until
+--- Files of a film: the demo film to PNG, compared with ffmpeg over the same layers; and the time until
 --- the first row is available.
 local Command = require("tests.bench.runner").command
 local present = require "tests.support.present"
@@ -13,7 +13,7 @@ local function render(runner, name, count, workers, ...)
     "--size", size, "--workers", workers, "--progress", "none", "--frames",
     ("1-240:%d"):format(240 // count), "-o", runner.folder .. "/film/demo.####.png" }
   table.move({ ... }, 1, select("#", ...), #words + 1, words)
-  return { command = Command(table.unpack(words)), part = "film", scene = count .. " frames",
+  return { command = Command(table.unpack(words)), part = "demo", scene = count .. " frames",
            side = 3840, output = "png", renderer = name, workers = workers }
 end
 
@@ -88,12 +88,12 @@ local function by_ffmpeg(runner, count)
   file:write("exec ", ffmpeg_command(runner, counts, first, last), "\n")
   file:close()
   runner:measure(1, { { command = Command(runner:program "launch", "all", "sh", path),
-    part = "film", scene = count .. " frames", side = 3840, output = "png", renderer = "ffmpeg",
+    part = "demo", scene = count .. " frames", side = 3840, output = "png", renderer = "ffmpeg",
     workers = 2 } })
   os.execute(Command("rm", "-r", runner.folder .. "/layers"))
 end
 
-function parts.film(runner, _, is_quick)
+function parts.demo(runner, _, is_quick)
   local count = is_quick and 4 or 240
   os.execute(Command("mkdir", "-p", runner.folder .. "/film"))
   runner:measure(1, { render(runner, "celspan", count, 1), render(runner, "celspan", count, 2),

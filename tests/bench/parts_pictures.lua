@@ -21,16 +21,6 @@ local function raster(job, name, output, command)
            renderer = name, workers = 1 }
 end
 
---- How far the rows from `first` on are from celspan's picture, blended alike.
-local function compare(runner, first)
-  local truth
-  for i = first, #runner.rows do
-    local row = runner.rows[i]
-    if row.renderer == "celspan" then truth = row.picture or truth
-    elseif truth and row.picture then row.rms = runner.distance(truth, row.picture) end
-  end
-end
-
 function parts.raster(runner, folder)
   local make = runner:program "pictures"
   assert(os.execute(Command(make, folder)))
@@ -58,7 +48,7 @@ function parts.raster(runner, folder)
     end
     local first = #runner.rows + 1
     runner:measure(2, entries)
-    compare(runner, first)
+    runner:compare(first)
   end
 end
 

@@ -3,6 +3,7 @@
 --- bench.csv, and its plots into pictures/ beside it, drawn by CELSPAN.
 package.path = "./?.lua;./lua/?.lua;" .. package.path
 local asked = require "tests.bench.asked"
+local films = require "tests.bench.report_film"
 local machine = require "tests.bench.machine"
 local Page = require "tests.bench.page"
 local results = require "tests.bench.results"
@@ -23,8 +24,10 @@ local function introduction()
   page:put [[
 `./run bench` measures everything in one run and writes this page, its pictures (drawn by celspan)
 and [the complete table](bench.csv). `./run bench --quick` measures a few points in two minutes and
-does not change this page; `./run bench shapes png` measures only these parts.
+does not change this page; `./run bench shapes png` measures only these parts, and `./run bench
+film` prints the tables of films.
 ]]
+  films.first(page)
   shapes.ratios(page)
   page:put "## This run"
   page:put ""
@@ -136,6 +139,7 @@ end
 
 introduction()
 asked_and_measured()
+films.tables(page)
 shapes.tables(page)
 shapes.whole_images(page)
 accuracy()
@@ -188,7 +192,7 @@ time of one frame without the script, in both columns; the targets use the best.
 becomes a map, which is made within this time; the drawing with a mode does not.]])
 plain_table("start", "From exec to the first row", [[
 Wall-clock time from the fork to the first byte of raw pixels on a pipe, frame 1 at 1920 x 1080.]])
-plain_table("film", "The demo film", [[
+plain_table("demo", "The demo film", [[
 3840 x 2160 to PNG, in wall-clock time. ffmpeg gets each cel as a PNG file with alpha, lays one over
 the other and adds the second exposure; it makes the last frames of the film, where all cels are
 visible.]], { title = "frames per second", of = rate_of })

@@ -56,14 +56,39 @@ function results:pixel_row(scene, side, renderer, antialias)
                     antialias = antialias, renderer = renderer }
 end
 
---- The seconds of the fastest peer, antialiased, and its name; nil where none was measured.
-function results:best_peer(scene, side)
+--- A film's row. celspan has antialias "again" or "first", and output "row" by default or "whole".
+function results:film_row(scene, side, renderer, antialias, output)
+  return self:one { part = "film", scene = scene, side = side, renderer = renderer,
+                    antialias = antialias, output = output or renderer == "celspan" and "row"
+                    or "whole" }
+end
+
+--- The least seconds for one frame of a film.
+function results:film_seconds(scene, side, renderer, antialias)
+  local row = self:film_row(scene, side, renderer, antialias)
+  return row and row.best_processor
+end
+
+--- The least seconds that seconds_of(a peer's name) gives, and how people call that peer.
+local function least_of(seconds_of)
   local least, name
   for _, peer in ipairs(results.peers) do
-    local taken = results.seconds(self:pixel_row(scene, side, peer[1], "area"))
+    local taken = seconds_of(peer[1])
     if taken and (not least or taken < least) then least, name = taken, peer[2] end
   end
   return least, name
+end
+
+--- The seconds of the fastest peer, antialiased, and its name; nil where none was measured.
+function results:best_peer(scene, side)
+  return least_of(function(peer)
+    return results.seconds(self:pixel_row(scene, side, peer, "area"))
+  end)
+end
+
+--- The same for one frame of a film.
+function results:best_film_peer(scene, side)
+  return least_of(function(peer) return self:film_seconds(scene, side, peer, "area") end)
 end
 
 --- A prefix for a time: only a part was measured, or the run was ended before it was done.

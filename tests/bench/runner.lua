@@ -111,9 +111,8 @@ end
 
 --- entries: { { command =, renderer =, ... }, ... }, each with the columns of its row; run in turn,
 --- `rounds` times. `take(lines)` picks a line of an entry's output, the first one by default.
-function Runner:measure(rounds, entries)
+function Runner:repeat_all(rounds, entries)
   local told = {}
-  rounds = math.max(1, math.floor(rounds * self.share + 0.5))
   for _ = 1, rounds do
     for i, entry in ipairs(entries) do
       local lines, message = self:ask(entry.command, entry.limit)
@@ -134,6 +133,21 @@ function Runner:measure(rounds, entries)
       self.rows[#self.rows + 1] = row
       show(row)
     end
+  end
+end
+
+--- The same, with fewer rounds in a quick run.
+function Runner:measure(rounds, entries)
+  self:repeat_all(math.max(1, math.floor(rounds * self.share + 0.5)), entries)
+end
+
+--- Notes in the rows from `first` on how far their pictures are from celspan's, blended alike.
+function Runner:compare(first)
+  local truth
+  for i = first, #self.rows do
+    local row = self.rows[i]
+    if row.renderer == "celspan" then truth = row.picture or truth
+    elseif truth and row.picture then row.rms = self.distance(truth, row.picture) end
   end
 end
 

@@ -24,6 +24,8 @@ local sheets = { clipart = { "/artwork-openclipart", 8 }, emoji = { "/artwork-no
 scenes.random = { "10", "100", "1000" }
 scenes.hard = { "opaque", "small", "faint" }
 scenes.gradients = { "gradients-100", "gradients-1000" }
+scenes.sheets = { "clipart", "emoji", "twemoji" }
+scenes.films = { "clipart", "emoji", "twemoji", "three sheets" } -- parts_frames.lua
 scenes.artwork = { "mosquito", "skaters", "boating", "clipart", "emoji", "twemoji" }
 
 local function write_artwork(material, folder)
