@@ -57,7 +57,21 @@ local function read_arguments(words)
   return options
 end
 
+--- A part that is misspelt would measure nothing.
+local function check_names(wanted)
+  local names = {}
+  for i, part in ipairs(parts) do names[i] = part[1] end
+  for name in pairs(wanted) do
+    if not (" " .. table.concat(names, " ") .. " "):find(" " .. name .. " ", 1, true) then
+      io.stderr:write(("no part '%s' of the benchmark; there are %s\n"):format(name,
+        table.concat(names, ", ")))
+      os.exit(2)
+    end
+  end
+end
+
 local options = read_arguments { ... }
+check_names(options.only)
 local runner = Runner.new { programs = options.build .. "/tests/bench",
                             seconds = options.is_quick and 0.05 or 0.2,
                             share = options.is_quick and 0 or 1 }

@@ -88,6 +88,7 @@ local function film_line(run, scene, side, mine)
 end
 
 local function drawings(page)
+  if #page.run:all { part = "film" } == 0 then return end
   page:put [[
 48 frames of a sheet of drawings under a pan and a zoom, with `skaters` and `mosquito` in front of
 it, each on a way of its own; `three sheets`: `emoji` and `twemoji` in front of `clipart`. Each frame
@@ -116,6 +117,7 @@ local names = { demo = "the demo film", film = "`scripts/film.lua`",
                 painted = "nine painted layers" }
 
 local function raw(page)
+  if #page.run:all { part = "raw" } == 0 then return end
   page:put [[
 From the script to raw pixels at 1280 x 720, all frames in order: processor time of the whole
 process for each frame, the least of several. The nine painted layers, four of them blurred, move

@@ -1,5 +1,8 @@
 -- The drawings of the benchmark and the evaluation of its table; its speeds are not tested.
 local asked = require "tests.bench.asked"
+local films = require "tests.bench.report_film"
+local frames = require "tests.bench.parts_frames"
+local Page = require "tests.bench.page"
 local results = require "tests.bench.results"
 local Runner = require "tests.bench.runner"
 local shapes = require "tests.bench.shapes"
@@ -173,5 +176,95 @@ describe("the table of the benchmark", function()
   it("measures the difference between two pictures", function()
     assert.equal(0, Runner.distance("00ff10", "00ff10"))
     assert.equal(3, Runner.distance("0000", "0303"))
+  end)
+end)
+
+describe("the films of the benchmark", function()
+  local function film_row(renderer, seconds, antialias, output)
+    return { part = "film", scene = "clipart", side = 1024, output = output or "whole",
+             antialias = antialias or "area", renderer = renderer, workers = 1,
+             wall = 9 * seconds, best_wall = 9 * seconds, processor = 5 * seconds,
+             best_processor = seconds }
+  end
+
+  local function raw_row(renderer, seconds)
+    return { part = "raw", scene = "painted", side = 1280, output = "raw", renderer = renderer,
+             workers = 1, wall = 9 * seconds, best_wall = 9 * seconds, processor = 5 * seconds,
+             best_processor = seconds, rms = renderer == "opencv" and 0.25 or nil }
+  end
+
+  --- A page of these rows.
+  local function page_of(rows)
+    local runner = Runner.new { programs = "", seconds = 0, share = 1 }
+    runner.rows = rows
+    runner:write(folder .. "/bench.csv")
+    return Page.new(folder)
+  end
+
+  local rows = { film_row("celspan", 0.004, "again", "row"),
+                 film_row("celspan", 0.005, "again", "whole"),
+                 film_row("celspan", 0.006, "first", "row"), film_row("qt", 0.009),
+                 film_row("agg", 0.008), film_row("blend2d", 0.002), raw_row("celspan", 0.1),
+                 raw_row("opencv", 0.15) }
+
+  it("are compared by the least time of a frame", function()
+    local page = page_of(rows)
+    films.tables(page)
+    local text = table.concat(page.out, "\n")
+    assert.truthy(text:find("| clipart | 1k | 4 ms | 5 ms | 6 ms | 2 ms |  | 8 ms | 9 ms |  | "
+      .. "0.50 times | 2.00 times, AGG |  |", 1, true))
+    assert.truthy(text:find("| nine painted layers | 100 ms | 150 ms | 1.50 times | 0.25 of 255 |",
+      1, true))
+  end)
+
+  it("are left out of a page without them", function()
+    local page = page_of {}
+    films.tables(page)
+    assert.same({}, page.out)
+  end)
+
+  it("lead the page, beside a drawing again and a new one", function()
+    local function pixels(renderer, antialias, seconds)
+      return { part = "shapes", scene = "clipart", side = 1024, output = "row", workers = 1,
+               antialias = antialias, renderer = renderer, wall = seconds, processor = seconds }
+    end
+    local page = page_of(table.move({ pixels("celspan", "area", 0.008),
+      pixels("celspan", "again", 0.002), pixels("cairo", "area", 0.006) }, 1, 3, #rows + 1,
+      table.move(rows, 1, #rows, 1, {})))
+    films.first(page)
+    assert.truthy(table.concat(page.out, "\n"):find(
+      "| clipart | 1k | 2.00 AGG, 0.50 Blend2D | 3.00 Cairo | 0.75 Cairo |", 1, true))
+  end)
+
+  it("have their targets", function()
+    local told = {}
+    for _, line in ipairs(asked.lines(page_of(rows).run)) do told[line.what] = line end
+    local what = "a frame of the film `clipart` at 1k: %s takes at least %s times as long"
+    assert.is_true(told[what:format("AGG", "1.8")].is_met)
+    assert.is_false(told[what:format("Blend2D", "1.1")].is_met)
+    assert.equal("1.5 times", told["nine painted layers under a pan: not slower than OpenCV"].text)
+  end)
+
+  it("of painted layers can be made, and their frames compared", function()
+    local root = assert(os.getenv "PWD")
+    frames.write_layers(workbench.absolute, root, folder .. "/painted", "160x90")
+    local function frame(number)
+      local code, pixels, message = bench:celspan("render tests/bench/scripts/painted.lua --trust "
+        .. "--size 128x72 --progress none --frames %d -o - -- '%s/painted'", number, folder)
+      assert.equal(0, code, message)
+      return pixels
+    end
+    local first = frame(1)
+    assert.equal(4 * 128 * 72, #first)
+    assert.equal(0, frames.difference(first, first))
+    assert.is_true(frames.difference(first, frame(48)) > 1)
+    assert.equal(2, frames.difference("\0\4", "\2\2"))
+  end)
+
+  it("are a part of it, while an unknown part is an error", function()
+    local code, _, message = bench:shell("lua5.4 tests/bench/main.lua nowhere nowhere --quick flim")
+    assert.equal(2, code)
+    assert.truthy(message:find("no part 'flim'", 1, true))
+    assert.truthy(message:find(" film", 1, true))
   end)
 end)
