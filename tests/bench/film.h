@@ -1,5 +1,5 @@
-/* The film of the benchmark: a sheet of drawings under a pan and a zoom, and two drawings in front of
- * it, each on a way of its own. All that changes from frame to frame is where the drawings lie.
+/* The film of the benchmark: a sheet of drawings under a pan and a zoom, and two drawings in front
+ * of it, each on a way of its own. All that changes from frame to frame is where the drawings lie.
  *
  *   frame 0                          frame 48
  *   +--------------------+           +--------------------+

@@ -1,8 +1,8 @@
 // OpenCV, one thread.
 //
-//   opencv blur PICTURE RADIUS ROWS   a Gaussian blur of a picture: 8-bit RGBA as raw bytes, square.
-//                                     Only the first ROWS of it are blurred and the time is scaled
-//                                     up: both passes cost by the row
+//   opencv blur PICTURE RADIUS ROWS   a Gaussian blur of a picture, which is square: 8-bit RGBA as
+//                                     raw bytes. Only the first ROWS of it are blurred and the time
+//                                     is scaled up: both passes cost by the row
 //   opencv layers FOLDER FIRST LAST   frames of scripts/painted.lua as raw RGBA on standard output,
 //                                     in floats: warped, blurred and blended as codes, which saves
 //                                     their conversion to light and back

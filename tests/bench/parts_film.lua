@@ -1,5 +1,5 @@
---- Files of a film: the demo film to PNG, compared with ffmpeg over the same layers; and the time until
---- the first row is available.
+--- Files of a film: the demo film to PNG, compared with ffmpeg over the same layers; and the time
+--- until the first row is available.
 local Command = require("tests.bench.runner").command
 local present = require "tests.support.present"
 

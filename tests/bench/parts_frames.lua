@@ -1,19 +1,14 @@
 --- Films: what a frame costs, to raw pixels, where all frames are drawn in order.
 ---
----   film   the film of film.h with sheets of artwork, beside the peers, in one process each: paths,
----          and the objects of celspan, are made before
----   raw    whole processes, from the script to raw pixels: the demo film, scripts/film.lua, and nine
----          painted layers (scripts/painted.lua), these beside OpenCV
+---   film   the film of film.h with sheets of artwork, beside the peers, in one process each: the
+---          paths, and the objects of celspan, are made before
+---   raw    whole processes, from the script to raw pixels: the demo film, scripts/film.lua, and
+---          nine painted layers (scripts/painted.lua), these beside OpenCV
 local Command = require("tests.bench.runner").command
+local scenes = require "tests.bench.scenes"
 local shapes = require "tests.bench.parts_shapes"
 
 local parts = {}
-
---- { the name of the film, its sheet, the drawings in front of the sheet }
-local sheets = { { "clipart", "clipart", "skaters", "mosquito" },
-                 { "emoji", "emoji", "skaters", "mosquito" },
-                 { "twemoji", "twemoji", "skaters", "mosquito" },
-                 { "three sheets", "clipart", "emoji", "twemoji" } }
 
 -- ---------------------------------------------------------------- drawings
 
@@ -51,7 +46,7 @@ local function drawings(runner, folder, is_quick)
   if not runner.has_material then
     return runner:note "no CELSPAN_MATERIAL: the films of artwork are left out"
   end
-  for _, film in ipairs(sheets) do
+  for _, film in ipairs(scenes.films) do
     for _, side in ipairs { 1024, 2048, 4096 } do
       sheet_point(runner, folder, film, side, is_quick and 12 or 1)
     end
@@ -74,7 +69,7 @@ local function per_frame(count)
   end
 end
 
---- The command's pixels go nowhere, except into this process's pipe.
+--- An entry for a command that writes raw pixels, which go nowhere.
 local function raw(runner, scene, count, renderer, command)
   return { part = "raw", scene = scene, side = 1280, output = "raw", renderer = renderer,
            workers = 1, take = per_frame(count),
@@ -91,6 +86,7 @@ end
 --- Prints what the frame costs, from the finished scene to the last row.
 local function show_statistics(runner, script, number, ...)
   print(("   frame %d of %s:"):format(number, script))
+  io.stdout:flush()
   os.execute(Command(runner.celspan, "spans", script, "--trust", "--size", size, "--workers", 1,
     "--frame", number, "--stats", "--pixels", 8, "--", ...))
 end

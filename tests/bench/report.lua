@@ -23,8 +23,8 @@ local function introduction()
   page:put ""
   page:put [[
 `./run bench` measures everything in one run and writes this page, its pictures (drawn by celspan)
-and [the complete table](bench.csv). `./run bench --quick` measures a few points in two minutes and
-does not change this page; `./run bench shapes png` measures only these parts, and `./run bench
+and [the complete table](bench.csv). `./run bench --quick` measures a few points in four minutes
+and does not change this page; `./run bench shapes png` measures only these parts, and `./run bench
 film` prints the tables of films.
 ]]
   films.first(page)

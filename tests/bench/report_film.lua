@@ -91,21 +91,21 @@ local function drawings(page)
   if #page.run:all { part = "film" } == 0 then return end
   page:put [[
 48 frames of a sheet of drawings under a pan and a zoom, with `skaters` and `mosquito` in front of
-it, each on a way of its own; `three sheets`: `emoji` and `twemoji` in front of `clipart`. Each frame
-is drawn in full: the peers build their paths once and fill them under a matrix in each frame, into
-a picture of the whole frame; celspan moves its cels and writes pixels into a row that is reused,
-or into a *whole picture*. *With its maps*: the film is shown for the first time, and its
+it, each on a way of its own; `three sheets`: `emoji` and `twemoji` in front of `clipart`. The peers
+build their paths once and fill them under a matrix in each frame, into a picture of the whole
+frame; celspan moves its cels and writes pixels into a row that is reused, or into a *whole
+picture*. *With its maps*: the film is shown for the first time, and its
 [maps](how-it-works.md#maps) are made within this time; otherwise they are kept from a showing
 before. The cels of `twemoji` have fewer than 256 shapes each, on average, so it has no maps.
-Processor time for each frame, the least of several showings. *Differ by*: the peers' picture of the
-middle frame from celspan's, at most, in means of 64 x 64 cells.
+Processor time for each frame, the least of several showings. *Differ by*: the peers' pictures of
+the middle frame from celspan's, at most, in means of 64 x 64 cells.
 ]]
   page:head { "film", "side", "celspan", "whole picture", "with its maps", "Blend2D", "Skia", "AGG",
               "Qt", "Cairo", "ahead of Blend2D", "ahead of the best peer", "differ by" }
-  for _, scene in ipairs(scenes.films) do
+  for _, film in ipairs(scenes.films) do
     for _, side in ipairs(sides) do
-      local mine = page.run:film_row(scene, side, "celspan", "again")
-      if mine then page:cells(film_line(page.run, scene, side, mine)) end
+      local mine = page.run:film_row(film[1], side, "celspan", "again")
+      if mine then page:cells(film_line(page.run, film[1], side, mine)) end
     end
   end
   page:put ""

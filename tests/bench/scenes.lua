@@ -25,7 +25,11 @@ scenes.random = { "10", "100", "1000" }
 scenes.hard = { "opaque", "small", "faint" }
 scenes.gradients = { "gradients-100", "gradients-1000" }
 scenes.sheets = { "clipart", "emoji", "twemoji" }
-scenes.films = { "clipart", "emoji", "twemoji", "three sheets" } -- parts_frames.lua
+--- Films: the name, the sheet, and the drawings in front of it, the nearest last.
+scenes.films = { { "clipart", "clipart", "skaters", "mosquito" },
+                 { "emoji", "emoji", "skaters", "mosquito" },
+                 { "twemoji", "twemoji", "skaters", "mosquito" },
+                 { "three sheets", "clipart", "emoji", "twemoji" } }
 scenes.artwork = { "mosquito", "skaters", "boating", "clipart", "emoji", "twemoji" }
 
 local function write_artwork(material, folder)
