@@ -44,8 +44,8 @@ How to read the tables:
 
 - Each figure is the median of several runs. The renderers of a line take turns, each in its own
   process, which repeats the job for at least a fifth of a second. Jobs with one thread are given in
-  processor time, on which other programs have little influence; files, films and jobs with two
-  workers in wall-clock time. The complete table has both, and the best time.
+  processor time, on which other programs have little influence; files, films to files and jobs with
+  two workers in wall-clock time. The complete table has both, and the best time.
 - *To spans*: rows of colour spans are made and discarded. *To pixels*: 8-bit sRGB pixels in one row
   of memory that is reused; the peers draw into a band of 256 rows (64 from 30,000 pixels on) that
   is reused. celspan composes in linear light in floats, the peers blend 8-bit values.
