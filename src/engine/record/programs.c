@@ -13,7 +13,7 @@ typedef struct program_maker {
   cs_recording *record;
   uint32_t first; /* step of the program */
   uint32_t group; /* the innermost that was entered, or CS_STACK_NONE */
-  uint32_t outer[PLANEFILE_DEPTH], depth;
+  uint32_t outer[PLANEFILE_DEPTH], depth, deepest;
   size_t light; /* the next back light to be met */
   float keep;   /* what the mattes of back lights leave of transparency */
   bool is_hard; /* it is not only layers over each other */
@@ -80,7 +80,7 @@ static bool is_hard_group(const cs_group *group) {
 }
 
 static celspan_status open_group(program_maker *m, uint32_t group) {
-  m->is_hard |= m->depth == PLANEFILE_DEPTH || is_hard_group(&m->source->stack->groups[group]);
+  m->is_hard |= m->depth == m->deepest || is_hard_group(&m->source->stack->groups[group]);
   if (m->is_hard)
     return CELSPAN_OK;
   m->outer[m->depth++] = m->group;
@@ -258,7 +258,7 @@ static celspan_status add_gradient(program_maker *m, const cs_layer *layer) {
 static celspan_status add_triangle(program_maker *m, const cs_layer *layer) {
   const cs_texture_variation *of = m->source->stack->shades[layer->index].texture->variation;
   size_t stop = m->record->stop_count;
-  m->is_hard |= layer->role != CS_LAYER_PAINT || m->depth == PLANEFILE_DEPTH;
+  m->is_hard |= layer->role != CS_LAYER_PAINT || m->depth == m->deepest;
   CS_TRY(add_step(m, (planefile_step){.kind = PLANEFILE_ENTER}));
   for (int i = 0; i < 3; i++) {
     const cs_paint *corner = &of->corners[i];
@@ -410,12 +410,13 @@ static celspan_status check_kinds(const cs_record_source *source, const cs_progr
   return CELSPAN_OK;
 }
 
-celspan_status cs_record_program(const cs_record_source *source, const cs_program *program,
-                                 cs_recording *record, planefile_program *out) {
+static celspan_status make_program(const cs_record_source *source, const cs_program *program,
+                                   cs_recording *record) {
   program_maker m = {.source = source,
                      .record = record,
                      .first = (uint32_t)record->step_count,
                      .group = CS_STACK_NONE,
+                     .deepest = PLANEFILE_DEPTH - (source->weight != 1),
                      .keep = 1};
   CS_TRY(check_kinds(source, program));
   size_t stops = record->stop_count;
@@ -425,6 +426,28 @@ celspan_status cs_record_program(const cs_record_source *source, const cs_progra
     record->stop_count = stops;
     CS_TRY(tabulate(&m, program));
   }
-  *out = (planefile_program){m.first, (uint32_t)record->step_count - m.first};
+  return CELSPAN_OK;
+}
+
+/* The program as a group whose channels are multiplied by the weight. */
+static celspan_status make_weighted(const cs_record_source *source, const cs_program *program,
+                                    cs_recording *record) {
+  int32_t factor = channel_of((double)source->weight);
+  const planefile_step enter = {.kind = PLANEFILE_ENTER};
+  const planefile_step leave = {.kind = PLANEFILE_LEAVE,
+                                .colour = {{factor, factor, factor, factor}}};
+  CS_TRY(
+      CS_APPEND(source->context, record->steps, record->step_count, record->step_capacity, enter));
+  CS_TRY(make_program(source, program, record));
+  return CS_APPEND(source->context, record->steps, record->step_count, record->step_capacity,
+                   leave);
+}
+
+celspan_status cs_record_program(const cs_record_source *source, const cs_program *program,
+                                 cs_recording *record, planefile_program *out) {
+  uint32_t first = (uint32_t)record->step_count;
+  CS_TRY(source->weight == 1 ? make_program(source, program, record)
+                             : make_weighted(source, program, record));
+  *out = (planefile_program){first, (uint32_t)record->step_count - first};
   return CELSPAN_OK;
 }

@@ -18,6 +18,7 @@
 typedef struct cs_record_source {
   celspan_context *context;
   const cs_stack *stack;
+  float weight;   /* of all that is made */
   uint32_t *axes; /* of each shade its number in the record plus 1; 0: it has none yet */
 } cs_record_source;
 

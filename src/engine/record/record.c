@@ -92,7 +92,7 @@ static bool is_known(const recorder *r, cs_hash key, uint32_t *out) {
 
 /* The number of the cell of a colour. */
 static celspan_status find_cell(recorder *r, cs_v4 colour, uint32_t *out) {
-  const planefile_cell cell = cell_of(colour);
+  const planefile_cell cell = cell_of(colour * cs_v4_all(r->source.weight));
   cs_hash key = cs_hash_begin(0x63656c6cu);
   for (int c = 0; c < 4; c++)
     cs_hash_word(&key, (uint64_t)cell.colour[c]);
@@ -279,11 +279,29 @@ static celspan_status add_edge(recorder *r, const cs_retained_row *row,
 
 /* ---------------------------------------------------------------- the record */
 
+/* The cell around a plan counts in that around a sum of them, which is cell 0. */
+static void add_to_sum(const recorder *r, uint32_t cell) {
+  planefile_cell *cells = r->out->cells;
+  for (int c = 0; c < 4 && cell > 0; c++) {
+    double sum = (double)cells[0].colour[c] + cells[cell].colour[c];
+    cells[0].colour[c] = (int32_t)cs_number_clamp(sum, -PLANEFILE_BRIGHT, PLANEFILE_BRIGHT);
+  }
+}
+
+celspan_status cs_record_begin_sum(celspan_context *context, cs_recording *out) {
+  const planefile_program none = {0, 0};
+  const planefile_cell clear = {{0}};
+  CS_TRY(CS_APPEND(context, out->programs, out->program_count, out->program_capacity, none));
+  return CS_APPEND(context, out->cells, out->cell_count, out->cell_capacity, clear);
+}
+
 static celspan_status add_row(recorder *r, cs_row_maker *rows, int32_t y,
                               cs_retained_row *retained) {
   uint32_t base;
   CS_TRY(cs_row_retain(rows, y, retained));
   CS_TRY(find_cell(r, retained->base, &base));
+  if (y == 0)
+    add_to_sum(r, base);
   for (size_t i = 0; i < retained->edge_count; i++)
     CS_TRY(add_edge(r, retained, &retained->edges[i]));
   return CELSPAN_OK;
@@ -300,11 +318,13 @@ static celspan_status add_rows(recorder *r) {
   return status;
 }
 
-celspan_status cs_record_make(celspan_context *context, const cs_plan *plan, cs_recording *out) {
+celspan_status cs_record_put_plan(celspan_context *context, const cs_plan *plan, float weight,
+                                  cs_recording *out) {
   recorder r = {.context = context, .plan = plan, .out = out};
   size_t count = plan->boundaries.chain_count > 0 ? plan->boundaries.chain_count : 1;
   size_t shades = plan->stack.shade_count + 1;
   r.source.context = context;
+  r.source.weight = weight;
   r.source.stack = &plan->stack;
   CS_TRY(CS_MAKE(context, r.chains, count));
   celspan_status status = CS_MAKE(context, r.source.axes, shades);

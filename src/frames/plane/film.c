@@ -8,7 +8,7 @@ struct cs_plane_film {
   celspan_context *context;
   cs_file *file;
   planefile_writer *writer;
-  double width, height;
+  double size[2];
   bool has_last;
   cs_hash last;          /* of the scene of the latest frame */
   celspan_status status; /* of writing bytes */
@@ -28,8 +28,8 @@ static celspan_status report(const cs_plane_film *film, planefile_status status)
 }
 
 static celspan_status open_writer(cs_plane_film *film, double frames_second) {
-  const planefile_writer_desc desc = {.width = film->width,
-                                      .height = film->height,
+  const planefile_writer_desc desc = {.width = film->size[0],
+                                      .height = film->size[1],
                                       .write = write_bytes,
                                       .user = film,
                                       .resize = cs_plane_resize,
@@ -44,8 +44,8 @@ celspan_status cs_plane_film_create(celspan_context *context, const char *path,
   *out = NULL;
   CS_TRY(CS_MAKE(context, film, 1));
   film->context = context;
-  film->width = desc->width;
-  film->height = desc->height;
+  film->size[0] = desc->width;
+  film->size[1] = desc->height;
   celspan_status status = cs_file_create(context, NULL, path, &film->file);
   if (status == CELSPAN_OK)
     status = open_writer(film, desc->frames_second);
@@ -83,9 +83,10 @@ celspan_status cs_plane_film_commit(cs_plane_film *film) {
 
 /* ---------------------------------------------------------------- frames */
 
-static celspan_status put_scene(cs_plane_film *film, const celspan_rostrum *rostrum) {
+static celspan_status put_scene(cs_plane_film *film, const celspan_frame_desc *frame) {
   cs_recording made;
-  celspan_status status = cs_plane_record(film->context, rostrum, film->width, film->height, &made);
+  celspan_status status =
+      cs_plane_record(film->context, frame->exposures, frame->exposure_count, film->size, &made);
   if (status == CELSPAN_OK) {
     planefile_band band = cs_record_plane(&made);
     status = report(film, planefile_writer_frame(film->writer, &band));
@@ -96,15 +97,12 @@ static celspan_status put_scene(cs_plane_film *film, const celspan_rostrum *rost
 
 celspan_status cs_plane_film_put(cs_plane_film *film, const celspan_frame_desc *frame,
                                  const cs_hash *scene) {
-  if (frame->exposure_count != 1 || frame->exposures->weight != 1)
-    return cs_fail(film->context, CELSPAN_BAD_ARGUMENT,
-                   "plane: the frame has several exposures; a plane has one");
   if (scene && film->has_last && scene->a == film->last.a && scene->b == film->last.b)
     return report(film, planefile_writer_repeat(film->writer));
   film->has_last = scene != NULL;
   if (scene)
     film->last = *scene;
-  return put_scene(film, frame->exposures->rostrum);
+  return put_scene(film, frame);
 }
 
 celspan_status cs_plane_write_frame(celspan_context *context, const celspan_frame_desc *frame,

@@ -126,41 +126,44 @@ static celspan_status check_plan(celspan_context *context, const cs_plan *plan) 
   return CELSPAN_OK;
 }
 
-static celspan_status record(celspan_context *context, const celspan_rostrum *rostrum,
+static celspan_status record(celspan_context *context, const celspan_exposure *exposure,
                              const cs_view *view, cs_recording *out) {
   const cs_antialias antialias = {.mode = CELSPAN_ANTIALIAS_AREA};
   cs_plan plan = {0};
-  CS_TRY(cs_compile(context, rostrum, view, &antialias, 1, &plan));
+  CS_TRY(cs_compile(context, exposure->rostrum, view, &antialias, 1, &plan));
   celspan_status status = check_plan(context, &plan);
   if (status == CELSPAN_OK)
-    status = cs_record_make(context, &plan, out);
+    status = cs_record_put_plan(context, &plan, (float)exposure->weight, out);
   cs_compile_free(&plan, context->memory);
   return status;
 }
 
-celspan_status cs_plane_record(celspan_context *context, const celspan_rostrum *rostrum,
-                               double width, double height, cs_recording *out) {
+celspan_status cs_plane_record(celspan_context *context, const celspan_exposure *exposures,
+                               size_t count, const double size[2], cs_recording *out) {
   *out = (cs_recording){0};
-  CS_TRY(cs_check_given(context, "plane", "the rostrum", rostrum));
-  CS_TRY(cs_check_positive(context, "plane", "width", width));
-  CS_TRY(cs_check_positive(context, "plane", "height", height));
-  const cs_view view = {.film_width = width,
-                        .film_height = height,
+  CS_TRY(cs_check_positive(context, "plane", "width", size[0]));
+  CS_TRY(cs_check_positive(context, "plane", "height", size[1]));
+  const cs_view view = {.film_width = size[0],
+                        .film_height = size[1],
                         .width = CS_RECORD_SIDE,
                         .height = CS_RECORD_SIDE,
                         .end_row = CS_RECORD_SIDE,
                         .end_column = CS_RECORD_SIDE,
                         .most_dashes = CS_COMPILE_DASHES,
                         .space = CELSPAN_SPACE_LINEAR,
-                        .keeps_curves = true};
-  return record(context, rostrum, &view, out);
+                        .unit = CS_RECORD_UNIT};
+  if (count != 1)
+    CS_TRY(cs_record_begin_sum(context, out));
+  for (size_t i = 0; i < count; i++)
+    CS_TRY(record(context, &exposures[i], &view, out));
+  return CELSPAN_OK;
 }
 
-static celspan_status write_record(celspan_context *context, const cs_recording *made, double width,
-                                   double height, celspan_plane *plane) {
+static celspan_status write_record(celspan_context *context, const cs_recording *made,
+                                   const double size[2], celspan_plane *plane) {
   appending a = {context, plane};
-  const planefile_writer_desc desc = {.width = width,
-                                      .height = height,
+  const planefile_writer_desc desc = {.width = size[0],
+                                      .height = size[1],
                                       .write = append,
                                       .user = &a,
                                       .resize = cs_plane_resize,
@@ -170,21 +173,29 @@ static celspan_status write_record(celspan_context *context, const cs_recording 
   return cs_plane_report(context, load(plane, 0, NULL));
 }
 
-celspan_status celspan_plane_create(celspan_context *context, const celspan_rostrum *rostrum,
-                                    double width, double height, celspan_plane **out) {
+celspan_status cs_plane_expose(celspan_context *context, const celspan_exposure *exposures,
+                               size_t count, const double size[2], celspan_plane **out) {
   cs_recording made;
   celspan_plane *plane;
   *out = NULL;
   CS_TRY(create(context, &plane));
-  celspan_status status = cs_plane_record(context, rostrum, width, height, &made);
+  celspan_status status = cs_plane_record(context, exposures, count, size, &made);
   if (status == CELSPAN_OK)
-    status = write_record(context, &made, width, height, plane);
+    status = write_record(context, &made, size, plane);
   cs_record_finish(&made, context->memory);
   if (status == CELSPAN_OK)
     *out = plane;
   else
     celspan_plane_unref(plane);
   return status;
+}
+
+celspan_status celspan_plane_create(celspan_context *context, const celspan_rostrum *rostrum,
+                                    double width, double height, celspan_plane **out) {
+  const celspan_exposure whole = {.rostrum = (celspan_rostrum *)rostrum, .weight = 1};
+  *out = NULL;
+  CS_TRY(cs_check_given(context, "plane", "the rostrum", rostrum));
+  return cs_plane_expose(context, &whole, 1, (double[2]){width, height}, out);
 }
 
 /* ---------------------------------------------------------------- files */

@@ -10,11 +10,16 @@ bool cs_plane_accepts(const char *path);
 /* Whether a file of this name is written as a plane. format: NULL: the ending of the name says
  * it. */
 bool cs_plane_is_wanted(const char *path, const char *format);
-/* Writes a frame of one exposure as a plane file: its film, of which size, crop and antialiasing
+/* Writes a frame as a plane file: its film, of which size, crop and antialiasing
  * say nothing. Errors: those of making and of writing a plane. */
 CELSPAN_CHECKED celspan_status cs_plane_write_frame(celspan_context *context,
                                                     const celspan_frame_desc *frame,
                                                     const char *path);
+
+/* As celspan_plane_create, of a frame that is the sum of its exposures. */
+CELSPAN_CHECKED celspan_status cs_plane_expose(celspan_context *context,
+                                               const celspan_exposure *exposures, size_t count,
+                                               const double size[2], celspan_plane **out);
 
 /* A film of planes as one file, which appears under its name when it is committed, not before. */
 typedef struct cs_plane_film cs_plane_film;

@@ -306,13 +306,14 @@ static void begin(cs_compiler *c, cs_boundary_builder *boundaries, celspan_conte
                      .end_place = view->end_column + margin + BESIDE,
                      .most_dashes = view->most_dashes,
                      .space = view->space,
+                     .unit = view->unit,
                      .group = CS_STACK_NONE,
                      .isolation = {.ground = CS_STACK_NONE},
                      .compile_nested = compile_film,
                      .compile_alone = compile_alone,
                      .free_alone = cs_defocus_layer_free_plan};
   cs_boundary_init(&plan->boundaries);
-  plan->boundaries.keeps_curves = view->keeps_curves;
+  plan->boundaries.keeps_curves = view->unit > 0;
   cs_boundary_builder_init(boundaries, context, &plan->boundaries, &c->frame);
 }
 

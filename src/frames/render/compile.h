@@ -34,7 +34,9 @@ typedef struct cs_view {
   size_t most_dashes; /* in view; with more, the plan is crowded (engine/row/plan.h) */
   float span_error;   /* see engine/compose/stack.h */
   celspan_space space;
-  bool keeps_curves; /* see model/geometry/boundary.h */
+  /* Of planes, pixels: curves are kept (model/geometry/boundary.h), and objects lie at multiples
+   * of it, so that their curves are the same wherever they have been moved to. 0: neither. */
+  double unit;
 } cs_view;
 
 /* workers: threads at most. Errors: NO_MEMORY; LIMIT; BAD_ARGUMENT for a singular viewport or

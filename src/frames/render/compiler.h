@@ -60,6 +60,7 @@ struct cs_compiler {
   cs_mark mark;                    /* of the cel; borrowed */
   cs_v4 front;
   celspan_space space; /* of what is being compiled */
+  double unit;         /* of planes: see cs_view */
   uint32_t group;      /* the group being filled, or CS_STACK_NONE */
   cs_compiler_isolation isolation;
   bool records;     /* what is compiled is an operand: it leaves one result on the tree's stack */

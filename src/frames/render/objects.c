@@ -178,6 +178,15 @@ static void finish_unseen(unseen *list, cs_memory *memory) {
   *list = (unseen){0};
 }
 
+/* Moves to the nearest multiple of the unit; what is seen in perspective stays. */
+static void snap(const cs_compiler *c, celspan_matrix *matrix) {
+  double *m = matrix->m;
+  if (c->unit == 0 || m[6] != 0 || m[7] != 0 || m[8] != 1)
+    return;
+  m[2] = floor(m[2] / c->unit + 0.5) * c->unit;
+  m[5] = floor(m[5] / c->unit + 0.5) * c->unit;
+}
+
 static celspan_status add_object(cs_compiler *c, const celspan_object *object,
                                  const celspan_matrix *parent);
 
@@ -768,6 +777,7 @@ static celspan_status add_object(cs_compiler *c, const celspan_object *object,
                                  const celspan_matrix *parent) {
   const cs_primitive_data *data = object->data;
   celspan_matrix matrix = celspan_matrix_then(*object->matrix, *parent);
+  snap(c, &matrix);
   if (is_layer(object))
     return cs_layers_add(c, data, object->fade, &matrix);
   if (cs_object_mode(object) != CELSPAN_BLEND_NORMAL)

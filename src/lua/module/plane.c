@@ -1,6 +1,7 @@
 /* celspan.plane and celspan.plane_read: frames without a size, drawn at any size. */
 #include <string.h>
 
+#include "frames/plane/plane.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/files.h"
 #include "lua/bind/host.h"
@@ -44,12 +45,10 @@ static const celspan_plane *self(lua_State *L, const char *method) {
 
 static celspan_status make(lua_State *L, const cs_options *options, celspan_plane **out) {
   const celspan_frame_desc *desc = &options->desc;
-  if (desc->exposure_count != 1 || desc->exposures->weight != 1)
-    return celspan_context_fail(cs_host_context(L), CELSPAN_BAD_ARGUMENT,
-                                "plane: the frame has several exposures; a plane has one");
   lua_State *before = cs_host_enter(L);
-  celspan_status status = celspan_plane_create(cs_host_context(L), desc->exposures->rostrum,
-                                               desc->film_width, desc->film_height, out);
+  const double size[2] = {desc->film_width, desc->film_height};
+  celspan_status status =
+      cs_plane_expose(cs_host_context(L), desc->exposures, desc->exposure_count, size, out);
   cs_host_leave(L, before);
   return status;
 }

@@ -12,6 +12,13 @@
  * cells are those of before in other places, and one new cell between them: a cell is one of six
  * candidates, or new, or else an older one.
  *
+ * A band of a film may be made from a base, which is the band at the same heights of another frame:
+ *
+ *   patches of the base's axes | chains: new as above, or one of the base's, moved, with its
+ *   borders or with others | changes
+ *
+ * The cells of the base are there from the beginning.
+ *
  * INVARIANT: encoder and decoder make their candidates by the same functions.
  */
 #ifndef PF_BAND_H
@@ -26,8 +33,10 @@ enum { PF_RATIONAL = 4 };
 typedef struct pf_models {
   pf_number start[2], pieces, moves[2][3][3], weight; /* moves: axis, degree, point */
   pf_number channels[4], older, height, size, first, next;
-  uint16_t forms[8][8];           /* after each */
-  uint16_t cells[14][PF_SYMBOLS]; /* pf_context */
+  uint16_t forms[8][8];                           /* after each */
+  uint16_t cells[14][PF_SYMBOLS];                 /* pf_context */
+  uint16_t origin[4], is_moved[2], is_patched[2]; /* of bands that are made from a base */
+  pf_number which, shift[2];
 } pf_models;
 
 /* models: a struct of nothing else. */
@@ -83,6 +92,46 @@ typedef struct pf_band {
   size_t program_capacity, step_capacity, axis_capacity, stop_capacity;
 } pf_band;
 
+/* ---------------------------------------------------------------- bases */
+
+/* Where a chain of a band with a base comes from. */
+enum { PF_NEW, PF_MOVED, PF_KEPT /* moved, with its borders */, PF_ORIGIN_BITS = 2 };
+
+typedef struct pf_move {
+  int32_t x, y;
+} pf_move;
+
+/* A band that others are made from. */
+typedef struct pf_base {
+  pf_memory memory;
+  const planefile_band *band;
+  size_t code;     /* bytes */
+  uint32_t *first; /* of each chain: the place of its first border in the order; and the end */
+  uint32_t *order; /* the borders by their chains; those of one are in the order of the band */
+} pf_base;
+
+/* band: borrowed. out: must be freed whatever happens. False: no memory. */
+bool pf_base_make(const pf_memory *memory, const planefile_band *band, size_t code, pf_base *out);
+void pf_base_free(pf_base *base);
+static inline const planefile_border *pf_base_border(const pf_base *base, uint32_t place) {
+  return &base->band->borders[base->order[place]];
+}
+/* The cells of a chain at its first border. */
+static inline pf_sides pf_base_sides(const pf_base *base, uint32_t chain) {
+  if (base->first[chain] == base->first[chain + 1])
+    return (pf_sides){0, 0};
+  const planefile_border *border = pf_base_border(base, base->first[chain]);
+  return (pf_sides){border->left, border->right};
+}
+/* The part of a border that is at the heights of a band when it has been moved; false: none is. */
+static inline bool pf_move_border(const planefile_border *border, int32_t by,
+                                  const planefile_band *band, planefile_border *out) {
+  *out = *border;
+  out->top = border->top + by > band->top ? border->top + by : band->top;
+  out->foot = border->foot + by < band->foot ? border->foot + by : band->foot;
+  return out->top < out->foot;
+}
+
 /* Whether alpha is 1 in all cells. */
 static inline bool pf_band_is_opaque(const planefile_band *band) {
   bool is_opaque = true;
@@ -98,16 +147,29 @@ static inline size_t pf_band_head(bool varies) {
   return PF_BAND_BYTES + (varies ? PF_VARIED_BYTES : 0);
 }
 
-/* Decodes the payload of a band. out: empty; must be freed whatever happens. reason: set where the
- * status is not OK. */
-planefile_status pf_band_decode(const pf_memory *memory, const unsigned char *payload, size_t size,
-                                bool varies, pf_band *out, const char **reason);
+/* The payload of a record of a band. */
+typedef struct pf_payload {
+  const unsigned char *bytes;
+  size_t size;
+  bool varies;
+  const pf_base *base; /* NULL: it has none */
+} pf_payload;
+/* Decodes a band. out: empty; must be freed whatever happens. reason: set where the status is not
+ * OK. */
+planefile_status pf_band_decode(const pf_memory *memory, const pf_payload *payload, pf_band *out,
+                                const char **reason);
 void pf_band_free(const pf_memory *memory, pf_band *band);
 
-/* Encodes the parts of `plane` that lie in the heights [top, foot). borders: all that have a part
- * there, of which no two of one chain overlap. The payload is in the encoder's bytes. */
-planefile_status pf_band_encode(const pf_memory *memory, const planefile_band *plane,
-                                const planefile_border *borders, size_t count, int32_t top,
-                                int32_t foot, pf_encoder *out);
+/* A part of a plane: what lies in the heights [top, foot). */
+typedef struct pf_part {
+  const planefile_band *plane;
+  const planefile_border *borders; /* all that have a part there; no two of one chain overlap */
+  size_t count;
+  int32_t top, foot;
+  bool is_whole;       /* pieces of which nothing can be seen are kept, for other frames */
+  const pf_base *base; /* NULL: none */
+} pf_part;
+/* The payload is in the encoder's bytes. */
+planefile_status pf_band_encode(const pf_memory *memory, const pf_part *part, pf_encoder *out);
 
 #endif

@@ -8,7 +8,9 @@
  *
  *   payload of 'B'   top, foot, numbers of chains, pieces, cells, changes, borders (4 each) |
  *                    where cells vary: numbers of steps, axes, stops | code
- *   payload of 'I'   of films: flags (4) | entries: top (4) | offset (8)
+ *   payload of 'D'   as of 'B'; the code says how the band differs from another one
+ *   payload of 'I'   of films: flags (4) | offset of the index of the base, or 0 (8)
+ *                    entries: top (4) | offset (8)
  *   payload of 'F'   frames a second (8) | of each frame, the offset of its index (8)
  *
  * INVARIANT: all numbers are little endian, whatever the machine.
@@ -29,7 +31,7 @@ enum {
   PF_BAND_BYTES = 28,   /* before the code */
   PF_VARIED_BYTES = 12, /* after them, where cells vary */
   PF_ENTRY_BYTES = 12,
-  PF_FLAG_BYTES = 4, /* of the index of a frame of a film */
+  PF_FLAG_BYTES = 12, /* of the index of a frame of a film: flags, and its base */
   PF_RATE_BYTES = 8,
   PF_FRAME_BYTES = 8,
   PF_VERSION = 1,
@@ -40,6 +42,7 @@ enum {
   PF_VARIED_PAID = 4, /* bytes of code that pay for a step, an axis or a stop */
   PF_GROUP = 8,       /* changes in a group, at most */
   PF_BAND = 'B',
+  PF_CHANGED = 'D',
   PF_INDEX = 'I',
   PF_FRAMES = 'F'
 };

@@ -4,9 +4,9 @@
  *                                      \--their changes, by height, in groups--> code of changes
  *
  * Pieces of a chain of which nothing can be seen are left out, or one line where they are between
- * others.
+ * others; but not in a band that other frames may be made from, because they see other pieces.
  */
-#include "band.h"
+#include "match.h"
 
 /* A chain of the band: its borders are neighbours in the list of all. */
 typedef struct shown {
@@ -16,6 +16,8 @@ typedef struct shown {
   int64_t place;       /* twice its mean x */
   pf_sides sides;
   int32_t top, foot; /* of what is kept of it */
+  bool is_whole;     /* no piece is left out */
+  pf_link link;
 } shown;
 
 /* From a height on a chain has other cells. */
@@ -28,7 +30,10 @@ typedef struct change {
 typedef struct packer {
   const pf_memory *memory;
   const planefile_band *plane;
+  const pf_part *part;
   int32_t top, foot;
+  pf_match match; /* with the base, if there is one */
+  pf_link latest; /* of the latest chain that has one */
   planefile_border *borders;
   shown *chains;
   change *changes;
@@ -83,12 +88,19 @@ static bool is_needed(const packer *p, const shown *c, uint32_t piece, uint32_t 
   return *from < c->count && c->borders[*from].top < foot && top < foot;
 }
 
+/* Whether a piece has a part of the heights of the band, or of those outside the frame. */
+static bool is_near(const packer *p, uint32_t piece) {
+  return (p->foot == PLANEFILE_SIDE || first_of(p, piece)->y < p->foot) &&
+         (p->top == 0 || last_of(p, piece)->y >= p->top);
+}
+
+/* Finds which pieces of a chain are kept. */
 static void trim(const packer *p, shown *c) {
   const planefile_chain *chain = &p->plane->chains[c->borders->chain];
   uint32_t end = chain->piece + chain->piece_count, border = 0;
   c->piece = c->end = end;
   for (uint32_t i = chain->piece; i < end; i++)
-    if (is_needed(p, c, i, &border)) {
+    if (c->is_whole ? is_near(p, i) : is_needed(p, c, i, &border)) {
       c->piece = c->piece < i ? c->piece : i;
       c->end = i + 1;
     }
@@ -96,6 +108,23 @@ static void trim(const packer *p, shown *c) {
   c->top = first->y > p->top ? first->y : p->top;
   c->foot = last->y < p->foot ? last->y : p->foot;
   c->place = (int64_t)first->x + last->x;
+}
+
+/* Finds what a chain has in common with one of the base, to which all of its pieces count. */
+static bool link_chain(packer *p, shown *c) {
+  c->is_whole = true;
+  trim(p, c);
+  if (p->part->is_whole)
+    return true;
+  if (!pf_match_chain(&p->match, c->piece, c->end, &p->latest, &c->link))
+    return false;
+  if (c->link.origin == PF_NEW) {
+    c->is_whole = false;
+    trim(p, c);
+  } else {
+    p->latest = c->link;
+  }
+  return true;
 }
 
 /* Clips the borders to the band and finds its chains. */
@@ -118,9 +147,29 @@ static bool find_chains(packer *p, const planefile_border *borders, size_t count
     p->chains[p->chain_count - 1].count++;
   }
   for (size_t i = 0; i < p->chain_count; i++)
-    trim(p, &p->chains[i]);
+    if (!p->part->is_whole && !p->part->base)
+      trim(p, &p->chains[i]);
+    else if (!link_chain(p, &p->chains[i]))
+      return false;
   qsort(p->chains, p->chain_count, sizeof *p->chains, compare_chains);
   return true;
+}
+
+/* Whether a chain's borders are those of the base, moved. */
+static bool keeps_borders(const packer *p, const shown *c) {
+  const pf_base *base = p->part->base;
+  const planefile_band heights = {.top = p->top, .foot = p->foot};
+  planefile_border moved;
+  uint32_t k = 0;
+  for (uint32_t i = base->first[c->link.chain]; i < base->first[c->link.chain + 1]; i++) {
+    if (!pf_move_border(pf_base_border(base, i), c->link.move.y, &heights, &moved))
+      continue;
+    const planefile_border *b = &c->borders[k];
+    if (k++ == c->count || b->top != moved.top || b->foot != moved.foot ||
+        p->match.cells[b->left] != moved.left || p->match.cells[b->right] != moved.right)
+      return false;
+  }
+  return k == c->count;
 }
 
 /* ---------------------------------------------------------------- changes */
@@ -140,6 +189,10 @@ static bool find_changes(packer *p, size_t index) {
   shown *c = &p->chains[index];
   int32_t height = c->top;
   c->sides = (pf_sides){0, 0};
+  if (c->link.origin == PF_MOVED && keeps_borders(p, c))
+    c->link.origin = PF_KEPT;
+  if (c->link.origin == PF_KEPT)
+    return true;
   for (uint32_t i = 0; i < c->count; i++) {
     const planefile_border *b = &c->borders[i];
     pf_sides sides = {b->left, b->right};
@@ -231,7 +284,7 @@ static uint32_t walk_pieces(packer *p, const shown *c, bool put) {
   uint32_t count = 0, border = 0;
   for (uint32_t i = c->piece; i < c->end; count++) {
     const planefile_point *from = first_of(p, i), *to = NULL;
-    for (; !is_needed(p, c, i, &border); i++)
+    for (; !c->is_whole && !is_needed(p, c, i, &border); i++)
       to = last_of(p, i);
     if (put && to) {
       put_form(p, 1);
@@ -244,25 +297,60 @@ static uint32_t walk_pieces(packer *p, const shown *c, bool put) {
   return count;
 }
 
-static void put_chain(packer *p, size_t index, const planefile_point *from) {
+/* The cells at the top of a chain. own: what it had in the base. */
+static void put_top(packer *p, size_t index, pf_sides own) {
+  const shown *c = &p->chains[index];
+  const pf_near near = {own, index > 1 ? c[-2].sides : (pf_sides){0, 0},
+                        index > 0 ? c[-1].sides : (pf_sides){0, 0}};
+  put_sides(p, &near, PF_AT_TOP, c->sides);
+}
+
+static void put_new_chain(packer *p, size_t index, const planefile_point *from) {
   const shown *c = &p->chains[index];
   const planefile_point *start = first_of(p, c->piece);
-  const pf_near near = {{0, 0},
-                        index > 1 ? c[-2].sides : (pf_sides){0, 0},
-                        index > 0 ? c[-1].sides : (pf_sides){0, 0}};
   uint32_t pieces = walk_pieces(p, c, false);
   pf_put_signed(p->out, &p->models.start[0], (int64_t)start->x - from->x);
   pf_put_signed(p->out, &p->models.start[1], (int64_t)start->y - from->y);
   pf_put_number(p->out, &p->models.pieces, pieces - 1);
-  put_sides(p, &near, PF_AT_TOP, c->sides);
+  put_top(p, index, (pf_sides){0, 0});
   walk_pieces(p, c, true);
   p->piece_count += pieces;
 }
 
+/* What a cell of the base is in the plane. */
+static uint32_t plane_cell(const packer *p, uint32_t cell) { return p->match.plane_cells[cell]; }
+
+static void put_old_chain(packer *p, size_t index) {
+  const shown *c = &p->chains[index];
+  const pf_link *link = &c->link;
+  pf_move from = p->latest.move;
+  bool is_moved = link->move.x != from.x || link->move.y != from.y;
+  pf_put_signed(p->out, &p->models.which, (int64_t)link->chain - p->latest.chain);
+  pf_put_symbol(p->out, p->models.is_moved, 1, is_moved);
+  if (is_moved) {
+    pf_put_signed(p->out, &p->models.shift[0], (int64_t)link->move.x - from.x);
+    pf_put_signed(p->out, &p->models.shift[1], (int64_t)link->move.y - from.y);
+  }
+  p->latest = *link;
+  p->latest.chain++;
+  p->piece_count += c->end - c->piece;
+  if (link->origin == PF_KEPT)
+    return;
+  pf_sides own = pf_base_sides(p->part->base, link->chain);
+  put_top(p, index, (pf_sides){plane_cell(p, own.left), plane_cell(p, own.right)});
+}
+
 static void put_chains(packer *p) {
   planefile_point from = {0, 0, PLANEFILE_WEIGHT};
+  p->latest = (pf_link){PF_NEW, 0, {0, 0}};
   for (size_t i = 0; i < p->chain_count; i++) {
-    put_chain(p, i, &from);
+    uint32_t origin = p->chains[i].link.origin;
+    if (p->part->base)
+      pf_put_symbol(p->out, p->models.origin, PF_ORIGIN_BITS, origin);
+    if (origin == PF_NEW)
+      put_new_chain(p, i, &from);
+    else
+      put_old_chain(p, i);
     from = *first_of(p, p->chains[i].piece);
   }
 }
@@ -341,7 +429,7 @@ static void store_counts(const packer *p, unsigned char *at) {
 
 static uint32_t larger(uint32_t a, uint32_t b) { return a > b ? a : b; }
 
-/* The bytes of code that pay for all that the band claims. */
+/* The bytes that pay for all that the band claims. */
 static size_t find_price(const packer *p) {
   uint32_t most = larger(larger(p->piece_count, p->cell_count),
                          larger((uint32_t)p->change_count, (uint32_t)p->border_count));
@@ -354,9 +442,10 @@ static size_t find_price(const packer *p) {
   return price;
 }
 
-/* Zeros after the code, so that its bytes pay for all that it claims. */
+/* Zeros after the code, so that its bytes, and those of the base, pay for all that it claims. */
 static bool pay(const packer *p) {
-  size_t wanted = pf_band_head(p->programs != NULL) + find_price(p);
+  size_t price = find_price(p), base = p->part->base ? p->part->base->code : 0;
+  size_t wanted = pf_band_head(p->programs != NULL) + (price > base ? price - base : 0);
   pf_encoder *out = p->out;
   unsigned char *bytes = pf_grow(p->memory, out->bytes, 1, &out->capacity, wanted);
   if (!bytes)
@@ -382,9 +471,53 @@ static void free_programs(packer *p) {
   pf_free(p->memory, p->programs, sizeof *p->programs, 1);
 }
 
-static bool pack(packer *p, const planefile_border *borders, size_t count) {
+/* The cells of the base count as coded, with all that belongs to them. */
+static void take_base(packer *p) {
+  const planefile_band *band = p->part->base->band;
+  p->cell_count = band->cell_count;
+  for (uint32_t i = 0; i < p->plane->cell_count; i++)
+    p->cells[i] = p->match.cells[i] + 1; /* none is 0 */
+  if (!p->programs)
+    return;
+  p->programs->step_count = band->step_count;
+  p->programs->axis_count = band->axis_count;
+  p->programs->stop_count = band->stop_count;
+  for (uint32_t i = 0; i < p->plane->axis_count; i++)
+    p->programs->axes[i] = p->match.axes[i] + 1;
+}
+
+static void put_patches(packer *p) {
+  const planefile_band *band = p->part->base->band;
+  for (uint32_t i = 0; p->programs && i < band->axis_count; i++) {
+    uint32_t number = p->match.plane_axes[i];
+    const planefile_axis *axis = number == PF_NONE ? NULL : &p->plane->axes[number];
+    bool is_patched =
+        axis && (axis->p[2] != band->axes[i].p[2] || axis->q[2] != band->axes[i].q[2] ||
+                 axis->w[2] != band->axes[i].w[2]);
+    pf_put_symbol(p->out, p->models.is_patched, 1, is_patched);
+    if (is_patched)
+      pf_put_patch(p->out, p->programs, axis);
+  }
+}
+
+static void put_beginning(packer *p) {
+  if (!p->part->base) {
+    put_fresh(p, 0);
+    return;
+  }
+  take_base(p);
+  put_patches(p);
+}
+
+static bool make_room(packer *p) {
   p->cells = pf_make(p->memory, sizeof *p->cells, p->plane->cell_count);
-  if (!p->cells || !find_chains(p, borders, count) || (p->plane->programs && !make_programs(p)))
+  return p->cells &&
+         (!p->part->base || pf_match_make(p->memory, p->plane, p->part->base, &p->match)) &&
+         (!p->plane->programs || make_programs(p));
+}
+
+static bool pack(packer *p) {
+  if (!make_room(p) || !find_chains(p, p->part->borders, p->part->count))
     return false;
   for (size_t i = 0; i < p->chain_count; i++)
     if (!find_changes(p, i))
@@ -392,7 +525,7 @@ static bool pack(packer *p, const planefile_border *borders, size_t count) {
   if (p->change_count > 0)
     qsort(p->changes, p->change_count, sizeof *p->changes, compare_changes);
   pf_models_begin(&p->models, sizeof p->models);
-  put_fresh(p, 0);
+  put_beginning(p);
   put_chains(p);
   put_changes(p);
   pf_encoder_end(p->out);
@@ -402,18 +535,23 @@ static bool pack(packer *p, const planefile_border *borders, size_t count) {
   return true;
 }
 
-planefile_status pf_band_encode(const pf_memory *memory, const planefile_band *plane,
-                                const planefile_border *borders, size_t count, int32_t top,
-                                int32_t foot, pf_encoder *out) {
+planefile_status pf_band_encode(const pf_memory *memory, const pf_part *part, pf_encoder *out) {
+  const planefile_band *plane = part->plane;
   packer *p = pf_make(memory, sizeof *p, 1);
   pf_encoder_begin(out, memory, pf_band_head(plane->programs != NULL));
   if (!p)
     return PLANEFILE_NO_MEMORY;
-  *p = (packer){.memory = memory, .plane = plane, .top = top, .foot = foot, .out = out};
-  bool is_done = pack(p, borders, count);
+  *p = (packer){.memory = memory,
+                .plane = plane,
+                .part = part,
+                .top = part->top,
+                .foot = part->foot,
+                .out = out};
+  bool is_done = pack(p);
   free_programs(p);
-  pf_free(memory, p->borders, sizeof *p->borders, count);
-  pf_free(memory, p->chains, sizeof *p->chains, count);
+  pf_match_free(&p->match);
+  pf_free(memory, p->borders, sizeof *p->borders, part->count);
+  pf_free(memory, p->chains, sizeof *p->chains, part->count);
   pf_free(memory, p->changes, sizeof *p->changes, p->change_capacity);
   pf_free(memory, p->cells, sizeof *p->cells, plane->cell_count);
   pf_free(memory, p, sizeof *p, 1);

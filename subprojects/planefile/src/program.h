@@ -46,6 +46,10 @@ typedef struct pf_program_room {
 const char *pf_get_program(pf_decoder *decoder, pf_program_coding *coding,
                            const pf_program_room *room, planefile_program *out);
 
+/* The last numbers of an axis: those that change when it is moved. False: it is not allowed. */
+void pf_put_patch(pf_encoder *encoder, pf_program_coding *coding, const planefile_axis *axis);
+bool pf_get_patch(pf_decoder *decoder, pf_program_coding *coding, planefile_axis *axis);
+
 /* Whether a program is as planefile.h says; and whether nothing shines through it anywhere. */
 bool pf_program_is_good(const planefile_band *band, planefile_program program);
 bool pf_program_hides(const planefile_band *band, planefile_program program);

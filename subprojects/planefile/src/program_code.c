@@ -88,6 +88,24 @@ static bool is_axis(const planefile_axis *axis) {
   return is_good;
 }
 
+void pf_put_patch(pf_encoder *encoder, pf_program_coding *coding, const planefile_axis *axis) {
+  put_double(encoder, coding->models.axis_bytes, axis->p[2]);
+  if (axis->kind != PLANEFILE_LINEAR)
+    put_double(encoder, coding->models.axis_bytes, axis->q[2]);
+  if (!pf_axis_is_affine(axis))
+    put_double(encoder, coding->models.axis_bytes, axis->w[2]);
+}
+
+bool pf_get_patch(pf_decoder *decoder, pf_program_coding *coding, planefile_axis *axis) {
+  bool is_wide = !pf_axis_is_affine(axis);
+  axis->p[2] = get_double(decoder, coding->models.axis_bytes);
+  if (axis->kind != PLANEFILE_LINEAR)
+    axis->q[2] = get_double(decoder, coding->models.axis_bytes);
+  if (is_wide)
+    axis->w[2] = get_double(decoder, coding->models.axis_bytes);
+  return is_axis(axis);
+}
+
 /* ---------------------------------------------------------------- ramps */
 
 static void put_ramp(pf_encoder *encoder, pf_program_coding *coding, const planefile_band *plane,

@@ -1,7 +1,7 @@
 /* Bytes of a file to a plane in memory.
  *
  *   trailer --> index --> bands at the heights that are wanted --> plane
- *        \--> frames --^
+ *        \--> frames --^  \--> index of the base --> its bands --^
  *
  * INVARIANT: nothing in the file is trusted. Every number is checked before it is used, and memory
  * is allocated only for bytes that the file has.
@@ -20,6 +20,8 @@ typedef struct reader {
   uint64_t end;  /* offset of the trailer */
   uint64_t left; /* bytes that the records that are still to be read may have */
   bool is_film;
+  uint64_t *offsets;    /* of the bands, and after them where the last one ends */
+  uint64_t *bases;      /* of the bands of the base; NULL: there is none */
   unsigned char *bytes; /* of the latest record */
   size_t capacity;
 } reader;
@@ -178,6 +180,11 @@ static planefile_status load_flags(reader *r, uint64_t offset, size_t size) {
 
 /* ---------------------------------------------------------------- bands */
 
+/* The offset of the index of a frame's base, or 0. */
+static uint64_t load_base_offset(const reader *r) {
+  return r->is_film ? pf_load_64(r->bytes + PF_HEAD_BYTES + 4) : 0;
+}
+
 /* The place of a band in the frame, from entry i of the index on. */
 static planefile_status load_entry(reader *r, uint64_t offset, const unsigned char *entry,
                                    uint32_t i) {
@@ -192,28 +199,63 @@ static planefile_status load_entry(reader *r, uint64_t offset, const unsigned ch
   return PLANEFILE_OK;
 }
 
-/* offsets: of the bands, and after them where the last one ends; new. */
-static planefile_status load_index(reader *r, uint64_t offset, uint64_t **offsets) {
-  size_t size, flags = r->is_film ? PF_FLAG_BYTES : 0;
-  TRY(load_record(r, PF_INDEX, 0, offset, r->is_film ? 0 : r->end, &size));
+/* *count: of the entries of the index at an offset, which has been read. */
+static planefile_status count_entries(reader *r, uint64_t offset, size_t size, uint32_t *count) {
+  size_t flags = r->is_film ? PF_FLAG_BYTES : 0;
   if (r->is_film)
     TRY(load_flags(r, offset, size));
-  planefile_plane *plane = r->plane;
-  uint32_t count = (uint32_t)((size - flags) / PF_ENTRY_BYTES);
-  if (count == 0 || (size - flags) % PF_ENTRY_BYTES != 0)
+  *count = (uint32_t)((size - flags) / PF_ENTRY_BYTES);
+  if (*count == 0 || (size - flags) % PF_ENTRY_BYTES != 0)
     return fail(r, PLANEFILE_BAD_FILE, offset, "the index: it has no whole number of entries");
-  plane->bands = pf_make(&plane->memory, sizeof *plane->bands, count);
-  *offsets = pf_make(&plane->memory, sizeof **offsets, (size_t)count + 1);
-  plane->info.band_count = count;
-  if (!plane->bands || !*offsets)
+  return PLANEFILE_OK;
+}
+
+static const unsigned char *entries_of(const reader *r) {
+  return r->bytes + PF_HEAD_BYTES + (r->is_film ? PF_FLAG_BYTES : 0);
+}
+
+/* The offsets of the bands of a base, which lie at the heights of the frame's. */
+static planefile_status load_base(reader *r, uint64_t offset) {
+  size_t size;
+  uint32_t count;
+  planefile_plane *plane = r->plane;
+  const planefile_info info = plane->info;
+  TRY(load_record(r, PF_INDEX, 0, offset, 0, &size));
+  TRY(count_entries(r, offset, size, &count));
+  bool is_good =
+      count == info.band_count && plane->info.varies == info.varies && load_base_offset(r) == 0;
+  plane->info = info;
+  r->bases = pf_make(&plane->memory, sizeof *r->bases, info.band_count);
+  if (!r->bases)
     return fail_memory(r, offset);
-  const unsigned char *entry = r->bytes + PF_HEAD_BYTES + flags;
+  const unsigned char *entry = entries_of(r);
+  for (uint32_t i = 0; is_good && i < count; i++, entry += PF_ENTRY_BYTES) {
+    is_good = pf_load_32(entry) == (uint32_t)plane->bands[i].band.top;
+    r->bases[i] = pf_load_64(entry + 4);
+  }
+  return is_good ? PLANEFILE_OK
+                 : fail(r, PLANEFILE_BAD_FILE, offset, "the index: it is no base of the frame's");
+}
+
+static planefile_status load_index(reader *r, uint64_t offset) {
+  size_t size;
+  uint32_t count;
+  TRY(load_record(r, PF_INDEX, 0, offset, r->is_film ? 0 : r->end, &size));
+  TRY(count_entries(r, offset, size, &count));
+  planefile_plane *plane = r->plane;
+  uint64_t base = load_base_offset(r);
+  plane->bands = pf_make(&plane->memory, sizeof *plane->bands, count);
+  r->offsets = pf_make(&plane->memory, sizeof *r->offsets, (size_t)count + 1);
+  plane->info.band_count = count;
+  if (!plane->bands || !r->offsets)
+    return fail_memory(r, offset);
+  const unsigned char *entry = entries_of(r);
   for (uint32_t i = 0; i < count; i++, entry += PF_ENTRY_BYTES) {
     TRY(load_entry(r, offset, entry, i));
-    (*offsets)[i] = pf_load_64(entry + 4);
+    r->offsets[i] = pf_load_64(entry + 4);
   }
-  (*offsets)[count] = offset;
-  return PLANEFILE_OK;
+  r->offsets[count] = offset;
+  return base > 0 ? load_base(r, base) : PLANEFILE_OK;
 }
 
 /* Whether cell 0 is that of the bands before, if there are any. */
@@ -224,38 +266,77 @@ static bool has_base(planefile_plane *plane, const planefile_band *band) {
   return memcmp(&plane->base, &band->cells[0], sizeof plane->base) == 0;
 }
 
-static planefile_status load_band(reader *r, uint32_t index, uint64_t offset, uint64_t end) {
-  size_t size;
+static planefile_status decode_band(reader *r, uint32_t index, uint64_t offset, size_t size,
+                                    const pf_base *base, pf_band *out) {
   const char *reason;
-  pf_band *out = &r->plane->bands[index];
-  int32_t top = out->band.top, foot = out->band.foot;
-  TRY(load_record(r, PF_BAND, index, offset, end, &size));
-  planefile_status status = pf_band_decode(&r->plane->memory, r->bytes + PF_HEAD_BYTES, size,
-                                           r->plane->info.varies, out, &reason);
+  const pf_payload payload = {r->bytes + PF_HEAD_BYTES, size, r->plane->info.varies, base};
+  int32_t top = r->plane->bands[index].band.top, foot = r->plane->bands[index].band.foot;
+  planefile_status status = pf_band_decode(&r->plane->memory, &payload, out, &reason);
   if (status != PLANEFILE_OK)
     return fail(r, status, offset, "band %" PRIu32 ": %s", index, reason);
   if (out->band.top != top || out->band.foot != foot)
     return fail(r, PLANEFILE_BAD_FILE, offset, "band %" PRIu32 ": it has other heights", index);
-  if (r->plane->info.is_opaque && !pf_band_is_opaque(&out->band))
+  return PLANEFILE_OK;
+}
+
+/* A band that is made from that of the base. */
+static planefile_status load_changed(reader *r, uint32_t index, pf_band *from, pf_base *base) {
+  size_t size;
+  uint64_t offset = r->offsets[index];
+  TRY(load_record(r, PF_BAND, index, r->bases[index], 0, &size));
+  TRY(decode_band(r, index, r->bases[index], size, NULL, from));
+  if (!pf_base_make(&r->plane->memory, &from->band, size, base))
+    return fail_memory(r, offset);
+  TRY(load_record(r, PF_CHANGED, index, offset, 0, &size));
+  return decode_band(r, index, offset, size, base, &r->plane->bands[index]);
+}
+
+static planefile_status load_kind(reader *r, uint32_t index, unsigned char *kind) {
+  uint64_t offset = r->offsets[index];
+  *kind = PF_BAND;
+  return r->bases && offset < r->end ? load(r, offset, kind, 1) : PLANEFILE_OK;
+}
+
+static planefile_status load_either(reader *r, uint32_t index) {
+  size_t size;
+  unsigned char kind;
+  pf_band from = {0};
+  pf_base base = {0};
+  const uint64_t *offsets = &r->offsets[index];
+  TRY(load_kind(r, index, &kind));
+  if (kind != PF_CHANGED) {
+    TRY(load_record(r, PF_BAND, index, offsets[0], r->is_film ? 0 : offsets[1], &size));
+    return decode_band(r, index, offsets[0], size, NULL, &r->plane->bands[index]);
+  }
+  planefile_status status = load_changed(r, index, &from, &base);
+  pf_base_free(&base);
+  pf_band_free(&r->plane->memory, &from);
+  return status;
+}
+
+static planefile_status load_band(reader *r, uint32_t index) {
+  uint64_t offset = r->offsets[index];
+  const planefile_band *band = &r->plane->bands[index].band;
+  TRY(load_either(r, index));
+  if (r->plane->info.is_opaque && !pf_band_is_opaque(band))
     return fail(r, PLANEFILE_BAD_FILE, offset, "band %" PRIu32 ": it is not opaque", index);
-  if (!has_base(r->plane, &out->band))
+  if (!has_base(r->plane, band))
     return fail(r, PLANEFILE_BAD_FILE, offset, "band %" PRIu32 ": it has another cell 0", index);
   return PLANEFILE_OK;
 }
 
 /* Each band of a single plane ends where the next one begins. */
-static planefile_status load_bands(reader *r, const uint64_t *offsets, int32_t top, int32_t foot) {
+static planefile_status load_bands(reader *r, int32_t top, int32_t foot) {
   for (uint32_t i = 0; i < r->plane->info.band_count; i++) {
     const planefile_band *band = &r->plane->bands[i].band;
     if (band->top < foot && band->foot > top)
-      TRY(load_band(r, i, offsets[i], r->is_film ? 0 : offsets[i + 1]));
+      TRY(load_band(r, i));
   }
   return PLANEFILE_OK;
 }
 
 static planefile_status load_plane(reader *r, uint32_t frame, int32_t top, int32_t foot) {
   uint64_t last = 0;
-  uint64_t *offsets = NULL;
   r->plane->info.frame_count = 1;
   TRY(load_header(r));
   TRY(load_trailer(r, &last));
@@ -264,11 +345,16 @@ static planefile_status load_plane(reader *r, uint32_t frame, int32_t top, int32
     TRY(load_frames(r, frame, last, &index));
   if (frame >= r->plane->info.frame_count)
     return fail(r, PLANEFILE_BAD_ARGUMENT, last, "it has no frame %" PRIu32, frame);
-  planefile_status status = load_index(r, index, &offsets);
-  if (status == PLANEFILE_OK)
-    status = load_bands(r, offsets, top, foot);
-  pf_free(&r->plane->memory, offsets, sizeof *offsets, (size_t)r->plane->info.band_count + 1);
-  return status;
+  TRY(load_index(r, index));
+  return load_bands(r, top, foot);
+}
+
+static void forget(reader *r) {
+  const pf_memory *memory = &r->plane->memory;
+  size_t count = r->plane->info.band_count;
+  pf_free(memory, r->offsets, sizeof *r->offsets, count + 1);
+  pf_free(memory, r->bases, sizeof *r->bases, count);
+  pf_free(memory, r->bytes, 1, r->capacity);
 }
 
 /* ---------------------------------------------------------------- the plane */
@@ -285,7 +371,7 @@ planefile_status planefile_read_frame(const planefile_source *source, uint32_t f
     return fail_memory(&r, 0);
   r.plane->memory = memory;
   planefile_status status = load_plane(&r, frame, top, foot);
-  pf_free(&memory, r.bytes, 1, r.capacity);
+  forget(&r);
   if (status != PLANEFILE_OK) {
     planefile_plane_destroy(r.plane);
     return status;

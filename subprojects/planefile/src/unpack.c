@@ -16,6 +16,7 @@ typedef struct unpacker {
   pf_decoder decoder;
   pf_models models;
   pf_band *out;
+  const pf_base *base; /* NULL: there is none */
   planefile_point *points;
   planefile_piece *pieces;
   planefile_chain *chains;
@@ -30,6 +31,8 @@ typedef struct unpacker {
   uint32_t form;       /* of the latest piece */
   planefile_cell flat; /* the latest one that does not vary */
   planefile_point start;
+  uint32_t next;      /* the chain of the base after the latest one that was taken */
+  pf_move move;       /* of the latest one */
   const char *reason; /* NULL: nothing is wrong */
 } unpacker;
 
@@ -51,8 +54,35 @@ void pf_band_free(const pf_memory *memory, pf_band *band) {
   pf_free(memory, (void *)b->stops, sizeof *b->stops, band->stop_capacity);
 }
 
+/* ---------------------------------------------------------------- bases */
+
+bool pf_base_make(const pf_memory *memory, const planefile_band *band, size_t code, pf_base *out) {
+  size_t chains = band->chain_count;
+  *out = (pf_base){.memory = *memory, .band = band, .code = code};
+  out->first = pf_make(memory, sizeof *out->first, chains + 2);
+  out->order = pf_make(memory, sizeof *out->order, band->border_count);
+  if (!out->first || !out->order)
+    return false;
+  for (uint32_t i = 0; i < band->border_count; i++)
+    out->first[band->borders[i].chain + 2]++;
+  for (size_t i = 0; i < chains; i++)
+    out->first[i + 2] += out->first[i + 1];
+  for (uint32_t i = 0; i < band->border_count; i++)
+    out->order[out->first[band->borders[i].chain + 1]++] = i;
+  return true;
+}
+
+void pf_base_free(pf_base *base) {
+  if (!base->band)
+    return;
+  pf_free(&base->memory, base->first, sizeof *base->first, (size_t)base->band->chain_count + 2);
+  pf_free(&base->memory, base->order, sizeof *base->order, base->band->border_count);
+  base->band = NULL;
+}
+
 /* ---------------------------------------------------------------- room */
 
+/* code: its bytes, with those of the base. */
 static bool load_counts(unpacker *u, const unsigned char *payload, size_t code) {
   planefile_band *band = &u->out->band;
   size_t paid = PF_PAID * code;
@@ -228,13 +258,19 @@ static int32_t foot_of(const unpacker *u, uint32_t chain) {
   return foot < u->out->band.foot ? foot : u->out->band.foot;
 }
 
-static bool get_chain(unpacker *u, uint32_t index) {
+/* The cells at the top of a chain. own: what it had in the base. */
+static bool get_top(unpacker *u, uint32_t index, pf_sides own) {
+  const pf_near near = {own, index > 1 ? u->states[index - 2].sides : (pf_sides){0, 0},
+                        index > 0 ? u->states[index - 1].sides : (pf_sides){0, 0}};
+  state *s = &u->states[index];
+  s->since = u->start.y > u->out->band.top ? u->start.y : u->out->band.top;
+  return get_sides(u, &near, PF_AT_TOP, &s->sides);
+}
+
+static bool get_new_chain(unpacker *u, uint32_t index) {
   planefile_band *band = &u->out->band;
   planefile_point at = u->start;
   uint32_t left = u->piece_count - band->piece_count;
-  const pf_near near = {{0, 0},
-                        index > 1 ? u->states[index - 2].sides : (pf_sides){0, 0},
-                        index > 0 ? u->states[index - 1].sides : (pf_sides){0, 0}};
   if (!get_coordinate(u, &u->models.start[0], &at.x) ||
       !get_coordinate(u, &u->models.start[1], &at.y))
     return false;
@@ -243,14 +279,97 @@ static bool get_chain(unpacker *u, uint32_t index) {
     return refuse(u, "it has more pieces than it claims");
   u->chains[band->chain_count++] = (planefile_chain){band->piece_count, pieces + 1};
   u->start = at;
-  state *s = &u->states[index];
-  s->since = at.y > band->top ? at.y : band->top;
-  if (!get_sides(u, &near, PF_AT_TOP, &s->sides))
+  if (!get_top(u, index, (pf_sides){0, 0}))
     return false;
   for (uint32_t i = 0; i <= pieces; i++)
     if (u->decoder.is_beyond || !get_piece(u, &at))
       return refuse(u, "its code ends too early");
-  return s->since < foot_of(u, index) || refuse(u, "a chain is not in it");
+  return true;
+}
+
+/* ---------------------------------------------------------------- chains of the base */
+
+static bool is_far(int64_t at) { return at < -PLANEFILE_FAR || at > PLANEFILE_FAR; }
+
+static bool move_point(unpacker *u, planefile_point point) {
+  int64_t x = (int64_t)point.x + u->move.x, y = (int64_t)point.y + u->move.y;
+  if (is_far(x) || is_far(y))
+    return refuse(u, "a point is too far away");
+  u->points[u->out->band.point_count++] = (planefile_point){(int32_t)x, (int32_t)y, point.w};
+  return true;
+}
+
+static bool move_chain(unpacker *u, uint32_t chain) {
+  const planefile_band *from = u->base->band;
+  planefile_band *band = &u->out->band;
+  const planefile_chain *of = &from->chains[chain];
+  if (of->piece_count > u->piece_count - band->piece_count)
+    return refuse(u, "it has more pieces than it claims");
+  uint32_t first = band->point_count;
+  u->chains[band->chain_count++] = (planefile_chain){band->piece_count, of->piece_count};
+  for (uint32_t i = 0; i < of->piece_count; i++) {
+    planefile_piece piece = from->pieces[of->piece + i];
+    const planefile_point *points = &from->points[piece.point];
+    piece.point = band->point_count;
+    u->pieces[band->piece_count++] = piece;
+    for (int k = 0; k <= piece.degree; k++)
+      if (!move_point(u, points[k]))
+        return false;
+  }
+  u->start = u->points[first];
+  return true;
+}
+
+static bool get_shift(unpacker *u, int axis, int32_t *at) {
+  int64_t to = *at + pf_get_signed(&u->decoder, &u->models.shift[axis]);
+  *at = is_far(to) ? 0 : (int32_t)to;
+  return !is_far(to) || refuse(u, "a chain is moved too far");
+}
+
+static bool get_move(unpacker *u) {
+  return !pf_get_symbol(&u->decoder, u->models.is_moved, 1) ||
+         (get_shift(u, 0, &u->move.x) && get_shift(u, 1, &u->move.y));
+}
+
+/* All borders that a chain of the base has, moved; they do not change. */
+static bool keep_borders(unpacker *u, uint32_t index, uint32_t chain) {
+  planefile_band *band = &u->out->band;
+  planefile_border moved;
+  u->states[index] = (state){{0, 0}, INT32_MAX};
+  for (uint32_t i = u->base->first[chain]; i < u->base->first[chain + 1]; i++) {
+    if (!pf_move_border(pf_base_border(u->base, i), u->move.y, band, &moved))
+      continue;
+    moved.chain = index;
+    if (band->border_count == u->border_count)
+      return refuse(u, "it has more borders than it claims");
+    u->borders[band->border_count++] = moved;
+  }
+  return true;
+}
+
+static bool get_old_chain(unpacker *u, uint32_t index, bool is_kept) {
+  int64_t chain = (int64_t)u->next + pf_get_signed(&u->decoder, &u->models.which);
+  if (chain < 0 || chain >= u->base->band->chain_count)
+    return refuse(u, "there is no such chain in its base");
+  u->next = (uint32_t)chain + 1;
+  if (!get_move(u) || !move_chain(u, (uint32_t)chain))
+    return false;
+  return is_kept ? keep_borders(u, index, (uint32_t)chain)
+                 : get_top(u, index, pf_base_sides(u->base, (uint32_t)chain));
+}
+
+static bool get_chain(unpacker *u, uint32_t index) {
+  uint32_t origin = PF_NEW;
+  if (u->base)
+    origin = pf_get_symbol(&u->decoder, u->models.origin, PF_ORIGIN_BITS);
+  if (origin > PF_KEPT)
+    return refuse(u, "there is no such origin of a chain");
+  if (u->decoder.is_beyond)
+    return refuse(u, "its code ends too early");
+  if (origin == PF_KEPT)
+    return get_old_chain(u, index, true);
+  return (origin == PF_NEW ? get_new_chain(u, index) : get_old_chain(u, index, false)) &&
+         (u->states[index].since < foot_of(u, index) || refuse(u, "a chain is not in it"));
 }
 
 /* ---------------------------------------------------------------- changes */
@@ -361,30 +480,68 @@ static bool check_end(unpacker *u) {
   return true;
 }
 
+/* What the band has from its base from the beginning: cells with all that belongs to them. */
+static bool take_base(unpacker *u) {
+  const planefile_band *from = u->base->band;
+  planefile_band *band = &u->out->band;
+  if (from->cell_count > u->cell_count || from->step_count > u->room.step_count ||
+      from->axis_count > u->room.axis_count || from->stop_count > u->room.stop_count)
+    return refuse(u, "it has less than its base");
+  band->cell_count = from->cell_count;
+  memcpy(u->cells, from->cells, from->cell_count * sizeof *u->cells);
+  if (!u->coding)
+    return true;
+  memcpy(u->programs, from->programs, from->cell_count * sizeof *u->programs);
+  memcpy(u->room.steps, from->steps, from->step_count * sizeof *from->steps);
+  memcpy(u->room.axes, from->axes, from->axis_count * sizeof *from->axes);
+  memcpy(u->room.stops, from->stops, from->stop_count * sizeof *from->stops);
+  u->coding->step_count = band->step_count = from->step_count;
+  u->coding->axis_count = band->axis_count = from->axis_count;
+  u->coding->stop_count = band->stop_count = from->stop_count;
+  return true;
+}
+
+/* Axes of the base that lie elsewhere. */
+static bool get_patches(unpacker *u) {
+  for (uint32_t i = 0; u->coding && i < u->base->band->axis_count; i++)
+    if (pf_get_symbol(&u->decoder, u->models.is_patched, 1) &&
+        !pf_get_patch(&u->decoder, u->coding, &u->room.axes[i]))
+      return refuse(u, "an axis is not allowed");
+  return true;
+}
+
+/* The cells from which it begins. */
+static bool get_beginning(unpacker *u) {
+  uint32_t cell;
+  return u->base ? take_base(u) && get_patches(u) : get_fresh(u, &cell);
+}
+
 /* False without a reason: no memory. */
-static bool unpack(unpacker *u, const unsigned char *payload, size_t size, bool varies) {
-  uint32_t base;
+static bool unpack(unpacker *u, const pf_payload *payload) {
+  bool varies = payload->varies;
   size_t head = pf_band_head(varies);
-  if (size < head)
+  u->base = payload->base;
+  if (payload->size < head)
     return refuse(u, "it is too short");
-  if (!load_counts(u, payload, size - head) ||
-      (varies && !load_varied_counts(u, payload, size - head)) || !make_room(u) ||
+  size_t code = payload->size - head, paid = code + (u->base ? u->base->code : 0);
+  if (!load_counts(u, payload->bytes, paid) ||
+      (varies && !load_varied_counts(u, payload->bytes, paid)) || !make_room(u) ||
       (varies && !make_varied_room(u)))
     return false;
   pf_models_begin(&u->models, sizeof u->models);
-  pf_decoder_begin(&u->decoder, payload + head, size - head);
-  return get_fresh(u, &base) && get_chains(u) && get_changes(u) && check_end(u) && sort_borders(u);
+  pf_decoder_begin(&u->decoder, payload->bytes + head, code);
+  return get_beginning(u) && get_chains(u) && get_changes(u) && check_end(u) && sort_borders(u);
 }
 
-planefile_status pf_band_decode(const pf_memory *memory, const unsigned char *payload, size_t size,
-                                bool varies, pf_band *out, const char **reason) {
+planefile_status pf_band_decode(const pf_memory *memory, const pf_payload *payload, pf_band *out,
+                                const char **reason) {
   unpacker *u = pf_make(memory, sizeof *u, 1);
   *reason = "no memory";
   if (!u)
     return PLANEFILE_NO_MEMORY;
   u->memory = memory;
   u->out = out;
-  bool is_good = unpack(u, payload, size, varies);
+  bool is_good = unpack(u, payload);
   if (u->reason)
     *reason = u->reason;
   planefile_status status = is_good     ? PLANEFILE_OK

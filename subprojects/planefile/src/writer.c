@@ -1,6 +1,13 @@
 /* Planes to a file: checked, cut into bands, and written record by record. A record of a film that
  * is there already, of an earlier frame, is not written again: frames that are equal have one
  * index, and bands that are equal are one.
+ *
+ *   key frame:    its bands | index
+ *   other frame:  bands by how they differ from the key's, or by themselves | index
+ *
+ * Frames have less and less in common with the key. When what this has cost since the key, beyond
+ * what the first frame after it took, is as much as a frame that has no base, the next key is due:
+ * no other choice of keys, whatever comes, would have been much more than twice as good.
  */
 #include <math.h>
 
@@ -16,6 +23,19 @@ typedef struct entry {
   uint64_t offset;
 } entry;
 
+/* A band of the key frame. */
+typedef struct key_band {
+  entry at;
+  pf_band band; /* as it is read */
+  pf_base base;
+} key_band;
+
+/* A band that may be written. */
+typedef struct draft {
+  unsigned char kind;
+  pf_encoder code;
+} draft;
+
 struct planefile_writer {
   planefile_writer_desc desc;
   pf_memory memory;
@@ -25,9 +45,18 @@ struct planefile_writer {
   size_t frame_count, frame_capacity;
   uint64_t index; /* the offset of the latest index */
 
+  /* the key frame of a film; no bands: there is none yet */
+  key_band *key;
+  size_t key_count, key_capacity;
+  uint64_t key_index;
+  uint32_t key_flags;
+  size_t first, excess; /* bytes: of the first frame made from it, and of the others beyond that */
+
   /* of the current frame */
   const planefile_band *plane;
   uint32_t flags;
+  bool has_base;             /* it is made from the key */
+  draft *drafts;             /* of its bands */
   planefile_border *borders; /* by their tops */
   planefile_border *shown;   /* those of the current band */
   entry *entries;
@@ -169,10 +198,22 @@ static planefile_status put_record(writer *w, unsigned char kind, const unsigned
   return status == PLANEFILE_OK ? put(w, check, sizeof check) : status;
 }
 
+/* Records that are read in different ways differ. */
+static pf_print print_of(const writer *w, unsigned char kind, const unsigned char *payload,
+                         size_t size) {
+  uint64_t flags = (w->flags & PF_VARIES) << 8, base = kind == PF_CHANGED ? w->key_index : 0;
+  return pf_print_of(payload, size, kind | flags | base << 16);
+}
+
+/* Whether a band is in the film already. */
+static bool is_written(const writer *w, unsigned char kind, const pf_encoder *code) {
+  return pf_written_has(w->known, print_of(w, kind, code->bytes, code->count));
+}
+
 /* A record that a film has once. *offset: where it is. */
 static planefile_status put_once(writer *w, unsigned char kind, const unsigned char *payload,
                                  size_t size, uint64_t *offset) {
-  pf_print print = pf_print_of(payload, size, kind | w->flags << 8);
+  pf_print print = print_of(w, kind, payload, size);
   *offset = w->offset;
   if (!w->known)
     return put_record(w, kind, payload, size);
@@ -204,8 +245,10 @@ static planefile_status put_index(writer *w) {
   unsigned char *payload = pf_make(&w->memory, 1, size), *at = payload + flags;
   if (!payload)
     return PLANEFILE_NO_MEMORY;
-  if (flags)
+  if (flags) {
     pf_store_32(payload, w->flags);
+    pf_store_64(payload + 4, w->has_base ? w->key_index : 0);
+  }
   for (size_t i = 0; i < w->entry_count; i++, at += PF_ENTRY_BYTES) {
     pf_store_32(at, (uint32_t)w->entries[i].top);
     pf_store_64(at + 4, w->entries[i].offset);
@@ -263,8 +306,21 @@ static size_t add_begun(writer *w, int32_t top, size_t next) {
   return count;
 }
 
-static planefile_status put_band(writer *w, int32_t top, int32_t foot) {
-  pf_encoder code;
+/* Encodes the borders that are shown. */
+static planefile_status encode(writer *w, int32_t top, int32_t foot, const pf_base *base,
+                               pf_encoder *out) {
+  const pf_part part = {.plane = w->plane,
+                        .borders = w->shown,
+                        .count = w->shown_count,
+                        .top = top,
+                        .foot = foot,
+                        .is_whole = is_film(w) && !base,
+                        .base = base};
+  return pf_band_encode(&w->memory, &part, out);
+}
+
+static planefile_status add_entry(writer *w, unsigned char kind, int32_t top,
+                                  const pf_encoder *code) {
   entry *entries =
       pf_grow(&w->memory, w->entries, sizeof *entries, &w->entry_capacity, w->entry_count + 1);
   if (!entries)
@@ -272,10 +328,31 @@ static planefile_status put_band(writer *w, int32_t top, int32_t foot) {
   w->entries = entries;
   uint64_t *offset = &w->entries[w->entry_count].offset;
   w->entries[w->entry_count++].top = top;
-  planefile_status status =
-      pf_band_encode(&w->memory, w->plane, w->shown, w->shown_count, top, foot, &code);
+  return put_once(w, kind, code->bytes, code->count, offset);
+}
+
+/* The latest band that was added becomes one of the key. */
+static planefile_status add_key(writer *w, const pf_encoder *code) {
+  const char *reason;
+  const pf_payload payload = {code->bytes, code->count, w->flags & PF_VARIES, NULL};
+  key_band *key = pf_grow(&w->memory, w->key, sizeof *key, &w->key_capacity, w->key_count + 1);
+  if (!key)
+    return PLANEFILE_NO_MEMORY;
+  w->key = key;
+  key = &w->key[w->key_count++];
+  *key = (key_band){.at = w->entries[w->entry_count - 1]};
+  return pf_band_decode(&w->memory, &payload, &key->band, &reason);
+}
+
+static planefile_status put_band(writer *w, int32_t top, int32_t foot) {
+  pf_encoder code;
+  planefile_status status = encode(w, top, foot, NULL, &code);
   if (status == PLANEFILE_OK)
-    status = put_once(w, PF_BAND, code.bytes, code.count, offset);
+    status = add_entry(w, PF_BAND, top, &code);
+  if (status == PLANEFILE_OK && is_film(w))
+    status = add_key(w, &code);
+  if (status == PLANEFILE_OK && is_film(w))
+    w->key[w->key_count - 1].base.code = code.count;
   pf_encoder_finish(&code);
   return status;
 }
@@ -283,10 +360,6 @@ static planefile_status put_band(writer *w, int32_t top, int32_t foot) {
 static planefile_status put_bands(writer *w) {
   planefile_status status = PLANEFILE_OK;
   size_t count = w->plane->border_count, next = 0;
-  w->shown_capacity = count;
-  w->shown = pf_make(&w->memory, sizeof *w->shown, count);
-  if (!w->shown)
-    return PLANEFILE_NO_MEMORY;
   for (int32_t top = 0, foot; top < PLANEFILE_SIDE && status == PLANEFILE_OK; top = foot) {
     drop_ended(w, top);
     next = add_begun(w, top, next);
@@ -294,6 +367,112 @@ static planefile_status put_bands(writer *w) {
     status = put_band(w, top, foot);
   }
   return status;
+}
+
+/* ---------------------------------------------------------------- keys */
+
+static void forget_key(writer *w) {
+  for (size_t i = 0; i < w->key_count; i++) {
+    pf_base_free(&w->key[i].base);
+    pf_band_free(&w->memory, &w->key[i].band);
+  }
+  w->key_count = 0;
+}
+
+/* What is needed of the key to make other frames from it. */
+static planefile_status keep_key(writer *w) {
+  w->key_index = w->index;
+  w->key_flags = w->flags;
+  w->first = SIZE_MAX;
+  w->excess = 0;
+  for (size_t i = 0; i < w->key_count; i++) {
+    key_band *key = &w->key[i];
+    if (!pf_base_make(&w->memory, &key->band.band, key->base.code, &key->base))
+      return PLANEFILE_NO_MEMORY;
+  }
+  return PLANEFILE_OK;
+}
+
+/* Frames that have a base know of all its cells, and cell 0 is one of them. */
+static bool can_have_base(const writer *w) {
+  const planefile_cell *cell = &w->plane->cells[0];
+  return w->key_count > 0 && (w->flags & PF_VARIES) == (w->key_flags & PF_VARIES) &&
+         (w->flags & PF_OPAQUE) <= (w->key_flags & PF_OPAQUE) &&
+         memcmp(cell, &w->key->band.band.cells[0], sizeof *cell) == 0;
+}
+
+static int32_t foot_of(const writer *w, size_t band) {
+  return band + 1 < w->key_count ? w->key[band + 1].at.top : PLANEFILE_SIDE;
+}
+
+/* Shows the borders of the band at the heights of one of the key's. */
+static void show_band(writer *w, int32_t top, int32_t foot) {
+  w->shown_count = 0;
+  for (size_t i = 0; i < w->plane->border_count; i++)
+    if (w->borders[i].top < foot && w->borders[i].foot > top)
+      w->shown[w->shown_count++] = w->borders[i];
+}
+
+/* Makes both forms of a band, of which the smaller one is left; *alone: the size of the one that
+ * has no base. One that is in the file already takes nothing. */
+static planefile_status make_draft(writer *w, size_t band, size_t *alone) {
+  draft *d = &w->drafts[band];
+  int32_t top = w->key[band].at.top, foot = foot_of(w, band);
+  show_band(w, top, foot);
+  d->kind = PF_BAND;
+  planefile_status status = encode(w, top, foot, NULL, &d->code);
+  *alone = d->code.count;
+  if (status != PLANEFILE_OK || is_written(w, PF_BAND, &d->code))
+    return status;
+  pf_encoder other;
+  status = encode(w, top, foot, &w->key[band].base, &other);
+  if (status != PLANEFILE_OK || other.count >= d->code.count) {
+    pf_encoder_finish(&other);
+    return status;
+  }
+  pf_encoder_finish(&d->code);
+  *d = (draft){PF_CHANGED, other};
+  return PLANEFILE_OK;
+}
+
+/* *is_good: the drafts are worth it. */
+static planefile_status make_drafts(writer *w, bool *is_good) {
+  size_t all = 0, drafted = 0, alone;
+  for (size_t i = 0; i < w->key_count; i++) {
+    planefile_status status = make_draft(w, i, &alone);
+    if (status != PLANEFILE_OK)
+      return status;
+    all += alone;
+    drafted += is_written(w, w->drafts[i].kind, &w->drafts[i].code) ? 0 : w->drafts[i].code.count;
+  }
+  w->first = drafted < w->first ? drafted : w->first;
+  w->excess += drafted - w->first;
+  *is_good = drafted < all && w->excess <= all;
+  return PLANEFILE_OK;
+}
+
+/* Writes the frame by what differs from the key, if that is worth it: w->has_base. */
+static planefile_status put_changed(writer *w) {
+  size_t count = w->key_count;
+  w->drafts = pf_make(&w->memory, sizeof *w->drafts, count);
+  if (!w->drafts)
+    return PLANEFILE_NO_MEMORY;
+  planefile_status status = make_drafts(w, &w->has_base);
+  for (size_t i = 0; i < count && w->has_base && status == PLANEFILE_OK; i++)
+    status = add_entry(w, w->drafts[i].kind, w->key[i].at.top, &w->drafts[i].code);
+  for (size_t i = 0; i < count; i++)
+    pf_encoder_finish(&w->drafts[i].code);
+  pf_free(&w->memory, w->drafts, sizeof *w->drafts, count);
+  w->shown_count = 0;
+  return status;
+}
+
+static planefile_status put_key(writer *w) {
+  forget_key(w);
+  planefile_status status = put_bands(w);
+  if (status == PLANEFILE_OK)
+    status = put_index(w);
+  return status == PLANEFILE_OK ? keep_key(w) : status;
 }
 
 /* ---------------------------------------------------------------- frames */
@@ -307,12 +486,20 @@ static bool varies(const planefile_band *plane) {
 }
 
 static planefile_status put_plane(writer *w) {
+  size_t count = w->plane->border_count;
   planefile_status status = sort_borders(w);
+  w->has_base = false;
+  w->shown_capacity = count;
+  w->shown = pf_make(&w->memory, sizeof *w->shown, count);
+  if (status == PLANEFILE_OK && !w->shown)
+    status = PLANEFILE_NO_MEMORY;
   if (status == PLANEFILE_OK && w->offset == 0)
     status = put_header(w);
-  if (status == PLANEFILE_OK)
-    status = put_bands(w);
-  return status == PLANEFILE_OK ? put_index(w) : status;
+  if (status == PLANEFILE_OK && can_have_base(w))
+    status = put_changed(w);
+  if (status != PLANEFILE_OK)
+    return status;
+  return w->has_base ? put_index(w) : put_key(w);
 }
 
 static void forget_frame(writer *w) {
@@ -388,6 +575,8 @@ void planefile_writer_destroy(planefile_writer *w) {
   if (!w)
     return;
   pf_memory memory = w->memory;
+  forget_key(w);
+  pf_free(&memory, w->key, sizeof *w->key, w->key_capacity);
   pf_written_destroy(w->known);
   pf_free(&memory, w->frames, sizeof *w->frames, w->frame_capacity);
   pf_free(&memory, w->entries, sizeof *w->entries, w->entry_capacity);

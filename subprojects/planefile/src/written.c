@@ -84,6 +84,10 @@ static bool grow(pf_written *written) {
   return true;
 }
 
+bool pf_written_has(const pf_written *written, pf_print print) {
+  return find_slot(written->slots, written->slot_count, &print)->offset != 0;
+}
+
 uint64_t *pf_written_find(pf_written *written, pf_print print) {
   if (2 * written->count >= written->slot_count && !grow(written))
     return NULL;

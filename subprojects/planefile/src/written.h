@@ -19,6 +19,7 @@ typedef struct pf_written pf_written;
 
 pf_written *pf_written_create(const pf_memory *memory); /* NULL: no memory */
 void pf_written_destroy(pf_written *written);           /* NULL is ignored */
+bool pf_written_has(const pf_written *written, pf_print print);
 /* The offset of the record with a print; 0: it is new, and the caller sets it. Valid until the next
  * call. NULL: no memory. */
 uint64_t *pf_written_find(pf_written *written, pf_print print);

@@ -173,26 +173,71 @@ local function get_piece(band, x, y)
   return piece, x, y
 end
 
-local function get_chain(band, start, before)
-  local coder, chain, count = band.coder, {}, #band.chains
-  start.x, start.y = start.x + coder.signed("start x"), start.y + coder.signed("start y")
-  local pieces = coder.number("pieces") + 1
-  local latest, other = before[count] or {0, 0}, before[count - 1] or {0, 0}
-  chain.sides = get_sides(band, 0, {0, 0}, other, latest)
-  before[count + 1] = chain.sides
-  local x, y = start.x, start.y
-  for i = 1, pieces do chain[i], x, y = get_piece(band, x, y) end
-  chain.since, chain.foot = math.max(start.y, band.top), math.min(y, band.foot)
-  band.chains[count + 1] = chain
-end
-
 local function add_border(band, chain, foot)
   local left, right = chain.sides[1], chain.sides[2]
   if left == right then return end
   local change = {}
   for c = 1, 4 do change[c] = band.cells[right + 1][c] - band.cells[left + 1][c] end
-  band.borders[#band.borders + 1] = {chain = chain, top = chain.since, foot = foot, change = change,
+  local border = {chain = chain, top = chain.since, foot = foot, change = change,
+    sides = chain.sides,
     left = band.cells[left + 1], right = band.cells[right + 1]}
+  band.borders[#band.borders + 1], chain.borders[#chain.borders + 1] = border, border
+end
+
+-- A chain's cells at its top. own: those that it has in the base.
+local function get_top(band, chain, before, own)
+  local count = #band.chains
+  local latest, other = before[count] or {0, 0}, before[count - 1] or {0, 0}
+  chain.sides = get_sides(band, 0, own, other, latest)
+end
+
+local function get_new_chain(band, chain, start, before)
+  local coder = band.coder
+  start.x, start.y = start.x + coder.signed("start x"), start.y + coder.signed("start y")
+  local pieces = coder.number("pieces") + 1
+  get_top(band, chain, before, {0, 0})
+  local x, y = start.x, start.y
+  for i = 1, pieces do chain[i], x, y = get_piece(band, x, y) end
+end
+
+-- A chain of the base, moved; is_kept: with its borders.
+local function get_old_chain(band, chain, start, before, is_kept)
+  local coder, move = band.coder, band.move
+  local number = band.next_old + coder.signed("which")
+  local old = band.base.chains[number + 1]
+  band.next_old = number + 1
+  if coder.symbol("is moved", 1) == 1 then
+    move.x, move.y = move.x + coder.signed("shift x"), move.y + coder.signed("shift y")
+  end
+  for i, piece in ipairs(old) do
+    chain[i] = {}
+    for k, p in ipairs(piece) do chain[i][k] = {p[1] + move.x, p[2] + move.y, p[3]} end
+  end
+  start.x, start.y = chain[1][1][1], chain[1][1][2]
+  if not is_kept then
+    return get_top(band, chain, before, old.borders[1] and old.borders[1].sides or {0, 0})
+  end
+  for _, border in ipairs(old.borders) do
+    chain.sides = border.sides
+    chain.since = math.max(border.top + move.y, band.top)
+    local foot = math.min(border.foot + move.y, band.foot)
+    if chain.since < foot then add_border(band, chain, foot) end
+  end
+  chain.sides = {0, 0}
+end
+
+local function get_chain(band, start, before)
+  local chain = {borders = {}}
+  local origin = band.base and band.coder.symbol("origin", 2) or 0
+  if origin == 0 then
+    get_new_chain(band, chain, start, before)
+  else
+    get_old_chain(band, chain, start, before, origin == 2)
+  end
+  before[#band.chains + 1] = chain.sides
+  local last = chain[#chain]
+  chain.since, chain.foot = math.max(start.y, band.top), math.min(last[#last][2], band.foot)
+  band.chains[#band.chains + 1] = chain
 end
 
 local function get_group(band, height, first, latest, done)
@@ -213,9 +258,24 @@ local function get_group(band, height, first, latest, done)
   return done + size, first, latest
 end
 
-local function read_band(payload, varies)
+-- A band begins with the cells of its base, whose axes may have been moved.
+local function begin_with(band, base)
+  band.base, band.cells, band.axes = base, base.cells, base.axes
+  band.next_old, band.move = 0, {x = 0, y = 0}
+  for _, axis in ipairs(band.axes) do
+    if band.coder.symbol("is patched", 1) == 1 then
+      local is_wide = not (axis.w[1] == 0 and axis.w[2] == 0 and axis.w[3] == 1)
+      axis.p[3] = get_double(band, "axis")
+      if axis.kind > 0 then axis.q[3] = get_double(band, "axis") end
+      if is_wide then axis.w[3] = get_double(band, "axis") end
+    end
+  end
+end
+
+-- base: the band that it is made from, which is used up, or nil.
+local function read_band(payload, varies, base)
   local band, start, before = new_band(payload, varies), {x = 0, y = 0}, {}
-  get_fresh(band)
+  if base then begin_with(band, base) else get_fresh(band) end
   for _ = 1, band.chain_count do get_chain(band, start, before) end
   local height, first, latest, done = band.top, 0, {0, 0}, 0
   while done < band.change_count do
@@ -367,27 +427,29 @@ local function payload_at(bytes, offset)
   local length = ("<I4"):unpack(bytes, offset + 2)
   local record = bytes:sub(offset + 1, offset + 5 + length)
   assert(crc32c(("<I8"):pack(offset) .. record) == ("<I4"):unpack(bytes, offset + 6 + length))
-  return record:sub(6)
+  return record:sub(6), record:sub(1, 1)
 end
 
--- The entries of the index of a frame, and its flags.
+-- The entries of the index of a frame, its flags, and the entries of its base or nil.
 local function read_index(bytes, frame)
   assert(bytes:sub(1, 8) == "celplane" and crc32c(bytes:sub(1, 36)) == ("<I4"):unpack(bytes, 37))
   local trailer, flags = bytes:sub(-32), ("<I4"):unpack(bytes, 13)
   local last, size = ("<I8I8"):unpack(trailer, 9)
   assert(trailer:sub(1, 8) == "planeend" and size == #bytes)
-  if flags ~= 4 then return payload_at(bytes, last), flags end
+  if flags ~= 4 then return (payload_at(bytes, last)), flags end
   local index = payload_at(bytes, (("<I8"):unpack(payload_at(bytes, last), 9 + 8 * frame)))
-  return index:sub(5), (("<I4"):unpack(index))
+  local own, base = ("<I4I8"):unpack(index)
+  return index:sub(13), own, base > 0 and payload_at(bytes, base):sub(13) or nil
 end
 
 -- bands: all that the index names, in order.
 local function read_bands(bytes, frame)
-  local entries, flags = read_index(bytes, frame)
-  local bands = {}
+  local entries, flags, base_entries = read_index(bytes, frame)
+  local bands, varies = {}, flags & 2 > 0
   for at = 1, #entries, 12 do
-    local payload = payload_at(bytes, (("<I8"):unpack(entries, at + 4)))
-    bands[#bands + 1] = read_band(payload, flags & 2 > 0)
+    local payload, kind = payload_at(bytes, (("<I8"):unpack(entries, at + 4)))
+    local base = kind == "D" and payload_at(bytes, (("<I8"):unpack(base_entries, at + 4))) or nil
+    bands[#bands + 1] = read_band(payload, varies, base and read_band(base, varies))
   end
   return bands, flags & 1 > 0
 end

@@ -40,9 +40,14 @@ static void put_drawn(const char *folder, int number, memory_file *file, uint32_
   planefile_plane_destroy(plane);
 }
 
-/* The drawing of a number. */
+/* The drawing of a number; each third one is made from the one before. */
 static drawing make(int number) {
-  return random_drawing((uint64_t)number, (uint32_t)(number % 12), number % 2 ? VARIED : FLAT);
+  int from = number % 3 == 2 ? number - 1 : number;
+  random_state random = {(uint64_t)number};
+  drawing d = random_drawing((uint64_t)from, 4 + (uint32_t)(from % 12), from % 2 ? VARIED : FLAT);
+  if (from < number)
+    alter_drawing(&d, &random, from % 3 == 0);
+  return d;
 }
 
 static memory_file make_film(int from, int end) {

@@ -279,6 +279,45 @@ static inline drawing random_drawing(uint64_t seed, uint32_t shapes, variety kin
   return d;
 }
 
+/* Moves a chain with its borders, as far as they stay in the frame. */
+static inline void move_chain(drawing *d, uint32_t chain, int32_t dx, int32_t dy) {
+  const planefile_chain *of = &d->chains[chain];
+  for (uint32_t i = of->piece; i < of->piece + of->piece_count; i++)
+    for (uint32_t k = 0; k <= d->pieces[i].degree; k++) {
+      d->points[d->pieces[i].point + k].x += dx;
+      d->points[d->pieces[i].point + k].y += dy;
+    }
+  uint32_t kept = 0;
+  for (uint32_t i = 0; i < d->plane.border_count; i++) {
+    planefile_border b = d->borders[i];
+    if (b.chain == chain) {
+      b.top = b.top + dy > 0 ? b.top + dy : 0;
+      b.foot = b.foot + dy < PLANEFILE_SIDE ? b.foot + dy : PLANEFILE_SIDE;
+    }
+    if (b.top < b.foot)
+      d->borders[kept++] = b;
+  }
+  d->plane.border_count = kept;
+}
+
+/* What the next frame of a film may be: some shapes have moved, some axes, some colours differ. */
+static inline void alter_drawing(drawing *d, random_state *random, bool is_opaque) {
+  for (uint32_t i = 0; i + 1 < d->plane.chain_count; i += 2) {
+    int32_t dx = random_between(random, -(1 << 20), 1 << 20);
+    int32_t dy = random_between(random, -(1 << 20), 1 << 20);
+    if (random_below(random, 3))
+      continue;
+    move_chain(d, i, dx, dy);
+    move_chain(d, i + 1, dx, dy);
+  }
+  for (uint32_t i = 0; i < d->plane.axis_count; i++)
+    if (random_below(random, 2))
+      d->axes[i].p[2] += 0.125;
+  uint32_t cell = random_below(random, d->plane.cell_count);
+  if (!d->programs[cell].step_count && cell > 0)
+    d->cells[cell] = random_colour(random, is_opaque);
+}
+
 /* ---------------------------------------------------------------- writing and reading them */
 
 static inline memory_file write_plane(const planefile_band *plane) {

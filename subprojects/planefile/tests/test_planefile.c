@@ -615,21 +615,70 @@ static void test_films(void) {
 }
 
 /* A film with any byte altered is refused, or its frames can be drawn. */
-static void test_altered_films(memory_file *film) {
-  random_state random = {7};
-  for (int i = 0; i < 400; i++) {
-    memory_file other = {malloc(film->size), film->size, film->size};
-    memcpy(other.bytes, film->bytes, film->size);
-    other.bytes[random_below(&random, (uint32_t)film->size)] ^= (unsigned char)(1 << i % 8);
-    mend_sums(&other);
-    planefile_source source = memory_source(&other);
-    planefile_plane *plane = NULL;
-    uint32_t frame = random_below(&random, FRAMES);
-    planefile_view view = {9, 7, 0, 0, 9, 7, PLANEFILE_AREA};
-    if (planefile_read_frame(&source, frame, 0, PLANEFILE_SIDE, &plane, NULL) == PLANEFILE_OK)
-      free(draw_view(plane, view));
-    planefile_plane_destroy(plane);
-    free(other.bytes);
+static void check_altered_film(memory_file *film, uint64_t seed) {
+  random_state random = {seed};
+  memory_file other = {malloc(film->size), film->size, film->size};
+  memcpy(other.bytes, film->bytes, film->size);
+  uint32_t place = random_below(&random, (uint32_t)film->size);
+  other.bytes[place] ^= (unsigned char)(1 << random_below(&random, 8));
+  mend_sums(&other);
+  planefile_source source = memory_source(&other);
+  planefile_plane *plane = NULL;
+  uint32_t frame = random_below(&random, FRAMES);
+  planefile_view view = {9, 7, 0, 0, 9, 7, PLANEFILE_AREA};
+  if (planefile_read_frame(&source, frame, 0, PLANEFILE_SIDE, &plane, NULL) == PLANEFILE_OK)
+    free(draw_view(plane, view));
+  planefile_plane_destroy(plane);
+  free(other.bytes);
+}
+
+/* A film whose frames are made from each other. */
+static memory_file write_changing(uint64_t seed, drawing drawings[FRAMES]) {
+  memory_file file = {0};
+  planefile_writer_desc desc = {
+      .width = 4, .height = 3, .write = memory_write, .user = &file, .frames_second = 12.5};
+  planefile_writer *writer;
+  random_state random = {seed};
+  CHECK(planefile_writer_create(&desc, &writer) == PLANEFILE_OK);
+  for (uint32_t i = 0; i < FRAMES; i++) {
+    drawings[i] = random_drawing(seed, 40, seed % 2 ? FLAT : VARIED);
+    random.state = seed + i / 4; /* the steps of four frames begin alike */
+    for (uint32_t k = 0; k < i; k++)
+      alter_drawing(&drawings[i], &random, seed % 3 == 0);
+    CHECK(planefile_writer_frame(writer, &drawings[i].plane) == PLANEFILE_OK);
+  }
+  CHECK(planefile_writer_end(writer) == PLANEFILE_OK);
+  planefile_writer_destroy(writer);
+  return file;
+}
+
+/* The records of a kind. */
+static uint32_t count_records(const memory_file *file, unsigned char kind) {
+  uint32_t count = 0;
+  for (uint64_t at = PF_HEADER_BYTES; at < file->size - PF_TRAILER_BYTES;
+       at += PF_HEAD_BYTES + (uint64_t)pf_load_32(file->bytes + at + 1) + PF_CHECK_BYTES)
+    count += file->bytes[at] == kind;
+  return count;
+}
+
+static void test_changing_films(void) {
+  for (uint64_t seed = 0; seed < 12; seed++) {
+    drawing drawings[FRAMES];
+    memory_file film = write_changing(seed, drawings);
+    size_t alone = 0;
+    for (uint32_t i = 0; i < FRAMES; i++) {
+      memory_file file = write_plane(&drawings[i].plane);
+      check_frame(&film, i, &drawings[i]);
+      alone += file.size;
+      free(file.bytes);
+    }
+    CHECK(count_records(&film, PF_CHANGED) >= FRAMES / 2);
+    CHECK(film.size < alone / 4 * 3);
+    for (uint32_t i = 0; i < 100; i++)
+      check_altered_film(&film, seed * 100 + i);
+    for (uint32_t i = 0; i < FRAMES; i++)
+      drawing_free(&drawings[i]);
+    free(film.bytes);
   }
 }
 
@@ -662,7 +711,8 @@ static void test_bad_films(void) {
   mend_sums(&film);
   check_film_fault(&film, 0, PLANEFILE_BAD_FILE, "there is no such rate");
   pf_store_double(frames - 8, 12.5);
-  test_altered_films(&film);
+  for (uint32_t i = 0; i < 400; i++)
+    check_altered_film(&film, i);
   one = write_plane(&drawings[0].plane);
   check_film_fault(&one, 1, PLANEFILE_BAD_ARGUMENT, "it has no frame 1");
   planefile_writer_desc desc = {.width = 4, .height = 3, .write = memory_write, .user = &one};
@@ -708,19 +758,19 @@ static planefile_status draw_all(const planefile_plane *plane) {
   return status;
 }
 
-static planefile_status write_frames(const planefile_writer_desc *desc, const planefile_band *plane,
-                                     int count) {
+static planefile_status write_frames(const planefile_writer_desc *desc,
+                                     const planefile_band planes[2], int count) {
   planefile_writer *writer;
   planefile_status status = planefile_writer_create(desc, &writer);
   for (int i = 0; i < count && status == PLANEFILE_OK; i++)
-    status = planefile_writer_frame(writer, plane);
+    status = planefile_writer_frame(writer, &planes[i % 2]);
   if (status == PLANEFILE_OK)
     status = planefile_writer_end(writer);
   planefile_writer_destroy(writer);
   return status;
 }
 
-static planefile_status write_and_draw(const planefile_band *from, double frames_second,
+static planefile_status write_and_draw(const planefile_band from[2], double frames_second,
                                        int *left) {
   memory_file file = {0};
   planefile_writer_desc desc = {4, 3, memory_write, &file, failing, left, frames_second};
@@ -730,7 +780,7 @@ static planefile_status write_and_draw(const planefile_band *from, double frames
   source.resize = failing;
   source.resize_user = left;
   if (status == PLANEFILE_OK)
-    status = planefile_read(&source, 0, PLANEFILE_SIDE, &plane, NULL);
+    status = planefile_read_frame(&source, frames_second > 0, 0, PLANEFILE_SIDE, &plane, NULL);
   if (status == PLANEFILE_OK)
     status = draw_all(plane);
   planefile_plane_destroy(plane);
@@ -739,16 +789,20 @@ static planefile_status write_and_draw(const planefile_band *from, double frames
 }
 
 static void check_no_memory(double frames_second) {
-  drawing d = random_drawing(4, 30, VARIED);
+  random_state random = {1};
+  drawing d = random_drawing(4, 30, VARIED), next = random_drawing(4, 30, VARIED);
+  alter_drawing(&next, &random, false);
+  const planefile_band planes[2] = {d.plane, next.plane};
   int count = 0;
   for (int k = 1;; k++, count++) {
     int left = k;
-    planefile_status status = write_and_draw(&d.plane, frames_second, &left);
+    planefile_status status = write_and_draw(planes, frames_second, &left);
     if (status == PLANEFILE_OK)
       break;
     CHECK(status == PLANEFILE_NO_MEMORY);
   }
   CHECK(count > 20);
+  drawing_free(&next);
   drawing_free(&d);
 }
 
@@ -799,6 +853,7 @@ int main(void) {
   check_no_memory(0);
   check_no_memory(24);
   test_films();
+  test_changing_films();
   test_bad_films();
   test_no_output();
   return check_done();
