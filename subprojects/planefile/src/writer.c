@@ -242,9 +242,10 @@ static planefile_status put_header(writer *w) {
 static planefile_status put_index(writer *w) {
   size_t flags = is_film(w) ? PF_FLAG_BYTES : 0;
   size_t size = flags + w->entry_count * PF_ENTRY_BYTES;
-  unsigned char *payload = pf_make(&w->memory, 1, size), *at = payload + flags;
+  unsigned char *payload = pf_make(&w->memory, 1, size);
   if (!payload)
     return PLANEFILE_NO_MEMORY;
+  unsigned char *at = payload + flags;
   if (flags) {
     pf_store_32(payload, w->flags);
     pf_store_64(payload + 4, w->has_base ? w->key_index : 0);
