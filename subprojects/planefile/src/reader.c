@@ -344,7 +344,7 @@ static planefile_status load_plane(reader *r, uint32_t frame, int32_t top, int32
   if (r->is_film)
     TRY(load_frames(r, frame, last, &index));
   if (frame >= r->plane->info.frame_count)
-    return fail(r, PLANEFILE_BAD_ARGUMENT, last, "it has no frame %" PRIu32, frame);
+    return fail(r, PLANEFILE_BAD_ARGUMENT, r->end, "it has no frame %" PRIu32, frame);
   TRY(load_index(r, index));
   return load_bands(r, top, foot);
 }

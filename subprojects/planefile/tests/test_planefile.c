@@ -624,10 +624,13 @@ static void check_altered_film(memory_file *film, uint64_t seed) {
   mend_sums(&other);
   planefile_source source = memory_source(&other);
   planefile_plane *plane = NULL;
-  uint32_t frame = random_below(&random, FRAMES);
+  uint32_t frame = random_below(&random, FRAMES + 1); /* the last one is not there */
   planefile_view view = {9, 7, 0, 0, 9, 7, PLANEFILE_AREA};
-  if (planefile_read_frame(&source, frame, 0, PLANEFILE_SIDE, &plane, NULL) == PLANEFILE_OK)
+  planefile_fault fault = {0};
+  if (planefile_read_frame(&source, frame, 0, PLANEFILE_SIDE, &plane, &fault) == PLANEFILE_OK)
     free(draw_view(plane, view));
+  else
+    CHECK(fault.offset <= film->size && fault.reason[0] != '\0');
   planefile_plane_destroy(plane);
   free(other.bytes);
 }
@@ -715,6 +718,8 @@ static void test_bad_films(void) {
     check_altered_film(&film, i);
   one = write_plane(&drawings[0].plane);
   check_film_fault(&one, 1, PLANEFILE_BAD_ARGUMENT, "it has no frame 1");
+  for (uint32_t i = 0; i < 400; i++)
+    check_altered_film(&one, i);
   planefile_writer_desc desc = {.width = 4, .height = 3, .write = memory_write, .user = &one};
   planefile_writer *writer;
   CHECK(planefile_writer_create(&desc, &writer) == PLANEFILE_OK);
