@@ -181,8 +181,9 @@ static celspan_status join_operands(const grower *g, const cs_boolean *boolean,
                                     celspan_object **list, sizes *out) {
   const size_t count = boolean->operand_count;
   const celspan_operator op = boolean->op == CELSPAN_CLIP ? CELSPAN_INTERSECTION : boolean->op;
+  celspan_object **shrunk = count > 0 ? list + count : NULL; /* one of nothing has no list */
   CS_TRY(celspan_object_create_boolean(g->context, op, list, count, &out->grown));
-  return celspan_object_create_boolean(g->context, op, list + count, count, &out->shrunk);
+  return celspan_object_create_boolean(g->context, op, shrunk, count, &out->shrunk);
 }
 
 static celspan_status grow_boolean(const grower *g, celspan_object *object,
