@@ -380,9 +380,10 @@ function show_tiles(canvas, pyramid, hooks) {
     1: () => go(base().x, base().y, width / ratio),
   };
 
-  // Independent of the focus: buttons use none of these keys.
+  // Whatever has the focus, except a slider: buttons use none of these keys.
   addEventListener("keydown", event => {
     if (event.ctrlKey || event.altKey || event.metaKey || !KEYS[event.key]) return;
+    if (event.target?.tagName === "INPUT") return;
     event.preventDefault();
     KEYS[event.key]();
   });
