@@ -97,12 +97,12 @@ end
 
 --- A plan for each of the allocations of the last run, or for some of them at random. GLib, which a
 --- library of the art module needs, ends the process or waits for itself if memory runs out while
---- it is loaded: then no file may be left. From run to run its allocations differ by one at most.
+--- it is loaded: then no file may be left.
 local function plans(lasts, samples)
   local list, count, loading, loaded = {}, counts()
   for i = 1, ALL and count or samples do
     local at = ALL and i or random:whole(1, count)
-    list[i] = { at = at, lasts = lasts, may_die = at > loading and at <= loaded + 1 }
+    list[i] = { at = at, lasts = lasts, may_die = at > loading and at <= loaded }
   end
   return list
 end
