@@ -1,6 +1,7 @@
 -- Span and plane files in programs built on OpenImageIO, which open them with plug-ins of ours.
 local celspan = require "celspan"
 local present = require "tests.support.present"
+local scenes = require "tests.support.span_scenes"
 local workbench = require "tests.support.workbench"
 
 local it_opens = present.pictures() and present.program "oiiotool" and it or pending
@@ -32,24 +33,7 @@ local function refused(message, arguments)
   assert.is_nil(bench:read "never.exr")
 end
 
-local SCENE = [[
-local celspan = require "celspan"
-return celspan.film{ size = {300, 200}, frames = 1, frame = function(f)
-  return celspan.rostrum{ celspan.cel{
-    celspan.rect{ 20, 20, 200, 120, texture = celspan.rgb(0, 0, 1, 0.25) },
-    celspan.rect{ 0, 160, 300, 40, texture = celspan.linear{ from = {0, 160}, to = {300, 160},
-      {0, celspan.rgb(0, 0, 0)}, {1, celspan.rgb(1, 0.5, 0.2)} } },
-    celspan.circle{ centre = {150, 90}, radius = 70.3, texture = celspan.rgb(1, 0, 0) } } }
-end }
-]]
-
-local OPAQUE = [[
-local celspan = require "celspan"
-return celspan.film{ size = {120, 90}, frames = 1, frame = function(f)
-  return celspan.rostrum{ back = "#fff", celspan.cel{
-    celspan.circle{ centre = {60, 45}, radius = 40.3, texture = celspan.rgb(1, 0, 0, 0.5) } } }
-end }
-]]
+local SCENE, OPAQUE = scenes.clear, scenes.opaque
 
 setup(function()
   bench = workbench.new()

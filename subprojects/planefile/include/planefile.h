@@ -211,8 +211,8 @@ bool planefile_is(const void *bytes, size_t size);
  * read; memory is less than 600 times as much, and less than 128 KiB more. */
 planefile_status planefile_read(const planefile_source *source, int32_t top, int32_t foot,
                                 planefile_plane **out, planefile_fault *fault);
-/* A frame of a film, from 0; of a single plane there is frame 0. BAD_ARGUMENT: there is none of
- * this number. The list of all frames is read, too, 8 bytes each. */
+/* Reads one frame of a film. The first frame is 0, and a single plane has only this one.
+ * BAD_ARGUMENT: the file has fewer frames. The list of frames is also read, 8 bytes for each. */
 planefile_status planefile_read_frame(const planefile_source *source, uint32_t frame, int32_t top,
                                       int32_t foot, planefile_plane **out, planefile_fault *fault);
 /* NULL is ignored. */

@@ -2,14 +2,9 @@
 
 enum { TRIED = 32 }; /* chains of one print, at most */
 
-struct pf_known_chain {
+struct pf_known {
   pf_print print;
-  uint32_t chain;
-};
-
-struct pf_known_cell {
-  pf_print print;
-  uint32_t cell;
+  uint32_t number; /* of a cell or a chain of the base */
 };
 
 /* ---------------------------------------------------------------- prints */
@@ -96,16 +91,28 @@ static pf_print print_cell(key *k, const planefile_band *band, uint32_t cell) {
 
 static int compare_prints(const pf_print *a, const pf_print *b) { return memcmp(a, b, sizeof *a); }
 
-static int compare_cells(const void *first, const void *second) {
-  const pf_known_cell *a = first, *b = second;
+static int compare_known(const void *first, const void *second) {
+  const pf_known *a = first, *b = second;
   int by_print = compare_prints(&a->print, &b->print);
-  return by_print ? by_print : (a->cell > b->cell) - (a->cell < b->cell);
+  return by_print ? by_print : (a->number > b->number) - (a->number < b->number);
 }
 
-static int compare_chains(const void *first, const void *second) {
-  const pf_known_chain *a = first, *b = second;
-  int by_print = compare_prints(&a->print, &b->print);
-  return by_print ? by_print : (a->chain > b->chain) - (a->chain < b->chain);
+static void sort_known(pf_known *known, uint32_t count) {
+  if (count > 0)
+    qsort(known, count, sizeof *known, compare_known);
+}
+
+/* The first one with a print, or where it would be. */
+static uint32_t find_known(const pf_known *known, uint32_t count, const pf_print *print) {
+  uint32_t low = 0;
+  while (low < count) {
+    uint32_t middle = low + (count - low) / 2;
+    if (compare_prints(&known[middle].print, print) < 0)
+      low = middle + 1;
+    else
+      count = middle;
+  }
+  return low;
 }
 
 /* ---------------------------------------------------------------- cells */
@@ -141,34 +148,20 @@ static void pair_cells(pf_match *m, uint32_t theirs, uint32_t ours) {
   }
 }
 
-/* The first of the base's with a print, or the end. */
-static uint32_t find_cell(const pf_known_cell *known, uint32_t count, const pf_print *print) {
-  uint32_t low = 0;
-  while (low < count) {
-    uint32_t middle = low + (count - low) / 2;
-    if (compare_prints(&known[middle].print, print) < 0)
-      low = middle + 1;
-    else
-      count = middle;
-  }
-  return low;
-}
-
-static void match_cell(pf_match *m, const pf_known_cell *known, const pf_print *print,
-                       uint32_t cell) {
-  uint32_t count = m->base->band->cell_count, at = find_cell(known, count, print);
+static void match_cell(pf_match *m, const pf_known *known, const pf_print *print, uint32_t cell) {
+  uint32_t count = m->base->band->cell_count, at = find_known(known, count, print);
   for (uint32_t i = at; i < count && i - at < TRIED; i++) {
     if (compare_prints(&known[i].print, print) != 0)
       return;
-    if (can_be(m, known[i].cell, cell)) {
-      pair_cells(m, known[i].cell, cell);
+    if (can_be(m, known[i].number, cell)) {
+      pair_cells(m, known[i].number, cell);
       return;
     }
   }
 }
 
-/* Cell 0 is the same in all bands of a frame, and that of the base must be it. */
-static void match_cells(pf_match *m, const pf_known_cell *known, key *k) {
+/* Cell 0 comes first, and of the base's equal ones it gets cell 0. */
+static void match_cells(pf_match *m, const pf_known *known, key *k) {
   for (uint32_t i = 0; i < m->plane->cell_count && !k->failed; i++) {
     pf_print print = print_cell(k, m->plane, i);
     match_cell(m, known, &print, i);
@@ -177,12 +170,12 @@ static void match_cells(pf_match *m, const pf_known_cell *known, key *k) {
 
 static bool find_cells(pf_match *m, key *k) {
   const planefile_band *band = m->base->band;
-  pf_known_cell *known = pf_make(&m->memory, sizeof *known, band->cell_count);
+  pf_known *known = pf_make(&m->memory, sizeof *known, band->cell_count);
   if (!known)
     return false;
   for (uint32_t i = 0; i < band->cell_count && !k->failed; i++)
-    known[i] = (pf_known_cell){print_cell(k, band, i), i};
-  qsort(known, band->cell_count, sizeof *known, compare_cells);
+    known[i] = (pf_known){print_cell(k, band, i), i};
+  sort_known(known, band->cell_count);
   match_cells(m, known, k);
   pf_free(&m->memory, known, sizeof *known, band->cell_count);
   return !k->failed;
@@ -196,23 +189,12 @@ static bool find_chains(pf_match *m, key *k) {
   for (uint32_t i = 0; m->chains && i < band->chain_count && !k->failed; i++) {
     const planefile_chain *chain = &band->chains[i];
     pf_print print = print_chain(k, band, chain->piece, chain->piece + chain->piece_count);
-    m->chains[i] = (pf_known_chain){print, i};
+    m->chains[i] = (pf_known){print, i};
   }
-  if (m->chains && band->chain_count > 0)
-    qsort(m->chains, band->chain_count, sizeof *m->chains, compare_chains);
-  return m->chains && !k->failed;
-}
-
-static uint32_t find_chain(const pf_match *m, const pf_print *print) {
-  uint32_t low = 0, count = m->base->band->chain_count;
-  while (low < count) {
-    uint32_t middle = low + (count - low) / 2;
-    if (compare_prints(&m->chains[middle].print, print) < 0)
-      low = middle + 1;
-    else
-      count = middle;
-  }
-  return low;
+  if (!m->chains || k->failed)
+    return false;
+  sort_known(m->chains, band->chain_count);
+  return true;
 }
 
 static pf_move find_move(const pf_match *m, uint32_t chain, const planefile_point *to) {
@@ -230,13 +212,13 @@ static bool is_better(const pf_link *found, const pf_link *latest, uint32_t chai
 
 static void choose_chain(const pf_match *m, const pf_print *print, const planefile_point *to,
                          const pf_link *latest, pf_link *out) {
-  uint32_t at = find_chain(m, print), count = m->base->band->chain_count;
+  uint32_t count = m->base->band->chain_count, at = find_known(m->chains, count, print);
   for (uint32_t i = at; i < count && i - at < TRIED; i++) {
     if (compare_prints(&m->chains[i].print, print) != 0)
       return;
-    pf_move move = find_move(m, m->chains[i].chain, to);
-    if (is_better(out, latest, m->chains[i].chain, move))
-      *out = (pf_link){PF_MOVED, m->chains[i].chain, move};
+    pf_move move = find_move(m, m->chains[i].number, to);
+    if (is_better(out, latest, m->chains[i].number, move))
+      *out = (pf_link){PF_MOVED, m->chains[i].number, move};
     if (out->move.x == latest->move.x && out->move.y == latest->move.y)
       return;
   }

@@ -13,8 +13,7 @@
 
 #define PF_NONE UINT32_MAX
 
-typedef struct pf_known_chain pf_known_chain;
-typedef struct pf_known_cell pf_known_cell;
+typedef struct pf_known pf_known;
 
 typedef struct pf_match {
   pf_memory memory;
@@ -24,7 +23,7 @@ typedef struct pf_match {
   uint32_t *axes;
   uint32_t *plane_cells; /* of each of the base: that of the plane, or NONE */
   uint32_t *plane_axes;
-  pf_known_chain *chains; /* of the base, by their prints */
+  pf_known *chains; /* of the base, by their prints */
 } pf_match;
 
 /* plane, base: borrowed. out: must be freed whatever happens. False: no memory. */
