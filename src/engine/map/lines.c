@@ -8,31 +8,34 @@ void cs_map_lines_finish(cs_map_lines *lines, cs_memory *memory) {
   *lines = (cs_map_lines){0};
 }
 
-/* Ties are broken by the points, of which no two borders share the first one. */
-typedef struct placed {
-  cs_map_border border;
-  int32_t top;
-} placed;
+static inline bool is_before(const uint64_t *a, const uint64_t *b) { return *a < *b; }
 
-static inline bool is_before(const placed *a, const placed *b) {
-  return a->top != b->top ? a->top < b->top : a->border.first < b->border.first;
+CS_SORT_DEFINE(sort_keys, uint64_t, is_before)
+
+/* The height of a border's top, which may be below 0, and its number. */
+static uint64_t key_of(const cs_map_lines *lines, size_t i) {
+  int64_t top = lines->points[lines->borders[i].first].y;
+  return (uint64_t)(top - INT32_MIN) << 32 | i;
 }
 
-CS_SORT_DEFINE(sort_placed, placed, is_before)
-
 celspan_status cs_map_lines_sort(celspan_context *context, cs_map_lines *lines) {
-  placed *order;
   size_t count = lines->border_count;
+  cs_map_border *sorted;
+  uint64_t *keys;
   if (count == 0)
     return CELSPAN_OK;
-  CS_TRY(CS_MAKE(context, order, count));
-  for (size_t i = 0; i < count; i++) {
-    const cs_map_border border = lines->borders[i];
-    order[i] = (placed){border, lines->points[border.first].y};
+  CS_TRY(CS_MAKE(context, keys, count));
+  celspan_status status = CS_MAKE(context, sorted, count);
+  for (size_t i = 0; i < count && status == CELSPAN_OK; i++)
+    keys[i] = key_of(lines, i);
+  if (status == CELSPAN_OK) {
+    sort_keys(keys, count);
+    for (size_t i = 0; i < count; i++)
+      sorted[i] = lines->borders[keys[i] & UINT32_MAX];
+    cs_mem_free(context->memory, lines->borders, lines->border_capacity * sizeof *lines->borders);
+    lines->borders = sorted;
+    lines->border_capacity = count;
   }
-  sort_placed(order, count);
-  for (size_t i = 0; i < count; i++)
-    lines->borders[i] = order[i].border;
-  cs_mem_free(context->memory, order, count * sizeof *order);
-  return CELSPAN_OK;
+  cs_mem_free(context->memory, keys, count * sizeof *keys);
+  return status;
 }

@@ -1,55 +1,32 @@
-/* Making a map: the rows of a plan are swept, and their visible edges are joined to borders.
+/* Making a map: the boundaries of a plan are swept by events (engine/events/events.h), what shows
+ * is composed once for each of the windings, and parts of a chain that follow each other between
+ * the same cells are joined to borders.
  *
- *   row y        \        edge: from row to row, or from event to event
- *   row y + 1     \
- *   row y + 2      |      the ends of the borders so far are found by place and cells: which of
- *                         two borders that end in one place is continued makes no difference
+ *   windings   0 --A+-- 1 --B+-- 2    they are visited from the first one along their tree: each
+ *               `--B+-- 3             is found by crossing one boundary
  *
- * A point is dropped where the border is straight: where the edge from the point before it to the
- * next one passes within TOLERANCE of all that was dropped. It is so small that two drawings with a
- * common boundary, which may have their points at different places of it, differ by less than
- * anyone can see.
+ *   parts      1|2  0|3  2|3          cells: red|red  clear|blue  red|blue: a part, of which the
+ *                                     first is left out, because nothing changes there
  */
 #include <math.h>
 
 #include "base/splitmix.h"
 #include "engine/compose/over.h"
+#include "engine/events/events.h"
 #include "engine/map/map.h"
 #include "engine/row/row.h"
 
-#define TOLERANCE 4 /* units of a map */
 #define NONE UINT32_MAX
-
-/* A point of a border that is being made. */
-typedef struct link {
-  cs_map_point point;
-  uint32_t previous; /* NONE: it is the first */
-} link;
-
-typedef struct growing {
-  uint32_t left, right;
-  uint32_t last, count; /* links */
-  int64_t row;          /* in which it was extended last */
-  double low, high;     /* slopes from the link before the last one that pass what was dropped */
-} growing;
-
-/* An entry of the table of ends. Those of earlier rows are free. */
-typedef struct end {
-  uint32_t border; /* NONE: it has been continued */
-  uint32_t row;
-} end;
+#define WINDINGS_MOST (4 * CS_MAP_CELLS)
 
 typedef struct maker {
   celspan_context *context;
   cs_map *map;
-  link *links;
-  growing *borders;
-  uint32_t *open;  /* the borders that end in the current row */
-  end *ends;       /* a power of two */
+  cs_events events;
   uint32_t *cells; /* a table: the number of a cell plus 1; 0: free. A power of two */
-  size_t link_count, link_capacity, border_count, border_capacity, open_count, open_capacity;
-  size_t end_capacity, cell_capacity;
-  uint32_t row; /* the current one plus 1 */
+  size_t cell_capacity;
+  uint32_t *cell_of; /* by windings */
+  uint32_t *order;   /* parts, chain by chain */
 } maker;
 
 /* ---------------------------------------------------------------- life */
@@ -102,11 +79,12 @@ size_t cs_map_bytes(const cs_map *map) {
 
 static void finish(maker *m) {
   cs_memory *memory = m->context->memory;
-  cs_mem_free(memory, m->links, m->link_capacity * sizeof *m->links);
-  cs_mem_free(memory, m->borders, m->border_capacity * sizeof *m->borders);
-  cs_mem_free(memory, m->open, m->open_capacity * sizeof *m->open);
-  cs_mem_free(memory, m->ends, m->end_capacity * sizeof *m->ends);
   cs_mem_free(memory, m->cells, m->cell_capacity * sizeof *m->cells);
+  if (m->cell_of)
+    cs_mem_free(memory, m->cell_of, m->events.windings.count * sizeof *m->cell_of);
+  if (m->order)
+    cs_mem_free(memory, m->order, m->events.part_count * sizeof *m->order);
+  cs_events_finish(&m->events, memory);
 }
 
 bool cs_map_suits(const cs_plan *plan) {
@@ -134,13 +112,6 @@ typedef struct content {
 static content content_of(const cs_map *map, uint32_t cell) {
   const cs_map_cell *of = &map->cells[cell];
   return (content){of->colour, of->length > 0 ? map->items + of->item : NULL, of->length};
-}
-
-static content content_at(const cs_retained_row *retained, const cs_retained_side *side) {
-  if (side->program < 0)
-    return (content){.colour = side->colour};
-  const cs_program *program = &retained->programs[side->program].program;
-  return (content){cs_v4_all(0), program->items, program->length};
 }
 
 static bool is_content(content a, content b) {
@@ -207,177 +178,144 @@ static celspan_status find_cell(maker *m, content what, uint32_t *out) {
   return CELSPAN_OK;
 }
 
-/* ---------------------------------------------------------------- ends */
+/* ---------------------------------------------------------------- composing */
 
-static size_t end_place(const maker *m, cs_map_point at, uint32_t left, uint32_t right) {
-  uint64_t place = (uint64_t)(uint32_t)at.x << 32 | (uint32_t)at.y;
-  return mix(place ^ mix((uint64_t)left << 32 | right)) & (m->end_capacity - 1);
+/* The windings as a tree: the first child of each, and the next one of the same parent. NONE: there
+ * is none. */
+typedef struct family {
+  uint32_t child, sibling;
+} family;
+
+static void find_families(const cs_windings *windings, family *out) {
+  for (size_t i = 0; i < windings->count; i++)
+    out[i] = (family){NONE, NONE};
+  for (size_t i = windings->count; i-- > 1;) {
+    family *parent = &out[windings->entries[i].parent];
+    out[i].sibling = parent->child;
+    parent->child = (uint32_t)i;
+  }
 }
 
-static void place_end(maker *m, uint32_t index) {
-  const growing *f = &m->borders[index];
-  size_t at = end_place(m, m->links[f->last].point, f->left, f->right);
-  while (m->ends[at].row == m->row)
-    at = (at + 1) & (m->end_capacity - 1);
-  m->ends[at] = (end){index, m->row};
+/* The cell where the composer is. */
+static celspan_status compose(maker *m, cs_composer *composer, uint32_t *out) {
+  cs_cell cell;
+  (void)cs_composer_begin_row(composer); /* what was composed before has been copied */
+  cs_composer_cell(composer, &cell);
+  CS_TRY(composer->failure);
+  content what = {.colour = cell.colour};
+  if (cell.length > 0)
+    what = (content){cs_v4_all(0), composer->items + cell.program, cell.length};
+  return find_cell(m, what, out);
 }
 
-/* Takes a border out of the table that ends at a point; NONE: there is none. */
-static uint32_t take_end(maker *m, cs_map_point point, uint32_t left, uint32_t right) {
-  size_t at = end_place(m, point, left, right);
-  for (; m->ends[at].row == m->row; at = (at + 1) & (m->end_capacity - 1)) {
-    uint32_t index = m->ends[at].border;
-    if (index == NONE)
-      continue;
-    const growing *f = &m->borders[index];
-    const cs_map_point *last = &m->links[f->last].point;
-    if (last->x == point.x && last->y == point.y && f->left == left && f->right == right) {
-      m->ends[at].border = NONE;
-      return index;
+/* Visits the windings along their tree. */
+static celspan_status compose_all(maker *m, cs_composer *composer, const family *families) {
+  const cs_windings_entry *entries = m->events.windings.entries;
+  CS_TRY(compose(m, composer, &m->cell_of[0]));
+  for (uint32_t at = 0, next = families[0].child; next != NONE || at != 0;) {
+    if (next != NONE && m->map->is_whole) {
+      at = next;
+      cs_composer_cross(composer, entries[at].layer, entries[at].direction);
+      CS_TRY(compose(m, composer, &m->cell_of[at]));
+      next = families[at].child;
+    } else {
+      cs_composer_cross(composer, entries[at].layer, -entries[at].direction);
+      next = families[at].sibling;
+      at = entries[at].parent;
     }
   }
-  return NONE;
+  return CELSPAN_OK;
 }
 
-/* Begins a row with this number of edges: the table has the borders that end at its top. */
-static celspan_status begin_row(maker *m, int64_t y, size_t edges) {
-  size_t wanted = 256;
-  while (wanted < 2 * (m->open_count + edges))
-    wanted *= 2;
-  m->row = (uint32_t)y + 1;
-  if (wanted > m->end_capacity) {
-    cs_mem_free(m->context->memory, m->ends, m->end_capacity * sizeof *m->ends);
-    m->end_capacity = 0;
-    CS_TRY(CS_MAKE(m->context, m->ends, wanted));
-    m->end_capacity = wanted;
-  }
-  CS_TRY(CS_RESERVE(m->context, m->open, m->open_capacity, m->open_count + edges));
-  for (size_t i = 0; i < m->open_count; i++)
-    if (m->links[m->borders[m->open[i]].last].point.y == y * CS_MAP_UNIT)
-      place_end(m, m->open[i]);
-  m->open_count = 0;
-  return CELSPAN_OK;
+/* Finds the cells of all windings. */
+static celspan_status find_cells(maker *m, const cs_plan *plan) {
+  cs_row_maker rows; /* whose composer knows which pictures are opaque */
+  size_t count = m->events.windings.count;
+  family *families;
+  uint32_t clear;
+  CS_TRY(find_cell(m, (content){.colour = cs_v4_all(0)}, &clear));
+  CS_TRY(CS_MAKE(m->context, m->cell_of, count));
+  CS_TRY(CS_MAKE(m->context, families, count));
+  find_families(&m->events.windings, families);
+  celspan_status status = cs_row_maker_init(&rows, m->context, plan);
+  if (status == CELSPAN_OK)
+    status = compose_all(m, &rows.composer, families);
+  cs_row_maker_finish(&rows);
+  cs_mem_free(m->context->memory, families, count * sizeof *families);
+  return status;
 }
 
 /* ---------------------------------------------------------------- borders */
 
-static celspan_status add_link(maker *m, growing *f, cs_map_point point) {
-  CS_TRY(CS_APPEND(m->context, m->links, m->link_count, m->link_capacity, (link){point, f->last}));
-  f->last = (uint32_t)m->link_count - 1;
-  f->count++;
-  f->low = -INFINITY;
-  f->high = INFINITY;
+/* Brings the parts into the order of their chains; those of a chain keep theirs. */
+static celspan_status order_parts(maker *m) {
+  const cs_events *events = &m->events;
+  size_t count = events->courses.course_count + 1;
+  uint32_t *ends;
+  CS_TRY(CS_MAKE(m->context, m->order, events->part_count));
+  CS_TRY(CS_MAKE(m->context, ends, count));
+  for (size_t i = 0; i < events->part_count; i++)
+    ends[events->parts[i].chain + 1]++;
+  for (size_t i = 1; i < count; i++)
+    ends[i] += ends[i - 1];
+  for (size_t i = 0; i < events->part_count; i++)
+    m->order[ends[events->parts[i].chain]++] = (uint32_t)i;
+  cs_mem_free(m->context->memory, ends, count * sizeof *ends);
   return CELSPAN_OK;
 }
 
-/* Narrows the slopes to those that pass a point below the link before the last one. */
-static void narrow(growing *f, cs_map_point above, cs_map_point point) {
-  double dx = (double)point.x - above.x, dy = (double)point.y - above.y;
-  f->low = fmax(f->low, (dx - TOLERANCE) / dy);
-  f->high = fmin(f->high, (dx + TOLERANCE) / dy);
+static void add_point(cs_map_lines *lines, cs_map_border *border, int32_t x, int32_t y) {
+  lines->points[lines->point_count++] = (cs_map_point){x, y};
+  border->count++;
+  border->low = x < border->low ? x : border->low;
+  border->high = x > border->high ? x : border->high;
+  border->foot = y;
 }
 
-/* Continues a border down to a point. */
-static celspan_status extend(maker *m, growing *f, cs_map_point point) {
-  if (f->count > 1) {
-    link *last = &m->links[f->last];
-    cs_map_point above = m->links[last->previous].point;
-    double slope = ((double)point.x - above.x) / ((double)point.y - above.y);
-    if (slope >= f->low && slope <= f->high) {
-      last->point = point;
-      narrow(f, above, point);
-      return CELSPAN_OK;
+static int32_t unit_at(const cs_course_point *from, int32_t y) {
+  return (int32_t)floor(cs_course_x(from, y) + 0.5);
+}
+
+/* Adds a part as a border, or parts of one. */
+static celspan_status add_border(maker *m, const cs_events_part *f) {
+  cs_map_lines *lines = &m->map->lines;
+  const cs_course *course = &m->events.courses.courses[f->chain];
+  const cs_course_point *p = m->events.courses.points + course->first;
+  cs_map_border border = {.left = m->cell_of[f->left],
+                          .right = m->cell_of[f->right],
+                          .first = (uint32_t)lines->point_count,
+                          .low = INT32_MAX,
+                          .high = INT32_MIN};
+  CS_TRY(CS_RESERVE(m->context, lines->points, lines->point_capacity,
+                    lines->point_count + course->count));
+  while (p[1].y <= f->top)
+    p++;
+  for (add_point(lines, &border, unit_at(p, f->top), f->top); p[1].y < f->foot; p++)
+    add_point(lines, &border, p[1].x, p[1].y);
+  add_point(lines, &border, unit_at(p, f->foot), f->foot);
+  return CS_APPEND(m->context, lines->borders, lines->border_count, lines->border_capacity, border);
+}
+
+static bool is_continued(const maker *m, const cs_events_part *f, const cs_events_part *next) {
+  return next->chain == f->chain && next->top == f->foot &&
+         m->cell_of[next->left] == m->cell_of[f->left] &&
+         m->cell_of[next->right] == m->cell_of[f->right];
+}
+
+static celspan_status add_borders(maker *m) {
+  const cs_events *events = &m->events;
+  for (size_t i = 0, end; i < events->part_count; i = end) {
+    cs_events_part f = events->parts[m->order[i]];
+    for (end = i + 1; end < events->part_count; end++) {
+      const cs_events_part *next = &events->parts[m->order[end]];
+      if (!is_continued(m, &f, next))
+        break;
+      f.foot = next->foot;
     }
+    if (m->cell_of[f.left] != m->cell_of[f.right])
+      CS_TRY(add_border(m, &f));
   }
-  cs_map_point above = m->links[f->last].point;
-  CS_TRY(add_link(m, f, point));
-  narrow(f, above, point);
-  return CELSPAN_OK;
-}
-
-static celspan_status begin_border(maker *m, cs_map_point point, uint32_t left, uint32_t right,
-                                   uint32_t *out) {
-  CS_TRY(CS_APPEND(m->context, m->borders, m->border_count, m->border_capacity,
-                   (growing){.left = left, .right = right, .last = NONE, .row = -1}));
-  *out = (uint32_t)m->border_count - 1;
-  return add_link(m, &m->borders[*out], point);
-}
-
-static int32_t round_to_unit(double place) { return (int32_t)floor(place * CS_MAP_UNIT + 0.5); }
-
-static celspan_status add_edge(maker *m, const cs_retained_row *retained,
-                               const cs_retained_edge *edge) {
-  cs_map_point above = {round_to_unit(edge->xa), round_to_unit(edge->ya)};
-  cs_map_point below = {round_to_unit(edge->xb), round_to_unit(edge->yb)};
-  uint32_t left, right, index;
-  CS_TRY(find_cell(m, content_at(retained, &edge->left), &left));
-  CS_TRY(find_cell(m, content_at(retained, &edge->right), &right));
-  if (left == right || above.y >= below.y)
-    return CELSPAN_OK;
-  index = take_end(m, above, left, right);
-  if (index == NONE)
-    CS_TRY(begin_border(m, above, left, right, &index));
-  growing *f = &m->borders[index];
-  CS_TRY(extend(m, f, below));
-  if (f->row != m->row)
-    m->open[m->open_count++] = index;
-  f->row = m->row;
-  place_end(m, index);
-  return CELSPAN_OK;
-}
-
-/* ---------------------------------------------------------------- the map */
-
-/* Copies the points of a border, which are linked from the last one up. There is room. */
-static void finish_border(const maker *m, const growing *f) {
-  cs_map_lines *lines = &m->map->lines;
-  const link *last = &m->links[f->last];
-  cs_map_border *out = &lines->borders[lines->border_count++];
-  *out = (cs_map_border){.left = f->left,
-                         .right = f->right,
-                         .first = (uint32_t)lines->point_count,
-                         .count = f->count,
-                         .low = INT32_MAX,
-                         .high = INT32_MIN,
-                         .foot = last->point.y};
-  lines->point_count += f->count;
-  for (uint32_t at = f->last, k = f->count; k-- > 0; at = m->links[at].previous) {
-    cs_map_point point = m->links[at].point;
-    lines->points[out->first + k] = point;
-    out->low = point.x < out->low ? point.x : out->low;
-    out->high = point.x > out->high ? point.x : out->high;
-  }
-}
-
-static celspan_status finish_borders(const maker *m) {
-  cs_map_lines *lines = &m->map->lines;
-  CS_TRY(CS_RESERVE(m->context, lines->borders, lines->border_capacity, m->border_count));
-  CS_TRY(CS_RESERVE(m->context, lines->points, lines->point_capacity, m->link_count));
-  for (size_t i = 0; i < m->border_count; i++)
-    finish_border(m, &m->borders[i]);
-  return cs_map_lines_sort(m->context, lines);
-}
-
-static celspan_status add_row(maker *m, cs_row_maker *rows, int32_t y, cs_retained_row *retained) {
-  CS_TRY(cs_row_retain(rows, y, retained));
-  CS_TRY(begin_row(m, y, retained->edge_count));
-  for (size_t i = 0; i < retained->edge_count; i++)
-    CS_TRY(add_edge(m, retained, &retained->edges[i]));
-  return CELSPAN_OK;
-}
-
-static celspan_status add_rows(maker *m, const cs_plan *plan) {
-  cs_retained_row retained = {0};
-  cs_row_maker rows;
-  uint32_t clear;
-  celspan_status status = cs_row_maker_init(&rows, m->context, plan);
-  if (status == CELSPAN_OK)
-    status = find_cell(m, (content){.colour = cs_v4_all(0)}, &clear);
-  for (int32_t y = 0; status == CELSPAN_OK && m->map->is_whole && y < plan->height; y++)
-    status = add_row(m, &rows, y, &retained);
-  cs_row_maker_finish(&rows);
-  cs_retained_finish(&retained, m->context->memory);
-  return status;
+  return cs_map_lines_sort(m->context, &m->map->lines);
 }
 
 /* Whether nothing shines through some layer of a program, which is in no group. */
@@ -399,12 +337,19 @@ static void take_stack(cs_map *map, cs_stack *stack) {
   change_references(&map->stack, keep_texture);
 }
 
+static celspan_status make(maker *m, const cs_plan *plan) {
+  CS_TRY(cs_events_find(m->context, &plan->boundaries, WINDINGS_MOST, &m->events));
+  m->map->is_whole = m->events.is_complete;
+  if (m->map->is_whole)
+    CS_TRY(find_cells(m, plan));
+  if (m->map->is_whole)
+    CS_TRY(order_parts(m));
+  return m->map->is_whole ? add_borders(m) : CELSPAN_OK;
+}
+
 celspan_status cs_map_make(celspan_context *context, cs_plan *plan, cs_map *map) {
   maker m = {.context = context, .map = map};
-  map->is_whole = true;
-  celspan_status status = add_rows(&m, plan);
-  if (status == CELSPAN_OK && map->is_whole)
-    status = finish_borders(&m);
+  celspan_status status = make(&m, plan);
   if (status == CELSPAN_OK && map->item_count > 0)
     take_stack(map, &plan->stack);
   finish(&m);

@@ -233,6 +233,38 @@ celspan_point cs_polyline_plain(const cs_boundary_set *set, const cs_boundary_pi
   return (celspan_point){p.x, p.y};
 }
 
+/* A cubic at the parameters of all inner vertices. */
+static void place_vertices(const double c[4], const cs_boundary_piece *piece, double *out) {
+  double step = piece->step;
+  for (uint32_t k = 0; k + 1 < piece->chords; k++) {
+    double t = ((int32_t)k + (1 - CS_POLYLINE_LEAD)) * step;
+    out[k] = ((c[3] * t + c[2]) * t + c[1]) * t + c[0];
+  }
+}
+
+/* Each end of a chord makes up for half of the area beside it; one of the shorter chords at the
+ * ends of the piece has its other end displaced alone. A cubic less its second derivative is a
+ * cubic. */
+void cs_polyline_displaced(const cs_boundary_set *set, const cs_boundary_piece *piece, double *x,
+                           double *y) {
+  double share = piece->step * piece->step * (1.0 / 12), c[8];
+  if (piece->is_power) {
+    load_powers(set, piece, c);
+    for (int axis = 0; axis < 8; axis += 4) {
+      c[axis] -= share * 2 * c[axis + 2];
+      c[axis + 1] -= share * 6 * c[axis + 3];
+    }
+    place_vertices(c, piece, x);
+    place_vertices(c + 4, piece, y);
+    return;
+  }
+  for (uint32_t k = 1; k < piece->chords; k++) {
+    cs_polyline_point p = at(set, piece, cs_polyline_parameter(piece, k));
+    x[k - 1] = p.x - share * p.bend_x;
+    y[k - 1] = p.y - share * p.bend_y;
+  }
+}
+
 /* ---------------------------------------------------------------- fitting */
 
 static inline double bend_at(const cs_pair *p) {

@@ -52,6 +52,11 @@ void cs_polyline_group(const cs_boundary_set *set, const cs_boundary_piece *piec
  * rises with the number, except for rounding. */
 celspan_point cs_polyline_plain(const cs_boundary_set *set, const cs_boundary_piece *piece,
                                 uint32_t vertex);
+/* Vertices 1..chords - 1 of a piece, displaced so that the chords between them and the ends of the
+ * piece keep the area; they are not moved to whole heights. x, y: room for as many. They may lie a
+ * little beyond the ends, and beyond the sides of the frame. */
+void cs_polyline_displaced(const cs_boundary_set *set, const cs_boundary_piece *piece, double *x,
+                           double *y);
 
 /* Groups of vertices in vector code: all vertices of a group at once (polyline_wide.c).
  *

@@ -1,0 +1,89 @@
+#include "engine/events/course.h"
+
+#include "base/number.h"
+#include "model/geometry/polyline.h"
+
+typedef struct maker {
+  const cs_boundary_set *set;
+  cs_courses *out;
+  double *x, *y; /* of the vertices of a piece */
+} maker;
+
+/* To the nearest unit: shifted, so that cutting off the fraction rounds down. */
+static inline int32_t round_to_unit(double place) {
+  const int64_t shift = INT64_C(1) << 31;
+  return (int32_t)((int64_t)(place * CS_COURSE_UNIT + ((double)shift + 0.5)) - shift);
+}
+
+/* Appends a point no higher than the last one of its course, for which there is room. */
+static inline void add_point(cs_course_point *points, cs_course *course, double x, double y) {
+  cs_course_point *last = points + course->count;
+  const cs_course_point *before = last - 1;
+  *last = (cs_course_point){round_to_unit(x), round_to_unit(y), 0};
+  if (course->count > 0 && last->y < before->y)
+    last->y = before->y;
+  if (course->count == 1 && last->y == before->y) /* a jump at the top */
+    points[0] = *last;
+  else if (course->count == 0 || last->x != before->x || last->y != before->y)
+    course->count++;
+}
+
+static void add_piece(const maker *m, const cs_boundary_piece *piece, cs_course_point *points,
+                      cs_course *course) {
+  if (piece->chords > 1)
+    cs_polyline_displaced(m->set, piece, m->x, m->y);
+  for (uint32_t k = 0; k + 1 < piece->chords; k++)
+    add_point(points, course, cs_number_clamp(m->x[k], piece->left, piece->right),
+              cs_number_clamp(m->y[k], piece->y0, piece->y1));
+  add_point(points, course, piece->x1, piece->y1);
+}
+
+/* Leaves out a jump at the foot, and a course without height; finds the slopes. */
+static void end_course(cs_courses *out, cs_course *course) {
+  cs_course_point *points = out->points + course->first;
+  while (course->count > 1 && points[course->count - 2].y == points[course->count - 1].y)
+    course->count--;
+  if (course->count < 2)
+    course->count = 0;
+  for (uint32_t k = 0; k + 1 < course->count; k++) {
+    double height = (double)points[k + 1].y - points[k].y;
+    points[k].slope = height > 0 ? ((double)points[k + 1].x - points[k].x) / height : 0;
+  }
+  out->point_count += course->count;
+}
+
+static void make_course(const maker *m, const cs_boundary_chain *chain, cs_course *course) {
+  cs_course_point *points = m->out->points + m->out->point_count;
+  course->first = m->out->point_count;
+  add_point(points, course, chain->x0, chain->y0);
+  for (uint32_t k = 0; k < chain->piece_count; k++)
+    add_piece(m, &m->set->pieces[chain->piece + k], points, course);
+  end_course(m->out, course);
+}
+
+celspan_status cs_courses_make(celspan_context *context, const cs_boundary_set *set,
+                               cs_courses *out) {
+  maker m = {.set = set, .out = out};
+  size_t chords = set->chain_count + 1, most = 1;
+  *out = (cs_courses){0};
+  for (size_t i = 0; i < set->piece_count; i++) {
+    chords += set->pieces[i].chords;
+    most = set->pieces[i].chords > most ? set->pieces[i].chords : most;
+  }
+  CS_TRY(CS_MAKE(context, out->courses, set->chain_count + 1));
+  out->course_count = set->chain_count;
+  CS_TRY(CS_RESERVE(context, out->points, out->point_capacity, chords));
+  CS_TRY(CS_MAKE(context, m.x, 2 * most));
+  m.y = m.x + most;
+  for (size_t i = 0; i < set->chain_count; i++)
+    make_course(&m, &set->chains[i], &out->courses[i]);
+  cs_mem_free(context->memory, m.x, 2 * most * sizeof *m.x);
+  return CELSPAN_OK;
+}
+
+void cs_courses_finish(cs_courses *courses, cs_memory *memory) {
+  if (courses->courses)
+    cs_mem_free(memory, courses->courses, (courses->course_count + 1) * sizeof *courses->courses);
+  cs_mem_free(memory, courses->points, courses->point_capacity * sizeof *courses->points);
+  *courses = (cs_courses){0};
+}

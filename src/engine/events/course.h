@@ -1,0 +1,49 @@
+/* Courses: the chains of a drawing as polylines in whole units, made at once.
+ *
+ *        o 0             points from the top of the chain down. Each is rounded to a unit, so all
+ *         \              that follows from their order is exact. Chords keep the area left of the
+ *          o 1           curve, as in model/geometry/polyline_vertex.h.
+ *         /
+ *    2 o-o 3             two points at one height: the course jumps there
+ *      |
+ *      o 4
+ *
+ * Invariants
+ *   - Heights never fall; the first step and the last one are no jumps. A chain that has no height
+ *     in units has no points.
+ *   - Points that chains share are the same in all their courses: at any height as many chains of a
+ *     contour go down as up.
+ */
+#pragma once
+
+#include "model/geometry/boundary.h"
+
+#define CS_COURSE_UNIT 65536 /* of a pixel */
+
+typedef struct cs_course_point {
+  int32_t x, y;
+  double slope; /* of x by y, down to the next point; 0 of a jump, and of the last point */
+} cs_course_point;
+
+typedef struct cs_course {
+  size_t first;
+  uint32_t count; /* 0, or at least 2 */
+} cs_course;
+
+/* By chain. */
+typedef struct cs_courses {
+  cs_course *courses;
+  cs_course_point *points;
+  size_t course_count, point_count, point_capacity;
+} cs_courses;
+
+/* The chains must lie within 16384 pixels of the origin. Errors: NO_MEMORY; cs_courses_finish must
+ * be called then, too. */
+CELSPAN_CHECKED celspan_status cs_courses_make(celspan_context *context, const cs_boundary_set *set,
+                                               cs_courses *out);
+void cs_courses_finish(cs_courses *courses, cs_memory *memory);
+
+/* x at a height of the segment that begins at a point and is no jump. */
+static inline double cs_course_x(const cs_course_point *from, int32_t y) {
+  return y == from[1].y ? from[1].x : from->x + (y - from->y) * from->slope;
+}

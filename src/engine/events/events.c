@@ -1,0 +1,290 @@
+#include "engine/events/events.h"
+
+#include "base/self_check.h"
+#include "base/sort.h"
+#include "engine/events/order.h"
+
+/* Two courses that must change places, if they are still neighbours then. */
+typedef struct intersection {
+  int32_t y;
+  uint32_t left, right;
+} intersection;
+
+/* A course, and where it is or ends. */
+typedef struct placed {
+  int32_t y;
+  double x;
+  uint32_t chain;
+} placed;
+
+typedef struct sweep {
+  celspan_context *context;
+  const cs_boundary_set *set;
+  cs_events *events;
+  cs_order order;
+  intersection *intersections; /* a heap, the highest one first */
+  placed *ends;                /* of all courses, from the highest one */
+  placed *dirty;               /* courses whose windings must be found again */
+  uint32_t *touched;           /* courses that have another right neighbour */
+  size_t intersection_count, intersection_capacity, end_count, next_end, next_begin;
+  size_t dirty_count, dirty_capacity, touched_count, touched_capacity;
+} sweep;
+
+/* ---------------------------------------------------------------- intersections */
+
+/* Adds a intersection to the heap. */
+static celspan_status push(sweep *s, intersection added) {
+  CS_TRY(CS_APPEND(s->context, s->intersections, s->intersection_count, s->intersection_capacity,
+                   added));
+  size_t at = s->intersection_count - 1;
+  for (size_t parent; at > 0 && s->intersections[parent = (at - 1) / 2].y > added.y; at = parent)
+    s->intersections[at] = s->intersections[parent];
+  s->intersections[at] = added;
+  return CELSPAN_OK;
+}
+
+/* Takes the highest one out. */
+static intersection pop(sweep *s) {
+  intersection first = s->intersections[0], moved = s->intersections[--s->intersection_count];
+  size_t at = 0, count = s->intersection_count;
+  for (size_t child; (child = 2 * at + 1) < count; at = child) {
+    child += child + 1 < count && s->intersections[child + 1].y < s->intersections[child].y;
+    if (s->intersections[child].y >= moved.y)
+      break;
+    s->intersections[at] = s->intersections[child];
+  }
+  s->intersections[at] = moved;
+  return first;
+}
+
+/* Compares a course with its right neighbour from a height on. */
+static celspan_status compare_ahead(sweep *s, uint32_t chain, int32_t y) {
+  int32_t height = cs_order_ahead(&s->order, chain, y);
+  if (height == CS_ORDER_NEVER)
+    return CELSPAN_OK;
+  return push(s, (intersection){height, chain, s->order.entries[chain].next});
+}
+
+/* ---------------------------------------------------------------- windings */
+
+static celspan_status cross(sweep *s, uint32_t chain, uint32_t from, uint32_t *out) {
+  const cs_boundary_chain *of = &s->set->chains[chain];
+  return cs_windings_cross(s->context, &s->events->windings, from, of->layer, of->direction, out);
+}
+
+/* Ends the part of a course at a height. */
+static celspan_status close(sweep *s, uint32_t chain, int32_t y) {
+  cs_order_entry *entry = &s->order.entries[chain];
+  cs_events *events = s->events;
+  const cs_events_part part = {chain, entry->since, y, entry->left, entry->right};
+  entry->since = y;
+  if (part.top == y)
+    return CELSPAN_OK;
+  return CS_APPEND(s->context, events->parts, events->part_count, events->part_capacity, part);
+}
+
+static celspan_status mark_dirty(sweep *s, uint32_t chain, int32_t y) {
+  cs_order_entry *entry = &s->order.entries[chain];
+  if (chain == s->order.ends || entry->is_dirty)
+    return CELSPAN_OK;
+  entry->is_dirty = true;
+  const placed at = {y, cs_order_x(&s->order, chain, y), chain};
+  return CS_APPEND(s->context, s->dirty, s->dirty_count, s->dirty_capacity, at);
+}
+
+/* Finds the windings from a course on to the right, until they are known. */
+static celspan_status find_windings(sweep *s, uint32_t chain, int32_t y) {
+  cs_order_entry *entries = s->order.entries;
+  while (entries[entries[chain].previous].is_dirty)
+    chain = entries[chain].previous;
+  uint32_t left = entries[entries[chain].previous].right, right;
+  for (; chain != s->order.ends; chain = entries[chain].next, left = right) {
+    cs_order_entry *entry = &entries[chain];
+    if (!entry->is_dirty && entry->left == left)
+      return CELSPAN_OK;
+    CS_TRY(cross(s, chain, left, &right));
+    CS_TRY(close(s, chain, y));
+    entry->left = left;
+    entry->right = right;
+    entry->is_dirty = false;
+  }
+  return CELSPAN_OK;
+}
+
+static inline bool is_before(const placed *a, const placed *b) {
+  if (a->y != b->y)
+    return a->y < b->y;
+  return a->x != b->x ? a->x < b->x : a->chain < b->chain;
+}
+
+CS_SORT_DEFINE(sort_placed, placed, is_before)
+
+static celspan_status settle_dirty(sweep *s, int32_t y) {
+  sort_placed(s->dirty, s->dirty_count);
+  for (size_t i = 0; i < s->dirty_count; i++) {
+    const cs_order_entry *entry = &s->order.entries[s->dirty[i].chain];
+    if (entry->is_there && entry->is_dirty)
+      CS_TRY(find_windings(s, s->dirty[i].chain, y));
+  }
+  s->dirty_count = 0;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- begins and ends */
+
+static celspan_status touch(sweep *s, uint32_t chain) {
+  return CS_APPEND(s->context, s->touched, s->touched_count, s->touched_capacity, chain);
+}
+
+static celspan_status end_courses(sweep *s, int32_t y) {
+  for (; s->next_end < s->end_count && s->ends[s->next_end].y == y; s->next_end++) {
+    uint32_t chain = s->ends[s->next_end].chain;
+    const cs_order_entry *entry = &s->order.entries[chain];
+    CS_TRY(close(s, chain, y));
+    cs_order_leave(&s->order, chain);
+    CS_TRY(touch(s, entry->previous));
+    CS_TRY(mark_dirty(s, entry->next, y));
+  }
+  return CELSPAN_OK;
+}
+
+/* The next course that begins, or NULL. */
+static const cs_course_point *next_begin(sweep *s) {
+  const cs_courses *courses = &s->events->courses;
+  while (s->next_begin < courses->course_count && courses->courses[s->next_begin].count == 0)
+    s->next_begin++;
+  return s->next_begin < courses->course_count
+             ? courses->points + courses->courses[s->next_begin].first
+             : NULL;
+}
+
+static celspan_status begin_courses(sweep *s, int32_t y) {
+  for (const cs_course_point *at; (at = next_begin(s)) && at->y == y; s->next_begin++) {
+    uint32_t chain = (uint32_t)s->next_begin;
+    CS_TRY(cs_order_enter(s->context, &s->order, chain, y));
+    const cs_order_entry *entry = &s->order.entries[chain];
+    CS_TRY(touch(s, chain));
+    CS_TRY(touch(s, entry->previous));
+    CS_TRY(mark_dirty(s, chain, y));
+    CS_TRY(mark_dirty(s, entry->next, y));
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status change_courses(sweep *s, int32_t y) {
+  CS_TRY(end_courses(s, y));
+  CS_TRY(begin_courses(s, y));
+  CS_TRY(settle_dirty(s, y));
+  for (size_t i = 0; i < s->touched_count; i++)
+    if (s->order.entries[s->touched[i]].is_there)
+      CS_TRY(compare_ahead(s, s->touched[i], y));
+  s->touched_count = 0;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- the sweep */
+
+/* Lets neighbours change places. */
+static celspan_status intersect(sweep *s, intersection m) {
+  cs_order_entry *a = &s->order.entries[m.left], *b = &s->order.entries[m.right];
+  uint32_t left = a->left, right = b->right;
+  if (!a->is_there || !b->is_there || a->next != m.right)
+    return CELSPAN_OK;
+  CS_TRY(close(s, m.left, m.y));
+  CS_TRY(close(s, m.right, m.y));
+  cs_order_swap(&s->order, m.left);
+  b->left = left;
+  CS_TRY(cross(s, m.right, left, &b->right));
+  a->left = b->right;
+  a->right = right;
+  s->events->intersections++;
+  CS_TRY(compare_ahead(s, b->previous, m.y));
+  CS_TRY(compare_ahead(s, m.right, m.y));
+  return compare_ahead(s, m.left, m.y);
+}
+
+static celspan_status intersect_until(sweep *s, int32_t y) {
+  while (s->intersection_count > 0 && s->intersections[0].y <= y)
+    CS_TRY(intersect(s, pop(s)));
+  return CELSPAN_OK;
+}
+
+/* Begins the belts after the current one, down to one in which a height lies. */
+static celspan_status go_to(sweep *s, int32_t y) {
+  cs_order *order = &s->order;
+  if (order->count == 0) { /* nothing is compared */
+    int32_t top = y - y % CS_ORDER_BELT;
+    return cs_order_begin_belt(s->context, order, top, top + CS_ORDER_BELT);
+  }
+  while (order->foot < y) {
+    int32_t top = order->foot;
+    CS_TRY(intersect_until(s, top));
+    CS_TRY(cs_order_begin_belt(s->context, order, top, top + CS_ORDER_BELT));
+    for (uint32_t i = order->entries[order->ends].next; i != order->ends;
+         i = order->entries[i].next)
+      CS_TRY(compare_ahead(s, i, top));
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status go_down(sweep *s, size_t most) {
+  const cs_course_point *begin;
+  while ((begin = next_begin(s)) || s->next_end < s->end_count) {
+    int32_t y = s->order.count > 0 ? s->ends[s->next_end].y : begin->y;
+    y = begin && begin->y < y ? begin->y : y;
+    CS_TRY(go_to(s, y));
+    CS_TRY(intersect_until(s, y));
+    CS_TRY(change_courses(s, y));
+    if (s->events->windings.count > most)
+      return CELSPAN_OK;
+  }
+  s->events->is_complete = true;
+  return CELSPAN_OK;
+}
+
+/* Lists where the courses end. */
+static celspan_status list_ends(sweep *s) {
+  const cs_courses *courses = &s->events->courses;
+  CS_TRY(CS_MAKE(s->context, s->ends, s->set->chain_count + 1));
+  for (size_t i = 0; i < courses->course_count; i++) {
+    const cs_course *course = &courses->courses[i];
+    const cs_course_point *last = courses->points + course->first + course->count - 1;
+    if (course->count > 0)
+      s->ends[s->end_count++] = (placed){last->y, last->x, (uint32_t)i};
+  }
+  sort_placed(s->ends, s->end_count);
+  return CELSPAN_OK;
+}
+
+static void finish(sweep *s) {
+  cs_memory *memory = s->context->memory;
+  cs_order_finish(&s->order, memory);
+  cs_mem_free(memory, s->intersections, s->intersection_capacity * sizeof *s->intersections);
+  cs_mem_free(memory, s->dirty, s->dirty_capacity * sizeof *s->dirty);
+  cs_mem_free(memory, s->touched, s->touched_capacity * sizeof *s->touched);
+  if (s->ends)
+    cs_mem_free(memory, s->ends, (s->set->chain_count + 1) * sizeof *s->ends);
+}
+
+celspan_status cs_events_find(celspan_context *context, const cs_boundary_set *set, size_t most,
+                              cs_events *out) {
+  sweep s = {.context = context, .set = set, .events = out};
+  *out = (cs_events){0};
+  CS_TRY(cs_courses_make(context, set, &out->courses));
+  CS_TRY(cs_windings_init(context, &out->windings));
+  celspan_status status = list_ends(&s);
+  if (status == CELSPAN_OK)
+    status = cs_order_init(context, &out->courses, &s.order);
+  if (status == CELSPAN_OK)
+    status = go_down(&s, most);
+  CS_SELF_CHECK(status != CELSPAN_OK || !out->is_complete || s.order.count == 0);
+  finish(&s);
+  return status;
+}
+
+void cs_events_finish(cs_events *events, cs_memory *memory) {
+  cs_courses_finish(&events->courses, memory);
+  cs_windings_finish(&events->windings, memory);
+  cs_mem_free(memory, events->parts, events->part_capacity * sizeof *events->parts);
+  *events = (cs_events){0};
+}

@@ -1,0 +1,49 @@
+/* The sweep of a drawing by events: from its highest point to its lowest one, with work only where
+ * a boundary begins or ends or two change places.
+ *
+ *          .                 begins: two courses at one height
+ *         / \      |
+ *        /   \     |         belts of rows: neighbours are compared ahead, and where two must
+ *       /     \    |         change places, that is an event
+ *      /       \   |
+ *     /         \  |
+ *    /           \ |
+ *    |            x          intersection: the place between the two has other windings
+ *    |           / \
+ *    '----------'   '        ends
+ *
+ * The result are parts: courses between two heights, with the windings on both sides. Nothing is
+ * known here of colours: what shows is found afterwards, once for each of the windings.
+ *
+ * Heights are whole units. Neighbours that meet between two heights change places at the lower one,
+ * so a part may be wrong by a strip of one unit, which is 2^-16 of a pixel, and at no height is
+ * there anything but a list of courses with the windings between them.
+ *
+ * Invariant: at any height, the parts that cross it lead from windings 0 to windings 0, each
+ * beginning with those with which the one before it has ended.
+ */
+#pragma once
+
+#include "engine/events/course.h"
+#include "engine/events/windings.h"
+
+typedef struct cs_events_part {
+  uint32_t chain;
+  int32_t top, foot;    /* top < foot */
+  uint32_t left, right; /* windings */
+} cs_events_part;
+
+typedef struct cs_events {
+  cs_courses courses;
+  cs_windings windings;
+  cs_events_part *parts; /* those of a chain from the top */
+  size_t part_count, part_capacity;
+  size_t intersections; /* how often two courses have changed places */
+  bool is_complete;     /* false: there are too many windings, and parts are missing */
+} cs_events;
+
+/* Sweeps boundaries that lie within 16384 pixels of the origin. most: windings. Errors: NO_MEMORY;
+ * cs_events_finish must be called then, too. */
+CELSPAN_CHECKED celspan_status cs_events_find(celspan_context *context, const cs_boundary_set *set,
+                                              size_t most, cs_events *out);
+void cs_events_finish(cs_events *events, cs_memory *memory);

@@ -1,0 +1,212 @@
+#include "engine/events/order.h"
+
+#include <math.h>
+
+/* ---------------------------------------------------------------- life */
+
+celspan_status cs_order_init(celspan_context *context, const cs_courses *courses, cs_order *out) {
+  *out = (cs_order){.courses = courses, .ends = (uint32_t)courses->course_count};
+  CS_TRY(CS_MAKE(context, out->entries, courses->course_count + 1));
+  out->entries[out->ends].previous = out->entries[out->ends].next = out->ends;
+  return CELSPAN_OK;
+}
+
+void cs_order_finish(cs_order *order, cs_memory *memory) {
+  if (order->entries)
+    cs_mem_free(memory, order->entries, ((size_t)order->ends + 1) * sizeof *order->entries);
+  cs_mem_free(memory, order->index, order->index_capacity * sizeof *order->index);
+  *order = (cs_order){0};
+}
+
+/* ---------------------------------------------------------------- along courses */
+
+/* The segment on which a course continues below a height above its foot. */
+static inline const cs_course_point *segment_below(const cs_course_point *at, int32_t y) {
+  while (at[1].y <= y)
+    at++;
+  return at;
+}
+
+double cs_order_x(const cs_order *order, uint32_t chain, int32_t y) {
+  const cs_course *course = &order->courses->courses[chain];
+  cs_order_entry *entry = &order->entries[chain];
+  if (y >= entry->foot)
+    return order->courses->points[course->first + course->count - 1].x;
+  entry->at = segment_below(entry->at, y);
+  return cs_course_x(entry->at, y);
+}
+
+static inline int32_t lesser(int32_t a, int32_t b) { return a < b ? a : b; }
+
+/* Where the first of two courses lies right of the second one, from a height down to a limit that
+ * neither ends above: *height. direction: -1 if it is the other way round there; 0: neither. */
+static int compare(const cs_course_point *p, const cs_course_point *q, int32_t y, int32_t limit,
+                   int32_t *height) {
+  double above = cs_course_x(p, y) - cs_course_x(q, y);
+  for (int32_t top = y;; above = cs_course_x(p, top) - cs_course_x(q, top)) {
+    *height = top;
+    if (fabs(above) > CS_ORDER_SLACK)
+      return above > 0 ? 1 : -1;
+    if (top >= limit)
+      return 0;
+    top = lesser(lesser(p[1].y, q[1].y), limit);
+    double below = cs_course_x(p, top) - cs_course_x(q, top);
+    if (fabs(below) > CS_ORDER_SLACK)
+      return below > 0 ? 1 : -1;
+    if (top >= limit)
+      return 0;
+    p = segment_below(p, top);
+    q = segment_below(q, top);
+  }
+}
+
+/* The first whole height between two at which a course does not lie left of another one any more:
+ * above it they would have to change places back. */
+static int32_t intersection_height(int32_t top, int32_t foot, double above, double below) {
+  if (above >= 0)
+    return top;
+  double height = ceil(((double)foot - top) * (above / (above - below)));
+  return lesser(top + (int32_t)height, foot);
+}
+
+/* Whether a segment lies left of another one as a whole. */
+static inline bool is_beside(const cs_course_point *p, const cs_course_point *q) {
+  int32_t high = p->x > p[1].x ? p->x : p[1].x;
+  return high <= lesser(q->x, q[1].x);
+}
+
+int32_t cs_order_ahead(const cs_order *order, uint32_t chain, int32_t y) {
+  cs_order_entry *a = &order->entries[chain], *b = &order->entries[a->next];
+  int32_t limit = lesser(order->foot, lesser(a->foot, b->foot));
+  if (chain == order->ends || a->next == order->ends || a->high <= b->low || y >= limit)
+    return CS_ORDER_NEVER;
+  const cs_course_point *p = a->at = segment_below(a->at, y);
+  const cs_course_point *q = b->at = segment_below(b->at, y);
+  for (int32_t top = y, foot;; top = foot) {
+    foot = lesser(lesser(p[1].y, q[1].y), limit);
+    if (!is_beside(p, q)) {
+      double above = cs_course_x(p, top) - cs_course_x(q, top);
+      double below = cs_course_x(p, foot) - cs_course_x(q, foot);
+      if (above > CS_ORDER_SLACK)
+        return top;
+      if (below > CS_ORDER_SLACK)
+        return intersection_height(top, foot, above, below);
+    }
+    if (foot == limit)
+      return CS_ORDER_NEVER;
+    p = segment_below(p, foot);
+    q = segment_below(q, foot);
+  }
+}
+
+/* ---------------------------------------------------------------- belts */
+
+static inline void add_to_extent(cs_order_entry *entry, double x) {
+  int32_t low = (int32_t)floor(x), high = (int32_t)ceil(x);
+  entry->low = lesser(low, entry->low);
+  entry->high = high > entry->high ? high : entry->high;
+}
+
+/* Finds the extent of a course from a height down to the foot of the belt. */
+static void find_extent(const cs_order *order, cs_order_entry *entry, int32_t y) {
+  int32_t end = lesser(order->foot, entry->foot);
+  const cs_course_point *p = entry->at = segment_below(entry->at, y);
+  entry->low = INT32_MAX;
+  entry->high = INT32_MIN;
+  add_to_extent(entry, cs_course_x(p, y));
+  for (; p[1].y < end; p++)
+    add_to_extent(entry, p[1].x);
+  add_to_extent(entry, cs_course_x(p, end));
+}
+
+/* Lists the courses from left to right. */
+static celspan_status make_index(celspan_context *context, cs_order *order) {
+  CS_TRY(CS_RESERVE(context, order->index, order->index_capacity, order->count));
+  order->index_count = order->entered = 0;
+  for (uint32_t i = order->entries[order->ends].next; i != order->ends; i = order->entries[i].next)
+    order->index[order->index_count++] = i;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_order_begin_belt(celspan_context *context, cs_order *order, int32_t y,
+                                   int32_t foot) {
+  order->foot = foot;
+  for (uint32_t i = order->entries[order->ends].next; i != order->ends; i = order->entries[i].next)
+    find_extent(order, &order->entries[i], y);
+  return make_index(context, order);
+}
+
+/* ---------------------------------------------------------------- changes */
+
+static inline void link_after(cs_order *order, uint32_t left, uint32_t chain) {
+  cs_order_entry *entries = order->entries;
+  entries[chain].previous = left;
+  entries[chain].next = entries[left].next;
+  entries[entries[left].next].previous = chain;
+  entries[left].next = chain;
+}
+
+static inline void unlink_entry(cs_order *order, uint32_t chain) {
+  cs_order_entry *entries = order->entries;
+  entries[entries[chain].previous].next = entries[chain].next;
+  entries[entries[chain].next].previous = entries[chain].previous;
+}
+
+/* Whether a course belongs left of one that begins at y; of two that are the same from there on,
+ * the one with the lower number does. */
+static bool is_left(const cs_order *order, uint32_t chain, uint32_t begins, int32_t y) {
+  cs_order_entry *a = &order->entries[chain];
+  const cs_order_entry *b = &order->entries[begins];
+  int32_t height;
+  a->at = segment_below(a->at, y);
+  int side = compare(a->at, b->at, y, lesser(a->foot, b->foot), &height);
+  return side != 0 ? side < 0 : chain < begins;
+}
+
+/* A course at or left of where one begins, by the index: courses may have changed places since. */
+static uint32_t find_near(const cs_order *order, double x, int32_t y) {
+  size_t low = 0, high = order->index_count;
+  while (low < high) {
+    size_t middle = low + (high - low) / 2;
+    if (cs_order_x(order, order->index[middle], y) <= x)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  while (low > 0 && !order->entries[order->index[low - 1]].is_there)
+    low--;
+  return low > 0 ? order->index[low - 1] : order->ends;
+}
+
+celspan_status cs_order_enter(celspan_context *context, cs_order *order, uint32_t chain,
+                              int32_t y) {
+  const cs_course *course = &order->courses->courses[chain];
+  const cs_course_point *points = order->courses->points + course->first;
+  cs_order_entry *entries = order->entries, *entry = &entries[chain];
+  *entry = (cs_order_entry){.at = points, .foot = points[course->count - 1].y, .since = y};
+  find_extent(order, entry, y);
+  if (order->entered > 64 && 4 * order->entered > order->index_count)
+    CS_TRY(make_index(context, order));
+  uint32_t left = find_near(order, points[0].x, y);
+  while (entries[left].next != order->ends && is_left(order, entries[left].next, chain, y))
+    left = entries[left].next;
+  while (left != order->ends && !is_left(order, left, chain, y))
+    left = entries[left].previous;
+  link_after(order, left, chain);
+  entry->is_there = true;
+  order->entered++;
+  order->count++;
+  return CELSPAN_OK;
+}
+
+void cs_order_leave(cs_order *order, uint32_t chain) {
+  unlink_entry(order, chain);
+  order->entries[chain].is_there = false;
+  order->count--;
+}
+
+void cs_order_swap(cs_order *order, uint32_t chain) {
+  uint32_t next = order->entries[chain].next;
+  unlink_entry(order, chain);
+  link_after(order, next, chain);
+}

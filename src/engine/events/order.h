@@ -1,0 +1,64 @@
+/* The order of the courses that cross a height: a list from left to right, in which neighbours are
+ * compared ahead.
+ *
+ *      y     a     b      c      ahead: where the left of two neighbours comes to lie right of the
+ *             \   /       |      other one, down to the foot of the belt, or to the end of either
+ *              \ /        |
+ *        .......x.........|....  here a and b must change places
+ *              / \        |
+ *      foot   b   a       c      belt: some rows, for which the extent of each course is known, so
+ *                                that most neighbours need no comparison
+ *
+ * Courses have intersected only when one is beyond the other by more than CS_ORDER_SLACK units: so
+ * common boundaries of two shapes, whose points are rounded, do not change places again and again.
+ *
+ * Invariant: two courses are never each to be put right of the other at the same height, so
+ * changes of places come to an end.
+ */
+#pragma once
+
+#include "engine/events/course.h"
+
+#define CS_ORDER_SLACK 2.0 /* units */
+#define CS_ORDER_NEVER INT32_MAX
+#define CS_ORDER_BELT (16 * CS_COURSE_UNIT)
+
+/* A course that crosses the height, by its chain. The last entry is both ends of the list. */
+typedef struct cs_order_entry {
+  const cs_course_point *at; /* where its segment at the height begins */
+  int32_t foot;              /* its last height */
+  int32_t low, high;         /* the extent of x in the belt, from its beginning there on */
+  uint32_t previous, next;   /* chains */
+  uint32_t left, right;      /* windings on its sides */
+  int32_t since;             /* the height from which these have been so */
+  bool is_there, is_dirty;   /* dirty: its windings must be found again */
+} cs_order_entry;
+
+typedef struct cs_order {
+  const cs_courses *courses; /* borrowed */
+  cs_order_entry *entries;   /* one for each chain, and the ends */
+  uint32_t ends;             /* the number of that entry */
+  uint32_t *index;           /* chains that crossed an earlier height, from left to right */
+  size_t index_count, index_capacity, count;
+  size_t entered; /* courses that were put in since then */
+  int32_t foot;   /* of the belt */
+} cs_order;
+
+/* Errors: NO_MEMORY; cs_order_finish must be called then, too. */
+CELSPAN_CHECKED celspan_status cs_order_init(celspan_context *context, const cs_courses *courses,
+                                             cs_order *out);
+void cs_order_finish(cs_order *order, cs_memory *memory);
+/* Begins the belt from a height down to a foot. */
+CELSPAN_CHECKED celspan_status cs_order_begin_belt(celspan_context *context, cs_order *order,
+                                                   int32_t y, int32_t foot);
+/* Puts in a course that begins at y. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_order_enter(celspan_context *context, cs_order *order,
+                                              uint32_t chain, int32_t y);
+void cs_order_leave(cs_order *order, uint32_t chain);
+/* A chain and the next one change places. */
+void cs_order_swap(cs_order *order, uint32_t chain);
+/* The height, from y on, at which the course of a chain must change places with the next one;
+ * NEVER: it need not in this belt. */
+int32_t cs_order_ahead(const cs_order *order, uint32_t chain, int32_t y);
+/* x of a course that crosses a height, or of its last point. */
+double cs_order_x(const cs_order *order, uint32_t chain, int32_t y);

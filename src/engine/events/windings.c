@@ -1,0 +1,61 @@
+#include "engine/events/windings.h"
+
+#include "base/splitmix.h"
+
+#define SLOTS_LEAST 1024
+
+static cs_windings_hash hash_after(cs_windings_hash hash, uint32_t layer, int32_t direction) {
+  uint64_t name = layer, a = cs_splitmix_next(&name), b = cs_splitmix_next(&name);
+  return direction > 0 ? (cs_windings_hash){hash.a + a, hash.b + b}
+                       : (cs_windings_hash){hash.a - a, hash.b - b};
+}
+
+/* The slot of a hash: with its number, or free. */
+static size_t find_slot(const cs_windings *w, cs_windings_hash hash) {
+  size_t at = hash.a & (w->slot_count - 1);
+  for (; w->slots[at]; at = (at + 1) & (w->slot_count - 1)) {
+    const cs_windings_hash *found = &w->entries[w->slots[at] - 1].hash;
+    if (found->a == hash.a && found->b == hash.b)
+      break;
+  }
+  return at;
+}
+
+static celspan_status widen_slots(celspan_context *context, cs_windings *w) {
+  size_t count = w->slot_count > 0 ? 2 * w->slot_count : SLOTS_LEAST;
+  uint32_t *slots;
+  CS_TRY(CS_MAKE(context, slots, count));
+  cs_mem_free(context->memory, w->slots, w->slot_count * sizeof *w->slots);
+  w->slots = slots;
+  w->slot_count = count;
+  for (size_t i = 0; i < w->count; i++)
+    w->slots[find_slot(w, w->entries[i].hash)] = (uint32_t)i + 1;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_windings_init(celspan_context *context, cs_windings *w) {
+  *w = (cs_windings){0};
+  CS_TRY(CS_APPEND(context, w->entries, w->count, w->capacity, (cs_windings_entry){.layer = 0}));
+  return widen_slots(context, w);
+}
+
+void cs_windings_finish(cs_windings *w, cs_memory *memory) {
+  cs_mem_free(memory, w->entries, w->capacity * sizeof *w->entries);
+  cs_mem_free(memory, w->slots, w->slot_count * sizeof *w->slots);
+  *w = (cs_windings){0};
+}
+
+celspan_status cs_windings_cross(celspan_context *context, cs_windings *w, uint32_t from,
+                                 uint32_t layer, int32_t direction, uint32_t *out) {
+  cs_windings_hash hash = hash_after(w->entries[from].hash, layer, direction);
+  size_t at = find_slot(w, hash);
+  if (w->slots[at]) {
+    *out = w->slots[at] - 1;
+    return CELSPAN_OK;
+  }
+  *out = (uint32_t)w->count;
+  const cs_windings_entry entry = {hash, from, layer, direction};
+  CS_TRY(CS_APPEND(context, w->entries, w->count, w->capacity, entry));
+  w->slots[at] = *out + 1;
+  return 2 * w->count > w->slot_count ? widen_slots(context, w) : CELSPAN_OK;
+}
