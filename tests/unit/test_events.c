@@ -16,6 +16,7 @@
 #define PI 3.14159265358979323846
 
 static celspan_context *context;
+static const cs_cull no_cull = {0};
 
 #define MUST(call) CHECK((call) == CELSPAN_OK)
 
@@ -85,7 +86,7 @@ static size_t list_crossed(const cs_events *events, int32_t y, crossed *out) {
   for (size_t i = 0; i < events->part_count; i++) {
     const cs_events_part *f = &events->parts[i];
     if (f->top <= y && y < f->foot)
-      out[count++] = (crossed){x_of(&events->courses, f->chain, y), f->chain, f->left, f->right,
+      out[count++] = (crossed){x_of(&events->courses, f->course, y), f->course, f->left, f->right,
                                y < f->top + 2 || y >= f->foot - 2};
   }
   qsort(out, count, sizeof *out, by_x);
@@ -93,10 +94,13 @@ static size_t list_crossed(const cs_events *events, int32_t y, crossed *out) {
 }
 
 /* The windings of a number, by the way on which they were found. */
-static void windings_of(const cs_windings *windings, uint32_t number, int *out) {
+static void windings_of(const cs_windings *windings, const cs_boundary_set *set, uint32_t number,
+                        int *out) {
   memset(out, 0, LAYERS * sizeof *out);
-  for (; number != 0; number = windings->entries[number].parent)
-    out[windings->entries[number].layer] += windings->entries[number].direction;
+  for (; number != 0; number = windings->entries[number].parent) {
+    const cs_boundary_chain *chain = &set->chains[windings->entries[number].boundary];
+    out[chain->layer] += chain->direction;
+  }
 }
 
 /* Those between parts that are clearly apart must be the sum of all boundaries on the left. */
@@ -112,7 +116,7 @@ static void check_order(const cs_events *events, const cs_boundary_set *set, con
     /* of several that lie closely together the rightmost in the list is not known */
     if (k > 0 && at[k].x < at[k - 1].x + 8)
       continue;
-    windings_of(&events->windings, at[k].right, found);
+    windings_of(&events->windings, set, at[k].right, found);
     CHECK(memcmp(sum, found, sizeof sum) == 0);
     if (k + 1 < count && (k + 2 >= count || at[k + 2].x > at[k + 1].x + 8))
       CHECK(at[k + 1].left == at[k].right);
@@ -138,7 +142,7 @@ static void test_drawings(void) {
     test_random random = {seed + 1000};
     cs_boundary_set set = random_drawing(seed);
     cs_events events;
-    MUST(cs_events_find(context, &set, SIZE_MAX, &events));
+    MUST(cs_events_find(context, &set, &no_cull, SIZE_MAX, &events));
     CHECK(events.is_complete);
     crossed *at = calloc(events.part_count + 1, sizeof *at);
     for (int k = 0; k < HEIGHTS; k++) {
@@ -172,11 +176,11 @@ static void test_intersections(void) {
     cs_outline_finish(&outline, context->memory);
   }
   cs_boundary_sort(&set);
-  MUST(cs_events_find(context, &set, SIZE_MAX, &events));
+  MUST(cs_events_find(context, &set, &no_cull, SIZE_MAX, &events));
   CHECK(events.intersections == 4);
   CHECK(events.windings.count == 4); /* none, each, both */
   cs_events_finish(&events, context->memory);
-  MUST(cs_events_find(context, &set, 2, &events));
+  MUST(cs_events_find(context, &set, &no_cull, 2, &events));
   CHECK(!events.is_complete);
   cs_events_finish(&events, context->memory);
   cs_boundary_finish(&set, context->memory);
@@ -206,7 +210,7 @@ static void test_area(void) {
     MUST(cs_outline_ellipse(context, &outline, (celspan_point){50, 40}, rx, ry));
     add(&set, &outline, 0);
     cs_boundary_sort(&set);
-    MUST(cs_events_find(context, &set, SIZE_MAX, &events));
+    MUST(cs_events_find(context, &set, &no_cull, SIZE_MAX, &events));
     CHECK(events.part_count == 2);
     CHECK_NEAR(area_of(&events, &set), PI * rx * ry, 0.001 * PI * (rx + ry));
     cs_events_finish(&events, context->memory);
@@ -225,7 +229,7 @@ static void test_without_memory(void) {
   for (size_t fail = 1; fail < 1000 && status != CELSPAN_OK; fail++) {
     cs_events events;
     watch.fail_at = watch.allocations + fail;
-    status = cs_events_find(starving, &set, SIZE_MAX, &events);
+    status = cs_events_find(starving, &set, &no_cull, SIZE_MAX, &events);
     CHECK(status == CELSPAN_OK || status == CELSPAN_NO_MEMORY);
     watch.fail_at = 0;
     cs_events_finish(&events, starving->memory);

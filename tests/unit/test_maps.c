@@ -152,6 +152,31 @@ static void check_pictures(studio *s) {
   }
 }
 
+/* Large shapes over each other, of which few can be seen: the others are culled tile by tile. */
+static void check_hidden(studio *s) {
+  for (uint64_t seed = 0; seed < 12; seed++) {
+    test_random random = {seed};
+    celspan_object *objects[SHAPES];
+    for (size_t i = 0; i < SHAPES; i++) {
+      celspan_point corners[3];
+      for (int k = 0; k < 3; k++)
+        corners[k] = random_point(&random, -60, WIDTH + 60, -60, HEIGHT + 60);
+      celspan_paint paint = random_paint(&random);
+      objects[i] = studio_polygon(s, corners, 3, CELSPAN_RULE_NONZERO, studio_paint(s, paint));
+    }
+    const celspan_cel_desc cel = CELSPAN_CEL_DESC;
+    celspan_cel *cels[] = {studio_cel(s, cel, objects, SHAPES)};
+    const celspan_rostrum_desc rostrum = CELSPAN_ROSTRUM_DESC;
+    celspan_exposure exposure = {studio_rostrum(s, rostrum, cels, 1), 1};
+    celspan_frame_desc swept = frame_of(&exposure, false), drawn = frame_of(&exposure, true);
+    image a = make_image(s, &swept, 1), b = make_image(s, &drawn, 1);
+    CHECK(count(s, &drawn).maps == 1 && difference(&a, &b) < 0.0002f);
+    free(a.rgba);
+    free(b.rgba);
+    studio_finish(s);
+  }
+}
+
 /* ---------------------------------------------------------------- the same bits */
 
 /* Rows in another order, parts of the frame, and maps that are made again. */
@@ -290,6 +315,7 @@ int main(void) {
   desc.defocus_bytes = 1;
   CHECK(celspan_context_create(&desc, &small.context) == CELSPAN_OK);
   check_pictures(&s);
+  check_hidden(&s);
   check_bits(&s, &small);
   check_kept(&s, &small);
   check_leaks(&s, 0);

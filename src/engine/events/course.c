@@ -54,23 +54,23 @@ static void end_course(cs_courses *out, cs_course *course) {
 
 static void make_course(const maker *m, const cs_boundary_chain *chain, cs_course *course) {
   cs_course_point *points = m->out->points + m->out->point_count;
-  course->first = m->out->point_count;
+  *course = (cs_course){m->out->point_count, 0};
   add_point(points, course, chain->x0, chain->y0);
   for (uint32_t k = 0; k < chain->piece_count; k++)
     add_piece(m, &m->set->pieces[chain->piece + k], points, course);
   end_course(m->out, course);
 }
 
-celspan_status cs_courses_make(celspan_context *context, const cs_boundary_set *set,
+celspan_status cs_courses_make(celspan_context *context, const cs_boundary_set *set, size_t more,
                                cs_courses *out) {
   maker m = {.set = set, .out = out};
-  size_t chords = set->chain_count + 1, most = 1;
+  size_t chords = set->chain_count + 2 * more + 1, most = 1;
   *out = (cs_courses){0};
   for (size_t i = 0; i < set->piece_count; i++) {
     chords += set->pieces[i].chords;
     most = set->pieces[i].chords > most ? set->pieces[i].chords : most;
   }
-  CS_TRY(CS_MAKE(context, out->courses, set->chain_count + 1));
+  CS_TRY(CS_RESERVE(context, out->courses, out->course_capacity, set->chain_count + more + 1));
   out->course_count = set->chain_count;
   CS_TRY(CS_RESERVE(context, out->points, out->point_capacity, chords));
   CS_TRY(CS_MAKE(context, m.x, 2 * most));
@@ -81,9 +81,16 @@ celspan_status cs_courses_make(celspan_context *context, const cs_boundary_set *
   return CELSPAN_OK;
 }
 
+void cs_courses_add_upright(cs_courses *courses, double x, int32_t top, int32_t foot) {
+  cs_course_point *points = courses->points + courses->point_count;
+  courses->courses[courses->course_count++] = (cs_course){courses->point_count, 2};
+  courses->point_count += 2;
+  points[0] = (cs_course_point){round_to_unit(x), top, 0};
+  points[1] = (cs_course_point){round_to_unit(x), foot, 0};
+}
+
 void cs_courses_finish(cs_courses *courses, cs_memory *memory) {
-  if (courses->courses)
-    cs_mem_free(memory, courses->courses, (courses->course_count + 1) * sizeof *courses->courses);
+  cs_mem_free(memory, courses->courses, courses->course_capacity * sizeof *courses->courses);
   cs_mem_free(memory, courses->points, courses->point_capacity * sizeof *courses->points);
   *courses = (cs_courses){0};
 }

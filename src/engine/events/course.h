@@ -30,17 +30,19 @@ typedef struct cs_course {
   uint32_t count; /* 0, or at least 2 */
 } cs_course;
 
-/* By chain. */
+/* By chain; more may follow. */
 typedef struct cs_courses {
   cs_course *courses;
   cs_course_point *points;
-  size_t course_count, point_count, point_capacity;
+  size_t course_count, course_capacity, point_count, point_capacity;
 } cs_courses;
 
-/* The chains must lie within 16384 pixels of the origin. Errors: NO_MEMORY; cs_courses_finish must
- * be called then, too. */
+/* The chains must lie within 16384 pixels of the origin. more: upright courses for which there
+ * will be room. Errors: NO_MEMORY; cs_courses_finish must be called then, too. */
 CELSPAN_CHECKED celspan_status cs_courses_make(celspan_context *context, const cs_boundary_set *set,
-                                               cs_courses *out);
+                                               size_t more, cs_courses *out);
+/* Appends a course at x, in pixels, between two heights. */
+void cs_courses_add_upright(cs_courses *courses, double x, int32_t top, int32_t foot);
 void cs_courses_finish(cs_courses *courses, cs_memory *memory);
 
 /* x at a height of the segment that begins at a point and is no jump. */

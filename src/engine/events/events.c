@@ -14,12 +14,14 @@ typedef struct intersection {
 typedef struct placed {
   int32_t y;
   double x;
-  uint32_t chain;
+  uint32_t course;
 } placed;
 
 typedef struct sweep {
   celspan_context *context;
   const cs_boundary_set *set;
+  const cs_cull *cull;
+  int32_t tile_row;
   cs_events *events;
   cs_order order;
   intersection *intersections; /* a heap, the highest one first */
@@ -58,52 +60,57 @@ static intersection pop(sweep *s) {
 }
 
 /* Compares a course with its right neighbour from a height on. */
-static celspan_status compare_ahead(sweep *s, uint32_t chain, int32_t y) {
-  int32_t height = cs_order_ahead(&s->order, chain, y);
+static celspan_status compare_ahead(sweep *s, uint32_t course, int32_t y) {
+  int32_t height = cs_order_ahead(&s->order, course, y);
   if (height == CS_ORDER_NEVER)
     return CELSPAN_OK;
-  return push(s, (intersection){height, chain, s->order.entries[chain].next});
+  return push(s, (intersection){height, course, s->order.entries[course].next});
 }
 
 /* ---------------------------------------------------------------- windings */
 
-static celspan_status cross(sweep *s, uint32_t chain, uint32_t from, uint32_t *out) {
-  const cs_boundary_chain *of = &s->set->chains[chain];
-  return cs_windings_cross(s->context, &s->events->windings, from, of->layer, of->direction, out);
+static celspan_status cross(sweep *s, uint32_t course, uint32_t from, uint32_t *out) {
+  cs_windings_hash change = {0, 0};
+  if (course < s->set->chain_count)
+    change =
+        cs_windings_add(change, s->set->chains[course].layer, s->set->chains[course].direction);
+  else
+    change = s->events->bundles.bundles[course - s->set->chain_count].change;
+  return cs_windings_cross(s->context, &s->events->windings, from, course, change, out);
 }
 
 /* Ends the part of a course at a height. */
-static celspan_status close(sweep *s, uint32_t chain, int32_t y) {
-  cs_order_entry *entry = &s->order.entries[chain];
+static celspan_status close(sweep *s, uint32_t course, int32_t y) {
+  cs_order_entry *entry = &s->order.entries[course];
   cs_events *events = s->events;
-  const cs_events_part part = {chain, entry->since, y, entry->left, entry->right};
+  const cs_events_part part = {course, entry->since, y, entry->left, entry->right};
   entry->since = y;
   if (part.top == y)
     return CELSPAN_OK;
   return CS_APPEND(s->context, events->parts, events->part_count, events->part_capacity, part);
 }
 
-static celspan_status mark_dirty(sweep *s, uint32_t chain, int32_t y) {
-  cs_order_entry *entry = &s->order.entries[chain];
-  if (chain == s->order.ends || entry->is_dirty)
+static celspan_status mark_dirty(sweep *s, uint32_t course, int32_t y) {
+  cs_order_entry *entry = &s->order.entries[course];
+  if (course == s->order.ends || entry->is_dirty)
     return CELSPAN_OK;
   entry->is_dirty = true;
-  const placed at = {y, cs_order_x(&s->order, chain, y), chain};
+  const placed at = {y, cs_order_x(&s->order, course, y), course};
   return CS_APPEND(s->context, s->dirty, s->dirty_count, s->dirty_capacity, at);
 }
 
 /* Finds the windings from a course on to the right, until they are known. */
-static celspan_status find_windings(sweep *s, uint32_t chain, int32_t y) {
+static celspan_status find_windings(sweep *s, uint32_t course, int32_t y) {
   cs_order_entry *entries = s->order.entries;
-  while (entries[entries[chain].previous].is_dirty)
-    chain = entries[chain].previous;
-  uint32_t left = entries[entries[chain].previous].right, right;
-  for (; chain != s->order.ends; chain = entries[chain].next, left = right) {
-    cs_order_entry *entry = &entries[chain];
+  while (entries[entries[course].previous].is_dirty)
+    course = entries[course].previous;
+  uint32_t left = entries[entries[course].previous].right, right;
+  for (; course != s->order.ends; course = entries[course].next, left = right) {
+    cs_order_entry *entry = &entries[course];
     if (!entry->is_dirty && entry->left == left)
       return CELSPAN_OK;
-    CS_TRY(cross(s, chain, left, &right));
-    CS_TRY(close(s, chain, y));
+    CS_TRY(cross(s, course, left, &right));
+    CS_TRY(close(s, course, y));
     entry->left = left;
     entry->right = right;
     entry->is_dirty = false;
@@ -114,7 +121,7 @@ static celspan_status find_windings(sweep *s, uint32_t chain, int32_t y) {
 static inline bool is_before(const placed *a, const placed *b) {
   if (a->y != b->y)
     return a->y < b->y;
-  return a->x != b->x ? a->x < b->x : a->chain < b->chain;
+  return a->x != b->x ? a->x < b->x : a->course < b->course;
 }
 
 CS_SORT_DEFINE(sort_placed, placed, is_before)
@@ -122,9 +129,9 @@ CS_SORT_DEFINE(sort_placed, placed, is_before)
 static celspan_status settle_dirty(sweep *s, int32_t y) {
   sort_placed(s->dirty, s->dirty_count);
   for (size_t i = 0; i < s->dirty_count; i++) {
-    const cs_order_entry *entry = &s->order.entries[s->dirty[i].chain];
+    const cs_order_entry *entry = &s->order.entries[s->dirty[i].course];
     if (entry->is_there && entry->is_dirty)
-      CS_TRY(find_windings(s, s->dirty[i].chain, y));
+      CS_TRY(find_windings(s, s->dirty[i].course, y));
   }
   s->dirty_count = 0;
   return CELSPAN_OK;
@@ -132,47 +139,95 @@ static celspan_status settle_dirty(sweep *s, int32_t y) {
 
 /* ---------------------------------------------------------------- begins and ends */
 
-static celspan_status touch(sweep *s, uint32_t chain) {
-  return CS_APPEND(s->context, s->touched, s->touched_count, s->touched_capacity, chain);
+static celspan_status touch(sweep *s, uint32_t course) {
+  return CS_APPEND(s->context, s->touched, s->touched_count, s->touched_capacity, course);
+}
+
+static celspan_status enter(sweep *s, uint32_t course, int32_t y) {
+  CS_TRY(cs_order_enter(s->context, &s->order, course, y));
+  const cs_order_entry *entry = &s->order.entries[course];
+  CS_TRY(touch(s, course));
+  CS_TRY(touch(s, entry->previous));
+  CS_TRY(mark_dirty(s, course, y));
+  return mark_dirty(s, entry->next, y);
+}
+
+static celspan_status leave(sweep *s, uint32_t course, int32_t y) {
+  const cs_order_entry *entry = &s->order.entries[course];
+  if (!entry->is_there)
+    return CELSPAN_OK;
+  CS_TRY(close(s, course, y));
+  cs_order_leave(&s->order, course);
+  CS_TRY(touch(s, entry->previous));
+  return mark_dirty(s, entry->next, y);
 }
 
 static celspan_status end_courses(sweep *s, int32_t y) {
-  for (; s->next_end < s->end_count && s->ends[s->next_end].y == y; s->next_end++) {
-    uint32_t chain = s->ends[s->next_end].chain;
-    const cs_order_entry *entry = &s->order.entries[chain];
-    CS_TRY(close(s, chain, y));
-    cs_order_leave(&s->order, chain);
-    CS_TRY(touch(s, entry->previous));
-    CS_TRY(mark_dirty(s, entry->next, y));
-  }
+  for (; s->next_end < s->end_count && s->ends[s->next_end].y == y; s->next_end++)
+    CS_TRY(leave(s, s->ends[s->next_end].course, y));
   return CELSPAN_OK;
 }
 
-/* The next course that begins, or NULL. */
+/* The next chain that begins, or NULL. */
 static const cs_course_point *next_begin(sweep *s) {
   const cs_courses *courses = &s->events->courses;
-  while (s->next_begin < courses->course_count && courses->courses[s->next_begin].count == 0)
+  while (s->next_begin < s->set->chain_count && courses->courses[s->next_begin].count == 0)
     s->next_begin++;
-  return s->next_begin < courses->course_count
+  return s->next_begin < s->set->chain_count
              ? courses->points + courses->courses[s->next_begin].first
              : NULL;
 }
 
 static celspan_status begin_courses(sweep *s, int32_t y) {
-  for (const cs_course_point *at; (at = next_begin(s)) && at->y == y; s->next_begin++) {
-    uint32_t chain = (uint32_t)s->next_begin;
-    CS_TRY(cs_order_enter(s->context, &s->order, chain, y));
-    const cs_order_entry *entry = &s->order.entries[chain];
-    CS_TRY(touch(s, chain));
-    CS_TRY(touch(s, entry->previous));
-    CS_TRY(mark_dirty(s, chain, y));
-    CS_TRY(mark_dirty(s, entry->next, y));
+  for (const cs_course_point *at; (at = next_begin(s)) && at->y == y; s->next_begin++)
+    if (cs_cull_keeps(s->cull, (uint32_t)s->next_begin, s->tile_row))
+      CS_TRY(enter(s, (uint32_t)s->next_begin, y));
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- rows of tiles */
+
+/* What is culled in this row of tiles leaves, as does what was in the place of that in the last
+ * one. */
+static celspan_status leave_culled(sweep *s, int32_t y) {
+  const cs_order *order = &s->order;
+  for (uint32_t i = order->entries[order->ends].next, next; i != order->ends; i = next) {
+    next = order->entries[i].next;
+    if (i >= s->set->chain_count || !cs_cull_keeps(s->cull, i, s->tile_row))
+      CS_TRY(leave(s, i, y));
   }
   return CELSPAN_OK;
 }
 
+static celspan_status enter_kept(sweep *s, int32_t y) {
+  const cs_cull *cull = s->cull;
+  const uint32_t *starts = s->events->bundles.starts + s->tile_row;
+  for (uint32_t k = cull->enter_starts[s->tile_row]; k < cull->enter_starts[s->tile_row + 1]; k++) {
+    const cs_course *course = &s->events->courses.courses[cull->enters[k]];
+    const cs_course_point *points = s->events->courses.points + course->first;
+    if (course->count > 0 && points[0].y < y && points[course->count - 1].y > y)
+      CS_TRY(enter(s, cull->enters[k], y));
+  }
+  for (uint32_t k = starts[0]; k < starts[1]; k++)
+    CS_TRY(enter(s, (uint32_t)s->set->chain_count + k, y));
+  return CELSPAN_OK;
+}
+
+/* The top of the next row of tiles; NEVER: there is none. */
+static int32_t next_tiles(const sweep *s) {
+  return s->tile_row + 1 < s->cull->tile_rows ? cs_bundle_top(s->cull, s->tile_row + 1)
+                                              : CS_ORDER_NEVER;
+}
+
+/* ---------------------------------------------------------------- all changes at a height */
+
 static celspan_status change_courses(sweep *s, int32_t y) {
   CS_TRY(end_courses(s, y));
+  if (y == next_tiles(s)) {
+    s->tile_row++;
+    CS_TRY(leave_culled(s, y));
+    CS_TRY(enter_kept(s, y));
+  }
   CS_TRY(begin_courses(s, y));
   CS_TRY(settle_dirty(s, y));
   for (size_t i = 0; i < s->touched_count; i++)
@@ -227,11 +282,14 @@ static celspan_status go_to(sweep *s, int32_t y) {
   return CELSPAN_OK;
 }
 
+static inline int32_t lesser(int32_t a, int32_t b) { return a < b ? a : b; }
+
 static celspan_status go_down(sweep *s, size_t most) {
   const cs_course_point *begin;
-  while ((begin = next_begin(s)) || s->next_end < s->end_count) {
-    int32_t y = s->order.count > 0 ? s->ends[s->next_end].y : begin->y;
-    y = begin && begin->y < y ? begin->y : y;
+  while ((begin = next_begin(s)) || s->order.count > 0) {
+    int32_t y = next_tiles(s);
+    y = begin ? lesser(begin->y, y) : y;
+    y = s->order.count > 0 && s->next_end < s->end_count ? lesser(s->ends[s->next_end].y, y) : y;
     CS_TRY(go_to(s, y));
     CS_TRY(intersect_until(s, y));
     CS_TRY(change_courses(s, y));
@@ -242,11 +300,11 @@ static celspan_status go_down(sweep *s, size_t most) {
   return CELSPAN_OK;
 }
 
-/* Lists where the courses end. */
+/* Lists where the chains end. */
 static celspan_status list_ends(sweep *s) {
   const cs_courses *courses = &s->events->courses;
   CS_TRY(CS_MAKE(s->context, s->ends, s->set->chain_count + 1));
-  for (size_t i = 0; i < courses->course_count; i++) {
+  for (size_t i = 0; i < s->set->chain_count; i++) {
     const cs_course *course = &courses->courses[i];
     const cs_course_point *last = courses->points + course->first + course->count - 1;
     if (course->count > 0)
@@ -266,24 +324,25 @@ static void finish(sweep *s) {
     cs_mem_free(memory, s->ends, (s->set->chain_count + 1) * sizeof *s->ends);
 }
 
-celspan_status cs_events_find(celspan_context *context, const cs_boundary_set *set, size_t most,
-                              cs_events *out) {
-  sweep s = {.context = context, .set = set, .events = out};
+celspan_status cs_events_find(celspan_context *context, const cs_boundary_set *set,
+                              const cs_cull *cull, size_t most, cs_events *out) {
+  sweep s = {.context = context, .set = set, .cull = cull, .events = out};
   *out = (cs_events){0};
-  CS_TRY(cs_courses_make(context, set, &out->courses));
+  CS_TRY(cs_courses_make(context, set, cull->deferred_count, &out->courses));
+  CS_TRY(cs_bundles_make(context, cull, &out->courses, &out->bundles));
   CS_TRY(cs_windings_init(context, &out->windings));
   celspan_status status = list_ends(&s);
   if (status == CELSPAN_OK)
     status = cs_order_init(context, &out->courses, &s.order);
   if (status == CELSPAN_OK)
     status = go_down(&s, most);
-  CS_SELF_CHECK(status != CELSPAN_OK || !out->is_complete || s.order.count == 0);
   finish(&s);
   return status;
 }
 
 void cs_events_finish(cs_events *events, cs_memory *memory) {
   cs_courses_finish(&events->courses, memory);
+  cs_bundles_finish(&events->bundles, memory);
   cs_windings_finish(&events->windings, memory);
   cs_mem_free(memory, events->parts, events->part_capacity * sizeof *events->parts);
   *events = (cs_events){0};

@@ -24,26 +24,26 @@
  */
 #pragma once
 
-#include "engine/events/course.h"
-#include "engine/events/windings.h"
+#include "engine/events/bundle.h"
 
 typedef struct cs_events_part {
-  uint32_t chain;
+  uint32_t course;
   int32_t top, foot;    /* top < foot */
   uint32_t left, right; /* windings */
 } cs_events_part;
 
 typedef struct cs_events {
   cs_courses courses;
+  cs_bundles bundles; /* their courses follow those of the chains */
   cs_windings windings;
-  cs_events_part *parts; /* those of a chain from the top */
+  cs_events_part *parts; /* those of a course from the top */
   size_t part_count, part_capacity;
   size_t intersections; /* how often two courses have changed places */
   bool is_complete;     /* false: there are too many windings, and parts are missing */
 } cs_events;
 
-/* Sweeps boundaries that lie within 16384 pixels of the origin. most: windings. Errors: NO_MEMORY;
- * cs_events_finish must be called then, too. */
+/* Sweeps boundaries that lie within 16384 pixels of the origin, and are culled without a margin.
+ * most: windings. Errors: NO_MEMORY; cs_events_finish must be called then, too. */
 CELSPAN_CHECKED celspan_status cs_events_find(celspan_context *context, const cs_boundary_set *set,
-                                              size_t most, cs_events *out);
+                                              const cs_cull *cull, size_t most, cs_events *out);
 void cs_events_finish(cs_events *events, cs_memory *memory);

@@ -27,11 +27,11 @@ static inline const cs_course_point *segment_below(const cs_course_point *at, in
   return at;
 }
 
-double cs_order_x(const cs_order *order, uint32_t chain, int32_t y) {
-  const cs_course *course = &order->courses->courses[chain];
-  cs_order_entry *entry = &order->entries[chain];
+double cs_order_x(const cs_order *order, uint32_t course, int32_t y) {
+  const cs_course *of = &order->courses->courses[course];
+  cs_order_entry *entry = &order->entries[course];
   if (y >= entry->foot)
-    return order->courses->points[course->first + course->count - 1].x;
+    return order->courses->points[of->first + of->count - 1].x;
   entry->at = segment_below(entry->at, y);
   return cs_course_x(entry->at, y);
 }
@@ -75,10 +75,10 @@ static inline bool is_beside(const cs_course_point *p, const cs_course_point *q)
   return high <= lesser(q->x, q[1].x);
 }
 
-int32_t cs_order_ahead(const cs_order *order, uint32_t chain, int32_t y) {
-  cs_order_entry *a = &order->entries[chain], *b = &order->entries[a->next];
+int32_t cs_order_ahead(const cs_order *order, uint32_t course, int32_t y) {
+  cs_order_entry *a = &order->entries[course], *b = &order->entries[a->next];
   int32_t limit = lesser(order->foot, lesser(a->foot, b->foot));
-  if (chain == order->ends || a->next == order->ends || a->high <= b->low || y >= limit)
+  if (course == order->ends || a->next == order->ends || a->high <= b->low || y >= limit)
     return CS_ORDER_NEVER;
   const cs_course_point *p = a->at = segment_below(a->at, y);
   const cs_course_point *q = b->at = segment_below(b->at, y);
@@ -138,29 +138,29 @@ celspan_status cs_order_begin_belt(celspan_context *context, cs_order *order, in
 
 /* ---------------------------------------------------------------- changes */
 
-static inline void link_after(cs_order *order, uint32_t left, uint32_t chain) {
+static inline void link_after(cs_order *order, uint32_t left, uint32_t course) {
   cs_order_entry *entries = order->entries;
-  entries[chain].previous = left;
-  entries[chain].next = entries[left].next;
-  entries[entries[left].next].previous = chain;
-  entries[left].next = chain;
+  entries[course].previous = left;
+  entries[course].next = entries[left].next;
+  entries[entries[left].next].previous = course;
+  entries[left].next = course;
 }
 
-static inline void unlink_entry(cs_order *order, uint32_t chain) {
+static inline void unlink_entry(cs_order *order, uint32_t course) {
   cs_order_entry *entries = order->entries;
-  entries[entries[chain].previous].next = entries[chain].next;
-  entries[entries[chain].next].previous = entries[chain].previous;
+  entries[entries[course].previous].next = entries[course].next;
+  entries[entries[course].next].previous = entries[course].previous;
 }
 
 /* Whether a course belongs left of one that begins at y; of two that are the same from there on,
  * the one with the lower number does. */
-static bool is_left(const cs_order *order, uint32_t chain, uint32_t begins, int32_t y) {
-  cs_order_entry *a = &order->entries[chain];
+static bool is_left(const cs_order *order, uint32_t course, uint32_t begins, int32_t y) {
+  cs_order_entry *a = &order->entries[course];
   const cs_order_entry *b = &order->entries[begins];
   int32_t height;
   a->at = segment_below(a->at, y);
   int side = compare(a->at, b->at, y, lesser(a->foot, b->foot), &height);
-  return side != 0 ? side < 0 : chain < begins;
+  return side != 0 ? side < 0 : course < begins;
 }
 
 /* A course at or left of where one begins, by the index: courses may have changed places since. */
@@ -178,35 +178,36 @@ static uint32_t find_near(const cs_order *order, double x, int32_t y) {
   return low > 0 ? order->index[low - 1] : order->ends;
 }
 
-celspan_status cs_order_enter(celspan_context *context, cs_order *order, uint32_t chain,
+celspan_status cs_order_enter(celspan_context *context, cs_order *order, uint32_t course,
                               int32_t y) {
-  const cs_course *course = &order->courses->courses[chain];
-  const cs_course_point *points = order->courses->points + course->first;
-  cs_order_entry *entries = order->entries, *entry = &entries[chain];
-  *entry = (cs_order_entry){.at = points, .foot = points[course->count - 1].y, .since = y};
+  const cs_course *of = &order->courses->courses[course];
+  const cs_course_point *points = order->courses->points + of->first;
+  cs_order_entry *entries = order->entries, *entry = &entries[course];
+  *entry =
+      (cs_order_entry){.at = segment_below(points, y), .foot = points[of->count - 1].y, .since = y};
   find_extent(order, entry, y);
   if (order->entered > 64 && 4 * order->entered > order->index_count)
     CS_TRY(make_index(context, order));
-  uint32_t left = find_near(order, points[0].x, y);
-  while (entries[left].next != order->ends && is_left(order, entries[left].next, chain, y))
+  uint32_t left = find_near(order, cs_course_x(entry->at, y), y);
+  while (entries[left].next != order->ends && is_left(order, entries[left].next, course, y))
     left = entries[left].next;
-  while (left != order->ends && !is_left(order, left, chain, y))
+  while (left != order->ends && !is_left(order, left, course, y))
     left = entries[left].previous;
-  link_after(order, left, chain);
+  link_after(order, left, course);
   entry->is_there = true;
   order->entered++;
   order->count++;
   return CELSPAN_OK;
 }
 
-void cs_order_leave(cs_order *order, uint32_t chain) {
-  unlink_entry(order, chain);
-  order->entries[chain].is_there = false;
+void cs_order_leave(cs_order *order, uint32_t course) {
+  unlink_entry(order, course);
+  order->entries[course].is_there = false;
   order->count--;
 }
 
-void cs_order_swap(cs_order *order, uint32_t chain) {
-  uint32_t next = order->entries[chain].next;
-  unlink_entry(order, chain);
-  link_after(order, next, chain);
+void cs_order_swap(cs_order *order, uint32_t course) {
+  uint32_t next = order->entries[course].next;
+  unlink_entry(order, course);
+  link_after(order, next, course);
 }

@@ -21,14 +21,14 @@
 
 #define CS_ORDER_SLACK 2.0 /* units */
 #define CS_ORDER_NEVER INT32_MAX
-#define CS_ORDER_BELT (16 * CS_COURSE_UNIT)
+#define CS_ORDER_BELT (8 * CS_COURSE_UNIT)
 
-/* A course that crosses the height, by its chain. The last entry is both ends of the list. */
+/* A course that crosses the height, by its number. The last entry is both ends of the list. */
 typedef struct cs_order_entry {
   const cs_course_point *at; /* where its segment at the height begins */
   int32_t foot;              /* its last height */
   int32_t low, high;         /* the extent of x in the belt, from its beginning there on */
-  uint32_t previous, next;   /* chains */
+  uint32_t previous, next;   /* courses */
   uint32_t left, right;      /* windings on its sides */
   int32_t since;             /* the height from which these have been so */
   bool is_there, is_dirty;   /* dirty: its windings must be found again */
@@ -36,9 +36,9 @@ typedef struct cs_order_entry {
 
 typedef struct cs_order {
   const cs_courses *courses; /* borrowed */
-  cs_order_entry *entries;   /* one for each chain, and the ends */
+  cs_order_entry *entries;   /* one for each course, and the ends */
   uint32_t ends;             /* the number of that entry */
-  uint32_t *index;           /* chains that crossed an earlier height, from left to right */
+  uint32_t *index;           /* courses that crossed an earlier height, from left to right */
   size_t index_count, index_capacity, count;
   size_t entered; /* courses that were put in since then */
   int32_t foot;   /* of the belt */
@@ -51,14 +51,15 @@ void cs_order_finish(cs_order *order, cs_memory *memory);
 /* Begins the belt from a height down to a foot. */
 CELSPAN_CHECKED celspan_status cs_order_begin_belt(celspan_context *context, cs_order *order,
                                                    int32_t y, int32_t foot);
-/* Puts in a course that begins at y. Errors: NO_MEMORY. */
+/* Puts in a course that begins at y, or crosses it and has not been in the list until now.
+ * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_order_enter(celspan_context *context, cs_order *order,
-                                              uint32_t chain, int32_t y);
-void cs_order_leave(cs_order *order, uint32_t chain);
-/* A chain and the next one change places. */
-void cs_order_swap(cs_order *order, uint32_t chain);
-/* The height, from y on, at which the course of a chain must change places with the next one;
+                                              uint32_t course, int32_t y);
+void cs_order_leave(cs_order *order, uint32_t course);
+/* A course and the next one change places. */
+void cs_order_swap(cs_order *order, uint32_t course);
+/* The height, from y on, at which a course must change places with the next one;
  * NEVER: it need not in this belt. */
-int32_t cs_order_ahead(const cs_order *order, uint32_t chain, int32_t y);
+int32_t cs_order_ahead(const cs_order *order, uint32_t course, int32_t y);
 /* x of a course that crosses a height, or of its last point. */
-double cs_order_x(const cs_order *order, uint32_t chain, int32_t y);
+double cs_order_x(const cs_order *order, uint32_t course, int32_t y);

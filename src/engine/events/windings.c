@@ -4,7 +4,7 @@
 
 #define SLOTS_LEAST 1024
 
-static cs_windings_hash hash_after(cs_windings_hash hash, uint32_t layer, int32_t direction) {
+cs_windings_hash cs_windings_add(cs_windings_hash hash, uint32_t layer, int32_t direction) {
   uint64_t name = layer, a = cs_splitmix_next(&name), b = cs_splitmix_next(&name);
   return direction > 0 ? (cs_windings_hash){hash.a + a, hash.b + b}
                        : (cs_windings_hash){hash.a - a, hash.b - b};
@@ -35,7 +35,7 @@ static celspan_status widen_slots(celspan_context *context, cs_windings *w) {
 
 celspan_status cs_windings_init(celspan_context *context, cs_windings *w) {
   *w = (cs_windings){0};
-  CS_TRY(CS_APPEND(context, w->entries, w->count, w->capacity, (cs_windings_entry){.layer = 0}));
+  CS_TRY(CS_APPEND(context, w->entries, w->count, w->capacity, (cs_windings_entry){.boundary = 0}));
   return widen_slots(context, w);
 }
 
@@ -46,15 +46,17 @@ void cs_windings_finish(cs_windings *w, cs_memory *memory) {
 }
 
 celspan_status cs_windings_cross(celspan_context *context, cs_windings *w, uint32_t from,
-                                 uint32_t layer, int32_t direction, uint32_t *out) {
-  cs_windings_hash hash = hash_after(w->entries[from].hash, layer, direction);
+                                 uint32_t boundary, cs_windings_hash change, uint32_t *out) {
+  cs_windings_hash hash = w->entries[from].hash;
+  hash.a += change.a;
+  hash.b += change.b;
   size_t at = find_slot(w, hash);
   if (w->slots[at]) {
     *out = w->slots[at] - 1;
     return CELSPAN_OK;
   }
   *out = (uint32_t)w->count;
-  const cs_windings_entry entry = {hash, from, layer, direction};
+  const cs_windings_entry entry = {hash, from, boundary};
   CS_TRY(CS_APPEND(context, w->entries, w->count, w->capacity, entry));
   w->slots[at] = *out + 1;
   return 2 * w->count > w->slot_count ? widen_slots(context, w) : CELSPAN_OK;

@@ -17,10 +17,11 @@
 #include "engine/row/row.h"
 
 #define NONE UINT32_MAX
-#define WINDINGS_MOST (4 * CS_MAP_CELLS)
+#define WINDINGS_MOST (2 * CS_MAP_CELLS)
 
 typedef struct maker {
   celspan_context *context;
+  const cs_plan *plan;
   cs_map *map;
   cs_events events;
   uint32_t *cells; /* a table: the number of a cell plus 1; 0: free. A power of two */
@@ -208,6 +209,20 @@ static celspan_status compose(maker *m, cs_composer *composer, uint32_t *out) {
   return find_cell(m, what, out);
 }
 
+/* Crosses a boundary, or back. */
+static void cross(const maker *m, cs_composer *composer, uint32_t boundary, int32_t sign) {
+  const cs_boundary_set *set = &m->plan->boundaries;
+  const cs_deferred *deferred = m->plan->cull.deferred_list;
+  if (boundary < set->chain_count) {
+    const cs_boundary_chain *chain = &set->chains[boundary];
+    cs_composer_cross(composer, chain->layer, sign * chain->direction);
+    return;
+  }
+  const cs_bundle *bundle = &m->events.bundles.bundles[boundary - set->chain_count];
+  for (uint32_t k = bundle->first; k < bundle->first + bundle->count; k++)
+    cs_composer_cross(composer, deferred[k].layer, sign * deferred[k].direction);
+}
+
 /* Visits the windings along their tree. */
 static celspan_status compose_all(maker *m, cs_composer *composer, const family *families) {
   const cs_windings_entry *entries = m->events.windings.entries;
@@ -215,11 +230,11 @@ static celspan_status compose_all(maker *m, cs_composer *composer, const family 
   for (uint32_t at = 0, next = families[0].child; next != NONE || at != 0;) {
     if (next != NONE && m->map->is_whole) {
       at = next;
-      cs_composer_cross(composer, entries[at].layer, entries[at].direction);
+      cross(m, composer, entries[at].boundary, 1);
       CS_TRY(compose(m, composer, &m->cell_of[at]));
       next = families[at].child;
     } else {
-      cs_composer_cross(composer, entries[at].layer, -entries[at].direction);
+      cross(m, composer, entries[at].boundary, -1);
       next = families[at].sibling;
       at = entries[at].parent;
     }
@@ -228,7 +243,7 @@ static celspan_status compose_all(maker *m, cs_composer *composer, const family 
 }
 
 /* Finds the cells of all windings. */
-static celspan_status find_cells(maker *m, const cs_plan *plan) {
+static celspan_status find_cells(maker *m) {
   cs_row_maker rows; /* whose composer knows which pictures are opaque */
   size_t count = m->events.windings.count;
   family *families;
@@ -237,7 +252,7 @@ static celspan_status find_cells(maker *m, const cs_plan *plan) {
   CS_TRY(CS_MAKE(m->context, m->cell_of, count));
   CS_TRY(CS_MAKE(m->context, families, count));
   find_families(&m->events.windings, families);
-  celspan_status status = cs_row_maker_init(&rows, m->context, plan);
+  celspan_status status = cs_row_maker_init(&rows, m->context, m->plan);
   if (status == CELSPAN_OK)
     status = compose_all(m, &rows.composer, families);
   cs_row_maker_finish(&rows);
@@ -255,11 +270,11 @@ static celspan_status order_parts(maker *m) {
   CS_TRY(CS_MAKE(m->context, m->order, events->part_count));
   CS_TRY(CS_MAKE(m->context, ends, count));
   for (size_t i = 0; i < events->part_count; i++)
-    ends[events->parts[i].chain + 1]++;
+    ends[events->parts[i].course + 1]++;
   for (size_t i = 1; i < count; i++)
     ends[i] += ends[i - 1];
   for (size_t i = 0; i < events->part_count; i++)
-    m->order[ends[events->parts[i].chain]++] = (uint32_t)i;
+    m->order[ends[events->parts[i].course]++] = (uint32_t)i;
   cs_mem_free(m->context->memory, ends, count * sizeof *ends);
   return CELSPAN_OK;
 }
@@ -279,7 +294,7 @@ static int32_t unit_at(const cs_course_point *from, int32_t y) {
 /* Adds a part as a border, or parts of one. */
 static celspan_status add_border(maker *m, const cs_events_part *f) {
   cs_map_lines *lines = &m->map->lines;
-  const cs_course *course = &m->events.courses.courses[f->chain];
+  const cs_course *course = &m->events.courses.courses[f->course];
   const cs_course_point *p = m->events.courses.points + course->first;
   cs_map_border border = {.left = m->cell_of[f->left],
                           .right = m->cell_of[f->right],
@@ -297,7 +312,7 @@ static celspan_status add_border(maker *m, const cs_events_part *f) {
 }
 
 static bool is_continued(const maker *m, const cs_events_part *f, const cs_events_part *next) {
-  return next->chain == f->chain && next->top == f->foot &&
+  return next->course == f->course && next->top == f->foot &&
          m->cell_of[next->left] == m->cell_of[f->left] &&
          m->cell_of[next->right] == m->cell_of[f->right];
 }
@@ -337,19 +352,20 @@ static void take_stack(cs_map *map, cs_stack *stack) {
   change_references(&map->stack, keep_texture);
 }
 
-static celspan_status make(maker *m, const cs_plan *plan) {
-  CS_TRY(cs_events_find(m->context, &plan->boundaries, WINDINGS_MOST, &m->events));
+static celspan_status make(maker *m) {
+  CS_TRY(
+      cs_events_find(m->context, &m->plan->boundaries, &m->plan->cull, WINDINGS_MOST, &m->events));
   m->map->is_whole = m->events.is_complete;
   if (m->map->is_whole)
-    CS_TRY(find_cells(m, plan));
+    CS_TRY(find_cells(m));
   if (m->map->is_whole)
     CS_TRY(order_parts(m));
   return m->map->is_whole ? add_borders(m) : CELSPAN_OK;
 }
 
 celspan_status cs_map_make(celspan_context *context, cs_plan *plan, cs_map *map) {
-  maker m = {.context = context, .map = map};
-  celspan_status status = make(&m, plan);
+  maker m = {.context = context, .plan = plan, .map = map};
+  celspan_status status = make(&m);
   if (status == CELSPAN_OK && map->item_count > 0)
     take_stack(map, &plan->stack);
   finish(&m);

@@ -358,12 +358,11 @@ static celspan_status compile_objects(cs_compiler *c, const cs_defocus_job *job)
   CS_TRY(cs_objects_begin_isolation(c, job->cel->blends_inside[c->space], false, &unused));
   CS_TRY(cs_objects_add(c, job->cel->objects, job->cel->object_count, &job->matrix));
   cs_boundary_sort(&c->plan->boundaries);
-  return CELSPAN_OK;
+  return cull_hidden(c);
 }
 
-/* has_rows: they will be made from the plan, so that a cull may pay. */
 static celspan_status compile_raster(const cs_compiler *outer, const cs_defocus_job *job,
-                                     size_t most_dashes, bool has_rows, cs_plan *out) {
+                                     size_t most_dashes, cs_plan *out) {
   cs_plan plan = {.width = job->width,
                   .height = job->height,
                   .margin = job->kernel ? cs_kernel_extent(job->kernel) : 0,
@@ -381,14 +380,11 @@ static celspan_status compile_raster(const cs_compiler *outer, const cs_defocus_
   c.workers = 1;
   c.cel = outer->cel;
   c.mark = outer->mark;
-  celspan_status status = compile_objects(&c, job);
-  if (status == CELSPAN_OK && has_rows)
-    status = cull_hidden(&c);
-  return finish(&c, status, out);
+  return finish(&c, compile_objects(&c, job), out);
 }
 
 static celspan_status compile_alone(void *user, const cs_defocus_job *job, cs_plan *out) {
-  return compile_raster(user, job, SIZE_MAX, true, out);
+  return compile_raster(user, job, SIZE_MAX, out);
 }
 
 celspan_status cs_compile_drawing(celspan_context *context, const celspan_cel *cel, size_t number,
@@ -401,7 +397,7 @@ celspan_status cs_compile_drawing(celspan_context *context, const celspan_cel *c
                              .patterns = &patterns};
   const cs_defocus_job job = {
       .cel = cel, .matrix = *matrix, .width = view->width, .height = view->height};
-  celspan_status status = compile_raster(&outer, &job, view->most_dashes, false, out);
+  celspan_status status = compile_raster(&outer, &job, view->most_dashes, out);
   cs_patterns_finish(&patterns, context->memory);
   return status;
 }
