@@ -142,7 +142,7 @@ static void test_drawings(void) {
     test_random random = {seed + 1000};
     cs_boundary_set set = random_drawing(seed);
     cs_events events;
-    MUST(cs_events_find(context, &set, &no_cull, SIZE_MAX, &events));
+    MUST(cs_events_find(context, &set, &no_cull, HEIGHT, SIZE_MAX, &events));
     CHECK(events.is_complete);
     crossed *at = calloc(events.part_count + 1, sizeof *at);
     for (int k = 0; k < HEIGHTS; k++) {
@@ -176,11 +176,11 @@ static void test_intersections(void) {
     cs_outline_finish(&outline, context->memory);
   }
   cs_boundary_sort(&set);
-  MUST(cs_events_find(context, &set, &no_cull, SIZE_MAX, &events));
+  MUST(cs_events_find(context, &set, &no_cull, HEIGHT, SIZE_MAX, &events));
   CHECK(events.intersections == 4);
   CHECK(events.windings.count == 4); /* none, each, both */
   cs_events_finish(&events, context->memory);
-  MUST(cs_events_find(context, &set, &no_cull, 2, &events));
+  MUST(cs_events_find(context, &set, &no_cull, HEIGHT, 2, &events));
   CHECK(!events.is_complete);
   cs_events_finish(&events, context->memory);
   cs_boundary_finish(&set, context->memory);
@@ -210,7 +210,7 @@ static void test_area(void) {
     MUST(cs_outline_ellipse(context, &outline, (celspan_point){50, 40}, rx, ry));
     add(&set, &outline, 0);
     cs_boundary_sort(&set);
-    MUST(cs_events_find(context, &set, &no_cull, SIZE_MAX, &events));
+    MUST(cs_events_find(context, &set, &no_cull, HEIGHT, SIZE_MAX, &events));
     CHECK(events.part_count == 2);
     CHECK_NEAR(area_of(&events, &set), PI * rx * ry, 0.001 * PI * (rx + ry));
     cs_events_finish(&events, context->memory);
@@ -229,7 +229,7 @@ static void test_without_memory(void) {
   for (size_t fail = 1; fail < 1000 && status != CELSPAN_OK; fail++) {
     cs_events events;
     watch.fail_at = watch.allocations + fail;
-    status = cs_events_find(starving, &set, &no_cull, SIZE_MAX, &events);
+    status = cs_events_find(starving, &set, &no_cull, HEIGHT, SIZE_MAX, &events);
     CHECK(status == CELSPAN_OK || status == CELSPAN_NO_MEMORY);
     watch.fail_at = 0;
     cs_events_finish(&events, starving->memory);

@@ -6,7 +6,8 @@
 typedef struct maker {
   const cs_boundary_set *set;
   cs_courses *out;
-  double *x, *y; /* of the vertices of a piece */
+  double top, foot; /* what is beyond them is left out */
+  double *x, *y;    /* of the vertices of a piece */
 } maker;
 
 /* To the nearest unit: shifted, so that cutting off the fraction rounds down. */
@@ -28,14 +29,44 @@ static inline void add_point(cs_course_point *points, cs_course *course, double 
     course->count++;
 }
 
-static void add_piece(const maker *m, const cs_boundary_piece *piece, cs_course_point *points,
-                      cs_course *course) {
+/* A course that is being made. */
+typedef struct making {
+  const maker *m;
+  cs_course_point *points;
+  cs_course *course;
+  celspan_point last; /* the last vertex, which may be beyond the top or the foot */
+} making;
+
+static inline double x_between(celspan_point a, celspan_point b, double y) {
+  return a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
+}
+
+/* Adds what a chord has between the top and the foot. */
+static inline void add_vertex(making *k, celspan_point at) {
+  const maker *m = k->m;
+  celspan_point last = k->last;
+  k->last = at;
+  if (last.y >= m->top && at.y <= m->foot) {
+    add_point(k->points, k->course, at.x, at.y);
+    return;
+  }
+  if (at.y < m->top || last.y > m->foot || at.y == last.y)
+    return;
+  if (last.y < m->top)
+    add_point(k->points, k->course, x_between(last, at, m->top), m->top);
+  if (at.y > m->foot)
+    at = (celspan_point){x_between(last, at, m->foot), m->foot};
+  add_point(k->points, k->course, at.x, at.y);
+}
+
+static void add_piece(making *k, const cs_boundary_piece *piece) {
+  const maker *m = k->m;
   if (piece->chords > 1)
     cs_polyline_displaced(m->set, piece, m->x, m->y);
-  for (uint32_t k = 0; k + 1 < piece->chords; k++)
-    add_point(points, course, cs_number_clamp(m->x[k], piece->left, piece->right),
-              cs_number_clamp(m->y[k], piece->y0, piece->y1));
-  add_point(points, course, piece->x1, piece->y1);
+  for (uint32_t i = 0; i + 1 < piece->chords; i++)
+    add_vertex(k, (celspan_point){cs_number_clamp(m->x[i], piece->left, piece->right),
+                                  cs_number_clamp(m->y[i], k->last.y, piece->y1)});
+  add_vertex(k, (celspan_point){piece->x1, piece->y1});
 }
 
 /* Leaves out a jump at the foot, and a course without height; finds the slopes. */
@@ -53,18 +84,19 @@ static void end_course(cs_courses *out, cs_course *course) {
 }
 
 static void make_course(const maker *m, const cs_boundary_chain *chain, cs_course *course) {
-  cs_course_point *points = m->out->points + m->out->point_count;
+  making k = {m, m->out->points + m->out->point_count, course, {chain->x0, chain->y0}};
   *course = (cs_course){m->out->point_count, 0};
-  add_point(points, course, chain->x0, chain->y0);
-  for (uint32_t k = 0; k < chain->piece_count; k++)
-    add_piece(m, &m->set->pieces[chain->piece + k], points, course);
+  if (chain->y0 >= m->top && chain->y0 <= m->foot)
+    add_point(k.points, course, chain->x0, chain->y0);
+  for (uint32_t i = 0; i < chain->piece_count; i++)
+    add_piece(&k, &m->set->pieces[chain->piece + i]);
   end_course(m->out, course);
 }
 
-celspan_status cs_courses_make(celspan_context *context, const cs_boundary_set *set, size_t more,
-                               cs_courses *out) {
-  maker m = {.set = set, .out = out};
-  size_t chords = set->chain_count + 2 * more + 1, most = 1;
+celspan_status cs_courses_make(celspan_context *context, const cs_boundary_set *set, int32_t top,
+                               int32_t foot, size_t more, cs_courses *out) {
+  maker m = {.set = set, .out = out, .top = top, .foot = foot};
+  size_t chords = 2 * (set->chain_count + more) + 1, most = 1;
   *out = (cs_courses){0};
   for (size_t i = 0; i < set->piece_count; i++) {
     chords += set->pieces[i].chords;

@@ -1,7 +1,6 @@
 #include "engine/events/events.h"
 
-#include "base/self_check.h"
-#include "base/sort.h"
+#include "base/keys.h"
 #include "engine/events/order.h"
 
 /* Two courses that must change places, if they are still neighbours then. */
@@ -9,13 +8,6 @@ typedef struct intersection {
   int32_t y;
   uint32_t left, right;
 } intersection;
-
-/* A course, and where it is or ends. */
-typedef struct placed {
-  int32_t y;
-  double x;
-  uint32_t course;
-} placed;
 
 typedef struct sweep {
   celspan_context *context;
@@ -25,8 +17,8 @@ typedef struct sweep {
   cs_events *events;
   cs_order order;
   intersection *intersections; /* a heap, the highest one first */
-  placed *ends;                /* of all courses, from the highest one */
-  placed *dirty;               /* courses whose windings must be found again */
+  uint64_t *ends;              /* keys of all chains by where they end */
+  uint64_t *dirty;             /* by x, courses whose windings must be found again */
   uint32_t *touched;           /* courses that have another right neighbour */
   size_t intersection_count, intersection_capacity, end_count, next_end, next_begin;
   size_t dirty_count, dirty_capacity, touched_count, touched_capacity;
@@ -95,8 +87,8 @@ static celspan_status mark_dirty(sweep *s, uint32_t course, int32_t y) {
   if (course == s->order.ends || entry->is_dirty)
     return CELSPAN_OK;
   entry->is_dirty = true;
-  const placed at = {y, cs_order_x(&s->order, course, y), course};
-  return CS_APPEND(s->context, s->dirty, s->dirty_count, s->dirty_capacity, at);
+  const uint64_t key = cs_key((int32_t)cs_order_x(&s->order, course, y), course);
+  return CS_APPEND(s->context, s->dirty, s->dirty_count, s->dirty_capacity, key);
 }
 
 /* Finds the windings from a course on to the right, until they are known. */
@@ -118,20 +110,13 @@ static celspan_status find_windings(sweep *s, uint32_t course, int32_t y) {
   return CELSPAN_OK;
 }
 
-static inline bool is_before(const placed *a, const placed *b) {
-  if (a->y != b->y)
-    return a->y < b->y;
-  return a->x != b->x ? a->x < b->x : a->course < b->course;
-}
-
-CS_SORT_DEFINE(sort_placed, placed, is_before)
-
 static celspan_status settle_dirty(sweep *s, int32_t y) {
-  sort_placed(s->dirty, s->dirty_count);
+  CS_TRY(cs_keys_sort(s->context, s->dirty, s->dirty_count));
   for (size_t i = 0; i < s->dirty_count; i++) {
-    const cs_order_entry *entry = &s->order.entries[s->dirty[i].course];
+    uint32_t course = cs_key_number(s->dirty[i]);
+    const cs_order_entry *entry = &s->order.entries[course];
     if (entry->is_there && entry->is_dirty)
-      CS_TRY(find_windings(s, s->dirty[i].course, y));
+      CS_TRY(find_windings(s, course, y));
   }
   s->dirty_count = 0;
   return CELSPAN_OK;
@@ -162,9 +147,14 @@ static celspan_status leave(sweep *s, uint32_t course, int32_t y) {
   return mark_dirty(s, entry->next, y);
 }
 
+/* Where the next chain ends; NEVER: all have ended. */
+static inline int32_t next_end(const sweep *s) {
+  return s->next_end < s->end_count ? cs_key_by(s->ends[s->next_end]) : CS_ORDER_NEVER;
+}
+
 static celspan_status end_courses(sweep *s, int32_t y) {
-  for (; s->next_end < s->end_count && s->ends[s->next_end].y == y; s->next_end++)
-    CS_TRY(leave(s, s->ends[s->next_end].course, y));
+  for (; next_end(s) == y; s->next_end++)
+    CS_TRY(leave(s, cs_key_number(s->ends[s->next_end]), y));
   return CELSPAN_OK;
 }
 
@@ -289,7 +279,7 @@ static celspan_status go_down(sweep *s, size_t most) {
   while ((begin = next_begin(s)) || s->order.count > 0) {
     int32_t y = next_tiles(s);
     y = begin ? lesser(begin->y, y) : y;
-    y = s->order.count > 0 && s->next_end < s->end_count ? lesser(s->ends[s->next_end].y, y) : y;
+    y = lesser(next_end(s), y);
     CS_TRY(go_to(s, y));
     CS_TRY(intersect_until(s, y));
     CS_TRY(change_courses(s, y));
@@ -308,10 +298,9 @@ static celspan_status list_ends(sweep *s) {
     const cs_course *course = &courses->courses[i];
     const cs_course_point *last = courses->points + course->first + course->count - 1;
     if (course->count > 0)
-      s->ends[s->end_count++] = (placed){last->y, last->x, (uint32_t)i};
+      s->ends[s->end_count++] = cs_key(last->y, i);
   }
-  sort_placed(s->ends, s->end_count);
-  return CELSPAN_OK;
+  return cs_keys_sort(s->context, s->ends, s->end_count);
 }
 
 static void finish(sweep *s) {
@@ -325,10 +314,10 @@ static void finish(sweep *s) {
 }
 
 celspan_status cs_events_find(celspan_context *context, const cs_boundary_set *set,
-                              const cs_cull *cull, size_t most, cs_events *out) {
+                              const cs_cull *cull, int32_t height, size_t most, cs_events *out) {
   sweep s = {.context = context, .set = set, .cull = cull, .events = out};
   *out = (cs_events){0};
-  CS_TRY(cs_courses_make(context, set, cull->deferred_count, &out->courses));
+  CS_TRY(cs_courses_make(context, set, 0, height, cull->deferred_count, &out->courses));
   CS_TRY(cs_bundles_make(context, cull, &out->courses, &out->bundles));
   CS_TRY(cs_windings_init(context, &out->windings));
   celspan_status status = list_ends(&s);

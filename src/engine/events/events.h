@@ -42,8 +42,10 @@ typedef struct cs_events {
   bool is_complete;     /* false: there are too many windings, and parts are missing */
 } cs_events;
 
-/* Sweeps boundaries that lie within 16384 pixels of the origin, and are culled without a margin.
- * most: windings. Errors: NO_MEMORY; cs_events_finish must be called then, too. */
+/* Sweeps boundaries that lie within 16384 pixels of the origin sideways, and are culled without a
+ * margin, from height 0 to `height`, in pixels, at most 16384. most: windings. Errors: NO_MEMORY;
+ * cs_events_finish must be called then, too. */
 CELSPAN_CHECKED celspan_status cs_events_find(celspan_context *context, const cs_boundary_set *set,
-                                              const cs_cull *cull, size_t most, cs_events *out);
+                                              const cs_cull *cull, int32_t height, size_t most,
+                                              cs_events *out);
 void cs_events_finish(cs_events *events, cs_memory *memory);

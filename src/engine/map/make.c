@@ -12,9 +12,8 @@
 
 #include "base/splitmix.h"
 #include "engine/compose/over.h"
-#include "engine/events/events.h"
+#include "engine/events/visit.h"
 #include "engine/map/map.h"
-#include "engine/row/row.h"
 
 #define NONE UINT32_MAX
 #define WINDINGS_MOST (2 * CS_MAP_CELLS)
@@ -181,83 +180,22 @@ static celspan_status find_cell(maker *m, content what, uint32_t *out) {
 
 /* ---------------------------------------------------------------- composing */
 
-/* The windings as a tree: the first child of each, and the next one of the same parent. NONE: there
- * is none. */
-typedef struct family {
-  uint32_t child, sibling;
-} family;
-
-static void find_families(const cs_windings *windings, family *out) {
-  for (size_t i = 0; i < windings->count; i++)
-    out[i] = (family){NONE, NONE};
-  for (size_t i = windings->count; i-- > 1;) {
-    family *parent = &out[windings->entries[i].parent];
-    out[i].sibling = parent->child;
-    parent->child = (uint32_t)i;
-  }
-}
-
-/* The cell where the composer is. */
-static celspan_status compose(maker *m, cs_composer *composer, uint32_t *out) {
-  cs_cell cell;
-  (void)cs_composer_begin_row(composer); /* what was composed before has been copied */
-  cs_composer_cell(composer, &cell);
-  CS_TRY(composer->failure);
-  content what = {.colour = cell.colour};
-  if (cell.length > 0)
-    what = (content){cs_v4_all(0), composer->items + cell.program, cell.length};
-  return find_cell(m, what, out);
-}
-
-/* Crosses a boundary, or back. */
-static void cross(const maker *m, cs_composer *composer, uint32_t boundary, int32_t sign) {
-  const cs_boundary_set *set = &m->plan->boundaries;
-  const cs_deferred *deferred = m->plan->cull.deferred_list;
-  if (boundary < set->chain_count) {
-    const cs_boundary_chain *chain = &set->chains[boundary];
-    cs_composer_cross(composer, chain->layer, sign * chain->direction);
-    return;
-  }
-  const cs_bundle *bundle = &m->events.bundles.bundles[boundary - set->chain_count];
-  for (uint32_t k = bundle->first; k < bundle->first + bundle->count; k++)
-    cs_composer_cross(composer, deferred[k].layer, sign * deferred[k].direction);
-}
-
-/* Visits the windings along their tree. */
-static celspan_status compose_all(maker *m, cs_composer *composer, const family *families) {
-  const cs_windings_entry *entries = m->events.windings.entries;
-  CS_TRY(compose(m, composer, &m->cell_of[0]));
-  for (uint32_t at = 0, next = families[0].child; next != NONE || at != 0;) {
-    if (next != NONE && m->map->is_whole) {
-      at = next;
-      cross(m, composer, entries[at].boundary, 1);
-      CS_TRY(compose(m, composer, &m->cell_of[at]));
-      next = families[at].child;
-    } else {
-      cross(m, composer, entries[at].boundary, -1);
-      next = families[at].sibling;
-      at = entries[at].parent;
-    }
-  }
-  return CELSPAN_OK;
+/* Notes the cell of some windings; a cs_events_visitor. */
+static celspan_status note_cell(void *user, uint32_t windings, const cs_composer *composer,
+                                const cs_cell *cell) {
+  maker *m = user;
+  content what = {.colour = cell->colour};
+  if (cell->length > 0)
+    what = (content){cs_v4_all(0), composer->items + cell->program, cell->length};
+  return m->map->is_whole ? find_cell(m, what, &m->cell_of[windings]) : CELSPAN_OK;
 }
 
 /* Finds the cells of all windings. */
 static celspan_status find_cells(maker *m) {
-  cs_row_maker rows; /* whose composer knows which pictures are opaque */
-  size_t count = m->events.windings.count;
-  family *families;
   uint32_t clear;
   CS_TRY(find_cell(m, (content){.colour = cs_v4_all(0)}, &clear));
-  CS_TRY(CS_MAKE(m->context, m->cell_of, count));
-  CS_TRY(CS_MAKE(m->context, families, count));
-  find_families(&m->events.windings, families);
-  celspan_status status = cs_row_maker_init(&rows, m->context, m->plan);
-  if (status == CELSPAN_OK)
-    status = compose_all(m, &rows.composer, families);
-  cs_row_maker_finish(&rows);
-  cs_mem_free(m->context->memory, families, count * sizeof *families);
-  return status;
+  CS_TRY(CS_MAKE(m->context, m->cell_of, m->events.windings.count));
+  return cs_events_visit(m->context, m->plan, &m->events, note_cell, m);
 }
 
 /* ---------------------------------------------------------------- borders */
@@ -353,8 +291,8 @@ static void take_stack(cs_map *map, cs_stack *stack) {
 }
 
 static celspan_status make(maker *m) {
-  CS_TRY(
-      cs_events_find(m->context, &m->plan->boundaries, &m->plan->cull, WINDINGS_MOST, &m->events));
+  CS_TRY(cs_events_find(m->context, &m->plan->boundaries, &m->plan->cull, m->plan->height,
+                        WINDINGS_MOST, &m->events));
   m->map->is_whole = m->events.is_complete;
   if (m->map->is_whole)
     CS_TRY(find_cells(m));

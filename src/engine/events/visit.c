@@ -1,0 +1,84 @@
+#include "engine/events/visit.h"
+
+#include "engine/row/row.h"
+
+#define NONE UINT32_MAX
+
+/* The first child of some windings, and the next one of the same parent. NONE: there is none. */
+typedef struct family {
+  uint32_t child, sibling;
+} family;
+
+typedef struct walk {
+  const cs_plan *plan;
+  const cs_events *events;
+  cs_composer *composer;
+  cs_events_visitor visitor;
+  void *user;
+} walk;
+
+static void find_families(const cs_windings *windings, family *out) {
+  for (size_t i = 0; i < windings->count; i++)
+    out[i] = (family){NONE, NONE};
+  for (size_t i = windings->count; i-- > 1;) {
+    family *parent = &out[windings->entries[i].parent];
+    out[i].sibling = parent->child;
+    parent->child = (uint32_t)i;
+  }
+}
+
+/* Crosses a boundary, or back. */
+static void cross(const walk *w, uint32_t boundary, int32_t sign) {
+  const cs_boundary_set *set = &w->plan->boundaries;
+  const cs_deferred *deferred = w->plan->cull.deferred_list;
+  if (boundary < set->chain_count) {
+    const cs_boundary_chain *chain = &set->chains[boundary];
+    cs_composer_cross(w->composer, chain->layer, sign * chain->direction);
+    return;
+  }
+  const cs_bundle *bundle = &w->events->bundles.bundles[boundary - set->chain_count];
+  for (uint32_t k = bundle->first; k < bundle->first + bundle->count; k++)
+    cs_composer_cross(w->composer, deferred[k].layer, sign * deferred[k].direction);
+}
+
+static celspan_status visit(const walk *w, uint32_t windings) {
+  cs_cell cell;
+  (void)cs_composer_begin_row(w->composer); /* programs composed before are not needed any more */
+  cs_composer_cell(w->composer, &cell);
+  CS_TRY(w->composer->failure);
+  return w->visitor(w->user, windings, w->composer, &cell);
+}
+
+static celspan_status visit_all(const walk *w, const family *families) {
+  const cs_windings_entry *entries = w->events->windings.entries;
+  CS_TRY(visit(w, 0));
+  for (uint32_t at = 0, next = families[0].child; next != NONE || at != 0;) {
+    if (next != NONE) {
+      at = next;
+      cross(w, entries[at].boundary, 1);
+      CS_TRY(visit(w, at));
+      next = families[at].child;
+    } else {
+      cross(w, entries[at].boundary, -1);
+      next = families[at].sibling;
+      at = entries[at].parent;
+    }
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_events_visit(celspan_context *context, const cs_plan *plan,
+                               const cs_events *events, cs_events_visitor visitor, void *user) {
+  cs_row_maker rows; /* whose composer knows which pictures are opaque */
+  size_t count = events->windings.count;
+  family *families;
+  CS_TRY(CS_MAKE(context, families, count));
+  find_families(&events->windings, families);
+  celspan_status status = cs_row_maker_init(&rows, context, plan);
+  const walk w = {plan, events, &rows.composer, visitor, user};
+  if (status == CELSPAN_OK)
+    status = visit_all(&w, families);
+  cs_row_maker_finish(&rows);
+  cs_mem_free(context->memory, families, count * sizeof *families);
+  return status;
+}
