@@ -6,8 +6,7 @@
  *                      |       |b      |       |   change together at its left edge, which nobody
  *                      +-------+-------+-------+   can see
  *
- * The courses of bundles come after those of the chains. Without a cull there are none, and there
- * are none in the first and in the last row, where every chain begins or ends.
+ * The courses of bundles come after those of the chains. Without a cull there are none.
  */
 #pragma once
 

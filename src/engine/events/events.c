@@ -13,7 +13,7 @@ typedef struct sweep {
   celspan_context *context;
   const cs_boundary_set *set;
   const cs_cull *cull;
-  int32_t tile_row;
+  int32_t tile_row; /* -1: above the first one */
   cs_events *events;
   cs_order order;
   intersection *intersections; /* a heap, the highest one first */
@@ -276,7 +276,7 @@ static inline int32_t lesser(int32_t a, int32_t b) { return a < b ? a : b; }
 
 static celspan_status go_down(sweep *s, size_t most) {
   const cs_course_point *begin;
-  while ((begin = next_begin(s)) || s->order.count > 0) {
+  while ((begin = next_begin(s)) || s->next_end < s->end_count) {
     int32_t y = next_tiles(s);
     y = begin ? lesser(begin->y, y) : y;
     y = lesser(next_end(s), y);
@@ -315,7 +315,7 @@ static void finish(sweep *s) {
 
 celspan_status cs_events_find(celspan_context *context, const cs_boundary_set *set,
                               const cs_cull *cull, int32_t height, size_t most, cs_events *out) {
-  sweep s = {.context = context, .set = set, .cull = cull, .events = out};
+  sweep s = {.context = context, .set = set, .cull = cull, .events = out, .tile_row = -1};
   *out = (cs_events){0};
   CS_TRY(cs_courses_make(context, set, 0, height, cull->deferred_count, &out->courses));
   CS_TRY(cs_bundles_make(context, cull, &out->courses, &out->bundles));

@@ -4,24 +4,21 @@
 
 #include "base/hash_table.h"
 #include "base/number.h"
+#include "engine/events/visit.h"
 #include "engine/record/programs.h"
-#include "engine/row/row.h"
 
 #define UNITS ((double)PLANEFILE_SIDE / CS_RECORD_SIDE) /* of a plane, in a pixel of the plan */
 #define COUNT_MOST (UINT32_MAX / 4)                     /* of anything */
-
-/* A chain of the plan. */
-typedef struct known {
-  uint32_t chain;  /* of the record, plus 1; 0: none of its edges has been seen */
-  uint32_t border; /* its latest, plus 1; 0: none */
-  double foot;     /* of that border, in pixels */
-} known;
+#define WINDINGS_MOST ((size_t)1 << 24)
 
 typedef struct recorder {
   celspan_context *context;
   const cs_plan *plan;
   cs_recording *out;
-  known *chains;
+  cs_events events;
+  uint32_t *cell_of;   /* by windings */
+  uint32_t *chain_of;  /* by chain of the plan: that of the record plus 1; 0: it has none yet */
+  uint32_t *latest;    /* by chain of the plan: its latest border plus 1; 0: none */
   cs_hash_table cells; /* by their colours or layers */
   cs_record_source source;
 } recorder;
@@ -115,11 +112,14 @@ static celspan_status find_varied(recorder *r, const cs_program *program, uint32
   return add_cell(r, key, (planefile_cell){{0}}, made, out);
 }
 
-static celspan_status find_side(recorder *r, const cs_retained_row *row,
-                                const cs_retained_side *side, uint32_t *out) {
-  if (side->program < 0)
-    return find_cell(r, side->colour, out);
-  return find_varied(r, &row->programs[side->program].program, out);
+/* Finds the cell of some windings; a cs_events_visitor. */
+static celspan_status note_cell(void *user, uint32_t windings, const cs_composer *composer,
+                                const cs_cell *cell) {
+  recorder *r = user;
+  if (cell->length == 0)
+    return find_cell(r, cell->colour, &r->cell_of[windings]);
+  const cs_program program = cs_composer_program(composer, cell);
+  return find_varied(r, &program, &r->cell_of[windings]);
 }
 
 /* ---------------------------------------------------------------- curves */
@@ -197,84 +197,90 @@ static celspan_status add_chain(recorder *r, const cs_boundary_chain *chain, uin
   return CELSPAN_OK;
 }
 
-/* A chain that is one line. */
-static celspan_status add_line(recorder *r, const cs_retained_edge *edge, uint32_t *out) {
+static planefile_point course_point(const cs_course_point *at) {
+  const double unit = 1.0 / CS_COURSE_UNIT;
+  return point_at(at->x * unit, at->y * unit);
+}
+
+/* A chain of lines, along a course. */
+static celspan_status add_lines(recorder *r, uint32_t course, uint32_t *out) {
   cs_recording *record = r->out;
-  CS_TRY(reserve(r, 1));
+  const cs_course *of = &r->events.courses.courses[course];
+  const cs_course_point *points = r->events.courses.points + of->first;
+  CS_TRY(reserve(r, of->count));
   *out = (uint32_t)record->chain_count;
-  record->chains[record->chain_count++] = (planefile_chain){(uint32_t)record->piece_count, 1};
-  record->pieces[record->piece_count++] =
-      (planefile_piece){(uint32_t)record->point_count, 1, false};
-  record->points[record->point_count++] = point_at(edge->xa, edge->ya);
-  record->points[record->point_count++] = point_at(edge->xb, edge->yb);
+  record->chains[record->chain_count++] =
+      (planefile_chain){(uint32_t)record->piece_count, of->count - 1};
+  for (uint32_t k = 0; k + 1 < of->count; k++) {
+    record->pieces[record->piece_count++] =
+        (planefile_piece){(uint32_t)record->point_count, 1, false};
+    record->points[record->point_count++] = course_point(&points[k]);
+    record->points[record->point_count++] = course_point(&points[k + 1]);
+  }
   return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- borders */
 
-/* Adds a border with the heights of an edge; *out: its number plus 1, 0 where it has no height. */
-static celspan_status add_border(recorder *r, const cs_retained_edge *edge, planefile_border border,
-                                 uint32_t *out) {
-  cs_recording *record = r->out;
-  const planefile_chain *chain = &record->chains[border.chain];
+/* The heights that borders of a chain of the record may have. */
+static void find_limits(const cs_recording *record, uint32_t number, int32_t *least,
+                        int32_t *most) {
+  const planefile_chain *chain = &record->chains[number];
   const planefile_piece *first = &record->pieces[chain->piece];
   const planefile_piece *last = first + chain->piece_count - 1;
   int32_t top = record->points[first->point].y, foot = record->points[last->point + last->degree].y;
-  int32_t least = top > 0 ? top : 0, most = foot < PLANEFILE_SIDE ? foot : PLANEFILE_SIDE;
-  border.top = (int32_t)cs_number_clamp(to_units(edge->ya), least, most);
-  border.foot = (int32_t)cs_number_clamp(to_units(edge->yb), least, most);
-  *out = 0;
-  if (border.top >= border.foot)
-    return CELSPAN_OK;
-  CS_TRY(CS_APPEND(r->context, record->borders, record->border_count, record->border_capacity,
-                   border));
-  *out = (uint32_t)record->border_count;
+  *least = top > 0 ? top : 0;
+  *most = foot < PLANEFILE_SIDE ? foot : PLANEFILE_SIDE;
+}
+
+/* A height of the sweep in units of a plane. */
+static int32_t height_of(int32_t y) { return to_units(y * (1.0 / CS_COURSE_UNIT)); }
+
+static celspan_status find_chain(recorder *r, uint32_t course, uint32_t *out) {
+  const cs_boundary_chain *chain = &r->plan->boundaries.chains[course];
+  uint32_t *known = &r->chain_of[course];
+  if (*known == 0) {
+    CS_TRY(has_curves(r, chain) ? add_chain(r, chain, known) : add_lines(r, course, known));
+    ++*known;
+  }
+  *out = *known - 1;
   return CELSPAN_OK;
 }
 
-/* Continues the latest border of a chain, if the edge does; *out: whether it does. */
-static bool extend(recorder *r, known *k, const cs_retained_edge *edge, uint32_t left,
-                   uint32_t right) {
-  planefile_border *border = k->border > 0 ? &r->out->borders[k->border - 1] : NULL;
-  if (!border || k->foot != edge->ya || border->left != left || border->right != right)
-    return false;
-  const planefile_chain *chain = &r->out->chains[border->chain];
-  const planefile_piece *last = &r->out->pieces[chain->piece + chain->piece_count - 1];
-  int32_t most = r->out->points[last->point + last->degree].y, foot = to_units(edge->yb);
-  most = most < PLANEFILE_SIDE ? most : PLANEFILE_SIDE;
-  border->foot = foot < most ? foot : most;
-  k->foot = edge->yb;
-  return true;
-}
-
-/* An edge of a chain that can be in a plane. */
-static celspan_status add_to_chain(recorder *r, const cs_retained_edge *edge, uint32_t left,
-                                   uint32_t right) {
-  uint32_t number = edge->chain - 1;
-  known *k = &r->chains[number];
-  if (extend(r, k, edge, left, right))
+/* Adds a part of a chain as a border, or to the one that it continues. */
+static celspan_status add_border(recorder *r, const cs_events_part *part) {
+  cs_recording *record = r->out;
+  planefile_border border = {.left = r->cell_of[part->left], .right = r->cell_of[part->right]};
+  int32_t least, most;
+  CS_TRY(find_chain(r, part->course, &border.chain));
+  find_limits(record, border.chain, &least, &most);
+  border.top = (int32_t)cs_number_clamp(height_of(part->top), least, most);
+  border.foot = (int32_t)cs_number_clamp(height_of(part->foot), least, most);
+  if (border.top >= border.foot)
     return CELSPAN_OK;
-  if (k->chain == 0) {
-    CS_TRY(add_chain(r, &r->plan->boundaries.chains[number], &k->chain));
-    k->chain++;
+  uint32_t *latest = &r->latest[part->course];
+  planefile_border *last = *latest > 0 ? &record->borders[*latest - 1] : NULL;
+  if (last && last->foot == border.top && last->left == border.left &&
+      last->right == border.right) {
+    last->foot = border.foot;
+    return CELSPAN_OK;
   }
-  k->foot = edge->yb;
-  return add_border(
-      r, edge, (planefile_border){.chain = k->chain - 1, .left = left, .right = right}, &k->border);
+  CS_TRY(CS_APPEND(r->context, record->borders, record->border_count, record->border_capacity,
+                   border));
+  *latest = (uint32_t)record->border_count;
+  return CELSPAN_OK;
 }
 
-static celspan_status add_edge(recorder *r, const cs_retained_row *row,
-                               const cs_retained_edge *edge) {
-  uint32_t left, right, border, chain;
-  CS_TRY(find_side(r, row, &edge->left, &left));
-  CS_TRY(find_side(r, row, &edge->right, &right));
-  if (left == right || !(edge->ya < edge->yb))
-    return CELSPAN_OK;
-  if (edge->chain > 0 && has_curves(r, &r->plan->boundaries.chains[edge->chain - 1]))
-    return add_to_chain(r, edge, left, right);
-  CS_TRY(add_line(r, edge, &chain));
-  return add_border(r, edge, (planefile_border){.chain = chain, .left = left, .right = right},
-                    &border);
+/* Adds what can be seen; on the sides of bundles there is always the same. */
+static celspan_status add_borders(recorder *r) {
+  const cs_events *events = &r->events;
+  for (size_t i = 0; i < events->part_count; i++) {
+    const cs_events_part *part = &events->parts[i];
+    if (part->course < r->plan->boundaries.chain_count &&
+        r->cell_of[part->left] != r->cell_of[part->right])
+      CS_TRY(add_border(r, part));
+  }
+  return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- the record */
@@ -295,43 +301,40 @@ celspan_status cs_record_begin_sum(celspan_context *context, cs_recording *out) 
   return CS_APPEND(context, out->cells, out->cell_count, out->cell_capacity, clear);
 }
 
-static celspan_status add_row(recorder *r, cs_row_maker *rows, int32_t y,
-                              cs_retained_row *retained) {
-  uint32_t base;
-  CS_TRY(cs_row_retain(rows, y, retained));
-  CS_TRY(find_cell(r, retained->base, &base));
-  if (y == 0)
-    add_to_sum(r, base);
-  for (size_t i = 0; i < retained->edge_count; i++)
-    CS_TRY(add_edge(r, retained, &retained->edges[i]));
-  return CELSPAN_OK;
-}
-
-static celspan_status add_rows(recorder *r) {
-  cs_retained_row retained = {0};
-  cs_row_maker rows;
-  celspan_status status = cs_row_maker_init(&rows, r->context, r->plan);
-  for (int32_t y = 0; status == CELSPAN_OK && y < r->plan->height; y++)
-    status = add_row(r, &rows, y, &retained);
-  cs_row_maker_finish(&rows);
-  cs_retained_finish(&retained, r->context->memory);
-  return status;
+static celspan_status record(recorder *r) {
+  const cs_plan *plan = r->plan;
+  size_t chains = plan->boundaries.chain_count + 1, axes = plan->stack.shade_count + 1;
+  CS_TRY(cs_events_find(r->context, &plan->boundaries, &plan->cull, plan->height, WINDINGS_MOST,
+                        &r->events));
+  if (!r->events.is_complete)
+    return cs_fail(r->context, CELSPAN_LIMIT, "plane: there is too much in it");
+  CS_TRY(CS_MAKE(r->context, r->source.axes, axes));
+  CS_TRY(CS_MAKE(r->context, r->chain_of, chains));
+  CS_TRY(CS_MAKE(r->context, r->latest, chains));
+  CS_TRY(CS_MAKE(r->context, r->cell_of, r->events.windings.count));
+  CS_TRY(cs_events_visit(r->context, plan, &r->events, note_cell, r));
+  add_to_sum(r, r->cell_of[0]);
+  return add_borders(r);
 }
 
 celspan_status cs_record_put_plan(celspan_context *context, const cs_plan *plan, float weight,
                                   cs_recording *out) {
   recorder r = {.context = context, .plan = plan, .out = out};
-  size_t count = plan->boundaries.chain_count > 0 ? plan->boundaries.chain_count : 1;
-  size_t shades = plan->stack.shade_count + 1;
+  cs_memory *memory = context->memory;
+  size_t chains = plan->boundaries.chain_count + 1, axes = plan->stack.shade_count + 1;
   r.source.context = context;
   r.source.weight = weight;
   r.source.stack = &plan->stack;
-  CS_TRY(CS_MAKE(context, r.chains, count));
-  celspan_status status = CS_MAKE(context, r.source.axes, shades);
-  if (status == CELSPAN_OK)
-    status = add_rows(&r);
-  cs_mem_free(context->memory, r.source.axes, shades * sizeof *r.source.axes);
-  cs_mem_free(context->memory, r.chains, count * sizeof *r.chains);
+  celspan_status status = record(&r);
+  if (r.source.axes)
+    cs_mem_free(memory, r.source.axes, axes * sizeof *r.source.axes);
+  if (r.chain_of)
+    cs_mem_free(memory, r.chain_of, chains * sizeof *r.chain_of);
+  if (r.latest)
+    cs_mem_free(memory, r.latest, chains * sizeof *r.latest);
+  if (r.cell_of)
+    cs_mem_free(memory, r.cell_of, r.events.windings.count * sizeof *r.cell_of);
+  cs_events_finish(&r.events, memory);
   cs_hash_table_finish(&r.cells, context);
   return status;
 }

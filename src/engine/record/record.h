@@ -1,19 +1,18 @@
-/* Recording a plane: the rows of a plan are swept, and its visible edges become borders of a plane
- * file (subprojects/planefile), which have curves and no size.
+/* Recording a plane: the boundaries of a plan are swept by events (engine/events/events.h), and what
+ * can be seen of them becomes borders of a plane file (subprojects/planefile), which have curves and
+ * no size.
  *
- *   row y       \     edge of chain c, between two cells     \
- *   row y + 1    \    the same chain, the same cells          |  one border of chain c
- *   row y + 2     |                                          /
+ *    chain c   1|2  3|4  3|4  5|6      parts, with the windings on both sides
+ *              A|B  A|B  A|B  B|B      and the cells that these show: one border, from the first to
+ *                                      the third part
  *
- * A border continues where an edge of its chain begins at the height where it ends, between the
- * same cells. Its curve is the chain's, from the control points. What its edges say is where it
- * begins and ends: where something begins, ends, or crosses it. An edge that belongs to no chain,
- * or to one with a curve that a plane cannot have, is a line by itself.
+ * The curve of a border is the chain's, from its control points; a chain with a curve that a plane
+ * cannot have is a chain of lines.
  *
  * Borders need no order, so what several plans show is all of their borders, and cell 0 of the sum
  * has the colours of theirs together.
  *
- * Invariant: at any height, borders lead from the cell 0 of a plan to itself, as edges do.
+ * Invariant: at any height, borders lead from the cell 0 of a plan to itself, as parts do.
  */
 #pragma once
 

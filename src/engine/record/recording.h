@@ -10,7 +10,7 @@
 #include <planefile.h>
 #include <stddef.h>
 
-#define CS_RECORD_SIDE 4093 /* pixels of the plan's width and height */
+#define CS_RECORD_SIDE 16381 /* pixels of the plan's width and height */
 #define CS_RECORD_UNIT ((double)CS_RECORD_SIDE / PLANEFILE_SIDE) /* of a plane, in pixels */
 
 typedef struct cs_recording {
