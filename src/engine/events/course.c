@@ -6,7 +6,7 @@
 typedef struct maker {
   const cs_boundary_set *set;
   cs_courses *out;
-  double top, foot; /* what is beyond them is left out */
+  double top, foot; /* parts beyond them are left out */
   double *x, *y;    /* of the vertices of a piece */
 } maker;
 

@@ -177,8 +177,7 @@ static celspan_status begin_courses(sweep *s, int32_t y) {
 
 /* ---------------------------------------------------------------- rows of tiles */
 
-/* What is culled in this row of tiles leaves, as does what was in the place of that in the last
- * one. */
+/* The chains that are culled in this row of tiles leave, as do the bundles of the last one. */
 static celspan_status leave_culled(sweep *s, int32_t y) {
   const cs_order *order = &s->order;
   for (uint32_t i = order->entries[order->ends].next, next; i != order->ends; i = next) {

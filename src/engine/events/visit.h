@@ -9,7 +9,7 @@
 #include "engine/events/events.h"
 #include "engine/row/plan.h"
 
-/* cell: with the number of some windings; its program is the composer's, and valid for this call. */
+/* cell: that of the windings; its program is the composer's, and valid during this call. */
 typedef celspan_status (*cs_events_visitor)(void *user, uint32_t windings,
                                             const cs_composer *composer, const cs_cell *cell);
 

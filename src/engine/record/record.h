@@ -1,6 +1,6 @@
-/* Recording a plane: the boundaries of a plan are swept by events (engine/events/events.h), and what
- * can be seen of them becomes borders of a plane file (subprojects/planefile), which have curves and
- * no size.
+/* Recording a plane: the boundaries of a plan are swept by events (engine/events/events.h), and
+ * the parts that can be seen become borders of a plane file (subprojects/planefile), which have
+ * curves and no size.
  *
  *    chain c   1|2  3|4  3|4  5|6      parts, with the windings on both sides
  *              A|B  A|B  A|B  B|B      and the cells that these show: one border, from the first to
