@@ -29,44 +29,41 @@ static inline void add_point(cs_course_point *points, cs_course *course, double 
     course->count++;
 }
 
-/* A course that is being made. */
-typedef struct making {
-  const maker *m;
-  cs_course_point *points;
-  cs_course *course;
-  celspan_point last; /* the last vertex, which may be beyond the top or the foot */
-} making;
-
 static inline double x_between(celspan_point a, celspan_point b, double y) {
   return a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
 }
 
 /* Adds what a chord has between the top and the foot. */
-static inline void add_vertex(making *k, celspan_point at) {
-  const maker *m = k->m;
-  celspan_point last = k->last;
-  k->last = at;
-  if (last.y >= m->top && at.y <= m->foot) {
-    add_point(k->points, k->course, at.x, at.y);
+static void add_chord(const maker *m, cs_course_point *points, cs_course *course,
+                      celspan_point from, celspan_point to) {
+  if (to.y < m->top || from.y > m->foot || to.y == from.y)
     return;
-  }
-  if (at.y < m->top || last.y > m->foot || at.y == last.y)
-    return;
-  if (last.y < m->top)
-    add_point(k->points, k->course, x_between(last, at, m->top), m->top);
-  if (at.y > m->foot)
-    at = (celspan_point){x_between(last, at, m->foot), m->foot};
-  add_point(k->points, k->course, at.x, at.y);
+  if (from.y < m->top)
+    add_point(points, course, x_between(from, to, m->top), m->top);
+  if (to.y > m->foot)
+    add_point(points, course, x_between(from, to, m->foot), m->foot);
+  else
+    add_point(points, course, to.x, to.y);
 }
 
-static void add_piece(making *k, const cs_boundary_piece *piece) {
-  const maker *m = k->m;
+/* Adds what a piece has below its first point. */
+static void add_piece(const maker *m, const cs_boundary_piece *piece, cs_course_point *points,
+                      cs_course *course) {
+  bool is_inside = piece->y0 >= m->top && piece->y1 <= m->foot;
+  celspan_point last = {piece->x0, piece->y0};
   if (piece->chords > 1)
     cs_polyline_displaced(m->set, piece, m->x, m->y);
-  for (uint32_t i = 0; i + 1 < piece->chords; i++)
-    add_vertex(k, (celspan_point){cs_number_clamp(m->x[i], piece->left, piece->right),
-                                  cs_number_clamp(m->y[i], k->last.y, piece->y1)});
-  add_vertex(k, (celspan_point){piece->x1, piece->y1});
+  m->x[piece->chords - 1] = piece->x1;
+  m->y[piece->chords - 1] = piece->y1;
+  for (uint32_t k = 0; k < piece->chords; k++) {
+    const celspan_point at = {cs_number_clamp(m->x[k], piece->left, piece->right),
+                              cs_number_clamp(m->y[k], last.y, piece->y1)};
+    if (is_inside)
+      add_point(points, course, at.x, at.y);
+    else
+      add_chord(m, points, course, last, at);
+    last = at;
+  }
 }
 
 /* Leaves out a jump at the foot, and a course without height; finds the slopes. */
@@ -84,12 +81,12 @@ static void end_course(cs_courses *out, cs_course *course) {
 }
 
 static void make_course(const maker *m, const cs_boundary_chain *chain, cs_course *course) {
-  making k = {m, m->out->points + m->out->point_count, course, {chain->x0, chain->y0}};
+  cs_course_point *points = m->out->points + m->out->point_count;
   *course = (cs_course){m->out->point_count, 0};
   if (chain->y0 >= m->top && chain->y0 <= m->foot)
-    add_point(k.points, course, chain->x0, chain->y0);
-  for (uint32_t i = 0; i < chain->piece_count; i++)
-    add_piece(&k, &m->set->pieces[chain->piece + i]);
+    add_point(points, course, chain->x0, chain->y0);
+  for (uint32_t k = 0; k < chain->piece_count; k++)
+    add_piece(m, &m->set->pieces[chain->piece + k], points, course);
   end_course(m->out, course);
 }
 

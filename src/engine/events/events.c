@@ -125,6 +125,10 @@ static celspan_status settle_dirty(sweep *s, int32_t y) {
 /* ---------------------------------------------------------------- begins and ends */
 
 static celspan_status touch(sweep *s, uint32_t course) {
+  cs_order_entry *entry = &s->order.entries[course];
+  if (entry->is_touched)
+    return CELSPAN_OK;
+  entry->is_touched = true;
   return CS_APPEND(s->context, s->touched, s->touched_count, s->touched_capacity, course);
 }
 
@@ -219,9 +223,12 @@ static celspan_status change_courses(sweep *s, int32_t y) {
   }
   CS_TRY(begin_courses(s, y));
   CS_TRY(settle_dirty(s, y));
-  for (size_t i = 0; i < s->touched_count; i++)
-    if (s->order.entries[s->touched[i]].is_there)
+  for (size_t i = 0; i < s->touched_count; i++) {
+    cs_order_entry *entry = &s->order.entries[s->touched[i]];
+    entry->is_touched = false;
+    if (entry->is_there)
       CS_TRY(compare_ahead(s, s->touched[i], y));
+  }
   s->touched_count = 0;
   return CELSPAN_OK;
 }

@@ -7,7 +7,7 @@
 celspan_status cs_order_init(celspan_context *context, const cs_courses *courses, cs_order *out) {
   *out = (cs_order){.courses = courses, .ends = (uint32_t)courses->course_count};
   CS_TRY(CS_MAKE(context, out->entries, courses->course_count + 1));
-  out->entries[out->ends].previous = out->entries[out->ends].next = out->ends;
+  out->entries[out->ends].previous = out->entries[out->ends].next = out->last = out->ends;
   return CELSPAN_OK;
 }
 
@@ -178,6 +178,14 @@ static uint32_t find_near(const cs_order *order, double x, int32_t y) {
   return low > 0 ? order->index[low - 1] : order->ends;
 }
 
+/* Whether the course that was put in last begins at the same point, as most do whose contour has
+ * its top there. */
+static bool begins_at_last(const cs_order *order, const cs_course_point *points, int32_t y) {
+  const cs_order_entry *last = &order->entries[order->last];
+  return last->is_there && last->since == y && last->at->y == y && points[0].y == y &&
+         last->at->x == points[0].x;
+}
+
 celspan_status cs_order_enter(celspan_context *context, cs_order *order, uint32_t course,
                               int32_t y) {
   const cs_course *of = &order->courses->courses[course];
@@ -188,13 +196,15 @@ celspan_status cs_order_enter(celspan_context *context, cs_order *order, uint32_
   find_extent(order, entry, y);
   if (order->entered > 64 && 4 * order->entered > order->index_count)
     CS_TRY(make_index(context, order));
-  uint32_t left = find_near(order, cs_course_x(entry->at, y), y);
+  uint32_t left = begins_at_last(order, points, y) ? order->last
+                                                   : find_near(order, cs_course_x(entry->at, y), y);
   while (entries[left].next != order->ends && is_left(order, entries[left].next, course, y))
     left = entries[left].next;
   while (left != order->ends && !is_left(order, left, course, y))
     left = entries[left].previous;
   link_after(order, left, course);
   entry->is_there = true;
+  order->last = course;
   order->entered++;
   order->count++;
   return CELSPAN_OK;

@@ -31,7 +31,8 @@ typedef struct cs_order_entry {
   uint32_t previous, next;   /* courses */
   uint32_t left, right;      /* windings on its sides */
   int32_t since;             /* the height from which these have been so */
-  bool is_there, is_dirty;   /* dirty: its windings must be found again */
+  bool is_there;
+  bool is_dirty, is_touched; /* for the caller */
 } cs_order_entry;
 
 typedef struct cs_order {
@@ -41,6 +42,7 @@ typedef struct cs_order {
   uint32_t *index;           /* courses that crossed an earlier height, from left to right */
   size_t index_count, index_capacity, count;
   size_t entered; /* courses that were put in since then */
+  uint32_t last;  /* of these, the last one, or the ends */
   int32_t foot;   /* of the belt */
 } cs_order;
 
