@@ -212,17 +212,28 @@ static int32_t next_tiles(const sweep *s) {
                                               : CS_ORDER_NEVER;
 }
 
+/* Finds the windings of all courses. */
+static celspan_status find_all_windings(sweep *s, int32_t y) {
+  const cs_order *order = &s->order;
+  uint32_t first = order->entries[order->ends].next;
+  s->dirty_count = 0;
+  for (uint32_t i = first; i != order->ends; i = order->entries[i].next)
+    order->entries[i].is_dirty = true;
+  return first != order->ends ? find_windings(s, first, y) : CELSPAN_OK;
+}
+
 /* ---------------------------------------------------------------- all changes at a height */
 
 static celspan_status change_courses(sweep *s, int32_t y) {
+  bool is_top = y == next_tiles(s);
   CS_TRY(end_courses(s, y));
-  if (y == next_tiles(s)) {
+  if (is_top) {
     s->tile_row++;
     CS_TRY(leave_culled(s, y));
     CS_TRY(enter_kept(s, y));
   }
   CS_TRY(begin_courses(s, y));
-  CS_TRY(settle_dirty(s, y));
+  CS_TRY(is_top ? find_all_windings(s, y) : settle_dirty(s, y));
   for (size_t i = 0; i < s->touched_count; i++) {
     cs_order_entry *entry = &s->order.entries[s->touched[i]];
     entry->is_touched = false;
