@@ -31,13 +31,18 @@ static void add(cs_boundary_set *set, const cs_outline *outline, uint32_t layer)
 
 static void random_outline(test_random *random, cs_outline *out) {
   celspan_point corners[5];
-  int kind = random_below(random, 4), count = 3 + random_below(random, 3);
+  int kind = random_below(random, 5), count = 3 + random_below(random, 3);
   for (int k = 0; k < count; k++) {
     corners[k] = random_point(random, 0, WIDTH, 0, HEIGHT);
     if (kind != 0)
       corners[k] = (celspan_point){10 * floor(corners[k].x / 10), 10 * floor(corners[k].y / 10)};
+    if (kind == 4) { /* edges that hardly differ from those of others */
+      celspan_point shift = random_point(random, -4, 4, -4, 4);
+      corners[k].x += shift.x / CS_COURSE_UNIT;
+      corners[k].y += shift.y / CS_COURSE_UNIT;
+    }
   }
-  if (kind <= 1)
+  if (kind <= 1 || kind == 4)
     MUST(cs_outline_polygon(context, out, corners, (size_t)count));
   else if (kind == 2)
     MUST(cs_outline_rect(context, out, corners[0].x, corners[0].y, 20, 30, 0));
