@@ -177,6 +177,25 @@ static void check_hidden(studio *s) {
   }
 }
 
+/* Shapes so small that nothing is left of them on the raster of a map. */
+static void check_nothing(studio *s) {
+  celspan_object *objects[SHAPES];
+  celspan_texture *red = studio_paint(s, celspan_paint_rgb(1, 0, 0, 1));
+  for (size_t i = 0; i < SHAPES; i++)
+    objects[i] = studio_rect(s, 20, 20, 1e-9, 1e-9, red);
+  const celspan_cel_desc cel = CELSPAN_CEL_DESC;
+  celspan_cel *cels[] = {studio_cel(s, cel, objects, SHAPES)};
+  const celspan_rostrum_desc rostrum = CELSPAN_ROSTRUM_DESC;
+  celspan_exposure exposure = {studio_rostrum(s, rostrum, cels, 1), 1};
+  celspan_frame_desc drawn = frame_of(&exposure, true);
+  image a = make_image(s, &drawn, 1);
+  CHECK(count(s, &drawn).maps == 1);
+  for (int i = 0; i < WIDTH * HEIGHT; i++)
+    CHECK(a.rgba[i][3] < 1e-6f);
+  free(a.rgba);
+  studio_finish(s);
+}
+
 /* ---------------------------------------------------------------- the same bits */
 
 /* Rows in another order, parts of the frame, and maps that are made again. */
@@ -316,6 +335,7 @@ int main(void) {
   CHECK(celspan_context_create(&desc, &small.context) == CELSPAN_OK);
   check_pictures(&s);
   check_hidden(&s);
+  check_nothing(&s);
   check_bits(&s, &small);
   check_kept(&s, &small);
   check_leaks(&s, 0);

@@ -296,9 +296,10 @@ static celspan_status make(maker *m) {
   m->map->is_whole = m->events.is_complete;
   if (m->map->is_whole)
     CS_TRY(find_cells(m));
-  if (m->map->is_whole)
-    CS_TRY(order_parts(m));
-  return m->map->is_whole ? add_borders(m) : CELSPAN_OK;
+  if (!m->map->is_whole || m->events.part_count == 0)
+    return CELSPAN_OK;
+  CS_TRY(order_parts(m));
+  return add_borders(m);
 }
 
 celspan_status cs_map_make(celspan_context *context, cs_plan *plan, cs_map *map) {
