@@ -26,7 +26,7 @@ typedef struct sweep {
 
 /* ---------------------------------------------------------------- intersections */
 
-/* Adds a intersection to the heap. */
+/* Adds an intersection to the heap. */
 static celspan_status push(sweep *s, intersection added) {
   CS_TRY(CS_APPEND(s->context, s->intersections, s->intersection_count, s->intersection_capacity,
                    added));
