@@ -67,27 +67,24 @@ static celspan_status add_part(celspan_context *context, cs_map_exact *exact, cs
 }
 
 static celspan_status add_border(celspan_context *context, cs_map_exact *exact,
-                                 const cs_map_rows *rows, const cs_map_border *f, cs_map_line line,
+                                 const cs_map_rows *rows, const cs_map_live *live, cs_map_line line,
                                  const int32_t pixel[3]) {
   const cs_map_drawing *drawing = rows->drawing;
+  const cs_map_border *f = &drawing->lines->borders[live->border];
+  const double unit = 1.0 / CS_MAP_UNIT;
+  int32_t top = pixel[2] * CS_MAP_UNIT, foot = top + CS_MAP_UNIT;
   cs_v4 left, right;
-  const cs_map_point *points = drawing->lines->points + f->first;
-  const double unit = 1.0 / CS_MAP_HEIGHT;
-  int64_t top = (int64_t)pixel[2] * CS_MAP_HEIGHT, foot = top + CS_MAP_HEIGHT;
-  uint32_t at = cs_map_find_point(drawing, f, pixel[2]);
-  cs_map_place above = cs_map_place_of(drawing, points[at]);
   CS_TRY(cs_map_brush_colour(rows->brush, drawing, f->left, pixel[1], pixel[2], &left));
   CS_TRY(cs_map_brush_colour(rows->brush, drawing, f->right, pixel[1], pixel[2], &right));
   line.step = right - left;
-  for (uint32_t k = at + 1; k < f->count && above.y < foot; k++) {
-    cs_map_place below = cs_map_place_of(drawing, points[k]);
-    line.xa = above.x;
-    line.ya = (double)above.y * unit;
-    line.xb = below.x;
-    line.yb = (double)below.y * unit;
+  for (uint32_t k = live->at; k + 1 < live->end && rows->places[k].y < foot; k++) {
+    const cs_map_point above = rows->places[k], below = rows->places[k + 1];
+    line.xa = above.x * unit;
+    line.ya = above.y * unit;
+    line.xb = below.x * unit;
+    line.yb = below.y * unit;
     if (below.y > top && below.y > above.y)
       CS_TRY(add_part(context, exact, line, pixel[0], pixel[1], pixel[2]));
-    above = below;
   }
   return CELSPAN_OK;
 }
@@ -95,15 +92,13 @@ static celspan_status add_border(celspan_context *context, cs_map_exact *exact,
 celspan_status cs_map_exact_add(celspan_context *context, cs_map_exact *exact,
                                 const cs_map_rows *rows, uint32_t index, int32_t from,
                                 int32_t column, int32_t row) {
-  const cs_map_drawing *drawing = rows->drawing;
   const int32_t pixel[3] = {from, column, row};
+  int32_t top = row * CS_MAP_UNIT, right = (column + 1) * CS_MAP_UNIT;
   for (size_t i = 0; i < rows->live_count; i++) {
-    const cs_map_border *f = &drawing->lines->borders[rows->lives[i].border];
-    if (cs_map_place_x(drawing, f->low) < column + 1 &&
-        (from == 0 || cs_map_place_x(drawing, f->high) >= from) &&
-        cs_map_place_y(drawing, drawing->lines->points[f->first].y) <= row + 1 &&
-        cs_map_place_y(drawing, f->foot) >= row)
-      CS_TRY(add_border(context, exact, rows, f, (cs_map_line){.sheet = index}, pixel));
+    const cs_map_live *live = &rows->lives[i];
+    if (live->low < right && (from == 0 || live->high >= from * CS_MAP_UNIT) &&
+        rows->places[live->at].y < top + CS_MAP_UNIT && live->foot > top)
+      CS_TRY(add_border(context, exact, rows, live, (cs_map_line){.sheet = index}, pixel));
   }
   return CELSPAN_OK;
 }

@@ -1,0 +1,46 @@
+/* What the borders of a swath add to its pixels: loops for every set of instructions.
+ *
+ *      border, from row to row            a row, from column to column
+ *      +---------\-----------+            +-----------+-----------+-----------+
+ *      |          \          |            |           |       ..--|-----------|
+ *      +-----------\---------+            |  ...---"""|""" area   |   area    |  height
+ *      |            \        |            +-----------+-----------+-----------+
+ *
+ * Places are integers, so that a line may be cut anywhere without a change to what is added: its x
+ * at a row depends on the line alone, and the heights in the columns of a row add up to the height
+ * of the line there.
+ *
+ * Invariant: the bits are the same whichever instructions add them.
+ */
+#pragma once
+
+#include "engine/map/swath.h"
+
+/* From points to places: (origin + point) * scale + shift, and x before y in all of them. */
+typedef struct cs_map_placing {
+  double origin[4], scale[4], shift[4];
+} cs_map_placing;
+
+/* Puts points into their places; `out` must have room for one more than there are. */
+CS_WIDE_DECLARE(void, cs_map_put_places,
+                (const cs_map_placing *placing, const cs_map_point *points, size_t count,
+                 cs_map_point *out));
+
+typedef struct cs_map_adding {
+  celspan_context *context;
+  cs_map_sums *sums;
+  const cs_map_point *places;
+  uint32_t at, end; /* places of the border */
+  int32_t row;      /* the first of the swath */
+  bool is_inside;   /* no place is left or right of the frame */
+  bool varies;      /* a cell beside the border does */
+  uint32_t left, right;
+  double step[4]; /* by how much it changes the colour from its left to its right */
+  uint64_t key;   /* and the key */
+  const cs_map *map;
+  celspan_status *status; /* becomes NO_MEMORY where there is none for parts */
+} cs_map_adding;
+
+/* Adds what a border has in the swath. Returns the place that begins its first line in the swath
+ * below. */
+CS_WIDE_DECLARE(uint32_t, cs_map_add, (const cs_map_adding *adding));

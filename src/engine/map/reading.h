@@ -1,0 +1,14 @@
+/* The rows of a swath, read from the sums of its pixels: loops for every set of instructions.
+ *
+ *   sums      .  .  s1 .  .  .  s2 s3 .     .: nothing was added
+ *   spans     | c0 |s1|  c1    |s2|s3| c3   c: what the heights so far add up to, a cell as a rule
+ *
+ * Invariant: the bits are the same whichever instructions read them.
+ */
+#pragma once
+
+#include "engine/map/swath.h"
+
+/* The spans of row k of the swath, whose sums are cleared. Errors: NO_MEMORY. */
+CS_WIDE_DECLARE(CELSPAN_CHECKED celspan_status, cs_map_read,
+                (celspan_context * context, cs_map_sums *sums, cs_map_rows *rows, size_t k));

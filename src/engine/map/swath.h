@@ -1,0 +1,113 @@
+/* What the rows of a swath are made from: a map in its place in a frame, the borders of it that cross
+ * the swath, and what they add to its pixels.
+ *
+ *   row 8 k      +--+--+--+--+--+--+     a swath: the rows that are summed together
+ *   ...          |  |\ |  |  |  |  |
+ *   row 8 k + 7  +--+-\+--+--+--+--+     live: a border that crosses it
+ *
+ * Invariant: places are a function of the drawing and of the point, so that borders which meet in
+ * the map meet in the frame.
+ */
+#pragma once
+
+#include "base/wide.h"
+#include "engine/map/map.h"
+
+#define CS_MAP_ROWS 8       /* of a swath: its first row is a multiple of it */
+#define CS_MAP_HEIGHT 65536 /* of a row of the frame: heights and areas are multiples of 1 / it */
+#define CS_MAP_BROKEN UINT32_MAX
+
+/* A map in its place in a frame. */
+typedef struct cs_map_drawing {
+  cs_map *map;               /* a reference */
+  const cs_map_lines *lines; /* those of the map, or turned ones */
+  cs_map_lines turned;       /* owned; empty where the frame shows the map upright */
+  /* Units of the lines to pixels: those of the map from the drawing's origin, which is at -left,
+   * -top. Both scales are above 0. */
+  double scale_x, shift_x, scale_y, shift_y;
+  int64_t left, top;
+  celspan_matrix to_raster; /* from pixels to those of the map's raster */
+  cs_v4 light;              /* that falls on it; lane 3: how opaque it is */
+  const cs_grade *grade;    /* NULL: none. Borrowed from the scene */
+  celspan_space space;
+  cs_v4 *colours; /* of its cells, in the frame's light; 0 where they vary; owned */
+  cs_stack stack; /* that of the map, on the pixels of the frame: shades and images are owned, the
+                     rest is the map's */
+} cs_map_drawing;
+
+/* How much of a pixel is in a cell that varies. */
+typedef struct cs_map_share {
+  uint32_t cell;
+  float share;
+} cs_map_share;
+
+/* Neighbouring pixels of one colour, from the end of the span before. */
+typedef struct cs_map_span {
+  cs_v4 colour; /* of what does not vary */
+  int32_t end;
+  uint32_t cell;               /* BROKEN: several */
+  uint32_t share, share_count; /* of the rows: what varies */
+} cs_map_span;
+
+/* A border that crosses the swath. Its points from the one that begins its first line there are in
+ * `places` of the rows, from `at` on to before `end`. */
+typedef struct cs_map_live {
+  uint32_t border, at, end;
+  uint32_t next;           /* as `at`, for the swath below */
+  int32_t low, high, foot; /* of the border, as places are */
+} cs_map_live;
+
+/* How much of a cell that varies is in the pixel that is being read, and right of it, in
+ * HEIGHTths. */
+typedef struct cs_map_area {
+  uint32_t cell;
+  int32_t area, height;
+} cs_map_area;
+
+/* The rows of a drawing in the current swath. */
+typedef struct cs_map_rows {
+  const cs_map_drawing *drawing; /* borrowed */
+  struct cs_map_brush *brush;    /* of the cells that vary: brush.h. Borrowed */
+  int32_t row;                   /* the first; -1: none has been made */
+  uint32_t next;                 /* borders before it have been visited */
+  cs_map_live *lives;            /* in the order of the map */
+  cs_map_point *places;          /* of their points on the frame, in UNITths of a pixel */
+  cs_map_span *spans;
+  size_t first[CS_MAP_ROWS + 1]; /* spans of each row, and the end of those of the last */
+  cs_map_share *shares;
+  cs_map_area *areas; /* of the pixel being read, those that are not 0 */
+  size_t live_count, live_capacity, place_count, place_capacity, span_count, span_capacity;
+  size_t share_count, share_capacity, area_count, area_capacity;
+} cs_map_rows;
+
+/* What is added to a pixel and to all that are right of it: a line of the cache. */
+typedef struct cs_map_sum {
+  double area[4];   /* colours times areas, in HEIGHTths: of the pixel */
+  double height[4]; /* colours times heights, as above: of those right of it */
+} cs_map_sum;
+
+/* The same of keys, modulo 2^64. */
+typedef struct cs_map_keys {
+  uint64_t area, height;
+} cs_map_keys;
+
+/* What a border adds to the area of a cell that varies. */
+typedef struct cs_map_part {
+  int32_t area, height;
+  uint32_t cell, next; /* next: 1 more than the next part of the pixel; 0: none */
+} cs_map_part;
+
+/* Room for the sums of a swath, cleared between uses: all drawings of a worker share it. */
+typedef struct cs_map_sums {
+  cs_isa isa;
+  int32_t width;   /* pixels of a row */
+  uint32_t stride; /* from a row's sums to those of the next, which lie in other lines of a cache */
+  size_t words;    /* of a row's bits */
+  void *storage;   /* in which the sums are */
+  cs_map_sum *sums;
+  cs_map_keys *keys;
+  uint64_t *bits;  /* the pixels to which something was added */
+  uint32_t *heads; /* the first part of each pixel, as cs_map_part.next */
+  cs_map_part *parts;
+  size_t part_count, part_capacity;
+} cs_map_sums;
