@@ -3,6 +3,7 @@
 #include "base/self_check.h"
 #include "engine/paint/over_row.h"
 #include "engine/paint/run.h"
+#include "engine/span/row_writer.h"
 
 /* ---------------------------------------------------------------- life */
 
@@ -69,15 +70,15 @@ static bool hides(const cs_map_sheet *sheet, const cs_map_span *span) {
 static inline cs_map_fold fold_sheets(folding *f, int32_t x, int32_t *end, bool varies) {
   const cs_map_frame *frame = f->maker->frame;
   cs_map_fold fold = cs_map_fold_begin;
-  f->broken_count = f->varied_count = 0;
-  size_t i = 0;
+  size_t i = 0, broken_count = 0;
+  f->varied_count = 0;
   for (bool is_hidden = false; i < frame->count && fold.t > 0 && !is_hidden; i++) {
-    while (f->at[i]->end <= x)
-      f->at[i]++;
     const cs_map_span *span = f->at[i];
+    while (span->end <= x)
+      span++;
+    f->at[i] = span;
     *end = span->end < *end ? span->end : *end;
-    f->shown[i] = (cs_map_shown){&frame->sheets[i], span->colour};
-    f->broken_count += span->cell == CS_MAP_BROKEN;
+    broken_count += span->cell == CS_MAP_BROKEN;
     f->varied_count += varies && span->share_count > 0;
     if (varies && span->share_count > 0)
       is_hidden = hides(&frame->sheets[i], span);
@@ -85,7 +86,14 @@ static inline cs_map_fold fold_sheets(folding *f, int32_t x, int32_t *end, bool 
       cs_map_fold_add(&fold, &frame->sheets[i], span->colour);
   }
   f->shown_count = i;
+  f->broken_count = broken_count;
   return fold;
+}
+
+/* Lists what can be shown, after a fold. */
+static void list_shown(folding *f) {
+  for (size_t i = 0; i < f->shown_count; i++)
+    f->shown[i] = (cs_map_shown){&f->maker->frame->sheets[i], f->at[i]->colour};
 }
 
 /* The colours of a sheet from x to end, which are in one of its spans. */
@@ -119,6 +127,7 @@ static celspan_status find_base(folding *f, size_t i, int32_t x, int32_t *from) 
 /* Solves the pixel at x, where several sheets that can be shown are broken. */
 static celspan_status solve(folding *f, int32_t x, cs_v4 *out) {
   cs_map_maker *maker = f->maker;
+  list_shown(f);
   for (size_t i = 0; i < f->shown_count; i++) {
     if (f->at[i]->cell != CS_MAP_BROKEN) {
       CS_TRY(find_colours(f, i, x, x + 1, &f->shown[i].colour));
@@ -254,6 +263,7 @@ static celspan_status fold_batch(folding *f, int32_t x, int32_t end, float *out)
 static celspan_status paint_varied(folding *f, const cs_map_fold *fold, int32_t x, int32_t end,
                                    cs_row *out) {
   float *colours, one[4];
+  list_shown(f);
   if (is_bare(f, fold))
     return paint_run(f, f->shown_count - 1, x, end, out);
   if (end == x + 1) {
@@ -274,15 +284,31 @@ static celspan_status paint_varied(folding *f, const cs_map_fold *fold, int32_t 
   return CELSPAN_OK;
 }
 
-static celspan_status make_row(folding *f, cs_row *out) {
+/* A row in which nothing varies. */
+static celspan_status make_flat_row(folding *f, cs_row *out) {
   const cs_map_maker *maker = f->maker;
   int32_t width = maker->frame->width;
-  const bool varies = maker->varies;
-  for (size_t i = 0; i < maker->frame->count; i++)
-    f->at[i] = maker->rows[i].spans + maker->rows[i].first[f->y - maker->row];
+  CS_TRY(cs_row_room(maker->context, out, (size_t)width));
+  cs_row_writer writer = cs_row_writer_begin(out, 0);
   for (int32_t x = 0, end; x < width; x = end) {
     end = width;
-    cs_map_fold fold = varies ? fold_sheets(f, x, &end, true) : fold_sheets(f, x, &end, false);
+    cs_v4 colour = cs_map_fold_end(fold_sheets(f, x, &end, false), maker->frame);
+    if (f->broken_count > 1) {
+      end = x + 1;
+      CS_TRY(solve(f, x, &colour));
+    }
+    cs_row_writer_to(&writer, end, colour);
+  }
+  cs_row_writer_end(&writer);
+  return CELSPAN_OK;
+}
+
+static celspan_status make_varied_row(folding *f, cs_row *out) {
+  const cs_map_maker *maker = f->maker;
+  int32_t width = maker->frame->width;
+  for (int32_t x = 0, end; x < width; x = end) {
+    end = width;
+    cs_map_fold fold = fold_sheets(f, x, &end, true);
     cs_v4 colour = cs_map_fold_end(fold, maker->frame);
     if (f->broken_count > 1) {
       end = x + 1;
@@ -296,6 +322,13 @@ static celspan_status make_row(folding *f, cs_row *out) {
   return CELSPAN_OK;
 }
 
+static celspan_status make_row(folding *f, cs_row *out) {
+  const cs_map_maker *maker = f->maker;
+  for (size_t i = 0; i < maker->frame->count; i++)
+    f->at[i] = maker->rows[i].spans + maker->rows[i].first[f->y - maker->row];
+  return maker->varies ? make_varied_row(f, out) : make_flat_row(f, out);
+}
+
 static celspan_status make_swath(cs_map_maker *maker, int32_t row) {
   maker->row = -1;
   for (size_t i = 0; i < maker->frame->count; i++)
@@ -305,7 +338,9 @@ static celspan_status make_swath(cs_map_maker *maker, int32_t row) {
 }
 
 celspan_status cs_map_maker_row(cs_map_maker *maker, int32_t y, cs_row *out) {
-  folding f = {.maker = maker, .y = y};
+  folding f;
+  f.maker = maker;
+  f.y = y;
   int32_t row = y - y % CS_MAP_ROWS;
   cs_row_clear(out);
   if (row != maker->row)
