@@ -26,21 +26,14 @@ CS_WIDE_DECLARE(void, cs_map_put_places,
                 (const cs_map_placing *placing, const cs_map_point *points, size_t count,
                  cs_map_point *out));
 
+/* The swath whose sums are made: that of a drawing whose lives have been found. */
 typedef struct cs_map_adding {
   celspan_context *context;
   cs_map_sums *sums;
-  const cs_map_point *places;
-  uint32_t at, end; /* places of the border */
-  int32_t row;      /* the first of the swath */
-  bool is_inside;   /* no place is left or right of the frame */
-  bool varies;      /* a cell beside the border does */
-  uint32_t left, right;
-  double step[4]; /* by how much it changes the colour from its left to its right */
-  uint64_t key;   /* and the key */
-  const cs_map *map;
+  cs_map_rows *rows;
+  int32_t row;            /* the first of the swath */
   celspan_status *status; /* becomes NO_MEMORY where there is none for parts */
 } cs_map_adding;
 
-/* Adds what a border has in the swath. Returns the place that begins its first line in the swath
- * below. */
-CS_WIDE_DECLARE(uint32_t, cs_map_add, (const cs_map_adding *adding));
+/* Adds what the lives have in the swath, and finds where each begins in the swath below. */
+CS_WIDE_DECLARE(void, cs_map_add, (const cs_map_adding *adding));

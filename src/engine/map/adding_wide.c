@@ -51,22 +51,38 @@ void CS_WIDE(cs_map_put_places)(const cs_map_placing *placing, const cs_map_poin
 
 /* ---------------------------------------------------------------- a pixel */
 
+/* What borders are added to: copies, which stay in registers. */
+typedef struct target {
+  cs_map_sum *sums;
+  cs_map_keys *keys;
+  uint64_t *bits;
+  uint32_t stride, words, width;
+  int32_t top;    /* of the swath */
+  bool is_inside; /* a constant of each caller: no place is left or right of the frame */
+  bool varies;    /* another one: the areas of cells that vary are listed */
+  doubles step;
+  uint64_t key;
+  const cs_map_live *live;
+} target;
+
 /* The pixel that a border is in, and what it has added there so far. */
-typedef struct place {
+typedef struct pixel {
   uint32_t row, column; /* row: of the swath */
-  int64_t area;         /* times 2 UNIT */
   int32_t height;       /* 0: it is in none */
-} place;
+  uint64_t twice;       /* its area times 2 UNIT */
+} pixel;
 
 /* Adds an area to that of the cell on the right, and takes it from that on the left, of those that
  * vary. */
-static celspan_status add_parts(const cs_map_adding *a, uint32_t *head, int32_t area,
-                                int32_t height) {
+static celspan_status add_parts(const cs_map_adding *a, const cs_map_live *live, uint32_t *head,
+                                int32_t area, int32_t height) {
+  const cs_map_drawing *drawing = a->rows->drawing;
+  const cs_map_border *f = &drawing->lines->borders[live->border];
   cs_map_sums *all = a->sums;
   for (int side = 0; side < 2; side++) {
     int32_t sign = side == 0 ? -1 : 1;
-    const cs_map_part part = {sign * area, sign * height, side == 0 ? a->left : a->right, *head};
-    if (a->map->cells[part.cell].length == 0)
+    const cs_map_part part = {sign * area, sign * height, side == 0 ? f->left : f->right, *head};
+    if (drawing->map->cells[part.cell].length == 0)
       continue;
     CS_TRY(CS_APPEND(a->context, all->parts, all->part_count, all->part_capacity, part));
     *head = (uint32_t)all->part_count;
@@ -74,90 +90,86 @@ static celspan_status add_parts(const cs_map_adding *a, uint32_t *head, int32_t 
   return CELSPAN_OK;
 }
 
-/* What a border needs of the sums: copies, which stay in registers. */
-typedef struct target {
-  const cs_map_adding *adding;
-  cs_map_sum *sums;
-  cs_map_keys *keys;
-  uint64_t *bits;
-  uint32_t stride, width, words;
-  uint64_t key;
-  doubles step;
-  bool varies, is_inside; /* constants of each caller */
-} target;
-
 /* Adds what a border has in its pixel. */
-static inline void leave(const target *t, const place *p) {
-  const size_t index = (size_t)p->row * t->stride + p->column;
-  const uint32_t area = (uint32_t)((uint64_t)(p->area + CS_MAP_UNIT) / (2 * CS_MAP_UNIT));
+static inline void leave(const cs_map_adding *a, const target *t, const pixel *p) {
+  const uint32_t index = p->row * t->stride + p->column;
+  const int32_t area = (int32_t)((p->twice + CS_MAP_UNIT) / (2 * CS_MAP_UNIT));
   double *sum = t->sums[index].area;
-  doubles here = load(sum) + (double)(int32_t)area * t->step;
+  doubles here = load(sum) + (double)area * t->step;
   doubles next = load(sum + 4) + (double)p->height * t->step;
   memcpy(sum, &here, sizeof here);
   memcpy(sum + 4, &next, sizeof next);
-  t->keys[index].area += area * t->key;
-  t->keys[index].height += (uint32_t)p->height * t->key;
+  t->keys[index].area += (uint64_t)area * t->key;
+  t->keys[index].height += (uint64_t)p->height * t->key;
   t->bits[p->row * t->words + p->column / 64] |= UINT64_C(1) << p->column % 64;
-  if (t->varies && add_parts(t->adding, &t->adding->sums->heads[index], (int32_t)area, p->height))
-    *t->adding->status = CELSPAN_NO_MEMORY;
+  if (t->varies && add_parts(a, t->live, &a->sums->heads[index], area, p->height))
+    *a->status = CELSPAN_NO_MEMORY;
 }
 
-/* A line in one pixel. across: the width on its right, at its top and its foot together. */
-static inline void add(const target *t, place *p, uint32_t row, uint32_t column, int32_t height,
-                       int32_t across) {
-  if (p->column != column || p->row != row) {
-    if (p->height > 0)
-      leave(t, p);
-    *p = (place){row, column, 0, 0};
+/* Adds a line in one pixel. across: the width on its right, at its top and its foot together. */
+static inline void add(const cs_map_adding *a, const target *t, pixel *p, uint32_t row,
+                       uint32_t column, int32_t height, int32_t across) {
+  const uint64_t twice = (uint64_t)(uint32_t)height * (uint32_t)across;
+  if (p->column == column && p->row == row) {
+    p->twice += twice;
+    p->height += height;
+    return;
   }
-  p->area += (int64_t)height * across;
-  p->height += height;
+  if (p->height > 0)
+    leave(a, t, p);
+  *p = (pixel){row, column, height, twice};
 }
 
 /* ---------------------------------------------------------------- a row */
 
 /* A line over several columns, from its left end: from < to. */
-static inline void add_columns(const target *t, place *p, uint32_t row, int32_t from, int32_t to,
-                               int32_t height) {
+static inline void add_columns(const cs_map_adding *a, const target *t, pixel *p, uint32_t row,
+                               int32_t from, int32_t to, int32_t height) {
   const double slope = (double)height / ((double)to - from);
   int32_t x = from, done = 0;
   if (!t->is_inside && from < 0) {
     x = 0;
     done = (int32_t)(-(double)from * slope + 0.5);
-    add(t, p, row, 0, done, 2 * CS_MAP_UNIT);
+    add(a, t, p, row, 0, done, 2 * CS_MAP_UNIT);
   }
-  uint32_t column = (uint32_t)x / CS_MAP_UNIT, last = (uint32_t)to / CS_MAP_UNIT;
-  last = !t->is_inside && last > t->width ? t->width : last;
-  for (; column < last; column++) {
-    int32_t end = (int32_t)(column + 1) * CS_MAP_UNIT;
-    int32_t all = (int32_t)((double)(end - from) * slope + 0.5);
-    add(t, p, row, column, all - done, end - x);
+  uint32_t column = (uint32_t)x / CS_MAP_UNIT, end = (uint32_t)to / CS_MAP_UNIT;
+  end = !t->is_inside && end > t->width ? t->width : end;
+  for (; column < end; column++) {
+    int32_t right = (int32_t)(column + 1) * CS_MAP_UNIT;
+    int32_t all = (int32_t)((double)(right - from) * slope + 0.5);
+    add(a, t, p, row, column, all - done, right - x);
     done = all;
-    x = end;
+    x = right;
   }
   if (t->is_inside || column < t->width)
-    add(t, p, row, column, height - done, 2 * (int32_t)(column + 1) * CS_MAP_UNIT - x - to);
+    add(a, t, p, row, column, height - done, 2 * (int32_t)(column + 1) * CS_MAP_UNIT - x - to);
 }
 
-static inline void add_line(const target *t, place *p, uint32_t row, int32_t xa, int32_t xb,
-                            int32_t height) {
-  int32_t column = xa >> 16, from = xa < xb ? xa : xb, to = xa < xb ? xb : xa;
-  if (column == xb >> 16 && (t->is_inside || (uint32_t)column < t->width))
-    add(t, p, row, (uint32_t)column, height, 2 * (column + 1) * CS_MAP_UNIT - xa - xb);
-  else if (!t->is_inside && to < 0)
-    add(t, p, row, 0, height, 2 * CS_MAP_UNIT);
+static inline void add_line(const cs_map_adding *a, const target *t, pixel *p, uint32_t row,
+                            int32_t xa, int32_t xb, int32_t height) {
+  int32_t column = xa >> 16;
+  if (column == xb >> 16 && (t->is_inside || (uint32_t)column < t->width)) {
+    add(a, t, p, row, (uint32_t)column, height, 2 * (column + 1) * CS_MAP_UNIT - xa - xb);
+    return;
+  }
+  int32_t from = xa < xb ? xa : xb, to = xa < xb ? xb : xa;
+  if (!t->is_inside && to < 0)
+    add(a, t, p, row, 0, height, 2 * CS_MAP_UNIT);
   else if (t->is_inside || from >> 16 < (int32_t)t->width)
-    add_columns(t, p, row, from, to, height);
+    add_columns(a, t, p, row, from, to, height);
 }
 
 /* ---------------------------------------------------------------- a border */
 
-/* The part of a line that is in the swath, of which it crosses several rows. top: of the swath. */
-static inline void add_rows(const target *t, place *p, cs_map_point above, cs_map_point below,
-                            int32_t top) {
-  const double slope = ((double)below.x - above.x) / ((double)below.y - above.y);
-  const int32_t foot = top + CS_MAP_ROWS * CS_MAP_UNIT, end = below.y < foot ? below.y : foot;
+/* The part of a line that is in the swath, row by row. */
+static inline void add_rows(const cs_map_adding *a, const target *t, pixel *p, cs_map_point above,
+                            cs_map_point below) {
+  const int32_t top = t->top, foot = top + CS_MAP_ROWS * CS_MAP_UNIT;
+  const int32_t end = below.y < foot ? below.y : foot;
   int32_t x = above.x, y = above.y;
+  double slope = 0;
+  if (y < top || (y - top) >> 16 != (below.y - 1 - top) >> 16)
+    slope = ((double)below.x - above.x) / ((double)below.y - above.y);
   if (y < top) {
     y = top;
     x = above.x + (int32_t)((double)(y - above.y) * slope);
@@ -169,38 +181,55 @@ static inline void add_rows(const target *t, place *p, cs_map_point above, cs_ma
       next_x = above.x + (int32_t)((double)(next_y - above.y) * slope);
     else
       next_y = below.y;
-    add_line(t, p, row, x, next_x, next_y - y);
+    add_line(a, t, p, row, x, next_x, next_y - y);
     x = next_x;
     y = next_y;
   }
 }
 
-static inline uint32_t add_border(const cs_map_adding *a, bool varies, bool is_inside) {
+static inline void add_border(const cs_map_adding *a, cs_map_live *live, bool varies,
+                              bool is_inside) {
   const cs_map_sums *s = a->sums;
-  const target t = {
-      a,      s->sums,       s->keys, s->bits,  s->stride, (uint32_t)s->width, (uint32_t)s->words,
-      a->key, load(a->step), varies,  is_inside};
-  const int32_t top = a->row * CS_MAP_UNIT, foot = top + CS_MAP_ROWS * CS_MAP_UNIT;
-  place p = {0};
-  uint32_t at = a->at;
-  cs_map_point above = a->places[at], below;
-  for (; at + 1 < a->end && above.y < foot; above = below, at++) {
-    below = a->places[at + 1];
-    uint32_t row = (uint32_t)(above.y - top) / CS_MAP_UNIT;
-    if (above.y >= top && (uint32_t)(below.y - 1 - top) / CS_MAP_UNIT == row && below.y > above.y)
-      add_line(&t, &p, row, above.x, below.x, below.y - above.y);
-    else if (below.y > top && below.y > above.y)
-      add_rows(&t, &p, above, below, top);
+  const cs_map_point *places = a->rows->places;
+  const target t = {s->sums,
+                    s->keys,
+                    s->bits,
+                    s->stride,
+                    (uint32_t)s->words,
+                    (uint32_t)s->width,
+                    a->row * CS_MAP_UNIT,
+                    is_inside,
+                    varies,
+                    load(live->step),
+                    live->key,
+                    live};
+  const int32_t top = t.top, foot = top + CS_MAP_ROWS * CS_MAP_UNIT;
+  const uint32_t end = live->end;
+  pixel p = {.column = UINT32_MAX};
+  uint32_t at = live->at;
+  cs_map_point above = places[at], below;
+  for (; at + 1 < end && above.y < foot; above = below, at++) {
+    below = places[at + 1];
+    if (below.y > above.y && below.y > top)
+      add_rows(a, &t, &p, above, below);
     if (below.y > foot)
       break;
   }
   if (p.height > 0)
-    leave(&t, &p);
-  return at;
+    leave(a, &t, &p);
+  live->next = at;
 }
 
-uint32_t CS_WIDE(cs_map_add)(const cs_map_adding *adding) {
-  if (adding->varies)
-    return add_border(adding, true, false);
-  return adding->is_inside ? add_border(adding, false, true) : add_border(adding, false, false);
+void CS_WIDE(cs_map_add)(const cs_map_adding *adding) {
+  cs_map_rows *rows = adding->rows;
+  const int32_t end = adding->sums->width * CS_MAP_UNIT;
+  for (size_t i = 0; i < rows->live_count; i++) {
+    cs_map_live *live = &rows->lives[i];
+    if (live->varies)
+      add_border(adding, live, true, false);
+    else if (live->low >= 0 && live->high < end)
+      add_border(adding, live, false, true);
+    else
+      add_border(adding, live, false, false);
+  }
 }

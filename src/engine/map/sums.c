@@ -120,6 +120,15 @@ static void drop_lives(const swath *s) {
     pack_places(rows);
 }
 
+/* What a border changes from its left to its right. */
+static void find_step(const cs_map_drawing *drawing, const cs_map_border *f, cs_map_live *live) {
+  const cs_map_cell *left = &drawing->map->cells[f->left], *right = &drawing->map->cells[f->right];
+  const cs_v4d step = cs_v4d_step(drawing->colours[f->left], drawing->colours[f->right]);
+  live->varies = left->length > 0 || right->length > 0;
+  live->key = right->key - left->key;
+  memcpy(live->step, &step, sizeof live->step);
+}
+
 /* The places of a border are appended to the others. box: its lowest and its highest place. */
 static celspan_status add_live(const swath *s, uint32_t number, const cs_map_point *box) {
   cs_map_rows *rows = s->rows;
@@ -127,7 +136,13 @@ static celspan_status add_live(const swath *s, uint32_t number, const cs_map_poi
   const cs_map_border *f = &lines->borders[number];
   const cs_map_point *points = lines->points + f->first;
   uint32_t first = (uint32_t)rows->place_count;
-  cs_map_live live = {number, first, first + f->count, 0, box[0].x, box[1].x, box[1].y};
+  cs_map_live live = {.border = number,
+                      .at = first,
+                      .end = first + f->count,
+                      .low = box[0].x,
+                      .high = box[1].x,
+                      .foot = box[1].y};
+  find_step(s->drawing, f, &live);
   CS_TRY(CS_RESERVE(s->context, rows->places, rows->place_capacity, first + f->count + 1));
   CS_WIDE_CHOOSE(s->sums->isa, cs_map_put_places)
   (&s->placing, points, f->count, rows->places + first);
@@ -171,36 +186,11 @@ static void go_to(const swath *s) {
 
 /* ---------------------------------------------------------------- a swath */
 
-static void add_border(const swath *s, cs_map_live *live, celspan_status *status) {
-  const cs_map *map = s->drawing->map;
-  const cs_map_border *f = &s->drawing->lines->borders[live->border];
-  const cs_v4 *colours = s->drawing->colours;
-  const cs_map_cell *left = &map->cells[f->left], *right = &map->cells[f->right];
-  const cs_v4d step = cs_v4d_step(colours[f->left], colours[f->right]);
-  const bool varies = left->length > 0 || right->length > 0;
-  const int32_t end = s->sums->width * CS_MAP_UNIT;
-  const cs_map_adding adding = {.context = s->context,
-                                .sums = s->sums,
-                                .places = s->rows->places,
-                                .at = live->at,
-                                .end = live->end,
-                                .row = s->row,
-                                .is_inside = live->low >= 0 && live->high < end,
-                                .varies = varies,
-                                .left = f->left,
-                                .right = f->right,
-                                .step = {step.low[0], step.low[1], step.high[0], step.high[1]},
-                                .key = right->key - left->key,
-                                .map = map,
-                                .status = status};
-  live->next = CS_WIDE_CHOOSE(s->sums->isa, cs_map_add)(&adding);
-}
-
 static celspan_status make_rows(const swath *s) {
   cs_map_rows *rows = s->rows;
   celspan_status status = CELSPAN_OK;
-  for (size_t i = 0; i < rows->live_count; i++)
-    add_border(s, &rows->lives[i], &status);
+  const cs_map_adding adding = {s->context, s->sums, rows, s->row, &status};
+  CS_WIDE_CHOOSE(s->sums->isa, cs_map_add)(&adding);
   CS_TRY(status);
   rows->span_count = rows->share_count = 0;
   for (size_t k = 0; k < CS_MAP_ROWS; k++) {

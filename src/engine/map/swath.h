@@ -55,6 +55,9 @@ typedef struct cs_map_live {
   uint32_t border, at, end;
   uint32_t next;           /* as `at`, for the swath below */
   int32_t low, high, foot; /* of the border, as places are */
+  bool varies;             /* a cell beside it does */
+  uint64_t key;            /* by how much it changes the key from its left to its right */
+  double step[4];          /* and the colour */
 } cs_map_live;
 
 /* How much of a cell that varies is in the pixel that is being read, and right of it, in
