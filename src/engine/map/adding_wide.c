@@ -55,8 +55,8 @@ void CS_WIDE(cs_map_put_places)(const cs_map_placing *placing, const cs_map_poin
 typedef struct target {
   cs_map_sum *sums;
   cs_map_keys *keys;
-  uint64_t *bits;
-  uint32_t stride, words, width;
+  uint8_t *marks;
+  uint32_t width;
   int32_t top;    /* of the swath */
   bool is_inside; /* a constant of each caller: no place is left or right of the frame */
   bool varies;    /* another one: the areas of cells that vary are listed */
@@ -64,13 +64,6 @@ typedef struct target {
   uint64_t key;
   const cs_map_live *live;
 } target;
-
-/* The pixel that a border is in, and what it has added there so far. */
-typedef struct pixel {
-  uint32_t row, column; /* row: of the swath */
-  int32_t height;       /* 0: it is in none */
-  uint64_t twice;       /* its area times 2 UNIT */
-} pixel;
 
 /* Adds an area to that of the cell on the right, and takes it from that on the left, of those that
  * vary. */
@@ -90,79 +83,67 @@ static celspan_status add_parts(const cs_map_adding *a, const cs_map_live *live,
   return CELSPAN_OK;
 }
 
-/* Adds what a border has in its pixel. */
-static inline void leave(const cs_map_adding *a, const target *t, const pixel *p) {
-  const uint32_t index = p->row * t->stride + p->column;
-  const int32_t area = (int32_t)((p->twice + CS_MAP_UNIT) / (2 * CS_MAP_UNIT));
+/* Adds a line in one pixel. across: the width on its right, at its top and its foot together. */
+static inline void add(const cs_map_adding *a, const target *t, uint32_t row, uint32_t column,
+                       int32_t height, int32_t across) {
+  const size_t index = CS_MAP_ROWS * (size_t)column + row;
+  const uint64_t twice = (uint64_t)(uint32_t)height * (uint32_t)across;
+  const int32_t area = (int32_t)((twice + CS_MAP_UNIT) / (2 * CS_MAP_UNIT));
   double *sum = t->sums[index].area;
   doubles here = load(sum) + (double)area * t->step;
-  doubles next = load(sum + 4) + (double)p->height * t->step;
+  doubles next = load(sum + 4) + (double)height * t->step;
   memcpy(sum, &here, sizeof here);
   memcpy(sum + 4, &next, sizeof next);
   t->keys[index].area += (uint64_t)area * t->key;
-  t->keys[index].height += (uint64_t)p->height * t->key;
-  t->bits[p->row * t->words + p->column / 64] |= UINT64_C(1) << p->column % 64;
-  if (t->varies && add_parts(a, t->live, &a->sums->heads[index], area, p->height))
+  t->keys[index].height += (uint64_t)height * t->key;
+  t->marks[column] |= (uint8_t)(1u << row);
+  if (t->varies && add_parts(a, t->live, &a->sums->heads[index], area, height))
     *a->status = CELSPAN_NO_MEMORY;
-}
-
-/* Adds a line in one pixel. across: the width on its right, at its top and its foot together. */
-static inline void add(const cs_map_adding *a, const target *t, pixel *p, uint32_t row,
-                       uint32_t column, int32_t height, int32_t across) {
-  const uint64_t twice = (uint64_t)(uint32_t)height * (uint32_t)across;
-  if (p->column == column && p->row == row) {
-    p->twice += twice;
-    p->height += height;
-    return;
-  }
-  if (p->height > 0)
-    leave(a, t, p);
-  *p = (pixel){row, column, height, twice};
 }
 
 /* ---------------------------------------------------------------- a row */
 
 /* A line over several columns, from its left end: from < to. */
-static inline void add_columns(const cs_map_adding *a, const target *t, pixel *p, uint32_t row,
-                               int32_t from, int32_t to, int32_t height) {
+static inline void add_columns(const cs_map_adding *a, const target *t, uint32_t row, int32_t from,
+                               int32_t to, int32_t height) {
   const double slope = (double)height / ((double)to - from);
   int32_t x = from, done = 0;
   if (!t->is_inside && from < 0) {
     x = 0;
     done = (int32_t)(-(double)from * slope + 0.5);
-    add(a, t, p, row, 0, done, 2 * CS_MAP_UNIT);
+    add(a, t, row, 0, done, 2 * CS_MAP_UNIT);
   }
   uint32_t column = (uint32_t)x / CS_MAP_UNIT, end = (uint32_t)to / CS_MAP_UNIT;
   end = !t->is_inside && end > t->width ? t->width : end;
   for (; column < end; column++) {
     int32_t right = (int32_t)(column + 1) * CS_MAP_UNIT;
     int32_t all = (int32_t)((double)(right - from) * slope + 0.5);
-    add(a, t, p, row, column, all - done, right - x);
+    add(a, t, row, column, all - done, right - x);
     done = all;
     x = right;
   }
   if (t->is_inside || column < t->width)
-    add(a, t, p, row, column, height - done, 2 * (int32_t)(column + 1) * CS_MAP_UNIT - x - to);
+    add(a, t, row, column, height - done, 2 * (int32_t)(column + 1) * CS_MAP_UNIT - x - to);
 }
 
-static inline void add_line(const cs_map_adding *a, const target *t, pixel *p, uint32_t row,
-                            int32_t xa, int32_t xb, int32_t height) {
+static inline void add_line(const cs_map_adding *a, const target *t, uint32_t row, int32_t xa,
+                            int32_t xb, int32_t height) {
   int32_t column = xa >> 16;
   if (column == xb >> 16 && (t->is_inside || (uint32_t)column < t->width)) {
-    add(a, t, p, row, (uint32_t)column, height, 2 * (column + 1) * CS_MAP_UNIT - xa - xb);
+    add(a, t, row, (uint32_t)column, height, 2 * (column + 1) * CS_MAP_UNIT - xa - xb);
     return;
   }
   int32_t from = xa < xb ? xa : xb, to = xa < xb ? xb : xa;
   if (!t->is_inside && to < 0)
-    add(a, t, p, row, 0, height, 2 * CS_MAP_UNIT);
+    add(a, t, row, 0, height, 2 * CS_MAP_UNIT);
   else if (t->is_inside || from >> 16 < (int32_t)t->width)
-    add_columns(a, t, p, row, from, to, height);
+    add_columns(a, t, row, from, to, height);
 }
 
 /* ---------------------------------------------------------------- a border */
 
 /* The part of a line that is in the swath, row by row. */
-static inline void add_rows(const cs_map_adding *a, const target *t, pixel *p, cs_map_point above,
+static inline void add_rows(const cs_map_adding *a, const target *t, cs_map_point above,
                             cs_map_point below) {
   const int32_t top = t->top, foot = top + CS_MAP_ROWS * CS_MAP_UNIT;
   const int32_t end = below.y < foot ? below.y : foot;
@@ -181,7 +162,7 @@ static inline void add_rows(const cs_map_adding *a, const target *t, pixel *p, c
       next_x = above.x + (int32_t)((double)(next_y - above.y) * slope);
     else
       next_y = below.y;
-    add_line(a, t, p, row, x, next_x, next_y - y);
+    add_line(a, t, row, x, next_x, next_y - y);
     x = next_x;
     y = next_y;
   }
@@ -191,32 +172,19 @@ static inline void add_border(const cs_map_adding *a, cs_map_live *live, bool va
                               bool is_inside) {
   const cs_map_sums *s = a->sums;
   const cs_map_point *places = a->rows->places;
-  const target t = {s->sums,
-                    s->keys,
-                    s->bits,
-                    s->stride,
-                    (uint32_t)s->words,
-                    (uint32_t)s->width,
-                    a->row * CS_MAP_UNIT,
-                    is_inside,
-                    varies,
-                    load(live->step),
-                    live->key,
-                    live};
+  const target t = {s->sums,   s->keys, s->marks,         (uint32_t)s->width, a->row * CS_MAP_UNIT,
+                    is_inside, varies,  load(live->step), live->key,          live};
   const int32_t top = t.top, foot = top + CS_MAP_ROWS * CS_MAP_UNIT;
   const uint32_t end = live->end;
-  pixel p = {.column = UINT32_MAX};
   uint32_t at = live->at;
   cs_map_point above = places[at], below;
   for (; at + 1 < end && above.y < foot; above = below, at++) {
     below = places[at + 1];
     if (below.y > above.y && below.y > top)
-      add_rows(a, &t, &p, above, below);
+      add_rows(a, &t, above, below);
     if (below.y > foot)
       break;
   }
-  if (p.height > 0)
-    leave(a, &t, &p);
   live->next = at;
 }
 

@@ -123,23 +123,34 @@ static inline celspan_status put_pixel(reader *r, bool varies, int32_t column, c
 
 /* ---------------------------------------------------------------- a row */
 
+/* Which of the next columns have something in row k: a bit for each. */
+static inline uint64_t marks_of(const uint8_t *marks, size_t k) {
+  const uint64_t ones = UINT64_C(0x0101010101010101) << k;
+  uint64_t eights[CS_MAP_WORD / 8], any = 0, word = 0;
+  memcpy(eights, marks, sizeof eights);
+  for (int i = 0; i < CS_MAP_WORD / 8; i++)
+    any |= eights[i];
+  for (int i = 0; i < CS_MAP_WORD / 8 && (any & ones); i++)
+    word |= ((eights[i] & ones) >> k) * UINT64_C(0x0102040810204080) >> 56 << 8 * i;
+  return word;
+}
+
 static inline celspan_status read_row(reader *r, cs_map_sums *sums, size_t k, bool varies) {
-  const size_t from = k * (size_t)sums->stride;
-  cs_map_sum *pixels = sums->sums + from;
-  cs_map_keys *keys = sums->keys + from;
-  uint32_t *heads = sums->heads + from;
-  uint64_t *bits = sums->bits + k * sums->words;
+  cs_map_sum *pixels = sums->sums + k;
+  cs_map_keys *keys = sums->keys + k;
+  uint32_t *heads = sums->heads + k;
   int32_t next = 0; /* the column after the last one that was put */
-  for (size_t i = 0; i < sums->words; bits[i++] = 0)
-    for (uint64_t word = bits[i]; word; word &= word - 1) {
-      int32_t column = (int32_t)(64 * i) + __builtin_ctzll(word);
+  for (size_t first = 0; first < sums->columns; first += CS_MAP_WORD)
+    for (uint64_t word = marks_of(sums->marks + first, k); word; word &= word - 1) {
+      int32_t column = (int32_t)first + __builtin_ctzll(word);
+      const size_t at = CS_MAP_ROWS * (size_t)column;
       if (varies)
         pass_areas(r->rows);
-      if (column > next || column == 0)
-        CS_TRY(column > 0 ? put_gap(r, varies, next) : CELSPAN_OK);
-      for (; varies && heads[column]; heads[column] = sums->parts[heads[column] - 1].next)
-        CS_TRY(add_area(r, &sums->parts[heads[column] - 1]));
-      CS_TRY(put_pixel(r, varies, column, &pixels[column], &keys[column]));
+      if (column > next)
+        CS_TRY(put_gap(r, varies, next));
+      for (; varies && heads[at]; heads[at] = sums->parts[heads[at] - 1].next)
+        CS_TRY(add_area(r, &sums->parts[heads[at] - 1]));
+      CS_TRY(put_pixel(r, varies, column, &pixels[at], &keys[at]));
       next = column + 1;
     }
   if (varies)
@@ -150,22 +161,36 @@ static inline celspan_status read_row(reader *r, cs_map_sums *sums, size_t k, bo
   return CELSPAN_OK;
 }
 
-celspan_status CS_WIDE(cs_map_read)(celspan_context *context, cs_map_sums *sums, cs_map_rows *rows,
-                                    size_t k) {
-  const cs_map_drawing *drawing = rows->drawing;
+static celspan_status begin_row(reader *r, int32_t width) {
+  cs_map_rows *rows = r->rows;
   size_t first = rows->span_count;
-  CS_TRY(CS_RESERVE(context, rows->spans, rows->span_capacity, first + (size_t)sums->width));
+  const cs_v4d clear = cs_v4d_scale(CS_MAP_HEIGHT, cs_v4_wide(r->colours[0]));
+  CS_TRY(CS_RESERVE(r->context, rows->spans, rows->span_capacity, first + (size_t)width));
+  r->first = rows->spans + first;
+  r->last = r->first - 1;
+  memcpy(&r->run, &clear, sizeof r->run);
+  r->run_key = r->cells[0].key * CS_MAP_HEIGHT;
+  rows->area_count = 0;
+  return CELSPAN_OK;
+}
+
+celspan_status CS_WIDE(cs_map_read)(celspan_context *context, cs_map_sums *sums,
+                                    cs_map_rows *rows) {
+  const cs_map_drawing *drawing = rows->drawing;
   reader r = {.context = context,
               .rows = rows,
               .colours = drawing->colours,
               .cells = drawing->map->cells,
-              .cell_count = drawing->map->cell_count,
-              .first = rows->spans + first,
-              .last = rows->spans + first - 1,
-              .run_key = drawing->map->cells[0].key * CS_MAP_HEIGHT};
-  rows->area_count = 0;
-  CS_TRY(drawing->stack.layer_count > 0 ? read_row(&r, sums, k, true)
-                                        : read_row(&r, sums, k, false));
-  rows->span_count = (size_t)(r.last + 1 - rows->spans);
+              .cell_count = drawing->map->cell_count};
+  rows->span_count = rows->share_count = 0;
+  for (size_t k = 0; k < CS_MAP_ROWS; k++) {
+    rows->first[k] = rows->span_count;
+    CS_TRY(begin_row(&r, sums->width));
+    CS_TRY(drawing->stack.layer_count > 0 ? read_row(&r, sums, k, true)
+                                          : read_row(&r, sums, k, false));
+    rows->span_count = (size_t)(r.last + 1 - rows->spans);
+  }
+  rows->first[CS_MAP_ROWS] = rows->span_count;
+  memset(sums->marks, 0, sums->columns);
   return CELSPAN_OK;
 }

@@ -5,29 +5,29 @@
 
 /* ---------------------------------------------------------------- life */
 
+static size_t pixel_count(const cs_map_sums *sums) { return CS_MAP_ROWS * (size_t)sums->width; }
+
 static size_t storage_size(const cs_map_sums *sums) {
-  return CS_WIDE_LINE + CS_MAP_ROWS * (size_t)sums->stride * sizeof *sums->sums;
+  return CS_WIDE_LINE + pixel_count(sums) * sizeof *sums->sums;
 }
 
 celspan_status cs_map_sums_init(celspan_context *context, int32_t width, cs_map_sums *out) {
-  *out = (cs_map_sums){.isa = cs_isa_best(), .width = width, .words = (size_t)width / 64 + 1};
-  out->stride = ((uint32_t)width + 4) | 5;
-  size_t pixels = CS_MAP_ROWS * (size_t)out->stride;
+  *out = (cs_map_sums){.isa = cs_isa_best(), .width = width};
+  out->columns = ((size_t)width + CS_MAP_WORD - 1) / CS_MAP_WORD * CS_MAP_WORD;
   out->storage = cs_mem_array(context->memory, storage_size(out), 1);
   if (!out->storage)
     return cs_fail_memory(context);
   out->sums = cs_wide_align(out->storage);
-  CS_TRY(CS_MAKE(context, out->keys, pixels));
-  CS_TRY(CS_MAKE(context, out->heads, pixels));
-  return CS_MAKE(context, out->bits, CS_MAP_ROWS * out->words);
+  CS_TRY(CS_MAKE(context, out->keys, pixel_count(out)));
+  CS_TRY(CS_MAKE(context, out->heads, pixel_count(out)));
+  return CS_MAKE(context, out->marks, out->columns);
 }
 
 void cs_map_sums_finish(cs_map_sums *sums, cs_memory *memory) {
-  size_t pixels = CS_MAP_ROWS * (size_t)sums->stride;
   cs_mem_free(memory, sums->storage, storage_size(sums));
-  cs_mem_free(memory, sums->keys, pixels * sizeof *sums->keys);
-  cs_mem_free(memory, sums->heads, pixels * sizeof *sums->heads);
-  cs_mem_free(memory, sums->bits, CS_MAP_ROWS * sums->words * sizeof *sums->bits);
+  cs_mem_free(memory, sums->keys, pixel_count(sums) * sizeof *sums->keys);
+  cs_mem_free(memory, sums->heads, pixel_count(sums) * sizeof *sums->heads);
+  cs_mem_free(memory, sums->marks, sums->columns);
   cs_mem_free(memory, sums->parts, sums->part_capacity * sizeof *sums->parts);
   *sums = (cs_map_sums){0};
 }
@@ -42,11 +42,10 @@ void cs_map_rows_finish(cs_map_rows *rows, cs_memory *memory) {
 }
 
 static void clear(cs_map_sums *sums) {
-  size_t pixels = CS_MAP_ROWS * (size_t)sums->stride;
-  memset(sums->sums, 0, pixels * sizeof *sums->sums);
-  memset(sums->keys, 0, pixels * sizeof *sums->keys);
-  memset(sums->heads, 0, pixels * sizeof *sums->heads);
-  memset(sums->bits, 0, CS_MAP_ROWS * sums->words * sizeof *sums->bits);
+  memset(sums->sums, 0, pixel_count(sums) * sizeof *sums->sums);
+  memset(sums->keys, 0, pixel_count(sums) * sizeof *sums->keys);
+  memset(sums->heads, 0, pixel_count(sums) * sizeof *sums->heads);
+  memset(sums->marks, 0, sums->columns);
 }
 
 /* ---------------------------------------------------------------- which borders */
@@ -192,13 +191,7 @@ static celspan_status make_rows(const swath *s) {
   const cs_map_adding adding = {s->context, s->sums, rows, s->row, &status};
   CS_WIDE_CHOOSE(s->sums->isa, cs_map_add)(&adding);
   CS_TRY(status);
-  rows->span_count = rows->share_count = 0;
-  for (size_t k = 0; k < CS_MAP_ROWS; k++) {
-    rows->first[k] = rows->span_count;
-    CS_TRY(CS_WIDE_CHOOSE(s->sums->isa, cs_map_read)(s->context, s->sums, rows, k));
-  }
-  rows->first[CS_MAP_ROWS] = rows->span_count;
-  return CELSPAN_OK;
+  return CS_WIDE_CHOOSE(s->sums->isa, cs_map_read)(s->context, s->sums, rows);
 }
 
 celspan_status cs_map_rows_make(celspan_context *context, cs_map_sums *sums, cs_map_rows *rows,

@@ -16,6 +16,7 @@
 #define CS_MAP_ROWS 8       /* of a swath: its first row is a multiple of it */
 #define CS_MAP_HEIGHT 65536 /* of a row of the frame: heights and areas are multiples of 1 / it */
 #define CS_MAP_BROKEN UINT32_MAX
+#define CS_MAP_WORD 64 /* columns whose marks are read together */
 
 /* A map in its place in a frame. */
 typedef struct cs_map_drawing {
@@ -100,16 +101,16 @@ typedef struct cs_map_part {
   uint32_t cell, next; /* next: 1 more than the next part of the pixel; 0: none */
 } cs_map_part;
 
-/* Room for the sums of a swath, cleared between uses: all drawings of a worker share it. */
+/* Room for the sums of a swath, cleared between uses: all drawings of a worker share it. They lie
+ * column by column, since most borders go down rather than across. */
 typedef struct cs_map_sums {
   cs_isa isa;
-  int32_t width;   /* pixels of a row */
-  uint32_t stride; /* from a row's sums to those of the next, which lie in other lines of a cache */
-  size_t words;    /* of a row's bits */
-  void *storage;   /* in which the sums are */
+  int32_t width;  /* pixels of a row */
+  size_t columns; /* the same, and as many more as are needed for whole words of marks */
+  void *storage;  /* of the sums, which are lines of the cache */
   cs_map_sum *sums;
   cs_map_keys *keys;
-  uint64_t *bits;  /* the pixels to which something was added */
+  uint8_t *marks;  /* of each column: bit k: something was added to its pixel in row k */
   uint32_t *heads; /* the first part of each pixel, as cs_map_part.next */
   cs_map_part *parts;
   size_t part_count, part_capacity;
