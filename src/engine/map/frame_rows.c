@@ -64,15 +64,16 @@ static bool hides(const cs_map_sheet *sheet, const cs_map_span *span) {
          sheet->drawing.light[3] == 1;
 }
 
-/* Folds the sheets at a column up to the first one that nothing shines through. *end: gets the end
- * of the columns where they are the same. What varies is left out of the fold. varies: whether
+/* Folds `count` sheets at a column, up to the first one that nothing shines through. *end: gets the
+ * end of the columns where they are the same. What varies is left out of the fold. varies: whether
  * anything does, a constant of each caller. */
-static inline cs_map_fold fold_sheets(folding *f, int32_t x, int32_t *end, bool varies) {
+static inline cs_map_fold fold_sheets(folding *f, int32_t x, size_t count, int32_t *end,
+                                      bool varies) {
   const cs_map_frame *frame = f->maker->frame;
   cs_map_fold fold = cs_map_fold_begin;
   size_t i = 0, broken_count = 0;
   f->varied_count = 0;
-  for (bool is_hidden = false; i < frame->count && fold.t > 0 && !is_hidden; i++) {
+  for (bool is_hidden = false; i < count && fold.t > 0 && !is_hidden; i++) {
     const cs_map_span *span = f->at[i];
     while (span->end <= x)
       span++;
@@ -284,7 +285,34 @@ static celspan_status paint_varied(folding *f, const cs_map_fold *fold, int32_t 
   return CELSPAN_OK;
 }
 
-/* A row in which nothing varies. */
+/* Writes the columns [x, end), in which all sheets but the last are the same, whose fold is
+ * `near`. */
+static celspan_status fold_last(folding *f, cs_map_fold near, int32_t x, int32_t end,
+                                cs_row_writer *writer) {
+  const cs_map_frame *frame = f->maker->frame;
+  const size_t last = frame->count - 1, near_count = f->broken_count;
+  for (int32_t stop; x < end; x = stop) {
+    const cs_map_span *span = f->at[last];
+    while (span->end <= x)
+      span++;
+    f->at[last] = span;
+    cs_map_fold fold = near;
+    cs_map_fold_add(&fold, &frame->sheets[last], span->colour);
+    cs_v4 colour = cs_map_fold_end(fold, frame);
+    stop = span->end < end ? span->end : end;
+    f->broken_count = near_count + (span->cell == CS_MAP_BROKEN);
+    if (f->broken_count > 1) {
+      stop = x + 1;
+      f->shown_count = frame->count;
+      CS_TRY(solve(f, x, &colour));
+    }
+    cs_row_writer_to(writer, stop, colour);
+  }
+  return CELSPAN_OK;
+}
+
+/* A row in which nothing varies: where the near sheets are the same for long, the last one is
+ * folded under them, span by span. */
 static celspan_status make_flat_row(folding *f, cs_row *out) {
   const cs_map_maker *maker = f->maker;
   int32_t width = maker->frame->width;
@@ -292,7 +320,12 @@ static celspan_status make_flat_row(folding *f, cs_row *out) {
   cs_row_writer writer = cs_row_writer_begin(out, 0);
   for (int32_t x = 0, end; x < width; x = end) {
     end = width;
-    cs_v4 colour = cs_map_fold_end(fold_sheets(f, x, &end, false), maker->frame);
+    const cs_map_fold near = fold_sheets(f, x, maker->frame->count - 1, &end, false);
+    if (near.t > 0) {
+      CS_TRY(fold_last(f, near, x, end, &writer));
+      continue;
+    }
+    cs_v4 colour = cs_map_fold_end(near, maker->frame);
     if (f->broken_count > 1) {
       end = x + 1;
       CS_TRY(solve(f, x, &colour));
@@ -308,7 +341,7 @@ static celspan_status make_varied_row(folding *f, cs_row *out) {
   int32_t width = maker->frame->width;
   for (int32_t x = 0, end; x < width; x = end) {
     end = width;
-    cs_map_fold fold = fold_sheets(f, x, &end, true);
+    cs_map_fold fold = fold_sheets(f, x, maker->frame->count, &end, true);
     cs_v4 colour = cs_map_fold_end(fold, maker->frame);
     if (f->broken_count > 1) {
       end = x + 1;
@@ -326,7 +359,8 @@ static celspan_status make_row(folding *f, cs_row *out) {
   const cs_map_maker *maker = f->maker;
   for (size_t i = 0; i < maker->frame->count; i++)
     f->at[i] = maker->rows[i].spans + maker->rows[i].first[f->y - maker->row];
-  return maker->varies ? make_varied_row(f, out) : make_flat_row(f, out);
+  return maker->varies || maker->frame->count == 0 ? make_varied_row(f, out)
+                                                   : make_flat_row(f, out);
 }
 
 static celspan_status make_swath(cs_map_maker *maker, int32_t row) {
