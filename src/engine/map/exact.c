@@ -103,6 +103,78 @@ celspan_status cs_map_exact_add(celspan_context *context, cs_map_exact *exact,
   return CELSPAN_OK;
 }
 
+/* ---------------------------------------------------------------- two drawings */
+
+static cs_v4 fold(const cs_map_frame *frame, const cs_map_shown *shown, size_t count,
+                  const cs_v4 *colours) {
+  cs_map_fold all = cs_map_fold_begin;
+  for (size_t i = 0; i < count; i++)
+    cs_map_fold_add(&all, shown[i].sheet, colours[i]);
+  return cs_map_fold_end(all, frame);
+}
+
+/* What a pixel has right of a line. */
+static double area_of(const cs_map_line *line) {
+  return (line->yb - line->ya) * (1 - 0.5 * (line->xa + line->xb));
+}
+
+/* What it has right of both of two lines. */
+static double overlap_of(const cs_map_line *k, const cs_map_line *l) {
+  double top = k->ya > l->ya ? k->ya : l->ya, foot = k->yb < l->yb ? k->yb : l->yb;
+  double height = foot - top;
+  if (!(height > 0))
+    return 0;
+  double ka = x_at(k, top), kb = x_at(k, foot), la = x_at(l, top), lb = x_at(l, foot);
+  double above = ka - la, below = kb - lb;
+  double a = above > 0 ? ka : la, b = below > 0 ? kb : lb; /* the ends on the right */
+  if ((above >= 0) == (below >= 0))
+    return height * (1 - 0.5 * (a + b));
+  double part = above / (above - below), x = ka + part * (kb - ka); /* where they cross */
+  return height * (1 - 0.5 * (part * (a + x) + (1 - part) * (x + b)));
+}
+
+/* How the alpha of the near drawing and the colour of the far one change together. */
+static cs_v4 covariance(const cs_map_exact *exact, uint32_t near) {
+  cs_v4d sum = {{0, 0}, {0, 0}};
+  for (size_t i = 0; i < exact->line_count; i++) {
+    const cs_map_line *k = &exact->lines[i];
+    if (k->sheet != near || k->step[3] == 0)
+      continue;
+    double area = area_of(k);
+    for (size_t j = 0; j < exact->line_count; j++) {
+      const cs_map_line *l = &exact->lines[j];
+      double both = l->sheet != near ? overlap_of(k, l) - area * area_of(l) : 0;
+      sum = cs_v4d_add(sum, cs_v4d_scale(both * (double)k->step[3], cs_v4_wide(l->step)));
+    }
+  }
+  return cs_v4_narrow(sum);
+}
+
+cs_v4 cs_map_exact_pair(cs_map_exact *exact, const cs_map_frame *frame, const cs_map_shown *shown,
+                        size_t count) {
+  uint32_t near = UINT32_MAX, far = 0;
+  for (size_t i = 0; i < exact->line_count; i++) {
+    near = exact->lines[i].sheet < near ? exact->lines[i].sheet : near;
+    far = exact->lines[i].sheet > far ? exact->lines[i].sheet : far;
+  }
+  const cs_v4 change = covariance(exact, near);
+  exact->line_count = 0;
+  cs_map_fold all = cs_map_fold_begin, behind = cs_map_fold_begin;
+  float before = 1; /* what comes through the others in front of the far one */
+  for (size_t i = 0; i < count; i++) {
+    cs_map_fold_add(&all, shown[i].sheet, shown[i].colour);
+    before *= i < far && i != near ? 1 - shown[i].colour[3] : 1;
+    if (i == far)
+      behind.e = shown[i].sheet->back;
+    else if (i > far)
+      cs_map_fold_add(&behind, shown[i].sheet, shown[i].colour);
+  }
+  cs_v4 hidden = behind.e + behind.t * frame->back;
+  cs_v4 colour = cs_map_fold_end(all, frame) - before * (change - change[3] * hidden);
+  colour[3] = 1 - all.keep * frame->keep * (all.t + before * behind.t * change[3]);
+  return colour;
+}
+
 /* ---------------------------------------------------------------- heights */
 
 static inline bool is_higher(const double *a, const double *b) { return *a < *b; }
@@ -160,14 +232,6 @@ static size_t list_lines(cs_map_exact *exact, double y) {
     exact->order[place] = line;
   }
   return count;
-}
-
-static cs_v4 fold(const cs_map_frame *frame, const cs_map_shown *shown, size_t count,
-                  const cs_v4 *colours) {
-  cs_map_fold all = cs_map_fold_begin;
-  for (size_t i = 0; i < count; i++)
-    cs_map_fold_add(&all, shown[i].sheet, colours[i]);
-  return cs_map_fold_end(all, frame);
 }
 
 /* The mean colour along a height. */

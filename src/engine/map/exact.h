@@ -6,6 +6,15 @@
  *         |           /\    |     what lies between two lines is a trapezoid, of one colour
  *     y1  +----------/--\---+
  *
+ * Where two drawings are broken, they need not be cut: a fold is linear in each of its layers, so
+ * the mean is the fold of the means, corrected by how the lines of the two lie to each other. For
+ * lines k and l that is the area right of both, less the product of the areas right of each:
+ *
+ *     +--------\--/-----+
+ *     |   k     \/  l   |     #: right of both
+ *     |         /\######|
+ *     +--------/--\#####+
+ *
  * Invariant: the mean is exact except for rounding, unless more than CS_MAP_EXACT_LINES lines meet:
  * then it is that of as many heights, spaced evenly.
  */
@@ -33,7 +42,7 @@ typedef struct cs_map_exact {
 /* One of the drawings that can be shown in the pixel. */
 typedef struct cs_map_shown {
   const cs_map_sheet *sheet;
-  cs_v4 colour; /* at the pixel's left edge */
+  cs_v4 colour; /* the mean, or for cs_map_exact_mean that at the pixel's left edge */
 } cs_map_shown;
 
 void cs_map_exact_finish(cs_map_exact *exact, cs_memory *memory);
@@ -43,6 +52,10 @@ void cs_map_exact_finish(cs_map_exact *exact, cs_memory *memory);
 CELSPAN_CHECKED celspan_status cs_map_exact_add(celspan_context *context, cs_map_exact *exact,
                                                 const cs_map_rows *rows, uint32_t index,
                                                 int32_t from, int32_t column, int32_t row);
+/* The mean where two drawings are broken, those of the lines that have been added, which are removed.
+ * Of all that are shown the means are given. */
+cs_v4 cs_map_exact_pair(cs_map_exact *exact, const cs_map_frame *frame, const cs_map_shown *shown,
+                        size_t count);
 /* The mean, of what is shown from the camera, with the lines that have been added, which are
  * removed. opaque: nothing shines through the last one. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_map_exact_mean(celspan_context *context, cs_map_exact *exact,

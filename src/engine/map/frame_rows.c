@@ -113,34 +113,52 @@ static celspan_status find_colours(folding *f, size_t i, int32_t x, int32_t end,
   return CELSPAN_OK;
 }
 
-/* The colour of a sheet left of what is broken, at x: its span and the column where that ends. */
-static celspan_status find_base(folding *f, size_t i, int32_t x, int32_t *from) {
-  cs_map_maker *maker = f->maker;
-  const cs_map_rows *rows = &maker->rows[i];
-  const cs_map_span *first = rows->spans + rows->first[f->y - maker->row], *span = f->at[i];
+/* The first of the broken spans that end with the current one of a sheet. */
+static const cs_map_span *find_broken(const folding *f, size_t i) {
+  const cs_map_rows *rows = &f->maker->rows[i];
+  const cs_map_span *first = rows->spans + rows->first[f->y - f->maker->row], *span = f->at[i];
   while (span > first && span[-1].cell == CS_MAP_BROKEN)
     span--;
-  *from = span > first ? span[-1].end : 0;
+  return span;
+}
+
+/* The colour of a sheet left of what is broken, at x. */
+static celspan_status find_base(folding *f, size_t i, int32_t x, cs_v4 *out) {
+  const cs_map_rows *rows = &f->maker->rows[i];
+  const cs_map_span *first = rows->spans + rows->first[f->y - f->maker->row];
+  const cs_map_span *span = find_broken(f, i);
   return cs_map_brush_colour(rows->brush, rows->drawing, span > first ? span[-1].cell : 0, x, f->y,
-                             &f->shown[i].colour);
+                             out);
+}
+
+/* Adds the lines of a broken sheet at x. */
+static celspan_status add_lines(folding *f, size_t i, int32_t x) {
+  cs_map_maker *maker = f->maker;
+  const cs_map_rows *rows = &maker->rows[i];
+  const cs_map_span *first = rows->spans + rows->first[f->y - maker->row];
+  const cs_map_span *span = find_broken(f, i);
+  return cs_map_exact_add(maker->context, &maker->exact, rows, (uint32_t)i,
+                          span > first ? span[-1].end : 0, x, f->y);
 }
 
 /* Solves the pixel at x, where several sheets that can be shown are broken. */
 static celspan_status solve(folding *f, int32_t x, cs_v4 *out) {
   cs_map_maker *maker = f->maker;
+  cs_map_exact *exact = &maker->exact;
   list_shown(f);
   for (size_t i = 0; i < f->shown_count; i++) {
-    if (f->at[i]->cell != CS_MAP_BROKEN) {
-      CS_TRY(find_colours(f, i, x, x + 1, &f->shown[i].colour));
-      continue;
-    }
-    int32_t from;
-    CS_TRY(find_base(f, i, x, &from));
-    CS_TRY(cs_map_exact_add(maker->context, &maker->exact, &maker->rows[i], (uint32_t)i, from, x,
-                            f->y));
+    CS_TRY(find_colours(f, i, x, x + 1, &f->shown[i].colour));
+    if (f->at[i]->cell == CS_MAP_BROKEN)
+      CS_TRY(add_lines(f, i, x));
   }
-  return cs_map_exact_mean(maker->context, &maker->exact, maker->frame, f->shown, f->shown_count,
-                           out);
+  if (f->broken_count == 2 && exact->line_count <= CS_MAP_EXACT_LINES) {
+    *out = cs_map_exact_pair(exact, maker->frame, f->shown, f->shown_count);
+    return CELSPAN_OK;
+  }
+  for (size_t i = 0; i < f->shown_count; i++)
+    if (f->at[i]->cell == CS_MAP_BROKEN)
+      CS_TRY(find_base(f, i, x, &f->shown[i].colour));
+  return cs_map_exact_mean(maker->context, exact, maker->frame, f->shown, f->shown_count, out);
 }
 
 /* Whether only one cell can be seen, as it is. */
