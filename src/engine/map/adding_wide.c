@@ -103,9 +103,11 @@ static inline void add(const cs_map_adding *a, const target *t, uint32_t row, ui
 
 /* ---------------------------------------------------------------- a row */
 
-/* A line over several columns, from its left end: from < to. */
-static inline void add_columns(const cs_map_adding *a, const target *t, uint32_t row, int32_t from,
-                               int32_t to, int32_t height) {
+/* A line over several columns, from its left end: from < to. Not inlined: the loop over lines needs
+ * the registers. */
+static __attribute__((noinline)) void add_columns(const cs_map_adding *a, const target *t,
+                                                  uint32_t row, int32_t from, int32_t to,
+                                                  int32_t height) {
   const double slope = (double)height / ((double)to - from);
   int32_t x = from, done = 0;
   if (!t->is_inside && from < 0) {

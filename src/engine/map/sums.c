@@ -75,6 +75,12 @@ static swath begin_swath(celspan_context *context, cs_map_sums *sums, cs_map_row
   return s;
 }
 
+/* There is room for one more. */
+static void put_places(const swath *s, const cs_map_point *points, size_t count,
+                       cs_map_point *out) {
+  CS_WIDE_CHOOSE(s->sums->isa, cs_map_put_places)(&s->placing, points, count, out);
+}
+
 /* The first of a live border's lines that is in the swath, of those from a place on. */
 static uint32_t find_place(const swath *s, const cs_map_live *live, uint32_t from) {
   const cs_map_point *places = s->rows->places;
@@ -128,23 +134,27 @@ static void find_step(const cs_map_drawing *drawing, const cs_map_border *f, cs_
   memcpy(live->step, &step, sizeof live->step);
 }
 
-/* The places of a border are appended to the others. box: its lowest and its highest place. */
+/* The places of a border are appended to the others. box: its lowest and its highest place. Of one
+ * left of the frame the heights alone count. */
 static celspan_status add_live(const swath *s, uint32_t number, const cs_map_point *box) {
   cs_map_rows *rows = s->rows;
   const cs_map_lines *lines = s->drawing->lines;
   const cs_map_border *f = &lines->borders[number];
+  const bool is_outside = box[1].x < 0;
   const cs_map_point *points = lines->points + f->first;
-  uint32_t first = (uint32_t)rows->place_count;
+  uint32_t first = (uint32_t)rows->place_count, count = is_outside ? 2 : f->count;
   cs_map_live live = {.border = number,
                       .at = first,
-                      .end = first + f->count,
+                      .end = first + count,
                       .low = box[0].x,
                       .high = box[1].x,
                       .foot = box[1].y};
   find_step(s->drawing, f, &live);
-  CS_TRY(CS_RESERVE(s->context, rows->places, rows->place_capacity, first + f->count + 1));
-  CS_WIDE_CHOOSE(s->sums->isa, cs_map_put_places)
-  (&s->placing, points, f->count, rows->places + first);
+  CS_TRY(CS_RESERVE(s->context, rows->places, rows->place_capacity, first + count + 1));
+  if (is_outside)
+    memcpy(rows->places + first, box, 2 * sizeof *box);
+  else
+    put_places(s, points, count, rows->places + first);
   if (rows->places[first].y < s->top)
     live.at = find_place(s, &live, first);
   rows->place_count = live.end;
@@ -159,7 +169,7 @@ static celspan_status add_lives(const swath *s) {
     const cs_map_border *f = &lines->borders[rows->next];
     const cs_map_point ends[2] = {{f->low, lines->points[f->first].y}, {f->high, f->foot}};
     cs_map_point box[3];
-    CS_WIDE_CHOOSE(s->sums->isa, cs_map_put_places)(&s->placing, ends, 2, box);
+    put_places(s, ends, 2, box);
     if (box[0].y >= s->foot)
       return CELSPAN_OK;
     if (box[1].y > s->top && box[0].x / CS_MAP_UNIT < s->sums->width)
