@@ -260,6 +260,22 @@ static void check_kept(studio *s, studio *small) {
   CHECK(cs_map_keep_count(s->context).bytes > 0 && cs_map_keep_count(small->context).bytes == 0);
 }
 
+/* A cel that is beyond the frame by more than places can be far is not seen. */
+static void check_far(studio *s) {
+  const double ways[] = {-1e5, 1e5, -1e9, 1e9};
+  for (int k = 0; k < 8; k++) {
+    double way = ways[k / 2], x = k % 2 ? way : 0, y = k % 2 ? 0 : way;
+    celspan_exposure exposure = moved_disc(s, celspan_matrix_translation(x, y));
+    celspan_frame_desc desc = frame_of(&exposure, true);
+    CHECK(count(s, &desc).maps == 1);
+    image picture = make_image(s, &desc, 1);
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+      CHECK(picture.rgba[i][3] == 0);
+    free(picture.rgba);
+    studio_finish(s);
+  }
+}
+
 /* ---------------------------------------------------------------- no leaks */
 
 /* Two black cels that share a curved boundary, before white: nowhere along it is it lighter. The
@@ -338,6 +354,7 @@ int main(void) {
   check_nothing(&s);
   check_bits(&s, &small);
   check_kept(&s, &small);
+  check_far(&s);
   check_leaks(&s, 0);
   check_leaks(&s, 0.1);
   check_failures_of_memory(&s, &watch);

@@ -27,7 +27,7 @@ static inline doubles bounded(doubles v) {
 #endif
 }
 
-/* Rounded, except that numbers below 0 may be one greater: nothing left of the frame can be seen. */
+/* Rounded, except that numbers below 0 may be one greater: those are beyond the frame. */
 static inline integers place_two(const cs_map_placing *p, integers points) {
   doubles whole = load(p->origin) + __builtin_convertvector(points, doubles);
   return __builtin_convertvector(bounded(whole * load(p->scale) + load(p->shift)), integers);

@@ -52,8 +52,8 @@ void cs_map_exact_finish(cs_map_exact *exact, cs_memory *memory);
 CELSPAN_CHECKED celspan_status cs_map_exact_add(celspan_context *context, cs_map_exact *exact,
                                                 const cs_map_rows *rows, uint32_t index,
                                                 int32_t from, int32_t column, int32_t row);
-/* The mean where two drawings are broken, those of the lines that have been added, which are removed.
- * Of all that are shown the means are given. */
+/* The mean where two drawings are broken, those of the lines that have been added, which are
+ * removed. Of all that are shown the means are given. */
 cs_v4 cs_map_exact_pair(cs_map_exact *exact, const cs_map_frame *frame, const cs_map_shown *shown,
                         size_t count);
 /* The mean, of what is shown from the camera, with the lines that have been added, which are

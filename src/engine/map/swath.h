@@ -1,5 +1,5 @@
-/* What the rows of a swath are made from: a map in its place in a frame, the borders of it that cross
- * the swath, and what they add to its pixels.
+/* What the rows of a swath are made from: a map in its place in a frame, the borders of it that
+ * cross the swath, and what they add to its pixels.
  *
  *   row 8 k      +--+--+--+--+--+--+     a swath: the rows that are summed together
  *   ...          |  |\ |  |  |  |  |
