@@ -55,8 +55,8 @@ void CS_WIDE(cs_map_put_places)(const cs_map_placing *placing, const cs_map_poin
 typedef struct target {
   cs_map_sum *sums;
   cs_map_keys *keys;
-  uint8_t *marks;
-  uint32_t width;
+  uint64_t *bits;
+  uint32_t words, width;
   int32_t top;    /* of the swath */
   bool is_inside; /* a constant of each caller: no place is left or right of the frame */
   bool varies;    /* another one: the areas of cells that vary are listed */
@@ -96,7 +96,7 @@ static inline void add(const cs_map_adding *a, const target *t, uint32_t row, ui
   memcpy(sum + 4, &next, sizeof next);
   t->keys[index].area += (uint64_t)area * t->key;
   t->keys[index].height += (uint64_t)height * t->key;
-  t->marks[column] |= (uint8_t)(1u << row);
+  t->bits[row * t->words + column / 64] |= UINT64_C(1) << column % 64;
   if (t->varies && add_parts(a, t->live, &a->sums->heads[index], area, height))
     *a->status = CELSPAN_NO_MEMORY;
 }
@@ -174,8 +174,17 @@ static inline void add_border(const cs_map_adding *a, cs_map_live *live, bool va
                               bool is_inside) {
   const cs_map_sums *s = a->sums;
   const cs_map_point *places = a->rows->places;
-  const target t = {s->sums,   s->keys, s->marks,         (uint32_t)s->width, a->row * CS_MAP_UNIT,
-                    is_inside, varies,  load(live->step), live->key,          live};
+  const target t = {s->sums,
+                    s->keys,
+                    s->bits,
+                    (uint32_t)s->words,
+                    (uint32_t)s->width,
+                    a->row * CS_MAP_UNIT,
+                    is_inside,
+                    varies,
+                    load(live->step),
+                    live->key,
+                    live};
   const int32_t top = t.top, foot = top + CS_MAP_ROWS * CS_MAP_UNIT;
   const uint32_t end = live->end;
   uint32_t at = live->at;

@@ -123,26 +123,15 @@ static inline celspan_status put_pixel(reader *r, bool varies, int32_t column, c
 
 /* ---------------------------------------------------------------- a row */
 
-/* Which of the next columns have something in row k: a bit for each. */
-static inline uint64_t marks_of(const uint8_t *marks, size_t k) {
-  const uint64_t ones = UINT64_C(0x0101010101010101) << k;
-  uint64_t eights[CS_MAP_WORD / 8], any = 0, word = 0;
-  memcpy(eights, marks, sizeof eights);
-  for (int i = 0; i < CS_MAP_WORD / 8; i++)
-    any |= eights[i];
-  for (int i = 0; i < CS_MAP_WORD / 8 && (any & ones); i++)
-    word |= ((eights[i] & ones) >> k) * UINT64_C(0x0102040810204080) >> 56 << 8 * i;
-  return word;
-}
-
 static inline celspan_status read_row(reader *r, cs_map_sums *sums, size_t k, bool varies) {
   cs_map_sum *pixels = sums->sums + k;
   cs_map_keys *keys = sums->keys + k;
   uint32_t *heads = sums->heads + k;
+  uint64_t *bits = sums->bits + k * sums->words;
   int32_t next = 0; /* the column after the last one that was put */
-  for (size_t first = 0; first < sums->columns; first += CS_MAP_WORD)
-    for (uint64_t word = marks_of(sums->marks + first, k); word; word &= word - 1) {
-      int32_t column = (int32_t)first + __builtin_ctzll(word);
+  for (size_t i = 0; i < sums->words; bits[i++] = 0)
+    for (uint64_t word = bits[i]; word; word &= word - 1) {
+      int32_t column = (int32_t)(64 * i) + __builtin_ctzll(word);
       const size_t at = CS_MAP_ROWS * (size_t)column;
       if (varies)
         pass_areas(r->rows);
@@ -191,6 +180,5 @@ celspan_status CS_WIDE(cs_map_read)(celspan_context *context, cs_map_sums *sums,
     rows->span_count = (size_t)(r.last + 1 - rows->spans);
   }
   rows->first[CS_MAP_ROWS] = rows->span_count;
-  memset(sums->marks, 0, sums->columns);
   return CELSPAN_OK;
 }

@@ -12,22 +12,21 @@ static size_t storage_size(const cs_map_sums *sums) {
 }
 
 celspan_status cs_map_sums_init(celspan_context *context, int32_t width, cs_map_sums *out) {
-  *out = (cs_map_sums){.isa = cs_isa_best(), .width = width};
-  out->columns = ((size_t)width + CS_MAP_WORD - 1) / CS_MAP_WORD * CS_MAP_WORD;
+  *out = (cs_map_sums){.isa = cs_isa_best(), .width = width, .words = (size_t)width / 64 + 1};
   out->storage = cs_mem_array(context->memory, storage_size(out), 1);
   if (!out->storage)
     return cs_fail_memory(context);
   out->sums = cs_wide_align(out->storage);
   CS_TRY(CS_MAKE(context, out->keys, pixel_count(out)));
   CS_TRY(CS_MAKE(context, out->heads, pixel_count(out)));
-  return CS_MAKE(context, out->marks, out->columns);
+  return CS_MAKE(context, out->bits, CS_MAP_ROWS * out->words);
 }
 
 void cs_map_sums_finish(cs_map_sums *sums, cs_memory *memory) {
   cs_mem_free(memory, sums->storage, storage_size(sums));
   cs_mem_free(memory, sums->keys, pixel_count(sums) * sizeof *sums->keys);
   cs_mem_free(memory, sums->heads, pixel_count(sums) * sizeof *sums->heads);
-  cs_mem_free(memory, sums->marks, sums->columns);
+  cs_mem_free(memory, sums->bits, CS_MAP_ROWS * sums->words * sizeof *sums->bits);
   cs_mem_free(memory, sums->parts, sums->part_capacity * sizeof *sums->parts);
   *sums = (cs_map_sums){0};
 }
@@ -45,7 +44,7 @@ static void clear(cs_map_sums *sums) {
   memset(sums->sums, 0, pixel_count(sums) * sizeof *sums->sums);
   memset(sums->keys, 0, pixel_count(sums) * sizeof *sums->keys);
   memset(sums->heads, 0, pixel_count(sums) * sizeof *sums->heads);
-  memset(sums->marks, 0, sums->columns);
+  memset(sums->bits, 0, CS_MAP_ROWS * sums->words * sizeof *sums->bits);
 }
 
 /* ---------------------------------------------------------------- which borders */

@@ -16,7 +16,6 @@
 #define CS_MAP_ROWS 8       /* of a swath: its first row is a multiple of it */
 #define CS_MAP_HEIGHT 65536 /* of a row of the frame: heights and areas are multiples of 1 / it */
 #define CS_MAP_BROKEN UINT32_MAX
-#define CS_MAP_WORD 64 /* columns whose marks are read together */
 
 /* A map in its place in a frame. */
 typedef struct cs_map_drawing {
@@ -105,12 +104,12 @@ typedef struct cs_map_part {
  * column by column, since most borders go down rather than across. */
 typedef struct cs_map_sums {
   cs_isa isa;
-  int32_t width;  /* pixels of a row */
-  size_t columns; /* the same, and as many more as are needed for whole words of marks */
-  void *storage;  /* of the sums, which are lines of the cache */
+  int32_t width; /* pixels of a row */
+  size_t words;  /* of a row of bits */
+  void *storage; /* of the sums, which are lines of the cache */
   cs_map_sum *sums;
   cs_map_keys *keys;
-  uint8_t *marks;  /* of each column: bit k: something was added to its pixel in row k */
+  uint64_t *bits;  /* row by row: the pixels to which something was added */
   uint32_t *heads; /* the first part of each pixel, as cs_map_part.next */
   cs_map_part *parts;
   size_t part_count, part_capacity;
