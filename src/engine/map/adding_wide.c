@@ -1,23 +1,15 @@
 #include "engine/map/adding.h"
+#include "engine/map/doubles.h"
 
 /* ---------------------------------------------------------------- places */
 
-/* Functions that return such vectors are inlined, so how they would be returned does not matter. */
-#pragma GCC diagnostic ignored "-Wpsabi"
-typedef double doubles __attribute__((vector_size(32)));
 typedef int32_t integers __attribute__((vector_size(16)));
-
-static inline doubles load(const double *from) {
-  doubles v;
-  memcpy(&v, from, sizeof v);
-  return v;
-}
 
 #define FARTHEST (32767.0 * CS_MAP_UNIT)
 
 /* No farther than an integer can be. What is drawn is at most 16384 pixels long, so that nothing
  * but borders that are left of the frame as a whole are bent by that. */
-static inline doubles bounded(doubles v) {
+static inline cs_doubles bounded(cs_doubles v) {
 #ifdef __AVX2__
   return _mm256_max_pd(_mm256_set1_pd(-FARTHEST), _mm256_min_pd(_mm256_set1_pd(FARTHEST), v));
 #else
@@ -29,8 +21,9 @@ static inline doubles bounded(doubles v) {
 
 /* Rounded, except that numbers below 0 may be one greater: those are beyond the frame. */
 static inline integers place_two(const cs_map_placing *p, integers points) {
-  doubles whole = load(p->origin) + __builtin_convertvector(points, doubles);
-  return __builtin_convertvector(bounded(whole * load(p->scale) + load(p->shift)), integers);
+  cs_doubles whole = cs_doubles_load(p->origin) + __builtin_convertvector(points, cs_doubles);
+  return __builtin_convertvector(
+      bounded(whole * cs_doubles_load(p->scale) + cs_doubles_load(p->shift)), integers);
 }
 
 void CS_WIDE(cs_map_put_places)(const cs_map_placing *placing, const cs_map_point *points,
@@ -60,7 +53,7 @@ typedef struct target {
   int32_t top;    /* of the swath */
   bool is_inside; /* a constant of each caller: no place is left or right of the frame */
   bool varies;    /* another one: the areas of cells that vary are listed */
-  doubles step;
+  cs_doubles step;
   uint64_t key;
   const cs_map_live *live;
 } target;
@@ -90,8 +83,8 @@ static inline void add(const cs_map_adding *a, const target *t, uint32_t row, ui
   const uint64_t twice = (uint64_t)(uint32_t)height * (uint32_t)across;
   const int32_t area = (int32_t)((twice + CS_MAP_UNIT) / (2 * CS_MAP_UNIT));
   double *sum = t->sums[index].area;
-  doubles here = load(sum) + (double)area * t->step;
-  doubles next = load(sum + 4) + (double)height * t->step;
+  cs_doubles here = cs_doubles_load(sum) + (double)area * t->step;
+  cs_doubles next = cs_doubles_load(sum + 4) + (double)height * t->step;
   memcpy(sum, &here, sizeof here);
   memcpy(sum + 4, &next, sizeof next);
   t->keys[index].area += (uint64_t)area * t->key;
@@ -182,7 +175,7 @@ static inline void add_border(const cs_map_adding *a, cs_map_live *live, bool va
                     a->row * CS_MAP_UNIT,
                     is_inside,
                     varies,
-                    load(live->step),
+                    cs_doubles_load(live->step),
                     live->key,
                     live};
   const int32_t top = t.top, foot = top + CS_MAP_ROWS * CS_MAP_UNIT;

@@ -1,8 +1,7 @@
 #include "engine/map/reading.h"
 
-/* Functions that return such vectors are inlined, so how they would be returned does not matter. */
-#pragma GCC diagnostic ignored "-Wpsabi"
-typedef double doubles __attribute__((vector_size(32)));
+#include "engine/map/doubles.h"
+
 typedef float floats __attribute__((vector_size(16)));
 
 /* The row that is being read. */
@@ -13,15 +12,9 @@ typedef struct reader {
   const cs_map_cell *cells;
   size_t cell_count;
   cs_map_span *first, *last; /* the row's spans so far; last: NULL before there are any */
-  doubles run;               /* what is left of the next pixel */
+  cs_doubles run;            /* what is left of the next pixel */
   uint64_t run_key;
 } reader;
-
-static inline doubles load(const double *from) {
-  doubles v;
-  memcpy(&v, from, sizeof v);
-  return v;
-}
 
 /* ---------------------------------------------------------------- cells that vary */
 
@@ -80,7 +73,7 @@ static inline uint32_t cell_of(const reader *r, uint64_t key) {
 /* From a column on, until the next one that is put, pixels show a cell, or else this sum. There is
  * room. varies: whether any cell does. */
 static inline celspan_status put(reader *r, bool varies, int32_t column, uint32_t cell,
-                                 doubles sum) {
+                                 cs_doubles sum) {
   if (r->last >= r->first) {
     if (r->last->cell == cell && cell != CS_MAP_BROKEN)
       return CELSPAN_OK;
@@ -104,7 +97,7 @@ static inline celspan_status put_gap(reader *r, bool varies, int32_t column) {
   if (cell != CS_MAP_BROKEN) {
     floats colour;
     memcpy(&colour, &r->colours[cell], sizeof colour);
-    r->run = __builtin_convertvector(colour, doubles) * CS_MAP_HEIGHT;
+    r->run = __builtin_convertvector(colour, cs_doubles) * CS_MAP_HEIGHT;
   }
   return put(r, varies, column, cell, r->run);
 }
@@ -112,9 +105,9 @@ static inline celspan_status put_gap(reader *r, bool varies, int32_t column) {
 /* A pixel to which something was added; that is cleared. */
 static inline celspan_status put_pixel(reader *r, bool varies, int32_t column, cs_map_sum *sum,
                                        cs_map_keys *keys) {
-  doubles colour = r->run + load(sum->area);
+  cs_doubles colour = r->run + cs_doubles_load(sum->area);
   uint32_t cell = cell_of(r, r->run_key + keys->area);
-  r->run += load(sum->height);
+  r->run += cs_doubles_load(sum->height);
   r->run_key += keys->height;
   *sum = (cs_map_sum){0};
   *keys = (cs_map_keys){0};
