@@ -130,7 +130,7 @@ typedef struct planefile_band {
   const planefile_point *points;
   const planefile_piece *pieces;
   const planefile_chain *chains;
-  const planefile_border *borders; /* of one that was read: by their tops */
+  const planefile_border *borders; /* of one that was read: by their chains, and by their tops */
   const planefile_cell *cells;
   const planefile_program *programs; /* of the cells; NULL: all are flat */
   const planefile_step *steps;

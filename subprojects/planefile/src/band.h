@@ -85,9 +85,20 @@ static inline uint32_t pf_other(uint32_t size, uint32_t index) {
   return index > 0 ? index - 1 : size > 1 ? 1 : 0;
 }
 
+/* The borders of a chain, which follow each other downwards. The chain has no point beside low and
+ * high. */
+typedef struct pf_run {
+  int32_t top, foot; /* of the first one; of the last one */
+  int32_t low, high;
+  uint32_t border; /* the first one */
+} pf_run;
+
 /* A band as it was read, all of it owned. */
 typedef struct pf_band {
   planefile_band band;
+  pf_run *runs; /* by their tops */
+  uint32_t run_count;
+  size_t run_capacity;
   size_t point_capacity, piece_capacity, chain_capacity, border_capacity, cell_capacity;
   size_t program_capacity, step_capacity, axis_capacity, stop_capacity;
 } pf_band;
@@ -106,21 +117,17 @@ typedef struct pf_base {
   pf_memory memory;
   const planefile_band *band;
   size_t code;     /* bytes */
-  uint32_t *first; /* of each chain: the place of its first border in the order; and the end */
-  uint32_t *order; /* the borders by their chains; those of one are in the order of the band */
+  uint32_t *first; /* of each chain: its first border; and the end */
 } pf_base;
 
 /* band: borrowed. out: must be freed whatever happens. False: no memory. */
 bool pf_base_make(const pf_memory *memory, const planefile_band *band, size_t code, pf_base *out);
 void pf_base_free(pf_base *base);
-static inline const planefile_border *pf_base_border(const pf_base *base, uint32_t place) {
-  return &base->band->borders[base->order[place]];
-}
 /* The cells of a chain at its first border. */
 static inline pf_sides pf_base_sides(const pf_base *base, uint32_t chain) {
   if (base->first[chain] == base->first[chain + 1])
     return (pf_sides){0, 0};
-  const planefile_border *border = pf_base_border(base, base->first[chain]);
+  const planefile_border *border = &base->band->borders[base->first[chain]];
   return (pf_sides){border->left, border->right};
 }
 /* The part of a border that is at the heights of a band when it has been moved; false: none is. */

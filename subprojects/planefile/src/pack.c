@@ -162,7 +162,7 @@ static bool keeps_borders(const packer *p, const shown *c) {
   planefile_border moved;
   uint32_t k = 0;
   for (uint32_t i = base->first[c->link.chain]; i < base->first[c->link.chain + 1]; i++) {
-    if (!pf_move_border(pf_base_border(base, i), c->link.move.y, &heights, &moved))
+    if (!pf_move_border(&base->band->borders[i], c->link.move.y, &heights, &moved))
       continue;
     const planefile_border *b = &c->borders[k];
     if (k++ == c->count || b->top != moved.top || b->foot != moved.foot ||

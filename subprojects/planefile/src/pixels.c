@@ -71,14 +71,28 @@ void planefile_srgb8(const planefile_plane *plane, planefile_cell colour, unsign
   put_pixel(plane, &colour, out);
 }
 
+enum { PIXEL = 4, BLOCK = 64 /* bytes */ };
+
+/* Copies of a pixel that is there already, as many bytes as they are; at least a block. */
+static void fill_blocks(unsigned char *out, size_t size) {
+  unsigned char block[BLOCK];
+  for (size_t at = 0; at < BLOCK; at += PIXEL)
+    memcpy(block + at, out, PIXEL);
+  for (size_t at = 0; at + BLOCK <= size; at += BLOCK)
+    memcpy(out + at, block, BLOCK);
+  memcpy(out + size - BLOCK, block, BLOCK);
+}
+
 void planefile_span_pixels(const planefile_plane *plane, const planefile_span *spans, size_t count,
                            unsigned char *out) {
   uint32_t start = 0;
   for (size_t i = 0; i < count; start = spans[i++].end) {
-    const unsigned char *first = out;
+    size_t size = (size_t)PIXEL * (spans[i].end - start);
     put_pixel(plane, &spans[i].colour, out); /* in its place: most are alone where colours vary */
-    out += 4;
-    for (uint32_t x = start + 1; x < spans[i].end; x++, out += 4)
-      memcpy(out, first, 4);
+    if (size >= BLOCK)
+      fill_blocks(out, size);
+    for (size_t at = PIXEL; size < BLOCK && at < size; at += PIXEL)
+      memcpy(out + at, out, PIXEL);
+    out += size;
   }
 }

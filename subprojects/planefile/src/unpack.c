@@ -52,6 +52,7 @@ void pf_band_free(const pf_memory *memory, pf_band *band) {
   pf_free(memory, (void *)b->steps, sizeof *b->steps, band->step_capacity);
   pf_free(memory, (void *)b->axes, sizeof *b->axes, band->axis_capacity);
   pf_free(memory, (void *)b->stops, sizeof *b->stops, band->stop_capacity);
+  pf_free(memory, band->runs, sizeof *band->runs, band->run_capacity);
 }
 
 /* ---------------------------------------------------------------- bases */
@@ -59,24 +60,20 @@ void pf_band_free(const pf_memory *memory, pf_band *band) {
 bool pf_base_make(const pf_memory *memory, const planefile_band *band, size_t code, pf_base *out) {
   size_t chains = band->chain_count;
   *out = (pf_base){.memory = *memory, .band = band, .code = code};
-  out->first = pf_make(memory, sizeof *out->first, chains + 2);
-  out->order = pf_make(memory, sizeof *out->order, band->border_count);
-  if (!out->first || !out->order)
+  out->first = pf_make(memory, sizeof *out->first, chains + 1);
+  if (!out->first)
     return false;
   for (uint32_t i = 0; i < band->border_count; i++)
-    out->first[band->borders[i].chain + 2]++;
+    out->first[band->borders[i].chain + 1]++;
   for (size_t i = 0; i < chains; i++)
-    out->first[i + 2] += out->first[i + 1];
-  for (uint32_t i = 0; i < band->border_count; i++)
-    out->order[out->first[band->borders[i].chain + 1]++] = i;
+    out->first[i + 1] += out->first[i];
   return true;
 }
 
 void pf_base_free(pf_base *base) {
   if (!base->band)
     return;
-  pf_free(&base->memory, base->first, sizeof *base->first, (size_t)base->band->chain_count + 2);
-  pf_free(&base->memory, base->order, sizeof *base->order, base->band->border_count);
+  pf_free(&base->memory, base->first, sizeof *base->first, (size_t)base->band->chain_count + 1);
   base->band = NULL;
 }
 
@@ -337,7 +334,7 @@ static bool keep_borders(unpacker *u, uint32_t index, uint32_t chain) {
   planefile_border moved;
   u->states[index] = (state){{0, 0}, INT32_MAX};
   for (uint32_t i = u->base->first[chain]; i < u->base->first[chain + 1]; i++) {
-    if (!pf_move_border(pf_base_border(u->base, i), u->move.y, band, &moved))
+    if (!pf_move_border(&u->base->band->borders[i], u->move.y, band, &moved))
       continue;
     moved.chain = index;
     if (band->border_count == u->border_count)
@@ -431,11 +428,53 @@ static bool get_changes(unpacker *u) {
 
 /* ---------------------------------------------------------------- order */
 
+/* Puts borders that follow each other by chains, those of each in their order. */
+static bool sort_borders(unpacker *u) {
+  uint32_t count = u->border_count, chains = u->chain_count;
+  planefile_border *found = pf_make(u->memory, sizeof *found, count);
+  uint32_t *places = pf_make(u->memory, sizeof *places, (size_t)chains + 1);
+  for (uint32_t i = 0; found && places && i < count; i++)
+    places[u->borders[i].chain + 1]++;
+  for (uint32_t i = 0; places && i < chains; i++)
+    places[i + 1] += places[i];
+  for (uint32_t i = 0; found && places && i < count; i++)
+    found[places[u->borders[i].chain]++] = u->borders[i];
+  if (found && places)
+    memcpy(u->borders, found, count * sizeof *found);
+  bool is_done = found && places;
+  pf_free(u->memory, found, sizeof *found, count);
+  pf_free(u->memory, places, sizeof *places, (size_t)chains + 1);
+  return is_done;
+}
+
+/* The limits of a chain, across. */
+static void find_sides(const planefile_band *band, const planefile_chain *chain, pf_run *run) {
+  const planefile_piece *first = &band->pieces[chain->piece];
+  const planefile_piece *last = first + chain->piece_count - 1;
+  run->low = run->high = band->points[first->point].x;
+  for (uint32_t i = first->point; i <= last->point + last->degree; i++) {
+    int32_t x = band->points[i].x;
+    run->low = x < run->low ? x : run->low;
+    run->high = x > run->high ? x : run->high;
+  }
+}
+
+/* The runs of borders, which are by their chains. */
+static void find_runs(pf_band *out, pf_run *runs) {
+  const planefile_band *band = &out->band;
+  for (uint32_t i = 0, end; i < band->border_count; i = end) {
+    pf_run *run = &runs[out->run_count++];
+    for (end = i + 1; end < band->border_count && band->borders[end].chain == band->borders[i].chain;)
+      end++;
+    *run = (pf_run){.top = band->borders[i].top, .foot = band->borders[end - 1].foot, .border = i};
+    find_sides(band, &band->chains[band->borders[i].chain], run);
+  }
+}
+
 enum { DIGIT = 9, DIGITS = 1 << DIGIT };
 
 /* Sorts by one digit of the tops; equal ones keep their order. */
-static void sort_digit(const planefile_border *from, planefile_border *to, uint32_t count,
-                       int shift) {
+static void sort_digit(const pf_run *from, pf_run *to, uint32_t count, int shift) {
   uint32_t places[DIGITS + 1] = {0};
   for (uint32_t i = 0; i < count; i++)
     places[((uint32_t)from[i].top >> shift & (DIGITS - 1)) + 1]++;
@@ -445,17 +484,20 @@ static void sort_digit(const planefile_border *from, planefile_border *to, uint3
     to[places[(uint32_t)from[i].top >> shift & (DIGITS - 1)]++] = from[i];
 }
 
-static bool sort_borders(unpacker *u) {
-  uint32_t count = u->border_count;
-  planefile_border *other = pf_make(u->memory, sizeof *other, count);
-  if (!other)
-    return false;
-  sort_digit(u->borders, other, count, 0);
-  sort_digit(other, u->borders, count, DIGIT);
-  sort_digit(u->borders, other, count, 2 * DIGIT);
-  memcpy(u->borders, other, count * sizeof *other);
-  pf_free(u->memory, other, sizeof *other, count);
-  return true;
+static bool make_runs(const pf_memory *memory, pf_band *out) {
+  uint32_t chains = out->band.chain_count;
+  pf_run *runs = pf_make(memory, sizeof *runs, chains);
+  out->runs = pf_make(memory, sizeof *out->runs, chains);
+  out->run_capacity = chains;
+  if (runs && out->runs) {
+    find_runs(out, runs);
+    sort_digit(runs, out->runs, out->run_count, 0);
+    sort_digit(out->runs, runs, out->run_count, DIGIT);
+    sort_digit(runs, out->runs, out->run_count, 2 * DIGIT);
+  }
+  bool is_done = runs && out->runs;
+  pf_free(memory, runs, sizeof *runs, chains);
+  return is_done;
 }
 
 /* ---------------------------------------------------------------- the band */
@@ -552,5 +594,5 @@ planefile_status pf_band_decode(const pf_memory *memory, const pf_payload *paylo
   pf_free(memory, u->coding, sizeof *u->coding, 1);
   pf_free(memory, u->states, sizeof *u->states, u->chain_count);
   pf_free(memory, u, sizeof *u, 1);
-  return status;
+  return status == PLANEFILE_OK && !make_runs(memory, out) ? PLANEFILE_NO_MEMORY : status;
 }

@@ -11,7 +11,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 for source in "$@" "$here/module.c" "$here/libc.c"; do
   case $source in
-    */draw.c | */varied.c | */pixels.c | */program.c) level='-Os -msimd128' ;;
+    */draw.c | */sums.c | */varied.c | */pixels.c | */program.c) level='-Os -msimd128' ;;
     *) level=-Oz ;;
   esac
   # shellcheck disable=SC2086
