@@ -147,37 +147,35 @@ static bool next_border(const planefile_drawer *d, live *l) {
 }
 
 /* Draws the part of the current chord that is in the crop, or beside it. */
-static void draw_chord(planefile_drawer *d, live *l, pf_pen *pen, int64_t top, int64_t foot) {
+static void draw_chord(planefile_drawer *d, live *l, int64_t foot) {
   double low = l->at.x0 < l->at.x1 ? l->at.x0 : l->at.x1;
   double high = l->at.x0 < l->at.x1 ? l->at.x1 : l->at.x0;
   bool is_left = high <= (double)(d->sums.left * PF_HEIGHT);
   bool is_beside = is_left || low >= (double)(d->sums.right * PF_HEIGHT);
   if (!is_beside || d->sums.view.sampling != PLANEFILE_AREA)
-    pf_sums_draw(&d->sums, pen, &l->at, l->y, foot, top);
+    pf_sums_draw(&d->sums, &l->change, &l->at, l->y, foot);
   else if (is_left)
-    pf_sums_draw_left(&d->sums, l->y - top, foot - top, &l->change);
+    pf_sums_draw_left(&d->sums, &l->change, l->y - d->sums.top, foot - d->sums.top);
   l->y = foot;
 }
 
-/* Draws the current border in the rows [top, foot). */
-static void draw_border(planefile_drawer *d, live *l, int64_t top, int64_t foot) {
-  pf_pen pen = {.change = &l->change};
+/* Draws the current border down to a height. */
+static void draw_border(planefile_drawer *d, live *l, int64_t foot) {
   foot = l->foot < foot ? l->foot : foot;
   while (l->y < foot) {
     if (l->at.y1 > l->y)
-      draw_chord(d, l, &pen, top, l->at.y1 < foot ? l->at.y1 : foot);
+      draw_chord(d, l, l->at.y1 < foot ? l->at.y1 : foot);
     if (l->y < foot && !next_chord(d, l))
-      break;
+      return;
   }
-  pf_sums_lift(&d->sums, &pen);
 }
 
-/* Draws a chain in the rows [top, foot); false: it ends in them. */
-static bool draw_chain(planefile_drawer *d, live *l, int64_t top, int64_t foot) {
+/* Draws a chain down to a height; false: it ends above. */
+static bool draw_chain(planefile_drawer *d, live *l, int64_t foot) {
   do {
     if (l->y >= foot)
       return true;
-    draw_border(d, l, top, foot);
+    draw_border(d, l, foot);
     if (l->foot > foot)
       return true;
   } while (next_border(d, l));
@@ -272,9 +270,9 @@ static planefile_status make_rows(planefile_drawer *d) {
   planefile_status status = begin_runs(d, top, foot);
   if (status != PLANEFILE_OK)
     return status;
-  pf_sums_begin(&d->sums);
+  pf_sums_begin(&d->sums, top);
   for (size_t i = 0; i < d->live_count;)
-    if (draw_chain(d, &d->lives[i], top, foot))
+    if (draw_chain(d, &d->lives[i], foot))
       i++;
     else
       d->lives[i] = d->lives[--d->live_count];

@@ -3,6 +3,7 @@
 #include <math.h>
 
 enum { ROOM = 1 << 20 /* bytes of slots, about */ };
+#define UPRIGHT 1e-9 /* what is not more slanted, as dx / dy, is in one column */
 #define PIXEL INT64_C(65536) /* PF_HEIGHTths of a pixel across, too */
 /* 1.5 * 2^52 * PF_HEIGHT: a sum plus it has a whole number of PF_HEIGHTs, and that in its last bits.
  */
@@ -36,50 +37,62 @@ void pf_sums_finish(pf_sums *s) {
 /* ---------------------------------------------------------------- what is added */
 
 static inline void add(double sums[4], const pf_step *change, double share) {
+  double out[4]; /* so that nothing is stored before all is loaded */
   for (int c = 0; c < 4; c++)
-    sums[c] += change->colour[c] * share;
-}
-
-/* Adds to the shares of the cells that vary, at a column of the crop and the one after it. */
-static void add_varied(pf_sums *s, const pf_pen *pen, uint32_t column, int64_t area) {
-  const uint32_t cells[2] = {pen->change->left, pen->change->right};
-  for (int side = 0; side < 2; side++) {
-    int64_t sign = side == 0 ? -1 : 1;
-    if (cells[side] == PF_NO_CELL)
-      continue;
-    pf_varied_add(&s->varied, pen->row, column, cells[side], sign * area);
-    if (area == pen->height || column + 1 == s->view.columns)
-      continue;
-    pf_varied_add(&s->varied, pen->row, column + 1, cells[side], sign * (pen->height - area));
-    s->bits[pen->row * s->words + (column + 1) / 64] |= UINT64_C(1) << (column + 1) % 64;
-  }
+    out[c] = sums[c] + change->colour[c] * share;
+  memcpy(sums, out, sizeof out);
 }
 
 static inline bool varies(const pf_step *change) {
   return (change->left & change->right) != PF_NO_CELL;
 }
 
-static void lift(pf_sums *s, pf_pen pen) {
-  if (pen.height == 0 || pen.column >= s->right)
-    return;
-  if (pen.column < s->left) {
-    int64_t y = pen.row * PIXEL;
-    pf_sums_draw_left(s, y, y + pen.height, pen.change);
-    return;
-  }
-  uint32_t column = (uint32_t)(pen.column - s->left);
-  int64_t area = (pen.area + PIXEL) >> 17;
-  pf_slot *slot = &s->slots[(size_t)pen.row * s->view.columns + column];
-  add(slot->area, pen.change, (double)area);
-  add(slot->height, pen.change, (double)pen.height);
-  s->bits[pen.row * s->words + column / 64] |= UINT64_C(1) << column % 64;
-  if (varies(pen.change))
-    add_varied(s, &pen, column, area);
+/* Marks a column of a row, if a bit is 1. */
+static inline void mark(pf_sums *s, uint32_t row, uint32_t column, uint64_t bit) {
+  s->bits[row * s->words + column / 64] |= bit << column % 64;
 }
 
-void pf_sums_lift(pf_sums *s, const pf_pen *pen) { lift(s, *pen); }
+/* A part of a line in a pixel of the crop. area: right of it. */
+typedef struct part {
+  uint32_t row, column;
+  int64_t area, height;
+} part;
 
-void pf_sums_draw_left(pf_sums *s, int64_t y, int64_t foot, const pf_step *change) {
+/* Adds to the shares of the cells that vary, at a column and the one after it. */
+static void add_varied(pf_sums *s, const pf_step *change, const part *p) {
+  const uint32_t cells[2] = {change->left, change->right};
+  for (int side = 0; side < 2; side++) {
+    int64_t sign = side == 0 ? -1 : 1;
+    if (cells[side] == PF_NO_CELL)
+      continue;
+    pf_varied_add(&s->varied, p->row, p->column, cells[side], sign * p->area);
+    if (p->area == p->height || p->column + 1 == s->view.columns)
+      continue;
+    pf_varied_add(&s->varied, p->row, p->column + 1, cells[side], sign * (p->height - p->area));
+    mark(s, p->row, p->column + 1, 1);
+  }
+}
+
+/* The area right of a part. beside: what is left of it at its ends, together. */
+static inline int64_t area_of(int64_t height, int64_t beside) {
+  return (height * (2 * PIXEL - beside) + PIXEL) >> 17;
+}
+
+static inline void add_to(pf_slot *slot, const pf_step *change, int64_t area, int64_t height) {
+  add(slot->area, change, (double)area);
+  add(slot->height, change, (double)height);
+}
+
+static void add_part(pf_sums *s, const pf_step *change, part p) {
+  if (p.height == 0)
+    return;
+  add_to(&s->slots[(size_t)p.row * s->view.columns + p.column], change, p.area, p.height);
+  mark(s, p.row, p.column, 1);
+  if (varies(change))
+    add_varied(s, change, &p);
+}
+
+void pf_sums_draw_left(pf_sums *s, const pf_step *change, int64_t y, int64_t foot) {
   uint32_t first = (uint32_t)(y / PIXEL), last = (uint32_t)(foot / PIXEL);
   int64_t above = y % PIXEL, below = foot % PIXEL;
   add(s->leads[first].colour, change, (double)(PIXEL - above));
@@ -88,9 +101,8 @@ void pf_sums_draw_left(pf_sums *s, int64_t y, int64_t foot, const pf_step *chang
   add(s->leads[last + 1].colour, change, (double)-below);
   for (uint32_t row = first; varies(change) && row <= last && row < s->rows; row++) {
     int64_t height = (row == last ? below : PIXEL) - (row == first ? above : 0);
-    const pf_pen pen = {.change = change, .height = height, .row = row};
-    add_varied(s, &pen, 0, height);
-    s->bits[row * s->words] |= 1;
+    add_varied(s, change, &(part){row, 0, height, height});
+    mark(s, row, 0, 1);
   }
 }
 
@@ -104,54 +116,72 @@ void pf_sums_add_start(pf_sums *s, const pf_step *change) {
 
 /* ---------------------------------------------------------------- lines */
 
-/* Collects a part of a line within a column. beside: what is left of it at its ends, together. */
-static inline void collect(pf_sums *s, pf_pen *pen, uint32_t row, int64_t column, int64_t height,
-                           int64_t beside) {
-  if (pen->column != column || pen->row != row) {
-    lift(s, *pen);
-    *pen = (pf_pen){.change = pen->change, .column = column, .row = row};
+/* A line within a row, from its left end to its right one; across and down in PIXELs. */
+typedef struct line {
+  int64_t low, high, height;
+  double rise; /* dy / dx of its chord, without a sign; 0 where it is upright */
+  uint32_t row;
+  pf_slot *slots; /* of the row */
+} line;
+
+static inline int64_t fraction_of(int64_t x) { return x & (PIXEL - 1); }
+
+/* How much of the height is left of an edge that the line crosses. */
+static inline int64_t height_at(const line *l, int64_t edge) {
+  double height = (double)(edge - l->low) * l->rise;
+  return (int64_t)(height < (double)l->height ? height : (double)l->height);
+}
+
+/* A line within a column or two of the crop, of flat cells; no branches, which could not be
+ * predicted. */
+static inline void draw_short(pf_sums *s, const pf_step *change, const line *l) {
+  int64_t first = l->low >> 16, edge = (first + 1) * PIXEL;
+  bool is_across = l->high >= edge;
+  int64_t middle = is_across ? edge : l->high, below = height_at(l, edge);
+  int64_t height = is_across ? below : l->height, left = l->height - height;
+  uint32_t column = (uint32_t)(first - s->left);
+  pf_slot *slot = &l->slots[column];
+  add_to(slot, change, area_of(height, l->low + middle - 2 * first * PIXEL), height);
+  add_to(slot + is_across, change, area_of(left, fraction_of(l->high)), left);
+  mark(s, l->row, column, 1);
+  mark(s, l->row, column + is_across, 1);
+}
+
+/* A line that is anywhere. */
+static void draw_long(pf_sums *s, const pf_step *change, const line *l) {
+  int64_t first = l->low >> 16, last = l->high >> 16, done = 0;
+  first = first > s->left ? first : s->left;
+  if (l->low < s->left * PIXEL) {
+    done = l->high < s->left * PIXEL ? l->height : height_at(l, s->left * PIXEL);
+    pf_sums_draw_left(s, change, l->row * PIXEL, l->row * PIXEL + done);
   }
-  pen->area += height * (2 * PIXEL - beside);
-  pen->height += height;
-}
-
-static inline int64_t clamp(int64_t at, int64_t low, int64_t high) {
-  return at < low ? low : at > high ? high : at;
-}
-
-/* A line from x to another one that is in another column. from, to: their columns, or those beside
- * the crop. */
-static inline void draw_across(pf_sums *s, pf_pen *pen, uint32_t row, const int64_t x[2], int64_t from,
-                        int64_t to, int64_t height) {
-  int64_t way = x[1] > x[0] ? 1 : -1, far = x[1] > x[0] ? PIXEL : 0;
-  int64_t done = 0, beside = x[0] & (PIXEL - 1);
-  double slope = (double)height / (double)((x[1] - x[0]) * way);
-  for (int64_t column = from; column != to; column += way) {
-    int64_t edge = column * PIXEL + far;
-    int64_t y = (int64_t)((double)((edge - x[0]) * way) * slope);
-    collect(s, pen, row, column, y - done, beside + far);
+  for (int64_t column = first; column <= last && column < s->right; column++) {
+    int64_t y = column < last ? height_at(l, (column + 1) * PIXEL) : l->height;
+    int64_t beside = column == l->low >> 16 ? fraction_of(l->low) : 0;
+    beside += column == last ? fraction_of(l->high) : PIXEL;
+    add_part(s, change,
+             (part){l->row, (uint32_t)(column - s->left), area_of(y - done, beside), y - done});
     done = y;
-    beside = PIXEL - far;
   }
-  collect(s, pen, row, to, height - done, beside + (x[1] & (PIXEL - 1)));
 }
 
-/* A line within a row. */
-static inline void draw_line(pf_sums *s, pf_pen *pen, uint32_t row, int64_t x0, int64_t x1,
-                             int64_t height) {
-  int64_t from = clamp(x0 >> 16, s->left - 1, s->right);
-  int64_t to = clamp(x1 >> 16, s->left - 1, s->right);
-  if (from == to)
-    collect(s, pen, row, from, height, (x0 & (PIXEL - 1)) + (x1 & (PIXEL - 1)));
+static inline void draw_line(pf_sums *s, const pf_step *change, line *l, int64_t x0, int64_t x1) {
+  l->low = x0 < x1 ? x0 : x1;
+  l->high = x0 < x1 ? x1 : x0;
+  bool is_inside = l->low >= s->left * PIXEL && l->high < s->right * PIXEL;
+  if (is_inside && (l->high >> 16) - (l->low >> 16) < 2 && !varies(change))
+    draw_short(s, change, l);
   else
-    draw_across(s, pen, row, (int64_t[2]){x0, x1}, from, to, height);
+    draw_long(s, change, l);
 }
 
 /* A line that crosses the height of a row's centres changes all pixels whose centre is right of
  * it. */
-static void draw_centre(pf_sums *s, const pf_pen *pen, uint32_t row, int64_t x) {
-  int64_t column = clamp((x + PIXEL / 2 - 1) >> 16, s->left - 1, s->right);
-  lift(s, (pf_pen){pen->change, column, 2 * PIXEL * PIXEL, PIXEL, row});
+static void draw_centre(pf_sums *s, const pf_step *change, uint32_t row, int64_t x) {
+  int64_t column = (x + PIXEL / 2 - 1) >> 16;
+  column = column > s->left ? column : s->left;
+  if (column < s->right)
+    add_part(s, change, (part){row, (uint32_t)(column - s->left), PIXEL, PIXEL});
 }
 
 static inline int64_t x_at(const pf_chord *chord, int64_t y) {
@@ -160,35 +190,37 @@ static inline int64_t x_at(const pf_chord *chord, int64_t y) {
   return (int64_t)(chord->x0 + chord->slope * (double)(y - chord->y0));
 }
 
-static void draw_centres(pf_sums *s, const pf_pen *pen, const pf_chord *chord, int64_t y,
-                         int64_t foot, int64_t top) {
-  int64_t row = (y - top + PIXEL / 2 - 1) >> 16, centre;
-  for (; (centre = top + row * PIXEL + PIXEL / 2) < foot; row++)
-    draw_centre(s, pen, (uint32_t)row, x_at(chord, centre));
+static void draw_centres(pf_sums *s, const pf_step *change, const pf_chord *chord, int64_t y,
+                         int64_t foot) {
+  int64_t row = (y - s->top + PIXEL / 2 - 1) >> 16, centre;
+  for (; (centre = s->top + row * PIXEL + PIXEL / 2) < foot; row++)
+    draw_centre(s, change, (uint32_t)row, x_at(chord, centre));
 }
 
-void pf_sums_draw(pf_sums *s, pf_pen *pen, const pf_chord *chord, int64_t y, int64_t foot,
-                  int64_t top) {
-  pf_pen at = *pen; /* a copy is kept in registers */
-  int64_t x = x_at(chord, y);
+void pf_sums_draw(pf_sums *s, const pf_step *change, const pf_chord *chord, int64_t y,
+                  int64_t foot) {
   if (s->view.sampling != PLANEFILE_AREA) {
-    draw_centres(s, pen, chord, y, foot, top);
+    draw_centres(s, change, chord, y, foot);
     return;
   }
-  for (int64_t row = (y - top) >> 16; y < foot; row++) {
-    int64_t end = top + (row + 1) * PIXEL;
-    end = end < foot ? end : foot;
-    int64_t next = x_at(chord, end);
-    draw_line(s, &at, (uint32_t)row, x, next, end - y);
+  int64_t x = x_at(chord, y), end = y - (y - s->top) % PIXEL;
+  double slope = fabs(chord->slope);
+  line l = {.rise = slope > UPRIGHT ? 1 / slope : 0, .row = (uint32_t)((y - s->top) / PIXEL)};
+  l.slots = &s->slots[(size_t)l.row * s->view.columns];
+  for (; y < foot; l.row++, l.slots += s->view.columns) {
+    end += PIXEL;
+    int64_t stop = end < foot ? end : foot, next = x_at(chord, stop);
+    l.height = stop - y;
+    draw_line(s, change, &l, x, next);
     x = next;
-    y = end;
+    y = stop;
   }
-  *pen = at;
 }
 
 /* ---------------------------------------------------------------- rows */
 
-void pf_sums_begin(pf_sums *s) {
+void pf_sums_begin(pf_sums *s, int64_t top) {
+  s->top = top;
   memset(s->leads, 0, sizeof s->leads);
   s->lead = s->start;
   if (s->plane->info.varies)
@@ -270,10 +302,10 @@ static inline void put_column(reading *r, uint32_t made, uint32_t column, double
   put_part(r, column, total);
   if (s->plane->info.varies)
     pf_varied_take(&s->varied, made, column);
-  for (int c = 0; c < 4; c++) {
+  for (int c = 0; c < 4; c++)
     sums[c] = total[c] + slot->area[c];
+  for (int c = 0; c < 4; c++)
     total[c] += slot->height[c];
-  }
   *slot = (pf_slot){{0}, {0}};
   put_part(r, column + 1, sums);
 }

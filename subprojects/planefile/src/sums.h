@@ -7,8 +7,7 @@
  *                   |        /########|#################|    area, and all pixels right of it get
  *                   +-------/---------+-----------------+    that times the border's height
  *
- * A pen follows a border. What it draws in one pixel is collected, and added when the border goes
- * to another pixel or another row. Left of the crop a border changes all pixels of its rows.
+ * Left of the crop a border changes all pixels of its rows.
  *
  * INVARIANT: sums are whole numbers, which do not depend on any order, as long as they are less
  * than 2^53: of colours up to 1, those of a million borders in a row. What is added is a function
@@ -40,6 +39,7 @@ typedef struct pf_sums {
   const planefile_plane *plane;
   planefile_view view;
   int64_t left, right; /* the columns of the crop in the frame */
+  int64_t top;         /* of the rows being made */
   uint32_t rows;       /* that are made at once, at most */
   size_t words;        /* of the bits of a row */
   pf_slot *slots;      /* of each row a slot for each column, */
@@ -51,29 +51,19 @@ typedef struct pf_sums {
   pf_varied varied;           /* where the plane varies */
 } pf_sums;
 
-/* What is drawn of a border in a pixel. */
-typedef struct pf_pen {
-  const pf_step *change;
-  int64_t column;       /* of the frame; beside the crop the nearest one, whichever it is */
-  int64_t area, height; /* area: times 2 PF_HEIGHT */
-  uint32_t row;         /* of those that are being made */
-} pf_pen;
-
 /* view: within its frame. False: no memory; sums must be finished whatever happens. */
 bool pf_sums_init(pf_sums *sums, const planefile_plane *plane, const planefile_view *view);
 void pf_sums_finish(pf_sums *sums);
 
 /* Adds to what every row begins with. */
 void pf_sums_add_start(pf_sums *sums, const pf_step *change);
-/* Before rows are made. */
-void pf_sums_begin(pf_sums *sums);
-/* Draws a chord from a height down to a foot that it reaches; top: of the rows being made. */
-void pf_sums_draw(pf_sums *sums, pf_pen *pen, const pf_chord *chord, int64_t y, int64_t foot,
-                  int64_t top);
+/* Before rows are made. top: the height of the first one. */
+void pf_sums_begin(pf_sums *sums, int64_t top);
+/* Draws a chord from a height down to a foot that it reaches. */
+void pf_sums_draw(pf_sums *sums, const pf_step *change, const pf_chord *chord, int64_t y,
+                  int64_t foot);
 /* Draws a line left of the crop, from height y to foot of the rows being made. */
-void pf_sums_draw_left(pf_sums *sums, int64_t y, int64_t foot, const pf_step *change);
-/* Adds what the pen has drawn in its pixel. */
-void pf_sums_lift(pf_sums *sums, const pf_pen *pen);
+void pf_sums_draw_left(pf_sums *sums, const pf_step *change, int64_t y, int64_t foot);
 /* The spans of a row of the crop, which is `made` of those that were made; it is forgotten. Rows
  * are read from the top. Returns how many they are. */
 size_t pf_sums_read(pf_sums *sums, uint32_t row, uint32_t made);
