@@ -23,6 +23,7 @@ struct planefile_drawer {
   const planefile_plane *plane;
   pf_scale scale;
   int64_t end;        /* the lowest height of the crop */
+  double above, beyond; /* in units: what ends above and begins beyond is not in the crop */
   uint32_t band, run; /* those before have begun */
   live *lives;
   size_t live_count, live_capacity;
@@ -216,7 +217,7 @@ static planefile_status add_live(planefile_drawer *d, const live *begun, uint32_
 /* The first border of a run that ends below a height; the last one does. */
 static uint32_t find_border(const planefile_drawer *d, const planefile_band *band, uint32_t border,
                             int64_t y) {
-  while (height_of(d, band->borders[border].foot) <= y)
+  while (band->borders[border].foot < d->above || height_of(d, band->borders[border].foot) <= y)
     border++;
   return border;
 }
@@ -225,7 +226,7 @@ static uint32_t find_border(const planefile_drawer *d, const planefile_band *ban
 static planefile_status begin_run(planefile_drawer *d, const pf_band *band, const pf_run *run,
                                   int64_t top) {
   int64_t foot = height_of(d, run->foot);
-  if (foot <= top || run->low * d->scale.x > ((double)d->sums.right + 1) * PF_HEIGHT)
+  if (foot <= top)
     return PLANEFILE_OK;
   live begun = {.band = &band->band, .border = find_border(d, &band->band, run->border, top)};
   begin_border(d, &begun, top);
@@ -248,9 +249,12 @@ static planefile_status begin_runs(planefile_drawer *d, int64_t top, int64_t foo
     if (height_of(d, band->band.foot) <= top)
       continue;
     for (; d->run < band->run_count && status == PLANEFILE_OK; d->run++) {
-      if (height_of(d, band->runs[d->run].top) >= foot)
+      const pf_run *run = &band->runs[d->run];
+      if (run->foot < d->above || run->low > d->beyond)
+        continue;
+      if (height_of(d, run->top) >= foot)
         return status;
-      status = begin_run(d, band, &band->runs[d->run], top);
+      status = begin_run(d, band, run, top);
     }
     if (status != PLANEFILE_OK || height_of(d, band->band.foot) > foot)
       return status;
@@ -330,6 +334,8 @@ planefile_status planefile_drawer_create(const planefile_plane *plane, const pla
   if (!d)
     return PLANEFILE_NO_MEMORY;
   *d = begun;
+  d->above = ((double)view->y - 1) * PF_HEIGHT / d->scale.y - 1;
+  d->beyond = ((double)view->x + view->columns + 1) * PF_HEIGHT / d->scale.x;
   if (!pf_sums_init(&d->sums, plane, view)) {
     planefile_drawer_destroy(d);
     return PLANEFILE_NO_MEMORY;

@@ -86,6 +86,7 @@ void planefile_srgb8(const planefile_plane *plane, planefile_cell colour, unsign
 }
 
 enum { BLOCK_PIXELS = 16, PIXEL = sizeof(pixel), BLOCK = BLOCK_PIXELS * PIXEL /* bytes */ };
+enum { BLOCKS = 16, LONG = BLOCKS * BLOCK };
 
 /* Blocks of a pixel, of which the last one may reach beyond a size. */
 static inline void fill_blocks(unsigned char *out, size_t size, pixel colour) {
@@ -98,19 +99,31 @@ static inline void fill_blocks(unsigned char *out, size_t size, pixel colour) {
   while ((at += BLOCK) < size);
 }
 
+/* Many pixels: what is there already is copied, by the C library, which has the widest registers.
+ */
+static void fill_long(unsigned char *out, size_t size, pixel colour) {
+  fill_blocks(out, LONG, colour);
+  for (size_t at = LONG, part; at < size; at += part) {
+    part = size - at < LONG ? size - at : LONG;
+    memcpy(out + at, out, part);
+  }
+}
+
 /* Single pixels and short spans are filled like long ones, with what the next spans replace: where
  * spans end cannot be predicted. */
 void planefile_span_pixels(const planefile_plane *plane, const planefile_span *spans, size_t count,
                            unsigned char *out) {
-  size_t all = count > 0 ? (size_t)PIXEL * spans[count - 1].end : 0, start = 0;
-  for (size_t i = 0; i < count; i++) {
-    size_t end = (size_t)PIXEL * spans[i].end, size = end - start;
+  size_t all = count > 0 ? (size_t)PIXEL * spans[count - 1].end : 0, start = 0, end;
+  for (size_t i = 0; i < count; i++, start = end) {
+    end = (size_t)PIXEL * spans[i].end;
+    size_t size = end - start;
     pixel colour = in_memory(pixel_of(plane, &spans[i].colour));
-    size_t whole = size + BLOCK <= all - start ? size : size & ~(size_t)(BLOCK - 1);
-    if (whole > 0)
-      fill_blocks(out + start, whole, colour);
-    for (size_t at = start + whole; at < end && whole < size; at += PIXEL)
-      memcpy(out + at, &colour, PIXEL);
-    start = end;
+    if (size >= LONG)
+      fill_long(out + start, size, colour);
+    else if (size + BLOCK <= all - start)
+      fill_blocks(out + start, size, colour);
+    else
+      for (size_t at = start; at < end; at += PIXEL)
+        memcpy(out + at, &colour, PIXEL);
   }
 }
