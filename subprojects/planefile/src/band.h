@@ -25,6 +25,7 @@
 #define PF_BAND_H
 
 #include "program.h"
+#include "slope.h"
 
 enum { PF_FRESH, PF_OLDER, PF_CANDIDATES, PF_SYMBOLS = 8, PF_SYMBOL_BITS = 3 };
 /* Forms of pieces: the degree, and this where they are rational. */
@@ -32,7 +33,9 @@ enum { PF_RATIONAL = 4 };
 
 typedef struct pf_models {
   pf_number start[2], pieces, moves[2][3][3], weight; /* moves: axis, degree, point */
-  pf_number channels[4], older, height, size, first, next;
+  pf_number channels[2][4], slope; /* channels: of cells that are not guessed, and that are */
+  pf_number older, height, size, first, next;
+  uint16_t guesses[4];
   uint16_t forms[8][8];                           /* after each */
   uint16_t cells[14][PF_SYMBOLS];                 /* pf_context */
   uint16_t origin[4], is_moved[2], is_patched[2]; /* of bands that are made from a base */

@@ -9,7 +9,14 @@
 typedef struct state {
   pf_sides sides;
   int32_t since; /* the height from which on it has them */
+  int32_t slope;
 } state;
+
+/* What happens to chains at one height. */
+typedef struct group {
+  uint32_t size, chains[PF_GROUP];
+  pf_sides before[PF_GROUP];
+} group;
 
 typedef struct unpacker {
   const pf_memory *memory;
@@ -155,17 +162,61 @@ static bool get_program(unpacker *u, uint32_t cell) {
   return cell == 0 ? refuse(u, "cell 0 varies") : !reason || refuse(u, reason);
 }
 
-/* The next cell: its channels differ from those of the flat one before. */
-static bool get_fresh(unpacker *u, uint32_t *out) {
+/* The next cell, of which nothing is known yet. */
+static bool add_cell(unpacker *u, uint32_t *out) {
   planefile_band *band = &u->out->band;
-  *out = band->cell_count;
   if (band->cell_count == u->cell_count)
     return refuse(u, "it has more cells than it claims");
-  planefile_cell *cell = &u->cells[band->cell_count++];
+  *out = band->cell_count++;
+  return true;
+}
+
+/* NULL: a cell has a program, or comes after the one that is being decoded. */
+static const planefile_cell *flat_cell(const unpacker *u, uint32_t cell, uint32_t latest) {
+  bool is_known = cell <= latest && !(u->coding && u->programs[cell].step_count > 0);
+  return is_known ? &u->cells[cell] : NULL;
+}
+
+/* What a member of a group knows of a cell. */
+static bool guess(const unpacker *u, const group *g, uint32_t member, uint32_t cell,
+                  planefile_cell *out) {
+  const state *s = &u->states[g->chains[member]];
+  const pf_sides *was = &g->before[member];
+  const pf_beside beside = {
+      {flat_cell(u, was->left, cell), flat_cell(u, was->right, cell)},
+      {flat_cell(u, s->sides.left, cell), flat_cell(u, s->sides.right, cell)},
+      s->slope};
+  return pf_guess(&beside, &u->cells[cell], out);
+}
+
+/* What the channels of a cell differ from. *guessed: whether that is a guess. */
+static bool get_origin(unpacker *u, const group *g, uint32_t cell, bool *guessed,
+                       planefile_cell *out) {
+  planefile_cell guesses[PF_GUESSES + 1] = {u->flat};
+  uint32_t count = 1, number = 0;
+  for (uint32_t i = 0; i < g->size && count <= PF_GUESSES; i++)
+    count += guess(u, g, i, cell, &guesses[count]);
+  if (count > 1)
+    number = pf_get_symbol(&u->decoder, u->models.guesses, 2);
+  if (number >= count)
+    return refuse(u, "there is no such guess");
+  *out = guesses[number];
+  *guessed = number > 0;
+  return true;
+}
+
+/* What a new cell is: a program, or channels that differ from those of the flat one before, or from
+ * a guess of the group in which it is new. */
+static bool get_content(unpacker *u, const group *g, uint32_t index) {
+  planefile_cell *cell = &u->cells[index], origin;
+  bool guessed;
   if (u->coding && pf_get_symbol(&u->decoder, u->coding->models.varies, 1))
-    return get_program(u, *out);
+    return get_program(u, index);
+  if (!get_origin(u, g, index, &guessed, &origin))
+    return false;
   for (int c = 0; c < 4; c++) {
-    int64_t channel = u->flat.colour[c] + pf_get_signed(&u->decoder, &u->models.channels[c]);
+    int64_t channel =
+        origin.colour[c] + pf_get_signed(&u->decoder, &u->models.channels[guessed][c]);
     if (channel < -PLANEFILE_BRIGHT || channel > PLANEFILE_BRIGHT)
       return refuse(u, "a colour is too bright");
     cell->colour[c] = (int32_t)channel;
@@ -174,11 +225,19 @@ static bool get_fresh(unpacker *u, uint32_t *out) {
   return true;
 }
 
+/* The cells that are new from one on. */
+static bool get_contents(unpacker *u, const group *g, uint32_t first) {
+  for (uint32_t i = first; i < u->out->band.cell_count; i++)
+    if (!get_content(u, g, i))
+      return false;
+  return true;
+}
+
 static bool get_cell(unpacker *u, const pf_near *near, unsigned context, uint32_t left,
                      uint32_t *out) {
   uint32_t symbol = pf_get_symbol(&u->decoder, u->models.cells[context], PF_SYMBOL_BITS);
   if (symbol == PF_FRESH)
-    return get_fresh(u, out);
+    return add_cell(u, out);
   *out = pf_candidate(near, context & 1, left, symbol);
   if (symbol == PF_OLDER) {
     uint32_t back = pf_get_number(&u->decoder, &u->models.older);
@@ -259,9 +318,15 @@ static int32_t foot_of(const unpacker *u, uint32_t chain) {
 static bool get_top(unpacker *u, uint32_t index, pf_sides own) {
   const pf_near near = {own, index > 1 ? u->states[index - 2].sides : (pf_sides){0, 0},
                         index > 0 ? u->states[index - 1].sides : (pf_sides){0, 0}};
+  const group none = {0};
+  uint32_t first = u->out->band.cell_count;
   state *s = &u->states[index];
   s->since = u->start.y > u->out->band.top ? u->start.y : u->out->band.top;
-  return get_sides(u, &near, PF_AT_TOP, &s->sides);
+  if (!get_sides(u, &near, PF_AT_TOP, &s->sides) || !get_contents(u, &none, first))
+    return false;
+  int64_t slope = pf_get_signed(&u->decoder, &u->models.slope);
+  s->slope = (int32_t)slope;
+  return (slope >= -PF_SLOPE && slope <= PF_SLOPE) || refuse(u, "there is no such slope");
 }
 
 static bool get_new_chain(unpacker *u, uint32_t index) {
@@ -332,7 +397,7 @@ static bool get_move(unpacker *u) {
 static bool keep_borders(unpacker *u, uint32_t index, uint32_t chain) {
   planefile_band *band = &u->out->band;
   planefile_border moved;
-  u->states[index] = (state){{0, 0}, INT32_MAX};
+  u->states[index] = (state){{0, 0}, INT32_MAX, 0};
   for (uint32_t i = u->base->first[chain]; i < u->base->first[chain + 1]; i++) {
     if (!pf_move_border(&u->base->band->borders[i], u->move.y, band, &moved))
       continue;
@@ -371,12 +436,6 @@ static bool get_chain(unpacker *u, uint32_t index) {
 
 /* ---------------------------------------------------------------- changes */
 
-/* What happens to chains at one height. */
-typedef struct group {
-  uint32_t size, chains[PF_GROUP];
-  pf_sides before[PF_GROUP];
-} group;
-
 static bool get_members(unpacker *u, int32_t height, uint32_t *first, group *g) {
   for (uint32_t i = 0; i < g->size; i++) {
     pf_number *model = i == 0 ? &u->models.first : &u->models.next;
@@ -393,6 +452,7 @@ static bool get_members(unpacker *u, int32_t height, uint32_t *first, group *g) 
 }
 
 static bool apply(unpacker *u, const group *g, int32_t height, pf_sides *latest) {
+  uint32_t first = u->out->band.cell_count;
   for (uint32_t i = 0; i < g->size; i++) {
     const pf_near near = {g->before[i], g->before[pf_other(g->size, i)], *latest};
     state *s = &u->states[g->chains[i]];
@@ -404,7 +464,7 @@ static bool apply(unpacker *u, const group *g, int32_t height, pf_sides *latest)
     s->since = height;
     *latest = s->sides;
   }
-  return true;
+  return get_contents(u, g, first);
 }
 
 static bool get_changes(unpacker *u) {
@@ -554,8 +614,10 @@ static bool get_patches(unpacker *u) {
 
 /* The cells from which it begins. */
 static bool get_beginning(unpacker *u) {
+  const group none = {0};
   uint32_t cell;
-  return u->base ? take_base(u) && get_patches(u) : get_fresh(u, &cell);
+  return u->base ? take_base(u) && get_patches(u)
+                 : add_cell(u, &cell) && get_content(u, &none, cell);
 }
 
 /* False without a reason: no memory. */
