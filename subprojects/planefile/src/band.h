@@ -24,6 +24,7 @@
 #ifndef PF_BAND_H
 #define PF_BAND_H
 
+#include "codes.h"
 #include "program.h"
 #include "slope.h"
 
@@ -142,6 +143,19 @@ static inline bool pf_move_border(const planefile_border *border, int32_t by,
   return out->top < out->foot;
 }
 
+/* Whether the sums of borders remain exact (sums.h): what they change, in each channel, is together
+ * less than 2^36. */
+static inline bool pf_is_moderate(const planefile_cell *cells, const planefile_border *borders,
+                                  size_t count) {
+  int64_t sums[4] = {0};
+  for (size_t i = 0; i < count; i++)
+    for (int c = 0; c < 4; c++) {
+      int64_t way = (int64_t)cells[borders[i].right].colour[c] - cells[borders[i].left].colour[c];
+      sums[c] += way < 0 ? -way : way;
+    }
+  return (sums[0] | sums[1] | sums[2] | sums[3]) >> 36 == 0;
+}
+
 /* Whether alpha is 1 in all cells. */
 static inline bool pf_band_is_opaque(const planefile_band *band) {
   bool is_opaque = true;
@@ -162,7 +176,8 @@ typedef struct pf_payload {
   const unsigned char *bytes;
   size_t size;
   bool varies;
-  const pf_base *base; /* NULL: it has none */
+  const pf_codes *codes; /* NULL: cells are not codes */
+  const pf_base *base;   /* NULL: it has none */
 } pf_payload;
 /* Decodes a band. out: empty; must be freed whatever happens. reason: set where the status is not
  * OK. */
@@ -176,8 +191,9 @@ typedef struct pf_part {
   const planefile_border *borders; /* all that have a part there; no two of one chain overlap */
   size_t count;
   int32_t top, foot;
-  bool is_whole;       /* pieces of which nothing can be seen are kept, for other frames */
-  const pf_base *base; /* NULL: none */
+  bool is_whole;         /* pieces of which nothing can be seen are kept, for other frames */
+  const pf_base *base;   /* NULL: none */
+  const pf_codes *codes; /* NULL: cells are not codes; otherwise all flat ones are rounded */
 } pf_part;
 /* The payload is in the encoder's bytes. */
 planefile_status pf_band_encode(const pf_memory *memory, const pf_part *part, pf_encoder *out);

@@ -4,7 +4,7 @@
 
 #define SAG (0.012 * PF_HEIGHT)       /* of a chord: twice that of the area it must make up for */
 #define ONE_CHORD (0.004 * PF_HEIGHT) /* less is not made up for */
-#define LEAD 0.29289321881345254 /* 1 - 1 / sqrt(2) */
+#define LEAD 0.29289321881345254      /* 1 - 1 / sqrt(2) */
 #define CHORDS_MOST 268435456.0
 #define SAMPLES 12
 #define MARGIN 1.25 /* between samples */
@@ -19,8 +19,7 @@ static inline double value_of(const double c[4], double t) {
 }
 
 static jet jet_of(const double c[4], double t) {
-  return (jet){value_of(c, t), (3 * c[3] * t + 2 * c[2]) * t + c[1],
-               6 * c[3] * t + 2 * c[2]};
+  return (jet){value_of(c, t), (3 * c[3] * t + 2 * c[2]) * t + c[1], 6 * c[3] * t + 2 * c[2]};
 }
 
 static jet divide(jet a, jet w) {

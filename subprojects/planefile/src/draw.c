@@ -22,9 +22,9 @@ typedef struct live {
 struct planefile_drawer {
   const planefile_plane *plane;
   pf_scale scale;
-  int64_t end;        /* the lowest height of the crop */
+  int64_t end;          /* the lowest height of the crop */
   double above, beyond; /* in units: what ends above and begins beyond is not in the crop */
-  uint32_t band, run; /* those before have begun */
+  uint32_t band, run;   /* those before have begun */
   live *lives;
   size_t live_count, live_capacity;
   uint32_t made, next; /* rows: begun so far, given so far */
@@ -230,8 +230,7 @@ static planefile_status begin_run(planefile_drawer *d, const pf_band *band, cons
     return PLANEFILE_OK;
   live begun = {.band = &band->band, .border = find_border(d, &band->band, run->border, top)};
   begin_border(d, &begun, top);
-  uint32_t piece =
-      find_piece(d, begun.band, chain_of(&begun), chain_of(&begun)->piece, begun.y);
+  uint32_t piece = find_piece(d, begun.band, chain_of(&begun), chain_of(&begun)->piece, begun.y);
   int side = side_of(d, begun.band, piece, foot);
   bool is_long = begun.y == (int64_t)d->sums.view.y * PF_HEIGHT && begun.foot >= d->end;
   if (side == 0 || (side < 0 && !is_long))

@@ -17,7 +17,7 @@ typedef struct shown {
   pf_sides sides;
   int32_t top, foot; /* of what is kept of it */
   int32_t slope;
-  bool is_whole;     /* no piece is left out */
+  bool is_whole; /* no piece is left out */
   pf_link link;
 } shown;
 
@@ -301,9 +301,15 @@ static void put_content(packer *p, const group *g, uint32_t cell) {
     }
   }
   bool guessed = put_origin(p, g, cell, &origin);
+  int32_t from[4], to[4];
+  memcpy(from, origin.colour, sizeof from);
+  memcpy(to, of->colour, sizeof to);
+  if (p->part->codes) {
+    pf_codes_of(p->part->codes, &origin, from);
+    pf_codes_of(p->part->codes, of, to);
+  }
   for (int c = 0; c < 4; c++)
-    pf_put_signed(p->out, &p->models.channels[guessed][c],
-                  (int64_t)of->colour[c] - origin.colour[c]);
+    pf_put_signed(p->out, &p->models.channels[guessed][c], (int64_t)to[c] - from[c]);
   p->colour = *of;
 }
 

@@ -1,39 +1,11 @@
 /* Colours in linear light to 8-bit sRGB codes. */
 #include "plane.h"
 
-static double power(double x, int exponent) {
-  double out = 1;
-  for (int i = 0; i < exponent; i++)
-    out *= x;
-  return out;
-}
-
-/* Whether linear light is at or above that of code k - 1/2: of x >= b^2.4 both sides are raised to
- * the fifth power, so that products decide, which are the same everywhere. */
-static bool is_reached(double linear, int k) {
-  double code = (k - 0.5) / 255;
-  return code <= 0.04045 ? linear >= code / 12.92
-                         : power(linear, 5) >= power((code + 0.055) / 1.055, 12);
-}
-
-/* The least light that has a code, or a greater one, in units. */
-static int find_least(int code) {
-  int low = 0, high = PLANEFILE_WHITE;
-  while (low < high) {
-    int middle = (low + high) / 2;
-    if (is_reached((double)middle / PLANEFILE_WHITE, code))
-      high = middle;
-    else
-      low = middle + 1;
-  }
-  return low;
-}
-
-void pf_codes_make(unsigned char codes[PLANEFILE_WHITE + 1]) {
-  for (int code = 0, at = 0; code < 256; code++) {
-    int end = code < 255 ? find_least(code + 1) : PLANEFILE_WHITE + 1;
-    memset(codes + at, code, (size_t)(end - at));
-    at = end;
+void pf_pixels_make(const pf_codes *codes, unsigned char out[PLANEFILE_WHITE + 1]) {
+  for (int code = 0; code < 256; code++) {
+    int32_t at = codes->least[code],
+            end = code < 255 ? codes->least[code + 1] : PLANEFILE_WHITE + 1;
+    memset(out + at, code, (size_t)(end - at));
   }
 }
 

@@ -10,7 +10,7 @@ static int32_t guess_channel(int64_t way, int64_t from, int64_t slope, bool is_i
   int64_t move = is_inverse ? divide(way * PF_SLOPE + slope / 2, slope)
                             : divide(way * slope + PF_SLOPE / 2, PF_SLOPE);
   int64_t to = from + move;
-  return (int32_t)(to < -PLANEFILE_BRIGHT ? -PLANEFILE_BRIGHT
+  return (int32_t)(to < -PLANEFILE_BRIGHT  ? -PLANEFILE_BRIGHT
                    : to > PLANEFILE_BRIGHT ? PLANEFILE_BRIGHT
                                            : to);
 }

@@ -3,7 +3,7 @@
 #include <math.h>
 
 enum { ROOM = 1 << 20 /* bytes of slots, about */ };
-#define UPRIGHT 1e-9 /* what is not more slanted, as dx / dy, is in one column */
+#define UPRIGHT 1e-9         /* what is not more slanted, as dx / dy, is in one column */
 #define PIXEL INT64_C(65536) /* PF_HEIGHTths of a pixel across, too */
 /* 1.5 * 2^52 * PF_HEIGHT: a sum plus it has a whole number of PF_HEIGHTs, and that in its last bits.
  */
@@ -95,10 +95,10 @@ static void add_part(pf_sums *s, const pf_step *change, part p) {
 void pf_sums_draw_left(pf_sums *s, const pf_step *change, int64_t y, int64_t foot) {
   uint32_t first = (uint32_t)(y / PIXEL), last = (uint32_t)(foot / PIXEL);
   int64_t above = y % PIXEL, below = foot % PIXEL;
-  add(s->leads[first].colour, change, (double)(PIXEL - above));
-  add(s->leads[first + 1].colour, change, (double)above);
-  add(s->leads[last].colour, change, (double)(below - PIXEL));
-  add(s->leads[last + 1].colour, change, (double)-below);
+  const uint32_t rows[4] = {first, first + 1, last, last + 1};
+  const int64_t shares[4] = {PIXEL - above, above, below - PIXEL, -below};
+  for (int i = 0; i < 4; i++)
+    add(s->leads[rows[i]].colour, change, (double)shares[i]);
   for (uint32_t row = first; varies(change) && row <= last && row < s->rows; row++) {
     int64_t height = (row == last ? below : PIXEL) - (row == first ? above : 0);
     add_varied(s, change, &(part){row, 0, height, height});
@@ -264,7 +264,8 @@ typedef struct reading {
 static inline void put_span(reading *r, uint32_t end, const double sums[4]) {
   planefile_span *spans = r->sums->spans;
   planefile_cell colour = colour_of(sums);
-  size_t at = r->count > 0 && is_same(&spans[r->count - 1].colour, &colour) ? r->count - 1 : r->count;
+  size_t at =
+      r->count > 0 && is_same(&spans[r->count - 1].colour, &colour) ? r->count - 1 : r->count;
   spans[at] = (planefile_span){end, colour};
   r->count = at + 1;
   r->end = end;

@@ -9,9 +9,9 @@
  *
  * Left of the crop a border changes all pixels of its rows.
  *
- * INVARIANT: sums are whole numbers, which do not depend on any order, as long as they are less
- * than 2^53: of colours up to 1, those of a million borders in a row. What is added is a function
- * of the chord, the row and the column alone: a crop has the pixels of the whole.
+ * INVARIANT: sums are whole numbers below 2^53, because the borders of a band change each channel
+ * by less than 2^36 together, so they do not depend on any order. What is added is a function of
+ * the chord, the row and the column alone: a crop has the pixels of the whole.
  */
 #ifndef PF_SUMS_H
 #define PF_SUMS_H
@@ -38,12 +38,12 @@ typedef struct pf_lead {
 typedef struct pf_sums {
   const planefile_plane *plane;
   planefile_view view;
-  int64_t left, right; /* the columns of the crop in the frame */
-  int64_t top;         /* of the rows being made */
-  uint32_t rows;       /* that are made at once, at most */
-  size_t words;        /* of the bits of a row */
-  pf_slot *slots;      /* of each row a slot for each column, */
-  uint64_t *bits;      /* and a bit: something is in it */
+  int64_t left, right;        /* the columns of the crop in the frame */
+  int64_t top;                /* of the rows being made */
+  uint32_t rows;              /* that are made at once, at most */
+  size_t words;               /* of the bits of a row */
+  pf_slot *slots;             /* of each row a slot for each column, */
+  uint64_t *bits;             /* and a bit: something is in it */
   pf_lead leads[PF_ROWS + 2]; /* by what rows differ, left of the crop, from those before them */
   pf_lead lead;               /* of the latest row that was read */
   pf_lead start;              /* of every row: cell 0, and borders that are left of all rows */

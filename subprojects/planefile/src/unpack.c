@@ -23,7 +23,8 @@ typedef struct unpacker {
   pf_decoder decoder;
   pf_models models;
   pf_band *out;
-  const pf_base *base; /* NULL: there is none */
+  const pf_base *base;   /* NULL: there is none */
+  const pf_codes *codes; /* NULL: cells are not codes */
   planefile_point *points;
   planefile_piece *pieces;
   planefile_chain *chains;
@@ -182,10 +183,9 @@ static bool guess(const unpacker *u, const group *g, uint32_t member, uint32_t c
                   planefile_cell *out) {
   const state *s = &u->states[g->chains[member]];
   const pf_sides *was = &g->before[member];
-  const pf_beside beside = {
-      {flat_cell(u, was->left, cell), flat_cell(u, was->right, cell)},
-      {flat_cell(u, s->sides.left, cell), flat_cell(u, s->sides.right, cell)},
-      s->slope};
+  const pf_beside beside = {{flat_cell(u, was->left, cell), flat_cell(u, was->right, cell)},
+                            {flat_cell(u, s->sides.left, cell), flat_cell(u, s->sides.right, cell)},
+                            s->slope};
   return pf_guess(&beside, &u->cells[cell], out);
 }
 
@@ -205,23 +205,42 @@ static bool get_origin(unpacker *u, const group *g, uint32_t cell, bool *guessed
   return true;
 }
 
-/* What a new cell is: a program, or channels that differ from those of the flat one before, or from
- * a guess of the group in which it is new. */
-static bool get_content(unpacker *u, const group *g, uint32_t index) {
-  planefile_cell *cell = &u->cells[index], origin;
-  bool guessed;
-  if (u->coding && pf_get_symbol(&u->decoder, u->coding->models.varies, 1))
-    return get_program(u, index);
-  if (!get_origin(u, g, index, &guessed, &origin))
-    return false;
+static bool get_channels(unpacker *u, pf_number channels[4], planefile_cell *cell) {
   for (int c = 0; c < 4; c++) {
-    int64_t channel =
-        origin.colour[c] + pf_get_signed(&u->decoder, &u->models.channels[guessed][c]);
+    int64_t channel = cell->colour[c] + pf_get_signed(&u->decoder, &channels[c]);
     if (channel < -PLANEFILE_BRIGHT || channel > PLANEFILE_BRIGHT)
       return refuse(u, "a colour is too bright");
     cell->colour[c] = (int32_t)channel;
   }
-  u->flat = *cell;
+  return true;
+}
+
+static bool get_codes(unpacker *u, pf_number channels[4], planefile_cell *cell) {
+  int32_t straight[4];
+  pf_codes_of(u->codes, cell, straight);
+  for (int c = 0; c < 4; c++) {
+    int64_t code = straight[c] + pf_get_signed(&u->decoder, &channels[c]);
+    if (code < 0 || code > 255)
+      return refuse(u, "there is no such code");
+    straight[c] = (int32_t)code;
+  }
+  *cell = pf_codes_cell(u->codes, straight);
+  return true;
+}
+
+/* What a new cell is: a program, or channels that differ from those of the flat one before, or from
+ * a guess of the group in which it is new. */
+static bool get_content(unpacker *u, const group *g, uint32_t index) {
+  planefile_cell cell;
+  bool guessed;
+  if (u->coding && pf_get_symbol(&u->decoder, u->coding->models.varies, 1))
+    return get_program(u, index);
+  if (!get_origin(u, g, index, &guessed, &cell))
+    return false;
+  pf_number *channels = u->models.channels[guessed];
+  if (u->codes ? !get_codes(u, channels, &cell) : !get_channels(u, channels, &cell))
+    return false;
+  u->cells[index] = u->flat = cell;
   return true;
 }
 
@@ -524,7 +543,8 @@ static void find_runs(pf_band *out, pf_run *runs) {
   const planefile_band *band = &out->band;
   for (uint32_t i = 0, end; i < band->border_count; i = end) {
     pf_run *run = &runs[out->run_count++];
-    for (end = i + 1; end < band->border_count && band->borders[end].chain == band->borders[i].chain;)
+    for (end = i + 1;
+         end < band->border_count && band->borders[end].chain == band->borders[i].chain;)
       end++;
     *run = (pf_run){.top = band->borders[i].top, .foot = band->borders[end - 1].foot, .border = i};
     find_sides(band, &band->chains[band->borders[i].chain], run);
@@ -579,7 +599,8 @@ static bool check_end(unpacker *u) {
       band->border_count != u->border_count || band->step_count != u->room.step_count ||
       band->axis_count != u->room.axis_count || band->stop_count != u->room.stop_count)
     return refuse(u, "it has less than it claims");
-  return true;
+  return pf_is_moderate(u->cells, u->borders, u->border_count) ||
+         refuse(u, "its borders are too bright together");
 }
 
 /* What the band has from its base from the beginning: cells with all that belongs to them. */
@@ -625,6 +646,7 @@ static bool unpack(unpacker *u, const pf_payload *payload) {
   bool varies = payload->varies;
   size_t head = pf_band_head(varies);
   u->base = payload->base;
+  u->codes = payload->codes;
   if (payload->size < head)
     return refuse(u, "it is too short");
   size_t code = payload->size - head, paid = code + (u->base ? u->base->code : 0);
