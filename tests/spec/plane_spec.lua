@@ -53,7 +53,9 @@ end
 local function shades()
   local strips = {}
   for i = 0, 1999 do
-    strips[i + 1] = celspan.rect { 0, 0, 160 - i * 0.08, 90, texture = celspan.rgb(i / 2000, i / 2000, i / 2000) }
+    local grey = i / 2000
+    strips[i + 1] = celspan.rect {
+      0, 0, 160 - i * 0.08, 90, texture = celspan.rgb(grey, grey, grey) }
   end
   return celspan.rostrum { celspan.cel(strips) }
 end

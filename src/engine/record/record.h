@@ -23,8 +23,8 @@
 CELSPAN_CHECKED celspan_status cs_record_begin_sum(celspan_context *context, cs_recording *out);
 /* Adds a plan of SIDE x SIDE pixels that keeps its curves, with all its colours times a weight.
  * rounding: borrowed; colours are rounded to 8-bit codes, and what has one colour then is one cell;
- * NULL: they are not. out: empty, or a sum; must be finished whatever happens. Errors: NO_MEMORY; BAD_ARGUMENT for what
- * a plane cannot keep (programs.h); LIMIT. */
+ * NULL: they are not. out: empty, or a sum; must be finished whatever happens. Errors: NO_MEMORY;
+ * BAD_ARGUMENT for what a plane cannot keep (programs.h); LIMIT. */
 CELSPAN_CHECKED celspan_status cs_record_put_plan(celspan_context *context, const cs_plan *plan,
                                                   float weight, const planefile_rounding *rounding,
                                                   cs_recording *out);

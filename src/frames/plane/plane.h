@@ -14,8 +14,8 @@ bool cs_plane_is_wanted(const char *path, const char *format);
 static inline int32_t cs_plane_depth(celspan_depth depth) {
   return depth == CELSPAN_DEPTH_8 ? 8 : 16;
 }
-/* Writes a frame as a plane file of a depth, 8 or 16: its film, of which size, crop and antialiasing
- * say nothing. Errors: those of making and of writing a plane. */
+/* Writes a frame as a plane file of a depth, 8 or 16: its film, of which size, crop and
+ * antialiasing say nothing. Errors: those of making and of writing a plane. */
 CELSPAN_CHECKED celspan_status cs_plane_write_frame(celspan_context *context,
                                                     const celspan_frame_desc *frame,
                                                     const char *path, int32_t depth);

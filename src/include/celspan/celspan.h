@@ -1762,9 +1762,9 @@ static inline celspan_plane_desc celspan_plane_desc_default(void) {
 #define CELSPAN_PLANE_DESC (celspan_plane_desc_default())
 
 /* rostrum: borrowed; its antialiasing does not count      desc: borrowed      out: new
- * Errors: those of rendering; BAD_ARGUMENT for a depth, and for what a plane cannot keep: visible pictures,
- * scan-line procedures, blurred objects, and gradients over each other under a mode, a matte, a
- * grade, a light with a shape or a coloured medium. */
+ * Errors: those of rendering; BAD_ARGUMENT for a depth that is not allowed, and for what a plane
+ * cannot keep: visible pictures, scan-line procedures, blurred objects, and gradients over each
+ * other under a mode, a matte, a grade, a light with a shape or a coloured medium. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_create(celspan_context *context,
                                                                 const celspan_rostrum *rostrum,
                                                                 const celspan_plane_desc *desc,

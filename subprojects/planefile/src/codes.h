@@ -10,7 +10,7 @@
 #include "layout.h"
 
 typedef struct pf_codes {
-  int32_t least[257]; /* the least light that has a code, or a greater one; the last is none */
+  int32_t least[257]; /* the least light that has a code or a greater one; 256 is never reached */
   int32_t light[256];
 } pf_codes;
 

@@ -71,7 +71,7 @@ static inline void fill_blocks(unsigned char *out, size_t size, pixel colour) {
   while ((at += BLOCK) < size);
 }
 
-/* Many pixels: what is there already is copied, by the C library, which has the widest registers.
+/* Many pixels: the first ones are copied, by the C library, which has the widest registers.
  */
 static void fill_long(unsigned char *out, size_t size, pixel colour) {
   fill_blocks(out, LONG, colour);

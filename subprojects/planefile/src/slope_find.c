@@ -38,7 +38,7 @@ static int32_t propose(const pf_beside *change) {
                        : -(int32_t)((left * PF_SLOPE + right / 2) / right);
 }
 
-/* The bits by which a guess of a change is nearer than what was there before. */
+/* The bits by which a guess of a change is nearer than the cell before. */
 static int find_gain(const pf_beside *change, int32_t slope) {
   pf_beside trial = *change;
   planefile_cell guess;

@@ -5,8 +5,7 @@
 enum { ROOM = 1 << 20 /* bytes of slots, about */ };
 #define UPRIGHT 1e-9         /* what is not more slanted, as dx / dy, is in one column */
 #define PIXEL INT64_C(65536) /* PF_HEIGHTths of a pixel across, too */
-/* 1.5 * 2^52 * PF_HEIGHT: a sum plus it has a whole number of PF_HEIGHTs, and that in its last bits.
- */
+/* 1.5 * 2^52 * PF_HEIGHT: a sum plus it is a whole number of PF_HEIGHTs: its last bits. */
 #define ROUNDING 442721857769029238784.0
 
 /* ---------------------------------------------------------------- life */
@@ -295,7 +294,7 @@ static inline void put_part(reading *r, uint32_t end, const double sums[4]) {
     put_span(r, end, sums);
 }
 
-/* Puts a column to which something was added, and what is before it; forgets what was added. */
+/* Puts a column to which something was added, and the pixels before it; forgets what was added. */
 static inline void put_column(reading *r, uint32_t made, uint32_t column, double total[4]) {
   pf_sums *s = r->sums;
   pf_slot *slot = &s->slots[(size_t)made * s->view.columns + column];

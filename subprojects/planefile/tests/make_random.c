@@ -1,7 +1,7 @@
 /* Writes random planes: `make_random FOLDER COUNT COLUMNS ROWS` makes 0.plane, 0.pixels, ... there,
  * to compare decoders with: the channels of the pixels as 32-bit integers; 0.codes, ..., the same
- * as 8-bit codes; and film.plane, whose frames are all of these planes. With one more argument cells
- * are 8-bit codes. Without a size the plane
+ * as 8-bit codes; and film.plane, whose frames are all of these planes. With one more argument
+ * cells are 8-bit codes. Without a size the plane
  * files alone, and some films, beginning with a byte of 0 to 3, like the fuzzer's inputs. */
 #include "support.h"
 

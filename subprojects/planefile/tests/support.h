@@ -275,7 +275,9 @@ static inline void add_glass(drawing *d, random_state *random, bool is_opaque) {
   enum { CUTS = 6 };
   int32_t start = random_between(random, 1 << 20, 1 << 25);
   const int32_t heights[4] = {start, start + (1 << 23), start + (1 << 24), 1 << 26};
-  uint32_t chains[2] = {add_chain(d, random, heights, 4), add_chain(d, random, heights, 4)};
+  uint32_t chains[2];
+  chains[0] = add_chain(d, random, heights, 4);
+  chains[1] = add_chain(d, random, heights, 4);
   planefile_cell colour = random_colour(random, is_opaque);
   int slope = random_between(random, 20, 90);
   for (int i = 0; i < CUTS; i++) {
