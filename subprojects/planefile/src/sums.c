@@ -8,6 +8,13 @@ enum { ROOM = 1 << 20 /* bytes of slots, about */ };
 /* 1.5 * 2^52 * PF_HEIGHT: a sum plus it is a whole number of PF_HEIGHTs: its last bits. */
 #define ROUNDING 442721857769029238784.0
 
+/* The next loop has no jumps even where all else is compiled to be small: it becomes vectors. */
+#if defined(__clang__)
+#define UNROLLED _Pragma("clang loop unroll(full)")
+#else
+#define UNROLLED
+#endif
+
 /* ---------------------------------------------------------------- life */
 
 bool pf_sums_init(pf_sums *s, const planefile_plane *plane, const planefile_view *view) {
@@ -37,6 +44,7 @@ void pf_sums_finish(pf_sums *s) {
 
 static inline void add(double sums[4], const pf_step *change, double share) {
   double out[4]; /* so that nothing is stored before all is loaded */
+  UNROLLED
   for (int c = 0; c < 4; c++)
     out[c] = sums[c] + change->colour[c] * share;
   memcpy(sums, out, sizeof out);
@@ -240,6 +248,7 @@ static inline uint32_t lowest_bit(uint64_t bits) {
 /* The colour of a sum: to the nearest, whatever it is. */
 static inline planefile_cell colour_of(const double sums[4]) {
   planefile_cell out;
+  UNROLLED
   for (int c = 0; c < 4; c++) {
     double rounded = sums[c] + ROUNDING;
     uint64_t bits;
@@ -302,8 +311,10 @@ static inline void put_column(reading *r, uint32_t made, uint32_t column, double
   put_part(r, column, total);
   if (s->plane->info.varies)
     pf_varied_take(&s->varied, made, column);
+  UNROLLED
   for (int c = 0; c < 4; c++)
     sums[c] = total[c] + slot->area[c];
+  UNROLLED
   for (int c = 0; c < 4; c++)
     total[c] += slot->height[c];
   *slot = (pf_slot){{0}, {0}};
@@ -315,6 +326,7 @@ size_t pf_sums_read(pf_sums *s, uint32_t row, uint32_t made) {
   double total[4];
   if (s->plane->info.varies)
     pf_varied_begin_row(&s->varied);
+  UNROLLED
   for (int c = 0; c < 4; c++)
     total[c] = s->lead.colour[c] += s->leads[made].colour[c];
   for (size_t word = 0; word < s->words; word++) {
