@@ -1061,6 +1061,7 @@ function plane:frame(number) end
 function plane:write(path) end
 
 ---@class celspan.plane.options
+---@field depth? 8|16 Bits of colours: 8, a smaller file, or 16; default 16
 ---@field film? number[] {w, h}; in film units; default that of the film, else {1920, 1080}
 ---@field frame? integer Of a film; default its first
 

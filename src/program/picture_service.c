@@ -431,7 +431,8 @@ static int write_frame(lua_State *L) {
   celspan_file_desc file = cs_target_file(session->request);
   const char *path = luaL_checkstring(L, 2);
   cs_service_try(L, cs_plane_is_wanted(path, file.format)
-                        ? cs_plane_write_frame(session->context, &desc, path)
+                        ? cs_plane_write_frame(session->context, &desc, path,
+                                               cs_plane_depth(file.coding.depth))
                         : celspan_frame_write(session->context, &desc, path, &file, NULL));
   return 0;
 }

@@ -388,8 +388,12 @@ static cs_exit refuse_early(celspan_context *context, const cs_request *request)
 
 static cs_exit open_plane(render_job *job) {
   const cs_film_info *film = &job->script->film;
-  const cs_plane_film_desc desc = {
-      .width = film->width, .height = film->height, .frames_second = film->frames_second};
+  celspan_depth depth = CELSPAN_DEPTH_DEFAULT;
+  cs_request_read(job->request, "--depth", &depth);
+  const cs_plane_film_desc desc = {.width = film->width,
+                                   .height = film->height,
+                                   .frames_second = film->frames_second,
+                                   .depth = cs_plane_depth(depth)};
   celspan_context *context = job->script->context;
   return cs_report_failure(context, cs_plane_film_create(context, job->output, &desc, &job->plane),
                            NULL);

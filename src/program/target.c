@@ -41,14 +41,18 @@ static cs_exit refuse_file(celspan_context *context, const char *path, const cs_
 
 /* A plane has no pixels. */
 static cs_exit refuse_plane(const char *path, const cs_request *request) {
-  static const char *const options[] = {
-      "--size",   "--scale", "--crop",  "--strip",     "--depth",     "--colour", "--alpha",
-      "--dither", "--hash",  "--draft", "--antialias", "--no-dither", "--quality"};
+  static const char *const options[] = {"--size",   "--scale",     "--crop",      "--strip",
+                                        "--colour", "--alpha",     "--dither",    "--hash",
+                                        "--draft",  "--antialias", "--no-dither", "--quality"};
+  celspan_depth depth = CELSPAN_DEPTH_DEFAULT;
   for (size_t i = 0; i < sizeof options / sizeof *options; i++)
     if (cs_request_has(request, options[i]))
       return cs_report_usage("%s: a plane has no pixels: give %s where it is drawn, such as "
                              "'celspan convert x.plane x.png'",
                              path, options[i]);
+  cs_request_read(request, "--depth", &depth);
+  if (depth == CELSPAN_DEPTH_HALF || depth == CELSPAN_DEPTH_FLOAT)
+    return cs_report_usage("%s: a plane takes --depth 8 or 16", path);
   return CS_EXIT_OK;
 }
 

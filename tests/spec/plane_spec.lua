@@ -49,6 +49,57 @@ local function disc(x)
     celspan.circle { centre = { x, 45 }, radius = 30, texture = "#f26419" } } }
 end
 
+-- Two thousand shades of grey, which are 256 codes.
+local function shades()
+  local strips = {}
+  for i = 0, 1999 do
+    local grey = i / 2000
+    strips[i + 1] = celspan.rect {
+      0, 0, 160 - i * 0.08, 90, texture = celspan.rgb(grey, grey, grey) }
+  end
+  return celspan.rostrum { celspan.cel(strips) }
+end
+
+describe("8-bit colours of a plane", function()
+  it("are codes, and what is equal is one", function()
+    local film, view = { 160, 90 }, { size = { 320, 180 } }
+    local fine = assert(celspan.plane(shades(), { film = film }))
+    local coarse = assert(celspan.plane(shades(), { film = film, depth = 8 }))
+    assert.is_true(coarse.bytes * 4 < fine.bytes)
+    local a, b = assert(fine:pixels(view)), assert(coarse:pixels(view))
+    local function code(light)
+      return light <= 0.0031308 and light * 12.92 or 1.055 * light ^ (1 / 2.4) - 0.055
+    end
+    for x = 0, 319 do
+      local one, other = a:get(x, 50), b:get(x, 50)
+      assert.is_true(math.abs(code(one) - code(other)) <= 1 / 255)
+    end
+  end)
+
+  it("are chosen for files and films, by 8 or 16", function()
+    done "render film.lua -o sixteen.plane --depth 16"
+    done "render film.lua -o plain.plane"
+    done "render film.lua -o eight.plane --depth 8"
+    done "render film.lua -o eight.###.plane --depth 8"
+    assert.equal(bench:read "plain.plane", bench:read "sixteen.plane")
+    assert.equal(8, bench:read("eight.001.plane"):byte(13) & 8)
+    local difference = done "compare eight.plane sixteen.plane --size 160x90 || true"
+    assert.is_string(difference)
+    refused(2, "a plane takes --depth 8 or 16", "render film.lua -o x.plane --depth half")
+    assert.has_error(function() celspan.plane(disc(80), { depth = "half" }) end,
+      "plane: field 'depth' must be 8 or 16")
+  end)
+
+  it("are not those of a sum", function()
+    local film = celspan.film { size = { 160, 90 }, frames = 1, frame = function()
+      return { { disc(70), 0.5 }, { disc(80), 0.5 } }
+    end }
+    local plane, message = celspan.plane(film, { depth = 8 })
+    assert.is_nil(plane)
+    assert.matches("a frame of 2 exposures is their sum", message, 1, true)
+  end)
+end)
+
 describe("a plane in Lua", function()
   it("is drawn as the rostrum is", function()
     local plane = assert(celspan.plane(disc(80), { film = { 160, 90 } }))
@@ -229,7 +280,7 @@ describe("a plane on the command line", function()
   end)
 
   it("is not made where options ask for pixels", function()
-    for _, option in ipairs { "--size 9x9", "--crop 0,0,9,9", "--depth 16", "--hash", "--draft" } do
+    for _, option in ipairs { "--size 9x9", "--crop 0,0,9,9", "--hash", "--draft" } do
       refused(2, "a plane has no pixels", "render film.lua --frames 1 -o a.plane " .. option)
     end
     refused(3, "a blurred object is in view", "render blurred.lua -o a.plane")

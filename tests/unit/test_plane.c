@@ -114,9 +114,18 @@ static celspan_rostrum *random_rostrum(studio *s, uint64_t seed, variety kind) {
   return studio_rostrum(s, desc, cels, count);
 }
 
+static celspan_plane_desc desc_of(int32_t depth) {
+  celspan_plane_desc desc = CELSPAN_PLANE_DESC;
+  desc.width = WIDTH;
+  desc.height = HEIGHT;
+  desc.depth = depth;
+  return desc;
+}
+
 static celspan_plane *make_plane(studio *s, const celspan_rostrum *rostrum) {
+  const celspan_plane_desc desc = desc_of(0);
   celspan_plane *plane = NULL;
-  studio_check(s, celspan_plane_create(s->context, rostrum, WIDTH, HEIGHT, &plane));
+  studio_check(s, celspan_plane_create(s->context, rostrum, &desc, &plane));
   return plane;
 }
 
@@ -289,8 +298,9 @@ static void check_files(studio *s) {
 /* ---------------------------------------------------------------- what is refused */
 
 static void check_refused(studio *s, const celspan_rostrum *rostrum, const char *reason) {
+  const celspan_plane_desc desc = desc_of(16);
   celspan_plane *plane;
-  celspan_status status = celspan_plane_create(s->context, rostrum, WIDTH, HEIGHT, &plane);
+  celspan_status status = celspan_plane_create(s->context, rostrum, &desc, &plane);
   CHECK(status == CELSPAN_BAD_ARGUMENT && !plane);
   if (!CHECK(strstr(celspan_context_error(s->context), reason) != NULL))
     fprintf(stderr, "  %s\n", celspan_context_error(s->context));
@@ -340,7 +350,12 @@ static void check_scenes_refused(studio *s) {
   celspan_cel *cel = studio_cel(s, blurred, &disc, 1);
   check_refused(s, studio_rostrum(s, CELSPAN_ROSTRUM_DESC, &cel, 1), "blurred");
   celspan_plane *plane;
-  CHECK(celspan_plane_create(s->context, studio_show(s, disc), 0, HEIGHT, &plane) ==
+  celspan_plane_desc desc = desc_of(16);
+  desc.width = 0;
+  CHECK(celspan_plane_create(s->context, studio_show(s, disc), &desc, &plane) ==
+        CELSPAN_BAD_ARGUMENT);
+  desc = desc_of(12);
+  CHECK(celspan_plane_create(s->context, studio_show(s, disc), &desc, &plane) ==
         CELSPAN_BAD_ARGUMENT);
   studio_finish(s);
 }
@@ -367,9 +382,10 @@ static void check_views_refused(studio *s) {
 
 static celspan_status make_and_draw(studio *s, const celspan_rostrum *rostrum) {
   celspan_plane *plane;
+  const celspan_plane_desc desc = desc_of(8);
   celspan_plane_view view = view_of(12, 8);
   unsigned char pixels[12 * 8 * 4];
-  celspan_status status = celspan_plane_create(s->context, rostrum, WIDTH, HEIGHT, &plane);
+  celspan_status status = celspan_plane_create(s->context, rostrum, &desc, &plane);
   if (status == CELSPAN_OK)
     status = celspan_plane_pixels(s->context, plane, &view, NULL, pixels, (size_t)12 * 4);
   celspan_plane_unref(plane);

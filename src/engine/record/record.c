@@ -21,6 +21,7 @@ typedef struct recorder {
   uint32_t *latest;    /* by chain of the plan: its latest border plus 1; 0: none */
   cs_hash_table cells; /* by their colours or layers */
   cs_record_source source;
+  const planefile_rounding *rounding; /* NULL: colours are not rounded to codes */
 } recorder;
 
 void cs_record_finish(cs_recording *record, cs_memory *memory) {
@@ -59,13 +60,13 @@ planefile_band cs_record_plane(const cs_recording *record) {
 
 /* ---------------------------------------------------------------- cells */
 
-static planefile_cell cell_of(cs_v4 colour) {
+static planefile_cell cell_of(const recorder *r, cs_v4 colour) {
   planefile_cell out;
   for (int c = 0; c < 4; c++) {
     double channel = floor((double)colour[c] * PLANEFILE_WHITE + 0.5);
     out.colour[c] = (int32_t)cs_number_clamp(channel, -PLANEFILE_BRIGHT, PLANEFILE_BRIGHT);
   }
-  return out;
+  return r->rounding ? planefile_round(r->rounding, out) : out;
 }
 
 /* Adds a cell under a key. */
@@ -89,7 +90,7 @@ static bool is_known(const recorder *r, cs_hash key, uint32_t *out) {
 
 /* The number of the cell of a colour. */
 static celspan_status find_cell(recorder *r, cs_v4 colour, uint32_t *out) {
-  const planefile_cell cell = cell_of(colour * cs_v4_all(r->source.weight));
+  const planefile_cell cell = cell_of(r, colour * cs_v4_all(r->source.weight));
   cs_hash key = cs_hash_begin(0x63656c6cu);
   for (int c = 0; c < 4; c++)
     cs_hash_word(&key, (uint64_t)cell.colour[c]);
@@ -318,8 +319,8 @@ static celspan_status record(recorder *r) {
 }
 
 celspan_status cs_record_put_plan(celspan_context *context, const cs_plan *plan, float weight,
-                                  cs_recording *out) {
-  recorder r = {.context = context, .plan = plan, .out = out};
+                                  const planefile_rounding *rounding, cs_recording *out) {
+  recorder r = {.context = context, .plan = plan, .out = out, .rounding = rounding};
   cs_memory *memory = context->memory;
   size_t chains = plan->boundaries.chain_count + 1, axes = plan->stack.shade_count + 1;
   r.source.context = context;

@@ -161,7 +161,8 @@ static celspan_status make_frame(const job *j, celspan_context *context,
   if (!shoot->pattern)
     return celspan_frame_digest(context, desc, &shoot->file.coding, frame->digest);
   if (cs_plane_is_wanted(frame->path, shoot->file.format))
-    return cs_plane_write_frame(context, desc, frame->path);
+    return cs_plane_write_frame(context, desc, frame->path,
+                                cs_plane_depth(shoot->file.coding.depth));
   celspan_file_desc file = describe_file(j, frame->number, desc);
   return shoot->has_digests ? make_both(context, desc, frame->path, &file, frame->digest)
                             : celspan_frame_write(context, desc, frame->path, &file, NULL);

@@ -8,7 +8,7 @@ struct cs_plane_film {
   celspan_context *context;
   cs_file *file;
   planefile_writer *writer;
-  double size[2];
+  celspan_plane_desc desc;
   bool has_last;
   cs_hash last;          /* of the scene of the latest frame */
   celspan_status status; /* of writing bytes */
@@ -28,13 +28,14 @@ static celspan_status report(const cs_plane_film *film, planefile_status status)
 }
 
 static celspan_status open_writer(cs_plane_film *film, double frames_second) {
-  const planefile_writer_desc desc = {.width = film->size[0],
-                                      .height = film->size[1],
+  const planefile_writer_desc desc = {.width = film->desc.width,
+                                      .height = film->desc.height,
                                       .write = write_bytes,
                                       .user = film,
                                       .resize = cs_plane_resize,
                                       .resize_user = film->context->memory,
-                                      .frames_second = frames_second};
+                                      .frames_second = frames_second,
+                                      .is_coded = film->desc.depth == 8};
   return report(film, planefile_writer_create(&desc, &film->writer));
 }
 
@@ -44,8 +45,10 @@ celspan_status cs_plane_film_create(celspan_context *context, const char *path,
   *out = NULL;
   CS_TRY(CS_MAKE(context, film, 1));
   film->context = context;
-  film->size[0] = desc->width;
-  film->size[1] = desc->height;
+  film->desc = CELSPAN_PLANE_DESC;
+  film->desc.width = desc->width;
+  film->desc.height = desc->height;
+  film->desc.depth = desc->depth;
   celspan_status status = cs_file_create(context, NULL, path, &film->file);
   if (status == CELSPAN_OK)
     status = open_writer(film, desc->frames_second);
@@ -86,7 +89,7 @@ celspan_status cs_plane_film_commit(cs_plane_film *film) {
 static celspan_status put_scene(cs_plane_film *film, const celspan_frame_desc *frame) {
   cs_recording made;
   celspan_status status =
-      cs_plane_record(film->context, frame->exposures, frame->exposure_count, film->size, &made);
+      cs_plane_record(film->context, frame->exposures, frame->exposure_count, &film->desc, &made);
   if (status == CELSPAN_OK) {
     planefile_band band = cs_record_plane(&made);
     status = report(film, planefile_writer_frame(film->writer, &band));
@@ -106,8 +109,9 @@ celspan_status cs_plane_film_put(cs_plane_film *film, const celspan_frame_desc *
 }
 
 celspan_status cs_plane_write_frame(celspan_context *context, const celspan_frame_desc *frame,
-                                    const char *path) {
+                                    const char *path, int32_t depth) {
   const cs_plane_film_desc desc = {
+      .depth = depth,
       .width = frame->film_width > 0 ? frame->film_width : frame->width,
       .height = frame->film_height > 0 ? frame->film_height : frame->height};
   cs_plane_film *film;

@@ -127,24 +127,37 @@ static celspan_status check_plan(celspan_context *context, const cs_plan *plan) 
 }
 
 static celspan_status record(celspan_context *context, const celspan_exposure *exposure,
-                             const cs_view *view, cs_recording *out) {
+                             const cs_view *view, const planefile_rounding *rounding,
+                             cs_recording *out) {
   const cs_antialias antialias = {.mode = CELSPAN_ANTIALIAS_AREA};
   cs_plan plan = {0};
   CS_TRY(cs_compile(context, exposure->rostrum, view, &antialias, 1, &plan));
   celspan_status status = check_plan(context, &plan);
   if (status == CELSPAN_OK)
-    status = cs_record_put_plan(context, &plan, (float)exposure->weight, out);
+    status = cs_record_put_plan(context, &plan, (float)exposure->weight, rounding, out);
   cs_compile_free(&plan, context->memory);
   return status;
 }
 
-celspan_status cs_plane_record(celspan_context *context, const celspan_exposure *exposures,
-                               size_t count, const double size[2], cs_recording *out) {
-  *out = (cs_recording){0};
-  CS_TRY(cs_check_positive(context, "plane", "width", size[0]));
-  CS_TRY(cs_check_positive(context, "plane", "height", size[1]));
-  const cs_view view = {.film_width = size[0],
-                        .film_height = size[1],
+static celspan_status check_desc(celspan_context *context, const celspan_plane_desc *desc,
+                                 size_t count) {
+  CS_TRY(cs_check_positive(context, "plane", "width", desc->width));
+  CS_TRY(cs_check_positive(context, "plane", "height", desc->height));
+  if (desc->depth != 0 && desc->depth != 8 && desc->depth != 16)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "plane: the depth is %d; it is 8 or 16",
+                   (int)desc->depth);
+  if (desc->depth == 8 && count != 1)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "plane: a frame of %zu exposures is their sum, which has no 8-bit colours",
+                   count);
+  return CELSPAN_OK;
+}
+
+static celspan_status record_all(celspan_context *context, const celspan_exposure *exposures,
+                                 size_t count, const celspan_plane_desc *desc,
+                                 const planefile_rounding *rounding, cs_recording *out) {
+  const cs_view view = {.film_width = desc->width,
+                        .film_height = desc->height,
                         .width = CS_RECORD_SIDE,
                         .height = CS_RECORD_SIDE,
                         .end_row = CS_RECORD_SIDE,
@@ -155,33 +168,49 @@ celspan_status cs_plane_record(celspan_context *context, const celspan_exposure 
   if (count != 1)
     CS_TRY(cs_record_begin_sum(context, out));
   for (size_t i = 0; i < count; i++)
-    CS_TRY(record(context, &exposures[i], &view, out));
+    CS_TRY(record(context, &exposures[i], &view, rounding, out));
   return CELSPAN_OK;
 }
 
+celspan_status cs_plane_record(celspan_context *context, const celspan_exposure *exposures,
+                               size_t count, const celspan_plane_desc *desc, cs_recording *out) {
+  planefile_rounding *rounding = NULL;
+  *out = (cs_recording){0};
+  CS_TRY(check_desc(context, desc, count));
+  if (desc->depth == 8) {
+    rounding = planefile_rounding_create(cs_plane_resize, context->memory);
+    if (!rounding)
+      return cs_fail_memory(context);
+  }
+  celspan_status status = record_all(context, exposures, count, desc, rounding, out);
+  planefile_rounding_destroy(rounding);
+  return status;
+}
+
 static celspan_status write_record(celspan_context *context, const cs_recording *made,
-                                   const double size[2], celspan_plane *plane) {
+                                   const celspan_plane_desc *given, celspan_plane *plane) {
   appending a = {context, plane};
-  const planefile_writer_desc desc = {.width = size[0],
-                                      .height = size[1],
+  const planefile_writer_desc desc = {.width = given->width,
+                                      .height = given->height,
                                       .write = append,
                                       .user = &a,
                                       .resize = cs_plane_resize,
-                                      .resize_user = context->memory};
+                                      .resize_user = context->memory,
+                                      .is_coded = given->depth == 8};
   planefile_band band = cs_record_plane(made);
   CS_TRY(cs_plane_report(context, planefile_write(&desc, &band)));
   return cs_plane_report(context, load(plane, 0, NULL));
 }
 
 celspan_status cs_plane_expose(celspan_context *context, const celspan_exposure *exposures,
-                               size_t count, const double size[2], celspan_plane **out) {
+                               size_t count, const celspan_plane_desc *desc, celspan_plane **out) {
   cs_recording made;
   celspan_plane *plane;
   *out = NULL;
   CS_TRY(create(context, &plane));
-  celspan_status status = cs_plane_record(context, exposures, count, size, &made);
+  celspan_status status = cs_plane_record(context, exposures, count, desc, &made);
   if (status == CELSPAN_OK)
-    status = write_record(context, &made, size, plane);
+    status = write_record(context, &made, desc, plane);
   cs_record_finish(&made, context->memory);
   if (status == CELSPAN_OK)
     *out = plane;
@@ -191,11 +220,13 @@ celspan_status cs_plane_expose(celspan_context *context, const celspan_exposure 
 }
 
 celspan_status celspan_plane_create(celspan_context *context, const celspan_rostrum *rostrum,
-                                    double width, double height, celspan_plane **out) {
+                                    const celspan_plane_desc *desc, celspan_plane **out) {
   const celspan_exposure whole = {.rostrum = (celspan_rostrum *)rostrum, .weight = 1};
   *out = NULL;
   CS_TRY(cs_check_given(context, "plane", "the rostrum", rostrum));
-  return cs_plane_expose(context, &whole, 1, (double[2]){width, height}, out);
+  CS_TRY(cs_check_given(context, "plane", "the description", desc));
+  CS_TRY(cs_check_version(context, "plane", desc->struct_size, sizeof *desc));
+  return cs_plane_expose(context, &whole, 1, desc, out);
 }
 
 /* ---------------------------------------------------------------- files */

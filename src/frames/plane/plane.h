@@ -10,22 +10,27 @@ bool cs_plane_accepts(const char *path);
 /* Whether a file of this name is written as a plane. format: NULL: the ending of the name says
  * it. */
 bool cs_plane_is_wanted(const char *path, const char *format);
-/* Writes a frame as a plane file: its film, of which size, crop and antialiasing
- * say nothing. Errors: those of making and of writing a plane. */
+/* The depth of a plane, 8 or 16, where a file of pixels would have one. */
+static inline int32_t cs_plane_depth(celspan_depth depth) {
+  return depth == CELSPAN_DEPTH_8 ? 8 : 16;
+}
+/* Writes a frame as a plane file of a depth, 8 or 16: its film, of which size, crop and
+ * antialiasing say nothing. Errors: those of making and of writing a plane. */
 CELSPAN_CHECKED celspan_status cs_plane_write_frame(celspan_context *context,
                                                     const celspan_frame_desc *frame,
-                                                    const char *path);
+                                                    const char *path, int32_t depth);
 
 /* As celspan_plane_create, of a frame that is the sum of its exposures. */
 CELSPAN_CHECKED celspan_status cs_plane_expose(celspan_context *context,
                                                const celspan_exposure *exposures, size_t count,
-                                               const double size[2], celspan_plane **out);
+                                               const celspan_plane_desc *desc, celspan_plane **out);
 
 /* A film of planes as one file, which appears under its name when it is committed, not before. */
 typedef struct cs_plane_film cs_plane_film;
 typedef struct cs_plane_film_desc {
   double width, height; /* film units, above 0 */
   double frames_second; /* 0: a single plane */
+  int32_t depth;        /* 8 or 16 */
 } cs_plane_film_desc;
 /* out: new; to be committed or discarded. Errors: NO_MEMORY; OUTPUT; LIMIT. */
 CELSPAN_CHECKED celspan_status cs_plane_film_create(celspan_context *context, const char *path,

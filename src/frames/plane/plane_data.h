@@ -22,10 +22,10 @@ struct celspan_plane {
 /* The failure of a call of the subproject. */
 CELSPAN_CHECKED celspan_status cs_plane_report(celspan_context *context, planefile_status status);
 
-/* What can be seen of a frame of a size. out: must be finished, whatever happens. Errors: those of
+/* What can be seen of a frame. out: must be finished, whatever happens. Errors: those of
  * celspan_plane_create. */
 CELSPAN_CHECKED celspan_status cs_plane_record(celspan_context *context,
                                                const celspan_exposure *exposures, size_t count,
-                                               const double size[2], cs_recording *out);
+                                               const celspan_plane_desc *desc, cs_recording *out);
 /* The memory of a context for the subproject. user: a cs_memory. */
 void *cs_plane_resize(void *user, void *block, size_t old_size, size_t new_size);

@@ -1748,13 +1748,26 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_digest(celspan_context 
  * means of linear light. Immutable; shared read. */
 typedef struct celspan_plane celspan_plane;
 
-/* width, height: film units      rostrum: borrowed; its antialiasing does not count      out: new
- * Errors: those of rendering; BAD_ARGUMENT for what a plane cannot keep: visible pictures,
- * scan-line procedures, blurred objects, and gradients over each other under a mode, a matte, a
- * grade, a light with a shape or a coloured medium. */
+typedef struct celspan_plane_desc {
+  size_t struct_size;
+  double width, height; /* film units, above 0 */
+  int32_t depth;        /* 8: colours are 8-bit sRGB codes, which makes a smaller file; 0: 16 */
+} celspan_plane_desc;
+
+static inline celspan_plane_desc celspan_plane_desc_default(void) {
+  celspan_plane_desc desc = CELSPAN_ZERO;
+  desc.struct_size = sizeof desc;
+  return desc;
+}
+#define CELSPAN_PLANE_DESC (celspan_plane_desc_default())
+
+/* rostrum: borrowed; its antialiasing does not count      desc: borrowed      out: new
+ * Errors: those of rendering; BAD_ARGUMENT for a depth that is not allowed, and for what a plane
+ * cannot keep: visible pictures, scan-line procedures, blurred objects, and gradients over each
+ * other under a mode, a matte, a grade, a light with a shape or a coloured medium. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_create(celspan_context *context,
                                                                 const celspan_rostrum *rostrum,
-                                                                double width, double height,
+                                                                const celspan_plane_desc *desc,
                                                                 celspan_plane **out);
 /* A plane file; of a film its first frame. out: new      Errors: NO_MEMORY; INPUT; LIMIT for more
  * than 1 GiB. */

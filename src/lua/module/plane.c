@@ -46,9 +46,12 @@ static const celspan_plane *self(lua_State *L, const char *method) {
 static celspan_status make(lua_State *L, const cs_options *options, celspan_plane **out) {
   const celspan_frame_desc *desc = &options->desc;
   lua_State *before = cs_host_enter(L);
-  const double size[2] = {desc->film_width, desc->film_height};
+  celspan_plane_desc plane = CELSPAN_PLANE_DESC;
+  plane.width = desc->film_width;
+  plane.height = desc->film_height;
+  plane.depth = cs_plane_depth(options->coding.depth);
   celspan_status status =
-      cs_plane_expose(cs_host_context(L), desc->exposures, desc->exposure_count, size, out);
+      cs_plane_expose(cs_host_context(L), desc->exposures, desc->exposure_count, &plane, out);
   cs_host_leave(L, before);
   return status;
 }
@@ -57,6 +60,9 @@ int cs_plane_make(lua_State *L) {
   lua_settop(L, 2);
   cs_options options;
   celspan_status status = cs_subject_read(L, &cs_noun_plane, &options);
+  celspan_depth depth = options.coding.depth;
+  if (depth == CELSPAN_DEPTH_HALF || depth == CELSPAN_DEPTH_FLOAT)
+    cs_form_fail(&options.form, "field 'depth' must be 8 or 16");
   if (status == CELSPAN_OK)
     status = make(L, &options, push_plane(L));
   return finish(L, status);

@@ -177,6 +177,11 @@ static const cs_field probe_fields[] = {
     FRAME,
     {0}};
 
+static const cs_field plane_fields[] = {{"depth", CS_OWN("8|16"),
+                                         .about = "Bits of colours: 8, a smaller file, or 16",
+                                         .fallback = "16"},
+                                        {.more = probe_fields}};
+
 static const cs_field view_fields[] = {
     {"size", CS_PIXELS(cs_options, size), CS_HAS(cs_options, has_size), .shape = "a size {w, h}",
      .about = "In pixels", .fallback = "that of the plane, a pixel for each unit"},
@@ -198,7 +203,7 @@ const cs_noun cs_noun_spans = {
 const cs_noun cs_noun_probe = {
     .name = "probe", .table = "celspan.probe.options", .fields = probe_fields};
 const cs_noun cs_noun_plane = {
-    .name = "plane", .table = "celspan.plane.options", .fields = probe_fields};
+    .name = "plane", .table = "celspan.plane.options", .fields = plane_fields};
 const cs_noun cs_noun_plane_view = {
     .name = "plane view", .table = "celspan.plane.view", .fields = view_fields};
 

@@ -124,13 +124,14 @@ typedef struct planefile_program {
 } planefile_program;
 
 /* At every height the borders lead from cell 0 to cell 0, which lies around the whole frame and is
- * flat. The colour of a cell that varies is 0. */
+ * flat. The colour of a cell that varies is 0. Borders do not change a channel by 2^36 or more, all
+ * together: a million of them may, each by 1. */
 typedef struct planefile_band {
   int32_t top, foot; /* 0 and PLANEFILE_SIDE of a whole plane */
   const planefile_point *points;
   const planefile_piece *pieces;
   const planefile_chain *chains;
-  const planefile_border *borders; /* of one that was read: by their tops */
+  const planefile_border *borders; /* of one that was read: by their chains, and by their tops */
   const planefile_cell *cells;
   const planefile_program *programs; /* of the cells; NULL: all are flat */
   const planefile_step *steps;
@@ -149,12 +150,23 @@ typedef struct planefile_writer_desc {
   planefile_resize resize; /* NULL: the C library's */
   void *resize_user;
   double frames_second; /* of a film; 0: a single plane */
+  bool is_coded;        /* flat cells are rounded to 8-bit codes (planefile_round) */
 } planefile_writer_desc;
 
 /* Writes a plane; desc and plane: borrowed. The bytes are a function of the plane alone. Curves of
  * which nothing can be seen are left out. BAD_ARGUMENT: the plane is not as described above; that
  * borders lead from cell 0 to cell 0 is not examined. */
 planefile_status planefile_write(const planefile_writer_desc *desc, const planefile_band *plane);
+
+/* ---- 8-bit colours */
+
+/* Rounds colours to 8-bit sRGB codes with straight alpha, between 0 and 1. Borders between cells
+ * that have become equal can be left out before a plane is written. */
+typedef struct planefile_rounding planefile_rounding;
+/* resize: NULL: the C library's. Returns a new one, or NULL: no memory. */
+planefile_rounding *planefile_rounding_create(planefile_resize resize, void *user);
+void planefile_rounding_destroy(planefile_rounding *rounding); /* NULL is ignored */
+planefile_cell planefile_round(const planefile_rounding *rounding, planefile_cell cell);
 
 /* ---- films */
 
@@ -198,6 +210,7 @@ typedef struct planefile_info {
   uint32_t band_count;
   bool is_opaque; /* alpha is PLANEFILE_WHITE everywhere */
   bool varies;    /* there may be cells with programs */
+  bool is_coded;  /* flat cells are 8-bit codes */
 } planefile_info;
 
 /* The bytes from the start that planefile_is needs. */
@@ -246,8 +259,8 @@ typedef struct planefile_span {
 typedef struct planefile_drawer planefile_drawer;
 
 /* plane: borrowed until the end; it must have been read at the heights of the crop. The pixels of a
- * crop are those of the whole, to the bit. out: new. Memory: about 1 MiB, or 64 bytes for each
- * column of a row, at most 512 bytes for each border of the plane, and 12 for each of its cells. */
+ * crop are those of the whole, to the bit. out: new. Memory: about 1 MiB, or 96 bytes for each
+ * column of a row, at most 512 bytes for each chain of the plane, and 12 for each of its cells. */
 planefile_status planefile_drawer_create(const planefile_plane *plane, const planefile_view *view,
                                          planefile_drawer **out);
 /* NULL is ignored. */

@@ -24,7 +24,9 @@
 #ifndef PF_BAND_H
 #define PF_BAND_H
 
+#include "codes.h"
 #include "program.h"
+#include "slope.h"
 
 enum { PF_FRESH, PF_OLDER, PF_CANDIDATES, PF_SYMBOLS = 8, PF_SYMBOL_BITS = 3 };
 /* Forms of pieces: the degree, and this where they are rational. */
@@ -32,7 +34,9 @@ enum { PF_RATIONAL = 4 };
 
 typedef struct pf_models {
   pf_number start[2], pieces, moves[2][3][3], weight; /* moves: axis, degree, point */
-  pf_number channels[4], older, height, size, first, next;
+  pf_number channels[2][4], slope; /* channels: of cells that are not guessed, and that are */
+  pf_number older, height, size, first, next;
+  uint16_t guesses[4];
   uint16_t forms[8][8];                           /* after each */
   uint16_t cells[14][PF_SYMBOLS];                 /* pf_context */
   uint16_t origin[4], is_moved[2], is_patched[2]; /* of bands that are made from a base */
@@ -85,9 +89,20 @@ static inline uint32_t pf_other(uint32_t size, uint32_t index) {
   return index > 0 ? index - 1 : size > 1 ? 1 : 0;
 }
 
+/* The borders of a chain, which follow each other downwards. The chain has no point beside low and
+ * high. */
+typedef struct pf_run {
+  int32_t top, foot; /* of the first one; of the last one */
+  int32_t low, high;
+  uint32_t border; /* the first one */
+} pf_run;
+
 /* A band as it was read, all of it owned. */
 typedef struct pf_band {
   planefile_band band;
+  pf_run *runs; /* by their tops */
+  uint32_t run_count;
+  size_t run_capacity;
   size_t point_capacity, piece_capacity, chain_capacity, border_capacity, cell_capacity;
   size_t program_capacity, step_capacity, axis_capacity, stop_capacity;
 } pf_band;
@@ -106,21 +121,17 @@ typedef struct pf_base {
   pf_memory memory;
   const planefile_band *band;
   size_t code;     /* bytes */
-  uint32_t *first; /* of each chain: the place of its first border in the order; and the end */
-  uint32_t *order; /* the borders by their chains; those of one are in the order of the band */
+  uint32_t *first; /* of each chain: its first border; and the end */
 } pf_base;
 
 /* band: borrowed. out: must be freed whatever happens. False: no memory. */
 bool pf_base_make(const pf_memory *memory, const planefile_band *band, size_t code, pf_base *out);
 void pf_base_free(pf_base *base);
-static inline const planefile_border *pf_base_border(const pf_base *base, uint32_t place) {
-  return &base->band->borders[base->order[place]];
-}
 /* The cells of a chain at its first border. */
 static inline pf_sides pf_base_sides(const pf_base *base, uint32_t chain) {
   if (base->first[chain] == base->first[chain + 1])
     return (pf_sides){0, 0};
-  const planefile_border *border = pf_base_border(base, base->first[chain]);
+  const planefile_border *border = &base->band->borders[base->first[chain]];
   return (pf_sides){border->left, border->right};
 }
 /* The part of a border that is at the heights of a band when it has been moved; false: none is. */
@@ -130,6 +141,19 @@ static inline bool pf_move_border(const planefile_border *border, int32_t by,
   out->top = border->top + by > band->top ? border->top + by : band->top;
   out->foot = border->foot + by < band->foot ? border->foot + by : band->foot;
   return out->top < out->foot;
+}
+
+/* Whether the sums of borders remain exact (sums.h): what they change, in each channel, is together
+ * less than 2^36. */
+static inline bool pf_is_moderate(const planefile_cell *cells, const planefile_border *borders,
+                                  size_t count) {
+  int64_t sums[4] = {0};
+  for (size_t i = 0; i < count; i++)
+    for (int c = 0; c < 4; c++) {
+      int64_t way = (int64_t)cells[borders[i].right].colour[c] - cells[borders[i].left].colour[c];
+      sums[c] += way < 0 ? -way : way;
+    }
+  return (sums[0] | sums[1] | sums[2] | sums[3]) >> 36 == 0;
 }
 
 /* Whether alpha is 1 in all cells. */
@@ -152,7 +176,8 @@ typedef struct pf_payload {
   const unsigned char *bytes;
   size_t size;
   bool varies;
-  const pf_base *base; /* NULL: it has none */
+  const pf_codes *codes; /* NULL: cells are not codes */
+  const pf_base *base;   /* NULL: it has none */
 } pf_payload;
 /* Decodes a band. out: empty; must be freed whatever happens. reason: set where the status is not
  * OK. */
@@ -166,8 +191,9 @@ typedef struct pf_part {
   const planefile_border *borders; /* all that have a part there; no two of one chain overlap */
   size_t count;
   int32_t top, foot;
-  bool is_whole;       /* pieces of which nothing can be seen are kept, for other frames */
-  const pf_base *base; /* NULL: none */
+  bool is_whole;         /* pieces of which nothing can be seen are kept, for other frames */
+  const pf_base *base;   /* NULL: none */
+  const pf_codes *codes; /* NULL: cells are not codes; otherwise all flat ones are rounded */
 } pf_part;
 /* The payload is in the encoder's bytes. */
 planefile_status pf_band_encode(const pf_memory *memory, const pf_part *part, pf_encoder *out);

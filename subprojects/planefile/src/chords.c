@@ -2,9 +2,9 @@
 
 #include <math.h>
 
-#define SAG 0.012       /* of a chord, in pixels: twice that of the area it must make up for */
-#define ONE_CHORD 0.004 /* less is not made up for */
-#define LEAD 0.29289321881345254 /* 1 - 1 / sqrt(2) */
+#define SAG (0.012 * PF_HEIGHT)       /* of a chord: twice that of the area it must make up for */
+#define ONE_CHORD (0.004 * PF_HEIGHT) /* less is not made up for */
+#define LEAD 0.29289321881345254      /* 1 - 1 / sqrt(2) */
 #define CHORDS_MOST 268435456.0
 #define SAMPLES 12
 #define MARGIN 1.25 /* between samples */
@@ -14,9 +14,12 @@ typedef struct jet {
   double at, first, second;
 } jet;
 
+static inline double value_of(const double c[4], double t) {
+  return ((c[3] * t + c[2]) * t + c[1]) * t + c[0];
+}
+
 static jet jet_of(const double c[4], double t) {
-  return (jet){((c[3] * t + c[2]) * t + c[1]) * t + c[0], (3 * c[3] * t + 2 * c[2]) * t + c[1],
-               6 * c[3] * t + 2 * c[2]};
+  return (jet){value_of(c, t), (3 * c[3] * t + 2 * c[2]) * t + c[1], 6 * c[3] * t + 2 * c[2]};
 }
 
 static jet divide(jet a, jet w) {
@@ -58,6 +61,12 @@ static double find_bend(const pf_curve *curve) {
   return (curve->is_rational ? MARGIN : 1) * sqrt(largest);
 }
 
+/* Displaces a polynomial outwards, from its chords. */
+static void displace(double c[4], double share) {
+  c[0] -= 2 * share * c[2];
+  c[1] -= 6 * share * c[3];
+}
+
 static void choose_chords(pf_curve *curve) {
   double sag = find_bend(curve) / 8;
   if (!(sag > ONE_CHORD))
@@ -65,6 +74,10 @@ static void choose_chords(pf_curve *curve) {
   curve->chords = (uint32_t)fmin(ceil(sqrt(sag / SAG) + 2 * LEAD), CHORDS_MOST);
   curve->chords = curve->chords > 2 ? curve->chords : 2;
   curve->step = 1 / (curve->chords - 2 * LEAD);
+  if (!curve->is_rational) {
+    displace(curve->x, curve->step * curve->step / 12);
+    displace(curve->y, curve->step * curve->step / 12);
+  }
 }
 
 void pf_curve_make(const planefile_point *points, const planefile_piece *piece, pf_scale scale,
@@ -79,8 +92,8 @@ void pf_curve_make(const planefile_point *points, const planefile_piece *piece, 
   out->high = high * scale.x;
   out->x0 = points[0].x * scale.x;
   out->x1 = last->x * scale.x;
-  out->y0 = pf_height(points[0].y, scale.y);
-  out->y1 = pf_height(last->y, scale.y);
+  out->y0 = pf_round(points[0].y * scale.y);
+  out->y1 = pf_round(last->y * scale.y);
   out->chords = 1;
 }
 
@@ -100,17 +113,26 @@ void pf_curve_bend(const planefile_point *points, const planefile_piece *piece, 
   choose_chords(curve);
 }
 
+/* A point of a rational curve, displaced outwards. */
+static void find_displaced(const pf_curve *curve, double t, double *x, double *y) {
+  jet across, down;
+  double share = curve->step * curve->step / 12;
+  find_point(curve, t, &across, &down);
+  *x = across.at - share * across.second;
+  *y = down.at - share * down.second;
+}
+
 pf_vertex pf_curve_vertex(const pf_curve *curve, uint32_t vertex) {
-  jet x, y;
   if (vertex == 0)
     return (pf_vertex){curve->x0, curve->y0};
   if (vertex >= curve->chords)
     return (pf_vertex){curve->x1, curve->y1};
-  double share = curve->step * curve->step / 12;
-  find_point(curve, (vertex - LEAD) * curve->step, &x, &y);
-  int64_t height = pf_height(y.at - share * y.second, 1);
+  double t = (vertex - LEAD) * curve->step, x = value_of(curve->x, t), y = value_of(curve->y, t);
+  if (curve->is_rational)
+    find_displaced(curve, t, &x, &y);
+  int64_t height = pf_round(y);
   height = height > curve->y0 ? height : curve->y0;
-  return (pf_vertex){x.at - share * x.second, height < curve->y1 ? height : curve->y1};
+  return (pf_vertex){x, height < curve->y1 ? height : curve->y1};
 }
 
 uint32_t pf_curve_find(const pf_curve *curve, int64_t y) {

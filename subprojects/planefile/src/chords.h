@@ -16,23 +16,31 @@
 
 #define PF_HEIGHT 65536 /* of a row: heights are multiples of 1 / it */
 
-/* A piece in pixels of the frame. */
+/* A piece of the frame, in HEIGHTths of pixels in both directions. */
 typedef struct pf_curve {
-  double x[4], y[4], w[4]; /* coefficients of powers; homogeneous where it is rational */
-  double x0, x1;           /* at its ends */
-  int64_t y0, y1;          /* in HEIGHTths of a row */
-  double low, high;        /* no point of it is outside, in x */
-  double step;             /* of the parameter */
+  double x[4], y[4]; /* coefficients of powers; homogeneous where it is rational, otherwise
+                      * displaced */
+  double w[4];       /* where it is rational */
+  double x0, x1;     /* at its ends */
+  int64_t y0, y1;
+  double low, high; /* no point of it is outside, in x */
+  double step;      /* of the parameter */
   uint32_t chords;
   bool is_rational;
 } pf_curve;
 
 typedef struct pf_vertex {
   double x;
-  int64_t y; /* HEIGHTths of a row */
+  int64_t y;
 } pf_vertex;
 
-/* Units of a plane to pixels. */
+/* From (x0, y0) down to (x1, y1). */
+typedef struct pf_chord {
+  double x0, x1, slope; /* slope: dx / dy */
+  int64_t y0, y1;
+} pf_chord;
+
+/* Units of a plane to HEIGHTths of pixels. */
 typedef struct pf_scale {
   double x, y;
 } pf_scale;
@@ -48,10 +56,11 @@ pf_vertex pf_curve_vertex(const pf_curve *curve, uint32_t vertex);
 /* The chord that begins at a height or above it, and ends below. */
 uint32_t pf_curve_find(const pf_curve *curve, int64_t y);
 
-static inline int64_t pf_height(double units, double scale) {
-  double y = units * scale * PF_HEIGHT + 0.5;
-  int64_t whole = (int64_t)y;
-  return whole - ((double)whole > y);
+/* The nearest whole number. */
+static inline int64_t pf_round(double number) {
+  double next = number + 0.5;
+  int64_t whole = (int64_t)next;
+  return whole - ((double)whole > next);
 }
 
 #endif

@@ -37,7 +37,8 @@ enum {
   PF_VERSION = 1,
   PF_OPAQUE = 1,      /* flags of the header: alpha is 1 everywhere; */
   PF_VARIES = 2,      /* cells may have programs; */
-  PF_FILM = 4,        /* it is a film, and the other flags are those of each frame */
+  PF_FILM = 4,        /* it is a film, and the other flags are those of each frame; */
+  PF_CODED = 8,       /* flat cells are 8-bit codes */
   PF_PAID = 4,        /* things of a kind that a byte of code pays for */
   PF_VARIED_PAID = 4, /* bytes of code that pay for a step, an axis or a stop */
   PF_GROUP = 8,       /* changes in a group, at most */

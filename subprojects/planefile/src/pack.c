@@ -16,7 +16,8 @@ typedef struct shown {
   int64_t place;       /* twice its mean x */
   pf_sides sides;
   int32_t top, foot; /* of what is kept of it */
-  bool is_whole;     /* no piece is left out */
+  int32_t slope;
+  bool is_whole; /* no piece is left out */
   pf_link link;
 } shown;
 
@@ -40,6 +41,7 @@ typedef struct packer {
   uint32_t *cells; /* of each cell of the plane: its number in the band plus 1; 0: none yet */
   size_t border_count, chain_count, change_count, change_capacity;
   uint32_t piece_count, cell_count;
+  uint32_t fresh[2 * PF_GROUP], fresh_count; /* cells that are new in the current group */
   uint32_t form;
   planefile_cell colour; /* of the latest cell */
   pf_models models;
@@ -162,7 +164,7 @@ static bool keeps_borders(const packer *p, const shown *c) {
   planefile_border moved;
   uint32_t k = 0;
   for (uint32_t i = base->first[c->link.chain]; i < base->first[c->link.chain + 1]; i++) {
-    if (!pf_move_border(pf_base_border(base, i), c->link.move.y, &heights, &moved))
+    if (!pf_move_border(&base->band->borders[i], c->link.move.y, &heights, &moved))
       continue;
     const planefile_border *b = &c->borders[k];
     if (k++ == c->count || b->top != moved.top || b->foot != moved.foot ||
@@ -184,9 +186,31 @@ static bool add_change(packer *p, int32_t height, size_t chain, pf_sides sides) 
   return true;
 }
 
+/* NULL: a cell has a program. */
+static const planefile_cell *flat_cell(const packer *p, uint32_t cell) {
+  bool is_flat = !p->plane->programs || p->plane->programs[cell].step_count == 0;
+  return is_flat ? &p->plane->cells[cell] : NULL;
+}
+
+/* Finds the slope of a chain, of which the changes from one on are. */
+static void find_slope(const packer *p, shown *c, size_t first) {
+  enum { MOST = 32 };
+  pf_beside list[MOST];
+  size_t count = 0;
+  pf_sides before = c->sides;
+  for (size_t i = first; i < p->change_count && count < MOST; before = p->changes[i++].sides) {
+    pf_sides after = p->changes[i].sides;
+    list[count++] = (pf_beside){{flat_cell(p, before.left), flat_cell(p, before.right)},
+                                {flat_cell(p, after.left), flat_cell(p, after.right)},
+                                0};
+  }
+  c->slope = pf_slope_find(list, count);
+}
+
 /* Finds what a chain begins with, and all that happens to it. */
 static bool find_changes(packer *p, size_t index) {
   shown *c = &p->chains[index];
+  size_t first = p->change_count;
   int32_t height = c->top;
   c->sides = (pf_sides){0, 0};
   if (c->link.origin == PF_MOVED && keeps_borders(p, c))
@@ -206,25 +230,93 @@ static bool find_changes(packer *p, size_t index) {
     height = b->foot;
   }
   const planefile_border *last = &c->borders[c->count - 1];
-  return height >= c->foot || add_change(p, height, index, (pf_sides){last->left, last->left});
+  if (height < c->foot && !add_change(p, height, index, (pf_sides){last->left, last->left}))
+    return false;
+  find_slope(p, c, first);
+  return true;
 }
 
 /* ---------------------------------------------------------------- code of cells */
 
-static void put_fresh(packer *p, uint32_t cell) {
-  const planefile_cell *of = &p->plane->cells[cell];
+/* What happens to chains at one height. */
+typedef struct group {
+  uint32_t size;
+  const change *changes;
+  pf_sides before[PF_GROUP];
+} group;
+
+static void add_fresh(packer *p, uint32_t cell) {
   p->cells[cell] = ++p->cell_count;
+  p->fresh[p->fresh_count++] = cell;
+}
+
+/* NULL: a cell has a program, or comes after the one that is being coded. */
+static const planefile_cell *known_cell(const packer *p, uint32_t cell, uint32_t latest) {
+  return p->cells[cell] <= p->cells[latest] ? flat_cell(p, cell) : NULL;
+}
+
+/* What a member of a group knows of a cell. */
+static bool guess(const packer *p, const group *g, uint32_t member, uint32_t cell,
+                  planefile_cell *out) {
+  const pf_sides *was = &g->before[member], *is = &g->changes[member].sides;
+  const pf_beside beside = {{known_cell(p, was->left, cell), known_cell(p, was->right, cell)},
+                            {known_cell(p, is->left, cell), known_cell(p, is->right, cell)},
+                            p->chains[g->changes[member].chain].slope};
+  return pf_guess(&beside, &p->plane->cells[cell], out);
+}
+
+static int64_t distance(const planefile_cell *a, const planefile_cell *b) {
+  int64_t out = 0;
+  for (int c = 0; c < 4; c++) {
+    int64_t way = (int64_t)a->colour[c] - b->colour[c];
+    out += way < 0 ? -way : way;
+  }
+  return out;
+}
+
+/* Chooses what the channels of a cell differ from; returns whether that is a guess. */
+static bool put_origin(packer *p, const group *g, uint32_t cell, planefile_cell *out) {
+  const planefile_cell *of = &p->plane->cells[cell];
+  planefile_cell guesses[PF_GUESSES + 1] = {p->colour};
+  uint32_t count = 1, best = 0;
+  for (uint32_t i = 0; i < g->size && count <= PF_GUESSES; i++)
+    count += guess(p, g, i, cell, &guesses[count]);
+  for (uint32_t i = 1; i < count; i++)
+    if (distance(&guesses[i], of) < distance(&guesses[best], of))
+      best = i;
+  if (count > 1)
+    pf_put_symbol(p->out, p->models.guesses, 2, best);
+  *out = guesses[best];
+  return best > 0;
+}
+
+static void put_content(packer *p, const group *g, uint32_t cell) {
+  const planefile_cell *of = &p->plane->cells[cell];
+  planefile_cell origin;
   if (p->programs) {
-    bool varies = p->plane->programs[cell].step_count > 0;
-    pf_put_symbol(p->out, p->programs->models.varies, 1, varies);
-    if (varies) {
+    pf_put_symbol(p->out, p->programs->models.varies, 1, !flat_cell(p, cell));
+    if (!flat_cell(p, cell)) {
       pf_put_program(p->out, p->programs, p->plane, p->plane->programs[cell]);
       return;
     }
   }
+  bool guessed = put_origin(p, g, cell, &origin);
+  int32_t from[4], to[4];
+  memcpy(from, origin.colour, sizeof from);
+  memcpy(to, of->colour, sizeof to);
+  if (p->part->codes) {
+    pf_codes_of(p->part->codes, &origin, from);
+    pf_codes_of(p->part->codes, of, to);
+  }
   for (int c = 0; c < 4; c++)
-    pf_put_signed(p->out, &p->models.channels[c], (int64_t)of->colour[c] - p->colour.colour[c]);
+    pf_put_signed(p->out, &p->models.channels[guessed][c], (int64_t)to[c] - from[c]);
   p->colour = *of;
+}
+
+static void put_contents(packer *p, const group *g) {
+  for (uint32_t i = 0; i < p->fresh_count; i++)
+    put_content(p, g, p->fresh[i]);
+  p->fresh_count = 0;
 }
 
 /* Cells are numbers of the plane here, in candidates, too. */
@@ -240,7 +332,7 @@ static void put_cell(packer *p, const pf_near *near, unsigned context, uint32_t 
     symbol = PF_OLDER;
   pf_put_symbol(p->out, tree, PF_SYMBOL_BITS, symbol);
   if (symbol == PF_FRESH)
-    put_fresh(p, cell);
+    add_fresh(p, cell);
   else if (symbol == PF_OLDER)
     pf_put_number(p->out, &p->models.older, p->cell_count - number);
 }
@@ -302,7 +394,10 @@ static void put_top(packer *p, size_t index, pf_sides own) {
   const shown *c = &p->chains[index];
   const pf_near near = {own, index > 1 ? c[-2].sides : (pf_sides){0, 0},
                         index > 0 ? c[-1].sides : (pf_sides){0, 0}};
+  const group none = {0};
   put_sides(p, &near, PF_AT_TOP, c->sides);
+  put_contents(p, &none);
+  pf_put_signed(p->out, &p->models.slope, c->slope);
 }
 
 static void put_new_chain(packer *p, size_t index, const planefile_point *from) {
@@ -378,18 +473,19 @@ static void order_pair(packer *p, change *pair) {
 
 static void put_group(packer *p, const change *changes, uint32_t size, uint32_t first,
                       pf_sides *latest) {
-  pf_sides before[PF_GROUP];
+  group g = {.size = size, .changes = changes};
   for (uint32_t i = 0; i < size; i++) {
     pf_number *model = i == 0 ? &p->models.first : &p->models.next;
     uint32_t from = i == 0 ? first : changes[i - 1].chain;
     pf_put_signed(p->out, model, (int64_t)changes[i].chain - from);
-    before[i] = p->chains[changes[i].chain].sides;
+    g.before[i] = p->chains[changes[i].chain].sides;
   }
   for (uint32_t i = 0; i < size; i++) {
-    const pf_near near = {before[i], before[pf_other(size, i)], *latest};
+    const pf_near near = {g.before[i], g.before[pf_other(size, i)], *latest};
     put_sides(p, &near, pf_context(size, i), changes[i].sides);
     *latest = p->chains[changes[i].chain].sides = changes[i].sides;
   }
+  put_contents(p, &g);
 }
 
 static void put_changes(packer *p) {
@@ -502,7 +598,9 @@ static void put_patches(packer *p) {
 
 static void put_beginning(packer *p) {
   if (!p->part->base) {
-    put_fresh(p, 0);
+    const group none = {0};
+    add_fresh(p, 0);
+    put_contents(p, &none);
     return;
   }
   take_base(p);

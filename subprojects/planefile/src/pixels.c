@@ -1,84 +1,101 @@
 /* Colours in linear light to 8-bit sRGB codes. */
 #include "plane.h"
 
-static double power(double x, int exponent) {
-  double out = 1;
-  for (int i = 0; i < exponent; i++)
-    out *= x;
-  return out;
-}
-
-/* Whether linear light is at or above that of code k - 1/2: of x >= b^2.4 both sides are raised to
- * the fifth power, so that products decide, which are the same everywhere. */
-static bool is_reached(double linear, int k) {
-  double code = (k - 0.5) / 255;
-  return code <= 0.04045 ? linear >= code / 12.92
-                         : power(linear, 5) >= power((code + 0.055) / 1.055, 12);
-}
-
-/* The least light that has a code, or a greater one, in units. */
-static int find_least(int code) {
-  int low = 0, high = PLANEFILE_WHITE;
-  while (low < high) {
-    int middle = (low + high) / 2;
-    if (is_reached((double)middle / PLANEFILE_WHITE, code))
-      high = middle;
-    else
-      low = middle + 1;
-  }
-  return low;
-}
-
-void pf_codes_make(unsigned char codes[PLANEFILE_WHITE + 1]) {
-  for (int code = 0, at = 0; code < 256; code++) {
-    int end = code < 255 ? find_least(code + 1) : PLANEFILE_WHITE + 1;
-    memset(codes + at, code, (size_t)(end - at));
-    at = end;
+void pf_pixels_make(const pf_codes *codes, unsigned char out[PLANEFILE_WHITE + 1]) {
+  for (int code = 0; code < 256; code++) {
+    int32_t at = codes->least[code],
+            end = code < 255 ? codes->least[code + 1] : PLANEFILE_WHITE + 1;
+    memset(out + at, code, (size_t)(end - at));
   }
 }
 
-/* A colour of alpha 1, and of more. */
-static void put_opaque(const planefile_plane *plane, const int32_t colour[4],
-                       unsigned char out[4]) {
-  for (int c = 0; c < 3; c++) {
-    int32_t light = colour[c] < 0 ? 0 : colour[c];
-    out[c] = plane->codes[light > PLANEFILE_WHITE ? PLANEFILE_WHITE : light];
-  }
-  out[3] = 255;
+/* Four bytes, the first one lowest. They are handled together: to load a pixel whose bytes were
+ * just stored one by one takes long. */
+typedef uint32_t pixel;
+
+/* The same with the first byte where the machine has it. */
+static inline pixel in_memory(pixel colour) {
+#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+  return colour;
+#else
+  unsigned char bytes[4];
+  pf_store_32(bytes, colour);
+  memcpy(&colour, bytes, sizeof colour);
+  return colour;
+#endif
 }
 
-static void put_clear(const planefile_plane *plane, const int32_t colour[4], unsigned char out[4]) {
+static inline pixel code_of(const planefile_plane *plane, int32_t light) {
+  light = light < 0 ? 0 : light;
+  return plane->codes[light > PLANEFILE_WHITE ? PLANEFILE_WHITE : light];
+}
+
+/* Of alpha 1, and of more. */
+static inline pixel opaque_of(const planefile_plane *plane, const int32_t colour[4]) {
+  return code_of(plane, colour[0]) | code_of(plane, colour[1]) << 8 |
+         code_of(plane, colour[2]) << 16 | UINT32_C(255) << 24;
+}
+
+static pixel clear_of(const planefile_plane *plane, const int32_t colour[4]) {
   int64_t alpha = colour[3];
+  pixel out = (pixel)((alpha * 255 + PLANEFILE_WHITE / 2) / PLANEFILE_WHITE) << 24;
   for (int c = 0; c < 3; c++) {
     int64_t straight = (colour[c] * INT64_C(65535) + alpha / 2) / alpha;
     straight = straight < 0 ? 0 : straight > PLANEFILE_WHITE ? PLANEFILE_WHITE : straight;
-    out[c] = plane->codes[straight];
+    out |= (pixel)plane->codes[straight] << 8 * c;
   }
-  out[3] = (unsigned char)((alpha * 255 + PLANEFILE_WHITE / 2) / PLANEFILE_WHITE);
+  return out;
 }
 
-static inline void put_pixel(const planefile_plane *plane, const planefile_cell *colour,
-                             unsigned char out[4]) {
+static inline pixel pixel_of(const planefile_plane *plane, const planefile_cell *colour) {
   if (colour->colour[3] >= PLANEFILE_WHITE)
-    put_opaque(plane, colour->colour, out);
-  else if (colour->colour[3] > 0)
-    put_clear(plane, colour->colour, out);
-  else
-    memset(out, 0, 4);
+    return opaque_of(plane, colour->colour);
+  return colour->colour[3] > 0 ? clear_of(plane, colour->colour) : 0;
 }
 
 void planefile_srgb8(const planefile_plane *plane, planefile_cell colour, unsigned char out[4]) {
-  put_pixel(plane, &colour, out);
+  pf_store_32(out, pixel_of(plane, &colour));
 }
 
+enum { BLOCK_PIXELS = 16, PIXEL = sizeof(pixel), BLOCK = BLOCK_PIXELS * PIXEL /* bytes */ };
+enum { BLOCKS = 16, LONG = BLOCKS * BLOCK };
+
+/* Blocks of a pixel, of which the last one may reach beyond a size. */
+static inline void fill_blocks(unsigned char *out, size_t size, pixel colour) {
+  pixel block[BLOCK_PIXELS];
+  for (int i = 0; i < BLOCK_PIXELS; i++)
+    block[i] = colour;
+  size_t at = 0;
+  do
+    memcpy(out + at, block, BLOCK);
+  while ((at += BLOCK) < size);
+}
+
+/* Many pixels: the first ones are copied, by the C library, which has the widest registers.
+ */
+static void fill_long(unsigned char *out, size_t size, pixel colour) {
+  fill_blocks(out, LONG, colour);
+  for (size_t at = LONG, part; at < size; at += part) {
+    part = size - at < LONG ? size - at : LONG;
+    memcpy(out + at, out, part);
+  }
+}
+
+/* Single pixels and short spans are filled like long ones, with what the next spans replace: where
+ * spans end cannot be predicted. */
 void planefile_span_pixels(const planefile_plane *plane, const planefile_span *spans, size_t count,
                            unsigned char *out) {
-  uint32_t start = 0;
-  for (size_t i = 0; i < count; start = spans[i++].end) {
-    const unsigned char *first = out;
-    put_pixel(plane, &spans[i].colour, out); /* in its place: most are alone where colours vary */
-    out += 4;
-    for (uint32_t x = start + 1; x < spans[i].end; x++, out += 4)
-      memcpy(out, first, 4);
+  size_t all = count > 0 ? (size_t)PIXEL * spans[count - 1].end : 0, start = 0, end;
+  for (size_t i = 0; i < count; i++, start = end) {
+    end = (size_t)PIXEL * spans[i].end;
+    size_t size = end - start;
+    pixel colour = in_memory(pixel_of(plane, &spans[i].colour));
+    if (size >= LONG)
+      fill_long(out + start, size, colour);
+    else if (size + BLOCK <= all - start)
+      fill_blocks(out + start, size, colour);
+    else
+      for (size_t at = start; at < end; at += PIXEL)
+        memcpy(out + at, &colour, PIXEL);
   }
 }

@@ -3,6 +3,7 @@
 #define PF_PLANE_H
 
 #include "band.h"
+#include "codes.h"
 
 struct planefile_plane {
   pf_memory memory;
@@ -14,6 +15,6 @@ struct planefile_plane {
   pf_light_curve curve;                     /* where info.varies */
 };
 
-void pf_codes_make(unsigned char codes[PLANEFILE_WHITE + 1]);
+void pf_pixels_make(const pf_codes *codes, unsigned char out[PLANEFILE_WHITE + 1]);
 
 #endif

@@ -8,7 +8,6 @@
  */
 #include <inttypes.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 
 #include "plane.h"
@@ -20,22 +19,30 @@ typedef struct reader {
   uint64_t end;  /* offset of the trailer */
   uint64_t left; /* bytes that the records that are still to be read may have */
   bool is_film;
+  pf_codes codes;
   uint64_t *offsets;    /* of the bands, and after them where the last one ends */
   uint64_t *bases;      /* of the bands of the base; NULL: there is none */
   unsigned char *bytes; /* of the latest record */
   size_t capacity;
 } reader;
 
-__attribute__((format(printf, 4, 5))) static planefile_status
-fail(reader *r, planefile_status status, uint64_t offset, const char *format, ...) {
+/* subject: what the reason is of, and ": ", or nothing. */
+static planefile_status fail_of(reader *r, planefile_status status, uint64_t offset,
+                                const char *subject, const char *reason) {
   if (r->fault) {
-    va_list arguments;
     r->fault->offset = offset;
-    va_start(arguments, format);
-    vsnprintf(r->fault->reason, sizeof r->fault->reason, format, arguments);
-    va_end(arguments);
+    snprintf(r->fault->reason, sizeof r->fault->reason, "%s%s", subject, reason);
   }
   return status;
+}
+
+static planefile_status fail(reader *r, planefile_status status, uint64_t offset,
+                             const char *reason) {
+  return fail_of(r, status, offset, "", reason);
+}
+
+static planefile_status refuse(reader *r, uint64_t offset, const char *reason) {
+  return fail(r, PLANEFILE_BAD_FILE, offset, reason);
 }
 
 #define TRY(call)                                                                                  \
@@ -44,6 +51,14 @@ fail(reader *r, planefile_status status, uint64_t offset, const char *format, ..
     if (try_status != PLANEFILE_OK)                                                                \
       return try_status;                                                                           \
   } while (0)
+
+/* The reason ends with a number. */
+static planefile_status refuse_number(reader *r, planefile_status status, uint64_t offset,
+                                      const char *reason, uint32_t number) {
+  char text[16];
+  snprintf(text, sizeof text, " %" PRIu32, number);
+  return fail_of(r, status, offset, reason, text);
+}
 
 static planefile_status fail_memory(reader *r, uint64_t offset) {
   return fail(r, PLANEFILE_NO_MEMORY, offset, "no memory");
@@ -61,28 +76,34 @@ bool planefile_is(const void *bytes, size_t size) {
   return size >= sizeof pf_magic && memcmp(bytes, pf_magic, sizeof pf_magic) == 0;
 }
 
+/* Whether flags are those of a plane. */
+static bool is_allowed(uint32_t flags) {
+  return (flags & ~(uint32_t)(PF_OPAQUE | PF_VARIES | PF_CODED)) == 0;
+}
+
 static planefile_status load_header(reader *r) {
   unsigned char header[PF_HEADER_BYTES];
   planefile_info *info = &r->plane->info;
   if (r->source->size < PF_HEADER_BYTES + PF_TRAILER_BYTES)
-    return fail(r, PLANEFILE_BAD_FILE, 0, "the file is too short for a plane file");
+    return refuse(r, 0, "the file is too short for a plane file");
   TRY(load(r, 0, header, sizeof header));
   if (!planefile_is(header, sizeof header))
-    return fail(r, PLANEFILE_BAD_FILE, 0, "this is not a plane file");
+    return refuse(r, 0, "this is not a plane file");
   if (pf_load_32(header + 36) != pf_crc32c(0, header, 36))
-    return fail(r, PLANEFILE_BAD_FILE, 0, "the checksum of the header is wrong");
+    return refuse(r, 0, "the checksum of the header is wrong");
   if (pf_load_32(header + 8) != PF_VERSION)
-    return fail(r, PLANEFILE_BAD_FILE, 8, "the plane file has version %" PRIu32 ", which is newer",
-                pf_load_32(header + 8));
+    return refuse_number(r, PLANEFILE_BAD_FILE, 8,
+                         "the plane file has another version:", pf_load_32(header + 8));
   uint32_t flags = pf_load_32(header + 12);
   info->is_opaque = flags & PF_OPAQUE;
   info->varies = flags & PF_VARIES;
-  r->is_film = flags & PF_FILM;
+  info->is_coded = flags & PF_CODED;
+  r->is_film = flags == PF_FILM;
   info->width = pf_load_double(header + 16);
   info->height = pf_load_double(header + 24);
   if (!(info->width > 0 && info->height > 0 && isfinite(info->width) && isfinite(info->height)) ||
-      flags > PF_FILM || pf_load_32(header + 32) != 0)
-    return fail(r, PLANEFILE_BAD_FILE, 12, "the header has a value that is not allowed");
+      (!r->is_film && !is_allowed(flags)) || pf_load_32(header + 32) != 0)
+    return refuse(r, 12, "the header has a value that is not allowed");
   return PLANEFILE_OK;
 }
 
@@ -93,9 +114,9 @@ static planefile_status load_trailer(reader *r, uint64_t *last) {
   TRY(load(r, r->end, trailer, sizeof trailer));
   if (memcmp(trailer, pf_end_magic, sizeof pf_end_magic) != 0 ||
       pf_load_64(trailer + 16) != r->source->size)
-    return fail(r, PLANEFILE_BAD_FILE, r->end, "the file does not end where it should");
+    return refuse(r, r->end, "the file does not end where it should");
   if (pf_load_32(trailer + 28) != pf_crc32c(0, trailer, 28) || pf_load_32(trailer + 24) != 0)
-    return fail(r, PLANEFILE_BAD_FILE, r->end, "the checksum of the trailer is wrong");
+    return refuse(r, r->end, "the checksum of the trailer is wrong");
   *last = pf_load_64(trailer + 8);
   r->left = r->end;
   return PLANEFILE_OK;
@@ -105,14 +126,14 @@ static planefile_status load_trailer(reader *r, uint64_t *last) {
 
 /* The subject of a message. */
 typedef struct subject_text {
-  char text[24];
+  char text[28];
 } subject_text;
 static subject_text subject(unsigned char kind, uint32_t band) {
-  subject_text out = {"the index"};
+  subject_text out = {"the index: "};
   if (kind == PF_BAND)
-    snprintf(out.text, sizeof out.text, "band %" PRIu32, band);
+    snprintf(out.text, sizeof out.text, "band %" PRIu32 ": ", band);
   else if (kind == PF_FRAMES)
-    snprintf(out.text, sizeof out.text, "the list of frames");
+    snprintf(out.text, sizeof out.text, "the list of frames: ");
   return out;
 }
 
@@ -125,15 +146,15 @@ static planefile_status load_record(reader *r, unsigned char kind, uint32_t band
   subject_text name = subject(kind, band);
   if (offset < PF_HEADER_BYTES || offset > r->end ||
       r->end - offset < PF_HEAD_BYTES + PF_CHECK_BYTES)
-    return fail(r, PLANEFILE_BAD_FILE, r->end, "%s: its record is outside the file", name.text);
+    return fail_of(r, PLANEFILE_BAD_FILE, r->end, name.text, "its record is outside the file");
   TRY(load(r, offset, head, sizeof head));
   uint64_t whole = PF_HEAD_BYTES + (uint64_t)pf_load_32(head + 1) + PF_CHECK_BYTES;
   if (head[0] != kind)
-    return fail(r, PLANEFILE_BAD_FILE, offset, "%s: there is another record", name.text);
+    return fail_of(r, PLANEFILE_BAD_FILE, offset, name.text, "there is another record");
   if ((end > 0 && whole != end - offset) || whole > r->end - offset || whole > SIZE_MAX / 4)
-    return fail(r, PLANEFILE_BAD_FILE, offset, "%s: its record has another length", name.text);
+    return fail_of(r, PLANEFILE_BAD_FILE, offset, name.text, "its record has another length");
   if (whole > r->left)
-    return fail(r, PLANEFILE_BAD_FILE, offset, "%s: its record is a part of another", name.text);
+    return fail_of(r, PLANEFILE_BAD_FILE, offset, name.text, "its record is a part of another");
   r->left -= whole;
   unsigned char *bytes = pf_grow(&r->plane->memory, r->bytes, 1, &r->capacity, (size_t)whole);
   if (!bytes)
@@ -142,7 +163,7 @@ static planefile_status load_record(reader *r, unsigned char kind, uint32_t band
   TRY(load(r, offset, bytes, (size_t)whole));
   if (pf_load_32(bytes + whole - PF_CHECK_BYTES) !=
       pf_crc32c_record(offset, bytes, (size_t)whole - PF_CHECK_BYTES))
-    return fail(r, PLANEFILE_BAD_FILE, offset, "%s: the checksum is wrong", name.text);
+    return fail_of(r, PLANEFILE_BAD_FILE, offset, name.text, "the checksum is wrong");
   *size = (size_t)whole - PF_HEAD_BYTES - PF_CHECK_BYTES;
   return PLANEFILE_OK;
 }
@@ -156,12 +177,11 @@ static planefile_status load_frames(reader *r, uint32_t frame, uint64_t offset, 
   TRY(load_record(r, PF_FRAMES, 0, offset, r->end, &size));
   const unsigned char *payload = r->bytes + PF_HEAD_BYTES;
   if (size < PF_RATE_BYTES + PF_FRAME_BYTES || (size - PF_RATE_BYTES) % PF_FRAME_BYTES != 0)
-    return fail(r, PLANEFILE_BAD_FILE, offset,
-                "the list of frames: it has no whole number of them");
+    return refuse(r, offset, "the list of frames: it has no whole number of them");
   info->frame_count = (uint32_t)((size - PF_RATE_BYTES) / PF_FRAME_BYTES);
   info->frames_second = pf_load_double(payload);
   if (!(info->frames_second > 0 && isfinite(info->frames_second)))
-    return fail(r, PLANEFILE_BAD_FILE, offset, "the list of frames: there is no such rate");
+    return refuse(r, offset, "the list of frames: there is no such rate");
   if (frame < info->frame_count)
     *index = pf_load_64(payload + PF_RATE_BYTES + PF_FRAME_BYTES * (size_t)frame);
   return PLANEFILE_OK;
@@ -171,10 +191,11 @@ static planefile_status load_frames(reader *r, uint32_t frame, uint64_t offset, 
 static planefile_status load_flags(reader *r, uint64_t offset, size_t size) {
   planefile_info *info = &r->plane->info;
   uint32_t flags = size < PF_FLAG_BYTES ? UINT32_MAX : pf_load_32(r->bytes + PF_HEAD_BYTES);
-  if (flags > (PF_OPAQUE | PF_VARIES))
-    return fail(r, PLANEFILE_BAD_FILE, offset, "the index: it has a value that is not allowed");
+  if (!is_allowed(flags))
+    return refuse(r, offset, "the index: it has a value that is not allowed");
   info->is_opaque = flags & PF_OPAQUE;
   info->varies = flags & PF_VARIES;
+  info->is_coded = flags & PF_CODED;
   return PLANEFILE_OK;
 }
 
@@ -193,7 +214,7 @@ static planefile_status load_entry(reader *r, uint64_t offset, const unsigned ch
   if (i + 1 < r->plane->info.band_count)
     foot = pf_load_32(entry + PF_ENTRY_BYTES);
   if ((i == 0 && top != 0) || top >= foot || foot > PLANEFILE_SIDE)
-    return fail(r, PLANEFILE_BAD_FILE, offset, "the index: the heights do not follow each other");
+    return refuse(r, offset, "the index: the heights do not follow each other");
   band->top = (int32_t)top;
   band->foot = (int32_t)foot;
   return PLANEFILE_OK;
@@ -206,7 +227,7 @@ static planefile_status count_entries(reader *r, uint64_t offset, size_t size, u
     TRY(load_flags(r, offset, size));
   *count = (uint32_t)((size - flags) / PF_ENTRY_BYTES);
   if (*count == 0 || (size - flags) % PF_ENTRY_BYTES != 0)
-    return fail(r, PLANEFILE_BAD_FILE, offset, "the index: it has no whole number of entries");
+    return refuse(r, offset, "the index: it has no whole number of entries");
   return PLANEFILE_OK;
 }
 
@@ -222,8 +243,8 @@ static planefile_status load_base(reader *r, uint64_t offset) {
   const planefile_info info = plane->info;
   TRY(load_record(r, PF_INDEX, 0, offset, 0, &size));
   TRY(count_entries(r, offset, size, &count));
-  bool is_good =
-      count == info.band_count && plane->info.varies == info.varies && load_base_offset(r) == 0;
+  bool is_good = count == info.band_count && plane->info.varies == info.varies &&
+                 plane->info.is_coded == info.is_coded && load_base_offset(r) == 0;
   plane->info = info;
   r->bases = pf_make(&plane->memory, sizeof *r->bases, info.band_count);
   if (!r->bases)
@@ -233,8 +254,7 @@ static planefile_status load_base(reader *r, uint64_t offset) {
     is_good = pf_load_32(entry) == (uint32_t)plane->bands[i].band.top;
     r->bases[i] = pf_load_64(entry + 4);
   }
-  return is_good ? PLANEFILE_OK
-                 : fail(r, PLANEFILE_BAD_FILE, offset, "the index: it is no base of the frame's");
+  return is_good ? PLANEFILE_OK : refuse(r, offset, "the index: it is no base of the frame's");
 }
 
 static planefile_status load_index(reader *r, uint64_t offset) {
@@ -269,13 +289,16 @@ static bool has_base(planefile_plane *plane, const planefile_band *band) {
 static planefile_status decode_band(reader *r, uint32_t index, uint64_t offset, size_t size,
                                     const pf_base *base, pf_band *out) {
   const char *reason;
-  const pf_payload payload = {r->bytes + PF_HEAD_BYTES, size, r->plane->info.varies, base};
+  const planefile_info *info = &r->plane->info;
+  const pf_payload payload = {r->bytes + PF_HEAD_BYTES, size, info->varies,
+                              info->is_coded ? &r->codes : NULL, base};
   int32_t top = r->plane->bands[index].band.top, foot = r->plane->bands[index].band.foot;
   planefile_status status = pf_band_decode(&r->plane->memory, &payload, out, &reason);
   if (status != PLANEFILE_OK)
-    return fail(r, status, offset, "band %" PRIu32 ": %s", index, reason);
+    return fail_of(r, status, offset, subject(PF_BAND, index).text, reason);
   if (out->band.top != top || out->band.foot != foot)
-    return fail(r, PLANEFILE_BAD_FILE, offset, "band %" PRIu32 ": it has other heights", index);
+    return fail_of(r, PLANEFILE_BAD_FILE, offset, subject(PF_BAND, index).text,
+                   "it has other heights");
   return PLANEFILE_OK;
 }
 
@@ -319,9 +342,10 @@ static planefile_status load_band(reader *r, uint32_t index) {
   const planefile_band *band = &r->plane->bands[index].band;
   TRY(load_either(r, index));
   if (r->plane->info.is_opaque && !pf_band_is_opaque(band))
-    return fail(r, PLANEFILE_BAD_FILE, offset, "band %" PRIu32 ": it is not opaque", index);
+    return fail_of(r, PLANEFILE_BAD_FILE, offset, subject(PF_BAND, index).text, "it is not opaque");
   if (!has_base(r->plane, band))
-    return fail(r, PLANEFILE_BAD_FILE, offset, "band %" PRIu32 ": it has another cell 0", index);
+    return fail_of(r, PLANEFILE_BAD_FILE, offset, subject(PF_BAND, index).text,
+                   "it has another cell 0");
   return PLANEFILE_OK;
 }
 
@@ -344,7 +368,7 @@ static planefile_status load_plane(reader *r, uint32_t frame, int32_t top, int32
   if (r->is_film)
     TRY(load_frames(r, frame, last, &index));
   if (frame >= r->plane->info.frame_count)
-    return fail(r, PLANEFILE_BAD_ARGUMENT, r->end, "it has no frame %" PRIu32, frame);
+    return refuse_number(r, PLANEFILE_BAD_ARGUMENT, r->end, "it has no frame", frame);
   TRY(load_index(r, index));
   return load_bands(r, top, foot);
 }
@@ -370,13 +394,14 @@ planefile_status planefile_read_frame(const planefile_source *source, uint32_t f
   if (!r.plane)
     return fail_memory(&r, 0);
   r.plane->memory = memory;
+  pf_codes_make(&r.codes);
   planefile_status status = load_plane(&r, frame, top, foot);
   forget(&r);
   if (status != PLANEFILE_OK) {
     planefile_plane_destroy(r.plane);
     return status;
   }
-  pf_codes_make(r.plane->codes);
+  pf_pixels_make(&r.codes, r.plane->codes);
   if (r.plane->info.varies)
     pf_light_curve_make(&r.plane->curve);
   *out = r.plane;

@@ -9,14 +9,22 @@
 typedef struct state {
   pf_sides sides;
   int32_t since; /* the height from which on it has them */
+  int32_t slope;
 } state;
+
+/* What happens to chains at one height. */
+typedef struct group {
+  uint32_t size, chains[PF_GROUP];
+  pf_sides before[PF_GROUP];
+} group;
 
 typedef struct unpacker {
   const pf_memory *memory;
   pf_decoder decoder;
   pf_models models;
   pf_band *out;
-  const pf_base *base; /* NULL: there is none */
+  const pf_base *base;   /* NULL: there is none */
+  const pf_codes *codes; /* NULL: cells are not codes */
   planefile_point *points;
   planefile_piece *pieces;
   planefile_chain *chains;
@@ -52,6 +60,7 @@ void pf_band_free(const pf_memory *memory, pf_band *band) {
   pf_free(memory, (void *)b->steps, sizeof *b->steps, band->step_capacity);
   pf_free(memory, (void *)b->axes, sizeof *b->axes, band->axis_capacity);
   pf_free(memory, (void *)b->stops, sizeof *b->stops, band->stop_capacity);
+  pf_free(memory, band->runs, sizeof *band->runs, band->run_capacity);
 }
 
 /* ---------------------------------------------------------------- bases */
@@ -59,24 +68,20 @@ void pf_band_free(const pf_memory *memory, pf_band *band) {
 bool pf_base_make(const pf_memory *memory, const planefile_band *band, size_t code, pf_base *out) {
   size_t chains = band->chain_count;
   *out = (pf_base){.memory = *memory, .band = band, .code = code};
-  out->first = pf_make(memory, sizeof *out->first, chains + 2);
-  out->order = pf_make(memory, sizeof *out->order, band->border_count);
-  if (!out->first || !out->order)
+  out->first = pf_make(memory, sizeof *out->first, chains + 1);
+  if (!out->first)
     return false;
   for (uint32_t i = 0; i < band->border_count; i++)
-    out->first[band->borders[i].chain + 2]++;
+    out->first[band->borders[i].chain + 1]++;
   for (size_t i = 0; i < chains; i++)
-    out->first[i + 2] += out->first[i + 1];
-  for (uint32_t i = 0; i < band->border_count; i++)
-    out->order[out->first[band->borders[i].chain + 1]++] = i;
+    out->first[i + 1] += out->first[i];
   return true;
 }
 
 void pf_base_free(pf_base *base) {
   if (!base->band)
     return;
-  pf_free(&base->memory, base->first, sizeof *base->first, (size_t)base->band->chain_count + 2);
-  pf_free(&base->memory, base->order, sizeof *base->order, base->band->border_count);
+  pf_free(&base->memory, base->first, sizeof *base->first, (size_t)base->band->chain_count + 1);
   base->band = NULL;
 }
 
@@ -158,22 +163,92 @@ static bool get_program(unpacker *u, uint32_t cell) {
   return cell == 0 ? refuse(u, "cell 0 varies") : !reason || refuse(u, reason);
 }
 
-/* The next cell: its channels differ from those of the flat one before. */
-static bool get_fresh(unpacker *u, uint32_t *out) {
+/* The next cell, of which nothing is known yet. */
+static bool add_cell(unpacker *u, uint32_t *out) {
   planefile_band *band = &u->out->band;
-  *out = band->cell_count;
   if (band->cell_count == u->cell_count)
     return refuse(u, "it has more cells than it claims");
-  planefile_cell *cell = &u->cells[band->cell_count++];
-  if (u->coding && pf_get_symbol(&u->decoder, u->coding->models.varies, 1))
-    return get_program(u, *out);
+  *out = band->cell_count++;
+  return true;
+}
+
+/* NULL: a cell has a program, or comes after the one that is being decoded. */
+static const planefile_cell *flat_cell(const unpacker *u, uint32_t cell, uint32_t latest) {
+  bool is_known = cell <= latest && !(u->coding && u->programs[cell].step_count > 0);
+  return is_known ? &u->cells[cell] : NULL;
+}
+
+/* What a member of a group knows of a cell. */
+static bool guess(const unpacker *u, const group *g, uint32_t member, uint32_t cell,
+                  planefile_cell *out) {
+  const state *s = &u->states[g->chains[member]];
+  const pf_sides *was = &g->before[member];
+  const pf_beside beside = {{flat_cell(u, was->left, cell), flat_cell(u, was->right, cell)},
+                            {flat_cell(u, s->sides.left, cell), flat_cell(u, s->sides.right, cell)},
+                            s->slope};
+  return pf_guess(&beside, &u->cells[cell], out);
+}
+
+/* What the channels of a cell differ from. *guessed: whether that is a guess. */
+static bool get_origin(unpacker *u, const group *g, uint32_t cell, bool *guessed,
+                       planefile_cell *out) {
+  planefile_cell guesses[PF_GUESSES + 1] = {u->flat};
+  uint32_t count = 1, number = 0;
+  for (uint32_t i = 0; i < g->size && count <= PF_GUESSES; i++)
+    count += guess(u, g, i, cell, &guesses[count]);
+  if (count > 1)
+    number = pf_get_symbol(&u->decoder, u->models.guesses, 2);
+  if (number >= count)
+    return refuse(u, "there is no such guess");
+  *out = guesses[number];
+  *guessed = number > 0;
+  return true;
+}
+
+static bool get_channels(unpacker *u, pf_number channels[4], planefile_cell *cell) {
   for (int c = 0; c < 4; c++) {
-    int64_t channel = u->flat.colour[c] + pf_get_signed(&u->decoder, &u->models.channels[c]);
+    int64_t channel = cell->colour[c] + pf_get_signed(&u->decoder, &channels[c]);
     if (channel < -PLANEFILE_BRIGHT || channel > PLANEFILE_BRIGHT)
       return refuse(u, "a colour is too bright");
     cell->colour[c] = (int32_t)channel;
   }
-  u->flat = *cell;
+  return true;
+}
+
+static bool get_codes(unpacker *u, pf_number channels[4], planefile_cell *cell) {
+  int32_t straight[4];
+  pf_codes_of(u->codes, cell, straight);
+  for (int c = 0; c < 4; c++) {
+    int64_t code = straight[c] + pf_get_signed(&u->decoder, &channels[c]);
+    if (code < 0 || code > 255)
+      return refuse(u, "there is no such code");
+    straight[c] = (int32_t)code;
+  }
+  *cell = pf_codes_cell(u->codes, straight);
+  return true;
+}
+
+/* What a new cell is: a program, or channels that differ from those of the flat one before, or from
+ * a guess of the group in which it is new. */
+static bool get_content(unpacker *u, const group *g, uint32_t index) {
+  planefile_cell cell;
+  bool guessed;
+  if (u->coding && pf_get_symbol(&u->decoder, u->coding->models.varies, 1))
+    return get_program(u, index);
+  if (!get_origin(u, g, index, &guessed, &cell))
+    return false;
+  pf_number *channels = u->models.channels[guessed];
+  if (u->codes ? !get_codes(u, channels, &cell) : !get_channels(u, channels, &cell))
+    return false;
+  u->cells[index] = u->flat = cell;
+  return true;
+}
+
+/* The cells that are new from one on. */
+static bool get_contents(unpacker *u, const group *g, uint32_t first) {
+  for (uint32_t i = first; i < u->out->band.cell_count; i++)
+    if (!get_content(u, g, i))
+      return false;
   return true;
 }
 
@@ -181,7 +256,7 @@ static bool get_cell(unpacker *u, const pf_near *near, unsigned context, uint32_
                      uint32_t *out) {
   uint32_t symbol = pf_get_symbol(&u->decoder, u->models.cells[context], PF_SYMBOL_BITS);
   if (symbol == PF_FRESH)
-    return get_fresh(u, out);
+    return add_cell(u, out);
   *out = pf_candidate(near, context & 1, left, symbol);
   if (symbol == PF_OLDER) {
     uint32_t back = pf_get_number(&u->decoder, &u->models.older);
@@ -262,9 +337,15 @@ static int32_t foot_of(const unpacker *u, uint32_t chain) {
 static bool get_top(unpacker *u, uint32_t index, pf_sides own) {
   const pf_near near = {own, index > 1 ? u->states[index - 2].sides : (pf_sides){0, 0},
                         index > 0 ? u->states[index - 1].sides : (pf_sides){0, 0}};
+  const group none = {0};
+  uint32_t first = u->out->band.cell_count;
   state *s = &u->states[index];
   s->since = u->start.y > u->out->band.top ? u->start.y : u->out->band.top;
-  return get_sides(u, &near, PF_AT_TOP, &s->sides);
+  if (!get_sides(u, &near, PF_AT_TOP, &s->sides) || !get_contents(u, &none, first))
+    return false;
+  int64_t slope = pf_get_signed(&u->decoder, &u->models.slope);
+  s->slope = (int32_t)slope;
+  return (slope >= -PF_SLOPE && slope <= PF_SLOPE) || refuse(u, "there is no such slope");
 }
 
 static bool get_new_chain(unpacker *u, uint32_t index) {
@@ -335,9 +416,9 @@ static bool get_move(unpacker *u) {
 static bool keep_borders(unpacker *u, uint32_t index, uint32_t chain) {
   planefile_band *band = &u->out->band;
   planefile_border moved;
-  u->states[index] = (state){{0, 0}, INT32_MAX};
+  u->states[index] = (state){{0, 0}, INT32_MAX, 0};
   for (uint32_t i = u->base->first[chain]; i < u->base->first[chain + 1]; i++) {
-    if (!pf_move_border(pf_base_border(u->base, i), u->move.y, band, &moved))
+    if (!pf_move_border(&u->base->band->borders[i], u->move.y, band, &moved))
       continue;
     moved.chain = index;
     if (band->border_count == u->border_count)
@@ -374,12 +455,6 @@ static bool get_chain(unpacker *u, uint32_t index) {
 
 /* ---------------------------------------------------------------- changes */
 
-/* What happens to chains at one height. */
-typedef struct group {
-  uint32_t size, chains[PF_GROUP];
-  pf_sides before[PF_GROUP];
-} group;
-
 static bool get_members(unpacker *u, int32_t height, uint32_t *first, group *g) {
   for (uint32_t i = 0; i < g->size; i++) {
     pf_number *model = i == 0 ? &u->models.first : &u->models.next;
@@ -396,6 +471,7 @@ static bool get_members(unpacker *u, int32_t height, uint32_t *first, group *g) 
 }
 
 static bool apply(unpacker *u, const group *g, int32_t height, pf_sides *latest) {
+  uint32_t first = u->out->band.cell_count;
   for (uint32_t i = 0; i < g->size; i++) {
     const pf_near near = {g->before[i], g->before[pf_other(g->size, i)], *latest};
     state *s = &u->states[g->chains[i]];
@@ -407,7 +483,7 @@ static bool apply(unpacker *u, const group *g, int32_t height, pf_sides *latest)
     s->since = height;
     *latest = s->sides;
   }
-  return true;
+  return get_contents(u, g, first);
 }
 
 static bool get_changes(unpacker *u) {
@@ -431,11 +507,54 @@ static bool get_changes(unpacker *u) {
 
 /* ---------------------------------------------------------------- order */
 
+/* Puts borders that follow each other by chains, those of each in their order. */
+static bool sort_borders(unpacker *u) {
+  uint32_t count = u->border_count, chains = u->chain_count;
+  planefile_border *found = pf_make(u->memory, sizeof *found, count);
+  uint32_t *places = pf_make(u->memory, sizeof *places, (size_t)chains + 1);
+  for (uint32_t i = 0; found && places && i < count; i++)
+    places[u->borders[i].chain + 1]++;
+  for (uint32_t i = 0; places && i < chains; i++)
+    places[i + 1] += places[i];
+  for (uint32_t i = 0; found && places && i < count; i++)
+    found[places[u->borders[i].chain]++] = u->borders[i];
+  if (found && places)
+    memcpy(u->borders, found, count * sizeof *found);
+  bool is_done = found && places;
+  pf_free(u->memory, found, sizeof *found, count);
+  pf_free(u->memory, places, sizeof *places, (size_t)chains + 1);
+  return is_done;
+}
+
+/* The limits of a chain, across. */
+static void find_sides(const planefile_band *band, const planefile_chain *chain, pf_run *run) {
+  const planefile_piece *first = &band->pieces[chain->piece];
+  const planefile_piece *last = first + chain->piece_count - 1;
+  run->low = run->high = band->points[first->point].x;
+  for (uint32_t i = first->point; i <= last->point + last->degree; i++) {
+    int32_t x = band->points[i].x;
+    run->low = x < run->low ? x : run->low;
+    run->high = x > run->high ? x : run->high;
+  }
+}
+
+/* The runs of borders, which are by their chains. */
+static void find_runs(pf_band *out, pf_run *runs) {
+  const planefile_band *band = &out->band;
+  for (uint32_t i = 0, end; i < band->border_count; i = end) {
+    pf_run *run = &runs[out->run_count++];
+    for (end = i + 1;
+         end < band->border_count && band->borders[end].chain == band->borders[i].chain;)
+      end++;
+    *run = (pf_run){.top = band->borders[i].top, .foot = band->borders[end - 1].foot, .border = i};
+    find_sides(band, &band->chains[band->borders[i].chain], run);
+  }
+}
+
 enum { DIGIT = 9, DIGITS = 1 << DIGIT };
 
 /* Sorts by one digit of the tops; equal ones keep their order. */
-static void sort_digit(const planefile_border *from, planefile_border *to, uint32_t count,
-                       int shift) {
+static void sort_digit(const pf_run *from, pf_run *to, uint32_t count, int shift) {
   uint32_t places[DIGITS + 1] = {0};
   for (uint32_t i = 0; i < count; i++)
     places[((uint32_t)from[i].top >> shift & (DIGITS - 1)) + 1]++;
@@ -445,17 +564,20 @@ static void sort_digit(const planefile_border *from, planefile_border *to, uint3
     to[places[(uint32_t)from[i].top >> shift & (DIGITS - 1)]++] = from[i];
 }
 
-static bool sort_borders(unpacker *u) {
-  uint32_t count = u->border_count;
-  planefile_border *other = pf_make(u->memory, sizeof *other, count);
-  if (!other)
-    return false;
-  sort_digit(u->borders, other, count, 0);
-  sort_digit(other, u->borders, count, DIGIT);
-  sort_digit(u->borders, other, count, 2 * DIGIT);
-  memcpy(u->borders, other, count * sizeof *other);
-  pf_free(u->memory, other, sizeof *other, count);
-  return true;
+static bool make_runs(const pf_memory *memory, pf_band *out) {
+  uint32_t chains = out->band.chain_count;
+  pf_run *runs = pf_make(memory, sizeof *runs, chains);
+  out->runs = pf_make(memory, sizeof *out->runs, chains);
+  out->run_capacity = chains;
+  if (runs && out->runs) {
+    find_runs(out, runs);
+    sort_digit(runs, out->runs, out->run_count, 0);
+    sort_digit(out->runs, runs, out->run_count, DIGIT);
+    sort_digit(runs, out->runs, out->run_count, 2 * DIGIT);
+  }
+  bool is_done = runs && out->runs;
+  pf_free(memory, runs, sizeof *runs, chains);
+  return is_done;
 }
 
 /* ---------------------------------------------------------------- the band */
@@ -477,7 +599,8 @@ static bool check_end(unpacker *u) {
       band->border_count != u->border_count || band->step_count != u->room.step_count ||
       band->axis_count != u->room.axis_count || band->stop_count != u->room.stop_count)
     return refuse(u, "it has less than it claims");
-  return true;
+  return pf_is_moderate(u->cells, u->borders, u->border_count) ||
+         refuse(u, "its borders are too bright together");
 }
 
 /* What the band has from its base from the beginning: cells with all that belongs to them. */
@@ -512,8 +635,10 @@ static bool get_patches(unpacker *u) {
 
 /* The cells from which it begins. */
 static bool get_beginning(unpacker *u) {
+  const group none = {0};
   uint32_t cell;
-  return u->base ? take_base(u) && get_patches(u) : get_fresh(u, &cell);
+  return u->base ? take_base(u) && get_patches(u)
+                 : add_cell(u, &cell) && get_content(u, &none, cell);
 }
 
 /* False without a reason: no memory. */
@@ -521,6 +646,7 @@ static bool unpack(unpacker *u, const pf_payload *payload) {
   bool varies = payload->varies;
   size_t head = pf_band_head(varies);
   u->base = payload->base;
+  u->codes = payload->codes;
   if (payload->size < head)
     return refuse(u, "it is too short");
   size_t code = payload->size - head, paid = code + (u->base ? u->base->code : 0);
@@ -552,5 +678,5 @@ planefile_status pf_band_decode(const pf_memory *memory, const pf_payload *paylo
   pf_free(memory, u->coding, sizeof *u->coding, 1);
   pf_free(memory, u->states, sizeof *u->states, u->chain_count);
   pf_free(memory, u, sizeof *u, 1);
-  return status;
+  return status == PLANEFILE_OK && !make_runs(memory, out) ? PLANEFILE_NO_MEMORY : status;
 }

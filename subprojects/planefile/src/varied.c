@@ -156,13 +156,20 @@ static void add_cell(pf_varied *v, uint32_t cell, const pf_pixels *pixels, added
       out->channels[c][k] += share * (uint64_t)(int64_t)to_fine(colours->channels[c][k]);
 }
 
+/* A sum as an integer, whatever it is. */
+static inline uint64_t whole_of(double sum) {
+  const double most = 9007199254740992.0; /* 2^53 */
+  sum = sum > -most ? sum : -most;
+  return (uint64_t)(int64_t)(sum < most ? sum : most);
+}
+
 /* Pixels that several cells have a share of, or flat ones. */
-static void paint_shares(pf_varied *v, const pf_pixels *pixels, const uint64_t flat[4],
+static void paint_shares(pf_varied *v, const pf_pixels *pixels, const double flat[4],
                          planefile_span *out) {
   added sums;
   for (int c = 0; c < 4; c++)
     for (uint32_t k = 0; k < pixels->count; k++)
-      sums.channels[c][k] = flat[c] * FINE + (uint64_t)PF_HEIGHT * FINE / 2;
+      sums.channels[c][k] = whole_of(flat[c]) * FINE + (uint64_t)PF_HEIGHT * FINE / 2;
   for (uint32_t i = 0; i < v->active_count; i++)
     add_cell(v, v->active[i], pixels, &sums);
   for (int c = 0; c < 4; c++)
@@ -178,10 +185,10 @@ static void paint_whole(pf_varied *v, const pf_pixels *pixels, planefile_span *o
       out[k].colour.colour[c] = (to_fine(colours->channels[c][k]) + FINE / 2) >> 6;
 }
 
-void pf_varied_paint(pf_varied *v, const pf_pixels *pixels, const uint64_t flat[4],
+void pf_varied_paint(pf_varied *v, const pf_pixels *pixels, const double flat[4],
                      planefile_span *out) {
-  if (v->active_count == 1 && v->shares[v->active[0]] == PF_HEIGHT &&
-      (flat[0] | flat[1] | flat[2] | flat[3]) == 0)
+  if (v->active_count == 1 && v->shares[v->active[0]] == PF_HEIGHT && flat[0] == 0 &&
+      flat[1] == 0 && flat[2] == 0 && flat[3] == 0)
     paint_whole(v, pixels, out);
   else
     paint_shares(v, pixels, flat, out);

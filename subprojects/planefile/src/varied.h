@@ -56,7 +56,7 @@ void pf_varied_add_start(pf_varied *varied, uint32_t cell, int64_t share);
  * from a column on, each a span. flat: the sums of colours there. */
 void pf_varied_begin_row(pf_varied *varied);
 void pf_varied_take(pf_varied *varied, uint32_t row, uint32_t column);
-void pf_varied_paint(pf_varied *varied, const pf_pixels *pixels, const uint64_t flat[4],
+void pf_varied_paint(pf_varied *varied, const pf_pixels *pixels, const double flat[4],
                      planefile_span *out);
 
 #endif

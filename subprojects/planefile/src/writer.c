@@ -39,6 +39,7 @@ typedef struct draft {
 struct planefile_writer {
   planefile_writer_desc desc;
   pf_memory memory;
+  pf_codes codes;    /* where cells are codes */
   uint64_t offset;   /* in the file */
   pf_written *known; /* the records of a film; NULL: a single plane */
   uint64_t *frames;  /* the offsets of their indices */
@@ -65,6 +66,8 @@ struct planefile_writer {
 typedef planefile_writer writer;
 
 static bool is_film(const writer *w) { return w->desc.frames_second > 0; }
+/* NULL: cells are not codes. */
+static const pf_codes *codes_of(const writer *w) { return w->desc.is_coded ? &w->codes : NULL; }
 
 /* ---------------------------------------------------------------- checks */
 
@@ -316,7 +319,12 @@ static planefile_status encode(writer *w, int32_t top, int32_t foot, const pf_ba
                         .top = top,
                         .foot = foot,
                         .is_whole = is_film(w) && !base,
-                        .base = base};
+                        .base = base,
+                        .codes = codes_of(w)};
+  if (!pf_is_moderate(w->plane->cells, w->shown, w->shown_count)) {
+    *out = (pf_encoder){0};
+    return PLANEFILE_BAD_ARGUMENT;
+  }
   return pf_band_encode(&w->memory, &part, out);
 }
 
@@ -335,7 +343,7 @@ static planefile_status add_entry(writer *w, unsigned char kind, int32_t top,
 /* The latest band that was added becomes one of the key. */
 static planefile_status add_key(writer *w, const pf_encoder *code) {
   const char *reason;
-  const pf_payload payload = {code->bytes, code->count, w->flags & PF_VARIES, NULL};
+  const pf_payload payload = {code->bytes, code->count, w->flags & PF_VARIES, codes_of(w), NULL};
   key_band *key = pf_grow(&w->memory, w->key, sizeof *key, &w->key_capacity, w->key_count + 1);
   if (!key)
     return PLANEFILE_NO_MEMORY;
@@ -526,15 +534,34 @@ planefile_status planefile_writer_repeat(planefile_writer *w) {
   return is_film(w) && w->frame_count > 0 ? add_frame(w) : PLANEFILE_BAD_ARGUMENT;
 }
 
+/* Rounds the cells of a plane to codes, if they are such. */
+static void round_cells(const writer *w, planefile_band *plane, planefile_cell *rounded) {
+  int32_t straight[4];
+  for (uint32_t i = 0; i < plane->cell_count; i++) {
+    rounded[i] = plane->cells[i];
+    if (!w->desc.is_coded)
+      continue;
+    pf_codes_of(&w->codes, &plane->cells[i], straight);
+    rounded[i] = pf_codes_cell(&w->codes, straight);
+  }
+  plane->cells = rounded;
+}
+
 planefile_status planefile_writer_frame(planefile_writer *w, const planefile_band *given) {
   planefile_band flat = *given;
   flat.programs = varies(given) ? given->programs : NULL;
   if ((!is_film(w) && w->frame_count > 0) || !is_plane(&flat))
     return PLANEFILE_BAD_ARGUMENT;
+  planefile_cell *rounded = pf_make(&w->memory, sizeof *rounded, flat.cell_count);
+  if (!rounded)
+    return PLANEFILE_NO_MEMORY;
+  round_cells(w, &flat, rounded);
   w->plane = &flat;
-  w->flags = (pf_band_is_opaque(&flat) ? PF_OPAQUE : 0) | (flat.programs ? PF_VARIES : 0);
+  w->flags = (pf_band_is_opaque(&flat) ? PF_OPAQUE : 0) | (flat.programs ? PF_VARIES : 0) |
+             (w->desc.is_coded ? PF_CODED : 0);
   planefile_status status = put_plane(w);
   forget_frame(w);
+  pf_free(&w->memory, rounded, sizeof *rounded, flat.cell_count);
   return status == PLANEFILE_OK ? add_frame(w) : status;
 }
 
@@ -556,6 +583,8 @@ planefile_status planefile_writer_create(const planefile_writer_desc *desc,
     return PLANEFILE_NO_MEMORY;
   w->desc = *desc;
   w->memory = memory;
+  if (desc->is_coded)
+    pf_codes_make(&w->codes);
   if (is_film(w) && !(w->known = pf_written_create(&memory))) {
     planefile_writer_destroy(w);
     return PLANEFILE_NO_MEMORY;

@@ -74,9 +74,10 @@ end
 
 ---------------------------------------------------------------------- a band
 
-local function new_band(payload, varies)
+local function new_band(payload, flags)
+  local varies = flags & 2 > 0
   local band = {cells = {}, chains = {}, borders = {}, form = 0, varies = varies, axes = {},
-    flat = {0, 0, 0, 0}, stop = {0, 0, 0, 0}}
+    is_coded = flags & 8 > 0, cell_number = 0, flat = {0, 0, 0, 0}, stop = {0, 0, 0, 0}}
   band.top, band.foot, band.chain_count, band.piece_count, band.cell_count, band.change_count,
     band.border_count = ("<I4I4I4I4I4I4I4"):unpack(payload)
   band.coder = new_coder(payload:sub(varies and 41 or 29))
@@ -133,17 +134,85 @@ local function get_step(band)
   return step
 end
 
-local function get_fresh(band)
+-- Channels between -2^24 and 2^24.
+local function limit(value) return math.max(-(1 << 24), math.min(1 << 24, value)) end
+
+-- What the member of a group guesses of a cell, if it is next to it and knows the one beside it.
+local function guess(band, member, number)
+  local side = member.sides[1] == number and 1 or 2
+  local was, is = member.before[3 - side], member.sides[3 - side]
+  local known = {band.cells[was + 1], band.cells[member.before[side] + 1], band.cells[is + 1]}
+  if member.slope == 0 or member.sides[side] ~= number or is >= number then return nil end
+  for i = 1, 3 do if known[i].program then return nil end end
+  local slope, out = math.abs(member.slope), {}
+  for c = 1, 4 do
+    local way = known[3][c] - known[1][c]
+    if (member.slope > 0) == (side == 2) then
+      out[c] = limit(known[2][c] + (way * slope + 32768) // 65536)
+    else
+      out[c] = limit(known[2][c] + (way * 65536 + slope // 2) // slope)
+    end
+  end
+  return out
+end
+
+-- The least light that has a code or a greater one.
+local function light_of(code)
+  local share = code / 255
+  local light = share <= 0.04045 and share / 12.92 or ((share + 0.055) / 1.055) ^ 2.4
+  return math.max(0, math.ceil(light * 65535 - 1e-7))
+end
+
+local function code_of(light)
+  local code = 0
+  while code < 255 and light_of(code + 0.5) <= light do code = code + 1 end
+  return code
+end
+
+local function codes_of(cell)
+  local alpha = math.max(0, math.min(65535, cell[4]))
+  local out = {0, 0, 0, (alpha * 255 + 32767) // 65535}
+  for c = 1, 3 do
+    if out[4] > 0 then out[c] = code_of((math.max(0, cell[c]) * 65535 + alpha // 2) // alpha) end
+  end
+  return out
+end
+
+local function cell_of(codes)
+  local cell = {0, 0, 0, codes[4] * 257}
+  for c = 1, 3 do cell[c] = (light_of(codes[c]) * codes[4] + 127) // 255 end
+  return cell
+end
+
+-- The content of a new cell. members: of the group in which it is new.
+local function get_content(band, number, members)
   local cell = {0, 0, 0, 0}
   if band.varies and band.coder.symbol("varies", 1) == 1 then
     cell.program = {}
     for i = 1, band.coder.number("steps") + 1 do cell.program[i] = get_step(band) end
   else
-    cell = get_channels(band, "channel ", band.flat)
+    local guesses = {}
+    for _, member in ipairs(members or {}) do
+      if #guesses < 3 then guesses[#guesses + 1] = guess(band, member, number) end
+    end
+    local choice = #guesses > 0 and band.coder.symbol("guess", 2) or 0
+    local from = choice > 0 and guesses[choice] or band.flat
+    local name = choice > 0 and "guessed channel " or "channel "
+    cell = get_channels(band, name, band.is_coded and codes_of(from) or from)
+    if band.is_coded then cell = cell_of(cell) end
     band.flat = cell
   end
-  band.cells[#band.cells + 1] = cell
-  return #band.cells - 1
+  band.cells[number + 1] = cell
+end
+
+-- A new cell, whose content follows.
+local function get_fresh(band)
+  band.cell_number = band.cell_number + 1
+  return band.cell_number - 1
+end
+
+local function get_contents(band, members)
+  for number = #band.cells, band.cell_number - 1 do get_content(band, number, members) end
 end
 
 -- own, other, latest: pairs of cells, {left, right}.
@@ -154,7 +223,7 @@ local function get_sides(band, context, own, other, latest)
     local second = side == 1 and own[1] or sides[1]
     local known = {0, second, own[2], other[1], other[2], latest[1], latest[2]}
     sides[side] = symbol == 0 and get_fresh(band)
-      or symbol == 1 and #band.cells - 1 - band.coder.number("older") or known[symbol]
+      or symbol == 1 and band.cell_number - 1 - band.coder.number("older") or known[symbol]
   end
   return sides
 end
@@ -189,6 +258,8 @@ local function get_top(band, chain, before, own)
   local count = #band.chains
   local latest, other = before[count] or {0, 0}, before[count - 1] or {0, 0}
   chain.sides = get_sides(band, 0, own, other, latest)
+  get_contents(band)
+  chain.slope = band.coder.signed("slope")
 end
 
 local function get_new_chain(band, chain, start, before)
@@ -254,13 +325,16 @@ local function get_group(band, height, first, latest, done)
     add_border(band, chain, height)
     chain.sides = get_sides(band, context, before[i], before[other], latest)
     chain.since, latest = height, chain.sides
+    members[i] = {sides = chain.sides, before = before[i], slope = chain.slope}
   end
+  get_contents(band, members)
   return done + size, first, latest
 end
 
 -- A band begins with the cells of its base, whose axes may have been moved.
 local function begin_with(band, base)
   band.base, band.cells, band.axes = base, base.cells, base.axes
+  band.cell_number = #band.cells
   band.next_old, band.move = 0, {x = 0, y = 0}
   for _, axis in ipairs(band.axes) do
     if band.coder.symbol("is patched", 1) == 1 then
@@ -273,9 +347,14 @@ local function begin_with(band, base)
 end
 
 -- base: the band that it is made from, which is used up, or nil.
-local function read_band(payload, varies, base)
-  local band, start, before = new_band(payload, varies), {x = 0, y = 0}, {}
-  if base then begin_with(band, base) else get_fresh(band) end
+local function read_band(payload, flags, base)
+  local band, start, before = new_band(payload, flags), {x = 0, y = 0}, {}
+  if base then
+    begin_with(band, base)
+  else
+    get_fresh(band)
+    get_contents(band)
+  end
   for _ = 1, band.chain_count do get_chain(band, start, before) end
   local height, first, latest, done = band.top, 0, {0, 0}, 0
   while done < band.change_count do
@@ -404,7 +483,7 @@ local function add_line(rows, columns, xa, ya, xb, yb, border)
 end
 
 local function draw_border(rows, size, border)
-  local fit, STEPS = {x = size.columns / SIDE, y = size.rows / SIDE}, 24
+  local fit, STEPS = {x = size.columns / SIDE, y = size.rows / SIDE}, 40
   for _, piece in ipairs(border.chain) do
     local steps = #piece == 2 and 1 or STEPS
     local xa, ya = piece[1][1], piece[1][2]
@@ -445,11 +524,11 @@ end
 -- bands: all that the index names, in order.
 local function read_bands(bytes, frame)
   local entries, flags, base_entries = read_index(bytes, frame)
-  local bands, varies = {}, flags & 2 > 0
+  local bands = {}
   for at = 1, #entries, 12 do
     local payload, kind = payload_at(bytes, (("<I8"):unpack(entries, at + 4)))
     local base = kind == "D" and payload_at(bytes, (("<I8"):unpack(base_entries, at + 4))) or nil
-    bands[#bands + 1] = read_band(payload, varies, base and read_band(base, varies))
+    bands[#bands + 1] = read_band(payload, flags, base and read_band(base, flags))
   end
   return bands, flags & 1 > 0
 end

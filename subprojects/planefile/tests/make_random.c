@@ -1,6 +1,7 @@
 /* Writes random planes: `make_random FOLDER COUNT COLUMNS ROWS` makes 0.plane, 0.pixels, ... there,
  * to compare decoders with: the channels of the pixels as 32-bit integers; 0.codes, ..., the same
- * as 8-bit codes; and film.plane, whose frames are all of these planes. Without a size the plane
+ * as 8-bit codes; and film.plane, whose frames are all of these planes. With one more argument
+ * cells are 8-bit codes. Without a size the plane
  * files alone, and some films, beginning with a byte of 0 to 3, like the fuzzer's inputs. */
 #include "support.h"
 
@@ -50,10 +51,14 @@ static drawing make(int number) {
   return d;
 }
 
-static memory_file make_film(int from, int end) {
+static memory_file make_film(int from, int end, bool is_coded) {
   memory_file file = {0};
-  planefile_writer_desc desc = {
-      .width = 4, .height = 3, .write = memory_write, .user = &file, .frames_second = 12};
+  planefile_writer_desc desc = {.width = 4,
+                                .height = 3,
+                                .write = memory_write,
+                                .user = &file,
+                                .frames_second = 12,
+                                .is_coded = is_coded};
   planefile_writer *writer = NULL;
   CHECK(planefile_writer_create(&desc, &writer) == PLANEFILE_OK);
   for (int i = from; i < end; i++) {
@@ -69,15 +74,17 @@ static memory_file make_film(int from, int end) {
 /* One in five inputs is a film. */
 static void put_input(const char *folder, int number) {
   drawing d = make(number);
-  memory_file file = number % 5 == 4 ? make_film(number - 3, number) : write_plane(&d.plane);
+  memory_file file = number % 5 == 4 ? make_film(number - 3, number, number % 2)
+                                     : write_coded(&d.plane, number % 8 == 1);
   put_file(folder, number, "", number % 4, file.bytes, file.size);
   free(file.bytes);
   drawing_free(&d);
 }
 
-static void put_plane(const char *folder, int number, uint32_t columns, uint32_t rows) {
+static void put_plane(const char *folder, int number, uint32_t columns, uint32_t rows,
+                      bool is_coded) {
   drawing d = make(number);
-  memory_file file = write_plane(&d.plane);
+  memory_file file = write_coded(&d.plane, is_coded);
   put_file(folder, number, ".plane", -1, file.bytes, file.size);
   put_drawn(folder, number, &file, columns, rows);
   free(file.bytes);
@@ -85,16 +92,18 @@ static void put_plane(const char *folder, int number, uint32_t columns, uint32_t
 }
 
 int main(int count, char **arguments) {
-  if (count != 3 && count != 5)
+  if (count != 3 && count != 5 && count != 6)
     return 2;
+  bool is_coded = count == 6;
   int planes = atoi(arguments[2]);
   for (int i = 0; i < planes; i++)
     if (count == 3)
       put_input(arguments[1], i);
     else
-      put_plane(arguments[1], i, (uint32_t)atoi(arguments[3]), (uint32_t)atoi(arguments[4]));
-  if (count == 5) {
-    memory_file film = make_film(0, planes);
+      put_plane(arguments[1], i, (uint32_t)atoi(arguments[3]), (uint32_t)atoi(arguments[4]),
+                is_coded);
+  if (count > 3) {
+    memory_file film = make_film(0, planes, is_coded);
     put_named(arguments[1], "film.plane", -1, film.bytes, film.size);
     free(film.bytes);
   }

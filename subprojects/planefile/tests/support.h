@@ -269,13 +269,40 @@ static inline void add_shape(drawing *d, random_state *random, bool is_opaque, v
   }
 }
 
+/* Something translucent over other cells: what is right of its first chain is what is left of it,
+ * times a slope, and something; its second chain is the other way round. */
+static inline void add_glass(drawing *d, random_state *random, bool is_opaque) {
+  enum { CUTS = 6 };
+  int32_t start = random_between(random, 1 << 20, 1 << 25);
+  const int32_t heights[4] = {start, start + (1 << 23), start + (1 << 24), 1 << 26};
+  uint32_t chains[2];
+  chains[0] = add_chain(d, random, heights, 4);
+  chains[1] = add_chain(d, random, heights, 4);
+  planefile_cell colour = random_colour(random, is_opaque);
+  int slope = random_between(random, 20, 90);
+  for (int i = 0; i < CUTS; i++) {
+    uint32_t below = add_cell(d, random, is_opaque), above = d->plane.cell_count++;
+    planefile_cell *cells = &d->cells[below];
+    for (int c = 0; c < 4; c++) {
+      cells[0].colour[c] = (cells[0].colour[c] + 3 * colour.colour[c]) / 4; /* seen dimly */
+      cells[1].colour[c] = (cells[0].colour[c] * slope + colour.colour[c] * (100 - slope)) / 100;
+    }
+    int32_t top = start + (i << 22), foot = i + 1 < CUTS ? top + (1 << 22) : 1 << 26;
+    add_border(d, chains[0], top, foot, below, above);
+    add_border(d, chains[1], top, foot, above, below);
+  }
+}
+
 static inline drawing random_drawing(uint64_t seed, uint32_t shapes, variety kind) {
   random_state random = {seed};
   drawing d = drawing_new(shapes);
   bool is_opaque = seed % 3 == 0;
   add_cell(&d, &random, is_opaque);
   for (uint32_t i = 0; i < shapes; i++)
-    add_shape(&d, &random, is_opaque, kind);
+    if (i % 5 == 4)
+      add_glass(&d, &random, is_opaque);
+    else
+      add_shape(&d, &random, is_opaque, kind);
   return d;
 }
 
@@ -320,11 +347,16 @@ static inline void alter_drawing(drawing *d, random_state *random, bool is_opaqu
 
 /* ---------------------------------------------------------------- writing and reading them */
 
-static inline memory_file write_plane(const planefile_band *plane) {
+static inline memory_file write_coded(const planefile_band *plane, bool is_coded) {
   memory_file file = {0};
-  planefile_writer_desc desc = {.width = 4, .height = 3, .write = memory_write, .user = &file};
+  planefile_writer_desc desc = {
+      .width = 4, .height = 3, .write = memory_write, .user = &file, .is_coded = is_coded};
   CHECK(planefile_write(&desc, plane) == PLANEFILE_OK);
   return file;
+}
+
+static inline memory_file write_plane(const planefile_band *plane) {
+  return write_coded(plane, false);
 }
 
 static inline planefile_plane *read_plane(memory_file *file) {

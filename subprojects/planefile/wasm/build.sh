@@ -1,6 +1,6 @@
 #!/bin/sh
-# The decoder as WebAssembly, in base64: build.sh OUT SOURCE... The functions that draw are made for
-# speed, all others to be small. CLANG and WASM_LD: the programs; without them OUT is the word none.
+# The decoder as WebAssembly, in base64: build.sh OUT SOURCE... It is made to be small. CLANG and
+# WASM_LD: the programs; without them OUT is the word none.
 set -eu
 out=$1
 shift
@@ -10,13 +10,8 @@ printf none >"$out"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 for source in "$@" "$here/module.c" "$here/libc.c"; do
-  case $source in
-    */draw.c | */varied.c | */pixels.c | */program.c) level='-Os -msimd128' ;;
-    *) level=-Oz ;;
-  esac
-  # shellcheck disable=SC2086
-  "$CLANG" --target=wasm32 -std=c17 $level -ffreestanding -nostdlibinc -ffp-contract=off \
-    -ffunction-sections -fdata-sections -fvisibility=hidden -fno-ident \
+  "$CLANG" --target=wasm32 -std=c17 -Oz -flto -msimd128 -ffreestanding -nostdlibinc \
+    -ffp-contract=off -ffunction-sections -fdata-sections -fvisibility=hidden -fno-ident \
     -mbulk-memory -msign-ext -mnontrapping-fptoint -mmutable-globals \
     -Wall -Wextra -Werror -I"$here/include" -I"$here/../include" \
     -c "$source" -o "$folder/$(basename "$source").o"
