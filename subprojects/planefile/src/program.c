@@ -25,6 +25,8 @@ static double light_of(double code) {
 void pf_light_curve_make(pf_light_curve *out) {
   for (int i = 0; i <= PF_CURVE + 1; i++)
     out->light[i] = (float)light_of((double)i / PF_CURVE);
+  for (int i = 0; i < 256; i++)
+    out->codes[i] = (float)light_of(i / 255.0);
 }
 
 /* Of a code from 0 to 1. */
@@ -212,11 +214,25 @@ static void fill_flat(const planefile_cell *colour, uint32_t count, pf_colours *
       out->channels[c][k] = flat[c];
 }
 
-static void fill_ramp(const planefile_band *band, const planefile_step *step,
+static void multiply(const planefile_cell *by, uint32_t count, pf_colours *colours) {
+  float factors[4];
+  put_unit(by, factors);
+  for (int c = 0; c < 4; c++)
+    for (uint32_t k = 0; k < count; k++)
+      colours->channels[c][k] *= factors[c];
+}
+
+static void fill_ramp(const pf_program_source *source, const planefile_step *step,
                       const pf_pixels *pixels, pf_colours *out) {
+  const planefile_band *band = source->band;
   const planefile_axis *axis = &band->axes[step->axis];
   const planefile_stop *stops = &band->stops[step->stop];
   places at;
+  if (axis->kind == PLANEFILE_PICTURE) {
+    pf_picture_colours(&source->pictures[axis->picture], axis, pixels, out);
+    multiply(&stops->colour, pixels->count, out);
+    return;
+  }
   find_places(axis, pixels, &at);
   if (axis->kind == PLANEFILE_TRIANGLE)
     mix_corners(stops, &at, pixels->count, out);
@@ -224,48 +240,43 @@ static void fill_ramp(const planefile_band *band, const planefile_step *step,
     mix_stops(stops, step->stop_count, &at, pixels->count, out);
 }
 
-static void add_layer(const planefile_band *band, const planefile_step *step,
+static void add_layer(const pf_program_source *source, const planefile_step *step,
                       const pf_pixels *pixels, front *to) {
   pf_colours room, *layer = begin_layer(to, &room);
   if (step->kind == PLANEFILE_FLAT)
     fill_flat(&step->colour, pixels->count, layer);
   else
-    fill_ramp(band, step, pixels, layer);
+    fill_ramp(source, step, pixels, layer);
   end_layer(pixels->count, to, layer);
 }
 
 /* A group becomes a layer of the group around it. */
 static void leave(const planefile_step *step, const pf_light_curve *curve, uint32_t count,
                   const front *group, front *around) {
-  float factors[4], (*channels)[PF_BATCH] = group->colours->channels;
   if (group->is_clear)
     return;
-  put_unit(&step->colour, factors);
   if (step->converts)
     convert_all(curve, count, group->colours);
-  for (int c = 0; c < 4; c++)
-    for (uint32_t k = 0; k < count; k++)
-      channels[c][k] *= factors[c];
+  multiply(&step->colour, count, group->colours);
   if (around->is_clear)
     *around->colours = *group->colours;
   end_layer(count, around, group->colours);
 }
 
-void pf_program_colours(const planefile_band *band, planefile_program program,
-                        const pf_light_curve *curve, const pf_pixels *pixels,
-                        pf_colours room[PLANEFILE_DEPTH + 1]) {
+void pf_program_colours(const pf_program_source *source, planefile_program program,
+                        const pf_pixels *pixels, pf_colours room[PLANEFILE_DEPTH + 1]) {
   front fronts[PLANEFILE_DEPTH + 1], *now = fronts;
   *now = (front){room, true};
   for (uint32_t i = 0; i < program.step_count; i++) {
-    const planefile_step *step = &band->steps[program.step + i];
+    const planefile_step *step = &source->band->steps[program.step + i];
     if (step->kind == PLANEFILE_ENTER) {
       now++;
       *now = (front){room + (now - fronts), true};
     } else if (step->kind == PLANEFILE_LEAVE) {
-      leave(step, curve, pixels->count, now, now - 1);
+      leave(step, source->curve, pixels->count, now, now - 1);
       now--;
     } else {
-      add_layer(band, step, pixels, now);
+      add_layer(source, step, pixels, now);
     }
   }
   if (now->is_clear)

@@ -143,8 +143,8 @@ static inline int32_t to_fine(float channel) {
 static const pf_colours *find_colours(pf_varied *v, uint32_t cell, const pf_pixels *pixels) {
   uint32_t index = find_band(v, cell);
   const planefile_band *band = &v->plane->bands[index].band;
-  pf_program_colours(band, band->programs[cell - v->first[index]], &v->plane->curve, pixels,
-                     v->room);
+  const pf_program_source source = {band, v->plane->pictures, &v->plane->curve};
+  pf_program_colours(&source, band->programs[cell - v->first[index]], pixels, v->room);
   return v->room;
 }
 
