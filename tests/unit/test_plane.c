@@ -18,8 +18,8 @@ static celspan_paint random_paint(test_random *random) {
   return celspan_paint_rgb(red, green, blue, alpha);
 }
 
-/* Whether scenes have gradients. */
-typedef enum variety { FLAT, VARIED } variety;
+/* Whether scenes have gradients, and pictures. */
+typedef enum variety { FLAT, VARIED, PICTURED } variety;
 
 static celspan_texture *random_gradient(studio *s, test_random *random) {
   celspan_stop stops[4];
@@ -42,6 +42,55 @@ static celspan_texture *random_gradient(studio *s, test_random *random) {
   return studio_focal(s, from, radius, focus, stops, count);
 }
 
+/* The pixels of a surface of a format, which are the floats or integers of a wave. */
+static void fill_surface(test_random *random, celspan_surface_desc *desc, unsigned char *out) {
+  double across = random_between(random, 0.05, 0.3), down = random_between(random, 0.05, 0.3);
+  bool is_opaque = random_below(random, 2);
+  for (int32_t i = 0; i < desc->width * desc->height; i++)
+    for (int c = 0; c < 4; c++) {
+      double at = across * (i % desc->width) + down * (double)(i / desc->width) + c;
+      double value = c == 3 && is_opaque ? 1 : 0.5 + 0.4 * sin(at);
+      if (desc->format == CELSPAN_SURFACE_RGBAF)
+        ((float *)(void *)out)[4 * i + c] = (float)value * (c == 0 ? 1.5f : 1);
+      else if (desc->format == CELSPAN_SURFACE_RGBA16)
+        ((uint16_t *)(void *)out)[4 * i + c] = (uint16_t)(value * 65535);
+      else
+        out[4 * i + c] = (unsigned char)(value * 255 + 0.5);
+    }
+}
+
+static celspan_texture *random_picture(studio *s, test_random *random) {
+  static const celspan_surface_format formats[3] = {CELSPAN_SURFACE_RGBA8, CELSPAN_SURFACE_RGBA16,
+                                                    CELSPAN_SURFACE_RGBAF};
+  celspan_surface_desc surface = CELSPAN_SURFACE_DESC;
+  surface.width = 1 + (int32_t)random_below(random, 400);
+  surface.height = 1 + (int32_t)random_below(random, 300);
+  surface.format = formats[random_below(random, 3)];
+  unsigned char *pixels = calloc((size_t)surface.width * (size_t)surface.height, 16);
+  fill_surface(random, &surface, pixels);
+  surface.pixels = pixels;
+  celspan_picture_desc desc = {.sampling = (celspan_sampling)random_below(random, 4)};
+  desc.wrap = (celspan_wrap)random_below(random, 3);
+  studio_check(s, celspan_surface_create(s->context, &surface, &desc.surface));
+  free(pixels);
+  desc.has_box = random_below(random, 2);
+  celspan_point corner = random_point(random, -20, 60, -20, 40);
+  celspan_point size = random_point(random, 5, 90, 5, 60);
+  desc.box = (celspan_box){corner.x, corner.y, size.x, size.y};
+  celspan_texture *texture = NULL;
+  studio_check(s, celspan_texture_create_picture(s->context, &desc, &texture));
+  celspan_surface_unref(desc.surface);
+  s->textures[s->texture_count++] = texture;
+  return texture;
+}
+
+static celspan_texture *random_texture(studio *s, test_random *random, variety kind) {
+  if (kind == FLAT || random_below(random, 2))
+    return studio_paint(s, random_paint(random));
+  return kind == PICTURED && random_below(random, 2) ? random_picture(s, random)
+                                                     : random_gradient(s, random);
+}
+
 /* Of the second and the third degree. */
 static celspan_object *curved_path(studio *s, const celspan_point points[5],
                                    celspan_texture *texture) {
@@ -54,9 +103,7 @@ static celspan_object *curved_path(studio *s, const celspan_point points[5],
 }
 
 static celspan_object *random_object(studio *s, test_random *random, variety kind) {
-  celspan_texture *texture = kind == VARIED && random_below(random, 2)
-                                 ? random_gradient(s, random)
-                                 : studio_paint(s, random_paint(random));
+  celspan_texture *texture = random_texture(s, random, kind);
   celspan_point corners[5];
   for (int k = 0; k < 5; k++)
     corners[k] = random_point(random, -10, WIDTH + 10, -10, HEIGHT + 10);
@@ -71,15 +118,31 @@ static celspan_object *random_object(studio *s, test_random *random, variety kin
   return studio_polygon(s, corners, 3, CELSPAN_RULE_NONZERO, texture);
 }
 
-/* The objects as one that may be faded, and be composited in sRGB. */
-static celspan_object *random_group(studio *s, test_random *random, celspan_object **objects,
-                                    size_t count) {
+/* The objects as one that may be faded, and, without pictures, be composited in sRGB. */
+static celspan_object *random_group(studio *s, test_random *random, variety kind,
+                                    celspan_object **objects, size_t count) {
   celspan_group_desc desc = CELSPAN_GROUP_DESC;
   desc.objects = objects;
   desc.object_count = count;
   desc.opacity = random_below(random, 2) ? 1 : random_unit(random);
-  desc.space = random_below(random, 2) ? CELSPAN_SPACE_SRGB : CELSPAN_SPACE_AROUND;
+  if (kind == VARIED && random_below(random, 2))
+    desc.space = CELSPAN_SPACE_SRGB;
   return studio_group(s, &desc);
+}
+
+/* Turned a little, and in one of two cases in perspective. */
+static celspan_cel *random_place(studio *s, test_random *random, celspan_cel *cel) {
+  celspan_point turn = random_point(random, -0.3, 0.3, -0.3, 0.3);
+  celspan_point bend = random_point(random, -0.004, 0.004, -0.004, 0.004);
+  celspan_matrix matrix = {{1, turn.x, 3, turn.y, 1, -2, 0, 0, 1}};
+  if (random_below(random, 2)) {
+    matrix.m[6] = bend.x;
+    matrix.m[7] = bend.y;
+  }
+  celspan_cel *placed = NULL;
+  studio_check(s, celspan_cel_transform(s->context, cel, &matrix, &placed));
+  s->cels[s->cel_count++] = placed;
+  return placed;
 }
 
 /* A cel of a few shapes, one of which is cut out of others. */
@@ -93,13 +156,14 @@ static celspan_cel *random_cel(studio *s, test_random *random, variety kind) {
   objects[0] = studio_pair(s, CELSPAN_DIFFERENCE, objects[0], other);
   desc.opacity = random_below(random, 3) ? 1 : random_unit(random);
   desc.back = random_below(random, 3) ? desc.back : (celspan_light){0.25f, 0.5f, 0, 0.5f};
-  if (kind == VARIED && random_below(random, 2)) {
+  if (kind != FLAT && random_below(random, 2)) {
     desc.has_front = true;
     desc.front = (celspan_light){1.5f, 0.75f, 0.5f, 1};
-    objects[0] = random_group(s, random, objects, count);
+    objects[0] = random_group(s, random, kind, objects, count);
     count = 1;
   }
-  return studio_cel(s, desc, objects, count);
+  celspan_cel *cel = studio_cel(s, desc, objects, count);
+  return kind != FLAT && random_below(random, 3) == 0 ? random_place(s, random, cel) : cel;
 }
 
 static celspan_rostrum *random_rostrum(studio *s, uint64_t seed, variety kind) {
@@ -220,7 +284,8 @@ static void check_small(studio *s) {
 
 /* ---------------------------------------------------------------- as points are */
 
-/* Pixels at their centres, of frames that nobody renders. An edge may lie between the two. */
+/* Pixels at their centres, of frames that nobody renders. An edge may lie between the two. Pictures
+ * are left out: the probe shows what a pixel of a small frame covers of them. */
 static void check_probes(studio *s, variety kind) {
   enum { SIDE = 1 << 20, PROBES = 400 };
   size_t off = 0;
@@ -257,7 +322,7 @@ static void check_probes(studio *s, variety kind) {
 static void check_files(studio *s) {
   const char *path = "plane/test.plane";
   for (uint64_t seed = 40; seed < 44; seed++) {
-    celspan_plane *plane = make_plane(s, random_rostrum(s, seed, VARIED)), *again = NULL;
+    celspan_plane *plane = make_plane(s, random_rostrum(s, seed, PICTURED)), *again = NULL;
     double width, height;
     studio_check(s, celspan_plane_write(s->context, plane, path));
     studio_check(s, celspan_plane_read(s->context, path, &again));
@@ -378,7 +443,7 @@ static celspan_status make_and_draw(studio *s, const celspan_rostrum *rostrum) {
 
 /* Every allocation fails once. */
 static void check_failures_of_memory(studio *s, memory_watch *watch) {
-  const celspan_rostrum *rostrum = random_rostrum(s, 3, VARIED);
+  const celspan_rostrum *rostrum = random_rostrum(s, 3, PICTURED);
   bool has_failed = true;
   for (size_t n = 1; has_failed; n++) {
     watch->fail_at = watch->allocations + n;
@@ -399,6 +464,7 @@ int main(void) {
   CHECK(celspan_context_create(&desc, &s.context) == CELSPAN_OK);
   check_frames(&s, FLAT);
   check_frames(&s, VARIED);
+  check_frames(&s, PICTURED);
   check_small(&s);
   check_probes(&s, FLAT);
   check_probes(&s, VARIED);

@@ -4,6 +4,8 @@
 
 #include "base/number.h"
 #include "engine/paint/over_row.h"
+#include "engine/record/pictures.h"
+#include "engine/record/places.h"
 
 #define SAMPLES 64              /* of a table, from one stop to the next */
 #define TOLERANCE (1.0 / 16384) /* of a table */
@@ -160,30 +162,16 @@ static celspan_status move(program_maker *m, uint32_t layer) {
 
 /* ---------------------------------------------------------------- axes */
 
-/* A plane over pixels of the plan as one over the frame. */
-static void place_plane(const double over_pixels[3], double out[3]) {
-  out[0] = over_pixels[0] * CS_RECORD_SIDE;
-  out[1] = over_pixels[1] * CS_RECORD_SIDE;
-  out[2] = over_pixels[2];
-}
-
-/* The function a u + b v + c w of a shade's own units. */
-static void place_own(const cs_shade *shade, double a, double b, double c, double out[3]) {
-  const double *m = shade->inverse.m;
-  double over_pixels[3];
-  for (int k = 0; k < 3; k++)
-    over_pixels[k] = a * m[k] + b * m[3 + k] + c * m[6 + k];
-  place_plane(over_pixels, out);
-}
-
 /* The shares of the second and the third corner. */
 static void place_corners(const cs_shade *shade, planefile_axis *out) {
   const celspan_point *p = shade->texture->variation->points;
   double ux = p[1].x - p[0].x, uy = p[1].y - p[0].y;
   double vx = p[2].x - p[0].x, vy = p[2].y - p[0].y, area = ux * vy - uy * vx;
-  place_own(shade, vy / area, -vx / area, (p[0].y * vx - p[0].x * vy) / area, out->p);
-  place_own(shade, -uy / area, ux / area, (p[0].x * uy - p[0].y * ux) / area, out->q);
-  place_own(shade, 0, 0, 1, out->w);
+  cs_place_own(&shade->inverse,
+               (double[3]){vy / area, -vx / area, (p[0].y * vx - p[0].x * vy) / area}, out->p);
+  cs_place_own(&shade->inverse,
+               (double[3]){-uy / area, ux / area, (p[0].x * uy - p[0].y * ux) / area}, out->q);
+  cs_place_own(&shade->inverse, (double[3]){0, 0, 1}, out->w);
 }
 
 static planefile_axis axis_of(const cs_shade *shade) {
@@ -193,22 +181,29 @@ static planefile_axis axis_of(const cs_shade *shade) {
     place_corners(shade, &axis);
     return axis;
   }
-  place_plane(shade->plane[0], axis.p);
+  cs_place_plane(shade->plane[0], axis.p);
   if (shade->texture->kind == CS_TEXTURE_RADIAL) {
     axis.kind = PLANEFILE_RADIAL;
     axis.focus = shade->eccentricity;
-    place_plane(shade->plane[1], axis.q);
+    cs_place_plane(shade->plane[1], axis.q);
   }
   if (!shade->is_affine)
-    place_own(shade, 0, 0, 1, axis.w);
+    cs_place_own(&shade->inverse, (double[3]){0, 0, 1}, axis.w);
   return axis;
 }
 
-static celspan_status find_axis(program_maker *m, uint32_t shade, uint32_t *out) {
+/* layer: SHADED or PICTURE. */
+static celspan_status find_axis(program_maker *m, const cs_layer *layer, uint32_t *out) {
   cs_recording *record = m->record;
-  uint32_t *known = &m->source->axes[shade];
+  const cs_stack *stack = m->source->stack;
+  bool is_picture = layer->kind == CS_LAYER_PICTURE;
+  uint32_t *known = &m->source->axes[layer->index + (is_picture ? stack->shade_count : 0)];
   if (*known == 0) {
-    const planefile_axis axis = axis_of(&m->source->stack->shades[shade]);
+    planefile_axis axis;
+    if (is_picture)
+      CS_TRY(cs_record_image(m->source->context, &stack->images[layer->index], record, &axis));
+    else
+      axis = axis_of(&stack->shades[layer->index]);
     CS_TRY(CS_APPEND(m->source->context, record->axes, record->axis_count, record->axis_capacity,
                      axis));
     *known = (uint32_t)record->axis_count;
@@ -226,9 +221,9 @@ static celspan_status add_stop(program_maker *m, double at, planefile_cell colou
 }
 
 /* Adds a ramp over the stops that were added from `stop` on. */
-static celspan_status add_varied(program_maker *m, uint32_t shade, size_t stop) {
+static celspan_status add_varied(program_maker *m, const cs_layer *layer, size_t stop) {
   uint32_t axis;
-  CS_TRY(find_axis(m, shade, &axis));
+  CS_TRY(find_axis(m, layer, &axis));
   return add_step(m, (planefile_step){.kind = PLANEFILE_RAMP,
                                       .axis = axis,
                                       .stop = (uint32_t)stop,
@@ -251,7 +246,7 @@ static celspan_status add_gradient(program_maker *m, const cs_layer *layer) {
   size_t stop = m->record->stop_count;
   for (size_t i = 0; i < of->stop_count; i++)
     CS_TRY(add_stop(m, of->stops[i].at, lit(m, layer, &of->stops[i].paint)));
-  return add_varied(m, layer->index, stop);
+  return add_varied(m, layer, stop);
 }
 
 /* A triangle is limited before it is lit, so it is a group. */
@@ -267,12 +262,26 @@ static celspan_status add_triangle(program_maker *m, const cs_layer *layer) {
       m->is_hard |= fabsf(corner->t[c] - (1 - corner->beta)) > 1e-6f;
     CS_TRY(add_stop(m, i, cell_of(s, corner->beta)));
   }
-  CS_TRY(add_varied(m, layer->index, stop));
+  CS_TRY(add_varied(m, layer, stop));
   return add_step(m, (planefile_step){.kind = PLANEFILE_LEAVE,
                                       .colour = cell_of(layer->fade * layer->front, layer->fade)});
 }
 
+/* What hides all behind it says so by a flat layer there. */
+static celspan_status add_picture(program_maker *m, const cs_layer *layer) {
+  celspan_context *context = m->source->context;
+  const cs_image_layer *image = &m->source->stack->images[layer->index];
+  size_t stop = m->record->stop_count;
+  bool hides;
+  CS_TRY(cs_record_image_hides(context, image, &hides));
+  CS_TRY(add_stop(m, 0, cell_of(layer->fade * layer->front, layer->fade)));
+  CS_TRY(add_varied(m, layer, stop));
+  return hides && layer->fade == 1 ? add_flat(m, cs_v4_all(0), 1) : CELSPAN_OK;
+}
+
 static celspan_status add_layer(program_maker *m, const cs_layer *layer) {
+  if (layer->kind == CS_LAYER_PICTURE)
+    return add_picture(m, layer);
   if (layer->kind == CS_LAYER_FLAT) {
     m->is_hard |= !is_grey(layer->t) || layer->role == CS_LAYER_FRONT;
     return add_flat(m, layer->s, 1 - layer->t[0]);
@@ -352,9 +361,9 @@ static celspan_status add_samples(program_maker *m, const table *of, const cs_st
   return add_stop(m, stops[0].at + share * (stops[1].at - stops[0].at), sample_of(of, to));
 }
 
-static celspan_status add_table(program_maker *m, const cs_program *program, uint32_t shade,
+static celspan_status add_table(program_maker *m, const cs_program *program, const cs_layer *layer,
                                 cs_arena *arena, table *room) {
-  const cs_texture_variation *of = m->source->stack->shades[shade].texture->variation;
+  const cs_texture_variation *of = m->source->stack->shades[layer->index].texture->variation;
   size_t stop = m->record->stop_count;
   for (size_t i = 0; i + 1 < of->stop_count; i++) {
     cs_arena_reset(arena);
@@ -363,7 +372,7 @@ static celspan_status add_table(program_maker *m, const cs_program *program, uin
     CS_TRY(add_stop(m, of->stops[i].at, sample_of(room, 0)));
     CS_TRY(add_samples(m, room, &of->stops[i], 0, SAMPLES));
   }
-  return add_varied(m, shade, stop);
+  return add_varied(m, layer, stop);
 }
 
 /* The layer of a program that varies, which is its only one, and has stops; NULL: there is none. */
@@ -373,8 +382,8 @@ static const cs_layer *only_gradient(const cs_stack *stack, const cs_program *pr
     const cs_layer *layer = &stack->layers[program->items[i].layer];
     if (layer->kind == CS_LAYER_FLAT)
       continue;
-    const cs_shade *shade = &stack->shades[layer->index];
-    if (found || !shade->is_affine || shade->texture->kind == CS_TEXTURE_TRIANGLE)
+    if (found || layer->kind != CS_LAYER_SHADED || !stack->shades[layer->index].is_affine ||
+        stack->shades[layer->index].texture->kind == CS_TEXTURE_TRIANGLE)
       return NULL;
     found = layer;
   }
@@ -388,11 +397,11 @@ static celspan_status tabulate(program_maker *m, const cs_program *program) {
   cs_arena arena;
   if (!layer)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "plane: gradients lie over each other under a mode, a matte, a grade, a light "
-                   "or a coloured medium; a plane keeps only one gradient there");
+                   "plane: gradients or pictures lie under a mode, a matte, a grade, a light or a "
+                   "coloured medium; a plane keeps only one gradient there");
   CS_TRY(CS_MAKE(context, room, 1));
   cs_arena_init(&arena);
-  celspan_status status = add_table(m, program, layer->index, &arena, room);
+  celspan_status status = add_table(m, program, layer, &arena, room);
   cs_arena_finish(&arena, context->memory);
   cs_mem_free(context->memory, room, sizeof *room);
   return status;
@@ -400,12 +409,26 @@ static celspan_status tabulate(program_maker *m, const cs_program *program) {
 
 /* ---------------------------------------------------------------- the program */
 
+static celspan_status check_picture(const cs_record_source *source, const cs_layer *layer) {
+  const cs_image_layer *image = &source->stack->images[layer->index];
+  const char *reason =
+      layer->role != CS_LAYER_PAINT ? "is a light"
+      : image->texture->variation->use != CELSPAN_PICTURE_PAINT || image->texture->variation->medium
+          ? "has a coloured medium"
+      : image->space == CELSPAN_SPACE_SRGB ? "is composited in sRGB"
+                                           : NULL;
+  return reason ? cs_fail(source->context, CELSPAN_BAD_ARGUMENT,
+                          "plane: a picture is visible that %s; a plane keeps pictures that are "
+                          "opaque or faded paint, in linear light",
+                          reason)
+                : CELSPAN_OK;
+}
+
 static celspan_status check_kinds(const cs_record_source *source, const cs_program *program) {
   for (uint32_t i = 0; i < program->length; i++) {
-    uint8_t kind = source->stack->layers[program->items[i].layer].kind;
-    if (kind != CS_LAYER_FLAT && kind != CS_LAYER_SHADED)
-      return cs_fail(source->context, CELSPAN_BAD_ARGUMENT,
-                     "plane: a picture is visible; a plane keeps flat colours and gradients");
+    const cs_layer *layer = &source->stack->layers[program->items[i].layer];
+    if (layer->kind == CS_LAYER_PICTURE)
+      CS_TRY(check_picture(source, layer));
   }
   return CELSPAN_OK;
 }

@@ -3,7 +3,8 @@
  *     items of a program      gradient   flat  | gradient  flat |   flat     a faded group
  *     steps of the plane      ramp       flat  enter ramp  flat  leave  flat
  *
- * Gradients are ramps along axes, which lie on the frame whatever its size. What is no layer over
+ * Gradients are ramps along axes, which lie on the frame whatever its size, and so are pictures
+ * (pictures.h). What is no layer over
  * another, a mode, a matte, a grade, a coloured medium, can be kept where only one gradient is in
  * the program: then all that shows is a function of the place along it, and is tabulated.
  *
@@ -19,7 +20,8 @@ typedef struct cs_record_source {
   celspan_context *context;
   const cs_stack *stack;
   float weight;   /* of all that is made */
-  uint32_t *axes; /* of each shade its number in the record plus 1; 0: it has none yet */
+  uint32_t *axes; /* of each shade and then of each image its number in the record plus 1; 0: it has
+                     none yet */
 } cs_record_source;
 
 /* Appends the program's steps and what they need to a record. Errors: NO_MEMORY; BAD_ARGUMENT: a

@@ -89,7 +89,10 @@ static celspan_status put_scene(cs_plane_film *film, const celspan_frame_desc *f
       cs_plane_record(film->context, frame->exposures, frame->exposure_count, film->size, &made);
   if (status == CELSPAN_OK) {
     planefile_band band = cs_record_plane(&made);
-    status = report(film, planefile_writer_frame(film->writer, &band));
+    planefile_status written = planefile_writer_frame(film->writer, &band);
+    status = written == PLANEFILE_WRITE_FAILED
+                 ? film->status
+                 : cs_plane_report_record(film->context, written, &made);
   }
   cs_record_finish(&made, film->context->memory);
   return status;

@@ -35,6 +35,11 @@ celspan_status cs_plane_report(celspan_context *context, planefile_status status
   return cs_fail_memory(context);
 }
 
+celspan_status cs_plane_report_record(celspan_context *context, planefile_status status,
+                                      const cs_recording *made) {
+  return status == PLANEFILE_READ_FAILED ? made->status : cs_plane_report(context, status);
+}
+
 /* ---------------------------------------------------------------- life */
 
 static celspan_status create(celspan_context *context, celspan_plane **out) {
@@ -159,7 +164,7 @@ celspan_status cs_plane_record(celspan_context *context, const celspan_exposure 
   return CELSPAN_OK;
 }
 
-static celspan_status write_record(celspan_context *context, const cs_recording *made,
+static celspan_status write_record(celspan_context *context, cs_recording *made,
                                    const double size[2], celspan_plane *plane) {
   appending a = {context, plane};
   const planefile_writer_desc desc = {.width = size[0],
@@ -169,7 +174,7 @@ static celspan_status write_record(celspan_context *context, const cs_recording 
                                       .resize = cs_plane_resize,
                                       .resize_user = context->memory};
   planefile_band band = cs_record_plane(made);
-  CS_TRY(cs_plane_report(context, planefile_write(&desc, &band)));
+  CS_TRY(cs_plane_report_record(context, planefile_write(&desc, &band), made));
   return cs_plane_report(context, load(plane, 0, NULL));
 }
 
@@ -305,7 +310,7 @@ bool cs_plane_accepts(const char *path) {
 
 cs_plane_facts cs_plane_count(const celspan_plane *plane) {
   planefile_info info = planefile_plane_info(plane->plane);
-  cs_plane_facts facts = {.parts = info.band_count};
+  cs_plane_facts facts = {.parts = info.band_count, .pictures = info.picture_count};
   for (uint32_t i = 0; i < info.band_count; i++) {
     const planefile_band *band = planefile_plane_band(plane->plane, i);
     size_t gradients = 0;

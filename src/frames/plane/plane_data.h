@@ -22,6 +22,11 @@ struct celspan_plane {
 /* The failure of a call of the subproject. */
 CELSPAN_CHECKED celspan_status cs_plane_report(celspan_context *context, planefile_status status);
 
+/* The same of writing a record. */
+CELSPAN_CHECKED celspan_status cs_plane_report_record(celspan_context *context,
+                                                      planefile_status status,
+                                                      const cs_recording *made);
+
 /* What can be seen of a frame of a size. out: must be finished, whatever happens. Errors: those of
  * celspan_plane_create. */
 CELSPAN_CHECKED celspan_status cs_plane_record(celspan_context *context,

@@ -1740,7 +1740,7 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_digest(celspan_context 
 /* ---------------------------------------------------------------- planes */
 
 /* A plane is a frame without a resolution: what can be seen of it, as curves with a colour or
- * gradients on each side. It is made once, and drawn at any size, whole or any crop of it, without
+ * gradients or pictures on each side. It is made once, and drawn at any size, whole or any crop of it, without
  * its rostrum. It is kept in plane files (docs/planefile.md).
  *
  * It is as exact as a frame of 4,093 pixels a side: curves are the rostrum's own, but where two of
@@ -1749,9 +1749,10 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_digest(celspan_context 
 typedef struct celspan_plane celspan_plane;
 
 /* width, height: film units      rostrum: borrowed; its antialiasing does not count      out: new
- * Errors: those of rendering; BAD_ARGUMENT for what a plane cannot keep: visible pictures,
- * scan-line procedures, blurred objects, and gradients over each other under a mode, a matte, a
- * grade, a light with a shape or a coloured medium. */
+ * Errors: those of rendering; BAD_ARGUMENT for what a plane cannot keep: scan-line
+ * procedures, blurred objects, pictures that are lights, gels or composited in sRGB, and gradients
+ * over each other, or pictures, under a mode, a matte, a grade, a light with a shape or a coloured
+ * medium. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_create(celspan_context *context,
                                                                 const celspan_rostrum *rostrum,
                                                                 double width, double height,
