@@ -130,6 +130,13 @@ static celspan_object *random_group(studio *s, test_random *random, variety kind
   return studio_group(s, &desc);
 }
 
+static celspan_cel *placed(studio *s, celspan_cel *cel, const celspan_matrix *matrix) {
+  celspan_cel *out = NULL;
+  studio_check(s, celspan_cel_transform(s->context, cel, matrix, &out));
+  s->cels[s->cel_count++] = out;
+  return out;
+}
+
 /* Turned a little, and in one of two cases in perspective. */
 static celspan_cel *random_place(studio *s, test_random *random, celspan_cel *cel) {
   celspan_point turn = random_point(random, -0.3, 0.3, -0.3, 0.3);
@@ -139,10 +146,7 @@ static celspan_cel *random_place(studio *s, test_random *random, celspan_cel *ce
     matrix.m[6] = bend.x;
     matrix.m[7] = bend.y;
   }
-  celspan_cel *placed = NULL;
-  studio_check(s, celspan_cel_transform(s->context, cel, &matrix, &placed));
-  s->cels[s->cel_count++] = placed;
-  return placed;
+  return placed(s, cel, &matrix);
 }
 
 /* A cel of a few shapes, one of which is cut out of others. */
@@ -150,6 +154,8 @@ static celspan_cel *random_cel(studio *s, test_random *random, variety kind) {
   celspan_object *objects[5];
   celspan_cel_desc desc = CELSPAN_CEL_DESC;
   size_t count = 1 + (size_t)random_below(random, 5);
+  bool is_blurred = kind == PICTURED && random_below(random, 4) == 0;
+  kind = is_blurred ? FLAT : kind;
   for (size_t i = 0; i < count; i++)
     objects[i] = random_object(s, random, kind);
   celspan_object *other = random_object(s, random, kind);
@@ -162,6 +168,8 @@ static celspan_cel *random_cel(studio *s, test_random *random, variety kind) {
     objects[0] = random_group(s, random, kind, objects, count);
     count = 1;
   }
+  if (is_blurred)
+    desc.defocus_radius = random_between(random, 4, 9);
   celspan_cel *cel = studio_cel(s, desc, objects, count);
   return kind != FLAT && random_below(random, 3) == 0 ? random_place(s, random, cel) : cel;
 }
@@ -402,7 +410,8 @@ static void check_scenes_refused(studio *s) {
   celspan_cel_desc blurred = CELSPAN_CEL_DESC;
   blurred.defocus_radius = 3;
   celspan_object *disc = studio_circle(s, 30, 30, 20, NULL);
-  celspan_cel *cel = studio_cel(s, blurred, &disc, 1);
+  const celspan_matrix bent = {{1, 0, 0, 0, 1, 0, 0.001, 0, 1}};
+  celspan_cel *cel = placed(s, studio_cel(s, blurred, &disc, 1), &bent);
   check_refused(s, studio_rostrum(s, CELSPAN_ROSTRUM_DESC, &cel, 1), "blurred");
   celspan_plane *plane;
   CHECK(celspan_plane_create(s->context, studio_show(s, disc), 0, HEIGHT, &plane) ==

@@ -7,9 +7,12 @@
 #include "engine/record/places.h"
 #include "model/pictures/load.h"
 
+#define NODES_MOST ((size_t)1 << 23)
+
 struct cs_record_picture {
   celspan_context *context;
-  cs_picture *picture; /* a reference */
+  cs_picture *picture; /* a reference; NULL: the nodes of */
+  const cs_defocused *grid;
   bool is_light;
   celspan_status *status; /* of reading it, where that failed */
 };
@@ -47,15 +50,31 @@ static celspan_status copy_part(const cs_record_picture *source, int32_t x, int3
   return CELSPAN_OK;
 }
 
+/* A row of the nodes of a cel's own grid. */
+static celspan_status put_nodes(const cs_record_picture *source, int32_t y, planefile_cell *out) {
+  const cs_defocused *grid = source->grid;
+  cs_defocus_band *band;
+  CS_TRY(grid->acquire(grid, source->context, y / grid->band_rows, &band));
+  size_t first = (size_t)(y % grid->band_rows) * (size_t)grid->columns;
+  copy_light((const float(*)[4])band->nodes + first, grid->columns, out);
+  grid->release(grid, source->context, band);
+  return CELSPAN_OK;
+}
+
+static celspan_status put_texels(const cs_record_picture *source, int32_t y, void *out) {
+  celspan_picture_info info;
+  CS_TRY(cs_store_info(source->context, source->picture, &info));
+  for (int32_t x = 0; x < info.width; x += CS_PICTURE_BLOCK) {
+    int32_t left = info.width - x;
+    CS_TRY(copy_part(source, x, y, left < CS_PICTURE_BLOCK ? left : CS_PICTURE_BLOCK, out));
+  }
+  return CELSPAN_OK;
+}
+
 static bool put_row(void *user, uint32_t y, void *out) {
   const cs_record_picture *source = user;
-  celspan_picture_info info;
-  celspan_status status = cs_store_info(source->context, source->picture, &info);
-  for (int32_t x = 0; status == CELSPAN_OK && x < info.width; x += CS_PICTURE_BLOCK) {
-    int32_t left = info.width - x;
-    status =
-        copy_part(source, x, (int32_t)y, left < CS_PICTURE_BLOCK ? left : CS_PICTURE_BLOCK, out);
-  }
+  celspan_status status =
+      source->picture ? put_texels(source, (int32_t)y, out) : put_nodes(source, (int32_t)y, out);
   if (status != CELSPAN_OK)
     *source->status = status;
   return status == CELSPAN_OK;
@@ -80,6 +99,22 @@ static celspan_status find_form(celspan_context *context, const cs_picture *pict
   return CELSPAN_OK;
 }
 
+/* Appends a picture with its source, whose reference it takes. */
+static celspan_status append(const cs_record_picture *source, planefile_picture picture,
+                             cs_recording *record) {
+  celspan_context *context = source->context;
+  celspan_status status =
+      CS_RESERVE(context, record->sources, record->source_capacity, record->picture_count + 1);
+  if (status == CELSPAN_OK) {
+    record->sources[record->picture_count] = *source;
+    status = CS_APPEND(context, record->pictures, record->picture_count, record->picture_capacity,
+                       picture);
+  }
+  if (status != CELSPAN_OK)
+    cs_picture_unref(source->picture);
+  return status;
+}
+
 static celspan_status add_picture(celspan_context *context, cs_picture *picture,
                                   cs_recording *record) {
   celspan_picture_info info;
@@ -87,30 +122,40 @@ static celspan_status add_picture(celspan_context *context, cs_picture *picture,
   cs_record_picture source = {.context = context, .status = &record->status};
   CS_TRY(cs_store_info(context, picture, &info));
   CS_TRY(find_form(context, picture, &source.is_light));
+  source.picture = cs_picture_ref(picture);
   const planefile_picture made = {.width = (uint32_t)info.width,
                                   .height = (uint32_t)info.height,
                                   .kind = source.is_light ? PLANEFILE_LIGHT : PLANEFILE_CODES,
                                   .key = {hash.a, hash.b},
                                   .row = put_row};
-  CS_TRY(CS_RESERVE(context, record->sources, record->source_capacity, record->picture_count + 1));
-  source.picture = cs_picture_ref(picture);
-  record->sources[record->picture_count] = source;
-  celspan_status status =
-      CS_APPEND(context, record->pictures, record->picture_count, record->picture_capacity, made);
-  if (status != CELSPAN_OK)
-    cs_picture_unref(picture);
-  return status;
+  return append(&source, made, record);
 }
 
-static celspan_status find_picture(celspan_context *context, cs_picture *picture,
-                                   cs_recording *record, uint32_t *out) {
-  cs_hash hash = cs_picture_hash(picture);
+static celspan_status add_grid(celspan_context *context, const cs_defocus *own,
+                               cs_recording *record) {
+  const cs_defocused *grid = &own->grid;
+  const cs_record_picture source = {.context = context, .grid = grid, .status = &record->status};
+  const planefile_picture made = {.width = (uint32_t)grid->columns,
+                                  .height = (uint32_t)grid->rows,
+                                  .kind = PLANEFILE_LIGHT,
+                                  .key = {own->key.a, own->key.b},
+                                  .row = put_row};
+  if ((size_t)grid->columns * (size_t)grid->rows > NODES_MOST)
+    return cs_fail(context, CELSPAN_LIMIT,
+                   "plane: a blurred object is in view that has more than %zu nodes of its blur; a "
+                   "plane keeps wider blurs, or smaller objects",
+                   NODES_MOST);
+  return append(&source, made, record);
+}
+
+/* Whether a picture of a key is in the record; *out: its number, or that of the next one. */
+static bool is_known(const cs_recording *record, cs_hash key, uint32_t *out) {
   size_t i = 0;
   while (i < record->picture_count &&
-         (record->pictures[i].key[0] != hash.a || record->pictures[i].key[1] != hash.b))
+         (record->pictures[i].key[0] != key.a || record->pictures[i].key[1] != key.b))
     i++;
   *out = (uint32_t)i;
-  return i < record->picture_count ? CELSPAN_OK : add_picture(context, picture, record);
+  return i < record->picture_count;
 }
 
 void cs_record_pictures_join(cs_recording *record) {
@@ -128,7 +173,8 @@ celspan_status cs_record_image(celspan_context *context, const cs_image_layer *i
                           .wrap = (uint8_t)image->wrap,
                           .filter = (uint8_t)of->sampling,
                           .w = {0, 0, 1}};
-  CS_TRY(find_picture(context, of->picture, record, &out->picture));
+  if (!is_known(record, cs_picture_hash(of->picture), &out->picture))
+    CS_TRY(add_picture(context, of->picture, record));
   double across = record->pictures[out->picture].width / box->width;
   double down = record->pictures[out->picture].height / box->height;
   cs_place_own(&image->inverse, (double[3]){across, 0, -box->x * across}, out->p);
@@ -144,4 +190,27 @@ celspan_status cs_record_image_hides(celspan_context *context, const cs_image_la
   CS_TRY(cs_store_info(context, image->texture->variation->picture, &info));
   *out = !info.has_alpha && cs_image_layer_hides(image) && cs_place_is_affine(&image->inverse);
   return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- defocused layers */
+
+/* Node n of an axis is where the pixel's place on the own grid is n - 1/2, and the middle of texel
+ * n of a picture is n + 1/2. */
+celspan_status cs_record_defocused(celspan_context *context, const cs_defocus *defocus,
+                                   cs_recording *record, planefile_axis *out) {
+  const cs_regrid_axis *axes = defocus->regrid.axes;
+  if (!defocus->own || defocus->own->grid.planes != 1)
+    return cs_fail(
+        context, CELSPAN_BAD_ARGUMENT,
+        "plane: a blurred object is in view that is in perspective, is coloured glass, or "
+        "is blurred too little to be kept without a size");
+  *out = (planefile_axis){.kind = PLANEFILE_PICTURE,
+                          .wrap = PLANEFILE_WRAP_CLAMP,
+                          .filter = PLANEFILE_FILTER_CUBIC,
+                          .w = {0, 0, 1}};
+  cs_place_plane((double[3]){axes[0].scale, 0, axes[0].offset + 1}, out->p);
+  cs_place_plane((double[3]){0, axes[1].scale, axes[1].offset + 1}, out->q);
+  return is_known(record, defocus->own->key, &out->picture)
+             ? CELSPAN_OK
+             : add_grid(context, defocus->own, record);
 }

@@ -192,18 +192,32 @@ static planefile_axis axis_of(const cs_shade *shade) {
   return axis;
 }
 
-/* layer: SHADED or PICTURE. */
+/* Where the axis of a layer is known; *out: the axis, if it is not known yet. */
+static celspan_status make_axis(program_maker *m, const cs_layer *layer, uint32_t **known,
+                                planefile_axis *out) {
+  const cs_stack *stack = m->source->stack;
+  celspan_context *context = m->source->context;
+  *known = m->source->axes + layer->index;
+  if (layer->kind != CS_LAYER_SHADED)
+    *known += stack->shade_count;
+  if (layer->kind == CS_LAYER_DEFOCUSED)
+    *known += stack->image_count;
+  if (**known > 0)
+    return CELSPAN_OK;
+  if (layer->kind == CS_LAYER_PICTURE)
+    return cs_record_image(context, &stack->images[layer->index], m->record, out);
+  if (layer->kind == CS_LAYER_DEFOCUSED)
+    return cs_record_defocused(context, m->source->defocus[layer->index], m->record, out);
+  *out = axis_of(&stack->shades[layer->index]);
+  return CELSPAN_OK;
+}
+
 static celspan_status find_axis(program_maker *m, const cs_layer *layer, uint32_t *out) {
   cs_recording *record = m->record;
-  const cs_stack *stack = m->source->stack;
-  bool is_picture = layer->kind == CS_LAYER_PICTURE;
-  uint32_t *known = &m->source->axes[layer->index + (is_picture ? stack->shade_count : 0)];
+  planefile_axis axis;
+  uint32_t *known;
+  CS_TRY(make_axis(m, layer, &known, &axis));
   if (*known == 0) {
-    planefile_axis axis;
-    if (is_picture)
-      CS_TRY(cs_record_image(m->source->context, &stack->images[layer->index], record, &axis));
-    else
-      axis = axis_of(&stack->shades[layer->index]);
     CS_TRY(CS_APPEND(m->source->context, record->axes, record->axis_count, record->axis_capacity,
                      axis));
     *known = (uint32_t)record->axis_count;
@@ -270,17 +284,17 @@ static celspan_status add_triangle(program_maker *m, const cs_layer *layer) {
 /* What hides all behind it says so by a flat layer there. */
 static celspan_status add_picture(program_maker *m, const cs_layer *layer) {
   celspan_context *context = m->source->context;
-  const cs_image_layer *image = &m->source->stack->images[layer->index];
   size_t stop = m->record->stop_count;
-  bool hides;
-  CS_TRY(cs_record_image_hides(context, image, &hides));
+  bool hides = false;
+  if (layer->kind == CS_LAYER_PICTURE)
+    CS_TRY(cs_record_image_hides(context, &m->source->stack->images[layer->index], &hides));
   CS_TRY(add_stop(m, 0, cell_of(layer->fade * layer->front, layer->fade)));
   CS_TRY(add_varied(m, layer, stop));
   return hides && layer->fade == 1 ? add_flat(m, cs_v4_all(0), 1) : CELSPAN_OK;
 }
 
 static celspan_status add_layer(program_maker *m, const cs_layer *layer) {
-  if (layer->kind == CS_LAYER_PICTURE)
+  if (layer->kind == CS_LAYER_PICTURE || layer->kind == CS_LAYER_DEFOCUSED)
     return add_picture(m, layer);
   if (layer->kind == CS_LAYER_FLAT) {
     m->is_hard |= !is_grey(layer->t) || layer->role == CS_LAYER_FRONT;
@@ -429,6 +443,9 @@ static celspan_status check_kinds(const cs_record_source *source, const cs_progr
     const cs_layer *layer = &source->stack->layers[program->items[i].layer];
     if (layer->kind == CS_LAYER_PICTURE)
       CS_TRY(check_picture(source, layer));
+    if (layer->kind == CS_LAYER_DEFOCUSED && layer->role != CS_LAYER_PAINT)
+      return cs_fail(source->context, CELSPAN_BAD_ARGUMENT,
+                     "plane: a blurred object is a light; a plane keeps no such light");
   }
   return CELSPAN_OK;
 }

@@ -19,9 +19,10 @@
 typedef struct cs_record_source {
   celspan_context *context;
   const cs_stack *stack;
-  float weight;   /* of all that is made */
-  uint32_t *axes; /* of each shade and then of each image its number in the record plus 1; 0: it has
-                     none yet */
+  struct cs_defocus *const *defocus; /* of its defocused layers */
+  float weight;                      /* of all that is made */
+  uint32_t *axes; /* of each shade, then each image, then each defocused layer its number in the
+                     record plus 1; 0: it has none yet */
 } cs_record_source;
 
 /* Appends the program's steps and what they need to a record. Errors: NO_MEMORY; BAD_ARGUMENT: a

@@ -308,7 +308,7 @@ celspan_status cs_record_begin_sum(celspan_context *context, cs_recording *out) 
 
 /* Of all layers that may have an axis. */
 static size_t axis_count(const cs_plan *plan) {
-  return plan->stack.shade_count + plan->stack.image_count + 1;
+  return plan->stack.shade_count + plan->stack.image_count + plan->stack.defocused_count + 1;
 }
 
 static celspan_status record(recorder *r) {
@@ -335,6 +335,7 @@ celspan_status cs_record_put_plan(celspan_context *context, const cs_plan *plan,
   r.source.context = context;
   r.source.weight = weight;
   r.source.stack = &plan->stack;
+  r.source.defocus = plan->defocus;
   celspan_status status = record(&r);
   if (r.source.axes)
     cs_mem_free(memory, r.source.axes, axes * sizeof *r.source.axes);

@@ -125,27 +125,29 @@ static celspan_status check_plan(celspan_context *context, const cs_plan *plan) 
   if (plan->stack.procedure_count > 0)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "plane: a scan-line procedure is in view; it cannot be drawn without a size");
-  if (plan->defocus_count > 0)
-    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "plane: a blurred object is in view; a plane keeps sharp edges only");
   return CELSPAN_OK;
 }
 
+/* A plan with defocused cels is kept: their nodes are read when the plane is written. */
 static celspan_status record(celspan_context *context, const celspan_exposure *exposure,
-                             const cs_view *view, cs_recording *out) {
+                             const cs_view *view, cs_plane_frame *out) {
   const cs_antialias antialias = {.mode = CELSPAN_ANTIALIAS_AREA};
   cs_plan plan = {0};
+  CS_TRY(CS_RESERVE(context, out->plans, out->plan_capacity, out->plan_count + 1));
   CS_TRY(cs_compile(context, exposure->rostrum, view, &antialias, 1, &plan));
   celspan_status status = check_plan(context, &plan);
   if (status == CELSPAN_OK)
-    status = cs_record_put_plan(context, &plan, (float)exposure->weight, out);
-  cs_compile_free(&plan, context->memory);
+    status = cs_record_put_plan(context, &plan, (float)exposure->weight, &out->record);
+  if (plan.defocus_count > 0)
+    out->plans[out->plan_count++] = plan;
+  else
+    cs_compile_free(&plan, context->memory);
   return status;
 }
 
 celspan_status cs_plane_record(celspan_context *context, const celspan_exposure *exposures,
-                               size_t count, const double size[2], cs_recording *out) {
-  *out = (cs_recording){0};
+                               size_t count, const double size[2], cs_plane_frame *out) {
+  *out = (cs_plane_frame){0};
   CS_TRY(cs_check_positive(context, "plane", "width", size[0]));
   CS_TRY(cs_check_positive(context, "plane", "height", size[1]));
   const cs_view view = {.film_width = size[0],
@@ -158,10 +160,18 @@ celspan_status cs_plane_record(celspan_context *context, const celspan_exposure 
                         .space = CELSPAN_SPACE_LINEAR,
                         .unit = CS_RECORD_UNIT};
   if (count != 1)
-    CS_TRY(cs_record_begin_sum(context, out));
+    CS_TRY(cs_record_begin_sum(context, &out->record));
   for (size_t i = 0; i < count; i++)
     CS_TRY(record(context, &exposures[i], &view, out));
   return CELSPAN_OK;
+}
+
+void cs_plane_frame_finish(cs_plane_frame *frame, cs_memory *memory) {
+  cs_record_finish(&frame->record, memory);
+  for (size_t i = 0; i < frame->plan_count; i++)
+    cs_compile_free(&frame->plans[i], memory);
+  cs_mem_free(memory, frame->plans, frame->plan_capacity * sizeof *frame->plans);
+  *frame = (cs_plane_frame){0};
 }
 
 static celspan_status write_record(celspan_context *context, cs_recording *made,
@@ -180,14 +190,14 @@ static celspan_status write_record(celspan_context *context, cs_recording *made,
 
 celspan_status cs_plane_expose(celspan_context *context, const celspan_exposure *exposures,
                                size_t count, const double size[2], celspan_plane **out) {
-  cs_recording made;
+  cs_plane_frame made;
   celspan_plane *plane;
   *out = NULL;
   CS_TRY(create(context, &plane));
   celspan_status status = cs_plane_record(context, exposures, count, size, &made);
   if (status == CELSPAN_OK)
-    status = write_record(context, &made, size, plane);
-  cs_record_finish(&made, context->memory);
+    status = write_record(context, &made.record, size, plane);
+  cs_plane_frame_finish(&made, context->memory);
   if (status == CELSPAN_OK)
     *out = plane;
   else
