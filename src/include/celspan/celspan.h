@@ -1750,7 +1750,7 @@ typedef struct celspan_plane celspan_plane;
 
 /* width, height: film units      rostrum: borrowed; its antialiasing does not count      out: new
  * Errors: those of rendering; BAD_ARGUMENT for what a plane cannot keep: scan-line
- * procedures, blurred objects, pictures that are lights, gels or composited in sRGB, and gradients
+ * procedures, objects blurred in perspective or very little, pictures that are lights, gels or composited in sRGB, and gradients
  * over each other, or pictures, under a mode, a matte, a grade, a light with a shape or a coloured
  * medium. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_create(celspan_context *context,
