@@ -105,12 +105,12 @@ static planefile_step leaving(const cs_group *group) {
   if (group->has_front)
     factors = group->front;
   return (planefile_step){.kind = PLANEFILE_LEAVE,
-                          .converts = group->converts == CELSPAN_SPACE_LINEAR,
+                          .how = group->converts == CELSPAN_SPACE_LINEAR ? PLANEFILE_DECODED : PLANEFILE_LAYER,
                           .colour = cell_of(group->fade * factors, group->fade)};
 }
 
 static bool does_nothing(const planefile_step *leave) {
-  bool is_one = !leave->converts;
+  bool is_one = leave->how == PLANEFILE_LAYER;
   for (int c = 0; c < 4; c++)
     is_one = is_one && leave->colour.colour[c] == PLANEFILE_WHITE;
   return is_one;

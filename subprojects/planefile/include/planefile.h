@@ -148,12 +148,26 @@ typedef enum planefile_step_kind {
   PLANEFILE_FLAT,  /* a layer of one colour */
   PLANEFILE_RAMP,  /* a layer of some stops along an axis */
   PLANEFILE_ENTER, /* a group begins */
-  PLANEFILE_LEAVE  /* it ends; its channels are multiplied, and it is a layer */
+  PLANEFILE_LEAVE  /* it ends; its channels are multiplied, and it is what `how` says */
 } planefile_step_kind;
+
+/* What a group becomes: a layer of the group around it, or a veil, by which all layers behind it in
+ * that group are multiplied. */
+typedef enum planefile_how {
+  PLANEFILE_LAYER,
+  PLANEFILE_DECODED,        /* a layer; its numbers are sRGB codes, which become light first */
+  PLANEFILE_GLASS,          /* each colour by 1 - alpha + its channel; alpha as by their mean */
+  PLANEFILE_LIT,            /* each colour by its channel */
+  PLANEFILE_SCREEN,         /* each colour by 1 - its channel */
+  PLANEFILE_MATTE,          /* all channels by alpha, 0 to 1 */
+  PLANEFILE_INVERTED_MATTE, /* by 1 - that */
+  PLANEFILE_LUMA_MATTE,     /* by 0.2126 red + 0.7152 green + 0.0722 blue, 0 to 1 */
+  PLANEFILE_INVERTED_LUMA   /* by 1 - that */
+} planefile_how;
 
 typedef struct planefile_step {
   uint8_t kind;                    /* a planefile_step_kind */
-  bool converts;                   /* LEAVE: its numbers are sRGB codes; they become light first */
+  uint8_t how;                     /* LEAVE: a planefile_how */
   planefile_cell colour;           /* FLAT; LEAVE: the factors; PLANEFILE_WHITE is 1 */
   uint32_t axis, stop, stop_count; /* RAMP: at least one stop; a triangle's has three, a picture's
                                       one */

@@ -64,7 +64,7 @@ static void add_axis(key *k, const planefile_axis *axis) {
 }
 
 static void add_step(key *k, const planefile_band *band, const planefile_step *step) {
-  add_number(k, step->kind | (uint32_t)step->converts << 8);
+  add_number(k, step->kind | (uint32_t)step->how << 8);
   add(k, step->colour.colour, sizeof step->colour.colour);
   if (step->kind != PLANEFILE_RAMP)
     return;

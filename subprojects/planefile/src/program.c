@@ -182,9 +182,16 @@ static void mix_corners(const planefile_stop *stops, const places *at, uint32_t 
 
 /* What has been composed so far, of the pixels of a group. */
 typedef struct front {
-  pf_colours *colours;
+  pf_colours *colours, *veil;
   bool is_clear; /* and its colours have no contents yet */
+  bool is_bare;  /* and its veil has none */
 } front;
+
+static void multiply_each(uint32_t count, pf_colours *to, const pf_colours *by) {
+  for (int c = 0; c < 4; c++)
+    for (uint32_t k = 0; k < count; k++)
+      to->channels[c][k] *= by->channels[c][k];
+}
 
 static void put_over(uint32_t count, front *to, const pf_colours *restrict layer) {
   float through[PF_BATCH];
@@ -200,7 +207,9 @@ static pf_colours *begin_layer(const front *to, pf_colours *room) {
   return to->is_clear ? to->colours : room;
 }
 
-static void end_layer(uint32_t count, front *to, const pf_colours *layer) {
+static void end_layer(uint32_t count, front *to, pf_colours *layer) {
+  if (!to->is_bare)
+    multiply_each(count, layer, to->veil);
   if (!to->is_clear)
     put_over(count, to, layer);
   to->is_clear = false;
@@ -250,28 +259,75 @@ static void add_layer(const pf_program_source *source, const planefile_step *ste
   end_layer(pixels->count, to, layer);
 }
 
-/* A group becomes a layer of the group around it. */
+/* A pixel of a group becomes that of a veil. */
+static void make_veil(uint8_t how, const float pixel[4], float out[4]) {
+  float alpha = limit(pixel[3], 1), luma = 0.2126f * pixel[0] + 0.7152f * pixel[1];
+  luma = limit(luma + 0.0722f * pixel[2], 1);
+  float matte = how >= PLANEFILE_LUMA_MATTE ? luma : alpha;
+  bool is_inverted = how == PLANEFILE_INVERTED_MATTE || how == PLANEFILE_INVERTED_LUMA;
+  for (int c = 0; c < 4; c++)
+    out[c] = how >= PLANEFILE_MATTE    ? is_inverted ? 1 - matte : matte
+             : c == 3                  ? 1
+             : how == PLANEFILE_GLASS  ? 1 - alpha + pixel[c]
+             : how == PLANEFILE_SCREEN ? 1 - pixel[c]
+                                       : pixel[c];
+}
+
+/* Glass takes its mean from what shines through, and its colour from what is behind it. */
+static void take_mean(float veil[4], float *alpha) {
+  float mean = (veil[0] + veil[1] + veil[2]) * (1.0f / 3);
+  *alpha = 1 - (1 - *alpha) * mean;
+  for (int c = 0; c < 3; c++)
+    veil[c] = mean > 0 ? veil[c] / mean : 0;
+}
+
+/* A group becomes a veil in the group around it. */
+static void add_veil(uint8_t how, uint32_t count, const front *group, front *around) {
+  float(*from)[PF_BATCH] = group->colours->channels, (*to)[PF_BATCH] = around->veil->channels;
+  if (around->is_clear)
+    memset(around->colours, 0, sizeof *around->colours);
+  around->is_clear = false;
+  for (uint32_t k = 0; k < count; k++) {
+    const float pixel[4] = {from[0][k], from[1][k], from[2][k], from[3][k]};
+    float veil[4];
+    make_veil(how, pixel, veil);
+    if (how == PLANEFILE_GLASS)
+      take_mean(veil, &around->colours->channels[3][k]);
+    for (int c = 0; c < 4; c++)
+      to[c][k] = around->is_bare ? veil[c] : to[c][k] * veil[c];
+  }
+  around->is_bare = false;
+}
+
+/* A group becomes what its step says, in the group around it. */
 static void leave(const planefile_step *step, const pf_light_curve *curve, uint32_t count,
                   const front *group, front *around) {
-  if (group->is_clear)
+  if (group->is_clear && step->how <= PLANEFILE_DECODED)
     return;
-  if (step->converts)
+  if (group->is_clear)
+    memset(group->colours, 0, sizeof *group->colours);
+  if (step->how == PLANEFILE_DECODED)
     convert_all(curve, count, group->colours);
   multiply(&step->colour, count, group->colours);
+  if (step->how > PLANEFILE_DECODED) {
+    add_veil(step->how, count, group, around);
+    return;
+  }
   if (around->is_clear)
     *around->colours = *group->colours;
-  end_layer(count, around, group->colours);
+  end_layer(count, around, around->is_clear ? around->colours : group->colours);
 }
 
 void pf_program_colours(const pf_program_source *source, planefile_program program,
-                        const pf_pixels *pixels, pf_colours room[PLANEFILE_DEPTH + 1]) {
+                        const pf_pixels *pixels, pf_colours room[PF_ROOM]) {
   front fronts[PLANEFILE_DEPTH + 1], *now = fronts;
-  *now = (front){room, true};
+  *now = (front){room, room + PLANEFILE_DEPTH + 1, true, true};
   for (uint32_t i = 0; i < program.step_count; i++) {
     const planefile_step *step = &source->band->steps[program.step + i];
     if (step->kind == PLANEFILE_ENTER) {
       now++;
-      *now = (front){room + (now - fronts), true};
+      pf_colours *own = room + (now - fronts);
+      *now = (front){own, own + PLANEFILE_DEPTH + 1, true, true};
     } else if (step->kind == PLANEFILE_LEAVE) {
       leave(step, source->curve, pixels->count, now, now - 1);
       now--;

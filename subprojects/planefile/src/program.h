@@ -16,7 +16,7 @@
 #include "picture.h"
 
 typedef struct pf_program_models {
-  uint16_t varies[2], kinds[4], converts[2], axis_kinds[4], is_wide[2], wraps[4], filters[4];
+  uint16_t varies[2], kinds[4], hows[16], axis_kinds[4], is_wide[2], wraps[4], filters[4];
   uint16_t axis_bytes[8][256], stop_bytes[8][256]; /* trees */
   pf_number steps, axes, stops, pictures, flat[4], stop[4], factor[4];
 } pf_program_models;
@@ -64,9 +64,11 @@ typedef struct pf_program_source {
   const pf_light_curve *curve;
 } pf_program_source;
 
-/* room: one for each group that may be inside another one, and one more. The colours are in the
- * first one. */
+/* Of each group that may be inside another one, and of what is around them: its colours, and its
+ * veils. */
+enum { PF_ROOM = 2 * (PLANEFILE_DEPTH + 1) };
+/* The colours are in the first one of the room. */
 void pf_program_colours(const pf_program_source *source, planefile_program program,
-                        const pf_pixels *pixels, pf_colours room[PLANEFILE_DEPTH + 1]);
+                        const pf_pixels *pixels, pf_colours room[PF_ROOM]);
 
 #endif

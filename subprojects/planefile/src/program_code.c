@@ -185,7 +185,7 @@ static void put_step(pf_encoder *encoder, pf_program_coding *coding, const plane
   if (step->kind == PLANEFILE_RAMP)
     put_ramp(encoder, coding, plane, step);
   if (step->kind == PLANEFILE_LEAVE)
-    pf_put_symbol(encoder, models->converts, 1, step->converts);
+    pf_put_symbol(encoder, models->hows, 4, step->how);
   if (step->kind == PLANEFILE_FLAT || step->kind == PLANEFILE_LEAVE)
     put_colour(encoder, step->kind == PLANEFILE_FLAT ? models->flat : models->factor, &from,
                &step->colour);
@@ -202,7 +202,7 @@ static const char *get_step(pf_decoder *decoder, pf_program_coding *coding,
   if (kind == PLANEFILE_ENTER)
     return NULL;
   if (kind == PLANEFILE_LEAVE)
-    out->converts = pf_get_symbol(decoder, models->converts, 1);
+    out->how = (uint8_t)pf_get_symbol(decoder, models->hows, 4);
   return get_colour(decoder, kind == PLANEFILE_FLAT ? models->flat : models->factor, &from,
                     &out->colour)
              ? NULL
@@ -272,7 +272,8 @@ bool pf_program_is_good(const planefile_band *band, planefile_program program) {
     const planefile_step *step = &band->steps[program.step + i];
     if (step->kind > PLANEFILE_LEAVE || (step->kind == PLANEFILE_RAMP && !is_ramp(band, step)) ||
         (step->kind == PLANEFILE_FLAT && !is_colour(&step->colour, -PLANEFILE_BRIGHT)) ||
-        (step->kind == PLANEFILE_LEAVE && (depth == 0 || !is_colour(&step->colour, 0))))
+        (step->kind == PLANEFILE_LEAVE &&
+         (depth == 0 || step->how > PLANEFILE_INVERTED_LUMA || !is_colour(&step->colour, 0))))
       return false;
     depth += step->kind == PLANEFILE_ENTER;
     depth -= step->kind == PLANEFILE_LEAVE;
@@ -298,16 +299,20 @@ static bool hides(const planefile_band *band, const planefile_step *step) {
 
 bool pf_program_hides(const planefile_band *band, planefile_program program) {
   bool is_hidden[PLANEFILE_DEPTH + 1] = {false}; /* nothing more shows, in the groups so far */
+  bool is_matted[PLANEFILE_DEPTH + 1] = {false}; /* no layer to come hides anything */
   uint32_t depth = 0;
   for (uint32_t i = 0; i < program.step_count; i++) {
     const planefile_step *step = &band->steps[program.step + i];
     if (step->kind == PLANEFILE_ENTER) {
-      is_hidden[++depth] = false;
+      depth++;
+      is_hidden[depth] = is_matted[depth] = false;
     } else if (step->kind == PLANEFILE_LEAVE) {
       depth--;
-      is_hidden[depth] |= is_hidden[depth + 1] && is_opaque(&step->colour);
+      is_matted[depth] |= step->how >= PLANEFILE_MATTE;
+      is_hidden[depth] |= step->how <= PLANEFILE_DECODED && !is_matted[depth] &&
+                          is_hidden[depth + 1] && is_opaque(&step->colour);
     } else {
-      is_hidden[depth] |= hides(band, step);
+      is_hidden[depth] |= !is_matted[depth] && hides(band, step);
     }
   }
   return is_hidden[0];

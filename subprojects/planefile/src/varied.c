@@ -26,7 +26,7 @@ bool pf_varied_init(pf_varied *v, const planefile_plane *plane, uint32_t columns
   v->shares = pf_make(&plane->memory, sizeof *v->shares, cells);
   v->places = pf_make(&plane->memory, sizeof *v->places, cells);
   v->active = pf_make(&plane->memory, sizeof *v->active, cells);
-  v->room = pf_make(&plane->memory, sizeof *v->room, PLANEFILE_DEPTH + 1);
+  v->room = pf_make(&plane->memory, sizeof *v->room, PF_ROOM);
   return v->heads && v->shares && v->places && v->active && v->room;
 }
 
@@ -42,7 +42,7 @@ void pf_varied_finish(pf_varied *v) {
   pf_free(memory, v->shares, sizeof *v->shares, cells);
   pf_free(memory, v->places, sizeof *v->places, cells);
   pf_free(memory, v->active, sizeof *v->active, cells);
-  pf_free(memory, v->room, sizeof *v->room, PLANEFILE_DEPTH + 1);
+  pf_free(memory, v->room, sizeof *v->room, PF_ROOM);
 }
 
 /* ---------------------------------------------------------------- entries */

@@ -131,7 +131,7 @@ local function get_step(band)
   elseif step.kind == 1 then
     get_ramp(band, step)
   elseif step.kind == 3 then
-    step.converts = band.coder.symbol("converts", 1) == 1
+    step.how = band.coder.symbol("how", 4)
     step.factors = get_channels(band, "factor ", {65535, 65535, 65535, 65535})
   end
   return step
@@ -567,17 +567,34 @@ end
 local function leave(step, layer)
   for c = 1, 3 do
     local s = math.max(layer[4], math.min(65535, math.abs(layer[c])))
-    if step.converts and s > 0 then layer[c] = s * decode(layer[c] / s) end
+    if step.how == 1 and s > 0 then layer[c] = s * decode(layer[c] / s) end
   end
   for c = 1, 4 do layer[c] = layer[c] * step.factors[c] / 65535 end
 end
 
+-- A group that was left becomes a veil: by what the layers behind it are multiplied.
+local function add_veil(how, layer, front)
+  local r, g, b, a = layer[1] / 65535, layer[2] / 65535, layer[3] / 65535, layer[4] / 65535
+  local function limit(x) return math.max(0, math.min(1, x)) end
+  local matte = how >= 7 and limit(0.2126 * r + 0.7152 * g + 0.0722 * b) or limit(a)
+  if how == 6 or how == 8 then matte = 1 - matte end
+  local mean = 1 - limit(a) + (r + g + b) / 3
+  for c, x in ipairs {r, g, b, 0} do
+    local by = how >= 5 and matte or c == 4 and 1 or how == 3 and x or how == 4 and 1 - x
+      or mean > 0 and (1 - limit(a) + x) / mean or 0
+    front.veil[c] = front.veil[c] * by
+  end
+  if how == 2 then front[4] = 65535 - (65535 - front[4]) * mean end
+end
+
+local function new_group() return {0, 0, 0, 0, veil = {1, 1, 1, 1}} end
+
 local function show(program, x, y, size)
-  local groups = {{0, 0, 0, 0}}
+  local groups = {new_group()}
   for _, step in ipairs(program) do
     local layer
     if step.kind == 2 then
-      groups[#groups + 1] = {0, 0, 0, 0}
+      groups[#groups + 1] = new_group()
     elseif step.kind == 3 then
       layer = table.remove(groups)
       leave(step, layer)
@@ -585,8 +602,12 @@ local function show(program, x, y, size)
       layer = step.kind == 0 and step.colour or find_colour(step, x, y, size)
     end
     local front = groups[#groups]
+    if step.kind == 3 and step.how > 1 then
+      add_veil(step.how, layer, front)
+      layer = nil
+    end
     local through = 1 - front[4] / 65535
-    for c = 1, layer and 4 or 0 do front[c] = front[c] + through * layer[c] end
+    for c = 1, layer and 4 or 0 do front[c] = front[c] + through * front.veil[c] * layer[c] end
   end
   return groups[1]
 end

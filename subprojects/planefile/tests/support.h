@@ -260,8 +260,10 @@ static inline planefile_step random_ramp(drawing *d, random_state *random) {
   return step;
 }
 
-static inline planefile_step random_leave(random_state *random) {
-  planefile_step step = {.kind = PLANEFILE_LEAVE, .converts = random_below(random, 2)};
+/* is_opaque: no matte, behind which nothing is. */
+static inline planefile_step random_leave(random_state *random, bool is_opaque) {
+  uint32_t hows = is_opaque ? PLANEFILE_MATTE : PLANEFILE_INVERTED_LUMA + 1;
+  planefile_step step = {.kind = PLANEFILE_LEAVE, .how = (uint8_t)random_below(random, hows)};
   step.colour = random_colour(random, false);
   return step;
 }
@@ -280,7 +282,7 @@ static inline uint32_t add_varied(drawing *d, random_state *random, bool is_opaq
     d->steps[plane->step_count++] = is_ramp ? random_ramp(d, random) : flat;
   }
   if (group < layers)
-    d->steps[plane->step_count++] = random_leave(random);
+    d->steps[plane->step_count++] = random_leave(random, is_opaque);
   if (is_opaque)
     d->steps[plane->step_count++] =
         (planefile_step){.kind = PLANEFILE_FLAT, .colour = random_colour(random, true)};

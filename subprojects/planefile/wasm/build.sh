@@ -11,8 +11,9 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 for source in "$@" "$here/module.c" "$here/libc.c"; do
   case $source in
-    */draw.c | */varied.c | */pixels.c | */program.c) level='-Os -msimd128' ;;
-    *) level=-Oz ;;
+    */draw.c | */pixels.c) level='-Os -fno-vectorize -fno-unroll-loops -msimd128' ;;
+    */program.c) level='-Os -msimd128' ;;
+    *) level='-Oz -mllvm -inline-threshold=-50' ;;
   esac
   # shellcheck disable=SC2086
   "$CLANG" --target=wasm32 -std=c17 $level -ffreestanding -nostdlibinc -ffp-contract=off \
