@@ -375,38 +375,88 @@ static celspan_texture *rainbow(studio *s, double x, double y) {
   return studio_linear(s, (celspan_point){0, 0}, (celspan_point){x, y}, stops, 2);
 }
 
-/* A rectangle under another one, which multiplies it. */
-static celspan_rostrum *multiplied(studio *s, celspan_texture *back, celspan_texture *front) {
+/* A rectangle under another one, which is blended with it. */
+static celspan_object *blended(studio *s, celspan_blend mode, celspan_texture *back,
+                               celspan_texture *front) {
   celspan_object *objects[2] = {studio_rect(s, 5, 5, 50, 40, back),
                                 studio_rect(s, 20, 10, 60, 45, front)};
   celspan_group_desc desc = CELSPAN_GROUP_DESC;
   desc.objects = &objects[1];
   desc.object_count = 1;
-  desc.blend = CELSPAN_BLEND_MULTIPLY;
+  desc.blend = mode;
   objects[1] = studio_group(s, &desc);
   desc.objects = objects;
   desc.object_count = 2;
   desc.blend = CELSPAN_BLEND_NORMAL;
   desc.isolate = CELSPAN_ISOLATION_ON;
-  return studio_show(s, studio_group(s, &desc));
+  return studio_group(s, &desc);
+}
+
+static void check_kept(studio *s, const celspan_rostrum *rostrum) {
+  celspan_exposure exposure = {(celspan_rostrum *)rostrum, 1};
+  celspan_plane *plane = make_plane(s, rostrum);
+  for (int32_t scale = 1; scale <= 9; scale *= 3)
+    check_size(s, plane, &exposure, scale);
+  celspan_plane_unref(plane);
+}
+
+static celspan_object *matted(studio *s, celspan_object *art, celspan_object *by,
+                              celspan_matte_from from, bool invert) {
+  celspan_object *out = NULL;
+  studio_check(s, celspan_object_create_matte(s->context, art, by, from, invert, &out));
+  s->objects[s->object_count++] = out;
+  return out;
+}
+
+/* Gradients under each other's modes and mattes. */
+static void check_veils(studio *s) {
+  celspan_texture *across = rainbow(s, WIDTH, 9), *down = rainbow(s, 0, HEIGHT);
+  celspan_object *art = studio_rect(s, 5, 5, 70, 40, across);
+  celspan_object *by = studio_circle(s, 40, 30, 25, down);
+  check_kept(s, studio_show(s, blended(s, CELSPAN_BLEND_MULTIPLY, across, down)));
+  check_kept(s, studio_show(s, blended(s, CELSPAN_BLEND_SCREEN, across, down)));
+  check_kept(s,
+             studio_show(s, studio_fade(s, blended(s, CELSPAN_BLEND_SCREEN, down, across), 0.6)));
+  for (int i = 0; i < 4; i++)
+    check_kept(s, studio_show(s, matted(s, art, by,
+                                        i < 2 ? CELSPAN_MATTE_ALPHA : CELSPAN_MATTE_LUMA, i % 2)));
+  studio_finish(s);
+}
+
+/* A cel under a front light that varies, and in front of it coloured glass that does. */
+static void check_glass(studio *s) {
+  const celspan_stop stops[] = {{0, celspan_paint_gel(1, 0.3f, 0.2f)},
+                                {1, {{0.1f, 0, 0}, {0.2f, 0.9f, 0.5f}, 0.3f}}};
+  celspan_texture *down = rainbow(s, 0, HEIGHT);
+  celspan_texture *glass =
+      studio_linear(s, (celspan_point){0, 0}, (celspan_point){WIDTH, HEIGHT}, stops, 2);
+  celspan_object *art = studio_rect(s, 5, 5, 70, 40, down);
+  celspan_object *panes[2] = {
+      studio_circle(s, 50, 25, 20, glass),
+      studio_rect(s, 20, 20, 60, 9, studio_paint(s, celspan_paint_gel(0.2f, 0.5f, 1)))};
+  celspan_cel_desc lit = CELSPAN_CEL_DESC;
+  lit.front_texture.texture = rainbow(s, WIDTH, 0);
+  celspan_cel *cels[2] = {studio_cel(s, lit, &art, 1), studio_cel(s, CELSPAN_CEL_DESC, panes, 2)};
+  celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
+  check_kept(s, studio_rostrum(s, desc, cels, 2));
+  desc.back = (celspan_light){1, 0.75f, 0.5f, 1};
+  check_kept(s, studio_rostrum(s, desc, cels, 2));
+  studio_finish(s);
 }
 
 /* One gradient under a mode is tabulated. */
 static void check_tabulated(studio *s) {
   celspan_texture *grey = studio_paint(s, celspan_paint_rgb(0.5f, 0.25f, 0.75f, 1));
-  celspan_rostrum *rostrums[2] = {multiplied(s, grey, rainbow(s, WIDTH, 9)),
-                                  multiplied(s, rainbow(s, 0, HEIGHT), grey)};
-  for (int i = 0; i < 2; i++) {
-    celspan_exposure exposure = {rostrums[i], 1};
-    celspan_plane *plane = make_plane(s, rostrums[i]);
-    check_size(s, plane, &exposure, 3);
-    celspan_plane_unref(plane);
-  }
+  check_kept(s, studio_show(s, blended(s, CELSPAN_BLEND_OVERLAY, grey, rainbow(s, WIDTH, 9))));
+  check_kept(s, studio_show(s, blended(s, CELSPAN_BLEND_OVERLAY, rainbow(s, 0, HEIGHT), grey)));
   studio_finish(s);
 }
 
 static void check_scenes_refused(studio *s) {
-  check_refused(s, multiplied(s, rainbow(s, WIDTH, 9), rainbow(s, 0, HEIGHT)), "gradients");
+  check_refused(s,
+                studio_show(s, blended(s, CELSPAN_BLEND_OVERLAY, rainbow(s, WIDTH, 9),
+                                       rainbow(s, 0, HEIGHT))),
+                "gradients");
   celspan_cel_desc blurred = CELSPAN_CEL_DESC;
   blurred.defocus_radius = 3;
   celspan_object *disc = studio_circle(s, 30, 30, 20, NULL);
@@ -479,6 +529,8 @@ int main(void) {
   check_probes(&s, VARIED);
   check_files(&s);
   check_tabulated(&s);
+  check_veils(&s);
+  check_glass(&s);
   check_scenes_refused(&s);
   check_views_refused(&s);
   check_failures_of_memory(&s, &watch);

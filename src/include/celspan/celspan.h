@@ -1749,10 +1749,10 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_digest(celspan_context 
 typedef struct celspan_plane celspan_plane;
 
 /* width, height: film units      rostrum: borrowed; its antialiasing does not count      out: new
- * Errors: those of rendering; BAD_ARGUMENT for what a plane cannot keep: scan-line
- * procedures, objects blurred in perspective or very little, pictures that are lights, gels or composited in sRGB, and gradients
- * over each other, or pictures, under a mode, a matte, a grade, a light with a shape or a coloured
- * medium. */
+ * Errors: those of rendering; BAD_ARGUMENT for what a plane cannot keep: scan-line procedures,
+ * objects blurred in perspective or very little, pictures with a medium of their own or composited
+ * in sRGB, and, where several gradients or pictures lie over each other, grades, modes other than
+ * multiply and screen, and glass inside a group that is faded. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_create(celspan_context *context,
                                                                 const celspan_rostrum *rostrum,
                                                                 double width, double height,

@@ -273,13 +273,7 @@ static void make_veil(uint8_t how, const float pixel[4], float out[4]) {
                                        : pixel[c];
 }
 
-/* Glass takes its mean from what shines through, and its colour from what is behind it. */
-static void take_mean(float veil[4], float *alpha) {
-  float mean = (veil[0] + veil[1] + veil[2]) * (1.0f / 3);
-  *alpha = 1 - (1 - *alpha) * mean;
-  for (int c = 0; c < 3; c++)
-    veil[c] = mean > 0 ? veil[c] / mean : 0;
-}
+static float mean_of(const float veil[4]) { return (veil[0] + veil[1] + veil[2]) * (1.0f / 3); }
 
 /* A group becomes a veil in the group around it. */
 static void add_veil(uint8_t how, uint32_t count, const front *group, front *around) {
@@ -289,12 +283,18 @@ static void add_veil(uint8_t how, uint32_t count, const front *group, front *aro
   around->is_clear = false;
   for (uint32_t k = 0; k < count; k++) {
     const float pixel[4] = {from[0][k], from[1][k], from[2][k], from[3][k]};
-    float veil[4];
+    float veil[4], *alpha = &around->colours->channels[3][k], mean = 1;
     make_veil(how, pixel, veil);
-    if (how == PLANEFILE_GLASS)
-      take_mean(veil, &around->colours->channels[3][k]);
+    for (int c = 0; c < 4 && !around->is_bare; c++)
+      veil[c] *= to[c][k];
+    if (how == PLANEFILE_GLASS) { /* the mean dims what shines through, the colour what is behind */
+      const float before[4] = {to[0][k], to[1][k], to[2][k], 1};
+      mean = mean_of(veil) / (around->is_bare ? 1 : mean_of(before));
+      mean = mean > 0 ? mean : 0;
+      *alpha = 1 - (1 - *alpha) * mean;
+    }
     for (int c = 0; c < 4; c++)
-      to[c][k] = around->is_bare ? veil[c] : to[c][k] * veil[c];
+      to[c][k] = c == 3 ? veil[c] : mean > 0 ? veil[c] / mean : 0;
   }
   around->is_bare = false;
 }

@@ -578,13 +578,18 @@ local function add_veil(how, layer, front)
   local function limit(x) return math.max(0, math.min(1, x)) end
   local matte = how >= 7 and limit(0.2126 * r + 0.7152 * g + 0.0722 * b) or limit(a)
   if how == 6 or how == 8 then matte = 1 - matte end
-  local mean = 1 - limit(a) + (r + g + b) / 3
+  local veil, before = front.veil, 0
+  for c = 1, 3 do before = before + veil[c] / 3 end
   for c, x in ipairs {r, g, b, 0} do
     local by = how >= 5 and matte or c == 4 and 1 or how == 3 and x or how == 4 and 1 - x
-      or mean > 0 and (1 - limit(a) + x) / mean or 0
-    front.veil[c] = front.veil[c] * by
+      or 1 - limit(a) + x
+    veil[c] = veil[c] * by
   end
-  if how == 2 then front[4] = 65535 - (65535 - front[4]) * mean end
+  if how ~= 2 then return end
+  local mean = (veil[1] + veil[2] + veil[3]) / 3 / before
+  mean = mean > 0 and mean or 0
+  for c = 1, 3 do veil[c] = mean > 0 and veil[c] / mean or 0 end
+  front[4] = 65535 - (65535 - front[4]) * mean
 end
 
 local function new_group() return {0, 0, 0, 0, veil = {1, 1, 1, 1}} end
