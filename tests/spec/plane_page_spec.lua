@@ -111,7 +111,8 @@ describe("the page of a plane", function()
 
   it_decodes("shows pictures as they are rendered", function()
     bench:write("film.lua", (FILM:gsub('texture = "#ffffff"', [[
-      texture = celspan.picture { size = { 4, 4 }, pixels = ("\10\200\90\255\99\0\7\255"):rep(8) }]])
+      texture = celspan.picture { size = { 4, 4 },
+        pixels = ("\10\200\90\255\99\0\7\255"):rep(8) }]])
       :gsub("78, 43, 0.01, 4", "30, 20, 100, 50")))
     celspan "render film.lua -o a.plane"
     celspan "plane a.plane -o a.html"

@@ -24,9 +24,9 @@ typedef struct program_maker {
   entered_group outer[PLANEFILE_DEPTH];
   uint32_t count;                      /* of the groups that were entered */
   uint32_t depth, deepest;             /* of their steps */
-  bool has_glass[PLANEFILE_DEPTH + 1]; /* what is behind it shines through in its colours */
+  bool has_glass[PLANEFILE_DEPTH + 1]; /* layers behind it shine through in its colours */
   bool has_veil[PLANEFILE_DEPTH + 1];  /* its layers to come are multiplied */
-  bool lost_glass; /* glass is in a layer by now: what is behind would shine through in grey */
+  bool lost_glass; /* glass is in a layer by now: all behind it would shine through in grey */
   size_t light;    /* the next back light to be met */
   float keep;      /* what the mattes of back lights leave of transparency */
   bool is_hard;    /* steps cannot say it */
@@ -455,8 +455,8 @@ static celspan_status add_picture(program_maker *m, const cs_layer *layer) {
   return hides && fade == 1 ? add_flat(m, cs_v4_all(0), 1) : CELSPAN_OK;
 }
 
-/* A picture that is a slide. */
-static celspan_status add_slide(program_maker *m, const cs_layer *layer) {
+/* A picture that is a gel. */
+static celspan_status add_gel(program_maker *m, const cs_layer *layer) {
   size_t stop = m->record->stop_count;
   CS_TRY(add_enter(m));
   CS_TRY(add_stop(m, 0, all_of(layer->fade)));
@@ -465,7 +465,7 @@ static celspan_status add_slide(program_maker *m, const cs_layer *layer) {
 }
 
 /* Glass of one colour. */
-static celspan_status add_pane(program_maker *m, const cs_layer *layer) {
+static celspan_status add_flat_paint(program_maker *m, const cs_layer *layer) {
   if (is_grey(layer->t))
     return add_flat(m, layer->s, 1 - layer->t[0]);
   CS_TRY(add_flat(m, layer->s, 0));
@@ -477,10 +477,10 @@ static celspan_status add_pane(program_maker *m, const cs_layer *layer) {
 static celspan_status add_paint(program_maker *m, const cs_layer *layer) {
   const cs_stack *stack = m->source->stack;
   if (layer->kind == CS_LAYER_FLAT)
-    return add_pane(m, layer);
+    return add_flat_paint(m, layer);
   if (layer->kind == CS_LAYER_PICTURE &&
       stack->images[layer->index].texture->variation->use == CELSPAN_PICTURE_GEL)
-    return add_slide(m, layer);
+    return add_gel(m, layer);
   if (layer->kind == CS_LAYER_PICTURE || layer->kind == CS_LAYER_DEFOCUSED)
     return add_picture(m, layer);
   const cs_shade *shade = &stack->shades[layer->index];

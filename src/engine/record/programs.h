@@ -4,8 +4,8 @@
  *     steps of the plane      ramp       flat  enter ramp  flat  leave  flat
  *
  * Gradients are ramps along axes, which lie on the frame whatever its size, and so are pictures
- * (pictures.h). Glass, front lights with a shape, mattes, multiply and screen are veils. What is
- * none of these, such as a grade or another mode, can be kept where only one gradient is in the
+ * (pictures.h). Glass, front lights with a shape, mattes, multiply and screen are veils. All
+ * else, such as a grade or another mode, can be kept where only one gradient is in the
  * program: then all that shows is a function of the place along it, and is tabulated.
  *
  * Invariant: a program of the plane shows what that of the composer does, within 1/16384.

@@ -28,7 +28,7 @@ CELSPAN_CHECKED celspan_status cs_plane_report_record(celspan_context *context,
                                                       planefile_status status,
                                                       const cs_recording *made);
 
-/* A frame that is to be written, and the plans that its pictures are made from. */
+/* A frame before it is written, and the plans that its pictures are made from. */
 typedef struct cs_plane_frame {
   cs_recording record;
   cs_plan *plans;

@@ -100,7 +100,7 @@ static void lay_cubic(extent *e, float t) {
   e->weights[3] = 0.5f * (t3 - t2);
 }
 
-/* The texels that [low, high) has parts of; of a box in the picture, but for repeated ones. */
+/* The texels that [low, high) has parts of; of a box inside the picture, unless it repeats. */
 static void lay_box(extent *e, double low, double high, double texel) {
   e->first = (int32_t)floor((low + SAME) / texel);
   e->count = (int32_t)bigger(ceil((high - SAME) / texel) - e->first, 1);

@@ -1,7 +1,7 @@
 /* Pictures to their code and back.
  *
- *      c | b        a channel is foreseen from its neighbours: as the less or the greater of a and b
- *     ---+---       where c is beyond the other one, else on the plane through all three
+ *      c | b     a channel is foreseen from its neighbours: as the less or the greater of a and b
+ *     ---+---    where c is beyond the other one, else on the plane through all three
  *      a | x
  *
  * The less its neighbours differ, the nearer it will be: the sizes of their differences choose the

@@ -287,7 +287,7 @@ static void add_veil(uint8_t how, uint32_t count, const front *group, front *aro
     make_veil(how, pixel, veil);
     for (int c = 0; c < 4 && !around->is_bare; c++)
       veil[c] *= to[c][k];
-    if (how == PLANEFILE_GLASS) { /* the mean dims what shines through, the colour what is behind */
+    if (how == PLANEFILE_GLASS) { /* the mean goes into alpha */
       const float before[4] = {to[0][k], to[1][k], to[2][k], 1};
       mean = mean_of(veil) / (around->is_bare ? 1 : mean_of(before));
       mean = mean > 0 ? mean : 0;

@@ -38,7 +38,7 @@ typedef struct pf_program_room {
   planefile_axis *axes;
   planefile_stop *stops;
   uint32_t step_count, axis_count, stop_count; /* that there is room for */
-  uint32_t picture_count;                      /* that there are */
+  uint32_t picture_count;                      /* of the file */
 } pf_program_room;
 
 /* Returns why it is refused, or NULL. What was decoded is checked. */
@@ -64,8 +64,7 @@ typedef struct pf_program_source {
   const pf_light_curve *curve;
 } pf_program_source;
 
-/* Of each group that may be inside another one, and of what is around them: its colours, and its
- * veils. */
+/* Of each group that may be inside another one, and of the program: its colours, and its veils. */
 enum { PF_ROOM = 2 * (PLANEFILE_DEPTH + 1) };
 /* The colours are in the first one of the room. */
 void pf_program_colours(const pf_program_source *source, planefile_program program,

@@ -326,7 +326,7 @@ local function copy_pixels(codes, width, height)
   local rows = {}
   for y = 0, height - 1 do
     rows[y] = {}
-    for x = 0, width - 1 do 
+    for x = 0, width - 1 do
       local at = 4 * (y * width + x)
       rows[y][x] = {codes:byte(at + 1, at + 4)}
     end
@@ -349,7 +349,7 @@ local function to_light(rows, width, height, kind)
   return {width = width, height = height, side = 1, rows = rows}
 end
 
--- The level above: means by the pixels that there are.
+-- The level above: means by the pixels that exist.
 local function halve(level, whole)
   local half = {width = (level.width + 1) // 2, height = (level.height + 1) // 2, rows = {},
     side = 2 * level.side}
@@ -401,7 +401,8 @@ local function mix_texels(level, wrap, across, down)
       all = all + weight
       for c = 1, 4 do
         sum[c] = sum[c] + weight * texel[c]
-        low[c], high[c] = math.min(low[c] or texel[c], texel[c]), math.max(high[c] or texel[c], texel[c])
+        low[c] = math.min(low[c] or texel[c], texel[c])
+        high[c] = math.max(high[c] or texel[c], texel[c])
       end
     end
   end
@@ -729,7 +730,8 @@ local function find_pictures(bytes, bands, offsets, host)
     for _, axis in ipairs(band.axes) do
       local number = axis.kind == 3 and axis.picture + 1
       if number then
-        pictures[number] = pictures[number] or read_picture(payload_at(bytes, offsets[number]), host)
+        pictures[number] = pictures[number]
+          or read_picture(payload_at(bytes, offsets[number]), host)
         axis.levels = pictures[number]
       end
     end
