@@ -1743,7 +1743,7 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_digest(celspan_context 
  * gradients or pictures on each side. It is made once, and drawn at any size, whole or any crop of
  * it, without its rostrum. It is kept in plane files (docs/planefile.md).
  *
- * It is as exact as a frame of 4,093 pixels a side: curves are the rostrum's own, but where two of
+ * It is as exact as a frame of 16,381 pixels a side: curves are the rostrum's own, but where two of
  * them cross may be off by 1/50 of such a pixel. Colours are multiples of 1/65,535, and pixels are
  * means of linear light. Immutable; shared read. */
 typedef struct celspan_plane celspan_plane;
