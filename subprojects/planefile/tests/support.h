@@ -332,7 +332,8 @@ static inline void add_border(drawing *d, uint32_t chain, int32_t top, int32_t f
  * and then they are hidden. Sums do not ask whether other shapes lie there, too. */
 static inline void add_shape(drawing *d, random_state *random, bool is_opaque, variety kind) {
   int32_t top = random_between(random, -(1 << 24), 4 << 24);
-  int32_t height = random_between(random, 1 << 4, 1 << random_between(random, 10, 25));
+  int32_t least = kind == VARIED ? 21 : 10; /* what varies must be seen in small views */
+  int32_t height = random_between(random, 1 << 4, 1 << random_between(random, least, 25));
   int32_t heights[4] = {top, top + height / 4, top + height / 2, top + height};
   int32_t cuts[4] = {top, top + height / 3, top + height / 3 * 2, top + height};
   uint32_t chains[2];
