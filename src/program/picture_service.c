@@ -140,6 +140,20 @@ static int close_plane(lua_State *L) {
   return 0;
 }
 
+/* How many pictures are in the file of a plane: its last frame knows of all. */
+static int64_t count_pictures(lua_State *L, const celspan_plane *plane) {
+  celspan_context *context = cs_service_session(L)->context;
+  double rate;
+  int32_t last = celspan_plane_frames(plane, &rate) - 1;
+  celspan_plane **other =
+      cs_userdata_push_holder(L, "celspan.program.plane", sizeof(celspan_plane *), close_plane);
+  if (last > 0)
+    cs_service_try(L, celspan_plane_frame(context, plane, last, other));
+  int64_t count = (int64_t)cs_plane_count(last > 0 ? *other : plane).pictures;
+  lua_pop(L, 1);
+  return count;
+}
+
 /* plane(path) -> what the whole file consists of */
 static int read_plane(lua_State *L) {
   celspan_context *context = cs_service_session(L)->context;
@@ -148,8 +162,10 @@ static int read_plane(lua_State *L) {
   cs_service_try(L, celspan_plane_read(context, luaL_checkstring(L, 1), plane));
   cs_plane_facts facts = cs_plane_count(*plane);
   double width, height, rate;
+  int64_t pictures = count_pictures(L, *plane);
   celspan_plane_size(*plane, &width, &height);
-  lua_createtable(L, 0, 11);
+  lua_createtable(L, 0, 12);
+  cs_put_integer(L, "pictures", pictures);
   cs_put_integer(L, "frames", celspan_plane_frames(*plane, &rate));
   cs_put_number(L, "fps", rate);
   cs_put_number(L, "width", width);

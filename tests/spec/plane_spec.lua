@@ -24,7 +24,8 @@ before_each(function()
 local celspan = require "celspan"
 local disc = celspan.circle { centre = { 80, 45 }, radius = 30 }
 return celspan.film { size = { 160, 90 }, frames = 1, frame = function()
-  return celspan.rostrum { celspan.cel { disc, defocus = 3 } }
+  return celspan.rostrum { celspan.cel { disc, defocus = 3 }
+    :transform { 1, 0, 0, 0, 1, 0, 0.001, 0, 1 } }
 end }
 ]])
 end)
@@ -186,7 +187,7 @@ describe("a plane in Lua", function()
 
   it("is not made of what it cannot keep, nor read from other files", function()
     local blurred = celspan.rostrum { celspan.cel {
-      celspan.circle { centre = { 80, 45 }, radius = 30 }, defocus = 3 } }
+      celspan.circle { centre = { 80, 45 }, radius = 30 }, defocus = 0.05 } }
     local plane, message = celspan.plane(blurred)
     assert.is_nil(plane)
     assert.matches("a blurred object is in view", message, 1, true)
@@ -215,7 +216,35 @@ describe("a plane on the command line", function()
     done("render film.lua -o a.##.plane")
     assert.equal("celplane", bench:read "a.02.plane":sub(1, 8))
     assert.matches("size 160x90\nalpha none\nbytes %d+\nbands 1\n", done "info a.02.plane")
-    assert.matches("gradients %d+\n$", done "info a.02.plane")
+    assert.matches("gradients %d+\npictures 0\n$", done "info a.02.plane")
+  end)
+
+  it("has a picture once, and the grid of a defocused cel, whatever shows of them", function()
+    bench:write("pictured.lua", [[
+local celspan = require "celspan"
+local noise, state = {}, 1
+for i = 1, 4 * 60 * 60 do
+  state = state * 48271 % 2147483647
+  noise[i] = string.char(i % 4 == 0 and 255 or state % 256)
+end
+local noisy = celspan.picture { size = { 60, 60 }, pixels = table.concat(noise) }
+return celspan.film { size = { 160, 90 }, frames = 3, frame = function(f)
+  return celspan.rostrum {
+    celspan.cel { celspan.circle { centre = { 40, 45 }, radius = 30 }, defocus = 4 },
+    celspan.cel { celspan.rect { 20 * f.number, 20, 50, 50, texture = noisy } } }
+end }
+]])
+    done("render pictured.lua -o film.plane")
+    done("render pictured.lua --frames 3 -o one.plane")
+    assert.is_true(#bench:read "one.plane" > 3 * 60 * 60)
+    assert.is_true(#bench:read "film.plane" < 1.2 * #bench:read "one.plane")
+    assert.matches("pictures 2\n$", done "info film.plane")
+    -- Small frames are made of fewer nodes of a blur than the plane.
+    for size, most in pairs { ["160x90"] = 8 / 255, ["640x360"] = 2.01 / 255 } do
+      done("render pictured.lua --frames 3 --size %s --antialias area -o rendered.png", size)
+      done("convert film.plane --frame 3 drawn.png --size %s", size)
+      done("compare rendered.png drawn.png --fail %g", most)
+    end
   end)
 
   it("is a film of all frames, each of which is the plane that it would be alone", function()

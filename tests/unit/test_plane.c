@@ -18,8 +18,8 @@ static celspan_paint random_paint(test_random *random) {
   return celspan_paint_rgb(red, green, blue, alpha);
 }
 
-/* Whether scenes have gradients. */
-typedef enum variety { FLAT, VARIED } variety;
+/* Whether scenes have gradients, and pictures. */
+typedef enum variety { FLAT, VARIED, PICTURED } variety;
 
 static celspan_texture *random_gradient(studio *s, test_random *random) {
   celspan_stop stops[4];
@@ -42,6 +42,55 @@ static celspan_texture *random_gradient(studio *s, test_random *random) {
   return studio_focal(s, from, radius, focus, stops, count);
 }
 
+/* The pixels of a surface of a format, which are the floats or integers of a wave. */
+static void fill_surface(test_random *random, celspan_surface_desc *desc, unsigned char *out) {
+  double across = random_between(random, 0.05, 0.3), down = random_between(random, 0.05, 0.3);
+  bool is_opaque = random_below(random, 2);
+  for (int32_t i = 0; i < desc->width * desc->height; i++)
+    for (int c = 0; c < 4; c++) {
+      double at = across * (i % desc->width) + down * (double)(i / desc->width) + c;
+      double value = c == 3 && is_opaque ? 1 : 0.5 + 0.4 * sin(at);
+      if (desc->format == CELSPAN_SURFACE_RGBAF)
+        ((float *)(void *)out)[4 * i + c] = (float)value * (c == 0 ? 1.5f : 1);
+      else if (desc->format == CELSPAN_SURFACE_RGBA16)
+        ((uint16_t *)(void *)out)[4 * i + c] = (uint16_t)(value * 65535);
+      else
+        out[4 * i + c] = (unsigned char)(value * 255 + 0.5);
+    }
+}
+
+static celspan_texture *random_picture(studio *s, test_random *random) {
+  static const celspan_surface_format formats[3] = {CELSPAN_SURFACE_RGBA8, CELSPAN_SURFACE_RGBA16,
+                                                    CELSPAN_SURFACE_RGBAF};
+  celspan_surface_desc surface = CELSPAN_SURFACE_DESC;
+  surface.width = 1 + (int32_t)random_below(random, 400);
+  surface.height = 1 + (int32_t)random_below(random, 300);
+  surface.format = formats[random_below(random, 3)];
+  unsigned char *pixels = calloc((size_t)surface.width * (size_t)surface.height, 16);
+  fill_surface(random, &surface, pixels);
+  surface.pixels = pixels;
+  celspan_picture_desc desc = {.sampling = (celspan_sampling)random_below(random, 4)};
+  desc.wrap = (celspan_wrap)random_below(random, 3);
+  studio_check(s, celspan_surface_create(s->context, &surface, &desc.surface));
+  free(pixels);
+  desc.has_box = random_below(random, 2);
+  celspan_point corner = random_point(random, -20, 60, -20, 40);
+  celspan_point size = random_point(random, 5, 90, 5, 60);
+  desc.box = (celspan_box){corner.x, corner.y, size.x, size.y};
+  celspan_texture *texture = NULL;
+  studio_check(s, celspan_texture_create_picture(s->context, &desc, &texture));
+  celspan_surface_unref(desc.surface);
+  s->textures[s->texture_count++] = texture;
+  return texture;
+}
+
+static celspan_texture *random_texture(studio *s, test_random *random, variety kind) {
+  if (kind == FLAT || random_below(random, 2))
+    return studio_paint(s, random_paint(random));
+  return kind == PICTURED && random_below(random, 2) ? random_picture(s, random)
+                                                     : random_gradient(s, random);
+}
+
 /* Of the second and the third degree. */
 static celspan_object *curved_path(studio *s, const celspan_point points[5],
                                    celspan_texture *texture) {
@@ -54,9 +103,7 @@ static celspan_object *curved_path(studio *s, const celspan_point points[5],
 }
 
 static celspan_object *random_object(studio *s, test_random *random, variety kind) {
-  celspan_texture *texture = kind == VARIED && random_below(random, 2)
-                                 ? random_gradient(s, random)
-                                 : studio_paint(s, random_paint(random));
+  celspan_texture *texture = random_texture(s, random, kind);
   celspan_point corners[5];
   for (int k = 0; k < 5; k++)
     corners[k] = random_point(random, -10, WIDTH + 10, -10, HEIGHT + 10);
@@ -71,15 +118,35 @@ static celspan_object *random_object(studio *s, test_random *random, variety kin
   return studio_polygon(s, corners, 3, CELSPAN_RULE_NONZERO, texture);
 }
 
-/* The objects as one that may be faded, and be composited in sRGB. */
-static celspan_object *random_group(studio *s, test_random *random, celspan_object **objects,
-                                    size_t count) {
+/* The objects as one that may be faded, and, without pictures, be composited in sRGB. */
+static celspan_object *random_group(studio *s, test_random *random, variety kind,
+                                    celspan_object **objects, size_t count) {
   celspan_group_desc desc = CELSPAN_GROUP_DESC;
   desc.objects = objects;
   desc.object_count = count;
   desc.opacity = random_below(random, 2) ? 1 : random_unit(random);
-  desc.space = random_below(random, 2) ? CELSPAN_SPACE_SRGB : CELSPAN_SPACE_AROUND;
+  if (kind == VARIED && random_below(random, 2))
+    desc.space = CELSPAN_SPACE_SRGB;
   return studio_group(s, &desc);
+}
+
+static celspan_cel *placed(studio *s, celspan_cel *cel, const celspan_matrix *matrix) {
+  celspan_cel *out = NULL;
+  studio_check(s, celspan_cel_transform(s->context, cel, matrix, &out));
+  s->cels[s->cel_count++] = out;
+  return out;
+}
+
+/* Turned a little, and in one of two cases in perspective. */
+static celspan_cel *random_place(studio *s, test_random *random, celspan_cel *cel) {
+  celspan_point turn = random_point(random, -0.3, 0.3, -0.3, 0.3);
+  celspan_point bend = random_point(random, -0.004, 0.004, -0.004, 0.004);
+  celspan_matrix matrix = {{1, turn.x, 3, turn.y, 1, -2, 0, 0, 1}};
+  if (random_below(random, 2)) {
+    matrix.m[6] = bend.x;
+    matrix.m[7] = bend.y;
+  }
+  return placed(s, cel, &matrix);
 }
 
 /* A cel of a few shapes, one of which is cut out of others. */
@@ -87,19 +154,24 @@ static celspan_cel *random_cel(studio *s, test_random *random, variety kind) {
   celspan_object *objects[5];
   celspan_cel_desc desc = CELSPAN_CEL_DESC;
   size_t count = 1 + (size_t)random_below(random, 5);
+  bool is_blurred = kind == PICTURED && random_below(random, 4) == 0;
+  kind = is_blurred ? FLAT : kind;
   for (size_t i = 0; i < count; i++)
     objects[i] = random_object(s, random, kind);
   celspan_object *other = random_object(s, random, kind);
   objects[0] = studio_pair(s, CELSPAN_DIFFERENCE, objects[0], other);
   desc.opacity = random_below(random, 3) ? 1 : random_unit(random);
   desc.back = random_below(random, 3) ? desc.back : (celspan_light){0.25f, 0.5f, 0, 0.5f};
-  if (kind == VARIED && random_below(random, 2)) {
+  if (kind != FLAT && random_below(random, 2)) {
     desc.has_front = true;
     desc.front = (celspan_light){1.5f, 0.75f, 0.5f, 1};
-    objects[0] = random_group(s, random, objects, count);
+    objects[0] = random_group(s, random, kind, objects, count);
     count = 1;
   }
-  return studio_cel(s, desc, objects, count);
+  if (is_blurred)
+    desc.defocus_radius = random_between(random, 4, 9);
+  celspan_cel *cel = studio_cel(s, desc, objects, count);
+  return kind != FLAT && random_below(random, 3) == 0 ? random_place(s, random, cel) : cel;
 }
 
 static celspan_rostrum *random_rostrum(studio *s, uint64_t seed, variety kind) {
@@ -229,7 +301,8 @@ static void check_small(studio *s) {
 
 /* ---------------------------------------------------------------- as points are */
 
-/* Pixels at their centres, of frames that nobody renders. An edge may lie between the two. */
+/* Pixels at their centres, of frames that nobody renders. An edge may lie between the two. Pictures
+ * are left out: the probe shows what a pixel of a small frame covers of them. */
 static void check_probes(studio *s, variety kind) {
   enum { SIDE = 1 << 20, PROBES = 400 };
   size_t off = 0;
@@ -266,7 +339,7 @@ static void check_probes(studio *s, variety kind) {
 static void check_files(studio *s) {
   const char *path = "plane/test.plane";
   for (uint64_t seed = 40; seed < 44; seed++) {
-    celspan_plane *plane = make_plane(s, random_rostrum(s, seed, VARIED)), *again = NULL;
+    celspan_plane *plane = make_plane(s, random_rostrum(s, seed, PICTURED)), *again = NULL;
     double width, height;
     studio_check(s, celspan_plane_write(s->context, plane, path));
     studio_check(s, celspan_plane_read(s->context, path, &again));
@@ -312,42 +385,93 @@ static celspan_texture *rainbow(studio *s, double x, double y) {
   return studio_linear(s, (celspan_point){0, 0}, (celspan_point){x, y}, stops, 2);
 }
 
-/* A rectangle under another one, which multiplies it. */
-static celspan_rostrum *multiplied(studio *s, celspan_texture *back, celspan_texture *front) {
+/* A rectangle under another one, which is blended with it. */
+static celspan_object *blended(studio *s, celspan_blend mode, celspan_texture *back,
+                               celspan_texture *front) {
   celspan_object *objects[2] = {studio_rect(s, 5, 5, 50, 40, back),
                                 studio_rect(s, 20, 10, 60, 45, front)};
   celspan_group_desc desc = CELSPAN_GROUP_DESC;
   desc.objects = &objects[1];
   desc.object_count = 1;
-  desc.blend = CELSPAN_BLEND_MULTIPLY;
+  desc.blend = mode;
   objects[1] = studio_group(s, &desc);
   desc.objects = objects;
   desc.object_count = 2;
   desc.blend = CELSPAN_BLEND_NORMAL;
   desc.isolate = CELSPAN_ISOLATION_ON;
-  return studio_show(s, studio_group(s, &desc));
+  return studio_group(s, &desc);
+}
+
+static void check_kept(studio *s, const celspan_rostrum *rostrum) {
+  celspan_exposure exposure = {(celspan_rostrum *)rostrum, 1};
+  celspan_plane *plane = make_plane(s, rostrum);
+  for (int32_t scale = 1; scale <= 9; scale *= 3)
+    check_size(s, plane, &exposure, scale);
+  celspan_plane_unref(plane);
+}
+
+static celspan_object *matted(studio *s, celspan_object *art, celspan_object *by,
+                              celspan_matte_from from, bool invert) {
+  celspan_object *out = NULL;
+  studio_check(s, celspan_object_create_matte(s->context, art, by, from, invert, &out));
+  s->objects[s->object_count++] = out;
+  return out;
+}
+
+/* Gradients under each other's modes and mattes. */
+static void check_veils(studio *s) {
+  celspan_texture *across = rainbow(s, WIDTH, 9), *down = rainbow(s, 0, HEIGHT);
+  celspan_object *art = studio_rect(s, 5, 5, 70, 40, across);
+  celspan_object *by = studio_circle(s, 40, 30, 25, down);
+  check_kept(s, studio_show(s, blended(s, CELSPAN_BLEND_MULTIPLY, across, down)));
+  check_kept(s, studio_show(s, blended(s, CELSPAN_BLEND_SCREEN, across, down)));
+  check_kept(s,
+             studio_show(s, studio_fade(s, blended(s, CELSPAN_BLEND_SCREEN, down, across), 0.6)));
+  for (int i = 0; i < 4; i++)
+    check_kept(s, studio_show(s, matted(s, art, by,
+                                        i < 2 ? CELSPAN_MATTE_ALPHA : CELSPAN_MATTE_LUMA, i % 2)));
+  studio_finish(s);
+}
+
+/* A cel under a front light that varies, and in front of it coloured glass that does. */
+static void check_glass(studio *s) {
+  const celspan_stop stops[] = {{0, celspan_paint_gel(1, 0.3f, 0.2f)},
+                                {1, {{0.1f, 0, 0}, {0.2f, 0.9f, 0.5f}, 0.3f}}};
+  celspan_texture *down = rainbow(s, 0, HEIGHT);
+  celspan_texture *glass =
+      studio_linear(s, (celspan_point){0, 0}, (celspan_point){WIDTH, HEIGHT}, stops, 2);
+  celspan_object *art = studio_rect(s, 5, 5, 70, 40, down);
+  celspan_object *panes[2] = {
+      studio_circle(s, 50, 25, 20, glass),
+      studio_rect(s, 20, 20, 60, 9, studio_paint(s, celspan_paint_gel(0.2f, 0.5f, 1)))};
+  celspan_cel_desc lit = CELSPAN_CEL_DESC;
+  lit.front_texture.texture = rainbow(s, WIDTH, 0);
+  celspan_cel *cels[2] = {studio_cel(s, lit, &art, 1), studio_cel(s, CELSPAN_CEL_DESC, panes, 2)};
+  celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
+  check_kept(s, studio_rostrum(s, desc, cels, 2));
+  desc.back = (celspan_light){1, 0.75f, 0.5f, 1};
+  check_kept(s, studio_rostrum(s, desc, cels, 2));
+  studio_finish(s);
 }
 
 /* One gradient under a mode is tabulated. */
 static void check_tabulated(studio *s) {
   celspan_texture *grey = studio_paint(s, celspan_paint_rgb(0.5f, 0.25f, 0.75f, 1));
-  celspan_rostrum *rostrums[2] = {multiplied(s, grey, rainbow(s, WIDTH, 9)),
-                                  multiplied(s, rainbow(s, 0, HEIGHT), grey)};
-  for (int i = 0; i < 2; i++) {
-    celspan_exposure exposure = {rostrums[i], 1};
-    celspan_plane *plane = make_plane(s, rostrums[i]);
-    check_size(s, plane, &exposure, 3);
-    celspan_plane_unref(plane);
-  }
+  check_kept(s, studio_show(s, blended(s, CELSPAN_BLEND_OVERLAY, grey, rainbow(s, WIDTH, 9))));
+  check_kept(s, studio_show(s, blended(s, CELSPAN_BLEND_OVERLAY, rainbow(s, 0, HEIGHT), grey)));
   studio_finish(s);
 }
 
 static void check_scenes_refused(studio *s) {
-  check_refused(s, multiplied(s, rainbow(s, WIDTH, 9), rainbow(s, 0, HEIGHT)), "gradients");
+  check_refused(s,
+                studio_show(s, blended(s, CELSPAN_BLEND_OVERLAY, rainbow(s, WIDTH, 9),
+                                       rainbow(s, 0, HEIGHT))),
+                "gradients");
   celspan_cel_desc blurred = CELSPAN_CEL_DESC;
   blurred.defocus_radius = 3;
   celspan_object *disc = studio_circle(s, 30, 30, 20, NULL);
-  celspan_cel *cel = studio_cel(s, blurred, &disc, 1);
+  const celspan_matrix bent = {{1, 0, 0, 0, 1, 0, 0.001, 0, 1}};
+  celspan_cel *cel = placed(s, studio_cel(s, blurred, &disc, 1), &bent);
   check_refused(s, studio_rostrum(s, CELSPAN_ROSTRUM_DESC, &cel, 1), "blurred");
   celspan_plane *plane;
   celspan_plane_desc desc = desc_of(16);
@@ -394,7 +518,7 @@ static celspan_status make_and_draw(studio *s, const celspan_rostrum *rostrum) {
 
 /* Every allocation fails once. */
 static void check_failures_of_memory(studio *s, memory_watch *watch) {
-  const celspan_rostrum *rostrum = random_rostrum(s, 3, VARIED);
+  const celspan_rostrum *rostrum = random_rostrum(s, 3, PICTURED);
   bool has_failed = true;
   for (size_t n = 1; has_failed; n++) {
     watch->fail_at = watch->allocations + n;
@@ -415,11 +539,14 @@ int main(void) {
   CHECK(celspan_context_create(&desc, &s.context) == CELSPAN_OK);
   check_frames(&s, FLAT);
   check_frames(&s, VARIED);
+  check_frames(&s, PICTURED);
   check_small(&s);
   check_probes(&s, FLAT);
   check_probes(&s, VARIED);
   check_files(&s);
   check_tabulated(&s);
+  check_veils(&s);
+  check_glass(&s);
   check_scenes_refused(&s);
   check_views_refused(&s);
   check_failures_of_memory(&s, &watch);

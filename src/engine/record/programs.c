@@ -4,19 +4,32 @@
 
 #include "base/number.h"
 #include "engine/paint/over_row.h"
+#include "engine/record/pictures.h"
+#include "engine/record/places.h"
 
 #define SAMPLES 64              /* of a table, from one stop to the next */
 #define TOLERANCE (1.0 / 16384) /* of a table */
+
+/* A group that was entered. */
+typedef struct entered_group {
+  uint32_t group;        /* the one around it that was entered before, or CS_STACK_NONE */
+  uint32_t head, length; /* the steps of its head, which is a layer */
+} entered_group;
 
 typedef struct program_maker {
   const cs_record_source *source;
   cs_recording *record;
   uint32_t first; /* step of the program */
   uint32_t group; /* the innermost that was entered, or CS_STACK_NONE */
-  uint32_t outer[PLANEFILE_DEPTH], depth, deepest;
-  size_t light; /* the next back light to be met */
-  float keep;   /* what the mattes of back lights leave of transparency */
-  bool is_hard; /* it is not only layers over each other */
+  entered_group outer[PLANEFILE_DEPTH];
+  uint32_t count;                      /* of the groups that were entered */
+  uint32_t depth, deepest;             /* of their steps */
+  bool has_glass[PLANEFILE_DEPTH + 1]; /* layers behind it shine through in its colours */
+  bool has_veil[PLANEFILE_DEPTH + 1];  /* its layers to come are multiplied */
+  bool lost_glass; /* glass is in a layer by now: all behind it would shine through in grey */
+  size_t light;    /* the next back light to be met */
+  float keep;      /* what the mattes of back lights leave of transparency */
+  bool is_hard;    /* steps cannot say it */
 } program_maker;
 
 /* ---------------------------------------------------------------- colours */
@@ -37,6 +50,7 @@ static bool is_grey(cs_v4 t) { return t[0] == t[1] && t[1] == t[2]; }
 
 static celspan_status add_step(program_maker *m, planefile_step step) {
   cs_recording *record = m->record;
+  m->is_hard |= m->lost_glass && (step.kind == PLANEFILE_FLAT || step.kind == PLANEFILE_RAMP);
   return CS_APPEND(m->source->context, record->steps, record->step_count, record->step_capacity,
                    step);
 }
@@ -74,18 +88,46 @@ static celspan_status end_frame(program_maker *m) {
 
 /* ---------------------------------------------------------------- groups */
 
+static celspan_status add_enter(program_maker *m) {
+  m->is_hard |= m->depth == m->deepest;
+  if (m->is_hard)
+    return CELSPAN_OK;
+  m->depth++;
+  m->has_glass[m->depth] = m->has_veil[m->depth] = false;
+  return add_step(m, (planefile_step){.kind = PLANEFILE_ENTER});
+}
+
+static celspan_status add_leave(program_maker *m, uint8_t how, planefile_cell factors) {
+  bool has_glass = m->has_glass[m->depth--], is_layer = how <= PLANEFILE_DECODED;
+  m->lost_glass |= has_glass && is_layer;
+  m->is_hard |= has_glass && !is_layer;
+  m->has_glass[m->depth] |= how == PLANEFILE_GLASS;
+  m->has_veil[m->depth] |= !is_layer && how != PLANEFILE_GLASS;
+  return add_step(m, (planefile_step){.kind = PLANEFILE_LEAVE, .how = how, .colour = factors});
+}
+
+static planefile_cell all_of(float factor) { return cell_of(cs_v4_all(factor), factor); }
+
+/* The kinds of groups that steps can say. */
 static bool is_hard_group(const cs_group *group) {
-  return group->kind != CS_GROUP_PLAIN || group->grade || group->has_light ||
-         group->converts == CELSPAN_SPACE_SRGB;
+  bool is_blend = group->blend == CELSPAN_BLEND_MULTIPLY || group->blend == CELSPAN_BLEND_SCREEN;
+  bool is_converted = group->converts != CELSPAN_SPACE_AROUND;
+  return group->grade || group->converts == CELSPAN_SPACE_SRGB ||
+         (group->kind == CS_GROUP_GROUND && !is_blend) ||
+         (is_converted && (group->has_light || group->kind != CS_GROUP_PLAIN));
 }
 
 static celspan_status open_group(program_maker *m, uint32_t group) {
-  m->is_hard |= m->depth == m->deepest || is_hard_group(&m->source->stack->groups[group]);
+  const cs_group *of = &m->source->stack->groups[group];
+  m->is_hard |= m->count == PLANEFILE_DEPTH || is_hard_group(of);
   if (m->is_hard)
     return CELSPAN_OK;
-  m->outer[m->depth++] = m->group;
+  bool is_source =
+      of->kind == CS_GROUP_HEAD && m->source->stack->groups[m->group].kind == CS_GROUP_GROUND;
+  m->outer[m->count++] = (entered_group){.group = m->group};
   m->group = group;
-  return add_step(m, (planefile_step){.kind = PLANEFILE_ENTER});
+  CS_TRY(add_enter(m));
+  return of->kind == CS_GROUP_GROUND || is_source ? add_enter(m) : CELSPAN_OK;
 }
 
 /* The recursion is at most CS_STACK_GROUPS groups deep. */
@@ -102,44 +144,144 @@ static planefile_step leaving(const cs_group *group) {
   cs_v4 factors = cs_v4_all(1);
   if (group->has_front)
     factors = group->front;
-  return (planefile_step){.kind = PLANEFILE_LEAVE,
-                          .converts = group->converts == CELSPAN_SPACE_LINEAR,
+  return (planefile_step){.how = group->converts == CELSPAN_SPACE_LINEAR ? PLANEFILE_DECODED
+                                                                         : PLANEFILE_LAYER,
                           .colour = cell_of(group->fade * factors, group->fade)};
 }
 
 static bool does_nothing(const planefile_step *leave) {
-  bool is_one = !leave->converts;
+  bool is_one = leave->how == PLANEFILE_LAYER;
   for (int c = 0; c < 4; c++)
     is_one = is_one && leave->colour.colour[c] == PLANEFILE_WHITE;
   return is_one;
 }
 
-/* Removes the step that entered the innermost group. */
-static void forget_enter(program_maker *m) {
-  cs_recording *record = m->record;
+/* The step that entered the innermost group. */
+static size_t find_enter(const program_maker *m) {
+  const cs_recording *record = m->record;
   size_t at = record->step_count, depth = 1;
   while (depth > 0) {
     uint8_t kind = record->steps[--at].kind;
     depth += kind == PLANEFILE_LEAVE;
     depth -= kind == PLANEFILE_ENTER;
   }
+  return at;
+}
+
+/* Removes the step that entered the innermost group. */
+static void forget_enter(program_maker *m) {
+  cs_recording *record = m->record;
+  size_t at = find_enter(m);
   record->step_count--;
   memmove(&record->steps[at], &record->steps[at + 1],
           (record->step_count - at) * sizeof *record->steps);
+  m->depth--;
+  m->has_glass[m->depth] |= m->has_glass[m->depth + 1];
+}
+
+/* ---------------------------------------------------------------- heads */
+
+/* The head of a group again, at a step, of some channels. */
+static celspan_status add_head(program_maker *m, const entered_group *of, size_t at,
+                               cs_v4 channels) {
+  cs_recording *record = m->record;
+  for (uint32_t i = 0; i < of->length; i++) {
+    size_t place = at + i, from = of->head + i + (at <= of->head ? i : 0);
+    const planefile_step step = record->steps[from];
+    CS_TRY(add_step(m, step));
+    memmove(&record->steps[place + 1], &record->steps[place],
+            (record->step_count - 1 - place) * sizeof *record->steps);
+    record->steps[place] = step;
+  }
+  for (int c = 0; of->length > 0 && c < 4; c++)
+    record->steps[at + of->length - 1].colour.colour[c] *= (int32_t)channels[c];
+  return CELSPAN_OK;
+}
+
+/* A source multiplies the rest of its ground, or what it is over white does; a screen also adds its
+ * light to all that is behind it. */
+static celspan_status leave_source(program_maker *m, const cs_group *ground,
+                                   const planefile_step *leave) {
+  entered_group *of = &m->outer[m->count - 1];
+  bool is_screen = ground->blend == CELSPAN_BLEND_SCREEN;
+  size_t enter = find_enter(m);
+  CS_TRY(add_leave(m, leave->how, leave->colour));
+  m->is_hard |= m->lost_glass;
+  of->head = (uint32_t)enter;
+  of->length = (uint32_t)(m->record->step_count - enter);
+  if (!is_screen)
+    CS_TRY(add_flat(m, cs_v4_all(1), 1));
+  CS_TRY(add_leave(m, is_screen ? PLANEFILE_SCREEN : PLANEFILE_LIT, all_of(1)));
+  if (!is_screen)
+    return CELSPAN_OK;
+  const cs_v4 light = {1, 1, 1, 0};
+  CS_TRY(add_head(m, of, enter - 1, light));
+  of->head += of->length;
+  return CELSPAN_OK;
+}
+
+/* A matte is a veil, behind which the rest of its group is one layer. */
+static celspan_status leave_strength(program_maker *m, const cs_group *matte,
+                                     const planefile_step *leave) {
+  uint8_t how = matte->is_luma ? PLANEFILE_LUMA_MATTE : PLANEFILE_MATTE;
+  m->outer[m->count - 1].length = 1; /* it has one */
+  CS_TRY(add_leave(m, (uint8_t)(how + matte->inverts), leave->colour));
+  return m->is_hard ? CELSPAN_OK : add_enter(m);
+}
+
+static celspan_status leave_head(program_maker *m, const planefile_step *leave) {
+  const cs_group *around = &m->source->stack->groups[m->group];
+  return around->kind == CS_GROUP_GROUND ? leave_source(m, around, leave)
+                                         : leave_strength(m, around, leave);
+}
+
+/* A source shows where the rest of its ground is not. */
+static celspan_status leave_ground(program_maker *m, const cs_group *ground,
+                                   const entered_group *of, const planefile_step *leave) {
+  const cs_v4 all = {1, 1, 1, 1}, alpha = {0, 0, 0, 1};
+  CS_TRY(add_leave(m, PLANEFILE_LAYER, all_of(1)));
+  CS_TRY(
+      add_head(m, of, m->record->step_count, ground->blend == CELSPAN_BLEND_SCREEN ? alpha : all));
+  return add_leave(m, leave->how, leave->colour);
+}
+
+static celspan_status leave_matte(program_maker *m, const cs_group *group, const entered_group *of,
+                                  planefile_step *leave) {
+  if (of->length > 0)
+    CS_TRY(add_leave(m, PLANEFILE_LAYER, all_of(1)));
+  else if (!group->inverts) /* there is no matte: nothing is there */
+    leave->colour = (planefile_cell){{0}};
+  return add_leave(m, leave->how, leave->colour);
+}
+
+static celspan_status leave_plain(program_maker *m, const planefile_step *leave) {
+  if (!does_nothing(leave) || m->has_veil[m->depth])
+    return add_leave(m, leave->how, leave->colour);
+  forget_enter(m);
+  return CELSPAN_OK;
 }
 
 static celspan_status leave_group(program_maker *m) {
   const cs_group *group = &m->source->stack->groups[m->group];
-  const planefile_step leave = leaving(group);
+  planefile_step leave = leaving(group);
   if (group->is_frame) {
     m->is_hard |= m->keep != 1 && group->fade != 1;
     CS_TRY(end_frame(m));
   }
-  m->group = m->outer[--m->depth];
-  if (!does_nothing(&leave))
-    return add_step(m, leave);
-  forget_enter(m);
-  return CELSPAN_OK;
+  const entered_group of = m->outer[--m->count];
+  m->group = of.group;
+  switch ((cs_group_kind)group->kind) {
+  case CS_GROUP_HEAD:
+    return leave_head(m, &leave);
+  case CS_GROUP_GROUND:
+    m->is_hard |= m->keep != 1;
+    return leave_ground(m, group, &of, &leave);
+  case CS_GROUP_MATTE:
+    return leave_matte(m, group, &of, &leave);
+  case CS_GROUP_PLAIN:
+    break;
+  }
+  return leave_plain(m, &leave);
 }
 
 /* As cs_over_move. */
@@ -160,30 +302,16 @@ static celspan_status move(program_maker *m, uint32_t layer) {
 
 /* ---------------------------------------------------------------- axes */
 
-/* A plane over pixels of the plan as one over the frame. */
-static void place_plane(const double over_pixels[3], double out[3]) {
-  out[0] = over_pixels[0] * CS_RECORD_SIDE;
-  out[1] = over_pixels[1] * CS_RECORD_SIDE;
-  out[2] = over_pixels[2];
-}
-
-/* The function a u + b v + c w of a shade's own units. */
-static void place_own(const cs_shade *shade, double a, double b, double c, double out[3]) {
-  const double *m = shade->inverse.m;
-  double over_pixels[3];
-  for (int k = 0; k < 3; k++)
-    over_pixels[k] = a * m[k] + b * m[3 + k] + c * m[6 + k];
-  place_plane(over_pixels, out);
-}
-
 /* The shares of the second and the third corner. */
 static void place_corners(const cs_shade *shade, planefile_axis *out) {
   const celspan_point *p = shade->texture->variation->points;
   double ux = p[1].x - p[0].x, uy = p[1].y - p[0].y;
   double vx = p[2].x - p[0].x, vy = p[2].y - p[0].y, area = ux * vy - uy * vx;
-  place_own(shade, vy / area, -vx / area, (p[0].y * vx - p[0].x * vy) / area, out->p);
-  place_own(shade, -uy / area, ux / area, (p[0].x * uy - p[0].y * ux) / area, out->q);
-  place_own(shade, 0, 0, 1, out->w);
+  cs_place_own(&shade->inverse,
+               (double[3]){vy / area, -vx / area, (p[0].y * vx - p[0].x * vy) / area}, out->p);
+  cs_place_own(&shade->inverse,
+               (double[3]){-uy / area, ux / area, (p[0].x * uy - p[0].y * ux) / area}, out->q);
+  cs_place_own(&shade->inverse, (double[3]){0, 0, 1}, out->w);
 }
 
 static planefile_axis axis_of(const cs_shade *shade) {
@@ -193,22 +321,43 @@ static planefile_axis axis_of(const cs_shade *shade) {
     place_corners(shade, &axis);
     return axis;
   }
-  place_plane(shade->plane[0], axis.p);
+  cs_place_plane(shade->plane[0], axis.p);
   if (shade->texture->kind == CS_TEXTURE_RADIAL) {
     axis.kind = PLANEFILE_RADIAL;
     axis.focus = shade->eccentricity;
-    place_plane(shade->plane[1], axis.q);
+    cs_place_plane(shade->plane[1], axis.q);
   }
   if (!shade->is_affine)
-    place_own(shade, 0, 0, 1, axis.w);
+    cs_place_own(&shade->inverse, (double[3]){0, 0, 1}, axis.w);
   return axis;
 }
 
-static celspan_status find_axis(program_maker *m, uint32_t shade, uint32_t *out) {
+/* Where the axis of a layer is known; *out: the axis, if it is not known yet. */
+static celspan_status make_axis(program_maker *m, const cs_layer *layer, uint32_t **known,
+                                planefile_axis *out) {
+  const cs_stack *stack = m->source->stack;
+  celspan_context *context = m->source->context;
+  *known = m->source->axes + layer->index;
+  if (layer->kind != CS_LAYER_SHADED)
+    *known += stack->shade_count;
+  if (layer->kind == CS_LAYER_DEFOCUSED)
+    *known += stack->image_count;
+  if (**known > 0)
+    return CELSPAN_OK;
+  if (layer->kind == CS_LAYER_PICTURE)
+    return cs_record_image(context, &stack->images[layer->index], m->record, out);
+  if (layer->kind == CS_LAYER_DEFOCUSED)
+    return cs_record_defocused(context, m->source->defocus[layer->index], m->record, out);
+  *out = axis_of(&stack->shades[layer->index]);
+  return CELSPAN_OK;
+}
+
+static celspan_status find_axis(program_maker *m, const cs_layer *layer, uint32_t *out) {
   cs_recording *record = m->record;
-  uint32_t *known = &m->source->axes[shade];
+  planefile_axis axis;
+  uint32_t *known;
+  CS_TRY(make_axis(m, layer, &known, &axis));
   if (*known == 0) {
-    const planefile_axis axis = axis_of(&m->source->stack->shades[shade]);
     CS_TRY(CS_APPEND(m->source->context, record->axes, record->axis_count, record->axis_capacity,
                      axis));
     *known = (uint32_t)record->axis_count;
@@ -226,40 +375,60 @@ static celspan_status add_stop(program_maker *m, double at, planefile_cell colou
 }
 
 /* Adds a ramp over the stops that were added from `stop` on. */
-static celspan_status add_varied(program_maker *m, uint32_t shade, size_t stop) {
+static celspan_status add_varied(program_maker *m, const cs_layer *layer, size_t stop) {
   uint32_t axis;
-  CS_TRY(find_axis(m, shade, &axis));
+  CS_TRY(find_axis(m, layer, &axis));
   return add_step(m, (planefile_step){.kind = PLANEFILE_RAMP,
                                       .axis = axis,
                                       .stop = (uint32_t)stop,
                                       .stop_count = (uint32_t)(m->record->stop_count - stop)});
 }
 
-/* A paint in its layer. Paints that dim the channels in different ways are hard. */
-static planefile_cell lit(program_maker *m, const cs_layer *layer, const cs_paint *paint) {
+/* A paint in its layer. */
+static cs_over_pair lit(const cs_layer *layer, const cs_paint *paint) {
   cs_v4 s = {paint->s[0], paint->s[1], paint->s[2], 0};
   cs_v4 t = {paint->t[0], paint->t[1], paint->t[2], 0};
-  m->is_hard |= !is_grey(t) || layer->role == CS_LAYER_FRONT;
-  if (layer->role == CS_LAYER_BACK)
+  if (layer->role != CS_LAYER_PAINT)
     t = cs_v4_all(1);
-  cs_over_pair pair = cs_over_lit(layer->front, layer->fade, s, t);
-  return cell_of(pair.e, 1 - pair.t[0]);
+  return cs_over_lit(layer->front, layer->role == CS_LAYER_FRONT ? 1 : layer->fade, s, t);
 }
 
-static celspan_status add_gradient(program_maker *m, const cs_layer *layer) {
+/* What is added of a gradient. */
+typedef enum part { WHOLE, LIGHT, THROUGH } part;
+
+static celspan_status add_part(program_maker *m, const cs_layer *layer, part what) {
   const cs_texture_variation *of = m->source->stack->shades[layer->index].texture->variation;
   size_t stop = m->record->stop_count;
+  for (size_t i = 0; i < of->stop_count; i++) {
+    cs_over_pair pair = lit(layer, &of->stops[i].paint);
+    planefile_cell cell = what == WHOLE   ? cell_of(pair.e, 1 - pair.t[0])
+                          : what == LIGHT ? cell_of(pair.e, 0)
+                                          : cell_of(pair.t, 1);
+    CS_TRY(add_stop(m, of->stops[i].at, cell));
+  }
+  return add_varied(m, layer, stop);
+}
+
+/* One that dims the channels in different ways is a light in front of glass. */
+static celspan_status add_gradient(program_maker *m, const cs_layer *layer) {
+  const cs_texture_variation *of = m->source->stack->shades[layer->index].texture->variation;
+  bool is_glass = false;
   for (size_t i = 0; i < of->stop_count; i++)
-    CS_TRY(add_stop(m, of->stops[i].at, lit(m, layer, &of->stops[i].paint)));
-  return add_varied(m, layer->index, stop);
+    is_glass |= !is_grey(lit(layer, &of->stops[i].paint).t);
+  CS_TRY(add_part(m, layer, is_glass ? LIGHT : WHOLE));
+  if (!is_glass)
+    return CELSPAN_OK;
+  CS_TRY(add_enter(m));
+  CS_TRY(add_part(m, layer, THROUGH));
+  return m->is_hard ? CELSPAN_OK : add_leave(m, PLANEFILE_GLASS, all_of(1));
 }
 
 /* A triangle is limited before it is lit, so it is a group. */
 static celspan_status add_triangle(program_maker *m, const cs_layer *layer) {
   const cs_texture_variation *of = m->source->stack->shades[layer->index].texture->variation;
   size_t stop = m->record->stop_count;
-  m->is_hard |= layer->role != CS_LAYER_PAINT || m->depth == m->deepest;
-  CS_TRY(add_step(m, (planefile_step){.kind = PLANEFILE_ENTER}));
+  m->is_hard |= layer->role != CS_LAYER_PAINT;
+  CS_TRY(add_enter(m));
   for (int i = 0; i < 3; i++) {
     const cs_paint *corner = &of->corners[i];
     const cs_v4 s = {corner->s[0], corner->s[1], corner->s[2], 0};
@@ -267,19 +436,67 @@ static celspan_status add_triangle(program_maker *m, const cs_layer *layer) {
       m->is_hard |= fabsf(corner->t[c] - (1 - corner->beta)) > 1e-6f;
     CS_TRY(add_stop(m, i, cell_of(s, corner->beta)));
   }
-  CS_TRY(add_varied(m, layer->index, stop));
-  return add_step(m, (planefile_step){.kind = PLANEFILE_LEAVE,
-                                      .colour = cell_of(layer->fade * layer->front, layer->fade)});
+  CS_TRY(add_varied(m, layer, stop));
+  return m->is_hard
+             ? CELSPAN_OK
+             : add_leave(m, PLANEFILE_LAYER, cell_of(layer->fade * layer->front, layer->fade));
 }
 
-static celspan_status add_layer(program_maker *m, const cs_layer *layer) {
-  if (layer->kind == CS_LAYER_FLAT) {
-    m->is_hard |= !is_grey(layer->t) || layer->role == CS_LAYER_FRONT;
+/* What hides all behind it says so by a flat layer there. */
+static celspan_status add_picture(program_maker *m, const cs_layer *layer) {
+  celspan_context *context = m->source->context;
+  size_t stop = m->record->stop_count;
+  bool hides = false, is_paint = layer->role == CS_LAYER_PAINT;
+  if (layer->kind == CS_LAYER_PICTURE && is_paint)
+    CS_TRY(cs_record_image_hides(context, &m->source->stack->images[layer->index], &hides));
+  float fade = layer->role == CS_LAYER_FRONT ? 1 : layer->fade;
+  CS_TRY(add_stop(m, 0, cell_of(fade * layer->front, is_paint ? fade : 0)));
+  CS_TRY(add_varied(m, layer, stop));
+  return hides && fade == 1 ? add_flat(m, cs_v4_all(0), 1) : CELSPAN_OK;
+}
+
+/* A picture that is a gel. */
+static celspan_status add_gel(program_maker *m, const cs_layer *layer) {
+  size_t stop = m->record->stop_count;
+  CS_TRY(add_enter(m));
+  CS_TRY(add_stop(m, 0, all_of(layer->fade)));
+  CS_TRY(add_varied(m, layer, stop));
+  return m->is_hard ? CELSPAN_OK : add_leave(m, PLANEFILE_GLASS, all_of(1));
+}
+
+/* Glass of one colour. */
+static celspan_status add_flat_paint(program_maker *m, const cs_layer *layer) {
+  if (is_grey(layer->t))
     return add_flat(m, layer->s, 1 - layer->t[0]);
-  }
-  const cs_shade *shade = &m->source->stack->shades[layer->index];
+  CS_TRY(add_flat(m, layer->s, 0));
+  CS_TRY(add_enter(m));
+  CS_TRY(add_flat(m, layer->t, 1));
+  return m->is_hard ? CELSPAN_OK : add_leave(m, PLANEFILE_GLASS, all_of(1));
+}
+
+static celspan_status add_paint(program_maker *m, const cs_layer *layer) {
+  const cs_stack *stack = m->source->stack;
+  if (layer->kind == CS_LAYER_FLAT)
+    return add_flat_paint(m, layer);
+  if (layer->kind == CS_LAYER_PICTURE &&
+      stack->images[layer->index].texture->variation->use == CELSPAN_PICTURE_GEL)
+    return add_gel(m, layer);
+  if (layer->kind == CS_LAYER_PICTURE || layer->kind == CS_LAYER_DEFOCUSED)
+    return add_picture(m, layer);
+  const cs_shade *shade = &stack->shades[layer->index];
   return shade->texture->kind == CS_TEXTURE_TRIANGLE ? add_triangle(m, layer)
                                                      : add_gradient(m, layer);
+}
+
+/* The front light of a group multiplies all that is in it. */
+static celspan_status add_layer(program_maker *m, const cs_layer *layer) {
+  if (layer->role != CS_LAYER_FRONT)
+    return add_paint(m, layer);
+  m->is_hard |= layer->kind == CS_LAYER_FLAT;
+  CS_TRY(add_enter(m));
+  if (!m->is_hard)
+    CS_TRY(add_paint(m, layer));
+  return m->is_hard ? CELSPAN_OK : add_leave(m, PLANEFILE_LIT, all_of(1));
 }
 
 static celspan_status add_layers(program_maker *m, const cs_program *program) {
@@ -352,9 +569,9 @@ static celspan_status add_samples(program_maker *m, const table *of, const cs_st
   return add_stop(m, stops[0].at + share * (stops[1].at - stops[0].at), sample_of(of, to));
 }
 
-static celspan_status add_table(program_maker *m, const cs_program *program, uint32_t shade,
+static celspan_status add_table(program_maker *m, const cs_program *program, const cs_layer *layer,
                                 cs_arena *arena, table *room) {
-  const cs_texture_variation *of = m->source->stack->shades[shade].texture->variation;
+  const cs_texture_variation *of = m->source->stack->shades[layer->index].texture->variation;
   size_t stop = m->record->stop_count;
   for (size_t i = 0; i + 1 < of->stop_count; i++) {
     cs_arena_reset(arena);
@@ -363,7 +580,7 @@ static celspan_status add_table(program_maker *m, const cs_program *program, uin
     CS_TRY(add_stop(m, of->stops[i].at, sample_of(room, 0)));
     CS_TRY(add_samples(m, room, &of->stops[i], 0, SAMPLES));
   }
-  return add_varied(m, shade, stop);
+  return add_varied(m, layer, stop);
 }
 
 /* The layer of a program that varies, which is its only one, and has stops; NULL: there is none. */
@@ -373,8 +590,8 @@ static const cs_layer *only_gradient(const cs_stack *stack, const cs_program *pr
     const cs_layer *layer = &stack->layers[program->items[i].layer];
     if (layer->kind == CS_LAYER_FLAT)
       continue;
-    const cs_shade *shade = &stack->shades[layer->index];
-    if (found || !shade->is_affine || shade->texture->kind == CS_TEXTURE_TRIANGLE)
+    if (found || layer->kind != CS_LAYER_SHADED || !stack->shades[layer->index].is_affine ||
+        stack->shades[layer->index].texture->kind == CS_TEXTURE_TRIANGLE)
       return NULL;
     found = layer;
   }
@@ -388,11 +605,11 @@ static celspan_status tabulate(program_maker *m, const cs_program *program) {
   cs_arena arena;
   if (!layer)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "plane: gradients lie over each other under a mode, a matte, a grade, a light "
-                   "or a coloured medium; a plane keeps only one gradient there");
+                   "plane: gradients or pictures lie under a grade, a mode other than multiply and "
+                   "screen, or faded glass; a plane keeps only one gradient there");
   CS_TRY(CS_MAKE(context, room, 1));
   cs_arena_init(&arena);
-  celspan_status status = add_table(m, program, layer->index, &arena, room);
+  celspan_status status = add_table(m, program, layer, &arena, room);
   cs_arena_finish(&arena, context->memory);
   cs_mem_free(context->memory, room, sizeof *room);
   return status;
@@ -400,12 +617,22 @@ static celspan_status tabulate(program_maker *m, const cs_program *program) {
 
 /* ---------------------------------------------------------------- the program */
 
+static celspan_status check_picture(const cs_record_source *source, const cs_layer *layer) {
+  const cs_image_layer *image = &source->stack->images[layer->index];
+  const char *reason = image->texture->variation->medium    ? "has a medium of its own"
+                       : image->space == CELSPAN_SPACE_SRGB ? "is composited in sRGB"
+                                                            : NULL;
+  return reason
+             ? cs_fail(source->context, CELSPAN_BAD_ARGUMENT,
+                       "plane: a picture is visible that %s; a plane keeps no such picture", reason)
+             : CELSPAN_OK;
+}
+
 static celspan_status check_kinds(const cs_record_source *source, const cs_program *program) {
   for (uint32_t i = 0; i < program->length; i++) {
-    uint8_t kind = source->stack->layers[program->items[i].layer].kind;
-    if (kind != CS_LAYER_FLAT && kind != CS_LAYER_SHADED)
-      return cs_fail(source->context, CELSPAN_BAD_ARGUMENT,
-                     "plane: a picture is visible; a plane keeps flat colours and gradients");
+    const cs_layer *layer = &source->stack->layers[program->items[i].layer];
+    if (layer->kind == CS_LAYER_PICTURE)
+      CS_TRY(check_picture(source, layer));
   }
   return CELSPAN_OK;
 }

@@ -3,9 +3,10 @@
  *     items of a program      gradient   flat  | gradient  flat |   flat     a faded group
  *     steps of the plane      ramp       flat  enter ramp  flat  leave  flat
  *
- * Gradients are ramps along axes, which lie on the frame whatever its size. What is no layer over
- * another, a mode, a matte, a grade, a coloured medium, can be kept where only one gradient is in
- * the program: then all that shows is a function of the place along it, and is tabulated.
+ * Gradients are ramps along axes, which lie on the frame whatever its size, and so are pictures
+ * (pictures.h). Glass, front lights with a shape, mattes, multiply and screen are veils. All
+ * else, such as a grade or another mode, can be kept where only one gradient is in the
+ * program: then all that shows is a function of the place along it, and is tabulated.
  *
  * Invariant: a program of the plane shows what that of the composer does, within 1/16384.
  */
@@ -18,8 +19,10 @@
 typedef struct cs_record_source {
   celspan_context *context;
   const cs_stack *stack;
-  float weight;   /* of all that is made */
-  uint32_t *axes; /* of each shade its number in the record plus 1; 0: it has none yet */
+  struct cs_defocus *const *defocus; /* of its defocused layers */
+  float weight;                      /* of all that is made */
+  uint32_t *axes; /* of each shade, then each image, then each defocused layer its number in the
+                     record plus 1; 0: it has none yet */
 } cs_record_source;
 
 /* Appends the program's steps and what they need to a record. Errors: NO_MEMORY; BAD_ARGUMENT: a

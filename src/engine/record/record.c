@@ -5,6 +5,7 @@
 #include "base/hash_table.h"
 #include "base/number.h"
 #include "engine/events/visit.h"
+#include "engine/record/pictures.h"
 #include "engine/record/programs.h"
 
 #define UNITS ((double)PLANEFILE_SIDE / CS_RECORD_SIDE) /* of a plane, in a pixel of the plan */
@@ -34,10 +35,12 @@ void cs_record_finish(cs_recording *record, cs_memory *memory) {
   cs_mem_free(memory, record->steps, record->step_capacity * sizeof *record->steps);
   cs_mem_free(memory, record->axes, record->axis_capacity * sizeof *record->axes);
   cs_mem_free(memory, record->stops, record->stop_capacity * sizeof *record->stops);
+  cs_record_pictures_finish(record, memory);
   *record = (cs_recording){0};
 }
 
-planefile_band cs_record_plane(const cs_recording *record) {
+planefile_band cs_record_plane(cs_recording *record) {
+  cs_record_pictures_join(record);
   return (planefile_band){.foot = PLANEFILE_SIDE,
                           .points = record->points,
                           .pieces = record->pieces,
@@ -48,6 +51,7 @@ planefile_band cs_record_plane(const cs_recording *record) {
                           .steps = record->steps,
                           .axes = record->axes,
                           .stops = record->stops,
+                          .pictures = record->pictures,
                           .point_count = (uint32_t)record->point_count,
                           .piece_count = (uint32_t)record->piece_count,
                           .chain_count = (uint32_t)record->chain_count,
@@ -55,7 +59,8 @@ planefile_band cs_record_plane(const cs_recording *record) {
                           .cell_count = (uint32_t)record->cell_count,
                           .step_count = (uint32_t)record->step_count,
                           .axis_count = (uint32_t)record->axis_count,
-                          .stop_count = (uint32_t)record->stop_count};
+                          .stop_count = (uint32_t)record->stop_count,
+                          .picture_count = (uint32_t)record->picture_count};
 }
 
 /* ---------------------------------------------------------------- cells */
@@ -302,9 +307,14 @@ celspan_status cs_record_begin_sum(celspan_context *context, cs_recording *out) 
   return CS_APPEND(context, out->cells, out->cell_count, out->cell_capacity, clear);
 }
 
+/* Of all layers that may have an axis. */
+static size_t axis_count(const cs_plan *plan) {
+  return plan->stack.shade_count + plan->stack.image_count + plan->stack.defocused_count + 1;
+}
+
 static celspan_status record(recorder *r) {
   const cs_plan *plan = r->plan;
-  size_t chains = plan->boundaries.chain_count + 1, axes = plan->stack.shade_count + 1;
+  size_t chains = plan->boundaries.chain_count + 1, axes = axis_count(plan);
   CS_TRY(cs_events_find(r->context, &plan->boundaries, &plan->cull, plan->height, WINDINGS_MOST,
                         &r->events));
   if (!r->events.is_complete)
@@ -322,10 +332,11 @@ celspan_status cs_record_put_plan(celspan_context *context, const cs_plan *plan,
                                   const planefile_rounding *rounding, cs_recording *out) {
   recorder r = {.context = context, .plan = plan, .out = out, .rounding = rounding};
   cs_memory *memory = context->memory;
-  size_t chains = plan->boundaries.chain_count + 1, axes = plan->stack.shade_count + 1;
+  size_t chains = plan->boundaries.chain_count + 1, axes = axis_count(plan);
   r.source.context = context;
   r.source.weight = weight;
   r.source.stack = &plan->stack;
+  r.source.defocus = plan->defocus;
   celspan_status status = record(&r);
   if (r.source.axes)
     cs_mem_free(memory, r.source.axes, axes * sizeof *r.source.axes);

@@ -29,4 +29,6 @@ CELSPAN_CHECKED celspan_status cs_record_put_plan(celspan_context *context, cons
                                                   float weight, const planefile_rounding *rounding,
                                                   cs_recording *out);
 void cs_record_finish(cs_recording *record, cs_memory *memory);
-planefile_band cs_record_plane(const cs_recording *record);
+/* Valid as long as the record does not change. record->status says why its pictures could not be
+ * read. */
+planefile_band cs_record_plane(cs_recording *record);

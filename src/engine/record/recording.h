@@ -2,6 +2,7 @@
  *
  *     record.h     chains, borders, cells
  *     programs.h   what cells show that vary
+ *     pictures.h   the pictures of these
  *
  * Invariant: every cell has a program, which is empty where the cell is flat.
  */
@@ -10,8 +11,12 @@
 #include <planefile.h>
 #include <stddef.h>
 
+#include "base/context.h"
+
 #define CS_RECORD_SIDE 16381 /* pixels of the plan's width and height */
 #define CS_RECORD_UNIT ((double)CS_RECORD_SIDE / PLANEFILE_SIDE) /* of a plane, in pixels */
+
+typedef struct cs_record_picture cs_record_picture; /* where its pixels come from: pictures.c */
 
 typedef struct cs_recording {
   planefile_point *points;
@@ -23,6 +28,9 @@ typedef struct cs_recording {
   planefile_step *steps;
   planefile_axis *axes;
   planefile_stop *stops;
+  planefile_picture *pictures;
+  cs_record_picture *sources; /* of the pictures */
+  celspan_status status;      /* of reading pixels: the first failure */
   size_t point_count, point_capacity;
   size_t piece_count, piece_capacity;
   size_t chain_count, chain_capacity;
@@ -31,4 +39,5 @@ typedef struct cs_recording {
   size_t step_count, step_capacity;
   size_t axis_count, axis_capacity;
   size_t stop_count, stop_capacity;
+  size_t picture_count, picture_capacity, source_capacity;
 } cs_recording;

@@ -87,14 +87,17 @@ celspan_status cs_plane_film_commit(cs_plane_film *film) {
 /* ---------------------------------------------------------------- frames */
 
 static celspan_status put_scene(cs_plane_film *film, const celspan_frame_desc *frame) {
-  cs_recording made;
+  cs_plane_frame made;
   celspan_status status =
       cs_plane_record(film->context, frame->exposures, frame->exposure_count, &film->desc, &made);
   if (status == CELSPAN_OK) {
-    planefile_band band = cs_record_plane(&made);
-    status = report(film, planefile_writer_frame(film->writer, &band));
+    planefile_band band = cs_record_plane(&made.record);
+    planefile_status written = planefile_writer_frame(film->writer, &band);
+    status = written == PLANEFILE_WRITE_FAILED
+                 ? film->status
+                 : cs_plane_report_record(film->context, written, &made.record);
   }
-  cs_record_finish(&made, film->context->memory);
+  cs_plane_frame_finish(&made, film->context->memory);
   return status;
 }
 

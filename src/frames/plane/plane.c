@@ -35,6 +35,11 @@ celspan_status cs_plane_report(celspan_context *context, planefile_status status
   return cs_fail_memory(context);
 }
 
+celspan_status cs_plane_report_record(celspan_context *context, planefile_status status,
+                                      const cs_recording *made) {
+  return status == PLANEFILE_READ_FAILED ? made->status : cs_plane_report(context, status);
+}
+
 /* ---------------------------------------------------------------- life */
 
 static celspan_status create(celspan_context *context, celspan_plane **out) {
@@ -120,22 +125,24 @@ static celspan_status check_plan(celspan_context *context, const cs_plan *plan) 
   if (plan->stack.procedure_count > 0)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "plane: a scan-line procedure is in view; it cannot be drawn without a size");
-  if (plan->defocus_count > 0)
-    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "plane: a blurred object is in view; a plane keeps sharp edges only");
   return CELSPAN_OK;
 }
 
+/* A plan with defocused cels is kept: their nodes are read when the plane is written. */
 static celspan_status record(celspan_context *context, const celspan_exposure *exposure,
                              const cs_view *view, const planefile_rounding *rounding,
-                             cs_recording *out) {
+                             cs_plane_frame *out) {
   const cs_antialias antialias = {.mode = CELSPAN_ANTIALIAS_AREA};
   cs_plan plan = {0};
+  CS_TRY(CS_RESERVE(context, out->plans, out->plan_capacity, out->plan_count + 1));
   CS_TRY(cs_compile(context, exposure->rostrum, view, &antialias, 1, &plan));
   celspan_status status = check_plan(context, &plan);
   if (status == CELSPAN_OK)
-    status = cs_record_put_plan(context, &plan, (float)exposure->weight, rounding, out);
-  cs_compile_free(&plan, context->memory);
+    status = cs_record_put_plan(context, &plan, (float)exposure->weight, rounding, &out->record);
+  if (plan.defocus_count > 0)
+    out->plans[out->plan_count++] = plan;
+  else
+    cs_compile_free(&plan, context->memory);
   return status;
 }
 
@@ -155,7 +162,7 @@ static celspan_status check_desc(celspan_context *context, const celspan_plane_d
 
 static celspan_status record_all(celspan_context *context, const celspan_exposure *exposures,
                                  size_t count, const celspan_plane_desc *desc,
-                                 const planefile_rounding *rounding, cs_recording *out) {
+                                 const planefile_rounding *rounding, cs_plane_frame *out) {
   const cs_view view = {.film_width = desc->width,
                         .film_height = desc->height,
                         .width = CS_RECORD_SIDE,
@@ -166,16 +173,16 @@ static celspan_status record_all(celspan_context *context, const celspan_exposur
                         .space = CELSPAN_SPACE_LINEAR,
                         .unit = CS_RECORD_UNIT};
   if (count != 1)
-    CS_TRY(cs_record_begin_sum(context, out));
+    CS_TRY(cs_record_begin_sum(context, &out->record));
   for (size_t i = 0; i < count; i++)
     CS_TRY(record(context, &exposures[i], &view, rounding, out));
   return CELSPAN_OK;
 }
 
 celspan_status cs_plane_record(celspan_context *context, const celspan_exposure *exposures,
-                               size_t count, const celspan_plane_desc *desc, cs_recording *out) {
+                               size_t count, const celspan_plane_desc *desc, cs_plane_frame *out) {
   planefile_rounding *rounding = NULL;
-  *out = (cs_recording){0};
+  *out = (cs_plane_frame){0};
   CS_TRY(check_desc(context, desc, count));
   if (desc->depth == 8) {
     rounding = planefile_rounding_create(cs_plane_resize, context->memory);
@@ -187,7 +194,15 @@ celspan_status cs_plane_record(celspan_context *context, const celspan_exposure 
   return status;
 }
 
-static celspan_status write_record(celspan_context *context, const cs_recording *made,
+void cs_plane_frame_finish(cs_plane_frame *frame, cs_memory *memory) {
+  cs_record_finish(&frame->record, memory);
+  for (size_t i = 0; i < frame->plan_count; i++)
+    cs_compile_free(&frame->plans[i], memory);
+  cs_mem_free(memory, frame->plans, frame->plan_capacity * sizeof *frame->plans);
+  *frame = (cs_plane_frame){0};
+}
+
+static celspan_status write_record(celspan_context *context, cs_recording *made,
                                    const celspan_plane_desc *given, celspan_plane *plane) {
   appending a = {context, plane};
   const planefile_writer_desc desc = {.width = given->width,
@@ -198,20 +213,20 @@ static celspan_status write_record(celspan_context *context, const cs_recording 
                                       .resize_user = context->memory,
                                       .is_coded = given->depth == 8};
   planefile_band band = cs_record_plane(made);
-  CS_TRY(cs_plane_report(context, planefile_write(&desc, &band)));
+  CS_TRY(cs_plane_report_record(context, planefile_write(&desc, &band), made));
   return cs_plane_report(context, load(plane, 0, NULL));
 }
 
 celspan_status cs_plane_expose(celspan_context *context, const celspan_exposure *exposures,
                                size_t count, const celspan_plane_desc *desc, celspan_plane **out) {
-  cs_recording made;
+  cs_plane_frame made;
   celspan_plane *plane;
   *out = NULL;
   CS_TRY(create(context, &plane));
   celspan_status status = cs_plane_record(context, exposures, count, desc, &made);
   if (status == CELSPAN_OK)
-    status = write_record(context, &made, desc, plane);
-  cs_record_finish(&made, context->memory);
+    status = write_record(context, &made.record, desc, plane);
+  cs_plane_frame_finish(&made, context->memory);
   if (status == CELSPAN_OK)
     *out = plane;
   else
@@ -336,7 +351,7 @@ bool cs_plane_accepts(const char *path) {
 
 cs_plane_facts cs_plane_count(const celspan_plane *plane) {
   planefile_info info = planefile_plane_info(plane->plane);
-  cs_plane_facts facts = {.parts = info.band_count};
+  cs_plane_facts facts = {.parts = info.band_count, .pictures = info.picture_count};
   for (uint32_t i = 0; i < info.band_count; i++) {
     const planefile_band *band = planefile_plane_band(plane->plane, i);
     size_t gradients = 0;

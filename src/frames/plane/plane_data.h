@@ -9,6 +9,7 @@
 
 #include "base/context.h"
 #include "engine/record/recording.h"
+#include "engine/row/plan.h"
 
 struct celspan_plane {
   atomic_size_t references;
@@ -22,10 +23,22 @@ struct celspan_plane {
 /* The failure of a call of the subproject. */
 CELSPAN_CHECKED celspan_status cs_plane_report(celspan_context *context, planefile_status status);
 
+/* The same of writing a record. */
+CELSPAN_CHECKED celspan_status cs_plane_report_record(celspan_context *context,
+                                                      planefile_status status,
+                                                      const cs_recording *made);
+
+/* A frame before it is written, and the plans that its pictures are made from. */
+typedef struct cs_plane_frame {
+  cs_recording record;
+  cs_plan *plans;
+  size_t plan_count, plan_capacity;
+} cs_plane_frame;
 /* What can be seen of a frame. out: must be finished, whatever happens. Errors: those of
  * celspan_plane_create. */
 CELSPAN_CHECKED celspan_status cs_plane_record(celspan_context *context,
                                                const celspan_exposure *exposures, size_t count,
-                                               const celspan_plane_desc *desc, cs_recording *out);
+                                               const celspan_plane_desc *desc, cs_plane_frame *out);
+void cs_plane_frame_finish(cs_plane_frame *frame, cs_memory *memory);
 /* The memory of a context for the subproject. user: a cs_memory. */
 void *cs_plane_resize(void *user, void *block, size_t old_size, size_t new_size);

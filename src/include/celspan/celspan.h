@@ -1740,10 +1740,10 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_digest(celspan_context 
 /* ---------------------------------------------------------------- planes */
 
 /* A plane is a frame without a resolution: what can be seen of it, as curves with a colour or
- * gradients on each side. It is made once, and drawn at any size, whole or any crop of it, without
- * its rostrum. It is kept in plane files (docs/planefile.md).
+ * gradients or pictures on each side. It is made once, and drawn at any size, whole or any crop of
+ * it, without its rostrum. It is kept in plane files (docs/planefile.md).
  *
- * It is as exact as a frame of 4,093 pixels a side: curves are the rostrum's own, but where two of
+ * It is as exact as a frame of 16,381 pixels a side: curves are the rostrum's own, but where two of
  * them cross may be off by 1/50 of such a pixel. Colours are multiples of 1/65,535, and pixels are
  * means of linear light. Immutable; shared read. */
 typedef struct celspan_plane celspan_plane;
@@ -1763,8 +1763,9 @@ static inline celspan_plane_desc celspan_plane_desc_default(void) {
 
 /* rostrum: borrowed; its antialiasing does not count      desc: borrowed      out: new
  * Errors: those of rendering; BAD_ARGUMENT for a depth that is not allowed, and for what a plane
- * cannot keep: visible pictures, scan-line procedures, blurred objects, and gradients over each
- * other under a mode, a matte, a grade, a light with a shape or a coloured medium. */
+ * cannot keep: scan-line procedures, objects blurred in perspective or very little, pictures with a
+ * medium of their own or composited in sRGB, and, where several gradients or pictures lie over each
+ * other, grades, modes other than multiply and screen, and glass inside a group that is faded. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_create(celspan_context *context,
                                                                 const celspan_rostrum *rostrum,
                                                                 const celspan_plane_desc *desc,

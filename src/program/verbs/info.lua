@@ -115,7 +115,7 @@ local function describe_plane()
   if plane.fps > 0 then
     put("frames %d\nfps %.9g\nseconds %.9g", plane.frames, plane.fps, plane.frames / plane.fps)
   end
-  for _, name in ipairs { "bands", "borders", "curves", "colours", "gradients" } do
+  for _, name in ipairs { "bands", "borders", "curves", "colours", "gradients", "pictures" } do
     put("%s %d", name, plane[name])
   end
 end

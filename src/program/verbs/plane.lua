@@ -47,13 +47,15 @@ local function bytes_of(path)
   return bytes or program.fail("input", "%s", message or path)
 end
 
-local path, module = request[1], program.text "plane.module"
+local path = request[1]
 if not request.output then program.usage "-o is missing: give -o page.html" end
-if module == "none" then
+if program.text "plane.module" == "none" then
   program.fail("input", "this celspan was built without clang and lld, which make the decoder of "
     .. "pages: install them, for example the Debian packages clang and lld, and build it again")
 end
-program.plane(path) -- refuses what is not a plane
+local facts = program.plane(path) -- refuses what is not a plane
+-- The decoder that draws pictures, too, is larger.
+local module = program.text(facts.pictures > 0 and "pictures.module" or "plane.module")
 local fields = {
   TITLE = quoted(request.title or path:match "[^/]*$"),
   VIEWER = program.text "viewer.js", MODULE = module, PLANE = base64(bytes_of(path)),

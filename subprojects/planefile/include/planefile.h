@@ -30,7 +30,7 @@ typedef enum planefile_status {
   PLANEFILE_NO_MEMORY,
   PLANEFILE_BAD_ARGUMENT, /* the caller's mistake */
   PLANEFILE_BAD_FILE,     /* truncated, altered, or not a plane file */
-  PLANEFILE_READ_FAILED,  /* the read function returned false */
+  PLANEFILE_READ_FAILED,  /* a function that reads failed */
   PLANEFILE_WRITE_FAILED  /* the write function returned false */
 } planefile_status;
 
@@ -81,25 +81,64 @@ typedef struct planefile_cell {
  *
  * Such a cell has a program: layers from the front to the rear, some of them in groups, which are
  * composed for each pixel. A ramp is a layer whose colour depends on where the pixel lies along an
- * axis. */
+ * axis, or on a picture. */
 
 #define PLANEFILE_DEPTH 16 /* of groups in each other, at most */
 
 typedef enum planefile_axis_kind {
-  PLANEFILE_LINEAR,  /* p */
-  PLANEFILE_RADIAL,  /* sqrt(p p + q q) - focus p */
-  PLANEFILE_TRIANGLE /* the shares p and q of two corners of three */
+  PLANEFILE_LINEAR,   /* p */
+  PLANEFILE_RADIAL,   /* sqrt(p p + q q) - focus p */
+  PLANEFILE_TRIANGLE, /* the shares p and q of two corners of three */
+  PLANEFILE_PICTURE   /* the place p, q on a picture, in its pixels */
 } planefile_axis_kind;
+
+/* What lies beyond a picture's edges. */
+typedef enum planefile_wrap {
+  PLANEFILE_WRAP_CLEAR, /* nothing */
+  PLANEFILE_WRAP_CLAMP, /* the pixel of the edge */
+  PLANEFILE_WRAP_REPEAT /* the picture again */
+} planefile_wrap;
+
+/* How a picture is read at a place: docs/planefile.md. */
+typedef enum planefile_filter {
+  PLANEFILE_FILTER_AUTO, /* linear where it is enlarged, and the mean of a pixel's area elsewhere */
+  PLANEFILE_FILTER_NEAREST,
+  PLANEFILE_FILTER_LINEAR,
+  PLANEFILE_FILTER_CUBIC /* cubic where it is enlarged, and the mean elsewhere */
+} planefile_filter;
+
+typedef enum planefile_picture_kind {
+  PLANEFILE_CODES, /* 4 bytes a pixel: sRGB codes, and alpha, by which they are not multiplied */
+  PLANEFILE_LIGHT, /* a planefile_cell a pixel */
+  PLANEFILE_NAMED  /* codes that are not in the file: who reads it is asked for them by name */
+} planefile_picture_kind;
+
+#define PLANEFILE_PICTURE_SIDE (1 << 20) /* pixels, at most */
+#define PLANEFILE_NAME 255               /* bytes of a name, at most */
+
+typedef struct planefile_picture {
+  uint32_t width, height;
+  uint8_t kind;    /* a planefile_picture_kind */
+  uint64_t key[2]; /* of its pixels; those of one key are in a file once. NAMED: the first one is
+                      in the file */
+  /* To write: row y, asked for once, from the top; false: failed. */
+  bool (*row)(void *user, uint32_t y, void *out);
+  void *user;
+  const char *name; /* NAMED: 1 to NAME bytes, and a zero */
+} planefile_picture;
 
 /* p, q and w at (x, y), which are 0 to 1 in the frame, are a x + b y + c; p and q are divided by w.
  * Where w is not above 0, there is nothing. */
 typedef struct planefile_axis {
   double p[3], q[3], w[3], focus; /* finite */
   uint8_t kind;                   /* a planefile_axis_kind */
+  uint8_t wrap, filter;           /* PICTURE: a planefile_wrap, a planefile_filter */
+  uint32_t picture;               /* PICTURE: of the plane's */
 } planefile_axis;
 
 /* Before the first stop and after the last one there are their colours. Those of a triangle are its
- * three corners, wherever they are; between 0 and alpha, and alpha between 0 and 1. */
+ * three corners, wherever they are; between 0 and alpha, and alpha between 0 and 1. A picture has
+ * one stop: the factors of its channels, none below 0. */
 typedef struct planefile_stop {
   double at; /* finite; not before the stop before it */
   planefile_cell colour;
@@ -109,14 +148,29 @@ typedef enum planefile_step_kind {
   PLANEFILE_FLAT,  /* a layer of one colour */
   PLANEFILE_RAMP,  /* a layer of some stops along an axis */
   PLANEFILE_ENTER, /* a group begins */
-  PLANEFILE_LEAVE  /* it ends; its channels are multiplied, and it is a layer */
+  PLANEFILE_LEAVE  /* it ends; its channels are multiplied, and it is what `how` says */
 } planefile_step_kind;
+
+/* What a group becomes: a layer of the group around it, or a veil, by which all layers behind it in
+ * that group are multiplied. */
+typedef enum planefile_how {
+  PLANEFILE_LAYER,
+  PLANEFILE_DECODED,        /* a layer; its numbers are sRGB codes, which become light first */
+  PLANEFILE_GLASS,          /* each colour by 1 - alpha + its channel; alpha as by their mean */
+  PLANEFILE_LIT,            /* each colour by its channel */
+  PLANEFILE_SCREEN,         /* each colour by 1 - its channel */
+  PLANEFILE_MATTE,          /* all channels by alpha, 0 to 1 */
+  PLANEFILE_INVERTED_MATTE, /* by 1 - that */
+  PLANEFILE_LUMA_MATTE,     /* by 0.2126 red + 0.7152 green + 0.0722 blue, 0 to 1 */
+  PLANEFILE_INVERTED_LUMA   /* by 1 - that */
+} planefile_how;
 
 typedef struct planefile_step {
   uint8_t kind;                    /* a planefile_step_kind */
-  bool converts;                   /* LEAVE: its numbers are sRGB codes; they become light first */
+  uint8_t how;                     /* LEAVE: a planefile_how */
   planefile_cell colour;           /* FLAT; LEAVE: the factors; PLANEFILE_WHITE is 1 */
-  uint32_t axis, stop, stop_count; /* RAMP: at least one stop; a triangle's has three */
+  uint32_t axis, stop, stop_count; /* RAMP: at least one stop; a triangle's has three, a picture's
+                                      one */
 } planefile_step;
 
 typedef struct planefile_program {
@@ -137,8 +191,9 @@ typedef struct planefile_band {
   const planefile_step *steps;
   const planefile_axis *axes;
   const planefile_stop *stops;
+  const planefile_picture *pictures; /* NULL of one that was read */
   uint32_t point_count, piece_count, chain_count, border_count, cell_count;
-  uint32_t step_count, axis_count, stop_count;
+  uint32_t step_count, axis_count, stop_count, picture_count;
 } planefile_band;
 
 /* ---------------------------------------------------------------- writing */
@@ -201,6 +256,9 @@ typedef struct planefile_source {
   uint64_t size;           /* of the file */
   planefile_resize resize; /* NULL: the C library's */
   void *resize_user;
+  /* The codes of a picture of a name, a size and a first key, all rows, which are copied; NULL:
+   * there is no such picture. The function may be NULL. */
+  const unsigned char *(*picture)(void *user, const planefile_picture *wanted);
 } planefile_source;
 
 typedef struct planefile_info {
@@ -208,9 +266,10 @@ typedef struct planefile_info {
   double frames_second; /* 0: a single plane */
   uint32_t frame_count; /* of the file */
   uint32_t band_count;
-  bool is_opaque; /* alpha is PLANEFILE_WHITE everywhere */
-  bool varies;    /* there may be cells with programs */
-  bool is_coded;  /* flat cells are 8-bit codes */
+  uint32_t picture_count; /* of the file up to this frame */
+  bool is_opaque;         /* alpha is PLANEFILE_WHITE everywhere */
+  bool varies;            /* there may be cells with programs */
+  bool is_coded;          /* flat cells are 8-bit codes */
 } planefile_info;
 
 /* The bytes from the start that planefile_is needs. */

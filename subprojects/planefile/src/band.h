@@ -43,13 +43,6 @@ typedef struct pf_models {
   pf_number which, shift[2];
 } pf_models;
 
-/* models: a struct of nothing else. */
-static inline void pf_models_begin(void *models, size_t size) {
-  uint16_t *all = models;
-  for (size_t i = 0; i < size / sizeof *all; i++)
-    all[i] = PF_EVEN;
-}
-
 /* The cells beside a chain; one twice: it is hidden. */
 typedef struct pf_sides {
   uint32_t left, right;
@@ -176,8 +169,9 @@ typedef struct pf_payload {
   const unsigned char *bytes;
   size_t size;
   bool varies;
-  const pf_codes *codes; /* NULL: cells are not codes */
-  const pf_base *base;   /* NULL: it has none */
+  const pf_codes *codes;  /* NULL: cells are not codes */
+  uint32_t picture_count; /* of the file */
+  const pf_base *base;    /* NULL: it has none */
 } pf_payload;
 /* Decodes a band. out: empty; must be freed whatever happens. reason: set where the status is not
  * OK. */

@@ -25,6 +25,13 @@ typedef struct pf_number {
   uint16_t sign;
 } pf_number;
 
+/* models: a struct of nothing else. */
+static inline void pf_models_begin(void *models, size_t size) {
+  uint16_t *all = models;
+  for (size_t i = 0; i < size / sizeof *all; i++)
+    all[i] = PF_EVEN;
+}
+
 typedef struct pf_encoder {
   pf_memory memory;
   unsigned char *bytes;

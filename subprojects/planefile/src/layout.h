@@ -10,7 +10,10 @@
  *                    where cells vary: numbers of steps, axes, stops | code
  *   payload of 'D'   as of 'B'; the code says how the band differs from another one
  *   payload of 'I'   of films: flags (4) | offset of the index of the base, or 0 (8)
+ *                    where there are pictures: their number (4) | their offsets (8 each)
  *                    entries: top (4) | offset (8)
+ *   payload of 'P'   width, height, kind (4 each) | the key of a named picture (8) | code,
+ *                    or its name
  *   payload of 'F'   frames a second (8) | of each frame, the offset of its index (8)
  *
  * INVARIANT: all numbers are little endian, whatever the machine.
@@ -32,20 +35,26 @@ enum {
   PF_VARIED_BYTES = 12, /* after them, where cells vary */
   PF_ENTRY_BYTES = 12,
   PF_FLAG_BYTES = 12, /* of the index of a frame of a film: flags, and its base */
+  PF_LIST_BYTES = 4,  /* of the index: how many pictures there are, before their offsets */
+  PF_OFFSET_BYTES = 8,
+  PF_PICTURE_BYTES = 20, /* of a picture, before its code */
   PF_RATE_BYTES = 8,
   PF_FRAME_BYTES = 8,
   PF_VERSION = 1,
-  PF_OPAQUE = 1,      /* flags of the header: alpha is 1 everywhere; */
-  PF_VARIES = 2,      /* cells may have programs; */
-  PF_FILM = 4,        /* it is a film, and the other flags are those of each frame; */
-  PF_CODED = 8,       /* flat cells are 8-bit codes */
-  PF_PAID = 4,        /* things of a kind that a byte of code pays for */
-  PF_VARIED_PAID = 4, /* bytes of code that pay for a step, an axis or a stop */
-  PF_GROUP = 8,       /* changes in a group, at most */
+  PF_OPAQUE = 1,       /* flags of the header: alpha is 1 everywhere; */
+  PF_VARIES = 2,       /* cells may have programs; */
+  PF_FILM = 4,         /* it is a film, and the other flags are those of each frame; */
+  PF_CODED = 8,        /* flat cells are 8-bit codes; */
+  PF_PICTURED = 16,    /* there are pictures */
+  PF_PAID = 4,         /* things of a kind that a byte of code pays for */
+  PF_VARIED_PAID = 4,  /* bytes of code that pay for a step, an axis or a stop */
+  PF_PIXELS_PAID = 16, /* pixels that a byte of code pays for */
+  PF_GROUP = 8,        /* changes in a group, at most */
   PF_BAND = 'B',
   PF_CHANGED = 'D',
   PF_INDEX = 'I',
-  PF_FRAMES = 'F'
+  PF_FRAMES = 'F',
+  PF_PICTURE = 'P'
 };
 
 static const unsigned char pf_magic[8] = {'c', 'e', 'l', 'p', 'l', 'a', 'n', 'e'};

@@ -53,16 +53,18 @@ static pf_print print_chain(key *k, const planefile_band *band, uint32_t piece, 
 
 /* An axis wherever it has been moved to. */
 static void add_axis(key *k, const planefile_axis *axis) {
-  uint32_t kind = axis->kind | (uint32_t)pf_axis_is_affine(axis) << 8;
+  uint32_t kind = axis->kind | (uint32_t)pf_axis_is_affine(axis) << 8 | (uint32_t)axis->wrap << 16 |
+                  (uint32_t)axis->filter << 24;
   add_number(k, kind);
   add(k, axis->p, 2 * sizeof *axis->p);
   add(k, axis->q, 2 * sizeof *axis->q);
   add(k, axis->w, 2 * sizeof *axis->w);
   add(k, &axis->focus, sizeof axis->focus);
+  add(k, &axis->picture, sizeof axis->picture);
 }
 
 static void add_step(key *k, const planefile_band *band, const planefile_step *step) {
-  add_number(k, step->kind | (uint32_t)step->converts << 8);
+  add_number(k, step->kind | (uint32_t)step->how << 8);
   add(k, step->colour.colour, sizeof step->colour.colour);
   if (step->kind != PLANEFILE_RAMP)
     return;

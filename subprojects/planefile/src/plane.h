@@ -11,6 +11,7 @@ struct planefile_plane {
   pf_band *bands;      /* info.band_count; those that were not read have no cells */
   planefile_cell base; /* cell 0 of all bands */
   bool has_base;
+  pf_picture *pictures; /* info.picture_count; those that no band shows are empty */
   unsigned char codes[PLANEFILE_WHITE + 1]; /* of linear light: in sRGB, 8 bits */
   pf_light_curve curve;                     /* where info.varies */
 };

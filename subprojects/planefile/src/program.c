@@ -25,6 +25,8 @@ static double light_of(double code) {
 void pf_light_curve_make(pf_light_curve *out) {
   for (int i = 0; i <= PF_CURVE + 1; i++)
     out->light[i] = (float)light_of((double)i / PF_CURVE);
+  for (int i = 0; i < 256; i++)
+    out->codes[i] = (float)light_of(i / 255.0);
 }
 
 /* Of a code from 0 to 1. */
@@ -180,9 +182,16 @@ static void mix_corners(const planefile_stop *stops, const places *at, uint32_t 
 
 /* What has been composed so far, of the pixels of a group. */
 typedef struct front {
-  pf_colours *colours;
+  pf_colours *colours, *veil;
   bool is_clear; /* and its colours have no contents yet */
+  bool is_bare;  /* and its veil has none */
 } front;
+
+static void multiply_each(uint32_t count, pf_colours *to, const pf_colours *by) {
+  for (int c = 0; c < 4; c++)
+    for (uint32_t k = 0; k < count; k++)
+      to->channels[c][k] *= by->channels[c][k];
+}
 
 static void put_over(uint32_t count, front *to, const pf_colours *restrict layer) {
   float through[PF_BATCH];
@@ -198,7 +207,9 @@ static pf_colours *begin_layer(const front *to, pf_colours *room) {
   return to->is_clear ? to->colours : room;
 }
 
-static void end_layer(uint32_t count, front *to, const pf_colours *layer) {
+static void end_layer(uint32_t count, front *to, pf_colours *layer) {
+  if (!to->is_bare)
+    multiply_each(count, layer, to->veil);
   if (!to->is_clear)
     put_over(count, to, layer);
   to->is_clear = false;
@@ -212,11 +223,25 @@ static void fill_flat(const planefile_cell *colour, uint32_t count, pf_colours *
       out->channels[c][k] = flat[c];
 }
 
-static void fill_ramp(const planefile_band *band, const planefile_step *step,
+static void multiply(const planefile_cell *by, uint32_t count, pf_colours *colours) {
+  float factors[4];
+  put_unit(by, factors);
+  for (int c = 0; c < 4; c++)
+    for (uint32_t k = 0; k < count; k++)
+      colours->channels[c][k] *= factors[c];
+}
+
+static void fill_ramp(const pf_program_source *source, const planefile_step *step,
                       const pf_pixels *pixels, pf_colours *out) {
+  const planefile_band *band = source->band;
   const planefile_axis *axis = &band->axes[step->axis];
   const planefile_stop *stops = &band->stops[step->stop];
   places at;
+  if (axis->kind == PLANEFILE_PICTURE) {
+    pf_picture_colours(&source->pictures[axis->picture], axis, pixels, out);
+    multiply(&stops->colour, pixels->count, out);
+    return;
+  }
   find_places(axis, pixels, &at);
   if (axis->kind == PLANEFILE_TRIANGLE)
     mix_corners(stops, &at, pixels->count, out);
@@ -224,48 +249,90 @@ static void fill_ramp(const planefile_band *band, const planefile_step *step,
     mix_stops(stops, step->stop_count, &at, pixels->count, out);
 }
 
-static void add_layer(const planefile_band *band, const planefile_step *step,
+static void add_layer(const pf_program_source *source, const planefile_step *step,
                       const pf_pixels *pixels, front *to) {
   pf_colours room, *layer = begin_layer(to, &room);
   if (step->kind == PLANEFILE_FLAT)
     fill_flat(&step->colour, pixels->count, layer);
   else
-    fill_ramp(band, step, pixels, layer);
+    fill_ramp(source, step, pixels, layer);
   end_layer(pixels->count, to, layer);
 }
 
-/* A group becomes a layer of the group around it. */
-static void leave(const planefile_step *step, const pf_light_curve *curve, uint32_t count,
-                  const front *group, front *around) {
-  float factors[4], (*channels)[PF_BATCH] = group->colours->channels;
-  if (group->is_clear)
-    return;
-  put_unit(&step->colour, factors);
-  if (step->converts)
-    convert_all(curve, count, group->colours);
+/* A pixel of a group becomes that of a veil. */
+static void make_veil(uint8_t how, const float pixel[4], float out[4]) {
+  float alpha = limit(pixel[3], 1), luma = 0.2126f * pixel[0] + 0.7152f * pixel[1];
+  luma = limit(luma + 0.0722f * pixel[2], 1);
+  float matte = how >= PLANEFILE_LUMA_MATTE ? luma : alpha;
+  bool is_inverted = how == PLANEFILE_INVERTED_MATTE || how == PLANEFILE_INVERTED_LUMA;
   for (int c = 0; c < 4; c++)
-    for (uint32_t k = 0; k < count; k++)
-      channels[c][k] *= factors[c];
-  if (around->is_clear)
-    *around->colours = *group->colours;
-  end_layer(count, around, group->colours);
+    out[c] = how >= PLANEFILE_MATTE    ? is_inverted ? 1 - matte : matte
+             : c == 3                  ? 1
+             : how == PLANEFILE_GLASS  ? 1 - alpha + pixel[c]
+             : how == PLANEFILE_SCREEN ? 1 - pixel[c]
+                                       : pixel[c];
 }
 
-void pf_program_colours(const planefile_band *band, planefile_program program,
-                        const pf_light_curve *curve, const pf_pixels *pixels,
-                        pf_colours room[PLANEFILE_DEPTH + 1]) {
+static float mean_of(const float veil[4]) { return (veil[0] + veil[1] + veil[2]) * (1.0f / 3); }
+
+/* A group becomes a veil in the group around it. */
+static void add_veil(uint8_t how, uint32_t count, const front *group, front *around) {
+  float(*from)[PF_BATCH] = group->colours->channels, (*to)[PF_BATCH] = around->veil->channels;
+  if (around->is_clear)
+    memset(around->colours, 0, sizeof *around->colours);
+  around->is_clear = false;
+  for (uint32_t k = 0; k < count; k++) {
+    const float pixel[4] = {from[0][k], from[1][k], from[2][k], from[3][k]};
+    float veil[4], *alpha = &around->colours->channels[3][k], mean = 1;
+    make_veil(how, pixel, veil);
+    for (int c = 0; c < 4 && !around->is_bare; c++)
+      veil[c] *= to[c][k];
+    if (how == PLANEFILE_GLASS) { /* the mean goes into alpha */
+      const float before[4] = {to[0][k], to[1][k], to[2][k], 1};
+      mean = mean_of(veil) / (around->is_bare ? 1 : mean_of(before));
+      mean = mean > 0 ? mean : 0;
+      *alpha = 1 - (1 - *alpha) * mean;
+    }
+    for (int c = 0; c < 4; c++)
+      to[c][k] = c == 3 ? veil[c] : mean > 0 ? veil[c] / mean : 0;
+  }
+  around->is_bare = false;
+}
+
+/* A group becomes what its step says, in the group around it. */
+static void leave(const planefile_step *step, const pf_light_curve *curve, uint32_t count,
+                  const front *group, front *around) {
+  if (group->is_clear && step->how <= PLANEFILE_DECODED)
+    return;
+  if (group->is_clear)
+    memset(group->colours, 0, sizeof *group->colours);
+  if (step->how == PLANEFILE_DECODED)
+    convert_all(curve, count, group->colours);
+  multiply(&step->colour, count, group->colours);
+  if (step->how > PLANEFILE_DECODED) {
+    add_veil(step->how, count, group, around);
+    return;
+  }
+  if (around->is_clear)
+    *around->colours = *group->colours;
+  end_layer(count, around, around->is_clear ? around->colours : group->colours);
+}
+
+void pf_program_colours(const pf_program_source *source, planefile_program program,
+                        const pf_pixels *pixels, pf_colours room[PF_ROOM]) {
   front fronts[PLANEFILE_DEPTH + 1], *now = fronts;
-  *now = (front){room, true};
+  *now = (front){room, room + PLANEFILE_DEPTH + 1, true, true};
   for (uint32_t i = 0; i < program.step_count; i++) {
-    const planefile_step *step = &band->steps[program.step + i];
+    const planefile_step *step = &source->band->steps[program.step + i];
     if (step->kind == PLANEFILE_ENTER) {
       now++;
-      *now = (front){room + (now - fronts), true};
+      pf_colours *own = room + (now - fronts);
+      *now = (front){own, own + PLANEFILE_DEPTH + 1, true, true};
     } else if (step->kind == PLANEFILE_LEAVE) {
-      leave(step, curve, pixels->count, now, now - 1);
+      leave(step, source->curve, pixels->count, now, now - 1);
       now--;
     } else {
-      add_layer(band, step, pixels, now);
+      add_layer(source, step, pixels, now);
     }
   }
   if (now->is_clear)

@@ -13,14 +13,12 @@
 #ifndef PF_PROGRAM_H
 #define PF_PROGRAM_H
 
-#include "coder.h"
-
-enum { PF_BATCH = 64, PF_CURVE = 4096 };
+#include "picture.h"
 
 typedef struct pf_program_models {
-  uint16_t varies[2], kinds[4], converts[2], axis_kinds[4], is_wide[2]; /* trees */
-  uint16_t axis_bytes[8][256], stop_bytes[8][256];                      /* trees */
-  pf_number steps, axes, stops, flat[4], stop[4], factor[4];
+  uint16_t varies[2], kinds[4], hows[16], axis_kinds[4], is_wide[2], wraps[4], filters[4];
+  uint16_t axis_bytes[8][256], stop_bytes[8][256]; /* trees */
+  pf_number steps, axes, stops, pictures, flat[4], stop[4], factor[4];
 } pf_program_models;
 
 /* What the code of the programs of a band depends on. */
@@ -40,6 +38,7 @@ typedef struct pf_program_room {
   planefile_axis *axes;
   planefile_stop *stops;
   uint32_t step_count, axis_count, stop_count; /* that there is room for */
+  uint32_t picture_count;                      /* of the file */
 } pf_program_room;
 
 /* Returns why it is refused, or NULL. What was decoded is checked. */
@@ -54,35 +53,21 @@ bool pf_get_patch(pf_decoder *decoder, pf_program_coding *coding, planefile_axis
 bool pf_program_is_good(const planefile_band *band, planefile_program program);
 bool pf_program_hides(const planefile_band *band, planefile_program program);
 
-/* Whether it lies flat: its w is 1 everywhere. */
-static inline bool pf_axis_is_affine(const planefile_axis *axis) {
-  return axis->w[0] == 0 && axis->w[1] == 0 && axis->w[2] == 1;
-}
-
 /* ---------------------------------------------------------------- colours */
-
-/* Light of sRGB codes, at even steps from 0 to 1, and one more. */
-typedef struct pf_light_curve {
-  float light[PF_CURVE + 2];
-} pf_light_curve;
 
 void pf_light_curve_make(pf_light_curve *out);
 
-/* Neighbouring pixels of one row. */
-typedef struct pf_pixels {
-  uint32_t width, height; /* of the frame */
-  uint32_t x, y, count;   /* at most BATCH */
-} pf_pixels;
+/* What programs are made of. */
+typedef struct pf_program_source {
+  const planefile_band *band;
+  const pf_picture *pictures; /* of the file */
+  const pf_light_curve *curve;
+} pf_program_source;
 
-/* Colours, WHITE is 1. */
-typedef struct pf_colours {
-  float channels[4][PF_BATCH];
-} pf_colours;
-
-/* room: one for each group that may be inside another one, and one more. The colours are in the
- * first one. */
-void pf_program_colours(const planefile_band *band, planefile_program program,
-                        const pf_light_curve *curve, const pf_pixels *pixels,
-                        pf_colours room[PLANEFILE_DEPTH + 1]);
+/* Of each group that may be inside another one, and of the program: its colours, and its veils. */
+enum { PF_ROOM = 2 * (PLANEFILE_DEPTH + 1) };
+/* The colours are in the first one of the room. */
+void pf_program_colours(const pf_program_source *source, planefile_program program,
+                        const pf_pixels *pixels, pf_colours room[PF_ROOM]);
 
 #endif

@@ -65,6 +65,11 @@ static void put_axis(pf_encoder *encoder, pf_program_models *models, const plane
     put_plane(encoder, models, axis->w);
   if (axis->kind == PLANEFILE_RADIAL)
     put_double(encoder, models->axis_bytes, axis->focus);
+  if (axis->kind == PLANEFILE_PICTURE) {
+    pf_put_number(encoder, &models->pictures, axis->picture);
+    pf_put_symbol(encoder, models->wraps, 2, axis->wrap);
+    pf_put_symbol(encoder, models->filters, 2, axis->filter);
+  }
 }
 
 static planefile_axis get_axis(pf_decoder *decoder, pf_program_models *models) {
@@ -78,11 +83,17 @@ static planefile_axis get_axis(pf_decoder *decoder, pf_program_models *models) {
     get_plane(decoder, models, axis.w);
   if (axis.kind == PLANEFILE_RADIAL)
     axis.focus = get_double(decoder, models->axis_bytes);
+  if (axis.kind == PLANEFILE_PICTURE) {
+    axis.picture = pf_get_number(decoder, &models->pictures);
+    axis.wrap = (uint8_t)pf_get_symbol(decoder, models->wraps, 2);
+    axis.filter = (uint8_t)pf_get_symbol(decoder, models->filters, 2);
+  }
   return axis;
 }
 
 static bool is_axis(const planefile_axis *axis) {
-  bool is_good = axis->kind <= PLANEFILE_TRIANGLE && isfinite(axis->focus);
+  bool is_good = axis->kind <= PLANEFILE_PICTURE && isfinite(axis->focus) &&
+                 axis->wrap <= PLANEFILE_WRAP_REPEAT && axis->filter <= PLANEFILE_FILTER_CUBIC;
   for (int i = 0; i < 3; i++)
     is_good = is_good && isfinite(axis->p[i]) && isfinite(axis->q[i]) && isfinite(axis->w[i]);
   return is_good;
@@ -174,7 +185,7 @@ static void put_step(pf_encoder *encoder, pf_program_coding *coding, const plane
   if (step->kind == PLANEFILE_RAMP)
     put_ramp(encoder, coding, plane, step);
   if (step->kind == PLANEFILE_LEAVE)
-    pf_put_symbol(encoder, models->converts, 1, step->converts);
+    pf_put_symbol(encoder, models->hows, 4, step->how);
   if (step->kind == PLANEFILE_FLAT || step->kind == PLANEFILE_LEAVE)
     put_colour(encoder, step->kind == PLANEFILE_FLAT ? models->flat : models->factor, &from,
                &step->colour);
@@ -191,7 +202,7 @@ static const char *get_step(pf_decoder *decoder, pf_program_coding *coding,
   if (kind == PLANEFILE_ENTER)
     return NULL;
   if (kind == PLANEFILE_LEAVE)
-    out->converts = pf_get_symbol(decoder, models->converts, 1);
+    out->how = (uint8_t)pf_get_symbol(decoder, models->hows, 4);
   return get_colour(decoder, kind == PLANEFILE_FLAT ? models->flat : models->factor, &from,
                     &out->colour)
              ? NULL
@@ -223,7 +234,8 @@ const char *pf_get_program(pf_decoder *decoder, pf_program_coding *coding,
                                .stops = room->stops,
                                .step_count = coding->step_count,
                                .axis_count = coding->axis_count,
-                               .stop_count = coding->stop_count};
+                               .stop_count = coding->stop_count,
+                               .picture_count = room->picture_count};
   return reason || pf_program_is_good(&band, *out) ? reason : "a program is not allowed";
 }
 
@@ -240,8 +252,12 @@ static bool is_ramp(const planefile_band *band, const planefile_step *step) {
   if (step->axis >= band->axis_count || step->stop > band->stop_count || step->stop_count == 0 ||
       step->stop_count > band->stop_count - step->stop || !is_axis(&band->axes[step->axis]))
     return false;
+  const planefile_axis *axis = &band->axes[step->axis];
   const planefile_stop *stops = &band->stops[step->stop];
-  bool is_good = band->axes[step->axis].kind != PLANEFILE_TRIANGLE || step->stop_count == 3;
+  bool is_good = axis->kind != PLANEFILE_TRIANGLE || step->stop_count == 3;
+  if (axis->kind == PLANEFILE_PICTURE)
+    is_good = step->stop_count == 1 && axis->picture < band->picture_count &&
+              is_colour(&stops->colour, 0);
   for (uint32_t i = 0; is_good && i < step->stop_count; i++)
     is_good = isfinite(stops[i].at) && is_colour(&stops[i].colour, -PLANEFILE_BRIGHT) &&
               (i == 0 || stops[i].at >= stops[i - 1].at);
@@ -256,7 +272,8 @@ bool pf_program_is_good(const planefile_band *band, planefile_program program) {
     const planefile_step *step = &band->steps[program.step + i];
     if (step->kind > PLANEFILE_LEAVE || (step->kind == PLANEFILE_RAMP && !is_ramp(band, step)) ||
         (step->kind == PLANEFILE_FLAT && !is_colour(&step->colour, -PLANEFILE_BRIGHT)) ||
-        (step->kind == PLANEFILE_LEAVE && (depth == 0 || !is_colour(&step->colour, 0))))
+        (step->kind == PLANEFILE_LEAVE &&
+         (depth == 0 || step->how > PLANEFILE_INVERTED_LUMA || !is_colour(&step->colour, 0))))
       return false;
     depth += step->kind == PLANEFILE_ENTER;
     depth -= step->kind == PLANEFILE_LEAVE;
@@ -272,7 +289,9 @@ static bool is_opaque(const planefile_cell *colour) { return colour->colour[3] =
 static bool hides(const planefile_band *band, const planefile_step *step) {
   if (step->kind == PLANEFILE_FLAT)
     return is_opaque(&step->colour);
-  bool is_solid = step->kind == PLANEFILE_RAMP && pf_axis_is_affine(&band->axes[step->axis]);
+  const planefile_axis *axis = &band->axes[step->axis];
+  bool is_solid =
+      step->kind == PLANEFILE_RAMP && axis->kind != PLANEFILE_PICTURE && pf_axis_is_affine(axis);
   for (uint32_t i = 0; is_solid && i < step->stop_count; i++)
     is_solid = is_opaque(&band->stops[step->stop + i].colour);
   return is_solid;
@@ -280,16 +299,20 @@ static bool hides(const planefile_band *band, const planefile_step *step) {
 
 bool pf_program_hides(const planefile_band *band, planefile_program program) {
   bool is_hidden[PLANEFILE_DEPTH + 1] = {false}; /* nothing more shows, in the groups so far */
+  bool is_matted[PLANEFILE_DEPTH + 1] = {false}; /* no layer to come hides anything */
   uint32_t depth = 0;
   for (uint32_t i = 0; i < program.step_count; i++) {
     const planefile_step *step = &band->steps[program.step + i];
     if (step->kind == PLANEFILE_ENTER) {
-      is_hidden[++depth] = false;
+      depth++;
+      is_hidden[depth] = is_matted[depth] = false;
     } else if (step->kind == PLANEFILE_LEAVE) {
       depth--;
-      is_hidden[depth] |= is_hidden[depth + 1] && is_opaque(&step->colour);
+      is_matted[depth] |= step->how >= PLANEFILE_MATTE;
+      is_hidden[depth] |= step->how <= PLANEFILE_DECODED && !is_matted[depth] &&
+                          is_hidden[depth + 1] && is_opaque(&step->colour);
     } else {
-      is_hidden[depth] |= hides(band, step);
+      is_hidden[depth] |= !is_matted[depth] && hides(band, step);
     }
   }
   return is_hidden[0];

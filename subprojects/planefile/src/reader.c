@@ -20,8 +20,10 @@ typedef struct reader {
   uint64_t left; /* bytes that the records that are still to be read may have */
   bool is_film;
   pf_codes codes;
+  bool is_pictured;     /* the latest index has a list of pictures */
   uint64_t *offsets;    /* of the bands, and after them where the last one ends */
   uint64_t *bases;      /* of the bands of the base; NULL: there is none */
+  uint64_t *pictures;   /* of those of the file; 0: it has been read */
   unsigned char *bytes; /* of the latest record */
   size_t capacity;
 } reader;
@@ -76,9 +78,10 @@ bool planefile_is(const void *bytes, size_t size) {
   return size >= sizeof pf_magic && memcmp(bytes, pf_magic, sizeof pf_magic) == 0;
 }
 
-/* Whether flags are those of a plane. */
-static bool is_allowed(uint32_t flags) {
-  return (flags & ~(uint32_t)(PF_OPAQUE | PF_VARIES | PF_CODED)) == 0;
+/* Whether flags are those of a plane: only cells that may vary show pictures. */
+static bool are_flags(uint32_t flags) {
+  return (flags & ~(uint32_t)(PF_OPAQUE | PF_VARIES | PF_CODED | PF_PICTURED)) == 0 &&
+         (flags & (PF_VARIES | PF_PICTURED)) != PF_PICTURED;
 }
 
 static planefile_status load_header(reader *r) {
@@ -99,10 +102,11 @@ static planefile_status load_header(reader *r) {
   info->varies = flags & PF_VARIES;
   info->is_coded = flags & PF_CODED;
   r->is_film = flags == PF_FILM;
+  r->is_pictured = flags & PF_PICTURED;
   info->width = pf_load_double(header + 16);
   info->height = pf_load_double(header + 24);
   if (!(info->width > 0 && info->height > 0 && isfinite(info->width) && isfinite(info->height)) ||
-      (!r->is_film && !is_allowed(flags)) || pf_load_32(header + 32) != 0)
+      (!r->is_film && !are_flags(flags)) || pf_load_32(header + 32) != 0)
     return refuse(r, 12, "the header has a value that is not allowed");
   return PLANEFILE_OK;
 }
@@ -132,6 +136,8 @@ static subject_text subject(unsigned char kind, uint32_t band) {
   subject_text out = {"the index: "};
   if (kind == PF_BAND)
     snprintf(out.text, sizeof out.text, "band %" PRIu32 ": ", band);
+  else if (kind == PF_PICTURE)
+    snprintf(out.text, sizeof out.text, "picture %" PRIu32 ": ", band);
   else if (kind == PF_FRAMES)
     snprintf(out.text, sizeof out.text, "the list of frames: ");
   return out;
@@ -191,11 +197,12 @@ static planefile_status load_frames(reader *r, uint32_t frame, uint64_t offset, 
 static planefile_status load_flags(reader *r, uint64_t offset, size_t size) {
   planefile_info *info = &r->plane->info;
   uint32_t flags = size < PF_FLAG_BYTES ? UINT32_MAX : pf_load_32(r->bytes + PF_HEAD_BYTES);
-  if (!is_allowed(flags))
+  if (!are_flags(flags))
     return refuse(r, offset, "the index: it has a value that is not allowed");
   info->is_opaque = flags & PF_OPAQUE;
   info->varies = flags & PF_VARIES;
   info->is_coded = flags & PF_CODED;
+  r->is_pictured = flags & PF_PICTURED;
   return PLANEFILE_OK;
 }
 
@@ -220,48 +227,76 @@ static planefile_status load_entry(reader *r, uint64_t offset, const unsigned ch
   return PLANEFILE_OK;
 }
 
-/* *count: of the entries of the index at an offset, which has been read. */
-static planefile_status count_entries(reader *r, uint64_t offset, size_t size, uint32_t *count) {
-  size_t flags = r->is_film ? PF_FLAG_BYTES : 0;
+/* An index that has been read. */
+typedef struct index_parts {
+  const unsigned char *pictures, *entries;
+  uint32_t picture_count, entry_count;
+} index_parts;
+
+static planefile_status find_parts(reader *r, uint64_t offset, size_t size, index_parts *out) {
+  size_t head = r->is_film ? PF_FLAG_BYTES : 0;
+  *out = (index_parts){0};
   if (r->is_film)
     TRY(load_flags(r, offset, size));
-  *count = (uint32_t)((size - flags) / PF_ENTRY_BYTES);
-  if (*count == 0 || (size - flags) % PF_ENTRY_BYTES != 0)
+  if (r->is_pictured && size - head >= PF_LIST_BYTES) {
+    out->picture_count = pf_load_32(r->bytes + PF_HEAD_BYTES + head);
+    head += PF_LIST_BYTES;
+    if (out->picture_count > (size - head) / PF_OFFSET_BYTES)
+      return refuse(r, offset, "the index: it has less pictures than it claims");
+    out->pictures = r->bytes + PF_HEAD_BYTES + head;
+    head += (size_t)PF_OFFSET_BYTES * out->picture_count;
+  }
+  out->entries = r->bytes + PF_HEAD_BYTES + head;
+  out->entry_count = (uint32_t)((size - head) / PF_ENTRY_BYTES);
+  if (out->entry_count == 0 || (size - head) % PF_ENTRY_BYTES != 0)
     return refuse(r, offset, "the index: it has no whole number of entries");
   return PLANEFILE_OK;
-}
-
-static const unsigned char *entries_of(const reader *r) {
-  return r->bytes + PF_HEAD_BYTES + (r->is_film ? PF_FLAG_BYTES : 0);
 }
 
 /* The offsets of the bands of a base, which lie at the heights of the frame's. */
 static planefile_status load_base(reader *r, uint64_t offset) {
   size_t size;
-  uint32_t count;
+  index_parts parts;
   planefile_plane *plane = r->plane;
   const planefile_info info = plane->info;
   TRY(load_record(r, PF_INDEX, 0, offset, 0, &size));
-  TRY(count_entries(r, offset, size, &count));
-  bool is_good = count == info.band_count && plane->info.varies == info.varies &&
+  TRY(find_parts(r, offset, size, &parts));
+  bool is_good = parts.entry_count == info.band_count && plane->info.varies == info.varies &&
                  plane->info.is_coded == info.is_coded && load_base_offset(r) == 0;
   plane->info = info;
   r->bases = pf_make(&plane->memory, sizeof *r->bases, info.band_count);
   if (!r->bases)
     return fail_memory(r, offset);
-  const unsigned char *entry = entries_of(r);
-  for (uint32_t i = 0; is_good && i < count; i++, entry += PF_ENTRY_BYTES) {
+  const unsigned char *entry = parts.entries;
+  for (uint32_t i = 0; is_good && i < parts.entry_count; i++, entry += PF_ENTRY_BYTES) {
     is_good = pf_load_32(entry) == (uint32_t)plane->bands[i].band.top;
     r->bases[i] = pf_load_64(entry + 4);
   }
   return is_good ? PLANEFILE_OK : refuse(r, offset, "the index: it is no base of the frame's");
 }
 
+/* Room for the pictures of the file, which are read when it is known which are shown. */
+static planefile_status load_pictures(reader *r, uint64_t offset, const index_parts *parts) {
+  planefile_plane *plane = r->plane;
+  uint32_t count = parts->picture_count;
+  plane->info.picture_count = count;
+  plane->pictures = pf_make(&plane->memory, sizeof *plane->pictures, count);
+  r->pictures = pf_make(&plane->memory, sizeof *r->pictures, count);
+  if (!plane->pictures || !r->pictures)
+    return fail_memory(r, offset);
+  for (uint32_t i = 0; i < count; i++)
+    r->pictures[i] = pf_load_64(parts->pictures + (size_t)PF_OFFSET_BYTES * i);
+  return PLANEFILE_OK;
+}
+
 static planefile_status load_index(reader *r, uint64_t offset) {
   size_t size;
-  uint32_t count;
+  index_parts parts;
   TRY(load_record(r, PF_INDEX, 0, offset, r->is_film ? 0 : r->end, &size));
-  TRY(count_entries(r, offset, size, &count));
+  TRY(find_parts(r, offset, size, &parts));
+  if (r->is_pictured)
+    TRY(load_pictures(r, offset, &parts));
+  uint32_t count = parts.entry_count;
   planefile_plane *plane = r->plane;
   uint64_t base = load_base_offset(r);
   plane->bands = pf_make(&plane->memory, sizeof *plane->bands, count);
@@ -269,7 +304,7 @@ static planefile_status load_index(reader *r, uint64_t offset) {
   plane->info.band_count = count;
   if (!plane->bands || !r->offsets)
     return fail_memory(r, offset);
-  const unsigned char *entry = entries_of(r);
+  const unsigned char *entry = parts.entries;
   for (uint32_t i = 0; i < count; i++, entry += PF_ENTRY_BYTES) {
     TRY(load_entry(r, offset, entry, i));
     r->offsets[i] = pf_load_64(entry + 4);
@@ -290,8 +325,9 @@ static planefile_status decode_band(reader *r, uint32_t index, uint64_t offset, 
                                     const pf_base *base, pf_band *out) {
   const char *reason;
   const planefile_info *info = &r->plane->info;
-  const pf_payload payload = {r->bytes + PF_HEAD_BYTES, size, info->varies,
-                              info->is_coded ? &r->codes : NULL, base};
+  const pf_payload payload = {
+      r->bytes + PF_HEAD_BYTES, size, info->varies, info->is_coded ? &r->codes : NULL,
+      info->picture_count,      base};
   int32_t top = r->plane->bands[index].band.top, foot = r->plane->bands[index].band.foot;
   planefile_status status = pf_band_decode(&r->plane->memory, &payload, out, &reason);
   if (status != PLANEFILE_OK)
@@ -337,10 +373,37 @@ static planefile_status load_either(reader *r, uint32_t index) {
   return status;
 }
 
+static planefile_status load_picture(reader *r, uint32_t index) {
+  size_t size;
+  uint64_t offset = r->pictures[index];
+  planefile_plane *plane = r->plane;
+  TRY(load_record(r, PF_PICTURE, index, offset, 0, &size));
+  const pf_picture_code code = {r->bytes + PF_HEAD_BYTES, size};
+  const char *reason =
+      pf_picture_decode(r->source, &plane->memory, &plane->curve, code, &plane->pictures[index]);
+  if (reason)
+    return fail_of(r, reason == pf_no_memory ? PLANEFILE_NO_MEMORY : PLANEFILE_BAD_FILE, offset,
+                   subject(PF_PICTURE, index).text, reason);
+  r->pictures[index] = 0;
+  return PLANEFILE_OK;
+}
+
+/* The pictures that a band shows, unless they have been read. */
+static planefile_status load_shown(reader *r, const planefile_band *band) {
+  for (uint32_t i = 0; i < band->axis_count; i++) {
+    const planefile_axis *axis = &band->axes[i];
+    if (axis->kind == PLANEFILE_PICTURE && axis->picture < band->picture_count &&
+        r->pictures[axis->picture] > 0)
+      TRY(load_picture(r, axis->picture));
+  }
+  return PLANEFILE_OK;
+}
+
 static planefile_status load_band(reader *r, uint32_t index) {
   uint64_t offset = r->offsets[index];
   const planefile_band *band = &r->plane->bands[index].band;
   TRY(load_either(r, index));
+  TRY(load_shown(r, band));
   if (r->plane->info.is_opaque && !pf_band_is_opaque(band))
     return fail_of(r, PLANEFILE_BAD_FILE, offset, subject(PF_BAND, index).text, "it is not opaque");
   if (!has_base(r->plane, band))
@@ -370,6 +433,8 @@ static planefile_status load_plane(reader *r, uint32_t frame, int32_t top, int32
   if (frame >= r->plane->info.frame_count)
     return refuse_number(r, PLANEFILE_BAD_ARGUMENT, r->end, "it has no frame", frame);
   TRY(load_index(r, index));
+  if (r->plane->info.varies)
+    pf_light_curve_make(&r->plane->curve);
   return load_bands(r, top, foot);
 }
 
@@ -378,6 +443,7 @@ static void forget(reader *r) {
   size_t count = r->plane->info.band_count;
   pf_free(memory, r->offsets, sizeof *r->offsets, count + 1);
   pf_free(memory, r->bases, sizeof *r->bases, count);
+  pf_free(memory, r->pictures, sizeof *r->pictures, r->plane->info.picture_count);
   pf_free(memory, r->bytes, 1, r->capacity);
 }
 
@@ -402,8 +468,6 @@ planefile_status planefile_read_frame(const planefile_source *source, uint32_t f
     return status;
   }
   pf_pixels_make(&r.codes, r.plane->codes);
-  if (r.plane->info.varies)
-    pf_light_curve_make(&r.plane->curve);
   *out = r.plane;
   return PLANEFILE_OK;
 }
@@ -420,6 +484,9 @@ void planefile_plane_destroy(planefile_plane *plane) {
   for (uint32_t i = 0; plane->bands && i < plane->info.band_count; i++)
     pf_band_free(&memory, &plane->bands[i]);
   pf_free(&memory, plane->bands, sizeof *plane->bands, plane->info.band_count);
+  for (uint32_t i = 0; plane->pictures && i < plane->info.picture_count; i++)
+    pf_picture_free(&memory, &plane->pictures[i]);
+  pf_free(&memory, plane->pictures, sizeof *plane->pictures, plane->info.picture_count);
   pf_free(&memory, plane, sizeof *plane, 1);
 }
 

@@ -647,6 +647,7 @@ static bool unpack(unpacker *u, const pf_payload *payload) {
   size_t head = pf_band_head(varies);
   u->base = payload->base;
   u->codes = payload->codes;
+  u->out->band.picture_count = u->room.picture_count = payload->picture_count;
   if (payload->size < head)
     return refuse(u, "it is too short");
   size_t code = payload->size - head, paid = code + (u->base ? u->base->code : 0);

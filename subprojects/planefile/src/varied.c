@@ -26,7 +26,7 @@ bool pf_varied_init(pf_varied *v, const planefile_plane *plane, uint32_t columns
   v->shares = pf_make(&plane->memory, sizeof *v->shares, cells);
   v->places = pf_make(&plane->memory, sizeof *v->places, cells);
   v->active = pf_make(&plane->memory, sizeof *v->active, cells);
-  v->room = pf_make(&plane->memory, sizeof *v->room, PLANEFILE_DEPTH + 1);
+  v->room = pf_make(&plane->memory, sizeof *v->room, PF_ROOM);
   return v->heads && v->shares && v->places && v->active && v->room;
 }
 
@@ -42,7 +42,7 @@ void pf_varied_finish(pf_varied *v) {
   pf_free(memory, v->shares, sizeof *v->shares, cells);
   pf_free(memory, v->places, sizeof *v->places, cells);
   pf_free(memory, v->active, sizeof *v->active, cells);
-  pf_free(memory, v->room, sizeof *v->room, PLANEFILE_DEPTH + 1);
+  pf_free(memory, v->room, sizeof *v->room, PF_ROOM);
 }
 
 /* ---------------------------------------------------------------- entries */
@@ -143,8 +143,8 @@ static inline int32_t to_fine(float channel) {
 static const pf_colours *find_colours(pf_varied *v, uint32_t cell, const pf_pixels *pixels) {
   uint32_t index = find_band(v, cell);
   const planefile_band *band = &v->plane->bands[index].band;
-  pf_program_colours(band, band->programs[cell - v->first[index]], &v->plane->curve, pixels,
-                     v->room);
+  const pf_program_source source = {band, v->plane->pictures, &v->plane->curve};
+  pf_program_colours(&source, band->programs[cell - v->first[index]], pixels, v->room);
   return v->room;
 }
 

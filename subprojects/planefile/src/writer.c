@@ -44,7 +44,10 @@ struct planefile_writer {
   pf_written *known; /* the records of a film; NULL: a single plane */
   uint64_t *frames;  /* the offsets of their indices */
   size_t frame_count, frame_capacity;
-  uint64_t index; /* the offset of the latest index */
+  uint64_t index;             /* the offset of the latest index */
+  pf_written *shown_pictures; /* their numbers in the file, plus 1, by their keys; NULL: none */
+  uint64_t *pictures;         /* their offsets */
+  size_t picture_count, picture_capacity;
 
   /* the key frame of a film; no bands: there is none yet */
   key_band *key;
@@ -135,6 +138,17 @@ static bool is_program(const planefile_band *plane, uint32_t cell) {
           pf_program_is_good(plane, *program));
 }
 
+/* Whether those that are shown are good. */
+static bool are_pictures(const planefile_band *plane) {
+  bool is_good = true;
+  for (uint32_t i = 0; i < plane->axis_count && is_good; i++) {
+    const planefile_axis *axis = &plane->axes[i];
+    is_good = axis->kind != PLANEFILE_PICTURE || axis->picture >= plane->picture_count ||
+              (plane->pictures && pf_picture_is_good(&plane->pictures[axis->picture]));
+  }
+  return is_good;
+}
+
 static bool is_plane(const planefile_band *plane) {
   bool is_good = plane->top == 0 && plane->foot == PLANEFILE_SIDE && plane->cell_count > 0;
   for (uint32_t i = 0; is_good && i < plane->chain_count; i++)
@@ -143,7 +157,7 @@ static bool is_plane(const planefile_band *plane) {
     is_good = is_border(plane, &plane->borders[i]);
   for (uint32_t i = 0; is_good && i < plane->cell_count; i++)
     is_good = is_cell(&plane->cells[i]) && (!plane->programs || is_program(plane, i));
-  return is_good;
+  return is_good && are_pictures(plane);
 }
 
 /* ---------------------------------------------------------------- order */
@@ -242,13 +256,27 @@ static planefile_status put_header(writer *w) {
   return put(w, header, sizeof header);
 }
 
+/* The list of pictures in an index. */
+static size_t list_bytes(const writer *w) {
+  return w->flags & PF_PICTURED ? PF_LIST_BYTES + PF_OFFSET_BYTES * w->picture_count : 0;
+}
+
+static size_t put_list(const writer *w, unsigned char *at) {
+  if (list_bytes(w) > 0)
+    pf_store_32(at, (uint32_t)w->picture_count);
+  for (size_t i = 0; list_bytes(w) > 0 && i < w->picture_count; i++)
+    pf_store_64(at + PF_LIST_BYTES + PF_OFFSET_BYTES * i, w->pictures[i]);
+  return list_bytes(w);
+}
+
 static planefile_status put_index(writer *w) {
   size_t flags = is_film(w) ? PF_FLAG_BYTES : 0;
-  size_t size = flags + w->entry_count * PF_ENTRY_BYTES;
+  size_t size = flags + list_bytes(w) + w->entry_count * PF_ENTRY_BYTES;
   unsigned char *payload = pf_make(&w->memory, 1, size);
   if (!payload)
     return PLANEFILE_NO_MEMORY;
   unsigned char *at = payload + flags;
+  at += put_list(w, at);
   if (flags) {
     pf_store_32(payload, w->flags);
     pf_store_64(payload + 4, w->has_base ? w->key_index : 0);
@@ -282,6 +310,87 @@ static planefile_status put_trailer(writer *w, uint64_t last) {
   pf_store_64(trailer + 16, w->offset + PF_TRAILER_BYTES);
   pf_store_32(trailer + 28, pf_crc32c(0, trailer, 28));
   return put(w, trailer, sizeof trailer);
+}
+
+/* ---------------------------------------------------------------- pictures */
+
+static planefile_status put_picture(writer *w, const planefile_picture *picture) {
+  uint64_t *pictures = pf_grow(&w->memory, w->pictures, sizeof *pictures, &w->picture_capacity,
+                               w->picture_count + 1);
+  if (!pictures)
+    return PLANEFILE_NO_MEMORY;
+  w->pictures = pictures;
+  w->pictures[w->picture_count++] = w->offset;
+  pf_encoder code;
+  planefile_status status = pf_picture_encode(&w->memory, picture, &code);
+  if (status == PLANEFILE_OK)
+    status = put_record(w, PF_PICTURE, code.bytes, code.count);
+  pf_encoder_finish(&code);
+  return status;
+}
+
+/* *number: of a picture in the file, which is written if it is new. */
+static planefile_status find_picture(writer *w, const planefile_picture *picture,
+                                     uint32_t *number) {
+  const pf_print print = {{picture->key[0], picture->key[1]},
+                          (uint64_t)picture->width << 32 | picture->height << 2 | picture->kind};
+  if (!w->shown_pictures && !(w->shown_pictures = pf_written_create(&w->memory)))
+    return PLANEFILE_NO_MEMORY;
+  uint64_t *known = pf_written_find(w->shown_pictures, print);
+  if (!known)
+    return PLANEFILE_NO_MEMORY;
+  if (*known == 0) {
+    *known = w->picture_count + 1;
+    *number = (uint32_t)w->picture_count;
+    return put_picture(w, picture);
+  }
+  *number = (uint32_t)*known - 1;
+  return PLANEFILE_OK;
+}
+
+/* Marks the pictures of the programs of cells that are seen. seen: of each cell, false. */
+static void mark_pictures(const planefile_band *plane, bool *seen, uint32_t *numbers) {
+  for (uint32_t i = 0; i < 2 * plane->border_count; i++) {
+    uint32_t cell = i % 2 ? plane->borders[i / 2].right : plane->borders[i / 2].left;
+    const planefile_program *program = &plane->programs[cell];
+    for (uint32_t k = 0; !seen[cell] && k < program->step_count; k++) {
+      const planefile_step *step = &plane->steps[program->step + k];
+      const planefile_axis *axis = &plane->axes[step->axis];
+      if (step->kind == PLANEFILE_RAMP && axis->kind == PLANEFILE_PICTURE)
+        numbers[axis->picture] = 1;
+    }
+    seen[cell] = true;
+  }
+}
+
+/* Writes the pictures that are seen and gives axes the numbers that these have in the file. */
+static planefile_status number_pictures(writer *w, const planefile_band *plane, uint32_t *numbers,
+                                        planefile_axis *axes) {
+  planefile_status status = PLANEFILE_OK;
+  for (uint32_t i = 0; i < plane->picture_count && status == PLANEFILE_OK; i++)
+    if (numbers[i] > 0)
+      status = find_picture(w, &plane->pictures[i], &numbers[i]);
+  for (uint32_t i = 0; i < plane->axis_count; i++) {
+    axes[i] = plane->axes[i];
+    if (axes[i].kind == PLANEFILE_PICTURE && axes[i].picture < plane->picture_count)
+      axes[i].picture = numbers[axes[i].picture];
+  }
+  return status;
+}
+
+/* axes: room for those of the plane. */
+static planefile_status put_pictures(writer *w, const planefile_band *plane, planefile_axis *axes) {
+  bool *seen = pf_make(&w->memory, sizeof *seen, plane->cell_count);
+  uint32_t *numbers = pf_make(&w->memory, sizeof *numbers, plane->picture_count);
+  planefile_status status = PLANEFILE_NO_MEMORY;
+  if (seen && numbers) {
+    if (plane->programs)
+      mark_pictures(plane, seen, numbers);
+    status = number_pictures(w, plane, numbers, axes);
+  }
+  pf_free(&w->memory, numbers, sizeof *numbers, plane->picture_count);
+  pf_free(&w->memory, seen, sizeof *seen, plane->cell_count);
+  return status;
 }
 
 /* ---------------------------------------------------------------- bands */
@@ -343,7 +452,9 @@ static planefile_status add_entry(writer *w, unsigned char kind, int32_t top,
 /* The latest band that was added becomes one of the key. */
 static planefile_status add_key(writer *w, const pf_encoder *code) {
   const char *reason;
-  const pf_payload payload = {code->bytes, code->count, w->flags & PF_VARIES, codes_of(w), NULL};
+  const pf_payload payload = {
+      code->bytes, code->count, w->flags & PF_VARIES, codes_of(w), (uint32_t)w->picture_count,
+      NULL};
   key_band *key = pf_grow(&w->memory, w->key, sizeof *key, &w->key_capacity, w->key_count + 1);
   if (!key)
     return PLANEFILE_NO_MEMORY;
@@ -502,8 +613,6 @@ static planefile_status put_plane(writer *w) {
   w->shown = pf_make(&w->memory, sizeof *w->shown, count);
   if (status == PLANEFILE_OK && !w->shown)
     status = PLANEFILE_NO_MEMORY;
-  if (status == PLANEFILE_OK && w->offset == 0)
-    status = put_header(w);
   if (status == PLANEFILE_OK && can_have_base(w))
     status = put_changed(w);
   if (status != PLANEFILE_OK)
@@ -547,21 +656,36 @@ static void round_cells(const writer *w, planefile_band *plane, planefile_cell *
   plane->cells = rounded;
 }
 
-planefile_status planefile_writer_frame(planefile_writer *w, const planefile_band *given) {
-  planefile_band flat = *given;
-  flat.programs = varies(given) ? given->programs : NULL;
-  if ((!is_film(w) && w->frame_count > 0) || !is_plane(&flat))
-    return PLANEFILE_BAD_ARGUMENT;
-  planefile_cell *rounded = pf_make(&w->memory, sizeof *rounded, flat.cell_count);
-  if (!rounded)
-    return PLANEFILE_NO_MEMORY;
-  round_cells(w, &flat, rounded);
-  w->plane = &flat;
-  w->flags = (pf_band_is_opaque(&flat) ? PF_OPAQUE : 0) | (flat.programs ? PF_VARIES : 0) |
+/* The pictures of a frame, and its bands. axes: room for those of the plane. */
+static planefile_status put_frame(writer *w, planefile_band *plane, planefile_axis *axes) {
+  w->plane = plane;
+  w->flags = (pf_band_is_opaque(plane) ? PF_OPAQUE : 0) | (plane->programs ? PF_VARIES : 0) |
              (w->desc.is_coded ? PF_CODED : 0);
-  planefile_status status = put_plane(w);
-  forget_frame(w);
-  pf_free(&w->memory, rounded, sizeof *rounded, flat.cell_count);
+  for (uint32_t i = 0; plane->programs && i < plane->axis_count; i++)
+    w->flags |= plane->axes[i].kind == PLANEFILE_PICTURE ? PF_PICTURED : 0;
+  planefile_status status = w->offset == 0 ? put_header(w) : PLANEFILE_OK;
+  if (status == PLANEFILE_OK)
+    status = put_pictures(w, plane, axes);
+  plane->axes = axes;
+  plane->picture_count = (uint32_t)w->picture_count;
+  return status == PLANEFILE_OK ? put_plane(w) : status;
+}
+
+planefile_status planefile_writer_frame(planefile_writer *w, const planefile_band *given) {
+  planefile_band plane = *given;
+  plane.programs = varies(given) ? given->programs : NULL;
+  if ((!is_film(w) && w->frame_count > 0) || !is_plane(&plane))
+    return PLANEFILE_BAD_ARGUMENT;
+  planefile_axis *axes = pf_make(&w->memory, sizeof *axes, plane.axis_count);
+  planefile_cell *rounded = pf_make(&w->memory, sizeof *rounded, plane.cell_count);
+  planefile_status status = PLANEFILE_NO_MEMORY;
+  if (axes && rounded) {
+    round_cells(w, &plane, rounded);
+    status = put_frame(w, &plane, axes);
+    forget_frame(w);
+  }
+  pf_free(&w->memory, axes, sizeof *axes, plane.axis_count);
+  pf_free(&w->memory, rounded, sizeof *rounded, plane.cell_count);
   return status == PLANEFILE_OK ? add_frame(w) : status;
 }
 
@@ -608,6 +732,8 @@ void planefile_writer_destroy(planefile_writer *w) {
   forget_key(w);
   pf_free(&memory, w->key, sizeof *w->key, w->key_capacity);
   pf_written_destroy(w->known);
+  pf_written_destroy(w->shown_pictures);
+  pf_free(&memory, w->pictures, sizeof *w->pictures, w->picture_capacity);
   pf_free(&memory, w->frames, sizeof *w->frames, w->frame_capacity);
   pf_free(&memory, w->entries, sizeof *w->entries, w->entry_capacity);
   pf_free(&memory, w, sizeof *w, 1);

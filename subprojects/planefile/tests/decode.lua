@@ -1,5 +1,5 @@
 -- A decoder of plane files, written only from docs/planefile.md: all bytes in; all pixels of a size
--- and a frame out, as means of linear light.
+-- and a frame out, as means of linear light. Pictures of a name are asked for by a function.
 
 local SIDE = 1 << 26
 
@@ -107,6 +107,10 @@ local function get_axis(band)
   axis.q = axis.kind > 0 and get_plane(band) or {0, 0, 0}
   axis.w = is_wide and get_plane(band) or {0, 0, 1}
   axis.focus = axis.kind == 1 and get_double(band, "axis") or 0
+  if axis.kind == 3 then
+    axis.picture = band.coder.number("picture")
+    axis.wrap, axis.filter = band.coder.symbol("wrap", 2), band.coder.symbol("filter", 2)
+  end
   return axis
 end
 
@@ -128,7 +132,7 @@ local function get_step(band)
   elseif step.kind == 1 then
     get_ramp(band, step)
   elseif step.kind == 3 then
-    step.converts = band.coder.symbol("converts", 1) == 1
+    step.how = band.coder.symbol("how", 4)
     step.factors = get_channels(band, "factor ", {65535, 65535, 65535, 65535})
   end
   return step
@@ -366,6 +370,227 @@ local function read_band(payload, flags, base)
   return band
 end
 
+---------------------------------------------------------------------- pictures
+
+-- A channel as it is foreseen, and its context.
+local function foresee(rows, x, y, c)
+  local row, upper = rows[y], rows[y - 1]
+  local left, above = x > 0 and row[x - 1][c] or 0, upper and upper[x][c] or 0
+  local corner = upper and x > 0 and upper[x - 1][c] or 0
+  local change, context = math.abs(above - corner) + math.abs(left - corner), 0
+  while change > 0 and context < 15 do change, context = change >> 1, context + 1 end
+  local low, high = math.min(left, above), math.max(left, above)
+  return corner >= high and low or corner <= low and high or left + above - corner, context
+end
+
+local function read_pixels(code, width, height)
+  local coder, rows, green = new_coder(code), {}, 0
+  for y = 0, height - 1 do
+    rows[y] = {}
+    for x = 0, width - 1 do
+      local pixel = {}
+      rows[y][x] = pixel
+      for _, c in ipairs {4, 2, 1, 3} do
+        local seen, context = foresee(rows, x, y, c)
+        local off = coder.signed("channel " .. c .. " context " .. context)
+        if c == 2 then green = off end
+        pixel[c] = seen + off + ((c == 1 or c == 3) and green or 0)
+      end
+    end
+  end
+  return rows
+end
+
+local function copy_pixels(codes, width, height)
+  local rows = {}
+  for y = 0, height - 1 do
+    rows[y] = {}
+    for x = 0, width - 1 do
+      local at = 4 * (y * width + x)
+      rows[y][x] = {codes:byte(at + 1, at + 4)}
+    end
+  end
+  return rows
+end
+
+local decode
+
+-- Pixels as light, with 65535 for white.
+local function to_light(rows, width, height, kind)
+  for y = 0, height - 1 do
+    for x = 0, kind == 1 and -1 or width - 1 do
+      local codes = rows[y][x]
+      local alpha = codes[4] / 255
+      for c = 1, 3 do codes[c] = 65535 * alpha * decode(codes[c] / 255) end
+      codes[4] = 65535 * alpha
+    end
+  end
+  return {width = width, height = height, side = 1, rows = rows}
+end
+
+-- The level above: means by the pixels that exist.
+local function halve(level, whole)
+  local half = {width = (level.width + 1) // 2, height = (level.height + 1) // 2, rows = {},
+    side = 2 * level.side}
+  local function pixels_of(i, size) return math.min(level.side, size - i * level.side) end
+  for y = 0, half.height - 1 do
+    half.rows[y] = {}
+    for x = 0, half.width - 1 do
+      local sum, all = {0, 0, 0, 0}, 0
+      for j = 2 * y, math.min(2 * y + 1, level.height - 1) do
+        for i = 2 * x, math.min(2 * x + 1, level.width - 1) do
+          local count = pixels_of(i, whole.width) * pixels_of(j, whole.height)
+          all = all + count
+          for c = 1, 4 do sum[c] = sum[c] + count * level.rows[j][i][c] end
+        end
+      end
+      for c = 1, 4 do sum[c] = sum[c] / all end
+      half.rows[y][x] = sum
+    end
+  end
+  return half
+end
+
+local function read_picture(payload, host)
+  local width, height, kind, key, at = ("<I4I4I4I8"):unpack(payload)
+  local code = payload:sub(at)
+  local rows = kind == 2 and copy_pixels(host(code, width, height, key), width, height)
+    or read_pixels(code, width, height)
+  local levels = {to_light(rows, width, height, kind)}
+  while levels[#levels].width > 1 or levels[#levels].height > 1 do
+    levels[#levels + 1] = halve(levels[#levels], levels[1])
+  end
+  return levels
+end
+
+local function texel_of(level, wrap, x, y)
+  local function inside(i, size)
+    return wrap == 2 and i % size or math.max(0, math.min(size - 1, i))
+  end
+  return level.rows[inside(y, level.height)][inside(x, level.width)]
+end
+
+-- The mean of texels; across and down: lists of {index, weight}.
+local function mix_texels(level, wrap, across, down)
+  local sum, all = {0, 0, 0, 0}, 0
+  local low, high = {}, {}
+  for _, row in ipairs(down) do
+    for _, column in ipairs(across) do
+      local texel, weight = texel_of(level, wrap, column[1], row[1]), row[2] * column[2]
+      all = all + weight
+      for c = 1, 4 do
+        sum[c] = sum[c] + weight * texel[c]
+        low[c] = math.min(low[c] or texel[c], texel[c])
+        high[c] = math.max(high[c] or texel[c], texel[c])
+      end
+    end
+  end
+  for c = 1, 4 do sum[c] = math.max(low[c], math.min(high[c], sum[c] / all)) end
+  return sum
+end
+
+local function split(at)
+  local first = math.floor(at + 1e-6)
+  return first, at - first > 1e-6 and at - first or 0
+end
+
+local function linear_of(at, side)
+  local first, t = split(at / side - 0.5)
+  return {{first, 1 - t}, {first + 1, t}}
+end
+
+local function cubic_of(at)
+  local first, t = split(at - 0.5)
+  return {{first - 1, (2 * t ^ 2 - t ^ 3 - t) / 2}, {first, (3 * t ^ 3 - 5 * t ^ 2 + 2) / 2},
+    {first + 1, (4 * t ^ 2 - 3 * t ^ 3 + t) / 2}, {first + 2, (t ^ 3 - t ^ 2) / 2}}
+end
+
+local function box_of(low, high, side)
+  local first, list = math.floor((low + 1e-6) / side), {}
+  local last = math.max(first, math.ceil((high - 1e-6) / side) - 1)
+  for i = first, last do
+    local left, right = i > first and i * side or low, i < last and (i + 1) * side or high
+    list[#list + 1] = {i, right > left and right - left or 1}
+  end
+  return list
+end
+
+local function reduce(wrap, at, size) return wrap == 2 and at - at // size * size or at end
+
+-- The level on which a footprint is covered.
+local function find_level(levels, shorter, longer, least, most)
+  local number = 1
+  while number < #levels and (shorter >= 2 * least or longer > most) do
+    number, shorter, longer = number + 1, shorter / 2, longer / 2
+  end
+  return levels[number]
+end
+
+local function sample_linear(level, levels, wrap, u, v)
+  return mix_texels(level, wrap, linear_of(reduce(wrap, u, levels[1].width), level.side),
+    linear_of(reduce(wrap, v, levels[1].height), level.side))
+end
+
+local function sample_box(levels, wrap, u, v, wide, high)
+  wide, high = math.max(wide, 1), math.max(high, 1)
+  local level = find_level(levels, math.min(wide, high), math.max(wide, high), 4, 64)
+  local function extent(at, length, size)
+    at, length = reduce(wrap, at, size), math.min(length, 64 * level.side)
+    local from, to = at - length / 2, at + length / 2
+    if wrap < 2 then
+      from, to = math.max(0, math.min(size, from)), math.max(0, math.min(size, to))
+    end
+    return box_of(from, to, level.side)
+  end
+  return mix_texels(level, wrap, extent(u, wide, levels[1].width),
+    extent(v, high, levels[1].height))
+end
+
+local function sample_taps(levels, wrap, u, v, right, down)
+  local wide = math.sqrt(right[1] ^ 2 + right[2] ^ 2)
+  local high = math.sqrt(down[1] ^ 2 + down[2] ^ 2)
+  local level = find_level(levels, math.min(wide, high), math.max(wide, high), 2, 16)
+  local function taps(length)
+    return math.max(1, math.min(16, math.ceil(length / level.side - 1e-6)))
+  end
+  local columns, rows, sum = taps(wide), taps(high), {0, 0, 0, 0}
+  for j = 0, rows - 1 do
+    for i = 0, columns - 1 do
+      local x, y = (i + 0.5) / columns - 0.5, (j + 0.5) / rows - 0.5
+      local tap = sample_linear(level, levels, wrap, u + x * right[1] + y * down[1],
+        v + x * right[2] + y * down[2])
+      for c = 1, 4 do sum[c] = sum[c] + tap[c] / (columns * rows) end
+    end
+  end
+  return sum
+end
+
+-- place: p, q, and how they move to the right and down.
+local function sample_picture(axis, levels, u, v, right, down)
+  local whole, wrap, filter = levels[1], axis.wrap, axis.filter
+  local function is_in(at, size) return at >= -1e-6 and at < size - 1e-6 end
+  if wrap == 0 and not (is_in(u, whole.width) and is_in(v, whole.height)) then
+    return {0, 0, 0, 0}
+  end
+  local ux, vx = math.abs(right[1]), math.abs(right[2])
+  local uy, vy = math.abs(down[1]), math.abs(down[2])
+  local is_flat = axis.w[1] == 0 and axis.w[2] == 0 and axis.w[3] == 1
+  local most = 1 + 1e-6
+  local is_enlarged = ux + uy <= most and vx + vy <= most
+    or is_flat and ux ^ 2 + vx ^ 2 <= most and uy ^ 2 + vy ^ 2 <= most
+  local x, y = reduce(wrap, u, whole.width), reduce(wrap, v, whole.height)
+  if filter == 1 then
+    return texel_of(whole, wrap, math.floor(x + 1e-6), math.floor(y + 1e-6))
+  elseif filter == 3 and is_enlarged then
+    return mix_texels(whole, wrap, cubic_of(x), cubic_of(y))
+  elseif filter == 2 or is_enlarged then
+    return sample_linear(whole, levels, wrap, u, v)
+  elseif is_flat and math.min(ux + vy, vx + uy) <= 1e-12 * math.max(ux + vy, vx + uy) then
+    return sample_box(levels, wrap, u, v, ux + uy, vx + vy)
+  end
+  return sample_taps(levels, wrap, u, v, right, down)
+end
+
 ---------------------------------------------------------------------- programs
 
 local function find_place(axis, x, y)
@@ -376,10 +601,24 @@ local function find_place(axis, x, y)
   return w > 0 and p == p and q == q, p, q
 end
 
-local function find_colour(step, x, y)
+local function show_picture(step, x, y, p, q, size)
+  local axis, right, down = step.axis, {}, {}
+  local w = axis.w[1] * x + axis.w[2] * y + axis.w[3]
+  for i, plane in ipairs {axis.p, axis.q} do
+    local at = i == 1 and p or q
+    right[i] = (plane[1] - at * axis.w[1]) / size.columns / w
+    down[i] = (plane[2] - at * axis.w[2]) / size.rows / w
+  end
+  local shown, out = sample_picture(axis, axis.levels, p, q, right, down), {}
+  for c = 1, 4 do out[c] = shown[c] * step[1].colour[c] / 65535 end
+  return out
+end
+
+local function find_colour(step, x, y, size)
   local exists, p, q = find_place(step.axis, x, y)
   if not exists then return {0, 0, 0, 0} end
   local out, count = {}, #step
+  if step.axis.kind == 3 then return show_picture(step, x, y, p, q, size) end
   if step.axis.kind == 2 then
     for c = 4, 1, -1 do
       local s = step[1].colour[c]
@@ -400,7 +639,7 @@ local function find_colour(step, x, y)
   return step[count].colour
 end
 
-local function decode(code)
+function decode(code)
   if code < 0 then return -decode(-code) end
   return code <= 0.04045 and code / 12.92 or ((code + 0.055) / 1.055) ^ 2.4
 end
@@ -408,26 +647,52 @@ end
 local function leave(step, layer)
   for c = 1, 3 do
     local s = math.max(layer[4], math.min(65535, math.abs(layer[c])))
-    if step.converts and s > 0 then layer[c] = s * decode(layer[c] / s) end
+    if step.how == 1 and s > 0 then layer[c] = s * decode(layer[c] / s) end
   end
   for c = 1, 4 do layer[c] = layer[c] * step.factors[c] / 65535 end
 end
 
-local function show(program, x, y)
-  local groups = {{0, 0, 0, 0}}
+-- A group that was left becomes a veil: by what the layers behind it are multiplied.
+local function add_veil(how, layer, front)
+  local r, g, b, a = layer[1] / 65535, layer[2] / 65535, layer[3] / 65535, layer[4] / 65535
+  local function clamp(x) return math.max(0, math.min(1, x)) end
+  local matte = how >= 7 and clamp(0.2126 * r + 0.7152 * g + 0.0722 * b) or clamp(a)
+  if how == 6 or how == 8 then matte = 1 - matte end
+  local veil, before = front.veil, 0
+  for c = 1, 3 do before = before + veil[c] / 3 end
+  for c, x in ipairs {r, g, b, 0} do
+    local by = how >= 5 and matte or c == 4 and 1 or how == 3 and x or how == 4 and 1 - x
+      or 1 - clamp(a) + x
+    veil[c] = veil[c] * by
+  end
+  if how ~= 2 then return end
+  local mean = (veil[1] + veil[2] + veil[3]) / 3 / before
+  mean = mean > 0 and mean or 0
+  for c = 1, 3 do veil[c] = mean > 0 and veil[c] / mean or 0 end
+  front[4] = 65535 - (65535 - front[4]) * mean
+end
+
+local function new_group() return {0, 0, 0, 0, veil = {1, 1, 1, 1}} end
+
+local function show(program, x, y, size)
+  local groups = {new_group()}
   for _, step in ipairs(program) do
     local layer
     if step.kind == 2 then
-      groups[#groups + 1] = {0, 0, 0, 0}
+      groups[#groups + 1] = new_group()
     elseif step.kind == 3 then
       layer = table.remove(groups)
       leave(step, layer)
     else
-      layer = step.kind == 0 and step.colour or find_colour(step, x, y)
+      layer = step.kind == 0 and step.colour or find_colour(step, x, y, size)
     end
     local front = groups[#groups]
+    if step.kind == 3 and step.how > 1 then
+      add_veil(step.how, layer, front)
+      layer = nil
+    end
     local through = 1 - front[4] / 65535
-    for c = 1, layer and 4 or 0 do front[c] = front[c] + through * layer[c] end
+    for c = 1, layer and 4 or 0 do front[c] = front[c] + through * front.veil[c] * layer[c] end
   end
   return groups[1]
 end
@@ -509,27 +774,59 @@ local function payload_at(bytes, offset)
   return record:sub(6), record:sub(1, 1)
 end
 
--- The entries of the index of a frame, its flags, and the entries of its base or nil.
+-- The offsets of the pictures that an index begins with, and the entries after them.
+local function split_index(index, flags)
+  local offsets = {}
+  if flags & 16 == 0 then return offsets, index end
+  local count = ("<I4"):unpack(index)
+  for i = 1, count do offsets[i] = ("<I8"):unpack(index, 8 * i - 3) end
+  return offsets, index:sub(5 + 8 * count)
+end
+
+-- The parts of the index of a frame, its flags, and the entries of its base or nil.
 local function read_index(bytes, frame)
   assert(bytes:sub(1, 8) == "celplane" and crc32c(bytes:sub(1, 36)) == ("<I4"):unpack(bytes, 37))
   local trailer, flags = bytes:sub(-32), ("<I4"):unpack(bytes, 13)
   local last, size = ("<I8I8"):unpack(trailer, 9)
   assert(trailer:sub(1, 8) == "planeend" and size == #bytes)
-  if flags ~= 4 then return (payload_at(bytes, last)), flags end
+  if flags ~= 4 then
+    local offsets, entries = split_index(payload_at(bytes, last), flags)
+    return offsets, entries, flags
+  end
   local index = payload_at(bytes, (("<I8"):unpack(payload_at(bytes, last), 9 + 8 * frame)))
   local own, base = ("<I4I8"):unpack(index)
-  return index:sub(13), own, base > 0 and payload_at(bytes, base):sub(13) or nil
+  local offsets, entries = split_index(index:sub(13), own)
+  if base == 0 then return offsets, entries, own end
+  local other = payload_at(bytes, base)
+  local _, base_entries = split_index(other:sub(13), (("<I4"):unpack(other)))
+  return offsets, entries, own, base_entries
+end
+
+-- The pictures that the axes of bands lie on.
+local function find_pictures(bytes, bands, offsets, host)
+  local pictures = {}
+  for _, band in ipairs(bands) do
+    for _, axis in ipairs(band.axes) do
+      local number = axis.kind == 3 and axis.picture + 1
+      if number then
+        pictures[number] = pictures[number]
+          or read_picture(payload_at(bytes, offsets[number]), host)
+        axis.levels = pictures[number]
+      end
+    end
+  end
 end
 
 -- bands: all that the index names, in order.
-local function read_bands(bytes, frame)
-  local entries, flags, base_entries = read_index(bytes, frame)
+local function read_bands(bytes, frame, host)
+  local offsets, entries, flags, base_entries = read_index(bytes, frame)
   local bands = {}
   for at = 1, #entries, 12 do
     local payload, kind = payload_at(bytes, (("<I8"):unpack(entries, at + 4)))
     local base = kind == "D" and payload_at(bytes, (("<I8"):unpack(base_entries, at + 4))) or nil
     bands[#bands + 1] = read_band(payload, flags, base and read_band(base, flags))
   end
+  find_pictures(bytes, bands, offsets, host)
   return bands, flags & 1 > 0
 end
 
@@ -539,7 +836,7 @@ local function add_programs(row, y, size, is_opaque)
     for x = 0, size.columns - 1 do
       share = share + (changes[x] or 0)
       if math.abs(share) > 1e-9 then
-        local colour = show(cell.program, (x + 0.5) / size.columns, (y + 0.5) / size.rows)
+        local colour = show(cell.program, (x + 0.5) / size.columns, (y + 0.5) / size.rows, size)
         for c = 1, 4 do row[4 * x + c] = row[4 * x + c] + share * colour[c] end
         row[4 * x + 4] = is_opaque and 65535 or row[4 * x + 4]
       end
@@ -548,10 +845,10 @@ local function add_programs(row, y, size, is_opaque)
 end
 
 -- Returns rows 0 to rows - 1 of a frame, from 0, each an array of four numbers a pixel, with 65535
--- for white.
-return function(bytes, columns, row_count, frame)
+-- for white. host: gives the codes of a picture, four bytes a pixel, by its name, size and key.
+return function(bytes, columns, row_count, frame, host)
   local rows, size = {}, {columns = columns, rows = row_count}
-  local bands, is_opaque = read_bands(bytes, frame or 0)
+  local bands, is_opaque = read_bands(bytes, frame or 0, host)
   for y = 0, row_count - 1 do
     rows[y] = {shares = {}}
     for i = 1, 4 * columns do rows[y][i] = 0 end

@@ -80,7 +80,7 @@ static void draw_deep(const planefile_plane *plane, uint32_t seed) {
 
 /* What was read can be written, and is then read again as it was. */
 static void write_again(const planefile_plane *plane) {
-  if (planefile_plane_info(plane).band_count > 1)
+  if (planefile_plane_info(plane).band_count > 1 || planefile_plane_info(plane).picture_count > 0)
     return;
   const planefile_band *band = planefile_plane_band(plane, 0);
   memory_file file = write_plane(band);

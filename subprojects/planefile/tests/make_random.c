@@ -1,7 +1,7 @@
 /* Writes random planes: `make_random FOLDER COUNT COLUMNS ROWS` makes 0.plane, 0.pixels, ... there,
  * to compare decoders with: the channels of the pixels as 32-bit integers; 0.codes, ..., the same
- * as 8-bit codes; and film.plane, whose frames are all of these planes. With one more argument
- * cells are 8-bit codes. Without a size the plane
+ * as 8-bit codes; film.plane, whose frames are all of these planes; and the codes of their pictures
+ * of a name. With one more argument cells are 8-bit codes. Without a size the plane
  * files alone, and some films, beginning with a byte of 0 to 3, like the fuzzer's inputs. */
 #include "support.h"
 
@@ -91,6 +91,19 @@ static void put_plane(const char *folder, int number, uint32_t columns, uint32_t
   drawing_free(&d);
 }
 
+static void put_pictures(const char *folder) {
+  unsigned char codes[4 * PICTURE_SIDE * PICTURE_SIDE];
+  for (size_t i = 0; i < PICTURES; i++) {
+    const planefile_picture *picture = &test_pictures()[i];
+    size_t row = (size_t)4 * picture->width;
+    if (picture->kind != PLANEFILE_NAMED)
+      continue;
+    for (uint32_t y = 0; y < picture->height; y++)
+      picture_row(picture->user, y, codes + row * y);
+    put_named(folder, picture->name, -1, codes, row * picture->height);
+  }
+}
+
 int main(int count, char **arguments) {
   if (count != 3 && count != 5 && count != 6)
     return 2;
@@ -106,6 +119,7 @@ int main(int count, char **arguments) {
     memory_file film = make_film(0, planes, is_coded);
     put_named(arguments[1], "film.plane", -1, film.bytes, film.size);
     free(film.bytes);
+    put_pictures(arguments[1]);
   }
   return check_done();
 }

@@ -34,13 +34,29 @@ static inline uint64_t mend_record(memory_file *file, uint64_t offset) {
   return offset + PF_HEAD_BYTES;
 }
 
-/* An index whose entries begin after some bytes, and the bands that it names. */
-static inline void mend_index(memory_file *file, uint64_t index, uint64_t before) {
+/* The pictures that an index names; returns the bytes of their list. */
+static inline uint64_t mend_pictures(memory_file *file, uint64_t at, uint64_t end) {
+  if (at > end || end - at < PF_LIST_BYTES)
+    return 0;
+  uint64_t count = pf_load_32(file->bytes + at);
+  for (uint64_t i = 0; i < count && end - at >= PF_LIST_BYTES + PF_OFFSET_BYTES * (i + 1); i++)
+    mend_record(file, pf_load_64(file->bytes + at + PF_LIST_BYTES + PF_OFFSET_BYTES * i));
+  return PF_LIST_BYTES + PF_OFFSET_BYTES * count;
+}
+
+/* An index, and the bands and pictures that it names. */
+static inline void mend_index(memory_file *file, uint64_t index, bool is_film) {
   uint64_t at = mend_record(file, index);
   if (at == 0)
     return;
   uint64_t end = at + pf_load_32(file->bytes + index + 1);
-  for (at += before; at <= end && end - at >= PF_ENTRY_BYTES; at += PF_ENTRY_BYTES)
+  uint32_t flags = pf_load_32(file->bytes + 12);
+  if (is_film) {
+    flags = end - at >= PF_FLAG_BYTES ? pf_load_32(file->bytes + at) : 0;
+    at += PF_FLAG_BYTES;
+  }
+  at += flags & PF_PICTURED ? mend_pictures(file, at, end) : 0;
+  for (; at <= end && end - at >= PF_ENTRY_BYTES; at += PF_ENTRY_BYTES)
     mend_record(file, pf_load_64(file->bytes + at + 4));
   mend_record(file, index);
 }
@@ -51,7 +67,7 @@ static inline void mend_film(memory_file *file, uint64_t film) {
     return;
   uint64_t end = at + pf_load_32(file->bytes + film + 1);
   for (at += PF_RATE_BYTES; at <= end && end - at >= PF_FRAME_BYTES; at += PF_FRAME_BYTES)
-    mend_index(file, pf_load_64(file->bytes + at), PF_FLAG_BYTES);
+    mend_index(file, pf_load_64(file->bytes + at), true);
   mend_record(file, film);
 }
 
@@ -65,7 +81,7 @@ static inline void mend_sums(memory_file *file) {
   if (pf_load_32(file->bytes + 12) & PF_FILM)
     mend_film(file, last);
   else
-    mend_index(file, last, 0);
+    mend_index(file, last, false);
 }
 
 #endif

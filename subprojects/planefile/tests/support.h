@@ -53,8 +53,11 @@ static inline bool memory_read(void *user, uint64_t offset, void *bytes, size_t 
   return true;
 }
 
+static inline const unsigned char *named_pixels(void *user, const planefile_picture *wanted);
+
 static inline planefile_source memory_source(memory_file *file) {
-  return (planefile_source){.read = memory_read, .user = file, .size = file->size};
+  return (planefile_source){
+      .read = memory_read, .user = file, .size = file->size, .picture = named_pixels};
 }
 
 /* ---------------------------------------------------------------- random numbers */
@@ -74,6 +77,64 @@ static inline uint32_t random_below(random_state *random, uint32_t limit) {
 }
 static inline int32_t random_between(random_state *random, int32_t low, int32_t high) {
   return low + (int32_t)random_below(random, (uint32_t)(high - low) + 1);
+}
+
+/* ---------------------------------------------------------------- pictures */
+
+enum { PICTURES = 6, PICTURE_SIDE = 40 };
+
+/* The pixels of a picture of these tests: waves, with noise in every other one. */
+static inline int32_t picture_channel(uint32_t picture, uint32_t x, uint32_t y, uint32_t c) {
+  random_state random = {picture + 7 * (x + 99 * (y + 99 * c))};
+  uint32_t wave = (x * (c + 1) + y * (picture + 1)) % 32, noise = random_below(&random, 64);
+  return (int32_t)(wave < 16 ? 15 * wave : 15 * (31 - wave)) +
+         (picture % 2 ? (int32_t)noise / 5 : 0);
+}
+
+static inline bool picture_row(void *user, uint32_t y, void *out) {
+  const planefile_picture *picture = user;
+  for (uint32_t x = 0; x < picture->width; x++)
+    for (uint32_t c = 0; c < 4; c++) {
+      int32_t channel = picture_channel((uint32_t)picture->key[0], x, y, c);
+      if (picture->kind == PLANEFILE_LIGHT)
+        ((planefile_cell *)out)[x].colour[c] = channel * 257 - (c < 3 ? 900 : 0);
+      else
+        ((unsigned char *)out)[4 * x + c] = (unsigned char)channel;
+    }
+  return true;
+}
+
+/* Two of each kind. */
+static inline const planefile_picture *test_pictures(void) {
+  static planefile_picture pictures[PICTURES];
+  static char names[PICTURES][16];
+  for (uint32_t i = 0; i < PICTURES; i++) {
+    snprintf(names[i], sizeof names[i], "picture %d", (int)i);
+    pictures[i] = (planefile_picture){.width = 1 + 11 * i % PICTURE_SIDE,
+                                      .height = 1 + 17 * i % PICTURE_SIDE,
+                                      .kind = (uint8_t)(i % 3),
+                                      .key = {i, 0},
+                                      .row = picture_row,
+                                      .user = &pictures[i],
+                                      .name = names[i]};
+  }
+  return pictures;
+}
+
+static inline const unsigned char *named_pixels(void *user, const planefile_picture *wanted) {
+  static unsigned char pixels[4 * PICTURE_SIDE * PICTURE_SIDE];
+  const planefile_picture *pictures = test_pictures();
+  (void)user;
+  for (size_t i = 0; i < PICTURES; i++) {
+    const planefile_picture *p = &pictures[i];
+    if (p->kind != PLANEFILE_NAMED || strcmp(p->name, wanted->name) != 0 ||
+        p->width != wanted->width || p->height != wanted->height || p->key[0] != wanted->key[0])
+      continue;
+    for (uint32_t y = 0; y < p->height; y++)
+      picture_row(p->user, y, pixels + (size_t)4 * p->width * y);
+    return pixels;
+  }
+  return NULL;
 }
 
 /* ---------------------------------------------------------------- planes */
@@ -116,7 +177,9 @@ static inline drawing drawing_new(uint32_t shapes) {
                              .programs = d.programs,
                              .steps = d.steps,
                              .axes = d.axes,
-                             .stops = d.stops};
+                             .stops = d.stops,
+                             .pictures = test_pictures(),
+                             .picture_count = PICTURES};
   return d;
 }
 
@@ -149,9 +212,24 @@ static inline double random_double(random_state *random, double low, double high
   return low + (high - low) * random_next(random) / UINT32_MAX;
 }
 
+/* The place of a picture: many have their edges along the frame's, and some are far smaller than
+ * their pixels. */
+static inline void place_picture(random_state *random, planefile_axis *axis) {
+  double wide = random_double(random, 1, 60), high = random_double(random, 1, 60);
+  bool is_upright = random_below(random, 2);
+  wide *= random_below(random, 4) ? 1 : 40;
+  axis->picture = random_below(random, PICTURES);
+  axis->wrap = (uint8_t)random_below(random, 3);
+  axis->filter = (uint8_t)random_below(random, 4);
+  for (int i = 0; i < 3; i++) {
+    axis->p[i] *= i == 1 && is_upright ? 0 : wide;
+    axis->q[i] *= i == 0 && is_upright ? 0 : high;
+  }
+}
+
 /* A slope that a gradient may have, and now and then a frame in perspective. */
 static inline planefile_axis random_axis(random_state *random) {
-  planefile_axis axis = {.kind = (uint8_t)random_below(random, 3), .w = {0, 0, 1}};
+  planefile_axis axis = {.kind = (uint8_t)random_below(random, 4), .w = {0, 0, 1}};
   bool is_wide = random_below(random, 4) == 0;
   for (int i = 0; i < 3; i++) {
     axis.p[i] = random_double(random, -1.5, 1.5);
@@ -159,6 +237,8 @@ static inline planefile_axis random_axis(random_state *random) {
     axis.w[i] += is_wide ? random_double(random, -0.2, 0.2) : 0;
   }
   axis.focus = axis.kind == PLANEFILE_RADIAL ? random_double(random, 0, 0.8) : 0;
+  if (axis.kind == PLANEFILE_PICTURE)
+    place_picture(random, &axis);
   return axis;
 }
 
@@ -170,6 +250,8 @@ static inline planefile_step random_ramp(drawing *d, random_state *random) {
     d->axes[plane->axis_count++] = random_axis(random);
   planefile_step step = {.kind = PLANEFILE_RAMP, .axis = axis, .stop = plane->stop_count};
   step.stop_count = d->axes[axis].kind == PLANEFILE_TRIANGLE ? 3 : 1 + random_below(random, 4);
+  if (d->axes[axis].kind == PLANEFILE_PICTURE)
+    step.stop_count = 1;
   double at = random_double(random, -0.5, 0.5);
   for (uint32_t i = 0; i < step.stop_count; i++) {
     d->stops[plane->stop_count++] = (planefile_stop){at, random_colour(random, false)};
@@ -178,8 +260,10 @@ static inline planefile_step random_ramp(drawing *d, random_state *random) {
   return step;
 }
 
-static inline planefile_step random_leave(random_state *random) {
-  planefile_step step = {.kind = PLANEFILE_LEAVE, .converts = random_below(random, 2)};
+/* is_opaque: no matte, behind which nothing is. */
+static inline planefile_step random_leave(random_state *random, bool is_opaque) {
+  uint32_t hows = is_opaque ? PLANEFILE_MATTE : PLANEFILE_INVERTED_LUMA + 1;
+  planefile_step step = {.kind = PLANEFILE_LEAVE, .how = (uint8_t)random_below(random, hows)};
   step.colour = random_colour(random, false);
   return step;
 }
@@ -198,7 +282,7 @@ static inline uint32_t add_varied(drawing *d, random_state *random, bool is_opaq
     d->steps[plane->step_count++] = is_ramp ? random_ramp(d, random) : flat;
   }
   if (group < layers)
-    d->steps[plane->step_count++] = random_leave(random);
+    d->steps[plane->step_count++] = random_leave(random, is_opaque);
   if (is_opaque)
     d->steps[plane->step_count++] =
         (planefile_step){.kind = PLANEFILE_FLAT, .colour = random_colour(random, true)};
@@ -248,7 +332,8 @@ static inline void add_border(drawing *d, uint32_t chain, int32_t top, int32_t f
  * and then they are hidden. Sums do not ask whether other shapes lie there, too. */
 static inline void add_shape(drawing *d, random_state *random, bool is_opaque, variety kind) {
   int32_t top = random_between(random, -(1 << 24), 4 << 24);
-  int32_t height = random_between(random, 1 << 4, 1 << random_between(random, 10, 25));
+  int32_t least = kind == VARIED ? 21 : 10; /* what varies must be seen in small views */
+  int32_t height = random_between(random, 1 << 4, 1 << random_between(random, least, 25));
   int32_t heights[4] = {top, top + height / 4, top + height / 2, top + height};
   int32_t cuts[4] = {top, top + height / 3, top + height / 3 * 2, top + height};
   uint32_t chains[2];

@@ -1,6 +1,7 @@
 #!/bin/sh
 # The decoder as WebAssembly, in base64: build.sh OUT SOURCE... It is made to be small. CLANG and
-# WASM_LD: the programs; without them OUT is the word none.
+# WASM_LD: the programs; without them OUT is the word none. WASM_OPT: wasm-opt, which makes it
+# smaller still.
 set -eu
 out=$1
 shift
@@ -10,7 +11,11 @@ printf none >"$out"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 for source in "$@" "$here/module.c" "$here/libc.c"; do
-  "$CLANG" --target=wasm32 -std=c17 -Oz -flto -msimd128 -ffreestanding -nostdlibinc \
+  case $source in
+    */sums.c) level=-Os ;; # where the time goes
+    *) level=-Oz ;;
+  esac
+  "$CLANG" --target=wasm32 -std=c17 "$level" -flto -msimd128 -ffreestanding -nostdlibinc \
     -ffp-contract=off -ffunction-sections -fdata-sections -fvisibility=hidden -fno-ident \
     -mbulk-memory -msign-ext -mnontrapping-fptoint -mmutable-globals \
     -Wall -Wextra -Werror -I"$here/include" -I"$here/../include" \
@@ -18,4 +23,8 @@ for source in "$@" "$here/module.c" "$here/libc.c"; do
 done
 "$WASM_LD" --no-entry --gc-sections --strip-all -O2 --lto-O2 -z stack-size=65536 --stack-first \
   -o "$folder/plane.wasm" "$folder"/*.o
+[ -z "${WASM_OPT:-}" ] ||
+  "$WASM_OPT" -Oz --enable-simd --enable-bulk-memory --enable-sign-ext \
+    --enable-nontrapping-float-to-int --enable-mutable-globals \
+    "$folder/plane.wasm" -o "$folder/plane.wasm"
 base64 -w 0 "$folder/plane.wasm" >"$out"

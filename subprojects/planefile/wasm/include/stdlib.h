@@ -3,3 +3,4 @@
 #include <stddef.h>
 void *realloc(void *block, size_t size);
 void free(void *block);
+#define abs __builtin_abs
