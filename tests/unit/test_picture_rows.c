@@ -75,6 +75,15 @@ static void render(studio *s, celspan_rostrum *rostrum, int workers, bool takes_
   to->evaluations = statistics.colour_evaluations;
 }
 
+/* The pixels in memory, where codes may be made in their places. */
+static void render_pixels(studio *s, celspan_rostrum *rostrum, int workers, sheet *to) {
+  celspan_exposure exposure = {rostrum, 1};
+  celspan_frame_desc desc = studio_frame(&exposure, 1, WIDTH, HEIGHT, NULL);
+  desc.workers = workers;
+  memset(to->rows, 0xa5, sizeof to->rows);
+  studio_check(s, celspan_frame_pixels(s->context, &desc, NULL, to->rows, sizeof *to->rows, NULL));
+}
+
 /* is_copied: the codes of pixels without any colour effect are those of the picture. */
 static void check_frame(studio *s, celspan_cel **cels, size_t count, bool is_copied) {
   static sheet plain, coded;
@@ -91,7 +100,41 @@ static void check_frame(studio *s, celspan_cel **cels, size_t count, bool is_cop
     CHECK(coded.coded > 50 * coded.uncoded); /* pixels of edges may be colours */
     CHECK((coded.evaluations < WIDTH * HEIGHT) == is_copied);
     CHECK(memcmp(plain.rows, coded.rows, sizeof plain.rows) == 0);
+    render_pixels(s, rostrum, workers, &coded);
+    CHECK(memcmp(plain.rows, coded.rows, sizeof plain.rows) == 0);
   }
+}
+
+/* Copied pictures over each other: one alone, one over an opaque one, three, and one over paper. */
+static void check_copies(studio *s, const char *ground, const char *tiles) {
+  celspan_cel *tile = picture_cel(s, tiles, celspan_matrix_translation(31, -14), 1);
+  celspan_cel *other = picture_cel(s, tiles, celspan_matrix_translation(-57, 23), 1);
+  celspan_cel *opaque = picture_cel(s, ground, celspan_matrix_translation(3, 1), 1);
+  celspan_cel *const orders[][3] = {{tile, opaque, NULL},  {opaque, tile, NULL},
+                                    {tile, other, opaque}, {opaque, other, tile},
+                                    {other, opaque, tile}, {tile, other, NULL}};
+  for (size_t i = 0; i < sizeof orders / sizeof *orders; i++) {
+    celspan_cel *cels[3] = {orders[i][0], orders[i][1], orders[i][2]};
+    check_frame(s, cels, cels[2] ? 3 : 2, true);
+  }
+}
+
+/* A sheet of flat shapes left of a copied picture: their spans are written first. */
+static void check_beside(studio *s, const char *ground) {
+  celspan_paint ink = celspan_paint_rgb(0.2f, 0.5f, 0.1f, 1);
+  celspan_texture *texture = NULL;
+  studio_check(s, celspan_texture_create_paint(s->context, &ink, &texture));
+  celspan_object *bar = studio_rect(s, 0, 0, 20.5, HEIGHT, texture);
+  celspan_cel_desc desc = CELSPAN_CEL_DESC;
+  desc.objects = &bar;
+  desc.object_count = 1;
+  studio_check(s, celspan_cel_create(s->context, &desc, &s->cels[s->cel_count++]));
+  celspan_texture_unref(texture);
+  celspan_cel *beside = s->cels[s->cel_count - 1];
+  celspan_cel *picture = picture_cel(s, ground, celspan_matrix_translation(21, 0), 1);
+  celspan_cel *orders[2][2] = {{beside, picture}, {picture, beside}};
+  for (int i = 0; i < 2; i++)
+    check_frame(s, orders[i], 2, true);
 }
 
 static void check_frames(studio *s, const char *ground, const char *tiles) {
@@ -129,6 +172,8 @@ int main(void) {
     studio_check(&s, picture_write(s.context, ground, NULL, WIDTH, HEIGHT, paint_ground));
     studio_check(&s, picture_write(s.context, tiles, NULL, WIDTH, HEIGHT, paint_tiles));
     check_frames(&s, ground, tiles);
+    check_copies(&s, ground, tiles);
+    check_beside(&s, ground);
     unlink(ground);
     unlink(tiles);
   }

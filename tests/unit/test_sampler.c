@@ -5,7 +5,7 @@
 #include "engine/sample/sampler_level.h"
 #include "engine/sample/sampler_row.h"
 #include "engine/sample/sampler_taps.h"
-#include "model/colour/srgb8.h"
+#include "model/colour/srgb8_decode.h"
 #include "tests/support/picture.h"
 #include "tests/support/random.h"
 
@@ -480,7 +480,7 @@ static void try_instructions(cs_sampler *s, double y) {
   CHECK(cs_sampler_run(&texels, s, run_of(-20, RUN, y), wanted) == CELSPAN_OK);
   for (int k = 0; k < 2 * ((int)cs_isa_best() + 1); k++) {
     s->isa = (cs_isa)(k / 2);
-    s->reads_codes = k % 2 == 1 && (s->isa != CS_ISA_AVX512 || cs_sampler_decodes(s->isa));
+    s->reads_codes = k % 2 == 1 && (s->isa != CS_ISA_AVX512 || cs_srgb8_decodes(s->isa));
     CHECK(cs_sampler_run(&texels, s, run_of(-20, RUN, y), made) == CELSPAN_OK);
     CHECK(memcmp(made, wanted, sizeof made) == 0);
     for (int32_t from = 0; from < RUN; from += 49)
@@ -652,7 +652,7 @@ int main(void) {
     test_cubic();
     try_all(noise_picture, try_instructions);
     try_all(coded_picture, try_instructions);
-    CHECK(plane_count > 0 || !cs_sampler_decodes(cs_isa_best()));
+    CHECK(plane_count > 0 || !cs_srgb8_decodes(cs_isa_best()));
     try_all(noise_picture, try_columns);
     try_all(noise_picture, try_steps);
     try_all(noise_picture, try_codes);

@@ -115,7 +115,7 @@ static cs_picture *make_picture(celspan_context *context, const celspan_surface_
 }
 
 static bool is_same_block(const cs_picture_block *a, const cs_picture_block *b) {
-  return memcmp(a->texels, b->texels, sizeof a->texels) == 0 && !a->codes == !b->codes &&
+  return memcmp(a->texels, b->texels, CS_PICTURE_TEXELS_BYTES) == 0 && !a->codes == !b->codes &&
          (!a->codes || memcmp(a->codes, b->codes, CS_PICTURE_CODES_BYTES) == 0) &&
          a->opacity == b->opacity && a->is_coded == b->is_coded;
 }

@@ -165,7 +165,7 @@ bool cs_painter_is_bare(const cs_painter *painter, cs_item item) {
          (stack->light_count == 0 || stack->lights[0].below <= item.layer);
 }
 
-static bool is_all_bare(const cs_painter *painter, const cs_program *program) {
+bool cs_painter_are_bare(const cs_painter *painter, const cs_program *program) {
   const cs_stack *stack = painter->stack;
   bool bare = program->length > 0 && stack->light_count <= 1;
   for (uint32_t i = 0; i < program->length && bare; i++) {
@@ -206,7 +206,7 @@ celspan_status cs_painter_batch_colours(cs_painter *painter, const cs_program *p
     return CELSPAN_OK;
   }
   cs_arena_reset(&painter->scratch);
-  if (!is_all_bare(painter, program))
+  if (!cs_painter_are_bare(painter, program))
     return fold_items(painter, program, batch, rgba);
   cs_over_bare over;
   CS_TRY(fold_bare(painter, program, batch, &over));
@@ -216,7 +216,7 @@ celspan_status cs_painter_batch_colours(cs_painter *painter, const cs_program *p
 
 celspan_status cs_painter_batch_codes(cs_painter *painter, const cs_program *program,
                                       const cs_batch *batch, unsigned char *codes) {
-  if (is_all_bare(painter, program)) {
+  if (cs_painter_are_bare(painter, program)) {
     cs_over_bare over;
     painter->evaluations += (uint64_t)batch->count;
     CS_TRY(fold_bare(painter, program, batch, &over));

@@ -35,3 +35,5 @@ CELSPAN_CHECKED celspan_status cs_painter_batch_codes(cs_painter *painter,
 /* Whether an item shows the samples of its picture unchanged: not faded, lit white, in no group,
  * and in front of every back light. */
 bool cs_painter_is_bare(const cs_painter *painter, cs_item item);
+/* Whether all items do and are paints of light, so that the program is a fold of over_bare.h. */
+bool cs_painter_are_bare(const cs_painter *painter, const cs_program *program);

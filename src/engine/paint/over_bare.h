@@ -13,6 +13,7 @@
 #include "base/wide.h"
 #include "engine/paint/over_row.h"
 #include "engine/sample/samples.h"
+#include "model/colour/srgb8.h"
 
 typedef struct cs_over_bare_range {
   int32_t first, end; /* pixels of the batch */
@@ -41,6 +42,12 @@ void cs_over_bare_codes(cs_isa isa, const cs_stack *stack, const cs_over_bare *o
                         unsigned char *codes);
 
 /* ---- over_bare_wide.c */
+
+/* The codes of one picture over an opaque one, both from exact codes. Only with
+ * cs_srgb8_decodes. */
+CS_WIDE_DECLARE(void, cs_over_bare_mix_copies,
+                (const cs_srgb8_curve *curve, const unsigned char *front, const unsigned char *rear,
+                 int32_t count, unsigned char *out));
 
 /* Returns the pixels that something shines through, from the first to the last group of them. */
 CS_WIDE_DECLARE(cs_over_bare_range, cs_over_bare_fold, (cs_over_bare * over));

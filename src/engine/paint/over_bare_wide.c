@@ -6,7 +6,9 @@
  */
 #include "engine/paint/over_bare.h"
 #include "engine/paint/over_wide.h"
+#include "model/colour/srgb8_decode.h"
 #include "model/colour/srgb8_lanes.h"
+#include "model/pictures/store.h"
 
 #ifdef __AVX512F__
 
@@ -181,3 +183,64 @@ void CS_WIDE(cs_over_bare_mix_codes)(const cs_back_light *behind, const cs_over_
   CS_WIDE(cs_srgb8_code)(made[0], (size_t)over->count, out);
 #endif
 }
+
+/* ---------------------------------------------------------------- copies */
+
+#ifdef __AVX512F__
+
+CS_SRGB8_BYTES static inline group decode_group(const cs_srgb8_tables *tables, __m512i codes) {
+  cs_srgb8_fours made = cs_srgb8_decode_plane(tables, codes);
+  return (group){
+      {(cs_wide)made.of[0], (cs_wide)made.of[1], (cs_wide)made.of[2], (cs_wide)made.of[3]}};
+}
+
+/* One picture over the other in sixteen pixels, of which those from `count` on are not stored. The
+ * rows below are fetched into the cache now, so that they are there in time. */
+CS_SRGB8_BYTES static inline void mix_codes(const cs_srgb8_tables *tables,
+                                            const unsigned char *front, const unsigned char *rear,
+                                            int32_t count, unsigned char *out) {
+  const __m512i opaque = _mm512_set1_epi32((int32_t)0xff000000);
+  __mmask16 those = (__mmask16)(count < GROUP ? (1 << count) - 1 : 0xffff);
+  __m512i near = _mm512_mask_loadu_epi32(opaque, those, front), far = opaque;
+  __builtin_prefetch(front + 4 * CS_PICTURE_CODES_ROW);
+  __builtin_prefetch(rear + 4 * CS_PICTURE_CODES_ROW);
+  if (_mm512_cmplt_epu32_mask(near, opaque) == 0) {
+    _mm512_mask_storeu_epi32(out, those, near);
+    return;
+  }
+  far = _mm512_mask_loadu_epi32(far, those, rear);
+  if ((_mm512_test_epi32_mask(near, opaque) & those) == 0) {
+    _mm512_mask_storeu_epi32(out, those, far);
+    return;
+  }
+  group mixed = fold(fold(nothing_folded(), decode_group(tables, near)), decode_group(tables, far));
+  mixed.channels[3] = cs_wide_all(1);
+  put_codes(mixed, count, out);
+}
+
+CS_SRGB8_BYTES void CS_WIDE(cs_over_bare_mix_copies)(const cs_srgb8_curve *curve,
+                                                     const unsigned char *front,
+                                                     const unsigned char *rear, int32_t count,
+                                                     unsigned char *out) {
+  cs_srgb8_tables tables = cs_srgb8_load_tables(curve);
+  for (int32_t i = 0; i < count; i += GROUP)
+    mix_codes(&tables, front + 4 * (size_t)i, rear + 4 * (size_t)i, count - i, out + 4 * (size_t)i);
+}
+
+#else
+
+void CS_WIDE(cs_over_bare_mix_copies)(const cs_srgb8_curve *curve, const unsigned char *front,
+                                      const unsigned char *rear, int32_t count,
+                                      unsigned char *out) {
+  for (int32_t i = 0; i < count; i++, front += 4, rear += 4, out += 4) {
+    float near[4], far[4];
+    cs_srgb8_colour(curve, front, near);
+    cs_srgb8_colour(curve, rear, far);
+    for (int c = 0; c < 4; c++)
+      near[c] += (1 - near[3]) * far[c];
+    uint32_t pixel = cs_srgb8_pixel(near);
+    memcpy(out, &pixel, sizeof pixel);
+  }
+}
+
+#endif

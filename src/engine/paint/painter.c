@@ -22,11 +22,23 @@ celspan_status cs_painter_init(cs_painter *painter, celspan_context *context, co
   CS_TRY(allocate(painter, &painter->blocks, stack->image_count > 0, sizeof(cs_block_cache)));
   if (painter->blocks)
     cs_block_cache_init(painter->blocks, context);
+  CS_TRY(allocate(painter, &painter->copies, stack->image_count > 0 ? CS_PAINTER_COPIES : 0,
+                  sizeof(cs_copies_plan)));
   CS_TRY(allocate(painter, &painter->defocused, stack->defocused_count, sizeof(cs_defocused_view)));
   if (stack->shade_count == 0)
     return CELSPAN_OK;
   return cs_gradient_tables_create(context, stack, painter->isa, &painter->scratch,
                                    &painter->gradients);
+}
+
+static void finish_copies(cs_painter *painter) {
+  cs_memory *memory = painter->context->memory;
+  for (size_t i = 0; painter->copies && i < CS_PAINTER_COPIES; i++) {
+    cs_copies_plan *plan = &painter->copies[i];
+    cs_mem_free(memory, plan->items, plan->item_capacity * sizeof *plan->items);
+    cs_mem_free(memory, plan->pieces, plan->capacity * sizeof *plan->pieces);
+  }
+  cs_mem_free(memory, painter->copies, CS_PAINTER_COPIES * sizeof *painter->copies);
 }
 
 void cs_painter_finish(cs_painter *painter) {
@@ -46,6 +58,7 @@ void cs_painter_finish(cs_painter *painter) {
   for (int i = 0; i < 2; i++)
     cs_mem_free(memory, painter->shown[i].items,
                 painter->shown[i].capacity * sizeof *painter->shown[i].items);
+  finish_copies(painter);
   cs_arena_finish(&painter->scratch, memory);
   *painter = (cs_painter){0};
 }

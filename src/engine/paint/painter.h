@@ -40,6 +40,30 @@ typedef struct cs_shown {
   bool is_sure;     /* the same is known of every part of the columns */
 } cs_shown;
 
+/* Pieces of a run of copied pictures: copies.h. */
+typedef enum cs_copies_kind { CS_COPIES_OTHER, CS_COPIES_ONE, CS_COPIES_OVER } cs_copies_kind;
+
+/* Columns up to x1. */
+typedef struct cs_copies_piece {
+  int32_t x1;
+  cs_copies_kind kind;
+  const unsigned char *front, *rear; /* the codes of the first column, in the plan's first row */
+} cs_copies_piece;
+
+/* The pieces of a run, on some rows. */
+typedef struct cs_copies_plan {
+  cs_item *items; /* of the program */
+  uint32_t length;
+  size_t item_capacity;
+  int32_t x0, x1, row, end_row;
+  uint32_t fetches; /* of blocks, when it was made */
+  cs_copies_piece *pieces;
+  size_t count, capacity;
+} cs_copies_plan;
+
+/* Runs of copied pictures whose pieces are kept. */
+#define CS_PAINTER_COPIES 16
+
 typedef struct cs_painter {
   celspan_context *context;    /* the worker's branch */
   const cs_composer *composer; /* borrowed: its cells are painted; NULL: only programs are */
@@ -50,6 +74,7 @@ typedef struct cs_painter {
   cs_block_cache *blocks; /* of its pictures; NULL without pictures */
   cs_defocused_view *defocused;
   struct cs_gradient_tables *gradients; /* NULL without formulas: gradient_table.h */
+  cs_copies_plan *copies;               /* NULL without pictures: copies.h */
   cs_arena scratch;                     /* of one run */
   cs_shown shown[2];    /* of the columns being painted, and of those right of them */
   uint64_t evaluations; /* pixels whose colour has been computed */

@@ -1,6 +1,7 @@
 #include "engine/paint/run.h"
 
 #include "engine/paint/colours.h"
+#include "engine/paint/copies.h"
 #include "engine/paint/lines.h"
 #include "engine/paint/over_row.h"
 #include "engine/paint/painter.h"
@@ -314,12 +315,37 @@ static celspan_status run_stretches(cs_painter *painter, const cs_program *progr
   return run_stretch(painter, program, current, cs_run_between(run, begun, run.x1), row);
 }
 
+/* A run of copied pictures: codes where they can be copied or mixed at once. */
+static celspan_status run_copies(cs_painter *painter, const cs_program *program, cs_run run,
+                                 cs_row *row) {
+  const cs_copies_plan *plan;
+  while (run.x0 < run.x1) {
+    CS_TRY(cs_copies_find(painter, program, run, &plan));
+    size_t end = 0; /* of the pieces whose codes are known */
+    while (end < plan->count && plan->pieces[end].kind != CS_COPIES_OTHER)
+      end++;
+    CS_TRY(cs_copies_put(painter, plan, end, run, row));
+    run.x0 = end > 0 ? plan->pieces[end - 1].x1 : run.x0;
+    if (end == plan->count)
+      break;
+    int32_t x = plan->pieces[end].x1;
+    CS_TRY(run_stretches(painter, program, cs_run_between(run, run.x0, x), row));
+    run.x0 = x;
+  }
+  return CELSPAN_OK;
+}
+
 /* ---------------------------------------------------------------- runs */
 
 celspan_status cs_painter_run_program(cs_painter *painter, const cs_program *program, cs_run run,
                                       cs_row *row) {
+  bool are_copies = false;
   if (run.x1 <= run.x0)
     return CELSPAN_OK;
+  if (row->takes_codes)
+    CS_TRY(cs_copies_fit(painter, program, &are_copies));
+  if (are_copies)
+    return run_copies(painter, program, run, row);
   return cs_shown_varies(painter->stack, program) ? run_stretches(painter, program, run, row)
                                                   : run_shown(painter, program, false, run, row);
 }

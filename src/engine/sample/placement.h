@@ -45,7 +45,8 @@ typedef struct cs_sampler {
   cs_sampler_placement placement;
   /* PERSPECTIVE: BICUBIC and TILTED where the picture is enlarged and shrunk. */
   cs_sampler_kernel kernel;
-  double m[9]; /* the inverse; an affine one is divided by its last element */
+  double m[9];              /* the inverse; an affine one is divided by its last element */
+  int64_t moved_u, moved_v; /* COPY: from a column to its texel, and from a row */
   int level_count;
   int level;
   int columns, rows;       /* TILTED: taps across a pixel and down it */

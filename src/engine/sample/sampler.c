@@ -5,6 +5,7 @@
 #include "engine/sample/sampler_pixel.h"
 #include "engine/sample/sampler_row.h"
 #include "engine/sample/sampler_taps.h"
+#include "model/colour/srgb8_decode.h"
 
 #define SAME_SCALE 1e-12
 
@@ -115,7 +116,7 @@ static int32_t opacity_columns(const cs_sampler *s) {
 
 void cs_sampler_prepare(cs_sampler *s) {
   s->source = cs_block_cache_source_of(s->picture);
-  s->reads_codes = cs_sampler_decodes(s->isa);
+  s->reads_codes = cs_srgb8_decodes(s->isa);
   s->level_count = cs_mip_levels_count(s->width, s->height);
   memcpy(s->m, s->inverse.m, sizeof s->m);
   if (!(s->m[6] == 0 && s->m[7] == 0 && s->m[8] > 0)) {
@@ -126,9 +127,11 @@ void cs_sampler_prepare(cs_sampler *s) {
   }
   for (int i = 0; i < 9; i++)
     s->m[i] /= s->inverse.m[8];
-  if (is_copy(s->m))
+  if (is_copy(s->m)) {
     s->placement = CS_SAMPLER_COPY;
-  else
+    s->moved_u = (int64_t)rint(s->m[2]);
+    s->moved_v = (int64_t)rint(s->m[5]);
+  } else
     plan_affine(s);
   s->radius = radius_of(s);
   s->opacity_columns = opacity_columns(s);
@@ -141,65 +144,86 @@ static int32_t smaller(int32_t a, int32_t b) { return a < b ? a : b; }
 /* The form in which a row of texels is copied. */
 typedef enum copied { LIGHT, CODES } copied;
 
-/* `count` texels from (x, y) on, which lie in one block. Returns whether their codes are exact. */
-static bool copy_in_block(const cs_sampling *run, int32_t x, int32_t y, int32_t count, copied what,
-                          unsigned char *out) {
+static cs_sampler_texels clear_texels(int32_t count) {
+  return (cs_sampler_texels){.count = count, .rows = 1, .opacity = CS_PICTURE_CLEAR};
+}
+
+/* The texels of a row from (x, y) on which lie in one block, `most` of them at most. */
+static cs_sampler_texels texels_in_block(const cs_sampling *run, int32_t x, int32_t y,
+                                         int32_t most) {
   const cs_sampler *s = run->sampler;
   const cs_block_cache_slot *slot = cs_block_cache_slot_of(
       run->blocks, &s->source, 0, x / CS_PICTURE_BLOCK, y / CS_PICTURE_BLOCK);
-  if (!slot->texels) { /* it could not be read: the status of the blocks says why */
-    memset(out, 0, (size_t)count * (what == CODES ? 4 : 4 * sizeof(float)));
-    return false;
-  }
-  bool reads_codes = what == CODES || (slot->codes && s->reads_codes);
-  size_t texel = reads_codes ? 4 : 4 * sizeof(float), size = (size_t)count * texel;
-  size_t row = texel * (reads_codes ? CS_PICTURE_CODES_ROW : CS_PICTURE_BLOCK);
-  const char *from = reads_codes ? (const char *)slot->block->codes : (const char *)slot->texels;
-  from += (size_t)(y % CS_PICTURE_BLOCK) * row + (size_t)(x % CS_PICTURE_BLOCK) * texel;
-  if (reads_codes && what == LIGHT)
-    CS_WIDE_CHOOSE(s->isa, cs_sampler_decode_codes)
-  (run->blocks->curve, (const unsigned char *)from, count, (float(*)[4])(void *)out);
-  else memcpy(out, from, size);
-  /* The row below is fetched into the cache now, so that it is there in time. */
-  for (size_t ahead = 0; ahead < size; ahead += 64)
-    __builtin_prefetch(from + row + ahead);
-  return slot->codes;
+  int32_t row = y % CS_PICTURE_BLOCK, column = x % CS_PICTURE_BLOCK;
+  int32_t rows = smaller(CS_PICTURE_BLOCK - row, s->height - y);
+  most = smaller(most, smaller(CS_PICTURE_BLOCK - column, s->width - x));
+  if (!slot->texels) /* it could not be read: the status of the blocks says why */
+    return clear_texels(most);
+  return (cs_sampler_texels){.count = most,
+                             .rows = rows,
+                             .opacity = slot->opacity,
+                             .are_coded = slot->codes,
+                             .codes = slot->block->codes[row] + 4 * column,
+                             .light = slot->texels + 4 * (CS_PICTURE_BLOCK * row + column)};
 }
 
-/* `count` texels of row v, from column u on. The row and the columns need not be in the picture:
- * what lies beyond its edges is what the wrap mode says. Returns whether all codes are exact. */
-static bool copy_texels(const cs_sampling *run, int64_t u, int64_t v, int32_t count, copied what,
+/* The same of row v from column u on, which need not be in the picture: what lies beyond its edges
+ * is what the wrap mode says. */
+static cs_sampler_texels texels_at(const cs_sampling *run, int64_t u, int64_t v, int32_t most) {
+  const cs_sampler *s = run->sampler;
+  if (s->wrap == CELSPAN_WRAP_REPEAT) {
+    u = ((u % s->width) + s->width) % s->width;
+    v = ((v % s->height) + s->height) % s->height;
+  }
+  bool is_row_outside = v < 0 || v >= s->height, is_inside = u >= 0 && u < s->width;
+  if (s->wrap == CELSPAN_WRAP_CLEAR && (is_row_outside || !is_inside))
+    return clear_texels(!is_row_outside && u < 0 && -u < most ? (int32_t)-u : most);
+  int32_t y = v < 0 ? 0 : is_row_outside ? s->height - 1 : (int32_t)v;
+  int32_t x = is_inside ? (int32_t)u : u < 0 ? 0 : s->width - 1;
+  cs_sampler_texels texels = texels_in_block(run, x, y, is_inside ? most : 1);
+  if (is_row_outside)
+    texels.rows = 1;
+  return texels;
+}
+
+static cs_sampler_texels texels_of(const cs_sampling *sampling, cs_run run) {
+  const cs_sampler *s = sampling->sampler;
+  return texels_at(sampling, run.x0 + s->moved_u, cs_number_floor(run.y) + s->moved_v,
+                   run.x1 - run.x0);
+}
+
+/* Copies texels. The row below is fetched into the cache now, so that it is there in time. */
+static void copy_texels(const cs_sampling *run, const cs_sampler_texels *texels, copied what,
                         unsigned char *out) {
   const cs_sampler *s = run->sampler;
-  const size_t size = what == CODES ? 4 : 4 * sizeof(float);
-  bool is_clear = s->wrap == CELSPAN_WRAP_CLEAR, repeats = s->wrap == CELSPAN_WRAP_REPEAT;
-  if (repeats)
-    v = ((v % s->height) + s->height) % s->height;
-  bool is_row_outside = v < 0 || v >= s->height;
-  int32_t y = v < 0 ? 0 : v >= s->height ? s->height - 1 : (int32_t)v;
-  bool are_exact = true;
-  for (int32_t done = 0, part; done < count; done += part, out += (size_t)part * size) {
-    int64_t at = u + done;
-    if (repeats)
-      at = ((at % s->width) + s->width) % s->width;
-    bool is_inside = at >= 0 && at < s->width;
-    part = 1;
-    if (is_clear && (is_row_outside || !is_inside)) {
-      memset(out, 0, size);
-      continue;
-    }
-    int32_t x = is_inside ? (int32_t)at : at < 0 ? 0 : s->width - 1;
-    if (is_inside)
-      part = smaller(smaller(CS_PICTURE_BLOCK - x % CS_PICTURE_BLOCK, s->width - x), count - done);
-    are_exact = copy_in_block(run, x, y, part, what, out) && are_exact;
+  bool reads_codes = what == CODES || (texels->are_coded && s->reads_codes);
+  size_t texel = reads_codes ? 4 : 4 * sizeof(float), count = (size_t)texels->count;
+  size_t row = texel * (reads_codes ? CS_PICTURE_CODES_ROW : CS_PICTURE_BLOCK);
+  const char *from = reads_codes ? (const char *)texels->codes : (const char *)texels->light;
+  if (!from) {
+    memset(out, 0, count * (what == CODES ? 4 : 4 * sizeof(float)));
+    return;
   }
-  return are_exact;
+  if (reads_codes && what == LIGHT)
+    CS_WIDE_CHOOSE(s->isa, cs_sampler_decode_codes)
+  (run->blocks->curve, texels->codes, texels->count, (float(*)[4])(void *)out);
+  else memcpy(out, from, count * texel);
+  for (size_t ahead = 0; ahead < count * texel; ahead += 64)
+    __builtin_prefetch(from + row + ahead);
 }
 
+/* Returns whether the codes of all texels are exact. */
 static bool copy_run(const cs_sampling *sampling, cs_run run, copied what, void *out) {
-  const double *m = sampling->sampler->m;
-  int64_t u = run.x0 + (int64_t)rint(m[2]), v = (int64_t)floor(run.y + rint(m[5]));
-  return copy_texels(sampling, u, v, run.x1 - run.x0, what, out);
+  const size_t size = what == CODES ? 4 : 4 * sizeof(float);
+  unsigned char *to = out;
+  bool are_exact = true;
+  for (cs_sampler_texels texels; run.x0 < run.x1; run.x0 += texels.count) {
+    texels = texels_of(sampling, run);
+    copy_texels(sampling, &texels, what, to);
+    to += (size_t)texels.count * size;
+    are_exact &= texels.are_coded || texels.opacity == CS_PICTURE_CLEAR;
+  }
+  return are_exact;
 }
 
 /* At most CS_SAMPLER_BATCH pixels as planes; false where their codes are not exact. */
@@ -212,6 +236,13 @@ static bool copy_planes(const cs_sampling *sampling, cs_run run, float (*planes)
   CS_WIDE_CHOOSE(sampling->sampler->isa, cs_sampler_decode_planes)
   (sampling->blocks->curve, codes, count, planes);
   return true;
+}
+
+celspan_status cs_sampler_texels_at(cs_block_cache *blocks, const cs_sampler *sampler, cs_run run,
+                                    cs_sampler_texels *out) {
+  blocks->status = CELSPAN_OK;
+  *out = texels_of(&(cs_sampling){sampler, blocks}, run);
+  return blocks->status;
 }
 
 celspan_status cs_sampler_codes(cs_block_cache *blocks, const cs_sampler *sampler, cs_run run,

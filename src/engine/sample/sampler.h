@@ -35,7 +35,22 @@ CELSPAN_CHECKED celspan_status cs_sampler_at(cs_block_cache *blocks, const cs_sa
                                              const int32_t *columns, int32_t count, double y,
                                              float (*rgba)[4]);
 
-/* A picture that is copied: the codes of its texels (cs_picture_block), 4 bytes a pixel. */
+/* Texels of a picture that is copied, which follow one another in a block. */
+typedef struct cs_sampler_texels {
+  int32_t count;
+  int32_t rows;               /* that lie in the block, from their own down */
+  cs_picture_opacity opacity; /* of the block */
+  bool are_coded;             /* their codes are exact: cs_picture_block */
+  const unsigned char *codes; /* of the first one; NULL: all are clear */
+  const float *light;
+} cs_sampler_texels;
+
+/* Those of a picture that is copied, for as many pixels as possible from run.x0 on, at least one.
+ * They remain valid until two other blocks are asked for (block_cache.h). */
+CELSPAN_CHECKED celspan_status cs_sampler_texels_at(cs_block_cache *blocks,
+                                                    const cs_sampler *sampler, cs_run run,
+                                                    cs_sampler_texels *out);
+/* The codes of a run's texels (cs_picture_block), 4 bytes a pixel. */
 CELSPAN_CHECKED celspan_status cs_sampler_codes(cs_block_cache *blocks, const cs_sampler *sampler,
                                                 cs_run run, unsigned char *codes);
 /* Whether all samples of a run are known to be clear, or opaque; MIXED where it is not known. */

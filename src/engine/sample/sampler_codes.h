@@ -15,15 +15,6 @@
 
 #include "engine/sample/sampler_texel.h"
 
-/* Whether codes are decoded in registers, which is quicker than to fetch four times as much. */
-static inline bool cs_sampler_decodes(cs_isa isa) {
-#ifdef __x86_64__
-  return isa == CS_ISA_AVX512 && __builtin_cpu_supports("avx512vbmi");
-#else
-  return false;
-#endif
-}
-
 #define CS_SAMPLER_TILES 16
 
 /* The rectangle of blocks of level 0 that lies under some pixels. */
@@ -71,7 +62,7 @@ CS_WIDE_DECLARE(uint32_t, cs_sampler_tile_quads,
 CS_WIDE_DECLARE(uint32_t, cs_sampler_place_quads,
                 (const cs_sampler *sampler, int32_t x0, int32_t count, double y,
                  const cs_sampler_tiles *tiles, cs_sampler_clamped *clamped));
-/* Mixes quads of codes. In planes: only with cs_sampler_decodes, and `count` is of whole planes. */
+/* Mixes quads of codes. In planes: only with cs_srgb8_decodes, and `count` is of whole planes. */
 CS_WIDE_DECLARE(void, cs_sampler_mix_codes,
                 (const cs_srgb8_curve *curve, const cs_sampler_tiles *tiles,
                  const cs_sampler_clamped *clamped, int32_t count, bool are_planes,
@@ -80,7 +71,7 @@ CS_WIDE_DECLARE(void, cs_sampler_mix_codes,
 CS_WIDE_DECLARE(void, cs_sampler_decode_codes,
                 (const cs_srgb8_curve *curve, const unsigned char *codes, int32_t count,
                  float (*rgba)[4]));
-/* The same in planes: only with cs_sampler_decodes, and `count` is of whole planes. */
+/* The same in planes: only with cs_srgb8_decodes, and `count` is of whole planes. */
 CS_WIDE_DECLARE(void, cs_sampler_decode_planes,
                 (const cs_srgb8_curve *curve, const unsigned char *codes, int32_t count,
                  float (*planes)[4]));

@@ -1,16 +1,11 @@
 /* Texels that are stored as codes of 4 bytes and decoded in registers, to the same floats as
  * cs_srgb8_colour gives.
  *
- *     curve: 256 floats by code          registers of 64 bytes
- *     byte 0 of all floats               [0 .. 63] [64 .. 127] [128 .. 191] [192 .. 255]
- *     bytes 1, 2, 3                      likewise: 16 registers
- *
- *     64 codes --one instruction for 128 entries--> byte 0 of 64 floats; bytes 1, 2, 3 likewise
- *
  * So 16 texels are fetched as 64 bytes, not 256, and decoded in fewer instructions than it would
  * take to load them one by one.
  */
 #include "engine/sample/sampler_codes.h"
+#include "model/colour/srgb8_decode.h"
 
 #define SAME CS_SAMPLER_SAME
 
@@ -127,65 +122,16 @@ static inline void decode_one_by_one(const cs_srgb8_curve *curve, const unsigned
 
 #ifdef __AVX512F__
 
-/* Aligned to lines of the cache: otherwise what is linked in front of these loops decides, by where
- * they come to lie, whether they are up to 8 % slower. */
-#define BYTES __attribute__((target("avx512vbmi"), aligned(64)))
+#define BYTES CS_SRGB8_BYTES
 #define TEXELS 16      /* in 64 bytes of codes */
 #define COLOURS 0x7777 /* the lanes of red, green and blue in four pixels */
 /* Pixels a prefetch: a row of the frame soon leaves a row of texels that lies at an angle. */
 #define NEAR 2
 
-typedef struct tables {
-  __m512i quarters[4][4]; /* [byte of the float][quarter of the codes] */
-} tables;
-
-/* Four registers of sixteen floats: one channel of the four texels of sixteen pixels, or the four
- * channels of sixteen pixels. */
-typedef struct fours {
-  __m512 of[4];
-} fours;
-
 /* Four registers of codes, four bytes a texel. */
 typedef struct codes {
   __m512i of[4];
 } codes;
-
-BYTES static inline tables load_tables(const cs_srgb8_curve *curve) {
-  tables t;
-  for (int byte = 0; byte < 4; byte++)
-    for (int i = 0; i < 4; i++)
-      t.quarters[byte][i] = _mm512_loadu_si512(curve->bytes[byte] + 64 * i);
-  return t;
-}
-
-/* One byte of the floats of 64 codes. is_high: the codes of 128 and more. */
-BYTES static inline __m512i read_table(const __m512i quarters[4], __mmask64 is_high, __m512i code) {
-  __m512i low = _mm512_permutex2var_epi8(quarters[0], code, quarters[1]);
-  __m512i high = _mm512_permutex2var_epi8(quarters[2], code, quarters[3]);
-  return _mm512_mask_blend_epi8(is_high, low, high);
-}
-
-/* The light of 64 codes: in each 128 bits, dword j of the result's register k belongs to byte
- * 4 k + j of the codes. */
-BYTES static inline fours decode(const tables *t, __m512i code) {
-  __mmask64 is_high = _mm512_movepi8_mask(code);
-  __m512i b0 = read_table(t->quarters[0], is_high, code),
-          b1 = read_table(t->quarters[1], is_high, code);
-  __m512i b2 = read_table(t->quarters[2], is_high, code),
-          b3 = read_table(t->quarters[3], is_high, code);
-  __m512i low = _mm512_unpacklo_epi8(b0, b1), low_high = _mm512_unpacklo_epi8(b2, b3);
-  __m512i next = _mm512_unpackhi_epi8(b0, b1), next_high = _mm512_unpackhi_epi8(b2, b3);
-  return (fours){{(__m512)_mm512_unpacklo_epi16(low, low_high),
-                  (__m512)_mm512_unpackhi_epi16(low, low_high),
-                  (__m512)_mm512_unpacklo_epi16(next, next_high),
-                  (__m512)_mm512_unpackhi_epi16(next, next_high)}};
-}
-
-/* The alphas of sixteen pixels. */
-BYTES static inline __m512 alphas(__m512i pixels) {
-  return _mm512_mul_ps(_mm512_cvtepi32_ps(_mm512_srli_epi32(pixels, 24)),
-                       _mm512_set1_ps(1.0f / 255));
-}
 
 /* Transposes dwords within each 128 bits: dword k of v[j] becomes dword j of of[k]. */
 BYTES static inline codes transpose(__m512i v0, __m512i v1, __m512i v2, __m512i v3) {
@@ -195,13 +141,13 @@ BYTES static inline codes transpose(__m512i v0, __m512i v1, __m512i v2, __m512i 
                   _mm512_unpacklo_epi64(high, next_high), _mm512_unpackhi_epi64(high, next_high)}};
 }
 
-static inline void store_planes(const fours *channels, float (*planes)[4]) {
+static inline void store_planes(const cs_srgb8_fours *channels, float (*planes)[4]) {
   for (int c = 0; c < 4; c++)
     _mm512_storeu_ps(planes[4 * c], channels->of[c]);
 }
 
 /* Stores a plane's pixels one by one. */
-BYTES static inline void store_pixels(const fours *channels, float (*rgba)[4]) {
+BYTES static inline void store_pixels(const cs_srgb8_fours *channels, float (*rgba)[4]) {
   codes pixels = transpose((__m512i)channels->of[0], (__m512i)channels->of[1],
                            (__m512i)channels->of[2], (__m512i)channels->of[3]);
   for (int j = 0; j < 4; j++)
@@ -210,12 +156,12 @@ BYTES static inline void store_pixels(const fours *channels, float (*rgba)[4]) {
 
 /* ---- pixels that are copied */
 
-BYTES static inline void decode_texels(const tables *t, const unsigned char *from,
+BYTES static inline void decode_texels(const cs_srgb8_tables *t, const unsigned char *from,
                                        float (*rgba)[4]) {
   const __m512i apart = _mm512_setr_epi32(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15);
   __m512i code = _mm512_permutexvar_epi32(apart, _mm512_loadu_si512(from));
-  fours light = decode(t, code);
-  __m512 alpha = alphas(code);
+  cs_srgb8_fours light = cs_srgb8_decode(t, code);
+  __m512 alpha = cs_srgb8_alphas(code);
   __m512 each[4] = {_mm512_permute_ps(alpha, 0x00), _mm512_permute_ps(alpha, 0x55),
                     _mm512_permute_ps(alpha, 0xaa), _mm512_permute_ps(alpha, 0xff)};
   for (int k = 0; k < 4; k++)
@@ -228,7 +174,7 @@ BYTES void CS_WIDE(cs_sampler_decode_codes)(const cs_srgb8_curve *curve, const u
     decode_one_by_one(curve, from, count, rgba);
     return;
   }
-  tables t = load_tables(curve);
+  cs_srgb8_tables t = cs_srgb8_load_tables(curve);
   /* The last sixteen end with the last pixel, so some of them may be made twice. */
   for (int32_t done = 0; done < count; done += TEXELS) {
     int32_t at = done + TEXELS <= count ? done : count - TEXELS;
@@ -236,30 +182,13 @@ BYTES void CS_WIDE(cs_sampler_decode_codes)(const cs_srgb8_curve *curve, const u
   }
 }
 
-/* Two permutations in one: the codes are put in the order of a plane, and their bytes together by
- * channel, so that decode returns a register for each. */
-BYTES static inline void decode_plane(const tables *t, const unsigned char *from,
-                                      float (*planes)[4]) {
-  const __m512i quarter = _mm512_broadcast_i32x4(
-      _mm_setr_epi8(0, 16, 32, 48, 1, 17, 33, 49, 2, 18, 34, 50, 3, 19, 35, 51));
-  const __m512i lane =
-      _mm512_setr_epi64(0, 0, 0x0404040404040404, 0x0404040404040404, 0x0808080808080808,
-                        0x0808080808080808, 0x0c0c0c0c0c0c0c0c, 0x0c0c0c0c0c0c0c0c);
-  const __m512i apart = _mm512_setr_epi32(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15);
-  __m512i code = _mm512_loadu_si512(from);
-  fours made = decode(t, _mm512_permutexvar_epi8(_mm512_add_epi8(quarter, lane), code));
-  __m512 alpha = alphas(_mm512_permutexvar_epi32(apart, code));
-  for (int c = 0; c < 3; c++)
-    made.of[c] = _mm512_mul_ps(made.of[c], alpha);
-  made.of[3] = alpha;
-  store_planes(&made, planes);
-}
-
 BYTES void CS_WIDE(cs_sampler_decode_planes)(const cs_srgb8_curve *curve, const unsigned char *from,
                                              int32_t count, float (*planes)[4]) {
-  tables t = load_tables(curve);
-  for (int32_t i = 0; i < count; i += CS_SAMPLES_PLANE)
-    decode_plane(&t, from + 4 * (size_t)i, planes + i);
+  cs_srgb8_tables t = cs_srgb8_load_tables(curve);
+  for (int32_t i = 0; i < count; i += CS_SAMPLES_PLANE) {
+    cs_srgb8_fours made = cs_srgb8_decode_plane(&t, _mm512_loadu_si512(from + 4 * (size_t)i));
+    store_planes(&made, planes + i);
+  }
 }
 
 /* ---- pixels that are mixed */
@@ -304,12 +233,12 @@ static inline __m512 mix(__m512 a, __m512 b, __m512 share) {
   return _mm512_add_ps(a, _mm512_mul_ps(share, _mm512_sub_ps(b, a)));
 }
 
-static inline __m512 mix_texels(const fours *texels, __m512 across, __m512 down) {
+static inline __m512 mix_texels(const cs_srgb8_fours *texels, __m512 across, __m512 down) {
   return mix(mix(texels->of[0], texels->of[2], down), mix(texels->of[1], texels->of[3], down),
              across);
 }
 
-BYTES static inline void mix_sixteen(const tables *t, const codes *quads, bool are_opaque,
+BYTES static inline void mix_sixteen(const cs_srgb8_tables *t, const codes *quads, bool are_opaque,
                                      __m512 across, __m512 down, bool are_planes,
                                      float (*rgba)[4]) {
   /* In each 128 bits, byte 4 k + j is the first byte of dword j of register k; for k = 2 and 3 of
@@ -319,13 +248,14 @@ BYTES static inline void mix_sixteen(const tables *t, const codes *quads, bool a
           _mm_setr_epi8(0, 4, 8, 12, 64, 68, 72, 76, 0, 4, 8, 12, 64, 68, 72, 76)),
       _mm512_setr_epi64(0, 0, 0x1010101010101010, 0x1010101010101010, 0x2020202020202020,
                         0x2020202020202020, 0x3030303030303030, 0x3030303030303030));
-  fours alpha, made = {{{0}, {0}, {0}, _mm512_set1_ps(1)}};
+  cs_srgb8_fours alpha, made = {{{0}, {0}, {0}, _mm512_set1_ps(1)}};
   for (int k = 0; k < 4 && !are_opaque; k++)
-    alpha.of[k] = alphas(quads->of[k]);
+    alpha.of[k] = cs_srgb8_alphas(quads->of[k]);
   if (!are_opaque)
     made.of[3] = mix_texels(&alpha, across, down);
   for (int c = 0; c < 3; c++) {
-    fours light = decode(t, channel_of(quads, _mm512_add_epi8(red, _mm512_set1_epi8((char)c))));
+    cs_srgb8_fours light =
+        cs_srgb8_decode(t, channel_of(quads, _mm512_add_epi8(red, _mm512_set1_epi8((char)c))));
     for (int k = 0; k < 4 && !are_opaque; k++)
       light.of[k] = _mm512_mul_ps(light.of[k], alpha.of[k]);
     made.of[c] = mix_texels(&light, across, down);
@@ -341,7 +271,7 @@ BYTES void CS_WIDE(cs_sampler_mix_codes)(const cs_srgb8_curve *curve, const cs_s
                                          bool are_planes, float (*rgba)[4]) {
   const __m512i apart = _mm512_setr_epi32(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15);
   const unsigned char *above[CS_SAMPLER_BATCH], *below[CS_SAMPLER_BATCH];
-  tables t = load_tables(curve);
+  cs_srgb8_tables t = cs_srgb8_load_tables(curve);
   int32_t whole = count / TEXELS * TEXELS;
   find_pairs(tiles, clamped->above, whole, above);
   find_pairs(tiles, clamped->below, whole, below);

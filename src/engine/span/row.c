@@ -73,8 +73,14 @@ celspan_status cs_row_array(celspan_context *context, cs_row *row, int32_t x0, i
 celspan_status cs_row_codes(celspan_context *context, cs_row *row, int32_t x0, int32_t x1,
                             unsigned char **codes) {
   celspan_span *span;
-  void *room;
-  CS_TRY(append_array(context, row, x0, x1, 4, &room, &span));
+  void *room = NULL;
+  if (row->pixels && row->varied.arrays == row->count) {
+    room = row->pixels + 4 * (size_t)x0;
+    span = append_varied(context, row, x0, x1, CELSPAN_SPAN_ARRAY);
+    if (!span)
+      return CELSPAN_NO_MEMORY;
+  } else
+    CS_TRY(append_array(context, row, x0, x1, 4, &room, &span));
   span->array = NULL;
   span->codes = *codes = room;
   return CELSPAN_OK;

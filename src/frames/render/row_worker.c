@@ -164,6 +164,12 @@ static celspan_status make_paned_row(cs_row_worker *worker, int32_t y, cs_row **
   return join_columns(worker, y, pane.first_column, pane.end_column);
 }
 
+void cs_row_worker_aim(cs_row_worker *worker, unsigned char *pixels) {
+  const cs_frame *frame = worker->frame;
+  if (frame->count == 1 && !frame->is_crowded && frame->crop_width == frame->width)
+    worker->rows[0].pixels = worker->rows[0].takes_codes ? pixels : NULL;
+}
+
 celspan_status cs_row_worker_row(cs_row_worker *worker, int32_t y, const cs_row **out) {
   const cs_frame *frame = worker->frame;
   cs_row *row;

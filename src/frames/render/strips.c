@@ -93,9 +93,16 @@ static bool is_wanted(strips *s, int worker, int32_t index) {
   return cs_pipeline_is_wanted(s->pipeline, (size_t)index);
 }
 
+static inline void aim(cs_row_worker *row_worker, const cs_shares *shares, void *worker,
+                       int32_t y) {
+  if (shares->pixels)
+    cs_row_worker_aim(row_worker, shares->pixels(shares->user, worker, y));
+}
+
 static celspan_status make_share_row(strips *s, int worker, strip *made, int32_t y, bool counts) {
   cs_row_worker *row_worker = &s->row_workers[worker];
   const cs_row *row;
+  aim(row_worker, &s->shares, s->share_workers[worker], y);
   CS_TRY(cs_row_worker_row(row_worker, y, &row));
   if (counts)
     count_spans(&made->counts, row->spans, row->count, row->varied);
@@ -304,8 +311,12 @@ static celspan_status render_together(celspan_context *context, const cs_frame *
 /* ---------------------------------------------------------------- one worker */
 
 static celspan_status deliver_rows(cs_row_worker *row_worker, const cs_frame *frame, delivery *d) {
+  cs_shares shares;
+  if (!cs_memory_sink_shares(d->sink, &shares))
+    shares.pixels = NULL;
   for (int32_t y = 0; y < frame->crop_height; y++) {
     const cs_row *row;
+    aim(row_worker, &shares, NULL, y);
     celspan_status status = cs_row_worker_row(row_worker, y, &row);
     if (status != CELSPAN_OK)
       return cs_fail(d->context, status, "%s", row_worker->context.error);

@@ -141,6 +141,8 @@ static celspan_status make_blocks(file_pass *pass) {
     CS_TRY(cs_store_create_block(pass->context, pass->entry, pass->level, pass->column + column,
                                  pass->row + row, &pass->blocks[i]));
   }
+  for (size_t i = 0; i < block_count(pass); i++)
+    CS_TRY(cs_store_add_texels(pass->context, pass->blocks[i]));
   for (size_t i = 0; i < block_count(pass) && pass->level == 0; i++)
     CS_TRY(cs_store_add_codes(pass->context, pass->blocks[i]));
   return CELSPAN_OK;
@@ -430,7 +432,9 @@ static celspan_status make_from_below(celspan_context *context, cs_picture_entry
                                       int32_t column, int32_t row, cs_picture_block **out) {
   cs_picture_block *block;
   CS_TRY(cs_store_create_block(context, entry, level, column, row, &block));
-  celspan_status status = fill_from_below(context, entry, block);
+  celspan_status status = cs_store_add_texels(context, block);
+  if (status == CELSPAN_OK)
+    status = fill_from_below(context, entry, block);
   if (status != CELSPAN_OK) {
     cs_store_discard(block);
     return status;

@@ -53,7 +53,9 @@ static void destroy_store(cs_service *service) {
 }
 
 static void clear_block(cs_cache_entry *entry, cs_memory *memory) {
-  cs_mem_free(memory, ((cs_picture_block *)entry)->codes, CS_PICTURE_CODES_BYTES);
+  const cs_picture_block *block = (const cs_picture_block *)entry;
+  cs_mem_free(memory, block->texels, CS_PICTURE_TEXELS_BYTES);
+  cs_mem_free(memory, block->codes, CS_PICTURE_CODES_BYTES);
 }
 
 static celspan_status create_store(celspan_context *context, cs_service **out) {
@@ -111,8 +113,9 @@ celspan_status cs_store_module(celspan_context *context, celspan_status failure,
 
 /* ---------------------------------------------------------------- blocks */
 
-/* Of level 0. */
-#define BLOCK_BYTES (sizeof(cs_picture_block) + CS_PICTURE_CODES_BYTES)
+/* Of a block; one of level 0 has codes, too. */
+#define PLAIN_BYTES (sizeof(cs_picture_block) + CS_PICTURE_TEXELS_BYTES)
+#define BLOCK_BYTES (PLAIN_BYTES + CS_PICTURE_CODES_BYTES)
 
 /* By the hash, not the entry: blocks of a surface outlive an entry that was dropped. */
 static cs_cache_key key_of(const cs_picture_entry *entry, int level, int32_t column, int32_t row) {
@@ -133,7 +136,7 @@ celspan_status cs_store_create_block(celspan_context *context, cs_picture_entry 
                                      int32_t column, int32_t row, cs_picture_block **out) {
   cs_cache_entry *cached;
   CS_TRY(cs_cache_create(&entry->store->blocks, context, key_of(entry, level, column, row),
-                         level == 0 ? BLOCK_BYTES : sizeof(cs_picture_block), &cached));
+                         level == 0 ? BLOCK_BYTES : PLAIN_BYTES, &cached));
   cs_picture_block *block = (cs_picture_block *)cached;
   block->store = entry->store;
   block->level = level;
@@ -141,6 +144,11 @@ celspan_status cs_store_create_block(celspan_context *context, cs_picture_entry 
   block->row = row;
   *out = block;
   return CELSPAN_OK;
+}
+
+celspan_status cs_store_add_texels(celspan_context *context, cs_picture_block *block) {
+  block->texels = cs_mem_array(block->store->memory, 1, CS_PICTURE_TEXELS_BYTES);
+  return block->texels ? CELSPAN_OK : cs_fail_memory(context);
 }
 
 celspan_status cs_store_add_codes(celspan_context *context, cs_picture_block *block) {

@@ -23,8 +23,8 @@
 #define CS_PICTURE_CODES_ROW (CS_PICTURE_BLOCK + 1)
 /* The sizes of a block's codes, and of its texels and codes. */
 #define CS_PICTURE_CODES_BYTES ((size_t)CS_PICTURE_BLOCK * 4 * CS_PICTURE_CODES_ROW)
-#define CS_PICTURE_BLOCK_BYTES                                                                     \
-  ((size_t)CS_PICTURE_BLOCK * 16 * CS_PICTURE_BLOCK + CS_PICTURE_CODES_BYTES)
+#define CS_PICTURE_TEXELS_BYTES ((size_t)CS_PICTURE_BLOCK * 16 * CS_PICTURE_BLOCK)
+#define CS_PICTURE_BLOCK_BYTES (CS_PICTURE_TEXELS_BYTES + CS_PICTURE_CODES_BYTES)
 
 /* What all texels of a block that lie in the picture have in common. */
 typedef enum cs_picture_opacity {
@@ -47,8 +47,9 @@ typedef struct cs_picture_block {
   /* Whether the codes are exact: cs_srgb8_colour makes the texels from them to the bit, including
    * the column right of the block unless the picture ends there. */
   bool is_coded;
-  /* Premultiplied linear RGBA, row-major; clear beyond the picture. */
-  float texels[4 * CS_PICTURE_BLOCK * CS_PICTURE_BLOCK];
+  /* Premultiplied linear RGBA, row-major; clear beyond the picture. Apart from the block, so that
+   * blocks lie close together: each row of a frame looks for many. */
+  float *texels;
   /* Of level 0: its texels as 8-bit pixels, sRGB and straight, as cs_srgb8_pixel makes them; else
    * NULL. A row of a frame is read from the codes of many blocks in turn, which is twice as quick
    * where they lie close together: so they are apart from the texels. */
@@ -108,13 +109,15 @@ void cs_store_leave(cs_picture_entry *entry);
 /* Pins a block and returns it; NULL when it is not in the store. */
 cs_picture_block *cs_store_pin(const cs_picture_entry *entry, int level, int32_t column,
                                int32_t row);
-/* A new block, zeroed and without codes, not yet in the store, but counted. Errors: NO_MEMORY. */
+/* A new block, without texels and codes, not yet in the store, but counted. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_store_create_block(celspan_context *context,
                                                      cs_picture_entry *entry, int level,
                                                      int32_t column, int32_t row,
                                                      cs_picture_block **out);
-/* Gives a new block room for its codes. Those of blocks that get it one after the other lie close
- * together. Errors: NO_MEMORY. */
+/* Give a new block room for its texels, which are clear, and for its codes. The codes of blocks
+ * that get it one after the other lie close together. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_store_add_texels(celspan_context *context,
+                                                   cs_picture_block *block);
 CELSPAN_CHECKED celspan_status cs_store_add_codes(celspan_context *context,
                                                   cs_picture_block *block);
 /* Puts the block into the store; one that is there already is returned instead. */

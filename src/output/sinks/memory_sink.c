@@ -29,13 +29,17 @@ static celspan_status begin(void *user, celspan_context *context, int32_t width,
 }
 
 /* worker: the thread's own row, where rows are dropped; NULL: the sink's row. */
+static unsigned char *row_pixels(void *user, void *worker, int32_t y) {
+  const memory_sink *sink = user;
+  unsigned char *own = worker ? worker : sink->row;
+  return sink->pixels ? sink->pixels + (size_t)y * sink->stride : own;
+}
+
 static celspan_status fill_row(void *user, void *worker, celspan_context *context, int32_t y,
                                const celspan_span *spans, size_t span_count) {
   const memory_sink *sink = user;
-  unsigned char *own = worker ? worker : sink->row;
   (void)context;
-  cs_pixels_row(&sink->coding, spans, span_count,
-                sink->pixels ? sink->pixels + (size_t)y * sink->stride : own);
+  cs_pixels_row(&sink->coding, spans, span_count, row_pixels(user, worker, y));
   return CELSPAN_OK;
 }
 
@@ -84,6 +88,7 @@ bool cs_memory_sink_shares(const celspan_sink *sink, cs_shares *out) {
   *out = (cs_shares){.user = sink->user,
                      .open_worker = open_worker,
                      .close_worker = close_worker,
-                     .row = fill_row};
+                     .row = fill_row,
+                     .pixels = sink->takes_codes ? row_pixels : NULL};
   return true;
 }

@@ -235,8 +235,10 @@ static inline void put_varied(const target *row, bool is_coded, const celspan_sp
   size_t at = 4 * (size_t)span->x0, count = (size_t)(span->x1 - span->x0);
   if (span->kind == CELSPAN_SPAN_GRADIENT)
     put_gradient(span, is_coded, row->pixels + at, row->size - at);
-  else if (span->codes)
+  else if (span->codes && span->codes != row->pixels + at) /* else they are in their places */
     memcpy(row->pixels + at, span->codes, 4 * count);
+  else if (span->codes)
+    return;
   else if (is_coded)
     CS_WIDE(cs_srgb8_codes)(span->array, count, row->pixels + at);
   else
@@ -269,6 +271,9 @@ static inline void put_row(const celspan_span *spans, size_t count, bool is_code
                            unsigned char *pixels) {
   const target row = {pixels, 4 * (size_t)spans[count - 1].x1, (uintptr_t)pixels % 4};
   uint32_t codes[PORTION];
+  /* Arrays at the left are put first and alone: their codes may lie in their places already. */
+  for (; count > 0 && spans->kind == CELSPAN_SPAN_ARRAY; count--, spans++)
+    put_varied(&row, is_coded, spans);
   for (size_t portion; count > 0; count -= portion, spans += portion) {
     portion = count < PORTION ? count : PORTION;
     code_colours(spans, portion, is_coded, codes);

@@ -32,6 +32,9 @@ typedef struct cs_shares {
   celspan_status (*row)(void *user, void *worker, celspan_context *context, int32_t y,
                         const celspan_span *spans, size_t span_count);
   celspan_status (*end)(void *worker, celspan_context *context);
+  /* Where `row` will put the pixels of row y, if these are codes that spans may hold: codes that
+   * lie in their places there are not copied. worker: NULL where the sink's own `row` is called. */
+  unsigned char *(*pixels)(void *user, void *worker, int32_t y);
   celspan_status (*join)(void *user, celspan_context *context, void *share, int32_t index);
 } cs_shares;
 
