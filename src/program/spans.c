@@ -48,12 +48,12 @@ static celspan_status print_row(void *user, celspan_context *context, int32_t y,
 
 static void print_statistics(const celspan_statistics *s, cs_cache_counts kept, double seconds) {
   printf("rows %" PRIu64 " spans %" PRIu64 " single %" PRIu64 " gradient %" PRIu64 " array %" PRIu64
-         " pixels_in_arrays %" PRIu64 " maps %" PRIu64 " maps_made %" PRIu64
+         " pixels_in_arrays %" PRIu64 " maps %" PRIu64 " maps_made %" PRIu64 " swept %" PRIu64
          " colour_evaluations %" PRIu64 " allocations %" PRIu64 " peak_bytes %" PRIu64
          " bands_made %" PRIu64 " bands_found %" PRIu64 " bands_bytes %zu seconds %.6f\n",
          s->rows, s->spans, s->single, s->gradient, s->array, s->pixels_in_arrays, s->maps,
-         s->maps_made, s->colour_evaluations, s->allocations, s->peak_bytes, kept.made, kept.found,
-         kept.bytes, seconds);
+         s->maps_made, s->swept, s->colour_evaluations, s->allocations, s->peak_bytes, kept.made,
+         kept.found, kept.bytes, seconds);
 }
 
 static celspan_status measure(celspan_context *context, const cs_request *request,

@@ -590,7 +590,7 @@ describe("the command line", function()
     end)
 
     local STATISTICS = "^rows (%d+) spans (%d+) single (%d+) gradient (%d+) array (%d+) "
-      .. "pixels_in_arrays (%d+) maps (%d+) maps_made (%d+) colour_evaluations (%d+) "
+      .. "pixels_in_arrays (%d+) maps (%d+) maps_made (%d+) swept (%d+) colour_evaluations (%d+) "
       .. "allocations (%d+) peak_bytes (%d+) bands_made (%d+) bands_found (%d+) "
       .. "bands_bytes (%d+) seconds (%d+%.%d+)\n$"
 
@@ -610,7 +610,7 @@ describe("the command line", function()
           return celspan.rostrum{ celspan.cel{ disc, defocus = 5 } } end }]])
       local _, soft = celspan("spans " .. script .. " --stats")
       local _, sharp = celspan("spans " .. plain .. " --stats")
-      local made, _, bytes = select(12, soft:match(STATISTICS))
+      local made, _, bytes = select(13, soft:match(STATISTICS))
       assert.is_true(tonumber(made) >= 2 and tonumber(bytes) > 64 * 16, soft)
       assert.truthy(sharp:find("bands_made 0 bands_found 0 bands_bytes 0 ", 1, true), sharp)
     end)

@@ -9,7 +9,7 @@ local disc = celspan.circle { centre = { 0, 0 }, radius = 20, texture = "#c03020
 local star = celspan.polygon { { 0, 0 }, { 40, 10 }, { 5, 33 }, texture = "#2040c0" }
 local parts = { celspan.rect { 0, 40, 128, 40, texture = "#308040" } }
 -- Too small to be seen: cels of few shapes have no maps.
-for i = 2, tonumber(shapes or 766) do
+for i = 2, tonumber(shapes or 256) do
   parts[i] = celspan.rect { 20, 50, 1e-6, 1e-6, texture = "#fff" }
 end
 local hill = celspan.union(parts)
@@ -27,6 +27,18 @@ local function difference(a, b)
   local most = 0
   assert.are.equal(#a, #b)
   for i = 1, #a do most = math.max(most, math.abs(a:byte(i) - b:byte(i))) end
+  return most
+end
+
+--- The largest difference of two pictures' light, of 255: in the dark a code is a small step.
+local function difference_of_light(a, b)
+  local function light(code)
+    local c = code / 255
+    return 255 * (c <= 0.04045 and c / 12.92 or ((c + 0.055) / 1.055) ^ 2.4)
+  end
+  local most = 0
+  assert.are.equal(#a, #b)
+  for i = 1, #a do most = math.max(most, math.abs(light(a:byte(i)) - light(b:byte(i)))) end
   return most
 end
 
@@ -71,7 +83,7 @@ end }]])
     assert.are.equal(3, counted("maps", 4))
     assert.are.equal(3, counted("maps_made", 4))
     assert.are.equal(0, counted("maps", 1))
-    assert.are.equal(0, counted("maps", 4, "", 765))
+    assert.are.equal(0, counted("maps", 4, "", 255))
     assert.are.equal(0, counted("maps", 4, "--antialias none"))
     assert.are.equal(0, counted("maps", 4, "--size 8200x80"))
   end)
@@ -86,6 +98,53 @@ end }]])
       assert.are.equal(whole, raw(4, "--workers 1"))
       assert.are.equal(whole, raw(4, "--workers 3 --memory 1"))
     end)
+
+  it("sweeps a defocused cel, a gel and a light with a shape among its maps", function()
+    local mixed = bench:write("mixed.lua", [[
+local celspan = require "celspan"
+local frames, first = ...
+frames = math.tointeger(tonumber(frames))
+local grains = {}
+for i = 1, 300 do
+  grains[i] = celspan.circle { centre = { 9 * (i % 13), 7 * (i // 13) % 60 }, radius = 6,
+    texture = celspan.rgb(i % 7 / 7, i % 5 / 5, i % 3 / 3) }
+end
+local crowd = celspan.union(grains)
+local gel = celspan.rect { 10, 5, 60, 60, texture = celspan.paint { pigment = "#102030",
+  medium = { 1, 0.6, 0.3 }, beta = 0.2 } }
+local soft = celspan.circle { centre = { 60, 40 }, radius = 20, texture = "#30a050" }
+local glow = celspan.linear { from = { 0, 0 }, to = { 128, 80 }, { 0, "#f80" }, { 1, "#08f" } }
+return celspan.film { size = { 128, 80 }, frames = frames, frame = function(f)
+  local t = 3.7 * (f.number + (tonumber(first) or 0))
+  return celspan.rostrum {
+    celspan.cel { crowd:translate(-t, 0) },
+    celspan.cel { gel:translate(t, 0) },
+    celspan.cel { crowd:translate(t, 20) },
+    celspan.cel { soft:translate(t, 0), defocus = 4, back = "#123" },
+    celspan.cel { crowd:scale(0.5):translate(30, t) },
+    celspan.cel { soft:translate(-t, 10), front = { texture = glow } },
+    back = "#fffbe0" }
+end }
+]])
+    local function render(options, frames, first)
+      local code, out, err = bench:celspan("render %s -o - %s -- %d %d", mixed, options, frames,
+        first or 0)
+      assert.are.equal(0, code, err)
+      return out
+    end
+    local _, out = bench:celspan("spans %s --stats -- 4", mixed)
+    assert.are.equal("2", out:match " maps (%d+)")
+    assert.are.equal("4", out:match " swept (%d+)")
+    local whole = render("", 4)
+    local size = 128 * 80 * 4
+    for k = 1, 4 do
+      assert.are.equal(whole:sub((k - 1) * size + 1, k * size), render("--frames " .. k, 4))
+      local swept = render("", 1, k - 1)
+      assert.is_true(difference_of_light(swept, whole:sub((k - 1) * size + 1, k * size)) <= 2)
+    end
+    assert.are.equal(whole, render("--workers 1", 4))
+    assert.are.equal(whole, render("--workers 3 --memory 1", 4))
+  end)
 
   it("may have groups, spaces, mattes, grades, and modes that act inside a cel", function()
     local parts = bench:write("parts.lua", [[

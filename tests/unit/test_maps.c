@@ -9,11 +9,11 @@
 
 #define WIDTH 90
 #define HEIGHT 60
-#define SCENES 80
+#define SCENES 120
 #define SHAPES 256 /* of each cel, at least: of fewer there are no maps */
 
-/* What a scene has. */
-typedef enum scene_kind { STRAIGHT, ROUND, VARIED } scene_kind;
+/* What a scene has. MIXED: cels that are swept, too. */
+typedef enum scene_kind { STRAIGHT, ROUND, VARIED, MIXED } scene_kind;
 
 static celspan_paint random_paint(test_random *random) {
   float red = random_unit(random), green = random_unit(random), blue = random_unit(random);
@@ -40,7 +40,7 @@ static celspan_texture *random_texture(studio *s, test_random *random, bool is_v
 
 static celspan_object *random_object(studio *s, test_random *random, scene_kind kind) {
   bool is_round = kind == ROUND;
-  celspan_texture *texture = random_texture(s, random, kind == VARIED && random_below(random, 3));
+  celspan_texture *texture = random_texture(s, random, kind >= VARIED && random_below(random, 3));
   celspan_point corners[3];
   for (int k = 0; k < 3; k++)
     corners[k] = random_point(random, -10, WIDTH + 10, -10, HEIGHT + 10);
@@ -82,22 +82,56 @@ static celspan_matrix random_place(test_random *random) {
   return matrix;
 }
 
+/* Which way a cel goes. MAPPED: unless it is behind one that is swept TOGETHER with all that is
+ * behind it; RICH: it is mapped, and has more shapes than all others; ALONE: or it is mapped. */
+typedef enum cel_way { MAPPED, RICH, ALONE, TOGETHER } cel_way;
+
+/* Makes a cel one that is swept: with a gel or a mode, before or under a light with a shape,
+ * defocused; others are as they were. */
+static void sweep_cel(studio *s, test_random *random, cel_way way, celspan_cel_desc *desc,
+                      celspan_object **first) {
+  const celspan_stop stops[] = {{0, celspan_paint_rgb(1, 0.5f, 0, 1)},
+                                {1, celspan_paint_rgb(0, 0.5f, 1, 1)}};
+  const celspan_point from = {0, 0}, to = {WIDTH, HEIGHT};
+  const celspan_paint gel = {{0.1f, 0, 0}, {0.9f, 0.3f, 0.5f}, 0.2f};
+  uint64_t kind = way == ALONE ? 3 + random_below(random, 6) : random_below(random, 9);
+  if (kind == 0)
+    *first = studio_rect(s, 10, 10, 50, 30, studio_paint(s, gel));
+  else if (kind == 1)
+    desc->blend = CELSPAN_BLEND_MULTIPLY;
+  else if (kind == 2)
+    desc->back_texture.texture = studio_linear(s, from, to, stops, 2);
+  else if (kind == 3)
+    desc->front_texture.texture = studio_linear(s, from, to, stops, 2);
+  else if (kind < 7)
+    desc->defocus_radius = random_between(random, 1, 9);
+}
+
 /* A cel of a few shapes, in the light of its own. */
-static celspan_cel *random_cel(studio *s, test_random *random, scene_kind kind) {
+static celspan_cel *random_cel(studio *s, test_random *random, scene_kind kind, cel_way way) {
   celspan_object *objects[5];
   celspan_cel_desc desc = CELSPAN_CEL_DESC;
   size_t count = 1 + (size_t)random_below(random, 5);
   for (size_t i = 0; i < count; i++)
     objects[i] = random_object(s, random, kind);
-  objects[0] = with_shapes(s, objects[0]);
   desc.opacity = random_below(random, 3) ? 1 : random_unit(random);
   desc.has_front = random_below(random, 2);
   desc.front = (celspan_light){random_unit(random), 1, 0.5f, 1};
   desc.back = random_below(random, 3) ? desc.back : (celspan_light){0.25f, 0.5f, 0, 0.5f};
+  for (int i = 0; i < (way == MAPPED ? 1 : way == RICH ? 4 : 0); i++)
+    objects[0] = with_shapes(s, objects[0]);
+  if (way == ALONE || way == TOGETHER)
+    sweep_cel(s, random, way, &desc, objects);
   const celspan_matrix matrix = random_place(random);
   celspan_cel *cel = studio_cel(s, desc, objects, count), *moved = NULL;
   studio_check(s, celspan_cel_transform(s->context, cel, &matrix, &moved));
   return s->cels[s->cel_count++] = moved;
+}
+
+static cel_way random_way(test_random *random, size_t place, size_t rich) {
+  if (place == rich)
+    return RICH;
+  return place > rich ? ALONE : random_below(random, 3) ? TOGETHER : MAPPED;
 }
 
 static celspan_rostrum *random_rostrum(studio *s, uint64_t seed, scene_kind kind) {
@@ -105,8 +139,9 @@ static celspan_rostrum *random_rostrum(studio *s, uint64_t seed, scene_kind kind
   celspan_cel *cels[4];
   celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
   size_t count = 1 + (size_t)random_below(&random, 4);
+  size_t rich = kind == MIXED ? (size_t)random_below(&random, count) : count;
   for (size_t i = 0; i < count; i++)
-    cels[i] = random_cel(s, &random, kind);
+    cels[i] = random_cel(s, &random, kind, kind == MIXED ? random_way(&random, i, rich) : MAPPED);
   if (random_below(&random, 2))
     desc.back = (celspan_light){1, 0.75f, 0.5f, 1};
   return studio_rostrum(s, desc, cels, count);
@@ -138,13 +173,13 @@ static float difference(const image *a, const image *b) {
  * that shares a pixel with others has the colour of its middle in all of it. */
 static void check_pictures(studio *s) {
   for (uint64_t seed = 0; seed < SCENES; seed++) {
-    scene_kind kind = seed % 4 == 3 ? ROUND : seed % 4 == 1 ? VARIED : STRAIGHT;
+    scene_kind kind = (scene_kind)(seed % 4);
     celspan_exposure exposure = {random_rostrum(s, seed, kind), 1};
     celspan_frame_desc swept = frame_of(&exposure, false), drawn = frame_of(&exposure, true);
     CHECK(count(s, &swept).maps == 0 && count(s, &drawn).maps > 0);
     image a = make_image(s, &swept, 1), b = make_image(s, &drawn, 1);
     float most = difference(&a, &b);
-    if (!CHECK(most < (kind == ROUND ? 0.02f : kind == VARIED ? 2 / 255.0f : 0.0002f)))
+    if (!CHECK(most < (kind == ROUND ? 0.02f : kind >= VARIED ? 2 / 255.0f : 0.0002f)))
       fprintf(stderr, "  scene %d: %g\n", (int)seed, (double)most);
     free(a.rgba);
     free(b.rgba);
@@ -200,9 +235,9 @@ static void check_nothing(studio *s) {
 
 /* Rows in another order, parts of the frame, and maps that are made again. */
 static void check_bits(studio *s, studio *small) {
-  for (uint64_t seed = 100; seed < 110; seed++) {
-    celspan_exposure exposure = {random_rostrum(s, seed, (scene_kind)(seed % 3)), 1};
-    celspan_exposure again = {random_rostrum(small, seed, (scene_kind)(seed % 3)), 1};
+  for (uint64_t seed = 100; seed < 120; seed++) {
+    celspan_exposure exposure = {random_rostrum(s, seed, (scene_kind)(seed % 4)), 1};
+    celspan_exposure again = {random_rostrum(small, seed, (scene_kind)(seed % 4)), 1};
     celspan_frame_desc desc = frame_of(&exposure, true), other = frame_of(&again, true);
     image a = make_image(s, &desc, 1), b = make_image(s, &desc, 7),
           c = make_image(small, &other, 1);
@@ -278,17 +313,27 @@ static void check_far(studio *s) {
 
 /* ---------------------------------------------------------------- no leaks */
 
-/* Two black cels that share a curved boundary, before white: nowhere along it is it lighter. The
- * black of one is a gradient. They are moved and enlarged, and turned by an angle in each frame. */
-static void check_leaks(studio *s, double angle) {
+/* Two black cels that share a boundary, before white: nowhere along it is it lighter. The black of
+ * one is a gradient. They are moved and enlarged, and turned by an angle in each frame. maps: 2, or
+ * 1, so that one is swept, under a light with a shape, and the boundary is straight. */
+static void check_leaks(studio *s, double angle, uint64_t maps) {
   celspan_texture *black = studio_paint(s, celspan_paint_rgb(0, 0, 0, 1));
   const celspan_stop stops[] = {{0, celspan_paint_rgb(0, 0, 0, 1)},
                                 {1, celspan_paint_rgb(0, 0, 0, 1)}};
   const celspan_point from = {0, 0}, to = {WIDTH, HEIGHT};
   celspan_texture *varied = studio_linear(s, from, to, stops, 2);
-  celspan_object *left = studio_path(s, "M 2 2 L 40 2 C 70 20 10 40 44 58 L 2 58 Z", varied);
-  celspan_object *right = studio_path(s, "M 88 2 L 40 2 C 70 20 10 40 44 58 L 88 58 Z", black);
+  bool is_round = maps == 2;
+  celspan_object *left = studio_path(s,
+                                     is_round ? "M 2 2 L 40 2 C 70 20 10 40 44 58 L 2 58 Z"
+                                              : "M 2 2 L 40 2 L 58 21 L 27 40 L 44 58 L 2 58 Z",
+                                     varied);
+  celspan_object *right = studio_path(s,
+                                      is_round ? "M 88 2 L 40 2 C 70 20 10 40 44 58 L 88 58 Z"
+                                               : "M 88 2 L 40 2 L 58 21 L 27 40 L 44 58 L 88 58 Z",
+                                      black);
   left = with_shapes(s, left);
+  celspan_cel_desc lit = CELSPAN_CEL_DESC;
+  lit.front_texture.texture = maps == 1 ? varied : NULL;
   right = with_shapes(s, right);
   celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
   desc.back = (celspan_light){1, 1, 1, 1};
@@ -301,11 +346,10 @@ static void check_leaks(studio *s, double angle) {
         celspan_matrix_rotation(k * angle, (celspan_point){WIDTH / 2.0, HEIGHT / 2.0});
     celspan_object *one = studio_transform(s, left, turn),
                    *other = studio_transform(s, right, turn);
-    celspan_cel *cels[] = {studio_cel(s, CELSPAN_CEL_DESC, &one, 1),
-                           studio_cel(s, CELSPAN_CEL_DESC, &other, 1)};
+    celspan_cel *cels[] = {studio_cel(s, lit, &one, 1), studio_cel(s, CELSPAN_CEL_DESC, &other, 1)};
     celspan_exposure exposure = {studio_rostrum(s, desc, cels, 2), 1};
     celspan_frame_desc frame = frame_of(&exposure, true);
-    CHECK(count(s, &frame).maps == 2);
+    CHECK(count(s, &frame).maps == maps);
     image picture = make_image(s, &frame, 1);
     int margin = angle == 0 ? 5 : 20, edge = angle == 0 ? 5 : 35;
     for (int y = margin; y < HEIGHT - margin; y++)
@@ -322,8 +366,8 @@ static void check_leaks(studio *s, double angle) {
 
 /* Every allocation fails once: in the end there is the frame or the reason, and the frame can be
  * made again. */
-static void check_failures_of_memory(studio *s, memory_watch *watch) {
-  celspan_exposure exposure = {random_rostrum(s, 3, VARIED), 1};
+static void check_failures_of_memory(studio *s, memory_watch *watch, scene_kind kind) {
+  celspan_exposure exposure = {random_rostrum(s, 3, kind), 1};
   celspan_frame_desc desc = frame_of(&exposure, true);
   desc.workers = 1;
   uint64_t wanted[2], digest[2];
@@ -355,9 +399,12 @@ int main(void) {
   check_bits(&s, &small);
   check_kept(&s, &small);
   check_far(&s);
-  check_leaks(&s, 0);
-  check_leaks(&s, 0.1);
-  check_failures_of_memory(&s, &watch);
+  for (uint64_t maps = 1; maps <= 2; maps++) {
+    check_leaks(&s, 0, maps);
+    check_leaks(&s, 0.1, maps);
+  }
+  check_failures_of_memory(&s, &watch, VARIED);
+  check_failures_of_memory(&s, &watch, MIXED);
   celspan_context_destroy(s.context);
   celspan_context_destroy(small.context);
   CHECK(watch.blocks == 0 && watch.size_errors == 0);

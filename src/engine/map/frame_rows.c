@@ -15,8 +15,12 @@ celspan_status cs_map_maker_init(cs_map_maker *maker, celspan_context *context,
     return CELSPAN_OK;
   CS_TRY(CS_MAKE(context, maker->rows, frame->count));
   CS_TRY(CS_MAKE(context, maker->brushes, frame->count));
+  CS_TRY(CS_MAKE(context, maker->swept, frame->count));
   for (size_t i = 0; i < frame->count; i++) {
-    const cs_map_drawing *drawing = &frame->sheets[i].drawing;
+    const cs_map_sheet *sheet = &frame->sheets[i];
+    const cs_map_drawing *drawing = sheet->plan ? &maker->swept[i].drawing : &sheet->drawing;
+    if (sheet->plan)
+      CS_TRY(cs_map_swept_init(&maker->swept[i], context, sheet->plan));
     maker->rows[i] = (cs_map_rows){.drawing = drawing, .brush = &maker->brushes[i], .row = -1};
     CS_TRY(cs_map_brush_init(&maker->brushes[i], context, drawing));
     maker->varies |= drawing->stack.layer_count > 0;
@@ -32,8 +36,11 @@ void cs_map_maker_finish(cs_map_maker *maker) {
     cs_map_rows_finish(&maker->rows[i], memory);
   for (size_t i = 0; maker->brushes && i < maker->frame->count; i++)
     cs_map_brush_finish(&maker->brushes[i]);
+  for (size_t i = 0; maker->swept && i < maker->frame->count; i++)
+    cs_map_swept_finish(&maker->swept[i]);
   cs_mem_free(memory, maker->rows, maker->frame->count * sizeof *maker->rows);
   cs_mem_free(memory, maker->brushes, maker->frame->count * sizeof *maker->brushes);
+  cs_mem_free(memory, maker->swept, maker->frame->count * sizeof *maker->swept);
   cs_row_finish(&maker->painted, memory);
   cs_map_sums_finish(&maker->sums, memory);
   cs_map_exact_finish(&maker->exact, memory);
@@ -44,6 +51,8 @@ uint64_t cs_map_maker_evaluations(const cs_map_maker *maker) {
   uint64_t evaluations = 0;
   for (size_t i = 0; maker->brushes && i < maker->frame->count; i++)
     evaluations += maker->brushes[i].painter.evaluations;
+  for (size_t i = 0; maker->swept && i < maker->frame->count; i++)
+    evaluations += maker->swept[i].maker.composer.evaluations;
   return evaluations;
 }
 
@@ -59,9 +68,9 @@ typedef struct folding {
 } folding;
 
 /* Whether nothing shines through a span, which varies. */
-static bool hides(const cs_map_sheet *sheet, const cs_map_span *span) {
-  return span->cell != CS_MAP_BROKEN && sheet->drawing.map->cells[span->cell].hides &&
-         sheet->drawing.light[3] == 1;
+static bool hides(const cs_map_drawing *drawing, const cs_map_span *span) {
+  return span->cell != CS_MAP_BROKEN && drawing->map->cells[span->cell].hides &&
+         drawing->light[3] == 1;
 }
 
 /* Folds `count` sheets at a column, up to the first one that nothing shines through. *end: gets the
@@ -82,7 +91,7 @@ static inline cs_map_fold fold_sheets(folding *f, int32_t x, size_t count, int32
     broken_count += span->cell == CS_MAP_BROKEN;
     f->varied_count += varies && span->share_count > 0;
     if (varies && span->share_count > 0)
-      is_hidden = hides(&frame->sheets[i], span);
+      is_hidden = hides(f->maker->rows[i].drawing, span);
     else
       cs_map_fold_add(&fold, &frame->sheets[i], span->colour);
   }
@@ -161,12 +170,22 @@ static celspan_status solve(folding *f, int32_t x, cs_v4 *out) {
   return cs_map_exact_mean(maker->context, exact, maker->frame, f->shown, f->shown_count, out);
 }
 
+/* Whether nothing can be seen behind the last of the sheets that are shown. */
+static bool is_rearmost(const folding *f, const cs_map_fold *fold) {
+  const cs_map_frame *frame = f->maker->frame;
+  size_t last = f->shown_count - 1;
+  bool has_backing = last + 1 < frame->count || frame->keep * fold->keep != 1 ||
+                     !cs_v4_same(frame->sheets[last].back + frame->back, cs_v4_all(0));
+  return !has_backing || hides(f->maker->rows[last].drawing, f->at[last]);
+}
+
 /* Whether only one cell can be seen, as it is. */
 static bool is_bare(const folding *f, const cs_map_fold *fold) {
-  const cs_map_span *last = f->at[f->shown_count - 1];
-  const cs_map_sheet *sheet = f->shown[f->shown_count - 1].sheet;
-  return f->varied_count == 1 && last->share_count > 0 && hides(sheet, last) &&
-         cs_map_brush_is_bare(&sheet->drawing) && fold->t == 1 && cs_v4_same(fold->e, cs_v4_all(0));
+  size_t last = f->shown_count - 1;
+  const cs_map_span *span = f->at[last];
+  return f->varied_count == 1 && span->share_count > 0 && span->cell != CS_MAP_BROKEN &&
+         is_rearmost(f, fold) && cs_map_brush_is_bare(f->maker->rows[last].drawing) &&
+         fold->t == 1 && cs_v4_same(fold->e, cs_v4_all(0));
 }
 
 /* Paints a cell of a sheet as a run. */
@@ -201,7 +220,7 @@ static float transmission_before(const folding *f, size_t sheet) {
 }
 
 static affine find_affine(const folding *f, size_t varied) {
-  cs_v4 light = f->shown[varied].sheet->drawing.light;
+  cs_v4 light = f->maker->rows[varied].drawing->light;
   cs_v4 base = fold_with(f, varied, cs_v4_all(0));
   cs_v4 covered = fold_with(f, varied, (cs_v4){0, 0, 0, light[3]});
   cs_v4 scale = transmission_before(f, varied) * light;
@@ -241,7 +260,7 @@ static size_t only_varied(const folding *f) {
   while (f->at[i]->share_count == 0)
     i++;
   bool is_one = f->varied_count == 1 && f->at[i]->cell != CS_MAP_BROKEN;
-  return is_one && !f->shown[i].sheet->drawing.grade ? i : f->shown_count;
+  return is_one && !f->maker->rows[i].drawing->grade ? i : f->shown_count;
 }
 
 /* Whether spans seen among flat ones are no farther from their curve than twice what they are by
@@ -383,8 +402,13 @@ static celspan_status make_row(folding *f, cs_row *out) {
 
 static celspan_status make_swath(cs_map_maker *maker, int32_t row) {
   maker->row = -1;
-  for (size_t i = 0; i < maker->frame->count; i++)
+  for (size_t i = 0; i < maker->frame->count; i++) {
+    if (maker->frame->sheets[i].plan) {
+      CS_TRY(cs_map_swept_sweep(&maker->swept[i], row));
+      maker->rows[i].row = -1; /* its borders are others */
+    }
     CS_TRY(cs_map_rows_make(maker->context, &maker->sums, &maker->rows[i], row));
+  }
   maker->row = row;
   return CELSPAN_OK;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/map/exact.h"
+#include "engine/map/swept.h"
 
 typedef struct cs_map_maker {
   celspan_context *context;  /* borrowed: the worker's branch */
@@ -9,10 +10,11 @@ typedef struct cs_map_maker {
   cs_map_sums sums;
   cs_map_rows *rows;     /* one for each sheet */
   cs_map_brush *brushes; /* one for each sheet */
+  cs_map_swept *swept;   /* one for each sheet, used by those that are swept */
   int32_t row;           /* the first of the swath that `rows` has; -1: they have none */
   cs_map_exact exact;
   cs_row painted; /* a run of the only sheet that varies */
-  bool varies;    /* something in the frame's drawings does */
+  bool varies;    /* something in a sheet does */
 } cs_map_maker;
 
 /* Errors: NO_MEMORY; cs_map_maker_finish must be called then, too. */

@@ -10,12 +10,9 @@
  */
 #include <math.h>
 
-#include "base/splitmix.h"
-#include "engine/compose/over.h"
 #include "engine/events/visit.h"
-#include "engine/map/map.h"
+#include "engine/map/cells.h"
 
-#define NONE UINT32_MAX
 #define WINDINGS_MOST (2 * CS_MAP_CELLS)
 
 typedef struct maker {
@@ -23,8 +20,7 @@ typedef struct maker {
   const cs_plan *plan;
   cs_map *map;
   cs_events events;
-  uint32_t *cells; /* a table: the number of a cell plus 1; 0: free. A power of two */
-  size_t cell_capacity;
+  cs_map_cells cells;
   uint32_t *cell_of; /* by windings */
   uint32_t *order;   /* parts, chain by chain */
 } maker;
@@ -79,7 +75,7 @@ size_t cs_map_bytes(const cs_map *map) {
 
 static void finish(maker *m) {
   cs_memory *memory = m->context->memory;
-  cs_mem_free(memory, m->cells, m->cell_capacity * sizeof *m->cells);
+  cs_map_cells_finish(&m->cells, memory);
   if (m->cell_of)
     cs_mem_free(memory, m->cell_of, m->events.windings.count * sizeof *m->cell_of);
   if (m->order)
@@ -98,102 +94,24 @@ bool cs_map_suits(const cs_plan *plan) {
   return suits;
 }
 
-/* ---------------------------------------------------------------- cells */
-
-static uint64_t mix(uint64_t word) { return cs_splitmix_next(&word); }
-
-/* What shows in a cell: a colour where length is 0. */
-typedef struct content {
-  cs_v4 colour;
-  const cs_item *items;
-  uint32_t length;
-} content;
-
-static content content_of(const cs_map *map, uint32_t cell) {
-  const cs_map_cell *of = &map->cells[cell];
-  return (content){of->colour, of->length > 0 ? map->items + of->item : NULL, of->length};
-}
-
-static bool is_content(content a, content b) {
-  return a.length == b.length && memcmp(&a.colour, &b.colour, sizeof a.colour) == 0 &&
-         (a.length == 0 || memcmp(a.items, b.items, a.length * sizeof *a.items) == 0);
-}
-
-static size_t content_place(const maker *m, content what) {
-  uint64_t words[2], name = what.length;
-  memcpy(words, &what.colour, sizeof words);
-  for (uint32_t i = 0; i < what.length; i++)
-    name = mix(name ^ what.items[i].layer);
-  return mix(words[0] ^ mix(words[1] ^ name)) & (m->cell_capacity - 1);
-}
-
-/* Puts a cell into the table, which has room. */
-static void place_cell(maker *m, uint32_t cell) {
-  size_t at = content_place(m, content_of(m->map, cell));
-  while (m->cells[at])
-    at = (at + 1) & (m->cell_capacity - 1);
-  m->cells[at] = cell + 1;
-}
-
-static celspan_status widen_cells(maker *m) {
-  cs_memory *memory = m->context->memory;
-  cs_mem_free(memory, m->cells, m->cell_capacity * sizeof *m->cells);
-  size_t capacity = m->cell_capacity > 0 ? 2 * m->cell_capacity : 256;
-  m->cell_capacity = 0;
-  CS_TRY(CS_MAKE(m->context, m->cells, capacity));
-  m->cell_capacity = capacity;
-  for (size_t i = 0; i < m->map->cell_count; i++)
-    place_cell(m, (uint32_t)i);
-  return CELSPAN_OK;
-}
-
-/* Appends a cell and its program. Where there are too many the map is not whole. */
-static celspan_status add_cell(maker *m, content what, uint32_t *out) {
-  cs_map *map = m->map;
-  *out = (uint32_t)map->cell_count;
-  map->is_whole = map->cell_count < CS_MAP_CELLS && map->item_count + what.length < NONE;
-  CS_TRY(CS_RESERVE(m->context, map->items, map->item_capacity, map->item_count + what.length));
-  if (what.length > 0)
-    memcpy(map->items + map->item_count, what.items, what.length * sizeof *what.items);
-  const cs_map_cell cell = {.colour = what.colour,
-                            .key = (mix(*out) << 18 | *out) & CS_MAP_KEY,
-                            .item = (uint32_t)map->item_count,
-                            .length = what.length};
-  map->item_count += what.length;
-  return CS_APPEND(m->context, map->cells, map->cell_count, map->cell_capacity, cell);
-}
-
-/* The number of the cell of what shows there. */
-static celspan_status find_cell(maker *m, content what, uint32_t *out) {
-  if (2 * m->map->cell_count >= m->cell_capacity)
-    CS_TRY(widen_cells(m));
-  size_t at = content_place(m, what);
-  for (; m->cells[at]; at = (at + 1) & (m->cell_capacity - 1))
-    if (is_content(content_of(m->map, m->cells[at] - 1), what)) {
-      *out = m->cells[at] - 1;
-      return CELSPAN_OK;
-    }
-  CS_TRY(add_cell(m, what, out));
-  m->cells[at] = *out + 1;
-  return CELSPAN_OK;
-}
-
 /* ---------------------------------------------------------------- composing */
 
 /* Notes the cell of some windings; a cs_events_visitor. */
 static celspan_status note_cell(void *user, uint32_t windings, const cs_composer *composer,
                                 const cs_cell *cell) {
   maker *m = user;
-  content what = {.colour = cell->colour};
+  cs_map_content what = {.colour = cell->colour};
   if (cell->length > 0)
-    what = (content){cs_v4_all(0), composer->items + cell->program, cell->length};
-  return m->map->is_whole ? find_cell(m, what, &m->cell_of[windings]) : CELSPAN_OK;
+    what = (cs_map_content){cs_v4_all(0), composer->items + cell->program, cell->length};
+  return m->map->is_whole ? cs_map_cells_find(m->context, &m->cells, what, &m->cell_of[windings])
+                          : CELSPAN_OK;
 }
 
 /* Finds the cells of all windings. */
 static celspan_status find_cells(maker *m) {
   uint32_t clear;
-  CS_TRY(find_cell(m, (content){.colour = cs_v4_all(0)}, &clear));
+  CS_TRY(
+      cs_map_cells_find(m->context, &m->cells, (cs_map_content){.colour = cs_v4_all(0)}, &clear));
   CS_TRY(CS_MAKE(m->context, m->cell_of, m->events.windings.count));
   return cs_events_visit(m->context, m->plan, &m->events, note_cell, m);
 }
@@ -271,20 +189,9 @@ static celspan_status add_borders(maker *m) {
   return cs_map_lines_sort(m->context, &m->map->lines);
 }
 
-/* Whether nothing shines through some layer of a program, which is in no group. */
-static bool hides(const cs_map *map, const cs_map_cell *cell, const cs_stack *stack) {
-  bool hides = false;
-  for (uint32_t i = 0; i < cell->length && !hides; i++) {
-    const cs_layer *layer = &stack->layers[map->items[cell->item + i].layer];
-    hides = layer->group == CS_STACK_NONE && cs_over_is_opaque(layer->t);
-  }
-  return hides;
-}
-
 /* Takes over what the programs name. */
 static void take_stack(cs_map *map, cs_stack *stack) {
-  for (size_t i = 0; i < map->cell_count; i++)
-    map->cells[i].hides = hides(map, &map->cells[i], stack);
+  cs_map_cells_find_hiding(map, stack);
   map->stack = *stack;
   *stack = (cs_stack){0};
   change_references(&map->stack, keep_texture);
@@ -303,7 +210,7 @@ static celspan_status make(maker *m) {
 }
 
 celspan_status cs_map_make(celspan_context *context, cs_plan *plan, cs_map *map) {
-  maker m = {.context = context, .plan = plan, .map = map};
+  maker m = {.context = context, .plan = plan, .map = map, .cells = {.map = map}};
   celspan_status status = make(&m);
   if (status == CELSPAN_OK && map->item_count > 0)
     take_stack(map, &plan->stack);

@@ -1,11 +1,12 @@
-/* A frame of drawings, one over the other.
+/* A frame of sheets, one over the other: drawings, each from its map, and cels that are swept.
  *
  *     camera
- *       |   drawing n - 1  -----------    colours and alpha, and behind each drawing a back light
- *       |   ...            -----------
- *       v   drawing 0      -----------
+ *       |   sheet n - 1  ----- map        colours and alpha, and behind each sheet a back light
+ *       |   sheet n - 2  ===== plan       neighbouring cels that are swept are one sheet (swept.h)
+ *       |   ...
+ *       v   sheet 0      ----- map
  *
- * A pixel in which at most one drawing is broken is a fold of means: it is exact, because a fold is
+ * A pixel in which at most one sheet is broken is a fold of means: it is exact, because a fold is
  * linear in each of its layers. One in which several are broken is solved (exact.h).
  *
  * Invariant: a frame does not change once it is made, and threads share it. A row is a function of
@@ -14,20 +15,24 @@
 #pragma once
 
 #include "engine/map/sums.h"
+#include "engine/row/plan.h"
 #include "engine/span/row.h"
 
 #define CS_MAP_DRAWINGS 64 /* in a frame, at most */
 
 typedef struct cs_map_sheet {
-  cs_map_drawing drawing;
-  cs_v4 back; /* the light behind it; lane 3 is 0 */
-  float keep; /* what the matte of that light leaves of transparency */
+  cs_map_drawing drawing; /* of a map; else 0 */
+  cs_plan *plan;          /* of cels that are swept; NULL: it is drawn from a map. Owned */
+  size_t cels;            /* how many cels it has */
+  cs_v4 back;             /* the light behind it; lane 3 is 0 */
+  float keep;             /* what the matte of that light leaves of transparency */
 } cs_map_sheet;
 
 typedef struct cs_map_frame {
-  cs_map_sheet *sheets;         /* from the camera */
-  size_t count, capacity, made; /* made: for this frame, since no other had kept the map */
-  cs_v4 back;                   /* of the frame, as above */
+  cs_map_sheet *sheets; /* from the camera */
+  size_t count;
+  size_t made; /* maps that were made for this frame, since no other had kept them */
+  cs_v4 back;  /* of the frame, as above */
   float keep;
   int32_t width, height;
 } cs_map_frame;

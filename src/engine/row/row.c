@@ -147,13 +147,16 @@ static celspan_status make_row(cs_row_maker *maker, int32_t y, cs_row *out) {
   return maker->composer.failure;
 }
 
+void cs_row_maker_restart(cs_row_maker *maker) {
+  maker->row = CS_ROW_NONE;
+  cs_cells_restart(&maker->cells, &maker->composer);
+}
+
 celspan_status cs_row_make(cs_row_maker *maker, int32_t y, cs_row *out) {
   cs_arena_reset(&maker->arena);
   celspan_status status = make_row(maker, y, out);
-  if (status != CELSPAN_OK) {
-    maker->row = CS_ROW_NONE;
-    cs_cells_restart(&maker->cells, &maker->composer);
-  }
+  if (status != CELSPAN_OK)
+    cs_row_maker_restart(maker);
   CS_SELF_CHECK(status != CELSPAN_OK || cs_row_is_whole(out, maker->plan->width));
   return status;
 }

@@ -38,6 +38,9 @@ void cs_row_maker_finish(cs_row_maker *maker);
  * where this maker has made it and little has changed since, only that is written. Errors:
  * NO_MEMORY, INPUT, LIMIT, CALLBACK. */
 CELSPAN_CHECKED celspan_status cs_row_make(cs_row_maker *maker, int32_t y, cs_row *out);
-/* Keeps the visible edges of any row, those beyond the frame too. */
+/* Forgets the last row, so that the next one begins from nothing: after one that has failed. */
+void cs_row_maker_restart(cs_row_maker *maker);
+/* Keeps the visible edges of any row, those beyond the frame too. After an error the maker must be
+ * restarted. */
 CELSPAN_CHECKED celspan_status cs_row_retain(cs_row_maker *maker, int32_t y,
                                              cs_retained_row *retained);

@@ -6,44 +6,10 @@
 #include "engine/map/flats.h"
 #include "engine/map/keep.h"
 #include "engine/map/turn.h"
+#include "frames/render/ways.h"
 #include "model/geometry/matrix.h"
 #include "model/scene/bounds.h"
 #include "model/scene/value.h"
-
-/* ---------------------------------------------------------------- which exposures */
-
-static bool is_white(celspan_light light) { return light.r == 1 && light.g == 1 && light.b == 1; }
-
-/* Modes act on what is lit, so that those inside a cel are in its map only under white light. */
-static bool is_even(const celspan_rostrum *rostrum, const celspan_cel *cel, celspan_space space) {
-  const cs_light front = cs_scene_front(rostrum, cel);
-  bool is_even = !cs_cel_blends(cel, space) && cel->defocus_radius == 0 && !front.texture;
-  is_even =
-      is_even && !cel->back.texture && (!cel->has_modes || is_white(cs_light_in(&front, space)));
-  for (size_t i = 0; is_even && i < cel->object_count; i++)
-    is_even = !cel->objects[i]->data->has_uneven;
-  return is_even;
-}
-
-/* Whether the cels have enough shapes that maps save time. */
-static bool is_rich(const celspan_rostrum *rostrum) {
-  size_t shapes = 0;
-  for (size_t i = 0; i < rostrum->cel_count; i++)
-    for (size_t k = 0; k < rostrum->cels[i]->object_count; k++)
-      shapes += rostrum->cels[i]->objects[k]->data->shape_count;
-  return shapes >= CS_DRAWINGS_SHAPES * rostrum->cel_count;
-}
-
-static bool suits(const celspan_rostrum *rostrum, const cs_view *view,
-                  const cs_antialias *antialias) {
-  bool suits = antialias->mode == CELSPAN_ANTIALIAS_AREA && !rostrum->grade &&
-               cs_space_inside(rostrum->space, view->space) == view->space &&
-               view->width <= CS_DRAWINGS_SIDE && view->height <= CS_DRAWINGS_SIDE &&
-               rostrum->cel_count <= CS_MAP_DRAWINGS && !rostrum->back.texture && is_rich(rostrum);
-  for (size_t i = 0; suits && i < rostrum->cel_count; i++)
-    suits = is_even(rostrum, rostrum->cels[i], view->space);
-  return suits;
-}
 
 /* ---------------------------------------------------------------- maps */
 
@@ -220,18 +186,14 @@ static celspan_status place_turned(celspan_context *context, const placed_cel *d
 }
 
 /* *suits: whether the cel can be a map in its place. */
-static celspan_status make_sheet(celspan_context *context, const celspan_rostrum *rostrum,
-                                 placed_cel *d, cs_map_sheet *out, bool *suits) {
-  const cs_light back = cs_scene_back(rostrum, &d->cel->back);
+static celspan_status make_drawing(celspan_context *context, const celspan_rostrum *rostrum,
+                                   placed_cel *d, cs_map_drawing *drawing, bool *suits) {
   const cs_light front = cs_scene_front(rostrum, d->cel);
   float opacity = (float)d->opacity;
-  cs_map_drawing *drawing = &out->drawing;
   drawing->light = opacity * colour_of(cs_light_in(&front, d->view->space));
   drawing->light[3] = opacity;
   drawing->grade = d->cel->grade ? &d->cel->grade->steps : NULL;
   drawing->space = d->view->space;
-  out->back = colour_of(cs_light_in(&back, d->view->space));
-  out->keep = 1 - back.flat.a;
   CS_TRY(cs_map_keep_acquire(context, key_of(d), make, d, &drawing->map));
   *suits = drawing->map->is_whole;
   if (*suits && d->is_turned)
@@ -241,82 +203,156 @@ static celspan_status make_sheet(celspan_context *context, const celspan_rostrum
   return *suits ? light_cells(context, drawing) : CELSPAN_OK;
 }
 
+/* ---------------------------------------------------------------- cels that are swept */
+
+/* Compiles cels by themselves, with all their lights but the one behind them, which is compiled
+ * only if nothing else is behind it. All rows are compiled, so that the number of dashes is that of
+ * the whole frame. *suits: whether there are not too many of these. */
+static celspan_status compile_cels(celspan_context *context, const celspan_rostrum *rostrum,
+                                   const cs_view *view, const cs_antialias *antialias,
+                                   cs_map_sheet *sheet, size_t first, bool *suits) {
+  cs_view whole = *view;
+  celspan_rostrum part;
+  celspan_cel rearmost, *cels[CS_MAP_DRAWINGS];
+  cs_value_copy(&part, rostrum, sizeof part);
+  cs_value_copy(&rearmost, rostrum->cels[first], sizeof rearmost);
+  memcpy(cels, rostrum->cels + first, sheet->cels * sizeof *cels);
+  part.cels = cels;
+  part.cel_count = sheet->cels;
+  if (first > 0) {
+    part.back = rearmost.back = (cs_light){0};
+    cels[0] = &rearmost;
+  }
+  whole.first_row = whole.first_column = 0;
+  whole.end_row = view->height;
+  whole.end_column = view->width;
+  whole.cels_behind = first;
+  CS_TRY(CS_MAKE(context, sheet->plan, 1));
+  CS_TRY(cs_compile(context, &part, &whole, antialias, 1, sheet->plan));
+  *suits = !sheet->plan->is_crowded;
+  return CELSPAN_OK;
+}
+
 /* ---------------------------------------------------------------- a frame */
+
+static void set_back(const celspan_rostrum *rostrum, const cs_light *light, celspan_space space,
+                     cs_v4 *back, float *keep) {
+  const cs_light lit = cs_scene_back(rostrum, light);
+  *back = colour_of(cs_light_in(&lit, space));
+  *keep = 1 - lit.flat.a;
+}
 
 static void place_object(placed_cel *d, const celspan_object *object) {
   d->matrix = celspan_matrix_then(*object->matrix, d->matrix);
   d->opacity *= object->fade;
 }
 
-/* The drawings of all cels, from the camera; *suit: whether each of them may be a map. */
+/* The drawings of all cels; those that their place does not suit are found. */
 static celspan_status place_cels(celspan_context *context, const celspan_rostrum *rostrum,
-                                 const cs_view *view, placed_cel *drawings, bool *suit) {
+                                 const cs_view *view, placed_cel *drawings, cs_ways *ways) {
   const celspan_matrix to_pixels =
       celspan_matrix_scaling(view->width / view->film_width, view->height / view->film_height);
-  *suit = true;
-  for (size_t i = 0; i < rostrum->cel_count && *suit; i++) {
+  for (size_t i = 0; i < rostrum->cel_count; i++) {
     placed_cel *d = &drawings[i];
-    size_t index = rostrum->cel_count - 1 - i;
-    d->cel = rostrum->cels[index];
-    d->number = index + 1;
-    d->is_made = false;
-    d->view = view;
-    CS_TRY(cs_scene_cel_matrix(context, rostrum, index, view->film_width, view->film_height,
-                               &d->matrix));
+    *d = (placed_cel){.cel = rostrum->cels[i], .view = view, .number = i + 1};
+    CS_TRY(
+        cs_scene_cel_matrix(context, rostrum, i, view->film_width, view->film_height, &d->matrix));
     d->matrix = celspan_matrix_then(d->matrix, to_pixels);
     d->opacity = d->cel->opacity;
     if (d->cel->object_count == 1)
       place_object(d, d->cel->objects[0]);
-    *suit = find_scale(d);
+    ways->suits[i] = ways->suits[i] && find_scale(d);
   }
   return CELSPAN_OK;
 }
 
-/* Makes the sheets until one of their drawings cannot be a map. */
-static celspan_status make_sheets(celspan_context *context, const celspan_rostrum *rostrum,
-                                  placed_cel *drawings, cs_map_frame *out, bool *suit) {
-  out->capacity = rostrum->cel_count;
-  if (out->capacity > 0)
-    CS_TRY(CS_MAKE(context, out->sheets, out->capacity));
-  while (out->count < out->capacity && *suit) {
-    cs_map_sheet *sheet = &out->sheets[out->count];
-    placed_cel *d = &drawings[out->count++];
-    CS_TRY(make_sheet(context, rostrum, d, sheet, suit));
-    out->made += d->is_made;
+/* A frame that is being made. */
+typedef struct making {
+  celspan_context *context;
+  const celspan_rostrum *rostrum;
+  const cs_view *view;
+  const cs_antialias *antialias;
+  cs_ways ways;
+  placed_cel drawings[CS_MAP_DRAWINGS];
+} making;
+
+/* Makes the sheet that begins with a cel. *suits: as in make_drawing and compile_cels. */
+static celspan_status make_sheet(making *m, size_t first, cs_map_sheet *sheet, bool *suits) {
+  const celspan_rostrum *rostrum = m->rostrum;
+  *sheet = (cs_map_sheet){.cels = cs_ways_end(rostrum, &m->ways, first) - first, .keep = 1};
+  if (first > 0 || m->ways.mapped[0])
+    set_back(rostrum, &rostrum->cels[first]->back, m->view->space, &sheet->back, &sheet->keep);
+  if (!m->ways.mapped[first])
+    return compile_cels(m->context, rostrum, m->view, m->antialias, sheet, first, suits);
+  return make_drawing(m->context, rostrum, &m->drawings[first], &sheet->drawing, suits);
+}
+
+static size_t count_sheets(const making *m) {
+  size_t count = 0;
+  for (size_t first = 0; first < m->rostrum->cel_count; count++)
+    first = cs_ways_end(m->rostrum, &m->ways, first);
+  return count;
+}
+
+/* Makes the sheets, from the rear, until one of them does not suit: its first cel is *unsuited,
+ * which is the number of cels where all of them do. */
+static celspan_status make_sheets(making *m, cs_map_frame *out, size_t *unsuited) {
+  const celspan_rostrum *rostrum = m->rostrum;
+  size_t left = count_sheets(m), first = 0;
+  CS_TRY(CS_MAKE(m->context, out->sheets, left));
+  out->count = left;
+  for (bool suits = true; left-- > 0; first += out->sheets[left].cels) {
+    CS_TRY(make_sheet(m, first, &out->sheets[left], &suits));
+    out->made += m->drawings[first].is_made;
+    *unsuited = first;
+    if (!suits)
+      return CELSPAN_OK;
   }
+  *unsuited = rostrum->cel_count;
+  out->keep = 1;
+  if (m->ways.mapped[0])
+    set_back(rostrum, &rostrum->back, m->view->space, &out->back, &out->keep);
+  out->width = m->view->width;
+  out->height = m->view->height;
   return CELSPAN_OK;
 }
 
 celspan_status cs_drawings_create(celspan_context *context, const celspan_rostrum *rostrum,
                                   const cs_view *view, const cs_antialias *antialias,
                                   cs_map_frame *out) {
-  placed_cel drawings[CS_MAP_DRAWINGS];
-  bool suit = suits(rostrum, view, antialias);
-  if (suit)
-    CS_TRY(place_cels(context, rostrum, view, drawings, &suit));
-  if (suit)
-    CS_TRY(make_sheets(context, rostrum, drawings, out, &suit));
-  if (!suit) {
-    cs_drawings_finish(out, context->memory);
+  making m = {.context = context, .rostrum = rostrum, .view = view, .antialias = antialias};
+  cs_ways_find(rostrum, view, antialias, &m.ways);
+  if (!cs_ways_choose(rostrum, &m.ways))
     return CELSPAN_OK;
+  CS_TRY(place_cels(context, rostrum, view, m.drawings, &m.ways));
+  while (cs_ways_choose(rostrum, &m.ways)) {
+    size_t unsuited = rostrum->cel_count;
+    CS_TRY(make_sheets(&m, out, &unsuited));
+    if (unsuited == rostrum->cel_count)
+      return CELSPAN_OK;
+    cs_drawings_finish(out, context->memory);
+    if (!m.ways.mapped[unsuited])
+      return CELSPAN_OK;
+    m.ways.suits[unsuited] = false;
   }
-  const cs_light back = cs_scene_back(rostrum, &rostrum->back);
-  out->back = colour_of(cs_light_in(&back, view->space));
-  out->keep = 1 - back.flat.a;
-  out->width = view->width;
-  out->height = view->height;
   return CELSPAN_OK;
 }
 
+static void finish_sheet(cs_map_sheet *sheet, cs_memory *memory) {
+  cs_map_drawing *drawing = &sheet->drawing;
+  if (drawing->colours)
+    cs_mem_free(memory, drawing->colours, drawing->map->cell_count * sizeof *drawing->colours);
+  cs_map_brush_displace(drawing, memory);
+  cs_map_lines_finish(&drawing->turned, memory);
+  cs_map_unref(drawing->map);
+  if (sheet->plan)
+    cs_compile_free(sheet->plan, memory);
+  cs_mem_free(memory, sheet->plan, sizeof *sheet->plan);
+}
+
 void cs_drawings_finish(cs_map_frame *frame, cs_memory *memory) {
-  for (size_t i = 0; i < frame->count; i++) {
-    cs_map_drawing *drawing = &frame->sheets[i].drawing;
-    if (drawing->colours)
-      cs_mem_free(memory, drawing->colours, drawing->map->cell_count * sizeof *drawing->colours);
-    cs_map_brush_displace(drawing, memory);
-    cs_map_lines_finish(&drawing->turned, memory);
-    cs_map_unref(drawing->map);
-  }
-  cs_mem_free(memory, frame->sheets, frame->capacity * sizeof *frame->sheets);
+  for (size_t i = 0; i < frame->count; i++)
+    finish_sheet(&frame->sheets[i], memory);
+  cs_mem_free(memory, frame->sheets, frame->count * sizeof *frame->sheets);
   *frame = (cs_map_frame){0};
 }

@@ -84,10 +84,17 @@ static bool stays_on_thread(const cs_plan *plan) {
   return false;
 }
 
+static bool sheets_stay_on_thread(const cs_map_frame *frame) {
+  for (size_t i = 0; i < frame->count; i++)
+    if (frame->sheets[i].plan && stays_on_thread(frame->sheets[i].plan))
+      return true;
+  return false;
+}
+
 /* Procedures and surfaces that must stay on the rendering thread leave one worker. */
 static bool needs_one_thread(const cs_frame *frame) {
   for (size_t i = 0; i < frame->count; i++)
-    if (stays_on_thread(&frame->plans[i]))
+    if (stays_on_thread(&frame->plans[i]) || sheets_stay_on_thread(&frame->maps[i]))
       return true;
   return false;
 }

@@ -52,10 +52,15 @@ static celspan_status feed_sink(celspan_context *context, const cs_frame *frame,
   return status;
 }
 
-static void count_maps(const cs_frame *frame, celspan_statistics *statistics) {
+static void count_cels(const cs_frame *frame, celspan_statistics *statistics) {
   for (size_t i = 0; i < frame->count; i++) {
-    statistics->maps += frame->maps[i].count;
-    statistics->maps_made += frame->maps[i].made;
+    const cs_map_frame *sheets = &frame->maps[i];
+    size_t maps = 0;
+    for (size_t k = 0; k < sheets->count; k++)
+      maps += !sheets->sheets[k].plan;
+    statistics->maps += maps;
+    statistics->maps_made += sheets->made;
+    statistics->swept += frame->rostrums[i]->cel_count - maps;
   }
 }
 
@@ -71,7 +76,7 @@ static celspan_status render(celspan_context *context, const celspan_frame_desc 
   celspan_status status = cs_frame_create(context, desc, &frame);
   if (status == CELSPAN_OK) {
     frame.takes_codes = sink->takes_codes;
-    count_maps(&frame, &counted);
+    count_cels(&frame, &counted);
     status = feed_sink(context, &frame, desc, sink, &counted, ended);
     cs_frame_free(&frame, context->memory);
   }

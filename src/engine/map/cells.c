@@ -1,0 +1,105 @@
+#include "engine/map/cells.h"
+
+#include "base/splitmix.h"
+#include "engine/compose/over.h"
+
+void cs_map_cells_finish(cs_map_cells *cells, cs_memory *memory) {
+  cs_mem_free(memory, cells->table, cells->capacity * sizeof *cells->table);
+  *cells = (cs_map_cells){0};
+}
+
+void cs_map_cells_clear(cs_map_cells *cells) {
+  if (cells->capacity > 0)
+    memset(cells->table, 0, cells->capacity * sizeof *cells->table);
+  cells->map->cell_count = cells->map->item_count = 0;
+}
+
+/* ---------------------------------------------------------------- what shows */
+
+static uint64_t mix(uint64_t word) { return cs_splitmix_next(&word); }
+
+static cs_map_content content_of(const cs_map *map, uint32_t cell) {
+  const cs_map_cell *of = &map->cells[cell];
+  return (cs_map_content){of->colour, of->length > 0 ? map->items + of->item : NULL, of->length};
+}
+
+static bool is_content(cs_map_content a, cs_map_content b) {
+  return a.length == b.length && memcmp(&a.colour, &b.colour, sizeof a.colour) == 0 &&
+         (a.length == 0 || memcmp(a.items, b.items, a.length * sizeof *a.items) == 0);
+}
+
+static size_t place_of(const cs_map_cells *cells, cs_map_content what) {
+  uint64_t words[2], name = what.length;
+  memcpy(words, &what.colour, sizeof words);
+  for (uint32_t i = 0; i < what.length; i++)
+    name = mix(name ^ what.items[i].layer);
+  return mix(words[0] ^ mix(words[1] ^ name)) & (cells->capacity - 1);
+}
+
+/* ---------------------------------------------------------------- the table */
+
+/* Puts a cell into the table, which has room. */
+static void place_cell(cs_map_cells *cells, uint32_t cell) {
+  size_t at = place_of(cells, content_of(cells->map, cell));
+  while (cells->table[at])
+    at = (at + 1) & (cells->capacity - 1);
+  cells->table[at] = cell + 1;
+}
+
+static celspan_status widen(celspan_context *context, cs_map_cells *cells) {
+  size_t capacity = cells->capacity > 0 ? 2 * cells->capacity : 256;
+  cs_mem_free(context->memory, cells->table, cells->capacity * sizeof *cells->table);
+  cells->capacity = 0;
+  CS_TRY(CS_MAKE(context, cells->table, capacity));
+  cells->capacity = capacity;
+  for (size_t i = 0; i < cells->map->cell_count; i++)
+    place_cell(cells, (uint32_t)i);
+  return CELSPAN_OK;
+}
+
+/* Appends a cell and its program. */
+static celspan_status add_cell(celspan_context *context, cs_map *map, cs_map_content what,
+                               uint32_t *out) {
+  *out = (uint32_t)map->cell_count;
+  map->is_whole = map->cell_count < CS_MAP_CELLS && map->item_count + what.length < UINT32_MAX;
+  CS_TRY(CS_RESERVE(context, map->items, map->item_capacity, map->item_count + what.length));
+  if (what.length > 0)
+    memcpy(map->items + map->item_count, what.items, what.length * sizeof *what.items);
+  const cs_map_cell cell = {.colour = what.colour,
+                            .key = (mix(*out) << 18 | *out) & CS_MAP_KEY,
+                            .item = (uint32_t)map->item_count,
+                            .length = what.length};
+  map->item_count += what.length;
+  return CS_APPEND(context, map->cells, map->cell_count, map->cell_capacity, cell);
+}
+
+celspan_status cs_map_cells_find(celspan_context *context, cs_map_cells *cells, cs_map_content what,
+                                 uint32_t *out) {
+  if (2 * cells->map->cell_count >= cells->capacity)
+    CS_TRY(widen(context, cells));
+  size_t at = place_of(cells, what);
+  for (; cells->table[at]; at = (at + 1) & (cells->capacity - 1))
+    if (is_content(content_of(cells->map, cells->table[at] - 1), what)) {
+      *out = cells->table[at] - 1;
+      return CELSPAN_OK;
+    }
+  CS_TRY(add_cell(context, cells->map, what, out));
+  cells->table[at] = *out + 1;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- what hides */
+
+static bool hides(const cs_map *map, const cs_map_cell *cell, const cs_stack *stack) {
+  bool hides = false;
+  for (uint32_t i = 0; i < cell->length && !hides; i++) {
+    const cs_layer *layer = &stack->layers[map->items[cell->item + i].layer];
+    hides = layer->group == CS_STACK_NONE && cs_over_is_opaque(layer->t);
+  }
+  return hides;
+}
+
+void cs_map_cells_find_hiding(cs_map *map, const cs_stack *stack) {
+  for (size_t i = 0; i < map->cell_count; i++)
+    map->cells[i].hides = hides(map, &map->cells[i], stack);
+}

@@ -1,0 +1,43 @@
+/* The cells of a map that is being filled, found by what shows in them.
+ *
+ * Invariant: the map has a cell once, and its cells are numbered in the order in which they were
+ * asked for first.
+ */
+#pragma once
+
+#include "engine/kernel/retained.h"
+#include "engine/map/map.h"
+
+typedef struct cs_map_cells {
+  cs_map *map;     /* borrowed */
+  uint32_t *table; /* the number of a cell plus 1; 0: free. A power of two */
+  size_t capacity;
+} cs_map_cells;
+
+/* What shows in a cell: a colour where length is 0. */
+typedef struct cs_map_content {
+  cs_v4 colour;
+  const cs_item *items;
+  uint32_t length;
+} cs_map_content;
+
+void cs_map_cells_finish(cs_map_cells *cells, cs_memory *memory);
+/* Empties the map's list of cells. */
+void cs_map_cells_clear(cs_map_cells *cells);
+/* The number of the cell of what shows there, which is appended to the map if it is new. Where
+ * there are too many the map is not whole. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_map_cells_find(celspan_context *context, cs_map_cells *cells,
+                                                 cs_map_content what, uint32_t *out);
+
+/* What shows on a side of an edge. */
+static inline cs_map_content cs_map_content_at(const cs_retained_row *retained,
+                                               const cs_retained_side *side) {
+  if (side->program < 0)
+    return (cs_map_content){.colour = side->colour};
+  const cs_program *program = &retained->programs[side->program].program;
+  return (cs_map_content){cs_v4_all(0), program->items, program->length};
+}
+
+/* Finds which of the map's cells hide what is behind them: nothing shines through some layer of
+ * their program, which is in no group. */
+void cs_map_cells_find_hiding(cs_map *map, const cs_stack *stack);

@@ -1,0 +1,115 @@
+#include "engine/map/swept.h"
+
+#include <math.h>
+
+/* ---------------------------------------------------------------- life */
+
+static bool varies(const cs_stack *stack) {
+  return stack->shade_count + stack->image_count + stack->defocused_count > 0;
+}
+
+celspan_status cs_map_swept_init(cs_map_swept *swept, celspan_context *context,
+                                 const cs_plan *plan) {
+  *swept = (cs_map_swept){.plan = plan, .cells = {.map = &swept->map}};
+  swept->drawing = (cs_map_drawing){.map = &swept->map,
+                                    .lines = &swept->map.lines,
+                                    .scale_x = 1.0 / CS_MAP_UNIT,
+                                    .scale_y = 1.0 / CS_MAP_UNIT,
+                                    .light = cs_v4_all(1),
+                                    .space = plan->stack.space};
+  if (varies(&plan->stack))
+    swept->drawing.stack = plan->stack;
+  return cs_row_maker_init(&swept->maker, context, plan);
+}
+
+void cs_map_swept_finish(cs_map_swept *swept) {
+  if (!swept->maker.context)
+    return;
+  cs_memory *memory = swept->maker.context->memory;
+  cs_map *map = &swept->map;
+  cs_map_lines_finish(&map->lines, memory);
+  cs_mem_free(memory, map->cells, map->cell_capacity * sizeof *map->cells);
+  cs_mem_free(memory, map->items, map->item_capacity * sizeof *map->items);
+  cs_mem_free(memory, swept->drawing.colours,
+              swept->colour_capacity * sizeof *swept->drawing.colours);
+  cs_map_cells_finish(&swept->cells, memory);
+  cs_retained_finish(&swept->retained, memory);
+  cs_row_maker_finish(&swept->maker);
+  *swept = (cs_map_swept){0};
+}
+
+/* ---------------------------------------------------------------- borders */
+
+static int32_t round_to_unit(double place) { return (int32_t)floor(place * CS_MAP_UNIT + 0.5); }
+
+/* Chains run along the sides of the frame where outlines are beyond them, so that all places are
+ * near. */
+static celspan_status add_border(cs_map_swept *swept, const cs_retained_edge *edge,
+                                 const uint32_t sides[2]) {
+  celspan_context *context = swept->maker.context;
+  cs_map_lines *lines = &swept->map.lines;
+  const cs_map_point above = {round_to_unit(edge->xa), round_to_unit(edge->ya)};
+  const cs_map_point below = {round_to_unit(edge->xb), round_to_unit(edge->yb)};
+  const cs_map_border border = {sides[0],
+                                sides[1],
+                                (uint32_t)lines->point_count,
+                                2,
+                                above.x < below.x ? above.x : below.x,
+                                above.x < below.x ? below.x : above.x,
+                                below.y};
+  if (above.y >= below.y)
+    return CELSPAN_OK;
+  CS_TRY(CS_RESERVE(context, lines->points, lines->point_capacity, lines->point_count + 2));
+  lines->points[lines->point_count++] = above;
+  lines->points[lines->point_count++] = below;
+  return CS_APPEND(context, lines->borders, lines->border_count, lines->border_capacity, border);
+}
+
+static celspan_status add_edge(cs_map_swept *swept, const cs_retained_edge *edge) {
+  celspan_context *context = swept->maker.context;
+  cs_map_content left = cs_map_content_at(&swept->retained, &edge->left);
+  cs_map_content right = cs_map_content_at(&swept->retained, &edge->right);
+  uint32_t sides[2];
+  CS_TRY(cs_map_cells_find(context, &swept->cells, left, &sides[0]));
+  CS_TRY(cs_map_cells_find(context, &swept->cells, right, &sides[1]));
+  return sides[0] != sides[1] ? add_border(swept, edge, sides) : CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- a swath */
+
+static celspan_status add_row(cs_map_swept *swept, int32_t y) {
+  uint32_t base;
+  CS_TRY(cs_row_retain(&swept->maker, y, &swept->retained));
+  CS_TRY(cs_map_cells_find(swept->maker.context, &swept->cells,
+                           (cs_map_content){.colour = swept->retained.base}, &base));
+  for (size_t i = 0; i < swept->retained.edge_count; i++)
+    CS_TRY(add_edge(swept, &swept->retained.edges[i]));
+  return CELSPAN_OK;
+}
+
+/* The colours of the cells, which are lit already. */
+static celspan_status take_colours(cs_map_swept *swept) {
+  const cs_map *map = &swept->map;
+  cs_map_drawing *drawing = &swept->drawing;
+  CS_TRY(
+      CS_RESERVE(swept->maker.context, drawing->colours, swept->colour_capacity, map->cell_count));
+  for (size_t i = 0; i < map->cell_count; i++)
+    drawing->colours[i] = map->cells[i].colour;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_map_swept_sweep(cs_map_swept *swept, int32_t row) {
+  int32_t height = swept->plan->height;
+  int32_t end = height - row < CS_MAP_ROWS ? height : row + CS_MAP_ROWS;
+  celspan_status status = CELSPAN_OK;
+  cs_map_cells_clear(&swept->cells);
+  swept->map.lines.border_count = swept->map.lines.point_count = 0;
+  for (int32_t y = row; y < end && status == CELSPAN_OK; y++)
+    status = add_row(swept, y);
+  if (status != CELSPAN_OK) {
+    cs_row_maker_restart(&swept->maker);
+    return status;
+  }
+  cs_map_cells_find_hiding(&swept->map, &swept->plan->stack);
+  return take_colours(swept);
+}

@@ -1,0 +1,106 @@
+#include "frames/render/ways.h"
+
+/* ---------------------------------------------------------------- what suits */
+
+static bool has_procedure(const celspan_cel *cel) {
+  bool has = false;
+  for (size_t i = 0; i < cel->object_count; i++)
+    has |= cel->objects[i]->data->has_procedure;
+  return has;
+}
+
+static bool is_uneven(const celspan_cel *cel) {
+  bool is_uneven = false;
+  for (size_t i = 0; i < cel->object_count; i++)
+    is_uneven |= cel->objects[i]->data->has_uneven;
+  return is_uneven;
+}
+
+/* Whether more of the cel is needed than a colour and an alpha to put it over what is behind it. */
+static bool needs_backdrop(const celspan_cel *cel, celspan_space space) {
+  return cs_cel_blends(cel, space) || is_uneven(cel) || cel->back.texture;
+}
+
+static bool is_white(celspan_light light) { return light.r == 1 && light.g == 1 && light.b == 1; }
+
+/* Modes act on what is lit, so that those inside a cel are in its map only under white light. */
+static bool may_have_map(const celspan_rostrum *rostrum, const celspan_cel *cel,
+                         celspan_space space) {
+  const cs_light front = cs_scene_front(rostrum, cel);
+  return cel->defocus_radius == 0 && !front.texture &&
+         (!cel->has_modes || is_white(cs_light_in(&front, space)));
+}
+
+static bool exposure_suits(const celspan_rostrum *rostrum, const cs_view *view,
+                           const cs_antialias *antialias) {
+  bool suits = antialias->mode == CELSPAN_ANTIALIAS_AREA && !rostrum->grade &&
+               cs_space_inside(rostrum->space, view->space) == view->space &&
+               view->width <= CS_WAYS_SIDE && view->height <= CS_WAYS_SIDE &&
+               rostrum->cel_count <= CS_MAP_DRAWINGS;
+  for (size_t i = 0; suits && i < rostrum->cel_count; i++)
+    suits = !has_procedure(rostrum->cels[i]);
+  return suits;
+}
+
+void cs_ways_find(const celspan_rostrum *rostrum, const cs_view *view,
+                  const cs_antialias *antialias, cs_ways *out) {
+  *out = (cs_ways){.rear = rostrum->back.texture ? 1 : 0};
+  if (!exposure_suits(rostrum, view, antialias))
+    return;
+  for (size_t i = 0; i < rostrum->cel_count; i++) {
+    out->suits[i] = may_have_map(rostrum, rostrum->cels[i], view->space);
+    if (needs_backdrop(rostrum->cels[i], view->space))
+      out->rear = i + 1;
+  }
+  for (size_t i = 0; i < out->rear; i++)
+    out->suits[i] = false;
+}
+
+/* ---------------------------------------------------------------- what pays */
+
+/* The shapes that a cel adds to a sweep: of a defocused one, a box. */
+static size_t count_shapes(const celspan_cel *cel) {
+  size_t shapes = 0;
+  for (size_t i = 0; i < cel->object_count; i++)
+    shapes += cel->objects[i]->data->shape_count;
+  return cel->defocus_radius > 0 ? 1 : shapes;
+}
+
+static bool has_picture(const celspan_cel *cel) {
+  bool has = false;
+  for (size_t i = 0; i < cel->object_count; i++)
+    has |= cel->objects[i]->data->has_picture;
+  return has;
+}
+
+/* A few pictures are drawn faster where they are composed with others. */
+static bool is_mapped(const celspan_cel *cel, bool suits) {
+  return suits && (count_shapes(cel) >= CS_WAYS_SHAPES || !has_picture(cel));
+}
+
+bool cs_ways_choose(const celspan_rostrum *rostrum, cs_ways *ways) {
+  size_t rich = 0, others = 0;
+  for (size_t i = 0; i < rostrum->cel_count; i++) {
+    size_t shapes = count_shapes(rostrum->cels[i]);
+    bool is_rich = ways->suits[i] && shapes >= CS_WAYS_SHAPES;
+    ways->mapped[i] = is_mapped(rostrum->cels[i], ways->suits[i]);
+    rich += is_rich ? shapes : 0;
+    others += is_rich ? 0 : shapes;
+  }
+  return rich > 0 && rich >= others;
+}
+
+/* ---------------------------------------------------------------- sheets */
+
+static bool has_light_behind(const celspan_cel *cel) {
+  const celspan_light *light = &cel->back.flat;
+  return cel->back.texture || light->r != 0 || light->g != 0 || light->b != 0 || light->a != 0;
+}
+
+size_t cs_ways_end(const celspan_rostrum *rostrum, const cs_ways *ways, size_t first) {
+  size_t end = first + 1;
+  while (!ways->mapped[first] && end < rostrum->cel_count && !ways->mapped[end] &&
+         (end < ways->rear || !has_light_behind(rostrum->cels[end])))
+    end++;
+  return end;
+}

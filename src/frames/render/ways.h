@@ -1,0 +1,50 @@
+/* The ways of a frame's cels: which of them are drawn from maps, and which are swept.
+ *
+ *     camera                       way
+ *       |   cel 5   character      map
+ *       |   cel 4   defocused      \  swept together: neighbours that are swept are one sheet
+ *       |   cel 3   a picture      /
+ *       |   cel 2   character      map
+ *       v   cel 1   mode "screen"  \  swept together: it acts on all that is behind it
+ *           cel 0   many shapes    /
+ *
+ * The rule. Where the cels that suit and have at least CS_WAYS_SHAPES shapes have together at least
+ * as many as all other cels, each cel that suits is drawn from its map, unless it has fewer shapes
+ * and pictures among them; the other cels are swept, and otherwise the whole exposure is. The mesh
+ * of a bent picture or gradient is one shape, because it is another mesh in each frame, and a
+ * defocused cel is one.
+ *
+ * An exposure may have maps where its frame repeats, its antialiasing is "area", no side of the
+ * frame is above CS_WAYS_SIDE pixels, and it has at most CS_MAP_DRAWINGS cels, no procedures, no
+ * grade of the whole and the space of the film. A cel suits that
+ *   - is in front of all cels that have paints that do not dim all channels alike, pictures of one
+ *     thread, compositions, modes that act on other cels, or a back light with a shape,
+ *   - is not defocused, has no front light with a shape, and no modes under a coloured light,
+ *   - lies before the horizon, as a whole,
+ *   - is small enough to be a map (engine/map/map.h) and, if it is turned, to be turned (turn.h
+ *     there), and does not have too many dashes.
+ *
+ * Invariant: the ways depend on the exposure and the size of the whole frame alone; not on the crop,
+ * on the workers, or on which maps are kept.
+ */
+#pragma once
+
+#include "engine/map/sheets.h"
+#include "frames/render/compile.h"
+
+#define CS_WAYS_SIDE 8192
+#define CS_WAYS_SHAPES 256
+
+typedef struct cs_ways {
+  bool suits[CS_MAP_DRAWINGS];  /* by the index of the cel, from the rear */
+  bool mapped[CS_MAP_DRAWINGS]; /* it is drawn from its map */
+  size_t rear;                  /* as many cels at the rear are swept with the light behind them */
+} cs_ways;
+
+/* Finds which cels of an exposure suit, but for their places and sizes. */
+void cs_ways_find(const celspan_rostrum *rostrum, const cs_view *view,
+                  const cs_antialias *antialias, cs_ways *out);
+/* Chooses those that are drawn from maps among those that suit; false: the exposure is swept. */
+bool cs_ways_choose(const celspan_rostrum *rostrum, cs_ways *ways);
+/* The end of the sheet that begins with a cel. */
+size_t cs_ways_end(const celspan_rostrum *rostrum, const cs_ways *ways, size_t first);
