@@ -10,7 +10,7 @@
 #define WIDTH 90
 #define HEIGHT 60
 #define SCENES 120
-#define SHAPES 256 /* of each cel, at least: of fewer there are no maps */
+#define SHAPES 256 /* of each cel: enough for maps */
 
 /* What a scene has. MIXED: cels that are swept, too. */
 typedef enum scene_kind { STRAIGHT, ROUND, VARIED, MIXED } scene_kind;

@@ -44,7 +44,10 @@ static bool exposure_suits(const celspan_rostrum *rostrum, const cs_view *view,
 
 void cs_ways_find(const celspan_rostrum *rostrum, const cs_view *view,
                   const cs_antialias *antialias, cs_ways *out) {
-  *out = (cs_ways){.rear = rostrum->back.texture ? 1 : 0};
+  int32_t side = view->width > view->height ? view->width : view->height;
+  *out = (cs_ways){.rear = rostrum->back.texture ? 1 : 0, .shapes = CS_WAYS_SHAPES};
+  if (side > CS_WAYS_SHAPES * CS_WAYS_PIXELS)
+    out->shapes = (size_t)side / CS_WAYS_PIXELS;
   if (!exposure_suits(rostrum, view, antialias))
     return;
   for (size_t i = 0; i < rostrum->cel_count; i++) {
@@ -74,16 +77,16 @@ static bool has_picture(const celspan_cel *cel) {
 }
 
 /* A few pictures are drawn faster where they are composed with others. */
-static bool is_mapped(const celspan_cel *cel, bool suits) {
-  return suits && (count_shapes(cel) >= CS_WAYS_SHAPES || !has_picture(cel));
+static bool is_mapped(const celspan_cel *cel, bool suits, size_t rich) {
+  return suits && (count_shapes(cel) >= rich || !has_picture(cel));
 }
 
 bool cs_ways_choose(const celspan_rostrum *rostrum, cs_ways *ways) {
   size_t rich = 0, others = 0;
   for (size_t i = 0; i < rostrum->cel_count; i++) {
     size_t shapes = count_shapes(rostrum->cels[i]);
-    bool is_rich = ways->suits[i] && shapes >= CS_WAYS_SHAPES;
-    ways->mapped[i] = is_mapped(rostrum->cels[i], ways->suits[i]);
+    bool is_rich = ways->suits[i] && shapes >= ways->shapes;
+    ways->mapped[i] = is_mapped(rostrum->cels[i], ways->suits[i], ways->shapes);
     rich += is_rich ? shapes : 0;
     others += is_rich ? 0 : shapes;
   }

@@ -8,9 +8,10 @@
  *       v   cel 1   mode "screen"  \  swept together: it acts on all that is behind it
  *           cel 0   many shapes    /
  *
- * The rule. Where the cels that suit and have at least CS_WAYS_SHAPES shapes have together at least
- * as many as all other cels, each cel that suits is drawn from its map, unless it has fewer shapes
- * and pictures among them; the other cels are swept, and otherwise the whole exposure is. The mesh
+ * The rule. A cel is rich that suits and has at least CS_WAYS_SHAPES shapes, and at least one for
+ * every CS_WAYS_PIXELS pixels of the frame's longer side: the longer boundaries are, the less a map
+ * saves. Where the rich cels have together at least as many shapes as all others, each cel that suits is drawn from its map, unless it is not rich
+ * and has pictures; the other cels are swept, and otherwise the whole exposure is. The mesh
  * of a bent picture or gradient is one shape, because it is another mesh in each frame, and a
  * defocused cel is one.
  *
@@ -33,12 +34,14 @@
 #include "frames/render/compile.h"
 
 #define CS_WAYS_SIDE 8192
-#define CS_WAYS_SHAPES 256
+#define CS_WAYS_SHAPES 64
+#define CS_WAYS_PIXELS 32
 
 typedef struct cs_ways {
   bool suits[CS_MAP_DRAWINGS];  /* by the index of the cel, from the rear */
   bool mapped[CS_MAP_DRAWINGS]; /* it is drawn from its map */
   size_t rear;                  /* as many cels at the rear are swept with the light behind them */
+  size_t shapes;                /* of a rich cel, at least */
 } cs_ways;
 
 /* Finds which cels of an exposure suit, but for their places and sizes. */
