@@ -236,7 +236,8 @@ celspan_status cs_dense_draw(cs_dense *dense, cs_local_sweep *sweep, const cs_ce
   int all = height * SUB_ROWS > 1 ? (int)(height * SUB_ROWS) : 1; /* sub-rows */
   find_pixels(&d);
   CS_TRY(reserve(&d));
-  memset(dense->sums, 0, (size_t)d.count * sizeof *dense->sums);
+  if (d.count > 0) /* else nothing of them is in the frame, and there may be no room yet */
+    memset(dense->sums, 0, (size_t)d.count * sizeof *dense->sums);
   list_crossings(&d);
   for (int first = 0, end; first < all; first = end) {
     end = first + TOGETHER < all ? first + TOGETHER : all;

@@ -38,6 +38,6 @@ static inline cs_map_content cs_map_content_at(const cs_retained_row *retained,
   return (cs_map_content){cs_v4_all(0), program->items, program->length};
 }
 
-/* Finds which of the map's cells hide what is behind them: nothing shines through some layer of
+/* Finds which of the map's cells hide their background: nothing shines through some layer of
  * their program, which is in no group. */
 void cs_map_cells_find_hiding(cs_map *map, const cs_stack *stack);

@@ -23,7 +23,7 @@
 typedef struct cs_map_sheet {
   cs_map_drawing drawing; /* of a map; else 0 */
   cs_plan *plan;          /* of cels that are swept; NULL: it is drawn from a map. Owned */
-  size_t cels;            /* how many cels it has */
+  size_t source_count;    /* what it was made from: for the caller */
   cs_v4 back;             /* the light behind it; lane 3 is 0 */
   float keep;             /* what the matte of that light leaves of transparency */
 } cs_map_sheet;

@@ -1,6 +1,6 @@
 /* Cels that are swept, as one sheet among those that are drawn from maps.
  *
- *     plan of the cels --sweep--> visible edges of each row of a swath --cells--> a map of the swath
+ *   plan of the cels --sweep--> visible edges of each row of a swath --cells--> map of the swath
  *
  * The edges of a row are borders of that row, between the cells that the sweep has composed, so
  * the swath is summed (sums.h) like that of any drawing, its broken pixels are known, and those

@@ -216,9 +216,9 @@ static celspan_status compile_cels(celspan_context *context, const celspan_rostr
   celspan_cel rearmost, *cels[CS_MAP_DRAWINGS];
   cs_value_copy(&part, rostrum, sizeof part);
   cs_value_copy(&rearmost, rostrum->cels[first], sizeof rearmost);
-  memcpy(cels, rostrum->cels + first, sheet->cels * sizeof *cels);
+  memcpy(cels, rostrum->cels + first, sheet->source_count * sizeof *cels);
   part.cels = cels;
-  part.cel_count = sheet->cels;
+  part.cel_count = sheet->source_count;
   if (first > 0) {
     part.back = rearmost.back = (cs_light){0};
     cels[0] = &rearmost;
@@ -279,7 +279,7 @@ typedef struct making {
 /* Makes the sheet that begins with a cel. *suits: as in make_drawing and compile_cels. */
 static celspan_status make_sheet(making *m, size_t first, cs_map_sheet *sheet, bool *suits) {
   const celspan_rostrum *rostrum = m->rostrum;
-  *sheet = (cs_map_sheet){.cels = cs_ways_end(rostrum, &m->ways, first) - first, .keep = 1};
+  *sheet = (cs_map_sheet){.source_count = cs_ways_end(rostrum, &m->ways, first) - first, .keep = 1};
   if (first > 0 || m->ways.mapped[0])
     set_back(rostrum, &rostrum->cels[first]->back, m->view->space, &sheet->back, &sheet->keep);
   if (!m->ways.mapped[first])
@@ -301,7 +301,7 @@ static celspan_status make_sheets(making *m, cs_map_frame *out, size_t *unsuited
   size_t left = count_sheets(m), first = 0;
   CS_TRY(CS_MAKE(m->context, out->sheets, left));
   out->count = left;
-  for (bool suits = true; left-- > 0; first += out->sheets[left].cels) {
+  for (bool suits = true; left-- > 0; first += out->sheets[left].source_count) {
     CS_TRY(make_sheet(m, first, &out->sheets[left], &suits));
     out->made += m->drawings[first].is_made;
     *unsuited = first;

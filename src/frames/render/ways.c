@@ -16,7 +16,7 @@ static bool is_uneven(const celspan_cel *cel) {
   return is_uneven;
 }
 
-/* Whether more of the cel is needed than a colour and an alpha to put it over what is behind it. */
+/* Whether more of a cel is needed than a colour and an alpha to put it over the cels behind it. */
 static bool needs_backdrop(const celspan_cel *cel, celspan_space space) {
   return cs_cel_blends(cel, space) || is_uneven(cel) || cel->back.texture;
 }

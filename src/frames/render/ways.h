@@ -10,10 +10,10 @@
  *
  * The rule. A cel is rich that suits and has at least CS_WAYS_SHAPES shapes, and at least one for
  * every CS_WAYS_PIXELS pixels of the frame's longer side: the longer boundaries are, the less a map
- * saves. Where the rich cels have together at least as many shapes as all others, each cel that suits is drawn from its map, unless it is not rich
- * and has pictures; the other cels are swept, and otherwise the whole exposure is. The mesh
- * of a bent picture or gradient is one shape, because it is another mesh in each frame, and a
- * defocused cel is one.
+ * saves. Where the rich cels have together at least as many shapes as all others, each cel that
+ * suits is drawn from its map, unless it is not rich and has pictures; the other cels are swept,
+ * and otherwise the whole exposure is. The mesh of a bent picture or gradient is one shape, because
+ * it is another mesh in each frame, and a defocused cel is one.
  *
  * An exposure may have maps where its frame repeats, its antialiasing is "area", no side of the
  * frame is above CS_WAYS_SIDE pixels, and it has at most CS_MAP_DRAWINGS cels, no procedures, no
@@ -25,8 +25,8 @@
  *   - is small enough to be a map (engine/map/map.h) and, if it is turned, to be turned (turn.h
  *     there), and does not have too many dashes.
  *
- * Invariant: the ways depend on the exposure and the size of the whole frame alone; not on the crop,
- * on the workers, or on which maps are kept.
+ * Invariant: the ways depend on the exposure and the size of the whole frame alone; not on the
+ * crop, on the workers, or on which maps are kept.
  */
 #pragma once
 
@@ -44,7 +44,7 @@ typedef struct cs_ways {
   size_t shapes;                /* of a rich cel, at least */
 } cs_ways;
 
-/* Finds which cels of an exposure suit, but for their places and sizes. */
+/* Finds which cels of an exposure suit, whatever their places and sizes are. */
 void cs_ways_find(const celspan_rostrum *rostrum, const cs_view *view,
                   const cs_antialias *antialias, cs_ways *out);
 /* Chooses those that are drawn from maps among those that suit; false: the exposure is swept. */
