@@ -250,7 +250,7 @@ static celspan_status compile_cels(cs_compiler *c, const celspan_rostrum *rostru
   CS_TRY(cs_lights_add_back(c, rostrum, 0, &rostrum->back, film));
   for (size_t i = 0; i < rostrum->cel_count; i++) {
     if (!c->is_nested) { /* a nested one is named by the cel that holds it */
-      c->cel = c->cels_behind + i + 1;
+      c->cel = c->cel_numbers ? c->cel_numbers[i] : i + 1;
       c->mark = rostrum->cels[i]->mark;
     }
     c->isolation.mattes = firsts[i];
@@ -307,7 +307,7 @@ static void begin(cs_compiler *c, cs_boundary_builder *boundaries, celspan_conte
                      .most_dashes = view->most_dashes,
                      .space = view->space,
                      .unit = view->unit,
-                     .cels_behind = view->cels_behind,
+                     .cel_numbers = view->cel_numbers,
                      .group = CS_STACK_NONE,
                      .isolation = {.ground = CS_STACK_NONE},
                      .compile_nested = compile_film,

@@ -37,7 +37,7 @@ typedef struct cs_view {
   /* Of planes, pixels: curves are kept (model/geometry/boundary.h), and objects lie at multiples
    * of it, so that their curves are the same wherever they have been moved to. 0: neither. */
   double unit;
-  size_t cels_behind; /* of the rostrum that was given, which are not in this one: for messages */
+  const size_t *cel_numbers; /* of the rostrum's cels, for messages; NULL: from 1 */
 } cs_view;
 
 /* workers: threads at most. Errors: NO_MEMORY; LIMIT; BAD_ARGUMENT for a singular viewport or

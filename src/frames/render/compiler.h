@@ -56,7 +56,7 @@ struct cs_compiler {
   double first_height, end_height; /* of the rows that will be asked for, with their margin */
   double first_place, end_place;   /* of the columns */
   size_t most_dashes;              /* with more in view, the plan is crowded */
-  size_t cels_behind;              /* see cs_view */
+  const size_t *cel_numbers;       /* see cs_view */
   size_t cel;                      /* from 1; it and the mark are for messages */
   cs_mark mark;                    /* of the cel; borrowed */
   cs_v4 front;

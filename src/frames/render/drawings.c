@@ -6,6 +6,7 @@
 #include "engine/map/flats.h"
 #include "engine/map/keep.h"
 #include "engine/map/turn.h"
+#include "frames/render/parts.h"
 #include "frames/render/ways.h"
 #include "model/geometry/matrix.h"
 #include "model/scene/bounds.h"
@@ -208,9 +209,10 @@ static celspan_status make_drawing(celspan_context *context, const celspan_rostr
 /* Compiles cels by themselves, with all their lights but the one behind them, which is compiled
  * only if nothing else is behind it. All rows are compiled, so that the number of dashes is that of
  * the whole frame. *suits: whether there are not too many of these. */
-static celspan_status compile_cels(celspan_context *context, const celspan_rostrum *rostrum,
+static celspan_status compile_cels(celspan_context *context, const cs_parts *parts,
                                    const cs_view *view, const cs_antialias *antialias,
                                    cs_map_sheet *sheet, size_t first, bool *suits) {
+  const celspan_rostrum *rostrum = parts->rostrum;
   cs_view whole = *view;
   celspan_rostrum part;
   celspan_cel rearmost, *cels[CS_MAP_DRAWINGS];
@@ -226,7 +228,7 @@ static celspan_status compile_cels(celspan_context *context, const celspan_rostr
   whole.first_row = whole.first_column = 0;
   whole.end_row = view->height;
   whole.end_column = view->width;
-  whole.cels_behind = first;
+  whole.cel_numbers = parts->numbers + first;
   CS_TRY(CS_MAKE(context, sheet->plan, 1));
   CS_TRY(cs_compile(context, &part, &whole, antialias, 1, sheet->plan));
   *suits = !sheet->plan->is_crowded;
@@ -248,15 +250,15 @@ static void place_object(placed_cel *d, const celspan_object *object) {
 }
 
 /* The drawings of all cels; those that their place does not suit are found. */
-static celspan_status place_cels(celspan_context *context, const celspan_rostrum *rostrum,
+static celspan_status place_cels(celspan_context *context, const cs_parts *parts,
                                  const cs_view *view, placed_cel *drawings, cs_ways *ways) {
+  const celspan_rostrum *rostrum = parts->rostrum;
   const celspan_matrix to_pixels =
       celspan_matrix_scaling(view->width / view->film_width, view->height / view->film_height);
   for (size_t i = 0; i < rostrum->cel_count; i++) {
     placed_cel *d = &drawings[i];
-    *d = (placed_cel){.cel = rostrum->cels[i], .view = view, .number = i + 1};
-    CS_TRY(
-        cs_scene_cel_matrix(context, rostrum, i, view->film_width, view->film_height, &d->matrix));
+    *d = (placed_cel){.cel = rostrum->cels[i], .view = view, .number = parts->numbers[i]};
+    CS_TRY(cs_parts_place(context, parts, i, view, &d->matrix));
     d->matrix = celspan_matrix_then(d->matrix, to_pixels);
     d->opacity = d->cel->opacity;
     if (d->cel->object_count == 1)
@@ -269,7 +271,8 @@ static celspan_status place_cels(celspan_context *context, const celspan_rostrum
 /* A frame that is being made. */
 typedef struct making {
   celspan_context *context;
-  const celspan_rostrum *rostrum;
+  const celspan_rostrum *rostrum; /* of the parts */
+  cs_parts parts;
   const cs_view *view;
   const cs_antialias *antialias;
   cs_ways ways;
@@ -283,7 +286,7 @@ static celspan_status make_sheet(making *m, size_t first, cs_map_sheet *sheet, b
   if (first > 0 || m->ways.mapped[0])
     set_back(rostrum, &rostrum->cels[first]->back, m->view->space, &sheet->back, &sheet->keep);
   if (!m->ways.mapped[first])
-    return compile_cels(m->context, rostrum, m->view, m->antialias, sheet, first, suits);
+    return compile_cels(m->context, &m->parts, m->view, m->antialias, sheet, first, suits);
   return make_drawing(m->context, rostrum, &m->drawings[first], &sheet->drawing, suits);
 }
 
@@ -317,25 +320,36 @@ static celspan_status make_sheets(making *m, cs_map_frame *out, size_t *unsuited
   return CELSPAN_OK;
 }
 
+static celspan_status make_frame(making *m, cs_map_frame *out) {
+  const celspan_rostrum *rostrum = m->rostrum = m->parts.rostrum;
+  cs_ways_find(rostrum, m->view, &m->ways);
+  if (!cs_ways_choose(rostrum, &m->ways))
+    return CELSPAN_OK;
+  CS_TRY(place_cels(m->context, &m->parts, m->view, m->drawings, &m->ways));
+  while (cs_ways_choose(rostrum, &m->ways)) {
+    size_t unsuited = rostrum->cel_count;
+    CS_TRY(make_sheets(m, out, &unsuited));
+    if (unsuited == rostrum->cel_count)
+      return CELSPAN_OK;
+    cs_drawings_finish(out, m->context->memory);
+    if (!m->ways.mapped[unsuited])
+      return CELSPAN_OK;
+    m->ways.suits[unsuited] = false;
+  }
+  return CELSPAN_OK;
+}
+
 celspan_status cs_drawings_create(celspan_context *context, const celspan_rostrum *rostrum,
                                   const cs_view *view, const cs_antialias *antialias,
                                   cs_map_frame *out) {
-  making m = {.context = context, .rostrum = rostrum, .view = view, .antialias = antialias};
-  cs_ways_find(rostrum, view, antialias, &m.ways);
-  if (!cs_ways_choose(rostrum, &m.ways))
+  making m = {.context = context, .view = view, .antialias = antialias};
+  if (!cs_ways_exist(rostrum, view, antialias))
     return CELSPAN_OK;
-  CS_TRY(place_cels(context, rostrum, view, m.drawings, &m.ways));
-  while (cs_ways_choose(rostrum, &m.ways)) {
-    size_t unsuited = rostrum->cel_count;
-    CS_TRY(make_sheets(&m, out, &unsuited));
-    if (unsuited == rostrum->cel_count)
-      return CELSPAN_OK;
-    cs_drawings_finish(out, context->memory);
-    if (!m.ways.mapped[unsuited])
-      return CELSPAN_OK;
-    m.ways.suits[unsuited] = false;
-  }
-  return CELSPAN_OK;
+  celspan_status status = cs_parts_create(context, rostrum, view, cs_ways_rich(view), &m.parts);
+  if (status == CELSPAN_OK)
+    status = make_frame(&m, out);
+  cs_parts_finish(&m.parts, context->memory);
+  return status;
 }
 
 static void finish_sheet(cs_map_sheet *sheet, cs_memory *memory) {

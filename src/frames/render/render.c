@@ -1,5 +1,6 @@
 /* The public entries: a frame into a sink, into pixels, into a file, into a digest, or row by
  * row. */
+#include "frames/render/drawings.h"
 #include "frames/render/strips.h"
 #include "model/scene/check.h"
 #include "model/scene/inspect.h"
@@ -55,12 +56,12 @@ static celspan_status feed_sink(celspan_context *context, const cs_frame *frame,
 static void count_cels(const cs_frame *frame, celspan_statistics *statistics) {
   for (size_t i = 0; i < frame->count; i++) {
     const cs_map_frame *sheets = &frame->maps[i];
-    size_t maps = 0;
-    for (size_t k = 0; k < sheets->count; k++)
-      maps += !sheets->sheets[k].plan;
-    statistics->maps += maps;
     statistics->maps_made += sheets->made;
-    statistics->swept += frame->rostrums[i]->cel_count - maps;
+    for (size_t k = 0; k < sheets->count; k++)
+      *(sheets->sheets[k].plan ? &statistics->swept : &statistics->maps) +=
+          sheets->sheets[k].source_count;
+    if (!cs_drawings_are_used(sheets))
+      statistics->swept += frame->rostrums[i]->cel_count;
   }
 }
 

@@ -31,8 +31,8 @@ static bool may_have_map(const celspan_rostrum *rostrum, const celspan_cel *cel,
          (!cel->has_modes || is_white(cs_light_in(&front, space)));
 }
 
-static bool exposure_suits(const celspan_rostrum *rostrum, const cs_view *view,
-                           const cs_antialias *antialias) {
+bool cs_ways_exist(const celspan_rostrum *rostrum, const cs_view *view,
+                   const cs_antialias *antialias) {
   bool suits = antialias->mode == CELSPAN_ANTIALIAS_AREA && !rostrum->grade &&
                cs_space_inside(rostrum->space, view->space) == view->space &&
                view->width <= CS_WAYS_SIDE && view->height <= CS_WAYS_SIDE &&
@@ -42,14 +42,13 @@ static bool exposure_suits(const celspan_rostrum *rostrum, const cs_view *view,
   return suits;
 }
 
-void cs_ways_find(const celspan_rostrum *rostrum, const cs_view *view,
-                  const cs_antialias *antialias, cs_ways *out) {
+size_t cs_ways_rich(const cs_view *view) {
   int32_t side = view->width > view->height ? view->width : view->height;
-  *out = (cs_ways){.rear = rostrum->back.texture ? 1 : 0, .shapes = CS_WAYS_SHAPES};
-  if (side > CS_WAYS_SHAPES * CS_WAYS_PIXELS)
-    out->shapes = (size_t)side / CS_WAYS_PIXELS;
-  if (!exposure_suits(rostrum, view, antialias))
-    return;
+  return side > CS_WAYS_SHAPES * CS_WAYS_PIXELS ? (size_t)side / CS_WAYS_PIXELS : CS_WAYS_SHAPES;
+}
+
+void cs_ways_find(const celspan_rostrum *rostrum, const cs_view *view, cs_ways *out) {
+  *out = (cs_ways){.rear = rostrum->back.texture ? 1 : 0, .shapes = cs_ways_rich(view)};
   for (size_t i = 0; i < rostrum->cel_count; i++) {
     out->suits[i] = may_have_map(rostrum, rostrum->cels[i], view->space);
     if (needs_backdrop(rostrum->cels[i], view->space))

@@ -25,6 +25,8 @@
  *   - is small enough to be a map (engine/map/map.h) and, if it is turned, to be turned (turn.h
  *     there), and does not have too many dashes.
  *
+ * What is said of cels here is meant of their parts where they have some (parts.h).
+ *
  * Invariant: the ways depend on the exposure and the size of the whole frame alone; not on the
  * crop, on the workers, or on which maps are kept.
  */
@@ -44,9 +46,13 @@ typedef struct cs_ways {
   size_t shapes;                /* of a rich cel, at least */
 } cs_ways;
 
-/* Finds which cels of an exposure suit, whatever their places and sizes are. */
-void cs_ways_find(const celspan_rostrum *rostrum, const cs_view *view,
-                  const cs_antialias *antialias, cs_ways *out);
+/* Whether an exposure may have maps, whatever its cels are. */
+bool cs_ways_exist(const celspan_rostrum *rostrum, const cs_view *view,
+                   const cs_antialias *antialias);
+/* The shapes of a rich cel, at least. */
+size_t cs_ways_rich(const cs_view *view);
+/* Finds which cels of an exposure that may have maps suit, whatever their places and sizes are. */
+void cs_ways_find(const celspan_rostrum *rostrum, const cs_view *view, cs_ways *out);
 /* Chooses those that are drawn from maps among those that suit; false: the exposure is swept. */
 bool cs_ways_choose(const celspan_rostrum *rostrum, cs_ways *ways);
 /* The end of the sheet that begins with a cel. */

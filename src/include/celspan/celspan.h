@@ -1590,9 +1590,9 @@ typedef struct celspan_statistics {
   uint64_t colour_evaluations; /* times a colour was composed from layers */
   uint64_t allocations;        /* from the built scene to the last row */
   uint64_t peak_bytes;         /* above what was held before the frame began */
-  uint64_t maps;               /* cels drawn from maps, in all exposures (frame: repeats) */
+  uint64_t maps;               /* cels, or parts of cels, drawn from maps (frame: repeats) */
   uint64_t maps_made;          /* how many of these maps were not kept from another frame */
-  uint64_t swept;              /* cels that were not drawn from maps */
+  uint64_t swept;              /* those that were not drawn from maps */
 } celspan_statistics;
 
 /* Where rows go. Called by one thread, rows from top to bottom; spans are borrowed, sorted,
