@@ -145,18 +145,6 @@ static celspan_status close_lone(cs_window *window) {
   return CELSPAN_OK;
 }
 
-/* The first column at or right of p where some segment changes the sum; end when none does. */
-static int32_t next_change(const cs_window *window, int32_t p) {
-  int32_t next = window->end;
-  for (size_t i = 0; i < window->segment_count; i++) {
-    const cs_window_segment *f = &window->segments[i];
-    int32_t at = f->first > p ? f->first : p;
-    if (f->end >= p && at < next)
-      next = at;
-  }
-  return next;
-}
-
 /* Adds a segment to the sums by column: change[k] is by how much column p0 + k exceeds the one
  * before.
  */
@@ -179,21 +167,86 @@ static inline void draw_sums(cs_row_writer *p, int32_t p1, const cs_sum4 *change
   }
 }
 
+/* ---- wide windows
+ *
+ *      tile 0        tile 1        tile 2       a local sweep gives its segments slab by slab, each
+ *   |  \    /    |           \|/            |   across the whole window: so they are listed by the
+ *   |   \  /  .--+--. /      /|\            |   tile in which they begin, and one that crosses into
+ *                                               the next tile is passed on to its list
+ *
+ * The lists are in the order of the segments, since that is the order of the sums. */
+
+/* The lists of all tiles of a window. */
+static celspan_status list_by_tiles(const cs_window *window, cs_window_segment ***out) {
+  size_t count = (size_t)((window->end - window->from + TILE - 1) / TILE);
+  cs_window_segment **lists =
+      cs_arena_take(window->composer->context, window->arena, count * sizeof *lists);
+  if (!lists)
+    return CELSPAN_NO_MEMORY;
+  memset(lists, 0, count * sizeof *lists);
+  for (size_t i = window->segment_count; i-- > 0;) {
+    cs_window_segment *f = &window->segments[i];
+    if (f->first >= window->end)
+      continue;
+    cs_window_segment **list = &lists[(f->first - window->from) / TILE];
+    f->next = *list;
+    *list = f;
+  }
+  *out = lists;
+  return CELSPAN_OK;
+}
+
+static cs_window_segment *join_lists(cs_window_segment *a, cs_window_segment *b) {
+  cs_window_segment *joined, **last = &joined;
+  while (a && b) {
+    cs_window_segment **earlier = a < b ? &a : &b;
+    *last = *earlier;
+    last = &(*last)->next;
+    *earlier = *last;
+  }
+  *last = a ? a : b;
+  return joined;
+}
+
+/* Those of a list that change the sums from column p on. */
+static cs_window_segment *pass_on(cs_window_segment *list, int32_t p) {
+  cs_window_segment *passed, **last = &passed;
+  for (; list; list = list->next)
+    if (list->end >= p) {
+      *last = list;
+      last = &list->next;
+    }
+  *last = NULL;
+  return passed;
+}
+
+/* Draws the columns up to p1, of which those from p0 on change by the segments of a list. */
+static celspan_status draw_tile(cs_window *window, const cs_window_segment *list, int32_t p0,
+                                int32_t p1, cs_sum4 *sum) {
+  cs_sum4 change[TILE];
+  memset(change, 0, (size_t)(p1 - p0) * sizeof *change);
+  for (; list; list = list->next)
+    add_changes(list, p0, p1, change);
+  CS_TRY(cs_row_reserve(window->composer->context, window->out, (size_t)(p1 - p0) + 1));
+  cs_row_writer p = cs_row_writer_begin(window->out, window->from);
+  cs_row_writer_to(&p, p0, cs_v4_bounded(__builtin_convertvector(*sum, cs_v4)));
+  draw_sums(&p, p1, change, sum);
+  cs_row_writer_end(&p);
+  window->from = p1;
+  return CELSPAN_OK;
+}
+
 /* Flat cells on all sides: sums of colour steps, in the order of the segments. */
 static celspan_status close_wide(cs_window *window) {
-  cs_sum4 change[TILE], sum = CS_SUM4(window->base->colour);
-  for (int32_t p0 = window->from; p0 < window->end;) {
-    int32_t next = next_change(window, p0);
-    int32_t stop = window->end - next < TILE ? window->end : next + TILE;
-    memset(change, 0, (size_t)(stop - next) * sizeof *change);
-    for (size_t i = 0; i < window->segment_count; i++)
-      add_changes(&window->segments[i], next, stop, change);
-    CS_TRY(cs_row_reserve(window->composer->context, window->out, (size_t)(stop - next) + 1));
-    cs_row_writer p = cs_row_writer_begin(window->out, window->from);
-    cs_row_writer_to(&p, next, cs_v4_bounded(__builtin_convertvector(sum, cs_v4)));
-    draw_sums(&p, stop, change, &sum);
-    cs_row_writer_end(&p);
-    window->from = p0 = stop;
+  cs_sum4 sum = CS_SUM4(window->base->colour);
+  cs_window_segment **lists, *crossing = NULL;
+  CS_TRY(list_by_tiles(window, &lists));
+  for (int32_t p0 = window->from, p1; p0 < window->end; p0 = p1) {
+    p1 = window->end - p0 < TILE ? window->end : p0 + TILE;
+    crossing = join_lists(crossing, *lists++);
+    if (crossing || p1 == window->end)
+      CS_TRY(draw_tile(window, crossing, p0, p1, &sum));
+    crossing = pass_on(crossing, p1);
   }
   return CELSPAN_OK;
 }

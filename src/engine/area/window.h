@@ -31,12 +31,14 @@
 #define CS_WINDOW_NARROW CS_DIRECT_TOGETHER /* columns of nearly all windows */
 
 /* An edge segment in the window. */
-typedef struct cs_window_segment {
+typedef struct cs_window_segment cs_window_segment;
+struct cs_window_segment {
   double xa, xb; /* at its top and at its foot */
   double height; /* share of the row's height: 0..1, a multiple of 2^-28 */
   const cs_cell *left, *right;
-  int32_t first, end; /* the columns it crosses; empty when it lies on a pixel's edge */
-} cs_window_segment;
+  int32_t first, end;      /* the columns it crosses; empty when it lies on a pixel's edge */
+  cs_window_segment *next; /* in the list of a tile, while a wide window is closed */
+};
 
 /* The colours of a cell between two columns, made before its windows and what lies between them. */
 typedef struct cs_window_stretch {
