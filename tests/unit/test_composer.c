@@ -10,7 +10,7 @@
 #include "tests/support/memory.h"
 #include "tests/support/random.h"
 
-#define MOST 400 /* layers */
+#define MOST 6000 /* layers */
 
 static test_random numbers = {23};
 static cs_layer layers[MOST];
@@ -55,6 +55,30 @@ static void check_colour(const cs_stack *stack, const cs_cell *cell) {
   for (int c = 0; c < 3; c++)
     CHECK_NEAR(cell->colour[c], light[c], 1e-4);
   CHECK_NEAR(cell->colour[3], 1 - (through[0] + through[1] + through[2]) / 3, 1e-4);
+}
+
+/* Each of many layers alone, as in a row of many small shapes, and again, as in the row below it:
+ * most of these cells are remembered. */
+static void test_memo(celspan_context *context) {
+  cs_stack stack = make_stack(MOST, 0, CS_LAYER_FLAT);
+  cs_composer composer;
+  cs_cell cell;
+  uint64_t first = 0;
+  for (size_t i = 0; i < MOST; i++)
+    layers[i].t = cs_v4_all(0);
+  CHECK(cs_composer_init(&composer, context, &stack, (cs_image_opacity){none_is_opaque, NULL}) ==
+        CELSPAN_OK);
+  for (int row = 0; row < 2; row++) {
+    first = composer.evaluations;
+    for (uint32_t layer = 0; layer < MOST; layer++) {
+      cross(&composer, layer);
+      cs_composer_cell(&composer, &cell);
+      cross(&composer, layer);
+    }
+  }
+  CHECK(first == MOST);
+  CHECK(composer.evaluations - first < MOST * 6 / 10);
+  cs_composer_finish(&composer);
 }
 
 /* Flat layers, entered and left at random, and now and then all left again. */
@@ -133,12 +157,13 @@ static void test_nothing(celspan_context *context) {
 int main(void) {
   memory_watch watch = {0};
   celspan_context *context = memory_watch_context(&watch);
-  static const size_t counts[] = {1, 4, 63, 64, 65, 191, 192, 193, 256, 257, MOST};
+  static const size_t counts[] = {1, 4, 63, 64, 65, 191, 192, 193, 256, 257, 400};
   for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
     test_flats(context, counts[i], 0.97f); /* by tree, where there are many */
     test_flats(context, counts[i], 0.1f);  /* by table */
     test_flats(context, counts[i], 0);
   }
+  test_memo(context);
   test_programs(context);
   test_nothing(context);
   celspan_context_destroy(context);

@@ -1,8 +1,11 @@
 #include "engine/compose/composer.h"
 
-/* Cells remembered, two of one place: a power of two, at most; of a layer, at least. */
-#define MEMO_MOST 4096
+/* Cells remembered, two of one place, a power of two: of a layer, at least; up to MEMO_FEW. Of more
+ * layers a row may have more cells than these, and each of its cells is that of the row above, so
+ * there is one for each layer, up to MEMO_MOST. */
 #define MEMO_EACH 64
+#define MEMO_FEW 4096
+#define MEMO_MOST 16384
 #define ITEM_LIMIT ((size_t)1 << 15) /* program items kept from row to row */
 
 /* ---------------------------------------------------------------- life */
@@ -30,7 +33,9 @@ static celspan_status make_table(cs_composer *composer) {
 /* A few layers have a few sets, and clearing the room for many takes longer than a band of rows. */
 static size_t memo_size(const cs_stack *stack) {
   size_t size = MEMO_EACH;
-  while (size < MEMO_MOST && size / MEMO_EACH < stack->layer_count)
+  while (size < MEMO_FEW && size / MEMO_EACH < stack->layer_count)
+    size *= 2;
+  while (size >= MEMO_FEW && size < MEMO_MOST && size < stack->layer_count)
     size *= 2;
   return size;
 }
