@@ -256,6 +256,23 @@ describe("a matte", function()
     assert.equal(evaluations "luma" - 3, evaluations "alpha")
   end)
 
+  it("by many stops evaluates each column once", function()
+    local bench = workbench.new()
+    finally(function() bench:remove() end)
+    local path = bench:write("film.lua", [[
+      local celspan = require "celspan"
+      -- A stop for each of 200 columns, where the next stretch of the ramp begins.
+      local ramp = { from = { 0, 0 }, to = { 200, 0 } }
+      for i = 0, 200 do ramp[i + 1] = { i / 200, i % 2 == 0 and "#fff8" or "#2488" } end
+      local by = celspan.rect { 0, 0, 200, 1, texture = celspan.linear(ramp) }
+      return celspan.film { size = { 200, 1 }, frames = 1, frame = function()
+        return celspan.rostrum { celspan.cel { celspan.matte(celspan.rect { 0, 0, 200, 1,
+          texture = "#248" }, by, { from = "luma" }) }, back = "#321" } end }]])
+    local _, out = bench:celspan("spans --stats --workers 1 %s", path)
+    local count = tonumber(out:match "colour_evaluations (%d+)")
+    assert.is_true(count >= 200 and count < 220, out)
+  end)
+
   it("is under white light whatever lights the art", function()
     local image = pixels(celspan.rostrum { celspan.cel { celspan.matte(art,
       rect(0, 0, 4, 1, "#fff"), { from = "luma" }), front = { 0.5, 0.5, 0 } } }, 1, 1)

@@ -253,40 +253,68 @@ static line_shape shape_of(const cs_painter *painter, const cs_program *program)
   return bends == 0 ? STEPPED : bends == 1 ? STRAIGHT : CURVED;
 }
 
+/* How many colours of a line are computed first: a short one has no more than columns. */
+static int32_t count_colours(line_shape shape, cs_run run) {
+  return run.x1 - run.x0 < (int32_t)shape ? run.x1 - run.x0 : (int32_t)shape;
+}
+
 static void pick_columns(line_shape shape, cs_run run, int32_t *columns) {
-  if (shape == STEPPED)
-    columns[0] = run.x0 + (run.x1 - run.x0) / 2;
-  for (int k = 0; k < (int)shape && shape != STEPPED; k++)
-    columns[k] = cs_halving_quarter(run, shape == STRAIGHT ? 4 * k : k);
+  int32_t count = count_colours(shape, run);
+  for (int32_t k = 0; k < count; k++)
+    columns[k] = count < (int32_t)shape ? run.x0 + k
+                 : shape == STEPPED     ? run.x0 + (run.x1 - run.x0) / 2
+                                        : cs_halving_quarter(run, shape == STRAIGHT ? 4 * k : k);
+}
+
+/* Whether a line is straight by its colours, which are those of pick_columns. */
+static bool is_line(const cs_halving_curve *curve, const cs_halving_point *first,
+                    const cs_halving_point *last, const float (*rgba)[4]) {
+  cs_run run = cs_halving_run(first, last);
+  float inner[3][4];
+  for (int k = 1; k <= 3; k++)
+    memcpy(inner[k - 1], rgba[run.x1 - run.x0 < CURVED ? cs_halving_quarter(run, k) - run.x0 : k],
+           sizeof inner[0]);
+  return is_straight(curve, first, last, (const float(*)[4])inner);
 }
 
 static celspan_status put_line(colour_curve *c, line_shape shape, cs_run run,
                                const float (*rgba)[4]) {
   cs_halving_point first = {run.x0, 0, cs_v4_load(rgba[0])};
-  cs_halving_point last = {run.x1 - 1, 0, cs_v4_load(rgba[shape - 1])};
+  cs_halving_point last = {run.x1 - 1, 0, cs_v4_load(rgba[count_colours(shape, run) - 1])};
   if (shape == STEPPED)
     return cs_row_single(c->curve.context, c->curve.row, run.x0, run.x1, first.colour);
-  if (shape == CURVED && !is_straight(&c->curve, &first, &last, rgba + 1))
+  if (shape == CURVED && !is_line(&c->curve, &first, &last, rgba))
     return cs_halving_split(&c->curve, &first, &last);
   return cs_halving_put(&c->curve, &first, &last);
 }
 
+/* The columns of as many lines from one on as fit into a batch. Returns the line after them. */
+static size_t pick_batch(line_shape shape, const cut_list *ends, size_t line, double y,
+                         int32_t *columns, int32_t *count) {
+  *count = 0;
+  for (; line + 1 < ends->count && *count + (int32_t)shape <= CS_OVER_ROW_BATCH; line++) {
+    cs_run run = {ends->columns[line], ends->columns[line + 1], y};
+    pick_columns(shape, run, columns + *count);
+    *count += count_colours(shape, run);
+  }
+  return line;
+}
+
 static celspan_status put_lines(colour_curve *c, const cut_list *ends) {
   line_shape shape = shape_of(c->painter, c->program);
-  int32_t columns[CS_OVER_ROW_BATCH];
+  int32_t columns[CS_OVER_ROW_BATCH], count;
   float rgba[CS_OVER_ROW_BATCH][4];
-  const size_t each = (size_t)shape, most = CS_OVER_ROW_BATCH / each;
   c->curve.test = test_program;
   c->curve.split = split_program;
-  for (size_t i = 0; i + 1 < ends->count; i += most) {
-    const int32_t *end = ends->columns + i;
-    size_t lines = ends->count - 1 - i < most ? ends->count - 1 - i : most;
-    for (size_t k = 0; k < lines; k++)
-      pick_columns(shape, (cs_run){end[k], end[k + 1], c->y}, columns + k * each);
-    CS_TRY(find_colours(c, columns, (int32_t)(lines * each), rgba));
-    for (size_t k = 0; k < lines; k++)
-      CS_TRY(put_line(c, shape, (cs_run){end[k], end[k + 1], c->y},
-                      (const float(*)[4])rgba + k * each));
+  for (size_t i = 0, after; i + 1 < ends->count; i = after) {
+    after = pick_batch(shape, ends, i, c->y, columns, &count);
+    CS_TRY(find_colours(c, columns, count, rgba));
+    const float(*colours)[4] = (const float(*)[4])rgba;
+    for (; i < after; i++) {
+      cs_run run = {ends->columns[i], ends->columns[i + 1], c->y};
+      CS_TRY(put_line(c, shape, run, colours));
+      colours += count_colours(shape, run);
+    }
   }
   return CELSPAN_OK;
 }
