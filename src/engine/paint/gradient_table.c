@@ -9,7 +9,7 @@ struct cs_gradient_tables {
   const cs_stack *stack;
   cs_isa isa;
   cs_arena *scratch;              /* borrowed */
-  cs_gradient_table slots[SLOTS]; /* a slot without a shade is empty */
+  cs_gradient_table slots[SLOTS]; /* a slot without a shade and a name is empty */
   cs_arena sections;              /* and layers: of all tables */
   size_t section_count;
   cs_arena lasting;                     /* of the tints */
@@ -334,13 +334,16 @@ celspan_status cs_gradient_table_find(cs_gradient_tables *tables, const cs_progr
   const cs_stack *stack = tables->stack;
   cs_set_hash name = name_of(stack, program);
   cs_gradient_table *slot = &tables->slots[name.a & (SLOTS - 1)];
-  if (!slot->shade || !cs_set_hash_same(slot->name, name)) {
+  if (!cs_set_hash_same(slot->name, name)) {
     uint32_t first = CS_STACK_NONE;
     size_t count = count_varying(stack, program, &first);
-    if (count == 0)
+    if (count > 0)
+      CS_TRY(make(tables, program, first, count, name, slot));
+    else if (!slot->shade)
+      slot->name = name; /* remembered, too; but a table is worth more */
+    else
       return CELSPAN_OK;
-    CS_TRY(make(tables, program, first, count, name, slot));
   }
-  *out = slot;
+  *out = slot->shade ? slot : NULL;
   return CELSPAN_OK;
 }
