@@ -102,7 +102,7 @@ end }]])
       assert.are.equal(whole, raw(4, "--workers 3 --memory 1"))
     end)
 
-  it("sweeps a defocused cel, a gel and a light with a shape among its maps", function()
+  it("sweeps a defocused cel, a gel beside a gradient and a shaped light among its maps", function()
     local mixed = bench:write("mixed.lua", [[
 local celspan = require "celspan"
 local frames, first = ...
@@ -117,11 +117,12 @@ local gel = celspan.rect { 10, 5, 60, 60, texture = celspan.paint { pigment = "#
   medium = { 1, 0.6, 0.3 }, beta = 0.2 } }
 local soft = celspan.circle { centre = { 60, 40 }, radius = 20, texture = "#30a050" }
 local glow = celspan.linear { from = { 0, 0 }, to = { 128, 80 }, { 0, "#f80" }, { 1, "#08f" } }
+local veil = celspan.rect { 90, 60, 30, 15, texture = glow }
 return celspan.film { size = { 128, 80 }, frames = frames, frame = function(f)
   local t = 3.7 * (f.number + (tonumber(first) or 0))
   return celspan.rostrum {
     celspan.cel { crowd:translate(-t, 0) },
-    celspan.cel { gel:translate(t, 0) },
+    celspan.cel { gel:translate(t, 0), veil },
     celspan.cel { crowd:translate(t, 20) },
     celspan.cel { soft:translate(t, 0), defocus = 4, back = "#123" },
     celspan.cel { crowd:scale(0.5):translate(30, t) },

@@ -12,13 +12,23 @@
 #define SCENES 120
 #define SHAPES 256 /* of each cel: enough for maps */
 
-/* What a scene has. PARTED: cels of parts that are moved. MIXED: cels that are swept, too. */
-typedef enum scene_kind { STRAIGHT, ROUND, PARTED, VARIED, MIXED, KINDS } scene_kind;
+/* What a scene has. PARTED: cels of parts that are moved. MIXED: cels that are swept, too. COLOURED:
+ * gels and coloured media. */
+typedef enum scene_kind { STRAIGHT, ROUND, PARTED, VARIED, MIXED, COLOURED, KINDS } scene_kind;
 
 static celspan_paint random_paint(test_random *random) {
   float red = random_unit(random), green = random_unit(random), blue = random_unit(random);
   float alpha = random_below(random, 2) ? 1 : random_unit(random);
   return celspan_paint_rgb(red, green, blue, alpha);
+}
+
+/* A paint that lets red, green and blue through each as much as it likes. */
+static celspan_paint random_gel(test_random *random) {
+  celspan_paint gel = random_paint(random);
+  for (int c = 0; c < 3; c++)
+    gel.medium[c] = random_unit(random);
+  gel.beta = random_below(random, 2) ? 0 : random_unit(random);
+  return gel;
 }
 
 static celspan_texture *random_texture(studio *s, test_random *random, bool is_varied) {
@@ -40,7 +50,10 @@ static celspan_texture *random_texture(studio *s, test_random *random, bool is_v
 
 static celspan_object *random_object(studio *s, test_random *random, scene_kind kind) {
   bool is_round = kind == ROUND;
-  celspan_texture *texture = random_texture(s, random, kind >= VARIED && random_below(random, 3));
+  bool is_varied = (kind == VARIED || kind == MIXED) && random_below(random, 3);
+  celspan_texture *texture = kind == COLOURED && random_below(random, 2)
+                                 ? studio_paint(s, random_gel(random))
+                                 : random_texture(s, random, is_varied);
   celspan_point corners[3];
   for (int k = 0; k < 3; k++)
     corners[k] = random_point(random, -10, WIDTH + 10, -10, HEIGHT + 10);
@@ -132,6 +145,8 @@ static celspan_cel *random_cel(studio *s, test_random *random, scene_kind kind, 
   celspan_object *objects[5];
   celspan_cel_desc desc = CELSPAN_CEL_DESC;
   size_t count = 1 + (size_t)random_below(random, 5);
+  if (kind == MIXED && (way == MAPPED || way == RICH) && random_below(random, 2))
+    kind = COLOURED;
   for (size_t i = 0; i < count; i++)
     objects[i] = random_object(s, random, kind);
   desc.opacity = random_below(random, 3) ? 1 : random_unit(random);
@@ -233,13 +248,85 @@ static void check_pictures(studio *s) {
     CHECK(count(s, &swept).maps == 0 && count(s, &drawn).maps > 0);
     image a = make_image(s, &swept, 1), b = make_image(s, &drawn, 1);
     float most = difference(&a, &b);
-    float bound = kind == ROUND ? 0.02f : kind >= VARIED ? 2 / 255.0f : 0.0002f;
+    float bound = kind == ROUND ? 0.02f : kind == VARIED || kind == MIXED ? 2 / 255.0f : 0.0002f;
     if (!CHECK(most < bound || (kind == PARTED && most < 0.003f && is_right(s, &drawn, &a, &b))))
       fprintf(stderr, "  scene %d: %g\n", (int)seed, (double)most);
     free(a.rgba);
     free(b.rgba);
     studio_finish(s);
   }
+}
+
+/* A channel of the paint over a light. */
+static float over(celspan_paint paint, float light, int c) {
+  return paint.beta * paint.pigment[c] + (1 - paint.beta) * paint.medium[c] * light;
+}
+
+/* Two gels whose boundaries cross in the pixel (10, 10): the near one has the half below its
+ * diagonal, the far one its right half, so that an eighth of it is in both and one in neither. */
+static void check_gels(studio *s) {
+  const celspan_paint near = {{0.5f, 0.25f, 0}, {0.9f, 0.3f, 0.5f}, 0.2f};
+  const celspan_paint far = {{0, 0.5f, 1}, {0.1f, 0.8f, 0.4f}, 0.3f};
+  const celspan_point corners[] = {{0, 0}, {0, HEIGHT}, {HEIGHT, HEIGHT}};
+  celspan_object *front =
+      studio_polygon(s, corners, 3, CELSPAN_RULE_NONZERO, studio_paint(s, near));
+  celspan_object *objects[] = {with_shapes(s, front),
+                               studio_rect(s, 10.5, 0, WIDTH, HEIGHT, studio_paint(s, far))};
+  celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
+  desc.back = (celspan_light){1, 0.75f, 0.5f, 0};
+  const float light[] = {1, 0.75f, 0.5f, 0};
+  const celspan_cel_desc cel = CELSPAN_CEL_DESC;
+  celspan_cel *cels[] = {studio_cel(s, cel, &objects[1], 1), studio_cel(s, cel, &objects[0], 1)};
+  celspan_exposure exposure = {studio_rostrum(s, desc, cels, 2), 1};
+  celspan_frame_desc frame = frame_of(&exposure, true);
+  CHECK(count(s, &frame).maps == 2);
+  image picture = make_image(s, &frame, 1);
+  for (int c = 0; c < 3; c++) {
+    float behind = over(far, light[c], c), both = over(near, behind, c);
+    float wanted = (both + 3 * behind + 3 * over(near, light[c], c) + light[c]) / 8;
+    CHECK(fabsf(picture.rgba[WIDTH * 10 + 10][c] - wanted) < 1e-4f);
+  }
+  float through[2] = {0, 0}, both = 0;
+  for (int c = 0; c < 3; c++) {
+    through[0] += (1 - near.beta) * near.medium[c] / 3;
+    through[1] += (1 - far.beta) * far.medium[c] / 3;
+    both += (1 - near.beta) * near.medium[c] * (1 - far.beta) * far.medium[c] / 3;
+  }
+  float clear = (both + 3 * through[0] + 3 * through[1] + 1) / 8;
+  CHECK(fabsf(picture.rgba[WIDTH * 10 + 10][3] - (1 - clear)) < 1e-4f);
+  free(picture.rgba);
+  studio_finish(s);
+}
+
+/* A cel with two gels, which differ in nothing but how much each channel is dimmed, between two
+ * drawings with maps. With a gradient beside the gels it is swept, and so is the rear drawing. */
+static void check_gels_among_others(studio *s, bool has_gradient) {
+  const celspan_paint red = {{0, 0, 0}, {0.75f, 0.25f, 0.5f}, 0};
+  const celspan_paint green = {{0, 0, 0}, {0.25f, 0.75f, 0.5f}, 0};
+  const celspan_point from = {0, 0}, to = {WIDTH, HEIGHT};
+  const celspan_stop stops[] = {{0, celspan_paint_rgb(1, 0.5f, 0, 1)},
+                                {1, celspan_paint_rgb(0, 0.5f, 1, 0.5f)}};
+  celspan_object *gels[] = {
+      studio_rect(s, 10, 10, 20, 30, studio_paint(s, red)),
+      studio_rect(s, 30, 10, 20, 30, studio_paint(s, green)),
+      studio_rect(s, 60, 10, 20, 30, studio_linear(s, from, to, stops, 2)),
+  };
+  celspan_object *rear = with_shapes(s, studio_circle(s, 40, 20, 15, NULL));
+  celspan_object *disc = with_shapes(s, studio_circle(s, 20, 35, 15, NULL));
+  celspan_object *front[] = {disc, disc}; /* more shapes than all others */
+  const celspan_cel_desc cel = CELSPAN_CEL_DESC;
+  celspan_cel *cels[] = {studio_cel(s, cel, &rear, 1),
+                         studio_cel(s, cel, gels, has_gradient ? 3 : 2),
+                         studio_cel(s, cel, front, 2)};
+  celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
+  desc.back = (celspan_light){1, 0.75f, 0.5f, 1};
+  celspan_exposure exposure = {studio_rostrum(s, desc, cels, 3), 1};
+  celspan_frame_desc swept = frame_of(&exposure, false), drawn = frame_of(&exposure, true);
+  image a = make_image(s, &swept, 1), b = make_image(s, &drawn, 1);
+  CHECK(count(s, &drawn).maps == (has_gradient ? 1 : 3) && difference(&a, &b) < 0.01f);
+  free(a.rgba);
+  free(b.rgba);
+  studio_finish(s);
 }
 
 /* Large shapes over each other, of which few can be seen: the others are culled tile by tile. */
@@ -522,6 +609,9 @@ int main(void) {
   desc.defocus_bytes = 1;
   CHECK(celspan_context_create(&desc, &small.context) == CELSPAN_OK);
   check_pictures(&s);
+  check_gels(&s);
+  check_gels_among_others(&s, false);
+  check_gels_among_others(&s, true);
   check_hidden(&s);
   check_nothing(&s);
   check_bits(&s, &small);
@@ -537,6 +627,7 @@ int main(void) {
   check_failures_of_memory(&s, &watch, VARIED);
   check_failures_of_memory(&s, &watch, MIXED);
   check_failures_of_memory(&s, &watch, PARTED);
+  check_failures_of_memory(&s, &watch, COLOURED);
   celspan_context_destroy(s.context);
   celspan_context_destroy(small.context);
   CHECK(watch.blocks == 0 && watch.size_errors == 0);

@@ -227,13 +227,23 @@ static celspan_status fold_prepared(cs_composer *composer, const uint64_t *set, 
   return CELSPAN_OK;
 }
 
+/* Folds what contributes while all of it is flat. */
+static celspan_status fold(cs_composer *composer, const uint64_t *set, cs_over *over,
+                           bool *is_flat) {
+  *is_flat = true;
+  if (composer->table || composer->tree)
+    return fold_prepared(composer, set, over);
+  *is_flat = fold_flats(composer, set, over);
+  return CELSPAN_OK;
+}
+
 static celspan_status compose(cs_composer *composer, cs_cell *cell) {
   cs_over over;
+  bool is_flat;
   composer->evaluations++;
   const uint64_t *set = resolve(composer);
-  if (composer->table || composer->tree)
-    CS_TRY(fold_prepared(composer, set, &over));
-  if (composer->table || composer->tree || fold_flats(composer, set, &over)) {
+  CS_TRY(fold(composer, set, &over, &is_flat));
+  if (is_flat) {
     cell->colour = cs_over_end(&over);
     return CELSPAN_OK;
   }
@@ -280,6 +290,16 @@ void cs_composer_cell(cs_composer *composer, cs_cell *out) {
   celspan_status status = compose_here(composer, out);
   pair[1] = pair[0];
   pair[0] = (cs_memo){*out, status == CELSPAN_OK};
+}
+
+celspan_status cs_composer_through(cs_composer *composer, cs_v4 *out) {
+  cs_over over;
+  bool is_flat;
+  CS_TRY(fold(composer, resolve(composer), &over, &is_flat));
+  const cs_v4 colour = cs_over_end(&over);
+  *out = over.t;
+  (*out)[3] = 1 - colour[3];
+  return CELSPAN_OK;
 }
 
 bool cs_composer_same(const cs_composer *composer, const cs_cell *a, const cs_cell *b) {

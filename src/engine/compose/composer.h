@@ -91,6 +91,10 @@ void cs_composer_cross_span(cs_composer *composer, uint32_t layer, uint32_t proc
 /* The cell at the place of the walk. On failure the cell is clear and composer->failure is set. */
 void cs_composer_cell(cs_composer *composer, cs_cell *out);
 
+/* What the cell at the place of the walk lets through, channel by channel; lane 3: the mean of
+ * these. The cell has one colour, and the stack no back lights. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_composer_through(cs_composer *composer, cs_v4 *out);
+
 /* Whether two cells show the same everywhere. */
 bool cs_composer_same(const cs_composer *composer, const cs_cell *a, const cs_cell *b);
 

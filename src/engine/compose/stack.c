@@ -25,3 +25,12 @@ size_t cs_stack_bytes(const cs_stack *stack) {
          stack->group_capacity * sizeof *stack->groups +
          stack->step_capacity * sizeof *stack->steps + stack->tree_capacity * sizeof *stack->trees;
 }
+
+bool cs_stack_layer_is_grey(const cs_stack *stack, const cs_layer *layer) {
+  const celspan_texture *texture =
+      layer->kind == CS_LAYER_SHADED    ? stack->shades[layer->index].texture
+      : layer->kind == CS_LAYER_PICTURE ? stack->images[layer->index].texture
+                                        : NULL;
+  bool is_flat_grey = layer->t[0] == layer->t[1] && layer->t[1] == layer->t[2];
+  return texture ? cs_texture_is_grey(texture) : is_flat_grey;
+}

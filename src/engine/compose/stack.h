@@ -89,6 +89,9 @@ void cs_stack_finish(cs_stack *stack, cs_memory *memory);
 /* What it holds. */
 size_t cs_stack_bytes(const cs_stack *stack);
 
+/* Whether a layer of paint dims the three channels alike, if it is no defocused cel. */
+bool cs_stack_layer_is_grey(const cs_stack *stack, const cs_layer *layer);
+
 /* The innermost group that is `group` or around it such that what is hidden inside hides nothing
  * behind it. CS_STACK_NONE: there is none. */
 static inline uint32_t cs_stack_veil(const cs_stack *stack, uint32_t group) {

@@ -94,16 +94,9 @@ static bool stack_is_grey(const cs_stack *stack) {
   for (size_t i = 0; i < stack->defocused_count; i++)
     if (stack->defocused[i]->planes > 1)
       return false;
-  for (size_t i = 0; i < stack->layer_count; i++) {
-    const cs_layer *layer = &stack->layers[i];
-    const celspan_texture *texture =
-        layer->kind == CS_LAYER_SHADED    ? stack->shades[layer->index].texture
-        : layer->kind == CS_LAYER_PICTURE ? stack->images[layer->index].texture
-                                          : NULL;
-    bool is_flat_grey = layer->t[0] == layer->t[1] && layer->t[1] == layer->t[2];
-    if (!(texture ? cs_texture_is_grey(texture) : is_flat_grey))
+  for (size_t i = 0; i < stack->layer_count; i++)
+    if (!cs_stack_layer_is_grey(stack, &stack->layers[i]))
       return false;
-  }
   return true;
 }
 

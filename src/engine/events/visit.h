@@ -10,8 +10,8 @@
 #include "engine/row/plan.h"
 
 /* cell: that of the windings; its program is the composer's, and valid during this call. */
-typedef celspan_status (*cs_events_visitor)(void *user, uint32_t windings,
-                                            const cs_composer *composer, const cs_cell *cell);
+typedef celspan_status (*cs_events_visitor)(void *user, uint32_t windings, cs_composer *composer,
+                                            const cs_cell *cell);
 
 /* events: of the plan. Each number is visited once, 0 first. Errors: NO_MEMORY, those of composing
  * and of the visitor. */

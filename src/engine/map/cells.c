@@ -20,17 +20,21 @@ static uint64_t mix(uint64_t word) { return cs_splitmix_next(&word); }
 
 static cs_map_content content_of(const cs_map *map, uint32_t cell) {
   const cs_map_cell *of = &map->cells[cell];
-  return (cs_map_content){of->colour, of->length > 0 ? map->items + of->item : NULL, of->length};
+  return (cs_map_content){of->colour, map->through ? map->through[cell] : cs_v4_all(0),
+                          of->length > 0 ? map->items + of->item : NULL, of->length};
 }
 
 static bool is_content(cs_map_content a, cs_map_content b) {
   return a.length == b.length && memcmp(&a.colour, &b.colour, sizeof a.colour) == 0 &&
+         memcmp(&a.through, &b.through, sizeof a.through) == 0 &&
          (a.length == 0 || memcmp(a.items, b.items, a.length * sizeof *a.items) == 0);
 }
 
 static size_t place_of(const cs_map_cells *cells, cs_map_content what) {
-  uint64_t words[2], name = what.length;
+  uint64_t words[2], media[2], name = what.length;
   memcpy(words, &what.colour, sizeof words);
+  memcpy(media, &what.through, sizeof media);
+  name = mix(name ^ media[0]) ^ media[1];
   for (uint32_t i = 0; i < what.length; i++)
     name = mix(name ^ what.items[i].layer);
   return mix(words[0] ^ mix(words[1] ^ name)) & (cells->capacity - 1);
@@ -69,6 +73,10 @@ static celspan_status add_cell(celspan_context *context, cs_map *map, cs_map_con
                             .key = (mix(*out) << 18 | *out) & CS_MAP_KEY,
                             .item = (uint32_t)map->item_count,
                             .length = what.length};
+  if (map->is_coloured) {
+    CS_TRY(CS_RESERVE(context, map->through, map->through_capacity, map->cell_count + 1));
+    map->through[map->cell_count] = what.through;
+  }
   map->item_count += what.length;
   return CS_APPEND(context, map->cells, map->cell_count, map->cell_capacity, cell);
 }

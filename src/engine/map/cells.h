@@ -17,6 +17,7 @@ typedef struct cs_map_cells {
 /* What shows in a cell: a colour where length is 0. */
 typedef struct cs_map_content {
   cs_v4 colour;
+  cs_v4 through; /* of a coloured map: what it lets through; else 0 */
   const cs_item *items;
   uint32_t length;
 } cs_map_content;
@@ -35,7 +36,7 @@ static inline cs_map_content cs_map_content_at(const cs_retained_row *retained,
   if (side->program < 0)
     return (cs_map_content){.colour = side->colour};
   const cs_program *program = &retained->programs[side->program].program;
-  return (cs_map_content){cs_v4_all(0), program->items, program->length};
+  return (cs_map_content){.items = program->items, .length = program->length};
 }
 
 /* Finds which of the map's cells hide their background: nothing shines through some layer of

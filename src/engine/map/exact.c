@@ -77,6 +77,11 @@ static celspan_status add_border(celspan_context *context, cs_map_exact *exact,
   CS_TRY(cs_map_brush_colour(rows->brush, drawing, f->left, pixel[1], pixel[2], &left));
   CS_TRY(cs_map_brush_colour(rows->brush, drawing, f->right, pixel[1], pixel[2], &right));
   line.step = right - left;
+  line.through = cs_v4_all(-line.step[3]);
+  if (drawing->through) {
+    line.through = drawing->through[f->right] - drawing->through[f->left];
+    exact->is_coloured = true;
+  }
   for (uint32_t k = live->at; k + 1 < live->end && rows->places[k].y < foot; k++) {
     const cs_map_point above = rows->places[k], below = rows->places[k + 1];
     line.xa = above.x * unit;
@@ -105,14 +110,6 @@ celspan_status cs_map_exact_add(celspan_context *context, cs_map_exact *exact,
 
 /* ---------------------------------------------------------------- two drawings */
 
-static cs_v4 fold(const cs_map_frame *frame, const cs_map_shown *shown, size_t count,
-                  const cs_v4 *colours) {
-  cs_map_fold all = cs_map_fold_begin;
-  for (size_t i = 0; i < count; i++)
-    cs_map_fold_add(&all, shown[i].sheet, colours[i]);
-  return cs_map_fold_end(all, frame);
-}
-
 /* What a pixel has right of a line. */
 static double area_of(const cs_map_line *line) {
   return (line->yb - line->ya) * (1 - 0.5 * (line->xa + line->xb));
@@ -133,8 +130,14 @@ static double overlap_of(const cs_map_line *k, const cs_map_line *l) {
   return height * (1 - 0.5 * (part * (a + x) + (1 - part) * (x + b)));
 }
 
-/* How the alpha of the near drawing and the colour of the far one change together. */
-static cs_v4 covariance(const cs_map_exact *exact, uint32_t near) {
+/* How what the near drawing lets through and what the far one shows and lets through change
+ * together. */
+typedef struct change {
+  cs_v4 colour, through;
+} change;
+
+/* Of drawings that dim all channels alike, whose lines need one product each. */
+static change even_change(const cs_map_exact *exact, uint32_t near) {
   cs_v4d sum = {{0, 0}, {0, 0}};
   for (size_t i = 0; i < exact->line_count; i++) {
     const cs_map_line *k = &exact->lines[i];
@@ -147,7 +150,26 @@ static cs_v4 covariance(const cs_map_exact *exact, uint32_t near) {
       sum = cs_v4d_add(sum, cs_v4d_scale(both * (double)k->step[3], cs_v4_wide(l->step)));
     }
   }
-  return cs_v4_narrow(sum);
+  const cs_v4 all = cs_v4_narrow(sum);
+  return (change){-all, cs_v4_all(all[3])};
+}
+
+/* Of any drawings. */
+static change coloured_change(const cs_map_exact *exact, uint32_t near) {
+  cs_v4d colour = {{0, 0}, {0, 0}}, through = colour;
+  for (size_t i = 0; i < exact->line_count; i++) {
+    const cs_map_line *k = &exact->lines[i];
+    double area = area_of(k);
+    for (size_t j = 0; k->sheet == near && j < exact->line_count; j++) {
+      const cs_map_line *l = &exact->lines[j];
+      if (l->sheet == near)
+        continue;
+      double both = overlap_of(k, l) - area * area_of(l);
+      colour = cs_v4d_add(colour, cs_v4d_scale(both, cs_v4_wide(k->through * l->step)));
+      through = cs_v4d_add(through, cs_v4d_scale(both, cs_v4_wide(k->through * l->through)));
+    }
+  }
+  return (change){cs_v4_narrow(colour), cs_v4_narrow(through)};
 }
 
 cs_v4 cs_map_exact_pair(cs_map_exact *exact, const cs_map_frame *frame, const cs_map_shown *shown,
@@ -157,21 +179,23 @@ cs_v4 cs_map_exact_pair(cs_map_exact *exact, const cs_map_frame *frame, const cs
     near = exact->lines[i].sheet < near ? exact->lines[i].sheet : near;
     far = exact->lines[i].sheet > far ? exact->lines[i].sheet : far;
   }
-  const cs_v4 change = covariance(exact, near);
-  exact->line_count = 0;
+  const change joint = exact->is_coloured ? coloured_change(exact, near) : even_change(exact, near);
+  cs_map_exact_clear(exact);
   cs_map_fold all = cs_map_fold_begin, behind = cs_map_fold_begin;
-  float before = 1; /* what comes through the others in front of the far one */
+  cs_v4 before = cs_v4_all(1); /* what comes through the others in front of the far one */
   for (size_t i = 0; i < count; i++) {
-    cs_map_fold_add(&all, shown[i].sheet, shown[i].colour);
-    before *= i < far && i != near ? 1 - shown[i].colour[3] : 1;
+    const cs_map_shown *s = &shown[i];
+    cs_map_fold_add(&all, s->sheet, s->colour, s->through);
+    before *= i < far && i != near ? s->through : cs_v4_all(1);
     if (i == far)
-      behind.e = shown[i].sheet->back;
+      behind.e = s->sheet->back;
     else if (i > far)
-      cs_map_fold_add(&behind, shown[i].sheet, shown[i].colour);
+      cs_map_fold_add(&behind, s->sheet, s->colour, s->through);
   }
   cs_v4 hidden = behind.e + behind.t * frame->back;
-  cs_v4 colour = cs_map_fold_end(all, frame) - before * (change - change[3] * hidden);
-  colour[3] = 1 - all.keep * frame->keep * (all.t + before * behind.t * change[3]);
+  cs_v4 colour = cs_map_fold_end(all, frame) + before * (joint.colour + joint.through * hidden);
+  cs_v4 through = all.t + before * behind.t * joint.through;
+  colour[3] = 1 - all.keep * frame->keep * cs_over_mean(through);
   return colour;
 }
 
@@ -234,25 +258,39 @@ static size_t list_lines(cs_map_exact *exact, double y) {
   return count;
 }
 
+static cs_v4 fold(const cs_map_frame *frame, const cs_map_shown *shown, size_t count) {
+  cs_map_fold all = cs_map_fold_begin;
+  for (size_t i = 0; i < count; i++)
+    cs_map_fold_add(&all, shown[i].sheet, shown[i].colour, shown[i].through);
+  return cs_map_fold_end(all, frame);
+}
+
+/* What a drawing shows right of a line. */
+static void cross(cs_map_shown *shown, const cs_map_line *line) {
+  shown->colour += line->step;
+  shown->through =
+      shown->sheet->drawing.through ? shown->through + line->through : cs_map_even(shown->colour);
+}
+
 /* The mean colour along a height. */
-static cs_v4d mean_at(cs_map_exact *exact, const cs_map_frame *frame, const cs_map_shown *shown,
+static cs_v4d mean_at(cs_map_exact *exact, const cs_map_frame *frame, const cs_map_shown *at_left,
                       size_t count, double y) {
-  cs_v4 colours[CS_MAP_DRAWINGS];
+  cs_map_shown shown[CS_MAP_DRAWINGS];
   cs_v4d mean = {{0, 0}, {0, 0}};
   size_t lines = list_lines(exact, y);
   double x = 0;
   for (size_t i = 0; i < count; i++)
-    colours[i] = shown[i].colour;
+    shown[i] = at_left[i];
   for (size_t k = 0; k <= lines; k++) {
     double next = k < lines ? x_at(exact->order[k], y) : 1;
     next = next < 1 ? next : 1;
     if (next > x) {
-      cs_v4 colour = fold(frame, shown, count, colours);
+      cs_v4 colour = fold(frame, shown, count);
       mean = cs_v4d_add(mean, cs_v4d_scale(next - x, cs_v4_wide(colour)));
       x = next;
     }
     if (k < lines)
-      colours[exact->order[k]->sheet] += exact->order[k]->step;
+      cross(&shown[exact->order[k]->sheet], exact->order[k]);
   }
   return mean;
 }
@@ -275,7 +313,7 @@ celspan_status cs_map_exact_mean(celspan_context *context, cs_map_exact *exact,
       mean = cs_v4d_add(
           mean, cs_v4d_scale(height, mean_at(exact, frame, shown, count, top + 0.5 * height)));
   }
-  exact->line_count = 0;
+  cs_map_exact_clear(exact);
   *out = cs_v4_narrow(mean);
   return CELSPAN_OK;
 }

@@ -29,6 +29,7 @@
 typedef struct cs_map_line {
   double xa, ya, xb, yb;
   cs_v4 step;     /* right less left */
+  cs_v4 through;  /* the same of what is let through */
   uint32_t sheet; /* of the list */
 } cs_map_line;
 
@@ -36,16 +37,23 @@ typedef struct cs_map_exact {
   cs_map_line *lines;
   double *heights;
   cs_map_line **order;
+  bool is_coloured; /* a drawing among them is; else steps say how much more is let through */
   size_t line_count, line_capacity, height_count, height_capacity, order_capacity;
 } cs_map_exact;
 
 /* One of the drawings that can be shown in the pixel. */
 typedef struct cs_map_shown {
   const cs_map_sheet *sheet;
-  cs_v4 colour; /* the mean, or for cs_map_exact_mean that at the pixel's left edge */
+  /* The mean, or for cs_map_exact_mean that at the pixel's left edge. */
+  cs_v4 colour, through;
 } cs_map_shown;
 
 void cs_map_exact_finish(cs_map_exact *exact, cs_memory *memory);
+/* Removes the lines. */
+static inline void cs_map_exact_clear(cs_map_exact *exact) {
+  exact->line_count = 0;
+  exact->is_coloured = false;
+}
 /* Adds the lines of a broken drawing to those of the pixel (column, row). index: of the drawing
  * among those shown; from: the column from which on it is broken. Errors: NO_MEMORY, and those of
  * painting. */

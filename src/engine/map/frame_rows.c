@@ -23,7 +23,7 @@ celspan_status cs_map_maker_init(cs_map_maker *maker, celspan_context *context,
       CS_TRY(cs_map_swept_init(&maker->swept[i], context, sheet->plan));
     maker->rows[i] = (cs_map_rows){.drawing = drawing, .brush = &maker->brushes[i], .row = -1};
     CS_TRY(cs_map_brush_init(&maker->brushes[i], context, drawing));
-    maker->varies |= drawing->stack.layer_count > 0;
+    maker->varies |= drawing->stack.layer_count > 0 || drawing->through;
   }
   return CELSPAN_OK;
 }
@@ -67,22 +67,33 @@ typedef struct folding {
   size_t shown_count, broken_count, varied_count;
 } folding;
 
+/* is_even: all sheets are, a constant of each caller. */
+static inline bool lets_through(const cs_map_fold *fold, bool is_even) {
+  return is_even ? fold->t[0] > 0 : cs_v4_any_above(fold->t, cs_v4_all(0));
+}
+
 /* Whether nothing shines through a span, which varies. */
 static bool hides(const cs_map_drawing *drawing, const cs_map_span *span) {
   return span->cell != CS_MAP_BROKEN && drawing->map->cells[span->cell].hides &&
          drawing->light[3] == 1;
 }
 
+/* What a span of a sheet lets through. */
+static inline cs_v4 through_of(const folding *f, size_t i, const cs_map_span *span) {
+  const cs_map_rows *rows = &f->maker->rows[i];
+  return rows->drawing->through ? rows->through[span - rows->spans] : cs_map_even(span->colour);
+}
+
 /* Folds `count` sheets at a column, up to the first one that nothing shines through. *end: gets the
  * end of the columns where they are the same. What varies is left out of the fold. varies: whether
- * anything does, a constant of each caller. */
+ * anything does, or is coloured: a constant of each caller. */
 static inline cs_map_fold fold_sheets(folding *f, int32_t x, size_t count, int32_t *end,
                                       bool varies) {
   const cs_map_frame *frame = f->maker->frame;
   cs_map_fold fold = cs_map_fold_begin;
   size_t i = 0, broken_count = 0;
   f->varied_count = 0;
-  for (bool is_hidden = false; i < count && fold.t > 0 && !is_hidden; i++) {
+  for (bool is_hidden = false; i < count && lets_through(&fold, !varies) && !is_hidden; i++) {
     const cs_map_span *span = f->at[i];
     while (span->end <= x)
       span++;
@@ -93,7 +104,8 @@ static inline cs_map_fold fold_sheets(folding *f, int32_t x, size_t count, int32
     if (varies && span->share_count > 0)
       is_hidden = hides(f->maker->rows[i].drawing, span);
     else
-      cs_map_fold_add(&fold, &frame->sheets[i], span->colour);
+      cs_map_fold_add(&fold, &frame->sheets[i], span->colour,
+                      varies ? through_of(f, i, span) : cs_map_even(span->colour));
   }
   f->shown_count = i;
   f->broken_count = broken_count;
@@ -103,7 +115,8 @@ static inline cs_map_fold fold_sheets(folding *f, int32_t x, size_t count, int32
 /* Lists what can be shown, after a fold. */
 static void list_shown(folding *f) {
   for (size_t i = 0; i < f->shown_count; i++)
-    f->shown[i] = (cs_map_shown){&f->maker->frame->sheets[i], f->at[i]->colour};
+    f->shown[i] =
+        (cs_map_shown){&f->maker->frame->sheets[i], f->at[i]->colour, through_of(f, i, f->at[i])};
 }
 
 /* The colours of a sheet from x to end, which are in one of its spans. */
@@ -131,13 +144,15 @@ static const cs_map_span *find_broken(const folding *f, size_t i) {
   return span;
 }
 
-/* The colour of a sheet left of what is broken, at x. */
-static celspan_status find_base(folding *f, size_t i, int32_t x, cs_v4 *out) {
+/* What a sheet shows left of what is broken, at x. */
+static celspan_status find_base(folding *f, size_t i, int32_t x, cs_map_shown *out) {
   const cs_map_rows *rows = &f->maker->rows[i];
   const cs_map_span *first = rows->spans + rows->first[f->y - f->maker->row];
   const cs_map_span *span = find_broken(f, i);
-  return cs_map_brush_colour(rows->brush, rows->drawing, span > first ? span[-1].cell : 0, x, f->y,
-                             out);
+  uint32_t cell = span > first ? span[-1].cell : 0;
+  CS_TRY(cs_map_brush_colour(rows->brush, rows->drawing, cell, x, f->y, &out->colour));
+  out->through = rows->drawing->through ? rows->drawing->through[cell] : cs_map_even(out->colour);
+  return CELSPAN_OK;
 }
 
 /* Adds the lines of a broken sheet at x. */
@@ -157,6 +172,8 @@ static celspan_status solve(folding *f, int32_t x, cs_v4 *out) {
   list_shown(f);
   for (size_t i = 0; i < f->shown_count; i++) {
     CS_TRY(find_colours(f, i, x, x + 1, &f->shown[i].colour));
+    if (f->at[i]->share_count > 0)
+      f->shown[i].through = cs_map_even(f->shown[i].colour);
     if (f->at[i]->cell == CS_MAP_BROKEN)
       CS_TRY(add_lines(f, i, x));
   }
@@ -166,7 +183,7 @@ static celspan_status solve(folding *f, int32_t x, cs_v4 *out) {
   }
   for (size_t i = 0; i < f->shown_count; i++)
     if (f->at[i]->cell == CS_MAP_BROKEN)
-      CS_TRY(find_base(f, i, x, &f->shown[i].colour));
+      CS_TRY(find_base(f, i, x, &f->shown[i]));
   return cs_map_exact_mean(maker->context, exact, maker->frame, f->shown, f->shown_count, out);
 }
 
@@ -185,7 +202,7 @@ static bool is_bare(const folding *f, const cs_map_fold *fold) {
   const cs_map_span *span = f->at[last];
   return f->varied_count == 1 && span->share_count > 0 && span->cell != CS_MAP_BROKEN &&
          is_rearmost(f, fold) && cs_map_brush_is_bare(f->maker->rows[last].drawing) &&
-         fold->t == 1 && cs_v4_same(fold->e, cs_v4_all(0));
+         cs_v4_same(fold->t, cs_v4_all(1)) && cs_v4_same(fold->e, cs_v4_all(0));
 }
 
 /* Paints a cell of a sheet as a run. */
@@ -207,15 +224,16 @@ typedef struct affine {
 static cs_v4 fold_with(const folding *f, size_t varied, cs_v4 colour) {
   cs_map_fold fold = cs_map_fold_begin;
   for (size_t i = 0; i < f->shown_count; i++)
-    cs_map_fold_add(&fold, f->shown[i].sheet, i == varied ? colour : f->shown[i].colour);
+    cs_map_fold_add(&fold, f->shown[i].sheet, i == varied ? colour : f->shown[i].colour,
+                    i == varied ? cs_map_even(colour) : f->shown[i].through);
   return cs_map_fold_end(fold, f->maker->frame);
 }
 
 /* How much is seen of the light of a sheet. */
-static float transmission_before(const folding *f, size_t sheet) {
-  float t = 1;
+static cs_v4 transmission_before(const folding *f, size_t sheet) {
+  cs_v4 t = cs_v4_all(1);
   for (size_t i = 0; i < sheet; i++)
-    t *= 1 - f->shown[i].colour[3];
+    t *= f->shown[i].through;
   return t;
 }
 
@@ -288,9 +306,11 @@ static celspan_status fold_batch(folding *f, int32_t x, int32_t end, float *out)
   for (int32_t k = 0; k < end - x; k++)
     folds[k] = cs_map_fold_begin;
   for (size_t i = 0; i < f->shown_count; i++) {
+    const bool is_varied = f->at[i]->share_count > 0;
     CS_TRY(find_colours(f, i, x, end, colours));
     for (int32_t k = 0; k < end - x; k++)
-      cs_map_fold_add(&folds[k], f->shown[i].sheet, colours[k]);
+      cs_map_fold_add(&folds[k], f->shown[i].sheet, colours[k],
+                      is_varied ? cs_map_even(colours[k]) : f->shown[i].through);
   }
   for (int32_t k = 0; k < end - x; k++)
     cs_v4_store(out + (size_t)4 * (size_t)k, cs_map_fold_end(folds[k], f->maker->frame));
@@ -334,8 +354,8 @@ static celspan_status fold_last(folding *f, cs_map_fold near, int32_t x, int32_t
       span++;
     f->at[last] = span;
     cs_map_fold fold = near;
-    cs_map_fold_add(&fold, &frame->sheets[last], span->colour);
-    cs_v4 colour = cs_map_fold_end(fold, frame);
+    cs_map_fold_add(&fold, &frame->sheets[last], span->colour, cs_map_even(span->colour));
+    cs_v4 colour = cs_map_fold_end_even(fold, frame);
     stop = span->end < end ? span->end : end;
     f->broken_count = near_count + (span->cell == CS_MAP_BROKEN);
     if (f->broken_count > 1) {
@@ -358,11 +378,11 @@ static celspan_status make_flat_row(folding *f, cs_row *out) {
   for (int32_t x = 0, end; x < width; x = end) {
     end = width;
     const cs_map_fold near = fold_sheets(f, x, maker->frame->count - 1, &end, false);
-    if (near.t > 0) {
+    if (lets_through(&near, true)) {
       CS_TRY(fold_last(f, near, x, end, &writer));
       continue;
     }
-    cs_v4 colour = cs_map_fold_end(near, maker->frame);
+    cs_v4 colour = cs_map_fold_end_even(near, maker->frame);
     if (f->broken_count > 1) {
       end = x + 1;
       CS_TRY(solve(f, x, &colour));
@@ -421,7 +441,7 @@ celspan_status cs_map_maker_row(cs_map_maker *maker, int32_t y, cs_row *out) {
   cs_row_clear(out);
   if (row != maker->row)
     CS_TRY(make_swath(maker, row));
-  maker->exact.line_count = 0;
+  cs_map_exact_clear(&maker->exact);
   CS_TRY(make_row(&f, out));
   CS_SELF_CHECK(cs_row_is_whole(out, maker->frame->width));
   return CELSPAN_OK;

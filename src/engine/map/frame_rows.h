@@ -14,7 +14,7 @@ typedef struct cs_map_maker {
   int32_t row;           /* the first of the swath that `rows` has; -1: they have none */
   cs_map_exact exact;
   cs_row painted; /* a run of the only sheet that varies */
-  bool varies;    /* something in a sheet does */
+  bool varies;    /* something in a sheet does, or a sheet is coloured */
 } cs_map_maker;
 
 /* Errors: NO_MEMORY; cs_map_maker_finish must be called then, too. */

@@ -60,6 +60,7 @@ void cs_map_unref(cs_map *map) {
   cs_map_lines_finish(&map->lines, memory);
   cs_mem_free(memory, map->flats, map->flat_capacity * sizeof *map->flats);
   cs_mem_free(memory, map->cells, map->cell_capacity * sizeof *map->cells);
+  cs_mem_free(memory, map->through, map->through_capacity * sizeof *map->through);
   cs_mem_free(memory, map->items, map->item_capacity * sizeof *map->items);
   free_stack(&map->stack, memory);
   cs_mem_free(memory, map, sizeof *map);
@@ -70,7 +71,8 @@ size_t cs_map_bytes(const cs_map *map) {
   return sizeof *map + map->lines.border_capacity * sizeof *map->lines.borders +
          map->lines.point_capacity * sizeof *map->lines.points +
          map->flat_capacity * sizeof *map->flats + map->cell_capacity * sizeof *map->cells +
-         map->item_capacity * sizeof *map->items + cs_stack_bytes(&map->stack);
+         map->through_capacity * sizeof *map->through + map->item_capacity * sizeof *map->items +
+         cs_stack_bytes(&map->stack);
 }
 
 static void finish(maker *m) {
@@ -83,13 +85,21 @@ static void finish(maker *m) {
   cs_events_finish(&m->events, memory);
 }
 
+static bool is_coloured(const cs_stack *stack) {
+  bool is_coloured = false;
+  for (size_t i = 0; i < stack->layer_count; i++)
+    is_coloured |= !cs_stack_layer_is_grey(stack, &stack->layers[i]);
+  return is_coloured;
+}
+
 bool cs_map_suits(const cs_plan *plan) {
   const cs_stack *stack = &plan->stack;
+  bool coloured = is_coloured(stack);
   bool suits = !plan->is_crowded && stack->light_count == 0 && stack->procedure_count == 0;
   for (size_t i = 0; suits && i < stack->layer_count; i++) {
     const cs_layer *layer = &stack->layers[i];
     suits = layer->role == CS_LAYER_PAINT && layer->kind != CS_LAYER_DEFOCUSED &&
-            layer->t[0] == layer->t[1] && layer->t[1] == layer->t[2];
+            (!coloured || layer->kind == CS_LAYER_FLAT);
   }
   return suits;
 }
@@ -97,12 +107,14 @@ bool cs_map_suits(const cs_plan *plan) {
 /* ---------------------------------------------------------------- composing */
 
 /* Notes the cell of some windings; a cs_events_visitor. */
-static celspan_status note_cell(void *user, uint32_t windings, const cs_composer *composer,
+static celspan_status note_cell(void *user, uint32_t windings, cs_composer *composer,
                                 const cs_cell *cell) {
   maker *m = user;
   cs_map_content what = {.colour = cell->colour};
   if (cell->length > 0)
-    what = (cs_map_content){cs_v4_all(0), composer->items + cell->program, cell->length};
+    what = (cs_map_content){.items = composer->items + cell->program, .length = cell->length};
+  if (m->map->is_coloured)
+    CS_TRY(cs_composer_through(composer, &what.through));
   return m->map->is_whole ? cs_map_cells_find(m->context, &m->cells, what, &m->cell_of[windings])
                           : CELSPAN_OK;
 }
@@ -110,8 +122,8 @@ static celspan_status note_cell(void *user, uint32_t windings, const cs_composer
 /* Finds the cells of all windings. */
 static celspan_status find_cells(maker *m) {
   uint32_t clear;
-  CS_TRY(
-      cs_map_cells_find(m->context, &m->cells, (cs_map_content){.colour = cs_v4_all(0)}, &clear));
+  const cs_map_content nothing = {.through = cs_v4_all(m->map->is_coloured ? 1 : 0)};
+  CS_TRY(cs_map_cells_find(m->context, &m->cells, nothing, &clear));
   CS_TRY(CS_MAKE(m->context, m->cell_of, m->events.windings.count));
   return cs_events_visit(m->context, m->plan, &m->events, note_cell, m);
 }
@@ -211,6 +223,7 @@ static celspan_status make(maker *m) {
 
 celspan_status cs_map_make(celspan_context *context, cs_plan *plan, cs_map *map) {
   maker m = {.context = context, .plan = plan, .map = map, .cells = {.map = map}};
+  map->is_coloured = is_coloured(&plan->stack);
   celspan_status status = make(&m);
   if (status == CELSPAN_OK && map->item_count > 0)
     take_stack(map, &plan->stack);

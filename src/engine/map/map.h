@@ -67,15 +67,17 @@ typedef struct cs_map_flat {
 typedef struct cs_map {
   atomic_size_t references;
   cs_memory *memory;
+  bool is_coloured;  /* some cell does not let all channels through alike, and none varies */
   bool is_whole;     /* false: the drawing cannot be a map, and there is nothing else */
   int64_t left, top; /* where the raster begins, in its pixels from the drawing's origin */
   cs_map_lines lines;
   cs_map_flat *flats; /* only of a map that is turned */
   cs_map_cell *cells;
+  cs_v4 *through; /* coloured: what each cell lets through; lane 3: the mean. Else NULL */
   cs_item *items; /* of the programs */
   cs_stack stack; /* that they name; none where all cells are flat */
   size_t flat_count, flat_capacity;
-  size_t cell_count, cell_capacity;
+  size_t cell_count, cell_capacity, through_capacity;
   size_t item_count, item_capacity;
 } cs_map;
 
@@ -88,8 +90,8 @@ CELSPAN_CHECKED celspan_status cs_map_create(celspan_context *context, cs_map **
 void cs_map_ref(cs_map *map);
 void cs_map_unref(cs_map *map); /* NULL is ignored; any thread */
 size_t cs_map_bytes(const cs_map *map);
-/* Whether a plan of a drawing alone can be a map: paints that dim all channels alike, and no
- * procedures. Those of its textures that vary must do so, too. */
+/* Whether a plan of a drawing alone can be a map: no procedures, and paints that dim all channels
+ * alike, unless none of them varies. Textures that vary must dim alike, too. */
 bool cs_map_suits(const cs_plan *plan);
 /* Fills a map with a plan that suits, whose raster begins at the pixel (map->left, map->top). The
  * map is not whole where there are too many cells. Where cells vary it takes over the plan's stack.

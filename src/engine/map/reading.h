@@ -9,6 +9,8 @@
 
 #include "engine/map/swath.h"
 
-/* The spans of all rows of the swath, whose sums are cleared. Errors: NO_MEMORY. */
+/* The spans of all rows of the swath, whose sums are cleared. colours: of the cells. Errors:
+ * NO_MEMORY. */
 CS_WIDE_DECLARE(CELSPAN_CHECKED celspan_status, cs_map_read,
-                (celspan_context * context, cs_map_sums *sums, cs_map_rows *rows));
+                (celspan_context * context, cs_map_sums *sums, const cs_v4 *colours,
+                 cs_map_rows *rows));

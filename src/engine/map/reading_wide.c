@@ -157,11 +157,11 @@ static celspan_status begin_row(reader *r, int32_t width) {
 }
 
 celspan_status CS_WIDE(cs_map_read)(celspan_context *context, cs_map_sums *sums,
-                                    cs_map_rows *rows) {
+                                    const cs_v4 *colours, cs_map_rows *rows) {
   const cs_map_drawing *drawing = rows->drawing;
   reader r = {.context = context,
               .rows = rows,
-              .colours = drawing->colours,
+              .colours = colours,
               .cells = drawing->map->cells,
               .cell_count = drawing->map->cell_count};
   rows->span_count = rows->share_count = 0;

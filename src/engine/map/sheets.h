@@ -14,6 +14,7 @@
  */
 #pragma once
 
+#include "engine/compose/over.h"
 #include "engine/map/sums.h"
 #include "engine/row/plan.h"
 #include "engine/span/row.h"
@@ -37,23 +38,38 @@ typedef struct cs_map_frame {
   int32_t width, height;
 } cs_map_frame;
 
-/* What light has come through so far, from the camera: lane 3 of e is coverage. */
+/* What light has come through so far, from the camera: lane 3 of e has no meaning, and that of t
+ * none but where all sheets are even. */
 typedef struct cs_map_fold {
-  cs_v4 e;
-  float t, keep;
+  cs_v4 e, t;
+  float keep;
 } cs_map_fold;
 
-static const cs_map_fold cs_map_fold_begin = {{0, 0, 0, 0}, 1, 1};
+static const cs_map_fold cs_map_fold_begin = {{0, 0, 0, 0}, {1, 1, 1, 1}, 1};
 
-static inline void cs_map_fold_add(cs_map_fold *fold, const cs_map_sheet *sheet, cs_v4 colour) {
+/* What a colour lets through that dims all channels alike. */
+static inline cs_v4 cs_map_even(cs_v4 colour) { return cs_v4_all(1 - colour[3]); }
+
+static inline void cs_map_fold_add(cs_map_fold *fold, const cs_map_sheet *sheet, cs_v4 colour,
+                                   cs_v4 through) {
   fold->e += fold->t * colour;
-  fold->t *= 1 - colour[3];
+  fold->t *= through;
   fold->e += fold->t * sheet->back;
   fold->keep *= sheet->keep;
 }
 
-static inline cs_v4 cs_map_fold_end(cs_map_fold fold, const cs_map_frame *frame) {
+/* t: the mean of what comes through. */
+static inline cs_v4 cs_map_fold_end_with(cs_map_fold fold, float t, const cs_map_frame *frame) {
   cs_v4 colour = fold.e + fold.t * frame->back;
-  colour[3] = 1 - fold.keep * frame->keep * fold.t;
+  colour[3] = 1 - fold.keep * frame->keep * t;
   return colour;
+}
+
+static inline cs_v4 cs_map_fold_end(cs_map_fold fold, const cs_map_frame *frame) {
+  return cs_map_fold_end_with(fold, cs_over_mean(fold.t), frame);
+}
+
+/* The same where all sheets are even. */
+static inline cs_v4 cs_map_fold_end_even(cs_map_fold fold, const cs_map_frame *frame) {
+  return cs_map_fold_end_with(fold, fold.t[0], frame);
 }

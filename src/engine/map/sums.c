@@ -35,6 +35,7 @@ void cs_map_rows_finish(cs_map_rows *rows, cs_memory *memory) {
   cs_mem_free(memory, rows->lives, rows->live_capacity * sizeof *rows->lives);
   cs_mem_free(memory, rows->places, rows->place_capacity * sizeof *rows->places);
   cs_mem_free(memory, rows->spans, rows->span_capacity * sizeof *rows->spans);
+  cs_mem_free(memory, rows->through, rows->through_capacity * sizeof *rows->through);
   cs_mem_free(memory, rows->shares, rows->share_capacity * sizeof *rows->shares);
   cs_mem_free(memory, rows->areas, rows->area_capacity * sizeof *rows->areas);
   *rows = (cs_map_rows){0};
@@ -124,13 +125,17 @@ static void drop_lives(const swath *s) {
     pack_places(rows);
 }
 
-/* What a border changes from its left to its right. */
-static void find_step(const cs_map_drawing *drawing, const cs_map_border *f, cs_map_live *live) {
+/* What a border changes of the cells' colours from its left to its right. */
+static void find_step(const cs_v4 *colours, const cs_map_border *f, cs_map_live *live) {
+  const cs_v4d step = cs_v4d_step(colours[f->left], colours[f->right]);
+  memcpy(live->step, &step, sizeof live->step);
+}
+
+/* The same of keys, and whether a cell beside it varies. */
+static void find_change(const cs_map_drawing *drawing, const cs_map_border *f, cs_map_live *live) {
   const cs_map_cell *left = &drawing->map->cells[f->left], *right = &drawing->map->cells[f->right];
-  const cs_v4d step = cs_v4d_step(drawing->colours[f->left], drawing->colours[f->right]);
   live->varies = left->length > 0 || right->length > 0;
   live->key = right->key - left->key;
-  memcpy(live->step, &step, sizeof live->step);
 }
 
 /* The places of a border are appended to the others. box: its lowest and its highest place. Of one
@@ -148,7 +153,8 @@ static celspan_status add_live(const swath *s, uint32_t number, const cs_map_poi
                       .low = box[0].x,
                       .high = box[1].x,
                       .foot = box[1].y};
-  find_step(s->drawing, f, &live);
+  find_change(s->drawing, f, &live);
+  find_step(s->drawing->colours, f, &live);
   CS_TRY(CS_RESERVE(s->context, rows->places, rows->place_capacity, first + count + 1));
   if (is_outside)
     memcpy(rows->places + first, box, 2 * sizeof *box);
@@ -194,13 +200,33 @@ static void go_to(const swath *s) {
 
 /* ---------------------------------------------------------------- a swath */
 
-static celspan_status make_rows(const swath *s) {
+static celspan_status make_rows(const swath *s, const cs_v4 *colours) {
   cs_map_rows *rows = s->rows;
   celspan_status status = CELSPAN_OK;
   const cs_map_adding adding = {s->context, s->sums, rows, s->row, &status};
   CS_WIDE_CHOOSE(s->sums->isa, cs_map_add)(&adding);
   CS_TRY(status);
-  return CS_WIDE_CHOOSE(s->sums->isa, cs_map_read)(s->context, s->sums, rows);
+  return CS_WIDE_CHOOSE(s->sums->isa, cs_map_read)(s->context, s->sums, colours, rows);
+}
+
+static void find_steps(const swath *s, const cs_v4 *colours) {
+  for (size_t i = 0; i < s->rows->live_count; i++) {
+    cs_map_live *live = &s->rows->lives[i];
+    find_step(colours, &s->drawing->lines->borders[live->border], live);
+  }
+}
+
+/* What the spans let through: they are made as those of colours are, and since keys alone say where
+ * a span ends, they are the same. */
+static celspan_status make_through(const swath *s) {
+  cs_map_rows *rows = s->rows;
+  find_steps(s, s->drawing->through);
+  CS_TRY(make_rows(s, s->drawing->through));
+  CS_TRY(CS_RESERVE(s->context, rows->through, rows->through_capacity, rows->span_count));
+  for (size_t i = 0; i < rows->span_count; i++)
+    rows->through[i] = rows->spans[i].colour;
+  find_steps(s, s->drawing->colours);
+  return CELSPAN_OK;
 }
 
 celspan_status cs_map_rows_make(celspan_context *context, cs_map_sums *sums, cs_map_rows *rows,
@@ -210,7 +236,9 @@ celspan_status cs_map_rows_make(celspan_context *context, cs_map_sums *sums, cs_
   drop_lives(&s);
   CS_TRY(add_lives(&s));
   sums->part_count = 0;
-  celspan_status status = make_rows(&s);
+  celspan_status status = s.drawing->through ? make_through(&s) : CELSPAN_OK;
+  if (status == CELSPAN_OK)
+    status = make_rows(&s, s.drawing->colours);
   if (status == CELSPAN_OK)
     rows->row = row;
   else

@@ -119,7 +119,7 @@ static celspan_status find_varied(recorder *r, const cs_program *program, uint32
 }
 
 /* Finds the cell of some windings; a cs_events_visitor. */
-static celspan_status note_cell(void *user, uint32_t windings, const cs_composer *composer,
+static celspan_status note_cell(void *user, uint32_t windings, cs_composer *composer,
                                 const cs_cell *cell) {
   recorder *r = user;
   if (cell->length == 0)

@@ -147,6 +147,18 @@ static cs_cache_key key_of(const placed_cel *d) {
 
 static cs_v4 colour_of(celspan_light light) { return (cs_v4){light.r, light.g, light.b, 0}; }
 
+/* What the cells of a coloured map let through where the cel is as opaque as this. */
+static celspan_status fade_media(celspan_context *context, cs_map_drawing *drawing) {
+  const cs_map *map = drawing->map;
+  const float opacity = drawing->light[3];
+  if (!map->is_coloured)
+    return CELSPAN_OK;
+  CS_TRY(CS_MAKE(context, drawing->through, map->cell_count));
+  for (size_t i = 0; i < map->cell_count; i++)
+    drawing->through[i] = (1 - opacity) + opacity * map->through[i];
+  return CELSPAN_OK;
+}
+
 /* The colours of the map's cells in the light of the cel, which includes its opacity. */
 static celspan_status light_cells(celspan_context *context, cs_map_drawing *drawing) {
   const cs_map *map = drawing->map;
@@ -154,6 +166,7 @@ static celspan_status light_cells(celspan_context *context, cs_map_drawing *draw
   for (size_t i = 0; i < map->cell_count; i++)
     if (map->cells[i].length == 0)
       drawing->colours[i] = cs_map_brush_light(drawing, map->cells[i].colour);
+  CS_TRY(fade_media(context, drawing));
   return cs_map_brush_place(context, drawing);
 }
 
@@ -263,7 +276,8 @@ static celspan_status place_cels(celspan_context *context, const cs_parts *parts
     d->opacity = d->cel->opacity;
     if (d->cel->object_count == 1)
       place_object(d, d->cel->objects[0]);
-    ways->suits[i] = ways->suits[i] && find_scale(d);
+    if (ways->suits[i] && !find_scale(d))
+      cs_ways_sweep(rostrum, ways, i);
   }
   return CELSPAN_OK;
 }
@@ -334,7 +348,7 @@ static celspan_status make_frame(making *m, cs_map_frame *out) {
     cs_drawings_finish(out, m->context->memory);
     if (!m->ways.mapped[unsuited])
       return CELSPAN_OK;
-    m->ways.suits[unsuited] = false;
+    cs_ways_sweep(rostrum, &m->ways, unsuited);
   }
   return CELSPAN_OK;
 }
@@ -356,6 +370,8 @@ static void finish_sheet(cs_map_sheet *sheet, cs_memory *memory) {
   cs_map_drawing *drawing = &sheet->drawing;
   if (drawing->colours)
     cs_mem_free(memory, drawing->colours, drawing->map->cell_count * sizeof *drawing->colours);
+  if (drawing->through)
+    cs_mem_free(memory, drawing->through, drawing->map->cell_count * sizeof *drawing->through);
   cs_map_brush_displace(drawing, memory);
   cs_map_lines_finish(&drawing->turned, memory);
   cs_map_unref(drawing->map);

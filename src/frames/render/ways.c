@@ -9,6 +9,13 @@ static bool has_procedure(const celspan_cel *cel) {
   return has;
 }
 
+static bool has_picture(const celspan_cel *cel) {
+  bool has = false;
+  for (size_t i = 0; i < cel->object_count; i++)
+    has |= cel->objects[i]->data->has_picture;
+  return has;
+}
+
 static bool is_uneven(const celspan_cel *cel) {
   bool is_uneven = false;
   for (size_t i = 0; i < cel->object_count; i++)
@@ -16,9 +23,24 @@ static bool is_uneven(const celspan_cel *cel) {
   return is_uneven;
 }
 
-/* Whether more of a cel is needed than a colour and an alpha to put it over the cels behind it. */
-static bool needs_backdrop(const celspan_cel *cel, celspan_space space) {
-  return cs_cel_blends(cel, space) || is_uneven(cel) || cel->back.texture;
+/* Whether more of a cel is needed than what it shows and lets through to put it over the cels
+ * behind it: of a swept one a colour and an alpha are known. */
+static bool needs_backdrop(const celspan_cel *cel, bool suits, celspan_space space) {
+  return cs_cel_blends(cel, space) || (is_uneven(cel) && (!suits || has_picture(cel))) ||
+         cel->back.texture;
+}
+
+/* At least `count` cels at the rear are swept with the light behind them. */
+static void sweep_rear(cs_ways *ways, size_t count) {
+  ways->rear = count > ways->rear ? count : ways->rear;
+  for (size_t i = 0; i < ways->rear; i++)
+    ways->suits[i] = false;
+}
+
+void cs_ways_sweep(const celspan_rostrum *rostrum, cs_ways *ways, size_t cel) {
+  ways->suits[cel] = false;
+  if (is_uneven(rostrum->cels[cel]))
+    sweep_rear(ways, cel + 1);
 }
 
 static bool is_white(celspan_light light) { return light.r == 1 && light.g == 1 && light.b == 1; }
@@ -51,11 +73,10 @@ void cs_ways_find(const celspan_rostrum *rostrum, const cs_view *view, cs_ways *
   *out = (cs_ways){.rear = rostrum->back.texture ? 1 : 0, .shapes = cs_ways_rich(view)};
   for (size_t i = 0; i < rostrum->cel_count; i++) {
     out->suits[i] = may_have_map(rostrum, rostrum->cels[i], view->space);
-    if (needs_backdrop(rostrum->cels[i], view->space))
+    if (needs_backdrop(rostrum->cels[i], out->suits[i], view->space))
       out->rear = i + 1;
   }
-  for (size_t i = 0; i < out->rear; i++)
-    out->suits[i] = false;
+  sweep_rear(out, out->rear);
 }
 
 /* ---------------------------------------------------------------- what pays */
@@ -66,13 +87,6 @@ static size_t count_shapes(const celspan_cel *cel) {
   for (size_t i = 0; i < cel->object_count; i++)
     shapes += cel->objects[i]->data->shape_count;
   return cel->defocus_radius > 0 ? 1 : shapes;
-}
-
-static bool has_picture(const celspan_cel *cel) {
-  bool has = false;
-  for (size_t i = 0; i < cel->object_count; i++)
-    has |= cel->objects[i]->data->has_picture;
-  return has;
 }
 
 /* A few pictures are drawn faster where they are composed with others. */

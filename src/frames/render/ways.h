@@ -18,8 +18,10 @@
  * An exposure may have maps where its frame repeats, its antialiasing is "area", no side of the
  * frame is above CS_WAYS_SIDE pixels, and it has at most CS_MAP_DRAWINGS cels, no procedures, no
  * grade of the whole and the space of the film. A cel suits that
- *   - is in front of all cels that have paints that do not dim all channels alike, pictures of one
- *     thread, compositions, modes that act on other cels, or a back light with a shape,
+ *   - is in front of all cels that have pictures of one thread, compositions, modes that act on
+ *     other cels, or a back light with a shape, and of those that have paints that do not dim all
+ *     channels alike and are swept,
+ *   - has no such paint beside gradients or pictures,
  *   - is not defocused, has no front light with a shape, and no modes under a coloured light,
  *   - lies before the horizon, as a whole,
  *   - is small enough to be a map (engine/map/map.h) and, if it is turned, to be turned (turn.h
@@ -55,5 +57,7 @@ size_t cs_ways_rich(const cs_view *view);
 void cs_ways_find(const celspan_rostrum *rostrum, const cs_view *view, cs_ways *out);
 /* Chooses those that are drawn from maps among those that suit; false: the exposure is swept. */
 bool cs_ways_choose(const celspan_rostrum *rostrum, cs_ways *ways);
+/* A cel turns out not to suit: it is swept, and what it needs for that is. */
+void cs_ways_sweep(const celspan_rostrum *rostrum, cs_ways *ways, size_t cel);
 /* The end of the sheet that begins with a cel. */
 size_t cs_ways_end(const celspan_rostrum *rostrum, const cs_ways *ways, size_t first);
