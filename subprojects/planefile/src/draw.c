@@ -202,15 +202,13 @@ static int side_of(const planefile_drawer *d, const planefile_band *band, uint32
   return is_right - is_left;
 }
 
-static planefile_status add_live(planefile_drawer *d, const live *begun, uint32_t piece) {
+static planefile_status add_live(planefile_drawer *d, const live *begun) {
   live *lives =
       pf_grow(&d->plane->memory, d->lives, sizeof *lives, &d->live_capacity, d->live_count + 1);
   if (!lives)
     return PLANEFILE_NO_MEMORY;
   d->lives = lives;
-  live *l = &d->lives[d->live_count++];
-  *l = *begun;
-  seek(d, l, piece);
+  d->lives[d->live_count++] = *begun;
   return PLANEFILE_OK;
 }
 
@@ -222,6 +220,21 @@ static uint32_t find_border(const planefile_drawer *d, const planefile_band *ban
   return border;
 }
 
+static int side_of_place(const planefile_drawer *d, double x) {
+  return (x >= (double)(d->sums.right * PF_HEIGHT)) - (x <= (double)(d->sums.left * PF_HEIGHT));
+}
+
+/* The same from the current chord on, as far as the piece has all of it: the points of a curve may
+ * lie on both sides where the curve does not. */
+static int side_of_chords(const planefile_drawer *d, const live *l) {
+  int side = side_of_place(d, l->at.x0);
+  pf_vertex end = {l->at.x1, l->at.y1};
+  uint32_t chord = l->chord;
+  while (side_of_place(d, end.x) == side && end.y < d->end && chord < l->curve.chords)
+    end = pf_curve_vertex(&l->curve, ++chord);
+  return side_of_place(d, end.x) == side && end.y >= d->end ? side : 0;
+}
+
 /* Begins a chain, unless it changes nothing in the crop. top: of the rows being made. */
 static planefile_status begin_run(planefile_drawer *d, const pf_band *band, const pf_run *run,
                                   int64_t top) {
@@ -230,11 +243,17 @@ static planefile_status begin_run(planefile_drawer *d, const pf_band *band, cons
     return PLANEFILE_OK;
   live begun = {.band = &band->band, .border = find_border(d, &band->band, run->border, top)};
   begin_border(d, &begun, top);
+  if (begun.y >= d->end)
+    return PLANEFILE_OK;
   uint32_t piece = find_piece(d, begun.band, chain_of(&begun), chain_of(&begun)->piece, begun.y);
   int side = side_of(d, begun.band, piece, foot);
   bool is_long = begun.y == (int64_t)d->sums.view.y * PF_HEIGHT && begun.foot >= d->end;
-  if (side == 0 || (side < 0 && !is_long))
-    return add_live(d, &begun, piece);
+  if (side == 0 || (side < 0 && !is_long)) {
+    seek(d, &begun, piece);
+    side = side_of_chords(d, &begun);
+    if (side == 0 || !is_long || d->sums.view.sampling != PLANEFILE_AREA)
+      return add_live(d, &begun);
+  }
   if (side < 0)
     pf_sums_add_start(&d->sums, &begun.change);
   return PLANEFILE_OK;
@@ -280,7 +299,7 @@ static planefile_status make_rows(planefile_drawer *d) {
     else
       d->lives[i] = d->lives[--d->live_count];
   d->made += rows;
-  return d->sums.varied.failed ? PLANEFILE_NO_MEMORY : PLANEFILE_OK;
+  return d->sums.failed || d->sums.varied.failed ? PLANEFILE_NO_MEMORY : PLANEFILE_OK;
 }
 
 planefile_status planefile_drawer_row(planefile_drawer *d, const planefile_span **spans,

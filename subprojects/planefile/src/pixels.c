@@ -1,4 +1,6 @@
 /* Colours in linear light to 8-bit sRGB codes. */
+#include <wchar.h>
+
 #include "plane.h"
 
 void pf_pixels_make(const pf_codes *codes, unsigned char out[PLANEFILE_WHITE + 1]) {
@@ -58,7 +60,7 @@ void planefile_srgb8(const planefile_plane *plane, planefile_cell colour, unsign
 }
 
 enum { BLOCK_PIXELS = 16, PIXEL = sizeof(pixel), BLOCK = BLOCK_PIXELS * PIXEL /* bytes */ };
-enum { BLOCKS = 16, LONG = BLOCKS * BLOCK };
+enum { LONG = 8 * BLOCK };
 
 /* Blocks of a pixel, of which the last one may reach beyond a size. */
 static inline void fill_blocks(unsigned char *out, size_t size, pixel colour) {
@@ -71,14 +73,10 @@ static inline void fill_blocks(unsigned char *out, size_t size, pixel colour) {
   while ((at += BLOCK) < size);
 }
 
-/* Many pixels: the first ones are copied, by the C library, which has the widest registers.
- */
-static void fill_long(unsigned char *out, size_t size, pixel colour) {
-  fill_blocks(out, LONG, colour);
-  for (size_t at = LONG, part; at < size; at += part) {
-    part = size - at < LONG ? size - at : LONG;
-    memcpy(out + at, out, part);
-  }
+/* Whether a span is filled by the C library, which has the widest registers of the machine: where
+ * it has letters of this size. */
+static inline bool is_word(const unsigned char *out, size_t size) {
+  return size >= LONG && sizeof(wchar_t) == PIXEL && (uintptr_t)out % _Alignof(wchar_t) == 0;
 }
 
 /* Single pixels and short spans are filled like long ones, with what the next spans replace: where
@@ -90,8 +88,8 @@ void planefile_span_pixels(const planefile_plane *plane, const planefile_span *s
     end = (size_t)PIXEL * spans[i].end;
     size_t size = end - start;
     pixel colour = in_memory(pixel_of(plane, &spans[i].colour));
-    if (size >= LONG)
-      fill_long(out + start, size, colour);
+    if (is_word(out + start, size))
+      wmemset((wchar_t *)(void *)(out + start), (wchar_t)colour, size / PIXEL);
     else if (size + BLOCK <= all - start)
       fill_blocks(out + start, size, colour);
     else

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-enum { ROOM = 1 << 20 /* bytes of slots, about */ };
+enum { ROOM = 1 << 20 /* bytes of slots, about */, WORDS = 8 /* of bits, read together */ };
 #define UPRIGHT 1e-9         /* what is not more slanted, as dx / dy, is in one column */
 #define PIXEL INT64_C(65536) /* PF_HEIGHTths of a pixel across, too */
 /* 1.5 * 2^52 * PF_HEIGHT: a sum plus it is a whole number of PF_HEIGHTs: its last bits. */
@@ -17,18 +17,27 @@ enum { ROOM = 1 << 20 /* bytes of slots, about */ };
 
 /* ---------------------------------------------------------------- life */
 
+/* Slots are made when something is drawn: most tiles of a huge frame have one colour. */
+static bool make_room(pf_sums *s) {
+  if (!s->slots)
+    s->slots = pf_make(&s->plane->memory, sizeof *s->slots, (size_t)s->view.columns * s->rows);
+  s->failed |= !s->slots;
+  return s->slots != NULL;
+}
+
 bool pf_sums_init(pf_sums *s, const planefile_plane *plane, const planefile_view *view) {
   *s = (pf_sums){.plane = plane, .view = *view, .left = view->x};
   s->right = s->left + view->columns;
   size_t width = view->columns, rows = ROOM / (width * sizeof *s->slots);
   rows = rows < view->rows ? rows : view->rows;
   s->rows = rows < 1 ? 1 : rows > PF_ROWS ? PF_ROWS : (uint32_t)rows;
-  s->words = (width + 63) / 64;
-  s->slots = pf_make(&plane->memory, sizeof *s->slots, width * s->rows);
+  s->words = (width + 64 * WORDS - 1) / (64 * WORDS) * WORDS;
   s->bits = pf_make(&plane->memory, sizeof *s->bits, s->words * s->rows);
   s->spans = pf_make(&plane->memory, sizeof *s->spans, width);
-  return s->slots && s->bits && s->spans &&
-         (!plane->info.varies || pf_varied_init(&s->varied, plane, view->columns, s->rows));
+  if (!plane->info.varies)
+    return s->bits && s->spans;
+  return s->bits && s->spans && make_room(s) &&
+         pf_varied_init(&s->varied, plane, view->columns, s->rows);
 }
 
 void pf_sums_finish(pf_sums *s) {
@@ -206,6 +215,8 @@ static void draw_centres(pf_sums *s, const pf_step *change, const pf_chord *chor
 
 void pf_sums_draw(pf_sums *s, const pf_step *change, const pf_chord *chord, int64_t y,
                   int64_t foot) {
+  if (!make_room(s))
+    return;
   if (s->view.sampling != PLANEFILE_AREA) {
     draw_centres(s, change, chord, y, foot);
     return;
@@ -321,6 +332,16 @@ static inline void put_column(reading *r, uint32_t made, uint32_t column, double
   put_part(r, column + 1, sums);
 }
 
+/* Puts the columns of some words; most words of a large row are 0. */
+static void put_words(reading *r, uint32_t made, size_t first, double total[4]) {
+  uint64_t *words = &r->sums->bits[made * r->sums->words + first], any = 0;
+  for (size_t i = 0; i < WORDS; i++)
+    any |= words[i];
+  for (size_t i = 0; any && i < WORDS; words[i++] = 0)
+    for (uint64_t bits = words[i]; bits; bits &= bits - 1)
+      put_column(r, made, (uint32_t)(first + i) * 64 + lowest_bit(bits), total);
+}
+
 size_t pf_sums_read(pf_sums *s, uint32_t row, uint32_t made) {
   reading r = {.sums = s, .row = row};
   double total[4];
@@ -329,12 +350,8 @@ size_t pf_sums_read(pf_sums *s, uint32_t row, uint32_t made) {
   UNROLLED
   for (int c = 0; c < 4; c++)
     total[c] = s->lead.colour[c] += s->leads[made].colour[c];
-  for (size_t word = 0; word < s->words; word++) {
-    uint64_t bits = s->bits[made * s->words + word];
-    s->bits[made * s->words + word] = 0;
-    for (; bits; bits &= bits - 1)
-      put_column(&r, made, (uint32_t)word * 64 + lowest_bit(bits), total);
-  }
+  for (size_t word = 0; word < s->words; word += WORDS)
+    put_words(&r, made, word, total);
   put_part(&r, s->view.columns, total);
   return r.count;
 }

@@ -442,6 +442,100 @@ static void test_varied_bands(void) {
   drawing_free(&d);
 }
 
+/* ---------------------------------------------------------------- tiles */
+
+/* Adds up the bytes that it gives. */
+static void *counting(void *user, void *block, size_t old_size, size_t new_size) {
+  size_t *bytes = user;
+  (void)old_size;
+  *bytes += new_size;
+  if (new_size > 0)
+    return realloc(block, new_size);
+  free(block);
+  return NULL;
+}
+
+/* Whether each row of a tile is one span. */
+static bool is_plain(const planefile_plane *plane, const planefile_view *tile) {
+  planefile_drawer *drawer = NULL;
+  bool is_one = true;
+  CHECK(planefile_drawer_create(plane, tile, &drawer) == PLANEFILE_OK);
+  for (uint32_t y = 0; y < tile->rows; y++) {
+    const planefile_span *spans;
+    size_t count = 0;
+    CHECK(planefile_drawer_row(drawer, &spans, &count) == PLANEFILE_OK);
+    is_one &= count == 1;
+  }
+  planefile_drawer_destroy(drawer);
+  return is_one;
+}
+
+/* A tile of a huge frame in which no border lies has, as a rule, no memory for pixels (256 KiB),
+ * nor for chains beside it. */
+static void test_plain_tiles(void) {
+  enum { SIZE = 1 << 20, SIDE = 256 };
+  drawing d = random_drawing(7, 40, FLAT);
+  memory_file file = write_plane(&d.plane);
+  planefile_source source = memory_source(&file);
+  planefile_plane *plane;
+  random_state random = {11};
+  size_t bytes = 0;
+  int plain = 0, small = 0, large = 0;
+  source.resize = counting;
+  source.resize_user = &bytes;
+  CHECK(planefile_read(&source, 0, PLANEFILE_SIDE, &plane, NULL) == PLANEFILE_OK);
+  for (int i = 0; i < 100; i++) {
+    uint32_t x = random_below(&random, SIZE - SIDE), y = random_below(&random, SIZE - SIDE);
+    bytes = 0;
+    if (is_plain(plane, &(planefile_view){SIZE, SIZE, x, y, SIDE, SIDE, PLANEFILE_AREA})) {
+      plain++;
+      small += bytes < 9000;
+      large += bytes > 128 * 1024;
+    }
+  }
+  CHECK(plain > 90 && small > plain / 2 && large < plain / 2);
+  planefile_plane_destroy(plane);
+  free(file.bytes);
+  drawing_free(&d);
+}
+
+/* ---------------------------------------------------------------- pixels */
+
+/* Spans of all lengths, at all places of a word, become their colours; the bytes around them stay.
+ */
+static void test_span_pixels(void) {
+  enum { COUNT = 700, PIXELS = COUNT * (COUNT + 1) / 2 };
+  drawing d = random_drawing(3, 20, FLAT);
+  memory_file file = write_plane(&d.plane);
+  planefile_plane *plane = read_plane(&file);
+  planefile_span *spans = calloc(COUNT, sizeof *spans);
+  unsigned char *room = malloc(4 * PIXELS + 4);
+  for (uint32_t i = 0, end = 0; i < COUNT; i++) {
+    int32_t alpha = i % 5 == 4 ? 0 : PLANEFILE_WHITE - (int32_t)(i % 5) * 9000;
+    end += i + 1;
+    spans[i] = (planefile_span){end, {{(int32_t)(i * 90), 20000, alpha / 2, alpha}}};
+  }
+  for (int shift = 0; shift < 4; shift++) {
+    size_t wrong = 0;
+    memset(room, 77, 4 * PIXELS + 4);
+    planefile_span_pixels(plane, spans, COUNT, room + shift);
+    for (uint32_t i = 0, x = 0; i < COUNT; i++) {
+      unsigned char pixel[4];
+      planefile_srgb8(plane, spans[i].colour, pixel);
+      for (; x < spans[i].end; x++)
+        wrong += memcmp(room + shift + 4 * (size_t)x, pixel, 4) != 0;
+    }
+    for (int i = 0; i < 4; i++)
+      wrong += room[i < shift ? i : 4 * PIXELS + i] != 77;
+    CHECK(wrong == 0);
+  }
+  free(room);
+  free(spans);
+  planefile_plane_destroy(plane);
+  free(file.bytes);
+  drawing_free(&d);
+}
+
 /* ---------------------------------------------------------------- damage */
 
 static bool is_refused(memory_file *file, const char *reason) {
@@ -904,9 +998,9 @@ static planefile_status write_and_draw(const planefile_band from[2], double fram
   return status;
 }
 
-static void check_no_memory(double frames_second) {
+static void check_no_memory(double frames_second, variety kind) {
   random_state random = {1};
-  drawing d = random_drawing(4, 30, VARIED), next = random_drawing(4, 30, VARIED);
+  drawing d = random_drawing(4, 30, kind), next = random_drawing(4, 30, kind);
   alter_drawing(&next, &random, false);
   const planefile_band planes[2] = {d.plane, next.plane};
   int count = 0;
@@ -961,6 +1055,8 @@ int main(void) {
   test_codes();
   test_bands();
   test_varied_bands();
+  test_plain_tiles();
+  test_span_pixels();
   check_every_byte(FLAT);
   check_every_byte(VARIED);
   test_reasons();
@@ -970,8 +1066,9 @@ int main(void) {
   test_bad_programs();
   test_depth();
   test_bad_views();
-  check_no_memory(0);
-  check_no_memory(24);
+  check_no_memory(0, VARIED);
+  check_no_memory(0, FLAT);
+  check_no_memory(24, VARIED);
   test_films();
   test_changing_films();
   test_bad_films();
