@@ -34,6 +34,9 @@ enum { PF_RATIONAL = 4 };
 
 typedef struct pf_models {
   pf_number start[2], pieces, moves[2][3][3], weight; /* moves: axis, degree, point */
+  pf_number from_top, to_foot;                        /* of which chain before, or 0 */
+  pf_number ahead, aside;                             /* of smooth joints */
+  uint16_t is_smooth[2];
   pf_number channels[2][4], slope; /* channels: of cells that are not guessed, and that are */
   pf_number older, height, size, first, next;
   uint16_t guesses[4];
@@ -42,6 +45,27 @@ typedef struct pf_models {
   uint16_t origin[4], is_moved[2], is_patched[2]; /* of bands that are made from a base */
   pf_number which, shift[2];
 } pf_models;
+
+/* A move from a point to the next one: x, y. */
+typedef struct pf_way {
+  int64_t by[2];
+} pf_way;
+
+static inline int64_t pf_size(int64_t move) { return move < 0 ? -move : move; }
+/* Whether a piece after this move may begin smoothly. */
+static inline bool pf_leads_on(const pf_way *way) { return way->by[0] != 0 || way->by[1] != 0; }
+/* The axis along which a way is longer, x if neither is. */
+static inline int pf_main_axis(const pf_way *way) {
+  return pf_size(way->by[1]) > pf_size(way->by[0]);
+}
+/* The move on the other axis where a way with this main axis continues for `along` units of it,
+ * forwards. */
+static inline int64_t pf_go_on(const pf_way *way, int axis, int64_t along) {
+  int64_t length = pf_size(way->by[axis]);
+  return pf_divide(2 * along * way->by[!axis] + length, 2 * length);
+}
+/* -1 or 1: what turns numbers into the direction of a move. */
+static inline int pf_direction(int64_t move) { return move < 0 ? -1 : 1; }
 
 /* The cells beside a chain; one twice: it is hidden. */
 typedef struct pf_sides {

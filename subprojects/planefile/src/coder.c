@@ -93,12 +93,12 @@ bool pf_decoder_is_whole(const pf_decoder *decoder) {
   return is_whole;
 }
 
-static inline void widen(pf_decoder *decoder) {
+static void widen(pf_decoder *decoder) {
   for (; decoder->range < LEAST; decoder->range <<= 8)
     decoder->code = decoder->code << 8 | next_byte(decoder);
 }
 
-static inline uint32_t get_bit(pf_decoder *decoder, uint16_t *model) {
+static uint32_t get_bit(pf_decoder *decoder, uint16_t *model) {
   uint32_t bound = (decoder->range >> MODEL_BITS) * *model, bit = decoder->code >= bound;
   if (bit) {
     decoder->code -= bound;
@@ -174,10 +174,10 @@ uint32_t pf_get_number(pf_decoder *decoder, pf_number *model) {
 void pf_put_signed(pf_encoder *encoder, pf_number *model, int64_t number) {
   pf_put_number(encoder, model, (uint32_t)(number < 0 ? -number : number));
   if (number != 0)
-    put_bit(encoder, &model->sign, number < 0);
+    pf_put_symbol(encoder, model->sign, 1, number < 0);
 }
 
 int64_t pf_get_signed(pf_decoder *decoder, pf_number *model) {
   int64_t number = pf_get_number(decoder, model);
-  return number != 0 && get_bit(decoder, &model->sign) ? -number : number;
+  return number != 0 && pf_get_symbol(decoder, model->sign, 1) ? -number : number;
 }

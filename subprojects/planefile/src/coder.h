@@ -22,7 +22,7 @@
 typedef struct pf_number {
   uint16_t classes[64];
   uint16_t leading[33][4];
-  uint16_t sign;
+  uint16_t sign[2]; /* a tree of one bit */
 } pf_number;
 
 /* models: a struct of nothing else. */

@@ -14,6 +14,7 @@ typedef struct shown {
   uint32_t count;
   uint32_t piece, end; /* the first of its pieces that is needed, and after the last one */
   int64_t place;       /* twice its mean x */
+  planefile_point start, end_at;
   pf_sides sides;
   int32_t top, foot; /* of what is kept of it */
   int32_t slope;
@@ -43,6 +44,7 @@ typedef struct packer {
   uint32_t piece_count, cell_count;
   uint32_t fresh[2 * PF_GROUP], fresh_count; /* cells that are new in the current group */
   uint32_t form;
+  pf_way way;            /* the latest move of the chain */
   planefile_cell colour; /* of the latest cell */
   pf_models models;
   pf_program_coding *programs; /* NULL: nothing varies */
@@ -110,6 +112,8 @@ static void trim(const packer *p, shown *c) {
   c->top = first->y > p->top ? first->y : p->top;
   c->foot = last->y < p->foot ? last->y : p->foot;
   c->place = (int64_t)first->x + last->x;
+  c->start = *first;
+  c->end_at = *last;
 }
 
 /* Finds what a chain has in common with one of the base, to which all of its pieces count. */
@@ -348,9 +352,33 @@ static void put_weight(packer *p, uint32_t weight) {
   pf_put_signed(p->out, &p->models.weight, (int64_t)weight - PLANEFILE_WEIGHT);
 }
 
+/* Whether a move is coded as one that continues in the direction of the latest one. */
+static bool is_smooth(const packer *p, const pf_way *way) {
+  enum { NEAR = 8 }; /* three bits less than the move itself, or that many units */
+  int axis = pf_main_axis(&p->way);
+  int64_t along = way->by[axis] * pf_direction(p->way.by[axis]);
+  int64_t off = way->by[!axis] - pf_go_on(&p->way, axis, along);
+  return along > 0 && (pf_size(off) < NEAR || pf_size(off) < pf_size(way->by[!axis]) / NEAR);
+}
+
+static void put_smooth(packer *p, const pf_way *way) {
+  int axis = pf_main_axis(&p->way);
+  int64_t along = way->by[axis] * pf_direction(p->way.by[axis]);
+  pf_put_number(p->out, &p->models.ahead, (uint32_t)along);
+  pf_put_signed(p->out, &p->models.aside, way->by[!axis] - pf_go_on(&p->way, axis, along));
+}
+
 static void put_move(packer *p, int degree, int point, planefile_point from, planefile_point to) {
-  pf_put_signed(p->out, &p->models.moves[0][degree - 1][point], (int64_t)to.x - from.x);
-  pf_put_signed(p->out, &p->models.moves[1][degree - 1][point], (int64_t)to.y - from.y);
+  const pf_way way = {{(int64_t)to.x - from.x, (int64_t)to.y - from.y}};
+  bool may_be = point == 0 && pf_leads_on(&p->way), is = may_be && is_smooth(p, &way);
+  if (may_be)
+    pf_put_symbol(p->out, p->models.is_smooth, 1, is);
+  if (is)
+    put_smooth(p, &way);
+  for (int axis = 0; axis < 2 && !is; axis++)
+    pf_put_signed(p->out, &p->models.moves[axis][degree - 1][point],
+                  way.by[axis] * pf_direction(p->way.by[axis]));
+  p->way = way;
 }
 
 static void put_form(packer *p, uint32_t form) {
@@ -358,22 +386,25 @@ static void put_form(packer *p, uint32_t form) {
   p->form = form;
 }
 
-static void put_piece(packer *p, uint32_t piece) {
+/* is_known: where it ends is. */
+static void put_piece(packer *p, uint32_t piece, bool is_known) {
   const planefile_piece *of = &p->plane->pieces[piece];
   const planefile_point *points = &p->plane->points[of->point];
   put_form(p, of->degree | (of->is_rational ? PF_RATIONAL : 0));
   if (of->is_rational)
     put_weight(p, points[0].w);
   for (int i = 0; i < of->degree; i++) {
-    put_move(p, of->degree, i, points[i], points[i + 1]);
+    if (!is_known || i + 1 < of->degree)
+      put_move(p, of->degree, i, points[i], points[i + 1]);
     if (of->is_rational)
       put_weight(p, points[i + 1].w);
   }
 }
 
-/* The pieces of a chain, or, with put false, how many there are. */
-static uint32_t walk_pieces(packer *p, const shown *c, bool put) {
+/* The pieces of a chain, or, with put false, how many there are. is_known: where it ends is. */
+static uint32_t walk_pieces(packer *p, const shown *c, bool put, bool is_known) {
   uint32_t count = 0, border = 0;
+  p->way = (pf_way){{0, 0}};
   for (uint32_t i = c->piece; i < c->end; count++) {
     const planefile_point *from = first_of(p, i), *to = NULL;
     for (; !c->is_whole && !is_needed(p, c, i, &border); i++)
@@ -382,7 +413,7 @@ static uint32_t walk_pieces(packer *p, const shown *c, bool put) {
       put_form(p, 1);
       put_move(p, 1, 0, *from, *to);
     } else if (put) {
-      put_piece(p, i);
+      put_piece(p, i, is_known && i + 1 == c->end);
     }
     i += to == NULL;
   }
@@ -400,15 +431,32 @@ static void put_top(packer *p, size_t index, pf_sides own) {
   pf_put_signed(p->out, &p->models.slope, c->slope);
 }
 
+static bool is_same(planefile_point a, planefile_point b) { return a.x == b.x && a.y == b.y; }
+
+/* How many chains before another one begins, or ends, at the same point; 0: none that is near. */
+static uint32_t find_joint(const packer *p, size_t index, bool is_foot) {
+  enum { NEAR = 256 };
+  const shown *c = &p->chains[index];
+  for (size_t back = 1; back <= index && back <= NEAR; back++)
+    if (is_foot ? is_same(c[-(ptrdiff_t)back].end_at, c->end_at)
+                : is_same(c[-(ptrdiff_t)back].start, c->start))
+      return (uint32_t)back;
+  return 0;
+}
+
 static void put_new_chain(packer *p, size_t index, const planefile_point *from) {
   const shown *c = &p->chains[index];
-  const planefile_point *start = first_of(p, c->piece);
-  uint32_t pieces = walk_pieces(p, c, false);
-  pf_put_signed(p->out, &p->models.start[0], (int64_t)start->x - from->x);
-  pf_put_signed(p->out, &p->models.start[1], (int64_t)start->y - from->y);
+  uint32_t pieces = walk_pieces(p, c, false, false);
+  uint32_t top = find_joint(p, index, false), foot = find_joint(p, index, true);
+  pf_put_number(p->out, &p->models.from_top, top);
+  if (top == 0) {
+    pf_put_signed(p->out, &p->models.start[0], (int64_t)c->start.x - from->x);
+    pf_put_signed(p->out, &p->models.start[1], (int64_t)c->start.y - from->y);
+  }
   pf_put_number(p->out, &p->models.pieces, pieces - 1);
+  pf_put_number(p->out, &p->models.to_foot, foot);
   put_top(p, index, (pf_sides){0, 0});
-  walk_pieces(p, c, true);
+  walk_pieces(p, c, true, foot > 0);
   p->piece_count += pieces;
 }
 
@@ -446,7 +494,7 @@ static void put_chains(packer *p) {
       put_new_chain(p, i, &from);
     else
       put_old_chain(p, i);
-    from = *first_of(p, p->chains[i].piece);
+    from = p->chains[i].start;
   }
 }
 

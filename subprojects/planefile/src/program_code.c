@@ -142,7 +142,7 @@ static const char *get_stops(pf_decoder *decoder, pf_program_coding *coding,
                              const pf_program_room *room, planefile_step *step) {
   uint32_t more = pf_get_number(decoder, &coding->models.stops);
   if (more >= room->stop_count - coding->stop_count)
-    return "it has more stops than it claims";
+    return "it has more than it claims";
   step->stop = coding->stop_count;
   step->stop_count = more + 1;
   for (uint32_t i = 0; i <= more; i++) {
@@ -167,7 +167,7 @@ static const char *get_ramp(pf_decoder *decoder, pf_program_coding *coding,
   step->axis = coding->axis_count - back;
   if (back == 0) {
     if (coding->axis_count == room->axis_count)
-      return "it has more axes than it claims";
+      return "it has more than it claims";
     room->axes[coding->axis_count] = get_axis(decoder, &coding->models);
     if (!is_axis(&room->axes[coding->axis_count++]))
       return "an axis is not allowed";
@@ -222,7 +222,7 @@ const char *pf_get_program(pf_decoder *decoder, pf_program_coding *coding,
   uint32_t more = pf_get_number(decoder, &coding->models.steps);
   const char *reason = NULL;
   if (more >= room->step_count - coding->step_count)
-    return "it has more steps than it claims";
+    return "it has more than it claims";
   *out = (planefile_program){coding->step_count, more + 1};
   for (uint32_t i = 0; i <= more && !reason; i++) {
     reason = get_step(decoder, coding, room, &room->steps[coding->step_count++]);

@@ -1,15 +1,13 @@
 #include "slope.h"
 
-/* Rounded down. divisor: above 0. */
-static int64_t divide(int64_t number, int64_t divisor) {
+int64_t pf_divide(int64_t number, int64_t divisor) {
   int64_t out = number / divisor;
   return out - (number < out * divisor);
 }
 
 static int32_t guess_channel(int64_t way, int64_t from, int64_t slope, bool is_inverse) {
-  int64_t move = is_inverse ? divide(way * PF_SLOPE + slope / 2, slope)
-                            : divide(way * slope + PF_SLOPE / 2, PF_SLOPE);
-  int64_t to = from + move;
+  int64_t factor = is_inverse ? PF_SLOPE : slope, divisor = is_inverse ? slope : PF_SLOPE;
+  int64_t to = from + pf_divide(way * factor + divisor / 2, divisor);
   return (int32_t)(to < -PLANEFILE_BRIGHT  ? -PLANEFILE_BRIGHT
                    : to > PLANEFILE_BRIGHT ? PLANEFILE_BRIGHT
                                            : to);

@@ -23,6 +23,8 @@ typedef struct pf_beside {
   int32_t slope;                              /* 0: there is none */
 } pf_beside;
 
+/* Rounded down. divisor: above 0. */
+int64_t pf_divide(int64_t number, int64_t divisor);
 /* Guesses a cell that is on one side after the change; false: there is no guess. */
 bool pf_guess(const pf_beside *beside, const planefile_cell *cell, planefile_cell *out);
 /* The slope by which the most bits are saved in changes of one chain; 0: there is none that is

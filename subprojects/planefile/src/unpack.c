@@ -37,6 +37,7 @@ typedef struct unpacker {
   uint32_t chain_count, piece_count, cell_count, border_count; /* that there must be in the end */
   uint32_t change_count;
   uint32_t form;       /* of the latest piece */
+  pf_way way;          /* the latest move of the chain */
   planefile_cell flat; /* the latest one that does not vary */
   planefile_point start;
   uint32_t next;      /* the chain of the base after the latest one that was taken */
@@ -167,7 +168,7 @@ static bool get_program(unpacker *u, uint32_t cell) {
 static bool add_cell(unpacker *u, uint32_t *out) {
   planefile_band *band = &u->out->band;
   if (band->cell_count == u->cell_count)
-    return refuse(u, "it has more cells than it claims");
+    return refuse(u, "it has more than it claims");
   *out = band->cell_count++;
   return true;
 }
@@ -205,26 +206,22 @@ static bool get_origin(unpacker *u, const group *g, uint32_t cell, bool *guessed
   return true;
 }
 
+/* The channels of a cell, or their codes, by how much they differ from those it has. */
 static bool get_channels(unpacker *u, pf_number channels[4], planefile_cell *cell) {
+  int32_t least = u->codes ? 0 : -PLANEFILE_BRIGHT, most = u->codes ? 255 : PLANEFILE_BRIGHT;
+  int32_t straight[4], *at = cell->colour;
+  if (u->codes) {
+    pf_codes_of(u->codes, cell, straight);
+    at = straight;
+  }
   for (int c = 0; c < 4; c++) {
-    int64_t channel = cell->colour[c] + pf_get_signed(&u->decoder, &channels[c]);
-    if (channel < -PLANEFILE_BRIGHT || channel > PLANEFILE_BRIGHT)
+    int64_t channel = at[c] + pf_get_signed(&u->decoder, &channels[c]);
+    if (channel < least || channel > most)
       return refuse(u, "a colour is too bright");
-    cell->colour[c] = (int32_t)channel;
+    at[c] = (int32_t)channel;
   }
-  return true;
-}
-
-static bool get_codes(unpacker *u, pf_number channels[4], planefile_cell *cell) {
-  int32_t straight[4];
-  pf_codes_of(u->codes, cell, straight);
-  for (int c = 0; c < 4; c++) {
-    int64_t code = straight[c] + pf_get_signed(&u->decoder, &channels[c]);
-    if (code < 0 || code > 255)
-      return refuse(u, "there is no such code");
-    straight[c] = (int32_t)code;
-  }
-  *cell = pf_codes_cell(u->codes, straight);
+  if (u->codes)
+    *cell = pf_codes_cell(u->codes, straight);
   return true;
 }
 
@@ -238,7 +235,7 @@ static bool get_content(unpacker *u, const group *g, uint32_t index) {
   if (!get_origin(u, g, index, &guessed, &cell))
     return false;
   pf_number *channels = u->models.channels[guessed];
-  if (u->codes ? !get_codes(u, channels, &cell) : !get_channels(u, channels, &cell))
+  if (!get_channels(u, channels, &cell))
     return false;
   u->cells[index] = u->flat = cell;
   return true;
@@ -274,12 +271,39 @@ static bool get_sides(unpacker *u, const pf_near *near, unsigned context, pf_sid
 
 /* ---------------------------------------------------------------- curves */
 
-static bool get_coordinate(unpacker *u, pf_number *model, int32_t *at) {
-  int64_t to = *at + pf_get_signed(&u->decoder, model);
+/* Moves a coordinate, if it stays near enough. */
+static bool move_by(unpacker *u, int64_t move, int32_t *at) {
+  int64_t to = *at + move;
   if (to < -PLANEFILE_FAR || to > PLANEFILE_FAR)
     return refuse(u, "a point is too far away");
   *at = (int32_t)to;
   return true;
+}
+
+static bool get_point(unpacker *u, pf_number models[2], int32_t *x, int32_t *y) {
+  return move_by(u, pf_get_signed(&u->decoder, &models[0]), x) &&
+         move_by(u, pf_get_signed(&u->decoder, &models[1]), y);
+}
+
+/* The move of a smooth joint. */
+static void get_smooth(unpacker *u, pf_way *out) {
+  int axis = pf_main_axis(&u->way);
+  int64_t along = pf_get_number(&u->decoder, &u->models.ahead);
+  out->by[axis] = along * pf_direction(u->way.by[axis]);
+  out->by[!axis] = pf_go_on(&u->way, axis, along) + pf_get_signed(&u->decoder, &u->models.aside);
+}
+
+static bool get_move_of(unpacker *u, int degree, int point, planefile_point *at) {
+  bool may_be = point == 0 && pf_leads_on(&u->way);
+  pf_way way;
+  if (may_be && pf_get_symbol(&u->decoder, u->models.is_smooth, 1))
+    get_smooth(u, &way);
+  else
+    for (int axis = 0; axis < 2; axis++)
+      way.by[axis] = pf_get_signed(&u->decoder, &u->models.moves[axis][degree - 1][point]) *
+                     pf_direction(u->way.by[axis]);
+  u->way = way;
+  return move_by(u, way.by[0], &at->x) && move_by(u, way.by[1], &at->y);
 }
 
 static bool get_weight(unpacker *u, uint32_t *out) {
@@ -290,8 +314,8 @@ static bool get_weight(unpacker *u, uint32_t *out) {
   return true;
 }
 
-/* A piece that begins at `at`, which becomes its end. */
-static bool get_piece(unpacker *u, planefile_point *at) {
+/* A piece that begins at `at`, which becomes its end; NULL: where it ends is not known. */
+static bool get_piece(unpacker *u, planefile_point *at, const planefile_point *end) {
   planefile_band *band = &u->out->band;
   u->form = pf_get_symbol(&u->decoder, u->models.forms[u->form], 3);
   uint8_t degree = u->form & 3;
@@ -305,9 +329,12 @@ static bool get_piece(unpacker *u, planefile_point *at) {
     return false;
   u->points[band->point_count++] = *at;
   for (int i = 0; i < degree; i++) {
-    if (!get_coordinate(u, &u->models.moves[0][degree - 1][i], &at->x) ||
-        !get_coordinate(u, &u->models.moves[1][degree - 1][i], &at->y) ||
-        (is_rational && !get_weight(u, &at->w)))
+    if (end && i + 1 == degree)
+      *at = *end;
+    else if (!get_move_of(u, degree, i, at))
+      return false;
+    at->w = PLANEFILE_WEIGHT;
+    if (is_rational && !get_weight(u, &at->w))
       return false;
     u->points[band->point_count++] = *at;
   }
@@ -325,11 +352,15 @@ static void add_border(unpacker *u, uint32_t chain, int32_t foot) {
   band->border_count++;
 }
 
-/* The lowest height of a chain in the band. */
-static int32_t foot_of(const unpacker *u, uint32_t chain) {
+static const planefile_point *end_of(const unpacker *u, uint32_t chain) {
   const planefile_chain *c = &u->chains[chain];
   const planefile_piece *last = &u->pieces[c->piece + c->piece_count - 1];
-  int32_t foot = u->points[last->point + last->degree].y;
+  return &u->points[last->point + last->degree];
+}
+
+/* The lowest height of a chain in the band. */
+static int32_t foot_of(const unpacker *u, uint32_t chain) {
+  int32_t foot = end_of(u, chain)->y;
   return foot < u->out->band.foot ? foot : u->out->band.foot;
 }
 
@@ -348,36 +379,46 @@ static bool get_top(unpacker *u, uint32_t index, pf_sides own) {
   return (slope >= -PF_SLOPE && slope <= PF_SLOPE) || refuse(u, "there is no such slope");
 }
 
+/* Where a chain begins, in `at`, after the one before. */
+static bool get_start(unpacker *u, uint32_t index, planefile_point *at) {
+  uint32_t back = pf_get_number(&u->decoder, &u->models.from_top);
+  if (back > index)
+    return refuse(u, "there is no such chain");
+  if (back > 0)
+    *at = u->points[u->pieces[u->chains[index - back].piece].point];
+  return back > 0 || get_point(u, u->models.start, &at->x, &at->y);
+}
+
 static bool get_new_chain(unpacker *u, uint32_t index) {
   planefile_band *band = &u->out->band;
   planefile_point at = u->start;
   uint32_t left = u->piece_count - band->piece_count;
-  if (!get_coordinate(u, &u->models.start[0], &at.x) ||
-      !get_coordinate(u, &u->models.start[1], &at.y))
+  u->way = (pf_way){{0, 0}};
+  if (!get_start(u, index, &at))
     return false;
   uint32_t pieces = pf_get_number(&u->decoder, &u->models.pieces);
   if (pieces >= left)
-    return refuse(u, "it has more pieces than it claims");
+    return refuse(u, "it has more than it claims");
+  uint32_t back = pf_get_number(&u->decoder, &u->models.to_foot);
+  if (back > index)
+    return refuse(u, "there is no such chain");
+  const planefile_point *end = back > 0 ? end_of(u, index - back) : NULL;
   u->chains[band->chain_count++] = (planefile_chain){band->piece_count, pieces + 1};
   u->start = at;
   if (!get_top(u, index, (pf_sides){0, 0}))
     return false;
   for (uint32_t i = 0; i <= pieces; i++)
-    if (u->decoder.is_beyond || !get_piece(u, &at))
-      return refuse(u, "its code ends too early");
+    if (u->decoder.is_beyond || !get_piece(u, &at, i == pieces ? end : NULL))
+      return refuse(u, "its code does not end where it should");
   return true;
 }
 
 /* ---------------------------------------------------------------- chains of the base */
 
-static bool is_far(int64_t at) { return at < -PLANEFILE_FAR || at > PLANEFILE_FAR; }
-
 static bool move_point(unpacker *u, planefile_point point) {
-  int64_t x = (int64_t)point.x + u->move.x, y = (int64_t)point.y + u->move.y;
-  if (is_far(x) || is_far(y))
-    return refuse(u, "a point is too far away");
-  u->points[u->out->band.point_count++] = (planefile_point){(int32_t)x, (int32_t)y, point.w};
-  return true;
+  bool is_near = move_by(u, u->move.x, &point.x) && move_by(u, u->move.y, &point.y);
+  u->points[u->out->band.point_count++] = point;
+  return is_near;
 }
 
 static bool move_chain(unpacker *u, uint32_t chain) {
@@ -385,7 +426,7 @@ static bool move_chain(unpacker *u, uint32_t chain) {
   planefile_band *band = &u->out->band;
   const planefile_chain *of = &from->chains[chain];
   if (of->piece_count > u->piece_count - band->piece_count)
-    return refuse(u, "it has more pieces than it claims");
+    return refuse(u, "it has more than it claims");
   uint32_t first = band->point_count;
   u->chains[band->chain_count++] = (planefile_chain){band->piece_count, of->piece_count};
   for (uint32_t i = 0; i < of->piece_count; i++) {
@@ -401,15 +442,9 @@ static bool move_chain(unpacker *u, uint32_t chain) {
   return true;
 }
 
-static bool get_shift(unpacker *u, int axis, int32_t *at) {
-  int64_t to = *at + pf_get_signed(&u->decoder, &u->models.shift[axis]);
-  *at = is_far(to) ? 0 : (int32_t)to;
-  return !is_far(to) || refuse(u, "a chain is moved too far");
-}
-
 static bool get_move(unpacker *u) {
   return !pf_get_symbol(&u->decoder, u->models.is_moved, 1) ||
-         (get_shift(u, 0, &u->move.x) && get_shift(u, 1, &u->move.y));
+         get_point(u, u->models.shift, &u->move.x, &u->move.y);
 }
 
 /* All borders that a chain of the base has, moved; they do not change. */
@@ -422,7 +457,7 @@ static bool keep_borders(unpacker *u, uint32_t index, uint32_t chain) {
       continue;
     moved.chain = index;
     if (band->border_count == u->border_count)
-      return refuse(u, "it has more borders than it claims");
+      return refuse(u, "it has more than it claims");
     u->borders[band->border_count++] = moved;
   }
   return true;
@@ -431,7 +466,7 @@ static bool keep_borders(unpacker *u, uint32_t index, uint32_t chain) {
 static bool get_old_chain(unpacker *u, uint32_t index, bool is_kept) {
   int64_t chain = (int64_t)u->next + pf_get_signed(&u->decoder, &u->models.which);
   if (chain < 0 || chain >= u->base->band->chain_count)
-    return refuse(u, "there is no such chain in its base");
+    return refuse(u, "there is no such chain");
   u->next = (uint32_t)chain + 1;
   if (!get_move(u) || !move_chain(u, (uint32_t)chain))
     return false;
@@ -444,9 +479,9 @@ static bool get_chain(unpacker *u, uint32_t index) {
   if (u->base)
     origin = pf_get_symbol(&u->decoder, u->models.origin, PF_ORIGIN_BITS);
   if (origin > PF_KEPT)
-    return refuse(u, "there is no such origin of a chain");
+    return refuse(u, "there is no such chain");
   if (u->decoder.is_beyond)
-    return refuse(u, "its code ends too early");
+    return refuse(u, "its code does not end where it should");
   if (origin == PF_KEPT)
     return get_old_chain(u, index, true);
   return (origin == PF_NEW ? get_new_chain(u, index) : get_old_chain(u, index, false)) &&
@@ -476,7 +511,7 @@ static bool apply(unpacker *u, const group *g, int32_t height, pf_sides *latest)
     const pf_near near = {g->before[i], g->before[pf_other(g->size, i)], *latest};
     state *s = &u->states[g->chains[i]];
     if (height <= s->since)
-      return refuse(u, "a chain changes twice");
+      return refuse(u, "a change is not on its chain");
     add_border(u, g->chains[i], height);
     if (!get_sides(u, &near, pf_context(g->size, i), &s->sides))
       return false;
@@ -609,7 +644,7 @@ static bool take_base(unpacker *u) {
   planefile_band *band = &u->out->band;
   if (from->cell_count > u->cell_count || from->step_count > u->room.step_count ||
       from->axis_count > u->room.axis_count || from->stop_count > u->room.stop_count)
-    return refuse(u, "it has less than its base");
+    return refuse(u, "it has less than it claims");
   band->cell_count = from->cell_count;
   memcpy(u->cells, from->cells, from->cell_count * sizeof *u->cells);
   if (!u->coding)

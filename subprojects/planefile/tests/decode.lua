@@ -232,18 +232,37 @@ local function get_sides(band, context, own, other, latest)
   return sides
 end
 
-local function get_piece(band, x, y)
+-- A move to the next point; way: the move to this one; is_first: the piece begins.
+local function get_way(coder, way, name, is_first)
+  local main = math.abs(way[2]) > math.abs(way[1]) and 2 or 1
+  local length, turn = math.abs(way[main]), {way[1] < 0 and -1 or 1, way[2] < 0 and -1 or 1}
+  if is_first and length > 0 and coder.symbol("is smooth", 1) == 1 then
+    local out, along = {}, coder.number("ahead")
+    out[main] = along * turn[main]
+    out[3 - main] = (2 * along * way[3 - main] + length) // (2 * length) + coder.signed("aside")
+    return out
+  end
+  local x = coder.signed("x " .. name) * turn[1]
+  return {x, coder.signed("y " .. name) * turn[2]}
+end
+
+-- way: the latest move of the chain; foot: where the piece ends, or nil.
+local function get_piece(band, x, y, way, foot)
   local coder = band.coder
   band.form = coder.symbol("form after " .. band.form, 3)
   local degree, is_rational = band.form & 3, band.form >= 4
   local function weight() return is_rational and 1 + coder.signed("weight") / (1 << 28) or 1 end
   local piece = {{x, y, weight()}}
   for i = 1, degree do
-    x = x + coder.signed("x " .. degree .. i)
-    y = y + coder.signed("y " .. degree .. i)
+    if foot and i == degree then
+      x, y = foot[1], foot[2]
+    else
+      way = get_way(coder, way, degree .. i, i == 1)
+      x, y = x + way[1], y + way[2]
+    end
     piece[i + 1] = {x, y, weight()}
   end
-  return piece, x, y
+  return piece, x, y, way
 end
 
 local function add_border(band, chain, foot)
@@ -268,11 +287,23 @@ end
 
 local function get_new_chain(band, chain, start, before)
   local coder = band.coder
-  start.x, start.y = start.x + coder.signed("start x"), start.y + coder.signed("start y")
-  local pieces = coder.number("pieces") + 1
+  local top = coder.number("top of")
+  if top > 0 then
+    local first = band.chains[#band.chains + 1 - top][1][1]
+    start.x, start.y = first[1], first[2]
+  else
+    start.x, start.y = start.x + coder.signed("start x"), start.y + coder.signed("start y")
+  end
+  local pieces, foot, last = coder.number("pieces") + 1, coder.number("foot of"), nil
+  if foot > 0 then
+    local other = band.chains[#band.chains + 1 - foot]
+    last = other[#other][#other[#other]]
+  end
   get_top(band, chain, before, {0, 0})
-  local x, y = start.x, start.y
-  for i = 1, pieces do chain[i], x, y = get_piece(band, x, y) end
+  local x, y, way = start.x, start.y, {0, 0}
+  for i = 1, pieces do
+    chain[i], x, y, way = get_piece(band, x, y, way, i == pieces and last or nil)
+  end
 end
 
 -- A chain of the base, moved; is_kept: with its borders.
