@@ -142,19 +142,12 @@ uint32_t pf_get_symbol(pf_decoder *decoder, uint16_t *tree, int bits) {
   return node - (UINT32_C(1) << bits);
 }
 
-static uint32_t class_of(uint32_t number) {
-  uint32_t bits = 0;
-  for (; number > 0; number >>= 1)
-    bits++;
-  return bits;
-}
-
 /* Bits of a number of a class after the first one: those that are modelled, and the rest. */
 static inline int led_bits(uint32_t class) { return class > 2 ? 2 : class > 1 ? 1 : 0; }
 static inline int plain_bits(uint32_t class) { return class > 3 ? (int)class - 3 : 0; }
 
 void pf_put_number(pf_encoder *encoder, pf_number *model, uint32_t number) {
-  uint32_t class = class_of(number);
+  uint32_t class = pf_class_of(number);
   int led = led_bits(class), plain = plain_bits(class);
   pf_put_symbol(encoder, model->classes, 6, class);
   pf_put_symbol(encoder, model->leading[class], led, number >> plain & ((1U << led) - 1));

@@ -58,6 +58,11 @@ void pf_decoder_begin(pf_decoder *decoder, const unsigned char *bytes, size_t si
 /* Whether all that was read was there, and all that is there, except zeros, was read. */
 bool pf_decoder_is_whole(const pf_decoder *decoder);
 
+/* The length of a number in bits. */
+static inline uint32_t pf_class_of(uint32_t number) {
+  return number > 0 ? 64 - (uint32_t)__builtin_clzll(number) : 0;
+}
+
 /* A symbol of `bits` bits, by a tree of 2^bits models, of which the first is not used. */
 void pf_put_symbol(pf_encoder *encoder, uint16_t *tree, int bits, uint32_t symbol);
 uint32_t pf_get_symbol(pf_decoder *decoder, uint16_t *tree, int bits);

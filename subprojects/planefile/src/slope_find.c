@@ -1,15 +1,14 @@
 /* The encoder's choice of a slope: changes propose some, and the one is taken that fits the most of
  * them. Where the chain crosses below another one its changes have no slope.
  */
+#include "coder.h"
 #include "slope.h"
 
 enum { PROPOSALS = 8, TRIALS = 24, LEAST = 24 /* bits that must be saved */ };
 
+/* number: between two channels. */
 static int bits_of(int64_t number) {
-  int bits = 0;
-  for (uint64_t left = (uint64_t)(number < 0 ? -number : number); left > 0; left >>= 1)
-    bits++;
-  return bits;
+  return (int)pf_class_of((uint32_t)(number < 0 ? -number : number));
 }
 
 static bool is_known(const pf_beside *change) {
