@@ -12,8 +12,8 @@
 #define SCENES 120
 #define SHAPES 256 /* of each cel: enough for maps */
 
-/* What a scene has. PARTED: cels of parts that are moved. MIXED: cels that are swept, too. COLOURED:
- * gels and coloured media. */
+/* What a scene has. PARTED: cels of parts that are moved. MIXED: cels that are swept, too.
+ * COLOURED: gels and coloured media. */
 typedef enum scene_kind { STRAIGHT, ROUND, PARTED, VARIED, MIXED, COLOURED, KINDS } scene_kind;
 
 static celspan_paint random_paint(test_random *random) {
@@ -466,8 +466,8 @@ static void check_parts(studio *s) {
   studio_finish(s);
 }
 
-/* Cels that keep their parts together: faded ones, those with a mode that acts on what is behind
- * it, those with a light behind them that has a shape, and those whose parts are poor. */
+/* Cels that keep their parts together: faded ones, those with a mode that acts on other cels, those
+ * with a light of a shape behind them, and those whose parts are poor. */
 static void check_parts_together(studio *s) {
   const celspan_cel_desc plain = CELSPAN_CEL_DESC;
   celspan_cel_desc faded = plain, lit = plain;

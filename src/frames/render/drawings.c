@@ -222,7 +222,7 @@ static celspan_status make_drawing(celspan_context *context, const celspan_rostr
 /* Compiles cels by themselves, with all their lights but the one behind them, which is compiled
  * only if nothing else is behind it. All rows are compiled, so that the number of dashes is that of
  * the whole frame. *suits: whether there are not too many of these. */
-static celspan_status compile_cels(celspan_context *context, const cs_parts *parts,
+static celspan_status compile_cels(celspan_context *context, const cs_cel_parts *parts,
                                    const cs_view *view, const cs_antialias *antialias,
                                    cs_map_sheet *sheet, size_t first, bool *suits) {
   const celspan_rostrum *rostrum = parts->rostrum;
@@ -263,7 +263,7 @@ static void place_object(placed_cel *d, const celspan_object *object) {
 }
 
 /* The drawings of all cels; those that their place does not suit are found. */
-static celspan_status place_cels(celspan_context *context, const cs_parts *parts,
+static celspan_status place_cels(celspan_context *context, const cs_cel_parts *parts,
                                  const cs_view *view, placed_cel *drawings, cs_ways *ways) {
   const celspan_rostrum *rostrum = parts->rostrum;
   const celspan_matrix to_pixels =
@@ -286,7 +286,7 @@ static celspan_status place_cels(celspan_context *context, const cs_parts *parts
 typedef struct making {
   celspan_context *context;
   const celspan_rostrum *rostrum; /* of the parts */
-  cs_parts parts;
+  cs_cel_parts parts;
   const cs_view *view;
   const cs_antialias *antialias;
   cs_ways ways;

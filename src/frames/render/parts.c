@@ -10,7 +10,7 @@ typedef struct search {
   const celspan_rostrum *rostrum;
   size_t rich;  /* shapes of what is rich */
   size_t least; /* shapes of a part */
-  cs_parts *parts;
+  cs_cel_parts *parts;
   size_t number;                  /* of the cel */
   size_t first;                   /* of its parts */
   size_t count, most;             /* cels of the frame so far, and room for them */
@@ -137,8 +137,8 @@ static bool cel_has_part(const search *s) {
   return has && may_be_split(s);
 }
 
-/* A cel of a search: what is a part in it. */
-static void look_at(search *s, size_t index) {
+/* Searches a cel next. */
+static void begin_cel(search *s, size_t index) {
   s->cel = s->rostrum->cels[index];
   s->number = index + 1;
   size_t share = count_shapes(s->cel->objects, s->cel->object_count) / CS_PARTS_MOST;
@@ -147,11 +147,11 @@ static void look_at(search *s, size_t index) {
 
 static celspan_status split_cels(celspan_context *context, search *s) {
   const celspan_rostrum *rostrum = s->rostrum;
-  cs_parts *parts = s->parts;
+  cs_cel_parts *parts = s->parts;
   CS_TRY(CS_MAKE(context, parts->cels, CS_MAP_DRAWINGS));
   CS_TRY(CS_MAKE(context, parts->list, CS_MAP_DRAWINGS));
   for (size_t i = 0; i < rostrum->cel_count; i++) {
-    look_at(s, i);
+    begin_cel(s, i);
     split_cel(s, rostrum->cel_count - 1 - i);
   }
   for (size_t i = 0; i < s->count; i++)
@@ -164,19 +164,19 @@ static celspan_status split_cels(celspan_context *context, search *s) {
 }
 
 celspan_status cs_parts_create(celspan_context *context, const celspan_rostrum *rostrum,
-                               const cs_view *view, size_t rich, cs_parts *out) {
+                               const cs_view *view, size_t rich, cs_cel_parts *out) {
   search s = {.rostrum = rostrum, .view = view, .rich = rich, .parts = out};
   bool has_parts = false;
-  *out = (cs_parts){.rostrum = rostrum, .from = rostrum};
+  *out = (cs_cel_parts){.rostrum = rostrum, .from = rostrum};
   for (size_t i = 0; i < rostrum->cel_count; i++) {
     out->numbers[i] = i + 1;
-    look_at(&s, i);
+    begin_cel(&s, i);
     has_parts = has_parts || cel_has_part(&s);
   }
   return has_parts ? split_cels(context, &s) : CELSPAN_OK;
 }
 
-celspan_status cs_parts_place(celspan_context *context, const cs_parts *parts, size_t index,
+celspan_status cs_parts_place(celspan_context *context, const cs_cel_parts *parts, size_t index,
                               const cs_view *view, celspan_matrix *out) {
   CS_TRY(cs_scene_cel_matrix(context, parts->from, parts->numbers[index] - 1, view->film_width,
                              view->film_height, out));
@@ -184,7 +184,7 @@ celspan_status cs_parts_place(celspan_context *context, const cs_parts *parts, s
   return CELSPAN_OK;
 }
 
-void cs_parts_finish(cs_parts *parts, cs_memory *memory) {
+void cs_parts_finish(cs_cel_parts *parts, cs_memory *memory) {
   cs_mem_free(memory, parts->cels, CS_MAP_DRAWINGS * sizeof *parts->cels);
   cs_mem_free(memory, parts->list, CS_MAP_DRAWINGS * sizeof *parts->list);
   parts->cels = NULL;

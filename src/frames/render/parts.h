@@ -15,8 +15,8 @@
  * shapes of its cel; unless parts are inside it, which it only holds together: then they are. What
  * only holds together is a union that is not faded and has no mode, grade or space of its own. What
  * lies between two parts is a cel, too. A cel keeps its parts together that
- *   - composites its objects by themselves, such as a faded one, or has objects that act on what is
- *     behind them, or a light with a shape,
+ *   - composites its objects by themselves, such as a faded one, or has objects whose modes act on
+ *     other cels, or a light with a shape,
  *   - would have more shapes in what is not rich than in what is,
  *   - enlarges or reduces a part beyond what a cel may,
  *   - would make more than CS_MAP_DRAWINGS cels of the frame.
@@ -31,22 +31,22 @@
 
 #define CS_PARTS_MOST 8 /* in a cel */
 
-typedef struct cs_parts {
+typedef struct cs_cel_parts {
   const celspan_rostrum *rostrum;  /* whose cels are the parts; it borrows what they are made of */
   const celspan_rostrum *from;     /* borrowed */
   size_t numbers[CS_MAP_DRAWINGS]; /* of the cels that the parts belong to, from 1 */
   celspan_rostrum own;             /* the rostrum of the parts, */
   celspan_cel *cels, **list; /* its cels: CS_MAP_DRAWINGS each, or NULL where no cel has parts */
-} cs_parts;
+} cs_cel_parts;
 
 /* rich: the shapes of a rich object. The rostrum has at most CS_MAP_DRAWINGS cels and must outlive
  * the parts, which stay in their place in memory. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_parts_create(celspan_context *context,
                                                const celspan_rostrum *rostrum, const cs_view *view,
-                                               size_t rich, cs_parts *out);
+                                               size_t rich, cs_cel_parts *out);
 /* From the units of a part to film units on the frame. Errors: BAD_ARGUMENT, as of
  * cs_scene_cel_matrix for its cel. */
-CELSPAN_CHECKED celspan_status cs_parts_place(celspan_context *context, const cs_parts *parts,
+CELSPAN_CHECKED celspan_status cs_parts_place(celspan_context *context, const cs_cel_parts *parts,
                                               size_t index, const cs_view *view,
                                               celspan_matrix *out);
-void cs_parts_finish(cs_parts *parts, cs_memory *memory);
+void cs_parts_finish(cs_cel_parts *parts, cs_memory *memory);
