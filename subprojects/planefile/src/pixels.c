@@ -74,9 +74,13 @@ static inline void fill_blocks(unsigned char *out, size_t size, pixel colour) {
 }
 
 /* Whether a span is filled by the C library, which has the widest registers of the machine: where
- * it has letters of this size. */
+ * it has letters of this size. A module of WebAssembly has no C library. */
 static inline bool is_word(const unsigned char *out, size_t size) {
+#ifdef __wasm__
+  return (void)out, (void)size, false;
+#else
   return size >= LONG && sizeof(wchar_t) == PIXEL && (uintptr_t)out % _Alignof(wchar_t) == 0;
+#endif
 }
 
 /* Single pixels and short spans are filled like long ones, with what the next spans replace: where

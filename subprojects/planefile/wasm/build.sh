@@ -1,7 +1,8 @@
 #!/bin/sh
 # The decoder as WebAssembly, in base64: build.sh OUT SOURCE... It is made to be small. CLANG and
 # WASM_LD: the programs; without them OUT is the word none. WASM_OPT: wasm-opt, which makes it
-# smaller still.
+# smaller still: it may take sums of addresses as places of loads, because nothing is in the first
+# 1024 bytes, the far end of the stack.
 set -eu
 out=$1
 shift
@@ -24,7 +25,7 @@ done
 "$WASM_LD" --no-entry --gc-sections --strip-all -O2 --lto-O2 -z stack-size=65536 --stack-first \
   -o "$folder/plane.wasm" "$folder"/*.o
 [ -z "${WASM_OPT:-}" ] ||
-  "$WASM_OPT" -Oz --enable-simd --enable-bulk-memory --enable-sign-ext \
+  "$WASM_OPT" -Oz --low-memory-unused --enable-simd --enable-bulk-memory --enable-sign-ext \
     --enable-nontrapping-float-to-int --enable-mutable-globals \
     "$folder/plane.wasm" -o "$folder/plane.wasm"
 base64 -w 0 "$folder/plane.wasm" >"$out"

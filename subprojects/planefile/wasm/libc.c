@@ -1,12 +1,11 @@
 /* What the decoder uses of the C library, for a module that has none: memory in blocks of powers of
- * two, runs of a number, and texts with %s and PRIu32.
+ * two, and texts with %s and PRIu32.
  */
 #include <inttypes.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <wchar.h>
 
 enum { PAGE = 65536, SMALLEST = 4, CLASSES = 32 };
 
@@ -82,17 +81,6 @@ int memcmp(const void *first, const void *second, size_t size) {
   while (i < size && a[i] == b[i])
     i++;
   return i < size ? a[i] - b[i] : 0;
-}
-
-/* The first letters are copied, twice as many each time. */
-wchar_t *wmemset(wchar_t *out, wchar_t letter, size_t count) {
-  if (count > 0)
-    out[0] = letter;
-  for (size_t at = 1, part; at < count; at += part) {
-    part = at < count - at ? at : count - at;
-    memcpy(out + at, out, part * sizeof *out);
-  }
-  return out;
 }
 
 /* ---------------------------------------------------------------- texts */
