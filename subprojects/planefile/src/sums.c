@@ -270,7 +270,11 @@ static inline planefile_cell colour_of(const double sums[4]) {
 }
 
 static inline bool is_same(const planefile_cell *a, const planefile_cell *b) {
-  return memcmp(a, b, sizeof *a) == 0;
+  int32_t difference = 0;
+  UNROLLED
+  for (int c = 0; c < 4; c++)
+    difference |= a->colour[c] ^ b->colour[c];
+  return difference == 0;
 }
 
 /* Spans of the row being read, so far. */
@@ -328,7 +332,7 @@ static inline void put_column(reading *r, uint32_t made, uint32_t column, double
   UNROLLED
   for (int c = 0; c < 4; c++)
     total[c] += slot->height[c];
-  *slot = (pf_slot){{0}, {0}};
+  memset(slot, 0, sizeof *slot);
   put_part(r, column + 1, sums);
 }
 

@@ -13,7 +13,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 for source in "$@" "$here/module.c" "$here/libc.c"; do
   case $source in
-    */sums.c) level=-Os ;; # where the time goes
+    */chords.c | */draw.c | */module.c | */pixels.c | */sums.c) level=-Os ;; # where the time goes
     *) level=-Oz ;;
   esac
   "$CLANG" --target=wasm32 -std=c17 "$level" -flto -msimd128 -ffreestanding -nostdlibinc \
@@ -22,7 +22,8 @@ for source in "$@" "$here/module.c" "$here/libc.c"; do
     -Wall -Wextra -Werror -I"$here/include" -I"$here/../include" \
     -c "$source" -o "$folder/$(basename "$source").o"
 done
-"$WASM_LD" --no-entry --gc-sections --strip-all -O2 --lto-O2 -z stack-size=65536 --stack-first \
+"$WASM_LD" --no-entry --gc-sections --strip-all -O2 --lto-O2 -mllvm -inline-threshold=0 \
+  -z stack-size=65536 --stack-first \
   -o "$folder/plane.wasm" "$folder"/*.o
 [ -z "${WASM_OPT:-}" ] ||
   "$WASM_OPT" -Oz --low-memory-unused --enable-simd --enable-bulk-memory --enable-sign-ext \
