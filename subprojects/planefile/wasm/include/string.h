@@ -1,5 +1,5 @@
-/* For modules: see ../libc.c. The module's own instructions copy and fill memory, but a few registers
- * are faster where the size is known and small: engines call a function for such an instruction.
+/* For modules: see ../libc.c. The module's own instructions copy and fill memory, but where the
+ * size is known and small a few registers are faster: engines call a function for these.
  */
 #pragma once
 #include <stddef.h>
