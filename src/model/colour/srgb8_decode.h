@@ -1,12 +1,12 @@
 /* Codes of 8 bits to light, 64 at a time, in the registers of AVX-512: for kernels (base/wide.h).
- * The instruction that looks bytes up in 128 entries is not in all processors that have AVX-512
+ * The instruction that looks bytes up in 64 entries is not in all processors that have AVX-512
  * (cs_srgb8_decodes), so functions that use this have the attribute CS_SRGB8_BYTES.
  *
  *     curve: 256 floats by code          registers of 64 bytes
  *     byte 0 of all floats               [0 .. 63] [64 .. 127] [128 .. 191] [192 .. 255]
  *     bytes 1, 2, 3                      likewise: 16 registers
  *
- *     64 codes --one instruction for 128 entries--> byte 0 of 64 floats; bytes 1, 2, 3 likewise
+ *     64 codes --four instructions, by quarters--> byte 0 of 64 floats; bytes 1, 2, 3 likewise
  *
  * Invariant: the floats are those of cs_srgb8_colour.
  */
@@ -48,23 +48,37 @@ CS_SRGB8_BYTES static inline cs_srgb8_tables cs_srgb8_load_tables(const cs_srgb8
   return t;
 }
 
-/* One byte of the floats of 64 codes. is_high: the codes of 128 and more. */
+/* Which of 64 codes lie in the second, the third and the last quarter of the table. */
+typedef struct cs_srgb8_quarters {
+  __mmask64 second, third, last;
+} cs_srgb8_quarters;
+
+CS_SRGB8_BYTES static inline cs_srgb8_quarters cs_srgb8_quarters_of(__m512i code) {
+  __mmask64 high = _mm512_movepi8_mask(code);
+  __mmask64 odd = _mm512_test_epi8_mask(code, _mm512_set1_epi8(64));
+  return (cs_srgb8_quarters){_kandn_mask64(high, odd), _kandn_mask64(odd, high),
+                             _kand_mask64(odd, high)};
+}
+
+/* One byte of the floats of 64 codes. Looking bytes up in 64 entries is one micro-operation, in 128
+ * three. */
 CS_SRGB8_BYTES static inline __m512i cs_srgb8_read_table(const __m512i quarters[4],
-                                                         __mmask64 is_high, __m512i code) {
-  __m512i low = _mm512_permutex2var_epi8(quarters[0], code, quarters[1]);
-  __m512i high = _mm512_permutex2var_epi8(quarters[2], code, quarters[3]);
-  return _mm512_mask_blend_epi8(is_high, low, high);
+                                                         cs_srgb8_quarters in, __m512i code) {
+  __m512i made = _mm512_permutexvar_epi8(code, quarters[0]);
+  made = _mm512_mask_permutexvar_epi8(made, in.second, code, quarters[1]);
+  made = _mm512_mask_permutexvar_epi8(made, in.third, code, quarters[2]);
+  return _mm512_mask_permutexvar_epi8(made, in.last, code, quarters[3]);
 }
 
 /* The light of 64 codes: in each 128 bits, dword j of the result's register k belongs to byte
  * 4 k + j of the codes. */
 CS_SRGB8_BYTES static inline cs_srgb8_fours cs_srgb8_decode(const cs_srgb8_tables *t,
                                                             __m512i code) {
-  __mmask64 is_high = _mm512_movepi8_mask(code);
-  __m512i b0 = cs_srgb8_read_table(t->quarters[0], is_high, code),
-          b1 = cs_srgb8_read_table(t->quarters[1], is_high, code);
-  __m512i b2 = cs_srgb8_read_table(t->quarters[2], is_high, code),
-          b3 = cs_srgb8_read_table(t->quarters[3], is_high, code);
+  cs_srgb8_quarters in = cs_srgb8_quarters_of(code);
+  __m512i b0 = cs_srgb8_read_table(t->quarters[0], in, code),
+          b1 = cs_srgb8_read_table(t->quarters[1], in, code);
+  __m512i b2 = cs_srgb8_read_table(t->quarters[2], in, code),
+          b3 = cs_srgb8_read_table(t->quarters[3], in, code);
   __m512i low = _mm512_unpacklo_epi8(b0, b1), low_high = _mm512_unpacklo_epi8(b2, b3);
   __m512i next = _mm512_unpackhi_epi8(b0, b1), next_high = _mm512_unpackhi_epi8(b2, b3);
   return (cs_srgb8_fours){{(__m512)_mm512_unpacklo_epi16(low, low_high),
