@@ -144,52 +144,54 @@ static int32_t smaller(int32_t a, int32_t b) { return a < b ? a : b; }
 /* The form in which a row of texels is copied. */
 typedef enum copied { LIGHT, CODES } copied;
 
-static cs_sampler_texels clear_texels(int32_t count) {
-  return (cs_sampler_texels){.count = count, .rows = 1, .opacity = CS_PICTURE_CLEAR};
+static void set_clear(int32_t count, cs_sampler_texels *out) {
+  *out = (cs_sampler_texels){.count = count, .rows = 1, .opacity = CS_PICTURE_CLEAR};
 }
 
-/* The texels of a row from (x, y) on which lie in one block, `most` of them at most. */
-static cs_sampler_texels texels_in_block(const cs_sampling *run, int32_t x, int32_t y,
-                                         int32_t most) {
+/* The texels of a row from (x, y) on which lie in one block: `most` of them and `most_rows` rows at
+ * most. They are written to their place once: a copy made at once of fields that were just stored
+ * one by one would wait for the stores. */
+static void find_in_block(const cs_sampling *run, int32_t x, int32_t y, int32_t most,
+                          int32_t most_rows, cs_sampler_texels *out) {
   const cs_sampler *s = run->sampler;
   const cs_block_cache_slot *slot = cs_block_cache_slot_of(
       run->blocks, &s->source, 0, x / CS_PICTURE_BLOCK, y / CS_PICTURE_BLOCK);
   int32_t row = y % CS_PICTURE_BLOCK, column = x % CS_PICTURE_BLOCK;
-  int32_t rows = smaller(CS_PICTURE_BLOCK - row, s->height - y);
+  int32_t rows = smaller(most_rows, smaller(CS_PICTURE_BLOCK - row, s->height - y));
   most = smaller(most, smaller(CS_PICTURE_BLOCK - column, s->width - x));
   if (!slot->texels) /* it could not be read: the status of the blocks says why */
-    return clear_texels(most);
-  return (cs_sampler_texels){.count = most,
-                             .rows = rows,
-                             .opacity = slot->opacity,
-                             .are_coded = slot->codes,
-                             .codes = slot->block->codes[row] + 4 * column,
-                             .light = slot->texels + 4 * (CS_PICTURE_BLOCK * row + column)};
+    set_clear(most, out);
+  else
+    *out = (cs_sampler_texels){.count = most,
+                               .rows = rows,
+                               .opacity = slot->opacity,
+                               .are_coded = slot->codes,
+                               .codes = slot->block->codes[row] + 4 * column,
+                               .light = slot->texels + 4 * (CS_PICTURE_BLOCK * row + column)};
 }
 
 /* The same of row v from column u on, which need not be in the picture: what lies beyond its edges
  * is what the wrap mode says. */
-static cs_sampler_texels texels_at(const cs_sampling *run, int64_t u, int64_t v, int32_t most) {
+static void find_at(const cs_sampling *run, int64_t u, int64_t v, int32_t most,
+                    cs_sampler_texels *out) {
   const cs_sampler *s = run->sampler;
   if (s->wrap == CELSPAN_WRAP_REPEAT) {
     u = ((u % s->width) + s->width) % s->width;
     v = ((v % s->height) + s->height) % s->height;
   }
   bool is_row_outside = v < 0 || v >= s->height, is_inside = u >= 0 && u < s->width;
-  if (s->wrap == CELSPAN_WRAP_CLEAR && (is_row_outside || !is_inside))
-    return clear_texels(!is_row_outside && u < 0 && -u < most ? (int32_t)-u : most);
+  if (s->wrap == CELSPAN_WRAP_CLEAR && (is_row_outside || !is_inside)) {
+    set_clear(!is_row_outside && u < 0 && -u < most ? (int32_t)-u : most, out);
+    return;
+  }
   int32_t y = v < 0 ? 0 : is_row_outside ? s->height - 1 : (int32_t)v;
   int32_t x = is_inside ? (int32_t)u : u < 0 ? 0 : s->width - 1;
-  cs_sampler_texels texels = texels_in_block(run, x, y, is_inside ? most : 1);
-  if (is_row_outside)
-    texels.rows = 1;
-  return texels;
+  find_in_block(run, x, y, is_inside ? most : 1, is_row_outside ? 1 : CS_PICTURE_BLOCK, out);
 }
 
-static cs_sampler_texels texels_of(const cs_sampling *sampling, cs_run run) {
+static void find_texels(const cs_sampling *sampling, cs_run run, cs_sampler_texels *out) {
   const cs_sampler *s = sampling->sampler;
-  return texels_at(sampling, run.x0 + s->moved_u, cs_number_floor(run.y) + s->moved_v,
-                   run.x1 - run.x0);
+  find_at(sampling, run.x0 + s->moved_u, cs_number_floor(run.y) + s->moved_v, run.x1 - run.x0, out);
 }
 
 /* Copies texels. The row below is fetched into the cache now, so that it is there in time. */
@@ -218,7 +220,7 @@ static bool copy_run(const cs_sampling *sampling, cs_run run, copied what, void 
   unsigned char *to = out;
   bool are_exact = true;
   for (cs_sampler_texels texels; run.x0 < run.x1; run.x0 += texels.count) {
-    texels = texels_of(sampling, run);
+    find_texels(sampling, run, &texels);
     copy_texels(sampling, &texels, what, to);
     to += (size_t)texels.count * size;
     are_exact &= texels.are_coded || texels.opacity == CS_PICTURE_CLEAR;
@@ -241,7 +243,7 @@ static bool copy_planes(const cs_sampling *sampling, cs_run run, float (*planes)
 celspan_status cs_sampler_texels_at(cs_block_cache *blocks, const cs_sampler *sampler, cs_run run,
                                     cs_sampler_texels *out) {
   blocks->status = CELSPAN_OK;
-  *out = texels_of(&(cs_sampling){sampler, blocks}, run);
+  find_texels(&(cs_sampling){sampler, blocks}, run, out);
   return blocks->status;
 }
 
