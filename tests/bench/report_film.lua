@@ -96,9 +96,8 @@ build their paths once and fill them under a matrix in each frame, into a pictur
 frame; celspan moves its cels and writes pixels into a row that is reused, or into a *whole
 picture*. *With its maps*: the film is shown for the first time, and its
 [maps](how-it-works.md#maps) are made within this time; otherwise they are kept from a showing
-before. The cels of `twemoji` have fewer than 256 shapes each, on average, so it has no maps.
-Processor time for each frame, the least of several showings. *Differ by*: the peers' pictures of
-the middle frame from celspan's, at most, in means of 64 x 64 cells.
+before. Processor time for each frame, the least of several showings. *Differ by*: the peers'
+pictures of the middle frame from celspan's, at most, in means of 64 x 64 cells.
 ]]
   page:head { "film", "side", "celspan", "whole picture", "with its maps", "Blend2D", "Skia", "AGG",
               "Qt", "Cairo", "ahead of Blend2D", "ahead of the best peer", "differ by" }

@@ -153,7 +153,7 @@ function report.tables(page)
   page:put [[
 10, 100 and 1000 closed B-splines of random colour and alpha, antialiased, to pixels. *Ahead of*:
 the other renderer's time divided by celspan's; below 1, the other renderer is faster. *Later
-frame*: the drawing again in a film, where at least 256 shapes are drawn from their
+frame*: the drawing again in a film, where at least 64 shapes are drawn from their
 [map](how-it-works.md#maps).]]
   page:plot("ratios", "ratios")
   for _, scene in ipairs(scenes.random) do page:plot("shapes-" .. scene, "shapes", scene) end
