@@ -23,7 +23,7 @@ typedef struct reader {
   bool is_pictured;     /* the latest index has a list of pictures */
   uint64_t *offsets;    /* of the bands, and after them where the last one ends */
   uint64_t *bases;      /* of the bands of the base; NULL: there is none */
-  uint64_t *pictures;   /* of those of the file; 0: it has been read */
+  uint64_t *pictures;   /* of those of the file */
   unsigned char *bytes; /* of the latest record */
   size_t capacity;
 } reader;
@@ -384,7 +384,6 @@ static planefile_status load_picture(reader *r, uint32_t index) {
   if (reason)
     return fail_of(r, reason == pf_no_memory ? PLANEFILE_NO_MEMORY : PLANEFILE_BAD_FILE, offset,
                    subject(PF_PICTURE, index).text, reason);
-  r->pictures[index] = 0;
   return PLANEFILE_OK;
 }
 
@@ -393,7 +392,7 @@ static planefile_status load_shown(reader *r, const planefile_band *band) {
   for (uint32_t i = 0; i < band->axis_count; i++) {
     const planefile_axis *axis = &band->axes[i];
     if (axis->kind == PLANEFILE_PICTURE && axis->picture < band->picture_count &&
-        r->pictures[axis->picture] > 0)
+        !r->plane->pictures[axis->picture].texels)
       TRY(load_picture(r, axis->picture));
   }
   return PLANEFILE_OK;
