@@ -20,7 +20,7 @@ typedef struct search {
 
 /* ---------------------------------------------------------------- what is a part */
 
-static size_t count_shapes(celspan_object *const *objects, size_t count) {
+size_t cs_parts_shapes(celspan_object *const *objects, size_t count) {
   size_t shapes = 0;
   for (size_t i = 0; i < count; i++)
     shapes += objects[i]->data->shape_count;
@@ -78,7 +78,7 @@ static void add(search *s, celspan_object **objects, size_t count, const celspan
     const celspan_matrix placed = place(s->rostrum, part, s->view);
     s->is_sane = s->is_sane && cs_matrix_is_sane(&placed);
   }
-  size_t shapes = count_shapes(objects, count);
+  size_t shapes = cs_parts_shapes(objects, count);
   s->all_shapes += shapes;
   s->rich_shapes += shapes >= s->rich ? shapes : 0;
   s->count++;
@@ -106,7 +106,7 @@ static void split(search *s, celspan_object **objects, size_t count, const celsp
 static bool may_be_split(const search *s) {
   const celspan_cel *cel = s->cel;
   return !cs_cel_isolates(cel) && !cel->blends_inside[s->view->space] && !cel->front.texture &&
-         !cel->back.texture && count_shapes(cel->objects, cel->object_count) >= s->least;
+         !cel->back.texture && cs_parts_shapes(cel->objects, cel->object_count) >= s->least;
 }
 
 /* The cels of one cel: its parts, or itself. left: as many cels follow it. */
@@ -141,7 +141,7 @@ static bool cel_has_part(const search *s) {
 static void begin_cel(search *s, size_t index) {
   s->cel = s->rostrum->cels[index];
   s->number = index + 1;
-  size_t share = count_shapes(s->cel->objects, s->cel->object_count) / CS_PARTS_MOST;
+  size_t share = cs_parts_shapes(s->cel->objects, s->cel->object_count) / CS_PARTS_MOST;
   s->least = share > s->rich ? share : s->rich;
 }
 

@@ -1,5 +1,7 @@
 #include "frames/render/ways.h"
 
+#include "frames/render/parts.h"
+
 /* ---------------------------------------------------------------- what suits */
 
 static bool has_procedure(const celspan_cel *cel) {
@@ -83,10 +85,7 @@ void cs_ways_find(const celspan_rostrum *rostrum, const cs_view *view, cs_ways *
 
 /* The shapes that a cel adds to a sweep: of a defocused one, a box. */
 static size_t count_shapes(const celspan_cel *cel) {
-  size_t shapes = 0;
-  for (size_t i = 0; i < cel->object_count; i++)
-    shapes += cel->objects[i]->data->shape_count;
-  return cel->defocus_radius > 0 ? 1 : shapes;
+  return cel->defocus_radius > 0 ? 1 : cs_parts_shapes(cel->objects, cel->object_count);
 }
 
 /* A few pictures are drawn faster where they are composed with others. */
