@@ -342,37 +342,22 @@ static celspan_status paint_varied(folding *f, const cs_map_fold *fold, int32_t 
   return CELSPAN_OK;
 }
 
-/* The last sheet under the fold of those before it, all of them even: what does not depend on the
- * colour of the last one is computed once. */
-typedef struct rear {
-  cs_v4 e, t, back, frame_back;
-  float keep; /* of the sheets and the frame */
-} rear;
-
-static inline rear find_rear(const cs_map_frame *frame, const cs_map_fold *near) {
-  const cs_map_sheet *sheet = &frame->sheets[frame->count - 1];
-  return (rear){near->e, near->t, sheet->back, frame->back, near->keep * sheet->keep * frame->keep};
-}
-
-/* As cs_map_fold_add and cs_map_fold_end_even, to the bit. */
-static inline cs_v4 fold_rear(const rear *r, cs_v4 colour) {
-  cs_v4 t = r->t * cs_map_even(colour);
-  cs_v4 shown = r->e + r->t * colour + t * r->back + t * r->frame_back;
-  shown[3] = 1 - r->keep * t[0];
-  return shown;
-}
-
 /* Writes the columns [x, end), in which all sheets but the last are the same, whose fold is
  * `near`. */
 static celspan_status fold_last(folding *f, cs_map_fold near, int32_t x, int32_t end,
                                 cs_row_writer *writer) {
   const size_t last = f->maker->frame->count - 1, near_count = f->broken_count;
-  const rear r = find_rear(f->maker->frame, &near);
+  /* Copies, so that what does not depend on the last sheet's colour is computed once. */
+  const cs_map_sheet sheet = {.back = f->maker->frame->sheets[last].back,
+                              .keep = f->maker->frame->sheets[last].keep};
+  const cs_map_frame frame = {.back = f->maker->frame->back, .keep = f->maker->frame->keep};
   const cs_map_span *span = f->at[last];
   for (int32_t stop; x < end; x = stop) {
     while (span->end <= x)
       span++;
-    cs_v4 colour = fold_rear(&r, span->colour);
+    cs_map_fold fold = near;
+    cs_map_fold_add(&fold, &sheet, span->colour, cs_map_even(span->colour));
+    cs_v4 colour = cs_map_fold_end_even(fold, &frame);
     stop = span->end < end ? span->end : end;
     if (near_count > 0 && near_count + (span->cell == CS_MAP_BROKEN) > 1) {
       stop = x + 1;
