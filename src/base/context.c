@@ -16,23 +16,16 @@ typedef struct cs_source {
   char bytes[];
 } cs_source;
 
-static void *default_resize(void *user, void *storage, size_t old_size, size_t new_size) {
-  (void)user, (void)old_size;
-  if (new_size == 0) {
-    free(storage);
-    return NULL;
-  }
-  return realloc(storage, new_size);
-}
-
 /* ---------------------------------------------------------------- memory */
 
+/* resize: NULL for the C library's. */
 static cs_memory *memory_create(celspan_resize resize, void *user) {
-  cs_memory *memory = resize(user, NULL, 0, sizeof *memory);
+  cs_memory *memory = resize ? resize(user, NULL, 0, sizeof *memory) : malloc(sizeof *memory);
   if (!memory)
     return NULL;
-  memory->resize = resize;
-  memory->user = user;
+  memory->spares = (cs_spares){0};
+  memory->resize = resize ? resize : cs_spares_resize;
+  memory->user = resize ? user : &memory->spares;
   atomic_init(&memory->references, 1);
   atomic_init(&memory->bytes, 0);
   atomic_init(&memory->peak, 0);
@@ -59,6 +52,7 @@ void cs_memory_unref(cs_memory *memory) {
     next = source->next;
     memory->resize(memory->user, source, source->size, 0);
   }
+  cs_spares_trim(&memory->spares);
   memory->resize(memory->user, memory, sizeof *memory, 0);
 }
 
@@ -250,8 +244,7 @@ celspan_status celspan_context_create(const celspan_context_desc *desc, celspan_
     desc = &defaults;
   if (desc->struct_size != sizeof *desc)
     return CELSPAN_BAD_ARGUMENT;
-  cs_memory *memory =
-      memory_create(desc->resize ? desc->resize : default_resize, desc->resize_user);
+  cs_memory *memory = memory_create(desc->resize, desc->resize_user);
   if (!memory)
     return CELSPAN_NO_MEMORY;
   celspan_context *context = cs_mem_array(memory, 1, sizeof *context);
@@ -366,6 +359,7 @@ void cs_context_trim(celspan_context *context) {
   for (cs_service *service = atomic_load(&context->root->services); service;
        service = service->next)
     service->kind->trim(service);
+  cs_spares_trim(&context->memory->spares);
 }
 
 #define CS_TEXT_(x) #x

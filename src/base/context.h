@@ -9,6 +9,7 @@
 
 #include <stdatomic.h>
 
+#include "base/spares.h"
 #include "celspan/celspan.h"
 
 /* For whom a thread allocates. What a script has rendered counts for the script. */
@@ -28,6 +29,7 @@ typedef struct cs_account {
 typedef struct cs_memory {
   celspan_resize resize;
   void *user;
+  cs_spares spares; /* where the host has no function of its own; not counted as held */
   atomic_size_t references;
   atomic_size_t bytes;
   atomic_size_t peak;

@@ -17,7 +17,7 @@ static void choose_antialias(bench_frame_job *job, const char *antialias) {
   static const celspan_kernel numbers[] = {CELSPAN_KERNEL_BOX, CELSPAN_KERNEL_GAUSSIAN,
                                            CELSPAN_KERNEL_MITCHELL, CELSPAN_KERNEL_LANCZOS};
   job->mode = strcmp(antialias, "none") == 0 ? CELSPAN_ANTIALIAS_NONE : CELSPAN_ANTIALIAS_AREA;
-  job->desc.repeats = strcmp(antialias, "again") == 0;
+  job->desc.repeats = strcmp(antialias, "again") == 0 || strcmp(antialias, "first") == 0;
   for (size_t i = 0; i < sizeof kernels / sizeof *kernels; i++)
     if (strcmp(antialias, kernels[i]) == 0) {
       job->mode = CELSPAN_ANTIALIAS_FILTER;

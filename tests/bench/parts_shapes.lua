@@ -62,6 +62,7 @@ local function renderers(runner, path, scene, side)
   end
   if side <= 4096 then
     entries[#entries + 1] = celspan(runner, path, scene, side, "again", "row", 1)
+    entries[#entries + 1] = celspan(runner, path, scene, side, "first", "row", 1)
   end
   return entries
 end

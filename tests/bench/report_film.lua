@@ -29,7 +29,7 @@ local function film_ratio(run, scene, side)
     run:film_seconds(scene, side, "blend2d", "area"))
 end
 
---- antialias: "again" in a later frame of a film, "area" in a frame alone.
+--- antialias: "first" in the film's first frame with the drawing, "again" in a later one.
 local function drawing_ratio(run, scene, side, antialias)
   local best, name = run:best_peer(scene, side)
   local function of(renderer, kind)
@@ -46,14 +46,14 @@ to 8-bit pixels, one thread. Above 1, celspan is the fastest.
 
 - *A film's frame*: the [film](#films) of a sheet of drawings and of two drawings in front of it.
 - *A drawing again*: the sheet alone, in a later frame of a film that has shown it before.
-- *A new drawing*: the sheet alone, in a frame that is the first to show it.
+- *A new drawing*: the sheet alone, in the first frame of a film that shows it.
 ]]
   page:head { "sheet", "side", "a film's frame", "a drawing again", "a new drawing" }
   for _, scene in ipairs(scenes.sheets) do
     for _, side in ipairs(sides) do
       local line = { scene, short[side], film_ratio(page.run, scene, side),
                      drawing_ratio(page.run, scene, side, "again"),
-                     drawing_ratio(page.run, scene, side, "area") }
+                     drawing_ratio(page.run, scene, side, "first") }
       if line[3] .. line[4] .. line[5] ~= "" then page:cells(line) end
     end
   end

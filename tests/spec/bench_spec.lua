@@ -228,7 +228,7 @@ describe("the films of the benchmark", function()
       return { part = "shapes", scene = "clipart", side = 1024, output = "row", workers = 1,
                antialias = antialias, renderer = renderer, wall = seconds, processor = seconds }
     end
-    local page = page_of(table.move({ pixels("celspan", "area", 0.008),
+    local page = page_of(table.move({ pixels("celspan", "first", 0.008),
       pixels("celspan", "again", 0.002), pixels("cairo", "area", 0.006) }, 1, 3, #rows + 1,
       table.move(rows, 1, #rows, 1, {})))
     films.first(page)

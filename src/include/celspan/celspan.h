@@ -124,7 +124,8 @@ CELSPAN_API celspan_status celspan_context_fail(celspan_context *context, celspa
  * memory or after 4096 different sources, is not known either. */
 CELSPAN_API void celspan_context_set_origin(celspan_context *context, const char *source,
                                             int32_t line);
-/* Bytes held now, the most ever held, and allocations made so far. */
+/* Bytes held now, the most ever held, and allocations made so far. If the host gave no function for
+ * memory, up to 64 MiB of freed memory are kept for later frames, which are not counted. */
 CELSPAN_API void celspan_context_memory(const celspan_context *context, size_t *bytes,
                                         size_t *peak_bytes, uint64_t *allocations);
 

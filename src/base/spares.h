@@ -1,0 +1,47 @@
+/* Spares: memory that was freed, kept for the arrays of the next frame.
+ *
+ * A C library gives large allocations back to the system, which maps and clears each of their pages
+ * when they are used again. This takes longer than a frame of a few milliseconds takes otherwise.
+ * So what is freed and has 4 KiB to 16 MiB is kept, by classes of size, and allocated again.
+ *
+ *     class        0        1        2             12
+ *     bytes    4 KiB    8 KiB   16 KiB   ...   16 MiB      a larger request uses the next class
+ *     kept    [x x - -][x - - -][- - - -] ...  [x - - -]
+ *
+ * Invariant: what was requested with more than half the size of the smallest class, and at most
+ * that of the largest one, has the whole size of its class. At most CS_SPARES_MOST bytes are kept.
+ * Threads exchange single slots, so none waits for another one.
+ */
+#pragma once
+
+#include <stdatomic.h>
+#include <stddef.h>
+
+enum { CS_SPARES_CLASSES = 13, CS_SPARES_SLOTS = 8 };
+
+#define CS_SPARES_SMALLEST ((size_t)4 << 10)
+#define CS_SPARES_LARGEST (CS_SPARES_SMALLEST << (CS_SPARES_CLASSES - 1))
+
+/* The address sanitizer has to see all that is freed. */
+#if defined __SANITIZE_ADDRESS__
+#define CS_SPARES_MOST ((size_t)0)
+#elif defined __has_feature
+#if __has_feature(address_sanitizer)
+#define CS_SPARES_MOST ((size_t)0)
+#endif
+#endif
+#ifndef CS_SPARES_MOST
+#define CS_SPARES_MOST ((size_t)64 << 20)
+#endif
+
+/* All zero: nothing is kept. */
+typedef struct cs_spares {
+  _Atomic(void *) kept[CS_SPARES_CLASSES][CS_SPARES_SLOTS]; /* from malloc; NULL: free slots */
+  atomic_size_t bytes;                                      /* of what is kept */
+} cs_spares;
+
+/* A celspan_resize on the C library's functions. user: a cs_spares. old_size must be what was
+ * requested. Any thread. */
+void *cs_spares_resize(void *user, void *storage, size_t old_size, size_t new_size);
+/* Frees everything that is kept. Any thread. */
+void cs_spares_trim(cs_spares *spares);
