@@ -1,8 +1,27 @@
 #include "base/spares.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
+#define HUGE_PAGE ((uintptr_t)2 << 20) /* bytes */
+
+/* Asks the system for huge pages, of which it has to clear and map fewer. */
+static void *advised(void *storage, size_t size) {
+#ifdef MADV_HUGEPAGE
+  uintptr_t at = (uintptr_t)storage, first = (at + HUGE_PAGE - 1) & ~(HUGE_PAGE - 1);
+  uintptr_t end = (at + size) & ~(HUGE_PAGE - 1);
+  if (storage && size >= 2 * HUGE_PAGE && first < end)
+    (void)madvise((void *)first, end - first, MADV_HUGEPAGE);
+#else
+  (void)size;
+#endif
+  return storage;
+}
 
 static bool has_class(size_t size) {
   return size > CS_SPARES_SMALLEST / 2 && size <= CS_SPARES_LARGEST;
@@ -26,7 +45,7 @@ static void *take(cs_spares *spares, size_t class) {
       return spare;
     }
   }
-  return malloc(bytes_of(class));
+  return advised(malloc(bytes_of(class)), bytes_of(class));
 }
 
 static void give_back(cs_spares *spares, void *spare, size_t class) {
@@ -55,7 +74,7 @@ void *cs_spares_resize(void *user, void *storage, size_t old_size, size_t new_si
     return NULL;
   }
   if (!has_class(new_size))
-    return realloc(storage, new_size);
+    return advised(realloc(storage, new_size), new_size);
   size_t class = class_of(new_size);
   if (storage && has_class(old_size) && class_of(old_size) == class)
     return storage;

@@ -2,7 +2,8 @@
  *
  * A C library gives large allocations back to the system, which maps and clears each of their pages
  * when they are used again. This takes longer than a frame of a few milliseconds takes otherwise.
- * So what is freed and has 4 KiB to 16 MiB is kept, by classes of size, and allocated again.
+ * So what is freed and has 4 KiB to 16 MiB is kept, by classes of size, and allocated again; and
+ * from 4 MiB on the system is asked for huge pages, of which there are fewer.
  *
  *     class        0        1        2             12
  *     bytes    4 KiB    8 KiB   16 KiB   ...   16 MiB      a larger request uses the next class

@@ -7,6 +7,7 @@
  *   celspan soft DRAWING SIDE RADIUS KERNEL OUTPUT       RADIUS in pixels
  *   celspan picture|backed|planes ...       see picture_jobs.c
  *   celspan film ...                        see film_jobs.h
+ *   celspan plane ...                       see plane_jobs.h
  */
 #include <stdlib.h>
 #include <string.h>
@@ -16,6 +17,7 @@
 #include "frames.h"
 #include "measure.h"
 #include "picture_jobs.h"
+#include "plane_jobs.h"
 #include "scene.h"
 
 static void measure_shapes(bench_frame_job *job, int count, char **words) {
@@ -82,6 +84,7 @@ static const struct {
     {"digest", tell_digest},    {"soft", measure_soft},
     {"picture", bench_picture}, {"backed", bench_backed},
     {"planes", bench_planes},   {"film", bench_film},
+    {"plane", bench_plane},
 };
 
 int main(int argc, char **argv) {
@@ -90,7 +93,7 @@ int main(int argc, char **argv) {
   while (argc > 1 && verb < count && strcmp(argv[1], verbs[verb].name) != 0)
     verb++;
   if (argc < 2 || verb == count)
-    bench_stop("usage: %s shapes|look|digest|soft|picture|backed|planes|film ...", argv[0]);
+    bench_stop("usage: %s shapes|look|digest|soft|picture|backed|planes|film|plane ...", argv[0]);
   celspan_context_desc desc = {.struct_size = sizeof desc};
   bool is_first = verbs[verb].run == measure_shapes && argc > 4 && strcmp(argv[4], "first") == 0;
   if (is_first || verbs[verb].run == measure_soft)

@@ -14,6 +14,7 @@ local compositing = require "tests.bench.parts_compositing"
 local files = require "tests.bench.parts_files"
 local film = require "tests.bench.parts_film"
 local frames = require "tests.bench.parts_frames"
+local planes = require "tests.bench.parts_planes"
 local pictures = require "tests.bench.parts_pictures"
 local shapes = require "tests.bench.parts_shapes"
 
@@ -40,6 +41,7 @@ local parts = {
   { "film_png", "a frame of the demo film to PNG", film.film_png },
   { "demo", "the demo film to PNG", film.demo },
   { "film", "films, frame by frame", frames.film },
+  { "planes", "plane files beside frames", planes.planes },
 }
 
 local function read_arguments(words)

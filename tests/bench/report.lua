@@ -183,6 +183,10 @@ the pixels of the sharp frame, blurred by OpenCV and libvips with the same Gauss
 the radius).]], { title = "spans", of = spans_of })
   page:plot("defocus", "defocus")
 end
+plain_table("planes", "Plane files", [[
+Drawings as planes ([the format](planefile.md)), which have no size: making one, beside a frame of
+4096 x 4096; drawing all of it, beside a frame of that size; and a tile of 256 x 256 out of its
+middle. The bytes are those of the file.]], { title = "bytes", of = bytes_of })
 plain_table("compositing", "Groups, modes, mattes and effects", [[
 200 shapes in front of 60 at 1920 x 1080: flat, in an isolated group at half opacity, with the mode
 "multiply", in a film in "srgb", and in soft mattes, or under what is the matte; a disc with a soft
