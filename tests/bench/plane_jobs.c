@@ -38,7 +38,7 @@ static void crop(celspan_plane_view *view) {
 
 void bench_plane(bench_frame_job *job, int count, char **words) {
   if (count != 3)
-    bench_stop("plane DRAWING SIDE make|draw|tile");
+    bench_stop("plane DRAWING SIDE make|draw|tile, or plane DRAWING 0 FILE");
   bench_drawing drawing = bench_drawing_read(words[0]);
   job->rostrum = bench_scene(job->context, &drawing, NULL);
   plane_job plane = {job->context, job->rostrum, NULL, CELSPAN_PLANE_VIEW};
@@ -47,7 +47,10 @@ void bench_plane(bench_frame_job *job, int count, char **words) {
   if (strcmp(words[2], "tile") == 0)
     crop(&plane.view);
   make(&plane);
-  bench_measure(strcmp(words[2], "make") == 0 ? make : draw, &plane);
+  if (plane.view.width > 0)
+    bench_measure(strcmp(words[2], "make") == 0 ? make : draw, &plane);
+  else
+    bench_check(job->context, celspan_plane_write(job->context, plane.plane, words[2]));
   bench_tell("bytes", (double)celspan_plane_bytes(plane.plane));
   celspan_plane_unref(plane.plane);
   bench_drawing_free(&drawing);

@@ -186,7 +186,9 @@ end
 plain_table("planes", "Plane files", [[
 Drawings as planes ([the format](planefile.md)), which have no size: making one, beside a frame of
 4096 x 4096; drawing all of it, beside a frame of that size; and a tile of 256 x 256 out of its
-middle. The bytes are those of the file.]], { title = "bytes", of = bytes_of })
+middle. The bytes are those of the file. Last, 1920 x 1080 pixels of it by the decoder of the page
+that `celspan plane` writes, in Node, and the bytes of that decoder.]],
+  { title = "bytes", of = bytes_of })
 plain_table("compositing", "Groups, modes, mattes and effects", [[
 200 shapes in front of 60 at 1920 x 1080: flat, in an isolated group at half opacity, with the mode
 "multiply", in a film in "srgb", and in soft mattes, or under what is the matte; a disc with a soft
