@@ -15,6 +15,7 @@ enum { LONG = 60000 };
 static bool ends_its_wait(bool early, int number) {
   pid_t process = fork();
   if (process == 0) {
+    signal(number, SIG_DFL); /* nohup ignores SIGHUP, and what is ignored stays so */
     cs_interrupt_install();
     if (early)
       raise(number);
