@@ -37,8 +37,8 @@ enum { CS_SPARES_CLASSES = 13, CS_SPARES_SLOTS = 8 };
 
 /* All zero: nothing is kept. */
 typedef struct cs_spares {
-  _Atomic(void *) kept[CS_SPARES_CLASSES][CS_SPARES_SLOTS]; /* from malloc; NULL: free slots */
   atomic_size_t bytes;                                      /* of what is kept */
+  _Atomic(void *) kept[CS_SPARES_CLASSES][CS_SPARES_SLOTS]; /* from malloc; NULL: free slots */
 } cs_spares;
 
 /* A celspan_resize on the C library's functions. user: a cs_spares. old_size must be what was
