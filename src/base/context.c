@@ -1,5 +1,6 @@
 #include "base/context.h"
 
+#include <assert.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,6 +18,9 @@ typedef struct cs_source {
 } cs_source;
 
 /* ---------------------------------------------------------------- memory */
+
+/* It is freed through its own spares, which must not keep it. */
+static_assert(sizeof(cs_memory) <= CS_SPARES_SMALLEST / 2, "cs_memory has a class");
 
 /* resize: NULL for the C library's. */
 static cs_memory *memory_create(celspan_resize resize, void *user) {
@@ -271,6 +275,7 @@ void celspan_context_destroy(celspan_context *context) {
   }
   cs_memory *memory = context->memory;
   cs_mem_free(memory, context, sizeof *context);
+  cs_spares_trim(&memory->spares);
   cs_memory_unref(memory);
 }
 

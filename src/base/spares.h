@@ -2,16 +2,16 @@
  *
  * A C library gives large allocations back to the system, which maps and clears each of their pages
  * when they are used again. This takes longer than a frame of a few milliseconds takes otherwise.
- * So what is freed and has 4 KiB to 16 MiB is kept, by classes of size, and allocated again; and
- * from 4 MiB on the system is asked for huge pages, of which there are fewer.
+ * So memory of 4 KiB to 16 MiB is kept when it is freed, by classes of size, and allocated again.
+ * For 4 MiB and more the system is asked for huge pages, of which there are fewer.
  *
  *     class        0        1        2             12
- *     bytes    4 KiB    8 KiB   16 KiB   ...   16 MiB      a larger request uses the next class
- *     kept    [x x - -][x - - -][- - - -] ...  [x - - -]
+ *     bytes    4 KiB    8 KiB   16 KiB   ...   16 MiB      a request uses the next larger class
+ *     kept    [x x -  ][x - -  ][- - -  ] ...  [x - -  ]   CS_SPARES_SLOTS of each, at most
  *
- * Invariant: what was requested with more than half the size of the smallest class, and at most
- * that of the largest one, has the whole size of its class. At most CS_SPARES_MOST bytes are kept.
- * Threads exchange single slots, so none waits for another one.
+ * Invariant: an allocation of more than half the smallest class, and at most the largest one, is as
+ * large as its class. At most CS_SPARES_MOST bytes are kept. Threads exchange single slots, so none
+ * waits for another one.
  */
 #pragma once
 
@@ -23,16 +23,19 @@ enum { CS_SPARES_CLASSES = 13, CS_SPARES_SLOTS = 8 };
 #define CS_SPARES_SMALLEST ((size_t)4 << 10)
 #define CS_SPARES_LARGEST (CS_SPARES_SMALLEST << (CS_SPARES_CLASSES - 1))
 
-/* The address sanitizer has to see all that is freed. */
+#define CS_SPARES_MOST ((size_t)64 << 20)
+
+/* The address sanitizer has to see what was requested, and when it is freed: then nothing has a
+ * class. */
 #if defined __SANITIZE_ADDRESS__
-#define CS_SPARES_MOST ((size_t)0)
+#define CS_SPARES_ARE_KEPT 0
 #elif defined __has_feature
 #if __has_feature(address_sanitizer)
-#define CS_SPARES_MOST ((size_t)0)
+#define CS_SPARES_ARE_KEPT 0
 #endif
 #endif
-#ifndef CS_SPARES_MOST
-#define CS_SPARES_MOST ((size_t)64 << 20)
+#ifndef CS_SPARES_ARE_KEPT
+#define CS_SPARES_ARE_KEPT 1
 #endif
 
 /* All zero: nothing is kept. */

@@ -22,7 +22,7 @@ typedef struct bench_frame_job {
 
 /* antialias: area, none, or a kernel of its own radius: box, gaussian, mitchell, lanczos; again:
  * area, in a later frame of a film, where drawings of many shapes are drawn from their maps; first:
- * in one where each map is made first, in a context that keeps none.
+ * in the first frame of a film, where the maps are made.
  * output: spans, row (8-bit pixels into one row that is reused), whole (an image in memory),
  * file (job->file, by its ending) or digest. The film is 1 x 1; job->rostrum is already set.
  * borrowed */

@@ -1,4 +1,5 @@
---- Plane files beside the frames that they replace: made, drawn at two sizes, and a tile of them.
+--- Plane files beside the frames that they replace: made, drawn at two sizes, a tile of them, and the
+--- page that shows them.
 local Command = require("tests.bench.runner").command
 local scenes = require "tests.bench.scenes"
 
@@ -21,8 +22,8 @@ end
 --- The page with a drawing, of which its decoder draws 1920 x 1080 pixels in Node.
 local function page(runner, folder, scene)
   local file, html = folder .. "/bench.plane", folder .. "/plane.html"
-  os.execute(Command(runner:program "celspan", "plane", path_of(folder, scene), 0, file)
-    .. " >/dev/null")
+  assert(os.execute(Command(runner:program "celspan", "plane", path_of(folder, scene), 0, file)
+    .. " >/dev/null"))
   if not os.execute(Command(runner.celspan, "plane", file, "-o", html) .. " 2>/dev/null") then
     return runner:note "celspan was built without the page of planes: it is left out"
   end

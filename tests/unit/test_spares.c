@@ -27,7 +27,7 @@ static void check_again(void) {
   void *first = cs_spares_resize(&spares, NULL, 0, 100 * KIB);
   cs_spares_resize(&spares, first, 100 * KIB, 0);
   size_t kept = atomic_load(&spares.bytes);
-  CHECK(kept == (CS_SPARES_MOST > 0 ? 128 * KIB : 0));
+  CHECK(kept == (CS_SPARES_ARE_KEPT ? 128 * KIB : 0));
   if (kept > 0) {
     void *second = cs_spares_resize(&spares, NULL, 0, 65 * KIB);
     CHECK(second == first && atomic_load(&spares.bytes) == 0);
@@ -61,7 +61,18 @@ static void check_limit(void) {
     held[i] = cs_spares_resize(&spares, NULL, 0, CS_SPARES_LARGEST);
   for (size_t i = 0; i < 2 * CS_SPARES_SLOTS; i++)
     cs_spares_resize(&spares, held[i], CS_SPARES_LARGEST, 0);
-  CHECK(atomic_load(&spares.bytes) == CS_SPARES_MOST);
+  CHECK(atomic_load(&spares.bytes) == (CS_SPARES_ARE_KEPT ? CS_SPARES_MOST : 0));
+  cs_spares_trim(&spares);
+}
+
+static void check_slots(void) {
+  cs_spares spares = {0};
+  void *held[2 * CS_SPARES_SLOTS];
+  for (size_t i = 0; i < 2 * CS_SPARES_SLOTS; i++)
+    held[i] = cs_spares_resize(&spares, NULL, 0, 4 * KIB);
+  for (size_t i = 0; i < 2 * CS_SPARES_SLOTS; i++)
+    cs_spares_resize(&spares, held[i], 4 * KIB, 0);
+  CHECK(atomic_load(&spares.bytes) == (CS_SPARES_ARE_KEPT ? CS_SPARES_SLOTS * 4 * KIB : 0));
   cs_spares_trim(&spares);
 }
 
@@ -81,6 +92,8 @@ static void *exchange(void *user) {
     e->wrong += *storage && !holds(*storage, size, value);
     cs_spares_resize(e->spares, *storage, size, 0);
     *storage = cs_spares_resize(e->spares, NULL, 0, size);
+    if (i % 1000 == 0)
+      cs_spares_trim(e->spares);
     memset(*storage, value, size);
   }
   for (size_t i = 0; i < LIVE; i++)
@@ -108,6 +121,7 @@ int main(void) {
   check_again();
   check_sizes();
   check_limit();
+  check_slots();
   check_threads();
   return check_done();
 }

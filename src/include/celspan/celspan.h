@@ -125,7 +125,7 @@ CELSPAN_API celspan_status celspan_context_fail(celspan_context *context, celspa
 CELSPAN_API void celspan_context_set_origin(celspan_context *context, const char *source,
                                             int32_t line);
 /* Bytes held now, the most ever held, and allocations made so far. If the host gave no function for
- * memory, up to 64 MiB of freed memory are kept for later frames, which are not counted. */
+ * memory, up to 64 MiB of freed memory are kept for later frames; these are not counted. */
 CELSPAN_API void celspan_context_memory(const celspan_context *context, size_t *bytes,
                                         size_t *peak_bytes, uint64_t *allocations);
 
