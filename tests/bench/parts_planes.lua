@@ -1,5 +1,5 @@
---- Plane files beside the frames that they replace: made, drawn at two sizes, a tile of them, and the
---- page that shows them.
+--- Plane files beside the frames that they replace: made, drawn at two sizes, a tile of them, and
+--- the page that shows them.
 local Command = require("tests.bench.runner").command
 local scenes = require "tests.bench.scenes"
 
