@@ -275,7 +275,7 @@ void celspan_context_destroy(celspan_context *context) {
   }
   cs_memory *memory = context->memory;
   cs_mem_free(memory, context, sizeof *context);
-  cs_spares_trim(&memory->spares);
+  cs_spares_close(&memory->spares); /* values may live much longer, and render nothing */
   cs_memory_unref(memory);
 }
 

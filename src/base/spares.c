@@ -27,38 +27,43 @@ static bool has_class(size_t size) {
   return CS_SPARES_ARE_KEPT && size > CS_SPARES_SMALLEST / 2 && size <= CS_SPARES_LARGEST;
 }
 
-static size_t bytes_of(size_t rank) { return CS_SPARES_SMALLEST << rank; }
+static size_t bytes_of(size_t class) { return CS_SPARES_SMALLEST << class; }
 
 /* Of a size that has one. */
 static size_t class_of(size_t size) {
-  size_t rank = 0;
-  while (bytes_of(rank) < size)
-    rank++;
-  return rank;
+  size_t class = 0;
+  while (bytes_of(class) < size)
+    class += 1;
+  return class;
 }
 
-static void *take(cs_spares *spares, size_t rank) {
+/* realloc; what is kept is given up where memory is short. */
+static void *request(cs_spares *spares, void *storage, size_t size) {
+  void *made = realloc(storage, size);
+  if (!made) {
+    cs_spares_trim(spares);
+    made = realloc(storage, size);
+  }
+  return advised(made, size);
+}
+
+static void *take(cs_spares *spares, size_t class) {
   for (size_t i = 0; i < CS_SPARES_SLOTS; i++) {
-    void *spare = atomic_exchange(&spares->kept[rank][i], NULL);
+    void *spare = atomic_exchange(&spares->kept[class][i], NULL);
     if (spare) {
-      atomic_fetch_sub(&spares->bytes, bytes_of(rank));
+      atomic_fetch_sub(&spares->bytes, bytes_of(class));
       return spare;
     }
   }
-  void *made = malloc(bytes_of(rank));
-  if (!made) { /* what is kept may be enough */
-    cs_spares_trim(spares);
-    made = malloc(bytes_of(rank));
-  }
-  return advised(made, bytes_of(rank));
+  return request(spares, NULL, bytes_of(class));
 }
 
-static void give_back(cs_spares *spares, void *spare, size_t rank) {
-  size_t bytes = bytes_of(rank);
+static void give_back(cs_spares *spares, void *spare, size_t class) {
+  size_t bytes = bytes_of(class);
   bool has_room = atomic_fetch_add(&spares->bytes, bytes) + bytes <= CS_SPARES_MOST;
   for (size_t i = 0; has_room && i < CS_SPARES_SLOTS; i++) {
     void *none = NULL;
-    if (atomic_compare_exchange_strong(&spares->kept[rank][i], &none, spare))
+    if (atomic_compare_exchange_strong(&spares->kept[class][i], &none, spare))
       return;
   }
   atomic_fetch_sub(&spares->bytes, bytes);
@@ -79,12 +84,14 @@ void *cs_spares_resize(void *user, void *storage, size_t old_size, size_t new_si
     return NULL;
   }
   if (!has_class(new_size))
-    return advised(realloc(storage, new_size), new_size);
-  size_t rank = class_of(new_size);
-  if (storage && has_class(old_size) && class_of(old_size) == rank)
+    return request(spares, storage, new_size);
+  size_t class = class_of(new_size);
+  if (storage && has_class(old_size) && class_of(old_size) == class)
     return storage;
-  void *spare = take(spares, rank);
-  if (spare && storage) {
+  void *spare = take(spares, class);
+  if (!spare)
+    return new_size < old_size ? storage : NULL; /* larger than its class is fine, too */
+  if (storage) {
     memcpy(spare, storage, old_size < new_size ? old_size : new_size);
     release(spares, storage, old_size);
   }
@@ -92,11 +99,16 @@ void *cs_spares_resize(void *user, void *storage, size_t old_size, size_t new_si
 }
 
 void cs_spares_trim(cs_spares *spares) {
-  for (size_t rank = 0; rank < CS_SPARES_CLASSES; rank++)
+  for (size_t class = 0; class < CS_SPARES_CLASSES; class += 1)
     for (size_t i = 0; i < CS_SPARES_SLOTS; i++) {
-      void *spare = atomic_exchange(&spares->kept[rank][i], NULL);
+      void *spare = atomic_exchange(&spares->kept[class][i], NULL);
       if (spare)
-        atomic_fetch_sub(&spares->bytes, bytes_of(rank));
+        atomic_fetch_sub(&spares->bytes, bytes_of(class));
       free(spare);
     }
+}
+
+void cs_spares_close(cs_spares *spares) {
+  atomic_fetch_add(&spares->bytes, CS_SPARES_MOST);
+  cs_spares_trim(spares);
 }

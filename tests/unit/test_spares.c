@@ -4,6 +4,7 @@
 
 #include <pthread.h>
 #include <stdbool.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "tests/support/check.h"
@@ -76,28 +77,52 @@ static void check_slots(void) {
   cs_spares_trim(&spares);
 }
 
+/* What is kept is given up before a request fails, of any size. */
+static void check_shortage(void) {
+  const size_t sizes_that_fail[] = {SIZE_MAX / 4, PTRDIFF_MAX};
+  for (size_t i = 0; i < 2; i++) {
+    cs_spares spares = {0};
+    cs_spares_resize(&spares, cs_spares_resize(&spares, NULL, 0, 8 * KIB), 8 * KIB, 0);
+    CHECK(atomic_load(&spares.bytes) == (CS_SPARES_ARE_KEPT ? 8 * KIB : 0));
+    CHECK(!cs_spares_resize(&spares, NULL, 0, sizes_that_fail[i]));
+    CHECK(atomic_load(&spares.bytes) == 0);
+  }
+}
+
+/* Nothing is kept after the end, and nothing that was kept before it is left. */
+static void check_close(void) {
+  cs_spares spares = {0};
+  void *late = cs_spares_resize(&spares, NULL, 0, 8 * KIB);
+  cs_spares_resize(&spares, cs_spares_resize(&spares, NULL, 0, 8 * KIB), 8 * KIB, 0);
+  cs_spares_close(&spares);
+  size_t after = atomic_load(&spares.bytes);
+  cs_spares_resize(&spares, late, 8 * KIB, 0);
+  CHECK(atomic_load(&spares.bytes) == after && !atomic_load(&spares.kept[1][0]));
+}
+
 typedef struct exchanger {
   cs_spares *spares;
   size_t number;
   size_t wrong;
 } exchanger;
 
-/* Fills spares with its own number and finds it in them when it frees them. */
+/* Fills spares of three classes with its own number, and finds it in them when it frees them. */
 static void *exchange(void *user) {
   exchanger *e = user;
   unsigned char *held[LIVE] = {NULL}, value = (unsigned char)e->number;
-  size_t size = 4 * KIB;
   for (size_t i = 0; i < ROUNDS; i++) {
-    unsigned char **storage = &held[i % LIVE];
-    e->wrong += *storage && !holds(*storage, size, value);
-    cs_spares_resize(e->spares, *storage, size, 0);
-    *storage = cs_spares_resize(e->spares, NULL, 0, size);
+    size_t at = i % LIVE, size = (4 * KIB) << at % 3;
+    e->wrong += held[at] && !holds(held[at], size, value);
+    cs_spares_resize(e->spares, held[at], size, 0);
+    held[at] = cs_spares_resize(e->spares, NULL, 0, size);
+    e->wrong += !held[at];
+    if (held[at])
+      memset(held[at], value, size);
     if (i % 1000 == 0)
       cs_spares_trim(e->spares);
-    memset(*storage, value, size);
   }
-  for (size_t i = 0; i < LIVE; i++)
-    cs_spares_resize(e->spares, held[i], size, 0);
+  for (size_t at = 0; at < LIVE; at++)
+    cs_spares_resize(e->spares, held[at], (4 * KIB) << at % 3, 0);
   return NULL;
 }
 
@@ -122,6 +147,8 @@ int main(void) {
   check_sizes();
   check_limit();
   check_slots();
+  check_shortage();
+  check_close();
   check_threads();
   return check_done();
 }
