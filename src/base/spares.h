@@ -10,8 +10,8 @@
  *     kept    [x x -  ][x - -  ][- - -  ] ...  [x - -  ]   CS_SPARES_SLOTS of each, at most
  *
  * Invariant: an allocation of more than half the smallest class, and at most the largest one, is at
- * least as large as its class. At most CS_SPARES_MOST bytes are kept. Threads exchange single slots, so none
- * waits for another one.
+ * least as large as its class. At most CS_SPARES_MOST bytes are kept. Threads exchange single
+ * slots, so none waits for another one.
  */
 #pragma once
 

@@ -140,29 +140,33 @@ static int close_plane(lua_State *L) {
   return 0;
 }
 
-/* How many pictures are in the file of a plane: its last frame knows of all. */
-static int64_t count_pictures(lua_State *L, const celspan_plane *plane) {
+/* Reads all frames of a plane's file. Returns its number of pictures: the last frame knows all. */
+static int64_t check_frames(lua_State *L, const char *path, const celspan_plane *plane) {
   celspan_context *context = cs_service_session(L)->context;
   double rate;
-  int32_t last = celspan_plane_frames(plane, &rate) - 1;
+  int64_t pictures = (int64_t)cs_plane_count(plane).pictures;
   celspan_plane **other =
       cs_userdata_push_holder(L, "celspan.program.plane", sizeof(celspan_plane *), close_plane);
-  if (last > 0)
-    cs_service_try(L, celspan_plane_frame(context, plane, last, other));
-  int64_t count = (int64_t)cs_plane_count(last > 0 ? *other : plane).pictures;
+  for (int32_t frame = 1; frame < celspan_plane_frames(plane, &rate); frame++) {
+    cs_service_try(L, cs_plane_choose(context, path, plane, frame, other));
+    pictures = (int64_t)cs_plane_count(*other).pictures;
+    celspan_plane_unref(*other);
+    *other = NULL;
+  }
   lua_pop(L, 1);
-  return count;
+  return pictures;
 }
 
-/* plane(path) -> what the whole file consists of */
+/* plane(path) -> what the whole file consists of; `pictures` of all frames, else of the first */
 static int read_plane(lua_State *L) {
   celspan_context *context = cs_service_session(L)->context;
+  const char *path = luaL_checkstring(L, 1);
   celspan_plane **plane =
       cs_userdata_push_holder(L, "celspan.program.plane", sizeof(celspan_plane *), close_plane);
-  cs_service_try(L, celspan_plane_read(context, luaL_checkstring(L, 1), plane));
+  cs_service_try(L, celspan_plane_read(context, path, plane));
   cs_plane_facts facts = cs_plane_count(*plane);
   double width, height, rate;
-  int64_t pictures = count_pictures(L, *plane);
+  int64_t pictures = check_frames(L, path, *plane);
   celspan_plane_size(*plane, &width, &height);
   lua_createtable(L, 0, 12);
   cs_put_integer(L, "pictures", pictures);
@@ -387,6 +391,15 @@ static void fit_plane(cs_still stills[2]) {
     }
 }
 
+/* Opens one of two pictures. --frame is that of a plane file. */
+static void open_compared(lua_State *L, const char *path, cs_still *out) {
+  const cs_session *session = cs_service_session(L);
+  if (cs_plane_accepts(path))
+    cs_service_require(L, cs_view_open_still(session->context, session->request, path, out));
+  else
+    cs_service_try(L, cs_still_open(session->context, path, 0, out));
+}
+
 /* compare(a, b, difference or nil) -> { largest =, x =, y =, channel =, differing =, pixels = }, or
  * { sizes = { w, h, w, h } } where they differ */
 static int compare(lua_State *L) {
@@ -396,7 +409,7 @@ static int compare(lua_State *L) {
       cs_userdata_push_holder(L, "celspan.program.stills", 2 * sizeof *stills, close_stills);
   celspan_frame_desc frames[2];
   for (int i = 0; i < 2; i++)
-    cs_service_try(L, cs_still_open(session->context, luaL_checkstring(L, i + 1), 0, &stills[i]));
+    open_compared(L, luaL_checkstring(L, i + 1), &stills[i]);
   fit_plane(stills);
   const celspan_picture_info *a = &stills[0].info, *b = &stills[1].info;
   if (a->width != b->width || a->height != b->height) {

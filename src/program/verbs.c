@@ -212,6 +212,7 @@ static const cs_option PLANE[] = {
     {0}};
 
 static const cs_option COMPARE[] = {
+    {"--frame", "N", &cs_argument_integer, "of a plane file with a film: the frame, from 1"},
     OUTPUT("DIFFERENCE", "a picture of the differences: A in pale grey, what differs in red"),
     {"--fail", "D", &cs_argument_tolerance,
      "the largest difference of coded values (0..1) that is accepted; default: 0"},
@@ -414,7 +415,8 @@ const cs_verb cs_verbs[] = {
     {"plane", "FILE -o PAGE", 1, 1, .summary = "Makes a page that shows a plane file at any size.",
      .notes = "The plane and its decoder, as WebAssembly, are in the page, which needs nothing "
               "else. It moves and zooms with mouse, touch and keyboard, and draws the visible part "
-              "at the size at which it is shown.",
+              "at the size at which it is shown. The page of a film has all of its frames: the "
+              "space bar plays it, and comma and full stop show the frame before and the next one.",
      .options = PLANE},
     {"compare", "A B", 2, 2,
      .summary = "Compares two pictures or films: the exit code is 0 if they show the same, "

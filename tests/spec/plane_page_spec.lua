@@ -207,6 +207,7 @@ describe("the page of a plane", function()
   it("is made of plane files only, and needs a name", function()
     for _, one in ipairs {
       { 2, "-o is missing: give -o page.html", "plane a.plane" },
+      { 2, "give it a name that ends in .html", "plane a.plane -o a.plane" },
       { 4, "this is not a plane file", "plane film.lua -o a.html" },
       { 4, "No such file", "plane none.plane -o a.html" },
     } do

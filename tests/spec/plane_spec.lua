@@ -179,8 +179,10 @@ describe("a plane in Lua", function()
     done("render film.lua --frames 3 -o one.plane")
     local one = assert(celspan.plane_read(bench.folder .. "/one.plane"))
     assert.equal(one:pixels():bytes(), third:pixels():bytes())
-    assert.error_matches(function() third:frame(4) end, "must be a number from 1 to 3, got 4")
-    assert.error_matches(function() third:frame "a" end, "must be a number from 1 to 3, got string")
+    assert.error_matches(function() third:frame(4) end, "must be a whole number from 1 to 3, got 4")
+    assert.error_matches(function() third:frame "a" end,
+      "must be a whole number from 1 to 3, got string")
+    assert.error_matches(function() third:frame(2.5) end, "from 1 to 3, got 2.5", 1, true)
     assert.is_true(third:write(bench.folder .. "/again.plane"))
     assert.equal(bench:read "film.plane", bench:read "again.plane")
   end)
@@ -324,6 +326,31 @@ end }
     bench:write("c.plane", bytes:sub(1, -9))
     refused(4, "c.plane: byte", "convert c.plane c.png")
     refused(3, "('celspan info a.plane' describes it)", "render a.plane -o a.png")
+  end)
+
+  it("is refused when a later frame is damaged, with the frame", function()
+    done("render film.lua -o film.plane")
+    local bytes = bench:read "film.plane"
+    bench:write("damaged.plane", bytes:sub(1, -100) .. "x" .. bytes:sub(-98))
+    done("convert damaged.plane a.png")
+    for _, words in ipairs { "info damaged.plane", "plane damaged.plane -o a.html",
+                             "convert damaged.plane a.png --frame 3" } do
+      refused(4, "damaged.plane: frame 3: byte", words)
+    end
+    assert.is_nil(bench:read "a.html")
+  end)
+
+  it("is compared frame by frame", function()
+    done("render film.lua -o film.plane")
+    done("convert film.plane third.png --frame 3 --size 320x180")
+    done("compare film.plane third.png --frame 3 --fail 0.002")
+    assert.equal(1, (bench:celspan_inside "compare film.plane third.png --fail 0.002"))
+    refused(2, "film.plane: there is no frame 4", "compare film.plane third.png --frame 4")
+  end)
+
+  it("is converted to one picture", function()
+    done("render film.lua -o film.plane")
+    refused(2, "f.####.png: one picture is written", "convert film.plane f.####.png")
   end)
 
   it_compares("is not made of a picture", function()

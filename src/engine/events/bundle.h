@@ -6,7 +6,8 @@
  *                      |       |b      |       |   change together at its left edge, which nobody
  *                      +-------+-------+-------+   can see
  *
- * The courses of bundles come after those of the chains. Without a cull there are none.
+ * A tile is dead for a chain if all of the tile lies behind layers that let nothing through. The
+ * courses of bundles come after those of the chains. Without a cull there are none.
  */
 #pragma once
 

@@ -12,8 +12,8 @@
  *    |           / \
  *    '----------'   '        ends
  *
- * The result are parts: courses between two heights, with the windings on both sides. Nothing is
- * known here of colours: what shows is found afterwards, once for each of the windings.
+ * The result is a list of parts: pieces of courses between two heights, with the windings on both
+ * sides. Colours are not known here: what shows is found afterwards, once for each of the windings.
  *
  * Heights are whole units. Neighbours that meet between two heights change places at the lower one,
  * so a part may be wrong by a strip of one unit, which is 2^-16 of a pixel, and at no height is

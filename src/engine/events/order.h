@@ -12,8 +12,8 @@
  * Courses have intersected only when one is beyond the other by more than CS_ORDER_SLACK units: so
  * common boundaries of two shapes, whose points are rounded, do not change places again and again.
  *
- * Invariant: two courses are never each to be put right of the other at the same height, so
- * changes of places come to an end.
+ * Invariant: at one height, of two courses at most one has to be put right of the other, so changes
+ * of places come to an end.
  */
 #pragma once
 
@@ -31,8 +31,9 @@ typedef struct cs_order_entry {
   uint32_t previous, next;   /* courses */
   uint32_t left, right;      /* windings on its sides */
   int32_t since;             /* the height from which these have been so */
-  bool is_there;
-  bool is_dirty, is_touched; /* for the caller */
+  bool is_there;             /* in the list */
+  bool is_dirty;             /* for the caller: its windings must be found again */
+  bool is_touched;           /* for the caller: it has another right neighbour */
 } cs_order_entry;
 
 typedef struct cs_order {

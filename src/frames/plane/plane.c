@@ -309,17 +309,19 @@ int32_t celspan_plane_frames(const celspan_plane *plane, double *frames_second) 
   return info.frame_count < INT32_MAX ? (int32_t)info.frame_count : INT32_MAX;
 }
 
-static celspan_status load_frame(celspan_context *context, celspan_plane *plane, int32_t frame) {
+/* name: of the file, or "plane". Frames are counted from 1 in messages. */
+static celspan_status load_frame(celspan_context *context, const char *name, celspan_plane *plane,
+                                 int32_t frame) {
   planefile_fault fault;
   planefile_status status = load(plane, (uint32_t)frame, &fault);
   if (status == PLANEFILE_BAD_FILE)
-    return cs_fail(context, CELSPAN_INPUT, "plane: frame %d: byte %" PRIu64 ": %s", (int)frame,
-                   fault.offset, fault.reason);
+    return cs_fail(context, CELSPAN_INPUT, "%s: frame %d: byte %" PRIu64 ": %s", name,
+                   (int)frame + 1, fault.offset, fault.reason);
   return cs_plane_report(context, status);
 }
 
-celspan_status celspan_plane_frame(celspan_context *context, const celspan_plane *plane,
-                                   int32_t frame, celspan_plane **out) {
+celspan_status cs_plane_choose(celspan_context *context, const char *name,
+                               const celspan_plane *plane, int32_t frame, celspan_plane **out) {
   double rate;
   celspan_plane *other;
   *out = NULL;
@@ -330,12 +332,17 @@ celspan_status celspan_plane_frame(celspan_context *context, const celspan_plane
   other->whole = celspan_plane_ref(plane->whole ? plane->whole : (celspan_plane *)plane);
   other->bytes = plane->bytes;
   other->size = plane->size;
-  celspan_status status = load_frame(context, other, frame);
+  celspan_status status = load_frame(context, name, other, frame);
   if (status == CELSPAN_OK)
     *out = other;
   else
     celspan_plane_unref(other);
   return status;
+}
+
+celspan_status celspan_plane_frame(celspan_context *context, const celspan_plane *plane,
+                                   int32_t frame, celspan_plane **out) {
+  return cs_plane_choose(context, "plane", plane, frame, out);
 }
 
 bool cs_plane_accepts(const char *path) {

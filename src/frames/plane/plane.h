@@ -7,6 +7,10 @@
 
 /* Whether a file begins as plane files do. */
 bool cs_plane_accepts(const char *path);
+/* celspan_plane_frame of a file, whose name is in the message about a damaged frame. */
+CELSPAN_CHECKED celspan_status cs_plane_choose(celspan_context *context, const char *name,
+                                               const celspan_plane *plane, int32_t frame,
+                                               celspan_plane **out);
 /* Whether a file of this name is written as a plane. format: NULL: the ending of the name says
  * it. */
 bool cs_plane_is_wanted(const char *path, const char *format);

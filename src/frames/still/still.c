@@ -97,7 +97,7 @@ static celspan_status choose(celspan_context *context, const char *path, int32_t
                    (int)frame, count > 1 ? "frames 1 to" : "only frame", (int)count);
   if (!still->plane)
     return CELSPAN_OK;
-  CS_TRY(celspan_plane_frame(context, still->plane, (int32_t)(frame - 1), &chosen));
+  CS_TRY(cs_plane_choose(context, path, still->plane, frame - 1, &chosen));
   celspan_plane_unref(still->plane);
   still->plane = chosen;
   still->info.has_alpha = !celspan_plane_is_opaque(chosen);

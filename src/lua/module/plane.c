@@ -144,8 +144,8 @@ static int choose_frame(lua_State *L) {
   int is_whole, count = celspan_plane_frames(plane, &rate);
   lua_Integer number = lua_tointegerx(L, 2, &is_whole);
   if (!is_whole || number < 1 || number > count)
-    return cs_caller_error(L, "frame: argument 1 must be a number from 1 to %d, got %s", count,
-                           is_whole ? lua_tostring(L, 2) : cs_userdata_type(L, 2));
+    return cs_caller_error(L, "frame: argument 1 must be a whole number from 1 to %d, got %s",
+                           count, lua_isnumber(L, 2) ? lua_tostring(L, 2) : cs_userdata_type(L, 2));
   return finish(
       L, celspan_plane_frame(cs_host_context(L), plane, (int32_t)(number - 1), push_plane(L)));
 }

@@ -1,6 +1,9 @@
 --- celspan convert IN OUT: any picture to any other; a drawing or a layered painting to a picture.
 local program, request = ...
 
+if program.has_number(request[2]) then
+  program.usage("%s: one picture is written, so its name has no place for a number", request[2])
+end
 program.refuse_target(request[2])
 local kind = program.kind(request[1])
 if kind == "svg" or kind == "archive" then

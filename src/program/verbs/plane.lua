@@ -49,6 +49,9 @@ end
 
 local path = request[1]
 if not request.output then program.usage "-o is missing: give -o page.html" end
+if not request.output:lower():find "%.html?$" then
+  program.usage("%s: a page is an HTML file: give it a name that ends in .html", request.output)
+end
 if program.text "plane.module" == "none" then
   program.fail("input", "this celspan was built without clang and lld, which make the decoder of "
     .. "pages: install them, for example the Debian packages clang and lld, and build it again")
