@@ -138,11 +138,19 @@ static celspan_status make_rows(strips *s, int worker, int32_t index, strip *mad
   return CELSPAN_OK;
 }
 
+/* Each thread begins its own worker, whose memory would otherwise lie in another core's cache. */
+static celspan_status begin_worker(const strips *s, int worker) {
+  cs_row_worker *row_worker = &s->row_workers[worker];
+  return row_worker->frame ? CELSPAN_OK : cs_row_worker_init(row_worker, s->context, s->frame);
+}
+
 static celspan_status make_strip(void *user, celspan_context *context, int worker, size_t item) {
   strips *s = user;
   strip *made = &s->ring[item % (size_t)s->ring_size];
-  celspan_status status = s->has_shares ? make_share(s, worker, (int32_t)item, made)
-                                        : make_rows(s, worker, (int32_t)item, made);
+  celspan_status status = begin_worker(s, worker);
+  if (status == CELSPAN_OK)
+    status = s->has_shares ? make_share(s, worker, (int32_t)item, made)
+                           : make_rows(s, worker, (int32_t)item, made);
   return status == CELSPAN_OK
              ? CELSPAN_OK
              : cs_fail(context, status, "%s", s->row_workers[worker].context.error);
@@ -239,23 +247,12 @@ static celspan_status open_shares(strips *s) {
   return CELSPAN_OK;
 }
 
-static celspan_status init_workers(celspan_context *context, const cs_frame *frame,
-                                   cs_row_worker *row_workers, int count) {
-  for (int i = 0; i < count; i++) {
-    celspan_status status = cs_row_worker_init(&row_workers[i], context, frame);
-    if (status != CELSPAN_OK)
-      return cs_fail(context, status, "%s", row_workers[i].context.error);
-  }
-  return CELSPAN_OK;
-}
-
 static celspan_status open_strips(strips *s) {
   cs_memory *memory = s->context->memory;
   s->row_workers = cs_mem_array(memory, (size_t)s->worker_count, sizeof *s->row_workers);
   s->ring = cs_mem_array(memory, (size_t)s->ring_size, sizeof *s->ring);
   if (!s->row_workers || !s->ring)
     return cs_fail_memory(s->context);
-  CS_TRY(init_workers(s->context, s->frame, s->row_workers, s->worker_count));
   return s->has_shares ? open_shares(s) : CELSPAN_OK;
 }
 
@@ -330,9 +327,9 @@ static celspan_status deliver_rows(cs_row_worker *row_worker, const cs_frame *fr
 /* Rows go from their maker to the sink without a copy. */
 static celspan_status render_alone(celspan_context *context, const cs_frame *frame, delivery *d) {
   cs_row_worker row_worker;
-  celspan_status status = init_workers(context, frame, &row_worker, 1);
-  if (status == CELSPAN_OK)
-    status = deliver_rows(&row_worker, frame, d);
+  celspan_status status = cs_row_worker_init(&row_worker, context, frame);
+  status = status == CELSPAN_OK ? deliver_rows(&row_worker, frame, d)
+                                : cs_fail(context, status, "%s", row_worker.context.error);
   d->statistics->colour_evaluations += cs_row_worker_evaluations(&row_worker);
   cs_row_worker_finish(&row_worker);
   return status;
