@@ -91,18 +91,28 @@ static cs_picture_opacity opacity_of(cs_block_cache *blocks, const cs_sampler *s
                                                                         : opacity;
 }
 
-/* Narrows the rows until an edge of an area, which moves by `step` a row, meets the edge of a block
- * or of the picture. */
-static void narrow(const cs_sampler *s, double edge, double step, int32_t size, double y,
-                   cs_block_cache_opacity *out) {
-  double block = (double)CS_PICTURE_BLOCK * (double)((int64_t)1 << s->level);
-  double below = edge < 0 ? -INFINITY : edge >= size ? size : floor(edge / block) * block;
-  double above = edge < 0 ? 0 : edge >= size ? INFINITY : fmin(below + block, size);
+/* Narrows the rows until one edge of an area along an axis, which moves by `step` a row, meets an
+ * edge of a block or of the picture. */
+static inline void narrow(const cs_sampler *s, double edge, double rows_each, int32_t size,
+                          double y, cs_block_cache_opacity *out) {
+  const int32_t block = CS_PICTURE_BLOCK << s->level;
+  double below = -INFINITY, above = 0;
+  if (edge >= 0) {
+    below = edge >= size ? size : (double)((int32_t)edge / block * block);
+    above = edge >= size ? INFINITY : cs_number_least(below + block, size);
+  }
+  double before = (below - edge) * rows_each, after = (above - edge) * rows_each;
+  out->from = cs_number_most(out->from, y + cs_number_least(before, after) + SURELY);
+  out->to = cs_number_least(out->to, y + cs_number_most(before, after) - SURELY);
+}
+
+/* The same for both edges. */
+static inline void narrow_axis(const cs_sampler *s, double low, double high, double step,
+                               int32_t size, double y, cs_block_cache_opacity *out) {
   if (step == 0)
     return;
-  double before = (below - edge) / step, after = (above - edge) / step;
-  out->from = fmax(out->from, y + fmin(before, after) + SURELY);
-  out->to = fmin(out->to, y + fmax(before, after) - SURELY);
+  narrow(s, low, 1 / step, size, y, out);
+  narrow(s, high, 1 / step, size, y, out);
 }
 
 static void find_opacity(cs_block_cache *blocks, const cs_sampler *s, cs_run run,
@@ -116,10 +126,8 @@ static void find_opacity(cs_block_cache *blocks, const cs_sampler *s, cs_run run
                                   .from = -INFINITY,
                                   .to = INFINITY,
                                   .opacity = opacity_of(blocks, s, &a, most)};
-  narrow(s, a.u0, s->m[1], s->width, run.y, &found);
-  narrow(s, a.u1, s->m[1], s->width, run.y, &found);
-  narrow(s, a.v0, s->m[4], s->height, run.y, &found);
-  narrow(s, a.v1, s->m[4], s->height, run.y, &found);
+  narrow_axis(s, a.u0, a.u1, s->m[1], s->width, run.y, &found);
+  narrow_axis(s, a.v0, a.v1, s->m[4], s->height, run.y, &found);
   *out = found;
 }
 
