@@ -419,8 +419,6 @@ static celspan_status scatter_even(cs_scatter *g, const cs_retained_edge *edge) 
   return CELSPAN_OK;
 }
 
-/* ---------------------------------------------------------------- a row */
-
 /* ---------------------------------------------------------------- programs */
 
 static bool are_same(const cs_painter *painter, const cs_program *a, const cs_program *b) {

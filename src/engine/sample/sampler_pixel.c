@@ -1,5 +1,7 @@
 #include "engine/sample/sampler_pixel.h"
 
+#include <math.h>
+
 /* Catmull-Rom weights: interpolating, so that scale 1 gives the texels back. */
 static void cubic_weights(float t, float weights[4]) {
   float t2 = t * t, t3 = t2 * t;
@@ -30,36 +32,26 @@ void cs_sampler_bicubic(const cs_sampling *run, double u, double v, float rgba[4
 
 /* ---------------------------------------------------------------- the box */
 
-void cs_sampler_cut_extent(const cs_sampler *sampler, double centre, double width, int32_t size,
-                           cs_sampler_extent *out) {
-  double low = centre - 0.5 * width, high = low + width;
+cs_sampler_axis cs_sampler_axis_of(const cs_sampler *sampler, double width, int32_t size) {
+  bool repeats = sampler->wrap == CELSPAN_WRAP_REPEAT;
   double side = (double)((int64_t)1 << sampler->level);
-  if (sampler->wrap != CELSPAN_WRAP_REPEAT) { /* a box far larger than the picture is the picture */
-    low = cs_number_clamp(low, 0, size);
-    high = cs_number_clamp(high, 0, size);
-  }
-  /* Within SAME of a texel's edge the neighbour is not touched. */
-  int32_t first = cs_sampler_floor((low + CS_SAMPLER_SAME) / side);
-  int32_t last = -cs_sampler_floor((CS_SAMPLER_SAME - high) / side);
-  out->first = first;
-  out->count = last > first ? last - first : 1;
-  for (int32_t i = 0; i < out->count; i++) {
-    double left = i ? (first + i) * side : low;
-    double right = i + 1 < out->count ? (first + i + 1) * side : high;
-    out->weights[i] = right > left ? (float)(right - left) : 1.0f;
-  }
+  return (cs_sampler_axis){.width = width,
+                           .least = repeats ? -INFINITY : 0,
+                           .most = repeats ? INFINITY : size,
+                           .side = side,
+                           .inverse = 1 / side};
 }
 
 static void sample_box(const cs_sampling *run, double u, double v, float rgba[4]) {
   const cs_sampler *s = run->sampler;
-  cs_sampler_extent across, down;
-  cs_sampler_cut_extent(s, u, s->wide, s->width, &across);
-  cs_sampler_cut_extent(s, v, s->high, s->height, &down);
+  const cs_sampler_axis wide = cs_sampler_axis_of(s, s->wide, s->width);
+  const cs_sampler_axis high = cs_sampler_axis_of(s, s->high, s->height);
+  const cs_sampler_extent across = cs_sampler_cut(&wide, u), down = cs_sampler_cut(&high, v);
   cs_v4 first = {0}, sum = {0};
   float total = 0;
   for (int32_t j = 0; j < down.count; j++)
     for (int32_t i = 0; i < across.count; i++) {
-      float weight = across.weights[i] * down.weights[j];
+      float weight = cs_sampler_weight(&wide, &across, i) * cs_sampler_weight(&high, &down, j);
       cs_v4 texel = cs_v4_load(cs_sampling_texel(run, s->level, across.first + i, down.first + j));
       if (i == 0 && j == 0)
         first = texel;

@@ -1,10 +1,7 @@
 #include "engine/sample/sampler_row.h"
 
-#include "engine/sample/sampler_pixel.h"
-
 #define WIDE(run, name) CS_WIDE_CHOOSE((run)->sampler->isa, name)
 #define LINE 1024 /* texels */
-#define BOXES 16  /* pixels whose boxes are cut at a time */
 
 /* The line under some pixels: texels [first, first + count) of a level, in the picture or beyond
  * its edges. */
@@ -71,15 +68,17 @@ static void mix_line(const cs_sampling *run, double v, line *out) {
   ((const float(*)[4])out->texels, (const float(*)[4])below, down, out->count, out->texels);
 }
 
-static void average_line(const cs_sampling *run, const cs_sampler_extent *down, line *out) {
-  float first[LINE][4], next[LINE][4], total = down->weights[0];
+static void average_line(const cs_sampling *run, const cs_sampler_axis *high,
+                         const cs_sampler_extent *down, line *out) {
+  float first[LINE][4], next[LINE][4], total = down->head;
   fetch_row(run, down->first, out, first);
   memset(out->texels, 0, (size_t)out->count * sizeof *out->texels);
   for (int32_t j = 1; j < down->count; j++) {
+    float weight = cs_sampler_weight(high, down, j);
     fetch_row(run, down->first + j, out, next);
     WIDE(run, cs_sampler_add_row)
-    ((const float(*)[4])next, (const float(*)[4])first, down->weights[j], out->count, out->texels);
-    total += down->weights[j];
+    ((const float(*)[4])next, (const float(*)[4])first, weight, out->count, out->texels);
+    total += weight;
   }
   WIDE(run, cs_sampler_end_sum)((const float(*)[4])first, total, out->count, out->texels);
 }
@@ -140,13 +139,15 @@ static void resample_linear(const cs_sampling *run, double v, int32_t count, con
 
 /* ---------------------------------------------------------------- the box */
 
-static void average_along(const line *under, const cs_sampler_extent *across, float rgba[4]) {
+static void average_along(const line *under, const cs_sampler_axis *wide,
+                          const cs_sampler_extent *across, float rgba[4]) {
   const float(*texels)[4] = (const float(*)[4])under->texels + (across->first - under->first);
   cs_v4 first = cs_v4_load(texels[0]), sum = {0};
-  float total = across->weights[0];
+  float total = across->head;
   for (int32_t i = 1; i < across->count; i++) {
-    sum += across->weights[i] * (cs_v4_load(texels[i]) - first);
-    total += across->weights[i];
+    float weight = cs_sampler_weight(wide, across, i);
+    sum += weight * (cs_v4_load(texels[i]) - first);
+    total += weight;
   }
   cs_v4_store(rgba, first + sum / total);
 }
@@ -171,17 +172,17 @@ static int32_t extend_boxes(const cs_sampler_extent *boxes, int32_t count, line 
 static void resample_boxes(const cs_sampling *run, double v, int32_t count, const double *u,
                            float (*rgba)[4]) {
   const cs_sampler *s = run->sampler;
-  cs_sampler_extent down, boxes[BOXES];
+  const cs_sampler_axis wide = cs_sampler_axis_of(s, s->wide, s->width);
+  const cs_sampler_axis high = cs_sampler_axis_of(s, s->high, s->height);
+  const cs_sampler_extent down = cs_sampler_cut(&high, v);
+  cs_sampler_extent boxes[CS_SAMPLER_BATCH];
   line under;
-  cs_sampler_cut_extent(s, v, s->high, s->height, &down);
-  for (int32_t i = 0, fitting; i < count; i += fitting) {
-    int32_t cut = count - i < BOXES ? count - i : BOXES;
-    for (int32_t k = 0; k < cut; k++)
-      cs_sampler_cut_extent(s, u[i + k], s->wide, s->width, &boxes[k]);
-    fitting = extend_boxes(boxes, cut, &under);
-    average_line(run, &down, &under);
-    for (int32_t k = 0; k < fitting; k++)
-      average_along(&under, &boxes[k], rgba[i + k]);
+  WIDE(run, cs_sampler_cut_row)(&wide, u, count, boxes);
+  for (int32_t i = 0, end; i < count; i = end) {
+    end = i + extend_boxes(boxes + i, count - i, &under);
+    average_line(run, &high, &down, &under);
+    for (int32_t k = i; k < end; k++)
+      average_along(&under, &wide, &boxes[k], rgba[k]);
   }
 }
 

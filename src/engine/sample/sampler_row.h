@@ -13,7 +13,7 @@
  */
 #pragma once
 
-#include "engine/sample/sampler_texel.h"
+#include "engine/sample/sampler_pixel.h"
 
 void cs_sampler_row_run(const cs_sampling *run, cs_run pixels, float (*rgba)[4]);
 void cs_sampler_row_at(const cs_sampling *run, const int32_t *columns, int32_t count, double y,
@@ -32,6 +32,10 @@ CS_WIDE_DECLARE(void, cs_sampler_add_row,
 /* sum = first + sum / total */
 CS_WIDE_DECLARE(void, cs_sampler_end_sum,
                 (const float (*first)[4], float total, int32_t count, float (*sum)[4]));
+/* The boxes around the centres. */
+CS_WIDE_DECLARE(void, cs_sampler_cut_row,
+                (const cs_sampler_axis *axis, const double *u, int32_t count,
+                 cs_sampler_extent *boxes));
 /* Where the centres of a row's columns lie. */
 CS_WIDE_DECLARE(void, cs_sampler_place_row,
                 (const cs_sampler *sampler, int32_t x0, int32_t count, double y, double *u));

@@ -30,6 +30,13 @@ void CS_WIDE(cs_sampler_end_sum)(const float (*restrict first)[4], float total, 
       sum[i][c] = first[i][c] + sum[i][c] / total;
 }
 
+void CS_WIDE(cs_sampler_cut_row)(const cs_sampler_axis *axis, const double *u, int32_t count,
+                                 cs_sampler_extent *restrict boxes) {
+  const cs_sampler_axis a = *axis;
+  for (int32_t i = 0; i < count; i++)
+    boxes[i] = cs_sampler_cut(&a, u[i]);
+}
+
 void CS_WIDE(cs_sampler_place_row)(const cs_sampler *sampler, int32_t x0, int32_t count, double y,
                                    double *restrict u) {
   double step = sampler->m[0], start = sampler->m[1] * y + sampler->m[2];
