@@ -43,12 +43,15 @@ typedef struct render_job {
 
 /* ---------------------------------------------------------------- raw frames */
 
+/* So many bytes are written together: a system call for each row takes long. */
+#define RAW_TOGETHER ((size_t)128 << 10)
+
 /* A sink that writes the rows of a frame to standard output as coded pixels without a header. */
 typedef struct raw_rows {
   celspan_coding coding; /* without defaults, except for the depth of dithering */
   int32_t x, y;          /* the place of the first pixel in the whole frame */
-  unsigned char *row;
-  size_t row_size;
+  unsigned char *rows;   /* that are not written yet */
+  size_t row_size, count, capacity;
 } raw_rows;
 
 static celspan_status begin_raw(void *user, celspan_context *context, int32_t width,
@@ -56,24 +59,34 @@ static celspan_status begin_raw(void *user, celspan_context *context, int32_t wi
   raw_rows *raw = user;
   (void)height;
   raw->row_size = (size_t)width * celspan_coding_pixel_size(&raw->coding);
-  raw->row = cs_mem_resize(context->memory, NULL, 0, raw->row_size);
-  return raw->row ? CELSPAN_OK : cs_fail_memory(context);
+  raw->capacity = raw->row_size < RAW_TOGETHER ? RAW_TOGETHER / raw->row_size : 1;
+  raw->rows = cs_mem_resize(context->memory, NULL, 0, raw->capacity * raw->row_size);
+  return raw->rows ? CELSPAN_OK : cs_fail_memory(context);
+}
+
+static celspan_status write_raw(raw_rows *raw, celspan_context *context) {
+  size_t size = raw->count * raw->row_size;
+  raw->count = 0;
+  return fwrite(raw->rows, 1, size, stdout) == size
+             ? CELSPAN_OK
+             : celspan_context_fail(context, CELSPAN_OUTPUT, "standard output: %s",
+                                    strerror(errno));
 }
 
 static celspan_status put_raw_row(void *user, celspan_context *context, int32_t y,
                                   const celspan_span *spans, size_t span_count) {
   raw_rows *raw = user;
-  celspan_spans_code_at(&raw->coding, raw->x, raw->y + y, spans, span_count, raw->row);
-  if (fwrite(raw->row, 1, raw->row_size, stdout) == raw->row_size)
-    return CELSPAN_OK;
-  return celspan_context_fail(context, CELSPAN_OUTPUT, "standard output: row %d: %s", y,
-                              strerror(errno));
+  unsigned char *row = raw->rows + raw->count++ * raw->row_size;
+  celspan_spans_code_at(&raw->coding, raw->x, raw->y + y, spans, span_count, row);
+  return raw->count == raw->capacity ? write_raw(raw, context) : CELSPAN_OK;
 }
 
 static celspan_status end_raw(void *user, celspan_context *context, celspan_status outcome) {
   raw_rows *raw = user;
-  cs_mem_free(context->memory, raw->row, raw->row_size);
-  raw->row = NULL;
+  if (outcome == CELSPAN_OK)
+    outcome = write_raw(raw, context);
+  cs_mem_free(context->memory, raw->rows, raw->capacity * raw->row_size);
+  raw->rows = NULL;
   if (outcome == CELSPAN_OK && fflush(stdout) != 0)
     return celspan_context_fail(context, CELSPAN_OUTPUT, "standard output: %s", strerror(errno));
   return outcome;

@@ -296,7 +296,7 @@ describe("the command line", function()
       local code, _, err = celspan("render " .. plain
         .. " --frames 1 --size 5000x100 --progress none -o - > /dev/full")
       assert.equal(5, code)
-      assert.truthy(err:find("standard output: row %d+: No space left on device"), err)
+      assert.truthy(err:find("frame 1: standard output: No space left on device"), err)
     end)
 
     it("of a film that changes when its script runs again end with 3", function()
