@@ -8,7 +8,10 @@ struct cs_arena_chunk {
   _Alignas(16) unsigned char bytes[];
 };
 
-#define CHUNK_SIZE ((size_t)64 << 10)
+/* Sizes of chunks with their headers: the first one, and up to which the next one is larger, unless
+ * it must be. Many arenas hold the values of one row, which need little. */
+#define CHUNK_FIRST ((size_t)4 << 10)
+#define CHUNK_USUAL ((size_t)64 << 10)
 
 void cs_arena_init(cs_arena *arena) { *arena = (cs_arena){0}; }
 
@@ -48,19 +51,28 @@ static cs_arena_chunk *find_next(cs_arena *arena, size_t size) {
   return NULL;
 }
 
-/* Large chunks have powers of two as sizes: what is a little larger next time fits, too. */
-static cs_arena_chunk *make_next(celspan_context *context, cs_arena *arena, size_t size) {
-  size_t wanted = CHUNK_SIZE;
-  while (wanted < size && wanted <= SIZE_MAX / 4)
+/* Of a new chunk with its header: a power of two, as are the classes of spares (base/spares.h), so
+ * that what is a little larger next time fits, too. 0: no size is large enough. */
+static size_t choose_size(const cs_arena *arena, size_t size) {
+  size_t wanted = CHUNK_FIRST;
+  if (arena->current)
+    wanted = 2 * (sizeof(cs_arena_chunk) + arena->current->size);
+  wanted = wanted < CHUNK_USUAL ? wanted : CHUNK_USUAL;
+  while (wanted - sizeof(cs_arena_chunk) < size && wanted <= SIZE_MAX / 4)
     wanted *= 2;
+  return wanted - sizeof(cs_arena_chunk) < size ? 0 : wanted;
+}
+
+static cs_arena_chunk *make_next(celspan_context *context, cs_arena *arena, size_t size) {
+  size_t wanted = choose_size(arena, size);
   cs_arena_chunk *chunk = NULL;
-  if (wanted >= size)
-    chunk = cs_mem_resize(context->memory, NULL, 0, sizeof *chunk + wanted);
+  if (wanted > 0)
+    chunk = cs_mem_resize(context->memory, NULL, 0, wanted);
   if (!chunk) {
     (void)cs_fail_memory(context);
     return NULL;
   }
-  *chunk = (cs_arena_chunk){.size = wanted};
+  *chunk = (cs_arena_chunk){.size = wanted - sizeof *chunk};
   return insert_next(arena, chunk);
 }
 

@@ -27,9 +27,12 @@ static cs_memory *memory_create(celspan_resize resize, void *user) {
   cs_memory *memory = resize ? resize(user, NULL, 0, sizeof *memory) : malloc(sizeof *memory);
   if (!memory)
     return NULL;
-  memory->spares = (cs_spares){0};
   memory->resize = resize ? resize : cs_spares_resize;
   memory->user = resize ? user : &memory->spares;
+  if (!cs_spares_init(&memory->spares)) {
+    memory->resize(memory->user, memory, sizeof *memory, 0);
+    return NULL;
+  }
   atomic_init(&memory->references, 1);
   atomic_init(&memory->bytes, 0);
   atomic_init(&memory->peak, 0);
@@ -56,7 +59,7 @@ void cs_memory_unref(cs_memory *memory) {
     next = source->next;
     memory->resize(memory->user, source, source->size, 0);
   }
-  cs_spares_trim(&memory->spares);
+  cs_spares_finish(&memory->spares);
   memory->resize(memory->user, memory, sizeof *memory, 0);
 }
 

@@ -1,6 +1,5 @@
 #include "base/spares.h"
 
-#include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,6 +8,66 @@
 #endif
 
 #define HUGE_PAGE ((uintptr_t)2 << 20) /* bytes */
+
+struct cs_spare {
+  cs_spare *next;
+};
+
+/* ---------------------------------------------------------------- life */
+
+bool cs_spares_init(cs_spares *spares) {
+  *spares = (cs_spares){.bytes = 0};
+  return pthread_mutex_init(&spares->lock, NULL) == 0;
+}
+
+static void free_all(cs_spares *spares) {
+  spares->bytes = 0;
+  for (size_t class = 0; class < CS_SPARES_CLASSES; class += 1)
+    for (cs_spare *spare; (spare = spares->kept[class]);) {
+      spares->kept[class] = spare->next;
+      free(spare);
+    }
+}
+
+void cs_spares_trim(cs_spares *spares) {
+  pthread_mutex_lock(&spares->lock);
+  free_all(spares);
+  pthread_mutex_unlock(&spares->lock);
+}
+
+void cs_spares_close(cs_spares *spares) {
+  pthread_mutex_lock(&spares->lock);
+  spares->is_closed = true;
+  free_all(spares);
+  pthread_mutex_unlock(&spares->lock);
+}
+
+void cs_spares_finish(cs_spares *spares) {
+  free_all(spares);
+  pthread_mutex_destroy(&spares->lock);
+}
+
+/* ---------------------------------------------------------------- classes */
+
+static bool has_class(size_t size) {
+  return CS_SPARES_ARE_KEPT && size > CS_SPARES_SMALLEST / 2 && size <= CS_SPARES_LARGEST;
+}
+
+static size_t bytes_of(size_t class) {
+  return (CS_SPARES_SMALLEST / 4 * (4 + class % 4)) << class / 4;
+}
+
+/* Of a size that has one. */
+static size_t class_of(size_t size) {
+  size_t class = 0;
+  while (bytes_of(class + 4) <= size)
+    class += 4;
+  while (bytes_of(class) < size)
+    class += 1;
+  return class;
+}
+
+/* ---------------------------------------------------------------- the C library */
 
 /* Asks the system for huge pages, of which it has to clear and map fewer. */
 static void *advised(void *storage, size_t size) {
@@ -23,20 +82,6 @@ static void *advised(void *storage, size_t size) {
   return storage;
 }
 
-static bool has_class(size_t size) {
-  return CS_SPARES_ARE_KEPT && size > CS_SPARES_SMALLEST / 2 && size <= CS_SPARES_LARGEST;
-}
-
-static size_t bytes_of(size_t class) { return CS_SPARES_SMALLEST << class; }
-
-/* Of a size that has one. */
-static size_t class_of(size_t size) {
-  size_t class = 0;
-  while (bytes_of(class) < size)
-    class += 1;
-  return class;
-}
-
 /* realloc; what is kept is given up where memory is short. */
 static void *request(cs_spares *spares, void *storage, size_t size) {
   void *made = realloc(storage, size);
@@ -47,33 +92,34 @@ static void *request(cs_spares *spares, void *storage, size_t size) {
   return advised(made, size);
 }
 
+/* ---------------------------------------------------------------- exchange */
+
 static void *take(cs_spares *spares, size_t class) {
-  for (size_t i = 0; i < CS_SPARES_SLOTS; i++) {
-    void *spare = atomic_exchange(&spares->kept[class][i], NULL);
-    if (spare) {
-      atomic_fetch_sub(&spares->bytes, bytes_of(class));
-      return spare;
-    }
+  pthread_mutex_lock(&spares->lock);
+  cs_spare *spare = spares->kept[class];
+  if (spare) {
+    spares->kept[class] = spare->next;
+    spares->bytes -= bytes_of(class);
   }
-  return request(spares, NULL, bytes_of(class));
+  pthread_mutex_unlock(&spares->lock);
+  return spare ? spare : request(spares, NULL, bytes_of(class));
 }
 
-static void give_back(cs_spares *spares, void *spare, size_t class) {
+static bool keep(cs_spares *spares, cs_spare *spare, size_t class) {
   size_t bytes = bytes_of(class);
-  bool has_room = atomic_fetch_add(&spares->bytes, bytes) + bytes <= CS_SPARES_MOST;
-  for (size_t i = 0; has_room && i < CS_SPARES_SLOTS; i++) {
-    void *none = NULL;
-    if (atomic_compare_exchange_strong(&spares->kept[class][i], &none, spare))
-      return;
+  pthread_mutex_lock(&spares->lock);
+  bool has_room = !spares->is_closed && spares->bytes + bytes <= CS_SPARES_MOST;
+  if (has_room) {
+    spare->next = spares->kept[class];
+    spares->kept[class] = spare;
+    spares->bytes += bytes;
   }
-  atomic_fetch_sub(&spares->bytes, bytes);
-  free(spare);
+  pthread_mutex_unlock(&spares->lock);
+  return has_room;
 }
 
 static void release(cs_spares *spares, void *storage, size_t size) {
-  if (storage && has_class(size))
-    give_back(spares, storage, class_of(size));
-  else
+  if (!storage || !has_class(size) || !keep(spares, storage, class_of(size)))
     free(storage);
 }
 
@@ -96,19 +142,4 @@ void *cs_spares_resize(void *user, void *storage, size_t old_size, size_t new_si
     release(spares, storage, old_size);
   }
   return spare;
-}
-
-void cs_spares_trim(cs_spares *spares) {
-  for (size_t class = 0; class < CS_SPARES_CLASSES; class += 1)
-    for (size_t i = 0; i < CS_SPARES_SLOTS; i++) {
-      void *spare = atomic_exchange(&spares->kept[class][i], NULL);
-      if (spare)
-        atomic_fetch_sub(&spares->bytes, bytes_of(class));
-      free(spare);
-    }
-}
-
-void cs_spares_close(cs_spares *spares) {
-  atomic_fetch_add(&spares->bytes, CS_SPARES_MOST);
-  cs_spares_trim(spares);
 }

@@ -5,25 +5,27 @@
  * So memory of 4 KiB to 16 MiB is kept when it is freed, by classes of size, and allocated again.
  * For 4 MiB and more the system is asked for huge pages, of which there are fewer.
  *
- *     class        0        1        2             12
- *     bytes    4 KiB    8 KiB   16 KiB   ...   16 MiB      a request uses the next larger class
- *     kept    [x x -  ][x - -  ][- - -  ] ...  [x - -  ]   CS_SPARES_SLOTS of each, at most
+ *     class     0      1      2      3      4      5            48
+ *     KiB       4      5      6      7      8     10   ...   16384   four from each power of two to
+ *               |      |             |             |           |     the next; a request uses the
+ *     kept      x      x             x             x           x     next larger class
+ *               |                    |             |
+ *               x                    x             x                 the latest one is used first
  *
  * Invariant: an allocation of more than half the smallest class, and at most the largest one, is at
- * least as large as its class. At most CS_SPARES_MOST bytes are kept. Threads exchange single
- * slots, so none waits for another one.
+ * least as large as its class. At most CS_SPARES_MOST bytes are kept.
  */
 #pragma once
 
-#include <stdatomic.h>
+#include <pthread.h>
+#include <stdbool.h>
 #include <stddef.h>
 
-enum { CS_SPARES_CLASSES = 13, CS_SPARES_SLOTS = 8 };
-
 #define CS_SPARES_SMALLEST ((size_t)4 << 10)
-#define CS_SPARES_LARGEST (CS_SPARES_SMALLEST << (CS_SPARES_CLASSES - 1))
-
+#define CS_SPARES_LARGEST ((size_t)16 << 20)
 #define CS_SPARES_MOST ((size_t)64 << 20)
+
+enum { CS_SPARES_CLASSES = 4 * 12 + 1 };
 
 /* Sanitizers of memory have to see what was requested, and when it is freed: then nothing has a
  * class. */
@@ -38,16 +40,23 @@ enum { CS_SPARES_CLASSES = 13, CS_SPARES_SLOTS = 8 };
 #define CS_SPARES_ARE_KEPT 1
 #endif
 
-/* All zero: nothing is kept. */
+typedef struct cs_spare cs_spare;
+
 typedef struct cs_spares {
-  atomic_size_t bytes; /* of what is kept; from CS_SPARES_MOST on nothing more is */
-  _Atomic(void *) kept[CS_SPARES_CLASSES][CS_SPARES_SLOTS]; /* from malloc; NULL: free slots */
+  pthread_mutex_t lock;
+  bool is_closed;                    /* nothing is kept any more */
+  size_t bytes;                      /* of what is kept */
+  cs_spare *kept[CS_SPARES_CLASSES]; /* from malloc */
 } cs_spares;
 
-/* A celspan_resize on the C library's functions. user: a cs_spares. old_size must be what was
- * requested. Shrinking never fails. Any thread. */
+/* False: the system has no lock left. */
+bool cs_spares_init(cs_spares *spares);
+/* Everything else: any thread. A celspan_resize on the C library's functions. user: a cs_spares.
+ * old_size must be what was requested. Shrinking never fails. */
 void *cs_spares_resize(void *user, void *storage, size_t old_size, size_t new_size);
-/* Frees everything that is kept. Any thread. */
+/* Frees everything that is kept. */
 void cs_spares_trim(cs_spares *spares);
-/* The same, and nothing is kept any more. Any thread. */
+/* The same, and nothing is kept any more. */
 void cs_spares_close(cs_spares *spares);
+/* The same at the end; what was allocated may be freed afterwards if it has no class. */
+void cs_spares_finish(cs_spares *spares);

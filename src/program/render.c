@@ -43,7 +43,7 @@ typedef struct render_job {
 
 /* ---------------------------------------------------------------- raw frames */
 
-/* So many bytes are written together: a system call for each row takes long. */
+/* Bytes that are written together: a system call for each row takes long. */
 #define RAW_TOGETHER ((size_t)128 << 10)
 
 /* A sink that writes the rows of a frame to standard output as coded pixels without a header. */

@@ -9,7 +9,7 @@
 
 #include "tests/support/check.h"
 
-enum { THREADS = 4, ROUNDS = 20000, LIVE = 12 };
+enum { THREADS = 4, ROUNDS = 20000, LIVE = 12, MANY = 5000 };
 
 #define KIB ((size_t)1024)
 
@@ -24,23 +24,38 @@ static bool holds(const unsigned char *storage, size_t size, unsigned char value
 }
 
 static void check_again(void) {
-  cs_spares spares = {0};
+  cs_spares spares;
+  CHECK(cs_spares_init(&spares));
   void *first = cs_spares_resize(&spares, NULL, 0, 100 * KIB);
   cs_spares_resize(&spares, first, 100 * KIB, 0);
-  size_t kept = atomic_load(&spares.bytes);
-  CHECK(kept == (CS_SPARES_ARE_KEPT ? 128 * KIB : 0));
-  if (kept > 0) {
-    void *second = cs_spares_resize(&spares, NULL, 0, 65 * KIB);
-    CHECK(second == first && atomic_load(&spares.bytes) == 0);
-    CHECK(cs_spares_resize(&spares, second, 65 * KIB, 128 * KIB) == second);
-    cs_spares_resize(&spares, second, 128 * KIB, 0);
+  CHECK(spares.bytes == (CS_SPARES_ARE_KEPT ? 112 * KIB : 0));
+  if (spares.bytes > 0) {
+    void *second = cs_spares_resize(&spares, NULL, 0, 96 * KIB + 1);
+    CHECK(second == first && spares.bytes == 0);
+    CHECK(cs_spares_resize(&spares, second, 96 * KIB + 1, 112 * KIB) == second);
+    cs_spares_resize(&spares, second, 112 * KIB, 0);
   }
-  cs_spares_trim(&spares);
-  CHECK(atomic_load(&spares.bytes) == 0);
+  cs_spares_finish(&spares);
+}
+
+/* No class is more than a quarter larger than what was requested. */
+static void check_classes(void) {
+  cs_spares spares;
+  CHECK(cs_spares_init(&spares));
+  for (size_t size = CS_SPARES_SMALLEST; CS_SPARES_ARE_KEPT && size <= CS_SPARES_LARGEST;
+       size += size / 9) {
+    size_t before = spares.bytes;
+    cs_spares_resize(&spares, cs_spares_resize(&spares, NULL, 0, size), size, 0);
+    size_t class = spares.bytes - before;
+    CHECK(class >= size && 4 * class <= 5 * size + 4);
+    cs_spares_trim(&spares);
+  }
+  cs_spares_finish(&spares);
 }
 
 static void check_sizes(void) {
-  cs_spares spares = {0};
+  cs_spares spares;
+  CHECK(cs_spares_init(&spares));
   for (size_t i = 0; i < SIZES; i++)
     for (size_t k = 0; k < SIZES; k++) {
       unsigned char *storage = cs_spares_resize(&spares, NULL, 0, sizes[i]);
@@ -52,52 +67,48 @@ static void check_sizes(void) {
       cs_spares_resize(&spares, storage, sizes[k], 0);
     }
   cs_spares_trim(&spares);
-  CHECK(atomic_load(&spares.bytes) == 0);
+  CHECK(spares.bytes == 0);
+  cs_spares_finish(&spares);
 }
 
-static void check_limit(void) {
-  cs_spares spares = {0};
-  void *held[2 * CS_SPARES_SLOTS];
-  for (size_t i = 0; i < 2 * CS_SPARES_SLOTS; i++)
-    held[i] = cs_spares_resize(&spares, NULL, 0, CS_SPARES_LARGEST);
-  for (size_t i = 0; i < 2 * CS_SPARES_SLOTS; i++)
-    cs_spares_resize(&spares, held[i], CS_SPARES_LARGEST, 0);
-  CHECK(atomic_load(&spares.bytes) == (CS_SPARES_ARE_KEPT ? CS_SPARES_MOST : 0));
-  cs_spares_trim(&spares);
-}
-
-static void check_slots(void) {
-  cs_spares spares = {0};
-  void *held[2 * CS_SPARES_SLOTS];
-  for (size_t i = 0; i < 2 * CS_SPARES_SLOTS; i++)
-    held[i] = cs_spares_resize(&spares, NULL, 0, 4 * KIB);
-  for (size_t i = 0; i < 2 * CS_SPARES_SLOTS; i++)
-    cs_spares_resize(&spares, held[i], 4 * KIB, 0);
-  CHECK(atomic_load(&spares.bytes) == (CS_SPARES_ARE_KEPT ? CS_SPARES_SLOTS * 4 * KIB : 0));
-  cs_spares_trim(&spares);
+/* Frees allocations of one size together. bytes: of those that are kept afterwards. */
+static void check_limit(size_t count, size_t size, size_t bytes) {
+  static void *held[MANY];
+  cs_spares spares;
+  CHECK(cs_spares_init(&spares));
+  for (size_t i = 0; i < count; i++)
+    held[i] = cs_spares_resize(&spares, NULL, 0, size);
+  for (size_t i = 0; i < count; i++)
+    cs_spares_resize(&spares, held[i], size, 0);
+  CHECK(spares.bytes == (CS_SPARES_ARE_KEPT ? bytes : 0));
+  cs_spares_finish(&spares);
 }
 
 /* What is kept is given up before a request fails, of any size. */
 static void check_shortage(void) {
   const size_t sizes_that_fail[] = {SIZE_MAX / 4, PTRDIFF_MAX};
   for (size_t i = 0; i < 2; i++) {
-    cs_spares spares = {0};
+    cs_spares spares;
+    CHECK(cs_spares_init(&spares));
     cs_spares_resize(&spares, cs_spares_resize(&spares, NULL, 0, 8 * KIB), 8 * KIB, 0);
-    CHECK(atomic_load(&spares.bytes) == (CS_SPARES_ARE_KEPT ? 8 * KIB : 0));
+    CHECK(spares.bytes == (CS_SPARES_ARE_KEPT ? 8 * KIB : 0));
     CHECK(!cs_spares_resize(&spares, NULL, 0, sizes_that_fail[i]));
-    CHECK(atomic_load(&spares.bytes) == 0);
+    CHECK(spares.bytes == 0);
+    cs_spares_finish(&spares);
   }
 }
 
 /* Nothing is kept after the end, and nothing that was kept before it is left. */
 static void check_close(void) {
-  cs_spares spares = {0};
+  cs_spares spares;
+  CHECK(cs_spares_init(&spares));
   void *late = cs_spares_resize(&spares, NULL, 0, 8 * KIB);
   cs_spares_resize(&spares, cs_spares_resize(&spares, NULL, 0, 8 * KIB), 8 * KIB, 0);
   cs_spares_close(&spares);
-  size_t after = atomic_load(&spares.bytes);
+  CHECK(spares.bytes == 0);
   cs_spares_resize(&spares, late, 8 * KIB, 0);
-  CHECK(atomic_load(&spares.bytes) == after && !atomic_load(&spares.kept[1][0]));
+  CHECK(spares.bytes == 0);
+  cs_spares_finish(&spares);
 }
 
 typedef struct exchanger {
@@ -127,7 +138,8 @@ static void *exchange(void *user) {
 }
 
 static void check_threads(void) {
-  cs_spares spares = {0};
+  cs_spares spares;
+  CHECK(cs_spares_init(&spares));
   pthread_t threads[THREADS];
   exchanger exchangers[THREADS];
   for (size_t i = 0; i < THREADS; i++) {
@@ -139,14 +151,16 @@ static void check_threads(void) {
     CHECK(exchangers[i].wrong == 0);
   }
   cs_spares_trim(&spares);
-  CHECK(atomic_load(&spares.bytes) == 0);
+  CHECK(spares.bytes == 0);
+  cs_spares_finish(&spares);
 }
 
 int main(void) {
   check_again();
   check_sizes();
-  check_limit();
-  check_slots();
+  check_classes();
+  check_limit(8, CS_SPARES_LARGEST, CS_SPARES_MOST);
+  check_limit(MANY, 4 * KIB, MANY * 4 * KIB);
   check_shortage();
   check_close();
   check_threads();
