@@ -82,6 +82,26 @@ static void test_ends(celspan_space to) {
   CHECK(cs_space_channel(to, -0.5f, 1) == -cs_space_channel(to, 0.5f, 1));
 }
 
+/* Many channels together have the bits of each one by itself: any number of them, with all
+ * instructions, and beyond the tables of powers, too. */
+static void test_channels(celspan_space to, cs_isa isa) {
+  const float odd[] = {0, -0.0f, -2, 1e-30f, -1e-30f, 3e6f, 1e9f, INFINITY, -INFINITY, NAN};
+  const int32_t odds = (int32_t)(sizeof odd / sizeof *odd);
+  float s[200], shares[200], wanted[200];
+  test_random random = {4};
+  for (int32_t count = 0; count <= 200; count++) {
+    for (int32_t i = 0; i < count; i++) {
+      s[i] = (float)random_between(&random, -0.2, 1.2);
+      shares[i] = i % 7 == 0 ? 0 : (float)random_between(&random, 0, 1);
+      if (count % 3 == 0 && i % 11 == 0)
+        s[i] = odd[(count + i) % odds];
+      wanted[i] = cs_space_channel(to, s[i], shares[i]);
+    }
+    CS_WIDE_CHOOSE(isa, cs_space_channels)(to, shares, count, s);
+    CHECK(memcmp(s, wanted, (size_t)count * sizeof *s) == 0);
+  }
+}
+
 static void test_paints(void) {
   test_random random = {3};
   for (int i = 0; i < PAIRS; i++) {
@@ -111,6 +131,8 @@ int main(void) {
     test_oracle((celspan_space)to);
     test_engine((celspan_space)to);
     test_ends((celspan_space)to);
+    for (int isa = CS_ISA_ANY; isa <= (int)cs_isa_best(); isa++)
+      test_channels((celspan_space)to, (cs_isa)isa);
   }
   test_paints();
   test_inside();

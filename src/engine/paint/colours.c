@@ -53,10 +53,16 @@ static celspan_status sample(cs_painter *painter, const cs_sampler *sampler, con
 }
 
 /* Samples of a picture used as paint, as numbers of the layer's space. */
-static void code_samples(const cs_image_layer *image, int32_t count, float (*rgba)[4]) {
-  bool is_paint = image->texture->variation->use == CELSPAN_PICTURE_PAINT;
-  for (int32_t k = 0; k < count && is_paint && image->space == CELSPAN_SPACE_SRGB; k++)
-    cs_space_encode(image->space, rgba[k]);
+static void code_samples(const cs_painter *painter, const cs_image_layer *image, int32_t count,
+                         float (*rgba)[4]) {
+  float alphas[CS_OVER_ROW_BATCH][4] = {{0}};
+  if (image->texture->variation->use != CELSPAN_PICTURE_PAINT || image->space != CELSPAN_SPACE_SRGB)
+    return;
+  for (int32_t k = 0; k < count; k++)
+    cs_v4_store(alphas[k], cs_v4_all(rgba[k][3]));
+  CS_WIDE_CHOOSE(painter->isa, cs_space_channels)(image->space, alphas[0], 4 * count, rgba[0]);
+  for (int32_t k = 0; k < count; k++)
+    rgba[k][3] = alphas[k][3];
 }
 
 static celspan_status sample_picture(cs_painter *painter, const cs_layer *layer,
@@ -64,7 +70,7 @@ static celspan_status sample_picture(cs_painter *painter, const cs_layer *layer,
   const cs_image_view *view;
   CS_TRY(cs_painter_image(painter, layer->index, &view));
   CS_TRY(sample(painter, &view->sampler, batch, rgba));
-  code_samples(&painter->stack->images[layer->index], batch->count, rgba);
+  code_samples(painter, &painter->stack->images[layer->index], batch->count, rgba);
   return CELSPAN_OK;
 }
 
@@ -75,7 +81,7 @@ static celspan_status sample_media(cs_painter *painter, const cs_layer *layer,
   CS_TRY(cs_painter_image(painter, layer->index, &view));
   CS_TRY(sample(painter, &view->sampler, batch, out->s));
   CS_TRY(sample(painter, &view->medium, batch, out->rgba));
-  code_samples(&painter->stack->images[layer->index], batch->count, out->s);
+  code_samples(painter, &painter->stack->images[layer->index], batch->count, out->s);
   for (int32_t k = 0; k < batch->count; k++) {
     cs_paint paint = cs_paint_from_picture(out->rgba[k], CELSPAN_PICTURE_GEL);
     out->s[k][3] = 0;

@@ -86,10 +86,29 @@ static inline cs_over_pair pair_at(const cs_over_row_state *state, int32_t i) {
   return (cs_over_pair){cs_v4_load(state->e[i]), cs_v4_load(state->t[i])};
 }
 
+/* The light of a group, converted to the space around it. */
+static inline void leave_space(cs_over_row_state *state, int32_t count, celspan_space to,
+                               float keep) {
+  const cs_wide_int colours = CS_WIDE_PIXEL(-1, -1, -1, 0);
+  float shares[CS_OVER_ROW_BATCH][4] = {{0}};
+  for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
+    cs_wide_store(shares[i], 1 - keep * cs_wide_load(state->t[i]));
+  CS_WIDE(cs_space_channels)(to, shares[0], 4 * count, state->e[0]);
+  for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
+    cs_wide_store(state->e[i], (cs_wide)((cs_wide_int)cs_wide_load(state->e[i]) & colours));
+}
+
 void CS_WIDE(cs_over_row_develop)(cs_over_row_state *state, int32_t count, const cs_group *group,
                                   float keep) {
-  for (int32_t i = 0; i < count; i++)
-    cs_v4_store(state->e[i], cs_over_develop(group, pair_at(state, i), keep).e);
+  keep = group->is_frame ? keep : 1;
+  for (int32_t i = 0; group->grade && i < count; i++)
+    cs_v4_store(state->e[i], cs_over_grade(group, pair_at(state, i), keep));
+  if (group->converts != CELSPAN_SPACE_AROUND)
+    leave_space(state, count, (celspan_space)group->converts, keep);
+  for (int32_t i = 0; group->has_front && i < count; i++) {
+    cs_over_pair pair = pair_at(state, i);
+    cs_v4_store(state->e[i], cs_over_lit(group->front, 1, pair.e, pair.t).e);
+  }
 }
 
 static inline cs_over_pair faded(float fade, cs_over_pair pair) {

@@ -1,12 +1,11 @@
-/* Writes transfer_tables.h at build time; transfer.c says what the tables mean. It runs on the
- * machine that builds, and its bits are those of base/elementary.c, the same on every machine.
+/* Writes transfer_tables.h at build time; power.h says what the tables of powers mean. It runs on
+ * the machine that builds, and its bits are those of base/elementary.c, the same on every machine.
  */
 #include <math.h>
 #include <stdio.h>
 
 #include "base/elementary.h"
-
-enum { POINTS = 64, SERIES = 8, OCTAVES = 24 };
+#include "model/colour/power.h"
 
 static void print_numbers(const char *name, const double *numbers, int count) {
   printf("  .%s = {", name);
@@ -17,19 +16,19 @@ static void print_numbers(const char *name, const double *numbers, int count) {
 
 /* x^exponent = octave[e] * point[i] * (1 + r)^exponent where x = 2^e c (1 + r), c the middle of the
  * i-th of 64 equal intervals of 1..2. */
-static void print_power(const char *name, double exponent) {
-  double point[POINTS], series[SERIES], octave[2 * OCTAVES + 1];
-  for (int i = 0; i < POINTS; i++)
-    point[i] = cs_elementary_pow(1 + (i + 0.5) / POINTS, exponent);
+static void print_power(const char *storage, const char *name, double exponent) {
+  double point[CS_POWER_POINTS], series[CS_POWER_SERIES], octave[2 * CS_POWER_OCTAVES + 1];
+  for (int i = 0; i < CS_POWER_POINTS; i++)
+    point[i] = cs_elementary_pow(1 + (i + 0.5) / CS_POWER_POINTS, exponent);
   series[0] = 1;
-  for (int i = 1; i < SERIES; i++)
+  for (int i = 1; i < CS_POWER_SERIES; i++)
     series[i] = series[i - 1] * (exponent - (i - 1)) / i;
-  for (int e = -OCTAVES; e <= OCTAVES; e++)
-    octave[e + OCTAVES] = cs_elementary_pow(2, e * exponent);
-  printf("static const power_curve %s = {\n  .exponent = %a,\n", name, exponent);
-  print_numbers("point", point, POINTS);
-  print_numbers("series", series, SERIES);
-  print_numbers("octave", octave, 2 * OCTAVES + 1);
+  for (int e = -CS_POWER_OCTAVES; e <= CS_POWER_OCTAVES; e++)
+    octave[e + CS_POWER_OCTAVES] = cs_elementary_pow(2, e * exponent);
+  printf("%sconst cs_power %s = {\n  .exponent = %a,\n", storage, name, exponent);
+  print_numbers("point", point, CS_POWER_POINTS);
+  print_numbers("series", series, CS_POWER_SERIES);
+  print_numbers("octave", octave, 2 * CS_POWER_OCTAVES + 1);
   printf("};\n");
 }
 
@@ -66,13 +65,10 @@ static void print_first_codes(void) {
 
 int main(void) {
   printf("/* Made by make_transfer_tables.c. */\n");
-  printf("enum { POINTS = %d, SERIES = %d, OCTAVES = %d };\n", POINTS, SERIES, OCTAVES);
-  printf("typedef struct power_curve {\n  double exponent, point[POINTS], series[SERIES], "
-         "octave[2 * OCTAVES + 1];\n} power_curve;\n");
-  print_power("srgb_encoding", 1 / 2.4);
-  print_power("srgb_decoding", 2.4);
-  print_power("rec709_encoding", 0.45);
-  print_power("rec709_decoding", 1 / 0.45);
+  print_power("", "cs_power_srgb_encoding", 1 / 2.4);
+  print_power("", "cs_power_srgb_decoding", 2.4);
+  print_power("static ", "rec709_encoding", 0.45);
+  print_power("static ", "rec709_decoding", 1 / 0.45);
   print_steps();
   print_first_codes();
   return ferror(stdout) || fflush(stdout) != 0;

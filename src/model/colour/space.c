@@ -10,7 +10,7 @@ static float convert(celspan_space to, float colour) {
 }
 
 float cs_space_channel(celspan_space to, float s, float share) {
-  float size = s < 0 ? -s : s, least = size < 1 ? size : 1, there = share > least ? share : least;
+  float there = cs_space_there(s, share);
   return there > 0 ? there * convert(to, s / there) : s;
 }
 

@@ -11,6 +11,7 @@
 #pragma once
 
 #include "base/vector.h"
+#include "base/wide.h"
 #include "model/colour/paint.h"
 
 #define CS_SPACES (CELSPAN_SPACE_SRGB + 1) /* items of arrays that are indexed by a space */
@@ -24,9 +25,17 @@ static inline celspan_space cs_space_inside(celspan_space own, celspan_space aro
                                           : around;
 }
 
-/* One channel of what is `share` there, taken to a space from the other one: as above, with the
- * greater of `share` and min(s, 1) as d. */
+/* d of one channel of what is `share` there: the greater of `share` and min(s, 1). */
+static inline float cs_space_there(float s, float share) {
+  float size = s < 0 ? -s : s, least = size < 1 ? size : 1;
+  return share > least ? share : least;
+}
+
+/* One channel of what is `share` there, taken to a space from the other one: as above. */
 float cs_space_channel(celspan_space to, float s, float share);
+/* The same of `count` channels, with the same bits. (space_wide.c) */
+CS_WIDE_DECLARE(void, cs_space_channels,
+                (celspan_space to, const float *shares, int32_t count, float *s));
 
 /* The same of three channels; t: what each lets through, of which only `keep` counts. */
 static inline cs_v4 cs_space_leave(celspan_space to, cs_v4 e, cs_v4 t, float keep) {

@@ -1,46 +1,23 @@
-/* The curves need powers with a fixed exponent. A power x^exponent is the product of three factors:
- *
- *   x = 2^e * c * (1 + r)            c: the middle of the i-th of 64 equal intervals of 1..2
- *   x^exponent = octave[e] * point[i] * (1 + r)^exponent
- *
- * The first two come from tables that are made at build time (make_transfer_tables.c), the third is
- * a binomial series of eight terms. The relative error is at most 4e-16, and this is several times
- * faster than cs_elementary_pow.
- */
 #include "model/colour/transfer.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "base/elementary.h"
+#include "model/colour/power.h"
 #include "model/colour/transfer_tables.h"
 
-static double power(const power_curve *curve, double x) {
-  uint64_t bits;
-  memcpy(&bits, &x, sizeof bits);
-  int octave = (int)(bits >> 52) - 1023;
-  if (!(x > 0) || octave < -OCTAVES || octave > OCTAVES)
-    return cs_elementary_pow(x, curve->exponent);
-  int slice = (int)(bits >> 46 & (POINTS - 1));
-  uint64_t mantissa_bits = (bits & 0xfffffffffffffu) | (uint64_t)1023 << 52;
-  double mantissa, centre = 1 + (slice + 0.5) / POINTS;
-  memcpy(&mantissa, &mantissa_bits, sizeof mantissa);
-  double r = (mantissa - centre) / centre, r2 = r * r, r4 = r2 * r2;
-  const double *c = curve->series;
-  double series = ((c[1] * r + c[2] * r2) + r2 * (c[3] * r + c[4] * r2)) +
-                  r4 * ((c[5] * r + c[6] * r2) + c[7] * r2 * r);
-  double scale = curve->octave[octave + OCTAVES] * curve->point[slice];
-  return scale + scale * series;
+static double power(const cs_power *of, double x) {
+  return x >= CS_POWER_LEAST && x < CS_POWER_END ? cs_power_of(of, x)
+                                                 : cs_elementary_pow(x, of->exponent);
 }
 
 /* ---------------------------------------------------------------- the curves, for x >= 0 */
 
-/* IEC 61966-2-1. */
 static double srgb_encode(double x) {
-  return x <= 0.0031308 ? 12.92 * x : 1.055 * power(&srgb_encoding, x) - 0.055;
+  return cs_power_srgb_encoded(x, x <= CS_POWER_SRGB_LIGHT ? 0 : power(&cs_power_srgb_encoding, x));
 }
 static double srgb_decode(double x) {
-  return x <= 0.04045 ? x / 12.92 : power(&srgb_decoding, (x + 0.055) / 1.055);
+  double base = cs_power_srgb_base(x);
+  return cs_power_srgb_decoded(x,
+                               x <= CS_POWER_SRGB_CODE ? 0 : power(&cs_power_srgb_decoding, base));
 }
 
 /* ITU-R BT.709, 1.2. */

@@ -1,0 +1,92 @@
+/* The curve of sRGB over many channels, a few steps each for all of them, which become vector code:
+ * a power is found for channels on the straight part of the curve, too, of the end of that.
+ *
+ *   s, share --> colour --> base --> power of it --> colour, converted --> s
+ *
+ * A colour that the tables of powers do not reach, far beyond 1 or not a number, is rare: then the
+ * channels that are converted together with it are converted one by one.
+ */
+#include "model/colour/power.h"
+#include "model/colour/space.h"
+
+#define TOGETHER 64 /* channels; loops have no other length, so none has a rest */
+
+typedef struct channels {
+  float s[TOGETHER], there[TOGETHER], colours[TOGETHER]; /* as in space.h */
+  double sizes[TOGETHER];                                /* of the colours, without their signs */
+  double bases[TOGETHER];
+  int32_t octaves[TOGETHER], slices[TOGETHER]; /* as in power.h */
+  double rests[TOGETHER], powers[TOGETHER];
+} channels;
+
+/* False: some colour is beyond the tables. `there` holds the shares at first. */
+static inline bool find_colours(channels *all) {
+  int32_t beyond = 0;
+  for (int i = 0; i < TOGETHER; i++) {
+    float there = cs_space_there(all->s[i], all->there[i]);
+    all->there[i] = there;
+    all->colours[i] = all->s[i] / (there > 0 ? there : 1);
+  }
+  for (int i = 0; i < TOGETHER; i++) {
+    all->sizes[i] = fabs((double)all->colours[i]);
+    beyond += !(all->sizes[i] < CS_POWER_END / 2);
+  }
+  return beyond == 0;
+}
+
+/* The tables are read by themselves, so that the other two loops are vector code. */
+static inline void find_powers(const cs_power *power, channels *all) {
+  for (int i = 0; i < TOGETHER; i++) {
+    const cs_power_parts parts = cs_power_split(all->bases[i]);
+    all->octaves[i] = parts.octave;
+    all->slices[i] = parts.slice;
+    all->rests[i] = parts.r;
+  }
+  for (int i = 0; i < TOGETHER; i++)
+    all->powers[i] = cs_power_scale(power, all->octaves[i], all->slices[i]);
+  for (int i = 0; i < TOGETHER; i++)
+    all->powers[i] = cs_power_join(power, all->powers[i], all->rests[i]);
+}
+
+static inline void encode(channels *all) {
+  for (int i = 0; i < TOGETHER; i++)
+    all->bases[i] = all->sizes[i] > CS_POWER_SRGB_LIGHT ? all->sizes[i] : CS_POWER_SRGB_LIGHT;
+  find_powers(&cs_power_srgb_encoding, all);
+  for (int i = 0; i < TOGETHER; i++)
+    all->sizes[i] = cs_power_srgb_encoded(all->sizes[i], all->powers[i]);
+}
+
+static inline void decode(channels *all) {
+  for (int i = 0; i < TOGETHER; i++)
+    all->bases[i] = cs_power_srgb_base(all->sizes[i]);
+  find_powers(&cs_power_srgb_decoding, all);
+  for (int i = 0; i < TOGETHER; i++)
+    all->sizes[i] = cs_power_srgb_decoded(all->sizes[i], all->powers[i]);
+}
+
+static inline void join(channels *all) {
+  for (int i = 0; i < TOGETHER; i++) {
+    float colour = copysignf((float)all->sizes[i], all->colours[i]);
+    all->s[i] = all->there[i] > 0 ? all->there[i] * colour : all->s[i];
+  }
+}
+
+void CS_WIDE(cs_space_channels)(celspan_space to, const float *shares, int32_t count, float *s) {
+  channels all = {.s = {0}};
+  for (; count > 0; count -= TOGETHER, shares += TOGETHER, s += TOGETHER) {
+    int32_t some = count < TOGETHER ? count : TOGETHER;
+    memcpy(all.s, s, (size_t)some * sizeof *s);
+    memcpy(all.there, shares, (size_t)some * sizeof *shares);
+    if (!find_colours(&all)) {
+      for (int32_t i = 0; i < some; i++)
+        s[i] = cs_space_channel(to, s[i], shares[i]);
+      continue;
+    }
+    if (to == CELSPAN_SPACE_SRGB)
+      encode(&all);
+    else
+      decode(&all);
+    join(&all);
+    memcpy(s, all.s, (size_t)some * sizeof *s);
+  }
+}
