@@ -103,7 +103,7 @@ CS_WIDE_DECLARE(void, cs_over_row_add_back,
 /* A front light with a shape: pigments times a gain; then the light of a group times that. */
 CS_WIDE_DECLARE(void, cs_over_row_make_front,
                 (int32_t count, const float gain[4], const float (*s)[4], float (*front)[4]));
-/* As cs_over_develop. */
+/* As cs_over_develop, each of its steps for all pixels. */
 CS_WIDE_DECLARE(void, cs_over_row_develop,
                 (cs_over_row_state * state, int32_t count, const cs_group *group, float keep));
 CS_WIDE_DECLARE(void, cs_over_row_light_group,

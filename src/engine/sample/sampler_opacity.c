@@ -91,8 +91,8 @@ static cs_picture_opacity opacity_of(cs_block_cache *blocks, const cs_sampler *s
                                                                         : opacity;
 }
 
-/* Narrows the rows until one edge of an area along an axis, which moves by `step` a row, meets an
- * edge of a block or of the picture. */
+/* Narrows the rows until one edge of an area along an axis, which moves by a pixel of the picture
+ * in `rows_each` rows, meets an edge of a block or of the picture. */
 static inline void narrow(const cs_sampler *s, double edge, double rows_each, int32_t size,
                           double y, cs_block_cache_opacity *out) {
   const int32_t block = CS_PICTURE_BLOCK << s->level;
@@ -106,13 +106,14 @@ static inline void narrow(const cs_sampler *s, double edge, double rows_each, in
   out->to = cs_number_least(out->to, y + cs_number_most(before, after) - SURELY);
 }
 
-/* The same for both edges. */
+/* The same for both edges, which move by `step` a row. */
 static inline void narrow_axis(const cs_sampler *s, double low, double high, double step,
                                int32_t size, double y, cs_block_cache_opacity *out) {
   if (step == 0)
     return;
-  narrow(s, low, 1 / step, size, y, out);
-  narrow(s, high, 1 / step, size, y, out);
+  double rows_each = 1 / step;
+  narrow(s, low, rows_each, size, y, out);
+  narrow(s, high, rows_each, size, y, out);
 }
 
 static void find_opacity(cs_block_cache *blocks, const cs_sampler *s, cs_run run,

@@ -42,16 +42,15 @@ cs_sampler_axis cs_sampler_axis_of(const cs_sampler *sampler, double width, int3
                            .inverse = 1 / side};
 }
 
-static void sample_box(const cs_sampling *run, double u, double v, float rgba[4]) {
+static void sample_box(const cs_sampling *run, const cs_sampler_axis *wide,
+                       const cs_sampler_axis *high, double u, double v, float rgba[4]) {
   const cs_sampler *s = run->sampler;
-  const cs_sampler_axis wide = cs_sampler_axis_of(s, s->wide, s->width);
-  const cs_sampler_axis high = cs_sampler_axis_of(s, s->high, s->height);
-  const cs_sampler_extent across = cs_sampler_cut(&wide, u), down = cs_sampler_cut(&high, v);
+  const cs_sampler_extent across = cs_sampler_cut(wide, u), down = cs_sampler_cut(high, v);
   cs_v4 first = {0}, sum = {0};
   float total = 0;
   for (int32_t j = 0; j < down.count; j++)
     for (int32_t i = 0; i < across.count; i++) {
-      float weight = cs_sampler_weight(&wide, &across, i) * cs_sampler_weight(&high, &down, j);
+      float weight = cs_sampler_weight(wide, &across, i) * cs_sampler_weight(high, &down, j);
       cs_v4 texel = cs_v4_load(cs_sampling_texel(run, s->level, across.first + i, down.first + j));
       if (i == 0 && j == 0)
         first = texel;
@@ -63,6 +62,8 @@ static void sample_box(const cs_sampling *run, double u, double v, float rgba[4]
 
 void cs_sampler_pixel_run(const cs_sampling *run, cs_run pixels, float (*rgba)[4]) {
   const cs_sampler *s = run->sampler;
+  const cs_sampler_axis wide = cs_sampler_axis_of(s, s->wide, s->width);
+  const cs_sampler_axis high = cs_sampler_axis_of(s, s->high, s->height);
   const double *m = s->m;
   double row_u = m[1] * pixels.y + m[2], row_v = m[4] * pixels.y + m[5];
   for (int32_t i = 0; i < pixels.x1 - pixels.x0; i++) {
@@ -77,6 +78,6 @@ void cs_sampler_pixel_run(const cs_sampling *run, cs_run pixels, float (*rgba)[4
     if (s->kernel == CS_SAMPLER_BICUBIC)
       cs_sampler_bicubic(run, u, v, rgba[i]);
     else
-      sample_box(run, u, v, rgba[i]);
+      sample_box(run, &wide, &high, u, v, rgba[i]);
   }
 }

@@ -5,6 +5,8 @@
  *
  * Pieces of a chain of which nothing can be seen are left out, or one line where they are between
  * others; but not in a band that other frames may be made from, because they see other pieces.
+ *
+ * One file, because every step reads the chains and cells of the one packer.
  */
 #include "match.h"
 

@@ -2,6 +2,8 @@
  *
  * INVARIANT: nothing in the code is trusted. Memory is allocated only for what its bytes pay for,
  * and every number is checked before it is used.
+ *
+ * One file, because every function reads on in one code, where the one before has ended.
  */
 #include "band.h"
 

@@ -8,6 +8,8 @@
  * Frames have less and less in common with the key. When what this has cost since the key, beyond
  * what the first frame after it took, is as much as a frame that has no base, the next key is due:
  * no other choice of keys, whatever comes, would have been much more than twice as good.
+ *
+ * One file, because nearly every function changes the one writer.
  */
 #include <math.h>
 
