@@ -1,6 +1,8 @@
 -- celspan watch: frames that are slow.
+local json = require "celspan.json"
 local present = require "tests.support.present"
 local watching = require "tests.support.watching"
+local workbench = require "tests.support.workbench"
 
 if not present.web() then return pending "celspan was built without libmicrohttpd" end
 if not present.program "node" then return pending "there is no node" end
@@ -19,6 +21,13 @@ return celspan.film { size = { 640, 360 }, frames = 99, frame = function(f)
     celspan.cel { celspan.scanline { bounds = { 0, 0, 640, 360 }, spans = slow } } }
 end }
 ]]):format(steps)
+end
+
+--- Requests as a renderer reads them.
+local function asked(...)
+  local messages = {}
+  for i, text in ipairs { ... } do messages[i] = (">s4"):pack(text) end
+  return table.concat(messages)
 end
 
 after_each(watching.finish)
@@ -54,6 +63,18 @@ describe("a slow frame", function()
     assert.is_true(said.seconds < 5, said.seconds) -- of more than ten for each
     assert.equal(200, said.next)
     assert.equal("[]\n", said.errors)
+  end)
+
+  it("is given up when both requests arrive before the renderer has begun #plain", function()
+    watching.begin { ["shot.lua"] = film(50000), asks = asked(
+      '{ "want": "frame", "number": 1, "size": [1280, 720], "crop": [0, 0, 1280, 720],'
+        .. ' "what": "rgba" }', '{ "want": "abandon" }') }
+    local code, out = watching.bench:inside(("{ cat asks; sleep 2; } | '%s' stage shot.lua")
+      :format(workbench.absolute))
+    assert.equal(0, code)
+    local _, head = (">I4s4"):unpack(out)
+    local rows = json.decode(head).message:match "stopped after (%d+) of 720 rows"
+    assert.is_true(tonumber(rows) <= 64, head) -- in two seconds there are some hundreds
   end)
 
   it("is shown coarse first, then sharp, and gives way to the next one #plain", function()

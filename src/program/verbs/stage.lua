@@ -270,6 +270,10 @@ end
 
 -- ---------------------------------------------------------------- requests
 
+--- A picture is given up when another request arrives, which `program/stage.c` sees by asking the
+--- pipe: so no request may wait in a buffer of Lua's.
+io.stdin:setvbuf "no"
+
 --- The next request; nil: no more will arrive.
 local function take()
   local head = io.stdin:read(4)
