@@ -98,16 +98,25 @@ celspan_status cs_map_cells_find(celspan_context *context, cs_map_cells *cells, 
 
 /* ---------------------------------------------------------------- what hides */
 
-static bool hides(const cs_map *map, const cs_map_cell *cell, const cs_stack *stack) {
+static bool hides(const cs_stack *stack, const cs_item *items, uint32_t length) {
   bool hides = false;
-  for (uint32_t i = 0; i < cell->length && !hides; i++) {
-    const cs_layer *layer = &stack->layers[map->items[cell->item + i].layer];
+  for (uint32_t i = 0; i < length && !hides; i++) {
+    const cs_layer *layer = &stack->layers[items[i].layer];
     hides = layer->group == CS_STACK_NONE && cs_over_is_opaque(layer->t);
   }
   return hides;
 }
 
+bool cs_map_cells_is_even(const cs_stack *stack, const cs_item *items, uint32_t length) {
+  bool is_even = true;
+  for (uint32_t i = 0; i < length; i++)
+    is_even &= cs_stack_layer_is_grey(stack, &stack->layers[items[i].layer]);
+  return is_even || hides(stack, items, length);
+}
+
 void cs_map_cells_find_hiding(cs_map *map, const cs_stack *stack) {
-  for (size_t i = 0; i < map->cell_count; i++)
-    map->cells[i].hides = hides(map, &map->cells[i], stack);
+  for (size_t i = 0; i < map->cell_count; i++) {
+    cs_map_cell *cell = &map->cells[i];
+    cell->hides = hides(stack, map->items + cell->item, cell->length);
+  }
 }

@@ -17,7 +17,7 @@ typedef struct cs_map_cells {
 /* What shows in a cell: a colour where length is 0. */
 typedef struct cs_map_content {
   cs_v4 colour;
-  cs_v4 through; /* of a coloured map: what it lets through; else 0 */
+  cs_v4 through; /* of a coloured map, of a colour: what it lets through; else 0 */
   const cs_item *items;
   uint32_t length;
 } cs_map_content;
@@ -38,6 +38,10 @@ static inline cs_map_content cs_map_content_at(const cs_retained_row *retained,
   const cs_program *program = &retained->programs[side->program].program;
   return (cs_map_content){.items = program->items, .length = program->length};
 }
+
+/* Whether a program lets all channels through alike, whatever its layers show: all of them do, or
+ * nothing shines through one. */
+bool cs_map_cells_is_even(const cs_stack *stack, const cs_item *items, uint32_t length);
 
 /* Finds which of the map's cells hide their background: nothing shines through some layer of
  * their program, which is in no group. */

@@ -1,6 +1,7 @@
 #include "engine/map/exact.h"
 
 #include "base/sort.h"
+#include "engine/map/near.h"
 
 void cs_map_exact_finish(cs_map_exact *exact, cs_memory *memory) {
   cs_mem_free(memory, exact->lines, exact->line_capacity * sizeof *exact->lines);
@@ -16,11 +17,16 @@ static inline double x_at(const cs_map_line *line, double y) {
   return line->xa + (line->xb - line->xa) * ((y - line->ya) / height);
 }
 
-static celspan_status add_piece(celspan_context *context, cs_map_exact *exact, cs_map_line line,
-                                double ya, double yb) {
-  cs_map_line piece = line;
-  piece.xa = ya > line.ya ? x_at(&line, ya) : line.xa;
-  piece.xb = yb < line.yb ? x_at(&line, yb) : line.xb;
+static celspan_status append(celspan_context *context, cs_map_exact *exact,
+                             const cs_map_line *line) {
+  return CS_APPEND(context, exact->lines, exact->line_count, exact->line_capacity, *line);
+}
+
+static celspan_status add_piece(celspan_context *context, cs_map_exact *exact,
+                                const cs_map_line *line, double ya, double yb) {
+  cs_map_line piece = *line;
+  piece.xa = ya > line->ya ? x_at(line, ya) : line->xa;
+  piece.xb = yb < line->yb ? x_at(line, yb) : line->xb;
   piece.ya = ya;
   piece.yb = yb;
   double middle = 0.5 * (piece.xa + piece.xb);
@@ -28,16 +34,19 @@ static celspan_status add_piece(celspan_context *context, cs_map_exact *exact, c
     return CELSPAN_OK;
   if (middle <= 0)
     piece.xa = piece.xb = 0;
-  return CS_APPEND(context, exact->lines, exact->line_count, exact->line_capacity, piece);
+  return append(context, exact, &piece);
 }
 
 /* Cuts a line where it enters or leaves the pixel sideways. What is right of the pixel is left out;
  * what is left of it is moved to its left edge. */
-static celspan_status add_line(celspan_context *context, cs_map_exact *exact, cs_map_line line) {
-  double cuts[4] = {line.ya, line.yb, line.yb, line.yb}, across = line.xb - line.xa;
+static celspan_status add_line(celspan_context *context, cs_map_exact *exact,
+                               const cs_map_line *line) {
+  double cuts[4] = {line->ya, line->yb, line->yb, line->yb}, across = line->xb - line->xa;
+  if (line->xa > 0 && line->xb > 0 && line->xa < 1 && line->xb < 1)
+    return append(context, exact, line);
   for (int side = 0; side < 2 && across != 0; side++) {
-    double y = line.ya + (line.yb - line.ya) * ((side - line.xa) / across);
-    if (y > line.ya && y < line.yb)
+    double y = line->ya + (line->yb - line->ya) * ((side - line->xa) / across);
+    if (y > line->ya && y < line->yb)
       cuts[1 + side] = y;
   }
   if (cuts[1] > cuts[2]) {
@@ -50,63 +59,85 @@ static celspan_status add_line(celspan_context *context, cs_map_exact *exact, cs
   return CELSPAN_OK;
 }
 
-/* The part of a line of the frame that is in the row. */
-static celspan_status add_part(celspan_context *context, cs_map_exact *exact, cs_map_line line,
-                               int32_t from, int32_t column, int32_t row) {
-  double top = line.ya > row ? line.ya : row, foot = line.yb < row + 1 ? line.yb : row + 1;
-  if (!(foot > top))
-    return CELSPAN_OK;
-  double xa = x_at(&line, top), xb = x_at(&line, foot);
-  if ((from > 0 && xa < from && xb < from) || (xa >= column + 1 && xb >= column + 1))
-    return CELSPAN_OK;
-  line.xa = xa - column;
-  line.xb = xb - column;
-  line.ya = top - row;
-  line.yb = foot - row;
-  return add_line(context, exact, line);
+/* The pixel whose lines are found, and the columns [from, column] in which they count. */
+typedef struct spot {
+  int32_t from, column, row;
+  int32_t left, right, top, foot; /* in places */
+} spot;
+
+/* Makes a line that of two places, as far as it is in the row, from the pixel's corner; false: it
+ * does not count. */
+static bool cut_to_row(cs_map_line *line, cs_map_point above, cs_map_point below, const spot *at) {
+  const double unit = 1.0 / CS_MAP_UNIT;
+  if (below.y <= at->top || below.y == above.y || (above.x < at->left && below.x < at->left) ||
+      (above.x >= at->right && below.x >= at->right))
+    return false;
+  const cs_map_line whole = {
+      .xa = above.x * unit, .ya = above.y * unit, .xb = below.x * unit, .yb = below.y * unit};
+  double top = whole.ya > at->row ? whole.ya : at->row;
+  double foot = whole.yb < at->row + 1 ? whole.yb : at->row + 1;
+  double xa = top > whole.ya ? x_at(&whole, top) : whole.xa;
+  double xb = foot < whole.yb ? x_at(&whole, foot) : whole.xb;
+  line->xa = xa - at->column;
+  line->xb = xb - at->column;
+  line->ya = top - at->row;
+  line->yb = foot - at->row;
+  return !(at->from > 0 && xa < at->from && xb < at->from) && !(line->xa >= 1 && line->xb >= 1);
 }
 
-static celspan_status add_border(celspan_context *context, cs_map_exact *exact,
-                                 const cs_map_rows *rows, const cs_map_live *live, cs_map_line line,
-                                 const int32_t pixel[3]) {
+/* By how much colour and light change at a border. */
+static celspan_status find_step(cs_map_exact *exact, const cs_map_rows *rows,
+                                const cs_map_live *live, const spot *at, cs_map_line *line) {
   const cs_map_drawing *drawing = rows->drawing;
   const cs_map_border *f = &drawing->lines->borders[live->border];
-  const double unit = 1.0 / CS_MAP_UNIT;
-  int32_t top = pixel[2] * CS_MAP_UNIT, foot = top + CS_MAP_UNIT;
   cs_v4 left, right;
-  CS_TRY(cs_map_brush_colour(rows->brush, drawing, f->left, pixel[1], pixel[2], &left));
-  CS_TRY(cs_map_brush_colour(rows->brush, drawing, f->right, pixel[1], pixel[2], &right));
-  line.step = right - left;
-  line.through = cs_v4_all(-line.step[3]);
+  CS_TRY(cs_map_brush_colour(rows->brush, drawing, f->left, at->column, at->row, &left));
+  CS_TRY(cs_map_brush_colour(rows->brush, drawing, f->right, at->column, at->row, &right));
+  line->step = right - left;
+  line->through = cs_v4_all(-line->step[3]);
   if (drawing->through) {
-    line.through = drawing->through[f->right] - drawing->through[f->left];
+    line->through =
+        cs_map_through(drawing, f->right, right) - cs_map_through(drawing, f->left, left);
     exact->is_coloured = true;
-  }
-  for (uint32_t k = live->at; k + 1 < live->end && rows->places[k].y < foot; k++) {
-    const cs_map_point above = rows->places[k], below = rows->places[k + 1];
-    line.xa = above.x * unit;
-    line.ya = above.y * unit;
-    line.xb = below.x * unit;
-    line.yb = below.y * unit;
-    if (below.y > top && below.y > above.y)
-      CS_TRY(add_part(context, exact, line, pixel[0], pixel[1], pixel[2]));
   }
   return CELSPAN_OK;
 }
 
-celspan_status cs_map_exact_add(celspan_context *context, cs_map_exact *exact,
-                                const cs_map_rows *rows, uint32_t index, int32_t from,
-                                int32_t column, int32_t row) {
-  const int32_t pixel[3] = {from, column, row};
-  int32_t top = row * CS_MAP_UNIT, right = (column + 1) * CS_MAP_UNIT;
-  int32_t left = from > 0 ? from * CS_MAP_UNIT : INT32_MIN;
-  for (size_t i = 0; i < rows->live_count; i++) {
-    const cs_map_live *live = &rows->lives[i];
-    /* All at once: each by itself is as often true as not, which a processor could not predict. */
-    bool is_near = (live->low < right) & (live->high >= left) & (live->foot > top);
-    if (is_near && rows->places[live->at].y < top + CS_MAP_UNIT)
-      CS_TRY(add_border(context, exact, rows, live, (cs_map_line){.sheet = index}, pixel));
+/* Adds the lines of a border that count. */
+static celspan_status add_border(celspan_context *context, cs_map_exact *exact,
+                                 const cs_map_rows *rows, uint32_t index, const cs_map_live *live,
+                                 const spot *at) {
+  const cs_map_point *places = rows->places;
+  cs_map_line line = {.sheet = index};
+  bool has_step = false;
+  for (uint32_t k = live->at; k + 1 < live->end && places[k].y < at->foot; k++) {
+    if (!cut_to_row(&line, places[k], places[k + 1], at))
+      continue;
+    if (!has_step)
+      CS_TRY(find_step(exact, rows, live, at, &line));
+    has_step = true;
+    CS_TRY(add_line(context, exact, &line));
   }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_map_exact_add(celspan_context *context, cs_map_exact *exact, cs_map_rows *rows,
+                                uint32_t index, int32_t from, int32_t column, int32_t row) {
+  const spot at = {.from = from,
+                   .column = column,
+                   .row = row,
+                   .left = from > 0 ? from * CS_MAP_UNIT : INT32_MIN,
+                   .right = (column + 1) * CS_MAP_UNIT,
+                   .top = row * CS_MAP_UNIT,
+                   .foot = (row + 1) * CS_MAP_UNIT};
+  CS_TRY(cs_map_near_find(context, rows));
+  for (size_t word = 0; word < rows->near_words; word++)
+    for (uint64_t bits = cs_map_near_word(rows, word, from, column); bits; bits &= bits - 1) {
+      const cs_map_live *live = &rows->lives[64 * word + (size_t)__builtin_ctzll(bits)];
+      bool is_near = live->low < at.right && live->high >= at.left && live->foot > at.top;
+      if (is_near && rows->places[live->at].y < at.foot)
+        CS_TRY(add_border(context, exact, rows, index, live, &at));
+    }
   return CELSPAN_OK;
 }
 

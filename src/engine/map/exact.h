@@ -58,8 +58,8 @@ static inline void cs_map_exact_clear(cs_map_exact *exact) {
  * among those shown; from: the column from which on it is broken. Errors: NO_MEMORY, and those of
  * painting. */
 CELSPAN_CHECKED celspan_status cs_map_exact_add(celspan_context *context, cs_map_exact *exact,
-                                                const cs_map_rows *rows, uint32_t index,
-                                                int32_t from, int32_t column, int32_t row);
+                                                cs_map_rows *rows, uint32_t index, int32_t from,
+                                                int32_t column, int32_t row);
 /* The mean where two drawings are broken, those of the lines that have been added, which are
  * removed. Of all that are shown the means are given. */
 cs_v4 cs_map_exact_pair(cs_map_exact *exact, const cs_map_frame *frame, const cs_map_shown *shown,

@@ -119,6 +119,21 @@ static void list_shown(folding *f) {
         (cs_map_shown){&f->maker->frame->sheets[i], f->at[i]->colour, through_of(f, i, f->at[i])};
 }
 
+/* What a sheet that can be shown lets through in a pixel, where it shows this colour: what varies
+ * in the pixel dims all channels alike. */
+static cs_v4 through_with(const folding *f, size_t i, cs_v4 colour) {
+  const cs_map_rows *rows = &f->maker->rows[i];
+  const cs_map_span *span = f->at[i];
+  float through = span->colour[3] - colour[3];
+  if (span->share_count == 0)
+    return f->shown[i].through;
+  if (!rows->drawing->through)
+    return cs_map_even(colour);
+  for (uint32_t n = 0; n < span->share_count; n++)
+    through += rows->shares[span->share + n].share;
+  return f->shown[i].through + cs_v4_all(through);
+}
+
 /* The colours of a sheet from x to end, which are in one of its spans. */
 static celspan_status find_colours(folding *f, size_t i, int32_t x, int32_t end, cs_v4 *out) {
   const cs_map_rows *rows = &f->maker->rows[i];
@@ -151,14 +166,14 @@ static celspan_status find_base(folding *f, size_t i, int32_t x, cs_map_shown *o
   const cs_map_span *span = find_broken(f, i);
   uint32_t cell = span > first ? span[-1].cell : 0;
   CS_TRY(cs_map_brush_colour(rows->brush, rows->drawing, cell, x, f->y, &out->colour));
-  out->through = rows->drawing->through ? rows->drawing->through[cell] : cs_map_even(out->colour);
+  out->through = cs_map_through(rows->drawing, cell, out->colour);
   return CELSPAN_OK;
 }
 
 /* Adds the lines of a broken sheet at x. */
 static celspan_status add_lines(folding *f, size_t i, int32_t x) {
   cs_map_maker *maker = f->maker;
-  const cs_map_rows *rows = &maker->rows[i];
+  cs_map_rows *rows = &maker->rows[i];
   const cs_map_span *first = rows->spans + rows->first[f->y - maker->row];
   const cs_map_span *span = find_broken(f, i);
   return cs_map_exact_add(maker->context, &maker->exact, rows, (uint32_t)i,
@@ -172,8 +187,7 @@ static celspan_status solve(folding *f, int32_t x, cs_v4 *out) {
   list_shown(f);
   for (size_t i = 0; i < f->shown_count; i++) {
     CS_TRY(find_colours(f, i, x, x + 1, &f->shown[i].colour));
-    if (f->at[i]->share_count > 0)
-      f->shown[i].through = cs_map_even(f->shown[i].colour);
+    f->shown[i].through = through_with(f, i, f->shown[i].colour);
     if (f->at[i]->cell == CS_MAP_BROKEN)
       CS_TRY(add_lines(f, i, x));
   }
@@ -306,11 +320,9 @@ static celspan_status fold_batch(folding *f, int32_t x, int32_t end, float *out)
   for (int32_t k = 0; k < end - x; k++)
     folds[k] = cs_map_fold_begin;
   for (size_t i = 0; i < f->shown_count; i++) {
-    const bool is_varied = f->at[i]->share_count > 0;
     CS_TRY(find_colours(f, i, x, end, colours));
     for (int32_t k = 0; k < end - x; k++)
-      cs_map_fold_add(&folds[k], f->shown[i].sheet, colours[k],
-                      is_varied ? cs_map_even(colours[k]) : f->shown[i].through);
+      cs_map_fold_add(&folds[k], f->shown[i].sheet, colours[k], through_with(f, i, colours[k]));
   }
   for (int32_t k = 0; k < end - x; k++)
     cs_v4_store(out + (size_t)4 * (size_t)k, cs_map_fold_end(folds[k], f->maker->frame));

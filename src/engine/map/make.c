@@ -94,12 +94,10 @@ static bool is_coloured(const cs_stack *stack) {
 
 bool cs_map_suits(const cs_plan *plan) {
   const cs_stack *stack = &plan->stack;
-  bool coloured = is_coloured(stack);
   bool suits = !plan->is_crowded && stack->light_count == 0 && stack->procedure_count == 0;
   for (size_t i = 0; suits && i < stack->layer_count; i++) {
     const cs_layer *layer = &stack->layers[i];
-    suits = layer->role == CS_LAYER_PAINT && layer->kind != CS_LAYER_DEFOCUSED &&
-            (!coloured || layer->kind == CS_LAYER_FLAT);
+    suits = layer->role == CS_LAYER_PAINT && layer->kind != CS_LAYER_DEFOCUSED;
   }
   return suits;
 }
@@ -110,13 +108,17 @@ bool cs_map_suits(const cs_plan *plan) {
 static celspan_status note_cell(void *user, uint32_t windings, cs_composer *composer,
                                 const cs_cell *cell) {
   maker *m = user;
+  cs_map *map = m->map;
   cs_map_content what = {.colour = cell->colour};
-  if (cell->length > 0)
+  if (cell->length > 0) {
     what = (cs_map_content){.items = composer->items + cell->program, .length = cell->length};
-  if (m->map->is_coloured)
+    map->is_whole &=
+        !map->is_coloured || cs_map_cells_is_even(&m->plan->stack, what.items, what.length);
+  } else if (map->is_coloured) {
     CS_TRY(cs_composer_through(composer, &what.through));
-  return m->map->is_whole ? cs_map_cells_find(m->context, &m->cells, what, &m->cell_of[windings])
-                          : CELSPAN_OK;
+  }
+  return map->is_whole ? cs_map_cells_find(m->context, &m->cells, what, &m->cell_of[windings])
+                       : CELSPAN_OK;
 }
 
 /* Finds the cells of all windings. */

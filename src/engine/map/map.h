@@ -67,13 +67,14 @@ typedef struct cs_map_flat {
 typedef struct cs_map {
   atomic_size_t references;
   cs_memory *memory;
-  bool is_coloured;  /* some cell does not let all channels through alike, and none varies */
+  bool is_coloured;  /* some cell does not let all channels through alike; those that vary do */
   bool is_whole;     /* false: the drawing cannot be a map, and there is nothing else */
   int64_t left, top; /* where the raster begins, in its pixels from the drawing's origin */
   cs_map_lines lines;
   cs_map_flat *flats; /* only of a map that is turned */
   cs_map_cell *cells;
-  cs_v4 *through; /* coloured: what each cell lets through; lane 3: the mean. Else NULL */
+  /* Coloured: what each cell lets through; lane 3: the mean. 0 where it varies. Else NULL. */
+  cs_v4 *through;
   cs_item *items; /* of the programs */
   cs_stack stack; /* that they name; none where all cells are flat */
   size_t flat_count, flat_capacity;
@@ -90,10 +91,9 @@ CELSPAN_CHECKED celspan_status cs_map_create(celspan_context *context, cs_map **
 void cs_map_ref(cs_map *map);
 void cs_map_unref(cs_map *map); /* NULL is ignored; any thread */
 size_t cs_map_bytes(const cs_map *map);
-/* Whether a plan of a drawing alone can be a map: no procedures, and paints that dim all channels
- * alike, unless none of them varies. Textures that vary must dim alike, too. */
+/* Whether a plan of a drawing alone can be a map: it has no procedures, lights or blurs. */
 bool cs_map_suits(const cs_plan *plan);
 /* Fills a map with a plan that suits, whose raster begins at the pixel (map->left, map->top). The
- * map is not whole where there are too many cells. Where cells vary it takes over the plan's stack.
- * Errors: NO_MEMORY. */
+ * map is not whole where there are too many cells, or where one that varies does not let all
+ * channels through alike. Where cells vary it takes over the plan's stack. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_map_make(celspan_context *context, cs_plan *plan, cs_map *map);

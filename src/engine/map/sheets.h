@@ -50,6 +50,12 @@ static const cs_map_fold cs_map_fold_begin = {{0, 0, 0, 0}, {1, 1, 1, 1}, 1};
 /* What a colour lets through that dims all channels alike. */
 static inline cs_v4 cs_map_even(cs_v4 colour) { return cs_v4_all(1 - colour[3]); }
 
+/* What a cell of a drawing lets through where it shows this colour. */
+static inline cs_v4 cs_map_through(const cs_map_drawing *drawing, uint32_t cell, cs_v4 colour) {
+  return drawing->through && drawing->map->cells[cell].length == 0 ? drawing->through[cell]
+                                                                   : cs_map_even(colour);
+}
+
 static inline void cs_map_fold_add(cs_map_fold *fold, const cs_map_sheet *sheet, cs_v4 colour,
                                    cs_v4 through) {
   fold->e += fold->t * colour;

@@ -38,6 +38,7 @@ void cs_map_rows_finish(cs_map_rows *rows, cs_memory *memory) {
   cs_mem_free(memory, rows->through, rows->through_capacity * sizeof *rows->through);
   cs_mem_free(memory, rows->shares, rows->share_capacity * sizeof *rows->shares);
   cs_mem_free(memory, rows->areas, rows->area_capacity * sizeof *rows->areas);
+  cs_mem_free(memory, rows->near, rows->near_capacity * sizeof *rows->near);
   *rows = (cs_map_rows){0};
 }
 
@@ -236,6 +237,8 @@ celspan_status cs_map_rows_make(celspan_context *context, cs_map_sums *sums, cs_
   drop_lives(&s);
   CS_TRY(add_lives(&s));
   sums->part_count = 0;
+  rows->width = sums->width;
+  rows->has_near = false;
   celspan_status status = s.drawing->through ? make_through(&s) : CELSPAN_OK;
   if (status == CELSPAN_OK)
     status = make_rows(&s, s.drawing->colours);

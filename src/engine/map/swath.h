@@ -31,8 +31,9 @@ typedef struct cs_map_drawing {
   const cs_grade *grade;    /* NULL: none. Borrowed from the scene */
   celspan_space space;
   cs_v4 *colours; /* of its cells, in the frame's light; 0 where they vary; owned */
-  cs_v4 *
-      through; /* coloured: what the cells let through, faded; lane 3: the mean. Else NULL; owned */
+  /* Coloured: what the cells let through, faded; lane 3: the mean; 0 where they vary. Else NULL.
+   * Owned. */
+  cs_v4 *through;
   cs_stack stack; /* that of the map, on the pixels of the frame: shades and images are owned, the
                      rest is the map's */
 } cs_map_drawing;
@@ -78,11 +79,15 @@ typedef struct cs_map_rows {
   cs_map_live *lives;            /* in the order of the map */
   cs_map_point *places;          /* of their points on the frame, in UNITths of a pixel */
   cs_map_span *spans;
-  cs_v4 *through;                /* of a coloured drawing: what each span lets through */
+  cs_v4 *through;                /* of a coloured drawing: what is flat in each span lets through */
   size_t first[CS_MAP_ROWS + 1]; /* spans of each row, and the end of those of the last */
   cs_map_share *shares;
   cs_map_area *areas; /* of the pixel being read, those that are not 0 */
   size_t live_count, live_capacity, place_count, place_capacity, span_count, span_capacity;
+  int32_t width;  /* of the frame */
+  uint64_t *near; /* near.h, where has_near */
+  size_t near_words, near_capacity;
+  bool has_near;
   size_t share_count, share_capacity, area_count, area_capacity, through_capacity;
 } cs_map_rows;
 

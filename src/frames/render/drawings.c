@@ -155,7 +155,8 @@ static celspan_status fade_media(celspan_context *context, cs_map_drawing *drawi
     return CELSPAN_OK;
   CS_TRY(CS_MAKE(context, drawing->through, map->cell_count));
   for (size_t i = 0; i < map->cell_count; i++)
-    drawing->through[i] = (1 - opacity) + opacity * map->through[i];
+    if (map->cells[i].length == 0)
+      drawing->through[i] = cs_v4_all(1 - opacity) + opacity * map->through[i];
   return CELSPAN_OK;
 }
 

@@ -23,8 +23,15 @@ typedef struct search {
 size_t cs_parts_shapes(celspan_object *const *objects, size_t count) {
   size_t shapes = 0;
   for (size_t i = 0; i < count; i++)
-    shapes += objects[i]->data->shape_count;
+    shapes += (size_t)(objects[i]->data->shape_count - objects[i]->data->cut_count);
   return shapes;
+}
+
+size_t cs_parts_cuts(celspan_object *const *objects, size_t count) {
+  size_t cuts = 0;
+  for (size_t i = 0; i < count; i++)
+    cuts += objects[i]->data->cut_count;
+  return cuts;
 }
 
 static bool is_moved(const celspan_object *object) { return object->matrix == object->own; }
@@ -41,8 +48,8 @@ static bool is_open(const search *s, const celspan_object *object) {
 
 static bool holds_part(const search *s, const celspan_object *object);
 
-static bool has_part(const search *s, const celspan_object *object) {
-  return object->data->shape_count >= s->least && (is_moved(object) || holds_part(s, object));
+static bool has_part(const search *s, celspan_object *object) {
+  return cs_parts_shapes(&object, 1) >= s->least && (is_moved(object) || holds_part(s, object));
 }
 
 static bool holds_part(const search *s, const celspan_object *object) {
@@ -88,7 +95,7 @@ static void add(search *s, celspan_object **objects, size_t count, const celspan
 static void split(search *s, celspan_object **objects, size_t count, const celspan_matrix *matrix) {
   size_t first = 0;
   for (size_t i = 0; i < count; i++) {
-    const celspan_object *object = objects[i];
+    celspan_object *object = objects[i];
     if (!has_part(s, object))
       continue;
     add(s, objects + first, i - first, matrix);

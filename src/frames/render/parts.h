@@ -49,6 +49,9 @@ CELSPAN_CHECKED celspan_status cs_parts_create(celspan_context *context,
 CELSPAN_CHECKED celspan_status cs_parts_place(celspan_context *context, const cs_cel_parts *parts,
                                               size_t index, const cs_view *view,
                                               celspan_matrix *out);
-/* The shapes of a list of objects, as they count in rules about maps. */
+/* The shapes of a list of objects, as they count in rules about maps: without those that are cut
+ * away, */
 size_t cs_parts_shapes(celspan_object *const *objects, size_t count);
+/* and these. */
+size_t cs_parts_cuts(celspan_object *const *objects, size_t count);
 void cs_parts_finish(cs_cel_parts *parts, cs_memory *memory);

@@ -25,11 +25,25 @@ static bool is_uneven(const celspan_cel *cel) {
   return is_uneven;
 }
 
+/* The shapes that a cel adds to a sweep: of a defocused one, a box. */
+static size_t count_shapes(const celspan_cel *cel) {
+  return cel->defocus_radius > 0 ? 1 : cs_parts_shapes(cel->objects, cel->object_count);
+}
+
+/* What is cut away hides nothing, so that each boundary of it may be seen. */
+static size_t count_cuts(const celspan_cel *cel) {
+  return cel->defocus_radius > 0 ? 0 : cs_parts_cuts(cel->objects, cel->object_count);
+}
+
+/* A few pictures are drawn faster where they are composed with others. */
+static bool is_mapped(const celspan_cel *cel, bool suits, size_t rich) {
+  return suits && (count_shapes(cel) >= rich || !has_picture(cel));
+}
+
 /* Whether more of a cel is needed than what it shows and lets through to put it over the cels
  * behind it: of a swept one a colour and an alpha are known. */
-static bool needs_backdrop(const celspan_cel *cel, bool suits, celspan_space space) {
-  return cs_cel_blends(cel, space) || (is_uneven(cel) && (!suits || has_picture(cel))) ||
-         cel->back.texture;
+static bool needs_backdrop(const celspan_cel *cel, bool is_mapped, celspan_space space) {
+  return cs_cel_blends(cel, space) || (is_uneven(cel) && !is_mapped) || cel->back.texture;
 }
 
 /* At least `count` cels at the rear are swept with the light behind them. */
@@ -75,23 +89,14 @@ void cs_ways_find(const celspan_rostrum *rostrum, const cs_view *view, cs_ways *
   *out = (cs_ways){.rear = rostrum->back.texture ? 1 : 0, .shapes = cs_ways_rich(view)};
   for (size_t i = 0; i < rostrum->cel_count; i++) {
     out->suits[i] = may_have_map(rostrum, rostrum->cels[i], view->space);
-    if (needs_backdrop(rostrum->cels[i], out->suits[i], view->space))
+    if (needs_backdrop(rostrum->cels[i], is_mapped(rostrum->cels[i], out->suits[i], out->shapes),
+                       view->space))
       out->rear = i + 1;
   }
   sweep_rear(out, out->rear);
 }
 
 /* ---------------------------------------------------------------- what pays */
-
-/* The shapes that a cel adds to a sweep: of a defocused one, a box. */
-static size_t count_shapes(const celspan_cel *cel) {
-  return cel->defocus_radius > 0 ? 1 : cs_parts_shapes(cel->objects, cel->object_count);
-}
-
-/* A few pictures are drawn faster where they are composed with others. */
-static bool is_mapped(const celspan_cel *cel, bool suits, size_t rich) {
-  return suits && (count_shapes(cel) >= rich || !has_picture(cel));
-}
 
 bool cs_ways_choose(const celspan_rostrum *rostrum, cs_ways *ways) {
   size_t rich = 0, others = 0;
@@ -100,7 +105,7 @@ bool cs_ways_choose(const celspan_rostrum *rostrum, cs_ways *ways) {
     bool is_rich = ways->suits[i] && shapes >= ways->shapes;
     ways->mapped[i] = is_mapped(rostrum->cels[i], ways->suits[i], ways->shapes);
     rich += is_rich ? shapes : 0;
-    others += is_rich ? 0 : shapes;
+    others += (is_rich ? 0 : shapes) + count_cuts(rostrum->cels[i]);
   }
   return rich > 0 && rich >= others;
 }

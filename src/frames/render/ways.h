@@ -10,10 +10,11 @@
  *
  * The rule. A cel is rich that suits and has at least CS_WAYS_SHAPES shapes, and at least one for
  * every CS_WAYS_PIXELS pixels of the frame's longer side: the longer boundaries are, the less a map
- * saves. Where the rich cels have together at least as many shapes as all others, each cel that
- * suits is drawn from its map, unless it is not rich and has pictures; the other cels are swept,
- * and otherwise the whole exposure is. The mesh of a bent picture or gradient is one shape, because
- * it is another mesh in each frame, and a defocused cel is one.
+ * saves. Where the rich cels have together at least as many shapes as there are others, each cel
+ * that suits is drawn from its map, unless it is not rich and has pictures; the other cels are
+ * swept, and otherwise the whole exposure is. Shapes that are cut away from others are among the
+ * others, whatever cel they are in: nothing is hidden by them. The mesh of a bent picture or
+ * gradient is one shape, because it is another mesh in each frame, and a defocused cel is one.
  *
  * An exposure may have maps where its frame repeats, its antialiasing is "area", no side of the
  * frame is above CS_WAYS_SIDE pixels, and it has at most CS_MAP_DRAWINGS cels, no procedures, no
@@ -21,7 +22,7 @@
  *   - is in front of all cels that have pictures of one thread, compositions, modes that act on
  *     other cels, or a back light with a shape, and of those that have paints that do not dim all
  *     channels alike and are swept,
- *   - has no such paint beside gradients or pictures,
+ *   - has no such paint over a gradient or a picture that lets something through,
  *   - is not defocused, has no front light with a shape, and no modes under a coloured light,
  *   - lies before the horizon, as a whole,
  *   - is small enough to be a map (engine/map/map.h) and, if it is turned, to be turned (turn.h

@@ -388,6 +388,18 @@ static void add_modes(const celspan_object *object, cs_primitive_data *data) {
   data->has_modes |= cs_object_has_modes(object);
 }
 
+static uint16_t sum_of(uint16_t a, uint16_t b) {
+  return a < UINT16_MAX - b ? (uint16_t)(a + b) : UINT16_MAX;
+}
+
+/* Adds the shapes of an operand. */
+static void add_shapes(const cs_primitive_data *item, cs_primitive_data *data) {
+  bool is_cut = data->kind == CS_PRIMITIVE_DATA_BOOLEAN &&
+                data->boolean->op == CELSPAN_DIFFERENCE && data->primitive_count > 0;
+  data->shape_count = sum_of(data->shape_count, item->shape_count);
+  data->cut_count = sum_of(data->cut_count, is_cut ? item->shape_count : item->cut_count);
+}
+
 celspan_status cs_primitive_data_measure(celspan_context *context, const char *noun,
                                          celspan_object *const *objects, size_t count,
                                          cs_primitive_data *data) {
@@ -396,9 +408,8 @@ celspan_status cs_primitive_data_measure(celspan_context *context, const char *n
   for (size_t i = 0; i < count; i++) {
     const cs_primitive_data *item = objects[i]->data;
     data->depth = item->depth > data->depth ? item->depth : data->depth;
+    add_shapes(item, data);
     data->primitive_count += item->primitive_count; /* both at most the limit: no overflow */
-    const uint32_t shapes = (uint32_t)data->shape_count + item->shape_count;
-    data->shape_count = (uint16_t)(shapes < UINT16_MAX ? shapes : UINT16_MAX);
     data->has_procedure |= item->has_procedure;
     add_modes(objects[i], data);
     data->has_uneven |= item->has_uneven;

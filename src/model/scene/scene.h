@@ -139,6 +139,7 @@ typedef struct cs_primitive_data {
   bool is_box;              /* the outline is that of `box`, which has an area */
   int16_t depth;            /* levels of booleans and rostrums below and with this one */
   uint16_t shape_count;     /* as primitive_count, a mesh being one shape; 65535 at most */
+  uint16_t cut_count;       /* of these, in what a difference cuts away */
   uint32_t primitive_count; /* below and with this one, each time it occurs */
   celspan_texture *texture; /* OUTLINE; never NULL */
   celspan_box bounds; /* all but BOOLEAN: own units; tight, but of a stroke only where that shows */

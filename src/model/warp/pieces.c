@@ -88,7 +88,10 @@ static celspan_status place(celspan_context *context, celspan_texture *texture,
 }
 
 /* A mesh is one shape for those who ask whether a drawing is worth being kept. */
-static void count_as_one(const celspan_object *mesh) { mesh->data->shape_count = 1; }
+static void count_as_one(const celspan_object *mesh) {
+  mesh->data->shape_count = 1;
+  mesh->data->cut_count = 0;
+}
 
 celspan_status cs_warp_pieces(celspan_context *context, const cs_warp_mesh *mesh,
                               celspan_texture *texture, const celspan_box *box,
