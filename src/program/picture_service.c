@@ -421,7 +421,9 @@ static int compare(lua_State *L) {
   const celspan_coding coding = {.depth = a->is_float || b->is_float ? CELSPAN_DEPTH_FLOAT
                                                                      : CELSPAN_DEPTH_16,
                                  .transfer = CELSPAN_TRANSFER_SRGB,
-                                 .alpha = CELSPAN_ALPHA_STRAIGHT};
+                                 .alpha = stills[0].plane || stills[1].plane
+                                              ? CELSPAN_ALPHA_PREMULTIPLIED
+                                              : CELSPAN_ALPHA_STRAIGHT};
   comparison c = {.coding = coding, .width = a->width, .height = a->height};
   cs_request_read(session->request, "--fail", &c.tolerance);
   cs_service_try(L, compare_into(session->context, &c, output, &stills[0], &frames[0], &stills[1],

@@ -31,7 +31,8 @@ static cs_exit set_size(const cs_request *request, celspan_frame_desc *out) {
   }
   if (out->width > 0 && out->height > 0)
     return CS_EXIT_OK;
-  cs_report_error("a film of %g x %g at scale %g is more than %d pixels a side: lower --scale",
+  cs_report_error("a frame of %g x %g at scale %g is more than %d pixels a side: give a smaller "
+                  "--scale, or --size",
                   out->film_width, out->film_height, scale, CS_SIDE_MAX);
   return CS_EXIT_LIMIT;
 }

@@ -284,9 +284,9 @@ describe("the command line", function()
     it("of an impossible picture size end with 6", function()
       failure(6, "render " .. write("tall.lua", (PLAIN:gsub("size = {8, 4}", "size = {1, 8}")))
         .. " --scale 2e5 --hash",
-        "a film of 1 x 8 at scale 200000 is more than 1048576 pixels a side")
+        "a frame of 1 x 8 at scale 200000 is more than 1048576 pixels a side")
       failure(6, "render " .. plain .. " --scale 1e6 --hash",
-        "a film of 8 x 4 at scale 1e+06 is more than 1048576 pixels a side: lower --scale")
+        "a frame of 8 x 4 at scale 1e+06 is more than 1048576 pixels a side: give a smaller --scale")
       -- one pixel
       local tiny = " --scale 1e-9 --hash --frames 1 --progress none"
       assert.equal(0, (celspan("render " .. plain .. tiny)))

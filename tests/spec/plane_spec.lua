@@ -328,6 +328,29 @@ end }
     refused(3, "('celspan info a.plane' describes it)", "render a.plane -o a.png")
   end)
 
+  it("is refused as a plane by its name when its beginning is damaged", function()
+    done("render film.lua --frames 2 -o a.plane")
+    bench:write("b.plane", "x" .. bench:read("a.plane"):sub(2))
+    bench:write("c.plane", "")
+    for _, words in ipairs { "info %s", "spans %s", "convert %s a.png", "tiles %s -o tiles",
+                             "compare a.plane %s", "plane %s -o a.html" } do
+      refused(4, "b.plane: byte 0: this is not a plane file", words:format "b.plane")
+      refused(4, "c.plane: byte 0: the file is too short", words:format "c.plane")
+    end
+    refused(4, "d.plane: No such file or directory", "info d.plane")
+  end)
+
+  it("is not replaced by what is made of it", function()
+    done("render film.lua --frames 2 -o a.plane")
+    local bytes = bench:read "a.plane"
+    bench:write("a.html", bytes)
+    bench:write("a.png", bytes)
+    refused(2, "a.html: the output is the plane that is read", "plane a.html -o ./a.html")
+    refused(2, "./a.png: the output is the plane that is read", "convert a.png ./a.png")
+    assert.equal(bytes, bench:read "a.html")
+    assert.equal(bytes, bench:read "a.png")
+  end)
+
   it("is refused when a later frame is damaged, with the frame", function()
     done("render film.lua -o film.plane")
     local bytes = bench:read "film.plane"

@@ -345,15 +345,19 @@ celspan_status celspan_plane_frame(celspan_context *context, const celspan_plane
   return cs_plane_choose(context, "plane", plane, frame, out);
 }
 
-bool cs_plane_accepts(const char *path) {
+static bool begins_as_plane(const char *path) {
   unsigned char start[PLANEFILE_MAGIC_BYTES];
   int descriptor = cs_open_to_read(path);
-  bool accepts = descriptor >= 0 &&
-                 cs_open_read_at(descriptor, start, sizeof start, 0) == (ssize_t)sizeof start &&
-                 planefile_is(start, sizeof start);
+  bool is_plane = descriptor >= 0 &&
+                  cs_open_read_at(descriptor, start, sizeof start, 0) == (ssize_t)sizeof start &&
+                  planefile_is(start, sizeof start);
   if (descriptor >= 0)
     close(descriptor);
-  return accepts;
+  return is_plane;
+}
+
+bool cs_plane_accepts(const char *path) {
+  return cs_plane_is_wanted(path, NULL) || begins_as_plane(path);
 }
 
 cs_plane_facts cs_plane_count(const celspan_plane *plane) {

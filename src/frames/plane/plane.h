@@ -5,7 +5,7 @@
 #include "base/hash.h"
 #include "celspan/celspan.h"
 
-/* Whether a file begins as plane files do. */
+/* Whether a file is read as a plane: it begins as plane files do, or its name ends as theirs. */
 bool cs_plane_accepts(const char *path);
 /* celspan_plane_frame of a file, whose name is in the message about a damaged frame. */
 CELSPAN_CHECKED celspan_status cs_plane_choose(celspan_context *context, const char *name,

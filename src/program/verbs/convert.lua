@@ -6,6 +6,7 @@ if program.has_number(request[2]) then
 end
 program.refuse_target(request[2])
 local kind = program.kind(request[1])
+if kind == "plane" then program.refuse_self(request[1], request[2]) end
 if kind == "svg" or kind == "archive" then
   local film = program.film()
   program.write(film:at(film.first), request[2], table.unpack(film.size))

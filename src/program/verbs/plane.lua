@@ -56,6 +56,7 @@ if program.text "plane.module" == "none" then
   program.fail("input", "this celspan was built without clang and lld, which make the decoder of "
     .. "pages: install them, for example the Debian packages clang and lld, and build it again")
 end
+program.refuse_self(path, request.output)
 local facts = program.plane(path) -- refuses what is not a plane
 -- The decoder that draws pictures, too, is larger.
 local module = program.text(facts.pictures > 0 and "pictures.module" or "plane.module")

@@ -14,6 +14,14 @@ function program.fail(kind, ...) fail(kind, string.format(...)) end
 
 function program.usage(...) program.fail("usage", ...) end
 
+--- Refuses an output that is the plane which is read: it would be lost.
+function program.refuse_self(input, output)
+  local path = program.resolve(input)
+  if path and path == program.resolve(output) then
+    program.usage("%s: the output is the plane that is read: give another name", output)
+  end
+end
+
 --- Whether a path has one of these endings, in upper or lower case.
 function program.has_ending(path, ...)
   for _, ending in ipairs { ... } do
