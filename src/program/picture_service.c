@@ -400,6 +400,16 @@ static void open_compared(lua_State *L, const char *path, cs_still *out) {
     cs_service_try(L, cs_still_open(session->context, path, 0, out));
 }
 
+/* What is compared: of a plane, colours times alpha, since a picture rounds what is nearly clear. */
+static celspan_coding coding_of(const cs_still stills[2]) {
+  bool is_float = stills[0].info.is_float || stills[1].info.is_float;
+  bool has_plane = stills[0].plane || stills[1].plane;
+  return (celspan_coding){
+      .depth = is_float ? CELSPAN_DEPTH_FLOAT : CELSPAN_DEPTH_16,
+      .transfer = CELSPAN_TRANSFER_SRGB,
+      .alpha = has_plane ? CELSPAN_ALPHA_PREMULTIPLIED : CELSPAN_ALPHA_STRAIGHT};
+}
+
 /* compare(a, b, difference or nil) -> { largest =, x =, y =, channel =, differing =, pixels = }, or
  * { sizes = { w, h, w, h } } where they differ */
 static int compare(lua_State *L) {
@@ -418,13 +428,7 @@ static int compare(lua_State *L) {
   }
   for (int i = 0; i < 2; i++)
     cs_service_require(L, cs_view_still(session->request, &stills[i], &frames[i]));
-  const celspan_coding coding = {.depth = a->is_float || b->is_float ? CELSPAN_DEPTH_FLOAT
-                                                                     : CELSPAN_DEPTH_16,
-                                 .transfer = CELSPAN_TRANSFER_SRGB,
-                                 .alpha = stills[0].plane || stills[1].plane
-                                              ? CELSPAN_ALPHA_PREMULTIPLIED
-                                              : CELSPAN_ALPHA_STRAIGHT};
-  comparison c = {.coding = coding, .width = a->width, .height = a->height};
+  comparison c = {.coding = coding_of(stills), .width = a->width, .height = a->height};
   cs_request_read(session->request, "--fail", &c.tolerance);
   cs_service_try(L, compare_into(session->context, &c, output, &stills[0], &frames[0], &stills[1],
                                  &frames[1]));

@@ -286,7 +286,7 @@ describe("the command line", function()
         .. " --scale 2e5 --hash",
         "a frame of 1 x 8 at scale 200000 is more than 1048576 pixels a side")
       failure(6, "render " .. plain .. " --scale 1e6 --hash",
-        "a frame of 8 x 4 at scale 1e+06 is more than 1048576 pixels a side: give a smaller --scale")
+        "a frame of 8 x 4 at scale 1e+06 is more than 1048576 pixels a side: give a smaller")
       -- one pixel
       local tiny = " --scale 1e-9 --hash --frames 1 --progress none"
       assert.equal(0, (celspan("render " .. plain .. tiny)))
