@@ -404,10 +404,10 @@ static void open_compared(lua_State *L, const char *path, cs_still *out) {
 static celspan_coding coding_of(const cs_still stills[2]) {
   bool is_float = stills[0].info.is_float || stills[1].info.is_float;
   bool has_plane = stills[0].plane || stills[1].plane;
-  return (celspan_coding){
-      .depth = is_float ? CELSPAN_DEPTH_FLOAT : CELSPAN_DEPTH_16,
-      .transfer = CELSPAN_TRANSFER_SRGB,
-      .alpha = has_plane ? CELSPAN_ALPHA_PREMULTIPLIED : CELSPAN_ALPHA_STRAIGHT};
+  return (celspan_coding){.depth = is_float ? CELSPAN_DEPTH_FLOAT : CELSPAN_DEPTH_16,
+                          .transfer = CELSPAN_TRANSFER_SRGB,
+                          .alpha =
+                              has_plane ? CELSPAN_ALPHA_PREMULTIPLIED : CELSPAN_ALPHA_STRAIGHT};
 }
 
 /* compare(a, b, difference or nil) -> { largest =, x =, y =, channel =, differing =, pixels = }, or
