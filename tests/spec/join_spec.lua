@@ -46,6 +46,20 @@ local function refused(code, text, arguments, ...)
   assert.is_truthy(err:find(text, 1, true), err)
 end
 
+--- Checks the checksum of every chunk of a PNG file; returns how many hold image data.
+local function check_chunks(bytes)
+  local at, images = 9, 0
+  while at < #bytes do
+    local data, sum, after = (">s4"):unpack(bytes:sub(at, at + 3) .. bytes:sub(at + 8)), 0, 0
+    after = at + 8 + #data
+    sum = (">I4"):unpack(bytes, after)
+    assert.equal(stored.crc32(bytes:sub(at + 4, after - 1)), sum, bytes:sub(at + 4, at + 7))
+    images = images + (bytes:sub(at + 4, at + 7) == "IDAT" and 1 or 0)
+    at = after + 4
+  end
+  return images
+end
+
 local function render(options, args)
   done("render film.lua --frames 1 --progress none %s%s", options, args and " -- " .. args or "")
 end
@@ -79,6 +93,14 @@ describe("joined strips", function()
       end
     end)
   end
+
+  it_compares("have right checksums in PNG, also where a strip has several of its chunks", function()
+    render "--size 1200x900 -o whole.png"
+    render_strips("png", 2, "--size 1200x900")
+    done "join s/#.png -o joined.png"
+    assert.is_true(check_chunks(bench:read "joined.png") > 2)
+    done "compare whole.png joined.png"
+  end)
 
   it("may be larger than the film, and there may be only one", function()
     render "--size 700x2000 -o whole.span"

@@ -762,6 +762,21 @@ static void parts_beside_the_frame_still_count(void) {
   cs_outline_finish(&square, context->memory);
 }
 
+/* Two bows that touch a side of the frame in their middle are curves, and not that side. */
+static void what_touches_a_side_is_inside(void) {
+  const char *const data = "M 2 10 Q -2 20 2 30 H 298 Q 302 20 298 10 Z";
+  celspan_matrix matrix = celspan_matrix_identity();
+  cs_outline shape;
+  cs_outline_init(&shape);
+  MUST(cs_outline_path(context, &shape, data));
+  cs_boundary_set set = build(&shape, &matrix, &small);
+  CHECK(set.chain_count == 2);
+  for (size_t i = 0; i < set.piece_count; i++)
+    CHECK(set.pieces[i].x0 != set.pieces[i].x1 || set.pieces[i].chords > 1);
+  cs_boundary_finish(&set, context->memory);
+  cs_outline_finish(&shape, context->memory);
+}
+
 static void chains_run_over_the_start_of_a_contour(void) {
   const celspan_point points[6] = {{10, 50}, {0, 100}, {50, 200}, {60, 120}, {50, 0}, {30, 20}};
   cs_outline outline;
@@ -857,6 +872,7 @@ int main(void) {
   a_chain_goes_on_along_the_side_of_the_frame();
   shared_edges_are_one();
   parts_beside_the_frame_still_count();
+  what_touches_a_side_is_inside();
   chains_run_over_the_start_of_a_contour();
   chains_are_sorted_by_top_then_left();
   failing_memory_is_reported();

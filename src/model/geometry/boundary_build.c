@@ -118,12 +118,23 @@ static celspan_status add_curve(builder *b, const cs_bezier *curve, celspan_poin
   return add_curve(b, &lower, middle, to, depth + 1);
 }
 
-/* A curve that crosses neither side of the frame: it is inside or outside as its middle is. */
+static double middle_x(const cs_bezier *curve, cs_bezier *upper, cs_bezier *lower) {
+  cs_bezier_split(curve, 0.5, upper, lower);
+  return project(lower->points[0]).x;
+}
+
+/* The mean of three points of a curve. */
+static double mean_x(const cs_bezier *curve) {
+  cs_bezier upper, lower, first, second;
+  double middle = middle_x(curve, &upper, &lower);
+  return (middle + middle_x(&upper, &first, &second) + middle_x(&lower, &first, &second)) / 3;
+}
+
+/* A curve that crosses neither side of the frame is inside or outside as the mean of its points is:
+ * any single one may be where it touches a side. */
 static celspan_status add_one_side(builder *b, const cs_bezier *curve, celspan_point from,
                                    celspan_point to) {
-  cs_bezier upper, lower;
-  cs_bezier_split(curve, 0.5, &upper, &lower);
-  double x = project(lower.points[0]).x;
+  double x = mean_x(curve);
   if (x <= b->frame.left)
     return add_vertical(b, b->frame.left, from.y, to.y);
   if (x >= b->frame.right)
