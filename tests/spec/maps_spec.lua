@@ -148,6 +148,23 @@ end }
     assert.are.equal(whole, render("--workers 3 --memory 1", 4))
   end)
 
+  it("counts no map of a cel that is then swept", function()
+    local vast = bench:write("vast.lua", [[
+local celspan = require "celspan"
+local near, far = {}, {}
+for i = 1, 80 do
+  near[i] = celspan.circle { centre = { i, i }, radius = 9 }
+  far[i] = celspan.circle { centre = { i * 1e6, 0 }, radius = 4e7 } -- its map would be too large
+end
+return celspan.film { size = { 320, 200 }, frames = 2, frame = function()
+  return celspan.rostrum { celspan.cel { celspan.union(far):scale(0.01) },
+                           celspan.cel { celspan.union(near) } }
+end }
+]])
+    local _, out = bench:celspan("spans %s --stats --workers 1", vast)
+    assert.matches(" maps 1 maps_made 1 swept 1 ", out, 1, true)
+  end)
+
   it("may have groups, spaces, mattes, grades, and modes that act inside a cel", function()
     local parts = bench:write("parts.lua", [[
 local celspan = require "celspan"

@@ -244,7 +244,8 @@ static void test_singular_view(studio *s) {
   celspan_rostrum *rostrum = studio_rostrum(s, CELSPAN_ROSTRUM_DESC, cels, 2);
   celspan_matrix matrix;
   REFUSED(s, cs_scene_cel_matrix(s->context, rostrum, 1, 100, 50, &matrix),
-          "cel 2: its viewport and the camera together enlarge or reduce too far");
+          "cel 2: its viewport and the camera together enlarge or reduce too far: all places on "
+          "the frame must be within 1e+12 units; give widths of a usual size");
   CHECK(cs_scene_cel_matrix(s->context, rostrum, 0, 100, 50, &matrix) == CELSPAN_OK);
 }
 

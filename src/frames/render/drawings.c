@@ -321,7 +321,7 @@ static celspan_status make_sheets(making *m, cs_map_frame *out, size_t *unsuited
   out->count = left;
   for (bool suits = true; left-- > 0; first += out->sheets[left].source_count) {
     CS_TRY(make_sheet(m, first, &out->sheets[left], &suits));
-    out->made += m->drawings[first].is_made;
+    out->made += m->ways.mapped[first] && m->drawings[first].is_made;
     *unsuited = first;
     if (!suits)
       return CELSPAN_OK;

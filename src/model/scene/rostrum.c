@@ -290,8 +290,9 @@ celspan_status cs_scene_cel_matrix(celspan_context *context, const celspan_rostr
   if (!cs_matrix_is_sane(&view) || !cs_matrix_is_sane(&whole) ||
       !celspan_matrix_inverse(view, &inverse))
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "cel %zu%s: its viewport and the camera together enlarge or reduce too far",
-                   cel_index + 1, cs_mark_describe(cel->mark).text);
+                   "cel %zu%s: its viewport and the camera together enlarge or reduce too far: all "
+                   "places on the frame must be within %g units; give widths of a usual size",
+                   cel_index + 1, cs_mark_describe(cel->mark).text, CS_NUMBER_LIMIT);
   *out = whole;
   return CELSPAN_OK;
 }
