@@ -50,12 +50,11 @@ end
 local function check_chunks(bytes)
   local at, images = 9, 0
   while at < #bytes do
-    local data, sum, after = (">s4"):unpack(bytes:sub(at, at + 3) .. bytes:sub(at + 8)), 0, 0
-    after = at + 8 + #data
-    sum = (">I4"):unpack(bytes, after)
-    assert.equal(stored.crc32(bytes:sub(at + 4, after - 1)), sum, bytes:sub(at + 4, at + 7))
-    images = images + (bytes:sub(at + 4, at + 7) == "IDAT" and 1 or 0)
-    at = after + 4
+    local size, kind = (">I4c4"):unpack(bytes, at)
+    local sum = (">I4"):unpack(bytes, at + 8 + size)
+    assert.equal(stored.crc32(bytes:sub(at + 4, at + 7 + size)), sum, kind)
+    images = images + (kind == "IDAT" and 1 or 0)
+    at = at + 12 + size
   end
   return images
 end
