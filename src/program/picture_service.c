@@ -400,7 +400,8 @@ static void open_compared(lua_State *L, const char *path, cs_still *out) {
     cs_service_try(L, cs_still_open(session->context, path, 0, out));
 }
 
-/* What is compared: of a plane, colours times alpha, since a picture rounds what is nearly clear. */
+/* How values are compared: with a plane multiplied by alpha, because a picture rounds the colours
+ * of what is nearly clear. */
 static celspan_coding coding_of(const cs_still stills[2]) {
   bool is_float = stills[0].info.is_float || stills[1].info.is_float;
   bool has_plane = stills[0].plane || stills[1].plane;

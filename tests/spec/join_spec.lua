@@ -93,7 +93,7 @@ describe("joined strips", function()
     end)
   end
 
-  it_compares("have right checksums in PNG, also where a strip has several of its chunks", function()
+  it_compares("have right checksums in PNG, also of strips with several chunks", function()
     render "--size 1200x900 -o whole.png"
     render_strips("png", 2, "--size 1200x900")
     done "join s/#.png -o joined.png"

@@ -338,6 +338,7 @@ end }
       refused(4, "c.plane: byte 0: the file is too short", words:format "c.plane")
     end
     refused(4, "d.plane: No such file or directory", "info d.plane")
+    refused(4, "d.plane: No such file or directory", "convert d.plane new.png")
   end)
 
   it("is not replaced by what is made of it", function()

@@ -194,7 +194,7 @@ static celspan_status copy_chunk(cs_joining *joining, celspan_context *context,
   memcpy(head + 4, c->type, 4);
   CS_TRY(cs_file_write(joining->file, context, head, sizeof head));
   CS_TRY(copy_data(joining, context, part, c, &what, &sum));
-  if (what.more_size > 0) /* else there are no bytes, which zlib takes for a new beginning */
+  if (what.more_size > 0) /* zlib answers 0 where the bytes are NULL */
     sum = crc32_z(sum, what.more, what.more_size);
   cs_png_store_32(tail, (uint32_t)sum);
   CS_TRY(cs_file_write(joining->file, context, what.more, what.more_size));

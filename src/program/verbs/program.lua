@@ -16,8 +16,8 @@ function program.usage(...) program.fail("usage", ...) end
 
 --- Refuses an output that is the plane which is read: it would be lost.
 function program.refuse_self(input, output)
-  local path = program.resolve(input)
-  if path and path == program.resolve(output) then
+  local is_file = program.entries(input) == false -- what does not exist leads to its folder
+  if is_file and program.resolve(input) == program.resolve(output) then
     program.usage("%s: the output is the plane that is read: give another name", output)
   end
 end
