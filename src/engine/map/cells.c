@@ -117,6 +117,6 @@ bool cs_map_cells_is_even(const cs_stack *stack, const cs_item *items, uint32_t 
 void cs_map_cells_find_hiding(cs_map *map, const cs_stack *stack) {
   for (size_t i = 0; i < map->cell_count; i++) {
     cs_map_cell *cell = &map->cells[i];
-    cell->hides = hides(stack, map->items + cell->item, cell->length);
+    cell->hides = cell->length > 0 && hides(stack, map->items + cell->item, cell->length);
   }
 }
