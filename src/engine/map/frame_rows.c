@@ -119,16 +119,14 @@ static void list_shown(folding *f) {
         (cs_map_shown){&f->maker->frame->sheets[i], f->at[i]->colour, through_of(f, i, f->at[i])};
 }
 
-/* What a sheet that can be shown lets through in a pixel, where it shows this colour: what varies
- * in the pixel dims all channels alike. */
-static cs_v4 through_with(const folding *f, size_t i, cs_v4 colour) {
+/* What a sheet that varies lets through in the pixels of its span where its alpha is 0: what varies
+ * dims all channels alike, by its alpha. */
+static cs_v4 clear_of(const folding *f, size_t i) {
   const cs_map_rows *rows = &f->maker->rows[i];
   const cs_map_span *span = f->at[i];
-  float through = span->colour[3] - colour[3];
-  if (span->share_count == 0)
-    return f->shown[i].through;
+  float through = span->colour[3];
   if (!rows->drawing->through)
-    return cs_map_even(colour);
+    return cs_v4_all(1);
   for (uint32_t n = 0; n < span->share_count; n++)
     through += rows->shares[span->share + n].share;
   return f->shown[i].through + cs_v4_all(through);
@@ -187,7 +185,8 @@ static celspan_status solve(folding *f, int32_t x, cs_v4 *out) {
   list_shown(f);
   for (size_t i = 0; i < f->shown_count; i++) {
     CS_TRY(find_colours(f, i, x, x + 1, &f->shown[i].colour));
-    f->shown[i].through = through_with(f, i, f->shown[i].colour);
+    if (f->at[i]->share_count > 0)
+      f->shown[i].through = clear_of(f, i) - cs_v4_all(f->shown[i].colour[3]);
     if (f->at[i]->cell == CS_MAP_BROKEN)
       CS_TRY(add_lines(f, i, x));
   }
@@ -320,9 +319,12 @@ static celspan_status fold_batch(folding *f, int32_t x, int32_t end, float *out)
   for (int32_t k = 0; k < end - x; k++)
     folds[k] = cs_map_fold_begin;
   for (size_t i = 0; i < f->shown_count; i++) {
+    const bool is_varied = f->at[i]->share_count > 0;
+    const cs_v4 clear = is_varied ? clear_of(f, i) : f->shown[i].through;
     CS_TRY(find_colours(f, i, x, end, colours));
     for (int32_t k = 0; k < end - x; k++)
-      cs_map_fold_add(&folds[k], f->shown[i].sheet, colours[k], through_with(f, i, colours[k]));
+      cs_map_fold_add(&folds[k], f->shown[i].sheet, colours[k],
+                      is_varied ? clear - cs_v4_all(colours[k][3]) : clear);
   }
   for (int32_t k = 0; k < end - x; k++)
     cs_v4_store(out + (size_t)4 * (size_t)k, cs_map_fold_end(folds[k], f->maker->frame));

@@ -42,8 +42,8 @@ static bool is_mapped(const celspan_cel *cel, bool suits, size_t rich) {
 
 /* Whether more of a cel is needed than what it shows and lets through to put it over the cels
  * behind it: of a swept one a colour and an alpha are known. */
-static bool needs_backdrop(const celspan_cel *cel, bool is_mapped, celspan_space space) {
-  return cs_cel_blends(cel, space) || (is_uneven(cel) && !is_mapped) || cel->back.texture;
+static bool needs_backdrop(const celspan_cel *cel, bool has_map, celspan_space space) {
+  return cs_cel_blends(cel, space) || (is_uneven(cel) && !has_map) || cel->back.texture;
 }
 
 /* At least `count` cels at the rear are swept with the light behind them. */
