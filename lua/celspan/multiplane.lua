@@ -7,6 +7,7 @@
 -- about the film's centre, distance being focal + z - camera.z, and panned by -camera.x, -camera.y
 -- times that scale. Farther planes come first. A plane whose distance differs from `focus`
 -- (default: focal) by d is defocused by aperture |d| / distance, in addition to its cel's defocus.
+-- focus_on = z keeps the depth z sharp instead, wherever the camera is.
 -- Planes at or behind the camera are not visible. front, back, brightness and antialias are passed
 -- to the rostrum.
 --
@@ -20,8 +21,8 @@ local core = require "celspan.core"
 local fields = require "celspan.fields"
 
 local known = { "planes", film = "table", camera = "table", focal = "number", focus = "number",
-                aperture = "number", fit = "boolean", over = "table", front = "any", back = "any",
-                brightness = "number", antialias = "any" }
+                focus_on = "number", aperture = "number", fit = "boolean", over = "table",
+                front = "any", back = "any", brightness = "number", antialias = "any" }
 local known_plane = { "cel", z = "number", fit = "boolean" }
 local known_camera = { x = "number", y = "number", z = "number" }
 
@@ -58,6 +59,10 @@ local function check(scene)
     core.refuse("multiplane: field 'aperture' must be 0 or more, got "
       .. fields.shown(scene.aperture))
   end
+  if scene.focus and scene.focus_on then
+    core.refuse("multiplane: 'focus' is a distance from the camera and 'focus_on' a depth: give "
+      .. "one of them")
+  end
   if scene.focal and scene.focal <= 0 then
     core.refuse("multiplane: field 'focal' must be above 0, got " .. fields.shown(scene.focal))
   end
@@ -86,8 +91,9 @@ local function multiplane(_, scene)
   fields.check("multiplane", scene, known)
   check(scene)
   fields.check("multiplane: camera", scene.camera or {}, known_camera)
-  local focal = scene.focal or 1000
-  local focus, aperture = scene.focus or focal, scene.aperture or 0
+  local focal, aperture = scene.focal or 1000, scene.aperture or 0
+  local function distance_of(z) return focal + z - (scene.camera and scene.camera.z or 0) end
+  local focus = scene.focus_on and distance_of(scene.focus_on) or scene.focus or focal
   local order = {}
   for i = 1, rawlen(scene) do order[i] = i end
   table.sort(order, function(a, b)
@@ -98,7 +104,7 @@ local function multiplane(_, scene)
   local cels = { front = scene.front, back = scene.back, brightness = scene.brightness,
                  antialias = scene.antialias }
   for _, i in ipairs(order) do
-    local distance = focal + (scene[i].z or 0) - (scene.camera and scene.camera.z or 0)
+    local distance = distance_of(scene[i].z or 0)
     if distance > 0 then
       local blur = aperture * math.abs(distance - focus) / distance
       cels[#cels + 1] = seen(scene[i], scene, focal, distance, blur)

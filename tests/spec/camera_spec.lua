@@ -79,6 +79,17 @@ describe("multiplane", function()
     assert.is_nil(rostrum[2].defocus)
   end)
 
+  it("keeps a depth in focus while the camera moves", function()
+    local rostrum = multiplane { film = film, focal = 1000, aperture = 12, focus_on = 200,
+      camera = { z = 150 }, { cel(), z = 200 }, { cel(), z = 1250 } }
+    assert.are.equal(12 * 1050 / 2100, rostrum[1].defocus.radius)
+    assert.is_nil(rostrum[2].defocus)
+    local message = raised.message(function()
+      multiplane { film = film, focus = 1, focus_on = 1 }
+    end)
+    assert.is_truthy(message:find("camera_spec.lua:%d+: multiplane: 'focus' is a dist"), message)
+  end)
+
   it("reports wrong arguments at the caller's line", function()
     local message = raised.message(function() multiplane { film = film, focl = 3 } end)
     assert.is_truthy(message:find("camera_spec.lua:%d+: multiplane: unknown field 'focl'"), message)
