@@ -1,4 +1,4 @@
--- The module from a checkout of the tree: `luarocks make` in its folder, for Lua 5.4.
+-- The module from a checkout of the tree: `luarocks --lua-version 5.4 make` in its folder.
 rockspec_format = "3.0"
 package = "celspan"
 version = "scm-1"

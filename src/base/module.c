@@ -20,14 +20,15 @@
 #define ROOM ((size_t)32 << 20)
 
 /* Where a module may lie, relative to the folder of the object that contains this function: an
- * installed library or program, a Lua module in the build tree, a test program. A folder that ends
- * with a slash is followed by that of the module's sources. */
+ * installed library, program or Lua module, a Lua module in the build tree, a test program. A
+ * folder that ends with a slash is followed by that of the module's sources. */
 static const char *const folders[] = {
     "./",
     "../",
     "src/",
     "../src/",
     "celspan",
+    "../../celspan",
     "../../src/",
     "../lib/celspan",
     "../lib/x86_64-linux-gnu/celspan",

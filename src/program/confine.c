@@ -198,7 +198,8 @@ static void output_folder(const cs_request *request, char out[PATH_SIZE]) {
 /* Adds what the program itself reads: its modules, the settings of colours, and the files that
  * options name. */
 static bool add_own_folders(const cs_request *request, cs_roots *read) {
-  static const char *const variables[] = {"OCIO", "CELSPAN_PICTURE_MODULE", "CELSPAN_ART_MODULE"};
+  static const char *const variables[] = {"OCIO", "CELSPAN_PICTURE_MODULE", "CELSPAN_ART_MODULE",
+                                          "CELSPAN_COLOUR_MODULE"};
   char folder[PATH_SIZE];
   ssize_t size = readlink("/proc/self/exe", folder, sizeof folder - 1);
   folder[size > 0 ? size : 0] = '\0';

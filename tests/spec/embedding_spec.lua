@@ -98,6 +98,52 @@ end }
   end
 end)
 
+describe("the module", function()
+  local module = BUILD .. "/celspan.so"
+
+  local reads = present.program "readelf" and it or pending
+  reads("is not linked with Lua, which the interpreter has", function()
+    local text = good("readelf -d %s", module)
+    assert.is_truthy(text:find("NEEDED", 1, true))
+    assert.is_nil(text:find "NEEDED[^\n]*lua")
+  end)
+
+  for interpreter, sentence in pairs {
+    ["lua5.1"] = "this celspan.so is a module for Lua 5.4",
+    luajit = "this celspan.so is a module for Lua 5.4",
+    ["lua5.3"] = "version mismatch",
+  } do
+    local loads = present.program(interpreter) and not present.sanitizer() and it or pending
+    loads("says in " .. interpreter .. " which Lua it is for", function()
+      local ended_well, text = run("LUA_CPATH='%s/?.so' %s -e 'require \"celspan\"'", BUILD,
+        interpreter)
+      assert.is_false(ended_well)
+      assert.is_truthy(text:find(sentence, 1, true), text)
+    end)
+  end
+end)
+
+describe("an installation that was moved", function()
+  -- The folders of an installation, in a place that no build knows.
+  local function install()
+    local libraries = folder .. "/moved/lib/any"
+    good("mkdir -p %s/lua/5.4 %s/celspan && cp %s/celspan.so %s/lua/5.4", libraries, libraries,
+      BUILD, libraries)
+    good("find %s/src -name 'celspan-*.so' -exec cp {} %s/celspan ';'", BUILD, libraries)
+    return libraries .. "/lua/5.4"
+  end
+
+  local sets = present.art() and it or pending
+  sets("has modules that Lua finds", function()
+    write("letters.lua", [[
+local celspan = require "celspan"
+celspan.text { "A", font = ..., size = 9 }
+]])
+    good("cd %s && LUA_PATH= LUA_CPATH='%s/?.so' %s/tests/lua_host letters.lua "
+      .. "\"$OLDPWD/scripts/type/block.ttf\"", folder, install(), BUILD)
+  end)
+end)
+
 describe("the rockspec", function()
   local test = present.program "luarocks" and it or pending
   test("is well-formed, and makes a rock of what is built", function()

@@ -5,6 +5,7 @@
 #   tests/support/builds.sh
 #
 #   without Lua        and without C++ the core alone, by a host in C
+#   release            is optimized, and has no debugging information; it is only configured
 #   without C++        as the subproject of another project, with a host in C that plays a film;
 #                      formats that need C++ are refused with a sentence
 set -eu
@@ -34,6 +35,14 @@ without_lua() {
   absent "$tree/core" 'celspan-art.so'
   absent "$tree/core" 'celspan-colour.so'
   absent "$tree/core" 'celspan-web.so'
+}
+
+release() {
+  quietly meson setup "$tree/release" --buildtype=release -Dlua=disabled -Dpictures=disabled \
+    -Dart=disabled -Dcolour=disabled -Dtests=false
+  meson introspect --buildoptions "$tree/release" >"$tree/options"
+  grep -q '"name": "debug", "value": false' "$tree/options"
+  grep -q '"name": "optimization", "value": "3"' "$tree/options"
 }
 
 without_cpp_as_subproject() {
@@ -71,7 +80,7 @@ LUA
   grep -q 'built without OpenImageIO' "$tree/refused"
 }
 
-ways=(without_lua without_cpp_as_subproject)
+ways=(without_lua release without_cpp_as_subproject)
 if [ "${CELSPAN_TESTS:-1}" -gt 1 ]; then
   ways=("${ways[$((${CELSPAN_SEED:-1} % ${#ways[@]}))]}")
 fi

@@ -15,7 +15,10 @@ local environment = {
   { "CELSPAN_PATH",
     "where require searches after the script's folder; scripts may read these folders" },
   { "CELSPAN_PICTURE_MODULE",
-    "the file of the picture module, if celspan does not find it by itself" },
+    "the file of the module celspan-picture.so, if celspan does not find it" },
+  { "CELSPAN_ART_MODULE", "the same for celspan-art.so: type, drawings, paintings" },
+  { "CELSPAN_COLOUR_MODULE", "the same for celspan-colour.so: colour profiles" },
+  { "CELSPAN_WEB_MODULE", "the same for celspan-web.so: watch and play" },
   { "OCIO", "an OpenColorIO configuration: its colour spaces may be named in colour" },
 }
 
