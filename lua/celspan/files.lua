@@ -1,39 +1,17 @@
 --- Whole files: reads them up to a limit, and writes them so that only complete files appear.
+--- A pipe or a device is refused, and not waited for.
 local core = require "celspan.core"
 
 local files = {}
 
 local MOST_BYTES = 256 * 1024 * 1024 -- of a file that a script reads as text
-local PIECE = 65536 -- bytes; read allocates the requested size before it knows the file's size
 
---- The text of an open file; of a file that is too long, enough to see that.
-local function read_pieces(file, most)
-  local pieces, size = {}, 0
-  while size <= most do
-    local piece, problem = file:read(PIECE)
-    if problem then return nil, problem end
-    if not piece then break end
-    pieces[#pieces + 1] = piece
-    size = size + #piece
-  end
-  return table.concat(pieces)
-end
-
+--- The text of a regular file.
 ---@param path string
 ---@param most integer Bytes
 ---@return string? text
 ---@return string? message
-function files.read(path, most)
-  local file, message = io.open(path, "rb")
-  if not file then return nil, message end
-  local text, problem = read_pieces(file, most)
-  file:close()
-  if not text then return nil, ("%s: %s"):format(path, problem) end
-  if #text > most then
-    return nil, ("%s: it has more than %d bytes, which is the limit"):format(path, most)
-  end
-  return text
-end
+function files.read(path, most) return core.file_text(path, most) end
 
 --- The same for a file named in a script: beside the caller's file, else beside the script.
 ---@param path string

@@ -179,7 +179,8 @@ end)
 
 describe("files of data", function()
   local ways = { ["csv"] = csv.read, ["json"] = json.read, ["captions"] = captions.read,
-                 ["text"] = celspan.read }
+                 ["text"] = celspan.read, ["sheet"] = require "celspan.sheet".read,
+                 ["lips"] = require "celspan.lips".read, ["track"] = require "celspan.track".read }
 
   it("are read from beside the script", function()
     bench:write("a.csv", "n\n3\n")
@@ -198,6 +199,19 @@ return celspan.film { size = { 4, 4 }, frames = 1,
     assert.are.equal(0, code, err)
     assert.are.equal("3\t2\thello\t4", (out .. err):match "^(.-)\t[^\t]*\n")
     assert.is_truthy((out .. err):find "none.txt")
+  end)
+
+  it("that are pipes, folders or devices are refused, and not waited for", function()
+    bench:inside "mkfifo pipe"
+    for name, read in pairs(ways) do
+      local value, message = read(bench.folder .. "/pipe")
+      assert.is_nil(value, name)
+      assert.is_truthy(message:find("/pipe: is not a file; a text must be one", 1, true), message)
+    end
+    for _, path in ipairs { bench.folder, "/dev/zero" } do
+      assert.are.same({ n = 2, nil, path .. ": is not a file; a text must be one" },
+        table.pack(celspan.read(path)))
+    end
   end)
 
   it("that are missing or wrong give nil and a message with their name", function()

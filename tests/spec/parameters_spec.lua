@@ -176,6 +176,13 @@ describe("--table", function()
       { table.unpack(bench:files(), 1, 4) })
   end)
 
+  it("may come through a pipe", function()
+    local code, out, err = bench:inside(("printf 'lang,tint\\nen,#f00\\n' | '%s' render film.lua "
+      .. "--table /dev/stdin -o {lang}.#.png"):format(require "tests.support.workbench".absolute))
+    assert.are.equal(0, code, out .. err)
+    assert.is_truthy(bench:read "en.2.png")
+  end)
+
   it("makes a contact sheet of each row, and checks each row", function()
     bench:write("rows.csv", "lang,tint\nen,#f00\nde,#0000ff\n")
     local place = bench.folder

@@ -29,6 +29,8 @@ int cs_core_settings(lua_State *L);
 
 /* ---------------------------------------------------------------- files */
 
+/* (path, most) -> the text of a file of at most that many bytes | nil, message */
+int cs_file_text(lua_State *L);
 /* (path) -> the names of the files of a folder | nil, message */
 int cs_folders_names(lua_State *L);
 /* (folder, name) -> path | nil: the file does not exist, or is outside the folder */

@@ -5,17 +5,31 @@
 -- Rows are read from the text one by one, twice, so that only the names of the outputs are kept.
 local program, request = ...
 local csv = require "celspan.csv"
-local files = require "celspan.files"
 local json = require "celspan.json"
 
 local is_check = request.verb == "check" -- no files are written
 local OUTPUT_MOST = 4095 -- bytes of a name
+local PIECE = 65536      -- bytes of the table that are read at a time
 
 -- ---------------------------------------------------------------- the table
 
+--- The text of the table, which may come through a pipe.
 local function read_text(path)
-  local text, message = files.read(path, csv.most_bytes)
-  return text or program.fail("input", "--table %s", message)
+  local pieces, size = {}, 0
+  local file, message = io.open(path, "rb")
+  while file and size <= csv.most_bytes do
+    local piece, problem = file:read(PIECE)
+    if problem then program.fail("input", "--table %s: %s", path, problem) end
+    if not piece then break end
+    pieces[#pieces + 1], size = piece, size + #piece
+  end
+  if not file then program.fail("input", "--table %s", message) end
+  file:close()
+  if size > csv.most_bytes then
+    program.fail("input", "--table %s: it has more than %d bytes, which is the limit", path,
+      csv.most_bytes)
+  end
+  return table.concat(pieces)
 end
 
 --- What a call that reads the table returns.

@@ -1,0 +1,68 @@
+/* The whole text of a file. What is not a regular file is refused at once: nobody waits for a pipe
+ * to which nothing is written.
+ */
+#include <lauxlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/open.h"
+#include "lua/bind/host.h"
+#include "lua/bind/userdata.h"
+#include "lua/module/core.h"
+
+enum { PIECE = 65536 };
+
+static int close_file(lua_State *L) {
+  int *file = lua_touserdata(L, 1);
+  if (*file > 0)
+    close(*file);
+  *file = 0;
+  return 0;
+}
+
+static int fail_text(lua_State *L, const char *path, const char *reason) {
+  luaL_pushfail(L);
+  lua_pushfstring(L, "%s: %s", path, reason);
+  return 2;
+}
+
+static int fail_length(lua_State *L, const char *path, lua_Integer most) {
+  luaL_pushfail(L);
+  lua_pushfstring(L, "%s: it has more than %I bytes, which is the limit", path, (LUAI_UACINT)most);
+  return 2;
+}
+
+/* Pushes the text. size: of the file, as far as it is known: those of /proc have none. */
+static int read_text(lua_State *L, int file, const char *path, size_t size, lua_Integer most) {
+  luaL_Buffer text;
+  ssize_t got;
+  lua_Integer count = 0;
+  luaL_buffinitsize(L, &text, size + PIECE);
+  do {
+    got = cs_open_read_at(file, luaL_prepbuffsize(&text, PIECE), PIECE, (off_t)count);
+    if (got < 0)
+      return fail_text(L, path, strerror(errno));
+    luaL_addsize(&text, (size_t)got);
+    count += got;
+  } while (got == PIECE && count <= most);
+  if (count > most)
+    return fail_length(L, path, most);
+  luaL_pushresult(&text);
+  return 1;
+}
+
+int cs_file_text(lua_State *L) {
+  const char *path = luaL_checkstring(L, 1);
+  lua_Integer most = luaL_checkinteger(L, 2);
+  struct stat found;
+  cs_host_admit(L, path);
+  int *file = cs_userdata_push_holder(L, "celspan.file", sizeof *file, close_file);
+  *file = cs_open_to_read(path);
+  if (*file < 0 || fstat(*file, &found) != 0)
+    return fail_text(L, path, strerror(errno));
+  if (!S_ISREG(found.st_mode))
+    return fail_text(L, path, "is not a file; a text must be one");
+  if (found.st_size > most)
+    return fail_length(L, path, most);
+  return read_text(L, *file, path, (size_t)found.st_size, most);
+}
