@@ -12,6 +12,7 @@ local columns = {}
 --- Larger sheets are refused.
 columns.most_frames = 10000000
 columns.most_layers = 65536
+columns.most_pixels = 1048576 -- of a side
 --- Texts of more cells than this are not written.
 columns.most_cells = 100000000
 

@@ -213,8 +213,8 @@ local function make(given)
   if not frames then columns.fail("frames must be a whole number") end
   for _, field in ipairs { "width", "height" } do
     local size = given[field] or 1
-    if size < 1 or size > 1048576 or size ~= math.floor(size) then
-      columns.fail("%s must be a whole number from 1 to 1048576", field)
+    if size < 1 or size > columns.most_pixels or size ~= math.floor(size) then
+      columns.fail("%s must be a whole number from 1 to %d", field, columns.most_pixels)
     end
   end
   return finish { name = given.name, scene = given.scene, cut = given.cut, fps = given.fps or 24,

@@ -121,8 +121,8 @@ local function decode_tvpaint(lines)
   local told = math.tointeger(number_of(head, "frame count", 0, columns.most_frames, 0) // 1)
   local last = #list > 0 and list[#list].frame or 0
   return { name = head["project name"] or "", layers = layers, notes = {},
-           width = number_of(head, "width", 1, 1048576),
-           height = number_of(head, "height", 1, 1048576),
+           width = number_of(head, "width", 1, columns.most_pixels),
+           height = number_of(head, "height", 1, columns.most_pixels),
            fps = number_of(head, "frame rate", 1e-3, 1000, 24),
            frames = math.max(1, last, columns.length(told, layers, {})) }
 end

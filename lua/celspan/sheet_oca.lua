@@ -106,8 +106,8 @@ function sheet_oca.decode(text)
   read_layers(state, document.layers, "", "")
   return { name = get(document, what, "name", ""), layers = state.layers, notes = {},
            fps = number_of(document, what, "frameRate", 24, 1e-3, 1000),
-           width = number_of(document, what, "width", 1920, 1, 1048576),
-           height = number_of(document, what, "height", 1080, 1, 1048576),
+           width = number_of(document, what, "width", 1920, 1, columns.most_pixels),
+           height = number_of(document, what, "height", 1080, 1, columns.most_pixels),
            frames = columns.length(math.max(1, stop - start), state.layers, {}) }
 end
 

@@ -179,8 +179,8 @@ function readers.frames(state, words, number)
   state.sheet.frames = whole(words[2], "frames", number, columns.most_frames)
 end
 function readers.size(state, words, number)
-  state.sheet.width = whole(words[2], "the width", number, 1048576)
-  state.sheet.height = whole(words[3], "the height", number, 1048576)
+  state.sheet.width = whole(words[2], "the width", number, columns.most_pixels)
+  state.sheet.height = whole(words[3], "the height", number, columns.most_pixels)
 end
 function readers.layers(state, words, number)
   if state.has_layers then columns.fail("line %d: the layers are defined twice", number) end

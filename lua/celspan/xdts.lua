@@ -1,7 +1,8 @@
 --- Exchange digital time sheets (XDTS, version 5): text in, columns out, and back.
 --
 -- The entries of a track are changes: a gap holds the entry before it. Frames count from 0 in the
--- file and from 1 here.
+-- file and from 1 here. The format has neither a frame rate nor a size: celspan writes them as
+-- frameRate, width and height of a table, which other programs ignore.
 local columns = require "celspan.columns"
 local fields = require "celspan.fields"
 local json = require "celspan.json"
@@ -200,11 +201,19 @@ local function read_fields(tables, path)
   return state.layers, state.notes
 end
 
+--- The size of the drawings; nothing if the table has none.
+local function read_size(tables, path)
+  if tables.width == nil and tables.height == nil then return end
+  local function side(name) return whole(tables, path, name, 1, columns.most_pixels) end
+  return side "width", side "height"
+end
+
 local function read_table(document, tables, path)
   local sheet = { name = get(tables, path, "name", "string", ""),
                   fps = get(tables, path, "frameRate", "number", 24) }
   local layers, notes = read_fields(tables, path)
   sheet.layers, sheet.notes = layers, notes
+  sheet.width, sheet.height = read_size(tables, path)
   local told = whole(tables, path, "duration", 1, columns.most_frames)
   sheet.frames = columns.length(told, layers, notes)
   local header = get(document, "the sheet", "header", "table", {})
@@ -357,10 +366,13 @@ function xdts.encode(sheet)
     headers[#headers + 1] = write_header(group.id, group.names)
     body[#body + 1] = write_field(group.id, list)
   end
+  local size = sheet.width and sheet.height
+    and ('"width":%d,"height":%d,'):format(sheet.width, sheet.height) or ""
   return ('%s\n{"version":5,"header":{"cut":%s,"scene":%s},"timeTables":[\n'
-    .. '{"name":%s,"duration":%d,"frameRate":%.14g,"timeTableHeaders":[%s],\n"fields":[\n%s]}]}\n')
+    .. '{"name":%s,"duration":%d,"frameRate":%.14g,%s'
+    .. '"timeTableHeaders":[%s],\n"fields":[\n%s]}]}\n')
     :format(head, quote(sheet.cut), quote(sheet.scene), quote(sheet.name), sheet.frames,
-      sheet.fps, table.concat(headers, ","), table.concat(body, ",\n"))
+      sheet.fps, size, table.concat(headers, ","), table.concat(body, ",\n"))
 end
 
 return fields.seal("xdts", xdts)

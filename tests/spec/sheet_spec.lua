@@ -169,6 +169,9 @@ describe("an XDTS", function()
       [xdts_of(3, '{"trackNo":0},{"trackNo":0}')] =
         "timeTables[1].fields[1].tracks[2]: track 0 is a duplicate",
       [xdts_of(3, '{"trackNo":-1}')] = "timeTables[1].fields[1].tracks[1].trackNo is -1",
+      [xdts_of(3, ""):gsub('"name"', '"width":640,"name"')] = "timeTables[1].height is missing",
+      [xdts_of(3, ""):gsub('"name"', '"width":0,"height":9,"name"')] =
+        "timeTables[1].width is 0; it must be a whole number from 1 to 1048576",
       [xdts_of(3, '{"trackNo":0,"frames":[{"frame":"x"}]}')] =
         "timeTables[1].fields[1].tracks[1].frames[1].frame must be a number, got string",
       [xdts_of(3, '{"trackNo":0,"frames":[{"frame":0,"data":[{"values":[true]}]}]}')] =
@@ -765,6 +768,25 @@ describe("celspan sheet", function()
   local function run(arguments)
     return bench:celspan("sheet %s", arguments)
   end
+
+  it("keeps the size in every format, and says where none is known", function()
+    local made = sheet.new { layers = { "A" }, width = 640, height = 360 }
+    local text = write("sized.txt", made:text())
+    local xdts, csv = folder .. "/sized.xdts", folder .. "/sized.csv"
+    assert.are.equal(0, (run(text .. " -o " .. xdts)))
+    local code, _, err = run(xdts .. " -o " .. csv)
+    assert.are.same({ 0, "" }, { code, err })
+    for _, path in ipairs { xdts, csv } do
+      local s = assert(sheet.read(path))
+      assert.are.same({ 640, 360 }, { s.width, s.height })
+    end
+    local bare = write("bare.xdts", xdts_of(3, track(0, { { 0, "1" } })))
+    assert.is_nil(assert(sheet.read(bare)).width)
+    code, _, err = run(bare .. " -o " .. csv)
+    assert.are.equal(0, code)
+    assert.is_truthy(err:find("bare.xdts has no size: .*sized.csv says 1920 x 1080"), err)
+    assert.are.equal(1920, assert(sheet.read(csv)).width)
+  end)
 
   it("prints and converts", function()
     local path = write("a.xdts", xdts_of(3, track(0, { { 0, "1" } })))

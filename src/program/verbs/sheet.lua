@@ -16,4 +16,7 @@ if not is_script then program.refuse_rights() end
 local film = is_script and program.film()
 local made = film and sheet.of(film, request.frames and { frames = film:numbers() })
   or program.input(sheet.read(input))
+if output and program.has_ending(output, ".csv") and not made.width then
+  program.note("%s has no size: %s says 1920 x 1080", input, output)
+end
 program.put(made, output, input)
