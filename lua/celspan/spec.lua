@@ -486,15 +486,17 @@ local takes = { frame = "film, n", point = "film, n, x, y", cel = "film, n, name
 
 say:set("assertion.celspan", "%s")
 
+-- core.outside: busted reports the line of the first function on the stack that is neither C nor
+-- luassert's. It shall be the spec's.
 for word, read in pairs(subjects) do
-  luassert:register("modifier", word, function(state, arguments)
+  luassert:register("modifier", word, core.outside(function(state, arguments)
     if not arguments then
       refuse(("write assert.%s(%s).claim(...): these are the arguments of %s"):format(word,
         takes[word], word))
     end
     rawset(state, "celspan", read(arguments))
     return state
-  end)
+  end))
 end
 
 --- Puts the message in the place of the arguments, which are otherwise not shown.
@@ -505,7 +507,7 @@ local function set_message(arguments, message)
 end
 
 for word, claim in pairs(claims) do
-  luassert:register("assertion", word, function(state, arguments)
+  luassert:register("assertion", word, core.outside(function(state, arguments)
     local subject = rawget(state, "celspan")
     if not subject or subject.word ~= about[word] then
       refuse(("%s applies to a %s: assert.%s(%s).%s(...)"):format(word, about[word], about[word],
@@ -514,7 +516,7 @@ for word, claim in pairs(claims) do
     local holds, message = claim(subject, arguments)
     if holds ~= rawget(state, "mod") then set_message(arguments, message) end
     return holds
-  end, "assertion.celspan", "assertion.celspan")
+  end), "assertion.celspan", "assertion.celspan")
 end
 
 spec.assert = luassert

@@ -84,6 +84,24 @@ describe("celspan test", function()
     assert.truthy(out:find("bad_spec.lua: 1 passed, 1 failed, 0 skipped\n", 1, true), out)
   end)
 
+  it("prints the position of an assertion that cannot be decided", function()
+    bench:write("film.lua", FILM)
+    bench:write("new_spec.lua", [[
+require "celspan.spec"
+local film = require "film"
+it("has no picture", function() assert.frame(film, 1).looks_like "new.png" end)
+it("has no such cel", function() assert.cel(film, 1, "hand").is_visible() end)
+it("has no such frame", function() assert.frame(film, 99).looks_like "new.png" end)
+it("has no such row", function() assert.row(film, 1, 99).holds { single = 1 } end)]])
+    local code, out = run "test new_spec.lua"
+    assert.equal(1, code)
+    for line, name in ipairs { "picture", "cel", "frame", "row" } do
+      local position = ("has no %s%s (new_spec.lua:%d)\n"):format(line > 1 and "such " or "", name,
+        line + 2)
+      assert.truthy(out:find(position, 1, true), out)
+    end
+  end)
+
   it("counts a spec that cannot be loaded, ends its process, or is killed", function()
     bench:write("a_spec.lua", "it(")
     bench:write("b_spec.lua", [[it("stops", function() os.exit(3) end)]])

@@ -53,6 +53,21 @@ static int entry(lua_State *L) {
   return 1;
 }
 
+static int call_outside(lua_State *L) {
+  lua_pushvalue(L, lua_upvalueindex(1));
+  lua_insert(L, 1);
+  return lua_pcall(L, lua_gettop(L) - 1, LUA_MULTRET, 0) == LUA_OK ? lua_gettop(L) : lua_error(L);
+}
+
+/* core.outside(function): the same function, but what it raises is raised when it has left the
+ * stack, so that handlers of errors do not find it there. */
+static int outside(lua_State *L) {
+  luaL_checktype(L, 1, LUA_TFUNCTION);
+  lua_settop(L, 1);
+  lua_pushcclosure(L, call_outside, 1);
+  return 1;
+}
+
 int cs_core_settings(lua_State *L) {
   luaL_getsubtable(L, LUA_REGISTRYINDEX, "celspan.settings");
   return 1;
@@ -78,6 +93,7 @@ static const luaL_Reg core_functions[] = {{"find", find},
                                           {"warns", cs_warnings_kept},
                                           {"warn", cs_warnings_add},
                                           {"entry", entry},
+                                          {"outside", outside},
                                           {"settings", cs_core_settings},
                                           {"sounds", cs_lua_film_sounds},
                                           {"hear", hear},
