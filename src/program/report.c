@@ -1,9 +1,11 @@
 #include "program/report.h"
 
 #include <errno.h>
+#include <poll.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "frames/process/interrupt.h"
 
@@ -165,10 +167,18 @@ cs_exit cs_report_frame_failure(const celspan_context *context, celspan_status s
 
 void cs_report_before_line(void (*clear)(void)) { clear_line = clear; }
 
+/* Whether it is a pipe that nobody reads any more, as after `| head -1`. */
+static bool is_pipe_closed(void) {
+  struct pollfd output = {.fd = STDOUT_FILENO};
+  return poll(&output, 1, 0) == 1 && (output.revents & (POLLERR | POLLHUP)) != 0;
+}
+
 static cs_exit judge_output(cs_exit outcome, bool is_good) {
+  const char *problem = errno ? strerror(errno) : "not everything was written";
   if (is_good || outcome != CS_EXIT_OK)
     return outcome; /* a run that failed has reported why */
-  cs_report_error("standard output: %s", errno ? strerror(errno) : "not everything was written");
+  if (!is_pipe_closed())
+    cs_report_error("standard output: %s", problem);
   return CS_EXIT_OUTPUT;
 }
 
@@ -179,7 +189,7 @@ cs_exit cs_report_flush_output(cs_exit outcome) {
 }
 
 cs_exit cs_report_close_output(cs_exit outcome) {
+  outcome = cs_report_flush_output(outcome);
   errno = 0;
-  bool had_error = ferror(stdout) != 0;
-  return judge_output(outcome, fclose(stdout) == 0 && !had_error);
+  return judge_output(outcome, fclose(stdout) == 0);
 }

@@ -69,8 +69,9 @@ void cs_report_openjd(const char *name, const char *format, ...)
  * there; NULL: there is none. */
 void cs_report_before_line(void (*clear)(void));
 
-/* Writes what standard output still holds. The answer is as below. */
+/* Writes what standard output still holds. The answer is the outcome; where that is OK but not
+ * everything could be written, it is CS_EXIT_OUTPUT, reported unless it is a pipe that nobody reads
+ * any more: who closed it has seen enough of a text. */
 cs_exit cs_report_flush_output(cs_exit outcome);
-/* Closes standard output. The answer is the outcome; where that is OK but not everything could be
- * written, it is CS_EXIT_OUTPUT, reported. */
+/* Closes standard output. The answer is as above. */
 cs_exit cs_report_close_output(cs_exit outcome);

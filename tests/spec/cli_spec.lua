@@ -315,11 +315,24 @@ describe("the command line", function()
           .. "not 3 from number 1")
     end)
 
-    it("of a closed pipe end with 5, not with a signal", function()
-      local code = shell("{ " .. BINARY .. " spans " .. plain
-        .. " --size 8x200000; echo $? > " .. folder .. "/code; } | head -n 1")
-      assert.equal(0, code)
-      assert.equal("5\n", read(folder .. "/code"))
+    -- Runs celspan with a pipe that nobody reads: its exit code and what it says.
+    local function unread(arguments)
+      local gone = ("%s/gone"):format(folder)
+      shell(("rm -f %s; { while [ ! -e %s ]; do sleep 0.01; done; %s %s 2>%s/said; "
+        .. "echo $? >%s/code; } | { exec <&-; : >%s; }"):format(gone, gone, BINARY, arguments, folder, folder, gone))
+      return tonumber(read(folder .. "/code")), read(folder .. "/said")
+    end
+
+    it("of a closed pipe end with 5 and not with a signal, for text without a message", function()
+      for _, arguments in ipairs { "spans " .. plain .. " --size 8x20000", "info " .. plain,
+        "probe " .. plain .. " 1 1", "sheet " .. plain, "help render", "help lua cel", "--man",
+        "render --progress none --hash --frames 1 " .. plain } do
+        local code, message = unread(arguments)
+        assert.same({ arguments, 5, "" }, { arguments, code, message })
+      end
+      local code, message = unread("render --progress none --frames 1 -o - " .. plain)
+      assert.equal(5, code)
+      assert.truthy(message:find("frame 1: standard output: Broken pipe", 1, true), message)
     end)
   end)
 
