@@ -319,7 +319,8 @@ describe("the command line", function()
     local function unread(arguments)
       local gone = ("%s/gone"):format(folder)
       shell(("rm -f %s; { while [ ! -e %s ]; do sleep 0.01; done; %s %s 2>%s/said; "
-        .. "echo $? >%s/code; } | { exec <&-; : >%s; }"):format(gone, gone, BINARY, arguments, folder, folder, gone))
+        .. "echo $? >%s/code; } | { exec <&-; : >%s; }"):format(gone, gone, BINARY, arguments,
+        folder, folder, gone))
       return tonumber(read(folder .. "/code")), read(folder .. "/said")
     end
 
