@@ -343,6 +343,25 @@ local function first_sentence(block)
   return (table.concat(block.about, " ") .. " "):match "^(.-%.) " or ""
 end
 
+--- The functions, the methods and the modules: a list of { name, its first sentence }.
+---@return string[][]
+function manual.names()
+  local all, list = blocks_of_all(), {}
+  local function add(name, block) list[#list + 1] = { name, first_sentence(block) } end
+  for _, block in ipairs(all) do
+    local name = block.is_method or block.owner == "celspan" and block.short
+    if name then add(name, block) end
+  end
+  for _, module in ipairs(MODULES) do
+    local blocks = all.modules[module]
+    add(module, blocks[1])
+    for _, block in ipairs(blocks) do
+      if block.is_function then add(plain(block.name), block) end
+    end
+  end
+  return list
+end
+
 --- The names of the module celspan and of its modules, with a sentence about each function.
 function manual.list()
   local all, rows, methods, types, is_function = blocks_of_all(), {}, {}, {}, {}

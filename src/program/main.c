@@ -16,7 +16,6 @@
 
 #include "frames/process/interrupt.h"
 #include "lua/bind/suggest.h"
-#include "lua/module/lua_script.h"
 #include "plugins/isolate/isolate.h"
 #include "plugins/isolate/zygote.h"
 #include "program/confine.h"
@@ -33,6 +32,18 @@ static const cs_verb *find_verb(const char *name) {
   return NULL;
 }
 
+/* A file in the place of a verb. */
+static cs_exit refuse_file(const char *name) {
+  const char *dot = strrchr(name, '.');
+  if (dot && strcmp(dot, ".lua") == 0)
+    return cs_report_usage("'%s' is a script, and a verb is missing before it: 'celspan play %s' "
+                           "shows it, 'celspan render %s -o film.mp4' makes a video",
+                           name, name, name);
+  return cs_report_usage("'%s' is a file, and a verb is missing before it: 'celspan info %s' "
+                         "describes it, 'celspan help' lists the verbs",
+                         name, name);
+}
+
 static cs_exit refuse_verb(const char *name) {
   const char *names[VERBS_MOST];
   size_t count = 0;
@@ -42,23 +53,6 @@ static cs_exit refuse_verb(const char *name) {
   if (nearest)
     return cs_report_usage("unknown verb '%s': did you mean '%s'?", name, nearest);
   return cs_report_usage("unknown verb '%s' ('celspan help' lists them)", name);
-}
-
-/* The page about a name of the Lua interface; NULL: the list of names. */
-static cs_exit help_lua(const char *name) {
-  celspan_context *context = NULL;
-  if (celspan_context_create(NULL, &context) != CELSPAN_OK) {
-    cs_report_error("not enough memory to start");
-    return CS_EXIT_MEMORY;
-  }
-  celspan_status status = cs_lua_script_help(context, name, stdout);
-  cs_exit outcome = CS_EXIT_OK;
-  if (status == CELSPAN_BAD_ARGUMENT)
-    outcome = cs_report_usage("%s", celspan_context_error(context));
-  else if (status != CELSPAN_OK)
-    outcome = cs_report_failure(context, status, NULL);
-  celspan_context_destroy(context);
-  return outcome;
 }
 
 /* Rendering a table of films is glue, though rendering one is not. */
@@ -96,22 +90,24 @@ static cs_exit parse_and_run(const cs_verb *verb, size_t count, char *const *wor
   return run(&request);
 }
 
-/* word: a verb, a task of the cookbook, or an option of the help; NULL: it lists the verbs. */
-static cs_exit help(const char *word) {
-  bool is_list = !word || strcmp(word, "help") == 0;
-  return parse_and_run(find_verb("help"), is_list ? 0 : 1, (char *const *)&word);
+/* words: a verb, what is looked for, or an option of the help; none: it lists the verbs. */
+static cs_exit help(size_t count, char *const *words) {
+  bool is_list = count > 0 && strcmp(words[0], "help") == 0;
+  return parse_and_run(find_verb("help"), is_list ? 0 : count, words);
 }
+
+static cs_exit help_word(const char *word) { return help(1, (char *const *)&word); }
 
 static cs_exit run_verb(const cs_verb *verb, size_t count, char *const *words) {
   for (size_t i = 0; i < count && strcmp(words[i], "--") != 0; i++)
     if (strcmp(words[i], "--help") == 0 || strcmp(words[i], "-h") == 0)
-      return help(verb->name);
+      return help_word(verb->name);
   return parse_and_run(verb, count, words);
 }
 
 static cs_exit dispatch(int count, char **arguments) {
   if (count < 2) {
-    cs_exit outcome = help("--stderr");
+    cs_exit outcome = help_word("--stderr");
     return outcome == CS_EXIT_OK ? CS_EXIT_USAGE : outcome;
   }
   const char *first = arguments[1];
@@ -120,13 +116,13 @@ static cs_exit dispatch(int count, char **arguments) {
     return CS_EXIT_OK;
   }
   if (strcmp(first, "--man") == 0)
-    return help(first);
-  if (strcmp(first, "help") == 0 && count > 2 && strcmp(arguments[2], "lua") == 0)
-    return help_lua(count > 3 ? arguments[3] : NULL);
+    return help_word(first);
   if (strcmp(first, "help") == 0 || strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0)
-    return help(count > 2 ? arguments[2] : NULL);
+    return help((size_t)count - 2, arguments + 2);
   const cs_verb *verb = find_verb(first);
-  return verb ? run_verb(verb, (size_t)count - 2, arguments + 2) : refuse_verb(first);
+  if (verb)
+    return run_verb(verb, (size_t)count - 2, arguments + 2);
+  return strchr(first, '.') ? refuse_file(first) : refuse_verb(first);
 }
 
 /* Daemons and farms start programs with descriptors 0 to 2 closed; the next file opened would then

@@ -503,7 +503,7 @@ const cs_verb cs_verbs[] = {
      .notes = "NAME is a new or empty folder. The film renders and its tests pass without "
               "changes.",
      .options = NONE},
-    {"help", "[VERB]", 0, 1, .is_hidden = true, .options = HELP},
+    {"help", "[WORDS]", 0, CS_OPERANDS_MAX, .is_hidden = true, .options = HELP},
     {"stage", "SCRIPT", 1, 1, .is_hidden = true, .has_script = true, .asks_files = true,
      .asks_warnings = true, .options = STAGE},
     {"spec", "-- FILE [PATTERN]", 0, 0, .is_hidden = true, .has_script = true, .options = NONE},

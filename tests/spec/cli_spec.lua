@@ -129,16 +129,33 @@ describe("the command line", function()
       for _, asked in ipairs { "help", "-h" } do assert.same({ 0, all, "" }, { celspan(asked) }) end
       local _, probe = celspan "help probe"
       assert.same({ 0, probe, "" }, { celspan "probe -h" })
-      usage_error("help proeb", "did you mean 'probe'?")
+      local code, near = celspan "help proeb"
+      assert.equal(0, code)
+      assert.truthy(near:find("\n    celspan help probe\n", 1, true), near)
     end)
 
-    it("has pages about names of the Lua interface, and refuses others with the nearest", function()
+    it("has pages about names of the Lua interface, and for others the nearest", function()
       local code, list, err = celspan "help lua"
       assert.same({ 0, "" }, { code, err })
       local _, page = celspan "help lua stroke"
       assert.truthy(list:find("\n  stroke ", 1, true))
       assert.truthy(page:find("celspan.stroke(fields)", 1, true))
-      usage_error("help lua strok", "there is no page about 'strok'; did you mean 'stroke'?")
+      local near_code, near = celspan "help lua strok"
+      assert.equal(0, near_code)
+      assert.truthy(near:find("\n    celspan help lua stroke\n", 1, true), near)
+    end)
+
+    it("finds what is nearest to some words, and says where to read on", function()
+      local code, found, err = celspan "help camera shake"
+      assert.same({ 0, "" }, { code, err })
+      assert.truthy(found:find("\n-- camera_shake.lua", 1, true), found)
+      assert.same({ 0, found, "" }, { celspan "help camera_shake" })
+      for _, asked in ipairs { "help motion blur", "help lua 'motion blur'" } do
+        local _, list = celspan(asked)
+        assert.truthy(list:find('\n    docs/guide.md, "Exposures"\n', 1, true), list)
+        assert.truthy(list:find("\n    celspan help lua shutter\n", 1, true), list)
+      end
+      usage_error("help xyzzyxyzzy", "there is nothing about 'xyzzyxyzzy'; celspan help lists")
     end)
 
     it("is printed to standard error if no verb is given, which is wrong usage", function()
@@ -152,6 +169,10 @@ describe("the command line", function()
   describe("wrong usage", function()
     it("suggests the nearest verb and the nearest option", function()
       usage_error("rendr x.lua", "did you mean 'render'?")
+      usage_error("shots/a.lua --frames 1", "'shots/a.lua' is a script, and a verb is missing "
+        .. "before it: 'celspan play shots/a.lua' shows it, 'celspan render shots/a.lua -o ")
+      usage_error("cat.svg", "'cat.svg' is a file, and a verb is missing before it: "
+        .. "'celspan info cat.svg' describes it")
       usage_error("render x.lua -o y.png --frmaes 1", "did you mean '--frames'?")
       usage_error("render x.lua -o y.png --nothing-like-it 1", "celspan help render")
       usage_error("xyzzyxyzzy x.lua", "unknown verb 'xyzzyxyzzy' ('celspan help' lists them)")

@@ -3,14 +3,12 @@
 #include <ctype.h>
 #include <errno.h>
 #include <lauxlib.h>
-#include <lualib.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/open.h"
-#include "celspan/lua.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"
@@ -152,41 +150,4 @@ celspan_status cs_lua_script_run(lua_State *L, const char *path, int argument_co
   if (outcome == LUA_OK)
     return CELSPAN_OK;
   return c.is_missing ? cs_lua_error_report_as(L, CELSPAN_INPUT) : cs_lua_error_report(L, outcome);
-}
-
-/* ---------------------------------------------------------------- the manual */
-
-/* light userdata: a name -> page | nil, message. Runs protected. */
-static int find_page(lua_State *L) {
-  luaL_openlibs(L);
-  lua_getglobal(L, "require");
-  lua_pushliteral(L, "celspan.manual");
-  lua_call(L, 1, 1);
-  lua_getfield(L, -1, "page");
-  lua_pushstring(L, lua_touserdata(L, 1));
-  lua_call(L, 1, 2);
-  return 2;
-}
-
-static celspan_status print_page(lua_State *L, celspan_context *context, const char *name,
-                                 FILE *stream) {
-  CS_TRY(celspan_lua_open(L, context));
-  lua_pushcfunction(L, find_page);
-  lua_pushlightuserdata(L, (void *)name);
-  int outcome = lua_pcall(L, 1, 2, 0);
-  if (outcome != LUA_OK)
-    return cs_lua_error_report(L, outcome);
-  if (lua_isnil(L, -2))
-    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s", lua_tostring(L, -1));
-  fputs(lua_tostring(L, -2), stream);
-  return CELSPAN_OK;
-}
-
-celspan_status cs_lua_script_help(celspan_context *context, const char *name, FILE *stream) {
-  lua_State *L = luaL_newstate();
-  if (!L)
-    return cs_fail_memory(context);
-  celspan_status status = print_page(L, context, name, stream);
-  lua_close(L);
-  return status;
 }

@@ -7,7 +7,6 @@
 
 #include <lua.h>
 #include <stdbool.h>
-#include <stdio.h>
 
 #include "celspan/celspan.h"
 
@@ -24,8 +23,3 @@ CELSPAN_CHECKED celspan_status cs_lua_script_run(lua_State *L, const char *path,
  * a picture whose format is text; Lua itself refuses compiled chunks. Only files that can be read
  * twice are read; for pipes and missing files the result is true, and Lua reports what is wrong. */
 bool cs_lua_script_accepts(const char *path);
-
-/* Writes the page of celspan.manual about a name, or the list of names for NULL. Errors:
- * BAD_ARGUMENT for an unknown name; NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_lua_script_help(celspan_context *context, const char *name,
-                                                  FILE *stream);

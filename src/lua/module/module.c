@@ -30,8 +30,8 @@ static int find(lua_State *L) {
 static int nearest(lua_State *L) {
   const char *word = luaL_checkstring(L, 1);
   luaL_checktype(L, 2, LUA_TTABLE);
-  const char *names[MOST_NAMES] = {0};
-  size_t count = lua_rawlen(L, 2) < MOST_NAMES ? lua_rawlen(L, 2) : MOST_NAMES;
+  size_t count = lua_rawlen(L, 2);
+  const char **names = lua_newuserdatauv(L, (count + 1) * sizeof *names, 0);
   for (size_t i = 0; i < count; i++) {
     if (lua_rawgeti(L, 2, (lua_Integer)i + 1) != LUA_TSTRING)
       return luaL_error(L, "nearest: name %d is not a string", (int)i + 1);

@@ -76,7 +76,7 @@ local function put_list(out)
     .. "celspan VERB ...\n"):format(program.version))
   for _, verb in ipairs(verbs) do put_row(out, verb.name, verb.operands, verb.summary) end
   put_row(out, "help", "VERB|lua [NAME]", "Describes a verb, or a name of the Lua interface.")
-  put_row(out, "", "TASK", "Shows how to make a thing, such as shadow, wipe or map, as a script.")
+  put_row(out, "", "WORDS", "Shows how to make a thing, such as shadow, wipe or walk cycle.")
   out:write("\ncelspan --version prints the version, celspan --man the manual page.\n\n"
     .. "Exit codes\n")
   local half = (#exit_codes + 1) // 2 -- two columns, from the top to the bottom of each
@@ -86,33 +86,78 @@ local function put_list(out)
   end
 end
 
--- ---------------------------------------------------------------- the cookbook
+-- ---------------------------------------------------------------- the search
 
-local function put_recipes(out, list)
-  for _, recipe in ipairs(list) do
-    out:write(("  %-36s %s\n"):format(recipe.title, wrapped(table.concat(recipe.words, ", "), 39)))
+local SHOWN = 3
+
+local function module_of(name, ...)
+  return load(program.text(name), "@celspan/" .. name)(...)
+end
+
+local function put_recipe(out, recipe)
+  out:write(recipe.title, "\n\n", recipe.page, "\n\n", ("'celspan play %s.lua' shows it, and "
+    .. "'celspan render %s.lua -o %s.mp4' makes a video.\n"):format(recipe.name, recipe.name,
+    recipe.name))
+end
+
+local function put_recipes(out, recipes)
+  out:write "celspan help WORD shows one of these:\n\n"
+  for _, recipe in ipairs(recipes) do
+    out:write(("  %-36s %s\n"):format(recipe.title,
+      wrapped(table.concat(recipe.keywords, ", "), 39)))
   end
 end
 
---- The recipe for a task, or the list of those that it may mean.
-local function put_task(out, word)
-  local recipes = load(program.text "recipes.lua", "@celspan/recipes.lua")
-  local found, all = recipes(program.text "cookbook.md").find((word:gsub("[-_]", " ")))
-  if word == "cookbook" then found = all end
-  if #found == 1 then
-    out:write(found[1].title, "\n\n", found[1].text, "\n")
-    return
+--- The recipe that alone has this title or keyword, if there is one.
+local function exact_recipe(recipes, words)
+  local found, wanted = {}, words:lower():gsub("[-_]", " ")
+  for _, recipe in ipairs(recipes) do
+    local is_it = recipe.title:lower() == wanted
+    for _, keyword in ipairs(recipe.keywords) do
+      is_it = is_it or keyword:lower():gsub("_", " ") == wanted
+    end
+    if is_it then found[#found + 1] = recipe end
   end
+  return #found == 1 and found[1] or nil
+end
+
+--- What the words may mean: recipes, chapters, names and verbs.
+local function put_nearest(out, recipes, words)
+  local topics = module_of("topics.lua", recipes, program.text "headings.txt",
+    require "celspan.manual".names(), verbs)
+  local find = module_of("search.lua", require "celspan.core".nearest, module_of "synonyms.lua")
+  local found = find(topics, words, SHOWN)
   if #found == 0 then
-    local names = {}
-    for i, verb in ipairs(verbs) do names[i] = verb.name end
-    local nearest = require "celspan.core".nearest(word, names)
-    program.usage("'%s' is neither a verb nor a task%s", word, nearest
-      and (": did you mean '%s'?"):format(nearest)
-      or "; celspan help lists the verbs, and celspan help cookbook the tasks")
+    program.usage("there is nothing about '%s'; celspan help lists the verbs, celspan help "
+      .. "cookbook the tasks, and celspan help lua the names", words)
   end
-  out:write "celspan help WORD shows one of these:\n\n"
-  put_recipes(out, found)
+  out:write(("The nearest to '%s':\n"):format(words))
+  for _, topic in ipairs(found) do
+    out:write("\n  ", topic.title, "\n")
+    if topic.about ~= "" then out:write("    ", wrapped(topic.about, 4), "\n") end
+    out:write("    ", topic.read, "\n")
+  end
+end
+
+--- A verb, a name of Lua after the word lua, or what goes best with the words.
+local function put_about(out, words)
+  local name = words:match "^lua%f[%z ] *(.*)$"
+  for _, verb in ipairs(verbs) do
+    if verb.name == words then return put_verb(out, verb) end
+  end
+  if name then
+    local page = require "celspan.manual".page(name ~= "" and name or nil)
+    if page then return out:write(page) end
+  end
+  local recipes = module_of("recipes.lua", program.text "cookbook.md")
+  local recipe = exact_recipe(recipes, words)
+  if words == "cookbook" then
+    put_recipes(out, recipes)
+  elseif recipe then
+    put_recipe(out, recipe)
+  else
+    put_nearest(out, recipes, name or words)
+  end
 end
 
 -- ---------------------------------------------------------------- the manual page
@@ -165,7 +210,7 @@ celspan \- compositing for cel animation: Lua scripts in, frames out
 .IR ARGS ]
 .br
 .B celspan help
-.RI [ VERB ]
+.RI [ VERB | WORDS ]
 .br
 .B celspan help lua
 .RI [ NAME ]
@@ -196,11 +241,7 @@ end
 if request.man then
   put_manual(io.stdout)
 elseif request[1] then
-  local found
-  for _, verb in ipairs(verbs) do
-    if verb.name == request[1] then found = verb end
-  end
-  if found then put_verb(io.stdout, found) else put_task(io.stdout, request[1]) end
+  put_about(io.stdout, table.concat(request, " "))
 else
   put_list(request.stderr and io.stderr or io.stdout)
 end

@@ -1,11 +1,11 @@
---- The recipes of docs/cookbook.md, for `celspan help WORD`.
+--- The recipes of docs/cookbook.md, for `celspan help WORDS`.
 --
---   ### A shadow on the ground        the title
---   *Words: shadow, cast shadow*      the words that it is found by
---   ```lua ... ```                    the script; the lines after it say how it works
+--   ### A shadow on the ground            the title
+--   *Words: shadow, cast shadow*          the words that it is found by
+--   ```lua                                the script, whose first line has its name
+--   -- cast_shadow.lua: three trees ...
+--   ```                                   the lines after it say how it works
 local page = ...
-
-local recipes = {}
 
 --- The sections of the page that have a title of the third level: title and lines each.
 local function sections()
@@ -24,42 +24,21 @@ local function sections()
   return list
 end
 
---- Every recipe: title, words (a list), text, without the picture, in the order of the page.
-local function read()
-  local list = {}
-  for i, section in ipairs(sections()) do
-    local words, body = {}, table.concat(section, "\n")
-    for word in body:match "%*Words: (.-)%*":gsub("\n", " "):gmatch "%s*([^,]+)" do
-      words[#words + 1] = word:lower()
-    end
-    local text = body:gsub("%*Words: .-%*\n+", ""):gsub("!%b[]%b()\n+", ""):gsub("\n```%l*", "\n")
-      :gsub("%[([^%]]+)%]%b()", "%1"):gsub("\n\n\n+", "\n\n"):gsub("^\n+", ""):gsub("\n+$", "")
-    list[i] = { title = section.title, words = words, text = text }
+--- A section as a recipe: title, keywords, name and about of its script; page, all of it without
+--- the picture; text, what is said below the script.
+local function recipe_of(section)
+  local body = table.concat(section, "\n")
+  local name, about = body:match "```lua\n%-%- ([%w_]+)%.lua: ([^\n]*)"
+  local recipe = { title = section.title, keywords = { name }, name = name, about = about }
+  for word in body:match "%*Words: (.-)%*":gsub("\n", " "):gmatch "%s*([^,]+)" do
+    table.insert(recipe.keywords, word:lower())
   end
-  return list
+  recipe.text = body:match "\n```\n(.*)$"
+  recipe.page = body:gsub("%*Words: .-%*\n+", ""):gsub("!%b[]%b()\n+", ""):gsub("\n```%l*", "\n")
+    :gsub("%[([^%]]+)%]%b()", "%1"):gsub("\n\n\n+", "\n\n"):gsub("^\n+", ""):gsub("\n+$", "")
+  return recipe
 end
 
---- How well a recipe goes with a word: 3 it is one of its words, 2 it is in one of them, 1 it is in
---- the title; 0 not at all.
-local function score(recipe, word)
-  local best = recipe.title:lower():find(word, 1, true) and 1 or 0
-  for _, known in ipairs(recipe.words) do
-    if known == word then return 3 end
-    if (" " .. known .. " "):find(" " .. word .. " ", 1, true) then best = 2 end
-  end
-  return best
-end
-
---- The recipes that go best with a word, and all of them in the order of the page.
-function recipes.find(word)
-  local best, found, all = 1, {}, read()
-  word = word:lower()
-  for _, recipe in ipairs(all) do
-    local points = score(recipe, word)
-    if points > best then best, found = points, {} end
-    if points == best then found[#found + 1] = recipe end
-  end
-  return found, all
-end
-
+local recipes = {}
+for i, section in ipairs(sections()) do recipes[i] = recipe_of(section) end
 return recipes

@@ -1,0 +1,79 @@
+--- Words that people bring from other programs, and those of titles, keywords and names of celspan
+--- that say the same or the nearest thing: { theirs, ours, ... }. `celspan help` searches for all.
+return {
+  -- another spelling
+  { "color", "colour" }, { "gray", "grades" }, { "grey", "grades" }, { "center", "align" },
+  { "lipsync", "lips", "lip cels" }, { "timelapse", "time lapse" },
+  { "greenscreen", "grades", "mattes" },
+
+  -- time
+  { "tween", "ease" }, { "inbetween", "ease", "morph" }, { "interpolation", "ease", "keys" },
+  { "keyframe", "keys" }, { "key", "keys", "grades", "mattes" },
+  { "motion blur", "shutter", "exposures" }, { "shutter angle", "shutter" },
+  { "slow motion", "retime" }, { "speed ramp", "retime" }, { "slowmo", "retime" },
+  { "time remap", "retime" }, { "speed", "retime" }, { "freeze frame", "retime" },
+  { "on twos", "the frame" }, { "frame rate", "film and frames" }, { "fps", "film and frames" },
+  { "resolution", "film and frames" }, { "aspect ratio", "film and frames" },
+  { "frame rate", "film and frames" }, { "fps", "film and frames" },
+  { "resolution", "film and frames" }, { "aspect ratio", "film and frames" },
+  { "ghost", "animator's desk" }, { "timeline", "the cut" }, { "edit", "the cut" },
+  { "dope sheet", "exposure sheets" }, { "xsheet", "exposure sheets" },
+  { "expression", "easing keys paths" }, { "bounce", "ease", "squash" },
+  { "random", "noise", "wiggle" },
+
+  -- characters
+  { "rig", "bones", "puppets" }, { "skeleton", "bones" }, { "joint", "bones" }, { "ik", "bones" },
+  { "inverse kinematics", "bones" }, { "cutout", "puppets" }, { "walk cycle", "walk" },
+  { "run cycle", "walk" }, { "lip sync", "lips", "lip cels" }, { "lip", "lip cels" },
+  { "mouth", "lip cels", "lips" }, { "phoneme", "lip cels" }, { "viseme", "lip cels" },
+  { "rhubarb", "lip cels" }, { "physics", "what follows", "spring" }, { "hair", "what follows" },
+  { "puppet pin", "warp" }, { "mesh", "warp" }, { "deform", "warp", "bending" },
+  { "turntable", "a head that turns" },
+
+  -- light, colour and lenses
+  { "blur", "defocus" }, { "gaussian blur", "blur" }, { "bokeh", "defocus" },
+  { "depth of field", "defocus", "multiplane" }, { "rack focus", "defocus", "multiplane" },
+  { "feather", "soft edge" }, { "light ray", "light through stained glass", "spotlight" },
+  { "god ray", "spotlight" }, { "lens flare", "glow" }, { "bloom", "glow" }, { "lut", "grades" },
+  { "color grading", "grades" }, { "color correction", "grades" }, { "curves", "grades" },
+  { "levels", "grades" }, { "hue", "grades" }, { "saturation", "grades" }, { "contrast", "grades" },
+  { "duotone", "grades" }, { "posterize", "grades" }, { "adjustment layer", "grades" },
+  { "ocio", "colour profiles" }, { "icc", "colour profiles" }, { "film grain", "old film" },
+  { "noise", "grain" }, { "glitch", "old film" }, { "chroma key", "grades", "mattes" },
+  { "green screen", "grades", "mattes" }, { "keyer", "grades", "mattes" }, { "luma key", "mattes" },
+  { "alpha channel", "transparent" }, { "background removal", "mattes" },
+  { "transfer mode", "blend modes" }, { "multiply", "blend modes" }, { "emboss", "lights" },
+  { "antialiasing", "antialias" },
+
+  -- the camera and the picture
+  { "crop", "viewport" }, { "resize", "scale" }, { "rotation", "rotate" },
+  { "position", "translate" }, { "move", "translate", "keys" }, { "pan", "camera" },
+  { "ken burns", "camera" }, { "parallax scroll", "parallax" }, { "2.5d", "multiplane" },
+  { "3d", "perspective" }, { "corner pin", "perspective" }, { "shake", "camera shake" },
+  { "stabilize", "track" }, { "precomp", "composition inside another" },
+  { "nested composition", "composition inside another" },
+  { "picture in picture", "composition inside another" }, { "pip", "composition inside another" },
+  { "displacement", "warp" },
+
+  -- shapes, words and particles
+  { "font", "text" }, { "typeface", "text" }, { "variable font", "text" },
+  { "emoji", "glyphs", "text" }, { "typewriter", "letters" }, { "kinetic typography", "letters" },
+  { "text animation", "letters" }, { "caption", "subtitles" },
+  { "trim path", "writing that appears" }, { "bezier", "path" }, { "pathfinder", "booleans" },
+  { "mask", "mattes", "clip" }, { "fill", "texture", "paint" }, { "outline", "lines" },
+  { "repeater", "pattern" }, { "progress bar", "number that counts up", "bar race" },
+  { "countdown", "number that counts up" }, { "infographic", "chart" }, { "fire", "particles" },
+  { "smoke", "particles" }, { "explosion", "particles" }, { "dust", "particles" },
+  { "shape tween", "morph" }, { "photo", "pictures" },
+
+  -- files and programs
+  { "gif", "videos" }, { "mp4", "videos" }, { "webm", "videos" }, { "prores", "videos" },
+  { "codec", "videos" }, { "export", "output" }, { "looping gif", "videos" },
+  { "psd", "layered paintings" }, { "photoshop", "layered paintings" },
+  { "krita", "layered paintings" }, { "illustrator", "drawings" }, { "inkscape", "drawings" },
+  { "vectorize", "trace" }, { "vectorise", "trace" }, { "cleanup", "trace" }, { "scan", "trace" },
+  { "audio", "sound" }, { "music", "sound" }, { "beat", "drawings that follow a sound" },
+  { "footage", "pictures" }, { "render queue", "farms" }, { "batch", "farms", "parameters" },
+  { "template", "parameters" }, { "preview", "watch" }, { "storyboard", "contact" },
+  { "animatic", "the cut" }, { "onion", "animator's desk" }, { "thumbnail", "contact" },
+}

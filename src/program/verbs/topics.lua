@@ -1,0 +1,44 @@
+--- What `celspan help WORDS` searches: recipes, headings of pages, names of the Lua interface and
+--- verbs, each { title =, keywords =, text =, about =, read = }. about: a sentence; read: the
+--- command, or the place, where there is more.
+local recipes, headings, names, verbs = ...
+
+local topics, is_verb = {}, {}
+
+local function add(topic) topics[#topics + 1] = topic end
+
+--- A text of Markdown as it is read.
+local function plain(text) return (text:gsub("%[([^%]]+)%]%b()", "%1"):gsub("[`*]", "")) end
+
+local function first_sentence(text)
+  local sentence = text:match '^(.-[%w)"][.!?])%f[%z ]' or text
+  return (sentence:gsub(":$", "."))
+end
+
+for _, recipe in ipairs(recipes) do
+  add { title = recipe.title, keywords = recipe.keywords, text = recipe.about .. recipe.text,
+        about = recipe.about, read = "celspan help " .. recipe.name }
+end
+
+for _, verb in ipairs(verbs) do is_verb[verb.name] = true end
+
+for page, heading, text in headings:gmatch "\n([^\t\n]*)\t([^\t]*)\t([^\n]*)" do
+  local is_name = page == "lua.md" and heading:find "^[%l]+[.:]" or heading:find "^Module "
+  if not is_name and not (page == "command-line.md" and is_verb[heading]) then
+    text = plain(text)
+    add { title = plain(heading), text = text, about = first_sentence(text),
+          read = ('docs/%s, "%s"'):format(page, plain(heading)) }
+  end
+end
+
+for _, name in ipairs(names) do
+  add { title = name[1], text = name[2], about = name[2], read = "celspan help lua " .. name[1] }
+end
+
+for _, verb in ipairs(verbs) do
+  local text = verb.summary .. " " .. (verb.notes or "")
+  for _, option in ipairs(verb.options) do text = text .. " " .. option.name end
+  add { title = verb.name, text = text, about = verb.summary, read = "celspan help " .. verb.name }
+end
+
+return topics

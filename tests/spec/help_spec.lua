@@ -1,0 +1,103 @@
+-- What `celspan help WORDS` finds: the words that people bring, and where each leads.
+local manual = require "celspan.manual"
+local system = require "tests.support.system"
+local workbench = require "tests.support.workbench"
+
+local VERBS = "src/program/verbs/"
+
+local recipes = loadfile(VERBS .. "recipes.lua")(system.read "docs/cookbook.md")
+local headings = system.read(workbench.build .. "/src/program/headings.txt")
+local synonyms = dofile(VERBS .. "synonyms.lua")
+local topics = loadfile(VERBS .. "topics.lua")(recipes, headings, manual.names(), {})
+
+local function finder(rows)
+  local find = loadfile(VERBS .. "search.lua")(require "celspan.core".nearest, rows)
+  return function(words) return find(topics, words, 3) end
+end
+
+local find = finder(synonyms)
+
+--- What is found, each by where to read on, without the beginning that all commands have.
+local function places(list)
+  local found = {}
+  for i, topic in ipairs(list) do found[i] = topic.read:gsub("^celspan help ", "") end
+  return found
+end
+
+--- A phrase, and what is found first for it.
+local expected = {
+  ["color"] = "lua colour", ["gray"] = 'docs/lua.md, "Grades"', ["tween"] = "lua ease",
+  ["keyframes"] = "lua keys", ["keys"] = "lua keys", ["gif"] = 'docs/command-line.md, "Videos"',
+  ["mp4"] = 'docs/command-line.md, "Videos"',
+  ["how do I make a gif"] = 'docs/command-line.md, "Videos"',
+  ["looping gif"] = 'docs/command-line.md, "Videos"', ["prores"] = 'docs/command-line.md, "Videos"',
+  ["bone"] = 'docs/guide-puppet.md, "Bones and poses"',
+  ["IK"] = 'docs/guide-puppet.md, "Bones and poses"', ["walk"] = 'docs/guide-puppet.md, "A walk"',
+  ["walk cycle"] = 'docs/guide-puppet.md, "A walk"', ["puppet"] = 'docs/guide-puppet.md, "Puppets"',
+  ["lip sync"] = 'docs/guide.md, "Lip cels"', ["lip"] = "lua lips",
+  ["mouth"] = 'docs/guide-shot.md, "The sound and the mouth"',
+  ["parallax"] = 'docs/guide.md, "Parallax"', ["parallax scroll"] = 'docs/guide.md, "Parallax"',
+  ["blur"] = "lua object:blur", ["motion blur"] = 'docs/guide.md, "Exposures"',
+  ["shutter"] = "lua shutter", ["bokeh"] = 'docs/guide-filters.md, "Defocus"',
+  ["depth of field"] = 'docs/guide-filters.md, "Defocus"', ["retime"] = "lua cut.retime",
+  ["slow motion"] = "lua cut.retime", ["speed ramp"] = "lua cut.retime",
+  ["time remap"] = "lua cut.retime", ["camera shake"] = "camera_shake",
+  ["light rays"] = "stained_glass", ["film grain"] = "old_film", ["grain"] = "paper_texture",
+  ["vignette"] = "soft_vignette", ["chroma key"] = 'docs/lua.md, "Grades"',
+  ["green screen"] = 'docs/lua.md, "Grades"', ["lut"] = 'docs/lua.md, "Grades"',
+  ["color grading"] = 'docs/lua.md, "Grades"', ["key"] = "lua keys",
+  ["picture in picture"] = 'docs/guide.md, "A composition inside another"',
+  ["precomp"] = 'docs/guide.md, "A composition inside another"', ["lens flare"] = "lua placed:glow",
+  ["speech bubble"] = "speech_bubble", ["sprite sheet"] = "sprite_sheet",
+  ["rotoscope"] = "rotoscope", ["typewriter"] = "lua letters", ["font"] = "many_scripts",
+  ["emoji"] = 'docs/guide.md, "Text"', ["ken burns"] = 'docs/guide.md, "Viewport and camera"',
+  ["glitch"] = "old_film", ["crop"] = 'docs/guide.md, "Viewport and camera"',
+  ["fire"] = "lua particles", ["smoke"] = "lua particles", ["progress bar"] = "rolling_counter",
+  ["transition"] = 'docs/guide-film.md, "Transitions"',
+  ["onion skin"] = 'docs/guide.md, "The animator\'s desk"',
+  ["psd"] = 'docs/guide.md, "Layered paintings"', ["slurm"] = 'docs/farm.md, "Slurm"',
+  ["text on a path"] = "text_on_path", ["shadwo"] = "cast_shadow",
+  ["parralax"] = 'docs/guide.md, "Parallax"', ["xsheet"] = 'docs/guide.md, "Exposure sheets"',
+}
+
+describe("the search of help", function()
+  it("leads from the words of other programs to a recipe, a chapter or a name", function()
+    local found = {}
+    for phrase in pairs(expected) do found[phrase] = places(find(phrase))[1] end
+    assert.same(expected, found)
+  end)
+
+  it("has synonyms that each lead to something of that title, keyword or name", function()
+    local plainly = finder {}
+    for _, row in ipairs(synonyms) do
+      for i = 2, #row do
+        local first = plainly(row[i])[1]
+        local names = first and { first.title, table.unpack(first.keywords or {}) } or {}
+        local said = table.concat(names, " "):lower()
+        assert.is_truthy(said:find(row[i]:match "%w+$":sub(1, 4), 1, true), row[i])
+      end
+    end
+  end)
+
+  it("prefers the phrase to its words, a title to a keyword, and a keyword to the text", function()
+    local rank = loadfile(VERBS .. "search.lua")(function() end, { { "theirs", "ours" } })
+    local function titles(words)
+      local list = rank({
+        { title = "text", text = "soft light" }, { title = "one word", text = "light" },
+        { title = "keyword", keywords = { "soft", "light" } }, { title = "light and soft" },
+        { title = "a soft light" }, { title = "ours" }, { title = "theirs" },
+      }, words, 9)
+      for i, entry in ipairs(list) do list[i] = entry.title end
+      return list
+    end
+    assert.same({ "a soft light", "light and soft", "keyword", "text" }, titles "soft lights")
+    assert.same({ "theirs", "ours" }, titles "theirs")
+    assert.same({}, titles "nothing")
+    assert.same({ "light and soft", "a soft light", "keyword" }, titles "the soft unknown")
+  end)
+
+  it("finds nothing where nothing is like it", function()
+    assert.same({}, find "xyzzyxyzzy")
+    assert.same({}, find "")
+  end)
+end)
