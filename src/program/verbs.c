@@ -379,11 +379,11 @@ const cs_verb cs_verbs[] = {
      .options = INFO},
     {"check", "SCRIPT", 1, 1, .has_script = true, .asks_warnings = true,
      .summary = "Builds every frame without rendering it, and reports all faults.",
-     .notes = "Each frame is built twice, the second time in another order in a fresh film: "
-              "a frame function that then returns another scene is not a pure function of "
-              "its frame. Every picture must exist, hidden or not, and so must the film's "
-              "sound. Frames with scan-line procedures are built, but not compared. Equal "
-              "faults are reported in one line, with all frames that have them.",
+     .notes = "Each frame is built once, and one of every ten again, in another order in a fresh "
+              "film: a frame function that then returns another scene is not a pure function of "
+              "its frame, and all frames are built again. Every picture must exist, hidden or not, "
+              "and so must the film's sound. Frames with scan-line procedures are built, but not "
+              "compared. Equal faults are reported in one line, with all frames that have them.",
      .options = CHECK},
     {"watch", "SCRIPT [SCRIPT]", 1, 2, .has_script = true,
      .summary = "Shows a film in the browser while its script is being written.",

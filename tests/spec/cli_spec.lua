@@ -731,6 +731,52 @@ end }]])
       assert.truthy(err:find("is not pure", 1, true), err)
     end)
 
+    --- A film that writes a letter into a file for each frame that it builds.
+    local function counted(frames, more)
+      return write("counted.lua", ([[
+        local celspan = require "celspan"
+        local path, calls = ..., 0
+        return celspan.film{ size = {8, 4}, frames = %d, frame = function(f)
+          calls = calls + 1
+          local count <close> = io.open(path, "a")
+          count:write "x"
+          %s
+          return celspan.rostrum{ celspan.cel{ celspan.rect{ 0, 0, f.number, 4 } } }
+        end }]]):format(frames, more or ""))
+    end
+
+    --- How many frames are built, and what is said.
+    local function builds(frames, more)
+      os.remove(folder .. "/count")
+      local _, _, err = celspan(("check --trust %s -- %s/count"):format(counted(frames, more),
+        folder))
+      return #read(folder .. "/count"), err
+    end
+
+    it("builds each frame once, and a tenth of them, nine at least, again", function()
+      for frames, again in pairs { [1] = 3, [2] = 6, [9] = 9, [90] = 9, [144] = 15, [240] = 24 } do
+        local count, err = builds(frames)
+        assert.equal(frames + again, count, err)
+        assert.truthy(err:find(" checked: no faults", 1, true), err)
+      end
+      assert.same({ builds(9000) }, { builds(9000) })
+    end)
+
+    it("builds all again if one of these differs, and names every frame that does", function()
+      local count, err = builds(100, "if f.number >= 60 and calls ~= f.number then error() end")
+      assert.is_true(count >= 200 and count < 210, count)
+      assert.truthy(err:find("frames 60-100: the frame function is not pure", 1, true), err)
+    end)
+
+    it("says which frame is the slowest to build, if it is slow", function()
+      local _, err = builds(2, [[local began = os.clock()
+        repeat until f.number == 1 or os.clock() > began + 0.26]])
+      assert.truthy(err:find("celspan: slowest to build: frame 2, %d+%.%d s; %d+%.%d s for a frame "
+        .. "on average\n"), err)
+      _, err = builds(2)
+      assert.is_nil(err:find "slowest")
+    end)
+
     it("does not report procedures that are new in each frame as a fault", function()
       local script = write("procedure.lua", [[
         local celspan = require "celspan"
@@ -791,10 +837,10 @@ end }]])
     it("joins the runs of parts that are checked in both directions", function()
       local script = write("impure.lua", [[
         local celspan = require "celspan"
-        local calls = 0
+        local sum = 0
         return celspan.film{ size = {8, 4}, frames = 9000, frame = function(f)
-          calls = calls + 1
-          return celspan.rostrum{ celspan.cel{ celspan.rect{ 0, calls / 2, 5, 4 } } }
+          sum = sum + f.number
+          return celspan.rostrum{ celspan.cel{ celspan.rect{ 0, sum / 2, 5, 4 } } }
         end }]])
       local code, _, err = celspan("check " .. script)
       assert.equal(3, code)

@@ -17,7 +17,8 @@ return celspan.film { size = { 64, 36 }, frames = 24, SOUND frame = function(f)
   return celspan.rostrum {
     celspan.cel { celspan.rect { 0, 0, 64, 36, texture = "#ffe0b0" } },
     f.number == 7 and celspan.cel { rig:pose { reach = { to = { 20, 0 } } } },
-    f.number == 5 and celspan.cel { celspan.circle { centre = { calls, 18 }, radius = 6 } } }
+    f.number > 2 and f.number < 6
+      and celspan.cel { celspan.circle { centre = { calls, 18 }, radius = 6 } } }
 end }
 ]]
 
@@ -46,9 +47,11 @@ describe("what is wrong with a film that is watched", function()
     for i, one in ipairs(said.errors) do found[i] = one.message:gsub("frame %d+: ", "") end
     local _, out = watching.bench:celspan_inside "check shot.lua --json 2>/dev/null"
     for _, one in ipairs(json.decode(out)) do wanted[one.message] = true end
-    assert.equal(1 + 1 + 12 + 1, #found)
+    assert.equal(1 + 1 + 12 + 3, #found)
     for _, message in ipairs(found) do assert.is_true(wanted[message], message) end
-    assert.equal(5, said.errors[15].frame)
+    local impure = { said.errors[15].frame, said.errors[16].frame, said.errors[17].frame }
+    table.sort(impure)
+    assert.same({ 3, 4, 5 }, impure)
   end)
 
   it("is a list in the page, with ways to the frames, until the next good save #plain", function()
@@ -71,7 +74,7 @@ describe("what is wrong with a film that is watched", function()
       return { items, button, after: await text("check"), list: await text("fault-list") };]=])
     assert.same({ "", "shot.lua:10,frame 7",
       "shot.lua:7,frame 13,frame 14,frame 15,frame 16,frame 17,frame 18,"
-      .. "and 6 more up to 24", "frame 5" }, said.items)
+      .. "and 6 more up to 24", "frame 3,frame 4,frame 5" }, said.items)
     assert.equal("Faults 4", said.button)
     assert.equal("Faults", said.after)
     assert.equal("", said.list)

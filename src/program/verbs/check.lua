@@ -3,11 +3,11 @@
 --   frames of a part   1 2 3 ... n | n+1 ...        in parts, so that memory is bounded:
 --
 --   the film's sound
---   first pass    -->  in order: frames that cannot be built, pictures that cannot be read
---   second pass   <--  a fresh film, last frame first: a frame whose scene now differs was not made
---                      by a pure function of its number
---   further ones  < -  more fresh films, some frames: each Lua state draws another seed for its
---                      tables, so scenes that depend on it differ
+--   first pass  -->   in order: frames that cannot be built, pictures that cannot be read
+--   a sample    < - - in fresh films, last frame first: a frame whose scene now differs was not
+--                     made by a pure function of its number. The films share the sample, because
+--                     each Lua state draws another seed for its tables, on which a scene may depend
+--   all again   <--   only if one of the sample differs, in the film in which it does
 --
 -- All faults are reported at the end, equal ones in one line with the frames that have them:
 --
@@ -23,7 +23,8 @@ local program, request = ...
 local PART = 4096 -- frames of a part
 local FAULTS_MOST, RUNS_MOST = 1000, 8
 local SCRIPT = 3 -- the exit code
-local STATES, SAMPLE = 3, 24 -- fresh films in all; frames that the further ones build
+local STATES = 3 -- fresh films
+local SLOW = 0.25 -- seconds to build a frame that are worth a line
 
 -- ---------------------------------------------------------------- faults
 
@@ -79,12 +80,24 @@ local function add_fault(frame, where, message, code)
   add_frame(fault, frame)
 end
 
--- ---------------------------------------------------------------- the two passes
+-- ---------------------------------------------------------------- the passes
+
+local slowest = { seconds = 0, total = 0 }
+
+--- Builds a frame, and counts the processor time that this takes.
+local function try_timed(film, number)
+  local began = os.clock()
+  local good, message, code = film:try(number)
+  local seconds = os.clock() - began
+  slowest.total = slowest.total + seconds
+  if seconds > slowest.seconds then slowest.seconds, slowest.number = seconds, number end
+  return good, message, code
+end
 
 local function first_pass(film, numbers, scenes)
   for i, number in ipairs(numbers) do
     if program.is_stopped() then return i - 1 end
-    local good, message, code = film:try(number)
+    local good, message, code = try_timed(film, number)
     if good then
       scenes[i] = film:scene()
       film:faults(function(...) add_fault(number, ...) end)
@@ -95,13 +108,28 @@ local function first_pass(film, numbers, scenes)
   return #numbers
 end
 
---- Builds one of every `step` frames.
-local function pass_again(film, numbers, scenes, step)
-  for i = #numbers, 1, -step do
+--- Whether a frame, built again, has another scene than it had. What cannot be compared has not.
+local function differs(film, number, scene)
+  return scene and not (film:try(number) and film:scene() == scene)
+end
+
+--- The first place of the sample whose scene differs, and the film in which it does; nil: none.
+local function first_that_differs(fresh, numbers, scenes)
+  for i, places in ipairs(program.sample(#numbers, STATES)) do
+    for _, place in ipairs(places) do
+      if program.is_stopped() then return nil end
+      if differs(fresh[i], numbers[place], scenes[place]) then return place, fresh[i] end
+    end
+  end
+  return nil
+end
+
+local function check_again(fresh, numbers, scenes)
+  local found, film = first_that_differs(fresh, numbers, scenes)
+  for i = found and #numbers or 0, 1, -1 do
     if program.is_stopped() then return end
-    if scenes[i] and not (film:try(numbers[i]) and film:scene() == scenes[i]) then
+    if i == found or differs(film, numbers[i], scenes[i]) then
       add_fault(numbers[i], "", program.impure, SCRIPT)
-      scenes[i] = nil -- reported
     end
   end
 end
@@ -115,7 +143,7 @@ local function fresh_film(film)
   return nil, SCRIPT
 end
 
---- The films for the further passes; nil and an exit code, reported.
+--- The films for the other passes; nil and an exit code, reported.
 local function fresh_films(film)
   local films = {}
   for i = 1, STATES do
@@ -147,9 +175,7 @@ local function check_parts(film, listed, count)
       fresh, code = fresh_films(film)
       if not fresh then return done, code end
     end
-    for i, again in ipairs(fresh) do
-      pass_again(again, numbers, scenes, i == 1 and 1 or math.max(1, count // SAMPLE))
-    end
+    check_again(fresh, numbers, scenes)
   end
   return done
 end
@@ -194,6 +220,12 @@ end
 
 local function plural(count) return count == 1 and "" or "s" end
 
+local function report_slowest(done)
+  if slowest.seconds < SLOW then return end
+  program.note("slowest to build: frame %d, %.1f s; %.1f s for a frame on average", slowest.number,
+    slowest.seconds, slowest.total / done)
+end
+
 local function report(done, count, sound)
   for _, fault in ipairs(request.json and {} or faults) do
     program.error("%s: %s", frames_of(fault), sentence_of(fault))
@@ -202,6 +234,7 @@ local function report(done, count, sound)
     program.error("%d more faults with other sentences are not listed: check fewer frames at a "
       .. "time, with --frames", faults.beyond)
   end
+  report_slowest(done)
   if done < count then program.note("stopped after %d of %d frames", done, count) end
   if faults.met > 0 then
     local more = faults.beyond > 0 and "more than " or ""

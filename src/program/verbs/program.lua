@@ -81,6 +81,26 @@ program.impure = "the frame function is not pure: called again in another order,
   .. "state, it returned another scene; let it depend only on its argument, and not on the "
   .. "length (#) of a table with holes"
 
+local AGAIN_LEAST, AGAIN_PART = 9, 10
+
+--- Which of `count` frames are built again in each of `states` fresh films: lists of their places,
+--- the last place first. All lists together have one place of every AGAIN_PART, AGAIN_LEAST at
+--- least; which one it is depends on the count alone, so it is the same each time. Fewer frames
+--- than that are in several lists.
+function program.sample(count, states)
+  local share = math.ceil(math.max(AGAIN_LEAST, count / AGAIN_PART) / states)
+  local parts = math.min(count, share) * states
+  local lists = {}
+  math.randomseed(count)
+  for i = 1, states do lists[i] = {} end
+  for part = parts, 1, -1 do
+    local first = (part - 1) * count // parts + 1
+    local place = math.random(first, math.max(first, part * count // parts))
+    table.insert(lists[part % states + 1], place)
+  end
+  return lists
+end
+
 --- What is said of a script that is run again and returns another film.
 function program.other_frames(fresh, film)
   return ("the script returned a film with other frames when it was run again: %d from number %d, "

@@ -210,6 +210,8 @@ function answers.wave(ask)
   put({ good = true }, program.json { columns = { list = columns }, lips = lips_of(count) })
 end
 
+local scenes = {} -- of the frames that were checked, by number
+
 --- Checks frames, and the sound with the first one, until the time is over: one frame at least.
 function answers.check(ask)
   local faults, number, began = {}, ask.number, program.clock()
@@ -225,6 +227,7 @@ function answers.check(ask)
       faults[#faults + 1] = { frame = number, message = message_of }
     end
     if good then film:faults(add) else add("", message) end
+    scenes[number] = good and film:scene()
     number = number + 1
   until number > last or program.clock() - began > CHECK_SECONDS
   put { good = true, number = number, faults = faults }
@@ -247,25 +250,35 @@ end
 
 --- Whether a frame is the same in both films, or cannot be compared.
 local function is_pure(number)
-  local scene = film:try(number) and film:scene()
+  local scene = scenes[number]
+  if scene == nil then scene = film:try(number) and film:scene() end -- another process checked it
   return not scene or again:try(number) and again:scene() == scene
 end
 
---- Builds frames in the other order in another film, until the time is over: one at least.
+--- The places, of the first `count` frames, of those that are built again, the last first.
+local function places_again(ask)
+  if not ask.all then return program.sample(ask.count, 1)[1] end
+  local places = {}
+  for i = 1, ask.count do places[i] = ask.count + 1 - i end
+  return places
+end
+
+--- Builds frames in the other order in another film, from the one at `at` of their list on, until
+--- the time is over: one at least. `at`: where to continue; nil: these were all.
 function answers.again(ask)
-  local faults, number, began = {}, ask.number, program.clock()
+  local faults, at, began = {}, ask.at, program.clock()
   local message = open_again()
-  if message then
-    return put { good = true, number = film.first - 1, faults = { { message = message } } }
-  end
+  if message then return put { good = true, faults = { { message = message } } } end
+  local places = places_again(ask)
   repeat
+    local number = film.first + places[at] - 1
     if not is_pure(number) then
-      faults[#faults + 1] = { frame = number,
+      faults[#faults + 1] = { frame = number, impure = true,
                               message = ("frame %d: %s"):format(number, program.impure) }
     end
-    number = number - 1
-  until number < film.first or program.clock() - began > CHECK_SECONDS
-  put { good = true, number = number, faults = faults }
+    at = at + 1
+  until at > #places or program.clock() - began > CHECK_SECONDS
+  put { good = true, at = at <= #places and at or nil, faults = faults }
 end
 
 -- ---------------------------------------------------------------- requests

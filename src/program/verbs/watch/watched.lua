@@ -37,10 +37,10 @@ end
 
 -- ---------------------------------------------------------------- building
 
---- The frames to check of a film that was built.
+--- The frames to check of a film that was built: the first `count`. ask: the next request.
 local function checks_of(facts)
-  local last = facts.first + math.min(facts.frames, CHECKED_MOST) - 1
-  return { want = "check", number = facts.first, first = facts.first, last = last, done = 0,
+  local count = math.min(facts.frames, CHECKED_MOST)
+  return { ask = { want = "check", number = facts.first }, first = facts.first, count = count,
            announced = program.clock() }
 end
 
@@ -87,23 +87,31 @@ end
 
 -- ---------------------------------------------------------------- checking
 
---- What the next request is about: first all frames in order, then all in the other order.
-local function advance(at, number)
-  at.done, at.number = at.done + math.abs(number - at.number), number
-  if at.want == "check" and number > at.last then
-    at.want, at.number = "again", at.last
+--- What the next request is about, after this answer; nil: there is none. First all frames in
+--- order; then some in the other order; if one of these differs, all in the other order.
+local function next_ask(at, head)
+  local again = { want = "again", count = at.count, at = head.at or 1, all = at.ask.all }
+  if at.ask.want == "check" then
+    local is_over = head.number >= at.first + at.count
+    return is_over and again or { want = "check", number = head.number }
   end
-  return at.want == "check" or number >= at.first
+  for _, fault in ipairs(at.ask.all and {} or head.faults) do
+    if fault.impure then
+      again.all, again.at = true, 1
+      return again
+    end
+  end
+  return head.at and again
 end
 
 function film:take_checked(at, head)
   at.is_asked = false
   for _, fault in ipairs(head.faults) do self:add_error(fault.message, fault.frame) end
   if self.check_state ~= at then return end
-  local is_over = not advance(at, head.number)
-  if is_over then self.check_state = nil end
-  self.checked = math.min(at.done // 2, at.last - at.first + 1)
-  if is_over or program.clock() - at.announced > ANNOUNCED then
+  if at.ask.want == "check" then self.checked = math.min(head.number - at.first, at.count) end
+  at.ask = next_ask(at, head)
+  if not at.ask then self.check_state = nil end
+  if not at.ask or program.clock() - at.announced > ANNOUNCED then
     at.announced = program.clock()
     self.tell()
   end
@@ -117,12 +125,12 @@ function film:check()
   end
   at.is_asked = true
   self.pool:ask {
-    ask = { want = at.want, number = at.number }, is_patient = true,
+    ask = at.ask, is_patient = true,
     done = function(head) self:take_checked(at, head) end,
     failed = function(message)
       if self.check_state ~= at then return end
       self.check_state = nil
-      if self.is_shown then self:add_error(message, at.number) end
+      if self.is_shown then self:add_error(message, at.ask.number) end
     end,
   }
 end
