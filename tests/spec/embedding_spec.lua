@@ -89,6 +89,29 @@ end }
       end
     end)
 
+    test("finds the modules of a film beside it, from any folder: " .. program, function()
+      good("mkdir -p %s/films/demo %s/elsewhere/demo", folder, folder)
+      write("films/demo/colours.lua", 'return { dot = "#d06030" }')
+      write("films/demo/drawing.lua", [[
+local celspan, colours = require "celspan", require "demo.colours"
+return function(n)
+  return celspan.circle { centre = { 40 * n, 45 }, radius = 30, texture = colours.dot }
+end]])
+      write("films/late.lua", "return '#fbe9c6'")
+      write("films/demo.lua", [[
+local celspan, drawing = require "celspan", require "demo.drawing"
+return celspan.film { size = { 160, 90 }, frames = 2, frame = function(f)
+  return celspan.rostrum { celspan.cel { drawing(f.number) }, back = require "late" }
+end }]])
+      write("film.lua", film)
+      good("cd %s/elsewhere && %s ../films/demo.lua 80 45 >../beside.ppm", folder, path)
+      good("%s %s/film.lua 80 45 | cmp - %s/beside.ppm", path, folder, folder)
+      good("rm %s/films/late.lua", folder)
+      local ended_well, text = run("%s %s/films/demo.lua 80 45 >/dev/null", path, folder)
+      assert.is_false(ended_well)
+      assert.is_truthy(text:find("no file '" .. folder .. "/films/late.lua'", 1, true), text)
+    end)
+
     test("says what is wrong with a film: " .. program, function()
       write("wrong.lua", film:gsub("radius = 30", "raduis = 30"))
       local ended_well, text = run("%s %s/wrong.lua 80 45", path, folder)

@@ -5,8 +5,9 @@
  *   celspan_lua_frame(L, -1, film.first, &frame)     a frame of it, to render by the C interface
  *
  * `require "celspan"` then finds the module, and the animation library (celspan.ease, celspan.keys,
- * ...) with it, without any search path. Every Lua state has one context: that of the host, or one
- * of its own, destroyed with the state.
+ * ...) with it, without any search path. If the library package is open by then, modules that no
+ * path of the host has are found beside the file that requires them, as a film wants it. Every Lua
+ * state has one context: that of the host, or one of its own, destroyed with the state.
  *
  * No celspan_lua_ function raises, calls the panic function, or changes the stack: failures come
  * back as a status, with their sentence in the state's context. They are called on the thread that

@@ -22,6 +22,10 @@ void cs_embedded_open(lua_State *L);
 /* (name) -> the source of a module, for celspan.manual */
 int cs_embedded_source(lua_State *L);
 
+/* Lets `require` of a host find modules beside the file that requires them, after where it looks by
+ * itself. Without the library package nothing is done, and so it is the second time. */
+void cs_beside_open(lua_State *L);
+
 /* ---------------------------------------------------------------- parameters */
 
 /* () -> the settings of this state, which lua/celspan/parameters.lua describes */

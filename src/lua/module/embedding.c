@@ -9,6 +9,7 @@
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"
 #include "lua/bind/userdata.h"
+#include "lua/module/core.h"
 #include "lua/nouns/lua_film.h"
 
 /* ---------------------------------------------------------------- opening */
@@ -28,6 +29,7 @@ static int open_celspan(lua_State *L) {
     return 0;
   }
   luaL_requiref(L, "celspan", luaopen_celspan, 0);
+  cs_beside_open(L);
   return 0;
 }
 
