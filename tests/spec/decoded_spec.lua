@@ -304,6 +304,11 @@ return celspan.rostrum { size = { 30, 15 }, celspan.cel { celspan.rect { 0, 0, 3
         form[4], form[5], form[2], form[3])
       refused(targa .. ("\0"):rep(9), "is not a picture of a known format")
     end
+    for head, name in pairs { ["\0\0\0\32ftypisom"] = "a movie", ["\x1a\x45\xdf\xa3"] = "a movie",
+      ["RIFF\0\0\0\0AVI LIST"] = "a movie", ["\0\0\0\32ftypavif"] = "an AVIF picture" } do
+      refused(head .. ("\0"):rep(40), "is " .. name .. ", which is not read"
+        .. (name == "a movie" and "; 'ffmpeg %-i clip.mp4 clip" or ""))
+    end
     local many = {}
     for i = 1, 65 do many[i] = ("c%02d"):format(i) end
     refused(exr(many), "has 65 channels; at most 64 are read")

@@ -59,17 +59,33 @@ const Magic magics[] = {
     {"pnm", "PF", 2, 0, true, true},
 };
 
+#define DRAWING " as a picture; celspan.svg reads SVG drawings"
+#define MOVIE "; 'ffmpeg -i clip.mp4 clip.%04d.png' makes pictures of one, clip.####.png"
+
 /* Files that are given by mistake, or whose readers cannot be trusted. */
 const struct {
   const char *bytes;
-  size_t length;
-  const char *name;
+  size_t length, at;
+  const char *name, *advice;
 } refused[] = {
-    {"FOR4", 4, "an IFF picture"}, {"SIMPLE", 6, "a FITS picture"},
-    {"DDS ", 4, "a DDS picture"},  {"\0\0\1\0", 4, "an icon"},
-    {"%PDF", 4, "a PDF document"}, {"<svg", 4, "an SVG drawing"},
-    {"<?xml", 5, "an XML text"},   {"PK\3\4", 4, "a zip archive"},
-    {"#!", 2, "a script"},         {"\x1c\0\xc5", 3, "a span file"},
+    {"FOR4", 4, 0, "an IFF picture", ""},
+    {"SIMPLE", 6, 0, "a FITS picture", ""},
+    {"DDS ", 4, 0, "a DDS picture", ""},
+    {"\0\0\1\0", 4, 0, "an icon", ""},
+    {"%PDF", 4, 0, "a PDF document", ""},
+    {"<svg", 4, 0, "an SVG drawing", DRAWING},
+    {"<?xml", 5, 0, "an XML text", DRAWING},
+    {"PK\3\4", 4, 0, "a zip archive", ""},
+    {"#!", 2, 0, "a script", ""},
+    {"\x1c\0\xc5", 3, 0, "a span file", ""},
+    {"ftypavif", 8, 4, "an AVIF picture", ""},
+    {"ftyphei", 7, 4, "a HEIF picture", ""},
+    {"ftypmif1", 8, 4, "a HEIF picture", ""},
+    {"ftyp", 4, 4, "a movie", MOVIE},
+    {"moov", 4, 4, "a movie", MOVIE},
+    {"\x1a\x45\xdf\xa3", 4, 0, "a movie", MOVIE},
+    {"AVI ", 4, 8, "a movie", MOVIE},
+    {"\0\0\1\xba", 4, 0, "a movie", MOVIE},
 };
 
 /* Targa has no magic number: the header must make sense field by field (formats, TGA 2.0). */
@@ -122,11 +138,9 @@ Sniffed sniff(Source &source) {
       return found;
     }
   for (const auto &other : refused)
-    if (head.starts(other.bytes, other.length))
-      throw Failure(CELSPAN_INPUT, std::string("is ") + other.name + ", which is not read" +
-                                       (other.bytes[0] == '<' ? " as a picture; celspan.svg reads "
-                                                                "SVG drawings"
-                                                              : ""));
+    if (head.starts(other.bytes, other.length, other.at))
+      throw Failure(CELSPAN_INPUT,
+                    std::string("is ") + other.name + ", which is not read" + other.advice);
   if (!is_targa(head))
     throw Failure(
         CELSPAN_INPUT,
