@@ -97,7 +97,7 @@ static celspan_status finish(celspan_texture *texture, celspan_texture **out) {
 
 static celspan_status create_flat(celspan_context *context, const cs_paint *paint,
                                   celspan_texture **out) {
-  celspan_texture *texture;
+  celspan_texture *texture = NULL;
   CS_TRY(cs_texture_create_kind(context, CS_TEXTURE_FLAT, &texture));
   texture->flat = *paint;
   return finish(texture, out);
@@ -153,7 +153,7 @@ celspan_status celspan_texture_create_gradient(celspan_context *context,
   }
   if (triangle_is_flat(points))
     return create_flat_straight(context, &paints[2], out);
-  celspan_texture *texture;
+  celspan_texture *texture = NULL;
   CS_TRY(cs_texture_create_kind(context, CS_TEXTURE_TRIANGLE, &texture));
   for (int i = 0; i < 3; i++) {
     cs_texture_own(texture)->points[i] = points[i];
@@ -187,7 +187,7 @@ static celspan_status create_stops(celspan_context *context, cs_texture_kind kin
                                    celspan_texture **out) {
   if (is_degenerate || count == 1)
     return create_flat_straight(context, &stops[count - 1].paint, out);
-  celspan_texture *texture;
+  celspan_texture *texture = NULL;
   CS_TRY(cs_texture_create_kind(context, kind, &texture));
   cs_texture_variation *variation = cs_texture_own(texture);
   variation->stops = cs_mem_array(context->memory, count, sizeof *variation->stops);
@@ -208,7 +208,7 @@ celspan_status celspan_texture_create_linear(celspan_context *context, celspan_p
   CS_TRY(cs_check_point(context, "linear", "from", 0, from));
   CS_TRY(cs_check_point(context, "linear", "to", 0, to));
   CS_TRY(check_stops(context, "linear", stops, stop_count));
-  celspan_texture *texture;
+  celspan_texture *texture = NULL;
   CS_TRY(create_stops(context, CS_TEXTURE_LINEAR, stops, stop_count,
                       !(distance_squared(from, to) > 0), &texture));
   if (texture->kind == CS_TEXTURE_LINEAR) {
@@ -240,7 +240,7 @@ celspan_status celspan_texture_create_focal(celspan_context *context, celspan_po
   CS_TRY(cs_check_size(context, "radial", "radius", radius));
   CS_TRY(cs_check_point(context, "radial", "focus", 0, focus));
   CS_TRY(check_stops(context, "radial", stops, stop_count));
-  celspan_texture *texture;
+  celspan_texture *texture = NULL;
   CS_TRY(create_stops(context, CS_TEXTURE_RADIAL, stops, stop_count, !(radius > 0), &texture));
   if (texture->kind == CS_TEXTURE_RADIAL) {
     cs_texture_variation *variation = cs_texture_own(texture);
@@ -277,7 +277,7 @@ celspan_status celspan_texture_create_picture(celspan_context *context,
     return status;
   }
   bool is_degenerate = desc->has_box && !(desc->box.width > 0 && desc->box.height > 0);
-  celspan_texture *texture;
+  celspan_texture *texture = NULL;
   status = is_degenerate ? create_flat(context, &clear, &texture)
                          : cs_texture_create_kind(context, CS_TEXTURE_PICTURE, &texture);
   if (status != CELSPAN_OK || is_degenerate)
@@ -361,7 +361,7 @@ static celspan_status fill_light(celspan_context *context, const cs_texture_vari
 celspan_status cs_texture_create_light(celspan_context *context, celspan_texture *texture,
                                        celspan_texture **out) {
   const cs_paint clear = CS_PAINT_CLEAR;
-  celspan_texture *light;
+  celspan_texture *light = NULL;
   if (texture->kind == CS_TEXTURE_PICTURE && texture->variation->use == CELSPAN_PICTURE_GEL)
     return create_flat(context, &clear, out);
   if (texture->variation->medium)
