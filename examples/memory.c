@@ -2,7 +2,7 @@
  *
  *   cc memory.c $(pkg-config --cflags --libs celspan) -o memory && ./memory
  *
- * A moon (one circle minus another) over a slide of dusk that is lit from behind.
+ * A moon (one circle minus another) that glows over a slide of dusk that is lit from behind.
  */
 #include <celspan/celspan.h>
 #include <stdio.h>
@@ -12,7 +12,7 @@ enum { WIDTH = 64, HEIGHT = 24 };
 /* All values that are made, so that they can be released in one place. */
 typedef struct scene {
   celspan_texture *ivory, *dusk;
-  celspan_object *disc, *shadow, *moon, *sky;
+  celspan_object *disc, *shadow, *moon, *glowing, *sky;
   celspan_cel *rear, *front;
   celspan_rostrum *rostrum;
 } scene;
@@ -41,13 +41,21 @@ static celspan_status make_objects(celspan_context *context, scene *s) {
                                     &s->sky);
 }
 
+static celspan_status make_glow(celspan_context *context, scene *s) {
+  celspan_glow_desc glow = CELSPAN_GLOW_DESC;
+  glow.radius = 40;
+  glow.colour = s->ivory;
+  return celspan_object_glow(context, s->moon, &glow, &s->glowing);
+}
+
 static celspan_status make_scene(celspan_context *context, scene *s) {
   TRY(make_objects(context, s));
+  TRY(make_glow(context, s));
   celspan_cel_desc rear = CELSPAN_CEL_DESC, front = CELSPAN_CEL_DESC;
   rear.objects = &s->sky;
   rear.object_count = 1;
   rear.back = (celspan_light){1, 1, 1, 1};
-  front.objects = &s->moon;
+  front.objects = &s->glowing;
   front.object_count = 1;
   TRY(celspan_cel_create(context, &rear, &s->rear));
   TRY(celspan_cel_create(context, &front, &s->front));
@@ -62,6 +70,7 @@ static void drop_scene(scene *s) {
   celspan_rostrum_unref(s->rostrum);
   celspan_cel_unref(s->rear);
   celspan_cel_unref(s->front);
+  celspan_object_unref(s->glowing);
   celspan_object_unref(s->moon);
   celspan_object_unref(s->disc);
   celspan_object_unref(s->shadow);
