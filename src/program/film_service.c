@@ -122,13 +122,16 @@ static int numbers(lua_State *L) {
   return 1;
 }
 
-/* film:refuse_view(): ends the verb where the request has no frame of this film. */
-static int refuse_view(lua_State *L) {
+/* film:view_size() -> the pixels of a frame under the request, which ends the verb where it has no
+ * frame of this film */
+static int view_size(lua_State *L) {
   const cs_film_info *info = &self(L)->script.film;
   celspan_frame_desc desc;
   cs_service_require(
       L, cs_view_frame(cs_service_session(L)->request, info->width, info->height, &desc));
-  return 0;
+  lua_pushinteger(L, desc.width);
+  lua_pushinteger(L, desc.height);
+  return 2;
 }
 
 /* film:check_sound() -> the exit code of what is wrong with the sound, which is reported; 0 */
@@ -398,7 +401,7 @@ static void set_methods(lua_State *L) {
                                      {"at", at},
                                      {"chosen", chosen},
                                      {"numbers", numbers},
-                                     {"refuse_view", refuse_view},
+                                     {"view_size", view_size},
                                      {"check_sound", check_sound},
                                      {"scene", scene},
                                      {"counts", counts},

@@ -270,6 +270,10 @@ static const cs_option CONTACT[] = {
     FRAMES,
     {"--grid", "CxR", &cs_argument_grid, "columns and rows of a page; default: 6x4"},
     {"--every", "N", &cs_argument_every, "one frame in N; default: as many as fit on one page"},
+    {"--size", "WxH", &cs_argument_size, "pixels of each picture; each axis is scaled separately"},
+    {"--scale", "S", &cs_argument_scale,
+     "pixels of each picture per film unit, instead of --size; default: those of the film, at most "
+     "480, and at most 3840 for all columns"},
     TABLE("a sheet for each row of a CSV file, whose columns are parameters, or {NAME} in SHEET"),
     WORKERS,
     SCRIPT,

@@ -367,6 +367,21 @@ describe("celspan contact", function()
     assert.equal("504x276", size_of "wide.png")
   end)
 
+  it("makes panels of the size that is asked for", function()
+    run "contact film.lua -o scaled.png --frames 1,2 --scale 2.5"
+    run "contact film.lua -o sized.png --frames 1,2 --size 60x50"
+    assert.equal("236x86", size_of "scaled.png") -- two of 100 x 50
+    assert.equal("156x86", size_of "sized.png")
+    local code, _, err = run "contact film.lua -o sheet.png --size 9x9 --scale 2"
+    assert.equal(2, code)
+    assert.truthy(err:find("--size and --scale say the same thing twice", 1, true), err)
+    for _, scale in ipairs { "100000", "1000" } do
+      code, _, err = run("contact film.lua -o sheet.png --scale " .. scale)
+      assert.equal(6, code)
+      assert.truthy(err:find("give a smaller --scale", 1, true), err)
+    end
+  end)
+
   it("makes pages if the name has a number, and else refuses more than fit", function()
     local code = run "contact film.lua -o page.##.png --grid 2x2 --every 1"
     assert.equal(0, code)

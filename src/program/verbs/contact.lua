@@ -13,6 +13,7 @@ local core = require "celspan.core"
 local number_at = load(program.text "numerals.lua", "@celspan/numerals.lua")()
 
 local PANEL_MOST, SHEET_MOST, PANEL_LEAST = 480, 3840, 16 -- pixels
+local PAGE_MOST = 2 ^ 28 -- pixels of all panels of a page, which are in memory together
 local GAP, LABEL = 12, 24 -- between panels, and below them
 
 -- ---------------------------------------------------------------- a page
@@ -44,8 +45,10 @@ end
 
 -- ---------------------------------------------------------------- the sheet
 
---- A panel has the film's shape; it is no larger than the film, and no larger than fits.
+--- A panel has the size that is asked for, or else the film's shape; it is then no larger than the
+--- film, and no larger than fits.
 local function panel_size(film, columns)
+  if request.size or request.scale then return { film:view_size() } end
   local most = math.min(SHEET_MOST / columns, PANEL_MOST)
   local scale, size = math.min(1, most / math.max(film.size[1], film.size[2])), {}
   for i = 1, 2 do size[i] = math.max(PANEL_LEAST, math.floor(film.size[i] * scale + 0.5)) end
@@ -75,6 +78,10 @@ local function make_sheet(film, output)
       grid[2])
   end
   local size = panel_size(film, columns)
+  if size[1] * size[2] * math.min(panels, shown) > PAGE_MOST then
+    program.fail("limit", "%d pictures of %d x %d pixels do not fit into memory: give a smaller "
+      .. "--scale, --size or --grid", math.min(panels, shown), size[1], size[2])
+  end
   for page = 1, (shown + panels - 1) // panels do
     local on_page = {}
     for i = (page - 1) * panels, math.min(page * panels, shown) - 1 do
@@ -82,7 +89,8 @@ local function make_sheet(film, output)
     end
     local path = program.check(core.frame_name(output, page))
     local rostrum, width, height = page_of(film, on_page, columns, size)
-    program.write(rostrum, path, width, height)
+    program.check(celspan.render(rostrum, path, { size = { width, height },
+      workers = math.tointeger(request.workers) }))
   end
 end
 

@@ -364,7 +364,7 @@ local function count_tasks(job)
     local chunk = math.tointeger(request.chunk) or CHUNK
     job.tasks = (#numbers + chunk - 1) // chunk
   end
-  film:refuse_view()
+  film:view_size() -- refuses a size that the film cannot have
 end
 
 refuse()
