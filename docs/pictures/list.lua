@@ -1,7 +1,7 @@
 -- The pictures of the documentation, and the script of each. `./run docs` makes all of them again.
 --   script   a script of the tree
 --   page     a page with an example of the same name
---   onion    the number of frames before and after it that are laid over it
+--   onion    the number of frames before and after it that are shown behind it
 --   grid     a contact sheet with this number of columns and rows, instead of a frame
 --   size     in pixels; of a frame, or what the contact sheet is made smaller to
 --   allow    a folder that the script may read, in addition to its own
@@ -34,7 +34,7 @@ local list = {
   { name = "easing", page = "docs/guide.md" },
   { name = "blur", page = "docs/guide.md", frame = 10 },
   { name = "contact", script = "scripts/waving.lua", grid = "4x2", size = "1188x396" },
-  { name = "onion", script = "scripts/waving.lua", frame = 14, onion = "2,1", size = "640x400" },
+  { name = "onion", script = "scripts/waving.lua", frame = 9, onion = "2,1", size = "640x400" },
   { name = "primitives", script = "scripts/primitives.lua", frame = 9, size = "720x360" },
   { name = "strokes", script = "scripts/strokes.lua", frame = 30, size = "720x405" },
   { name = "booleans", script = "scripts/booleans.lua", frame = 24, size = "720x240" },

@@ -11,7 +11,7 @@
 #include "lua/bind/suggest.h"
 #include "lua/bind/userdata.h"
 #include "model/scene/scene.h"
-#include "program/verb_text.h"
+#include "program/onion.h"
 
 #define MOST_NAMES 200 /* that are remembered for the message */
 #define SHOWN_NAMES 12
@@ -225,30 +225,17 @@ typedef struct onion {
   const celspan_frame_desc *frame;
 } onion;
 
-/* same(cel, cel): whether they show the same. */
-static int is_same(lua_State *L) {
-  const cs_userdata *a = cs_userdata_test(L, 1, &cs_kind_cel);
-  const cs_userdata *b = cs_userdata_test(L, 2, &cs_kind_cel);
-  if (!a || !b)
-    return luaL_error(L, "same: two cels are needed");
-  const celspan_cel *one = a->handle, *other = b->handle;
-  lua_pushboolean(L, one->hash.a == other->hash.a && one->hash.b == other->hash.b);
-  return 1;
-}
-
 /* film, light userdata: an onion -> film. Runs protected. */
 static int lay(lua_State *L) {
   const onion *o = lua_touserdata(L, 2);
-  lua_settop(L, 1);
-  cs_verb_text_load(L, "onion.lua");
-  lua_insert(L, 1);
+  lua_pushcfunction(L, cs_onion_film);
+  lua_pushvalue(L, 1);
   lua_pushinteger(L, o->counts[0]);
   lua_pushinteger(L, o->counts[1]);
   lua_pushinteger(L, o->frame->width);
   lua_pushinteger(L, o->frame->height);
-  lua_pushcfunction(L, is_same);
   lua_pushstring(L, o->cel);
-  lua_call(L, 7, 1);
+  lua_call(L, 6, 1);
   return 1;
 }
 

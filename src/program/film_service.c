@@ -18,6 +18,7 @@
 #include "lua/module/core.h"
 #include "model/scene/inspect.h"
 #include "model/scene/scene.h"
+#include "program/change.h"
 #include "program/service.h"
 #include "program/soundtrack.h"
 #include "program/stage.h"
@@ -132,6 +133,15 @@ static int view_size(lua_State *L) {
   lua_pushinteger(L, desc.width);
   lua_pushinteger(L, desc.height);
   return 2;
+}
+
+/* film:lay_onion(width, height): the film becomes that of --onion, with skins of this size. */
+static int lay_onion(lua_State *L) {
+  const celspan_frame_desc frame = {.width = (int32_t)luaL_checkinteger(L, 2),
+                                    .height = (int32_t)luaL_checkinteger(L, 3)};
+  cs_service_require(L,
+                     cs_change_lay_onion(&self(L)->script, cs_service_session(L)->request, &frame));
+  return 0;
 }
 
 /* film:check_sound() -> the exit code of what is wrong with the sound, which is reported; 0 */
@@ -402,6 +412,7 @@ static void set_methods(lua_State *L) {
                                      {"chosen", chosen},
                                      {"numbers", numbers},
                                      {"view_size", view_size},
+                                     {"lay_onion", lay_onion},
                                      {"check_sound", check_sound},
                                      {"scene", scene},
                                      {"counts", counts},

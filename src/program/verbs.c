@@ -67,8 +67,8 @@
 #define ONION                                                                                      \
   {                                                                                                \
     "--onion", "B,A", &cs_argument_onion,                                                          \
-        "draw the B frames before (red) and the A frames after (green) over each "                 \
-        "frame"                                                                                    \
+        "show the drawings of the B frames before (red) and of the A frames after (green) "        \
+        "behind the drawing of each frame"                                                         \
   }
 #define FORCE                                                                                      \
   {                                                                                                \
@@ -274,6 +274,7 @@ static const cs_option CONTACT[] = {
     {"--scale", "S", &cs_argument_scale,
      "pixels of each picture per film unit, instead of --size; default: those of the film, at most "
      "480, and at most 3840 for all columns"},
+    ONION,
     TABLE("a sheet for each row of a CSV file, whose columns are parameters, or {NAME} in SHEET"),
     WORKERS,
     SCRIPT,

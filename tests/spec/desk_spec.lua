@@ -411,7 +411,7 @@ describe("render --onion", function()
   before_each(function() bench:write("film.lua", FILM) end)
 
   it(
-    "draws frames before in red and after in green over the frame, fading by half", function()
+    "shows drawings before in red and after in green, fading by half", function()
     local code, _, err = run "render film.lua --frames 6 --onion 2,1 -o onion.png"
     assert.equal(0, code, err)
     local function at(frame) return pixel("onion.png", 3 * (frame - 1) + 1, 10) end
@@ -467,6 +467,86 @@ describe("render --onion", function()
       local red, green, blue = pixel("camera.png", x, 4)
       assert.is_true(red == green and green == blue, "x = " .. x)
     end
+  end)
+
+  --- The middle row of frame 6, as pixels of 8 bits.
+  local function row_of(options)
+    local code, bytes = run("render shot.lua --frames 6 -o - --crop 0,10,40,1 "
+      .. options)
+    assert.equal(0, code)
+    return bytes
+  end
+
+  --- The columns where onion skin changes something, as text.
+  local function changed(script, onion)
+    bench:write("shot.lua", script)
+    local plain, skinned, list = row_of "", row_of("--onion " .. onion), {}
+    for x = 0, 39 do
+      local from, to = 4 * x + 1, 4 * x + 4
+      if plain:sub(from, to) ~= skinned:sub(from, to) then list[#list + 1] = x end
+    end
+    return table.concat(list, " ")
+  end
+
+  --- A film of 40 by 20 with the ball of each frame, 9 units wide, at 3 * f.index.
+  local function film_of(cels)
+    return ([[
+local celspan = require "celspan"
+local multiplane = require "celspan.multiplane"
+return celspan.film { size = { 40, 20 }, frames = 12, frame = function(f)
+  local ground = celspan.rect { 0, 0, 40, 20, texture = "#fff" }
+  local ball = celspan.rect { 3 * f.index, 0, 9, 20, texture = "#000" }
+  return %s
+end }]]):format(cels)
+  end
+
+  it("never covers the drawing of the frame, which is at 15 to 23", function()
+    for _, cels in ipairs {
+      "celspan.rostrum { celspan.cel { ground }, celspan.cel { ball } }",
+      "celspan.rostrum { celspan.cel { ground, ball } }", -- in one cel
+      "celspan.rostrum { back = '#fff', celspan.cel { ball } }",
+      "celspan.rostrum { celspan.cel { ground, celspan.circle { centre = { f.index, 1 }, "
+        .. "radius = 1 } }, celspan.cel { ball } }", -- an opaque ground that moves
+      "{ { celspan.rostrum { celspan.cel { ground }, celspan.cel { ball } }, 0.5 }, "
+        .. "{ celspan.rostrum { celspan.cel { ground }, celspan.cel { ball } }, 0.5 } }",
+    } do
+      assert.equal("9 10 11 12 13 14 24 25 26", changed(film_of(cels), "2,1"), cels)
+    end
+  end)
+
+  it("does not show differences of less than four codes", function()
+    local film = film_of [[celspan.rostrum { celspan.cel { ground }, celspan.cel { celspan.rect {
+      0, 0, 40, 20, texture = celspan.rgb(0.2 + %s * f.index / 255, 0.2, 0.2, 0.9) } } }]]
+    assert.equal("", changed(film:format(2), "1,1"))
+    assert.is_true(#changed(film:format(20), "1,1") > 40)
+  end)
+
+  it("shows nothing of planes that only a multiplane camera moves", function()
+    assert.equal("10 11 12 13 22 23 24", changed(film_of [[multiplane {
+      film = { 40, 20 }, camera = { x = f.index / 3 }, focal = 100,
+      { celspan.cel { celspan.rect { -99, 0, 200, 20, texture = "#fff" } }, z = 100 },
+      { celspan.cel { celspan.rect { 30, 0, 4, 20, texture = "#888" } }, z = 50 },
+      { celspan.cel { ball }, z = 0 },
+      { celspan.cel { celspan.rect { 5, 0, 2, 20, texture = "#888" } }, z = -20 } }]], "1,1"))
+  end)
+
+  it("lies over a frame that is one opaque drawing", function()
+    assert.is_true(#changed(film_of [[celspan.rostrum { celspan.cel {
+      celspan.rect { 0, 0, 40, 20, texture = celspan.rgb(f.progress, 0, 0) } } }]], "1,0") > 40)
+  end)
+
+  it("is on contact sheets too", function()
+    assert.equal(0, (run "contact film.lua -o plain.png --grid 4x3"))
+    assert.equal(0, (run "contact film.lua -o sheet.png --grid 4x3 --onion 1,0"))
+    -- frame 6, in the second panel of the second row: its ball is at 15 to 17
+    local function at(name, x) return pixel(name, 12 + 52 + x, 12 + 44 + 10) end
+    local r, g = at("sheet.png", 13)
+    assert.is_true(r > g + 0.1)
+    assert.is_true(at("plain.png", 13) > 0.99)
+    for _, x in ipairs { 2, 16, 30 } do
+      assert.same({ at("plain.png", x) }, { at("sheet.png", x) })
+    end
+    assert.equal(2, (run "contact film.lua -o sheet.png --onion 2"))
   end)
 
   it("lays one cel over itself with --cel", function()

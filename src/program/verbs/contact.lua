@@ -82,6 +82,7 @@ local function make_sheet(film, output)
     program.fail("limit", "%d pictures of %d x %d pixels do not fit into memory: give a smaller "
       .. "--scale, --size or --grid", math.min(panels, shown), size[1], size[2])
   end
+  film:lay_onion(size[1], size[2])
   for page = 1, (shown + panels - 1) // panels do
     local on_page = {}
     for i = (page - 1) * panels, math.min(page * panels, shown) - 1 do

@@ -1,28 +1,39 @@
---- Onion skin: a film whose frames lie under tinted ones of before and after.
+--- Onion skin: a film whose frames show, tinted, the drawings of the frames before and after.
 --
---   before 2   before 1   the frame   after 1       red, red,        green
---      1/4        1/2         1         1/2         of each what it holds that the frame does not
+--   rear                                                            front
+--   ground | before 2   before 1   after 1 ... | the drawing of the frame
+--            red, 1/4   red, 1/2   green, 1/2
 --
--- A neighbour is laid over the frame without the cels that both frames hold alike, so that a still
--- background stays clear. It is made at the size of the output, and tinted twice: its colours under
--- a light of the tint, and half over them its outline filled with the tint, so that black lines
--- show too.
+-- The frame's own drawing covers the skins, which cover the ground. The ground are the rearmost
+-- cels that the other frames hold too, and whatever covers the frame opaquely; of an opaque cel in
+-- front of which nothing lies, the rearmost objects that the other frames hold too. If the frame is
+-- still one opaque drawing, the skins lie over it.
 --
--- Neighbours are seen by the camera of the frame, so that its movement shows nothing. With the name
--- of a cel, all others are left out of every frame.
-local film, before, after, width, height, same, name = ...
+-- A skin is made of what the frame itself does not hold, and of its pixels only those that differ
+-- from the frame's drawing (program/onion.c). It is made at the size of the output, and tinted
+-- twice: its colours under a light of the tint, and half over them its outline filled with the
+-- tint, so that black lines show too.
+--
+-- A camera that moves shows nothing: the camera of the frame sees the other frames too, and where
+-- the rearmost cel and another one are only shifted and scaled, as celspan.multiplane does it, cels
+-- that are only shifted and scaled count as held. With the name of a cel, all others are left out.
+local core, film, before, after, width, height, name = ...
 local celspan = require "celspan"
 
 local RED, GREEN = { 1, 0.18, 0.12 }, { 0.1, 0.75, 0.2 }
+local COARSE = 64 -- pixels a side, to see whether a cel covers the frame
 
 local rostrum_metatable = getmetatable(celspan.rostrum {})
 
 --- A rostrum with other cels, under a camera, without light from behind.
 local function remade(rostrum, cels, camera)
   cels.front, cels.brightness, cels.size = rostrum.front, rostrum.brightness, rostrum.size
-  cels.antialias, cels.camera = rostrum.antialias, camera
+  cels.antialias, cels.camera, cels.space = rostrum.antialias, camera, rostrum.space
   return celspan.rostrum(cels)
 end
+
+--- Values of a list from one place to another, as a list.
+local function slice(list, from, to) return { table.unpack(list, from, to) } end
 
 --- The rostrum with the cels of that name alone, if there is one.
 local function chosen(rostrum)
@@ -46,30 +57,119 @@ local function exposures_of(number)
   return list
 end
 
-local function holds(exposures, cel)
-  for _, exposure in ipairs(exposures) do
+--- The pixels of exposures at a size.
+local function pixels_of(exposures, size)
+  local pixels, message = celspan.pixels(exposures, { size = size, film = film.size })
+  if not pixels then error(message, 0) end
+  return pixels:bytes { depth = 8, colour = "srgb", alpha = "straight" }
+end
+
+-- ---------------------------------------------------------------- what frames have in common
+
+--- Whether a frame has a cel that is like one; with `of`, a cel with such a value in it.
+local function holds(frame, value, is_like, of)
+  for _, exposure in ipairs(frame) do
     for i = 1, #exposure[1] do
-      if same(exposure[1][i], cel) then return true end
+      local cel = exposure[1][i]
+      if not of and is_like(cel, value) then return true end
+      for j = 1, of and #cel or 0 do
+        if is_like(cel[j], value) then return true end
+      end
     end
   end
   return false
 end
 
---- What a neighbour holds that the frame does not, without light from behind; nil: nothing.
-local function rest_of(exposures, current)
-  local list, has_any, camera = {}, false, current[1] and current[1][1].camera
-  for i, exposure in ipairs(exposures) do
-    local rostrum, cels = exposure[1], {}
-    for j = 1, #rostrum do
-      if not holds(current, rostrum[j]) then
-        cels[#cels + 1] = rostrum[j]:with { back = { 0, 0, 0, 0 } }
+local function all_hold(frames, ...)
+  for _, frame in ipairs(frames) do
+    if not holds(frame, ...) then return false end
+  end
+  return true
+end
+
+--- How cels of the frame are compared with those of the others: where the rearmost one and others,
+--- but not all, are only shifted, by their art; else by all that they are.
+local function likeness(frame, others)
+  local rostrum, shifted = frame[1][1], 0
+  for i = 1, #rostrum do
+    local is_shifted = not all_hold(others, rostrum[i], core.same)
+      and all_hold(others, rostrum[i], core.same_art)
+    if i == 1 and not is_shifted then return core.same end
+    if is_shifted then shifted = shifted + 1 end
+  end
+  return shifted > 1 and shifted < #rostrum and core.same_art or core.same
+end
+
+-- ---------------------------------------------------------------- ground and drawing
+
+local function covers(rostrum, cel)
+  local alone = { { remade(rostrum, { cel }, rostrum.camera), 1 } }
+  local bytes = pixels_of(alone, { math.min(width, COARSE), math.min(height, COARSE) })
+  return not bytes:gsub("...(.)", "%1"):find "[^\255]"
+end
+
+--- How many of the rearmost cels are ground.
+local function ground_of(rostrum, others, is_like)
+  local count = 0
+  while count < #rostrum and all_hold(others, rostrum[count + 1], is_like) do count = count + 1 end
+  for i = #rostrum, count + 1, -1 do
+    if covers(rostrum, rostrum[i]) then return i end
+  end
+  return count
+end
+
+--- The rostrum, whose foremost cel is two, if it covers the frame: of its rearmost objects, which
+--- the other frames hold too, and of the rest.
+local function parted(rostrum, others)
+  local cel, count = rostrum[#rostrum], 0
+  if not cel or all_hold(others, cel, core.same) or not covers(rostrum, cel) then return rostrum end
+  while count < #cel and all_hold(others, cel[count + 1], core.same, "objects") do
+    count = count + 1
+  end
+  if count == 0 or count == #cel then return rostrum end
+  local cels = slice(rostrum, 1, #rostrum - 1)
+  cels[#cels + 1] = cel:with(slice(cel, 1, count))
+  cels[#cels + 1] = cel:with(slice(cel, count + 1, #cel)):with { back = { 0, 0, 0, 0 } }
+  return rostrum:with(cels)
+end
+
+local function parted_frame(frame, others)
+  local list = {}
+  for i, exposure in ipairs(frame) do list[i] = { parted(exposure[1], others), exposure[2] } end
+  return list
+end
+
+--- The frame as exposures of what lies in front of its ground, and how many cels of each are
+--- ground.
+local function drawing_of(frame, others, is_like)
+  local list, grounds = {}, {}
+  for i, exposure in ipairs(frame) do
+    local rostrum = exposure[1]
+    local count = ground_of(rostrum, others, is_like)
+    local cels = slice(rostrum, count + 1, #rostrum)
+    if #cels == 0 then cels, count = slice(rostrum, 1, #rostrum), #rostrum end
+    list[i], grounds[i] = { remade(rostrum, cels, rostrum.camera), exposure[2] }, count
+  end
+  return list, grounds
+end
+
+--- The drawing of another frame, without what the frame holds; nil: nothing is left.
+local function rest_of(other, frame, is_like)
+  local list, has_any, camera = drawing_of(other, { frame }, is_like), false, frame[1][1].camera
+  for i, exposure in ipairs(list) do
+    local cels = {}
+    for j = 1, #exposure[1] do
+      if not holds(frame, exposure[1][j], is_like) then
+        cels[#cels + 1] = exposure[1][j]:with { back = { 0, 0, 0, 0 } }
       end
     end
     has_any = has_any or #cels > 0
-    list[i] = { remade(rostrum, cels, camera), exposure[2] }
+    list[i] = { remade(exposure[1], cels, camera), exposure[2] }
   end
   return has_any and list or nil
 end
+
+-- ---------------------------------------------------------------- skins
 
 local function image_of(bytes)
   return celspan.image { pixels = bytes, size = { width, height }, format = "rgba8", x = 0, y = 0,
@@ -79,13 +179,9 @@ end
 --- A cel with the name that is asked for, if there is one: all others are left out later.
 local function called(cel) return name and cel:named(name) or cel end
 
---- A neighbour as a cel that lies over the frame; nil: it holds nothing else than the frame does.
-local function skin(number, current, tint, opacity)
-  local rest = rest_of(exposures_of(number), current)
-  if not rest then return nil end
-  local pixels, message = celspan.pixels(rest, { size = { width, height }, film = film.size })
-  if not pixels then error(message, 0) end
-  local bytes = pixels:bytes { depth = 8, colour = "srgb", alpha = "straight" }
+--- A cel that shows the pixels of a rest, where they differ from those of the frame's drawing.
+local function skin(rest, own, tint, opacity)
+  local bytes = core.differing(pixels_of(rest, { width, height }), own)
   local filled = bytes:gsub("...(.)", "\255\255\255%1")
   return called(celspan.cel { opacity = opacity, front = { 1, 1, 1 },
     celspan.rostrum { size = film.size, celspan.cel { image_of(bytes), front = tint },
@@ -93,40 +189,68 @@ local function skin(number, current, tint, opacity)
 end
 
 --- Skins, the farthest first; those after the frame lie over those before it.
-local function skins_of(number, current)
-  local skins = {}
+local function skins_of(frame, drawing, others, is_like)
+  local skins, own = {}, nil
+  for _, other in ipairs(others) do
+    local rest = rest_of(other, frame, is_like)
+    own = own or rest and pixels_of(drawing, { width, height })
+    if rest then skins[#skins + 1] = skin(rest, own, other.tint, other.opacity) end
+  end
+  return skins
+end
+
+--- A cel that was made for the frame, where the camera sees it like that.
+local function under(camera, cel)
+  if not camera then return cel end
+  local x, y = film.size[1] / 2, film.size[2] / 2
+  local centre = camera.centre or { x, y }
+  return cel:scale((camera.width or film.size[1]) / film.size[1], nil, x, y)
+    :rotate(camera.rotate or 0, x, y):translate(centre[1] - x, centre[2] - y)
+end
+
+--- A rostrum with skins in front of its ground.
+local function laid(rostrum, ground, skins)
+  local cels = slice(rostrum, 1, ground)
+  for _, one in ipairs(skins) do cels[#cels + 1] = under(rostrum.camera, one) end
+  table.move(rostrum, ground + 1, #rostrum, #cels + 1, cels)
+  return rostrum:with(cels)
+end
+
+-- ---------------------------------------------------------------- frames
+
+--- The frames around one, as far as the film goes, in the order of their skins.
+local function around(number)
+  local others = {}
   local function add(distance, tint)
     local neighbour = number + distance
     if neighbour >= film.first and neighbour < film.first + film.frames then
-      skins[#skins + 1] = skin(neighbour, current, tint, 0.5 ^ math.abs(distance))
+      local other = exposures_of(neighbour)
+      other.tint, other.opacity = tint, 0.5 ^ math.abs(distance)
+      others[#others + 1] = other
     end
   end
   for distance = before, 1, -1 do add(-distance, RED) end
   for distance = after, 1, -1 do add(distance, GREEN) end
-  return skins
+  return others
 end
 
---- A rostrum with skins over it. Under a camera it is put into another one, which has none, because
---- skins are made for the frame.
-local function covered(rostrum, skins)
-  local cels = {}
-  if rostrum.camera then
-    cels[1] = called(celspan.cel { rostrum:with { size = film.size }, front = { 1, 1, 1 } })
-  else
-    for i = 1, #rostrum do cels[i] = rostrum[i] end
+local function frame_at(number)
+  local frame, others = exposures_of(number), around(number)
+  if #others == 0 or not frame[1] then return frame end
+  local opened = parted_frame(frame, others)
+  for _, other in ipairs(others) do
+    for i, exposure in ipairs(parted_frame(other, { frame })) do other[i] = exposure end
   end
-  table.move(skins, 1, #skins, #cels + 1, cels)
-  if not rostrum.camera then return rostrum:with(cels) end
-  cels.antialias = rostrum.antialias
-  return celspan.rostrum(cels)
+  local is_like = likeness(opened, others)
+  local drawing, grounds = drawing_of(opened, others, is_like)
+  local skins, list = skins_of(opened, drawing, others, is_like), {}
+  for i, exposure in ipairs(opened) do
+    list[i] = { laid(exposure[1], grounds[i], skins), exposure[2] }
+  end
+  return list
 end
 
 return celspan.film {
   size = film.size, fps = film.fps, first = film.first, frames = film.frames, title = film.title,
-  frame = function(f)
-    local current = exposures_of(f.number)
-    local skins, list = skins_of(f.number, current), {}
-    for i, exposure in ipairs(current) do list[i] = { covered(exposure[1], skins), exposure[2] } end
-    return list
-  end,
+  frame = function(f) return frame_at(f.number) end,
 }

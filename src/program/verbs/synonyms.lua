@@ -16,7 +16,7 @@ return {
   { "resolution", "film and frames" }, { "aspect ratio", "film and frames" },
   { "frame rate", "film and frames" }, { "fps", "film and frames" },
   { "resolution", "film and frames" }, { "aspect ratio", "film and frames" },
-  { "ghost", "animator's desk" }, { "timeline", "the cut" }, { "edit", "the cut" },
+  { "ghost", "onion skin" }, { "timeline", "the cut" }, { "edit", "the cut" },
   { "dope sheet", "exposure sheets" }, { "xsheet", "exposure sheets" },
   { "expression", "easing keys paths" }, { "bounce", "ease", "squash" },
   { "random", "noise", "wiggle" },
@@ -75,5 +75,5 @@ return {
   { "audio", "sound" }, { "music", "sound" }, { "beat", "drawings that follow a sound" },
   { "footage", "pictures" }, { "render queue", "farms" }, { "batch", "farms", "parameters" },
   { "template", "parameters" }, { "preview", "watch" }, { "storyboard", "contact" },
-  { "animatic", "the cut" }, { "onion", "animator's desk" }, { "thumbnail", "contact" },
+  { "animatic", "the cut" }, { "onion", "onion skin" }, { "thumbnail", "contact" },
 }

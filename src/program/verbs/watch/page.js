@@ -1086,6 +1086,7 @@ function mixed(picture) {
 // ---------------------------------------------------------------- onion skin
 
 const ONION_MOST = 3;
+const DIFFERENCE_LEAST = 4; // of 255: less is the noise of edges that lie between other pixels
 const BEFORE = [230, 40, 40], AFTER = [30, 170, 60];
 let onion = 0; // frames before and after
 
@@ -1111,15 +1112,21 @@ function neighbours(picture) {
   return list;
 }
 
+/** Whether the pixel of two pictures at this byte differs by enough to show. */
+function isOther(one, other, i) {
+  for (let c = i; c < i + 4; c++) {
+    if (Math.abs(one[c] - other[c]) >= DIFFERENCE_LEAST) return true;
+  }
+  return false;
+}
+
 /** Lays the pictures around one over it, tinted, where they differ from it. */
 function withOnion(picture, bytes) {
   if (onion === 0 || play.direction !== 0) return bytes;
   const out = new Uint8ClampedArray(bytes);
   for (const [one, tint, weight] of neighbours(picture)) {
-    const other = new Uint32Array(one.bytes.buffer), own = new Uint32Array(picture.bytes.buffer);
-    for (let p = 0; p < own.length; p++) {
-      if (other[p] === own[p]) continue;
-      const i = 4 * p;
+    for (let i = 0; i < out.length; i += 4) {
+      if (!isOther(one.bytes, picture.bytes, i)) continue;
       const share = weight * Math.max(one.bytes[i + 3], 96) / 255;
       for (let c = 0; c < 3; c++) {
         out[i + c] += share * (0.3 * one.bytes[i + c] + 0.7 * tint[c] - out[i + c]);
