@@ -44,12 +44,14 @@ installed celspan.d.lua >/dev/null
 "$tree/embed" | grep -q '#'
 
 module=$(dirname "$(installed celspan.so)")
-LUA_PATH="" LUA_CPATH="$module/?.so" lua5.4 - <<'LUA'
+LUA_PATH="" LUA_CPATH="$module/?.so" lua5.4 - "$(find "$tree" -name 'celspan-art.so')" <<'LUA'
 local celspan, ease = require "celspan", require "celspan.ease"
 assert(celspan._VERSION and ease "inOutSine")
 local dot = celspan.circle{ centre = {12, 6}, radius = 5, texture = "#ff8800" }
 local image = assert(celspan.pixels(celspan.rostrum{ celspan.cel{ dot } }, { size = {24, 12} }))
 assert(select(4, image:get(12, 6)) == 1 and select(4, image:get(0, 0)) == 0)
+local set, message = pcall(celspan.text, { "A", font = "scripts/type/block.ttf", size = 9 })
+assert(set or ... == "", message) -- the module is found in a tree that has another prefix
 LUA
 
 program=$(find "$tree" -path '*/bin/celspan')

@@ -201,7 +201,7 @@ static celspan_status add_scanline(cs_compiler *c, const cs_primitive_data *data
                                    const celspan_matrix *matrix) {
   cs_stack *stack = &c->plan->stack;
   const double *m = matrix->m;
-  uint32_t index;
+  uint32_t index = 0;
   CS_TRY(cs_layers_append(c, fade, CELSPAN_RULE_NONZERO, &index));
   cs_layers_fill_flat(&stack->layers[index], CS_PAINT_CLEAR, 1);
   if (!cs_matrix_is_upright(matrix))
