@@ -29,10 +29,14 @@ static cs_match match_of(lua_State *L, const char *subject, size_t length, const
                     .pattern_end = pattern + pattern_length};
 }
 
+/* What was looked at is charged, so a loop over the matches in a text takes steps in proportion to
+ * the text. A single search is short enough to be charged afterwards. */
 static int find_plain(lua_State *L, const char *subject, size_t length, size_t from,
                       const char *pattern, size_t size) {
-  cs_guard_charge(L, (length - from) / BYTES_A_STEP + size);
-  const char *found = size ? memmem(subject + from, length - from, pattern, size) : subject + from;
+  const char *start = subject + from;
+  const char *found = size ? memmem(start, length - from, pattern, size) : start;
+  size_t looked_at = found ? (size_t)(found - start) : length - from;
+  cs_guard_charge(L, looked_at / BYTES_A_STEP + size);
   if (!found) {
     luaL_pushfail(L);
     return 1;
