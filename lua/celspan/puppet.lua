@@ -155,7 +155,7 @@ local function new(_, given)
     refuse("field 'art' must be what svg.read or layers.read returns, with its parts, got %s",
       fields.kind(given.art))
   end
-  local rig = { art = given.art, bones = {}, list = {}, parts = {}, switches = {} }
+  local rig = { art = given.art, bones = {}, list = {}, parts = {}, switches = {}, solids = {} }
   local is_drawing = is_of("celspan.svg", given.art)
   rig.by_name = (is_drawing and drawn_parts or painted_parts)(given.art)
   rig.joints, rig.guides = drawn_joints(rig.by_name)
@@ -268,12 +268,15 @@ end
 
 --- The functions by part that art:with takes. put(part, moved, outer): what takes the place of a
 --- part, given what it is there in the pose; outer: the matrix of the part around it, or nil.
+--- frames: nil: as it was drawn.
 local function changes_of(rig, frames, choices, put)
   local changes = {}
   for _, part in pairs(rig.parts) do
-    local matrix = affine.matrix(inner_map(part, frames))
-    local outer = part.around and affine.matrix(map_of(frames[part.around.bone]))
-    changes[part.key] = function(object) return put(part, object:transform(matrix), outer) end
+    local matrix = frames and affine.matrix(inner_map(part, frames))
+    local outer = frames and part.around and affine.matrix(map_of(frames[part.around.bone]))
+    changes[part.key] = function(object)
+      return put(part, matrix and object:transform(matrix) or object, outer)
+    end
   end
   for _, name in ipairs(rig.guides) do changes[rig.by_name[name].key] = nothing end
   for _, name in ipairs(sets.hidden("puppet: pose", "the artwork", rig.by_name, choices)) do
@@ -319,9 +322,23 @@ end
 
 -- ---------------------------------------------------------------- limbs that come apart
 
---- Whether the artwork of a bone covers a point.
-local function covers(drawn, bone, x, y)
-  for part, object in pairs(drawn) do
+--- The parts as they were drawn, each without the parts inside it. They are the same in all poses
+--- with the same choices, so they are kept.
+local function solids_of(rig, choices)
+  local hidden = sets.hidden("puppet: pose", "the artwork", rig.by_name, choices)
+  table.sort(hidden)
+  local key = table.concat(hidden, "\n")
+  if not rig.solids[key] then
+    local _, drawn = draw_parts(rig, nil, choices, nothing)
+    rig.solids[key] = drawn
+  end
+  return rig.solids[key]
+end
+
+--- Whether the artwork of a bone covers a point of the pose.
+local function covers(solids, bone, frames, x, y)
+  x, y = affine.apply(affine.inverse(map_of(frames[bone])), x, y)
+  for part, object in pairs(solids) do
     if part.bone == bone and object:contains(x, y) then return true end
   end
   return false
@@ -334,11 +351,12 @@ end
 
 local function gaps_in(rig, frames, at, choices)
   local gaps = {}
-  local _, drawn = draw_parts(rig, frames, choices, nothing) -- each without the parts inside it
+  local solids = solids_of(rig, choices)
   for _, bone in ipairs(rig.list) do
     if is_jointed(bone) then
       local x, y = affine.apply(frames[bone].frame, bone.x, bone.y)
-      if not (covers(drawn, bone, x, y) and covers(drawn, bone.parent, x, y)) then
+      if not (covers(solids, bone, frames, x, y)
+        and covers(solids, bone.parent, frames, x, y)) then
         gaps[#gaps + 1] = { bone = bone.name, parent = bone.parent.name, joint = bone.from,
                             x = x + at[1], y = y + at[2] }
       end

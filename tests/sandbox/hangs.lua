@@ -84,7 +84,8 @@ return {
   { "a plain search", [[local s = ("a"):rep(1000000) while true do s:find("b", 1, true) end]], 6 },
   { "plain searches that find soon", [[local s, at = ("123456789,"):rep(100000), 1
     for i = 1, 100000 do at = s:find(",", at, true) + 1 end]], 0, "--limit steps=3e6,time=20" },
-  { "a table with quotes", [[local t = {} for i = 1, 4000 do t[i] = ('%d,"n %d, x"'):format(i, i) end
+  { "a table with quotes", [[local t = {}
+    for i = 1, 4000 do t[i] = ('%d,"n %d, x"'):format(i, i) end
     assert(#require("celspan.csv").decode(table.concat(t, "\n")) == 3999)]], 0,
     "--limit steps=3e6,time=20" },
   { "a deep pattern", [[("x"):rep(1000):find(("(x"):rep(30) .. ("x?"):rep(300))]], 3 },
