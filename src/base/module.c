@@ -32,6 +32,7 @@ static const char *const folders[] = {
     "../../src/",
     "../lib/celspan",
     "../lib/x86_64-linux-gnu/celspan",
+    "../lib/aarch64-linux-gnu/celspan",
     "../lib64/celspan",
     ".",
 };

@@ -64,3 +64,6 @@ end }
 LUA
 "$program" render "$tree/dot.lua" -o "$tree/dot.png" --progress none
 [ -s "$tree/dot.png" ]
+# Reading a picture needs a module, which lies elsewhere in the tree.
+[ -z "$(find "$tree" -name celspan-picture.so)" ] ||
+  "$program" info scripts/pictures/canal.png >/dev/null
