@@ -29,11 +29,25 @@ local film_metatable = getmetatable(celspan.film { frame = function() end })
 local function is_film(value) return getmetatable(value) == film_metatable and
   fields.kind(value) == "a film" end
 
---- What a frame function returns, as a list of { rostrum, weight }.
+--- The weight of an exposure, which is checked as the film checks its own.
+local function weight_of(i, exposure)
+  if type(exposure) ~= "table" then
+    core.refuse(("cut: exposure %d must be {rostrum, weight}, got %s"):format(i,
+      fields.kind(exposure)))
+  end
+  local weight = exposure[2] == nil and 1 or exposure[2]
+  if not fields.is_finite(weight) or weight < 0 then
+    core.refuse(("cut: exposure %d: its weight must be a finite number of 0 or more, got %s")
+      :format(i, fields.shown(weight)))
+  end
+  return weight
+end
+
+--- What a frame function, or the function of cut.with, returns, as a list of { rostrum, weight }.
 local function exposures_of(result)
   if type(result) ~= "table" then return { { result, 1 } } end
   local list = {}
-  for i, exposure in ipairs(result) do list[i] = { exposure[1], exposure[2] or 1 } end
+  for i, exposure in ipairs(result) do list[i] = { exposure[1], weight_of(i, exposure) } end
   return list
 end
 
@@ -96,11 +110,9 @@ function cut.dissolve(seconds, curve)
   end)
 end
 
---- How much light of a shot is left where its codes are this share of what they were.
-local function light_of(share) return math.max(0, share) ^ 2.2 end
-
---- The first shot becomes a colour, and the colour the second. At the beginning or end of a film
---- only the half with a shot is seen.
+--- The first shot becomes a colour, and the colour the second. They are mixed in codes, so that the
+--- steps from frame to frame are even to the eye. At the beginning or end of a film only the half
+--- with a shot is seen.
 ---@param seconds number
 ---@param colour? celspan.surface Default black
 ---@param curve? celspan.ease
@@ -114,11 +126,12 @@ function cut.fade(seconds, colour, curve)
   return transition("fade", seconds, curve, function(a, b, u, size, step)
     if not a then u = 0.5 + u / 2 elseif not b then u = u / 2 end
     if not (a and b) then step = step / 2 end
-    local shot, share = a, light_of(1 - 2 * u - step)
-    if u >= 0.5 then shot, share = b, light_of(2 * u - 1 - step) end
-    local ground = celspan.rostrum { celspan.cel {
-      celspan.rect { 0, 0, size[1], size[2], texture = texture } } }
-    return shared(share > 0 and shot, share, ground, 1 - share)
+    local shot, share = a, 1 - 2 * u - step
+    if u >= 0.5 then shot, share = b, 2 * u - 1 - step end
+    local ground = celspan.rect { 0, 0, size[1], size[2], texture = texture }
+    if share <= 0 then return celspan.rostrum { celspan.cel { ground } } end
+    return celspan.rostrum { antialias = shot.antialias, celspan.cel {
+      celspan.group { shot, ground:fade(1 - share), space = "srgb" } } }
   end)
 end
 
@@ -284,8 +297,12 @@ end
 local function join(between, a, b, u, step, size)
   local nothing = { { nil, 1 } }
   local first, second = a and exposures_of(a) or nothing, b and exposures_of(b) or nothing
-  local list = {}
-  u = math.max(0, math.min(1, between.ease(u)))
+  local list, eased = {}, between.ease(u)
+  if not fields.is_finite(eased) then
+    core.refuse(("cut: %s: its ease must return a finite number, but at %.6g it returned %s")
+      :format(between.noun, u, fields.shown(eased)))
+  end
+  u = math.max(0, math.min(1, eased))
   for _, side in ipairs { first, second } do
     for _, exposure in ipairs(side) do
       exposure[1] = exposure[1] and exposure[1]:with { size = size }
@@ -341,8 +358,9 @@ local function read_shot(i, part, like)
   end
   like = like or film
   if film.fps ~= like.fps then
-    complain(i, "its fps is %s, and that of the first film %s", fields.shown(film.fps),
-      fields.shown(like.fps))
+    local own, wanted = fields.shown(film.fps), fields.shown(like.fps)
+    complain(i, "its fps is %s, and that of the first film %s: film:with { fps = %s }", own, wanted,
+      wanted)
   end
   if film.size[1] ~= like.size[1] or film.size[2] ~= like.size[2] then
     complain(i, "its size is %dx%d, and that of the first film %dx%d", film.size[1], film.size[2],
@@ -482,10 +500,14 @@ end
 
 -- ---------------------------------------------------------------- films of films
 
---- The frame of a shot at an index of the cut.
+--- The frame of a shot at an index of the cut. A failure names the shot after its frame.
 local function frame_at(shot, index)
   local place = math.floor((index - shot.start) * shot.speed + SMALL)
-  return shot.film:at(math.min(shot.from + place, shot.to))
+  local good, result = pcall(shot.film.at, shot.film, math.min(shot.from + place, shot.to))
+  if good then return result end
+  local name = shot.name and shot.name:gsub("%%", "%%%%")
+  error(name and type(result) == "string"
+    and result:gsub("frame (%d+): ", "frame %1 of '" .. name .. "': ", 1) or result, 0)
 end
 
 --- The segment that an index is in.

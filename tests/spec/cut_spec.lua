@@ -170,7 +170,8 @@ return cut { shot "#123", cut.iris { softness = 0.3 }(0.1), shot "#642",
       return cut { a, cut.dissolve(1), cut.dissolve(1), b }
     end)
     fails("cut: needs at least one film", cut, { cut.dissolve(1) })
-    fails("part 2: its fps is 5, and that of the first film 4", cut, { a, a:with { fps = 5 } })
+    fails("part 2: its fps is 5, and that of the first film 4: film:with { fps = 4 }", cut,
+      { a, a:with { fps = 5 } })
     fails("part 2: its size is 9x9, and that of the first film 16x8", cut,
       { a, a:with { size = { 9, 9 } } })
     fails("part 1: field 'from' must be a frame of the film, 1 to 8, got 9", cut,
@@ -240,26 +241,75 @@ describe("a transition", function()
     end
   end)
 
+  --- A code as light.
+  local function coded(code)
+    return code <= 0.04045 and code / 12.92 or ((code + 0.055) / 1.055) ^ 2.4
+  end
+
   it("fades to a colour and from it, evenly to the eye, and shows it alone", function()
-    local film, half = cut { a, cut.fade(1, "#0000ff"), b }, 0.5 ^ 2.2
-    is_near({ half, 0, 1 - half, 1 }, colour(film, 5))
+    local film, half = cut { a, cut.fade(1, "#0000ff"), b }, coded(0.5)
+    is_near({ half, 0, half, 1 }, colour(film, 5))
     is_near({ 0, 0, 1, 1 }, colour(film, 6))
     is_near({ 0, 0, 1, 1 }, colour(film, 7))
-    is_near({ 0, half, 1 - half, 1 }, colour(film, 8))
-    local odd, third = cut { a, cut.fade(0.75, "#0000ff"), b }, (1 / 3) ^ 2.2
-    is_near({ third, 0, 1 - third, 1 }, colour(odd, 6))
+    is_near({ 0, half, half, 1 }, colour(film, 8))
+    local odd = cut { a, cut.fade(0.75, "#0000ff"), b }
+    is_near({ coded(1 / 3), 0, coded(2 / 3), 1 }, colour(odd, 6))
     is_near({ 0, 0, 1, 1 }, colour(odd, 7))
     is_near({ 0, 0, 0, 1 }, colour(cut { a, cut.fade(1), b }, 6))
   end)
 
+  it("fades by even steps of codes to every colour, in both working spaces", function()
+    for _, space in ipairs { "linear", "srgb" } do
+      for to, name in pairs { [0] = "#000", [1] = "#fff", [0.8] = "#cccccc" } do
+        local grey = shot("#808080", 16, { space = space })
+        local film = cut { grey, cut.fade(2, name) }
+        for i = 1, 8 do
+          local code = 128 / 255 + i / 8 * (to - 128 / 255)
+          local found = pixels(film, 8 + i):get(8, 4)
+          is_near({ coded(code) }, { found }, ("%s, %s, frame %d"):format(space, name, 8 + i))
+        end
+      end
+    end
+  end)
+
   it("fades in and out at the ends", function()
-    local film, share = cut { cut.fade(1), a, cut.fade(1, "#fff") }, 0.75 ^ 2.2
+    local film, share = cut { cut.fade(1), a, cut.fade(1, "#fff") }, 0.75
     assert.are.equal(8, film.frames)
     is_near({ 0, 0, 0, 1 }, colour(film, 1))
-    is_near({ share, 0, 0, 1 }, colour(film, 4))
-    is_near({ 1, 1 - share, 1 - share, 1 }, colour(film, 5))
+    is_near({ coded(share), 0, 0, 1 }, colour(film, 4))
+    is_near({ 1, coded(1 - share), coded(1 - share), 1 }, colour(film, 5))
     is_near({ 1, 1, 1, 1 }, colour(film, 8))
     is_near({ 0, 0, 0, 0.125 }, { 0, 0, 0, colour(cut { cut.dissolve(1), a }, 1)[4] })
+  end)
+
+  it("refuses a weight and an ease that are no use, wherever they come from", function()
+    for weight, number in pairs { [-1] = "-1", [math.huge] = "inf", [-math.huge] = "-inf" } do
+      local own = cut.with(function(one, other) return { { one, 1 }, { other, weight } } end)
+      fails("cut: exposure 2: its weight must be a finite number of 0 or more, got " .. number,
+        colour, cut { a, own(1), b }, 6)
+    end
+    local function of(result) return cut { a, cut.with(function() return result end)(1), b } end
+    fails("weight must be a finite number of 0 or more, got nan", colour,
+      of { { celspan.rostrum {}, 0 / 0 } }, 6)
+    fails("cut: exposure 1 must be {rostrum, weight}, got a rostrum", colour,
+      of { celspan.rostrum {} }, 6)
+    local negative = celspan.film { size = { W, H }, fps = 4, frames = 8,
+      frame = function() return { { celspan.rostrum {}, -1 } } end }
+    fails("got -1", colour, cut { a, cut.dissolve(1), negative }, 6)
+    for wrong, kind in pairs { [math.huge] = "inf", [-math.huge] = "-inf", x = "string" } do
+      for _, way in ipairs { cut.dissolve, cut.push {}, cut.wipe { softness = 0.3 } } do
+        fails("its ease must return a finite number, but at 0.375 it returned " .. kind,
+          colour, cut { a, way(1, function() return wrong end), b }, 6)
+      end
+    end
+    fails("cut: fade: its ease must return a finite number, but at 0.375 it returned nan",
+      colour, cut { a, cut.fade(1, "#fff", function() return 0 / 0 end), b }, 6)
+  end)
+
+  it("names the shot whose frame fails", function()
+    local empty = celspan.film { size = { W, H }, fps = 4, frames = 3, frame = function() end }
+    local film = cut { a, { film = empty, name = "gone 100%" } }
+    fails("frame 1 of 'gone 100%': the frame function's result must be a rostrum", colour, film, 9)
   end)
 
   it("has an ease", function()
