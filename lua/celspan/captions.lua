@@ -60,9 +60,21 @@ local function read_time(text)
   return (tonumber(hours or 0) * 60 + minutes) * 60 + seconds + milli / 1000
 end
 
+--- The words on both sides of an arrow.
+local function split_times(line) return line:match "^%s*(%S+)%s*%-%->%s*(%S+)" end
+
+--- Whether a line is meant as the times of a caption, right or wrong. In SubRip another arrow is
+--- text; WebVTT has none there.
+local function is_times(line, is_vtt)
+  local function is_time(text) return text and text:find "^[%d:.,]+$" and text:find ":" end
+  if is_vtt then return line:find("-->", 1, true) end
+  local first, last = split_times(line)
+  return is_time(first) and is_time(last)
+end
+
 --- The line with the arrow; settings after the second time are ignored.
 local function read_times(line, number)
-  local first, last = line:match "^%s*(%S+)%s*%-%->%s*(%S+)"
+  local first, last = split_times(line)
   local from, to = read_time(first or ""), read_time(last or "")
   if not from or not to then
     fail(number, "'%s' must be two times with an arrow, 00:00:01.000 --> 00:00:02.500",
@@ -76,14 +88,15 @@ end
 
 -- ---------------------------------------------------------------- files
 
---- The blocks of a text: { line =, lines... }. A line with an arrow begins a block also where the
---- empty line before it is missing.
-local function read_blocks(text)
+--- The blocks of a text: { line =, lines... }. The times of a caption begin a block also where the
+--- empty line before them is missing.
+local function read_blocks(text, is_vtt)
   local blocks, block, number = {}, nil, 0
   for line in (text .. "\n"):gmatch "([^\n]*)\n" do
     number = number + 1
     local has_arrow = line:find("-->", 1, true) ~= nil
-    if line:find "^%s*$" or has_arrow and block and block.has_arrow then block = nil end
+    local is_next = block and block.has_arrow and is_times(line, is_vtt)
+    if is_next or line:find "^%s*$" then block = nil end
     if not line:find "^%s*$" then
       if not block then
         block = { line = number, has_arrow = false }
@@ -122,7 +135,7 @@ end
 local function decode(text)
   text = text:gsub("^\239\187\191", ""):gsub("\r\n?", "\n"):gsub("\0", "\u{FFFD}")
   local is_vtt, list = text:find "^WEBVTT%f[%s\0]" ~= nil, {}
-  for i, block in ipairs(read_blocks(text)) do
+  for i, block in ipairs(read_blocks(text, is_vtt)) do
     if not (is_vtt and i == 1 and not block.has_arrow) then read_block(block, is_vtt, list) end
   end
   table.sort(list, in_order)

@@ -161,6 +161,15 @@ describe("captions", function()
     assert.are.same({ "a", "b" }, { list[1].text, list[2].text })
   end)
 
+  it("reads arrows in the text of SubRip as text, and times there as times", function()
+    local first = "1\n00:00:01,000 --> 00:00:02,000\n- a --> b?\n--> c\n"
+    local list = assert(captions.decode(first .. "00:00:02,000 --> 00:00:03,000\nd"))
+    assert.are.same({ "- a --> b?\n--> c", "d" }, { list[1].text, list[2].text })
+    local _, message = captions.decode(first .. "00:61,000 --> 00:62,000\nd")
+    assert.are.equal("line 5: '00:61,000 --> 00:62,000' must be two times with an arrow, "
+      .. "00:00:01.000 --> 00:00:02.500", message)
+  end)
+
   it("names the line of what it cannot read", function()
     for text, message in pairs {
       ["1\n00:01,000 -> 00:02,000\na"] = "line 1: '1' begins a block without times",
