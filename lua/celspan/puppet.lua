@@ -34,17 +34,21 @@ local function is_of(class, art)
   return metatable and metatable.__name == class
 end
 
---- The parts of a drawing by name: { key =, object =, inside = }; key: its name for art:with;
---- inside: the elements that contain it, the outermost first.
+--- The parts of a drawing, and their children as "mouth/C", by name: { key =, object =, inside = };
+--- key: its name for art:with; inside: the elements that contain it, the outermost first.
 local function drawn_parts(art)
-  local open, by_name = {}, {}
-  for _, element in ipairs(art:elements()) do
-    local entry = { key = element.name, inside = table.move(open, 1, element.depth, 1, {}) }
-    open[element.depth + 1] = entry
+  local open, by_name, entries, elements = {}, {}, {}, art:elements()
+  for _, element in ipairs(elements) do
+    local entry = { key = element.name, object = element.object,
+                    inside = table.move(open, 1, element.depth, 1, {}) }
+    open[element.depth + 1], entries[element] = entry, entry
     for _, name in ipairs { element.id or false, element.label or false } do
       local object = name and rawget(art.parts, name)
       if object and not by_name[name] then by_name[name], entry.object = entry, object end
     end
+  end
+  for _, child in ipairs(sets.children(elements, art.parts)) do
+    by_name[child.name] = by_name[child.name] or entries[child.element]
   end
   return by_name
 end
@@ -136,8 +140,8 @@ local function read_switches(rig, given)
         bones.reserved[set] and "field of poses" or "bone")
     end
     if #sorted == 0 then
-      refuse("switch '%s': the artwork has no parts '%s A', '%s B' and so on", tostring(set),
-        tostring(set), tostring(set))
+      refuse("switch '%s': the artwork has no parts '%s A', '%s B' and so on%s", tostring(set),
+        tostring(set), tostring(set), sets.hint(rig.by_name, tostring(set)))
     end
     for _, name in ipairs(names or {}) do
       if not found[name] then

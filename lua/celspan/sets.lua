@@ -1,10 +1,61 @@
 --- Sets of parts: of "mouth A", "mouth B" and "mouth C" only one is shown.
 --
--- "mouth C", "mouth-C" and "mouth/C" are the C of the set "mouth".
+-- "mouth C", "mouth-C" and "mouth/C" are the C of the set "mouth". "mouth/C" is also the child "C"
+-- of a group that is named "mouth", and so is its child "mouth C".
 local core = require "celspan.core"
 local fields = require "celspan.fields"
 
 local sets = {}
+
+local PARTED = "^[ %-_/.:]+([^/]+)$" -- the rest of a name after that of its set
+
+--- The member that a name is in a set; nil: none. The contents of a member are
+--- no members.
+local function member_of(name, set)
+  local rest = name:sub(1, #set) == set and name:sub(#set + 1):match(PARTED)
+  return rest and (member_of(rest, set) or rest) or nil
+end
+
+--- The elements of a drawing that are children of a part, as { name = "mouth/C", element = }.
+--- Labels are their names; where none of the children of a part has one, ids are.
+---@param elements celspan.svg.element[]
+---@param parts table<string, any> By name
+function sets.children(elements, parts)
+  local open, list = {}, {}
+  local function close(group)
+    for _, name in ipairs { group.element.id or false, group.element.label or false } do
+      for _, child in ipairs(name and rawget(parts, name) and group or {}) do
+        local own = child[group.named_by]
+        if own then list[#list + 1] = { name = name .. "/" .. own, element = child } end
+      end
+    end
+  end
+  for _, element in ipairs(elements) do
+    for depth = #open, element.depth + 1, -1 do close(table.remove(open, depth)) end
+    local parent = open[element.depth]
+    if parent then
+      parent[#parent + 1] = element
+      if element.label then parent.named_by = "label" end
+    end
+    open[element.depth + 1] = { element = element, named_by = "id" }
+  end
+  for depth = #open, 1, -1 do close(open[depth]) end
+  return list
+end
+
+--- "; did you mean 'mouth'?" for a set that is not there; "" where no set has a name near it.
+---@param parts table<string, any> By name
+---@param set string
+function sets.hint(parts, set)
+  local known, names = {}, {}
+  for name in pairs(parts) do
+    for place in name:gmatch "()[ %-_/.:]" do known[name:sub(1, place - 1)] = true end
+  end
+  for name in pairs(known) do names[#names + 1] = name end
+  table.sort(names)
+  local nearest = core.nearest(set, names)
+  return nearest and ("; did you mean '%s'?"):format(nearest) or ""
+end
 
 --- The members of a set: the names of the parts by member. A sorted list of the members too.
 ---@param parts table<string, any> By name
@@ -12,7 +63,7 @@ local sets = {}
 function sets.members(parts, set)
   local members, names = {}, {}
   for name in pairs(parts) do
-    local member = name:sub(1, #set) == set and name:sub(#set + 1):match "^[ %-_/.:]+(.+)$"
+    local member = member_of(name, set)
     if member then
       if not members[member] then
         members[member] = {}
@@ -33,8 +84,8 @@ local function check(noun, whole, parts, set, choice)
   end
   local members, names = sets.members(parts, set)
   if #names == 0 then
-    core.refuse(("%s: %s has no parts named '%s A', '%s B' and so on"):format(noun, whole, set,
-      set))
+    core.refuse(("%s: %s has no parts named '%s A', '%s B' and so on%s"):format(noun, whole, set,
+      set, sets.hint(parts, set)))
   end
   if choice and not members[choice] then
     local hint = core.nearest(choice, names)

@@ -128,8 +128,21 @@ end
 
 local function nothing() return celspan.union {} end
 
---- The drawing with one part of each set: of "mouth A", "mouth B" and "mouth C" only the C, for
---- { mouth = "C" }. false: none of them.
+--- What `with` calls the parts, and the children of parts as "mouth/C".
+local function paths_of(art)
+  local paths = {}
+  for name in pairs(art.parts) do paths[name] = name end
+  for _, child in ipairs(sets.children(art:elements(), art.parts)) do
+    local element = child.element
+    local part = element.label and rawget(art.parts, element.label) and element.label
+      or element.id and rawget(art.parts, element.id) and element.id
+    paths[child.name] = paths[child.name] or part or element.name
+  end
+  return paths
+end
+
+--- The drawing with one part of each set: of "mouth A", "mouth B" and "mouth C", or of the children
+--- "A", "B" and "C" of a group "mouth", only the C, for { mouth = "C" }. false: none of them.
 ---@param choices table<string, string|false>
 ---@return celspan.svg.art
 function Art:show(choices)
@@ -137,9 +150,9 @@ function Art:show(choices)
   if type(choices) ~= "table" then
     core.refuse("svg: show takes a table of names by set, got " .. fields.kind(choices))
   end
-  local changes = {}
-  for _, name in ipairs(sets.hidden("svg: show", "the drawing", self.parts, choices)) do
-    changes[name] = nothing
+  local changes, paths = {}, paths_of(self)
+  for _, name in ipairs(sets.hidden("svg: show", "the drawing", paths, choices)) do
+    changes[paths[name]] = nothing
   end
   return self:with(changes)
 end

@@ -222,12 +222,40 @@ describe("art:show", function()
     assert.are.same({ 1, 1, 1, 1 }, greens(art:show { mouth = "B", eyes = false }))
   end)
 
+  with_art("shows one child of a group, by its label or else its id", function()
+    local svg = require "celspan.svg"
+    local INK = 'xmlns:ink="http://www.inkscape.org/namespaces/inkscape"'
+    local function drawing(mouth)
+      return assert(svg.read(bench:write("group.svg", ([[
+<svg xmlns="http://www.w3.org/2000/svg" %s width="40" height="10">
+<g id="layer1" ink:label="other"><rect id="r9" ink:label="A" x="30" width="9" height="9"/></g>
+<g id="g7" ink:label="mouth">%s</g></svg>]]):format(INK, mouth))))
+    end
+    local art = drawing [[<g id="g1" ink:label="A"><g id="g2" ink:label="teeth">
+<rect width="10" height="10" fill="#0f0"/></g></g>
+<rect id="g3" ink:label="C" x="10" width="10" height="10" fill="#0f0"/>
+<rect id="g4" x="20" width="10" height="10" fill="#0f0"/>]]
+    assert.are.same({ 1, 0, 1, 0 }, greens(art:show { mouth = "A" }))
+    assert.are.same({ 0, 1, 1, 0 }, greens(art:show { mouth = "C" }))
+    assert.are.same({ 0, 0, 1, 0 }, greens(art:show { g7 = false }))
+    art = drawing [[<rect id="A" width="10" height="10" fill="#0f0"/>
+<rect id="mouth C" x="10" width="10" height="10" fill="#0f0"/>]]
+    assert.are.same({ 1, 0, 0, 0 }, greens(art:show { mouth = "A" }))
+    assert.are.same({ 0, 1, 0, 0 }, greens(art:show { mouth = "C" }))
+    local rig = require "celspan.puppet" { art = art, switches = { "mouth" },
+      joints = { hip = { 0, 0 }, knee = { 0, 9 } },
+      bones = { { "thigh", from = "hip", to = "knee", parts = { "other" } } } }
+    assert.are.same({ 1, 0, 0, 0 }, greens { object = rig:pose {} })
+    assert.are.same({ 0, 1, 0, 0 }, greens { object = rig:pose { mouth = "C" } })
+  end)
+
   with_art("refuses what the drawing does not have", function()
     local art = puppet()
     for words, choices in pairs {
       ["the parts of 'eyes' are open, shut, and not 'shot'; did you mean 'shut'?"] =
         { eyes = "shot" },
       ["no parts named 'nose A'"] = { nose = "A" },
+      ["no parts named 'mouht A', 'mouht B' and so on; did you mean 'mouth'?"] = { mouht = "A" },
       ["such as { mouth = \"C\" }, got mouth = number"] = { mouth = 3 },
     } do
       local message = raised.message(function() art:show(choices) end)
