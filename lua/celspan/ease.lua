@@ -102,6 +102,10 @@ for _, family in ipairs { "quad", "cubic", "quart", "quint", "sine", "expo", "ci
   names[#names + 1] = family
 end
 
+-- Penner's names, which begin with "ease"
+local penner = {}
+for i, name in ipairs(names) do penner[i] = "ease" .. name end
+
 --- "steps:4": four equal steps; the last value is reached at the end.
 local function steps(text)
   local count = tonumber(text)
@@ -160,6 +164,7 @@ local function find(_, name)
   local curve = curves[plain] or curves[plain:match "^ease(.*)$"]
   if curve then return curve end
   local hint = directions[plain] and plain .. "sine" or core.nearest(plain, names)
+    or core.nearest(plain, penner)
   core.refuse(("ease: there is no curve %q%s"):format(name,
     hint and ("; did you mean %q?"):format(hint)
       or "; celspan help lua ease describes the names"))

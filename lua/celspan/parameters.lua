@@ -69,6 +69,12 @@ local kinds = {
   },
 }
 
+--- A value in a message.
+local function shown(value)
+  if type(value) == "string" then return "'" .. value .. "'" end
+  return type(value) == "table" and "a table" or tostring(value)
+end
+
 -- ---------------------------------------------------------------- declaring
 
 local function refuse(name, format, ...)
@@ -128,7 +134,7 @@ local function declare_one(name, given)
     refuse(name, "has a field 'about' that is not a string")
   end
   if type(default) ~= kinds[kind].type or kinds[kind].read(one, default) == nil then
-    refuse(name, "has a default that is not %s", kinds[kind].allowed(one))
+    refuse(name, "has the default %s, which is not %s", shown(default), kinds[kind].allowed(one))
   end
   return one
 end
@@ -162,10 +168,6 @@ local function find(settings, declared, source, name)
   refuse_setting(settings, "%sthe script has no parameter '%s'%s", source.prefix, name,
     hint and ("; did you mean '%s'?"):format(hint)
       or #names > 0 and "; there are " .. table.concat(names, ", ") or "")
-end
-
-local function shown(value)
-  return type(value) == "string" and "'" .. value .. "'" or tostring(value)
 end
 
 local function set(settings, declared, values, source, name, value)

@@ -112,7 +112,12 @@ static cs_exit take_option(const reading *r, cs_given_texts *texts) {
 }
 
 static cs_exit take_operand(const char *operand, cs_request *out) {
-  if (out->operand_count == out->verb->operand_most)
+  bool is_over = out->operand_count == out->verb->operand_most;
+  if (is_over && find(out->verb, "-o"))
+    return cs_report_usage("unexpected argument '%s': write '-o %s' if that is the output; usage: "
+                           "celspan %s %s [options]",
+                           operand, operand, out->verb->name, out->verb->operands);
+  if (is_over)
     return cs_report_usage("unexpected argument '%s'; usage: celspan %s %s [options]", operand,
                            out->verb->name, out->verb->operands);
   out->operands[out->operand_count++] = operand;

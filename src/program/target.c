@@ -27,10 +27,24 @@ celspan_file_desc cs_target_file(const cs_request *request) {
   return file;
 }
 
+/* Names all formats, because an unknown ending does not say what was meant. */
+static cs_exit refuse_format(const char *path, const char *name) {
+  char pictures[CS_SINK_LIST], videos[CS_SINK_LIST];
+  cs_sink_file_list(pictures, sizeof pictures);
+  cs_video_format_list(videos, sizeof videos);
+  return cs_report_usage("%s: the format \"%s\" cannot be written; pictures can be %s; videos, "
+                         "which 'celspan render' makes, %s; planes plane; sounds, which 'celspan "
+                         "sound' makes, wav",
+                         path, name, pictures, videos);
+}
+
 /* Makes a sink and discards it: a sink opens no file before its first row. */
 static cs_exit refuse_file(celspan_context *context, const char *path, const cs_request *request) {
   celspan_file_desc file = cs_target_file(request);
   celspan_sink sink;
+  const char *name = file.format ? file.format : cs_file_ending(path);
+  if (name[0] && !cs_sink_file_knows(path, &file))
+    return refuse_format(path, name);
   celspan_status status = celspan_file_sink_create(context, path, &file, &sink);
   if (status == CELSPAN_BAD_ARGUMENT)
     return cs_report_usage("%s", celspan_context_error(context));

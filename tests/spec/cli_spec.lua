@@ -201,6 +201,11 @@ describe("the command line", function()
 
     it("refuses impossible output files before it runs the script", function()
       usage_error("render x.lua -o y.xyz", 'the format "xyz" cannot be written')
+      for _, more in ipairs { "png, tga, span, exr", "mp4, mkv, mov, webm", "plane", "wav" } do
+        usage_error("render x.lua -o y.avi", more)
+        usage_error("convert x.png y.apng", more)
+      end
+      usage_error("render x.lua y.mp4", "unexpected argument 'y.mp4': write '-o y.mp4' if that is")
       usage_error("render x.lua -o y", "the format is unknown")
       usage_error("render x.lua -o y.png --format xyz", 'the format "xyz" cannot be written')
       usage_error("render x.lua -o y.png --depth half", "PNG holds 8 or 16 bits")

@@ -168,7 +168,9 @@ describe("a wrong type", function()
       function() celspan.nurbs { points = { { 0, 0 } }, degree = 2.5 } end },
     { "union: item 2 must be an object, got a cel",
       function() celspan.union { celspan.union {}, celspan.cel {} } end },
-    { "rostrum: item 1 must be a cel, got a union",
+    { "text: unknown field 'along'; celspan.letters(text, nil, { along = ... }) sets a text along "
+        .. "a path", function() celspan.text { "a", along = "M0 0 H9" } end },
+    { "rostrum: item 1 must be a cel, got a union: put it into celspan.cel { ... }",
       function() celspan.rostrum { celspan.union {} } end },
     { 'cel: field \'front\' must be a light {r, g, b}, {r, g, b, a} or "#rrggbb", got number',
       function() celspan.cel { front = 1 } end },

@@ -226,6 +226,13 @@ describe("render", function()
     assert.is_true(exists "e.0001.png")
   end)
 
+  it("says what the argument of a frame function is where a number is expected", function()
+    local bad = film { frame = function(t) return t * 2 end }
+    local _, message = celspan.render(bad, folder .. "e.####.png")
+    assert.is_truthy(message:find("(a frame function gets a table: write f.time, f.progress or "
+      .. "f.number)", 1, true), message)
+  end)
+
   it("reports its progress, and stops on request", function()
     local shares, last = {}, 0
     assert(celspan.render(film { frames = 2 }, folder .. "f.#.png", { workers = 1,

@@ -161,6 +161,8 @@ describe("keys", function()
       { 'keys: loop must be "repeat" or "mirror", got no', { { 0, 1 }, loop = "no" } },
       { 'keys: key 2 cannot have this ease: there is no curve "outQuat"; did you mean "outquad"?',
         { { 0, 1 }, { 1, 2, "outQuat" } } },
+      { 'keys: key 2 cannot have this ease: there is no curve "easeInOutCubik"; did you mean '
+        .. '"easeinoutcubic"?', { { 0, 1 }, { 1, 2, "easeInOutCubik" } } },
       { "keys: key 1 must begin with a time, a finite number, got inf", { { math.huge, 1 } } },
       { "keys: key 1 must have a finite number, an array of numbers or points, a pose, a paint, "
         .. "a string or a boolean as value, got inf", { { 0, math.huge } } },

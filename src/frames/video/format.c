@@ -124,6 +124,11 @@ const cs_video_format *cs_video_format_named(const char *name) {
   return NULL;
 }
 
+void cs_video_format_list(char *out, size_t size) {
+  for (size_t i = 0, length = 0; i < sizeof FORMATS / sizeof *FORMATS && length < size; i++)
+    length += (size_t)snprintf(out + length, size - length, "%s%s", i ? ", " : "", FORMATS[i].name);
+}
+
 /* Whether the encoder gets frames of 16 bits. */
 static bool is_deep(const cs_video_format *format, const cs_video_options *options) {
   if (options->coding.depth == CELSPAN_DEPTH_DEFAULT)

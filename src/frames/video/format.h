@@ -74,6 +74,8 @@ typedef struct cs_video_command {
 
 /* The format of that name, or else NULL. */
 const cs_video_format *cs_video_format_named(const char *name);
+/* The names of all, "mp4, mkv, ...": for messages; cut if there is no place for all. */
+void cs_video_format_list(char *out, size_t size);
 /* The pixels of the encoder under the options; NULL: not available. */
 const char *cs_video_pixels(const cs_video_format *format, const cs_video_options *options);
 /* Planes where the encoder accepts 8 bits without alpha. */

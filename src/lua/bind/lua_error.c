@@ -27,6 +27,13 @@ static void push_chain(lua_State *L, const char *message, const char *position) 
     cs_caller_push_chain(L, position, lua_tocfunction(L, lua_upvalueindex(2)));
 }
 
+/* What a message of Lua's own about the argument of a frame function does not say. */
+static const char *hint_of(const char *message) {
+  return strstr(message, "attempt to") && strstr(message, "celspan.frame")
+             ? " (a frame function gets a table: write f.time, f.progress or f.number)"
+             : "";
+}
+
 /* The message handler. A message without a position gets that of the innermost function of a
  * script. A frame that is built inside a frame has put its label into the message already. */
 static int handle_error(lua_State *L) {
@@ -43,7 +50,7 @@ static int handle_error(lua_State *L) {
   else
     cs_caller_push_position(L, lua_tocfunction(L, lua_upvalueindex(2)));
   const char *where = lua_tostring(L, -1);
-  lua_pushfstring(L, "%s%s", label, message + position);
+  lua_pushfstring(L, "%s%s%s", label, message + position, hint_of(message));
   push_chain(L, message, where);
   lua_concat(L, 3);
   return 1;

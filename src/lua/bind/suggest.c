@@ -61,6 +61,7 @@ static const char *const others[][2] = {
     {"length", "duration"},
     {"count", "frames"},
     {"threads", "workers"},
+    {"plus", "add"},
 };
 
 static const char *find(const char *name, const char *const *names, size_t count) {

@@ -178,6 +178,17 @@ static void fail_choice(lua_State *L, const cs_noun *noun, int table, const char
   lua_pop(L, 1);
 }
 
+/* What a noun does not do, but something else does. */
+static void fail_elsewhere(lua_State *L, const cs_noun *noun, const char *name) {
+  static const struct {
+    const char *noun, *field, *hint;
+  } others[] = {
+      {"text", "along", "celspan.letters(text, nil, { along = ... }) sets a text along a path"}};
+  for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+    if (strcmp(others[i].noun, noun->name) == 0 && strcmp(others[i].field, name) == 0)
+      cs_caller_error(L, "%s: unknown field '%s'; %s", noun->name, name, others[i].hint);
+}
+
 /* ---------------------------------------------------------------- raising */
 
 static const char *push_names(lua_State *L, const char *const *names, size_t count) {
@@ -216,5 +227,6 @@ _Noreturn void cs_unknown_fail(lua_State *L, const cs_noun *noun, int table, con
   fail_list(L, noun, table, name);
   fail_parts(L, noun, table, name);
   fail_choice(L, noun, table, name);
+  fail_elsewhere(L, noun, name);
   cs_unknown_fail_name(L, noun->name, name, names, count);
 }

@@ -95,6 +95,12 @@ typedef struct call {
   bool is_missing;
 } call;
 
+static int refuse_result(lua_State *L, const char *path) {
+  return luaL_error(L, "%s must return a film or a rostrum, got %s%s", path,
+                    cs_userdata_type(L, -1),
+                    lua_isfunction(L, -1) ? ": return celspan.film { frame = ... }" : "");
+}
+
 /* light userdata -> film. Runs protected. */
 static int run(lua_State *L) {
   call *c = lua_touserdata(L, 1);
@@ -132,9 +138,7 @@ static int run(lua_State *L) {
   for (int i = 0; i < c->argument_count; i++)
     lua_pushstring(L, c->arguments[i]);
   lua_call(L, c->argument_count, 1);
-  if (!cs_lua_film_push(L, -1))
-    luaL_error(L, "%s must return a film or a rostrum, got %s", c->path, cs_userdata_type(L, -1));
-  return 1;
+  return cs_lua_film_push(L, -1) ? 1 : refuse_result(L, c->path);
 }
 
 celspan_status cs_lua_script_run(lua_State *L, const char *path, int argument_count,

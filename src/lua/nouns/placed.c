@@ -10,6 +10,7 @@
 #include "lua/bind/list.h"
 #include "lua/bind/named.h"
 #include "lua/bind/numbers.h"
+#include "lua/bind/suggest.h"
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/shape.h"
 #include "model/colour/blend.h"
@@ -183,12 +184,20 @@ int cs_placed_blend_within(lua_State *L) {
   return 1;
 }
 
+/* Argument 2 is no mode. */
+static int refuse_mode(lua_State *L) {
+  const char *word = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "";
+  const char *nearest = cs_suggest_name(word, cs_blend_words, (size_t)mode_at(L, 2));
+  const char *hint = nearest ? lua_pushfstring(L, "; did you mean \"%s\"?", nearest) : "";
+  return cs_caller_error(L, "blend: the mode must be one of %s, got %s%s", push_modes(L),
+                         cs_userdata_shown(L, 2), hint);
+}
+
 static int blend(lua_State *L) {
   const cs_userdata *value = self(L, "blend");
   const celspan_blend mode = mode_at(L, 2);
   if (!cs_blend_words[mode])
-    return cs_caller_error(L, "blend: the mode must be one of %s, got %s", push_modes(L),
-                           cs_userdata_shown(L, 2));
+    return refuse_mode(L);
   if (cs_userdata_has_field(value->noun, "blend"))
     return blend_field(L);
   cs_userdata *copy = cs_userdata_push_like(L, 1, true);

@@ -1,4 +1,5 @@
 /* Files of every format: the choice of the sink, and a guard in front of it. */
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -210,6 +211,19 @@ static const file_format *find_format(const char *path, const celspan_file_desc 
   return &picture_format;
 }
 
+bool cs_sink_file_knows(const char *path, const celspan_file_desc *file) {
+  return find_format(path, file) != &picture_format ||
+         cs_sink_picture_knows(format_name(path, file));
+}
+
+void cs_sink_file_list(char *out, size_t size) {
+  size_t length = 0;
+  for (size_t i = 0; i < sizeof formats / sizeof *formats && length < size; i++)
+    length += (size_t)snprintf(out + length, size - length, "%s, ", formats[i].endings[0]);
+  if (length < size)
+    cs_sink_picture_list(out + length, size - length);
+}
+
 bool cs_sink_file_is_numbered(const char *path, const celspan_file_desc *file) {
   return find_format(path, file) == &picture_format;
 }
@@ -225,6 +239,13 @@ static celspan_status create(celspan_context *context, const char *path,
   if (file->strip_height != 0 && !format->has_strips)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "%s: strips can be joined only as PNG, Targa or span files", path);
+  if (!cs_sink_file_knows(path, file)) {
+    char list[CS_SINK_LIST];
+    cs_sink_file_list(list, sizeof list);
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "%s: the format \"%s\" cannot be written; pictures can be %s", path,
+                   format_name(path, file), list);
+  }
   celspan_sink sink;
   CS_TRY(format->create(context, path, file, &sink));
   if (format->is_dithered) {

@@ -259,6 +259,16 @@ static celspan_status end(void *user, celspan_context *context, celspan_status o
   return status;
 }
 
+bool cs_sink_picture_knows(const char *name) { return find_format(name) != NULL; }
+
+void cs_sink_picture_list(char *out, size_t size) {
+  for (size_t i = 0, length = 0; i < sizeof formats / sizeof *formats && length < size; i++) {
+    const char *first = formats[i].endings + 1;
+    length += (size_t)snprintf(out + length, size - length, "%s%.*s", i ? ", " : "",
+                               (int)strcspn(first, " "), first);
+  }
+}
+
 static char *copy_text(cs_memory *memory, const char *text) {
   char *copy = cs_mem_resize(memory, NULL, 0, strlen(text) + 1);
   return copy ? strcpy(copy, text) : NULL;
@@ -270,11 +280,8 @@ celspan_status cs_sink_picture(celspan_context *context, const char *path,
   picture_sink made = {
       .format = find_format(name), .frames_second = file->frames_second, .frame = file->frame};
   if (!made.format)
-    return cs_fail(
-        context, CELSPAN_BAD_ARGUMENT,
-        "%s: the format \"%s\" cannot be written; use png, tga, span, exr, tiff, dpx, jpeg, bmp, "
-        "hdr, ppm, webp, gif or jp2",
-        path, name);
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: the format \"%s\" cannot be written", path,
+                   name);
   CS_TRY(choose_coding(context, path, &file->coding, &made));
   made.path = copy_text(context->memory, path);
   made.title = file->title ? copy_text(context->memory, file->title) : NULL;

@@ -20,6 +20,10 @@ CELSPAN_CHECKED celspan_status cs_sink_tga(celspan_context *context, const char 
 /* Any other format through the picture module; checks the format's limits first. */
 CELSPAN_CHECKED celspan_status cs_sink_picture(celspan_context *context, const char *path,
                                                const celspan_file_desc *file, celspan_sink *out);
+/* Whether that writes the format of this name. */
+bool cs_sink_picture_knows(const char *name);
+/* The names of these formats, "exr, tif, ..."; cut if there is no place for all. */
+void cs_sink_picture_list(char *out, size_t size);
 /* A span file (docs/spanfile.md): depth 8 in sRGB, straight, or half in linear light,
  * premultiplied. */
 CELSPAN_CHECKED celspan_status cs_sink_span(celspan_context *context, const char *path,
@@ -36,6 +40,11 @@ CELSPAN_CHECKED celspan_status cs_sink_digest(celspan_context *context,
 /* Chosen by the format or the path's ending: PNG, Targa, a span file, or the picture module. */
 CELSPAN_CHECKED celspan_status cs_sink_file(celspan_context *context, const char *path,
                                             const celspan_file_desc *file, celspan_sink *out);
+/* Whether the format of such a file is one of those. */
+bool cs_sink_file_knows(const char *path, const celspan_file_desc *file);
+/* Their names, "png, tga, ...": for messages; cut if there is no place for all. */
+enum { CS_SINK_LIST = 128 };
+void cs_sink_file_list(char *out, size_t size);
 /* Whether such a file contains the number of its frame, so that equal frames make unequal files. */
 bool cs_sink_file_is_numbered(const char *path, const celspan_file_desc *file);
 /* Destroys a sink whose end was not called; the context's error stays as it was. */

@@ -77,9 +77,8 @@ function program.json(value)
 end
 
 --- What is said of a frame function that returns another scene when it is called again.
-program.impure = "the frame function is not pure: called again in another order, or in another Lua "
-  .. "state, it returned another scene; let it depend only on its argument, and not on the "
-  .. "length (#) of a table with holes"
+program.impure = "the frame function is not pure: called again, it returned another scene; let it "
+  .. "depend on its argument alone, not on a counter outside it or on # of a table with holes"
 
 local AGAIN_LEAST, AGAIN_PART = 9, 10
 
