@@ -8,7 +8,10 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <stdbool.h>
+#include <sys/stat.h>
 #include <unistd.h>
+
+#include "base/hash.h"
 
 /* A descriptor, or -1 and errno. */
 static inline int cs_open_to_read(const char *path) {
@@ -31,6 +34,15 @@ static inline ssize_t cs_open_read_at(int descriptor, void *bytes, size_t size, 
     done += got > 0 ? (size_t)got : 0;
   }
   return (ssize_t)done;
+}
+
+/* Adds to a hash whether a file is there, its size and its time, by which a change is seen. */
+static inline void cs_open_hash(cs_hash *hash, const char *path) {
+  struct stat found = {0};
+  cs_hash_word(hash, stat(path, &found) == 0);
+  cs_hash_word(hash, (uint64_t)found.st_size);
+  cs_hash_word(hash, (uint64_t)found.st_mtim.tv_sec);
+  cs_hash_word(hash, (uint64_t)found.st_mtim.tv_nsec);
 }
 
 /* The next entry of a folder. NULL: errno is 0 at its end, else it says why there is no other. */

@@ -157,6 +157,10 @@ static const cs_record_line *find(const cs_record *record, int64_t number) {
   return low > 0 && record->lines[low - 1].number == number ? &record->lines[low - 1] : NULL;
 }
 
+bool cs_record_knows(const cs_record *record, int64_t number) {
+  return find(record, number) != NULL;
+}
+
 static bool is_whole(const cs_record_line *line, const char *path) {
   cs_file_contents contents;
   return read_contents(path, &contents) && contents.bytes == line->bytes &&

@@ -1,4 +1,5 @@
-/* The record of finished frames, in a file beside them: --resume relies on it.
+/* The record of finished frames, in a file beside them: --resume relies on it. A film that is one
+ * file has a line, too (program/whole.h).
  *
  *   .shot.####.png.frames
  *     celspan frames 1
@@ -39,6 +40,8 @@ typedef struct cs_record {
 CELSPAN_CHECKED celspan_status cs_record_open(cs_record *record, const cs_script *script,
                                               const cs_request *request,
                                               const celspan_frame_desc *frame);
+/* Whether the record has a line of the frame of this number. */
+bool cs_record_knows(const cs_record *record, int64_t number);
 /* Whether the file of the frame is what would be written now. By force: whether it is complete;
  * `is_named` is then set to false where it may show something else. */
 bool cs_record_has(const cs_record *record, cs_shoot_frame *frame);

@@ -22,6 +22,7 @@
 #include "program/verbs.h"
 #include "program/video_target.h"
 #include "program/view.h"
+#include "program/whole.h"
 
 typedef struct render_job {
   cs_script *script;
@@ -32,9 +33,12 @@ typedef struct render_job {
   celspan_frame_desc frame;
   cs_sequence frames;
   cs_progress progress;
-  cs_record record;
+  cs_record record; /* of frames that are files */
+  cs_whole whole;   /* of a film that is one file */
+  bool surveys;     /* its frames are built, but not made */
   bool is_video;
-  cs_video video;       /* where it is one */
+  cs_video video; /* where it is one */
+  bool is_plane;
   cs_plane_film *plane; /* where the film is one plane file */
   int64_t *failed;      /* frames; owned */
   size_t failed_count, failed_capacity;
@@ -126,11 +130,14 @@ static celspan_status put_plane(void *user, const celspan_frame_desc *desc, cs_s
 }
 
 /* Whether all frames go into one file. */
-static bool is_whole(const render_job *job) { return job->is_video || job->plane; }
+static bool is_whole(const render_job *job) { return job->is_video || job->is_plane; }
 
 static bool keep(void *user, cs_shoot_frame *frame) {
   render_job *job = user;
-  return cs_record_has(&job->record, frame);
+  if (!is_whole(job))
+    return cs_record_has(&job->record, frame);
+  cs_whole_add(&job->whole, frame);
+  return job->surveys;
 }
 
 static bool tick(void *user, double share) {
@@ -181,7 +188,9 @@ static celspan_status build(void *user, int64_t number, cs_film_frame *out) {
 static celspan_status finished(void *user, const cs_shoot_frame *frame, celspan_status status) {
   static const char *const ways[] = {"made", "copied", "kept"};
   render_job *job = user;
-  if (status == CELSPAN_OK && job->resumes)
+  if (status == CELSPAN_OK && job->surveys)
+    return CELSPAN_OK;
+  if (status == CELSPAN_OK && job->resumes && !is_whole(job))
     status = cs_record_add(&job->record, frame);
   if (status != CELSPAN_OK)
     return report_failure(job, frame->number, status);
@@ -260,10 +269,10 @@ static cs_exit shoot(render_job *job) {
                           .keeps_going = job->keeps_going,
                           .keeps_nothing = memory == 0,
                           .user = job,
-                          .put = job->is_video ? put_video
-                                 : job->plane  ? put_plane
-                                 : is_stream   ? put_raw
-                                               : NULL,
+                          .put = job->is_video   ? put_video
+                                 : job->is_plane ? put_plane
+                                 : is_stream     ? put_raw
+                                                 : NULL,
                           .keep = job->resumes ? keep : NULL,
                           .build = build,
                           .finished = finished,
@@ -273,35 +282,44 @@ static cs_exit shoot(render_job *job) {
                                     : cs_report_failure(job->script->context, status, NULL);
 }
 
+static void discard_whole(render_job *job) {
+  if (job->is_video)
+    cs_video_discard(&job->video);
+  else
+    cs_plane_film_discard(job->plane);
+}
+
+/* Gives the file its name, and remembers it. */
+static celspan_status complete_whole(render_job *job) {
+  celspan_context *context = job->script->context;
+  context->contents = job->resumes ? &job->whole.file.contents : NULL;
+  celspan_status status =
+      job->is_video ? cs_video_finish(&job->video) : cs_plane_film_commit(job->plane);
+  context->contents = NULL;
+  return status == CELSPAN_OK && job->resumes ? cs_whole_finish(&job->whole) : status;
+}
+
 /* The frames of a video are finished when its file is. */
-static cs_exit shoot_video(render_job *job) {
+static cs_exit shoot_whole(render_job *job) {
   cs_exit outcome = shoot(job);
   if (outcome == CS_EXIT_OK)
-    return cs_report_failure(job->script->context, cs_video_finish(&job->video), NULL);
-  cs_video_discard(&job->video);
+    return cs_report_failure(job->script->context, complete_whole(job), NULL);
+  discard_whole(job);
   return outcome;
 }
 
-static cs_exit shoot_plane(render_job *job) {
-  cs_exit outcome = shoot(job);
-  if (outcome == CS_EXIT_OK)
-    return cs_report_failure(job->script->context, cs_plane_film_commit(job->plane), NULL);
-  cs_plane_film_discard(job->plane);
-  return outcome;
-}
-
-static cs_exit render_all(render_job *job) {
+static void start_progress(render_job *job) {
   cs_progress_style style = CS_PROGRESS_AUTO;
   cs_request_read(job->request, "--progress", &style);
   cs_progress_start(&job->progress, style, job->frames.count);
-  return report_end(job, job->is_video ? shoot_video(job)
-                         : job->plane  ? shoot_plane(job)
-                                       : shoot(job));
 }
 
-static cs_exit resume_all(render_job *job) {
-  if (!job->resumes)
-    return render_all(job);
+static cs_exit render_all(render_job *job) {
+  start_progress(job);
+  return report_end(job, is_whole(job) ? shoot_whole(job) : shoot(job));
+}
+
+static cs_exit resume_frames(render_job *job) {
   celspan_status status = cs_record_open(&job->record, job->script, job->request, &job->frame);
   cs_exit outcome = cs_report_failure(job->script->context, status, NULL);
   if (outcome == CS_EXIT_OK)
@@ -332,11 +350,10 @@ static cs_exit refuse_resume(const cs_request *request, const char *output) {
   bool resumes = cs_request_has(request, "--resume");
   if (cs_request_has(request, "--force") && !resumes)
     return cs_report_usage("--force needs --resume");
-  bool leaves_out = resumes || cs_request_has(request, "--keep-going");
-  if (leaves_out && cs_target_is_plane_film(request))
-    return cs_report_usage("%s: a plane file is made whole: leave %s out, or render "
+  if (cs_request_has(request, "--keep-going") && cs_target_is_plane_film(request))
+    return cs_report_usage("%s: a plane file is made whole: leave --keep-going out, or render "
                            "shot.####.plane",
-                           output, resumes ? "--resume" : "--keep-going");
+                           output);
   if (resumes && (!output || cs_target_is_stream(output)))
     return cs_report_usage("--resume looks for the frames of an earlier run: give -o "
                            "shot.####.png");
@@ -412,30 +429,79 @@ static cs_exit open_plane(render_job *job) {
                            NULL);
 }
 
-/* Whether one picture, a film of planes or a video is asked for is known here, where the frames
- * are. */
-static cs_exit open_film(render_job *job) {
-  const cs_request *request = job->request;
-  if (cs_target_is_plane_film(request) && job->frames.count > 1)
-    return open_plane(job);
-  job->is_video = cs_video_target_is_wanted(request, job->frames.count);
-  if (job->is_video)
-    return cs_video_target_open(&job->video, job->script, request, &job->frame, &job->frames);
-  bool is_named = job->output && !cs_target_is_stream(job->output);
-  return is_named ? refuse_output(job->script->context, request, job->frames.count) : CS_EXIT_OK;
+static cs_exit open_whole(render_job *job) {
+  return job->is_video ? cs_video_target_open(&job->video, job->script, job->request, &job->frame,
+                                              &job->frames)
+                       : open_plane(job);
+}
+
+static cs_exit make_whole(render_job *job) {
+  CS_TRY_EXIT(open_whole(job));
+  return render_all(job);
+}
+
+static cs_exit begin_whole(render_job *job) {
+  celspan_status status = cs_whole_begin(&job->whole, job->script, job->request, &job->frames);
+  return cs_report_failure(job->script->context, status, NULL);
+}
+
+/* Builds the frames, to find out whether the file that is there would come out the same. */
+static cs_exit survey(render_job *job) {
+  CS_TRY_EXIT(begin_whole(job));
+  job->surveys = true;
+  cs_exit outcome = shoot(job);
+  job->surveys = false;
+  return outcome;
+}
+
+static cs_exit report_kept(render_job *job) {
+  start_progress(job);
+  for (size_t i = 0; i < job->frames.count; i++)
+    cs_progress_frame(&job->progress, job->frames.frames[i], job->output, "kept");
+  return report_end(job, CS_EXIT_OK);
+}
+
+static cs_exit keep_or_make_whole(render_job *job) {
+  if (cs_whole_is_known(&job->whole)) {
+    CS_TRY_EXIT(survey(job));
+    if (cs_whole_is_kept(&job->whole))
+      return report_kept(job);
+  }
+  CS_TRY_EXIT(begin_whole(job));
+  return make_whole(job);
+}
+
+static cs_exit resume_whole(render_job *job) {
+  celspan_status status = cs_whole_open(&job->whole, job->script, job->request, &job->frame);
+  cs_exit outcome = cs_report_failure(job->script->context, status, NULL);
+  if (outcome == CS_EXIT_OK)
+    outcome = keep_or_make_whole(job);
+  cs_whole_close(&job->whole);
+  return outcome;
 }
 
 /* A film may have become shorter than the tasks that it was divided into. */
+static cs_exit report_no_frames(const render_job *job) {
+  int32_t task[2] = {0, 0};
+  cs_request_read(job->request, "--task", task);
+  cs_report_note("task %d of %d has no frames", task[0], task[1]);
+  return CS_EXIT_OK;
+}
+
+/* Whether one picture, a film of planes or a video is asked for is known here, where the frames
+ * are. */
 static cs_exit make_frames(render_job *job) {
-  if (job->frames.count == 0) {
-    int32_t task[2] = {0, 0};
-    cs_request_read(job->request, "--task", task);
-    cs_report_note("task %d of %d has no frames", task[0], task[1]);
-    return CS_EXIT_OK;
-  }
+  const cs_request *request = job->request;
+  if (job->frames.count == 0)
+    return report_no_frames(job);
   CS_TRY_EXIT(cs_change_refuse(job->script, &job->change, &job->frames));
-  CS_TRY_EXIT(open_film(job));
-  return resume_all(job);
+  job->is_plane = cs_target_is_plane_film(request) && job->frames.count > 1;
+  job->is_video = !job->is_plane && cs_video_target_is_wanted(request, job->frames.count);
+  if (is_whole(job))
+    return job->resumes ? resume_whole(job) : make_whole(job);
+  if (job->output && !cs_target_is_stream(job->output))
+    CS_TRY_EXIT(refuse_output(job->script->context, request, job->frames.count));
+  return job->resumes ? resume_frames(job) : render_all(job);
 }
 
 static cs_exit run(cs_script *script, const cs_request *request) {

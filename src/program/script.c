@@ -202,7 +202,7 @@ static cs_exit open_script(celspan_context *context, const cs_request *request, 
   CS_TRY_EXIT(start_script(out, request, path));
   celspan_status status = cs_lua_script_run(out->L, path, (int)request->script_argument_count,
                                             (const char *const *)request->script_arguments);
-  CS_TRY_EXIT(cs_settings_outcome(out->L));
+  CS_TRY_EXIT(cs_settings_outcome(out->L, status == CELSPAN_OK));
   if (status != CELSPAN_OK)
     return cs_report_failure(context, status, NULL);
   lua_pushcfunction(out->L, read_film);

@@ -94,24 +94,27 @@ void cs_settings_give(lua_State *L, const cs_settings *settings) {
   lua_pop(L, 1);
 }
 
-/* Runs protected. -> the sentence that refuses the settings, or nothing */
+/* Whether the script came to its end, a boolean -> the sentence that refuses the settings, or
+ * nothing. Runs protected. */
 static int find_refusal(lua_State *L) {
+  bool has_ended = lua_toboolean(L, 1);
   cs_core_settings(L);
   lua_getfield(L, -1, "refused");
   if (!lua_isnil(L, -1))
     return 1;
   bool is_declared = lua_getfield(L, -2, "declared") != LUA_TNIL;
-  if (is_declared || lua_rawlen(L, -3) == 0)
+  if (is_declared || !has_ended || lua_rawlen(L, -3) == 0)
     return 0;
   lua_pushliteral(L, "--set and --set-from give values to parameters, and the script declares none "
                      "(celspan.parameters)");
   return 1;
 }
 
-cs_exit cs_settings_outcome(lua_State *L) {
+cs_exit cs_settings_outcome(lua_State *L, bool has_ended) {
   lua_pushcfunction(L, find_refusal);
+  lua_pushboolean(L, has_ended);
   cs_exit outcome = CS_EXIT_OK;
-  if (lua_pcall(L, 0, 1, 0) == LUA_OK && lua_isstring(L, -1))
+  if (lua_pcall(L, 1, 1, 0) == LUA_OK && lua_isstring(L, -1))
     outcome = cs_report_usage("%s", lua_tostring(L, -1));
   lua_pop(L, 1);
   return outcome;

@@ -26,6 +26,7 @@ void cs_settings_close(celspan_context *context, cs_settings *settings);
 cs_hash cs_settings_hash(const cs_settings *settings);
 /* Puts them into the registry of a state that has celspan. Raises. */
 void cs_settings_give(lua_State *L, const cs_settings *settings);
-/* After the script: wrong usage, reported, where a setting was refused or no parameters were
- * declared; else OK. Never raises. */
-cs_exit cs_settings_outcome(lua_State *L);
+/* After the script: wrong usage, reported, where a setting was refused; or where no parameters were
+ * declared, if the script came to its end, because its own error says more; else OK. Never raises.
+ */
+cs_exit cs_settings_outcome(lua_State *L, bool has_ended);

@@ -2,11 +2,14 @@
 #include <math.h>
 #include <strings.h>
 
+#include "base/context.h"
 #include "output/sinks/file.h"
 #include "plugins/sound/wave_file.h"
+#include "program/progress.h"
 #include "program/soundtrack.h"
 #include "program/target.h"
 #include "program/verbs.h"
+#include "program/whole.h"
 
 static cs_exit refuse_request(const cs_script *script, const cs_request *request, bool *is_float) {
   const char *output = cs_request_text(request, "-o");
@@ -19,6 +22,9 @@ static cs_exit refuse_request(const cs_script *script, const cs_request *request
     return cs_report_usage("%s: a sound is written as WAV: give a name such as mix.wav", output);
   if (depth != CELSPAN_DEPTH_DEFAULT && depth != CELSPAN_DEPTH_16 && !*is_float)
     return cs_report_usage("%s: a sound takes --depth 16 or float", output);
+  if (cs_request_has(request, "--keep-going"))
+    return cs_report_usage("--keep-going is about the rows of a table: give --table, or leave it "
+                           "out");
   if (!script->film.has_sound)
     return cs_report_usage("%s: the film has no sound", request->operands[0]);
   return CS_EXIT_OK;
@@ -32,18 +38,62 @@ static void report_peak(const char *output, double peak, bool is_float) {
 }
 
 static cs_exit write_mix(cs_script *script, const cs_request *request, const cs_sequence *frames,
-                         bool is_float) {
+                         bool is_float, cs_file_contents *contents) {
   const char *output = cs_request_text(request, "-o");
   cs_sound_stream samples;
   int64_t moments;
   double peak = 0;
   CS_TRY_EXIT(cs_soundtrack_open(script, request, frames, &samples, &moments));
+  script->context->contents = contents;
   celspan_status status =
       cs_wave_file_write(script->context, output, &samples, moments, is_float, &peak);
+  script->context->contents = NULL;
   cs_sound_stream_close(&samples);
   if (status == CELSPAN_OK)
     report_peak(output, peak, is_float);
   return cs_report_failure(script->context, status, NULL);
+}
+
+/* ---------------------------------------------------------------- --resume */
+
+static cs_exit keep_or_write(cs_whole *whole, cs_script *script, const cs_request *request,
+                             const cs_sequence *frames, bool is_float) {
+  celspan_status status = cs_whole_begin(whole, script, request, frames);
+  CS_TRY_EXIT(cs_report_failure(script->context, status, NULL));
+  if (cs_whole_is_kept(whole))
+    return CS_EXIT_OK;
+  CS_TRY_EXIT(write_mix(script, request, frames, is_float, &whole->file.contents));
+  return cs_report_failure(script->context, cs_whole_finish(whole), NULL);
+}
+
+static cs_exit resume(cs_script *script, const cs_request *request, const cs_sequence *frames,
+                      bool is_float, bool *is_kept) {
+  cs_whole whole;
+  celspan_frame_desc no_frame = CELSPAN_FRAME_DESC;
+  celspan_status status = cs_whole_open(&whole, script, request, &no_frame);
+  cs_exit outcome = cs_report_failure(script->context, status, NULL);
+  if (outcome == CS_EXIT_OK)
+    outcome = keep_or_write(&whole, script, request, frames, is_float);
+  *is_kept = whole.file.way == CS_SHOOT_KEPT;
+  cs_whole_close(&whole);
+  return outcome;
+}
+
+static cs_exit make(cs_script *script, const cs_request *request, const cs_sequence *frames,
+                    bool is_float) {
+  bool is_kept = false;
+  cs_progress progress;
+  cs_progress_style style = CS_PROGRESS_NONE;
+  cs_request_read(request, "--progress", &style);
+  cs_progress_start(&progress, style, 1);
+  progress.noun = "sound";
+  cs_exit outcome = cs_request_has(request, "--resume")
+                        ? resume(script, request, frames, is_float, &is_kept)
+                        : write_mix(script, request, frames, is_float, NULL);
+  if (outcome == CS_EXIT_OK)
+    cs_progress_frame(&progress, 1, cs_request_text(request, "-o"), is_kept ? "kept" : "made");
+  cs_progress_end(&progress, (cs_progress_failures){NULL, 0}, (int)outcome);
+  return outcome;
 }
 
 static cs_exit run(cs_script *script, const cs_request *request) {
@@ -52,7 +102,7 @@ static cs_exit run(cs_script *script, const cs_request *request) {
   CS_TRY_EXIT(refuse_request(script, request, &is_float));
   cs_exit outcome = cs_target_frames(script, request, NULL, &frames);
   if (outcome == CS_EXIT_OK)
-    outcome = write_mix(script, request, &frames, is_float);
+    outcome = make(script, request, &frames, is_float);
   cs_sequence_finish(&frames);
   return outcome;
 }

@@ -109,6 +109,13 @@ celspan_status cs_soundtrack_read(cs_script *script, cs_soundtrack *out) {
   return outcome == LUA_OK ? CELSPAN_OK : cs_lua_error_report(L, outcome);
 }
 
+celspan_status cs_soundtrack_hash(cs_script *script, cs_hash *hash) {
+  cs_soundtrack track;
+  CS_TRY(cs_soundtrack_read(script, &track));
+  cs_mix_hash(hash, track.sounds, track.count);
+  return CELSPAN_OK;
+}
+
 /* ---------------------------------------------------------------- mixing */
 
 static int64_t moments_of(double seconds) { return llround(seconds * CS_MIX_RATE); }

@@ -15,6 +15,9 @@ typedef struct cs_soundtrack {
 
 /* Reads the sounds of the film. Errors: CALLBACK, NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_soundtrack_read(cs_script *script, cs_soundtrack *out);
+/* Adds to a hash what decides how the sounds are heard: they, and the sizes and times of their
+ * files. Errors: those of cs_soundtrack_read. */
+CELSPAN_CHECKED celspan_status cs_soundtrack_hash(cs_script *script, cs_hash *hash);
 /* Finds the files and, if is_deep, decodes them up to the end of the film; OK without ffmpeg.
  * Errors: those of cs_mix_open. */
 CELSPAN_CHECKED celspan_status cs_soundtrack_check(cs_script *script, bool is_deep);

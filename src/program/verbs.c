@@ -76,7 +76,10 @@
         "with --resume: keep every complete frame file, even if its content would differ"          \
   }
 #define KEEP_GOING                                                                                 \
-  { "--keep-going", NULL, NULL, "continue after frames that fail; the exit code is then 1" }
+  {                                                                                                \
+    "--keep-going", NULL, NULL,                                                                    \
+        "continue after frames that fail, or with --table after rows; the exit code is then 1"     \
+  }
 #define MEMORY                                                                                     \
   {                                                                                                \
     "--memory", "MiB", &cs_argument_memory,                                                        \
@@ -148,7 +151,8 @@ static const cs_option RENDER[] = {
     WORKERS,
     PROGRESS,
     {"--hash", NULL, NULL, "print FRAME DIGEST for the pixels of each frame; -o may be omitted"},
-    {"--resume", NULL, NULL, "keep the frames of earlier runs with --resume that would not change"},
+    {"--resume", NULL, NULL,
+     "keep the frames, or the video, of earlier runs with --resume that would not change"},
     FORCE,
     KEEP_GOING,
     TABLE("a film for each row of a CSV file, whose columns are parameters, or {NAME} in OUT"),
@@ -262,6 +266,11 @@ static const cs_option SOUND[] = {
     OUTPUT("OUT.wav", "48,000 samples a second, stereo"),
     FRAMES,
     {"--depth", "DEPTH", &cs_argument_depth, "16 or float; default: 16"},
+    {"--resume", NULL, NULL, "keep the file of an earlier run with --resume that would not change"},
+    TABLE("a sound for each row of a CSV file, whose columns are parameters, or {NAME} in OUT"),
+    {"--keep-going", NULL, NULL,
+     "with --table: continue after rows that fail; the exit code is then 1"},
+    PROGRESS,
     SCRIPT,
     {0}};
 

@@ -52,10 +52,6 @@ static cs_exit refuse_options(const cs_request *request, const cs_video_format *
   if (cs_sequence_has_number(output))
     return cs_report_usage("%s: a video is one file: leave the frame's number out of its name",
                            output);
-  if (cs_request_has(request, "--resume"))
-    return cs_report_usage("%s: --resume keeps frames that are files, and a video is made whole: "
-                           "leave --resume out, or render shot.####.png",
-                           output);
   if (cs_request_has(request, "--keep-going"))
     return cs_report_usage("%s: --keep-going leaves frames out, and a video has them all: leave it "
                            "out, or render shot.####.png",

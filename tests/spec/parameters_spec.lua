@@ -1,5 +1,6 @@
 -- celspan.parameters, and the options that set them: --set, --set-from, --table, info --parameters.
 local json = require "celspan.json"
+local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
 
 local FILM = [[
@@ -12,6 +13,13 @@ return celspan.film { size = { 8, 8 }, frames = 2, frame = function()
   return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 8, 8, texture = p.tint } } }
 end }
 ]]
+
+--- A WAV file of 16 bits, one channel.
+local function silence(seconds)
+  local data = ("\0\0"):rep(math.floor(seconds * 48000))
+  return ("<c4I4c4c4I4I2I2I4I4I2I2c4s4"):pack("RIFF", 36 + #data, "WAVE", "fmt ", 16, 1, 1, 48000,
+    96000, 2, 16, "data", data)
+end
 
 local bench
 
@@ -75,6 +83,18 @@ describe("parameters", function()
       .. "frame = function() return require 'celspan'.rostrum {} end }")
     assert.are.equal("--set and --set-from give values to parameters, and the script declares none "
       .. "(celspan.parameters)", refusal(2, "--set a=1"))
+    bench:write("film.lua", "local celspan = require 'celspan'\nlocal x = = 1\n"
+      .. "celspan.parameters { a = 1 }")
+    local place = bench.folder .. "/film.lua:2: "
+    bench:write("set.json", '{ "a": 2 }')
+    for _, options in ipairs { "--set a=1", "--set-from '" .. bench.folder .. "/set.json'" } do
+      assert.are.equal(place .. "unexpected symbol near '='", refusal(3, options))
+      for _, verb in ipairs { "check", "info" } do
+        local code, _, err = bench:celspan("%s '%s/film.lua' %s", verb, bench.folder, options)
+        assert.are.equal(3, code, err)
+        assert.is_truthy(err:find(place .. "unexpected symbol near '='", 1, true), err)
+      end
+    end
     bench:write("film.lua", "pcall(require 'celspan'.parameters, { b = 1 })\n"
       .. FILM:gsub("local p",
       "do return celspan.film { size = { 1, 1 }, frames = 1, frame = function() end } end local p"))
@@ -97,10 +117,12 @@ describe("parameters", function()
 
   it("are checked where they are declared", function()
     for declared, message in pairs {
-      ["speed = { 5, max = 4 }"] = "'speed' has a default that is not a number of at most 4",
+      ["speed = { 5, max = 4 }"] = "'speed' has the default 5, which is not a number of at most 4",
+      ["speed = { 9, min = 0, max = 4 }"] =
+        "'speed' has the default 9, which is not a number from 0 to 4",
       ["side = { 'a', 'b', 'a' }"] = "'side' has the choice \"a\" twice",
       ["tint = { colour = 'red' }"] =
-        "'tint' has a default that is not a colour, such as \"#f80\" or \"#ff8800\"",
+        "'tint' has the default 'red', which is not a colour, such as \"#f80\" or \"#ff8800\"",
       ["speed = { 1, most = 4 }"] = "'speed' is a number, which has no field 'most'",
       ["['a-b'] = 1"] = "'a-b' is not a name: letters, digits and _, not beginning with a digit",
       ["a = {}"] = "'a' must be a string, a number, a boolean, a list of strings, or a table with "
@@ -252,6 +274,106 @@ describe("--table", function()
     local code, _, err = film_of(rows, "", "f.#.png")
     assert.are.equal(0, code, err)
     assert.is_truthy(err:find("sum\t1200", 1, true))
+  end)
+
+  --- A film that fails in its second frame where n is 2, with a sound beside it.
+  local function write_failing()
+    bench:write("film.lua", [[
+      local celspan = require "celspan"
+      local p = celspan.parameters { n = 0, tint = "#f00" }
+      return celspan.film { size = { 8, 8 }, frames = 3, fps = 12,
+        sound = { "a.wav", pan = p.n / 9 }, frame = function(f)
+          if p.n == 2 and f.number == 2 then error "two" end
+          return celspan.rostrum { celspan.cel { celspan.rect { f.number, p.n, 4, 4,
+            texture = p.tint } } }
+        end }
+    ]])
+    bench:write("a.wav", silence(0.25))
+  end
+
+  --- The last event of --progress json, and how each row came to be.
+  local function events(err)
+    local last, ways = nil, {}
+    for line in err:gmatch "[^\n]+" do
+      last = assert(json.decode(line), line)
+      if last.event == "row" then ways[#ways + 1] = last.line .. " " .. last.how end
+    end
+    return last, table.concat(ways, ", ")
+  end
+
+  local OUTPUTS = { "{n}.#.png", "{n}.mkv", "{n}.plane", "{n}.gif" }
+
+  it("keeps going and resumes by rows, whatever the output is", function()
+    if not present.program "ffmpeg" then return pending "no ffmpeg" end
+    write_failing()
+    for _, output in ipairs(OUTPUTS) do
+      local code, _, err = film_of("n\n1\n2\n3\n", "--keep-going --resume --workers 2", output)
+      assert.are.equal(1, code, err)
+      local bad = bench.folder .. "/" .. output:gsub("{n}", "2")
+      assert.is_truthy(err:find("two\n", 1, true), err)
+      assert.is_truthy(err:find(("rows.csv: 2 made, 1 failed: line 3 (%s)\n"):format(bad), 1, true),
+        err)
+      code, _, err = film_of("n\n1\n2\n4\n", "--keep-going --resume --progress json", output)
+      assert.are.equal(1, code, err)
+      local last, ways = events(err)
+      assert.are.equal("2 kept, 4 made", ways)
+      assert.are.same({ "end", 2, 3, 1, 1, 1, { 3 }, { bad } }, { last.event, last.done,
+        last.count, last.kept, last.failures, last.exit, last.failed, last.outputs })
+      code, _, err = film_of("n\n1\n", "--resume --set tint=#0f0 --progress json", output)
+      assert.are.equal(0, code, err)
+      assert.are.equal("2 made", select(2, events(err)))
+    end
+  end)
+
+  it("makes the sound of each row, and keeps what would be the same", function()
+    if not present.program "ffmpeg" then return pending "no ffmpeg" end
+    write_failing()
+    bench:write("rows.csv", "n\n1\n2\n")
+    local function sounds(options)
+      local code, _, err = bench:celspan("sound '%s/film.lua' -o '%s/{n}.wav' --table "
+        .. "'%s/rows.csv' --resume --progress json %s", bench.folder, bench.folder, bench.folder,
+        options or "")
+      assert.are.equal(0, code, err)
+      return select(2, events(err))
+    end
+    assert.are.equal("2 made, 3 made", sounds())
+    assert.are.equal("2 kept, 3 kept", sounds())
+    bench:write("1.wav", "cut off")
+    assert.are.equal("2 made, 3 kept", sounds())
+    bench:write("a.wav", silence(0.125))
+    assert.are.equal("2 made, 3 made", sounds())
+    local code = bench:celspan("sound '%s/film.lua' -o '%s/x.wav' --keep-going", bench.folder,
+      bench.folder)
+    assert.are.equal(2, code)
+  end)
+
+  it("makes a row again that was killed, and leaves nothing of it under its name", function()
+    bench:write("film.lua", [[
+      local celspan = require "celspan"
+      local p = celspan.parameters { n = 0 }
+      return celspan.film { size = { 8, 8 }, frames = 3, frame = function(f)
+        if p.n == 2 and f.number == 2 then
+          local kill = io.open "kill"
+          if kill then os.execute "kill -9 $PPID" end
+        end
+        return celspan.rostrum { celspan.cel { celspan.rect { f.number, p.n, 4, 4 } } }
+      end }
+    ]])
+    bench:write("rows.csv", "n\n1\n2\n3\n")
+    local function run()
+      return bench:celspan_inside("render film.lua -o '{n}.plane' --table rows.csv --resume "
+        .. "--trust --keep-going")
+    end
+    bench:write("kill", "")
+    local code, _, err = run()
+    assert.are.equal(1, code, err)
+    assert.is_truthy(err:find("2 made, 1 failed: line 3 (2.plane)\n", 1, true), err)
+    assert.is_nil(bench:read "2.plane")
+    os.remove(bench.folder .. "/kill")
+    code, _, err = run()
+    assert.are.equal(0, code, err)
+    assert.is_truthy(err:find("rows.csv: 1 made, 2 kept\n", 1, true), err)
+    assert.is_truthy(bench:read "2.plane")
   end)
 
   it("ends at the first row that fails, or continues with --keep-going", function()

@@ -279,7 +279,7 @@ end }
   end)
 
   it("is made whole, in one run", function()
-    for _, option in ipairs { "--resume", "--keep-going", "--task 1/2" } do
+    for _, option in ipairs { "--keep-going", "--task 1/2" } do
       refused(2, "shot.####.plane", "render film.lua -o a.plane " .. option)
     end
     bench:write("last.lua", (FILM:gsub("return celspan.rostrum",

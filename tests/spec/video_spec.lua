@@ -440,8 +440,6 @@ end }]])
 
   it("refuses options that a video cannot have", function()
     for arguments, sentence in pairs {
-      ["-o out.mp4 --resume"] = "--resume keeps frames that are files",
-      ["-o out.gif --resume"] = "--resume keeps frames that are files",
       ["-o out.mp4 --keep-going"] = "--keep-going leaves frames out",
       ["-o out.####.mp4"] = "leave the frame's number out",
       ["-o out.mp4 --depth float"] = "takes --depth 8 or 16",

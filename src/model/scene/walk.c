@@ -1,7 +1,6 @@
 #include "model/scene/walk.h"
 
-#include <sys/stat.h>
-
+#include "base/open.h"
 #include "model/pictures/store.h"
 
 /* Recursion ends: nesting is at most CS_SCENE_DEPTH. */
@@ -80,17 +79,13 @@ celspan_status celspan_rostrum_check(celspan_context *context, const celspan_ros
 }
 
 static void hash_file(cs_hash *hash, const cs_picture *picture) {
-  struct stat found = {0};
   if (!picture)
     return;
   if (picture->surface) { /* of its content, or what the host says is that */
     cs_hash_hash(hash, cs_picture_hash(picture));
     return;
   }
-  cs_hash_word(hash, stat(picture->file, &found) == 0);
-  cs_hash_word(hash, (uint64_t)found.st_size);
-  cs_hash_word(hash, (uint64_t)found.st_mtim.tv_sec);
-  cs_hash_word(hash, (uint64_t)found.st_mtim.tv_nsec);
+  cs_open_hash(hash, picture->file);
 }
 
 static celspan_status hash_files(const cs_walk *walk, const cs_primitive_data *primitive,

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/open.h"
 #include "plugins/sound/sound.h"
 
 enum {
@@ -392,6 +393,35 @@ celspan_status cs_mix_find(celspan_context *context, const cs_mix_sound *sounds,
     CS_TRY(
         name_sound(context, &sounds[i], cs_sound_find(context, sounds[i].path, sounds[i].tried)));
   return CELSPAN_OK;
+}
+
+static void hash_sound(cs_hash *hash, const cs_mix_sound *sound) {
+  const double numbers[] = {sound->start, sound->speed, sound->gain[0], sound->gain[1]};
+  cs_open_hash(hash, sound->path);
+  for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+    cs_hash_number(hash, numbers[i]);
+  cs_hash_word(hash, sound->passage_count);
+  for (size_t i = 0; i < sound->passage_count; i++) {
+    const cs_mix_passage *passage = &sound->passages[i];
+    cs_hash_number(hash, passage->begin);
+    cs_hash_number(hash, passage->end);
+    cs_hash_number(hash, passage->fade_in);
+    cs_hash_number(hash, passage->fade_out);
+  }
+  cs_hash_word(hash, sound->ducker_count);
+  for (size_t i = 0; i < sound->ducker_count; i++) {
+    const cs_mix_ducker *ducker = &sound->duckers[i];
+    cs_hash_word(hash, ducker->sound);
+    cs_hash_number(hash, ducker->gain);
+    cs_hash_number(hash, ducker->attack);
+    cs_hash_number(hash, ducker->release);
+  }
+}
+
+void cs_mix_hash(cs_hash *hash, const cs_mix_sound *sounds, size_t count) {
+  cs_hash_word(hash, count);
+  for (size_t i = 0; i < count; i++)
+    hash_sound(hash, &sounds[i]);
 }
 
 static celspan_status create(celspan_context *context, const cs_mix_sound *sounds, size_t count,

@@ -1,13 +1,18 @@
---- celspan render|contact|check SCRIPT --table FILE: the same with each row of a table.
+--- celspan render|sound|contact|check SCRIPT --table FILE: the same with each row of a table.
 --
---   table --> every row is checked --> a process a row, with --set, as many as workers
+--   table --> every row is checked --> a process a row, with --set, as many as workers --> summary
 --
 -- Rows are read from the text one by one, twice, so that only the names of the outputs are kept.
+-- --keep-going is about rows, and the process of a row does not get it. It gets --resume: it keeps
+-- what would come out the same, which its events report.
 local program, request = ...
 local csv = require "celspan.csv"
 local json = require "celspan.json"
 
 local is_check = request.verb == "check" -- no files are written
+local has_events = request.verb == "render" or request.verb == "sound"
+local is_json = request.progress == "json"
+local NAMED_MOST = 20 -- rows that failed, in the summary
 local OUTPUT_MOST = 4095 -- bytes of a name
 local PIECE = 65536      -- bytes of the table that are read at a time
 
@@ -68,7 +73,8 @@ local function output_of(row, line, columns)
 end
 
 --- The options that a row's process has values of its own for, or no use.
-local own = { ["-o"] = true, ["--table"] = true, ["--workers"] = true, ["--progress"] = true }
+local own = { ["-o"] = true, ["--table"] = true, ["--workers"] = true, ["--progress"] = true,
+              ["--keep-going"] = true }
 
 local function words_of(row, output, header, is_parameter, threads)
   local settings = {}
@@ -77,11 +83,11 @@ local function words_of(row, output, header, is_parameter, threads)
   end
   local words = { request.verb, request[1] }
   local function add(name, value) table.move({ name, value }, 1, 2, #words + 1, words) end
-  if not is_check then
-    add("-o", output)
+  if not is_check then add("-o", output) end
+  if request.verb == "render" or request.verb == "contact" then
     add("--workers", tostring(threads))
   end
-  if request.verb == "render" then add("--progress", "none") end
+  if has_events then add("--progress", "json") end
   return program.pass_on(words, request, own, settings)
 end
 
@@ -150,19 +156,108 @@ local function start(item)
   return process
 end
 
---- Shows what a process printed; what went wrong is known by its exit code.
-local function show(item)
-  item.printed:seek "set"
-  io.stderr:write((item.printed:read "a"))
-  item.printed:close()
+--- An event that a process printed as a line; nil: the line is something else.
+local function event_of(line)
+  local event = has_events and line:sub(1, 1) == "{" and json.decode(line)
+  return type(event) == "table" and event.event and event or nil
 end
 
-local function run(text, count, columns, is_parameter)
+--- Shows what a process printed; what went wrong is known by its exit code. Returns its last event.
+local function show(item)
+  local last
+  item.printed:seek "set"
+  for line in item.printed:lines "L" do
+    local event = event_of(line)
+    last = event or last
+    if not event then
+      io.stderr:write(line)
+    elseif event.event == "error" and not is_json then
+      program.error("%s", event.message)
+    elseif event.event == "note" and not is_json then
+      program.note("%s", event.message)
+    elseif event.event == "error" or event.event == "note" then
+      io.stderr:write(line)
+    end
+  end
+  item.printed:close()
+  return last
+end
+
+-- ---------------------------------------------------------------- reports
+
+--- Writes an event as a line of JSON, where that is asked for.
+local function tell(event)
+  if is_json then io.stderr:write((program.json(event):gsub("\n *", "")), "\n") end
+end
+
+--- What was done with the rows, which is counted as they end.
+local function new_tally(count)
+  return { count = count, ended = 0, made = 0, kept = 0, failed = {}, outcome = 0,
+           began = program.clock() }
+end
+
+local function place_of(item)
+  return is_check and item.output or ("line %d (%s)"):format(item.line, item.output)
+end
+
+--- Counts a row that is finished; last: the last event of its process.
+local function count_row(tally, item, last)
+  local is_kept = last and last.event == "end" and last.kept == last.count
+  local how = is_kept and "kept" or "made"
+  tally[how] = tally[how] + 1
+  tell { event = "row", line = item.line, output = item.output, how = how, done = tally.ended,
+         count = tally.count }
+  if not is_json and request.progress ~= "none" then
+    program.note("%d/%d %s%s", tally.ended, tally.count, item.output, is_kept and ": kept" or "")
+  end
+end
+
+local function count_failure(tally, item, code, signal, name)
+  table.insert(tally.failed, item)
+  if tally.outcome == 0 then tally.outcome = code or 128 + signal end
+  program.error("--table %s: %s: %s", request.table, place_of(item),
+    code and "exit code " .. code or "ended by signal " .. signal .. " (" .. name .. ")")
+end
+
+--- "39 made, 1 failed: line 18 (r17.mp4)".
+local function summary_of(tally)
+  local parts, names = {}, {}
+  local function add(number, how)
+    if number > 0 then parts[#parts + 1] = number .. " " .. how end
+  end
+  add(tally.made, is_check and "without a fault" or "made")
+  add(tally.kept, "kept")
+  add(#tally.failed, "failed")
+  add(tally.count - tally.ended, "not begun or not finished")
+  for i = 1, math.min(NAMED_MOST, #tally.failed) do names[i] = place_of(tally.failed[i]) end
+  if #tally.failed > NAMED_MOST then names[#names + 1] = "and others" end
+  return table.concat(parts, ", ") .. (names[1] and ": " .. table.concat(names, ", ") or "")
+end
+
+local function sum_up(tally, code)
+  local lines, outputs = { list = {} }, { list = {} }
+  for i, item in ipairs(tally.failed) do
+    lines.list[i], outputs.list[i] = item.line, item.output
+  end
+  tell { event = "end", done = tally.made + tally.kept, count = tally.count, kept = tally.kept,
+         failures = #tally.failed, failed = lines, outputs = outputs, exit = code,
+         seconds = math.floor((program.clock() - tally.began) * 1000) / 1000 }
+  if is_json then return end
+  if #tally.failed > 0 then
+    program.error("--table %s: %s", request.table, summary_of(tally))
+  elseif request.progress ~= "none" then
+    program.note("--table %s: %s", request.table, summary_of(tally))
+  end
+end
+
+-- ---------------------------------------------------------------- the run
+
+--- Makes the rows of a table; returns the exit code.
+local function make_rows(tally, text, columns, is_parameter)
   local workers = math.tointeger(request.workers) or 0
   if workers == 0 then workers = program.processors() end
-  local threads = math.max(1, workers // count)
+  local threads = math.max(1, workers // tally.count)
   local header, next_row = reader(text)
-  local place, failed, outcome = 0, 0, 0
   local function next_item()
     local row, line = next_row()
     if not row then return nil end
@@ -170,30 +265,35 @@ local function run(text, count, columns, is_parameter)
     return { line = line, output = output,
              words = words_of(row, output, header, is_parameter, threads) }
   end
-  local function finish(item, code, signal, name)
-    show(item)
-    place = place + 1
+  local function finish(item, code, ...)
+    local last = show(item)
+    item.words = nil
+    tally.ended = tally.ended + 1
     if code == 0 then
-      if request.progress ~= "none" then program.note("%d/%d %s", place, count, item.output) end
+      count_row(tally, item, last)
       return true
     end
-    failed = failed + 1
-    if outcome == 0 then outcome = code or 128 + signal end
-    local where = is_check and item.output or ("line %d (%s)"):format(item.line, item.output)
-    program.error("--table %s: %s: %s", request.table, where,
-      code and "exit code " .. code or "ended by signal " .. signal .. " (" .. name .. ")")
+    count_failure(tally, item, code, ...)
     return request.keep_going ~= nil or is_check
   end
-  local _, is_well = program.run_all(next_item, math.min(workers, count), start, finish)
+  local _, is_well = program.run_all(next_item, math.min(workers, tally.count), start, finish)
   if not is_well then return 33 end
-  return failed > 0 and request.keep_going and 1 or outcome
+  return #tally.failed > 0 and request.keep_going and 1 or tally.outcome
+end
+
+local function run(text, count, columns, is_parameter)
+  local tally = new_tally(count)
+  tell { event = "start", count = count }
+  local code = make_rows(tally, text, columns, is_parameter)
+  sum_up(tally, code)
+  return code
 end
 
 if request.hash then program.usage("--table renders several films: leave --hash out") end
 if request.json then program.usage("--table checks several films: leave --json out") end
 if not is_check and (not request.output or request.output == "-") then
   program.usage("--table writes files: name them by its columns, as -o {NAME}.%s",
-    request.verb == "render" and "mp4" or "png")
+    ({ render = "mp4", sound = "wav" })[request.verb] or "png")
 end
 local text, film = read_text(request.table), program.film()
 local is_parameter, header = parameters_of(film), reader(text)
