@@ -30,6 +30,7 @@ local core = require "celspan.core"
 local soundtrack = {}
 
 local MOST = 10000 -- sounds
+local DEEPEST = 1000 -- films in films: each takes time for all that are in it
 local SLOWEST, FASTEST = 0.01, 100 -- of its own speed
 
 --- Constant power: the squares of both add up to 2, and both are 1 in the middle.
@@ -68,12 +69,12 @@ end
 local flatten
 
 --- The sounds of a film, which is a sound of another one.
-local function of_film(sound)
+local function of_film(sound, depth)
   local film, list = sound[1], {}
   local to = math.min(sound.to or math.huge, film.duration)
   local function moved(seconds) return sound.at + (seconds - sound.from) / sound.speed end
   local left, right = gain_of(sound)
-  for _, inner in ipairs(flatten(film)) do
+  for _, inner in ipairs(flatten(film, depth + 1)) do
     for i, passage in ipairs(inner.passages) do
       inner.passages[i] = { moved(passage[1]), moved(passage[2]), passage[3] / sound.speed,
         passage[4] / sound.speed }
@@ -123,12 +124,16 @@ local function duck_items(items)
   end
 end
 
---- New tables at each call.
-function flatten(film)
+--- New tables at each call. depth: how many films this one is a sound of.
+function flatten(film, depth)
+  if depth > DEEPEST then
+    error(("the film has sounds that are films more than %d deep, which is the limit")
+      :format(DEEPEST), 0)
+  end
   local items, all = {}, {}
   for i, sound in ipairs(core.sounds(film)) do
     sound.at = sound.at + film.sound_offset
-    local list = sound.path and of_file(sound) or of_film(sound)
+    local list = sound.path and of_file(sound) or of_film(sound, depth)
     items[i] = { sound = sound, list = list }
     for _, one in ipairs(sound.name and list or {}) do one.names[sound.name] = true end
     table.move(list, 1, #list, #all + 1, all)
@@ -144,7 +149,7 @@ end
 ---@param film celspan.film
 ---@return celspan.soundtrack.sound[]
 function soundtrack.of(film)
-  local list, places = flatten(film), {}
+  local list, places = flatten(film, 0), {}
   for i, sound in ipairs(list) do places[sound] = i end
   for _, sound in ipairs(list) do
     local found = {}

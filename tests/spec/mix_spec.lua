@@ -210,6 +210,18 @@ describe("the mix of a film", function()
     assert.is_true(worst(left, l) <= 1e-6 and worst(right, r) <= 1e-6)
   end)
 
+  it_mixes("decodes a file once for all sounds that need only its beginning", function()
+    local piece = noise(0.25, 1, 4)
+    bench:write("long.wav", wav(piece, { times = 46 }))
+    local left = mix([[
+local sounds = {}
+for i = 1, 70 do sounds[i] = { "long.wav", gain = 1 / 128 } end
+return film { fps = 24, duration = 0.25, sound = sounds }]], "--depth float")
+    local wanted = {}
+    for i, moment in ipairs(piece) do wanted[i] = 70 / 128 * moment[1] end
+    assert.is_true(worst(left, wanted) <= 1e-6)
+  end)
+
   it_mixes("makes way as deep and as fast as it says, for the strongest of the sounds", function()
     write_sounds()
     local left, right = mix([[return film { fps = 24, duration = 0.75, sound = {
@@ -418,6 +430,17 @@ return inner]])
     assert.are.equal(3, code)
     assert.truthy(err:find("film: sound 1: click.wav: it is heard at 0.0004 times its speed", 1,
       true), err)
+  end)
+
+  it("is refused if films are sounds of films more than 1000 deep", function()
+    bench:write("film.lua", FILM .. [[
+local inner = film { duration = 1, sound = "click.wav" }
+for _ = 1, 1001 do inner = film { duration = 1, sound = { { inner } } } end
+return inner]])
+    local code, _, err = run "sound film.lua -o mix.wav"
+    assert.are.equal(3, code)
+    assert.truthy(err:find("the film has sounds that are films more than 1000 deep, which is the "
+      .. "limit", 1, true), err)
   end)
 
   it("is refused at the script's line if its fields are wrong", function()

@@ -23,7 +23,7 @@ typedef struct part {
   int64_t heard, silent;   /* it is heard from `heard` to before `silent` */
   cs_sound_stream samples; /* owned; none: it is closed */
   int64_t place;           /* of the next sample that is read */
-  float *kept;             /* all samples of a short sound, which is not opened again; or NULL */
+  float *kept;             /* those that were counted, if they are few: it is not opened again */
   size_t capacity;         /* of them; 0: they are another part's */
   int32_t channels;        /* of them */
   int64_t moments;
@@ -116,8 +116,6 @@ static celspan_status count_moments(mix *m, celspan_context *context, part *p, i
     p->is_whole = got < PIECE;
   }
   cs_sound_stream_close(&samples);
-  if (!p->is_whole)
-    drop_kept(m, p);
   return status;
 }
 

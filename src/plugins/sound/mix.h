@@ -9,8 +9,9 @@
  *
  * INVARIANT: all sounds were decoded to their end, or to that of the film, before the first moment
  * is given, so what cannot be read is refused before the first frame. A sample depends on the
- * sounds and its time alone, not on where the stream begins. Short sounds are kept, so that each is
- * decoded once; of the others only those are open that are heard now.
+ * sounds and its time alone, not on where the stream begins. A sound of which few samples are
+ * needed is kept, for all parts that play it, so that its file is decoded once; of the others only
+ * those are open that are heard now.
  */
 #pragma once
 
@@ -20,7 +21,7 @@
 enum {
   CS_MIX_RATE = 48000,
   CS_MIX_CHANNELS = 2,
-  CS_MIX_OPEN = 64 /* sounds that may be heard at the same time */
+  CS_MIX_OPEN = 64 /* sounds that are not kept may be heard at the same time */
 };
 
 /* A sound that makes another one lower while it is heard. */
