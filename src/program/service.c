@@ -47,13 +47,32 @@ const char **cs_service_push_words(lua_State *L, int index) {
 
 /* ---------------------------------------------------------------- reports */
 
+/* The sentence at an index. A zero byte would end it; it is shown as report.c shows other controls.
+ */
+static const char *sentence_at(lua_State *L, int index) {
+  size_t size;
+  const char *text = luaL_checklstring(L, index, &size);
+  if (strlen(text) == size)
+    return text;
+  luaL_Buffer shown;
+  luaL_buffinit(L, &shown);
+  for (const char *at = text; at < text + size; at++)
+    if (*at)
+      luaL_addchar(&shown, *at);
+    else
+      luaL_addstring(&shown, "\\x00");
+  luaL_pushresult(&shown);
+  lua_replace(L, index);
+  return lua_tostring(L, index);
+}
+
 static int note(lua_State *L) {
-  cs_report_note("%s", luaL_checkstring(L, 1));
+  cs_report_note("%s", sentence_at(L, 1));
   return 0;
 }
 
 static int report_error(lua_State *L) {
-  cs_report_error("%s", luaL_checkstring(L, 1));
+  cs_report_error("%s", sentence_at(L, 1));
   return 0;
 }
 
@@ -63,7 +82,7 @@ static int fail(lua_State *L) {
   static const cs_exit codes[] = {CS_EXIT_USAGE, CS_EXIT_SCRIPT, CS_EXIT_INPUT, CS_EXIT_OUTPUT,
                                   CS_EXIT_LIMIT};
   int kind = luaL_checkoption(L, 1, NULL, kinds);
-  cs_report_error("%s", luaL_checkstring(L, 2));
+  cs_report_error("%s", sentence_at(L, 2));
   return cs_service_end(L, codes[kind]);
 }
 

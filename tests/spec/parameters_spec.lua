@@ -240,6 +240,8 @@ describe("--table", function()
         .. "empty nor have / or .. in it",
       ["lang,on\nen,1\nen,0\n"] = "lines 2 and 3 would both make " .. bench.folder
         .. "/en.#.png: put a column in OUT, as {NAME}",
+      ["lang\na\0b\n"] = "line 2: column 'lang' is 'a\\x00b': in the name of a file it must not "
+        .. "be empty nor have / or .. in it",
       ["lang\n"] = "it has no rows",
       ["speed\n1\n"] = "there is no column 'lang' for {lang} in OUT; there are speed",
     } do
