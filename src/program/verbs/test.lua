@@ -129,7 +129,7 @@ end
 
 if not package.searchpath("busted.runner", package.path) then
   program.error("busted is not installed: it runs the specs. Install the Debian package "
-    .. "lua-busted, or `luarocks install busted` for Lua 5.4")
+    .. "lua-busted, or `luarocks --lua-version 5.4 install busted`")
   return OUTPUT
 end
 local runs, begun = all_specs(), program.clock()
