@@ -267,12 +267,18 @@ function parameters.schema(title)
   }) .. "\n"
 end
 
+--- A value in one line, which a terminal may show: controls are written as numbers.
+local function in_line(value)
+  local function number(one) return ("\\x%02x"):format(one:byte()) end
+  return (tostring(value):gsub("\xc2([\x80-\x9f])", number):gsub("%c", number))
+end
+
 --- The same as lines, "name kind default".
 function parameters.lines()
   local lines = {}
   for i, one in ipairs(core.settings().declared or {}) do
     local allowed = kinds[one.kind].allowed
-    lines[i] = ("parameter %s %s %s%s\n"):format(one.name, one.kind, tostring(one.default),
+    lines[i] = ("parameter %s %s %s%s\n"):format(one.name, one.kind, in_line(one.default),
       allowed and " (" .. allowed(one) .. ")" or "")
   end
   return table.concat(lines)

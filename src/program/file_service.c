@@ -151,6 +151,25 @@ static int save(lua_State *L) {
   return 0;
 }
 
+static bool write_whole(const char *path, const char *text, size_t size) {
+  int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (file < 0)
+    return false;
+  bool is_written = write(file, text, size) == (ssize_t)size;
+  return close(file) == 0 && is_written;
+}
+
+/* save_private(folder, name, text) -> the path of a new file that nobody but this user can read, in
+ * a new folder of that kind | nil, message */
+static int save_private(lua_State *L) {
+  size_t size;
+  const char *folder = luaL_checkstring(L, 1), *text = luaL_checklstring(L, 3, &size);
+  const char *path = lua_pushfstring(L, "%s/%s", folder, luaL_checkstring(L, 2));
+  if (mkdir(folder, 0700) == 0 && write_whole(path, text, size))
+    return 1;
+  return luaL_fileresult(L, 0, path);
+}
+
 /* join(paths, output): strips of a frame into one picture. */
 static int join(lua_State *L) {
   celspan_context *context = cs_service_session(L)->context;
@@ -178,6 +197,7 @@ void cs_service_add_files(lua_State *L) {
                                       {"is_video", is_video},
                                       {"refuse_target", refuse_target},
                                       {"save", save},
+                                      {"save_private", save_private},
                                       {"join", join},
                                       {NULL, NULL}};
   cs_service_add(L, services);

@@ -367,6 +367,14 @@ static int keep_callers(lua_State *L) {
   return 0;
 }
 
+/* film:silence(is_silent): whether what a script in the sandbox prints is not shown from now on */
+static int silence(lua_State *L) {
+  cs_sandbox *sandbox = self(L)->script.sandbox;
+  if (sandbox)
+    sandbox->guard.is_silent = lua_toboolean(L, 2);
+  return 0;
+}
+
 static int wave(lua_State *L) { return cs_stage_wave(L, &self(L)->script); }
 
 /* ---------------------------------------------------------------- the film */
@@ -426,6 +434,7 @@ static void set_methods(lua_State *L) {
                                      {"alter", alter},
                                      {"keep_line", keep_line},
                                      {"keep_callers", keep_callers},
+                                     {"silence", silence},
                                      {"costs", costs},
                                      {"camera", camera},
                                      {"hold_camera", hold_camera},

@@ -88,11 +88,13 @@ static int wait_for_one(lua_State *L) {
   return 4;
 }
 
-/* launch(words) -> the number of a process | nil, message: the program of the first word, found
- * through PATH, without a shell. It outlives this one. */
+/* launch(words, is_silent) -> the number of a process | nil, message: the program of the first
+ * word, found through PATH, without a shell. It outlives this one. is_silent: what it says is not
+ * shown. */
 static int launch(lua_State *L) {
+  const int errors = lua_toboolean(L, 2) ? CS_SPAWN_NULL : CS_SPAWN_SAME;
   const char **words = cs_service_push_words(L, 1);
-  static const int files[] = {CS_SPAWN_NULL, CS_SPAWN_NULL, CS_SPAWN_SAME};
+  const int files[] = {CS_SPAWN_NULL, CS_SPAWN_NULL, errors};
   pid_t process;
   const cs_spawn_desc desc = {.arguments = words + 1, .files = files, .file_count = 3};
   int error = words[1] ? cs_spawn(&process, &desc) : EINVAL;

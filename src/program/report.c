@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/visible.h"
 #include "frames/process/interrupt.h"
 
 enum {
@@ -64,17 +65,15 @@ void cs_report_openjd(const char *name, const char *format, ...) {
   print_openjd(name, text);
 }
 
-/* What scripts and names of files bring into a message does not move the cursor or colour the
- * terminal, and does not look like a message of its own: a new line is indented, other controls are
- * written as numbers. Those of C1 are C2 80 to C2 9F in UTF-8. */
+/* What scripts and names of files bring into a message does not look like a message of its own: a
+ * new line is indented. */
 static void make_visible(const char *text, char out[VISIBLE]) {
-  for (const unsigned char *at = (const unsigned char *)text; *at; at++)
-    if (*at == '\n')
-      out = stpcpy(out, "\n    ");
-    else if ((*at < ' ' && *at != '\t') || *at == 0x7f || (*at == 0xc2 && (at[1] & 0xe0) == 0x80))
-      out += snprintf(out, sizeof "\\x00", "\\x%02x", *at == 0xc2 ? *++at : *at);
-    else
-      *out++ = (char)*at;
+  size_t size = strlen(text);
+  for (size_t used; size > 0; text += used, size -= used) {
+    char shown[CS_VISIBLE];
+    used = cs_visible_first(text, size, shown);
+    out = stpcpy(out, *shown == '\n' ? "\n    " : shown);
+  }
   *out = 0;
 }
 

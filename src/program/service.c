@@ -4,6 +4,7 @@
 
 #include "frames/process/interrupt.h"
 #include "lua/bind/host.h"
+#include "lua/sandbox/library.h"
 #include "program/confine.h"
 #include "program/script.h"
 #include "program/verb_text.h"
@@ -121,6 +122,14 @@ static int check_input(lua_State *L) {
   return cs_service_end(L, is_starved ? CS_EXIT_MEMORY : CS_EXIT_INPUT);
 }
 
+/* show(text): what a script has printed, on standard error */
+static int show(lua_State *L) {
+  luaL_checkstring(L, 1);
+  lua_settop(L, 1);
+  cs_library_print(L);
+  return 0;
+}
+
 /* reported() -> the error that was reported last | nil */
 static int reported(lua_State *L) {
   lua_pushstring(L, cs_report_last());
@@ -168,6 +177,7 @@ void cs_service_add_reports(lua_State *L) {
                                       {"fail", fail},
                                       {"check", check},
                                       {"input", check_input},
+                                      {"show", show},
                                       {"refuse", refuse},
                                       {"refuse_rights", refuse_rights},
                                       {"outcome", outcome},

@@ -356,12 +356,17 @@ int cs_stage_hits(lua_State *L, cs_script *script) {
 
 /* ---------------------------------------------------------------- files */
 
-/* Runs protected. -> the names of the files that the script asked for, each ended by a zero */
+/* Runs protected. -> the files that the script asked for, as cs_stage_files has them */
 static int join_asked(lua_State *L) {
   luaL_Buffer names;
   cs_host_push_asked(L);
   luaL_buffinit(L, &names);
   for (lua_Integer i = 1; lua_rawgeti(L, 1, i) == LUA_TSTRING; i++) {
+    lua_rawget(L, 1);
+    bool is_admitted = lua_toboolean(L, -1);
+    lua_pop(L, 1);
+    luaL_addchar(&names, is_admitted ? '+' : '-');
+    lua_rawgeti(L, 1, i);
     luaL_addvalue(&names);
     luaL_addchar(&names, 0);
   }
@@ -370,8 +375,8 @@ static int join_asked(lua_State *L) {
   return 1;
 }
 
-/* film:files() -> the paths that the script has asked for since the last call, each ended by a
- * zero */
+/* film:files() -> the paths that the script has asked for since the last call, each after "+" if it
+ * was let read there, else after "-", and ended by a zero */
 int cs_stage_files(lua_State *L, cs_script *of) {
   lua_State *script = of->L;
   lua_pushcfunction(script, join_asked);

@@ -77,7 +77,7 @@ async function travel(ending, count) {
   const server = serverTime(), own = pageTime(), began = Date.now();
   const bytes = await page.get(`(async () => {
     const canvas = document.createElement("canvas"), pen = canvas.getContext("2d");
-    const { unpack } = await import("/runs.js");
+    const { unpack } = await import("/runs.js"), { fetch } = await import("/fetch.js");
     let all = 0;
     canvas.width = 1280;
     canvas.height = 720;

@@ -1005,7 +1005,21 @@ end }]])
         message)
       script = bench:write("controls.lua", 'error("a\\127\\8\\tb\\xc2", 0)')
       _, _, message = celspan("check " .. script)
-      assert.equal(("celspan: error: %s:1: a\\x7f\\x08\tb\xc2\n"):format(script), message)
+      assert.equal(("celspan: error: %s:1: a\\x7f\\x08\tb\\xc2\n"):format(script), message)
+    end)
+
+    it("writes control characters that a script prints as numbers, to a terminal alone", function()
+      if not present.program "script" then return pending "there is no script" end
+      local path = bench:write("prints.lua",
+        'print("a\\27]52;c;eA==\\7 \\u{9b}2J \\u{e4}\\tb\\r\\0") '
+        .. 'return require "celspan".rostrum {}')
+      local command = ("%s render %s --hash --progress none"):format(workbench.absolute, path)
+      local _, _, plain_words = bench:shell(command)
+      assert.equal("a\27]52;c;eA==\7 \u{9b}2J \u{e4}\tb\r\0\n", plain_words)
+      local _, shown = bench:shell(("script -qec '%s' /dev/null </dev/null"):format(command))
+      local wanted = "a\\x1b]52;c;eA==\\x07 \\x9b2J \u{e4}\tb\\x0d\\x00\r\n"
+      assert.truthy(shown:find(wanted, 1, true), shown)
+      assert.falsy(shown:find "\27")
     end)
   end)
 end)

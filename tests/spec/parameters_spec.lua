@@ -150,6 +150,13 @@ describe("parameters", function()
     assert.are.equal(before, picture "--set title=x")
   end)
 
+  it("are listed by info without control characters", function()
+    bench:write("odd.lua", 'local celspan = require "celspan"\n'
+      .. 'celspan.parameters { t = "a\\27[2J\\n\\u{9b}\\u{e4}" } return celspan.rostrum {}')
+    local _, out = bench:celspan_inside "info odd.lua --parameters"
+    assert.are.equal("parameter t text a\\x1b[2J\\x0a\\x9b\u{e4}\n", out)
+  end)
+
   it("are listed by info, as lines and as JSON Schema", function()
     local function info(options)
       local code, out, err = bench:celspan("info '%s/film.lua' --parameters %s", bench.folder,

@@ -54,6 +54,18 @@ describe("what is wrong with a film that is watched", function()
     assert.same({ 3, 4, 5 }, impure)
   end)
 
+  it("is found without what the frames print, which those that are shown do", function()
+    watching.bench:write("shot.lua", "print 'the film'\n"
+      .. GOOD:gsub("return celspan.rostrum", "print('frame ' .. f.number) %0"))
+    watching.speak(watching.watch(), [=[
+      while (JSON.parse((await web.get("/state.json")).body).checking) await web.pause(0.05);
+      await web.get("/sheet.json");
+      await web.get("/frame/7.png");]=])
+    local printed = watching.bench:read "complained"
+    assert.truthy(printed:find("^the film\n"), printed)
+    assert.equal("frame 7\n", printed:gsub("the film\n", ""))
+  end)
+
   it("is a list in the page, with ways to the frames, until the next good save #plain", function()
     if not present.program "chromium" then return pending "there is no chromium" end
     local said = watching.see(watching.watch "shot.lua --editor true", [=[

@@ -71,18 +71,22 @@ describe("the server of celspan watch", function()
     local said = speak(watch(), [=[
       const { port, token } = web, own = `http://127.0.0.1:${port}`;
       const film = "/film.json?token=" + token, long = "y".repeat(9000);
-      const cookie = (name, site) => ({ headers: { Cookie: `${name}=${token}`, ...site } });
+      const head = text => ({ headers: { "Celspan-Token": text } });
+      const twice = (name, value) => ({ headers: { [name]: `${value}\r\n${name}: ${value}` } });
       const refused = await web.statuses([
-        ["/film.json"], ["/"], ["/page.js"], ["/film.json?token=" + token.slice(1)],
+        ["/film.json"], ["/state.json"], ["/frame/1.png"], ["/film.json?token=" + token.slice(1)],
         ["/film.json?token=" + token + "0"],
         [film, { headers: { Host: "evil.example:" + port } }],
         [film, { headers: { Host: "127.0.0.1" } }],
         [film, { headers: { Origin: "http://evil.example" } }],
         [film, { headers: { Origin: "null" } }],
-        ["/film.json", cookie("celspan-1")],
-        ["/film.json", cookie("celspan-" + port, { "Sec-Fetch-Site": "same-site" })],
-        ["/film.json", cookie("celspan-" + port, { "Sec-Fetch-Site": "cross-site" })],
+        ["/film.json", head(token.slice(1))], ["/film.json", head(token + "0")],
+        ["/film.json", { headers: { Cookie: `celspan-${port}=${token}; token=${token}` } }],
         [film, { method: "POST" }]]);
+      const doubled = await web.statuses([
+        [film, { headers: { Host: `127.0.0.1:${port}\r\nHost: evil.example` } }],
+        [film, twice("Host", "127.0.0.1:" + port)], [film, twice("origin", own)],
+        ["/film.json", twice("Celspan-Token", token)], [film, twice("Content-Length", "0")]]);
       const methods = await web.statuses([
         [film, { method: "POST", headers: { Origin: own } }], [film, { method: "DELETE" }],
         [film, { method: "OPTIONS" }], [film, { method: "PUT" }]]);
@@ -96,12 +100,13 @@ describe("the server of celspan watch", function()
         [film + "&a=" + long],
         [film, { method: "POST", headers: { Origin: own }, body: "x".repeat(5000) }]]);
       const nameless = await web.statuses([[film, { headers: { Host: null } }]]);
-      const admitted = await web.statuses([[film], ["/film.json", cookie("celspan-" + port)],
-        ["/film.json", cookie("celspan-" + port, { "Sec-Fetch-Site": "same-origin" })],
+      const admitted = await web.statuses([[film], ["/film.json", head(token)], ["/"],
+        ["/page.js"], ["/favicon.ico"],
         [film, { headers: { Host: "localhost:" + port } }],
         [film, { headers: { Origin: own } }]]);
       const page = await web.get("/");
-      return { refused, methods, paths, sizes, lengths, nameless, admitted, page: page.head,
+      return { refused, doubled, methods, paths, sizes, lengths, nameless, admitted,
+               page: page.head,
                wide: (await web.get("/frame/1.png?size=1048576x1048576&crop=7,9,2,2")).status,
                counts: JSON.parse((await web.get("/counts.json")).body) };]=])
     local function all(status, count, list)
@@ -112,12 +117,36 @@ describe("the server of celspan watch", function()
     all(405, 4, said.methods)
     all(404, 9, said.paths)
     all(400, 6, said.sizes)
-    all(200, 5, said.admitted)
+    all(200, 7, said.admitted)
+    all(400, 5, said.doubled)
     assert.same({ 431, 431, 431, 413 }, said.lengths)
     assert.same({ 400 }, said.nameless)
     assert.equal(200, said.wide)
     assert.is_true(said.counts.oversized >= 3)
-    assert.truthy(said.page:find "Set%-Cookie: celspan%-%d+=%x+; Path=/; HttpOnly; SameSite=Strict")
+    assert.falsy(said.page:find "Set%-Cookie")
+  end)
+
+  it("answers the first request as soon as the film can be asked", function()
+    bench:write("shot.lua", "for i = 1, 2e7 do local x = i end\n" .. FILM)
+    local said = speak(watch(), [=[
+      const all = ["/film.json", "/frame/1.png", "/errors.json"].map(path => web.get(path));
+      return (await Promise.all(all)).map(one => one.status);]=])
+    assert.same({ 200, 200, 200 }, said)
+  end)
+
+  it("refuses wrong queries, and answers the next ones", function()
+    local said = speak(watch(), [=[
+      const large = `{"list":[${Array(2000).fill("1e9")}]}`, nines = "9".repeat(400);
+      const cels = ['{"list":1}', '{"list":{"a":1}}', '["h"]', '{"ground":"x"}', '{"ground":1}',
+                    "7", large].map(text => "/frame/1.rgba?size=8x8&cels=" + encodeURI(text));
+      const points = [`/at/${nines},1.json`, "/at/1,99999999999.json", "/at/1.2.3,4.json"];
+      const refused = [];
+      for (const path of [...cels, ...points]) refused.push((await web.get(path)).status);
+      const list = await web.get('/frame/1.rgba?size=8x8&cels={"list":"h","ground":"h"}');
+      const at = await web.get("/at/10,18.json");
+      return { refused, list: list.status, at: at.status, still: (await web.get("/")).status };]=])
+    assert.same({ 400, 400, 400, 400, 400, 400, 400, 400, 400, 400 }, said.refused)
+    assert.same({ 200, 200, 200 }, { said.list, said.at, said.still })
   end)
 
   it("lets nobody keep the user out", function()
@@ -276,8 +305,57 @@ describe("the server of celspan watch", function()
     assert.equal(404, said.before)
     assert.same({ 403, 404, 404, 400, 404 }, said.refused)
     assert.equal(200, said.opened)
-    assert.equal("-g shot.lua:4 $(touch x);\n", bench:read "opened")
+    assert.equal(("-g %s/shot.lua:4 $(touch x);\n"):format(bench.folder), bench:read "opened")
     assert.is_nil(bench:read "x")
+  end)
+
+  it("gives the editor nothing but files that the film reads, whatever a script names", function()
+    bench:write("edit", ('#!/bin/sh\necho "$@" >>%s/opened\n'):format(bench.folder))
+    bench:write("+!cmd.lua", "return 1\nreturn 2")
+    bench:inside "chmod +x edit && mkfifo fifo.png"
+    bench:write("shot.lua", [[
+      local celspan = require "celspan"
+      local tricks = {
+        function() error("+silent !touch x:7: attempt to index nil", 0) end,
+        function() error("shot.lua:1: a (called from -x:2, --eval=(y):3, /etc/passwd:4)", 0) end,
+        function() assert(load("error 'loaded'", "@-c quit"))() end,
+        function() pcall(celspan.read, "/etc/passwd") error("/etc/passwd:3: boom", 0) end,
+        function() pcall(celspan.read, "none.lua") error("fifo.png:1: boom", 0) end,
+        function() pcall(celspan.image, { file = "fifo.png" }) error("fifo.png:1: boom", 0) end,
+        function() celspan.read "+!cmd.lua" error("+!cmd.lua:2: boom", 0) end,
+      }
+      return celspan.film { size = { 64, 36 }, frames = 9, frame = function(f)
+        if tricks[f.number] then tricks[f.number]() end
+        if f.number == 9 then return celspan.rostrum {} end
+        local disc = [=[return require "celspan".circle { centre = { 9, 9 }, radius = 9 }]=]
+        return celspan.rostrum { celspan.cel { assert(load(disc, "@-c"))() } }
+      end }]])
+    local said = speak(watch "shot.lua --editor ./edit\\ {line}\\ {file}", [=[
+      for (let i = 1; i < 9; i++) await web.get(`/frame/${i}.png`);
+      const errors = JSON.parse((await web.get("/errors.json")).body), statuses = {};
+      const hits = JSON.parse((await web.get("/at/9,9.json?frame=8")).body);
+      const headers = { Origin: `http://127.0.0.1:${web.port}` };
+      const named = [["+silent !touch x", 7], ["-x", 2], ["--eval=", 3], ["/etc/passwd", 4],
+                     ["/etc/passwd", 3], ["-c quit", 1], ["-c", 1], ["none.lua", 1]];
+      for (const [file, line] of [...named, ["shot.lua", 1], ["+!cmd.lua", 2]]) {
+        const body = JSON.stringify({ file, line });
+        const { status } = await web.get("/open", { method: "POST", body, headers });
+        statuses[`${file}:${line}`] = status;
+      }
+      await web.pause(0.5);
+      return { errors, hits, statuses };]=])
+    for place, status in pairs(said.statuses) do
+      local is_own = place == "shot.lua:1" or place == "+!cmd.lua:2"
+      assert.equal(is_own and 200 or 404, status, place)
+    end
+    assert.equal(("1 %s/shot.lua\n2 %s/+!cmd.lua\n"):format(bench.folder, bench.folder),
+      bench:read "opened")
+    for _, hit in ipairs(said.hits) do assert.not_equal("-c", hit.file) end
+    local by_frame = {}
+    for _, one in ipairs(said.errors) do by_frame[one.frame] = one end
+    assert.same({ { 1, "return 1" }, { 2, "return 2" } }, by_frame[7].lines)
+    for _, frame in ipairs { 1, 4, 5, 6 } do assert.is_nil(by_frame[frame].lines, frame) end
+    assert.is_nil(by_frame[4].file)
   end)
 
   it("ends its renderers with itself", function()
@@ -471,7 +549,8 @@ describe("the page of celspan watch #plain", function()
   it("has a form for the parameters, which the address and a command line hold", function()
     bench:write("shot.lua", (FILM:gsub("return celspan.film", [[
       local p = celspan.parameters { tint = { colour = "#33cc33" }, side = { "left", "right" },
-                                     size = { 6, min = 0, max = 30 }, on = true, name = "it's" }
+                                     size = { 6, min = 0, max = 30 }, on = true, name = "it's",
+                                     off = false }
       %0]], 1):gsub('"#ffe0b0"', "p.tint"):gsub("radius = 6", "radius = p.size")))
     local said = see(watch "shot.lua --set size=5", [=[
       const colour = () => page.get(`[...document.querySelector("#stage").getContext("2d")
@@ -496,7 +575,7 @@ describe("the page of celspan watch #plain", function()
       await page.get(`document.querySelector("#defaults").click()`);
       await page.until(`document.querySelector("#form input[type=range]").value === "5"`);
       return { ...said, last: await page.get("location.hash") };]=])
-    assert.equal("it's|true|left|5|#33cc33", said.first)
+    assert.equal("it's|false|true|left|5|#33cc33", said.first)
     assert.same({ "51,204,51,255", "51,51,204,255" }, said.colours)
     assert.equal("celspan render shot.lua --set size=30 --set tint=#3333cc -o shot.####.png",
       said.command)
@@ -504,17 +583,44 @@ describe("the page of celspan watch #plain", function()
     assert.equal("", said.last)
   end)
 
-  it("plays alone, without bars, with celspan play", function()
-    bench:shell(("mkdir %s/bin && printf '#!/bin/sh\necho \"$1\" >%s/opened\n' >%s/bin/xdg-open && "
-      .. "chmod +x %s/bin/xdg-open"):format(bench.folder, bench.folder, bench.folder, bench.folder))
-    local address = watching.start(("PATH=%s/bin:$PATH exec '%s' play shot.lua >said 2>complained")
-      :format(bench.folder, workbench.absolute), function()
-      return (bench:read "opened" or ""):match "^http%g+"
+  it("plays alone, without bars, with celspan play, whose commands have no token", function()
+    bench:inside "mkdir bin"
+    bench:write("bin/xdg-open", ('#!/bin/sh\nps ax -o args >%s/seen\necho "$@" >%s/opened\n')
+      :format(bench.folder, bench.folder))
+    bench:inside "chmod +x bin/xdg-open"
+    local path = watching.start(("PATH=%s/bin:$PATH XDG_RUNTIME_DIR=%s exec '%s' play shot.lua "
+      .. ">said 2>complained"):format(bench.folder, bench.folder, workbench.absolute), function()
+      return (bench:read "opened" or ""):match "^%g+"
     end)
+    local address = bench:read(path):match 'url=(http%g+)"'
     assert.equal("watching " .. address .. "\n", bench:read "said")
-    local said = see(address, [=[
+    assert.falsy(bench:read("seen"):find(address:match "token=(%x+)", 1, true))
+    assert.equal("600 700\n", system.output(("stat -c %%a '%s' '%s' | paste -sd ' '")
+      :format(path, path:match "^(.*)/")))
+    local said = see("file://" .. path, [=[
       await page.until(`Number(${stage("frame")}) > 3`);
       return page.get(`getComputedStyle(document.querySelector("header")).display`);]=])
     assert.equal("none", said)
+    watching.stop()
+    assert.is_nil(bench:read(path))
+  end)
+
+  it("keeps its token for itself: pages are loaded again, and opened by a bookmark", function()
+    local said = see(watch(), [=[
+      await page.until(`${stage("frame")} === "1"`);
+      const cookie = await page.get("document.cookie");
+      const addresses = [];
+      for (const address of ["", `${await page.get("location.origin")}/`]) {
+        if (address) await page.call("Page.navigate", { url: address });
+        else await page.call("Page.reload");
+        await page.pause(0.2);
+        await page.until(`document.querySelector("#stage") && ${stage("frame")} === "1"`);
+        addresses.push(await page.get("location.pathname + location.search"));
+      }
+      await page.get("localStorage.clear()");
+      await page.call("Page.reload");
+      await page.until(`document.querySelector("#news")?.textContent.includes("token is missing")`);
+      return { cookie, addresses };]=])
+    assert.same({ cookie = "", addresses = { "/", "/" } }, said)
   end)
 end)

@@ -167,19 +167,19 @@ void cs_host_end(lua_State *L) {
     rules->end(rules->user);
 }
 
-/* A table of paths: a list, and each path as a key. */
-static void remember(lua_State *L, const char *path) {
+/* A table of paths: a list, and each path as a key, whose value is whether the script may read
+ * there. */
+static void remember(lua_State *L, const char *path, bool is_admitted) {
   if (lua_rawgetp(L, LUA_REGISTRYINDEX, &asked_key) == LUA_TTABLE) {
     lua_pushstring(L, path);
     lua_pushvalue(L, -1);
     if (lua_rawget(L, -3) == LUA_TNIL) {
       lua_pushvalue(L, -2);
-      lua_pushboolean(L, true);
-      lua_rawset(L, -5);
-      lua_pushvalue(L, -2);
       lua_rawseti(L, -4, (lua_Integer)lua_rawlen(L, -4) + 1);
     }
-    lua_pop(L, 2);
+    lua_pop(L, 1);
+    lua_pushboolean(L, is_admitted);
+    lua_rawset(L, -3);
   }
   lua_pop(L, 1);
 }
@@ -195,16 +195,18 @@ void cs_host_push_asked(lua_State *L) {
 }
 
 bool cs_host_admits(lua_State *L, const char *path) {
-  remember(L, path);
   const cs_host_rules *rules = cs_host_get(L)->rules;
-  return !rules || !rules->admits || rules->admits(rules->user, path);
+  bool is_admitted = !rules || !rules->admits || rules->admits(rules->user, path);
+  remember(L, path, is_admitted);
+  return is_admitted;
 }
 
 void cs_host_admit(lua_State *L, const char *path) {
-  remember(L, path);
   const cs_host_rules *rules = cs_host_get(L)->rules;
+  remember(L, path, false);
   if (rules && rules->admit)
     rules->admit(rules->user, L, path);
+  remember(L, path, true);
 }
 
 bool cs_host_may_write(lua_State *L, const char *path) {

@@ -88,7 +88,8 @@ bool cs_host_may_write(lua_State *L, const char *path);
 
 /* From now on the paths are remembered that the script asks to read, whether they exist or not. */
 void cs_host_remember_asked(lua_State *L);
-/* Pushes a list of those that were remembered since the last call. Raises. */
+/* Pushes a list of those that were remembered since the last call, in which each path is a key too:
+ * whether the script was let read there. Raises. */
 void cs_host_push_asked(lua_State *L);
 
 /* Makes the table on top of the stack the globals of the script, and pops it. */

@@ -177,15 +177,16 @@ void cs_guard_charge(lua_State *L, uint64_t steps) {
     check(L, guard);
 }
 
-void cs_guard_print(lua_State *L, size_t bytes) {
+bool cs_guard_print(lua_State *L, size_t bytes) {
   cs_guard *guard = cs_guard_of(L);
   guard->printed += bytes;
   if (!guard->limits.print || guard->printed <= guard->limits.print)
-    return;
+    return !guard->is_silent;
   snprintf(guard->tripped, sizeof guard->tripped,
            "more than %zu KiB printed in a frame (--limit print=SIZE allows more)",
            guard->limits.print >> 10);
   raise_limit(L, guard);
+  return false;
 }
 
 void cs_guard_starve(lua_State *L, const char *sentence) {

@@ -56,6 +56,7 @@ typedef struct cs_guard {
   char refused_in[LUA_IDSIZE];
   uint64_t steps, checked; /* in this frame; at the last reading of the clock */
   size_t printed;
+  bool is_silent;              /* what is printed is counted, and not shown */
   char tripped[CS_ERROR_SIZE]; /* the sentence of the exceeded limit; "": none */
   _Atomic(int64_t) deadline;   /* of the call, in nanoseconds of the monotonic clock; 0: none */
   bool has_watchdog, is_finished;
@@ -85,8 +86,8 @@ void cs_guard_end(cs_guard *guard);
 
 /* Counts work of C functions as steps. Raises an error when a limit is exceeded. */
 void cs_guard_charge(lua_State *L, uint64_t steps);
-/* Counts printed bytes. Raises an error when a limit is exceeded. */
-void cs_guard_print(lua_State *L, size_t bytes);
+/* Counts printed bytes. Raises an error when a limit is exceeded. Whether they are shown. */
+bool cs_guard_print(lua_State *L, size_t bytes);
 
 /* There was no memory, as the sentence says: in a call into the script raises it, or that of the
  * limit of memory where that was the reason. Like an exceeded limit, it ends the outermost call. */

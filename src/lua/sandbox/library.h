@@ -42,5 +42,8 @@ int cs_library_require_own(lua_State *L);
 
 /* Pushes the text of the value at index, without addresses. May call the script's __tostring. */
 const char *cs_library_push_text(lua_State *L, int index);
+/* Writes the text on top of the stack to standard error; to a terminal what it may show of it
+ * (base/visible.h). */
+void cs_library_print(lua_State *L);
 /* Restarts math.random with a seed. */
 void cs_library_seed(lua_State *L, uint64_t seed);

@@ -9,6 +9,8 @@
  * CS_WEB_BODY bytes of a body, CS_WEB_CONNECTIONS connections, and CS_WEB_IDLE seconds until a
  * request is whole. When all connections are taken, a new one takes the place of the oldest that
  * has no whole request; if all have one, the new one is closed. So slow strangers keep nobody out.
+ * A request with two lines for a header that counts is refused: who reads one of them could be
+ * deceived by the other.
  */
 #pragma once
 
@@ -18,7 +20,7 @@
 
 #include "celspan/celspan.h"
 
-#define CS_WEB_MODULE_VERSION 1
+#define CS_WEB_MODULE_VERSION 2
 
 enum {
   CS_WEB_HEAD = 8192,
@@ -30,12 +32,15 @@ enum {
 
 typedef struct cs_web cs_web;
 
-/* A whole request; its texts live until it is answered. Headers that are missing are NULL. */
+#define CS_WEB_TOKEN "Celspan-Token" /* the header of a request that has a token */
+
+/* A whole request; its texts live until it is answered. Headers that are missing are NULL; none of
+ * them was sent twice. */
 typedef struct cs_web_request {
   uint64_t id;
   const char *method;
   const char *target; /* path and query as they were sent */
-  const char *host, *origin, *cookie, *site;
+  const char *host, *origin, *token;
   const char *body;
   size_t body_size;
 } cs_web_request;

@@ -8,6 +8,7 @@
 #include <netinet/in.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 enum {
   POOL = 16384, /* bytes that the library reads a request into; beyond them it answers 431 or 414 */
@@ -33,18 +34,37 @@ static void *begin_request(void *user, const char *target, struct MHD_Connection
   return request;
 }
 
-/* The bytes of a header line. */
+/* The headers that count: one line each at most. */
+static const char *const single[] = {MHD_HTTP_HEADER_HOST, "Origin", CS_WEB_TOKEN,
+                                     MHD_HTTP_HEADER_CONTENT_LENGTH,
+                                     MHD_HTTP_HEADER_TRANSFER_ENCODING};
+enum { SINGLE = sizeof single / sizeof *single };
+
+typedef struct web_head {
+  size_t bytes;
+  unsigned lines[SINGLE]; /* of each of these */
+} web_head;
+
 static enum MHD_Result count_header(void *user, enum MHD_ValueKind kind, const char *name,
                                     const char *value) {
+  web_head *head = user;
   (void)kind;
-  *(size_t *)user += strlen(name) + (value ? strlen(value) : 0) + 4;
+  head->bytes += strlen(name) + (value ? strlen(value) : 0) + 4;
+  for (size_t i = 0; i < SINGLE; i++)
+    head->lines[i] += strcasecmp(name, single[i]) == 0;
   return MHD_YES;
 }
 
-static bool has_long_head(const web_request *request) {
-  size_t size = strlen(request->target);
-  MHD_get_connection_values(request->library, MHD_HEADER_KIND, count_header, &size);
-  return size > CS_WEB_HEAD;
+/* The status that refuses a request by its head; 0: none does. */
+static unsigned judge_head(const web_request *request) {
+  web_head head = {.bytes = strlen(request->target)};
+  MHD_get_connection_values(request->library, MHD_HEADER_KIND, count_header, &head);
+  if (head.bytes > CS_WEB_HEAD)
+    return MHD_HTTP_REQUEST_HEADER_FIELDS_TOO_LARGE;
+  for (size_t i = 0; i < SINGLE; i++)
+    if (head.lines[i] > 1)
+      return MHD_HTTP_BAD_REQUEST;
+  return 0;
 }
 
 static const char *header(const web_request *request, const char *name) {
@@ -58,18 +78,17 @@ static void complete(cs_web *web, web_request *request, const char *method) {
   request->whole.target = request->target;
   request->whole.host = header(request, MHD_HTTP_HEADER_HOST);
   request->whole.origin = header(request, "Origin");
-  request->whole.cookie = header(request, MHD_HTTP_HEADER_COOKIE);
-  request->whole.site = header(request, "Sec-Fetch-Site");
+  request->whole.token = header(request, CS_WEB_TOKEN);
   request->whole.body = request->body;
   web_enter(request->connection, WEB_WAITING);
   MHD_suspend_connection(request->library);
 }
 
-/* Answers a request that is too long at once, and closes its connection. */
-static enum MHD_Result refuse_long(cs_web *web, struct MHD_Connection *library, unsigned status) {
+/* Answers a request that the program does not get at once, and closes its connection. */
+static enum MHD_Result refuse(cs_web *web, struct MHD_Connection *library, unsigned status) {
   struct MHD_Response *response =
       MHD_create_response_from_buffer(0, (void *)(size_t) "", MHD_RESPMEM_PERSISTENT);
-  web->counts.oversized++;
+  web->counts.oversized += status != MHD_HTTP_BAD_REQUEST;
   if (!response)
     return MHD_NO;
   MHD_add_response_header(response, MHD_HTTP_HEADER_CONNECTION, "close");
@@ -99,13 +118,12 @@ static enum MHD_Result handle(void *user, struct MHD_Connection *library, const 
   if (request->is_answered)
     return MHD_YES;
   if (!request->has_begun) {
+    unsigned status = judge_head(request);
     request->has_begun = true;
-    return has_long_head(request)
-               ? refuse_long(user, library, MHD_HTTP_REQUEST_HEADER_FIELDS_TOO_LARGE)
-               : MHD_YES;
+    return status ? refuse(user, library, status) : MHD_YES;
   }
   if (*size == 0 && request->is_long)
-    return refuse_long(user, library, MHD_HTTP_CONTENT_TOO_LARGE);
+    return refuse(user, library, MHD_HTTP_CONTENT_TOO_LARGE);
   if (*size == 0)
     complete(user, request, method);
   else

@@ -5,7 +5,9 @@
 --   standard output   size, size of the head, { "good": true, ... }, bytes
 --
 -- Sizes have four bytes, the highest first. Every answer has in `files` the paths that the script
--- has asked for since the one before. What the script prints goes to standard error.
+-- has asked for since the one before, { path, whether it was let read there }. What the script
+-- prints goes to standard error: while it is run, and for pictures. Frames that are built for other
+-- reasons, such as checks of all of them, print nothing.
 local program, request = ...
 local json = require "celspan.json"
 local core = require "celspan.core"
@@ -17,8 +19,8 @@ local film
 
 local function put(head, bytes)
   head.files = {}
-  for path in (film and film:files() or ""):gmatch "(%Z+)%z" do
-    head.files[#head.files + 1] = path
+  for mark, path in (film and film:files() or ""):gmatch "([+-])(%Z+)%z" do
+    head.files[#head.files + 1] = { path, mark == "+" }
   end
   local text = program.json(head)
   bytes = bytes or ""
@@ -64,10 +66,17 @@ local function build_seen(number, by)
   return good, message, code
 end
 
+--- The letters of cels by name, of a list { { name, letters }, ... }.
+local function letters_of(list)
+  local letters = {}
+  for _, one in ipairs(list) do letters[one[1]] = one[2] end
+  return letters
+end
+
 --- Builds a frame, with its cels as ask.cels has them. false: refused.
 local function build(ask)
   local good, message, code = build_seen(ask.number, ask.camera)
-  if good and ask.cels then good, message = film:alter(ask.cels) end
+  if good and ask.cels then good, message = film:alter(letters_of(ask.cels)) end
   if not good then refuse(message, code) end
   return good
 end
@@ -304,7 +313,9 @@ for ask in take do
   if not film then
     refuse(program.reported() or tostring(made), program.outcome())
   else
-    answers[ask.want](ask)
+    film:silence(ask.want ~= "frame")
+    local is_answered, fault = pcall(answers[ask.want], ask)
+    if not is_answered then refuse(program.reported() or tostring(fault)) end
   end
   if program.is_stopped() then break end
 end

@@ -15,11 +15,19 @@ function part(name)
   return assert(load(program.text(name), "=" .. name, "t"))(program, request, part)
 end
 local guard, watched, choices = part "guard.lua", part "watched.lua", part "choices.lua"
+local programs = part "programs.lua"
 
-local HELD = 20            -- seconds that a request for news is held
+local HELD = 20            -- seconds that a request waits for news, or for a film
 local SIDE_MOST = 1048576  -- pixels
 local PIXELS_MOST = 1 << 25 -- of a picture
 local COLUMNS_MOST = 10000  -- of a wave
+local UNITS_MOST = 1 << 30  -- of a point, to either side
+
+-- The texts of the page.
+local pages = { ["/"] = "page.html", ["/page.css"] = "page.css", ["/page.js"] = "page.js",
+                ["/fetch.js"] = "fetch.js", ["/sound.js"] = "sound.js", ["/runs.js"] = "runs.js",
+                ["/cost.js"] = "cost.js", ["/icon.svg"] = "icon.svg",
+                ["/favicon.ico"] = "icon.svg" }
 
 for _, script in ipairs(request) do
   local file, why = io.open(script, "rb")
@@ -28,7 +36,7 @@ for _, script in ipairs(request) do
 end
 
 local web = program.web(math.tointeger(request.port) or 0)
-local door = guard.new(web.port)
+local door = guard.new(web.port, pages)
 local files = part "files.lua".new()
 local places = part "places.lua".new(files)
 
@@ -36,7 +44,8 @@ local places = part "places.lua".new(files)
 
 -- news: counts what pages are to know. here: the line that an editor has named.
 local state = { news = 1 }
-local held = {} -- requests for news: id, since, until
+local held = {}    -- requests for news: id, over
+local waiting = {} -- requests for a film that is built for the first time: answer(), film, over
 
 local function tell() state.news = state.news + 1 end
 
@@ -69,6 +78,12 @@ local function refuse(id, status, sentence)
   answer(id, status, "text/plain; charset=utf-8", sentence .. "\n")
 end
 
+--- Calls a function that answers a request. An error in it is the end of that request alone.
+local function attempt(id, call, ...)
+  local is_good, fault = pcall(call, ...)
+  if not is_good then refuse(id, 500, "the answer could not be made: " .. tostring(fault)) end
+end
+
 local function give_json(id, value)
   answer(id, 200, "application/json", program.json(value) .. "\n")
 end
@@ -83,7 +98,8 @@ end
 
 --- Asks the renderers, and answers with what they say.
 local function pass_on(id, film, ask, give, wish)
-  film:ask(ask, give, function(status, message) refuse(id, status, message) end, wish)
+  film:ask(ask, function(...) attempt(id, give, ...) end,
+    function(status, message) refuse(id, status, message) end, wish)
 end
 
 --- The numbers of a text such as "1,2,3" or "1280x720"; nil: it is no such text.
@@ -120,6 +136,20 @@ local function is_view(size, crop)
     and w > 0 and h > 0 and x + w <= size[1] and y + h <= size[2] and w * h <= PIXELS_MOST
 end
 
+--- What a request wants changed of cels, { { name, letters }, ... }, from an object; nil: it is not
+--- one of texts.
+local function cels_of(text)
+  local list, given = {}, json.decode(text)
+  if type(given) ~= "table" then return nil end
+  for name, letters in pairs(given) do
+    if type(name) ~= "string" or type(letters) ~= "string" or letters:find "[^hlf]" then
+      return nil
+    end
+    list[#list + 1] = { name, letters }
+  end
+  return { list = list }
+end
+
 --- What a request shows, in the words of the renderers: number, size, crop, cels; nil: refused.
 local function view_of(id, film, text, fields)
   local number = frame_of(id, film, text)
@@ -130,9 +160,10 @@ local function view_of(id, film, text, fields)
     return refuse(id, 400, "write size=WxH and crop=X,Y,W,H: at most 1048576 pixels a side, and "
       .. "33554432 in a crop that is within the frame")
   end
-  local cels = fields.cels and json.decode(fields.cels)
-  if fields.cels and type(cels) ~= "table" then
-    return refuse(id, 400, "cels= must be a JSON object, such as {\"ground\": \"h\"}")
+  local cels = fields.cels and cels_of(fields.cels)
+  if fields.cels and not cels then
+    return refuse(id, 400, "cels= must be a JSON object, such as {\"ground\": \"h\"}, with the "
+      .. "letters h, l and f")
   end
   local camera = fields.camera and frame_of(id, film, fields.camera)
   if fields.camera and not camera then return nil end
@@ -170,7 +201,9 @@ local function give_costs(id, film, fields)
   if not ask then return end
   ask.want = "costs"
   pass_on(id, film, ask, function(head)
-    for _, one in ipairs(head.costs) do places:note(one.file, one.line) end
+    for _, one in ipairs(head.costs) do
+      one.file = places:note(one.file, one.line, film)
+    end
     give_json(id, { list = head.costs })
   end)
 end
@@ -217,27 +250,25 @@ local function give_point(id, film, x, y, fields)
   local number = frame_of(id, film, fields.frame or film.facts and film.facts.first)
   x, y = tonumber(x), tonumber(y)
   if not number then return end
-  if not x or not y then return refuse(id, 400, "write /at/X,Y.json, in units of the film") end
+  if not x or not y or math.max(math.abs(x), math.abs(y)) > UNITS_MOST then
+    return refuse(id, 400, "write /at/X,Y.json, in units of the film")
+  end
   pass_on(id, film, { want = "at", number = number, x = x, y = y },
     function(head)
       for _, hit in ipairs(head.hits) do
-        places:note(hit.file, hit.line)
-        hit.via, hit.callers = hit.callers, places:of_text(hit.callers)
+        hit.file, hit.line = places:note(hit.file, hit.line, film)
+        hit.via, hit.callers = hit.callers, places:of_text(hit.callers, film)
       end
       give_json(id, { list = head.hits })
     end)
 end
 
 local kinds = { html = "text/html; charset=utf-8", css = "text/css; charset=utf-8",
-                js = "text/javascript; charset=utf-8" }
+                js = "text/javascript; charset=utf-8", svg = "image/svg+xml" }
 
---- A text of the page. Whoever may have it gets the cookie for the rest.
 local function give_text(id, name)
-  answer(id, 200, kinds[name:match "%w+$"], program.text(name), "Set-Cookie", door.cookie)
+  answer(id, 200, kinds[name:match "%w+$"], program.text(name))
 end
-
-local pages = { ["/"] = "page.html", ["/page.css"] = "page.css", ["/page.js"] = "page.js",
-                ["/sound.js"] = "sound.js", ["/runs.js"] = "runs.js", ["/cost.js"] = "cost.js" }
 
 --- The files that a parameter may name, parameter=NAME.
 local function give_files(id, film, fields)
@@ -257,7 +288,7 @@ local function giving(want, kind)
   end
 end
 
-local gets = {
+local gets = { -- of a film
   ["/film.json"] = function(id, film)
     if is_ready(id, film) then give_json(id, film.facts) end
   end,
@@ -269,13 +300,18 @@ local gets = {
   ["/costs.json"] = give_costs,
   ["/files.json"] = give_files,
   ["/made.json"] = give_made,
-  ["/counts.json"] = function(id) give_json(id, web:counts()) end,
-  ["/state.json"] = function(id, _, fields)
-    local since = math.tointeger(fields.since) or 0
-    if since ~= state.news then return give_json(id, describe_state()) end
-    held[#held + 1] = { id = id, over = program.clock() + HELD }
-  end,
 }
+
+--- The requests that are answered whatever the films do.
+local own = {}
+
+own["/counts.json"] = function(id) give_json(id, web:counts()) end
+
+own["/state.json"] = function(id, fields)
+  local since = math.tointeger(fields.since) or 0
+  if since ~= state.news then return give_json(id, describe_state()) end
+  held[#held + 1] = { id = id, over = program.clock() + HELD }
+end
 
 --- The film that a request means: the second with side=2; nil: refused.
 local function side_of(id, fields)
@@ -283,10 +319,8 @@ local function side_of(id, fields)
   return film or refuse(id, 404, "there is no such film beside the first")
 end
 
-local function route(id, path, fields)
-  if pages[path] then return give_text(id, pages[path]) end
-  local film = side_of(id, fields)
-  if not film then return end
+--- Answers a request for something of a film.
+local function give_of(id, film, path, fields)
   if gets[path] then return gets[path](id, film, fields) end
   local number, ending = path:match "^/frame/(%-?%d+)%.(%l+)$"
   if number and (ending == "png" or ending == "rgba" or ending == "runs") then
@@ -295,6 +329,16 @@ local function route(id, path, fields)
   local x, y = path:match "^/at/(%-?[%d.]+),(%-?[%d.]+)%.json$"
   if x then return give_point(id, film, x, y, fields) end
   refuse(id, 404, "there is no such address")
+end
+
+local function route(id, path, fields)
+  if pages[path] then return give_text(id, pages[path]) end
+  if own[path] then return own[path](id, fields) end
+  local film = side_of(id, fields)
+  if not film then return end
+  if film.is_shown or not film.is_building then return give_of(id, film, path, fields) end
+  waiting[#waiting + 1] = { film = film, over = program.clock() + HELD,
+                            answer = function() attempt(id, give_of, id, film, path, fields) end }
 end
 
 --- What may be changed, by POST with a JSON object.
@@ -335,22 +379,16 @@ posts["/here"] = function(id, given)
   give_json(id, state.here)
 end
 
-local editors = {} -- processes
-
 --- Opens a line that the film has named in the editor, { file =, line = }.
 posts["/open"] = function(id, given)
   local line = math.tointeger(given.line)
-  if type(given.file) ~= "string" or not line or not places:has(given.file, line) then
-    return refuse(id, 404, "the film has not named this line")
+  local path = type(given.file) == "string" and line and places:find(given.file, line)
+  if not path then
+    return refuse(id, 404, "the film has not named this line of a file that it reads")
   end
   if not request.editor then return refuse(id, 409, "give --editor to celspan watch") end
-  local words = {}
-  for word in request.editor:gmatch "%S+" do
-    words[#words + 1] = word:gsub("{(%l+)}", { file = given.file, line = tostring(line) })
-  end
-  local process, message = program.launch(words)
-  if not process then return refuse(id, 500, "--editor: " .. message) end
-  editors[process] = true
+  local is_open, message = programs.edit(path, line)
+  if not is_open then return refuse(id, 500, "--editor: " .. message) end
   give_json(id, {})
 end
 
@@ -372,15 +410,29 @@ end
 --- Answers those who wait for news.
 local announced = 0
 local function give_news()
-  local now, waiting = program.clock(), {}
+  local now, later = program.clock(), {}
   for _, one in ipairs(held) do
     if announced ~= state.news or now > one.over then
-      give_json(one.id, describe_state())
+      attempt(one.id, function() give_json(one.id, describe_state()) end)
     else
-      waiting[#waiting + 1] = one
+      later[#later + 1] = one
     end
   end
-  held, announced = waiting, state.news
+  held, announced = later, state.news
+end
+
+--- Answers those who wait for a film that can be asked now, or has failed.
+local function give_films()
+  local now, later = program.clock(), {}
+  for _, one in ipairs(waiting) do
+    local is_awaited = one.film.is_building and not one.film.is_shown
+    if is_awaited and now < one.over then
+      later[#later + 1] = one
+    else
+      one.answer()
+    end
+  end
+  waiting = later
 end
 
 -- ---------------------------------------------------------------- the loop
@@ -408,23 +460,14 @@ end
 
 local function step()
   web:run()
-  for asked in web.take, web do serve(asked) end
+  for asked in web.take, web do attempt(asked.id, serve, asked) end
   local wait = step_films()
+  give_films()
   give_news()
-  for process in pairs(editors) do
-    if program.has_ended(process) then editors[process] = nil end
-  end
+  programs.step()
   local sources = { web:descriptor(), files:descriptor() }
   for _, film in ipairs(films) do film.pool:add_descriptors(sources) end
   program.poll(soonest(web:run(), wait), sources)
-end
-
-local function open_browser(address)
-  if os.execute "command -v xdg-open >/dev/null 2>&1" then
-    os.execute(("xdg-open '%s' >/dev/null 2>&1 &"):format(address))
-  else
-    program.note "there is no program xdg-open: open the address yourself"
-  end
 end
 
 first:build()
@@ -432,6 +475,7 @@ set_comparing(#request == 2)
 local address = ("http://127.0.0.1:%d/?token=%s"):format(web.port, door.token)
 print("watching " .. address)
 io.stdout:flush()
-if request.open then open_browser(address) end
+if request.open then programs.browse(address, "celspan-" .. guard.random()) end
 while not program.is_stopped() do step() end
+programs.close()
 for _, film in ipairs(films) do film:close "celspan has ended" end

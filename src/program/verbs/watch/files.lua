@@ -1,6 +1,10 @@
---- The files that films have asked for, and which of them were saved (celspan watch).
+--- The files that films have asked for, which of them they read, and which were saved (celspan
+--- watch).
 --
 --   renderers --paths--> add --> inotify --> take --> the films that have asked for what changed
+--
+-- A film reads what it was let read: the sandbox refuses files outside its folders, also where the
+-- script ignores that.
 local program, request = ...
 
 local WATCHED_MOST = 10000 -- files
@@ -8,9 +12,9 @@ local WATCHED_MOST = 10000 -- files
 local files = {}
 files.__index = files
 
--- owners[folder][name]: the films that have asked for it. folders[number of the watcher]: the names
--- that films have for that folder, such as "" and "./". missing[folder]: it cannot be watched, as
--- it does not exist.
+-- owners[folder][name]: the films that have asked for it, and whether they read it.
+-- folders[number of the watcher]: the names that films have for that folder, such as "" and "./".
+-- missing[folder]: it cannot be watched, as it does not exist.
 function files.new()
   return setmetatable({ watcher = program.watcher(), owners = {}, folders = {}, missing = {},
                         count = 0 }, files)
@@ -28,11 +32,11 @@ function files:watch_folder(folder)
   return number
 end
 
---- Watches a file for a film, { script = }.
-function files:add(path, film)
+--- Watches a file for a film, { script = }, which is_read or was refused it.
+function files:add(path, film, is_read)
   local folder, name = split(path)
   local known = folder and self.owners[folder] and self.owners[folder][name]
-  if not folder or known and known[film] or not known and self.count == WATCHED_MOST then return end
+  if not folder or not known and self.count == WATCHED_MOST then return end
   if not self.owners[folder] then
     self.owners[folder] = {}
     self:watch_folder(folder)
@@ -41,24 +45,25 @@ function files:add(path, film)
     known, self.count = {}, self.count + 1
     self.owners[folder][name] = known
   end
-  known[film] = true
+  known[film] = is_read
 end
 
---- Whether a film has asked for a file. A trusted script may read modules without asking: those
---- beside it count too.
-function files:has(path, film)
+--- Whether a film reads a file; nil: it has not asked for it. A trusted script may read modules
+--- without asking: those beside it count too.
+function files:state(path, film)
   local folder, name = split(path)
   local known = folder and self.owners[folder] and self.owners[folder][name]
-  return known and known[film]
-    or folder and request.trust and name:match "%.lua$"
-      and folder == (film.script:match "^.*/" or "")
+  if known and known[film] ~= nil then return known[film] end
+  local is_module = folder and request.trust and name:match "%.lua$"
+    and folder == (film.script:match "^.*/" or "")
+  return is_module and true or nil
 end
 
 --- Whether an event is about a film. name "": the folder is gone; number -1: events were lost.
 function files:concerns(number, name, film)
   local is_changed = number == -1
   for folder in pairs(self.folders[number] or {}) do
-    is_changed = is_changed or name == "" or self:has(folder .. name, film)
+    is_changed = is_changed or name == "" or self:state(folder .. name, film) ~= nil
   end
   return is_changed
 end
@@ -92,16 +97,30 @@ function files:take(films)
   return changed
 end
 
---- The path of a file as a film has it, for one that an editor may name from the root; nil: the
---- film does not read it.
-function files:path_of(name, film)
+--- The path of the first file that a film reads of which fits(path) is true; nil: none is.
+function files:find(film, fits)
   for folder, list in pairs(self.owners) do
-    for own, films in pairs(list) do
-      local path = folder .. own
-      if films[film] and (name == path or name:sub(-#path - 1) == "/" .. path) then return path end
+    for name, films in pairs(list) do
+      if films[film] and fits(folder .. name) then return folder .. name end
     end
   end
   return nil
+end
+
+--- The path of a file as a film has it, for one that an editor may name from the root; nil: the
+--- film does not read it.
+function files:path_of(name, film)
+  return self:find(film, function(path)
+    return name == path or name:sub(-#path - 1) == "/" .. path
+  end)
+end
+
+--- The path of a file that a sentence about a film names, as Lua does: of a long one the end, after
+--- three dots. nil: the film does not read it.
+function files:named(name, film)
+  if self:state(name, film) then return name end
+  local ending = name:match "^%.%.%.(.+)$"
+  return ending and self:find(film, function(path) return path:sub(-#ending) == ending end)
 end
 
 function files:descriptor() return self.watcher:descriptor() end

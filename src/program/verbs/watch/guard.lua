@@ -3,9 +3,10 @@
 --   Host      127.0.0.1, localhost or [::1] with our port: other names are a stranger's, which
 --             point here (DNS rebinding)
 --   Origin    where one is sent, ours
---   token     in the query, for programs; or in a cookie, whose name has the port in it because
---             cookies of all ports of a machine are shared. A cookie counts for requests of our own
---             page alone
+--   token     in the query, for programs; or in a header, from our own page. It is in no cookie:
+--             those go to the servers of all ports of a machine
+--
+-- What is the same for every film, such as the texts of the page, needs no token.
 --
 -- INVARIANT: a request that passes has a path of plain characters without "..", and its texts are
 -- decoded once.
@@ -15,21 +16,21 @@ guard.__index = guard
 local TOKEN_BYTES = 16
 
 --- 128 bits that nobody can guess, in hexadecimal digits.
-local function random_token()
+function guard.random()
   local file = assert(io.open("/dev/urandom", "rb"))
   local bytes = assert(file:read(TOKEN_BYTES))
   file:close()
   return (bytes:gsub(".", function(byte) return ("%02x"):format(byte:byte()) end))
 end
 
-function guard.new(port)
-  local self = setmetatable({ token = random_token(), hosts = {}, origins = {} }, guard)
+--- public: the paths that need no token, as keys.
+function guard.new(port, public)
+  local self = setmetatable({ token = guard.random(), public = public, hosts = {}, origins = {} },
+    guard)
   for _, name in ipairs { "127.0.0.1", "localhost", "[::1]" } do
     local host = ("%s:%d"):format(name, port)
     self.hosts[host], self.origins["http://" .. host] = true, true
   end
-  self.cookie_name = "celspan-" .. port
-  self.cookie = ("%s=%s; Path=/; HttpOnly; SameSite=Strict"):format(self.cookie_name, self.token)
   return self
 end
 
@@ -60,13 +61,6 @@ local function parse(target)
   return path, fields
 end
 
-function guard:has_cookie(request)
-  for name, value in (request.cookie or ""):gmatch "([^=;%s]+)=([^;%s]*)" do
-    if name == self.cookie_name and self:is_token(value) then return true end
-  end
-  return false
-end
-
 --- The path and the fields of a request that may be answered; else nil, the status and a sentence.
 function guard:admit(request)
   if not self.hosts[(request.host or ""):lower()] then
@@ -84,8 +78,7 @@ function guard:admit(request)
     return nil, 403, "a POST needs an Origin"
   end
   if not path then return nil, 404, "there is no such address" end
-  local is_ours = not request.site or request.site == "same-origin" or request.site == "none"
-  if self:is_token(fields.token) or is_ours and self:has_cookie(request) then
+  if self.public[path] or self:is_token(fields.token) or self:is_token(request.token) then
     return path, fields
   end
   return nil, 403, "the token is missing: use the address that celspan watch has printed"

@@ -7,6 +7,7 @@
 // Pictures are wanted one after the other: while one is on its way, only the newest wish is kept.
 // While the film plays, several are asked for ahead.
 import * as cost from "/cost.js";
+import { fetch } from "/fetch.js";
 import * as sound from "/sound.js";
 import { unpack } from "/runs.js";
 
@@ -668,6 +669,10 @@ async function listen() {
   for (;;) {
     try {
       const answer = await fetch(`/state.json?since=${state.news}`);
+      if (answer.status === 403) { // the address that was opened has no token
+        here("news").textContent = await answer.text();
+        return;
+      }
       if (!answer.ok) throw new Error(await answer.text());
       takeState(await answer.json());
     } catch {
@@ -1565,7 +1570,7 @@ new ResizeObserver(() => {
 }).observe(desk);
 new ResizeObserver(drawSheet).observe(here("cells"));
 
-// The address keeps no token once the cookie has it.
+// The address keeps no token: fetch.js has it.
 history.replaceState(null, "", location.hash.length > 1 ? `/${location.hash}` : "/");
 readAddress();
 setGround("checker");

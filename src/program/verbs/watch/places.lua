@@ -1,5 +1,9 @@
 --- The lines of scripts that films have named, which an editor may be asked for (celspan watch).
+--
+-- INVARIANT: they are in files that the films read. A script can name anything: in the message of
+-- an error, or as the name of a chunk that it loads.
 local program = ...
+local texts = require "celspan.files"
 
 local PLACES_MOST = 10000  -- lines
 local AROUND = 3           -- lines shown before and after that of an error
@@ -8,37 +12,43 @@ local LINES_MOST = 1 << 20 -- bytes of a script of which lines are shown
 local places = {}
 places.__index = places
 
---- files: of files.lua.
+--- files: of files.lua. known: paths by places such as "shot.lua:12".
 function places.new(files)
-  return setmetatable({ files = files, known = {}, count = 0 }, places) -- keys: "shot.lua:12"
+  return setmetatable({ files = files, known = {}, count = 0 }, places)
 end
 
-local function key_of(path, line) return ("%s:%d"):format(path, line) end
+local function key_of(name, line) return ("%s:%d"):format(name, line) end
 
-function places:note(path, line)
-  local key = path and line and key_of(path, line)
-  if not key or self.known[key] or self.count == PLACES_MOST then return end
-  self.known[key], self.count = true, self.count + 1
+--- The path and the line of a place, which is noted; nothing if the film does not read that file.
+function places:note(name, line, film)
+  local path = name and line and self.files:named(name, film)
+  if not path then return end
+  for _, one in ipairs { name, path } do
+    local key = key_of(one, line)
+    if not self.known[key] and self.count < PLACES_MOST then
+      self.known[key], self.count = path, self.count + 1
+    end
+  end
+  return path, line
 end
 
-function places:has(path, line) return self.known[key_of(path, line)] end
+--- The path of a place that was noted; nil: it was not.
+function places:find(name, line) return self.known[key_of(name, line)] end
 
 --- The places in a text such as "from shot.lua:40, hand.lua:7", which are noted: { file, line }.
-function places:of_text(text)
+function places:of_text(text, film)
   local list = {}
-  for path, line in text:gmatch "([^%s:(),]+):(%d+)" do
-    list[#list + 1] = { file = path, line = math.tointeger(line) }
-    self:note(path, math.tointeger(line))
+  for name, digits in text:gmatch "([^%s:(),]+):(%d+)" do
+    local _, line = self:note(name, math.tointeger(digits), film)
+    if line then list[#list + 1] = { file = name, line = line } end
   end
   return { list = list }
 end
 
---- The lines around one of a file that a film has asked for; nil: they cannot be read.
-function places:excerpt(path, line, film)
-  local opened = self.files:has(path, film) and io.open(path, "rb")
-  if not opened then return nil end
-  local text, number, lines = opened:read(LINES_MOST) or "", 0, {}
-  opened:close()
+--- The lines around one of a file that a film reads; nil: they cannot be read.
+function places.excerpt(path, line)
+  local text, number, lines = texts.read(path, LINES_MOST), 0, {}
+  if not text then return nil end
   for one in (text:gsub("\n?$", "\n", 1)):gmatch "([^\n]*)\n" do
     number = number + 1
     if number > line + AROUND then break end
@@ -49,12 +59,12 @@ end
 
 --- An error of a film as /errors.json lists it.
 function places:describe(message, frame, film)
-  local path, line = program.place_of(message)
-  self:note(path, line)
+  local name, named = program.place_of(message)
+  local path, line = self:note(name, named, film)
   frame = frame or math.tointeger(message:match "frame (%-?%d+): ")
-  local callers = self:of_text(message:match " %(called from ([^()]*)%)" or "")
+  local callers = self:of_text(message:match " %(called from ([^()]*)%)" or "", film)
   return { message = message, frame = frame, file = path, line = line, callers = callers,
-           lines = path and self:excerpt(path, line, film) }
+           lines = path and places.excerpt(path, line) }
 end
 
 return places

@@ -17,6 +17,7 @@ local RENDERERS_MOST = 4
 local SOON, LATE = 0.25, 1.5 -- seconds
 local IDLE = 20              -- seconds after which one that is not needed ends
 local TAIL = 2000            -- bytes of the last words that are kept
+local REQUEST_MOST = 32767   -- bytes that a renderer reads at a time
 
 local renderers = {}
 renderers.__index = renderers
@@ -39,7 +40,8 @@ end
 --- job: want and what goes with it in `ask`; done, failed; is_patient: no other renderer is started
 --- for it, and it waits for ever; wish: what it is abandoned by, or nil.
 function renderers:ask(job)
-  job.since = program.clock()
+  job.text, job.since = program.json(job.ask), program.clock()
+  if #job.text > REQUEST_MOST then return job.failed("the request is too long", 400) end
   table.insert(self.queue, job)
 end
 
@@ -83,7 +85,7 @@ end
 local function hear(one)
   local words = one.process:words()
   if words == "" then return end
-  io.stderr:write(words)
+  program.show(words)
   one.tail = (one.tail .. words):sub(-TAIL)
 end
 
@@ -144,7 +146,7 @@ function renderers:hand_out()
     if #self.queue == 0 then return end
     if not one.job then
       one.job = self:next_job()
-      if not one.process:send(program.json(one.job.ask)) then
+      if not one.process:send(one.job.text) then
         finish(one, "the renderer has ended", 500)
       end
     end

@@ -6,6 +6,8 @@
 //
 // INVARIANT: while the sound is heard its clock is the one that counts, so pictures wait for it and
 // never the other way round.
+import { fetch } from "/fetch.js";
+
 const RATE = 48000;     // moments in a second, as the server mixes
 const PIECE = 20;       // seconds
 const PIECES_MOST = 6;  // that are kept

@@ -20,9 +20,9 @@ function film.new(script, files, places, tell)
   local self = setmetatable({ script = script, files = files, places = places, tell = tell,
                               build_number = 0, errors = {}, began = 0, heard = 0 }, film)
   self.pool = renderers.new(script, function(paths)
-    for _, path in ipairs(paths) do files:add(path, self) end
+    for _, one in ipairs(paths) do files:add(one[1], self, one[2]) end
   end)
-  files:add(script, self)
+  files:add(script, self, true)
   return self
 end
 
@@ -155,9 +155,10 @@ function film:describe_parameters()
   local values, list = self:values(), {}
   for i, one in ipairs(self.parameters or {}) do
     local value = values[one.name]
+    if value == nil then value = one.default end
     list[i] = { name = one.name, type = one.type, format = one.format, default = one.default,
                 minimum = one.minimum, maximum = one.maximum, description = one.description,
-                enum = one.enum, value = tostring(value == nil and one.default or value) }
+                enum = one.enum, value = tostring(value) }
   end
   return { list = list }
 end
