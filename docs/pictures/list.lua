@@ -89,9 +89,11 @@ for _, recipe in ipairs {
   { "cast_shadow", 12 }, { "drop_shadow", 10, "360x202" }, { "neon_glow", 24, "360x202" },
   { "soft_vignette", 1, "360x202" }, { "stained_glass", 20, "360x202" }, { "time_lapse", 79 },
   { "letter_mask", 20 }, { "clock_wipe", 20 }, { "iris_out", 24 }, { "endless_zoom", 20 },
-  { "split_screen", 8 }, { "kaleidoscope", 1 }, { "lower_third", 30 }, { "karaoke_line", 27 },
+  { "split_screen", 8 }, { "green_screen", 20 },
+  { "picture_in_picture", 60 }, { "kaleidoscope", 1 }, { "lower_third", 30 }, { "karaoke_line", 27 },
   { "rolling_credits", 120 }, { "three_languages", 12 }, { "text_on_path", 40 },
-  { "speech_bubble", 20 }, { "falling_letters", 24 }, { "srt_subtitles", 96 },
+  { "speech_bubble", 20 }, { "falling_letters", 24 }, { "typewriter", 72 },
+  { "srt_subtitles", 96 },
   { "handwriting", 52 }, { "bar_race", 57 }, { "pie_chart", 44 }, { "line_chart", 50 },
   { "rolling_counter", 30 }, { "island_map", 40 }, { "value_map", 60 },
   { "many_scripts", 60 }, { "paper_texture", 1, "360x202" },
@@ -99,7 +101,8 @@ for _, recipe in ipairs {
   { "snowfall", 30, "360x202" }, { "water_reflection", 10 }, { "squash_stretch", 33 },
   { "magnifying_lens", 40 }, { "old_film", 12, "360x202" }, { "morph_shapes", 17 },
   { "confetti_burst", 17 }, { "camera_shake", 40 }, { "sprite_sheet", 1 },
-  { "transparent_video", 30 }, { "crossfade", 32 }, { "rotoscope", 7 }, { "mixed_sound", 64 },
+  { "transparent_video", 30 }, { "crossfade", 32 }, { "rotoscope", 7 },
+  { "speed_ramp", 24 }, { "mixed_sound", 64 },
 } do
   list[#list + 1] = { name = recipe[1], page = "docs/cookbook.md", frame = recipe[2],
     size = recipe[3] }

@@ -4,20 +4,17 @@ return {
   -- another spelling
   { "color", "colour" }, { "gray", "grades" }, { "grey", "grades" }, { "center", "align" },
   { "lipsync", "lips", "lip cels" }, { "timelapse", "time lapse" },
-  { "greenscreen", "grades", "mattes" },
+  { "greenscreen", "green screen" },
 
   -- time
   { "tween", "ease" }, { "inbetween", "ease", "morph" }, { "interpolation", "ease", "keys" },
-  { "keyframe", "keys" }, { "key", "keys", "grades", "mattes" },
-  { "motion blur", "shutter", "exposures" }, { "shutter angle", "shutter" },
-  { "slow motion", "retime" }, { "speed ramp", "retime" }, { "slowmo", "retime" },
-  { "time remap", "retime" }, { "speed", "retime" }, { "freeze frame", "retime" },
-  { "on twos", "the frame" }, { "frame rate", "film and frames" }, { "fps", "film and frames" },
-  { "resolution", "film and frames" }, { "aspect ratio", "film and frames" },
-  { "frame rate", "film and frames" }, { "fps", "film and frames" },
-  { "resolution", "film and frames" }, { "aspect ratio", "film and frames" },
-  { "ghost", "onion skin" }, { "timeline", "the cut" }, { "edit", "the cut" },
-  { "dope sheet", "exposure sheets" }, { "xsheet", "exposure sheets" },
+  { "keyframe", "keys" }, { "key", "keys", "keyer" }, { "motion blur", "shutter", "exposures" },
+  { "shutter angle", "shutter" }, { "slow motion", "retime" }, { "speed ramp", "retime" },
+  { "slowmo", "retime" }, { "time remap", "retime" }, { "speed", "retime" },
+  { "freeze frame", "retime" }, { "on twos", "the frame" }, { "frame rate", "film and frames" },
+  { "fps", "film and frames" }, { "resolution", "film and frames" },
+  { "aspect ratio", "film and frames" }, { "ghost", "onion skin" }, { "timeline", "the cut" },
+  { "edit", "the cut" }, { "dope sheet", "exposure sheets" }, { "xsheet", "exposure sheets" },
   { "expression", "easing keys paths" }, { "bounce", "ease", "squash" },
   { "random", "noise", "wiggle" },
 
@@ -39,11 +36,10 @@ return {
   { "levels", "grades" }, { "hue", "grades" }, { "saturation", "grades" }, { "contrast", "grades" },
   { "duotone", "grades" }, { "posterize", "grades" }, { "adjustment layer", "grades" },
   { "ocio", "colour profiles" }, { "icc", "colour profiles" }, { "film grain", "old film" },
-  { "noise", "grain" }, { "glitch", "old film" }, { "chroma key", "grades", "mattes" },
-  { "green screen", "grades", "mattes" }, { "keyer", "grades", "mattes" }, { "luma key", "mattes" },
-  { "alpha channel", "transparent" }, { "background removal", "mattes" },
-  { "transfer mode", "blend modes" }, { "multiply", "blend modes" }, { "emboss", "lights" },
-  { "antialiasing", "antialias" },
+  { "noise", "grain" }, { "glitch", "old film" }, { "bluescreen", "blue screen" },
+  { "luma key", "mattes" }, { "alpha channel", "transparent" },
+  { "background removal", "green screen", "mattes" }, { "transfer mode", "blend modes" },
+  { "multiply", "blend modes" }, { "emboss", "lights" }, { "antialiasing", "antialias" },
 
   -- the camera and the picture
   { "crop", "viewport" }, { "resize", "scale" }, { "rotation", "rotate" },
@@ -52,12 +48,12 @@ return {
   { "3d", "perspective" }, { "corner pin", "perspective" }, { "shake", "camera shake" },
   { "stabilize", "track" }, { "precomp", "composition inside another" },
   { "nested composition", "composition inside another" },
-  { "picture in picture", "composition inside another" }, { "pip", "composition inside another" },
+
   { "displacement", "warp" },
 
   -- shapes, words and particles
   { "font", "text" }, { "typeface", "text" }, { "variable font", "text" },
-  { "emoji", "glyphs", "text" }, { "typewriter", "letters" }, { "kinetic typography", "letters" },
+  { "emoji", "glyphs", "text" }, { "kinetic typography", "letters" },
   { "text animation", "letters" }, { "caption", "subtitles" },
   { "trim path", "writing that appears" }, { "bezier", "path" }, { "pathfinder", "booleans" },
   { "mask", "mattes", "clip" }, { "fill", "texture", "paint" }, { "outline", "lines" },
