@@ -529,6 +529,7 @@ describe("whatever else a document names", function()
       { BOX, 'background-color "red"', root = ' style="background-color:red"' },
       { styled "backdrop-filter:blur(2px)", 'backdrop-filter "blur(2px)"' },
       { styled "mask-image:url(#m)", 'mask-image "url(#m)"' },
+      { styled "-webkit-mask-image:url(#m)", '-webkit-mask-image "url(#m)"' },
       { styled "mask:linear-gradient(red, blue)", 'mask "linear-gradient(red, blue)"' },
       { styled "image-rendering:pixelated", 'image-rendering "pixelated"' },
       { styled "animation:turn 1s", 'animation "turn 1s"' },

@@ -417,6 +417,9 @@ describe("masks", function()
       { masked('<rect width=".5" height="1" fill="white"/>',
         'maskContentUnits="objectBoundingBox"'),
         half },
+      { masked('<rect width="40" height="99" fill="white"/>', "",
+        '<rect width="80" height="60" fill="lime" style="-webkit-mask:url(#m)"/>'),
+        half },
       { masked('<rect width="40" height="99"/>', 'mask-type="alpha"'), half },
       { masked('<rect width="40" height="99"/>', 'style="mask-type:alpha"'), half },
       { masked('<rect width="99" height="99" fill="white"/>', 'x="0" y="0" width=".5" height="1"'),
@@ -896,6 +899,8 @@ end)
 
 describe("gradients, too,", function()
   it("have a focus that stays inside, inner circles that repeat, and units of their own", function()
+    local inner = '<stop offset=".2" stop-color="red"/><stop offset=".8" stop-color="blue"/>'
+    local held = '<stop stop-color="red"/>' .. inner .. '<stop offset="1" stop-color="blue"/>'
     same {
       { gradient("radial", 'fx="5" fy=".5"'), gradient("radial", 'fx="9" fy=".5"') },
       { gradient("linear", 'gradientTransform="rotate(90)" transform-origin=".5 .5"'),
@@ -913,6 +918,12 @@ describe("gradients, too,", function()
         gradient("radial", 'r=".4"',
           '<stop offset=".5" stop-color="red"/><stop offset="1" stop-color="blue"/>') },
       { gradient("linear", 'spreadMethod="x"'), gradient "linear", note = 'spreadMethod "x"' },
+      { gradient("linear", 'x2=".5" spreadMethod="repeat"', inner),
+        gradient("linear", 'x2=".5" spreadMethod="repeat"', held) },
+      { gradient("radial", 'r=".2" spreadMethod="repeat"', inner),
+        gradient("radial", 'r=".2" spreadMethod="repeat"', held) },
+      { gradient("linear", 'x2=".5" spreadMethod="reflect"', inner),
+        gradient("linear", 'x2=".5" spreadMethod="reflect"', held) },
       { gradient("linear", 'href="#none"'), gradient "linear" },
       { gradient("linear", 'href="#g"'), gradient "linear" },
       { LIME .. '<g id="t"/>' .. gradient("linear", 'href="#t"', " "), LIME },

@@ -103,11 +103,22 @@ static bool cut_important(const char *begin, const char **end) {
   return true;
 }
 
+/* The name without its prefix, if browsers read it as the same property. */
+static const char *unprefixed(const char *name) {
+  static const char prefix[] = "-webkit-";
+  static const char aliases[] = "clip-path|filter|mask|mask-image|opacity|transform|"
+                                "transform-origin";
+  const char *rest = name + sizeof prefix - 1;
+  const bool has_prefix = strncmp(name, prefix, sizeof prefix - 1) == 0;
+  return has_prefix && cs_svg_words_have(aliases, rest) ? rest : name;
+}
+
 /* Judges a declaration with this name; *counts: false for one that is not read, which is noted
  * where it would change what is drawn. */
 static celspan_status judge(const cs_css_place *place, const char *name, cs_css_declaration *it,
                             bool *counts) {
-  it->name = cs_svg_name_of(name);
+  const char *property = unprefixed(name);
+  it->name = cs_svg_name_of(property);
   it->custom = strncmp(name, "--", 2) == 0 ? name : NULL;
   it->has_variable = cs_svg_has_variable(it->value);
   *counts = it->custom;
@@ -115,7 +126,7 @@ static celspan_status judge(const cs_css_place *place, const char *name, cs_css_
     return CELSPAN_OK;
   bool is_known = it->name != CS_SVG_NAME_COUNT && cs_svg_is_property(it->name);
   *counts = is_known && cs_svg_value_is_read(it->name, it->value, true);
-  if (*counts || (!is_known && cs_svg_name_is_silent(name, it->value)))
+  if (*counts || (!is_known && cs_svg_name_is_silent(property, it->value)))
     return CELSPAN_OK;
   return cs_svg_unread_add(place->unread, place->context, place->arena, place->line, name,
                            it->value);

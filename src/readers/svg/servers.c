@@ -1,6 +1,7 @@
 #include "readers/svg/servers.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/number.h"
 #include "model/colour/space.h"
@@ -162,6 +163,22 @@ static void finish_stops(gradient_stops *stops, cs_memory *memory) {
   *stops = (gradient_stops){0};
 }
 
+/* A period in which the first colour holds from 0 and the last one to 1. */
+static celspan_status hold_ends(cs_svg_reading *reading, gradient_stops *stops) {
+  const celspan_stop first = {0, stops->items[0].paint};
+  const celspan_stop last = {1, stops->items[stops->count - 1].paint};
+  const size_t before = stops->items[0].at > 0, after = stops->items[stops->count - 1].at < 1;
+  CS_TRY(CS_RESERVE(reading->context, stops->items, stops->capacity, stops->count + 2));
+  memmove(stops->items + before, stops->items, stops->count * sizeof *stops->items);
+  if (before)
+    stops->items[0] = first;
+  stops->count += before;
+  if (after)
+    stops->items[stops->count] = last;
+  stops->count += after;
+  return CELSPAN_OK;
+}
+
 /* Puts the stops of the periods [first, last), last > first, in place of those of one period;
  * places then go from 0 at the start of the first to 1 at the end of the last. */
 static celspan_status spread_stops(cs_svg_reading *reading, spread_kind spread, int first, int last,
@@ -309,6 +326,8 @@ static celspan_status spread(gradient *g) {
   double least, most;
   if (g->spread == SPREAD_PAD || g->stops.count < 2 || !find_places(g, &least, &most))
     return CELSPAN_OK;
+  if (g->spread == SPREAD_REPEAT)
+    CS_TRY(hold_ends(g->reading, &g->stops));
   double first = floor(fmin(least, 0)), last = ceil(fmax(most, 1));
   if ((last - first) * (double)g->stops.count > CS_SVG_STOPS)
     return cs_svg_skip(g->reading, g->node, "spreadMethod, repeated too often");
