@@ -1,5 +1,8 @@
 #include "model/scene/extend.h"
 
+#include <math.h>
+
+#include "base/number.h"
 #include "model/geometry/matrix.h"
 
 enum { PIECES = 9 };
@@ -8,13 +11,22 @@ enum { PIECES = 9 };
 typedef struct frame {
   celspan_matrix placed, back; /* the objects' units to those of the border, and from them */
   double sides[2][4]; /* by axis: where the strips and the inside begin and end, ascending */
+  double stretch[2];
 } frame;
 
 /* From the border's units to the same: what piece k of three along an axis shows. */
 static void set_axis(celspan_matrix *map, const frame *f, int axis, int k) {
-  double side = f->sides[axis][k == 0 ? 1 : 2];
-  map->m[4 * axis] = k == 1 ? 1 : -CS_EXTEND_STRETCH;
-  map->m[3 * axis + 2] = k == 1 ? 0 : side * (1 + CS_EXTEND_STRETCH);
+  double side = f->sides[axis][k == 0 ? 1 : 2], stretch = f->stretch[axis];
+  map->m[4 * axis] = k == 1 ? 1 : -stretch;
+  map->m[3 * axis + 2] = k == 1 ? 0 : side * (1 + stretch);
+}
+
+/* The most that keeps numbers sane is enough, except for what is all but nothing. */
+static void set_stretch(frame *f, int axis, double reach) {
+  const double *side = f->sides[axis];
+  double wanted = CS_EXTEND_SHARE * reach / (side[2] - side[1]);
+  double most = CS_NUMBER_LIMIT / 4 / (1 + fmax(fabs(side[1]), fabs(side[2])));
+  f->stretch[axis] = fmax(CS_EXTEND_STRETCH, fmin(wanted, most));
 }
 
 /* The area of a piece, in the objects' units. */
@@ -76,6 +88,8 @@ celspan_status cs_extend(celspan_context *context, celspan_object *const *object
                        {border->y - reach, border->y, border->y + border->height,
                         border->y + border->height + reach}}};
   celspan_object *art;
+  set_stretch(&f, 0, reach);
+  set_stretch(&f, 1, reach);
   if (!celspan_matrix_inverse(*placed, &f.back))
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "extend: the matrix is singular");
   CS_TRY(make_group(context, objects, count, &art));

@@ -8,12 +8,15 @@
  *      |     |               |     |
  *      `-----+---------------+-----'        All nine abut, so nothing leaks between them.
  *            |<-- border --> |<--->| reach
+ *
+ * A strip shows 1/SHARE of what lies inside at most, however far it reaches.
  */
 #pragma once
 
 #include "model/scene/scene.h"
 
-#define CS_EXTEND_STRETCH 0x1p14
+#define CS_EXTEND_STRETCH 0x1p14 /* at least */
+#define CS_EXTEND_SHARE 64
 
 /* placed: the objects' units to those of the border; not singular. *out: in the objects' units.
  * Errors: NO_MEMORY, LIMIT, and BAD_ARGUMENT where the objects cannot be transformed so. */
