@@ -27,7 +27,9 @@ celspan_status cs_row_grow(celspan_context *context, cs_row *row) {
   return CS_RESERVE(context, row->spans, row->capacity, row->count + 1);
 }
 
-/* Appends a span that is not a single, to be filled in; NULL when there is no memory. */
+/* Appends a span that is not a single, to be filled in; NULL when there is no memory. It has a
+ * colour, although an array needs none, because sinks code the colours of neighbouring spans
+ * together. */
 static inline celspan_span *append_varied(celspan_context *context, cs_row *row, int32_t x0,
                                           int32_t x1, celspan_span_kind kind) {
   if (row->count == row->capacity && cs_row_grow(context, row) != CELSPAN_OK)
@@ -36,6 +38,7 @@ static inline celspan_span *append_varied(celspan_context *context, cs_row *row,
   span->x0 = span->origin = x0;
   span->x1 = x1;
   span->kind = kind;
+  cs_v4_store(span->colour, cs_v4_all(0));
   cs_varied_count(&row->varied, kind);
   return span;
 }
