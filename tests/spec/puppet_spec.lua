@@ -96,6 +96,17 @@ describe("a chain of bones", function()
     assert.is_true(worst < 1e-6, worst)
   end)
 
+  it("of two that is drawn straight bends to the side where it may bend farther", function()
+    local function bend(low, high, y)
+      return reach.solve { target = { 100, 50 },
+        bones = { { 100, 0, -9, 9, 0 }, { 100, y or 0, low, high, 0 } } }[2]
+    end
+    assert.is_true(bend(-2, 2.5) > 0)
+    assert.is_true(bend(-2.5, 2) < 0)
+    assert.is_true(bend(-2, 2.5, -1e-8) > 0) -- straight, except for rounding
+    assert.is_true(bend(-2, 2.5, -1e-3) < 0)
+  end)
+
   it("that cannot reach lies straight towards its target", function()
     for count = 1, 6 do
       local bones = {}

@@ -118,6 +118,17 @@ describe("a warp", function()
     assert.are.equal(0.5, (celspan.probe(celspan.rostrum { celspan.cel { light } }, wave(47, 32))))
   end)
 
+  it("bends each contour of an outline by itself", function()
+    local path = celspan.path { rule = "evenodd",
+      d = "M4 4H60V60H4ZM10 10H30V30H10ZM40 40H50V50H40Z" }
+    local bent = path:warp { map = wave }
+    for x = 7, 57, 2 do
+      for y = 7, 57, 2 do
+        assert.are.equal(path:contains(x, y), bent:contains(wave(x, y)), x .. ", " .. y)
+      end
+    end
+  end)
+
   it("takes gradients along", function()
     local art = celspan.rect { 0, 0, 64, 64, texture = celspan.linear {
       from = { 0, 0 }, to = { 64, 0 }, { 0, "#000" }, { 1, "#fff" } } }

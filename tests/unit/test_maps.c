@@ -2,6 +2,7 @@
  * and in whatever order rows are made, and without leaks between cels that abut.
  */
 #include "engine/map/keep.h"
+#include "engine/map/turn.h"
 #include "model/geometry/matrix.h"
 #include "tests/support/frame_rows.h"
 #include "tests/support/memory.h"
@@ -458,6 +459,20 @@ static void check_kept(studio *s, studio *small) {
   CHECK(cs_map_keep_count(s->context).bytes > 0 && cs_map_keep_count(small->context).bytes == 0);
 }
 
+/* A map is turned as far as its corners, here (5, 5) of a disc, are no farther away than its lines
+ * can be. */
+static void check_lines_fit(studio *s) {
+  const celspan_matrix turn = celspan_matrix_rotation(45, (celspan_point){0, 0});
+  const double corner = 10 * sqrt(0.5), half = sqrt(0.5) / 2;
+  for (int k = 0; k < 2; k++) {
+    cs_context_trim(s->context);
+    double y = -CS_MAP_FARTHEST - corner + (k == 0 ? half : -half);
+    celspan_matrix matrix = celspan_matrix_then(turn, celspan_matrix_translation(0, y));
+    check_maps(s, moved_disc(s, matrix), k == 0, k == 0);
+    studio_finish(s);
+  }
+}
+
 /* ---------------------------------------------------------------- parts */
 
 static celspan_object *part(studio *s, double angle) {
@@ -640,6 +655,7 @@ int main(void) {
   check_nothing(&s);
   check_bits(&s, &small);
   check_kept(&s, &small);
+  check_lines_fit(&s);
   check_parts(&s);
   check_parts_together(&s);
   check_number(&s);
