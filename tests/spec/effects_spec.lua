@@ -3,6 +3,7 @@
 local celspan = require "celspan"
 local images = require "tests.support.images"
 local raised = require("tests.support.raised").message
+local workbench = require "tests.support.workbench"
 
 local pixels, assert_alike = images.of, images.alike
 
@@ -103,6 +104,18 @@ describe("a blurred object", function()
       for x = 0, 19 do
         assert.same({ whole:get(x + 5, y + 7) }, { part:get(x, y) })
       end
+    end
+  end)
+
+  it("continues however wide the blur is", function()
+    local art = rect(0, 0, 16, 16, "#fff")
+    for _, radius in ipairs { 1e5, 1e6 } do
+      local film = celspan.rostrum { celspan.cel { art,
+        defocus = { radius = radius, edge = "extend" } } }
+      local shown = assert(celspan.pixels(film, { size = { 16, 16 }, film = { 16, 16 } }))
+      assert.is_true(select(4, shown:get(8, 8)) > 1 - 1e-3)
+      assert.is_true(
+        select(4, pixels({ art:blur(radius, { edge = "extend" }) }, 16, 16):get(8, 8)) > 1 - 1e-3)
     end
   end)
 
@@ -274,6 +287,21 @@ describe("an outline", function()
       pixels({ large:outline { width = 6, texture = "#fd0" } }, 140, 120))
   end)
 
+  it("around an outline is one of the shape, by both widths", function()
+    local shape = (disc | bar):scale(0.5):translate(4, 4)
+    for _, join in ipairs { "round", "miter", "bevel" } do
+      local once = { width = 7, texture = "#fd0", join = join, only = true }
+      local twice = shape:outline { width = 1.5, texture = "#00f", join = join }:scale(2)
+        :outline { width = 4, texture = "#fd0", join = join, only = true }
+      assert_alike(1e-6, pixels({ shape:scale(2):outline(once) }, 72, 60),
+        pixels({ twice }, 72, 60))
+    end
+    assert_within(disc:outline { width = 2 }:blend "screen":outline { width = 2, join = "miter" },
+      { width = 3, texture = "#fff" }, 40)
+    assert_within(bar:outline { width = 2, join = "miter" }:rotate(9):scale(1, 0.8),
+      { width = 3, texture = "#fff" }, 40)
+  end)
+
   it("is behind the object, in a texture, faded, with the joins that are asked for", function()
     local square = rect(20, 20, 20, 20, "#f00")
     local by_hand = celspan.group { rect(16, 16, 28, 28, "#00f"):fade(0.5), square }
@@ -329,6 +357,44 @@ describe("an outline", function()
     local nested = disc
     for i = 1, 10 do nested = celspan.group { nested ~ rect(i, i, 40, 40) } end
     assert_within(nested, { width = 3, texture = "#fff", only = true }, 20)
+  end)
+end)
+
+describe("effects of effects", function()
+  local bench, script
+  setup(function()
+    bench = workbench.new()
+    script = bench:write("nested.lua", [[
+local celspan = require "celspan"
+local kind, depth = ...
+return celspan.film { size = { 16, 16 }, frame = function()
+  local object = celspan.rect { 6, 12, 4, 3, texture = "#c33" }
+  for i = 1, math.tointeger(tonumber(depth)) do
+    object = kind == "outline" and object:outline { width = 0.5, texture = "#fff" }
+      or kind == "glow" and object:glow { radius = 0.1, colour = "#f80" }
+      or object:shadow { offset = { 0, 0.1 }, blur = 0.1 }
+  end
+  return celspan.rostrum { celspan.cel { object } }
+end }
+]])
+  end)
+  teardown(function() bench:remove() end)
+
+  --- Allocations and the bytes that were taken at most.
+  local function count(kind, depth)
+    local code, out, err = bench:celspan("spans %s --rows 0-0 --stats -- %s %d", script, kind,
+      depth)
+    assert.are.equal(0, code, err)
+    return tonumber(out:match "allocations (%d+)"), tonumber(out:match "peak_bytes (%d+)")
+  end
+
+  it("do not double with each level", function()
+    for _, kind in ipairs { "outline", "glow", "shadow" } do
+      local few, small = count(kind, 6)
+      local many, large = count(kind, 12)
+      assert.is_true(many < 6 * few, kind .. ": " .. few .. " and " .. many .. " allocations")
+      assert.is_true(large < 6 * small, kind .. ": " .. small .. " and " .. large .. " bytes")
+    end
   end)
 end)
 

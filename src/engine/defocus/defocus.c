@@ -304,6 +304,7 @@ celspan_status cs_defocus_create(celspan_context *context, const cs_blur *blur, 
   CS_TRY(cs_defocus_bands_ready(context));
   cs_defocus *defocus;
   CS_TRY(CS_MAKE(context, defocus, 1));
+  defocus->owners = 1;
   cs_defocused *grid = &defocus->grid;
   grid->pitch_x = choose_pitch(blur, 0);
   grid->pitch_y = choose_pitch(blur, 1);
@@ -323,6 +324,7 @@ celspan_status cs_defocus_create_own(celspan_context *context, const cs_blur *bl
                                      const int32_t size[2], double samples, cs_defocus **out) {
   cs_defocus *own;
   CS_TRY(CS_MAKE(context, own, 1));
+  own->owners = 1;
   own->grid.pitch_x = own->grid.pitch_y = 1;
   init_grid(&own->grid, size[0], size[1], BAND_ROWS_OWN);
   own->blur = *blur;

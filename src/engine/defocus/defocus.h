@@ -42,6 +42,7 @@ typedef enum cs_defocus_way {
 
 typedef struct cs_defocus cs_defocus;
 struct cs_defocus {
+  size_t owners;     /* plans, layers that mix from it, the list of a frame; all of one thread */
   cs_defocused grid; /* what composing reads */
   cs_blur blur;      /* in nodes' widths */
   cs_defocus_way way;

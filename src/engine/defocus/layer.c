@@ -139,8 +139,7 @@ static celspan_status compile_plane(celspan_context *context, const cs_defocus_c
                                     cs_defocus *defocus) {
   cs_defocus_job job = {.cel = place->cel,
                         .matrix = celspan_matrix_then(place->matrix, cs_defocus_matrix(defocus)),
-                        .is_through = plane == 1,
-                        .front = plane == 1 ? &defocus->plans[0] : NULL};
+                        .is_through = plane == 1};
   cs_defocus_raster(defocus, &job.width, &job.height);
   CS_TRY(cs_defocus_kernel(context, defocus, &job.kernel));
   return compiler->compile(compiler->user, &job, &defocus->plans[plane]);
@@ -149,6 +148,7 @@ static celspan_status compile_plane(celspan_context *context, const cs_defocus_c
 /* defocus: gets the number of its planes. */
 static celspan_status compile_planes(celspan_context *context, const cs_defocus_cel *place,
                                      const cs_defocus_compiler *compiler, cs_defocus *defocus) {
+  defocus->extended = place->extended ? celspan_object_ref(place->extended) : NULL;
   CS_TRY(compile_plane(context, place, compiler, 0, defocus));
   defocus->grid.planes = 1;
   if (stack_is_grey(&defocus->plans[0].stack))
@@ -182,7 +182,56 @@ static cs_hash find_key(const cs_defocus_cel *place, const cs_blur *blur, double
   return cs_hash_end(hash);
 }
 
+/* ---------------------------------------------------------------- what was made before */
+
+/* Another owner of what has this key; NULL: there is none. */
+static cs_defocus *find_made(const cs_defocus_made *made, cs_hash key) {
+  size_t number;
+  if (!cs_hash_table_find(&made->numbers, key, &number))
+    return NULL;
+  made->list[number]->owners++;
+  return made->list[number];
+}
+
+/* Compiles what has a way, and keeps it under its key. */
+static celspan_status compile_new(celspan_context *context, const cs_defocus_cel *place,
+                                  const cs_defocus_compiler *compiler, cs_defocus *defocus) {
+  cs_defocus_made *made = compiler->made;
+  CS_TRY(compile_planes(context, place, compiler, defocus));
+  CS_TRY(CS_RESERVE(context, made->list, made->capacity, made->count + 1));
+  CS_TRY(cs_hash_table_add(&made->numbers, context, defocus->key, made->count));
+  made->list[made->count++] = defocus;
+  defocus->owners++;
+  return CELSPAN_OK;
+}
+
+void cs_defocus_made_finish(cs_defocus_made *made, celspan_context *context) {
+  for (size_t i = 0; i < made->count; i++)
+    cs_defocus_layer_unref(made->list[i], context->memory);
+  cs_mem_free(context->memory, made->list, made->capacity * sizeof(cs_defocus *));
+  cs_hash_table_finish(&made->numbers, context);
+  *made = (cs_defocus_made){0};
+}
+
 /* ---------------------------------------------------------------- the cel's own grid */
+
+static celspan_status make_own(celspan_context *context, const cs_defocus_cel *on_grid, bool varies,
+                               const cs_own_grid *grid, const cs_defocus_compiler *compiler,
+                               cs_defocus **out) {
+  const cs_hash key = find_key(on_grid, &grid->blur, grid->samples);
+  cs_defocus *own = find_made(compiler->made, key);
+  *out = own;
+  if (own)
+    return CELSPAN_OK;
+  CS_TRY(cs_defocus_create_own(context, &grid->blur, varies, grid->size, grid->samples, &own));
+  own->key = key;
+  celspan_status status = compile_new(context, on_grid, compiler, own);
+  if (status == CELSPAN_OK)
+    *out = own;
+  else
+    cs_defocus_layer_unref(own, context->memory);
+  return status;
+}
 
 /* Gives the layer the cel's own grid to mix its nodes from. */
 static celspan_status use_own(celspan_context *context, const cs_defocus_cel *place, bool varies,
@@ -193,14 +242,9 @@ static celspan_status use_own(celspan_context *context, const cs_defocus_cel *pl
   on_grid.matrix = grid->matrix;
   on_grid.width = grid->size[0];
   on_grid.height = grid->size[1];
-  CS_TRY(cs_defocus_create_own(context, &grid->blur, varies, grid->size, grid->samples, &own));
-  own->key = find_key(&on_grid, &grid->blur, grid->samples);
-  celspan_status status = compile_planes(context, &on_grid, compiler, own);
-  if (status == CELSPAN_OK)
-    cs_defocus_use_own(defocus, own, grid->scale, grid->offset);
-  else
-    cs_defocus_layer_free(own, context->memory);
-  return status;
+  CS_TRY(make_own(context, &on_grid, varies, grid, compiler, &own));
+  cs_defocus_use_own(defocus, own, grid->scale, grid->offset);
+  return CELSPAN_OK;
 }
 
 /* What is blended is made pixel by pixel, where it can be seen. */
@@ -210,21 +254,33 @@ static void use_pixels(const cs_boundary_frame *visible, cs_defocus *defocus) {
   cs_defocus_use_pixels(defocus, first, end);
 }
 
-static celspan_status make(celspan_context *context, const cs_defocus_cel *place,
-                           const cs_blur *blur, const cs_defocus_compiler *compiler,
-                           const cs_boundary_frame *visible, cs_defocus *defocus) {
-  bool varies = cel_varies(place->cel), is_own;
-  cs_own_grid grid;
-  defocus->key = find_key(place, blur, CS_DEFOCUS_SAMPLES);
-  CS_TRY(cs_own_grid_find(context, place, blur, varies, &is_own, &grid));
-  if (is_own) {
-    CS_TRY(use_own(context, place, varies, &grid, compiler, defocus));
-    if (place->is_source)
-      use_pixels(visible, defocus);
+/* A layer whose nodes are made for the frame. *defocus: is replaced where there is one already. */
+static celspan_status make_for_frame(celspan_context *context, const cs_defocus_cel *place,
+                                     bool varies, const cs_defocus_compiler *compiler,
+                                     cs_defocus **defocus) {
+  cs_defocus *before = find_made(compiler->made, (*defocus)->key);
+  if (before) {
+    cs_defocus_layer_unref(*defocus, context->memory);
+    *defocus = before;
     return CELSPAN_OK;
   }
-  CS_TRY(cs_defocus_find_way(context, defocus, varies));
-  return compile_planes(context, place, compiler, defocus);
+  CS_TRY(cs_defocus_find_way(context, *defocus, varies));
+  return compile_new(context, place, compiler, *defocus);
+}
+
+static celspan_status make(celspan_context *context, const cs_defocus_cel *place,
+                           const cs_blur *blur, const cs_defocus_compiler *compiler,
+                           const cs_boundary_frame *visible, cs_defocus **defocus) {
+  bool varies = cel_varies(place->cel), is_own;
+  cs_own_grid grid;
+  (*defocus)->key = find_key(place, blur, CS_DEFOCUS_SAMPLES);
+  CS_TRY(cs_own_grid_find(context, place, blur, varies, &is_own, &grid));
+  if (!is_own)
+    return make_for_frame(context, place, varies, compiler, defocus);
+  CS_TRY(use_own(context, place, varies, &grid, compiler, *defocus));
+  if (place->is_source)
+    use_pixels(visible, *defocus);
+  return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- life */
@@ -253,61 +309,57 @@ static celspan_status extend(celspan_context *context, const cs_defocus_cel *pla
 }
 
 static celspan_status create(celspan_context *context, const cs_defocus_cel *place,
-                             const cs_defocus_compiler *compiler, cs_defocus *made, cs_outline *box,
+                             const cs_defocus_compiler *compiler, cs_outline *box,
                              cs_defocus **out) {
   cs_blur blur = find_blur(place);
   cs_boundary_frame visible;
   cs_defocus *defocus;
   *out = NULL;
   CS_TRY(cs_defocus_create(context, &blur, place->width, place->height, &defocus));
+  celspan_status status = CELSPAN_OK;
   bool is_seen = find_box(place, &blur, &defocus->grid, &visible);
-  if (!is_seen || made) {
-    cs_defocus_free(defocus, context->memory);
-    *out = is_seen ? made : NULL;
-    return is_seen ? add_box(context, &visible, box) : CELSPAN_OK;
-  }
-  celspan_status status = make(context, place, &blur, compiler, &visible, defocus);
-  if (status == CELSPAN_OK)
+  if (is_seen)
+    status = make(context, place, &blur, compiler, &visible, &defocus);
+  if (is_seen && status == CELSPAN_OK)
     status = add_box(context, &visible, box);
-  if (status == CELSPAN_OK)
+  if (is_seen && status == CELSPAN_OK)
     *out = defocus;
   else
-    cs_defocus_layer_free(defocus, context->memory);
+    cs_defocus_layer_unref(defocus, context->memory);
   return status;
 }
 
 celspan_status cs_defocus_layer_create(celspan_context *context, const cs_defocus_cel *place,
-                                       const cs_defocus_compiler *compiler, cs_defocus *made,
-                                       cs_outline *box, cs_defocus **out) {
+                                       const cs_defocus_compiler *compiler, cs_outline *box,
+                                       cs_defocus **out) {
   const cs_blur blur = find_blur(place);
   cs_defocus_cel wider = *place;
-  celspan_object *extended;
   celspan_cel cel;
   if (place->cel->defocus_edge == CELSPAN_BLUR_CLEAR)
-    return create(context, place, compiler, made, box, out);
-  CS_TRY(extend(context, place, &blur, &extended));
+    return create(context, place, compiler, box, out);
+  CS_TRY(extend(context, place, &blur, &wider.extended));
   cs_value_copy(&cel, place->cel, sizeof cel);
-  cel.objects = &extended;
+  cel.objects = &wider.extended;
   cel.object_count = 1;
   wider.cel = &cel;
-  celspan_status status = create(context, &wider, compiler, made, box, out);
-  if (status == CELSPAN_OK && *out && !(*out)->extended)
-    (*out)->extended = celspan_object_ref(extended);
-  celspan_object_unref(extended);
+  celspan_status status = create(context, &wider, compiler, box, out);
+  celspan_object_unref(wider.extended);
   return status;
 }
 
 void cs_defocus_layer_free_plan(cs_plan *plan, cs_memory *memory) {
-  for (size_t i = 0; i < plan->defocus_count && !plan->borrows_defocus; i++)
-    cs_defocus_layer_free(plan->defocus[i], memory);
+  for (size_t i = 0; i < plan->defocus_count; i++)
+    cs_defocus_layer_unref(plan->defocus[i], memory);
   cs_plan_finish(plan, memory);
 }
 
-void cs_defocus_layer_free(cs_defocus *defocus, cs_memory *memory) {
+void cs_defocus_layer_unref(cs_defocus *defocus, cs_memory *memory) {
+  if (--defocus->owners > 0)
+    return;
   cs_defocus_layer_free_plan(&defocus->plans[0], memory);
   cs_defocus_layer_free_plan(&defocus->plans[1], memory);
   celspan_object_unref(defocus->extended);
   if (defocus->own)
-    cs_defocus_layer_free(defocus->own, memory);
+    cs_defocus_layer_unref(defocus->own, memory);
   cs_defocus_free(defocus, memory);
 }

@@ -23,6 +23,7 @@
  */
 #pragma once
 
+#include "base/hash_table.h"
 #include "engine/defocus/own_grid.h"
 
 /* A job for the compiler: one cel alone, without its opacity, onto a raster of its own. It is lit
@@ -32,27 +33,35 @@ typedef struct cs_defocus_job {
   celspan_matrix matrix; /* the cel's units to the raster's pixels */
   int32_t width, height; /* of the raster, pixels */
   bool is_through;
-  /* is_through: the plan of the same job from the front, of which this one borrows the defocused
-   * cels, so that the work does not double with each level of nesting; else NULL. */
-  const cs_plan *front;
   cs_kernel *kernel; /* the compiler owns it from now on; NULL: the mean over each pixel */
 } cs_defocus_job;
+
+/* What was blurred for a frame, by keys: what is seen in several places, such as a glow in the glow
+ * of a glow, is compiled once, so that the work does not double with each level of nesting. All
+ * zero is empty. */
+typedef struct cs_defocus_made {
+  cs_hash_table numbers;
+  cs_defocus **list;
+  size_t count, capacity;
+} cs_defocus_made;
+
+void cs_defocus_made_finish(cs_defocus_made *made, celspan_context *context);
 
 typedef struct cs_defocus_compiler {
   celspan_status (*compile)(void *user, const cs_defocus_job *job, cs_plan *out);
   void *user;
+  cs_defocus_made *made; /* for the frame until now */
 } cs_defocus_compiler;
 
 /* Whether the blur of the cel is large enough to be visible. */
 bool cs_defocus_layer_is_needed(const cs_defocus_cel *place);
-/* *out: new, or `made` where the layer was made before; NULL when nothing can be seen. box: gets
- * the rectangle, in whole pixels, in which the layer is present. Errors: NO_MEMORY, and those of
- * the compiler. */
+/* *out: another owner of what was made before, or new; NULL when nothing can be seen. box: gets the
+ * rectangle, in whole pixels, in which the layer is present. Errors: NO_MEMORY, and those of the
+ * compiler. */
 CELSPAN_CHECKED celspan_status cs_defocus_layer_create(celspan_context *context,
                                                        const cs_defocus_cel *place,
                                                        const cs_defocus_compiler *compiler,
-                                                       cs_defocus *made, cs_outline *box,
-                                                       cs_defocus **out);
-void cs_defocus_layer_free(cs_defocus *defocus, cs_memory *memory);
-/* Frees what a plan holds, its defocused cels too, unless they are borrowed. */
+                                                       cs_outline *box, cs_defocus **out);
+void cs_defocus_layer_unref(cs_defocus *defocus, cs_memory *memory);
+/* Frees what a plan holds, its defocused cels too. */
 void cs_defocus_layer_free_plan(cs_plan *plan, cs_memory *memory);

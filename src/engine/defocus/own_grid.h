@@ -26,15 +26,16 @@
 /* A cel of a frame. */
 typedef struct cs_defocus_cel {
   const celspan_rostrum *rostrum;
-  const celspan_cel *cel;   /* of the rostrum, or extended (layer.c) */
+  const celspan_cel *cel;   /* of the rostrum, or like one, with the object below alone */
   celspan_matrix to_pixels; /* film units to pixels */
   double film_width, film_height;
   celspan_matrix matrix;   /* the cel's units to pixels */
   cs_boundary_frame frame; /* the part of the plane that can be seen, its margin included */
   int32_t width, height;   /* of the frame, pixels */
   bool is_antialiased;
-  celspan_space space; /* in which it is blurred */
-  bool is_source;      /* a mode or a matte shows it pixel by pixel */
+  celspan_space space;      /* in which it is blurred */
+  bool is_source;           /* a mode or a matte shows it pixel by pixel */
+  celspan_object *extended; /* a cel's objects, continued (layer.c); NULL: as they are */
 } cs_defocus_cel;
 
 typedef struct cs_own_grid {

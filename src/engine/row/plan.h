@@ -21,13 +21,13 @@ typedef struct cs_plan {
   int32_t margin;        /* pixels beyond the frame, on all sides, that rows may need */
   celspan_antialias_mode antialias;
   cs_kernel *kernel; /* owned; NULL: rows are not filtered */
-  /* The defocused cels: stack.defocused[i] is the grid of defocus[i]. Freed by cs_compile_free,
-   * unless they are those of another plan, which lives as long. */
+  /* The defocused cels: stack.defocused[i] is the grid of defocus[i]. Owned, with others; let go by
+   * cs_compile_free. */
   struct cs_defocus **defocus;
   size_t defocus_count, defocus_capacity;
-  bool borrows_defocus;
-  size_t dash_count; /* in view, of strokes that are not defocused */
-  bool is_crowded;   /* there were more than allowed: outlines are missing, so it has no rows */
+  size_t dash_count;    /* in view, of strokes that are not defocused */
+  bool stays_on_thread; /* a procedure or a surface in it must be called by the rendering thread */
+  bool is_crowded;      /* there were more than allowed: outlines are missing, so it has no rows */
 } cs_plan;
 
 /* Frees what a plan holds, except for its defocused cels. */

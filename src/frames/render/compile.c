@@ -8,6 +8,7 @@
 #include "frames/render/objects.h"
 #include "frames/render/patterns.h"
 #include "frames/render/through.h"
+#include "model/pictures/surface.h"
 
 /* ---------------------------------------------------------------- what is hidden */
 
@@ -142,15 +143,13 @@ static celspan_status compile_alone(void *user, const cs_defocus_job *job, cs_pl
 static celspan_status compile_defocused(cs_compiler *c, const cs_defocus_cel *place) {
   cs_plan *plan = c->plan;
   cs_stack *stack = &plan->stack;
-  const cs_defocus_compiler alone = {compile_alone, c};
+  const cs_defocus_compiler alone = {compile_alone, c, c->blurs};
   cs_outline box;
   CS_TRY(CS_COMPILER_APPEND(c, defocused, defocused_count, defocused_capacity));
   CS_TRY(CS_RESERVE(c->context, plan->defocus, plan->defocus_capacity, plan->defocus_count + 1));
   cs_outline_init(&box);
-  cs_defocus *defocus = NULL, *made = NULL;
-  if (c->front_plan && plan->defocus_count < c->front_plan->defocus_count)
-    made = c->front_plan->defocus[plan->defocus_count];
-  celspan_status status = cs_defocus_layer_create(c->context, place, &alone, made, &box, &defocus);
+  cs_defocus *defocus;
+  celspan_status status = cs_defocus_layer_create(c->context, place, &alone, &box, &defocus);
   if (status == CELSPAN_OK && defocus) {
     plan->defocus[plan->defocus_count++] = defocus;
     stack->defocused[stack->defocused_count] = &defocus->grid;
@@ -191,12 +190,19 @@ static bool is_source(const cs_compiler *c) {
 static celspan_status compile_paint(cs_compiler *c, const celspan_rostrum *rostrum, size_t index,
                                     const celspan_matrix *matrix, const cs_compiler_film *film) {
   const celspan_cel *cel = rostrum->cels[index];
-  const cs_defocus_cel place = {rostrum,         cel,
-                                film->to_pixels, film->width,
-                                film->height,    *matrix,
-                                c->frame,        c->plan->width,
-                                c->plan->height, c->plan->antialias != CELSPAN_ANTIALIAS_NONE,
-                                c->space,        is_source(c)};
+  const cs_defocus_cel place = {rostrum,
+                                cel,
+                                film->to_pixels,
+                                film->width,
+                                film->height,
+                                *matrix,
+                                c->frame,
+                                c->plan->width,
+                                c->plan->height,
+                                c->plan->antialias != CELSPAN_ANTIALIAS_NONE,
+                                c->space,
+                                is_source(c),
+                                NULL};
   bool is_defocused = cs_defocus_layer_is_needed(&place);
   cs_objects_outside outer;
   cs_lights_front front;
@@ -318,9 +324,32 @@ static void begin(cs_compiler *c, cs_boundary_builder *boundaries, celspan_conte
   cs_boundary_builder_init(boundaries, context, &plan->boundaries, &c->frame);
 }
 
+/* ---------------------------------------------------------------- a plan */
+
+/* picture: may be NULL. */
+static bool picture_stays_on_thread(const cs_picture *picture) {
+  return picture && picture->surface && cs_surface_stays_on_thread(picture->surface);
+}
+
+static bool stays_on_thread(const cs_plan *plan) {
+  for (size_t k = 0; k < plan->stack.procedure_count; k++)
+    if (!plan->stack.procedures[k].desc->any_thread)
+      return true;
+  for (size_t k = 0; k < plan->stack.image_count; k++) {
+    const cs_texture_variation *variation = plan->stack.images[k].texture->variation;
+    if (picture_stays_on_thread(variation->picture) || picture_stays_on_thread(variation->medium))
+      return true;
+  }
+  for (size_t k = 0; k < plan->defocus_count; k++)
+    if (cs_defocus_plan(plan->defocus[k])->stays_on_thread)
+      return true;
+  return false;
+}
+
 /* status: that of compiling. The plan is given away, or freed. */
 static celspan_status finish(cs_compiler *c, celspan_status status, cs_plan *out) {
   cs_boundary_builder_finish(c->boundaries);
+  c->plan->stays_on_thread = status == CELSPAN_OK && stays_on_thread(c->plan);
   if (status == CELSPAN_OK)
     *out = *c->plan;
   else
@@ -339,13 +368,16 @@ celspan_status cs_compile(celspan_context *context, const celspan_rostrum *rostr
   cs_compiler c;
   cs_boundary_builder boundaries;
   cs_patterns patterns = {0};
+  cs_defocus_made blurs = {0};
   begin(&c, &boundaries, context, &plan, view);
   c.workers = workers;
   c.patterns = &patterns;
+  c.blurs = &blurs;
   plan.stack.span_error = view->span_error;
   plan.stack.space = view->space;
   celspan_status status = compile_rostrum(&c, rostrum, view->film_width, view->film_height);
   cs_patterns_finish(&patterns, context->memory);
+  cs_defocus_made_finish(&blurs, context);
   return finish(&c, status, out);
 }
 
@@ -367,8 +399,7 @@ static celspan_status compile_raster(const cs_compiler *outer, const cs_defocus_
   cs_plan plan = {.width = job->width,
                   .height = job->height,
                   .margin = job->kernel ? cs_kernel_extent(job->kernel) : 0,
-                  .kernel = job->kernel,
-                  .borrows_defocus = job->front != NULL};
+                  .kernel = job->kernel};
   cs_compiler c;
   cs_boundary_builder boundaries;
   const cs_view view = {.end_row = job->height,
@@ -376,8 +407,8 @@ static celspan_status compile_raster(const cs_compiler *outer, const cs_defocus_
                         .most_dashes = most_dashes,
                         .space = outer->space};
   begin(&c, &boundaries, outer->context, &plan, &view);
-  c.front_plan = job->front;
   c.patterns = outer->patterns;
+  c.blurs = outer->blurs;
   c.workers = 1;
   c.cel = outer->cel;
   c.mark = outer->mark;
@@ -391,15 +422,18 @@ static celspan_status compile_alone(void *user, const cs_defocus_job *job, cs_pl
 celspan_status cs_compile_drawing(celspan_context *context, const celspan_cel *cel, size_t number,
                                   const celspan_matrix *matrix, const cs_view *view, cs_plan *out) {
   cs_patterns patterns = {0};
+  cs_defocus_made blurs = {0};
   const cs_compiler outer = {.context = context,
                              .cel = number,
                              .mark = cel->mark,
                              .space = view->space,
-                             .patterns = &patterns};
+                             .patterns = &patterns,
+                             .blurs = &blurs};
   const cs_defocus_job job = {
       .cel = cel, .matrix = *matrix, .width = view->width, .height = view->height};
   celspan_status status = compile_raster(&outer, &job, view->most_dashes, out);
   cs_patterns_finish(&patterns, context->memory);
+  cs_defocus_made_finish(&blurs, context);
   return status;
 }
 

@@ -44,7 +44,8 @@ typedef struct cs_compiler_isolation {
 } cs_compiler_isolation;
 
 struct cs_defocus_job; /* engine/defocus/layer.h */
-struct cs_patterns;    /* patterns.h */
+struct cs_defocus_made;
+struct cs_patterns; /* patterns.h */
 
 typedef struct cs_compiler cs_compiler;
 struct cs_compiler {
@@ -69,8 +70,9 @@ struct cs_compiler {
   uint32_t results; /* is_nested: those that the trees inside it have left so far */
   bool fades_out;   /* inside something faded to nothing: present, but clear */
   cs_compiler_census census;
-  const cs_plan *front_plan;    /* the same lit from the front, whose defocused cels are borrowed */
-  struct cs_patterns *patterns; /* of the frame; shared by copies, and by what is compiled alone */
+  /* Of the frame; shared by copies, and by what is compiled alone. */
+  struct cs_patterns *patterns;
+  struct cs_defocus_made *blurs;
   /* Compiles one cel alone, as for a defocused one, and frees its plan. user: the compiler. */
   celspan_status (*compile_alone)(void *user, const struct cs_defocus_job *job, cs_plan *out);
   void (*free_alone)(cs_plan *plan, cs_memory *memory);

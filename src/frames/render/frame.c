@@ -1,10 +1,8 @@
 #include "frames/render/frame.h"
 
 #include "base/number.h"
-#include "engine/defocus/defocus.h"
 #include "frames/render/compile.h"
 #include "frames/render/drawings.h"
-#include "model/pictures/surface.h"
 #include "model/scene/check.h"
 
 #include <unistd.h>
@@ -64,29 +62,9 @@ static void set_crop(cs_frame *frame, const celspan_frame_desc *desc) {
   frame->crop_height = is_whole ? desc->height : desc->crop_height;
 }
 
-/* picture: may be NULL. */
-static bool picture_stays_on_thread(const cs_picture *picture) {
-  return picture && picture->surface && cs_surface_stays_on_thread(picture->surface);
-}
-
-static bool stays_on_thread(const cs_plan *plan) {
-  for (size_t k = 0; k < plan->stack.procedure_count; k++)
-    if (!plan->stack.procedures[k].desc->any_thread)
-      return true;
-  for (size_t k = 0; k < plan->stack.image_count; k++) {
-    const cs_texture_variation *variation = plan->stack.images[k].texture->variation;
-    if (picture_stays_on_thread(variation->picture) || picture_stays_on_thread(variation->medium))
-      return true;
-  }
-  for (size_t k = 0; k < plan->defocus_count; k++)
-    if (stays_on_thread(cs_defocus_plan(plan->defocus[k])))
-      return true;
-  return false;
-}
-
 static bool sheets_stay_on_thread(const cs_map_frame *frame) {
   for (size_t i = 0; i < frame->count; i++)
-    if (frame->sheets[i].plan && stays_on_thread(frame->sheets[i].plan))
+    if (frame->sheets[i].plan && frame->sheets[i].plan->stays_on_thread)
       return true;
   return false;
 }
@@ -94,7 +72,7 @@ static bool sheets_stay_on_thread(const cs_map_frame *frame) {
 /* Procedures and surfaces that must stay on the rendering thread leave one worker. */
 static bool needs_one_thread(const cs_frame *frame) {
   for (size_t i = 0; i < frame->count; i++)
-    if (stays_on_thread(&frame->plans[i]) || sheets_stay_on_thread(&frame->maps[i]))
+    if (frame->plans[i].stays_on_thread || sheets_stay_on_thread(&frame->maps[i]))
       return true;
   return false;
 }

@@ -352,15 +352,15 @@ static celspan_status check_outline(celspan_context *context, const celspan_obje
 
 /* The texture where the object or anything within the width of it is. */
 static celspan_status outline_vector(celspan_context *context, celspan_object *object,
-                                     const celspan_outline_desc *desc, celspan_object **out) {
-  const cs_grow look = {desc->width, desc->join};
+                                     const cs_grow *how, celspan_texture *texture,
+                                     celspan_object **out) {
   celspan_object *grown, *ground = NULL;
   celspan_box box = {0};
   bool is_there;
-  CS_TRY(cs_grow_object(context, object, &look, &grown));
+  CS_TRY(cs_grow_object(context, object, how, &grown));
   celspan_status status = cs_bounds_object(context, grown, &is_there, &box);
   if (status == CELSPAN_OK)
-    status = make_ground(context, &box, 0, desc->texture, &ground);
+    status = make_ground(context, &box, 0, texture, &ground);
   celspan_object *const both[] = {ground, grown};
   if (status == CELSPAN_OK)
     status = celspan_object_create_boolean(context, CELSPAN_CLIP, both, 2, out);
@@ -422,11 +422,15 @@ static celspan_status add_outline(celspan_context *context, celspan_object *obje
                                   const void *user, celspan_object **outline) {
   const celspan_outline_desc *desc = user;
   const silhouette look = {.radius = desc->blur, .gain = 1};
-  CS_TRY(cs_grow_is_vector(object) ? outline_vector(context, object, desc, outline)
-                                   : outline_alpha(context, object, desc, outline));
+  const cs_grow how = {desc->width, desc->join};
+  const bool is_vector = cs_grow_is_vector(object);
+  CS_TRY(is_vector ? outline_vector(context, object, &how, desc->texture, outline)
+                   : outline_alpha(context, object, desc, outline));
   CS_TRY(blur_silhouette(context, outline, &look));
   CS_TRY(fade(context, outline, desc->opacity));
-  return desc->is_alone ? CELSPAN_OK : join(context, outline, object, false);
+  if (!desc->is_alone)
+    CS_TRY(join(context, outline, object, false));
+  return is_vector && desc->blur == 0 ? cs_grow_note(context, *outline, object, &how) : CELSPAN_OK;
 }
 
 celspan_status celspan_object_outline(celspan_context *context, celspan_object *object,

@@ -1,10 +1,14 @@
 #include "model/scene/grow.h"
 
+#include <math.h>
+
 #include "base/number.h"
 #include "model/geometry/matrix.h"
 #include "model/scene/pattern.h"
 #include "model/scene/primitive_data.h"
 #include "model/stroke/outliner.h"
+
+#define ALIKE 1e-9 /* lengths that differ by less, in their squares, are alike */
 
 /* ---------------------------------------------------------------- what is grown how */
 
@@ -25,11 +29,16 @@ typedef struct grower {
   const cs_grow *how;
 } grower;
 
-/* What an object grows to, and what it shrinks to. Both are made at once, since an xor needs both
- * of its operands: nested ones would be made again at every level. */
+/* What an object grows to, and what it shrinks to, as far as they are wanted; else NULL. Both are
+ * made at once, since an xor needs both of its operands: nested ones would be made again at every
+ * level. */
 typedef struct sizes {
   celspan_object *grown, *shrunk;
 } sizes;
+
+typedef struct wanted {
+  bool grown, shrunk;
+} wanted;
 
 static void drop(sizes *both) {
   celspan_object_unref(both->grown);
@@ -45,9 +54,10 @@ static celspan_status combine(const grower *g, celspan_operator op, celspan_obje
 
 /* The shape with a rim around its outline, and without. */
 static celspan_status add_rim(const grower *g, celspan_object *shape, celspan_object *rim,
-                              sizes *out) {
-  CS_TRY(combine(g, CELSPAN_UNION, shape, rim, &out->grown));
-  return combine(g, CELSPAN_DIFFERENCE, shape, rim, &out->shrunk);
+                              wanted want, sizes *out) {
+  if (want.grown)
+    CS_TRY(combine(g, CELSPAN_UNION, shape, rim, &out->grown));
+  return want.shrunk ? combine(g, CELSPAN_DIFFERENCE, shape, rim, &out->shrunk) : CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- primitives */
@@ -121,17 +131,19 @@ static celspan_status make_rim(const grower *g, const cs_primitive_data *data,
  * around the whole. */
 static celspan_status grow_primitive(const grower *g, celspan_object *object,
                                      const cs_primitive_data *data, const celspan_matrix *around,
-                                     sizes *out) {
+                                     wanted want, sizes *out) {
   const celspan_matrix whole = celspan_matrix_then(*object->matrix, *around);
   celspan_object *shape, *rim = NULL;
   CS_TRY(celspan_object_transform(g->context, object, around, &shape));
   if (data->is_empty) {
-    *out = (sizes){shape, celspan_object_ref(shape)};
+    out->grown = want.grown ? celspan_object_ref(shape) : NULL;
+    out->shrunk = want.shrunk ? celspan_object_ref(shape) : NULL;
+    celspan_object_unref(shape);
     return CELSPAN_OK;
   }
   celspan_status status = make_rim(g, data, &whole, &rim);
   if (status == CELSPAN_OK)
-    status = add_rim(g, shape, rim, out);
+    status = add_rim(g, shape, rim, want, out);
   celspan_object_unref(shape);
   celspan_object_unref(rim);
   return status;
@@ -140,16 +152,19 @@ static celspan_status grow_primitive(const grower *g, celspan_object *object,
 /* ---------------------------------------------------------------- booleans */
 
 static celspan_status grow_any(const grower *g, celspan_object *object,
-                               const celspan_matrix *around, sizes *out);
+                               const celspan_matrix *around, wanted want, sizes *out);
 
-/* The operands of a boolean, grown, and after them the same ones shrunk. */
+/* The operands of a boolean, as it needs them when it is grown, and after them as it needs them
+ * when it is shrunk. */
 static celspan_status grow_operands(const grower *g, const cs_boolean *boolean,
-                                    const celspan_matrix *around, celspan_object **list) {
+                                    const celspan_matrix *around, wanted want,
+                                    celspan_object **list) {
   const size_t count = boolean->operand_count;
   for (size_t i = 0; i < count; i++) {
     sizes both = {NULL, NULL};
-    celspan_status status = grow_any(g, boolean->operands[i], around, &both);
     const bool is_taken_off = boolean->op == CELSPAN_DIFFERENCE && i > 0;
+    const wanted of_it = is_taken_off ? (wanted){want.shrunk, want.grown} : want;
+    celspan_status status = grow_any(g, boolean->operands[i], around, of_it, &both);
     list[i] = is_taken_off ? both.shrunk : both.grown;
     list[count + i] = is_taken_off ? both.grown : both.shrunk;
     CS_TRY(status);
@@ -159,7 +174,8 @@ static celspan_status grow_operands(const grower *g, const cs_boolean *boolean,
 
 /* An xor has all outlines of its operands. */
 static celspan_status grow_xor(const grower *g, celspan_object *object,
-                               const celspan_matrix *around, celspan_object **list, sizes *out) {
+                               const celspan_matrix *around, wanted want, celspan_object **list,
+                               sizes *out) {
   const size_t count = object->data->boolean->operand_count;
   celspan_object *shape = NULL, *rim = NULL;
   for (size_t i = 0; i < count; i++) {
@@ -171,44 +187,114 @@ static celspan_status grow_xor(const grower *g, celspan_object *object,
   CS_TRY(celspan_object_create_boolean(g->context, CELSPAN_UNION, list, count, &rim));
   celspan_status status = celspan_object_transform(g->context, object, around, &shape);
   if (status == CELSPAN_OK)
-    status = add_rim(g, shape, rim, out);
+    status = add_rim(g, shape, rim, want, out);
   celspan_object_unref(shape);
   celspan_object_unref(rim);
   return status;
 }
 
-static celspan_status join_operands(const grower *g, const cs_boolean *boolean,
+static celspan_status join_operands(const grower *g, const cs_boolean *boolean, wanted want,
                                     celspan_object **list, sizes *out) {
   const size_t count = boolean->operand_count;
   const celspan_operator op = boolean->op == CELSPAN_CLIP ? CELSPAN_INTERSECTION : boolean->op;
   celspan_object **shrunk = count > 0 ? list + count : NULL; /* one of nothing has no list */
-  CS_TRY(celspan_object_create_boolean(g->context, op, list, count, &out->grown));
-  return celspan_object_create_boolean(g->context, op, shrunk, count, &out->shrunk);
+  if (want.grown)
+    CS_TRY(celspan_object_create_boolean(g->context, op, list, count, &out->grown));
+  return want.shrunk ? celspan_object_create_boolean(g->context, op, shrunk, count, &out->shrunk)
+                     : CELSPAN_OK;
 }
 
 static celspan_status grow_boolean(const grower *g, celspan_object *object,
-                                   const celspan_matrix *around, sizes *out) {
+                                   const celspan_matrix *around, wanted want, sizes *out) {
   const cs_boolean *boolean = object->data->boolean;
+  const wanted both = {true, true}, of_them = boolean->op == CELSPAN_XOR ? both : want;
   const celspan_matrix whole = celspan_matrix_then(*object->matrix, *around);
   const size_t count = 2 * boolean->operand_count;
   celspan_object **list = cs_mem_array(g->context->memory, count, sizeof *list);
   if (!list && count > 0)
     return cs_fail_memory(g->context);
-  celspan_status status = grow_operands(g, boolean, &whole, list);
+  celspan_status status = grow_operands(g, boolean, &whole, of_them, list);
   if (status == CELSPAN_OK)
-    status = boolean->op == CELSPAN_XOR ? grow_xor(g, object, around, list, out)
-                                        : join_operands(g, boolean, list, out);
+    status = boolean->op == CELSPAN_XOR ? grow_xor(g, object, around, want, list, out)
+                                        : join_operands(g, boolean, want, list, out);
   cs_primitive_data_list_free(g->context->memory, list, count);
   return status;
 }
 
-/* Recursion ends: nesting is at most CS_SCENE_DEPTH. After an error *out is empty. */
+/* ---------------------------------------------------------------- cores */
+
+/* A core in its place, and how it is grown there. */
+typedef struct placed_core {
+  celspan_object *object; /* borrowed */
+  celspan_matrix matrix;
+  cs_grow how;
+} placed_core;
+
+/* What a matrix scales all lengths by; false where these differ. */
+static bool find_scale(const celspan_matrix *matrix, double *scale) {
+  const double *m = matrix->m;
+  const double across = m[0] * m[0] + m[3] * m[3], down = m[1] * m[1] + m[4] * m[4];
+  *scale = sqrt(across);
+  return cs_matrix_keeps_weights(matrix) && fabs(across - down) <= ALIKE * across &&
+         fabs(m[0] * m[1] + m[3] * m[4]) <= ALIKE * across;
+}
+
+/* An object with a mode, or named as a group, may be around what has a core. */
+static const celspan_object *find_inner(const celspan_object *object, celspan_matrix *matrix) {
+  const cs_primitive_data *data = object->data;
+  while (data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->op == CELSPAN_UNION &&
+         data->boolean->operand_count == 1 && !data->boolean->core.object) {
+    object = data->boolean->operands[0];
+    data = object->data;
+    *matrix = celspan_matrix_then(*object->matrix, *matrix);
+  }
+  return object;
+}
+
+/* Whether what an object grows to is its core, grown farther. */
+static bool find_core(const cs_grow *how, const celspan_object *object,
+                      const celspan_matrix *around, placed_core *out) {
+  double scale;
+  out->matrix = celspan_matrix_then(*object->matrix, *around);
+  const cs_primitive_data *data = find_inner(object, &out->matrix)->data;
+  if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN || !data->boolean->core.object)
+    return false;
+  const cs_core *core = &data->boolean->core;
+  if ((core->join != CELSPAN_JOIN_ROUND && core->join != how->join) ||
+      !find_scale(&out->matrix, &scale))
+    return false;
+  out->object = core->object;
+  out->how = (cs_grow){scale * core->width + how->width, core->join};
+  return true;
+}
+
+celspan_status cs_grow_note(celspan_context *context, celspan_object *boolean,
+                            celspan_object *object, const cs_grow *grow) {
+  const celspan_matrix identity = celspan_matrix_identity();
+  placed_core core = {object, identity, *grow};
+  if (!find_core(grow, object, &identity, &core))
+    core = (placed_core){object, identity, *grow};
+  celspan_object *placed;
+  CS_TRY(celspan_object_transform(context, core.object, &core.matrix, &placed));
+  boolean->data->boolean->core = (cs_core){placed, core.how.width, core.how.join};
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- objects */
+
+/* Recursion ends: nesting is at most CS_SCENE_DEPTH, and the core of a core has other joins. After
+ * an error *out is empty. */
 static celspan_status grow_any(const grower *g, celspan_object *object,
-                               const celspan_matrix *around, sizes *out) {
+                               const celspan_matrix *around, wanted want, sizes *out) {
+  placed_core core;
+  if (!want.shrunk && find_core(g->how, object, around, &core)) {
+    const grower farther = {g->context, &core.how};
+    return grow_any(&farther, core.object, &core.matrix, want, out);
+  }
   const cs_primitive_data *data = cs_pattern_shape(object->data);
   celspan_status status = data->kind == CS_PRIMITIVE_DATA_BOOLEAN
-                              ? grow_boolean(g, object, around, out)
-                              : grow_primitive(g, object, data, around, out);
+                              ? grow_boolean(g, object, around, want, out)
+                              : grow_primitive(g, object, data, around, want, out);
   if (status != CELSPAN_OK)
     drop(out);
   return status;
@@ -218,9 +304,8 @@ celspan_status cs_grow_object(celspan_context *context, celspan_object *object, 
                               celspan_object **out) {
   const grower g = {context, grow};
   const celspan_matrix identity = celspan_matrix_identity();
-  sizes both = {NULL, NULL};
-  CS_TRY(grow_any(&g, object, &identity, &both));
-  *out = celspan_object_ref(both.grown);
-  drop(&both);
+  sizes made = {NULL, NULL};
+  CS_TRY(grow_any(&g, object, &identity, (wanted){.grown = true}, &made));
+  *out = made.grown;
   return CELSPAN_OK;
 }

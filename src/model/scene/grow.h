@@ -7,6 +7,10 @@
  *     a difference    what the first grows to, without what the       '-----------'
  *                     others shrink to
  *
+ * What an outline was added to is present where that object is, grown: its core. The outline of an
+ * outline with the same joins, or of one with round joins, is made of the core, by both widths
+ * together, so that outlines around each other do not multiply.
+ *
  * INVARIANT: what is made is a tree of vector shapes, exact at every size. Where the outlines of
  * the operands of an intersection or a difference cross, it has the corner in which the grown
  * outlines meet, and joins of strokes everywhere else.
@@ -28,3 +32,8 @@ bool cs_grow_is_vector(const celspan_object *object);
  * NO_MEMORY, LIMIT; BAD_ARGUMENT where an outline reaches the horizon of its perspective. */
 CELSPAN_CHECKED celspan_status cs_grow_object(celspan_context *context, celspan_object *object,
                                               const cs_grow *grow, celspan_object **out);
+
+/* Notes of a new boolean that it is present where an object is that was grown so. Errors:
+ * NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_grow_note(celspan_context *context, celspan_object *boolean,
+                                            celspan_object *object, const cs_grow *grow);

@@ -85,6 +85,13 @@ typedef enum cs_primitive_data_kind {
  * a point is what the first is faded by. */
 #define CS_OPERATOR_MATTE ((celspan_operator)(CELSPAN_CLIP + 1))
 
+/* What a boolean is known to be present where: where an object is, grown (model/scene/grow.h). */
+typedef struct cs_core {
+  celspan_object *object; /* in the boolean's units; NULL: nothing is known. A reference */
+  double width;
+  celspan_stroke_join join;
+} cs_core;
+
 /* What only booleans have. A group is a union, and so is an object with a mode of its own. */
 typedef struct cs_boolean {
   celspan_operator op;
@@ -96,6 +103,7 @@ typedef struct cs_boolean {
   bool is_luma;              /* MATTE: the strength is luma, not alpha */
   bool inverts;              /* MATTE: 1 less the strength */
   bool is_filled;            /* CLIP: the plane of a pattern, and the primitive that it fills */
+  cs_core core;              /* of an outline; no part of the hash, since it shows in nothing */
   cs_operands view;          /* keeps the operands */
   celspan_object **operands; /* those of the view */
   size_t operand_count;
