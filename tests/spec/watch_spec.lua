@@ -358,6 +358,20 @@ describe("the server of celspan watch", function()
     assert.is_nil(by_frame[4].file)
   end)
 
+  it("has renderers that answer the next request after one that they cannot answer", function()
+    bench:write("requests", (">s4s4s4"):pack('{"want":"none"}', '{"want":"frame","number":1}',
+      '{"want":"film"}'))
+    local code, out = bench:inside(("'%s' stage shot.lua <requests"):format(workbench.absolute))
+    assert.equal(0, code)
+    local good, at = {}, 1
+    while at <= #out do
+      local message
+      message, at = (">s4"):unpack(out, at)
+      good[#good + 1] = json.decode((">s4"):unpack(message)).good
+    end
+    assert.same({ false, false, true }, good)
+  end)
+
   it("ends its renderers with itself", function()
     local address = watch()
     speak(address, [=[return (await web.get("/frame/1.png")).status;]=])
@@ -585,7 +599,7 @@ describe("the page of celspan watch #plain", function()
 
   it("plays alone, without bars, with celspan play, whose commands have no token", function()
     bench:inside "mkdir bin"
-    bench:write("bin/xdg-open", ('#!/bin/sh\nps ax -o args >%s/seen\necho "$@" >%s/opened\n')
+    bench:write("bin/xdg-open", ('#!/bin/sh\ncat /proc/[0-9]*/cmdline 2>/dev/null >%s/seen\necho "$@" >%s/opened\n')
       :format(bench.folder, bench.folder))
     bench:inside "chmod +x bin/xdg-open"
     local path = watching.start(("PATH=%s/bin:$PATH XDG_RUNTIME_DIR=%s exec '%s' play shot.lua "

@@ -119,7 +119,10 @@ function renderers:listen(one)
   one.job, one.used = nil, program.clock()
   local text, at = (">s4"):unpack(message)
   local head = json.decode(text)
-  if not head then return false end
+  if not head then
+    job.failed("the renderer's answer cannot be read", 500)
+    return false
+  end
   self.note_files(head.files)
   if head.good then
     job.done(head, message:sub(at))
