@@ -495,7 +495,7 @@ local celspan = require "celspan"
 local multiplane = require "celspan.multiplane"
 return celspan.film { size = { 40, 20 }, frames = 12, frame = function(f)
   local ground = celspan.rect { 0, 0, 40, 20, texture = "#fff" }
-  local ball = celspan.rect { 3 * f.index, 0, 9, 20, texture = "#000" }
+  local ball = celspan.rect { 3 * f.index, 0, 9, 20, texture = celspan.rgb(f.index / 20, 0, 0) }
   return %s
 end }]]):format(cels)
   end
