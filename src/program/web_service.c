@@ -49,19 +49,20 @@ static int descriptor(lua_State *L) {
   return 1;
 }
 
-/* web:take() -> { id =, method =, target =, host =, origin =, token =, body = } | nil */
+/* web:take() -> { id =, method =, target =, host =, origin =, token =, site =, body = } | nil */
 static int take(lua_State *L) {
   const server *s = self(L);
   const cs_web_request *request = s->module->take(s->web);
   if (!request)
     return 0;
-  lua_createtable(L, 0, 7);
+  lua_createtable(L, 0, 8);
   cs_put_integer(L, "id", (lua_Integer)request->id);
   cs_put_text(L, "method", request->method);
   cs_put_text(L, "target", request->target);
   cs_put_text(L, "host", request->host);
   cs_put_text(L, "origin", request->origin);
   cs_put_text(L, "token", request->token);
+  cs_put_text(L, "site", request->site);
   lua_pushlstring(L, request->body, request->body_size);
   lua_setfield(L, -2, "body");
   return 1;

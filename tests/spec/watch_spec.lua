@@ -82,6 +82,8 @@ describe("the server of celspan watch", function()
         [film, { headers: { Origin: "null" } }],
         ["/film.json", head(token.slice(1))], ["/film.json", head(token + "0")],
         ["/film.json", { headers: { Cookie: `celspan-${port}=${token}; token=${token}` } }],
+        ["/page.js", { headers: { "Sec-Fetch-Site": "cross-site" } }],
+        ["/page.js", { headers: { "Sec-Fetch-Site": "same-site" } }],
         [film, { method: "POST" }]]);
       const doubled = await web.statuses([
         [film, { headers: { Host: `127.0.0.1:${port}\r\nHost: evil.example` } }],
@@ -105,15 +107,16 @@ describe("the server of celspan watch", function()
         [film, { headers: { Host: "localhost:" + port } }],
         [film, { headers: { Origin: own } }]]);
       const page = await web.get("/");
+      const led = await web.ask("/", { headers: { "Sec-Fetch-Site": "cross-site" } });
       return { refused, doubled, methods, paths, sizes, lengths, nameless, admitted,
-               page: page.head,
+               page: page.head, led: led.body,
                wide: (await web.get("/frame/1.png?size=1048576x1048576&crop=7,9,2,2")).status,
                counts: JSON.parse((await web.get("/counts.json")).body) };]=])
     local function all(status, count, list)
       assert.equal(count, #list)
       for i, one in ipairs(list) do assert.equal(status, one, i) end
     end
-    all(403, 13, said.refused)
+    all(403, 15, said.refused)
     all(405, 4, said.methods)
     all(404, 9, said.paths)
     all(400, 6, said.sizes)
@@ -124,6 +127,7 @@ describe("the server of celspan watch", function()
     assert.equal(200, said.wide)
     assert.is_true(said.counts.oversized >= 3)
     assert.falsy(said.page:find "Set%-Cookie")
+    assert.truthy(said.led:find('http-equiv="refresh" content="0; url=/"', 1, true))
   end)
 
   it("answers the first request as soon as the film can be asked", function()
@@ -599,8 +603,8 @@ describe("the page of celspan watch #plain", function()
 
   it("plays alone, without bars, with celspan play, whose commands have no token", function()
     bench:inside "mkdir bin"
-    bench:write("bin/xdg-open", ('#!/bin/sh\ncat /proc/[0-9]*/cmdline 2>/dev/null >%s/seen\necho "$@" >%s/opened\n')
-      :format(bench.folder, bench.folder))
+    bench:write("bin/xdg-open", ('#!/bin/sh\ncd %s\ncat /proc/[0-9]*/cmdline >seen 2>/dev/null\n'
+      .. 'echo "$@" >opened\n'):format(bench.folder))
     bench:inside "chmod +x bin/xdg-open"
     local path = watching.start(("PATH=%s/bin:$PATH XDG_RUNTIME_DIR=%s exec '%s' play shot.lua "
       .. ">said 2>complained"):format(bench.folder, bench.folder, workbench.absolute), function()
@@ -613,6 +617,9 @@ describe("the page of celspan watch #plain", function()
       :format(path, path:match "^(.*)/")))
     local said = see("file://" .. path, [=[
       await page.until(`Number(${stage("frame")}) > 3`);
+      await page.call("Page.reload");
+      await page.pause(0.2);
+      await page.until(`document.querySelector("#stage") && Number(${stage("frame")}) > 3`);
       return page.get(`getComputedStyle(document.querySelector("header")).display`);]=])
     assert.equal("none", said)
     watching.stop()
@@ -631,10 +638,15 @@ describe("the page of celspan watch #plain", function()
         await page.until(`document.querySelector("#stage") && ${stage("frame")} === "1"`);
         addresses.push(await page.get("location.pathname + location.search"));
       }
+      const own = await page.get("location.origin");
+      await page.call("Page.navigate",
+        { url: `data:text/html,<script>location = "${own}/%23x=1"</script>` });
+      await page.until(`location.origin === "${own}" && document.querySelector("#stage")`);
+      const led = await page.get("location.hash");
       await page.get("localStorage.clear()");
       await page.call("Page.reload");
       await page.until(`document.querySelector("#news")?.textContent.includes("token is missing")`);
-      return { cookie, addresses };]=])
-    assert.same({ cookie = "", addresses = { "/", "/" } }, said)
+      return { cookie, addresses, led };]=])
+    assert.same({ cookie = "", addresses = { "/", "/" }, led = "" }, said)
   end)
 end)

@@ -40,7 +40,7 @@ typedef struct cs_web_request {
   uint64_t id;
   const char *method;
   const char *target; /* path and query as they were sent */
-  const char *host, *origin, *token;
+  const char *host, *origin, *token, *site;
   const char *body;
   size_t body_size;
 } cs_web_request;

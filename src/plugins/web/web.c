@@ -35,7 +35,10 @@ static void *begin_request(void *user, const char *target, struct MHD_Connection
 }
 
 /* The headers that count: one line each at most. */
-static const char *const single[] = {MHD_HTTP_HEADER_HOST, "Origin", CS_WEB_TOKEN,
+static const char *const single[] = {MHD_HTTP_HEADER_HOST,
+                                     "Origin",
+                                     "Sec-Fetch-Site",
+                                     CS_WEB_TOKEN,
                                      MHD_HTTP_HEADER_CONTENT_LENGTH,
                                      MHD_HTTP_HEADER_TRANSFER_ENCODING};
 enum { SINGLE = sizeof single / sizeof *single };
@@ -79,6 +82,7 @@ static void complete(cs_web *web, web_request *request, const char *method) {
   request->whole.host = header(request, MHD_HTTP_HEADER_HOST);
   request->whole.origin = header(request, "Origin");
   request->whole.token = header(request, CS_WEB_TOKEN);
+  request->whole.site = header(request, "Sec-Fetch-Site");
   request->whole.body = request->body;
   web_enter(request->connection, WEB_WAITING);
   MHD_suspend_connection(request->library);

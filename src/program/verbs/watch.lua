@@ -24,7 +24,8 @@ local COLUMNS_MOST = 10000  -- of a wave
 local UNITS_MOST = 1 << 30  -- of a point, to either side
 
 -- The texts of the page.
-local pages = { ["/"] = "page.html", ["/page.css"] = "page.css", ["/page.js"] = "page.js",
+local pages = { ["/"] = "page.html", ["/again.html"] = "again.html",
+                ["/page.css"] = "page.css", ["/page.js"] = "page.js",
                 ["/fetch.js"] = "fetch.js", ["/sound.js"] = "sound.js", ["/runs.js"] = "runs.js",
                 ["/cost.js"] = "cost.js", ["/icon.svg"] = "icon.svg",
                 ["/favicon.ico"] = "icon.svg" }

@@ -6,7 +6,9 @@
 --   token     in the query, for programs; or in a header, from our own page. It is in no cookie:
 --             those go to the servers of all ports of a machine
 --
--- What is the same for every film, such as the texts of the page, needs no token.
+-- What is the same for every film, such as the texts of the page, needs no token, unless another
+-- site leads there. The page is loaded again by itself then, without what follows the # of the
+-- address: values of parameters that the site would have chosen.
 --
 -- INVARIANT: a request that passes has a path of plain characters without "..", and its texts are
 -- decoded once.
@@ -78,9 +80,12 @@ function guard:admit(request)
     return nil, 403, "a POST needs an Origin"
   end
   if not path then return nil, 404, "there is no such address" end
-  if self.public[path] or self:is_token(fields.token) or self:is_token(request.token) then
+  local is_foreign = request.site and request.site ~= "same-origin" and request.site ~= "none"
+  if self.public[path] and not is_foreign or self:is_token(fields.token)
+    or self:is_token(request.token) then
     return path, fields
   end
+  if path == "/" then return "/again.html", fields end
   return nil, 403, "the token is missing: use the address that celspan watch has printed"
 end
 
