@@ -202,6 +202,26 @@ local function blocks_of_all()
   return cached
 end
 
+--- What functions and methods return first, by name ("celspan.svg.read", "celspan.object:blur"),
+--- and of each class the one that it extends.
+---@return table<string, string> calls
+---@return table<string, string> parents
+function manual.types()
+  local calls, parents = {}, {}
+  local function add(blocks)
+    for _, block in ipairs(blocks) do
+      local class = block.class or ""
+      parents[class] = (block.parents or ""):match "^[%w_.]+"
+      calls[class] = (block.overload or ""):match "%): ([%w_.]+)$"
+      if block.is_function then calls[block.name] = (block.returns[1] or ""):match "^[%w_.]+" end
+    end
+  end
+  local all = blocks_of_all()
+  add(all)
+  for _, name in ipairs(MODULES) do add(all.modules[name]) end
+  return calls, parents
+end
+
 -- ---------------------------------------------------------------- pages
 
 local function plain(text) return (text:gsub("celspan%.", "")) end

@@ -328,3 +328,107 @@ return celspan.rostrum { celspan.cel { celspan.text { "A", font = "%s", size = 2
     refused(2, "--allow-system-fonts", "info home/.fonts/block.ttf --allow-system-fonts")
   end)
 end)
+
+describe("a value that is made and thrown away", function()
+  --- What check says, from the line on.
+  local function said(name)
+    local _, _, message = run("check " .. (name or "film.lua"))
+    local list = {}
+    for line in message:gmatch "celspan: error: (%l[^\n]*)" do list[#list + 1] = line end
+    return list, message
+  end
+
+  it("is reported with its line and what to write", function()
+    bench:shell("mkdir " .. bench.folder .. "/parts")
+    bench:write("parts/hand.lua", [[
+local C = require("celspan")
+C.circle { centre = { 0, 0 }, radius = 1 }
+return C.rect { 0, 0, 4, 4 }:fade(0.5)]])
+    bench:write("film.lua", [[
+local celspan, hand = require "celspan", require "parts.hand"
+local c = celspan.circle { centre = { 1, 1 }, radius = 3 }
+c:translate(10, 0)
+c = c:scale(2) c:scale(2)
+  :rotate(4)
+local cel <const> = celspan.cel { c, hand }
+if c then cel:fade(0.5) end
+return celspan.film { size = { 8, 8 }, frames = 2, frame = function(f)
+  local x = celspan.rect { 0, 0, f.number, 4 }; x:paint "#fff"
+  do celspan.rostrum { cel } end
+  return celspan.rostrum { cel, celspan.cel { x } }
+end }]])
+    local unused = " makes a value that nothing uses: return it, give it a name, or put it into "
+      .. "another value"
+    local function changed(written, name)
+      return ("%s makes a new value and does not change %s: write %s = %s"):format(written, name,
+        name, written)
+    end
+    assert.same({ "film.lua:3: " .. changed("c:translate(...)", "c"),
+      "film.lua:4: " .. changed("c:scale(...):rotate(...)", "c"),
+      "film.lua:7: " .. changed("cel:fade(...)", "cel"),
+      'film.lua:9: ' .. changed('x:paint "#fff"', "x"),
+      "film.lua:10: celspan.rostrum {...}" .. unused,
+      "parts/hand.lua:2: C.circle {...}" .. unused }, (said()))
+    local code, out = run "check film.lua --json"
+    assert.equal(3, code)
+    local first = require "celspan.json".decode(out)[1]
+    assert.same({ "film.lua", 3 }, { first.file, first.line })
+    assert.is_nil(first.frame)
+  end)
+
+  it("is what is not used, and not what may be something else", function()
+    bench:write("film.lua", [==[
+#!/usr/bin/env celspan
+local celspan = require "celspan"
+local c, random = celspan.circle { centre = { 1, 1 }, radius = 3 }, celspan.random(1)
+local d = c:translate(1, 1):fade(0.5) -- c:fade(1)
+local _ = c:translate(2, 2)
+local list = { c:translate(1, 1); c:fade(1), x = c:scale(2), [c:contains(1, 1)] = d:scale(2) }
+list[1], list.x = c:scale(3), c:scale(4)
+local text = [[
+c:translate(1)]] .. "c:fade(1) \" c:fade(2)" .. 'c:fade(1)' --[=[
+c:fade(1) ]] c:fade(1) ]=]
+local Ball = {}
+function Ball:scale(k) self.k = k return self end
+local ball = setmetatable({}, { __index = Ball })
+ball:scale(2)
+ball.scale(ball, 3):scale(4)
+local function mover(c) c:scale(2) return c:scale(3) end
+mover(ball)
+local both = celspan.rect { 0, 0, 1, 1 }
+both = ball
+both:scale(2)
+for _, c in ipairs { ball } do c:scale(2) end
+random(3)
+local union = c | d:scale(2)
+  - c:fade(0.5)
+print(c:bounds(), #text, 0x1p4, 1e-3, 3 // 2, function() return c:scale(2) end)
+return celspan.rostrum { celspan.cel { c, d, union,
+  c:scale(2) } }]==])
+    local list, message = said()
+    assert.same({}, list, message)
+    assert.is_truthy(message:find("1 frame checked: no faults", 1, true), message)
+  end)
+
+  with_art("is a drawing or a puppet in another pose too", function()
+    bench:write("face.svg", [[
+<svg xmlns="http://www.w3.org/2000/svg" width="40" height="10">
+<rect id="head" width="40" height="10"/><rect id="mouth A" width="10" height="10"/>
+<rect id="mouth B" width="10" height="10"/></svg>]])
+    bench:write("film.lua", [[
+local celspan, svg, puppet = require "celspan", require "celspan.svg", require "celspan.puppet"
+local art = assert(svg.read "face.svg")
+local rig = puppet { art = art, joints = { neck = { 0, 0 }, top = { 9, 0 } },
+  bones = { { "head", from = "neck", to = "top" } } }
+art:show { mouth = "A" }
+rig:pose { head = 3 }
+rig:joint({}, "top")
+return celspan.rostrum { celspan.cel { art.object, rig:pose {} } }]])
+    local list, message = said()
+    assert.equal(2, #list, message)
+    assert.is_truthy(list[1]:find("film.lua:5: art:show {...} makes a new value and does not "
+      .. "change art: write art = art:show {...}", 1, true), message)
+    assert.is_truthy(list[2]:find("film.lua:6: rig:pose {...} makes a value that nothing uses", 1,
+      true), message)
+  end)
+end)

@@ -61,11 +61,12 @@ local function add_frame(fault, frame)
   end
 end
 
---- where: the place in the scene, or "". After a signal to stop nothing is added, because frames
---- then fail for that reason.
+--- frame: nil: of the script. where: the place in the scene, or "". After a signal to stop nothing
+--- is added, because frames then fail for that reason.
 local function add_fault(frame, where, message, code)
   if program.is_stopped() then return end
-  local text = message:gsub(("frame %d: "):format(frame), "", 1) -- so that equal faults are one
+  local prefix = ("frame %d: "):format(frame or 0)
+  local text = message:gsub(prefix, "", 1) -- so that equal faults are one
   local fault = faults.by_text[text]
   faults.met, faults.code = faults.met + 1, faults.code or code
   if not fault and #faults == FAULTS_MOST then
@@ -77,7 +78,7 @@ local function add_fault(frame, where, message, code)
     faults.by_text[text], faults[#faults + 1] = fault, fault
   end
   fault.is_everywhere = fault.is_everywhere or fault.where ~= where
-  add_frame(fault, frame)
+  if frame then add_frame(fault, frame) end
 end
 
 -- ---------------------------------------------------------------- the passes
@@ -182,9 +183,10 @@ end
 
 -- ---------------------------------------------------------------- the report
 
---- "frame 3", "frames 3-17, 20 and 5 more up to 99".
+--- "frame 3", "frames 3-17, 20 and 5 more up to 99"; nil: it is of no frame.
 local function frames_of(fault)
   local runs, words = fault.runs, {}
+  if #runs == 0 then return nil end
   table.sort(runs, function(a, b) return a.first < b.first end)
   for i, run in ipairs(runs) do
     words[i] = run.last > run.first and ("%d-%d"):format(run.first, run.last) or tostring(run.first)
@@ -212,8 +214,9 @@ local function print_json(more)
   local list = {}
   for _, sentence in ipairs(more) do list[#list + 1] = describe(sentence) end
   for _, fault in ipairs(faults) do
-    local frames = frames_of(fault):match "%d.*"
-    list[#list + 1] = describe(sentence_of(fault), fault.runs[1].first, frames)
+    local frames = frames_of(fault)
+    list[#list + 1] = describe(sentence_of(fault), frames and fault.runs[1].first,
+      frames and frames:match "%d.*")
   end
   print(program.json { list = list })
 end
@@ -228,7 +231,8 @@ end
 
 local function report(done, count, sound)
   for _, fault in ipairs(request.json and {} or faults) do
-    program.error("%s: %s", frames_of(fault), sentence_of(fault))
+    local frames = frames_of(fault)
+    program.error("%s%s", frames and frames .. ": " or "", sentence_of(fault))
   end
   if faults.beyond > 0 then
     program.error("%d more faults with other sentences are not listed: check fewer frames at a "
@@ -243,6 +247,12 @@ local function report(done, count, sound)
   elseif done == count then
     program.note("%d frame%s checked: no faults%s", done, plural(done),
       sound == 0 and "" or " except in the sound")
+  end
+end
+
+local function check_script()
+  for _, message in ipairs(program.part("dropped.lua").of_script(request[1])) do
+    add_fault(nil, "", message, SCRIPT)
   end
 end
 
@@ -264,6 +274,7 @@ end
 local listed = request.frames and film:numbers()
 local count = listed and #listed or film.frames
 local sound = film:check_sound()
+check_script()
 local done, ended = check_parts(film, listed, count)
 if request.json then print_json { sound ~= 0 and program.reported() or nil } end
 report(done, count, sound)

@@ -22,6 +22,11 @@ function program.refuse_self(input, output)
   end
 end
 
+--- What a file of the program returns: a part of several verbs. It gets `program`.
+function program.part(name)
+  return assert(load(program.text(name), "=" .. name, "t"))(program)
+end
+
 --- Whether a path has one of these endings, in upper or lower case.
 function program.has_ending(path, ...)
   for _, ending in ipairs { ... } do

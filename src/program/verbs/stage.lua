@@ -221,13 +221,20 @@ end
 
 local scenes = {} -- of the frames that were checked, by number
 
---- Checks frames, and the sound with the first one, until the time is over: one frame at least.
+--- What is wrong with the sound and the script.
+local function add_whole(faults)
+  if film:check_sound() ~= 0 then faults[1] = { message = program.reported() } end
+  for _, message in ipairs(program.part("dropped.lua").of_script(request[1])) do
+    faults[#faults + 1] = { message = message }
+  end
+end
+
+--- Checks frames, and the sound and the script with the first one, until the time is over: one
+--- frame at least.
 function answers.check(ask)
   local faults, number, began = {}, ask.number, program.clock()
   local last = film.first + film.frames - 1
-  if number == film.first and film:check_sound() ~= 0 then
-    faults[1] = { message = program.reported() }
-  end
+  if number == film.first then add_whole(faults) end
   film:drop_warnings()
   repeat
     local good, message = film:try(number)

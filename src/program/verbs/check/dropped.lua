@@ -1,0 +1,274 @@
+--- Values that a script makes and throws away: `c:scale(2)` as a statement changes nothing.
+--
+--   local c = celspan.circle { ... }    what is bound to a name has a type, by the annotations of
+--   c = c:fade(0.5)                     celspan, if all that is bound to it has the same
+--   c:scale(2)                          a statement that is the call of such a method
+--
+-- Only what is certain is reported: names that are parameters, or have values of two types, have
+-- no type here, although they may have one when the script runs.
+local program = ...
+local manual = require "celspan.manual"
+local tokens = program.part "tokens.lua"
+
+--- What cannot be changed: values of these classes and of those that extend them.
+local VALUES = { ["celspan.object"] = true, ["celspan.cel"] = true, ["celspan.rostrum"] = true,
+                 ["celspan.texture"] = true, ["celspan.paint"] = true, ["celspan.svg.art"] = true,
+                 ["celspan.layers.tree"] = true }
+local OPERATORS = {}
+for sign in ("+ - * / // % ^ .. == ~= < > <= >= & | ~ << >> and or"):gmatch "%S+" do
+  OPERATORS[sign] = true
+end
+
+local calls, parents = manual.types()
+
+--- The class of VALUES that a class extends, else the class.
+local function family(class)
+  local at = class
+  while at and not VALUES[at] do at = parents[at] end
+  return at or class
+end
+
+local function returned(class, method)
+  local at = class
+  while at do
+    local type_of = calls[at .. ":" .. method]
+    if type_of then return type_of == "T" and class or type_of end
+    at = parents[at]
+  end
+end
+
+-- ---------------------------------------------------------------- chains
+
+--- What a chain such as `celspan.circle { ... }:scale(2)` is as it grows: `module` and `maker` are
+--- names of celspan's, `class` is that of a value; none of them: not known.
+local function step(is, name, sign)
+  if sign == "." then return { maker = is.module and is.module .. "." .. name } end
+  local class = sign == ":" and is.class and returned(is.class, name)
+    or sign == "(" and calls[is.maker or is.module]
+  local is_ours = sign == ":" or (is.maker or ""):find "^celspan%.[%w_]+$"
+  return { class = class and family(class), is_pure = class and is_ours and true }
+end
+
+local function is_arguments(token)
+  return token and (token.kind == "(" or token.kind == "{" or token.kind == "string")
+end
+
+--- The place after the arguments at `at`, and how they are shown.
+local function after_arguments(list, at)
+  local token = list[at]
+  if token.kind == "string" then return at + 1, " " .. token.text end
+  return (token.partner or #list) + 1, token.kind == "(" and "(...)" or " {...}"
+end
+
+--- `require "celspan"` at a place: the module, and the place after it.
+local function required(list, at)
+  local name = list[at + 1]
+  if list[at].text ~= "require" or not name then return end
+  local after = at + 2
+  if name.kind == "(" then name, after = list[at + 2], name.partner and name.partner + 1 end
+  local module = name and name.kind == "string" and name.text:match "^[\"'](.*)[\"']$"
+  return module and after and { module = module }, after
+end
+
+--- The chain that begins with the name at a place: what it is, the place after it, how it is
+--- written, and whether it ends with a call.
+local function chain_at(list, types, at)
+  local is, after = required(list, at)
+  if not is then is, after = types[list[at].text] or {}, at + 1 end
+  local written, is_call = list[at].text, false
+  while list[after] do
+    local sign, name, shown = list[after].kind, list[after + 1], ""
+    local is_named = (sign == "." or sign == ":") and name and name.kind == "name"
+    if is_named then
+      after, shown = after + 2, sign .. name.text
+    elseif sign == "[" then
+      after, is, shown = (list[after].partner or #list) + 1, {}, "[...]"
+    elseif not is_arguments(list[after]) then
+      break
+    end
+    is_call = sign ~= "." and sign ~= "["
+    if is_call and is_arguments(list[after]) then
+      local arguments
+      after, arguments = after_arguments(list, after)
+      shown = shown .. arguments
+    end
+    if sign ~= "[" then is = step(is, name and name.text, is_named and sign or "(") end
+    written = written .. shown
+  end
+  return is, after, written, is_call
+end
+
+--- What the expression at a place is, and the place after it; nil: not known.
+local function expression_at(list, types, at)
+  local token = list[at]
+  local is, after
+  if not token or token.kind ~= "name" then return nil end
+  if token.text == "assert" and list[at + 1] and list[at + 1].kind == "(" then
+    is = expression_at(list, types, at + 2)
+    after = list[at + 1].partner and list[at + 1].partner + 1
+  else
+    is, after = chain_at(list, types, at)
+  end
+  if not after or list[after] and OPERATORS[list[after].kind] then return nil end
+  return is, after
+end
+
+-- ---------------------------------------------------------------- names
+
+--- Adds to the bindings of a name the place of an expression and its number in a list; no place: a
+--- value that is not known.
+local function bind(bindings, name, at, number)
+  bindings[name] = bindings[name] or {}
+  table.insert(bindings[name], { at = at, number = number })
+end
+
+--- The names between commas at a place, and the place of the `=` after them, if there is one.
+local function bind_list(list, bindings, at)
+  local names = {}
+  local kind
+  repeat
+    names[#names + 1] = list[at] and list[at].kind == "name" and list[at].text or nil
+    at = at + 1
+    if list[at] and list[at].kind == "<" then at = at + 3 end
+    kind = list[at] and list[at].kind
+    at = at + 1
+  until kind ~= ","
+  for i, name in ipairs(names) do
+    if kind == "=" then bind(bindings, name, at, i) end
+  end
+end
+
+--- All names from a place up to a token of one of these kinds have values that are not known.
+local function bind_unknown(list, bindings, at, last)
+  while list[at] and not last[list[at].kind] do
+    if list[at].kind == "name" then bind(bindings, list[at].text) end
+    at = at + 1
+  end
+end
+
+--- What is bound to each name, wherever it is in the file.
+local function bindings_of(list)
+  local bindings = {}
+  for i, token in ipairs(list) do
+    local after = list[i + 1] and list[i + 1].kind
+    if token.kind == "local" and after == "name" then
+      bind_list(list, bindings, i + 1)
+    elseif token.is_first and (after == "=" or after == ",") then
+      bind_list(list, bindings, i)
+    elseif token.kind == "function" then
+      bind_unknown(list, bindings, i + 1, { [")"] = true })
+    elseif token.kind == "for" then
+      bind_unknown(list, bindings, i + 1, { ["in"] = true, ["="] = true })
+    end
+  end
+  return bindings
+end
+
+--- What an expression of a list is.
+local function item(list, types, binding)
+  local is, after = nil, binding.at
+  for i = 1, binding.number or 0 do
+    if i > 1 and not (list[after] and list[after].kind == ",") then return nil end
+    is, after = expression_at(list, types, i > 1 and after + 1 or after)
+    if not is then return nil end
+  end
+  return is
+end
+
+local function is_same(a, b) return a and b and a.class == b.class and a.module == b.module end
+
+--- What all bindings of a name are; nil: not known, or not the same. is_sure: none may be unknown.
+local function common(list, types, bindings, is_sure)
+  local found
+  for _, binding in ipairs(bindings) do
+    local is = item(list, types, binding)
+    local is_known = is and (is.class or is.module)
+    if not binding.at or is_sure and not is_known then return nil end
+    if is_known and found and not is_same(is, found) then return nil end
+    found = is_known and is or found
+  end
+  return found
+end
+
+--- Goes through the names until nothing changes. try(name, its bindings): whether it changed one.
+local function settle(bindings, try)
+  local has_changed
+  repeat
+    has_changed = false
+    for name, of_name in pairs(bindings) do has_changed = try(name, of_name) or has_changed end
+  until not has_changed
+end
+
+--- Names with what is bound to them: first by what can be known of the values, as names follow from
+--- others, and then without those of which a value is not known.
+local function types_of(list)
+  local types, bindings = {}, bindings_of(list)
+  settle(bindings, function(name, of_name)
+    if types[name] then return false end
+    types[name] = common(list, types, of_name, false)
+    return types[name] ~= nil
+  end)
+  settle(bindings, function(name, of_name)
+    if not types[name] then return false end
+    if is_same(common(list, types, of_name, true), types[name]) then return false end
+    types[name] = nil
+    return true
+  end)
+  return types
+end
+
+-- ---------------------------------------------------------------- what is thrown away
+
+local dropped = {}
+
+local function sentence(name, types, is, written)
+  local whole = types[name] and types[name].class
+  if whole and whole == is.class then
+    return ("%s makes a new value and does not change %s: write %s = %s"):format(written, name,
+      name, written)
+  end
+  return written .. " makes a value that nothing uses: return it, give it a name, or put it into "
+    .. "another value"
+end
+
+--- Adds what a text throws away, with the file's path, to a list of sentences; returns the modules
+--- that it requires.
+local function add_dropped(sentences, path, text)
+  local list, modules = tokens.of(text), {}
+  local types = types_of(list)
+  for i, token in ipairs(list) do
+    local is, after, written, is_call
+    if token.is_first then is, after, written, is_call = chain_at(list, types, i) end
+    local follows = is and list[after] and list[after].kind
+    if is_call and is.is_pure and VALUES[is.class] and follows ~= "=" and follows ~= "," then
+      sentences[#sentences + 1] = ("%s:%d: %s"):format(path, token.line,
+        sentence(token.text, types, is, written))
+    end
+    local module = required(list, i)
+    if module then modules[#modules + 1] = module.module end
+  end
+  return modules
+end
+
+local function add_file(sentences, folder, path, is_seen)
+  local file = not is_seen[path] and io.open(path, "rb")
+  is_seen[path] = true
+  if not file then return end
+  local modules = add_dropped(sentences, path, file:read "a" or "")
+  file:close()
+  for _, name in ipairs(modules) do
+    add_file(sentences, folder, folder .. name:gsub("%.", "/") .. ".lua", is_seen)
+  end
+end
+
+--- A sentence, with its file and line, about each value that a script, or a module beside it that
+--- it requires, throws away.
+function dropped.of_script(path)
+  local sentences = {}
+  if program.has_ending(path, ".lua") then
+    add_file(sentences, path:match "^.*/" or "", path, {})
+  end
+  return sentences
+end
+
+return dropped
