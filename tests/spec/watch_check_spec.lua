@@ -10,7 +10,7 @@ local FILM = [[
 local celspan = require "celspan"
 local rig = require "celspan.puppet" { art = assert(require "celspan.svg".read "arm.svg"),
   joints = { from = { 0, 0 }, to = { 9, 0 } }, bones = { { "arm", from = "from", to = "to" } } }
-local calls = 0
+local calls = 0 celspan.circle { centre = { 0, 0 }, radius = 1 }
 return celspan.film { size = { 64, 36 }, frames = 24, SOUND frame = function(f)
   calls = calls + 1
   if f.number > 12 then error "too late" end
@@ -36,7 +36,7 @@ end)
 after_each(watching.finish)
 
 describe("what is wrong with a film that is watched", function()
-  it("is what check finds: sounds, frames, puppets, and functions that are not pure", function()
+  it("is what check finds: sounds, scripts, frames, puppets, and what is not pure", function()
     local said = watching.speak(watching.watch(), [=[
       for (;;) {
         const state = JSON.parse((await web.get("/state.json")).body);
@@ -47,9 +47,9 @@ describe("what is wrong with a film that is watched", function()
     for i, one in ipairs(said.errors) do found[i] = one.message:gsub("frame %d+: ", "") end
     local _, out = watching.bench:celspan_inside "check shot.lua --json 2>/dev/null"
     for _, one in ipairs(json.decode(out)) do wanted[one.message] = true end
-    assert.equal(1 + 1 + 12 + 3, #found)
+    assert.equal(1 + 1 + 1 + 12 + 3, #found)
     for _, message in ipairs(found) do assert.is_true(wanted[message], message) end
-    local impure = { said.errors[15].frame, said.errors[16].frame, said.errors[17].frame }
+    local impure = { said.errors[16].frame, said.errors[17].frame, said.errors[18].frame }
     table.sort(impure)
     assert.same({ 3, 4, 5 }, impure)
   end)
@@ -84,10 +84,10 @@ describe("what is wrong with a film that is watched", function()
       await page.until(`document.querySelector("#checked").textContent
         === "24 frames checked: no faults"`);
       return { items, button, after: await text("check"), list: await text("fault-list") };]=])
-    assert.same({ "", "shot.lua:10,frame 7",
+    assert.same({ "", "shot.lua:4", "shot.lua:10,frame 7",
       "shot.lua:7,frame 13,frame 14,frame 15,frame 16,frame 17,frame 18,"
       .. "and 6 more up to 24", "frame 3,frame 4,frame 5" }, said.items)
-    assert.equal("Faults 4", said.button)
+    assert.equal("Faults 5", said.button)
     assert.equal("Faults", said.after)
     assert.equal("", said.list)
   end)
