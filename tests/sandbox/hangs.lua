@@ -117,8 +117,8 @@ return {
     texture = celspan.radial{ centre = { 0, 0 }, radius = 1, { 0, "#fff" }, { 1, "#000" } } } } }, {
       size = { 30000, 30000 } })]], 6 },
 
-  { "a file that nobody writes to", [[require("celspan.sheet").read("pipe.lua")]], 6,
-    "--limit time=0.05" },
+  { "a file that nobody writes to",
+    [[assert(select(2, require("celspan.sheet").read "pipe.lua"):find "is not a file")]], 0 },
 
   -- memory
   { "a text that doubles, caught",
