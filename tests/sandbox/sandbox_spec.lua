@@ -234,7 +234,7 @@ describe("the sandbox", function()
         local code, _, err = bench:shell(("cd '%s' && '%s' check scripts/measured.lua")
           :format(bench.folder, workbench.absolute))
         assert.equal(3, code)
-        assert.truthy(err:find("in another Lua state, it returned another scene", 1, true), err)
+        assert.truthy(err:find("called again, it returned another scene", 1, true), err)
       end
     end)
   end)
