@@ -149,7 +149,7 @@ end)
 --- Objects of the library, without those of the program, of generators, and of units that are built
 --- only with self-checks.
 local OBJECTS = ("find '%s/src' '%s/subprojects' -name '*.o' ! -path '*/tests/*' ! -path '*embed*' "
-  .. "! -path '*make_*' ! -path '*libprogram_*' ! -path '*/plugin/*' "
+  .. "! -path '*headings*' ! -path '*make_*' ! -path '*libprogram_*' ! -path '*/plugin/*' "
   .. "! -name 'base_self_check*'"):format(BUILD, BUILD)
 
 --- The names that objects import from other libraries.
