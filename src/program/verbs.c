@@ -397,8 +397,8 @@ const cs_verb cs_verbs[] = {
               "film: a frame function that then returns another scene is not a pure function of "
               "its frame, and all frames are built again. Every picture must exist, hidden or not, "
               "and so must the film's sound. Frames with scan-line procedures are built, but not "
-              "compared. Values that the script throws away are faults. Equal faults are reported "
-              "in one line, with all frames that have them.",
+              "compared. A value that the script throws away is a warning. Equal faults are "
+              "reported in one line, with all frames that have them.",
      .options = CHECK},
     {"watch", "SCRIPT [SCRIPT]", 1, 2, .has_script = true,
      .summary = "Shows a film in the browser while its script is being written.",

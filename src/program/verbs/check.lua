@@ -61,12 +61,11 @@ local function add_frame(fault, frame)
   end
 end
 
---- frame: nil: of the script. where: the place in the scene, or "". After a signal to stop nothing
---- is added, because frames then fail for that reason.
+--- where: the place in the scene, or "". After a signal to stop nothing is added, because frames
+--- then fail for that reason.
 local function add_fault(frame, where, message, code)
   if program.is_stopped() then return end
-  local prefix = ("frame %d: "):format(frame or 0)
-  local text = message:gsub(prefix, "", 1) -- so that equal faults are one
+  local text = message:gsub(("frame %d: "):format(frame), "", 1) -- so that equal faults are one
   local fault = faults.by_text[text]
   faults.met, faults.code = faults.met + 1, faults.code or code
   if not fault and #faults == FAULTS_MOST then
@@ -78,7 +77,7 @@ local function add_fault(frame, where, message, code)
     faults.by_text[text], faults[#faults + 1] = fault, fault
   end
   fault.is_everywhere = fault.is_everywhere or fault.where ~= where
-  if frame then add_frame(fault, frame) end
+  add_frame(fault, frame)
 end
 
 -- ---------------------------------------------------------------- the passes
@@ -183,10 +182,9 @@ end
 
 -- ---------------------------------------------------------------- the report
 
---- "frame 3", "frames 3-17, 20 and 5 more up to 99"; nil: it is of no frame.
+--- "frame 3", "frames 3-17, 20 and 5 more up to 99".
 local function frames_of(fault)
   local runs, words = fault.runs, {}
-  if #runs == 0 then return nil end
   table.sort(runs, function(a, b) return a.first < b.first end)
   for i, run in ipairs(runs) do
     words[i] = run.last > run.first and ("%d-%d"):format(run.first, run.last) or tostring(run.first)
@@ -204,20 +202,20 @@ local function sentence_of(fault)
 end
 
 --- A fault for other programs, as /errors.json of `celspan watch` has it.
-local function describe(sentence, frame, frames)
+local function describe(level, sentence, frame, frames)
   local file, line = program.place_of(sentence)
-  return { message = sentence, frame = frame, frames = frames, file = file, line = line }
+  return { level = level, message = sentence, frame = frame, frames = frames, file = file,
+           line = line }
 end
 
---- All faults as JSON, on standard output. more: sentences that are about no frame.
-local function print_json(more)
-  local list = {}
-  for _, sentence in ipairs(more) do list[#list + 1] = describe(sentence) end
+--- All faults and warnings as JSON, on standard output. more: a fault that is about no frame.
+local function print_json(warnings, more)
+  local list = { more and describe("error", more) }
   for _, fault in ipairs(faults) do
-    local frames = frames_of(fault)
-    list[#list + 1] = describe(sentence_of(fault), frames and fault.runs[1].first,
-      frames and frames:match "%d.*")
+    list[#list + 1] = describe("error", sentence_of(fault), fault.runs[1].first,
+      frames_of(fault):match "%d.*")
   end
+  for _, sentence in ipairs(warnings) do list[#list + 1] = describe("warning", sentence) end
   print(program.json { list = list })
 end
 
@@ -229,10 +227,12 @@ local function report_slowest(done)
     slowest.seconds, slowest.total / done)
 end
 
-local function report(done, count, sound)
+local function report(done, count, sound, warnings)
   for _, fault in ipairs(request.json and {} or faults) do
-    local frames = frames_of(fault)
-    program.error("%s%s", frames and frames .. ": " or "", sentence_of(fault))
+    program.error("%s: %s", frames_of(fault), sentence_of(fault))
+  end
+  for _, sentence in ipairs(request.json and {} or warnings) do
+    program.note("warning: %s", sentence)
   end
   if faults.beyond > 0 then
     program.error("%d more faults with other sentences are not listed: check fewer frames at a "
@@ -245,14 +245,9 @@ local function report(done, count, sound)
     program.note("%s%d fault%s, found %d time%s in %d frame%s", more, #faults, plural(#faults),
       faults.met, plural(faults.met), done, plural(done))
   elseif done == count then
-    program.note("%d frame%s checked: no faults%s", done, plural(done),
-      sound == 0 and "" or " except in the sound")
-  end
-end
-
-local function check_script()
-  for _, message in ipairs(program.part("dropped.lua").of_script(request[1])) do
-    add_fault(nil, "", message, SCRIPT)
+    program.note("%d frame%s checked: no faults%s%s", done, plural(done),
+      sound == 0 and "" or " except in the sound",
+      #warnings == 0 and "" or (", %d warning%s"):format(#warnings, plural(#warnings)))
   end
 end
 
@@ -260,7 +255,7 @@ end
 local function open()
   local good, film = pcall(program.film)
   if good then return film end
-  print_json { program.reported() or tostring(film) }
+  print_json({}, program.reported() or tostring(film))
   return nil, program.outcome()
 end
 
@@ -274,8 +269,8 @@ end
 local listed = request.frames and film:numbers()
 local count = listed and #listed or film.frames
 local sound = film:check_sound()
-check_script()
+local warnings = program.part("dropped.lua").of_script(request[1])
 local done, ended = check_parts(film, listed, count)
-if request.json then print_json { sound ~= 0 and program.reported() or nil } end
-report(done, count, sound)
+if request.json then print_json(warnings, sound ~= 0 and program.reported() or nil) end
+report(done, count, sound, warnings)
 return faults.code or ended or sound

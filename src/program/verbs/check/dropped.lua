@@ -7,6 +7,7 @@
 -- Only what is certain is reported: names that are parameters, or have values of two types, have
 -- no type here, although they may have one when the script runs.
 local program = ...
+local files = require "celspan.files"
 local manual = require "celspan.manual"
 local tokens = program.part "tokens.lua"
 
@@ -18,6 +19,8 @@ local OPERATORS = {}
 for sign in ("+ - * / // % ^ .. == ~= < > <= >= & | ~ << >> and or"):gmatch "%S+" do
   OPERATORS[sign] = true
 end
+
+local BYTES_MOST = 1 << 22 -- of a script that is looked at
 
 local calls, parents = manual.types()
 
@@ -251,13 +254,13 @@ local function add_dropped(sentences, path, text)
 end
 
 local function add_file(sentences, folder, path, is_seen)
-  local file = not is_seen[path] and io.open(path, "rb")
+  local text = not is_seen[path] and files.read(path, BYTES_MOST)
   is_seen[path] = true
-  if not file then return end
-  local modules = add_dropped(sentences, path, file:read "a" or "")
-  file:close()
-  for _, name in ipairs(modules) do
-    add_file(sentences, folder, folder .. name:gsub("%.", "/") .. ".lua", is_seen)
+  if not text then return end
+  for _, name in ipairs(add_dropped(sentences, path, text)) do
+    if not name:find "[^%w_.-]" then
+      add_file(sentences, folder, folder .. name:gsub("%.", "/") .. ".lua", is_seen)
+    end
   end
 end
 
