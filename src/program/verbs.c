@@ -112,8 +112,8 @@
   {                                                                                                \
     "--limit", "NAME=V", &cs_argument_limits,                                                      \
         "limits, several separated by commas; 0: no limit. Of the script: "                        \
-        "memory=512M, steps=2e9 per frame, time=60 seconds per call, print=1M per "                \
-        "frame; of rendering: render-memory=SIZE, three quarters of the machine's; of "            \
+        "memory=512M, steps=2e9 per frame, time=60 seconds of a processor per call, print=1M per " \
+        "frame; of rendering: render-memory=SIZE, by the memory there is; of "                     \
         "decoding a picture: picture-memory=1G, picture-time=20 seconds per part. "                \
         "These values are the defaults"                                                            \
   }
