@@ -127,6 +127,9 @@ describe("the script for Slurm", function()
                   "mem=900M", "time=45",
                   ('output="%s/some logs%%%%/%%x-%%A_%%a.log"'):format(bench.folder) },
       directives(text))
+    local memory = "\nexport CELSPAN_MEMORY=${CELSPAN_MEMORY:-900M} # as --mem\n"
+    assert.is_truthy(text:find(memory, 1, true), text)
+    assert.is_nil(slurm "-o out/#.png":find("CELSPAN_MEMORY", 1, true))
     refused("--logs: Slurm takes no name", "farm film.lua -o o/#.png --slurm --logs 'a\"b'")
     refused("--logs: Slurm takes no name", "farm film.lua -o o/#.png --slurm --logs 'a\nb'")
   end)

@@ -96,7 +96,10 @@ local SLURM_HEAD = [[
 celspan=${CELSPAN:-celspan}
 tasks=@TASKS@
 tries=3 # how often a task that may succeed another time is put back into the queue
-]]
+@MEMORY@]]
+
+--- Not every Slurm has control groups that limit memory.
+local MEMORY = "export CELSPAN_MEMORY=${CELSPAN_MEMORY:-%dM} # as --mem\n"
 
 local CHUNK_HOW = "#   sbatch THIS_FILE       the same"
 local STRIP_HOW = "#   bash THIS_FILE join    joins the strips, once they are all there"
@@ -170,6 +173,7 @@ local function slurm(job)
     SCRIPT = quoted(job.script), OUTPUT = quoted(job.output), FOLDER = quoted(job.folder),
     STRIPS = quoted(absolute(job.output, job.folder) .. ".strips"),
     ENDING = quoted(ending_of(job.output)), WORDS = words_of(job),
+    MEMORY = job.memory and MEMORY:format(job.memory) or "",
     WORKERS = job.workers or '"${SLURM_CPUS_ON_NODE:-1}"',
   }
   local body = job.strips and STRIP_QUEUE .. STRIP_RUN or CHUNK_QUEUE .. CHUNK_RUN
