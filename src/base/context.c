@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/machine.h"
+
 #define ORIGIN_SIZE 255   /* bytes of a source that are kept */
 #define ORIGIN_COUNT 4096 /* sources that are kept */
 
@@ -40,7 +42,9 @@ static cs_memory *memory_create(celspan_resize resize, void *user) {
   atomic_init(&memory->kept, 0);
   atomic_init(&memory->rendering, 0);
   atomic_init(&memory->renders, 0);
+  atomic_init(&memory->beside, 0);
   memory->most_rendering = 0;
+  memory->ceiling = NULL;
   memory->account = NULL;
   memory->sources = NULL;
   memory->refuses = NULL;
@@ -120,13 +124,38 @@ size_t cs_account_scene_bytes(const cs_memory *memory) {
   return all > apart ? all - apart : 0;
 }
 
-static bool refuses_rendering(const cs_memory *memory, size_t more) {
+static cs_refusal refuses_rendering(const cs_memory *memory, size_t more) {
   size_t most = memory->most_rendering;
   if (!most || cs_account_of(memory) != CS_ACCOUNT_RENDERING)
-    return false;
+    return CS_REFUSAL_NONE;
   bool is_refused = more > most || rendering_bytes(memory) > most - more;
-  memory->account()->is_refused = is_refused;
-  return is_refused;
+  return is_refused ? CS_REFUSAL_RENDERING : CS_REFUSAL_NONE;
+}
+
+size_t cs_account_bytes(const cs_memory *memory) {
+  return atomic_load_explicit(&memory->bytes, memory_order_relaxed) +
+         atomic_load_explicit(&memory->beside, memory_order_relaxed);
+}
+
+void cs_account_beside(cs_memory *memory, size_t change) {
+  atomic_fetch_add_explicit(&memory->beside, change, memory_order_relaxed);
+}
+
+bool cs_account_allows(cs_memory *memory, size_t more) {
+  cs_refusal refusal = refuses_rendering(memory, more);
+  if (!refusal && memory->ceiling)
+    refusal = cs_ceiling_refuses(memory->ceiling, cs_account_bytes(memory), more);
+  if (memory->account)
+    memory->account()->refusal = refusal;
+  return !refusal;
+}
+
+bool cs_account_tell(const cs_memory *memory, char *text, size_t size) {
+  cs_refusal refusal = memory->account ? memory->account()->refusal : CS_REFUSAL_NONE;
+  if (!memory->ceiling || refusal < CS_REFUSAL_HELD)
+    return false;
+  cs_ceiling_tell(memory->ceiling, refusal, text, size);
+  return true;
 }
 
 /* ---------------------------------------------------------------- allocating */
@@ -146,7 +175,7 @@ void *cs_mem_resize(cs_memory *memory, void *storage, size_t old_size, size_t ne
   bool grows = new_size > (storage ? old_size : 0);
   if (grows && memory->refuses && memory->refuses(memory, more))
     return NULL;
-  if (grows && refuses_rendering(memory, more))
+  if (grows && !cs_account_allows(memory, more))
     return NULL;
   void *resized = memory->resize(memory->user, storage, old_size, new_size);
   if (!resized && new_size > 0)
@@ -234,7 +263,10 @@ celspan_status celspan_context_fail(celspan_context *context, celspan_status sta
 
 celspan_status cs_fail_memory(celspan_context *context) {
   const cs_memory *memory = context->memory;
-  if (cs_account_of(memory) == CS_ACCOUNT_RENDERING && memory->account()->is_refused)
+  char reason[256];
+  if (cs_account_tell(memory, reason, sizeof reason))
+    return cs_fail(context, CELSPAN_NO_MEMORY, "out of memory: %s", reason);
+  if (memory->account && memory->account()->refusal == CS_REFUSAL_RENDERING)
     return cs_fail(context, CELSPAN_NO_MEMORY,
                    "out of memory: rendering needs more than %zu MiB (--limit "
                    "render-memory=SIZE allows more)",
@@ -368,6 +400,14 @@ void cs_context_trim(celspan_context *context) {
        service = service->next)
     service->kind->trim(service);
   cs_spares_trim(&context->memory->spares);
+}
+
+int cs_context_workers(celspan_context *context, int64_t wanted, int most) {
+  atomic_int *processors = &context->root->processors;
+  if (wanted <= 0 && atomic_load_explicit(processors, memory_order_relaxed) == 0)
+    atomic_store_explicit(processors, cs_machine_processors(), memory_order_relaxed);
+  int64_t count = wanted > 0 ? wanted : atomic_load_explicit(processors, memory_order_relaxed);
+  return count < most ? (int)count : most;
 }
 
 #define CS_TEXT_(x) #x

@@ -9,6 +9,7 @@
 
 #include <stdatomic.h>
 
+#include "base/ceiling.h"
 #include "base/spares.h"
 #include "celspan/celspan.h"
 
@@ -21,7 +22,7 @@ typedef enum cs_account_kind {
 
 typedef struct cs_account {
   cs_account_kind kind;
-  bool is_refused; /* the last allocation, because of the limit of rendering */
+  cs_refusal refusal; /* of the last allocation that was larger than what it replaced */
 } cs_account;
 
 /* Shared by a context, its branches and every value made in it; counted, because scene values may
@@ -37,9 +38,11 @@ typedef struct cs_memory {
   atomic_size_t kept;      /* bytes of caches */
   atomic_size_t rendering; /* other bytes of the frames that are rendered now */
   atomic_uint renders;     /* the number of these frames */
+  atomic_size_t beside;    /* bytes of the host, such as Lua's; not in `bytes` */
   size_t most_rendering;   /* the limit of `rendering`; 0: none */
-  /* The account of this thread, which the host keeps; NULL: threads have none. Both are set before
-   * other threads use the memory. */
+  cs_ceiling *ceiling;     /* of `bytes` and `beside` together; NULL: none; borrowed */
+  /* The account of this thread, which the host keeps; NULL: threads have none. These three are set
+   * before other threads use the memory. */
   cs_account *(*account)(void);
   struct cs_source *sources; /* files that values were made in; owned */
   /* Whether this thread is refused `more` further bytes; NULL: it has no limit. Set before other
@@ -79,6 +82,7 @@ struct celspan_context {
   cs_mark origin; /* of the values made now; its source is kept while the line is 0 */
   const struct cs_picture_module *picture_module; /* root only; NULL: it is loaded on first use */
   const struct cs_colour_module *colour_module;   /* likewise, for colour profiles */
+  atomic_int processors;             /* root only; see cs_context_workers; 0: not counted yet */
   struct cs_file_contents *contents; /* gets those of the files completed now; NULL: nobody asks */
   char error[CS_ERROR_SIZE];
 };
@@ -96,6 +100,15 @@ void cs_account_end_rendering(cs_memory *memory, cs_account_kind before);
 /* A cache has taken these bytes, which were allocated, or gives them up, to free them. */
 void cs_account_keep(cs_memory *memory, size_t bytes);
 void cs_account_give_up(cs_memory *memory, size_t bytes);
+/* Whether a host may allocate as many more bytes for itself: a limit of all that is held may refuse
+ * them, which the account of the thread then says. The host counts them in `beside`. */
+bool cs_account_allows(cs_memory *memory, size_t more);
+void cs_account_beside(cs_memory *memory, size_t change);
+/* All that is held, with that of the host. */
+size_t cs_account_bytes(const cs_memory *memory);
+/* Whether the limit of all that is held refused the last allocation of this thread. The text says
+ * why, as the end of a sentence. */
+bool cs_account_tell(const cs_memory *memory, char *text, size_t size);
 /* Bytes that are neither kept by caches nor used to render a frame: those of scripts and scenes. */
 size_t cs_account_scene_bytes(const cs_memory *memory);
 
@@ -149,6 +162,9 @@ CELSPAN_CHECKED celspan_status cs_context_service(celspan_context *context,
 cs_service *cs_context_find_service(const celspan_context *context, const cs_service_kind *kind);
 /* Frees everything that is only kept for later frames. Any thread. */
 void cs_context_trim(celspan_context *context);
+/* The number of threads for a number that is wanted; 0 or less: one for each processor that this
+ * process may use, which are counted once for a context. At most `most`. Any thread. */
+int cs_context_workers(celspan_context *context, int64_t wanted, int most);
 
 #define CS_TRY(call)                                                                               \
   do {                                                                                             \

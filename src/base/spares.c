@@ -16,7 +16,7 @@ struct cs_spare {
 /* ---------------------------------------------------------------- life */
 
 bool cs_spares_init(cs_spares *spares) {
-  *spares = (cs_spares){.bytes = 0};
+  *spares = (cs_spares){.most = CS_SPARES_MOST};
   return pthread_mutex_init(&spares->lock, NULL) == 0;
 }
 
@@ -108,7 +108,7 @@ static void *take(cs_spares *spares, size_t class) {
 static bool keep(cs_spares *spares, cs_spare *spare, size_t class) {
   size_t bytes = bytes_of(class);
   pthread_mutex_lock(&spares->lock);
-  bool has_room = !spares->is_closed && spares->bytes + bytes <= CS_SPARES_MOST;
+  bool has_room = !spares->is_closed && spares->bytes + bytes <= spares->most;
   if (has_room) {
     spare->next = spares->kept[class];
     spares->kept[class] = spare;

@@ -13,7 +13,8 @@
  *               x                    x             x                 the latest one is used first
  *
  * Invariant: an allocation of more than half the smallest class, and at most the largest one, is at
- * least as large as its class. At most CS_SPARES_MOST bytes are kept.
+ * least as large as its class. At most `most` bytes are kept, CS_SPARES_MOST if nobody sets
+ * less before other threads use them.
  */
 #pragma once
 
@@ -45,7 +46,7 @@ typedef struct cs_spare cs_spare;
 typedef struct cs_spares {
   pthread_mutex_t lock;
   bool is_closed;                    /* nothing is kept any more */
-  size_t bytes;                      /* of what is kept */
+  size_t bytes, most;                /* of what is kept */
   cs_spare *kept[CS_SPARES_CLASSES]; /* from malloc */
 } cs_spares;
 

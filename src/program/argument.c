@@ -260,6 +260,17 @@ static bool read_amount(const char *text, const char *end, const char *letters, 
   return number <= 1e15;
 }
 
+static bool read_bytes(const cs_argument *kind, const char *text, void *field) {
+  double bytes;
+  if (!read_amount(text, text + strlen(text), "KMG", &bytes) || bytes < kind->least)
+    return false;
+  *(double *)field = bytes;
+  return true;
+}
+
+const cs_argument cs_argument_bytes = {
+    .allowed = "a size of at least 1M, such as 512M or 4G", .read = read_bytes, .least = 1 << 20};
+
 /* count: of the limits that are known, from the first one on. */
 static bool read_limit(const char *text, const char *end, size_t count, cs_given_limits *out) {
   static const struct limit {

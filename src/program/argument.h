@@ -88,6 +88,7 @@ extern const cs_argument cs_argument_depth, cs_argument_colour, cs_argument_alph
 extern const cs_argument cs_argument_antialias; /* cs_given_antialias */
 extern const cs_argument cs_argument_tint;      /* float[3]: linear light, opaque */
 extern const cs_argument cs_argument_texts;     /* cs_given_texts: adds a folder */
+extern const cs_argument cs_argument_bytes;     /* double: a size such as 512M, at least 1M */
 /* cs_given_limits: adds "memory=512M,steps=2e9,time=60,print=1M,render-memory=8G,picture-memory=1G,
  * picture-time=20"; the other one takes those of pictures alone. */
 extern const cs_argument cs_argument_limits, cs_argument_picture_limits;

@@ -6,16 +6,48 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/ceiling.h"
+#include "base/context.h"
+#include "base/machine.h"
 #include "frames/process/interrupt.h"
 #include "frames/process/journal.h"
 #include "plugins/isolate/client.h"
 #include "plugins/isolate/isolate.h"
 #include "plugins/isolate/strict.h"
 
-#define PICTURE_MEMORY ((uint64_t)1 << 30)
+#define PICTURE_MEMORY ((size_t)1 << 30)
+#define CACHE_MEMORY ((size_t)768 << 20)
+#define MEMORY_LEAST ((size_t)1 << 20)
 #define PICTURE_SECONDS 20
 
 enum { PATH_SIZE = 4096 };
+
+/* ---------------------------------------------------------------- memory */
+
+/* The most memory that this process may hold (base/ceiling.h), which it lends to its context; and
+ * the same before options changed it, of which the caches have a quarter, and a decoder of pictures
+ * a third: the quarter that the process itself leaves free. */
+static cs_ceiling ceiling;
+static size_t budget = SIZE_MAX;
+
+static size_t least(size_t a, size_t b) { return a < b ? a : b; }
+
+cs_exit cs_confine_memory(const cs_request *request, celspan_context_desc *desc) {
+  const char *text = getenv("CELSPAN_MEMORY");
+  double given = 0;
+  int32_t cached = 0; /* MiB */
+  cs_control_group group;
+  if (text && text[0] && !cs_argument_bytes.read(&cs_argument_bytes, text, &given))
+    return cs_report_usage("CELSPAN_MEMORY: '%s' is not %s", text, cs_argument_bytes.allowed);
+  cs_machine_group(&group);
+  cs_ceiling_init(&ceiling, &group, cs_machine_memory(), (uint64_t)given);
+  budget = ceiling.most;
+  cs_request_read(request, "--memory", &cached);
+  size_t caches = cached > 0 ? (size_t)cached << 20 : least(CACHE_MEMORY, budget / 4);
+  desc->defocus_bytes = caches / 3; /* divided as the defaults are */
+  desc->picture_bytes = 2 * desc->defocus_bytes;
+  return CS_EXIT_OK;
+}
 
 /* ---------------------------------------------------------------- limits */
 
@@ -31,6 +63,7 @@ static cs_limits limits_of(const cs_request *request) {
   const cs_given_limits given = given_limits(request);
   const double *values = given.values;
   cs_limits limits = is_trusted(request) ? (cs_limits){0} : CS_LIMITS_DEFAULT;
+  limits.memory = least(limits.memory, budget);
   if (given.has[CS_LIMIT_MEMORY])
     limits.memory = (size_t)values[CS_LIMIT_MEMORY];
   if (given.has[CS_LIMIT_STEPS])
@@ -46,7 +79,8 @@ cs_exit cs_confine_pictures(celspan_context *context, const cs_request *request)
   const cs_given_limits given = given_limits(request);
   bool has_memory = given.has[CS_LIMIT_PICTURE_MEMORY], has_time = given.has[CS_LIMIT_PICTURE_TIME];
   const cs_worker_limits limits = {
-      .memory = has_memory ? (uint64_t)given.values[CS_LIMIT_PICTURE_MEMORY] : PICTURE_MEMORY,
+      .memory = has_memory ? (uint64_t)given.values[CS_LIMIT_PICTURE_MEMORY]
+                           : least(PICTURE_MEMORY, budget / 3),
       .seconds = has_time ? given.values[CS_LIMIT_PICTURE_TIME] : PICTURE_SECONDS};
   if (!is_trusted(request)) {
     cs_isolate_begin(context, &limits);
@@ -60,19 +94,28 @@ cs_exit cs_confine_pictures(celspan_context *context, const cs_request *request)
       has_memory ? "picture-memory" : "picture-time");
 }
 
-/* Three quarters of the memory of this machine; 0: unknown. */
-static size_t most_of_memory(void) {
-  long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
-  return pages > 0 && size > 0 ? (size_t)pages / 4 * 3 * (size_t)size : 0;
-}
-
+/* A limit of the user is instead of what may be held; a control group may still be full. */
 void cs_confine_rendering(celspan_context *context, const cs_request *request) {
   const cs_given_limits given = given_limits(request);
+  bool has_limit = given.has[CS_LIMIT_RENDER_MEMORY];
   context->memory->account = cs_guard_account;
-  if (given.has[CS_LIMIT_RENDER_MEMORY])
+  context->memory->ceiling = &ceiling;
+  context->memory->spares.most = least(CS_SPARES_MOST, budget / 16);
+  if (has_limit)
     context->memory->most_rendering = (size_t)given.values[CS_LIMIT_RENDER_MEMORY];
-  else if (!is_trusted(request))
-    context->memory->most_rendering = most_of_memory();
+  if (has_limit && given.values[CS_LIMIT_RENDER_MEMORY] > 0)
+    ceiling.most = SIZE_MAX;
+  else if (has_limit || is_trusted(request))
+    cs_ceiling_finish(&ceiling);
+}
+
+void cs_confine_divide(unsigned parts) {
+  char bytes[32];
+  if (budget == SIZE_MAX || parts == 0)
+    return;
+  size_t part = budget / 3 * 4 / parts; /* of the memory that the process may use: see ceiling.h */
+  snprintf(bytes, sizeof bytes, "%zu", part > MEMORY_LEAST ? part : MEMORY_LEAST);
+  setenv("CELSPAN_MEMORY", bytes, 1);
 }
 
 /* The option that gives or takes a right of the sandbox; NULL: none was given. */

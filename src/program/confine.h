@@ -8,8 +8,13 @@
 
 /* Has pictures decoded by processes of their own, unless they are trusted. OK, or reported. */
 cs_exit cs_confine_pictures(celspan_context *context, const cs_request *request);
-/* Limits the memory of the frames that are rendered at a time. */
+/* Finds how much memory this run may hold, and sets the sizes of the caches, before anything else.
+ * OK, or reported. */
+cs_exit cs_confine_memory(const cs_request *request, celspan_context_desc *desc);
+/* Limits what is held, and of it the memory of the frames that are rendered at a time. */
 void cs_confine_rendering(celspan_context *context, const cs_request *request);
+/* The processes that are started from now on have a part each of what this one may hold. */
+void cs_confine_divide(unsigned parts);
 /* Refuses the options of scripts for a verb that reads a FILE and runs no script. OK, or reported.
  */
 cs_exit cs_confine_refuse(const cs_request *request);

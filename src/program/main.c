@@ -63,10 +63,7 @@ static bool is_in_lua(const cs_request *request) {
 static cs_exit run(const cs_request *request) {
   celspan_context *context = NULL;
   celspan_context_desc desc = {.struct_size = sizeof desc};
-  int32_t memory = 0; /* MiB; 0: the defaults of the context */
-  cs_request_read(request, "--memory", &memory);
-  desc.defocus_bytes = (size_t)memory * 1048576 / 3; /* divided as the defaults are */
-  desc.picture_bytes = 2 * desc.defocus_bytes;
+  CS_TRY_EXIT(cs_confine_memory(request, &desc));
   if (celspan_context_create(&desc, &context) != CELSPAN_OK) {
     cs_report_error("not enough memory to start");
     return CS_EXIT_MEMORY;

@@ -6,6 +6,7 @@
  * A signal that asks to stop ends them.
  */
 #include <errno.h>
+#include <limits.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,8 +14,10 @@
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "base/context.h"
 #include "frames/process/interrupt.h"
 #include "frames/process/spawn.h"
+#include "program/confine.h"
 #include "program/service.h"
 
 enum { CHILDREN_MOST = 1024 };
@@ -121,11 +124,17 @@ static int default_signals(lua_State *L) {
   return 0;
 }
 
-/* processors() -> how many there are */
+/* processors() -> how many this process may use */
 static int processors(lua_State *L) {
-  long count = sysconf(_SC_NPROCESSORS_ONLN);
-  lua_pushinteger(L, count > 0 ? count : 1);
+  lua_pushinteger(L, cs_context_workers(cs_service_session(L)->context, 0, INT_MAX));
   return 1;
+}
+
+/* divide_memory(parts): the processes that are started from now on share what this one may hold */
+static int divide_memory(lua_State *L) {
+  lua_Integer parts = luaL_checkinteger(L, 1);
+  cs_confine_divide(parts > 0 && parts < INT_MAX ? (unsigned)parts : 1);
+  return 0;
 }
 
 /* clock() -> seconds since some moment, which never go back */
@@ -141,6 +150,7 @@ void cs_service_add_processes(lua_State *L) {
                                       {"launch", launch},
                                       {"has_ended", has_ended},
                                       {"processors", processors},
+                                      {"divide_memory", divide_memory},
                                       {"clock", clock_now},
                                       {NULL, NULL}};
   cs_service_add(L, services);

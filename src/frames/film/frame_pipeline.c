@@ -167,7 +167,9 @@ static void free_ring(run *r) {
 }
 
 celspan_status cs_frame_pipeline_run(celspan_context *context, const cs_frame_pipeline *pipeline) {
-  run r = {.context = context, .desc = pipeline, .workers = cs_frame_workers(pipeline->workers)};
+  run r = {.context = context,
+           .desc = pipeline,
+           .workers = cs_frame_workers(context, pipeline->workers)};
   int threads = count_threads(&r);
   r.ring_size = threads ? (size_t)threads * AHEAD + 1 : 1;
   const cs_pipeline_desc desc = {.count = pipeline->count,

@@ -5,8 +5,6 @@
 #include "frames/render/drawings.h"
 #include "model/scene/check.h"
 
-#include <unistd.h>
-
 #define SIDE_LIMIT 1048576
 #define WORKER_LIMIT 1024
 
@@ -77,14 +75,14 @@ static bool needs_one_thread(const cs_frame *frame) {
   return false;
 }
 
-int cs_frame_workers(int wanted) {
-  double count = wanted > 0 ? wanted : (double)sysconf(_SC_NPROCESSORS_ONLN);
-  return (int)cs_number_clamp(count, 1, WORKER_LIMIT);
+int cs_frame_workers(celspan_context *context, int wanted) {
+  return cs_context_workers(context, wanted, WORKER_LIMIT);
 }
 
 /* Strips of whole swaths, which are not made twice then, where a crop begins with one. */
-static void choose_workers(cs_frame *frame, const celspan_frame_desc *desc) {
-  frame->workers = needs_one_thread(frame) ? 1 : cs_frame_workers(desc->workers);
+static void choose_workers(celspan_context *context, cs_frame *frame,
+                           const celspan_frame_desc *desc) {
+  frame->workers = needs_one_thread(frame) ? 1 : cs_frame_workers(context, desc->workers);
   int32_t share = frame->crop_height / (frame->workers * 8);
   for (size_t i = 0; i < frame->count; i++)
     if (cs_drawings_are_used(&frame->maps[i]) && share % CS_MAP_ROWS > 0)
@@ -171,9 +169,9 @@ static celspan_status fill_frame(celspan_context *context, const celspan_frame_d
                                  cs_frame *frame) {
   CS_TRY(set_exposures(context, desc, frame));
   CS_TRY(find_drawings(context, frame));
-  CS_TRY(cs_frame_compile(context, frame, &frame->view, cs_frame_workers(desc->workers),
+  CS_TRY(cs_frame_compile(context, frame, &frame->view, cs_frame_workers(context, desc->workers),
                           frame->plans, &frame->is_crowded));
-  choose_workers(frame, desc);
+  choose_workers(context, frame, desc);
   if (frame->is_crowded)
     cs_frame_free_plans(frame, frame->plans, context->memory);
   return CELSPAN_OK;

@@ -47,5 +47,5 @@ CELSPAN_CHECKED celspan_status cs_frame_compile(celspan_context *context, const 
                                                 const cs_view *view, int workers, cs_plan *plans,
                                                 bool *is_crowded);
 void cs_frame_free_plans(const cs_frame *frame, cs_plan *plans, cs_memory *memory);
-/* The number of threads for a number that is wanted; 0 or less: one per processor. */
-int cs_frame_workers(int wanted);
+/* cs_context_workers, up to the most threads of a frame. */
+int cs_frame_workers(celspan_context *context, int wanted);

@@ -1,7 +1,6 @@
 #include "frames/tiles/render.h"
 
 #include <string.h>
-#include <unistd.h>
 
 #include "base/context.h"
 #include "frames/process/interrupt.h"
@@ -197,17 +196,11 @@ size_t cs_tile_render_row_count(const cs_tile_render *render) {
   return count;
 }
 
-static int processors(void) {
-  long count = sysconf(_SC_NPROCESSORS_ONLN);
-  return count < 1 ? 1 : count > WORKERS_MOST ? WORKERS_MOST : (int)count;
-}
-
 /* The module that writes JPEG handles one picture at a time. */
 static int choose_threads(const cs_tile_render *render) {
-  int asked = render->workers;
   if (strcmp(render->pyramid->ending, "png") != 0)
     return 1;
-  return asked == 0 ? processors() : asked < WORKERS_MOST ? asked : WORKERS_MOST;
+  return cs_context_workers(render->context, render->workers, WORKERS_MOST);
 }
 
 /* Records the finished rows, and returns the first failure. */

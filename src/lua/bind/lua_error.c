@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/context.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/host.h"
 #include "lua/bind/userdata.h"
@@ -131,6 +132,11 @@ celspan_status cs_lua_error_report(lua_State *L, int outcome) {
     snprintf(copy, sizeof copy, "%s", text);
     lua_pop(L, 1);
     return celspan_context_fail(cs_host_context(L), limit, "%s", copy);
+  }
+  if (cs_lua_error_is_memory(L, outcome) &&
+      cs_account_tell(cs_host_context(L)->memory, copy, sizeof copy)) {
+    lua_pop(L, 1);
+    return cs_fail_memory(cs_host_context(L));
   }
   return cs_lua_error_report_as(L, status_of(L, outcome));
 }

@@ -16,15 +16,16 @@
 enum {
   STRIDE = 1000,       /* instructions between two calls of the hook */
   CLOCK_STEPS = 20000, /* steps that C functions charge between two readings of the clock */
+  WAITING = 10,        /* limits of time that may pass by the clock */
   POLL = 100000000     /* nanoseconds between two checks of the watchdog */
 };
 #define SECOND INT64_C(1000000000)
-#define GRACE (SECOND) /* after the deadline, before the process is ended */
+#define GRACE (SECOND) /* after the limit of time, before the process is ended */
 
-static int64_t now(void) {
+/* 0: the clock is that of a thread that has ended. */
+static int64_t read_clock(clockid_t clock) {
   struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (int64_t)t.tv_sec * SECOND + t.tv_nsec;
+  return clock_gettime(clock, &t) == 0 ? (int64_t)t.tv_sec * SECOND + t.tv_nsec : 0;
 }
 
 /* New threads of a Lua state copy the extra space of the main thread. */
@@ -49,25 +50,56 @@ static void note_refusal(cs_guard *guard) {
   }
 }
 
+/* Of the script: Lua's bytes and the scene's. */
+static size_t held(const cs_guard *guard) {
+  return guard->bytes + cs_account_scene_bytes(guard->context->memory);
+}
+
 static bool is_too_much(const cs_guard *guard, size_t more) {
   size_t most = guard->limits.memory;
-  return most && (more > most ||
-                  guard->bytes + cs_account_scene_bytes(guard->context->memory) > most - more);
+  return most && (more > most || held(guard) > most - more);
+}
+
+typedef enum verdict { ALLOWED, ENDS_SCRIPT, IS_REFUSED } verdict;
+
+/* Where there is no room for all that the run holds, it is the script's doing if at least half of
+ * it is the script's. */
+static verdict judge(cs_guard *guard, size_t more) {
+  cs_memory *memory = guard->context->memory;
+  if (guard->depth > 0 && is_too_much(guard, more)) {
+    guard->reason[0] = '\0';
+    return ENDS_SCRIPT;
+  }
+  if (cs_account_allows(memory, more))
+    return ALLOWED;
+  bool is_its = guard->depth > 0 && held(guard) >= cs_account_bytes(memory) / 2 &&
+                cs_account_tell(memory, guard->reason, sizeof guard->reason);
+  return is_its ? ENDS_SCRIPT : IS_REFUSED;
+}
+
+static void count_bytes(cs_guard *guard, size_t change) {
+  guard->bytes += change;
+  if (guard->context)
+    cs_account_beside(guard->context->memory, change);
 }
 
 void *cs_guard_allocate(void *user, void *storage, size_t old_size, size_t new_size) {
   cs_guard *guard = user;
   size_t before = storage ? old_size : 0; /* without a block it is the kind of object */
-  if (new_size > before && guard->depth > 0 && is_too_much(guard, new_size - before)) {
+  verdict found = ALLOWED;
+  if (new_size > before && guard->context)
+    found = judge(guard, new_size - before);
+  if (found == ENDS_SCRIPT) {
     guard->is_refused = true;
     note_refusal(guard);
-    return NULL;
   }
+  if (found != ALLOWED)
+    return NULL;
   void *resized = new_size ? realloc(storage, new_size) : NULL;
   if (!new_size)
     free(storage);
   if (resized || !new_size)
-    guard->bytes += new_size - before;
+    count_bytes(guard, new_size - before);
   return resized;
 }
 
@@ -81,7 +113,7 @@ cs_account *cs_guard_account(void) {
 }
 
 static bool refuses_scene(const cs_memory *memory, size_t more) {
-  if (!entered || entered->context->memory != memory || !is_too_much(entered, more))
+  if (!entered || entered->context->memory != memory || judge(entered, more) != ENDS_SCRIPT)
     return false;
   entered->is_scene_refused = true;
   note_refusal(entered);
@@ -120,35 +152,60 @@ static void trip_steps(cs_guard *guard) {
            (unsigned long long)guard->limits.steps, guard->limits.steps == 1 ? "" : "s");
 }
 
-static void tell_time(const cs_guard *guard, char *sentence, size_t size) {
-  double seconds = guard->limits.seconds;
-  snprintf(sentence, size,
-           "the script ran for more than %g second%s (--limit time=SECONDS allows more)", seconds,
-           seconds == 1 ? "" : "s");
+typedef enum lateness { IN_TIME, RAN, WAITED } lateness;
+
+/* A thread uses no more time of a processor than passes: so its clock, which is slower to read, is
+ * only read late. */
+static lateness find_lateness(const cs_guard *guard, int64_t grace) {
+  double limit = guard->limits.seconds * SECOND + (double)grace;
+  int64_t begun = atomic_load_explicit(&guard->begun, memory_order_relaxed);
+  double passed = begun ? (double)(read_clock(CLOCK_MONOTONIC) - begun) : 0;
+  if (passed <= limit)
+    return IN_TIME;
+  clockid_t clock = atomic_load_explicit(&guard->processor_clock, memory_order_relaxed);
+  int64_t from = atomic_load_explicit(&guard->begun_processor, memory_order_relaxed);
+  return (double)(read_clock(clock) - from) > limit ? RAN
+         : passed > WAITING * limit                 ? WAITED
+                                                    : IN_TIME;
 }
 
-static void trip_time(cs_guard *guard) { tell_time(guard, guard->tripped, sizeof guard->tripped); }
+static void tell_time(const cs_guard *guard, lateness how, char *sentence, size_t size) {
+  double seconds = guard->limits.seconds;
+  if (how == RAN)
+    snprintf(sentence, size,
+             "the script ran for more than %g second%s (--limit time=SECONDS allows more)", seconds,
+             seconds == 1 ? "" : "s");
+  else
+    snprintf(sentence, size,
+             "the script waited, or was kept waiting, for more than %g seconds (ten times --limit "
+             "time=SECONDS)",
+             WAITING * seconds);
+}
 
 static void trip_memory(cs_guard *guard) {
   bool is_large = guard->limits.memory >= (size_t)1 << 20;
   int length = guard->refused_line ? snprintf(guard->tripped, sizeof guard->tripped,
                                               "%s:%d: ", guard->refused_in, guard->refused_line)
                                    : 0;
-  snprintf(guard->tripped + length, sizeof guard->tripped - (size_t)length,
-           "the script needs more than %zu %s (--limit memory=SIZE allows more)",
-           guard->limits.memory >> (is_large ? 20 : 10), is_large ? "MiB" : "KiB");
+  char *rest = guard->tripped + length;
+  size_t size = sizeof guard->tripped - (size_t)length;
+  if (guard->reason[0])
+    snprintf(rest, size, "the script needs more memory than there is: %s", guard->reason);
+  else
+    snprintf(rest, size, "the script needs more than %zu %s (--limit memory=SIZE allows more)",
+             guard->limits.memory >> (is_large ? 20 : 10), is_large ? "MiB" : "KiB");
 }
 
 /* Compares with the limits and raises an error when one is exceeded. */
 static void check(lua_State *L, cs_guard *guard) {
   guard->checked = guard->steps;
-  int64_t deadline = atomic_load_explicit(&guard->deadline, memory_order_relaxed);
+  lateness late = IN_TIME;
   if (guard->is_interrupted && guard->is_interrupted())
     snprintf(guard->tripped, sizeof guard->tripped, "interrupted");
   else if (guard->limits.steps && guard->steps > guard->limits.steps)
     trip_steps(guard);
-  else if (deadline && now() > deadline)
-    trip_time(guard);
+  else if ((late = find_lateness(guard, 0)) != IN_TIME)
+    tell_time(guard, late, guard->tripped, sizeof guard->tripped);
   if (guard->tripped[0])
     raise_limit(L, guard);
 }
@@ -207,16 +264,17 @@ void cs_guard_attach(cs_guard *guard, lua_State *L, celspan_context *context) {
   guard->context = context;
   context->memory->refuses = refuses_scene;
   context->memory->account = cs_guard_account;
+  cs_account_beside(context->memory, guard->bytes);
   *(cs_guard **)lua_getextraspace(L) = guard;
   set_hook(guard, L);
 }
 
 static void kill_late(cs_guard *guard) {
   char sentence[160];
-  int64_t deadline = atomic_load_explicit(&guard->deadline, memory_order_relaxed);
-  if (!deadline || now() <= deadline + GRACE)
+  lateness late = find_lateness(guard, GRACE);
+  if (late == IN_TIME)
     return;
-  tell_time(guard, sentence, sizeof sentence);
+  tell_time(guard, late, sentence, sizeof sentence);
   guard->kill(sentence);
 }
 
@@ -267,13 +325,17 @@ void cs_guard_finish(cs_guard *guard) {
   guard->has_watchdog = false;
 }
 
-static void set_deadline(cs_guard *guard) {
+static void start_clocks(cs_guard *guard) {
+  clockid_t clock;
   if (!(guard->limits.seconds > 0))
     return;
   if (!guard->has_watchdog && guard->kill)
     start_watchdog(guard);
-  atomic_store_explicit(&guard->deadline, now() + (int64_t)(guard->limits.seconds * SECOND),
-                        memory_order_relaxed);
+  if (pthread_getcpuclockid(pthread_self(), &clock) != 0)
+    clock = CLOCK_MONOTONIC;
+  atomic_store_explicit(&guard->processor_clock, clock, memory_order_relaxed);
+  atomic_store_explicit(&guard->begun_processor, read_clock(clock), memory_order_relaxed);
+  atomic_store_explicit(&guard->begun, read_clock(CLOCK_MONOTONIC), memory_order_relaxed);
 }
 
 bool cs_guard_begin(cs_guard *guard, lua_State *L, cs_host_call call) {
@@ -286,11 +348,12 @@ bool cs_guard_begin(cs_guard *guard, lua_State *L, cs_host_call call) {
     guard->account = cs_account_set(guard->context->memory, CS_ACCOUNT_SCRIPT);
   guard->tripped[0] = '\0';
   guard->is_refused = guard->is_scene_refused = false;
+  guard->reason[0] = '\0';
   guard->refused_line = 0;
   if (call != CS_HOST_PROCEDURE)
     guard->steps = guard->checked = guard->printed = 0;
   set_hook(guard, L);
-  set_deadline(guard);
+  start_clocks(guard);
   return true;
 }
 
@@ -300,7 +363,7 @@ void cs_guard_end(cs_guard *guard) {
   entered = NULL;
   cs_account_set(guard->context->memory, guard->account);
   guard->is_verb = false;
-  atomic_store_explicit(&guard->deadline, 0, memory_order_relaxed);
+  atomic_store_explicit(&guard->begun, 0, memory_order_relaxed);
 }
 
 /* ---------------------------------------------------------------- catching */

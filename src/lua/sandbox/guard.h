@@ -4,7 +4,7 @@
  *     every STRIDE instructions  --hook--> steps and clock are compared with the limits
  *     long C functions           --cs_guard_charge--> the same
  *     each allocation            --> Lua's bytes and the scene's are compared with the limit
- *     deadline + GRACE seconds   --watchdog thread--> the process ends: nothing else stops a C call
+ *     the limit of time + GRACE  --watchdog thread--> the process ends: nothing else stops a C call
  *
  * INVARIANT: an exceeded limit stays exceeded until the outermost call ends: the hook then fires at
  * every instruction, and pcall, xpcall and resume of this folder propagate it. So no script can
@@ -12,8 +12,9 @@
  * hidden an exceeded limit, the call fails at its end (cs_lua_error_settle).
  *
  * Steps are instructions of the Lua virtual machine, and the charges of C functions for their work;
- * they do not depend on the computer. They are counted per load or frame; time is measured per
- * outermost call.
+ * they do not depend on the computer. They are counted per load or frame. Time is measured per
+ * outermost call: that of the processor, so that a script on a busy machine does not fail, and ten
+ * times as much by the clock, so that one that waits ends, too.
  */
 #pragma once
 
@@ -23,6 +24,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <time.h>
 
 #include "lua/bind/host.h"
 
@@ -30,7 +32,7 @@
 typedef struct cs_limits {
   size_t memory;  /* bytes */
   uint64_t steps; /* in a load or a frame */
-  double seconds; /* in one call into the script */
+  double seconds; /* of the processor, in one call into the script */
   size_t print;   /* bytes in a load or a frame */
 } cs_limits;
 
@@ -54,11 +56,15 @@ typedef struct cs_guard {
   bool is_scene_refused;   /* the same, to the scene */
   int refused_line;        /* where, if it is known; 0 */
   char refused_in[LUA_IDSIZE];
+  char reason[256];        /* why it was refused last, where that limit was not; "" */
   uint64_t steps, checked; /* in this frame; at the last reading of the clock */
   size_t printed;
   bool is_silent;              /* what is printed is counted, and not shown */
   char tripped[CS_ERROR_SIZE]; /* the sentence of the exceeded limit; "": none */
-  _Atomic(int64_t) deadline;   /* of the call, in nanoseconds of the monotonic clock; 0: none */
+  /* The beginning of the call, in nanoseconds of the monotonic clock, 0: nothing is measured; and
+   * of the processor clock of its thread. Written by that thread, read by the watchdog, too. */
+  _Atomic(int64_t) begun, begun_processor;
+  _Atomic(clockid_t) processor_clock;
   bool has_watchdog, is_finished;
   pthread_t watchdog;
   pthread_mutex_t lock; /* of is_finished */

@@ -1,7 +1,6 @@
 #include "output/png/strips.h"
 
 #include <string.h>
-#include <unistd.h>
 
 #include "base/pipeline.h"
 #include "engine/span/row_queue.h"
@@ -222,11 +221,8 @@ static int32_t choose_strip_rows(int32_t width) {
   return least > rows ? least : rows > 1 ? rows : 1;
 }
 
-static int choose_workers(const cs_png_strips *strips) {
-  int64_t workers = strips->picture.workers;
-  if (workers <= 0)
-    workers = sysconf(_SC_NPROCESSORS_ONLN);
-  workers = workers > WORKERS_MOST ? WORKERS_MOST : workers < 1 ? 1 : workers;
+static int choose_workers(const cs_png_strips *strips, celspan_context *context) {
+  int workers = cs_context_workers(context, strips->picture.workers, WORKERS_MOST);
   return workers < strips->total ? (int)workers : (int)strips->total;
 }
 
@@ -258,7 +254,7 @@ celspan_status cs_png_strips_create(celspan_context *context, const cs_png_pictu
   strips->user = user;
   strips->strip_rows = choose_strip_rows(picture->width);
   strips->total = (picture->height - 1) / strips->strip_rows + 1;
-  strips->worker_count = choose_workers(strips);
+  strips->worker_count = choose_workers(strips, context);
   strips->ring_size = strips->worker_count > 1 ? AHEAD * strips->worker_count : 1;
   strips->sum = CS_DEFLATE_SUM_EMPTY;
   *out = strips;

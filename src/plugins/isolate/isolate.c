@@ -190,7 +190,7 @@ static const cs_picture_module module = {.version = CS_PICTURE_MODULE_VERSION,
 static const cs_colour_module colour_module = {CS_COLOUR_MODULE_VERSION, sample_profile};
 
 void cs_isolate_begin(celspan_context *context, const cs_worker_limits *limits) {
-  cs_worker_limit(limits);
+  cs_worker_limit(limits, cs_context_workers(context, 0, CS_WORKERS_MOST));
   context->picture_module = &module;
   context->colour_module = &colour_module;
 }

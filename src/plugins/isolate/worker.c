@@ -20,10 +20,14 @@ enum { LOADING_PARTS = 10 }; /* loading the module may take as long as decoding 
 static struct {
   pthread_mutex_t lock;
   cs_worker_limits limits;
+  int most;        /* decoders at a time */
   cs_worker *list; /* those that have not ended */
 } all = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
-void cs_worker_limit(const cs_worker_limits *limits) { all.limits = *limits; }
+void cs_worker_limit(const cs_worker_limits *limits, int most) {
+  all.limits = *limits;
+  all.most = most;
+}
 
 cs_worker_limits cs_worker_limits_set(void) { return all.limits; }
 
@@ -99,11 +103,6 @@ static celspan_status create(cs_worker_task task, cs_worker **out, cs_picture_fa
 
 /* ---------------------------------------------------------------- the pool */
 
-static int most_workers(void) {
-  long processors = sysconf(_SC_NPROCESSORS_ONLN);
-  return processors < 1 ? 1 : processors > CS_WORKERS_MOST ? CS_WORKERS_MOST : (int)processors;
-}
-
 /* The worker with the fewest users; NULL where a new one is better. The lock is held. */
 static cs_worker *choose(cs_worker_task task) {
   cs_worker *best = NULL;
@@ -113,8 +112,7 @@ static cs_worker *choose(cs_worker_task task) {
       best = !best || at->users < best->users ? at : best;
       count++;
     }
-  bool is_good =
-      best && (best->users == 0 || (task != CS_WORKER_WRITES && count >= most_workers()));
+  bool is_good = best && (best->users == 0 || (task != CS_WORKER_WRITES && count >= all.most));
   return is_good ? best : NULL;
 }
 

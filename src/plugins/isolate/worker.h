@@ -57,7 +57,7 @@ typedef struct cs_worker_request {
 celspan_status cs_worker_fail(cs_picture_failure *failure, celspan_status status, const char *file,
                               const char *reason);
 /* Sets the limits of all workers. Called before the first one starts. */
-void cs_worker_limit(const cs_worker_limits *limits);
+void cs_worker_limit(const cs_worker_limits *limits, int most);
 cs_worker_limits cs_worker_limits_set(void);
 /* is_fresh: the worker is a new one. Errors: those of cs_client_start. */
 celspan_status cs_worker_take(cs_worker_task task, bool is_fresh, cs_worker **out,

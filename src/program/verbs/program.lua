@@ -144,6 +144,7 @@ end
 function program.run_all(next_item, workers, start, finish)
   local by_process, ended, items = {}, {}, {}
   local running, started, finished, is_well, goes_on = 0, 0, 0, true, true
+  program.divide_memory(workers)
   local item = next_item()
   while running > 0 or item do
     if program.is_stopped() or not goes_on then item = nil end

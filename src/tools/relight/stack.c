@@ -279,7 +279,7 @@ static void sum_strip(void *user, int worker, int32_t strip) {
 
 static celspan_status sum(celspan_context *context, const celspan_stack *stack,
                           const celspan_stack_light *lights, int workers, float *rgba) {
-  int threads = cs_frame_workers(workers);
+  int threads = cs_frame_workers(context, workers);
   size_t terms = 2 * stack->light_count;
   summing s = {.stack = stack, .isa = cs_isa_best(), .rgba = rgba};
   s.stride = ((size_t)stack->width + LINE - 1) / LINE * LINE;

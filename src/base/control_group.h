@@ -1,0 +1,39 @@
+/* The limits of the control groups that a process is in (cgroups of Linux, version 1 and 2), as
+ * containers and batch systems set them.
+ *
+ *   /proc/self/cgroup        the path of its group in each hierarchy
+ *   /proc/self/mountinfo     where the hierarchy is mounted, and which group is the mount's root
+ *
+ *   mount  /sys/fs/cgroup             limits of the root, if there are any
+ *                /jobs                those of all jobs
+ *                     /job.7          those of the group; on this way up the least counts
+ *
+ * Where a container sees its own group as the root of the mount, but a path from outside, the
+ * mount's root is the group. What cannot be read, or makes no sense, is no limit.
+ */
+#pragma once
+
+#include <stdint.h>
+
+#define CS_CONTROL_GROUP_NONE UINT64_MAX
+
+enum { CS_CONTROL_GROUP_PATH = 4096 };
+
+typedef struct cs_control_group {
+  double processors; /* of its quota of processor time; HUGE_VAL: it has none */
+  /* Bytes of the limit that leaves the least room: memory.max, memory.high or
+   * memory.limit_in_bytes. CS_CONTROL_GROUP_NONE: there is no limit. */
+  uint64_t memory;
+  char folder[CS_CONTROL_GROUP_PATH]; /* that has this limit; "": none */
+} cs_control_group;
+
+/* process: the folder of a process, such as "/proc/self". folder: of the group, whose parents are
+ * not read then; NULL: it is found. */
+void cs_control_group_read(const char *process, const char *folder, cs_control_group *out);
+
+/* The bytes that a group holds, without those that the kernel takes back when memory is short: the
+ * cached pages of files. usage, stat: descriptors of memory.current, or memory.usage_in_bytes, and
+ * of memory.stat; -1: not there. 0: unknown. */
+uint64_t cs_control_group_used(int usage, int stat);
+/* Opens these two in the folder of a group. */
+void cs_control_group_open(const char *folder, int *usage, int *stat);
