@@ -404,8 +404,11 @@ void cs_context_trim(celspan_context *context) {
 
 int cs_context_workers(celspan_context *context, int64_t wanted, int most) {
   atomic_int *processors = &context->root->processors;
-  if (wanted <= 0 && atomic_load_explicit(processors, memory_order_relaxed) == 0)
-    atomic_store_explicit(processors, cs_machine_processors(), memory_order_relaxed);
+  if (wanted <= 0 && atomic_load_explicit(processors, memory_order_relaxed) == 0) {
+    cs_control_group group;
+    cs_machine_group(&group);
+    atomic_store_explicit(processors, cs_machine_processors(&group), memory_order_relaxed);
+  }
   int64_t count = wanted > 0 ? wanted : atomic_load_explicit(processors, memory_order_relaxed);
   return count < most ? (int)count : most;
 }

@@ -241,11 +241,14 @@ static void find_memory(cs_control_group *group, const char *folder, uint64_t *r
 }
 
 /* From a group up to the mount; changes the path. */
-static void walk_up(cs_control_group *group, char *folder, const char *mount, uint64_t *room) {
-  size_t top = strlen(mount);
+static void walk_up(cs_control_group *group, places *p, hierarchy h, uint64_t *room) {
+  char *folder = p->group[h];
+  size_t top = strlen(p->mount[h]);
   for (;;) {
-    find_processors(group, folder);
-    find_memory(group, folder, room);
+    if (h != MEMORY)
+      find_processors(group, folder);
+    if (h != PROCESSORS)
+      find_memory(group, folder, room);
     char *slash = strrchr(folder, '/');
     if (!slash || (size_t)(slash - folder) < top)
       return;
@@ -268,7 +271,7 @@ void cs_control_group_read(const char *process, const char *folder, cs_control_g
   each_line(process, "mountinfo", take_mount, p);
   for (hierarchy h = 0; h < HIERARCHIES; h++)
     if (p->mount[h][0])
-      walk_up(out, p->group[h], p->mount[h], &room);
+      walk_up(out, p, h, &room);
   free(p);
 }
 

@@ -22,11 +22,9 @@ void cs_machine_group(cs_control_group *out) {
   cs_control_group_read("/proc/self", folder && folder[0] ? folder : NULL, out);
 }
 
-int cs_machine_processors(void) {
-  cs_control_group group;
-  cs_machine_group(&group);
+int cs_machine_processors(const cs_control_group *group) {
   long count = allowed_processors();
-  double quota = ceil(group.processors);
+  double quota = ceil(group->processors);
   count = quota < (double)count ? (long)quota : count;
   return count < 1 ? 1 : (int)count;
 }

@@ -12,9 +12,9 @@
 
 #include "base/control_group.h"
 
-/* At least 1. */
-int cs_machine_processors(void);
 /* The control group of this process. */
 void cs_machine_group(cs_control_group *out);
+/* In that group; at least 1. */
+int cs_machine_processors(const cs_control_group *group);
 /* Bytes; 0: unknown. */
 uint64_t cs_machine_memory(void);

@@ -28,6 +28,7 @@ enum { PATH_SIZE = 4096 };
  * the same before options changed it, of which the caches have a quarter, and a decoder of pictures
  * a third: the quarter that the process itself leaves free. */
 static cs_ceiling ceiling;
+static cs_control_group group;
 static size_t budget = SIZE_MAX;
 
 static size_t least(size_t a, size_t b) { return a < b ? a : b; }
@@ -36,7 +37,6 @@ cs_exit cs_confine_memory(const cs_request *request, celspan_context_desc *desc)
   const char *text = getenv("CELSPAN_MEMORY");
   double given = 0;
   int32_t cached = 0; /* MiB */
-  cs_control_group group;
   if (text && text[0] && !cs_argument_bytes.read(&cs_argument_bytes, text, &given))
     return cs_report_usage("CELSPAN_MEMORY: '%s' is not %s", text, cs_argument_bytes.allowed);
   cs_machine_group(&group);
@@ -100,6 +100,7 @@ void cs_confine_rendering(celspan_context *context, const cs_request *request) {
   bool has_limit = given.has[CS_LIMIT_RENDER_MEMORY];
   context->memory->account = cs_guard_account;
   context->memory->ceiling = &ceiling;
+  atomic_store(&context->processors, cs_machine_processors(&group));
   context->memory->spares.most = least(CS_SPARES_MOST, budget / 16);
   if (has_limit)
     context->memory->most_rendering = (size_t)given.values[CS_LIMIT_RENDER_MEMORY];

@@ -16,6 +16,7 @@
 enum {
   STRIDE = 1000,       /* instructions between two calls of the hook */
   CLOCK_STEPS = 20000, /* steps that C functions charge between two readings of the clock */
+  PIECE = 65536,       /* bytes of Lua that are counted for the whole run together */
   WAITING = 10,        /* limits of time that may pass by the clock */
   POLL = 100000000     /* nanoseconds between two checks of the watchdog */
 };
@@ -63,14 +64,14 @@ static bool is_too_much(const cs_guard *guard, size_t more) {
 typedef enum verdict { ALLOWED, ENDS_SCRIPT, IS_REFUSED } verdict;
 
 /* Where there is no room for all that the run holds, it is the script's doing if at least half of
- * it is the script's. */
-static verdict judge(cs_guard *guard, size_t more) {
+ * it is the script's. is_piece: of that only so little is new that nobody is asked yet. */
+static verdict judge(cs_guard *guard, size_t more, bool is_piece) {
   cs_memory *memory = guard->context->memory;
   if (guard->depth > 0 && is_too_much(guard, more)) {
     guard->reason[0] = '\0';
     return ENDS_SCRIPT;
   }
-  if (cs_account_allows(memory, more))
+  if (is_piece || cs_account_allows(memory, more))
     return ALLOWED;
   bool is_its = guard->depth > 0 && held(guard) >= cs_account_bytes(memory) / 2 &&
                 cs_account_tell(memory, guard->reason, sizeof guard->reason);
@@ -79,8 +80,11 @@ static verdict judge(cs_guard *guard, size_t more) {
 
 static void count_bytes(cs_guard *guard, size_t change) {
   guard->bytes += change;
-  if (guard->context)
-    cs_account_beside(guard->context->memory, change);
+  if (!guard->context ||
+      (guard->bytes <= guard->told + PIECE && guard->told <= guard->bytes + PIECE))
+    return;
+  cs_account_beside(guard->context->memory, guard->bytes - guard->told);
+  guard->told = guard->bytes;
 }
 
 void *cs_guard_allocate(void *user, void *storage, size_t old_size, size_t new_size) {
@@ -88,7 +92,8 @@ void *cs_guard_allocate(void *user, void *storage, size_t old_size, size_t new_s
   size_t before = storage ? old_size : 0; /* without a block it is the kind of object */
   verdict found = ALLOWED;
   if (new_size > before && guard->context)
-    found = judge(guard, new_size - before);
+    found =
+        judge(guard, new_size - before, guard->bytes + (new_size - before) <= guard->told + PIECE);
   if (found == ENDS_SCRIPT) {
     guard->is_refused = true;
     note_refusal(guard);
@@ -113,7 +118,7 @@ cs_account *cs_guard_account(void) {
 }
 
 static bool refuses_scene(const cs_memory *memory, size_t more) {
-  if (!entered || entered->context->memory != memory || judge(entered, more) != ENDS_SCRIPT)
+  if (!entered || entered->context->memory != memory || judge(entered, more, false) != ENDS_SCRIPT)
     return false;
   entered->is_scene_refused = true;
   note_refusal(entered);
@@ -265,6 +270,7 @@ void cs_guard_attach(cs_guard *guard, lua_State *L, celspan_context *context) {
   context->memory->refuses = refuses_scene;
   context->memory->account = cs_guard_account;
   cs_account_beside(context->memory, guard->bytes);
+  guard->told = guard->bytes;
   *(cs_guard **)lua_getextraspace(L) = guard;
   set_hook(guard, L);
 }

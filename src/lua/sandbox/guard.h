@@ -48,8 +48,8 @@ typedef struct cs_guard {
   bool (*is_interrupted)(void);
   /* Called by the watchdog thread with the sentence; ends the process. */
   void (*kill)(const char *sentence);
-  size_t bytes;            /* of Lua */
-  int depth;               /* of calls into the script */
+  size_t bytes, told; /* of Lua; of those the memory of the context knows, within PIECE bytes */
+  int depth;          /* of calls into the script */
   cs_account_kind account; /* of the thread before the outermost call */
   bool is_verb;            /* the outermost call is of a verb */
   bool is_refused;         /* memory, to Lua, in this call */
