@@ -88,7 +88,7 @@ local rostrum_metatable = getmetatable(nothing)
 local function film_of(word, what)
   if getmetatable(what) == film_metatable then return what end
   if getmetatable(what) == rostrum_metatable then
-    return celspan.film { size = what.size, frame = function() return what end }
+    return celspan.film { size = what.size, space = what.space, frame = function() return what end }
   end
   refuse(("%s takes a film first, got %s"):format(word, fields.kind(what)))
 end
@@ -212,8 +212,9 @@ local function need_name(subject, names)
       or "; give it one with cel:named(" .. ("%q"):format(subject.name) .. ")"))
 end
 
---- The frame with the cels that `keep` returns for each of its own. more: other changed fields.
-local function changed_frame(subject, keep, more)
+--- The film with one of its frames changed: the frame with the cels that `keep` returns for each of
+--- its own. more: other changed fields.
+local function changed_film(subject, keep, more)
   local names, list = {}, {}
   for i, exposure in ipairs(exposures_of(subject)) do
     local changes = { table.unpack(sort_cels(exposure[1], keep, names)) }
@@ -222,7 +223,7 @@ local function changed_frame(subject, keep, more)
     list[i] = { exposure[1]:with(changes), exposure[2] }
   end
   need_name(subject, names)
-  return list
+  return subject.film:with { frame = function() return list end }
 end
 
 -- ---------------------------------------------------------------- pictures
@@ -397,9 +398,7 @@ end
 
 function claims.visible(subject, _)
   local function others(cel) return cel.name ~= subject.name and cel or nil end
-  local without = changed_frame(subject, others, {})
-  local size = subject.film.size
-  local rest = pixels_of(without, { size = size })
+  local rest = pixels_of(changed_film(subject, others, {}))
   local whole = frame_pixels(subject)
   local floats = { depth = "float", colour = "linear", alpha = "premultiplied" }
   if whole:bytes(floats) == rest:bytes(floats) then
@@ -415,8 +414,7 @@ local function matte_of(subject)
   local function alone(cel)
     return cel.name == subject.name and cel:with { back = { 0, 0, 0, 0 } } or nil
   end
-  local image = pixels_of(changed_frame(subject, alone, { back = { 0, 0, 0, 0 } }),
-    { size = subject.film.size })
+  local image = pixels_of(changed_film(subject, alone, { back = { 0, 0, 0, 0 } }))
   local bytes, sum = image:bytes { depth = 8, colour = "linear", alpha = "straight" }, 0
   for alpha in bytes:gmatch "...(.)" do sum = sum + alpha:byte() end
   return sum / 255 / (image.width * image.height)

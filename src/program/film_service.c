@@ -3,8 +3,9 @@
  *   script's state                        program's state
  *   frame function --> scene of the core --> { { rostrum, weight }, ... }
  *
- * A frame is what celspan's own functions take: celspan.probe, celspan.pixels, celspan.sheet. What
- * is asked of a frame's scene alone is asked of the one that was built last.
+ * The exposures say nothing of the size and the space of the film: program.still makes a film of
+ * them for celspan's own functions, celspan.probe and celspan.pixels. What is asked of a frame's
+ * scene alone is asked of the one that was built last.
  */
 #include "celspan/lua.h"
 #include "frames/process/interrupt.h"
@@ -16,6 +17,7 @@
 #include "lua/bind/userdata.h"
 #include "lua/bind/warnings.h"
 #include "lua/module/core.h"
+#include "model/colour/space.h"
 #include "model/scene/inspect.h"
 #include "model/scene/scene.h"
 #include "program/change.h"
@@ -85,14 +87,14 @@ static int try_frame(lua_State *L) {
   return 3;
 }
 
-/* film:at(number) -> frame */
+/* film:at(number) -> its exposures */
 static int at(lua_State *L) {
   film *f = self(L);
   cs_service_try(L, cs_script_try(&f->script, luaL_checkinteger(L, 2)));
   return push_frame(L, &f->script.frame);
 }
 
-/* film:chosen() -> the frame of --frame or the first, and its number */
+/* film:chosen() -> the exposures of the frame of --frame or the first, and its number */
 static int chosen(lua_State *L) {
   film *f = self(L);
   celspan_frame_desc desc;
@@ -398,6 +400,7 @@ static void set_facts(lua_State *L, const cs_film_info *info) {
   cs_put_number(L, "fps", info->frames_second);
   cs_put_text(L, "title", info->title);
   cs_put_flag(L, "has_sound", info->has_sound);
+  cs_put_text(L, "space", cs_space_words[info->space - CELSPAN_SPACE_LINEAR]);
   lua_createtable(L, 2, 0);
   lua_pushinteger(L, info->width);
   lua_rawseti(L, -2, 1);

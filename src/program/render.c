@@ -512,8 +512,9 @@ static cs_exit run(cs_script *script, const cs_request *request) {
                     .resumes = cs_request_has(request, "--resume"),
                     .keeps_going = cs_request_has(request, "--keep-going"),
                     .change = cs_change_read(request)};
+  const cs_film_frame unknown = {0};
   cs_exit outcome = cs_view_frame(request, script->film.width, script->film.height, &job.frame);
-  job.frame.space = script->film.space;
+  cs_film_expose(&script->film, &unknown, &job.frame);
   if (outcome == CS_EXIT_OK)
     outcome = cs_change_lay_onion(script, request, &job.frame);
   if (outcome == CS_EXIT_OK)

@@ -254,10 +254,7 @@ cs_exit cs_script_frame(cs_script *script, const cs_request *request, celspan_fr
   cs_exit outcome = cs_view_frame(request, script->film.width, script->film.height, out);
   if (outcome == CS_EXIT_OK)
     outcome = cs_script_build(script, number);
-  out->space = script->film.space;
-  out->exposures = script->frame.exposures;
-  out->exposure_count = script->frame.count;
-  out->repeats = script->frame.repeats;
+  cs_film_expose(&script->film, &script->frame, out);
   return outcome;
 }
 

@@ -112,12 +112,7 @@ static bool is_wanted(void *user, int32_t rows_done, int32_t rows_total) {
 static celspan_frame_desc frame_of(lua_State *L, const cs_script *script) {
   celspan_frame_desc desc = CELSPAN_FRAME_DESC;
   cs_request_read(cs_service_session(L)->request, "--workers", &desc.workers);
-  desc.exposures = script->frame.exposures;
-  desc.exposure_count = script->frame.count;
-  desc.repeats = script->frame.repeats;
-  desc.film_width = script->film.width;
-  desc.film_height = script->film.height;
-  desc.space = script->film.space;
+  cs_film_expose(&script->film, &script->frame, &desc);
   desc.progress = is_wanted;
   return desc;
 }
@@ -240,14 +235,10 @@ static celspan_status probe_cel(const search *s, celspan_cel *cel, bool *is_ther
   desc.cels = &cel;
   desc.cel_count = 1;
   CS_TRY(celspan_rostrum_create(s->context, &desc, &rostrum));
-  const celspan_exposure exposure = {rostrum, 1};
-  const cs_film_info *film = &s->script->film;
+  celspan_exposure exposure = {rostrum, 1};
+  const cs_film_frame alone = {.exposures = &exposure, .count = 1};
   celspan_frame_desc frame = CELSPAN_FRAME_DESC;
-  frame.exposures = &exposure;
-  frame.exposure_count = 1;
-  frame.film_width = film->width;
-  frame.film_height = film->height;
-  frame.space = film->space;
+  cs_film_expose(&s->script->film, &alone, &frame);
   celspan_status status = celspan_probe(s->context, &frame, s->point, rgba);
   *is_there = status == CELSPAN_OK && rgba[3] > 0;
   celspan_rostrum_unref(rostrum);

@@ -41,3 +41,14 @@ void cs_film_frame_finish(cs_film_frame *frame) {
   cs_memory_unref(memory);
   *frame = (cs_film_frame){0};
 }
+
+void cs_film_expose(const cs_film_info *film, const cs_film_frame *frame, celspan_frame_desc *out) {
+  if (out->film_width == 0 && out->film_height == 0) {
+    out->film_width = film->width;
+    out->film_height = film->height;
+  }
+  out->space = film->space;
+  out->exposures = frame->exposures;
+  out->exposure_count = frame->count;
+  out->repeats = frame->repeats;
+}

@@ -41,3 +41,7 @@ CELSPAN_CHECKED celspan_status cs_film_frame_init(cs_film_frame *out, celspan_co
                                                   const celspan_exposure *exposures, size_t count);
 /* A frame that is all zero, or finished already, may be finished too. */
 void cs_film_frame_finish(cs_film_frame *frame);
+/* Describes a frame of a film as far as the film says it: the space, the exposures, which are
+ * borrowed, and the size in film units, unless *out has one. Whoever describes a frame of a film
+ * does it here, so that no part of it is forgotten. */
+void cs_film_expose(const cs_film_info *film, const cs_film_frame *frame, celspan_frame_desc *out);

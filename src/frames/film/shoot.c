@@ -207,9 +207,7 @@ static celspan_status make(void *user, celspan_context *context, void *carried, 
   const job *j = user;
   frame_task *task = carried;
   celspan_frame_desc desc = j->shoot->frame;
-  desc.exposures = task->built.exposures;
-  desc.exposure_count = task->built.count;
-  desc.repeats = task->built.repeats;
+  cs_film_expose(&j->shoot->film, &task->built, &desc);
   desc.workers = workers;
   desc.progress = cs_frame_pipeline_progress;
   desc.progress_user = turn;

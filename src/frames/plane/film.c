@@ -88,6 +88,7 @@ celspan_status cs_plane_film_commit(cs_plane_film *film) {
 
 static celspan_status put_scene(cs_plane_film *film, const celspan_frame_desc *frame) {
   cs_plane_frame made;
+  film->desc.space = frame->space;
   celspan_status status =
       cs_plane_record(film->context, frame->exposures, frame->exposure_count, &film->desc, &made);
   if (status == CELSPAN_OK) {

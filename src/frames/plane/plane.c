@@ -153,6 +153,7 @@ static celspan_status check_desc(celspan_context *context, const celspan_plane_d
   if (desc->depth != 0 && desc->depth != 8 && desc->depth != 16)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "plane: the depth is %d; it is 8 or 16",
                    (int)desc->depth);
+  CS_TRY(cs_check_choice(context, "plane", "space", (unsigned)desc->space, CELSPAN_SPACE_SRGB + 1));
   if (desc->depth == 8 && count != 1)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "plane: a frame of %zu exposures is their sum, which has no 8-bit colours",
@@ -171,6 +172,7 @@ static celspan_status record_all(celspan_context *context, const celspan_exposur
                         .end_column = CS_RECORD_SIDE,
                         .most_dashes = CS_COMPILE_DASHES,
                         .space = CELSPAN_SPACE_LINEAR,
+                        .film_space = desc->space,
                         .unit = CS_RECORD_UNIT};
   if (count != 1)
     CS_TRY(cs_record_begin_sum(context, &out->record));

@@ -286,13 +286,15 @@ static void reverse_lights(cs_stack *stack) {
 }
 
 static celspan_status compile_rostrum(cs_compiler *c, const celspan_rostrum *rostrum,
-                                      double film_width, double film_height) {
-  const cs_compiler_film film = {.width = film_width,
-                                 .height = film_height,
-                                 .to_pixels = celspan_matrix_scaling(c->plan->width / film_width,
-                                                                     c->plan->height / film_height),
+                                      const cs_view *view) {
+  const cs_compiler_film film = {.width = view->film_width,
+                                 .height = view->film_height,
+                                 .to_pixels =
+                                     celspan_matrix_scaling(c->plan->width / view->film_width,
+                                                            c->plan->height / view->film_height),
                                  .shine = {1, 1, 1, 0}};
-  CS_TRY(cs_objects_begin_frame(c, cs_space_inside(rostrum->space, c->space), rostrum->grade));
+  const celspan_space around = cs_space_inside(view->film_space, c->space);
+  CS_TRY(cs_objects_begin_frame(c, cs_space_inside(rostrum->space, around), rostrum->grade));
   CS_TRY(compile_film(c, rostrum, &film));
   reverse_lights(&c->plan->stack);
   cs_boundary_sort(&c->plan->boundaries);
@@ -375,7 +377,7 @@ celspan_status cs_compile(celspan_context *context, const celspan_rostrum *rostr
   c.blurs = &blurs;
   plan.stack.span_error = view->span_error;
   plan.stack.space = view->space;
-  celspan_status status = compile_rostrum(&c, rostrum, view->film_width, view->film_height);
+  celspan_status status = compile_rostrum(&c, rostrum, view);
   cs_patterns_finish(&patterns, context->memory);
   cs_defocus_made_finish(&blurs, context);
   return finish(&c, status, out);

@@ -31,9 +31,10 @@ typedef struct cs_view {
   double film_width, film_height;
   int32_t width, height;
   int32_t first_row, end_row, first_column, end_column;
-  size_t most_dashes; /* in view; with more, the plan is crowded (engine/row/plan.h) */
-  float span_error;   /* see engine/compose/stack.h */
-  celspan_space space;
+  size_t most_dashes;       /* in view; with more, the plan is crowded (engine/row/plan.h) */
+  float span_error;         /* see engine/compose/stack.h */
+  celspan_space space;      /* of the rows */
+  celspan_space film_space; /* of a rostrum that has none; AROUND: that of the rows */
   /* Of planes, pixels: curves are kept (model/geometry/boundary.h), and objects lie at multiples
    * of it, so that their curves are the same wherever they have been moved to. 0: neither. */
   double unit;

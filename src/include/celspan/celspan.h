@@ -1754,6 +1754,7 @@ typedef struct celspan_plane_desc {
   size_t struct_size;
   double width, height; /* film units, above 0 */
   int32_t depth;        /* 8: colours are 8-bit sRGB codes, which makes a smaller file; 0: 16 */
+  celspan_space space;  /* of the film: of a rostrum that has none. Pixels are means of light */
 } celspan_plane_desc;
 
 static inline celspan_plane_desc celspan_plane_desc_default(void) {

@@ -120,12 +120,9 @@ static celspan_status build(lua_State *L, const cs_film_info *film, int64_t numb
                    (long long)film->first, (long long)(film->first + film->count - 1));
   CS_TRY(cs_lua_film_build(L, -1, number, &frame));
   *out = CELSPAN_FRAME_DESC;
-  out->exposures = frame.exposures;
-  out->exposure_count = frame.count;
-  out->repeats = frame.repeats;
-  out->film_width = out->width = film->width;
-  out->film_height = out->height = film->height;
-  out->space = film->space;
+  cs_film_expose(film, &frame, out);
+  out->width = film->width;
+  out->height = film->height;
   return CELSPAN_OK;
 }
 

@@ -50,6 +50,7 @@ static celspan_status make(lua_State *L, const cs_options *options, celspan_plan
   plane.width = desc->film_width;
   plane.height = desc->film_height;
   plane.depth = cs_plane_depth(options->coding.depth);
+  plane.space = desc->space;
   celspan_status status =
       cs_plane_expose(cs_host_context(L), desc->exposures, desc->exposure_count, &plane, out);
   cs_host_leave(L, before);

@@ -32,16 +32,13 @@ static int64_t number_of(const cs_options *options, const cs_film_info *film) {
 }
 
 static celspan_status read_film(lua_State *L, cs_options *options) {
-  celspan_frame_desc *desc = &options->desc;
   cs_film_info film;
   cs_lua_film_read(L, 1, &film);
   int64_t number = number_of(options, &film);
-  cs_options_use_film(options, &film);
   cs_film_frame *frame = push_frame(L);
   CS_TRY(cs_lua_film_build(L, 1, number, frame));
-  desc->exposures = frame->exposures;
-  desc->exposure_count = frame->count;
-  desc->repeats = frame->repeats;
+  cs_options_use_film(options, &film);
+  cs_film_expose(&film, frame, &options->desc);
   return CELSPAN_OK;
 }
 

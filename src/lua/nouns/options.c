@@ -248,7 +248,6 @@ void cs_options_use_film(cs_options *options, const cs_film_info *film) {
     desc->film_width = film->width;
     desc->film_height = film->height;
   }
-  desc->space = film->space;
 }
 
 /* ---------------------------------------------------------------- exposures */

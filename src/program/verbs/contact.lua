@@ -20,8 +20,8 @@ local GAP, LABEL = 12, 24 -- between panels, and below them
 
 --- A frame of the film at the size of a panel, as an image at x, y.
 local function panel_of(film, number, size, x, y)
-  local pixels = program.check(celspan.pixels(film:at(number),
-    { size = size, film = film.size, workers = math.tointeger(request.workers) }))
+  local pixels = program.check(celspan.pixels(program.still(film, film:at(number)),
+    { size = size, workers = math.tointeger(request.workers) }))
   return celspan.image { x = x, y = y, w = size[1], h = size[2], size = size, format = "rgba16",
     pixels = pixels:bytes { depth = 16, colour = "srgb", alpha = "straight" } }
 end

@@ -57,9 +57,10 @@ local function exposures_of(number)
   return list
 end
 
---- The pixels of exposures at a size.
+--- The pixels of exposures at a size, as the film shows them.
 local function pixels_of(exposures, size)
-  local pixels, message = celspan.pixels(exposures, { size = size, film = film.size })
+  local alone = film:with { frame = function() return exposures end }
+  local pixels, message = celspan.pixels(alone, { size = size })
   if not pixels then error(message, 0) end
   return pixels:bytes { depth = 8, colour = "srgb", alpha = "straight" }
 end
@@ -250,7 +251,6 @@ local function frame_at(number)
   return list
 end
 
-return celspan.film {
-  size = film.size, fps = film.fps, first = film.first, frames = film.frames, title = film.title,
+return film:with {
   frame = function(f) return frame_at(f.number) end,
 }

@@ -27,7 +27,7 @@ for i = 1, math.min(#all, MOST) do
   objects[#objects + 1] = panel:scale(scale):translate(x, y)
   objects[#objects + 1] = number_at(all[i].name:sub(2), x + 1, y + h + 6)
 end
-program.write({ { celspan.rostrum { celspan.cel(objects) }, 1 } }, output, width, height)
+program.write(celspan.rostrum { size = { width, height }, celspan.cel(objects) }, output)
 if #all > MOST then
   program.note("%s: the first %d of %d elements are shown", output, MOST, #all)
 end

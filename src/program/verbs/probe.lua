@@ -13,6 +13,6 @@ end
 local x, y = coordinate("X", request[2]), coordinate("Y", request[3])
 local film = program.film()
 local frame, number = film:chosen()
-local r, g, b, a = celspan.probe(frame, x, y, { film = film.size })
+local r, g, b, a = celspan.probe(program.still(film, frame), x, y)
 if not r then program.check(nil, ("frame %d: %s"):format(number, g)) end
 print(("%.9g %.9g %.9g %.9g"):format(r, g, b, a))
