@@ -4,13 +4,16 @@
 local celspan = require "celspan"
 local fields = require "celspan.fields"
 local layers = require "celspan.layers"
+local parameters = require "celspan.parameters"
 local svg = require "celspan.svg"
 
 local artwork = {}
 
---- A drawing, its size, and what is left out, as sentences.
+--- A drawing, its size, and what is left out, as sentences. Its parameter `font` is a file for all
+--- texts.
 local function drawing(path)
-  local art = assert(svg.read(path))
+  local font = parameters.declare { font = { "", about = "A font file for the texts" } }.font
+  local art = assert(svg.read(path, { fonts = font ~= "" and { default = font } or nil }))
   local notes = {}
   for i, note in ipairs(art.skipped) do notes[i] = ("line %d: %s"):format(note.line, note.what) end
   return { celspan.cel { art.object } }, art.width, art.height, notes
@@ -22,7 +25,9 @@ local function painting(path)
   for i, note in ipairs(tree.skipped) do
     notes[i] = note.layer == "" and note.what or note.layer .. ": " .. note.what
   end
-  return tree:cels(), tree.width, tree.height, notes
+  local cels = tree:cels()
+  cels.space = "srgb" -- as in painting programs, and as `tree.object` is
+  return cels, tree.width, tree.height, notes
 end
 
 --- What is not shown of it is passed to `show`.

@@ -12,14 +12,19 @@
 #include "frames/still/still.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
-#include "lua/nouns/options.h"
+#include "lua/module/artwork.h"
+#include "lua/nouns/lua_film.h"
 #include "model/colour/transfer.h"
 #include "model/pictures/store.h"
 #include "output/sinks/difference.h"
 #include "output/sinks/pixels.h"
+#include "output/sinks/sink.h"
 #include "program/service.h"
+#include "program/shown.h"
 #include "program/target.h"
 #include "program/view.h"
+
+#define PIXELS_MOST (1 << 26) /* of a picture in memory */
 
 /* ---------------------------------------------------------------- what a picture holds */
 
@@ -394,10 +399,8 @@ static void fit_plane(cs_still stills[2]) {
 /* Opens one of two pictures. --frame is that of a plane file. */
 static void open_compared(lua_State *L, const char *path, cs_still *out) {
   const cs_session *session = cs_service_session(L);
-  if (cs_plane_accepts(path))
-    cs_service_require(L, cs_view_open_still(session->context, session->request, path, out));
-  else
-    cs_service_try(L, cs_still_open(session->context, path, 0, out));
+  cs_service_require(
+      L, cs_shown_open(session->context, session->request, path, cs_plane_accepts(path), out));
 }
 
 /* How values are compared: with a plane multiplied by alpha, because a picture rounds the colours
@@ -428,7 +431,7 @@ static int compare(lua_State *L) {
     return 1;
   }
   for (int i = 0; i < 2; i++)
-    cs_service_require(L, cs_view_still(session->request, &stills[i], &frames[i]));
+    cs_service_require(L, cs_shown_frame(session->request, &stills[i], &frames[i]));
   comparison c = {.coding = coding_of(stills), .width = a->width, .height = a->height};
   cs_request_read(session->request, "--fail", &c.tolerance);
   cs_service_try(L, compare_into(session->context, &c, output, &stills[0], &frames[0], &stills[1],
@@ -437,45 +440,100 @@ static int compare(lua_State *L) {
   return 1;
 }
 
-/* convert(in, out): a picture under the request into another file. */
+static int write_plane(lua_State *L, const celspan_frame_desc *frame, const char *path,
+                       const celspan_file_desc *file) {
+  cs_service_try(L, cs_plane_write_frame(cs_service_session(L)->context, frame, path,
+                                         cs_plane_depth(file->coding.depth)));
+  return 0;
+}
+
+static bool is_drawn(const char *path) {
+  cs_artwork artwork = cs_artwork_of(path);
+  return artwork == CS_ARTWORK_ARCHIVE || artwork == CS_ARTWORK_SVG;
+}
+
+/* convert(in, out): what a file shows under the request into another file. */
 static int convert(lua_State *L) {
   const cs_session *session = cs_service_session(L);
+  const char *input = luaL_checkstring(L, 1), *output = luaL_checkstring(L, 2);
   cs_still *stills =
       cs_userdata_push_holder(L, "celspan.program.stills", 2 * sizeof *stills, close_stills);
   celspan_file_desc file = cs_target_file(session->request);
   celspan_frame_desc frame;
-  if (cs_plane_is_wanted(luaL_checkstring(L, 2), file.format))
+  bool is_plane = cs_plane_is_wanted(output, file.format);
+  if (is_plane && !is_drawn(input))
     cs_service_require(L, cs_report_usage("%s: a plane is made of a script or a drawing, not of a "
                                           "picture",
-                                          lua_tostring(L, 2)));
-  cs_service_require(
-      L, cs_view_open_still(session->context, session->request, luaL_checkstring(L, 1), stills));
-  cs_service_require(L, cs_view_still(session->request, stills, &frame));
-  cs_service_try(L,
-                 cs_still_write(session->context, stills, &frame, luaL_checkstring(L, 2), &file));
+                                          output));
+  cs_service_require(L, cs_shown_open(session->context, session->request, input, true, stills));
+  cs_service_require(L, cs_shown_frame(session->request, stills, &frame));
+  if (is_plane)
+    return write_plane(L, &frame, output, &file);
+  cs_service_try(L, cs_still_write(session->context, stills, &frame, output, &file));
   return 0;
 }
 
-/* write(frame, path, width, height): a frame of a film of this size into a picture under the
- * request. */
+/* pixels(path) -> what a file shows: RGBA of 16 bits, sRGB, straight; width, height, whether it has
+ * alpha */
+static int read_pixels(lua_State *L) {
+  static const celspan_coding coding = {.depth = CELSPAN_DEPTH_16,
+                                        .transfer = CELSPAN_TRANSFER_SRGB,
+                                        .alpha = CELSPAN_ALPHA_STRAIGHT};
+  const cs_session *session = cs_service_session(L);
+  const char *path = luaL_checkstring(L, 1);
+  cs_still *stills =
+      cs_userdata_push_holder(L, "celspan.program.stills", 2 * sizeof *stills, close_stills);
+  celspan_frame_desc frame;
+  celspan_sink sink;
+  cs_service_require(L, cs_shown_open(session->context, session->request, path, true, stills));
+  cs_service_require(L, cs_shown_frame(session->request, stills, &frame));
+  if ((int64_t)frame.width * frame.height > PIXELS_MOST)
+    cs_service_try(L, cs_fail(session->context, CELSPAN_LIMIT,
+                              "%s: has %d x %d pixels, of which this verb takes %d at most", path,
+                              frame.width, frame.height, PIXELS_MOST));
+  const size_t stride = 4 * sizeof(uint16_t) * (size_t)frame.width;
+  const size_t size = stride * (size_t)frame.height;
+  void *bytes = lua_newuserdatauv(L, size, 0);
+  cs_service_try(L, cs_sink_memory(session->context, &coding, bytes, stride, &sink));
+  cs_service_try(L, cs_still_render(session->context, stills, &frame, &sink));
+  lua_pushlstring(L, bytes, size);
+  lua_pushinteger(L, frame.width);
+  lua_pushinteger(L, frame.height);
+  lua_pushboolean(L, stills->info.has_alpha);
+  return 4;
+}
+
+static int finish_frame(lua_State *L) {
+  cs_film_frame_finish(lua_touserdata(L, 1));
+  return 0;
+}
+
+/* write(film, path): the first frame of a film, or a rostrum that has a size, into a picture under
+ * the request. */
 static int write_frame(lua_State *L) {
   const cs_session *session = cs_service_session(L);
-  celspan_frame_desc desc;
-  cs_service_require(L, cs_view_frame(session->request, (double)luaL_checkinteger(L, 3),
-                                      (double)luaL_checkinteger(L, 4), &desc));
-  cs_options_exposures(L, 1, "write", &desc);
-  celspan_file_desc file = cs_target_file(session->request);
   const char *path = luaL_checkstring(L, 2);
-  cs_service_try(L, cs_plane_is_wanted(path, file.format)
-                        ? cs_plane_write_frame(session->context, &desc, path,
-                                               cs_plane_depth(file.coding.depth))
-                        : celspan_frame_write(session->context, &desc, path, &file, NULL));
+  celspan_file_desc file = cs_target_file(session->request);
+  celspan_frame_desc desc;
+  cs_film_info film;
+  luaL_argcheck(L, cs_lua_film_push(L, 1), 1, "must be a film or a rostrum");
+  const int index = lua_gettop(L);
+  cs_lua_film_read(L, index, &film);
+  cs_film_frame *frame =
+      cs_userdata_push_holder(L, "celspan.program.frame", sizeof *frame, finish_frame);
+  cs_service_require(L, cs_view_frame(session->request, film.width, film.height, &desc));
+  cs_service_try(L, cs_lua_film_build(L, index, film.first, frame));
+  cs_film_expose(&film, frame, &desc);
+  if (cs_plane_is_wanted(path, file.format))
+    return write_plane(L, &desc, path, &file);
+  cs_service_try(L, celspan_frame_write(session->context, &desc, path, &file, NULL));
   return 0;
 }
 
 void cs_service_add_pictures(lua_State *L) {
-  static const luaL_Reg services[] = {
-      {"picture", read_facts}, {"spans", read_spans},  {"plane", read_plane}, {"compare", compare},
-      {"convert", convert},    {"write", write_frame}, {NULL, NULL}};
+  static const luaL_Reg services[] = {{"picture", read_facts}, {"spans", read_spans},
+                                      {"plane", read_plane},   {"compare", compare},
+                                      {"convert", convert},    {"pixels", read_pixels},
+                                      {"write", write_frame},  {NULL, NULL}};
   cs_service_add(L, services);
 }

@@ -6,8 +6,8 @@
 #include "base/clock.h"
 #include "engine/defocus/bands.h"
 #include "program/script.h"
+#include "program/shown.h"
 #include "program/verbs.h"
-#include "program/view.h"
 
 static void print_colour(const celspan_span *span, int32_t x) {
   float rgba[4];
@@ -102,7 +102,7 @@ static cs_exit run(cs_script *script, const cs_request *request) {
 static cs_exit print_still(celspan_context *context, const cs_request *request,
                            const cs_still *still) {
   celspan_frame_desc frame;
-  CS_TRY_EXIT(cs_view_still(request, still, &frame));
+  CS_TRY_EXIT(cs_shown_frame(request, still, &frame));
   CS_TRY_EXIT(set_rows(request, &frame));
   celspan_sink sink = {.user = &frame.crop_y, .row = print_row};
   celspan_status status = cs_still_render(context, still, &frame, &sink);
@@ -114,7 +114,7 @@ static cs_exit run_plane(celspan_context *context, const cs_request *request, co
   cs_still still = {0};
   if (cs_request_has(request, "--stats"))
     return cs_report_usage("--stats: %s is a plane, of which 'celspan info' gives figures", path);
-  cs_exit outcome = cs_view_open_still(context, request, path, &still);
+  cs_exit outcome = cs_shown_open(context, request, path, true, &still);
   if (outcome == CS_EXIT_OK)
     outcome = print_still(context, request, &still);
   cs_still_close(&still);

@@ -16,8 +16,8 @@
 #include "program/confine.h"
 #include "program/progress.h"
 #include "program/script.h"
+#include "program/shown.h"
 #include "program/verbs.h"
-#include "program/view.h"
 
 enum { TILE_LEAST = 16, TILE_MOST = 8192, TILES_MOST = 200000, NAME_SIZE = 128 };
 
@@ -57,8 +57,8 @@ static void set_name(const char *path, char name[NAME_SIZE]) {
 static cs_exit open_still(tiles_job *job) {
   CS_TRY_EXIT(cs_confine_refuse(job->request));
   CS_TRY_EXIT(
-      cs_view_open_still(job->context, job->request, job->request->operands[0], &job->still));
-  return cs_view_still(job->request, &job->still, &job->frame);
+      cs_shown_open(job->context, job->request, job->request->operands[0], true, &job->still));
+  return cs_shown_frame(job->request, &job->still, &job->frame);
 }
 
 static cs_exit open_script(tiles_job *job) {

@@ -425,7 +425,8 @@ const cs_verb cs_verbs[] = {
               "without antialiasing or defocus.",
      .options = PROBE},
     {"convert", "IN OUT", 2, 2,
-     .summary = "Converts a picture, span or plane file to another format or size.",
+     .summary = "Converts a picture, painting, drawing, span or plane file to another format or "
+                "size.",
      .options = CONVERT},
     {"plane", "FILE -o PAGE", 1, 1, .summary = "Makes a page that shows a plane file at any size.",
      .notes = "The plane and its decoder, as WebAssembly, are in the page, which needs nothing "
@@ -444,7 +445,8 @@ const cs_verb cs_verbs[] = {
      .summary = "Cuts a frame or a picture into tiles, with a page to explore it in a "
                 "browser.",
      .notes = "Makes a pyramid of tiles directly from the scene, and index.html, which "
-              "shows it. A name that ends in .lua is a script; a FILE is any picture. Equal "
+              "shows it. A name that ends in .lua is a script; a FILE is any picture, drawing or "
+              "painting. Equal "
               "tiles are one file with several names. A run that was stopped continues "
               "where it stopped.",
      .options = TILES, .run = cs_verb_tiles},
@@ -474,14 +476,16 @@ const cs_verb cs_verbs[] = {
      .options = CONTACT},
     {"relight", "IN -o OUT", 1, 1,
      .summary = "Removes the light from a picture, and shows the picture in another light.",
-     .notes = "IN is any picture, and --light is the light in which it was taken. "
+     .notes = "IN is a picture, a drawing or a painting, and --light is the light in which it "
+              "was taken. "
               "Highlights are kept. Without --to, OUT is an EXR file of seven channels that "
               "can be shown in any light: by celspan.relight, or as the IN of another run, "
               "which then needs no --light.",
      .options = RELIGHT},
     {"trace", "IN -o OUT", 1, 1,
      .summary = "Turns a scanned or flat-coloured drawing into shapes: SVG, or a script.",
-     .notes = "IN is any picture. Areas of one colour become closed paths of lines and "
+     .notes = "IN is a picture, or a drawing or a painting as it is rendered. Areas of one colour "
+              "become closed paths of lines and "
               "cubic curves. Adjacent areas share their border, so there are no gaps "
               "between them. A script can be rendered, and other scripts can require it to "
               "use its shapes. OUT is either complete or absent.",

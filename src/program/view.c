@@ -93,21 +93,3 @@ cs_exit cs_view_frame(const cs_request *request, double film_width, double film_
   CS_TRY_EXIT(set_size(request, out));
   return set_part(request, out);
 }
-
-cs_exit cs_view_open_still(celspan_context *context, const cs_request *request, const char *path,
-                           cs_still *out) {
-  int32_t frame = 0;
-  bool has_frame = cs_request_read(request, "--frame", &frame);
-  if (has_frame && frame < 1)
-    return cs_report_usage("--frame %d: frames of a plane file are numbered from 1", (int)frame);
-  celspan_status status = cs_still_open(context, path, frame, out);
-  if (status == CELSPAN_BAD_ARGUMENT && has_frame)
-    return cs_report_usage("%s", celspan_context_error(context));
-  return cs_report_failure(context, status, NULL);
-}
-
-cs_exit cs_view_still(const cs_request *request, const cs_still *still, celspan_frame_desc *out) {
-  cs_exit outcome = cs_view_frame(request, still->info.width, still->info.height, out);
-  cs_still_expose(still, out);
-  return outcome;
-}

@@ -131,6 +131,7 @@ void cs_still_close(cs_still *still) {
 void cs_still_expose(const cs_still *still, celspan_frame_desc *frame) {
   frame->exposures = &still->exposure;
   frame->exposure_count = still->exposure.rostrum ? 1 : 0;
+  frame->space = still->space;
 }
 
 /* ---------------------------------------------------------------- rows */

@@ -10,6 +10,7 @@
 typedef struct cs_still {
   celspan_picture_info info;
   celspan_exposure exposure; /* its rostrum is owned; NULL for a span file or a plane */
+  celspan_space space;       /* of the frame */
   cs_span_reader *spans;     /* owned; NULL for any other picture */
   celspan_plane *plane;      /* likewise; its info has the size in film units, rounded */
 } cs_still;
@@ -20,7 +21,7 @@ CELSPAN_CHECKED celspan_status cs_still_open(celspan_context *context, const cha
                                              int32_t frame, cs_still *out);
 /* still: may be all zero. */
 void cs_still_close(cs_still *still);
-/* Sets the exposures of a frame, whose film has the size of the picture. */
+/* Sets the exposures and the space of a frame, whose film has the size of the picture. */
 void cs_still_expose(const cs_still *still, celspan_frame_desc *frame);
 
 /* Writes the frame to a file. */

@@ -101,6 +101,15 @@ static int refuse_result(lua_State *L, const char *path) {
                     lua_isfunction(L, -1) ? ": return celspan.film { frame = ... }" : "");
 }
 
+/* What all verbs that take films say of a file that is none. */
+static int refuse_file(lua_State *L, const char *path) {
+  return luaL_error(L,
+                    "%s: is not a Lua script, a drawing or a painting, but a picture or other "
+                    "binary data, which is no film ('celspan info %s' describes it, 'celspan "
+                    "convert' makes pictures of it)",
+                    path, path);
+}
+
 /* light userdata -> film. Runs protected. */
 static int run(lua_State *L) {
   call *c = lua_touserdata(L, 1);
@@ -117,10 +126,7 @@ static int run(lua_State *L) {
     return 1;
   }
   if (!cs_lua_script_accepts(c->path))
-    return luaL_error(L,
-                      "%s: is not a Lua script, but a picture or other binary data ('celspan info "
-                      "%s' describes it)",
-                      c->path, c->path);
+    return refuse_file(L, c->path);
   int outcome = luaL_loadfilex(L, c->path, "t");
   if (outcome == LUA_ERRFILE && strstr(lua_tostring(L, -1), strerror(ENOMEM)))
     lua_pushliteral(L, "not enough memory"); /* for the file's buffer */

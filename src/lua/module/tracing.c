@@ -8,6 +8,8 @@
 #include "lua/bind/userdata.h"
 #include "lua/module/core.h"
 #include "model/colour/transfer.h"
+#include "model/pictures/picture.h"
+#include "model/scene/texture.h"
 #include "tools/trace/result.h"
 
 #define MOST_COLOURS 64
@@ -40,10 +42,20 @@ static bool read_code(lua_State *L, int i, unsigned char *code) {
   return is_read;
 }
 
+/* Argument 1: the name of a file, or a celspan.picture of pixels. */
+static void read_picture(lua_State *L, celspan_picture_desc *out) {
+  const cs_userdata *value = cs_userdata_test(L, 1, &cs_kind_texture);
+  const celspan_texture *texture = value ? value->handle : NULL;
+  if (texture && texture->variation && texture->variation->picture)
+    out->surface = texture->variation->picture->surface;
+  if (!out->surface)
+    out->file = luaL_checkstring(L, 1);
+}
+
 /* Argument 2. codes: room for all colours. */
 static celspan_trace_desc read_options(lua_State *L, unsigned char codes[3 * MOST_COLOURS]) {
   celspan_trace_desc desc = CELSPAN_TRACE_DESC;
-  desc.picture.file = luaL_checkstring(L, 1);
+  read_picture(L, &desc.picture);
   luaL_checktype(L, 2, LUA_TTABLE);
   if (lua_getfield(L, 2, "colours") == LUA_TTABLE) {
     desc.colours = (int32_t)cs_list_length(L, -1);

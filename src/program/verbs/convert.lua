@@ -5,11 +5,5 @@ if program.has_number(request[2]) then
   program.usage("%s: one picture is written, so its name has no place for a number", request[2])
 end
 program.refuse_target(request[2])
-local kind = program.kind(request[1])
-if kind == "plane" then program.refuse_self(request[1], request[2]) end
-if kind == "svg" or kind == "archive" then
-  local film = program.film()
-  program.write(film:at(film.first), request[2], table.unpack(film.size))
-else
-  program.convert(request[1], request[2])
-end
+if program.kind(request[1]) == "plane" then program.refuse_self(request[1], request[2]) end
+program.convert(request[1], request[2])

@@ -59,7 +59,8 @@ end
 
 --- The pixels of exposures at a size, as the film shows them.
 local function pixels_of(exposures, size)
-  local alone = film:with { frame = function() return exposures end }
+  local alone = celspan.film { size = film.size, space = film.space,
+    frame = function() return exposures end }
   local pixels, message = celspan.pixels(alone, { size = size })
   if not pixels then error(message, 0) end
   return pixels:bytes { depth = 8, colour = "srgb", alpha = "straight" }

@@ -35,6 +35,24 @@ function program.has_ending(path, ...)
   return false
 end
 
+--- A frame of a film as a film of its own, in which it is seen as in that film: for celspan.pixels,
+--- celspan.probe and program.write.
+function program.still(film, exposures)
+  return require "celspan".film { size = film.size, space = film.space,
+    frame = function() return exposures end }
+end
+
+--- What a verb reads for functions that take pictures, the size of which it says: the name of a
+--- picture's file; of all else a celspan.picture of what is shown of it.
+function program.pictured(path)
+  local kind = program.kind(path)
+  if kind == "picture" or kind == "script" or kind == "folder" then return path end
+  local pixels, width, height, alpha = program.pixels(path)
+  local picture = require "celspan".picture { pixels = pixels, size = { width, height },
+    format = "rgba16" }
+  return picture, { width = width, height = height, alpha = alpha or nil }
+end
+
 --- The parts of a text between commas.
 function program.split(text)
   local list = {}

@@ -30,8 +30,9 @@ local shown = to and light_of("--to", to, true)
 --- The texture in a light, as a scene of the picture's size. If the picture has no alpha, the scene
 --- is opaque.
 local function scene_of(texture, picture)
-  return celspan.rostrum { antialias = "none", back = { 0, 0, 0, picture.alpha and 0 or 1 },
-    celspan.cel { front = shown,
+  local size = { picture.width, picture.height }
+  return celspan.rostrum { size = size, antialias = "none",
+    back = { 0, 0, 0, picture.alpha and 0 or 1 }, celspan.cel { front = shown,
       celspan.rect { 0, 0, picture.width, picture.height, texture = texture } } }
 end
 
@@ -50,11 +51,11 @@ elseif taken_off then
   program.usage("--to is missing: give the light in which to show '%s'", input)
 end
 
-local texture = taken_off or program.check(relight.from { picture = input, light = known,
+local picture, facts = program.pictured(input)
+local texture = taken_off or program.check(relight.from { picture = picture, light = known,
   estimate = not known and "grey" or nil })
 if to then
-  local picture = program.picture(input)
-  program.write(scene_of(texture, picture), output, picture.width, picture.height)
+  program.write(scene_of(texture, facts or program.picture(input)), output)
 else
   program.check(relight.write(texture, output))
 end

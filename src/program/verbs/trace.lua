@@ -23,7 +23,8 @@ if not output then program.usage "-o is missing: give -o art.svg or -o art.lua" 
 if not program.has_ending(output, ".svg", ".lua") then
   program.usage("-o: '%s' must end in .svg or .lua", output)
 end
-program.check(core.trace_write(request[1], {
+local picture = program.pictured(request[1])
+program.check(core.trace_write(picture, {
   colours = request.colours and colours_of(request.colours), smooth = tonumber(request.smooth),
   speckle = math.tointeger(request.speckle), lines = request.lines,
 }, output))
