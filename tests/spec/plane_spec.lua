@@ -325,7 +325,7 @@ end }
     refused(4, "b.plane: byte 40: band 0: the checksum is wrong", "info b.plane")
     bench:write("c.plane", bytes:sub(1, -9))
     refused(4, "c.plane: byte", "convert c.plane c.png")
-    refused(3, "('celspan info a.plane' describes it)", "render a.plane -o a.png")
+    refused(3, "'celspan info a.plane' describes it", "render a.plane -o a.png")
   end)
 
   it("is refused as a plane by its name when its beginning is damaged", function()
