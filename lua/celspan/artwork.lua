@@ -15,7 +15,11 @@ local function drawing(path)
   local font = parameters.declare { font = { "", about = "A font file for the texts" } }.font
   local art = assert(svg.read(path, { fonts = font ~= "" and { default = font } or nil }))
   local notes = {}
-  for i, note in ipairs(art.skipped) do notes[i] = ("line %d: %s"):format(note.line, note.what) end
+  for i, note in ipairs(art.skipped) do
+    local lacks_font = note.what:find("no font is given", 1, true)
+    notes[i] = ("line %d: %s%s"):format(note.line, note.what,
+      lacks_font and ": 'celspan render --set font=FILE' gives one" or "")
+  end
   return { celspan.cel { art.object } }, art.width, art.height, notes
 end
 

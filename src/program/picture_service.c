@@ -12,7 +12,6 @@
 #include "frames/still/still.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
-#include "lua/module/artwork.h"
 #include "lua/nouns/lua_film.h"
 #include "model/colour/transfer.h"
 #include "model/pictures/store.h"
@@ -447,11 +446,6 @@ static int write_plane(lua_State *L, const celspan_frame_desc *frame, const char
   return 0;
 }
 
-static bool is_drawn(const char *path) {
-  cs_artwork artwork = cs_artwork_of(path);
-  return artwork == CS_ARTWORK_ARCHIVE || artwork == CS_ARTWORK_SVG;
-}
-
 /* convert(in, out): what a file shows under the request into another file. */
 static int convert(lua_State *L) {
   const cs_session *session = cs_service_session(L);
@@ -461,7 +455,7 @@ static int convert(lua_State *L) {
   celspan_file_desc file = cs_target_file(session->request);
   celspan_frame_desc frame;
   bool is_plane = cs_plane_is_wanted(output, file.format);
-  if (is_plane && !is_drawn(input))
+  if (is_plane && !cs_shown_is_film(input))
     cs_service_require(L, cs_report_usage("%s: a plane is made of a script or a drawing, not of a "
                                           "picture",
                                           output));

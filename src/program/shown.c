@@ -6,6 +6,11 @@
 
 /* ---------------------------------------------------------------- drawings and paintings */
 
+bool cs_shown_is_film(const char *path) {
+  cs_artwork artwork = cs_artwork_of(path);
+  return artwork == CS_ARTWORK_ARCHIVE || artwork == CS_ARTWORK_SVG;
+}
+
 /* The frame of a film, which has one exposure. */
 static cs_still still_of(const cs_script *script) {
   cs_still still = {.exposure = script->frame.exposures[0], .space = script->film.space};
@@ -41,12 +46,11 @@ cs_exit cs_shown_open(celspan_context *context, const cs_request *request, const
                       bool has_frames, cs_still *out) {
   int32_t frame = 0;
   bool has_frame = has_frames && cs_request_read(request, "--frame", &frame);
-  cs_artwork artwork = cs_artwork_of(path);
   if (has_frame && frame < 1)
     return cs_report_usage("--frame %d: frames of a plane file are numbered from 1", (int)frame);
-  if (artwork == CS_ARTWORK_ARCHIVE || artwork == CS_ARTWORK_SVG)
+  if (cs_shown_is_film(path))
     return open_artwork(context, request, path, frame, out);
-  if (artwork == CS_ARTWORK_PSD)
+  if (cs_artwork_of(path) == CS_ARTWORK_PSD)
     cs_report_note("%s: its merged picture is taken; 'celspan render' shows its layers", path);
   celspan_status status = cs_still_open(context, path, frame, out);
   if (status == CELSPAN_BAD_ARGUMENT && has_frame)

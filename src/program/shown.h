@@ -7,6 +7,9 @@
 #include "frames/still/still.h"
 #include "program/request.h"
 
+/* Whether a file is shown as the frame of its film: a drawing, or a painting that holds no picture
+ * of the whole. */
+bool cs_shown_is_film(const char *path);
 /* has_frames: --frame is a frame of this file. OK, and *out new; or reported. */
 cs_exit cs_shown_open(celspan_context *context, const cs_request *request, const char *path,
                       bool has_frames, cs_still *out);

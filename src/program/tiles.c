@@ -26,9 +26,9 @@ typedef struct tiles_job {
   const cs_request *request;
   const char *output;
   bool skips_empty;
-  bool is_script;
-  cs_script script;         /* open where is_script */
-  cs_still still;           /* open where not */
+  bool is_film;
+  cs_script script;         /* open where is_film */
+  cs_still still;           /* open where it is not */
   celspan_frame_desc frame; /* all of it, under the options */
   char name[NAME_SIZE];
   const char *title;
@@ -41,9 +41,9 @@ typedef struct tiles_job {
 
 /* ---------------------------------------------------------------- the subject */
 
-static bool is_script(const char *path) {
+static bool is_film(const char *path) {
   size_t length = strlen(path);
-  return length > 4 && strcasecmp(path + length - 4, ".lua") == 0;
+  return cs_shown_is_film(path) || (length > 4 && strcasecmp(path + length - 4, ".lua") == 0);
 }
 
 /* "shots/night.lua" -> "night" */
@@ -69,17 +69,16 @@ static cs_exit open_script(tiles_job *job) {
   return CS_EXIT_OK;
 }
 
-/* A script where the name ends in .lua, else a picture. */
 static cs_exit open_subject(tiles_job *job) {
   const char *path = job->request->operands[0];
-  job->is_script = is_script(path);
+  job->is_film = is_film(path);
   job->title = job->name;
   set_name(path, job->name);
-  return job->is_script ? open_script(job) : open_still(job);
+  return job->is_film ? open_script(job) : open_still(job);
 }
 
 static void close_subject(tiles_job *job) {
-  if (job->is_script)
+  if (job->is_film)
     cs_script_close(&job->script);
   else
     cs_still_close(&job->still);
@@ -99,7 +98,7 @@ static void find_back(const celspan_rostrum *rostrum, celspan_space film, float 
 /* The background, premultiplied, in the space of the film; transparent for a picture. */
 static void set_background(const tiles_job *job, float out[4]) {
   celspan_space film = cs_space_inside(job->frame.space, CELSPAN_SPACE_LINEAR);
-  size_t count = job->is_script ? job->frame.exposure_count : 0;
+  size_t count = job->is_film ? job->frame.exposure_count : 0;
   bool is_plain = count == 1 && job->frame.exposures[0].weight == 1;
   memset(out, 0, 4 * sizeof *out);
   for (size_t i = 0; i < count; i++) {
@@ -118,8 +117,8 @@ static void set_background(const tiles_job *job, float out[4]) {
 
 static celspan_status draw(void *user, const celspan_frame_desc *frame, const celspan_sink *sink) {
   const tiles_job *job = user;
-  return job->is_script ? celspan_frame_render(job->context, frame, sink, NULL)
-                        : cs_still_render(job->context, &job->still, frame, sink);
+  return job->is_film ? celspan_frame_render(job->context, frame, sink, NULL)
+                      : cs_still_render(job->context, &job->still, frame, sink);
 }
 
 /* ---------------------------------------------------------------- the pyramid */
@@ -222,7 +221,7 @@ static cs_exit open_log(tiles_job *job) {
   const cs_request *request = job->request;
   const cs_tile_inputs inputs = {.frame = &job->frame,
                                  .file = request->operands[0],
-                                 .is_script = job->is_script,
+                                 .is_script = job->is_film,
                                  .given = job->script.given,
                                  .skips_empty = job->skips_empty};
   cs_tile_log_state state = CS_TILE_LOG_NEW;

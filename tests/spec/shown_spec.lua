@@ -185,7 +185,7 @@ describe("a file", function()
       .. '<text y="8" font-size="16">I</text></svg>')
     local font = os.getenv "PWD" .. "/scripts/type/block.ttf"
     local _, err = run "render text.svg -o bare.png"
-    assert.matches("no font is given", err, 1, true)
+    assert.matches("no font is given: 'celspan render --set font=FILE' gives one", err, 1, true)
     _, err = run("render text.svg -o set.png --set font=%s --allow %s", font,
       font:match "^(.*)/")
     assert.is_nil(err:find("no font is given", 1, true))
@@ -222,11 +222,11 @@ describe("a film in srgb", function()
 local celspan = require "celspan"
 return celspan.film { size = { 8, 8 }, frames = 2, space = "srgb", frame = function(f)
   if f.number == 2 then return celspan.rostrum {} end
-  return celspan.rostrum { %s }
+  return celspan.rostrum { celspan.cel { %s } }
 end }]]
-    local paper = "celspan.cel { celspan.rect { 0, 0, 8, 8, texture = %q } }"
-    bench:write("mixed.lua", both:format(paper:format "#fff" .. ", celspan.cel { "
-      .. "celspan.rect { 0, 0, 8, 8, texture = '#000' }, opacity = 0.4 }"))
+    local paper = "celspan.rect { 0, 0, 8, 8, texture = %q }"
+    bench:write("mixed.lua", both:format(paper:format "#fff" .. ", "
+      .. "celspan.rect { 0, 0, 8, 8, texture = celspan.rgb('#000', 0.4) }"))
     bench:write("flat.lua", both:format(paper:format "#999"))
     for _, name in ipairs { "mixed", "flat" } do
       run("render %s.lua --onion 1,0 --frames 2 -o %s-skin.png", name, name)

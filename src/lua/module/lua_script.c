@@ -101,7 +101,7 @@ static int refuse_result(lua_State *L, const char *path) {
                     lua_isfunction(L, -1) ? ": return celspan.film { frame = ... }" : "");
 }
 
-/* What all verbs that take films say of a file that is none. */
+/* What all verbs that take films say of a file that is no film. */
 static int refuse_file(lua_State *L, const char *path) {
   return luaL_error(L,
                     "%s: is not a Lua script, a drawing or a painting, but a picture or other "

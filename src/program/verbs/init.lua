@@ -46,7 +46,7 @@ for path, text in pairs(texts) do
   program.save(folder .. "/" .. path, (program.text(text):gsub("@(%u+)@", marks)))
 end
 local film = program.film(folder .. "/film.lua")
-program.write(film:at(film.first), folder .. "/spec/frame1.png", table.unpack(film.size))
+program.write(program.still(film, film:at(film.first)), folder .. "/spec/frame1.png")
 local shown = folder:find "[^%w_./-]" and ("'%s'"):format(folder) or folder -- for a shell
 print(("%s: a film of two seconds, its sheet and its spec\n  cd %s\n  celspan test\n"
   .. "  celspan render film.lua -o out/film.mp4"):format(folder, shown))
