@@ -471,6 +471,14 @@ static void check_lines_fit(studio *s) {
     check_maps(s, moved_disc(s, matrix), k == 0, k == 0);
     studio_finish(s);
   }
+  /* Here the corner right, top decides, in which x and y of the map have different signs. */
+  const celspan_matrix over = celspan_matrix_rotation(150, (celspan_point){0, 0});
+  cs_context_trim(s->context);
+  check_maps(s,
+             moved_disc(s, celspan_matrix_then(
+                               over, celspan_matrix_translation(0, -CS_MAP_FARTHEST + 22))),
+             1, 1);
+  studio_finish(s);
 }
 
 /* ---------------------------------------------------------------- parts */
