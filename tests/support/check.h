@@ -26,7 +26,7 @@ static inline int check_near(double a, double b, double tolerance, const char *f
 
 static inline int check_text(const char *a, const char *b, const char *file, int line,
                              const char *what) {
-  char text[512];
+  char text[16384]; /* two paths and more */
   snprintf(text, sizeof text, "%s (\"%s\" against \"%s\")", what, a ? a : "(null)",
            b ? b : "(null)");
   return check_record(a && b && strcmp(a, b) == 0, file, line, text);
