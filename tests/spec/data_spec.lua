@@ -210,6 +210,18 @@ return celspan.film { size = { 4, 4 }, frames = 1,
     assert.is_truthy((out .. err):find "none.txt")
   end)
 
+  it("are closed when they are read, however long the collector waits", function()
+    bench:write("film.lua", [[
+local celspan = require "celspan"
+local large = {}
+for i = 1, 300000 do large[i] = {} end
+for _ = 1, 500 do assert(celspan.read "film.lua") end
+return celspan.rostrum {}]])
+    local code, _, err = bench:inside(("ulimit -n 64 && '%s' check film.lua"):format(
+      workbench.absolute))
+    assert.are.equal(0, code, err)
+  end)
+
   it("that are pipes, folders or devices are refused, and not waited for", function()
     bench:inside "mkfifo pipe"
     for name, read in pairs(ways) do

@@ -12,11 +12,15 @@
 
 enum { PIECE = 65536 };
 
-static int close_file(lua_State *L) {
-  int *file = lua_touserdata(L, 1);
-  if (*file > 0)
+static void close_file(int *file) {
+  if (*file >= 0)
     close(*file);
-  *file = 0;
+  *file = -1;
+}
+
+/* For a file that an error has left open. */
+static int release_file(lua_State *L) {
+  close_file(lua_touserdata(L, 1));
   return 0;
 }
 
@@ -51,18 +55,25 @@ static int read_text(lua_State *L, int file, const char *path, size_t size, lua_
   return 1;
 }
 
-int cs_file_text(lua_State *L) {
-  const char *path = luaL_checkstring(L, 1);
-  lua_Integer most = luaL_checkinteger(L, 2);
+static int read_file(lua_State *L, int file, const char *path, lua_Integer most) {
   struct stat found;
-  cs_host_admit(L, path);
-  int *file = cs_userdata_push_holder(L, "celspan.file", sizeof *file, close_file);
-  *file = cs_open_to_read(path);
-  if (*file < 0 || fstat(*file, &found) != 0)
+  if (file < 0 || fstat(file, &found) != 0)
     return fail_text(L, path, strerror(errno));
   if (!S_ISREG(found.st_mode))
     return fail_text(L, path, "is not a file; a text must be one");
   if (found.st_size > most)
     return fail_length(L, path, most);
-  return read_text(L, *file, path, (size_t)found.st_size, most);
+  return read_text(L, file, path, (size_t)found.st_size, most);
+}
+
+/* The file is closed at once: the collector may take so long that too many are open. */
+int cs_file_text(lua_State *L) {
+  const char *path = luaL_checkstring(L, 1);
+  lua_Integer most = luaL_checkinteger(L, 2);
+  cs_host_admit(L, path);
+  int *file = cs_userdata_push_holder(L, "celspan.file", sizeof *file, release_file);
+  *file = cs_open_to_read(path);
+  int results = read_file(L, *file, path, most);
+  close_file(file);
+  return results;
 }
