@@ -395,6 +395,7 @@ celspan_status cs_mix_find(celspan_context *context, const cs_mix_sound *sounds,
 
 static void hash_sound(cs_hash *hash, const cs_mix_sound *sound) {
   const double numbers[] = {sound->start, sound->speed, sound->gain[0], sound->gain[1]};
+  cs_hash_text(hash, sound->path);
   cs_open_hash(hash, sound->path);
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
     cs_hash_number(hash, numbers[i]);

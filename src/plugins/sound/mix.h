@@ -54,7 +54,7 @@ typedef struct cs_mix_sound {
 /* Checks that all files are there and have a format that is read. Errors: INPUT. */
 CELSPAN_CHECKED celspan_status cs_mix_find(celspan_context *context, const cs_mix_sound *sounds,
                                            size_t count);
-/* Adds to a hash what decides the mix: the sounds, and the sizes and times of their files. */
+/* Adds to a hash what decides the mix: the sounds, and names, sizes and times of their files. */
 void cs_mix_hash(cs_hash *hash, const cs_mix_sound *sounds, size_t count);
 /* The mix from second `begin` of the film, `moments` of them. sounds: copied, except their paths,
  * passages and duckers, which are borrowed until it is closed. Errors: those of cs_sound_open. */
