@@ -78,10 +78,11 @@ static verdict judge(cs_guard *guard, size_t more, bool is_piece) {
   return is_its ? ENDS_SCRIPT : IS_REFUSED;
 }
 
+/* When the state ends the count is exact, so that states after it do not begin with its rest. */
 static void count_bytes(cs_guard *guard, size_t change) {
   guard->bytes += change;
-  if (!guard->context ||
-      (guard->bytes <= guard->told + PIECE && guard->told <= guard->bytes + PIECE))
+  bool is_near = guard->bytes <= guard->told + PIECE && guard->told <= guard->bytes + PIECE;
+  if (!guard->context || (is_near && guard->bytes > 0))
     return;
   cs_account_beside(guard->context->memory, guard->bytes - guard->told);
   guard->told = guard->bytes;
