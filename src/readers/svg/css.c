@@ -108,9 +108,10 @@ static const char *unprefixed(const char *name) {
   static const char prefix[] = "-webkit-";
   static const char aliases[] = "clip-path|filter|mask|mask-image|opacity|transform|"
                                 "transform-origin";
+  if (strncmp(name, prefix, sizeof prefix - 1) != 0)
+    return name;
   const char *rest = name + sizeof prefix - 1;
-  const bool has_prefix = strncmp(name, prefix, sizeof prefix - 1) == 0;
-  return has_prefix && cs_svg_words_have(aliases, rest) ? rest : name;
+  return cs_svg_words_have(aliases, rest) ? rest : name;
 }
 
 /* Judges a declaration with this name; *counts: false for one that is not read, which is noted
