@@ -188,8 +188,8 @@ static celspan_status build(void *user, int64_t number, cs_film_frame *out) {
 static celspan_status finished(void *user, const cs_shoot_frame *frame, celspan_status status) {
   static const char *const ways[] = {"made", "copied", "kept"};
   render_job *job = user;
-  if (status == CELSPAN_OK && job->surveys)
-    return CELSPAN_OK;
+  if (job->surveys)
+    return status;
   if (status == CELSPAN_OK && job->resumes && !is_whole(job))
     status = cs_record_add(&job->record, frame);
   if (status != CELSPAN_OK)
@@ -255,7 +255,7 @@ static celspan_file_desc describe_file(const render_job *job) {
   return file;
 }
 
-static cs_exit shoot(render_job *job) {
+static celspan_status run_shoot(render_job *job) {
   int32_t memory = 1;
   cs_request_read(job->request, "--memory", &memory);
   bool is_stream = job->output && cs_target_is_stream(job->output);
@@ -277,7 +277,11 @@ static cs_exit shoot(render_job *job) {
                           .build = build,
                           .finished = finished,
                           .tick = tick};
-  celspan_status status = cs_shoot_run(&shoot);
+  return cs_shoot_run(&shoot);
+}
+
+static cs_exit shoot(render_job *job) {
+  celspan_status status = run_shoot(job);
   return job->outcome != CS_EXIT_OK ? job->outcome
                                     : cs_report_failure(job->script->context, status, NULL);
 }
@@ -445,13 +449,13 @@ static cs_exit begin_whole(render_job *job) {
   return cs_report_failure(job->script->context, status, NULL);
 }
 
-/* Builds the frames, to find out whether the file that is there would come out the same. */
-static cs_exit survey(render_job *job) {
-  CS_TRY_EXIT(begin_whole(job));
+/* Builds the frames: whether the file that is there would come out the same. A frame that fails is
+ * not reported here, but when the file is made: after the start of the run, and before its end. */
+static bool is_unchanged(render_job *job) {
   job->surveys = true;
-  cs_exit outcome = shoot(job);
+  celspan_status status = run_shoot(job);
   job->surveys = false;
-  return outcome;
+  return status == CELSPAN_OK && cs_whole_is_kept(&job->whole);
 }
 
 static cs_exit report_kept(render_job *job) {
@@ -463,8 +467,8 @@ static cs_exit report_kept(render_job *job) {
 
 static cs_exit keep_or_make_whole(render_job *job) {
   if (cs_whole_is_known(&job->whole)) {
-    CS_TRY_EXIT(survey(job));
-    if (cs_whole_is_kept(&job->whole))
+    CS_TRY_EXIT(begin_whole(job));
+    if (is_unchanged(job))
       return report_kept(job);
   }
   CS_TRY_EXIT(begin_whole(job));

@@ -334,6 +334,25 @@ describe("--table", function()
     end
   end)
 
+  it("reports a frame that fails now, of a file that is there, between start and end", function()
+    bench:write("film.lua", [[
+      local celspan = require "celspan"
+      local p = celspan.parameters { bad = false }
+      return celspan.film { size = { 8, 8 }, frames = 3, frame = function(f)
+        if p.bad and f.number == 2 then error "two" end
+        return celspan.rostrum { celspan.cel { celspan.rect { f.number, 0, 4, 4 } } }
+      end }
+    ]])
+    local command = "render film.lua -o film.plane --resume --progress json"
+    assert.are.equal(0, (bench:celspan_inside(command)))
+    local code, _, err = bench:celspan_inside(command .. " --set bad=true")
+    assert.are.equal(3, code, err)
+    local names = {}
+    for name in err:gmatch '"event":"(%l+)"' do names[#names + 1] = name end
+    assert.are.same({ "start", "frame", "error", "note", "end" }, names)
+    assert.is_truthy(err:find('"exit":3,"failures":1,"failed":[2]', 1, true), err)
+  end)
+
   it("makes the sound of each row, and keeps what would be the same", function()
     if not present.program "ffmpeg" then return pending "no ffmpeg" end
     write_failing()
