@@ -326,7 +326,7 @@ describe("the command line", function()
     end)
 
     it("of a film that changes when its script runs again end with 3", function()
-      failure(3, "check --trust " .. write("again.lua", ([[
+      local script = write("again.lua", ([[
         local celspan = require "celspan"
         local path, count = "%s/count", 0
         local file = io.open(path)
@@ -336,9 +336,15 @@ describe("the command line", function()
         file:close()
         return celspan.film{ size = {8, 4}, frames = 3 + count, frame = function()
           return celspan.rostrum{ celspan.cel{ celspan.rect{ 0, 0, 8, 4 } } } end
-            }]]):format(folder)),
+            }]]):format(folder))
+      failure(3, "check --trust " .. script,
         "the script returned a film with other frames when it was run again: 4 from number 1, "
           .. "not 3 from number 1")
+      local code, out, err = celspan("check --trust --json " .. script)
+      assert.are.equal(3, code, err)
+      assert.truthy(out:find('"message": "the script returned a film with other frames', 1, true),
+        out)
+      assert.is_nil(err:find("no faults", 1, true))
     end)
 
     -- Runs celspan with a pipe that nobody reads: its exit code and what it says.

@@ -29,6 +29,7 @@ local SLOW = 0.25 -- seconds to build a frame that are worth a line
 -- ---------------------------------------------------------------- faults
 
 local faults = { by_text = {}, met = 0, beyond = 0 }
+local others = {} -- sentences, already reported, about no frame
 
 local function touches(run, first, last) return first <= run.last + 1 and last >= run.first - 1 end
 
@@ -137,10 +138,10 @@ end
 --- The film of the script, run once more; nil and an exit code, reported.
 local function fresh_film(film)
   local good, fresh = pcall(program.film, nil, true)
-  if not good then return nil, program.outcome() end
-  if fresh.first == film.first and fresh.frames == film.frames then return fresh end
-  program.error("%s", program.other_frames(fresh, film))
-  return nil, SCRIPT
+  if good and fresh.first == film.first and fresh.frames == film.frames then return fresh end
+  if good then program.error("%s", program.other_frames(fresh, film)) end
+  others[#others + 1] = program.reported()
+  return nil, good and SCRIPT or program.outcome()
 end
 
 --- The films for the other passes; nil and an exit code, reported.
@@ -208,9 +209,10 @@ local function describe(level, sentence, frame, frames)
            line = line }
 end
 
---- All faults and warnings as JSON, on standard output. more: a fault that is about no frame.
-local function print_json(warnings, more)
-  local list = { more and describe("error", more) }
+--- All faults and warnings as JSON, on standard output.
+local function print_json(warnings)
+  local list = {}
+  for _, sentence in ipairs(others) do list[#list + 1] = describe("error", sentence) end
   for _, fault in ipairs(faults) do
     list[#list + 1] = describe("error", sentence_of(fault), fault.runs[1].first,
       frames_of(fault):match "%d.*")
@@ -227,7 +229,8 @@ local function report_slowest(done)
     slowest.seconds, slowest.total / done)
 end
 
-local function report(done, count, sound, warnings)
+--- ended: what could not be checked has been reported.
+local function report(done, count, ended, sound, warnings)
   for _, fault in ipairs(request.json and {} or faults) do
     program.error("%s: %s", frames_of(fault), sentence_of(fault))
   end
@@ -244,7 +247,7 @@ local function report(done, count, sound, warnings)
     local more = faults.beyond > 0 and "more than " or ""
     program.note("%s%d fault%s, found %d time%s in %d frame%s", more, #faults, plural(#faults),
       faults.met, plural(faults.met), done, plural(done))
-  elseif done == count then
+  elseif done == count and not ended then
     program.note("%d frame%s checked: no faults%s%s", done, plural(done),
       sound == 0 and "" or " except in the sound",
       #warnings == 0 and "" or (", %d warning%s"):format(#warnings, plural(#warnings)))
@@ -255,7 +258,8 @@ end
 local function open()
   local good, film = pcall(program.film)
   if good then return film end
-  print_json({}, program.reported() or tostring(film))
+  others[1] = program.reported() or tostring(film)
+  print_json {}
   return nil, program.outcome()
 end
 
@@ -269,8 +273,9 @@ end
 local listed = request.frames and film:numbers()
 local count = listed and #listed or film.frames
 local sound = film:check_sound()
+if sound ~= 0 then others[1] = program.reported() end
 local warnings = program.part("dropped.lua").of_script(request[1])
 local done, ended = check_parts(film, listed, count)
-if request.json then print_json(warnings, sound ~= 0 and program.reported() or nil) end
-report(done, count, sound, warnings)
+if request.json then print_json(warnings) end
+report(done, count, ended, sound, warnings)
 return faults.code or ended or sound
