@@ -376,6 +376,22 @@ end }]])
     assert.is_nil(first.frame)
   end)
 
+  it("is not looked for in modules that are not beside the script", function()
+    bench:shell("mkdir -p " .. bench.folder .. "/outside")
+    bench:write("outside/away.lua", [[
+local celspan = require "celspan"
+local c = celspan.circle { centre = { 1, 1 }, radius = 3 }
+c:scale(2)]])
+    local _, place = bench:inside "pwd"
+    bench:write("film.lua", ([[
+local celspan = require "celspan"
+local _ = function() return require "%s.outside.away" end
+return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 1, 1 } } }]])
+      :format((place:gsub("%s", ""):gsub("/", "."))))
+    local _, _, message = bench:celspan_inside "check film.lua"
+    assert.is_truthy(message:find("1 frame checked: no faults\n", 1, true), message)
+  end)
+
   it("is what is not used, and not what may be something else", function()
     bench:write("film.lua", [==[
 #!/usr/bin/env celspan
@@ -398,6 +414,11 @@ mover(ball)
 local both = celspan.rect { 0, 0, 1, 1 }
 both = ball
 both:scale(2)
+local first, second = celspan.rect { 0, 0, 1, 1 }, celspan.rect { 0, 0, 1, 1 }
+list.x, first = 1, ball
+second, list.x = ball, 1
+first:scale(2)
+second:scale(2)
 for _, c in ipairs { ball } do c:scale(2) end
 random(3)
 local union = c | d:scale(2)

@@ -20,7 +20,7 @@ for sign in ("+ - * / // % ^ .. == ~= < > <= >= & | ~ << >> and or"):gmatch "%S+
   OPERATORS[sign] = true
 end
 
-local BYTES_MOST = 1 << 22 -- of a script that is looked at
+local BYTES_MOST = 1 << 18 -- of a script that is looked at: larger ones are mostly data
 
 local calls, parents = manual.types()
 
@@ -119,13 +119,13 @@ end
 -- ---------------------------------------------------------------- names
 
 --- Adds to the bindings of a name the place of an expression and its number in a list; no place: a
---- value that is not known.
+--- value that is not known. The names are in the list part too, in the order of the file.
 local function bind(bindings, name, at, number)
-  bindings[name] = bindings[name] or {}
+  if not bindings[name] then bindings[name], bindings[#bindings + 1] = {}, name end
   table.insert(bindings[name], { at = at, number = number })
 end
 
---- The names between commas at a place, and the place of the `=` after them, if there is one.
+--- The names between commas at a place, if a `=` follows them. Returns whether one does.
 local function bind_list(list, bindings, at)
   local names = {}
   local kind
@@ -139,6 +139,7 @@ local function bind_list(list, bindings, at)
   for i, name in ipairs(names) do
     if kind == "=" then bind(bindings, name, at, i) end
   end
+  return kind == "="
 end
 
 --- All names from a place up to a token of one of these kinds have values that are not known.
@@ -149,6 +150,17 @@ local function bind_unknown(list, bindings, at, last)
   end
 end
 
+--- Binds the names on the left of an assignment, if a statement that begins at a place is one. The
+--- values of names between fields, as in `t.x, c = 1, 2`, are not looked for.
+local function bind_targets(list, bindings, at)
+  local after = list[at + 1] and list[at + 1].kind
+  if (after == "=" or after == ",") and bind_list(list, bindings, at) then return end
+  local _, last = chain_at(list, {}, at)
+  if list[last] and list[last].kind == "," then
+    bind_unknown(list, bindings, at, { ["="] = true })
+  end
+end
+
 --- What is bound to each name, wherever it is in the file.
 local function bindings_of(list)
   local bindings = {}
@@ -156,8 +168,8 @@ local function bindings_of(list)
     local after = list[i + 1] and list[i + 1].kind
     if token.kind == "local" and after == "name" then
       bind_list(list, bindings, i + 1)
-    elseif token.is_first and (after == "=" or after == ",") then
-      bind_list(list, bindings, i)
+    elseif token.is_first then
+      bind_targets(list, bindings, i)
     elseif token.kind == "function" then
       bind_unknown(list, bindings, i + 1, { [")"] = true })
     elseif token.kind == "for" then
@@ -193,12 +205,13 @@ local function common(list, types, bindings, is_sure)
   return found
 end
 
---- Goes through the names until nothing changes. try(name, its bindings): whether it changed one.
+--- Goes through the names until nothing changes: in the order of the file, as most names follow
+--- from earlier ones. try(name, its bindings): whether it changed one.
 local function settle(bindings, try)
   local has_changed
   repeat
     has_changed = false
-    for name, of_name in pairs(bindings) do has_changed = try(name, of_name) or has_changed end
+    for _, name in ipairs(bindings) do has_changed = try(name, bindings[name]) or has_changed end
   until not has_changed
 end
 
@@ -258,7 +271,7 @@ local function add_file(sentences, folder, path, is_seen)
   is_seen[path] = true
   if not text then return end
   for _, name in ipairs(add_dropped(sentences, path, text)) do
-    if not name:find "[^%w_.-]" then
+    if name:find "^[%w_-][%w_.-]*$" then -- a dot at its beginning would lead to the root
       add_file(sentences, folder, folder .. name:gsub("%.", "/") .. ".lua", is_seen)
     end
   end
