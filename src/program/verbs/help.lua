@@ -14,6 +14,7 @@ local exit_codes = {
 local environment = {
   { "CELSPAN_PATH",
     "where require searches after the script's folder; scripts may read these folders" },
+  { "CELSPAN_MEMORY", "the memory that the run may use, such as 4G, if there is more" },
   { "CELSPAN_PICTURE_MODULE",
     "the file of the module celspan-picture.so, if celspan does not find it" },
   { "CELSPAN_ART_MODULE", "the same for celspan-art.so: type, drawings, paintings" },
