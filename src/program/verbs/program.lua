@@ -108,7 +108,7 @@ local AGAIN_LEAST, AGAIN_PART = 9, 10
 --- Which of `count` frames are built again in each of `states` fresh films: lists of their places,
 --- the last place first. All lists together have one place of every AGAIN_PART, AGAIN_LEAST at
 --- least; which one it is depends on the count alone, so it is the same each time. Fewer frames
---- than that are in several lists.
+--- than that are in several lists. A frame alone is twice in each, or a counter would not show.
 function program.sample(count, states)
   local share = math.ceil(math.max(AGAIN_LEAST, count / AGAIN_PART) / states)
   local parts = math.min(count, share) * states
@@ -120,6 +120,7 @@ function program.sample(count, states)
     local place = math.random(first, math.max(first, part * count // parts))
     table.insert(lists[part % states + 1], place)
   end
+  for i = 1, count == 1 and states or 0 do table.insert(lists[i], 1) end
   return lists
 end
 
