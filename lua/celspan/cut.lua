@@ -383,7 +383,7 @@ local function overlap(place, between, a, b, fps)
   if b then b.before = count end
   for _, shot in ipairs { a or b, b or a } do
     if shot.before + shot.after > shot.count then
-      complain(shot.place, "the shot has %d frames, and its transitions need %d: give it more "
+      complain(shot.place, "the shot has %d frames, and its transitions need %.14g: give it more "
         .. "frames, or make part %d shorter", shot.count, shot.before + shot.after, place)
     end
   end

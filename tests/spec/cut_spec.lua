@@ -164,6 +164,8 @@ return cut { shot "#123", cut.iris { softness = 0.3 }(0.1), shot "#642",
     local a, b = numbered(8), numbered(4)
     fails("part 3: the shot has 4 frames, and its transitions need 5: give it more frames, or make "
       .. "part 4 shorter", cut, { a, cut.dissolve(0.5), b, cut.fade(0.75), a })
+    fails("part 1: the shot has 8 frames, and its transitions need 4e+300: ", cut,
+      { a, cut.dissolve(1e300), a })
     fails("part 3: the shot has 4 frames, and its transitions need 8: give it more frames, or make "
       .. "part 2 shorter", cut, { a, cut.dissolve(2), b })
     fails("part 3: is a transition after a transition", function()

@@ -250,6 +250,7 @@ describe("--table", function()
       ["lang\na\0b\n"] = "line 2: column 'lang' is 'a\\x00b': in the name of a file it must not "
         .. "be empty nor have / or .. in it",
       ["lang\n"] = "it has no rows",
+      [""] = "it is empty: its first line names the columns",
       ["speed\n1\n"] = "there is no column 'lang' for {lang} in OUT; there are speed",
     } do
       local code, _, err = film_of(rows)

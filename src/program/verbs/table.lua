@@ -104,6 +104,9 @@ end
 
 --- The places of the columns by their names.
 local function check_header(header, is_parameter)
+  if #header == 0 then
+    program.usage("--table %s: it is empty: its first line names the columns", request.table)
+  end
   local columns = try(csv.columns, header)
   if is_check then return columns end
   for _, name in ipairs(header) do
