@@ -150,6 +150,10 @@ describe("the command line", function()
       assert.same({ 0, "" }, { code, err })
       assert.truthy(found:find("\n-- camera_shake.lua", 1, true), found)
       assert.same({ 0, found, "" }, { celspan "help camera_shake" })
+      for _, asked in ipairs { "cross-hatching", "cross_hatching", "Cross hatching" } do
+        local _, recipe = celspan("help " .. asked)
+        assert.truthy(recipe:find("\n-- hatching.lua", 1, true), recipe)
+      end
       for _, asked in ipairs { "help motion blur", "help lua 'motion blur'" } do
         local _, list = celspan(asked)
         assert.truthy(list:find('\n    docs/guide.md, "Exposures"\n', 1, true), list)

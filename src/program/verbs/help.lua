@@ -109,14 +109,15 @@ local function put_recipes(out, recipes)
   end
 end
 
+--- Words as they are compared: paper_cutout, Cross-hatching.
+local function alike(words) return (words:lower():gsub("[-_]", " ")) end
+
 --- The recipe that alone has this title or keyword, if there is one.
 local function exact_recipe(recipes, words)
-  local found, wanted = {}, words:lower():gsub("[-_]", " ")
+  local found, wanted = {}, alike(words)
   for _, recipe in ipairs(recipes) do
-    local is_it = recipe.title:lower() == wanted
-    for _, keyword in ipairs(recipe.keywords) do
-      is_it = is_it or keyword:lower():gsub("_", " ") == wanted
-    end
+    local is_it = alike(recipe.title) == wanted
+    for _, keyword in ipairs(recipe.keywords) do is_it = is_it or alike(keyword) == wanted end
     if is_it then found[#found + 1] = recipe end
   end
   return #found == 1 and found[1] or nil
