@@ -9,11 +9,16 @@ local svg = require "celspan.svg"
 
 local artwork = {}
 
+--- What a reader returns, or an error with its message, in which this file is no place.
+local function needed(value, message)
+  return value or error((message:gsub("^celspan/artwork%.lua:%d+: ", "")), 0)
+end
+
 --- A drawing, its size, and what is left out, as sentences. Its parameter `font` is a file for all
 --- texts.
 local function drawing(path)
   local font = parameters.declare { font = { "", about = "A font file for the texts" } }.font
-  local art = assert(svg.read(path, { fonts = font ~= "" and { default = font } or nil }))
+  local art = needed(svg.read(path, { fonts = font ~= "" and { default = font } or nil }))
   local notes = {}
   for i, note in ipairs(art.skipped) do
     local lacks_font = note.what:find("no font is given", 1, true)
@@ -24,7 +29,7 @@ local function drawing(path)
 end
 
 local function painting(path)
-  local tree = assert(layers.read(path))
+  local tree = needed(layers.read(path))
   local notes = {}
   for i, note in ipairs(tree.skipped) do
     notes[i] = note.layer == "" and note.what or note.layer .. ": " .. note.what

@@ -25,6 +25,7 @@ local MOST_PIECES = 10000 -- of a sound that is retimed
 -- ---------------------------------------------------------------- films
 
 local film_metatable = getmetatable(celspan.film { frame = function() end })
+local rostrum_metatable = getmetatable(celspan.rostrum {})
 
 local function is_film(value) return getmetatable(value) == film_metatable and
   fields.kind(value) == "a film" end
@@ -34,6 +35,10 @@ local function weight_of(i, exposure)
   if type(exposure) ~= "table" then
     core.refuse(("cut: exposure %d must be {rostrum, weight}, got %s"):format(i,
       fields.kind(exposure)))
+  end
+  if getmetatable(exposure[1]) ~= rostrum_metatable then
+    core.refuse(("cut: exposure %d must show a rostrum, got %s"):format(i,
+      fields.kind(exposure[1])))
   end
   local weight = exposure[2] == nil and 1 or exposure[2]
   if not fields.is_finite(weight) or weight < 0 then
@@ -45,7 +50,7 @@ end
 
 --- What a frame function, or the function of cut.with, returns, as a list of { rostrum, weight }.
 local function exposures_of(result)
-  if type(result) ~= "table" then return { { result, 1 } } end
+  if type(result) ~= "table" then result = { { result } } end
   local list = {}
   for i, exposure in ipairs(result) do list[i] = { exposure[1], weight_of(i, exposure) } end
   return list

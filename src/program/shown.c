@@ -50,9 +50,9 @@ cs_exit cs_shown_open(celspan_context *context, const cs_request *request, const
     return cs_report_usage("--frame %d: frames of a plane file are numbered from 1", (int)frame);
   if (cs_shown_is_film(path))
     return open_artwork(context, request, path, frame, out);
-  if (cs_artwork_of(path) == CS_ARTWORK_PSD)
-    cs_report_note("%s: its merged picture is taken; 'celspan render' shows its layers", path);
   celspan_status status = cs_still_open(context, path, frame, out);
+  if (status == CELSPAN_OK && cs_artwork_of(path) == CS_ARTWORK_PSD)
+    cs_report_note("%s: its merged picture is taken; 'celspan render' shows its layers", path);
   if (status == CELSPAN_BAD_ARGUMENT && has_frame)
     return cs_report_usage("%s", celspan_context_error(context));
   return cs_report_failure(context, status, NULL);

@@ -295,6 +295,8 @@ describe("a transition", function()
       of { { celspan.rostrum {}, 0 / 0 } }, 6)
     fails("cut: exposure 1 must be {rostrum, weight}, got a rostrum", colour,
       of { celspan.rostrum {} }, 6)
+    fails("cut: exposure 1 must show a rostrum, got nil", colour, of(nil), 6)
+    fails("cut: exposure 1 must show a rostrum, got number", colour, of { { 5, 1 } }, 6)
     local negative = celspan.film { size = { W, H }, fps = 4, frames = 8,
       frame = function() return { { celspan.rostrum {}, -1 } } end }
     fails("got -1", colour, cut { a, cut.dissolve(1), negative }, 6)

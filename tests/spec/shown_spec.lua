@@ -180,6 +180,13 @@ describe("a file", function()
     end
   end)
 
+  it_sees("that is damaged is named with its line", function()
+    bench:write("torn.svg", '<svg xmlns="http://www.w3.org/2000/svg">\n<rect')
+    local code, _, err = bench:celspan_inside "render torn.svg -o torn.png"
+    assert.equal(4, code)
+    assert.matches("^celspan: error: torn.svg:2: ", err)
+  end)
+
   it_sees("of a drawing sets its texts in the font that is given", function()
     bench:write("text.svg", '<svg xmlns="http://www.w3.org/2000/svg" width="8" height="8">'
       .. '<text y="8" font-size="16">I</text></svg>')

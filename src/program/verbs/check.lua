@@ -274,7 +274,7 @@ local listed = request.frames and film:numbers()
 local count = listed and #listed or film.frames
 local sound = film:check_sound()
 if sound ~= 0 then others[1] = program.reported() end
-local warnings = program.part("dropped.lua").of_script(request[1])
+local warnings = program.part("dropped.lua", program).of_script(request[1])
 local done, ended = check_parts(film, listed, count)
 if request.json then print_json(warnings) end
 report(done, count, ended, sound, warnings)

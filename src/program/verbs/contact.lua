@@ -10,7 +10,7 @@
 local program, request = ...
 local celspan = require "celspan"
 local core = require "celspan.core"
-local number_at = load(program.text "numerals.lua", "@celspan/numerals.lua")()
+local number_at = program.part "numerals.lua"
 
 local PANEL_MOST, SHEET_MOST, PANEL_LEAST = 480, 3840, 16 -- pixels
 local PAGE_MOST = 2 ^ 28 -- pixels of all panels of a page, which are in memory together

@@ -91,10 +91,6 @@ end
 
 local SHOWN = 3
 
-local function module_of(name, ...)
-  return load(program.text(name), "@celspan/" .. name)(...)
-end
-
 local function put_recipe(out, recipe)
   out:write(recipe.title, "\n\n", recipe.page, "\n\n", ("'celspan play %s.lua' shows it, and "
     .. "'celspan render %s.lua -o %s.mp4' makes a video.\n"):format(recipe.name, recipe.name,
@@ -125,9 +121,10 @@ end
 
 --- What the words may mean: recipes, chapters, names and verbs.
 local function put_nearest(out, recipes, words)
-  local topics = module_of("topics.lua", recipes, program.text "headings.txt",
+  local topics = program.part("topics.lua", recipes, program.text "headings.txt",
     require "celspan.manual".names(), verbs)
-  local find = module_of("search.lua", require "celspan.core".nearest, module_of "synonyms.lua")
+  local find = program.part("search.lua", require "celspan.core".nearest,
+    program.part "synonyms.lua")
   local found = find(topics, words, SHOWN)
   if #found == 0 then
     program.usage("there is nothing about '%s'; celspan help lists the verbs, celspan help "
@@ -151,7 +148,7 @@ local function put_about(out, words)
     local page = require "celspan.manual".page(name ~= "" and name or nil)
     if page then return out:write(page) end
   end
-  local recipes = module_of("recipes.lua", program.text "cookbook.md")
+  local recipes = program.part("recipes.lua", program.text "cookbook.md")
   local recipe = exact_recipe(recipes, words)
   if words == "cookbook" then
     put_recipes(out, recipes)

@@ -137,7 +137,7 @@ local function show_parts(output)
     put("element %s line %d %s%s", element.name, element.line, plain(element.tag),
       table.concat(words))
   end
-  load(program.text "parts.lua", "@celspan/parts.lua")(program, art, output)
+  program.part("parts.lua", program, art, output)
 end
 
 local function describe_drawing()

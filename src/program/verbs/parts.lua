@@ -6,7 +6,7 @@
 --    2        7
 local program, art, output = ...
 local celspan = require "celspan"
-local number_at = load(program.text "numerals.lua", "@celspan/numerals.lua")()
+local number_at = program.part "numerals.lua"
 
 local COLUMNS, PANEL, MOST = 6, 160, 240 -- panels in a row, the longer side of one, on a sheet
 local GAP, LABEL = 12, 24

@@ -2,4 +2,4 @@
 local program, request = ...
 
 request.open, request.is_alone = true, true
-return assert(load(program.text "watch.lua", "=watch.lua", "t"))(program, request)
+return program.part("watch.lua", program, request)

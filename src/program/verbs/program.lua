@@ -22,9 +22,9 @@ function program.refuse_self(input, output)
   end
 end
 
---- What a file of the program returns: a part of several verbs. It gets `program`.
-function program.part(name)
-  return assert(load(program.text(name), "=" .. name, "t"))(program)
+--- What a file that verbs are made of returns, run with these arguments.
+function program.part(name, ...)
+  return assert(load(program.text(name), "=" .. name, "t"))(...)
 end
 
 --- Whether a path has one of these endings, in upper or lower case.

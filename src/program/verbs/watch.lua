@@ -10,10 +10,7 @@ local program, request = ...
 
 local json = require "celspan.json"
 
-local part
-function part(name)
-  return assert(load(program.text(name), "=" .. name, "t"))(program, request, part)
-end
+local function part(name) return program.part(name, program, request) end
 local guard, watched, choices = part "guard.lua", part "watched.lua", part "choices.lua"
 local programs = part "programs.lua"
 

@@ -48,11 +48,17 @@ local PAGE = '<!doctype html><meta charset="utf-8"><title>celspan</title>'
 
 local folder, file -- of the page that leads to the address; nil: there is none
 
+--- A folder that the environment names; nil: none.
+local function named(variable)
+  local path = os.getenv(variable)
+  return path ~= "" and path or nil
+end
+
 --- Opens the browser at an address: with a file that leads there, which only this user can read.
 --- name: of its folder.
 function programs.browse(address, name)
   local message
-  folder = (os.getenv "XDG_RUNTIME_DIR" or os.getenv "TMPDIR" or "/tmp") .. "/" .. name
+  folder = (named "XDG_RUNTIME_DIR" or named "TMPDIR" or "/tmp") .. "/" .. name
   file, message = program.save_private(folder, "open.html", PAGE:format(address, address))
   if not file then
     program.note("%s: open the address yourself", message)

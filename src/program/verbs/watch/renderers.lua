@@ -33,7 +33,7 @@ local function words_of(script, values)
 end
 
 function renderers.new(script, note_files)
-  program.divide_memory(RENDERERS_MOST)
+  program.divide_memory(RENDERERS_MOST * #request) -- of each film
   return setmetatable({ script = script, list = {}, queue = {}, values = {},
                         note_files = note_files }, renderers)
 end

@@ -2,9 +2,9 @@
 --
 --   saved, or other values --> build --> renderers --> facts, parameters | an error
 --                                            \--nobody asks for pictures--> its frames are checked
-local program, request, part = ...
+local program, request = ...
 local json = require "celspan.json"
-local renderers = part "renderers.lua"
+local renderers = program.part("renderers.lua", program, request)
 
 local QUIET = 0.5          -- seconds without requests before frames are checked
 local CHECKED_MOST = 5000  -- frames that are checked
