@@ -121,6 +121,8 @@ end
 --- The type at the beginning of a text, and the comment after it: a type ends at a space outside of
 --- brackets that does not follow a comma or a colon.
 local function split_type(text)
+  local plain, rest = text:match "^([%w_.|?]+) (.*)$" -- most are
+  if plain then return plain, rest end
   local depth, at = 0, 1
   while at <= #text do
     local sign = text:sub(at, at)

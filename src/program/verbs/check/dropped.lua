@@ -22,7 +22,7 @@ end
 
 local BYTES_MOST = 1 << 18 -- of a script that is looked at: larger ones are mostly data
 
-local calls, parents = manual.types()
+local calls, parents = {}, {} -- of manual.types, which are read when a script needs them
 
 --- The class of VALUES that a class extends, else the class.
 local function family(class)
@@ -247,23 +247,43 @@ local function sentence(name, types, is, written)
     .. "another value"
 end
 
---- Adds what a text throws away, with the file's path, to a list of sentences; returns the modules
---- that it requires.
-local function add_dropped(sentences, path, text)
-  local list, modules = tokens.of(text), {}
-  local types = types_of(list)
+--- The places of statements that are calls, but not of functions of Lua: most scripts have few.
+local function calls_of(list)
+  local places = {}
   for i, token in ipairs(list) do
-    local is, after, written, is_call
-    if token.is_first then is, after, written, is_call = chain_at(list, types, i) end
-    local follows = is and list[after] and list[after].kind
-    if is_call and is.is_pure and VALUES[is.class] and follows ~= "=" and follows ~= "," then
-      sentences[#sentences + 1] = ("%s:%d: %s"):format(path, token.line,
-        sentence(token.text, types, is, written))
+    if token.is_first and _G[token.text] == nil then
+      local _, after, _, is_call = chain_at(list, {}, i)
+      local follows = list[after] and list[after].kind
+      if is_call and follows ~= "=" and follows ~= "," then places[#places + 1] = i end
     end
+  end
+  return places
+end
+
+local function modules_of(list)
+  local modules = {}
+  for i = 1, #list do
     local module = required(list, i)
     if module then modules[#modules + 1] = module.module end
   end
   return modules
+end
+
+--- Adds what a text throws away, with the file's path, to a list of sentences; returns the modules
+--- that it requires.
+local function add_dropped(sentences, path, text)
+  local list = tokens.of(text)
+  local places = calls_of(list)
+  if #places > 0 and not next(calls) then calls, parents = manual.types() end
+  local types = #places > 0 and types_of(list)
+  for _, i in ipairs(places) do
+    local is, _, written = chain_at(list, types, i)
+    if is.is_pure and VALUES[is.class] then
+      sentences[#sentences + 1] = ("%s:%d: %s"):format(path, list[i].line,
+        sentence(list[i].text, types, is, written))
+    end
+  end
+  return modules_of(list)
 end
 
 local function add_file(sentences, folder, path, is_seen)

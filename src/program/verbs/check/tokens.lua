@@ -18,7 +18,8 @@ local ENDS = { name = true, number = true, string = true, [")"] = true, ["]"] = 
                ["break"] = true, [";"] = true, ["do"] = true, ["then"] = true, ["else"] = true,
                ["repeat"] = true, ["::"] = true }
 
-local SIGNS = { "^%.%.%.", "^%.%.", "^::", "^[=~<>]=", "^//", "^<<", "^>>", "^." }
+local PAIRS = { [".."] = true, ["::"] = true, ["=="] = true, ["~="] = true, ["<="] = true,
+                [">="] = true, ["//"] = true, ["<<"] = true, [">>"] = true }
 
 --- The place after a text in long brackets that begins at `at`; nil: there is none.
 local function after_long(text, at)
@@ -52,13 +53,14 @@ local function read(text, at)
     local power = number:find(sign) and text:match("^[+-]%d+", at + #number) or ""
     return "number", at + #number + #power
   end
-  if text:find("^[\"']", at) then return "string", after_quoted(text, at) end
-  local long = after_long(text, at)
+  local sign = text:sub(at, at)
+  if sign == '"' or sign == "'" then return "string", after_quoted(text, at) end
+  local long = sign == "[" and after_long(text, at)
   if long then return "string", long end
-  for _, sign in ipairs(SIGNS) do
-    local found = text:match(sign, at)
-    if found then return found, at + #found end
-  end
+  local pair = text:sub(at, at + 1)
+  if not PAIRS[pair] then return sign, at + 1 end
+  if pair == ".." and text:sub(at + 2, at + 2) == "." then return "...", at + 3 end
+  return pair, at + 2
 end
 
 local OPENS = { ["("] = ")", ["["] = "]", ["{"] = "}", ["function"] = "end", ["do"] = "end",
@@ -83,20 +85,21 @@ end
 --- The tokens of a text: kind, text, line, partner, is_first.
 function tokens.of(text)
   local list, open, at, line = {}, {}, text:match "^#[^\n]*()" or 1, 1
+  local newline = text:find("\n", 1, true)
   while true do
-    local start = text:find("%S", at)
-    if not start then return list end
-    for _ in text:sub(at, start - 1):gmatch "\n" do line = line + 1 end
-    local is_comment = text:find("^%-%-", start)
-    local kind, after = "", is_comment and after_comment(text, start)
-    if not after then kind, after = read(text, start) end
-    local written = text:sub(start, after - 1)
-    if not is_comment then
-      list[#list + 1] = { kind = kind, text = written, line = line }
-      place(list, open)
+    local start = text:match("^%s*()", at)
+    if start > #text then return list end
+    while newline and newline < start do
+      line, newline = line + 1, text:find("\n", newline + 1, true)
     end
-    for _ in written:gmatch "\n" do line = line + 1 end
-    at = after
+    if text:sub(start, start + 1) == "--" then
+      at = after_comment(text, start)
+    else
+      local kind, after = read(text, start)
+      list[#list + 1] = { kind = kind, text = text:sub(start, after - 1), line = line }
+      place(list, open)
+      at = after
+    end
   end
 end
 
