@@ -293,11 +293,14 @@ static int take_warnings(lua_State *L) {
   return count;
 }
 
-/* Pushes the warnings of the script on its own stack. */
+/* Pushes the warnings of the script on its own stack. A script that is being stopped has none: the
+ * verb ends with what it has found. */
 static void push_warnings(lua_State *L, lua_State *script) {
   lua_pushcfunction(script, take_warnings);
   int outcome = lua_pcall(script, 0, LUA_MULTRET, 0);
-  if (outcome != LUA_OK)
+  if (outcome != LUA_OK && cs_interrupt_signal() != 0)
+    lua_pop(script, 1);
+  else if (outcome != LUA_OK)
     cs_service_try(L, cs_lua_error_report(script, outcome));
 }
 
