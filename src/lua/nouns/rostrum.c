@@ -40,10 +40,10 @@ static celspan_cel **read_cels(const cs_form *form, int count) {
   for (int i = 0; i < count; i++) {
     lua_rawgeti(L, form->table, i + 1);
     cs_userdata *item = cs_userdata_test(L, -1, &cs_kind_cel);
+    bool is_object = cs_userdata_test(L, -1, &cs_kind_object) != NULL;
     if (!item)
       cs_form_fail(form, "item %d must be a cel, got %s%s", i + 1, cs_userdata_type(L, -1),
-                   cs_userdata_test(L, -1, &cs_kind_object) ? ": put it into celspan.cel { ... }"
-                                                            : "");
+                   is_object ? ": put it into celspan.cel { ... }" : "");
     cels[i] = item->handle;
     lua_rawseti(L, kept, i + 1);
   }
