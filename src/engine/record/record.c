@@ -159,9 +159,9 @@ static void from_rational(const cs_hpoint *p, int degree, planefile_point *out) 
 /* Adds a piece of a chain, for which there is room. */
 static void add_piece(recorder *r, const cs_boundary_piece *piece) {
   cs_recording *out = r->out;
-  const cs_hpoint *points = r->plan->boundaries.points + piece->point;
+  bool is_line = piece->degree < 2; /* such pieces have no points, and there may be none at all */
+  const cs_hpoint *points = is_line ? NULL : r->plan->boundaries.points + piece->point;
   planefile_point *to = &out->points[out->point_count];
-  bool is_line = piece->degree < 2;
   out->pieces[out->piece_count++] =
       (planefile_piece){(uint32_t)out->point_count, piece->degree, !is_line && !piece->is_power};
   to[0] = point_at(piece->x0, piece->y0);

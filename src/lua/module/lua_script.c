@@ -96,9 +96,10 @@ typedef struct call {
 } call;
 
 static int refuse_result(lua_State *L, const char *path) {
+  bool is_function = lua_isfunction(L, -1);
   return luaL_error(L, "%s must return a film or a rostrum, got %s%s", path,
                     cs_userdata_type(L, -1),
-                    lua_isfunction(L, -1) ? ": return celspan.film { frame = ... }" : "");
+                    is_function ? ": return celspan.film { frame = ... }" : "");
 }
 
 /* What all verbs that take films say of a file that is no film. */
