@@ -159,7 +159,7 @@ static void from_rational(const cs_hpoint *p, int degree, planefile_point *out) 
 /* Adds a piece of a chain, for which there is room. */
 static void add_piece(recorder *r, const cs_boundary_piece *piece) {
   cs_recording *out = r->out;
-  bool is_line = piece->degree < 2; /* such pieces have no points, and there may be none at all */
+  bool is_line = piece->degree < 2; /* lines have no points in the list, which may be empty */
   const cs_hpoint *points = is_line ? NULL : r->plan->boundaries.points + piece->point;
   planefile_point *to = &out->points[out->point_count];
   out->pieces[out->piece_count++] =
