@@ -1,7 +1,7 @@
 /* Frames as plane files, one each or all of a film in one. */
-#include "engine/record/record.h"
 #include "frames/plane/plane.h"
 #include "frames/plane/plane_data.h"
+#include "output/record/record.h"
 #include "output/sinks/file.h"
 
 struct cs_plane_film {

@@ -14,11 +14,11 @@
 #include <unistd.h>
 
 #include "base/open.h"
-#include "engine/record/record.h"
 #include "frames/plane/plane.h"
 #include "frames/plane/plane_data.h"
 #include "frames/render/compile.h"
 #include "model/scene/check.h"
+#include "output/record/record.h"
 #include "output/sinks/file.h"
 
 #define BYTES_MOST ((uint64_t)1 << 30) /* of a file */

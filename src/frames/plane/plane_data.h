@@ -8,8 +8,8 @@
 #include <stdatomic.h>
 
 #include "base/context.h"
-#include "engine/record/recording.h"
 #include "engine/row/plan.h"
+#include "output/record/recording.h"
 
 struct celspan_plane {
   atomic_size_t references;

@@ -15,7 +15,7 @@ words.list = {
                "program/" } },
   { word = "cell", means = "what lies between two neighbouring boundaries of a row",
     places = { "engine/compose/", "engine/paint/", "engine/area/", "engine/kernel/",
-               "engine/row/", "engine/map/", "engine/record/", "engine/defocus/edges",
+               "engine/row/", "engine/map/", "output/record/", "engine/defocus/edges",
                "engine/defocus/s", "frames/render/drawings" } },
   { word = "strip", means = "rows of a frame that are made together, by one worker or as a file",
     places = { "frames/render/", "output/png/", "output/join/", "output/sinks/strip",

@@ -16,8 +16,8 @@
  */
 #pragma once
 
-#include "engine/record/recording.h"
 #include "engine/row/plan.h"
+#include "output/record/recording.h"
 
 /* Begins a plane that is the sum of several plans; out: empty. Without it a plane is one plan. */
 CELSPAN_CHECKED celspan_status cs_record_begin_sum(celspan_context *context, cs_recording *out);

@@ -1,12 +1,12 @@
-#include "engine/record/record.h"
+#include "output/record/record.h"
 
 #include <math.h>
 
 #include "base/hash_table.h"
 #include "base/number.h"
 #include "engine/events/visit.h"
-#include "engine/record/pictures.h"
-#include "engine/record/programs.h"
+#include "output/record/pictures.h"
+#include "output/record/programs.h"
 
 #define UNITS ((double)PLANEFILE_SIDE / CS_RECORD_SIDE) /* of a plane, in a pixel of the plan */
 #define COUNT_MOST (UINT32_MAX / 4)                     /* of anything */

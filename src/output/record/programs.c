@@ -1,11 +1,11 @@
-#include "engine/record/programs.h"
+#include "output/record/programs.h"
 
 #include <math.h>
 
 #include "base/number.h"
 #include "engine/paint/over_row.h"
-#include "engine/record/pictures.h"
-#include "engine/record/places.h"
+#include "output/record/pictures.h"
+#include "output/record/places.h"
 
 #define SAMPLES 64              /* of a table, from one stop to the next */
 #define TOLERANCE (1.0 / 16384) /* of a table */

@@ -1,11 +1,11 @@
-#include "engine/record/pictures.h"
+#include "output/record/pictures.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/number.h"
-#include "engine/record/places.h"
 #include "model/pictures/load.h"
+#include "output/record/places.h"
 
 #define NODES_MOST ((size_t)1 << 23)
 

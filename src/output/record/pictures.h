@@ -16,7 +16,7 @@
 
 #include "engine/compose/stack.h"
 #include "engine/defocus/defocus.h"
-#include "engine/record/recording.h"
+#include "output/record/recording.h"
 
 /* What an image layer is seen as. Errors: NO_MEMORY, and those of reading the header. */
 CELSPAN_CHECKED celspan_status cs_record_image(celspan_context *context,

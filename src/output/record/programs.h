@@ -13,7 +13,7 @@
 #pragma once
 
 #include "engine/compose/cell.h"
-#include "engine/record/recording.h"
+#include "output/record/recording.h"
 
 /* What a program is made from. */
 typedef struct cs_record_source {

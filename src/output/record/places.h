@@ -5,8 +5,8 @@
  */
 #pragma once
 
-#include "engine/record/recording.h"
 #include "model/geometry/matrix.h"
+#include "output/record/recording.h"
 
 static inline void cs_place_plane(const double over_pixels[3], double out[3]) {
   out[0] = over_pixels[0] * CS_RECORD_SIDE;
