@@ -3,6 +3,7 @@
  */
 #include <math.h>
 
+#include "frames/plane/plane.h"
 #include "tests/support/frame_rows.h"
 #include "tests/support/memory.h"
 #include "tests/support/random.h"
@@ -368,6 +369,27 @@ static void check_files(studio *s) {
   remove("plane");
 }
 
+/* ---------------------------------------------------------------- borders */
+
+static size_t border_count(studio *s, celspan_object **objects, size_t count) {
+  celspan_cel *cel = studio_cel(s, CELSPAN_CEL_DESC, objects, count);
+  celspan_plane *plane = make_plane(s, studio_rostrum(s, CELSPAN_ROSTRUM_DESC, &cel, 1));
+  size_t borders = cs_plane_count(plane).borders;
+  celspan_plane_unref(plane);
+  return borders;
+}
+
+/* Two discs hide a third one together, behind the outline of the one in front: its boundary is
+ * swept, but divides none of theirs. */
+static void check_borders(studio *s) {
+  celspan_object *objects[3] = {
+      studio_circle(s, 55, 30, 5, studio_paint(s, celspan_paint_rgb(0, 0, 1, 1))),
+      studio_circle(s, 60, 30, 28, studio_paint(s, celspan_paint_rgb(1, 0, 0, 1))),
+      studio_circle(s, 25, 30, 30, studio_paint(s, celspan_paint_rgb(1, 1, 0, 1)))};
+  CHECK(border_count(s, objects, 3) == border_count(s, objects + 1, 2));
+  studio_finish(s);
+}
+
 /* ---------------------------------------------------------------- what is refused */
 
 static void check_refused(studio *s, const celspan_rostrum *rostrum, const char *reason) {
@@ -544,6 +566,7 @@ int main(void) {
   check_probes(&s, FLAT);
   check_probes(&s, VARIED);
   check_files(&s);
+  check_borders(&s);
   check_tabulated(&s);
   check_veils(&s);
   check_glass(&s);

@@ -15,6 +15,7 @@ typedef struct walk {
   cs_composer *composer;
   cs_events_visitor visitor;
   void *user;
+  uint32_t *shown; /* by windings: the number of their cell */
 } walk;
 
 static void find_families(const cs_windings *windings, family *out) {
@@ -46,7 +47,7 @@ static celspan_status visit(const walk *w, uint32_t windings) {
   (void)cs_composer_begin_row(w->composer); /* programs composed before are not needed any more */
   cs_composer_cell(w->composer, &cell);
   CS_TRY(w->composer->failure);
-  return w->visitor(w->user, windings, w->composer, &cell);
+  return w->visitor(w->user, w->composer, &cell, &w->shown[windings]);
 }
 
 static celspan_status visit_all(const walk *w, const family *families) {
@@ -67,18 +68,61 @@ static celspan_status visit_all(const walk *w, const family *families) {
   return CELSPAN_OK;
 }
 
-celspan_status cs_events_visit(celspan_context *context, const cs_plan *plan,
-                               const cs_events *events, cs_events_visitor visitor, void *user) {
+static celspan_status find_shown(celspan_context *context, const cs_plan *plan,
+                                 const cs_events *events, walk *w) {
   cs_row_maker rows; /* whose composer knows which pictures are opaque */
   size_t count = events->windings.count;
   family *families;
   CS_TRY(CS_MAKE(context, families, count));
   find_families(&events->windings, families);
   celspan_status status = cs_row_maker_init(&rows, context, plan);
-  const walk w = {plan, events, &rows.composer, visitor, user};
+  w->composer = &rows.composer;
   if (status == CELSPAN_OK)
-    status = visit_all(&w, families);
+    status = visit_all(w, families);
   cs_row_maker_finish(&rows);
   cs_mem_free(context->memory, families, count * sizeof *families);
+  return status;
+}
+
+/* ---------------------------------------------------------------- parts */
+
+static bool is_continued(const cs_events_part *part, const cs_events_part *next) {
+  return part->foot == next->top && part->left == next->left && part->right == next->right;
+}
+
+/* latest: by course, 1 more than the place of its last part that can be seen; all 0. */
+static void reduce(cs_events *events, const uint32_t *shown, uint32_t *latest) {
+  size_t count = 0;
+  for (size_t i = 0; i < events->part_count; i++) {
+    cs_events_part part = events->parts[i];
+    uint32_t *last = &latest[part.course];
+    part.left = shown[part.left];
+    part.right = shown[part.right];
+    if (part.left == part.right)
+      continue;
+    if (*last > 0 && is_continued(&events->parts[*last - 1], &part)) {
+      events->parts[*last - 1].foot = part.foot;
+      continue;
+    }
+    events->parts[count++] = part;
+    *last = (uint32_t)count;
+  }
+  events->part_count = count;
+}
+
+celspan_status cs_events_show(celspan_context *context, const cs_plan *plan, cs_events *events,
+                              cs_events_visitor visitor, void *user) {
+  size_t count = events->windings.count, courses = events->courses.course_count + 1;
+  walk w = {.plan = plan, .events = events, .visitor = visitor, .user = user};
+  uint32_t *latest = NULL;
+  CS_TRY(CS_MAKE(context, w.shown, count));
+  celspan_status status = find_shown(context, plan, events, &w);
+  if (status == CELSPAN_OK)
+    status = CS_MAKE(context, latest, courses);
+  if (status == CELSPAN_OK) {
+    reduce(events, w.shown, latest);
+    cs_mem_free(context->memory, latest, courses * sizeof *latest);
+  }
+  cs_mem_free(context->memory, w.shown, count * sizeof *w.shown);
   return status;
 }

@@ -1,7 +1,11 @@
-/* What shows between boundaries: the cells of all windings that a sweep has found.
+/* What shows between boundaries: the cells of all windings that a sweep has found, and the parts
+ * between different cells.
  *
  *     0 --a--- 1 --b--- 2      the composer goes along the tree of the windings, from parent to
  *     `---c--- 3               child by crossing one boundary, and back
+ *
+ *     parts of b   1|2  3|4  3|4  5|6      with windings on their sides, from the top
+ *                  A|B  A|B  A|B  B|B      and with cells: one part, from the first to the third
  */
 #pragma once
 
@@ -9,12 +13,15 @@
 #include "engine/events/events.h"
 #include "engine/row/plan.h"
 
-/* cell: that of the windings; its program is the composer's, and valid during this call. */
-typedef celspan_status (*cs_events_visitor)(void *user, uint32_t windings, cs_composer *composer,
-                                            const cs_cell *cell);
+/* cell: that of some windings; its program is the composer's, and valid during this call. out: its
+ * number. */
+typedef celspan_status (*cs_events_visitor)(void *user, cs_composer *composer, const cs_cell *cell,
+                                            uint32_t *out);
 
-/* events: of the plan. Each number is visited once, 0 first. Errors: NO_MEMORY, those of composing
- * and of the visitor. */
-CELSPAN_CHECKED celspan_status cs_events_visit(celspan_context *context, const cs_plan *plan,
-                                               const cs_events *events, cs_events_visitor visitor,
-                                               void *user);
+/* Visits the cell of each of the windings once, that of 0 first, and reduces the parts to what can
+ * be seen: those with the same cell on both sides go, and those of a course that follow each other
+ * between the same cells become one. Then left and right of parts are numbers of cells. events: of
+ * the plan, and complete. Errors: NO_MEMORY, those of composing and of the visitor. */
+CELSPAN_CHECKED celspan_status cs_events_show(celspan_context *context, const cs_plan *plan,
+                                              cs_events *events, cs_events_visitor visitor,
+                                              void *user);

@@ -1,6 +1,6 @@
 /* Making a map: the boundaries of a plan are swept by events (engine/events/events.h), what shows
- * is composed once for each of the windings, and parts of a chain that follow each other between
- * the same cells are joined to borders.
+ * is composed once for each of the windings, and the parts that can be seen (engine/events/visit.h)
+ * become borders.
  *
  *   windings   0 --A+-- 1 --B+-- 2    they are visited from the first one along their tree: each
  *               `--B+-- 3             is found by crossing one boundary
@@ -21,8 +21,6 @@ typedef struct maker {
   cs_map *map;
   cs_events events;
   cs_map_cells cells;
-  uint32_t *cell_of; /* by windings */
-  uint32_t *order;   /* parts, chain by chain */
 } maker;
 
 /* ---------------------------------------------------------------- life */
@@ -78,10 +76,6 @@ size_t cs_map_bytes(const cs_map *map) {
 static void finish(maker *m) {
   cs_memory *memory = m->context->memory;
   cs_map_cells_finish(&m->cells, memory);
-  if (m->cell_of)
-    cs_mem_free(memory, m->cell_of, m->events.windings.count * sizeof *m->cell_of);
-  if (m->order)
-    cs_mem_free(memory, m->order, m->events.part_count * sizeof *m->order);
   cs_events_finish(&m->events, memory);
 }
 
@@ -104,9 +98,9 @@ bool cs_map_suits(const cs_plan *plan) {
 
 /* ---------------------------------------------------------------- composing */
 
-/* Notes the cell of some windings; a cs_events_visitor. */
-static celspan_status note_cell(void *user, uint32_t windings, cs_composer *composer,
-                                const cs_cell *cell) {
+/* The number of a cell, as long as the map can be whole; a cs_events_visitor. */
+static celspan_status find_cell(void *user, cs_composer *composer, const cs_cell *cell,
+                                uint32_t *out) {
   maker *m = user;
   cs_map *map = m->map;
   cs_map_content what = {.colour = cell->colour};
@@ -117,37 +111,18 @@ static celspan_status note_cell(void *user, uint32_t windings, cs_composer *comp
   } else if (map->is_coloured) {
     CS_TRY(cs_composer_through(composer, &what.through));
   }
-  return map->is_whole ? cs_map_cells_find(m->context, &m->cells, what, &m->cell_of[windings])
-                       : CELSPAN_OK;
+  return map->is_whole ? cs_map_cells_find(m->context, &m->cells, what, out) : CELSPAN_OK;
 }
 
-/* Finds the cells of all windings. */
-static celspan_status find_cells(maker *m) {
+/* Reduces the parts to what can be seen. */
+static celspan_status find_shown(maker *m) {
   uint32_t clear;
   const cs_map_content nothing = {.through = cs_v4_all(m->map->is_coloured ? 1 : 0)};
   CS_TRY(cs_map_cells_find(m->context, &m->cells, nothing, &clear));
-  CS_TRY(CS_MAKE(m->context, m->cell_of, m->events.windings.count));
-  return cs_events_visit(m->context, m->plan, &m->events, note_cell, m);
+  return cs_events_show(m->context, m->plan, &m->events, find_cell, m);
 }
 
 /* ---------------------------------------------------------------- borders */
-
-/* Brings the parts into the order of their chains; those of a chain keep theirs. */
-static celspan_status order_parts(maker *m) {
-  const cs_events *events = &m->events;
-  size_t count = events->courses.course_count + 1;
-  uint32_t *ends;
-  CS_TRY(CS_MAKE(m->context, m->order, events->part_count));
-  CS_TRY(CS_MAKE(m->context, ends, count));
-  for (size_t i = 0; i < events->part_count; i++)
-    ends[events->parts[i].course + 1]++;
-  for (size_t i = 1; i < count; i++)
-    ends[i] += ends[i - 1];
-  for (size_t i = 0; i < events->part_count; i++)
-    m->order[ends[events->parts[i].course]++] = (uint32_t)i;
-  cs_mem_free(m->context->memory, ends, count * sizeof *ends);
-  return CELSPAN_OK;
-}
 
 static void add_point(cs_map_lines *lines, cs_map_border *border, int32_t x, int32_t y) {
   lines->points[lines->point_count++] = (cs_map_point){x, y};
@@ -161,13 +136,13 @@ static int32_t unit_at(const cs_course_point *from, int32_t y) {
   return (int32_t)floor(cs_course_x(from, y) + 0.5);
 }
 
-/* Adds a part as a border, or parts of one. */
+/* Adds a part as a border. */
 static celspan_status add_border(maker *m, const cs_events_part *f) {
   cs_map_lines *lines = &m->map->lines;
   const cs_course *course = &m->events.courses.courses[f->course];
   const cs_course_point *p = m->events.courses.points + course->first;
-  cs_map_border border = {.left = m->cell_of[f->left],
-                          .right = m->cell_of[f->right],
+  cs_map_border border = {.left = f->left,
+                          .right = f->right,
                           .first = (uint32_t)lines->point_count,
                           .low = INT32_MAX,
                           .high = INT32_MIN};
@@ -181,25 +156,9 @@ static celspan_status add_border(maker *m, const cs_events_part *f) {
   return CS_APPEND(m->context, lines->borders, lines->border_count, lines->border_capacity, border);
 }
 
-static bool is_continued(const maker *m, const cs_events_part *f, const cs_events_part *next) {
-  return next->course == f->course && next->top == f->foot &&
-         m->cell_of[next->left] == m->cell_of[f->left] &&
-         m->cell_of[next->right] == m->cell_of[f->right];
-}
-
 static celspan_status add_borders(maker *m) {
-  const cs_events *events = &m->events;
-  for (size_t i = 0, end; i < events->part_count; i = end) {
-    cs_events_part f = events->parts[m->order[i]];
-    for (end = i + 1; end < events->part_count; end++) {
-      const cs_events_part *next = &events->parts[m->order[end]];
-      if (!is_continued(m, &f, next))
-        break;
-      f.foot = next->foot;
-    }
-    if (m->cell_of[f.left] != m->cell_of[f.right])
-      CS_TRY(add_border(m, &f));
-  }
+  for (size_t i = 0; i < m->events.part_count; i++)
+    CS_TRY(add_border(m, &m->events.parts[i]));
   return cs_map_lines_sort(m->context, &m->map->lines);
 }
 
@@ -216,11 +175,8 @@ static celspan_status make(maker *m) {
                         WINDINGS_MOST, &m->events));
   m->map->is_whole = m->events.is_complete;
   if (m->map->is_whole)
-    CS_TRY(find_cells(m));
-  if (!m->map->is_whole || m->events.part_count == 0)
-    return CELSPAN_OK;
-  CS_TRY(order_parts(m));
-  return add_borders(m);
+    CS_TRY(find_shown(m));
+  return m->map->is_whole ? add_borders(m) : CELSPAN_OK;
 }
 
 celspan_status cs_map_make(celspan_context *context, cs_plan *plan, cs_map *map) {

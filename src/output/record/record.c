@@ -17,9 +17,7 @@ typedef struct recorder {
   const cs_plan *plan;
   cs_recording *out;
   cs_events events;
-  uint32_t *cell_of;   /* by windings */
   uint32_t *chain_of;  /* by chain of the plan: that of the record plus 1; 0: it has none yet */
-  uint32_t *latest;    /* by chain of the plan: its latest border plus 1; 0: none */
   cs_hash_table cells; /* by their colours or layers */
   cs_record_source source;
   const planefile_rounding *rounding; /* NULL: colours are not rounded to codes */
@@ -118,14 +116,14 @@ static celspan_status find_varied(recorder *r, const cs_program *program, uint32
   return add_cell(r, key, (planefile_cell){{0}}, made, out);
 }
 
-/* Finds the cell of some windings; a cs_events_visitor. */
-static celspan_status note_cell(void *user, uint32_t windings, cs_composer *composer,
-                                const cs_cell *cell) {
+/* The number of a cell; a cs_events_visitor. */
+static celspan_status find_shown(void *user, cs_composer *composer, const cs_cell *cell,
+                                 uint32_t *out) {
   recorder *r = user;
   if (cell->length == 0)
-    return find_cell(r, cell->colour, &r->cell_of[windings]);
+    return find_cell(r, cell->colour, out);
   const cs_program program = cs_composer_program(composer, cell);
-  return find_varied(r, &program, &r->cell_of[windings]);
+  return find_varied(r, &program, out);
 }
 
 /* ---------------------------------------------------------------- curves */
@@ -253,39 +251,26 @@ static celspan_status find_chain(recorder *r, uint32_t course, uint32_t *out) {
   return CELSPAN_OK;
 }
 
-/* Adds a part of a chain as a border, or to the one that it continues. */
+/* Adds a part of a chain as a border, unless it is lower than a unit. */
 static celspan_status add_border(recorder *r, const cs_events_part *part) {
   cs_recording *record = r->out;
-  planefile_border border = {.left = r->cell_of[part->left], .right = r->cell_of[part->right]};
+  planefile_border border = {.left = part->left, .right = part->right};
   int32_t least, most;
   CS_TRY(find_chain(r, part->course, &border.chain));
   find_limits(record, border.chain, &least, &most);
   border.top = (int32_t)cs_number_clamp(height_of(part->top), least, most);
   border.foot = (int32_t)cs_number_clamp(height_of(part->foot), least, most);
-  if (border.top >= border.foot)
-    return CELSPAN_OK;
-  uint32_t *latest = &r->latest[part->course];
-  planefile_border *last = *latest > 0 ? &record->borders[*latest - 1] : NULL;
-  if (last && last->foot == border.top && last->left == border.left &&
-      last->right == border.right) {
-    last->foot = border.foot;
-    return CELSPAN_OK;
-  }
-  CS_TRY(CS_APPEND(r->context, record->borders, record->border_count, record->border_capacity,
-                   border));
-  *latest = (uint32_t)record->border_count;
-  return CELSPAN_OK;
+  return border.top >= border.foot ? CELSPAN_OK
+                                   : CS_APPEND(r->context, record->borders, record->border_count,
+                                               record->border_capacity, border);
 }
 
 /* Adds what can be seen; on the sides of bundles there is always the same. */
 static celspan_status add_borders(recorder *r) {
   const cs_events *events = &r->events;
-  for (size_t i = 0; i < events->part_count; i++) {
-    const cs_events_part *part = &events->parts[i];
-    if (part->course < r->plan->boundaries.chain_count &&
-        r->cell_of[part->left] != r->cell_of[part->right])
-      CS_TRY(add_border(r, part));
-  }
+  for (size_t i = 0; i < events->part_count; i++)
+    if (events->parts[i].course < r->plan->boundaries.chain_count)
+      CS_TRY(add_border(r, &events->parts[i]));
   return CELSPAN_OK;
 }
 
@@ -315,16 +300,15 @@ static size_t axis_count(const cs_plan *plan) {
 static celspan_status record(recorder *r) {
   const cs_plan *plan = r->plan;
   size_t chains = plan->boundaries.chain_count + 1, axes = axis_count(plan);
+  uint32_t first = (uint32_t)r->out->cell_count; /* its cell 0 */
   CS_TRY(cs_events_find(r->context, &plan->boundaries, &plan->cull, plan->height, WINDINGS_MOST,
                         &r->events));
   if (!r->events.is_complete)
     return cs_fail(r->context, CELSPAN_LIMIT, "plane: there is too much in it");
   CS_TRY(CS_MAKE(r->context, r->source.axes, axes));
   CS_TRY(CS_MAKE(r->context, r->chain_of, chains));
-  CS_TRY(CS_MAKE(r->context, r->latest, chains));
-  CS_TRY(CS_MAKE(r->context, r->cell_of, r->events.windings.count));
-  CS_TRY(cs_events_visit(r->context, plan, &r->events, note_cell, r));
-  add_to_sum(r, r->cell_of[0]);
+  CS_TRY(cs_events_show(r->context, plan, &r->events, find_shown, r));
+  add_to_sum(r, first);
   return add_borders(r);
 }
 
@@ -342,10 +326,6 @@ celspan_status cs_record_put_plan(celspan_context *context, const cs_plan *plan,
     cs_mem_free(memory, r.source.axes, axes * sizeof *r.source.axes);
   if (r.chain_of)
     cs_mem_free(memory, r.chain_of, chains * sizeof *r.chain_of);
-  if (r.latest)
-    cs_mem_free(memory, r.latest, chains * sizeof *r.latest);
-  if (r.cell_of)
-    cs_mem_free(memory, r.cell_of, r.events.windings.count * sizeof *r.cell_of);
   cs_events_finish(&r.events, memory);
   cs_hash_table_finish(&r.cells, context);
   return status;

@@ -1,10 +1,6 @@
 /* Recording a plane: the boundaries of a plan are swept by events (engine/events/events.h), and
- * the parts that can be seen become borders of a plane file (subprojects/planefile), which have
- * curves and no size.
- *
- *    chain c   1|2  3|4  3|4  5|6      parts, with the windings on both sides
- *              A|B  A|B  A|B  B|B      and the cells that these show: one border, from the first to
- *                                      the third part
+ * the parts that can be seen (engine/events/visit.h) become borders of a plane file
+ * (subprojects/planefile), which have curves and no size.
  *
  * The curve of a border is the chain's, from its control points; a chain with a curve that a plane
  * cannot have is a chain of lines.
