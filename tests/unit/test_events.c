@@ -17,6 +17,7 @@
 
 static celspan_context *context;
 static const cs_cull no_cull = {0};
+static const cs_events_rows all_rows = {0, HEIGHT, HEIGHT};
 
 #define MUST(call) CHECK((call) == CELSPAN_OK)
 
@@ -147,7 +148,7 @@ static void test_drawings(void) {
     test_random random = {seed + 1000};
     cs_boundary_set set = random_drawing(seed);
     cs_events events;
-    MUST(cs_events_find(context, &set, &no_cull, HEIGHT, SIZE_MAX, &events));
+    MUST(cs_events_find(context, &set, &no_cull, all_rows, SIZE_MAX, &events));
     CHECK(events.is_complete);
     crossed *at = calloc(events.part_count + 1, sizeof *at);
     for (int k = 0; k < HEIGHTS; k++) {
@@ -163,13 +164,104 @@ static void test_drawings(void) {
   }
 }
 
+/* ---------------------------------------------------------------- some rows */
+
+/* A part, cut at the ends of some rows. */
+typedef struct cut_part {
+  uint64_t windings[4];
+  uint32_t course;
+  int32_t top, foot;
+} cut_part;
+
+static int by_place(const void *a, const void *b) {
+  const cut_part *p = a, *q = b;
+  return p->course != q->course ? (p->course > q->course) - (p->course < q->course)
+                                : (p->top > q->top) - (p->top < q->top);
+}
+
+static cut_part *cut_parts(const cs_events *events, int32_t top, int32_t foot, size_t *count) {
+  cut_part *out = calloc(events->part_count + 1, sizeof *out);
+  *count = 0;
+  for (size_t i = 0; i < events->part_count; i++) {
+    const cs_events_part *f = &events->parts[i];
+    const cs_windings_hash left = events->windings.entries[f->left].hash,
+                           right = events->windings.entries[f->right].hash;
+    cut_part part = {.windings = {left.a, left.b, right.a, right.b}, .course = f->course};
+    part.top = f->top > top ? f->top : top;
+    part.foot = f->foot < foot ? f->foot : foot;
+    if (part.top < part.foot)
+      out[(*count)++] = part;
+  }
+  qsort(out, *count, sizeof *out, by_place);
+  return out;
+}
+
+/* A sweep of some rows must find the parts that the sweep of all rows has there. */
+static void check_rows(const cs_boundary_set *set, const cs_cull *cull, const cs_events *whole,
+                       int32_t first, int32_t end) {
+  cs_events some;
+  size_t count, found_count;
+  int32_t top = (first - first % 8) * CS_COURSE_UNIT, foot = end * CS_COURSE_UNIT;
+  MUST(cs_events_find(context, set, cull, (cs_events_rows){first, end, HEIGHT}, SIZE_MAX, &some));
+  cut_part *parts = cut_parts(whole, top, foot, &count);
+  cut_part *found = cut_parts(&some, top, foot, &found_count);
+  CHECK(found_count == count && memcmp(parts, found, count * sizeof *parts) == 0);
+  CHECK(found_count == some.part_count);
+  free(parts);
+  free(found);
+  cs_events_finish(&some, context->memory);
+}
+
+/* Of a drawing in which the nearest layers hide what is behind them. */
+static cs_cull make_cull(const cs_boundary_set *set) {
+  cs_cull cull;
+  cs_cull_layer layers[LAYERS];
+  for (int i = 0; i < LAYERS; i++)
+    layers[i] = (cs_cull_layer){
+        .through = i < LAYERS / 2 ? 1 : 0, .winding_mask = -1, .group = CS_CULL_NONE};
+  const cs_cull_desc desc = {.set = set,
+                             .layers = layers,
+                             .layer_count = LAYERS,
+                             .width = WIDTH,
+                             .height = HEIGHT,
+                             .opaque = 0.001,
+                             .workers = 1};
+  MUST(cs_cull_create(context, &desc, &cull));
+  return cull;
+}
+
+static void check_drawing(const cs_boundary_set *set, const cs_cull *cull, test_random *random) {
+  cs_events events;
+  MUST(cs_events_find(context, set, cull, all_rows, SIZE_MAX, &events));
+  for (int k = 0; k < 4; k++) {
+    int first = random_below(random, HEIGHT), end = first + random_below(random, HEIGHT - first);
+    check_rows(set, cull, &events, k < 2 ? first - first % 8 : first, end);
+  }
+  cs_events_finish(&events, context->memory);
+}
+
+static void test_rows(void) {
+  size_t deferred = 0;
+  for (uint64_t seed = 0; seed < DRAWINGS; seed++) {
+    test_random random = {seed + 2000};
+    cs_boundary_set set = random_drawing(seed);
+    cs_cull cull = make_cull(&set);
+    check_drawing(&set, &no_cull, &random);
+    check_drawing(&set, &cull, &random);
+    deferred += cull.deferred_count;
+    cs_cull_free(&cull, context->memory);
+    cs_boundary_finish(&set, context->memory);
+  }
+  CHECK(deferred > 100);
+}
+
 /* ---------------------------------------------------------------- known drawings */
 
 /* A square and a diamond over it: each of its four edges crosses an upright one twice. */
 static void test_intersections(void) {
   cs_boundary_set set;
   cs_events events;
-  const celspan_point square[] = {{10, 10}, {30, 10}, {30, 30}, {10, 30}};
+  const celspan_point square[] = {{11, 11}, {29, 11}, {29, 29}, {11, 29}};
   const celspan_point diamond[] = {{20, 6}, {34, 20}, {20, 34}, {6, 20}};
   const celspan_point *const corners[] = {square, diamond};
   cs_boundary_init(&set);
@@ -181,11 +273,11 @@ static void test_intersections(void) {
     cs_outline_finish(&outline, context->memory);
   }
   cs_boundary_sort(&set);
-  MUST(cs_events_find(context, &set, &no_cull, HEIGHT, SIZE_MAX, &events));
+  MUST(cs_events_find(context, &set, &no_cull, all_rows, SIZE_MAX, &events));
   CHECK(events.intersections == 4);
   CHECK(events.windings.count == 4); /* none, each, both */
   cs_events_finish(&events, context->memory);
-  MUST(cs_events_find(context, &set, &no_cull, HEIGHT, 2, &events));
+  MUST(cs_events_find(context, &set, &no_cull, all_rows, 2, &events));
   CHECK(!events.is_complete);
   cs_events_finish(&events, context->memory);
   cs_boundary_finish(&set, context->memory);
@@ -215,7 +307,7 @@ static void test_area(void) {
     MUST(cs_outline_ellipse(context, &outline, (celspan_point){50, 40}, rx, ry));
     add(&set, &outline, 0);
     cs_boundary_sort(&set);
-    MUST(cs_events_find(context, &set, &no_cull, HEIGHT, SIZE_MAX, &events));
+    MUST(cs_events_find(context, &set, &no_cull, all_rows, SIZE_MAX, &events));
     CHECK(events.part_count == 2);
     CHECK_NEAR(area_of(&events, &set), PI * rx * ry, 0.001 * PI * (rx + ry));
     cs_events_finish(&events, context->memory);
@@ -234,7 +326,7 @@ static void test_without_memory(void) {
   for (size_t fail = 1; fail < 1000 && status != CELSPAN_OK; fail++) {
     cs_events events;
     watch.fail_at = watch.allocations + fail;
-    status = cs_events_find(starving, &set, &no_cull, HEIGHT, SIZE_MAX, &events);
+    status = cs_events_find(starving, &set, &no_cull, all_rows, SIZE_MAX, &events);
     CHECK(status == CELSPAN_OK || status == CELSPAN_NO_MEMORY);
     watch.fail_at = 0;
     cs_events_finish(&events, starving->memory);
@@ -248,6 +340,7 @@ static void test_without_memory(void) {
 int main(void) {
   CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
   test_drawings();
+  test_rows();
   test_intersections();
   test_area();
   test_without_memory();

@@ -6,8 +6,9 @@
 typedef struct maker {
   const cs_boundary_set *set;
   cs_courses *out;
-  double top, foot; /* parts beyond them are left out */
-  double *x, *y;    /* of the vertices of a piece */
+  double height;     /* parts above 0 and below this are cut off */
+  int32_t top, foot; /* in units: points are made from the last one above down to the first below */
+  double *x, *y;     /* of the vertices of a piece */
 } maker;
 
 /* To the nearest unit: shifted, so that cutting off the fraction rounds down. */
@@ -17,13 +18,16 @@ static inline int32_t round_to_unit(double place) {
 }
 
 /* Appends a point no higher than the last one of its course, for which there is room. */
-static inline void add_point(cs_course_point *points, cs_course *course, double x, double y) {
+static inline void add_point(const maker *m, cs_course_point *points, cs_course *course, double x,
+                             double y) {
   cs_course_point *last = points + course->count;
   const cs_course_point *before = last - 1;
+  if (course->count > 1 && before->y >= m->foot)
+    return;
   *last = (cs_course_point){round_to_unit(x), round_to_unit(y), 0};
   if (course->count > 0 && last->y < before->y)
     last->y = before->y;
-  if (course->count == 1 && last->y == before->y) /* a jump at the top */
+  if (course->count == 1 && (last->y == before->y || last->y <= m->top)) /* or a jump at the top */
     points[0] = *last;
   else if (course->count == 0 || last->x != before->x || last->y != before->y)
     course->count++;
@@ -33,33 +37,34 @@ static inline double x_between(celspan_point a, celspan_point b, double y) {
   return a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
 }
 
-/* Adds what a chord has between the top and the foot. */
+/* Adds what a chord has in the drawing. */
 static void add_chord(const maker *m, cs_course_point *points, cs_course *course,
                       celspan_point from, celspan_point to) {
-  if (to.y < m->top || from.y > m->foot || to.y == from.y)
+  if (to.y < 0 || from.y > m->height || to.y == from.y)
     return;
-  if (from.y < m->top)
-    add_point(points, course, x_between(from, to, m->top), m->top);
-  if (to.y > m->foot)
-    add_point(points, course, x_between(from, to, m->foot), m->foot);
+  if (from.y < 0)
+    add_point(m, points, course, x_between(from, to, 0), 0);
+  if (to.y > m->height)
+    add_point(m, points, course, x_between(from, to, m->height), m->height);
   else
-    add_point(points, course, to.x, to.y);
+    add_point(m, points, course, to.x, to.y);
 }
 
-/* Adds what a piece has below its first point. */
+/* Adds what a piece has below its first point; of one above the top, its last point is enough. */
 static void add_piece(const maker *m, const cs_boundary_piece *piece, cs_course_point *points,
                       cs_course *course) {
-  bool is_inside = piece->y0 >= m->top && piece->y1 <= m->foot;
+  bool is_inside = piece->y0 >= 0 && piece->y1 <= m->height;
+  bool is_above = piece->y1 * CS_COURSE_UNIT < m->top - 1;
   celspan_point last = {piece->x0, piece->y0};
-  if (piece->chords > 1)
+  if (piece->chords > 1 && !is_above)
     cs_polyline_displaced(m->set, piece, m->x, m->y);
   m->x[piece->chords - 1] = piece->x1;
   m->y[piece->chords - 1] = piece->y1;
-  for (uint32_t k = 0; k < piece->chords; k++) {
+  for (uint32_t k = is_above ? piece->chords - 1 : 0; k < piece->chords; k++) {
     const celspan_point at = {cs_number_clamp(m->x[k], piece->left, piece->right),
                               cs_number_clamp(m->y[k], last.y, piece->y1)};
     if (is_inside)
-      add_point(points, course, at.x, at.y);
+      add_point(m, points, course, at.x, at.y);
     else
       add_chord(m, points, course, last, at);
     last = at;
@@ -80,28 +85,46 @@ static void end_course(cs_courses *out, cs_course *course) {
   out->point_count += course->count;
 }
 
+static inline bool is_beyond(const maker *m, const cs_boundary_chain *chain) {
+  return chain->y1 * CS_COURSE_UNIT < m->top - 1 || chain->y0 * CS_COURSE_UNIT > m->foot + 1;
+}
+
 static void make_course(const maker *m, const cs_boundary_chain *chain, cs_course *course) {
   cs_course_point *points = m->out->points + m->out->point_count;
   *course = (cs_course){m->out->point_count, 0};
-  if (chain->y0 >= m->top && chain->y0 <= m->foot)
-    add_point(points, course, chain->x0, chain->y0);
+  if (is_beyond(m, chain))
+    return;
+  if (chain->y0 >= 0 && chain->y0 <= m->height)
+    add_point(m, points, course, chain->x0, chain->y0);
   for (uint32_t k = 0; k < chain->piece_count; k++)
     add_piece(m, &m->set->pieces[chain->piece + k], points, course);
   end_course(m->out, course);
 }
 
-celspan_status cs_courses_make(celspan_context *context, const cs_boundary_set *set, int32_t top,
-                               int32_t foot, size_t more, cs_courses *out) {
-  maker m = {.set = set, .out = out, .top = top, .foot = foot};
-  size_t chords = 2 * (set->chain_count + more) + 1, most = 1;
-  *out = (cs_courses){0};
-  for (size_t i = 0; i < set->piece_count; i++) {
-    chords += set->pieces[i].chords;
-    most = set->pieces[i].chords > most ? set->pieces[i].chords : most;
+/* The points of all courses, at most. */
+static size_t count_points(const maker *m, size_t *most) {
+  size_t count = 1;
+  *most = 1;
+  for (size_t i = 0; i < m->set->chain_count; i++) {
+    const cs_boundary_chain *chain = &m->set->chains[i];
+    count += is_beyond(m, chain) ? 0 : 2;
+    for (uint32_t k = 0; k < chain->piece_count && !is_beyond(m, chain); k++) {
+      size_t chords = m->set->pieces[chain->piece + k].chords;
+      count += chords;
+      *most = chords > *most ? chords : *most;
+    }
   }
+  return count;
+}
+
+celspan_status cs_courses_make(celspan_context *context, const cs_boundary_set *set, int32_t height,
+                               int32_t top, int32_t foot, size_t more, cs_courses *out) {
+  maker m = {.set = set, .out = out, .height = height, .top = top, .foot = foot};
+  size_t most, count = count_points(&m, &most) + 2 * more;
+  *out = (cs_courses){0};
   CS_TRY(CS_RESERVE(context, out->courses, out->course_capacity, set->chain_count + more + 1));
   out->course_count = set->chain_count;
-  CS_TRY(CS_RESERVE(context, out->points, out->point_capacity, chords));
+  CS_TRY(CS_RESERVE(context, out->points, out->point_capacity, count));
   CS_TRY(CS_MAKE(context, m.x, 2 * most));
   m.y = m.x + most;
   for (size_t i = 0; i < set->chain_count; i++)

@@ -37,12 +37,14 @@ typedef struct cs_courses {
   size_t course_count, course_capacity, point_count, point_capacity;
 } cs_courses;
 
-/* The chains must lie within 16384 pixels of the origin sideways. What lies above the top or below
- * the foot, in whole pixels between -16384 and 16384, is left out. more: upright courses for which
- * there will be room. Errors: NO_MEMORY; cs_courses_finish must be called then, too. */
+/* The chains must lie within 16384 pixels of the origin sideways. What lies above 0 or below the
+ * height, in pixels, at most 16384, is cut off. Between top and foot, in units, the points are
+ * those of the whole course: it begins with its last point at or above the top, and ends with the
+ * first one at or below the foot. more: upright courses for which there will be room. Errors:
+ * NO_MEMORY; cs_courses_finish must be called then, too. */
 CELSPAN_CHECKED celspan_status cs_courses_make(celspan_context *context, const cs_boundary_set *set,
-                                               int32_t top, int32_t foot, size_t more,
-                                               cs_courses *out);
+                                               int32_t height, int32_t top, int32_t foot,
+                                               size_t more, cs_courses *out);
 /* Appends a course at x, in pixels, between two heights. */
 void cs_courses_add_upright(cs_courses *courses, double x, int32_t top, int32_t foot);
 void cs_courses_finish(cs_courses *courses, cs_memory *memory);

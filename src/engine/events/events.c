@@ -91,21 +91,42 @@ static celspan_status mark_dirty(sweep *s, uint32_t course, int32_t y) {
   return CS_APPEND(s->context, s->dirty, s->dirty_count, s->dirty_capacity, key);
 }
 
+/* Finds the windings right of a course, given those on its left. */
+static celspan_status settle(sweep *s, uint32_t course, uint32_t left, int32_t y) {
+  cs_order_entry *entry = &s->order.entries[course];
+  uint32_t right;
+  CS_TRY(cross(s, course, left, &right));
+  CS_TRY(close(s, course, y));
+  entry->left = left;
+  entry->right = right;
+  entry->is_dirty = false;
+  return CELSPAN_OK;
+}
+
 /* Finds the windings from a course on to the right, until they are known. */
 static celspan_status find_windings(sweep *s, uint32_t course, int32_t y) {
-  cs_order_entry *entries = s->order.entries;
+  const cs_order_entry *entries = s->order.entries;
   while (entries[entries[course].previous].is_dirty)
     course = entries[course].previous;
-  uint32_t left = entries[entries[course].previous].right, right;
-  for (; course != s->order.ends; course = entries[course].next, left = right) {
-    cs_order_entry *entry = &entries[course];
-    if (!entry->is_dirty && entry->left == left)
+  uint32_t left = entries[entries[course].previous].right;
+  for (; course != s->order.ends; course = entries[course].next) {
+    if (!entries[course].is_dirty && entries[course].left == left)
       return CELSPAN_OK;
-    CS_TRY(cross(s, course, left, &right));
-    CS_TRY(close(s, course, y));
-    entry->left = left;
-    entry->right = right;
-    entry->is_dirty = false;
+    CS_TRY(settle(s, course, left, y));
+    left = entries[course].right;
+  }
+  return CELSPAN_OK;
+}
+
+/* Finds the windings of all courses, after any changes. */
+static celspan_status find_all_windings(sweep *s, int32_t y) {
+  const cs_order_entry *entries = s->order.entries;
+  uint32_t left = 0;
+  s->dirty_count = 0;
+  for (uint32_t i = entries[s->order.ends].next; i != s->order.ends; i = entries[i].next) {
+    if (entries[i].is_dirty || entries[i].left != left)
+      CS_TRY(settle(s, i, left, y));
+    left = entries[i].right;
   }
   return CELSPAN_OK;
 }
@@ -192,18 +213,22 @@ static celspan_status leave_culled(sweep *s, int32_t y) {
   return CELSPAN_OK;
 }
 
+static celspan_status enter_bundles(sweep *s, int32_t y) {
+  const uint32_t *starts = s->events->bundles.starts + s->tile_row;
+  for (uint32_t k = starts[0]; k < starts[1]; k++)
+    CS_TRY(enter(s, (uint32_t)s->set->chain_count + k, y));
+  return CELSPAN_OK;
+}
+
 static celspan_status enter_kept(sweep *s, int32_t y) {
   const cs_cull *cull = s->cull;
-  const uint32_t *starts = s->events->bundles.starts + s->tile_row;
   for (uint32_t k = cull->enter_starts[s->tile_row]; k < cull->enter_starts[s->tile_row + 1]; k++) {
     const cs_course *course = &s->events->courses.courses[cull->enters[k]];
     const cs_course_point *points = s->events->courses.points + course->first;
     if (course->count > 0 && points[0].y < y && points[course->count - 1].y > y)
       CS_TRY(enter(s, cull->enters[k], y));
   }
-  for (uint32_t k = starts[0]; k < starts[1]; k++)
-    CS_TRY(enter(s, (uint32_t)s->set->chain_count + k, y));
-  return CELSPAN_OK;
+  return enter_bundles(s, y);
 }
 
 /* The top of the next row of tiles; NEVER: there is none. */
@@ -212,39 +237,7 @@ static int32_t next_tiles(const sweep *s) {
                                               : CS_ORDER_NEVER;
 }
 
-/* Finds the windings of all courses. */
-static celspan_status find_all_windings(sweep *s, int32_t y) {
-  const cs_order *order = &s->order;
-  uint32_t first = order->entries[order->ends].next;
-  s->dirty_count = 0;
-  for (uint32_t i = first; i != order->ends; i = order->entries[i].next)
-    order->entries[i].is_dirty = true;
-  return first != order->ends ? find_windings(s, first, y) : CELSPAN_OK;
-}
-
-/* ---------------------------------------------------------------- all changes at a height */
-
-static celspan_status change_courses(sweep *s, int32_t y) {
-  bool is_top = y == next_tiles(s);
-  CS_TRY(end_courses(s, y));
-  if (is_top) {
-    s->tile_row++;
-    CS_TRY(leave_culled(s, y));
-    CS_TRY(enter_kept(s, y));
-  }
-  CS_TRY(begin_courses(s, y));
-  CS_TRY(is_top ? find_all_windings(s, y) : settle_dirty(s, y));
-  for (size_t i = 0; i < s->touched_count; i++) {
-    cs_order_entry *entry = &s->order.entries[s->touched[i]];
-    entry->is_touched = false;
-    if (entry->is_there)
-      CS_TRY(compare_ahead(s, s->touched[i], y));
-  }
-  s->touched_count = 0;
-  return CELSPAN_OK;
-}
-
-/* ---------------------------------------------------------------- the sweep */
+/* ---------------------------------------------------------------- belts */
 
 /* Lets neighbours change places. */
 static celspan_status intersect(sweep *s, intersection m) {
@@ -271,38 +264,99 @@ static celspan_status intersect_until(sweep *s, int32_t y) {
   return CELSPAN_OK;
 }
 
-/* Begins the belts after the current one, down to one in which a height lies. */
-static celspan_status go_to(sweep *s, int32_t y) {
-  cs_order *order = &s->order;
-  if (order->count == 0) { /* nothing is compared */
-    int32_t top = y - y % CS_ORDER_BELT;
-    return cs_order_begin_belt(s->context, order, top, top + CS_ORDER_BELT);
-  }
-  while (order->foot < y) {
-    int32_t top = order->foot;
-    CS_TRY(intersect_until(s, top));
-    CS_TRY(cs_order_begin_belt(s->context, order, top, top + CS_ORDER_BELT));
-    for (uint32_t i = order->entries[order->ends].next; i != order->ends;
-         i = order->entries[i].next)
-      CS_TRY(compare_ahead(s, i, top));
-  }
+/* Begins the belt below y: all courses that cross y are brought into order, and compared. */
+static celspan_status begin_belt(sweep *s, int32_t y) {
+  const cs_order *order = &s->order;
+  bool is_changed;
+  CS_TRY(cs_order_begin_belt(s->context, &s->order, y, &is_changed));
+  if (is_changed || s->touched_count > 0)
+    CS_TRY(find_all_windings(s, y));
+  for (size_t i = 0; i < s->touched_count; i++)
+    order->entries[s->touched[i]].is_touched = false;
+  s->touched_count = 0;
+  for (uint32_t i = order->entries[order->ends].next; i != order->ends; i = order->entries[i].next)
+    CS_TRY(compare_ahead(s, i, y));
   return CELSPAN_OK;
 }
 
+/* The top of a belt, at or above a height. */
+static inline int32_t belt_above(int32_t y) { return y - y % CS_ORDER_BELT; }
+
+/* Goes through the belts above a height. */
+static celspan_status go_to(sweep *s, int32_t y) {
+  cs_order *order = &s->order;
+  if (order->count == 0 && order->foot < y) /* there is nothing in them */
+    order->foot = belt_above(y);
+  while (order->foot < y) {
+    int32_t top = order->foot;
+    CS_TRY(intersect_until(s, top));
+    order->foot += CS_ORDER_BELT;
+    CS_TRY(begin_belt(s, top));
+  }
+  return intersect_until(s, y);
+}
+
+/* ---------------------------------------------------------------- all changes at a height */
+
+static celspan_status compare_touched(sweep *s, int32_t y) {
+  for (size_t i = 0; i < s->touched_count; i++) {
+    cs_order_entry *entry = &s->order.entries[s->touched[i]];
+    entry->is_touched = false;
+    if (entry->is_there)
+      CS_TRY(compare_ahead(s, s->touched[i], y));
+  }
+  s->touched_count = 0;
+  return CELSPAN_OK;
+}
+
+static celspan_status change_courses(sweep *s, int32_t y) {
+  bool is_tile = y == next_tiles(s), is_belt = y == s->order.foot;
+  CS_TRY(end_courses(s, y));
+  s->order.foot += is_belt ? CS_ORDER_BELT : 0;
+  if (is_tile) {
+    s->tile_row++;
+    CS_TRY(leave_culled(s, y));
+    CS_TRY(enter_kept(s, y));
+  }
+  CS_TRY(begin_courses(s, y));
+  if (is_belt)
+    return begin_belt(s, y);
+  CS_TRY(is_tile ? find_all_windings(s, y) : settle_dirty(s, y));
+  return compare_touched(s, y);
+}
+
+/* ---------------------------------------------------------------- the sweep */
+
 static inline int32_t lesser(int32_t a, int32_t b) { return a < b ? a : b; }
 
-static celspan_status go_down(sweep *s, size_t most) {
-  const cs_course_point *begin;
-  while ((begin = next_begin(s)) || s->next_end < s->end_count) {
-    int32_t y = next_tiles(s);
-    y = begin ? lesser(begin->y, y) : y;
-    y = lesser(next_end(s), y);
-    CS_TRY(go_to(s, y));
-    CS_TRY(intersect_until(s, y));
+/* Puts in the courses that cross the top of the first belt, or begin there. */
+static celspan_status begin(sweep *s, int32_t top) {
+  s->order.foot = top;
+  if (s->cull->tile_rows > 0 && top > 0) {
+    s->tile_row = cs_cull_row(s->cull, top / CS_COURSE_UNIT);
+    CS_TRY(enter_bundles(s, top));
+  }
+  for (const cs_course_point *at; top > 0 && (at = next_begin(s)) && at->y <= top; s->next_begin++)
+    if (cs_cull_keeps(s->cull, (uint32_t)s->next_begin, s->tile_row))
+      CS_TRY(enter(s, (uint32_t)s->next_begin, top));
+  return CELSPAN_OK;
+}
+
+/* Goes down to a foot, where all parts end. */
+static celspan_status go_down(sweep *s, int32_t top, int32_t foot, size_t most) {
+  CS_TRY(begin(s, top));
+  for (int32_t y = top; y < foot;) {
     CS_TRY(change_courses(s, y));
     if (s->events->windings.count > most)
       return CELSPAN_OK;
+    const cs_course_point *begin = next_begin(s);
+    y = lesser(next_tiles(s), next_end(s));
+    y = lesser(begin ? begin->y : foot, lesser(y, foot));
+    CS_TRY(go_to(s, y));
   }
+  const cs_order *order = &s->order;
+  for (uint32_t i = order->entries[order->ends].next; i != order->ends; i = order->entries[i].next)
+    CS_TRY(close(s, i, foot));
   s->events->is_complete = true;
   return CELSPAN_OK;
 }
@@ -331,17 +385,21 @@ static void finish(sweep *s) {
 }
 
 celspan_status cs_events_find(celspan_context *context, const cs_boundary_set *set,
-                              const cs_cull *cull, int32_t height, size_t most, cs_events *out) {
+                              const cs_cull *cull, cs_events_rows rows, size_t most,
+                              cs_events *out) {
   sweep s = {.context = context, .set = set, .cull = cull, .events = out, .tile_row = -1};
+  int32_t top = belt_above(rows.first * CS_COURSE_UNIT), foot = rows.end * CS_COURSE_UNIT;
+  const int32_t last = belt_above(foot + CS_ORDER_BELT - 1);
   *out = (cs_events){0};
-  CS_TRY(cs_courses_make(context, set, 0, height, cull->deferred_count, &out->courses));
+  CS_TRY(
+      cs_courses_make(context, set, rows.height, top, last, cull->deferred_count, &out->courses));
   CS_TRY(cs_bundles_make(context, cull, &out->courses, &out->bundles));
   CS_TRY(cs_windings_init(context, &out->windings));
   celspan_status status = list_ends(&s);
   if (status == CELSPAN_OK)
     status = cs_order_init(context, &out->courses, &s.order);
   if (status == CELSPAN_OK)
-    status = go_down(&s, most);
+    status = go_down(&s, top, foot, most);
   finish(&s);
   return status;
 }

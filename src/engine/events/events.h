@@ -19,8 +19,11 @@
  * so a part may be wrong by a strip of one unit, which is 2^-16 of a pixel, and at no height is
  * there anything but a list of courses with the windings between them.
  *
- * Invariant: at any height, the parts that cross it lead from windings 0 to windings 0, each
- * beginning with those with which the one before it has ended.
+ * Invariants
+ *   - at any height, the parts that cross it lead from windings 0 to windings 0, each beginning
+ *     with those with which the one before it has ended;
+ *   - belts of rows depend on the drawing alone (order.h): a sweep of some rows finds what a sweep
+ *     of all finds there.
  */
 #pragma once
 
@@ -42,10 +45,16 @@ typedef struct cs_events {
   bool is_complete;     /* false: there are too many windings, and parts are missing */
 } cs_events;
 
+/* What is swept: some rows of a drawing, in pixels from 0. height: at most 16384. */
+typedef struct cs_events_rows {
+  int32_t first, end, height; /* first <= end <= height */
+} cs_events_rows;
+
 /* Sweeps boundaries that lie within 16384 pixels of the origin sideways, and are culled without a
- * margin, from height 0 to `height`, in pixels, at most 16384. most: windings. Errors: NO_MEMORY;
- * cs_events_finish must be called then, too. */
+ * margin, from the top of the belt in which the first row lies. The parts are those of the whole
+ * drawing between there and the end; only their windings have other numbers. most: windings.
+ * Errors: NO_MEMORY; cs_events_finish must be called then, too. */
 CELSPAN_CHECKED celspan_status cs_events_find(celspan_context *context, const cs_boundary_set *set,
-                                              const cs_cull *cull, int32_t height, size_t most,
+                                              const cs_cull *cull, cs_events_rows rows, size_t most,
                                               cs_events *out);
 void cs_events_finish(cs_events *events, cs_memory *memory);

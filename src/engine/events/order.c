@@ -38,13 +38,11 @@ double cs_order_x(const cs_order *order, uint32_t course, int32_t y) {
 
 static inline int32_t lesser(int32_t a, int32_t b) { return a < b ? a : b; }
 
-/* Where the first of two courses lies right of the second one, from a height down to a limit that
- * neither ends above: *height. direction: -1 if it is the other way round there; 0: neither. */
-static int compare(const cs_course_point *p, const cs_course_point *q, int32_t y, int32_t limit,
-                   int32_t *height) {
+/* On which side of a course another one is first, from a height down to a limit that neither ends
+ * above: 1: left of it; -1: right of it; 0: they are the same. */
+static int compare(const cs_course_point *p, const cs_course_point *q, int32_t y, int32_t limit) {
   double above = cs_course_x(p, y) - cs_course_x(q, y);
   for (int32_t top = y;; above = cs_course_x(p, top) - cs_course_x(q, top)) {
-    *height = top;
     if (fabs(above) > CS_ORDER_SLACK)
       return above > 0 ? 1 : -1;
     if (top >= limit)
@@ -99,43 +97,6 @@ int32_t cs_order_ahead(const cs_order *order, uint32_t course, int32_t y) {
   }
 }
 
-/* ---------------------------------------------------------------- belts */
-
-static inline void add_to_extent(cs_order_entry *entry, double x) {
-  int32_t low = (int32_t)floor(x), high = (int32_t)ceil(x);
-  entry->low = lesser(low, entry->low);
-  entry->high = high > entry->high ? high : entry->high;
-}
-
-/* Finds the extent of a course from a height down to the foot of the belt. */
-static void find_extent(const cs_order *order, cs_order_entry *entry, int32_t y) {
-  int32_t end = lesser(order->foot, entry->foot);
-  const cs_course_point *p = entry->at = segment_below(entry->at, y);
-  entry->low = INT32_MAX;
-  entry->high = INT32_MIN;
-  add_to_extent(entry, cs_course_x(p, y));
-  for (; p[1].y < end; p++)
-    add_to_extent(entry, p[1].x);
-  add_to_extent(entry, cs_course_x(p, end));
-}
-
-/* Lists the courses from left to right. */
-static celspan_status make_index(celspan_context *context, cs_order *order) {
-  CS_TRY(CS_RESERVE(context, order->index, order->index_capacity, order->count));
-  order->index_count = order->entered = 0;
-  for (uint32_t i = order->entries[order->ends].next; i != order->ends; i = order->entries[i].next)
-    order->index[order->index_count++] = i;
-  return CELSPAN_OK;
-}
-
-celspan_status cs_order_begin_belt(celspan_context *context, cs_order *order, int32_t y,
-                                   int32_t foot) {
-  order->foot = foot;
-  for (uint32_t i = order->entries[order->ends].next; i != order->ends; i = order->entries[i].next)
-    find_extent(order, &order->entries[i], y);
-  return make_index(context, order);
-}
-
 /* ---------------------------------------------------------------- changes */
 
 static inline void link_after(cs_order *order, uint32_t left, uint32_t course) {
@@ -152,30 +113,123 @@ static inline void unlink_entry(cs_order *order, uint32_t course) {
   entries[entries[course].next].previous = entries[course].previous;
 }
 
-/* Whether a course belongs left of one that begins at y; of two that are the same from there on,
- * the one with the lower number does. */
-static bool is_left(const cs_order *order, uint32_t course, uint32_t begins, int32_t y) {
-  cs_order_entry *a = &order->entries[course];
-  const cs_order_entry *b = &order->entries[begins];
-  int32_t height;
+/* Whether one of two courses that both cross y, or begin there, belongs left of the other one: that
+ * which is there first in the belt, and of two that are the same the one with the lower number. */
+static bool is_left(const cs_order *order, uint32_t left, uint32_t right, int32_t y) {
+  cs_order_entry *a = &order->entries[left], *b = &order->entries[right];
+  int32_t limit = lesser(order->foot, lesser(a->foot, b->foot));
   a->at = segment_below(a->at, y);
-  int side = compare(a->at, b->at, y, lesser(a->foot, b->foot), &height);
-  return side != 0 ? side < 0 : course < begins;
+  b->at = segment_below(b->at, y);
+  int side = compare(a->at, b->at, y, limit);
+  return side != 0 ? side < 0 : left < right;
 }
+
+/* ---------------------------------------------------------------- belts */
+
+static inline void add_to_extent(cs_order_entry *entry, double x) {
+  int32_t low = (int32_t)floor(x), high = (int32_t)ceil(x);
+  entry->low = lesser(low, entry->low);
+  entry->high = high > entry->high ? high : entry->high;
+}
+
+/* Finds the extent of a course from a height down to the foot of the belt. Returns x there. */
+static double find_extent(const cs_order *order, cs_order_entry *entry, int32_t y) {
+  int32_t end = lesser(order->foot, entry->foot);
+  const cs_course_point *p = entry->at = segment_below(entry->at, y);
+  double x = cs_course_x(p, y);
+  entry->low = INT32_MAX;
+  entry->high = INT32_MIN;
+  add_to_extent(entry, x);
+  for (; p[1].y < end; p++)
+    add_to_extent(entry, p[1].x);
+  add_to_extent(entry, cs_course_x(p, end));
+  return x;
+}
+
+/* Lists the courses from left to right, with their places at a height. */
+static celspan_status make_index(celspan_context *context, cs_order *order, int32_t y) {
+  CS_TRY(CS_RESERVE(context, order->index, order->index_capacity, order->count));
+  order->index_count = order->entered = 0;
+  for (uint32_t i = order->entries[order->ends].next; i != order->ends; i = order->entries[i].next)
+    order->index[order->index_count++] = (cs_order_place){cs_order_x(order, i, y), i};
+  return CELSPAN_OK;
+}
+
+static inline bool is_right(cs_order_place a, cs_order_place b) {
+  return a.x != b.x ? a.x > b.x : a.course > b.course;
+}
+
+/* Sorts the places by x; most are in order. */
+static void sort_places(cs_order_place *places, size_t count) {
+  for (size_t i = 1; i < count; i++) {
+    cs_order_place moved = places[i];
+    size_t at = i;
+    for (; at > 0 && is_right(places[at - 1], moved); at--)
+      places[at] = places[at - 1];
+    places[at] = moved;
+  }
+}
+
+/* Brings those within the slack into the order that they have below. */
+static void sort_near(const cs_order *order, int32_t y) {
+  cs_order_place *places = order->index;
+  for (size_t i = 1; i < order->index_count; i++) {
+    cs_order_place moved = places[i];
+    size_t at = i;
+    for (; at > 0 && fabs(moved.x - places[at - 1].x) <= CS_ORDER_SLACK; at--) {
+      if (is_left(order, places[at - 1].course, moved.course, y))
+        break;
+      places[at] = places[at - 1];
+    }
+    places[at] = moved;
+  }
+}
+
+/* Links the courses as they are listed. Returns whether that changes anything. */
+static bool link_places(cs_order *order) {
+  bool is_changed = false;
+  uint32_t left = order->ends;
+  for (size_t i = 0; i < order->index_count; i++) {
+    uint32_t course = order->index[i].course;
+    is_changed |= order->entries[left].next != course;
+    order->entries[left].next = course;
+    order->entries[course].previous = left;
+    left = course;
+  }
+  order->entries[left].next = order->ends;
+  order->entries[order->ends].previous = left;
+  return is_changed;
+}
+
+celspan_status cs_order_begin_belt(celspan_context *context, cs_order *order, int32_t y,
+                                   bool *is_changed) {
+  CS_TRY(CS_RESERVE(context, order->index, order->index_capacity, order->count));
+  cs_order_entry *entries = order->entries;
+  order->index_count = order->entered = 0;
+  order->last = order->ends;
+  for (uint32_t i = entries[order->ends].next; i != order->ends; i = entries[i].next)
+    order->index[order->index_count++] = (cs_order_place){find_extent(order, &entries[i], y), i};
+  sort_places(order->index, order->index_count);
+  sort_near(order, y);
+  *is_changed = link_places(order);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- begins and ends */
 
 /* A course at or left of where one begins, by the index: courses may have changed places since. */
 static uint32_t find_near(const cs_order *order, double x, int32_t y) {
   size_t low = 0, high = order->index_count;
   while (low < high) {
     size_t middle = low + (high - low) / 2;
-    if (cs_order_x(order, order->index[middle], y) <= x)
+    if (cs_order_x(order, order->index[middle].course, y) <= x)
       low = middle + 1;
     else
       high = middle;
   }
-  while (low > 0 && !order->entries[order->index[low - 1]].is_there)
+  while (low > 0 && !order->entries[order->index[low - 1].course].is_there)
     low--;
-  return low > 0 ? order->index[low - 1] : order->ends;
+  return low > 0 ? order->index[low - 1].course : order->ends;
 }
 
 /* Whether the course that was put in last begins at the same point, as most do whose contour has
@@ -195,7 +249,7 @@ celspan_status cs_order_enter(celspan_context *context, cs_order *order, uint32_
       (cs_order_entry){.at = segment_below(points, y), .foot = points[of->count - 1].y, .since = y};
   find_extent(order, entry, y);
   if (order->entered > 64 && 4 * order->entered > order->index_count)
-    CS_TRY(make_index(context, order));
+    CS_TRY(make_index(context, order, y));
   uint32_t left = begins_at_last(order, points, y) ? order->last
                                                    : find_near(order, cs_course_x(entry->at, y), y);
   while (entries[left].next != order->ends && is_left(order, entries[left].next, course, y))

@@ -12,8 +12,12 @@
  * Courses have intersected only when one is beyond the other by more than CS_ORDER_SLACK units: so
  * common boundaries of two shapes, whose points are rounded, do not change places again and again.
  *
- * Invariant: at one height, of two courses at most one has to be put right of the other, so changes
- * of places come to an end.
+ * Invariants
+ *   - at one height, of two courses at most one has to be put right of the other, so changes of
+ *     places come to an end;
+ *   - each belt begins with an order in which nothing is left of the belts above: by x; of those
+ *     that lie within the slack, by which is beyond the other first in the belt, or by number. So
+ *     what happens in a belt depends on the courses in it alone, and a sweep may begin at any belt.
  */
 #pragma once
 
@@ -36,11 +40,17 @@ typedef struct cs_order_entry {
   bool is_touched;           /* for the caller: it has another right neighbour */
 } cs_order_entry;
 
+/* Where a course crossed a height. */
+typedef struct cs_order_place {
+  double x;
+  uint32_t course;
+} cs_order_place;
+
 typedef struct cs_order {
   const cs_courses *courses; /* borrowed */
   cs_order_entry *entries;   /* one for each course, and the ends */
   uint32_t ends;             /* the number of that entry */
-  uint32_t *index;           /* courses that crossed an earlier height, from left to right */
+  cs_order_place *index;     /* courses that crossed an earlier height, from left to right */
   size_t index_count, index_capacity, count;
   size_t entered; /* courses that were put in since then */
   uint32_t last;  /* of these, the last one, or the ends */
@@ -51,9 +61,10 @@ typedef struct cs_order {
 CELSPAN_CHECKED celspan_status cs_order_init(celspan_context *context, const cs_courses *courses,
                                              cs_order *out);
 void cs_order_finish(cs_order *order, cs_memory *memory);
-/* Begins the belt from a height down to a foot. */
+/* Brings the courses that cross y, where the belt down to order->foot begins, into their order.
+ * *is_changed: it was another one. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_order_begin_belt(celspan_context *context, cs_order *order,
-                                                   int32_t y, int32_t foot);
+                                                   int32_t y, bool *is_changed);
 /* Puts in a course that begins at y, or crosses it and has not been in the list until now.
  * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_order_enter(celspan_context *context, cs_order *order,

@@ -171,8 +171,9 @@ static void take_stack(cs_map *map, cs_stack *stack) {
 }
 
 static celspan_status make(maker *m) {
-  CS_TRY(cs_events_find(m->context, &m->plan->boundaries, &m->plan->cull, m->plan->height,
-                        WINDINGS_MOST, &m->events));
+  const cs_events_rows rows = {0, m->plan->height, m->plan->height};
+  CS_TRY(cs_events_find(m->context, &m->plan->boundaries, &m->plan->cull, rows, WINDINGS_MOST,
+                        &m->events));
   m->map->is_whole = m->events.is_complete;
   if (m->map->is_whole)
     CS_TRY(find_shown(m));
