@@ -212,7 +212,7 @@ static void check_rows(const cs_boundary_set *set, const cs_cull *cull, const cs
   cs_events_finish(&some, context->memory);
 }
 
-/* Of a drawing in which the nearest layers hide what is behind them. */
+/* Of a drawing in which the nearest layers hide the layers behind them. */
 static cs_cull make_cull(const cs_boundary_set *set) {
   cs_cull cull;
   cs_cull_layer layers[LAYERS];
