@@ -13,7 +13,7 @@
  *                             interval                  replayed by a local sweep; it composes
  *                                                       the one cell below x
  *
- *   alone     a visible boundary to which nothing happens in the row gives its edge segments: one,
+ *   alone     a visible boundary to which nothing happens in the row gives its borders: one,
  *             or one for each straight piece
  *   interval  neighbours that swap, begin or end inside the row are replayed (intervals.h says
  *             which, local_sweep.h how)
@@ -157,18 +157,17 @@ static size_t find_visible(const cs_area *area, size_t v, size_t end) {
   return v;
 }
 
-/* Gives the target the segments of visible boundaries one by one. */
+/* Gives the target the borders of visible boundaries one by one. */
 static celspan_status add_boundaries(row_walk *w, const uint32_t *boundaries, size_t count) {
   cs_area *area = w->area;
   for (size_t k = 0; k < count; k++) {
     size_t i = boundaries[k];
     const cs_cell *left = &w->cells[i];
     const cs_bend *bend = area->edges.is_bent[i] ? cs_active_bend(area->tools.active, i) : NULL;
-    uint32_t chain = cs_active_number(area->tools.active, i) + 1;
     cs_window_end_item(&area->target.window, left + 1);
     for (cs_pieces p = cs_pieces_of(area->tools.active, i, bend); cs_pieces_next(&p);) {
-      const cs_segment segment = {p.above.x, p.above.y, p.below.x, p.below.y, chain};
-      CS_TRY(cs_target_add(&area->target, &segment, left, left + 1));
+      const cs_border border = {{p.above.x, p.above.y, p.below.x, p.below.y}, left, left + 1};
+      CS_TRY(cs_target_add(&area->target, &border));
     }
   }
   return CELSPAN_OK;
@@ -413,7 +412,7 @@ static celspan_status update_cells(cs_area *area, cs_change change, const cs_cel
   return CELSPAN_OK;
 }
 
-/* Copies the cells to room that lasts as long as the row: segments point to them. */
+/* Copies the cells to room that lasts as long as the row: borders point to them. */
 static celspan_status keep_cells(cs_area *area, const cs_cell **out) {
   size_t size = area->tools.cells->known * sizeof **out;
   cs_cell *kept = cs_arena_take(area->tools.composer->context, area->tools.arena, size);

@@ -46,7 +46,7 @@ typedef struct cs_commit {
 typedef struct cs_area {
   cs_row_tools tools; /* borrowed */
   cs_edges edges;     /* of the row being made */
-  cs_target target;   /* receives the segments of the row */
+  cs_target target;   /* receives the borders of the row */
   cs_local_sweep sweep;
   cs_dense dense;
   cs_crowd crowd;

@@ -508,11 +508,11 @@ static cs_v4 colour_of(const drawing *d, int32_t p) {
 static celspan_status put_cell(const drawing *d, int32_t p, const cs_cell *left,
                                const cs_cell *cell) {
   cs_window *window = &d->sweep->target->window;
-  const cs_segment segment = {p, d->sweep->y0, p, d->sweep->y1, 0};
+  const cs_border border = {{p, d->sweep->y0, p, d->sweep->y1}, left, cell};
   if (p <= d->next) /* what follows may add to the pixels from there on */
     CS_TRY(cs_window_begin_item(window, p));
   if (!cs_composer_same(d->composer, left, cell))
-    CS_TRY(cs_window_add(window, &segment, left, cell));
+    CS_TRY(cs_window_add(window, &border));
   cs_window_end_item(window, cell);
   return CELSPAN_OK;
 }

@@ -187,12 +187,12 @@ static celspan_status add_sub_rows(const drawing *d, int first, int end, int all
 
 /* ---------------------------------------------------------------- cells */
 
-static celspan_status add_segment(const drawing *d, int32_t column, const cs_cell *left,
-                                  const cs_cell *right) {
-  const cs_segment segment = {column, d->sweep->y0, column, d->sweep->y1, 0};
+static celspan_status add_border(const drawing *d, int32_t column, const cs_cell *left,
+                                 const cs_cell *right) {
+  const cs_border border = {{column, d->sweep->y0, column, d->sweep->y1}, left, right};
   if (cs_composer_same(d->sweep->composer, left, right))
     return CELSPAN_OK;
-  return cs_target_add(d->sweep->target, &segment, left, right);
+  return cs_target_add(d->sweep->target, &border);
 }
 
 /* Draws every pixel as a cell of its mean colour. */
@@ -204,10 +204,10 @@ static celspan_status draw_means(const drawing *d, int all, const cs_cell *right
   for (int32_t i = 0; i < d->count; i++) {
     cs_sum4 mean = d->dense->sums[i] * (1.0 / (PARTS * all));
     cells[i] = (cs_cell){.colour = cs_v4_bounded(__builtin_convertvector(mean, cs_v4))};
-    CS_TRY(add_segment(d, d->first + i, left, &cells[i]));
+    CS_TRY(add_border(d, d->first + i, left, &cells[i]));
     left = &cells[i];
   }
-  return add_segment(d, d->first + d->count, left, right);
+  return add_border(d, d->first + d->count, left, right);
 }
 
 static celspan_status reserve(const drawing *d) {

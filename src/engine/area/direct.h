@@ -1,5 +1,5 @@
 /* Direct edges: boundaries that are drawn into the row at once, from what has been measured of
- * them, without the segments of a window. That works for an edge that shares its pixels with no
+ * them, without the borders of a window. That works for an edge that shares its pixels with no
  * other one, and for a few that share pixels with each other and with nothing else. Nearly all
  * edges of nearly all rows are such.
  *

@@ -32,7 +32,7 @@ celspan_status cs_local_sweep_begin(cs_local_sweep *sweep, size_t count) {
   return CELSPAN_OK;
 }
 
-/* ---------------------------------------------------------------- segments */
+/* ---------------------------------------------------------------- borders */
 
 static const cs_cell *left_of(const cs_local_sweep *sweep, size_t j) {
   return j > 0 ? sweep->members[j - 1]->right : sweep->left;
@@ -45,11 +45,6 @@ typedef struct position {
   uint32_t at; /* a segment that y is on ends at points[at] */
 } position;
 
-/* As in cs_segment. */
-static uint32_t chain_of(const cs_member *member) {
-  return member->span == UINT32_MAX ? member->order + 1 : 0;
-}
-
 /* Draws a boundary from a position down to (x, y), between two cells. */
 static celspan_status draw_to(cs_local_sweep *sweep, const position *from, double x, double y,
                               const cs_cell *left, const cs_cell *right) {
@@ -57,15 +52,14 @@ static celspan_status draw_to(cs_local_sweep *sweep, const position *from, doubl
   if (!(y > from->y) || cs_composer_same(sweep->composer, left, right))
     return CELSPAN_OK;
   celspan_point above = {from->x, from->y};
-  uint32_t chain = chain_of(from->member);
   for (uint32_t at = from->at; points[at].y < y; at++)
     if (points[at].y > above.y) {
-      const cs_segment segment = {above.x, above.y, points[at].x, points[at].y, chain};
-      CS_TRY(cs_target_add(sweep->target, &segment, left, right));
+      const cs_border border = {{above.x, above.y, points[at].x, points[at].y}, left, right};
+      CS_TRY(cs_target_add(sweep->target, &border));
       above = points[at];
     }
-  const cs_segment last = {above.x, above.y, x, y, chain};
-  return cs_target_add(sweep->target, &last, left, right);
+  const cs_border last = {{above.x, above.y, x, y}, left, right};
+  return cs_target_add(sweep->target, &last);
 }
 
 /* Draws member j from its last event down to (x, y), between the cells on its sides. */
@@ -436,13 +430,12 @@ celspan_status cs_local_sweep_replay(cs_local_sweep *sweep) {
 
 /* ---------------------------------------------------------------- pairs */
 
-/* chain: as in cs_segment. */
 static celspan_status draw(cs_local_sweep *sweep, celspan_point above, celspan_point below,
-                           uint32_t chain, const cs_cell *left, const cs_cell *right) {
+                           const cs_cell *left, const cs_cell *right) {
   if (!(below.y > above.y) || cs_composer_same(sweep->composer, left, right))
     return CELSPAN_OK;
-  const cs_segment segment = {above.x, above.y, below.x, below.y, chain};
-  return cs_target_add(sweep->target, &segment, left, right);
+  const cs_border border = {{above.x, above.y, below.x, below.y}, left, right};
+  return cs_target_add(sweep->target, &border);
 }
 
 /* The cell between two boundaries that have changed places: right of the second one, at x, and left
@@ -472,10 +465,9 @@ celspan_status cs_local_sweep_pair(cs_local_sweep *sweep, const cs_active *activ
   double y = a.y + (a_foot.y - a.y) * u;
   celspan_point a_meets = {a.x + (a_foot.x - a.x) * u, y};
   celspan_point b_meets = {b.x + (b_foot.x - b.x) * u, y};
-  uint32_t a_chain = cs_active_number(active, i) + 1, b_chain = cs_active_number(active, i + 1) + 1;
-  CS_TRY(draw(sweep, a, a_meets, a_chain, left, left + 1));
-  CS_TRY(draw(sweep, b, b_meets, b_chain, left + 1, right));
+  CS_TRY(draw(sweep, a, a_meets, left, left + 1));
+  CS_TRY(draw(sweep, b, b_meets, left + 1, right));
   CS_TRY(cell_between(sweep, active->crossing[i + 1], b_meets.x, between));
-  CS_TRY(draw(sweep, b_meets, b_foot, b_chain, left, *between));
-  return draw(sweep, a_meets, a_foot, a_chain, *between, right);
+  CS_TRY(draw(sweep, b_meets, b_foot, left, *between));
+  return draw(sweep, a_meets, a_foot, *between, right);
 }

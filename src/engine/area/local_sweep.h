@@ -28,11 +28,11 @@
 #include "engine/compose/cells.h"
 #include "engine/kernel/retained.h"
 
-/* Where the edge segments of a row go: to the window, which makes the row's pixels, or into a row
+/* Where the borders of a row go: to the window, which makes the row's pixels, or into a row
  * of retained edges, for filters that extend over several rows.
  *
  *   lone boundaries --+                    +--> cs_window         pixels and spans of this row
- *                     +--> segments: target
+ *                     +--> borders: target 
  *   local sweeps   ---+                    +--> cs_retained_row   kept for kernel/, no pixels
  *
  * Invariant: items (lone boundaries and local sweeps) come from left to right; `retained` does not
@@ -41,7 +41,7 @@
 
 typedef struct cs_target {
   cs_window window;
-  cs_retained_row *retained; /* borrowed; NULL: the window has the segments */
+  cs_retained_row *retained; /* borrowed; NULL: the window has the borders */
 } cs_target;
 
 /* An item begins whose least x is `x`. */
@@ -49,14 +49,12 @@ static inline CELSPAN_CHECKED celspan_status cs_target_begin_item(cs_target *tar
   return target->retained ? CELSPAN_OK : cs_window_begin_item(&target->window, x);
 }
 
-/* A segment of the current item between two cells. */
+/* A border of the current item. */
 static inline CELSPAN_CHECKED celspan_status cs_target_add(cs_target *target,
-                                                           const cs_segment *segment,
-                                                           const cs_cell *left,
-                                                           const cs_cell *right) {
+                                                           const cs_border *border) {
   return target->retained
-             ? cs_retained_add(target->retained, target->window.composer, segment, left, right)
-             : cs_window_add(&target->window, segment, left, right);
+             ? cs_retained_add(target->retained, target->window.composer->context, border)
+             : cs_window_add(&target->window, border);
 }
 
 /* One boundary of a local sweep: a polyline downwards from where it enters the row or begins. */
@@ -77,7 +75,7 @@ typedef struct cs_member {
 typedef struct cs_local_sweep {
   cs_composer *composer; /* borrowed */
   cs_arena *arena;       /* borrowed: of the row, for cells */
-  cs_target *target;     /* borrowed: gets the edge segments */
+  cs_target *target;     /* borrowed: gets the borders */
   /* given for each replay */
   double y0, y1;       /* the row, or a slab of it */
   const cs_cell *left; /* of all its members */

@@ -1,6 +1,6 @@
-/* Closing windows: how the pixels of one are made from its segments.
+/* Closing windows: how the pixels of one are made from its borders.
  *
- *   one segment over several columns, flat cells    its ends and a ramp            close_lone
+ *   one border over several columns , flat cells    its ends and a ramp            close_lone
  *   flat cells, few columns                         the sums made on the way       close_narrow
  *   flat cells, many columns                        sums, tile by tile             close_wide
  *   cells that vary                                 colours weighted by areas      close_varying
@@ -35,7 +35,7 @@ void cs_window_init(cs_window *window, cs_painter *painter, cs_arena *arena, int
 }
 
 void cs_window_finish(cs_window *window, cs_memory *memory) {
-  cs_mem_free(memory, window->segments, window->segment_capacity * sizeof *window->segments);
+  cs_mem_free(memory, window->borders, window->border_capacity * sizeof *window->borders);
   cs_arena_finish(&window->tiles, memory);
   for (int i = 0; i < 2; i++)
     cs_mem_free(memory, window->stretches[i].rgba,
@@ -49,7 +49,7 @@ void cs_window_begin_row(cs_window *window, int32_t y, const cs_cell *leftmost, 
   window->centre = y + 0.5;
   window->from = window->end = 0;
   window->base = window->cell = leftmost;
-  window->segment_count = 0;
+  window->border_count = 0;
   window->is_open = window->varies = window->is_whole_row = false;
   for (int i = 0; i < 2; i++)
     window->stretches[i].end = window->stretches[i].from = 0;
@@ -60,8 +60,23 @@ void cs_window_open_row(cs_window *window) {
   window->varies = window->base->length > 0;
 }
 
-/* The area right of the segment in the pixel of column p, 0..height. */
-static inline double cover(const cs_window_segment *f, int32_t p) {
+/* What a border crosses of the open window. By rounding it may begin left of the window, which
+ * begins where the written columns end. */
+static inline cs_direct_piece measure(const cs_window *window, const cs_border *border) {
+  double xa = border->line.xa, xb = border->line.xb, top = window->centre - 0.5;
+  int32_t first = cs_edges_floor(cs_number_least(xa, xb), window->width);
+  int32_t end = cs_edges_ceil(cs_number_most(xa, xb), window->width);
+  if (first < window->from) {
+    first = window->from;
+    end = end > first ? end : first;
+  }
+  return (cs_direct_piece){
+      xa, xb, cs_edges_round(border->line.yb - top) - cs_edges_round(border->line.ya - top), first,
+      end};
+}
+
+/* The area right of a border in the pixel of column p, 0..height. */
+static inline double cover(const cs_direct_piece *f, int32_t p) {
   return cs_edges_cover(f->xa, f->xb, f->height, p);
 }
 
@@ -130,10 +145,10 @@ static celspan_status draw_cell(cs_window *window, int32_t next) {
 
 /* ---------------------------------------------------------------- closing */
 
-/* One segment that crosses columns, between flat cells. */
-static celspan_status close_lone(cs_window *window) {
-  const cs_window_segment *f = &window->segments[0];
-  cs_v4 base = window->base->colour, step = f->right->colour - f->left->colour;
+/* One border that crosses columns, between flat cells. */
+static celspan_status close_lone(cs_window *window, const cs_direct_piece *f) {
+  const cs_border *border = window->borders;
+  cs_v4 base = window->base->colour, step = border->right->colour - border->left->colour;
   int32_t last = f->end - 1;
   double across = f->xa < f->xb ? f->xb - f->xa : f->xa - f->xb;
   cs_direct_shares shares = {(float)cover(f, f->first), (float)cover(f, f->first + 1),
@@ -145,11 +160,19 @@ static celspan_status close_lone(cs_window *window) {
   return CELSPAN_OK;
 }
 
-/* Adds a segment to the sums by column: change[k] is by how much column p0 + k exceeds the one
+/* A border of a window over many columns. */
+typedef struct crossing {
+  cs_direct_piece piece;
+  const cs_border *border;
+  struct crossing *next; /* in the list of a tile */
+} crossing;
+
+/* Adds a border to the sums by column: change[k] is by how much column p0 + k exceeds the one
  * before.
  */
-static void add_changes(const cs_window_segment *f, int32_t p0, int32_t p1, cs_sum4 *change) {
-  cs_sum4 step = CS_SUM4(f->right->colour) - CS_SUM4(f->left->colour);
+static void add_changes(const crossing *c, int32_t p0, int32_t p1, cs_sum4 *change) {
+  const cs_direct_piece *f = &c->piece;
+  cs_sum4 step = CS_SUM4(c->border->right->colour) - CS_SUM4(c->border->left->colour);
   int32_t p = f->first > p0 ? f->first : p0, end = f->end < p1 - 1 ? f->end : p1 - 1;
   double before = p > f->first ? cover(f, p - 1) : 0;
   for (; p <= end; p++) {
@@ -169,37 +192,38 @@ static inline void draw_sums(cs_row_writer *p, int32_t p1, const cs_sum4 *change
 
 /* ---- wide windows
  *
- *      tile 0        tile 1        tile 2       a local sweep gives its segments slab by slab, each
+ *      tile 0        tile 1        tile 2       a local sweep gives its borders slab by slab, each
  *   |  \    /    |           \|/            |   across the whole window: so they are listed by the
  *   |   \  /  .--+--. /      /|\            |   tile in which they begin, and one that crosses into
  *                                               the next tile is passed on to its list
  *
- * The lists are in the order of the segments, since that is the order of the sums. */
+ * The lists are in the order of the borders, since that is the order of the sums. */
 
 /* The lists of all tiles of a window. */
-static celspan_status list_by_tiles(const cs_window *window, cs_window_segment ***out) {
+static celspan_status list_by_tiles(const cs_window *window, crossing ***out) {
+  celspan_context *context = window->composer->context;
   size_t count = (size_t)((window->end - window->from + TILE - 1) / TILE);
-  cs_window_segment **lists =
-      cs_arena_take(window->composer->context, window->arena, count * sizeof *lists);
-  if (!lists)
+  crossing **lists = cs_arena_take(context, window->arena, count * sizeof *lists);
+  crossing *all = cs_arena_take(context, window->arena, window->border_count * sizeof *all);
+  if (!lists || !all)
     return CELSPAN_NO_MEMORY;
   memset(lists, 0, count * sizeof *lists);
-  for (size_t i = window->segment_count; i-- > 0;) {
-    cs_window_segment *f = &window->segments[i];
-    if (f->first >= window->end)
+  for (size_t i = window->border_count; i-- > 0;) {
+    const cs_direct_piece piece = measure(window, &window->borders[i]);
+    if (piece.first >= window->end)
       continue;
-    cs_window_segment **list = &lists[(f->first - window->from) / TILE];
-    f->next = *list;
-    *list = f;
+    crossing **list = &lists[(piece.first - window->from) / TILE];
+    all[i] = (crossing){piece, &window->borders[i], *list};
+    *list = &all[i];
   }
   *out = lists;
   return CELSPAN_OK;
 }
 
-static cs_window_segment *join_lists(cs_window_segment *a, cs_window_segment *b) {
-  cs_window_segment *joined, **last = &joined;
+static crossing *join_lists(crossing *a, crossing *b) {
+  crossing *joined, **last = &joined;
   while (a && b) {
-    cs_window_segment **earlier = a < b ? &a : &b;
+    crossing **earlier = a < b ? &a : &b;
     *last = *earlier;
     last = &(*last)->next;
     *earlier = *last;
@@ -209,10 +233,10 @@ static cs_window_segment *join_lists(cs_window_segment *a, cs_window_segment *b)
 }
 
 /* Those of a list that change the sums from column p on. */
-static cs_window_segment *pass_on(cs_window_segment *list, int32_t p) {
-  cs_window_segment *passed, **last = &passed;
+static crossing *pass_on(crossing *list, int32_t p) {
+  crossing *passed, **last = &passed;
   for (; list; list = list->next)
-    if (list->end >= p) {
+    if (list->piece.end >= p) {
       *last = list;
       last = &list->next;
     }
@@ -220,33 +244,39 @@ static cs_window_segment *pass_on(cs_window_segment *list, int32_t p) {
   return passed;
 }
 
-/* Draws the columns up to p1, of which those from p0 on change by the segments of a list. */
-static celspan_status draw_tile(cs_window *window, const cs_window_segment *list, int32_t p0,
-                                int32_t p1, cs_sum4 *sum) {
+/* What has been drawn of the window. */
+typedef struct drawn {
+  int32_t end; /* of its columns */
+  cs_sum4 sum; /* in the last of them */
+} drawn;
+
+/* Draws the columns up to p1, of which those from p0 on change by the borders of a list. */
+static celspan_status draw_tile(const cs_window *window, const crossing *list, int32_t p0,
+                                int32_t p1, drawn *done) {
   cs_sum4 change[TILE];
   memset(change, 0, (size_t)(p1 - p0) * sizeof *change);
   for (; list; list = list->next)
     add_changes(list, p0, p1, change);
   CS_TRY(cs_row_reserve(window->composer->context, window->out, (size_t)(p1 - p0) + 1));
-  cs_row_writer p = cs_row_writer_begin(window->out, window->from);
-  cs_row_writer_to(&p, p0, cs_v4_bounded(__builtin_convertvector(*sum, cs_v4)));
-  draw_sums(&p, p1, change, sum);
+  cs_row_writer p = cs_row_writer_begin(window->out, done->end);
+  cs_row_writer_to(&p, p0, cs_v4_bounded(__builtin_convertvector(done->sum, cs_v4)));
+  draw_sums(&p, p1, change, &done->sum);
   cs_row_writer_end(&p);
-  window->from = p1;
+  done->end = p1;
   return CELSPAN_OK;
 }
 
-/* Flat cells on all sides: sums of colour steps, in the order of the segments. */
-static celspan_status close_wide(cs_window *window) {
-  cs_sum4 sum = CS_SUM4(window->base->colour);
-  cs_window_segment **lists, *crossing = NULL;
+/* Flat cells on all sides: sums of colour steps, in the order of the borders. */
+static celspan_status close_wide(const cs_window *window) {
+  drawn done = {window->from, CS_SUM4(window->base->colour)};
+  crossing **lists, *list = NULL;
   CS_TRY(list_by_tiles(window, &lists));
   for (int32_t p0 = window->from, p1; p0 < window->end; p0 = p1) {
     p1 = window->end - p0 < TILE ? window->end : p0 + TILE;
-    crossing = join_lists(crossing, *lists++);
-    if (crossing || p1 == window->end)
-      CS_TRY(draw_tile(window, crossing, p0, p1, &sum));
-    crossing = pass_on(crossing, p1);
+    list = join_lists(list, *lists++);
+    if (list || p1 == window->end)
+      CS_TRY(draw_tile(window, list, p0, p1, &done));
+    list = pass_on(list, p1);
   }
   return CELSPAN_OK;
 }
@@ -264,19 +294,20 @@ static celspan_status close_narrow(cs_window *window) {
 
 /* ---- cells that vary: every cell's colour at the pixel's centre, weighted by its area there
  *
- * The window is made in tiles from left to right. A segment takes area from the cell on its left
+ * The window is made in tiles from left to right. A border takes area from the cell on its left
  * and gives it to the one on its right: pixel by pixel in the columns that it crosses, and as a
  * whole (the cell's carry) in all tiles after. Areas add exactly, so a cell that is not in a pixel
  * weighs 0 there. */
 
 typedef struct weighted_cell {
   const cs_cell *cell;
-  double carry;    /* its weight in pixels that no segment crosses */
+  double carry;    /* its weight in pixels that no border crosses */
   double *weights; /* one a pixel of the tile; NULL: the carry in all of them */
 } weighted_cell;
 
 typedef struct cell_edge {
-  const cs_window_segment *segment;
+  cs_direct_piece piece;
+  const cs_border *border;
   uint32_t left, right; /* indices into cells */
 } cell_edge;
 
@@ -299,15 +330,14 @@ static uint32_t find_cell(mixture *m, const cs_cell *cell) {
 }
 
 static inline bool edge_is_before(const cell_edge *a, const cell_edge *b) {
-  return a->segment->first != b->segment->first ? a->segment->first < b->segment->first
-                                                : a->segment < b->segment;
+  return a->piece.first != b->piece.first ? a->piece.first < b->piece.first : a->border < b->border;
 }
 
 CS_SORT_DEFINE(sort_edges, cell_edge, edge_is_before)
 
 static celspan_status begin_mixture(cs_window *window, mixture *m) {
   celspan_context *context = window->composer->context;
-  size_t count = window->segment_count;
+  size_t count = window->border_count;
   *m = (mixture){.window = window, .edge_count = count};
   m->cells = cs_arena_take(context, window->arena, (2 * count + 1) * sizeof *m->cells);
   m->edges = cs_arena_take(context, window->arena, count * sizeof *m->edges);
@@ -315,9 +345,9 @@ static celspan_status begin_mixture(cs_window *window, mixture *m) {
     return CELSPAN_NO_MEMORY;
   m->cells[find_cell(m, window->base)].carry = 1;
   for (size_t i = 0; i < count; i++) {
-    const cs_window_segment *f = &window->segments[i];
-    uint32_t left = find_cell(m, f->left);
-    m->edges[i] = (cell_edge){f, left, find_cell(m, f->right)};
+    const cs_border *border = &window->borders[i];
+    uint32_t left = find_cell(m, border->left);
+    m->edges[i] = (cell_edge){measure(window, border), border, left, find_cell(m, border->right)};
   }
   sort_edges(m->edges, count);
   return CELSPAN_OK;
@@ -335,7 +365,7 @@ static celspan_status open_weights(mixture *m, weighted_cell *cell, int32_t coun
 
 /* Moves area from cell to cell in the pixels of the tile. */
 static celspan_status add_edge(mixture *m, const cell_edge *c, int32_t p0, int32_t p1) {
-  const cs_window_segment *f = c->segment;
+  const cs_direct_piece *f = &c->piece;
   weighted_cell *left = &m->cells[c->left], *right = &m->cells[c->right];
   CS_TRY(open_weights(m, left, p1 - p0));
   CS_TRY(open_weights(m, right, p1 - p0));
@@ -352,12 +382,12 @@ static void retire_edges(mixture *m, int32_t p1) {
   size_t kept = m->begun;
   for (size_t i = m->begun; i-- > m->ended;) {
     const cell_edge c = m->edges[i];
-    if (c.segment->end > p1) {
+    if (c.piece.end > p1) {
       m->edges[--kept] = c;
       continue;
     }
-    m->cells[c.left].carry -= c.segment->height;
-    m->cells[c.right].carry += c.segment->height;
+    m->cells[c.left].carry -= c.piece.height;
+    m->cells[c.right].carry += c.piece.height;
   }
   m->ended = kept;
 }
@@ -409,7 +439,7 @@ static celspan_status close_tile(mixture *m, int32_t p0, int32_t p1) {
   cs_arena_reset(&window->tiles);
   for (size_t i = 0; i < m->cell_count; i++)
     m->cells[i].weights = NULL;
-  while (m->begun < m->edge_count && m->edges[m->begun].segment->first < p1)
+  while (m->begun < m->edge_count && m->edges[m->begun].piece.first < p1)
     m->begun++;
   for (size_t i = m->ended; i < m->begun; i++)
     CS_TRY(add_edge(m, &m->edges[i], p0, p1));
@@ -422,14 +452,14 @@ static celspan_status close_tile(mixture *m, int32_t p0, int32_t p1) {
   return put_pixels(window, p0, p1, sum);
 }
 
-/* The same where one segment goes through the row between two cells, as in most windows. */
-static celspan_status close_between(cs_window *window) {
-  const cs_window_segment *f = window->segments;
+/* The same where one border goes through the row, as in most windows. */
+static celspan_status close_between(cs_window *window, const cs_direct_piece *f) {
+  const cs_border *border = window->borders;
   int32_t p0 = window->from, p1 = window->end;
   float left[CS_WINDOW_NARROW][4], right[CS_WINDOW_NARROW][4], room[4 * FEW], *sum;
   cs_run run = {p0, p1, window->centre};
-  CS_TRY(find_colours(window, f->left, run, left));
-  CS_TRY(find_colours(window, f->right, run, right));
+  CS_TRY(find_colours(window, border->left, run, left));
+  CS_TRY(find_colours(window, border->right, run, right));
   CS_TRY(open_pixels(window, p0, p1, room, &sum));
   for (int32_t p = p0; p < p1; p++) {
     double area = p < f->end ? cover(f, p) : 1;
@@ -439,19 +469,18 @@ static celspan_status close_between(cs_window *window) {
   return put_pixels(window, p0, p1, sum);
 }
 
-static bool is_between(const cs_window *window) {
-  const cs_window_segment *f = window->segments;
+/* Whether the first border goes through the row, and the window is nothing but its columns. */
+static bool is_between(const cs_window *window, const cs_direct_piece *f) {
+  const cs_border *border = window->borders;
   const cs_composer *composer = window->composer;
-  return window->segment_count == 1 && window->end - window->from <= CS_WINDOW_NARROW &&
-         f->first == window->from && f->height == 1 &&
-         (f->left == window->base || cs_composer_same(composer, f->left, window->base)) &&
-         !cs_composer_same(composer, f->left, f->right);
+  return window->end - window->from <= CS_WINDOW_NARROW && f->first == window->from &&
+         f->height == 1 &&
+         (border->left == window->base || cs_composer_same(composer, border->left, window->base)) &&
+         !cs_composer_same(composer, border->left, border->right);
 }
 
 static celspan_status close_varying(cs_window *window) {
   mixture m;
-  if (is_between(window))
-    return close_between(window);
   CS_TRY(begin_mixture(window, &m));
   for (int32_t p = window->from; p < window->end; p += TILE)
     CS_TRY(close_tile(&m, p, window->end - p < TILE ? window->end : p + TILE));
@@ -459,23 +488,26 @@ static celspan_status close_varying(cs_window *window) {
 }
 
 static celspan_status draw_window(cs_window *window) {
+  if (window->border_count == 1) {
+    const cs_direct_piece lone = measure(window, window->borders);
+    if (window->varies && is_between(window, &lone))
+      return close_between(window, &lone);
+    if (!window->varies && lone.end > lone.first)
+      return close_lone(window, &lone);
+  }
   if (window->varies)
     return close_varying(window);
-  if (window->segment_count == 1 && window->segments->end > window->segments->first)
-    return close_lone(window);
   return window->end - window->from <= CS_WINDOW_NARROW ? close_narrow(window) : close_wide(window);
 }
 
 /* next: where the next window begins. */
 static celspan_status close_window(cs_window *window, int32_t next) {
-  int32_t from = window->from;
   CS_TRY(make_stretch(window, next));
-  if (window->end > from)
+  if (window->end > window->from)
     CS_TRY(draw_window(window));
-  window->from = from;
   clear_change(window);
   window->from = window->end;
-  window->segment_count = 0;
+  window->border_count = 0;
   window->is_open = window->varies = false;
   return CELSPAN_OK;
 }
@@ -497,40 +529,25 @@ celspan_status cs_window_begin_item(cs_window *window, double x) {
   return CELSPAN_OK;
 }
 
-/* Extends the window to a new segment's columns and, where its cells are flat and the columns few,
- * adds it to their sums. */
-static void note_segment(cs_window *window, cs_window_segment *f) {
-  if (f->first < window->from) { /* by rounding: the window begins where the written columns end */
-    f->first = window->from;
-    f->end = f->end > f->first ? f->end : f->first;
-  }
-  window->end = f->end > window->end ? f->end : window->end;
-  if ((f->left->length | f->right->length) != 0) {
+/* Extends the window to the columns of a new border and, where its cells are flat and the columns
+ * few, adds it to their sums. */
+static void note_border(cs_window *window, const cs_border *border) {
+  const cs_direct_piece piece = measure(window, border);
+  window->end = piece.end > window->end ? piece.end : window->end;
+  if ((border->left->length | border->right->length) != 0) {
     window->varies = true;
-  } else if (f->end - window->from <= CS_WINDOW_NARROW) {
-    cs_sum4 step = CS_SUM4(f->right->colour) - CS_SUM4(f->left->colour);
-    cs_direct_add(window->change, window->from,
-                  (cs_direct_piece){f->xa, f->xb, f->height, f->first, f->end}, &step);
+  } else if (piece.end - window->from <= CS_WINDOW_NARROW) {
+    cs_sum4 step = CS_SUM4(border->right->colour) - CS_SUM4(border->left->colour);
+    cs_direct_add(window->change, window->from, piece, &step);
   }
 }
 
-celspan_status cs_window_add(cs_window *window, const cs_segment *segment, const cs_cell *left,
-                             const cs_cell *right) {
-  if (window->segment_count == window->segment_capacity)
-    CS_TRY(CS_RESERVE(window->composer->context, window->segments, window->segment_capacity,
-                      window->segment_count + 1));
-  double xa = segment->xa, xb = segment->xb, top = window->centre - 0.5;
-  double low = cs_number_least(xa, xb), high = cs_number_most(xa, xb);
-  cs_window_segment *f = &window->segments[window->segment_count++];
-  *f = (cs_window_segment){.xa = xa,
-                           .xb = xb,
-                           .left = left,
-                           .right = right,
-                           .height = cs_edges_round(segment->yb - top) -
-                                     cs_edges_round(segment->ya - top),
-                           .first = cs_edges_floor(low, window->width),
-                           .end = cs_edges_ceil(high, window->width)};
-  note_segment(window, f);
+celspan_status cs_window_add(cs_window *window, const cs_border *border) {
+  if (window->border_count == window->border_capacity)
+    CS_TRY(CS_RESERVE(window->composer->context, window->borders, window->border_capacity,
+                      window->border_count + 1));
+  window->borders[window->border_count++] = *border;
+  note_border(window, border);
   return CELSPAN_OK;
 }
 
@@ -552,8 +569,8 @@ static celspan_status add_boundary(cs_window *window, const cs_direct_edges *edg
   CS_TRY(cs_window_begin_item(window, edges->edges->low[i]));
   cs_window_end_item(window, left + 1);
   for (cs_pieces p = cs_pieces_of(edges->active, i, bend); cs_pieces_next(&p);) {
-    const cs_segment segment = {p.above.x, p.above.y, p.below.x, p.below.y, 0};
-    CS_TRY(cs_window_add(window, &segment, left, left + 1));
+    const cs_border border = {{p.above.x, p.above.y, p.below.x, p.below.y}, left, left + 1};
+    CS_TRY(cs_window_add(window, &border));
   }
   return CELSPAN_OK;
 }

@@ -1,4 +1,4 @@
-/* Windows: the pixels of a row that edges cross, summed from their segments.
+/* Windows: the pixels of a row that edges cross, summed from their borders.
  *
  *      from            end
  *       |   window      |
@@ -10,35 +10,25 @@
  *   base     pixels: base + sum of      cell: right of all items so far
  *            share * colour step
  *
- * Composite first, integrate after: each segment of a visible edge (straight, between two cells
- * that do not change along it) adds its colour step times the area right of it to every pixel.
+ * Composite first, integrate after: each border (straight, between two cells that do not change
+ * along it) adds its colour step times the area right of it to every pixel.
  * Between windows a row is whole cells. So coverage is never used as alpha, and abutting shapes
  * cannot leak.
  *
  * Areas are rounded to multiples of 2^-28 such that the parts of a whole pixel sum to it exactly:
  * a pixel that abutting black shapes cover together is black, not nearly so.
  *
- * Invariants: a window's pixels are summed from its own segments only, starting from the exact
+ * Invariants: a window's pixels are summed from its own borders only, starting from the exact
  * colour of the cell on its left; windows and cells tile [0, width). Items (lone boundaries or
  * local sweeps) come from left to right. Between windows `change` is all 0.
  */
 #pragma once
 
 #include "engine/area/direct.h"
+#include "engine/compose/border.h"
 #include "engine/paint/painter.h"
-#include "model/geometry/segment.h"
 
 #define CS_WINDOW_NARROW CS_DIRECT_TOGETHER /* columns of nearly all windows */
-
-/* An edge segment in the window. */
-typedef struct cs_window_segment cs_window_segment;
-struct cs_window_segment {
-  double xa, xb; /* at its top and at its foot */
-  double height; /* share of the row's height: 0..1, a multiple of 2^-28 */
-  const cs_cell *left, *right;
-  int32_t first, end;      /* the columns it crosses; empty when it lies on a pixel's edge */
-  cs_window_segment *next; /* in the list of a tile, while a wide window is closed */
-};
 
 /* The colours of a cell between two columns, made before its windows and what lies between them. */
 typedef struct cs_window_stretch {
@@ -55,14 +45,15 @@ typedef struct cs_window {
   int32_t width;               /* of the row */
   cs_row *out;                 /* of this row */
   double centre;               /* height of the row's centre */
-  int32_t from;                /* everything left of this column has been written */
+  int32_t from;                /* everything left of this column has been written; the open window
+                                  begins there */
   int32_t end;                 /* of the open window; from when it is empty */
   const cs_cell *base;         /* left of the window */
   const cs_cell *cell;         /* right of all items so far */
-  cs_window_segment *segments;
-  size_t segment_count, segment_capacity;
+  cs_border *borders;          /* of the open window */
+  size_t border_count, border_capacity;
   bool is_open, varies;
-  /* what segments between flat cells that end near the window's left end add to the sum of colours
+  /* what borders between flat cells that end near the window's left end add to the sum of colours
    * from column to column */
   cs_sum4 change[CS_WINDOW_NARROW + 3];
   bool is_whole_row;              /* the whole row is one window: items may come in any order */
@@ -80,9 +71,8 @@ void cs_window_begin_row(cs_window *window, int32_t y, const cs_cell *leftmost, 
 void cs_window_open_row(cs_window *window);
 /* An item begins whose least x is `x`: closes the window when it ends before that. */
 CELSPAN_CHECKED celspan_status cs_window_begin_item(cs_window *window, double x);
-/* A segment of the current item, between two cells. */
-CELSPAN_CHECKED celspan_status cs_window_add(cs_window *window, const cs_segment *segment,
-                                             const cs_cell *left, const cs_cell *right);
+/* A border of the current item. */
+CELSPAN_CHECKED celspan_status cs_window_add(cs_window *window, const cs_border *border);
 /* Whole items: boundaries that go through the whole row, straight or bent, and to which nothing
  * else happens. None is left in `rest` when all have been drawn. */
 CELSPAN_CHECKED celspan_status cs_window_edges(cs_window *window, cs_direct_edges *rest);

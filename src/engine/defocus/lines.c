@@ -103,31 +103,32 @@ static void add_point(cs_defocus_lines *f, double x, const cs_defocus_halves *st
 }
 
 /* The same edge, for the columns whose kernel lies wholly right of it. */
-static void pass_point(cs_defocus_lines *f, double x, const cs_retained_edge *edge, double upper,
+static void pass_point(cs_defocus_lines *f, double x, const cs_border *edge, double upper,
                        double lower) {
   int32_t p = (int32_t)floor(x - 0.5) + 2;
   if (p >= f->columns)
     return;
   p = p > 0 ? p : 0;
   cs_defocus_passed *passed = &f->row.steps[p];
-  cs_v4d step = cs_v4d_step(edge->left.colour, edge->right.colour);
+  cs_v4d step = cs_v4d_step(edge->left->colour, edge->right->colour);
   passed->upper = cs_v4d_add(passed->upper, cs_v4d_scale(upper, step));
   passed->lower = cs_v4d_add(passed->lower, cs_v4d_scale(lower, step));
   f->groups[p / GROUP].is_marked = true;
 }
 
-static void add_weighed(cs_defocus_lines *f, const cs_retained_edge *edge, double x, double height,
+static void add_weighed(cs_defocus_lines *f, const cs_border *edge, double x, double height,
                         double depth) {
   double lower = height * depth, upper = height - lower;
-  cs_v4 step = edge->right.colour - edge->left.colour;
+  cs_v4 step = edge->right->colour - edge->left->colour;
   const cs_defocus_halves halves = {(float)upper * step, (float)lower * step};
   add_point(f, x, &halves);
   pass_point(f, x, edge, upper, lower);
 }
 
-static void add_edge(cs_defocus_lines *f, const cs_retained_edge *edge) {
-  double across = edge->xb - edge->xa, height = edge->yb - edge->ya;
-  double x = 0.5 * (edge->xa + edge->xb), depth = 0.5 * (edge->ya + edge->yb) - f->retained.row;
+static void add_edge(cs_defocus_lines *f, const cs_border *edge) {
+  const cs_segment *line = &edge->line;
+  double across = line->xb - line->xa, height = line->yb - line->ya;
+  double x = 0.5 * (line->xa + line->xb), depth = 0.5 * (line->ya + line->yb) - f->retained.row;
   double last = f->columns + 2.0 * f->edges->extent_x + 1;
   if (fabs(across) < UPRIGHT) {
     if (x < last)

@@ -29,8 +29,8 @@
 
 /* A program that is visible under the kernel, and the share of the kernel that it fills. */
 typedef struct cs_convolve_term {
-  const cs_program *program;
-  double weight; /* at the column that is made */
+  cs_program program; /* of a cell of a retained row */
+  double weight;      /* at the column that is made */
 } cs_convolve_term;
 
 /* ---- what changes from a column on: lists by column, linked by index + 1 */

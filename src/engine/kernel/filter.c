@@ -212,7 +212,7 @@ static celspan_status add_term(summing *s, const cs_convolve_term *term, int32_t
   float rgba[64][4];
   for (int32_t x = x0; x < x1; x += 64) {
     int32_t end = x1 - x < 64 ? x1 : x + 64;
-    CS_TRY(cs_painter_program_colours(s->painter, term->program, (cs_run){x, end, s->y}, rgba));
+    CS_TRY(cs_painter_program_colours(s->painter, &term->program, (cs_run){x, end, s->y}, rgba));
     for (int32_t k = x; k < end; k++) {
       cs_v4 colour = cs_v4_load(rgba[k - x]);
       colours[k - x0] += (float)term->weight * colour;
@@ -264,7 +264,7 @@ static const cs_program *lone_program(const summing *s) {
       return NULL;
   for (size_t i = 0; i < s->convolve->term_count; i++)
     if (fabs(s->convolve->terms[i].weight - 1) <= NOTHING)
-      return s->convolve->terms[i].program;
+      return &s->convolve->terms[i].program;
   return NULL;
 }
 

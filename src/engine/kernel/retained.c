@@ -2,7 +2,7 @@
 
 void cs_retained_finish(cs_retained_row *retained, cs_memory *memory) {
   cs_mem_free(memory, retained->edges, retained->edge_capacity * sizeof *retained->edges);
-  cs_mem_free(memory, retained->programs, retained->program_capacity * sizeof *retained->programs);
+  cs_mem_free(memory, retained->cells, retained->cell_capacity * sizeof *retained->cells);
   cs_mem_free(memory, retained->items, retained->item_capacity * sizeof *retained->items);
   cs_mem_free(memory, retained->procedure_spans,
               retained->procedure_span_capacity * sizeof *retained->procedure_spans);
@@ -14,61 +14,53 @@ void cs_retained_begin(cs_retained_row *retained, int32_t row, cs_v4 base) {
   retained->row = row;
   retained->base = base;
   retained->is_sealed = false;
-  retained->edge_count = retained->program_count = retained->item_count = 0;
+  retained->edge_count = retained->cell_count = retained->item_count = 0;
   cs_arena_reset(&retained->paints);
 }
 
-static bool is_program(const cs_retained_row *retained, const cs_retained_program *known,
-                       const cs_program *program) {
-  return known->length == program->length && memcmp(&retained->items[known->item], program->items,
-                                                    program->length * sizeof *program->items) == 0;
+#define LAST 4 /* of the cells that are compared with a new one */
+
+/* Whether a cell of the row shows the same as one of the composer. */
+static bool is_copy(const cs_retained_row *retained, const cs_composer *composer,
+                    const cs_cell *copy, const cs_cell *cell) {
+  if (copy->length != cell->length)
+    return false;
+  return cell->length > 0 ? memcmp(&retained->items[copy->program], &composer->items[cell->program],
+                                   cell->length * sizeof(cs_item)) == 0
+                          : memcmp(&copy->colour, &cell->colour, sizeof cell->colour) == 0;
 }
 
-/* A copy of a cell's program; neighbours share theirs. */
-static celspan_status keep_program(cs_retained_row *retained, const cs_composer *composer,
-                                   const cs_cell *cell, int32_t *out) {
-  cs_program program = cs_composer_program(composer, cell);
-  for (size_t i = retained->program_count; i-- > 0 && i + 4 >= retained->program_count;)
-    if (is_program(retained, &retained->programs[i], &program)) {
-      *out = (int32_t)i;
+/* Replaces a cell of the composer by a copy, for which there is room. */
+static celspan_status copy_cell(cs_retained_row *retained, const cs_composer *composer,
+                                const cs_cell **cell) {
+  const cs_cell *of = *cell;
+  for (size_t i = retained->cell_count; i-- > 0 && i + LAST >= retained->cell_count;)
+    if (is_copy(retained, composer, &retained->cells[i], of)) {
+      *cell = &retained->cells[i];
       return CELSPAN_OK;
     }
-  celspan_context *context = composer->context;
-  CS_TRY(CS_RESERVE(context, retained->programs, retained->program_capacity,
-                    retained->program_count + 1));
-  CS_TRY(CS_RESERVE(context, retained->items, retained->item_capacity,
-                    retained->item_count + program.length));
-  memcpy(&retained->items[retained->item_count], program.items,
-         program.length * sizeof *program.items);
-  retained->programs[retained->program_count] =
-      (cs_retained_program){.item = retained->item_count, .length = program.length};
-  retained->item_count += program.length;
-  *out = (int32_t)retained->program_count++;
+  CS_TRY(CS_RESERVE(composer->context, retained->items, retained->item_capacity,
+                    retained->item_count + of->length));
+  if (of->length > 0)
+    memcpy(&retained->items[retained->item_count], &composer->items[of->program],
+           of->length * sizeof(cs_item));
+  cs_cell *copy = &retained->cells[retained->cell_count++];
+  *copy = (cs_cell){.colour = of->length > 0 ? cs_v4_all(0) : of->colour,
+                    .program = (uint32_t)retained->item_count,
+                    .length = of->length};
+  retained->item_count += of->length;
+  *cell = copy;
   return CELSPAN_OK;
 }
 
-static celspan_status copy_side(cs_retained_row *retained, const cs_composer *composer,
-                                const cs_cell *cell, cs_retained_side *out) {
-  *out = (cs_retained_side){cs_v4_all(0), -1};
-  if (cell->length > 0)
-    return keep_program(retained, composer, cell, &out->program);
-  out->colour = cell->colour;
+static celspan_status copy_cells(cs_retained_row *retained, const cs_composer *composer) {
+  CS_TRY(CS_RESERVE(composer->context, retained->cells, retained->cell_capacity,
+                    2 * retained->edge_count));
+  for (size_t i = 0; i < retained->edge_count; i++) {
+    CS_TRY(copy_cell(retained, composer, &retained->edges[i].left));
+    CS_TRY(copy_cell(retained, composer, &retained->edges[i].right));
+  }
   return CELSPAN_OK;
-}
-
-celspan_status cs_retained_add(cs_retained_row *retained, const cs_composer *composer,
-                               const cs_segment *segment, const cs_cell *left,
-                               const cs_cell *right) {
-  CS_TRY(CS_RESERVE(composer->context, retained->edges, retained->edge_capacity,
-                    retained->edge_count + 1));
-  cs_retained_edge *edge = &retained->edges[retained->edge_count++];
-  edge->xa = segment->xa;
-  edge->ya = segment->ya;
-  edge->xb = segment->xb;
-  edge->yb = segment->yb;
-  edge->chain = segment->chain;
-  CS_TRY(copy_side(retained, composer, left, &edge->left));
-  return copy_side(retained, composer, right, &edge->right);
 }
 
 static bool uses_procedures(const cs_retained_row *retained, const cs_composer *composer) {
@@ -95,13 +87,9 @@ static celspan_status copy_procedure_spans(cs_retained_row *retained, const cs_c
 }
 
 celspan_status cs_retained_seal(cs_retained_row *retained, const cs_composer *composer) {
+  CS_TRY(copy_cells(retained, composer));
   if (uses_procedures(retained, composer))
     CS_TRY(copy_procedure_spans(retained, composer));
-  for (size_t i = 0; i < retained->program_count; i++) {
-    cs_retained_program *program = &retained->programs[i];
-    program->program =
-        (cs_program){&retained->items[program->item], retained->procedure_spans, program->length};
-  }
   retained->is_sealed = composer->failure == CELSPAN_OK;
   return CELSPAN_OK;
 }

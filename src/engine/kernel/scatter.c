@@ -23,7 +23,7 @@ typedef struct cs_scatter {
   double centre;                   /* height of the row that is made */
   const cs_retained_row *retained; /* the row that is read */
   uint32_t row;                    /* its place among those under the kernel */
-  int32_t *terms;                  /* of the retained row's programs */
+  uint32_t *terms;                 /* of the retained row's cells that vary */
 } cs_scatter;
 
 /* ---------------------------------------------------------------- columns */
@@ -44,52 +44,51 @@ static void touch(cs_convolve *convolve, int32_t p) {
   }
 }
 
-static celspan_status shift_term(cs_scatter *g, int32_t p, int32_t program, double weight) {
+static celspan_status shift_term(cs_scatter *g, int32_t p, const cs_cell *cell, double weight) {
   cs_convolve *convolve = g->convolve;
-  if (program < 0)
+  if (cell->length == 0)
     return CELSPAN_OK;
-  CS_TRY(
-      CS_APPEND(g->context, convolve->shifts, convolve->shift_count, convolve->shift_capacity,
-                (cs_convolve_shift){convolve->shifts_at[p], (uint32_t)g->terms[program], weight}));
+  uint32_t term = g->terms[cs_retained_number(g->retained, cell)];
+  CS_TRY(CS_APPEND(g->context, convolve->shifts, convolve->shift_count, convolve->shift_capacity,
+                   (cs_convolve_shift){convolve->shifts_at[p], term, weight}));
   convolve->shifts_at[p] = (uint32_t)convolve->shift_count;
   return CELSPAN_OK;
 }
 
 /* The same step where colours are programs. Errors: NO_MEMORY. */
-static celspan_status add_shift(cs_scatter *g, const cs_retained_edge *edge, int32_t p,
-                                double weight) {
-  CS_TRY(shift_term(g, p, edge->left.program, -weight));
-  return shift_term(g, p, edge->right.program, weight);
+static celspan_status add_shift(cs_scatter *g, const cs_border *edge, int32_t p, double weight) {
+  CS_TRY(shift_term(g, p, edge->left, -weight));
+  return shift_term(g, p, edge->right, weight);
 }
 
 /* From column p on, which is touched, the share of the colour right of the edge grows by `weight`,
  * and that of the colour left of it shrinks by as much. */
-static void add_step(cs_scatter *g, const cs_retained_edge *edge, int32_t p, double weight) {
+static void add_step(cs_scatter *g, const cs_border *edge, int32_t p, double weight) {
   double *sum = g->convolve->changes[p];
   for (int c = 0; c < 4; c++)
-    sum[c] += weight * ((double)edge->right.colour[c] - (double)edge->left.colour[c]);
+    sum[c] += weight * ((double)edge->right->colour[c] - (double)edge->left->colour[c]);
 }
 
 /* ---------------------------------------------------------------- edges */
 
-static bool cut_edge(const cs_retained_edge *edge, double top, double foot, cs_retained_edge *out) {
-  double slope = (edge->xb - edge->xa) / (edge->yb - edge->ya);
-  *out = *edge;
-  if (edge->yb <= top || edge->ya >= foot)
+static bool cut_line(const cs_segment *line, double top, double foot, cs_segment *out) {
+  double slope = (line->xb - line->xa) / (line->yb - line->ya);
+  *out = *line;
+  if (line->yb <= top || line->ya >= foot)
     return false;
-  if (edge->ya < top) {
+  if (line->ya < top) {
     out->ya = top;
-    out->xa = edge->xa + (top - edge->ya) * slope;
+    out->xa = line->xa + (top - line->ya) * slope;
   }
-  if (edge->yb > foot) {
+  if (line->yb > foot) {
     out->yb = foot;
-    out->xb = edge->xa + (foot - edge->ya) * slope;
+    out->xb = line->xa + (foot - line->ya) * slope;
   }
   return true;
 }
 
-static bool has_flat_sides(const cs_retained_edge *edge) {
-  return edge->left.program < 0 && edge->right.program < 0;
+static bool has_flat_sides(const cs_border *edge) {
+  return (edge->left->length | edge->right->length) == 0;
 }
 
 /* ------------------------------------------------------ an edge under a separable kernel */
@@ -150,7 +149,7 @@ static int first_sub_row(const cs_scatter *g, double y) {
 }
 
 /* Notes that from column p on the kernel has passed the heights y0..y1 of an edge. */
-static celspan_status add_passed(cs_scatter *g, const cs_retained_edge *edge, int32_t p, double y0,
+static celspan_status add_passed(cs_scatter *g, const cs_border *edge, int32_t p, double y0,
                                  double y1) {
   cs_convolve *convolve = g->convolve;
   int sub_row = first_sub_row(g, y0), sub_row_end = first_sub_row(g, y1);
@@ -163,26 +162,26 @@ static celspan_status add_passed(cs_scatter *g, const cs_retained_edge *edge, in
                                  .row = g->row,
                                  .sub_row = sub_row,
                                  .sub_row_end = sub_row_end,
-                                 .varies = (edge->right.program >= 0) - (edge->left.program >= 0)};
-  passed->step = cs_v4d_step(edge->left.colour, edge->right.colour);
+                                 .varies = (edge->right->length > 0) - (edge->left->length > 0)};
+  passed->step = cs_v4d_step(edge->left->colour, edge->right->colour);
   convolve->passed_at[p] = (uint32_t)convolve->passed_count;
   return CELSPAN_OK;
 }
 
-static cs_convolve_range range_of(const cs_retained_edge *edge) {
+static cs_convolve_range range_of(const cs_border *edge) {
   cs_convolve_range range = cs_convolve_nothing();
-  if (edge->left.program < 0)
-    cs_convolve_widen(&range, edge->left.colour);
-  if (edge->right.program < 0)
-    cs_convolve_widen(&range, edge->right.colour);
+  if (edge->left->length == 0)
+    cs_convolve_widen(&range, edge->left->colour);
+  if (edge->right->length == 0)
+    cs_convolve_widen(&range, edge->right->colour);
   return range;
 }
 
 /* Adds the colour step of a stretch to its columns, by the sums of its segments. */
-static celspan_status put_stretch(cs_scatter *g, const cs_retained_edge *edge, const stretch *s,
+static celspan_status put_stretch(cs_scatter *g, const cs_border *edge, const stretch *s,
                                   const float *sums) {
   cs_convolve *convolve = g->convolve;
-  cs_v4 step = edge->right.colour - edge->left.colour;
+  cs_v4 step = edge->right->colour - edge->left->colour;
   int32_t first = s->first > 0 ? s->first : 0;
   int32_t end = s->end < convolve->width ? s->end : convolve->width;
   bool is_flat = has_flat_sides(edge);
@@ -209,8 +208,8 @@ static celspan_status put_stretch(cs_scatter *g, const cs_retained_edge *edge, c
 }
 
 /* Adds the stretch `cut` of an edge, in `count` segments that are summed together. */
-static celspan_status add_stretch(cs_scatter *g, const cs_retained_edge *edge,
-                                  const cs_retained_edge *cut, int count) {
+static celspan_status add_stretch(cs_scatter *g, const cs_border *edge, const cs_segment *cut,
+                                  int count) {
   const cs_kernel *kernel = g->convolve->kernel;
   float *sums = g->convolve->sums;
   double low = fmin(cut->xa, cut->xb) - 0.5, high = fmax(cut->xa, cut->xb) - 0.5;
@@ -235,10 +234,10 @@ static celspan_status add_stretch(cs_scatter *g, const cs_retained_edge *edge,
              : CELSPAN_OK;
 }
 
-static celspan_status scatter_separable(cs_scatter *g, const cs_retained_edge *edge) {
+static celspan_status scatter_separable(cs_scatter *g, const cs_border *edge) {
   const cs_kernel *kernel = g->convolve->kernel;
-  cs_retained_edge within, cut;
-  if (!cut_edge(edge, g->centre - kernel->radius_y, g->centre + kernel->radius_y, &within))
+  cs_segment within, cut;
+  if (!cut_line(&edge->line, g->centre - kernel->radius_y, g->centre + kernel->radius_y, &within))
     return CELSPAN_OK;
   double height = within.yb - within.ya, across = within.xb - within.xa;
   int stretches = (int)ceil(fmax(fabs(across) / STRETCH, 1));
@@ -297,12 +296,12 @@ static double share_right(const segment *t, double c, bool is_upright, double sc
 }
 
 /* Adds a segment to each column whose kernel it divides, and as a whole to the columns after. */
-static celspan_status spread(cs_scatter *g, const cs_retained_edge *edge, const segment *t) {
+static celspan_status spread(cs_scatter *g, const cs_border *edge, const segment *t) {
   cs_convolve *convolve = g->convolve;
   double before = 0, length = t->to - t->from, across = t->high - t->low;
   bool is_upright = across < NARROW * length, is_flat = has_flat_sides(edge);
   double scale = 1 / (is_upright ? length : length * across);
-  cs_v4 step = (float)t->weight * (edge->right.colour - edge->left.colour);
+  cs_v4 step = (float)t->weight * (edge->right->colour - edge->left->colour);
   int32_t stop = t->end < convolve->width ? t->end : convolve->width;
   for (int32_t p = t->first > 0 ? t->first : 0; p < stop; p++) {
     double now = share_right(t, p + 0.5, is_upright, scale);
@@ -320,15 +319,15 @@ static celspan_status spread(cs_scatter *g, const cs_retained_edge *edge, const 
   return add_shift(g, edge, rest, t->weight * (1 - before));
 }
 
-static void tilt(cs_scatter *g, const cs_retained_edge *edge, int32_t p, double slope) {
+static void tilt(cs_scatter *g, const cs_border *edge, int32_t p, double slope) {
   double *sum = g->convolve->slopes[p];
   for (int c = 0; c < 4; c++)
-    sum[c] += slope * ((double)edge->right.colour[c] - (double)edge->left.colour[c]);
+    sum[c] += slope * ((double)edge->right->colour[c] - (double)edge->left->colour[c]);
 }
 
 /* An upright segment between flat colours under a chord is a ramp: one change where it begins, one
  * where it ends. */
-static void spread_ramp(cs_scatter *g, const cs_retained_edge *edge, const segment *t) {
+static void spread_ramp(cs_scatter *g, const cs_border *edge, const segment *t) {
   cs_convolve *convolve = g->convolve;
   double x = 0.5 * (t->low + t->high), slope = 1 / (t->to - t->from);
   int32_t first = cs_number_first_centre(x - t->to), end = cs_number_first_centre(x - t->from);
@@ -348,7 +347,7 @@ static void spread_ramp(cs_scatter *g, const cs_retained_edge *edge, const segme
   add_step(g, edge, end, t->weight * (1 - (now + (end - first) * slope)));
 }
 
-static celspan_status add_even_segment(cs_scatter *g, const cs_retained_edge *edge, segment *t) {
+static celspan_status add_even_segment(cs_scatter *g, const cs_border *edge, segment *t) {
   if (t->weight == 0)
     return CELSPAN_OK;
   t->first = cs_number_first_centre(t->low - t->to);
@@ -363,8 +362,8 @@ static celspan_status add_even_segment(cs_scatter *g, const cs_retained_edge *ed
 
 /* Into how many segments an edge is cut so that the kernel has nearly one chord over the heights of
  * each; an upright box has the same chord at all heights. */
-static int count_even_segments(const cs_kernel *kernel, const cs_retained_edge *edge) {
-  double height = edge->yb - edge->ya, across = fabs(edge->xb - edge->xa);
+static int count_even_segments(const cs_kernel *kernel, const cs_segment *line) {
+  double height = line->yb - line->ya, across = fabs(line->xb - line->xa);
   bool is_upright = kernel->shape == CS_KERNEL_PARALLELOGRAM && kernel->edges[0][1] == 0 &&
                     kernel->edges[1][0] == 0;
   double count = is_upright ? 1 : ceil(height * kernel->rows / kernel->radius_y);
@@ -373,22 +372,27 @@ static int count_even_segments(const cs_kernel *kernel, const cs_retained_edge *
   return count > 1 ? (int)count : 1;
 }
 
-/* Adds an edge, cut to the heights of the kernel, to kernels whose centres are moved by dx, dy from
- * the pixels' centres. share: of these kernels in the whole one. */
-static celspan_status add_cut(cs_scatter *g, const cs_retained_edge *edge, double dx, double dy,
-                              double share) {
+/* Kernels whose centres are moved from the pixels' centres. */
+typedef struct moved {
+  double dx, dy;
+  double share; /* of them in the whole kernel */
+} moved;
+
+/* Adds the part of an edge that is within the heights of moved kernels to these. */
+static celspan_status add_cut(cs_scatter *g, const cs_border *edge, const cs_segment *cut,
+                              const moved *by) {
   const cs_kernel *kernel = g->convolve->kernel;
-  int count = count_even_segments(kernel, edge);
-  double xa = edge->xa, ya = edge->ya, centre = g->centre + dy;
+  int count = count_even_segments(kernel, cut);
+  double xa = cut->xa, ya = cut->ya, centre = g->centre + by->dy;
   double above = cs_kernel_above(kernel, ya - centre);
   for (int k = 1; k <= count; k++) {
     double u = (double)k / count;
-    double xb = k == count ? edge->xb : edge->xa + u * (edge->xb - edge->xa);
-    double yb = k == count ? edge->yb : edge->ya + u * (edge->yb - edge->ya);
+    double xb = k == count ? cut->xb : cut->xa + u * (cut->xb - cut->xa);
+    double yb = k == count ? cut->yb : cut->ya + u * (cut->yb - cut->ya);
     double below = cs_kernel_above(kernel, yb - centre);
-    segment t = {.low = (xa < xb ? xa : xb) - dx,
-                 .high = (xa < xb ? xb : xa) - dx,
-                 .weight = share * (below - above)};
+    segment t = {.low = (xa < xb ? xa : xb) - by->dx,
+                 .high = (xa < xb ? xb : xa) - by->dx,
+                 .weight = by->share * (below - above)};
     if (cs_kernel_chord(kernel, 0.5 * (ya + yb) - centre, &t.from, &t.to) &&
         t.to - t.from > NOTHING)
       CS_TRY(add_even_segment(g, edge, &t));
@@ -399,23 +403,24 @@ static celspan_status add_cut(cs_scatter *g, const cs_retained_edge *edge, doubl
   return CELSPAN_OK;
 }
 
-static celspan_status add_offset(cs_scatter *g, const cs_retained_edge *edge, double dx, double dy,
-                                 double share) {
-  double radius = g->convolve->kernel->radius_y, centre = g->centre + dy;
-  cs_retained_edge cut;
-  return cut_edge(edge, centre - radius, centre + radius, &cut) ? add_cut(g, &cut, dx, dy, share)
-                                                                : CELSPAN_OK;
+static celspan_status add_moved(cs_scatter *g, const cs_border *edge, const moved *by) {
+  double radius = g->convolve->kernel->radius_y, centre = g->centre + by->dy;
+  cs_segment cut;
+  return cut_line(&edge->line, centre - radius, centre + radius, &cut) ? add_cut(g, edge, &cut, by)
+                                                                       : CELSPAN_OK;
 }
 
-static celspan_status scatter_even(cs_scatter *g, const cs_retained_edge *edge) {
+static celspan_status scatter_even(cs_scatter *g, const cs_border *edge) {
   const cs_kernel *kernel = g->convolve->kernel;
   int count = kernel->offsets;
   if (count <= 1)
-    return add_offset(g, edge, 0, 0, 1);
+    return add_moved(g, edge, &(moved){0, 0, 1});
   for (int j = 0; j < count; j++)
     for (int i = 0; i < count; i++)
-      CS_TRY(add_offset(g, edge, ((i + 0.5) / count - 0.5) * kernel->spread,
-                        ((j + 0.5) / count - 0.5) * kernel->spread, 1.0 / (count * count)));
+      CS_TRY(
+          add_moved(g, edge,
+                    &(moved){((i + 0.5) / count - 0.5) * kernel->spread,
+                             ((j + 0.5) / count - 0.5) * kernel->spread, 1.0 / (count * count)}));
   return CELSPAN_OK;
 }
 
@@ -431,32 +436,41 @@ static bool are_same(const cs_painter *painter, const cs_program *a, const cs_pr
 }
 
 static celspan_status find_term(cs_scatter *g, const cs_painter *painter, const cs_program *program,
-                                int32_t *out) {
+                                uint32_t *out) {
   cs_convolve *convolve = g->convolve;
   for (size_t i = convolve->term_count; i-- > 0;)
-    if (are_same(painter, convolve->terms[i].program, program)) {
-      *out = (int32_t)i;
+    if (are_same(painter, &convolve->terms[i].program, program)) {
+      *out = (uint32_t)i;
       return CELSPAN_OK;
     }
   CS_TRY(
       CS_RESERVE(g->context, convolve->terms, convolve->term_capacity, convolve->term_count + 1));
-  convolve->terms[convolve->term_count] = (cs_convolve_term){.program = program};
-  *out = (int32_t)convolve->term_count++;
+  convolve->terms[convolve->term_count] = (cs_convolve_term){.program = *program};
+  *out = (uint32_t)convolve->term_count++;
+  return CELSPAN_OK;
+}
+
+/* Finds the terms of the row's cells that vary. */
+static celspan_status find_terms(cs_scatter *g, cs_painter *painter) {
+  const cs_retained_row *retained = g->retained;
+  g->terms = NULL;
+  if (retained->item_count == 0)
+    return CELSPAN_OK;
+  cs_arena_reset(&painter->scratch);
+  g->terms = cs_arena_take(g->context, &painter->scratch, retained->cell_count * sizeof *g->terms);
+  if (!g->terms)
+    return CELSPAN_NO_MEMORY;
+  for (size_t i = 0; i < retained->cell_count; i++)
+    if (retained->cells[i].length > 0) {
+      const cs_program program = cs_retained_program(retained, &retained->cells[i]);
+      CS_TRY(find_term(g, painter, &program, &g->terms[i]));
+    }
   return CELSPAN_OK;
 }
 
 static celspan_status add_row(cs_scatter *g, cs_painter *painter) {
   const cs_retained_row *retained = g->retained;
-  g->terms = NULL;
-  if (retained->program_count > 0) {
-    cs_arena_reset(&painter->scratch);
-    g->terms =
-        cs_arena_take(g->context, &painter->scratch, retained->program_count * sizeof *g->terms);
-    if (!g->terms)
-      return CELSPAN_NO_MEMORY;
-  }
-  for (size_t i = 0; i < retained->program_count; i++)
-    CS_TRY(find_term(g, painter, &retained->programs[i].program, &g->terms[i]));
+  CS_TRY(find_terms(g, painter));
   for (size_t i = 0; i < retained->edge_count; i++)
     CS_TRY(g->convolve->kernel->shape == CS_KERNEL_SEPARABLE
                ? scatter_separable(g, &retained->edges[i])

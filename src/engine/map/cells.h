@@ -5,7 +5,6 @@
  */
 #pragma once
 
-#include "engine/kernel/retained.h"
 #include "engine/map/map.h"
 
 typedef struct cs_map_cells {
@@ -29,15 +28,6 @@ void cs_map_cells_clear(cs_map_cells *cells);
  * there are too many the map is not whole. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_map_cells_find(celspan_context *context, cs_map_cells *cells,
                                                  cs_map_content what, uint32_t *out);
-
-/* What shows on a side of an edge. */
-static inline cs_map_content cs_map_content_at(const cs_retained_row *retained,
-                                               const cs_retained_side *side) {
-  if (side->program < 0)
-    return (cs_map_content){.colour = side->colour};
-  const cs_program *program = &retained->programs[side->program].program;
-  return (cs_map_content){.items = program->items, .length = program->length};
-}
 
 /* Whether a program lets all channels through alike, whatever its layers show: all of them do, or
  * nothing shines through one. */

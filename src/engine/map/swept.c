@@ -32,6 +32,7 @@ void cs_map_swept_finish(cs_map_swept *swept) {
   cs_mem_free(memory, map->items, map->item_capacity * sizeof *map->items);
   cs_mem_free(memory, swept->drawing.colours,
               swept->colour_capacity * sizeof *swept->drawing.colours);
+  cs_mem_free(memory, swept->numbers, swept->number_capacity * sizeof *swept->numbers);
   cs_map_cells_finish(&swept->cells, memory);
   cs_retained_finish(&swept->retained, memory);
   cs_row_maker_finish(&swept->maker);
@@ -44,20 +45,20 @@ static int32_t round_to_unit(double place) { return (int32_t)floor(place * CS_MA
 
 /* Chains run along the sides of the frame where outlines are beyond them, so that all places are
  * near. */
-static celspan_status add_border(cs_map_swept *swept, const cs_retained_edge *edge,
-                                 const uint32_t sides[2]) {
+static celspan_status add_border(cs_map_swept *swept, const cs_border *edge) {
   celspan_context *context = swept->maker.context;
   cs_map_lines *lines = &swept->map.lines;
-  const cs_map_point above = {round_to_unit(edge->xa), round_to_unit(edge->ya)};
-  const cs_map_point below = {round_to_unit(edge->xb), round_to_unit(edge->yb)};
-  const cs_map_border border = {sides[0],
-                                sides[1],
+  const cs_segment *line = &edge->line;
+  const cs_map_point above = {round_to_unit(line->xa), round_to_unit(line->ya)};
+  const cs_map_point below = {round_to_unit(line->xb), round_to_unit(line->yb)};
+  const cs_map_border border = {swept->numbers[cs_retained_number(&swept->retained, edge->left)],
+                                swept->numbers[cs_retained_number(&swept->retained, edge->right)],
                                 (uint32_t)lines->point_count,
                                 2,
                                 above.x < below.x ? above.x : below.x,
                                 above.x < below.x ? below.x : above.x,
                                 below.y};
-  if (above.y >= below.y)
+  if (border.left == border.right || above.y >= below.y)
     return CELSPAN_OK;
   CS_TRY(CS_RESERVE(context, lines->points, lines->point_capacity, lines->point_count + 2));
   lines->points[lines->point_count++] = above;
@@ -65,25 +66,33 @@ static celspan_status add_border(cs_map_swept *swept, const cs_retained_edge *ed
   return CS_APPEND(context, lines->borders, lines->border_count, lines->border_capacity, border);
 }
 
-static celspan_status add_edge(cs_map_swept *swept, const cs_retained_edge *edge) {
-  celspan_context *context = swept->maker.context;
-  cs_map_content left = cs_map_content_at(&swept->retained, &edge->left);
-  cs_map_content right = cs_map_content_at(&swept->retained, &edge->right);
-  uint32_t sides[2];
-  CS_TRY(cs_map_cells_find(context, &swept->cells, left, &sides[0]));
-  CS_TRY(cs_map_cells_find(context, &swept->cells, right, &sides[1]));
-  return sides[0] != sides[1] ? add_border(swept, edge, sides) : CELSPAN_OK;
+/* ---------------------------------------------------------------- a swath */
+
+static cs_map_content content_of(const cs_retained_row *retained, const cs_cell *cell) {
+  if (cell->length == 0)
+    return (cs_map_content){.colour = cell->colour};
+  return (cs_map_content){.items = retained->items + cell->program, .length = cell->length};
 }
 
-/* ---------------------------------------------------------------- a swath */
+/* Finds the cells of the retained row in the map. */
+static celspan_status number_cells(cs_map_swept *swept) {
+  const cs_retained_row *retained = &swept->retained;
+  celspan_context *context = swept->maker.context;
+  CS_TRY(CS_RESERVE(context, swept->numbers, swept->number_capacity, retained->cell_count));
+  for (size_t i = 0; i < retained->cell_count; i++)
+    CS_TRY(cs_map_cells_find(context, &swept->cells, content_of(retained, &retained->cells[i]),
+                             &swept->numbers[i]));
+  return CELSPAN_OK;
+}
 
 static celspan_status add_row(cs_map_swept *swept, int32_t y) {
   uint32_t base;
   CS_TRY(cs_row_retain(&swept->maker, y, &swept->retained));
   CS_TRY(cs_map_cells_find(swept->maker.context, &swept->cells,
                            (cs_map_content){.colour = swept->retained.base}, &base));
+  CS_TRY(number_cells(swept));
   for (size_t i = 0; i < swept->retained.edge_count; i++)
-    CS_TRY(add_edge(swept, &swept->retained.edges[i]));
+    CS_TRY(add_border(swept, &swept->retained.edges[i]));
   return CELSPAN_OK;
 }
 

@@ -21,8 +21,9 @@ typedef struct cs_map_swept {
   cs_retained_row retained;
   cs_map map; /* of the swath; its stack is that of the drawing */
   cs_map_cells cells;
+  uint32_t *numbers;      /* in the map, of the cells of the retained row */
   cs_map_drawing drawing; /* the map on the frame's pixels */
-  size_t colour_capacity;
+  size_t number_capacity, colour_capacity;
 } cs_map_swept;
 
 /* Errors: NO_MEMORY; cs_map_swept_finish must be called then, too. */

@@ -1,4 +1,4 @@
-/* A straight piece of an edge between two heights.
+/* A straight piece of a boundary between two heights, in pixels.
  *
  *     (xa, ya) *
  *               \
@@ -6,9 +6,6 @@
  */
 #pragma once
 
-#include <stdint.h>
-
 typedef struct cs_segment {
-  double xa, ya, xb, yb; /* pixels, from (xa, ya) down to (xb, yb) */
-  uint32_t chain;        /* that it is a part of, plus 1; 0: of none */
+  double xa, ya, xb, yb; /* from (xa, ya) down to (xb, yb) */
 } cs_segment;
