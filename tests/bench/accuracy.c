@@ -1,7 +1,9 @@
 /* How exact celspan's area antialiasing is, over all pixels of a frame.
  *
- *   accuracy drawing DRAWING SIDE K    against the mean of pixel centres in each pixel
- *   accuracy fans|bars ROUNDS          light between shapes that abut: see leaks.h
+ *   accuracy drawing DRAWING SIDE K WAY   against the mean of pixel centres in each pixel
+ *   accuracy fans|bars ROUNDS             light between shapes that abut: see leaks.h
+ *
+ * WAY, of the judged frame: swept, or again for maps (scene.h).
  *
  * The reference is the same scene rendered K times as large without antialiasing. Only every
  * COARSE-th row of it is read; all rows are read for a row of pixels in which those find an error
@@ -34,6 +36,7 @@ typedef struct comparison {
   celspan_rows *judged;
   celspan_rows *coarse, *fine; /* the large frame for each: rows are cheapest in ascending order */
   int side, k;
+  const char *way;
   double *values; /* of one row of pixels, CHANNELS each: sums of centres, then differences */
   double worst, square;
   int worst_x, worst_y;
@@ -124,9 +127,10 @@ static void judge_row(comparison *job, int y) {
 }
 
 static celspan_rows *open_rows(celspan_context *context, celspan_rostrum *rostrum, int side,
-                               celspan_antialias_mode mode) {
+                               celspan_antialias_mode mode, const char *way) {
   const celspan_exposure exposure = {rostrum, 1};
   celspan_frame_desc desc = bench_frame(&exposure, side, side, &mode);
+  bench_choose_way(&desc, way);
   celspan_rows *rows;
   bench_check(context, celspan_rows_create(context, &desc, &rows));
   return rows;
@@ -137,9 +141,9 @@ static void judge_scene(comparison *job, celspan_rostrum *rostrum) {
   job->values = malloc((size_t)job->side * CHANNELS * sizeof *job->values);
   if (!job->values)
     bench_stop("no memory for a row");
-  job->judged = open_rows(job->context, rostrum, job->side, CELSPAN_ANTIALIAS_AREA);
-  job->coarse = open_rows(job->context, rostrum, large, CELSPAN_ANTIALIAS_NONE);
-  job->fine = open_rows(job->context, rostrum, large, CELSPAN_ANTIALIAS_NONE);
+  job->judged = open_rows(job->context, rostrum, job->side, CELSPAN_ANTIALIAS_AREA, job->way);
+  job->coarse = open_rows(job->context, rostrum, large, CELSPAN_ANTIALIAS_NONE, "swept");
+  job->fine = open_rows(job->context, rostrum, large, CELSPAN_ANTIALIAS_NONE, "swept");
   for (int y = 0; y < job->side; y++)
     judge_row(job, y);
   celspan_rows_destroy(job->judged);
@@ -150,7 +154,8 @@ static void judge_scene(comparison *job, celspan_rostrum *rostrum) {
 
 static void judge_drawing(celspan_context *context, char **words) {
   bench_drawing drawing = bench_drawing_read(words[0]);
-  comparison job = {.context = context, .side = atoi(words[1]), .k = atoi(words[2])};
+  comparison job = {
+      .context = context, .side = atoi(words[1]), .k = atoi(words[2]), .way = words[3]};
   if (job.side < 1 || job.k % COARSE || job.k < COARSE || job.k > FRAME_MOST / job.side)
     bench_stop("K is a multiple of %d, and SIDE times K at most %d", COARSE, FRAME_MOST);
   celspan_rostrum *rostrum = bench_scene(context, &drawing, NULL);
@@ -170,14 +175,14 @@ int main(int argc, char **argv) {
   celspan_context *context;
   if (celspan_context_create(NULL, &context) != CELSPAN_OK)
     return 2;
-  if (argc == 5 && strcmp(argv[1], "drawing") == 0)
+  if (argc == 6 && strcmp(argv[1], "drawing") == 0)
     judge_drawing(context, argv + 2);
   else if (argc == 3 && strcmp(argv[1], "fans") == 0)
     bench_tell_leaks(context, BENCH_FANS, atoi(argv[2]));
   else if (argc == 3 && strcmp(argv[1], "bars") == 0)
     bench_tell_leaks(context, BENCH_BARS, atoi(argv[2]));
   else
-    bench_stop("usage: accuracy drawing DRAWING SIDE K | fans ROUNDS | bars ROUNDS");
+    bench_stop("usage: accuracy drawing DRAWING SIDE K WAY | fans ROUNDS | bars ROUNDS");
   bench_line_end();
   celspan_context_destroy(context);
   return 0;

@@ -125,16 +125,17 @@ end
 
 --- A film's frame, and nine painted layers; least times, as films are compared.
 local function films(run, lines)
-  for _, bound in ipairs { { 1024, 1.1 }, { 2048, 1 }, { 4096, 1 } } do
-    local side, of_blend2d = table.unpack(bound)
-    local mine = run:film_seconds("clipart", side, "celspan", "again")
-    local what = "a frame of the film `clipart` at %s: %s takes at least %g times as long"
-    at_least(lines, what:format(names[side], "AGG", 1.8),
-      over(run:film_seconds("clipart", side, "agg", "area"), mine), 1.8, times)
-    local blend2d = run:film_seconds("clipart", side, "blend2d", "area")
+  for _, bound in ipairs { { "clipart", 1024, 1.8, 1.1 }, { "clipart", 2048, 1.8, 1 },
+      { "clipart", 4096, 1.8, 1 }, { "emoji", 1024, 1.6, 1 }, { "house", 1024, 2, 0.85 } } do
+    local scene, side, of_agg, of_blend2d = table.unpack(bound)
+    local mine = run:film_seconds(scene, side, "celspan", "again")
+    local what = "a frame of the film `%s` at %s: %s takes at least %g times as long"
+    at_least(lines, what:format(scene, names[side], "AGG", of_agg),
+      over(run:film_seconds(scene, side, "agg", "area"), mine), of_agg, times)
+    local blend2d = run:film_seconds(scene, side, "blend2d", "area")
     if blend2d then
-      at_least(lines, what:format(names[side], "Blend2D", of_blend2d), over(blend2d, mine),
-        of_blend2d, times)
+      at_least(lines, what:format(scene, names[side], "Blend2D", of_blend2d),
+        over(blend2d, mine), of_blend2d, times)
     end
   end
   local mine = run:one { part = "raw", scene = "painted", renderer = "celspan" }
@@ -161,6 +162,55 @@ local function again(run, lines)
     end
   end
 end
+
+-- ---------------------------------------------------------------- the ways of a drawing
+
+--- celspan's time for a drawing over that of a sweep of it.
+local function over_sweep(run, scene, side, output, antialias)
+  return over(seconds(shapes(run, scene, side, output, antialias)),
+    seconds(shapes(run, scene, side, output, "swept")))
+end
+
+--- The mean and the greatest of the figures that were measured.
+local function summary(figures)
+  local sum, count, most = 0, 0, nil
+  for _, value in pairs(figures) do
+    sum, count, most = sum + value, count + 1, math.max(most or 0, value)
+  end
+  return count > 0 and sum / count or nil, most
+end
+
+--- over_sweep of several drawings, by their names.
+local function all_over_sweep(run, list, side, output)
+  local out = {}
+  for _, scene in ipairs(list) do out[scene] = over_sweep(run, scene, side, output, "area") end
+  return out
+end
+
+--- What the choice of a way gains, and that it hardly ever loses.
+local function ways(run, lines)
+  for _, bound in ipairs { { 1024, 0.72 }, { 2048, 0.85 } } do
+    local side, most = table.unpack(bound)
+    at_most(lines, ("artwork at %s, a still: at most %g times a sweep, on average"):format(
+      names[side], most), summary(all_over_sweep(run, scenes.artwork, side, "row")), most, times)
+  end
+  for _, side in ipairs { 1024, 2048, 4096 } do
+    local most = 0
+    for _, list in ipairs { scenes.artwork, scenes.random, scenes.hard, scenes.gradients } do
+      local _, worst = summary(all_over_sweep(run, list, side, "row"))
+      most = math.max(most, worst or 0)
+    end
+    at_most(lines, ("every drawing at %s, a still: at most 1.05 times a sweep"):format(names[side]),
+      most > 0 and most or nil, 1.05, times)
+  end
+  local _, strip = summary(all_over_sweep(run, scenes.artwork, 1024, "strip"))
+  at_most(lines, "artwork at 1k, 16 rows of a still: at most 1.1 times a sweep of them", strip, 1.1,
+    times)
+  at_most(lines, "`gradients-100` at 1k, in a later frame: at most a sweep",
+    over_sweep(run, "gradients-100", 1024, "row", "again"), 1, times)
+end
+
+-- ---------------------------------------------------------------- the sizes of films
 
 --- The targets for hard scenes, and for 10 to 1000 shapes, at the sizes of films.
 local function film_sizes(run, lines)
@@ -357,8 +407,8 @@ end
 --- { { what, text, is_met }, ... }; is_met is nil if nothing was measured.
 function asked.lines(run)
   local lines = {}
-  local parts = { films, artwork, again, film_sizes, accuracy, spans, pixels, pictures, softness,
-                  span_files, png_files, film_frame, composited, sequences }
+  local parts = { films, artwork, again, ways, film_sizes, accuracy, spans, pixels, pictures,
+                  softness, span_files, png_files, film_frame, composited, sequences }
   for _, part in ipairs(parts) do part(run, lines) end
   return lines
 end

@@ -17,7 +17,7 @@ static void choose_antialias(bench_frame_job *job, const char *antialias) {
   static const celspan_kernel numbers[] = {CELSPAN_KERNEL_BOX, CELSPAN_KERNEL_GAUSSIAN,
                                            CELSPAN_KERNEL_MITCHELL, CELSPAN_KERNEL_LANCZOS};
   job->mode = strcmp(antialias, "none") == 0 ? CELSPAN_ANTIALIAS_NONE : CELSPAN_ANTIALIAS_AREA;
-  job->desc.repeats = strcmp(antialias, "again") == 0 || strcmp(antialias, "first") == 0;
+  bench_choose_way(&job->desc, antialias);
   for (size_t i = 0; i < sizeof kernels / sizeof *kernels; i++)
     if (strcmp(antialias, kernels[i]) == 0) {
       job->mode = CELSPAN_ANTIALIAS_FILTER;
@@ -25,11 +25,21 @@ static void choose_antialias(bench_frame_job *job, const char *antialias) {
     }
 }
 
+/* 16 rows from the middle, as a host asks for that needs no more. */
+static void choose_strip(celspan_frame_desc *desc) {
+  enum { rows = 16 };
+  desc->crop_y = (desc->height - rows) / 2;
+  desc->crop_width = desc->width;
+  desc->crop_height = rows;
+}
+
 void bench_job_open(bench_frame_job *job, int width, int height, const char *antialias,
                     const char *output, int workers) {
   job->exposure = (celspan_exposure){job->rostrum, 1};
   job->desc = bench_frame(&job->exposure, width, height, &job->mode);
   choose_antialias(job, antialias);
+  if (strcmp(output, "strip") == 0)
+    choose_strip(&job->desc);
   job->desc.workers = workers;
   job->output = output;
   job->pixels = NULL;

@@ -2,13 +2,16 @@
 ---
 ---   film   the film of film.h with sheets of artwork, beside the peers, in one process each: the
 ---          paths, and the objects of celspan, are made before
----   raw    whole processes, from the script to raw pixels: the demo film, scripts/film.lua, and
----          nine painted layers (scripts/painted.lua), these beside OpenCV
+---   raw    whole processes, from the script to raw pixels: the demo film, scripts/film.lua, sheets
+---          of SVG files (scripts/sheet.lua), and nine painted layers (scripts/painted.lua), these
+---          beside OpenCV
 local Command = require("tests.bench.runner").command
 local scenes = require "tests.bench.scenes"
 local shapes = require "tests.bench.parts_shapes"
+local present = require "tests.support.present"
 
-local parts = {}
+--- sheet_frames: the frames of a film of SVG files.
+local parts = { sheet_frames = 9 }
 
 -- ---------------------------------------------------------------- drawings
 
@@ -78,8 +81,8 @@ local function raw(runner, scene, count, renderer, command)
 end
 
 --- celspan with a script, which may have arguments.
-local function render(runner, script, first, last, ...)
-  return Command(runner.celspan, "render", script, "--trust", "--size", size, "--workers", 1,
+local function render(runner, pixels, script, first, last, ...)
+  return Command(runner.celspan, "render", script, "--trust", "--size", pixels, "--workers", 1,
     "--progress", "none", "--frames", ("%d-%d"):format(first, last), "-o", "-", "--", ...)
 end
 
@@ -93,8 +96,30 @@ end
 
 local function script_film(runner, scene, script, count, rounds)
   runner:repeat_all(rounds, { raw(runner, scene, count, "celspan",
-    render(runner, script, 1, count)) })
+    render(runner, size, script, 1, count)) })
   show_statistics(runner, script, count // 2)
+end
+
+-- ---------------------------------------------------------------- SVG files
+
+--- Two processes, of one frame and of several: the difference is what later frames cost.
+local function sheet_of_files(runner, scene, folder, side, rounds)
+  local script, entries = "tests/bench/scripts/sheet.lua", {}
+  for i, count in ipairs { 1, parts.sheet_frames } do
+    entries[i] = raw(runner, scene, 1, "celspan", render(runner, ("%dx%d"):format(side, side),
+      script, 1, count, present.material .. "/" .. folder, parts.sheet_frames))
+    entries[i].side, entries[i].antialias = side, count == 1 and "first" or "all"
+  end
+  runner:repeat_all(rounds, entries)
+end
+
+local function files(runner, is_quick)
+  if not runner.has_material then return end
+  for _, sheet in ipairs(scenes.files) do
+    for _, side in ipairs(is_quick and { 1024 } or { 1024, 2048 }) do
+      sheet_of_files(runner, sheet[1], sheet[2], side, is_quick and 1 or 3)
+    end
+  end
 end
 
 -- ---------------------------------------------------------------- painted layers
@@ -136,7 +161,7 @@ local function painted(runner, folder, rounds)
   parts.write_layers(runner.celspan, runner.root, layers, "1600x900")
   local script, program = "tests/bench/scripts/painted.lua", runner:program "opencv"
   local entries = { raw(runner, "painted", frame_count, "celspan",
-    render(runner, script, 1, frame_count, layers)) }
+    render(runner, size, script, 1, frame_count, layers)) }
   if runner:has "opencv" then
     entries[2] = raw(runner, "painted", frame_count, "opencv",
       Command(program, "layers", layers, 1, frame_count))
@@ -144,7 +169,7 @@ local function painted(runner, folder, rounds)
   runner:repeat_all(rounds, entries)
   local last = runner.rows[#runner.rows]
   if last.renderer == "opencv" then -- it blends codes, so celspan's picture is one of codes, too
-    last.rms = parts.difference(bytes_of(render(runner, script, 40, 40, layers, "srgb")),
+    last.rms = parts.difference(bytes_of(render(runner, size, script, 40, 40, layers, "srgb")),
       bytes_of(Command(program, "layers", layers, 40, 40)))
   end
   show_statistics(runner, script, frame_count // 2, layers)
@@ -158,6 +183,7 @@ function parts.film(runner, folder, is_quick)
   end
   script_film(runner, "demo", "scripts/demo.lua", 240, is_quick and 1 or 3)
   script_film(runner, "film", "scripts/film.lua", is_quick and 48 or 708, is_quick and 1 or 3)
+  files(runner, is_quick)
   painted(runner, folder, is_quick and 1 or 3)
 end
 

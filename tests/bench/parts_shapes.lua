@@ -61,10 +61,20 @@ local function renderers(runner, path, scene, side)
     entries[#entries + 1] = peer(runner, path, scene, side, "area", name)
   end
   if side <= 4096 then
-    entries[#entries + 1] = celspan(runner, path, scene, side, "again", "row", 1)
-    entries[#entries + 1] = celspan(runner, path, scene, side, "first", "row", 1)
+    for _, way in ipairs { "swept", "again", "first" } do
+      entries[#entries + 1] = celspan(runner, path, scene, side, way, "row", 1)
+    end
   end
   return entries
+end
+
+--- A few rows of a drawing.
+local function strip(runner, folder, scene)
+  local path, entries = ("%s/%s.txt"):format(folder, scene), {}
+  for i, way in ipairs { "area", "swept" } do
+    entries[i] = celspan(runner, path, scene, 1024, way, "strip", 1)
+  end
+  runner:measure(2, entries)
 end
 
 --- One drawing at one side: all its renderers, in turn, and the limits.
@@ -112,6 +122,7 @@ function parts.artwork(runner, folder, is_quick)
     for _, side in ipairs(is_quick and { 1024, 4096 } or sides) do
       point(runner, folder, scene, side, side < 30000 and 2 or 1)
     end
+    strip(runner, folder, scene)
   end
 end
 

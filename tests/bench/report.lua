@@ -124,13 +124,14 @@ local function accuracy()
   page:put [[
 The antialiasing `area` compared with the mean of 512 x 512 samples in each pixel, in linear light,
 in units of 1/255: the error of the worst pixel, the root of the mean square over all pixels, and
-the number of pixels with an error above 2 (`./run bench accuracy`). The abutting shapes are black,
+the number of pixels with an error above 2 (`./run bench accuracy`); of a sweep, and *again*, from
+the map of the drawing where it has one. The abutting shapes are black,
 fans of 3 to 64 wedges and up to 300 bars at random positions and angles; none of the white behind
 them may be visible.
 ]]
-  page:head { "drawing", "side", "worst", "rms", "pixels over 2", "pixels that leak" }
+  page:head { "drawing", "side", "way", "worst", "rms", "pixels over 2", "pixels that leak" }
   for _, row in ipairs(rows) do
-    page:cells { row.scene, row.side or "", ("%.3g"):format(row.worst),
+    page:cells { row.scene, row.side or "", row.antialias or "", ("%.3g"):format(row.worst),
                  row.rms and ("%.3f"):format(row.rms) or "", row.over_two or "",
                  row.leaking and ("%d of %d"):format(row.leaking, row.pixels) or "" }
   end

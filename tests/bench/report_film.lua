@@ -2,6 +2,7 @@
 --- `./run bench film` prints. Each function adds to a page (page.lua) and leaves out figures that
 --- were not measured. Times of films are the least of several runs.
 local asked = require "tests.bench.asked"
+local frames = require "tests.bench.parts_frames"
 local results = require "tests.bench.results"
 local scenes = require "tests.bench.scenes"
 
@@ -44,12 +45,14 @@ function report.first(page)
 The time of the fastest of Skia, AGG, Qt and Cairo divided by celspan's, and its name; antialiased,
 to 8-bit pixels, one thread. Above 1, celspan is the fastest.
 
-- *A film's frame*: the [film](#films) of a sheet of drawings and of two drawings in front of it.
-- *A drawing again*: the sheet alone, in a later frame of a film that has shown it before.
-- *A new drawing*: the sheet alone, in the first frame of a film that shows it.
+- *A film's frame*: the [film](#films) of a sheet of drawings, or of the drawing `house`, and of two
+  drawings in front of it.
+- *A drawing again*: the sheet or `house` alone, in a later frame of a film that has shown it
+  before.
+- *A new drawing*: it alone, in the first frame of a film that shows it.
 ]]
-  page:head { "sheet", "side", "a film's frame", "a drawing again", "a new drawing" }
-  for _, scene in ipairs(scenes.sheets) do
+  page:head { "drawing", "side", "a film's frame", "a drawing again", "a new drawing" }
+  for _, scene in ipairs(scenes.backs) do
     for _, side in ipairs(sides) do
       local line = { scene, short[side], film_ratio(page.run, scene, side),
                      drawing_ratio(page.run, scene, side, "again"),
@@ -90,8 +93,9 @@ end
 local function drawings(page)
   if #page.run:all { part = "film" } == 0 then return end
   page:put [[
-48 frames of a sheet of drawings under a pan and a zoom, with `skaters` and `mosquito` in front of
-it, each on a way of its own; `three sheets`: `emoji` and `twemoji` in front of `clipart`. The peers
+48 frames of a sheet of drawings, or of `house`, under a pan and a zoom, with `skaters` and
+`mosquito` in front of it, each on a way of its own; `three sheets`: `emoji` and `twemoji` in front
+of `clipart`. The peers
 build their paths once and fill them under a matrix in each frame, into a picture of the whole
 frame; celspan moves its cels and writes pixels into a row that is reused, or into a *whole
 picture*. *With its maps*: the film is shown for the first time, and its
@@ -136,11 +140,40 @@ works in linear light. *Differs by*: frame 40, where celspan blends codes, too.
   page:put ""
 end
 
+--- The seconds of one of the later frames of a film of SVG files.
+function report.later_frame(run, scene, side)
+  local function of(kind)
+    local row = run:one { part = "raw", scene = scene, side = side, antialias = kind }
+    return row and row.best_processor
+  end
+  local first, all = of "first", of "all"
+  return first and all and (all - first) / (frames.sheet_frames - 1)
+end
+
+local function files(page)
+  local lines = {}
+  for _, sheet in ipairs(scenes.files) do
+    for _, side in ipairs(sides) do
+      local later = report.later_frame(page.run, sheet[1], side)
+      lines[#lines + 1] = later and { sheet[1], short[side], asked.time(later) }
+    end
+  end
+  if #lines == 0 then return end
+  page:put [[
+A sheet of 64 SVG files of the sample material with their gradients, strokes and groups, under a
+pan: what a later frame costs, from the script to raw pixels.
+]]
+  page:head { "files", "side", "a later frame" }
+  for _, line in ipairs(lines) do page:cells(line) end
+  page:put ""
+end
+
 function report.tables(page)
   if #page.run:all { part = "film" } + #page.run:all { part = "raw" } == 0 then return end
   page:put "## Films"
   page:put ""
   drawings(page)
+  files(page)
   raw(page)
 end
 

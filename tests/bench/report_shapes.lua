@@ -61,7 +61,8 @@ end
 local function pixel_line(run, scene, side, mine)
   local known = (published.shapes[scene] or {})[side]
   local again = run:pixel_row(scene, side, "celspan", "again")
-  local line = { scene, short[side], shown(mine), shown(again), count(mine.instructions),
+  local line = { scene, short[side], shown(mine), shown(run:pixel_row(scene, side, "celspan",
+                 "swept")), shown(again), count(mine.instructions),
                  shown(run:pixel_row(scene, side, "blend2d", "area")),
                  known and time(known) or "" }
   for _, peer in ipairs(results.peers) do
@@ -79,8 +80,9 @@ end
 
 --- The table of drawings to pixels.
 local function pixel_table(page, names)
-  page:head { "drawing", "side", "celspan", "celspan, later frame", "instructions", "Blend2D",
-              "Blend2D, published", "Skia", "AGG", "Qt", "Cairo", "fill of the runs", "memset",
+  page:head { "drawing", "side", "celspan", "celspan, swept", "celspan, later frame",
+              "instructions", "Blend2D", "Blend2D, published", "Skia", "AGG", "Qt", "Cairo",
+              "fill of the runs", "memset",
               "ahead of Blend2D, published", "estimated from AGG", "ahead of the best peer" }
   for _, scene in ipairs(names) do
     for _, side in ipairs(pixel_sides) do
@@ -154,7 +156,7 @@ function report.tables(page)
 10, 100 and 1000 closed B-splines of random colour and alpha, antialiased, to pixels. *Ahead of*:
 the other renderer's time divided by celspan's; below 1, the other renderer is faster. *Later
 frame*: the drawing again in a film, where at least 64 shapes are drawn from their
-[map](how-it-works.md#maps).]]
+[map](how-it-works.md#maps). *Swept*: without maps, whatever the rule says.]]
   page:plot("ratios", "ratios")
   for _, scene in ipairs(scenes.random) do page:plot("shapes-" .. scene, "shapes", scene) end
   pixel_table(page, scenes.random)
@@ -178,9 +180,9 @@ the gradient in floats, as one span where nothing covers it; AGG and Qt use tabl
 colours.
 ]], scenes.gradients)
   section(page, "Artwork", [[
-Drawings of the sample material as filled paths, mostly opaque: `mosquito`, `skaters` and `boating`
+Drawings as filled paths, mostly opaque. Of the sample material: `mosquito`, `skaters` and `boating`
 with 155 to 159 paths each; sheets of about 64 drawings each, `clipart` (2053 paths), `emoji` (983)
-and `twemoji` (426).
+and `twemoji` (426). Drawn by code: `house` (220 paths).
 ]], scenes.artwork)
 end
 

@@ -1,6 +1,7 @@
 #include "scene.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "measure.h"
 
@@ -108,6 +109,10 @@ celspan_rostrum *bench_scene(celspan_context *context, const bench_drawing *draw
   celspan_rostrum *rostrum = bench_rostrum(context, &cel, 1, true);
   celspan_cel_unref(cel);
   return rostrum;
+}
+
+void bench_choose_way(celspan_frame_desc *desc, const char *way) {
+  desc->repeats = strcmp(way, "again") == 0 || strcmp(way, "first") == 0;
 }
 
 celspan_frame_desc bench_frame(const celspan_exposure *exposure, int width, int height,

@@ -1,5 +1,6 @@
 --- The drawings of the benchmark, written into a folder; those missing from the material are left
 --- out.
+local house = require "tests.bench.house"
 local shapes = require "tests.bench.shapes"
 local svg = require "tests.bench.svg"
 local present = require "tests.support.present"
@@ -15,7 +16,7 @@ local function files_of(folder)
   return list
 end
 
---- Pieces of artwork: one drawing, or a sheet of many.
+--- Pieces of artwork: one drawing, or a sheet of many. `house` is drawn by code.
 local clipart = "/artwork-openclipart/"
 local single = { mosquito = "zanzara_cretina_architet_01", skaters = "pattinatrici_sul_ghiacc_01",
                  boating = "boating_rules5" }
@@ -25,12 +26,18 @@ scenes.random = { "10", "100", "1000" }
 scenes.hard = { "opaque", "small", "faint" }
 scenes.gradients = { "gradients-100", "gradients-1000" }
 scenes.sheets = { "clipart", "emoji", "twemoji" }
+--- The backgrounds of films, which are measured alone, too.
+scenes.backs = { "clipart", "emoji", "twemoji", "house" }
 --- Films: the name, the sheet, and the drawings in front of it, the nearest last.
 scenes.films = { { "clipart", "clipart", "skaters", "mosquito" },
                  { "emoji", "emoji", "skaters", "mosquito" },
                  { "twemoji", "twemoji", "skaters", "mosquito" },
+                 { "house", "house", "skaters", "mosquito" },
                  { "three sheets", "clipart", "emoji", "twemoji" } }
-scenes.artwork = { "mosquito", "skaters", "boating", "clipart", "emoji", "twemoji" }
+scenes.artwork = { "mosquito", "skaters", "boating", "clipart", "emoji", "twemoji", "house" }
+--- Folders of SVG files that are drawn with all that they have: the name, the folder.
+scenes.files = { { "clip art as it is", "artwork-openclipart" },
+                 { "noto as it is", "artwork-noto" } }
 
 local function write_artwork(material, folder)
   for name, file in pairs(single) do
@@ -79,6 +86,7 @@ function scenes.write(folder)
   write(table.move(gradients, 1, 100, 1, {}), "gradients-100")
   write(gradients, "gradients-1000")
   write(clovers(), "clovers")
+  svg.write(house.lines(), folder .. "/house.txt")
   if is_given then write_artwork(material, folder) end
   return is_given
 end

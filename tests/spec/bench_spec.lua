@@ -2,6 +2,7 @@
 local asked = require "tests.bench.asked"
 local films = require "tests.bench.report_film"
 local frames = require "tests.bench.parts_frames"
+local house = require "tests.bench.house"
 local Page = require "tests.bench.page"
 local results = require "tests.bench.results"
 local Runner = require "tests.bench.runner"
@@ -64,6 +65,15 @@ describe("the drawings of the benchmark", function()
     local material = present.material
     local given = material and shapes.read(material .. "/bench-scenes/scene1000.txt")
     if given then assert.equal(#list, #given) end
+  end)
+
+  it("have a house of 220 closed and opaque paths", function()
+    local list = house.lines()
+    assert.equal(220, #list)
+    assert.same(list, house.lines())
+    for _, line in ipairs(list) do
+      assert.truthy(line:find "^path nonzero %d+ %d+ %d+ 255 M [^M]*Z$")
+    end
   end)
 
   --- The least and the greatest x of a closed uniform cubic B-spline on four points, among many.
@@ -243,6 +253,16 @@ describe("the films of the benchmark", function()
     assert.is_true(told[what:format("AGG", "1.8")].is_met)
     assert.is_false(told[what:format("Blend2D", "1.1")].is_met)
     assert.equal("1.5 times", told["nine painted layers under a pan: not slower than OpenCV"].text)
+  end)
+
+  it("of SVG files have the cost of their later frames", function()
+    local function file_row(kind, seconds)
+      return { part = "raw", scene = "noto as it is", side = 1024, output = "raw", workers = 1,
+               antialias = kind, renderer = "celspan", best_processor = seconds }
+    end
+    local page = page_of { file_row("first", 0.5), file_row("all", 0.9) }
+    films.tables(page)
+    assert.truthy(table.concat(page.out, "\n"):find("| noto as it is | 1k | 50 ms |", 1, true))
   end)
 
   it("of painted layers can be made, and their frames compared", function()
