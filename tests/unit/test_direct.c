@@ -1,5 +1,5 @@
 /* Direct edges: spans are the mean over each pixel, cover the row, and have the same bits with
- * every instruction set.
+ * every instruction set. Cover: all ways to the area right of a line agree, and areas sum exactly.
  */
 #include "engine/area/direct.h"
 #include "tests/support/check.h"
@@ -100,10 +100,10 @@ static size_t draw(celspan_context *context, const stage *s, cs_isa isa, cs_row 
 static double cover(const stage *s, size_t i, int32_t p) {
   const cs_bend *bend = cs_active_bend(&s->active, i);
   if (!bend)
-    return cs_edges_cover(s->x[i], s->x_next[i], 1, p);
+    return cs_cover_of(s->x[i], s->x_next[i], 1, p);
   celspan_point vertex = s->vertices[bend->vertex];
-  return cs_edges_cover(s->x[i], vertex.x, vertex.y, p) +
-         cs_edges_cover(vertex.x, s->x_next[i], 1 - vertex.y, p);
+  return cs_cover_of(s->x[i], vertex.x, vertex.y, p) +
+         cs_cover_of(vertex.x, s->x_next[i], 1 - vertex.y, p);
 }
 
 static bool is_mean(const stage *s, const celspan_span *span, size_t done) {
@@ -157,6 +157,39 @@ static void check_strokes(celspan_context *context, stage *s) {
   cs_row_finish(&found, context->memory);
 }
 
+/* The area right of a line in the pixel of column p, as the mean over heights. */
+static double sampled(double xa, double xb, int32_t p) {
+  enum { HEIGHTS = 512 };
+  double sum = 0;
+  for (int i = 0; i < HEIGHTS; i++) {
+    double x = xa + (xb - xa) * ((i + 0.5) / HEIGHTS);
+    sum += 1 - least(most(x - p, 0), 1);
+  }
+  return sum / HEIGHTS;
+}
+
+/* A line from column 1 on, over up to four columns. */
+static void check_cover(test_random *random, int columns) {
+  double low = 1 + random_between(random, 0, 1), high = columns + random_between(random, 0, 1);
+  double xa = low < high ? low : high, xb = low < high ? high : low;
+  double by_twice = cs_cover_by_twice(xa, xb), all = 0;
+  for (int32_t p = 0; p < 6; p++) {
+    double area = cs_cover_of(xb, xa, 1, p);
+    CHECK_NEAR(area, sampled(xa, xb, p), 1e-3);
+    CHECK(area == cs_cover_of(xa, xb, 1, p) && area == cs_cover_round(area));
+    CHECK_NEAR(cs_cover_of(xa, xb, 0.25, p), area / 4, 0x1p-28);
+    all += area + (1 - area);
+  }
+  CHECK(all == 6);
+  CHECK_NEAR(cs_cover_passed(xa, xb, by_twice, 6), 6 - 0.5 * (xa + xb), 1e-12);
+  if (columns == 1)
+    CHECK_NEAR(cs_cover_within(xa, xb, 2), cs_cover_of(xa, xb, 1, 1), 0x1p-28);
+  if (columns > 1) {
+    CHECK_NEAR(cs_cover_first(xa, 2, by_twice), cs_cover_of(xa, xb, 1, 1), 0x1p-28);
+    CHECK_NEAR(cs_cover_last(xb, columns, by_twice), cs_cover_of(xa, xb, 1, columns), 0x1p-28);
+  }
+}
+
 int main(void) {
   celspan_context *context;
   static stage s;
@@ -173,6 +206,8 @@ int main(void) {
     all += s.active.count;
     cs_row_finish(&row, context->memory);
   }
+  for (int k = 0; k < 400; k++)
+    check_cover(&random, 1 + k % 4);
   CHECK(2 * drawn > all); /* else the test compared too little */
   cs_edges_finish(&s.edges, context->memory);
   celspan_context_destroy(context);

@@ -77,14 +77,13 @@ typedef struct drawing {
 
 static celspan_status add_piece(const drawing *d, celspan_point above, celspan_point below) {
   cs_crowd *crowd = d->crowd;
-  const double thin = 0x1p-100; /* least width: that of an upright piece would divide by 0 */
   double y = d->sweep->y0, wide = below.x - above.x, height = below.y - above.y;
   return CS_APPEND(d->context, crowd->pieces, crowd->piece_count, crowd->piece_capacity,
                    (cs_crowd_piece){.xa = above.x,
                                     .xb = below.x,
                                     .top = above.y - y,
                                     .foot = below.y - y,
-                                    .by_twice = 0.5 / cs_number_most(fabs(wide), thin),
+                                    .by_twice = cs_cover_by_twice(0, fabs(wide)),
                                     .slope = height > 0 ? (float)(wide / height) : 0});
 }
 
@@ -344,11 +343,10 @@ static void add_inside(const drawing *d, fold *f, const cs_layer *layer, float w
   f->mean -= seen * hides;
 }
 
-/* The integral up to x of the share of a piece's height at which the piece is left of that x. */
+/* What lies right of a piece that goes through the row, in all columns up to x. */
 static inline double passed(const cs_crowd_piece *piece, double x) {
-  double low = cs_number_least(piece->xa, piece->xb), high = cs_number_most(piece->xa, piece->xb);
-  double until = cs_number_most(cs_number_least(x, high) - low, 0);
-  return until * until * piece->by_twice + cs_number_most(x - high, 0);
+  return cs_cover_passed(cs_number_least(piece->xa, piece->xb),
+                         cs_number_most(piece->xa, piece->xb), piece->by_twice, x);
 }
 
 /* The lines of live members [first, end), which are of one layer, and the area right of them in the

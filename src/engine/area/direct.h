@@ -85,27 +85,23 @@ static inline void cs_direct_add(cs_sum4 *change, int32_t from, cs_direct_piece 
                                  const cs_sum4 *step) {
   const int32_t first = piece.first, end = piece.end;
   const double xa = piece.xa, xb = piece.xb, height = piece.height;
-  const double thin = 0x1p-100; /* least width: that of an upright piece would divide by 0 */
   double low = cs_number_least(xa, xb), high = cs_number_most(xa, xb);
-  double by_twice = 0.5 / cs_number_most(high - low, thin), before = 0;
+  double by_twice = cs_cover_by_twice(low, high), before = 0;
   change += first - from;
   if (end - first <= 2 && low >= first && high <= end) { /* nearly all pieces */
-    double split = first + 1, until = cs_number_least(high, split) - low;
-    double beyond = cs_number_most(high - split, 0), short_of = cs_number_most(split - high, 0);
-    double area = cs_edges_round(height * (until * until * by_twice + short_of));
-    double rest = cs_edges_round(height * (1 - beyond * beyond * by_twice));
+    double split = first + 1, most = cs_number_most(high, split);
+    double area = cs_cover_round(height * cs_cover_passed(low, high, by_twice, split));
+    double rest = cs_cover_round(height * cs_cover_last(most, split, by_twice));
     change[0] += *step * area;
     change[1] += *step * (rest - area);
     change[2] += *step * (height - rest);
     return;
   }
-  double passed = cs_number_most(cs_number_least(first, high) - low, 0);
-  double sum = passed * passed * by_twice + cs_number_most(first - high, 0);
+  double sum = cs_cover_passed(low, high, by_twice, first);
   for (int32_t p = first; p < end; p++) {
     double last = sum;
-    passed = cs_number_most(cs_number_least(p + 1, high) - low, 0);
-    sum = passed * passed * by_twice + cs_number_most(p + 1 - high, 0);
-    double area = cs_edges_round(height * (sum - last));
+    sum = cs_cover_passed(low, high, by_twice, p + 1);
+    double area = cs_cover_round(height * (sum - last));
     *change++ += *step * (area - before);
     before = area;
   }

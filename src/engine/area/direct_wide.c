@@ -143,7 +143,7 @@ static void add_pieces(cs_sum4 *change, int32_t from, const cs_direct_edges *s, 
   const cs_bend *bend = s->edges->is_bent[i] ? cs_active_bend(active, i) : NULL;
   double passed = 0; /* of the row's height */
   for (cs_pieces p = cs_pieces_of(active, i, bend); cs_pieces_next(&p);) {
-    double reached = p.rest > 0 ? cs_edges_round(p.below.y - active->y) : 1;
+    double reached = p.rest > 0 ? cs_cover_round(p.below.y - active->y) : 1;
     add_piece(change, from, p.above, p.below, reached - passed, s->width, step);
     passed = reached;
   }

@@ -52,16 +52,15 @@ static celspan_status make_room(celspan_context *context, cs_edges *edges, size_
 static void add_piece(double *area, double *rest, celspan_point above, celspan_point below,
                       double height, double split) {
   double low = above.x < below.x ? above.x : below.x, high = above.x < below.x ? below.x : above.x;
-  double middle = 0.5 * (low + high);
   if (high <= split) {
-    *area += cs_edges_round(height * (split - middle));
+    *area += cs_cover_round(height * cs_cover_within(low, high, split));
     *rest += height;
   } else if (low >= split) {
-    *rest += cs_edges_round(height * (split + 1 - middle));
+    *rest += cs_cover_round(height * cs_cover_within(low, high, split + 1));
   } else {
     double by_twice = 0.5 / (high - low);
-    *area += cs_edges_round(height * ((split - low) * (split - low) * by_twice));
-    *rest += cs_edges_round(height * (1 - (high - split) * (high - split) * by_twice));
+    *area += cs_cover_round(height * cs_cover_first(low, split, by_twice));
+    *rest += cs_cover_round(height * cs_cover_last(high, split, by_twice));
   }
 }
 
@@ -70,7 +69,7 @@ static void measure_pieces(cs_edges *edges, const cs_active *active, const cs_be
   size_t i = bend->boundary;
   double area = 0, rest = 0, split = edges->first[i] + 1, passed = 0;
   for (cs_pieces p = cs_pieces_of(active, i, bend); cs_pieces_next(&p);) {
-    double reached = cs_edges_round(p.below.y - active->y);
+    double reached = cs_cover_round(p.below.y - active->y);
     add_piece(&area, &rest, p.above, p.below, reached - passed, split);
     passed = reached;
   }

@@ -13,15 +13,15 @@
  *      first   second  last
  *
  * Invariants: the values are the same whichever instructions compute them. Areas are multiples of
- * 2^-28 (see window.h) of a whole row's height. They are given where the boundary crosses at most
+ * 2^-28 (cover.h) of a whole row's height. They are given where the boundary crosses at most
  * two columns, or is straight and stays in the frame; `end` of one that leaves the frame sideways
  * is at least first + 3, or first when it does not enter it.
  */
 #pragma once
 
-#include "base/number.h"
 #include "base/wide.h"
 #include "engine/sweep/active.h"
+#include "model/geometry/cover.h"
 
 typedef struct cs_edges {
   cs_isa isa;           /* the instructions that straight boundaries are measured with */
@@ -57,26 +57,4 @@ static inline int32_t cs_edges_floor(double x, int32_t width) {
 static inline int32_t cs_edges_ceil(double x, int32_t width) {
   int32_t column = cs_edges_floor(x, width);
   return column + (column < x && column < width);
-}
-
-/* To the nearest multiple of 2^-28, for |x| < 2^22: sums of such numbers are exact. */
-static inline double cs_edges_round(double x) {
-  const double bias = 0x1.8p24;
-  return (x + bias) - bias;
-}
-
-/* The integral up to x of the share of a piece's height at which the piece is left of that x. */
-static inline double cs_edges_passed(double low, double high, double x) {
-  return x <= low    ? 0
-         : x >= high ? (x - high) + 0.5 * (high - low)
-                     : (x - low) * (x - low) / (2 * (high - low));
-}
-
-/* The area right of a straight piece from xa to xb in the pixel of column p, 0..height. */
-static inline double cs_edges_cover(double xa, double xb, double height, int32_t p) {
-  double low = xa < xb ? xa : xb, high = xa < xb ? xb : xa;
-  if (low == high)
-    return cs_edges_round(height * cs_number_clamp(p + 1 - low, 0, 1));
-  return cs_edges_round(height *
-                        (cs_edges_passed(low, high, p + 1) - cs_edges_passed(low, high, p)));
 }

@@ -71,13 +71,13 @@ static inline cs_direct_piece measure(const cs_window *window, const cs_border *
     end = end > first ? end : first;
   }
   return (cs_direct_piece){
-      xa, xb, cs_edges_round(border->line.yb - top) - cs_edges_round(border->line.ya - top), first,
+      xa, xb, cs_cover_round(border->line.yb - top) - cs_cover_round(border->line.ya - top), first,
       end};
 }
 
 /* The area right of a border in the pixel of column p, 0..height. */
 static inline double cover(const cs_direct_piece *f, int32_t p) {
-  return cs_edges_cover(f->xa, f->xb, f->height, p);
+  return cs_cover_of(f->xa, f->xb, f->height, p);
 }
 
 /* ---------------------------------------------------------------- stretches

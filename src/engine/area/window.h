@@ -15,9 +15,6 @@
  * Between windows a row is whole cells. So coverage is never used as alpha, and abutting shapes
  * cannot leak.
  *
- * Areas are rounded to multiples of 2^-28 such that the parts of a whole pixel sum to it exactly:
- * a pixel that abutting black shapes cover together is black, not nearly so.
- *
  * Invariants: a window's pixels are summed from its own borders only, starting from the exact
  * colour of the cell on its left; windows and cells tile [0, width). Items (lone boundaries or
  * local sweeps) come from left to right. Between windows `change` is all 0.

@@ -2,6 +2,7 @@
 
 #include "base/sort.h"
 #include "engine/map/near.h"
+#include "model/geometry/cover.h"
 
 void cs_map_exact_finish(cs_map_exact *exact, cs_memory *memory) {
   cs_mem_free(memory, exact->lines, exact->line_capacity * sizeof *exact->lines);
@@ -12,11 +13,6 @@ void cs_map_exact_finish(cs_map_exact *exact, cs_memory *memory) {
 
 /* ---------------------------------------------------------------- lines */
 
-static inline double x_at(const cs_map_line *line, double y) {
-  double height = line->yb - line->ya;
-  return line->xa + (line->xb - line->xa) * ((y - line->ya) / height);
-}
-
 static celspan_status append(celspan_context *context, cs_map_exact *exact,
                              const cs_map_line *line) {
   return CS_APPEND(context, exact->lines, exact->line_count, exact->line_capacity, *line);
@@ -25,15 +21,16 @@ static celspan_status append(celspan_context *context, cs_map_exact *exact,
 static celspan_status add_piece(celspan_context *context, cs_map_exact *exact,
                                 const cs_map_line *line, double ya, double yb) {
   cs_map_line piece = *line;
-  piece.xa = ya > line->ya ? x_at(line, ya) : line->xa;
-  piece.xb = yb < line->yb ? x_at(line, yb) : line->xb;
-  piece.ya = ya;
-  piece.yb = yb;
-  double middle = 0.5 * (piece.xa + piece.xb);
+  const cs_segment *at = &line->at;
+  piece.at.xa = ya > at->ya ? cs_segment_x(at, ya) : at->xa;
+  piece.at.xb = yb < at->yb ? cs_segment_x(at, yb) : at->xb;
+  piece.at.ya = ya;
+  piece.at.yb = yb;
+  double middle = 0.5 * (piece.at.xa + piece.at.xb);
   if (!(yb > ya) || middle >= 1)
     return CELSPAN_OK;
   if (middle <= 0)
-    piece.xa = piece.xb = 0;
+    piece.at.xa = piece.at.xb = 0;
   return append(context, exact, &piece);
 }
 
@@ -41,12 +38,13 @@ static celspan_status add_piece(celspan_context *context, cs_map_exact *exact,
  * what is left of it is moved to its left edge. */
 static celspan_status add_line(celspan_context *context, cs_map_exact *exact,
                                const cs_map_line *line) {
-  double cuts[4] = {line->ya, line->yb, line->yb, line->yb}, across = line->xb - line->xa;
-  if (line->xa > 0 && line->xb > 0 && line->xa < 1 && line->xb < 1)
+  const cs_segment *at = &line->at;
+  double cuts[4] = {at->ya, at->yb, at->yb, at->yb}, across = at->xb - at->xa;
+  if (at->xa > 0 && at->xb > 0 && at->xa < 1 && at->xb < 1)
     return append(context, exact, line);
   for (int side = 0; side < 2 && across != 0; side++) {
-    double y = line->ya + (line->yb - line->ya) * ((side - line->xa) / across);
-    if (y > line->ya && y < line->yb)
+    double y = at->ya + (at->yb - at->ya) * ((side - at->xa) / across);
+    if (y > at->ya && y < at->yb)
       cuts[1 + side] = y;
   }
   if (cuts[1] > cuts[2]) {
@@ -67,17 +65,16 @@ typedef struct spot {
 
 /* Makes a line that of two places, as far as it is in the row, from the pixel's corner; false: it
  * does not count. */
-static bool cut_to_row(cs_map_line *line, cs_map_point above, cs_map_point below, const spot *at) {
+static bool cut_to_row(cs_segment *line, cs_map_point above, cs_map_point below, const spot *at) {
   const double unit = 1.0 / CS_MAP_UNIT;
   if (below.y <= at->top || below.y == above.y || (above.x < at->left && below.x < at->left) ||
       (above.x >= at->right && below.x >= at->right))
     return false;
-  const cs_map_line whole = {
-      .xa = above.x * unit, .ya = above.y * unit, .xb = below.x * unit, .yb = below.y * unit};
+  const cs_segment whole = {above.x * unit, above.y * unit, below.x * unit, below.y * unit};
   double top = whole.ya > at->row ? whole.ya : at->row;
   double foot = whole.yb < at->row + 1 ? whole.yb : at->row + 1;
-  double xa = top > whole.ya ? x_at(&whole, top) : whole.xa;
-  double xb = foot < whole.yb ? x_at(&whole, foot) : whole.xb;
+  double xa = top > whole.ya ? cs_segment_x(&whole, top) : whole.xa;
+  double xb = foot < whole.yb ? cs_segment_x(&whole, foot) : whole.xb;
   line->xa = xa - at->column;
   line->xb = xb - at->column;
   line->ya = top - at->row;
@@ -111,7 +108,7 @@ static celspan_status add_border(celspan_context *context, cs_map_exact *exact,
   cs_map_line line = {.sheet = index};
   bool has_step = false;
   for (uint32_t k = live->at; k + 1 < live->end && places[k].y < at->foot; k++) {
-    if (!cut_to_row(&line, places[k], places[k + 1], at))
+    if (!cut_to_row(&line.at, places[k], places[k + 1], at))
       continue;
     if (!has_step)
       CS_TRY(find_step(exact, rows, live, at, &line));
@@ -144,23 +141,24 @@ celspan_status cs_map_exact_add(celspan_context *context, cs_map_exact *exact, c
 /* ---------------------------------------------------------------- two drawings */
 
 /* What a pixel has right of a line. */
-static double area_of(const cs_map_line *line) {
-  return (line->yb - line->ya) * (1 - 0.5 * (line->xa + line->xb));
+static double area_of(const cs_segment *line) {
+  return (line->yb - line->ya) * cs_cover_within(line->xa, line->xb, 1);
 }
 
 /* What it has right of both of two lines. */
-static double overlap_of(const cs_map_line *k, const cs_map_line *l) {
+static double overlap_of(const cs_segment *k, const cs_segment *l) {
   double top = k->ya > l->ya ? k->ya : l->ya, foot = k->yb < l->yb ? k->yb : l->yb;
   double height = foot - top;
   if (!(height > 0))
     return 0;
-  double ka = x_at(k, top), kb = x_at(k, foot), la = x_at(l, top), lb = x_at(l, foot);
+  double ka = cs_segment_x(k, top), kb = cs_segment_x(k, foot);
+  double la = cs_segment_x(l, top), lb = cs_segment_x(l, foot);
   double above = ka - la, below = kb - lb;
   double a = above > 0 ? ka : la, b = below > 0 ? kb : lb; /* the ends on the right */
   if ((above >= 0) == (below >= 0))
-    return height * (1 - 0.5 * (a + b));
+    return height * cs_cover_within(a, b, 1);
   double part = above / (above - below), x = ka + part * (kb - ka); /* where they cross */
-  return height * (1 - 0.5 * (part * (a + x) + (1 - part) * (x + b)));
+  return height * cs_cover_within(part * (a + x), (1 - part) * (x + b), 1);
 }
 
 /* How what the near drawing lets through and what the far one shows and lets through change
@@ -176,10 +174,10 @@ static change even_change(const cs_map_exact *exact, uint32_t near) {
     const cs_map_line *k = &exact->lines[i];
     if (k->sheet != near || k->step[3] == 0)
       continue;
-    double area = area_of(k);
+    double area = area_of(&k->at);
     for (size_t j = 0; j < exact->line_count; j++) {
       const cs_map_line *l = &exact->lines[j];
-      double both = l->sheet != near ? overlap_of(k, l) - area * area_of(l) : 0;
+      double both = l->sheet != near ? overlap_of(&k->at, &l->at) - area * area_of(&l->at) : 0;
       sum = cs_v4d_add(sum, cs_v4d_scale(both * (double)k->step[3], cs_v4_wide(l->step)));
     }
   }
@@ -192,12 +190,12 @@ static change coloured_change(const cs_map_exact *exact, uint32_t near) {
   cs_v4d colour = {{0, 0}, {0, 0}}, through = colour;
   for (size_t i = 0; i < exact->line_count; i++) {
     const cs_map_line *k = &exact->lines[i];
-    double area = area_of(k);
+    double area = area_of(&k->at);
     for (size_t j = 0; k->sheet == near && j < exact->line_count; j++) {
       const cs_map_line *l = &exact->lines[j];
       if (l->sheet == near)
         continue;
-      double both = overlap_of(k, l) - area * area_of(l);
+      double both = overlap_of(&k->at, &l->at) - area * area_of(&l->at);
       colour = cs_v4d_add(colour, cs_v4d_scale(both, cs_v4_wide(k->through * l->step)));
       through = cs_v4d_add(through, cs_v4d_scale(both, cs_v4_wide(k->through * l->through)));
     }
@@ -239,11 +237,12 @@ static inline bool is_higher(const double *a, const double *b) { return *a < *b;
 CS_SORT_DEFINE(sort_heights, double, is_higher)
 
 /* The height at which two lines cross; one of them at its top where they do not. */
-static double crossing_of(const cs_map_line *a, const cs_map_line *b) {
+static double crossing_of(const cs_segment *a, const cs_segment *b) {
   double top = a->ya > b->ya ? a->ya : b->ya, foot = a->yb < b->yb ? a->yb : b->yb;
   if (!(foot > top))
     return a->ya;
-  double above = x_at(a, top) - x_at(b, top), below = x_at(a, foot) - x_at(b, foot);
+  double above = cs_segment_x(a, top) - cs_segment_x(b, top);
+  double below = cs_segment_x(a, foot) - cs_segment_x(b, foot);
   if (!((above < 0 && below > 0) || (above > 0 && below < 0)))
     return a->ya;
   return top + (foot - top) * (above / (above - below));
@@ -257,11 +256,11 @@ static void find_heights(cs_map_exact *exact) {
   heights[count++] = 1;
   for (size_t i = 0; i < exact->line_count; i++) {
     const cs_map_line *a = &exact->lines[i];
-    heights[count++] = a->ya;
-    heights[count++] = a->yb;
+    heights[count++] = a->at.ya;
+    heights[count++] = a->at.yb;
     for (size_t j = 0; j < i; j++)
       if (exact->lines[j].sheet != a->sheet)
-        heights[count++] = crossing_of(a, &exact->lines[j]);
+        heights[count++] = crossing_of(&a->at, &exact->lines[j].at);
   }
   sort_heights(heights, count);
   exact->height_count = count;
@@ -280,11 +279,11 @@ static size_t list_lines(cs_map_exact *exact, double y) {
   size_t count = 0;
   for (size_t i = 0; i < exact->line_count; i++) {
     cs_map_line *line = &exact->lines[i];
-    if (line->ya > y || line->yb <= y)
+    if (line->at.ya > y || line->at.yb <= y)
       continue;
-    double x = x_at(line, y);
+    double x = cs_segment_x(&line->at, y);
     size_t place = count++;
-    for (; place > 0 && x_at(exact->order[place - 1], y) > x; place--)
+    for (; place > 0 && cs_segment_x(&exact->order[place - 1]->at, y) > x; place--)
       exact->order[place] = exact->order[place - 1];
     exact->order[place] = line;
   }
@@ -315,7 +314,7 @@ static cs_v4d mean_at(cs_map_exact *exact, const cs_map_frame *frame, const cs_m
   for (size_t i = 0; i < count; i++)
     shown[i] = at_left[i];
   for (size_t k = 0; k <= lines; k++) {
-    double next = k < lines ? x_at(exact->order[k], y) : 1;
+    double next = k < lines ? cs_segment_x(&exact->order[k]->at, y) : 1;
     next = next < 1 ? next : 1;
     if (next > x) {
       cs_v4 colour = fold(frame, shown, count);

@@ -22,12 +22,13 @@
 
 #include "engine/map/brush.h"
 #include "engine/map/sheets.h"
+#include "model/geometry/segment.h"
 
 #define CS_MAP_EXACT_LINES 48
 
-/* A piece of a border in the pixel: x and y from its upper left corner. */
+/* What changes at a piece of a border in the pixel: x and y from its upper left corner. */
 typedef struct cs_map_line {
-  double xa, ya, xb, yb;
+  cs_segment at;
   cs_v4 step;     /* right less left */
   cs_v4 through;  /* the same of what is let through */
   uint32_t sheet; /* of the list */
