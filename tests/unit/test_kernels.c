@@ -1,8 +1,10 @@
-/* Filter kernels on rows of spans: edges against closed forms, light, constants, strips, margins.
+/* Filter kernels on rows of spans: edges against closed forms, light, constants, strips, margins;
+ * and the retained rows that they read.
  */
 #include <stdlib.h>
 
 #include "base/elementary.h"
+#include "engine/kernel/retained.h"
 #include "engine/span/row.h"
 #include "tests/support/frame_rows.h"
 #include "tests/support/random.h"
@@ -375,7 +377,47 @@ static void check_door(void) {
   celspan_context_destroy(context);
 }
 
+/* Retained rows have cells of their own, each once where neighbours share it. */
+static void check_retained(void) {
+  enum { EDGES = 40, VARYING = 7 };
+  celspan_context *context;
+  CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
+  cs_layer layers[2] = {0};
+  const cs_stack stack = {.layers = layers, .layer_count = 2};
+  cs_item items[3] = {{0, 0}, {1, 0}, {0, 0}};
+  const cs_composer composer = {.context = context, .stack = &stack, .items = items};
+  cs_cell sides[2 * EDGES]; /* of each edge: copies at places of their own, as a row has them */
+  cs_retained_row row = {0};
+  cs_retained_begin(&row, 3, cs_v4_all(0));
+  for (int i = 0; i < 2 * EDGES; i++) {
+    int cell = (i + 1) / 2;
+    sides[i] = cell % VARYING == 1 ? (cs_cell){cs_v4_all(9), {1, 1}, 1, 2}
+                                   : (cs_cell){cs_v4_all((float)cell), {2, 2}, 0, 0};
+    const cs_border edge = {{cell, 3, cell, 4}, &sides[i - i % 2], &sides[i]};
+    if (i % 2 == 1)
+      CHECK(cs_retained_add(&row, context, &edge) == CELSPAN_OK);
+  }
+  CHECK(cs_retained_seal(&row, &composer) == CELSPAN_OK && row.is_sealed);
+  memset(items, 0, sizeof items);
+  memset(sides, 0, sizeof sides);
+  CHECK(row.edge_count == EDGES && row.cell_count == EDGES + 1);
+  for (size_t i = 0; i < EDGES; i++) {
+    const cs_border *edge = &row.edges[i];
+    CHECK(cs_retained_number(&row, edge->left) == i && edge->right == edge->left + 1);
+    if (i % VARYING != 1) {
+      CHECK(edge->left->length == 0 && edge->left->colour[0] == (float)i);
+      continue;
+    }
+    const cs_program program = cs_retained_program(&row, edge->left);
+    CHECK(program.length == 2 && program.items[0].layer == 1 && program.items[1].layer == 0);
+    CHECK(edge->left->colour[0] == 0);
+  }
+  cs_retained_finish(&row, context->memory);
+  celspan_context_destroy(context);
+}
+
 int main(void) {
+  check_retained();
   check_edges();
   check_edge_beside_centre();
   check_slanted();
