@@ -1,4 +1,4 @@
-/* Lists of borders: freed, and brought into the order in which rows need them. */
+/* Lists of borders: measured, freed, and brought into the order in which rows need them. */
 #include "base/keys.h"
 #include "engine/map/map.h"
 
@@ -6,6 +6,23 @@ void cs_map_lines_finish(cs_map_lines *lines, cs_memory *memory) {
   cs_mem_free(memory, lines->borders, lines->border_capacity * sizeof *lines->borders);
   cs_mem_free(memory, lines->points, lines->point_capacity * sizeof *lines->points);
   *lines = (cs_map_lines){0};
+}
+
+cs_map_border cs_map_lines_border(const cs_map_lines *lines, size_t first, uint32_t left,
+                                  uint32_t right) {
+  cs_map_border border = {.left = left,
+                          .right = right,
+                          .first = (uint32_t)first,
+                          .count = (uint32_t)(lines->point_count - first),
+                          .low = INT32_MAX,
+                          .high = INT32_MIN,
+                          .foot = lines->points[lines->point_count - 1].y};
+  for (size_t k = first; k < lines->point_count; k++) {
+    int32_t x = lines->points[k].x;
+    border.low = x < border.low ? x : border.low;
+    border.high = x > border.high ? x : border.high;
+  }
+  return border;
 }
 
 static celspan_status sort(celspan_context *context, cs_map_lines *lines, uint64_t *keys) {

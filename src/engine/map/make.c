@@ -124,12 +124,8 @@ static celspan_status find_shown(maker *m) {
 
 /* ---------------------------------------------------------------- borders */
 
-static void add_point(cs_map_lines *lines, cs_map_border *border, int32_t x, int32_t y) {
+static void add_point(cs_map_lines *lines, int32_t x, int32_t y) {
   lines->points[lines->point_count++] = (cs_map_point){x, y};
-  border->count++;
-  border->low = x < border->low ? x : border->low;
-  border->high = x > border->high ? x : border->high;
-  border->foot = y;
 }
 
 static int32_t unit_at(const cs_course_point *from, int32_t y) {
@@ -141,18 +137,15 @@ static celspan_status add_border(maker *m, const cs_events_part *f) {
   cs_map_lines *lines = &m->map->lines;
   const cs_course *course = &m->events.courses.courses[f->course];
   const cs_course_point *p = m->events.courses.points + course->first;
-  cs_map_border border = {.left = f->left,
-                          .right = f->right,
-                          .first = (uint32_t)lines->point_count,
-                          .low = INT32_MAX,
-                          .high = INT32_MIN};
+  size_t first = lines->point_count;
   CS_TRY(CS_RESERVE(m->context, lines->points, lines->point_capacity,
                     lines->point_count + course->count));
   while (p[1].y <= f->top)
     p++;
-  for (add_point(lines, &border, unit_at(p, f->top), f->top); p[1].y < f->foot; p++)
-    add_point(lines, &border, p[1].x, p[1].y);
-  add_point(lines, &border, unit_at(p, f->foot), f->foot);
+  for (add_point(lines, unit_at(p, f->top), f->top); p[1].y < f->foot; p++)
+    add_point(lines, p[1].x, p[1].y);
+  add_point(lines, unit_at(p, f->foot), f->foot);
+  const cs_map_border border = cs_map_lines_border(lines, first, f->left, f->right);
   return CS_APPEND(m->context, lines->borders, lines->border_count, lines->border_capacity, border);
 }
 

@@ -83,6 +83,9 @@ typedef struct cs_map {
 } cs_map;
 
 void cs_map_lines_finish(cs_map_lines *lines, cs_memory *memory);
+/* The border whose points are the last ones, from `first` on; it is not added to the list. */
+cs_map_border cs_map_lines_border(const cs_map_lines *lines, size_t first, uint32_t left,
+                                  uint32_t right);
 /* Brings the borders into their order. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_map_lines_sort(celspan_context *context, cs_map_lines *lines);
 

@@ -49,20 +49,17 @@ static celspan_status add_border(cs_map_swept *swept, const cs_border *edge) {
   celspan_context *context = swept->maker.context;
   cs_map_lines *lines = &swept->map.lines;
   const cs_segment *line = &edge->line;
-  const cs_map_point above = {round_to_unit(line->xa), round_to_unit(line->ya)};
-  const cs_map_point below = {round_to_unit(line->xb), round_to_unit(line->yb)};
-  const cs_map_border border = {swept->numbers[cs_retained_number(&swept->retained, edge->left)],
-                                swept->numbers[cs_retained_number(&swept->retained, edge->right)],
-                                (uint32_t)lines->point_count,
-                                2,
-                                above.x < below.x ? above.x : below.x,
-                                above.x < below.x ? below.x : above.x,
-                                below.y};
-  if (border.left == border.right || above.y >= below.y)
+  const cs_map_point ends[2] = {{round_to_unit(line->xa), round_to_unit(line->ya)},
+                                {round_to_unit(line->xb), round_to_unit(line->yb)}};
+  uint32_t left = swept->numbers[cs_retained_number(&swept->retained, edge->left)];
+  uint32_t right = swept->numbers[cs_retained_number(&swept->retained, edge->right)];
+  size_t first = lines->point_count;
+  if (left == right || ends[0].y >= ends[1].y)
     return CELSPAN_OK;
-  CS_TRY(CS_RESERVE(context, lines->points, lines->point_capacity, lines->point_count + 2));
-  lines->points[lines->point_count++] = above;
-  lines->points[lines->point_count++] = below;
+  CS_TRY(CS_RESERVE(context, lines->points, lines->point_capacity, first + 2));
+  memcpy(lines->points + first, ends, sizeof ends);
+  lines->point_count += 2;
+  const cs_map_border border = cs_map_lines_border(lines, first, left, right);
   return CS_APPEND(context, lines->borders, lines->border_count, lines->border_capacity, border);
 }
 

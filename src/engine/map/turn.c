@@ -32,39 +32,29 @@ static celspan_status add_point(turner *t, cs_map_point point) {
   return CS_APPEND(t->context, out->points, out->point_count, out->point_capacity, point);
 }
 
-static celspan_status begin_part(turner *t, cs_map_point point, cs_map_border *part) {
-  *part = (cs_map_border){.first = (uint32_t)t->out->point_count};
-  return add_point(t, point);
-}
-
-/* Ends a part that goes up or down; those beyond the frame are dropped. */
-static celspan_status end_part(turner *t, const course *c, bool goes_up, cs_map_border part) {
+/* Ends a part that goes up or down, of the points from `first` on; those beyond the frame are
+ * dropped. */
+static celspan_status end_part(turner *t, const course *c, bool goes_up, size_t first) {
   cs_map_lines *out = t->out;
-  cs_map_point *points = out->points + part.first;
-  part.count = (uint32_t)out->point_count - part.first;
-  part.low = INT32_MAX;
-  part.high = INT32_MIN;
-  for (uint32_t k = 0; goes_up && k < part.count / 2; k++) {
+  cs_map_point *points = out->points + first;
+  size_t count = out->point_count - first;
+  for (size_t k = 0; goes_up && k < count / 2; k++) {
     cs_map_point point = points[k];
-    points[k] = points[part.count - 1 - k];
-    points[part.count - 1 - k] = point;
+    points[k] = points[count - 1 - k];
+    points[count - 1 - k] = point;
   }
-  for (uint32_t k = 0; k < part.count; k++) {
-    part.low = points[k].x < part.low ? points[k].x : part.low;
-    part.high = points[k].x > part.high ? points[k].x : part.high;
-  }
-  part.foot = points[part.count - 1].y;
-  part.left = goes_up == t->is_mirrored ? c->left : c->right;
-  part.right = goes_up == t->is_mirrored ? c->right : c->left;
+  bool is_same = goes_up == t->is_mirrored;
+  const cs_map_border part =
+      cs_map_lines_border(out, first, is_same ? c->left : c->right, is_same ? c->right : c->left);
   if (part.foot <= 0 || points[0].y >= t->end[1] || part.low >= t->end[0]) {
-    out->point_count = part.first;
+    out->point_count = first;
     return CELSPAN_OK;
   }
   return CS_APPEND(t->context, out->borders, out->border_count, out->border_capacity, part);
 }
 
 static celspan_status add_course(turner *t, const course *c) {
-  cs_map_border part;
+  size_t first = 0;  /* point of the part */
   int direction = 0; /* of the part; 0: none has begun */
   cs_map_point last = place(t, c->points[0]);
   for (uint32_t k = 1; k < c->count; k++) {
@@ -72,15 +62,16 @@ static celspan_status add_course(turner *t, const course *c) {
     int way = (next.y > last.y) - (next.y < last.y);
     if (way != 0 && way != direction) {
       if (direction != 0)
-        CS_TRY(end_part(t, c, direction < 0, part));
-      CS_TRY(begin_part(t, last, &part));
+        CS_TRY(end_part(t, c, direction < 0, first));
+      first = t->out->point_count;
+      CS_TRY(add_point(t, last));
       direction = way;
     }
     if (direction != 0)
       CS_TRY(add_point(t, next));
     last = next;
   }
-  return direction != 0 ? end_part(t, c, direction < 0, part) : CELSPAN_OK;
+  return direction != 0 ? end_part(t, c, direction < 0, first) : CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- all lines */
