@@ -53,6 +53,8 @@ static intersection pop(sweep *s) {
 
 /* Compares a course with its right neighbour from a height on. */
 static celspan_status compare_ahead(sweep *s, uint32_t course, int32_t y) {
+  if (!cs_order_may_meet(&s->order, course))
+    return CELSPAN_OK;
   int32_t height = cs_order_ahead(&s->order, course, y);
   if (height == CS_ORDER_NEVER)
     return CELSPAN_OK;
@@ -395,6 +397,7 @@ celspan_status cs_events_find(celspan_context *context, const cs_boundary_set *s
       cs_courses_make(context, set, rows.height, top, last, cull->deferred_count, &out->courses));
   CS_TRY(cs_bundles_make(context, cull, &out->courses, &out->bundles));
   CS_TRY(cs_windings_init(context, &out->windings));
+  CS_TRY(CS_RESERVE(context, out->parts, out->part_capacity, 2 * out->courses.course_count));
   celspan_status status = list_ends(&s);
   if (status == CELSPAN_OK)
     status = cs_order_init(context, &out->courses, &s.order);

@@ -76,7 +76,7 @@ static inline bool is_beside(const cs_course_point *p, const cs_course_point *q)
 int32_t cs_order_ahead(const cs_order *order, uint32_t course, int32_t y) {
   cs_order_entry *a = &order->entries[course], *b = &order->entries[a->next];
   int32_t limit = lesser(order->foot, lesser(a->foot, b->foot));
-  if (course == order->ends || a->next == order->ends || a->high <= b->low || y >= limit)
+  if (y >= limit)
     return CS_ORDER_NEVER;
   const cs_course_point *p = a->at = segment_below(a->at, y);
   const cs_course_point *q = b->at = segment_below(b->at, y);
@@ -92,8 +92,10 @@ int32_t cs_order_ahead(const cs_order *order, uint32_t course, int32_t y) {
     }
     if (foot == limit)
       return CS_ORDER_NEVER;
-    p = segment_below(p, foot);
-    q = segment_below(q, foot);
+    if (p[1].y == foot)
+      p = segment_below(p + 1, foot);
+    if (q[1].y == foot)
+      q = segment_below(q + 1, foot);
   }
 }
 

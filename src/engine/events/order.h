@@ -72,7 +72,14 @@ CELSPAN_CHECKED celspan_status cs_order_enter(celspan_context *context, cs_order
 void cs_order_leave(cs_order *order, uint32_t course);
 /* A course and the next one change places. */
 void cs_order_swap(cs_order *order, uint32_t course);
-/* The height, from y on, at which a course must change places with the next one;
+/* Whether a course has a next one that it may meet in this belt. */
+static inline bool cs_order_may_meet(const cs_order *order, uint32_t course) {
+  const cs_order_entry *entry = &order->entries[course];
+  return course != order->ends && entry->next != order->ends &&
+         entry->high > order->entries[entry->next].low;
+}
+
+/* The height, from y on, at which a course must change places with the next one, which it may meet;
  * NEVER: it need not in this belt. */
 int32_t cs_order_ahead(const cs_order *order, uint32_t course, int32_t y);
 /* x of a course that crosses a height, or of its last point. */
