@@ -191,21 +191,6 @@ static celspan_status walk_alone(row_walk *w, size_t end, double next) {
 
 /* ---------------------------------------------------------------- intervals */
 
-static void add_extent(const cs_member *members, size_t count, cs_extent *extent) {
-  for (size_t j = 0; j < count; j++)
-    for (uint32_t k = 0; k < members[j].point_count; k++)
-      cs_extent_add(extent, members[j].points[k].x);
-}
-
-/* How far the members of the sweep extend in the frame. */
-static cs_extent find_extent(const cs_area *area) {
-  const cs_local_sweep *sweep = &area->sweep;
-  cs_extent extent = cs_extent_nowhere();
-  add_extent(sweep->entering, sweep->count, &extent);
-  add_extent(sweep->begins, sweep->begin_count, &extent);
-  return (cs_extent){fmin(extent.low, area->tools.width), fmax(extent.high, 0)};
-}
-
 /* Brings the composer to the left of an interval, and the target to its least x. */
 static celspan_status begin_item(cs_area *area, const cs_cell *left, size_t low, double least) {
   cs_local_sweep *sweep = &area->sweep;
@@ -236,42 +221,40 @@ static double next_after(const row_walk *w, const cs_interval *interval) {
                                                                 : next;
 }
 
-static celspan_status walk_crowd(row_walk *w, const cs_interval *interval) {
-  cs_area *area = w->area;
-  const cs_cell *right = &w->cells[interval->high];
-  CS_TRY(begin_item(area, &w->cells[interval->low], interval->low, interval->extent.low));
-  CS_TRY(cs_crowd_draw(&area->crowd, &area->sweep, w->intervals, interval, next_after(w, interval),
-                       right));
-  cs_window_end_item(&area->target.window, right);
-  return CELSPAN_OK;
-}
-
-/* Replays an interval. */
-static celspan_status walk_interval(row_walk *w, const cs_interval *interval) {
-  cs_area *area = w->area;
-  cs_local_sweep *sweep = &area->sweep;
+/* Gives the sweep the members of an interval. */
+static celspan_status list_members(row_walk *w, const cs_interval *interval) {
+  cs_local_sweep *sweep = &w->area->sweep;
   size_t low = interval->low, high = interval->high;
   CS_TRY(cs_intervals_pick_begins(w->intervals, interval, &sweep->begins, &sweep->begin_count));
   sweep->y0 = w->intervals->y0;
   sweep->y1 = w->intervals->y1;
-  if (interval->is_crowd)
-    return walk_crowd(w, interval);
   CS_TRY(cs_local_sweep_begin(sweep, high - low));
   for (size_t i = low; i < high; i++) {
     cs_member *member = sweep->members[i - low];
     CS_TRY(cs_intervals_member(w->intervals, i, member));
     member->right = &w->cells[i + 1];
   }
-  cs_extent extent = find_extent(area);
-  CS_TRY(begin_item(area, &w->cells[low], low, extent.low));
-  double shown = fmin(extent.high, area->tools.width) - fmax(extent.low, 0);
-  if (cs_dense_suits(sweep->count, shown)) {
-    CS_TRY(cs_dense_draw(&area->dense, sweep, &w->cells[high]));
+  return CELSPAN_OK;
+}
+
+/* Draws an interval in one of three ways. */
+static celspan_status walk_interval(row_walk *w, const cs_interval *interval) {
+  cs_area *area = w->area;
+  cs_local_sweep *sweep = &area->sweep;
+  size_t low = interval->low, high = interval->high;
+  const cs_cell *right = &w->cells[high];
+  CS_TRY(list_members(w, interval));
+  const cs_extent extent = cs_local_sweep_extent(sweep);
+  CS_TRY(begin_item(area, &w->cells[low], low, fmin(extent.low, area->tools.width)));
+  if (interval->is_crowd) {
+    CS_TRY(cs_crowd_draw(&area->crowd, sweep, extent, next_after(w, interval), right));
+  } else if (cs_dense_suits(sweep->count, cs_extent_shown(extent, area->tools.width))) {
+    CS_TRY(cs_dense_draw(&area->dense, sweep, extent, right));
   } else {
     CS_TRY(cs_local_sweep_replay(sweep));
     CS_TRY(commit_sweep(&area->commit, sweep, low, high));
   }
-  cs_window_end_item(&area->target.window, &w->cells[high]);
+  cs_window_end_item(&area->target.window, right);
   return CELSPAN_OK;
 }
 

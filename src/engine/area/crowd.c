@@ -3,7 +3,6 @@
 
 #include "base/number.h"
 #include "base/sort.h"
-#include "engine/sweep/pieces.h"
 
 #define FEW 192   /* samples where no two layers hide more than 1/16 of each other's light */
 #define MORE 1024 /* and where they hide no more than 1/4 */
@@ -87,51 +86,22 @@ static celspan_status add_piece(const drawing *d, celspan_point above, celspan_p
                                     .slope = height > 0 ? (float)(wide / height) : 0});
 }
 
-/* Adds a member whose pieces have been added from `piece` on. Until members are linked, its first
- * column is in `next`. */
-static celspan_status add_member(drawing *d, uint32_t layer, int32_t direction, size_t piece,
-                                 cs_extent extent) {
+/* Adds a member of the sweep. Until members are linked, its first column is in `next`. */
+static celspan_status add_member(const drawing *d, const cs_member *member) {
   cs_crowd *crowd = d->crowd;
-  int32_t first = cs_edges_floor(extent.low, d->width), end = cs_edges_ceil(extent.high, d->width);
-  d->first = first < d->first ? first : d->first;
-  d->end = end > d->end ? end : d->end;
+  const cs_extent extent = cs_member_extent(member);
+  const size_t piece = crowd->piece_count;
+  for (uint32_t k = 1; k < member->point_count; k++)
+    CS_TRY(add_piece(d, member->points[k - 1], member->points[k]));
   return CS_APPEND(d->context, crowd->members, crowd->member_count, crowd->member_capacity,
-                   (cs_crowd_member){.layer = layer,
+                   (cs_crowd_member){.layer = member->layer,
                                      .piece = (uint32_t)piece,
                                      .piece_count = (uint32_t)(crowd->piece_count - piece),
-                                     .next = (uint32_t)first,
-                                     .direction = direction,
-                                     .end = end,
+                                     .next = (uint32_t)cs_edges_floor(extent.low, d->width),
+                                     .direction = member->direction,
+                                     .end = cs_edges_ceil(extent.high, d->width),
                                      .top = crowd->pieces[piece].top,
                                      .foot = crowd->pieces[crowd->piece_count - 1].foot});
-}
-
-/* Adds active boundary i. */
-static celspan_status add_boundary(drawing *d, const cs_intervals *intervals, size_t i) {
-  const cs_active *active = intervals->active;
-  const cs_bend *bend = cs_active_bend(active, i);
-  size_t piece = d->crowd->piece_count;
-  cs_pieces pieces = cs_pieces_of(active, i, bend);
-  if (bend && bend->ends_above) {
-    pieces.rest = bend->vertex_count;
-    pieces.foot = active->vertices[bend->vertex + bend->vertex_count - 1];
-  }
-  while (cs_pieces_next(&pieces))
-    CS_TRY(add_piece(d, pieces.above, pieces.below));
-  return add_member(d, active->crossing[i].layer, active->crossing[i].direction, piece,
-                    (cs_extent){intervals->edges->low[i], intervals->edges->high[i]});
-}
-
-/* Adds a boundary that begins in the row. */
-static celspan_status add_begin(drawing *d, const cs_member *member) {
-  size_t piece = d->crowd->piece_count;
-  cs_extent extent = cs_extent_nowhere();
-  cs_extent_add(&extent, member->points[0].x);
-  for (uint32_t k = 1; k < member->point_count; k++) {
-    CS_TRY(add_piece(d, member->points[k - 1], member->points[k]));
-    cs_extent_add(&extent, member->points[k].x);
-  }
-  return add_member(d, member->layer, member->direction, piece, extent);
 }
 
 /* Lists the members by the column in which they enter. */
@@ -149,14 +119,11 @@ static celspan_status link_members(const drawing *d) {
   return CELSPAN_OK;
 }
 
-static celspan_status list_members(drawing *d, const cs_intervals *intervals,
-                                   const cs_interval *interval) {
+static celspan_status list_members(const drawing *d) {
   cs_crowd *crowd = d->crowd;
   crowd->piece_count = crowd->member_count = crowd->live_count = crowd->arriving_count = 0;
-  for (size_t i = interval->low; i < interval->high; i++)
-    CS_TRY(add_boundary(d, intervals, i));
-  for (size_t k = 0; k < d->sweep->begin_count; k++)
-    CS_TRY(add_begin(d, &d->sweep->begins[k]));
+  for (size_t i = 0; i < d->sweep->count + d->sweep->begin_count; i++)
+    CS_TRY(add_member(d, cs_local_sweep_member(d->sweep, i)));
   return link_members(d);
 }
 
@@ -570,8 +537,8 @@ static celspan_status make_room(const drawing *d) {
   return CELSPAN_OK;
 }
 
-celspan_status cs_crowd_draw(cs_crowd *crowd, cs_local_sweep *sweep, const cs_intervals *intervals,
-                             const cs_interval *interval, double next, const cs_cell *right) {
+celspan_status cs_crowd_draw(cs_crowd *crowd, cs_local_sweep *sweep, cs_extent extent, double next,
+                             const cs_cell *right) {
   int32_t width = sweep->target->window.width;
   drawing d = {.crowd = crowd,
                .sweep = sweep,
@@ -579,10 +546,11 @@ celspan_status cs_crowd_draw(cs_crowd *crowd, cs_local_sweep *sweep, const cs_in
                .composer = sweep->composer,
                .next = next,
                .width = width,
-               .first = width};
+               .first = cs_edges_floor(extent.low, width),
+               .end = cs_edges_ceil(extent.high, width)};
   if (!crowd->storage)
     CS_TRY(make_room(&d));
-  CS_TRY(list_members(&d, intervals, interval));
+  CS_TRY(list_members(&d));
   celspan_status status = draw_columns(&d, right);
   go_back(&d);
   return status;

@@ -117,10 +117,8 @@ void cs_crowd_finish(cs_crowd *crowd, cs_memory *memory);
 /* Whether an interval of a whole row is crowded. */
 bool cs_crowd_suits(const cs_intervals *intervals, const cs_interval *interval,
                     const cs_composer *composer, int32_t width);
-/* Draws an interval and what begins in it, which the sweep has been given with its left cell. The
- * composer is left of them all, and is there again afterwards. next: the least x of what is drawn
- * after them; right: the cell right of them all. Errors: NO_MEMORY, those of painting. */
+/* Draws the members of a sweep, and those that begin, through a whole row. The composer is left of
+ * them all, and is there again afterwards. extent: theirs; next: the least x of what is drawn after
+ * them; right: the cell right of them. Errors: NO_MEMORY, those of painting. */
 CELSPAN_CHECKED celspan_status cs_crowd_draw(cs_crowd *crowd, cs_local_sweep *sweep,
-                                             const cs_intervals *intervals,
-                                             const cs_interval *interval, double next,
-                                             const cs_cell *right);
+                                             cs_extent extent, double next, const cs_cell *right);

@@ -1,7 +1,6 @@
 #include "engine/area/dense.h"
 
 #include "base/number.h"
-#include "engine/area/extent.h"
 #include "engine/paint/colours.h"
 
 #define SUB_ROWS 64   /* in a whole row */
@@ -23,36 +22,17 @@ bool cs_dense_suits(size_t members, double extent) {
   return members >= LEAST && (double)members > CS_DENSE_A_PIXEL * (extent + 1);
 }
 
-/* The pixels of an interval, and its members: those at its top, then those that begin in it. */
+/* The pixels of an interval, and how many members it has. */
 typedef struct drawing {
   cs_dense *dense;
   cs_local_sweep *sweep;
   celspan_context *context;
   int32_t first, count; /* pixels */
-  size_t at_top, members;
+  size_t members;
   double centre; /* of the row */
 } drawing;
 
-static inline cs_member *member_of(const drawing *d, size_t i) {
-  return i < d->at_top ? &d->sweep->entering[i] : &d->sweep->begins[i - d->at_top];
-}
-
 /* ---------------------------------------------------------------- places */
-
-static void add_extent(const cs_member *member, cs_extent *extent) {
-  for (uint32_t k = 0; k < member->point_count; k++)
-    cs_extent_add(extent, member->points[k].x);
-}
-
-/* The pixels of the frame that the members reach. */
-static void find_pixels(drawing *d) {
-  int32_t width = d->sweep->target->window.width;
-  cs_extent extent = cs_extent_nowhere();
-  for (size_t i = 0; i < d->members; i++)
-    add_extent(member_of(d, i), &extent);
-  d->first = cs_edges_floor(extent.low, width);
-  d->count = cs_edges_ceil(extent.high, width) - d->first;
-}
 
 /* x of a member at a height that it goes through; heights only rise. */
 static double x_at(cs_member *member, double y) {
@@ -84,7 +64,7 @@ static void add_place(const drawing *d, sub_rows *rows, int k, size_t i, double 
  * for all of the sub-rows. */
 static void find_places(const drawing *d, sub_rows *rows) {
   for (size_t i = 0; i < d->members; i++) {
-    cs_member *member = member_of(d, i);
+    cs_member *member = cs_local_sweep_member(d->sweep, i);
     for (int k = 0; k < rows->count; k++)
       if (is_there(member, rows->y[k]))
         add_place(d, rows, k, i, x_at(member, rows->y[k]));
@@ -220,21 +200,23 @@ static celspan_status reserve(const drawing *d) {
 
 static void list_crossings(const drawing *d) {
   for (size_t i = 0; i < d->members; i++) {
-    const cs_member *member = member_of(d, i);
+    const cs_member *member = cs_local_sweep_member(d->sweep, i);
     d->dense->crossings[i] = (cs_dense_crossing){member->layer, member->span, member->direction};
   }
 }
 
-celspan_status cs_dense_draw(cs_dense *dense, cs_local_sweep *sweep, const cs_cell *right) {
+celspan_status cs_dense_draw(cs_dense *dense, cs_local_sweep *sweep, cs_extent extent,
+                             const cs_cell *right) {
+  const int32_t width = sweep->target->window.width;
   drawing d = {.dense = dense,
                .sweep = sweep,
                .context = sweep->composer->context,
-               .at_top = sweep->count,
+               .first = cs_edges_floor(extent.low, width),
                .members = sweep->count + sweep->begin_count,
                .centre = floor(sweep->y0) + 0.5};
   double height = sweep->y1 - sweep->y0;
   int all = height * SUB_ROWS > 1 ? (int)(height * SUB_ROWS) : 1; /* sub-rows */
-  find_pixels(&d);
+  d.count = cs_edges_ceil(extent.high, width) - d.first;
   CS_TRY(reserve(&d));
   if (d.count > 0) /* else nothing of them is in the frame, and there may be no room yet */
     memset(dense->sums, 0, (size_t)d.count * sizeof *dense->sums);

@@ -47,7 +47,7 @@ void cs_dense_finish(cs_dense *dense, cs_memory *memory);
  * begins in the row is not counted: it is replayed exactly, however small and regular it is. */
 bool cs_dense_suits(size_t members, double extent);
 /* Draws the members of a sweep, and those that begin, from sweep->y0 to sweep->y1. The composer is
- * left of them all, and is there again afterwards. right: the cell right of them all.
+ * left of them all, and is there again afterwards. extent: theirs; right: the cell right of them.
  * Errors: NO_MEMORY, those of painting. */
 CELSPAN_CHECKED celspan_status cs_dense_draw(cs_dense *dense, cs_local_sweep *sweep,
-                                             const cs_cell *right);
+                                             cs_extent extent, const cs_cell *right);

@@ -409,13 +409,6 @@ static void note_event(cs_intervals *b, double y, cs_extent r, uint32_t layer, i
   b->events[b->event_count++] = (cs_interval_event){y, r, layer, begin, is_end};
 }
 
-static cs_extent member_extent(const cs_member *member) {
-  cs_extent extent = cs_extent_nowhere();
-  for (uint32_t k = 0; k < member->point_count; k++)
-    cs_extent_add(&extent, member->points[k].x);
-  return extent;
-}
-
 static celspan_status find_events(cs_intervals *b) {
   const cs_active *active = b->active;
   b->events = allocate(b, 2 * b->chain_count + active->bend_count, sizeof *b->events);
@@ -423,7 +416,7 @@ static celspan_status find_events(cs_intervals *b) {
     return CELSPAN_NO_MEMORY;
   for (size_t k = 0; k < b->chain_count; k++) {
     const cs_member *member = &b->begins[k];
-    cs_extent r = member_extent(member);
+    cs_extent r = cs_member_extent(member);
     double end = member->points[member->point_count - 1].y;
     note_event(b, member->points[0].y, r, member->layer, (int32_t)k, false);
     if (end < b->y1)

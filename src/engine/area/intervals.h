@@ -22,7 +22,6 @@
 #pragma once
 
 #include "engine/area/edges.h"
-#include "engine/area/extent.h"
 #include "engine/area/local_sweep.h"
 
 /* Neighbours [low, high) that are replayed together; low == high: what begins and ends between two

@@ -32,6 +32,13 @@ celspan_status cs_local_sweep_begin(cs_local_sweep *sweep, size_t count) {
   return CELSPAN_OK;
 }
 
+cs_extent cs_local_sweep_extent(const cs_local_sweep *sweep) {
+  cs_extent extent = cs_extent_nowhere();
+  for (size_t i = 0; i < sweep->count + sweep->begin_count; i++)
+    extent = cs_extent_join(extent, cs_member_extent(cs_local_sweep_member(sweep, i)));
+  return extent;
+}
+
 /* ---------------------------------------------------------------- borders */
 
 static const cs_cell *left_of(const cs_local_sweep *sweep, size_t j) {

@@ -23,6 +23,7 @@
  */
 #pragma once
 
+#include "engine/area/extent.h"
 #include "engine/area/intersections.h"
 #include "engine/area/window.h"
 #include "engine/compose/cells.h"
@@ -72,6 +73,13 @@ typedef struct cs_member {
   const cs_cell *right;
 } cs_member;
 
+static inline cs_extent cs_member_extent(const cs_member *member) {
+  cs_extent extent = cs_extent_nowhere();
+  for (uint32_t k = 0; k < member->point_count; k++)
+    cs_extent_add(&extent, member->points[k].x);
+  return extent;
+}
+
 typedef struct cs_local_sweep {
   cs_composer *composer; /* borrowed */
   cs_arena *arena;       /* borrowed: of the row, for cells */
@@ -103,6 +111,13 @@ void cs_local_sweep_finish(cs_local_sweep *sweep, cs_memory *memory);
  * `members`, and for those that begin. y0, y1, left, begins and begin_count are given.
  * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_local_sweep_begin(cs_local_sweep *sweep, size_t count);
+/* What it has been given: `count` members at the top of the row, then those that begin. */
+static inline cs_member *cs_local_sweep_member(const cs_local_sweep *sweep, size_t i) {
+  return i < sweep->count ? &sweep->entering[i] : &sweep->begins[i - sweep->count];
+}
+
+/* How far they extend in the row. */
+cs_extent cs_local_sweep_extent(const cs_local_sweep *sweep);
 /* Draws the members through the row. The composer is left of them all, and is there again
  * afterwards. */
 CELSPAN_CHECKED celspan_status cs_local_sweep_replay(cs_local_sweep *sweep);
