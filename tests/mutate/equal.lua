@@ -22,9 +22,9 @@ return {
     { "if (composer->stack->tree_count == 0 || composer->stack->layer_count == 0)", "`||` to `&&`",
       "copies the set where no tree changes it" },
   },
-  ["src/engine/compose/over_tree.c"] = {
-    { "uint64_t changed = tree->words[i] ^ word;", "`^` to `|`",
-      "quads that did not change are looked up again, with the same result" },
+  ["src/engine/compose/over_table.c"] = {
+    { "uint64_t changed = known->joined ^ word;", "`^` to `|`",
+      "quarters that did not change are joined again, with the same result" },
   },
   ["src/engine/compose/procedures.c"] = {
     { "return a->x < b->x;", "`<` to `<=`", "the two differ, as the line above says" },

@@ -7,8 +7,8 @@
 return {
   sweep = { "unit/wide", "unit/direct", "unit/intersections", "unit/flat_rows", "unit/kernels",
     "unit/probe", "unit/light", "unit/through", "golden/golden", "unit/torture" },
-  compose = { "unit/blend", "unit/over_table", "unit/over_tree", "unit/operands",
-    "unit/procedures", "unit/probe", "spec/blend", "unit/light", "unit/through", "golden/golden",
+  compose = { "unit/blend", "unit/over_table", "unit/operands", "unit/procedures",
+    "unit/probe", "spec/blend", "unit/light", "unit/through", "golden/golden",
     "unit/torture" },
   area = { "unit/wide", "unit/direct", "unit/intersections", "unit/again", "unit/kernels",
     "unit/light", "unit/long_rows", "property/area", "golden/golden", "unit/torture" },

@@ -5,7 +5,6 @@
 #include "engine/compose/composer.h"
 
 #include "engine/compose/over_table.h"
-#include "engine/compose/over_tree.h"
 #include "tests/support/check.h"
 #include "tests/support/memory.h"
 #include "tests/support/random.h"
@@ -87,8 +86,7 @@ static void test_flats(celspan_context *context, size_t count, float through) {
   cs_composer composer;
   CHECK(cs_composer_init(&composer, context, &stack, (cs_image_opacity){none_is_opaque, NULL}) ==
         CELSPAN_OK);
-  CHECK((composer.tree != NULL) == cs_over_tree_suits(&stack));
-  CHECK((composer.table != NULL) == (!composer.tree && cs_over_table_suits(&stack)));
+  CHECK((composer.table != NULL) == cs_over_table_suits(&stack));
   for (int step = 0; step < 300; step++) {
     cs_cell cell;
     if (step % 50 == 49) {

@@ -1,29 +1,38 @@
 /* engine/compose/over_table.c: the light of a set is that of its layers composited one over the
- * other, by whatever changes the set was reached, and whatever follows the last layer that counts.
+ * other, by whatever changes the set was reached, and whatever lies behind the last layer that
+ * counts; and which stacks have a tree.
  */
 #include "engine/compose/over_table.h"
+
+#include <math.h>
 
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
-#define LEAVES 700
-#define WORDS ((LEAVES + 63) / 64)
+#define MOST (64 * CS_OVER_TABLE_WORDS + 1) /* layers */
+#define WORDS ((MOST + 63) / 64)
 
-static test_random numbers = {3};
+static test_random numbers = {5};
 
-static cs_layer layers[LEAVES];
-static cs_stack stack = {.layers = layers, .layer_count = LEAVES};
+static cs_layer layers[MOST];
+static cs_stack stack = {.layers = layers};
 static uint64_t set[WORDS];
 static uint8_t filled[(WORDS + 7) / 8 * 8];
 
-/* through: the least transmittance of a layer. */
-static void make_layers(float through) {
-  for (int i = 0; i < LEAVES; i++)
+/* Layers with a transmittance of at least `through`; of many, none, if that is below 0. None of the
+ * layers is present. */
+static void make_layers(int count, float through) {
+  stack.layer_count = (size_t)count;
+  memset(set, 0, sizeof set);
+  memset(filled, 0, sizeof filled);
+  for (int i = 0; i < count; i++)
     for (int c = 0; c < 3; c++) {
-      layers[i].t[c] = through + (1 - through) * random_unit(&numbers);
+      layers[i].t[c] = fmaxf(through + (1 - through) * random_unit(&numbers), 0);
       layers[i].s[c] = (1 - layers[i].t[c]) * random_unit(&numbers);
     }
 }
+
+static int count_layers(void) { return (int)stack.layer_count; }
 
 static void put(int layer, bool is_present) {
   uint64_t bit = (uint64_t)1 << layer % 64;
@@ -33,9 +42,24 @@ static void put(int layer, bool is_present) {
 
 static bool has(int layer) { return set[layer / 64] >> layer % 64 & 1; }
 
+/* Puts one of the first `count` layers into the set or removes it, with the probability
+ * `density`. */
+static void put_any(int count, float density) {
+  float place = random_unit(&numbers), depth = random_unit(&numbers);
+  put((int)(place * (float)count), depth < density);
+}
+
 static cs_over_pair light_of(cs_over_table *table) {
   cs_over_pair light = cs_over_pair_clear;
   CHECK(cs_over_table_light(table, set, filled, &light) == CELSPAN_OK);
+  return light;
+}
+
+static cs_over_pair light_from_nothing(celspan_context *context) {
+  cs_over_table stranger;
+  CHECK(cs_over_table_init(&stranger, context, &stack) == CELSPAN_OK);
+  cs_over_pair light = light_of(&stranger);
+  cs_over_table_finish(&stranger);
   return light;
 }
 
@@ -43,11 +67,13 @@ static bool same(cs_over_pair a, cs_over_pair b) {
   return cs_v4_same(a.e, b.e) && cs_v4_same(a.t, b.t);
 }
 
-/* One layer after the other, in doubles. Returns the last layer that is seen. */
+/* One layer after the other, in doubles. Returns the last layer that is seen: nothing behind it
+ * shines through, whatever the rounding. */
 static int check_light(cs_over_pair light) {
+  const double opaque = 0.999 * (double)CS_PAINT_OPAQUE;
   double e[3] = {0}, t[3] = {1, 1, 1};
-  int last = LEAVES;
-  while (last > 0 && (t[0] > CS_PAINT_OPAQUE || t[1] > CS_PAINT_OPAQUE || t[2] > CS_PAINT_OPAQUE))
+  int last = count_layers();
+  while (last > 0 && (t[0] > opaque || t[1] > opaque || t[2] > opaque))
     if (has(--last))
       for (int c = 0; c < 3; c++) {
         e[c] += t[c] * (double)layers[last].s[c];
@@ -60,42 +86,80 @@ static int check_light(cs_over_pair light) {
   return last;
 }
 
-/* Puts one of the first `count` leaves into the set or removes it, with the probability
- * `density`. */
-static void put_any(int count, float density) {
-  float place = random_unit(&numbers), depth = random_unit(&numbers);
-  put((int)(place * (float)count), depth < density);
-}
-
-/* A walk from set to set; a fresh table that has seen none of them finds the same light. */
-static void test_walk(celspan_context *context, float through, float density) {
-  cs_over_table table, stranger;
-  make_layers(through);
+/* A walk from set to set. A fresh table that has seen none of them finds the same light, and so
+ * does one with other layers behind the last that is seen. */
+static void test_walk(celspan_context *context, int count, float through, float density) {
+  cs_over_table table;
+  int hidden = 0;
+  make_layers(count, through);
   CHECK(cs_over_table_init(&table, context, &stack) == CELSPAN_OK);
   for (int step = 0; step < 300; step++) {
-    for (int k = 0; k < 1 + step % 9; k++)
-      put_any(LEAVES, density);
+    for (int k = 0; k < (step == 0 ? count : 1 + step % 9); k++)
+      put_any(count, density);
     cs_over_pair light = light_of(&table);
     int last = check_light(light);
-    CHECK(cs_over_table_init(&stranger, context, &stack) == CELSPAN_OK);
-    CHECK(same(light, light_of(&stranger)));
-    for (int k = 0; k < 5 && last > 64; k++) /* nobody sees them */
-      put_any(last - 64, 0.5f);
-    CHECK(last <= 64 || same(light, light_of(&table)));
-    cs_over_table_finish(&stranger);
+    CHECK(same(light, light_from_nothing(context)));
+    CHECK(same(light, light_of(&table)));
+    hidden += last > 0;
+    for (int k = 0; k < 5 && last > 0; k++)
+      put_any(last, 0.5f);
+    CHECK(same(light, light_of(&table)));
+    CHECK(same(light, light_from_nothing(context)));
   }
+  CHECK((hidden > 100) == (through < 0.9f || (density > 0.8f && count > 190)));
   cs_over_table_finish(&table);
+}
+
+/* Behind all others lies an opaque layer. */
+static void test_background(celspan_context *context) {
+  make_layers(1000, 0.95f);
+  layers[0].t = cs_v4_all(0);
+  put(0, true);
+  for (int i = 0; i < 60; i++)
+    put_any(1000, 1);
+  cs_over_pair light = light_from_nothing(context);
+  check_light(light);
+  CHECK(light.t[0] == 0);
+}
+
+static bool has_tree(celspan_context *context) {
+  cs_over_table table;
+  CHECK(cs_over_table_init(&table, context, &stack) == CELSPAN_OK);
+  bool has = cs_over_table_has_tree(&table);
+  cs_over_table_finish(&table);
+  return has;
+}
+
+static void test_choice(celspan_context *context) {
+  make_layers(256, 0.9f);
+  CHECK(has_tree(context));
+  layers[0].t = cs_v4_all(0); /* a single background does not count */
+  CHECK(has_tree(context));
+  stack.layer_count = 190;
+  CHECK(!has_tree(context)); /* few layers */
+  stack.layer_count = 256;
+  for (int i = 0; i < 256; i++)
+    layers[i].t = cs_v4_all(0.6f);
+  CHECK(!has_tree(context)); /* few of them are seen */
+  make_layers(MOST, 0.9f);
+  CHECK(!has_tree(context)); /* too many to compare each time */
 }
 
 int main(void) {
   celspan_context *context;
   CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
-  for (int i = 0; i < LEAVES; i++)
+  for (int i = 0; i < MOST; i++)
     layers[i].group = CS_STACK_NONE;
-  test_walk(context, 0.9f, 0.3f);
-  test_walk(context, 0.9f, 0.9f);
-  test_walk(context, 0.2f, 0.5f);
-  test_walk(context, 0.0f, 0.02f);
+  test_walk(context, 190, 0.9f, 0.3f);
+  test_walk(context, 190, 0.9f, 0.9f);
+  test_walk(context, 700, -0.9f, 0.5f);
+  test_walk(context, 700, -0.9f, 0.02f);
+  test_walk(context, 700, 0.98f, 0.2f);
+  test_walk(context, 1000, 0.9f, 0.9f);
+  test_walk(context, 257, 0.2f, 0.5f);
+  test_walk(context, 4500, 0.98f, 0.95f);
+  test_background(context);
+  test_choice(context);
   celspan_context_destroy(context);
   return check_done();
 }

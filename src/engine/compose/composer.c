@@ -18,16 +18,12 @@ static celspan_status allocate(cs_composer *composer, void *field, size_t count,
   return CELSPAN_OK;
 }
 
-/* What folds flat layers fast, if anything does. */
+/* What folds flat layers fast, if they suit it. */
 static celspan_status make_table(cs_composer *composer) {
-  const cs_stack *stack = composer->stack;
-  bool has_table = cs_over_table_suits(stack), has_tree = has_table && cs_over_tree_suits(stack);
-  if (has_tree) {
-    CS_TRY(allocate(composer, &composer->tree, 1, sizeof(cs_over_tree)));
-    return cs_over_tree_init(composer->tree, composer->context, stack);
-  }
-  CS_TRY(allocate(composer, &composer->table, has_table, sizeof(cs_over_table)));
-  return has_table ? cs_over_table_init(composer->table, composer->context, stack) : CELSPAN_OK;
+  if (!cs_over_table_suits(composer->stack))
+    return CELSPAN_OK;
+  CS_TRY(allocate(composer, &composer->table, 1, sizeof(cs_over_table)));
+  return cs_over_table_init(composer->table, composer->context, composer->stack);
 }
 
 /* A few layers have a few sets, and clearing the room for many takes longer than a band of rows. */
@@ -75,9 +71,6 @@ void cs_composer_finish(cs_composer *composer) {
   if (composer->table)
     cs_over_table_finish(composer->table);
   cs_mem_free(memory, composer->table, sizeof(cs_over_table));
-  if (composer->tree)
-    cs_over_tree_finish(composer->tree);
-  cs_mem_free(memory, composer->tree, sizeof(cs_over_tree));
   cs_mem_free(memory, composer->memo, composer->memo_size * sizeof(cs_memo));
   cs_mem_free(memory, composer->items, composer->item_capacity * sizeof(cs_item));
   cs_mem_free(memory, composer->gathered, composer->gathered_capacity * sizeof(cs_item));
@@ -216,11 +209,10 @@ static const uint64_t *resolve(cs_composer *composer) {
   return composer->contributing;
 }
 
-/* The same by what has been folded beforehand, in a table or a tree. */
+/* The same by what has been folded beforehand. */
 static celspan_status fold_prepared(cs_composer *composer, const uint64_t *set, cs_over *over) {
   cs_over_pair light;
-  CS_TRY(composer->tree ? cs_over_tree_light(composer->tree, set, &light)
-                        : cs_over_table_light(composer->table, set, composer->filled, &light));
+  CS_TRY(cs_over_table_light(composer->table, set, composer->filled, &light));
   cs_over_begin(over, composer->stack, composer->outers);
   over->e = light.e;
   over->t = light.t;
@@ -231,7 +223,7 @@ static celspan_status fold_prepared(cs_composer *composer, const uint64_t *set, 
 static celspan_status fold(cs_composer *composer, const uint64_t *set, cs_over *over,
                            bool *is_flat) {
   *is_flat = true;
-  if (composer->table || composer->tree)
+  if (composer->table)
     return fold_prepared(composer, set, over);
   *is_flat = fold_flats(composer, set, over);
   return CELSPAN_OK;
@@ -277,7 +269,8 @@ static celspan_status compose_here(cs_composer *composer, cs_cell *out) {
 }
 
 void cs_composer_cell(cs_composer *composer, cs_cell *out) {
-  if (composer->tree) { /* nearly every set is new, and its colour found as soon as its memo */
+  if (composer->table && cs_over_table_has_tree(composer->table)) {
+    /* Nearly every set is new, and its colour found as soon as its memo. */
     compose_here(composer, out);
     return;
   }

@@ -6,11 +6,11 @@
  *        | --------> cross ---------> |          the walk: sets, windings, hash
  *               cell |
  *                    v
- *       hash known? ----yes----> the same cell as before (not asked where over_tree.h folds)
+ *       hash known? ----yes----> the same cell as before (not asked where a tree folds)
  *            | no
  *       trees: what contributes (tree.h)
  *            |
- *       all of it flat? --yes--> one colour (over.h, over_table.h, over_tree.h)
+ *       all of it flat? --yes--> one colour (over.h, over_table.h)
  *            | no
  *       the layers that are not hidden, front to back = a program, for paint/ to paint
  *
@@ -26,7 +26,6 @@
 
 #include "engine/compose/cell.h"
 #include "engine/compose/over_table.h"
-#include "engine/compose/over_tree.h"
 #include "engine/compose/tree.h"
 
 typedef struct cs_memo {
@@ -54,7 +53,6 @@ typedef struct cs_composer {
   cs_tree_result *results;
   cs_over_outer *outers; /* of folds; cs_stack_depth */
   cs_over_table *table;  /* NULL where it does not suit the stack */
-  cs_over_tree *tree;    /* NULL where it does not; then there is no table, either */
   cs_memo *memo;
   size_t memo_size;
   cs_item *items; /* of all programs in use */

@@ -20,14 +20,13 @@
  * Before a layer is added three moves may be due, in this order: leave the groups that end in front
  * of it, meet the back lights in front of it, enter the groups it is in.
  *
- * The same fold is written four times, since it must be fast on four kinds of data:
+ * The same fold is written three times, since it must be fast on three kinds of data:
  *   over.h            one cell, layer by layer;
  *   over_table.h      one cell of a frame that has flat layers only, without groups: most layers
  *                     of neighbouring cells are the same, so their light is looked up;
- *   over_tree.h       the same where very many layers are seen at once;
  *   engine/paint/over_row.h  up to 256 pixels of one program at once, a register at a time; modes
  *                            are blended by over_blend_wide.c.
- * Names and arithmetic are the same in all four.
+ * Names and arithmetic are the same in all three.
  */
 #pragma once
 
@@ -201,34 +200,3 @@ static inline uint32_t cs_over_hidden_end(const cs_over *over) {
 
 /* Premultiplied RGBA; alpha is the mean of the three mattes. */
 cs_v4 cs_over_end(cs_over *over);
-
-/* Quads: the light of every choice of four neighbouring flat layers, made beforehand.
- *
- *     word of a set   [0110 | 0000 | ... | 1011 | 0100]     64 layers, 16 quads
- *                                     |
- *                  quad 1 of 16:   0000  0001  0010  ...  1011  ...  1111
- *                                  clear                  layers 7, 5, 4, one over the other
- *
- * The fold by table (over_table.h) and the fold by tree (over_tree.h) begin with these.
- */
-
-#define CS_OVER_FOUR 4     /* layers of a quad */
-#define CS_OVER_QUADS 16   /* of a word */
-#define CS_OVER_CHOICES 16 /* of the layers of a quad */
-
-/* A flat layer by itself; clear beyond the last layer. */
-static inline cs_over_pair cs_over_layer_pair(const cs_stack *stack, size_t layer) {
-  if (layer >= stack->layer_count)
-    return cs_over_pair_clear;
-  return (cs_over_pair){stack->layers[layer].s, stack->layers[layer].t};
-}
-
-/* light: of all layers in front of word i of a set. Adds the layers of the word to it, one by one
- * from the front, until nothing shines through. */
-cs_over_pair cs_over_word_layers(const cs_stack *stack, cs_over_pair light, size_t i,
-                                 uint64_t word);
-
-/* Makes the quads of word i, CS_OVER_CHOICES pairs each. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_over_quads_create(celspan_context *context, const cs_stack *stack,
-                                                    size_t i, cs_over_pair **out);
-void cs_over_quads_free(cs_over_pair *quads, cs_memory *memory);

@@ -2,6 +2,15 @@
 
 #include "engine/compose/set.h"
 
+#include <math.h>
+
+#define FOUR CS_OVER_FOUR
+#define QUADS 16      /* of a word */
+#define CHOICES 16    /* of the layers of a quad */
+#define LEAST_WORDS 4 /* under a tree: fewer are quickly folded */
+
+/* ---------------------------------------------------------------- the choice */
+
 bool cs_over_table_suits(const cs_stack *stack) {
   for (size_t i = 0; i < stack->layer_count; i++)
     if (stack->layers[i].kind != CS_LAYER_FLAT)
@@ -12,77 +21,174 @@ bool cs_over_table_suits(const cs_stack *stack) {
   return stack->group_count == 0;
 }
 
+/* What a layer lets through in its clearest channel; of one that lets nothing through, the least
+ * that counts. */
+static double let_through(const cs_layer *layer) {
+  float most = layer->t[0] > layer->t[1] ? layer->t[0] : layer->t[1];
+  most = layer->t[2] > most ? layer->t[2] : most;
+  return most > CS_PAINT_OPAQUE ? (double)most : (double)CS_PAINT_OPAQUE;
+}
+
+/* Nothing shines through after sixteen halvings. Where the layers halve the light less than once in
+ * two, on the average, more than 32 are seen in a place, if as many lie there. */
+static bool needs_tree(const cs_stack *stack) {
+  size_t words = cs_stack_words(stack), halvings = 0;
+  double through = 1;
+  if (words < LEAST_WORDS || words > CS_OVER_TABLE_WORDS)
+    return false;
+  for (size_t i = 0; i < stack->layer_count; i++) {
+    int exponent;
+    through = frexp(through * let_through(&stack->layers[i]), &exponent);
+    halvings += (size_t)-exponent;
+  }
+  return halvings < stack->layer_count / 2;
+}
+
+/* ---------------------------------------------------------------- life */
+
+static inline size_t group_count(size_t nodes) { return (nodes + FOUR - 1) / FOUR; }
+
+/* Every tier but the last is filled up to a multiple of four, with clear nodes. Without a tree
+ * there is tier 0 alone. */
+static celspan_status make_nodes(cs_over_table *table) {
+  size_t starts[CS_OVER_TABLE_TIERS] = {0}, nodes = table->count;
+  table->node_count = FOUR * group_count(nodes);
+  while (needs_tree(table->stack) && nodes > 1) {
+    nodes = group_count(nodes);
+    starts[++table->top] = table->node_count;
+    table->node_count += FOUR * group_count(nodes);
+  }
+  CS_TRY(CS_MAKE(table->context, table->nodes, table->node_count));
+  for (size_t i = 0; i < table->node_count; i++)
+    table->nodes[i] = cs_over_pair_clear;
+  for (int tier = 0; tier <= table->top; tier++)
+    table->tiers[tier] = table->nodes + starts[tier];
+  return CELSPAN_OK;
+}
+
 celspan_status cs_over_table_init(cs_over_table *table, celspan_context *context,
                                   const cs_stack *stack) {
   *table = (cs_over_table){.context = context, .stack = stack};
-  size_t count = cs_stack_words(stack);
-  table->words = cs_mem_array(context->memory, count, sizeof *table->words);
-  if (count > 0 && !table->words)
-    return cs_fail_memory(context);
-  table->count = count;
-  for (size_t i = 0; i < count; i++)
-    table->words[i].all = cs_over_pair_clear;
-  return CELSPAN_OK;
+  if (stack->layer_count == 0)
+    return CELSPAN_OK;
+  CS_TRY(CS_MAKE(context, table->words, cs_stack_words(stack)));
+  table->count = cs_stack_words(stack);
+  for (size_t i = 0; i < table->count; i++)
+    for (size_t k = 0; k < FOUR; k++)
+      table->words[i].quarters[k] = cs_over_pair_clear;
+  return make_nodes(table);
 }
 
 void cs_over_table_finish(cs_over_table *table) {
   if (!table->context)
     return;
   cs_memory *memory = table->context->memory;
-  for (size_t i = 0; table->words && i < table->count; i++)
-    cs_over_quads_free(table->words[i].quads, memory);
+  for (size_t i = 0; i < table->count; i++)
+    cs_mem_free(memory, table->words[i].quads, QUADS * CHOICES * sizeof(cs_over_pair));
   cs_mem_free(memory, table->words, table->count * sizeof *table->words);
+  cs_mem_free(memory, table->nodes, table->node_count * sizeof *table->nodes);
   *table = (cs_over_table){0};
+}
+
+/* ---------------------------------------------------------------- quads */
+
+/* A flat layer by itself; clear beyond the last layer. */
+static inline cs_over_pair layer_pair(const cs_stack *stack, size_t layer) {
+  if (layer >= stack->layer_count)
+    return cs_over_pair_clear;
+  return (cs_over_pair){stack->layers[layer].s, stack->layers[layer].t};
+}
+
+static void make_quad(const cs_stack *stack, size_t layer, cs_over_pair *quad) {
+  cs_over_pair halves[2][FOUR]; /* what the lower two layers may give, and the upper two */
+  for (size_t half = 0; half < 2; half++) {
+    cs_over_pair *h = halves[half];
+    h[0] = cs_over_pair_clear;
+    h[1] = layer_pair(stack, layer + 2 * half);
+    h[2] = layer_pair(stack, layer + 2 * half + 1);
+    h[3] = cs_over_pair_over(h[2], h[1]);
+  }
+  for (size_t choice = 0; choice < CHOICES; choice++)
+    quad[choice] = cs_over_pair_over(halves[1][choice / FOUR], halves[0][choice % FOUR]);
+}
+
+static celspan_status make_quads(const cs_over_table *table, size_t i) {
+  cs_over_word *word = &table->words[i];
+  CS_TRY(CS_MAKE(table->context, word->quads, QUADS * CHOICES));
+  for (size_t quad = 0; quad < QUADS; quad++)
+    make_quad(table->stack, 64 * i + FOUR * quad, word->quads + CHOICES * quad);
+  return CELSPAN_OK;
+}
+
+/* What quad number `quad` of a word gives. */
+static inline cs_over_pair quad_of(const cs_over_word *word, size_t quad) {
+  return word->quads[CHOICES * quad + (word->word >> FOUR * quad) % CHOICES];
+}
+
+/* Adds layers of word i to all light in front of it, one by one from the front, until nothing
+ * shines through. */
+static cs_over_pair add_layers(const cs_stack *stack, cs_over_pair light, size_t i,
+                               uint64_t layers) {
+  while (layers != 0 && !cs_over_is_opaque(light.t)) {
+    int highest = 63 - __builtin_clzll(layers);
+    layers ^= (uint64_t)1 << highest;
+    light = cs_over_pair_over(light, layer_pair(stack, 64 * i + (size_t)highest));
+  }
+  return light;
 }
 
 /* ---------------------------------------------------------------- words */
 
-/* Sixteen layers of a word, the first of which is the lowest bit. */
-static inline cs_over_pair fold_quarter(const cs_over_pair *quads, unsigned word) {
-  const cs_over_pair *high = &quads[2 * CS_OVER_CHOICES];
-  return cs_over_pair_over(
-      cs_over_pair_over(high[CS_OVER_CHOICES + (word >> 12 & 15)], high[word >> 8 & 15]),
-      cs_over_pair_over(quads[CS_OVER_CHOICES + (word >> 4 & 15)], quads[word & 15]));
+static inline cs_over_pair join(const cs_over_pair *four) {
+  return cs_over_pair_over(cs_over_pair_over(four[3], four[2]),
+                           cs_over_pair_over(four[1], four[0]));
 }
 
-static inline cs_over_pair fold_quarters(const cs_over_pair *quads, uint64_t word) {
-  const size_t quarter = CS_OVER_FOUR * CS_OVER_CHOICES;
-  return cs_over_pair_over(
-      cs_over_pair_over(fold_quarter(quads + 3 * quarter, (unsigned)(word >> 48)),
-                        fold_quarter(quads + 2 * quarter, (unsigned)(word >> 32))),
-      cs_over_pair_over(fold_quarter(quads + quarter, (unsigned)(word >> 16)),
-                        fold_quarter(quads, (unsigned)word)));
+static inline cs_over_pair join_quads(const cs_over_word *word, size_t quarter) {
+  cs_over_pair four[FOUR];
+  for (size_t k = 0; k < FOUR; k++)
+    four[k] = quad_of(word, FOUR * quarter + k);
+  return join(four);
 }
 
 /* At most two layers need no quads: so it is in most words where shapes are small or few. */
-static cs_over_pair fold_few(const cs_over_table *table, size_t i, uint64_t word) {
+static cs_over_pair join_few(const cs_stack *stack, size_t i, uint64_t word) {
   if (word == 0)
     return cs_over_pair_clear;
   size_t front = 64 * i + 63 - (size_t)__builtin_clzll(word);
   size_t back = 64 * i + (size_t)__builtin_ctzll(word);
-  cs_over_pair pair = cs_over_layer_pair(table->stack, front);
-  return front == back ? pair : cs_over_pair_over(pair, cs_over_layer_pair(table->stack, back));
+  cs_over_pair pair = layer_pair(stack, front);
+  return front == back ? pair : cs_over_pair_over(pair, layer_pair(stack, back));
+}
+
+static inline bool are_few(uint64_t word) {
+  uint64_t more = word & (word - (word != 0)); /* without the lowest layer */
+  return (more & (more - (more != 0))) == 0;
 }
 
 /* Word i of the set has become `word`. */
-static celspan_status fold_word(cs_over_table *table, size_t i, uint64_t word) {
+static celspan_status join_word(cs_over_table *table, size_t i, uint64_t word) {
   cs_over_word *known = &table->words[i];
-  uint64_t more = word & (word - (word != 0)); /* without the lowest layer */
   known->word = word;
-  if ((more & (more - (more != 0))) == 0) {
-    known->all = fold_few(table, i, word);
+  if (table->top == 0 && are_few(word)) {
+    table->tiers[0][i] = join_few(table->stack, i, word);
     return CELSPAN_OK;
   }
   if (!known->quads)
-    CS_TRY(cs_over_quads_create(table->context, table->stack, i, &known->quads));
-  known->all = fold_quarters(known->quads, word);
+    CS_TRY(make_quads(table, i));
+  uint64_t changed = known->joined ^ word;
+  for (size_t quarter = 0; quarter < FOUR; quarter++)
+    if ((changed >> 16 * quarter & 0xffff) != 0)
+      known->quarters[quarter] = join_quads(known, quarter);
+  known->joined = word;
+  table->tiers[0][i] = join(known->quarters);
   return CELSPAN_OK;
 }
 
-/* ---------------------------------------------------------------- the whole */
+/* ---------------------------------------------------------------- word by word */
 
-celspan_status cs_over_table_light(cs_over_table *table, const uint64_t *set, const uint8_t *filled,
-                                   cs_over_pair *out) {
+static celspan_status light_of_words(cs_over_table *table, const uint64_t *set,
+                                     const uint8_t *filled, cs_over_pair *out) {
   cs_over_pair light = cs_over_pair_clear;
   uint32_t end = (uint32_t)(table->count + 7) / 8 * 8;
   for (; (end = cs_set_skip(filled, end)) > 0; end -= 8)
@@ -90,14 +196,94 @@ celspan_status cs_over_table_light(cs_over_table *table, const uint64_t *set, co
       if (!filled[i])
         continue;
       if (table->words[i].word != set[i])
-        CS_TRY(fold_word(table, i, set[i]));
-      cs_over_pair all = cs_over_pair_over(light, table->words[i].all);
+        CS_TRY(join_word(table, i, set[i]));
+      cs_over_pair all = cs_over_pair_over(light, table->tiers[0][i]);
       if (cs_over_is_opaque(all.t)) {
-        *out = cs_over_word_layers(table->stack, light, i, set[i]);
+        *out = add_layers(table->stack, light, i, set[i]);
         return CELSPAN_OK;
       }
       light = all;
     }
   *out = light;
   return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- the tree */
+
+#define BATCH 8 /* words compared at a time */
+
+/* Which of eight words differ from those of a set, as bits. The set has just been written word by
+ * word: whoever reads two at once waits until both have left the processor's store buffer. */
+static inline unsigned compare_words(const cs_over_word *words, const uint64_t *set) {
+  unsigned differ = 0;
+  for (unsigned i = 0; i < BATCH; i++)
+    differ |= (unsigned)(words[i].word != set[i]) << i;
+  return differ;
+}
+
+/* Word i has become another: joins the nodes above it again, except for the last. */
+static inline celspan_status renew_word(cs_over_table *table, size_t i, uint64_t word) {
+  CS_TRY(join_word(table, i, word));
+  for (int tier = 1; tier < table->top; tier++) {
+    i /= FOUR;
+    table->tiers[tier][i] = join(&table->tiers[tier - 1][FOUR * i]);
+  }
+  return CELSPAN_OK;
+}
+
+/* Brings the tree to a set. */
+static celspan_status renew(cs_over_table *table, const uint64_t *set) {
+  size_t first = 0;
+  for (; first + BATCH <= table->count; first += BATCH) {
+    unsigned differ = compare_words(table->words + first, set + first);
+    for (; differ != 0; differ &= differ - 1) {
+      size_t i = first + (size_t)__builtin_ctz(differ);
+      CS_TRY(renew_word(table, i, set[i]));
+    }
+  }
+  for (; first < table->count; first++)
+    if (table->words[first].word != set[first])
+      CS_TRY(renew_word(table, first, set[first]));
+  *table->tiers[table->top] = join(table->tiers[table->top - 1]);
+  return CELSPAN_OK;
+}
+
+/* Adds those of four parts that leave something to shine through, and returns the one behind them,
+ * in which the light ends: the rearmost at the latest. */
+static inline size_t add_parts(cs_over_pair *light, const cs_over_pair *four) {
+  size_t part = FOUR - 1;
+  for (; part > 0; part--) {
+    cs_over_pair all = cs_over_pair_over(*light, four[part]);
+    if (cs_over_is_opaque(all.t))
+      break;
+    *light = all;
+  }
+  return part;
+}
+
+/* The light as far as it comes, where the layers together let nothing through. */
+static cs_over_pair go_down(const cs_over_table *table) {
+  cs_over_pair light = cs_over_pair_clear, quads[FOUR];
+  size_t i = 0;
+  for (int tier = table->top; tier > 0; tier--)
+    i = FOUR * i + add_parts(&light, &table->tiers[tier - 1][FOUR * i]);
+  const cs_over_word *word = &table->words[i];
+  size_t quad = FOUR * add_parts(&light, word->quarters);
+  for (size_t k = 0; k < FOUR; k++)
+    quads[k] = quad_of(word, quad + k);
+  quad += add_parts(&light, quads);
+  return add_layers(table->stack, light, i, word->word & (uint64_t)(CHOICES - 1) << FOUR * quad);
+}
+
+static celspan_status light_of_tree(cs_over_table *table, const uint64_t *set, cs_over_pair *out) {
+  CS_TRY(renew(table, set));
+  *out = *table->tiers[table->top];
+  if (cs_over_is_opaque(out->t))
+    *out = go_down(table);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_over_table_light(cs_over_table *table, const uint64_t *set, const uint8_t *filled,
+                                   cs_over_pair *out) {
+  return table->top > 0 ? light_of_tree(table, set, out) : light_of_words(table, set, filled, out);
 }
