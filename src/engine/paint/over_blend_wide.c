@@ -1,115 +1,7 @@
-/* Blend modes of a row of pixels, a register at a time: the formulas of model/colour/blend.h and of
- * cs_over_blend, to the bit.
- *
- *     register   r g b . r g b . r g b . r g b .     lane 3 has no meaning
- *     spread     r r r r r r r r r r r r r r r r     a channel, for what is said of whole colours
- */
+/* Blend modes of a row of pixels, a register at a time: as cs_over_blend, to the bit. */
 #include "engine/paint/over_row.h"
 #include "engine/paint/over_wide.h"
-
-/* ---------------------------------------------------------------- channels */
-
-static inline cs_wide multiply_or_screen(cs_wide b, cs_wide s) {
-  cs_wide twice = 2 * s - 1;
-  return cs_wide_choose(s <= 0.5f, b * (2 * s), b + twice - b * twice);
-}
-
-static inline cs_wide dodge(cs_wide b, cs_wide s) {
-  cs_wide bright = cs_wide_choose(b >= 1 - s, cs_wide_all(1), b / (1 - s));
-  return cs_wide_choose(b <= 0, cs_wide_all(0), bright);
-}
-
-static inline cs_wide burn(cs_wide b, cs_wide s) {
-  cs_wide dark = cs_wide_choose(1 - b >= s, cs_wide_all(0), 1 - (1 - b) / s);
-  return cs_wide_choose(b >= 1, cs_wide_all(1), dark);
-}
-
-/* bright: what a backdrop becomes under white. */
-static inline cs_wide softly(cs_wide b, cs_wide s, cs_wide bright) {
-  return cs_wide_choose(s <= 0.5f, b - (1 - 2 * s) * b * (1 - b), b + (2 * s - 1) * (bright - b));
-}
-
-static inline cs_wide softlight(cs_wide b, cs_wide s) {
-  return softly(b, s, cs_wide_choose(b <= 0.25f, ((16 * b - 12) * b + 4) * b, cs_wide_sqrt(b)));
-}
-
-/* ---------------------------------------------------------------- colours as a whole */
-
-static inline cs_wide lum(cs_wide c) {
-  return 0.3f * CS_WIDE_SPREAD(c, 0) + 0.59f * CS_WIDE_SPREAD(c, 1) + 0.11f * CS_WIDE_SPREAD(c, 2);
-}
-
-static inline cs_wide least(cs_wide c) {
-  return cs_wide_min(cs_wide_min(CS_WIDE_SPREAD(c, 0), CS_WIDE_SPREAD(c, 1)), CS_WIDE_SPREAD(c, 2));
-}
-
-static inline cs_wide most(cs_wide c) {
-  return cs_wide_max(cs_wide_max(CS_WIDE_SPREAD(c, 0), CS_WIDE_SPREAD(c, 1)), CS_WIDE_SPREAD(c, 2));
-}
-
-static inline cs_wide clip(cs_wide c) {
-  cs_wide middle = lum(c), low = least(c), high = most(c);
-  c = cs_wide_choose(low < 0, middle + (c - middle) * (middle / (middle - low)), c);
-  return cs_wide_choose(high > 1, middle + (c - middle) * ((1 - middle) / (high - middle)), c);
-}
-
-static inline cs_wide set_lum(cs_wide c, cs_wide value) { return clip(c + (value - lum(c))); }
-
-static inline cs_wide set_sat(cs_wide c, cs_wide value) {
-  cs_wide low = least(c), range = most(c) - low;
-  return cs_wide_choose(range > 0, (c - low) * (value / range), cs_wide_all(0));
-}
-
-static inline cs_wide whole(celspan_blend mode, cs_wide b, cs_wide s) {
-  switch (mode) {
-  case CELSPAN_BLEND_HUE:
-    return set_lum(set_sat(s, most(b) - least(b)), lum(b));
-  case CELSPAN_BLEND_SATURATION:
-    return set_lum(set_sat(b, most(s) - least(s)), lum(b));
-  case CELSPAN_BLEND_COLOR:
-    return set_lum(s, lum(b));
-  default:
-    return set_lum(b, lum(s));
-  }
-}
-
-/* ---------------------------------------------------------------- any mode */
-
-static inline cs_wide blend(celspan_blend mode, cs_wide b, cs_wide s) {
-  switch (mode) {
-  case CELSPAN_BLEND_NORMAL:
-    return s;
-  case CELSPAN_BLEND_ADD:
-  case CELSPAN_BLEND_LINEAR_DODGE:
-    return cs_wide_min(b + s, cs_wide_all(1));
-  case CELSPAN_BLEND_MULTIPLY:
-    return b * s;
-  case CELSPAN_BLEND_SCREEN:
-    return b + s - b * s;
-  case CELSPAN_BLEND_DARKEN:
-    return cs_wide_min(b, s);
-  case CELSPAN_BLEND_LIGHTEN:
-    return cs_wide_max(b, s);
-  case CELSPAN_BLEND_DIFFERENCE:
-    return cs_wide_max(b - s, s - b);
-  case CELSPAN_BLEND_EXCLUSION:
-    return b + s - 2 * b * s;
-  case CELSPAN_BLEND_OVERLAY:
-    return multiply_or_screen(s, b);
-  case CELSPAN_BLEND_HARD_LIGHT:
-    return multiply_or_screen(b, s);
-  case CELSPAN_BLEND_COLOR_DODGE:
-    return dodge(b, s);
-  case CELSPAN_BLEND_COLOR_BURN:
-    return burn(b, s);
-  case CELSPAN_BLEND_SOFT_LIGHT:
-    return softlight(b, s);
-  case CELSPAN_BLEND_SOFT_LIGHT_PHOTOSHOP:
-    return softly(b, s, cs_wide_choose(s <= 0.5f, b, cs_wide_sqrt(b)));
-  default:
-    return whole(mode, b, s);
-  }
-}
+#include "model/colour/blend_lanes.h"
 
 static inline cs_wide alpha_of(cs_wide t, float keep) { return 1 - keep * cs_over_wide_mean(t); }
 
@@ -150,7 +42,7 @@ static void blend_all(const blending *b, celspan_blend mode, cs_over_row_state *
     cs_wide se = source_e(b, i), st = source_t(b, i);
     cs_wide be = cs_wide_load(back->e[i]), bt = cs_wide_load(back->t[i]);
     cs_wide as = alpha_of(st, 1), ab = alpha_of(bt, b->keep);
-    cs_wide both = blend(CS_BLEND_MODE(mode), colour_of(be, ab), colour_of(se, as));
+    cs_wide both = cs_blend_lanes(CS_BLEND_MODE(mode), colour_of(be, ab), colour_of(se, as));
     cs_wide e = (1 - as) * be;
     cs_wide_store(back->e[i], (is_within ? e : (1 - ab) * se + e) + (as * ab) * both);
     cs_wide_store(back->t[i], is_within ? bt : st * bt);

@@ -1,5 +1,7 @@
 #include "model/colour/blend.h"
 
+#include "model/colour/blend_lanes.h"
+
 const char *const cs_blend_words[] = {"normal",
                                       "multiply",
                                       "screen",
@@ -20,3 +22,16 @@ const char *const cs_blend_words[] = {"normal",
                                       "linear-dodge",
                                       "soft-light-photoshop",
                                       NULL};
+
+static inline cs_wide one_colour(cs_v4 colour) {
+  cs_wide lanes = cs_wide_all(0);
+  memcpy(&lanes, &colour, sizeof colour);
+  return lanes;
+}
+
+cs_v4 cs_blend_colour(celspan_blend mode, cs_v4 b, cs_v4 s) {
+  const cs_wide lanes = cs_blend_lanes(mode, one_colour(b), one_colour(s));
+  cs_v4 colour;
+  memcpy(&colour, &lanes, sizeof colour);
+  return colour;
+}

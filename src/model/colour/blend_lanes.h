@@ -1,0 +1,124 @@
+/* The formulas of blend modes (blend.h), for as many colours at once as a register has.
+ *
+ *     register   r g b . r g b . r g b . r g b .     lane 3 has no meaning
+ *     spread     r r r r r r r r r r r r r r r r     a channel, for what is said of whole colours
+ */
+#pragma once
+
+#include "base/wide.h"
+#include "celspan/celspan.h"
+
+/* ---------------------------------------------------------------- channels */
+
+static inline cs_wide cs_blend_lanes_hard(cs_wide b, cs_wide s) {
+  cs_wide twice = 2 * s - 1;
+  return cs_wide_choose(s <= 0.5f, b * (2 * s), b + twice - b * twice);
+}
+
+static inline cs_wide cs_blend_lanes_dodge(cs_wide b, cs_wide s) {
+  cs_wide bright = cs_wide_choose(b >= 1 - s, cs_wide_all(1), b / (1 - s));
+  return cs_wide_choose(b <= 0, cs_wide_all(0), bright);
+}
+
+static inline cs_wide cs_blend_lanes_burn(cs_wide b, cs_wide s) {
+  cs_wide dark = cs_wide_choose(1 - b >= s, cs_wide_all(0), 1 - (1 - b) / s);
+  return cs_wide_choose(b >= 1, cs_wide_all(1), dark);
+}
+
+/* bright: what a backdrop becomes under white. */
+static inline cs_wide cs_blend_lanes_softly(cs_wide b, cs_wide s, cs_wide bright) {
+  return cs_wide_choose(s <= 0.5f, b - (1 - 2 * s) * b * (1 - b), b + (2 * s - 1) * (bright - b));
+}
+
+static inline cs_wide cs_blend_lanes_softlight(cs_wide b, cs_wide s) {
+  return cs_blend_lanes_softly(
+      b, s, cs_wide_choose(b <= 0.25f, ((16 * b - 12) * b + 4) * b, cs_wide_sqrt(b)));
+}
+
+/* ---------------------------------------------------------------- colours as a whole */
+
+static inline cs_wide cs_blend_lanes_lum(cs_wide c) {
+  return 0.3f * CS_WIDE_SPREAD(c, 0) + 0.59f * CS_WIDE_SPREAD(c, 1) + 0.11f * CS_WIDE_SPREAD(c, 2);
+}
+
+static inline cs_wide cs_blend_lanes_least(cs_wide c) {
+  return cs_wide_min(cs_wide_min(CS_WIDE_SPREAD(c, 0), CS_WIDE_SPREAD(c, 1)), CS_WIDE_SPREAD(c, 2));
+}
+
+static inline cs_wide cs_blend_lanes_most(cs_wide c) {
+  return cs_wide_max(cs_wide_max(CS_WIDE_SPREAD(c, 0), CS_WIDE_SPREAD(c, 1)), CS_WIDE_SPREAD(c, 2));
+}
+
+/* Moved towards their own luminosity until they are in 0..1. */
+static inline cs_wide cs_blend_lanes_clip(cs_wide c) {
+  cs_wide middle = cs_blend_lanes_lum(c), low = cs_blend_lanes_least(c),
+          high = cs_blend_lanes_most(c);
+  c = cs_wide_choose(low < 0, middle + (c - middle) * (middle / (middle - low)), c);
+  return cs_wide_choose(high > 1, middle + (c - middle) * ((1 - middle) / (high - middle)), c);
+}
+
+static inline cs_wide cs_blend_lanes_set_lum(cs_wide c, cs_wide value) {
+  return cs_blend_lanes_clip(c + (value - cs_blend_lanes_lum(c)));
+}
+
+/* The least channel becomes 0, the greatest `value`, and that between them keeps its place. */
+static inline cs_wide cs_blend_lanes_set_sat(cs_wide c, cs_wide value) {
+  cs_wide low = cs_blend_lanes_least(c), range = cs_blend_lanes_most(c) - low;
+  return cs_wide_choose(range > 0, (c - low) * (value / range), cs_wide_all(0));
+}
+
+static inline cs_wide cs_blend_lanes_whole(celspan_blend mode, cs_wide b, cs_wide s) {
+  switch (mode) {
+  case CELSPAN_BLEND_HUE:
+    return cs_blend_lanes_set_lum(
+        cs_blend_lanes_set_sat(s, cs_blend_lanes_most(b) - cs_blend_lanes_least(b)),
+        cs_blend_lanes_lum(b));
+  case CELSPAN_BLEND_SATURATION:
+    return cs_blend_lanes_set_lum(
+        cs_blend_lanes_set_sat(b, cs_blend_lanes_most(s) - cs_blend_lanes_least(s)),
+        cs_blend_lanes_lum(b));
+  case CELSPAN_BLEND_COLOR:
+    return cs_blend_lanes_set_lum(s, cs_blend_lanes_lum(b));
+  default:
+    return cs_blend_lanes_set_lum(b, cs_blend_lanes_lum(s));
+  }
+}
+
+/* ---------------------------------------------------------------- any mode */
+
+/* b: of the backdrops; s: of the sources. ADD is that of sources within their backdrops. */
+static inline cs_wide cs_blend_lanes(celspan_blend mode, cs_wide b, cs_wide s) {
+  switch (mode) {
+  case CELSPAN_BLEND_NORMAL:
+    return s;
+  case CELSPAN_BLEND_ADD:
+  case CELSPAN_BLEND_LINEAR_DODGE:
+    return cs_wide_min(b + s, cs_wide_all(1));
+  case CELSPAN_BLEND_MULTIPLY:
+    return b * s;
+  case CELSPAN_BLEND_SCREEN:
+    return b + s - b * s;
+  case CELSPAN_BLEND_DARKEN:
+    return cs_wide_min(b, s);
+  case CELSPAN_BLEND_LIGHTEN:
+    return cs_wide_max(b, s);
+  case CELSPAN_BLEND_DIFFERENCE:
+    return cs_wide_max(b - s, s - b);
+  case CELSPAN_BLEND_EXCLUSION:
+    return b + s - 2 * b * s;
+  case CELSPAN_BLEND_OVERLAY:
+    return cs_blend_lanes_hard(s, b);
+  case CELSPAN_BLEND_HARD_LIGHT:
+    return cs_blend_lanes_hard(b, s);
+  case CELSPAN_BLEND_COLOR_DODGE:
+    return cs_blend_lanes_dodge(b, s);
+  case CELSPAN_BLEND_COLOR_BURN:
+    return cs_blend_lanes_burn(b, s);
+  case CELSPAN_BLEND_SOFT_LIGHT:
+    return cs_blend_lanes_softlight(b, s);
+  case CELSPAN_BLEND_SOFT_LIGHT_PHOTOSHOP:
+    return cs_blend_lanes_softly(b, s, cs_wide_choose(s <= 0.5f, b, cs_wide_sqrt(b)));
+  default:
+    return cs_blend_lanes_whole(mode, b, s);
+  }
+}
