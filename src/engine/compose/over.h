@@ -20,13 +20,16 @@
  * Before a layer is added three moves may be due, in this order: leave the groups that end in front
  * of it, meet the back lights in front of it, enter the groups it is in.
  *
- * The same fold is written three times, since it must be fast on three kinds of data:
+ * The same fold is written six times, since it must be fast on six kinds of data:
  *   over.h            one cell, layer by layer;
  *   over_table.h      one cell of a frame that has flat layers only, without groups: most layers
  *                     of neighbouring cells are the same, so their light is looked up;
  *   engine/paint/over_row.h  up to 256 pixels of one program at once, a register at a time; modes
- *                            are blended by over_blend_wide.c.
- * Names and arithmetic are the same in all three.
+ *                            are blended by over_blend_wide.c;
+ *   engine/paint/over_bare.h  the same of pictures alone that are shown as they are;
+ *   engine/map/sheets.h  drawings that have a map, one over the other;
+ *   engine/area/crowd.c  the samples of a pixel that very many edges cross.
+ * Names and arithmetic are the same in the first three.
  */
 #pragma once
 
