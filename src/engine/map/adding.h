@@ -8,7 +8,8 @@
  *
  * Places are integers, so that a line may be cut anywhere without a change to what is added: its x
  * at a row depends on the line alone, and the heights in the columns of a row add up to the height
- * of the line there.
+ * of the line there. Lines are cut at rows one by one, and at columns eight at a time, since few of
+ * these pieces reach a third column.
  *
  * Invariant: the bits are the same whichever instructions add them.
  */

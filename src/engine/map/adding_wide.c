@@ -1,15 +1,24 @@
 #include "engine/map/adding.h"
-#include "engine/map/doubles.h"
+
+/* Functions that return such vectors are inlined, so how they would be returned does not matter. */
+#pragma GCC diagnostic ignored "-Wpsabi"
+typedef double doubles __attribute__((vector_size(32)));
 
 /* ---------------------------------------------------------------- places */
 
 typedef int32_t integers __attribute__((vector_size(16)));
 
+static inline doubles load_doubles(const double *from) {
+  doubles v;
+  memcpy(&v, from, sizeof v);
+  return v;
+}
+
 #define FARTHEST (32767.0 * CS_MAP_UNIT)
 
 /* No farther than an integer can be. What is drawn is at most 16384 pixels long, so that nothing
  * but borders that are left of the frame as a whole are bent by that. */
-static inline cs_doubles bounded(cs_doubles v) {
+static inline doubles bounded(doubles v) {
 #ifdef __AVX2__
   return _mm256_max_pd(_mm256_set1_pd(-FARTHEST), _mm256_min_pd(_mm256_set1_pd(FARTHEST), v));
 #else
@@ -21,9 +30,9 @@ static inline cs_doubles bounded(cs_doubles v) {
 
 /* Rounded, except that numbers below 0 may be one greater: those are beyond the frame. */
 static inline integers place_two(const cs_map_placing *p, integers points) {
-  cs_doubles whole = cs_doubles_load(p->origin) + __builtin_convertvector(points, cs_doubles);
-  return __builtin_convertvector(
-      bounded(whole * cs_doubles_load(p->scale) + cs_doubles_load(p->shift)), integers);
+  doubles whole = load_doubles(p->origin) + __builtin_convertvector(points, doubles);
+  return __builtin_convertvector(bounded(whole * load_doubles(p->scale) + load_doubles(p->shift)),
+                                 integers);
 }
 
 void CS_WIDE(cs_map_put_places)(const cs_map_placing *placing, const cs_map_point *points,
@@ -47,13 +56,12 @@ void CS_WIDE(cs_map_put_places)(const cs_map_placing *placing, const cs_map_poin
 /* What borders are added to: copies, which stay in registers. */
 typedef struct target {
   cs_map_sum *sums;
-  cs_map_keys *keys;
-  uint64_t *bits;
-  uint32_t words, width;
-  int32_t top;    /* of the swath */
-  bool is_inside; /* a constant of each caller: no place is left or right of the frame */
-  bool varies;    /* another one: the areas of cells that vary are listed */
-  cs_doubles step;
+  unsigned char *bits;
+  uint32_t stride;   /* bytes of a row of bits */
+  int32_t top, side; /* of the swath, and the right side of the frame */
+  bool is_inside;    /* a constant of each caller: no place is left or right of the frame */
+  bool varies;       /* another one: the areas of cells that vary are listed */
+  cs_v4 step;
   uint64_t key;
   const cs_map_live *live;
 } target;
@@ -61,13 +69,12 @@ typedef struct target {
 /* Adds an area to that of the cell on the right, and takes it from that on the left, of those that
  * vary. */
 static celspan_status add_parts(const cs_map_adding *a, const cs_map_live *live, uint32_t *head,
-                                int32_t area, int32_t height) {
+                                int32_t change) {
   const cs_map_drawing *drawing = a->rows->drawing;
   const cs_map_border *f = &drawing->lines->borders[live->border];
   cs_map_sums *all = a->sums;
   for (int side = 0; side < 2; side++) {
-    int32_t sign = side == 0 ? -1 : 1;
-    const cs_map_part part = {sign * area, sign * height, side == 0 ? f->left : f->right, *head};
+    const cs_map_part part = {side == 0 ? -change : change, side == 0 ? f->left : f->right, *head};
     if (drawing->map->cells[part.cell].length == 0)
       continue;
     CS_TRY(CS_APPEND(a->context, all->parts, all->part_count, all->part_capacity, part));
@@ -76,119 +83,235 @@ static celspan_status add_parts(const cs_map_adding *a, const cs_map_live *live,
   return CELSPAN_OK;
 }
 
-/* Adds a line in one pixel. across: the width on its right, at its top and its foot together. */
-static inline void add(const cs_map_adding *a, const target *t, uint32_t row, uint32_t column,
-                       int32_t height, int32_t across) {
-  const size_t index = CS_MAP_ROWS * (size_t)column + row;
-  const uint64_t twice = (uint64_t)(uint32_t)height * (uint32_t)across;
-  const int32_t area = (int32_t)((twice + CS_MAP_UNIT) / (2 * CS_MAP_UNIT));
-  double *sum = t->sums[index].area;
-  cs_doubles here = cs_doubles_load(sum) + (double)area * t->step;
-  cs_doubles next = cs_doubles_load(sum + 4) + (double)height * t->step;
-  memcpy(sum, &here, sizeof here);
-  memcpy(sum + 4, &next, sizeof next);
-  t->keys[index].area += (uint64_t)area * t->key;
-  t->keys[index].height += (uint64_t)height * t->key;
-  t->bits[row * t->words + column / 64] |= UINT64_C(1) << column % 64;
-  if (t->varies && add_parts(a, t->live, &a->sums->heads[index], area, height))
+/* Adds by how much a border has more of a pixel than of the one on its left. */
+static inline void add(const cs_map_adding *a, const target *t, cs_map_sum *sum, int32_t change) {
+  cs_v4_store(sum->colour, cs_v4_load(sum->colour) + cs_v4_all((float)change) * t->step);
+  sum->key += (uint64_t)change * t->key;
+  if (t->varies && add_parts(a, t->live, &sum->head, change))
     *a->status = CELSPAN_NO_MEMORY;
 }
 
-/* ---------------------------------------------------------------- a row */
-
-/* A line over several columns, from its left end: from < to. Not inlined: the loop over lines needs
- * the registers. */
-static __attribute__((noinline)) void add_columns(const cs_map_adding *a, const target *t,
-                                                  uint32_t row, int32_t from, int32_t to,
-                                                  int32_t height) {
-  const double slope = (double)height / ((double)to - from);
-  int32_t x = from, done = 0;
-  if (!t->is_inside && from < 0) {
-    x = 0;
-    done = (int32_t)(-(double)from * slope + 0.5);
-    add(a, t, row, 0, done, 2 * CS_MAP_UNIT);
-  }
-  uint32_t column = (uint32_t)x / CS_MAP_UNIT, end = (uint32_t)to / CS_MAP_UNIT;
-  end = !t->is_inside && end > t->width ? t->width : end;
-  for (; column < end; column++) {
-    int32_t right = (int32_t)(column + 1) * CS_MAP_UNIT;
-    int32_t all = (int32_t)((double)(right - from) * slope + 0.5);
-    add(a, t, row, column, all - done, right - x);
-    done = all;
-    x = right;
-  }
-  if (t->is_inside || column < t->width)
-    add(a, t, row, column, height - done, 2 * (int32_t)(column + 1) * CS_MAP_UNIT - x - to);
+/* Marks pixels, up to 24 from one whose bit is in byte `at` on. */
+static inline void mark(const target *t, uint32_t at, uint32_t mask) {
+  uint32_t bits;
+  memcpy(&bits, t->bits + at, sizeof bits);
+  bits |= mask;
+  memcpy(t->bits + at, &bits, sizeof bits);
 }
 
-static inline void add_line(const cs_map_adding *a, const target *t, uint32_t row, int32_t xa,
-                            int32_t xb, int32_t height) {
-  int32_t column = xa >> 16;
-  if (column == xb >> 16 && (t->is_inside || (uint32_t)column < t->width)) {
-    add(a, t, row, (uint32_t)column, height, 2 * (column + 1) * CS_MAP_UNIT - xa - xb);
-    return;
+/* ---------------------------------------------------------------- pieces */
+
+#define PIECES 64
+
+/* What a line has in one row of the frame: its upper end, and its lower one. */
+typedef struct piece {
+  int32_t xa, ya, xb, yb;
+} piece;
+
+typedef struct cutting {
+  piece pieces[PIECES + 7]; /* at the end room for zeros up to a multiple of eight */
+  size_t count;
+} cutting;
+
+/* Adds a piece over more than two columns. */
+static __attribute__((noinline)) void add_columns(const cs_map_adding *a, const target *t,
+                                                  const piece *p) {
+  const int32_t from = p->xa < p->xb ? p->xa : p->xb, to = p->xa < p->xb ? p->xb : p->xa;
+  const int32_t height = p->yb - p->ya;
+  const double slope = (double)height / ((double)to - from);
+  const uint32_t row = ((uint32_t)p->ya / CS_MAP_UNIT) % CS_MAP_ROWS;
+  uint32_t column = (uint32_t)from / CS_MAP_UNIT;
+  int32_t x = from, passed = 0, rest = 0; /* rest: what the last column has less than its height */
+  cs_map_sum *sum = &t->sums[CS_MAP_ROWS * (size_t)column + row];
+  for (; x < to; column++, sum += CS_MAP_ROWS) {
+    const int32_t right = (int32_t)(column + 1) * CS_MAP_UNIT, end = right < to ? right : to;
+    const int32_t all = right < to ? (int32_t)((double)(right - from) * slope + 0.5) : height;
+    const uint64_t twice = (uint64_t)(uint32_t)(all - passed) * (uint32_t)(2 * right - x - end);
+    const int32_t area = (int32_t)((twice + CS_MAP_UNIT) / (2 * CS_MAP_UNIT));
+    mark(t, row * t->stride + column / 8, 3U << column % 8);
+    add(a, t, sum, rest + area);
+    rest = all - passed - area;
+    passed = all;
+    x = end;
   }
-  int32_t from = xa < xb ? xa : xb, to = xa < xb ? xb : xa;
-  if (!t->is_inside && to < 0)
-    add(a, t, row, 0, height, 2 * CS_MAP_UNIT);
-  else if (t->is_inside || from >> 16 < (int32_t)t->width)
-    add_columns(a, t, row, from, to, height);
+  add(a, t, sum, rest);
+}
+
+typedef float eight __attribute__((vector_size(32)));
+typedef int32_t integers8 __attribute__((vector_size(32)));
+
+static inline integers8 load(const void *from) {
+  integers8 v;
+  memcpy(&v, from, sizeof v);
+  return v;
+}
+
+static inline integers8 choose(integers8 mask, integers8 a, integers8 b) {
+  return (mask & a) | (~mask & b);
+}
+
+/* The members of eight pieces. */
+typedef struct ends {
+  integers8 xa, ya, xb, yb;
+} ends;
+
+static inline ends load_pieces(const piece *p) {
+  const integers8 a = load(p), b = load(p + 2), c = load(p + 4), d = load(p + 6);
+  const integers8 ab = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
+  const integers8 cd = __builtin_shufflevector(c, d, 0, 8, 1, 9, 4, 12, 5, 13);
+  const integers8 ba = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
+  const integers8 dc = __builtin_shufflevector(c, d, 2, 10, 3, 11, 6, 14, 7, 15);
+  return (ends){__builtin_shufflevector(ab, cd, 0, 4, 1, 5, 8, 12, 9, 13),
+                __builtin_shufflevector(ab, cd, 2, 6, 3, 7, 10, 14, 11, 15),
+                __builtin_shufflevector(ba, dc, 0, 4, 1, 5, 8, 12, 9, 13),
+                __builtin_shufflevector(ba, dc, 2, 6, 3, 7, 10, 14, 11, 15)};
+}
+
+/* What eight pieces change, where they are in at most two columns. */
+typedef struct changes {
+  int32_t sum[8];                   /* the number of the sum of the first column */
+  int32_t byte[8], mask[8];         /* the bits of all columns */
+  int32_t one[8], two[8], three[8]; /* in the first column, in the second, right of that */
+  int32_t beyond[8];                /* how far a piece reaches right of the first column */
+} changes;
+
+#define FLOATS(v) __builtin_convertvector(v, eight)
+#define ROUNDED(v) __builtin_convertvector((v) + 0.5f, integers8)
+#define PUT(v, out) memcpy(out, &(v), sizeof(v))
+
+/* Where the pieces are in the sums. */
+static inline void find_places(const target *t, integers8 from, integers8 ya, integers8 has_two,
+                               changes *out) {
+  const integers8 column = from >> 16, row = (ya >> 16) & (CS_MAP_ROWS - 1);
+  const integers8 sum = column * CS_MAP_ROWS + row;
+  const integers8 byte = row * (int32_t)t->stride + (column >> 3);
+  const integers8 mask = (3 - 4 * has_two) << (column & 7);
+  PUT(sum, out->sum);
+  PUT(byte, out->byte);
+  PUT(mask, out->mask);
+}
+
+static inline void find_changes(const target *t, const piece *pieces, changes *out) {
+  const ends p = load_pieces(pieces);
+  const integers8 is_down = p.xa < p.xb;
+  const integers8 from = choose(is_down, p.xa, p.xb), to = choose(is_down, p.xb, p.xa);
+  const integers8 all = p.yb - p.ya, right = (from | (CS_MAP_UNIT - 1)) + 1, beyond = to - right;
+  const integers8 has_two = beyond > 0, end = choose(has_two, right, to);
+  const eight share = FLOATS(right - from) / FLOATS(to - from);
+  const integers8 height = choose(has_two, ROUNDED(FLOATS(all) * share), all);
+  const integers8 rest = all - height;
+  const float unit = 0.5f / CS_MAP_UNIT;
+  const integers8 one = ROUNDED(FLOATS(height) * FLOATS(2 * right - from - end) * unit);
+  const integers8 area = ROUNDED(FLOATS(rest) * FLOATS(2 * CS_MAP_UNIT - beyond) * unit);
+  const integers8 two = height - one + area, three = rest - area;
+  find_places(t, from, p.ya, has_two, out);
+  PUT(one, out->one);
+  PUT(two, out->two);
+  PUT(three, out->three);
+  PUT(beyond, out->beyond);
+}
+
+static inline void add_piece(const cs_map_adding *a, const target *t, const changes *c, size_t k) {
+  cs_map_sum *sum = &t->sums[(uint32_t)c->sum[k]];
+  mark(t, (uint32_t)c->byte[k], (uint32_t)c->mask[k]);
+  add(a, t, sum, c->one[k]);
+  add(a, t, sum + CS_MAP_ROWS, c->two[k]);
+  if (c->beyond[k] > 0)
+    add(a, t, sum + 2 * CS_MAP_ROWS, c->three[k]);
+}
+
+static inline void add_pieces(const cs_map_adding *a, const target *t, cutting *s) {
+  changes c;
+  memset(s->pieces + s->count, 0, 7 * sizeof *s->pieces);
+  for (size_t i = 0; i < s->count; i += 8) {
+    const size_t count = s->count - i < 8 ? s->count - i : 8;
+    find_changes(t, s->pieces + i, &c);
+    for (size_t k = 0; k < count; k++)
+      if (c.beyond[k] > CS_MAP_UNIT)
+        add_columns(a, t, &s->pieces[i + k]);
+      else
+        add_piece(a, t, &c, k);
+  }
+  s->count = 0;
+}
+
+/* ---------------------------------------------------------------- cutting */
+
+/* Puts a piece as far as it is in the frame; of what is left of it the height counts. */
+static void put_clipped(cutting *s, piece p, int32_t side) {
+  const int32_t from = p.xa < p.xb ? p.xa : p.xb, to = p.xa < p.xb ? p.xb : p.xa;
+  const double slope = to > from ? (double)(p.yb - p.ya) / ((double)to - from) : 0;
+  if (from >= side)
+    return;
+  if (to > side)
+    p.yb = p.ya + (int32_t)(((double)side - from) * slope + 0.5);
+  const int32_t left = to <= 0    ? p.yb - p.ya
+                       : from < 0 ? (int32_t)(-(double)from * slope + 0.5)
+                                  : 0;
+  if (left > 0)
+    s->pieces[s->count++] = (piece){0, p.ya, 0, p.ya + left};
+  if (p.ya + left < p.yb)
+    s->pieces[s->count++] = (piece){from > 0 ? from : 0, p.ya + left, to < side ? to : side, p.yb};
+}
+
+/* Cuts the part of a line that is in the swath, row by row. */
+static __attribute__((noinline)) void cut_line(const target *t, cs_map_point above,
+                                               cs_map_point below, cutting *s) {
+  const int32_t foot = t->top + CS_MAP_ROWS * CS_MAP_UNIT, end = below.y < foot ? below.y : foot;
+  const double slope = ((double)below.x - above.x) / ((double)below.y - above.y);
+  piece p = {.xb = above.x, .yb = above.y};
+  if (p.yb < t->top) {
+    p.yb = t->top;
+    p.xb = above.x + (int32_t)((double)(p.yb - above.y) * slope);
+  }
+  while (p.yb < end) {
+    p.xa = p.xb;
+    p.ya = p.yb;
+    p.yb = (p.ya | (CS_MAP_UNIT - 1)) + 1;
+    p.yb = p.yb < below.y ? p.yb : below.y;
+    p.xb = p.yb < below.y ? above.x + (int32_t)((double)(p.yb - above.y) * slope) : below.x;
+    if (t->is_inside)
+      s->pieces[s->count++] = p;
+    else
+      put_clipped(s, p, t->side);
+  }
 }
 
 /* ---------------------------------------------------------------- a border */
 
-/* The part of a line that is in the swath, row by row. */
-static inline void add_rows(const cs_map_adding *a, const target *t, cs_map_point above,
-                            cs_map_point below) {
-  const int32_t top = t->top, foot = top + CS_MAP_ROWS * CS_MAP_UNIT;
-  const int32_t end = below.y < foot ? below.y : foot;
-  int32_t x = above.x, y = above.y;
-  double slope = 0;
-  if (y < top || (y - top) >> 16 != (below.y - 1 - top) >> 16)
-    slope = ((double)below.x - above.x) / ((double)below.y - above.y);
-  if (y < top) {
-    y = top;
-    x = above.x + (int32_t)((double)(y - above.y) * slope);
-  }
-  while (y < end) {
-    uint32_t row = (uint32_t)(y - top) / CS_MAP_UNIT;
-    int32_t next_y = top + (int32_t)(row + 1) * CS_MAP_UNIT, next_x = below.x;
-    if (next_y < below.y)
-      next_x = above.x + (int32_t)((double)(next_y - above.y) * slope);
-    else
-      next_y = below.y;
-    add_line(a, t, row, x, next_x, next_y - y);
-    x = next_x;
-    y = next_y;
-  }
-}
-
 static inline void add_border(const cs_map_adding *a, cs_map_live *live, bool varies,
                               bool is_inside) {
-  const cs_map_sums *s = a->sums;
+  const cs_map_sums *sums = a->sums;
   const cs_map_point *places = a->rows->places;
-  const target t = {s->sums,
-                    s->keys,
-                    s->bits,
-                    (uint32_t)s->words,
-                    (uint32_t)s->width,
-                    a->row * CS_MAP_UNIT,
-                    is_inside,
-                    varies,
-                    cs_doubles_load(live->step),
-                    live->key,
-                    live};
-  const int32_t top = t.top, foot = top + CS_MAP_ROWS * CS_MAP_UNIT;
+  const target t = {.sums = sums->sums,
+                    .bits = (unsigned char *)sums->bits,
+                    .stride = (uint32_t)(sums->words * sizeof *sums->bits),
+                    .top = a->row * CS_MAP_UNIT,
+                    .side = sums->width * CS_MAP_UNIT,
+                    .is_inside = is_inside,
+                    .varies = varies,
+                    .step = cs_v4_load(live->step),
+                    .key = live->key,
+                    .live = live};
+  const int32_t foot = t.top + CS_MAP_ROWS * CS_MAP_UNIT;
   const uint32_t end = live->end;
   uint32_t at = live->at;
-  cs_map_point above = places[at], below;
-  for (; at + 1 < end && above.y < foot; above = below, at++) {
-    below = places[at + 1];
-    if (below.y > above.y && below.y > top)
-      add_rows(a, &t, above, below);
+  cutting s;
+  s.count = 0;
+  for (; at + 1 < end && places[at].y < foot; at++) {
+    const cs_map_point above = places[at], below = places[at + 1];
+    if (is_inside && above.y >= t.top && (above.y ^ (below.y - 1)) >> 16 == 0) {
+      s.pieces[s.count] = (piece){above.x, above.y, below.x, below.y};
+      s.count += below.y > above.y;
+    } else if (below.y > above.y && below.y > t.top) {
+      cut_line(&t, above, below, &s);
+    }
+    if (s.count > PIECES - 2 * CS_MAP_ROWS)
+      add_pieces(a, &t, &s);
     if (below.y > foot)
       break;
   }
+  add_pieces(a, &t, &s);
   live->next = at;
 }
 

@@ -1,7 +1,7 @@
 /* The rows of a swath, read from the sums of its pixels: loops for every set of instructions.
  *
- *   sums      .  .  s1 .  .  .  s2 s3 .     .: nothing was added
- *   spans     | c0 |s1|  c1    |s2|s3| c3   c: what the heights so far add up to, a cell as a rule
+ *   sums      .  .  s1 s2 .  .  s3 s4 s5 .     .: nothing was added
+ *   spans     | c0 |p1|  c1    |p2|p3| c2      of what the sums so far add up to. c: a cell
  *
  * Invariant: the bits are the same whichever instructions read them.
  */

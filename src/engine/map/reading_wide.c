@@ -1,9 +1,5 @@
 #include "engine/map/reading.h"
 
-#include "engine/map/doubles.h"
-
-typedef float floats __attribute__((vector_size(16)));
-
 /* The row that is being read. */
 typedef struct reader {
   celspan_context *context;
@@ -12,8 +8,8 @@ typedef struct reader {
   const cs_map_cell *cells;
   size_t cell_count;
   cs_map_span *first, *last; /* the row's spans so far; last: NULL before there are any */
-  cs_doubles run;            /* what is left of the next pixel */
-  uint64_t run_key;
+  cs_v4 sum;                 /* of the pixel, times HEIGHT */
+  uint64_t key;              /* the same of keys */
 } reader;
 
 /* ---------------------------------------------------------------- cells that vary */
@@ -27,21 +23,21 @@ static celspan_status add_area(reader *r, const cs_map_part *part) {
   if (i == rows->area_count)
     CS_TRY(CS_APPEND(r->context, rows->areas, rows->area_count, rows->area_capacity,
                      (cs_map_area){.cell = part->cell}));
-  rows->areas[i].area += part->area;
-  rows->areas[i].height += part->height;
+  rows->areas[i].area += part->change;
   return CELSPAN_OK;
 }
 
-/* After a pixel: what there is of each cell right of it. */
-static void pass_areas(cs_map_rows *rows) {
+/* Changes the areas by the parts of a pixel, and drops those that are 0 then. */
+static celspan_status change_areas(reader *r, const cs_map_sums *sums, uint32_t head) {
+  cs_map_rows *rows = r->rows;
   size_t kept = 0;
+  for (; head; head = sums->parts[head - 1].next)
+    CS_TRY(add_area(r, &sums->parts[head - 1]));
   for (size_t i = 0; i < rows->area_count; i++)
-    if (rows->areas[i].height != 0) {
-      rows->areas[kept] = rows->areas[i];
-      rows->areas[kept].area = rows->areas[kept].height;
-      kept++;
-    }
+    if (rows->areas[i].area != 0)
+      rows->areas[kept++] = rows->areas[i];
   rows->area_count = kept;
+  return CELSPAN_OK;
 }
 
 /* Gives the last span what varies in it. */
@@ -52,9 +48,8 @@ static celspan_status add_shares(reader *r) {
   CS_TRY(CS_RESERVE(r->context, rows->shares, rows->share_capacity,
                     rows->share_count + rows->area_count));
   for (size_t i = 0; i < rows->area_count; i++)
-    if (rows->areas[i].area != 0)
-      rows->shares[rows->share_count++] = (cs_map_share){
-          rows->areas[i].cell, (float)((double)rows->areas[i].area * (1.0 / CS_MAP_HEIGHT))};
+    rows->shares[rows->share_count++] = (cs_map_share){
+        rows->areas[i].cell, (float)((double)rows->areas[i].area * (1.0 / CS_MAP_HEIGHT))};
   span->share_count = (uint32_t)rows->share_count - span->share;
   return CELSPAN_OK;
 }
@@ -70,10 +65,11 @@ static inline uint32_t cell_of(const reader *r, uint64_t key) {
              : CS_MAP_BROKEN;
 }
 
-/* From a column on, until the next one that is put, pixels show a cell, or else this sum. There is
- * room. varies: whether any cell does. */
-static inline celspan_status put(reader *r, bool varies, int32_t column, uint32_t cell,
-                                 cs_doubles sum) {
+/* Begins a span at a column. There is room. varies: whether any cell does. */
+static inline celspan_status put(reader *r, bool varies, int32_t column) {
+  const uint32_t cell = cell_of(r, r->key);
+  if (cell != CS_MAP_BROKEN)
+    r->sum = r->colours[cell] * CS_MAP_HEIGHT;
   if (r->last >= r->first) {
     if (r->last->cell == cell && cell != CS_MAP_BROKEN)
       return CELSPAN_OK;
@@ -82,76 +78,43 @@ static inline celspan_status put(reader *r, bool varies, int32_t column, uint32_
   cs_map_span *span = ++r->last;
   span->cell = cell;
   span->share = span->share_count = 0;
-  if (cell == CS_MAP_BROKEN) {
-    floats colour = __builtin_convertvector(sum * (1.0 / CS_MAP_HEIGHT), floats);
-    memcpy(&span->colour, &colour, sizeof colour);
-  } else {
-    span->colour = r->colours[cell];
-  }
+  span->colour = cell == CS_MAP_BROKEN ? r->sum * (1.0f / CS_MAP_HEIGHT) : r->colours[cell];
   return varies && r->rows->area_count > 0 ? add_shares(r) : CELSPAN_OK;
-}
-
-/* Pixels to which nothing was added, from a column on. */
-static inline celspan_status put_gap(reader *r, bool varies, int32_t column) {
-  uint32_t cell = cell_of(r, r->run_key);
-  if (cell != CS_MAP_BROKEN) {
-    floats colour;
-    memcpy(&colour, &r->colours[cell], sizeof colour);
-    r->run = __builtin_convertvector(colour, cs_doubles) * CS_MAP_HEIGHT;
-  }
-  return put(r, varies, column, cell, r->run);
-}
-
-/* A pixel to which something was added; that is cleared. */
-static inline celspan_status put_pixel(reader *r, bool varies, int32_t column, cs_map_sum *sum,
-                                       cs_map_keys *keys) {
-  cs_doubles colour = r->run + cs_doubles_load(sum->area);
-  uint32_t cell = cell_of(r, r->run_key + keys->area);
-  r->run += cs_doubles_load(sum->height);
-  r->run_key += keys->height;
-  *sum = (cs_map_sum){0};
-  *keys = (cs_map_keys){0};
-  return put(r, varies, column, cell, colour);
 }
 
 /* ---------------------------------------------------------------- a row */
 
 static inline celspan_status read_row(reader *r, cs_map_sums *sums, size_t k, bool varies) {
   cs_map_sum *pixels = sums->sums + k;
-  cs_map_keys *keys = sums->keys + k;
-  uint32_t *heads = sums->heads + k;
   uint64_t *bits = sums->bits + k * sums->words;
-  int32_t next = 0; /* the column after the last one that was put */
+  const int32_t width = sums->width;
+  pixels[CS_MAP_ROWS * (size_t)width] = (cs_map_sum){.head = 0};
+  bits[width / 64] &= (UINT64_C(1) << width % 64) - 1;
+  if (!(bits[0] & 1))
+    CS_TRY(put(r, varies, 0));
   for (size_t i = 0; i < sums->words; bits[i++] = 0)
     for (uint64_t word = bits[i]; word; word &= word - 1) {
       int32_t column = (int32_t)(64 * i) + __builtin_ctzll(word);
-      const size_t at = CS_MAP_ROWS * (size_t)column;
+      cs_map_sum *sum = &pixels[CS_MAP_ROWS * (size_t)column];
+      r->sum += cs_v4_load(sum->colour);
+      r->key += sum->key;
       if (varies)
-        pass_areas(r->rows);
-      if (column > next)
-        CS_TRY(put_gap(r, varies, next));
-      for (; varies && heads[at]; heads[at] = sums->parts[heads[at] - 1].next)
-        CS_TRY(add_area(r, &sums->parts[heads[at] - 1]));
-      CS_TRY(put_pixel(r, varies, column, &pixels[at], &keys[at]));
-      next = column + 1;
+        CS_TRY(change_areas(r, sums, sum->head));
+      *sum = (cs_map_sum){.head = 0};
+      CS_TRY(put(r, varies, column));
     }
-  if (varies)
-    pass_areas(r->rows);
-  if (next < sums->width)
-    CS_TRY(put_gap(r, varies, next));
-  r->last->end = sums->width;
+  r->last->end = width;
   return CELSPAN_OK;
 }
 
 static celspan_status begin_row(reader *r, int32_t width) {
   cs_map_rows *rows = r->rows;
   size_t first = rows->span_count;
-  const cs_v4d clear = cs_v4d_scale(CS_MAP_HEIGHT, cs_v4_wide(r->colours[0]));
   CS_TRY(CS_RESERVE(r->context, rows->spans, rows->span_capacity, first + (size_t)width));
   r->first = rows->spans + first;
   r->last = r->first - 1;
-  memcpy(&r->run, &clear, sizeof r->run);
-  r->run_key = r->cells[0].key * CS_MAP_HEIGHT;
+  r->sum = r->colours[0] * CS_MAP_HEIGHT;
+  r->key = r->cells[0].key * CS_MAP_HEIGHT;
   rows->area_count = 0;
   return CELSPAN_OK;
 }

@@ -5,11 +5,14 @@
 
 /* ---------------------------------------------------------------- life */
 
-static size_t pixel_count(const cs_map_sums *sums) { return CS_MAP_ROWS * (size_t)sums->width; }
-
-static size_t storage_size(const cs_map_sums *sums) {
-  return CS_WIDE_LINE + pixel_count(sums) * sizeof *sums->sums;
+static size_t sums_size(const cs_map_sums *sums) {
+  return CS_MAP_ROWS * ((size_t)sums->width + 1) * sizeof *sums->sums;
 }
+
+static size_t storage_size(const cs_map_sums *sums) { return CS_WIDE_LINE + sums_size(sums); }
+
+/* One word more than the rows have: bits are marked four bytes at a time. */
+static size_t bit_words(const cs_map_sums *sums) { return CS_MAP_ROWS * sums->words + 1; }
 
 celspan_status cs_map_sums_init(celspan_context *context, int32_t width, cs_map_sums *out) {
   *out = (cs_map_sums){.isa = cs_isa_best(), .width = width, .words = (size_t)width / 64 + 1};
@@ -17,16 +20,12 @@ celspan_status cs_map_sums_init(celspan_context *context, int32_t width, cs_map_
   if (!out->storage)
     return cs_fail_memory(context);
   out->sums = cs_wide_align(out->storage);
-  CS_TRY(CS_MAKE(context, out->keys, pixel_count(out)));
-  CS_TRY(CS_MAKE(context, out->heads, pixel_count(out)));
-  return CS_MAKE(context, out->bits, CS_MAP_ROWS * out->words);
+  return CS_MAKE(context, out->bits, bit_words(out));
 }
 
 void cs_map_sums_finish(cs_map_sums *sums, cs_memory *memory) {
   cs_mem_free(memory, sums->storage, storage_size(sums));
-  cs_mem_free(memory, sums->keys, pixel_count(sums) * sizeof *sums->keys);
-  cs_mem_free(memory, sums->heads, pixel_count(sums) * sizeof *sums->heads);
-  cs_mem_free(memory, sums->bits, CS_MAP_ROWS * sums->words * sizeof *sums->bits);
+  cs_mem_free(memory, sums->bits, bit_words(sums) * sizeof *sums->bits);
   cs_mem_free(memory, sums->parts, sums->part_capacity * sizeof *sums->parts);
   *sums = (cs_map_sums){0};
 }
@@ -43,10 +42,8 @@ void cs_map_rows_finish(cs_map_rows *rows, cs_memory *memory) {
 }
 
 static void clear(cs_map_sums *sums) {
-  memset(sums->sums, 0, pixel_count(sums) * sizeof *sums->sums);
-  memset(sums->keys, 0, pixel_count(sums) * sizeof *sums->keys);
-  memset(sums->heads, 0, pixel_count(sums) * sizeof *sums->heads);
-  memset(sums->bits, 0, CS_MAP_ROWS * sums->words * sizeof *sums->bits);
+  memset(sums->sums, 0, sums_size(sums));
+  memset(sums->bits, 0, bit_words(sums) * sizeof *sums->bits);
 }
 
 /* ---------------------------------------------------------------- which borders */
@@ -128,8 +125,7 @@ static void drop_lives(const swath *s) {
 
 /* What a border changes of the cells' colours from its left to its right. */
 static void find_step(const cs_v4 *colours, const cs_map_border *f, cs_map_live *live) {
-  const cs_v4d step = cs_v4d_step(colours[f->left], colours[f->right]);
-  memcpy(live->step, &step, sizeof live->step);
+  cs_v4_store(live->step, colours[f->right] - colours[f->left]);
 }
 
 /* The same of keys, and whether a cell beside it varies. */

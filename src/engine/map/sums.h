@@ -7,9 +7,10 @@
  *                   |        /########|#################|     area, and all that are right of it
  *                   +-------/---------+-----------------+     that times the border's height
  *
- * So the colour of a pixel is what its borders add to it by their areas, and those of all pixels
- * before it by their heights. The rows of a swath are summed together (adding.h), and read one
- * after the other (reading.h).
+ * What is kept of a pixel is by how much it exceeds the one on its left: a border adds its area to
+ * pixel p, and the rest of its height to p + 1. The rows of a swath are summed together (adding.h),
+ * and read one after the other (reading.h). The sums are floats, whatever the light and the sink: a
+ * step of colour has 24 bits, and no error is carried on beyond the next whole pixel.
  *
  * The keys of cells are summed, too, in integers and with the same areas. Where such a sum is the
  * key of a cell times a whole pixel, nothing else is in the pixel: its colour is then

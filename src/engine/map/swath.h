@@ -60,14 +60,13 @@ typedef struct cs_map_live {
   int32_t low, high, foot; /* of the border, as places are */
   bool varies;             /* a cell beside it does */
   uint64_t key;            /* by how much it changes the key from its left to its right */
-  double step[4];          /* and the colour */
+  float step[4];           /* and the colour */
 } cs_map_live;
 
-/* How much of a cell that varies is in the pixel that is being read, and right of it, in
- * HEIGHTths. */
+/* How much of a cell that varies is in the pixel that is being read, in HEIGHTths. */
 typedef struct cs_map_area {
   uint32_t cell;
-  int32_t area, height;
+  int32_t area;
 } cs_map_area;
 
 /* The rows of a drawing in the current swath. */
@@ -91,20 +90,17 @@ typedef struct cs_map_rows {
   size_t share_count, share_capacity, area_count, area_capacity, through_capacity;
 } cs_map_rows;
 
-/* What is added to a pixel and to all that are right of it: a line of the cache. */
+/* By how much a pixel exceeds the one on its left: half a line of the cache. */
 typedef struct cs_map_sum {
-  double area[4];   /* colours times areas, in HEIGHTths: of the pixel */
-  double height[4]; /* colours times heights, as above: of those right of it */
+  float colour[4]; /* times HEIGHT */
+  uint64_t key;    /* the same, modulo 2^64 */
+  uint32_t head;   /* its first part, as cs_map_part.next */
 } cs_map_sum;
+_Static_assert(sizeof(cs_map_sum) == 32, "two sums are a line of the cache");
 
-/* The same of keys, modulo 2^64. */
-typedef struct cs_map_keys {
-  uint64_t area, height;
-} cs_map_keys;
-
-/* What a border adds to the area of a cell that varies. */
+/* The same of the area of a cell that varies, in HEIGHTths. */
 typedef struct cs_map_part {
-  int32_t area, height;
+  int32_t change;
   uint32_t cell, next; /* next: 1 more than the next part of the pixel; 0: none */
 } cs_map_part;
 
@@ -112,13 +108,11 @@ typedef struct cs_map_part {
  * column by column, since most borders go down rather than across. */
 typedef struct cs_map_sums {
   cs_isa isa;
-  int32_t width; /* pixels of a row */
-  size_t words;  /* of a row of bits */
-  void *storage; /* of the sums, which are lines of the cache */
-  cs_map_sum *sums;
-  cs_map_keys *keys;
-  uint64_t *bits;  /* row by row: the pixels to which something was added */
-  uint32_t *heads; /* the first part of each pixel, as cs_map_part.next */
+  int32_t width;    /* pixels of a row; there is one more column, which is not read */
+  size_t words;     /* of a row of bits */
+  void *storage;    /* of the sums, which lie on lines of the cache */
+  cs_map_sum *sums; /* column by column */
+  uint64_t *bits;   /* row by row: the pixels to which something was added */
   cs_map_part *parts;
   size_t part_count, part_capacity;
 } cs_map_sums;
