@@ -102,6 +102,8 @@ static inline void mark(const target *t, uint32_t at, uint32_t mask) {
 /* ---------------------------------------------------------------- pieces */
 
 #define PIECES 64
+#define UNIT_BITS 16 /* vectors of integers are shifted: they are slow to divide */
+_Static_assert(1 << UNIT_BITS == CS_MAP_UNIT, "a pixel is a power of two");
 
 /* What a line has in one row of the frame: its upper end, and its lower one. */
 typedef struct piece {
@@ -182,7 +184,7 @@ typedef struct changes {
 /* Where the pieces are in the sums. */
 static inline void find_places(const target *t, integers8 from, integers8 ya, integers8 has_two,
                                changes *out) {
-  const integers8 column = from >> 16, row = (ya >> 16) & (CS_MAP_ROWS - 1);
+  const integers8 column = from >> UNIT_BITS, row = (ya >> UNIT_BITS) & (CS_MAP_ROWS - 1);
   const integers8 sum = column * CS_MAP_ROWS + row;
   const integers8 byte = row * (int32_t)t->stride + (column >> 3);
   const integers8 mask = (3 - 4 * has_two) << (column & 7);
@@ -191,6 +193,7 @@ static inline void find_places(const target *t, integers8 from, integers8 ya, in
   PUT(mask, out->mask);
 }
 
+/* An upright piece divides by 0, and what comes of that is not chosen: it has one column. */
 static inline void find_changes(const target *t, const piece *pieces, changes *out) {
   const ends p = load_pieces(pieces);
   const integers8 is_down = p.xa < p.xb;
@@ -300,7 +303,7 @@ static inline void add_border(const cs_map_adding *a, cs_map_live *live, bool va
   s.count = 0;
   for (; at + 1 < end && places[at].y < foot; at++) {
     const cs_map_point above = places[at], below = places[at + 1];
-    if (is_inside && above.y >= t.top && (above.y ^ (below.y - 1)) >> 16 == 0) {
+    if (is_inside && above.y >= t.top && (above.y ^ (below.y - 1)) >> UNIT_BITS == 0) {
       s.pieces[s.count] = (piece){above.x, above.y, below.x, below.y};
       s.count += below.y > above.y;
     } else if (below.y > above.y && below.y > t.top) {
