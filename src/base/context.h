@@ -82,7 +82,8 @@ struct celspan_context {
   cs_mark origin; /* of the values made now; its source is kept while the line is 0 */
   const struct cs_picture_module *picture_module; /* root only; NULL: it is loaded on first use */
   const struct cs_colour_module *colour_module;   /* likewise, for colour profiles */
-  atomic_int processors;             /* root only; see cs_context_workers; 0: not counted yet */
+  atomic_int processors; /* root only; see cs_context_workers; 0: not counted yet */
+  int forced_way;        /* root only; of tests: a cs_ways_forced (frames/render/ways.h) */
   struct cs_file_contents *contents; /* gets those of the files completed now; NULL: nobody asks */
   char error[CS_ERROR_SIZE];
 };

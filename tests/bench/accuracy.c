@@ -3,7 +3,7 @@
  *   accuracy drawing DRAWING SIDE K WAY   against the mean of pixel centres in each pixel
  *   accuracy fans|bars ROUNDS             light between shapes that abut: see leaks.h
  *
- * WAY, of the judged frame: swept, or again for maps (scene.h).
+ * WAY, of the judged frame: swept, or mapped (scene.h).
  *
  * The reference is the same scene rendered K times as large without antialiasing. Only every
  * COARSE-th row of it is read; all rows are read for a row of pixels in which those find an error
@@ -130,7 +130,7 @@ static celspan_rows *open_rows(celspan_context *context, celspan_rostrum *rostru
                                celspan_antialias_mode mode, const char *way) {
   const celspan_exposure exposure = {rostrum, 1};
   celspan_frame_desc desc = bench_frame(&exposure, side, side, &mode);
-  bench_choose_way(&desc, way);
+  bench_choose_way(context, &desc, way);
   celspan_rows *rows;
   bench_check(context, celspan_rows_create(context, &desc, &rows));
   return rows;

@@ -17,7 +17,7 @@ static void choose_antialias(bench_frame_job *job, const char *antialias) {
   static const celspan_kernel numbers[] = {CELSPAN_KERNEL_BOX, CELSPAN_KERNEL_GAUSSIAN,
                                            CELSPAN_KERNEL_MITCHELL, CELSPAN_KERNEL_LANCZOS};
   job->mode = strcmp(antialias, "none") == 0 ? CELSPAN_ANTIALIAS_NONE : CELSPAN_ANTIALIAS_AREA;
-  bench_choose_way(&job->desc, antialias);
+  bench_choose_way(job->context, &job->desc, antialias);
   for (size_t i = 0; i < sizeof kernels / sizeof *kernels; i++)
     if (strcmp(antialias, kernels[i]) == 0) {
       job->mode = CELSPAN_ANTIALIAS_FILTER;

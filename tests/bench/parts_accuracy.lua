@@ -17,7 +17,7 @@ local function add(runner, entry, line)
   runner.rows[#runner.rows + 1] = entry
 end
 
---- way: swept, or again for maps.
+--- way: swept, or mapped.
 local function judge(runner, folder, scene, side, k, way)
   local path = ("%s/%s.txt"):format(folder, scene)
   local lines, message = runner:ask(Command(runner:program "accuracy", "drawing", path, side, k,
@@ -52,7 +52,7 @@ function parts.accuracy(runner, folder, is_quick)
   for _, list in ipairs(lists) do table.move(list, 1, #list, #names + 1, names) end
   for _, scene in ipairs(names) do
     for _, side in ipairs(is_quick and { 1024 } or { 1024, 2048 }) do
-      for _, way in ipairs { "swept", "again" } do
+      for _, way in ipairs { "swept", "mapped" } do
         judge(runner, folder, scene, side, is_quick and 128 or 512, way)
       end
     end

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "frames/render/ways.h"
 #include "measure.h"
 
 void bench_check(celspan_context *context, celspan_status status) {
@@ -111,8 +112,11 @@ celspan_rostrum *bench_scene(celspan_context *context, const bench_drawing *draw
   return rostrum;
 }
 
-void bench_choose_way(celspan_frame_desc *desc, const char *way) {
+void bench_choose_way(celspan_context *context, celspan_frame_desc *desc, const char *way) {
   desc->repeats = strcmp(way, "again") == 0 || strcmp(way, "first") == 0;
+  context->root->forced_way = strcmp(way, "swept") == 0    ? CS_WAYS_SWEPT
+                              : strcmp(way, "mapped") == 0 ? CS_WAYS_MAPPED
+                                                           : CS_WAYS_BY_RULE;
 }
 
 celspan_frame_desc bench_frame(const celspan_exposure *exposure, int width, int height,

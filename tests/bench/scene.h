@@ -28,9 +28,9 @@ celspan_rostrum *bench_rostrum_of(celspan_context *context, const celspan_cel_de
 /* All of a drawing as one object. new */
 celspan_object *bench_union(celspan_context *context, const bench_drawing *drawing);
 
-/* How a frame with the antialiasing "area" is drawn: first and again, from the maps of its drawings
- * as in a film; swept, or any other word, without maps. */
-void bench_choose_way(celspan_frame_desc *desc, const char *way);
+/* How the context's frames with the antialiasing "area" are drawn: swept, without maps; mapped,
+ * from maps of all drawings that suit; otherwise as for users, first and again as in a film. */
+void bench_choose_way(celspan_context *context, celspan_frame_desc *desc, const char *way);
 /* One exposure of a film of 1 x 1 by one worker. The pointers are borrowed. */
 celspan_frame_desc bench_frame(const celspan_exposure *exposure, int width, int height,
                                const celspan_antialias_mode *mode);

@@ -3,6 +3,7 @@
  */
 #include "engine/map/keep.h"
 #include "engine/map/turn.h"
+#include "frames/render/ways.h"
 #include "model/geometry/matrix.h"
 #include "tests/support/frame_rows.h"
 #include "tests/support/memory.h"
@@ -198,17 +199,28 @@ static celspan_rostrum *random_rostrum(studio *s, uint64_t seed, scene_kind kind
   return studio_rostrum(s, desc, cels, count);
 }
 
-static celspan_frame_desc frame_of(const celspan_exposure *exposure, bool repeats) {
+static celspan_frame_desc frame_of(const celspan_exposure *exposure) {
   celspan_frame_desc desc = studio_frame(exposure, 1, WIDTH, HEIGHT, NULL);
-  desc.repeats = repeats;
+  desc.repeats = true;
   return desc;
 }
+
+/* Lets all cels that suit go one way. */
+static void force(studio *s, cs_ways_forced way) { s->context->forced_way = way; }
 
 static celspan_statistics count(studio *s, const celspan_frame_desc *desc) {
   celspan_statistics statistics = {0};
   const celspan_sink nowhere = {0};
   studio_check(s, celspan_frame_render(s->context, desc, &nowhere, &statistics));
   return statistics;
+}
+
+static image make_swept(studio *s, const celspan_frame_desc *desc) {
+  force(s, CS_WAYS_SWEPT);
+  CHECK(count(s, desc).maps == 0);
+  image picture = make_image(s, desc, 1);
+  force(s, CS_WAYS_MAPPED);
+  return picture;
 }
 
 static float difference(const image *a, const image *b) {
@@ -263,13 +275,13 @@ static void check_pictures(studio *s) {
       continue;
     scene_kind kind = (scene_kind)(seed % KINDS);
     celspan_exposure exposure = {random_rostrum(s, seed, kind), 1};
-    celspan_frame_desc swept = frame_of(&exposure, false), drawn = frame_of(&exposure, true);
-    CHECK(count(s, &swept).maps == 0 && count(s, &drawn).maps > 0);
-    image a = make_image(s, &swept, 1), b = make_image(s, &drawn, 1);
+    celspan_frame_desc desc = frame_of(&exposure);
+    image a = make_swept(s, &desc), b = make_image(s, &desc, 1);
+    CHECK(count(s, &desc).maps > 0);
     float most = difference(&a, &b);
     bool is_varied = kind == VARIED || kind == MIXED || kind == GLAZED;
     float bound = kind == ROUND ? 0.02f : is_varied ? 2 / 255.0f : 0.0002f;
-    if (!CHECK(most < bound || (kind == PARTED && most < 0.003f && is_right(s, &drawn, &a, &b))))
+    if (!CHECK(most < bound || (kind == PARTED && most < 0.003f && is_right(s, &desc, &a, &b))))
       fprintf(stderr, "  scene %d: %g\n", (int)seed, (double)most);
     free(a.rgba);
     free(b.rgba);
@@ -298,7 +310,7 @@ static void check_gels(studio *s) {
   const celspan_cel_desc cel = CELSPAN_CEL_DESC;
   celspan_cel *cels[] = {studio_cel(s, cel, &objects[1], 1), studio_cel(s, cel, &objects[0], 1)};
   celspan_exposure exposure = {studio_rostrum(s, desc, cels, 2), 1};
-  celspan_frame_desc frame = frame_of(&exposure, true);
+  celspan_frame_desc frame = frame_of(&exposure);
   CHECK(count(s, &frame).maps == 2);
   image picture = make_image(s, &frame, 1);
   for (int c = 0; c < 3; c++) {
@@ -341,9 +353,9 @@ static void check_gels_among_others(studio *s, float gradient, double x, uint64_
   celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
   desc.back = (celspan_light){1, 0.75f, 0.5f, 1};
   celspan_exposure exposure = {studio_rostrum(s, desc, cels, 3), 1};
-  celspan_frame_desc swept = frame_of(&exposure, false), drawn = frame_of(&exposure, true);
-  image a = make_image(s, &swept, 1), b = make_image(s, &drawn, 1);
-  CHECK(count(s, &drawn).maps == maps && difference(&a, &b) < 0.01f);
+  celspan_frame_desc frame = frame_of(&exposure);
+  image a = make_swept(s, &frame), b = make_image(s, &frame, 1);
+  CHECK(count(s, &frame).maps == maps && difference(&a, &b) < 0.01f);
   free(a.rgba);
   free(b.rgba);
   studio_finish(s);
@@ -365,9 +377,9 @@ static void check_hidden(studio *s) {
     celspan_cel *cels[] = {studio_cel(s, cel, objects, SHAPES)};
     const celspan_rostrum_desc rostrum = CELSPAN_ROSTRUM_DESC;
     celspan_exposure exposure = {studio_rostrum(s, rostrum, cels, 1), 1};
-    celspan_frame_desc swept = frame_of(&exposure, false), drawn = frame_of(&exposure, true);
-    image a = make_image(s, &swept, 1), b = make_image(s, &drawn, 1);
-    CHECK(count(s, &drawn).maps == 1 && difference(&a, &b) < 0.0002f);
+    celspan_frame_desc desc = frame_of(&exposure);
+    image a = make_swept(s, &desc), b = make_image(s, &desc, 1);
+    CHECK(count(s, &desc).maps == 1 && difference(&a, &b) < 0.0002f);
     free(a.rgba);
     free(b.rgba);
     studio_finish(s);
@@ -384,7 +396,7 @@ static void check_nothing(studio *s) {
   celspan_cel *cels[] = {studio_cel(s, cel, objects, SHAPES)};
   const celspan_rostrum_desc rostrum = CELSPAN_ROSTRUM_DESC;
   celspan_exposure exposure = {studio_rostrum(s, rostrum, cels, 1), 1};
-  celspan_frame_desc drawn = frame_of(&exposure, true);
+  celspan_frame_desc drawn = frame_of(&exposure);
   image a = make_image(s, &drawn, 1);
   CHECK(count(s, &drawn).maps == 1);
   for (int i = 0; i < WIDTH * HEIGHT; i++)
@@ -400,7 +412,7 @@ static void check_bits(studio *s, studio *small) {
   for (uint64_t seed = 100; seed < 120; seed++) {
     celspan_exposure exposure = {random_rostrum(s, seed, (scene_kind)(seed % KINDS)), 1};
     celspan_exposure again = {random_rostrum(small, seed, (scene_kind)(seed % KINDS)), 1};
-    celspan_frame_desc desc = frame_of(&exposure, true), other = frame_of(&again, true);
+    celspan_frame_desc desc = frame_of(&exposure), other = frame_of(&again);
     image a = make_image(s, &desc, 1), b = make_image(s, &desc, 7),
           c = make_image(small, &other, 1);
     CHECK(memcmp(a.rgba, b.rgba, WIDTH * HEIGHT * sizeof *a.rgba) == 0);
@@ -430,7 +442,7 @@ static celspan_exposure moved_disc(studio *s, celspan_matrix matrix) {
 
 /* Maps of a frame that has been made, and how many of them were new. */
 static void check_maps(studio *s, celspan_exposure exposure, uint64_t maps, uint64_t made) {
-  celspan_frame_desc desc = frame_of(&exposure, true);
+  celspan_frame_desc desc = frame_of(&exposure);
   celspan_statistics statistics = count(s, &desc);
   if (!CHECK(statistics.maps == maps && statistics.maps_made == made))
     fprintf(stderr, "  %d maps, of which %d were made\n", (int)statistics.maps,
@@ -459,6 +471,50 @@ static void check_kept(studio *s, studio *small) {
   CHECK(cs_map_keep_count(s->context).bytes > 0 && cs_map_keep_count(small->context).bytes == 0);
 }
 
+static uint64_t made_of(studio *s, double radius, bool repeats) {
+  celspan_object *disc = with_shapes(s, studio_circle(s, 20, 20, radius, NULL));
+  celspan_exposure exposure = {studio_show(s, disc), 1};
+  celspan_frame_desc desc = frame_of(&exposure);
+  desc.repeats = repeats;
+  return count(s, &desc).maps_made;
+}
+
+/* A still uses the maps that are kept, but none of them goes to make room for its own. */
+static void check_no_map_goes(studio *s, celspan_context_desc desc) {
+  cs_context_trim(s->context);
+  CHECK(made_of(s, 15, false) == 1 && made_of(s, 15, false) == 0);
+  studio tight = {0};
+  desc.defocus_bytes = 6 * cs_map_keep_count(s->context).bytes; /* a quarter of it is for maps */
+  CHECK(celspan_context_create(&desc, &tight.context) == CELSPAN_OK);
+  force(&tight, CS_WAYS_MAPPED);
+  CHECK(made_of(&tight, 15, true) == 1 && made_of(&tight, 15, false) == 0);
+  CHECK(made_of(&tight, 14, false) == 1 && made_of(&tight, 14, false) == 1);
+  CHECK(made_of(&tight, 15, false) == 0);
+  CHECK(made_of(&tight, 14, true) == 1 && made_of(&tight, 15, false) == 1);
+  studio_finish(s);
+  studio_finish(&tight);
+  celspan_context_destroy(tight.context);
+}
+
+/* A maker stops where translucent shapes cross all over: each crossing makes new windings. Then the
+ * cel is swept, and nothing is tried again. */
+static void check_refused(studio *s) {
+  celspan_object *objects[SHAPES];
+  celspan_texture *glass = studio_paint(s, celspan_paint_rgb(1, 0, 0, 0.1f));
+  for (int i = 0; i < SHAPES; i++) {
+    const celspan_point corners[] = {{1.1 * i, 0}, {1.1 * i + 1, 0}, {WIDTH - 1.1 * i, HEIGHT}};
+    objects[i] = studio_polygon(s, corners, 3, CELSPAN_RULE_NONZERO, glass);
+  }
+  celspan_cel *cels[] = {studio_cel(s, CELSPAN_CEL_DESC, objects, SHAPES)};
+  celspan_exposure exposure = {studio_rostrum(s, CELSPAN_ROSTRUM_DESC, cels, 1), 1};
+  celspan_frame_desc desc = frame_of(&exposure);
+  cs_context_trim(s->context);
+  const uint64_t before = cs_map_keep_count(s->context).made;
+  CHECK(count(s, &desc).swept == 1 && cs_map_keep_count(s->context).made == before + 1);
+  CHECK(count(s, &desc).swept == 1 && cs_map_keep_count(s->context).made == before + 1);
+  studio_finish(s);
+}
+
 /* A map is turned as far as its corners, here (5, 5) of a disc, are no farther away than its lines
  * can be. */
 static void check_lines_fit(studio *s) {
@@ -478,6 +534,65 @@ static void check_lines_fit(studio *s) {
              moved_disc(s, celspan_matrix_then(
                                over, celspan_matrix_translation(0, -CS_MAP_FARTHEST + 22))),
              1, 1);
+  studio_finish(s);
+}
+
+/* ---------------------------------------------------------------- the rule */
+
+/* What makes a cel artwork: each row differs from the first one in what is judged there. */
+static void check_rule(void) {
+  static const struct {
+    size_t shapes, inside, hiding;
+    double height; /* of each that is inside */
+    double varied, flat;
+    int32_t side;
+    bool occurs_again, is_artwork, is_small;
+  } rows[] = {
+      {100, 100, 50, 450, 5, 5, 1000, false, true, false},
+      {63, 63, 63, 450, 5, 5, 1000, false, false, true},    /* too few */
+      {64, 64, 64, 450, 5, 5, 1000, false, true, false},    /* enough */
+      {63, 63, 63, 450, 6, 5, 1000, false, false, false},   /* too few, and they vary */
+      {100, 100, 49, 450, 5, 5, 1000, false, false, false}, /* translucent */
+      {100, 100, 50, 450, 6, 5, 1000, false, false, false}, /* gradients */
+      {100, 25, 50, 450, 5, 5, 1000, false, true, false},   /* a quarter is seen */
+      {100, 24, 50, 450, 5, 5, 1000, false, false, false},  /* less */
+      {100, 100, 50, 451, 5, 5, 1000, false, false, false}, /* too high */
+      {100, 100, 50, 450, 5, 5, 1001, false, false, false}, /* the frame is too large */
+      {100, 100, 50, 675, 5, 5, 1000, true, true, false},   /* seen twice */
+      {100, 100, 50, 676, 5, 5, 1000, true, false, false},
+      {100, 0, 50, 0, 0, 0, 1000, false, false, false}, /* outside the frame */
+  };
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+    const cs_census census = {rows[i].shapes, rows[i].inside,
+                              rows[i].hiding, rows[i].height * (double)rows[i].inside,
+                              rows[i].varied, rows[i].flat};
+    cs_ways ways = {0};
+    cs_ways_judge(&ways, 1, rows[i].shapes, &census, rows[i].side, rows[i].occurs_again);
+    if (!CHECK(ways.is_artwork[1] == rows[i].is_artwork && ways.is_small[1] == rows[i].is_small))
+      fprintf(stderr, "  row %d of the rule\n", (int)i);
+  }
+}
+
+/* Boxes that lie partly in the frame, faded, cut away, turned by a right angle and moved. */
+static void check_census(studio *s) {
+  celspan_texture *red = studio_paint(s, celspan_paint_rgb(1, 0, 0, 1));
+  const celspan_stop stops[] = {{0, celspan_paint_rgb(1, 0, 0, 1)},
+                                {1, celspan_paint_rgb(0, 0, 1, 1)}};
+  celspan_texture *varied =
+      studio_linear(s, (celspan_point){0, 0}, (celspan_point){9, 9}, stops, 2);
+  celspan_object *objects[] = {
+      studio_rect(s, -10, -10, 20, 30, red), /* 10 x 20 of it are inside */
+      studio_pair(s, CELSPAN_DIFFERENCE, studio_rect(s, 0, 0, 10, 10, red),
+                  studio_rect(s, 5, 5, 2, 4, red)),
+      studio_transform(s, studio_rect(s, 0, 0, 8, 4, varied),
+                       celspan_matrix_rotation(90, (celspan_point){0, 0})),
+      studio_rect(s, 200, 0, 5, 5, red),
+  };
+  const celspan_matrix here = celspan_matrix_identity();
+  cs_census census = cs_census_take(objects, 4, &here, WIDTH, HEIGHT);
+  CHECK(census.shapes == 5 && census.inside == 3 && census.hiding == 3);
+  CHECK(fabs(census.heights - (20 + 10 + 4)) < 1e-9);
+  CHECK(census.varied == 0 && fabs(census.flat - (200 + 100 + 8)) < 1e-9);
   studio_finish(s);
 }
 
@@ -545,7 +660,7 @@ static void check_number(studio *s) {
   celspan_cel *cels[] = {studio_cel(s, CELSPAN_CEL_DESC, objects, 2),
                          studio_cel(s, far, objects, 1)};
   celspan_exposure exposure = {studio_rostrum(s, CELSPAN_ROSTRUM_DESC, cels, 2), 1};
-  celspan_frame_desc desc = frame_of(&exposure, true);
+  celspan_frame_desc desc = frame_of(&exposure);
   const celspan_sink nowhere = {0};
   CHECK(celspan_frame_render(s->context, &desc, &nowhere, NULL) == CELSPAN_BAD_ARGUMENT);
   CHECK(strncmp(celspan_context_error(s->context), "cel 2:", 6) == 0);
@@ -558,7 +673,7 @@ static void check_far(studio *s) {
   for (int k = 0; k < 8; k++) {
     double way = ways[k / 2], x = k % 2 ? way : 0, y = k % 2 ? 0 : way;
     celspan_exposure exposure = moved_disc(s, celspan_matrix_translation(x, y));
-    celspan_frame_desc desc = frame_of(&exposure, true);
+    celspan_frame_desc desc = frame_of(&exposure);
     CHECK(count(s, &desc).maps == 1);
     image picture = make_image(s, &desc, 1);
     for (int i = 0; i < WIDTH * HEIGHT; i++)
@@ -607,7 +722,7 @@ static void check_leaks(studio *s, double angle, uint64_t maps) {
                    *other = studio_transform(s, right, turn);
     celspan_cel *cels[] = {studio_cel(s, lit, &one, 1), studio_cel(s, CELSPAN_CEL_DESC, &other, 1)};
     celspan_exposure exposure = {studio_rostrum(s, desc, cels, 2), 1};
-    celspan_frame_desc frame = frame_of(&exposure, true);
+    celspan_frame_desc frame = frame_of(&exposure);
     CHECK(count(s, &frame).maps == maps);
     image picture = make_image(s, &frame, 1);
     int margin = angle == 0 ? 5 : 20, edge = angle == 0 ? 5 : 35;
@@ -627,7 +742,7 @@ static void check_leaks(studio *s, double angle, uint64_t maps) {
  * made again. */
 static void check_failures_of_memory(studio *s, memory_watch *watch, scene_kind kind) {
   celspan_exposure exposure = {random_rostrum(s, 3, kind), 1};
-  celspan_frame_desc desc = frame_of(&exposure, true);
+  celspan_frame_desc desc = frame_of(&exposure);
   desc.workers = 1;
   uint64_t wanted[2], digest[2];
   studio_check(s, celspan_frame_digest(s->context, &desc, NULL, wanted));
@@ -654,6 +769,8 @@ int main(void) {
   CHECK(celspan_context_create(&desc, &s.context) == CELSPAN_OK);
   desc.defocus_bytes = 1;
   CHECK(celspan_context_create(&desc, &small.context) == CELSPAN_OK);
+  force(&s, CS_WAYS_MAPPED);
+  force(&small, CS_WAYS_MAPPED);
   check_pictures(&s);
   check_gels(&s);
   check_gels_among_others(&s, 0.5f, 60, 3);
@@ -663,7 +780,11 @@ int main(void) {
   check_nothing(&s);
   check_bits(&s, &small);
   check_kept(&s, &small);
+  check_no_map_goes(&s, desc);
+  check_refused(&s);
   check_lines_fit(&s);
+  check_rule();
+  check_census(&s);
   check_parts(&s);
   check_parts_together(&s);
   check_number(&s);

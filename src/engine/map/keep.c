@@ -36,13 +36,43 @@ static celspan_status make_map(void *user, celspan_context *context, cs_cache_en
   return CELSPAN_OK;
 }
 
-celspan_status cs_map_keep_acquire(celspan_context *context, cs_cache_key key,
+/* Keeps a map that is not in the cache, if there is room. */
+static celspan_status offer(celspan_context *context, cs_cache *cache, cs_cache_key key,
+                            cs_map *map) {
+  size_t bytes = sizeof(entry) + cs_map_bytes(map);
+  cs_cache_entry *cached;
+  if (cs_cache_count(cache).bytes + bytes > context->root->map_bytes)
+    return CELSPAN_OK;
+  CS_TRY(cs_cache_create(cache, context, key, bytes, &cached));
+  ((entry *)cached)->map = map;
+  cs_map_ref(map);
+  (void)cs_cache_insert(cache, cached, false);
+  return CELSPAN_OK;
+}
+
+static celspan_status find_or_make(celspan_context *context, cs_cache *cache, cs_cache_key key,
+                                   const order *o, cs_map **out) {
+  cs_cache_entry *cached = cs_cache_pin(cache, key);
+  if (cached) {
+    *out = ((entry *)cached)->map;
+    cs_map_ref(*out);
+    cs_cache_unpin(cache, cached);
+    return CELSPAN_OK;
+  }
+  CS_TRY(cs_map_create(context, out));
+  CS_TRY(o->make(o->user, context, *out));
+  return offer(context, cache, key, *out);
+}
+
+celspan_status cs_map_keep_acquire(celspan_context *context, cs_cache_key key, bool evicts,
                                    cs_map_keep_maker make, void *user, cs_map **out) {
   order o = {make, user};
   cs_service *service;
   cs_cache_entry *cached;
   CS_TRY(cs_context_service(context, &kind, &service));
   cs_cache *cache = cs_cache_of(service);
+  if (!evicts)
+    return find_or_make(context, cache, key, &o, out);
   CS_TRY(cs_cache_acquire(cache, context, key, make_map, &o, &cached));
   *out = ((entry *)cached)->map;
   cs_map_ref(*out);

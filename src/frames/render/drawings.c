@@ -128,15 +128,19 @@ static celspan_status make(void *user, celspan_context *context, cs_map *map) {
   return make_alone(context, d, &drawing, map);
 }
 
+/* Of an object of a drawing; an only one is the same wherever they are moved. */
+static cs_hash hash_of(const celspan_cel *cel, size_t object) {
+  return cel->object_count == 1 ? cel->objects[0]->data->hash : cel->objects[object]->hash;
+}
+
 static cs_cache_key key_of(const placed_cel *d) {
-  celspan_object *const *objects = d->cel->objects;
   size_t count = d->cel->object_count;
   cs_hash hash = cs_hash_begin(0x6d6170u);
   cs_hash_word(&hash, count);
   cs_hash_word(&hash, d->view->space);
   cs_hash_word(&hash, d->is_turned);
   for (size_t i = 0; i < count; i++)
-    cs_hash_hash(&hash, count == 1 ? objects[i]->data->hash : objects[i]->hash);
+    cs_hash_hash(&hash, hash_of(d->cel, i));
   cs_hash_number(&hash, d->scale_x);
   cs_hash_number(&hash, d->scale_y);
   hash = cs_hash_end(hash);
@@ -200,24 +204,6 @@ static celspan_status place_turned(celspan_context *context, const placed_cel *d
   return *suits ? cs_map_turn(context, map, &matrix, size, suits, &out->turned) : CELSPAN_OK;
 }
 
-/* *suits: whether the cel can be a map in its place. */
-static celspan_status make_drawing(celspan_context *context, const celspan_rostrum *rostrum,
-                                   placed_cel *d, cs_map_drawing *drawing, bool *suits) {
-  const cs_light front = cs_scene_front(rostrum, d->cel);
-  float opacity = (float)d->opacity;
-  drawing->light = opacity * colour_of(cs_light_in(&front, d->view->space));
-  drawing->light[3] = opacity;
-  drawing->grade = d->cel->grade ? &d->cel->grade->steps : NULL;
-  drawing->space = d->view->space;
-  CS_TRY(cs_map_keep_acquire(context, key_of(d), make, d, &drawing->map));
-  *suits = drawing->map->is_whole;
-  if (*suits && d->is_turned)
-    CS_TRY(place_turned(context, d, drawing, suits));
-  else if (*suits)
-    place_upright(d, drawing);
-  return *suits ? light_cells(context, drawing) : CELSPAN_OK;
-}
-
 /* ---------------------------------------------------------------- cels that are swept */
 
 /* Compiles cels by themselves, with all their lights but the one behind them, which is compiled
@@ -263,9 +249,30 @@ static void place_object(placed_cel *d, const celspan_object *object) {
   d->opacity *= object->fade;
 }
 
-/* The drawings of all cels; those that their place does not suit are found. */
+static bool is_same_drawing(const celspan_cel *a, const celspan_cel *b) {
+  bool is_same = a->object_count == b->object_count && a->object_count > 0;
+  for (size_t i = 0; is_same && i < a->object_count; i++) {
+    const cs_hash from = hash_of(a, i), to = hash_of(b, i);
+    is_same = from.a == to.a && from.b == to.b;
+  }
+  return is_same;
+}
+
+/* Whether another cel of the exposure, or one of another exposure, has the drawing of a cel. */
+static bool occurs_again(const cs_cel_parts *parts, size_t cel, const celspan_rostrum *other) {
+  const celspan_rostrum *rostrum = parts->rostrum;
+  bool occurs = false;
+  for (size_t i = 0; !occurs && i < rostrum->cel_count; i++)
+    occurs = i != cel && is_same_drawing(rostrum->cels[cel], rostrum->cels[i]);
+  for (size_t i = 0; !occurs && other && i < other->cel_count; i++)
+    occurs = is_same_drawing(rostrum->cels[cel], other->cels[i]);
+  return occurs;
+}
+
+/* The drawings of all cels, which are judged in their places. */
 static celspan_status place_cels(celspan_context *context, const cs_cel_parts *parts,
-                                 const cs_view *view, placed_cel *drawings, cs_ways *ways) {
+                                 const cs_view *view, const celspan_rostrum *other,
+                                 placed_cel *drawings, cs_ways *ways) {
   const celspan_rostrum *rostrum = parts->rostrum;
   const celspan_matrix to_pixels =
       celspan_matrix_scaling(view->width / view->film_width, view->height / view->film_height);
@@ -275,10 +282,13 @@ static celspan_status place_cels(celspan_context *context, const cs_cel_parts *p
     CS_TRY(cs_parts_place(context, parts, i, view, &d->matrix));
     d->matrix = celspan_matrix_then(d->matrix, to_pixels);
     d->opacity = d->cel->opacity;
+    const cs_census census = cs_census_take(d->cel->objects, d->cel->object_count, &d->matrix,
+                                            view->width, view->height);
+    cs_ways_judge(ways, i, cs_parts_shapes(d->cel->objects, d->cel->object_count), &census,
+                  view->width > view->height ? view->width : view->height,
+                  occurs_again(parts, i, other));
     if (d->cel->object_count == 1)
       place_object(d, d->cel->objects[0]);
-    if (ways->suits[i] && !find_scale(d))
-      cs_ways_sweep(rostrum, ways, i);
   }
   return CELSPAN_OK;
 }
@@ -287,12 +297,33 @@ static celspan_status place_cels(celspan_context *context, const cs_cel_parts *p
 typedef struct making {
   celspan_context *context;
   const celspan_rostrum *rostrum; /* of the parts */
+  const celspan_rostrum *other;   /* of another exposure; NULL: there is none */
+  bool repeats;                   /* see celspan_frame_desc */
   cs_cel_parts parts;
   const cs_view *view;
   const cs_antialias *antialias;
   cs_ways ways;
   placed_cel drawings[CS_MAP_DRAWINGS];
 } making;
+
+/* *suits: whether the cel can be a map in its place. */
+static celspan_status make_drawing(const making *m, placed_cel *d, cs_map_drawing *drawing,
+                                   bool *suits) {
+  celspan_context *context = m->context;
+  const cs_light front = cs_scene_front(m->rostrum, d->cel);
+  float opacity = (float)d->opacity;
+  drawing->light = opacity * colour_of(cs_light_in(&front, d->view->space));
+  drawing->light[3] = opacity;
+  drawing->grade = d->cel->grade ? &d->cel->grade->steps : NULL;
+  drawing->space = d->view->space;
+  CS_TRY(cs_map_keep_acquire(context, key_of(d), m->repeats, make, d, &drawing->map));
+  *suits = drawing->map->is_whole;
+  if (*suits && d->is_turned)
+    CS_TRY(place_turned(context, d, drawing, suits));
+  else if (*suits)
+    place_upright(d, drawing);
+  return *suits ? light_cells(context, drawing) : CELSPAN_OK;
+}
 
 /* Makes the sheet that begins with a cel. *suits: as in make_drawing and compile_cels. */
 static celspan_status make_sheet(making *m, size_t first, cs_map_sheet *sheet, bool *suits) {
@@ -302,7 +333,7 @@ static celspan_status make_sheet(making *m, size_t first, cs_map_sheet *sheet, b
     set_back(rostrum, &rostrum->cels[first]->back, m->view->space, &sheet->back, &sheet->keep);
   if (!m->ways.mapped[first])
     return compile_cels(m->context, &m->parts, m->view, m->antialias, sheet, first, suits);
-  return make_drawing(m->context, rostrum, &m->drawings[first], &sheet->drawing, suits);
+  return make_drawing(m, &m->drawings[first], &sheet->drawing, suits);
 }
 
 static size_t count_sheets(const making *m) {
@@ -337,10 +368,11 @@ static celspan_status make_sheets(making *m, cs_map_frame *out, size_t *unsuited
 
 static celspan_status make_frame(making *m, cs_map_frame *out) {
   const celspan_rostrum *rostrum = m->rostrum = m->parts.rostrum;
+  CS_TRY(place_cels(m->context, &m->parts, m->view, m->other, m->drawings, &m->ways));
   cs_ways_find(rostrum, m->view, &m->ways);
-  if (!cs_ways_choose(rostrum, &m->ways))
-    return CELSPAN_OK;
-  CS_TRY(place_cels(m->context, &m->parts, m->view, m->drawings, &m->ways));
+  for (size_t i = 0; i < rostrum->cel_count; i++)
+    if (m->ways.suits[i] && !find_scale(&m->drawings[i]))
+      cs_ways_sweep(rostrum, &m->ways, i);
   while (cs_ways_choose(rostrum, &m->ways)) {
     size_t unsuited = rostrum->cel_count;
     CS_TRY(make_sheets(m, out, &unsuited));
@@ -355,12 +387,17 @@ static celspan_status make_frame(making *m, cs_map_frame *out) {
 }
 
 celspan_status cs_drawings_create(celspan_context *context, const celspan_rostrum *rostrum,
-                                  const cs_view *view, const cs_antialias *antialias,
-                                  cs_map_frame *out) {
-  making m = {.context = context, .view = view, .antialias = antialias};
-  if (!cs_ways_exist(rostrum, view, antialias))
+                                  const celspan_rostrum *other, const cs_view *view,
+                                  const cs_antialias *antialias, bool repeats, cs_map_frame *out) {
+  making m = {.context = context,
+              .other = other,
+              .view = view,
+              .antialias = antialias,
+              .repeats = repeats,
+              .ways.forced = (cs_ways_forced)context->root->forced_way};
+  if (m.ways.forced == CS_WAYS_SWEPT || !cs_ways_exist(rostrum, view, antialias))
     return CELSPAN_OK;
-  celspan_status status = cs_parts_create(context, rostrum, view, cs_ways_rich(view), &m.parts);
+  celspan_status status = cs_parts_create(context, rostrum, view, CS_WAYS_SHAPES, &m.parts);
   if (status == CELSPAN_OK)
     status = make_frame(&m, out);
   cs_parts_finish(&m.parts, context->memory);

@@ -8,19 +8,21 @@
  * Which way a cel goes is the rule of ways.h. Where it turns out that a cel cannot be a map, its
  * way is chosen again, and where swept cels have too many dashes the exposure has no sheets.
  *
- * Invariant: this depends on the exposure and the size of the whole frame alone.
+ * Invariant: this depends on the exposures and the size of the whole frame alone.
  */
 #pragma once
 
 #include "engine/map/sheets.h"
 #include "frames/render/compile.h"
 
-/* *out: is zero, and stays so where the exposure is not drawn from maps; to be finished after an
+/* other: the rostrum of another exposure, or NULL. repeats: see celspan_frame_desc.
+ * *out: is zero, and stays so where the exposure is not drawn from maps; to be finished after an
  * error, too. Errors: as of cs_compile. */
 CELSPAN_CHECKED celspan_status cs_drawings_create(celspan_context *context,
                                                   const celspan_rostrum *rostrum,
-                                                  const cs_view *view,
-                                                  const cs_antialias *antialias, cs_map_frame *out);
+                                                  const celspan_rostrum *other, const cs_view *view,
+                                                  const cs_antialias *antialias, bool repeats,
+                                                  cs_map_frame *out);
 void cs_drawings_finish(cs_map_frame *frame, cs_memory *memory);
 
 static inline bool cs_drawings_are_used(const cs_map_frame *frame) { return frame->width > 0; }

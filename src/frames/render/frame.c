@@ -101,9 +101,11 @@ static const cs_antialias *antialias_of(const cs_frame *frame, size_t index) {
 
 /* Draws the exposures from maps that suit. */
 static celspan_status find_drawings(celspan_context *context, const cs_frame *frame) {
-  for (size_t i = 0; frame->repeats && i < frame->count; i++)
-    CS_TRY(cs_drawings_create(context, frame->rostrums[i], &frame->view, antialias_of(frame, i),
-                              &frame->maps[i]));
+  for (size_t i = 0; i < frame->count; i++) {
+    const celspan_rostrum *other = frame->count > 1 ? frame->rostrums[i > 0 ? i - 1 : 1] : NULL;
+    CS_TRY(cs_drawings_create(context, frame->rostrums[i], other, &frame->view,
+                              antialias_of(frame, i), frame->repeats, &frame->maps[i]));
+  }
   return CELSPAN_OK;
 }
 

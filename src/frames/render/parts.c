@@ -27,13 +27,6 @@ size_t cs_parts_shapes(celspan_object *const *objects, size_t count) {
   return shapes;
 }
 
-size_t cs_parts_cuts(celspan_object *const *objects, size_t count) {
-  size_t cuts = 0;
-  for (size_t i = 0; i < count; i++)
-    cuts += objects[i]->data->cut_count;
-  return cuts;
-}
-
 static bool is_moved(const celspan_object *object) { return object->matrix == object->own; }
 
 /* Whether an object only holds its operands together. */

@@ -11,10 +11,10 @@
  *           arm, rotated
  *
  * A cel that is one map is solved again whenever anything in it moves. The rule. An object of a cel
- * is a part that has a transform, is rich (ways.h), and has at least one in CS_PARTS_MOST of the
- * shapes of its cel; unless parts are inside it, which it only holds together: then they are. What
- * only holds together is a union that is not faded and has no mode, grade or space of its own. What
- * lies between two parts is a cel, too. A cel keeps its parts together that
+ * is a part that has a transform, is rich (CS_WAYS_SHAPES of ways.h), and has at least one in
+ * CS_PARTS_MOST of the shapes of its cel; unless parts are inside it, which it only holds together:
+ * then they are. What only holds together is a union that is not faded and has no mode, grade or
+ * space of its own. What lies between two parts is a cel, too. A cel keeps its parts together that
  *   - composites its objects by themselves, such as a faded one, or has objects whose modes act on
  *     other cels, or a light with a shape,
  *   - would have more shapes in what is not rich than in what is,
@@ -50,8 +50,6 @@ CELSPAN_CHECKED celspan_status cs_parts_place(celspan_context *context, const cs
                                               size_t index, const cs_view *view,
                                               celspan_matrix *out);
 /* The shapes of a list of objects, as they count in rules about maps: without those that are cut
- * away, */
+ * away. */
 size_t cs_parts_shapes(celspan_object *const *objects, size_t count);
-/* and these. */
-size_t cs_parts_cuts(celspan_object *const *objects, size_t count);
 void cs_parts_finish(cs_cel_parts *parts, cs_memory *memory);

@@ -11,13 +11,6 @@ static bool has_procedure(const celspan_cel *cel) {
   return has;
 }
 
-static bool has_picture(const celspan_cel *cel) {
-  bool has = false;
-  for (size_t i = 0; i < cel->object_count; i++)
-    has |= cel->objects[i]->data->has_picture;
-  return has;
-}
-
 static bool is_uneven(const celspan_cel *cel) {
   bool is_uneven = false;
   for (size_t i = 0; i < cel->object_count; i++)
@@ -30,14 +23,9 @@ static size_t count_shapes(const celspan_cel *cel) {
   return cel->defocus_radius > 0 ? 1 : cs_parts_shapes(cel->objects, cel->object_count);
 }
 
-/* What is cut away hides nothing, so that each boundary of it may be seen. */
-static size_t count_cuts(const celspan_cel *cel) {
-  return cel->defocus_radius > 0 ? 0 : cs_parts_cuts(cel->objects, cel->object_count);
-}
-
-/* A few pictures are drawn faster where they are composed with others. */
-static bool is_mapped(const celspan_cel *cel, bool suits, size_t rich) {
-  return suits && (count_shapes(cel) >= rich || !has_picture(cel));
+static bool is_mapped(const cs_ways *ways, size_t cel) {
+  return ways->suits[cel] &&
+         (ways->is_artwork[cel] || ways->is_small[cel] || ways->forced == CS_WAYS_MAPPED);
 }
 
 /* Whether more of a cel is needed than what it shows and lets through to put it over the cels
@@ -75,39 +63,47 @@ bool cs_ways_exist(const celspan_rostrum *rostrum, const cs_view *view,
                cs_space_inside(rostrum->space, view->space) == view->space &&
                view->width <= CS_WAYS_SIDE && view->height <= CS_WAYS_SIDE &&
                rostrum->cel_count <= CS_MAP_DRAWINGS;
-  for (size_t i = 0; suits && i < rostrum->cel_count; i++)
+  size_t most = 0;
+  for (size_t i = 0; suits && i < rostrum->cel_count; i++) {
+    size_t shapes = count_shapes(rostrum->cels[i]);
+    most = shapes > most ? shapes : most;
     suits = !has_procedure(rostrum->cels[i]);
-  return suits;
-}
-
-size_t cs_ways_rich(const cs_view *view) {
-  int32_t side = view->width > view->height ? view->width : view->height;
-  return side > CS_WAYS_SHAPES * CS_WAYS_PIXELS ? (size_t)side / CS_WAYS_PIXELS : CS_WAYS_SHAPES;
-}
-
-void cs_ways_find(const celspan_rostrum *rostrum, const cs_view *view, cs_ways *out) {
-  *out = (cs_ways){.rear = rostrum->back.texture ? 1 : 0, .shapes = cs_ways_rich(view)};
-  for (size_t i = 0; i < rostrum->cel_count; i++) {
-    out->suits[i] = may_have_map(rostrum, rostrum->cels[i], view->space);
-    if (needs_backdrop(rostrum->cels[i], is_mapped(rostrum->cels[i], out->suits[i], out->shapes),
-                       view->space))
-      out->rear = i + 1;
   }
-  sweep_rear(out, out->rear);
+  return suits && most >= CS_WAYS_SHAPES;
+}
+
+void cs_ways_find(const celspan_rostrum *rostrum, const cs_view *view, cs_ways *ways) {
+  ways->rear = rostrum->back.texture ? 1 : 0;
+  for (size_t i = 0; i < rostrum->cel_count; i++) {
+    ways->suits[i] = may_have_map(rostrum, rostrum->cels[i], view->space);
+    if (needs_backdrop(rostrum->cels[i], is_mapped(ways, i), view->space))
+      ways->rear = i + 1;
+  }
+  sweep_rear(ways, ways->rear);
 }
 
 /* ---------------------------------------------------------------- what pays */
 
+void cs_ways_judge(cs_ways *ways, size_t cel, size_t shapes, const cs_census *census, int32_t side,
+                   bool occurs_again) {
+  bool is_rich = shapes >= CS_WAYS_SHAPES;
+  bool is_flat = census->varied <= census->flat;
+  double most = CS_WAYS_ROWS * (occurs_again ? 1.5 : 1);
+  ways->is_small[cel] = !is_rich && is_flat;
+  ways->is_artwork[cel] = is_rich && is_flat && 2 * census->hiding >= census->shapes &&
+                          4 * census->inside >= census->shapes &&
+                          census->heights * side <= most * (double)census->inside;
+}
+
 bool cs_ways_choose(const celspan_rostrum *rostrum, cs_ways *ways) {
-  size_t rich = 0, others = 0;
+  size_t artwork = 0, others = 0, maps = 0;
   for (size_t i = 0; i < rostrum->cel_count; i++) {
-    size_t shapes = count_shapes(rostrum->cels[i]);
-    bool is_rich = ways->suits[i] && shapes >= ways->shapes;
-    ways->mapped[i] = is_mapped(rostrum->cels[i], ways->suits[i], ways->shapes);
-    rich += is_rich ? shapes : 0;
-    others += (is_rich ? 0 : shapes) + count_cuts(rostrum->cels[i]);
+    bool is_artwork = ways->suits[i] && ways->is_artwork[i];
+    *(is_artwork ? &artwork : &others) += count_shapes(rostrum->cels[i]);
+    ways->mapped[i] = is_mapped(ways, i);
+    maps += ways->mapped[i];
   }
-  return rich > 0 && rich >= others;
+  return maps > 0 && (ways->forced == CS_WAYS_MAPPED || (artwork > 0 && artwork >= others));
 }
 
 /* ---------------------------------------------------------------- sheets */

@@ -8,17 +8,24 @@
  *       v   cel 1   mode "screen"  \  swept together: it acts on all that is behind it
  *           cel 0   many shapes    /
  *
- * The rule. A cel is rich that suits and has at least CS_WAYS_SHAPES shapes, and at least one for
- * every CS_WAYS_PIXELS pixels of the frame's longer side: the longer boundaries are, the less a map
- * saves. Where the rich cels have together at least as many shapes as there are others, each cel
- * that suits is drawn from its map, unless it is not rich and has pictures; the other cels are
- * swept, and otherwise the whole exposure is. Shapes that are cut away from others are among the
- * others, whatever cel they are in: nothing is hidden by them. The mesh of a bent picture or
- * gradient is one shape, because it is another mesh in each frame, and a defocused cel is one.
+ * The rule. A cel is artwork, and its map pays in the first frame, if it suits and
  *
- * An exposure may have maps where its frame repeats, its antialiasing is "area", no side of the
- * frame is above CS_WAYS_SIDE pixels, and it has at most CS_MAP_DRAWINGS cels, no procedures, no
- * grade of the whole and the space of the film. A cel suits that
+ *   has at least CS_WAYS_SHAPES shapes        else there is nothing to save
+ *   half of them let nothing through          translucent shapes show as often as they cross
+ *   what varies is no larger than the rest    gradients and pictures are painted either way
+ *   a quarter of the shapes is in the frame   a map is made of all
+ *   mean height * longer side <= CS_WAYS_ROWS a sweep finds crossings in every row, a map once; but
+ *                                             rows of an edge alone cost a map more
+ *
+ * The last may be half as much again for a drawing that occurs twice in the frame. Where artwork
+ * has at least as many shapes as the other cels, it is drawn from maps, and so are cels of fewer
+ * shapes that suit, unless they vary; the others are swept. Otherwise the whole exposure is.
+ *
+ * What this was fitted to: docs/how-it-works.md.
+ *
+ * An exposure may have maps where its antialiasing is "area", no side of the frame is above
+ * CS_WAYS_SIDE pixels, and it has at most CS_MAP_DRAWINGS cels, no procedures, no grade of the
+ * whole and the space of the film. A cel suits that
  *   - is in front of all cels that have pictures of one thread, compositions, modes that act on
  *     other cels, or a back light with a shape, and of those that have paints that do not dim all
  *     channels alike and are swept,
@@ -30,32 +37,39 @@
  *
  * What is said of cels here is meant of their parts where they have some (parts.h).
  *
- * Invariant: the ways depend on the exposure and the size of the whole frame alone; not on the
- * crop, on the workers, or on which maps are kept.
+ * Invariant: the ways depend on the frame's scene and the size of the whole frame alone; not on
+ * the crop, on the workers, on whether the frame is one of a film, or on which maps are kept.
  */
 #pragma once
 
 #include "engine/map/sheets.h"
+#include "frames/render/census.h"
 #include "frames/render/compile.h"
 
 #define CS_WAYS_SIDE 8192
 #define CS_WAYS_SHAPES 64
-#define CS_WAYS_PIXELS 32
+#define CS_WAYS_ROWS 450e3 /* square pixels */
+
+/* For tests and measurements, in forced_way of the context: all that suits goes one way. */
+typedef enum cs_ways_forced { CS_WAYS_BY_RULE, CS_WAYS_SWEPT, CS_WAYS_MAPPED } cs_ways_forced;
 
 typedef struct cs_ways {
-  bool suits[CS_MAP_DRAWINGS];  /* by the index of the cel, from the rear */
-  bool mapped[CS_MAP_DRAWINGS]; /* it is drawn from its map */
-  size_t rear;                  /* as many cels at the rear are swept with the light behind them */
-  size_t shapes;                /* of a rich cel, at least */
+  cs_ways_forced forced;
+  bool suits[CS_MAP_DRAWINGS]; /* by the index of the cel, from the rear */
+  bool is_artwork[CS_MAP_DRAWINGS];
+  bool is_small[CS_MAP_DRAWINGS]; /* it has fewer shapes, and goes by a map among artwork */
+  bool mapped[CS_MAP_DRAWINGS];   /* it is drawn from its map */
+  size_t rear; /* as many cels at the rear are swept with the light behind them */
 } cs_ways;
 
-/* Whether an exposure may have maps, whatever its cels are. */
+/* Whether an exposure may have maps, whatever the places of its cels are. */
 bool cs_ways_exist(const celspan_rostrum *rostrum, const cs_view *view,
                    const cs_antialias *antialias);
-/* The shapes of a rich cel, at least. */
-size_t cs_ways_rich(const cs_view *view);
-/* Finds which cels of an exposure that may have maps suit, whatever their places and sizes are. */
-void cs_ways_find(const celspan_rostrum *rostrum, const cs_view *view, cs_ways *out);
+/* Judges a cel. shapes: of it; side: the longer one of the frame; occurs_again: so does its map. */
+void cs_ways_judge(cs_ways *ways, size_t cel, size_t shapes, const cs_census *census, int32_t side,
+                   bool occurs_again);
+/* Finds which cels suit, whatever their places and sizes are. All of them have been judged. */
+void cs_ways_find(const celspan_rostrum *rostrum, const cs_view *view, cs_ways *ways);
 /* Chooses those that are drawn from maps among those that suit; false: the exposure is swept. */
 bool cs_ways_choose(const celspan_rostrum *rostrum, cs_ways *ways);
 /* A cel turns out not to suit: it is swept, and what it needs for that is. */

@@ -1565,9 +1565,9 @@ typedef struct celspan_frame_desc {
   celspan_space
       space; /* in which pixels are antialiased, and of the numbers in spans; exposures add
                           light in any space */
-  /* Whether its drawings are likely to return in other frames, as those of a film do. Each is then
-   * reduced once to a map of what can be seen of it, which is kept in the context and drawn in the
-   * frames that suit (docs/how-it-works.md). The first frame takes longer. */
+  /* Whether its drawings are likely to return in other frames, as those of a film do: the maps
+   * that it makes of them (docs/how-it-works.md) may then take the place of older ones in the
+   * context; otherwise they are kept only where there is room. It changes no pixel. */
   bool repeats;
 } celspan_frame_desc;
 
@@ -1591,7 +1591,7 @@ typedef struct celspan_statistics {
   uint64_t colour_evaluations; /* times a colour was composed from layers */
   uint64_t allocations;        /* from the built scene to the last row */
   uint64_t peak_bytes;         /* above what was held before the frame began */
-  uint64_t maps;               /* cels, or parts of cels, drawn from maps (frame: repeats) */
+  uint64_t maps;               /* cels, or parts of cels, drawn from maps */
   uint64_t maps_made;          /* how many of these maps were not kept from another frame */
   uint64_t swept;              /* those that were not drawn from maps */
 } celspan_statistics;
