@@ -10,6 +10,7 @@
 
 #define WIDTH 100
 #define HEIGHT 80
+#define ZONE 16
 #define LAYERS 12
 #define DRAWINGS 300
 #define HEIGHTS 40
@@ -17,7 +18,9 @@
 
 static celspan_context *context;
 static const cs_cull no_cull = {0};
-static const cs_events_rows all_rows = {0, HEIGHT, HEIGHT};
+#define MOST 20           /* windings in a zone */
+static int missing_count; /* drawings of which some zones have more, and some have not */
+static const cs_events_rows all_rows = {0, HEIGHT, HEIGHT, ZONE};
 
 #define MUST(call) CHECK((call) == CELSPAN_OK)
 
@@ -149,7 +152,7 @@ static void test_drawings(void) {
     cs_boundary_set set = random_drawing(seed);
     cs_events events;
     MUST(cs_events_find(context, &set, &no_cull, all_rows, SIZE_MAX, &events));
-    CHECK(events.is_complete);
+    CHECK(events.end == HEIGHT);
     crossed *at = calloc(events.part_count + 1, sizeof *at);
     for (int k = 0; k < HEIGHTS; k++) {
       double y = random_between(&random, 0, HEIGHT * CS_COURSE_UNIT);
@@ -196,13 +199,24 @@ static cut_part *cut_parts(const cs_events *events, int32_t top, int32_t foot, s
   return out;
 }
 
+/* The parts of each zone, one that crosses several zones being one in each. */
+static size_t count_crossing(const cs_events *events, int32_t first, int32_t end) {
+  size_t count = 0;
+  for (int32_t row = first; row < end; row += ZONE)
+    for (size_t i = 0; i < events->part_count; i++)
+      count += events->parts[i].top < (row + ZONE) * CS_COURSE_UNIT &&
+               events->parts[i].foot > row * CS_COURSE_UNIT;
+  return count;
+}
+
 /* A sweep of some rows must find the parts that the sweep of all rows has there. */
 static void check_rows(const cs_boundary_set *set, const cs_cull *cull, const cs_events *whole,
                        int32_t first, int32_t end) {
   cs_events some;
   size_t count, found_count;
   int32_t top = (first - first % 8) * CS_COURSE_UNIT, foot = end * CS_COURSE_UNIT;
-  MUST(cs_events_find(context, set, cull, (cs_events_rows){first, end, HEIGHT}, SIZE_MAX, &some));
+  MUST(cs_events_find(context, set, cull, (cs_events_rows){first, end, HEIGHT, ZONE}, SIZE_MAX,
+                      &some));
   cut_part *parts = cut_parts(whole, top, foot, &count);
   cut_part *found = cut_parts(&some, top, foot, &found_count);
   CHECK(found_count == count && memcmp(parts, found, count * sizeof *parts) == 0);
@@ -230,7 +244,39 @@ static cs_cull make_cull(const cs_boundary_set *set) {
   return cull;
 }
 
+/* Which zones of the rows from `first` on have too many windings, and how many parts the others
+ * have. */
+static unsigned find_missing(const cs_boundary_set *set, const cs_cull *cull, int32_t first,
+                             int32_t end, size_t *parts) {
+  unsigned missing = 0;
+  for (int32_t row = first; row < end;) {
+    cs_events events;
+    MUST(cs_events_find(context, set, cull, (cs_events_rows){row, end, HEIGHT, ZONE}, MOST,
+                        &events));
+    *parts += count_crossing(&events, first, end);
+    row = events.end;
+    if (row < end) {
+      missing |= 1u << (row / ZONE);
+      row += ZONE;
+    }
+    cs_events_finish(&events, context->memory);
+  }
+  return missing;
+}
+
+/* Whether a zone has too many windings must not depend on which others are swept. */
+static void check_zones(const cs_boundary_set *set, const cs_cull *cull) {
+  size_t parts = 0, parts_alone = 0;
+  unsigned missing = find_missing(set, cull, 0, HEIGHT, &parts), alone = 0;
+  for (int32_t row = 0; row < HEIGHT; row += ZONE)
+    alone |= find_missing(set, cull, row, row + ZONE, &parts_alone);
+  CHECK(missing == alone);
+  CHECK(parts == parts_alone);
+  missing_count += missing != 0 && missing != 31;
+}
+
 static void check_drawing(const cs_boundary_set *set, const cs_cull *cull, test_random *random) {
+  check_zones(set, cull);
   cs_events events;
   MUST(cs_events_find(context, set, cull, all_rows, SIZE_MAX, &events));
   for (int k = 0; k < 4; k++) {
@@ -253,6 +299,7 @@ static void test_rows(void) {
     cs_boundary_finish(&set, context->memory);
   }
   CHECK(deferred > 100);
+  CHECK(missing_count > 100);
 }
 
 /* ---------------------------------------------------------------- known drawings */
@@ -278,7 +325,7 @@ static void test_intersections(void) {
   CHECK(events.windings.count == 4); /* none, each, both */
   cs_events_finish(&events, context->memory);
   MUST(cs_events_find(context, &set, &no_cull, all_rows, 2, &events));
-  CHECK(!events.is_complete);
+  CHECK(events.end == 0 && events.part_count == 0);
   cs_events_finish(&events, context->memory);
   cs_boundary_finish(&set, context->memory);
 }

@@ -22,6 +22,8 @@ typedef struct sweep {
   uint32_t *touched;           /* courses that have another right neighbour */
   size_t intersection_count, intersection_capacity, end_count, next_end, next_begin;
   size_t dirty_count, dirty_capacity, touched_count, touched_capacity;
+  int32_t zone_height, zone; /* in units; the number of the current one plus 1 */
+  size_t met, most;          /* windings in the zone: until now, and at most */
 } sweep;
 
 /* ---------------------------------------------------------------- intersections */
@@ -63,6 +65,13 @@ static celspan_status compare_ahead(sweep *s, uint32_t course, int32_t y) {
 
 /* ---------------------------------------------------------------- windings */
 
+/* Counts the windings that are met in the zone. */
+static void meet(sweep *s, uint32_t windings) {
+  cs_windings_entry *entry = &s->events->windings.entries[windings];
+  s->met += entry->zone != s->zone;
+  entry->zone = s->zone;
+}
+
 static celspan_status cross(sweep *s, uint32_t course, uint32_t from, uint32_t *out) {
   cs_windings_hash change = {0, 0};
   if (course < s->set->chain_count)
@@ -70,7 +79,9 @@ static celspan_status cross(sweep *s, uint32_t course, uint32_t from, uint32_t *
         cs_windings_add(change, s->set->chains[course].layer, s->set->chains[course].direction);
   else
     change = s->events->bundles.bundles[course - s->set->chain_count].change;
-  return cs_windings_cross(s->context, &s->events->windings, from, course, change, out);
+  CS_TRY(cs_windings_cross(s->context, &s->events->windings, from, course, change, out));
+  meet(s, *out);
+  return CELSPAN_OK;
 }
 
 /* Ends the part of a course at a height. */
@@ -79,7 +90,7 @@ static celspan_status close(sweep *s, uint32_t course, int32_t y) {
   cs_events *events = s->events;
   const cs_events_part part = {course, entry->since, y, entry->left, entry->right};
   entry->since = y;
-  if (part.top == y)
+  if (part.top >= y)
     return CELSPAN_OK;
   return CS_APPEND(s->context, events->parts, events->part_count, events->part_capacity, part);
 }
@@ -266,13 +277,21 @@ static celspan_status intersect_until(sweep *s, int32_t y) {
   return CELSPAN_OK;
 }
 
+static inline bool has_too_many(const sweep *s) { return s->met > s->most; }
+
 /* Begins the belt below y: all courses that cross y are brought into order, and compared. */
 static celspan_status begin_belt(sweep *s, int32_t y) {
   const cs_order *order = &s->order;
-  bool is_changed;
+  const int32_t zone = y / s->zone_height + 1;
+  bool is_changed, is_zone = zone != s->zone;
+  s->met = is_zone ? 0 : s->met;
+  s->zone = zone;
   CS_TRY(cs_order_begin_belt(s->context, &s->order, y, &is_changed));
   if (is_changed || s->touched_count > 0)
     CS_TRY(find_all_windings(s, y));
+  for (uint32_t i = order->entries[order->ends].next; is_zone && i != order->ends;
+       i = order->entries[i].next)
+    meet(s, order->entries[i].right);
   for (size_t i = 0; i < s->touched_count; i++)
     order->entries[s->touched[i]].is_touched = false;
   s->touched_count = 0;
@@ -292,6 +311,8 @@ static celspan_status go_to(sweep *s, int32_t y) {
   while (order->foot < y) {
     int32_t top = order->foot;
     CS_TRY(intersect_until(s, top));
+    if (has_too_many(s))
+      return CELSPAN_OK;
     order->foot += CS_ORDER_BELT;
     CS_TRY(begin_belt(s, top));
   }
@@ -344,23 +365,35 @@ static celspan_status begin(sweep *s, int32_t top) {
   return CELSPAN_OK;
 }
 
-/* Goes down to a foot, where all parts end. */
-static celspan_status go_down(sweep *s, int32_t top, int32_t foot, size_t most) {
+/* Ends all parts at a height; what was found below it is dropped. */
+static celspan_status end_parts(sweep *s, int32_t foot) {
+  const cs_order *order = &s->order;
+  cs_events *events = s->events;
+  size_t count = 0;
+  for (uint32_t i = order->entries[order->ends].next; i != order->ends; i = order->entries[i].next)
+    CS_TRY(close(s, i, foot));
+  for (size_t i = 0; i < events->part_count; i++) {
+    cs_events_part part = events->parts[i];
+    part.foot = lesser(part.foot, foot);
+    if (part.top < part.foot)
+      events->parts[count++] = part;
+  }
+  events->part_count = count;
+  events->end = foot / CS_COURSE_UNIT;
+  return CELSPAN_OK;
+}
+
+/* Goes down to a foot, or to the top of a zone with too many windings. */
+static celspan_status go_down(sweep *s, int32_t top, int32_t foot) {
   CS_TRY(begin(s, top));
-  for (int32_t y = top; y < foot;) {
+  for (int32_t y = top; y < foot && !has_too_many(s);) {
     CS_TRY(change_courses(s, y));
-    if (s->events->windings.count > most)
-      return CELSPAN_OK;
     const cs_course_point *begin = next_begin(s);
     y = lesser(next_tiles(s), next_end(s));
     y = lesser(begin ? begin->y : foot, lesser(y, foot));
     CS_TRY(go_to(s, y));
   }
-  const cs_order *order = &s->order;
-  for (uint32_t i = order->entries[order->ends].next; i != order->ends; i = order->entries[i].next)
-    CS_TRY(close(s, i, foot));
-  s->events->is_complete = true;
-  return CELSPAN_OK;
+  return end_parts(s, has_too_many(s) ? (s->zone - 1) * s->zone_height : foot);
 }
 
 /* Lists where the chains end. */
@@ -390,6 +423,8 @@ celspan_status cs_events_find(celspan_context *context, const cs_boundary_set *s
                               const cs_cull *cull, cs_events_rows rows, size_t most,
                               cs_events *out) {
   sweep s = {.context = context, .set = set, .cull = cull, .events = out, .tile_row = -1};
+  s.zone_height = rows.zone * CS_COURSE_UNIT;
+  s.most = most;
   int32_t top = belt_above(rows.first * CS_COURSE_UNIT), foot = rows.end * CS_COURSE_UNIT;
   const int32_t last = belt_above(foot + CS_ORDER_BELT - 1);
   *out = (cs_events){0};
@@ -402,7 +437,7 @@ celspan_status cs_events_find(celspan_context *context, const cs_boundary_set *s
   if (status == CELSPAN_OK)
     status = cs_order_init(context, &out->courses, &s.order);
   if (status == CELSPAN_OK)
-    status = go_down(&s, top, foot, most);
+    status = go_down(&s, top, foot);
   finish(&s);
   return status;
 }

@@ -15,7 +15,7 @@ typedef struct walk {
   cs_composer *composer;
   cs_events_visitor visitor;
   void *user;
-  uint32_t *shown; /* by windings: the number of their cell */
+  uint32_t *shown; /* by windings: the number of their cell; NONE: beside no part */
 } walk;
 
 static void find_families(const cs_windings *windings, family *out) {
@@ -44,6 +44,8 @@ static void cross(const walk *w, uint32_t boundary, int32_t sign) {
 
 static celspan_status visit(const walk *w, uint32_t windings) {
   cs_cell cell;
+  if (w->shown[windings] == NONE)
+    return CELSPAN_OK;
   (void)cs_composer_begin_row(w->composer); /* programs composed before are not needed any more */
   cs_composer_cell(w->composer, &cell);
   CS_TRY(w->composer->failure);
@@ -86,6 +88,13 @@ static celspan_status find_shown(celspan_context *context, const cs_plan *plan,
 
 /* ---------------------------------------------------------------- parts */
 
+static void find_used(const cs_events *events, uint32_t *shown) {
+  for (size_t i = 1; i < events->windings.count; i++)
+    shown[i] = NONE;
+  for (size_t i = 0; i < events->part_count; i++)
+    shown[events->parts[i].left] = shown[events->parts[i].right] = 0;
+}
+
 static bool is_continued(const cs_events_part *part, const cs_events_part *next) {
   return part->foot == next->top && part->left == next->left && part->right == next->right;
 }
@@ -116,6 +125,7 @@ celspan_status cs_events_show(celspan_context *context, const cs_plan *plan, cs_
   walk w = {.plan = plan, .events = events, .visitor = visitor, .user = user};
   uint32_t *latest = NULL;
   CS_TRY(CS_MAKE(context, w.shown, count));
+  find_used(events, w.shown);
   celspan_status status = find_shown(context, plan, events, &w);
   if (status == CELSPAN_OK)
     status = CS_MAKE(context, latest, courses);

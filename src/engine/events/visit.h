@@ -18,10 +18,10 @@
 typedef celspan_status (*cs_events_visitor)(void *user, cs_composer *composer, const cs_cell *cell,
                                             uint32_t *out);
 
-/* Visits the cell of each of the windings once, that of 0 first, and reduces the parts to what can
- * be seen: those with the same cell on both sides go, and those of a course that follow each other
- * between the same cells become one. Then left and right of parts are numbers of cells. events: of
- * the plan, and complete. Errors: NO_MEMORY, those of composing and of the visitor. */
+/* Visits the cell of 0 and then, once, that of each of the windings beside a part, and reduces the
+ * parts to what can be seen: those with the same cell on both sides go, and those of a course that
+ * follow each other between the same cells become one. Then left and right of parts are numbers of
+ * cells. events: of the plan. Errors: NO_MEMORY, those of composing and of the visitor. */
 CELSPAN_CHECKED celspan_status cs_events_show(celspan_context *context, const cs_plan *plan,
                                               cs_events *events, cs_events_visitor visitor,
                                               void *user);

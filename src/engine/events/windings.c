@@ -56,7 +56,7 @@ celspan_status cs_windings_cross(celspan_context *context, cs_windings *w, uint3
     return CELSPAN_OK;
   }
   *out = (uint32_t)w->count;
-  const cs_windings_entry entry = {hash, from, boundary};
+  const cs_windings_entry entry = {hash, from, boundary, 0};
   CS_TRY(CS_APPEND(context, w->entries, w->count, w->capacity, entry));
   w->slots[at] = *out + 1;
   return 2 * w->count > w->slot_count ? widen_slots(context, w) : CELSPAN_OK;

@@ -21,6 +21,7 @@ typedef struct cs_windings_hash {
 typedef struct cs_windings_entry {
   cs_windings_hash hash;
   uint32_t parent, boundary; /* from which, and what was crossed; 0 has none */
+  int32_t zone;              /* for the caller: where they were met last; 0: nowhere */
 } cs_windings_entry;
 
 typedef struct cs_windings {

@@ -56,6 +56,32 @@ uint64_t cs_map_maker_evaluations(const cs_map_maker *maker) {
   return evaluations;
 }
 
+/* ---------------------------------------------------------------- which rows */
+
+/* Pixels of a raster by which rounding may move a place. */
+#define NEAR 0.5
+
+static bool has_zones(const cs_map_sheet *sheet, int32_t row) {
+  const cs_map *map = sheet->drawing.map;
+  const double *m = sheet->drawing.to_raster.m;
+  int32_t first, end;
+  uint64_t missing = 0;
+  if (sheet->plan)
+    return true;
+  cs_map_find_zones(map, row * m[4] + m[5] - NEAR, (row + CS_MAP_ROWS) * m[4] + m[5] + NEAR, &first,
+                    &end);
+  for (int32_t zone = first; zone < end; zone++)
+    missing |= map->missing >> zone & 1;
+  return missing == 0;
+}
+
+bool cs_map_frame_has(const cs_map_frame *frame, int32_t y) {
+  bool has = true;
+  for (size_t i = 0; has && i < frame->count; i++)
+    has = has_zones(&frame->sheets[i], cs_map_swath(y));
+  return has;
+}
+
 /* ---------------------------------------------------------------- a row */
 
 /* Where a row is being folded. */
@@ -455,7 +481,7 @@ celspan_status cs_map_maker_row(cs_map_maker *maker, int32_t y, cs_row *out) {
   folding f;
   f.maker = maker;
   f.y = y;
-  int32_t row = y - y % CS_MAP_ROWS;
+  int32_t row = cs_map_swath(y);
   cs_row_clear(out);
   if (row != maker->row)
     CS_TRY(make_swath(maker, row));

@@ -51,7 +51,7 @@ static celspan_status offer(celspan_context *context, cs_cache *cache, cs_cache_
 }
 
 static celspan_status find_or_make(celspan_context *context, cs_cache *cache, cs_cache_key key,
-                                   const order *o, cs_map **out) {
+                                   cs_map_keeping keeping, const order *o, cs_map **out) {
   cs_cache_entry *cached = cs_cache_pin(cache, key);
   if (cached) {
     *out = ((entry *)cached)->map;
@@ -61,18 +61,19 @@ static celspan_status find_or_make(celspan_context *context, cs_cache *cache, cs
   }
   CS_TRY(cs_map_create(context, out));
   CS_TRY(o->make(o->user, context, *out));
-  return offer(context, cache, key, *out);
+  return keeping == CS_MAP_KEEP_NOT ? CELSPAN_OK : offer(context, cache, key, *out);
 }
 
-celspan_status cs_map_keep_acquire(celspan_context *context, cs_cache_key key, bool evicts,
-                                   cs_map_keep_maker make, void *user, cs_map **out) {
+celspan_status cs_map_keep_acquire(celspan_context *context, cs_cache_key key,
+                                   cs_map_keeping keeping, cs_map_keep_maker make, void *user,
+                                   cs_map **out) {
   order o = {make, user};
   cs_service *service;
   cs_cache_entry *cached;
   CS_TRY(cs_context_service(context, &kind, &service));
   cs_cache *cache = cs_cache_of(service);
-  if (!evicts)
-    return find_or_make(context, cache, key, &o, out);
+  if (keeping != CS_MAP_KEEP_FIRST)
+    return find_or_make(context, cache, key, keeping, &o, out);
   CS_TRY(cs_cache_acquire(cache, context, key, make_map, &o, &cached));
   *out = ((entry *)cached)->map;
   cs_map_ref(*out);

@@ -14,10 +14,17 @@
 /* Fills an empty map. */
 typedef celspan_status (*cs_map_keep_maker)(void *user, celspan_context *context, cs_map *map);
 
-/* Finds a map, or makes it by calling make(user, ...). *out: a reference. evicts: others may go
- * to make room for it; otherwise it is kept only where there is room. Any thread. Errors: NO_MEMORY
- * and those of `make`. */
+/* What becomes of a map that was made: it goes with its frame, or is kept if there is room, or
+ * others go to make room for it. */
+typedef enum cs_map_keeping {
+  CS_MAP_KEEP_NOT,
+  CS_MAP_KEEP_BESIDE,
+  CS_MAP_KEEP_FIRST
+} cs_map_keeping;
+
+/* Finds a map, or makes it by calling make(user, ...). *out: a reference. Any thread. Errors:
+ * NO_MEMORY and those of `make`. */
 CELSPAN_CHECKED celspan_status cs_map_keep_acquire(celspan_context *context, cs_cache_key key,
-                                                   bool evicts, cs_map_keep_maker make, void *user,
-                                                   cs_map **out);
+                                                   cs_map_keeping keeping, cs_map_keep_maker make,
+                                                   void *user, cs_map **out);
 cs_cache_counts cs_map_keep_count(celspan_context *context);

@@ -29,7 +29,12 @@ static celspan_status sort(celspan_context *context, cs_map_lines *lines, uint64
   size_t count = lines->border_count;
   cs_map_border *sorted;
   for (size_t i = 0; i < count; i++)
-    keys[i] = cs_key(lines->points[lines->borders[i].first].y, i);
+    keys[i] = cs_key(lines->points[lines->borders[i].first].x, i);
+  CS_TRY(cs_keys_sort(context, keys, count));
+  for (size_t i = 0; i < count; i++) {
+    uint32_t border = cs_key_number(keys[i]);
+    keys[i] = cs_key(lines->points[lines->borders[border].first].y, border);
+  }
   CS_TRY(cs_keys_sort(context, keys, count));
   CS_TRY(CS_MAKE(context, sorted, count));
   for (size_t i = 0; i < count; i++)

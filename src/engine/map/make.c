@@ -8,14 +8,9 @@
  *   parts      1|2  0|3  2|3          cells: red|red  clear|blue  red|blue: a part, of which the
  *                                     first is left out, because nothing changes there
  */
-#include <math.h>
-
+#include "base/keys.h"
 #include "engine/events/visit.h"
 #include "engine/map/cells.h"
-
-/* Windings for each chain and each row of the raster. Artwork has .7 at most, a thousand opaque
- * shapes 2.4; of translucent shapes nearly every crossing makes new ones, which all show. */
-#define WINDINGS_MOST 8
 
 typedef struct maker {
   celspan_context *context;
@@ -116,12 +111,11 @@ static celspan_status find_cell(void *user, cs_composer *composer, const cs_cell
   return map->is_whole ? cs_map_cells_find(m->context, &m->cells, what, out) : CELSPAN_OK;
 }
 
-/* Reduces the parts to what can be seen. */
-static celspan_status find_shown(maker *m) {
+/* Cell 0 is there whatever is found. */
+static celspan_status add_clear(maker *m) {
   uint32_t clear;
   const cs_map_content nothing = {.through = cs_v4_all(m->map->is_coloured ? 1 : 0)};
-  CS_TRY(cs_map_cells_find(m->context, &m->cells, nothing, &clear));
-  return cs_events_show(m->context, m->plan, &m->events, find_cell, m);
+  return cs_map_cells_find(m->context, &m->cells, nothing, &clear);
 }
 
 /* ---------------------------------------------------------------- borders */
@@ -134,27 +128,52 @@ static int32_t unit_at(const cs_course_point *from, int32_t y) {
   return (int32_t)floor(cs_course_x(from, y) + 0.5);
 }
 
-/* Adds a part as a border. */
-static celspan_status add_border(maker *m, const cs_events_part *f) {
+/* Adds what a part has between two heights as a border. from: a point of its course above them. */
+static celspan_status add_border(maker *m, const cs_events_part *part, int32_t top, int32_t foot,
+                                 const cs_course_point **from) {
   cs_map_lines *lines = &m->map->lines;
-  const cs_course *course = &m->events.courses.courses[f->course];
-  const cs_course_point *p = m->events.courses.points + course->first;
+  const cs_course_point *p = *from;
   size_t first = lines->point_count;
-  CS_TRY(CS_RESERVE(m->context, lines->points, lines->point_capacity,
-                    lines->point_count + course->count));
-  while (p[1].y <= f->top)
+  while (p[1].y <= top)
     p++;
-  for (add_point(lines, unit_at(p, f->top), f->top); p[1].y < f->foot; p++)
-    add_point(lines, p[1].x, p[1].y);
-  add_point(lines, unit_at(p, f->foot), f->foot);
-  const cs_map_border border = cs_map_lines_border(lines, first, f->left, f->right);
+  for (*from = p; p[1].y < foot; p++)
+    ;
+  CS_TRY(CS_RESERVE(m->context, lines->points, lines->point_capacity,
+                    first + 2 + (size_t)(p - *from)));
+  add_point(lines, unit_at(*from, top), top);
+  for (; (*from)[1].y < foot; ++*from)
+    add_point(lines, (*from)[1].x, (*from)[1].y);
+  add_point(lines, unit_at(p, foot), foot);
+  const cs_map_border border = cs_map_lines_border(lines, first, part->left, part->right);
   return CS_APPEND(m->context, lines->borders, lines->border_count, lines->border_capacity, border);
 }
 
+/* Adds a part as borders, one in each zone. */
+static celspan_status add_part(maker *m, const cs_events_part *part) {
+  const int32_t zone = m->map->zone * CS_MAP_UNIT;
+  const cs_courses *courses = &m->events.courses;
+  const cs_course_point *from = courses->points + courses->courses[part->course].first;
+  for (int32_t top = part->top, foot; top < part->foot; top = foot) {
+    int32_t below = top - top % zone + zone;
+    foot = part->foot < below ? part->foot : below;
+    CS_TRY(add_border(m, part, top, foot, &from));
+  }
+  return CELSPAN_OK;
+}
+
+/* Adds the parts, chain by chain: the order must not depend on the zones that were swept. */
 static celspan_status add_borders(maker *m) {
-  for (size_t i = 0; i < m->events.part_count; i++)
-    CS_TRY(add_border(m, &m->events.parts[i]));
-  return cs_map_lines_sort(m->context, &m->map->lines);
+  const cs_events *events = &m->events;
+  size_t count = events->part_count;
+  uint64_t *keys;
+  CS_TRY(CS_MAKE(m->context, keys, count + 1));
+  for (size_t i = 0; i < count; i++)
+    keys[i] = cs_key((int32_t)events->parts[i].course, i);
+  celspan_status status = cs_keys_sort(m->context, keys, count);
+  for (size_t i = 0; i < count && status == CELSPAN_OK; i++)
+    status = add_part(m, &events->parts[cs_key_number(keys[i])]);
+  cs_mem_free(m->context->memory, keys, (count + 1) * sizeof *keys);
+  return status;
 }
 
 /* Takes over what the programs name. */
@@ -165,21 +184,33 @@ static void take_stack(cs_map *map, cs_stack *stack) {
   change_references(&map->stack, keep_texture);
 }
 
-static celspan_status make(maker *m) {
-  const cs_events_rows rows = {0, m->plan->height, m->plan->height};
-  const cs_boundary_set *set = &m->plan->boundaries;
-  size_t most = WINDINGS_MOST * (set->chain_count + (size_t)rows.height);
-  CS_TRY(cs_events_find(m->context, set, &m->plan->cull, rows, most, &m->events));
-  m->map->is_whole = m->events.is_complete;
-  if (m->map->is_whole)
-    CS_TRY(find_shown(m));
-  return m->map->is_whole ? add_borders(m) : CELSPAN_OK;
+/* Makes the zones from a row on, down to one that is missing or to the end. *next: the row where
+ * the following zone begins. */
+static celspan_status make_zones(maker *m, int32_t first, int32_t end, int32_t *next) {
+  cs_map *map = m->map;
+  const cs_events_rows rows = {first, end, map->height, map->zone};
+  cs_events_finish(&m->events, m->context->memory);
+  CS_TRY(cs_events_find(m->context, &m->plan->boundaries, &m->plan->cull, rows, CS_MAP_ZONE_CELLS,
+                        &m->events));
+  *next = m->events.end;
+  if (*next < end) {
+    map->missing |= UINT64_C(1) << (*next / map->zone);
+    *next += map->zone;
+  }
+  CS_TRY(cs_events_show(m->context, m->plan, &m->events, find_cell, m));
+  return map->is_whole ? add_borders(m) : CELSPAN_OK;
 }
 
-celspan_status cs_map_make(celspan_context *context, cs_plan *plan, cs_map *map) {
+celspan_status cs_map_make(celspan_context *context, cs_plan *plan, int32_t first, int32_t end,
+                           cs_map *map) {
   maker m = {.context = context, .plan = plan, .map = map, .cells = {.map = map}};
   map->is_coloured = is_coloured(&plan->stack);
-  celspan_status status = make(&m);
+  map->is_whole = true;
+  celspan_status status = add_clear(&m);
+  for (int32_t row = first; row < end && map->is_whole && status == CELSPAN_OK;)
+    status = make_zones(&m, row, end, &row);
+  if (status == CELSPAN_OK)
+    status = cs_map_lines_sort(context, &map->lines);
   if (status == CELSPAN_OK && map->item_count > 0)
     take_stack(map, &plan->stack);
   finish(&m);

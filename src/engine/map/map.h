@@ -14,6 +14,11 @@
  * layers of a stack that the map keeps: its formulas and pictures lie on the raster, and are put
  * into their place in each frame (brush.h).
  *
+ *       zone 0 ----|--------\----    A raster has zones of rows, and no border crosses the top of
+ *              |   |         \       a zone. So a zone is the same whichever others are made: where
+ *       zone 1 ----|----------\--    few rows of a frame are wanted, the map has some zones alone.
+ *              |   |           \     A zone with too many cells is missing.
+ *
  * Units: a raster of the drawing at a scale of its own, in 2^-16 of its pixels. The raster begins
  * at a whole pixel, so that equal boundaries of two drawings at one scale have equal points.
  *
@@ -22,6 +27,7 @@
  */
 #pragma once
 
+#include <math.h>
 #include <stdatomic.h>
 
 #include "engine/compose/cell.h"
@@ -30,6 +36,8 @@
 #define CS_MAP_UNIT 65536   /* of a pixel of the raster */
 #define CS_MAP_SIDE 16384   /* pixels of a raster's side, at most */
 #define CS_MAP_CELLS 262144 /* at most */
+#define CS_MAP_ZONES 64     /* at most, by the bits of cs_map.missing */
+#define CS_MAP_ZONE_CELLS (CS_MAP_CELLS / CS_MAP_ZONES)
 /* The key of a cell: its number in 18 bits, and 30 bits of a hash. */
 #define CS_MAP_KEY UINT64_C(0xffffffffffff)
 
@@ -52,7 +60,7 @@ typedef struct cs_map_border {
 } cs_map_border;
 
 typedef struct cs_map_lines {
-  cs_map_border *borders; /* by the y of their first points */
+  cs_map_border *borders; /* by their first points */
   cs_map_point *points;
   size_t border_count, border_capacity;
   size_t point_count, point_capacity;
@@ -67,9 +75,11 @@ typedef struct cs_map_flat {
 typedef struct cs_map {
   atomic_size_t references;
   cs_memory *memory;
-  bool is_coloured;  /* some cell does not let all channels through alike; those that vary do */
-  bool is_whole;     /* false: the drawing cannot be a map, and there is nothing else */
-  int64_t left, top; /* where the raster begins, in its pixels from the drawing's origin */
+  bool is_coloured;     /* some cell does not let all channels through alike; those that vary do */
+  bool is_whole;        /* false: the drawing cannot be a map, and there is nothing else */
+  int64_t left, top;    /* where the raster begins, in its pixels from the drawing's origin */
+  int32_t height, zone; /* of the raster, and of a zone: pixels */
+  uint64_t missing;     /* bit k: zone k was asked for, and has too many cells */
   cs_map_lines lines;
   cs_map_flat *flats; /* only of a map that is turned */
   cs_map_cell *cells;
@@ -86,7 +96,8 @@ void cs_map_lines_finish(cs_map_lines *lines, cs_memory *memory);
 /* The border whose points are the last ones, from `first` on; it is not added to the list. */
 cs_map_border cs_map_lines_border(const cs_map_lines *lines, size_t first, uint32_t left,
                                   uint32_t right);
-/* Brings the borders into their order. Errors: NO_MEMORY. */
+/* Brings the borders into their order: by the y of their first points, then by x; those that begin
+ * at one point keep their order. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_map_lines_sort(celspan_context *context, cs_map_lines *lines);
 
 /* An empty map that is not whole. Errors: NO_MEMORY. */
@@ -97,6 +108,23 @@ size_t cs_map_bytes(const cs_map *map);
 /* Whether a plan of a drawing alone can be a map: it has no procedures, lights or blurs. */
 bool cs_map_suits(const cs_plan *plan);
 /* Fills a map with a plan that suits, whose raster begins at the pixel (map->left, map->top). The
- * map is not whole where there are too many cells, or where one that varies does not let all
- * channels through alike. Where cells vary it takes over the plan's stack. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_map_make(celspan_context *context, cs_plan *plan, cs_map *map);
+ * map is not whole where one that varies does not let all channels through alike. Where cells vary
+ * it takes over the plan's stack. first, end: the rows for which it is made, of whole zones; the
+ * plan may have these alone. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_map_make(celspan_context *context, cs_plan *plan, int32_t first,
+                                           int32_t end, cs_map *map);
+
+/* Gives an empty map its raster's height. */
+static inline void cs_map_divide(cs_map *map, int32_t height) {
+  map->height = height;
+  for (map->zone = 32; map->zone * CS_MAP_ZONES < height;)
+    map->zone *= 2;
+}
+
+/* The zones, from *first to before *end, in which there are rows of a raster. */
+static inline void cs_map_find_zones(const cs_map *map, double row, double end_row, int32_t *first,
+                                     int32_t *end) {
+  const double last = (map->height - 1) / map->zone + 1;
+  *first = (int32_t)fmin(fmax(floor(row / map->zone), 0), last);
+  *end = (int32_t)fmin(fmax(ceil(end_row / map->zone), *first), last);
+}

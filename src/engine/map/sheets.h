@@ -32,8 +32,9 @@ typedef struct cs_map_sheet {
 typedef struct cs_map_frame {
   cs_map_sheet *sheets; /* from the camera */
   size_t count;
-  size_t made; /* maps that were made for this frame, since no other had kept them */
-  cs_v4 back;  /* of the frame, as above */
+  size_t made;   /* maps that were made for this frame, since no other had kept them */
+  bool has_gaps; /* a zone of some map is missing: some rows cannot be made (frame_rows.h) */
+  cs_v4 back;    /* of the frame, as above */
   float keep;
   int32_t width, height;
 } cs_map_frame;

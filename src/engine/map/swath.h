@@ -17,6 +17,9 @@
 #define CS_MAP_HEIGHT 65536 /* of a row of the frame: heights and areas are multiples of 1 / it */
 #define CS_MAP_BROKEN UINT32_MAX
 
+/* The first row of the swath in which a row lies. */
+static inline int32_t cs_map_swath(int32_t row) { return row - row % CS_MAP_ROWS; }
+
 /* A map in its place in a frame. */
 typedef struct cs_map_drawing {
   cs_map *map;               /* a reference */

@@ -31,6 +31,8 @@ static void count_shape(counting *c, const cs_primitive_data *data, const celspa
   double across = length_inside((m[0] * x + m[1] * y + m[2]) / w, half_width / w, c->width);
   double down = length_inside((m[3] * x + m[4] * y + m[5]) / w, half_height / w, c->height);
   c->census.shapes++;
+  c->census.may_have_dashes |=
+      data->stroke ? data->stroke->dashes.place_count > 0 : data->kind != CS_PRIMITIVE_DATA_OUTLINE;
   c->census.hiding += may_hide && data->mixing == CS_MIXING_OPAQUE;
   if (!(across > 0 && down > 0))
     return;
@@ -44,6 +46,7 @@ static void count_object(counting *c, const celspan_object *object, const celspa
   const cs_primitive_data *data = object->data;
   const celspan_matrix matrix = celspan_matrix_then(*object->matrix, *around);
   may_hide = may_hide && object->fade == 1;
+  c->census.may_have_dashes |= c->census.shapes >= CS_CENSUS_MOST;
   if (data->is_empty || c->census.shapes >= CS_CENSUS_MOST)
     return;
   if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN) {

@@ -20,6 +20,7 @@ typedef struct cs_census {
   size_t hiding;       /* those that let no light through, wherever they are */
   double heights;      /* of those, pixels */
   double varied, flat; /* areas of those that vary (gradients, pictures), and of the others */
+  bool may_have_dashes;
 } cs_census;
 
 /* matrix: from the units of the objects to pixels of the frame. */

@@ -397,18 +397,14 @@ static celspan_status compile_objects(cs_compiler *c, const cs_defocus_job *job)
 }
 
 static celspan_status compile_raster(const cs_compiler *outer, const cs_defocus_job *job,
-                                     size_t most_dashes, cs_plan *out) {
+                                     const cs_view *view, cs_plan *out) {
   cs_plan plan = {.width = job->width,
                   .height = job->height,
                   .margin = job->kernel ? cs_kernel_extent(job->kernel) : 0,
                   .kernel = job->kernel};
   cs_compiler c;
   cs_boundary_builder boundaries;
-  const cs_view view = {.end_row = job->height,
-                        .end_column = job->width,
-                        .most_dashes = most_dashes,
-                        .space = outer->space};
-  begin(&c, &boundaries, outer->context, &plan, &view);
+  begin(&c, &boundaries, outer->context, &plan, view);
   c.patterns = outer->patterns;
   c.blurs = outer->blurs;
   c.workers = 1;
@@ -418,7 +414,12 @@ static celspan_status compile_raster(const cs_compiler *outer, const cs_defocus_
 }
 
 static celspan_status compile_alone(void *user, const cs_defocus_job *job, cs_plan *out) {
-  return compile_raster(user, job, SIZE_MAX, out);
+  const cs_compiler *outer = user;
+  const cs_view view = {.end_row = job->height,
+                        .end_column = job->width,
+                        .most_dashes = SIZE_MAX,
+                        .space = outer->space};
+  return compile_raster(outer, job, &view, out);
 }
 
 celspan_status cs_compile_drawing(celspan_context *context, const celspan_cel *cel, size_t number,
@@ -433,7 +434,7 @@ celspan_status cs_compile_drawing(celspan_context *context, const celspan_cel *c
                              .blurs = &blurs};
   const cs_defocus_job job = {
       .cel = cel, .matrix = *matrix, .width = view->width, .height = view->height};
-  celspan_status status = compile_raster(&outer, &job, view->most_dashes, out);
+  celspan_status status = compile_raster(&outer, &job, view, out);
   cs_patterns_finish(&patterns, context->memory);
   cs_defocus_made_finish(&blurs, context);
   return status;

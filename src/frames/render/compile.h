@@ -47,8 +47,8 @@ CELSPAN_CHECKED celspan_status cs_compile(celspan_context *context, const celspa
                                           const cs_view *view, const cs_antialias *antialias,
                                           int workers, cs_plan *out);
 /* The drawing of a cel alone, without its transform, its opacity, and its blur, in white light,
- * onto a raster, of which `view` has the size in pixels and the most dashes. number: of the cel,
- * for messages. Errors: as above. */
+ * onto a raster, of which `view` has the size in pixels, the rows and columns that are asked for,
+ * the space and the most dashes. number: of the cel, for messages. Errors: as above. */
 CELSPAN_CHECKED celspan_status cs_compile_drawing(celspan_context *context, const celspan_cel *cel,
                                                   size_t number, const celspan_matrix *matrix,
                                                   const cs_view *view, cs_plan *out);

@@ -26,7 +26,12 @@ typedef struct placed_cel {
                               negative where an upright drawing is mirrored */
   bool is_turned;          /* or sheared */
   bool is_made;            /* the map was made just now */
+  bool is_cropped;         /* a map of the rows that are asked for is as good as one of all */
+  bool may_have_dashes;
 } placed_cel;
+
+/* A map of some rows is made where they are at most this part of the frame. */
+#define CROPPED 4
 
 static const celspan_matrix identity = {{1, 0, 0, 0, 1, 0, 0, 0, 1}};
 
@@ -97,11 +102,25 @@ static bool find_raster(celspan_cel *drawing, celspan_space space, cs_map *map, 
   drawing->matrix.m[5] = -top;
   map->left = (int64_t)left;
   map->top = (int64_t)top;
+  cs_map_divide(map, (int32_t)height);
   *out = (cs_view){.width = (int32_t)width,
                    .height = (int32_t)height,
+                   .end_row = (int32_t)height,
+                   .end_column = (int32_t)width,
                    .most_dashes = CS_COMPILE_DASHES,
                    .space = space};
   return true;
+}
+
+/* Leaves the zones that the swaths which are asked for can show. */
+static void crop_raster(const placed_cel *d, const cs_map *map, cs_view *raster) {
+  const double *m = d->matrix.m, down = d->scale_y / m[4], shift = -m[5] * down - (double)map->top;
+  const double row = cs_map_swath(d->view->first_row) * down + shift;
+  const double end_row = cs_map_swath(d->view->end_row + CS_MAP_ROWS - 1) * down + shift;
+  int32_t first, end;
+  cs_map_find_zones(map, row - 1, end_row + 1, &first, &end);
+  raster->first_row = first * map->zone;
+  raster->end_row = end * map->zone < map->height ? end * map->zone : map->height;
 }
 
 static celspan_status make_alone(celspan_context *context, const placed_cel *d,
@@ -110,8 +129,12 @@ static celspan_status make_alone(celspan_context *context, const placed_cel *d,
   cs_plan plan;
   if (!find_raster(drawing, d->view->space, map, &raster))
     return CELSPAN_OK;
+  if (d->is_cropped)
+    crop_raster(d, map, &raster);
   CS_TRY(cs_compile_drawing(context, drawing, d->number, &drawing->matrix, &raster, &plan));
-  celspan_status status = cs_map_suits(&plan) ? cs_map_make(context, &plan, map) : CELSPAN_OK;
+  celspan_status status = cs_map_suits(&plan)
+                              ? cs_map_make(context, &plan, raster.first_row, raster.end_row, map)
+                              : CELSPAN_OK;
   if (status == CELSPAN_OK && d->is_turned && map->is_whole)
     status = cs_map_find_flats(context, map);
   cs_compile_free(&plan, context->memory);
@@ -287,6 +310,7 @@ static celspan_status place_cels(celspan_context *context, const cs_cel_parts *p
     cs_ways_judge(ways, i, cs_parts_shapes(d->cel->objects, d->cel->object_count), &census,
                   view->width > view->height ? view->width : view->height,
                   occurs_again(parts, i, other));
+    d->may_have_dashes = census.may_have_dashes;
     if (d->cel->object_count == 1)
       place_object(d, d->cel->objects[0]);
   }
@@ -306,6 +330,14 @@ typedef struct making {
   placed_cel drawings[CS_MAP_DRAWINGS];
 } making;
 
+/* Whether a map is made of some rows alone: of an upright drawing, which nothing but the zones in
+ * these rows can keep from being a map. */
+static bool is_cropped(const making *m, const placed_cel *d) {
+  const cs_view *view = m->view;
+  return !m->repeats && CROPPED * (view->end_row - view->first_row) <= view->height &&
+         !d->is_turned && !d->may_have_dashes && !cs_ways_is_uneven(d->cel);
+}
+
 /* *suits: whether the cel can be a map in its place. */
 static celspan_status make_drawing(const making *m, placed_cel *d, cs_map_drawing *drawing,
                                    bool *suits) {
@@ -316,8 +348,12 @@ static celspan_status make_drawing(const making *m, placed_cel *d, cs_map_drawin
   drawing->light[3] = opacity;
   drawing->grade = d->cel->grade ? &d->cel->grade->steps : NULL;
   drawing->space = d->view->space;
-  CS_TRY(cs_map_keep_acquire(context, key_of(d), m->repeats, make, d, &drawing->map));
-  *suits = drawing->map->is_whole;
+  d->is_cropped = is_cropped(m, d);
+  const cs_map_keeping keeping = d->is_cropped ? CS_MAP_KEEP_NOT
+                                 : m->repeats  ? CS_MAP_KEEP_FIRST
+                                               : CS_MAP_KEEP_BESIDE;
+  CS_TRY(cs_map_keep_acquire(context, key_of(d), keeping, make, d, &drawing->map));
+  *suits = drawing->map->is_whole && !(d->is_turned && drawing->map->missing);
   if (*suits && d->is_turned)
     CS_TRY(place_turned(context, d, drawing, suits));
   else if (*suits)
@@ -353,6 +389,7 @@ static celspan_status make_sheets(making *m, cs_map_frame *out, size_t *unsuited
   for (bool suits = true; left-- > 0; first += out->sheets[left].source_count) {
     CS_TRY(make_sheet(m, first, &out->sheets[left], &suits));
     out->made += m->ways.mapped[first] && m->drawings[first].is_made;
+    out->has_gaps |= m->ways.mapped[first] && out->sheets[left].drawing.map->missing;
     *unsuited = first;
     if (!suits)
       return CELSPAN_OK;

@@ -12,7 +12,7 @@
  */
 #pragma once
 
-#include "engine/map/sheets.h"
+#include "engine/map/frame_rows.h"
 #include "frames/render/compile.h"
 
 /* other: the rostrum of another exposure, or NULL. repeats: see celspan_frame_desc.
@@ -26,3 +26,10 @@ CELSPAN_CHECKED celspan_status cs_drawings_create(celspan_context *context,
 void cs_drawings_finish(cs_map_frame *frame, cs_memory *memory);
 
 static inline bool cs_drawings_are_used(const cs_map_frame *frame) { return frame->width > 0; }
+/* Whether all rows are drawn from them. The others are swept, as if there were none. */
+static inline bool cs_drawings_are_enough(const cs_map_frame *frame) {
+  return cs_drawings_are_used(frame) && !frame->has_gaps;
+}
+static inline bool cs_drawings_have(const cs_map_frame *frame, int32_t row) {
+  return cs_drawings_are_used(frame) && (!frame->has_gaps || cs_map_frame_has(frame, row));
+}

@@ -116,7 +116,7 @@ celspan_status cs_frame_compile(celspan_context *context, const cs_frame *frame,
   *is_crowded = false;
   for (size_t i = 0; i < frame->count && !*is_crowded; i++) {
     const celspan_rostrum *rostrum = frame->rostrums[i];
-    if (cs_drawings_are_used(&frame->maps[i]))
+    if (cs_drawings_are_enough(&frame->maps[i]))
       continue;
     CS_TRY(cs_compile(context, rostrum, &rest, antialias_of(frame, i), workers, &plans[i]));
     rest.most_dashes -= plans[i].dash_count;

@@ -6,7 +6,7 @@
 
 static celspan_status begin_makers(cs_row_worker *worker, const cs_plan *plans) {
   for (size_t i = 0; i < worker->frame->count; i++)
-    if (!cs_drawings_are_used(&worker->frame->maps[i]))
+    if (!cs_drawings_are_enough(&worker->frame->maps[i]))
       CS_TRY(cs_row_maker_init(&worker->makers[i], &worker->context, &plans[i]));
   return CELSPAN_OK;
 }
@@ -94,7 +94,7 @@ static celspan_status expose(cs_row_worker *worker, cs_row **out) {
 static celspan_status make_row(cs_row_worker *worker, int32_t y, cs_row **out) {
   const cs_frame *frame = worker->frame;
   for (size_t i = 0; i < frame->count; i++)
-    CS_TRY(cs_drawings_are_used(&frame->maps[i])
+    CS_TRY(cs_drawings_have(&frame->maps[i], y)
                ? cs_map_maker_row(&worker->map_makers[i], y, &worker->rows[i])
                : cs_row_make(&worker->makers[i], y, &worker->rows[i]));
   *out = worker->rows;

@@ -11,7 +11,7 @@ static bool has_procedure(const celspan_cel *cel) {
   return has;
 }
 
-static bool is_uneven(const celspan_cel *cel) {
+bool cs_ways_is_uneven(const celspan_cel *cel) {
   bool is_uneven = false;
   for (size_t i = 0; i < cel->object_count; i++)
     is_uneven |= cel->objects[i]->data->has_uneven;
@@ -31,7 +31,7 @@ static bool is_mapped(const cs_ways *ways, size_t cel) {
 /* Whether more of a cel is needed than what it shows and lets through to put it over the cels
  * behind it: of a swept one a colour and an alpha are known. */
 static bool needs_backdrop(const celspan_cel *cel, bool has_map, celspan_space space) {
-  return cs_cel_blends(cel, space) || (is_uneven(cel) && !has_map) || cel->back.texture;
+  return cs_cel_blends(cel, space) || (cs_ways_is_uneven(cel) && !has_map) || cel->back.texture;
 }
 
 /* At least `count` cels at the rear are swept with the light behind them. */
@@ -43,7 +43,7 @@ static void sweep_rear(cs_ways *ways, size_t count) {
 
 void cs_ways_sweep(const celspan_rostrum *rostrum, cs_ways *ways, size_t cel) {
   ways->suits[cel] = false;
-  if (is_uneven(rostrum->cels[cel]))
+  if (cs_ways_is_uneven(rostrum->cels[cel]))
     sweep_rear(ways, cel + 1);
 }
 

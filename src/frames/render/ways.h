@@ -74,5 +74,7 @@ void cs_ways_find(const celspan_rostrum *rostrum, const cs_view *view, cs_ways *
 bool cs_ways_choose(const celspan_rostrum *rostrum, cs_ways *ways);
 /* A cel turns out not to suit: it is swept, and what it needs for that is. */
 void cs_ways_sweep(const celspan_rostrum *rostrum, cs_ways *ways, size_t cel);
+/* Whether it has paints that do not dim all channels alike. */
+bool cs_ways_is_uneven(const celspan_cel *cel);
 /* The end of the sheet that begins with a cel. */
 size_t cs_ways_end(const celspan_rostrum *rostrum, const cs_ways *ways, size_t first);

@@ -11,7 +11,7 @@
 typedef struct finder {
   celspan_context *context; /* NULL: the stroke's memory is used, and errors have no text */
   celspan_status status;
-  bool is_outer; /* the outer box of strokes is wanted, for which no outline is made */
+  bool is_outer; /* a box is wanted for which no outline is looked at, or made for a stroke */
 } finder;
 
 static celspan_box common(celspan_box a, celspan_box b) {
@@ -52,8 +52,9 @@ static bool list_common(finder *f, celspan_object *const *objects, size_t count,
 
 static bool outer_bounds(const cs_primitive_data *data, const celspan_matrix *matrix,
                          celspan_box *out) {
+  const celspan_box *box = data->stroke ? &data->stroke->around : &data->bounds;
   cs_outline_box room;
-  return cs_outline_bounds(cs_outline_of_box(&data->stroke->around, &room), matrix, out);
+  return cs_outline_bounds(cs_outline_of_box(box, &room), matrix, out);
 }
 
 /* Without memory for its outline, the outer box. */
@@ -61,8 +62,6 @@ static bool stroke_bounds(finder *f, const cs_primitive_data *data, const celspa
                           celspan_box *out) {
   celspan_context own = {.memory = data->memory}, *context = f->context ? f->context : &own;
   bool is_seen;
-  if (f->is_outer)
-    return outer_bounds(data, matrix, out);
   celspan_status status = cs_stroke_bounds(context, data->stroke, matrix, out, &is_seen);
   if (status == CELSPAN_OK)
     return is_seen;
@@ -72,9 +71,11 @@ static bool stroke_bounds(finder *f, const cs_primitive_data *data, const celspa
 
 static bool data_bounds(finder *f, const cs_primitive_data *data, const celspan_matrix *matrix,
                         celspan_box *out) {
+  cs_outline_box room;
+  if (f->is_outer && data->kind != CS_PRIMITIVE_DATA_BOOLEAN)
+    return outer_bounds(data, matrix, out);
   if (data->stroke)
     return stroke_bounds(f, data, matrix, out);
-  cs_outline_box room;
   if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN)
     return cs_outline_bounds(cs_primitive_data_outline(data, &room), matrix, out);
   const cs_boolean *boolean = data->boolean;
