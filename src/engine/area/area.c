@@ -32,91 +32,6 @@
 #include "engine/compose/procedures.h"
 #include "engine/sweep/pieces.h"
 
-/* ---------------------------------------------------------------- committing the order */
-
-static celspan_status note(cs_commit *commit, size_t low, size_t count, cs_committed **out) {
-  cs_committed *committed = cs_arena_take(
-      commit->composer->context, commit->arena,
-      sizeof *committed + count * (sizeof *committed->cells + sizeof *committed->places));
-  if (!committed)
-    return CELSPAN_NO_MEMORY;
-  const cs_cell **cells = (const cs_cell **)(committed + 1);
-  *committed = (cs_committed){commit->first, low, count, cells, (uint32_t *)(cells + count)};
-  commit->first = *out = committed;
-  return CELSPAN_OK;
-}
-
-/* Whether boundary i is still there at the foot of the row. */
-static bool goes_on(const cs_active *active, size_t i) {
-  const cs_bend *bend = cs_active_bend(active, i);
-  return !bend || !bend->ends;
-}
-
-/* Notes that boundaries i and i + 1 have changed places, with a cell between them. */
-static CELSPAN_CHECKED celspan_status commit_pair(cs_commit *commit, size_t i,
-                                                  const cs_cell *between) {
-  cs_committed *committed;
-  if (!goes_on(commit->active, i) || !goes_on(commit->active, i + 1))
-    return CELSPAN_OK;
-  CS_TRY(note(commit, i, 2, &committed));
-  committed->places[0] = (uint32_t)i + 1;
-  committed->places[1] = (uint32_t)i;
-  committed->cells[0] = between;
-  committed->cells[1] = &commit->cells->cells[i + 2];
-  return CELSPAN_OK;
-}
-
-/* The cell right of boundary i. Where it is that of another place, a copy is kept: that place may
- * be written to first. */
-static celspan_status keep_cell(cs_commit *commit, size_t i, const cs_cell *cell,
-                                const cs_cell **out) {
-  const cs_cell *cells = commit->cells->cells;
-  *out = cell;
-  if (cell < cells || cell >= cells + commit->cells->known || cell == &cells[i + 1])
-    return CELSPAN_OK;
-  cs_cell *copy = cs_arena_take(commit->composer->context, commit->arena, sizeof *copy);
-  if (!copy)
-    return CELSPAN_NO_MEMORY;
-  *copy = *cell;
-  *out = copy;
-  return CELSPAN_OK;
-}
-
-/* Notes how a local sweep of the boundaries [low, high) has ended, if that can be committed. */
-static CELSPAN_CHECKED celspan_status commit_sweep(cs_commit *commit, const cs_local_sweep *sweep,
-                                                   size_t low, size_t high) {
-  cs_committed *committed;
-  size_t count = high - low;
-  if (count == 0 || sweep->count != count)
-    return CELSPAN_OK;
-  for (size_t j = 0; j < count; j++) {
-    uint32_t place = sweep->members[j]->place;
-    if (place < low || place >= high || !goes_on(commit->active, place))
-      return CELSPAN_OK;
-  }
-  CS_TRY(note(commit, low, count, &committed));
-  for (size_t j = 0; j < count; j++) {
-    committed->places[j] = sweep->members[j]->place;
-    CS_TRY(keep_cell(commit, low + j, sweep->members[j]->right, &committed->cells[j]));
-  }
-  return CELSPAN_OK;
-}
-
-/* Brings the order and the cells of what has been noted to the foot of the row. */
-static CELSPAN_CHECKED celspan_status apply_commit(cs_commit *commit) {
-  for (const cs_committed *committed = commit->first; committed; committed = committed->next) {
-    uint64_t *room =
-        cs_arena_take(commit->composer->context, commit->arena, committed->count * sizeof *room);
-    if (!room)
-      return CELSPAN_NO_MEMORY;
-    cs_active_permute(commit->active, committed->low, committed->count, committed->places, room);
-    cs_cells_commit(commit->cells, commit->composer, commit->active, committed->low,
-                    committed->count, committed->cells);
-  }
-  commit->first = NULL;
-  return CELSPAN_OK;
-}
-
 /* ---------------------------------------------------------------- the row */
 
 void cs_area_init(cs_area *area, const cs_row_tools *tools) {
@@ -124,7 +39,6 @@ void cs_area_init(cs_area *area, const cs_row_tools *tools) {
   cs_window_init(&area->target.window, tools->painter, tools->arena, tools->width);
   cs_local_sweep_init(&area->sweep, tools->composer, tools->arena, &area->target);
   cs_crowd_init(&area->crowd);
-  area->commit = (cs_commit){tools->active, tools->cells, tools->composer, tools->arena, NULL};
 }
 
 void cs_area_finish(cs_area *area, cs_memory *memory) {
@@ -252,7 +166,6 @@ static celspan_status walk_interval(row_walk *w, const cs_interval *interval) {
     CS_TRY(cs_dense_draw(&area->dense, sweep, extent, right));
   } else {
     CS_TRY(cs_local_sweep_replay(sweep));
-    CS_TRY(commit_sweep(&area->commit, sweep, low, high));
   }
   cs_window_end_item(&area->target.window, right);
   return CELSPAN_OK;
@@ -271,10 +184,8 @@ static bool is_pair(const cs_area *area, const cs_interval *interval) {
 static celspan_status walk_pair(row_walk *w, const cs_interval *interval) {
   cs_area *area = w->area;
   size_t low = interval->low;
-  const cs_cell *between;
   CS_TRY(begin_item(area, &w->cells[low], low, interval->extent.low));
-  CS_TRY(cs_local_sweep_pair(&area->sweep, area->tools.active, low, &between));
-  CS_TRY(commit_pair(&area->commit, low, between));
+  CS_TRY(cs_local_sweep_pair(&area->sweep, area->tools.active, low));
   cs_window_end_item(&area->target.window, &w->cells[interval->high]);
   return CELSPAN_OK;
 }
@@ -303,7 +214,6 @@ static cs_member edge_member(const cs_procedure_edge *edge, double y0, double y1
                      .layer = edge->layer,
                      .span = edge->span,
                      .order = 2 * edge->span + (edge->direction < 0),
-                     .place = UINT32_MAX,
                      .direction = edge->direction,
                      .x = edge->x,
                      .y = y0,
@@ -425,7 +335,6 @@ static celspan_status find_intervals(row_walk *w, double y0, double y1, cs_inter
                               .y0 = y0,
                               .y1 = y1};
   w->intervals = intervals;
-  area->commit.first = NULL;
   CS_TRY(cs_active_advance(context, area->tools.active, y1));
   if (!w->is_slab && cs_procedures_meet(area->tools.procedures, (int32_t)y0))
     CS_TRY(find_procedures(area, intervals));
@@ -479,7 +388,6 @@ static celspan_status walk_slabs(cs_area *area, int32_t y, int slabs, cs_row *ou
     end = is_dense(area) ? slabs : k + 1;
     CS_TRY(find_intervals(&w, y + (double)k / slabs, y + (double)end / slabs, &intervals));
     CS_TRY(walk_heights(&w));
-    CS_TRY(apply_commit(&area->commit));
   }
   return cs_window_end_row(window);
 }
@@ -497,8 +405,7 @@ celspan_status cs_area_row(cs_area *area, int32_t y, cs_change change, cs_row *o
   CS_TRY(make_cells(&w, change));
   cs_window_begin_row(&area->target.window, y, w.cells, out);
   CS_TRY(walk_heights(&w));
-  CS_TRY(cs_window_end_row(&area->target.window));
-  return apply_commit(&area->commit);
+  return cs_window_end_row(&area->target.window);
 }
 
 celspan_status cs_area_retain(cs_area *area, int32_t y, cs_change change,
@@ -510,6 +417,5 @@ celspan_status cs_area_retain(cs_area *area, int32_t y, cs_change change,
   CS_TRY(make_cells(&w, change));
   cs_retained_begin(retained, y, w.cells[0].colour);
   CS_TRY(walk_heights(&w));
-  CS_TRY(cs_retained_seal(retained, area->tools.composer));
-  return apply_commit(&area->commit);
+  return cs_retained_seal(retained, area->tools.composer);
 }

@@ -19,7 +19,6 @@ static void set_member(cs_member *member, const cs_active *active, uint32_t chai
   member->layer = c->layer;
   member->span = UINT32_MAX;
   member->order = chain;
-  member->place = UINT32_MAX;
   member->direction = c->direction;
   member->x = member->foot = points[0].x;
   member->y = points[0].y;
@@ -40,7 +39,6 @@ celspan_status cs_intervals_member(const cs_intervals *b, size_t i, cs_member *m
     *last++ = (celspan_point){active->x_next[i], b->y1};
   set_member(member, active, active->walks[active->slot[i]].chain, points,
              (uint32_t)(last - points));
-  member->place = (uint32_t)i;
   return CELSPAN_OK;
 }
 

@@ -462,9 +462,8 @@ static celspan_status cell_between(cs_local_sweep *sweep, cs_crossing second, do
   return composer->failure;
 }
 
-celspan_status cs_local_sweep_pair(cs_local_sweep *sweep, const cs_active *active, size_t i,
-                                   const cs_cell **between) {
-  const cs_cell *left = sweep->left, *right = left + 2;
+celspan_status cs_local_sweep_pair(cs_local_sweep *sweep, const cs_active *active, size_t i) {
+  const cs_cell *left = sweep->left, *right = left + 2, *between;
   celspan_point a = {active->x[i], active->y}, b = {active->x[i + 1], active->y};
   celspan_point a_foot = {active->x_next[i], active->y_next};
   celspan_point b_foot = {active->x_next[i + 1], active->y_next};
@@ -474,7 +473,7 @@ celspan_status cs_local_sweep_pair(cs_local_sweep *sweep, const cs_active *activ
   celspan_point b_meets = {b.x + (b_foot.x - b.x) * u, y};
   CS_TRY(draw(sweep, a, a_meets, left, left + 1));
   CS_TRY(draw(sweep, b, b_meets, left + 1, right));
-  CS_TRY(cell_between(sweep, active->crossing[i + 1], b_meets.x, between));
-  CS_TRY(draw(sweep, b_meets, b_foot, left, *between));
-  return draw(sweep, a_meets, a_foot, *between, right);
+  CS_TRY(cell_between(sweep, active->crossing[i + 1], b_meets.x, &between));
+  CS_TRY(draw(sweep, b_meets, b_foot, left, between));
+  return draw(sweep, a_meets, a_foot, between, right);
 }

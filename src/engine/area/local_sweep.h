@@ -66,7 +66,6 @@ typedef struct cs_member {
   uint32_t layer;
   uint32_t span;  /* of a procedure; UINT32_MAX for a chain */
   uint32_t order; /* settles ties: the chain, or the edge of the procedure's span */
-  uint32_t place; /* in the order at the top of the row; UINT32_MAX: it begins in the row */
   int32_t direction;
   double x, y; /* its segments have been drawn down to here */
   double foot; /* x at the foot of the current slab */
@@ -123,7 +122,6 @@ cs_extent cs_local_sweep_extent(const cs_local_sweep *sweep);
 CELSPAN_CHECKED celspan_status cs_local_sweep_replay(cs_local_sweep *sweep);
 
 /* The same for boundaries i and i + 1, straight through the row, that cross once, which is what
- * nearly all local sweeps are. Given are left, of both, and deferred. *between: the
- * cell between them after they have crossed, good until the row is done. */
+ * nearly all local sweeps are. Given are left, of both, and deferred. */
 CELSPAN_CHECKED celspan_status cs_local_sweep_pair(cs_local_sweep *sweep, const cs_active *active,
-                                                   size_t i, const cs_cell **between);
+                                                   size_t i);

@@ -112,11 +112,13 @@ static void adopt_order(cs_cells *cells, cs_composer *composer, const cs_active 
 
 /* ---------------------------------------------------------------- making */
 
-/* The cell right of i boundaries, which is where the walk is. */
-static inline void make_cell(cs_cells *cells, cs_composer *composer, size_t i) {
+/* The cell right of i boundaries, which is where the walk is. Returns whether it was another. */
+static inline bool make_cell(cs_cells *cells, cs_composer *composer, size_t i) {
   cs_cell *cell = &cells->cells[i];
-  if (i >= cells->known || !cs_set_hash_same(cell->hash, composer->hash))
+  bool is_new = i >= cells->known || !cs_set_hash_same(cell->hash, composer->hash);
+  if (is_new)
     cs_composer_cell(composer, cell);
+  return is_new;
 }
 
 /* Crosses the boundary right of the walk, which is at x. */
@@ -129,10 +131,12 @@ static inline void cross_next(cs_cells *cells, cs_composer *composer, double x) 
 /* Makes what is right of boundaries [first, end), of which the first lies at the walk. */
 static void make_cells(cs_cells *cells, cs_composer *composer, const cs_active *active,
                        size_t first, size_t end) {
-  for (size_t i = first; i < end; i++) {
+  for (size_t i = first, is_new = true; i < end; i++) {
+    bool was_new = is_new;
     cross_next(cells, composer, active->x[i]);
-    make_cell(cells, composer, i + 1);
-    cells->is_visible[i] = !cs_composer_same(composer, &cells->cells[i + 1], &cells->cells[i]);
+    is_new = make_cell(cells, composer, i + 1);
+    if (was_new || is_new)
+      cells->is_visible[i] = !cs_composer_same(composer, &cells->cells[i + 1], &cells->cells[i]);
   }
 }
 
@@ -185,16 +189,4 @@ celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer, const cs_
   cells->is_listed = false;
   cells->known = active->count + 1;
   return CELSPAN_OK;
-}
-
-void cs_cells_commit(cs_cells *cells, const cs_composer *composer, const cs_active *active,
-                     size_t low, size_t count, const cs_cell *const *right) {
-  memcpy(cells->crossing + low, active->crossing + low, count * sizeof *cells->crossing);
-  for (size_t k = 0; k < count; k++) {
-    cs_cell *cell = &cells->cells[low + k + 1];
-    if (right[k] != cell)
-      *cell = *right[k];
-    cells->is_visible[low + k] = !cs_composer_same(composer, cell, cell - 1);
-  }
-  cells->is_listed = false;
 }

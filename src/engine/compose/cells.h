@@ -91,10 +91,6 @@ void cs_cells_finish(cs_cells *cells, cs_memory *memory);
 CELSPAN_CHECKED celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer,
                                                const cs_active *active, cs_change change,
                                                const cs_cells_gap *gaps, size_t gap_count);
-/* The boundaries low..low + count - 1 have changed places among themselves. right[k]: the cell now
- * right of boundary low + k, which is copied. The walk is not between them. */
-void cs_cells_commit(cs_cells *cells, const cs_composer *composer, const cs_active *active,
-                     size_t low, size_t count, const cs_cell *const *right);
 /* Moves the walk to just left of boundary `place`, right of the deferred changes at or left of x:
  * by the shorter way round. */
 void cs_cells_walk_to(cs_cells *cells, cs_composer *composer, size_t place, double x);

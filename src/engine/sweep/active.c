@@ -142,20 +142,19 @@ static void insert_boundary(cs_active *active, size_t to, size_t from) {
 #undef ROTATE
 }
 
-static inline void permute_items(void *array, size_t size, size_t low, size_t count,
-                                 const uint32_t *places, uint64_t *room) {
+static inline void permute_items(void *array, size_t size, size_t count, const uint32_t *places,
+                                 uint64_t *room) {
   unsigned char *items = array;
   for (size_t k = 0; k < count; k++)
     memcpy(&room[k], items + places[k] * size, size);
   for (size_t k = 0; k < count; k++)
-    memcpy(items + (low + k) * size, &room[k], size);
+    memcpy(items + k * size, &room[k], size);
 }
 
-void cs_active_permute(cs_active *active, size_t low, size_t count, const uint32_t *places,
-                       uint64_t *room) {
-#define PERMUTE(array) permute_items(array, sizeof *(array), low, count, places, room);
+/* Moves boundary places[k] to index k. room: for as many numbers as there are boundaries. */
+static void permute_boundaries(cs_active *active, const uint32_t *places, uint64_t *room) {
+#define PERMUTE(array) permute_items(array, sizeof *(array), active->count, places, room);
   EACH_ORDERED(PERMUTE)
-  PERMUTE(active->x_next)
 #undef PERMUTE
 }
 
@@ -227,7 +226,7 @@ static celspan_status sort_all(celspan_context *context, cs_active *active, cs_c
   sort_keys(keys, count);
   for (size_t i = 0; i < count; i++)
     places[i] = keys[i].index;
-  cs_active_permute(active, 0, count, places, room);
+  permute_boundaries(active, places, room);
   cs_mem_free(context->memory, keys, count * size);
   return CELSPAN_OK;
 }

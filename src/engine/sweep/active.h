@@ -130,10 +130,6 @@ CELSPAN_CHECKED celspan_status cs_active_start(celspan_context *context, cs_acti
  * remains the one at the current height. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_active_advance(celspan_context *context, cs_active *active,
                                                  double y);
-/* Moves boundary places[k] to index low + k, with its x at both heights. To be called between
- * advancing and settling. places: low..low + count - 1 in some order. room: for count numbers. */
-void cs_active_permute(cs_active *active, size_t low, size_t count, const uint32_t *places,
-                       uint64_t *room);
 /* Makes the height advanced to the current one. *change: where boundaries began, ended or changed
  * places; the whole order when another row of tiles has begun. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_active_settle(celspan_context *context, cs_active *active,
