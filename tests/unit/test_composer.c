@@ -1,5 +1,5 @@
 /* engine/compose/composer.c: the result of the composer for a set of layers, whichever way it folds
- * them: by tree, by table, layer by layer in groups; and the programs of layers that vary, however
+ * them: by tree, layer by layer in groups; and the programs of layers that vary, however
  * many of them are cached.
  */
 #include "engine/compose/composer.h"
@@ -158,7 +158,7 @@ int main(void) {
   static const size_t counts[] = {1, 4, 63, 64, 65, 191, 192, 193, 256, 257, 400};
   for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
     test_flats(context, counts[i], 0.97f); /* by tree, where there are many */
-    test_flats(context, counts[i], 0.1f);  /* by table */
+    test_flats(context, counts[i], 0.1f);  /* layer by layer */
     test_flats(context, counts[i], 0);
   }
   test_memo(context);

@@ -48,8 +48,7 @@ bool cs_crowd_suits(const cs_intervals *intervals, const cs_interval *interval,
   const cs_edges *edges = intervals->edges;
   const cs_stack *stack = composer->stack;
   size_t members = interval->high - interval->low, crossed = 0, strong = 0;
-  bool is_flat = composer->table && stack->tree_count == 0;
-  if (members < CS_CROWD_LEAST || !is_flat)
+  if (members < CS_CROWD_LEAST || !composer->is_flat || stack->tree_count > 0)
     return false;
   for (size_t i = interval->low; i < interval->high; i++) {
     int32_t first = cs_edges_floor(edges->low[i], width),

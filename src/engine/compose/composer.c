@@ -18,9 +18,20 @@ static celspan_status allocate(cs_composer *composer, void *field, size_t count,
   return CELSPAN_OK;
 }
 
-/* What folds flat layers fast, if they suit it. */
+static bool has_flats_alone(const cs_stack *stack) {
+  for (size_t i = 0; i < stack->layer_count; i++)
+    if (stack->layers[i].kind != CS_LAYER_FLAT)
+      return false;
+  for (size_t i = 0; i < stack->light_count; i++)
+    if (stack->lights[i].below > 0)
+      return false;
+  return stack->group_count == 0;
+}
+
+/* What folds very many flat layers fast, if they suit it. */
 static celspan_status make_table(cs_composer *composer) {
-  if (!cs_over_table_suits(composer->stack))
+  composer->is_flat = has_flats_alone(composer->stack);
+  if (!composer->is_flat || !cs_over_table_suits(composer->stack))
     return CELSPAN_OK;
   CS_TRY(allocate(composer, &composer->table, 1, sizeof(cs_over_table)));
   return cs_over_table_init(composer->table, composer->context, composer->stack);
@@ -212,7 +223,7 @@ static const uint64_t *resolve(cs_composer *composer) {
 /* The same by what has been folded beforehand. */
 static celspan_status fold_prepared(cs_composer *composer, const uint64_t *set, cs_over *over) {
   cs_over_pair light;
-  CS_TRY(cs_over_table_light(composer->table, set, composer->filled, &light));
+  CS_TRY(cs_over_table_light(composer->table, set, &light));
   cs_over_begin(over, composer->stack, composer->outers);
   over->e = light.e;
   over->t = light.t;
@@ -269,7 +280,7 @@ static celspan_status compose_here(cs_composer *composer, cs_cell *out) {
 }
 
 void cs_composer_cell(cs_composer *composer, cs_cell *out) {
-  if (composer->table && cs_over_table_has_tree(composer->table)) {
+  if (composer->table) {
     /* Nearly every set is new, and its colour found as soon as its memo. */
     compose_here(composer, out);
     return;

@@ -52,6 +52,7 @@ typedef struct cs_composer {
   cs_set_hash hash;            /* of the set */
   cs_tree_result *results;
   cs_over_outer *outers; /* of folds; cs_stack_depth */
+  bool is_flat;          /* all layers are flat, in no group and in front of all back lights */
   cs_over_table *table;  /* NULL where it does not suit the stack */
   cs_memo *memo;
   size_t memo_size;

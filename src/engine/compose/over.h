@@ -22,8 +22,9 @@
  *
  * The same fold is written six times, since it must be fast on six kinds of data:
  *   over.h            one cell, layer by layer;
- *   over_table.h      one cell of a frame that has flat layers only, without groups: most layers
- *                     of neighbouring cells are the same, so their light is looked up;
+ *   over_table.h      one cell of a frame that has flat layers only, without groups, of which
+ *                     dozens are seen at once: most layers of neighbouring cells are the same, so
+ *                     their light is looked up;
  *   engine/paint/over_row.h  up to 256 pixels of one program at once, a register at a time; modes
  *                            are blended by over_blend_wide.c;
  *   engine/paint/over_bare.h  the same of pictures alone that are shown as they are;

@@ -1,25 +1,13 @@
 #include "engine/compose/over_table.h"
 
-#include "engine/compose/set.h"
-
 #include <math.h>
 
 #define FOUR CS_OVER_FOUR
 #define QUADS 16      /* of a word */
 #define CHOICES 16    /* of the layers of a quad */
-#define LEAST_WORDS 4 /* under a tree: fewer are quickly folded */
+#define LEAST_WORDS 4 /* fewer are quickly folded */
 
 /* ---------------------------------------------------------------- the choice */
-
-bool cs_over_table_suits(const cs_stack *stack) {
-  for (size_t i = 0; i < stack->layer_count; i++)
-    if (stack->layers[i].kind != CS_LAYER_FLAT)
-      return false;
-  for (size_t i = 0; i < stack->light_count; i++)
-    if (stack->lights[i].below > 0)
-      return false;
-  return stack->group_count == 0;
-}
 
 /* What a layer lets through in its clearest channel; of one that lets nothing through, the least
  * that counts. */
@@ -31,7 +19,7 @@ static double let_through(const cs_layer *layer) {
 
 /* Nothing shines through after sixteen halvings. Where the layers halve the light less than once in
  * two, on the average, more than 32 are seen in a place, if as many lie there. */
-static bool needs_tree(const cs_stack *stack) {
+bool cs_over_table_suits(const cs_stack *stack) {
   size_t words = cs_stack_words(stack), halvings = 0;
   double through = 1;
   if (words < LEAST_WORDS || words > CS_OVER_TABLE_WORDS)
@@ -48,12 +36,11 @@ static bool needs_tree(const cs_stack *stack) {
 
 static inline size_t group_count(size_t nodes) { return (nodes + FOUR - 1) / FOUR; }
 
-/* Every tier but the last is filled up to a multiple of four, with clear nodes. Without a tree
- * there is tier 0 alone. */
+/* Every tier but the last is filled up to a multiple of four, with clear nodes. */
 static celspan_status make_nodes(cs_over_table *table) {
   size_t starts[CS_OVER_TABLE_TIERS] = {0}, nodes = table->count;
   table->node_count = FOUR * group_count(nodes);
-  while (needs_tree(table->stack) && nodes > 1) {
+  while (nodes > 1) {
     nodes = group_count(nodes);
     starts[++table->top] = table->node_count;
     table->node_count += FOUR * group_count(nodes);
@@ -69,8 +56,6 @@ static celspan_status make_nodes(cs_over_table *table) {
 celspan_status cs_over_table_init(cs_over_table *table, celspan_context *context,
                                   const cs_stack *stack) {
   *table = (cs_over_table){.context = context, .stack = stack};
-  if (stack->layer_count == 0)
-    return CELSPAN_OK;
   CS_TRY(CS_MAKE(context, table->words, cs_stack_words(stack)));
   table->count = cs_stack_words(stack);
   for (size_t i = 0; i < table->count; i++)
@@ -151,60 +136,17 @@ static inline cs_over_pair join_quads(const cs_over_word *word, size_t quarter) 
   return join(four);
 }
 
-/* At most two layers need no quads: so it is in most words where shapes are small or few. */
-static cs_over_pair join_few(const cs_stack *stack, size_t i, uint64_t word) {
-  if (word == 0)
-    return cs_over_pair_clear;
-  size_t front = 64 * i + 63 - (size_t)__builtin_clzll(word);
-  size_t back = 64 * i + (size_t)__builtin_ctzll(word);
-  cs_over_pair pair = layer_pair(stack, front);
-  return front == back ? pair : cs_over_pair_over(pair, layer_pair(stack, back));
-}
-
-static inline bool are_few(uint64_t word) {
-  uint64_t more = word & (word - (word != 0)); /* without the lowest layer */
-  return (more & (more - (more != 0))) == 0;
-}
-
 /* Word i of the set has become `word`. */
 static celspan_status join_word(cs_over_table *table, size_t i, uint64_t word) {
   cs_over_word *known = &table->words[i];
-  known->word = word;
-  if (table->top == 0 && are_few(word)) {
-    table->tiers[0][i] = join_few(table->stack, i, word);
-    return CELSPAN_OK;
-  }
   if (!known->quads)
     CS_TRY(make_quads(table, i));
-  uint64_t changed = known->joined ^ word;
+  uint64_t changed = known->word ^ word;
+  known->word = word;
   for (size_t quarter = 0; quarter < FOUR; quarter++)
     if ((changed >> 16 * quarter & 0xffff) != 0)
       known->quarters[quarter] = join_quads(known, quarter);
-  known->joined = word;
   table->tiers[0][i] = join(known->quarters);
-  return CELSPAN_OK;
-}
-
-/* ---------------------------------------------------------------- word by word */
-
-static celspan_status light_of_words(cs_over_table *table, const uint64_t *set,
-                                     const uint8_t *filled, cs_over_pair *out) {
-  cs_over_pair light = cs_over_pair_clear;
-  uint32_t end = (uint32_t)(table->count + 7) / 8 * 8;
-  for (; (end = cs_set_skip(filled, end)) > 0; end -= 8)
-    for (size_t i = end; i-- > end - 8;) {
-      if (!filled[i])
-        continue;
-      if (table->words[i].word != set[i])
-        CS_TRY(join_word(table, i, set[i]));
-      cs_over_pair all = cs_over_pair_over(light, table->tiers[0][i]);
-      if (cs_over_is_opaque(all.t)) {
-        *out = add_layers(table->stack, light, i, set[i]);
-        return CELSPAN_OK;
-      }
-      light = all;
-    }
-  *out = light;
   return CELSPAN_OK;
 }
 
@@ -275,15 +217,10 @@ static cs_over_pair go_down(const cs_over_table *table) {
   return add_layers(table->stack, light, i, word->word & (uint64_t)(CHOICES - 1) << FOUR * quad);
 }
 
-static celspan_status light_of_tree(cs_over_table *table, const uint64_t *set, cs_over_pair *out) {
+celspan_status cs_over_table_light(cs_over_table *table, const uint64_t *set, cs_over_pair *out) {
   CS_TRY(renew(table, set));
   *out = *table->tiers[table->top];
   if (cs_over_is_opaque(out->t))
     *out = go_down(table);
   return CELSPAN_OK;
-}
-
-celspan_status cs_over_table_light(cs_over_table *table, const uint64_t *set, const uint8_t *filled,
-                                   cs_over_pair *out) {
-  return table->top > 0 ? light_of_tree(table, set, out) : light_of_words(table, set, filled, out);
 }

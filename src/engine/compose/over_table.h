@@ -1,5 +1,5 @@
-/* The fold of over.h by table, for frames of flat layers in no group and with no back light between
- * them: no move is ever due, so layers can be folded beforehand.
+/* The fold of over.h by table, for frames of many faint flat layers in no group and with no back
+ * light between them: no move is ever due, so layers can be folded beforehand.
  *
  *     set      [........ word 1 ........][........ word 0 ........]     64 layers a word
  *     quarters                    [ 15-12 ][ 11-8 ][ 7-4 ][ 3-0 ]       16 layers a quarter
@@ -11,9 +11,9 @@
  * comes or goes, its quarter is looked up and joined again, and then the word. Of four parts two
  * and two are joined first, so that a result waits for few others.
  *
- * Words are folded from the front until nothing shines through. Where layers are so faint that
- * dozens of them are seen at once, most of that would be done again for each cell: then there is a
- * tree over the words, four of each node, and only the nodes above a change are joined again.
+ * Where layers are so faint that dozens of them are seen at once, most of a fold from the front
+ * would be done again for each cell. So there is a tree over the words, four of each node, and only
+ * the nodes above a change are joined again.
  *
  *                                [all]                          tier 2: what the tree ends with
  *                    ______________|______________
@@ -21,9 +21,9 @@
  *                             ____________|___
  *                            [7]  [6]  [5]  [4]                 tier 0: words
  *
- * Where the layers of a tree together let nothing through, those behind the end must not count,
- * down to the last bit. Then the fold goes down from the front, part by part, to the quad in which
- * the light ends; its layers are added one by one.
+ * Where the layers together let nothing through, those behind the end must not count, down to the
+ * last bit. Then the fold goes down from the front, part by part, to the quad in which the light
+ * ends; its layers are added one by one.
  *
  * Invariant: the light of a set depends on the set alone, to the bit: what is joined is given by
  * the numbers of the layers, whatever was known before. Layers behind others that let clearly less
@@ -34,13 +34,12 @@
 #include "engine/compose/over.h"
 
 #define CS_OVER_FOUR 4          /* parts that are joined: layers, quads, quarters, words, nodes */
-#define CS_OVER_TABLE_WORDS 256 /* of a tree, at most: all are compared each time */
+#define CS_OVER_TABLE_WORDS 256 /* at most: all are compared each time */
 #define CS_OVER_TABLE_TIERS 5   /* enough for these */
 
 /* The layers of one word of a set. */
 typedef struct cs_over_word {
   uint64_t word;                       /* those present */
-  uint64_t joined;                     /* those in `quarters` */
   cs_over_pair *quads;                 /* of any choice of each four layers; NULL: not yet */
   cs_over_pair quarters[CS_OVER_FOUR]; /* of sixteen layers each */
 } cs_over_word;
@@ -53,18 +52,16 @@ typedef struct cs_over_table {
   cs_over_pair *nodes; /* of all tiers */
   size_t node_count;
   cs_over_pair *tiers[CS_OVER_TABLE_TIERS]; /* in nodes: 0 has the words */
-  int top; /* the last tier, which has one node; 0: there is no tree */
+  int top;                                  /* the last tier, which has one node */
 } cs_over_table;
 
-/* Whether the layers of a stack are of that kind. */
+/* Whether a stack of flat layers suits it: they are many, and on the average so faint that more
+ * than 32 in a place would be seen. */
 bool cs_over_table_suits(const cs_stack *stack);
-/* Errors: NO_MEMORY; cs_over_table_finish must be called then, too. */
+/* stack: suits it. Errors: NO_MEMORY; cs_over_table_finish must be called then, too. */
 CELSPAN_CHECKED celspan_status cs_over_table_init(cs_over_table *table, celspan_context *context,
                                                   const cs_stack *stack);
 void cs_over_table_finish(cs_over_table *table);
-/* Whether there is a tree: the layers are many, and on the average so faint that more than 32 in a
- * place would be seen. */
-static inline bool cs_over_table_has_tree(const cs_over_table *table) { return table->top > 0; }
-/* The light of a set; filled: of its words, see set.h. Errors: NO_MEMORY. */
+/* The light of a set. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_over_table_light(cs_over_table *table, const uint64_t *set,
-                                                   const uint8_t *filled, cs_over_pair *out);
+                                                   cs_over_pair *out);
