@@ -208,6 +208,8 @@ local function ways(run, lines)
     times)
   at_most(lines, "`gradients-100` at 1k, in a later frame: at most a sweep",
     over_sweep(run, "gradients-100", 1024, "row", "again"), 1, times)
+  at_most(lines, "`faint` at 1k, of which a map is tried in vain: at most 1.08 times a sweep",
+    over_sweep(run, "faint", 1024, "row", "mapped"), 1.08, times)
 end
 
 -- ---------------------------------------------------------------- the sizes of films

@@ -95,8 +95,7 @@ int main(int argc, char **argv) {
   if (argc < 2 || verb == count)
     bench_stop("usage: %s shapes|look|digest|soft|picture|backed|planes|film|plane ...", argv[0]);
   celspan_context_desc desc = {.struct_size = sizeof desc};
-  bool is_new = verbs[verb].run == measure_shapes && argc > 4 && strcmp(argv[4], "again") != 0;
-  if (is_new || verbs[verb].run == measure_soft)
+  if (verbs[verb].run == measure_soft)
     desc.defocus_bytes = 1; /* nothing is kept between runs */
   if (celspan_context_create(&desc, &job.context) != CELSPAN_OK)
     return 2;

@@ -20,9 +20,8 @@ typedef struct bench_frame_job {
   unsigned char *pixels;
 } bench_frame_job;
 
-/* antialias: area, none, or a kernel of its own radius: box, gaussian, mitchell, lanczos; again:
- * area, in a later frame of a film, where maps are kept; first: in the first frame of a film, where
- * they are made; swept: area without maps.
+/* antialias: area, by a way of bench_choose_way, none, or a kernel of its own radius: box,
+ * gaussian, mitchell, lanczos.
  * output: spans, row (8-bit pixels into one row that is reused), strip (the same, of 16 rows in the
  * middle alone), whole (an image in memory), file (job->file, by its ending) or digest. The film is
  * 1 x 1; job->rostrum is already set.

@@ -68,13 +68,11 @@ local function renderers(runner, path, scene, side)
   return entries
 end
 
---- A few rows of a drawing.
-local function strip(runner, folder, scene)
-  local path, entries = ("%s/%s.txt"):format(folder, scene), {}
-  for i, way in ipairs { "area", "swept" } do
-    entries[i] = celspan(runner, path, scene, 1024, way, "strip", 1)
-  end
-  runner:measure(2, entries)
+--- A drawing by two ways, in turn.
+local function compare(runner, folder, scene, way, other, output)
+  local path = ("%s/%s.txt"):format(folder, scene)
+  runner:measure(2, { celspan(runner, path, scene, 1024, way, output, 1),
+                      celspan(runner, path, scene, 1024, other, output, 1) })
 end
 
 --- One drawing at one side: all its renderers, in turn, and the limits.
@@ -100,6 +98,8 @@ function parts.hard(runner, folder, is_quick)
       point(runner, folder, scene, side, side < 30000 and 2 or 1)
     end
   end
+  -- It has no map: what remains is what it costs to find that out, and to remember it.
+  compare(runner, folder, "faint", "mapped", "mapped-again", "row")
 end
 
 --- A gradient has no runs of one colour, so the limits say nothing here.
@@ -122,7 +122,7 @@ function parts.artwork(runner, folder, is_quick)
     for _, side in ipairs(is_quick and { 1024, 4096 } or sides) do
       point(runner, folder, scene, side, side < 30000 and 2 or 1)
     end
-    strip(runner, folder, scene)
+    compare(runner, folder, scene, "area", "swept", "strip")
   end
 end
 

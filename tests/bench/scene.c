@@ -113,10 +113,21 @@ celspan_rostrum *bench_scene(celspan_context *context, const bench_drawing *draw
 }
 
 void bench_choose_way(celspan_context *context, celspan_frame_desc *desc, const char *way) {
-  desc->repeats = strcmp(way, "again") == 0 || strcmp(way, "first") == 0;
-  context->root->forced_way = strcmp(way, "swept") == 0    ? CS_WAYS_SWEPT
-                              : strcmp(way, "mapped") == 0 ? CS_WAYS_MAPPED
-                                                           : CS_WAYS_BY_RULE;
+  static const struct {
+    const char *name;
+    cs_ways_forced forced;
+    bool repeats, keeps;
+  } ways[] = {
+      {"area", CS_WAYS_BY_RULE, false, false}, {"swept", CS_WAYS_SWEPT, false, false},
+      {"first", CS_WAYS_BY_RULE, true, false}, {"mapped", CS_WAYS_MAPPED, true, false},
+      {"again", CS_WAYS_BY_RULE, true, true},  {"mapped-again", CS_WAYS_MAPPED, true, true}};
+  size_t i = sizeof ways / sizeof *ways;
+  while (i > 0 && strcmp(ways[--i].name, way) != 0)
+    ;
+  context->root->forced_way = ways[i].forced;
+  desc->repeats = ways[i].repeats;
+  if (!ways[i].keeps)
+    context->root->map_bytes = 0;
 }
 
 celspan_frame_desc bench_frame(const celspan_exposure *exposure, int width, int height,

@@ -28,8 +28,9 @@ celspan_rostrum *bench_rostrum_of(celspan_context *context, const celspan_cel_de
 /* All of a drawing as one object. new */
 celspan_object *bench_union(celspan_context *context, const bench_drawing *drawing);
 
-/* How the context's frames with the antialiasing "area" are drawn: swept, without maps; mapped,
- * from maps of all drawings that suit; otherwise as for users, first and again as in a film. */
+/* How the context's frames with the antialiasing "area" are drawn: first, as users get the first
+ * frame of a film; again, a later one, whose maps are kept; mapped and mapped-again, the same from
+ * maps of all that suits, whatever the rule says; swept, without maps; or else, a user's still. */
 void bench_choose_way(celspan_context *context, celspan_frame_desc *desc, const char *way);
 /* One exposure of a film of 1 x 1 by one worker. The pointers are borrowed. */
 celspan_frame_desc bench_frame(const celspan_exposure *exposure, int width, int height,
