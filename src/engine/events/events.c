@@ -24,6 +24,7 @@ typedef struct sweep {
   size_t dirty_count, dirty_capacity, touched_count, touched_capacity;
   int32_t zone_height, zone; /* in units; the number of the current one plus 1 */
   size_t met, most;          /* windings in the zone: until now, and at most */
+  size_t zone_parts;         /* parts that ended above it */
 } sweep;
 
 /* ---------------------------------------------------------------- intersections */
@@ -206,6 +207,12 @@ static const cs_course_point *next_begin(sweep *s) {
              : NULL;
 }
 
+/* Whether a chain has a course that ends below a height. */
+static inline bool ends_below(const sweep *s, uint32_t chain, int32_t y) {
+  const cs_course *course = &s->events->courses.courses[chain];
+  return course->count > 0 && s->events->courses.points[course->first + course->count - 1].y > y;
+}
+
 static celspan_status begin_courses(sweep *s, int32_t y) {
   for (const cs_course_point *at; (at = next_begin(s)) && at->y == y; s->next_begin++)
     if (cs_cull_keeps(s->cull, (uint32_t)s->next_begin, s->tile_row))
@@ -236,9 +243,9 @@ static celspan_status enter_bundles(sweep *s, int32_t y) {
 static celspan_status enter_kept(sweep *s, int32_t y) {
   const cs_cull *cull = s->cull;
   for (uint32_t k = cull->enter_starts[s->tile_row]; k < cull->enter_starts[s->tile_row + 1]; k++) {
-    const cs_course *course = &s->events->courses.courses[cull->enters[k]];
-    const cs_course_point *points = s->events->courses.points + course->first;
-    if (course->count > 0 && points[0].y < y && points[course->count - 1].y > y)
+    const cs_courses *courses = &s->events->courses;
+    if (ends_below(s, cull->enters[k], y) &&
+        courses->points[courses->courses[cull->enters[k]].first].y < y)
       CS_TRY(enter(s, cull->enters[k], y));
   }
   return enter_bundles(s, y);
@@ -284,7 +291,10 @@ static celspan_status begin_belt(sweep *s, int32_t y) {
   const cs_order *order = &s->order;
   const int32_t zone = y / s->zone_height + 1;
   bool is_changed, is_zone = zone != s->zone;
-  s->met = is_zone ? 0 : s->met;
+  if (is_zone) {
+    s->met = 0;
+    s->zone_parts = s->events->part_count;
+  }
   s->zone = zone;
   CS_TRY(cs_order_begin_belt(s->context, &s->order, y, &is_changed));
   if (is_changed || s->touched_count > 0)
@@ -352,39 +362,43 @@ static celspan_status change_courses(sweep *s, int32_t y) {
 
 static inline int32_t lesser(int32_t a, int32_t b) { return a < b ? a : b; }
 
-/* Puts in the courses that cross the top of the first belt, or begin there. */
+/* Begins at the top of a belt, with the courses that cross it or begin there. */
 static celspan_status begin(sweep *s, int32_t top) {
+  cs_order_clear(&s->order);
+  s->intersection_count = s->dirty_count = s->touched_count = s->next_begin = s->met = 0;
   s->order.foot = top;
   if (s->cull->tile_rows > 0 && top > 0) {
     s->tile_row = cs_cull_row(s->cull, top / CS_COURSE_UNIT);
     CS_TRY(enter_bundles(s, top));
   }
   for (const cs_course_point *at; top > 0 && (at = next_begin(s)) && at->y <= top; s->next_begin++)
-    if (cs_cull_keeps(s->cull, (uint32_t)s->next_begin, s->tile_row))
+    if (ends_below(s, (uint32_t)s->next_begin, top) &&
+        cs_cull_keeps(s->cull, (uint32_t)s->next_begin, s->tile_row))
       CS_TRY(enter(s, (uint32_t)s->next_begin, top));
+  while (next_end(s) <= top)
+    s->next_end++;
   return CELSPAN_OK;
 }
 
-/* Ends all parts at a height; what was found below it is dropped. */
+/* Ends all parts at a height in a zone, or at its top; what was found below it is dropped. */
 static celspan_status end_parts(sweep *s, int32_t foot) {
   const cs_order *order = &s->order;
   cs_events *events = s->events;
-  size_t count = 0;
+  size_t count = s->zone_parts;
   for (uint32_t i = order->entries[order->ends].next; i != order->ends; i = order->entries[i].next)
     CS_TRY(close(s, i, foot));
-  for (size_t i = 0; i < events->part_count; i++) {
+  for (size_t i = count; i < events->part_count; i++) {
     cs_events_part part = events->parts[i];
     part.foot = lesser(part.foot, foot);
     if (part.top < part.foot)
       events->parts[count++] = part;
   }
   events->part_count = count;
-  events->end = foot / CS_COURSE_UNIT;
   return CELSPAN_OK;
 }
 
-/* Goes down to a foot, or to the top of a zone with too many windings. */
-static celspan_status go_down(sweep *s, int32_t top, int32_t foot) {
+/* Goes down to a foot. *next: the foot, or where a zone ends that has too many windings. */
+static celspan_status go_down(sweep *s, int32_t top, int32_t foot, int32_t *next) {
   CS_TRY(begin(s, top));
   for (int32_t y = top; y < foot && !has_too_many(s);) {
     CS_TRY(change_courses(s, y));
@@ -393,7 +407,12 @@ static celspan_status go_down(sweep *s, int32_t top, int32_t foot) {
     y = lesser(begin ? begin->y : foot, lesser(y, foot));
     CS_TRY(go_to(s, y));
   }
-  return end_parts(s, has_too_many(s) ? (s->zone - 1) * s->zone_height : foot);
+  *next = foot;
+  if (!has_too_many(s))
+    return end_parts(s, foot);
+  *next = s->zone * s->zone_height;
+  s->events->missing |= UINT64_C(1) << (s->zone - 1);
+  return end_parts(s, *next - s->zone_height);
 }
 
 /* Lists where the chains end. */
@@ -436,8 +455,8 @@ celspan_status cs_events_find(celspan_context *context, const cs_boundary_set *s
   celspan_status status = list_ends(&s);
   if (status == CELSPAN_OK)
     status = cs_order_init(context, &out->courses, &s.order);
-  if (status == CELSPAN_OK)
-    status = go_down(&s, top, foot);
+  while (top < foot && status == CELSPAN_OK)
+    status = go_down(&s, top, foot, &top);
   finish(&s);
   return status;
 }

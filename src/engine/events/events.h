@@ -42,10 +42,10 @@ typedef struct cs_events {
   cs_events_part *parts; /* those of a course from the top */
   size_t part_count, part_capacity;
   size_t intersections; /* how often two courses have changed places */
-  int32_t end;          /* parts of the rows above it are there; see cs_events_find */
+  uint64_t missing;     /* bit k: zone k has too many windings, and no parts */
 } cs_events;
 
-/* What is swept: some rows of a drawing, in pixels from 0. height: at most 16384. */
+/* What is swept: some rows of a drawing, in pixels from 0. height: at most 16384 and 64 zones. */
 typedef struct cs_events_rows {
   int32_t first, end, height; /* first <= end <= height */
   int32_t zone;               /* rows of a zone, which has whole belts; each is judged alone */
@@ -54,8 +54,8 @@ typedef struct cs_events_rows {
 /* Sweeps boundaries that lie within 16384 pixels of the origin sideways, and are culled without a
  * margin, from the top of the belt in which the first row lies. The parts are those of the whole
  * drawing between there and the end; only their windings have other numbers. most: windings in a
- * zone, which is a number that depends on the zone alone; the sweep ends above the first zone with
- * more. Errors: NO_MEMORY; cs_events_finish must be called then, too. */
+ * zone, which is a number that depends on the zone alone: one with more is missing, and costs what
+ * it takes to find that many. Errors: NO_MEMORY; cs_events_finish must be called then, too. */
 CELSPAN_CHECKED celspan_status cs_events_find(celspan_context *context, const cs_boundary_set *set,
                                               const cs_cull *cull, cs_events_rows rows, size_t most,
                                               cs_events *out);

@@ -11,6 +11,15 @@ celspan_status cs_order_init(celspan_context *context, const cs_courses *courses
   return CELSPAN_OK;
 }
 
+void cs_order_clear(cs_order *order) {
+  cs_order_entry *entries = order->entries;
+  for (uint32_t i = entries[order->ends].next; i != order->ends; i = entries[i].next)
+    entries[i].is_there = false;
+  entries[order->ends] = (cs_order_entry){.previous = order->ends, .next = order->ends};
+  order->last = order->ends;
+  order->index_count = order->entered = order->count = 0;
+}
+
 void cs_order_finish(cs_order *order, cs_memory *memory) {
   if (order->entries)
     cs_mem_free(memory, order->entries, ((size_t)order->ends + 1) * sizeof *order->entries);

@@ -61,6 +61,8 @@ typedef struct cs_order {
 CELSPAN_CHECKED celspan_status cs_order_init(celspan_context *context, const cs_courses *courses,
                                              cs_order *out);
 void cs_order_finish(cs_order *order, cs_memory *memory);
+/* All courses leave. */
+void cs_order_clear(cs_order *order);
 /* Brings the courses that cross y, where the belt down to order->foot begins, into their order.
  * *is_changed: it was another one. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_order_begin_belt(celspan_context *context, cs_order *order,

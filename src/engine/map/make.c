@@ -184,21 +184,14 @@ static void take_stack(cs_map *map, cs_stack *stack) {
   change_references(&map->stack, keep_texture);
 }
 
-/* Makes the zones from a row on, down to one that is missing or to the end. *next: the row where
- * the following zone begins. */
-static celspan_status make_zones(maker *m, int32_t first, int32_t end, int32_t *next) {
-  cs_map *map = m->map;
-  const cs_events_rows rows = {first, end, map->height, map->zone};
-  cs_events_finish(&m->events, m->context->memory);
+static celspan_status make_zones(maker *m, int32_t first, int32_t end) {
+  const cs_events_rows rows = {first, end, m->map->height, m->map->zone};
+  CS_TRY(add_clear(m));
   CS_TRY(cs_events_find(m->context, &m->plan->boundaries, &m->plan->cull, rows, CS_MAP_ZONE_CELLS,
                         &m->events));
-  *next = m->events.end;
-  if (*next < end) {
-    map->missing |= UINT64_C(1) << (*next / map->zone);
-    *next += map->zone;
-  }
+  m->map->missing = m->events.missing;
   CS_TRY(cs_events_show(m->context, m->plan, &m->events, find_cell, m));
-  return map->is_whole ? add_borders(m) : CELSPAN_OK;
+  return m->map->is_whole ? add_borders(m) : CELSPAN_OK;
 }
 
 celspan_status cs_map_make(celspan_context *context, cs_plan *plan, int32_t first, int32_t end,
@@ -206,9 +199,7 @@ celspan_status cs_map_make(celspan_context *context, cs_plan *plan, int32_t firs
   maker m = {.context = context, .plan = plan, .map = map, .cells = {.map = map}};
   map->is_coloured = is_coloured(&plan->stack);
   map->is_whole = true;
-  celspan_status status = add_clear(&m);
-  for (int32_t row = first; row < end && map->is_whole && status == CELSPAN_OK;)
-    status = make_zones(&m, row, end, &row);
+  celspan_status status = make_zones(&m, first, end);
   if (status == CELSPAN_OK)
     status = cs_map_lines_sort(context, &map->lines);
   if (status == CELSPAN_OK && map->item_count > 0)

@@ -304,7 +304,7 @@ static celspan_status record(recorder *r) {
   const cs_events_rows rows = {0, plan->height, plan->height, plan->height};
   CS_TRY(
       cs_events_find(r->context, &plan->boundaries, &plan->cull, rows, WINDINGS_MOST, &r->events));
-  if (r->events.end < plan->height)
+  if (r->events.missing)
     return cs_fail(r->context, CELSPAN_LIMIT, "plane: there is too much in it");
   CS_TRY(CS_MAKE(r->context, r->source.axes, axes));
   CS_TRY(CS_MAKE(r->context, r->chain_of, chains));
