@@ -246,16 +246,39 @@ end }
 local celspan = require "celspan"
 local glow = celspan.linear { from = { 0, 0 }, to = { 128, 80 }, { 0, "#f80" }, { 1, "#08f" } }
 local grains = { celspan.rect { 0, 0, 128, 80, texture = glow } }
+local width, frames = ...
 for i = 1, 300 do
-  grains[i + 1] = celspan.rect { 8 * (i % 16), 4 * (i // 16), tonumber((...)), 4, texture = "#234" }
+  grains[i + 1] = celspan.rect { 8 * (i % 16), 4 * (i // 16), tonumber(width), 4, texture = "#234" }
 end
-return celspan.film { size = { 128, 80 }, frames = 2, frame = function()
-  return celspan.rostrum { celspan.cel(grains) }
-end }
+return celspan.film { size = { 128, 80 }, frames = math.tointeger(tonumber(frames)),
+  frame = function() return celspan.rostrum { celspan.cel(grains) } end }
 ]])
     for width, maps in pairs { [8] = "0", [9] = "1" } do
-      local _, out = bench:celspan("spans %s --stats -- %d", sky, width)
-      assert.are.equal(maps, out:match " maps (%d+)")
+      for frames = 1, 2 do
+        local _, out = bench:celspan("spans %s --stats -- %d %d", sky, width, frames)
+        assert.are.equal(maps, out:match " maps (%d+)")
+      end
+    end
+  end)
+
+  it("is swept where shapes are high or let something through, a still like a film", function()
+    local tiles = bench:write("tiles.lua", [[
+local celspan = require "celspan"
+local height, alpha, frames = ...
+local grains = {}
+for i = 1, 64 do
+  grains[i] = celspan.rect { 2 * i, 5, 3, tonumber(height), texture = celspan.rgb(i / 64, 0, 0,
+    tonumber(alpha)) }
+end
+return celspan.film { size = { 140, 200 }, frames = math.tointeger(tonumber(frames)),
+  frame = function() return celspan.rostrum { celspan.cel(grains) } end }
+]])
+    for _, case in ipairs { { 110, 1, "1" }, { 111, 1, "0" }, { 110, 0.9, "0" } } do
+      for frames = 1, 2 do
+        local _, out = bench:celspan("spans %s --stats -- %g %g %d", tiles, case[1], case[2],
+          frames)
+        assert.are.equal(case[3], out:match " maps (%d+)")
+      end
     end
   end)
 

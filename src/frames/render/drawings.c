@@ -308,7 +308,6 @@ static celspan_status place_cels(celspan_context *context, const cs_cel_parts *p
     const cs_census census = cs_census_take(d->cel->objects, d->cel->object_count, &d->matrix,
                                             view->width, view->height);
     cs_ways_judge(ways, i, cs_parts_shapes(d->cel->objects, d->cel->object_count), &census,
-                  view->width > view->height ? view->width : view->height,
                   occurs_again(parts, i, other));
     d->may_have_dashes = census.may_have_dashes;
     if (d->cel->object_count == 1)

@@ -84,7 +84,7 @@ void cs_ways_find(const celspan_rostrum *rostrum, const cs_view *view, cs_ways *
 
 /* ---------------------------------------------------------------- what pays */
 
-void cs_ways_judge(cs_ways *ways, size_t cel, size_t shapes, const cs_census *census, int32_t side,
+void cs_ways_judge(cs_ways *ways, size_t cel, size_t shapes, const cs_census *census,
                    bool occurs_again) {
   bool is_rich = shapes >= CS_WAYS_SHAPES;
   bool is_flat = census->varied <= census->flat;
@@ -92,7 +92,7 @@ void cs_ways_judge(cs_ways *ways, size_t cel, size_t shapes, const cs_census *ce
   ways->is_small[cel] = !is_rich && is_flat;
   ways->is_artwork[cel] = is_rich && is_flat && 2 * census->hiding >= census->shapes &&
                           4 * census->inside >= census->shapes &&
-                          census->heights * side <= most * (double)census->inside;
+                          census->heights <= most * (double)census->inside;
 }
 
 bool cs_ways_choose(const celspan_rostrum *rostrum, cs_ways *ways) {

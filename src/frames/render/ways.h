@@ -14,8 +14,8 @@
  *   half of them let nothing through          translucent shapes show as often as they cross
  *   what varies is no larger than the rest    gradients and pictures are painted either way
  *   a quarter of the shapes is in the frame   a map is made of all
- *   mean height * longer side <= CS_WAYS_ROWS a sweep finds crossings in every row, a map once; but
- *                                             rows of an edge alone cost a map more
+ *   it covers CS_WAYS_ROWS rows, as a mean    a sweep finds crossings in every row, a map once; but
+ *   of the shapes in the frame, or fewer      rows of an edge alone cost a map more
  *
  * The last may be half as much again for a drawing that occurs twice in the frame. Where artwork
  * has at least as many shapes as the other cels, it is drawn from maps, and so are cels of fewer
@@ -48,7 +48,7 @@
 
 #define CS_WAYS_SIDE 8192
 #define CS_WAYS_SHAPES 64
-#define CS_WAYS_ROWS 450e3 /* square pixels */
+#define CS_WAYS_ROWS 110
 
 /* For tests and measurements, in forced_way of the context: all that suits goes one way. */
 typedef enum cs_ways_forced { CS_WAYS_BY_RULE, CS_WAYS_SWEPT, CS_WAYS_MAPPED } cs_ways_forced;
@@ -65,8 +65,8 @@ typedef struct cs_ways {
 /* Whether an exposure may have maps, whatever the places of its cels are. */
 bool cs_ways_exist(const celspan_rostrum *rostrum, const cs_view *view,
                    const cs_antialias *antialias);
-/* Judges a cel. shapes: of it; side: the longer one of the frame; occurs_again: so does its map. */
-void cs_ways_judge(cs_ways *ways, size_t cel, size_t shapes, const cs_census *census, int32_t side,
+/* Judges a cel. shapes: of it; occurs_again: so does its map. */
+void cs_ways_judge(cs_ways *ways, size_t cel, size_t shapes, const cs_census *census,
                    bool occurs_again);
 /* Finds which cels suit, whatever their places and sizes are. All of them have been judged. */
 void cs_ways_find(const celspan_rostrum *rostrum, const cs_view *view, cs_ways *ways);
