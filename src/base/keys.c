@@ -21,32 +21,46 @@ static void sort_few(uint64_t *keys, size_t count) {
   }
 }
 
-/* Puts the keys into the order of one of their digits; begins: room for all digits. */
-static void sort_digit(const uint64_t *from, uint64_t *to, size_t count, int pass, size_t *begins) {
-  size_t sum = 0;
-  memset(begins, 0, DIGITS * sizeof *begins);
-  for (size_t i = 0; i < count; i++)
-    begins[digit_of(from[i], pass)]++;
+/* Puts the keys into the order of one of their digits. counts: of keys, by that digit. */
+static void sort_digit(const uint64_t *from, uint64_t *to, size_t count, int pass,
+                       uint32_t *counts) {
+  uint32_t sum = 0;
   for (size_t digit = 0; digit < DIGITS; digit++) {
-    size_t these = begins[digit];
-    begins[digit] = sum;
+    uint32_t these = counts[digit];
+    counts[digit] = sum;
     sum += these;
   }
   for (size_t i = 0; i < count; i++)
-    to[begins[digit_of(from[i], pass)]++] = from[i];
+    to[counts[digit_of(from[i], pass)]++] = from[i];
+}
+
+/* Sorts by way of as much room. A digit that all keys share needs no pass. */
+static void sort_many(uint64_t *keys, uint64_t *room, size_t count) {
+  uint32_t counts[PASSES][DIGITS] = {{0}}; /* numbers of things have 32 bits, too */
+  uint64_t *from = keys, *to = room;
+  for (size_t i = 0; i < count; i++)
+    for (int pass = 0; pass < PASSES; pass++)
+      counts[pass][digit_of(keys[i], pass)]++;
+  for (int pass = 0; pass < PASSES; pass++) {
+    if (counts[pass][digit_of(keys[0], pass)] == count)
+      continue;
+    sort_digit(from, to, count, pass, counts[pass]);
+    uint64_t *sorted = to;
+    to = from;
+    from = sorted;
+  }
+  if (from != keys)
+    memcpy(keys, from, count * sizeof *keys);
 }
 
 celspan_status cs_keys_sort(celspan_context *context, uint64_t *keys, size_t count) {
   uint64_t *room;
-  size_t begins[DIGITS];
   if (count <= FEW) {
     sort_few(keys, count);
     return CELSPAN_OK;
   }
   CS_TRY(CS_MAKE(context, room, count));
-  for (int pass = 0; pass < PASSES; pass++)
-    sort_digit(pass % 2 == 0 ? keys : room, pass % 2 == 0 ? room : keys, count, pass, begins);
-  memcpy(keys, room, count * sizeof *keys);
+  sort_many(keys, room, count);
   cs_mem_free(context->memory, room, count * sizeof *room);
   return CELSPAN_OK;
 }
