@@ -50,11 +50,23 @@ static void move_tail(cs_cells *cells, size_t count, size_t tail) {
 
 /* ---------------------------------------------------------------- the walk */
 
+/* Crosses the boundaries [low, high): from left to right where sign is 1, back where it is -1. */
+static void cross(cs_composer *composer, const cs_crossing *crossing, size_t low, size_t high,
+                  int32_t sign) {
+  cs_presence *presences = composer->presences;
+  uint64_t *set = composer->set;
+  uint8_t *filled = composer->filled;
+  cs_set_hash hash = composer->hash; /* in registers on the way */
+  for (size_t i = low; i < high; i++)
+    cs_set_cross(presences, set, filled, &hash, crossing[i].layer, sign * crossing[i].direction);
+  composer->hash = hash;
+}
+
 static void cross_to(cs_cells *cells, cs_composer *composer, size_t place) {
   if (cells->place < place)
-    cs_cells_cross(composer, cells->crossing, cells->place, place, 1);
+    cross(composer, cells->crossing, cells->place, place, 1);
   else
-    cs_cells_cross(composer, cells->crossing, place, cells->place, -1);
+    cross(composer, cells->crossing, place, cells->place, -1);
   cells->place = place;
 }
 

@@ -46,18 +46,6 @@ static inline void cs_deferred_to(cs_deferred_cursor *cursor, cs_composer *compo
     cs_composer_cross(composer, cursor->next[-1].layer, -cursor->next[-1].direction);
 }
 
-/* Crosses the boundaries [low, high): from left to right where sign is 1, back where it is -1. */
-static inline void cs_cells_cross(cs_composer *composer, const cs_crossing *crossing, size_t low,
-                                  size_t high, int32_t sign) {
-  cs_presence *presences = composer->presences;
-  uint64_t *set = composer->set;
-  uint8_t *filled = composer->filled;
-  cs_set_hash hash = composer->hash; /* in registers on the way */
-  for (size_t i = low; i < high; i++)
-    cs_set_cross(presences, set, filled, &hash, crossing[i].layer, sign * crossing[i].direction);
-  composer->hash = hash;
-}
-
 /* Boundaries [low, high) between which nobody asks for cells: those right of the first and left of
  * the last are not made. */
 typedef struct cs_cells_gap {

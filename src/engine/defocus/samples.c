@@ -24,7 +24,8 @@ celspan_status cs_defocus_samples_make(cs_defocus_samples *samples, cs_row_maker
   return CELSPAN_OK;
 }
 
-void cs_defocus_samples_move(cs_defocus_samples *samples, int32_t low, int32_t high) {
+/* Moves to the tile over the samples [low, high). */
+static void move_to(cs_defocus_samples *samples, int32_t low, int32_t high) {
   samples->low = low;
   samples->high = high;
   for (int32_t k = 0; k < samples->count; k++)
@@ -38,13 +39,14 @@ bool cs_defocus_samples_are_one(const cs_defocus_samples *samples, int32_t k, cs
   return span->kind == CELSPAN_SPAN_SINGLE && span->x1 >= samples->high;
 }
 
-bool cs_defocus_samples_are_plain(const cs_defocus_samples *samples, cs_v4 *out) {
-  bool are_plain = cs_defocus_samples_are_one(samples, 0, out);
-  for (int32_t k = 1; k < samples->count && are_plain; k++) {
+/* Whether all rows are one same colour under the tile; *out: that colour. */
+static bool are_plain(const cs_defocus_samples *samples, cs_v4 *out) {
+  bool is_plain = cs_defocus_samples_are_one(samples, 0, out);
+  for (int32_t k = 1; k < samples->count && is_plain; k++) {
     cs_v4 other;
-    are_plain = cs_defocus_samples_are_one(samples, k, &other) && cs_v4_same(other, *out);
+    is_plain = cs_defocus_samples_are_one(samples, k, &other) && cs_v4_same(other, *out);
   }
-  return are_plain;
+  return is_plain;
 }
 
 void cs_defocus_samples_spread(const cs_defocus_samples *samples, int32_t k, cs_v4 *out) {
@@ -63,7 +65,7 @@ void cs_defocus_samples_spread(const cs_defocus_samples *samples, int32_t k, cs_
 static void sum_tile(cs_defocus_samples *samples, const cs_defocus_tiles *tiles, int32_t x,
                      int32_t count, float (*nodes)[4]) {
   cs_v4 colour;
-  bool is_plain = cs_defocus_samples_are_plain(samples, &colour);
+  bool is_plain = are_plain(samples, &colour);
   for (int32_t k = 0; k < samples->count && !is_plain; k++)
     tiles->take_row(tiles->user, k);
   for (int32_t y = 0; y < tiles->rows; y++) {
@@ -80,8 +82,7 @@ void cs_defocus_samples_sum(cs_defocus_samples *samples, const cs_defocus_tiles 
   for (int32_t x = 0, count; x < tiles->columns; x += count) {
     int32_t rest = tiles->columns - x;
     count = rest < tiles->width ? rest : tiles->width;
-    cs_defocus_samples_move(samples, x * tiles->factor,
-                            (x + count) * tiles->factor + 2 * tiles->extent);
+    move_to(samples, x * tiles->factor, (x + count) * tiles->factor + 2 * tiles->extent);
     sum_tile(samples, tiles, x, count, nodes);
   }
 }

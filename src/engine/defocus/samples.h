@@ -26,12 +26,8 @@ void cs_defocus_samples_finish(cs_defocus_samples *samples, cs_memory *memory);
 /* Makes the rows from row `first` of the maker on. Errors: those of its rows. */
 CELSPAN_CHECKED celspan_status cs_defocus_samples_make(cs_defocus_samples *samples,
                                                        cs_row_maker *maker, int32_t first);
-/* Moves to the tile over the samples [low, high). */
-void cs_defocus_samples_move(cs_defocus_samples *samples, int32_t low, int32_t high);
 /* Whether row k is one colour under the tile; *out: the first colour there. */
 bool cs_defocus_samples_are_one(const cs_defocus_samples *samples, int32_t k, cs_v4 *out);
-/* Whether all rows are one same colour under the tile; *out: that colour. */
-bool cs_defocus_samples_are_plain(const cs_defocus_samples *samples, cs_v4 *out);
 /* Nodes that are summed from samples, tile by tile. Node x of a row lies over the samples from
  * x * factor on, with `extent` of them on either side. */
 typedef struct cs_defocus_tiles {
