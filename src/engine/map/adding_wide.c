@@ -83,9 +83,11 @@ static celspan_status add_parts(const cs_map_adding *a, const cs_map_live *live,
   return CELSPAN_OK;
 }
 
-/* Adds by how much a border has more of a pixel than of the one on its left. */
-static inline void add(const cs_map_adding *a, const target *t, cs_map_sum *sum, int32_t change) {
-  cs_v4_store(sum->colour, cs_v4_load(sum->colour) + cs_v4_all((float)change) * t->step);
+/* Adds by how much a border has more of a pixel than of the one on its left. weight: the same
+ * number. */
+static inline void add(const cs_map_adding *a, const target *t, cs_map_sum *sum, int32_t change,
+                       float weight) {
+  cs_v4_store(sum->colour, cs_v4_load(sum->colour) + cs_v4_all(weight) * t->step);
   sum->key += (uint64_t)change * t->key;
   if (t->varies && add_parts(a, t->live, &sum->head, change))
     *a->status = CELSPAN_NO_MEMORY;
@@ -131,12 +133,12 @@ static __attribute__((noinline)) void add_columns(const cs_map_adding *a, const 
     const uint64_t twice = (uint64_t)(uint32_t)(all - passed) * (uint32_t)(2 * right - x - end);
     const int32_t area = (int32_t)((twice + CS_MAP_UNIT) / (2 * CS_MAP_UNIT));
     mark(t, row * t->stride + column / 8, 3U << column % 8);
-    add(a, t, sum, rest + area);
+    add(a, t, sum, rest + area, (float)(rest + area));
     rest = all - passed - area;
     passed = all;
     x = end;
   }
-  add(a, t, sum, rest);
+  add(a, t, sum, rest, (float)rest);
 }
 
 typedef float eight __attribute__((vector_size(32)));
@@ -174,6 +176,7 @@ typedef struct changes {
   int32_t sum[8];                   /* the number of the sum of the first column */
   int32_t byte[8], mask[8];         /* the bits of all columns */
   int32_t one[8], two[8], three[8]; /* in the first column, in the second, right of that */
+  float weights[3][8];              /* the same numbers */
   int32_t beyond[8];                /* how far a piece reaches right of the first column */
 } changes;
 
@@ -211,16 +214,18 @@ static inline void find_changes(const target *t, const piece *pieces, changes *o
   PUT(one, out->one);
   PUT(two, out->two);
   PUT(three, out->three);
+  const eight weights[3] = {FLOATS(one), FLOATS(two), FLOATS(three)};
+  PUT(weights, out->weights);
   PUT(beyond, out->beyond);
 }
 
 static inline void add_piece(const cs_map_adding *a, const target *t, const changes *c, size_t k) {
   cs_map_sum *sum = &t->sums[(uint32_t)c->sum[k]];
   mark(t, (uint32_t)c->byte[k], (uint32_t)c->mask[k]);
-  add(a, t, sum, c->one[k]);
-  add(a, t, sum + CS_MAP_ROWS, c->two[k]);
+  add(a, t, sum, c->one[k], c->weights[0][k]);
+  add(a, t, sum + CS_MAP_ROWS, c->two[k], c->weights[1][k]);
   if (c->beyond[k] > 0)
-    add(a, t, sum + 2 * CS_MAP_ROWS, c->three[k]);
+    add(a, t, sum + 2 * CS_MAP_ROWS, c->three[k], c->weights[2][k]);
 }
 
 static inline void add_pieces(const cs_map_adding *a, const target *t, cutting *s) {

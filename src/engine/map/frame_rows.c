@@ -1,6 +1,7 @@
 #include "engine/map/frame_rows.h"
 
 #include "base/self_check.h"
+#include "engine/map/reading.h"
 #include "engine/paint/over_row.h"
 #include "engine/paint/run.h"
 #include "engine/span/row_writer.h"
@@ -477,12 +478,28 @@ static celspan_status make_swath(cs_map_maker *maker, int32_t row) {
   return CELSPAN_OK;
 }
 
+/* A row of a frame of one sheet, in which nothing varies: it is read from the sums at once. */
+static celspan_status make_alone(cs_map_maker *maker, int32_t y, cs_row *out) {
+  cs_map_sums *sums = &maker->sums;
+  cs_map_rows *rows = &maker->rows[0];
+  const uint32_t k = (uint32_t)(y % CS_MAP_ROWS);
+  if (rows->row != cs_map_swath(y) || !(sums->unread >> k & 1))
+    CS_TRY(cs_map_rows_sum(maker->context, sums, rows, cs_map_swath(y)));
+  CS_TRY(cs_row_room(maker->context, out, (size_t)sums->width));
+  CS_WIDE_CHOOSE(sums->isa, cs_map_read_alone)(sums, rows, maker->frame, k, out);
+  sums->unread &= ~(1U << k);
+  CS_SELF_CHECK(cs_row_is_whole(out, sums->width));
+  return CELSPAN_OK;
+}
+
 celspan_status cs_map_maker_row(cs_map_maker *maker, int32_t y, cs_row *out) {
   folding f;
   f.maker = maker;
   f.y = y;
   int32_t row = cs_map_swath(y);
   cs_row_clear(out);
+  if (maker->frame->count == 1 && !maker->varies && !maker->frame->sheets[0].plan)
+    return make_alone(maker, y, out);
   if (row != maker->row)
     CS_TRY(make_swath(maker, row));
   cs_map_exact_clear(&maker->exact);

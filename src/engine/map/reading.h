@@ -7,10 +7,17 @@
  */
 #pragma once
 
-#include "engine/map/swath.h"
+#include "engine/map/sheets.h"
 
 /* The spans of all rows of the swath, whose sums are cleared. colours: of the cells. Errors:
  * NO_MEMORY. */
 CS_WIDE_DECLARE(CELSPAN_CHECKED celspan_status, cs_map_read,
                 (celspan_context * context, cs_map_sums *sums, const cs_v4 *colours,
                  cs_map_rows *rows));
+/* The row k of the swath, as that of a frame of this sheet alone, in which nothing varies; its sums
+ * are cleared. out: empty, with room for all columns. */
+CS_WIDE_DECLARE(void, cs_map_read_alone,
+                (const cs_map_sums *sums, const cs_map_rows *rows, const cs_map_frame *frame,
+                 size_t k, cs_row *out));
+/* Clears the sums of row k. */
+CS_WIDE_DECLARE(void, cs_map_clear_row, (const cs_map_sums *sums, size_t k));

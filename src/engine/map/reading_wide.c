@@ -1,15 +1,123 @@
 #include "engine/map/reading.h"
 
+#include "engine/span/row_writer.h"
+
+/* ---------------------------------------------------------------- pixels */
+
+/* The pixel that a walk along a row has reached. */
+typedef struct pixel {
+  const cs_map_cell *cells;
+  const cs_v4 *colours; /* of the cells */
+  size_t cell_count;
+  cs_v4 sum;     /* of what has been added so far: its colour */
+  uint64_t key;  /* the same of keys, times HEIGHT */
+  uint32_t cell; /* BROKEN: several are in it */
+} pixel;
+
+static inline pixel clear_pixel(const cs_map_rows *rows, const cs_v4 *colours) {
+  const cs_map *map = rows->drawing->map;
+  return (pixel){.cells = map->cells,
+                 .colours = colours,
+                 .cell_count = map->cell_count,
+                 .sum = colours[0],
+                 .key = map->cells[0].key * CS_MAP_HEIGHT};
+}
+
+/* The cell that alone is in a pixel; BROKEN: several are. */
+static inline uint32_t cell_of(const pixel *p) {
+  uint64_t cell = p->key / CS_MAP_HEIGHT % CS_MAP_CELLS;
+  return p->key % CS_MAP_HEIGHT == 0 && cell < p->cell_count &&
+                 p->cells[cell].key * CS_MAP_HEIGHT == p->key
+             ? (uint32_t)cell
+             : CS_MAP_BROKEN;
+}
+
+/* Adds what a pixel has more than the one on its left, and clears it. */
+static inline void change(pixel *p, cs_map_sum *sum) {
+  p->sum += cs_v4_load(sum->colour);
+  p->key += sum->key;
+  p->cell = cell_of(p);
+  if (p->cell != CS_MAP_BROKEN)
+    p->sum = p->colours[p->cell];
+  *sum = (cs_map_sum){.head = 0};
+}
+
+/* Which of up to 64 words are not 0, a bit for each. count: a multiple of four. */
+static inline uint64_t find_filled(const uint64_t *words, size_t count) {
+  uint64_t filled = 0;
+  for (size_t i = 0; i < count; i += 4) {
+#ifdef __AVX2__
+    const __m256i four = _mm256_loadu_si256((const __m256i *)(const void *)(words + i));
+    const __m256i is_0 = _mm256_cmpeq_epi64(four, _mm256_setzero_si256());
+    filled |= (uint64_t)(15 & ~_mm256_movemask_pd((__m256d)is_0)) << i;
+#else
+    for (size_t k = i; k < i + 4; k++)
+      filled |= (uint64_t)(words[k] != 0) << k;
+#endif
+  }
+  return filled;
+}
+
+static inline cs_map_sum *sum_at(const cs_map_sums *sums, size_t k, int32_t column) {
+  return &sums->sums[CS_MAP_ROWS * (size_t)column + k];
+}
+
+/* Lists the pixels of a row to which something was added, from left to right, and clears their
+ * bits. */
+static inline size_t list_columns(const cs_map_sums *sums, size_t k) {
+  const int32_t width = sums->width;
+  uint64_t *bits = sums->bits + k * sums->words;
+  int32_t *out = sums->columns;
+  *sum_at(sums, k, width) = (cs_map_sum){.head = 0};
+  bits[width / 64] &= (UINT64_C(1) << width % 64) - 1;
+  for (size_t first = 0; first < sums->words; first += 64) {
+    const size_t count = sums->words - first < 64 ? sums->words - first : 64;
+    for (uint64_t filled = find_filled(bits + first, count); filled; filled &= filled - 1) {
+      const size_t i = first + (size_t)__builtin_ctzll(filled);
+      uint64_t word = bits[i];
+      for (bits[i] = 0; word; word &= word - 1)
+        *out++ = (int32_t)(64 * i) + __builtin_ctzll(word);
+    }
+  }
+  return (size_t)(out - sums->columns);
+}
+
+void CS_WIDE(cs_map_clear_row)(const cs_map_sums *sums, size_t k) {
+  const size_t count = list_columns(sums, k);
+  for (size_t i = 0; i < count; i++)
+    *sum_at(sums, k, sums->columns[i]) = (cs_map_sum){.head = 0};
+}
+
+/* ---------------------------------------------------------------- the only sheet of a frame */
+
+void CS_WIDE(cs_map_read_alone)(const cs_map_sums *sums, const cs_map_rows *rows,
+                                const cs_map_frame *frame, size_t k, cs_row *out) {
+  /* Copies, which stay in registers. */
+  const cs_map_sheet sheet = {.back = frame->sheets[0].back, .keep = frame->sheets[0].keep};
+  const cs_map_frame behind = {.back = frame->back, .keep = frame->keep};
+  const int32_t *columns = sums->columns;
+  cs_map_sum *pixels = sums->sums + k;
+  cs_row_writer writer = cs_row_writer_begin(out, 0);
+  pixel p = clear_pixel(rows, rows->drawing->colours);
+  const size_t count = list_columns(sums, k);
+  for (size_t i = 0; i < count; i++) {
+    const cs_v4 colour = p.sum;
+    const uint32_t cell = p.cell;
+    change(&p, &pixels[CS_MAP_ROWS * (size_t)columns[i]]);
+    if (p.cell != cell || cell == CS_MAP_BROKEN)
+      cs_row_writer_to(&writer, columns[i], cs_map_fold_one(&sheet, &behind, colour));
+  }
+  cs_row_writer_to(&writer, sums->width, cs_map_fold_one(&sheet, &behind, p.sum));
+  cs_row_writer_end(&writer);
+}
+
 /* The row that is being read. */
 typedef struct reader {
   celspan_context *context;
   cs_map_rows *rows;
-  const cs_v4 *colours; /* of the cells */
-  const cs_map_cell *cells;
-  size_t cell_count;
-  cs_map_span *first, *last; /* the row's spans so far; last: NULL before there are any */
-  cs_v4 sum;                 /* of the pixel, times HEIGHT */
-  uint64_t key;              /* the same of keys */
+  const cs_v4 *colours;      /* of the cells */
+  cs_map_span *first, *last; /* the row's spans so far; last: before `first` where there are none */
+  pixel pixel;
 } reader;
 
 /* ---------------------------------------------------------------- cells that vary */
@@ -56,20 +164,9 @@ static celspan_status add_shares(reader *r) {
 
 /* ---------------------------------------------------------------- spans */
 
-/* The cell that alone is in a pixel; BROKEN: several are. */
-static inline uint32_t cell_of(const reader *r, uint64_t key) {
-  uint64_t cell = key / CS_MAP_HEIGHT % CS_MAP_CELLS;
-  return key % CS_MAP_HEIGHT == 0 && cell < r->cell_count &&
-                 r->cells[cell].key * CS_MAP_HEIGHT == key
-             ? (uint32_t)cell
-             : CS_MAP_BROKEN;
-}
-
 /* Begins a span at a column. There is room. varies: whether any cell does. */
 static inline celspan_status put(reader *r, bool varies, int32_t column) {
-  const uint32_t cell = cell_of(r, r->key);
-  if (cell != CS_MAP_BROKEN)
-    r->sum = r->colours[cell] * CS_MAP_HEIGHT;
+  const uint32_t cell = r->pixel.cell;
   if (r->last >= r->first) {
     if (r->last->cell == cell && cell != CS_MAP_BROKEN)
       return CELSPAN_OK;
@@ -78,33 +175,8 @@ static inline celspan_status put(reader *r, bool varies, int32_t column) {
   cs_map_span *span = ++r->last;
   span->cell = cell;
   span->share = span->share_count = 0;
-  span->colour = cell == CS_MAP_BROKEN ? r->sum * (1.0f / CS_MAP_HEIGHT) : r->colours[cell];
+  span->colour = r->pixel.sum;
   return varies && r->rows->area_count > 0 ? add_shares(r) : CELSPAN_OK;
-}
-
-/* ---------------------------------------------------------------- a row */
-
-static inline celspan_status read_row(reader *r, cs_map_sums *sums, size_t k, bool varies) {
-  cs_map_sum *pixels = sums->sums + k;
-  uint64_t *bits = sums->bits + k * sums->words;
-  const int32_t width = sums->width;
-  pixels[CS_MAP_ROWS * (size_t)width] = (cs_map_sum){.head = 0};
-  bits[width / 64] &= (UINT64_C(1) << width % 64) - 1;
-  if (!(bits[0] & 1))
-    CS_TRY(put(r, varies, 0));
-  for (size_t i = 0; i < sums->words; bits[i++] = 0)
-    for (uint64_t word = bits[i]; word; word &= word - 1) {
-      int32_t column = (int32_t)(64 * i) + __builtin_ctzll(word);
-      cs_map_sum *sum = &pixels[CS_MAP_ROWS * (size_t)column];
-      r->sum += cs_v4_load(sum->colour);
-      r->key += sum->key;
-      if (varies)
-        CS_TRY(change_areas(r, sums, sum->head));
-      *sum = (cs_map_sum){.head = 0};
-      CS_TRY(put(r, varies, column));
-    }
-  r->last->end = width;
-  return CELSPAN_OK;
 }
 
 static celspan_status begin_row(reader *r, int32_t width) {
@@ -113,26 +185,35 @@ static celspan_status begin_row(reader *r, int32_t width) {
   CS_TRY(CS_RESERVE(r->context, rows->spans, rows->span_capacity, first + (size_t)width));
   r->first = rows->spans + first;
   r->last = r->first - 1;
-  r->sum = r->colours[0] * CS_MAP_HEIGHT;
-  r->key = r->cells[0].key * CS_MAP_HEIGHT;
+  r->pixel = clear_pixel(rows, r->colours);
   rows->area_count = 0;
+  return CELSPAN_OK;
+}
+
+static inline celspan_status read_row(reader *r, const cs_map_sums *sums, size_t k, bool varies) {
+  const size_t count = list_columns(sums, k);
+  CS_TRY(begin_row(r, sums->width));
+  if (count == 0 || sums->columns[0] > 0)
+    CS_TRY(put(r, varies, 0));
+  for (size_t i = 0; i < count; i++) {
+    cs_map_sum *sum = sum_at(sums, k, sums->columns[i]);
+    if (varies)
+      CS_TRY(change_areas(r, sums, sum->head));
+    change(&r->pixel, sum);
+    CS_TRY(put(r, varies, sums->columns[i]));
+  }
+  r->last->end = sums->width;
   return CELSPAN_OK;
 }
 
 celspan_status CS_WIDE(cs_map_read)(celspan_context *context, cs_map_sums *sums,
                                     const cs_v4 *colours, cs_map_rows *rows) {
-  const cs_map_drawing *drawing = rows->drawing;
-  reader r = {.context = context,
-              .rows = rows,
-              .colours = colours,
-              .cells = drawing->map->cells,
-              .cell_count = drawing->map->cell_count};
+  const bool varies = rows->drawing->stack.layer_count > 0;
+  reader r = {.context = context, .rows = rows, .colours = colours};
   rows->span_count = rows->share_count = 0;
   for (size_t k = 0; k < CS_MAP_ROWS; k++) {
     rows->first[k] = rows->span_count;
-    CS_TRY(begin_row(&r, sums->width));
-    CS_TRY(drawing->stack.layer_count > 0 ? read_row(&r, sums, k, true)
-                                          : read_row(&r, sums, k, false));
+    CS_TRY(varies ? read_row(&r, sums, k, true) : read_row(&r, sums, k, false));
     rows->span_count = (size_t)(r.last + 1 - rows->spans);
   }
   rows->first[CS_MAP_ROWS] = rows->span_count;

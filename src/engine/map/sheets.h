@@ -15,7 +15,7 @@
 #pragma once
 
 #include "engine/compose/over.h"
-#include "engine/map/sums.h"
+#include "engine/map/swath.h"
 #include "engine/row/plan.h"
 #include "engine/span/row.h"
 
@@ -79,4 +79,12 @@ static inline cs_v4 cs_map_fold_end(cs_map_fold fold, const cs_map_frame *frame)
 /* The same where all sheets are even. */
 static inline cs_v4 cs_map_fold_end_even(cs_map_fold fold, const cs_map_frame *frame) {
   return cs_map_fold_end_with(fold, fold.t[0], frame);
+}
+
+/* A frame of one sheet, which is even. */
+static inline cs_v4 cs_map_fold_one(const cs_map_sheet *sheet, const cs_map_frame *frame,
+                                    cs_v4 colour) {
+  cs_map_fold fold = cs_map_fold_begin;
+  cs_map_fold_add(&fold, sheet, colour, cs_map_even(colour));
+  return cs_map_fold_end_even(fold, frame);
 }

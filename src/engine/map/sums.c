@@ -15,16 +15,19 @@ static size_t storage_size(const cs_map_sums *sums) { return CS_WIDE_LINE + sums
 static size_t bit_words(const cs_map_sums *sums) { return CS_MAP_ROWS * sums->words + 1; }
 
 celspan_status cs_map_sums_init(celspan_context *context, int32_t width, cs_map_sums *out) {
-  *out = (cs_map_sums){.isa = cs_isa_best(), .width = width, .words = (size_t)width / 64 + 1};
+  *out = (cs_map_sums){
+      .isa = cs_isa_best(), .width = width, .words = ((size_t)width / 64 + 4) / 4 * 4};
   out->storage = cs_mem_array(context->memory, storage_size(out), 1);
   if (!out->storage)
     return cs_fail_memory(context);
   out->sums = cs_wide_align(out->storage);
+  CS_TRY(CS_MAKE(context, out->columns, (size_t)width));
   return CS_MAKE(context, out->bits, bit_words(out));
 }
 
 void cs_map_sums_finish(cs_map_sums *sums, cs_memory *memory) {
   cs_mem_free(memory, sums->storage, storage_size(sums));
+  cs_mem_free(memory, sums->columns, (size_t)sums->width * sizeof *sums->columns);
   cs_mem_free(memory, sums->bits, bit_words(sums) * sizeof *sums->bits);
   cs_mem_free(memory, sums->parts, sums->part_capacity * sizeof *sums->parts);
   *sums = (cs_map_sums){0};
@@ -44,6 +47,13 @@ void cs_map_rows_finish(cs_map_rows *rows, cs_memory *memory) {
 static void clear(cs_map_sums *sums) {
   memset(sums->sums, 0, sums_size(sums));
   memset(sums->bits, 0, bit_words(sums) * sizeof *sums->bits);
+  sums->unread = 0;
+}
+
+/* Clears the rows that nobody has asked for. */
+static void clear_unread(cs_map_sums *sums) {
+  for (; sums->unread; sums->unread &= sums->unread - 1)
+    CS_WIDE_CHOOSE(sums->isa, cs_map_clear_row)(sums, (size_t)__builtin_ctz(sums->unread));
 }
 
 /* ---------------------------------------------------------------- which borders */
@@ -125,7 +135,7 @@ static void drop_lives(const swath *s) {
 
 /* What a border changes of the cells' colours from its left to its right. */
 static void find_step(const cs_v4 *colours, const cs_map_border *f, cs_map_live *live) {
-  cs_v4_store(live->step, colours[f->right] - colours[f->left]);
+  cs_v4_store(live->step, (colours[f->right] - colours[f->left]) * (1.0f / CS_MAP_HEIGHT));
 }
 
 /* The same of keys, and whether a cell beside it varies. */
@@ -197,13 +207,28 @@ static void go_to(const swath *s) {
 
 /* ---------------------------------------------------------------- a swath */
 
-static celspan_status make_rows(const swath *s, const cs_v4 *colours) {
-  cs_map_rows *rows = s->rows;
+/* Finds the borders that cross the swath. */
+static celspan_status find_lives(const swath *s) {
+  clear_unread(s->sums);
+  go_to(s);
+  drop_lives(s);
+  CS_TRY(add_lives(s));
+  s->sums->part_count = 0;
+  s->rows->width = s->sums->width;
+  s->rows->has_near = false;
+  return CELSPAN_OK;
+}
+
+static celspan_status add_all(const swath *s) {
   celspan_status status = CELSPAN_OK;
-  const cs_map_adding adding = {s->context, s->sums, rows, s->row, &status};
+  const cs_map_adding adding = {s->context, s->sums, s->rows, s->row, &status};
   CS_WIDE_CHOOSE(s->sums->isa, cs_map_add)(&adding);
-  CS_TRY(status);
-  return CS_WIDE_CHOOSE(s->sums->isa, cs_map_read)(s->context, s->sums, colours, rows);
+  return status;
+}
+
+static celspan_status make_rows(const swath *s, const cs_v4 *colours) {
+  CS_TRY(add_all(s));
+  return CS_WIDE_CHOOSE(s->sums->isa, cs_map_read)(s->context, s->sums, colours, s->rows);
 }
 
 static void find_steps(const swath *s, const cs_v4 *colours) {
@@ -229,12 +254,7 @@ static celspan_status make_through(const swath *s) {
 celspan_status cs_map_rows_make(celspan_context *context, cs_map_sums *sums, cs_map_rows *rows,
                                 int32_t row) {
   const swath s = begin_swath(context, sums, rows, row);
-  go_to(&s);
-  drop_lives(&s);
-  CS_TRY(add_lives(&s));
-  sums->part_count = 0;
-  rows->width = sums->width;
-  rows->has_near = false;
+  CS_TRY(find_lives(&s));
   celspan_status status = s.drawing->through ? make_through(&s) : CELSPAN_OK;
   if (status == CELSPAN_OK)
     status = make_rows(&s, s.drawing->colours);
@@ -243,4 +263,14 @@ celspan_status cs_map_rows_make(celspan_context *context, cs_map_sums *sums, cs_
   else
     clear(sums);
   return status;
+}
+
+celspan_status cs_map_rows_sum(celspan_context *context, cs_map_sums *sums, cs_map_rows *rows,
+                               int32_t row) {
+  const swath s = begin_swath(context, sums, rows, row);
+  CS_TRY(find_lives(&s));
+  CS_TRY(add_all(&s));
+  sums->unread = (1U << CS_MAP_ROWS) - 1;
+  rows->row = row;
+  return CELSPAN_OK;
 }

@@ -63,7 +63,7 @@ typedef struct cs_map_live {
   int32_t low, high, foot; /* of the border, as places are */
   bool varies;             /* a cell beside it does */
   uint64_t key;            /* by how much it changes the key from its left to its right */
-  float step[4];           /* and the colour */
+  float step[4];           /* and the colour, for each HEIGHTth of a pixel */
 } cs_map_live;
 
 /* How much of a cell that varies is in the pixel that is being read, in HEIGHTths. */
@@ -95,9 +95,9 @@ typedef struct cs_map_rows {
 
 /* By how much a pixel exceeds the one on its left: half a line of the cache. */
 typedef struct cs_map_sum {
-  float colour[4]; /* times HEIGHT */
-  uint64_t key;    /* the same, modulo 2^64 */
-  uint32_t head;   /* its first part, as cs_map_part.next */
+  float colour[4];
+  uint64_t key;  /* the same, times HEIGHT, modulo 2^64 */
+  uint32_t head; /* its first part, as cs_map_part.next */
 } cs_map_sum;
 _Static_assert(sizeof(cs_map_sum) == 32, "two sums are a line of the cache");
 
@@ -112,10 +112,12 @@ typedef struct cs_map_part {
 typedef struct cs_map_sums {
   cs_isa isa;
   int32_t width;    /* pixels of a row; there is one more column, which is not read */
-  size_t words;     /* of a row of bits */
+  size_t words;     /* of a row of bits: a multiple of four */
   void *storage;    /* of the sums, which lie on lines of the cache */
   cs_map_sum *sums; /* column by column */
   uint64_t *bits;   /* row by row: the pixels to which something was added */
+  int32_t *columns; /* room for those of a row */
+  uint32_t unread;  /* a bit for each row that is not cleared */
   cs_map_part *parts;
   size_t part_count, part_capacity;
 } cs_map_sums;
