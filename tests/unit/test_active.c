@@ -38,7 +38,7 @@ static void make_set(cs_boundary_set *set, uint64_t seed) {
   for (uint32_t layer = 0; layer < LAYERS; layer++)
     add_blob(&builder, &random, layer);
   cs_boundary_builder_finish(&builder);
-  cs_boundary_sort(set);
+  CHECK(cs_boundary_sort(context, set) == CELSPAN_OK);
 }
 
 static bool same_order(const cs_active *a, const cs_active *b) {

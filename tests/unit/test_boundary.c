@@ -129,7 +129,7 @@ static cs_boundary_set build(const cs_outline *outline, const celspan_matrix *ma
   cs_boundary_builder_init(&builder, context, &set, frame);
   MUST(cs_boundary_add(&builder, outline, matrix, 7));
   cs_boundary_builder_finish(&builder);
-  cs_boundary_sort(&set);
+  MUST(cs_boundary_sort(context, &set));
   return set;
 }
 
@@ -805,7 +805,11 @@ static void chains_are_sorted_by_top_then_left(void) {
     cs_outline_finish(&outline, context->memory);
   }
   cs_boundary_builder_finish(&builder);
-  cs_boundary_sort(&set);
+  for (size_t i = 0; i < set.chain_count; i++) { /* many differ by less than a float does */
+    const double tops[] = {set.chains[i].y0, -1e-12, 0, -0.0, 70 - 1e-12 * (double)(i % 7), 70};
+    set.chains[i].y0 = tops[i % 6];
+  }
+  MUST(cs_boundary_sort(context, &set));
   bool is_sorted = true;
   for (size_t i = 1; i < set.chain_count; i++) {
     const cs_boundary_chain *a = &set.chains[i - 1], *b = &set.chains[i];
@@ -818,6 +822,26 @@ static void chains_are_sorted_by_top_then_left(void) {
   }
   CHECK(is_sorted && set.chain_count > 40);
   cs_boundary_finish(&set, context->memory);
+}
+
+/* Arrays that are as large as was said do not grow. */
+static void outlines_are_expected(void) {
+  const celspan_matrix matrix = celspan_matrix_identity();
+  cs_outline outline;
+  cs_boundary_set set;
+  cs_boundary_builder builder;
+  cs_outline_init(&outline);
+  MUST(cs_outline_path(context, &outline, "M0 0L9 9C8 40 90 60 9 99Q0 9 5 5z"));
+  cs_boundary_init(&set);
+  cs_boundary_builder_init(&builder, context, &set, &small);
+  MUST(cs_boundary_expect(context, &set, 100 * outline.piece_count, 100 * outline.point_count));
+  const void *begins[] = {set.points, set.pieces};
+  for (uint32_t layer = 0; layer < 100; layer++)
+    MUST(cs_boundary_add(&builder, &outline, &matrix, layer));
+  CHECK(set.chain_count > 100 && begins[0] == set.points && begins[1] == set.pieces);
+  cs_boundary_builder_finish(&builder);
+  cs_boundary_finish(&set, context->memory);
+  cs_outline_finish(&outline, context->memory);
 }
 
 /* Every allocation fails in turn: the status says so, and nothing leaks. */
@@ -844,6 +868,8 @@ static void failing_memory_is_reported(void) {
       status = cs_boundary_add(&builder, &outline, &steep, 0);
     if (status == CELSPAN_OK)
       status = cs_boundary_add(&builder, &plain, &level, 1);
+    if (status == CELSPAN_OK)
+      status = cs_boundary_sort(context, &set);
     cs_boundary_builder_finish(&builder);
     is_done = status == CELSPAN_OK;
     CHECK(is_done || status == CELSPAN_NO_MEMORY);
@@ -874,6 +900,7 @@ int main(void) {
   parts_beside_the_frame_still_count();
   what_touches_a_side_is_inside();
   chains_run_over_the_start_of_a_contour();
+  outlines_are_expected();
   chains_are_sorted_by_top_then_left();
   failing_memory_is_reported();
   size_t bytes, peak;

@@ -66,7 +66,7 @@ static cs_boundary_set random_drawing(uint64_t seed) {
     add(&set, &outline, (uint32_t)random_below(&random, LAYERS));
     cs_outline_finish(&outline, context->memory);
   }
-  cs_boundary_sort(&set);
+  MUST(cs_boundary_sort(context, &set));
   return set;
 }
 
@@ -312,7 +312,7 @@ static void test_intersections(void) {
     add(&set, &outline, k);
     cs_outline_finish(&outline, context->memory);
   }
-  cs_boundary_sort(&set);
+  MUST(cs_boundary_sort(context, &set));
   MUST(cs_events_find(context, &set, &no_cull, all_rows, SIZE_MAX, &events));
   CHECK(events.intersections == 4);
   CHECK(events.windings.count == 4); /* none, each, both */
@@ -346,7 +346,7 @@ static void test_area(void) {
     cs_boundary_init(&set);
     MUST(cs_outline_ellipse(context, &outline, (celspan_point){50, 40}, rx, ry));
     add(&set, &outline, 0);
-    cs_boundary_sort(&set);
+    MUST(cs_boundary_sort(context, &set));
     MUST(cs_events_find(context, &set, &no_cull, all_rows, SIZE_MAX, &events));
     CHECK(events.part_count == 2);
     CHECK_NEAR(area_of(&events, &set), PI * rx * ry, 0.001 * PI * (rx + ry));

@@ -648,9 +648,12 @@ static void check_rule(void) {
       {100, 0, 50, 0, 0, 0, false, false, false}, /* outside the frame */
   };
   for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-    const cs_census census = {
-        rows[i].shapes, rows[i].inside, rows[i].hiding, rows[i].height * (double)rows[i].inside,
-        rows[i].varied, rows[i].flat,   false};
+    const cs_census census = {.shapes = rows[i].shapes,
+                              .inside = rows[i].inside,
+                              .hiding = rows[i].hiding,
+                              .heights = rows[i].height * (double)rows[i].inside,
+                              .varied = rows[i].varied,
+                              .flat = rows[i].flat};
     cs_ways ways = {0};
     cs_ways_judge(&ways, 1, rows[i].shapes, &census, rows[i].occurs_again);
     if (!CHECK(ways.is_artwork[1] == rows[i].is_artwork && ways.is_small[1] == rows[i].is_small))

@@ -31,6 +31,10 @@ static void count_shape(counting *c, const cs_primitive_data *data, const celspa
   double across = length_inside((m[0] * x + m[1] * y + m[2]) / w, half_width / w, c->width);
   double down = length_inside((m[3] * x + m[4] * y + m[5]) / w, half_height / w, c->height);
   c->census.shapes++;
+  if (!data->is_box && data->outline) {
+    c->census.pieces += data->outline->piece_count;
+    c->census.points += data->outline->point_count;
+  }
   c->census.may_have_dashes |=
       data->stroke ? data->stroke->dashes.place_count > 0 : data->kind != CS_PRIMITIVE_DATA_OUTLINE;
   c->census.hiding += may_hide && data->mixing == CS_MIXING_OPAQUE;

@@ -21,6 +21,7 @@ typedef struct cs_census {
   double heights;      /* of those, pixels */
   double varied, flat; /* areas of those that vary (gradients, pictures), and of the others */
   bool may_have_dashes;
+  size_t pieces, points; /* of the outlines of all of them; those of strokes are not known */
 } cs_census;
 
 /* matrix: from the units of the objects to pixels of the frame. */

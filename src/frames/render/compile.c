@@ -297,7 +297,7 @@ static celspan_status compile_rostrum(cs_compiler *c, const celspan_rostrum *ros
   CS_TRY(cs_objects_begin_frame(c, cs_space_inside(rostrum->space, around), rostrum->grade));
   CS_TRY(compile_film(c, rostrum, &film));
   reverse_lights(&c->plan->stack);
-  cs_boundary_sort(&c->plan->boundaries);
+  CS_TRY(cs_boundary_sort(c->context, &c->plan->boundaries));
   return cull_hidden(c);
 }
 
@@ -392,7 +392,7 @@ static celspan_status compile_objects(cs_compiler *c, const cs_defocus_job *job)
   cs_objects_outside unused;
   CS_TRY(cs_objects_begin_isolation(c, job->cel->blends_inside[c->space], false, &unused));
   CS_TRY(cs_objects_add(c, job->cel->objects, job->cel->object_count, &job->matrix));
-  cs_boundary_sort(&c->plan->boundaries);
+  CS_TRY(cs_boundary_sort(c->context, &c->plan->boundaries));
   return cull_hidden(c);
 }
 
@@ -410,7 +410,11 @@ static celspan_status compile_raster(const cs_compiler *outer, const cs_defocus_
   c.workers = 1;
   c.cel = outer->cel;
   c.mark = outer->mark;
-  return finish(&c, compile_objects(&c, job), out);
+  celspan_status status =
+      cs_boundary_expect(c.context, &plan.boundaries, view->pieces, view->points);
+  if (status == CELSPAN_OK)
+    status = compile_objects(&c, job);
+  return finish(&c, status, out);
 }
 
 static celspan_status compile_alone(void *user, const cs_defocus_job *job, cs_plan *out) {

@@ -39,6 +39,7 @@ typedef struct cs_view {
    * of it, so that their curves are the same wherever they have been moved to. 0: neither. */
   double unit;
   const size_t *cel_numbers; /* of the rostrum's cels, for messages; NULL: from 1 */
+  size_t pieces, points;     /* of the outlines of a drawing, about; 0: not known */
 } cs_view;
 
 /* workers: threads at most. Errors: NO_MEMORY; LIMIT; BAD_ARGUMENT for a singular viewport or

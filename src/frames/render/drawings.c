@@ -27,7 +27,7 @@ typedef struct placed_cel {
   bool is_turned;          /* or sheared */
   bool is_made;            /* the map was made just now */
   bool is_cropped;         /* a map of the rows that are asked for is as good as one of all */
-  bool may_have_dashes;
+  cs_census census;        /* of its shapes */
 } placed_cel;
 
 /* A map of some rows is made where they are at most this part of the frame. */
@@ -121,6 +121,7 @@ static void crop_raster(const placed_cel *d, const cs_map *map, cs_view *raster)
   cs_map_find_zones(map, row - 1, end_row + 1, &first, &end);
   raster->first_row = first * map->zone;
   raster->end_row = end * map->zone < map->height ? end * map->zone : map->height;
+  raster->pieces = raster->points = 0; /* it has few of them */
 }
 
 static celspan_status make_alone(celspan_context *context, const placed_cel *d,
@@ -129,6 +130,8 @@ static celspan_status make_alone(celspan_context *context, const placed_cel *d,
   cs_plan plan;
   if (!find_raster(drawing, d->view->space, map, &raster))
     return CELSPAN_OK;
+  raster.pieces = d->census.pieces;
+  raster.points = d->census.points;
   if (d->is_cropped)
     crop_raster(d, map, &raster);
   CS_TRY(cs_compile_drawing(context, drawing, d->number, &drawing->matrix, &raster, &plan));
@@ -305,11 +308,10 @@ static celspan_status place_cels(celspan_context *context, const cs_cel_parts *p
     CS_TRY(cs_parts_place(context, parts, i, view, &d->matrix));
     d->matrix = celspan_matrix_then(d->matrix, to_pixels);
     d->opacity = d->cel->opacity;
-    const cs_census census = cs_census_take(d->cel->objects, d->cel->object_count, &d->matrix,
-                                            view->width, view->height);
-    cs_ways_judge(ways, i, cs_parts_shapes(d->cel->objects, d->cel->object_count), &census,
+    d->census = cs_census_take(d->cel->objects, d->cel->object_count, &d->matrix, view->width,
+                               view->height);
+    cs_ways_judge(ways, i, cs_parts_shapes(d->cel->objects, d->cel->object_count), &d->census,
                   occurs_again(parts, i, other));
-    d->may_have_dashes = census.may_have_dashes;
     if (d->cel->object_count == 1)
       place_object(d, d->cel->objects[0]);
   }
@@ -334,7 +336,7 @@ typedef struct making {
 static bool is_cropped(const making *m, const placed_cel *d) {
   const cs_view *view = m->view;
   return !m->repeats && CROPPED * (view->end_row - view->first_row) <= view->height &&
-         !d->is_turned && !d->may_have_dashes && !cs_ways_is_uneven(d->cel);
+         !d->is_turned && !d->census.may_have_dashes && !cs_ways_is_uneven(d->cel);
 }
 
 /* *suits: whether the cel can be a map in its place. */

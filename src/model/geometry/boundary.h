@@ -73,10 +73,14 @@ bool cs_boundary_around_box(const celspan_box *box, const celspan_matrix *matrix
 
 void cs_boundary_init(cs_boundary_set *set);
 void cs_boundary_finish(cs_boundary_set *set, cs_memory *memory);
+/* Makes room for the chains of outlines with so many pieces and points, about, so that the arrays
+ * need not grow with them. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_boundary_expect(celspan_context *context, cs_boundary_set *set,
+                                                  size_t pieces, size_t points);
 
 /* Orders the chains by y0, then x0, then layer, then the order of adding: the order in which a
- * sweep meets them. Call once, after the last outline. */
-void cs_boundary_sort(cs_boundary_set *set);
+ * sweep meets them. Call once, after the last outline. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_boundary_sort(celspan_context *context, cs_boundary_set *set);
 
 /* The segments of a group, from vertex to vertex, from the top. Every number is finite. */
 typedef struct cs_boundary_group {
