@@ -25,9 +25,10 @@ cs_map_border cs_map_lines_border(const cs_map_lines *lines, size_t first, uint3
   return border;
 }
 
-static celspan_status sort(celspan_context *context, cs_map_lines *lines, uint64_t *keys) {
+/* Sorts the numbers of the borders. */
+static celspan_status sort_keys(celspan_context *context, const cs_map_lines *lines,
+                                uint64_t *keys) {
   size_t count = lines->border_count;
-  cs_map_border *sorted;
   for (size_t i = 0; i < count; i++)
     keys[i] = cs_key(lines->points[lines->borders[i].first].x, i);
   CS_TRY(cs_keys_sort(context, keys, count));
@@ -35,23 +36,41 @@ static celspan_status sort(celspan_context *context, cs_map_lines *lines, uint64
     uint32_t border = cs_key_number(keys[i]);
     keys[i] = cs_key(lines->points[lines->borders[border].first].y, border);
   }
-  CS_TRY(cs_keys_sort(context, keys, count));
-  CS_TRY(CS_MAKE(context, sorted, count));
-  for (size_t i = 0; i < count; i++)
-    sorted[i] = lines->borders[cs_key_number(keys[i])];
-  cs_mem_free(context->memory, lines->borders, lines->border_capacity * sizeof *lines->borders);
-  lines->borders = sorted;
-  lines->border_capacity = count;
+  return cs_keys_sort(context, keys, count);
+}
+
+/* Copies the borders in the order of the keys, each with its points, into arrays without room for
+ * more: rows read them from the first one to the last. */
+static celspan_status copy(celspan_context *context, const cs_map_lines *from, const uint64_t *keys,
+                           cs_map_lines *out) {
+  out->border_capacity = from->border_count;
+  out->point_capacity = from->point_count;
+  CS_TRY(CS_MAKE(context, out->borders, out->border_capacity));
+  CS_TRY(CS_MAKE(context, out->points, out->point_capacity));
+  for (; out->border_count < from->border_count; out->border_count++) {
+    cs_map_border *border = &out->borders[out->border_count];
+    *border = from->borders[cs_key_number(keys[out->border_count])];
+    const cs_map_point *points = from->points + border->first;
+    border->first = (uint32_t)out->point_count;
+    for (uint32_t i = 0; i < border->count; i++)
+      out->points[out->point_count++] = points[i];
+  }
   return CELSPAN_OK;
 }
 
 celspan_status cs_map_lines_sort(celspan_context *context, cs_map_lines *lines) {
   size_t count = lines->border_count;
+  cs_map_lines sorted = {0};
   uint64_t *keys;
   if (count == 0)
     return CELSPAN_OK;
   CS_TRY(CS_MAKE(context, keys, count));
-  celspan_status status = sort(context, lines, keys);
+  celspan_status status = sort_keys(context, lines, keys);
+  if (status == CELSPAN_OK)
+    status = copy(context, lines, keys, &sorted);
   cs_mem_free(context->memory, keys, count * sizeof *keys);
+  cs_map_lines_finish(status == CELSPAN_OK ? lines : &sorted, context->memory);
+  if (status == CELSPAN_OK)
+    *lines = sorted;
   return status;
 }

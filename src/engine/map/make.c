@@ -128,37 +128,48 @@ static int32_t unit_at(const cs_course_point *from, int32_t y) {
   return (int32_t)floor(cs_course_x(from, y) + 0.5);
 }
 
-/* Adds what a part has between two heights as a border. from: a point of its course above them. */
-static celspan_status add_border(maker *m, const cs_events_part *part, int32_t top, int32_t foot,
-                                 const cs_course_point **from) {
+/* Adds what a part has between two heights as a border; there is room for it. from: a point of
+ * its course above them. */
+static void add_border(maker *m, const cs_events_part *part, int32_t top, int32_t foot,
+                       const cs_course_point **from) {
   cs_map_lines *lines = &m->map->lines;
   const cs_course_point *p = *from;
   size_t first = lines->point_count;
   while (p[1].y <= top)
     p++;
-  for (*from = p; p[1].y < foot; p++)
-    ;
-  CS_TRY(CS_RESERVE(m->context, lines->points, lines->point_capacity,
-                    first + 2 + (size_t)(p - *from)));
-  add_point(lines, unit_at(*from, top), top);
-  for (; (*from)[1].y < foot; ++*from)
-    add_point(lines, (*from)[1].x, (*from)[1].y);
+  add_point(lines, unit_at(p, top), top);
+  for (; p[1].y < foot; p++)
+    add_point(lines, p[1].x, p[1].y);
   add_point(lines, unit_at(p, foot), foot);
-  const cs_map_border border = cs_map_lines_border(lines, first, part->left, part->right);
-  return CS_APPEND(m->context, lines->borders, lines->border_count, lines->border_capacity, border);
+  *from = p;
+  lines->borders[lines->border_count++] =
+      cs_map_lines_border(lines, first, part->left, part->right);
 }
 
 /* Adds a part as borders, one in each zone. */
-static celspan_status add_part(maker *m, const cs_events_part *part) {
+static void add_part(maker *m, const cs_events_part *part) {
   const int32_t zone = m->map->zone * CS_MAP_UNIT;
   const cs_courses *courses = &m->events.courses;
   const cs_course_point *from = courses->points + courses->courses[part->course].first;
   for (int32_t top = part->top, foot; top < part->foot; top = foot) {
     int32_t below = top - top % zone + zone;
     foot = part->foot < below ? part->foot : below;
-    CS_TRY(add_border(m, part, top, foot, &from));
+    add_border(m, part, top, foot, &from);
   }
-  return CELSPAN_OK;
+}
+
+/* Makes room for the borders of parts, of which each has a point of its course only once. */
+static celspan_status reserve_borders(maker *m) {
+  const cs_events *events = &m->events;
+  cs_map_lines *lines = &m->map->lines;
+  const int32_t zone = m->map->zone * CS_MAP_UNIT;
+  size_t borders = 0, points = events->courses.point_count;
+  for (size_t i = 0; i < events->part_count; i++)
+    borders += (size_t)((events->parts[i].foot - 1) / zone - events->parts[i].top / zone + 1);
+  points += 2 * borders;
+  CS_TRY(CS_RESERVE(m->context, lines->borders, lines->border_capacity,
+                    lines->border_count + borders));
+  return CS_RESERVE(m->context, lines->points, lines->point_capacity, lines->point_count + points);
 }
 
 /* Adds the parts, chain by chain: the order must not depend on the zones that were swept. */
@@ -166,12 +177,13 @@ static celspan_status add_borders(maker *m) {
   const cs_events *events = &m->events;
   size_t count = events->part_count;
   uint64_t *keys;
+  CS_TRY(reserve_borders(m));
   CS_TRY(CS_MAKE(m->context, keys, count + 1));
   for (size_t i = 0; i < count; i++)
     keys[i] = cs_key((int32_t)events->parts[i].course, i);
   celspan_status status = cs_keys_sort(m->context, keys, count);
   for (size_t i = 0; i < count && status == CELSPAN_OK; i++)
-    status = add_part(m, &events->parts[cs_key_number(keys[i])]);
+    add_part(m, &events->parts[cs_key_number(keys[i])]);
   cs_mem_free(m->context->memory, keys, (count + 1) * sizeof *keys);
   return status;
 }
