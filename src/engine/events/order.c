@@ -46,6 +46,7 @@ double cs_order_x(const cs_order *order, uint32_t course, int32_t y) {
 }
 
 static inline int32_t lesser(int32_t a, int32_t b) { return a < b ? a : b; }
+static inline int32_t greater(int32_t a, int32_t b) { return a > b ? a : b; }
 
 /* On which side of a course another one is first, from a height down to a limit that neither ends
  * above: 1: left of it; -1: right of it; 0: they are the same. */
@@ -78,8 +79,7 @@ static int32_t intersection_height(int32_t top, int32_t foot, double above, doub
 
 /* Whether a segment lies left of another one as a whole. */
 static inline bool is_beside(const cs_course_point *p, const cs_course_point *q) {
-  int32_t high = p->x > p[1].x ? p->x : p[1].x;
-  return high <= lesser(q->x, q[1].x);
+  return greater(p->x, p[1].x) <= lesser(q->x, q[1].x);
 }
 
 int32_t cs_order_ahead(const cs_order *order, uint32_t course, int32_t y) {
@@ -101,10 +101,8 @@ int32_t cs_order_ahead(const cs_order *order, uint32_t course, int32_t y) {
     }
     if (foot == limit)
       return CS_ORDER_NEVER;
-    if (p[1].y == foot)
-      p = segment_below(p + 1, foot);
-    if (q[1].y == foot)
-      q = segment_below(q + 1, foot);
+    p = segment_below(p, foot);
+    q = segment_below(q, foot);
   }
 }
 
@@ -137,32 +135,41 @@ static bool is_left(const cs_order *order, uint32_t left, uint32_t right, int32_
 
 /* ---------------------------------------------------------------- belts */
 
-static inline void add_to_extent(cs_order_entry *entry, double x) {
-  int32_t low = (int32_t)floor(x), high = (int32_t)ceil(x);
+static inline void add_to_extent(cs_order_entry *entry, int32_t low, int32_t high) {
   entry->low = lesser(low, entry->low);
-  entry->high = high > entry->high ? high : entry->high;
+  entry->high = greater(high, entry->high);
 }
 
-/* Finds the extent of a course from a height down to the foot of the belt. Returns x there. */
-static double find_extent(const cs_order *order, cs_order_entry *entry, int32_t y) {
+/* The whole units on both sides of x, which is cut off towards 0. */
+static inline void add_place(cs_order_entry *entry, double x) {
+  int32_t unit = (int32_t)x;
+  add_to_extent(entry, unit - (x < unit), unit + (x > unit));
+}
+
+/* Finds the extent of a course from a height down to the foot of the belt. Returns x at the height.
+ */
+static double find_extent(const cs_order *order, uint32_t course, int32_t y) {
+  cs_order_entry *entry = &order->entries[course];
   int32_t end = lesser(order->foot, entry->foot);
   const cs_course_point *p = entry->at = segment_below(entry->at, y);
   double x = cs_course_x(p, y);
   entry->low = INT32_MAX;
   entry->high = INT32_MIN;
-  add_to_extent(entry, x);
+  add_place(entry, x);
   for (; p[1].y < end; p++)
-    add_to_extent(entry, p[1].x);
-  add_to_extent(entry, cs_course_x(p, end));
+    add_to_extent(entry, p[1].x, p[1].x);
+  add_place(entry, cs_course_x(p, end));
   return x;
 }
 
-/* Lists the courses from left to right, with their places at a height. */
-static celspan_status make_index(celspan_context *context, cs_order *order, int32_t y) {
+/* Lists the courses from left to right, with their places at a height. x_at: cs_order_x, or
+ * find_extent, where a belt begins. */
+static celspan_status make_index(celspan_context *context, cs_order *order, int32_t y,
+                                 double (*x_at)(const cs_order *, uint32_t, int32_t)) {
   CS_TRY(CS_RESERVE(context, order->index, order->index_capacity, order->count));
   order->index_count = order->entered = 0;
   for (uint32_t i = order->entries[order->ends].next; i != order->ends; i = order->entries[i].next)
-    order->index[order->index_count++] = (cs_order_place){cs_order_x(order, i, y), i};
+    order->index[order->index_count++] = (cs_order_place){x_at(order, i, y), i};
   return CELSPAN_OK;
 }
 
@@ -214,12 +221,8 @@ static bool link_places(cs_order *order) {
 
 celspan_status cs_order_begin_belt(celspan_context *context, cs_order *order, int32_t y,
                                    bool *is_changed) {
-  CS_TRY(CS_RESERVE(context, order->index, order->index_capacity, order->count));
-  cs_order_entry *entries = order->entries;
-  order->index_count = order->entered = 0;
+  CS_TRY(make_index(context, order, y, find_extent));
   order->last = order->ends;
-  for (uint32_t i = entries[order->ends].next; i != order->ends; i = entries[i].next)
-    order->index[order->index_count++] = (cs_order_place){find_extent(order, &entries[i], y), i};
   sort_places(order->index, order->index_count);
   sort_near(order, y);
   *is_changed = link_places(order);
@@ -258,9 +261,9 @@ celspan_status cs_order_enter(celspan_context *context, cs_order *order, uint32_
   cs_order_entry *entries = order->entries, *entry = &entries[course];
   *entry =
       (cs_order_entry){.at = segment_below(points, y), .foot = points[of->count - 1].y, .since = y};
-  find_extent(order, entry, y);
+  (void)find_extent(order, course, y);
   if (order->entered > 64 && 4 * order->entered > order->index_count)
-    CS_TRY(make_index(context, order, y));
+    CS_TRY(make_index(context, order, y, cs_order_x));
   uint32_t left = begins_at_last(order, points, y) ? order->last
                                                    : find_near(order, cs_course_x(entry->at, y), y);
   while (entries[left].next != order->ends && is_left(order, entries[left].next, course, y))
