@@ -45,7 +45,6 @@ static inline bool is_unseen(const unseen *list, size_t i) {
 /* Pixels: how near a rectangle's edge must be to that of a tile, to cover it, against rounding; it
  * is far less than shows. And how far outlines may reach beyond their bounds. */
 #define NEAR 1e-9
-#define PARTS 16 /* a union of more operands is compiled as one of as many unions */
 #define BEYOND (2 * CS_BOUNDARY_TOLERANCE)
 
 typedef struct tiles {
@@ -130,12 +129,12 @@ static bool is_upright(const celspan_matrix *matrix) {
   return m[1] == 0 && m[3] == 0 && m[6] == 0 && m[7] == 0;
 }
 
-/* Whether its bounds are all painted, with light from behind held back. */
-static bool hides(const celspan_object *object, const celspan_matrix *matrix) {
+/* Whether its bounds are all painted where it is upright, with light from behind held back. */
+static bool hides(const celspan_object *object) {
   const cs_primitive_data *data = object->data;
-  const float *t = data->texture->flat.t;
-  return data->is_box && object->fade == 1 && data->texture->kind == CS_TEXTURE_FLAT && t[0] == 0 &&
-         t[1] == 0 && t[2] == 0 && is_upright(matrix);
+  const celspan_texture *texture = data->texture;
+  return can_go(data) && data->is_box && object->fade == 1 && texture->kind == CS_TEXTURE_FLAT &&
+         texture->flat.t[0] == 0 && texture->flat.t[1] == 0 && texture->flat.t[2] == 0;
 }
 
 /* Whether the object is behind what the tiles were covered with; else it covers its own. */
@@ -151,7 +150,7 @@ static bool is_behind(tiles *t, const celspan_object *object, const celspan_matr
   const range touched = tiles_touched(t, &box), inside = tiles_inside(t, &box);
   if (is_covered(t, &touched))
     return true;
-  if (hides(object, &matrix))
+  if (hides(object) && is_upright(&matrix))
     cover(t, &inside);
   return false;
 }
@@ -162,9 +161,11 @@ static CELSPAN_CHECKED celspan_status find_unseen(const cs_compiler *c,
                                                   const celspan_matrix *matrix, unseen *out) {
   tiles t;
   *out = (unseen){NULL, count};
-  if (count < OBJECTS_LEAST || c->fades_out)
+  while (count > 0 && !hides(objects[count - 1])) /* none in front of these hides */
+    count--;
+  if (out->count < OBJECTS_LEAST || count == 0 || c->fades_out)
     return CELSPAN_OK;
-  CS_TRY(CS_MAKE(c->context, out->bits, count / 64 + 1));
+  CS_TRY(CS_MAKE(c->context, out->bits, out->count / 64 + 1));
   begin(&t, &c->frame);
   for (size_t i = count; i-- > 0;)
     if (is_behind(&t, objects[i], matrix))
