@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "model/geometry/boundary.h"
+#include "model/geometry/matrix.h"
 #include "model/scene/primitive_data.h"
 #include "model/stroke/outliner.h"
 
@@ -53,7 +55,14 @@ static bool list_common(finder *f, celspan_object *const *objects, size_t count,
 static bool outer_bounds(const cs_primitive_data *data, const celspan_matrix *matrix,
                          celspan_box *out) {
   const celspan_box *box = data->stroke ? &data->stroke->around : &data->bounds;
+  const celspan_matrix facing = cs_matrix_facing(matrix);
+  cs_boundary_frame around;
   cs_outline_box room;
+  if (cs_boundary_around_box(box, &facing, &around)) {
+    *out = (celspan_box){around.left, around.top, around.right - around.left,
+                         around.bottom - around.top};
+    return true;
+  }
   return cs_outline_bounds(cs_outline_of_box(box, &room), matrix, out);
 }
 
