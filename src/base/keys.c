@@ -54,12 +54,13 @@ static void sort_many(uint64_t *keys, uint64_t *room, size_t count) {
 }
 
 celspan_status cs_keys_sort(celspan_context *context, uint64_t *keys, size_t count) {
-  uint64_t *room;
   if (count <= FEW) {
     sort_few(keys, count);
     return CELSPAN_OK;
   }
-  CS_TRY(CS_MAKE(context, room, count));
+  uint64_t *room = cs_mem_resize(context->memory, NULL, 0, count * sizeof *room);
+  if (!room)
+    return cs_fail_memory(context);
   sort_many(keys, room, count);
   cs_mem_free(context->memory, room, count * sizeof *room);
   return CELSPAN_OK;

@@ -32,7 +32,6 @@ celspan_status cs_bundles_make(celspan_context *context, const cs_cull *cull, cs
 
 void cs_bundles_finish(cs_bundles *bundles, cs_memory *memory) {
   cs_mem_free(memory, bundles->bundles, bundles->capacity * sizeof *bundles->bundles);
-  if (bundles->starts)
-    cs_mem_free(memory, bundles->starts, (bundles->row_count + 1) * sizeof *bundles->starts);
+  cs_mem_free(memory, bundles->starts, (bundles->row_count + 1) * sizeof *bundles->starts);
   *bundles = (cs_bundles){0};
 }

@@ -434,8 +434,7 @@ static void finish(sweep *s) {
   cs_mem_free(memory, s->intersections, s->intersection_capacity * sizeof *s->intersections);
   cs_mem_free(memory, s->dirty, s->dirty_capacity * sizeof *s->dirty);
   cs_mem_free(memory, s->touched, s->touched_capacity * sizeof *s->touched);
-  if (s->ends)
-    cs_mem_free(memory, s->ends, (s->set->chain_count + 1) * sizeof *s->ends);
+  cs_mem_free(memory, s->ends, (s->set->chain_count + 1) * sizeof *s->ends);
 }
 
 celspan_status cs_events_find(celspan_context *context, const cs_boundary_set *set,

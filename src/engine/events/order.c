@@ -21,8 +21,7 @@ void cs_order_clear(cs_order *order) {
 }
 
 void cs_order_finish(cs_order *order, cs_memory *memory) {
-  if (order->entries)
-    cs_mem_free(memory, order->entries, ((size_t)order->ends + 1) * sizeof *order->entries);
+  cs_mem_free(memory, order->entries, ((size_t)order->ends + 1) * sizeof *order->entries);
   cs_mem_free(memory, order->index, order->index_capacity * sizeof *order->index);
   *order = (cs_order){0};
 }

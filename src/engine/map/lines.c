@@ -43,10 +43,13 @@ static celspan_status sort_keys(celspan_context *context, const cs_map_lines *li
  * more: rows read them from the first one to the last. */
 static celspan_status copy(celspan_context *context, const cs_map_lines *from, const uint64_t *keys,
                            cs_map_lines *out) {
+  cs_memory *memory = context->memory;
   out->border_capacity = from->border_count;
   out->point_capacity = from->point_count;
-  CS_TRY(CS_MAKE(context, out->borders, out->border_capacity));
-  CS_TRY(CS_MAKE(context, out->points, out->point_capacity));
+  out->borders = cs_mem_resize(memory, NULL, 0, out->border_capacity * sizeof *out->borders);
+  out->points = cs_mem_resize(memory, NULL, 0, out->point_capacity * sizeof *out->points);
+  if (!out->borders || !out->points)
+    return cs_fail_memory(context);
   for (; out->border_count < from->border_count; out->border_count++) {
     cs_map_border *border = &out->borders[out->border_count];
     *border = from->borders[cs_key_number(keys[out->border_count])];
