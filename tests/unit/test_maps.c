@@ -15,7 +15,7 @@
 #define HEIGHT 60
 #define SCENES 140
 #define CROPPED_SCENES 70
-#define CROSSING 300
+#define CROSSING 100
 #define SHAPES 80 /* of each cel: enough for maps */
 
 /* What a scene has. PARTED: cels of parts that are moved. MIXED: cels that are swept, too.
@@ -634,17 +634,17 @@ static void check_rule(void) {
     double varied, flat;
     bool occurs_again, is_artwork, is_small;
   } rows[] = {
-      {100, 100, 50, 110, 5, 5, false, true, false},
-      {63, 63, 63, 110, 5, 5, false, false, true},    /* too few */
-      {64, 64, 64, 110, 5, 5, false, true, false},    /* enough */
-      {63, 63, 63, 110, 6, 5, false, false, false},   /* too few, and they vary */
-      {100, 100, 49, 110, 5, 5, false, false, false}, /* translucent */
-      {100, 100, 50, 110, 6, 5, false, false, false}, /* gradients */
-      {100, 25, 50, 110, 5, 5, false, true, false},   /* a quarter is seen */
-      {100, 24, 50, 110, 5, 5, false, false, false},  /* less */
-      {100, 100, 50, 111, 5, 5, false, false, false}, /* too high */
-      {100, 100, 50, 165, 5, 5, true, true, false},   /* seen twice */
-      {100, 100, 50, 166, 5, 5, true, false, false},
+      {100, 100, 50, 210, 5, 5, false, true, false},
+      {63, 63, 63, 210, 5, 5, false, false, true},    /* too few */
+      {64, 64, 64, 210, 5, 5, false, true, false},    /* enough */
+      {63, 63, 63, 210, 6, 5, false, false, false},   /* too few, and they vary */
+      {100, 100, 49, 210, 5, 5, false, false, false}, /* translucent */
+      {100, 100, 50, 210, 6, 5, false, false, false}, /* gradients */
+      {100, 25, 50, 210, 5, 5, false, true, false},   /* a quarter is seen */
+      {100, 24, 50, 210, 5, 5, false, false, false},  /* less */
+      {100, 100, 50, 211, 5, 5, false, false, false}, /* too high */
+      {100, 100, 50, 315, 5, 5, true, true, false},   /* seen twice */
+      {100, 100, 50, 316, 5, 5, true, false, false},
       {100, 0, 50, 0, 0, 0, false, false, false}, /* outside the frame */
   };
   for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {

@@ -3,6 +3,12 @@
 #include "base/keys.h"
 #include "engine/events/order.h"
 
+/* There are too many windings in a zone where there are more than EACH for a course: drawings with
+ * many shapes that hide others have fewer, those of translucent shapes that cross have many times
+ * more. It is not asked below a part, 1 / FEW, of the number that is allowed at most. */
+#define EACH 4
+#define FEW 16
+
 /* Two courses that must change places, if they are still neighbours then. */
 typedef struct intersection {
   int32_t y;
@@ -23,7 +29,7 @@ typedef struct sweep {
   size_t intersection_count, intersection_capacity, end_count, next_end, next_begin;
   size_t dirty_count, dirty_capacity, touched_count, touched_capacity;
   int32_t zone_height, zone; /* in units; the number of the current one plus 1 */
-  size_t met, most;          /* windings in the zone: until now, and at most */
+  size_t met, entered, most; /* in the zone: windings, courses, and windings at most */
   size_t zone_parts;         /* parts that ended above it */
 } sweep;
 
@@ -168,6 +174,7 @@ static celspan_status touch(sweep *s, uint32_t course) {
 }
 
 static celspan_status enter(sweep *s, uint32_t course, int32_t y) {
+  s->entered++;
   CS_TRY(cs_order_enter(s->context, &s->order, course, y));
   const cs_order_entry *entry = &s->order.entries[course];
   CS_TRY(touch(s, course));
@@ -284,7 +291,9 @@ static celspan_status intersect_until(sweep *s, int32_t y) {
   return CELSPAN_OK;
 }
 
-static inline bool has_too_many(const sweep *s) { return s->met > s->most; }
+static inline bool has_too_many(const sweep *s) {
+  return s->met > s->most || (s->met > s->most / FEW && s->met > EACH * s->entered);
+}
 
 /* Begins the belt below y: all courses that cross y are brought into order, and compared. */
 static celspan_status begin_belt(sweep *s, int32_t y) {
@@ -293,6 +302,7 @@ static celspan_status begin_belt(sweep *s, int32_t y) {
   bool is_changed, is_zone = zone != s->zone;
   if (is_zone) {
     s->met = 0;
+    s->entered = order->count;
     s->zone_parts = s->events->part_count;
   }
   s->zone = zone;

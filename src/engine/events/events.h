@@ -54,8 +54,9 @@ typedef struct cs_events_rows {
 /* Sweeps boundaries that lie within 16384 pixels of the origin sideways, and are culled without a
  * margin, from the top of the belt in which the first row lies. The parts are those of the whole
  * drawing between there and the end; only their windings have other numbers. most: windings in a
- * zone, which is a number that depends on the zone alone: one with more is missing, and costs what
- * it takes to find that many. Errors: NO_MEMORY; cs_events_finish must be called then, too. */
+ * zone: one with more, or where they multiply (events.c), is missing, and costs what it takes to
+ * find that many. It depends on the zone alone. Errors: NO_MEMORY; cs_events_finish must be called
+ * then, too. */
 CELSPAN_CHECKED celspan_status cs_events_find(celspan_context *context, const cs_boundary_set *set,
                                               const cs_cull *cull, cs_events_rows rows, size_t most,
                                               cs_events *out);

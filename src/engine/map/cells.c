@@ -70,7 +70,7 @@ static celspan_status add_cell(celspan_context *context, cs_map *map, cs_map_con
   if (what.length > 0)
     memcpy(map->items + map->item_count, what.items, what.length * sizeof *what.items);
   const cs_map_cell cell = {.colour = what.colour,
-                            .key = (mix(*out) << 18 | *out) & CS_MAP_KEY,
+                            .key = (mix(*out) << 20 | *out) & CS_MAP_KEY,
                             .item = (uint32_t)map->item_count,
                             .length = what.length};
   if (map->is_coloured) {
