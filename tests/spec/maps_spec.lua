@@ -270,10 +270,10 @@ for i = 1, 64 do
   grains[i] = celspan.rect { 2 * i, 5, 3, tonumber(height), texture = celspan.rgb(i / 64, 0, 0,
     tonumber(alpha)) }
 end
-return celspan.film { size = { 140, 200 }, frames = math.tointeger(tonumber(frames)),
+return celspan.film { size = { 140, 300 }, frames = math.tointeger(tonumber(frames)),
   frame = function() return celspan.rostrum { celspan.cel(grains) } end }
 ]])
-    for _, case in ipairs { { 110, 1, "1" }, { 111, 1, "0" }, { 110, 0.9, "0" } } do
+    for _, case in ipairs { { 210, 1, "1" }, { 211, 1, "0" }, { 210, 0.9, "0" } } do
       for frames = 1, 2 do
         local _, out = bench:celspan("spans %s --stats -- %g %g %d", tiles, case[1], case[2],
           frames)

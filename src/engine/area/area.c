@@ -8,7 +8,7 @@
  *      y+1  +------\+-------+--/---\+-------+-|-----+
  *                  A           C   B          D         and at its foot
  *
- *            window            window         window    pixels that edges cross: summed by area
+ *            direct            window         direct    pixels that edges cross: by their area
  *                     span            span              the others: cells as they are
  *                             interval                  replayed by a local sweep; it composes
  *                                                       the one cell below x

@@ -33,10 +33,10 @@
 #include "engine/compose/cell.h"
 #include "engine/row/plan.h"
 
-#define CS_MAP_UNIT 65536   /* of a pixel of the raster */
-#define CS_MAP_SIDE 16384   /* pixels of a raster's side, at most */
+#define CS_MAP_UNIT 65536    /* of a pixel of the raster */
+#define CS_MAP_SIDE 16384    /* pixels of a raster's side, at most */
 #define CS_MAP_CELLS 1048576 /* at most */
-#define CS_MAP_ZONES 64     /* at most, by the bits of cs_map.missing */
+#define CS_MAP_ZONES 64      /* at most, by the bits of cs_map.missing */
 #define CS_MAP_ZONE_CELLS (CS_MAP_CELLS / CS_MAP_ZONES)
 /* The key of a cell: its number in 20 bits, and 28 bits of a hash. */
 #define CS_MAP_KEY UINT64_C(0xffffffffffff)

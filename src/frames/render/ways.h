@@ -48,7 +48,7 @@
 
 #define CS_WAYS_SIDE 8192
 #define CS_WAYS_SHAPES 64
-#define CS_WAYS_ROWS 110
+#define CS_WAYS_ROWS 210
 
 /* For tests and measurements, in forced_way of the context: all that suits goes one way. */
 typedef enum cs_ways_forced { CS_WAYS_BY_RULE, CS_WAYS_SWEPT, CS_WAYS_MAPPED } cs_ways_forced;
