@@ -23,7 +23,7 @@ return {
       "copies the set where no tree changes it" },
   },
   ["src/engine/compose/over_table.c"] = {
-    { "uint64_t changed = known->joined ^ word;", "`^` to `|`",
+    { "uint64_t changed = known->word ^ word;", "`^` to `|`",
       "quarters that did not change are joined again, with the same result" },
   },
   ["src/engine/compose/procedures.c"] = {
