@@ -18,9 +18,11 @@
 
 static celspan_context *context;
 static const cs_cull no_cull = {0};
-#define MOST 20           /* windings in a zone */
-static int missing_count; /* drawings of which some zones have more, and some have not */
 static const cs_events_rows all_rows = {0, HEIGHT, HEIGHT, ZONE};
+static const cs_events_limits no_limits = {SIZE_MAX, SIZE_MAX, 0};
+static const cs_events_limits limits[] = {{20, 20, 0}, {SIZE_MAX, 8, 1}};
+#define LIMITS 2
+static int missing_count[LIMITS]; /* drawings of which zones are missing, but not all */
 
 #define MUST(call) CHECK((call) == CELSPAN_OK)
 
@@ -151,7 +153,7 @@ static void test_drawings(void) {
     test_random random = {seed + 1000};
     cs_boundary_set set = random_drawing(seed);
     cs_events events;
-    MUST(cs_events_find(context, &set, &no_cull, all_rows, SIZE_MAX, &events));
+    MUST(cs_events_find(context, &set, &no_cull, all_rows, no_limits, &events));
     CHECK(events.missing == 0);
     crossed *at = calloc(events.part_count + 1, sizeof *at);
     for (int k = 0; k < HEIGHTS; k++) {
@@ -215,7 +217,7 @@ static void check_rows(const cs_boundary_set *set, const cs_cull *cull, const cs
   cs_events some;
   size_t count, found_count;
   int32_t top = (first - first % 8) * CS_COURSE_UNIT, foot = end * CS_COURSE_UNIT;
-  MUST(cs_events_find(context, set, cull, (cs_events_rows){first, end, HEIGHT, ZONE}, SIZE_MAX,
+  MUST(cs_events_find(context, set, cull, (cs_events_rows){first, end, HEIGHT, ZONE}, no_limits,
                       &some));
   cut_part *parts = cut_parts(whole, top, foot, &count);
   cut_part *found = cut_parts(&some, top, foot, &found_count);
@@ -247,9 +249,9 @@ static cs_cull make_cull(const cs_boundary_set *set) {
 /* Which zones of the rows from `first` on have too many windings, and how many parts the others
  * have. */
 static uint64_t find_missing(const cs_boundary_set *set, const cs_cull *cull, int32_t first,
-                             int32_t end, size_t *parts) {
+                             int32_t end, const cs_events_limits *limit, size_t *parts) {
   cs_events events;
-  MUST(cs_events_find(context, set, cull, (cs_events_rows){first, end, HEIGHT, ZONE}, MOST,
+  MUST(cs_events_find(context, set, cull, (cs_events_rows){first, end, HEIGHT, ZONE}, *limit,
                       &events));
   const uint64_t missing = events.missing;
   *parts += count_crossing(&events, first, end);
@@ -258,20 +260,21 @@ static uint64_t find_missing(const cs_boundary_set *set, const cs_cull *cull, in
 }
 
 /* Whether a zone has too many windings must not depend on which others are swept. */
-static void check_zones(const cs_boundary_set *set, const cs_cull *cull) {
+static void check_zones(const cs_boundary_set *set, const cs_cull *cull, int k) {
   size_t parts = 0, parts_alone = 0;
-  uint64_t missing = find_missing(set, cull, 0, HEIGHT, &parts), alone = 0;
+  uint64_t missing = find_missing(set, cull, 0, HEIGHT, &limits[k], &parts), alone = 0;
   for (int32_t row = 0; row < HEIGHT; row += ZONE)
-    alone |= find_missing(set, cull, row, row + ZONE, &parts_alone);
+    alone |= find_missing(set, cull, row, row + ZONE, &limits[k], &parts_alone);
   CHECK(missing == alone);
   CHECK(parts == parts_alone);
-  missing_count += missing != 0 && missing != 31;
+  missing_count[k] += missing != 0 && missing != 31;
 }
 
 static void check_drawing(const cs_boundary_set *set, const cs_cull *cull, test_random *random) {
-  check_zones(set, cull);
+  for (int k = 0; k < LIMITS; k++)
+    check_zones(set, cull, k);
   cs_events events;
-  MUST(cs_events_find(context, set, cull, all_rows, SIZE_MAX, &events));
+  MUST(cs_events_find(context, set, cull, all_rows, no_limits, &events));
   for (int k = 0; k < 4; k++) {
     int first = random_below(random, HEIGHT), end = first + random_below(random, HEIGHT - first);
     check_rows(set, cull, &events, k < 2 ? first - first % 8 : first, end);
@@ -292,7 +295,9 @@ static void test_rows(void) {
     cs_boundary_finish(&set, context->memory);
   }
   CHECK(deferred > 100);
-  CHECK(missing_count > 100);
+  for (int k = 0; k < LIMITS; k++)
+    if (!CHECK(missing_count[k] > 100))
+      fprintf(stderr, "  %d drawings for limits %d\n", missing_count[k], k);
 }
 
 /* ---------------------------------------------------------------- known drawings */
@@ -313,11 +318,11 @@ static void test_intersections(void) {
     cs_outline_finish(&outline, context->memory);
   }
   MUST(cs_boundary_sort(context, &set));
-  MUST(cs_events_find(context, &set, &no_cull, all_rows, SIZE_MAX, &events));
+  MUST(cs_events_find(context, &set, &no_cull, all_rows, no_limits, &events));
   CHECK(events.intersections == 4);
   CHECK(events.windings.count == 4); /* none, each, both */
   cs_events_finish(&events, context->memory);
-  MUST(cs_events_find(context, &set, &no_cull, all_rows, 2, &events));
+  MUST(cs_events_find(context, &set, &no_cull, all_rows, ((cs_events_limits){2, 2, 0}), &events));
   CHECK(events.missing == 3 && events.part_count == 2); /* the foot of the diamond */
   cs_events_finish(&events, context->memory);
   cs_boundary_finish(&set, context->memory);
@@ -347,7 +352,7 @@ static void test_area(void) {
     MUST(cs_outline_ellipse(context, &outline, (celspan_point){50, 40}, rx, ry));
     add(&set, &outline, 0);
     MUST(cs_boundary_sort(context, &set));
-    MUST(cs_events_find(context, &set, &no_cull, all_rows, SIZE_MAX, &events));
+    MUST(cs_events_find(context, &set, &no_cull, all_rows, no_limits, &events));
     CHECK(events.part_count == 2);
     CHECK_NEAR(area_of(&events, &set), PI * rx * ry, 0.001 * PI * (rx + ry));
     cs_events_finish(&events, context->memory);
@@ -366,7 +371,7 @@ static void test_without_memory(void) {
   for (size_t fail = 1; fail < 1000 && status != CELSPAN_OK; fail++) {
     cs_events events;
     watch.fail_at = watch.allocations + fail;
-    status = cs_events_find(starving, &set, &no_cull, all_rows, SIZE_MAX, &events);
+    status = cs_events_find(starving, &set, &no_cull, all_rows, no_limits, &events);
     CHECK(status == CELSPAN_OK || status == CELSPAN_NO_MEMORY);
     watch.fail_at = 0;
     cs_events_finish(&events, starving->memory);

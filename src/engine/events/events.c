@@ -3,12 +3,6 @@
 #include "base/keys.h"
 #include "engine/events/order.h"
 
-/* There are too many windings in a zone where there are more than EACH for a course: drawings with
- * many shapes that hide others have fewer, those of translucent shapes that cross have many times
- * more. It is not asked below a part, 1 / FEW, of the number that is allowed at most. */
-#define EACH 4
-#define FEW 16
-
 /* Two courses that must change places, if they are still neighbours then. */
 typedef struct intersection {
   int32_t y;
@@ -29,8 +23,9 @@ typedef struct sweep {
   size_t intersection_count, intersection_capacity, end_count, next_end, next_begin;
   size_t dirty_count, dirty_capacity, touched_count, touched_capacity;
   int32_t zone_height, zone; /* in units; the number of the current one plus 1 */
-  size_t met, entered, most; /* in the zone: windings, courses, and windings at most */
-  size_t zone_parts;         /* parts that ended above it */
+  cs_events_limits limits;
+  size_t met, entered; /* windings and courses in the zone */
+  size_t zone_parts;   /* parts that ended above it */
 } sweep;
 
 /* ---------------------------------------------------------------- intersections */
@@ -292,7 +287,8 @@ static celspan_status intersect_until(sweep *s, int32_t y) {
 }
 
 static inline bool has_too_many(const sweep *s) {
-  return s->met > s->most || (s->met > s->most / FEW && s->met > EACH * s->entered);
+  return s->met > s->limits.most ||
+         (s->met > s->limits.few && s->met > s->limits.each * s->entered);
 }
 
 /* Begins the belt below y: all courses that cross y are brought into order, and compared. */
@@ -448,11 +444,11 @@ static void finish(sweep *s) {
 }
 
 celspan_status cs_events_find(celspan_context *context, const cs_boundary_set *set,
-                              const cs_cull *cull, cs_events_rows rows, size_t most,
+                              const cs_cull *cull, cs_events_rows rows, cs_events_limits limits,
                               cs_events *out) {
   sweep s = {.context = context, .set = set, .cull = cull, .events = out, .tile_row = -1};
   s.zone_height = rows.zone * CS_COURSE_UNIT;
-  s.most = most;
+  s.limits = limits;
   int32_t top = belt_above(rows.first * CS_COURSE_UNIT), foot = rows.end * CS_COURSE_UNIT;
   const int32_t last = belt_above(foot + CS_ORDER_BELT - 1);
   *out = (cs_events){0};

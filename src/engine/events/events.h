@@ -51,13 +51,18 @@ typedef struct cs_events_rows {
   int32_t zone;               /* rows of a zone, which has whole belts; each is judged alone */
 } cs_events_rows;
 
+/* A zone has too many windings if they are more than `most`, or more than `few` and than `each`
+ * times its courses: so windings that multiply are found long before there are `most` of them. */
+typedef struct cs_events_limits {
+  size_t most, few, each;
+} cs_events_limits;
+
 /* Sweeps boundaries that lie within 16384 pixels of the origin sideways, and are culled without a
  * margin, from the top of the belt in which the first row lies. The parts are those of the whole
- * drawing between there and the end; only their windings have other numbers. most: windings in a
- * zone: one with more, or where they multiply (events.c), is missing, and costs what it takes to
- * find that many. It depends on the zone alone. Errors: NO_MEMORY; cs_events_finish must be called
- * then, too. */
+ * drawing between there and the end; only their windings have other numbers. A zone that has too
+ * many is missing, and costs what it takes to find that out. It depends on the zone alone. Errors:
+ * NO_MEMORY; cs_events_finish must be called then, too. */
 CELSPAN_CHECKED celspan_status cs_events_find(celspan_context *context, const cs_boundary_set *set,
-                                              const cs_cull *cull, cs_events_rows rows, size_t most,
-                                              cs_events *out);
+                                              const cs_cull *cull, cs_events_rows rows,
+                                              cs_events_limits limits, cs_events *out);
 void cs_events_finish(cs_events *events, cs_memory *memory);

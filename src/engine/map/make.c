@@ -12,6 +12,11 @@
 #include "engine/events/visit.h"
 #include "engine/map/cells.h"
 
+/* Windings of a zone. Many shapes that hide others have fewer than EACH for a course; translucent
+ * ones that cross have many times more, each of which would be a cell. FEW are no matter. */
+#define EACH 4
+#define FEW 1024
+
 typedef struct maker {
   celspan_context *context;
   const cs_plan *plan;
@@ -198,9 +203,10 @@ static void take_stack(cs_map *map, cs_stack *stack) {
 
 static celspan_status make_zones(maker *m, int32_t first, int32_t end) {
   const cs_events_rows rows = {first, end, m->map->height, m->map->zone};
+  const cs_events_limits limits = {CS_MAP_CELLS / CS_MAP_ZONES, FEW, EACH};
   CS_TRY(add_clear(m));
-  CS_TRY(cs_events_find(m->context, &m->plan->boundaries, &m->plan->cull, rows, CS_MAP_ZONE_CELLS,
-                        &m->events));
+  CS_TRY(
+      cs_events_find(m->context, &m->plan->boundaries, &m->plan->cull, rows, limits, &m->events));
   m->map->missing = m->events.missing;
   CS_TRY(cs_events_show(m->context, m->plan, &m->events, find_cell, m));
   return m->map->is_whole ? add_borders(m) : CELSPAN_OK;

@@ -17,7 +17,7 @@
  *       zone 0 ----|--------\----    A raster has zones of rows, and no border crosses the top of
  *              |   |         \       a zone. So a zone is the same whichever others are made: where
  *       zone 1 ----|----------\--    few rows of a frame are wanted, the map has some zones alone.
- *              |   |           \     A zone with too many cells is missing.
+ *              |   |           \     A zone with too many windings is missing.
  *
  * Units: a raster of the drawing at a scale of its own, in 2^-16 of its pixels. The raster begins
  * at a whole pixel, so that equal boundaries of two drawings at one scale have equal points.
@@ -37,7 +37,6 @@
 #define CS_MAP_SIDE 16384    /* pixels of a raster's side, at most */
 #define CS_MAP_CELLS 1048576 /* at most */
 #define CS_MAP_ZONES 64      /* at most, by the bits of cs_map.missing */
-#define CS_MAP_ZONE_CELLS (CS_MAP_CELLS / CS_MAP_ZONES)
 /* The key of a cell: its number in 20 bits, and 28 bits of a hash. */
 #define CS_MAP_KEY UINT64_C(0xffffffffffff)
 
@@ -79,7 +78,7 @@ typedef struct cs_map {
   bool is_whole;        /* false: the drawing cannot be a map, and there is nothing else */
   int64_t left, top;    /* where the raster begins, in its pixels from the drawing's origin */
   int32_t height, zone; /* of the raster, and of a zone: pixels */
-  uint64_t missing;     /* bit k: zone k was asked for, and has too many cells */
+  uint64_t missing;     /* bit k: zone k was asked for, and has too many windings */
   cs_map_lines lines;
   cs_map_flat *flats; /* only of a map that is turned */
   cs_map_cell *cells;

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "model/geometry/boundary.h"
+#include "model/geometry/matrix.h"
 #include "model/scene/primitive_data.h"
 #include "model/scene/texture.h"
 
@@ -10,9 +12,9 @@ typedef struct counting {
   double width, height; /* of the frame */
 } counting;
 
-/* How much of [middle - half, middle + half] lies in [0, end]. */
-static double length_inside(double middle, double half, double end) {
-  return fmax(fmin(middle + half, end) - fmax(middle - half, 0), 0);
+/* How much of [low, high] lies in [0, end]. */
+static double length_inside(double low, double high, double end) {
+  return fmax(fmin(high, end) - fmax(low, 0), 0);
 }
 
 static bool varies(const cs_primitive_data *data) {
@@ -22,14 +24,11 @@ static bool varies(const cs_primitive_data *data) {
 /* may_hide: nothing around the shape fades it or cuts it away. */
 static void count_shape(counting *c, const cs_primitive_data *data, const celspan_matrix *matrix,
                         bool may_hide) {
-  const celspan_box *box = &data->bounds;
-  const double *m = matrix->m;
-  double x = box->x + box->width / 2, y = box->y + box->height / 2;
-  double w = fabs(m[6] * x + m[7] * y + m[8]);
-  double half_width = (fabs(m[0]) * box->width + fabs(m[1]) * box->height) / 2;
-  double half_height = (fabs(m[3]) * box->width + fabs(m[4]) * box->height) / 2;
-  double across = length_inside((m[0] * x + m[1] * y + m[2]) / w, half_width / w, c->width);
-  double down = length_inside((m[3] * x + m[4] * y + m[5]) / w, half_height / w, c->height);
+  const celspan_matrix facing = cs_matrix_facing(matrix);
+  cs_boundary_frame box;
+  (void)cs_boundary_around_box(&data->bounds, &facing, &box);
+  double across = length_inside(box.left, box.right, c->width);
+  double down = length_inside(box.top, box.bottom, c->height);
   c->census.shapes++;
   if (!data->is_box && data->outline) {
     c->census.pieces += data->outline->piece_count;

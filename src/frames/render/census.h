@@ -18,7 +18,7 @@ typedef struct cs_census {
   size_t shapes;       /* that were counted */
   size_t inside;       /* those whose boxes meet the frame */
   size_t hiding;       /* those that let no light through, wherever they are */
-  double heights;      /* of those, pixels */
+  double heights;      /* of those inside: rows that each covers, summed */
   double varied, flat; /* areas of those that vary (gradients, pictures), and of the others */
   bool may_have_dashes;
   size_t pieces, points; /* of the outlines of all of them; those of strokes are not known */

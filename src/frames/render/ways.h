@@ -14,12 +14,13 @@
  *   half of them let nothing through          translucent shapes show as often as they cross
  *   what varies is no larger than the rest    gradients and pictures are painted either way
  *   a quarter of the shapes is in the frame   a map is made of all
- *   it covers CS_WAYS_ROWS rows, as a mean    a sweep finds crossings in every row, a map once; but
- *   of the shapes in the frame, or fewer      rows of an edge alone cost a map more
+ *   those in the frame are, on average, at    a sweep finds crossings in every row, a map once; but
+ *   most CS_WAYS_ROWS rows high               rows of an edge alone cost a map more
  *
  * The last may be half as much again for a drawing that occurs twice in the frame. Where artwork
  * has at least as many shapes as the other cels, it is drawn from maps, and so are cels of fewer
- * shapes that suit, unless they vary; the others are swept. Otherwise the whole exposure is.
+ * shapes that suit, unless most of their area varies; the others are swept. Otherwise the whole
+ * exposure is swept.
  *
  * What this was fitted to: docs/how-it-works.md.
  *

@@ -56,7 +56,6 @@ static celspan_status fill_more(celspan_context *context, cs_primitive_data *dat
   data->has_procedure = from->has_procedure;
   memcpy(data->blends, from->blends, sizeof data->blends);
   data->has_uneven = from->has_uneven;
-  data->has_picture = from->has_picture;
   data->has_modes = from->has_modes;
   data->mixing = from->mixing;
   data->boolean->operands_hash = from->boolean->operands_hash;

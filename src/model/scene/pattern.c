@@ -124,7 +124,7 @@ static celspan_status make_shape(celspan_context *context, cs_primitive_data *da
   CS_TRY(cs_texture_or_black(context, NULL, &black));
   celspan_texture_unref(data->texture);
   data->texture = black;
-  data->has_uneven = data->has_picture = false;
+  data->has_uneven = false;
   data->mixing = CS_MIXING_OPAQUE;
   return cs_primitive_data_object(context, data, out);
 }

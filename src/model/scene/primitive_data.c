@@ -78,7 +78,6 @@ celspan_status cs_primitive_data_create(celspan_context *context, cs_primitive_d
   data->kind = kind;
   data->has_procedure = kind == CS_PRIMITIVE_DATA_SCANLINE;
   data->has_uneven = kind == CS_PRIMITIVE_DATA_SCANLINE || kind == CS_PRIMITIVE_DATA_ROSTRUM;
-  data->has_picture = data->has_uneven;
   celspan_status status = kind == CS_PRIMITIVE_DATA_OUTLINE
                               ? cs_texture_or_black(context, texture, &data->texture)
                               : create_part(context, data);
@@ -86,14 +85,12 @@ celspan_status cs_primitive_data_create(celspan_context *context, cs_primitive_d
     cs_primitive_data_unref(data);
     return status;
   }
-  if (data->texture)
-    data->mixing = (uint8_t)mixing_of_texture(data->texture);
-  else if (kind != CS_PRIMITIVE_DATA_BOOLEAN)
-    data->mixing = CS_MIXING_MIXED;
   if (data->texture) {
+    data->mixing = (uint8_t)mixing_of_texture(data->texture);
     data->has_uneven =
         !cs_texture_is_grey(data->texture) || cs_texture_stays_on_thread(data->texture);
-    data->has_picture = data->texture->kind == CS_TEXTURE_PICTURE;
+  } else if (kind != CS_PRIMITIVE_DATA_BOOLEAN) {
+    data->mixing = CS_MIXING_MIXED;
   }
   *out = data;
   return CELSPAN_OK;
@@ -414,7 +411,6 @@ celspan_status cs_primitive_data_measure(celspan_context *context, const char *n
     data->has_procedure |= item->has_procedure;
     add_modes(objects[i], data);
     data->has_uneven |= item->has_uneven;
-    data->has_picture |= item->has_picture;
     if (data->primitive_count > CS_SCENE_PRIMITIVES)
       return cs_fail(context, CELSPAN_LIMIT, "%s: it holds more than %d primitives", noun,
                      CS_SCENE_PRIMITIVES);

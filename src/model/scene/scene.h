@@ -141,7 +141,6 @@ typedef struct cs_primitive_data {
   bool blends[CS_SPACES];   /* in that space, a mode below this one acts on its backdrop */
   bool has_uneven;          /* below or with this one: a paint that does not dim the three
                                channels alike, or stays on its thread; a procedure; a rostrum */
-  bool has_picture;         /* below or with this one: a picture; a procedure; a rostrum */
   uint8_t mixing;           /* a cs_mixing */
   bool has_modes;           /* any mode is below or with this one, except in a rostrum */
   bool is_box;              /* the outline is that of `box`, which has an area */

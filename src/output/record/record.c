@@ -302,8 +302,8 @@ static celspan_status record(recorder *r) {
   size_t chains = plan->boundaries.chain_count + 1, axes = axis_count(plan);
   uint32_t first = (uint32_t)r->out->cell_count; /* its cell 0 */
   const cs_events_rows rows = {0, plan->height, plan->height, plan->height};
-  CS_TRY(
-      cs_events_find(r->context, &plan->boundaries, &plan->cull, rows, WINDINGS_MOST, &r->events));
+  const cs_events_limits limits = {WINDINGS_MOST, WINDINGS_MOST, 0};
+  CS_TRY(cs_events_find(r->context, &plan->boundaries, &plan->cull, rows, limits, &r->events));
   if (r->events.missing)
     return cs_fail(r->context, CELSPAN_LIMIT, "plane: there is too much in it");
   CS_TRY(CS_MAKE(r->context, r->source.axes, axes));
