@@ -50,15 +50,17 @@ describe("a drawing that is traced", function()
     end)
   end
 
-  it_traces("keeps six of seven within half a pixel if pixels are whole, and their pixels",
+  -- Means of all drawings: a few that a seed draws could be the worst of them.
+  it_traces("keeps six of seven within half a pixel if pixels are whole, and their pixels #plain",
     function()
-      local far, changed, all = 0, 0, 0
-      for _, case in cases.of(COUNT) do
+      local far, changed = 0, 0
+      for case = 1, COUNT do
         local off, object, w, h, original = retrace(case, "none")
-        all, far = all + 1, far + (off > 0.5 and 1 or 0)
+        far = far + (off > 0.5 and 1 or 0)
         changed = changed + traced.changed(original, object, w, h)
       end
-      assert.is_true(far <= math.max(4, all / 7), ("%d of %d are farther off"):format(far, all))
-      assert.is_true(changed <= 2 * all, ("%d pixels of %d drawings changed"):format(changed, all))
+      assert.is_true(far <= COUNT / 7, ("%d of %d are farther off"):format(far, COUNT))
+      assert.is_true(changed <= 2 * COUNT, ("%d pixels of %d drawings changed"):format(changed,
+        COUNT))
     end)
 end)
