@@ -4,7 +4,7 @@
 --
 -- Every layer is a separate picture, made with brushes: strokes with a width that swells and
 -- tapers.
-package.path = "./?.lua;./scripts/?.lua;./lua/?.lua;" .. package.path
+package.path = "./?.lua;./scripts/?.lua;" .. package.path
 local celspan = require "celspan"
 local draw = require "scripts.paintings.draw"
 local paintings = require "tests.support.paintings"

@@ -1,4 +1,4 @@
-/* Sounds for scripts: how loud a file is, for lua/celspan/sound.lua. */
+/* Sounds for scripts: how loud a file is, for lua/celspan/read/sound.lua. */
 #pragma once
 
 #include <lua.h>

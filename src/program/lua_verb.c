@@ -108,7 +108,7 @@ static void open_libraries(lua_State *L, celspan_context *context) {
   luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_PRELOAD_TABLE);
   luaL_setfuncs(L, modules, 0);
   lua_pop(L, 1);
-  cs_embedded_open(L);
+  cs_core_open(L);
 }
 
 /* Whether the annotations are in this folder. */

@@ -1,6 +1,6 @@
 /* The values that --set and --set-from give to the parameters of a script (celspan.parameters).
  *
- *   options --> settings --> registry of the script's state --> lua/celspan/parameters.lua
+ *   options --> settings --> registry of the script's state --> lua/celspan/film/parameters.lua
  *                                                                    |
  *   wrong usage, reported <-- the sentence that refuses a setting <--+
  */

@@ -1,6 +1,7 @@
 /* The sounds of a script's film, mixed for videos and for `celspan sound`.
  *
- *   film --lua/celspan/soundtrack.lua--> a flat list, cs_mix_sound --plugins/sound/mix.h--> stream
+ *   film --lua/celspan/film/soundtrack.lua--> a flat list
+ *   cs_mix_sound --plugins/sound/mix.h--> stream
  */
 #pragma once
 

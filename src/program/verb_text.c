@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "lua/bind/require.h"
+
 const cs_verb_text *cs_verb_text_find(const char *name) {
   const cs_verb_text *text = cs_verb_texts;
   while (strcmp(text->name, name) != 0)
@@ -15,4 +17,6 @@ void cs_verb_text_load(lua_State *L, const char *name) {
   if (luaL_loadbufferx(L, text->bytes, text->size, lua_tostring(L, -1), "t") != LUA_OK)
     lua_error(L);
   lua_remove(L, -2);
+  cs_require_push_globals(L); /* and so celspan's private modules */
+  lua_setupvalue(L, -2, 1);
 }

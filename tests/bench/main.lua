@@ -2,7 +2,7 @@
 ---   lua5.4 tests/bench/main.lua BUILD FOLDER [--quick] [--skia MODULES] [PART...]
 --- BUILD was configured with -Dbench=true; drawings, pictures and the table are written to FOLDER.
 --- If parts are named, only those are measured.
-package.path = "./?.lua;./lua/?.lua;" .. package.path
+package.path = "./?.lua;" .. package.path
 local Runner = require "tests.bench.runner"
 local scenes = require "tests.bench.scenes"
 local machine = require "tests.bench.machine"

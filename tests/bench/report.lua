@@ -1,7 +1,7 @@
 --- The page of a run: lua5.4 tests/bench/report.lua FOLDER CELSPAN PAGE, from the top of the tree.
 --- FOLDER holds bench.csv and machine.txt. Writes PAGE (docs/bench.md), its table beside it as
 --- bench.csv, and its plots into pictures/ beside it, drawn by CELSPAN.
-package.path = "./?.lua;./lua/?.lua;" .. package.path
+package.path = "./?.lua;" .. package.path
 local asked = require "tests.bench.asked"
 local films = require "tests.bench.report_film"
 local machine = require "tests.bench.machine"

@@ -1,7 +1,7 @@
 --- The filled shapes of an SVG drawing, as the benchmark's path lines: enough to draw real artwork
 --- with every renderer alike. Strokes, text, clips and masks are left out; a gradient is replaced
 --- by the mean of its stops.
-local pathdata = require "celspan.pathdata"
+local pathdata = require "tests.support.own" "celspan.pathdata"
 
 local svg = {}
 

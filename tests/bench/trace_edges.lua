@@ -1,6 +1,6 @@
 -- The error of traced edges over random drawings with known edges.
 --
---   LUA_PATH='lua/?.lua;?.lua;;' LUA_CPATH=build/?.so \
+--   LUA_PATH='?.lua;;' LUA_CPATH=build/?.so \
 --     lua5.4 tests/bench/trace_edges.lua [LAST [FIRST]]
 --
 -- The drawings are numbers FIRST to LAST of those that tests/property/trace_spec.lua tries, 1 to 30

@@ -1,6 +1,6 @@
 -- What whole pixels cannot show: drawings that no tracing restores within half a pixel.
 --
---   LUA_PATH='lua/?.lua;?.lua;;' LUA_CPATH=build/?.so \
+--   LUA_PATH='?.lua;;' LUA_CPATH=build/?.so \
 --     lua5.4 tests/bench/trace_limit.lua [LAST [FIRST [STEPS]]]
 --
 -- Examines those drawings of trace_edges.lua whose edges have an error of more than half a pixel

@@ -1,5 +1,5 @@
 --- The functions, methods and classes of celspan, from the annotations for editors.
-local manual = require "celspan.manual"
+local manual = require "tests.support.own" "celspan.manual"
 
 local annotations = {}
 

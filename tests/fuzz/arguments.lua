@@ -228,7 +228,7 @@ local function is_sentence(message)
   if message == NASTY or message == "a nasty error" then return true end
   if type(message) ~= "string" then return false, "an error that is not a string" end
   if #message > MOST_MESSAGE then return false, "a message longer than a page" end
-  for _, inside in ipairs { "attempt to ", "bad argument", "celspan/%l+%.lua:", "celspan broke",
+  for _, inside in ipairs { "attempt to ", "bad argument", "celspan/[%l_/]+%.lua:", "celspan broke",
     "stack overflow" } do
     if message:find(inside) and not message:find "nasty" then
       return false, "a message about the inside"

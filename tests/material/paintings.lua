@@ -8,7 +8,7 @@
 -- the picture merged by the program that made the file, by more than 8 of 255 over white, blended
 -- as coded; and the notes about blend modes, effects and others. The last line counts them.
 local celspan = require "celspan"
-local core = require "celspan.core"
+local core = require "tests.support.own" "celspan.core"
 local layers = require "celspan.layers"
 local merged = require "tests.support.merged"
 

@@ -7,7 +7,7 @@
 -- pixels. N mutants of a folder are tried (20; 0: all), selected by S (1). --near runs only the
 -- nearest tests. The exit status is 0 if every mutant was detected, 1 if one survived, and 2 if
 -- tests fail without a mutant or the build fails.
-package.path = "./?.lua;./lua/?.lua;" .. package.path
+package.path = "./?.lua;" .. package.path
 local equal = require "tests.mutate.equal"
 local mutants = require "tests.mutate.mutants"
 local near_to = require "tests.support.near"

@@ -102,9 +102,9 @@ describe("the examples of", function()
         it(place(page, block) .. " load", function()
           write_example(block)
           local code, _, message =
-            run(("LUA_PATH='./?.lua;%s/lua/?.lua;;' LUA_CPATH='%s' %s -e 'require "
+            run(("LUA_PATH='./?.lua;;' LUA_CPATH='%s' %s -e 'require "
             .. "\"%s\"' /dev/null")
-            :format(root, package.cpath, interpreter, block.name))
+            :format(package.cpath, interpreter, block.name))
           assert.are.equal(0, code, message)
         end)
       elseif block.language == "lua" and returns then
@@ -127,8 +127,8 @@ describe("the examples of", function()
       elseif block.language == "lua" then
         it(place(page, block) .. " run", function()
           local path = write_example(block)
-          local code, printed, message = run(("LUA_PATH='%s/lua/?.lua;;' LUA_CPATH='%s' %s %s")
-            :format(root, package.cpath, interpreter, path))
+          local code, printed, message = run(("LUA_PATH=';;' LUA_CPATH='%s' %s %s")
+            :format(package.cpath, interpreter, path))
           check_code(code, message)
           assert.are.equal(promised(block.text), printed)
         end)

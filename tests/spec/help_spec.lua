@@ -1,5 +1,6 @@
 -- What `celspan help WORDS` finds: the words that people bring, and where each leads.
-local manual = require "celspan.manual"
+local own = require "tests.support.own"
+local manual = own "celspan.manual"
 local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
 
@@ -11,7 +12,7 @@ local synonyms = dofile(VERBS .. "synonyms.lua")
 local topics = loadfile(VERBS .. "topics.lua")(recipes, headings, manual.names(), {})
 
 local function finder(rows)
-  local find = loadfile(VERBS .. "search.lua")(require "celspan.core".nearest, rows)
+  local find = loadfile(VERBS .. "search.lua")(own "celspan.core".nearest, rows)
   return function(words) return find(topics, words, 3) end
 end
 

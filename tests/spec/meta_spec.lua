@@ -1,9 +1,10 @@
 -- The annotations for editors, and what `celspan help lua` prints from them: all names, and no
 -- others.
 local celspan = require "celspan"
-local core = require "celspan.core"
-local manual = require "celspan.manual"
+local own = require "tests.support.own"
+local core, manual = own "celspan.core", own "celspan.manual"
 local present = require "tests.support.present"
+local system = require "tests.support.system"
 
 local file = assert(io.open "lua/celspan.d.lua")
 local text = file:read "a"
@@ -211,5 +212,30 @@ describe("the manual", function()
     for name in assert(io.open "docs/lua.md"):read("a"):gmatch "\n### Module celspan%.(%l+)" do
       assert.is_truthy(list:find("\n  " .. name .. " ", 1, true), name)
     end
+  end)
+end)
+
+describe("a module in Lua", function()
+  local is_public = {}
+  for _, name in ipairs(manual.MODULES) do is_public[name] = true end
+  local names = system.lines "find lua/celspan -name '*.lua' | sed 's|.*/||; s|[.]lua$||'"
+  names[#names + 1] = "core"
+
+  it("is for scripts if the manual has it, else refused to them, though celspan uses it", function()
+    own "celspan.puppet_sheet"
+    for _, name in ipairs(names) do
+      local good, result = pcall(require, "celspan." .. name)
+      assert.are.equal(is_public[name] or false, good, name)
+      if not good then
+        assert.is_truthy(result:find(("tests/spec/meta_spec.lua:%%d+: module 'celspan.%s' is "
+          .. "private: only celspan's own modules can require it"):format(name)), result)
+      end
+    end
+    assert.is_true(#names > 50)
+  end)
+
+  it("that is private is suggested to nobody", function()
+    local _, message = pcall(function() return celspan.fields end)
+    assert.is_nil(message:find("require", 1, true))
   end)
 end)

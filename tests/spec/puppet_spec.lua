@@ -8,7 +8,7 @@ local present = require "tests.support.present"
 local prng = require "tests.support.prng"
 local puppet = require "celspan.puppet"
 local raised = require "tests.support.raised"
-local reach = require "celspan.reach"
+local reach = require "tests.support.own" "celspan.reach"
 local svg = require "celspan.svg"
 local workbench = require "tests.support.workbench"
 

@@ -7,7 +7,7 @@
 -- the benchmark are written into FOLDER, with CELSPAN_MATERIAL's artwork if that is set. Each line
 -- is `KIND NAME DIGEST`, in a fixed order. --quick leaves out the slow ones. A failure has the
 -- digest `failed`; then the exit status is 1.
-package.path = "./?.lua;./lua/?.lua;" .. package.path
+package.path = "./?.lua;" .. package.path
 local golden = require "tests.support.golden"
 local markdown = require "tests.support.markdown"
 local system = require "tests.support.system"

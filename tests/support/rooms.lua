@@ -17,6 +17,7 @@ local columns = require "tests.support.rooms.columns"
 local house = require "tests.support.rooms.house"
 local map = require "tests.support.rooms.map"
 local measures = require "tests.support.rooms.measures"
+local modules = require "tests.support.rooms.modules"
 local prose = require "tests.support.rooms.prose"
 local report = require "tests.support.rooms.report"
 local trees = require "tests.support.rooms.tree"
@@ -94,6 +95,7 @@ local function check_tree(tree, root, fault)
   return check_functions(tree, fault) + check_circles(tree, fault)
     + check_types(tree, fault) + check_calls(tree, fault)
     + check_includes(tree, fault) + check_words(tree, fault) + map.check(tree, root, fault)
+    + modules.check(root, fault)
 end
 
 --- Prints the faults that check(fault) finds; returns whether it found none.

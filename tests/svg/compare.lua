@@ -11,7 +11,7 @@
 -- Drawings whose picture shows the letters UB are not compared, because no renderer has to match
 -- it: the specification does not define the result. The last line is "N of M drawings pass".
 local celspan = require "celspan"
-local core = require "celspan.core"
+local core = require "tests.support.own" "celspan.core"
 
 local MOST_OFF, MOST_SHARE = 24, 0.005
 local ALL = "all was drawn"

@@ -26,8 +26,6 @@ extern "C" {
 #include <lua.h> /* in here, because it does not say by itself that it is C */
 
 CELSPAN_API int luaopen_celspan(lua_State *L);
-/* What the library's own Lua modules need from C: file names, nearest names. */
-CELSPAN_API int luaopen_celspan_core(lua_State *L);
 
 /* Opens celspan as luaL_requiref would. All that scripts make and render then goes through
  * `context`: its memory function, its limits, its last error. context: borrowed until the state is

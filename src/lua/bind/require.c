@@ -1,14 +1,32 @@
 #include "lua/bind/require.h"
 
-#include <lauxlib.h>
+#include <stdbool.h>
+#include <string.h>
 
-void cs_require_module(lua_State *L, const char *name) {
-  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
+/* Tables in the registry. */
+#define OPENERS "celspan.openers" /* of the private modules, by name */
+#define LOADED "celspan.loaded"   /* those that were loaded */
+#define GLOBALS "celspan.own"     /* of celspan's own chunks */
+
+void cs_require_give(lua_State *L, const luaL_Reg *modules) {
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, OPENERS);
+  luaL_setfuncs(L, modules, 0);
+  lua_pop(L, 1);
+}
+
+/* ---------------------------------------------------------------- finding */
+
+/* Pushes the module of that name, from tables of the registry; false, and nothing pushed: it has
+ * none. */
+static bool push_module(lua_State *L, const char *loaded, const char *openers, const char *name) {
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, loaded);
   if (lua_getfield(L, -1, name) == LUA_TNIL) {
     lua_pop(L, 1);
-    luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_PRELOAD_TABLE);
-    if (lua_getfield(L, -1, name) == LUA_TNIL)
-      luaL_error(L, "module '%s' not found", name);
+    luaL_getsubtable(L, LUA_REGISTRYINDEX, openers);
+    if (lua_getfield(L, -1, name) == LUA_TNIL) {
+      lua_pop(L, 3);
+      return false;
+    }
     lua_remove(L, -2);
     lua_pushstring(L, name);
     lua_call(L, 1, 1);
@@ -16,7 +34,50 @@ void cs_require_module(lua_State *L, const char *name) {
     lua_setfield(L, -3, name);
   }
   lua_remove(L, -2);
+  return true;
 }
+
+void cs_require_public(lua_State *L, const char *name) {
+  if (!push_module(L, LUA_LOADED_TABLE, LUA_PRELOAD_TABLE, name))
+    luaL_error(L, "module '%s' not found", name);
+}
+
+void cs_require_module(lua_State *L, const char *name) {
+  if (!push_module(L, LOADED, OPENERS, name))
+    cs_require_public(L, name);
+}
+
+/* ---------------------------------------------------------------- celspan's own chunks */
+
+/* require of celspan's own chunks; other modules, such as luassert, are the host's. */
+static int require(lua_State *L) {
+  const char *name = luaL_checkstring(L, 1);
+  if (strcmp(name, "celspan") == 0 || strncmp(name, "celspan.", 8) == 0) {
+    cs_require_module(L, name);
+    return 1;
+  }
+  lua_getglobal(L, "require");
+  lua_insert(L, 1);
+  lua_call(L, lua_gettop(L) - 1, LUA_MULTRET);
+  return lua_gettop(L);
+}
+
+void cs_require_push_globals(lua_State *L) {
+  if (luaL_getsubtable(L, LUA_REGISTRYINDEX, GLOBALS))
+    return;
+  lua_pushglobaltable(L);
+  lua_pushnil(L);
+  while (lua_next(L, -2)) {
+    lua_pushvalue(L, -2);
+    lua_insert(L, -2);
+    lua_rawset(L, -5);
+  }
+  lua_pop(L, 1);
+  lua_pushcfunction(L, require);
+  lua_setfield(L, -2, "require");
+}
+
+/* ---------------------------------------------------------------- methods */
 
 int cs_require_call(lua_State *L) {
   const cs_written *written = lua_touserdata(L, lua_upvalueindex(1));

@@ -1,10 +1,25 @@
-/* The modules of celspan that are written in Lua, for C that calls them. */
+/* The modules of celspan that are written in Lua, for C that calls them, and for each other.
+ *
+ *   of scripts    package.preload, package.loaded      celspan.keys, celspan.svg, ...
+ *   private       tables of their own                  celspan.fields, celspan.core, ...
+ *
+ * INVARIANT: only celspan's own code finds a private module. Its chunks have globals of their
+ * own: those of the state as they were at first, with a `require` that knows both kinds.
+ */
 #pragma once
 
+#include <lauxlib.h>
 #include <lua.h>
 
-/* Pushes a module, which is loaded when it is first asked for. Raises. */
+/* Gives the state private modules: functions that return them. Raises. */
+void cs_require_give(lua_State *L, const luaL_Reg *modules);
+/* Pushes the globals of celspan's own chunks. Raises. */
+void cs_require_push_globals(lua_State *L);
+
+/* Pushes a module of either kind, which is loaded when it is first asked for. Raises. */
 void cs_require_module(lua_State *L, const char *name);
+/* The same for a script, which has no private ones. */
+void cs_require_public(lua_State *L, const char *name);
 
 /* A method that is written in Lua, and ended by one without a name. Errors are raised at the line
  * that calls the method. */

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <lua.h>
+#include <stdbool.h>
 
 /* ---------------------------------------------------------------- celspan */
 
@@ -17,9 +18,14 @@ void cs_pixels_open(lua_State *L);
 
 /* ---------------------------------------------------------------- built-in Lua modules */
 
-/* Puts them into package.preload. */
+/* Puts those for scripts into package.preload, where the private ones refuse, and gives the private
+ * ones to celspan's own (lua/bind/require.h). */
 void cs_embedded_open(lua_State *L);
-/* (name) -> the source of a module, for celspan.manual */
+/* The same, and celspan.core with them. */
+void cs_core_open(lua_State *L);
+/* Whether there is a module celspan.NAME for scripts. */
+bool cs_embedded_has(const char *name);
+/* (name) -> the source of a module for scripts, for celspan.manual */
 int cs_embedded_source(lua_State *L);
 
 /* Lets `require` of a host find modules beside the file that requires them, after where it looks by
@@ -28,7 +34,7 @@ void cs_beside_open(lua_State *L);
 
 /* ---------------------------------------------------------------- parameters */
 
-/* () -> the settings of this state, which lua/celspan/parameters.lua describes */
+/* () -> the settings of this state, which lua/celspan/film/parameters.lua describes */
 int cs_core_settings(lua_State *L);
 
 /* ---------------------------------------------------------------- files */
@@ -63,7 +69,7 @@ int cs_painting_read(lua_State *L);
 
 /* ---------------------------------------------------------------- SVG */
 
-/* Adds read_svg to the table on top of the stack, for lua/celspan/svg.lua. */
+/* Adds read_svg to the table on top of the stack, for lua/celspan/read/svg.lua. */
 void cs_drawing_open(lua_State *L);
 
 /* ---------------------------------------------------------------- planes */

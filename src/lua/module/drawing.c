@@ -1,4 +1,4 @@
-/* Drawings read from SVG: what lua/celspan/svg.lua is made of.
+/* Drawings read from SVG: what lua/celspan/read/svg.lua is made of.
  *
  *   core.read_svg(path, fonts, space) -> drawing | nil, message
  *   fonts: nil, or a list of { family, file, where it was looked for in vain }

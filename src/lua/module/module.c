@@ -129,11 +129,17 @@ static const luaL_Reg core_functions[] = {{"find", find},
                                           {"relight_read", cs_relight_read},
                                           {NULL, NULL}};
 
-int luaopen_celspan_core(lua_State *L) {
+static int push_core(lua_State *L) {
   cs_host_open(L, NULL);
   luaL_newlib(L, core_functions);
   cs_drawing_open(L);
   return 1;
+}
+
+void cs_core_open(lua_State *L) {
+  static const luaL_Reg core[] = {{"celspan.core", push_core}, {NULL, NULL}};
+  cs_embedded_open(L);
+  cs_require_give(L, core);
 }
 
 static int compare(const void *a, const void *b) {
@@ -179,15 +185,6 @@ static size_t list_names(lua_State *L, const char **names) {
   return count;
 }
 
-/* Whether there is a module of this name: require "celspan.NAME". */
-static bool is_module(lua_State *L, const char *name) {
-  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_PRELOAD_TABLE);
-  lua_pushfstring(L, "celspan.%s", name);
-  bool is_known = lua_rawget(L, -2) != LUA_TNIL;
-  lua_pop(L, 2);
-  return is_known;
-}
-
 /* celspan.circl: reading a name that the module's table does not have. */
 static int read_missing(lua_State *L) {
   if (lua_type(L, 2) != LUA_TSTRING)
@@ -195,7 +192,7 @@ static int read_missing(lua_State *L) {
   const char *names[MOST_NAMES], *name = lua_tostring(L, 2);
   if (push_written(L, name))
     return 1;
-  if (is_module(L, name))
+  if (cs_embedded_has(name))
     return cs_caller_error(L, "celspan has no '%s'; it is a module: require \"celspan.%s\"", name,
                            name);
   size_t count = list_names(L, names);
@@ -243,7 +240,7 @@ int luaopen_celspan(lua_State *L) {
   lua_setfield(L, -2, "clear");
   cs_pixels_open(L);
   cs_plane_open(L);
-  cs_embedded_open(L);
+  cs_core_open(L);
   set_reading(L);
   return 1;
 }

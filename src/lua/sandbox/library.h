@@ -37,8 +37,6 @@ void cs_library_add_running(lua_State *L);
  * scripts. Libraries of the table at `globals` are modules too. search: templates that are searched
  * after the script's folder, or NULL. */
 void cs_library_push_require(lua_State *L, int globals, const char *search);
-/* require for celspan's own modules: built-in modules only. */
-int cs_library_require_own(lua_State *L);
 
 /* Pushes the text of the value at index, without addresses. May call the script's __tostring. */
 const char *cs_library_push_text(lua_State *L, int index);

@@ -1,4 +1,4 @@
-/* The require of scripts, and that of celspan's own modules. */
+/* The require of scripts. */
 #include "lua/bind/require.h"
 #include "lua/sandbox/library.h"
 
@@ -12,17 +12,7 @@
 
 #define SOURCE_MOST ((off_t)16 << 20)
 
-int cs_library_require_own(lua_State *L) {
-  cs_require_module(L, luaL_checkstring(L, 1));
-  return 1;
-}
-
 /* ---------------------------------------------------------------- finding */
-
-/* celspan.core does not check paths, and celspan.spec is for specs, which have the whole of Lua. */
-static bool is_for_scripts(const char *name) {
-  return strcmp(name, "celspan.core") != 0 && strcmp(name, "celspan.spec") != 0;
-}
 
 static bool is_celspan(const char *name) {
   return strcmp(name, "celspan") == 0 || strncmp(name, "celspan.", 8) == 0;
@@ -89,10 +79,10 @@ static int require(lua_State *L) {
   if (lua_getfield(L, lua_upvalueindex(2), name) != LUA_TNIL)
     return 1;
   if (is_celspan(name)) {
-    if (!is_for_scripts(name))
+    if (strcmp(name, "celspan.spec") == 0) /* for specs, which have the whole of Lua */
       return luaL_error(L, "module '%s' is not in the sandbox (--trust gives all of Lua)", name);
-    lua_settop(L, 1);
-    return cs_library_require_own(L);
+    cs_require_public(L, name);
+    return 1;
   }
   load_module(L, search, name);
   lua_pushvalue(L, 1);

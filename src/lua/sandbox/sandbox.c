@@ -264,10 +264,8 @@ static void add_absent(lua_State *L) {
 
 static void close_own(lua_State *L) {
   static const char *const gone[] = {"load", "loadfile", "dofile", "collectgarbage", "warn", NULL};
-  static const luaL_Reg own[] = {{"pcall", cs_guard_pcall},
-                                 {"xpcall", cs_guard_xpcall},
-                                 {"require", cs_library_require_own},
-                                 {NULL, NULL}};
+  static const luaL_Reg own[] = {
+      {"pcall", cs_guard_pcall}, {"xpcall", cs_guard_xpcall}, {NULL, NULL}};
   seal_texts(L);
   lua_setglobal(L, "string");
   lua_pushglobaltable(L);

@@ -121,7 +121,7 @@ local function describe_plane()
 end
 
 local function describe_painting(format)
-  local text = program.input(require "celspan.inform".painting(path))
+  local text = program.input(program.part "inform.lua".painting(path))
   io.write("format ", format, "\n", text)
 end
 
@@ -141,7 +141,7 @@ local function show_parts(output)
 end
 
 local function describe_drawing()
-  io.write((program.input(require "celspan.inform".drawing(path))))
+  io.write((program.input(program.part "inform.lua".drawing(path))))
   if request.parts_picture then show_parts(request.parts_picture) end
 end
 
@@ -156,7 +156,7 @@ local describe = {
   --- A Photoshop document is a picture with subimages for `layer`, and a painting with more in it.
   psd = function()
     describe_picture()
-    local text, message = require "celspan.inform".painting(path)
+    local text, message = program.part "inform.lua".painting(path)
     io.write((program.input(text, message, ("layers unread: %s\n"):format(message))))
   end,
 }

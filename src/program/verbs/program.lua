@@ -24,7 +24,7 @@ end
 
 --- What a file that verbs are made of returns, run with these arguments.
 function program.part(name, ...)
-  return assert(load(program.text(name), "=" .. name, "t"))(...)
+  return assert(load(program.text(name), "=" .. name, "t", _ENV))(...)
 end
 
 --- Whether a path has one of these endings, in upper or lower case.

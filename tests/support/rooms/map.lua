@@ -1,18 +1,20 @@
 --- The folders of src/ with a sentence each, from the bottom up: `./run map`; and the units of some
 --- of them: `./run map FOLDER`.
+local modules = require "tests.support.rooms.modules"
 local units_of_folder = require("tests.support.rooms.units").of
 
 local map = {}
 
---- Folders of Lua: they have no folder.md, since all their files are installed or embedded.
-local LUA = {
-  { "lua/celspan", "The modules of celspan in Lua: the animation library and readers of files." },
-  { "src/program/verbs", "The verbs of the command that are written in Lua." },
-}
+--- The folders of Lua, from the bottom up.
+local function lua_folders(root)
+  local list = modules.folders(root)
+  list[#list + 1] = "src/program/verbs"
+  return list
+end
 
 --- The one sentence of a folder, from its folder.md; nil when it has none.
 local function sentence_of(root, folder)
-  local file = io.open(("%s/src/%s/folder.md"):format(root, folder))
+  local file = io.open(("%s/%s/folder.md"):format(root, folder))
   if not file then return end
   local text = file:read("a"):gsub("%s+", " "):gsub(" $", "")
   file:close()
@@ -74,10 +76,12 @@ function map.put(tree, root)
     local name = is_wing and folder .. "/" or "  " .. folder:match "/(.*)" .. "/"
     local figures = units > 0 and ("%5d %6d"):format(units, lines) or (" "):rep(12)
     if is_wing then print() end
-    put_wrapped(("%-18s %s  "):format(name, figures), sentence_of(root, folder) or "", 67)
+    put_wrapped(("%-18s %s  "):format(name, figures), sentence_of(root, "src/" .. folder) or "", 67)
   end
   print()
-  for _, pair in ipairs(LUA) do put_wrapped(("%-31s  "):format(pair[1] .. "/"), pair[2], 67) end
+  for _, folder in ipairs(lua_folders(root)) do
+    put_wrapped(("%-31s  "):format(folder .. "/"), sentence_of(root, folder) or "", 67)
+  end
   print "\n./run map FOLDER, such as `./run map svg`, lists the units of a folder."
 end
 
@@ -88,7 +92,7 @@ local function find_folder(tree, root, word)
   word = "/" .. word:gsub("/+$", "")
   local paths = {}
   for i, room in ipairs(tree.rooms) do paths[i] = "src/" .. room end
-  for _, pair in ipairs(LUA) do paths[#paths + 1] = pair[1] end
+  table.move(lua_folders(root), 1, 99, #paths + 1, paths)
   for _, path in ipairs(paths) do
     if ("/" .. path):sub(-#word) == word then return root .. "/" .. path end
   end
@@ -129,17 +133,19 @@ end
 --- Each folder has a sentence that ends with a full stop, and only one; and each unit has one.
 function map.check(tree, root, fault)
   local list = folders(tree)
+  for i, folder in ipairs(list) do list[i] = "src/" .. folder end
+  table.move(lua_folders(root), 1, 99, #list + 1, list)
   for _, folder in ipairs(list) do
     local text = sentence_of(root, folder)
     if not text then
-      fault("src/%s has no folder.md with the sentence that `./run map` prints", folder)
+      fault("%s has no folder.md with the sentence that `./run map` prints", folder)
     elseif not text:find "%.$" or text:find "%.%s+%u" then
-      fault("src/%s/folder.md is not one sentence with a full stop", folder)
+      fault("%s/folder.md is not one sentence with a full stop", folder)
     end
   end
   local count = #list
   for _, room in ipairs(tree.rooms) do count = count + check_units(root, "src/" .. room, fault) end
-  for _, pair in ipairs(LUA) do count = count + check_units(root, pair[1], fault) end
+  for _, folder in ipairs(lua_folders(root)) do count = count + check_units(root, folder, fault) end
   return count
 end
 

@@ -5,10 +5,12 @@ local core = require "celspan.core"
 
 local manual = {}
 
-local MODULES = { "ease", "keys", "motion", "multiplane", "shutter", "lips", "sheet", "svg",
-                  "trace", "track", "relight", "layers", "oca", "json", "csv", "captions", "cut",
-                  "sound", "spec", "puppet", "particles",
-                  "colour" }
+--- The modules for scripts, in the order of the reference.
+manual.MODULES = {
+  "ease", "keys", "motion", "multiplane", "shutter", "lips", "sheet", "svg", "trace", "track",
+  "relight", "layers", "oca", "json", "csv", "captions", "cut", "sound", "spec", "puppet",
+  "particles", "colour",
+}
 local WIDTH = 100
 
 --- Adds a text in lines of at most WIDTH characters; those after the first begin with `indent`.
@@ -198,7 +200,7 @@ local function blocks_of_all()
   if cached then return cached end
   cached = manual.read(manual.annotations(), { celspan = "celspan" })
   cached.modules = {}
-  for _, name in ipairs(MODULES) do
+  for _, name in ipairs(manual.MODULES) do
     cached.modules[name] = manual.read(core.source(name), { [name] = "celspan." .. name })
   end
   return cached
@@ -220,7 +222,7 @@ function manual.types()
   end
   local all = blocks_of_all()
   add(all)
-  for _, name in ipairs(MODULES) do add(all.modules[name]) end
+  for _, name in ipairs(manual.MODULES) do add(all.modules[name]) end
   return calls, parents
 end
 
@@ -352,7 +354,7 @@ local function names_of(all)
     end
   end
   add_all(all)
-  for _, module in ipairs(MODULES) do
+  for _, module in ipairs(manual.MODULES) do
     add(module)
     add_all(all.modules[module])
   end
@@ -374,7 +376,7 @@ function manual.names()
     local name = block.is_method or block.owner == "celspan" and block.short
     if name then add(name, block) end
   end
-  for _, module in ipairs(MODULES) do
+  for _, module in ipairs(manual.MODULES) do
     local blocks = all.modules[module]
     add(module, blocks[1])
     for _, block in ipairs(blocks) do
@@ -406,7 +408,7 @@ function manual.list()
   add_wrapped(page, "  ", table.concat(types, ", "), "  ")
   page[#page + 1] = '\nModules, local NAME = require "celspan.NAME":'
   rows = {}
-  for _, name in ipairs(MODULES) do
+  for _, name in ipairs(manual.MODULES) do
     rows[#rows + 1] = { name, first_sentence(all.modules[name][1]) }
   end
   add_rows(page, rows)
@@ -426,7 +428,7 @@ function manual.page(name)
   local module = all.modules[name:gsub("^celspan%.", "")]
   if module then return module_page(name:gsub("^celspan%.", ""), module) end
   add_meant(page, all, name)
-  for _, other in ipairs(MODULES) do add_meant(page, all.modules[other], name) end
+  for _, other in ipairs(manual.MODULES) do add_meant(page, all.modules[other], name) end
   if #page > 0 then return table.concat(page, "\n") .. "\n" end
   local nearest = core.nearest(name, names_of(all))
   return nil, ("there is no page about '%s'%s"):format(name,
