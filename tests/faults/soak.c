@@ -2,7 +2,7 @@
  * and formats, pictures, text, defocus, workers, and in every second frame a fault of a random
  * kind. Their use of memory, descriptors and threads must not grow.
  *
- *   faults_soak SCRIPT ROOT MINUTES [SEED]     SCRIPT: tests/faults/soak.lua
+ *   faults_soak SCRIPT ROOT MINUTES     SCRIPT: tests/faults/soak.lua
  *
  * A frame that fails must be the same afterwards as before. Figures are printed every minute; in
  * the end they are compared with those after a tenth of the time, or after WARM films if that is
@@ -227,7 +227,8 @@ int main(int count, char **arguments) {
   char folder[] = "/tmp/celspan-soak-XXXXXX";
   if (count < 4 || !mkdtemp(folder))
     return 1;
-  soak k = {.random = {count > 4 ? strtoull(arguments[4], NULL, 10) : 1}};
+  const char *seed = getenv("CELSPAN_SEED");
+  soak k = {.random = {seed ? strtoull(seed, NULL, 10) : 1}};
   if (!stage_open(&k.stage, arguments[1], arguments[2], folder))
     return 1;
   lua_pushboolean(k.stage.L, false);

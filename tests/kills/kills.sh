@@ -2,7 +2,7 @@
 # Renders a film again and again with --resume and ends the program at random times, by
 # SIGKILL, SIGTERM and SIGINT in turn, until COUNT runs were ended so.
 #
-#   tests/kills/kills.sh CELSPAN COUNT [SEED]
+#   tests/kills/kills.sh CELSPAN COUNT
 #
 # After every end each file with a final name is a frame of the reference, made by a run that was
 # not interrupted; after a signal that can be handled no temporary file is left; and whenever a run
@@ -11,7 +11,7 @@
 set -um # jobs of a shell with -m hear SIGINT
 celspan=$(realpath "$1")
 count=$2
-RANDOM=${3:-1}
+RANDOM=${CELSPAN_SEED:-1}
 film=$(realpath "$(dirname "$0")")/film.lua
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

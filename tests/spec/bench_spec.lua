@@ -282,7 +282,9 @@ describe("the films of the benchmark", function()
   end)
 
   it("are a part of it, while an unknown part is an error", function()
-    local code, _, message = bench:shell("lua5.4 tests/bench/main.lua nowhere nowhere --quick flim")
+    local code, _, message = bench:shell(("LUA_CPATH='%s/?.so' %s/tests/lua_host "
+      .. "tests/bench/main.lua nowhere nowhere --quick flim"):format(workbench.build,
+        workbench.build))
     assert.equal(2, code)
     assert.truthy(message:find("no part 'flim'", 1, true))
     assert.truthy(message:find(" film", 1, true))

@@ -1,7 +1,6 @@
 -- ./run mutate: which faults it makes in a source, and which places it skips.
 local equal = require "tests.mutate.equal"
 local mutants = require "tests.mutate.mutants"
-local nearest = require "tests.mutate.nearest"
 local system = require "tests.support.system"
 
 --- The mutants of a source, one per line.
@@ -98,21 +97,6 @@ describe("the lists", function()
         assert.is_truthy(made[name], path .. ": " .. name)
         assert.is_true(made[name] == 1 or entry[4] ~= nil and entry[4] <= made[name], name)
         assert.is_true(#entry[3] > 20)
-      end
-    end
-  end)
-
-  it("of the nearest tests name existing tests", function()
-    local meson = system.output "find examples tests subprojects -name meson.build -exec cat {} +"
-    for _, list in pairs(nearest) do
-      for _, name in ipairs(list) do
-        local folder, rest = name:match "^(%w+)/(.*)$"
-        if folder == "unit" or folder == "example" then
-          local is_listed = meson:find("[' ]" .. rest:gsub("%-", "%%-") .. "'")
-          assert.is_truthy(is_listed or rest:find "^fuzz%-", name)
-        else
-          assert.is_truthy(system.exists(("tests/%s_spec.lua"):format(name)), name)
-        end
       end
     end
   end)

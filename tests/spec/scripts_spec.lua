@@ -7,6 +7,7 @@ local workbench = require "tests.support.workbench"
 
 local BINARY = workbench.binary
 local WIDTH, HEIGHT = 96, 54
+local MOST_FRAMES = 24
 
 local function run(arguments)
   local text, ended_well = system.output(("%s %s"):format(BINARY, arguments))
@@ -58,6 +59,12 @@ describe("the scripts that ship", function()
         assert.is_true(colours(bytes:sub(n * size + 1, (n + 1) * size)) >= 5, "frame is blank")
       end
       assert.is_true(bytes:sub(-size) == render(path, count, 2), "another picture alone, by two")
+    end)
+
+    test(path .. " makes frames between those #full", function()
+      local count = frames_of(path)
+      assert.is_truthy(run(("render %s -o - --frames 1-%d:%d --scale 0.05 --progress none")
+        :format(quoted(path), count, math.max(1, count // MOST_FRAMES))))
     end)
 
     test(path .. " has a frame function that is pure", function()

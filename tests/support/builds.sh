@@ -1,6 +1,5 @@
 #!/bin/bash
 # Builds with fewer parts, and inside another project: each configures, builds and renders a frame.
-# With CELSPAN_TESTS one of them is tried, selected by CELSPAN_SEED.
 #
 #   tests/support/builds.sh
 #
@@ -80,8 +79,6 @@ LUA
   grep -q 'built without OpenImageIO' "$tree/refused"
 }
 
-ways=(without_lua release without_cpp_as_subproject)
-if [ "${CELSPAN_TESTS:-1}" -gt 1 ]; then
-  ways=("${ways[$((${CELSPAN_SEED:-1} % ${#ways[@]}))]}")
-fi
-for way in "${ways[@]}"; do "$way"; done
+without_lua
+release
+without_cpp_as_subproject

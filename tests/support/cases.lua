@@ -3,7 +3,8 @@
 -- A plain run tries the numbers 1, 2, .. up to a limit of each test. CELSPAN_SCENES=n tries n for
 -- every 300 of those: with more, the numbers continue; with fewer, as in slow builds, they are
 -- drawn from all by CELSPAN_SEED, so that each seed tries different ones, all of which a plain run
--- tries too. CASE=n tries that one alone.
+-- tries too. A test can name cases that are always tried: those that failed once. CASE=n tries that
+-- one alone.
 local prng = require "tests.support.prng"
 
 local cases = {}
@@ -27,12 +28,18 @@ local function draw(count, plain)
 end
 
 --- The numbers to try if a plain run tries 1 .. `plain`, for a loop: `for _, case in
---- cases.of(300)`.
-function cases.of(plain)
-  local count, numbers = cases.count(plain), { ONLY }
+--- cases.of(300)`. Those of the list `kept` are tried first, in every run.
+function cases.of(plain, kept)
+  local count, numbers, is_kept = cases.count(plain), { ONLY }, {}
   if ONLY then return ipairs(numbers) end
-  if count < plain then return ipairs(draw(count, plain)) end
-  for i = 1, count do numbers[i] = i end
+  for i, case in ipairs(kept or {}) do
+    numbers[i], is_kept[case] = case, true
+  end
+  local drawn = count < plain and draw(count, plain)
+  for i = 1, count do
+    local case = drawn and drawn[i] or i
+    if not is_kept[case] then numbers[#numbers + 1] = case end
+  end
   return ipairs(numbers)
 end
 

@@ -1,5 +1,4 @@
---- The tests of a build folder: unit tests and examples, as meson lists them, and the specs, one
---- test for each file.
+--- The tests of a build folder, as meson lists them.
 local system = require "tests.support.system"
 
 local catalogue = {}
@@ -12,56 +11,37 @@ local function introspect(build, what)
   return text
 end
 
---- The paths of a build folder relative to its top, as targets of ninja.
-local function target_of(build, path)
-  return path:sub(1, #build + 1) == build .. "/" and path:sub(#build + 2) or nil
+--- The file of each target of a build folder, relative to its top, by the target's id.
+local function files_of_targets(build)
+  local files = {}
+  local text = introspect(build, "targets")
+  for id, path in text:gmatch '"id": "([^"]*)".-"filename": %["([^"]+)"' do
+    files[id] = path:sub(#build + 2)
+  end
+  return files
 end
 
-local function programs(build)
-  local list = {}
-  for words, name in introspect(build, "tests"):gmatch '"cmd": (%b[]).-"name": "(.-)"' do
+--- The name that a test has here: meson's, and "unit/planefile" for one of a subproject.
+function catalogue.name(name) return name:find "/" and name or "unit/" .. name end
+
+--- A list of all: name, such as "unit/wide" or "spec/svg"; called, its name for meson; suite, one
+--- that it is in; command, which runs it from the top of the tree; targets, which ninja has to
+--- build for it. `root` is the top of the tree, `folder` the name of the build folder in it,
+--- `options` those of busted.
+function catalogue.of(root, folder, options)
+  local build = system.output(("cd %s/%s && pwd -P"):format(system.quote(root), folder)):sub(1, -2)
+  local list, files = {}, files_of_targets(build)
+  local pattern = '"cmd": (%b[]).-"name": "(.-)".-"suite": %["(.-)".-"depends": (%b[])'
+  for words, name, suite, depends in introspect(build, "tests"):gmatch(pattern) do
     local command, targets = {}, {}
     for word in words:gmatch '"(.-)"' do
       if word:find "^subprojects/" then word = build .. "/" .. word end
-      targets[#targets + 1] = #targets == 0 and target_of(build, word) or nil
       command[#command + 1] = system.quote(word)
+      if word:find "busted%.sh$" then command[#command + 2] = options end
     end
-    name = name:gsub("^example ", "example/"):gsub("[ ,]", "")
-    list[#list + 1] = {
-      name = name:find "/" and name or "unit/" .. name,
-      command = table.concat(command, " "),
-      targets = targets,
-    }
-  end
-  return list
-end
-
---- The programs and modules that are built by default: every spec needs them.
-local function defaults(build)
-  local targets = {}
-  local pattern = '"filename": %["([^"]+)"%], "build_by_default": true'
-  for path in introspect(build, "targets"):gmatch(pattern) do
-    local file = assert(target_of(build, path), path)
-    if not file:find "%.a$" and not file:find "fuzz_" and not file:find "^subprojects/" then
-      targets[#targets + 1] = file
-    end
-  end
-  return targets
-end
-
---- A list of all: name, such as "unit/wide" or "spec/svg"; command, which runs it from the top of
---- the tree; targets, which ninja has to build for it. `root` is the top of the tree, `folder` the
---- name of the build folder in it, `options` those of busted.
-function catalogue.of(root, folder, options)
-  local build = system.output(("cd %s/%s && pwd -P"):format(system.quote(root), folder)):sub(1, -2)
-  local list, targets = programs(build), defaults(build)
-  local find = ("cd %s && ls tests/*/*_spec.lua"):format(system.quote(root))
-  for _, path in ipairs(system.lines(find)) do
-    list[#list + 1] = {
-      name = path:match "tests/(.*)_spec%.lua$",
-      command = ("tests/support/busted.sh %s %s %s"):format(folder, options or "", path),
-      targets = targets,
-    }
+    for id in depends:gmatch '"(.-)"' do targets[#targets + 1] = files[id] end
+    list[#list + 1] = { name = catalogue.name(name), called = name, suite = suite:match "[^:]*$",
+      command = table.concat(command, " "), targets = targets }
   end
   return list
 end

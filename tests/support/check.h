@@ -37,7 +37,7 @@ static inline int check_text(const char *a, const char *b, const char *file, int
 static inline int check_is_drawn_by(const char *variable, int number) {
   const char *share = getenv(variable), *seed = getenv("CELSPAN_SEED");
   unsigned long one_in = share ? strtoul(share, NULL, 10) : 1;
-  unsigned long first = seed ? strtoul(seed, NULL, 10) : 0;
+  unsigned long first = seed ? strtoul(seed, NULL, 10) : 1;
   return one_in < 2 || ((unsigned long)number + first) % one_in == 0;
 }
 

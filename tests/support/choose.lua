@@ -1,14 +1,17 @@
--- Chooses among the tests of build-test. From the top of the tree:
+-- Chooses among the tests of build-test; prints the names by which meson knows them, one a line.
+-- From the top of the tree:
 --
---   lua5.4 tests/support/choose.lua --near FILE...    those nearest to files; and the golden
---                                                     tests, if the files may change pixels
---   lua5.4 tests/support/choose.lua --named NAME...   the tests of these names or folders
---   lua5.4 tests/support/choose.lua --check           checks that each folder has nearest tests
+--   lua5.4 tests/support/choose.lua --near SECONDS FILE...    those nearest to files, as many as
+--                                                             fit into a time; and the golden
+--                                                             tests, if the files may change pixels
+--   lua5.4 tests/support/choose.lua --named NAME...           the tests of these names, or near
+--                                                             these folders or files
+--   lua5.4 tests/support/choose.lua --check                   checks that each folder has nearest
+--                                                             tests, and that each test is run
 --
--- A test is a line: its name, the seconds of processor time of its last run, the targets that ninja
--- builds for it, and its command, with tabs between them; the golden ones first, then the quickest.
 -- Times are those of out/check-times, where the last line of a test counts; without one the time is
--- UNKNOWN.
+-- UNKNOWN. The golden tests come first, then the quickest. Those for which no time is left are
+-- named on standard error.
 package.path = "./?.lua;" .. package.path
 local catalogue = require "tests.support.catalogue"
 local near = require "tests.support.near"
@@ -17,6 +20,8 @@ local system = require "tests.support.system"
 
 local UNKNOWN = 5
 local ALWAYS = "golden/golden" -- begun first, however long it took
+-- Tests that meson makes of other sources than test_NAME.c and NAME_spec.lua.
+local MADE = { ["unit/faults"] = true, ["unit/planefile"] = true, ["unit/spanfile"] = true }
 
 local function fail(format, ...)
   io.stderr:write("run: ", format:format(...), "\n")
@@ -28,7 +33,7 @@ end
 local function times()
   local list = {}
   local text = system.read "out/check-times" or ""
-  for name, user, kernel in text:gmatch "(%S+) (%S+) (%S+)\n" do list[name] = user + kernel end
+  for name, seconds in text:gmatch "(%S+) (%S+)\n" do list[name] = tonumber(seconds) end
   return list
 end
 
@@ -51,10 +56,15 @@ local function chosen(all, names)
   return list
 end
 
-local function print_tests(list)
+--- Prints the tests that take SECONDS of processor time in all.
+local function print_tests(list, seconds)
+  local left_out, sum = {}, 0
   for _, test in ipairs(list) do
-    local targets = table.concat(test.targets, " ")
-    print(("%s\t%.1f\t%s\t%s"):format(test.name, test.seconds, targets, test.command))
+    sum = sum + test.seconds
+    if sum > seconds then left_out[#left_out + 1] = test.name else print(test.called) end
+  end
+  if #left_out > 0 then
+    io.stderr:write("   no time is left for: ./run test ", table.concat(left_out, " "), "\n")
   end
 end
 
@@ -124,11 +134,11 @@ local function meanings(all)
 end
 
 local function named_tests(all, words)
-  local meaning, found, names = meanings(all), {}, {}
+  local meaning, found, names, units = meanings(all), {}, {}, near.units "."
   for name in pairs(meaning) do names[#names + 1] = name end
   for _, word in ipairs(words) do
     local key = word:gsub("/+$", ""):gsub("_spec%.lua$", ""):gsub("^tests/", "")
-    local tests = meaning[key] or meaning[near.key(word) or ""]
+    local tests = meaning[key] or system.exists(word) and near.tests(word, units)
     if not tests then
       fail("test: '%s' is neither a test nor a folder; near it: %s", word, suggestions(word, names))
     end
@@ -141,12 +151,8 @@ end
 
 --- Every folder of src/ with sources, every module of celspan and every script has an entry in
 --- nearest.lua, and every entry names a folder or file.
-local function check()
-  local faults, count, has_place = {}, 0, {}
-  local function expect(is_good, format, ...)
-    count = count + 1
-    if not is_good then faults[#faults + 1] = format:format(...) end
-  end
+local function check_nearest(expect)
+  local has_place = {}
   local find = "find src lua/celspan scripts subprojects "
     .. "-name '*.[ch]' -o -name '*.cpp' -o -name '*.lua'"
   for _, path in ipairs(system.lines(find)) do
@@ -162,6 +168,35 @@ local function check()
     expect(has_place[key] or is_path and system.exists(key),
       "tests/mutate/nearest.lua: %s is neither a folder of src/ nor a path", key)
   end
+end
+
+--- Every source of a test is named in a meson.build of tests/, and every test near to something has
+--- a source.
+local function check_listed(expect)
+  local listed = assert(system.read "tests/meson.build")
+    .. assert(system.read "tests/unit/meson.build")
+  local has_source = {}
+  for _, path in ipairs(system.lines "find tests -name '*_spec.lua' -o -name 'test_*.c'") do
+    local test = near.test_of(path)
+    has_source[test] = true
+    expect(listed:find("['/]" .. test:match "[^/]*$" .. "'"), "no meson.build names %s", path)
+  end
+  for key, tests in pairs(nearest) do
+    for _, test in ipairs(tests) do
+      expect(has_source[test] or MADE[test] or test:find "^example/" or test:find "%-",
+        "tests/mutate/nearest.lua: %s names %s, which has no source", key, test)
+    end
+  end
+end
+
+local function check()
+  local faults, count = {}, 0
+  local function expect(is_good, format, ...)
+    count = count + 1
+    if not is_good then faults[#faults + 1] = format:format(...) end
+  end
+  check_nearest(expect)
+  check_listed(expect)
   table.sort(faults)
   for _, sentence in ipairs(faults) do io.stderr:write(sentence, "\n") end
   if #faults > 0 then
@@ -173,7 +208,10 @@ end
 
 -- ---------------------------------------------------------------- the program
 
-local how, words = arg[1], { table.unpack(arg, 2) }
-if how == "--check" then return check() end
+if arg[1] == "--check" then return check() end
 local all = catalogue.of(".", "build-test")
-print_tests(chosen(all, how == "--near" and near_tests(words) or named_tests(all, words)))
+if arg[1] == "--named" then
+  print_tests(chosen(all, named_tests(all, { table.unpack(arg, 2) })), math.huge)
+else
+  print_tests(chosen(all, near_tests { table.unpack(arg, 3) }), tonumber(arg[2]))
+end

@@ -26,8 +26,8 @@ function near.units(root)
 end
 
 --- The test whose source is a file of tests/, or nil.
-local function test_of(path)
-  local unit = path:match "^tests/unit/test_([%w_]+)%.c$"
+function near.test_of(path)
+  local unit = path:match "^tests/unit/.*test_([%w_]+)%.c$"
   local script, corpus = path:match "^tests/fuzz/fuzz_([%w_]+)%.c$",
     path:match "^tests/fuzz/corpus/([%w_-]+)"
   return unit and "unit/" .. unit or path:match "^tests/(.*)_spec%.lua$"
@@ -40,7 +40,7 @@ local function users_of(path)
   local users = {}
   local grep = "grep -rlF --include='*.[ch]' --include='*_spec.lua' %s tests"
   for _, user in ipairs(system.lines(grep:format(system.quote(name)))) do
-    users[#users + 1] = test_of(user)
+    users[#users + 1] = near.test_of(user)
   end
   return users
 end
@@ -48,7 +48,7 @@ end
 --- The names of the tests near a path, relative to the top of the tree, the nearest first. `units`
 --- is the result of near.units.
 function near.tests(path, units)
-  local test, key = test_of(path), near.key(path)
+  local test, key = near.test_of(path), near.key(path)
   if test then return { test } end
   local list = {}
   for name, folder in pairs(units) do

@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Begins a test for `meson test`, and prints its processor time.
+#
+#   tests/support/test.sh SETUP COMMAND...
+#
+# What is random is drawn by the seed in tests/seed, so that a test gives the same answer until the
+# code changes. How much is tried, where the environment does not say otherwise:
+#
+#   setup            of 300 cases   one fault in   one test of a spec in
+#   part             80             6              1    without those tagged #full
+#   full             80             6              1
+#   all              300            1              1
+#   part-sanitized   40             12             6    without those tagged #full
+#   full-sanitized   40             12             6
+#   all-sanitized    40             12             1
+case $1 in
+*-sanitized) scenes=40 faults=12 tests=6 ;;
+all) scenes=300 faults=1 tests=1 ;;
+*) scenes=80 faults=6 tests=1 ;;
+esac
+[[ $1 != part* ]] || export CELSPAN_PART=1
+[ "$1" != all-sanitized ] || tests=1
+export CELSPAN_SEED=${CELSPAN_SEED:-$(<"$(dirname "$0")/../seed")}
+export CELSPAN_SCENES=${CELSPAN_SCENES:-$scenes} CELSPAN_FAULTS=${CELSPAN_FAULTS:-$faults}
+export CELSPAN_TESTS=${CELSPAN_TESTS:-$tests}
+shift
+# Meson's, of the modules that are built before: a program must find them by itself.
+unset LD_LIBRARY_PATH
+TIMEFORMAT='%U + %S seconds of processor time'
+time "$@"
