@@ -59,10 +59,11 @@ static cs_given_limits given_limits(const cs_request *request) {
   return given;
 }
 
-static cs_limits limits_of(const cs_request *request) {
+static celspan_lua_limits limits_of(const cs_request *request) {
   const cs_given_limits given = given_limits(request);
   const double *values = given.values;
-  cs_limits limits = is_trusted(request) ? (cs_limits){0} : CS_LIMITS_DEFAULT;
+  celspan_lua_limits limits =
+      is_trusted(request) ? (celspan_lua_limits){.struct_size = sizeof limits} : CELSPAN_LUA_LIMITS;
   limits.memory = least(limits.memory, budget);
   if (given.has[CS_LIMIT_MEMORY])
     limits.memory = (size_t)values[CS_LIMIT_MEMORY];
@@ -148,17 +149,21 @@ static cs_exit refuse_both(const cs_request *request) {
 }
 
 bool cs_confine_is_needed(const cs_request *request) {
-  cs_limits limits = limits_of(request);
+  celspan_lua_limits limits = limits_of(request);
   return !is_trusted(request) || right_of(request) || limits.memory || limits.steps ||
          limits.seconds > 0;
 }
 
-static bool is_interrupted(void) { return cs_interrupt_signal() != 0; }
+static bool is_interrupted(void *user) {
+  (void)user;
+  return cs_interrupt_signal() != 0;
+}
 
 /* The watchdog's last word. What the main thread does meanwhile is not known, so nothing of it is
  * touched: the locks of its streams may be held for ever. */
-static void kill_script(const char *sentence) {
+static void kill_script(void *user, const char *sentence) {
   char line[512];
+  (void)user;
   int length = snprintf(line, sizeof line, "celspan: error: %s\n", sentence);
   ssize_t written = write(STDERR_FILENO, line, (size_t)length);
   (void)written;
@@ -187,37 +192,36 @@ static cs_exit refuse_roots(void) {
   return CS_EXIT_MEMORY;
 }
 
-/* The folders of fonts; those that do not exist are left out. */
-static bool add_fonts(cs_roots *roots) {
-  static const char *const own[] = {"/.local/share/fonts", "/.fonts"};
+/* The folders of fonts; those that do not exist are ignored. */
+static void add_fonts(cs_confined *out) {
+  static const char *const own[CS_FONT_FOLDERS] = {"/.local/share/fonts", "/.fonts"};
   const char *home = getenv("HOME");
-  char folder[PATH_SIZE];
-  bool is_good =
-      cs_roots_add(roots, "/usr/share/fonts") && cs_roots_add(roots, "/usr/local/share/fonts");
-  for (size_t i = 0; home && home[0] && i < sizeof own / sizeof *own && is_good; i++) {
-    snprintf(folder, sizeof folder, "%s%s", home, own[i]);
-    is_good = cs_roots_add(roots, folder);
+  out->folders[out->limits.folder_count++] = "/usr/share/fonts";
+  out->folders[out->limits.folder_count++] = "/usr/local/share/fonts";
+  for (size_t i = 0; home && home[0] && i < CS_FONT_FOLDERS; i++) {
+    snprintf(out->fonts[i], sizeof out->fonts[i], "%s%s", home, own[i]);
+    out->folders[out->limits.folder_count++] = out->fonts[i];
   }
-  return is_good;
 }
 
-static cs_exit open_roots(const cs_request *request, const char *script, cs_sandbox *out) {
+/* What the script may read, as the library takes it, and as roots. */
+static cs_exit open_roots(const cs_request *request, const char *script, cs_confined *out,
+                          cs_roots *roots) {
   char folder[PATH_SIZE];
   cs_given_texts allowed = {.count = 0};
-  const char *search = getenv("CELSPAN_PATH");
   cs_request_read(request, "--allow", &allowed);
+  for (size_t i = 0; i < allowed.count; i++) {
+    CS_TRY_EXIT(refuse_folder(allowed.items[i]));
+    out->folders[out->limits.folder_count++] = allowed.items[i];
+  }
+  if (cs_request_has(request, "--allow-system-fonts"))
+    add_fonts(out);
+  out->limits.folders = out->folders;
+  out->limits.search = getenv("CELSPAN_PATH");
   folder_of(script, folder);
   errno = 0;
-  bool is_good = cs_roots_add(&out->roots, folder);
-  for (size_t i = 0; i < allowed.count && is_good; i++) {
-    CS_TRY_EXIT(refuse_folder(allowed.items[i]));
-    is_good = cs_sandbox_allow(out, allowed.items[i]);
-  }
-  if (is_good && cs_request_has(request, "--allow-system-fonts"))
-    is_good = add_fonts(&out->roots);
-  if (search && is_good)
-    is_good = cs_sandbox_allow_search(out, search);
-  return is_good ? CS_EXIT_OK : refuse_roots();
+  return cs_roots_add(roots, folder) && cs_sandbox_add_roots(&out->limits, roots) ? CS_EXIT_OK
+                                                                                  : refuse_roots();
 }
 
 /* ---------------------------------------------------------------- strict */
@@ -270,11 +274,11 @@ static bool copy_roots(const cs_roots *from, cs_roots *to) {
   return true;
 }
 
-static cs_exit enter_strict(const cs_request *request, const cs_sandbox *sandbox) {
+static cs_exit enter_strict(const cs_request *request, const cs_roots *roots) {
   char folder[PATH_SIZE];
   cs_roots read = {.count = 0}, write = {.count = 0};
   output_folder(request, folder);
-  bool is_good = copy_roots(&sandbox->roots, &read) && add_own_folders(request, &read) &&
+  bool is_good = copy_roots(roots, &read) && add_own_folders(request, &read) &&
                  (!folder[0] || (cs_roots_add(&write, folder) && cs_roots_add(&read, folder)));
   const char *refusal = is_good ? NULL : "there are too many folders to read";
   if (!refusal && !cs_client_confine(&read))
@@ -290,17 +294,19 @@ static cs_exit enter_strict(const cs_request *request, const cs_sandbox *sandbox
   return CS_EXIT_LIMIT;
 }
 
-cs_exit cs_confine_open(const cs_request *request, const char *script, cs_sandbox *out) {
+cs_exit cs_confine_open(const cs_request *request, const char *script, cs_confined *out) {
   static bool is_strict; /* it is entered once, for the whole process */
-  cs_limits limits = limits_of(request);
-  cs_sandbox_init(out, &limits);
-  out->guard.is_interrupted = is_interrupted;
-  out->guard.kill = kill_script;
-  if (is_trusted(request))
+  *out = (cs_confined){.limits = limits_of(request), .is_trusted = is_trusted(request)};
+  out->limits.is_interrupted = is_interrupted;
+  out->limits.overdue = kill_script;
+  if (out->is_trusted)
     return refuse_both(request);
-  cs_exit outcome = open_roots(request, script, out);
-  if (outcome != CS_EXIT_OK || !cs_request_has(request, "--strict") || is_strict)
-    return outcome;
-  is_strict = true;
-  return enter_strict(request, out);
+  cs_roots roots = {.count = 0};
+  cs_exit outcome = open_roots(request, script, out, &roots);
+  if (outcome == CS_EXIT_OK && cs_request_has(request, "--strict") && !is_strict) {
+    is_strict = true;
+    outcome = enter_strict(request, &roots);
+  }
+  cs_roots_finish(&roots);
+  return outcome;
 }

@@ -6,6 +6,16 @@
 #include "lua/sandbox/sandbox.h"
 #include "program/request.h"
 
+enum { CS_FONT_FOLDERS = 2 }; /* of the user */
+
+/* What a script may do. */
+typedef struct cs_confined {
+  celspan_lua_limits limits;                                /* their folders are those below */
+  const char *folders[CS_TEXTS_MOST + 2 + CS_FONT_FOLDERS]; /* --allow, and fonts */
+  char fonts[CS_FONT_FOLDERS][4096];
+  bool is_trusted; /* limits only */
+} cs_confined;
+
 /* Has pictures decoded by processes of their own, unless they are trusted. OK, or reported. */
 cs_exit cs_confine_pictures(celspan_context *context, const cs_request *request);
 /* Finds how much memory this run may hold, and sets the sizes of the caches, before anything else.
@@ -20,6 +30,6 @@ void cs_confine_divide(unsigned parts);
 cs_exit cs_confine_refuse(const cs_request *request);
 /* Whether a script of this request has a sandbox or a limit. */
 bool cs_confine_is_needed(const cs_request *request);
-/* Makes the sandbox of a script under the request and enters strict where that is asked for. OK, or
- * reported; either way *out may be finished. */
-cs_exit cs_confine_open(const cs_request *request, const char *script, cs_sandbox *out);
+/* Finds the limits of a script under the request, and enters strict where that is asked for. OK, or
+ * reported. *out must stay where it is until the sandbox is open. */
+cs_exit cs_confine_open(const cs_request *request, const char *script, cs_confined *out);

@@ -12,7 +12,6 @@
 #include "lua/bind/lua_error.h"
 #include "lua/bind/named.h"
 #include "lua/bind/warnings.h"
-#include "lua/module/lua_script.h"
 #include "program/confine.h"
 #include "program/hear.h"
 #include "program/settings.h"
@@ -58,15 +57,14 @@ static const char HOUSE_RULES[] =
     "end\n"
     "function os.exit() error('os.exit: a script cannot end celspan; raise an error', 2) end\n";
 
-/* The whole of Lua; pcall and xpcall pass on limits where there are any. */
-static void open_libraries(lua_State *L, const cs_script *script) {
+/* What a trusted script has: pcall and xpcall pass on limits where there are any. */
+static void open_trusted(lua_State *L, bool has_limits) {
   static const luaL_Reg catching[] = {
       {"pcall", cs_guard_pcall}, {"xpcall", cs_guard_xpcall}, {NULL, NULL}};
-  luaL_openlibs(L);
   if (luaL_dostring(L, HOUSE_RULES) != LUA_OK)
     lua_error(L);
   lua_pushglobaltable(L);
-  luaL_setfuncs(L, script->sandbox ? catching : catching + 2, 0);
+  luaL_setfuncs(L, has_limits ? catching : catching + 2, 0);
   lua_pop(L, 1);
 }
 
@@ -75,14 +73,13 @@ static int print_nothing(lua_State *L) {
   return 0;
 }
 
-/* light userdata: the script. Runs protected. */
+/* light userdata: the script, and what confines it or nothing. Runs protected. */
 static int prepare(lua_State *L) {
-  const cs_script *script = lua_touserdata(L, 1);
-  bool is_sandboxed = script->sandbox && !script->is_trusted;
-  if (is_sandboxed)
-    cs_sandbox_open_libraries(L);
-  else
-    open_libraries(L, script);
+  cs_script *script = lua_touserdata(L, 1);
+  const cs_confined *confined = lua_touserdata(L, 2);
+  luaL_openlibs(L);
+  if (script->is_trusted)
+    open_trusted(L, confined);
   cs_host_open(L, script->context);
   if (script->asks_files) {
     cs_host_remember_asked(L);
@@ -90,28 +87,17 @@ static int prepare(lua_State *L) {
   }
   if (script->asks_warnings)
     cs_warnings_keep(L);
-  if (script->sandbox)
-    cs_sandbox_attach(script->sandbox, L, script->is_trusted);
-  if (is_sandboxed)
-    cs_sandbox_open_globals(script->sandbox, L);
+  if (confined) {
+    script->sandbox = cs_sandbox_open(L, &confined->limits, confined->is_trusted);
+    script->sandbox->guard.has_options = true;
+  }
   luaL_requiref(L, "celspan", luaopen_celspan, 0);
   cs_hear_give(L);
   if (script->is_silent) {
-    if (!cs_host_push_globals(L))
-      lua_pushglobaltable(L);
     lua_pushcfunction(L, print_nothing);
-    lua_setfield(L, -2, "print");
+    lua_setglobal(L, "print");
   }
   return 0;
-}
-
-static lua_State *new_state(const cs_script *script) {
-  if (!script->sandbox)
-    return luaL_newstate();
-  lua_State *L = lua_newstate(cs_guard_allocate, &script->sandbox->guard);
-  if (L)
-    *(cs_guard **)lua_getextraspace(L) = NULL;
-  return L;
 }
 
 /* Lua has no memory, or the core has none for the module and its first values: neither may have had
@@ -128,17 +114,18 @@ cs_exit cs_script_report_start(lua_State *L) {
   return lacks_memory(message) ? CS_EXIT_MEMORY : CS_EXIT_INTERNAL;
 }
 
-static cs_exit open_state(cs_script *script) {
-  script->L = new_state(script);
+static cs_exit open_state(cs_script *script, const cs_confined *confined) {
+  script->L = luaL_newstate();
   if (!script->L)
     return cs_script_report_start(NULL);
   lua_pushcfunction(script->L, prepare);
   lua_pushlightuserdata(script->L, script);
-  return lua_pcall(script->L, 1, 0, 0) == LUA_OK ? CS_EXIT_OK : cs_script_report_start(script->L);
+  lua_pushlightuserdata(script->L, (void *)confined);
+  return lua_pcall(script->L, 2, 0, 0) == LUA_OK ? CS_EXIT_OK : cs_script_report_start(script->L);
 }
 
-static cs_exit start(cs_script *out) {
-  CS_TRY_EXIT(open_state(out));
+static cs_exit start(cs_script *out, const cs_confined *confined) {
+  CS_TRY_EXIT(open_state(out, confined));
   watch_script(out->L);
   return CS_EXIT_OK;
 }
@@ -147,24 +134,6 @@ static cs_exit start(cs_script *out) {
 static int read_film(lua_State *L) {
   cs_lua_film_read(L, 1, lua_touserdata(L, 2));
   return 0;
-}
-
-/* The sandbox outlives values that the script made, so it has a place of its own. */
-static cs_exit confine(cs_script *script, const cs_request *request, const char *path) {
-  if (!cs_confine_is_needed(request))
-    return CS_EXIT_OK;
-  script->sandbox = cs_mem_array(script->context->memory, 1, sizeof *script->sandbox);
-  return script->sandbox
-             ? cs_confine_open(request, path, script->sandbox)
-             : cs_report_failure(script->context, cs_fail_memory(script->context), NULL);
-}
-
-static void close_sandbox(cs_script *script) {
-  if (!script->sandbox)
-    return;
-  cs_sandbox_finish(script->sandbox);
-  cs_mem_free(script->context->memory, script->sandbox, sizeof *script->sandbox);
-  script->sandbox = NULL;
 }
 
 /* Runs protected. */
@@ -176,11 +145,13 @@ static int give_settings(lua_State *L) {
 /* Reads the settings before the sandbox is entered, in which their file may not be read. */
 static cs_exit start_script(cs_script *out, const cs_request *request, const char *path) {
   cs_settings settings;
+  cs_confined confined;
+  bool is_confined = cs_confine_is_needed(request);
   cs_exit outcome = cs_settings_open(out->context, request, &settings);
+  if (outcome == CS_EXIT_OK && is_confined)
+    outcome = cs_confine_open(request, path, &confined);
   if (outcome == CS_EXIT_OK)
-    outcome = confine(out, request, path);
-  if (outcome == CS_EXIT_OK)
-    outcome = start(out);
+    outcome = start(out, is_confined ? &confined : NULL);
   if (outcome == CS_EXIT_OK) {
     lua_pushcfunction(out->L, give_settings);
     lua_pushlightuserdata(out->L, &settings);
@@ -200,8 +171,8 @@ static cs_exit open_script(celspan_context *context, const cs_request *request, 
                      .asks_warnings = request->verb->asks_warnings && !is_silent,
                      .is_silent = is_silent};
   CS_TRY_EXIT(start_script(out, request, path));
-  celspan_status status = cs_lua_script_run(out->L, path, (int)request->script_argument_count,
-                                            (const char *const *)request->script_arguments);
+  celspan_status status = celspan_lua_run(out->L, path, (int)request->script_argument_count,
+                                          (const char *const *)request->script_arguments);
   CS_TRY_EXIT(cs_settings_outcome(out->L, status == CELSPAN_OK));
   if (status != CELSPAN_OK)
     return cs_report_failure(context, status, NULL);
@@ -230,7 +201,7 @@ void cs_script_close(cs_script *script) {
   if (script->L)
     lua_close(script->L);
   script->L = NULL;
-  close_sandbox(script);
+  script->sandbox = NULL;
 }
 
 celspan_status cs_script_try(cs_script *script, int64_t number) {

@@ -21,7 +21,7 @@ typedef struct cs_script {
   bool asks_files;          /* the paths that it asks for are remembered */
   bool asks_warnings;       /* warnings are kept */
   bool is_silent;           /* what it prints is not shown */
-  cs_sandbox *sandbox;      /* owned; NULL: the whole of Lua without limits */
+  cs_sandbox *sandbox;      /* of the state; NULL: the whole of Lua without limits */
 } cs_script;
 
 /* From now on a signal interrupts this state too. */

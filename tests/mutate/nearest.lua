@@ -101,7 +101,7 @@ return {
   ["docs"] = { "spec/docs" },
   ["README.md"] = { "spec/docs" },
   ["examples"] = { "example/memory", "example/surface", "example/letters", "example/painting",
-    "example/embed", "example/host", "spec/embedding" },
+    "example/embed", "example/host", "example/sandbox", "spec/embedding", "sandbox/sandbox" },
   ["subprojects/spanfile"] = { "unit/spanfile", "unit/spanfile-corpus", "unit/spanfile-decoder",
     "unit/span_sink", "property/spanfile" },
   ["subprojects/planefile"] = { "unit/planefile", "unit/planefile-corpus",

@@ -182,10 +182,80 @@ static void *allocate(void *user, void *block, size_t old_size, size_t new_size)
   return ++memory->made > memory->fails_from ? NULL : realloc(block, new_size);
 }
 
+/* ---------------------------------------------------------------- the sandbox */
+
+static int shown(lua_State *L) {
+  lua_pushliteral(L, "by the host");
+  return 1;
+}
+
+/* Calls a text within the limits: the first words of what went wrong, or its result. */
+static const char *call(host *h, const char *text, celspan_status status) {
+  lua_settop(h->L, 0);
+  CHECK(luaL_loadbuffer(h->L, text, strlen(text), "=film") == LUA_OK);
+  CHECK(celspan_lua_call(h->L, 0, 1) == status);
+  CHECK(lua_gettop(h->L) == (status == CELSPAN_OK));
+  return status == CELSPAN_OK ? lua_tostring(h->L, 1) : celspan_context_error(h->context);
+}
+
+static void check_refusals(host *h) {
+  celspan_lua_limits limits = CELSPAN_LUA_LIMITS;
+  limits.struct_size = 7;
+  CHECK(celspan_lua_sandbox(h->L, &limits) == CELSPAN_BAD_ARGUMENT);
+  limits = CELSPAN_LUA_LIMITS;
+  limits.seconds = -1;
+  CHECK(celspan_lua_sandbox(h->L, &limits) == CELSPAN_BAD_ARGUMENT);
+  limits.seconds = 1;
+  limits.folder_count = 1;
+  CHECK(celspan_lua_sandbox(h->L, &limits) == CELSPAN_BAD_ARGUMENT);
+}
+
+static void check_sandbox(void) {
+  host h;
+  celspan_lua_limits limits = CELSPAN_LUA_LIMITS;
+  celspan_frame_desc frame;
+  open_host(&h);
+  run(&h, "kept = require 'celspan.ease' return 1"); /* before, with the whole of Lua */
+  check_refusals(&h);
+  limits.steps = 20000000;
+  limits.memory = (size_t)8 << 20;
+  CHECK(celspan_lua_sandbox(h.L, &limits) == CELSPAN_OK);
+  CHECK(celspan_lua_sandbox(h.L, &limits) == CELSPAN_BAD_ARGUMENT);
+  CHECK_TEXT(celspan_context_error(h.context), "sandbox: the Lua state has one already");
+  lua_register(h.L, "shown", shown);
+
+  CHECK_TEXT(call(&h, "return shown()", CELSPAN_OK), "by the host");
+  CHECK_TEXT(call(&h, "return type(kept) .. #('x'):rep(9)", CELSPAN_OK), "nil9");
+  CHECK_TEXT(call(&h, "return io", CELSPAN_CALLBACK), "film:1: io is not in the sandbox");
+  CHECK_TEXT(call(&h, "local function turn() while true do end end turn()", CELSPAN_LIMIT),
+             "film:1: more than 20000000 steps in a frame");
+  CHECK_TEXT(call(&h, "return ('x'):rep(15000000)", CELSPAN_LIMIT),
+             "film:1: the script needs more than 8 MiB");
+  call(&h, FILM, CELSPAN_OK);
+  CHECK(celspan_lua_frame(h.L, -1, 5, &frame) == CELSPAN_OK);
+  CHECK(middle(h.context, &frame) == 255);
+  celspan_lua_frame_drop(&frame);
+  CHECK(celspan_lua_call(h.L, 4, 1) == CELSPAN_BAD_ARGUMENT);
+  close_host(&h);
+}
+
+/* The context of the state ends before the last block of the state is freed. */
+static void check_own_context(void) {
+  lua_State *L = luaL_newstate();
+  luaL_openlibs(L);
+  CHECK(celspan_lua_sandbox(L, NULL) == CELSPAN_BAD_ARGUMENT); /* celspan is not open */
+  CHECK(celspan_lua_open(L, NULL) == CELSPAN_OK);
+  CHECK(celspan_lua_sandbox(L, NULL) == CELSPAN_OK);
+  CHECK(luaL_loadstring(L, FILM) == LUA_OK && celspan_lua_call(L, 0, 1) == CELSPAN_OK);
+  lua_close(L);
+}
+
+/* ---------------------------------------------------------------- memory */
+
 /* Uses everything once, with `lua` more allocations of Lua allowed, or failing the context's
  * `core`-th allocation; true if nothing failed. (Without memory to record the line where a value
  * was made, the value is made nevertheless.) */
-static bool visit(size_t lua, size_t core) {
+static bool visit(size_t lua, size_t core, bool is_sandboxed) {
   lua_memory memory = {.fails_from = (size_t)-1};
   host h = {.L = lua_newstate(allocate, &memory)};
   celspan_frame_desc frame = CELSPAN_FRAME_DESC;
@@ -196,6 +266,8 @@ static bool visit(size_t lua, size_t core) {
   memory.fails_from = memory.made + lua;
   h.watch.fail_at = core ? h.watch.allocations + core : 0;
   celspan_status status = celspan_lua_open(h.L, h.context);
+  if (status == CELSPAN_OK && is_sandboxed)
+    status = celspan_lua_sandbox(h.L, NULL);
   if (status == CELSPAN_OK && lua_pcall(h.L, 0, 1, 0) == LUA_OK) {
     celspan_film film = celspan_lua_film(h.L, -1);
     status = celspan_lua_frame(h.L, -1, film.count ? film.first : 5, &frame);
@@ -210,11 +282,11 @@ static bool visit(size_t lua, size_t core) {
   return status == CELSPAN_OK && !has_failed;
 }
 
-static void check_memory(void) {
+static void check_memory(bool is_sandboxed) {
   size_t lua = 0, core = 1;
-  while (lua < 100000 && !visit(lua, 0))
-    lua += lua < 200 ? 1 : 7;
-  while (core < 1000 && !visit((size_t)1 << 40, core))
+  while (lua < 100000 && !visit(lua, 0, is_sandboxed))
+    lua += lua < 200 ? 1 : is_sandboxed ? 29 : 7;
+  while (core < 1000 && !visit((size_t)1 << 40, core, is_sandboxed))
     core++;
   CHECK(lua > 100 && lua < 100000);
   CHECK(core > 5 && core < 1000);
@@ -225,6 +297,9 @@ int main(void) {
   check_rostrums();
   check_procedures();
   check_faults();
-  check_memory();
+  check_sandbox();
+  check_own_context();
+  check_memory(false);
+  check_memory(true);
   return check_done();
 }

@@ -1,6 +1,8 @@
 /* celspan for Lua 5.4: for hosts that embed Lua, and the entry points of the loadable module.
  *
  *   celspan_lua_open(L, context)              celspan in a state, under the host's context
+ *   celspan_lua_sandbox(L, NULL)             confines scripts of strangers
+ *   celspan_lua_run(L, "film.lua", 0, NULL)  a script, which leaves its film on the stack
  *   celspan_film film = celspan_lua_film(L, -1)      what a script returned
  *   celspan_lua_frame(L, -1, film.first, &frame)     a frame of it, to render by the C interface
  *
@@ -9,10 +11,10 @@
  * path of the host has are found beside the file that requires them, as a film wants it. Every Lua
  * state has one context: that of the host, or one of its own, destroyed with the state.
  *
- * No celspan_lua_ function raises, calls the panic function, or changes the stack: failures come
- * back as a status, with their sentence in the state's context. They are called on the thread that
- * owns the state. Lua's own memory comes from the allocator of the state, all else from the
- * context's.
+ * No celspan_lua_ function raises, calls the panic function, or changes the stack except as it
+ * says: failures come back as a status, with their sentence in the state's context. They are called
+ * on the thread that owns the state. Lua's own memory comes from the allocator of the state, all
+ * else from the context's.
  */
 #ifndef CELSPAN_LUA_H
 #define CELSPAN_LUA_H
@@ -35,6 +37,55 @@ CELSPAN_API int luaopen_celspan(lua_State *L);
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_open(lua_State *L, celspan_context *context);
 /* The context of a state; NULL when celspan was not opened in it, or is closed again. */
 CELSPAN_API celspan_context *celspan_lua_context(lua_State *L);
+
+/* The sandbox of the program celspan (docs/sandbox.md), for hosts that load strangers' films: what
+ * a script may do, and how much of it. */
+typedef struct celspan_lua_limits {
+  size_t struct_size; /* sizeof(celspan_lua_limits) */
+  /* 0: without limit */
+  size_t memory;  /* bytes of Lua and of what the script makes; default: 512 MiB */
+  uint64_t steps; /* instructions, and the work of functions, in a run or a frame; 2e9 */
+  double seconds; /* of the processor, and ten times as many by the clock, in a call; 60 */
+  size_t print;   /* bytes printed, to standard error, in a run or a frame; 1 MiB */
+  /* What scripts may read, and where they find modules, beside the folder of the script that
+   * celspan_lua_run runs; borrowed for the call alone. */
+  const char *const *folders; /* NULL: none */
+  size_t folder_count;
+  const char *search; /* templates of modules, such as "/lib/?.lua;/more/?.lua"; NULL: none */
+  /* Asked while a script runs, whether it must end; NULL: nobody is asked. */
+  bool (*is_interrupted)(void *user);
+  /* Called on a thread of its own while a call still runs a second after its time, as only a
+   * function of C can; may be NULL. The program celspan ends itself then. */
+  void (*overdue)(void *user, const char *message);
+  void *user;
+} celspan_lua_limits;
+
+/* The limits of the program. */
+CELSPAN_API celspan_lua_limits celspan_lua_limits_default(void);
+#define CELSPAN_LUA_LIMITS (celspan_lua_limits_default())
+
+/* Confines what runs in the state from now on: its globals are new, with the functions of the
+ * sandbox alone, and the methods of strings are the sandbox's. Functions of yours that scripts may
+ * call are registered afterwards, as globals. Limits hold in celspan_lua_run, celspan_lua_call and
+ * celspan_lua_frame, and for scan-line procedures. Memory is counted in front of the allocator of
+ * the state, which must not be changed afterwards. limits: NULL for the defaults. Called after
+ * celspan_lua_open, once. Errors: BAD_ARGUMENT; NO_MEMORY, after which the state is of no use. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_sandbox(lua_State *L,
+                                                               const celspan_lua_limits *limits);
+
+/* Runs a script, or shows artwork, with the arguments as `...`, and pushes its film. Its folder is
+ * the base of relative file names and the first place where `require` looks; a sandbox lets it read
+ * there. Errors, with nothing pushed: INPUT when the script cannot be read; CALLBACK when it fails
+ * or returns no film; LIMIT; the core's own where the script raised a refusal of the core. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_run(lua_State *L, const char *path,
+                                                           int argument_count,
+                                                           const char *const *arguments);
+
+/* Calls the function below the arguments on the stack, as lua_pcall does, within the limits of the
+ * sandbox. On success exactly `result_count` values take their place; else nothing. Errors: as for
+ * celspan_lua_run. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_call(lua_State *L, int argument_count,
+                                                            int result_count);
 
 /* The rostrum at index, NULL for anything else. It lives as long as the value in Lua; with
  * celspan_rostrum_ref as long as you like. */

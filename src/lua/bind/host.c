@@ -8,7 +8,6 @@
 
 static const char host_key = 0; /* addresses in the registry */
 static const char folder_key = 0;
-static const char globals_key = 0;
 static const char asked_key = 0;
 
 void cs_host_unref(cs_host *host) {
@@ -25,6 +24,9 @@ static int close_host(lua_State *L) {
   if (!host)
     return 0;
   *box = NULL;
+  if (host->rules)
+    host->rules->close(host->rules->user);
+  host->rules = NULL;
   if (host->owns_context)
     celspan_context_destroy(host->context);
   host->context = NULL;
@@ -209,16 +211,19 @@ void cs_host_admit(lua_State *L, const char *path) {
   remember(L, path, true);
 }
 
+bool cs_host_confines(lua_State *L) {
+  const cs_host_rules *rules = cs_host_get(L)->rules;
+  return rules && rules->admits;
+}
+
+void cs_host_allow(lua_State *L, const char *folder) {
+  const cs_host_rules *rules = cs_host_get(L)->rules;
+  if (rules && rules->allow && !rules->allow(rules->user, folder))
+    luaL_error(L, "%s: there are too many folders, or no memory, to let scripts read there",
+               folder);
+}
+
 bool cs_host_may_write(lua_State *L, const char *path) {
   const cs_host_rules *rules = cs_host_get(L)->rules;
   return !rules || !rules->may_write || rules->may_write(rules->user, L, path);
-}
-
-void cs_host_set_globals(lua_State *L) { lua_rawsetp(L, LUA_REGISTRYINDEX, &globals_key); }
-
-bool cs_host_push_globals(lua_State *L) {
-  bool found = lua_rawgetp(L, LUA_REGISTRYINDEX, &globals_key) == LUA_TTABLE;
-  if (!found)
-    lua_pop(L, 1);
-  return found;
 }

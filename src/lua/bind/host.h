@@ -30,6 +30,8 @@ typedef struct cs_host_rules {
   bool (*admits)(void *user, const char *path);
   /* Raises if it may not. */
   void (*admit)(void *user, lua_State *L, const char *path);
+  /* Lets the script read below this folder too. false: it cannot be noted. NULL: no need. */
+  bool (*allow)(void *user, const char *folder);
   /* Whether it may write there; else the sentence that refuses it is in the context. NULL: it may
    * write everywhere. */
   bool (*may_write)(void *user, lua_State *L, const char *path);
@@ -39,6 +41,8 @@ typedef struct cs_host_rules {
   /* There was no memory, as this sentence says: raises it, or that of the limit that was exceeded,
    * in a way that no script can catch. */
   void (*starve)(void *user, lua_State *L, const char *sentence);
+  /* The state is closed, and the context with it. */
+  void (*close)(void *user);
 } cs_host_rules;
 
 typedef struct cs_host {
@@ -83,6 +87,10 @@ void cs_host_end(lua_State *L);
 bool cs_host_admits(lua_State *L, const char *path);
 /* Raises unless it may. Called before anything is asked about the file, also whether it exists. */
 void cs_host_admit(lua_State *L, const char *path);
+/* Whether a sandbox confines what scripts read, write and call. */
+bool cs_host_confines(lua_State *L);
+/* Lets the script read below a folder. Raises. */
+void cs_host_allow(lua_State *L, const char *folder);
 /* Whether the script may write there; else the sentence is in the context. */
 bool cs_host_may_write(lua_State *L, const char *path);
 
@@ -91,11 +99,6 @@ void cs_host_remember_asked(lua_State *L);
 /* Pushes a list of those that were remembered since the last call, in which each path is a key too:
  * whether the script was let read there. Raises. */
 void cs_host_push_asked(lua_State *L);
-
-/* Makes the table on top of the stack the globals of the script, and pops it. */
-void cs_host_set_globals(lua_State *L);
-/* Pushes them; false, and nothing pushed, where the script has Lua's own. */
-bool cs_host_push_globals(lua_State *L);
 
 /* The folder of the script that the host runs; "" is the current directory. */
 void cs_host_set_folder(lua_State *L, const char *folder);

@@ -14,6 +14,26 @@ void cs_require_give(lua_State *L, const luaL_Reg *modules) {
   lua_pop(L, 1);
 }
 
+static bool is_celspan(const char *name) {
+  return strcmp(name, "celspan") == 0 || strncmp(name, "celspan.", 8) == 0;
+}
+
+void cs_require_forget(lua_State *L) {
+  lua_pushnil(L);
+  lua_setfield(L, LUA_REGISTRYINDEX, LOADED);
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
+  lua_pushnil(L);
+  while (lua_next(L, -2)) {
+    lua_pop(L, 1);
+    if (lua_type(L, -1) == LUA_TSTRING && is_celspan(lua_tostring(L, -1))) {
+      lua_pushvalue(L, -1);
+      lua_pushnil(L);
+      lua_rawset(L, -4);
+    }
+  }
+  lua_pop(L, 1);
+}
+
 /* ---------------------------------------------------------------- finding */
 
 /* Pushes the module of that name, from tables of the registry; false, and nothing pushed: it has
@@ -52,7 +72,7 @@ void cs_require_module(lua_State *L, const char *name) {
 /* require of celspan's own chunks; other modules, such as luassert, are the host's. */
 static int require(lua_State *L) {
   const char *name = luaL_checkstring(L, 1);
-  if (strcmp(name, "celspan") == 0 || strncmp(name, "celspan.", 8) == 0) {
+  if (is_celspan(name)) {
     cs_require_module(L, name);
     return 1;
   }

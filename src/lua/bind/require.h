@@ -16,6 +16,9 @@ void cs_require_give(lua_State *L, const luaL_Reg *modules);
 /* Pushes the globals of celspan's own chunks. Raises. */
 void cs_require_push_globals(lua_State *L);
 
+/* Forgets the modules that were loaded: each is loaded again when it is next asked for. */
+void cs_require_forget(lua_State *L);
+
 /* Pushes a module of either kind, which is loaded when it is first asked for. Raises. */
 void cs_require_module(lua_State *L, const char *name);
 /* The same for a script, which has no private ones. */

@@ -43,14 +43,13 @@ cs_artwork cs_artwork_of(const char *path) {
 }
 
 /* It is looked for in the script's folder, which is its own. */
-void cs_artwork_push_film(lua_State *L, const char *path, cs_artwork kind, int globals) {
+void cs_artwork_push_film(lua_State *L, const char *path, cs_artwork kind) {
   const char *slash = strrchr(path, '/');
-  globals = lua_absindex(L, globals);
   cs_require_module(L, "celspan.artwork");
   lua_getfield(L, -1, "film");
   lua_pushstring(L, slash ? slash + 1 : path);
   lua_pushboolean(L, kind == CS_ARTWORK_SVG);
-  lua_getfield(L, globals, "print");
+  lua_getglobal(L, "print");
   lua_call(L, 3, 1);
   lua_remove(L, -2);
 }

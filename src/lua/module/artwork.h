@@ -16,6 +16,6 @@ typedef enum cs_artwork {
 } cs_artwork;
 
 cs_artwork cs_artwork_of(const char *path);
-/* Pushes the film of an archive, a PSD or an SVG. What is not shown of it is passed to the function
- * `print` of the globals at index. Raises. */
-void cs_artwork_push_film(lua_State *L, const char *path, cs_artwork kind, int globals);
+/* Pushes the film of an archive, a PSD or an SVG. What is not shown of it is passed to the global
+ * function `print`. Raises. */
+void cs_artwork_push_film(lua_State *L, const char *path, cs_artwork kind);

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "base/open.h"
+#include "celspan/lua.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"
@@ -116,14 +117,12 @@ static int run(lua_State *L) {
   call *c = lua_touserdata(L, 1);
   const char *folder = cs_caller_push_folder_of(L, c->path);
   cs_host_set_folder(L, folder);
-  bool is_sandboxed = cs_host_push_globals(L);
-  if (!is_sandboxed)
+  cs_host_allow(L, folder);
+  if (!cs_host_confines(L))
     set_search_path(L, folder); /* a sandbox has its own `require` */
   cs_artwork artwork = cs_artwork_of(c->path);
   if (artwork > CS_ARTWORK_FOLDER) {
-    if (!is_sandboxed)
-      lua_pushglobaltable(L);
-    cs_artwork_push_film(L, c->path, artwork, -1);
+    cs_artwork_push_film(L, c->path, artwork);
     return 1;
   }
   if (!cs_lua_script_accepts(c->path))
@@ -137,10 +136,6 @@ static int run(lua_State *L) {
     return luaL_error(L, "%s: %s", c->path, lua_tostring(L, -1)); /* a compiled chunk */
   if (outcome != LUA_OK)
     return lua_error(L);
-  if (is_sandboxed) {
-    lua_pushvalue(L, -2);
-    lua_setupvalue(L, -2, 1);
-  }
   luaL_checkstack(L, c->argument_count + 4, "too many arguments");
   for (int i = 0; i < c->argument_count; i++)
     lua_pushstring(L, c->arguments[i]);
@@ -148,17 +143,33 @@ static int run(lua_State *L) {
   return cs_lua_film_push(L, -1) ? 1 : refuse_result(L, c->path);
 }
 
-celspan_status cs_lua_script_run(lua_State *L, const char *path, int argument_count,
-                                 const char *const *arguments) {
-  call c = {path, argument_count, arguments, false};
+/* Calls within the limits; OK, or the outcome of lua_pcall with the message on top. */
+static int call_limited(lua_State *L, int argument_count, int result_count) {
   cs_host_get(L)->failure = CELSPAN_OK;
+  cs_host_begin(L, CS_HOST_LOAD, 0);
+  int outcome = cs_lua_error_call(L, argument_count, result_count);
+  outcome = cs_lua_error_settle(L, outcome, result_count);
+  cs_host_end(L);
+  return outcome;
+}
+
+celspan_status celspan_lua_run(lua_State *L, const char *path, int argument_count,
+                               const char *const *arguments) {
+  call c = {path, argument_count, arguments, false};
+  if (!lua_checkstack(L, 8) || !cs_host_find(L) || !path)
+    return CELSPAN_BAD_ARGUMENT;
   lua_pushcfunction(L, run);
   lua_pushlightuserdata(L, &c);
-  cs_host_begin(L, CS_HOST_LOAD, 0);
-  int outcome = cs_lua_error_call(L, 1, 1);
-  outcome = cs_lua_error_settle(L, outcome, 1);
-  cs_host_end(L);
+  int outcome = call_limited(L, 1, 1);
   if (outcome == LUA_OK)
     return CELSPAN_OK;
   return c.is_missing ? cs_lua_error_report_as(L, CELSPAN_INPUT) : cs_lua_error_report(L, outcome);
+}
+
+celspan_status celspan_lua_call(lua_State *L, int argument_count, int result_count) {
+  if (argument_count < 0 || result_count < 0 || argument_count >= lua_gettop(L) ||
+      !lua_checkstack(L, result_count + 8) || !cs_host_find(L))
+    return CELSPAN_BAD_ARGUMENT;
+  int outcome = call_limited(L, argument_count, result_count);
+  return outcome == LUA_OK ? CELSPAN_OK : cs_lua_error_report(L, outcome);
 }

@@ -4,7 +4,6 @@
 #include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
@@ -29,11 +28,12 @@ static int64_t read_clock(clockid_t clock) {
   return clock_gettime(clock, &t) == 0 ? (int64_t)t.tv_sec * SECOND + t.tv_nsec : 0;
 }
 
-/* New threads of a Lua state copy the extra space of the main thread. */
-cs_guard *cs_guard_of(lua_State *L) { return *(cs_guard **)lua_getextraspace(L); }
-
-void cs_guard_init(cs_guard *guard, const cs_limits *limits) {
+void cs_guard_init(cs_guard *guard, const celspan_lua_limits *limits) {
   *guard = (cs_guard){.limits = *limits};
+}
+
+const char *cs_guard_hint(const cs_guard *guard, const char *words) {
+  return guard->has_options ? words : "";
 }
 
 /* ---------------------------------------------------------------- memory */
@@ -88,7 +88,8 @@ static void count_bytes(cs_guard *guard, size_t change) {
   guard->told = guard->bytes;
 }
 
-void *cs_guard_allocate(void *user, void *storage, size_t old_size, size_t new_size) {
+/* lua_Alloc; user: the guard. */
+static void *allocate(void *user, void *storage, size_t old_size, size_t new_size) {
   cs_guard *guard = user;
   size_t before = storage ? old_size : 0; /* without a block it is the kind of object */
   verdict found = ALLOWED;
@@ -101,12 +102,17 @@ void *cs_guard_allocate(void *user, void *storage, size_t old_size, size_t new_s
   }
   if (found != ALLOWED)
     return NULL;
-  void *resized = new_size ? realloc(storage, new_size) : NULL;
-  if (!new_size)
-    free(storage);
+  void *resized = guard->below(guard->below_user, storage, old_size, new_size);
   if (resized || !new_size)
     count_bytes(guard, new_size - before);
+  if (guard->bytes == 0) /* so the state is closed */
+    guard->ended(guard);
   return resized;
+}
+
+cs_guard *cs_guard_of(lua_State *L) {
+  void *user;
+  return lua_getallocf(L, &user) == allocate ? user : NULL;
 }
 
 /* The guard of the script call in this thread; NULL: there is none. Workers that render at the same
@@ -131,7 +137,7 @@ static bool refuses_scene(const cs_memory *memory, size_t more) {
 static void count_hook(lua_State *L, lua_Debug *where);
 
 static bool has_hook(const cs_guard *guard) {
-  return guard->limits.steps || guard->limits.seconds > 0 || guard->is_interrupted;
+  return guard->limits.steps || guard->limits.seconds > 0 || guard->limits.is_interrupted;
 }
 
 static void set_hook(const cs_guard *guard, lua_State *L) {
@@ -153,9 +159,9 @@ static void raise_limit(lua_State *L, cs_guard *guard) {
 }
 
 static void trip_steps(cs_guard *guard) {
-  snprintf(guard->tripped, sizeof guard->tripped,
-           "more than %llu step%s in a frame (--limit steps=N allows more)",
-           (unsigned long long)guard->limits.steps, guard->limits.steps == 1 ? "" : "s");
+  snprintf(guard->tripped, sizeof guard->tripped, "more than %llu step%s in a frame%s",
+           (unsigned long long)guard->limits.steps, guard->limits.steps == 1 ? "" : "s",
+           cs_guard_hint(guard, " (--limit steps=N allows more)"));
 }
 
 typedef enum lateness { IN_TIME, RAN, WAITED } lateness;
@@ -178,14 +184,11 @@ static lateness find_lateness(const cs_guard *guard, int64_t grace) {
 static void tell_time(const cs_guard *guard, lateness how, char *sentence, size_t size) {
   double seconds = guard->limits.seconds;
   if (how == RAN)
-    snprintf(sentence, size,
-             "the script ran for more than %g second%s (--limit time=SECONDS allows more)", seconds,
-             seconds == 1 ? "" : "s");
+    snprintf(sentence, size, "the script ran for more than %g second%s%s", seconds,
+             seconds == 1 ? "" : "s", cs_guard_hint(guard, " (--limit time=SECONDS allows more)"));
   else
-    snprintf(sentence, size,
-             "the script waited, or was kept waiting, for more than %g seconds (ten times --limit "
-             "time=SECONDS)",
-             WAITING * seconds);
+    snprintf(sentence, size, "the script waited, or was kept waiting, for more than %g seconds%s",
+             WAITING * seconds, cs_guard_hint(guard, " (ten times --limit time=SECONDS)"));
 }
 
 static void trip_memory(cs_guard *guard) {
@@ -198,15 +201,16 @@ static void trip_memory(cs_guard *guard) {
   if (guard->reason[0])
     snprintf(rest, size, "the script needs more memory than there is: %s", guard->reason);
   else
-    snprintf(rest, size, "the script needs more than %zu %s (--limit memory=SIZE allows more)",
-             guard->limits.memory >> (is_large ? 20 : 10), is_large ? "MiB" : "KiB");
+    snprintf(rest, size, "the script needs more than %zu %s%s",
+             guard->limits.memory >> (is_large ? 20 : 10), is_large ? "MiB" : "KiB",
+             cs_guard_hint(guard, " (--limit memory=SIZE allows more)"));
 }
 
 /* Compares with the limits and raises an error when one is exceeded. */
 static void check(lua_State *L, cs_guard *guard) {
   guard->checked = guard->steps;
   lateness late = IN_TIME;
-  if (guard->is_interrupted && guard->is_interrupted())
+  if (guard->limits.is_interrupted && guard->limits.is_interrupted(guard->limits.user))
     snprintf(guard->tripped, sizeof guard->tripped, "interrupted");
   else if (guard->limits.steps && guard->steps > guard->limits.steps)
     trip_steps(guard);
@@ -245,9 +249,8 @@ bool cs_guard_print(lua_State *L, size_t bytes) {
   guard->printed += bytes;
   if (!guard->limits.print || guard->printed <= guard->limits.print)
     return !guard->is_silent;
-  snprintf(guard->tripped, sizeof guard->tripped,
-           "more than %zu KiB printed in a frame (--limit print=SIZE allows more)",
-           guard->limits.print >> 10);
+  snprintf(guard->tripped, sizeof guard->tripped, "more than %zu KiB printed in a frame%s",
+           guard->limits.print >> 10, cs_guard_hint(guard, " (--limit print=SIZE allows more)"));
   raise_limit(L, guard);
   return false;
 }
@@ -268,12 +271,19 @@ void cs_guard_starve(lua_State *L, const char *sentence) {
 void cs_guard_attach(cs_guard *guard, lua_State *L, celspan_context *context) {
   guard->L = L;
   guard->context = context;
+  guard->below = lua_getallocf(L, &guard->below_user);
+  guard->bytes = ((size_t)lua_gc(L, LUA_GCCOUNT) << 10) + (size_t)lua_gc(L, LUA_GCCOUNTB);
   context->memory->refuses = refuses_scene;
   context->memory->account = cs_guard_account;
   cs_account_beside(context->memory, guard->bytes);
   guard->told = guard->bytes;
-  *(cs_guard **)lua_getextraspace(L) = guard;
+  lua_setallocf(L, allocate, guard);
   set_hook(guard, L);
+}
+
+void cs_guard_detach(cs_guard *guard) {
+  cs_account_beside(guard->context->memory, 0 - guard->told);
+  guard->context = NULL;
 }
 
 static void kill_late(cs_guard *guard) {
@@ -282,7 +292,7 @@ static void kill_late(cs_guard *guard) {
   if (late == IN_TIME)
     return;
   tell_time(guard, late, sentence, sizeof sentence);
-  guard->kill(sentence);
+  guard->limits.overdue(guard->limits.user, sentence);
 }
 
 static void *watch(void *user) {
@@ -316,7 +326,7 @@ static void start_watchdog(cs_guard *guard) {
   guard->has_watchdog = cs_thread_create(&guard->watchdog, watch, guard) == 0;
   pthread_sigmask(SIG_SETMASK, &before, NULL);
   if (!guard->has_watchdog)
-    guard->kill = NULL;
+    guard->limits.overdue = NULL;
 }
 
 void cs_guard_finish(cs_guard *guard) {
@@ -336,7 +346,7 @@ static void start_clocks(cs_guard *guard) {
   clockid_t clock;
   if (!(guard->limits.seconds > 0))
     return;
-  if (!guard->has_watchdog && guard->kill)
+  if (!guard->has_watchdog && guard->limits.overdue)
     start_watchdog(guard);
   if (pthread_getcpuclockid(pthread_self(), &clock) != 0)
     clock = CLOCK_MONOTONIC;

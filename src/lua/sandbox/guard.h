@@ -26,28 +26,17 @@
 #include <stdint.h>
 #include <time.h>
 
+#include "celspan/lua.h"
 #include "lua/bind/host.h"
 
-/* 0: without limit */
-typedef struct cs_limits {
-  size_t memory;  /* bytes */
-  uint64_t steps; /* in a load or a frame */
-  double seconds; /* of the processor, in one call into the script */
-  size_t print;   /* bytes in a load or a frame */
-} cs_limits;
-
-#define CS_LIMITS_DEFAULT                                                                          \
-  (cs_limits) { (size_t)512 << 20, UINT64_C(2000000000), 60, (size_t)1 << 20 }
-
 typedef struct cs_guard {
-  cs_limits limits;
-  celspan_context *context; /* borrowed; its memory counts too; NULL before cs_guard_attach */
-  lua_State *L;             /* the main thread; NULL before cs_guard_attach */
-  /* Whether the script must end for another reason, which the hook then raises; NULL: there is
-   * none. */
-  bool (*is_interrupted)(void);
-  /* Called by the watchdog thread with the sentence; ends the process. */
-  void (*kill)(const char *sentence);
+  celspan_lua_limits limits; /* without folders */
+  celspan_context *context;  /* borrowed; its memory counts too; NULL before cs_guard_attach */
+  lua_State *L;              /* the main thread; NULL before cs_guard_attach */
+  lua_Alloc below;           /* the allocator of the state before, and its first argument */
+  void *below_user;
+  void (*ended)(struct cs_guard *guard); /* called when the last block of the state was freed */
+  bool has_options;                      /* sentences name options of the program */
   size_t bytes, told; /* of Lua; of those the memory of the context knows, within PIECE bytes */
   int depth;          /* of calls into the script */
   cs_account_kind account; /* of the thread before the outermost call */
@@ -71,14 +60,17 @@ typedef struct cs_guard {
   pthread_cond_t finished;
 } cs_guard;
 
-/* Starts without a state; the state is created with the allocator of the guard. */
-void cs_guard_init(cs_guard *guard, const cs_limits *limits);
-/* The state must have been closed. */
+/* Starts without a state. */
+void cs_guard_init(cs_guard *guard, const celspan_lua_limits *limits);
+/* The state must have been closed, or never attached. */
 void cs_guard_finish(cs_guard *guard);
-/* lua_Alloc; user: the guard. */
-void *cs_guard_allocate(void *user, void *storage, size_t old_size, size_t new_size);
-/* Attaches the main thread of a state, and all coroutines that are created later. */
+/* Attaches the main thread of a state, and all coroutines that are created later. From now on the
+ * guard is the allocator of the state, in front of the one that it had. */
 void cs_guard_attach(cs_guard *guard, lua_State *L, celspan_context *context);
+/* The context ends before the state does. */
+void cs_guard_detach(cs_guard *guard);
+/* Words about an option, where the program runs the script; else "". */
+const char *cs_guard_hint(const cs_guard *guard, const char *words);
 
 /* The account of this thread: cs_memory.account of a program. */
 cs_account *cs_guard_account(void);

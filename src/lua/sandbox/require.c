@@ -66,8 +66,6 @@ static void load_module(lua_State *L, const char *search, const char *name) {
   if (luaL_loadfilex(L, path, "t") != LUA_OK)
     luaL_error(L, "error loading module '%s' from file '%s':\n\t%s", name, path,
                lua_tostring(L, -1));
-  cs_host_push_globals(L);
-  lua_setupvalue(L, -2, 1);
   lua_insert(L, -2);
 }
 
@@ -80,7 +78,8 @@ static int require(lua_State *L) {
     return 1;
   if (is_celspan(name)) {
     if (strcmp(name, "celspan.spec") == 0) /* for specs, which have the whole of Lua */
-      return luaL_error(L, "module '%s' is not in the sandbox (--trust gives all of Lua)", name);
+      return luaL_error(L, "module '%s' is not in the sandbox%s", name,
+                        cs_guard_hint(cs_guard_of(L), " (--trust gives all of Lua)"));
     cs_require_public(L, name);
     return 1;
   }

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include "base/visible.h"
-#include "lua/bind/host.h"
 #include "lua/sandbox/guard.h"
 #include "lua/sandbox/library.h"
 
@@ -68,11 +67,10 @@ static int load(lua_State *L) {
       lua_pushfstring(L, "load: mode '%s': the sandbox loads only text ('t')", mode);
     return push_failure(L);
   }
-  if (has_globals)
+  if (has_globals) {
     lua_pushvalue(L, 4);
-  else
-    cs_host_push_globals(L);
-  lua_setupvalue(L, -2, 1); /* a compiled text has one upvalue: _ENV */
+    lua_setupvalue(L, -2, 1); /* a compiled text has one upvalue: _ENV */
+  }
   return 1;
 }
 

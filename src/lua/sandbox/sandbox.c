@@ -8,69 +8,51 @@
 
 #include "base/context.h"
 #include "lua/bind/caller.h"
+#include "lua/bind/lua_error.h"
+#include "lua/bind/require.h"
 #include "lua/sandbox/library.h"
+#include "model/scene/check.h"
 
 /* ---------------------------------------------------------------- roots */
 
-void cs_sandbox_init(cs_sandbox *sandbox, const cs_limits *limits) {
-  *sandbox = (cs_sandbox){.search = NULL};
-  cs_guard_init(&sandbox->guard, limits);
-}
-
-void cs_sandbox_finish(cs_sandbox *sandbox) {
-  cs_guard_finish(&sandbox->guard);
-  cs_roots_finish(&sandbox->roots);
-  free(sandbox->search);
-  sandbox->search = NULL;
-}
-
-static bool add_search(cs_sandbox *sandbox, const char *text, size_t length) {
-  size_t before = sandbox->search ? strlen(sandbox->search) + 1 : 0;
-  char *grown = realloc(sandbox->search, before + length + 1);
-  if (!grown)
-    return false;
-  if (before)
-    grown[before - 1] = ';';
-  memcpy(grown + before, text, length);
-  grown[before + length] = '\0';
-  sandbox->search = grown;
-  return true;
-}
-
-bool cs_sandbox_allow(cs_sandbox *sandbox, const char *folder) {
-  static const char *const tails[] = {"/?.lua", "/?/init.lua"};
-  char path[4096];
-  if (!cs_roots_add(&sandbox->roots, folder))
-    return false;
-  for (int i = 0; i < 2; i++) {
-    int length = snprintf(path, sizeof path, "%s%s", folder, tails[i]);
-    if (length >= (int)sizeof path || !add_search(sandbox, path, (size_t)length))
-      return false;
-  }
-  return true;
-}
-
 /* The folder of a template ends with the last slash before its '?'. */
-static bool allow_template(cs_sandbox *sandbox, const char *text, size_t length) {
+static bool add_template_root(cs_roots *roots, const char *text, size_t length) {
   char folder[4096];
   size_t end = 0, mark = strcspn(text, "?;");
-  for (size_t i = 0; i < mark; i++)
+  for (size_t i = 0; i < mark && i < length; i++)
     if (text[i] == '/')
       end = i ? i : 1;
   if (end >= sizeof folder)
     return false;
   memcpy(folder, text, end);
   folder[end] = '\0';
-  return cs_roots_add(&sandbox->roots, folder) && add_search(sandbox, text, length);
+  return cs_roots_add(roots, folder);
 }
 
-bool cs_sandbox_allow_search(cs_sandbox *sandbox, const char *search) {
-  for (size_t length; *search; search += length + (search[length] == ';')) {
+bool cs_sandbox_add_roots(const celspan_lua_limits *limits, cs_roots *roots) {
+  const char *search = limits->search ? limits->search : "";
+  bool is_good = true;
+  errno = 0;
+  for (size_t i = 0; i < limits->folder_count && is_good; i++)
+    is_good = cs_roots_add(roots, limits->folders[i]);
+  for (size_t length; *search && is_good; search += length + (search[length] == ';')) {
     length = strcspn(search, ";");
-    if (length && !allow_template(sandbox, search, length))
-      return false;
+    is_good = !length || add_template_root(roots, search, length);
   }
-  return true;
+  return is_good;
+}
+
+/* Pushes where require looks after the script's folder. */
+static const char *push_search(lua_State *L, const celspan_lua_limits *limits) {
+  lua_pushliteral(L, "");
+  for (size_t i = 0; i < limits->folder_count; i++) {
+    const char *folder = limits->folders[i];
+    lua_pushfstring(L, "%s/?.lua;%s/?/init.lua;", folder, folder);
+    lua_concat(L, 2);
+  }
+  lua_pushstring(L, limits->search ? limits->search : "");
+  lua_concat(L, 2);
+  return lua_tostring(L, -1);
 }
 
 /* ---------------------------------------------------------------- rules */
@@ -86,6 +68,11 @@ static void end(void *user) { cs_guard_end(&((cs_sandbox *)user)->guard); }
 
 static bool admits(void *user, const char *path) {
   return cs_roots_hold(&((const cs_sandbox *)user)->roots, path);
+}
+
+static bool allow(void *user, const char *folder) {
+  cs_roots *roots = &((cs_sandbox *)user)->roots;
+  return cs_roots_hold(roots, folder[0] ? folder : ".") || cs_roots_add(roots, folder);
 }
 
 static bool is_font(const char *path) {
@@ -105,21 +92,20 @@ static void admit(void *user, lua_State *L, const char *path) {
   if (errno == ENOMEM)
     cs_host_try(L, path, cs_fail_memory(cs_host_context(L)));
   else
-    cs_caller_error(L,
-                    "%s: scripts in the sandbox can read only files in %s (--allow DIR adds a "
-                    "folder%s)",
-                    path, sandbox->roots.count ? sandbox->roots.paths[0] : "their folder",
-                    is_font(path) ? ", --allow-system-fonts those of fonts" : "");
+    cs_caller_error(L, "%s: scripts in the sandbox can read only files in %s%s%s", path,
+                    sandbox->roots.count ? sandbox->roots.paths[sandbox->roots.count - 1]
+                                         : "their folder",
+                    cs_guard_hint(&sandbox->guard, " (--allow DIR adds a folder"),
+                    cs_guard_hint(&sandbox->guard,
+                                  is_font(path) ? ", --allow-system-fonts those of fonts)" : ")"));
 }
 
 static bool may_write(void *user, lua_State *L, const char *path) {
   const cs_sandbox *sandbox = user;
-  if (sandbox->output && strncmp(path, sandbox->output, strlen(sandbox->output)) == 0)
-    return true;
-  return celspan_context_fail(
-             cs_host_context(L), CELSPAN_OUTPUT,
-             "%.500s: scripts in the sandbox cannot write files (--trust gives all of Lua)",
-             path) == CELSPAN_OK;
+  return celspan_context_fail(cs_host_context(L), CELSPAN_OUTPUT,
+                              "%.500s: scripts in the sandbox cannot write files%s", path,
+                              cs_guard_hint(&sandbox->guard, " (--trust gives all of Lua)")) ==
+         CELSPAN_OK;
 }
 
 static const char *limit(void *user, int outcome, const char *message) {
@@ -131,15 +117,19 @@ static void starve(void *user, lua_State *L, const char *sentence) {
   cs_guard_starve(L, sentence);
 }
 
-void cs_sandbox_attach(cs_sandbox *sandbox, lua_State *L, bool is_trusted) {
+static void close(void *user) { cs_guard_detach(&((cs_sandbox *)user)->guard); }
+
+static void attach(cs_sandbox *sandbox, lua_State *L, bool is_trusted) {
   sandbox->rules = (cs_host_rules){.user = sandbox,
                                    .begin = begin,
                                    .end = end,
                                    .admits = is_trusted ? NULL : admits,
                                    .admit = is_trusted ? NULL : admit,
+                                   .allow = is_trusted ? NULL : allow,
                                    .may_write = is_trusted ? NULL : may_write,
                                    .limit = limit,
-                                   .starve = starve};
+                                   .starve = starve,
+                                   .close = close};
   cs_host_get(L)->rules = &sandbox->rules;
   cs_guard_attach(&sandbox->guard, L, cs_host_context(L));
 }
@@ -174,19 +164,17 @@ static int change_file(lua_State *L) {
   return lua_gettop(L);
 }
 
-/* Makes the named functions of a library global, each wrapped in `function`; the library itself is
- * not accessible. */
-static void open_guarded(lua_State *L, const char *name, lua_CFunction opener,
+/* In the table on top, a library has only the named functions, each wrapped in `function`. */
+static void wrap_library(lua_State *L, const char *name, lua_CFunction opener,
                          const char *const *names, lua_CFunction function) {
-  lua_pushcfunction(L, opener);
-  lua_call(L, 0, 1);
+  luaL_requiref(L, name, opener, 0);
   lua_newtable(L);
   for (; *names; names++) {
     lua_getfield(L, -2, *names);
     lua_pushcclosure(L, function, 1);
     lua_setfield(L, -2, *names);
   }
-  lua_setglobal(L, name);
+  lua_setfield(L, -3, name);
   lua_pop(L, 1);
 }
 
@@ -202,18 +190,35 @@ static void seal_texts(lua_State *L) {
   lua_pop(L, 2); /* the table of functions stays */
 }
 
-void cs_sandbox_open_libraries(lua_State *L) {
+static void open_libraries(lua_State *L) {
   static const luaL_Reg libraries[] = {
       {LUA_GNAME, luaopen_base},       {LUA_STRLIBNAME, luaopen_string},
       {LUA_TABLIBNAME, luaopen_table}, {LUA_MATHLIBNAME, luaopen_math},
       {LUA_UTF8LIBNAME, luaopen_utf8}, {LUA_COLIBNAME, luaopen_coroutine}};
-  static const char *const of_io[] = {"open", NULL}, *const of_os[] = {"remove", "rename", NULL};
   for (size_t i = 0; i < sizeof libraries / sizeof *libraries; i++) {
     luaL_requiref(L, libraries[i].name, libraries[i].func, 1);
     lua_pop(L, 1);
   }
-  open_guarded(L, "io", luaopen_io, of_io, open_file);
-  open_guarded(L, "os", luaopen_os, of_os, change_file);
+}
+
+/* The globals of celspan's own chunks: files through the rules, and nothing that evades them. */
+static void close_own(lua_State *L) {
+  static const char *const of_io[] = {"open", NULL}, *const of_os[] = {"remove", "rename", NULL};
+  static const char *const gone[] = {"load", "loadfile", "dofile",  "collectgarbage",
+                                     "warn", "debug",    "package", NULL};
+  static const luaL_Reg own[] = {
+      {"pcall", cs_guard_pcall}, {"xpcall", cs_guard_xpcall}, {NULL, NULL}};
+  cs_require_push_globals(L);
+  wrap_library(L, "io", luaopen_io, of_io, open_file);
+  wrap_library(L, "os", luaopen_os, of_os, change_file);
+  seal_texts(L);
+  lua_setfield(L, -2, "string");
+  for (int i = 0; gone[i]; i++) {
+    lua_pushnil(L);
+    lua_setfield(L, -2, gone[i]);
+  }
+  luaL_setfuncs(L, own, 0);
+  lua_pop(L, 1);
 }
 
 /* ---------------------------------------------------------------- the script's globals */
@@ -225,8 +230,8 @@ static int tell_absent(lua_State *L) {
   const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "";
   for (size_t i = 0; i < sizeof absent / sizeof *absent; i++)
     if (strcmp(name, absent[i]) == 0)
-      return cs_caller_error(L, "%s is not in the sandbox (--trust gives scripts all of Lua)",
-                             name);
+      return cs_caller_error(L, "%s is not in the sandbox%s", name,
+                             cs_guard_hint(cs_guard_of(L), " (--trust gives scripts all of Lua)"));
   return 0;
 }
 
@@ -262,22 +267,8 @@ static void add_absent(lua_State *L) {
   lua_call(L, 2, 0);
 }
 
-static void close_own(lua_State *L) {
-  static const char *const gone[] = {"load", "loadfile", "dofile", "collectgarbage", "warn", NULL};
-  static const luaL_Reg own[] = {
-      {"pcall", cs_guard_pcall}, {"xpcall", cs_guard_xpcall}, {NULL, NULL}};
-  seal_texts(L);
-  lua_setglobal(L, "string");
-  lua_pushglobaltable(L);
-  for (int i = 0; gone[i]; i++) {
-    lua_pushnil(L);
-    lua_setfield(L, -2, gone[i]);
-  }
-  luaL_setfuncs(L, own, 0);
-  lua_pop(L, 1);
-}
-
-void cs_sandbox_open_globals(cs_sandbox *sandbox, lua_State *L) {
+/* Makes the globals of the script those of the state. */
+static void open_globals(lua_State *L, const char *search) {
   static const char *const same[] = {"assert",   "error",  "ipairs",   "rawequal",
                                      "rawget",   "rawlen", "rawset",   "select",
                                      "tonumber", "type",   "_VERSION", NULL};
@@ -291,10 +282,92 @@ void cs_sandbox_open_globals(cs_sandbox *sandbox, lua_State *L) {
   add_libraries(L);
   lua_pushvalue(L, globals);
   lua_setfield(L, globals, "_G");
-  cs_library_push_require(L, globals, sandbox->search);
+  cs_library_push_require(L, globals, search);
   lua_setfield(L, globals, "require");
   add_absent(L);
   lua_settop(L, globals);
-  cs_host_set_globals(L);
-  close_own(L);
+  lua_rawseti(L, LUA_REGISTRYINDEX, LUA_RIDX_GLOBALS);
+}
+
+/* ---------------------------------------------------------------- the whole */
+
+static void finish(cs_sandbox *sandbox) {
+  cs_memory *memory = sandbox->memory;
+  cs_guard_finish(&sandbox->guard);
+  cs_roots_finish(&sandbox->roots);
+  cs_mem_free(memory, sandbox, sizeof *sandbox);
+  cs_memory_unref(memory);
+}
+
+static void state_ended(cs_guard *guard) { finish((cs_sandbox *)(void *)guard); }
+
+/* The sandbox, which the state does not have yet. Raises. */
+static cs_sandbox *create(lua_State *L, const celspan_lua_limits *limits) {
+  celspan_context *context = cs_host_context(L);
+  cs_sandbox *sandbox = cs_mem_array(context->memory, 1, sizeof *sandbox);
+  if (!sandbox)
+    luaL_error(L, "not enough memory");
+  *sandbox = (cs_sandbox){.memory = cs_memory_ref(context->memory)};
+  cs_guard_init(&sandbox->guard, limits);
+  sandbox->guard.ended = state_ended;
+  bool is_good = cs_sandbox_add_roots(limits, &sandbox->roots), is_full = errno != ENOMEM;
+  if (is_good)
+    return sandbox;
+  finish(sandbox);
+  luaL_error(L, is_full ? "sandbox: scripts can read at most %d folders" : "not enough memory",
+             CS_ROOTS_MOST);
+  return NULL;
+}
+
+cs_sandbox *cs_sandbox_open(lua_State *L, const celspan_lua_limits *limits, bool is_trusted) {
+  int top = lua_gettop(L);
+  const char *search = push_search(L, limits);
+  cs_sandbox *sandbox = create(L, limits);
+  attach(sandbox, L, is_trusted);
+  if (!is_trusted) {
+    open_libraries(L);
+    cs_require_forget(L);
+    close_own(L);
+    open_globals(L, search);
+    luaL_requiref(L, "celspan", luaopen_celspan, 0);
+  }
+  lua_settop(L, top);
+  return sandbox;
+}
+
+/* ---------------------------------------------------------------- hosts */
+
+celspan_lua_limits celspan_lua_limits_default(void) {
+  return (celspan_lua_limits){.struct_size = sizeof(celspan_lua_limits),
+                              .memory = (size_t)512 << 20,
+                              .steps = UINT64_C(2000000000),
+                              .seconds = 60,
+                              .print = (size_t)1 << 20};
+}
+
+/* light userdata: limits. Runs protected. */
+static int open_sandbox(lua_State *L) {
+  cs_sandbox_open(L, lua_touserdata(L, 1), false);
+  return 0;
+}
+
+celspan_status celspan_lua_sandbox(lua_State *L, const celspan_lua_limits *limits) {
+  const celspan_lua_limits usual = celspan_lua_limits_default();
+  const cs_host *host = lua_checkstack(L, 4) ? cs_host_find(L) : NULL;
+  if (!host)
+    return CELSPAN_BAD_ARGUMENT;
+  limits = limits ? limits : &usual;
+  CS_TRY(cs_check_version(host->context, "sandbox", limits->struct_size, sizeof *limits));
+  if (host->rules)
+    return cs_fail(host->context, CELSPAN_BAD_ARGUMENT, "sandbox: the Lua state has one already");
+  if (!(limits->seconds >= 0) || (limits->folder_count && !limits->folders))
+    return cs_fail(host->context, CELSPAN_BAD_ARGUMENT,
+                   "sandbox: seconds must be 0 or more, and folders a list of folder_count");
+  lua_pushcfunction(L, open_sandbox);
+  lua_pushlightuserdata(L, (void *)limits);
+  int outcome = lua_pcall(L, 1, 0, 0);
+  if (outcome == LUA_OK)
+    return CELSPAN_OK;
+  return cs_lua_error_is_memory(L, outcome) ? cs_lua_error_report(L, outcome)
+                                            : cs_lua_error_report_as(L, CELSPAN_BAD_ARGUMENT);
 }

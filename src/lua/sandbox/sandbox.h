@@ -1,38 +1,28 @@
 /* The sandbox of a script: its rights and limits.
  *
- *   plugins/isolate/roots.h   the folders that it may read     library.h  its globals
+ *   base/roots.h              the folders that it may read     library.h  its globals
  *   plugins/isolate/strict.h  the rights of the process        guard.h    memory, time, steps
  *
- * A trusted script has the whole of Lua, and only the limits that were requested.
+ * INVARIANT: it lives until the last block of its state is freed, and so longer than all that the
+ * script made. A trusted script has the whole of Lua, and only the limits.
  */
 #pragma once
 
+#include "base/roots.h"
 #include "lua/bind/host.h"
 #include "lua/sandbox/guard.h"
-#include "plugins/isolate/roots.h"
 
 typedef struct cs_sandbox {
   cs_guard guard;
   cs_roots roots;
   cs_host_rules rules;
-  char *search;       /* templates of require, searched after the script's folder; owned */
-  const char *output; /* paths with this prefix may be written; borrowed; NULL: none may */
+  cs_memory *memory; /* counted; that of the context */
 } cs_sandbox;
 
-void cs_sandbox_init(cs_sandbox *sandbox, const cs_limits *limits);
-void cs_sandbox_finish(cs_sandbox *sandbox);
+/* Adds the folders that scripts may read under these limits: their own, and those of templates such
+ * as "/lib/?.lua". false: there are too many, or, with ENOMEM in errno, no memory. */
+bool cs_sandbox_add_roots(const celspan_lua_limits *limits, cs_roots *roots);
 
-/* Allows scripts to read below the folder, and to find modules in it. false: there are too many
- * folders, or no memory. */
-bool cs_sandbox_allow(cs_sandbox *sandbox, const char *folder);
-/* The same for the folders of a search path such as "/lib/?.lua;/more/?.lua". */
-bool cs_sandbox_allow_search(cs_sandbox *sandbox, const char *search);
-
-/* Installs the rules in the host of the state. is_trusted: limits only. The state was created with
- * cs_guard_allocate, and the host is open. */
-void cs_sandbox_attach(cs_sandbox *sandbox, lua_State *L, bool is_trusted);
-
-/* Opens the libraries of a new state and the globals of the script. Raises errors. */
-void cs_sandbox_open_libraries(lua_State *L);
-/* Opens the functions that need the sandbox; called last, after attaching. Raises errors. */
-void cs_sandbox_open_globals(cs_sandbox *sandbox, lua_State *L);
+/* Confines the state, in which celspan is open. is_trusted: by limits only. The state owns the
+ * result. Raises errors. */
+cs_sandbox *cs_sandbox_open(lua_State *L, const celspan_lua_limits *limits, bool is_trusted);

@@ -27,8 +27,8 @@ static void check_metatable(lua_State *L, int own) {
   for (int i = 0; i < 2; i++) {
     lua_pushstring(L, refused[i]);
     if (lua_rawget(L, own) != LUA_TNIL)
-      luaL_error(L, "setmetatable: %s is not in the sandbox (--trust gives all of Lua)",
-                 refused[i]);
+      luaL_error(L, "setmetatable: %s is not in the sandbox%s", refused[i],
+                 cs_guard_hint(cs_guard_of(L), " (--trust gives all of Lua)"));
     lua_pop(L, 1);
   }
   lua_pushliteral(L, "__call");

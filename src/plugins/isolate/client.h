@@ -5,8 +5,8 @@
  */
 #pragma once
 
+#include "base/roots.h"
 #include "plugins/isolate/message.h"
-#include "plugins/isolate/roots.h"
 
 /* Starts the zygote now, because a confined program could not start it later. The kernel will allow
  * workers to read files below the roots only. false: it could not be started; errno has the

@@ -13,7 +13,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "plugins/isolate/roots.h"
+#include "base/roots.h"
 
 /* What the process may still do. In any case it may read the libraries of the system. */
 typedef struct cs_strict_rights {

@@ -1,4 +1,4 @@
-#include "plugins/isolate/roots.h"
+#include "base/roots.h"
 
 #include <errno.h>
 #include <stdlib.h>
