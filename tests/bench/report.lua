@@ -2,7 +2,7 @@
 --- FOLDER holds bench.csv and machine.txt. Writes PAGE (docs/bench.md), its table beside it as
 --- bench.csv, and its plots into pictures/ beside it, drawn by CELSPAN.
 package.path = "./?.lua;" .. package.path
-local asked = require "tests.bench.asked"
+local targets = require "tests.bench.targets.list"
 local films = require "tests.bench.report_film"
 local machine = require "tests.bench.machine"
 local Page = require "tests.bench.page"
@@ -14,7 +14,7 @@ local folder, celspan, path = ...
 assert(path, "usage: report.lua FOLDER CELSPAN PAGE")
 local docs = path:match "^(.*)/[^/]*$"
 local page = Page.new(folder, celspan, docs)
-local run, time = page.run, asked.time
+local run, time = page.run, targets.time
 
 -- ---------------------------------------------------------------- the page's head
 
@@ -65,7 +65,7 @@ end
 local function asked_and_measured()
   page:put "## Targets and results"
   page:put ""
-  local lines = asked.lines(run)
+  local lines = targets.lines(run)
   local met, missed = 0, 0
   for _, line in ipairs(lines) do
     if line.is_met then met = met + 1 elseif line.is_met == false then missed = missed + 1 end

@@ -1,7 +1,7 @@
 --- The parts of the page about films: the first table of the page, and the tables of films, which
 --- `./run bench film` prints. Each function adds to a page (page.lua) and leaves out figures that
 --- were not measured. Times of films are the least of several runs.
-local asked = require "tests.bench.asked"
+local targets = require "tests.bench.targets.list"
 local frames = require "tests.bench.parts_frames"
 local results = require "tests.bench.results"
 local scenes = require "tests.bench.scenes"
@@ -11,7 +11,7 @@ local report = {}
 local sides = { 1024, 2048, 4096 }
 local short = { [1024] = "1k", [2048] = "2k", [4096] = "4k" }
 
-local function shown(row) return row and asked.time(row.best_processor) or "" end
+local function shown(row) return row and targets.time(row.best_processor) or "" end
 
 local function times(value) return value and ("%.2f times"):format(value) or "" end
 
@@ -155,7 +155,7 @@ local function files(page)
   for _, sheet in ipairs(scenes.files) do
     for _, side in ipairs(sides) do
       local later = report.later_frame(page.run, sheet[1], side)
-      lines[#lines + 1] = later and { sheet[1], short[side], asked.time(later) }
+      lines[#lines + 1] = later and { sheet[1], short[side], targets.time(later) }
     end
   end
   if #lines == 0 then return end

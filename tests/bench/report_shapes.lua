@@ -1,12 +1,12 @@
 --- The parts of the page about drawings: celspan compared with the peers. Each function adds to a
 --- page (page.lua) and leaves out figures that were not measured.
-local asked = require "tests.bench.asked"
+local targets = require "tests.bench.targets.list"
 local published = require "tests.bench.published"
 local results = require "tests.bench.results"
 local scenes = require "tests.bench.scenes"
 
 local report = {}
-local seconds, time = results.seconds, asked.time
+local seconds, time = results.seconds, targets.time
 
 local short = { [1024] = "1k", [2048] = "2k", [4096] = "4k", [30000] = "30k", [100000] = "100k",
                 [1000000] = "1M" }
@@ -71,7 +71,7 @@ local function pixel_line(run, scene, side, mine)
   line[#line + 1] = shown(run:pixel_row(scene, side, "fill of runs"))
   line[#line + 1] = shown(run:pixel_row(scene, side, "memset"))
   line[#line + 1] = known and ("%.2g times"):format(known / mine.best_processor) or ""
-  local yardstick = asked.by_yardstick(run, scene, side)
+  local yardstick = targets.by_yardstick(run, scene, side)
   line[#line + 1] = yardstick and ("%.2g times"):format(yardstick) or ""
   local best = run:best_peer(scene, side)
   line[#line + 1] = best and ("%.2g times"):format(best / seconds(mine)) or ""

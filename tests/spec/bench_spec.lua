@@ -1,5 +1,5 @@
 -- The drawings of the benchmark and the evaluation of its table; its speeds are not tested.
-local asked = require "tests.bench.asked"
+local targets = require "tests.bench.targets.list"
 local films = require "tests.bench.report_film"
 local frames = require "tests.bench.parts_frames"
 local house = require "tests.bench.house"
@@ -141,7 +141,7 @@ describe("the table of the benchmark", function()
 
   it("reports for each target whether it is met, or that it was not measured", function()
     local told = {}
-    for _, line in ipairs(asked.lines(table_of { row(1000000, 0.3), row(30000, 0.02) })) do
+    for _, line in ipairs(targets.lines(table_of { row(1000000, 0.3), row(30000, 0.02) })) do
       told[line.what] = line
     end
     assert.is_true(told["100 shapes at 1M, `area`, to spans: at most 420 ms"].is_met)
@@ -164,7 +164,7 @@ describe("the table of the benchmark", function()
     assert.equal(0.005, least)
     assert.equal("AGG", name)
     assert.is_nil(run:best_peer("emoji", 2048))
-    for _, line in ipairs(asked.lines(run)) do
+    for _, line in ipairs(targets.lines(run)) do
       if line.what:find("`emoji` at 1k to pixels", 1, true) then
         assert.equal("1.25 times", line.text)
       end
@@ -175,7 +175,7 @@ describe("the table of the benchmark", function()
     local function told(most)
       local run = table_of { { part = "accuracy", scene = "10", rms = 0.02, worst = 1.5 },
                              { part = "accuracy", scene = "small", rms = 0.09, worst = most } }
-      for _, line in ipairs(asked.lines(run)) do
+      for _, line in ipairs(targets.lines(run)) do
         if line.what:find "every pixel of every drawing" then return line.is_met end
       end
     end
@@ -248,7 +248,7 @@ describe("the films of the benchmark", function()
 
   it("have their targets", function()
     local told = {}
-    for _, line in ipairs(asked.lines(page_of(rows).run)) do told[line.what] = line end
+    for _, line in ipairs(targets.lines(page_of(rows).run)) do told[line.what] = line end
     local what = "a frame of the film `clipart` at 1k: %s takes at least %s times as long"
     assert.is_true(told[what:format("AGG", "1.8")].is_met)
     assert.is_false(told[what:format("Blend2D", "1.1")].is_met)

@@ -108,10 +108,9 @@ rmdir "$group"
 exit "$code"
 ]]
 
-describe("the memory of a control group", function()
+describe("the memory of a control group #plain", function() -- sanitizers need more
   for name in pairs(FILMS) do
     it("is enough for script, scene and rendering together, or the run ends: " .. name, function()
-      if present.sanitizer() then return pending "sanitizers need memory of their own" end
       write_film(name)
       local code, out, err = run(("CELSPAN_CGROUP=group '%s' 60"):format(PEAK), RENDER)
       local words, bytes = err:match "^(.*)peak (%d+) processor [%d.]+\n$"
@@ -120,7 +119,6 @@ describe("the memory of a control group", function()
     end)
 
     it("never has the kernel end the run: " .. name, function()
-      if present.sanitizer() then return pending "sanitizers need memory of their own" end
       bench:write("in_group", IN_GROUP)
       if run("sh in_group", "--version") == 99 then
         return pending "this machine lets no test make a control group"

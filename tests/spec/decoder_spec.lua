@@ -24,13 +24,6 @@ local function with_hostile(arguments, environment)
       arguments))
 end
 
-local function seconds(work)
-  local function now() return tonumber((assert(io.open "/proc/uptime"):read "n")) end
-  local start = now()
-  work()
-  return now() - start
-end
-
 --- The names, sorted.
 local function sorted(...)
   local names = { ... }
@@ -123,13 +116,10 @@ return celspan.rostrum { celspan.cel { celspan.image { file = "good.png", layer 
     "ended a decoder is refused afterwards without another try; others have a "
     .. "new decoder", function()
     film { "hang.png", "good.png", "hang.png", "better.png", "hang.png", "hang.png" }
-    local took = seconds(function()
-      fails(1, "hang%.png: .*more than 1 seconds",
-        "render film.lua -o out/#.png --progress none --keep-going --workers 1 --limit "
-        .. "picture-time=1")
-    end)
+    fails(1, "hang%.png: .*more than 1 seconds",
+      "render film.lua -o out/#.png --progress none --keep-going --workers 1 --limit "
+      .. "picture-time=1")
     assert.are.same({ "2.png", "4.png" }, bench:files "out")
-    assert.is_true(took < (is_slow and 12 or 3), took .. " s")
   end)
 
   it("was open in a decoder that another one crashed is opened again", function()
@@ -296,14 +286,10 @@ describe("a file that is not a picture", function()
     if not present.pictures() then return pending "there is no picture module" end
     bench:shell(("mkfifo '%s/pipe.png'; mkdir '%s/folder.png'"):format(bench.folder, bench.folder))
     for _, name in ipairs { "pipe.png", "folder.png", "/dev/zero", "/dev/null" } do
-      local code, _, err
-      local took = seconds(function()
-        code, _, err = bench:shell(("cd '%s' && '%s' convert %s x.png")
-          :format(bench.folder, workbench.absolute, name))
-      end)
+      local code, _, err = bench:shell(("cd '%s' && timeout 120 '%s' convert %s x.png")
+        :format(bench.folder, workbench.absolute, name))
       assert.are.equal(4, code, err)
       assert.truthy(err:find(name .. ": is not a file; a picture must be one", 1, true), err)
-      assert.is_true(took < (is_slow and 20 or 5), name)
     end
     fails(4, "none%.png: cannot be opened: No such file", "convert none.png x.png")
   end)

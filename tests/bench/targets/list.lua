@@ -4,7 +4,7 @@ local published = require "tests.bench.published"
 local results = require "tests.bench.results"
 local scenes = require "tests.bench.scenes"
 
-local asked = {}
+local targets = {}
 local seconds = results.seconds
 
 local function time(value)
@@ -13,7 +13,7 @@ local function time(value)
   return ("%.3g s"):format(value)
 end
 
-asked.time = time
+targets.time = time
 
 --- lines: the list to extend; value: nil if the figure was not measured.
 local function add(lines, what, value, text, is_met)
@@ -84,7 +84,7 @@ end
 
 --- The same, estimated from AGG: Blend2D is assumed to be as much faster than AGG on this machine
 --- as in the published figures.
-function asked.by_yardstick(run, scene, side)
+function targets.by_yardstick(run, scene, side)
   local mine, agg = shapes(run, scene, side, "row", "area"), shapes(run, scene, side, "row", "area",
     "agg")
   local known = (published.agg[scene] or {})[side]
@@ -384,7 +384,7 @@ local function rate(run, renderer, workers)
   return row and tonumber(row.scene:match "%d+") / row.wall
 end
 
-asked.rate = rate
+targets.rate = rate
 
 local function sequences(run, lines)
   for _, side in ipairs { 4096, 30000 } do
@@ -407,7 +407,7 @@ local function sequences(run, lines)
 end
 
 --- { { what, text, is_met }, ... }; is_met is nil if nothing was measured.
-function asked.lines(run)
+function targets.lines(run)
   local lines = {}
   local parts = { films, artwork, again, ways, film_sizes, accuracy, spans, pixels, pictures,
                   softness, span_files, png_files, film_frame, composited, sequences }
@@ -415,4 +415,4 @@ function asked.lines(run)
   return lines
 end
 
-return asked
+return targets
