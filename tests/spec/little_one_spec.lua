@@ -53,7 +53,7 @@ describe("the second film", function()
     end
   end)
 
-  it("is never completely still while somebody is visible", function()
+  it("is never completely still while somebody is visible #full", function()
     for _, time in ipairs { 2, 8, 9.7, 12.9, 13.8, 16.2, 19.4, 23 } do
       local frame = frame_at(time)
       assert.is_not.frames(film, frame, frame + 2).look_alike()
@@ -136,7 +136,7 @@ describe("the lamp", function()
 end)
 
 describe("the cels", function()
-  it("appear under their names when it is their turn", function()
+  it("appear under their names when it is their turn #full", function()
     for name, time in pairs { title = 3.5, lamplighter = 8, branch = 6.5, puff = 11.2, spark = 14,
       rim = 19, windows = 23, star = 26, credits = 26 } do
       assert.cel(film, frame_at(time), name).is_visible()
