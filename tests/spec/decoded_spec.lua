@@ -163,10 +163,11 @@ describe("a picture", function()
   end)
 
   it("in tiles is the same as in strips", function()
-    for _, side in ipairs { 16, 32, 64 } do
-      bench:write("strips.tif", tiff { { w = 70, h = 45, shift = 0 } })
+    bench:write("strips.tif", tiff { { w = 70, h = 45, shift = 0 } })
+    local strips = same_when_trusted "strips.tif"
+    for _, side in ipairs(os.getenv "CELSPAN_PART" and { 32 } or { 16, 32, 64 }) do
       bench:write("tiles.tif", tiff { { w = 70, h = 45, shift = 0, tile = side } })
-      local strips, tiles = same_when_trusted "strips.tif", same_when_trusted "tiles.tif"
+      local tiles = same_when_trusted "tiles.tif"
       assert.are.equal(0, tiles[4], tiles[5])
       assert.is_true(strips[6] == tiles[6])
     end

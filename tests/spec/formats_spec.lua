@@ -121,7 +121,7 @@ describe("PNG and Targa files", function()
 
   -- With the largest difference that the precision of the format explains.
   local LONG = { span = 0, tif = 0, exr = 0.003, dpx = 0.004, bmp = 0.004, ppm = 0.004, hdr = 0.06 }
-  it_reads_pictures("may be as long and thin in all formats that allow it", function()
+  it_reads_pictures("may be as long and thin in all formats that allow it #full", function()
     for _, size in ipairs { side .. "x1", "1x" .. side } do
       assert.are.same({ 0, "", "" }, { render("g.png", true, "--size " .. size) })
       for format, difference in pairs(LONG) do

@@ -6,15 +6,18 @@
 # What is random is drawn by the seed in tests/seed, so that a test gives the same answer until the
 # code changes. How much is tried, where the environment does not say otherwise:
 #
-#   setup            of 300 cases   one fault in   one test of a spec in
-#   part             80             6              1    without those tagged #full
+#   setup            of 300 cases   one fault in   one other case in
+#   part             80             6              3    without those tagged #full
 #   full             80             6              1
 #   all              300            1              1
 #   part-sanitized   40             12             6    without those tagged #full
 #   full-sanitized   40             12             6
 #   all-sanitized    40             12             1
+#
+# Other cases are those of check_is_drawn in C and, with sanitizers, the tests of a spec.
 case $1 in
 *-sanitized) scenes=40 faults=12 tests=6 ;;
+part) scenes=80 faults=6 tests=3 ;;
 all) scenes=300 faults=1 tests=1 ;;
 *) scenes=80 faults=6 tests=1 ;;
 esac
