@@ -731,7 +731,7 @@ function celspan.clip(art, shape) end
 ---@field [integer] celspan.shape
 ---@field opacity? number Of the group as a whole; limited to 0..1; default 1
 ---@field blend? celspan.mode How it is combined with its backdrop; default normal
----@field space? "linear"|"srgb" The numbers that are mixed in it: linear light, or sRGB codes; default that of what it is in
+---@field space? "linear"|"srgb" The numbers that are mixed in it: linear light, or sRGB codes; default the space around it
 ---@field grade? celspan.grade How its colours are changed
 ---@field isolate? boolean Whether modes inside act only inside; default true if it is faded, has a mode, a grade, or another space than what it is in
 

@@ -113,6 +113,6 @@ void cs_cache_discard(cs_cache *cache, cs_cache_entry *entry);
 /* Self-check: whether buckets, pins, the idle list and the bytes agree. The lock is held, or no
  * other thread uses the cache. */
 bool cs_cache_is_sound(const cs_cache *cache);
-/* The same of a cache that changes: one of n entries is looked at once in n / 16 changes, because
- * each look takes n steps. */
+/* The same check of a cache that changes, which looks at it once in n / 16 changes, where n is the
+ * number of its entries: each look takes n steps. */
 bool cs_cache_seems_sound(const cs_cache *cache);

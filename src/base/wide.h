@@ -97,7 +97,7 @@ static inline bool cs_wide_any(cs_wide_int mask) {
 #endif
 }
 
-/* Lane by lane, where a mask is set the one, else the other. */
+/* Each lane is that of `one` where the mask is set, and that of `other` elsewhere. */
 static inline cs_wide cs_wide_choose(cs_wide_int mask, cs_wide one, cs_wide other) {
   return (cs_wide)(((cs_wide_int)one & mask) | ((cs_wide_int)other & ~mask));
 }

@@ -107,8 +107,8 @@ static int check(lua_State *L) {
   return cs_service_end(L, code_of(L, message, CS_EXIT_SCRIPT));
 }
 
-/* The same of a value that was read: what is wrong with it is a fault of the input. With a third
- * argument that is answered instead, unless memory was missing. */
+/* Like assert, of a value that was read: a failure is a fault of the input. If there is a third
+ * argument, it is returned instead, unless memory was missing. */
 static int check_input(lua_State *L) {
   if (lua_toboolean(L, 1))
     return lua_gettop(L);

@@ -22,7 +22,7 @@ celspan_cel *bench_cel(celspan_context *context, const bench_drawing *drawing,
 /* A rostrum of these cels, the nearest last; is_backed: over white. new */
 celspan_rostrum *bench_rostrum(celspan_context *context, celspan_cel *const *cels, size_t count,
                                bool is_backed);
-/* The same of one cel, as described. new */
+/* A rostrum of one cel, as described. new */
 celspan_rostrum *bench_rostrum_of(celspan_context *context, const celspan_cel_desc *desc,
                                   bool is_backed);
 /* All of a drawing as one object. new */

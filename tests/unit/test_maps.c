@@ -528,7 +528,7 @@ static void check_no_map_goes(studio *s, celspan_context_desc desc) {
   celspan_context_destroy(tight.context);
 }
 
-/* Frames of few rows, and those of which no map was kept, since it was not of all rows. */
+/* Frames of few rows, and frames whose map was not kept, because it was not of all rows. */
 static int made_in_part, made_alone;
 
 /* Rows of a frame, which are made from a map of some zones alone, are those of the whole frame. */

@@ -53,8 +53,8 @@ local function drawn_parts(art)
   return by_name
 end
 
---- The same of a painting, whose layers have their paths as names, and their own names where only
---- one layer has it.
+--- The parts of a painting by name: the names of layers are their paths, and also their own names,
+--- if no other layer has the same.
 local function painted_parts(art)
   local by_name, by_own, shared = {}, {}, {}
   local function add(list, path, inside)

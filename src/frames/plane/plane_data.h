@@ -23,7 +23,7 @@ struct celspan_plane {
 /* The failure of a call of the subproject. */
 CELSPAN_CHECKED celspan_status cs_plane_report(celspan_context *context, planefile_status status);
 
-/* The same of writing a record. */
+/* The failure of a call that writes a record. */
 CELSPAN_CHECKED celspan_status cs_plane_report_record(celspan_context *context,
                                                       planefile_status status,
                                                       const cs_recording *made);

@@ -17,10 +17,10 @@
 #include "engine/compose/stack.h"
 #include "model/geometry/boundary.h"
 
-/* Of a formula that is visible in a part of the frame, pixels. Lane 3 is 0. */
+/* The most that a formula transmits where it is visible, in pixels of the frame. Lane 3 is 0. */
 cs_v4 cs_through_shade(const cs_shade *shade, const cs_boundary_frame *visible);
 
-/* The same of a layer that is painted, wherever it is present and fade included. A picture's header
+/* The most that a painted layer transmits wherever it is present, fade included. A picture's header
  * is read for it; one that cannot be read counts as clear, since it may be hidden itself. */
 cs_v4 cs_through_layer(celspan_context *context, const cs_stack *stack, const cs_layer *layer);
 /* The least that this may be, before a header is read. */

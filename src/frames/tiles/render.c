@@ -9,7 +9,7 @@
 enum {
   WORKERS_MOST = 64,
   MEAN_BASE = 1024, /* maximal pixels a side of the base of means */
-  MEAN_SIDE = 255   /* the same of a level of means */
+  MEAN_SIDE = 255   /* and of a level of means */
 };
 
 /* ---------------------------------------------------------------- levels that are means */

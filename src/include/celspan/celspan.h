@@ -199,7 +199,7 @@ typedef enum celspan_alpha {
  * converted, channel by channel: S is divided by the greater of 1 - T and min(S, 1), taken along
  * the curve of sRGB (odd about 0, extended above 1), and multiplied back. So white stays 1. */
 typedef enum celspan_space {
-  CELSPAN_SPACE_AROUND = 0, /* that of what it is in; of a frame: LINEAR */
+  CELSPAN_SPACE_AROUND = 0, /* the space around it; of a frame: LINEAR */
   CELSPAN_SPACE_LINEAR,
   CELSPAN_SPACE_SRGB
 } celspan_space;
@@ -338,7 +338,7 @@ typedef struct celspan_pattern_desc {
   struct celspan_object *art; /* kept; lit with what the pattern is on */
   celspan_box box;            /* the part of the art that is repeated, in its units */
   bool has_matrix;
-  celspan_matrix matrix; /* the art's units to those of what the pattern is on; affine, regular */
+  celspan_matrix matrix; /* the art's units to the object's; affine, regular */
 } celspan_pattern_desc;
 
 static inline celspan_pattern_desc celspan_pattern_desc_default(void) {
@@ -1367,7 +1367,7 @@ CELSPAN_API void celspan_cel_unref(celspan_cel *cel);
 /* In the cel's units after its own transform, before the viewport. Shared read. */
 CELSPAN_API bool celspan_cel_bounds(const celspan_cel *cel, celspan_box *out);
 CELSPAN_API bool celspan_cel_contains(const celspan_cel *cel, celspan_point point);
-/* The same of a cel: drawing, its objects as they lie in it; placement, its transform, viewport,
+/* The hashes of a cel: drawing, its objects as they lie in it; placement, its transform, viewport,
  * lights, defocus and opacity. */
 CELSPAN_API bool celspan_cel_hash(const celspan_cel *cel, uint64_t drawing[2],
                                   uint64_t placement[2]);

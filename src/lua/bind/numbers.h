@@ -17,8 +17,8 @@ typedef struct cs_numbers_name {
   const char *whole; /* "the matrix", or with %d for `number` "point %d" */
   const char *item; /* number i of it: "value %d of it"; after `number`, "point %d: its value %d" */
   int number;       /* 0: it is not one of many */
-  const char
-      *shape; /* what it must be, "{x, y}", by names of its places; NULL: "an array of 9 numbers" */
+  /* What it must be, "{x, y}", by names of its places; NULL: "an array of 9 numbers". */
+  const char *shape;
 } cs_numbers_name;
 
 /* Reads the `least` to `most` numbers of the list at index, and returns how many there are. Raises

@@ -41,7 +41,7 @@ static const cs_field group_rows[] = {
      .about = "Of the group as a whole; limited to 0..1"},
     {"blend", CS_CHOICE(FIELDS, desc.blend, cs_blend_words), .written = "celspan.mode",
      .about = "How it is combined with its backdrop", .fallback = "normal"},
-    CS_OWN_SPACE(FIELDS, space, "that of what it is in"),
+    CS_OWN_SPACE(FIELDS, space, "the space around it"),
     CS_GRADE_FIELD,
     {"isolate", CS_FLAG(FIELDS, isolate), CS_HAS(FIELDS, has_isolate),
      .about = "Whether modes inside act only inside",

@@ -42,6 +42,6 @@ void cs_grade_finish(cs_grade *grade, cs_memory *memory);
 
 /* Replaces a colour, which was divided by its alpha. */
 void cs_grade_colour(const cs_grade *grade, celspan_space space, double colour[3]);
-/* The same of light that is premultiplied. alpha: how much of it is there; light without any is
- * graded as if it were there as far as it shines. */
+/* Replaces premultiplied light. alpha: how much of it is there; light without any is graded as if
+ * it were there as far as it shines. */
 void cs_grade_light(const cs_grade *grade, celspan_space space, float alpha, float light[3]);

@@ -33,11 +33,11 @@ static inline float cs_space_there(float s, float share) {
 
 /* One channel of what is `share` there, taken to a space from the other one: as above. */
 float cs_space_channel(celspan_space to, float s, float share);
-/* The same of `count` channels, with the same bits. (space_wide.c) */
+/* Converts `count` channels to the same bits as one by one. (space_wide.c) */
 CS_WIDE_DECLARE(void, cs_space_channels,
                 (celspan_space to, const float *shares, int32_t count, float *s));
 
-/* The same of three channels; t: what each lets through, of which only `keep` counts. */
+/* Converts three channels; t: how much each transmits, of which only `keep` counts. */
 static inline cs_v4 cs_space_leave(celspan_space to, cs_v4 e, cs_v4 t, float keep) {
   return (cs_v4){cs_space_channel(to, e[0], 1 - keep * t[0]),
                  cs_space_channel(to, e[1], 1 - keep * t[1]),
@@ -50,5 +50,5 @@ void cs_space_decode(celspan_space from, float rgba[4]);
 
 /* A paint of linear light in a space: its pigment is converted. */
 cs_paint cs_space_paint(celspan_space space, cs_paint paint);
-/* The same of a flat light. */
+/* A flat light, converted. */
 celspan_light cs_space_light(celspan_space space, celspan_light light);

@@ -21,7 +21,7 @@ CELSPAN_CHECKED celspan_status cs_bounds_object(celspan_context *context,
                                                 celspan_box *out);
 CELSPAN_CHECKED celspan_status cs_bounds_cel(celspan_context *context, const celspan_cel *cel,
                                              bool *is_there, celspan_box *out);
-/* The same of the objects of a cel, without the cel's own matrix, under a matrix. */
+/* Bounds of the objects of a cel, without the cel's own matrix, under a matrix. */
 CELSPAN_CHECKED celspan_status cs_bounds_drawing(celspan_context *context, const celspan_cel *cel,
                                                  const celspan_matrix *matrix, bool *is_there,
                                                  celspan_box *out);

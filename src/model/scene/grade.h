@@ -9,9 +9,8 @@ struct celspan_grade {
   cs_memory *memory;
   cs_hash hash; /* of a table of colours its contents count, not its name */
   cs_grade steps;
-  celspan_grade_desc
-      desc; /* what it was made of, for the oracle; curves are those of the steps, and
-                              there are no names of files */
+  /* The description, for the oracle. Its curves are those of the steps, and it names no files. */
+  celspan_grade_desc desc;
 };
 
 /* What the compiler and the oracle need of one; NULL: there is none. */

@@ -196,7 +196,7 @@ static range distances(const around *a) {
   return (range){sqrt(x * x + y * y), sqrt(most)};
 }
 
-/* Bounds of f' from those of what it is made of. */
+/* Bounds of f' from the bounds of its terms. */
 static range slopes(const around *a, range approach, range distance) {
   range weight = range_of(a->w, a->degree), growth = {0, 0};
   if (a->radius_degree > 0)

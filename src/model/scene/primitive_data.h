@@ -71,7 +71,7 @@ CELSPAN_CHECKED celspan_status cs_primitive_data_complete(celspan_context *conte
                                                           cs_outline *outline,
                                                           celspan_status status,
                                                           celspan_object **out);
-/* The same of an upright rectangle. */
+/* Completes an upright rectangle in the same way. */
 CELSPAN_CHECKED celspan_status cs_primitive_data_complete_box(celspan_context *context,
                                                               cs_primitive_data *data,
                                                               const celspan_box *box,

@@ -340,9 +340,9 @@ bool cs_scene_has_procedure(const celspan_exposure *exposures, size_t count);
  * What it sends to the camera is what a unit of that light adds to the whole. Mattes are 0, so that
  * the alpha of what is sent is 1 less the mean of what comes through all of these cels.
  *
- * INVARIANT: it borrows everything from the rostrum that it was made of, which must outlive it; its
- * hashes are those of what it was made of, which is right for what is kept by them, since that does
- * not depend on lights.
+ * INVARIANT: it borrows everything from the rostrum that it was made of, which must outlive it. It
+ * has the hashes of that rostrum and its cels: what caches keep under them does not depend on
+ * lights.
  */
 typedef struct cs_lit_alone {
   celspan_rostrum rostrum;

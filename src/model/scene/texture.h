@@ -67,8 +67,8 @@ struct celspan_texture {
   cs_mark mark;
   cs_texture_kind kind;
   cs_paint flat; /* FLAT */
-  const cs_texture_variation
-      *variation; /* its own; FLAT: one of nothing but zeros, which all share */
+  /* Its own; FLAT: one of nothing but zeros, which all share. */
+  const cs_texture_variation *variation;
 };
 
 /* A texture of a kind, of which nothing is known yet: to be filled, and hashed again. *out: new.

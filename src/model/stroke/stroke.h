@@ -48,8 +48,8 @@ typedef struct cs_dashes_run {
 } cs_dashes_run;
 
 typedef struct cs_dashes {
-  double
-      *places; /* lengths from the beginning of the pattern: where dashes begin and end in turn */
+  /* Lengths from the beginning of the pattern: where dashes begin and end in turn. */
+  double *places;
   size_t place_count;
   double pattern, offset; /* its length, and where in it contours begin */
   double *ends;           /* for each piece of the line: the length of the line up to its end */
@@ -84,7 +84,7 @@ CELSPAN_CHECKED celspan_status cs_stroke_init(celspan_context *context, cs_strok
 void cs_stroke_finish(cs_stroke *stroke, cs_memory *memory);
 void cs_stroke_hash(cs_hash *hash, const cs_stroke *stroke);
 
-/* How far beyond the line a stroke may extent, in radii: spokes, caps and joins. */
+/* How far beyond the line a stroke may extend, in radii: spokes, caps and joins. */
 double cs_stroke_extent(const cs_stroke *stroke);
 /* The same without joins. */
 double cs_stroke_extent_of_caps(const cs_stroke *stroke);

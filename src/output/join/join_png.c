@@ -164,7 +164,7 @@ static celspan_status put_piece(cs_joining *joining, celspan_context *context, c
   return cs_file_write(joining->file, context, bytes, to - from);
 }
 
-/* The checksum of the chunk that is read is checked, that of the one that is written is made. */
+/* Checks the checksum of the chunk that is read, and makes one for the chunk that is written. */
 static celspan_status copy_data(cs_joining *joining, celspan_context *context,
                                 const cs_join_part *part, const chunk *c, const copied *what,
                                 uLong *sum) {

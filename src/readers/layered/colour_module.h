@@ -34,8 +34,8 @@ typedef enum cs_colour_form {
 
 typedef struct cs_colour_table {
   int32_t form; /* cs_colour_form */
-  char
-      name[64]; /* of the profile: printable ASCII; "": not known. Also where the form is UNKNOWN */
+  /* Of the profile: printable ASCII; "": not known. Also where the form is UNKNOWN. */
+  char name[64];
   union {
     float curves[3][CS_COLOUR_STEPS + 1][3];
     float grid[CS_COLOUR_SIDE][CS_COLOUR_SIDE][CS_COLOUR_SIDE][3]; /* by red, green, blue */

@@ -24,9 +24,8 @@
 #define CS_KRITA_TILES_SIDE 131072             /* of what the tiles of a layer cover */
 
 typedef struct cs_krita_tiles_form {
-  int32_t x, y, width,
-      height; /* in: the painting's rectangle in the layer's units; out: that of the
-                                  rows */
+  /* In: the painting's rectangle in the layer's units; out: the rectangle of the rows. */
+  int32_t x, y, width, height;
   bool is_grey;
   int bits;                /* of a channel: 8 or 16 */
   int pixel_size;          /* bytes */

@@ -19,8 +19,8 @@ typedef struct cs_psd_record {
   cs_psd_role role;
   int32_t left, top, right, bottom;
   int channel_count;
-  int16_t
-      ids[CS_PSD_MOST_CHANNELS]; /* 0..2 colour, -1 alpha, -2 mask, -3 mask before a vector mask */
+  /* 0..2 colour, -1 alpha, -2 mask, -3 mask before a vector mask. */
+  int16_t ids[CS_PSD_MOST_CHANNELS];
   uint64_t sizes[CS_PSD_MOST_CHANNELS];
   char blend[5], group_blend[5]; /* keys of four letters; "": the file has none */
   unsigned char opacity, fill;

@@ -176,7 +176,7 @@ static celspan_status show_linked(image *of, const char *href) {
 
 /* ---------------------------------------------------------------- its place */
 
-/* The box of the element; what it does not say is that of what is shown. */
+/* The box of the element; where it has none, the box of the picture or drawing that it shows. */
 static celspan_status read_box(const image *of, const cs_svg_measure *measure, celspan_box *out) {
   const cs_svg_length none = {-1, CS_SVG_UNIT_NUMBER};
   celspan_context *context = of->reading->context;

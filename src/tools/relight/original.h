@@ -26,7 +26,7 @@ typedef struct cs_original {
  * BAD_ARGUMENT for another texture; LIMIT; NO_MEMORY. On failure there is nothing to close. */
 CELSPAN_CHECKED celspan_status cs_original_open(celspan_context *context, const char *noun,
                                                 const celspan_texture *texture, cs_original *out);
-/* The same of a picture that is known. */
+/* Opens a known picture. Errors: those of pictures; LIMIT; NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_original_open_picture(celspan_context *context,
                                                         const cs_picture *picture,
                                                         cs_original *out);

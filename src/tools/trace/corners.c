@@ -91,7 +91,7 @@ static bool meet(const finder *f, const cs_stretch *a, const cs_stretch *b, cels
 }
 
 /* Whether points between two stretches, and next to them, are so near to both sides of their corner
- * as rounding takes them: on the rim of a bend they are not. */
+ * as rounding takes them. Along a bend they are not. */
 static bool is_filled(const finder *f, const cs_stretch *a, const cs_stretch *b) {
   for (ptrdiff_t i = a->to - 1; i <= b->from; i++) {
     celspan_point own = cs_points_at(f->points, i), across;

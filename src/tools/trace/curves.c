@@ -188,7 +188,8 @@ static celspan_status add_way(celspan_context *context, const cs_material *mater
   return status;
 }
 
-/* The least sum, within the limit around the corner, and on the rim along it alone. */
+/* The point with the least sum. If it is farther from the corner than the limit, the point with the
+ * least sum at that distance. */
 static celspan_point least_sum_point(const sums *s, const cs_node *node, const cs_labels *labels) {
   double area = s->xx * s->yy - s->xy * s->xy;
   double x = (s->x * s->yy - s->y * s->xy) / area, y = (s->y * s->xx - s->x * s->xy) / area;

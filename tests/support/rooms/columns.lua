@@ -1,5 +1,6 @@
---- Lines that are too long, in sources of every language. An annotation (---@field) has to be one
---- line.
+--- Lines that are too long, in sources of every language, and fields of headers whose name is alone
+--- on a line, because the formatter made room for a comment: it belongs on the line before. An
+--- annotation (---@field) has to be one line.
 local system = require "tests.support.system"
 
 local columns = {}
@@ -9,15 +10,26 @@ local FIND = "find %s -type d \\( -name 'build*' -o -name out -o -name '.?*' \\)
   .. "\\( -name '*.[ch]' -o -name '*.[ch]pp' -o -name '*.lua' -o -name '*.sh' -o -name '*.py' "
   .. "-o -name run \\) -print | LC_ALL=C sort"
 
---- Reports a file by fault(sentence), once, with a line for each of its lines that is too long.
+--- Whether a line of a header is a name and a comment alone, after a line with the type alone.
+local function is_torn(before, line)
+  return line:find "^%s+%*?[%a_][%w_]*[^%s(]*; /%*" and before:find "^%s+[%a_][%w_ ,]*[%w_,]$"
+end
+
+--- Reports a file by fault(sentence), once, with a line for each of its faulty lines.
 local function check_file(path, fault)
-  local number, long = 0, {}
+  local number, long, before = 0, {}, ""
+  local is_header = path:find "%.h$" and not path:find "/include/celspan/"
   for line in io.lines(path) do
     number = number + 1
     local length = utf8.len(line) or #line
     if length > MOST and not line:find "^%s*%-%-%-@" then
       long[#long + 1] = ("%s:%d: %d columns, more than %d"):format(path, number, length, MOST)
     end
+    if is_header and is_torn(before, line) then
+      long[#long + 1] = ("%s:%d: a name alone: put its comment on the line before"):format(path,
+        number)
+    end
+    before = line
   end
   if #long > 0 then fault("%s", table.concat(long, "\n")) end
 end

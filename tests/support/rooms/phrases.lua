@@ -54,6 +54,10 @@ phrases.list = {
   { say = "which parts of... are there", "what is there of" },
   { say = "still, nevertheless", "all the same" },
   { say = "rarely", "seldom" },
+  { say = "name the noun: the space around it, the hashes of the rostrum",
+    "that|those of what|which", "that of the one" },
+  { say = "say both cases: `one` where the mask is set, and `other` elsewhere", "else the other" },
+  { say = "at the edge, along the border, at that distance", "on the rim" },
 }
 
 --- Places where a phrase is right; `text` is part of the sentence around it.

@@ -215,8 +215,8 @@ local function settle(bindings, try)
   until not has_changed
 end
 
---- Names with what is bound to them: first by what can be known of the values, as names follow from
---- others, and then without those of which a value is not known.
+--- Names and the types that are bound to them: first by what can be known of the values, as names
+--- follow from others; then names with an unknown value are left out.
 local function types_of(list)
   local types, bindings = {}, bindings_of(list)
   settle(bindings, function(name, of_name)
